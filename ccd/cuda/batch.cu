@@ -1,4 +1,4 @@
-// Batches on the device: arguments are checked, memory is shared out, the method's stages queued.
+// Batches on the device: checks arguments, partitions memory, queues the method's stages.
 #include <algorithm>
 #include <array>
 #include <ccd/cuda.hpp>
@@ -33,12 +33,12 @@ constexpr entry table[] = {
     {method::exact, nullptr},
 };
 
-/// For CUB's own use: a few bytes for every thousand items, and what it keeps for each block.
+/// The memory that CUB needs: a few bytes per thousand items, and a constant per block.
 std::size_t temporary_bytes(std::size_t candidates) {
     return (std::size_t(4) << 20) + candidates / 16;
 }
 
-/// Scratch memory, of which fault_of_scratch finds nothing wrong: CUB's, and the rest.
+/// Checked scratch memory (fault_of_scratch), partitioned into that of CUB and the rest.
 struct shares {
     arena rest, temporary;
 
@@ -48,41 +48,46 @@ struct shares {
                     temporary_bytes(candidates)) {}
 };
 
-std::string found_of(const std::string& what, std::size_t found, std::size_t expected) {
-    return "ccd::cuda: found " + what + " of " + std::to_string(found) + ", expected " +
+std::string wrong_size(const std::string& name, std::size_t size, const char* condition,
+                       std::size_t expected) {
+    return "ccd::cuda: " + name + " is " + std::to_string(size) + "; expected " + condition + " " +
            std::to_string(expected);
 }
 
 std::string fault_of_scratch(const scratch& memory, std::size_t vertices, std::size_t candidates) {
-    if (memory.data == nullptr) return "ccd::cuda: found a null pointer, expected scratch memory";
+    if (memory.data == nullptr)
+        return "ccd::cuda: scratch memory is a null pointer; expected device memory";
     if (reinterpret_cast<std::uintptr_t>(memory.data) % arena::alignment != 0)
-        return "ccd::cuda: found scratch memory at an address that is no multiple of 256";
+        return "ccd::cuda: scratch memory is misaligned; expected an address that is a multiple of "
+               "256";
     const std::size_t bytes = scratch_bytes(vertices, candidates);
-    if (memory.bytes < bytes) return found_of("scratch memory", memory.bytes, bytes) + " bytes";
+    if (memory.bytes < bytes)
+        return wrong_size("number of bytes of scratch memory", memory.bytes, ">=", bytes);
     return {};
 }
 
-/// The largest number of candidates in one call: they are numbered in 32 bits, and one more.
+/// The largest number of candidates in one call. It and the next number fit in 32 bits.
 constexpr std::size_t max_candidates = std::numeric_limits<std::uint32_t>::max() - 1;
 
-/// Of what answers are asked for; `answers` are their place.
+/// Returns an error for invalid arguments, or an empty string.
 template <class Pair>
 std::string fault_of(const positions& at, const candidates<Pair>& candidates, const void* answers,
                      const scratch& memory) {
     if (candidates.count > max_candidates)
-        return found_of("candidates", candidates.count, max_candidates) + " at most";
+        return wrong_size("number of candidates", candidates.count, "<=", max_candidates);
     if (candidates.count == 0) return {};
-    if (at.vertices == 0) return "ccd::cuda: found no vertices, expected positions";
+    if (at.vertices == 0) return "ccd::cuda: number of vertices is 0; expected positions";
     if (at.vertices > max_candidates)
-        return found_of("vertices", at.vertices, max_candidates) + " at most";
+        return wrong_size("number of vertices", at.vertices, "<=", max_candidates);
     const bool named = candidates.of_rows != nullptr ||
                        (candidates.columns[0] != nullptr && candidates.columns[1] != nullptr &&
                         (candidates.elements != nullptr ||
                          (candidates.columns[2] != nullptr && candidates.columns[3] != nullptr)));
     if (!named || !has_coordinates(at) || answers == nullptr)
-        return "ccd::cuda: found a null pointer, expected device memory";
+        return "ccd::cuda: argument is a null pointer; expected device memory";
     if (reinterpret_cast<std::uintptr_t>(candidates.of_rows) % 16 != 0)
-        return "ccd::cuda: found rows of indices at an address that is no multiple of 16";
+        return "ccd::cuda: rows of indices are misaligned; expected an address that is a multiple "
+               "of 16";
     return fault_of_scratch(memory, at.vertices, candidates.count);
 }
 
@@ -112,12 +117,12 @@ status decide_any(const positions& at, const candidates<Pair>& candidates, outco
     return launcher.result();
 }
 
-/// That what is left is of these candidates.
+/// Fails if the scratch memory does not belong to these candidates.
 void check_left(device_launcher& launcher, std::size_t left, std::size_t candidates,
                 const std::string& left_by) {
     if (launcher.ok() && left > candidates)
-        launcher.fail("ccd::cuda: found scratch memory that " + left_by +
-                      " did not leave for these candidates");
+        launcher.fail("ccd::cuda: scratch memory is not that of " + left_by +
+                      "; expected the same memory and candidates in both calls");
 }
 
 template <class Pair>
@@ -177,13 +182,13 @@ finished_times finish_any(const positions& at, const candidates<Pair>& candidate
 
 std::string fault_of_t_max(double t_max) {
     if (std::isfinite(t_max)) return {};
-    return "ccd::cuda: found a t_max of " + std::to_string(t_max) + ", expected a finite one";
+    return "ccd::cuda: t_max is " + std::to_string(t_max) + "; expected a finite number";
 }
 
 std::string fault_of_method(method m) {
     if (std::ranges::find(table, m, &entry::method) != std::end(table)) return {};
-    return "ccd::cuda: found the method " + std::string(info(m).name) +
-           ", expected one of device_methods()";
+    return "ccd::cuda: method is " + std::string(info(m).name) +
+           "; expected one of device_methods()";
 }
 
 bool has_coordinates(const positions& at) {
@@ -276,10 +281,11 @@ finished_times finish_times(const positions& positions,
 status select_colliding(const outcome* answers, std::size_t answer_count, vertex_index* found,
                         std::size_t room, vertex_index* count, scratch memory, stream stream) {
     if (answer_count > detail::max_candidates)
-        return {detail::found_of("answers", answer_count, detail::max_candidates) + " at most"};
+        return {
+            detail::wrong_size("number of answers", answer_count, "<=", detail::max_candidates)};
     if ((answer_count > 0 && answers == nullptr) || (room > 0 && found == nullptr) ||
         count == nullptr)
-        return {"ccd::cuda: found a null pointer, expected device memory"};
+        return {"ccd::cuda: argument is a null pointer; expected device memory"};
     if (std::string fault = detail::fault_of_scratch(memory, 0, answer_count); !fault.empty())
         return {std::move(fault)};
     detail::shares parts(memory, answer_count);

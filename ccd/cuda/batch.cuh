@@ -1,4 +1,4 @@
-// What steps use of batches. Internal.
+// Functions of batches for steps. Internal.
 #pragma once
 
 #include <string>
@@ -7,16 +7,16 @@
 
 namespace ccd::cuda::detail {
 
-/// What is wrong with asking a device for that method, as status tells it; empty if nothing.
+/// Returns an error unless devices run the method; empty otherwise.
 std::string fault_of_method(method m);
 
-/// The same of asking for times until t_max.
+/// Returns an error unless t_max is finite; empty otherwise.
 std::string fault_of_t_max(double t_max);
 
-/// Whether no pointer to coordinates is null.
+/// True if no pointer to coordinates is null.
 bool has_coordinates(const positions& at);
 
-/// Queues options.method, which is not `exact`. `memory` is for a method_memory.
+/// Queues options.method, except `exact`. `memory` is for a method_memory.
 template <class Pair>
 void queue_float_method(device_launcher& launcher, const positions& at,
                         const candidates<Pair>& candidates, outcome* answers, arena memory,

@@ -1,4 +1,4 @@
-// The methods as compiled for the device, each in an object file of its own. Internal.
+// The methods compiled for the device, each in a separate object file. Internal.
 #pragma once
 
 #include <ccd/cuda.hpp>
@@ -9,7 +9,7 @@
 
 namespace ccd::cuda::detail {
 
-/// Queues one method but `exact`, for pairs of one kind.
+/// Queues one method, except `exact`, for pairs of one kind.
 template <class Pair>
 struct queue_function {
     void (*queue)(device_launcher& launcher, const positions& at,

@@ -1,10 +1,9 @@
 // `exact` on the device: its stages as kernel bodies, and their order. Internal.
 //
-// Each stage reads the numbers of its candidates from one queue, writes the answers that it is
-// certain of and pushes the other candidates to the next queue: so the threads of a warp do the
-// same work, and one hard candidate holds up none of the easy ones. An answer is `uncertain` until
-// a stage decides it. The first stage reads only floats; later ones read the few that are left
-// again, which is less than handing their differences on.
+// Each stage reads indices of candidates from a queue, writes certain answers and pushes the other
+// candidates to the next queue, so that the threads of a warp do equal work. An answer is
+// `uncertain` until a stage decides it. The first stage reads floats; later ones read the few
+// undecided candidates again, which is cheaper than storing their differences.
 #pragma once
 
 #include <ccd/batch.hpp>
@@ -25,7 +24,7 @@
 
 namespace ccd::cuda::detail {
 
-/// What every stage knows.
+/// The data of every stage.
 template <class Pair>
 struct exact_stage {
     template <class S>
@@ -34,7 +33,7 @@ struct exact_stage {
     positions at;
     cuda::candidates<Pair> candidates;
     outcome* answers;
-    queue open;  ///< what the stage leaves to the next
+    queue open;  ///< candidates for the next stage
 
     constexpr query_of_pair<Pair, double> query(std::uint32_t i) const {
         return query_at<double>(at, pair_at(candidates, i));
@@ -47,15 +46,15 @@ struct exact_stage {
     }
 };
 
-/// All candidates: nine axes at once, in floats. Candidates whose coordinates are not finite are
-/// left out of all stages.
+/// Tests all candidates on nine axes at once, in floats. No stage tests candidates with coordinates
+/// that are not finite.
 template <class Pair>
 struct axes_stage : exact_stage<Pair> {
     const scene_extent* scene;
     const rounded_position* rows;
 
     constexpr void operator()(std::uint32_t i) const {
-        const bool separate = scene->finite && separated(i);  // comparisons may overlook NaN
+        const bool separate = scene->finite && separated(i);  // comparisons may miss NaN
         this->answers[i] = separate ? outcome::separate : outcome::uncertain;
         if (!separate && (scene->finite || is_finite(this->query(i)))) this->open.push(i);
     }
@@ -80,7 +79,7 @@ struct axes_stage : exact_stage<Pair> {
     }
 };
 
-/// What the tests of coefficients share. In floats, differences come in units of the scene's size.
+/// The base of the tests of coefficients. In floats, differences are in units of the scene's size.
 template <class Pair, class Real>
 struct coefficient_stage : exact_stage<Pair> {
     template <class S>
@@ -89,9 +88,9 @@ struct coefficient_stage : exact_stage<Pair> {
     const scene_extent* scene;
 
   protected:
-    /// The query's forms. Differences are rounded once in doubles, and to floats where asked for:
-    /// off by at most ε each, as error_count::difference() says, and by η where that underflows.
-    /// Proof: proofs/RoundedAxes.v, converted_difference_near.
+    /// The query's forms. Differences are rounded once in doubles, and then to Real. Each has an
+    /// error of at most ε, as in error_count::difference(), and η if it underflows. Proof:
+    /// proofs/RoundedAxes.v, converted_difference_near.
     constexpr forms<Real> forms_of_query(const query_of_pair<Pair, double>& query) const {
         if constexpr (std::is_same_v<Real, double>) {
             return forms<double>(query);
@@ -109,7 +108,7 @@ struct coefficient_stage : exact_stage<Pair> {
                                 converted(in_doubles.p));
         }
     }
-    /// Whether comparisons may be believed.
+    /// True if comparisons are valid.
     constexpr bool usable(const static_filter::difference_extents<Real>& extents) const {
         return extents.usable && (std::is_same_v<Real, double> || scene->finite);
     }
@@ -143,7 +142,7 @@ struct inside_stage : coefficient_stage<Pair, Real> {
     }
 };
 
-/// Y and G_i on ever smaller parts of the step.
+/// Y and G_i on ever smaller intervals of the step.
 template <class Pair>
 struct subdivision_stage : exact_stage<Pair> {
     using base = exact_stage<Pair>;
@@ -163,7 +162,7 @@ struct subdivision_stage : exact_stage<Pair> {
     }
 };
 
-/// Integers of Words words. What needs more goes to `open`, what stays uncertain to `left`.
+/// Integers of Words words. Candidates that need more words go to `open`, uncertain ones to `left`.
 template <class Pair, int Words>
 struct integer_stage : exact_stage<Pair> {
     queue left;
@@ -181,7 +180,7 @@ struct integer_stage : exact_stage<Pair> {
     }
 };
 
-/// How far the candidates of one call have come: a queue's size for each stage.
+/// The size of each stage's queue in one call.
 struct exact_counters {
     std::uint32_t coplanarity, inside, subdivision, one_word, two_words, left;
 };
@@ -191,14 +190,14 @@ struct exact_memory {
     exact_counters* counters;
     scene_extent* scene;
     rounded_position* rows;
-    std::uint32_t *first, *second;  ///< queues' items, in turn
+    std::uint32_t *first, *second;  ///< items of queues, alternately
     std::uint32_t* left;
 
-    /// In braces, so that memory is taken in one order always.
+    /// Braces fix the order in which memory is taken.
     exact_memory(arena& from, std::size_t vertices, std::size_t candidates)
         : exact_memory{from, from.take<scene_extent>(1), from.take<rounded_position>(2 * vertices),
                        candidates} {}
-    /// Of positions whose rounding has a place already.
+    /// For positions that are rounded already.
     exact_memory(arena& from, scene_extent* scene_, rounded_position* rows_, std::size_t candidates)
         : counters(from.take<exact_counters>(1)),
           scene(scene_),
@@ -207,20 +206,20 @@ struct exact_memory {
           second(from.take<std::uint32_t>(queue_items(candidates))),
           left(from.take<std::uint32_t>(candidates)) {}
 
-    /// Room of the first two queues: at least for one query (ccd/cuda/pairs.hpp).
+    /// The capacity of the first two queues: at least one query (ccd/cuda/pairs.hpp).
     static constexpr std::size_t queue_items(std::size_t candidates) {
         return candidates < 64 ? 64 : candidates;
     }
 };
 
-/// Queues all stages in the order of ccd/exact/stages.cpp (axes, coplanarity, inside, subdivision)
-/// and then integers, the tests of coefficients in `p`; positions are rounded already. The
-/// reference is asked on the host: ccd/cuda/pairs.hpp.
+/// Queues all stages in the order of ccd/exact/stages.cpp (axes, coplanarity, inside, subdivision),
+/// then integers. Tests of coefficients use `p`. The host decides the rest (ccd/cuda/pairs.hpp).
+/// Precondition: positions are rounded.
 template <class Launcher, class Pair>
 void run_exact_stages(Launcher& launcher, const positions& at, const candidates<Pair>& candidates,
                       outcome* answers, const exact_memory& memory, precision p) {
     launcher.set(memory.counters, exact_counters{});
-    exact_counters& sizes = *memory.counters;  // its members' addresses alone are used
+    exact_counters& sizes = *memory.counters;  // only addresses of members are used
     const queue to_coplanarity{memory.first, &sizes.coplanarity};
     const queue to_inside{memory.second, &sizes.inside};
     const queue to_subdivision{memory.first, &sizes.subdivision};
@@ -243,7 +242,7 @@ void run_exact_stages(Launcher& launcher, const positions& at, const candidates<
         coefficients(0.0f);
     else
         coefficients(0.0);
-    // In doubles in either case: it looks at the whole step again first.
+    // Always in doubles: it tests the whole step again first.
     launcher.for_each_queued(to_subdivision, subdivision_stage<Pair>{stage(to_one_word)});
     launcher.for_each_queued(to_one_word, integer_stage<Pair, 1>{stage(to_two_words), left});
     launcher.for_each_queued(to_two_words, integer_stage<Pair, 2>{stage(left), left});

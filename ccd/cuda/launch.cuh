@@ -1,4 +1,4 @@
-// Runs kernel bodies on a device: see ccd/cuda/launch.hpp. Internal; for nvcc alone.
+// Runs kernel bodies on a device (ccd/cuda/launch.hpp). Internal; requires nvcc.
 #pragma once
 
 #include <cuda_runtime.h>
@@ -28,7 +28,7 @@ __global__ void __launch_bounds__(block_threads) run_for_each(const Body body, s
     if (i < n) body(static_cast<std::uint32_t>(i));
 }
 
-/// As many blocks as run at once take the items in turn: how many there are is known here only.
+/// The resident blocks process the items in a loop, since only the device has their number.
 template <class Body>
 __global__ void __launch_bounds__(block_threads) run_for_each_queued(const Body body, queue items) {
     const std::size_t n = *items.size;
@@ -42,7 +42,7 @@ __global__ void set_value(T* p, const T value) {
     *p = value;
 }
 
-/// The input of a scan, and a zero behind it for the total.
+/// The input of a scan, followed by a zero for the total.
 template <class In, class Out>
 struct padded {
     In in;
@@ -52,7 +52,7 @@ struct padded {
     }
 };
 
-/// Runs bodies on the current device, in order on one stream; after the first error, nothing.
+/// Runs bodies on the current device, in order on one stream. Does nothing after the first error.
 class device_launcher {
   public:
     explicit device_launcher(stream s, std::optional<arena> temporary = {})
@@ -83,7 +83,7 @@ class device_launcher {
                 if (kept > 0)
                     launcher.check(cudaMemcpyAsync(larger, data_, kept * sizeof(T),
                                                    cudaMemcpyDeviceToDevice, launcher.stream_));
-                launcher.wait();  // what is queued may use the old memory
+                launcher.wait();  // queued work may use the old memory
                 if (data_ != nullptr) launcher.check(cudaFree(data_));
                 data_ = larger;
                 capacity_ = capacity;
@@ -135,7 +135,7 @@ class device_launcher {
                                                  static_cast<std::int64_t>(n) + 1, stream_);
         });
     }
-    /// Defined in ccd/cuda/sort.cu: it takes long to compile.
+    /// Defined in ccd/cuda/sort.cu, since it is slow to compile.
     void sort(std::uint32_t* keys, std::uint32_t* values, std::size_t n);
     template <class T>
     void read(const T* p, std::size_t n, T* to) {
@@ -147,13 +147,12 @@ class device_launcher {
     void write(T* p, std::size_t n, const T* from) {
         if (!ok() || n == 0) return;
         check(cudaMemcpyAsync(p, from, n * sizeof(T), cudaMemcpyHostToDevice, stream_));
-        wait();  // `from` may be of pageable memory that the caller frees
+        wait();  // `from` may be pageable memory that the caller frees
     }
 
     bool ok() const { return status_.error.empty(); }
     const status& result() const { return status_; }
-    /// Takes note of the first error, and of ours alone: CUDA's own note of it is cleared. Returns
-    /// whether all is well.
+    /// Stores the first error and clears CUDA's own state. True if there is no error.
     bool check(cudaError_t e) {
         if (e != cudaSuccess) {
             if (ok()) status_.error = std::string("CUDA: ") + cudaGetErrorString(e);
@@ -161,7 +160,7 @@ class device_launcher {
         }
         return ok();
     }
-    /// For the next call's work.
+    /// Clears the error before the next call.
     void begin(stream s) {
         stream_ = s;
         status_.error.clear();
@@ -185,7 +184,7 @@ class device_launcher {
         check(cudaLaunchKernelEx(&configuration, kernel, arguments...));
     }
 
-    /// Calls one of CUB's functions, first for what memory it needs. That comes from `temporary`,
+    /// Calls a CUB function twice: for the size of its memory, then with memory from `temporary`,
     /// or from a buffer if there is none.
     template <class Call>
     void with_temporary(const Call& call) {
@@ -196,7 +195,8 @@ class device_launcher {
         if (temporary_) {
             memory = arena(*temporary_).template take<std::byte>(bytes);
             if (memory == nullptr) {
-                fail("CUDA: scratch memory: " + std::to_string(bytes) + " bytes more needed");
+                fail("CUDA: scratch memory is too small; expected " + std::to_string(bytes) +
+                     " more bytes");
                 return;
             }
         } else {

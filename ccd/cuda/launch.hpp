@@ -1,23 +1,8 @@
-// How kernel bodies are run: by loops on the host here, by kernels in ccd/cuda/launch.cuh.
+// Runs kernel bodies: by loops on the host here, by kernels in ccd/cuda/launch.cuh.
 //
-// A body is a small object, all of whose members may be copied to the device, and body(i) does the
-// work for item i. The functions are constexpr, which makes them device code where nvcc compiles
-// them (--expt-relaxed-constexpr), and plain host code elsewhere: so tests run the same bodies,
-// indices and queues without a device.
-//
-// A launcher has:
-//   buffer<T>                          memory that bodies see: resize(launcher, n), which may lose
-//                                      what is there, extend(launcher, n), data(), size()
-//   for_each(n, body)                  body(i) for all i < n, in any order
-//   for_each_queued(queue, body)       body(item) for all items that the queue holds by then
-//   set(p, value)                      *p = value, in the order of the other work
-//   reduce(n, of, combine, start, r)   *r = combination of all of(i) and `start`
-//   exclusive_scan(in, out, n)         out[i] = in(0) + ... + in(i − 1), for i <= n
-//   sort(keys, values, n)              by ascending keys, stable
-//   read(p, n, to)                     waits, then copies from the memory that bodies see
-//   write(p, n, from)                  the other way
-//   wait()                             until all work is done
-//   ok()                               false after an error: then nothing more is done
+// A body is a small copyable object; body(i) does the work for item i. Functions are constexpr:
+// nvcc compiles them for the device (--expt-relaxed-constexpr), and tests run the same code on the
+// host.
 #pragma once
 
 #include <algorithm>
@@ -28,12 +13,12 @@
 
 namespace ccd::cuda::detail {
 
-/// Numbers of candidates, in memory for as many as there may be.
+/// Indices of candidates, in memory of sufficient size.
 struct queue {
     std::uint32_t* items;
     std::uint32_t* size;
 
-    /// On the device from any thread; those of a warp that push together share one atomic addition.
+    /// Any thread may push. Threads of a warp that push together share one atomic addition.
     constexpr void push(std::uint32_t item) const {
 #ifdef __CUDA_ARCH__
         const unsigned active = __activemask();
@@ -50,12 +35,12 @@ struct queue {
     }
 };
 
-/// A time that all threads share and that only falls.
+/// A time that all threads share and that only decreases.
 class shared_time {
   public:
     constexpr explicit shared_time(double* value) : value_(value) {}
 
-    /// What it has fallen to by now, or some while ago.
+    /// Returns a current or an earlier value.
     constexpr double get() const {
 #ifdef __CUDA_ARCH__
         return *static_cast<volatile double*>(value_);
@@ -63,10 +48,10 @@ class shared_time {
         return *value_;
 #endif
     }
-    /// To `time`, which is not negative, if that is less.
+    /// Lowers the value to `time` if that is less. Precondition: time >= 0.
     constexpr void lower(double time) const {
 #ifdef __CUDA_ARCH__
-        // Such doubles are in the order of their bits.
+        // Non-negative doubles are in the order of their bits.
         if (time < get())
             atomicMin(reinterpret_cast<unsigned long long*>(value_),
                       static_cast<unsigned long long>(__double_as_longlong(time)));
@@ -79,7 +64,7 @@ class shared_time {
     double* value_;
 };
 
-/// Shares out one piece of memory, part after part. Without memory it only counts.
+/// Partitions a block of memory. Without memory, it only counts bytes.
 class arena {
   public:
     static constexpr std::size_t alignment = 256;
@@ -100,7 +85,19 @@ class arena {
     std::size_t bytes_ = 0, used_ = 0;
 };
 
-/// Runs bodies on the host, one after the other, in an order that differs from that of the items.
+/// Runs bodies on the host, sequentially, in another order than that of the items. All launchers
+/// have:
+///   buffer<T>                          memory for bodies: resize(launcher, n) (may drop contents),
+///                                      extend(launcher, n), data(), size()
+///   for_each(n, body)                  body(i) for all i < n, in any order
+///   for_each_queued(queue, body)       body(item) for all items in the queue
+///   set(p, value)                      *p = value, in the order of the other work
+///   reduce(n, of, combine, start, r)   *r = combination of all of(i) and `start`
+///   exclusive_scan(in, out, n)         out[i] = in(0) + ... + in(i − 1), for i <= n
+///   sort(keys, values, n)              by ascending keys, stable
+///   read(p, n, to), write(p, n, from)  waits and copies between memory for bodies and the host's
+///   wait()                             until all work is done
+///   ok()                               false after an error; then no more work is done
 class host_launcher {
   public:
     template <class T>
@@ -120,7 +117,7 @@ class host_launcher {
 
     template <class Body>
     void for_each(std::size_t n, const Body& body) const {
-        // Any order must do: here the later half comes first.
+        // Bodies must not depend on the order: the second half comes first.
         for (std::size_t i = n / 2; i < n; ++i) body(static_cast<std::uint32_t>(i));
         for (std::size_t i = 0; i < n / 2; ++i) body(static_cast<std::uint32_t>(i));
     }

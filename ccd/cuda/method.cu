@@ -1,5 +1,5 @@
-// One float method for the device. Compiled once for each, with ERRBOUND_METHOD naming the variable
-// (device_tight) and ERRBOUND_METHOD_TYPE what it runs (bsc_method<errbound::tight>).
+// A float method for the device, compiled once per method. ERRBOUND_METHOD is the variable's name
+// (device_tight), ERRBOUND_METHOD_TYPE the type of the method (bsc_method<errbound::tight>).
 #include "ccd/cuda/device_methods.cuh"
 #include "ccd/cuda/method_stages.hpp"
 

@@ -1,8 +1,8 @@
 // The float methods on the device: their stages as kernel bodies, and their order. Internal.
 //
-// In float32: floats first; what they leave uncertain is decided in doubles. BSC asks the
-// coefficients of Y in a stage of its own, since they decide most candidates at a small part of the
-// cost and of the registers of the rest.
+// With float32, floats run first, and doubles decide uncertain candidates. BSC tests the
+// coefficients of Y in a separate stage: they decide most candidates with a fraction of the cost
+// and registers.
 #pragma once
 
 #include <ccd/cuda.hpp>
@@ -28,7 +28,7 @@ constexpr auto with_tracked_query(const positions& at, const Pair& pair, const F
     if constexpr (std::is_same_v<T, double>) {
         return apply(tracked_query<Rule>(query_at<double>(at, pair)));
     } else {
-        // Floats are exact as they are.
+        // Floats are exact.
         return apply(at.in_floats ? tracked_query<Rule>(query_at<float>(at, pair))
                                   : single_precision_query<Rule>(query_at<double>(at, pair)));
     }
@@ -62,10 +62,10 @@ struct method_stage {
     positions at;
     cuda::candidates<Pair> candidates;
     outcome* answers;
-    queue open;  ///< what the stage leaves to the next
+    queue open;  ///< candidates for the next stage
 };
 
-/// `separate` where Y's coefficients tell so in T; the others are left open.
+/// Decides `separate` by Y's coefficients in T. Others stay undecided.
 template <class Method, class T, class Pair>
 struct never_coplanar_stage : method_stage<Pair> {
     constexpr void operator()(std::uint32_t i) const {
@@ -80,7 +80,8 @@ struct never_coplanar_stage : method_stage<Pair> {
     }
 };
 
-/// The method's answer in T; uncertain ones are left open too, if there is a queue.
+/// Stores the method's answer in T. Uncertain candidates are also pushed to the queue, if there is
+/// one.
 template <class Method, class T, class Pair>
 struct decision_stage : method_stage<Pair> {
     constexpr void operator()(std::uint32_t i) const {
@@ -120,7 +121,7 @@ void run_method(Launcher& launcher, const positions& at, const candidates<Pair>&
     const auto stage = [&](const queue& open) {
         return method_stage<Pair>{at, candidates, answers, open};
     };
-    // `none` is never uncertain, but where its numbers overflow.
+    // `none` is uncertain only if its numbers overflow.
     constexpr bool doubles_follow =
         !std::is_same_v<T, double> && !std::is_same_v<typename Method::rule, errbound::none>;
     const decision_stage<Method, T, Pair> decision{stage(doubles_follow ? after_floats : none)};

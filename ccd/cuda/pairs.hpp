@@ -1,5 +1,4 @@
-// What follows a batch: candidates that are finished on the host, and the list of those that may
-// collide. Internal.
+// Work after a batch: finishes candidates on the host, and lists those that may collide. Internal.
 #pragma once
 
 #include <algorithm>
@@ -40,14 +39,14 @@ struct scatter_answers {
     constexpr void operator()(std::uint32_t k) const { answers[numbers[k]] = found[k]; }
 };
 
-/// Answers the candidates in memory.left, of which there are so many, by solve(queries) on the
-/// host; waits until the answers are written. The stages must be done with `memory`.
+/// Decides the `count` candidates in memory.left by solve(queries) on the host, and waits until the
+/// answers are written. Precondition: the stages no longer use `memory`.
 template <class Launcher, class Pair, class Answer, class Memory, class Solve>
 void finish_left(Launcher& launcher, const positions& at, const candidates<Pair>& candidates,
                  Answer* answers, const Memory& memory, std::size_t left, const Solve& solve) {
     using query = query_of_pair<Pair, double>;
     static_assert(sizeof(Answer) <= sizeof(query));
-    // The queues' memory is free again: for queries on the way out, for answers on the way back.
+    // Reuses the queues' memory for queries, then for answers.
     const std::size_t at_once = std::max<std::size_t>(
         1, exact_memory::queue_items(candidates.count) * sizeof(std::uint32_t) / sizeof(query));
     auto* const staged = reinterpret_cast<query*>(memory.first);
@@ -66,9 +65,9 @@ void finish_left(Launcher& launcher, const positions& at, const candidates<Pair>
     if (left > 0) launcher.wait();
 }
 
-/// Decides on the host, by all its threads, what run_exact_stages left open; waits until the
-/// answers are written. Returns the counters; if more candidates were left than there are, the
-/// memory is not that of these candidates, and nothing is done.
+/// Decides the undecided candidates of run_exact_stages on the host, with all its threads, and
+/// waits until the answers are written. Returns the counters. If more are left than there are
+/// candidates, the memory belongs to others, and the function does nothing.
 template <class Launcher, class Pair>
 exact_counters finish_exact(Launcher& launcher, const positions& at,
                             const candidates<Pair>& candidates, outcome* answers,
@@ -81,7 +80,7 @@ exact_counters finish_exact(Launcher& launcher, const positions& at,
     return counters;
 }
 
-/// The same of what run_time_stages left open.
+/// Same as finish_exact, for run_time_stages.
 template <class Launcher, class Pair>
 time_counters finish_times(Launcher& launcher, const positions& at,
                            const candidates<Pair>& candidates, first_time* times,
@@ -89,7 +88,7 @@ time_counters finish_times(Launcher& launcher, const positions& at,
     time_counters counters{};
     launcher.read(memory.counters, 1, &counters);
     if (counters.left == 0 || counters.left > candidates.count) return counters;
-    double t_max = 0;  // where the earliest is asked for, what the device has found so far
+    double t_max = 0;  // with `earliest`: the earliest time found on the device
     launcher.read(memory.t_max, 1, &t_max);
     finish_left(launcher, at, candidates, times, memory, counters.left, [&](const auto& queries) {
         return first_times(queries, {.t_max = t_max, .threads = 0});
@@ -97,13 +96,13 @@ time_counters finish_times(Launcher& launcher, const positions& at,
     return counters;
 }
 
-/// Of an answer: that it is not `separate`.
+/// True for answers except `separate`.
 struct may_collide_at {
     const outcome* answers;
     constexpr bool operator()(std::uint32_t i) const { return answers[i] != outcome::separate; }
 };
 
-/// Puts the numbers of the items that are selected where they belong.
+/// Stores the indices of selected items at their positions.
 template <class IsSelected>
 struct list_selected {
     IsSelected is_selected;
@@ -119,7 +118,7 @@ struct list_selected {
     }
 };
 
-/// Lists the items with is_selected(i). `place` has room for one number more than there are items.
+/// Lists the items with is_selected(i). `place` has room for items + 1 numbers.
 template <class Launcher, class IsSelected>
 void run_select(Launcher& launcher, const IsSelected& is_selected, std::size_t items,
                 vertex_index* found, std::size_t room, vertex_index* count, std::uint32_t* place) {
@@ -137,7 +136,7 @@ struct copy_rows {
     constexpr void operator()(std::uint32_t k) const { to[k] = rows[numbers[k]]; }
 };
 
-/// Lists of selected items, with memory of its own, which is kept.
+/// Lists of selected items, with memory that is kept.
 template <class Launcher>
 class selection {
   public:
@@ -160,7 +159,7 @@ class selection {
     std::size_t size() const { return selected_; }
     const vertex_index* numbers() { return numbers_.data(); }
 
-    /// Copies the rows of the selected items behind the first `after` of `to`.
+    /// Copies the rows of the selected items to `to`, after its first `after` rows.
     template <class T>
     void copy(Launcher& launcher, const T* rows, buffer<T>& to, std::size_t after = 0) {
         to.extend(launcher, after + selected_);

@@ -9,7 +9,7 @@
 
 namespace ccd::cuda::detail {
 
-/// Sixteen bytes by one instruction where there is one.
+/// Sixteen bytes, read by one instruction if possible.
 template <class T>
 constexpr T load_aligned(const T* p) {
     static_assert(sizeof(T) == 16);

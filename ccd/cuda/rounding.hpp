@@ -12,23 +12,24 @@
 
 namespace ccd::cuda::detail {
 
-/// Four floats of a vertex: x y z at one end of the step, and nothing.
+/// Four floats of a vertex: x y z at one end of the step, and padding.
 struct alignas(16) rounded_position {
     float x, y, z, unused;
 };
 
-/// The box around all positions, and whether every coordinate is finite.
+/// The box around all positions, and a flag: all coordinates are finite.
 struct scene_extent {
     ccd::detail::rounded_axes::extent box;
     bool finite;
 
-    /// A power of two, times which no difference of coordinates exceeds 4 in size.
+    /// A power of two. Differences of coordinates, times it, are at most 4 in size.
     constexpr double power_of_two() const {
         using traits = errbound::number_traits<double>;
         double half_extent = 0;
         for (std::size_t k = 0; k < 3; ++k)
             half_extent = traits::max(half_extent, box.high[k] / 2 - box.low[k] / 2);
-        // Bounded so that it is neither zero nor infinite: then floats decide little or nothing.
+        // Bounded so that it is neither zero nor infinite. At the bounds, floats decide few
+        // candidates.
         const int e =
             half_extent > 0 && traits::is_finite(half_extent) ? traits::exponent(half_extent) : 0;
         return traits::scale(1.0, -std::clamp(e, -1000, 1000));

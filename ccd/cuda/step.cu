@@ -19,13 +19,13 @@ struct mesh_steps::state {
     std::vector<edge> edges;
     std::size_t vertices = 0;
     bool mesh_copied = false;
-    detail::device_launcher launcher{nullptr};  // with memory of its own, which is kept
+    detail::device_launcher launcher{nullptr};  // its memory is kept
     detail::asked_steps<detail::device_launcher> steps;
     detail::device_launcher::buffer<std::byte> batch;
 
     std::string fault_of(const positions& at, const mesh_step_options& options) const;
 
-    /// Memory for a layout; nothing is to be done with it after an error.
+    /// Returns memory for a layout. Do not use it after an error.
     template <class Memory, class... Sizes>
     Memory memory_of(Sizes... sizes) {
         detail::arena needed;
@@ -35,7 +35,7 @@ struct mesh_steps::state {
         return Memory(given, sizes...);
     }
 
-    /// As step_memory::run asks for it.
+    /// The callback of step_memory::run.
     template <class Pair>
     std::size_t decide(const positions& at, const mesh_step_options& options,
                        const candidates<Pair>& block, outcome* answers, detail::scene_extent* scene,
@@ -43,7 +43,7 @@ struct mesh_steps::state {
         const auto all = memory_of<detail::exact_memory>(scene, rows, block.count);
         if (!launcher.ok()) return 0;
         if (options.method != method::exact) {
-            // A method_memory needs less.
+            // A method_memory is smaller.
             const detail::arena given(batch.data(), batch.size());
             detail::queue_float_method(launcher, at, block, answers, given,
                                        {options.method, options.precision, options.stream});
@@ -52,7 +52,7 @@ struct mesh_steps::state {
         detail::queue_exact(launcher, at, block, answers, all, options.precision);
         return detail::finish_exact(launcher, at, block, answers, all).left;
     }
-    /// As asked_pairs::ask asks for it.
+    /// The callback of asked_pairs::ask.
     template <class Pair>
     std::size_t find(const positions& at, const candidates<Pair>& pairs, first_time* times,
                      const detail::times_asked& asked) {
@@ -66,15 +66,15 @@ struct mesh_steps::state {
 std::string mesh_steps::state::fault_of(const positions& at,
                                         const mesh_step_options& options) const {
     if (at.vertices != vertices)
-        return "ccd::cuda: found positions of " + std::to_string(at.vertices) +
-               " vertices, expected " + std::to_string(vertices);
+        return "ccd::cuda: number of vertices in positions is " + std::to_string(at.vertices) +
+               "; expected " + std::to_string(vertices);
     if (at.vertices > 0 && !detail::has_coordinates(at))
-        return "ccd::cuda: found a null pointer, expected positions";
+        return "ccd::cuda: positions are a null pointer; expected device memory";
     if (std::string why = detail::fault_of_method(options.method); !why.empty()) return why;
     if (std::string why = detail::fault_of_t_max(options.t_max); !why.empty()) return why;
     if (options.method != method::exact && detail::ask_for_first_contact(options))
-        return "ccd::cuda: found times asked of the method " +
-               std::string(info(options.method).name) + ", expected exact, which alone has times";
+        return "ccd::cuda: method is " + std::string(info(options.method).name) +
+               "; expected exact with options for times";
     return {};
 }
 
@@ -149,7 +149,7 @@ struct device_frames {
     }
 };
 
-/// Stored queries on the device, a block at a time.
+/// Stored queries, copied to the device block by block.
 template <class Query>
 class stored_queries {
   public:
@@ -158,8 +158,8 @@ class stored_queries {
     stored_queries(std::span<const Query> queries, cuda::stream stream)
         : launcher_(stream), queries_(queries) {}
 
-    /// Calls ask(first, positions, candidates, answers, scratch) for every block, decided in
-    /// `answers`, as long as that returns no error.
+    /// Calls ask(first, positions, candidates, answers, scratch) for every block, with decided
+    /// `answers`, until a call returns an error.
     template <class Ask>
     status decide(const batch_options& options, const Ask& ask) {
         constexpr std::size_t block = std::size_t(1) << 20;
@@ -205,8 +205,9 @@ class stored_queries {
 
 void check_room(const char* caller, std::size_t queries, std::size_t room) {
     if (queries != room)
-        throw std::invalid_argument(std::string(caller) + ": " + std::to_string(queries) +
-                                    " queries, but room for " + std::to_string(room) + " answers");
+        throw std::invalid_argument(std::string(caller) + ": number of answers is " +
+                                    std::to_string(room) + "; expected that of queries, " +
+                                    std::to_string(queries));
 }
 
 template <class Query>
@@ -278,14 +279,14 @@ step_result step(const mesh& before, const mesh& after, const step_options& opti
     ccd::detail::check_positions(vertex_rows(before, after), before.vertices.size());
     ccd::detail::check_elements(before.faces, {}, before.vertices.size(), "ccd::cuda::step");
     if (!ccd::detail::has_faces_alone(before))
-        return failed({"ccd::cuda: found edges or points, expected a mesh of faces alone"});
+        return failed({"ccd::cuda: mesh has edges or points; expected only faces"});
     ccd::detail::check_options(options, before.vertices.size());
     if (!options.distances.ask_for_contact())
-        return failed({"ccd::cuda: found distances asked for, expected contact alone"});
+        return failed({"ccd::cuda: distances are not 0; expected 0"});
     const pair_filter& filter = options.filter;
     if (filter.can_collide || !filter.groups.empty() || !filter.pinned.empty() || filter.part ||
         filter.skip_unused)
-        return failed({"ccd::cuda: found a filter of pairs, expected none"});
+        return failed({"ccd::cuda: filter of pairs is not empty; expected an empty one"});
     ccd::detail::stopwatch total, watch;
     detail::device_launcher launcher(nullptr);
     device_frames frames;

@@ -1,9 +1,9 @@
 // A step of a mesh on the device: candidates by a tree of boxes, decided in blocks. Internal.
 //
 // The tree is that of ccd/step/box_tree.hpp without its packs: boxes sorted along a Morton curve,
-// eight to a node, so that nodes need no pointers and a search no stack. Each element counts what
-// it touches; a prefix sum gives every candidate its number; then blocks of numbers are written out
-// and decided. So nothing depends on the order of threads, and no block can run over.
+// with eight per node, so that nodes have no pointers and a search has no stack. Each element
+// counts its candidates, a prefix sum numbers them, and blocks of candidates are written and
+// decided. Results do not depend on the order of threads, and no block can overflow.
 #pragma once
 
 #include <algorithm>
@@ -35,14 +35,14 @@ struct rounded_box {
             high[k] = std::max(high[k], b.high[k]);
         }
     }
-    /// Boxes that touch in exact arithmetic do so rounded.
+    /// Boxes that touch in exact arithmetic touch when rounded.
     constexpr bool touches(const rounded_box& b) const {
         bool touching = true;
         for (std::size_t k = 0; k < 3; ++k)
             touching = touching && low[k] <= b.high[k] && high[k] >= b.low[k];
         return touching;
     }
-    /// Boxes of which this holds touch in exact arithmetic.
+    /// If true, the boxes touch in exact arithmetic.
     constexpr bool overlaps(const rounded_box& b) const {
         bool overlapping = true;
         for (std::size_t k = 0; k < 3; ++k)
@@ -79,7 +79,7 @@ constexpr rounded_box swept_box(const rounded_position* rows,
     return b;
 }
 
-/// Whether the closed exact boxes that two elements sweep touch.
+/// True if the closed exact swept boxes of two elements touch.
 template <std::size_t A, std::size_t B>
 constexpr bool exactly_touch(const positions& at, const std::array<vertex_index, A>& a,
                              const std::array<vertex_index, B>& b) {
@@ -112,7 +112,7 @@ struct box_levels {
     std::size_t start[max_levels] = {}, count[max_levels] = {};
 
     constexpr box_levels() = default;
-    /// The shape for so many leaves.
+    /// Returns the shape for `leaves` leaves.
     explicit constexpr box_levels(std::size_t leaves) {
         std::size_t at = 0;
         for (std::size_t n = leaves; n > 0; n = n > 1 ? (n + children - 1) / children : 0) {
@@ -141,7 +141,7 @@ struct box_levels {
                 visit(static_cast<std::uint32_t>(i));
             }
             ++i;
-            // After the last child of a node comes the node behind it.
+            // The last child of a node is followed by the next node.
             while (level + 1 < levels && (i % children == 0 || i == count[level])) {
                 i = (i + children - 1) / children;
                 ++level;
@@ -151,7 +151,7 @@ struct box_levels {
     }
 };
 
-/// The key on a Morton curve of an element's box, and the element as its value.
+/// The Morton key of an element's box, and the element as its value.
 template <std::size_t N>
 struct curve_key {
     elements<N> all;
@@ -185,7 +185,7 @@ struct make_leaf {
 };
 struct make_node {
     const rounded_box* below;
-    std::size_t count;  ///< of boxes below
+    std::size_t count;  ///< number of boxes in the level below
     rounded_box* level;
 
     constexpr void operator()(std::uint32_t i) const {
@@ -197,8 +197,8 @@ struct make_node {
     }
 };
 
-/// Calls visit with the candidate of two elements, if they are one. `certain`: their boxes are
-/// known to touch.
+/// Calls visit with the candidate of two elements, if it is one. `certain`: the boxes certainly
+/// touch.
 template <std::size_t A, std::size_t B, class Visit>
 constexpr void visit_candidate(const positions& at, const std::array<vertex_index, A>& a,
                                const std::array<vertex_index, B>& b, bool certain,
@@ -214,7 +214,7 @@ struct face_search {
     const rounded_position* rows;
     box_levels tree;  ///< of all vertices
     elements<3> searching;
-    const std::uint32_t* order;  ///< in which the faces search: neighbours together
+    const std::uint32_t* order;  ///< the order of searching faces, with neighbours together
 
     template <class Visit>
     constexpr void operator()(std::uint32_t i, const Visit& visit) const {
@@ -261,11 +261,11 @@ struct count_of {
     constexpr std::uint64_t operator()(std::uint32_t i) const { return counts[i]; }
 };
 
-/// Writes the candidates number first to first + count − 1.
+/// Writes the candidates with numbers first to first + count − 1.
 template <class Search>
 struct write_candidates {
     Search search;
-    const std::uint64_t* numbers;  ///< of the first candidate of each search, and their total
+    const std::uint64_t* numbers;  ///< number of each search's first candidate, and the total
     std::uint64_t first;
     std::size_t count;
     typename Search::indices* to;
@@ -280,25 +280,25 @@ struct write_candidates {
     }
 };
 
-/// Numbers of what a step found.
+/// The counts of a step.
 struct found_pairs {
     std::size_t vertex_face_candidates = 0, edge_edge_candidates = 0;
     std::size_t vertex_face = 0, edge_edge = 0, finished_on_host = 0;
-    bool finite = true;  ///< else nothing was done
+    bool finite = true;  ///< false: the step was not tested
 };
 
-/// What the steps of one mesh keep.
+/// The memory of the steps of one mesh.
 template <class Launcher>
 class step_memory {
   public:
     template <class T>
     using buffer = typename Launcher::template buffer<T>;
 
-    /// Candidates decided at once, at most.
+    /// The maximum number of candidates that are decided at once.
     static constexpr std::size_t default_block = std::size_t(1) << 22;
     explicit step_memory(std::size_t block = default_block) : block_(block) {}
 
-    /// Faces and edges in host memory, indices in range.
+    /// Precondition: faces and edges are in host memory, with indices in range.
     void set_mesh(Launcher& launcher, std::size_t vertices, std::span<const face> faces,
                   std::span<const edge> edges) {
         vertices_ = vertices;
@@ -308,9 +308,9 @@ class step_memory {
         launcher.write(edges_.data(), edges.size(), edges.data());
     }
 
-    /// `decide(candidates, answers, scene, rows)` queues the decision of a block, whose positions
-    /// were rounded to `rows`, and returns how many the host decided. Pairs are in vertex_face()
-    /// and edge_edge() then.
+    /// Finds the pairs, in vertex_face() and edge_edge(). `decide(candidates, answers, scene,
+    /// rows)` queues the decision of a block, with positions rounded to `rows`, and returns the
+    /// number of candidates decided on the host.
     template <class Decide>
     found_pairs run(Launcher& launcher, const positions& at, const Decide& decide) {
         found_pairs found;
@@ -414,7 +414,7 @@ class step_memory {
     buffer<rounded_box> tree_;
     buffer<std::uint32_t> keys_, order_, search_order_, counts_;
     buffer<std::uint64_t> numbers_;
-    buffer<std::array<vertex_index, 4>> block_rows_;  // of either kind
+    buffer<std::array<vertex_index, 4>> block_rows_;  // of any kind
     buffer<outcome> answers_;
     selection<Launcher> selection_;
     buffer<vertex_face_pair> vertex_face_;

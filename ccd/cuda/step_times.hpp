@@ -1,5 +1,5 @@
-// What a step is asked of the pairs that it found: their first times, the earliest of these, and
-// what touches at the start. Internal.
+// Times of a step's pairs: first times, the earliest of these, and pairs that touch at the start.
+// Internal.
 #pragma once
 
 #include <algorithm>
@@ -23,7 +23,7 @@
 
 namespace ccd::cuda::detail {
 
-/// For selection: of a time, that there is one; that it is at the start.
+/// Predicates for selection: there is a time; it is at the start.
 struct is_in_time {
     const first_time* times;
     constexpr bool operator()(std::uint32_t i) const {
@@ -35,8 +35,7 @@ struct is_at_start {
     constexpr bool operator()(std::uint32_t i) const { return times[i].at_start(); }
 };
 
-/// For launcher.reduce: the earliest of the times that are not at the start; `separate` if there is
-/// none.
+/// For launcher.reduce: the earliest time that is not at the start; `separate` if there is none.
 struct time_after_start {
     const first_time* times;
     constexpr first_time operator()(std::uint32_t i) const {
@@ -53,7 +52,7 @@ struct earlier_time {
     }
 };
 
-/// What a step is asked of its pairs: anything; the earliest time; the times of all.
+/// True if the options require all times, the earliest time, or any time.
 constexpr bool ask_for_all_times(const mesh_step_options& asked) {
     return asked.times || asked.t_max < 1;
 }
@@ -64,28 +63,29 @@ constexpr bool ask_for_any_time(const mesh_step_options& asked) {
     return asked.initial_contact || ask_for_first_contact(asked);
 }
 
-/// The first contact where there is none, if it is asked for.
+/// The result if there is no first contact; uncertain if it is not computed.
 constexpr first_time no_contact(const mesh_step_options& asked) {
     return {ask_for_first_contact(asked) ? outcome::separate : outcome::uncertain};
 }
 
-/// What a step finds of one kind, in the memory that bodies see.
+/// The results of a step for one kind, in the launcher's memory.
 template <class Pair>
 struct pairs_and_times {
-    std::span<const Pair> pairs;        ///< those that are in time
-    std::span<const first_time> times;  ///< of these, if asked for
+    std::span<const Pair> pairs;        ///< in contact until t_max
+    std::span<const first_time> times;  ///< of these, with option `times`
     std::span<const Pair> touching_at_start;
 };
 
-/// The pairs of one kind, and what was asked of them; with memory that is kept.
+/// The pairs of one kind and their times, with memory that is kept.
 template <class Launcher, class Pair>
 class asked_pairs {
   public:
     template <class T>
     using buffer = typename Launcher::template buffer<T>;
 
-    /// Takes `count` pairs. `find(candidates, times, asked)` queues their first times and returns
-    /// how many the host found, as does this. `first` is what is known of the earliest time.
+    /// Computes the times of pairs. `find(candidates, times, asked)` queues first times and returns
+    /// the number found on the host, which ask also returns. `first` is the earliest time found so
+    /// far.
     template <class Find>
     std::size_t ask(Launcher& launcher, std::span<const Pair> pairs, const mesh_step_options& asked,
                     first_time& first, const Find& find) {
@@ -113,7 +113,7 @@ class asked_pairs {
         if (!asked.first_contact) return {0, false};
         return {first.outcome == outcome::collides ? first.high : asked.t_max, true};
     }
-    /// Copies of selected ones.
+    /// Copies the selected items.
     template <class IsSelected, class T>
     std::span<const T> selected(Launcher& launcher, const IsSelected& is_selected,
                                 std::span<const T> of, buffer<T>& to) {
@@ -142,7 +142,7 @@ class asked_pairs {
     selection<Launcher> selection_;
 };
 
-/// Steps of one mesh, and what is asked of their pairs.
+/// Steps of one mesh, with times of their pairs.
 template <class Launcher>
 class asked_steps {
   public:
@@ -154,7 +154,7 @@ class asked_steps {
         memory_.set_mesh(launcher, vertices, faces, edges);
     }
 
-    /// `decide` as step_memory::run takes it, `find` as asked_pairs::ask.
+    /// `decide`: as in step_memory::run; `find`: as in asked_pairs::ask.
     template <class Decide, class Find>
     found_pairs run(Launcher& launcher, const positions& at, const mesh_step_options& asked,
                     const Decide& decide, const Find& find) {

@@ -1,9 +1,8 @@
 // First times on the device: the stages of ccd/contact/time_of_impact.cpp as kernel bodies.
 //
-// Floating point finds the part of the step in which the first contact is, and integers of fixed
-// width place the root of Y there; where floating point does not tell, integers find both. So a
-// candidate that does not collide is answered, too. Queues are as in ccd/cuda/exact_stages.hpp.
-// Internal.
+// Floating point finds the interval of the first contact, and integers of fixed width isolate the
+// root of Y in it. If floating point is uncertain, integers do both. Candidates that do not collide
+// are also decided. Queues are as in ccd/cuda/exact_stages.hpp. Internal.
 #pragma once
 
 #include <ccd/contact.hpp>
@@ -22,22 +21,22 @@
 
 namespace ccd::cuda::detail {
 
-/// Which first times are asked for.
+/// The first times to compute.
 struct times_asked {
-    double t_max;   ///< those in [0, t_max]
-    bool earliest;  ///< and of these, those at the start and the least of the others alone
+    double t_max;   ///< times in [0, t_max]
+    bool earliest;  ///< only those at the start, and the least of the others
 };
 
-/// What every stage knows.
+/// The data of every stage.
 template <class Pair>
 struct time_stage {
     positions at;
     cuda::candidates<Pair> candidates;
     first_time* times;
     bool earliest;
-    shared_time t_max;  ///< what is later is not asked for
-    queue open;         ///< what the stage leaves to the next
-    queue left;         ///< what is left to the host
+    shared_time t_max;  ///< later times are not needed
+    queue open;         ///< candidates for the next stage
+    queue left;         ///< candidates for the host
 
     constexpr query_of_pair<Pair, double> query(std::uint32_t i) const {
         return query_at<double>(at, pair_at(candidates, i));
@@ -57,8 +56,8 @@ struct time_stage {
     }
 };
 
-/// Those whose part floating point finds, in which Y has one root: placed by integers of Words
-/// words. What needs more goes to `wider`.
+/// Candidates for which floating point finds an interval with one root of Y. Integers of Words
+/// words isolate the root. Candidates that need more words go to `wider`.
 template <class Pair, int Words>
 struct root_stage : time_stage<Pair> {
     queue wider;
@@ -98,7 +97,7 @@ struct root_stage : time_stage<Pair> {
     }
 };
 
-/// The others, by integers of Words words alone.
+/// The others, by integers of Words words only.
 template <class Pair, int Words>
 struct integer_time_stage : time_stage<Pair> {
     constexpr void operator()(std::uint32_t i) const {
@@ -108,7 +107,7 @@ struct integer_time_stage : time_stage<Pair> {
     }
 };
 
-/// How far the candidates of one call have come: a queue's size for each stage.
+/// The size of each stage's queue in one call.
 struct time_counters {
     std::uint32_t one_word, roots_in_two_words, two_words, left;
 };
@@ -117,7 +116,7 @@ struct time_counters {
 struct time_memory {
     time_counters* counters;
     double* t_max;
-    std::uint32_t *first, *second;  ///< queues' items, in turn
+    std::uint32_t *first, *second;  ///< items of queues, alternately
     std::uint32_t* left;
 
     time_memory(arena& from, std::size_t candidates)
@@ -128,13 +127,13 @@ struct time_memory {
           left(from.take<std::uint32_t>(candidates)) {}
 };
 
-/// Queues all stages. The reference is asked on the host: ccd/cuda/pairs.hpp.
+/// Queues all stages. The host decides the rest (ccd/cuda/pairs.hpp).
 template <class Launcher, class Pair>
 void run_time_stages(Launcher& launcher, const positions& at, const candidates<Pair>& candidates,
                      first_time* times, const time_memory& memory, const times_asked& asked) {
     launcher.set(memory.counters, time_counters{});
     launcher.set(memory.t_max, asked.t_max);
-    time_counters& sizes = *memory.counters;  // its members' addresses alone are used
+    time_counters& sizes = *memory.counters;  // only addresses of members are used
     const queue to_one_word{memory.first, &sizes.one_word};
     const queue to_roots_in_two_words{memory.second, &sizes.roots_in_two_words};
     const queue to_two_words{memory.first, &sizes.two_words};

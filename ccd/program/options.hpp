@@ -60,7 +60,7 @@ class number_option {
 class unused_vertices_option {
   public:
     explicit unused_vertices_option(CLI::App& line);
-    /// True if they are skipped. By default they are points only if the file has no other element.
+    /// True if they are skipped. The default is points if the file has no other element.
     bool skips(std::size_t unused, std::size_t vertices) const;
 
   private:

@@ -134,7 +134,7 @@ std::string text_of_results(const std::vector<query_result>& results) {
 std::string json_of_results(const std::vector<query_result>& results) {
     auto array = nlohmann::ordered_json::array();
     for (const query_result& r : results) array.push_back(json_of(r));
-    // By default, a path that is not UTF-8 would throw.
+    // The default error handler throws for a path that is not UTF-8.
     return array.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + '\n';
 }
 

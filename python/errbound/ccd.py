@@ -235,8 +235,8 @@ class RunOptions(UntimedOptions, total=False):
 class AdvanceOptions(SearchOptions, total=False):
     """The pairs to keep apart (SearchOptions), and the vertices that share a fraction.
 
-    islands: integers (n,): the vertices of an island share one fraction, and so do islands that meet. By default
-    all vertices are one island. Islands skip no pairs; groups do.
+    islands: integers (n,): the vertices of an island share one fraction, and so do islands that meet. The default is
+    one island with all vertices. Islands skip no pairs; groups do.
     """
     islands: ArrayLike | None
 

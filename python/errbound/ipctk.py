@@ -429,8 +429,10 @@ def _theirs(function: Any, mesh: Any, before: ArrayLike, after: ArrayLike, min_d
 
 def is_step_collision_free(mesh: Any, vertices_t0: ArrayLike, vertices_t1: ArrayLike, min_distance: float = 0.0,
                            broad_phase: Any = None, narrow_phase_ccd: Any = None) -> bool:
-    """True if no two elements touch, or come within min_distance, in the linear motion from vertices_t0 to vertices_t1,
-    and no vertex touches a plane of the mesh. There is no tolerance and no false positive.
+    """True if the linear motion from vertices_t0 to vertices_t1 has no contact. There is no tolerance and no false
+    positive.
+
+    No two elements touch or come within min_distance, and no vertex touches a plane of the mesh.
 
     broad_phase: one of the toolkit's; then only its candidates are tested, instead of all pairs.
     narrow_phase_ccd: ExactNarrowPhase() by default; with another type, calls the toolkit's function with BroadPhase().
@@ -447,8 +449,8 @@ def compute_collision_free_stepsize(mesh: Any, vertices_t0: ArrayLike, vertices_
                                     narrow_phase_ccd: Any = None) -> float:
     """Returns the largest step size in [0, 1] found to be free; 0 if there is contact at the start.
 
-    In the motion from vertices_t0 to vertices_t0 + step * (vertices_t1 - vertices_t0), as NumPy rounds this expression,
-    no two elements touch or come within min_distance, and no vertex touches a plane of the mesh.
+    It is free in the sense of is_step_collision_free from vertices_t0 to vertices_t0 + step * (vertices_t1 -
+    vertices_t0), as NumPy rounds this expression.
 
     Arguments: as is_step_collision_free. ExactNarrowPhase(0.8, 1e-4) keeps a gap as well. With a finite max_gap all
     pairs keep it, otherwise only pairs whose swept boxes meet before the first contact.

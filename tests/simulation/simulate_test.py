@@ -90,7 +90,7 @@ class Simulate(unittest.TestCase):
         self.assertEqual(before, {path: path.read_bytes() for path in self.out.rglob("*") if path.is_file()})
 
     def test_refuses_a_damaged_state(self):
-        whole, flipped = 'no state or a damaged one', lambda at: lambda data: (
+        whole, flipped = 'is damaged; expected one written by this program', lambda at: lambda data: (
             data[:at] + bytes([data[at] ^ 1]) + data[at + 1:])
         for change in (lambda data: data[:-1], lambda data: data + b"x", lambda data: b"",
                        flipped(8),     # the number of the frame

@@ -1,4 +1,4 @@
-// Device code on the host: kernel bodies, queues and indices, run by loops (ccd/cuda/launch.hpp).
+// Device code on the host: loops run kernel bodies, queues and indices (ccd/cuda/launch.hpp).
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -47,18 +47,18 @@ using cuda_sets::batch;
 using cuda_sets::data_folder;
 using cuda_sets::positions_of;
 
-/// `exact` to the end, host's part included.
+/// Runs `exact` completely, with the host's part.
 template <class Pair>
 std::vector<outcome> decide_exact(const positions& at, const candidates<Pair>& all,
                                   precision p = precision::float64,
                                   ccd::cuda::detail::exact_counters* counters = nullptr) {
     host_launcher launcher;
-    // Nothing may rely on what was there.
+    // Results must not depend on old contents.
     std::vector<outcome> answers(all.count, outcome::collides);
     const laid_out<ccd::cuda::detail::exact_memory> memory(at.vertices, all.count);
     run_rounding(launcher, at, memory->scene, memory->rows);
     run_exact_stages(launcher, at, all, answers.data(), *memory, p);
-    // What is left to the host must not look separate to those who do not ask it.
+    // Candidates left to the host must not be `separate` before it decides them.
     for (std::uint32_t k = 0; k < memory->counters->left; ++k)
         EXPECT_EQ(answers[memory->left[k]], outcome::uncertain);
     const auto counted = finish_exact(launcher, at, all, answers.data(), *memory);
@@ -67,7 +67,7 @@ std::vector<outcome> decide_exact(const positions& at, const candidates<Pair>& a
 }
 
 std::uint64_t queries_per_family() {
-    // Of fewer, some stage would have nothing to decide.
+    // With fewer, some stage would have no candidate.
     return std::max(100u, support::scaled(200u));
 }
 
@@ -82,7 +82,7 @@ class device_bodies : public testing::Test {};
 using kinds = testing::Types<ccd::vertex_face_pair, ccd::edge_edge_pair>;
 TYPED_TEST_SUITE(device_bodies, kinds);
 
-/// How many queries entered each stage of `exact`, the first one to the host.
+/// The number of queries that entered each stage of `exact`, from the first one to the host.
 using entered = std::array<std::size_t, 7>;
 
 template <class Pair>
@@ -100,7 +100,7 @@ std::vector<outcome> truth_of(const batch<Pair>& set) {
     for (const auto& q : set.queries) truth.push_back(ccd::decide_exact(q).outcome);
     return truth;
 }
-/// Else a stage could be left out unnoticed: the next ones would decide its queries as well.
+/// Otherwise a missing stage would go unnoticed, since the next ones would decide its queries.
 void expect_every_stage_to_settle_some(const entered& stages) {
     const char* const names[] = {"axes",        "coplanarity",      "inside",
                                  "subdivision", "integers, 1 word", "integers, 2 words"};
@@ -115,11 +115,11 @@ TYPED_TEST(device_bodies, exact_is_exact) {
     const auto& set = difficult<TypeParam>();
     const auto truth = truth_of(set);
     expect_every_stage_to_settle_some(expect_exact(set, truth, precision::float64));
-    // All families are one scene here, in whose units floats tell next to nothing.
+    // All families are in one scene. In its units, floats decide almost nothing.
     expect_exact(set, truth, precision::float32);
 }
 
-// Each family is a scene of its own, of one scale or another, where floats tell something.
+// Each family is a separate scene with its own scale, where floats decide some queries.
 TYPED_TEST(device_bodies, exact_is_exact_in_scenes_of_one_scale) {
     for (const precision p : {precision::float64, precision::float32}) {
         entered all{};
@@ -141,7 +141,7 @@ TYPED_TEST(device_bodies, exact_is_exact_on_stored_queries) {
         expect_every_stage_to_settle_some(expect_exact(set, truth, p));
 }
 
-/// A method's answer from floats alone.
+/// A method's answer from floats only.
 template <class Rule, class Query>
 ccd::verdict in_single_precision(ccd::cuda::detail::bsc_method<Rule>, const Query& query) {
     return ccd::decide_bsc_in_single_precision<Rule>(query);
@@ -151,8 +151,8 @@ ccd::verdict in_single_precision(ccd::cuda::detail::safeccd_method<Rule>, const 
     return ccd::decide_safeccd_in_single_precision<Rule>(query);
 }
 
-/// In doubles the answers are those of decide(). In floats they are those of floats alone where
-/// these are certain, and then right; else those of doubles.
+/// In doubles the answers are those of decide(). In floats they are those of floats if these are
+/// certain (and then correct), otherwise those of doubles.
 template <class Method, class Pair>
 void expect_as_on_host(const batch<Pair>& set, ccd::method m) {
     constexpr bool promises = !std::is_same_v<typename Method::rule, errbound::none>;
@@ -200,7 +200,7 @@ TYPED_TEST(device_bodies, coordinates_that_are_not_finite_are_uncertain) {
     auto set = cuda_sets::of_families<TypeParam>(20, 5);
     constexpr double infinity = std::numeric_limits<double>::infinity();
     const double poisons[] = {infinity, -infinity, std::numeric_limits<double>::quiet_NaN()};
-    // In every seventh query, one coordinate after the other.
+    // Changes one coordinate after the other, in every seventh query.
     const auto poisoned = [](std::size_t i) { return i % 7 == 0; };
     for (std::size_t i = 0; i < set.size(); ++i) {
         if (!poisoned(i)) continue;
@@ -222,7 +222,7 @@ TYPED_TEST(device_bodies, coordinates_that_are_not_finite_are_uncertain) {
     }
 }
 
-/// Vertices with coordinates that floats hold, in every form that device code takes.
+/// Vertices with coordinates that floats represent, in every form that device code accepts.
 struct grid_positions {
     static constexpr std::size_t vertices = 50;
     std::vector<double> rows[2];
@@ -253,7 +253,7 @@ struct grid_positions {
     }
 };
 
-/// Pairs of vertices among so many, in every form that device code takes.
+/// Pairs of vertices, in every form that device code accepts.
 template <class Pair>
 struct named_pairs {
     using all = candidates<Pair>;
@@ -288,7 +288,7 @@ struct named_pairs {
     }
 };
 
-// What the coordinates are of, how vertices are named and where they lie makes no difference.
+// The type of coordinates, the form of indices and the memory layout make no difference.
 TYPED_TEST(device_bodies, every_form_of_input_gives_the_same_answers) {
     std::mt19937 random(3);
     const grid_positions at(random);
@@ -306,7 +306,7 @@ TYPED_TEST(device_bodies, every_form_of_input_gives_the_same_answers) {
     EXPECT_EQ(decide_exact(at.in_columns(), pairs.by_columns(), precision::float32), expected);
 }
 
-// Their differences are floats' own, which leave other queries open than rounded differences do.
+// Differences of floats leave other queries undecided than rounded differences of doubles.
 TYPED_TEST(device_bodies, float_methods_take_positions_in_floats_as_they_are) {
     using tight = ccd::cuda::detail::bsc_method<errbound::tight>;
     const auto to_float = [](double x) { return static_cast<float>(std::clamp(x, -3e38, 3e38)); };
@@ -336,10 +336,11 @@ TYPED_TEST(device_bodies, float_methods_take_positions_in_floats_as_they_are) {
 }
 
 #if defined(__SSE2__)
-// Why device code is compiled with -ftz=false: flushed, both a product and its bound vanish.
+// Device code is compiled with -ftz=false, since flushing sets both a product and its bound to
+// zero.
 TEST(device_flags, flushing_subnormals_would_make_a_certain_sign_wrong) {
     const auto sign_of_square = [] {
-        const volatile float tiny = 1e-30f;  // not to be computed by the compiler
+        const volatile float tiny = 1e-30f;  // volatile: the compiler must not evaluate it
         const errbound::tracked<float> x(float{tiny});
         return sign_of(x * x);
     };
@@ -438,7 +439,7 @@ TEST(device_step, finds_the_pairs_of_soups_on_a_grid) {
         ccd::mesh after = before;
         for (auto& p : after.vertices) p = {p.x + coordinate() / 4, p.y - coordinate() / 4, p.z};
         expect_step_as_on_host(before, after, 7);
-        // Two parts so far apart that floats do not tell the ends of their boxes apart.
+        // Two parts so far apart that floats do not distinguish the ends of their boxes.
         for (ccd::mesh* m : {&before, &after})
             for (std::size_t i = 0; i < 50; ++i) m->vertices[i].x += 1e12;
         expect_step_as_on_host(before, after, 1 << 20);
@@ -451,7 +452,7 @@ TEST(device_step, refuses_coordinates_that_are_not_finite) {
     for (const double bad :
          {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
         ccd::mesh broken = mesh;
-        broken.vertices[4].y = bad;  // a vertex of no face
+        broken.vertices[4].y = bad;  // a vertex without faces
         host_launcher launcher;
         ccd::cuda::detail::step_memory<host_launcher> memory;
         memory.set_mesh(launcher, 5, mesh.faces, ccd::unique_edges(mesh.faces));

@@ -1,4 +1,4 @@
-// On a device: the same answers as on the host, bit for bit. Skipped where there is none.
+// Answers on a device equal those on the host, bit for bit. Skipped without a device.
 #include <cuda_runtime_api.h>
 #include <gtest/gtest.h>
 
@@ -131,7 +131,7 @@ TEST_F(on_device, finds_the_pairs_and_times_of_a_step) {
                              {.first_contact = true, .times = times, .t_max = t_max});
 }
 
-/// A copy of it on the device, to be freed.
+/// Returns a copy on the device. The caller frees it.
 template <class T>
 void* copied(const std::vector<T>& host) {
     void* p = nullptr;
@@ -144,7 +144,7 @@ void expect_done(const ccd::cuda::status& s) {
     EXPECT_TRUE(s) << s.error;
 }
 
-/// First times of candidates on the device, which are these of a batch.
+/// Compares first times of candidates on the device with those of a batch.
 template <class Pair>
 void expect_times_of(const batch<Pair>& set, const std::vector<ccd::vertex_index>& numbers,
                      const ccd::cuda::positions& at, const ccd::cuda::candidates<Pair>& candidates,
@@ -162,7 +162,7 @@ void expect_times_of(const batch<Pair>& set, const std::vector<ccd::vertex_index
     EXPECT_EQ(cudaFree(times), cudaSuccess);
 }
 
-// The calls that a simulation makes: memory, stream and lists of its own.
+// The calls of a simulation with its own memory, stream and lists.
 TEST_F(on_device, works_on_device_memory_and_streams) {
     const auto set = cuda_sets::of_families<ccd::vertex_face_pair>(100, 33);
     cudaStream_t stream = nullptr;
@@ -204,7 +204,7 @@ TEST_F(on_device, works_on_device_memory_and_streams) {
     EXPECT_EQ(cudaStreamDestroy(stream), cudaSuccess);
 }
 
-// Arguments are looked at before anything runs, so these need no device.
+// Arguments are checked before anything runs, so no device is needed.
 TEST(device_arguments, are_refused_in_words) {
     const ccd::cuda::positions nowhere;
     alignas(16) const ccd::vertex_face_pair row{0, 1, 2, 3};
@@ -219,20 +219,21 @@ TEST(device_arguments, are_refused_in_words) {
         return ccd::cuda::decide_batch(arguments...).error;
     };
     const auto one = candidates::rows(&row, 1);
-    EXPECT_NE(error(nowhere, one, &answer, little).find("no vertices"), std::string::npos);
+    EXPECT_NE(error(nowhere, one, &answer, little).find("number of vertices is 0"),
+              std::string::npos);
     EXPECT_NE(error(at, one, nullptr, little).find("null pointer"), std::string::npos);
-    EXPECT_NE(error(at, one, &answer, little).find("scratch memory of 256, expected"),
+    EXPECT_NE(error(at, one, &answer, little).find("scratch memory is 256; expected"),
               std::string::npos);
     const auto* const crooked =
         reinterpret_cast<const ccd::vertex_face_pair*>(reinterpret_cast<const char*>(&row) + 4);
     EXPECT_NE(error(at, candidates::rows(crooked, 1), &answer, little).find("multiple of 16"),
               std::string::npos);
     EXPECT_NE(error(at, one, &answer, little, ccd::cuda::batch_options{ccd::method::provot})
-                  .find("provot, expected"),
+                  .find("provot; expected"),
               std::string::npos);
-    EXPECT_NE(
-        error(at, candidates::rows(&row, std::size_t(1) << 32), &answer, little).find("at most"),
-        std::string::npos);
+    EXPECT_NE(error(at, candidates::rows(&row, std::size_t(1) << 32), &answer, little)
+                  .find("expected <="),
+              std::string::npos);
     EXPECT_NE(error(at, candidates::rows(nullptr, 1), &answer, little).find("null pointer"),
               std::string::npos);
     const ccd::vertex_index one_index = 0;
@@ -244,12 +245,12 @@ TEST(device_arguments, are_refused_in_words) {
     EXPECT_NE(ccd::cuda::select_colliding(&answer, 1, &found_one, 1, &count, {}).error.find("null"),
               std::string::npos);
     EXPECT_NE(ccd::cuda::select_colliding(&answer, 1, &found_one, 1, &count, little)
-                  .error.find("scratch memory of 256, expected"),
+                  .error.find("scratch memory is 256; expected"),
               std::string::npos);
     EXPECT_THROW(ccd::cuda::mesh_steps(std::vector<ccd::face>{{0, 1, 4}}, 4),
                  std::invalid_argument);
     ccd::cuda::mesh_steps steps(std::vector<ccd::face>{{0, 1, 2}}, 3);
-    EXPECT_NE(steps.run(at).error.find("4 vertices, expected 3"), std::string::npos);
+    EXPECT_NE(steps.run(at).error.find("is 4; expected 3"), std::string::npos);
 }
 
 TEST(device_arguments, of_first_times_are_refused_in_words) {
@@ -265,17 +266,17 @@ TEST(device_arguments, of_first_times_are_refused_in_words) {
     const auto expect_refused = [](const ccd::cuda::status& s, const char* what) {
         EXPECT_NE(s.error.find(what), std::string::npos) << s.error;
     };
-    expect_refused(ccd::cuda::find_times(at, one, &time, little, {nan, nullptr}), "t_max of nan");
+    expect_refused(ccd::cuda::find_times(at, one, &time, little, {nan, nullptr}), "t_max is nan");
     expect_refused(ccd::cuda::find_times(at, one, nullptr, little), "null pointer");
-    expect_refused(ccd::cuda::finish_times(at, one, &time, little), "scratch memory of 256");
+    expect_refused(ccd::cuda::finish_times(at, one, &time, little), "scratch memory is 256");
     std::vector<ccd::first_time> none;
     EXPECT_THROW((void)ccd::cuda::first_times(std::vector<ccd::vertex_face<double>>(1), none),
                  std::invalid_argument);
 
     ccd::cuda::mesh_steps steps(std::vector<ccd::face>{{0, 1, 2}}, 4);
     expect_refused(steps.run(at, {.method = ccd::method::tight, .times = true}),
-                   "times asked of the method tight");
-    expect_refused(steps.run(at, {.t_max = nan}), "t_max of nan");
+                   "method is tight; expected exact");
+    expect_refused(steps.run(at, {.t_max = nan}), "t_max is nan");
     const ccd::mesh mesh{std::vector<ccd::point<double>>(4), {{0, 1, 2}}};
     expect_refused(ccd::cuda::step(mesh, mesh, {.distances = {0.5}}), "distances");
     const std::vector<int> groups(4);

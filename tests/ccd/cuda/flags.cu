@@ -1,4 +1,4 @@
-// Device code whose instructions tests/ccd/cuda/flags_test.sh reads.
+// Device code for tests/ccd/cuda/flags_test.sh, which reads its instructions.
 #include <errbound/tracked.hpp>
 
 __global__ void plain_sum(const double* x, double* r) {

@@ -1,14 +1,14 @@
 #!/bin/sh
-# flags_test.sh NVCC INCLUDE OPTION...: what the library's options are for, read off the PTX.
+# flags_test.sh NVCC INCLUDE OPTION...: tests the effect of the library's options on the PTX.
 #
-# By default nvcc fuses a product into a sum, which changes plain results (though not those of
-# tracked numbers), and under -ftz=true it flushes subnormals; under the options it does neither.
+# nvcc fuses products into sums by default, which changes plain results (but not those of tracked
+# numbers), and -ftz=true flushes subnormals. The library's options prevent both.
 set -eu
 nvcc=$1 include=$2
 shift 2
 source=$(dirname "$0")/flags.cu
 
-# instructions KERNEL PATTERN OPTION...: how many lines of the kernel's PTX have the pattern
+# instructions KERNEL PATTERN OPTION...: prints the number of matching lines in the kernel's PTX
 instructions() {
     kernel=$1 pattern=$2
     shift 2
@@ -19,7 +19,7 @@ instructions() {
 # expect FOUND EXPECTED WHAT
 expect() {
     if [ "$1" -ne "$2" ]; then
-        echo "$3: found $1, expected $2"
+        echo "$3 is $1; expected $2"
         exit 1
     fi
 }

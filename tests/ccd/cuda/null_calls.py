@@ -30,7 +30,7 @@ CALL = re.compile(r"call(?:\.uni)?\s+(?:\([^)]*\),\s*)?([%\w$]+)")
 
 
 def functions(ptx):
-    """(name, lines) of each function that has a body."""
+    """Yields (name, lines) of each function with a body."""
     name, lines = None, []
     for line in ptx.splitlines():
         if match := FUNCTION.match(line):
@@ -41,7 +41,7 @@ def functions(ptx):
 
 
 class Values:
-    """What registers and slots of the stack of one function may hold, through moves, stores, loads."""
+    """The possible contents of registers and stack slots of a function, through moves, stores and loads."""
 
     def __init__(self, lines):
         self.sources = collections.defaultdict(set)
@@ -61,7 +61,7 @@ class Values:
 
 
 def findings(ptx):
-    """(function, finding) of each call of address 0, null reference and access of address 0."""
+    """Yields (function, finding) for each call of address 0, null reference and access of address 0."""
     found = []
     for name, lines in functions(ptx):
         values, waiting = Values(lines), iter(lines)
@@ -75,7 +75,7 @@ def findings(ptx):
 
 
 def call_findings(block, values):
-    """The findings of one call."""
+    """Yields the findings of one call."""
     target = CALL.search("\n".join(block))[1]
     if values.is_null(target):
         return ["call of address 0"]
@@ -115,7 +115,7 @@ def demangled(name):
 
 
 def unoptimised_ptx(command, source, scratch):
-    """Compiles `source` as `command` does, to PTX."""
+    """Compiles `source` to PTX with the options of `command`."""
     words = iter(shlex.split(command))
     kept = []
     for word in words:
@@ -149,7 +149,7 @@ def main(commands, cases):
 
 
 def cases_are_found(text):
-    """True if the findings of the cases, through the functions that they call, are those expected."""
+    """True if the findings of the cases, with those of the functions that they call, are as expected."""
     calls = collections.defaultdict(set)
     for name, lines in functions(text):
         calls[name].update(re.findall(r"\b_Z[\w$]+", " ".join(lines)))

@@ -1,5 +1,5 @@
-// Kernels that nvcc 13 miscompiles without a warning, and sound ones: tests/ccd/cuda/null_calls.py
-// has to find every kernel named broken_ and none named sound_.
+// Kernels that nvcc 13 miscompiles without a warning, and sound ones. tests/ccd/cuda/null_calls.py
+// must report every kernel named broken_ and none named sound_.
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -35,7 +35,7 @@ constexpr part assigned(const errbound::bernstein<number, 3>& y) {
 
 }  // namespace
 
-// The value is a constant (64) or the code after the call is removed.
+// nvcc replaces the value by a constant (64), or removes the code after the call.
 __global__ void broken_countr_zero(const std::uint64_t* x, int* y) {
     *y = std::countr_zero(*x);
 }
@@ -48,7 +48,7 @@ __global__ void broken_bit_width(const std::uint64_t* x, int* y) {
 __global__ void broken_popcount(const std::uint64_t* x, int* y) {
     *y = std::popcount(*x);
 }
-// BSC answered "no contact" for every query whose Y may have a root.
+// BSC returned "no contact" for every query whose Y may have a root.
 __global__ void broken_nested_array(const double* x, double* y) {
     *y = constructed({{x[0], x[1], x[2], x[3]}}).g[0][0].value();
 }

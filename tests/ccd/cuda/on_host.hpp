@@ -1,4 +1,4 @@
-// Kernel bodies run on the host, by loops (ccd/cuda/launch.hpp).
+// Runs kernel bodies on the host in loops (ccd/cuda/launch.hpp).
 #pragma once
 
 #include <ccd/cuda.hpp>
@@ -16,7 +16,8 @@
 
 namespace cuda_on_host {
 
-/// Memory for a layout: Memory(arena, sizes...) is made once to count, once to take.
+/// Memory for a layout. Memory(arena, sizes...) is constructed twice: to count, then to take
+/// memory.
 template <class Memory>
 class laid_out {
   public:
@@ -45,14 +46,14 @@ class laid_out {
     Memory memory_;
 };
 
-/// Answers by a float method's stages. `in_doubles`, if not null, receives how many candidates
-/// floats left to doubles.
+/// Returns answers of a float method's stages. `in_doubles`, if not null, receives the number of
+/// candidates that doubles decided.
 template <class Method, class T, class Pair>
 std::vector<ccd::outcome> decide_by(const ccd::cuda::positions& at,
                                     const ccd::cuda::candidates<Pair>& all,
                                     std::size_t* in_doubles = nullptr) {
     ccd::cuda::detail::host_launcher launcher;
-    // Nothing may rely on what was there.
+    // Results must not depend on old contents.
     std::vector<ccd::outcome> answers(all.count, ccd::outcome::collides);
     const laid_out<ccd::cuda::detail::method_memory> memory(all.count);
     ccd::cuda::detail::run_method<Method, T>(launcher, at, all, answers.data(), *memory);
@@ -60,14 +61,14 @@ std::vector<ccd::outcome> decide_by(const ccd::cuda::positions& at,
     return answers;
 }
 
-/// First times of candidates, to the end, host's part included.
+/// Computes first times of candidates completely, with the host's part.
 template <class Pair>
 std::vector<ccd::first_time> first_times(const ccd::cuda::positions& at,
                                          const ccd::cuda::candidates<Pair>& all,
                                          const ccd::cuda::detail::times_asked& asked = {1, false},
                                          ccd::cuda::detail::time_counters* counters = nullptr) {
     ccd::cuda::detail::host_launcher launcher;
-    // Nothing may rely on what was there.
+    // Results must not depend on old contents.
     std::vector<ccd::first_time> times(all.count, {ccd::outcome::collides, -1, 2});
     const laid_out<ccd::cuda::detail::time_memory> memory(all.count);
     run_time_stages(launcher, at, all, times.data(), *memory, asked);
@@ -79,7 +80,7 @@ std::vector<ccd::first_time> first_times(const ccd::cuda::positions& at,
 constexpr std::size_t default_block =
     ccd::cuda::detail::step_memory<ccd::cuda::detail::host_launcher>::default_block;
 
-/// A step by `exact` through the device's code: all of it but the launches.
+/// A step by `exact` with the device's code, except the launches.
 inline ccd::step_result step(const ccd::mesh& before, const ccd::mesh& after,
                              const ccd::cuda::mesh_step_options& asked = {},
                              std::size_t block = default_block) {
@@ -105,7 +106,7 @@ inline ccd::step_result step(const ccd::mesh& before, const ccd::mesh& after,
         return finish_times(launcher, at, pairs, times, *all).left;
     };
     ccd::step_result result;
-    // Twice: the second step finds memory that the first has used.
+    // Runs twice: the second step reuses the memory of the first.
     for (int i = 0; i < 2; ++i) {
         const found_pairs found = steps.run(launcher, at, asked, decide, find);
         result = {};
@@ -117,7 +118,7 @@ inline ccd::step_result step(const ccd::mesh& before, const ccd::mesh& after,
     return result;
 }
 
-/// Calls visit<Method>(method) for all methods but `exact`.
+/// Calls visit<Method>(method) for all methods except `exact`.
 template <class Visit>
 void for_each_float_method(const Visit& visit) {
     using ccd::method, ccd::cuda::detail::bsc_method, ccd::cuda::detail::safeccd_method;

@@ -1,4 +1,4 @@
-// Queries for tests of device code, as batches: families of difficult ones, and stored ones.
+// Batches of queries for tests of device code: difficult families, and stored queries.
 #pragma once
 
 #include <ccd/batch.hpp>
@@ -20,13 +20,13 @@
 
 namespace cuda_sets {
 
-/// Positions in the memory where the rows are.
+/// Returns positions that refer to the rows' memory.
 inline ccd::cuda::positions positions_of(const ccd::vertex_rows& rows) {
     using coordinates = ccd::cuda::coordinates<double>;
     return {coordinates::rows(rows.before), coordinates::rows(rows.after), rows.vertices};
 }
 
-/// Queries of one kind, each with four vertices of its own.
+/// Queries of one kind, each with four separate vertices.
 template <class Pair>
 struct batch {
     static constexpr bool of_faces = std::is_same_v<Pair, ccd::vertex_face_pair>;
@@ -46,14 +46,14 @@ struct batch {
         }
     }
     std::size_t size() const { return queries.size(); }
-    /// As device code takes them, in this batch's memory.
+    /// The form for device code, in this batch's memory.
     ccd::cuda::positions positions() const { return positions_of({before, after}); }
     ccd::cuda::candidates<Pair> candidates() const {
         return ccd::cuda::candidates<Pair>::rows(rows.data(), size());
     }
 };
 
-/// `count` queries of a family, fewer of one whose truth is slow.
+/// Returns `count` queries of a family, or fewer if its truth is slow.
 template <class Pair>
 batch<Pair> of_family(const query_families::family& family, std::uint64_t count, std::uint64_t seed,
                       batch<Pair> all = {}) {
@@ -64,7 +64,7 @@ batch<Pair> of_family(const query_families::family& family, std::uint64_t count,
     return all;
 }
 
-/// The same of every family.
+/// Returns queries of every family.
 template <class Pair>
 batch<Pair> of_families(std::uint64_t count, std::uint64_t seed) {
     batch<Pair> all;
@@ -73,7 +73,7 @@ batch<Pair> of_families(std::uint64_t count, std::uint64_t seed) {
     return all;
 }
 
-/// All stored queries under a folder.
+/// Returns all stored queries in a folder.
 template <class Pair>
 batch<Pair> stored(const std::filesystem::path& folder) {
     batch<Pair> all;

@@ -1,4 +1,4 @@
-// First times on devices: kernel bodies run on the host by loops, against the host's own times.
+// First times on devices: compares kernel bodies, run on the host in loops, with the host's times.
 #include <gtest/gtest.h>
 
 #include <ccd/first_times.hpp>
@@ -37,7 +37,7 @@ void expect_equal(const std::vector<first_time>& found, const std::vector<first_
                                          << " and " << expected[i].low << ", " << expected[i].high;
 }
 
-/// All queries, those without contact too. Returns how many entered each stage.
+/// Compares all queries, with and without contact. Returns the numbers that entered each stage.
 template <class Pair>
 time_counters expect_times(const batch<Pair>& set, double t_max = 1) {
     time_counters counters{};
@@ -47,7 +47,7 @@ time_counters expect_times(const batch<Pair>& set, double t_max = 1) {
     return counters;
 }
 
-/// Else a stage could be left out unnoticed: the next ones would answer its queries as well.
+/// Otherwise a missing stage would go unnoticed, since the next ones would decide its queries.
 void expect_every_stage_to_settle_some(std::size_t queries, const time_counters& c) {
     std::cout << "roots " << queries << ", integers, 1 word " << c.one_word << ", roots, 2 words "
               << c.roots_in_two_words << ", integers, 2 words " << c.two_words << ", host "
@@ -73,7 +73,7 @@ TYPED_TEST(device_times, are_asked_for_up_to_t_max) {
     for (const double t_max :
          {-1.0, 0.0, std::numeric_limits<double>::denorm_min(), 0.125, 0.5, 1 - 0x1p-53, 2.0})
         expect_times(set, t_max);
-    // At the brackets' own ends.
+    // t_max at the ends of the brackets.
     const auto times = ccd::first_times(set.queries);
     const auto at = set.positions();
     for (std::size_t i = 0; i < set.size(); i += 7) {
@@ -86,7 +86,7 @@ TYPED_TEST(device_times, are_asked_for_up_to_t_max) {
     }
 }
 
-// Of all but the start and the earliest, nothing need be told.
+// Only contacts at the start and the earliest one are required.
 TYPED_TEST(device_times, of_the_earliest_alone) {
     const auto set = cuda_sets::of_families<TypeParam>(support::scaled(100u), 43);
     const auto all = ccd::first_times(set.queries);
@@ -122,7 +122,7 @@ TYPED_TEST(device_times, of_coordinates_that_are_not_finite_are_uncertain) {
         ASSERT_EQ(found[i], i % 5 == 0 ? first_time{} : ccd::time_of_impact(set.queries[i])) << i;
 }
 
-// As a caller asks: those that select_colliding lists.
+// Candidates of a typical caller: those that select_colliding lists.
 TYPED_TEST(device_times, of_listed_candidates_come_in_the_order_of_the_list) {
     const auto set = cuda_sets::of_families<TypeParam>(20, 45);
     std::vector<ccd::vertex_index> numbers;
@@ -138,7 +138,7 @@ TYPED_TEST(device_times, of_listed_candidates_come_in_the_order_of_the_list) {
                  expected);
 }
 
-/// All that a step can be asked of times.
+/// All options of a step for times.
 void expect_steps_as_on_host(const ccd::mesh& before, const ccd::mesh& after,
                              std::size_t block = cuda_on_host::default_block) {
     const auto first = ccd::step(before, after, {.first_contact = true}).first_contact;

@@ -9,7 +9,7 @@
 
 namespace ptx {
 
-/// Allocations at addresses that the host cannot read; their content lies elsewhere. No address is
+/// Allocations at addresses that the host cannot read. Their contents are elsewhere. No address is
 /// used twice.
 class device_memory {
   public:
@@ -32,7 +32,7 @@ device_memory& memory();
 
 /// The byte that fresh memory, registers and stacks are filled with (PTXEMU_FILL).
 int fill_byte();
-/// A number of the environment, 0 if it is not there.
+/// Returns a number from the environment, 0 if it is not set.
 long setting(const char* name);
 [[noreturn]] void stop(const char* format, ...);
 
@@ -67,7 +67,7 @@ struct launch {
     u32 grid[3], block[3], dynamic_shared_bytes;
     std::vector<char> parameters;
 };
-/// Returns an empty string, or what a thread did wrong.
+/// Returns an empty string, or the error of a thread.
 std::string run(launch& l);
 
 /// The number of calls of the runtime so far.

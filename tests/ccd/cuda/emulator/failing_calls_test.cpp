@@ -1,5 +1,5 @@
-// Every call of the runtime fails once: the library then returns an error, or right answers, and
-// throws nothing. Each failure happens in a process of its own, since CUB keeps some errors.
+// Every call of the runtime fails once. The library must return an error or right answers, and
+// throw nothing. Each failure happens in a separate process, since CUB keeps some errors.
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -30,7 +30,7 @@ std::vector<query> queries() {
     return all;
 }
 
-/// An error and the answers of one use of the library.
+/// The error and the correctness of one use of the library.
 struct result {
     std::string error;
     bool right;
@@ -69,7 +69,7 @@ ending run(result (*use)(), long call) {
     }
 }
 
-/// True if all went well whichever call failed.
+/// True if the library handled the failure of every call.
 bool every_call(const char* name, result (*use)()) {
     for (long call = 1;; ++call) {
         std::fflush(nullptr);

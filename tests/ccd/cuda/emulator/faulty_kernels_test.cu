@@ -1,5 +1,5 @@
-// Kernels that the emulator has to reject, and their like that it must not. Each runs in a process
-// of its own, since the device is lost after an error.
+// Kernels that the emulator must reject, and similar valid ones. Each runs in a separate process,
+// since an error disables the device.
 #include <cuda_runtime.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -49,8 +49,8 @@ int* memory = nullptr;
 bool finishes() {
     return cudaGetLastError() == cudaSuccess && cudaDeviceSynchronize() == cudaSuccess;
 }
-/// True if `run` ends in a process of its own as expected: it returns false where an error was
-/// reported.
+/// Runs `run` in a separate process, which returns false after a reported error. True if the result
+/// is as expected.
 template <class Run>
 bool reported(const char* name, bool expected, const Run& run) {
     std::fflush(nullptr);

@@ -86,7 +86,7 @@ class block_runner {
         return lanes;
     }
 
-    /// Runs until all lanes have exited or wait at a barrier. Returns whether some wait.
+    /// Runs until all lanes have exited or wait at a barrier. True if some wait.
     bool run_warp(warp& w) {
         for (;;) {
             const u32 running = ~lanes_at(w, exited);
@@ -104,12 +104,12 @@ class block_runner {
             if (advanced) continue;
             if (at_barriers) return true;
             const lane& l = w.lanes[std::countr_zero(running)];
-            fail(l, "lanes of a warp wait for lanes that never come", 0, 0,
+            fail(l, "lanes of a warp wait for lanes that never arrive", 0, 0,
                  code_.blocks[l.next].line);
         }
     }
 
-    /// Runs the block for the lanes that are there, if none of them has to wait.
+    /// Runs the block for the present lanes, unless one of them must wait.
     bool advance(warp& w, const block& b, u32 here, u32 running) {
         if (b.kind == block_kind::barrier) return false;
         if (b.kind != block_kind::warp) {
@@ -134,7 +134,7 @@ class block_runner {
         return advanced;
     }
 
-    /// All threads that have not exited have to be at one barrier.
+    /// All running threads must be at one barrier.
     void pass_barrier() {
         int at = exited;
         for (const warp& w : warps_)

@@ -1,4 +1,4 @@
-"""C++ of one PTX instruction: expressions and statements over the functions of ptx.hpp."""
+"""Translates a PTX instruction to C++ expressions and statements with the functions of ptx.hpp."""
 import re
 
 from ptx import WIDTHS, Unsupported

@@ -1,4 +1,4 @@
-// CUDA's runtime on the emulated device. Work runs as late as CUDA allows: when somebody waits for
+// CUDA's runtime on the emulated device. Work runs as late as CUDA allows: when a call waits for
 // its stream.
 #include <cuda_runtime_api.h>
 
@@ -21,7 +21,7 @@ constexpr int processors = 2, blocks_per_processor = 2;
 
 std::recursive_mutex mutex;
 cudaError_t last_error = cudaSuccess;
-cudaError_t device_error = cudaSuccess;  // of a kernel: every later call returns it
+cudaError_t device_error = cudaSuccess;  // a kernel's error, which every later call returns
 long call_count = 0;
 const bool trace = setting("PTXEMU_TRACE") != 0;
 
@@ -30,7 +30,7 @@ cudaError_t noted(cudaError_t error) {
     return error;
 }
 
-/// Runs a call of the runtime, unless a kernel failed before or the call itself is to fail.
+/// Runs a call of the runtime, unless a kernel has failed or PTXEMU_FAIL_CALL selects this call.
 template <class Call>
 cudaError_t run_call(const char* name, cudaError_t failure, const Call& call) {
     const std::lock_guard guard(mutex);
@@ -120,8 +120,8 @@ cudaError_t enqueue_launch(const void* host_function, dim3 grid, dim3 block, voi
     });
 }
 
-/// The host address of one end of a copy, null if it is not where the direction says or not
-/// allocated.
+/// Returns the host address of one end of a copy; null if it is not allocated or in the wrong
+/// memory for the direction.
 char* place_of(const void* p, std::size_t bytes, bool on_device) {
     if (memory().contains(p) != on_device) return nullptr;
     return on_device ? memory().content(p, bytes) : static_cast<char*>(const_cast<void*>(p));
@@ -158,7 +158,7 @@ cudaError_t attribute(int& value, cudaDeviceAttr name) {
 }
 
 thread_local std::tuple<dim3, dim3, std::size_t, void*>
-    configuration;  // of the next kernel<<<...>>>
+    configuration;  // for the next kernel<<<...>>>
 
 }  // namespace
 
@@ -168,7 +168,7 @@ long ptx::runtime_calls() {
 
 extern "C" {
 
-// Called by code that nvcc writes.
+// Functions that nvcc's generated code calls.
 void** __cudaRegisterFatBinary(void* wrapper) {
     struct fatbinary_wrapper {
         int magic, version;
@@ -200,7 +200,7 @@ cudaError_t __cudaPopCallConfiguration(dim3* grid, dim3* block, std::size_t* byt
     return cudaSuccess;
 }
 
-// The runtime's functions, as far as they are used.
+// The runtime's functions that are used.
 cudaError_t cudaLaunchKernel(const void* f, dim3 grid, dim3 block, void** arguments,
                              std::size_t bytes, cudaStream_t s) {
     return run_call(__func__, cudaErrorLaunchOutOfResources,

@@ -54,7 +54,7 @@ void compare(const char* name, const std::vector<T>& in) {
         std::printf("%s differs for %u operands\n", name, differ), all_right = false;
 }
 
-/// Half of them special values.
+/// Returns random values; half of them are special.
 template <class T>
 std::vector<T> operands() {
     static std::mt19937_64 random(5);

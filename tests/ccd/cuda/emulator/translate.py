@@ -118,7 +118,7 @@ class Kernel:
         return kind, *names
 
     def passes(self, i):
-        """What `meeting` returns, and what each lane does, one pass over all lanes after the other."""
+        """Returns the result of `meeting`, and the code of each lane, pass after pass over all lanes."""
         value, assign, operands, modifiers = self.writer.value, self.writer.assign, i.operands, set(i.modifiers)
         if i.name == "activemask" and modifiers == {"b32"}:
             return "active", "", "", [assign(operands[0], "lanes", "u32")]
