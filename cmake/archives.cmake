@@ -1,6 +1,5 @@
-# What CPack makes: `cpack` two Debian packages, the programs (errbound) and what is developed with
-# (liberrbound-dev), or where there is no dpkg one archive of each; `cpack --config CPackSourceConfig.cmake`
-# the source archive. ./run release does both from a clean tree.
+# `cpack` makes two Debian packages, errbound (programs) and liberrbound-dev (development), or archives without dpkg.
+# `cpack --config CPackSourceConfig.cmake` makes the source archive. ./run release does both from a clean tree.
 set(CPACK_PACKAGE_NAME errbound)
 set(CPACK_PACKAGE_VENDOR "errbound authors")
 set(ERRBOUND_MAINTAINER "errbound authors <errbound@localhost>" CACHE STRING
@@ -42,7 +41,7 @@ set(CPACK_DEBIAN_DEVELOPMENT_DESCRIPTION
 "C++ headers for arithmetic that knows its rounding error and for predicates
 with the right sign, and libraries for exact continuous collision detection,
 for CMake's find_package(errbound).")
-# What the static libraries and the package's CMake files ask for.
+# Dependencies of the static libraries and the package's CMake files.
 set(development_needs)
 if(TARGET errbound_ccd)
   list(APPEND development_needs libtbb-dev)

@@ -1,4 +1,4 @@
-# How everything here is compiled: build type, compiler cache, sanitizers, warnings.
+# Build type, compiler cache, sanitizers and warnings.
 if(PROJECT_IS_TOP_LEVEL AND NOT CMAKE_BUILD_TYPE AND NOT CMAKE_CONFIGURATION_TYPES)
   set(CMAKE_BUILD_TYPE Release CACHE STRING "Build type" FORCE)
 endif()
@@ -21,17 +21,17 @@ if(ERRBOUND_SANITIZE)
                       -fno-omit-frame-pointer -g1)
   add_link_options(-fsanitize=${ERRBOUND_SANITIZE})
   if(ERRBOUND_SANITIZE MATCHES "undefined")
-    # What the address sanitizer sees too, or what cannot be here (no virtual functions, no pointers
-    # to other types but in device code): tests would take four times as long to compile.
+    # The address sanitizer also detects these, or they cannot occur (no virtual functions, and pointers
+    # to other types only in device code). With them, tests take four times as long to compile.
     add_compile_options(-fno-sanitize=null,vptr,object-size,alignment,nonnull-attribute)
     add_compile_options(-fno-sanitize=returns-nonnull-attribute)
   endif()
-  set(ERRBOUND_WITH_CUDA OFF)  # of which sanitizers see nothing
-  set(ERRBOUND_WITH_MPI OFF)   # whose own leaks they would report
+  set(ERRBOUND_WITH_CUDA OFF)  # sanitizers do not check it
+  set(ERRBOUND_WITH_MPI OFF)   # sanitizers would report its leaks
 endif()
 
-# Warnings are for the project's own targets; users get none of them, and theirs, which may be
-# errors, are not asked of its sources.
+# Warnings apply to the project's targets only. In another project, its warnings, which may be errors,
+# are turned off here.
 if(PROJECT_IS_TOP_LEVEL)
   add_compile_options("$<$<COMPILE_LANGUAGE:CXX>:-Wall;-Wextra;-Wconversion>")
   if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION MATCHES "^12")
@@ -39,8 +39,8 @@ if(PROJECT_IS_TOP_LEVEL)
     add_compile_options("$<$<COMPILE_LANGUAGE:CXX>:-Wno-restrict>")
   endif()
   if(CMAKE_CXX_COMPILER_ID MATCHES "Clang")
-    # Masks of one lane are bool, and & of them evaluates both sides, as of those of many.
-    # GCC's -Wconversion means no changes of sign.
+    # Masks of one lane are bool; & of them must evaluate both sides, as for many lanes.
+    # GCC's -Wconversion excludes changes of sign.
     add_compile_options("$<$<COMPILE_LANGUAGE:CXX>:-Wno-bitwise-instead-of-logical;-Wno-sign-conversion>")
   endif()
 else()

@@ -1,13 +1,13 @@
-# Looks for nvcc, and says how device code is compiled: where it is found, errbound_cuda_options is set.
+# Looks for nvcc. If found, sets errbound_cuda_options, the options for device code.
 include(CheckLanguage)
 check_language(CUDA)
 if(NOT CMAKE_CUDA_COMPILER)
   message(STATUS "errbound: building without CUDA: no nvcc")
   return()
 endif()
-# Where nothing else is asked for: machine code for compute capability 8 and 9, and PTX, which drivers
-# compile for 7.5 and all later ones; all by one pass of the compiler proper, since nothing of the
-# newer instruction sets would be used. Each machine takes minutes.
+# The default: machine code for compute capability 8 and 9, and PTX, which drivers compile for 7.5 and
+# all later ones. One compiler pass serves all, since newer instructions would not be used. Each machine
+# takes minutes.
 set(ERRBOUND_CUDA_CODES sm_80 sm_90 compute_75 CACHE STRING
     "What device code is compiled for, where CMAKE_CUDA_ARCHITECTURES does not say")
 if(NOT DEFINED CMAKE_CUDA_ARCHITECTURES)
@@ -28,11 +28,10 @@ if(NOT TARGET CUDA::cudart_static)
   return()
 endif()
 
-# What bounds and identical answers need of device code: no contraction to fused multiply-add, no
-# flushing of subnormals, divisions and square roots that are rounded correctly.
-# tests/ccd/cuda/flags_test.sh shows what becomes of the code otherwise.
+# Bounds and identical answers require: no contraction to fused multiply-add, no flushing of subnormals,
+# correctly rounded divisions and square roots (tests/ccd/cuda/flags_test.sh).
 set(errbound_cuda_precision -fmad=false -ftz=false -prec-div=true -prec-sqrt=true)
-# (The standard as an option: CMake 3.25 does not know nvcc 13's.)
+# The standard is an option, since CMake 3.25 does not support that of nvcc 13.
 set(errbound_cuda_options ${errbound_cuda_targets} -std=c++20 --expt-relaxed-constexpr
                           ${errbound_cuda_precision} -Xcompiler=-ffp-contract=off,-Wall)
 # Tests read the PTX of the objects (tests/ccd/cuda/emulator).

@@ -1,4 +1,4 @@
-# Run by CPack before it makes Debian packages: each says its licence and that it is of a version.
+# CPack runs this before it makes Debian packages. It adds copyright and changelog to each.
 if(NOT CPACK_GENERATOR STREQUAL "DEB")
   return()
 endif()

@@ -1,9 +1,9 @@
-# Libraries that more than one room uses. What is required is looked for here, or where it is used.
+# Looks for libraries that several rooms use.
 find_path(ERRBOUND_GMP_INCLUDE gmp.h)
 find_library(ERRBOUND_GMP_LIBRARY gmp)
 find_path(ERRBOUND_MPFR_INCLUDE mpfr.h)
 find_library(ERRBOUND_MPFR_LIBRARY mpfr)
-# The library alone: CMake's own module would link what a static one needs, too.
+# Only the library: CMake's module would also link the dependencies of a static one.
 find_path(ERRBOUND_HDF5_INCLUDE hdf5.h PATH_SUFFIXES hdf5/serial)
 find_library(ERRBOUND_HDF5_LIBRARY NAMES hdf5_serial hdf5)
 find_path(ERRBOUND_ZLIB_INCLUDE zlib.h)
@@ -17,7 +17,7 @@ endif()
 mark_as_advanced(ERRBOUND_GMP_INCLUDE ERRBOUND_GMP_LIBRARY ERRBOUND_MPFR_INCLUDE
                  ERRBOUND_MPFR_LIBRARY)
 
-# errbound_require(TARGET PACKAGE [VERSION]): a target that the surrounding project has is used as it is.
+# errbound_require(TARGET PACKAGE [VERSION]): finds a package, unless the surrounding project has the target.
 macro(errbound_require target)
   if(NOT TARGET ${target})
     find_package(${ARGN} REQUIRED)

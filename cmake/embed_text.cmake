@@ -1,5 +1,5 @@
-# errbound_embed_text(TARGET FILE NAME): the text of FILE is the string a::b::name in the target. Makes a
-# C++ source of it, when this runs as a script: cmake -DINPUT=FILE -DOUTPUT=FILE -DNAME=a::b::name -P ...
+# errbound_embed_text(TARGET FILE NAME): adds the text of FILE to the target, as the string NAME = a::b::name. A
+# script call writes the C++ source: cmake -DINPUT=FILE -DOUTPUT=FILE -DNAME=a::b::name -P ...
 if(NOT CMAKE_SCRIPT_MODE_FILE)
   function(errbound_embed_text target file name)
     string(MAKE_C_IDENTIFIER ${name} source)
@@ -15,7 +15,7 @@ endif()
 file(READ ${INPUT} text)
 string(FIND "${text}" ")embedded\"" delimiter)
 if(NOT delimiter EQUAL -1)
-  message(FATAL_ERROR "${INPUT}: found the end of the string that is to hold it")
+  message(FATAL_ERROR "${INPUT} contains the delimiter of raw strings; expected a text without it")
 endif()
 string(REGEX REPLACE "::[^:]*$" "" namespace ${NAME})
 string(REGEX REPLACE "^.*::" "" variable ${NAME})

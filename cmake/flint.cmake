@@ -1,5 +1,5 @@
-# The target `flint`, with GMP and the headers, where FLINT is installed (libflint-dev); and `arb`,
-# its companion of ball arithmetic (libflint-arb-dev).
+# If installed, the targets `flint`, with GMP and headers (libflint-dev), and `arb`, its ball arithmetic
+# (libflint-arb-dev).
 include_guard(DIRECTORY)
 find_path(ERRBOUND_FLINT_INCLUDE flint/fmpz_poly.h)
 find_library(ERRBOUND_FLINT_LIBRARY flint)

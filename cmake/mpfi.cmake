@@ -1,4 +1,4 @@
-# The target `mpfi`, interval arithmetic over MPFR, where it is installed (libmpfi-dev).
+# The target `mpfi`, interval arithmetic over MPFR, if installed (libmpfi-dev).
 include_guard(DIRECTORY)
 find_path(ERRBOUND_MPFI_INCLUDE mpfi.h)
 find_library(ERRBOUND_MPFI_LIBRARY mpfi)

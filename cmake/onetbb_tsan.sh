@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Builds oneTBB with the thread sanitizer, which otherwise cannot see how oneTBB synchronises, and
-# installs it in out/onetbb-tsan, where the preset tsan expects it. Needs dpkg-dev.
+# Builds oneTBB with the thread sanitizer, which cannot check its synchronisation otherwise, and installs it in
+# out/onetbb-tsan for the preset tsan. Requires dpkg-dev.
 set -euo pipefail
 cd -- "$(dirname -- "${BASH_SOURCE[0]}")/.."
 installed=$PWD/out/onetbb-tsan

@@ -1,5 +1,5 @@
 # shellcheck shell=bash disable=SC2034  # its variables are used by those who source it
-# Functions of ./run and of the scripts that it calls, which source this file: errors, headings, packages.
+# Functions for ./run and its scripts, which source this file: errors, headings, packages.
 
 build_packages=(g++ cmake ninja-build libboost-dev libgmp-dev libhdf5-dev libmpfr-dev libcli11-dev
     nlohmann-json3-dev libtbb-dev libxsimd-dev zlib1g-dev)
@@ -7,7 +7,7 @@ test_packages=(libgtest-dev librapidcheck-dev libeigen3-dev libflint-dev python3
     openmpi-bin pkg-config)
 python_packages=(python3 python3-dev python3-venv)
 
-# Distribution packages belong to the distribution's Python, which need not be the first on PATH.
+# Packages of the distribution belong to its Python, which may not be the first on PATH.
 python=/usr/bin/python3
 
 fail() {
@@ -15,7 +15,7 @@ fail() {
     exit 1
 }
 
-# fail_with_log FILE MESSAGE: prints the end of the file first, for logs that nobody can open afterwards.
+# fail_with_log FILE MESSAGE: prints the end of the log first.
 fail_with_log() {
     tail -n 40 -- "$1" >&2
     fail "$2: $1"
@@ -27,10 +27,10 @@ phase() {
     "${@:2}"
 }
 
-# The commit that is measured; marked if files differ from it.
+# Prints the commit, marked if files differ from it.
 commit() { git describe --always --dirty --exclude='*' 2>/dev/null || echo unknown; }
 
-# need PACKAGE...: fails if one is missing, and names them; with ERRBOUND_INSTALL=1 it installs them.
+# need PACKAGE...: fails with the names of missing packages, or installs them with ERRBOUND_INSTALL=1.
 need() {
     local package missing=() as_root=()
     if ! command -v dpkg-query >/dev/null; then
@@ -52,7 +52,7 @@ need() {
     fi
     printf 'installing %s\n' "${missing[*]}" >&2
     as_root+=(env DEBIAN_FRONTEND=noninteractive apt-get -qq -o Dpkg::Use-Pty=0)
-    # The lists of another archive may fail to update: the installation decides.
+    # Lists of other archives may fail to update. The installation decides.
     "${as_root[@]}" update || printf 'run: apt-get update failed; trying to install anyway\n' >&2
     for package in "${missing[@]}"; do
         # apt reads an unknown name as an expression: "g++-13" matches clang-13.

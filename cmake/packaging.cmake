@@ -29,7 +29,7 @@ configure_package_config_file(cmake/errbound-config.cmake.in
   ${CMAKE_CURRENT_BINARY_DIR}/errbound-config.cmake INSTALL_DESTINATION ${package_dir})
 write_basic_package_version_file(${CMAKE_CURRENT_BINARY_DIR}/errbound-config-version.cmake
   COMPATIBILITY SameMinorVersion)
-# For build systems other than CMake. A shared library names what it needs by itself.
+# For other build systems than CMake. A shared library records its dependencies.
 set(pc_dir ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
 if(IS_ABSOLUTE "${pc_dir}")
   set(pc_prefix ${CMAKE_INSTALL_PREFIX})

@@ -3,8 +3,8 @@
 
 usage: run_tests.py [--valgrind] BUILD_FOLDER CTEST_OPTION...
 
---valgrind runs them under memcheck, two at a time: an error or a definite leak fails. Choose GoogleTest's
-tests then, for instance by -L unit.
+--valgrind runs them under memcheck, two at a time. An error or a definite leak fails. Choose tests of GoogleTest then,
+for example by -L unit.
 """
 import json
 import os
@@ -24,7 +24,7 @@ def chosen(build, options):
 
 
 def targets_of(build, tests):
-    """The build targets that these tests need."""
+    """Returns the build targets that these tests need."""
     files = {file for test in tests for p in test["properties"]
              if p["name"] == "REQUIRED_FILES" for file in p["value"]}
     return [os.path.relpath(file, os.path.abspath(build)) for file in sorted(files)]
@@ -49,7 +49,7 @@ def main():
     build, *options = arguments[valgrind:]
     tests = chosen(build, options)
     if not tests:
-        print(f"run: found no test by {' '.join(options)} in {build}", file=sys.stderr)
+        print(f"run: number of tests by {' '.join(options)} in {build} is 0; expected some", file=sys.stderr)
         return 1
     targets = targets_of(build, tests)
     made = subprocess.run(["cmake", "--build", build, "--target", *targets]).returncode if targets else 0

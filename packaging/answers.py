@@ -1,4 +1,4 @@
-"""What the package answers, bit for bit, as one line a question: two builds of it must print the same.
+"""Prints results of the package, bit for bit. Two builds of it must print equal lines.
 
 Arguments: pairs of frames, FRAME0 FRAME1 and so on.
 """

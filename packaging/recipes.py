@@ -1,4 +1,4 @@
-"""Fills the recipes for vcpkg, conda-forge and Spack for a release, and lays them as their registries have them.
+"""Fills the recipes for vcpkg, conda-forge and Spack for a release, in the folders of their registries.
 
 Arguments: source folder, folder of the release with the source archive, address where that will be found.
 Where rattler-build's package is installed, the recipe for conda-forge is rendered by it.
@@ -8,7 +8,7 @@ import re
 import sys
 from pathlib import Path
 
-# Where each goes under recipes/, from packaging/.
+# Files of packaging/, with their paths under recipes/.
 PLACES = {"vcpkg/vcpkg.json.in": "vcpkg/ports/errbound/vcpkg.json",
           "vcpkg/portfile.cmake.in": "vcpkg/ports/errbound/portfile.cmake",
           "vcpkg/usage": "vcpkg/ports/errbound/usage",
@@ -21,7 +21,7 @@ def project_version(source):
 
 
 def fill(source, url, archive_bytes):
-    """File under recipes/ -> its text."""
+    """Returns a dictionary from files under recipes/ to their texts."""
     version = project_version(source)
     values = {"VERSION": version, "URL": url, "ARCHIVE": f"errbound-{version}.tar.xz",
               "SHA256": hashlib.sha256(archive_bytes).hexdigest(),

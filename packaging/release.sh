@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # shellcheck disable=SC2154  # variables of cmake/packages.sh
-# ./run release: makes everything that is published from the last commit, and tests it as its users would get
-# it. Results go to out/release, intermediate files to out/release-work.
+# ./run release: makes all published files from the last commit and tests them as users get them. Results go to
+# out/release, intermediate files to out/release-work.
 set -euo pipefail
 root=$(cd -- "$(dirname -- "${BASH_SOURCE[0]}")/.." && pwd)
 cd -- "$root"
@@ -19,23 +19,23 @@ skip() {
     skipped+=("$*")
 }
 
-# logged NAME COMMAND...: what it prints goes to a file, which is named where it fails.
+# logged NAME COMMAND...: writes the output to a file, which the error message names.
 logged() {
     local log=$release_work/logs/$1
     shift
     "$@" >"$log" 2>&1 || {
         tail -n 20 "$log" >&2
-        fail "release: '$*' failed; all it said: $log"
+        fail "release: '$*' failed; its output: $log"
     }
 }
 
 project_version() { sed -n 's/^project(errbound VERSION \([0-9.]*\).*/\1/p' "$export_of_head/CMakeLists.txt"; }
 
-# What git has, and nothing else that lies about.
+# Exports the files of git only.
 export_head() {
     local changed
-    changed=$(git status --porcelain) || fail 'release is made of a commit: this is no git repository'
-    [[ -z $changed ]] || fail "release is made of a commit, and files differ from it:"$'\n'"$changed"
+    changed=$(git status --porcelain) || fail 'release: folder is not a git repository; expected a commit'
+    [[ -z $changed ]] || fail "release: files differ from the commit; expected none:"$'\n'"$changed"
     rm -rf -- out/release "$release_work"
     mkdir -p out/release "$release_work"/{logs,envs} "$export_of_head"
     git -c tar.umask=0022 archive HEAD | tar -xf - -C "$export_of_head"
@@ -44,7 +44,7 @@ export_head() {
     export SOURCE_DATE_EPOCH
 }
 
-# The source archive, and of that the programs and libraries, tried by a project of its own.
+# Makes the source archive, builds programs and libraries from it, and uses them in a separate project.
 make_source_archive() {
     local version
     version=$(project_version)
@@ -55,14 +55,14 @@ make_source_archive() {
         logged source-archive cpack --config CPackSourceConfig.cmake -B "$release_work/cpack-source")
     mv "$release_work/cpack-source/errbound-$version.tar.xz" out/release
     tar -xf "out/release/errbound-$version.tar.xz" -C "$release_work"
-    diff -r "$export_of_head" "$unpacked" || fail 'release: the source archive is not what git has'
+    diff -r "$export_of_head" "$unpacked" || fail 'release: source archive differs from git; expected equal files'
     (cd "$unpacked" && logged configure-all cmake --preset release -DERRBOUND_BUILD_TESTS=OFF \
         -DERRBOUND_WITH_CUDA=OFF -DERRBOUND_WITH_MPI=OFF -DCMAKE_INSTALL_PREFIX=/usr)
     logged build-all cmake --build "$unpacked/build"
     "$unpacked/tests/install/check.sh" "$unpacked" "$unpacked/build" g++ Ninja
 }
 
-# Two Debian packages, unpacked and used; then in a root of their own, where apt-get sees to what they need.
+# Two Debian packages, unpacked and used; then installed in a new root, where apt-get adds their dependencies.
 make_debian_packages() {
     local package use=$release_work/use-debian
     (cd "$unpacked/build" && logged debian cpack -G DEB -B "$release_work/cpack")
@@ -72,7 +72,7 @@ make_debian_packages() {
         dpkg-deb -f "$package" Package Depends
         dpkg-deb -x "$package" "$release_work/debian"
     done
-    # The default maintainer has no address: the project has none.
+    # The default maintainer has no address, since the project has none.
     logged lintian lintian --fail-on error out/release/*.deb \
         --suppress-tags bogus-mail-host,bogus-mail-host-in-debian-changelog
     grep -v '^N:' "$release_work/logs/lintian" || true
@@ -109,12 +109,12 @@ try_in_clean_root() {
     printf 'installed by apt-get and used in a new root of %s\n' "$codename"
 }
 
-# What packaging/wheel.cmake names.
+# Makes the tools for packaging/wheel.cmake.
 prepare_wheel_tools() {
     local boost zig compiler
     mkdir -p "$wheel_tools/libraries"
     zig=$("$tools_python" -c 'import ziglang; print(ziglang.__path__[0])')/zig
-    for compiler in cc c++; do # files, as ccache wants them
+    for compiler in cc c++; do # ccache needs files
         printf '#!/bin/sh\nexec %q %s -target x86_64-linux-gnu.2.17 "$@"\n' "$zig" "$compiler" \
             >"$wheel_tools/$compiler"
         chmod +x "$wheel_tools/$compiler"
@@ -124,7 +124,7 @@ prepare_wheel_tools() {
     dpkg -L "${boost%% *}" libxsimd-dev nlohmann-json3-dev | grep -E '/(include|cmake)/' |
         while IFS= read -r file; do [[ -d $file ]] || printf '%s\n' "${file#/}"; done |
         tar -cf - -C / -T - | tar -xf - -C "$wheel_tools/libraries"
-    # Debian's headers of Python stand in two folders.
+    # Debian's headers of Python are in two folders.
     cp -r /usr/include/x86_64-linux-gnu/python3* "$wheel_tools/libraries/usr/include" 2>/dev/null || true
     export ERRBOUND_WHEEL_TOOLS=$wheel_tools
     logged onetbb build_onetbb "$wheel_tools/onetbb" -DCMAKE_BUILD_TYPE=Release -DBUILD_SHARED_LIBS=OFF \
@@ -133,7 +133,7 @@ prepare_wheel_tools() {
         -DCMAKE_INSTALL_PREFIX="$wheel_tools/libraries/usr"
 }
 
-# Of the libraries inside, as their licences ask.
+# Licences of the libraries inside, which require it.
 gather_licences() {
     local file
     for file in "$wheel_tools"/onetbb/source/onetbb-*/LICENSE.txt \
@@ -143,7 +143,7 @@ gather_licences() {
     done
 }
 
-# Interpreters of these versions, one a line, on the PATH or pyenv's.
+# Prints interpreters of these versions, one per line, from PATH or pyenv.
 find_pythons() {
     local version candidate
     for version in "${pythons[@]}"; do
@@ -164,7 +164,7 @@ new_environment() {
 make_sdist() {
     logged sdist "$tools_python" -m build --sdist -o out/release "$export_of_head"
     sdist=out/release/errbound-$(project_version).tar.gz
-    # By pip alone, with the machine's own compiler and libraries: what wheels are compared with.
+    # Built by pip with the machine's compiler and libraries, to compare wheels with.
     new_environment "$release_work/envs/sdist" "$python" "$root/$sdist" pytest
     answers_of sdist
 }
@@ -179,12 +179,12 @@ make_wheel() {
     logged "venv-build-$1" "$2" -m venv "$env"
     CCACHE_COMPILERTYPE=clang CMAKE_ARGS="-DCMAKE_TOOLCHAIN_FILE=$export_of_head/packaging/wheel.cmake" \
         logged "wheel-$1" "$env/bin/python" -m pip wheel -v --no-deps -w "$raw" "$source"
-    # Fails where a symbol is of a later C library, or a library is needed that is not everywhere.
+    # Fails for symbols of a later C library, or dependencies that are not everywhere.
     PATH=$release_work/envs/tools/bin:$PATH logged "auditwheel-$1" "$tools_python" -m auditwheel repair \
         --plat manylinux2014_x86_64 -w out/release "$raw"/*.whl
 }
 
-# answers_of ENVIRONMENT: of bundled and, where they are, stored frames.
+# answers_of ENVIRONMENT: prints answers for bundled frames and, if they exist, stored ones.
 answers_of() {
     local frames=(examples/scenes/cloth-over-ball/frame{0,1}.ply) stored=()
     stored=(../shared/data/scenes/cloth-ball/frames/*.ply)
@@ -192,14 +192,14 @@ answers_of() {
     "$release_work/envs/$1/bin/python" packaging/answers.py "${frames[@]}" >"$release_work/answers-$1"
 }
 
-# try_wheel VERSION PYTHON WHEEL: in a new environment its tests, and the answers of another compiler's build.
+# try_wheel VERSION PYTHON WHEEL: runs the tests in a new environment and compares answers with the sdist's build.
 try_wheel() {
     new_environment "$release_work/envs/$1" "$2" "$3" pytest
     (cd "$export_of_head" && ERRBOUND_CCD=$unpacked/build/ccd ERRBOUND_SHARED_DATA=$root/../shared/data \
         "$release_work/envs/$1/bin/python" -m pytest -q -o cache_dir="$release_work/pytest")
     answers_of "$1"
     cmp "$release_work/answers-sdist" "$release_work/answers-$1" ||
-        fail "release: the wheel for Python $1 answers differently from the sdist's build"
+        fail "release: answers of the wheel for Python $1 differ; expected those of the sdist's build"
 }
 
 make_wheels() {

@@ -1,4 +1,4 @@
-// Many queries at once, stored and by index.
+// Batches of queries, stored and by index.
 #include <ccd/batch.hpp>
 #include <ccd/first_contacts.hpp>
 #include <ccd/first_times.hpp>
@@ -31,8 +31,8 @@ struct all_queries {
     std::vector<ccd::point<double>> before, after;
     std::vector<pair> pairs;
 
-    /// Each query's points are vertices of their own: those of families that differ by hundreds of
-    /// powers of two are in one frame.
+    /// Each query has separate vertices, so that families that differ by hundreds of powers of two
+    /// are in one frame.
     explicit all_queries(std::uint64_t per_family) {
         for (const auto& f : query_families::families)
             for (std::uint64_t i = 0; i * f.thinning < per_family; ++i) {

@@ -1,4 +1,4 @@
-// Values and bounds that random programs of operations leave, of every rule.
+// Values and bounds of random sequences of operations, for every rule.
 #include <array>
 #include <cstddef>
 #include <errbound/functions.hpp>
@@ -38,7 +38,7 @@ Number any_result(source& random, const Number& a, const Number& b, const Number
     }
 }
 
-/// A program of some operations, each on results of those before it.
+/// A sequence of operations, each on results of earlier ones.
 template <class T, class Rule>
 void record_program(recorder& to, source& random, bool of_any_size) {
     using number = errbound::tracked<T, Rule>;

@@ -1,8 +1,8 @@
-// The program errbound_counted_queries: decides queries in batches so often, for ./run everywhere
-// --instructions, which counts what an emulator executed: what one call more takes is the call's.
+// The program errbound_counted_queries: repeats batches of queries for ./run everywhere
+// --instructions, which counts the instructions that an emulator executes for one more call.
 //
-//   errbound_counted_queries FAMILY CALLS   256 vertex/face and as many edge/edge queries of a
-//                                           family, one thread, the architecture's own kernels
+//   errbound_counted_queries FAMILY CALLS   256 vertex/face and 256 edge/edge queries of a family,
+//                                           one thread, the architecture's baseline kernels
 #include <ccd/batch.hpp>
 #include <charconv>
 #include <cstdio>

@@ -1,5 +1,5 @@
-// The hashes of all sections (tests/everywhere/sections.hpp), on every machine. They change only
-// when what is asked does, or when an answer was wrong.
+// The hashes of all sections (tests/everywhere/sections.hpp). They change only if the sections
+// change or an answer was wrong.
 #pragma once
 
 #include <cstdint>

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Fetches the distribution's source of a package by apt-get, with entries and lists of its own: the system's
-# stay as they are. Needs dpkg-dev. Arguments: package, folder; the source is unpacked in FOLDER/source.
+# Fetches the distribution's source of a package by apt-get, with separate entries and lists, so that those of the
+# system do not change. Requires dpkg-dev. Arguments: package, folder. Unpacks the source in FOLDER/source.
 set -euo pipefail
 mkdir -p "$2"/{entries,lists/partial,cache,source}
 for file in /etc/apt/sources.list /etc/apt/sources.list.d/*.{list,sources}; do

@@ -1,12 +1,12 @@
-"""Instructions per query of the baseline kernels, on one processor beside another: ./run everywhere --instructions.
+"""Compares instructions per query of the baseline kernels on two processors: ./run everywhere --instructions.
 
-Emulators do not time, but qemu's logs each block of instructions that it executes, and by -singlestep each
-instruction is a block. Two calls instead of one execute so many more: those of one call.
+Emulators cannot measure time, but qemu logs each block of instructions, and with -singlestep each instruction is a
+block. The difference between two calls and one gives the instructions of one call.
 """
 import re
 import subprocess
 
-# Of tests/support/query_families.hpp: mostly apart, contacts, and cloth's, most of which nearly touch.
+# Families of tests/support/query_families.hpp: mostly apart; contacts; cloth, mostly almost touching.
 FAMILIES = ["uniform", "contact", "sheets"]
 # Both have packs of two doubles; scalar code would take about twice as many.
 MOST = 1.25
@@ -14,11 +14,11 @@ ROW = "{:<12}{:>10}{:>12}{:>12}{:>8}"
 
 
 class Failed(Exception):
-    """What cannot be counted, and why."""
+    """The reason why instructions cannot be counted."""
 
 
 def executed(emulator, program, family, calls):
-    """(instructions, queries, collisions) of a run of errbound_counted_queries."""
+    """Returns (instructions, queries, collisions) of a run of errbound_counted_queries."""
     command = [emulator[0], "-singlestep", "-d", "exec,nochain", *emulator[1:], program, family, str(calls)]
     run = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
     counted = subprocess.run(["grep", "-c", "^Trace "], stdin=run.stderr, stdout=subprocess.PIPE, text=True)
@@ -29,7 +29,7 @@ def executed(emulator, program, family, calls):
 
 
 def per_query(emulator, program, family):
-    """(instructions per query, queries, collisions) of one call."""
+    """Returns (instructions per query, queries, collisions) of one call."""
     once, queries, collisions = executed(emulator, program, family, 1)
     twice, *answers = executed(emulator, program, family, 2)
     if answers != [2 * queries, 2 * collisions]:
@@ -38,7 +38,7 @@ def per_query(emulator, program, family):
 
 
 def print_table(first, second):
-    """Of two (name, emulator, program); true if the second nowhere takes more than MOST times the first's."""
+    """Compares two (name, emulator, program). True if the second never needs more than MOST times the first's."""
     names = [name for name, *_ in (first, second)]
     print(ROW.format("queries", "collide", *names, "ratio"), flush=True)
     good = True

@@ -1,9 +1,8 @@
-// The program errbound_everywhere: answers to a fixed collection of questions, as one hash a
-// section and one of all, which must be those of expected.hpp on every machine, system and
-// compiler.
+// The program errbound_everywhere: one hash of answers per section and one of all. They must equal
+// those of expected.hpp on every machine, system and compiler.
 //
-//   errbound_everywhere                  all sections; exit status 1 if a hash is another
-//   errbound_everywhere --items SECTION  what is hashed, item by item, with the hash up to there
+//   errbound_everywhere                  all sections; exit status 1 if a hash differs
+//   errbound_everywhere --items SECTION  prints each hashed item with the hash up to it
 #include <chrono>
 #include <cinttypes>
 #include <cstdio>
@@ -23,7 +22,7 @@ struct section {
     std::string name;
     std::function<void(recorder&)> record;
     std::uint64_t expected;
-    bool in_all = true;  ///< whether the hash of all has its hash
+    bool in_all = true;  ///< true if its hash is in the hash of all
 };
 
 std::vector<section> all_sections() {

@@ -1,4 +1,4 @@
-// Numbers of every kind, by integer arithmetic alone.
+// Numbers of every kind, made by integer arithmetic only.
 #pragma once
 
 #include <bit>
@@ -10,8 +10,8 @@
 
 namespace everywhere {
 
-/// Small whole numbers, of all 24 bits of a float, of every size, and each with neighbours; if
-/// `of_any_size`, also any finite bits, and zeros of both signs.
+/// Small integers, numbers with all 24 bits of a float, of every size, and their adjacent numbers.
+/// With `of_any_size`, also any finite bits, and zeros of both signs.
 template <class T>
 T any_number(ccd::stress::source& random, bool of_any_size) {
     using limits = std::numeric_limits<T>;
@@ -26,7 +26,7 @@ T any_number(ccd::stress::source& random, bool of_any_size) {
             return static_cast<T>(random.between(-0xffffff, 0xffffff)) / 64;
         case 4:
             return static_cast<T>(random.symmetric());
-        case 5: {  // one draw after the other: the order of arguments is the compiler's
+        case 5: {  // sequential draws: compilers evaluate arguments in different orders
             const auto factor = static_cast<T>(random.between(-15, 15));
             return std::ldexp(factor, random.between(limits::min_exponent - limits::digits,
                                                      limits::max_exponent - 5));

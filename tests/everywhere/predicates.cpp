@@ -1,4 +1,4 @@
-// Every predicate, one by one and many at once.
+// Every predicate, one by one and in batches.
 #include <array>
 #include <cmath>
 #include <cstddef>
@@ -20,8 +20,8 @@ using ccd::stress::source;
 
 constexpr std::size_t inputs = 640;
 
-/// Points on a lattice, where most predicates are zero often, some moved to a neighbour; or of any
-/// numbers.
+/// Points on a lattice, where most predicates are often zero, some moved to an adjacent number; or
+/// any numbers.
 template <class T, std::size_t Dimension>
 std::array<T, Dimension> any_point(source& random, int spread) {
     std::array<T, Dimension> p;

@@ -30,7 +30,7 @@ void record_times_of(recorder& to, const Query& query) {
     }
 }
 
-/// Three control points each: both ends of one query's points, and the end of another's.
+/// Curves with three control points: both ends of one query's points, and the end of another's.
 void record_curves(recorder& to) {
     for (const auto& f : query_families::families) {
         if (f.thinning > 1) continue;

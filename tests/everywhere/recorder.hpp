@@ -1,4 +1,4 @@
-// A hash of answers, the same on every machine that gives the same answers.
+// A hash of answers that does not depend on the machine.
 #pragma once
 
 #include <bit>
@@ -15,12 +15,12 @@
 
 namespace everywhere {
 
-/// Takes in numbers by their bits, of whatever order memory has them in. Of NaN there is but one:
-/// its sign and payload are the processor's.
+/// Hashes numbers by their bits, independent of the byte order. All NaNs are equal, since their
+/// sign and payload depend on the processor.
 class recorder {
   public:
-    /// Prints each item's name and the hash up to it, if asked to: where two machines' lists part
-    /// is what they differ in.
+    /// With `prints_items`, prints each item's name and the hash up to it. The first different line
+    /// of two machines shows the item that differs.
     explicit recorder(bool prints_items = false) : prints_items_(prints_items) {}
 
     template <std::integral T>
@@ -47,7 +47,7 @@ class recorder {
         for (const double x : {p.x, p.y, p.z}) add(x);
     }
     void add(const ccd::first_contact& c);
-    /// A list: its length and what is in it.
+    /// Adds a list: its length and its items.
     template <class List>
     requires requires(const List& list) { list.begin(), list.size(); }
     void add(const List& list) {
@@ -58,7 +58,7 @@ class recorder {
     void end_item(const std::string& name);
 
     std::uint64_t hash() const { return hash_; }
-    /// Numbers that were added.
+    /// The number of added numbers.
     std::uint64_t size() const { return size_; }
 
   private:

@@ -15,7 +15,7 @@ namespace {
 using ccd::stress::source;
 using coefficients = std::vector<double>;
 
-/// The product with x − root.
+/// Returns the product with x − root.
 coefficients with_root(const coefficients& p, double root) {
     coefficients q(p.size() + 1);
     for (std::size_t i = 0; i < p.size(); ++i) {
@@ -25,8 +25,8 @@ coefficients with_root(const coefficients& p, double root) {
     return q;
 }
 
-/// Of chosen roots, some of them multiple, exactly or rounded; perhaps with a coefficient moved to
-/// a neighbour; or with coefficients of any numbers.
+/// Returns a polynomial with chosen roots, some multiple, exact or rounded, perhaps with a
+/// coefficient moved to an adjacent number; or one with any coefficients.
 coefficients any_polynomial(source& random) {
     const int degree = random.between(1, 9);
     coefficients p{1};

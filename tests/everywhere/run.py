@@ -1,8 +1,8 @@
-"""./run everywhere: the library built for other processors, systems and compilers, its tests, and
-errbound_everywhere, whose hashes must be the same on all. Prints one table.
+"""./run everywhere: builds and tests the library for other processors, systems and compilers.
 
-What a target needs beside its compiler is made in out/everywhere: oneTBB and GoogleTest by the distribution's
-source, for tests GMP, too, and a folder of the headers that are the same for all targets.
+It runs errbound_everywhere, whose hashes must be equal on all targets, and prints one table. The libraries of a target
+are built in out/everywhere from the distribution's source: oneTBB, GoogleTest and, for tests, GMP. Headers that are
+equal for all targets are copied to a folder there.
 """
 import argparse
 import dataclasses
@@ -24,15 +24,15 @@ import run_tests  # noqa: E402
 OUT = ROOT / "out" / "everywhere"
 HEADERS = OUT / "headers"
 ROW = "{:<18}{:<40}{:>10}{:>8}{:>8}  {}"
-# Of Debian's packages: header-only libraries, and where their files for CMake are in it and among the targets'
-# headers. Some have xtl, and xsimd's not in a folder of the processor's.
+# Header-only libraries of Debian: the places of their CMake files in the package and among the targets' headers. Some
+# systems have xtl, and xsimd's files outside of the processor's folder.
 INCLUDES = ["boost", "xsimd", "CLI", "nlohmann", "eigen3", "xtl", "fast_float"]
 CMAKE_FILES = {"share/cmake/CLI11": "share/cmake/CLI11", "share/cmake/nlohmann_json": "share/cmake/nlohmann_json",
                "share/eigen3/cmake": "share/cmake/eigen3", "share/cmake/xsimd": "share/cmake/xsimd",
                "share/cmake/xtl": "share/cmake/xtl", "lib/*/cmake/xsimd": "lib/host/cmake/xsimd"}
 
 
-# Floating-point instructions of SIMD kernels as objdump shows them: of packs, and of single numbers.
+# Floating-point instructions of SIMD kernels in objdump's output: packed and scalar.
 ARITHMETIC = {
     "aarch64": (r"f(?:add|sub|mul|div|cm[a-z]+|min|max|sqrt|abs|neg)\s+v\d+\.(?:2d|4s)",
                 r"f(?:add|sub|mul|div|cmpe?|min|max|sqrt|abd)\s+[sd]\d+"),
@@ -40,23 +40,23 @@ ARITHMETIC = {
                r"v?(?:add|sub|mul|div|cmp[a-z]*|u?comi|min|max|sqrt)s[sd]"),
 }
 LEAST_PACKED = 0.95
-# How much random tests try under an emulator (tests/support/scaled.hpp), as under valgrind.
+# The scale of random tests under an emulator (tests/support/scaled.hpp), as under valgrind.
 EMULATED_SCALE = "0.01"
 PROGRAMS = ["errbound_everywhere", "ccd_program"]
-# Whose baseline kernels have packs of two doubles: instructions of the second are held against the first's.
+# Targets whose baseline kernels have packs of two doubles. Instructions of the second are compared with the first's.
 COUNTED = ["x86-64", "aarch64"]
 
 
 class Failed(Exception):
-    """A row that cannot be filled, and why."""
+    """The reason of a failed row."""
 
 
 class Missing(Failed):
-    """One that cannot be filled on this machine."""
+    """The reason why this machine cannot fill a row."""
 
 
 def link_headers():
-    """The host's own folder of headers cannot be searched: its C library's are there, too."""
+    """Makes a folder of headers, since the host's also has those of its C library."""
     if HEADERS.exists():
         return
     (HEADERS / "include").mkdir(parents=True)
@@ -84,7 +84,7 @@ class Build:
                   "AR": target.ar, "RANLIB": target.ranlib, "EMULATOR": ";".join(target.emulator),
                   "HEADERS": str(HEADERS), "LIBRARIES": str(libraries)}
         self.libraries = libraries
-        # Without UTF-8 Wine has no names beyond Latin-1; others do not ask.
+        # Wine needs UTF-8 for names beyond Latin-1; other targets ignore it.
         self.environment = {**os.environ, "WINEDEBUG": "-all", "WINEPREFIX": str(self.folder / "wine"),
                             "LC_ALL": "C.UTF-8",
                             **{"ERRBOUND_" + name: value for name, value in values.items()}}
@@ -92,7 +92,7 @@ class Build:
             self.environment.setdefault("ERRBOUND_TEST_SCALE", EMULATED_SCALE)
 
     def run(self, *command, why, check=True):
-        """What it printed; raises Failed unless it succeeds."""
+        """Returns the output. Raises Failed unless the command succeeds."""
         with self.log.open("ab") as log:
             log.write(f"\n== {' '.join(map(str, command))}\n".encode())
             log.flush()
@@ -122,7 +122,7 @@ class Build:
             done.touch()
 
     def make_gmp(self):
-        """Of tests alone, whose oracles it is: the library has the integers that it has without."""
+        """Builds GMP for the oracles of tests. The library does not use it."""
         if not self.target.triple:
             multiarch = subprocess.run(["gcc", "-print-multiarch"], check=True, stdout=subprocess.PIPE,
                                        text=True).stdout.strip()
@@ -135,7 +135,7 @@ class Build:
         if not done.exists():
             folder, source = self.folder / "gmp", source_of("gmp")
             folder.mkdir(exist_ok=True)
-            # Debian leaves out the manual, whose licence is not free, which configure asks for.
+            # configure requires the manual, which Debian removes because of its licence.
             (source / "doc").mkdir(exist_ok=True)
             (source / "doc" / "Makefile.in").write_text("all install:\n")
             self.run("env", "-C", folder, source / "configure", f"--host={self.target.triple}",
@@ -160,7 +160,7 @@ class Build:
         self.cmake(ROOT, "build", *(f"-DERRBOUND_WITH_{x}=OFF" for x in ("CUDA", "MPI", "HDF5", "MPFR", "GMP")))
 
     def refusal(self):
-        """What the headers say to a compiler that they must not be used with."""
+        """Checks the error of the headers for a compiler that they reject."""
         source = self.folder / "headers.cpp"
         source.write_text("#include <errbound/errbound.hpp>\n")
         flags = f"{self.target.flags} {self.target.cxx_flags}".split()
@@ -172,13 +172,13 @@ class Build:
         return "refused: " + said[1]
 
     def program(self, name):
-        """Makes one of tests/everywhere; its path."""
+        """Builds a program of tests/everywhere. Returns its path."""
         self.make("build", name)
         path = self.folder / "build" / "tests" / "everywhere" / name
         return path if path.exists() else path.with_suffix(".exe")
 
     def hash(self):
-        """The hash of all answers, and whether it is the right one."""
+        """Returns the hash of all answers, and True if it is the expected one."""
         program = self.program("errbound_everywhere")
         status, text = self.run(*self.target.emulator, program, why="", check=False)
         differing = re.findall(r"^(.*?) +\d+ .*DIFFERS$", text, re.MULTILINE)
@@ -190,7 +190,7 @@ class Build:
         return found[1] + " other: " + ", ".join(differing), False
 
     def packed(self):
-        """Which part of the baseline kernels' arithmetic is of packs, as text, and whether nearly all is."""
+        """Returns the packed share of the baseline kernels' arithmetic, as text, and True if it is almost all."""
         patterns = ARITHMETIC.get(self.target.processor)
         objdump = shutil.which(f"{self.target.triple}-objdump") or "objdump"
         if patterns is None or self.target.system != "Linux" or self.target.level == "-O0":
@@ -205,13 +205,13 @@ class Build:
         return f"{part:.1%}", part >= LEAST_PACKED
 
     def make_all(self, label):
-        """The programs, and the tests with that label."""
+        """Builds the programs and the tests with the label."""
         build = self.folder / "build"
         tests = run_tests.chosen(build, chosen_by(label)) if label else []
         self.make("build", *PROGRAMS, *run_tests.targets_of(build, tests))
 
     def tests(self, label):
-        """How many of the tests with that label passed, as text, and whether all did."""
+        """Returns the number of passed tests with the label, as text, and True if all passed."""
         build, chosen = self.folder / "build", chosen_by(label)
         self.make_all(label)
         report = self.folder / "tests.xml"
@@ -224,12 +224,12 @@ class Build:
 
 
 def chosen_by(label):
-    """Options of ctest."""
+    """Returns options of ctest that select a label."""
     return ["-L", label, "-LE", "^sources$"]
 
 
 def source_of(package):
-    """The distribution's, fetched if it is not there."""
+    """Returns the folder of the distribution's source, fetched if necessary."""
     folder = OUT / package
     if not any((folder / "source").glob(f"{package}-*/")):
         folder.mkdir(parents=True, exist_ok=True)
@@ -242,7 +242,7 @@ def source_of(package):
 
 
 def with_compiler(target):
-    """The target with its tools where they are."""
+    """Returns the target with the paths of its tools."""
     if not target.zig:
         return target
     try:
@@ -264,7 +264,7 @@ def compiler_of(target):
 
 
 def print_row(target, label, jobs, needed):
-    """True if all is as it should be; what this machine does not have may be missing unless it is needed."""
+    """True if the row passes. Parts that this machine lacks may be missing, unless they are required."""
     start = time.monotonic()
     compiler, tests, packed = "", "-", "-"
     try:
@@ -295,7 +295,7 @@ def print_row(target, label, jobs, needed):
 
 
 def print_instructions(jobs):
-    """True if the second of COUNTED takes hardly more instructions than the first."""
+    """True if the second of COUNTED needs few more instructions than the first."""
     programs = []
     try:
         for target in (next(t for t in TARGETS if t.name == name) for name in COUNTED):
@@ -314,7 +314,7 @@ def jobs(text):
     most = 1024
     number = int(text) if text.isascii() and text.isdigit() else 0
     if not 1 <= number <= most:
-        raise argparse.ArgumentTypeError(f"found '{text}', expected a number from 1 to {most}")
+        raise argparse.ArgumentTypeError(f"value is '{text}'; expected a number from 1 to {most}")
     return number
 
 
@@ -322,7 +322,7 @@ def expression(text):
     try:
         re.compile(text)
     except re.error as error:
-        raise argparse.ArgumentTypeError(f"found '{text}', expected a regular expression ({error})") from error
+        raise argparse.ArgumentTypeError(f"value is '{text}'; expected a regular expression ({error})") from error
     return text
 
 
@@ -336,7 +336,7 @@ def main():
                         help="of which label, a regular expression; '' for none (%(default)s); those of the "
                         "label `sources`, which are the same for all, are left out")
     parser.add_argument("--jobs", metavar="N", type=jobs, default=os.cpu_count(),
-                        help="how many compilers or tests at a time (%(default)s)")
+                        help="number of compilers or tests at a time (%(default)s)")
     parser.add_argument("--instructions", action="store_true",
                         help=f"instead of rows, instructions per query of the kernels of {' and '.join(COUNTED)}")
     parser.add_argument("--packages", action="store_true",
@@ -345,11 +345,11 @@ def main():
     known = {t.name for t in TARGETS}
     unknown = set(arguments.targets) - known
     if unknown:
-        parser.error(f"found {', '.join(map(repr, sorted(unknown)))}, expected targets: {names}")
+        parser.error(f"targets are {', '.join(map(repr, sorted(unknown)))}; expected some of {names}")
     if arguments.tests in known:
-        parser.error(f"--tests: found the target {arguments.tests}, expected a label of tests, or '' for none")
+        parser.error(f"--tests is the target {arguments.tests}; expected a label of tests, or '' for none")
     if arguments.instructions and arguments.targets:
-        parser.error(f"--instructions: found targets, expected none: they are {' and '.join(COUNTED)}")
+        parser.error(f"--instructions is given with targets; expected none, since they are {' and '.join(COUNTED)}")
     named = COUNTED if arguments.instructions else arguments.targets
     chosen = [t for t in TARGETS if t.name in named or not named]
     if arguments.packages:

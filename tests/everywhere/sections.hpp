@@ -1,5 +1,5 @@
-// What is asked on every machine, in sections. Input is made by integer arithmetic and exact or
-// once rounded operations alone: no library's distributions or functions.
+// The sections that run on every machine. Input is made by integer arithmetic and operations that
+// are exact or rounded once, without distributions or functions of libraries.
 #pragma once
 
 #include <ccd/batch.hpp>
@@ -12,22 +12,22 @@
 
 namespace everywhere {
 
-/// `exact`, what touches at the start, and every method.
+/// `exact`, contact at the start, and every method.
 void record_decisions(recorder& to);
 /// First times, contact data and distances, one by one; motion along curves.
 void record_times(recorder& to);
-/// The same of many queries at once.
+/// The same in batches.
 void record_batches(recorder& to, ccd::instruction_set set);
-/// Steps and advances of meshes, with all that can be asked of them.
+/// Steps and advances of meshes, with all options.
 void record_steps(recorder& to, ccd::instruction_set set);
-/// Every predicate, one by one and many at once; the first two of floats, too.
+/// Every predicate, one by one and in batches; the first two also for floats.
 void record_predicates(recorder& to);
-/// Real roots of polynomials: how many, of which multiplicity, and between which doubles.
+/// Real roots of polynomials: number, multiplicities and adjacent doubles.
 void record_roots(recorder& to);
 /// Values and bounds of all rules, in doubles and floats.
 void record_bounds(recorder& to);
 
-/// visit(query, name) for so many queries of each family and kind.
+/// Calls visit(query, name) for `count` queries of each family and kind.
 template <class Visit>
 void for_each_query(std::uint64_t per_family, std::uint64_t seed, const Visit& visit) {
     for (const ccd::kind which : {ccd::kind::vertex_face, ccd::kind::edge_edge,

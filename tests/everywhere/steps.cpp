@@ -53,7 +53,7 @@ two_frames sheets() {
     return frames;
 }
 
-/// Triangles, edges and points whose coordinates are a family's.
+/// Triangles, edges and points with coordinates of a family.
 two_frames soup(const query_families::family& f, std::uint64_t count) {
     two_frames frames;
     for (std::uint64_t i = 0; i < count; ++i) {

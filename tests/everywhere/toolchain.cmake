@@ -1,5 +1,5 @@
-# How ./run everywhere compiles for a target: as the environment says, which run.py sets from targets.py.
-# (try_compile reads this file again, without the caller's variables.)
+# The toolchain of ./run everywhere. run.py sets the environment from targets.py, since try_compile reads this file
+# without the caller's variables.
 set(triple $ENV{ERRBOUND_TRIPLE})
 set(CMAKE_SYSTEM_NAME $ENV{ERRBOUND_SYSTEM})
 set(CMAKE_SYSTEM_PROCESSOR $ENV{ERRBOUND_PROCESSOR})
@@ -13,7 +13,7 @@ set(CMAKE_C_FLAGS_INIT "$ENV{ERRBOUND_FLAGS}")
 set(CMAKE_CXX_FLAGS_INIT "$ENV{ERRBOUND_FLAGS} $ENV{ERRBOUND_CXX_FLAGS}")
 set(CMAKE_CROSSCOMPILING_EMULATOR "$ENV{ERRBOUND_EMULATOR}")
 
-# Nothing of the host but headers that are the same for all: its own libraries would be found, too.
+# Only headers that are equal for all targets come from the host, so that its libraries are not found.
 set(CMAKE_PREFIX_PATH /)
 set(CMAKE_FIND_ROOT_PATH "$ENV{ERRBOUND_LIBRARIES}" "$ENV{ERRBOUND_HEADERS}")
 if(triple)

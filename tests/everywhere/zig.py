@@ -1,18 +1,16 @@
-"""Compilers for systems whose C library Debian does not have: zig's clang with the headers and libraries that come
-with it, from PyPI's package ziglang.
-"""
+"""Compilers for systems whose C library Debian lacks: zig's clang with its headers and libraries, from PyPI's ziglang."""
 import os
 import subprocess
 import sys
 
 VERSION = "0.12.1"  # clang 17.0
-# What a build calls, and what of zig that is.
+# The names that a build calls, with their commands of zig.
 COMPILERS = {"zig-cc": "cc", "zig-c++": "c++"}
 ARCHIVERS = {"zig-ar": "ar", "zig-ranlib": "ranlib"}
 
 
 def make_tools(folder, target):
-    """The folder of a target's tools, by the names above; makes them once."""
+    """Returns the folder of a target's tools, with the names above. Makes them once."""
     installed, tools = folder / "env", folder / target
     python = installed / "bin" / "python"
     if not (installed / f".{VERSION}").exists():
@@ -32,7 +30,7 @@ ZIG_GLOBAL_CACHE_DIR={folder}/cache exec {python} -m ziglang {command}{of_target
 
 
 def options(target):
-    """CMake's: of a program for x86-64 __builtin_cpu_supports asks a runtime library for what zig's lacks."""
+    """Returns options of CMake. __builtin_cpu_supports on x86-64 needs symbols that zig's runtime library lacks."""
     if not target.startswith("x86_64-linux"):
         return ()
     libgcc = subprocess.run(["gcc", "-print-libgcc-file-name"], check=True, stdout=subprocess.PIPE,

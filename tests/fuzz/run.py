@@ -1,7 +1,7 @@
-"""Runs fuzzers by libFuzzer, each for some minutes, and says what they ran, covered and found.
+"""Runs fuzzers by libFuzzer, each for some minutes, and prints runs, coverage and findings.
 
-Argument: a build folder of the preset `fuzz`; options as --help says. Fuzzers are the build's
-targets fuzz_*. Status 1 if any fuzzer found something: its input is then in out/fuzz/NAME.
+Argument: a build folder of the preset `fuzz`; --help lists options. Fuzzers are the build's targets fuzz_*.
+Status 1 if any fuzzer found an error: its input is then in out/fuzz/NAME.
 """
 import argparse
 import concurrent.futures
@@ -22,28 +22,28 @@ SEEDS = 15
 def arguments():
     parser = argparse.ArgumentParser(prog="./run fuzz", description="Fuzzers by libFuzzer.")
     parser.add_argument("build", type=pathlib.Path, help=argparse.SUPPRESS)
-    parser.add_argument("names", nargs="*", metavar="NAME", help="those with one of these in their names")
-    parser.add_argument("--minutes", type=float, default=1, metavar="M", help="each, else 1")
+    parser.add_argument("names", nargs="*", metavar="NAME", help="only fuzzers with one of these in their names")
+    parser.add_argument("--minutes", type=float, default=1, metavar="M", help="minutes for each (%(default)s)")
     parser.add_argument("--jobs", type=int, default=os.cpu_count(), metavar="N",
-                        help="fuzzers at a time, else one per core")
+                        help="fuzzers at a time; one per core by default")
     parser.add_argument("--minimise", action="store_true",
                         help=f"then keep in tests/fuzz/corpus the {SEEDS} inputs of each that cover most")
     return parser.parse_intermixed_args()  # names also after options
 
 
 def fuzzers(build, names):
-    """The build's targets that were asked for."""
+    """Returns the chosen targets of the build."""
     listed = subprocess.run(["cmake", "--build", build, "--target", "help"], check=True,
                             stdout=subprocess.PIPE, text=True).stdout
     known = sorted(set(re.findall(r"^(?:\.\.\. )?(fuzz_\w+)(?::|$)", listed, re.MULTILINE)))
     chosen = [name for name in known if not names or any(part in name for part in names)]
     if not chosen:
-        sys.exit(f"run: found no fuzzer named {' '.join(names)}, expected one of {', '.join(known)}")
+        sys.exit(f"run: name is {' '.join(names)}; expected one of {', '.join(known)}")
     return chosen
 
 
 def run(build, name, minutes):
-    """A row of the table: what libFuzzer's last lines say."""
+    """Returns a row of the table, from libFuzzer's last lines."""
     folder = FOUND / name
     corpus = folder / "corpus"
     corpus.mkdir(parents=True, exist_ok=True)
@@ -65,7 +65,7 @@ def run(build, name, minutes):
 
 
 def features(build, name):
-    """The inputs, old and new, each with the features (edges) that it covers."""
+    """Returns old and new inputs, each with the features (edges) that it covers."""
     folder = FOUND / name
     control = folder / "control"
     control.unlink(missing_ok=True)
@@ -78,14 +78,14 @@ def features(build, name):
     paths = [pathlib.Path(path) for path in lines[2:2 + int(lines[0])]]
     covered = {}
     for line in lines[2 + len(paths):]:
-        what, number, *found = line.split()
-        if what == "FT":
+        kind, number, *found = line.split()
+        if kind == "FT":
             covered[paths[int(number)]] = set(found)
     return covered
 
 
 def minimise(build, name):
-    """Keeps at most SEEDS inputs, each the one that adds the most edges, a small one where several do."""
+    """Keeps at most SEEDS inputs. Each adds the most edges; ties are won by small inputs."""
     saved = SAVED / name
     saved.mkdir(exist_ok=True)
     left = features(build, name)

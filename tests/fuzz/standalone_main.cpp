@@ -1,5 +1,5 @@
-// Runs a fuzz target without libFuzzer: the corpus, then seeded mutations of it, the same on every
-// run. Usage: FUZZ_TARGET ITERATIONS CORPUS... (files, or directories of files).
+// Runs a fuzz target without libFuzzer: the corpus, then deterministic mutations of it.
+// Usage: FUZZ_TARGET ITERATIONS CORPUS... (files, or directories of files).
 #include <algorithm>
 #include <charconv>
 #include <cstdint>
@@ -14,7 +14,7 @@
 #include <vector>
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size);
-/// Absent from most targets.
+/// Most targets do not define it.
 extern "C" __attribute__((weak)) std::size_t LLVMFuzzerCustomMutator(std::uint8_t* data,
                                                                      std::size_t size,
                                                                      std::size_t max_size,
@@ -24,7 +24,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// What the formats give a meaning to; random bytes alone would seldom find it.
+/// Tokens of the formats, which random bytes would rarely hit.
 const std::vector<std::string> tokens = {"nan",
                                          "inf",
                                          "-0",
@@ -73,7 +73,7 @@ class mutator {
   private:
     std::size_t below(std::size_t end) { return static_cast<std::size_t>(random_() % end); }
 
-    /// As long as libFuzzer's texts at most.
+    /// Limits texts to the length of libFuzzer's.
     std::string mutated_by_target(std::string text) {
         constexpr std::size_t longest = 4096;
         const std::size_t size = text.size();
@@ -117,7 +117,7 @@ class mutator {
 };
 
 void run(const std::string& text) {
-    // An allocation of just its size, so that sanitizers see a read past the end.
+    // An allocation of the exact size, so that sanitizers detect reads past the end.
     const std::vector<std::uint8_t> bytes(text.begin(), text.end());
     LLVMFuzzerTestOneInput(bytes.data(), bytes.size());
 }

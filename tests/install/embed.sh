@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Builds errbound as a part of another project, shared and with hidden names, runs what links it,
-# installs that, and builds against it by pkg-config alone. What is linked is the same without optimising.
+# Builds errbound in another project, unoptimised, as a shared library with hidden symbols, and runs programs linked
+# with it. Then installs it and builds a program by pkg-config only.
 # Arguments: source folder, C++ compiler, CMake generator, cmake (by default the one on the PATH).
 set -euo pipefail
 source=$1 compiler=$2 generator=$3 cmake=${4:-cmake}

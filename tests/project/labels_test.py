@@ -1,4 +1,4 @@
-"""Every test has one of the labels by which tests are chosen, and says which targets it needs.
+"""Checks that every test has one of the main labels, and the targets that it needs.
 
 Arguments: ctest, the build folder.
 """
@@ -18,11 +18,11 @@ for test in tests:
     properties = {p["name"]: p["value"] for p in test["properties"]}
     labels = set(properties.get("LABELS", []))
     if len(labels & MAIN) != 1 or labels - MAIN - OTHERS:
-        print(f"{test['name']}: found the labels {sorted(labels)}, expected one of {sorted(MAIN)}, "
+        print(f"{test['name']}: labels are {sorted(labels)}; expected one of {sorted(MAIN)}, "
               f"and else of {sorted(OTHERS)}")
         wrong += 1
     if "memory" in labels and "sanitize" not in labels:
-        print(f"{test['name']}: has the label memory, which is of tests that have sanitize, too")
+        print(f"{test['name']}: label memory is given without sanitize; expected both")
         wrong += 1
 print(f"{len(tests)} tests, {wrong} with wrong labels")
 sys.exit(wrong != 0)

@@ -1,6 +1,6 @@
-"""The house's rules that can be counted: sizes of folders, files and functions, and who includes whom.
+"""Checks the project's rules: sizes of folders, files and functions, and includes between rooms.
 
-Argument: the source folder. Prints what it counted; status 1 if a limit is passed.
+Argument: the source folder. Prints the counts; status 1 if a limit is exceeded.
 """
 import ast
 import collections
@@ -17,8 +17,8 @@ FOLDERS = ["ccd", "docs", "errbound", "include", "packaging", "python", "example
 CPP = {".hpp", ".cpp", ".cu", ".cuh"}
 SOURCES = CPP | {".py"}
 
-# Lowest first; a file belongs to the first layer with a pattern that it matches, and includes files
-# of its own and of lower layers. Within a layer, no cycle between folders.
+# Lowest first. A file belongs to the first layer whose pattern it matches, and may include files of its own and of
+# lower layers. Folders of a layer must not include each other in a cycle.
 LAYERS = [
     ("floating-point facts", r"include/errbound/((environment|number_traits|small_floats|binary128|sign|error_free)\.hpp|detail/)"),
     ("bound rules", r"include/errbound/rules/"),
@@ -51,12 +51,12 @@ PUBLIC_HEADERS = r"include/(errbound/(rules/|validation/)?|ccd/((methods|study|a
 
 
 def blank(match):
-    """As many lines of nothing."""
+    """Replaces the text by blanks and keeps its lines."""
     return re.sub(r"[^\n]", " ", match[0])
 
 
 def code_alone(text):
-    """C++ without comments, literals and preprocessor lines, every line where it was."""
+    """Blanks comments, literals and preprocessor lines of C++. Line numbers stay."""
     literal = r'R"(\w*)\(.*?\)\1"|"(?:\\.|[^"\\\n])*"|(?<![0-9a-fA-F])\'(?:\\.|[^\'\\\n])+\''
     text = re.sub(rf"//[^\n]*|/\*.*?\*/|{literal}", blank, text, flags=re.DOTALL)
     return re.sub(r"^[ \t]*#(?:[^\n]*\\\n)*[^\n]*", blank, text, flags=re.MULTILINE)
@@ -73,7 +73,7 @@ def without_brackets(text, opening, closing):
 
 
 def kind_of_brace(head):
-    """What a brace opens at namespace or class scope, from the text since the last statement."""
+    """Classifies a brace at namespace or class scope by the text since the last statement."""
     plain = without_brackets(without_brackets(head, "(", ")"), "<", ">")
     declared = re.sub(r"\b(template|inline|constexpr|static|extern|typedef)\b", " ", plain).split()
     if not declared or declared[0] in ("namespace", "class", "struct", "union", "enum"):
@@ -89,7 +89,7 @@ def kind_of_brace(head):
 
 
 def cpp_functions(text):
-    """(name, first line, lines) of every function that is in no other."""
+    """Returns (name, first line, lines) of every outermost function."""
     code = code_alone(text)
     found, stack, start = [], [], 0
     for mark in re.finditer(r"[{};]|\b(?:public|private|protected)\s*:", code):
@@ -125,7 +125,7 @@ class findings:
         self.failed = False
 
     def check(self, what, found, limit, where=""):
-        """Prints the largest value found beside its limit."""
+        """Prints the largest value and its limit."""
         self.failed |= found > limit
         print(f"{'FAILED' if found > limit else 'ok':7}{what}: {found} of at most {limit} {where}".rstrip())
 
@@ -161,7 +161,7 @@ def layer_of(path):
 
 
 def includes(root, sources):
-    """(file, included file) of the project's own, paths from the root."""
+    """Yields (file, included file) of the project, as paths from the root."""
     own = {str(path) for path in sources}
     for path in own:
         if pathlib.Path(path).suffix not in CPP:
@@ -176,7 +176,7 @@ def includes(root, sources):
 
 
 def cycle(edges):
-    """A cycle of a graph of sets, as a list, or nothing."""
+    """Returns a cycle of a graph of sets, as a list, or nothing."""
     done, path = set(), []
 
     def visit(node):
@@ -194,7 +194,7 @@ def cycle(edges):
 
 
 def room_of(path):
-    """Its folder; a header right under include/errbound or include/ccd is a room of its own."""
+    """Returns a file's folder. A header directly in include/errbound or include/ccd is a separate room."""
     folder = str(pathlib.Path(path).parent)
     return path if folder in ("include/errbound", "include/ccd") else folder
 
@@ -220,13 +220,13 @@ def check_includes(root, sources, found):
     found.wrong("files of no layer", sorted(homeless))
     found.wrong("includes of a higher layer", upwards)
     found.wrong("includes of tests", of_tests)
-    found.wrong("includes of ccd by errbound, but for its validation", of_ccd)
+    found.wrong("includes of ccd by errbound, except its validation", of_ccd)
     around = cycle(rooms)
     found.wrong("cycles of rooms", [" -> ".join(around)] if around else [])
 
 
 def check_internals_unnamed(root, sources, found):
-    """Nobody is told to include what is internal."""
+    """Checks that no comment recommends including an internal header."""
     named = []
     for path in [*sources, *(p.relative_to(root) for p in [root / "README.md", *root.glob("docs/*.md")])]:
         text = (root / path).read_text()

@@ -1,15 +1,14 @@
-"""The programs ask no function of the C library that glibc alone has, so that they link on macOS and BSDs, which
-no machine of the project's is.
+"""Checks that the programs use no function that only glibc has, so that they link on macOS and BSDs.
 
-Arguments: nm, the programs, and --beside LIBRARY for each archive of others that is linked into them (CUDA's
-runtime, which is for Linux alone): what it takes is not asked about.
+Arguments: nm, the programs, and --beside LIBRARY for each foreign archive in them (CUDA's runtime, for Linux only),
+whose functions are not checked.
 """
 import argparse
 import re
 import subprocess
 import sys
 
-# Of ISO C, and of POSIX.1-2008.
+# Functions of ISO C and of POSIX.1-2008.
 C = """abort acos asin atan atan2 acosh asinh atanh calloc cbrt cos cosh exp exp2 expm1 fclose fflush fma
 fmax fmin fmod fopen fprintf fputc fputs frexp free fwrite getenv gmtime hypot ilogb isalnum isalpha
 isspace ldexp llrint llround localeconv log log10 log1p log2 logb lrint lround malloc memchr memcmp
@@ -21,11 +20,11 @@ POSIX = """access close execlp fchmod fcntl fork fstat fsync ftruncate getpid ge
 mkstemp mmap munmap nanosleep open pread pthread_cond_broadcast pthread_cond_signal
 pthread_cond_wait pthread_create pthread_join pthread_mutex_lock pthread_mutex_unlock pthread_once
 pthread_self realpath sched_yield shmdt sigaction stat sysconf unlink waitpid write _exit""".split()
-# Neither, but macOS's and BSDs', too.
+# Functions of neither that macOS and BSDs also have.
 BSD = ["flock", "getloadavg"]
-# glibc's alone, asked only where it is (include/errbound/validation/expression.hpp).
+# Functions of glibc that are used only if they exist (include/errbound/validation/expression.hpp).
 GLIBC = ["fmaf128", "sqrtf128"]
-# What the compiler (sincos: of sin and cos) and the C++ library take for themselves.
+# Functions that the compiler (sincos for sin and cos) and the C++ library use.
 INTERNAL = re.compile(r"__\w+|sincos[fl]?|syscall")
 MATHEMATICS = {f"{name}{suffix}" for name in C for suffix in "fl"}
 
@@ -48,7 +47,7 @@ found = set()
 for program in options.programs:
     found |= set(re.findall(r" (\w+)@+GLIBC_", undefined("-D", program)))
 if not found:
-    sys.exit(f"found no function of glibc's that {options.programs} take")
+    sys.exit(f"number of glibc functions in {options.programs} is 0; expected some")
 others = sorted(name for name in found - known if not INTERNAL.fullmatch(name))
 print(f"{len(found)} functions of the C library; neither of C, POSIX.1-2008 nor BSDs: {others or 'none'}")
 sys.exit(bool(others))

@@ -1,10 +1,10 @@
-"""What documents quote is what it is quoted from.
+"""Checks that quotes in documents equal their sources.
 
 usage: quotes_test.py SOURCE_FOLDER
 
-C++ blocks of a page stand in one of its programs, and blocks in Coq in one of its proofs (indentation and empty lines
-do not matter). Rows of measured tables, and figures with a unit, that pages state stand in docs/measured.md.
-Relative links lead to files and folders, and to headings that are there.
+C++ blocks of a page must be in one of its programs, and Coq blocks in one of its proofs. Indentation and empty lines do
+not matter. Rows of measured tables and figures with a unit must be in docs/measured.md. Relative links must lead to files,
+folders and headings that exist.
 """
 import re
 import sys
@@ -12,7 +12,7 @@ from pathlib import Path
 
 root = Path(sys.argv[1])
 
-# Pages whose every C++ block is code of these programs.
+# The programs that C++ blocks of each page quote.
 PROGRAMS = {
     "README.md": ["examples/three_uses.cpp"],
     "docs/authoring-predicates.md": ["examples/authoring.cpp"],
@@ -25,9 +25,9 @@ PROGRAMS = {
     "docs/how-wrong.md": ["examples/explain/variance.cpp"],
     "docs/bound-rules.md": ["examples/functions/great_circle.cpp", "examples/research/rules_compared.cpp"],
 }
-# Pages whose every block in Coq is of these proofs.
+# The proofs that Coq blocks of each page quote.
 PROOFS = {"docs/collision-detection.md": ["proofs/Contact.v", "proofs/Exact.v"]}
-# Pages that quote measured figures, and the section that does; an empty name is the whole page.
+# Pages with measured figures, and their section; an empty name is the whole page.
 QUOTING = {"README.md": "", "docs/collision-detection.md": "What it costs", "docs/architecture.md": "",
            "docs/guarantees.md": ""}
 MEASURED = "docs/measured.md"
@@ -54,7 +54,7 @@ def is_include(line):
 
 
 def holds(source, block):
-    """Includes may stand anywhere (with or without a comment), the rest in one piece."""
+    """True if the source has the block's includes anywhere, and the rest in one piece."""
     included = {line.split(">")[0] for line in source if is_include(line)}
     code = [line for line in block if not is_include(line)]
     return (all(line.split(">")[0] in included for line in block if is_include(line)) and
@@ -89,7 +89,7 @@ def missing_figures(page, section, measured):
 
 
 def headings(page):
-    """The places of a page, as GitHub names them."""
+    """Returns the anchors of a page, as GitHub names them."""
     found = {}
     for heading in re.findall(r"^#+ +(.*?) *$", without_code(page.read_text()), re.MULTILINE):
         text = re.sub(r"\[(.*?)\]\(.*?\)", r"\1", heading)

@@ -1,9 +1,7 @@
-"""The recipes in packaging/ agree with the project: version, options, licence, installed files.
+"""Checks that the recipes in packaging/ agree with the project: version, options, licence, installed files.
 
-Arguments: source folder, cmake.
-
-Recipes are filled as for a release. vcpkg's is run by CMake and Spack's by Python over the functions of
-theirs that they call, restated here, which note what they are given.
+Arguments: source folder, cmake. Recipes are filled as for a release. CMake runs vcpkg's and Python runs Spack's, with
+substitutes for their functions that record the arguments.
 """
 import hashlib
 import importlib.util
@@ -42,7 +40,7 @@ wrong = []
 
 def same(what, found, expected):
     if found != expected:
-        wrong.append(f"{what}: found {found!r}, expected {expected!r}")
+        wrong.append(f"{what} is {found!r}; expected {expected!r}")
 
 
 def known_options(recipe, names):
@@ -115,7 +113,7 @@ def check_vcpkg(folder):
 
 
 def check_conda(text):
-    """By lines, since no reader of YAML is in Python's library; ./run release renders it by rattler-build."""
+    """Reads lines, since Python's library has no YAML reader. ./run release renders the recipe by rattler-build."""
     def one(pattern):
         return re.search(pattern, text, re.MULTILINE)[1]
     same("conda: version", one(r'^  version: "(.*)"'), VERSION)
@@ -132,7 +130,7 @@ def check_conda(text):
 
 
 class Package:
-    """What Spack's package is built on, as far as this one uses it."""
+    """Substitutes for the base of Spack's package."""
 
     def define(self, name, value):
         return name
@@ -151,7 +149,7 @@ class Nested:
 
 
 def restated_spack():
-    """Modules that the recipe imports, whose directives note their arguments."""
+    """Returns modules for the recipe's imports, with directives that record their arguments."""
     Package.noted = {name: {} for name in ("version", "variant", "depends_on", "license")}
     module = types.ModuleType("spack.package")
     for name, into in Package.noted.items():
@@ -177,7 +175,7 @@ def check_spack(folder):
 
 
 def check_dependencies():
-    """A library that CMake looks for stands in each recipe under its name there."""
+    """Checks that each library that CMake looks for is in each recipe, under its name there."""
     names = {"Boost": ("boost-multiprecision", "libboost-headers", "boost@"), "TBB": ("tbb", "tbb-devel", "tbb"),
              "xsimd": ("xsimd",) * 3, "CLI11": ("cli11",) * 3,
              "nlohmann_json": ("nlohmann-json", "nlohmann_json", "nlohmann-json")}

@@ -1,5 +1,5 @@
-// The installed library, its names beside those of POSIX: exits with 0 if a head-on vertex/face
-// collision is found.
+// The installed library, with names of POSIX in scope: exits with 0 if it finds a head-on
+// vertex/face collision.
 #include <strings.h>
 #include <unistd.h>
 

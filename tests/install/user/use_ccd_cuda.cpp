@@ -1,4 +1,4 @@
-// The installed library for devices: says whether there is one.
+// The installed library for devices: prints the status of the device.
 #include <ccd/cuda.hpp>
 #include <cstdio>
 

@@ -1,4 +1,4 @@
-// The installed readers: the number of colliding pairs of two frames, or what is wrong with them.
+// The installed readers: prints the number of colliding pairs of two frames, or an error.
 #include <ccd/io/mesh_file.hpp>
 #include <ccd/io/query_file.hpp>
 #include <ccd/step.hpp>

@@ -1,4 +1,4 @@
-// The headers alone: exits with 0 if a tracked product has the sign it must have.
+// Only the headers: exits with 0 if a tracked product has the correct sign.
 #include <errbound/errbound.hpp>
 
 int main() {
