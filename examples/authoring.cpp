@@ -150,7 +150,6 @@ input at_any_scale(generator& random) {
     return moved(random() % 2 == 0 ? on_surface(random) : near_surface(random),
                  [&](double x) { return std::ldexp(x, e); });
 }
-/// Any finite doubles.
 input any_bits(generator& random) {
     return moved({}, [&](double) {
         double x = 0;
@@ -214,9 +213,6 @@ int test(const char* name, const Predicate& predicate, const Exact& exact, int i
     return wrong;
 }
 
-// The timings.
-
-/// Returns ns per input of the fastest of several runs.
 template <class Run>
 double nanoseconds(std::size_t inputs, const Run& run) {
     double best = 1e300;

@@ -164,8 +164,6 @@ class triangulation {
     std::vector<std::size_t> first_;      ///< by vertex, while a cavity is filled
 };
 
-// The check.
-
 using integer = boost::multiprecision::cpp_int;
 
 /// Returns the points in a unit in which all coordinates are integers.
@@ -180,7 +178,6 @@ std::vector<std::array<integer, 2>> as_integers(const std::vector<point>& points
     return exact;
 }
 
-/// Counts the flaws of a triangulation, in integers.
 class examination {
   public:
     examination(const std::vector<point>& points, const std::vector<triangle>& triangles)
@@ -234,7 +231,7 @@ class examination {
         inner_ += ghost == 3;
         if (ghost == 3)
             clockwise_ += area(t.vertex[0], t.vertex[1], t.vertex[2]) <= 0;
-        else  // clockwise around the hull
+        else
             previous_[t.vertex[after[ghost]]] = t.vertex[before[ghost]];
         for (std::size_t i = 0; i < 3; ++i) {
             const triangle& other = triangles_[t.neighbour[i]];
@@ -267,13 +264,11 @@ class examination {
 
     const std::vector<triangle>& triangles_;
     std::vector<std::array<integer, 2>> exact_;
-    std::size_t infinity_;               ///< the vertex of ghosts, one past the points
-    std::vector<std::size_t> previous_;  ///< by vertex of the hull
+    std::size_t infinity_;  ///< the vertex of ghosts, one past the points
+    std::vector<std::size_t> previous_;
     std::size_t unmatched_ = 0, clockwise_ = 0, not_delaunay_ = 0, inner_ = 0, bends_ = 0,
                 starts_ = 0;
 };
-
-// The points.
 
 using generator = std::mt19937_64;
 double uniform(generator& random) {  // in [0, 1)
@@ -283,7 +278,6 @@ double jittered(generator& random, double x) {  // by up to two units in the las
     return x + (static_cast<double>(random() % 5) - 2) * 0x1p-52;
 }
 
-/// A rotated and rounded grid.
 std::vector<point> turned_grid(generator&) {
     std::vector<point> points;
     for (int i = 0; i < 50; ++i)
@@ -292,7 +286,6 @@ std::vector<point> turned_grid(generator&) {
                               (std::sin(0.3) * i + std::cos(0.3) * j) / 50});
     return points;
 }
-/// A grid with points moved by units in the last place.
 std::vector<point> jittered_grid(generator& random) {
     std::vector<point> points;
     for (int i = 0; i < 50; ++i)
@@ -300,7 +293,6 @@ std::vector<point> jittered_grid(generator& random) {
             points.push_back({jittered(random, 1 + i / 50.0), jittered(random, 1 + j / 50.0)});
     return points;
 }
-/// Points on circles.
 std::vector<point> circles(generator& random) {
     std::vector<point> points;
     for (int circle = 0; circle < 3; ++circle) {

@@ -11,7 +11,6 @@ namespace {
 
 constexpr int side = 64, count = 2 * side * side;
 
-/// Two sheets; the upper one is wavy.
 __global__ void place(double* rows) {
     const int v = static_cast<int>(blockIdx.x * blockDim.x + threadIdx.x);
     if (v >= count) return;
@@ -21,7 +20,6 @@ __global__ void place(double* rows) {
     rows[3 * v + 2] = sheet == 0 ? 0.0 : 1.5 + sin(0.4 * i) * cos(0.3 * j);
 }
 
-/// Lowers the upper sheet.
 __global__ void move(const double* from, double* to) {
     const int v = static_cast<int>(blockIdx.x * blockDim.x + threadIdx.x);
     if (v >= count) return;

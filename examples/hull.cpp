@@ -143,7 +143,6 @@ using generator = std::mt19937_64;
 double rounded(double x) {
     return std::ldexp(std::rint(std::ldexp(x, 60)), -60);
 }
-/// Rotates by two angles.
 point turned(const point& p) {
     const double x = std::cos(0.3) * p[0] - std::sin(0.3) * p[1],
                  y = std::sin(0.3) * p[0] + std::cos(0.3) * p[1];
@@ -174,7 +173,6 @@ std::vector<point> jittered_cube(generator& random) {
         return p;
     });
 }
-/// Equal circles above each other, rotated.
 std::vector<point> cylinder(generator&) {
     std::vector<point> points;
     for (int height = 0; height < 20; ++height)

@@ -36,7 +36,6 @@ DRIFT = (0.03, 0.02, 0.0)
 
 
 def make_ball():
-    """Returns an icosphere around (0, 0, BALL_RADIUS)."""
     golden = (1 + math.sqrt(5)) / 2
     points = []
     for a, b in ((1, golden), (-1, golden), (1, -golden), (-1, -golden)):
@@ -86,7 +85,6 @@ def normalized(p):
 
 
 def make_cloth():
-    """Returns a square sheet above the ball, with one third folded back over the rest."""
     n = CLOTH_POINTS
     flat = 24  # columns before the fold
     fold_columns = 6  # columns that make the half turn
@@ -198,7 +196,6 @@ def push_layers_apart(points):
 
 
 def simulate_cloth(points):
-    """Returns the cloth's points before and after the last, unchecked step."""
     constraints = cloth_constraints()
     velocity = [[0.0, 0.0, -1.0] for _ in points]
     for _ in range(STEPS):

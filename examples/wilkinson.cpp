@@ -1,6 +1,6 @@
-// Exact real roots of Wilkinson's polynomial, which floating point gets wrong: (x − 1)(x − 2)···(x
-// − 20) with the coefficient −210 of x^19 reduced by 2^-23. Ten of the twenty roots are then
-// complex. (J. H. Wilkinson, The perfidious polynomial, 1984.)
+// Exact real roots of Wilkinson's polynomial, which floating point gets wrong:
+// (x − 1)(x − 2)···(x − 20) with the coefficient −210 of x^19 reduced by 2^-23. Ten of the twenty
+// roots are then complex. (J. H. Wilkinson, The perfidious polynomial, 1984.)
 #include <cstddef>
 #include <cstdio>
 #include <errbound/polynomial.hpp>

@@ -69,7 +69,6 @@ std::string fault_of_scratch(const scratch& memory, std::size_t vertices, std::s
 /// The largest number of candidates in one call. It and the next number fit in 32 bits.
 constexpr std::size_t max_candidates = std::numeric_limits<std::uint32_t>::max() - 1;
 
-/// Returns an error for invalid arguments, or an empty string.
 template <class Pair>
 std::string fault_of(const positions& at, const candidates<Pair>& candidates, const void* answers,
                      const scratch& memory) {

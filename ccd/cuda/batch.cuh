@@ -13,7 +13,6 @@ std::string fault_of_method(method m);
 /// Returns an error unless t_max is finite; empty otherwise.
 std::string fault_of_t_max(double t_max);
 
-/// True if no pointer to coordinates is null.
 bool has_coordinates(const positions& at);
 
 /// Queues options.method, except `exact`. `memory` is for a method_memory.

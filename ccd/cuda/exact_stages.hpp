@@ -24,7 +24,6 @@
 
 namespace ccd::cuda::detail {
 
-/// The data of every stage.
 template <class Pair>
 struct exact_stage {
     template <class S>
@@ -89,8 +88,9 @@ struct coefficient_stage : exact_stage<Pair> {
 
   protected:
     /// The query's forms. Differences are rounded once in doubles, and then to Real. Each has an
-    /// error of at most ε, as in error_count::difference(), and η if it underflows. Proof:
-    /// proofs/RoundedAxes.v, converted_difference_near.
+    /// error of at most ε, as in error_count::difference(), and η if it underflows.
+    ///
+    /// Proof: proofs/RoundedAxes.v, converted_difference_near.
     constexpr forms<Real> forms_of_query(const query_of_pair<Pair, double>& query) const {
         if constexpr (std::is_same_v<Real, double>) {
             return forms<double>(query);
@@ -108,13 +108,11 @@ struct coefficient_stage : exact_stage<Pair> {
                                 converted(in_doubles.p));
         }
     }
-    /// True if comparisons are valid.
     constexpr bool usable(const static_filter::difference_extents<Real>& extents) const {
         return extents.usable && (std::is_same_v<Real, double> || scene->finite);
     }
 };
 
-/// The coefficients of Y.
 template <class Pair, class Real>
 struct coplanarity_stage : coefficient_stage<Pair, Real> {
     using base = coefficient_stage<Pair, Real>;
@@ -129,7 +127,6 @@ struct coplanarity_stage : coefficient_stage<Pair, Real> {
     }
 };
 
-/// The coefficients of the G_i.
 template <class Pair, class Real>
 struct inside_stage : coefficient_stage<Pair, Real> {
     using base = coefficient_stage<Pair, Real>;
@@ -180,12 +177,10 @@ struct integer_stage : exact_stage<Pair> {
     }
 };
 
-/// The size of each stage's queue in one call.
 struct exact_counters {
     std::uint32_t coplanarity, inside, subdivision, one_word, two_words, left;
 };
 
-/// Scratch memory of one call.
 struct exact_memory {
     exact_counters* counters;
     scene_extent* scene;

@@ -28,13 +28,11 @@ constexpr auto with_tracked_query(const positions& at, const Pair& pair, const F
     if constexpr (std::is_same_v<T, double>) {
         return apply(tracked_query<Rule>(query_at<double>(at, pair)));
     } else {
-        // Floats are exact.
         return apply(at.in_floats ? tracked_query<Rule>(query_at<float>(at, pair))
                                   : single_precision_query<Rule>(query_at<double>(at, pair)));
     }
 }
 
-/// BSC under a rule.
 template <class R>
 struct bsc_method {
     using rule = R;
@@ -45,7 +43,6 @@ struct bsc_method {
         return decide_bsc_of(query).outcome;
     }
 };
-/// SafeCCD under a rule.
 template <class R>
 struct safeccd_method {
     using rule = R;
@@ -62,7 +59,7 @@ struct method_stage {
     positions at;
     cuda::candidates<Pair> candidates;
     outcome* answers;
-    queue open;  ///< candidates for the next stage
+    queue open;
 };
 
 /// Decides `separate` by Y's coefficients in T. Others stay undecided.
@@ -99,10 +96,9 @@ struct method_counters {
     std::uint32_t roots, in_doubles;
 };
 
-/// Scratch memory of one call.
 struct method_memory {
     method_counters* counters;
-    std::uint32_t *first, *second;  ///< queues' items
+    std::uint32_t *first, *second;
 
     method_memory(arena& from, std::size_t candidates)
         : counters(from.take<method_counters>(1)),

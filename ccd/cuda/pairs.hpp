@@ -17,7 +17,6 @@
 
 namespace ccd::cuda::detail {
 
-/// Copies the queries of listed candidates.
 template <class Pair>
 struct gather_queries {
     positions at;
@@ -96,13 +95,11 @@ time_counters finish_times(Launcher& launcher, const positions& at,
     return counters;
 }
 
-/// True for answers except `separate`.
 struct may_collide_at {
     const outcome* answers;
     constexpr bool operator()(std::uint32_t i) const { return answers[i] != outcome::separate; }
 };
 
-/// Stores the indices of selected items at their positions.
 template <class IsSelected>
 struct list_selected {
     IsSelected is_selected;

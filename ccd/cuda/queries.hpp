@@ -23,7 +23,6 @@ constexpr T load_aligned(const T* p) {
 #endif
 }
 
-/// The vertices of candidate i.
 template <class Pair>
 constexpr Pair pair_at(const candidates<Pair>& c, std::uint32_t i) {
     if (c.numbers != nullptr) i = c.numbers[i];

@@ -40,7 +40,6 @@ struct scene_extent {
     }
 };
 
-/// For launcher.reduce.
 struct extent_of_vertex {
     positions at;
 
@@ -85,7 +84,6 @@ struct round_vertex {
     }
 };
 
-/// Rounds all positions for the first stage.
 template <class Launcher>
 void run_rounding(Launcher& launcher, const positions& at, scene_extent* scene,
                   rounded_position* rows) {

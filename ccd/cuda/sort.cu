@@ -1,4 +1,3 @@
-// Sorting on the device, by CUB.
 #include <cub/device/device_radix_sort.cuh>
 
 #include "ccd/cuda/launch.cuh"

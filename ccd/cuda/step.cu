@@ -134,7 +134,6 @@ mesh_steps::result mesh_steps::run(const positions& positions, const mesh_step_o
 
 namespace {
 
-/// Rows of vertices in device memory.
 struct device_frames {
     detail::device_launcher::buffer<double> before, after;
 

@@ -65,7 +65,6 @@ struct elements {
     }
 };
 
-/// The box that an element sweeps.
 template <std::size_t N>
 constexpr rounded_box swept_box(const rounded_position* rows,
                                 const std::array<vertex_index, N>& vertices) {
@@ -112,7 +111,6 @@ struct box_levels {
     std::size_t start[max_levels] = {}, count[max_levels] = {};
 
     constexpr box_levels() = default;
-    /// Returns the shape for `leaves` leaves.
     explicit constexpr box_levels(std::size_t leaves) {
         std::size_t at = 0;
         for (std::size_t n = leaves; n > 0; n = n > 1 ? (n + children - 1) / children : 0) {
@@ -212,7 +210,7 @@ struct face_search {
     using indices = vertex_face_pair;
     positions at;
     const rounded_position* rows;
-    box_levels tree;  ///< of all vertices
+    box_levels tree;
     elements<3> searching;
     const std::uint32_t* order;  ///< the order of searching faces, with neighbours together
 
@@ -231,7 +229,7 @@ struct face_search {
 struct edge_search {
     using indices = edge_edge_pair;
     positions at;
-    box_levels tree;  ///< of all edges
+    box_levels tree;
     elements<2> searching;
 
     template <class Visit>
@@ -280,7 +278,6 @@ struct write_candidates {
     }
 };
 
-/// The counts of a step.
 struct found_pairs {
     std::size_t vertex_face_candidates = 0, edge_edge_candidates = 0;
     std::size_t vertex_face = 0, edge_edge = 0, finished_on_host = 0;
@@ -373,7 +370,6 @@ class step_memory {
         return tree;
     }
 
-    /// Returns the number of candidates.
     template <class Search, class Decide, class Pair>
     std::size_t run_search(Launcher& launcher, const Search& search, std::size_t searches,
                            const Decide& decide, buffer<Pair>& pairs, std::size_t& pair_count,
@@ -414,7 +410,7 @@ class step_memory {
     buffer<rounded_box> tree_;
     buffer<std::uint32_t> keys_, order_, search_order_, counts_;
     buffer<std::uint64_t> numbers_;
-    buffer<std::array<vertex_index, 4>> block_rows_;  // of any kind
+    buffer<std::array<vertex_index, 4>> block_rows_;
     buffer<outcome> answers_;
     selection<Launcher> selection_;
     buffer<vertex_face_pair> vertex_face_;

@@ -113,7 +113,6 @@ class asked_pairs {
         if (!asked.first_contact) return {0, false};
         return {first.outcome == outcome::collides ? first.high : asked.t_max, true};
     }
-    /// Copies the selected items.
     template <class IsSelected, class T>
     std::span<const T> selected(Launcher& launcher, const IsSelected& is_selected,
                                 std::span<const T> of, buffer<T>& to) {

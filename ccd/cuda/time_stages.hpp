@@ -21,13 +21,11 @@
 
 namespace ccd::cuda::detail {
 
-/// The first times to compute.
 struct times_asked {
-    double t_max;   ///< times in [0, t_max]
+    double t_max;
     bool earliest;  ///< only those at the start, and the least of the others
 };
 
-/// The data of every stage.
 template <class Pair>
 struct time_stage {
     positions at;
@@ -35,8 +33,8 @@ struct time_stage {
     first_time* times;
     bool earliest;
     shared_time t_max;  ///< later times are not needed
-    queue open;         ///< candidates for the next stage
-    queue left;         ///< candidates for the host
+    queue open;
+    queue left;  ///< candidates for the host
 
     constexpr query_of_pair<Pair, double> query(std::uint32_t i) const {
         return query_at<double>(at, pair_at(candidates, i));
@@ -107,16 +105,14 @@ struct integer_time_stage : time_stage<Pair> {
     }
 };
 
-/// The size of each stage's queue in one call.
 struct time_counters {
     std::uint32_t one_word, roots_in_two_words, two_words, left;
 };
 
-/// Scratch memory of one call.
 struct time_memory {
     time_counters* counters;
     double* t_max;
-    std::uint32_t *first, *second;  ///< items of queues, alternately
+    std::uint32_t *first, *second;
     std::uint32_t* left;
 
     time_memory(arena& from, std::size_t candidates)

@@ -9,7 +9,6 @@ namespace ccd::program {
 
 enum exit_status { done = 0, bad_input = 1, broken_promise = 1, stopped = 3 };
 
-/// A command of the program's command line. Its options are parsed into members.
 class command {
   public:
     command(CLI::App& program, const std::string& name, const std::string& description)

@@ -32,7 +32,6 @@ namespace {
 using errbound::support::file_error;
 using errbound::support::usage_error;
 
-/// The size of a file, and the time to read its queries.
 struct read_file {
     std::string name;
     std::uint64_t queries = 0, bytes = 0;
@@ -79,7 +78,6 @@ std::string rows_of(const io::query_file& queries) {
     return text;
 }
 
-/// The output, written to a temporary file query by query.
 class converted {
   public:
     explicit converted(bool to_store) : to_store_(to_store) {}

@@ -16,7 +16,6 @@ struct device_choice {
     cuda::precision precision = cuda::precision::float64;
 };
 
-/// The device failed or is missing.
 struct device_error : std::runtime_error {
     using std::runtime_error::runtime_error;
 };

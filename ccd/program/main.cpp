@@ -34,7 +34,7 @@ int run_command_line(int argc, char** argv) {
         return run(app, argc, argv);
     } catch (const CLI::ParseError& error) {
         if (error.get_exit_code() != 0) throw errbound::support::usage_error(error.what());
-        app.exit(error);  // prints the text of --help or --version
+        app.exit(error);
         return done;
     }
 }

@@ -1,4 +1,3 @@
-// `ccd methods`: lists all methods.
 #include <ccd/method.hpp>
 #include <iostream>
 

@@ -1,4 +1,3 @@
-// Options of several commands.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -12,10 +11,8 @@
 
 namespace ccd::program {
 
-/// Returns the method with this name. Throws usage_error.
 ccd::method method_named(const std::string& name);
 
-/// --method M[,M...]; all methods by default.
 class methods_option {
   public:
     explicit methods_option(CLI::App& line);
@@ -28,7 +25,6 @@ class methods_option {
     CLI::Option* option_;
 };
 
-/// --device and --precision.
 class device_options {
   public:
     explicit device_options(CLI::App& line);
@@ -73,7 +69,6 @@ std::string text_of_unused(std::size_t unused, std::size_t vertices, bool skippe
 /// Returns `low,high` as hexadecimal floats, or `-` if there is no contact.
 std::string text_of_time(const first_time& time);
 
-/// --threads, from 0 (one per core).
 void add_threads_option(CLI::App& line, int& threads, const std::string& description);
 
 }  // namespace ccd::program

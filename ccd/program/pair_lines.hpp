@@ -11,7 +11,6 @@
 
 namespace ccd::program {
 
-/// Returns the vertices of a pair that is an array of numbers.
 template <class Number, std::size_t N>
 const std::array<Number, N>& vertices_of(const std::array<Number, N>& numbers) {
     return numbers;

@@ -29,7 +29,6 @@ class query final : public command {
     exit_status run() override;
 
   private:
-    /// The checked options.
     struct request {
         std::vector<ccd::method> methods;
         device_choice device;
@@ -40,7 +39,6 @@ class query final : public command {
     time_request checked_times() const;
     std::vector<ccd::method> methods_on(const device_choice& device) const;
     std::vector<query_result> decide_files(const request& checked) const;
-    /// Prints and writes one result for each file and method.
     void write(const std::vector<query_result>& results) const;
     std::vector<std::optional<std::filesystem::path>> outputs() const {
         return {verdicts_, toi_, json_};

@@ -13,7 +13,6 @@
 
 namespace ccd::program {
 
-/// One row of the table.
 struct query_result {
     std::string file;
     ccd::kind kind{};
@@ -21,7 +20,7 @@ struct query_result {
     std::size_t queries = 0, collisions = 0;
     std::optional<std::size_t> false_positives, false_negatives;
     std::string verdicts;  ///< with verdicts: a character per query; 1: may collide
-    std::string times;     ///< with times: a line per query
+    std::string times;
     double ns_per_query = 0;
 };
 

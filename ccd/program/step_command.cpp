@@ -28,7 +28,6 @@ using errbound::support::text_of;
 using errbound::support::usage_error;
 using errbound::support::write_whole;
 
-/// The checked options.
 struct step_request {
     std::filesystem::path before, after;
     ccd::method method = ccd::method::exact;
@@ -39,7 +38,7 @@ struct step_request {
     bool times = false, advance = false;
     double distance = 0, t_max = 1;
     io::mesh_options reading;
-    std::size_t unused = 0;  ///< vertices without faces and edges
+    std::size_t unused = 0;
     bool skip_unused = false;
 
     step_options options() const {
@@ -56,7 +55,6 @@ struct step_request {
     }
 };
 
-/// The results of the step, and of --advance.
 struct step_outcome {
     step_result result;
     std::optional<advance_result> advance;
@@ -153,7 +151,6 @@ std::string fixed(double value, const char* format) {
     return text;
 }
 
-/// Returns a table of the pairs that the broad phase discards, and its cost.
 std::string text_of_boxes(const step_request& request, const mesh& before,
                           const step_result& result) {
     const auto row = [](const char* kind, double possible, std::size_t candidates) {
@@ -169,7 +166,6 @@ std::string text_of_boxes(const step_request& request, const mesh& before,
            fixed(1e3 * result.broad_phase_seconds, "%.2f ms") + " by a tree of boxes\n";
 }
 
-/// Returns a table of the queries that each stage decides or skips, and its cost.
 std::string text_of_stages(const step_result& result) {
     table rows = {{"stage", "queries", "skipped", "separate", "collide", "left open", "thread ms",
                    "ns/query"}};
@@ -199,7 +195,6 @@ std::string text_of_stages(const step_result& result) {
            notes;
 }
 
-/// Returns a table of first contact and free step.
 std::string text_of_contacts(const step_request& request, const step_outcome& found) {
     if (!request.times && !request.advance) return "";
     const first_time& first = first_contact_of(found);

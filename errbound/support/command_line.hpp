@@ -41,7 +41,6 @@ auto all_named(const std::string& option, const std::string& list, const Named& 
     return result;
 }
 
-/// Returns the names of the entries, for "expected one of ...".
 template <class Entries, class Name>
 std::string listed(const Entries& entries, const Name& name) {
     std::string list;

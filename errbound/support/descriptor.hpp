@@ -1,4 +1,3 @@
-// Writing to an open file.
 #pragma once
 
 #include <filesystem>

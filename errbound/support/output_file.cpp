@@ -17,7 +17,6 @@ namespace errbound::support {
 namespace fs = std::filesystem;
 namespace {
 
-/// Returns the reason of the last system call's failure, to end a message.
 std::string reason() {
     return errno != 0 ? std::string(" (") + std::strerror(errno) + ")" : std::string();
 }
@@ -27,7 +26,6 @@ std::string folder_of(const std::string& name) {
     return name.substr(0, name.find_last_of(system::separators) + 1);
 }
 
-/// True for standard input on systems without device files.
 bool is_standard_input(const fs::path& path) {
     return !system::has_device_files && path == "/dev/stdin";
 }
@@ -46,7 +44,6 @@ void for_each_block(const fs::path& path, const Take& take) {
     if (in.bad()) throw file_error(path.string() + ": reading failed" + reason());
 }
 
-/// Writes all to an open descriptor.
 void write_to(int descriptor, const output& out) {
     const auto write = [&](std::string_view text) { write_all(descriptor, text, out.path); };
     if (out.from.empty())
@@ -55,7 +52,6 @@ void write_to(int descriptor, const output& out) {
         for_each_block(out.from, write);
 }
 
-/// Writes and closes the descriptor.
 void write_and_close(int descriptor, const output& out) {
     const fs::path& shown = out.path;
     if (descriptor < 0) throw file_error(shown.string() + ": cannot be written" + reason());
@@ -83,7 +79,6 @@ int create_beside(const std::string& target, std::string& name) {
     return descriptor;
 }
 
-/// Writes a temporary file in the target's folder and renames it.
 void replace_file(const std::string& target, const output& out) {
     const bool replaces = system::exists(target);
     if (replaces && !system::may_write(target))

@@ -9,7 +9,6 @@
 
 namespace errbound::support {
 
-/// A file to write, with its contents.
 struct output {
     std::filesystem::path path;
     std::string text{};

@@ -1,4 +1,3 @@
-// The frame of every main function.
 #pragma once
 
 #include <functional>

@@ -1,4 +1,3 @@
-// Progress of the work, on a terminal.
 #pragma once
 
 #include <chrono>
@@ -23,11 +22,9 @@ class progress_line {
         draw(static_cast<double>(done) / static_cast<double>(total),
              std::to_string(done) + '/' + std::to_string(total) + ' ' + task);
     }
-    /// Shows that a share of the work, from 0 to 1, is done.
     void show(double share, const std::string& task) {
         draw(share, std::to_string(static_cast<int>(100 * share)) + " % " + task);
     }
-    /// Removes the bar, before a line of output.
     void clear() {
         if (shown_) std::fputs("\r\x1b[K", stderr);
         shown_ = false;

@@ -17,7 +17,6 @@ ROW = "{:<8}{:>10}{:>10}{:>10}{:>10}{:>12}{:>10}{:>12}"
 
 
 def step(ccd, out, method):
-    """Returns statistics and reported pairs of one method."""
     pairs, statistics = out / f"{method}.csv", out / f"{method}.json"
     count = ["--explain"] if method == "exact" else []  # exact counts its candidates only on request
     subprocess.run([ccd, "step", *FRAMES, "--method", method, *count, "--pairs", pairs, "--json", statistics],

@@ -78,7 +78,6 @@ def ply_values(order, body):
 
 
 def read_ply(path):
-    """Returns vertices, an n x 3 array, and faces, lists of vertex indices, of an ascii or binary PLY file."""
     data = Path(path).read_bytes()
     head, marker, body = data.partition(b"end_header")
     lines = head.decode("ascii", "replace").split("\n")
@@ -104,7 +103,6 @@ def read_ply(path):
 
 
 def read_pairs(path):
-    """Returns vertex/face and edge/edge pairs, each a list of four vertex indices."""
     pairs = {"vf": [], "ee": []}
     for number, line in enumerate(Path(path).read_text().splitlines(), 1):
         kind, *indices = line.split(",")

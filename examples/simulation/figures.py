@@ -44,7 +44,6 @@ def arguments():
 
 
 def simulated(given, scene, method, seed, proposals=False):
-    """Starts or continues a run. Returns its folder."""
     folder = given.out / f"{scene}-{method}-{seed}{'-stream' if proposals else ''}"
     command = [given.build / "examples/simulation/simulate", scene, "--method", method,
                "--seed", seed, "--out", folder]
@@ -71,7 +70,6 @@ def frames_of(folder):
 
 
 def spread(values):
-    """Returns the mean, and the largest deviation of a seed from it."""
     mean = statistics.mean(values)
     return f"{mean:.2f} ± {max(abs(v - mean) for v in values):.2f}" if len(values) > 1 else f"{mean:.2f}"
 
@@ -95,7 +93,6 @@ def response_row(runs, part, whole):
 
 
 def responses(given):
-    """Returns the lines of the first table."""
     lines = ["| scene, frames | method | looks | solver, ms | detection, ms | response, ms | not converged | passed through |",
              "|---|---|---:|---:|---:|---:|---:|---:|"]
     for scene in given.scenes.split(","):
@@ -127,7 +124,6 @@ def decided(given, before, proposed, method):
 
 
 def streams(given):
-    """Returns the lines of the second table."""
     lines = ["| stream | queries | " + " | ".join(STREAMS) + " |",
              "|---|---:|" + "---:|" * len(STREAMS)]
     for scene in given.streams.split(","):

@@ -58,7 +58,6 @@ class camera:
         self.size = size
 
     def project(self, points):
-        """Returns pixels and depths."""
         local = (points - self.eye) @ self.axes.T
         width, height = self.size
         scale = 1.4 * height / numpy.maximum(local[:, 2:], 1e-6)

@@ -120,7 +120,7 @@ int run_command_line(int argc, char** argv) {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& error) {
         if (error.get_exit_code() != 0) throw errbound::support::usage_error(error.what());
-        return app.exit(error);  // prints the text of --help
+        return app.exit(error);
     }
     return simulate(given);
 }

@@ -10,14 +10,12 @@
 
 namespace simulation {
 
-/// The state from which the next frame is computed.
 struct run_state {
     int frame = 0;
     rows positions, velocities;
     forces_of_pairs forces;
 };
 
-/// Costs and results of one frame.
 struct frame_record {
     int frame = 0;
     double solver_seconds = 0;
@@ -37,7 +35,6 @@ class simulation_run {
     const run_state& state() const { return state_; }
     /// The positions that the solver proposed in the last frame.
     const rows& proposed() const { return proposed_; }
-    /// Continues from a state of the same scene.
     void restore(run_state state);
 
   private:

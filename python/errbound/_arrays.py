@@ -151,7 +151,6 @@ def frames(before: ArrayLike, after: ArrayLike, columns: int = 3) -> tuple[Doubl
 
 
 def frames_of(positions: Any) -> tuple[Doubles, Doubles]:
-    """Accepts a pair (before, after) or an array (2, n, 3)."""
     if isinstance(positions, np.ndarray):
         fits, found = positions.ndim == 3 and len(positions) == 2, f"an array of shape {positions.shape}"
     elif isinstance(positions, Sequence):
@@ -192,7 +191,6 @@ def distance_option(value: Any, name: str = "distance") -> float:
 
 
 def thickness_option(values: ArrayLike | None, vertices: int) -> Any:
-    """Returns one thickness per vertex, or None."""
     if values is None:
         return None
     array = exact_doubles("thickness", values)
@@ -210,7 +208,6 @@ def thickness_option(values: ArrayLike | None, vertices: int) -> Any:
 
 
 def pinned_option(values: ArrayLike | None, vertices: int) -> Any:
-    """Returns one flag per vertex, or None."""
     if values is None:
         return None
     flags = as_array("pinned", values)
@@ -223,7 +220,6 @@ def pinned_option(values: ArrayLike | None, vertices: int) -> Any:
 
 
 def group_option(name: str, values: ArrayLike | None, vertices: int) -> Any:
-    """Returns one int32 per vertex, or None."""
     if values is None:
         return None
     array = as_array(name, values)

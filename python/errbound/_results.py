@@ -153,7 +153,6 @@ class Pairs:
 
 
 def _listed(pairs: Any) -> str:
-    """Returns the numbers of pairs by kind, as text."""
     kinds = {kind: len(getattr(pairs, kind))
              for kind in ("vertex_face", "edge_edge", "vertex_edge", "vertex_vertex")}
     counts = ", ".join(f"{count} {kind}" for kind, count in kinds.items() if count)

@@ -309,7 +309,6 @@ class Steps:
 
     def _call(self, call: Callable[[Doubles, Doubles, Any], Any], before: ArrayLike, after: ArrayLike,
               known: dict[str, Any], options: Mapping[str, Any]) -> Any:
-        """Calls the extension. Errors name the argument and the row."""
         frames = self._frames(before, after)
         request = _request(self.vertices, known, options)
         try:

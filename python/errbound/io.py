@@ -184,7 +184,6 @@ def write_queries(path: str | os.PathLike[str], queries: ArrayLike,
 
 
 def _checked_mesh(before: Mesh, after: Mesh) -> tuple[Doubles, Doubles, Indices, Indices]:
-    """Returns positions of both frames, faces and edges."""
     for name, mesh in ("before", before), ("after", after):
         if not isinstance(mesh, Mesh):
             raise TypeError(f"{name} is {type(mesh).__name__}; expected an io.Mesh")
@@ -200,7 +199,6 @@ def _checked_mesh(before: Mesh, after: Mesh) -> tuple[Doubles, Doubles, Indices,
 
 
 def _checked_result(result: StepResult, vertices: int) -> tuple[dict[Kind, Indices], dict[Kind, Doubles]]:
-    """Returns pairs by kind, and rows (low, high) of times by kind if result has them."""
     if not isinstance(result, StepResult):
         raise TypeError(f"result is {type(result).__name__}; expected a ccd.StepResult")
     pairs, times = {}, {}

@@ -40,7 +40,6 @@ def _steps(vertices: int, columns: int, edges: Any, faces: Any) -> ccd.Steps:
 
 
 def _in_space(positions: Doubles) -> Doubles:
-    """Appends z = 0 to positions in the plane."""
     return np.pad(positions, ((0, 0), (0, 3 - positions.shape[1])))
 
 
@@ -90,7 +89,6 @@ class _Lookup:
 
 
 def _ids(candidates: Any, *names: str) -> list[Any]:
-    """Returns one array for each attribute of the toolkit's candidates."""
     return [np.fromiter(map(attrgetter(name), candidates), np.int64, len(candidates)) for name in names]
 
 
@@ -213,7 +211,6 @@ class _Pairs:
             _may_collide(kind, self._rows[kind][row:row + 1], self._can_collide)[0])
 
     def any(self) -> bool:
-        """True if some pair may collide."""
         return any(self._allows(kind, row) for kind, rows in self._rows.items() for row in range(len(rows)))
 
     def least(self, lows: Iterable[tuple[ccd.Kind, Any, Any]]) -> float:
@@ -235,7 +232,6 @@ class _Pairs:
         return self.least((kind, times.query, times.low) for kind, times in found.items())
 
     def meet(self, end: Doubles) -> bool:
-        """True if some pair collides in the motion to `end`."""
         for kind, rows in self._rows.items():
             near = ccd.decide(rows, kind, positions=(self._start, end), distance=self._distance).collides
             if any(self._allows(kind, row) for row in np.flatnonzero(near).tolist()):
@@ -354,7 +350,6 @@ class ExactNarrowPhase(ipctk.NarrowPhaseCCD):  # type: ignore[misc, unused-ignor
 
 
 def _listed_rows(candidates: Any, edges: Any, faces: Any) -> _Rows:
-    """Returns the vertices of the toolkit's candidates."""
     vertex, edge = (_ids(candidates.ev_candidates, name)[0] for name in ("vertex_id", "edge_id"))
     first, second = _ids(candidates.ee_candidates, "edge0_id", "edge1_id")
     of_face, face = _ids(candidates.fv_candidates, "vertex_id", "face_id")

@@ -467,7 +467,6 @@ def _with_conversion(name: str, values: ArrayLike) -> tuple[NDArray[Any], NDArra
 
 
 def _rounded_to(number: np.dtype[Any], values: NDArray[Any]) -> tuple[NDArray[Any], NDArray[Any]]:
-    """Returns values converted to this type, and bounds of the errors of the conversion."""
     with np.errstate(over="ignore", invalid="ignore"):
         rounded = values.astype(number)
         exact = (rounded == values) | np.isnan(rounded)

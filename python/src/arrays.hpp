@@ -66,7 +66,6 @@ class shared_items {
     nb::capsule owner_;
 };
 
-/// Returns one row per item, with all its numbers.
 template <class Number, class Item>
 nb::object rows_of(std::vector<Item>&& items) {
     static_assert(sizeof(Item) % sizeof(Number) == 0);
@@ -74,7 +73,6 @@ nb::object rows_of(std::vector<Item>&& items) {
     return shared.columns(reinterpret_cast<const Number*>(&shared.first()),
                           sizeof(Item) / sizeof(Number));
 }
-/// Returns one number per item.
 template <class Number, class Item>
 nb::object numbers_of(std::vector<Item>&& items) {
     static_assert(sizeof(Item) == sizeof(Number));

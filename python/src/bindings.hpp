@@ -1,4 +1,3 @@
-// Functions that add the bindings of each file to the module.
 #pragma once
 
 #include <nanobind/nanobind.h>

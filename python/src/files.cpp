@@ -1,4 +1,3 @@
-// Files of meshes and of queries.
 #include <nanobind/stl/optional.h>
 #include <nanobind/stl/string.h>
 

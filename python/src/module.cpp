@@ -1,4 +1,3 @@
-// The extension module errbound._native.
 #include <ccd/kind.hpp>
 #include <errbound/support/error.hpp>
 

@@ -1,4 +1,3 @@
-// Predicates on many points.
 #include <array>
 #include <cstddef>
 #include <cstdint>

@@ -149,7 +149,6 @@ nb::dict first_times(const questions& asked, double t_max, double distance,
     return times_among(timed(asked, t_max, distance, thickness, threads));
 }
 
-/// Computes the contact data of each query at its first time.
 std::vector<ccd::first_contact> contacts_at(const questions& asked,
                                             const std::vector<ccd::timed_contact>& contacts,
                                             int threads) {

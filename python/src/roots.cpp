@@ -1,4 +1,3 @@
-// Exact real roots of polynomials.
 #include <nanobind/stl/optional.h>
 #include <nanobind/stl/pair.h>
 #include <nanobind/stl/string.h>
@@ -32,7 +31,6 @@ using roots_type = real_roots<integer>;
 using staged_type = roots::staged_polynomial<integer>;
 using limit = std::optional<std::uint64_t>;
 
-/// The search exceeds its limits.
 struct limit_error : std::runtime_error {
     limit_error()
         : std::runtime_error("search of roots is beyond its limits; expected less work") {}
@@ -91,7 +89,6 @@ std::int64_t number_of(std::size_t count) {
     return count == infinitely_many ? -1 : static_cast<std::int64_t>(count);
 }
 
-/// Counts roots of one polynomial per row.
 nb::object count_of_rows(const input<double, -1, -1>& rows, double a, double b, limit operations,
                          limit bytes) {
     std::vector<std::int64_t> counts(rows.shape(0));

@@ -1,4 +1,3 @@
-// Steps of meshes, their candidates, and advances.
 #include <nanobind/stl/optional.h>
 #include <nanobind/stl/string.h>
 

@@ -1,4 +1,3 @@
-// HTML pages and files for ParaView.
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/vector.h>
 

@@ -26,12 +26,10 @@ def headless(path):
 
 
 def settle(page):
-    """Waits until the page has drawn."""
     page.evaluate("new Promise(done => requestAnimationFrame(() => requestAnimationFrame(done)))")
 
 
 def picture(page):
-    """Returns the pixels above the controls, (height, width, 3)."""
     from PIL import Image
 
     settle(page)

@@ -23,7 +23,6 @@ def moved(points, motions):
 
 
 def at(start, end, t):
-    """Returns the points at time t, as rational numbers."""
     t = Fraction(t)
     return [[Fraction(x) + t * (Fraction(y) - Fraction(x)) for x, y in zip(*both)] for both in zip(start, end)]
 
@@ -82,7 +81,6 @@ def random_points(count):
 
 
 def point_edge_cases():
-    """Returns start, end and expected time."""
     fixed = [
         ([[0, 1], [-1, 0], [1, 0]], [[0, -1], [3, 0], [-3, 0]], 0.5),  # the edge is a point at 1/4
         ([[0, 1], [-1, 0], [1, 0]], [[0, -1], [0.5, 0], [-0.5, 0]], 0.5),

@@ -39,7 +39,6 @@ def sheet_over_ball(cells=12):
 
 
 def crossing_strips():
-    """Returns two strips that rotate through each other."""
     line = np.linspace(-1, 1, 9)
     strip = np.vstack([np.column_stack([line, np.full(9, -0.1), np.zeros(9)]),
                        np.column_stack([line, np.full(9, 0.1), np.zeros(9)])])

@@ -11,7 +11,6 @@ RANKS = (1, 2, 3)
 
 
 def scene():
-    """Returns two wavy sheets that meet, with rods and a point between them."""
     n = 14
     x, y = np.meshgrid(np.arange(n) / n, np.arange(n) / n)
     sheets = [np.stack([x, y, level + 0.05 * np.sin(9 * x + level) * np.cos(7 * y)], -1).reshape(-1, 3)

@@ -57,14 +57,12 @@ def opened(browser):
 
 @pytest.fixture
 def page(opened, file):
-    """The page of the step, with pairs in their order."""
     page = opened(file)
     page.select_option("#order", "listed")
     return page
 
 
 def listed(page):
-    """Returns kind, vertices and time of the visible rows."""
     return [row.split("\n") for row in page.locator(".row").all_inner_texts()]
 
 

@@ -15,7 +15,6 @@ def step(scene):
 
 
 def read(path):
-    """Returns points, polygons, numbers of other cells, and arrays by name."""
     reader = pytest.importorskip("vtkmodules.vtkIOXML", reason="no vtk: pip install vtk").vtkXMLPolyDataReader()
     from vtkmodules.util.numpy_support import vtk_to_numpy
 

@@ -1,4 +1,3 @@
-// Batches of queries, stored and by index.
 #include <ccd/batch.hpp>
 #include <ccd/first_contacts.hpp>
 #include <ccd/first_times.hpp>

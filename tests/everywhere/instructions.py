@@ -18,7 +18,6 @@ class Failed(Exception):
 
 
 def executed(emulator, program, family, calls):
-    """Returns (instructions, queries, collisions) of a run of errbound_counted_queries."""
     command = [emulator[0], "-singlestep", "-d", "exec,nochain", *emulator[1:], program, family, str(calls)]
     run = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
     counted = subprocess.run(["grep", "-c", "^Trace "], stdin=run.stderr, stdout=subprocess.PIPE, text=True)
@@ -29,7 +28,6 @@ def executed(emulator, program, family, calls):
 
 
 def per_query(emulator, program, family):
-    """Returns (instructions per query, queries, collisions) of one call."""
     once, queries, collisions = executed(emulator, program, family, 1)
     twice, *answers = executed(emulator, program, family, 2)
     if answers != [2 * queries, 2 * collisions]:

@@ -1,4 +1,3 @@
-// Every predicate, one by one and in batches.
 #include <array>
 #include <cmath>
 #include <cstddef>

@@ -47,7 +47,6 @@ class recorder {
         for (const double x : {p.x, p.y, p.z}) add(x);
     }
     void add(const ccd::first_contact& c);
-    /// Adds a list: its length and its items.
     template <class List>
     requires requires(const List& list) { list.begin(), list.size(); }
     void add(const List& list) {
@@ -58,7 +57,6 @@ class recorder {
     void end_item(const std::string& name);
 
     std::uint64_t hash() const { return hash_; }
-    /// The number of added numbers.
     std::uint64_t size() const { return size_; }
 
   private:

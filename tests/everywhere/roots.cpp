@@ -1,4 +1,3 @@
-// Real roots of polynomials.
 #include <cmath>
 #include <cstddef>
 #include <errbound/polynomial.hpp>
@@ -15,7 +14,6 @@ namespace {
 using ccd::stress::source;
 using coefficients = std::vector<double>;
 
-/// Returns the product with x − root.
 coefficients with_root(const coefficients& p, double root) {
     coefficients q(p.size() + 1);
     for (std::size_t i = 0; i < p.size(); ++i) {

@@ -172,7 +172,6 @@ class Build:
         return "refused: " + said[1]
 
     def program(self, name):
-        """Builds a program of tests/everywhere. Returns its path."""
         self.make("build", name)
         path = self.folder / "build" / "tests" / "everywhere" / name
         return path if path.exists() else path.with_suffix(".exe")
@@ -205,13 +204,11 @@ class Build:
         return f"{part:.1%}", part >= LEAST_PACKED
 
     def make_all(self, label):
-        """Builds the programs and the tests with the label."""
         build = self.folder / "build"
         tests = run_tests.chosen(build, chosen_by(label)) if label else []
         self.make("build", *PROGRAMS, *run_tests.targets_of(build, tests))
 
     def tests(self, label):
-        """Returns the number of passed tests with the label, as text, and True if all passed."""
         build, chosen = self.folder / "build", chosen_by(label)
         self.make_all(label)
         report = self.folder / "tests.xml"
@@ -224,7 +221,6 @@ class Build:
 
 
 def chosen_by(label):
-    """Returns options of ctest that select a label."""
     return ["-L", label, "-LE", "^sources$"]
 
 
@@ -242,7 +238,6 @@ def source_of(package):
 
 
 def with_compiler(target):
-    """Returns the target with the paths of its tools."""
     if not target.zig:
         return target
     try:

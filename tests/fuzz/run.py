@@ -32,7 +32,6 @@ def arguments():
 
 
 def fuzzers(build, names):
-    """Returns the chosen targets of the build."""
     listed = subprocess.run(["cmake", "--build", build, "--target", "help"], check=True,
                             stdout=subprocess.PIPE, text=True).stdout
     known = sorted(set(re.findall(r"^(?:\.\.\. )?(fuzz_\w+)(?::|$)", listed, re.MULTILINE)))
@@ -43,7 +42,6 @@ def fuzzers(build, names):
 
 
 def run(build, name, minutes):
-    """Returns a row of the table, from libFuzzer's last lines."""
     folder = FOUND / name
     corpus = folder / "corpus"
     corpus.mkdir(parents=True, exist_ok=True)

@@ -83,7 +83,6 @@ class mutator {
         return text;
     }
 
-    /// A random piece of some text.
     std::string piece(const std::string& text) {
         const std::size_t begin = below(text.size() + 1);
         return text.substr(begin, below(64) + 1);

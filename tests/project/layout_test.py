@@ -125,7 +125,6 @@ class findings:
         self.failed = False
 
     def check(self, what, found, limit, where=""):
-        """Prints the largest value and its limit."""
         self.failed |= found > limit
         print(f"{'FAILED' if found > limit else 'ok':7}{what}: {found} of at most {limit} {where}".rstrip())
 
@@ -161,7 +160,6 @@ def layer_of(path):
 
 
 def includes(root, sources):
-    """Yields (file, included file) of the project, as paths from the root."""
     own = {str(path) for path in sources}
     for path in own:
         if pathlib.Path(path).suffix not in CPP:
@@ -176,7 +174,6 @@ def includes(root, sources):
 
 
 def cycle(edges):
-    """Returns a cycle of a graph of sets, as a list, or nothing."""
     done, path = set(), []
 
     def visit(node):

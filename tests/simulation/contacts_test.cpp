@@ -40,7 +40,7 @@ TEST(Contacts, StopAParticleAndHoldItByFriction) {
     after = simulation::solve_contacts(contacts, bodies, options, before, after);
     EXPECT_NEAR(after(0, 0), 0.3, 1e-9);  // friction removes 0.5 of 1
     EXPECT_NEAR(after(0, 2), 0, 1e-12);
-    EXPECT_TRUE(after.bottomRows(3).isZero(0));  // driven
+    EXPECT_TRUE(after.bottomRows(3).isZero(0));
 }
 
 TEST(Contacts, DoNotPullOrPushWithoutNeed) {

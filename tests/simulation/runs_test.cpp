@@ -175,7 +175,6 @@ TEST(Runs, AMethodThatLosesACollisionIsTold) {
     }
 }
 
-/// A triangle above a driven triangle.
 struct two_triangles {
     std::vector<ccd::face> faces{{0, 1, 2}, {3, 4, 5}};
     std::vector<double> masses{0, 0, 0, 1, 1, 1};

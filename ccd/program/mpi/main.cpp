@@ -37,7 +37,7 @@ exit_status run_command_line(int argc, char** argv, int rank) {
         return step->run();
     } catch (const CLI::ParseError& error) {
         if (error.get_exit_code() != 0) throw usage_error(error.what());
-        if (rank == 0) app.exit(error);  // prints what --help and --version request
+        if (rank == 0) app.exit(error);
         return done;
     }
 }

@@ -21,7 +21,6 @@ struct frames {
     bool has(vertex_index v) const { return first() <= v && v < last(); }
 };
 
-/// The size of a file, and a checksum of its first and last bytes.
 struct file_mark {
     std::uint64_t bytes = 0;
     std::uint32_t checksum = 0;
@@ -66,7 +65,6 @@ struct sent_positions {
     point<double> before, after;
 };
 
-/// Calls visit with each vertex of an element.
 template <class Visit>
 void for_each_corner(const mesh& elements, const Visit& visit) {
     for (const face& f : elements.faces) std::ranges::for_each(f, visit);

@@ -27,7 +27,6 @@ namespace {
 using errbound::support::grouped;
 using errbound::support::usage_error;
 
-/// The work of a rank, for the table.
 struct rank_report {
     mpi::rank_work work;
     std::uint64_t decided = 0, vertices = 0;

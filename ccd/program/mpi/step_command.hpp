@@ -1,4 +1,3 @@
-// `ccd_mpi step`.
 #pragma once
 
 #include <CLI/CLI.hpp>

@@ -14,7 +14,6 @@ namespace errbound::support::system {
 /// fail, and allocates the first thread's stack. Call it first. Throws std::bad_alloc.
 void start_program();
 
-/// True for a terminal with ANSI control sequences.
 bool is_terminal(int descriptor);
 
 std::size_t peak_memory_bytes();
@@ -42,7 +41,6 @@ bool are_one_name(const std::string& a, const std::string& b);
 bool exists(const std::string& name);
 bool may_write(const std::string& file);
 bool may_write_in(const std::string& folder);
-/// Renames a file, and replaces `to`.
 bool replace(const std::string& from, const std::string& to);
 bool remove(const std::string& file);
 
@@ -56,7 +54,6 @@ int close(int descriptor);
 /// Return the number of bytes written or read, or -1.
 std::ptrdiff_t write(int descriptor, const char* from, std::size_t size);
 std::ptrdiff_t read_at(int descriptor, std::uint64_t offset, char* to, std::size_t size);
-/// Sets the permissions to those of another file.
 void copy_rights(int descriptor, const std::string& other);
 
 /// Locks a folder until the returned descriptor is closed. Returns -1 with EWOULDBLOCK in errno if

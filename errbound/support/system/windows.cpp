@@ -1,4 +1,3 @@
-// The C runtime of Windows suffices for most functions.
 #define WIN32_LEAN_AND_MEAN
 #define NOMINMAX
 #include <fcntl.h>

@@ -30,7 +30,6 @@ elastic_term stretch_term(const std::array<vertex_index, 4>& vertex,
     return term;
 }
 
-/// Returns a triangle's rest shape in its plane: its two edges as columns.
 Eigen::Matrix2d in_plane(const vec3& e1, const vec3& e2) {
     const vec3 x = e1.normalized();
     const vec3 y = (e2 - e2.dot(x) * x).normalized();
@@ -41,7 +40,6 @@ double cotangent(const vec3& a, const vec3& b) {
     return a.dot(b) / a.cross(b).norm();
 }
 
-/// Returns the boundary of tetrahedra, with outward faces.
 std::vector<ccd::face> boundary(const std::vector<std::array<vertex_index, 4>>& tetrahedra) {
     std::map<ccd::face, std::pair<ccd::face, int>> seen;
     for (const auto& [a, b, c, d] : tetrahedra)

@@ -27,7 +27,6 @@ struct elastic_term {
     double low, high;
 };
 
-/// The material of a sheet without thickness.
 struct cloth_material {
     double density = 0.2;            ///< kg/m²
     double membrane = 200;           ///< N/m, against stretch and shear
@@ -41,7 +40,6 @@ struct solid_material {
     double stiffness = 1e5;  ///< N/m²; co-rotated
 };
 
-/// The material of a rod, a chain of edges.
 struct rod_material {
     double density = 0.05;    ///< kg/m
     double stretching = 2e4;  ///< N
@@ -49,12 +47,12 @@ struct rod_material {
 };
 
 struct model {
-    rows start;                       ///< initial positions
-    std::vector<double> mass;         ///< of each vertex; 0: driven
-    std::vector<ccd::face> faces;     ///< surfaces
-    std::vector<ccd::edge> edges;     ///< rods
-    std::vector<elastic_term> terms;  ///< between them
-    std::vector<int> body;            ///< of each vertex: the index of the call that added it
+    rows start;
+    std::vector<double> mass;  ///< of each vertex; 0: driven
+    std::vector<ccd::face> faces;
+    std::vector<ccd::edge> edges;
+    std::vector<elastic_term> terms;
+    std::vector<int> body;  ///< of each vertex: the index of the call that added it
 
     std::size_t vertices() const { return mass.size(); }
     bool driven(std::size_t v) const { return mass[v] == 0; }
@@ -67,7 +65,6 @@ struct model {
                            const solid_material& material);
     vertex_index add_rod(const rows& points, const rod_material& material);
     vertex_index add_obstacle(const rows& shape, const std::vector<ccd::face>& triangles);
-    /// Makes a vertex driven.
     void pin(vertex_index v) { mass[v] = 0; }
 
     ccd::mesh surface(const rows& positions) const;

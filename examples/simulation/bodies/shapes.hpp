@@ -25,7 +25,6 @@ surface_shape grid(int columns, int rows, const std::function<vec3(double, doubl
                    bool closed = false);
 /// A square in the plane z = height with its centre above the origin.
 surface_shape square(int cells, double side, double height);
-/// A sphere of 20·4^refinements triangles.
 surface_shape sphere(int refinements, double radius, const vec3& centre);
 /// The surface at a radius from a segment, of 20·4^refinements triangles.
 surface_shape capsule(int refinements, double radius, const vec3& from, const vec3& to);
@@ -35,9 +34,7 @@ surface_shape revolved(const std::vector<std::array<double, 2>>& profile, int se
 /// fit.
 solid_shape block(const std::array<int, 3>& cells, const vec3& from, const vec3& to,
                   const std::function<bool(int, int, int)>& keep = {});
-/// A closed cone: a polygon of `sides` about `base`, and an apex.
 surface_shape spike(int sides, double radius, const vec3& base, const vec3& apex);
-/// A straight line of `edges` edges.
 rows line(int edges, const vec3& from, const vec3& to);
 
 void translate(rows& points, const vec3& by);

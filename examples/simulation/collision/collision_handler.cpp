@@ -15,7 +15,6 @@
 namespace simulation {
 namespace {
 
-/// Adds the seconds of its lifetime to a sum.
 class stopwatch {
   public:
     explicit stopwatch(double& sum) : sum_(sum) {}
@@ -91,7 +90,6 @@ contact contact_of(const std::array<vertex_index, 4>& vertices, const nearest_po
     return {vertices, nearest.weights, nearest.between / nearest.distance(), 0};
 }
 
-/// A pair that is near at the start of a step.
 struct near_pair {
     double distance;
     bool of_surfaces;  ///< its nearest points are also those of the surfaces
@@ -104,7 +102,6 @@ double gap(const contact& c, const rows& positions) {
     return c.normal.dot(sum);
 }
 
-/// Throws std::invalid_argument for invalid input of a simulation.
 void require_good(const std::vector<double>& masses, const std::vector<int>& bodies,
                   double time_step, const collision_options& options) {
     const auto require = [](bool good, const std::string& message) {
@@ -138,7 +135,6 @@ void require_positions(const std::string& name, const rows& x, std::size_t verti
                                         name + " is not finite; expected finite numbers");
 }
 
-/// Counts the pairs that the method cannot decide.
 std::size_t uncertain_among(const ccd::pair_lists& pairs, ccd::method method,
                             const ccd::vertex_rows& positions) {
     std::size_t count = 0;

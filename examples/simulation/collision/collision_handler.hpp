@@ -58,7 +58,6 @@ struct response_report {
     double detection_seconds = 0, response_seconds = 0, certification_seconds = 0;
 };
 
-/// The forces of pairs, by their vertices.
 using forces_of_pairs = std::map<std::array<vertex_index, 4>, vec3>;
 
 class collision_handler {

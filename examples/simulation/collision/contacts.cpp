@@ -92,7 +92,6 @@ std::vector<std::size_t> active_contacts(const std::vector<contact>& contacts, c
     return chosen;
 }
 
-/// The iteration of solve_contacts.
 class projected_gradients {
   public:
     projected_gradients(const std::vector<contact>& contacts, const compliance& bodies,

@@ -47,10 +47,10 @@ class particle_compliance : public compliance {
 };
 
 struct contact_options {
-    double friction;   ///< Coulomb's coefficient
+    double friction;
     double tolerance;  ///< of an inequality, in metres
     int iterations;    ///< maximum for forces, after each relaxation
-    int relaxations;   ///< maximum for bodies
+    int relaxations;
 };
 
 /// Returns positions with contact forces: among those that satisfy all inequalities, nearly the

@@ -16,14 +16,12 @@ class impact_zones {
   public:
     explicit impact_zones(std::size_t vertices);
 
-    /// Joins the zones of the vertices of a pair.
     void join(std::span<const vertex_index> vertices);
 
     /// Moves every zone as a rigid body from `before` as close to `after` as possible, weighted by
     /// masses. If a zone has driven vertices (mass 0), only these count.
     void move(const std::vector<double>& masses, const rows& before, rows& after);
 
-    /// The number of zones with more than one vertex.
     std::size_t count() const;
 
   private:

@@ -32,7 +32,6 @@ std::uint64_t checksum_of(std::string_view bytes) {
     return std::hash<std::string_view>()(bytes);
 }
 
-/// The format of a stored force.
 struct stored_force {
     std::array<vertex_index, 4> pair;
     std::array<double, 3> force;

@@ -36,11 +36,9 @@ class run_folder {
     /// Restores the last stored frame, if there is one. Throws file_error if the state is damaged,
     /// or the frame or a row of the table belongs to another run.
     void restore(simulation_run& run) const;
-    /// Stores the current frame.
     void store(const simulation_run& run, const frame_record& record);
     /// Stores the positions that the solver proposed: proposals/NNNNN.ply.
     void store_proposal(const simulation_run& run) const;
-    /// Stores the initial frame.
     void store_start(const simulation_run& run);
 
     const std::filesystem::path& path() const { return folder_; }
@@ -55,7 +53,6 @@ class run_folder {
     bool is_new_ = true;
 };
 
-/// The heading and a row of frames.csv.
 std::string csv_heading();
 std::string csv_row(const frame_record& record);
 

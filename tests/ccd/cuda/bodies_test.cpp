@@ -47,7 +47,6 @@ using cuda_sets::batch;
 using cuda_sets::data_folder;
 using cuda_sets::positions_of;
 
-/// Runs `exact` completely, with the host's part.
 template <class Pair>
 std::vector<outcome> decide_exact(const positions& at, const candidates<Pair>& all,
                                   precision p = precision::float64,
@@ -82,7 +81,6 @@ class device_bodies : public testing::Test {};
 using kinds = testing::Types<ccd::vertex_face_pair, ccd::edge_edge_pair>;
 TYPED_TEST_SUITE(device_bodies, kinds);
 
-/// The number of queries that entered each stage of `exact`, from the first one to the host.
 using entered = std::array<std::size_t, 7>;
 
 template <class Pair>
@@ -141,7 +139,6 @@ TYPED_TEST(device_bodies, exact_is_exact_on_stored_queries) {
         expect_every_stage_to_settle_some(expect_exact(set, truth, p));
 }
 
-/// A method's answer from floats only.
 template <class Rule, class Query>
 ccd::verdict in_single_precision(ccd::cuda::detail::bsc_method<Rule>, const Query& query) {
     return ccd::decide_bsc_in_single_precision<Rule>(query);

@@ -131,7 +131,6 @@ TEST_F(on_device, finds_the_pairs_and_times_of_a_step) {
                              {.first_contact = true, .times = times, .t_max = t_max});
 }
 
-/// Returns a copy on the device. The caller frees it.
 template <class T>
 void* copied(const std::vector<T>& host) {
     void* p = nullptr;
@@ -144,7 +143,6 @@ void expect_done(const ccd::cuda::status& s) {
     EXPECT_TRUE(s) << s.error;
 }
 
-/// Compares first times of candidates on the device with those of a batch.
 template <class Pair>
 void expect_times_of(const batch<Pair>& set, const std::vector<ccd::vertex_index>& numbers,
                      const ccd::cuda::positions& at, const ccd::cuda::candidates<Pair>& candidates,

@@ -75,7 +75,6 @@ def findings(ptx):
 
 
 def call_findings(block, values):
-    """Yields the findings of one call."""
     target = CALL.search("\n".join(block))[1]
     if values.is_null(target):
         return ["call of address 0"]
@@ -115,7 +114,6 @@ def demangled(name):
 
 
 def unoptimised_ptx(command, source, scratch):
-    """Compiles `source` to PTX with the options of `command`."""
     words = iter(shlex.split(command))
     kept = []
     for word in words:

@@ -20,7 +20,6 @@
 
 namespace cuda_sets {
 
-/// Returns positions that refer to the rows' memory.
 inline ccd::cuda::positions positions_of(const ccd::vertex_rows& rows) {
     using coordinates = ccd::cuda::coordinates<double>;
     return {coordinates::rows(rows.before), coordinates::rows(rows.after), rows.vertices};
@@ -64,7 +63,6 @@ batch<Pair> of_family(const query_families::family& family, std::uint64_t count,
     return all;
 }
 
-/// Returns queries of every family.
 template <class Pair>
 batch<Pair> of_families(std::uint64_t count, std::uint64_t seed) {
     batch<Pair> all;
@@ -73,7 +71,6 @@ batch<Pair> of_families(std::uint64_t count, std::uint64_t seed) {
     return all;
 }
 
-/// Returns all stored queries in a folder.
 template <class Pair>
 batch<Pair> stored(const std::filesystem::path& folder) {
     batch<Pair> all;

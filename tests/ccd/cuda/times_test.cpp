@@ -138,7 +138,6 @@ TYPED_TEST(device_times, of_listed_candidates_come_in_the_order_of_the_list) {
                  expected);
 }
 
-/// All options of a step for times.
 void expect_steps_as_on_host(const ccd::mesh& before, const ccd::mesh& after,
                              std::size_t block = cuda_on_host::default_block) {
     const auto first = ccd::step(before, after, {.first_contact = true}).first_contact;

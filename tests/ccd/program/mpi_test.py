@@ -15,7 +15,6 @@ ENVIRONMENT = dict(os.environ, OMPI_ALLOW_RUN_AS_ROOT="1", OMPI_ALLOW_RUN_AS_ROO
 
 
 def run_over(ranks, *command):
-    """Returns exit status, output and errors of a program on several ranks."""
     done = subprocess.run([os.environ["MPIEXEC"], os.environ["MPIEXEC_NUMPROC_FLAG"], str(ranks), *map(str, command)],
                           capture_output=True, text=True, env=ENVIRONMENT, timeout=300)
     return done.returncode, done.stdout, done.stderr

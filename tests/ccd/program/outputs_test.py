@@ -33,7 +33,6 @@ class Outputs(ProgramTest):
         self.before = self.files()
 
     def files(self):
-        """Returns all files with their contents."""
         return {p.name: p.read_bytes() for p in self.directory.rglob("*") if p.is_file()}
 
     def run_with(self, *arguments, **options):
@@ -41,7 +40,6 @@ class Outputs(ProgramTest):
         return subprocess.run([PROGRAM, *map(str, arguments)], text=True, timeout=120, **streams)
 
     def refused(self, message, *arguments, **options):
-        """Expects status 1, the message, and unchanged files."""
         done = self.run_with(*arguments, **options)
         self.assertEqual(done.returncode, 1, done.stderr)
         self.assertIn(message, done.stderr)

@@ -473,7 +473,6 @@ class Quoted(ProgramTest):
     """docs/measured.md quotes the program's output for the bundled scene, except times."""
 
     def pairs(self, method):
-        """Returns candidates by kind and reported pairs of the scene's step."""
         frames = [SOURCE / "examples/scenes/cloth-over-ball" / f"frame{i}.ply" for i in (0, 1)]
         out, lines = self.directory / "step.json", self.directory / "pairs.csv"
         counted = ["--explain"] if method == "exact" else []

@@ -72,7 +72,6 @@ class StepTest(ProgramTest):
         self.frames = [self.write("0.ply", ply(BEFORE, FACES)), self.write("1.ply", ply(AFTER, FACES))]
 
     def step(self, *arguments):
-        """Returns lines of pairs, lines of times, and JSON of a step."""
         pairs, times, out = (self.directory / name for name in ("pairs", "times", "json"))
         text = self.good("step", *arguments, "--pairs", pairs, "--toi", times, "--json", out)
         result = json.loads(out.read_text())

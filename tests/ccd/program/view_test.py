@@ -55,7 +55,6 @@ class Page:
         return rows([n for n, in struct.iter_unpack("<" + code, data)], columns)
 
     def lines(self, with_times):
-        """Returns lines as --pairs or --toi writes them."""
         found = []
         for short, (name, columns) in KINDS.items():
             pairs = self.numbers(name, "I", columns)
@@ -95,7 +94,6 @@ class PolyData:
 
 class Views(ProgramTest):
     def view(self, name, frames, *options):
-        """Returns the view's path and the lines of --toi."""
         out, times = self.directory / name, self.directory / "times.csv"
         self.good("step", *frames, "--view", out, "--toi", times, *options)
         return out, times.read_text().split()

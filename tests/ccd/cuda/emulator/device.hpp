@@ -42,7 +42,6 @@ class module {
     explicit module(const unsigned char* fatbinary);
     const kernel& find_kernel(const std::string& name);
     void* find_function(const std::string& name);
-    /// The PTX as a file, for messages.
     std::string file() const { return folder_ + "/module.ptx"; }
 
   private:
@@ -55,7 +54,6 @@ class module {
     std::map<std::string, u64> variables_;  // addresses
 };
 
-/// A kernel as the program names it.
 struct registered_kernel {
     module* of;
     std::string name;
@@ -70,7 +68,6 @@ struct launch {
 /// Returns an empty string, or the error of a thread.
 std::string run(launch& l);
 
-/// The number of calls of the runtime so far.
 long runtime_calls();
 
 }  // namespace ptx

@@ -47,7 +47,7 @@ struct thread_block {
 
 /// A thread. Its stack frames lie in [stack, stack_end); `frame` is the kernel's or function's own.
 struct lane {
-    int next;  ///< index of the block that it runs next
+    int next;
     u32 id, tid[3];
     u64 frame, stack, stack_end, stack_limit;
     thread_block* block;
@@ -57,7 +57,7 @@ constexpr int exited = std::numeric_limits<int>::max();
 struct warp {
     lane lanes[32];
     char* registers;
-    u32 existing;  ///< mask of lanes
+    u32 existing;
 };
 template <class R>
 R& registers_of(warp& w, u32 k) {
@@ -119,7 +119,6 @@ void for_lanes(u32 lanes, F f) {
     for (; lanes != 0; lanes &= lanes - 1) f(static_cast<u32>(std::countr_zero(lanes)));
 }
 
-// Memory.
 inline char* global_at(lane& l, u64 address, u32 bytes, int line) {
     const memory_map& m = *l.block->memory;
     if (address % bytes != 0) fail(l, "misaligned global address", address, bytes, line);
@@ -199,7 +198,6 @@ void set(R& to, T x) {
     }
 }
 
-// Integers.
 template <class T>
 T add_carry(T a, T b, bool in, bool& out) {
     T sum, result;
@@ -249,7 +247,6 @@ T insert(T a, T b, u32 position, u32 bits) {
     }
     return b;
 }
-/// `bits` ones from `position` on.
 inline u32 bit_mask(u32 position, u32 bits) {
     return shift_left(bits < 32 ? (1u << bits) - 1 : ~0u, position);
 }
@@ -264,7 +261,6 @@ inline u32 permute(u32 a, u32 b, u32 selectors) {
     return result;
 }
 
-// Floating point.
 template <class T>
 T float_min(T a, T b) {
     if (std::isnan(a)) return b;

@@ -151,7 +151,6 @@ class Body:
             raise Unsupported(text)
 
     def own(self, name):
-        """The name in the function of a name that the innermost scope declares."""
         if len(self.scopes) > 1:
             self.scopes[-1][name] = f"{name}_{self.scope_count}_"
         return self.scopes[-1].get(name, name)

@@ -155,7 +155,6 @@ def signature(function, name):
 
 
 def thread_function(module, function):
-    """The lines of a function of one thread, and its writer."""
     body, writer = function.body, Writer(module, function, set())
     used = {name for item in body.items if not isinstance(item, str) for name in item.registers()}
     lines = [f'extern "C" [[gnu::visibility("default")]] {signature(function, "translated_function")} {{',
@@ -175,7 +174,6 @@ def thread_function(module, function):
 
 
 def source(module, name):
-    """C++ of a kernel or a function."""
     function = module.functions[name]
     if function.is_kernel:
         kernel = Kernel(module, function)
