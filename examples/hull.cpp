@@ -23,7 +23,6 @@ constexpr auto plain_orient3d = [](const point& a, const point& b, const point& 
     return volume > 0 ? sign_type::positive : volume < 0 ? sign_type::negative : sign_type::zero;
 };
 
-/// Three of the points, counterclockwise seen from outside.
 using face = std::array<std::size_t, 3>;
 using edge = std::array<std::size_t, 2>;
 
@@ -136,8 +135,6 @@ std::string flaws(const std::vector<point>& points, const std::vector<face>& fac
     return found;
 }
 
-// The points around the origin are multiples of 2^-60.
-
 using generator = std::mt19937_64;
 
 double rounded(double x) {
@@ -166,7 +163,6 @@ std::vector<point> cube(const Move& move) {
 std::vector<point> turned_cube(generator&) {
     return cube(turned);
 }
-/// Moves points by up to two units in the last place of 0.5.
 std::vector<point> jittered_cube(generator& random) {
     return cube([&](point p) {
         for (double& x : p) x = rounded(x) + (static_cast<double>(random() % 5) - 2) * 0x1p-53;

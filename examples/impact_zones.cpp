@@ -13,7 +13,6 @@ struct impact {
     std::vector<ccd::vertex_index> vertices;
 };
 
-/// Returns the impacts of all reported pairs, in order of time.
 std::vector<impact> impacts_of(const ccd::step_result& result, const ccd::vertex_rows& positions) {
     std::vector<impact> impacts;
     ccd::for_each_kind([&]<ccd::kind K>() {
@@ -28,7 +27,6 @@ std::vector<impact> impacts_of(const ccd::step_result& result, const ccd::vertex
     return impacts;
 }
 
-/// Returns the zone of each vertex. Vertices joined by impacts have equal numbers.
 std::vector<int> zones_of(const std::vector<impact>& impacts, std::size_t vertices) {
     std::vector<ccd::edge> joined;
     for (const impact& i : impacts)

@@ -27,12 +27,12 @@ int sign_changes_in_double(const std::vector<integer>& p) {
 }
 
 int main() {
-    std::vector<integer> c{1};  // ascending
+    std::vector<integer> c{1};
     for (int k = 1; k <= 20; ++k) {
         c.insert(c.begin(), 0);
         for (std::size_t i = 0; i + 1 < c.size(); ++i) c[i] -= k * c[i + 1];
     }
-    for (integer& x : c) x <<= 23;  // a multiple with integer coefficients
+    for (integer& x : c) x <<= 23;
     c[19] -= 1;
 
     std::printf("Values in double change sign %d times\n", sign_changes_in_double(c));

@@ -32,7 +32,7 @@ struct exact_stage {
     positions at;
     cuda::candidates<Pair> candidates;
     outcome* answers;
-    queue open;  ///< candidates for the next stage
+    queue open;
 
     constexpr query_of_pair<Pair, double> query(std::uint32_t i) const {
         return query_at<double>(at, pair_at(candidates, i));
@@ -185,7 +185,7 @@ struct exact_memory {
     exact_counters* counters;
     scene_extent* scene;
     rounded_position* rows;
-    std::uint32_t *first, *second;  ///< items of queues, alternately
+    std::uint32_t *first, *second;
     std::uint32_t* left;
 
     /// Braces fix the order in which memory is taken.
@@ -214,7 +214,7 @@ template <class Launcher, class Pair>
 void run_exact_stages(Launcher& launcher, const positions& at, const candidates<Pair>& candidates,
                       outcome* answers, const exact_memory& memory, precision p) {
     launcher.set(memory.counters, exact_counters{});
-    exact_counters& sizes = *memory.counters;  // only addresses of members are used
+    exact_counters& sizes = *memory.counters;
     const queue to_coplanarity{memory.first, &sizes.coplanarity};
     const queue to_inside{memory.second, &sizes.inside};
     const queue to_subdivision{memory.first, &sizes.subdivision};

@@ -160,7 +160,6 @@ class device_launcher {
         }
         return ok();
     }
-    /// Clears the error before the next call.
     void begin(stream s) {
         stream_ = s;
         status_.error.clear();

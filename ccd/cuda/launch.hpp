@@ -13,7 +13,6 @@
 
 namespace ccd::cuda::detail {
 
-/// Indices of candidates, in memory of sufficient size.
 struct queue {
     std::uint32_t* items;
     std::uint32_t* size;

@@ -133,7 +133,6 @@ struct copy_rows {
     constexpr void operator()(std::uint32_t k) const { to[k] = rows[numbers[k]]; }
 };
 
-/// Lists of selected items, with memory that is kept.
 template <class Launcher>
 class selection {
   public:

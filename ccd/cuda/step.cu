@@ -19,7 +19,7 @@ struct mesh_steps::state {
     std::vector<edge> edges;
     std::size_t vertices = 0;
     bool mesh_copied = false;
-    detail::device_launcher launcher{nullptr};  // its memory is kept
+    detail::device_launcher launcher{nullptr};
     detail::asked_steps<detail::device_launcher> steps;
     detail::device_launcher::buffer<std::byte> batch;
 
@@ -43,7 +43,6 @@ struct mesh_steps::state {
         const auto all = memory_of<detail::exact_memory>(scene, rows, block.count);
         if (!launcher.ok()) return 0;
         if (options.method != method::exact) {
-            // A method_memory is smaller.
             const detail::arena given(batch.data(), batch.size());
             detail::queue_float_method(launcher, at, block, answers, given,
                                        {options.method, options.precision, options.stream});
@@ -148,7 +147,6 @@ struct device_frames {
     }
 };
 
-/// Stored queries, copied to the device block by block.
 template <class Query>
 class stored_queries {
   public:

@@ -149,7 +149,6 @@ struct box_levels {
     }
 };
 
-/// The Morton key of an element's box, and the element as its value.
 template <std::size_t N>
 struct curve_key {
     elements<N> all;
@@ -183,7 +182,7 @@ struct make_leaf {
 };
 struct make_node {
     const rounded_box* below;
-    std::size_t count;  ///< number of boxes in the level below
+    std::size_t count;
     rounded_box* level;
 
     constexpr void operator()(std::uint32_t i) const {
@@ -259,7 +258,6 @@ struct count_of {
     constexpr std::uint64_t operator()(std::uint32_t i) const { return counts[i]; }
 };
 
-/// Writes the candidates with numbers first to first + count − 1.
 template <class Search>
 struct write_candidates {
     Search search;
@@ -284,7 +282,6 @@ struct found_pairs {
     bool finite = true;  ///< false: the step was not tested
 };
 
-/// The memory of the steps of one mesh.
 template <class Launcher>
 class step_memory {
   public:

@@ -68,7 +68,6 @@ constexpr first_time no_contact(const mesh_step_options& asked) {
     return {ask_for_first_contact(asked) ? outcome::separate : outcome::uncertain};
 }
 
-/// The results of a step for one kind, in the launcher's memory.
 template <class Pair>
 struct pairs_and_times {
     std::span<const Pair> pairs;        ///< in contact until t_max
@@ -76,7 +75,6 @@ struct pairs_and_times {
     std::span<const Pair> touching_at_start;
 };
 
-/// The pairs of one kind and their times, with memory that is kept.
 template <class Launcher, class Pair>
 class asked_pairs {
   public:
@@ -141,7 +139,6 @@ class asked_pairs {
     selection<Launcher> selection_;
 };
 
-/// Steps of one mesh, with times of their pairs.
 template <class Launcher>
 class asked_steps {
   public:

@@ -95,7 +95,6 @@ struct root_stage : time_stage<Pair> {
     }
 };
 
-/// The others, by integers of Words words only.
 template <class Pair, int Words>
 struct integer_time_stage : time_stage<Pair> {
     constexpr void operator()(std::uint32_t i) const {
@@ -129,7 +128,7 @@ void run_time_stages(Launcher& launcher, const positions& at, const candidates<P
                      first_time* times, const time_memory& memory, const times_asked& asked) {
     launcher.set(memory.counters, time_counters{});
     launcher.set(memory.t_max, asked.t_max);
-    time_counters& sizes = *memory.counters;  // only addresses of members are used
+    time_counters& sizes = *memory.counters;
     const queue to_one_word{memory.first, &sizes.one_word};
     const queue to_roots_in_two_words{memory.second, &sizes.roots_in_two_words};
     const queue to_two_words{memory.first, &sizes.two_words};

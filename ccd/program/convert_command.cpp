@@ -64,7 +64,6 @@ class query_content {
     boost::crc_optimal<64, 0x42f0e1eba9ea3693, 0, 0, false, false> sum_;
 };
 
-/// Returns rows of hexadecimal floats, with truth if it is known.
 std::string rows_of(const io::query_file& queries) {
     std::string text;
     std::visit(
@@ -182,7 +181,7 @@ class convert final : public command {
             table.push_back(*read);
         }
         const std::filesystem::path made = all.finish();
-        query_content content;  // the output must read back as the input
+        query_content content;
         const auto read =
             for_each_range(made, out.string(), all.kind_of_all(), false,
                            [&](const io::query_file& queries) { content.add(queries); });

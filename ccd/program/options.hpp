@@ -17,7 +17,6 @@ class methods_option {
   public:
     explicit methods_option(CLI::App& line);
     bool was_given() const { return option_->count() > 0; }
-    /// Throws usage_error.
     std::vector<ccd::method> methods() const;
 
   private:
@@ -63,7 +62,6 @@ class unused_vertices_option {
     std::string choice_;
 };
 
-/// Returns one line about unused vertices; empty if there are none.
 std::string text_of_unused(std::size_t unused, std::size_t vertices, bool skipped);
 
 /// Returns `low,high` as hexadecimal floats, or `-` if there is no contact.

@@ -34,7 +34,6 @@ class query final : public command {
         device_choice device;
         time_request times;
     };
-    /// Throws usage_error, device_error.
     request checked_options() const;
     time_request checked_times() const;
     std::vector<ccd::method> methods_on(const device_choice& device) const;
@@ -43,11 +42,10 @@ class query final : public command {
     std::vector<std::optional<std::filesystem::path>> outputs() const {
         return {verdicts_, toi_, json_};
     }
-    /// True if an option is given that only `exact` supports.
     bool requires_exact() const { return toi_ || t_max_.was_given() || separation_.was_given(); }
 
     std::vector<std::filesystem::path> files_;
-    std::string kind_;  ///< empty: from each path
+    std::string kind_;
     bool round_ = false;
     io::file_range range_;
     std::optional<std::filesystem::path> verdicts_, toi_, json_;

@@ -24,7 +24,6 @@ struct query_result {
     double ns_per_query = 0;
 };
 
-/// The tested times and distance, and the outputs in addition to counts.
 struct time_request {
     bool verdicts = false, times = false;
     double t_max = 1;

@@ -69,7 +69,6 @@ bool is_shown(const step_result& result) {
            (result.candidates && result.candidates->of<K>() > 0);
 }
 
-/// Returns the earliest contact: the one that stops the free step, with --advance.
 const first_time& first_contact_of(const step_outcome& found) {
     return found.advance ? found.advance->first_contact : found.result.first_contact;
 }

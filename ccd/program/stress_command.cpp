@@ -28,7 +28,6 @@ class stress_run final : public command {
     exit_status run() override;
 
   private:
-    /// Throws usage_error.
     stress::plan checked_plan() const;
 
     stress::plan plan_;

@@ -65,7 +65,6 @@ inline std::string input_named(const std::string& name) {
     return name == "-" ? "/dev/stdin" : name;
 }
 
-/// Throws usage_error if standard input is among the inputs twice.
 inline void require_one_standard_input(const std::string& option,
                                        const std::vector<std::filesystem::path>& inputs) {
     if (std::ranges::count(inputs, std::filesystem::path(input_named("-"))) > 1)

@@ -31,7 +31,6 @@ int main() {
                     plain(0));
     }
 
-    // Tracked numbers: a resistor network with conductances known to one part in a thousand.
     using number = errbound::tracked<double>;
     const auto about = [](double x) { return number::within(x, x / 1000); };
     const number g01 = about(2), g12 = about(3), g02 = about(1), ground = about(0.5);

@@ -12,7 +12,6 @@ void print(const char* name, const errbound::bernstein<double, N>& form) {
 }
 
 int main() {
-    // A vertex falls from z = 1 to z = -1 through a resting triangle.
     const ccd::vertex_face<double> query{.v = {{0.25, 0.25, 1}, {0.25, 0.25, -1}},
                                          .f0 = {{0, 0, 0}, {0, 0, 0}},
                                          .f1 = {{1, 0, 0}, {1, 0, 0}},

@@ -21,7 +21,6 @@ BACKGROUND = (250, 250, 248)
 
 
 def read_ply(path):
-    """Returns positions, triangles and edges of a frame of `simulate`, binary in this byte order."""
     data = path.read_bytes()
     end = data.index(b"end_header\n") + len(b"end_header\n")
     head = data[:end].decode()
@@ -35,7 +34,6 @@ def read_ply(path):
 
 
 def bodies_of(faces, vertices):
-    """Returns the index of each vertex's connected component."""
     part = numpy.arange(vertices)
     while True:
         least = part[faces].min(axis=1)

@@ -33,7 +33,6 @@ class simulation_run {
 
     const scene& of() const { return scene_; }
     const run_state& state() const { return state_; }
-    /// The positions that the solver proposed in the last frame.
     const rows& proposed() const { return proposed_; }
     void restore(run_state state);
 

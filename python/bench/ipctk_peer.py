@@ -21,7 +21,6 @@ REPEATS, LIMIT = 3, 60  # LIMIT: seconds of one call
 
 
 def ways(mesh, before, after):
-    """Returns functions that compute a step size, by name."""
     return {
         "ipctk": lambda: ipctk.compute_collision_free_stepsize(mesh, before, after),
         "ipctk, our broad phase": lambda: ipctk.compute_collision_free_stepsize(

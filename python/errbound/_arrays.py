@@ -123,14 +123,12 @@ def check_range(name: str, array: NDArray[Any], vertices: int) -> None:
 
 
 def checked_indices(name: str, values: ArrayLike, columns: int, vertices: int) -> Indices:
-    """Same as indices, but checks every type."""
     found = indices(name, values, columns, vertices)
     check_range(name, found, vertices)
     return found
 
 
 def restated(error: ValueError) -> ValueError:
-    """Returns the error without the C++ function name in front of its message."""
     message = re.sub(r"^\w+(::\w+)+: ", "", str(error))
     return error if message == str(error) else ValueError(message)
 

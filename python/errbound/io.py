@@ -117,7 +117,6 @@ def _is_store(name: str) -> bool:
 
 
 def _read_store(name: str, kind: StoredKind | None) -> Queries:
-    """Reads an HDF5 store of queries. Its layout is described in docs/program.md."""
     try:
         h5py: Any = import_module("h5py")
     except ImportError:

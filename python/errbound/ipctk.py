@@ -44,7 +44,6 @@ def _in_space(positions: Doubles) -> Doubles:
 
 
 def _may_collide(kind: ccd.Kind, rows: Indices, can_collide: _CanCollide) -> NDArray[np.bool_]:
-    """True for each pair with a vertex of one element that may collide with a vertex of the other."""
     first, allowed = _FIRST_VERTICES[kind], np.zeros(len(rows), bool)
     for columns in product(range(first), range(first, rows.shape[1])):
         rest = np.flatnonzero(~allowed)
@@ -141,7 +140,6 @@ class BroadPhase(ipctk.BroadPhase):  # type: ignore[misc, unused-ignore]
         self._edge_index, self._face_index = _Lookup(edges, shape[0]), _Lookup(faces, shape[0])
 
     def _pairs(self, kind: ccd.Kind) -> Indices:
-        """Returns the pairs of the whole mesh, found once, that pass the filter."""
         if not self._pairs_of:
             found = self._steps.run(self._before, self._after, distance=2 * self._radius).pairs
             self._pairs_of = {each: getattr(found, each) for each in _FIRST_VERTICES}
@@ -157,7 +155,6 @@ class BroadPhase(ipctk.BroadPhase):  # type: ignore[misc, unused-ignore]
         return self._theirs
 
     def _decided(self, kind: ccd.Kind, rows: Any) -> NDArray[np.bool_]:
-        """True for pairs of the default broad phase that come near enough and pass the filter."""
         positions = _in_space(self._before), _in_space(self._after)
         near = np.array(ccd.decide(rows, kind, positions=positions, distance=2 * self._radius).collides)
         near[near] = _may_collide(kind, rows[near], self.can_vertices_collide)
@@ -185,7 +182,6 @@ class BroadPhase(ipctk.BroadPhase):  # type: ignore[misc, unused-ignore]
         return _as_tuples(first[near], second[near])
 
     def _of_default(self, found: Any, first: str, second: str) -> list[tuple[int, ...]]:
-        """Returns the default's candidates of two elements, one of them a face, that pass the filter."""
         one, other = _ids(found, first, second)
         elements = self._edges if first == "edge_id" else self._faces
         allowed = [any(self.can_vertices_collide(v, w) for v, w in product(a, b))
@@ -417,7 +413,6 @@ def _exact_step(mesh: Any, before: ArrayLike, after: ArrayLike, min_distance: fl
 
 def _theirs(function: Any, mesh: Any, before: ArrayLike, after: ArrayLike, min_distance: float, broad_phase: Any,
             narrow: Any) -> Any:
-    """Calls the toolkit's function with its narrow phase. The default broad phase is BroadPhase()."""
     return function(mesh, np.asfortranarray(before), np.asfortranarray(after), min_distance,
                     BroadPhase() if broad_phase is None else broad_phase, narrow)
 

@@ -38,7 +38,6 @@ Number any_result(source& random, const Number& a, const Number& b, const Number
     }
 }
 
-/// A sequence of operations, each on results of earlier ones.
 template <class T, class Rule>
 void record_program(recorder& to, source& random, bool of_any_size) {
     using number = errbound::tracked<T, Rule>;

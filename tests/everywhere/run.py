@@ -92,7 +92,6 @@ class Build:
             self.environment.setdefault("ERRBOUND_TEST_SCALE", EMULATED_SCALE)
 
     def run(self, *command, why, check=True):
-        """Returns the output. Raises Failed unless the command succeeds."""
         with self.log.open("ab") as log:
             log.write(f"\n== {' '.join(map(str, command))}\n".encode())
             log.flush()
@@ -225,7 +224,6 @@ def chosen_by(label):
 
 
 def source_of(package):
-    """Returns the folder of the distribution's source, fetched if necessary."""
     folder = OUT / package
     if not any((folder / "source").glob(f"{package}-*/")):
         folder.mkdir(parents=True, exist_ok=True)
@@ -290,7 +288,6 @@ def print_row(target, label, jobs, needed):
 
 
 def print_instructions(jobs):
-    """True if the second of COUNTED needs few more instructions than the first."""
     programs = []
     try:
         for target in (next(t for t in TARGETS if t.name == name) for name in COUNTED):

@@ -27,7 +27,6 @@ void add_face(two_frames& to, const ccd::face& f) {
     to.after.faces.push_back(f);
 }
 
-/// A sheet of n by n vertices at a height, waving by steps of 1/64, that moves down by `fall`.
 void add_sheet(two_frames& to, source& random, vertex_index n, double height, double fall) {
     const auto first = static_cast<vertex_index>(to.before.vertices.size());
     for (vertex_index i = 0; i < n; ++i)
@@ -53,7 +52,6 @@ two_frames sheets() {
     return frames;
 }
 
-/// Triangles, edges and points with coordinates of a family.
 two_frames soup(const query_families::family& f, std::uint64_t count) {
     two_frames frames;
     for (std::uint64_t i = 0; i < count; ++i) {

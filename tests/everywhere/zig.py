@@ -10,7 +10,6 @@ ARCHIVERS = {"zig-ar": "ar", "zig-ranlib": "ranlib"}
 
 
 def make_tools(folder, target):
-    """Returns the folder of a target's tools, with the names above. Makes them once."""
     installed, tools = folder / "env", folder / target
     python = installed / "bin" / "python"
     if not (installed / f".{VERSION}").exists():

@@ -63,7 +63,6 @@ def run(build, name, minutes):
 
 
 def features(build, name):
-    """Returns old and new inputs, each with the features (edges) that it covers."""
     folder = FOUND / name
     control = folder / "control"
     control.unlink(missing_ok=True)

@@ -51,7 +51,6 @@ PUBLIC_HEADERS = r"include/(errbound/(rules/|validation/)?|ccd/((methods|study|a
 
 
 def blank(match):
-    """Replaces the text by blanks and keeps its lines."""
     return re.sub(r"[^\n]", " ", match[0])
 
 
@@ -89,7 +88,6 @@ def kind_of_brace(head):
 
 
 def cpp_functions(text):
-    """Returns (name, first line, lines) of every outermost function."""
     code = code_alone(text)
     found, stack, start = [], [], 0
     for mark in re.finditer(r"[{};]|\b(?:public|private|protected)\s*:", code):

@@ -89,7 +89,6 @@ def missing_figures(page, section, measured):
 
 
 def headings(page):
-    """Returns the anchors of a page, as GitHub names them."""
     found = {}
     for heading in re.findall(r"^#+ +(.*?) *$", without_code(page.read_text()), re.MULTILINE):
         text = re.sub(r"\[(.*?)\]\(.*?\)", r"\1", heading)

@@ -18,7 +18,6 @@ using simulation::contact;
 using simulation::rows;
 using simulation::vec3;
 
-/// A particle of mass 2 above a driven triangle.
 contact on_triangle(double least) {
     return {{0, 1, 2, 3}, {1, -0.5, -0.25, -0.25}, vec3::UnitZ(), least};
 }
@@ -57,7 +56,6 @@ TEST(Contacts, DoNotPullOrPushWithoutNeed) {
 }
 
 TEST(Contacts, AChainOfParticlesIsFinished) {
-    // Ten particles, each 1 above the next, fall by 1 onto a driven one.
     std::vector<double> masses(11, 1.0);
     masses[0] = 0;
     const simulation::particle_compliance bodies(masses, 1);
@@ -109,7 +107,6 @@ TEST(Zones, TurnAsOneBody) {
         for (int j = 0; j < 3; ++j)
             EXPECT_NEAR((after.row(i) - after.row(j)).norm(),
                         (before.row(i) - before.row(j)).norm(), 1e-12);
-    // Driven vertices determine the motion.
     after = before;
     after.row(0) += vec3(0, 0, 3).transpose();
     zones.move({0, 1, 1, 1, 1}, before, after);

@@ -21,7 +21,6 @@ namespace {
 
 using simulation::rows;
 
-/// Runs `frames` frames. All must be accepted and free.
 simulation::rows positions_after(simulation::scene scene, int frames) {
     simulation::simulation_run run(std::move(scene), 0);
     for (int k = 0; k < frames; ++k) {

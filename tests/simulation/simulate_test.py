@@ -77,7 +77,6 @@ class Simulate(unittest.TestCase):
         self.assertIn("expected the run to continue", again.stderr)
 
     def refused_after(self, name, change, message):
-        """Expects that a run of 5 frames is not continued after a change of a file. No file changes."""
         shutil.rmtree(self.out, ignore_errors=True)
         simulate("funnel1", "--resolution", 8, "--frames", 5, "--out", self.out)
         file = self.out / name

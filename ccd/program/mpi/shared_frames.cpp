@@ -71,7 +71,6 @@ void for_each_corner(const mesh& elements, const Visit& visit) {
     for (const edge& e : elements.edges) std::ranges::for_each(e, visit);
 }
 
-/// Returns the vertices of this rank's elements that other ranks read, by rank.
 std::vector<std::vector<vertex_index>> read_elsewhere(mpi::detail::exchanger& ranks,
                                                       const frames& own) {
     const auto lasts = ranks.gather(std::vector{own.last()}).items;

@@ -20,7 +20,7 @@ struct elastic_term {
     };
     target kind;
     int columns;
-    int vertices;                                    ///< the number of items in `vertex`
+    int vertices;
     std::array<vertex_index, 4> vertex;              ///
     std::array<std::array<double, 3>, 4> gradients;  ///< G: one factor per vertex and column
     double weight;                                   ///< in newtons per metre, or joules

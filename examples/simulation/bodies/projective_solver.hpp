@@ -30,7 +30,6 @@ class projective_solver : public compliance {
     /// Returns positions after a step from x with velocities v without contact: free vertices by
     /// the equations of motion, driven ones at their rows of `driven`.
     rows propose(const rows& x, const rows& v, const rows& driven);
-    /// Returns one more iteration of the last proposal, from x.
     rows relaxed(const rows& x, const rows& proposed) const override;
 
     /// Uses the same matrix: terms yield as springs in their current directions.

@@ -172,7 +172,7 @@ ccd::pair_filter collision_handler::filter() const {
 
 std::vector<contact> collision_handler::near_at_start(const rows& before, response_report& report) {
     ccd::step_options options{.threads = options_.threads};
-    const double reach = 2 * options_.thickness;  // for pairs that come nearer in the step
+    const double reach = 2 * options_.thickness;
     options.distances.all = reach;
     options.filter = filter();
     std::vector<near_pair> found;
@@ -195,7 +195,6 @@ std::vector<contact> collision_handler::near_at_start(const rows& before, respon
         };
     });
     steps_.for_each_candidate(way(before, before), visitor, options);
-    // Blocks are in any order. A face and a pair of edges may have the same vertices.
     std::ranges::sort(found, {}, [](const near_pair& f) {
         return std::pair(f.between.vertex, f.between.weight);
     });

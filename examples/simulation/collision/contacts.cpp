@@ -38,7 +38,6 @@ double compliance_at(const contact& c, const compliance& bodies) {
             std::abs(c.weight[i]) * std::sqrt(bodies.of(c.vertex[i]));
     return first * first + second * second;
 }
-/// Same as compliance_at, for particles.
 double particles_at(const contact& c, const compliance& particles) {
     double sum = 0;
     for (std::size_t i = 0; i < 4; ++i)
@@ -81,7 +80,6 @@ double missing(const contact& c, const rows& before, const rows& after) {
     return c.least - moved;
 }
 
-/// Returns contacts that push, or whose inequalities are violated in one of two positions.
 std::vector<std::size_t> active_contacts(const std::vector<contact>& contacts, const rows& before,
                                          const rows& free, const rows& after) {
     std::vector<std::size_t> chosen;

@@ -36,7 +36,6 @@ nearest_points nearest_vertex_face(const std::array<vec3, 4>& x) {
         const double w = normal.dot((b - a).cross(p - a)) / area;
         if (u >= 0 && v >= 0 && w >= 0) return of_weights(x, {1, -u, -v, -w});
     }
-    // The nearest point is on one of the edges.
     const double ab = place_on(p, a, b), bc = place_on(p, b, c), ca = place_on(p, c, a);
     nearest_points best = of_weights(x, {1, ab - 1, -ab, 0});
     for (const nearest_points& other :

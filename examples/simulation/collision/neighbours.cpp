@@ -37,7 +37,7 @@ bool neighbours::next_to(vertex_index v, std::span<const vertex_index> feature) 
 bool neighbours::nearest_of_surface(std::span<const vertex_index> feature, const vec3& on,
                                     const vec3& from, std::span<const vertex_index> other,
                                     const rows& positions) const {
-    constexpr double rounding = 1e-6;  // tolerance for angles
+    constexpr double rounding = 1e-6;
     const vec3 up = from - on;
     return std::ranges::none_of(around(feature), [&](vertex_index v) {
         const vec3 along = positions.row(v).transpose() - on;

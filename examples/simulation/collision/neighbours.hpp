@@ -29,8 +29,8 @@ class neighbours {
     bool next_to(vertex_index v, std::span<const vertex_index> feature) const;
     std::span<const vertex_index> around(std::span<const vertex_index> feature) const;
 
-    std::vector<std::vector<vertex_index>> of_vertex_;        ///< the other ends of its edges
-    std::map<ccd::edge, std::vector<vertex_index>> of_edge_;  ///< third vertices of its faces
+    std::vector<std::vector<vertex_index>> of_vertex_;
+    std::map<ccd::edge, std::vector<vertex_index>> of_edge_;
 };
 
 }  // namespace simulation

@@ -23,7 +23,6 @@ std::vector<std::string> cells_of(const std::string& line) {
     return cells;
 }
 
-/// Returns NaN for an empty cell.
 double number_of(const std::string& cell, const std::string& place) {
     if (cell.empty()) return std::nan("");
     const auto read = errbound::support::parse_decimal<double>(cell);
@@ -32,7 +31,6 @@ double number_of(const std::string& cell, const std::string& place) {
     return read.value;
 }
 
-/// Returns columns by name, with NaN for empty cells.
 std::map<std::string, std::vector<double>> columns_of(const std::filesystem::path& path) {
     std::istringstream table(errbound::support::read_whole(path));
     std::string line;

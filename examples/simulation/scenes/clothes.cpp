@@ -12,12 +12,10 @@ namespace {
 
 constexpr double waist = 0.16, hem = 0.36, length = 0.75;
 
-/// Returns a leg's angle to the vertical at a time, in radians.
 double swing(double time, double side) {
     return side * 0.45 * std::sin(2 * std::numbers::pi * time);
 }
 
-/// Returns the rotation about z, which starts slowly.
 Eigen::AngleAxisd turn(double time) {
     return {1.2 * std::sin(0.5 * std::numbers::pi * time) * std::min(1.0, time), vec3::UnitZ()};
 }

@@ -12,7 +12,6 @@ namespace {
 constexpr double side = 1.0, rim = 0.55, neck = 0.13, slope_height = 0.45, neck_height = 0.3;
 constexpr double ball = 0.09;
 
-/// Returns the profile from the rim to the end of the neck, with a rounded edge between.
 std::vector<std::array<double, 2>> profile(int rings) {
     std::vector<std::array<double, 2>> curve;
     const double slope = std::hypot(rim - neck, slope_height), length = slope + neck_height;

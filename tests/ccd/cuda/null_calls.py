@@ -30,7 +30,6 @@ CALL = re.compile(r"call(?:\.uni)?\s+(?:\([^)]*\),\s*)?([%\w$]+)")
 
 
 def functions(ptx):
-    """Yields (name, lines) of each function with a body."""
     name, lines = None, []
     for line in ptx.splitlines():
         if match := FUNCTION.match(line):
@@ -147,7 +146,6 @@ def main(commands, cases):
 
 
 def cases_are_found(text):
-    """True if the findings of the cases, with those of the functions that they call, are as expected."""
     calls = collections.defaultdict(set)
     for name, lines in functions(text):
         calls[name].update(re.findall(r"\b_Z[\w$]+", " ".join(lines)))

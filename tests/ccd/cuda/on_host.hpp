@@ -61,7 +61,6 @@ std::vector<ccd::outcome> decide_by(const ccd::cuda::positions& at,
     return answers;
 }
 
-/// Computes first times of candidates completely, with the host's part.
 template <class Pair>
 std::vector<ccd::first_time> first_times(const ccd::cuda::positions& at,
                                          const ccd::cuda::candidates<Pair>& all,
@@ -118,7 +117,6 @@ inline ccd::step_result step(const ccd::mesh& before, const ccd::mesh& after,
     return result;
 }
 
-/// Calls visit<Method>(method) for all methods except `exact`.
 template <class Visit>
 void for_each_float_method(const Visit& visit) {
     using ccd::method, ccd::cuda::detail::bsc_method, ccd::cuda::detail::safeccd_method;

@@ -25,7 +25,6 @@ inline ccd::cuda::positions positions_of(const ccd::vertex_rows& rows) {
     return {coordinates::rows(rows.before), coordinates::rows(rows.after), rows.vertices};
 }
 
-/// Queries of one kind, each with four separate vertices.
 template <class Pair>
 struct batch {
     static constexpr bool of_faces = std::is_same_v<Pair, ccd::vertex_face_pair>;
@@ -45,14 +44,12 @@ struct batch {
         }
     }
     std::size_t size() const { return queries.size(); }
-    /// The form for device code, in this batch's memory.
     ccd::cuda::positions positions() const { return positions_of({before, after}); }
     ccd::cuda::candidates<Pair> candidates() const {
         return ccd::cuda::candidates<Pair>::rows(rows.data(), size());
     }
 };
 
-/// Returns `count` queries of a family, or fewer if its truth is slow.
 template <class Pair>
 batch<Pair> of_family(const query_families::family& family, std::uint64_t count, std::uint64_t seed,
                       batch<Pair> all = {}) {

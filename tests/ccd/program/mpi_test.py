@@ -75,7 +75,6 @@ class DistributedStep(ProgramTest):
                 self.assertEqual(err.count(message), 1, err)
 
     def apart(self, *arguments_of_ranks):
-        """Returns status and errors of ranks with different folders and arguments."""
         command = []
         for folder, *arguments in arguments_of_ranks:
             line = " ".join(map(str, (os.environ["CCD_MPI_PROGRAM"], *arguments)))

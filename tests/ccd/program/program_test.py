@@ -62,7 +62,6 @@ class ProgramTest(unittest.TestCase):
         return done.stdout
 
     def bad_input(self, message, *arguments):
-        """Expects status 1, the message, no output and no output file."""
         before = sorted(self.directory.rglob("*"))
         out = self.directory / "bad.out"
         outputs = ["--json", out]
@@ -498,7 +497,6 @@ class Device(ProgramTest):
     """Runs with CUDA and a device, without a device, and in builds without CUDA."""
 
     def device(self):
-        """Returns the exit status of every run on a device, or None if it is 0."""
         frames = [self.write("0.ply", ply(BEFORE, FACES)), self.write("1.ply", ply(AFTER, FACES))]
         pairs = self.directory / "pairs"
         done = self.run_program("step", *frames, "--device", "cuda", "--pairs", pairs)

@@ -145,7 +145,6 @@ class StepTimes(StepTest):
 
 class Advance(StepTest):
     def advance(self, before, after, *options):
-        """Returns the JSON of a free step, and the pairs of a step to its positions."""
         out, result = self.directory / "free.ply", self.directory / "free.json"
         self.good("step", before, after, "--advance", out, "--json", result, *options)
         pairs, _, again = self.step(before, out, *options)

@@ -152,7 +152,6 @@ class Pages(Views):
 
 class ForParaView(Views):
     def shares(self, cells, lines):
-        """Computes the pairs of each cell and the earliest of their times from their definition."""
         pairs = []
         for line in lines:
             short, *fields = line.split(",")

@@ -26,13 +26,12 @@ struct memory_map {
     static constexpr u64 granule = 256;
     u64 begin, end;
     char* content;
-    u16* valid;  ///< allocated bytes of each granule, from its start
+    u16* valid;
 };
 
 struct lane;
 using resolver = void* (*)(lane&, const char* function);
 
-/// The state that the threads of a block share.
 struct thread_block {
     u32 ntid[3], nctaid[3], ctaid[3];
     char* shared;
@@ -113,7 +112,6 @@ void resolve(lane& l, F*& function, const char* name) {
     if (function == nullptr) function = reinterpret_cast<F*>(l.block->resolve(l, name));
 }
 
-/// Calls f with the index of each lane of a mask.
 template <class F>
 void for_lanes(u32 lanes, F f) {
     for (; lanes != 0; lanes &= lanes - 1) f(static_cast<u32>(std::countr_zero(lanes)));

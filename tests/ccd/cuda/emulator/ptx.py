@@ -43,7 +43,6 @@ class Instruction:
 
 
 def split(text):
-    """The parts of text between commas that are outside brackets."""
     parts, depth, start = [], 0, 0
     for i, c in enumerate(text):
         depth += (c in "[{(") - (c in ")}]")
@@ -54,7 +53,6 @@ def split(text):
 
 
 def bytes_of(text, type):
-    """The initial value of a variable: numbers of one type."""
     result = b""
     for number in re.findall(r"[-\w$.]+", text or ""):
         if match := re.fullmatch(r"0[fFdD]([0-9a-fA-F]+)", number):

@@ -54,7 +54,6 @@ void compare(const char* name, const std::vector<T>& in) {
         std::printf("%s differs for %u operands\n", name, differ), all_right = false;
 }
 
-/// Returns random values; half of them are special.
 template <class T>
 std::vector<T> operands() {
     static std::mt19937_64 random(5);
@@ -204,7 +203,6 @@ CASE("add.s16 %0, %1, %2; shr.u16 %0, %0, 3;", u16, "h", u16, "h", u16(a + b) >>
 CASE("setp.lt.s16 p, %1, %2; not.pred q, p; selp.u16 %0, 1, 2, q;", s16, "h", s16, "h",
      a < b ? 2 : 1);
 
-/// Writes the results of shuffles, votes and atomic operations of each lane.
 __global__ void meet(u32* out, u32* sum, u64* least) {
     const u32 t = threadIdx.x, all = ~0u;
     u32* const mine = out + 8 * t;

@@ -21,7 +21,6 @@ ENDS = {"bra", "ret", "exit", "trap"}
 
 
 def blocks_of(body):
-    """The basic blocks, and the index of the block at each label."""
     blocks, labels, open_block = [], {}, False
     for item in body.items:
         if isinstance(item, str):
