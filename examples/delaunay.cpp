@@ -166,7 +166,6 @@ class triangulation {
 
 using integer = boost::multiprecision::cpp_int;
 
-/// Returns the points in a unit in which all coordinates are integers.
 std::vector<std::array<integer, 2>> as_integers(const std::vector<point>& points) {
     int unit = 0;
     for (const point& p : points)
@@ -271,10 +270,10 @@ class examination {
 };
 
 using generator = std::mt19937_64;
-double uniform(generator& random) {  // in [0, 1)
+double uniform(generator& random) {
     return static_cast<double>(random() >> 11) * 0x1p-53;
 }
-double jittered(generator& random, double x) {  // by up to two units in the last place
+double jittered(generator& random, double x) {
     return x + (static_cast<double>(random() % 5) - 2) * 0x1p-52;
 }
 

@@ -12,7 +12,6 @@ namespace errbound::support {
 /// A file with a new name in std::filesystem::temp_directory_path(). The destructor removes it.
 class scratch_file {
   public:
-    /// Throws file_error.
     scratch_file();
     ~scratch_file();
     scratch_file(const scratch_file&) = delete;

@@ -17,7 +17,6 @@ class awaited_signals {
     awaited_signals(const awaited_signals&) = delete;
     awaited_signals& operator=(const awaited_signals&) = delete;
 
-    /// The signal that arrived, or 0.
     const std::atomic<int>& arrived() const;
 
   private:

@@ -7,7 +7,6 @@
 #include <exception>
 #include <vector>
 
-// The mean of squares minus the square of the mean.
 template <class S>
 S naive_variance(const std::vector<S>& x) {
     const errbound::scope s("naive");

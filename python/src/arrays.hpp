@@ -33,7 +33,6 @@ class shared_items {
         : items_(new std::vector<Item>(std::move(items))),
           owner_(items_, [](void* p) noexcept { delete static_cast<std::vector<Item>*>(p); }) {}
 
-    /// Returns one number of each item, as a strided view.
     template <class Number>
     nb::object column(const Number& of_first) const {
         return view(&of_first, {items_->size()}, {stride<Number>()});

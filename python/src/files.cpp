@@ -40,7 +40,6 @@ void write_text(const std::string& path, const std::string& text) {
     support::write_whole(path, text);
 }
 
-/// Returns the kind, queries in the library's layout, and truth or None.
 nb::tuple read_queries(const std::string& path, const std::optional<std::string>& kind,
                        bool round) {
     std::optional<ccd::kind> wanted;

@@ -40,7 +40,6 @@ class questions {
         if (pairs_) rows_ = {before_->data(), after_->data(), before_->shape(0)};
     }
 
-    /// Returns visit(queries) or visit(positions, pairs).
     template <class Visit>
     auto visit(const Visit& visit) const {
         return ccd::visit_kind(kind_, [&]<ccd::kind K>() {

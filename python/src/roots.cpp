@@ -106,7 +106,6 @@ nb::object count_of_rows(const input<double, -1, -1>& rows, double a, double b, 
     return numbers_of<std::int64_t>(std::move(counts));
 }
 
-/// A numerator in hexadecimal digits, and an exponent of two.
 using exact_point = std::pair<std::string, int>;
 exact_point exact_of(const roots_type::point& x) {
     return {text_of(x.numerator()), x.exponent()};
@@ -199,7 +198,7 @@ class kept_roots {
   private:
     double a_, b_;
     std::mutex mutex_;
-    const std::function<bool()>* stop_ = nullptr;  ///< of the running call
+    const std::function<bool()>* stop_ = nullptr;
     std::optional<roots_type> roots_;
 };
 

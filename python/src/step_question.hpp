@@ -20,7 +20,7 @@ using positions = input<double, -1, 3>;
 using numbers = input<double, -1>;
 using group_numbers = input<std::int32_t, -1>;
 using flags = input<std::uint8_t, -1>;
-using numbered = input<std::uint64_t, -1>;  // 64-bit vertex numbers
+using numbered = input<std::uint64_t, -1>;
 
 /// Converts a callback's result, a bool or NumPy's. None is an error: a return statement is
 /// missing.

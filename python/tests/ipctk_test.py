@@ -18,7 +18,6 @@ if ipctk:
 
 
 def sheet_over_ball(cells=12):
-    """Returns a sheet whose step passes through a sphere."""
     grid = np.linspace(-1, 1, cells + 1)
     x, y = (a.ravel() for a in np.meshgrid(grid, grid))
     sheet = np.column_stack([x, y, np.full_like(x, 0.71)])

@@ -197,7 +197,6 @@ TYPED_TEST(device_bodies, coordinates_that_are_not_finite_are_uncertain) {
     auto set = cuda_sets::of_families<TypeParam>(20, 5);
     constexpr double infinity = std::numeric_limits<double>::infinity();
     const double poisons[] = {infinity, -infinity, std::numeric_limits<double>::quiet_NaN()};
-    // Changes one coordinate after the other, in every seventh query.
     const auto poisoned = [](std::size_t i) { return i % 7 == 0; };
     for (std::size_t i = 0; i < set.size(); ++i) {
         if (!poisoned(i)) continue;
@@ -449,7 +448,7 @@ TEST(device_step, refuses_coordinates_that_are_not_finite) {
     for (const double bad :
          {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
         ccd::mesh broken = mesh;
-        broken.vertices[4].y = bad;  // a vertex without faces
+        broken.vertices[4].y = bad;
         host_launcher launcher;
         ccd::cuda::detail::step_memory<host_launcher> memory;
         memory.set_mesh(launcher, 5, mesh.faces, ccd::unique_edges(mesh.faces));

@@ -25,7 +25,7 @@ class device_memory {
     void set_valid(u64 offset, u64 bytes, bool valid);
 
     memory_map map_{};
-    std::map<u64, u64> allocations_;  // offset -> bytes
+    std::map<u64, u64> allocations_;
     u64 next_ = 4096;
 };
 device_memory& memory();
@@ -38,7 +38,6 @@ long setting(const char* name);
 
 class module {
   public:
-    /// Takes the PTX of a fatbinary.
     explicit module(const unsigned char* fatbinary);
     const kernel& find_kernel(const std::string& name);
     void* find_function(const std::string& name);
@@ -51,7 +50,7 @@ class module {
     std::string ptx_, folder_;
     std::map<std::string, const kernel*> kernels_;
     std::map<std::string, void*> functions_;
-    std::map<std::string, u64> variables_;  // addresses
+    std::map<std::string, u64> variables_;
 };
 
 struct registered_kernel {
