@@ -1,0 +1,113 @@
+"""Checks how comments, docstrings and pages are written, in the rooms that are listed as done.
+
+usage: prose_test.py SOURCE_FOLDER [--statistics] [PATH...]
+
+Without paths it checks ROOMS and fails if a rule is broken. --statistics prints the counts for all tracked files
+instead. Rules: no sentence opens with a word that makes it a fragment, none contains a word of the list, none is longer
+than MOST_WORDS words, and no public header opens with more than MOST_LINES lines of comment.
+"""
+import ast
+import io
+import re
+import subprocess
+import sys
+import tokenize
+from pathlib import Path
+
+MOST_WORDS = 25
+MOST_LINES = 12
+ROOMS = ["README.md", "CONTRIBUTING.md", "CHANGELOG.md", "docs/*.md"]
+OPENINGS = re.compile(r"(Of|That|Those|What|Whether|By|As)\b(?! (is|are|was) )")
+WORDS = re.compile(
+    r"\b(but for|so many|likewise|held against|told apart|left open|whoever|nobody|as it comes|as long as it takes|"
+    r"in turns|now and then|nothing is known|(?:is|are|was|were) asked|asks|says|tells|knows|of one's own|mended|mends)\b",
+    re.IGNORECASE)
+# Sentences that the rules do not fit, by their file and a part of them.
+EXCEPTIONS = []
+
+
+def of_cpp(text):
+    """Blocks of comment lines."""
+    block = []
+    for line in text.splitlines():
+        found = re.match(r"\s*//[/!]?<? ?(.*)", line) or re.match(r".*\S.*?[;,{] +//[/!]?<? ?(.*)", line)
+        alone = found and line.lstrip().startswith("//")
+        if not alone and block:
+            yield "\n".join(block)
+            block = []
+        if alone:
+            block.append(found[1])
+        elif found:
+            yield found[1]
+    if block:
+        yield "\n".join(block)
+
+
+def of_python(text):
+    for node in ast.walk(ast.parse(text)):
+        if isinstance(node, (ast.Module, ast.ClassDef, ast.FunctionDef)) and ast.get_docstring(node):
+            yield ast.get_docstring(node)
+    yield from of_scripts("\n".join(t.string for t in tokenize.generate_tokens(io.StringIO(text).readline)
+                                    if t.type == tokenize.COMMENT))
+
+
+def of_scripts(text):
+    yield from re.findall(r"(?:^ *# ?.*\n?)+", text, re.MULTILINE)
+
+
+def of_pages(text):
+    text = re.sub(r"```.*?```|~~~.*?~~~", "\n\n", text, flags=re.DOTALL)
+    yield re.sub(r"^(\||#).*$", "\n", text, flags=re.MULTILINE)
+
+
+READERS = {".hpp": of_cpp, ".cpp": of_cpp, ".cuh": of_cpp, ".cu": of_cpp, ".py": of_python, ".pyi": of_python,
+           ".md": of_pages, ".sh": of_scripts, ".cmake": of_scripts}
+
+
+def sentences(block):
+    block = re.sub(r"^ *#+ ?", "", block, flags=re.MULTILINE)
+    for paragraph in re.split(r"\n\s*\n|\n\s*(?:[*-]|\d+\.) ", block):
+        text = re.sub(r"`[^`]*`|\[([^\]]*)\]\([^)]*\)", lambda m: m[1] or "X", " ".join(paragraph.split()))
+        yield from re.split(r"(?<=[.!?;:])\s+", text)
+
+
+def broken(path, text):
+    """Pairs of rule and sentence."""
+    for block in READERS[path.suffix](text):
+        for sentence in sentences(block):
+            if OPENINGS.match(sentence):
+                yield "opening", sentence
+            if word := WORDS.search(sentence):
+                yield f"\"{word[0]}\"", sentence
+            if len(re.findall(r"[A-Za-z]\S*", sentence)) > MOST_WORDS:
+                yield f"over {MOST_WORDS} words", sentence
+    opening = re.match(r"(?://.*\n)*", text)[0].count("\n")
+    if path.suffix == ".hpp" and opening > MOST_LINES:
+        yield "opening comment", f"{opening} lines, expected at most {MOST_LINES}"
+
+
+def tracked(root, patterns):
+    listed = subprocess.run(["git", "-C", root, "ls-files", "-z", *patterns], check=True, stdout=subprocess.PIPE, text=True)
+    return [Path(name) for name in sorted(filter(None, listed.stdout.split("\0"))) if Path(name).suffix in READERS]
+
+
+def main():
+    root, *arguments = sys.argv[1:]
+    statistics = "--statistics" in arguments
+    patterns = [a for a in arguments if a != "--statistics"] or ([] if statistics else ROOMS)
+    counts = {}
+    for path in tracked(root, patterns):
+        text = (Path(root) / path).read_text(errors="replace")
+        for rule, sentence in broken(path, text):
+            if any(str(path) == name and part in sentence for name, part in EXCEPTIONS):
+                continue
+            counts[rule] = counts.get(rule, 0) + 1
+            if not statistics:
+                print(f"{path}: {rule}: {sentence}")
+    for rule, count in sorted(counts.items(), key=lambda item: -item[1]):
+        print(f"{count:6,} {rule}")
+    return bool(counts) and not statistics
+
+
+if __name__ == "__main__":
+    sys.exit(main())
