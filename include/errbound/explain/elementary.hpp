@@ -1,5 +1,5 @@
-// Elementary functions (errbound/elementary.hpp) of explained numbers: each is one operation, whose
-// arguments' contributions are carried on (functions.hpp).
+// Elementary functions (errbound/elementary.hpp) of explained numbers, each one operation
+// (functions.hpp).
 #pragma once
 
 #include <cstddef>

@@ -1,7 +1,7 @@
-// The stages of a predicate after its first filter, and what decides which of them there are.
+// The stages of a predicate after its first filter.
 //
-// Apart from predicate_type so that a predicate that is declared and not asked costs nothing: what
-// its expression asks of the stages is found when the first of them is compiled.
+// Separate from predicate_type, so that an unused predicate costs nothing: the expression is
+// analysed when the first of these stages is compiled.
 #pragma once
 
 #include <algorithm>
@@ -34,7 +34,7 @@ class predicate_stages {
                   "sign_of(x), which can be uncertain");
 
   public:
-    /// Of coordinates that fit a word.
+    /// Width of coordinates that fit one word.
     static constexpr int word_bits = integers::word_coordinates<1>::max_bits;
 
   private:
@@ -61,14 +61,13 @@ class predicate_stages {
                   "errbound: the expression's answer is the same whatever the signs it asks for");
 
   public:
-    /// What the expression asks for coordinates of one word.
+    /// The expression's counts for coordinates of one word.
     static constexpr expression_counts counts = findings.counts;
-    /// Whether there is a semi-static filter: what it saves grows with the degree.
+    /// True for expressions of high enough degree to gain from it.
     static constexpr bool has_semi_static_filter =
         !counts.mixed && counts.degree >= 5 && !branches<Shape, F>;
-    /// So many bits may coordinates have for no result to take more than `bits`; 0 where results
-    /// may have been missed.
-    /// Proof: proofs/Widths.v, coordinate_bits_enough.
+    /// Largest coordinate width for which every result fits in `bits` bits; 0 if results may be
+    /// missing. Proof: proofs/Widths.v, coordinate_bits_enough.
     static constexpr int coordinate_bits(int bits) {
         if (!counts.complete) return 0;
         int least = word_bits;
@@ -80,7 +79,6 @@ class predicate_stages {
         return least;
     }
 
-    /// Whether the options say of which degree each coordinate is.
     static constexpr bool has_degrees = !Options::degrees.empty();
     static_assert(
         !has_degrees || Options::degrees.size() == Shape::size,
@@ -98,14 +96,14 @@ class predicate_stages {
                   "different degree are added, or the compiler does not see all branches");
 
     static constexpr bool mixed = !Options::homogeneous && (counts.mixed || !counts.complete);
-    /// Where terms of different degree are added, 1 is one more coordinate.
+    /// If terms of different degree are added, 1 is one more coordinate.
     static constexpr std::size_t listed_size = Shape::size + mixed;
     using coordinate_list = std::array<double, listed_size>;
 
     template <class... Points>
     static constexpr coordinate_list listed(const Points&... p) {
         coordinate_list list{};
-        // A copy: device code does not see static members.
+        // A copy: device code cannot access static members.
         constexpr auto dimensions = Shape::dimensions;
         std::size_t i = 0, argument = 0;
         const auto add = [&](const auto& given) {
@@ -118,7 +116,7 @@ class predicate_stages {
         return list;
     }
 
-    /// By the first stage that is certain; counted in the report, if there is one.
+    /// The sign by the first certain stage; counts it in the report, if any.
     template <class T>
     [[gnu::noinline]] static constexpr sign_type decide(const coordinate_list& list,
                                                         predicate_report* report) {
@@ -133,7 +131,7 @@ class predicate_stages {
             return sign_type::uncertain;
         }
         if constexpr (has_semi_static_filter) {
-            // Products of smaller coordinates are all subnormal: slow, and nothing is decided.
+            // Products of smaller coordinates are all subnormal: slow, and never certain.
             const int exponent = static_cast<int>(largest >> 52) - 1021;
             const bool in_range = exponent * counts.degree > std::numeric_limits<T>::min_exponent;
             if (!std::is_constant_evaluated() && in_range) {
@@ -158,7 +156,7 @@ class predicate_stages {
         return decide_exactly(list, largest, counted);
     }
 
-    /// The sign that one of them alone finds.
+    /// The sign by a single stage.
     template <class T>
     static constexpr sign_type by(predicate_stage stage, const coordinate_list& list) {
         using enum predicate_stage;
@@ -176,12 +174,12 @@ class predicate_stages {
     }
 
   private:
-    /// By integers, the first that hold the coordinates.
+    /// By the first integers that hold the coordinates.
     template <class Counted>
     static constexpr sign_type decide_exactly(const coordinate_list& list, std::uint64_t largest,
                                               const Counted& counted) {
         using enum predicate_stage;
-        // Where two words hold all results of one-word coordinates, doubles would gain nothing.
+        // If two words hold all results of one-word coordinates, doubles gain nothing.
         if constexpr (short_bits < word_bits) {
             const sign_type s = by_doubles(list, largest);
             if (certain(s)) return counted(s, exact_doubles);
@@ -200,9 +198,9 @@ class predicate_stages {
         }
         return counted(by_any(list), long_integers);
     }
-    /// The coordinates times 2^(−s·degree), s such that the largest is near 1. Every number whose
-    /// sign the expression asks for is then 2^(−s·d) times what it was, d its degree: its sign is
-    /// the same. Where they are near 1, or a coordinate would lose something, as they are.
+    /// The coordinates times 2^(−s·degree), with the largest near 1. Each number of degree d scales
+    /// by 2^(−s·d), so signs stay. Returns the list unchanged if it is near 1 already or scaling is
+    /// inexact.
     static constexpr coordinate_list near_one(const coordinate_list& list) {
         using traits = number_traits<double>;
         constexpr int moderate = 16;
@@ -252,7 +250,7 @@ class predicate_stages {
         return sign_over<Shape>(F(), c.value, [&](double v) { return scalar{v, c.unit}; });
     }
 
-    /// Words that are short when brought to the largest common unit.
+    /// Coordinates that are short in the largest common unit.
     static constexpr sign_type by_short(const integers::word_coordinates<listed_size>& words) {
         if (words.least_bits() > short_bits) return sign_type::uncertain;
         if constexpr (short_bits == word_bits) return by_words(words);
@@ -261,7 +259,7 @@ class predicate_stages {
     static constexpr sign_type by_words(const integers::word_coordinates<listed_size>& words) {
         return by_values<word_bits>(words, 0);
     }
-    /// Inlined: passing the values on would cost as much as a small expression.
+    /// Inlined: passing the values would cost as much as a small expression.
     template <int Bits>
     [[gnu::always_inline]] static constexpr sign_type by_values(
         const integers::word_coordinates<listed_size>& words, int shift) {
@@ -273,11 +271,11 @@ class predicate_stages {
     }
 
     static constexpr int short_bits = coordinate_bits(127);
-    /// Coordinates of two words: their differences' products end before a word's end.
+    /// Products of two-word coordinates' differences end just before a word's end.
     static constexpr int two_word_bits = 124;
-    /// Of expressions of a higher degree than 3, operations of two words and more are calls:
-    /// inlined they take a second to compile. Expressions that branch go to the next stage: for
-    /// them this one would gain less time than it takes to compile.
+    /// Above degree 3, operations on two or more words are calls: inlined they take a second to
+    /// compile. Expressions that branch skip this stage, which would save less time than it takes
+    /// to compile.
     using two_word_level = integers::integer_level<integers::integer_kind::words, two_word_bits,
                                                    mixed, (counts.degree > 3)>;
     [[gnu::noinline]] static constexpr sign_type by_two_words(const coordinate_list& list) {
@@ -289,7 +287,7 @@ class predicate_stages {
 
     [[gnu::noinline]] static constexpr sign_type by_any(const coordinate_list& list) {
         if constexpr (std::is_void_v<typename Options::exact_type>) {
-            // Long ones are made once.
+            // Converts each coordinate once.
             using level = integers::integer_level<integers::integer_kind::any_length,
                                                   integers::full_range_bits, mixed>;
             using scalar = integers::sized_integer<level, integers::full_range_bits, 1>;
