@@ -57,8 +57,8 @@ struct bernstein {
     }
 };
 
-/// The product: a convolution of scaled coefficients. The factors' scalars may differ, as integers
-/// of fixed width do. Proof: proofs/Bernstein.v, product_form.
+/// The product: a convolution. The factors' scalars may differ. Proof: proofs/Bernstein.v,
+/// product_form.
 template <class S, class T, int A, int B>
 constexpr auto operator*(const bernstein<S, A>& p, const bernstein<T, B>& q) {
     using product = decltype(p[0] * q[0]);
@@ -83,8 +83,7 @@ constexpr bernstein<S, N + 1> elevated(const bernstein<S, N>& p) {
     return r;
 }
 
-/// dp/dt: coefficient i is (i + 1)·h_(i+1) − (N − i)·h_i. Proof: proofs/Bernstein.v,
-/// derivative_form.
+/// Coefficient i is (i + 1)·h_(i+1) − (N − i)·h_i. Proof: proofs/Bernstein.v, derivative_form.
 template <class S, int N>
 requires(N >= 1) constexpr bernstein<S, N - 1> derivative(const bernstein<S, N>& p) {
     const auto times = [](const S& x, int n) { return n == 1 ? x : S(x * S(n)); };
@@ -95,8 +94,7 @@ requires(N >= 1) constexpr bernstein<S, N - 1> derivative(const bernstein<S, N>&
 
 namespace detail {
 
-/// Horner's rule from term I on: sum holds the earlier terms, power is t^I. Integers of fixed width
-/// change their type at each step.
+/// Horner's rule from term I on: sum holds the earlier terms, power is t^I. Types may grow.
 template <int I, class S, int N, class T, class Sum, class Power>
 constexpr auto value_from_term(const bernstein<S, N>& p, const T& s, const T& t, const Sum& sum,
                                const Power& power) {
@@ -109,7 +107,7 @@ constexpr auto value_from_term(const bernstein<S, N>& p, const T& s, const T& t,
 
 }  // namespace detail
 
-/// The form p(s, t) = (s + t)^N · p(t/(s + t)). Cost: 3N − 1 products. Proof: proofs/Bernstein.v,
+/// p(s, t) = (s + t)^N · p(t/(s + t)). Cost: 3N − 1 products. Proof: proofs/Bernstein.v,
 /// value_at_form.
 template <class S, int N, class T>
 constexpr auto value_at(const bernstein<S, N>& p, const T& s, const T& t) {
@@ -119,7 +117,6 @@ constexpr auto value_at(const bernstein<S, N>& p, const T& s, const T& t) {
         return detail::value_from_term<1>(p, s, t, p[0], t);
 }
 
-/// The value at t.
 template <class S, int N>
 constexpr S value_at(const bernstein<S, N>& p, const S& t) {
     return value_at(p, S(S(1) - t), t);
@@ -133,9 +130,8 @@ constexpr bernstein<S, N> reversed(const bernstein<S, N>& p) {
     return r;
 }
 
-/// p on [0, w/(v + w)], times (v + w)^N, for v, w > 0: substitutes s → (v + w)s + vt, t → wt. On
-/// [w/(v + w), 1] use reversed(left_part(reversed(p), w, v)). Proof: proofs/Bernstein.v,
-/// left_part_form.
+/// p on [0, w/(v + w)], times (v + w)^N, for v, w > 0. On the rest use
+/// reversed(left_part(reversed(p), w, v)). Proof: proofs/Bernstein.v, left_part_form.
 template <class S, int N>
 constexpr bernstein<S, N> left_part(const bernstein<S, N>& p, const S& v, const S& w) {
     const S whole = v + w;
@@ -178,8 +174,8 @@ constexpr std::pair<bernstein<S, N>, bernstein<S, N>> halves(const bernstein<S, 
     return {left_half(p), reversed(left_half(reversed(p)))};
 }
 
-/// Scales a tracked form by a power of two so that products of many forms neither underflow nor
-/// overflow. Signs are kept. Exact numbers are returned unchanged.
+/// Scales a tracked form by a power of two, so that products of many forms stay in range. Signs are
+/// kept.
 template <class S, int N>
 constexpr bernstein<S, N> normalized(const bernstein<S, N>& p) {
     if constexpr (is_tracked<S>) {

@@ -1,9 +1,7 @@
-// binary128 as a number type, errbound::float128: __float128 of GCC and clang on x86, long double
-// on AArch64. Elsewhere this header is empty.
+// binary128 as errbound::float128: __float128 of GCC and clang on x86, long double on AArch64.
+// Elsewhere this header is empty. Needs sqrtf128 and fmaf128, which round once (glibc 2.26).
 //
 //   errbound::tracked<errbound::float128> x = 0.1;   // the double, exactly
-//
-// Needs a C library with sqrtf128 and fmaf128, which round once (glibc 2.26).
 #pragma once
 
 #include <bit>

@@ -74,7 +74,6 @@ struct linear_root {
           t(sign_of(l[0]) == sign_type::positive ? l[0] : S(-l[0])) {}
 };
 
-/// Signs of a linear form at its ends.
 struct linear_signs {
     sign_type at0, at1;
 
@@ -94,8 +93,7 @@ struct linear_signs {
 
 /// Sign determination I (TTWM14): the sign of the linear form l at the only inner root of Y, where
 /// Y changes from the strict sign `before` to its opposite. If Y(t_l) has the sign `before`, the
-/// root lies right of t_l, where l has the sign l(1). Proof: proofs/BscSigns.v,
-/// sign_determination_1.
+/// root lies right of t_l. Proof: proofs/BscSigns.v, sign_determination_1.
 template <class S>
 constexpr sign_type sign_at_crossing(const cubic<S>& y, sign_type before,
                                      const bernstein<S, 1>& l) {
@@ -137,10 +135,9 @@ constexpr sign_pair signs_at_pair(const cubic<S>& y, const bernstein<S, 2>& d,
 }
 
 /// The quadratic J with y0·y3·G = s·t·J modulo Y: cancel s⁴ by y0·G − g0·s·Y = t·E, then t³ of the
-/// cubic E by y3·E − e3·Y = s·J. Both are identities, with no degenerate leading coefficient. At an
-/// inner root of Y, sign G = sign(y0·y3)·sign J. If a world assumes a strict end value that is
-/// zero, J vanishes at the root and allows no wrong conclusion. Proof: proofs/BscSigns.v,
-/// reduction.
+/// cubic E by y3·E − e3·Y = s·J. At an inner root of Y, sign G = sign(y0·y3)·sign J. If a world
+/// assumes a strict end value that is zero, J vanishes at the root: no wrong conclusion. Proof:
+/// proofs/BscSigns.v, reduction.
 template <class S>
 constexpr bernstein<S, 2> reduced(const cubic<S>& y, const bernstein<S, 4>& g) {
     const std::array<S, 4> e{y[0] * g[1] - g[0] * y[1], y[0] * g[2] - g[0] * y[2],
@@ -164,7 +161,7 @@ struct decomposition {
     }
 };
 
-/// sign J from the signs of M and R. If M vanishes at the root, evaluate J at M's root (Proof:
+/// sign J from the signs of M and R, or J at M's root if M vanishes there (Proof:
 /// proofs/Published.v, decomposition_zero).
 template <class S>
 constexpr sign_type combined(sign_type m, sign_type r, const bernstein<S, 1>& m_form,
@@ -203,10 +200,10 @@ constexpr sign_pair signs_at_pair(const cubic<S>& y, const bernstein<S, 2>& d,
     return {combined(m[0], r[0], parts.m, j), combined(m[1], r[1], parts.m, j)};
 }
 
-/// The sign of Y at its only inner extremum t_ex, for Y convex there (assumes d0 < 0 < d2). By
-/// Euler, Y = A + t·D/3 = B − s·D/3 with quadratics A (y0, 2y1/3, y2/3) and B, so Y = A = B at
-/// t_ex. Cancelling s² of A by D leaves d0·Y(t_ex) = t·M(t_ex), cancelling t² of B leaves
-/// d2·Y(t_ex) = s·M'(t_ex), with linear M, M'. Proof: proofs/BscSigns.v, root_finding.
+/// The sign of Y at its only inner extremum t_ex, for convex Y (assumes d0 < 0 < d2). By Euler, Y =
+/// A + t·D/3 = B − s·D/3 with quadratics A and B. Cancelling s² of A by D leaves d0·Y(t_ex) =
+/// t·M(t_ex), t² of B d2·Y(t_ex) = s·M'(t_ex), M and M' linear. Proof: proofs/BscSigns.v,
+/// root_finding.
 template <class S>
 constexpr sign_type sign_at_extremum(const cubic<S>& y, const bernstein<S, 2>& d) {
     // The sign of l at t_ex: d increases, so d(t_l) < 0 puts t_ex right of t_l.
@@ -285,18 +282,16 @@ constexpr existence on_increasing(const cubic<S>& y, const quartics<S, M>& g) {
     return found;
 }
 
-/// Y convex and not constant on [0, 1]. Follows every possible world, that is each combination of
-/// strict signs at the ends; at_end tests contact exactly at an end. "No" requires a no in every
-/// world. (The paper sets an uncertain sign to one chosen value.)
+/// Y convex and not constant on [0, 1]. Follows each combination of strict signs that the ends may
+/// have; "no" requires a no in all of them. (The paper sets an uncertain sign to one value.)
 template <class S, std::size_t M>
 [[gnu::noinline]] constexpr existence on_convex(const cubic<S>& y, const bernstein<S, 2>& d,
                                                 const quartics<S, M>& g) {
     const sign_type y0 = sign_of(y[0]), y3 = sign_of(y[3]);
     const bool ends_are_certain = certain(y0) && certain(y3);
     existence found = either(at_end(y0, g, 0), at_end(y3, g, 4));
-    // If Y(0) is exactly zero, Y is t times a quadratic. That quadratic times s + t is a cubic with
-    // the same inner roots but not the one at 0. It has exactly one inner root if Y falls at 0,
-    // otherwise none. Mirrored for Y(1).
+    // If Y(0) is exactly zero, Y is t times a quadratic. That quadratic times s + t has the same
+    // inner roots, not the one at 0: one if Y falls at 0, otherwise none. Mirrored for Y(1).
     if (y0 == sign_type::zero) {
         const sign_type slope = sign_of(y[1]);
         if (possibly_negative(slope) && possibly_positive(y3))
@@ -321,7 +316,6 @@ template <class S, std::size_t M>
     return found;
 }
 
-/// True if the coefficients alone exclude a root with all G_i >= 0.
 template <class S, std::size_t M>
 constexpr bool excluded_by_hull(const cubic<S>& y, const quartics<S, M>& g) {
     if (certainly_rootless(y)) return true;
@@ -360,7 +354,6 @@ constexpr existence of_curvature(const part<S, M>& p, const bernstein<S, 2>& d,
     return curvature == sign_type::positive ? on_convex(p.y, d, p.g) : on_convex(-p.y, -d, p.g);
 }
 
-/// Splits each form by `parts_of`.
 template <class S, std::size_t M, class PartsOf>
 constexpr std::pair<part<S, M>, part<S, M>> divided(const part<S, M>& p, const PartsOf& parts_of) {
     std::pair<part<S, M>, part<S, M>> parts;
@@ -375,9 +368,8 @@ constexpr std::pair<part<S, M>, part<S, M>> divided(const part<S, M>& p, const P
     return parts;
 }
 
-/// The answer on the interval, split at its inflection if it has one; nothing if the sign of Y'' is
-/// uncertain and matters. The split is at the exact inflection, in homogeneous form, so each part
-/// has known curvature. After a rounded split, end signs would lose roots (Proof:
+/// The answer on the interval, split at its exact inflection if it has one; nothing if the sign of
+/// Y'' is uncertain and matters. After a rounded split, end signs would lose roots (Proof:
 /// proofs/Published.v, inflection_loses_roots).
 template <class S, std::size_t M>
 [[gnu::noinline]] constexpr std::optional<existence> without_halving(const part<S, M>& p) {
@@ -404,7 +396,6 @@ template <class S, std::size_t M>
     return either(left, on_side(parts.second, ends.at1));
 }
 
-/// The answer on an interval, by up to max_halvings of it.
 template <class S, std::size_t M>
 [[gnu::noinline]] constexpr existence by_halving(const part<S, M>& whole) {
     std::array<part<S, M>, max_halvings + 1> waiting;  // the earliest last

@@ -28,7 +28,6 @@ enum class solve_status : std::uint8_t {
     out_of_range,     ///< regular, but the solution or its bound is not a double
 };
 
-/// The status in words.
 constexpr const char* reason(solve_status status) {
     switch (status) {
         case solve_status::certified:
@@ -53,9 +52,8 @@ struct certified_solution {
     solve_status status;  ///< `certified`, or the reason
     matrix values;        ///< NaN unless certified
     matrix errors;        ///< |values − exact solution| <= errors; infinite unless certified
-    /// A certified β with |I − RA|v <= βv for some R and v > 0, or infinite. β < 1 proves that the
-    /// matrix is regular. It grows with the condition number: at 1e-3, three digits are left before
-    /// a system is refused.
+    /// A certified β with |I − RA|v <= βv for some R and v > 0; β < 1 proves regularity. Otherwise
+    /// infinite. At 1e-3, three digits of conditioning are left.
     double contraction;
 
     bool certified() const { return status == solve_status::certified; }
@@ -79,9 +77,8 @@ vector<N> error_from_residual(const checked_inverse<N>& inverse, const enclosed_
     return inverse.error_from(z);
 }
 
-/// The solution for one right-hand side. Refines ỹ by residuals in twice the precision until that
-/// gains nothing, encloses y around ỹ + d (d: the last correction), then rounds the sum with a
-/// known error of half a unit in the last place.
+/// Refines ỹ by residuals in twice the precision until that gains nothing, encloses y around ỹ + d
+/// (d: the last correction), and rounds the sum.
 template <int N>
 enclosed_vector<N> solve_column(const checked_inverse<N>& inverse, const vector<N>& b) {
     constexpr int enough = 20;

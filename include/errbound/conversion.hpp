@@ -17,7 +17,6 @@ namespace errbound {
 
 namespace detail {
 
-/// True if every number of type Narrow is one of type Wide.
 template <class Wide, class Narrow>
 inline constexpr bool holds_numbers_of = [] {
     using wide = number_traits<Wide>;
@@ -40,8 +39,8 @@ constexpr auto type_of_both() {
 template <class From, class To>
 using wider_of = decltype(type_of_both<From, To>());
 
-/// x rounded to odd: if x is no double, the neighbouring double whose last bit is 1. Rounding that
-/// to nearest with fewer than 52 bits rounds x correctly (Boldo, Melquiond 2008).
+/// x, or the neighbouring double whose last bit is 1 if x is none. Rounding that to nearest with
+/// fewer than 52 bits rounds x (Boldo, Melquiond 2008).
 template <class Wide>
 constexpr double rounded_to_odd(const Wide& x) {
     const auto nearest = static_cast<double>(x);
@@ -51,8 +50,7 @@ constexpr double rounded_to_odd(const Wide& x) {
     return std::bit_cast<double>((back < x) == (x > 0) ? code + 1 : code - 1);
 }
 
-/// x, rounded once to nearest. A small_float converts only from built-in types, so wider types go
-/// through float or double.
+/// x, rounded once to nearest. A small_float converts only from built-in types.
 template <class To, class From>
 constexpr To nearest_in(const From& x) {
     if constexpr (requires { static_cast<To>(x); })

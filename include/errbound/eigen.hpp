@@ -27,9 +27,8 @@ constexpr bool operator==(const tracked<T, Rule>& a, const tracked<T, Rule>& b) 
 
 }  // namespace errbound
 
-// Pivots are chosen by value (by_value): a wrong choice costs tightness, never soundness.
-// FullPivLU, ColPivHouseholderQR, LDLT, isInvertible, eigenvalues and SVD do not compile: they
-// decide ranks or signs by comparing, which would have to guess.
+// A wrong pivot (by_value) costs tightness, never soundness. FullPivLU, ColPivHouseholderQR, LDLT,
+// isInvertible, eigenvalues and SVD do not compile: they would guess ranks or signs.
 namespace Eigen {
 
 template <class T, class Rule>

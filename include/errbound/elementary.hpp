@@ -27,7 +27,6 @@ template <class Number, class T, class Rule>
 concept plain_number_for =
     !is_tracked<Number> && std::constructible_from<tracked<T, Rule>, const Number&>;
 
-/// Evaluates F in function_type<T>.
 template <elementary_function F, class T, class Rule>
 tracked<T, Rule> function_of(const tracked<T, Rule>& x) {
     if constexpr (!std::is_same_v<T, function_type<T>>) {
@@ -79,8 +78,8 @@ tracked<T, Rule> log1p(const tracked<T, Rule>& x) {
     return detail::function_of<elementary_function::log1p>(x);
 }
 
-/// x in radians, of any size. Exact for an exact 0. The error reaches at most the other end of [−1,
-/// 1].
+/// x in radians, of any size. Exact for an exact 0. The error reaches at most to the far end of
+/// [−1, 1].
 template <class T, class Rule>
 tracked<T, Rule> sin(const tracked<T, Rule>& x) {
     return detail::function_of<elementary_function::sin>(x);
@@ -147,10 +146,9 @@ tracked<T, Rule> cbrt(const tracked<T, Rule>& x) {
     return detail::function_of<elementary_function::cbrt>(x);
 }
 
-/// x^y by the C library's function, if x is certainly positive or y is an exact whole number
-/// (positive if x may be zero). Otherwise the error is infinite, except for an exact 0 x and a
-/// certainly positive y. x^0 and 1^y are exactly 1 and x^1 is x. Whole exponents by products:
-/// pow(x, int).
+/// x^y by the C library, if x is certainly positive or y is an exact whole number (positive if x
+/// may be zero). Otherwise infinite error, except for an exact 0 x and a certainly positive y. x^0
+/// and 1^y are exactly 1, x^1 is x. By products: pow(x, int).
 template <class T, class Rule>
 tracked<T, Rule> pow(const tracked<T, Rule>& x, const tracked<T, Rule>& y) {
     if constexpr (!std::is_same_v<T, detail::function_type<T>>) {

@@ -37,8 +37,7 @@ static_assert(std::numeric_limits<long double>::digits == 64,
 namespace errbound {
 namespace detail {
 
-/// False for a pair of doubles (long double on some PowerPC), whose operations are not rounded
-/// once. libstdc++ reports it as iec559, but no IEEE 754 format has its digits.
+/// False for a pair of doubles (long double on some PowerPC), which libstdc++ reports as iec559.
 template <class T>
 constexpr bool is_ieee_format = [] {
     constexpr int digits_of_pair = 2 * std::numeric_limits<double>::digits;
@@ -48,9 +47,9 @@ constexpr bool is_ieee_format = [] {
 }  // namespace detail
 
 /// The calling thread's floating-point environment and the compiler's treatment of the calling
-/// unit. Tested at run time: compilers do not reveal every flag, and other flags link in code that
-/// sets flush-to-zero at start-up. Covers float, double and long double (subnormals: not long
-/// double), unless that is two doubles.
+/// unit. Tested at run time: compilers do not reveal every flag, and some flags set flush-to-zero
+/// at start-up. Covers float, double and long double (not its subnormals), unless that is two
+/// doubles.
 struct environment_report {
     bool gradual_underflow;  ///< subnormals are neither flushed nor read as zero
     bool as_written;         ///< sums in the written order, with the type's bits, no more

@@ -29,10 +29,10 @@ constexpr T half_ulp(const T& v) {
 
 }  // namespace detail
 
-/// a + b = value + error exactly, value = a ⊕ b. Precondition: no overflow of the sum or the
-/// intermediate results (operands near the largest number); otherwise value or error is infinite or
-/// NaN. Underflow is harmless. Cost: 6 operations. Source: Knuth, TAOCP 2, Section 4.2.2, Theorem B
-/// (TwoSum); any precision >= 2. Proof: proofs/ErrorFree.v, two_sum_exact.
+/// a + b = value + error exactly, value = a ⊕ b. Precondition: no overflow, even of intermediate
+/// results; otherwise value or error is infinite or NaN. Underflow is harmless. Cost: 6 operations.
+/// Source: Knuth, TAOCP 2, 4.2.2, Theorem B (TwoSum); any precision >= 2. Proof:
+/// proofs/ErrorFree.v, two_sum_exact.
 template <class T>
 constexpr with_error<T> two_sum(const T& a, const T& b) {
     const T x = detail::rounded(a), y = detail::rounded(b);
@@ -62,16 +62,14 @@ template <>
 inline constexpr bool has_fast_fma<float> = true;
 #endif
 
-/// Dekker's product is error-free from this precision on: with s = ⌈p/2⌉ the parts need 2 <= s <= p
-/// − 2.
+/// Dekker's product needs 2 <= s <= p − 2 with s = ⌈p/2⌉.
 inline constexpr int least_precision_for_split = 4;
 
-/// x = value + error exactly; with s = ⌈p/2⌉, value has at most p − s bits, error at most s − 1
-/// bits and a sign. Products of such parts are exact. Precondition: p >= least_precision_for_split,
-/// and (2^s + 1)x does not overflow (|x| < 2^996 for double, 2^115 for float); otherwise value and
-/// error are infinite or NaN. Underflow is harmless. Cost: 4 operations. Source: Veltkamp; Dekker
-/// 1971; radix 2: Boldo 2006 (Pitfalls of a full floating-point proof). Proof, of the sum and at
-/// most s bits in the error: proofs/ErrorFree.v, split_exact.
+/// x = value + error exactly; with s = ⌈p/2⌉, value has at most p − s bits, error at most s − 1 and
+/// a sign, so products of parts are exact. Precondition: p >= least_precision_for_split, and (2^s +
+/// 1)x does not overflow (|x| < 2^996 for double, 2^115 for float); otherwise infinite or NaN.
+/// Cost: 4 operations. Source: Veltkamp; Dekker 1971; Boldo 2006 (Pitfalls of a full floating-point
+/// proof). Proof, with at most s bits in the error: proofs/ErrorFree.v, split_exact.
 template <class T>
 constexpr with_error<T> split(const T& x) {
     constexpr int s = (number_traits<T>::digits + 1) / 2;
@@ -80,10 +78,9 @@ constexpr with_error<T> split(const T& x) {
     return {high, x - high};
 }
 
-/// a·b = value + error exactly, value = a ⊙ b, if product_error_is_exact(a, b, result); otherwise
-/// error is unreliable, infinite or NaN. Cost: 2 operations with hardware FMA, otherwise 17.
-/// Source: Dekker 1971 (TwoProduct). Proof: proofs/ErrorFree.v, two_product_exact,
-/// two_product_fma_exact.
+/// a·b = value + error exactly, value = a ⊙ b, if product_error_is_exact(a, b, result). Cost: 2
+/// operations with hardware FMA, otherwise 17. Source: Dekker 1971 (TwoProduct). Proof:
+/// proofs/ErrorFree.v, two_product_exact, two_product_fma_exact.
 template <class T>
 constexpr with_error<T> two_product(const T& a, const T& b) {
     const T v = detail::rounded_product(a, b);
@@ -133,11 +130,10 @@ struct division_remainder {
     bool exact;  ///< otherwise value is unreliable, infinite or NaN
 };
 
-/// Derivation, if two_product(q, b) = (v, e) is exact: q ≠ 0 is within half of itself of a/b, so v
-/// is between a/2 and 2a and a − v is exact (Sterbenz). (a − v) − e is a multiple of ulp(q)·ulp(b)
-/// >= η and at most |b|·ulp(q)/2: fewer than p bits, so exact. Cost: a two_product and 2
-/// operations. Source: Pichat 1976; Bohlender, Walter, Kornerup, Matula 1991. Proof:
-/// proofs/ErrorFree.v, remainder_of_division_exact; with overflow, proofs/IeeeInterval.v,
+/// If two_product(q, b) = (v, e) is exact, v is between a/2 and 2a and a − v is exact (Sterbenz).
+/// (a − v) − e is a multiple of ulp(q)·ulp(b) >= η and at most |b|·ulp(q)/2, so exact. Cost: a
+/// two_product and 2 operations. Source: Pichat 1976; Bohlender, Walter, Kornerup, Matula 1991.
+/// Proof: proofs/ErrorFree.v, remainder_of_division_exact; with overflow, proofs/IeeeInterval.v,
 /// remainder_known.
 template <class T>
 constexpr division_remainder<T> remainder_of_division(const T& a, const T& b, const T& q) {
@@ -148,12 +144,9 @@ constexpr division_remainder<T> remainder_of_division(const T& a, const T& b, co
     return {(a - product.value) - product.error, exact};
 }
 
-/// The remainder x − v² of a rounded root v = √x, x >= 0 finite.
-///
-/// Derivation, if two_product(v, v) = (p, e) is exact and v ≠ 0: x − p is exact (Sterbenz). x − v²
-/// is a multiple of ulp(v)², at most v·ulp(v) in size: since |√x − v| <= ulp(v)/2, it is at most
-/// v·ulp(v) + ulp(v)²/4. Cost and source: as remainder_of_division. Proof: proofs/IeeeSlopes.v,
-/// remainder_of_root_known.
+/// The remainder x − v² of a rounded root v = √x, x >= 0 finite. If two_product(v, v) is exact and
+/// v ≠ 0: |√x − v| <= ulp(v)/2, so x − v² is a multiple of ulp(v)², at most v·ulp(v) in size. Cost
+/// and source: as remainder_of_division. Proof: proofs/IeeeSlopes.v, remainder_of_root_known.
 template <class T>
 constexpr division_remainder<T> remainder_of_root(const T& x, const T& v) {
     return remainder_of_division(x, v, v);

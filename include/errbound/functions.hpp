@@ -72,10 +72,10 @@ constexpr tracked<T, Rule> lesser_or_either(const tracked<T, Rule>& a, const tra
 
 namespace detail {
 
-/// √x by x.error(). With e = x.error() and x̂ = x.value(): |√x − √x̂| = |x − x̂|/(√x + √x̂) <=
-/// e/(√x̂ + √(x̂ − e)), and v = fl(√x̂) adds a rounding. The divisor is rounded up to three times,
-/// quotient and sum once each. Proof: proofs/IeeeFunctions.v, sqrt_known; in any direction,
-/// proofs/Functions.v, sqrt_sound.
+/// √x by e = x.error(), x̂ = x.value(): |√x − √x̂| = |x − x̂|/(√x + √x̂) <= e/(√x̂ + √(x̂ − e)),
+/// and v = fl(√x̂) adds a rounding. Up to three roundings up in the divisor, one each in quotient
+/// and sum. Proof: proofs/IeeeFunctions.v, sqrt_known; in any direction, proofs/Functions.v,
+/// sqrt_sound.
 template <class T, class Rule>
 constexpr tracked<T, Rule> root_by_error(const tracked<T, Rule>& x) {
     using traits = number_traits<T>;
@@ -94,8 +94,7 @@ constexpr tracked<T, Rule> root_by_error(const tracked<T, Rule>& x) {
                           enlarged<T>(e / divisor + T(rounding_of(v) + traits::underflow_unit())));
 }
 
-/// `by_slope` if the values agree and its error is at most an eighth larger; otherwise `by_error`.
-/// Both stand for the same number.
+/// `by_slope` if it has the same value and an error at most an eighth larger; otherwise `by_error`.
 template <class T, class Rule>
 constexpr tracked<T, Rule> closer(const tracked<T, Rule>& by_error,
                                   const tracked<T, Rule>& by_slope) {
@@ -124,11 +123,10 @@ constexpr tracked<T, Rule> root_by_slope(const tracked<T, Rule>& x, const tracke
 
 }  // namespace detail
 
-/// √x. Infinite error if x may be negative. Exact if x is and its root is a T.
-///
-/// Uses the rule's own square_root (`interval`), or the slope 1/(2v) if the rule keeps errors to
-/// first order (`residual`, `affine`), otherwise x.error(). Proof: proofs/IeeeSlopes.v,
-/// slope_sqrt_known, interval_sqrt_known; proofs/IeeeFunctions.v, sqrt_known.
+/// √x. Infinite error if x may be negative. Exact if x is and its root is a T. Uses the rule's own
+/// square_root (`interval`), or the slope 1/(2v) if the rule keeps errors to first order
+/// (`residual`, `affine`), otherwise x.error(). Proof: proofs/IeeeSlopes.v, slope_sqrt_known,
+/// interval_sqrt_known; proofs/IeeeFunctions.v, sqrt_known.
 template <class T, class Rule>
 constexpr tracked<T, Rule> sqrt(const tracked<T, Rule>& x) {
     static_assert(has_subnormals<T>, "errbound: sqrt needs a number type with subnormal numbers");
@@ -148,7 +146,7 @@ constexpr tracked<T, Rule> sqrt(const tracked<T, Rule>& x) {
     }
 }
 
-/// x| by the sign of its value; the error stays, as ||x| − |x̂|| <= |x − x̂|. Proof:
+/// |x| by the sign of its value; the error stays, as ||x| − |x̂|| <= |x − x̂|. Proof:
 /// proofs/IeeeFunctions.v, abs_known.
 template <class T, class Rule>
 constexpr tracked<T, Rule> abs(const tracked<T, Rule>& x) {
@@ -237,10 +235,8 @@ constexpr tracked<T, Rule> fused_by_slope(const tracked<T, Rule>& a, const track
 
 }  // namespace detail
 
-/// ab + c, rounded once by number_traits<T>::fma; slow without an instruction. Does not compile if
-/// the C library's fma rounds twice.
-///
-/// Uses the rule's own `fused` (`interval`), or derivatives if the rule keeps errors to first order
+/// ab + c, rounded once by number_traits<T>::fma; does not compile if that rounds twice. Uses the
+/// rule's own `fused` (`interval`), or derivatives if the rule keeps errors to first order
 /// (`residual`, `affine`), otherwise the errors of a, b and c. Proof: proofs/IeeeSlopes.v,
 /// slope_fma_known, interval_fma_known; proofs/IeeeFunctions.v, fma_known.
 template <class T, class Rule>
@@ -278,11 +274,10 @@ constexpr tracked<T, Rule> midpoint(const tracked<T, Rule>& a, const tracked<T, 
 
 /// a + t(b − a); a if t is exactly 0, b if it is exactly 1. Infinite error if b − a overflows.
 ///
-/// With d = fl(b̂ − â), v = fl(t̂d + â) and errors σ: (1 − t)a + tb − (1 − t̂)â − t̂b̂ = (1 − t)(a
-/// − â) + t(b − b̂) + (t − t̂)(b̂ − â), so σa counts |1 − t| times. (In a + t(b − a) it counts 1 +
-/// |t| times.) Two partial sums have up to six roundings each with enlarging; four products and
-/// three enlargements may lose η each. Proof: proofs/IeeeCompound.v, lerp_known; in any direction,
-/// proofs/Functions.v, lerp_sound.
+/// With v = fl(t̂·fl(b̂ − â) + â) and errors σ: (1 − t)a + tb − (1 − t̂)â − t̂b̂ = (1 − t)(a − â) +
+/// t(b − b̂) + (t − t̂)(b̂ − â), so σa counts |1 − t| times, not 1 + |t|. Two partial sums have up
+/// to six roundings each; seven products may lose η each. Proof: proofs/IeeeCompound.v, lerp_known;
+/// in any direction, proofs/Functions.v, lerp_sound.
 template <class T, class Rule>
 constexpr tracked<T, Rule> lerp(const tracked<T, Rule>& a, const tracked<T, Rule>& b,
                                 const tracked<T, Rule>& t) {
@@ -307,10 +302,9 @@ constexpr tracked<T, Rule> lerp(const tracked<T, Rule>& a, const tracked<T, Rule
 
 /// √(x² + y²), without intermediate overflow or underflow, for at least 8 bits of precision.
 ///
-/// Its change is at most its arguments'. With the larger argument scaled to at least 1/2, two
-/// squares, their sum s >= 1/4 and its root are rounded once each, and underflow costs less than 3η
-/// of s: relatively 2ε + ε² + 7η, or of the result (ε <= 2^-7) less than 3ε + 8η. Proof, to
-/// nearest: proofs/IeeeCompound.v, hypot_known.
+/// Its change is at most its arguments'. With the larger one scaled to at least 1/2, four roundings
+/// and underflow below 3η of the sum are relatively 2ε + ε² + 7η, of the result (ε <= 2^-7) less
+/// than 3ε + 8η. Proof, to nearest: proofs/IeeeCompound.v, hypot_known.
 template <class T, class Rule>
 constexpr tracked<T, Rule> hypot(const tracked<T, Rule>& x, const tracked<T, Rule>& y) {
     using traits = number_traits<T>;
@@ -332,7 +326,7 @@ constexpr tracked<T, Rule> hypot(const tracked<T, Rule>& x, const tracked<T, Rul
                                                  T(inherited + 2 * traits::underflow_unit())));
 }
 
-/// x| with the sign of the exact y; zero counts as positive. If y's sign is uncertain, so is the
+/// |x| with the sign of the exact y; zero counts as positive. If y's sign is uncertain, so is the
 /// result's; if y has no finite bound, the error is infinite. Proof: proofs/IeeeCompound.v,
 /// copysign_known; in any direction, proofs/Functions.v, copysign_sound.
 template <class T, class Rule>
@@ -347,9 +341,8 @@ constexpr tracked<T, Rule> copysign(const tracked<T, Rule>& x, const tracked<T, 
     return tracked<T, Rule>::within(v, detail::enlarged<T>(2 * size.value() + size.error()));
 }
 
-/// x^n by repeated squaring; x^0 is 1. For n < 0 it is 1/x^|n|, with infinite error for a rule
-/// without division. Other exponents: errbound/elementary.hpp. Proof: proofs/IeeeCompound.v,
-/// pow_known.
+/// x^n by repeated squaring; x^0 is 1. For n < 0 1/x^|n|, with infinite error for a rule without
+/// division. Other exponents: errbound/elementary.hpp. Proof: proofs/IeeeCompound.v, pow_known.
 template <class T, class Rule, std::same_as<int> Int>
 constexpr tracked<T, Rule> pow(const tracked<T, Rule>& x, Int n) {
     using number = tracked<T, Rule>;
@@ -399,7 +392,6 @@ constexpr decltype(auto) number_at(const Range& range, std::size_t i) {
     return std::begin(range)[static_cast<difference>(i)];
 }
 
-/// `dot` of numbers a(i) and b(i).
 template <class T, class Rule, class A, class B>
 constexpr tracked<T, Rule> dot_of(std::size_t count, const A& a, const B& b) {
     using number = tracked<T, Rule>;
@@ -425,7 +417,6 @@ constexpr tracked<T, Rule> dot_of(std::size_t count, const A& a, const B& b) {
     }
 }
 
-/// `horner` of coefficients c(i).
 template <class T, class Rule, class C>
 constexpr tracked<T, Rule> horner_of(std::size_t count, const C& c, const tracked<T, Rule>& x) {
     using number = tracked<T, Rule>;

@@ -60,8 +60,7 @@ struct number_traits {
         "errbound: numbers must be binary, of a precision that the type says, and rounded "
         "to nearest");
 
-    /// Largest relative error of one rounding in any direction, the paper's ε = 2u: 2^-52 for
-    /// double, 2^-23 for float.
+    /// Largest relative error of one rounding in any direction, the paper's ε = 2u.
     static constexpr T epsilon() { return std::numeric_limits<T>::epsilon(); }
     /// Largest relative error of one rounding to nearest: u = ε/2.
     static constexpr T unit_roundoff() { return epsilon() / 2; }
@@ -157,8 +156,7 @@ inline constexpr bool has_infinity = [] {
 
 namespace detail {
 
-/// The type that holds T's numbers and computes its operations, which then round once more:
-/// number_traits<T>::computed_in, or T.
+/// The type that computes T's operations, which then round once more: computed_in, or T.
 template <class T>
 struct type_that_computes {
     using type = T;

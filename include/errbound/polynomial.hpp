@@ -56,7 +56,6 @@ struct integer_for<void, C> {
 template <class Named, class C>
 using integer_for_t = typename integer_for<Named, C>::type;
 
-/// The result of find(), or nothing if it throws gave_up.
 template <class Find>
 auto unless_given_up(const Find& find) -> std::optional<decltype(find())> {
     try {
@@ -70,10 +69,10 @@ auto unless_given_up(const Find& find) -> std::optional<decltype(find())> {
 
 /// The distinct roots of p in [a, b], a <= b, in disjoint intervals, with multiplicities.
 ///
-/// Coefficients are double, float, built-in integers, or unbounded integers or rationals
-/// (errbound::integer, Boost.Multiprecision). Floating point with certified bounds decides first.
-/// Integers decide the rest: errbound::integer, the coefficients' own unbounded type, or a named
-/// type, as in count_roots<mpz_int>(p, a, b).
+/// Coefficients: double, float, built-in integers, unbounded integers or rationals
+/// (errbound::integer, Boost.Multiprecision). Floating point with certified bounds decides first,
+/// then integers: errbound::integer, the coefficients' own type, or a named one, as in
+/// count_roots<mpz_int>(p, a, b).
 template <class Integer = void, class C>
 auto isolate_roots(const polynomial<C>& p, double a, double b) {
     using exact = roots::integer_for_t<Integer, C>;
@@ -135,9 +134,8 @@ std::optional<std::size_t> count_roots(const polynomial<C>& p, double a, double 
     return roots::unless_given_up([&] { return roots::count_within<Integer>(p, a, b, limits); });
 }
 
-/// The count if all polynomials within the coefficients' bounds have the same one, as far as
-/// floating point can decide; otherwise nothing. For rules that store only the absolute error:
-/// tight and sharp.
+/// The count, if floating point proves it equal for all polynomials within the coefficients'
+/// bounds; otherwise nothing. For rules that store only the absolute error: tight and sharp.
 template <class Rule>
 std::optional<std::size_t> count_roots(const polynomial<tracked<double, Rule>>& p, double a,
                                        double b) {
@@ -198,7 +196,6 @@ bernstein<S, N> form_on(const std::vector<S>& f, const S& a, const S& b, std::si
     }
 }
 
-/// BSC for a cubic f and M quartics g on [a, b].
 template <std::size_t M, class Integer>
 existence by_bsc(const staged_polynomial<Integer>& f,
                  const std::vector<staged_polynomial<Integer>>& g, double a, double b) {

@@ -50,14 +50,12 @@ struct predicate_options {
     /// Exact number type of the last stage, constructible from double; void: long_integer. For
     /// Boost.Multiprecision's types see predicate_type::value.
     using exact_type = void;
-    /// Set to true if terms of different degree are never added, so scaling coordinates by powers
-    /// of two keeps signs. Detected automatically, except for expressions with too many branches. A
-    /// false claim does not compile.
+    /// True if terms of different degree are never added, so scaling by powers of two keeps signs.
+    /// Detected, unless there are too many branches. A false claim does not compile.
     static constexpr bool homogeneous = false;
-    /// The degree of every coordinate in the shape's order, if some are not 1: {1, 1, 2, 1, 1, 2}
-    /// for points<3, 3>, each x, y and a squared radius. Terms of different total degree must never
-    /// be added; a false claim does not compile. Allows scaling coordinates far from 1 by powers of
-    /// two.
+    /// The coordinates' degrees in the shape's order, if some are not 1: {1, 1, 2, 1, 1, 2} for
+    /// points<3, 3>, each x, y and a squared radius. Terms of different total degree must never be
+    /// added; a false claim does not compile. Allows scaling coordinates far from 1.
     static constexpr std::array<int, 0> degrees{};
 };
 
@@ -166,7 +164,6 @@ class predicate_type {
             F(), filters::listed_scalars<Shape, typename stages::coordinate_list, decltype(make)>{
                      list, make});
     }
-    /// The sign by a single stage.
     template <class... Points>
     constexpr sign_type by(predicate_stage stage, const Points&... p) const {
         using enum predicate_stage;

@@ -76,9 +76,8 @@ inline constexpr bool has_stored_coordinates =
 template <class T, std::size_t N>
 inline constexpr bool has_stored_coordinates<std::array<T, N>> = true;
 
-/// Holds a block of coordinates that a range computes, or that no pointer leads to. Storing rounds
-/// them: with fused multiply-add, kernels could otherwise fuse products in them with their
-/// differences.
+/// Holds coordinates that a range computes, or that no pointer leads to. Storing rounds them:
+/// kernels could otherwise fuse their products with differences.
 template <class T, int Dimension, class Range>
 class computed_block {
     static constexpr std::size_t rows = Dimension == 0 ? 1 : Dimension;
@@ -98,7 +97,6 @@ class computed_block {
     const Range& range_;
     std::array<std::array<T, block_size>, rows> rows_;
 };
-/// Points to stored coordinates.
 template <class Point>
 struct stored_block {
     const Point* points;
@@ -129,8 +127,8 @@ auto blocks_of(const coordinate_arrays<U, N>& arrays) {
     return stored_arrays_block<U, N>{arrays};
 }
 
-/// Signs of block_size inputs by the first filter; true if all are certain. Uses floating point
-/// throughout, for lanes of one width.
+/// Signs of block_size inputs by the first filter; true if all are certain. All in lanes of one
+/// width.
 template <class Predicate, class... Ranges>
 [[gnu::always_inline]] inline bool filter_block(sign_type* signs, const Ranges&... p) {
     using T = decltype(Predicate::estimate(p[0]...).value);
@@ -207,10 +205,10 @@ void batch_over(const Predicate& predicate, std::span<sign_type> signs, std::ind
 
 }  // namespace detail
 
-/// Sets signs[i] to the predicate's sign of point i of each range. Ranges have an index or
-/// iterators, as a matrix's columns m.colwise() do. Precondition: at least signs.size() points
-/// each. Contiguous arrays and coordinate_arrays are read in place; other coordinates are copied,
-/// 64 points at a time. Expressions that branch are evaluated one by one. No allocation.
+/// Sets signs[i] to the predicate's sign of point i of each range, by index or iterators (a
+/// matrix's columns: m.colwise()). Precondition: at least signs.size() points each. Contiguous
+/// arrays and coordinate_arrays are read in place; others are copied, 64 points at a time.
+/// Expressions that branch are evaluated one by one. No allocation.
 template <class Predicate, class... Ranges>
 void batch_signs(const Predicate& predicate, std::span<sign_type> signs, const Ranges&... p) {
     assert((detail::has_inputs(p, signs.size()) && ...) &&

@@ -105,13 +105,11 @@ constexpr auto line_plane(const auto& a, const auto& b, const auto& p, const aut
     return implicit_point3d{a, x * along, y * along, z * along, nx * x + ny * y + nz * z};
 }
 
-/// See segments_intersect3d.
 constexpr sign_type segments_intersect(const auto& a, const auto& b, const auto& c, const auto& d) {
     const sign_type coplanar = sign_of(volume(a, b, c, d));
     if (!certain(coplanar)) return coplanar;
     if (coplanar != sign_type::zero) return sign_type::negative;
-    // Project along an axis that is not parallel to the plane. For a parallel axis all four areas
-    // are zero.
+    // Project along an axis not parallel to the plane; for a parallel one all areas are zero.
     for (int axis = 0; axis < 3; ++axis) {
         const int i = (axis + 1) % 3, j = (axis + 2) % 3;
         const sign_type abc = sign_of(area(a, b, c, i, j)), abd = sign_of(area(a, b, d, i, j));
@@ -137,7 +135,6 @@ constexpr sign_type segments_intersect(const auto& a, const auto& b, const auto&
     }
     return sign_type::zero;
 }
-/// See segment_intersects_triangle.
 constexpr sign_type segment_triangle(const auto& p, const auto& q, const auto& a, const auto& b,
                                      const auto& c) {
     const sign_type side_p = sign_of(volume(a, b, c, p)), side_q = sign_of(volume(a, b, c, q));

@@ -85,8 +85,7 @@ inline std::string with_exponent(std::string_view digits, int exponent) {
            std::to_string(size);
 }
 
-/// With 10^(k−1) <= 2·error < 10^k, rounding to the place 10^k adds at most half a unit, and the
-/// error another half.
+/// With 10^(k−1) <= 2·error < 10^k, rounding to 10^k adds at most half a unit, the error another.
 template <std::floating_point T>
 std::string certain_digits(T value, T error) {
     if (!std::isfinite(value) || !std::isfinite(error)) return "unknown";
@@ -112,17 +111,15 @@ std::string certain_digits(T value, T error) {
         return decimal(value, std::chars_format::scientific, leading - k - 1);
     }
     if (leading + 1 < k) return with_exponent("0", k);
-    // value| < 10^k: the digits decide which side of half of that it is on, except if they equal
-    // it.
+    // The digits decide which half of 10^k |value| is in, unless they equal 5.
     const std::string_view half = "5.00000000000000000";
     const std::string_view mantissa = std::string_view(size).substr(0, half.size());
     if (mantissa > half) return with_exponent(value < 0 ? "-1" : "1", k);
     return with_exponent("0", mantissa < half ? k : k + 1);
 }
 
-/// A two-digit decimal that reads back as at least x > 0: at least the shortest decimal that reads
-/// back as x, since reading is monotone. (std::from_chars lacks floating point in libc++ before
-/// 20.)
+/// Two digits that read back as at least x > 0: at least the shortest decimal of x, since reading
+/// is monotone. (std::from_chars lacks floating point in libc++ before 20.)
 template <std::floating_point T>
 std::string decimal_not_below(T x) {
     const std::string text = decimal(x, std::chars_format::scientific, 1);
@@ -155,7 +152,6 @@ std::string value_and_radius(T value, T error) {
 
 }  // namespace detail
 
-/// The certain digits, as `<<` prints them.
 template <printable_number T, class Rule>
 std::string certain_digits(const tracked<T, Rule>& x) {
     using printed = detail::printed_type<T>;
@@ -168,8 +164,7 @@ std::ostream& operator<<(std::ostream& to, const tracked<T, Rule>& x) {
 }
 
 /// value ± radius: the shortest decimal that reads back as the value, and two digits that read back
-/// as at least the error (`unknown` if infinite). tracked::within of both encloses the exact
-/// number.
+/// as at least the error (or `unknown`). tracked::within of both encloses the exact number.
 template <printable_number T, class Rule>
 std::string with_radius(const tracked<T, Rule>& x) {
     using printed = detail::printed_type<T>;
@@ -180,8 +175,7 @@ std::string with_radius(const tracked<T, Rule>& x) {
 }  // namespace errbound
 
 #if defined(__cpp_lib_format)
-/// Formats certain digits, as `<<`. A precision throws std::format_error, or does not compile in a
-/// constant format.
+/// Formats certain digits, as `<<`. A precision is a format error.
 template <errbound::printable_number T, class Rule>
 struct std::formatter<errbound::tracked<T, Rule>, char> : std::formatter<std::string_view, char> {
   private:

@@ -76,8 +76,7 @@ struct take_sign_of_or_compare {};
 
 }  // namespace detail
 
-/// T: float, double, long double or any type with the same operations and a number_traits. Rule:
-/// how bounds propagate, a bound_rule (errbound/rules/rule.hpp).
+/// T: any type with a number_traits. Rule: how bounds propagate (errbound/rules/rule.hpp).
 template <class T = double, class Rule = tight>
 class tracked {
     static_assert(!std::is_integral_v<T> && std::is_same_v<T, std::remove_cvref_t<T>>,
@@ -116,7 +115,7 @@ class tracked {
 
     /// The result of plain arithmetic.
     constexpr const T& value() const { return value_; }
-    /// An upper bound of |value() − exact value|. Infinite if there is no bound (NaN in a format
+    /// An upper bound of |value() − exact value|. Infinite if there is none (NaN in a format
     /// without infinities), otherwise never NaN. `x.error() <= tolerance` and its opposite are both
     /// safe.
     constexpr T error() const {
@@ -233,8 +232,7 @@ class tracked {
         if (detail::is_exactly<T>(v, value)) return exactly(v);
         // In some rounding directions an overflow gives the largest number.
         if (traits::abs(v) == traits::largest()) return within(v, traits::infinity());
-        // The error of a normal number is at most ε|v| in any direction; of two roundings, below
-        // 2ε|v|.
+        // One rounding is off by at most ε|v| in any direction, two by less than 2ε|v|.
         const T relative = detail::rounded_product(traits::abs(v), T(2 * traits::epsilon()));
         return within(v, T(relative + traits::underflow_unit()));
     }
@@ -246,9 +244,8 @@ class tracked {
     [[no_unique_address]] bound_type bound_;
 };
 
-/// There is no ==, which would have to guess. sign_of(x) == sign_type::zero is true if x is
-/// certainly zero; x.value() == 0 compares the value. (errbound/eigen.hpp defines == of two tracked
-/// numbers.)
+/// No ==, which would have to guess. sign_of(x) == sign_type::zero: x is certainly zero; x.value()
+/// == 0 compares the value. (errbound/eigen.hpp defines == of two tracked numbers.)
 template <class T, class Rule, class Number>
 detail::take_sign_of_or_compare operator==(const tracked<T, Rule>&, const Number&) = delete;
 

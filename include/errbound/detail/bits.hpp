@@ -1,8 +1,6 @@
-// Bit counts for the host and CUDA devices.
-//
-// nvcc has no device code for the counting functions of <bit>: inside constexpr functions it
-// silently calls address 0 and removes the code after it. Code reachable from a device calls these
-// functions instead; tests/ccd/cuda/null_calls.py searches device code for such calls.
+// Bit counts for the host and CUDA devices. nvcc has no device code for those of <bit>: in
+// constexpr functions it silently calls address 0. tests/ccd/cuda/null_calls.py searches for such
+// calls.
 #pragma once
 
 #include <bit>
@@ -30,7 +28,6 @@ constexpr int countl_zero(T x) {
 template <class T>
 constexpr int countr_zero(T x) {
 #ifdef __CUDA_ARCH__
-    // x & -x is the lowest set bit of x.
     if (x == 0) return std::numeric_limits<T>::digits;
     return std::numeric_limits<T>::digits - 1 -
            countl_zero(static_cast<T>(x & static_cast<T>(~x + 1)));

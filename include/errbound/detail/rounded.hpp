@@ -7,11 +7,10 @@
 namespace errbound::detail {
 
 /// x, which the compiler must not fuse into a sum (-ffp-contract=fast, GCC's default, fuses across
-/// statements and inlined calls). No operation, and nothing at all on targets without fused
-/// multiply-add (x86-64 by default). Elsewhere an empty asm statement through a register, which
-/// prevents vectorising; g++ 12 drops __builtin_assoc_barrier when it vectorises. CUDA: an unfused
-/// addition of −0. Class types are returned unchanged: build SIMD packs with -ffp-contract=off;
-/// Boost.Multiprecision never fuses.
+/// statements). No operation; without fused multiply-add (x86-64 by default) nothing at all.
+/// Elsewhere an empty asm statement, which prevents vectorising; g++ 12 drops
+/// __builtin_assoc_barrier. Class types are returned unchanged: build SIMD packs with
+/// -ffp-contract=off.
 template <class T>
 constexpr T rounded(const T& x) {
     return x;

@@ -1,5 +1,4 @@
-// Running error bounds of dot products: sums over some terms, closed by one factor. Internal; for
-// the rules `tight` and `sharp`.
+// Running error bounds of dot products, for the rules `tight` and `sharp`. Internal.
 #pragma once
 
 #include <errbound/detail/rounded.hpp>
@@ -7,8 +6,8 @@
 
 namespace errbound::detail {
 
-/// The largest m <= 8 with (m + 6)² <= 2^bits, or 0: the number of terms for which one factor pays
-/// for m + 6 roundings. (A larger m would cost the last term too much.)
+/// The largest m <= 8 with (m + 6)² <= 2^bits, or 0: terms for which one factor pays for m + 6
+/// roundings.
 constexpr int terms_at_once(int bits) {
     int m = 8;
     while (bits < 8 && m > 0 && (m + 6) * (m + 6) > (1 << bits)) --m;

@@ -11,8 +11,8 @@ namespace errbound::detail {
 inline constexpr std::uint64_t no_source = 0;
 
 #if !defined(__CUDA_ARCH__)
-/// A new number at each call, on any thread, ascending on each. Threads draw blocks, of which there
-/// are 2^48. (Libraries with hidden symbols must share this counter.)
+/// A new number at each call, on any thread, ascending on each. Threads draw blocks. (Libraries
+/// with hidden symbols must share this counter.)
 #if defined(__GNUC__) && !defined(_WIN32)
 [[gnu::visibility("default")]]
 #endif

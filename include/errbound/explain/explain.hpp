@@ -23,8 +23,8 @@
 
 namespace errbound {
 
-/// The error of x by its sources, rounded to double. `name` is the name of x in tables. Cost: a
-/// look-up for each source.
+/// The error of x, called `name`, by its sources, rounded to double. Cost: a look-up for each
+/// source.
 template <class T, class Rule, std::size_t Limit>
 explanation explain(const tracked<T, explained<Rule, Limit>>& x, std::string name = "result") {
     explanation e{std::move(name),

@@ -74,7 +74,6 @@ struct explained {
     static bound<T> exact(const T& value) {
         return from_outside<T>(value, Rule::template exact<T>(value));
     }
-    /// An "input" source.
     template <class T>
     static bound<T> within(const T& value, const T& error) {
         return from_outside<T>(value, Rule::template within<T>(value, error));
@@ -165,8 +164,7 @@ struct explained {
     static tracked<T, explained> wrapped(const tracked<T, Rule>& x, ledger<T> contributions) {
         return tracked<T, explained>::from_bound(x.value(), {x.bound(), std::move(contributions)});
     }
-    /// A function's result with its arguments' contributions. `own`: the result for exact
-    /// arguments.
+    /// A function's result with its arguments' contributions. `own`: the result for exact ones.
     template <class T>
     static tracked<T, explained> closed(std::uint32_t function, const tracked<T, Rule>& result,
                                         const tracked<T, Rule>& own, ledger<T> contributions) {
@@ -177,8 +175,7 @@ struct explained {
     }
 
   private:
-    /// An operation's result `v` with the rule's bound and the operands' contributions. `own`: the
-    /// bound for exact operands.
+    /// An operation's result with its operands' contributions. `own`: the bound for exact ones.
     template <class T>
     static bound<T> closed(std::uint32_t operation, const T& v, const of_rule<T>& result,
                            const of_rule<T>& own, ledger<T> contributions) {
@@ -226,7 +223,6 @@ struct explained {
         else
             to.carry_unknown(a.bound.contributions);
     }
-    /// bound_of: the wrapped rule's operation.
     template <class T, class BoundOf, class TimesA, class TimesB>
     static bound<T> booked(std::uint32_t operation, const T& v, rule_operand<T, explained> a,
                            rule_operand<T, explained> b, const BoundOf& bound_of,

@@ -1,5 +1,5 @@
-// Explanations: a number's error by sources, as numbers, as a table, as JSON. `errbound explain
-// FILE` prints and draws them (docs/how-wrong.md).
+// A number's error by sources, as numbers, a table or JSON for `errbound explain`
+// (docs/how-wrong.md).
 #pragma once
 
 #include <algorithm>
@@ -22,7 +22,6 @@
 
 namespace errbound {
 
-/// One source's part of a result's error.
 struct contribution {
     std::vector<place> scopes;  ///< around it, the outermost first
     /// "+", "-", "*", "/", "scale", "input" (a number within an error) or a function's name. "the
@@ -144,7 +143,6 @@ inline std::string json_of(const explanation& e) {
            contributions + (contributions.empty() ? "]\n    }" : "\n      ]\n    }");
 }
 
-/// 1.25e-16
 inline std::string scientific(double x) {
     return decimal(x, std::chars_format::scientific, 2);
 }
@@ -192,8 +190,7 @@ inline std::string aligned(const std::vector<std::vector<std::string>>& rows) {
     return text;
 }
 
-/// Writes a temporary file next to `path` and renames it, keeping permissions and links. Pipes and
-/// devices are written directly.
+/// Writes a temporary file next to `path` and renames it; pipes and devices directly.
 inline void write_file(const std::filesystem::path& path, std::string_view text) {
     namespace fs = std::filesystem;
     std::error_code error;
@@ -224,8 +221,7 @@ inline void write_file(const std::filesystem::path& path, std::string_view text)
 
 }  // namespace detail
 
-/// Each contribution's share of the error, from 0 to 1, in order. Infinite contributions share
-/// equally.
+/// Each contribution's share of the error, from 0 to 1. Infinite contributions share equally.
 inline std::vector<double> shares_of(const explanation& e) {
     double largest = 0, unknown = 0;
     for (const contribution& c : e.contributions) {

@@ -50,8 +50,7 @@ amount_of<T> beyond(const tracked<T, Rule>& with_error, const tracked<T, Rule>& 
     return more > 0 && number_traits<amount>::is_finite(more) ? more : amount(0);
 }
 
-/// A function under the wrapped rule: its result, the result for exact arguments, and the results
-/// with one argument's error each.
+/// A function under the wrapped rule: for the arguments, exact ones, and one argument's error each.
 template <class T, class Rule, std::size_t Count>
 struct asked_again {
     tracked<T, Rule> result, own;

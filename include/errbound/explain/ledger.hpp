@@ -1,9 +1,9 @@
 // A number's error by its sources, stored by the rule `explained` (explained.hpp).
 //
-// An entry is one source's part: `known`, a signed part of true value − value (from rules such as
-// `residual`), and `unknown` >= 0, a bound of the rest. With c the rule's correction and e its
-// bound, settled entries have Σ (|known| + unknown) >= e, despite rounding. Up to rounding, Σ known
-// = c, with equality if no sign is known. If e is not finite, entries are those that made it so.
+// An entry is one source's part: `known`, a signed part of true value − value, and `unknown` >= 0,
+// a bound of the rest. With c the rule's correction and e its bound, Σ (|known| + unknown) >= e
+// despite rounding, and Σ known = c up to rounding. If e is not finite, entries are those that made
+// it so.
 #pragma once
 
 #include <algorithm>
@@ -128,11 +128,10 @@ class ledger {
     }
 
   private:
-    /// Adds the part of e that roundings left uncovered to the largest entry, as small shares may
-    /// underflow. The sum Ŝ of n sizes has n − 1 roundings: the exact sum is at least Ŝ(1 − u)^(n −
-    /// 1). Ŝ plus the missing part of e(1 + (n + 4)ε) has three roundings of at most e, and the
-    /// entry two more: at least e(1 + 2(n + 4)u − 3u)(1 − u)^(n + 1) is left, which is at least e
-    /// for n <= 2^-10/u. Near underflow sums are exact.
+    /// Adds the part of e that roundings left uncovered to the largest entry. The exact sum of n
+    /// sizes is at least Ŝ(1 − u)^(n − 1); three roundings of at most e and two of the entry leave
+    /// at least e(1 + 2(n + 4)u − 3u)(1 − u)^(n + 1) >= e for n <= 2^-10/u. Near underflow sums are
+    /// exact.
     void cover(const A& e) {
         using traits = number_traits<A>;
         A all(0);

@@ -36,8 +36,7 @@ constexpr auto element_of(const Matrix& m, int i) {
 
 }  // namespace filters
 
-/// Coordinate i of a point, or the number itself. Precondition: i is less than the point's size, if
-/// it has one.
+/// Coordinate i of a point, or the number itself. Precondition: i < p.size(), if there is one.
 template <class Point>
 constexpr auto coordinate_of(const Point& p, int i) {
     if constexpr (requires { p[i], p.size(); } || filters::matrix_point<Point>)

@@ -53,7 +53,7 @@ struct basic_error_count {
                 rounded(a.magnitude * b.error + a.error * b.magnitude +
                         a.error * b.error * epsilon + m),
                 // Twice the third: â may exceed its magnitude by its underflow. In the last: η for
-                // the rounding, and the products of two underflows, far below one η.
+                // the rounding, and products of two underflows.
                 rounded(a.magnitude * b.underflow + a.underflow * b.magnitude +
                         (a.error * b.underflow + a.underflow * b.error) * (2 * epsilon) + 2)};
     }

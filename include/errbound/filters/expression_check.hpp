@@ -18,8 +18,7 @@
 
 namespace errbound::filters {
 
-/// Pseudorandom bits. Source: Steele, Lea, Flood 2014, Fast splittable pseudorandom number
-/// generators (SplitMix64).
+/// Pseudorandom bits. Source: Steele, Lea, Flood 2014 (SplitMix64).
 constexpr std::uint64_t hashed(std::uint64_t x) {
     x += 0x9e3779b97f4a7c15;
     x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9;
@@ -29,9 +28,8 @@ constexpr std::uint64_t hashed(std::uint64_t x) {
 
 inline constexpr std::size_t suppositions = 64;
 
-/// Signs of numbers, in the order of evaluation. In every other supposition the first ones are
-/// zero, since cases with many zeros branch deepest. Other signs are hashes of the number: no
-/// look-up, as constant evaluation is slow.
+/// Signs of numbers, in the order of evaluation. In every other supposition the first are zero, as
+/// such cases branch deepest. Others are hashes: no look-up, as constant evaluation is slow.
 struct supposed_signs {
     /// Beyond any int, so no constant of an expression is a multiple. Products of residues fit.
     static constexpr std::uint64_t prime = (std::uint64_t{1} << 32) - 5;
@@ -115,8 +113,7 @@ struct supposed_number {
 
 enum class expression_fault : std::uint8_t { none, asks_nothing, gives_up, acts_on_uncertain };
 
-/// The fault that one supposition shows, if any. `run(supposed_signs&)` returns the answer, or the
-/// sign of a numeric one.
+/// The fault that one supposition shows, if any. `run(supposed_signs&)` returns the answer's sign.
 template <class Run>
 constexpr expression_fault find_fault(std::uint64_t supposition, const Run& run) {
     supposed_signs signs{supposition};

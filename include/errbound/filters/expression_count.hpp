@@ -1,7 +1,5 @@
-// Counts an expression's operations at compile time, for the stages of a predicate.
-//
-// An expression that branches on signs runs once for each possible sequence of signs, up to a
-// limit; the counts are maxima.
+// Counts an expression's operations at compile time. An expression that branches on signs runs once
+// for each sequence of signs, up to a limit; the counts are maxima.
 #pragma once
 
 #include <array>
@@ -163,7 +161,6 @@ class expression_count {
     int bits_ = 0, degree_ = 0, roundings_ = 0;
 };
 
-/// Results of all runs.
 struct expression_findings {
     expression_counts counts;
     bool lacks_coordinates, number_after_signs;
@@ -172,12 +169,10 @@ struct expression_findings {
 
 /// Enough for any expression that evaluates five signs.
 inline constexpr int most_counting_runs = 250;
-/// Enough for expressions declared homogeneous, which branch too much for `most_counting_runs`;
-/// only the bits are still needed.
+/// For expressions declared homogeneous, which branch too much: only the bits are needed.
 inline constexpr int few_counting_runs = 28;
 
-/// `run(counting_run&)` runs the expression on coordinates made of that argument and returns its
-/// answer, or the sign of a numeric one.
+/// `run(counting_run&)` runs the expression on such coordinates and returns its answer's sign.
 template <class Run>
 constexpr expression_findings count_expression(int coordinate_bits, int max_runs, const Run& run) {
     counting_run state;

@@ -38,7 +38,6 @@ constexpr T unfused_coordinate(const Point& p, int i) {
     else
         return detail::rounded(x);
 }
-/// A point for the static filter; reads coordinates in place.
 template <class T, bool Stored, class Point>
 struct filtered_point {
     const Point& point;
@@ -112,14 +111,12 @@ struct counted_scalars {
                 degrees == nullptr ? nullptr : degrees + Shape::offset(Argument)};
     }
 };
-/// Residues in place of a shape's coordinates.
 template <class Shape>
 inline constexpr auto supposed_residues = [] {
     std::array<std::uint64_t, Shape::size> residues{};
     for (std::size_t i = 0; i < Shape::size; ++i) residues[i] = hashed(i) % supposed_signs::prime;
     return residues;
 }();
-/// A point for supposed signs.
 struct supposed_point {
     supposed_signs* signs;
     const std::uint64_t* residues;
@@ -182,8 +179,7 @@ template <class Shape, class F>
 inline constexpr bool branches =
     std::is_same_v<result_over<Shape, F, counted_scalars<Shape>>, sign_type>;
 
-/// The expression's counts for coordinates with these bits and degrees, from at most `max_runs`
-/// runs.
+/// The expression's counts for such coordinates, from at most `max_runs` runs.
 template <class Shape, class F>
 constexpr expression_findings findings_of(int coordinate_bits, int max_runs,
                                           const int* degrees = nullptr) {
@@ -194,8 +190,7 @@ constexpr expression_findings findings_of(int coordinate_bits, int max_runs,
     });
 }
 
-/// The fault that one supposition shows. A separate constant for each, since compilers limit the
-/// length of a constant evaluation.
+/// The fault that one supposition shows; a separate constant, as compilers limit each one's length.
 template <class Shape, class F, std::size_t Supposition>
 inline constexpr expression_fault fault_by = find_fault(Supposition, [](supposed_signs& signs) {
     return conclude(evaluate<Shape>(F(), supposed_scalars<Shape>{signs}));

@@ -1,7 +1,5 @@
-// The stages of a predicate after its first filter.
-//
-// Separate from predicate_type, so that an unused predicate costs nothing: the expression is
-// analysed when the first of these stages is compiled.
+// The stages of a predicate after its first filter. Separate from predicate_type, so that an unused
+// predicate costs nothing: its expression is analysed when the first of these is compiled.
 #pragma once
 
 #include <algorithm>
@@ -61,9 +59,7 @@ class predicate_stages {
                   "errbound: the expression's answer is the same whatever the signs it asks for");
 
   public:
-    /// The expression's counts for coordinates of one word.
     static constexpr expression_counts counts = findings.counts;
-    /// True for expressions of high enough degree to gain from it.
     static constexpr bool has_semi_static_filter =
         !counts.mixed && counts.degree >= 5 && !branches<Shape, F>;
     /// Largest coordinate width for which every result fits in `bits` bits; 0 if results may be
@@ -156,7 +152,6 @@ class predicate_stages {
         return decide_exactly(list, largest, counted);
     }
 
-    /// The sign by a single stage.
     template <class T>
     static constexpr sign_type by(predicate_stage stage, const coordinate_list& list) {
         using enum predicate_stage;
@@ -198,9 +193,8 @@ class predicate_stages {
         }
         return counted(by_any(list), long_integers);
     }
-    /// The coordinates times 2^(−s·degree), with the largest near 1. Each number of degree d scales
-    /// by 2^(−s·d), so signs stay. Returns the list unchanged if it is near 1 already or scaling is
-    /// inexact.
+    /// The coordinates times 2^(−s·degree), the largest near 1: each number of degree d scales by
+    /// 2^(−s·d), so signs stay. Unchanged if near 1 already, or if scaling is inexact.
     static constexpr coordinate_list near_one(const coordinate_list& list) {
         using traits = number_traits<double>;
         constexpr int moderate = 16;
@@ -274,8 +268,7 @@ class predicate_stages {
     /// Products of two-word coordinates' differences end just before a word's end.
     static constexpr int two_word_bits = 124;
     /// Above degree 3, operations on two or more words are calls: inlined they take a second to
-    /// compile. Expressions that branch skip this stage, which would save less time than it takes
-    /// to compile.
+    /// compile. Expressions that branch skip this stage for that reason.
     using two_word_level = integers::integer_level<integers::integer_kind::words, two_word_bits,
                                                    mixed, (counts.degree > 3)>;
     [[gnu::noinline]] static constexpr sign_type by_two_words(const coordinate_list& list) {
@@ -287,7 +280,6 @@ class predicate_stages {
 
     [[gnu::noinline]] static constexpr sign_type by_any(const coordinate_list& list) {
         if constexpr (std::is_void_v<typename Options::exact_type>) {
-            // Converts each coordinate once.
             using level = integers::integer_level<integers::integer_kind::any_length,
                                                   integers::full_range_bits, mixed>;
             using scalar = integers::sized_integer<level, integers::full_range_bits, 1>;

@@ -41,12 +41,11 @@ struct semi_static {
 
     constexpr semi_static operator-() const { return {-value, mass, allowances}; }
 
-    /// The sign is uncertain if |value| <= bound(M). constant(k)/2·(2m·M^d + 2a·τ): k − 1 roundings
-    /// for signs, and one more, as constant(k) grows with k by u and the rest is O(u²): the
-    /// roundings of m (no more than of S), M^d and the bound, and a·τ·M^d. The second a·τ covers
-    /// underflow in M^d, as τ >= 2^49·η. m and a are trusted below 2^p = 1/u, where they are whole
-    /// and exact; otherwise, and for a constant 0, the bound is infinite. Proof:
-    /// proofs/SemiStatic.v, semi_static_bound_covers, semi_static_sign_certain.
+    /// The sign is uncertain if |value| <= bound(M). constant(k)/2·(2m·M^d + 2a·τ), where k − 1
+    /// suffices for signs; the spare u covers the O(u²) roundings of m, M^d and the bound, and
+    /// a·τ·M^d. The second a·τ covers underflow in M^d, as τ >= 2^49·η. Below 2^p = 1/u, m and a
+    /// are exact; otherwise, and for a constant 0, infinite. Proof: proofs/SemiStatic.v,
+    /// semi_static_bound_covers, semi_static_sign_certain.
     constexpr T bound(T largest) const {
         constexpr T most = 1 / number_traits<T>::unit_roundoff();
         const bool trusted = mass < most && allowances < most;

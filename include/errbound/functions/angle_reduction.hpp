@@ -138,8 +138,7 @@ class angle_reduction {
     }
 
   private:
-    /// m·2^e·2/π modulo 4, less than 2^(p + unit) too small. The first digit of 2/π that matters
-    /// has weight 2^(1−e).
+    /// m·2^e·2/π modulo 4, less than 2^(p + unit) too small. Starts at the digit of weight 2^(1−e).
     static words quarter_turns(const T& m, int e) {
         words window{}, product{};
         for (int i = 0; i < count; ++i)

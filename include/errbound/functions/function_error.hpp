@@ -34,9 +34,8 @@ enum class elementary_function {
 
 namespace detail {
 
-/// True if function_error's comment covers this C library's functions; is_wide: for types wider
-/// than double. (MinGW-w64's sine of 10^22 is 0.46, not −0.85; musl computes most long double
-/// functions in double on ARM.)
+/// True if function_error's comment covers this C library (is_wide: types wider than double).
+/// MinGW-w64's sine of 10^22 is 0.46, not −0.85; musl on ARM computes long doubles in double.
 constexpr bool has_documented_errors([[maybe_unused]] bool is_wide) {
 #if defined(_WIN32)
     return false;
@@ -47,8 +46,7 @@ constexpr bool has_documented_errors([[maybe_unused]] bool is_wide) {
 #endif
 }
 
-/// In the order of elementary_function: at least the errors in function_error's comment; 0:
-/// unknown.
+/// By elementary_function: at least the errors in function_error's comment; 0: unknown.
 constexpr double documented_error(elementary_function f, bool is_wide) {
     if (!has_documented_errors(is_wide)) return 0;
     constexpr double narrow[] = {1, 1, 2, 1, 2, 3, 2, 1, 1, 2, 1, 1, 1, 3, 3, 3, 3, 3, 3, 5, 1, 2};

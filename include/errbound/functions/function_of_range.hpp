@@ -82,8 +82,7 @@ T error_of_function(const T& v) {
            T(static_cast<int>(k) + 2) * traits::underflow_unit();
 }
 
-/// A value, and at least its distance from the exact one (before enlarged() where stated); infinite
-/// or NaN if there is no bound.
+/// A value, and at least its distance from the exact one; infinite or NaN if there is no bound.
 template <class T>
 struct bounded {
     T value, error;
@@ -118,7 +117,6 @@ bool is_in_domain(const T& x, const T& e) {
     return true;
 }
 
-/// True if v³ = x.
 template <class T>
 bool is_cube_root(const T& v, const T& x) {
     const with_error<T> square = two_product(v, v), cube = two_product(square.value, v);
@@ -148,8 +146,7 @@ bool is_exact_result(const T& x, const T& v) {
     return x == 0 && v == 0;
 }
 
-/// The direction in which |f'| does not decrease: towards greater arguments, lesser ones, away from
-/// zero or towards it, on both sides of zero.
+/// Where |f'| does not decrease: for greater arguments, lesser ones, away from or towards zero.
 enum class steeper_side { above, below, outward, inward };
 
 template <elementary_function F>
@@ -206,11 +203,10 @@ T moved(const T& x, const T& distance, bool up) {
 
 /// At least |v − f(x)| for x within e > 0 of x̂, all in the domain.
 ///
-/// f(x) − f(x̂)| is at most the integral of |f'| over the e beyond x̂ on the steeper side. From x̂ to
-/// a p on that side, at a distance d >= e, the mean of |f'| is no less, so the change is at most
-/// (e/d)·|f(p) − f(x̂)|: f is monotone there. d = √ε natural distances gives the derivative to about
-/// √ε, whatever e. If |f'| grows towards zero, p passes zero only if x can be zero, with d = e: the
-/// integral is still the largest over intervals of that length with an end at x̂.
+/// |f(x) − f(x̂)| is at most the integral of |f'| over the e beyond x̂ on the steeper side. To a p
+/// there, at a distance d >= e, the mean of |f'| is no less, so the change is at most (e/d)·|f(p) −
+/// f(x̂)|. d = √ε natural distances gives the derivative to about √ε. If |f'| grows towards zero, p
+/// passes zero only if x can be zero, with d = e: the integral is still the largest of that length.
 template <elementary_function F, class T>
 T error_by_slope(const T& x, const T& e, const T& v) {
     using traits = number_traits<T>;
@@ -276,8 +272,7 @@ bounded<T> moved_by_low_part(const reduced_angle<T>& r, const bounded<T>& at_hig
     return {sum.value, enlarged<T>(at_high.error + (traits::abs(sum.error) + error))};
 }
 
-/// −1/y, error enlarged; infinite if y may be 0: |1/(ŷ + d) − 1/ŷ| <= e/(|ŷ|(|ŷ| − e)) for |d| <=
-/// e.
+/// −1/y, error enlarged: |1/(ŷ + d) − 1/ŷ| <= e/(|ŷ|(|ŷ| − e)), |d| <= e. Infinite if y may be 0.
 template <class T>
 bounded<T> negative_reciprocal(const bounded<T>& y) {
     using traits = number_traits<T>;
@@ -292,7 +287,7 @@ template <class T>
 bounded<T> tangent_of(const reduced_angle<T>& r) {
     const bounded<T> at_high = evaluated<elementary_function::tan>(r.high);
     const T t = at_high.value;
-    // t| < 1.01, so two roundings are off by less than 2ε.
+    // |t| < 1.01, so two roundings are off by less than 2ε.
     const bounded<T> slope{T(1 + rounded_product(t, t)),
                            T(3 * (at_high.error + number_traits<T>::epsilon()))};
     const bounded<T> result = moved_by_low_part(r, at_high, slope);
@@ -315,8 +310,8 @@ void sine_of(const reduced_angle<T>& r, int quadrants, bounded<T>& sine, bounded
     if (quadrants % 4 >= 2) sine = negated(sine), derivative = negated(derivative);
 }
 
-/// At least |v − f(x)| for x within e > 0 of x̂ and f = sin, cos or tan, from the computed f(x̂)
-/// and derivative.
+/// At least |v − f(x)| for x within e > 0 of x̂ and f = sin, cos or tan; `at` is the computed
+/// f(x̂).
 template <elementary_function F, class T>
 T error_of_angle_function(const bounded<T>& at, const bounded<T>& derivative, const T& e) {
     if constexpr (F == elementary_function::tan) {
@@ -329,8 +324,7 @@ T error_of_angle_function(const bounded<T>& at, const bounded<T>& derivative, co
     }
 }
 
-/// F over numbers within e of x̂, |x̂| >= least_reduced_angle, by the C library's functions of
-/// angles up to π/4.
+/// F over numbers within e of x̂, |x̂| >= least_reduced_angle, by functions of angles up to π/4.
 template <elementary_function F, class T>
 [[gnu::noinline]] bounded<T> function_of_large_angles(T x, T e) {
     using enum elementary_function;
@@ -346,7 +340,6 @@ template <elementary_function F, class T>
     return {at.value, error_of_angle_function<F>(at, derivative, e)};
 }
 
-/// F over numbers within e of x̂.
 template <elementary_function F, class T>
 bounded<T> function_of_range(const T& x, const T& e) {
     using enum elementary_function;
@@ -395,8 +388,7 @@ T error_of_power(const T& size, const T& of_x, const T& y, const T& of_y, const 
                   traits::underflow_unit());
 }
 
-/// At least the error of x^n for a whole n > 0, where x may be zero: |x^n − x̂^n| <= (|x̂| + e)^n −
-/// |x̂|^n.
+/// At least the error of x^n for n > 0, x possibly zero: |x^n − x̂^n| <= (|x̂| + e)^n − |x̂|^n.
 template <class T>
 T error_of_power_at_zero(const T& size, const T& e, const T& n, const T& v) {
     using enum elementary_function;
@@ -405,10 +397,10 @@ T error_of_power_at_zero(const T& size, const T& e, const T& n, const T& v) {
     return own + ((end - number_traits<T>::abs(v)) + (error_of_function<pow>(end) + own));
 }
 
-/// At least |atan2(y, x) − atan2(ŷ, x̂)| if the path between them crosses no cut; infinite if the
-/// bound fails. The angle's tangent is (x̂·dy − ŷ·dx)/(x̂² + ŷ² + x̂·dx + ŷ·dy), and an angle is at
-/// most its tangent. In units of the larger of |x̂| and |ŷ|, which is not zero. Underflow of at
-/// most four scalings and products in each sum loses less than η each.
+/// At least |atan2(y, x) − atan2(ŷ, x̂)| if the path crosses no cut. An angle is at most its
+/// tangent, (x̂·dy − ŷ·dx)/(x̂² + ŷ² + x̂·dx + ŷ·dy); infinite if that fails. In units of the
+/// larger of |x̂| and |ŷ|. Underflow of at most four scalings and products in each sum loses less
+/// than η each.
 template <class T>
 T change_of_angle(const T& y, const T& of_y, const T& x, const T& of_x) {
     using traits = number_traits<T>;

@@ -8,8 +8,7 @@
 
 namespace errbound::integers {
 
-/// x = ±magnitude·2^exponent with an integer magnitude below 2^53; infinities and NaN have the
-/// exponent `not_finite`.
+/// ±magnitude·2^exponent, magnitude below 2^53; the exponent of infinities and NaN is `not_finite`.
 struct binary_double {
     static constexpr int not_finite = 2047 - 1075;
 

@@ -36,8 +36,8 @@ struct short_coordinates {
     bool fit = false;
 
     /// `largest` is largest_size(coordinates), finite. Adding 3·2^51 units rounds x to whole units;
-    /// only multiples of the unit survive. Then, and only then, the product with a power of two is
-    /// known to be exact. Proof: proofs/Widths.v, short_coordinates_exact.
+    /// only multiples survive, and their products are exact. Proof: proofs/Widths.v,
+    /// short_coordinates_exact.
     constexpr short_coordinates(const std::array<double, N>& coordinates, std::uint64_t largest) {
         const auto field = static_cast<int>(largest >> 52);
         unit = field - 1022 - Bits;
@@ -64,10 +64,9 @@ struct word_coordinates {
     int unit;
     bool fit;
 
-    /// `largest` is largest_size(coordinates), finite. The largest coordinate is below 2^(field −
-    /// 1022); tries a unit of 2^-61 of that. It fits if i·2^unit = x. Products may be rounded if
-    /// subnormal, but i·2^unit, a multiple of 2^-1074, is not. Proof: proofs/Widths.v,
-    /// word_coordinates_exact.
+    /// `largest` is largest_size(coordinates), finite, so coordinates are below 2^(field − 1022).
+    /// It fits if i·2^unit = x: i·2^unit, a multiple of 2^-1074, is not rounded. Proof:
+    /// proofs/Widths.v, word_coordinates_exact.
     constexpr word_coordinates(const std::array<double, N>& coordinates, std::uint64_t largest) {
         const auto field = static_cast<int>(largest >> 52);
         unit = field - 1022 - max_bits;

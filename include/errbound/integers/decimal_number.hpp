@@ -312,7 +312,6 @@ class exact_natural {
 
     constexpr void push(word w) { words_[static_cast<std::size_t>(size_++)] = w; }
     constexpr void trim() { size_ = words::trimmed(words_.data(), size_); }
-    /// x·factor + more.
     constexpr void multiply(word factor, word more = 0) {
         const word carry =
             words::multiply_by_word(words_.data(), words_.data(), size_, factor, more);
@@ -454,7 +453,7 @@ class exact_decimal {
         --exponent;
         return true;
     }
-    /// x/divisor·2^e − units·2^unit| = |x·2^(e − m) − units·divisor·2^(unit − m)|/divisor·2^m, m
+    /// |x/divisor·2^e − units·2^unit| = |x·2^(e − m) − units·divisor·2^(unit − m)|/divisor·2^m, m
     /// the lesser of e and unit.
     static constexpr rounded_decimal with_distance(natural x, const natural& divisor, int e,
                                                    word_pair units, int unit) {

@@ -1,5 +1,4 @@
-// Dyadic numbers n·2^e with an exact integer n: all finite doubles, and all points reached by
-// halving intervals between them.
+// Dyadic numbers n·2^e: all finite doubles, and all points reached by halving between them.
 #pragma once
 
 #include <cmath>
@@ -17,8 +16,7 @@ int floor_log2(const Integer& x) {
     return static_cast<int>(x < 0 ? msb(Integer(-x)) : msb(x));
 }
 
-/// x·2^shift, truncated towards zero. (Shifts magnitudes: Boost 1.74 loses the sign of some
-/// negative numbers.)
+/// x·2^shift, truncated. (By magnitudes: Boost 1.74 loses the sign of some negative numbers.)
 template <exact_number Integer>
 Integer shifted(const Integer& x, int shift) {
     if (shift >= 0) return Integer(x << static_cast<unsigned>(shift));
@@ -122,7 +120,6 @@ dyadic<Integer> quotient(const dyadic<Integer>& a, const dyadic<Integer>& b, int
             a.exponent() - b.exponent() - shift};
 }
 
-/// (a + b)/2
 template <exact_number Integer>
 dyadic<Integer> middle(const dyadic<Integer>& a, const dyadic<Integer>& b) {
     return scale(a + b, -1);

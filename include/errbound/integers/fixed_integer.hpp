@@ -76,9 +76,8 @@ constexpr word sign_word(word w) {
     return carry;
 }
 
-/// r = a·b in two's complement, of m, n and m + n words. The unsigned product is a·b, plus
-/// 2^(64m)·b if a < 0, plus 2^(64n)·a if b < 0, modulo the result's width. Proof: proofs/Words.v,
-/// product_exact.
+/// r = a·b, of m + n words. The unsigned product is a·b, plus 2^(64m)·b if a < 0, plus 2^(64n)·a if
+/// b < 0, modulo the result's width. Proof: proofs/Words.v, product_exact.
 [[gnu::always_inline]] constexpr void multiply(word* r, const word* a, int m, const word* b,
                                                int n) {
     for (int j = 0; j < n; ++j) r[j] = 0;
@@ -204,8 +203,7 @@ class fixed_integer {
         return 0;
     }
 
-    /// ⌊x/2^shift⌋ modulo the width of Result words, shift >= 0. Proof: proofs/WordBits.v,
-    /// from_bit_exact.
+    /// ⌊x/2^shift⌋ modulo the result's width, shift >= 0. Proof: proofs/WordBits.v, from_bit_exact.
     template <int Result>
     constexpr fixed_integer<Result> from_bit(int shift) const {
         const word beyond = words::sign_word(words_[Words - 1]);
@@ -223,11 +221,9 @@ class fixed_integer {
     }
     /// ⌊x/2^shift⌋ modulo 2^64.
     constexpr std::int64_t word_from_bit(int shift) const { return from_bit<1>(shift).low_word(); }
-    /// x modulo 2^64.
     constexpr std::int64_t low_word() const { return static_cast<std::int64_t>(words_[0]); }
 
-    /// The exact product. Small ones are unrolled in place, since calls would cost as much; large
-    /// ones are rare and share code.
+    /// The exact product. Small ones are unrolled in place; large ones are rare and share code.
     template <int B>
     [[gnu::always_inline]] constexpr fixed_integer<Words + B> times(
         const fixed_integer<B>& b) const {

@@ -127,8 +127,6 @@ class integer {
     /// The nearest, ties to even; infinite beyond the largest.
     explicit operator double() const;
 
-    // Sums
-
     friend integer operator+(const integer& a, const integer& b) {
         integer r;
         r.assign_sum(a, b, false);
@@ -160,8 +158,6 @@ class integer {
     integer& operator++() { return *this += 1; }
     integer& operator--() { return *this -= 1; }
 
-    // Products and quotients
-
     friend integer operator*(const integer& a, const integer& b) {
         integer r;
         r.assign_product(a, b);
@@ -190,8 +186,6 @@ class integer {
         return *this;
     }
 
-    // Bits
-
     friend integer operator<<(const integer& x, std::integral auto n) {
         integer r;
         r.assign_shifted_left(x, shift(n));
@@ -213,8 +207,7 @@ class integer {
     }
     /// x·2^e, e >= 0.
     friend integer scale(const integer& x, int e) { return x << e; }
-    /// ⌊log2 |x|⌋, the position of the highest bit; lsb: of the lowest. Precondition: x is not
-    /// zero.
+    /// ⌊log2 |x|⌋, the highest bit's position; lsb: the lowest bit's. Precondition: x is not zero.
     friend int msb(const integer& x) {
         assert(x.size_ != 0);
         return 64 * x.size() - 1 - detail::countl_zero(x.data()[x.size() - 1]);
@@ -226,8 +219,6 @@ class integer {
         while (x.data()[i] == 0) ++i;
         return 64 * i + detail::countr_zero(x.data()[i]);
     }
-
-    // Order
 
     friend bool operator==(const integer& a, const integer& b) noexcept {
         return a.size_ == b.size_ && std::equal(a.data(), a.data() + a.size(), b.data());
@@ -246,10 +237,8 @@ class integer {
         return b == 0 ? a.size_ <=> 0 : a <=> integer(b);
     }
 
-    // Text
-
-    /// Digits in this base, 2 to 36, after an optional sign. Throws std::invalid_argument for
-    /// anything else, or nothing.
+    /// Digits in this base, 2 to 36, after an optional sign. Otherwise throws
+    /// std::invalid_argument.
     static integer from_string(std::string_view digits, int base = 10);
     friend std::string to_string(const integer& x, int base = 10) { return x.text(base); }
     template <class Traits>
@@ -462,8 +451,7 @@ class integer {
             keep(to, n, negative);
         }
     }
-    /// Copies of a and b, shifted so that b's first bit is set. Precondition: 2 <= size of b <=
-    /// size of a.
+    /// Copies of a and b, shifted so that b's first bit is set. Precondition: 2 <= b's size <= a's.
     class long_division {
       public:
         long_division(const integer& a, const integer& b)

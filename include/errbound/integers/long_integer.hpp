@@ -1,7 +1,5 @@
-// Exact integers of run-time length up to a compile-time capacity: no allocation.
-//
-// Numbers made of doubles far apart in size have long runs of words that are zero or, after
-// subtracting a small one, all ones. Products skip these.
+// Exact integers of run-time length up to a compile-time capacity: no allocation. Products skip
+// words that are all zero or all ones, frequent in numbers made of doubles far apart in size.
 #pragma once
 
 #include <array>
@@ -15,12 +13,10 @@ namespace errbound::integers {
 
 namespace words {
 
-/// Writes a two's complement number as a sum of signed words times powers of 2^64: visit(index,
-/// magnitude, negative) for the nonzero ones, ascending.
-///
-/// A word before an all-ones word, and the last of a negative number, counts as negative and passes
-/// on a carry, which turns ones to zeros: w = 2^64 − (2^64 − w). Partial sums are negative exactly
-/// if their last word is. Proof: proofs/Words.v, signed_words_exact.
+/// A two's complement number as a sum of signed words times powers of 2^64: visit(index, magnitude,
+/// negative) for the nonzero ones, ascending. A word before an all-ones word, and the last of a
+/// negative number, counts as negative and passes on a carry: w = 2^64 − (2^64 − w). Partial sums
+/// are negative exactly if their last word is. Proof: proofs/Words.v, signed_words_exact.
 template <class Visit>
 constexpr void for_signed_words(const word* x, int n, const Visit& visit) {
     word carry = 0;
@@ -32,7 +28,6 @@ constexpr void for_signed_words(const word* x, int n, const Visit& visit) {
     }
 }
 
-/// Number of words that are neither 0 nor all ones.
 constexpr int count_filled(const word* x, int n) {
     int count = 0;
     for (int i = 0; i < n; ++i) count += x[i] + 1 > 1;
@@ -58,8 +53,7 @@ constexpr int count_filled(const word* x, int n) {
                                                  int n) {
     int low = 0;
     while (b[low] == 0) ++low;
-    // Words before `end` hold the sum so far, modulo a power of 2^64; all later ones would be
-    // `beyond`.
+    // Words before `end` hold the sum so far, modulo a power of 2^64; later ones are `beyond`.
     int end = low;
     word beyond = 0;
     for (int i = 0; i < low; ++i) r[i] = 0;

@@ -1,8 +1,6 @@
-// Natural numbers of any length, as words in memory, least significant first, for
-// errbound/integers/integer.hpp.
-//
-// Sizes are in words, at least 1 unless stated. Results have the stated size and may have leading
-// zeros. Unless stated, a result must not overlap an operand.
+// Natural numbers of any length, as words in memory, least significant first. Sizes are in words,
+// at least 1 unless stated. Results have the stated size and may have leading zeros; unless stated,
+// they must not overlap operands.
 #pragma once
 
 #include <algorithm>
@@ -64,8 +62,6 @@ constexpr void shift_right(word* r, const word* a, int n, int bits) {
     r[n - 1] = a[n - 1] >> bits;
 }
 
-// Products
-
 /// r = a·b + carry for n words; returns the carry. r may be a.
 constexpr word multiply_by_word(word* r, const word* a, int n, word b, word carry = 0) {
     for (int i = 0; i < n; ++i) {
@@ -85,9 +81,8 @@ constexpr void multiply_rows(word* r, const word* a, int m, const word* b, int n
 /// From this size on Karatsuba's three half products beat four.
 inline constexpr int karatsuba_words = 32;
 
-/// Scratch words for a product whose shorter factor has n words. multiply_by_halves needs 2n + 3;
-/// multiply_natural needs 2n for pieces, and at most 2n for the remainder until it is below n/2:
-/// 12n + 9·log2(n) suffice.
+/// Scratch words for a shorter factor of n words. multiply_by_halves needs 2n + 3, multiply_natural
+/// 2n for pieces and 2n for the remainder: 12n + 9·log2(n) suffice.
 constexpr int product_scratch(int n) {
     return n < karatsuba_words ? 0 : 16 * n;
 }
@@ -168,8 +163,7 @@ constexpr void multiply_natural(word* r, const word* a, int m, const word* b, in
     }
 }
 
-// Quotients. (N. Möller, T. Granlund, Improved division by invariant integers, IEEE Transactions on
-// Computers 60, 2011.)
+// Quotients: N. Möller, T. Granlund, Improved division by invariant integers, IEEE TC 60, 2011.
 
 /// ⌊(2^128 − 1)/d⌋ − 2^64 for d >= 2^63: two 32-bit digits by Knuth's algorithm D.
 constexpr word reciprocal(word d) {
@@ -243,7 +237,7 @@ class two_word_divisor {
         }
     }
 
-    /// The quotient of three words, at most 2^64 − 1. Precondition: the first two are at most the
+    /// The quotient of three words, below 2^64. Precondition: the first two are at most the
     /// divisor.
     constexpr word quotient(word a2, word a1, word a0) const {
         if (a2 == high_ && a1 == low_) return ~word(0);
@@ -274,8 +268,7 @@ class two_word_divisor {
 };
 
 /// Divides a, of m + 1 words whose last n are below d, by d, n >= 2 words with its first bit set:
-/// store(i, word) for the m + 1 − n words from the last; a becomes the remainder. (Knuth's
-/// algorithm D, The Art of Computer Programming 4.3.1, with quotients of three words by two.)
+/// store(i, word) from the last; a becomes the remainder. (Knuth, TAOCP 4.3.1, algorithm D.)
 template <class Store>
 constexpr void divide_long(word* a, int m, const word* d, int n, const Store& store) {
     const two_word_divisor divisor(d[n - 1], d[n - 2]);
@@ -291,8 +284,6 @@ constexpr void divide_long(word* a, int m, const word* d, int n, const Store& st
         store(i, q);
     }
 }
-
-// Greatest common divisors
 
 /// A matrix of determinant ±1: (a, b) becomes (|m00·a − m01·b|, |m10·a − m11·b|).
 struct euclid_steps {

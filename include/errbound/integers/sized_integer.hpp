@@ -1,9 +1,7 @@
 // Exact integers whose types carry their largest width and so grow through an expression: no
-// overflow, no allocation, no unneeded words.
-//
-// A number stands for value·2^(unit·degree); all coordinates are multiples of 2^unit. Lower degrees
-// are raised by factors of 1 = 2^−unit units. This requires unit <= 0 and 1 to be as narrow as
-// coordinates.
+// overflow, no allocation. A number stands for value·2^(unit·degree); all coordinates are multiples
+// of 2^unit. Lower degrees are raised by factors of 1 = 2^−unit units, which requires unit <= 0 and
+// 1 to be as narrow as coordinates.
 #pragma once
 
 #include <array>
@@ -70,7 +68,7 @@ constexpr fixed_integer<Words> narrowed(const fixed_integer<Wider>& x) {
     return fixed_integer<Words>::from_words(low);
 }
 
-/// x| < 2^Bits units of its degree. Proof: proofs/Widths.v, sized_exact, sized_fits.
+/// |x| < 2^Bits units of its degree. Proof: proofs/Widths.v, sized_exact, sized_fits.
 template <class Level, int Bits, int Degree>
 struct sized_integer {
     static constexpr int bits = Bits, degree = Degree;

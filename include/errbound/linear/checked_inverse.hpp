@@ -16,8 +16,7 @@
 
 namespace errbound::linear {
 
-/// R for the entries A of a scaled matrix. Each entry may be off by η/2; statements hold for all
-/// such matrices.
+/// R for the entries A of a scaled matrix, and for all matrices within η/2 of them.
 template <int N>
 class checked_inverse {
   public:
@@ -35,8 +34,8 @@ class checked_inverse {
     const square<N>& approximation() const { return inverse_; }
 
     /// An upper bound of |I − RA|v, v >= 0. |I − RA| <= |I − fl(RA)| + γ_h|R||A| + nη, h the
-    /// roundings in a block and the sum of blocks; entries off by η/2 add |R|(η/2). The bounds' own
-    /// roundings: n + 1 per product with v and a few more, one for subtracting I.
+    /// roundings in a block and the sum of blocks; entries off by η/2 add |R|(η/2). Each bound has
+    /// n + 1 roundings and a few more.
     vector<N> defect_times(const vector<N>& v) const {
         const Index n = a_.rows();
         const double lost = relative_loss((std::min)(n, block) + n / block + 3);
@@ -73,8 +72,7 @@ class checked_inverse {
     }
 
   private:
-    /// Inner dimension of a block of RA; rounding errors grow with it and with the number of
-    /// blocks.
+    /// Inner block size of RA; rounding errors grow with it and with the number of blocks.
     static constexpr Index block = 256;
 
     /// RA; each block's product is complete before it is added.

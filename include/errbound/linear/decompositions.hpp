@@ -15,8 +15,7 @@
 
 namespace errbound::linear {
 
-/// The size of a pivot's value; zero only for an exact zero, since elimination skips a column whose
-/// best pivot has no score.
+/// The size of a pivot's value; zero only for an exact zero, as elimination skips columns scored 0.
 template <class T, class Rule>
 T pivot_score(const tracked<T, Rule>& x) {
     using scalar_traits = number_traits<T>;
@@ -32,8 +31,7 @@ struct reflection {
 };
 
 /// Overwrites x's entries, except the first, with `essential`; H = I if these are certainly zero.
-/// Scales by a power of two against overflow and underflow. β's sign follows the first entry's
-/// value. Source: Golub and Van Loan 2013, Algorithm 5.1.1.
+/// Scales against overflow and underflow. Source: Golub and Van Loan 2013, Algorithm 5.1.1.
 template <class Vector>
 reflection<typename Vector::Scalar> reflect_in_place(Vector x) {
     using number = typename Vector::Scalar;

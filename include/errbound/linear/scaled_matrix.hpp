@@ -1,5 +1,4 @@
-// A square matrix scaled by powers of two in rows and columns, so that norms suit matrices of any
-// scales.
+// A square matrix scaled by powers of two in rows and columns, for norms at any scale.
 #pragma once
 
 #include <algorithm>

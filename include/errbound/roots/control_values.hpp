@@ -18,8 +18,7 @@ struct control_values {
     constexpr S& operator[](int i) { return b[static_cast<std::size_t>(i)]; }
 };
 
-/// The least common multiple of the binomials C(N, i), which makes the factors multiple(N)/C(N, i)
-/// integers: no division.
+/// The least common multiple of the binomials C(N, i): no division.
 constexpr int multiple(int degree) {
     int m = 1;
     for (int i = 0; i <= degree; ++i) {
@@ -31,7 +30,6 @@ constexpr int multiple(int degree) {
     return m;
 }
 
-/// multiple(N)·b_i = h_i·multiple(N)/C(N, i).
 template <class S, int N>
 constexpr control_values<S, N> control_values_of(const bernstein<S, N>& p) {
     control_values<S, N> c;
@@ -42,8 +40,8 @@ constexpr control_values<S, N> control_values_of(const bernstein<S, N>& p) {
     return c;
 }
 
-/// Midpoints of neighbours. Unrolled by index, to stay in registers: as loops over arrays,
-/// compilers load pairs that were just stored one by one, which stalls.
+/// Midpoints of neighbours. Unrolled, to stay in registers: loops load pairs just stored one by
+/// one, which stalls.
 template <class S, std::size_t... I>
 constexpr std::array<S, sizeof...(I)> midpoints(const std::array<S, sizeof...(I) + 1>& row,
                                                 std::index_sequence<I...>) {

@@ -38,15 +38,13 @@ struct isolating_interval {
 
 namespace errbound::roots {
 
-/// A point in [2^exponent, 2^(exponent + 1)) from which halving rarely meets numbers that people
-/// choose as roots.
+/// A point in [2^exponent, 2^(exponent + 1)); halving from there rarely meets simple roots.
 template <class Integer>
 dyadic<Integer> unlikely_root(int exponent) {
     return {Integer(45), exponent - 5};
 }
 
-/// A zero in (0, 1) of the derivative, by Newton's method in doubles from the middle; outside (0,
-/// 1) on failure. b: control values.
+/// A zero in (0, 1) of the derivative of control values b, by Newton's method; outside on failure.
 inline double extremum(const std::vector<double>& b) {
     const std::size_t n = b.size() - 1;
     std::vector<double> slopes(n);
@@ -111,13 +109,10 @@ class descartes_search {
     static constexpr int slowest = 8, row_bits = 256, lone = 32, most_bits = 1 << 28,
                          most_lost_bits = 1 << 20;
 
-    /// Queues a part that may have roots.
     void add(part p) {
         count_variations(p);
         if (p.variations > 0) parts_.push_back(std::move(p));
     }
-
-    // Sign changes
 
     /// Sign changes of a row without ends known to be zero; nothing if an end is uncertain.
     template <class Sign>
@@ -179,8 +174,7 @@ class descartes_search {
     bool exact_row_is_cheap(const part& p) const {
         return p_.size() <= 40 && static_cast<int>(p_.size()) * bits_of_ends(p) <= 2048;
     }
-    /// True if the coefficients' sizes differ too much to count: assumes 3 sign changes, and
-    /// divides.
+    /// True if the coefficients' sizes differ too much to count: assumes 3 sign changes.
     bool varies_too_much(const part& p) const {
         return floor_log2(p.high) > floor_log2(p.low) + 1 &&
                local_form<Integer>::precision(p_.size(), p.low, p.high - p.low, 0) > most_lost_bits;
@@ -196,8 +190,6 @@ class descartes_search {
         meter_.hold(8 * n * (4 * words + 8 * (parts_.size() + 1)));
         meter_.spend(n * (n + words / 4) * words);
     }
-
-    // Division of a part
 
     void divide(part whole) {
         // Halve the exponents of wide parts, so that roots far apart in size take few steps.
@@ -259,10 +251,7 @@ class descartes_search {
         if (left.variations > 0) parts_.push_back(std::move(left));
     }
 
-    // Near roots
-
     /// Estimated position of a part's roots, in units of 2^(−depth) of its width, and their number.
-    /// A hint only.
     struct place {
         Integer from;
         int roots;
@@ -286,7 +275,6 @@ class descartes_search {
         return place{Integer((distance << static_cast<unsigned>(depth)) / sum),
                      roots > 0 && roots < local.degree() ? static_cast<int>(roots) + 1 : 1};
     }
-    /// Tries to narrow a part by Newton's method.
     bool narrowed(part& whole) {
         const int depth = whole.speed + 2;
         if (!whole.local) expand(whole);
@@ -330,10 +318,10 @@ class descartes_search {
     }
 
     /// Two close roots, real or complex, would need many halvings to separate. With at most two
-    /// left, split at the extremum between them, by Newton's method with growing precision. Real
-    /// roots lie on either side. Complex ones lie outside both circles with the sides as diameters,
-    /// so no sign change remains. Tried after 0, 8, 16, 32, ... halvings; false on failure. Proof:
-    /// proofs/SignVariations.v, two_variations_two_roots.
+    /// left, splits at the extremum between them, by Newton's method with growing precision.
+    /// Complex roots lie outside both circles with the sides as diameters, so no sign change
+    /// remains. Tried after 0, 8, 16, 32, ... halvings. Proof: proofs/SignVariations.v,
+    /// two_variations_two_roots.
     bool divided_as_pair(part& whole) {
         if (whole.has_root_at_end() || whole.halvings % 8 != 0 ||
             (whole.halvings & (whole.halvings - 1)) != 0)

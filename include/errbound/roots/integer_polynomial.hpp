@@ -54,7 +54,6 @@ integer_form<Integer> derivative(const integer_form<Integer>& p) {
     return d;
 }
 
-/// p(−x)
 template <class Integer>
 integer_form<Integer> mirrored(integer_form<Integer> p) {
     for (std::size_t i = 1; i < p.size(); i += 2) p[i] = -p[i];
@@ -129,8 +128,8 @@ dyadic<Integer> value_at(const integer_form<Integer>& p, const dyadic<Integer>& 
     return value_at(p, x, unlimited);
 }
 
-/// The value at x to within 2^-bits of it, or exactly. If the exact value is long, tries increasing
-/// precision first.
+/// The value at x within 2^-bits of it, or exactly. For long exact values tries less precision
+/// first.
 template <class Integer>
 nearby_value<Integer> value_within(const integer_form<Integer>& p, const dyadic<Integer>& x,
                                    int bits, work_meter& meter) {
@@ -219,7 +218,6 @@ integer_form<Integer> control_values_on(integer_form<Integer> p, const dyadic<In
     return control_values_on(std::move(p), low, high, unlimited);
 }
 
-/// x modulo the prime.
 template <class Integer>
 std::uint64_t residue(const Integer& x, const prime_field& field) {
     const auto p = static_cast<std::int64_t>(field.modulus());
@@ -259,8 +257,7 @@ std::uint64_t value_at(const std::vector<std::uint64_t>& residues, const prime_f
     return sum;
 }
 
-/// A polynomial known modulo a product of primes (Chinese remainders), by its coefficients of least
-/// size.
+/// A polynomial modulo a product of primes (Chinese remainders), by its least coefficients.
 template <class Integer>
 struct remainders {
     integer_form<Integer> p;
@@ -342,11 +339,9 @@ integer_form<Integer> common_factor(integer_form<Integer> a, integer_form<Intege
     return common_factor(std::move(a), std::move(b), unlimited);
 }
 
-/// Square-free polynomials f_1, f_2, ... of positive degree, each dividing the one before: a root
-/// of multiplicity m of p is a root of exactly f_1 to f_m. At most `most` of them. Precondition: p
-/// is not constant.
-///
-/// Cost without multiple roots: Euclid's algorithm modulo one prime. Proof: proofs/CommonFactor.v,
+/// Square-free polynomials f_1, f_2, ..., each dividing the one before: a root of multiplicity m of
+/// p is a root of exactly f_1 to f_m. At most `most`. Precondition: p is not constant. Cost without
+/// multiple roots: Euclid's algorithm modulo one prime. Proof: proofs/CommonFactor.v,
 /// chain_multiplicities, cofactors_rootless; that the first has all roots of p:
 /// proofs/RootIsolation.v, squarefree_part_roots.
 template <exact_number Integer>

@@ -1,6 +1,5 @@
-// A polynomial on an interval: its Taylor coefficients, truncated to a given number of bits, and
-// the signs of its Bernstein coefficients. Few coefficients matter on short intervals, so deeper
-// ones cost less.
+// A polynomial on an interval: truncated Taylor coefficients, and signs of its Bernstein
+// coefficients. Few coefficients matter on short intervals, so deeper ones cost less.
 #pragma once
 
 #include <algorithm>
@@ -91,8 +90,8 @@ class local_form {
             power *= length;
             a[j] = shifted(Integer(a[j] * power), -depth * static_cast<int>(j));
         }
-        // An error e in a_i adds at most e to each new coefficient, as from + length <= 2^depth; so
-        // does each truncation.
+        // An error e in a_i adds at most e to each new one, as from + length <= 2^depth; so do
+        // truncations.
         result.error_ = error_ * Integer(degree_ + 1) + Integer(a.size() * a.size());
         result.drop_small_terms();
         return result;
@@ -180,8 +179,7 @@ class local_form {
     void poll() const {
         if (meter_ != nullptr) meter_->poll();
     }
-    /// Σ a_j t^j (s + t)^(n − j) for a_j with `cut` bits truncated: the coefficients of s^(n − i)
-    /// t^i.
+    /// Σ a_j t^j (s + t)^(n − j) for truncated a_j: the coefficients of s^(n − i) t^i.
     form scaled_coefficients(std::size_t n, int cut) const {
         form h{shifted(a_[0], -cut)};
         h.reserve(n + 1);

@@ -1,6 +1,5 @@
-// Values of polynomials to a number of bits, with error bounds: for signs at points where exact
-// values have millions of bits. Cost: a product of numbers of that many bits per nonzero
-// coefficient, and a few per gap between them.
+// Values of polynomials with error bounds, for signs at points where exact values have millions of
+// bits. Cost: a product of numbers of `bits` bits per nonzero coefficient and gap.
 #pragma once
 
 #include <algorithm>
@@ -28,8 +27,7 @@ struct nearby_value {
     /// ⌊log2 |value·2^exponent|⌋. Precondition: the value is not zero.
     std::int64_t log2() const { return floor_log2(value) + exponent; }
 
-    /// Drops bits beyond the leading ones of the value or error; adds one unit of error for each of
-    /// the two.
+    /// Drops bits beyond the leading ones of the value or error; adds a unit of error for each.
     void cut(int bits) {
         const int excess =
             (std::max)(value == 0 ? 0 : floor_log2(value), error == 0 ? 0 : floor_log2(error)) -

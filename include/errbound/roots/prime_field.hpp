@@ -1,8 +1,6 @@
-// Arithmetic modulo a prime of 62 bits, and greatest common divisors of polynomials there, which
-// make those over the integers cheap (errbound/roots/integer_polynomial.hpp).
-//
-// Montgomery's form: a residue a is stored as a·R modulo p, R = 2^64. (P. L. Montgomery, Modular
-// multiplication without trial division, Math. Comp. 44, 1985.)
+// Arithmetic and greatest common divisors of polynomials modulo a prime of 62 bits. Montgomery's
+// form: a residue a is stored as a·R modulo p, R = 2^64. (P. L. Montgomery, Modular multiplication
+// without trial division, Math. Comp. 44, 1985.)
 #pragma once
 
 #include <algorithm>
@@ -113,7 +111,6 @@ constexpr std::uint64_t large_prime(std::size_t k) {
     return p;
 }
 
-/// The derivative modulo p, in Montgomery's form.
 inline std::vector<std::uint64_t> derivative(const prime_field& field,
                                              const std::vector<std::uint64_t>& p) {
     std::vector<std::uint64_t> d;
@@ -135,8 +132,7 @@ inline std::vector<std::uint64_t> common_factor(const prime_field& field,
     if (a.size() < b.size()) std::swap(a, b);
     while (!b.empty()) {
         if (b.size() == 1) return b;
-        // Each degree takes a division step; dividing by a monic polynomial leaves other
-        // coefficients alone.
+        // Each degree takes a division step; a monic divisor leaves other coefficients alone.
         if (a.size() > b.size() + 64) {
             const std::uint64_t inverse = field.inverse(b.back());
             for (std::uint64_t& c : b) c = field.multiply(c, inverse);

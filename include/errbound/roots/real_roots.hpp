@@ -1,6 +1,5 @@
-// Real roots of one polynomial, always exact: floating point first
-// (errbound/roots/root_filter.hpp), integers for the undecided rest
-// (errbound/roots/root_isolation.hpp). Most users call errbound/polynomial.hpp.
+// Real roots of one polynomial, always exact: floating point first (root_filter.hpp), integers for
+// the undecided rest (root_isolation.hpp). Most users call errbound/polynomial.hpp.
 #pragma once
 
 #include <algorithm>
@@ -49,7 +48,6 @@ namespace errbound {
 /// The number of roots of the zero polynomial.
 inline constexpr std::size_t infinitely_many = (std::numeric_limits<std::size_t>::max)();
 
-/// The signs that a polynomial takes.
 struct occurring_signs {
     bool negative = false, zero = false, positive = false;
 
@@ -122,8 +120,7 @@ class real_roots {
     /// True if isolation needed no integers.
     bool decided_by_filter() const { return decided_by_filter_; }
 
-    /// Narrows root k's interval to at most this width. Throws std::invalid_argument unless the
-    /// width is positive and finite.
+    /// Narrows root k's interval to this width. Throws std::invalid_argument unless 0 < width < ∞.
     void refine(std::size_t k, const point& width) {
         assert(k < size());
         if (sign_of(width) != sign_type::positive)
@@ -147,8 +144,7 @@ class real_roots {
         for (;;) {
             const std::int64_t low = roots::order_at_or_below(root.low),
                                high = roots::order_at_or_above(root.high);
-            // low = high only for a point; otherwise the root is strictly inside (root.low,
-            // root.high).
+            // low = high only for a point; otherwise the root is strictly inside.
             if (high - low <= 1) return {roots::double_of_order(low), roots::double_of_order(high)};
             if (high - low <= few || high - low > of_one_exponent)
                 exact().cut(root, point::from(roots::double_of_order(low + (high - low) / 2)),
@@ -285,8 +281,7 @@ class real_roots {
         intervals_.insert(next, interval{zero, zero, zeros_});
     }
 
-    /// Some t >= 0 without root of p_ in [−t, t], if t > 0: with |c_i| t^i < |c_0|/2^i for i >= 1,
-    /// their sum is below |c_0|.
+    /// No root of p_ is in [−t, t]: the sum of |c_i| t^i < |c_0|/2^i for i >= 1 is below |c_0|.
     double rootless_radius() const {
         const std::vector<number>& c = p_.floating();
         const double first = std::abs(c[0].value()) - c[0].error();

@@ -1,10 +1,7 @@
-// Real roots of polynomials in floating point, by tracked Bernstein coefficients: certain roots,
-// and undecided intervals. The first stage of errbound/roots/real_roots.hpp.
-//
-// Descartes' rule in Bernstein form, as in errbound/roots/root_isolation.hpp: control values
-// without sign change exclude a root inside; one change proves exactly one. Every control value has
-// an absolute error bound. Values and bounds are separate arrays, so that halving, by additions
-// only, is vectorised.
+// Real roots of polynomials in floating point, by Descartes' rule on tracked Bernstein
+// coefficients: certain roots and undecided intervals. The first stage of
+// errbound/roots/real_roots.hpp. Each coefficient has an absolute error bound. Values and bounds
+// are separate arrays, so that halving, by additions only, is vectorised.
 #pragma once
 
 #include <algorithm>
@@ -59,7 +56,6 @@ struct tracked_row {
     double* value;
     double* error;
 
-    /// this[j] += this[j + 1] for j < count.
     void add_next(std::size_t count) const {
         double* const __restrict v = value;
         double* const __restrict e = error;
@@ -69,7 +65,6 @@ struct tracked_row {
             v[j] = sum;
         }
     }
-    /// this[j] += this[j − 1] for first <= j <= last, descending.
     void add_previous(std::size_t first, std::size_t last) const {
         double* const __restrict v = value;
         double* const __restrict e = error;
@@ -211,7 +206,6 @@ class root_filter {
                           number_traits<double>::smallest_normal());
     }
 
-    /// The control values on [at0, at1] as a new row.
     void set_control_values() {
         const std::size_t n = c_.size() - 1;
         const number high(at1_);

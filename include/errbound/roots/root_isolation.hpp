@@ -200,7 +200,6 @@ class root_isolation {
         return true;
     }
 
-    /// Work of Horner's rule.
     std::uint64_t work_of_value(const point& x) const {
         const std::uint64_t n = squarefree().size();
         return x.is_zero()

@@ -25,7 +25,6 @@ namespace detail {
 
 inline constexpr std::size_t usual_affine_limit = 16;
 
-/// The zero-terminated name of affine_of<Limit>.
 template <std::size_t Limit>
 inline constexpr std::array<char, 32> affine_name = [] {
     std::array<char, 32> name{'a', 'f', 'f', 'i', 'n', 'e'};

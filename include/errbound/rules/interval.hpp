@@ -156,7 +156,6 @@ struct interval {
     static constexpr bound<T> unknown() {
         return {-number_traits<T>::infinity(), number_traits<T>::infinity()};
     }
-    /// [lower, upper] if all is finite.
     template <class T>
     static constexpr bound<T> checked(const T& value, const T& lower, const T& upper) {
         const T infinity = number_traits<T>::infinity();

@@ -5,8 +5,7 @@
 
 namespace errbound {
 
-/// Treats every finite result as exact, so signs are guesses (proofs/IeeeRules.v, none_guesses).
-/// Results that are not finite are uncertain.
+/// Treats every finite result as exact: signs are guesses (proofs/IeeeRules.v, none_guesses).
 struct none {
     static constexpr const char* name = "none";
     static constexpr error_meaning error_is = error_meaning::nothing;

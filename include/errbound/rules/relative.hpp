@@ -39,7 +39,7 @@ struct relative {
         if (!(error > 0) || !traits::is_finite(value)) return {unknown};
         return {factors_of<T>(error, traits::abs(value))};
     }
-    /// v − x| <= |v|(e^L − 1), L = kw, and e^L − 1 <= L/(1 − L/2) for 0 <= L < 2, since ln((2 +
+    /// |v − x| <= |v|(e^L − 1), L = kw, and e^L − 1 <= L/(1 − L/2) for 0 <= L < 2, since ln((2 +
     /// L)/(2 − L)) = L + L³/12 + ... Proof: proofs/IeeeRelative.v, relative_error_known.
     template <class T>
     static constexpr T error(const T& value, const bound<T>& b) {
@@ -193,7 +193,7 @@ struct relative {
         if (k == 0 || (a >= 0 && b >= 0) || (a <= 0 && b <= 0))
             return rounded_sum<T>(v, k, is_exact);
         const T off = upper<T>(T(error<T>(a, of_a) + error<T>(b, of_b)));
-        // â + b̂| is at least the predecessor of |v|, which is at least |v|(1 − ε), rounded.
+        // |â + b̂| is at least the predecessor of |v|, which is at least |v|(1 − ε), rounded.
         const T size = traits::abs(v);
         const T least = is_exact ? size : detail::rounded_product(size, T(1 - traits::epsilon()));
         if (!traits::is_finite(v) || !(off < least)) return {unknown};

@@ -135,7 +135,7 @@ struct residual {
         const T inherited = a.bound.correction - x;
         const T numerator = own + inherited;
         const T correction = numerator / b.value;
-        // N/vb| <= |c|(1 + u) + η/2 + unknown. The inner factor 1 + 8ε covers seven roundings,
+        // |N/vb| <= |c|(1 + u) + η/2 + unknown. The inner factor 1 + 8ε covers seven roundings,
         // including that of the distance, the outer one four.
         const T lost = unknown + traits::underflow_unit();
         const T c = traits::abs(correction) + lost, q = traits::abs(v);

@@ -19,15 +19,13 @@
 
 namespace errbound {
 
-/// An operand's value and its bound by the same rule. References: valid during the rule's call
-/// only.
+/// An operand's value and its bound by the same rule. Valid only during the rule's call.
 template <class T, class Rule>
 struct rule_operand {
     const T& value;
     const typename Rule::template bound<T>& bound;
 };
 
-/// The meaning of a rule's error().
 enum class error_meaning : std::uint8_t {
     bound,     ///< |value − true value| is no more; a certain sign is the true one
     estimate,  ///< about |value − true value|; signs follow it and may be wrong

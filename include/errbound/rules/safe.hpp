@@ -36,8 +36,7 @@ struct safe {
         using traits = number_traits<T>;
         if (error == 0) return exact(value);
         if (!(error > 0)) return {traits::infinity(), 1};
-        // Larger errors make error/ε overflow, in some directions to the largest number, which is
-        // too small.
+        // Larger errors make error/ε overflow; in some directions to the largest number, too small.
         const bool overflows = error > traits::largest() * traits::epsilon();
         const T least = overflows ? traits::infinity() : error / traits::epsilon();
         return {enlarged<T>((traits::max)(traits::abs(value) + error, least)), 1};

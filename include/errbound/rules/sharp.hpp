@@ -47,7 +47,7 @@ struct sharp {
         return b.error;
     }
 
-    /// v − (a + b)| <= u|v| + σa + σb. The bound has three roundings, (1 + u)³ <= 1 + 4u = 1 + 2ε
+    /// |v − (a + b)| <= u|v| + σa + σb. The bound has three roundings, (1 + u)³ <= 1 + 4u = 1 + 2ε
     /// for u <= 1/8; 1 + ε is too small. Proof: proofs/IeeeRules.v, sharp_add_known.
     template <class T>
     static constexpr bound<T> add(const T& v, rule_operand<T, sharp> a, rule_operand<T, sharp> b) {
@@ -63,7 +63,7 @@ struct sharp {
                                        rule_operand<T, sharp> b) {
         return add(v, a, b);
     }
-    /// v − ab| <= u|v| + η/2 + |â|σb + σa(|b̂| + σb). Proof: proofs/IeeeRules.v,
+    /// |v − ab| <= u|v| + η/2 + |â|σb + σa(|b̂| + σb). Proof: proofs/IeeeRules.v,
     /// sharp_multiply_known.
     template <class T>
     static constexpr bound<T> multiply(const T& v, rule_operand<T, sharp> a,
@@ -84,7 +84,7 @@ struct sharp {
         const T distance = traits::abs(b.value) - b.bound.error;  // of b from zero
         if (!(distance > 0)) return {traits::infinity()};
         if (is_zero(a)) return {rounding(v)};
-        // â/b̂| <= |v|(1 + u) + η/2. If b is not exact, η covers underflow in the numerator before
+        // |â/b̂| <= |v|(1 + u) + η/2. If b is not exact, η covers underflow in the numerator before
         // the division enlarges it. Up to eight roundings, (1 + u)^8 <= (1 + 8u)².
         const T quotient = inflated<T>(traits::abs(v) + traits::underflow_unit());
         const T lost = b.bound.error > 0 ? traits::underflow_unit() : T(0);

@@ -50,14 +50,13 @@ struct tight {
         return b.error;
     }
 
-    /// v − (a + b)| <= |v|ε/(1 − ε) + σa + σb. Source: Theorem 1, Add. In long sums of short
+    /// |v − (a + b)| <= |v|ε/(1 − ε) + σa + σb. Source: Theorem 1, Add. In long sums of short
     /// formats the factor does not multiply σa and σb (detail/sum_of_bounds.hpp). Proof:
     /// proofs/IeeeRules.v, tight_add_known; in any direction, proofs/Tight.v, tight_add_sound.
     template <class T>
     static constexpr bound<T> add(const T& v, rule_operand<T, tight> a, rule_operand<T, tight> b) {
         using traits = number_traits<T>;
-        // η is the smallest normal number, and both |v|ε and the sum may underflow, unless x − x:
-        // 2η.
+        // |v|ε and the sum may each lose the smallest normal number, unless x − x.
         if constexpr (!has_subnormals<T>)
             if (v != 0 || traits::abs(a.value) != traits::abs(b.value))
                 return {inflated<T>(rounding(v) + (a.bound.error + b.bound.error) +
@@ -73,7 +72,7 @@ struct tight {
                                        rule_operand<T, tight> b) {
         return add(v, a, b);
     }
-    /// v − ab| <= |v|ε/(1 − ε) + |â|σb + σa|b̂| + σaσb. Source: Theorem 1, Multiply. Proof:
+    /// |v − ab| <= |v|ε/(1 − ε) + |â|σb + σa|b̂| + σaσb. Source: Theorem 1, Multiply. Proof:
     /// proofs/IeeeRules.v, tight_multiply_known; in any direction, proofs/Tight.v,
     /// tight_multiply_sound.
     template <class T>
@@ -100,7 +99,7 @@ struct tight {
             // The subtraction may have underflowed.
             if (!(distance > traits::underflow_unit())) return {traits::infinity()};
         if (is_zero(a)) return {rounding(v)};
-        // â/b̂| may have been rounded down, so it is inflated separately. If b is not exact, 4η
+        // |â/b̂| may have been rounded down, so it is inflated separately. If b is not exact, 4η
         // covers underflow in the numerator before the division enlarges it.
         const T quotient = inflated<T>(traits::abs(v) + traits::underflow_unit());
         const T lost = b.bound.error > 0 ? 4 * traits::underflow_unit() : T(0);
@@ -163,9 +162,8 @@ struct tight {
         return detail::rounded_product(traits::abs(v),
                                        T(traits::epsilon() * (1 + traits::epsilon())));
     }
-    // Pays for at most six roundings in any direction: (1 + 8ε)(1 − ε)^6 > 1 from 5 bits of
-    // precision on (3 to nearest). For fewer, errbound/validation/tiny_check.hpp checks case by
-    // case.
+    // Six roundings in any direction: (1 + 8ε)(1 − ε)^6 > 1 from 5 bits on (3 to nearest). For
+    // fewer, errbound/validation/tiny_check.hpp checks case by case.
     template <class T>
     static constexpr T inflated(const T& bound) {
         return detail::rounded_product(bound, T(1 + 8 * number_traits<T>::epsilon()));
