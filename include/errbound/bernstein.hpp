@@ -2,10 +2,9 @@
 //
 // A polynomial p of degree N is stored by its SCALED Bernstein coefficients h_i:
 //     p(s, t) = Σ h_i s^(N−i) t^i,   p(t) = p(1 − t, t),   h_i = C(N, i)·b_i
-// The control values b_i have the same signs, so the hull property holds. No operation divides:
-// integers, every bound rule and SIMD packs work. The h_i are also the power-basis coefficients in
-// x = t/s, which maps [0, 1] to [0, ∞]. Proof: proofs/Bernstein.v, form_ends, power_basis,
-// hull_bounds.
+// The control values b_i have the same signs: the hull property holds. No operation divides. The
+// h_i are the power-basis coefficients in x = t/s, which maps [0, 1] to [0, ∞]. Proof:
+// proofs/Bernstein.v, form_ends, power_basis, hull_bounds.
 #pragma once
 
 #include <array>
@@ -57,8 +56,7 @@ struct bernstein {
     }
 };
 
-/// The product: a convolution. The factors' scalars may differ. Proof: proofs/Bernstein.v,
-/// product_form.
+/// A convolution. The factors' scalars may differ. Proof: proofs/Bernstein.v, product_form.
 template <class S, class T, int A, int B>
 constexpr auto operator*(const bernstein<S, A>& p, const bernstein<T, B>& q) {
     using product = decltype(p[0] * q[0]);
@@ -107,8 +105,7 @@ constexpr auto value_from_term(const bernstein<S, N>& p, const T& s, const T& t,
 
 }  // namespace detail
 
-/// p(s, t) = (s + t)^N · p(t/(s + t)). Cost: 3N − 1 products. Proof: proofs/Bernstein.v,
-/// value_at_form.
+/// (s + t)^N · p(t/(s + t)). Cost: 3N − 1 products. Proof: proofs/Bernstein.v, value_at_form.
 template <class S, int N, class T>
 constexpr auto value_at(const bernstein<S, N>& p, const T& s, const T& t) {
     if constexpr (N == 0)
@@ -174,8 +171,7 @@ constexpr std::pair<bernstein<S, N>, bernstein<S, N>> halves(const bernstein<S, 
     return {left_half(p), reversed(left_half(reversed(p)))};
 }
 
-/// Scales a tracked form by a power of two, so that products of many forms stay in range. Signs are
-/// kept.
+/// Scales a tracked form by a power of two, so that products of many forms stay in range.
 template <class S, int N>
 constexpr bernstein<S, N> normalized(const bernstein<S, N>& p) {
     if constexpr (is_tracked<S>) {

@@ -1,13 +1,12 @@
-// Bernstein sign classification (BSC): is there t in [0, 1] with Y(t) = 0 and all G_i(t) >= 0, for
-// a cubic Y and quartics G_i, over any scalar that has + − × and a sign? Start at
+// Bernstein sign classification (BSC), over any scalar that has + − × and a sign. Start at
 // root_with_nonnegative.
 //
 // Derived anew after Tang, Tong, Wang, Manocha (2014) and TightCCD (Wang, Tang, Manocha, Tong 2015,
 // Section 5). Differences: uncertain end signs are followed in every possible world (on_convex); an
 // inflection is split off exactly (without_halving); reductions divide by nothing (reduced).
 //
-// Notation: forms in (s, t) with s + t = 1 as in bernstein.hpp; Y = (y0, y1, y2, y3) scaled, so y0
-// = Y(0) and y3 = Y(1); D = Y' (a quadratic form); a root is INNER if 0 < t < 1.
+// Notation: forms in (s, t) with s + t = 1 as in bernstein.hpp; cubic Y = (y0, y1, y2, y3) scaled,
+// quartics G_i; D = Y' (a quadratic form); a root is INNER if 0 < t < 1.
 #pragma once
 
 #include <array>
@@ -108,9 +107,8 @@ constexpr sign_type sign_at_crossing(const cubic<S>& y, sign_type before,
 
 /// Sign determination II (TTWM14): the signs of the linear form l at the two inner roots t0 <= t1
 /// of a CONVEX Y that is positive at both ends; d = Y'. If Y(t_l) < 0, t0 < t_l < t1. Otherwise t_l
-/// lies outside, left of the extremum if d(t_l) < 0, right of it if d(t_l) > 0. If Y(t_l)'s sign is
-/// uncertain, d(t_l) still decides l's sign at the root beyond the extremum. Proof:
-/// proofs/BscSigns.v, sign_determination_2.
+/// lies outside, left of the extremum if d(t_l) < 0, right of it if d(t_l) > 0; if Y(t_l)'s sign is
+/// uncertain, that decides one root. Proof: proofs/BscSigns.v, sign_determination_2.
 template <class S>
 constexpr sign_pair signs_at_pair(const cubic<S>& y, const bernstein<S, 2>& d,
                                   const bernstein<S, 1>& l) {
@@ -135,9 +133,8 @@ constexpr sign_pair signs_at_pair(const cubic<S>& y, const bernstein<S, 2>& d,
 }
 
 /// The quadratic J with y0·y3·G = s·t·J modulo Y: cancel s⁴ by y0·G − g0·s·Y = t·E, then t³ of the
-/// cubic E by y3·E − e3·Y = s·J. At an inner root of Y, sign G = sign(y0·y3)·sign J. If a world
-/// assumes a strict end value that is zero, J vanishes at the root: no wrong conclusion. Proof:
-/// proofs/BscSigns.v, reduction.
+/// cubic E by y3·E − e3·Y = s·J. At an inner root of Y, sign G = sign(y0·y3)·sign J. If an end
+/// value is zero but assumed strict, J vanishes at the root. Proof: proofs/BscSigns.v, reduction.
 template <class S>
 constexpr bernstein<S, 2> reduced(const cubic<S>& y, const bernstein<S, 4>& g) {
     const std::array<S, 4> e{y[0] * g[1] - g[0] * y[1], y[0] * g[2] - g[0] * y[2],
@@ -161,8 +158,8 @@ struct decomposition {
     }
 };
 
-/// sign J from the signs of M and R, or J at M's root if M vanishes there (Proof:
-/// proofs/Published.v, decomposition_zero).
+/// sign J from M and R, or J at M's root if M vanishes (Proof: proofs/Published.v,
+/// decomposition_zero).
 template <class S>
 constexpr sign_type combined(sign_type m, sign_type r, const bernstein<S, 1>& m_form,
                              const bernstein<S, 2>& j) {
@@ -201,9 +198,8 @@ constexpr sign_pair signs_at_pair(const cubic<S>& y, const bernstein<S, 2>& d,
 }
 
 /// The sign of Y at its only inner extremum t_ex, for convex Y (assumes d0 < 0 < d2). By Euler, Y =
-/// A + t·D/3 = B − s·D/3 with quadratics A and B. Cancelling s² of A by D leaves d0·Y(t_ex) =
-/// t·M(t_ex), t² of B d2·Y(t_ex) = s·M'(t_ex), M and M' linear. Proof: proofs/BscSigns.v,
-/// root_finding.
+/// A + t·D/3 = B − s·D/3, A and B quadratic. Cancelling s² of A by D leaves d0·Y(t_ex) = t·M(t_ex),
+/// t² of B d2·Y(t_ex) = s·M'(t_ex), M and M' linear. Proof: proofs/BscSigns.v, root_finding.
 template <class S>
 constexpr sign_type sign_at_extremum(const cubic<S>& y, const bernstein<S, 2>& d) {
     // The sign of l at t_ex: d increases, so d(t_l) < 0 puts t_ex right of t_l.
@@ -427,18 +423,16 @@ template <class S, std::size_t M>
 /// std::array; it is called only if y may have a root.
 ///
 /// `no` is certain, and `yes` is certain with every g_i > 0, if the scalar's signs are. For Y ≡ 0
-/// the answer is `no` or `maybe_root`. Proof: proofs/Bsc.v, bsc_no, bsc_yes. If no sign is
-/// uncertain, `maybe_root` means Y ≡ 0; `maybe_inside` means a root with every g_i >= 0, one of
-/// them zero, and no root with all positive. Proof: proofs/BscExact.v, bsc_exact_root,
-/// bsc_exact_inside. Cost: bounded; some hundred operations of S in common cases, at most a few
-/// thousand.
+/// the answer is `no` or `maybe_root`. Proof: proofs/Bsc.v, bsc_no, bsc_yes. Without uncertain
+/// signs, `maybe_root` means Y ≡ 0, and `maybe_inside` a root with every g_i >= 0, one of them
+/// zero, and none with all positive. Proof: proofs/BscExact.v, bsc_exact_root, bsc_exact_inside.
+/// Cost: some hundred operations of S in common cases, at most a few thousand.
 template <class S, class MakeConstraints>
 constexpr existence root_with_nonnegative(const bernstein<S, 3>& y, const MakeConstraints& make_g) {
     const bsc::cubic<S> cubic = normalized(y);
     if (certainly_rootless(cubic)) return existence::no;
     const auto g = make_g();
-    // Assigned, not part{cubic, {}}: nvcc 13 has no device code to construct a nested array of a
-    // class and calls address 0 instead.
+    // Assigned, not part{cubic, {}}: nvcc 13 cannot construct nested arrays of a class on devices.
     bsc::part<S, std::tuple_size_v<std::remove_cvref_t<decltype(g)>>> whole;
     whole.y = cubic;
     for (std::size_t i = 0; i < g.size(); ++i) whole.g[i] = normalized(g[i]);

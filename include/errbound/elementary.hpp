@@ -78,8 +78,7 @@ tracked<T, Rule> log1p(const tracked<T, Rule>& x) {
     return detail::function_of<elementary_function::log1p>(x);
 }
 
-/// x in radians, of any size. Exact for an exact 0. The error reaches at most to the far end of
-/// [−1, 1].
+/// x in radians, of any size. Exact for an exact 0. The bound stays within [−1, 1].
 template <class T, class Rule>
 tracked<T, Rule> sin(const tracked<T, Rule>& x) {
     return detail::function_of<elementary_function::sin>(x);

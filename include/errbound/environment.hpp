@@ -3,9 +3,8 @@
 // Needed: IEEE 754 binary formats with gradual underflow, operations rounded once to the format, no
 // value-changing optimisation. `tight` and `safe` hold in any rounding direction; `sharp`,
 // `interval`, `residual`, error-free transformations and predicates need rounding to nearest.
-// Contraction to fused multiply-add does not affect tracked numbers (rounded.hpp). It makes SIMD
-// packs and plain code differ between machines: -ffp-contract=off gives identical results. Compiler
-// flags: docs/guarantees.md.
+// Contraction to fused multiply-add does not affect tracked numbers (rounded.hpp). Other code
+// differs between machines without -ffp-contract=off. Compiler flags: docs/guarantees.md.
 #pragma once
 
 #include <cfloat>

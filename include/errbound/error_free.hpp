@@ -31,8 +31,8 @@ constexpr T half_ulp(const T& v) {
 
 /// a + b = value + error exactly, value = a ⊕ b. Precondition: no overflow, even of intermediate
 /// results; otherwise value or error is infinite or NaN. Underflow is harmless. Cost: 6 operations.
-/// Source: Knuth, TAOCP 2, 4.2.2, Theorem B (TwoSum); any precision >= 2. Proof:
-/// proofs/ErrorFree.v, two_sum_exact.
+/// Source: Knuth, TAOCP 2, 4.2.2, Theorem B; any precision >= 2. Proof: proofs/ErrorFree.v,
+/// two_sum_exact.
 template <class T>
 constexpr with_error<T> two_sum(const T& a, const T& b) {
     const T x = detail::rounded(a), y = detail::rounded(b);
@@ -100,15 +100,15 @@ constexpr with_error<T> two_product(const T& a, const T& b) {
     return {v, middle + detail::rounded_product(a_low, b_low)};
 }
 
-/// True if two_product(a, b)'s result is known to be exact. With s = ⌈p/2⌉: |a|, |b| <=
-/// largest()/2^(s+2) (2^995 for double, 2^114 for float); and an operand is zero, or 2^(2p)·η <=
-/// |value| <= largest()/4 (2^-968 for double, 2^-101 for float, at the low end). The limits are the
-/// same with and without FMA, so bounds are equal on all processors.
+/// True if two_product(a, b)'s result is known to be exact: |a|, |b| <= largest()/2^(s+2), s =
+/// ⌈p/2⌉ (2^995 for double, 2^114 for float); and an operand is zero, or 2^(2p)·η <= |value| <=
+/// largest()/4 (from 2^-968 for double, 2^-101 for float). The limits are the same with and without
+/// FMA.
 ///
 /// Derivation: the error and Dekker's intermediate results are multiples of ulp(a)·ulp(b), which
-/// must be at least η. Since |a| < 2^p·ulp(a), |ab| >= |value|/(1 + u) makes that power of two
-/// larger than η/2. Products in split() are below 2^(s+1)·|x| and higher parts at most 1.25|x|, so
-/// nothing exceeds half of largest(). Proof: proofs/IeeeInterval.v, product_known.
+/// must be at least η; |a| < 2^p·ulp(a) and |ab| >= |value|/(1 + u). Products in split() are below
+/// 2^(s+1)·|x|, higher parts at most 1.25|x|: no overflow. Proof: proofs/IeeeInterval.v,
+/// product_known.
 template <class T>
 constexpr bool product_error_is_exact(const T& a, const T& b, const with_error<T>& product) {
     using traits = number_traits<T>;

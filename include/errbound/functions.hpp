@@ -73,9 +73,8 @@ constexpr tracked<T, Rule> lesser_or_either(const tracked<T, Rule>& a, const tra
 namespace detail {
 
 /// √x by e = x.error(), x̂ = x.value(): |√x − √x̂| = |x − x̂|/(√x + √x̂) <= e/(√x̂ + √(x̂ − e)),
-/// and v = fl(√x̂) adds a rounding. Up to three roundings up in the divisor, one each in quotient
-/// and sum. Proof: proofs/IeeeFunctions.v, sqrt_known; in any direction, proofs/Functions.v,
-/// sqrt_sound.
+/// and v = fl(√x̂) adds a rounding. Up to five roundings. Proof: proofs/IeeeFunctions.v,
+/// sqrt_known; in any direction, proofs/Functions.v, sqrt_sound.
 template <class T, class Rule>
 constexpr tracked<T, Rule> root_by_error(const tracked<T, Rule>& x) {
     using traits = number_traits<T>;
@@ -146,8 +145,7 @@ constexpr tracked<T, Rule> sqrt(const tracked<T, Rule>& x) {
     }
 }
 
-/// |x| by the sign of its value; the error stays, as ||x| − |x̂|| <= |x − x̂|. Proof:
-/// proofs/IeeeFunctions.v, abs_known.
+/// |x| by the value's sign, as ||x| − |x̂|| <= |x − x̂|. Proof: proofs/IeeeFunctions.v, abs_known.
 template <class T, class Rule>
 constexpr tracked<T, Rule> abs(const tracked<T, Rule>& x) {
     const bool below = x.value() < 0;
@@ -447,12 +445,11 @@ constexpr tracked<T, Rule> horner_of(std::size_t count, const C& c, const tracke
 /// rounded. Precondition (asserted): a and b have equal size.
 ///
 /// The bound is the rule's dot_bound (`relative`; `tight` and `sharp`, from 8 and 5 bits of
-/// precision on: the running error bound), otherwise that of the single operations. For `residual`
-/// the latter is the compensated dot product (Ogita, Rump, Oishi 2005). dot_bound exceeds the
-/// operations' bound by at most a last place or two and costs less. For exact arguments the worst
-/// case is about nuΣ|aᵢbᵢ|, as for any bound from magnitudes alone. Proof: proofs/IeeeDotProduct.v,
-/// tight_dot_known, sharp_dot_known; proofs/IeeeRelative.v, relative_dot_known; of operations one
-/// by one, proofs/IeeeCompound.v, dot_known.
+/// precision on: the running error bound), which costs less and exceeds that of the operations by a
+/// last place or two at most. Otherwise that of the operations: for `residual` the compensated dot
+/// product (Ogita, Rump, Oishi 2005). The worst case for exact arguments is about nuΣ|aᵢbᵢ|. Proof:
+/// proofs/IeeeDotProduct.v, tight_dot_known, sharp_dot_known; proofs/IeeeRelative.v,
+/// relative_dot_known; of operations one by one, proofs/IeeeCompound.v, dot_known.
 template <tracked_numbers A, tracked_numbers B>
 requires std::same_as<detail::number_of<A>, detail::number_of<B>>
 constexpr detail::number_of<A> dot(const A& a, const B& b) {
@@ -468,11 +465,11 @@ constexpr detail::number_of<A> dot(const A& a, const B& b) {
 /// each operation rounded.
 ///
 /// The bound is that of these operations or, if x is not exact and it is less, that of p(x̂) +
-/// q(x)(x − x̂), with x̂ = x.value(): p(t) = p(x̂) + q(t)(t − x̂), where q's coefficients are the
-/// partial results of Horner's rule at x̂ (synthetic division). Operation by operation, each
-/// occurrence of x's error adds up; this way it counts p'(x̂) times, plus second order in |x −
-/// x̂|². Cost: three times that of the operations if x is not exact. Proof: proofs/IeeeCompound.v,
-/// horner_known; of `tight` in any direction, proofs/Compound.v, tight_horner_sound.
+/// q(x)(x − x̂), x̂ = x.value(), where q's coefficients are the partial results of Horner's rule at
+/// x̂ (synthetic division). So x's error counts p'(x̂) times, plus second order in |x − x̂|², not
+/// once per occurrence. Cost: three times that of the operations if x is not exact. Proof:
+/// proofs/IeeeCompound.v, horner_known; of `tight` in any direction, proofs/Compound.v,
+/// tight_horner_sound.
 template <tracked_numbers C>
 constexpr detail::number_of<C> horner(const C& c,
                                       const std::type_identity_t<detail::number_of<C>>& x) {

@@ -1,9 +1,8 @@
 // Boost.Multiprecision's exact numbers as errbound scalars (optional header; needs Boost).
 //
-// Its floating-point numbers of fixed precision (cpp_bin_float, mpfr_float with a number of digits)
-// need no header: tracked<cpp_bin_float_100>. They must round to nearest, and MPFR's exponent range
-// must be the default. They have no subnormal numbers: use the rule `tight`; sqrt and fma do not
-// compile.
+// Floating-point numbers of fixed precision (cpp_bin_float, mpfr_float with a number of digits)
+// need no header: tracked<cpp_bin_float_100>. They must round to nearest, MPFR's in the default
+// exponent range. Without subnormal numbers, use the rule `tight`; sqrt and fma do not compile.
 #pragma once
 
 #include <boost/multiprecision/number.hpp>

@@ -70,9 +70,9 @@ auto unless_given_up(const Find& find) -> std::optional<decltype(find())> {
 /// The distinct roots of p in [a, b], a <= b, in disjoint intervals, with multiplicities.
 ///
 /// Coefficients: double, float, built-in integers, unbounded integers or rationals
-/// (errbound::integer, Boost.Multiprecision). Floating point with certified bounds decides first,
-/// then integers: errbound::integer, the coefficients' own type, or a named one, as in
-/// count_roots<mpz_int>(p, a, b).
+/// (errbound::integer, Boost.Multiprecision). Floating point decides first, then integers:
+/// errbound::integer, the coefficients' own type, or a named one, as in count_roots<mpz_int>(p, a,
+/// b).
 template <class Integer = void, class C>
 auto isolate_roots(const polynomial<C>& p, double a, double b) {
     using exact = roots::integer_for_t<Integer, C>;

@@ -206,21 +206,18 @@ class predicate_type {
     }
 };
 
-/// The predicate of an expression.
-///
-/// The expression is a program of +, − and × on coordinates and whole constants. Every result has
-/// its own type, so variables are `auto` and never reassigned. It may branch on sign_of(x); then it
-/// must return `uncertain` at once, and it returns a sign_type.
+/// The predicate of an expression: a program of +, − and × on coordinates and whole constants.
+/// Every result has its own type, so variables are `auto` and never reassigned. It may branch on
+/// sign_of(x); then it must return `uncertain` at once, and it returns a sign_type.
 ///
 /// The stages (`predicate_stage`), until one is certain:
-/// - semi_static_filter, for expressions of many terms: floating point, with a bound from the
-///   largest coordinate difference;
-/// - static_filter: floating point, with a bound whose constant is counted at compile time, no
-///   branch before the last;
+/// - semi_static_filter, for many terms: floating point, bounded by the largest coordinate
+///   difference;
+/// - static_filter: floating point, with a bound whose constant is counted at compile time;
 /// - tracked: errbound::tracked under the options' rule, if any;
-/// - integers: exact, coordinates on a common exponent, in the narrowest form that holds all
-///   results: exact doubles or words of 128 bits, coordinates of one word, of two (not if the
-///   expression branches), or of the full exponent range (or the options' exact type).
+/// - integers: exact, coordinates on a common exponent: doubles or 128-bit words that hold all
+///   results, coordinates of one word, of two (not if the expression branches), or of the full
+///   exponent range (or the options' exact type).
 ///
 /// Contraction is allowed. Usable in constant expressions and in device code (compiled, not yet
 /// run). Cost: filters 1 to 2 times the plain expression, integers about ten times; full range up

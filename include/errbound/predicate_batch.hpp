@@ -127,8 +127,7 @@ auto blocks_of(const coordinate_arrays<U, N>& arrays) {
     return stored_arrays_block<U, N>{arrays};
 }
 
-/// Signs of block_size inputs by the first filter; true if all are certain. All in lanes of one
-/// width.
+/// Signs of block_size inputs by the first filter; true if all are certain. Lanes have one width.
 template <class Predicate, class... Ranges>
 [[gnu::always_inline]] inline bool filter_block(sign_type* signs, const Ranges&... p) {
     using T = decltype(Predicate::estimate(p[0]...).value);

@@ -170,13 +170,12 @@ constexpr sign_type segment_triangle(const auto& p, const auto& q, const auto& a
 
 }  // namespace forms
 
-/// Positive if a, b, c turn left, zero if collinear. Proof of its static filter:
-/// proofs/Predicates.v, orient2d_sign_certain.
+/// Positive if a, b, c turn left, zero if collinear. Proof: proofs/Predicates.v,
+/// orient2d_sign_certain.
 inline constexpr auto orient2d = predicate<points<2, 2, 2>>(
     [](const auto& a, const auto& b, const auto& c) { return forms::area(a, b, c); });
 
-/// Positive if a, b, c turn right seen from d, zero if coplanar. Proof of its static filter:
-/// proofs/Predicates.v, orient3d_sign_certain.
+/// Positive if a, b, c turn right seen from d. Proof: proofs/Predicates.v, orient3d_sign_certain.
 inline constexpr auto orient3d =
     predicate<points<3, 3, 3, 3>>([](const auto& a, const auto& b, const auto& c, const auto& d) {
         return forms::volume(a, b, c, d);
@@ -190,9 +189,8 @@ inline constexpr auto incircle =
     });
 
 /// Positive if e is inside the sphere through a, b, c, d with positive orient3d; zero on it;
-/// negated if orient3d is negative. Proof of its static filter: proofs/Predicates.v,
-/// insphere_sign_certain. Proof of its semi-static filter: proofs/Predicates.v,
-/// insphere_semi_static_certain.
+/// negated if orient3d is negative. Proof of its filters: proofs/Predicates.v,
+/// insphere_sign_certain, insphere_semi_static_certain.
 inline constexpr auto insphere = predicate<points<3, 3, 3, 3, 3>>(
     [](const auto& a, const auto& b, const auto& c, const auto& d, const auto& e) {
         return forms::lifted_volume(a, b, c, d, e, forms::unweighted);
@@ -283,8 +281,8 @@ inline constexpr auto orient3d_line_plane = predicate<points<3, 3, 3, 3, 3, 3, 3
                sign_of(i.w);
     });
 
-/// Compares, by x, the intersections of lines ab and cd, and ef and gh: negative if the first is
-/// less, zero if either does not exist. Proof: proofs/ImplicitPoints.v, compare_x_line_line_right,
+/// Compares, by x, the intersections of lines ab and cd, and ef and gh; zero if either does not
+/// exist. Proof: proofs/ImplicitPoints.v, compare_x_line_line_right,
 /// compare_x_line_line_sign_certain.
 inline constexpr auto compare_x_line_line = predicate<points<2, 2, 2, 2, 2, 2, 2, 2>>(
     [](const auto& a, const auto& b, const auto& c, const auto& d, const auto& e, const auto& f,

@@ -59,8 +59,7 @@ template <class>
 inline constexpr bool to_chars_is_wrong = false;
 #endif
 
-/// Uses std::to_chars, which rounds exactly. `how`: format and precision, or nothing for the
-/// shortest decimal that reads back.
+/// std::to_chars, which rounds exactly. `how`: format and precision; otherwise shortest.
 template <std::floating_point T, class... How>
 std::string decimal(T x, How... how) {
     if (std::isnan(x)) return "nan";  // the sign of NaN depends on the processor

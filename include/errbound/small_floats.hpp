@@ -5,10 +5,9 @@
 //   const float wide(x * x);                        // exact
 //   errbound::tracked<errbound::bfloat16> y(...);   // with a bound
 //
-// Conversions from float and double, and operations, round once, to nearest even; rounding must be
-// to nearest. E4M3 has no infinities: numbers up to 448 and one NaN. Larger results are NaN
-// (conversion without saturation): with saturation no bound would notice an overflow. Source: Open
-// Compute Project, OCP 8-bit Floating Point Specification (OFP8), 1.0, 2023.
+// Conversions from float and double, and operations, round once, to nearest even. E4M3 has no
+// infinities: numbers up to 448 and one NaN, which larger results give (no saturation: a bound
+// would not notice it). Source: OCP 8-bit Floating Point Specification (OFP8), 1.0, 2023.
 #pragma once
 
 #include <bit>

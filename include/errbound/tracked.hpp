@@ -115,8 +115,8 @@ class tracked {
 
     /// The result of plain arithmetic.
     constexpr const T& value() const { return value_; }
-    /// An upper bound of |value() − exact value|. Infinite if there is none (NaN in a format
-    /// without infinities), otherwise never NaN. `x.error() <= tolerance` and its opposite are both
+    /// An upper bound of |value() − exact value|; infinite if there is none (NaN in a format
+    /// without infinities), otherwise never NaN. `x.error() <= tolerance` and its opposite are
     /// safe.
     constexpr T error() const {
         const wide e = own_error();
@@ -196,8 +196,7 @@ class tracked {
         if (v < -e) return sign_type::negative;
         return v == 0 && e == 0 ? sign_type::zero : sign_type::uncertain;
     }
-    /// The certain sign of a − b. There is no operator<, which would have to guess. If a wrong
-    /// choice is harmless, use by_value.
+    /// The certain sign of a − b. There is no operator<, which would have to guess; see by_value.
     friend constexpr sign_type compare(const tracked& a, const tracked& b) {
         return sign_of(a - b);
     }

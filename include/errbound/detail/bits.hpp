@@ -1,6 +1,5 @@
-// Bit counts for the host and CUDA devices. nvcc has no device code for those of <bit>: in
-// constexpr functions it silently calls address 0. tests/ccd/cuda/null_calls.py searches for such
-// calls.
+// Bit counts for the host and CUDA devices. In constexpr functions, nvcc silently calls address 0
+// for those of <bit>; tests/ccd/cuda/null_calls.py searches for such calls.
 #pragma once
 
 #include <bit>

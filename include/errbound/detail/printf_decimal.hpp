@@ -48,8 +48,7 @@ inline std::string printf_decimal(long double x, std::chars_format how, int prec
     return text;
 }
 
-/// A precision whose decimal reads back as x, by bisection. (Not always the least, next to powers
-/// of two.)
+/// A precision whose decimal reads back as x, by bisection; not always the least.
 inline int precision_to_read_back(long double x) {
     const to_nearest rounding;
     int too_few = -1, enough = std::numeric_limits<long double>::max_digits10 - 1;

@@ -6,8 +6,7 @@
 
 namespace errbound::detail {
 
-/// The largest m <= 8 with (m + 6)² <= 2^bits, or 0: terms for which one factor pays for m + 6
-/// roundings.
+/// The largest m <= 8 with (m + 6)² <= 2^bits, or 0: one factor pays for m + 6 roundings.
 constexpr int terms_at_once(int bits) {
     int m = 8;
     while (bits < 8 && m > 0 && (m + 6) * (m + 6) > (1 << bits)) --m;

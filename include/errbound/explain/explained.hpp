@@ -20,21 +20,17 @@
 
 namespace errbound {
 
-/// Rule: the wrapped rule. Limit: the largest number of sources per number; the smallest beyond it
-/// become "the rest".
+/// Rule: the wrapped rule. Limit: sources per number; the smallest beyond it become "the rest".
 ///
-/// A number has a ledger (ledger.hpp) of each source's part of the error; a source is a scope and a
-/// kind of operation. An operation carries the operands' contributions times the derivative (1, the
-/// other factor, 1/b and v/b for v = a/b, 2^e), and books its own: the rule's bound for exact
-/// operands of the same values. Anything else in the bound (products of errors, its own roundings)
-/// is added in proportion, or subtracted if the bound is less. So contributions add up to at least
-/// error(). If the rule has a `correction`, signed parts are carried too and may cancel: they add
-/// up to the correction, and their sizes to error() or more.
+/// A source is a scope and a kind of operation. An operation carries the operands' contributions
+/// times the derivative (1, the other factor, 1/b and v/b for v = a/b, 2^e), and books its own: the
+/// rule's bound for exact operands. The rest of the bound is distributed in proportion. So
+/// contributions add up to at least error(). With a `correction`, signed parts are carried too and
+/// may cancel: they add up to the correction, and their sizes to error() or more.
 ///
 /// To explain a derived rule (rules/derived.hpp), wrap it; do not derive from a wrapped one. A
 /// function that returns tracked::within makes a new "input"; as_one_operation (functions.hpp)
-/// keeps its arguments' sources. Threads may enter scopes in different orders; amounts then differ
-/// by roundings.
+/// keeps sources. Thread scheduling may change amounts by roundings.
 template <class Rule = tight, std::size_t Limit = 64>
 struct explained {
     static_assert(Limit > 0, "errbound: an explained number keeps at least one source");

@@ -1,5 +1,4 @@
-// A number's error by sources, as numbers, a table or JSON for `errbound explain`
-// (docs/how-wrong.md).
+// A number's error by sources: values, table, JSON for `errbound explain` (docs/how-wrong.md).
 #pragma once
 
 #include <algorithm>

@@ -3,9 +3,8 @@
 //   sqrt(x);                                           // as for any tracked number
 //   errbound::as_one_operation("norm", f, x, y, z);    // a custom function as one source
 //
-// A function has an error but no breakdown. So it is called again: with exact arguments for its own
-// contribution, and with a single argument's error for that argument's. Functions made of sums and
-// products (midpoint, pow) keep these as sources.
+// A function is called again with exact arguments for its own contribution, and with one argument's
+// error each. Functions made of sums and products (midpoint, pow) keep these as sources.
 #pragma once
 
 #include <algorithm>

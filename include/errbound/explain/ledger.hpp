@@ -2,8 +2,7 @@
 //
 // An entry is one source's part: `known`, a signed part of true value − value, and `unknown` >= 0,
 // a bound of the rest. With c the rule's correction and e its bound, Σ (|known| + unknown) >= e
-// despite rounding, and Σ known = c up to rounding. If e is not finite, entries are those that made
-// it so.
+// despite rounding, and Σ known = c up to rounding. Infinite entries explain an infinite e.
 #pragma once
 
 #include <algorithm>

@@ -5,11 +5,10 @@
 //       mean = sum / n;
 //   }
 //
-// Scopes nest in the order of entry, across calls, on each thread separately. A scope is a local
-// variable: it must end before those around it, on its thread (no coroutine that resumes elsewhere
-// may hold one). Name, file, line and outer scopes identify it; recursion into itself is the same
-// scope. Operations of one kind in a scope are one source of error. For finer sources use smaller
-// scopes.
+// Scopes nest in the order of entry, across calls, on each thread. A scope is a local variable: it
+// must end before those around it, on its thread (not in a coroutine that resumes elsewhere). Name,
+// file, line and outer scopes identify it; recursion into itself is the same scope. Operations of
+// one kind in a scope are one source of error; for finer sources use smaller scopes.
 #pragma once
 
 #include <algorithm>

@@ -1,12 +1,10 @@
 // The scalar of semi-static filters: only an expression's value, with a bound from the largest
-// coordinate difference in it. For expressions of so many terms that their sizes
-// (errbound/filters/static_filter.hpp) would cost more than that maximum. Decides somewhat less
-// than the static filter.
+// coordinate difference in it. For many terms, whose sizes (errbound/filters/static_filter.hpp)
+// would cost more than that maximum. Decides somewhat less.
 //
-// Overflow: if 2m·M^d is finite, no number of the expression has overflowed, fused or not. A NaN
-// coordinate that M misses makes the value NaN. Proof: proofs/SemiStatic.v,
-// semi_static_overflow_uncertain. Source of the kind: Devillers, Pion 2003, Efficient exact
-// geometric predicates for Delaunay triangulations.
+// If 2m·M^d is finite, no number of the expression has overflowed. A NaN coordinate makes the value
+// NaN. Proof: proofs/SemiStatic.v, semi_static_overflow_uncertain. Source of the kind: Devillers,
+// Pion 2003, Efficient exact geometric predicates for Delaunay triangulations.
 #pragma once
 
 #include <concepts>
@@ -21,13 +19,8 @@ namespace errbound::filters {
 /// M is the largest |d̂| of coordinate differences and |x| of plain coordinates,
 ///     S <= m·M^d + a·τ·(1 + M^d),
 /// where m is the expression's value with all terms positive and all differences 1, and a counts
-/// products. By induction over the expression, with X and Y powers of M:
-/// - a coordinate, or a difference of two: m = 1, a = 0;
-/// - x ± y: m and a add up;
-/// - x·y: m = m_x·m_y, a = 2(m_x·a_y + m_y·a_x) + 2, since X(1 + Y) <= 2(1 + XY), (1 + X)(1 + Y) <=
-///   3(1 + XY), and 3·a_x·a_y·τ < 1 for fewer than 10^14 terms.
-///
-/// Proof, without contraction: proofs/SemiStatic.v, mass_covers_size.
+/// products: 0 at first, then a_x + a_y for sums, 2(m_x·a_y + m_y·a_x) + 2 for products. Proof,
+/// without contraction: proofs/SemiStatic.v, mass_covers_size.
 template <std::floating_point T, int Roundings, int Degree>
 struct semi_static {
     static_assert(Roundings < 1000 && Degree < 1000,

@@ -33,17 +33,13 @@ constexpr T filter_constant(int k) {
 /// An intermediate result; users write `auto`. Roundings: k. Products: how often τ is still to be
 /// added to the size. Plain: size = |value|. Induction for the error bound:
 /// - a coordinate: k = 0. A difference d of two: |d̂ − d| <= u|d̂|, size |d̂| as computed, k = 1.
-///   Differences lose nothing to underflow.
-/// - x ± y: k = max(k_x, k_y) + 1, S = S_x + S_y. The rounded sum is at most (1 + u)^max·S in size;
-///   rounding adds u times that. Sums lose nothing to underflow.
-/// - x·y: k = k_x + k_y + 1, S = S_x·S_y + τ. The exact product of the computed factors is off by
-///   ((1 + u)^(k_x + k_y) − 1)·S_x·S_y; rounding adds u(1 + u)^(k_x + k_y)·S_x·S_y, underflow at
-///   most η/2 < uτ/2.
+/// - x ± y: k = max(k_x, k_y) + 1, S = S_x + S_y; the rounded sum is at most (1 + u)^max·S.
+/// - x·y: k = k_x + k_y + 1, S = S_x·S_y + τ. The computed factors' product is off by ((1 + u)^(k_x
+///   + k_y) − 1)·S_x·S_y; rounding adds u times it, underflow at most η/2 < uτ/2.
 ///
-/// Overflow: rounding is monotone, so Ŝ >= |x̂| everywhere. Everything made of an infinity or NaN
-/// has an infinite or NaN size, so no sign is certain. Proof: proofs/StaticFilter.v,
-/// overflow_uncertain. With contraction (fused multiply-add) a value can overflow where its size
-/// does not, so values must be tested.
+/// Rounding is monotone, so Ŝ >= |x̂|: everything made of an infinity or NaN has an infinite or NaN
+/// size, and no sign is certain. Proof: proofs/StaticFilter.v, overflow_uncertain. With contraction
+/// a value can overflow where its size does not, so values are tested.
 template <std::floating_point T, int Roundings, int Products, bool Plain>
 struct filtered {
     static_assert(Roundings < 1000, "errbound: the derivation of the constant assumes fewer");

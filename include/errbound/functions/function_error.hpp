@@ -66,15 +66,14 @@ inline constexpr double least_reduced_angle = 0x1p20;
 
 /// The assumption: if F has a finite result v for arguments of type T in its domain, |v − f| is at
 /// most this many units in the last place of the exact result f (η for subnormal f), in rounding to
-/// nearest. Between 0.5 and 1024. For sin, cos and tan only below 2^20: glibc's reduction of larger
-/// doubles has an absolute error, and cos(0x1.69eab0985179bp+246) is off by 136,921 units.
+/// nearest. Between 0.5 and 1024. For sin, cos and tan only below 2^20: glibc reduces larger
+/// doubles with an absolute error, and cos(0x1.69eab0985179bp+246) is off by 136,921 units.
 ///
 /// The defaults are upper bounds of the errors in the GNU C library's manual ("Known Maximum Errors
-/// in Math Functions", x86-64; long double: the larger of 80 and 128 bits) and in Gladman,
-/// Innocente, Mather and Zimmermann (Accuracy of Mathematical Functions in Single, Double, Double
-/// Extended, and Quadruple Precision). The latter covers float and double of other libraries.
-/// `errbound validate --functions all` tests them on a system. Windows, and long double of other
-/// libraries, have no default and do not compile without a specialisation before the first use:
+/// in Math Functions", x86-64) and in Gladman, Innocente, Mather and Zimmermann (Accuracy of
+/// Mathematical Functions ...), which covers float and double of other libraries. `errbound
+/// validate --functions all` tests them. Windows, and long double of other libraries, have none and
+/// need a specialisation before the first use:
 ///
 ///   template <>
 ///   inline constexpr double errbound::function_error<errbound::elementary_function::exp, double> =

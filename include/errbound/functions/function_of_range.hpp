@@ -310,8 +310,7 @@ void sine_of(const reduced_angle<T>& r, int quadrants, bounded<T>& sine, bounded
     if (quadrants % 4 >= 2) sine = negated(sine), derivative = negated(derivative);
 }
 
-/// At least |v − f(x)| for x within e > 0 of x̂ and f = sin, cos or tan; `at` is the computed
-/// f(x̂).
+/// At least |v − f(x)|, x within e > 0 of x̂, f = sin, cos or tan; `at` is the computed f(x̂).
 template <elementary_function F, class T>
 T error_of_angle_function(const bounded<T>& at, const bounded<T>& derivative, const T& e) {
     if constexpr (F == elementary_function::tan) {

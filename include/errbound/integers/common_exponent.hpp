@@ -36,8 +36,7 @@ struct short_coordinates {
     bool fit = false;
 
     /// `largest` is largest_size(coordinates), finite. Adding 3·2^51 units rounds x to whole units;
-    /// only multiples survive, and their products are exact. Proof: proofs/Widths.v,
-    /// short_coordinates_exact.
+    /// only multiples survive. Proof: proofs/Widths.v, short_coordinates_exact.
     constexpr short_coordinates(const std::array<double, N>& coordinates, std::uint64_t largest) {
         const auto field = static_cast<int>(largest >> 52);
         unit = field - 1022 - Bits;
@@ -65,8 +64,8 @@ struct word_coordinates {
     bool fit;
 
     /// `largest` is largest_size(coordinates), finite, so coordinates are below 2^(field − 1022).
-    /// It fits if i·2^unit = x: i·2^unit, a multiple of 2^-1074, is not rounded. Proof:
-    /// proofs/Widths.v, word_coordinates_exact.
+    /// It fits if i·2^unit = x, which is not rounded. Proof: proofs/Widths.v,
+    /// word_coordinates_exact.
     constexpr word_coordinates(const std::array<double, N>& coordinates, std::uint64_t largest) {
         const auto field = static_cast<int>(largest >> 52);
         unit = field - 1022 - max_bits;

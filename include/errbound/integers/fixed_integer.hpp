@@ -1,12 +1,9 @@
-// Exact integers of compile-time width: no allocation, no branches on size.
+// Exact integers of compile-time width: no allocation, no branches on size, usable in device code.
 //
 // fixed_integer<Words> is a two's complement number of 64·Words bits. A product has the words of
 // both factors and is exact. Sums, differences and shifts keep their width and wrap around: a
-// result that fits is right, whatever the intermediate results. Callers bound the results, as for
-// forms of known degree (errbound/bernstein.hpp).
-//
-// constexpr, usable in device code, no exceptions. Cost: A·B word multiplications for a product of
-// A and B words, an addition with carry per word for a sum.
+// result that fits is right. Callers bound the results. Cost: A·B word multiplications for a
+// product of A and B words, an addition with carry per word for a sum.
 #pragma once
 
 #include <array>

@@ -237,8 +237,7 @@ class integer {
         return b == 0 ? a.size_ <=> 0 : a <=> integer(b);
     }
 
-    /// Digits in this base, 2 to 36, after an optional sign. Otherwise throws
-    /// std::invalid_argument.
+    /// Digits in base 2 to 36 after an optional sign. Otherwise throws std::invalid_argument.
     static integer from_string(std::string_view digits, int base = 10);
     friend std::string to_string(const integer& x, int base = 10) { return x.text(base); }
     template <class Traits>

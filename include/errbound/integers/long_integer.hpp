@@ -75,8 +75,8 @@ constexpr int count_filled(const word* x, int n) {
     }
 }
 
-/// r = a·b for trimmed two's complement numbers of m and n words; r has m + n. Proof:
-/// proofs/SparseProduct.v, any_product_exact.
+/// r = a·b, trimmed, of m and n words; r has m + n. Proof: proofs/SparseProduct.v,
+/// any_product_exact.
 [[gnu::noinline]] constexpr void multiply_any(word* r, const word* a, int m, const word* b, int n) {
     // Worthwhile only if most words are skipped.
     constexpr int worth = 4;

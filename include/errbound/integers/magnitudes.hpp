@@ -237,8 +237,7 @@ class two_word_divisor {
         }
     }
 
-    /// The quotient of three words, below 2^64. Precondition: the first two are at most the
-    /// divisor.
+    /// The quotient of three words, below 2^64. Precondition: the first two <= the divisor.
     constexpr word quotient(word a2, word a1, word a0) const {
         if (a2 == high_ && a1 == low_) return ~word(0);
         const auto estimate = double_word(v_) * a2;
@@ -293,8 +292,7 @@ struct euclid_steps {
 };
 
 /// The steps of Euclid's algorithm common to all numbers a >= b that begin with these words. (D. H.
-/// Lehmer 1938; condition: G. E. Collins, in T. Jebelean, A double-digit Lehmer-Euclid algorithm,
-/// J. Symbolic Computation 19, 1995.)
+/// Lehmer 1938; condition: G. E. Collins, in T. Jebelean, J. Symbolic Computation 19, 1995.)
 constexpr euclid_steps common_steps(word a, word b) {
     euclid_steps sure, m;
     while (b >= m.m11 && a - b >= m.m01 + m.m11) {

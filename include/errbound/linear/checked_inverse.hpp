@@ -34,8 +34,7 @@ class checked_inverse {
     const square<N>& approximation() const { return inverse_; }
 
     /// An upper bound of |I − RA|v, v >= 0. |I − RA| <= |I − fl(RA)| + γ_h|R||A| + nη, h the
-    /// roundings in a block and the sum of blocks; entries off by η/2 add |R|(η/2). Each bound has
-    /// n + 1 roundings and a few more.
+    /// roundings in a block and the sum of blocks; entries off by η/2 add |R|(η/2).
     vector<N> defect_times(const vector<N>& v) const {
         const Index n = a_.rows();
         const double lost = relative_loss((std::min)(n, block) + n / block + 3);

@@ -40,8 +40,7 @@ constexpr control_values<S, N> control_values_of(const bernstein<S, N>& p) {
     return c;
 }
 
-/// Midpoints of neighbours. Unrolled, to stay in registers: loops load pairs just stored one by
-/// one, which stalls.
+/// Midpoints of neighbours. Unrolled: loops load pairs just stored one by one, which stalls.
 template <class S, std::size_t... I>
 constexpr std::array<S, sizeof...(I)> midpoints(const std::array<S, sizeof...(I) + 1>& row,
                                                 std::index_sequence<I...>) {
@@ -58,7 +57,7 @@ constexpr void halve(const std::array<S, Left>& row, control_values<S, N>& left,
         halve(midpoints(row, std::make_index_sequence<Left - 1>()), left, right);
 }
 
-/// The halves on [0, 1/2] and [1/2, 1] (de Casteljau). Proof: proofs/Subdivision.v, halves_cubic,
+/// On [0, 1/2] and [1/2, 1] (de Casteljau). Proof: proofs/Subdivision.v, halves_cubic,
 /// halves_quartic.
 template <class S, int N>
 constexpr std::pair<control_values<S, N>, control_values<S, N>> halves(

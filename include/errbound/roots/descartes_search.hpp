@@ -3,10 +3,9 @@
 //
 // Bernstein coefficients without sign change exclude a root inside an interval; one change proves
 // exactly one; other intervals are split. This ends by the two-circle theorem (Krandick, Mehlhorn
-// 2006). If halving repeatedly leaves all roots in one half, Newton's method for a multiple root
-// locates the cluster. An interval around it is kept if Descartes' rule excludes roots beside it;
-// the next narrowing is twice as fast (Sagraloff, Mehlhorn, Computing real roots of real
-// polynomials, J. Symb. Comp. 73, 2016).
+// 2006). If halving keeps all roots in one half, Newton's method for a multiple root locates the
+// cluster. An interval around it is kept if Descartes' rule excludes other roots; the next one is
+// narrowed twice as fast (Sagraloff, Mehlhorn, J. Symb. Comp. 73, 2016).
 #pragma once
 
 #include <algorithm>
@@ -220,8 +219,7 @@ class descartes_search {
         }
     }
     static point half(const part& p) { return middle(p.low, p.high); }
-    /// True if all roots may be in one place: after 32, 64, 128, ... halvings that left one half
-    /// empty, and again after a success.
+    /// True if all roots may be in one place: after 32, 64, ... lone halvings, and after a success.
     static bool near_each_other(const part& p) {
         const auto n = static_cast<unsigned>(p.lone_halvings);
         return p.speed > slowest || (n >= lone && std::has_single_bit(n));

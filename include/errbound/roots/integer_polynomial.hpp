@@ -60,8 +60,8 @@ integer_form<Integer> mirrored(integer_form<Integer> p) {
     return p;
 }
 
-/// a/b; empty if b does not divide a over the integers. Precondition: b is not zero. Proof:
-/// proofs/CommonFactor.v, divided_right.
+/// a/b; empty if b ≠ 0 does not divide a over the integers. Proof: proofs/CommonFactor.v,
+/// divided_right.
 template <class Integer>
 integer_form<Integer> divided(integer_form<Integer> a, const integer_form<Integer>& b) {
     integer_form<Integer> quotient(a.size() < b.size() ? 0 : a.size() - b.size() + 1);
@@ -128,8 +128,7 @@ dyadic<Integer> value_at(const integer_form<Integer>& p, const dyadic<Integer>& 
     return value_at(p, x, unlimited);
 }
 
-/// The value at x within 2^-bits of it, or exactly. For long exact values tries less precision
-/// first.
+/// The value at x within 2^-bits of it, or exactly. Long exact values come last.
 template <class Integer>
 nearby_value<Integer> value_within(const integer_form<Integer>& p, const dyadic<Integer>& x,
                                    int bits, work_meter& meter) {
@@ -238,9 +237,8 @@ std::vector<std::uint64_t> residues(const integer_form<Integer>& p, const prime_
     return r;
 }
 
-/// From p's residues, that of the value at x, times 2^(−e·n) for e < 0, where 2^e is the highest
-/// power dividing x. If nonzero, the value is not zero. Proof: proofs/PrimeField.v,
-/// value_modulo_right.
+/// The residue of the value at x, times 2^(−e·n) for e < 0, where 2^e is the highest power dividing
+/// x. If nonzero, the value is not zero. Proof: proofs/PrimeField.v, value_modulo_right.
 template <class Integer>
 std::uint64_t value_at(const std::vector<std::uint64_t>& residues, const prime_field& field,
                        const dyadic<Integer>& x) {

@@ -90,7 +90,7 @@ class local_form {
             power *= length;
             a[j] = shifted(Integer(a[j] * power), -depth * static_cast<int>(j));
         }
-        // An error e in a_i adds at most e to each new one, as from + length <= 2^depth; so do
+        // An error e in a_i adds at most e to each new one: from + length <= 2^depth. So do
         // truncations.
         result.error_ = error_ * Integer(degree_ + 1) + Integer(a.size() * a.size());
         result.drop_small_terms();
@@ -119,8 +119,7 @@ class local_form {
         row.error = row.error * Integer(row.values.size()) + 1;
         return row;
     }
-    /// The signs of scaled_coefficients(bits), 0 if uncertain. Proof: proofs/LocalForm.v,
-    /// signs_right.
+    /// Signs of scaled_coefficients(bits), 0 if uncertain. Proof: proofs/LocalForm.v, signs_right.
     std::vector<signed char> signs(int bits) const {
         const auto h = scaled_coefficients(bits);
         std::vector<signed char> result;
@@ -193,8 +192,7 @@ class local_form {
     }
     static int bits_of(const Integer& x) { return x == 0 ? 0 : floor_log2(x) + 1; }
 
-    /// c_i·low^i in a common unit, the largest with about this many bits, each within 3. Proof:
-    /// proofs/TaylorCoefficients.v, terms_right.
+    /// c_i·low^i in a common unit, each within 3. Proof: proofs/TaylorCoefficients.v, terms_right.
     static form terms(const form& p, const point& low, int bits, int count_bits) {
         const int precision = bits + count_bits + 1;
         std::vector<cut_number<Integer>> all;
@@ -248,7 +246,7 @@ class local_form {
         }
     }
 
-    /// log2 of a bound of all C(n + 1, j + 1)·(width/low)^j. Proof: proofs/TaylorCoefficients.v,
+    /// log2 of a bound of C(n + 1, j + 1)·(width/low)^j. Proof: proofs/TaylorCoefficients.v,
     /// error_bits_right.
     static std::int64_t error_bits(std::size_t size, int ratio) {
         if (ratio + bits_of_count(size) <= 0) return bits_of_count(size);

@@ -53,8 +53,7 @@ inline std::vector<floating_coefficient> floating_coefficients(const std::vector
     while (!c.empty() && c.back().value() == 0) c.pop_back();
     return c;
 }
-/// The coefficients of p, or of a positive multiple if double's range requires, within bounds.
-/// Zeros are exact, and omitted at the end.
+/// The coefficients of p, or of a positive multiple in range, within bounds. Zeros are exact.
 template <exact_number Integer>
 std::vector<floating_coefficient> floating_coefficients(const integer_form<Integer>& p) {
     constexpr double epsilon = number_traits<double>::epsilon();

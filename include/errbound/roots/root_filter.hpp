@@ -34,7 +34,6 @@ struct filtered_part {
     double at0, at1;
     double from, to;
     /// Exactly one root, simple and strictly inside, none at the ends. Otherwise undecided.
-    /// (Adjacent undecided parts touch.)
     bool has_one_root;
 };
 
@@ -107,8 +106,7 @@ class root_filter {
     /// Up to this n, binomials and their products with n are exact in double.
     static constexpr std::size_t max_degree = 50;
     static constexpr int max_halvings = 200;
-    /// Ends of parts at least half as wide, relative to their distance from at0, are exact in
-    /// double.
+    /// Smallest relative width of a part whose ends are certainly exact in double.
     static constexpr double narrowest = 0x1p-46;
     static constexpr std::size_t max_rows = 64;
 
@@ -177,9 +175,8 @@ class root_filter {
         subdivide();
     }
 
-    /// A bound of Kioustelidis (see positive_root_exponent), not a power of two, so that ends of
-    /// parts are rarely numbers that people choose as roots. 0 without positive root, infinite
-    /// without bound in range.
+    /// A bound of Kioustelidis (see positive_root_exponent), not a power of two, so that ends are
+    /// rarely roots that people choose. 0 without positive root, infinite without bound in range.
     double root_bound() const {
         const std::size_t n = c_.size() - 1;
         const auto largest = [](const number& c) {
@@ -303,9 +300,8 @@ class root_filter {
     }
 
     /// Two close roots would need many halvings to separate. With at most two left, tries the
-    /// extremum, by plain doubles. If its sign differs from `outside`, the sign of both ends, each
-    /// side has one root; if it is uncertain, halving does not help. Tried after 4, 8, 16, ...
-    /// halvings; false on failure.
+    /// extremum in doubles. If its sign differs from `outside`, that of both ends, each side has
+    /// one root; if it is uncertain, the part is undecided. Tried after 4, 8, 16, ... halvings.
     bool add_pair(double from, double to, int outside) {
         const int halvings = -std::ilogb(to - from);
         if (halvings < 4 || !std::has_single_bit(static_cast<unsigned>(halvings))) return false;
@@ -324,8 +320,7 @@ class root_filter {
         }
         return true;
     }
-    /// A zero of the derivative, by Newton's method from the middle; NaN on failure. Has 46 bits,
-    /// so that its point is mostly a double.
+    /// A zero of the derivative, by Newton's method from the middle; NaN on failure. 46 bits long.
     double extremum(double from, double to) const {
         const double width = at1_ - at0_;
         double u = from + (to - from) / 2;

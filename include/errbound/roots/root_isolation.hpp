@@ -62,8 +62,7 @@ class root_isolation {
     point least_positive() const { return unlikely_root<Integer>(right_.lower - 1); }
     point greatest_negative() const { return -unlikely_root<Integer>(left_.lower - 1); }
 
-    /// Appends the roots in [low, high], low <= high, ascending. Proof: proofs/RootIsolation.v,
-    /// isolate_right.
+    /// Appends the roots in [low, high], ascending. Proof: proofs/RootIsolation.v, isolate_right.
     void isolate(const point& low, const point& high, std::vector<interval>& roots,
                  work_meter& meter) const {
         const std::size_t first = roots.size();
@@ -88,8 +87,8 @@ class root_isolation {
     void refine(interval& root, work_meter& meter) const {
         refine(root, scale(root.high - root.low, -1), meter);
     }
-    /// Narrows it to this width. Quadratic interval refinement (J. Abbott 2006): the secant picks
-    /// one of 2^bits parts; success doubles bits.
+    /// Narrows it to this width. Quadratic interval refinement (J. Abbott 2006): success doubles
+    /// bits.
     void refine(interval& root, const point& width, work_meter& meter) const {
         for (int bits = 1; width < root.high - root.low;)
             bits = keep_part(root, bits, meter) ? 2 * bits : (std::max)(1, bits / 2);
@@ -104,9 +103,8 @@ class root_isolation {
             (s == sign_at(squarefree(), root.low, meter) ? root.low : root.high) = x;
     }
 
-    /// The sign of g at the root; refines it. A common factor decides zero, and equal signs of g's
-    /// control values on the interval any other sign. Proof: proofs/RootIsolation.v,
-    /// sign_at_root_right.
+    /// The sign of g at the root; refines it. A common factor decides zero, equal signs of g's
+    /// control values any other sign. Proof: proofs/RootIsolation.v, sign_at_root_right.
     sign_type sign_at_root(const form& g, interval& root, work_meter& meter) const {
         if (g.empty()) return sign_type::zero;
         form common;
@@ -146,8 +144,7 @@ class root_isolation {
     static bool changes_sign(const form& f, const interval& root, work_meter& meter) {
         return sign_at(f, root.low, meter) != sign_at(f, root.high, meter);
     }
-    /// True if f, a divisor of p's, vanishes at the root. Proof: proofs/CommonFactor.v,
-    /// vanishes_right.
+    /// True if f, a divisor of p's, is zero there. Proof: proofs/CommonFactor.v, vanishes_right.
     static bool vanishes(const form& f, const interval& root, work_meter& meter) {
         if (f.size() < 2) return false;
         if (root.is_point()) return sign_at(f, root.low, meter) == sign_type::zero;
@@ -225,7 +222,7 @@ class root_isolation {
         if (line.variations > 1) {
             descartes_search<Integer>(line.p, meter).find(low, high, roots);
         } else if (line.variations == 1 && !low.is_root && !high.is_root) {
-            // The signs decide if the only positive root is between. Proof: proofs/RootIsolation.v,
+            // A sign change means that it holds the root. Proof: proofs/RootIsolation.v,
             // isolate_right.
             if (all || sign_at(line.p, low.at, meter) != sign_at(line.p, high.at, meter))
                 roots.push_back({low.at, high.at});

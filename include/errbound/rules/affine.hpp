@@ -3,10 +3,9 @@
 // y) − (x − y) does not depend on x. Rounding must be to nearest.
 //
 // Notation: v the computed value, true value = v + Σ cᵢεᵢ + ρ, |εᵢ| <= 1, one εᵢ per source, |ρ| <=
-// rest. The rest is 0 except in constant expressions and device code, which count no sources
-// (detail/sources.hpp). Sources are distinct across all threads of a program; recreate another
-// process's numbers by `within`. sqrt and fma keep sources; other functions start new ones.
-// tracked.hpp does not include this header, as the source counter is global.
+// rest. The rest is 0 except in constant expressions and device code, which count no sources.
+// Sources are distinct across a program's threads; recreate another process's numbers by `within`.
+// sqrt and fma keep sources; other functions start new ones. The source counter is global.
 //
 // Sources: Comba, Stolfi 1993; de Figueiredo, Stolfi 2004 (Numerical Algorithms 37). Proof, of
 // whole computations: proofs/IeeeAffineFunctions.v, computed_known, gives_known.
@@ -89,8 +88,7 @@ struct affine_of {
     static constexpr T error(const T&, const bound<T>& b) {
         return b.radius;
     }
-    /// True at the limit. A root, a frequent divisor, then becomes one source: its own terms would
-    /// displace others.
+    /// True at the limit: a root, a frequent divisor, then is one source and displaces no others.
     template <class T>
     static constexpr bool is_crowded(const bound<T>& b) {
         return b.count == Limit;
@@ -103,8 +101,7 @@ struct affine_of {
         return r;
     }
 
-    /// a + b = v + δ + Σ (aᵢ + bᵢ)εᵢ; roundings of coefficients are known exactly. Proof:
-    /// proofs/IeeeAffine.v, affine_add_known.
+    /// a + b = v + δ + Σ (aᵢ + bᵢ)εᵢ. Proof: proofs/IeeeAffine.v, affine_add_known.
     template <class T>
     static constexpr bound<T> add(const T& v, operand<T> a, operand<T> b) {
         return sum<false, T>(v, a, b);
@@ -269,8 +266,8 @@ struct affine_of {
                 for (--count_; least < count_; ++least) terms_[least] = terms_[least + 1];
             }
         }
-        /// Makes the amount left over a term of this source, usually the last. Without a source,
-        /// returns it as the rest.
+        /// Makes the amount left over a term, usually the last. Without a source, returns it as the
+        /// rest.
         constexpr T as_term_of(std::uint64_t source) {
             if (source == detail::no_source) return left_;
             std::size_t i = count_++;

@@ -1,11 +1,10 @@
 // Bound rule `interval`: interval arithmetic, rounded outwards without touching the rounding mode,
 // which must be to nearest.
 //
-// The true value and the computed value lie in [lower, upper]. Ends are finite, except for [−∞, ∞],
-// which stands for any overflow or NaN in the value or an end. Notation: p the precision, u = 2^-p,
-// η the smallest positive number. Sums, and products and quotients of points, use the exact error's
-// sign: ends are rounded correctly, and exact results stay points. Products and quotients of wider
-// intervals always take one step outwards.
+// The true and the computed value lie in [lower, upper]. Ends are finite, except for [−∞, ∞], which
+// stands for any overflow or NaN. Notation: p the precision, u = 2^-p, η the smallest positive
+// number. Sums, and products and quotients of points, use the exact error's sign: ends are rounded
+// correctly, exact results stay points. Other products and quotients always take one step outwards.
 #pragma once
 
 #include <errbound/error_free.hpp>

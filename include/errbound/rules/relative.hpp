@@ -55,8 +55,7 @@ struct relative {
         return upper<T>(detail::rounded_product(traits::abs(value), share)) +
                traits::underflow_unit();
     }
-    /// The sign of the value if the error is finite. Proof: proofs/IeeeRelative.v,
-    /// relative_sign_known.
+    /// The value's sign if the error is finite. Proof: proofs/IeeeRelative.v, relative_sign_known.
     template <class T>
     static constexpr sign_type sign(const T& value, const bound<T>& b) {
         if (!number_traits<T>::is_finite(error<T>(value, b))) return sign_type::uncertain;
@@ -143,8 +142,7 @@ struct relative {
         return detail::rounded_product(x, T(1 + number_traits<T>::epsilon()));
     }
 
-    /// At least −ln(1 − u), the size of one factor. Factors 1 + 8ε, 16 times double's u, pay for at
-    /// most twelve roundings here and below.
+    /// At least −ln(1 − u), one factor. 1 + 8ε, 16 times double's u, pays for twelve roundings.
     template <class T>
     static constexpr double of_one_factor() {
         const double u = static_cast<double>(number_traits<T>::unit_roundoff());
@@ -182,8 +180,7 @@ struct relative {
         if (traits::abs(v) >= traits::smallest_normal()) return {count_sum(k, 1)};
         return {unknown};
     }
-    // One sign: k = max(ka, kb), as the sum lies between the extremes. Unlike signs: by absolute
-    // errors Ea + Eb, relative to |â + b̂|.
+    // One sign: k = max(ka, kb), as the sum lies between. Unlike signs: (Ea + Eb)/|â + b̂|.
     template <class T>
     static constexpr bound<T> sum(const T& v, const T& a, const bound<T>& of_a, const T& b,
                                   const bound<T>& of_b) {

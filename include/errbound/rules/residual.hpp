@@ -37,7 +37,7 @@ struct residual {
     static constexpr bound<T> within(const T& value, const T& error) {
         return {T(0), error >= 0 ? error + (value - value) : number_traits<T>::infinity()};
     }
-    /// The bound of a number of this value that is exactly 0. Proof: proofs/IeeeResidual.v,
+    /// The bound of a number that is exactly 0. Proof: proofs/IeeeResidual.v,
     /// residual_displacement_known.
     template <class T>
     static constexpr bound<T> displacement(const T& value) {
@@ -54,9 +54,8 @@ struct residual {
     static constexpr T correction(const T&, const bound<T>& b) {
         return b.correction;
     }
-    /// v + c is known to ρ, of second order, which decides far more than error(). With s = v ⊕ c,
-    /// |v + c| >= |s|(1 − u), and (1 + 8ε)(1 − u)/(1 + u) > 1; a subnormal s is exact. Proof:
-    /// proofs/IeeeResidual.v, residual_sign_known.
+    /// v + c is known to ρ, of second order. With s = v ⊕ c, |v + c| >= |s|(1 − u), and (1 + 8ε)(1
+    /// − u)/(1 + u) > 1; a subnormal s is exact. Proof: proofs/IeeeResidual.v, residual_sign_known.
     template <class T>
     static constexpr sign_type sign(const T& value, const bound<T>& b) {
         using traits = number_traits<T>;
@@ -73,8 +72,7 @@ struct residual {
         return {-b.correction, b.remainder};
     }
 
-    /// a + b = v + δ + (ca + cb) ± (ρa + ρb); both sums in c are error-free. Proof:
-    /// proofs/IeeeResidual.v, residual_add_known.
+    /// a + b = v + δ + (ca + cb) ± (ρa + ρb). Proof: proofs/IeeeResidual.v, residual_add_known.
     template <class T>
     static constexpr bound<T> add(const T& v, rule_operand<T, residual> a,
                                   rule_operand<T, residual> b) {

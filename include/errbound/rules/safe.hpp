@@ -29,8 +29,7 @@ struct safe {
     static constexpr bound<T> exact(const T& value) {
         return {number_traits<T>::abs(value), 0};
     }
-    /// B = max(|value| + error, error/ε), k = 1, so that Bε >= error. Proof: proofs/IeeeSafe.v,
-    /// safe_within_known.
+    /// B = max(|value| + error, error/ε), k = 1. Proof: proofs/IeeeSafe.v, safe_within_known.
     template <class T>
     static constexpr bound<T> within(const T& value, const T& error) {
         using traits = number_traits<T>;
@@ -63,8 +62,8 @@ struct safe {
             a.bound.operations < b.bound.operations ? b.bound.operations : a.bound.operations;
         return {enlarged<T>(a.bound.magnitude + b.bound.magnitude), counted(k)};
     }
-    /// Proof: proofs/IeeeSafe.v, safe_subtract_known; in any direction, proofs/Safe.v,
-    /// safe_subtract_sound.
+    /// In any direction: proofs/Safe.v, safe_subtract_sound. Proof: proofs/IeeeSafe.v,
+    /// safe_subtract_known.
     template <class T>
     static constexpr bound<T> subtract(const T& v, rule_operand<T, safe> a,
                                        rule_operand<T, safe> b) {

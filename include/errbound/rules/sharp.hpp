@@ -35,8 +35,7 @@ struct sharp {
     static constexpr bound<T> within(const T& value, const T& error) {
         return {error >= 0 ? error + (value - value) : number_traits<T>::infinity()};
     }
-    /// The bound of a number of this value that is exactly 0. Proof: proofs/IeeeRules.v,
-    /// tight_within_known.
+    /// The bound of a number that is exactly 0. Proof: proofs/IeeeRules.v, tight_within_known.
     template <class T>
     static constexpr bound<T> displacement(const T& value) {
         return within<T>(value, number_traits<T>::abs(value));
@@ -92,8 +91,8 @@ struct sharp {
             (a.bound.error + (detail::rounded_product(quotient, b.bound.error) + lost)) / distance;
         return {inflated<T>((rounding(v) + 2 * traits::underflow_unit()) + inflated<T>(inherited))};
     }
-    /// Exact unless it underflows; then value and bound are each off by at most η/2. Proof:
-    /// proofs/IeeeRules.v, sharp_scale_known.
+    /// Off by at most η/2 each if value or bound underflow. Proof: proofs/IeeeRules.v,
+    /// sharp_scale_known.
     template <class T>
     static constexpr bound<T> scale(const T& v, rule_operand<T, sharp> a, int e) {
         using traits = number_traits<T>;
@@ -104,15 +103,14 @@ struct sharp {
     }
 
     /// Σ aᵢbᵢ, a running error bound. A product p is off by at most u|p| + η/2; a partial sum s' =
-    /// fl(s + p) by at most u|s'|, |p| and |s|, since s and p are candidates for s'. The first
-    /// term, added to 0, costs nothing. The arguments' errors add Σ |â|σb + σa(|b̂| + σb).
+    /// fl(s + p) by at most u|s'|, |p| and |s|, since s and p are candidates for s'. The arguments'
+    /// errors add Σ |â|σb + σa(|b̂| + σb).
     ///
-    /// One factor pays for the roundings of m terms' bounds. Σ (u|p| + min(u|s'|, |p|, |s|)) has m
-    /// of them, an argument's share m + 2; three sums and the factor's own follow. With j = m + 6,
-    /// (1 + u)^j <= 1 + ju + (ju)² <= 1 + (⌈j/2⌉ + 1)ε if j²ε <= 4. Underflow takes at most η/2
-    /// each in m products of the value, m of u|p|, two in an uncertain argument's share, and the
-    /// last. Source: Higham 2002, Section 3.3; Jeannerod, Rump 2013 (SIAM J. Matrix Anal. Appl.
-    /// 34). Proof: proofs/IeeeDotProduct.v, sharp_dot_known.
+    /// One factor pays for the roundings of m terms' bounds: m in Σ (u|p| + min(u|s'|, |p|, |s|)),
+    /// m + 2 in an argument's share, four more. With j = m + 6, (1 + u)^j <= 1 + ju + (ju)² <= 1 +
+    /// (⌈j/2⌉ + 1)ε if j²ε <= 4. Underflow takes at most η/2 each in m products, m of u|p|, two in
+    /// an uncertain share, and the last. Source: Higham 2002, Section 3.3; Jeannerod, Rump 2013
+    /// (SIAM J. Matrix Anal. Appl. 34). Proof: proofs/IeeeDotProduct.v, sharp_dot_known.
     template <class T>
     class dot_bound : detail::running_bound<T, dot_bound<T>, number_traits<T>::digits + 1> {
         static constexpr bool serves = dot_bound::pays;

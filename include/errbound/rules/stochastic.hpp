@@ -2,10 +2,9 @@
 // number carries samples, computed with every operation randomly rounded up or down; their scatter
 // estimates the rounding error. For comparison with bounds, and where bounds are too wide.
 //
-// error_is is error_meaning::estimate, and promises_bound<stochastic> is false: signs follow the
-// estimate and may be wrong, so no predicate takes this rule. It misses truncation errors and
-// branches that samples do not take. `errbound validate` measures how often estimates are too
-// small.
+// error_is is error_meaning::estimate: signs follow the estimate and may be wrong, so no predicate
+// takes this rule. It misses truncation errors and branches that samples do not take. `errbound
+// validate` measures how often estimates are too small.
 #pragma once
 
 #include <array>

@@ -38,8 +38,7 @@ struct tight {
     static constexpr bound<T> within(const T& value, const T& error) {
         return {error >= 0 ? error + (value - value) : number_traits<T>::infinity()};
     }
-    /// The bound of a number of this value that is exactly 0. Proof: proofs/IeeeRules.v,
-    /// tight_within_known.
+    /// The bound of a number that is exactly 0. Proof: proofs/IeeeRules.v, tight_within_known.
     template <class T>
     static constexpr bound<T> displacement(const T& value) {
         return within<T>(value, number_traits<T>::abs(value));
@@ -120,16 +119,14 @@ struct tight {
 
     /// Σ aᵢbᵢ, a running error bound: with products pᵢ and partial sums sᵢ as computed, the sum is
     /// off by at most Σ (|pᵢ| + |sᵢ|)·ε/(1 − ε), without s₁ = p₁, and η per product. The arguments'
-    /// errors add Σ |â|σb + σa(|b̂| + σb). One factor pays for the roundings of all m terms'
-    /// bounds.
+    /// errors add Σ |â|σb + σa(|b̂| + σb).
     ///
-    /// The sum of rounding(p) and rounding(s), at least the last places of normal p and inexact s,
-    /// keeps (1 − ε)^m; an argument's share keeps (1 − ε)^(m + 2). Three sums and the factor's own
-    /// rounding follow. With j = m + 6, the factor 1 + (j + 1)ε >= 1/(1 − jε) >= (1 − ε)^−j
-    /// suffices if j²ε <= 1/2. Underflow takes less than η each in m products of the value, two in
-    /// an uncertain argument's share, and the last product. Source: Higham 2002, Section 3.3
-    /// (running error analysis). Proof: proofs/IeeeDotProduct.v, tight_dot_known; in any direction,
-    /// proofs/DotProduct.v, tight_dot_sound.
+    /// One factor pays for the roundings of m terms' bounds: m in the sum of rounding(p) and
+    /// rounding(s), m + 2 in an argument's share, four more. With j = m + 6, 1 + (j + 1)ε >= 1/(1 −
+    /// jε) >= (1 − ε)^−j if j²ε <= 1/2. Underflow takes less than η each in m products, two in an
+    /// uncertain share, and the last. Source: Higham 2002, Section 3.3 (running error analysis).
+    /// Proof: proofs/IeeeDotProduct.v, tight_dot_known; in any direction, proofs/DotProduct.v,
+    /// tight_dot_sound.
     template <class T>
     class dot_bound : detail::running_bound<T, dot_bound<T>,
                                             has_subnormals<T> ? number_traits<T>::digits - 2 : 0> {
