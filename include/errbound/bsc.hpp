@@ -197,7 +197,7 @@ constexpr sign_pair signs_at_pair(const cubic<S>& y, const bernstein<S, 2>& d,
     return {combined(m[0], r[0], parts.m, j), combined(m[1], r[1], parts.m, j)};
 }
 
-/// The sign of Y at its only inner extremum t_ex, for convex Y (assumes d0 < 0 < d2). By Euler, Y =
+/// The sign of Y at its only inner extremum t_ex, for convex Y (assumes d0 < 0 < d2). Euler: Y =
 /// A + t·D/3 = B − s·D/3, A and B quadratic. Cancelling s² of A by D leaves d0·Y(t_ex) = t·M(t_ex),
 /// t² of B d2·Y(t_ex) = s·M'(t_ex), M and M' linear. Proof: proofs/BscSigns.v, root_finding.
 template <class S>
@@ -286,7 +286,7 @@ template <class S, std::size_t M>
     const sign_type y0 = sign_of(y[0]), y3 = sign_of(y[3]);
     const bool ends_are_certain = certain(y0) && certain(y3);
     existence found = either(at_end(y0, g, 0), at_end(y3, g, 4));
-    // If Y(0) is exactly zero, Y is t times a quadratic. That quadratic times s + t has the same
+    // If Y(0) is exactly zero, Y is t times a quadratic. The quadratic times s + t has the same
     // inner roots, not the one at 0: one if Y falls at 0, otherwise none. Mirrored for Y(1).
     if (y0 == sign_type::zero) {
         const sign_type slope = sign_of(y[1]);
@@ -424,7 +424,7 @@ template <class S, std::size_t M>
 ///
 /// `no` is certain, and `yes` is certain with every g_i > 0, if the scalar's signs are. For Y ≡ 0
 /// the answer is `no` or `maybe_root`. Proof: proofs/Bsc.v, bsc_no, bsc_yes. Without uncertain
-/// signs, `maybe_root` means Y ≡ 0, and `maybe_inside` a root with every g_i >= 0, one of them
+/// signs, `maybe_root` stands for Y ≡ 0, and `maybe_inside` a root with every g_i >= 0, one of them
 /// zero, and none with all positive. Proof: proofs/BscExact.v, bsc_exact_root, bsc_exact_inside.
 /// Cost: some hundred operations of S in common cases, at most a few thousand.
 template <class S, class MakeConstraints>

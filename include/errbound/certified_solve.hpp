@@ -136,7 +136,7 @@ certified_solution<Rows, Columns> refused(solve_status status, Index rows, Index
 /// Returns the solution x of ax = b with certified errors, or the reason for having none.
 ///
 /// Errors are near half a unit in the last place unless the matrix is ill-conditioned. They grow
-/// near the limit of what can be certified: condition numbers of about 2^53/√n, whatever the scales
+/// near the limit of what can be certified: condition numbers of about 2^53/√n, at all scales
 /// of rows and columns. Matrices closer to singular are refused.
 ///
 /// Cost: LU decomposition and two products of n×n matrices, about six times a plain solve; a few

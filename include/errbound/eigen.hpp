@@ -19,7 +19,7 @@
 namespace errbound {
 
 /// True if a and b are certainly equal. Only this header defines it, for Eigen's kernels, which
-/// skip zero factors: "not equal" means that they may differ.
+/// skip zero factors. Numbers that are "not equal" may be equal.
 template <class T, class Rule>
 constexpr bool operator==(const tracked<T, Rule>& a, const tracked<T, Rule>& b) {
     return compare(a, b) == sign_type::zero;

@@ -78,7 +78,7 @@ tracked<T, Rule> log1p(const tracked<T, Rule>& x) {
     return detail::function_of<elementary_function::log1p>(x);
 }
 
-/// x in radians, of any size. Exact for an exact 0. The bound stays within [−1, 1].
+/// x in radians, of any size. Exact for an exact 0. The error is at most about 1 + |value|.
 template <class T, class Rule>
 tracked<T, Rule> sin(const tracked<T, Rule>& x) {
     return detail::function_of<elementary_function::sin>(x);
@@ -147,7 +147,7 @@ tracked<T, Rule> cbrt(const tracked<T, Rule>& x) {
 
 /// x^y by the C library, if x is certainly positive or y is an exact whole number (positive if x
 /// may be zero). Otherwise infinite error, except for an exact 0 x and a certainly positive y. x^0
-/// and 1^y are exactly 1, x^1 is x. By products: pow(x, int).
+/// and 1^y are exactly 1, x^1 is x. Products: pow(x, int).
 template <class T, class Rule>
 tracked<T, Rule> pow(const tracked<T, Rule>& x, const tracked<T, Rule>& y) {
     if constexpr (!std::is_same_v<T, detail::function_type<T>>) {

@@ -45,7 +45,7 @@ inline constexpr bool fma_is_instruction =
 
 }  // namespace detail
 
-/// Specialise for a custom type (a SIMD pack, a multi-precision float) without numeric_limits.
+/// Specialise for a custom type (a SIMD pack). Types with a std::numeric_limits need nothing.
 template <class T>
 struct number_traits {
     static_assert(std::numeric_limits<T>::is_specialized && !std::numeric_limits<T>::is_integer,

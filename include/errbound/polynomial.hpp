@@ -78,7 +78,7 @@ auto isolate_roots(const polynomial<C>& p, double a, double b) {
     using exact = roots::integer_for_t<Integer, C>;
     return real_roots<exact>(roots::staged<exact>(p), a, b);
 }
-/// As above, or nothing if the work would exceed the limits.
+/// Same as above, or nothing if the work would exceed the limits.
 template <class Integer = void, class C>
 auto isolate_roots(const polynomial<C>& p, double a, double b, const root_limits& limits) {
     using exact = roots::integer_for_t<Integer, C>;
@@ -127,7 +127,7 @@ template <class Integer = void, class C>
 std::size_t count_roots(const polynomial<C>& p, double a, double b) {
     return roots::count_within<Integer>(p, a, b, {});
 }
-/// As above, or nothing if the work would exceed the limits.
+/// Same as above, or nothing if the work would exceed the limits.
 template <class Integer = void, class C>
 std::optional<std::size_t> count_roots(const polynomial<C>& p, double a, double b,
                                        const root_limits& limits) {

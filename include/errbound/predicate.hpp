@@ -119,7 +119,7 @@ class predicate_type {
         }
         return stages::template decide<number_of<Points...>>(stages::listed(p...), nullptr);
     }
-    /// As above, and counts the deciding stage in the report.
+    /// Same as above, and counts the deciding stage in the report.
     template <class... Points>
     constexpr sign_type operator()(predicate_report& report, const Points&... p) const {
         using enum predicate_stage;

@@ -52,7 +52,7 @@ constexpr auto lifted_area(const auto& a, const auto& b, const auto& c, const au
            height(b, bx * bx + by * by) * (cx * ay - ax * cy) +
            height(c, cx * cx + cy * cy) * (ax * by - bx * ay);
 }
-/// As lifted_area, of a − e, b − e, c − e and d − e.
+/// Like lifted_area, of a − e, b − e, c − e and d − e.
 constexpr auto lifted_volume(const auto& a, const auto& b, const auto& c, const auto& d,
                              const auto& e, const auto& height) {
     const auto ax = a[0] - e[0], ay = a[1] - e[1], az = a[2] - e[2];
@@ -170,12 +170,13 @@ constexpr sign_type segment_triangle(const auto& p, const auto& q, const auto& a
 
 }  // namespace forms
 
-/// Positive if a, b, c turn left, zero if collinear. Proof: proofs/Predicates.v,
-/// orient2d_sign_certain.
+/// Positive if a, b, c turn left; zero if collinear. Proof of its static filter:
+/// proofs/Predicates.v, orient2d_sign_certain.
 inline constexpr auto orient2d = predicate<points<2, 2, 2>>(
     [](const auto& a, const auto& b, const auto& c) { return forms::area(a, b, c); });
 
-/// Positive if a, b, c turn right seen from d. Proof: proofs/Predicates.v, orient3d_sign_certain.
+/// Positive if a, b, c turn right seen from d; zero if coplanar. Proof of its static filter:
+/// proofs/Predicates.v, orient3d_sign_certain.
 inline constexpr auto orient3d =
     predicate<points<3, 3, 3, 3>>([](const auto& a, const auto& b, const auto& c, const auto& d) {
         return forms::volume(a, b, c, d);

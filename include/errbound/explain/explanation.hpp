@@ -115,7 +115,7 @@ inline std::string json_number(double x) {
     return std::isfinite(x) ? decimal(x) : "null";
 }
 
-/// As above, with strings for infinities.
+/// Same as json_number, with strings for infinities.
 inline std::string json_value(double x) {
     if (std::isinf(x)) return x > 0 ? "\"inf\"" : "\"-inf\"";
     return json_number(x);

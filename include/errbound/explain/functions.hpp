@@ -168,7 +168,7 @@ auto unwrapped_numbers(const Range& range) {
         return number_of<Range>::rule_type::unwrapped(number_at(range, i));
     };
 }
-/// As above, without their errors.
+/// The same numbers without errors.
 template <class Range>
 auto exact_numbers(const Range& range) {
     using number = number_of<Range>;

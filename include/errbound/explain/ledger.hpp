@@ -51,7 +51,7 @@ class ledger {
         auto mine = entries_.begin();
         for (const entry& o : other.entries_) {
             const entry carried{o.from, times(o.known), number_traits<A>::abs(times(o.unknown))};
-            if (!carried.is_finite()) continue;  // overflow; the bound is known by other means
+            if (!carried.is_finite()) continue;  // overflow; the result's bound is still finite
             while (mine != entries_.end() && mine->from < o.from) all.push_back(*mine++);
             if (mine != entries_.end() && mine->from == o.from)
                 all.push_back(sum(*mine++, carried));

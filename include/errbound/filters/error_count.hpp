@@ -1,4 +1,4 @@
-// The error-counting scalar: runs an algorithm once, on sizes instead of numbers, and so derives a
+// The error-counting scalar: runs an algorithm once on sizes, not numbers, and derives a
 // static filter's constant from the code that the filter will run.
 //
 // Notation: ε the largest relative error of one rounding in any direction, η the smallest positive

@@ -169,7 +169,7 @@ class predicate_stages {
     }
 
   private:
-    /// By the first integers that hold the coordinates.
+    /// Uses the first integers that hold the coordinates.
     template <class Counted>
     static constexpr sign_type decide_exactly(const coordinate_list& list, std::uint64_t largest,
                                               const Counted& counted) {

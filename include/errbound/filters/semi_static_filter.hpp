@@ -13,7 +13,8 @@
 
 namespace errbound::filters {
 
-/// An intermediate result; users write `auto`. The compiler knows the mass m and the allowances a.
+/// An intermediate result; users write `auto`. The mass m and the allowances a are compile-time
+/// values.
 ///
 /// Notation of static_filter.hpp: size S, k roundings, allowance τ. If all terms have degree d, and
 /// M is the largest |d̂| of coordinate differences and |x| of plain coordinates,

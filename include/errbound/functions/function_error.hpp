@@ -46,7 +46,7 @@ constexpr bool has_documented_errors([[maybe_unused]] bool is_wide) {
 #endif
 }
 
-/// By elementary_function: at least the errors in function_error's comment; 0: unknown.
+/// In the order of the enumeration: at least the errors in function_error's comment; 0: unknown.
 constexpr double documented_error(elementary_function f, bool is_wide) {
     if (!has_documented_errors(is_wide)) return 0;
     constexpr double narrow[] = {1, 1, 2, 1, 2, 3, 2, 1, 1, 2, 1, 1, 1, 3, 3, 3, 3, 3, 3, 5, 1, 2};

@@ -29,7 +29,7 @@ using words::word_pair;
 /// [+-]d...[.d...][(e|E)[+-]d...] as ±digits·10^exponent. Skips a literal's digit separators.
 class decimal_text {
   public:
-    /// As many as two words hold.
+    /// Two words hold this many.
     static constexpr int leading_digits = 38;
 
     constexpr explicit decimal_text(std::string_view text) {

@@ -46,7 +46,7 @@ class two_words {
   private:
     constexpr two_words(word low, word high) : low_(low), high_(high) {}
 
-    /// By half words; no intermediate sum exceeds a word.
+    /// Multiplies half words; no intermediate sum exceeds a word.
     static constexpr two_words product_of(word a, word b) {
         constexpr word half = 0xffffffff;
         const word low = (a & half) * (b & half);

@@ -337,7 +337,7 @@ constexpr word_pair odd_part(word_pair x) {
     return {x.high >> zeros, x.low >> zeros | x.high << 1 << (63 - zeros)};
 }
 
-/// By differences and halving. (J. Stein 1967.) Precondition: a and b are odd.
+/// Takes differences and halves. (J. Stein 1967.) Precondition: a and b are odd.
 constexpr word_pair odd_common_divisor(word_pair a, word_pair b) {
     while ((a.high | b.high) != 0) {
         if (a == b) return a;

@@ -27,7 +27,7 @@ class checked_inverse {
         if (inverse_.allFinite() && defect_.allFinite()) choose_weights();
     }
 
-    /// True if A is certainly regular; a precondition of what follows.
+    /// True if A is certainly regular; the other members require it.
     bool regular() const { return contraction_ < 1; }
     double contraction() const { return contraction_; }
     const square<N>& matrix() const { return a_; }

@@ -1,5 +1,5 @@
 // Eigen's decompositions for tracked scalars: pivot choice, and Cholesky's and Householder's
-// methods, which skip only what is certainly zero.
+// methods, which skip only certain zeros.
 //
 // Soundness for any pivots: if no exact pivot is zero, all numbers are exact elimination's, rounded
 // and tracked. If a pivot may be zero, quotients by it have infinite errors, and finite results do

@@ -254,7 +254,7 @@ class descartes_search {
         Integer from;
         int roots;
     };
-    /// By f/f' at both ends, about (x − position)/roots there.
+    /// Uses f/f' at both ends, about (x − position)/roots there.
     static std::optional<place> place_of_roots(const local_form<Integer>& local, int depth) {
         const auto cut = [&](Integer& a, Integer& b) {
             const Integer size = (std::max)(Integer(abs(a)), Integer(abs(b)));
@@ -344,7 +344,7 @@ class descartes_search {
                 return true;
             }
             const point rise = value_at(slope_, x, meter_), bend = value_at(curvature_, x, meter_);
-            // By its parabola, the extremum is on the same side as p(x) if p·p'' > p'²/2.
+            // The parabola's extremum is on the same side as p(x) if p·p'' > p'²/2.
             if (bits > 256 || rise.is_zero() || bend.is_zero() ||
                 rise * rise < magnitude(value * bend))
                 break;

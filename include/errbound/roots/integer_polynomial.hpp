@@ -295,7 +295,7 @@ bool surely_squarefree(const integer_form<Integer>& p, work_meter& meter) {
 
 /// The greatest common divisor, primitive; empty only if both are identically zero.
 ///
-/// By images modulo primes (W. S. Brown, On Euclid's algorithm and the computation of polynomial
+/// Uses images modulo primes (W. S. Brown, On Euclid's algorithm and the computation of polynomial
 /// greatest common divisors, JACM 18, 1971). Their degree is at least the divisor's, so one prime
 /// detects coprime polynomials. A divisor combined from several primes is verified by division.
 /// Proof: proofs/CommonFactor.v, common_factor_right, common_factor_divides.

@@ -132,7 +132,7 @@ inline std::vector<std::uint64_t> common_factor(const prime_field& field,
     if (a.size() < b.size()) std::swap(a, b);
     while (!b.empty()) {
         if (b.size() == 1) return b;
-        // Each degree takes a division step; a monic divisor leaves other coefficients alone.
+        // Each degree takes a division step; a monic divisor keeps other coefficients.
         if (a.size() > b.size() + 64) {
             const std::uint64_t inverse = field.inverse(b.back());
             for (std::uint64_t& c : b) c = field.multiply(c, inverse);

@@ -195,7 +195,7 @@ class real_roots {
         return sign_at(p, k);
     }
 
-    /// As above, by integers only.
+    /// The exact sign of g at root k, by integers only.
     sign_type sign_at_root(const roots::integer_form<Integer>& g, std::size_t k) {
         return exact().sign_at_root(g, intervals_[k], meter_);
     }

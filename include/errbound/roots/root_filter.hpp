@@ -106,12 +106,12 @@ class root_filter {
     /// Up to this n, binomials and their products with n are exact in double.
     static constexpr std::size_t max_degree = 50;
     static constexpr int max_halvings = 200;
-    /// Smallest relative width of a part whose ends are certainly exact in double.
+    /// Ends of parts at least half as wide, relative to their distance from at0, are doubles.
     static constexpr double narrowest = 0x1p-46;
     static constexpr std::size_t max_rows = 64;
 
     /// The parts of [a, b] that have or may have a root, ascending. Precondition: a < b, possibly
-    /// infinite. Coefficients ascend in the power basis; empty means zero.
+    /// infinite. Coefficients ascend in the power basis; empty is zero.
     root_filter(std::span<const number> coefficients, double a, double b) {
         const std::size_t size = coefficients.size();
         if (size == 0 || size - 1 > max_degree || !is_strict(sign_of(coefficients.back()))) {

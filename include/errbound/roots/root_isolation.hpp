@@ -222,7 +222,7 @@ class root_isolation {
         if (line.variations > 1) {
             descartes_search<Integer>(line.p, meter).find(low, high, roots);
         } else if (line.variations == 1 && !low.is_root && !high.is_root) {
-            // A sign change means that it holds the root. Proof: proofs/RootIsolation.v,
+            // A sign change proves that it holds the root. Proof: proofs/RootIsolation.v,
             // isolate_right.
             if (all || sign_at(line.p, low.at, meter) != sign_at(line.p, high.at, meter))
                 roots.push_back({low.at, high.at});

@@ -19,9 +19,9 @@ int sign_variations(std::size_t count, const Sign& sign) {
     return changes;
 }
 
-/// The largest possible count if 0 means uncertain; 3 stands for more than 2 and for an uncertain
-/// end. 0 and 1 are exact, as the end signs fix the parity. (Between opposite signs, each two
-/// uncertain ones add two; between equal ones the first already does.) Proof:
+/// The largest possible count if 0 stands for uncertain; 3 stands for more than 2 and for an
+/// uncertain end. 0 and 1 are exact, as the end signs fix the parity. (Between opposite signs, each
+/// two uncertain ones add two; between equal ones the first already does.) Proof:
 /// proofs/SignVariations.v, max_variations_right.
 template <class Sign>
 int max_sign_variations(std::size_t count, const Sign& sign) {

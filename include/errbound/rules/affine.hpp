@@ -201,7 +201,7 @@ struct affine_of {
     }
 
     /// At least x + y, for x, y >= 0. With s = fl(x + y) normal, s(1 + ε) is at least its
-    /// successor; a subnormal s is exact. Products and quotients likewise, plus η for underflow;
+    /// successor; a subnormal s is exact. Products and quotients are similar, plus η for underflow;
     /// and fl(x − y)(1 − ε), rounded, is at most x − y > 0.
     template <class T>
     static constexpr T upper_sum(const T& x, const T& y) {

@@ -62,8 +62,8 @@ struct safe {
             a.bound.operations < b.bound.operations ? b.bound.operations : a.bound.operations;
         return {enlarged<T>(a.bound.magnitude + b.bound.magnitude), counted(k)};
     }
-    /// In any direction: proofs/Safe.v, safe_subtract_sound. Proof: proofs/IeeeSafe.v,
-    /// safe_subtract_known.
+    /// Proof: proofs/IeeeSafe.v, safe_subtract_known; in any direction, proofs/Safe.v,
+    /// safe_subtract_sound.
     template <class T>
     static constexpr bound<T> subtract(const T& v, rule_operand<T, safe> a,
                                        rule_operand<T, safe> b) {

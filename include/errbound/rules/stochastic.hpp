@@ -42,7 +42,7 @@ struct stochastic_of {
     static constexpr bound<T> exact(const T& value) {
         return by_sample<T>([&](std::size_t) { return value; });
     }
-    /// Spread evenly over value ± error, by these two alone: equal arguments move together.
+    /// Spread evenly over value ± error; equal arguments give equal samples.
     template <class T>
     static constexpr bound<T> within(const T& value, const T& error) {
         return by_sample<T>([&](std::size_t k) {
