@@ -464,10 +464,10 @@ constexpr detail::number_of<A> dot(const A& a, const B& b) {
 /// c₀ + c₁x + c₂x² + ...; 0 if empty. The value is that of Horner's rule, s = cₙ, s = s·x + cᵢ,
 /// each operation rounded.
 ///
-/// The bound is that of these operations or, if x is not exact and it is less, that of p(x̂) +
-/// q(x)(x − x̂), x̂ = x.value(), where q's coefficients are the partial results of Horner's rule at
-/// x̂ (synthetic division). So x's error counts p'(x̂) times, plus second order in |x − x̂|², not
-/// once per occurrence. Cost: three times that of the operations if x is not exact. Proof:
+/// The bound is that of these operations. If x is not exact, it is that of p(x̂) + q(x)(x − x̂) if
+/// that is less; x̂ = x.value(), and q's coefficients are the partial results at x̂ (synthetic
+/// division). So x's error counts p'(x̂) times, plus second order in |x − x̂|², not once per
+/// occurrence. Cost: three times that of the operations if x is not exact. Proof:
 /// proofs/IeeeCompound.v, horner_known; of `tight` in any direction, proofs/Compound.v,
 /// tight_horner_sound.
 template <tracked_numbers C>

@@ -28,8 +28,8 @@ constexpr decltype(auto) view(const Scalars& scalars) {
         return scalars.template point<Argument>();
 }
 
-/// Coordinate i, for a filter. If it is computed, not stored, a product in it must not be fused
-/// into the difference that uses it, since all stages must use the same number.
+/// Coordinate i, for a filter. All stages must use the same number: a product in a computed
+/// coordinate must not be fused into the difference that uses it.
 template <class T, bool Stored, class Point>
 constexpr T unfused_coordinate(const Point& p, int i) {
     const T x = coordinate_of(p, i);

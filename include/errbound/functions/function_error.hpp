@@ -64,16 +64,16 @@ inline constexpr double least_reduced_angle = 0x1p20;
 
 }  // namespace detail
 
-/// The assumption: if F has a finite result v for arguments of type T in its domain, |v − f| is at
-/// most this many units in the last place of the exact result f (η for subnormal f), in rounding to
-/// nearest. Between 0.5 and 1024. For sin, cos and tan only below 2^20: glibc reduces larger
+/// The assumption: if F has a finite result v for arguments of type T in its domain, v is within
+/// this many units in the last place of the exact result f. For subnormal f the unit is η. Rounding
+/// is to nearest. Between 0.5 and 1024. For sin, cos and tan only below 2^20: glibc reduces larger
 /// doubles with an absolute error, and cos(0x1.69eab0985179bp+246) is off by 136,921 units.
 ///
-/// The defaults are upper bounds of the errors in the GNU C library's manual ("Known Maximum Errors
-/// in Math Functions", x86-64) and in Gladman, Innocente, Mather and Zimmermann (Accuracy of
-/// Mathematical Functions ...), which covers float and double of other libraries. `errbound
-/// validate --functions all` tests them. Windows, and long double of other libraries, have none and
-/// need a specialisation before the first use:
+/// The defaults are upper bounds of the errors in two sources: the GNU C library's manual ("Known
+/// Maximum Errors in Math Functions", x86-64); Gladman, Innocente, Mather and Zimmermann (Accuracy
+/// of Mathematical Functions ...), with float and double of other libraries. `errbound validate
+/// --functions all` tests them. Windows, and long double of other libraries, have none and need a
+/// specialisation before the first use:
 ///
 ///   template <>
 ///   inline constexpr double errbound::function_error<errbound::elementary_function::exp, double> =

@@ -51,9 +51,9 @@ struct stochastic_of {
             return T(value + detail::rounded_product(error, static_cast<T>(share)));
         });
     }
-    /// An estimate; infinite if a sample is not finite. |m| + τs/√N, with m the mean deviation from
-    /// the value, s the standard deviation, and Student's τ for 95 %: CESTAC (Vignes 1993), which
-    /// returns the mean, plus the value's distance from it. 0 if samples do not scatter.
+    /// An estimate; infinite if a sample is not finite. CESTAC's (Vignes 1993), |m| + τs/√N: the
+    /// mean deviation m from the value, the standard deviation s, Student's τ for 95 %. (CESTAC
+    /// returns the mean instead of the value.) 0 if samples do not scatter.
     template <class T>
     static constexpr T error(const T& value, const bound<T>& b) {
         using traits = number_traits<T>;
