@@ -33,13 +33,13 @@ constexpr const char* reason(solve_status status) {
         case solve_status::certified:
             return "certified";
         case solve_status::nearly_singular:
-            return "the matrix is singular, or too near it to tell";
+            return "the matrix is singular, or too close to singular";
         case solve_status::not_finite:
-            return "an infinity or a NaN is among the numbers given";
+            return "an entry is infinite or NaN";
         case solve_status::sizes_differ:
-            return "the matrix is not square, or of other rows";
+            return "the matrix is not square, or the right-hand side has another number of rows";
         case solve_status::out_of_range:
-            return "the solution is not in the range of doubles";
+            return "the solution, or its bound, is out of the range of doubles";
     }
     return "";
 }

@@ -85,7 +85,7 @@ constexpr auto convert(const tracked<From, Rule>& x) {
     using traits = number_traits<wide>;
     static_assert(
         detail::holds_numbers_of<wide, From> && detail::holds_numbers_of<wide, To>,
-        "errbound: convert between types of which one holds the other's numbers, or float both's");
+        "errbound: convert needs a type that holds the other's numbers, or float must hold both");
     const To v = detail::nearest_in<To>(x.value());
     const wide error = detail::nearest_in<wide>(x.error());
     if (!number_traits<To>::is_finite(v) || !(error >= 0))

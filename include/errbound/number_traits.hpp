@@ -52,12 +52,10 @@ struct number_traits {
                   "errbound: specialise errbound::number_traits for this number type");
     static_assert(!std::is_floating_point_v<T> || detail::is_ieee_format<T>,
                   "errbound: not an IEEE 754 binary format, as long double on some PowerPC");
-    static_assert(
-        std::numeric_limits<T>::radix == 2 &&
-            std::numeric_limits<T>::digits < (std::numeric_limits<int>::max)() &&
-            std::numeric_limits<T>::round_style == std::round_to_nearest,
-        "errbound: numbers must be binary, of a precision that the type says, and rounded "
-        "to nearest");
+    static_assert(std::numeric_limits<T>::radix == 2 &&
+                      std::numeric_limits<T>::digits < (std::numeric_limits<int>::max)() &&
+                      std::numeric_limits<T>::round_style == std::round_to_nearest,
+                  "errbound: numbers must be binary, of fixed precision, and rounded to nearest");
 
     /// Largest relative error of one rounding in any direction, the paper's ε = 2u.
     static constexpr T epsilon() { return std::numeric_limits<T>::epsilon(); }
@@ -112,8 +110,8 @@ struct number_traits {
 #ifdef __MINGW32__
         // The C library's fma rounds twice, and std::fma calls it without optimisation.
         static_assert(detail::fma_is_instruction<T>,
-                      "errbound: this C library's fma rounds twice; of float and double compile "
-                      "with -mfma");
+                      "errbound: this C library's fma rounds twice; for float and double "
+                      "compile with -mfma");
         if constexpr (sizeof(T) == sizeof(float))
             return __builtin_fmaf(a, b, c);
         else

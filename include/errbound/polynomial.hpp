@@ -35,7 +35,7 @@ namespace roots {
 template <class Named, class C>
 struct integer_for {
     static_assert(exact_number<Named>,
-                  "errbound: the integer type to decide in never overflows: errbound::integer, or "
+                  "errbound: the integer type must never overflow: use errbound::integer, or "
                   "Boost.Multiprecision's cpp_int or GMP's, by errbound/multiprecision.hpp");
     using type = Named;
 };
@@ -140,8 +140,8 @@ template <class Rule>
 std::optional<std::size_t> count_roots(const polynomial<tracked<double, Rule>>& p, double a,
                                        double b) {
     static_assert(roots::absolute_rule<Rule>,
-                  "errbound: count_roots takes tracked numbers by a rule that stores the absolute "
-                  "error alone, as tight and sharp do: make such by within(x.value(), x.error())");
+                  "errbound: count_roots needs a rule that stores only the absolute error, as "
+                  "tight and sharp do: convert by within(x.value(), x.error())");
     assert(roots::is_interval(a, b));
     // The filter needs roots other than 0.
     std::span others(p.coefficients());

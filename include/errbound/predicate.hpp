@@ -76,10 +76,10 @@ concept exact_stage_number = requires(const Number& x) {
 template <class Shape, class F, class Options>
 class predicate_type {
     static_assert(filters::is_shape<Shape>,
-                  "errbound: predicate's first argument says what it takes: points<2, 2, 2>");
+                  "errbound: predicate's first argument must be a shape: points<2, 2, 2>");
     static_assert(std::is_empty_v<F> && std::is_default_constructible_v<F>,
-                  "errbound: a predicate's expression must not have captures or members: what "
-                  "varies is an argument, a plain number 0 in the shape");
+                  "errbound: a predicate's expression must not have captures or members: pass "
+                  "varying values as arguments (0 in the shape is a plain number)");
     static_assert(std::derived_from<Options, predicate_options>,
                   "errbound: a predicate's options derive from errbound::predicate_options");
     static_assert(std::is_void_v<typename Options::tracked_rule> ||
@@ -184,15 +184,16 @@ class predicate_type {
     template <class... Points>
     struct number {
         static_assert(sizeof...(Points) == Shape::count,
-                      "errbound: a call takes as many arguments as the predicate's shape says");
+                      "errbound: a call takes one argument for each point of the predicate's "
+                      "shape");
         using type = std::common_type_t<decltype(coordinate_of(std::declval<Points>(), 0))...>;
         static_assert(has_dimensions<Points...>(std::index_sequence_for<Points...>()),
-                      "errbound: a point has fewer coordinates than the predicate's shape says");
+                      "errbound: a point has fewer coordinates than the predicate's shape");
         static_assert(
             (std::floating_point<decltype(coordinate_of(std::declval<Points>(), 0))> && ...) &&
                 sizeof(type) <= sizeof(double),
-            "errbound: coordinates must be float or double: convert whole ones of at most "
-            "53 bits, as by static_cast<double>(n) or p.cast<double>()");
+            "errbound: coordinates must be float or double: convert integers of at most 53 "
+            "bits, by static_cast<double>(n) or p.cast<double>()");
     };
     template <class... Points>
     using number_of = typename number<Points...>::type;

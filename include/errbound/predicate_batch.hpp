@@ -52,7 +52,7 @@ template <class Range>
 constexpr decltype(auto) input_of(const Range& range, std::size_t i) {
     if constexpr (filters::matrix_point<Range>)
         static_assert(Range::RowsAtCompileTime == 1 || Range::ColsAtCompileTime == 1,
-                      "errbound: a matrix is no range of points: write m.colwise()");
+                      "errbound: a matrix is not a range of points: write m.colwise()");
     if constexpr (requires { range[i]; })
         return range[i];
     else

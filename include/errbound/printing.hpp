@@ -196,7 +196,7 @@ struct std::formatter<errbound::tracked<T, Rule>, char> : std::formatter<std::st
   public:
     constexpr auto parse(std::format_parse_context& context) {
         if (has_precision({context.begin(), context.end()}))
-            throw std::format_error("errbound: a tracked number has as many digits as are certain");
+            throw std::format_error("errbound: a tracked number takes no precision");
         return of_text::parse(context);
     }
     template <class Context>

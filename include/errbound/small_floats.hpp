@@ -32,8 +32,8 @@ class small_float {
                   "errbound: a small_float has 8 or 16 bits");
     static_assert(Precision >= 3 && 2 * Precision + 2 <= std::numeric_limits<float>::digits &&
                       ExponentBits >= 2 && ExponentBits <= 8,
-                  "errbound: operations of a small_float by way of float are rounded once only for "
-                  "3 to 11 bits of precision and float's exponents");
+                  "errbound: a small_float needs 3 to 11 bits of precision and float's "
+                  "exponents, or operations in float round twice");
 
   public:
     static constexpr int precision = Precision, exponent_bits = ExponentBits;

@@ -47,7 +47,7 @@ constexpr bool is_exactly(const T& v, Number value) {
     if constexpr (static_cast<Number>(0.5) != Number(0)) {
         return static_cast<Number>(v) == value;  // exact: one type holds the other's numbers
     } else {
-        static_assert(std::integral<Number>, "errbound: this type of integers is not one of C++'s");
+        static_assert(std::integral<Number>, "errbound: this integer type is not built in");
         // A conversion back may overflow, so count bits. Trailing zeros need no digits.
         if constexpr (std::numeric_limits<Number>::digits <= traits::digits) return true;
         using bits = std::make_unsigned_t<Number>;
@@ -80,14 +80,14 @@ struct take_sign_of_or_compare {};
 template <class T = double, class Rule = tight>
 class tracked {
     static_assert(!std::is_integral_v<T> && std::is_same_v<T, std::remove_cvref_t<T>>,
-                  "errbound: the first argument of tracked is a floating-point type, float or "
-                  "double, or one of your own with a number_traits");
+                  "errbound: the first argument of tracked must be a floating-point type: "
+                  "float, double, or a custom type with a number_traits");
     static_assert(bound_rule<Rule, T> || sizeof(detail::rule_check<Rule, T>) == 0,
-                  "errbound: the second argument of tracked is a bound rule");
+                  "errbound: the second argument of tracked must be a bound rule");
     static_assert(
         has_subnormals<T> || detail::holds_without_subnormals<Rule>,
-        "errbound: this number type has no subnormal numbers, so that sums may underflow, "
-        "which this bound rule does not count; use the rule `tight`");
+        "errbound: this number type has no subnormal numbers, so sums may underflow, which this "
+        "bound rule does not cover; use the rule `tight`");
 
   public:
     using value_type = T;

@@ -33,7 +33,7 @@ namespace errbound {
 /// keeps sources. Thread scheduling may change amounts by roundings.
 template <class Rule = tight, std::size_t Limit = 64>
 struct explained {
-    static_assert(Limit > 0, "errbound: an explained number keeps at least one source");
+    static_assert(Limit > 0, "errbound: an explained number needs at least one source");
 
     static constexpr const char* name = Rule::name;
     static constexpr error_meaning error_is = meaning_of_error<Rule>;

@@ -41,7 +41,7 @@ template <class Point>
 constexpr auto coordinate_of(const Point& p, int i) {
     if constexpr (requires { p[i], p.size(); } || filters::matrix_point<Point>)
         assert(static_cast<std::size_t>(i) < static_cast<std::size_t>(p.size()) &&
-               "errbound: a point has fewer coordinates than the predicate's shape says");
+               "errbound: a point has fewer coordinates than the predicate's shape");
     if constexpr (std::is_arithmetic_v<Point>) {
         return p;
     } else if constexpr (filters::matrix_point<Point>) {

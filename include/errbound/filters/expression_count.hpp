@@ -61,8 +61,8 @@ class expression_count {
     constexpr expression_count(X) : bits_(32) {
         static_assert(
             std::same_as<X, int>,
-            "errbound: constants in a predicate's expression are of type int: for 0.5 * x "
-            "multiply all the rest by 2, for 2.0 write 2, for a size_t static_cast<int>");
+            "errbound: constants in a predicate's expression must be int: for 0.5 * x multiply "
+            "all the rest by 2, for 2.0 write 2, for a size_t static_cast<int>");
     }
 
     friend constexpr expression_count operator+(const expression_count& x,
@@ -89,8 +89,8 @@ class expression_count {
     template <class X>
     friend constexpr expression_count operator/(const expression_count& x, const X&) {
         static_assert(!sizeof(X),
-                      "errbound: a predicate's expression has only +, - and *: multiply by what "
-                      "you would divide by, and by its sign");
+                      "errbound: a predicate's expression has only +, - and *: multiply by the "
+                      "divisor, and by its sign");
         return x;
     }
     template <class X>
@@ -107,7 +107,7 @@ class expression_count {
     template <class X>
     constexpr expression_count& operator=(X&&) {
         static_assert(!sizeof(X*),
-                      "errbound: every result of a predicate's expression has a type of its own: "
+                      "errbound: every result of a predicate's expression has its own type: "
                       "write const auto sum = a + b; and never =, += or *= afterwards");
         return *this;
     }

@@ -21,9 +21,9 @@ template <class Shape, class F, class Options>
 class predicate_stages {
     static_assert(takes_points<Shape, F>,
                   "errbound: a predicate's expression takes one argument for each point of the "
-                  "shape, of any type: [](const auto& a, const auto& b) for points<2, 2>; where it "
-                  "does, it uses of points and coordinates what they do not have, as other errors "
-                  "say: they have a[0], +, -, *, sign_of and the like, but no a.dot(b), no "
+                  "shape, of any type: [](const auto& a, const auto& b) for points<2, 2>; if it "
+                  "does, it uses an operation that points and coordinates lack (see other "
+                  "errors): they have a[0], +, -, *, sign_of and the like, but no a.dot(b), no "
                   "std::abs(x)");
     using result = result_over<Shape, F, counted_scalars<Shape>>;
     static_assert(std::is_same_v<result, expression_count> || std::is_same_v<result, sign_type>,
@@ -39,24 +39,26 @@ class predicate_stages {
     static constexpr int max_runs = Options::homogeneous ? few_counting_runs : most_counting_runs;
     static constexpr expression_findings findings = findings_of<Shape, F>(word_bits, max_runs);
     static_assert(!findings.lacks_coordinates,
-                  "errbound: the expression asks for a coordinate that the predicate's shape does "
-                  "not have: of points<2, 2> a[0] and a[1]");
+                  "errbound: the expression uses a coordinate that the predicate's shape does "
+                  "not have: points<2, 2> have a[0] and a[1]");
     static_assert(!findings.number_after_signs,
-                  "errbound: an expression that asks for signs returns one, so that it can pass on "
-                  "`uncertain`: write return sign_of(x)");
+                  "errbound: an expression that evaluates signs must return one, so that it can "
+                  "return `uncertain`: write return sign_of(x)");
     static_assert(findings.counts.degree <= expression_counts::max_degree,
                   "errbound: the expression is of a higher degree than 63");
     static_assert(!has_fault<Shape, F>(expression_fault::acts_on_uncertain),
                   "errbound: the expression acts on a sign that is uncertain as if it were known: "
                   "after const sign_type s = sign_of(x) write if (!certain(s)) return s");
     static_assert(!has_fault<Shape, F>(expression_fault::asks_nothing),
-                  "errbound: the expression's answer is the same for all points: it asks for no "
-                  "sign, or all its terms cancel");
+                  "errbound: the expression's answer is the same for all points: it evaluates "
+                  "no sign, or all its terms cancel");
     static_assert(!has_fault<Shape, F>(expression_fault::gives_up),
-                  "errbound: the expression returns `uncertain` although all signs that it asked "
-                  "for are certain: return a sign there, `zero` say, even if it never gets there");
+                  "errbound: the expression returns `uncertain` although all signs that it "
+                  "evaluated are certain: return a sign there, such as `zero`, even if that "
+                  "branch is unreachable");
     static_assert(!findings.has_one_answer || !findings.counts.complete,
-                  "errbound: the expression's answer is the same whatever the signs it asks for");
+                  "errbound: the expression's answer is the same for all signs that it "
+                  "evaluates");
 
   public:
     static constexpr expression_counts counts = findings.counts;
@@ -78,7 +80,7 @@ class predicate_stages {
     static constexpr bool has_degrees = !Options::degrees.empty();
     static_assert(
         !has_degrees || Options::degrees.size() == Shape::size,
-        "errbound: a predicate's options have one degree for each coordinate of its shape");
+        "errbound: a predicate's options must have one degree for each coordinate of its shape");
     static constexpr bool is_of_one_degree = [] {
         if (!has_degrees || Options::degrees.size() != Shape::size) return true;
         for (const int degree : Options::degrees)
@@ -88,8 +90,9 @@ class predicate_stages {
         return by_degrees.complete && !by_degrees.mixed;
     }();
     static_assert(is_of_one_degree,
-                  "errbound: by the degrees of the predicate's options, each at least 1, terms of "
-                  "different degree are added, or the compiler does not see all branches");
+                  "errbound: with the degrees of the predicate's options, each at least 1, "
+                  "terms of different degree are added, or there are too many branches to "
+                  "analyse");
 
     static constexpr bool mixed = !Options::homogeneous && (counts.mixed || !counts.complete);
     /// If terms of different degree are added, 1 is one more coordinate.

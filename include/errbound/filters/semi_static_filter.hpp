@@ -25,7 +25,8 @@ namespace errbound::filters {
 template <std::floating_point T, int Roundings, int Degree>
 struct semi_static {
     static_assert(Roundings < 1000 && Degree < 1000,
-                  "errbound: the derivation of the bound assumes fewer");
+                  "errbound: the bound holds for fewer than 1000 roundings and degrees below "
+                  "1000");
     using value_type = T;
     static constexpr int roundings = Roundings, degree = Degree;
 
@@ -102,7 +103,8 @@ concept semi_static_operand = is_semi_static<X>;
 
 template <class X, class Y>
 constexpr auto semi_static_sum(typename X::value_type value, const X& x, const Y& y) {
-    static_assert(X::degree == Y::degree, "errbound: the expression was taken for homogeneous");
+    static_assert(X::degree == Y::degree,
+                  "errbound: the expression is not homogeneous as declared");
     constexpr int roundings = (X::roundings > Y::roundings ? X::roundings : Y::roundings) + 1;
     return semi_static<typename X::value_type, roundings, X::degree>{value, x.mass + y.mass,
                                                                      x.allowances + y.allowances};

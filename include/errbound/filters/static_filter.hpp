@@ -42,7 +42,7 @@ constexpr T filter_constant(int k) {
 /// a value can overflow where its size does not, so values are tested.
 template <std::floating_point T, int Roundings, int Products, bool Plain>
 struct filtered {
-    static_assert(Roundings < 1000, "errbound: the derivation of the constant assumes fewer");
+    static_assert(Roundings < 1000, "errbound: the constant holds for fewer than 1000 roundings");
     using value_type = T;
     static constexpr int roundings = Roundings, products = Products;
     static constexpr bool plain = Plain;

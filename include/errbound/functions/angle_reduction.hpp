@@ -115,7 +115,7 @@ class angle_reduction {
     using traits = number_traits<T>;
     static constexpr int digits = traits::digits;
     static_assert(digits <= 113 && traits::max_exponent <= 16384,
-                  "errbound: digits of 2/pi suffice for float, double and long double");
+                  "errbound: the digits of 2/pi suffice only for float, double and long double");
     /// r is at least about 2^-(p + 16), so this leaves an error of about 2^-(2p + 14).
     static constexpr int count = (3 * digits + 30 + 63) / 64;
     static constexpr int unit = 2 - 64 * count;  ///< fractions count 2^unit of a quarter turn

@@ -38,8 +38,8 @@ template <elementary_function F, class... T>
 auto system_function(const T&... x) {
     using enum elementary_function;
     static_assert((has_system_functions<T> && ...),
-                  "errbound: elementary functions are those of float, double, long double and the "
-                  "types of 8 and 16 bits");
+                  "errbound: elementary functions exist for float, double, long double and 8- "
+                  "and 16-bit types");
     if constexpr (F == exp) return std::exp(x...);
     if constexpr (F == exp2) return std::exp2(x...);
     if constexpr (F == expm1) return std::expm1(x...);
@@ -73,10 +73,10 @@ T error_of_function(const T& v) {
     using traits = number_traits<T>;
     constexpr double k = function_error<F, T>;
     static_assert(k != 0,
-                  "errbound: how far this C library's elementary functions are off is not known; "
+                  "errbound: the errors of this C library's elementary functions are unknown; "
                   "specialise errbound::function_error");
     static_assert(k == 0 || (k >= 0.5 && k <= 1024),
-                  "errbound: function_error is from 0.5 to 1024 units in the last place");
+                  "errbound: function_error must be from 0.5 to 1024 units in the last place");
     constexpr T relative = T(k) * traits::epsilon();
     return rounded_product(traits::abs(v), T(relative * (1 + 4 * relative))) +
            T(static_cast<int>(k) + 2) * traits::underflow_unit();

@@ -246,8 +246,8 @@ struct binary_format {
     static constexpr int least = traits::min_exponent - digits;  ///< 2^least is the smallest number
     static constexpr int unit_of(int end) { return (std::max)(end - digits, least); }
     static_assert(has_subnormals<T> && digits <= 113 && traits::max_exponent <= 16384,
-                  "errbound: decimals are read into binary formats with subnormal numbers, of at "
-                  "most 113 bits");
+                  "errbound: decimals need a binary format with subnormal numbers and at most "
+                  "113 bits");
 
     /// units·2^unit, at most `digits` bits or 2^digits; finite.
     static constexpr T number(word_pair units, int unit) {

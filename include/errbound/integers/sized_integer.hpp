@@ -32,7 +32,7 @@ template <integer_kind Kind, int Bits>
 constexpr auto integer_of() {
     constexpr int word_count = Bits / 64 + 1;
     if constexpr (Kind == integer_kind::floating) {
-        static_assert(Bits <= 53, "errbound: the number of bits is not what was counted");
+        static_assert(Bits <= 53, "errbound: an integer has more bits than were counted");
         return double();
     } else if constexpr (Kind == integer_kind::any_length) {
         return long_integer<word_count>(0);
@@ -162,7 +162,7 @@ template <int Degree, class X>
     if constexpr (X::degree >= Degree) {
         return (x);
     } else {
-        static_assert(level::mixed, "errbound: the expression was taken for homogeneous");
+        static_assert(level::mixed, "errbound: the expression is not homogeneous as declared");
         using one_type = sized_integer<level, level::coordinate_bits, 1>;
         using storage = typename one_type::storage;
         const one_type one{shifted_word<storage>(1, -x.unit), x.unit};

@@ -76,7 +76,7 @@ template <class T>
 struct guessing_decomposition {
     static_assert(sizeof(T) == 0,
                   "errbound: this decomposition compares numbers whose order is not certain, to "
-                  "decide a rank or a sign; take PartialPivLU, LLT or HouseholderQR, which do not");
+                  "decide a rank or a sign; use PartialPivLU, LLT or HouseholderQR");
 };
 
 }  // namespace errbound::linear

@@ -144,15 +144,15 @@ staged_polynomial<Integer> staged(const polynomial<C>& p) {
     const std::vector<C>& c = p.coefficients();
     if constexpr (std::is_floating_point_v<C>) {
         static_assert(std::numeric_limits<C>::digits <= std::numeric_limits<double>::digits,
-                      "errbound: floating-point coefficients are float or double");
+                      "errbound: floating-point coefficients must be float or double");
         return staged_polynomial<Integer>(std::vector<double>(c.begin(), c.end()));
     } else if constexpr (std::numeric_limits<C>::is_integer) {
         return staged_polynomial<Integer>(integer_form<Integer>(c.begin(), c.end()));
     } else {
         static_assert(
             exact_number<C>,
-            "errbound: coefficients are float, double or exact numbers; tracked ones go to "
-            "count_roots(p, a, b)");
+            "errbound: coefficients must be float, double or exact numbers; for tracked ones "
+            "only count_roots(p, a, b)");
         Integer common = 1;
         for (const C& x : c) common = lcm(common, Integer(denominator(x)));
         integer_form<Integer> whole;

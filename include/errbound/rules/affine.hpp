@@ -49,7 +49,7 @@ inline constexpr std::array<char, 32> affine_name = [] {
 /// are no terms and the rest is infinite.
 template <std::size_t Limit>
 struct affine_of {
-    static_assert(Limit >= 1, "errbound: affine arithmetic keeps one term at least");
+    static_assert(Limit >= 1, "errbound: affine arithmetic needs at least one term");
     /// "affine" for `affine`, else "affine<Limit>".
     static constexpr const char* name = detail::affine_name<Limit>.data();
     static constexpr bool keeps_first_order = true;

@@ -151,9 +151,8 @@ inline constexpr bool holds_without_subnormals = [] {
 /// Names the member that a bound rule lacks.
 template <class Rule, class T>
 struct rule_check {
-    static_assert(
-        rule_has_bound<Rule, T>,
-        "errbound: a bound rule needs a template bound<T>, what it stores beside a value");
+    static_assert(rule_has_bound<Rule, T>,
+                  "errbound: a bound rule needs a template bound<T>, its state for a value");
     static_assert(rule_has_name<Rule, T>, "errbound: a bound rule needs a name, a string");
     static_assert(rule_has_exact<Rule, T>,
                   "errbound: a bound rule needs exact(value), which returns bound<T>");
