@@ -78,9 +78,10 @@ constexpr with_error<T> split(const T& x) {
     return {high, x - high};
 }
 
-/// a·b = value + error exactly, value = a ⊙ b, if product_error_is_exact(a, b, result). Cost: 2
-/// operations with hardware FMA, otherwise 17. Source: Dekker 1971 (TwoProduct). Proof:
-/// proofs/ErrorFree.v, two_product_exact, two_product_fma_exact.
+/// a·b = value + error exactly, value = a ⊙ b, if product_error_is_exact(a, b, result); otherwise
+/// error is unreliable, infinite or NaN. Cost: 2 operations with hardware FMA, otherwise 17.
+/// Source: Dekker 1971 (TwoProduct). Proof: proofs/ErrorFree.v, two_product_exact,
+/// two_product_fma_exact.
 template <class T>
 constexpr with_error<T> two_product(const T& a, const T& b) {
     const T v = detail::rounded_product(a, b);
