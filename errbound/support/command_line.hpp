@@ -1,5 +1,5 @@
-// What the programs' command lines share beyond CLI11: lists of names, standard input and output,
-// and outputs that nothing is lost to.
+// Shared by the programs' command lines, beyond CLI11: lists of names, standard streams, and
+// outputs that overwrite no input.
 #pragma once
 
 #include <algorithm>
@@ -20,13 +20,12 @@
 
 namespace errbound::support {
 
-/// A command line that CLI11 lets through but that makes no sense.
+/// A command line that CLI11 accepts but that makes no sense.
 struct usage_error : std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
-/// What `named` makes of the names of an option's list N[,N...]. Throws usage_error where one is
-/// there twice.
+/// named(name) for each name of an option's list N[,N...]. Throws usage_error for a repeated name.
 template <class Named>
 auto all_named(const std::string& option, const std::string& list, const Named& named) {
     std::vector<decltype(named(list))> result;
@@ -43,7 +42,7 @@ auto all_named(const std::string& option, const std::string& list, const Named& 
     return result;
 }
 
-/// The names of the entries, for "expected one of ...".
+/// Comma-separated names, for "expected one of ...".
 template <class Entries, class Name>
 std::string listed(const Entries& entries, const Name& name) {
     std::string list;
@@ -52,8 +51,8 @@ std::string listed(const Entries& entries, const Name& name) {
     return list;
 }
 
-/// The entry of that name, a reference into `entries`. Throws usage_error, which names the option.
-/// `remark` ends its message.
+/// The entry with that name, a reference into `entries`. Throws usage_error with the option's name
+/// and `remark` at the end.
 template <class Entries, class Name>
 const auto& entry_named(const std::string& option, const std::string& wanted,
                         const Entries& entries, const Name& name, const std::string& remark = "") {
@@ -63,20 +62,18 @@ const auto& entry_named(const std::string& option, const std::string& wanted,
                       listed(entries, name) + remark);
 }
 
-/// The path of an input on the command line: `-` is standard input.
 inline std::string input_named(const std::string& name) {
     return name == "-" ? "/dev/stdin" : name;
 }
 
-/// Throws usage_error where standard input is among the inputs twice.
+/// Throws usage_error if standard input is among the inputs twice.
 inline void require_one_standard_input(const std::string& option,
                                        const std::vector<std::filesystem::path>& inputs) {
     if (std::ranges::count(inputs, std::filesystem::path(input_named("-"))) > 1)
         throw usage_error(option + ": found standard input twice, expected once");
 }
 
-/// For CLI11's checks: what is wrong if that is no whole number of 64 bits, as CLI11 itself would
-/// make one of others.
+/// For CLI11: an error message unless the text is an integer of 64 bits, which CLI11 would convert.
 inline std::string checked_seed(const std::string& text) {
     std::uint64_t seed = 0;
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), seed);
@@ -84,7 +81,7 @@ inline std::string checked_seed(const std::string& text) {
     return "found '" + text + "', expected a whole number up to 2^64 - 1";
 }
 
-/// Where tables for people go: standard output, or standard error where an output is the former.
+/// The stream for tables: standard error if an output is standard output.
 inline std::ostream& stream_for_people(
     const std::vector<std::optional<std::filesystem::path>>& outputs) {
     for (const auto& output : outputs)
@@ -92,7 +89,7 @@ inline std::ostream& stream_for_people(
     return std::cout;
 }
 
-/// Whether two names are of one file, which need not be there yet.
+/// True if two names are of one file, existing or not.
 inline bool are_of_one_file(const std::filesystem::path& a, const std::filesystem::path& b) {
     std::error_code ignored;
     if (std::filesystem::equivalent(a, b, ignored)) return true;
@@ -105,8 +102,7 @@ inline bool are_of_one_file(const std::filesystem::path& a, const std::filesyste
     return system::are_one_name(without_links(a), without_links(b));
 }
 
-/// An output must be neither an input nor another output, so that nothing is lost, and writable,
-/// so that no work is.
+/// Throws unless each output is writable and neither an input nor another output.
 inline void require_good_outputs(const std::vector<std::optional<std::filesystem::path>>& outputs,
                                  std::vector<std::filesystem::path> taken) {
     for (const auto& output : outputs) {

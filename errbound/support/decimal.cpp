@@ -1,5 +1,4 @@
-// Decimals by the C++ library, or by fast_float where that reads no floating-point numbers (libc++
-// before 20).
+// Uses the C++ library, or fast_float if it lacks floating point (libc++ before 20).
 #include "errbound/support/decimal.hpp"
 
 #include <charconv>
@@ -25,14 +24,14 @@ decimal<T> parse_decimal(std::string_view text) {
     const auto [rest, ec] = from_chars(text.data(), end, value);
     if (ec == std::errc::invalid_argument || rest != end) return {0, decimal_status::malformed};
     if (ec == std::errc::result_out_of_range) {
-        // Too large or too small: the stream gives the nearest value of the latter, with libc++ as
-        // a failure, too.
+        // Too large or too small: the stream gives the nearest value of the latter, but libc++ also
+        // fails.
         std::istringstream stream{std::string(text)};
         stream.imbue(std::locale::classic());
-        stream.exceptions(std::ios::badbit);  // no memory is no overflow
+        stream.exceptions(std::ios::badbit);  // running out of memory is no overflow
         if (!(stream >> value) && std::abs(value) >= 1) return {0, decimal_status::overflow};
     }
-    // fast_float 3.9 makes it an infinity without a word.
+    // fast_float 3.9 silently returns infinity.
     const bool has_digits = text.find_first_of("0123456789") != std::string_view::npos;
     if (std::isinf(value) && has_digits) return {0, decimal_status::overflow};
     return {value, decimal_status::ok};

@@ -1,4 +1,4 @@
-// Floating-point numbers from decimals, of any locale's process.
+// Floating-point numbers from decimals, independent of the locale.
 #pragma once
 
 #include <string_view>
@@ -13,8 +13,8 @@ struct decimal {
     decimal_status status;
 };
 
-/// The float or double nearest to what std::from_chars takes, all of it: an optional minus, digits
-/// with an optional point and exponent; infinities and NaN, too. What underflows is rounded.
+/// The nearest float or double to a whole text that std::from_chars accepts: optional minus,
+/// digits, optional point and exponent; infinity and NaN. Underflow is rounded.
 template <class T>
 decimal<T> parse_decimal(std::string_view text);
 

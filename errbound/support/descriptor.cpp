@@ -1,4 +1,4 @@
-// Writing goes on where the system took a part, or a signal came between.
+// Continues after partial and interrupted writes.
 #include "errbound/support/descriptor.hpp"
 
 #include <algorithm>

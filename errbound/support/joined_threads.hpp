@@ -1,5 +1,4 @@
-// Threads that end with their scope: std::jthread, which libc++ has from version 20 on, without a
-// token.
+// Threads that join at the end of a scope: std::jthread without a token (libc++ has it from 20 on).
 #pragma once
 
 #include <thread>
@@ -17,7 +16,8 @@ class joined_threads {
         for (std::thread& t : threads_) t.join();
     }
 
-    /// One more, which calls `work`; throws std::system_error where the system has no more.
+    /// Starts a thread that calls `work`. Throws std::system_error if the system has no more
+    /// threads.
     template <class Work>
     void start(Work work) {
         threads_.emplace_back(std::move(work));

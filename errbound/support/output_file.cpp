@@ -1,4 +1,4 @@
-// Whole files in and out.
+// Reads and writes whole files.
 #include "errbound/support/output_file.hpp"
 
 #include <array>
@@ -18,22 +18,22 @@ namespace errbound::support {
 namespace fs = std::filesystem;
 namespace {
 
-/// Why the last system call failed, as an end to a message.
+/// The reason of the last system error, to end a message.
 std::string reason() {
     return errno != 0 ? std::string(" (") + std::strerror(errno) + ")" : std::string();
 }
 
-/// With what parts it from the name; empty if there is none.
+/// Includes the separator; empty if there is no folder.
 std::string folder_of(const std::string& name) {
     return name.substr(0, name.find_last_of(system::separators) + 1);
 }
 
-/// Standard input, where no file is that.
+/// True for standard input where it has no file.
 bool is_standard_input(const fs::path& path) {
     return !system::has_device_files && path == "/dev/stdin";
 }
 
-/// Block by block, not by the file's size: a pipe has none.
+/// Block by block: a pipe has no size.
 template <class Take>
 void for_each_block(const fs::path& path, const Take& take) {
     errno = 0;
@@ -47,7 +47,6 @@ void for_each_block(const fs::path& path, const Take& take) {
     if (in.bad()) throw file_error(path.string() + ": reading failed" + reason());
 }
 
-/// Writes all to an open descriptor.
 void write_to(int descriptor, const output& out) {
     const auto write = [&](std::string_view text) { write_all(descriptor, text, out.path); };
     if (out.from.empty())
@@ -56,7 +55,7 @@ void write_to(int descriptor, const output& out) {
         for_each_block(out.from, write);
 }
 
-/// The same, and closes it.
+/// Writes, then closes the descriptor.
 void write_and_close(int descriptor, const output& out) {
     const fs::path& shown = out.path;
     if (descriptor < 0) throw file_error(shown.string() + ": cannot be written" + reason());
@@ -66,12 +65,12 @@ void write_and_close(int descriptor, const output& out) {
         system::close(descriptor);
         throw;
     }
-    // Where the disk is elsewhere it may be full only now.
+    // A remote disk may report that it is full only now.
     if (system::close(descriptor) != 0)
         throw file_error(shown.string() + ": writing failed" + reason());
 }
 
-/// Opens a file with a new name beside the target; `name` becomes that name.
+/// Opens a new file next to the target; sets `name`.
 int create_beside(const std::string& target, std::string& name) {
     static std::atomic<unsigned> count = 0;
     const std::string beside =
@@ -84,7 +83,7 @@ int create_beside(const std::string& target, std::string& name) {
     return descriptor;
 }
 
-/// Writes a temporary file beside the target, and renames it. The target is whole or untouched.
+/// Writes a temporary file next to the target and renames it.
 void replace_file(const std::string& target, const output& out) {
     const bool replaces = system::exists(target);
     if (replaces && !system::may_write(target))
@@ -102,7 +101,7 @@ void replace_file(const std::string& target, const output& out) {
     }
 }
 
-/// Where the file itself is, or is to be; nothing for a pipe or a device. Throws file_error.
+/// The file's real name, also of a new file; nothing for a pipe or a device. Throws file_error.
 std::optional<std::string> file_behind(const fs::path& path) {
     const auto refuse = [&path](const char* found) {
         throw file_error("'" + path.string() + "': found " + found + ", expected a file to write");

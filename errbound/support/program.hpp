@@ -1,4 +1,4 @@
-// What every main does.
+// Common code of every main.
 #pragma once
 
 #include <functional>
@@ -6,10 +6,9 @@
 
 namespace errbound::support {
 
-/// The status that `body` returns; or, with a message that begins with the program's `name` on
-/// standard error, 2 if it throws usage_error, 1 if it throws anything else or if standard output
-/// cannot be written. Standard descriptors that are closed are opened first, so that no file takes
-/// their numbers and gets what is printed.
+/// Returns the status of `body`, or, after a message that begins with `name`, 2 if it throws
+/// usage_error, 1 if it throws anything else or standard output fails. Opens closed standard
+/// descriptors first, so that no file gets their numbers.
 int run_program(const std::string& name, const std::function<int()>& body);
 
 }  // namespace errbound::support

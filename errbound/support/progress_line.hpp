@@ -1,4 +1,4 @@
-// How far the work is, for people at a terminal.
+// Progress on a terminal.
 #pragma once
 
 #include <chrono>
@@ -10,7 +10,7 @@
 
 namespace errbound::support {
 
-/// A bar on a terminal's standard error, once the work takes a second; gone at the end.
+/// A bar on a terminal's standard error, after the first second; removed at the end.
 class progress_line {
   public:
     progress_line() = default;
@@ -18,16 +18,16 @@ class progress_line {
     progress_line& operator=(const progress_line&) = delete;
     ~progress_line() { clear(); }
 
-    /// Of `total` > 0 parts `done` are done, and `what` is under way.
+    /// `done` of `total` > 0 parts are done; `what` is running.
     void show(std::size_t done, std::size_t total, const std::string& what) {
         draw(static_cast<double>(done) / static_cast<double>(total),
              std::to_string(done) + '/' + std::to_string(total) + ' ' + what);
     }
-    /// A share of the work, from 0 to 1, is done, and `what` is under way.
+    /// `share`, from 0 to 1, is done; `what` is running.
     void show(double share, const std::string& what) {
         draw(share, std::to_string(static_cast<int>(100 * share)) + " % " + what);
     }
-    /// Makes room for a line of output.
+    /// Clears the line for output.
     void clear() {
         if (shown_) std::fputs("\r\x1b[K", stderr);
         shown_ = false;

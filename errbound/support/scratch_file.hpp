@@ -1,4 +1,4 @@
-// Files in the folder for temporary files, for what is too large to be kept in memory.
+// Temporary files for data too large for memory.
 #pragma once
 
 #include <cstddef>
@@ -9,7 +9,7 @@
 
 namespace errbound::support {
 
-/// A file of a new name in std::filesystem::temp_directory_path(), which goes away with this.
+/// A new file in std::filesystem::temp_directory_path(), removed with this object.
 class scratch_file {
   public:
     /// Throws file_error.
@@ -20,9 +20,9 @@ class scratch_file {
 
     const std::filesystem::path& path() const { return path_; }
 
-    /// Throws file_error: no room, say.
+    /// Throws file_error (a full disk).
     void append(std::string_view bytes);
-    /// Exactly `size` bytes from `offset` on, to `to`. Throws file_error where there are fewer.
+    /// Reads exactly `size` bytes from `offset`. Throws file_error if there are fewer.
     void read(std::uint64_t offset, std::size_t size, void* to) const;
 
   private:

@@ -1,4 +1,4 @@
-// Tables for people.
+// Tables as text.
 #include "errbound/support/table.hpp"
 
 #include <algorithm>

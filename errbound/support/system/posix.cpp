@@ -1,4 +1,4 @@
-// As POSIX has it.
+// POSIX.
 #include <fcntl.h>
 #include <stdlib.h>
 #include <sys/file.h>
@@ -20,7 +20,7 @@
 namespace errbound::support::system {
 namespace {
 
-/// Opened to read only: writing to what was closed still fails, and is told.
+/// Read-only, so that writing to a closed stream still fails and is reported.
 void open_standard_descriptors() {
     for (const int descriptor : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
         if (fcntl(descriptor, F_GETFD) == -1 && errno == EBADF) ::open("/dev/null", O_RDONLY);
@@ -34,8 +34,8 @@ constexpr std::size_t stack_size = 1 << 20;
     for (std::size_t end = stack_size; end > 0; end -= page) stack[end - 1] = std::byte{};
 }
 
-/// The first thread's stack grows as it is used, and where no address space is left, that ends the
-/// program by a signal: so it grows now, where what is missing can still be told.
+/// The main thread's stack grows on use and ends the program by a signal if address space is
+/// missing. Growing it now makes that an error.
 void grow_stack() {
     rlimit limit{};
     if (getrlimit(RLIMIT_STACK, &limit) != 0 || limit.rlim_cur < 2 * stack_size) return;
@@ -122,7 +122,7 @@ bool remove(const std::string& file) {
 }
 
 int create(const std::string& file) {
-    constexpr mode_t all = 0666;  // less what the umask takes
+    constexpr mode_t all = 0666;  // minus the umask
     return ::open(file.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, all);
 }
 int open_to_write(const std::string& file) {

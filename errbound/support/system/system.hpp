@@ -1,5 +1,5 @@
-// What each operating system does in its own way, for programs and their files: posix.cpp and
-// windows.cpp. Functions that return what the system says leave its reason in errno.
+// Operating system calls for programs and files: posix.cpp and windows.cpp. Failures leave the
+// reason in errno.
 #pragma once
 
 #include <cstddef>
@@ -10,59 +10,57 @@
 
 namespace errbound::support::system {
 
-/// At the start of a program: standard descriptors are open and take bytes as they are, writing
-/// beyond a limit on files' sizes fails, and the first thread has its stack. Throws std::bad_alloc.
+/// Opens the standard descriptors in binary mode, makes writes beyond a file size limit fail, and
+/// grows the main thread's stack. Throws std::bad_alloc.
 void start_program();
 
-/// A terminal that obeys ANSI's control sequences.
+/// True for a terminal that supports ANSI control sequences.
 bool is_terminal(int descriptor);
 
 std::size_t peak_memory_bytes();
-/// Of the machine: its memory, and how many threads want to run, on average over a minute (0 where
-/// the system does not count them).
+/// The machine's memory, and the average number of runnable threads over a minute (0 if unknown).
 double memory_bytes();
 double load();
-/// The program's file, or nothing where the system does not tell.
+/// The program's file; empty if unknown.
 std::filesystem::path program_file();
 int process_number();
-/// Runs a program with one argument: its exit status; 127 if it cannot be run.
+/// Runs a program with one argument. Returns its exit status; 127 if it cannot run.
 int run(const char* program, const std::string& argument);
 
-/// What may part folders in a path, and whether devices have names: /dev/stdin.
+/// Separators in a path; true if devices have names as /dev/stdin.
 extern const std::string_view separators;
 extern const bool has_device_files;
-/// The bytes that the system has, or, where it has none of bytes, UTF-8: so are the names of all
-/// that follow. (Strings, since a path of libstdc++ 12 that finds no memory never returns.)
+/// The system's bytes, or UTF-8 if it has none; also for the names below. (Strings, since libstdc++
+/// 12's paths never return if memory runs out.)
 std::string native_name(const std::filesystem::path& path);
-/// Without links; empty if there is no such file.
+/// Resolves links; empty if there is no such file.
 std::string real_name(const std::string& name);
-/// Whether two names, absolute and without links, are one to the system.
+/// True if two absolute names without links are the same for the system.
 bool are_one_name(const std::string& a, const std::string& b);
 bool exists(const std::string& name);
 bool may_write(const std::string& file);
 bool may_write_in(const std::string& folder);
-/// Renames; whatever is at `to` is replaced.
+/// Renames, and replaces `to`.
 bool replace(const std::string& from, const std::string& to);
 bool remove(const std::string& file);
 
-/// Descriptors, or -1. A new file, for the rights of which the user's mask stands; it must not be
-/// there.
+/// Return descriptors, or -1. The file must not exist; the user's mask sets its rights.
 int create(const std::string& file);
 int open_to_write(const std::string& file);
-/// A new file to write and to read, whose name's last six letters are replaced.
+/// A new file to write and read; replaces the name's last six letters.
 int create_named(std::string& pattern);
 int close(int descriptor);
-/// How many bytes were written or read, or -1.
+/// Bytes written or read, or -1.
 std::ptrdiff_t write(int descriptor, const char* from, std::size_t size);
 std::ptrdiff_t read_at(int descriptor, std::uint64_t offset, char* to, std::size_t size);
-/// The file's rights become those of another.
+/// Sets the file's rights to those of another.
 void copy_rights(int descriptor, const std::string& other);
 
-/// A descriptor: until it is closed, no other process gets one of the same folder. -1, and
-/// EWOULDBLOCK in errno, if one has it; another errno where there are no locks.
+/// A descriptor that locks the folder against other processes until it is closed. -1 with
+/// EWOULDBLOCK if it is locked, with another errno if there are no locks.
 int lock(const std::string& folder);
 
-/// While one of these lives, writing to a pipe that nobody reads fails, and ends no program.
+/// While it lives, writing to a closed pipe fails and does not end the program.
 class failing_pipes {
   public:
     failing_pipes();

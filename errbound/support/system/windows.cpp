@@ -1,4 +1,4 @@
-// As Windows has it, by the C runtime where that is enough.
+// Windows, by the C runtime where that suffices.
 #define WIN32_LEAN_AND_MEAN
 #define NOMINMAX
 #include <fcntl.h>
@@ -6,7 +6,7 @@
 #include <process.h>
 #include <sys/stat.h>
 #include <windows.h>
-// After windows.h.
+// Must follow windows.h.
 #include <psapi.h>
 
 #include <algorithm>
@@ -21,7 +21,7 @@
 namespace errbound::support::system {
 namespace {
 
-/// A name as Windows itself has it; empty, which is no file's, if it is too long.
+/// A name in UTF-16; empty, thus invalid, if it is too long.
 class wide {
   public:
     explicit wide(const std::string& name) {
@@ -47,7 +47,6 @@ constexpr int to_exist = 0, to_write = 2;
 int open(const std::string& file, int flags) {
     return _wopen(wide(file).c_str(), flags | _O_BINARY | _O_NOINHERIT, _S_IREAD | _S_IWRITE);
 }
-/// What one call of the C runtime takes.
 unsigned at_once(std::size_t size) {
     return static_cast<unsigned>(std::min<std::size_t>(size, INT_MAX));
 }
@@ -166,7 +165,7 @@ std::ptrdiff_t read_at(int descriptor, std::uint64_t offset, char* to, std::size
 }
 void copy_rights(int, const std::string&) {}
 
-// A file that nobody else may open, and that goes away with its descriptor.
+// An exclusive file, deleted with its descriptor.
 int lock(const std::string& folder) {
     const HANDLE file = CreateFileW(wide(folder + "\\.lock").c_str(), GENERIC_WRITE, 0, nullptr,
                                     OPEN_ALWAYS, FILE_FLAG_DELETE_ON_CLOSE, nullptr);
@@ -175,7 +174,7 @@ int lock(const std::string& folder) {
     return -1;
 }
 
-// There are no signals of pipes.
+// Windows has no signals for pipes.
 failing_pipes::failing_pipes() : before_(SIG_DFL) {}
 failing_pipes::~failing_pipes() = default;
 
