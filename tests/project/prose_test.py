@@ -16,7 +16,7 @@ from pathlib import Path
 
 MOST_WORDS = 25
 MOST_LINES = 12
-ROOMS = ["README.md", "CONTRIBUTING.md", "CHANGELOG.md", "docs/*.md"]
+ROOMS = ["README.md", "CONTRIBUTING.md", "CHANGELOG.md", "docs/*.md", "packaging/*.md"]
 OPENINGS = re.compile(r"(Of|That|Those|What|Whether|By|As)\b(?! (is|are|was) )")
 WORDS = re.compile(
     r"\b(but for|so many|likewise|held against|told apart|left open|whoever|nobody|as it comes|as long as it takes|"
@@ -47,17 +47,22 @@ def of_python(text):
     for node in ast.walk(ast.parse(text)):
         if isinstance(node, (ast.Module, ast.ClassDef, ast.FunctionDef)) and ast.get_docstring(node):
             yield ast.get_docstring(node)
-    yield from of_scripts("\n".join(t.string for t in tokenize.generate_tokens(io.StringIO(text).readline)
-                                    if t.type == tokenize.COMMENT))
+    alone = [""] * (text.count("\n") + 1)
+    for token in tokenize.generate_tokens(io.StringIO(text).readline):
+        if token.type == tokenize.COMMENT and token.line.lstrip().startswith("#"):
+            alone[token.start[0] - 1] = token.string
+        elif token.type == tokenize.COMMENT:
+            yield token.string
+    yield from of_scripts("\n".join(alone))
 
 
 def of_scripts(text):
-    yield from re.findall(r"(?:^ *# ?.*\n?)+", text, re.MULTILINE)
+    return re.findall(r"(?:^ *# ?.*\n?)+", text, re.MULTILINE)
 
 
 def of_pages(text):
     text = re.sub(r"```.*?```|~~~.*?~~~", "\n\n", text, flags=re.DOTALL)
-    yield re.sub(r"^(\||#).*$", "\n", text, flags=re.MULTILINE)
+    yield re.sub(r"^ *(\||#).*$", "\n", text, flags=re.MULTILINE)
 
 
 READERS = {".hpp": of_cpp, ".cpp": of_cpp, ".cuh": of_cpp, ".cu": of_cpp, ".py": of_python, ".pyi": of_python,
@@ -66,9 +71,11 @@ READERS = {".hpp": of_cpp, ".cpp": of_cpp, ".cuh": of_cpp, ".cu": of_cpp, ".py":
 
 def sentences(block):
     block = re.sub(r"^ *#+ ?", "", block, flags=re.MULTILINE)
-    for paragraph in re.split(r"\n\s*\n|\n\s*(?:[*-]|\d+\.) ", block):
-        text = re.sub(r"`[^`]*`|\[([^\]]*)\]\([^)]*\)", lambda m: m[1] or "X", " ".join(paragraph.split()))
-        yield from re.split(r"(?<=[.!?;:])\s+", text)
+    for paragraph in re.split(r"\n\s*\n|\n(?=\s*(?:[*-]|\d+\.) )", block):
+        text = " ".join(re.sub(r"^\s*(?:[*-]|\d+\.) |\*\*", "", paragraph).split())
+        text = re.sub(r"`[^`]*`|\[([^\]]*)\]\([^)]*\)", lambda m: m[1] or "X", text)
+        text = re.sub(r"X(?:(?:,|,? and|,? or) X\b)+", "X", text)  # a list of names counts as one word
+        yield from re.split(r"(?<=[.!?;:])[)\"]*\s+", text)
 
 
 def broken(path, text):
@@ -78,7 +85,7 @@ def broken(path, text):
             if OPENINGS.match(sentence):
                 yield "opening", sentence
             if word := WORDS.search(sentence):
-                yield f"\"{word[0]}\"", sentence
+                yield f"\"{word[0].lower()}\"", sentence
             if len(re.findall(r"[A-Za-z]\S*", sentence)) > MOST_WORDS:
                 yield f"over {MOST_WORDS} words", sentence
     opening = re.match(r"(?://.*\n)*", text)[0].count("\n")
@@ -97,8 +104,7 @@ def main():
     patterns = [a for a in arguments if a != "--statistics"] or ([] if statistics else ROOMS)
     counts = {}
     for path in tracked(root, patterns):
-        text = (Path(root) / path).read_text(errors="replace")
-        for rule, sentence in broken(path, text):
+        for rule, sentence in broken(path, (Path(root) / path).read_text(errors="replace")):
             if any(str(path) == name and part in sentence for name, part in EXCEPTIONS):
                 continue
             counts[rule] = counts.get(rule, 0) + 1
