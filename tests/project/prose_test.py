@@ -27,20 +27,13 @@ EXCEPTIONS = []
 
 
 def of_cpp(text):
-    """Blocks of comment lines."""
-    block = []
+    alone = []
     for line in text.splitlines():
-        found = re.match(r"\s*//[/!]?<? ?(.*)", line) or re.match(r".*\S.*?[;,{] +//[/!]?<? ?(.*)", line)
-        alone = found and line.lstrip().startswith("//")
-        if not alone and block:
-            yield "\n".join(block)
-            block = []
-        if alone:
-            block.append(found[1])
-        elif found:
+        found = re.match(r"\s*//[/!]?<? ?(.*)", line)
+        alone.append("# " + found[1] if found else "")
+        if not found and (found := re.match(r".*\S.*?[;,{] +//[/!]?<? ?(.*)", line)):
             yield found[1]
-    if block:
-        yield "\n".join(block)
+    yield from of_scripts("\n".join(alone))
 
 
 def of_python(text):
@@ -57,6 +50,7 @@ def of_python(text):
 
 
 def of_scripts(text):
+    """Blocks of comment lines."""
     return re.findall(r"(?:^ *# ?.*\n?)+", text, re.MULTILINE)
 
 
@@ -93,18 +87,23 @@ def broken(path, text):
         yield "opening comment", f"{opening} lines, expected at most {MOST_LINES}"
 
 
-def tracked(root, patterns):
-    listed = subprocess.run(["git", "-C", root, "ls-files", "-z", *patterns], check=True, stdout=subprocess.PIPE, text=True)
-    return [Path(name) for name in sorted(filter(None, listed.stdout.split("\0"))) if Path(name).suffix in READERS]
+def files(root, patterns):
+    """Returns the files of git that match; without git, all that match."""
+    if (root / ".git").exists():
+        names = subprocess.run(["git", "-C", root, "ls-files", "-z", *patterns], check=True, stdout=subprocess.PIPE,
+                               text=True).stdout.split("\0")
+    else:
+        names = [path.relative_to(root) for pattern in patterns or ["**/*"] for path in root.glob(pattern)]
+    return [path for path in sorted(map(Path, names)) if path.suffix in READERS]
 
 
 def main():
-    root, *arguments = sys.argv[1:]
+    root, arguments = Path(sys.argv[1]), sys.argv[2:]
     statistics = "--statistics" in arguments
     patterns = [a for a in arguments if a != "--statistics"] or ([] if statistics else ROOMS)
     counts = {}
-    for path in tracked(root, patterns):
-        for rule, sentence in broken(path, (Path(root) / path).read_text(errors="replace")):
+    for path in files(root, patterns):
+        for rule, sentence in broken(path, (root / path).read_text(errors="replace")):
             if any(str(path) == name and part in sentence for name, part in EXCEPTIONS):
                 continue
             counts[rule] = counts.get(rule, 0) + 1
