@@ -3,8 +3,8 @@
 usage: prose_test.py SOURCE_FOLDER [--statistics] [PATH...]
 
 Without paths it checks ROOMS and fails if a rule is broken. --statistics prints the counts for all tracked files
-instead. Rules: no sentence opens with a word that makes it a fragment, none contains a word of the list, none is longer
-than MOST_WORDS words, and no public header opens with more than MOST_LINES lines of comment.
+instead. A sentence must not open with a word that makes it a fragment, contain a word of the list, or have more than
+MOST_WORDS words. A header must not open with more than MOST_LINES lines of comment.
 """
 import ast
 import io
