@@ -1,4 +1,4 @@
-// `errbound explain`: reads, prints and draws.
+// `errbound explain`.
 #include "errbound/program/explain_command.hpp"
 
 #include <errbound/explain/explanation.hpp>
@@ -13,7 +13,7 @@
 
 namespace errbound::explaining {
 
-/// As tables show it: a file may call a result whatever it likes.
+/// Printable: a file may contain any name.
 static std::string shown_name(const explanation& result) {
     return detail::printable(result.name);
 }

@@ -1,4 +1,4 @@
-// `errbound explain`: where results' errors come from, as a table and as a picture.
+// `errbound explain`: prints and draws where results' errors come from.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -11,12 +11,11 @@ namespace errbound::explaining {
 
 class explain_command {
   public:
-    /// Adds the command.
     explicit explain_command(CLI::App& program);
 
     bool was_given() const { return line_.parsed(); }
-    /// What the parsed line asks for. Returns the exit status, 0. Throws
-    /// errbound::support::usage_error, errbound::support::file_error.
+    /// Runs the parsed command. Returns the exit status, 0. Throws errbound::support::usage_error,
+    /// errbound::support::file_error.
     int run() const;
 
   private:

@@ -1,4 +1,4 @@
-// Files of explanations: JSON, of which every value is checked before it is used.
+// Files of explanations: JSON, with every value checked before use.
 #include "errbound/program/explanation_file.hpp"
 
 #include <cstdint>
@@ -16,7 +16,7 @@ using support::file_error;
 constexpr const char* format = "errbound explanation";
 constexpr int version = 1;
 
-/// A value and where it is, for messages: results[0].error
+/// A value and its position, for messages: results[0].error
 class element {
   public:
     element(const json& value, std::string file, std::string path)
@@ -44,13 +44,13 @@ class element {
         if (!value_.is_string()) refuse("a string");
         return value_.get<std::string>();
     }
-    /// null stands for `otherwise`.
+    /// `otherwise` for null.
     double number(double otherwise) const {
         if (value_.is_null()) return otherwise;
         if (!value_.is_number()) refuse("a number or null");
         return value_.get<double>();
     }
-    /// Infinities are strings; null is no number.
+    /// Infinities are strings; null is NaN.
     double value() const {
         constexpr double infinity = std::numeric_limits<double>::infinity();
         if (value_ == "inf") return infinity;
@@ -76,7 +76,7 @@ class element {
 
   private:
     [[noreturn]] void refuse(const std::string& expected) const {
-        // What has elements is not shown: nested deep, it would be more than the stack holds.
+        // Structures are not shown: deeply nested ones would overflow the stack.
         const bool shown = !value_.is_structured() || value_.empty();
         std::string found = shown ? value_.dump(-1, ' ', false, json::error_handler_t::replace)
                                   : std::string("an ") + value_.type_name();

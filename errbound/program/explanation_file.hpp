@@ -8,8 +8,8 @@
 
 namespace errbound::explaining {
 
-/// The results of a file's text, which messages call `name`. Throws errbound::support::file_error,
-/// which names the place in the text, what was found and what was expected.
+/// The results in a file's text; `name` is for messages. Throws errbound::support::file_error, with
+/// position, found and expected.
 std::vector<explanation> parse_explanations(std::string_view text, const std::string& name);
 
 }  // namespace errbound::explaining

@@ -1,4 +1,4 @@
-// Explanations as flame graphs: paths of scopes in order, those that begin alike on one bar.
+// Explanations as flame graphs: sorted paths of scopes, with common beginnings on one bar.
 #include "errbound/program/flame_graph.hpp"
 
 #include <algorithm>
@@ -16,21 +16,21 @@ constexpr double width = 1000, margin = 10, bar_height = 20, heading = 28;
 constexpr double whole = width - 2 * margin;                     // a result's bar
 constexpr double thinnest = 0.2, letter = 7.3, text_margin = 4;  // pixels, of 12 pixel monospace
 
-/// What a bar stands for.
+/// The meaning of a bar.
 struct frame {
     bool operation = false;
-    std::string name, where{};  ///< where: file:line, if it is a scope
+    std::string name, where{};  ///< for a scope: file:line
 
     friend auto operator<=>(const frame&, const frame&) = default;
 };
 
-/// A source: the bars on the lowest one that its part of the error belongs to.
+/// A source: its bars, from the lowest.
 struct pile {
     std::vector<frame> frames;
     double share = 0, amount = 0;
 };
 
-/// In the order from left to right.
+/// From left to right.
 std::vector<pile> piles_of(const explanation& e) {
     std::vector<pile> piles;
     const std::vector<double> shares = shares_of(e);
@@ -49,8 +49,7 @@ std::vector<pile> piles_of(const explanation& e) {
     return piles;
 }
 
-/// As XML text, of one that is UTF-8 without control characters; two more that XML has not become
-/// '?'.
+/// XML text from UTF-8 without control characters; two more that XML forbids become '?'.
 std::string escaped(std::string_view text) {
     std::string result;
     for (; !text.empty(); text.remove_prefix(detail::character_length(text))) {
@@ -71,7 +70,7 @@ std::string escaped(std::string_view text) {
     return result;
 }
 
-/// The text's beginning, as far as there is room for it.
+/// The text's beginning that fits.
 std::string shortened(std::string_view text, double room) {
     const auto fit = static_cast<std::size_t>(std::max(0.0, (room - 2 * text_margin) / letter));
     std::size_t characters = 0, bytes = 0, kept = 0;
@@ -83,7 +82,7 @@ std::string shortened(std::string_view text, double room) {
     return fit < 3 ? std::string() : escaped(text.substr(0, kept)) + "…";
 }
 
-/// Warm for scopes, always the same for one name; cooler for operations; grey for the rest.
+/// Warm colours for scopes, one per name; cooler for operations; grey for the rest.
 std::string colour_of(const frame& f) {
     if (f.operation) return f.name == "the rest" ? "#c8c8c8" : "#b9d3e8";
     std::uint32_t hash = 2166136261U;
@@ -116,10 +115,9 @@ std::string drawn(const frame& f, const bar& b, double bottom) {
     return svg + "</g>\n";
 }
 
-/// Bars on the line `bottom`.
 std::string graph(const std::vector<pile>& piles, double bottom) {
     std::string svg;
-    std::vector<bar> open;  // those of the pile before
+    std::vector<bar> open;  // of the previous pile
     const std::vector<frame>* before = nullptr;
     const auto close_down_to = [&](std::size_t count) {
         for (; open.size() > count; open.pop_back()) {

@@ -1,5 +1,4 @@
-// The program `errbound`: reads the command line. Exit status 0 done, 1 bad input or violations
-// found, 2 bad usage.
+// The program `errbound`. Exit status: 0 done, 1 bad input or violations found, 2 bad usage.
 #include <CLI/CLI.hpp>
 #include <string>
 
@@ -18,7 +17,7 @@ int run_command_line(int argc, char** argv) {
         "Error bounds held against MPFR, and errors of programs explained.\n"
         "Exit status: 0 done, 1 bad input or violations found, 2 bad usage.",
         "errbound"};
-    app.require_subcommand(0, 1);            // none is told from an unknown one, which is named
+    app.require_subcommand(0, 1);            // main reports a missing command; CLI11 an unknown one
     app.allow_windows_style_options(false);  // a path may begin with a slash
     app.set_version_flag("--version", std::string("errbound ") + ERRBOUND_VERSION);
     validate_options validate(app);
@@ -31,7 +30,7 @@ int run_command_line(int argc, char** argv) {
         return run_validate(validate.checked());
     } catch (const CLI::ParseError& error) {
         if (error.get_exit_code() != 0) throw support::usage_error(error.what());
-        app.exit(error);  // prints what --help and --version ask for
+        app.exit(error);  // prints --help or --version
         return done;
     }
 }

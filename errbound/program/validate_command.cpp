@@ -1,4 +1,4 @@
-// `errbound validate`: runs what was asked for.
+// `errbound validate`.
 #include "errbound/program/validate_command.hpp"
 
 #include <ccd/io/query_file.hpp>
@@ -17,7 +17,7 @@
 namespace errbound::validation {
 namespace {
 
-/// One kind of evidence of a run.
+/// One kind of evidence.
 struct part {
     std::string name;  ///< "expressions", "tiny", "functions" or the file
     evidence what;
@@ -30,7 +30,7 @@ std::vector<ccd::io::query_file> read_files(const validate_arguments& arguments)
     return files;
 }
 
-/// In the order of tables. The parts refer to the queries of `files`.
+/// In table order. The parts refer to the queries of `files`.
 std::vector<part> parts_of(const validate_arguments& arguments,
                            const std::vector<ccd::io::query_file>& files) {
     std::vector<part> parts;

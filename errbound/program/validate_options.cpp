@@ -12,7 +12,7 @@
 namespace errbound::validation {
 namespace {
 
-/// As function_error has it.
+/// Same as for function_error.
 constexpr double most_units = 1024;
 
 rule rule_named(const std::string& name) {
@@ -27,7 +27,7 @@ std::string names_of_numbers() {
         names += (names.empty() ? "" : ", ") + std::string(one.name);
     return names;
 }
-/// Of every number type there must be a rule.
+/// Each number type needs a rule.
 void require_rules_of_numbers(const validate_arguments& all) {
     for (const number_type number : all.options.numbers)
         if (std::ranges::none_of(all.rules, [&](const rule& r) { return r.serves(number); }))

@@ -1,4 +1,4 @@
-// What `errbound validate` found, as tables, JSON and CSV.
+// Results of `errbound validate` as tables, JSON and CSV.
 #include "errbound/program/validate_results.hpp"
 
 #include <algorithm>
@@ -37,7 +37,7 @@ std::string text_of_counts(const std::vector<found_part>& parts) {
     return rows.size() > 1 ? text_of(rows, 3) : std::string();
 }
 
-/// Where ratios are not told apart, marked as such.
+/// Marked if clamped.
 std::string text_of_quantile(const distribution& log10, double share) {
     if (log10.ratios() == 0) return "-";
     const double value = log10.quantile(share);
@@ -46,13 +46,12 @@ std::string text_of_quantile(const distribution& log10, double share) {
     if (!log10.is_clamped(share)) return text;
     return (value < 0 ? "<=" : ">=") + std::string(text);
 }
-/// In a hundred.
 std::string text_of_rate(double rate) {
     char text[32];
     std::snprintf(text, sizeof text, "%.1f", 100 * rate);
     return text;
 }
-/// What an estimate claims, and how often its claim was true; nothing of other rules.
+/// True for estimates with a claimed rate.
 bool has_rates(const tightness& t) {
     return t.claimed > 0 && t.log10.ratios() + t.log10.exact() > 0;
 }
@@ -75,7 +74,7 @@ std::string text_of_tightness(const std::vector<found_part>& parts) {
 }
 
 /// A line per rule over all parts and number types: counts, and quantiles of log10 of the measure
-/// (bound/error, estimate/error of an estimate) over all quantities.
+/// (bound/error, estimate/error) over all quantities.
 std::string text_of_rules(const std::vector<found_part>& parts) {
     struct summary {
         rule_counts counts;
@@ -106,7 +105,7 @@ std::string text_of_rules(const std::vector<found_part>& parts) {
     return rules.empty() ? std::string() : text_of(rows, 1);
 }
 
-/// Three digits after the point, rounded up: a bound that may be relied on.
+/// Three decimals, rounded up: a reliable bound.
 std::string text_of_units(double units) {
     char text[32];
     std::snprintf(text, sizeof text, "%.3f", std::ceil(units * 1000) / 1000);
@@ -132,7 +131,7 @@ std::string text_of_violations(const std::vector<found_part>& parts) {
     return text;
 }
 
-/// The quantiles that are clamped, by their names.
+/// Names of the clamped quantiles.
 std::string clamped(const distribution& log10) {
     std::string names;
     for (const named_quantile& q : quantiles)
@@ -188,11 +187,11 @@ std::string json_of(const std::vector<found_part>& parts) {
                                         {"assumed", f.assumed},
                                         {"violations", f.violations}});
     }
-    // A path need not be UTF-8; the default would throw on such a one.
+    // Paths need not be UTF-8; the default handler would throw.
     return all.dump(2, ' ', false, ordered_json::error_handler_t::replace) + '\n';
 }
 
-/// A field, quoted where CSV asks for it.
+/// Quoted if CSV requires.
 std::string field(const std::string& text) {
     if (text.find_first_of(",\"\n") == std::string::npos) return text;
     std::string quoted = "\"";

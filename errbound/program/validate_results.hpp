@@ -1,4 +1,4 @@
-// What `errbound validate` found, written.
+// Output of `errbound validate`.
 #pragma once
 
 #include <errbound/validation/validation.hpp>
@@ -9,14 +9,14 @@
 
 namespace errbound::validation {
 
-/// What a part of the run found.
+/// The result of one part.
 struct found_part {
     std::string name;  ///< "expressions", "tiny", "functions" or the file
     report found;
 };
 
-/// Writes the files that were asked for, then tables for people. Returns whether every promise was
-/// kept. Throws errbound::support::file_error.
+/// Writes the requested files, then tables. Returns violations_found if a promise was broken.
+/// Throws errbound::support::file_error.
 exit_status write_results(const std::vector<found_part>& parts, const validate_arguments& to);
 
 }  // namespace errbound::validation

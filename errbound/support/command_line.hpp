@@ -1,4 +1,5 @@
-// Command lines beyond CLI11: lists of names, standard input and output, safe outputs.
+// Shared by the programs' command lines, beyond CLI11: lists of names, standard streams, and
+// outputs that overwrite no input.
 #pragma once
 
 #include <algorithm>
@@ -19,12 +20,12 @@
 
 namespace errbound::support {
 
-/// A command line that CLI11 accepts, but with contradictory or invalid values.
+/// A command line that CLI11 accepts but that makes no sense.
 struct usage_error : std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
-/// Returns named(name) for each name of an option's list N[,N...]. Throws usage_error for repeats.
+/// named(name) for each name of an option's list N[,N...]. Throws usage_error for a repeated name.
 template <class Named>
 auto all_named(const std::string& option, const std::string& list, const Named& named) {
     std::vector<decltype(named(list))> result;
@@ -41,6 +42,7 @@ auto all_named(const std::string& option, const std::string& list, const Named& 
     return result;
 }
 
+/// Comma-separated names, for "expected one of ...".
 template <class Entries, class Name>
 std::string listed(const Entries& entries, const Name& name) {
     std::string list;
@@ -49,8 +51,8 @@ std::string listed(const Entries& entries, const Name& name) {
     return list;
 }
 
-/// Returns a reference to the entry with this name. Throws usage_error with the option's name;
-/// `remark` ends its message.
+/// The entry with that name, a reference into `entries`. Throws usage_error with the option's name
+/// and `remark` at the end.
 template <class Entries, class Name>
 const auto& entry_named(const std::string& option, const std::string& wanted,
                         const Entries& entries, const Name& name, const std::string& remark = "") {
@@ -60,19 +62,18 @@ const auto& entry_named(const std::string& option, const std::string& wanted,
                       remark);
 }
 
-/// Returns the path of an input on the command line. `-` is standard input.
 inline std::string input_named(const std::string& name) {
     return name == "-" ? "/dev/stdin" : name;
 }
 
+/// Throws usage_error if standard input is among the inputs twice.
 inline void require_one_standard_input(const std::string& option,
                                        const std::vector<std::filesystem::path>& inputs) {
     if (std::ranges::count(inputs, std::filesystem::path(input_named("-"))) > 1)
         throw usage_error(option + ": standard input is given twice; expected at most once");
 }
 
-/// A check for CLI11, which itself would convert other texts: returns an error unless the text is a
-/// 64-bit unsigned integer.
+/// For CLI11: an error message unless the text is an integer of 64 bits, which CLI11 would convert.
 inline std::string checked_seed(const std::string& text) {
     std::uint64_t seed = 0;
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), seed);
@@ -80,7 +81,7 @@ inline std::string checked_seed(const std::string& text) {
     return "seed is '" + text + "'; expected an integer from 0 to 2^64 - 1";
 }
 
-/// Returns the stream for tables: standard output, or standard error if an output is written there.
+/// The stream for tables: standard error if an output is standard output.
 inline std::ostream& stream_for_people(
     const std::vector<std::optional<std::filesystem::path>>& outputs) {
     for (const auto& output : outputs)
@@ -88,7 +89,7 @@ inline std::ostream& stream_for_people(
     return std::cout;
 }
 
-/// True if two names refer to one file, which need not exist.
+/// True if two names are of one file, existing or not.
 inline bool are_of_one_file(const std::filesystem::path& a, const std::filesystem::path& b) {
     std::error_code ignored;
     if (std::filesystem::equivalent(a, b, ignored)) return true;
@@ -101,8 +102,7 @@ inline bool are_of_one_file(const std::filesystem::path& a, const std::filesyste
     return system::are_one_name(without_links(a), without_links(b));
 }
 
-/// Throws usage_error if an output is also an input or another output, which would lose data.
-/// Throws file_error if it is not writable, before the work is done.
+/// Throws unless each output is writable and neither an input nor another output.
 inline void require_good_outputs(const std::vector<std::optional<std::filesystem::path>>& outputs,
                                  std::vector<std::filesystem::path> taken) {
     for (const auto& output : outputs) {

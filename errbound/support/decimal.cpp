@@ -1,4 +1,4 @@
-// Parses with the C++ library, or with fast_float if the library cannot (libc++ before 20).
+// Uses the C++ library, or fast_float if it lacks floating point (libc++ before 20).
 #include "errbound/support/decimal.hpp"
 
 #include <charconv>
@@ -24,13 +24,14 @@ decimal<T> parse_decimal(std::string_view text) {
     const auto [rest, ec] = from_chars(text.data(), end, value);
     if (ec == std::errc::invalid_argument || rest != end) return {0, decimal_status::malformed};
     if (ec == std::errc::result_out_of_range) {
-        // Too large or too small. The stream rounds small values; libc++ also reports a failure.
+        // Too large or too small: the stream gives the nearest value of the latter, but libc++ also
+        // fails.
         std::istringstream stream{std::string(text)};
         stream.imbue(std::locale::classic());
-        stream.exceptions(std::ios::badbit);  // missing memory is not an overflow
+        stream.exceptions(std::ios::badbit);  // running out of memory is no overflow
         if (!(stream >> value) && std::abs(value) >= 1) return {0, decimal_status::overflow};
     }
-    // fast_float 3.9 returns infinity without an error.
+    // fast_float 3.9 silently returns infinity.
     const bool has_digits = text.find_first_of("0123456789") != std::string_view::npos;
     if (std::isinf(value) && has_digits) return {0, decimal_status::overflow};
     return {value, decimal_status::ok};

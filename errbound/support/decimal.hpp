@@ -1,4 +1,4 @@
-// Conversion of decimals to floating-point numbers, independent of the locale.
+// Floating-point numbers from decimals, independent of the locale.
 #pragma once
 
 #include <string_view>
@@ -13,8 +13,8 @@ struct decimal {
     decimal_status status;
 };
 
-/// Returns the float or double nearest to the whole text, in the format of std::from_chars:
-/// decimals with optional minus, point and exponent, infinities and NaN. Underflow is rounded.
+/// The nearest float or double to a whole text that std::from_chars accepts: optional minus,
+/// digits, optional point and exponent; infinity and NaN. Underflow is rounded.
 template <class T>
 decimal<T> parse_decimal(std::string_view text);
 

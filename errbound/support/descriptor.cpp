@@ -1,3 +1,4 @@
+// Continues after partial and interrupted writes.
 #include "errbound/support/descriptor.hpp"
 
 #include <algorithm>

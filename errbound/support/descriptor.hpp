@@ -1,3 +1,4 @@
+// Bytes to an open file.
 #pragma once
 
 #include <filesystem>
@@ -5,8 +6,7 @@
 
 namespace errbound::support {
 
-/// Writes all bytes to an open descriptor, also after signals and partial writes.
-/// `shown` is the file's name for messages. Throws file_error.
+/// Writes all bytes to an open descriptor. `shown`: the file's name in messages. Throws file_error.
 void write_all(int descriptor, std::string_view bytes, const std::filesystem::path& shown);
 
 }  // namespace errbound::support

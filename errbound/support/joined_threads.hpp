@@ -1,4 +1,4 @@
-// Threads that are joined at the end of the scope, since libc++ before 20 has no std::jthread.
+// Threads that join at the end of a scope: std::jthread without a token (libc++ has it from 20 on).
 #pragma once
 
 #include <thread>
@@ -16,7 +16,8 @@ class joined_threads {
         for (std::thread& t : threads_) t.join();
     }
 
-    /// Starts a thread that calls `work`. Throws std::system_error.
+    /// Starts a thread that calls `work`. Throws std::system_error if the system has no more
+    /// threads.
     template <class Work>
     void start(Work work) {
         threads_.emplace_back(std::move(work));

@@ -1,3 +1,4 @@
+// Reads and writes whole files.
 #include "errbound/support/output_file.hpp"
 
 #include <array>
@@ -17,20 +18,22 @@ namespace errbound::support {
 namespace fs = std::filesystem;
 namespace {
 
+/// The reason of the last system error, to end a message.
 std::string reason() {
     return errno != 0 ? std::string(" (") + std::strerror(errno) + ")" : std::string();
 }
 
-/// Returns the folder with its separator, or an empty string.
+/// Includes the separator; empty if there is no folder.
 std::string folder_of(const std::string& name) {
     return name.substr(0, name.find_last_of(system::separators) + 1);
 }
 
+/// True for standard input where it has no file.
 bool is_standard_input(const fs::path& path) {
     return !system::has_device_files && path == "/dev/stdin";
 }
 
-/// Reads block by block, since a pipe has no size.
+/// Block by block: a pipe has no size.
 template <class Take>
 void for_each_block(const fs::path& path, const Take& take) {
     errno = 0;
@@ -52,6 +55,7 @@ void write_to(int descriptor, const output& out) {
         for_each_block(out.from, write);
 }
 
+/// Writes, then closes the descriptor.
 void write_and_close(int descriptor, const output& out) {
     const fs::path& shown = out.path;
     if (descriptor < 0) throw file_error(shown.string() + ": cannot be written" + reason());
@@ -61,12 +65,12 @@ void write_and_close(int descriptor, const output& out) {
         system::close(descriptor);
         throw;
     }
-    // A network file system may report a full disk only now.
+    // A remote disk may report that it is full only now.
     if (system::close(descriptor) != 0)
         throw file_error(shown.string() + ": writing failed" + reason());
 }
 
-/// Creates a file with a new name in the target's folder. Stores it in `name`.
+/// Opens a new file next to the target; sets `name`.
 int create_beside(const std::string& target, std::string& name) {
     static std::atomic<unsigned> count = 0;
     const std::string beside =
@@ -79,6 +83,7 @@ int create_beside(const std::string& target, std::string& name) {
     return descriptor;
 }
 
+/// Writes a temporary file next to the target and renames it.
 void replace_file(const std::string& target, const output& out) {
     const bool replaces = system::exists(target);
     if (replaces && !system::may_write(target))
@@ -96,7 +101,7 @@ void replace_file(const std::string& target, const output& out) {
     }
 }
 
-/// Returns the file's path without links; nothing for a pipe or a device. Throws file_error.
+/// The file's real name, also of a new file; nothing for a pipe or a device. Throws file_error.
 std::optional<std::string> file_behind(const fs::path& path) {
     const auto refuse = [&path](const char* found) {
         throw file_error("'" + path.string() + "': found " + found + ", expected a file to write");

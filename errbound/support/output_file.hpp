@@ -1,4 +1,4 @@
-// Output files that are written whole or not at all.
+// Output files are whole or untouched.
 #pragma once
 
 #include <filesystem>
@@ -12,26 +12,26 @@ namespace errbound::support {
 struct output {
     std::filesystem::path path;
     std::string text{};
-    std::filesystem::path from{};  ///< unless empty: a file with the contents, instead of text
+    std::filesystem::path from{};  ///< a file to copy instead, unless empty
 };
 
-/// Returns the open descriptor of a path: 1 for `-` and /dev/stdout, 2 for /dev/stderr, N for
-/// /dev/fd/N and /proc/self/fd/N.
+/// The descriptor of a path: `-` and /dev/stdout are 1, /dev/stderr 2, /dev/fd/N and
+/// /proc/self/fd/N are N.
 std::optional<int> descriptor_of(const std::filesystem::path& path);
 
-/// Throws file_error if write_whole will certainly fail: missing folders or permissions, invalid
+/// Throws file_error if write_whole would fail, as far as known: missing folders or rights, invalid
 /// names.
 void require_writable(const std::filesystem::path& path);
 
-/// Writes the outputs in order. Each goes to a temporary file in its folder, which is then renamed,
-/// so that files are whole or untouched. A killed process can leave `.errbound-PID-N.tmp`.
-/// A replaced file keeps its permissions; a symbolic link stays one. Pipes, devices and open
-/// descriptors are written directly. Throws file_error at the first failure (full disk, size limit,
-/// missing permissions).
+/// Writes the outputs in order and stops at the first failure. Each file is whole or untouched: its
+/// bytes go to a temporary file next to it, which is then renamed. A killed process can leave
+/// `.errbound-PID-N.tmp`. Replaced files keep permissions and symbolic links. Pipes, devices and
+/// open descriptors are written directly. Throws file_error (full disk, file size limit, missing
+/// rights).
 void write_whole(const std::vector<output>& outputs);
 void write_whole(const std::filesystem::path& path, std::string_view text);
 
-/// Returns the contents of a file. Throws file_error (missing, a directory, unreadable).
+/// Throws file_error (missing, a directory, unreadable).
 std::string read_whole(const std::filesystem::path& path);
 
 }  // namespace errbound::support

@@ -1,3 +1,4 @@
+// Common code of every main.
 #pragma once
 
 #include <functional>
@@ -5,9 +6,9 @@
 
 namespace errbound::support {
 
-/// Returns the status of `body`; 2 if it throws usage_error; 1 if it throws another exception or
-/// standard output cannot be written. Errors are printed to standard error after `name`. Closed
-/// standard descriptors are opened first, so that no file gets their numbers and the output.
+/// Returns the status of `body`, or, after a message that begins with `name`, 2 if it throws
+/// usage_error, 1 if it throws anything else or standard output fails. Opens closed standard
+/// descriptors first, so that no file gets their numbers.
 int run_program(const std::string& name, const std::function<int()>& body);
 
 }  // namespace errbound::support

@@ -1,3 +1,4 @@
+// Progress on a terminal.
 #pragma once
 
 #include <chrono>
@@ -9,7 +10,7 @@
 
 namespace errbound::support {
 
-/// A bar on a terminal's standard error, shown after a second and removed at the end.
+/// A bar on a terminal's standard error, after the first second; removed at the end.
 class progress_line {
   public:
     progress_line() = default;
@@ -17,14 +18,16 @@ class progress_line {
     progress_line& operator=(const progress_line&) = delete;
     ~progress_line() { clear(); }
 
-    /// Shows that `done` of `total` > 0 tasks are done; `task` is the current one.
-    void show(std::size_t done, std::size_t total, const std::string& task) {
+    /// `done` of `total` > 0 parts are done; `what` is running.
+    void show(std::size_t done, std::size_t total, const std::string& what) {
         draw(static_cast<double>(done) / static_cast<double>(total),
-             std::to_string(done) + '/' + std::to_string(total) + ' ' + task);
+             std::to_string(done) + '/' + std::to_string(total) + ' ' + what);
     }
-    void show(double share, const std::string& task) {
-        draw(share, std::to_string(static_cast<int>(100 * share)) + " % " + task);
+    /// `share`, from 0 to 1, is done; `what` is running.
+    void show(double share, const std::string& what) {
+        draw(share, std::to_string(static_cast<int>(100 * share)) + " % " + what);
     }
+    /// Clears the line for output.
     void clear() {
         if (shown_) std::fputs("\r\x1b[K", stderr);
         shown_ = false;

@@ -1,4 +1,4 @@
-// Temporary files for data that do not fit in memory.
+// Temporary files for data too large for memory.
 #pragma once
 
 #include <cstddef>
@@ -9,9 +9,10 @@
 
 namespace errbound::support {
 
-/// A file with a new name in std::filesystem::temp_directory_path(). The destructor removes it.
+/// A new file in std::filesystem::temp_directory_path(), removed with this object.
 class scratch_file {
   public:
+    /// Throws file_error.
     scratch_file();
     ~scratch_file();
     scratch_file(const scratch_file&) = delete;
@@ -19,9 +20,9 @@ class scratch_file {
 
     const std::filesystem::path& path() const { return path_; }
 
-    /// Throws file_error, for example for a full disk.
+    /// Throws file_error (a full disk).
     void append(std::string_view bytes);
-    /// Reads exactly `size` bytes at `offset`. Throws file_error if there are fewer.
+    /// Reads exactly `size` bytes from `offset`. Throws file_error if there are fewer.
     void read(std::uint64_t offset, std::size_t size, void* to) const;
 
   private:

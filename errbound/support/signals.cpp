@@ -1,4 +1,4 @@
-// Some systems remove a handler when they call it.
+// Signal handlers. Some systems remove a handler when they call it.
 #include "errbound/support/signals.hpp"
 
 #include <algorithm>
@@ -11,11 +11,11 @@ namespace errbound::support {
 namespace {
 
 constexpr std::array signals{SIGINT, SIGTERM};
-// An int, since atomic bytes are not always lock-free on RISC-V before g++ 13.
+// int: on RISC-V atomic bytes are not always lock-free before g++ 13.
 std::atomic<int> caught = 0;
 static_assert(std::atomic<int>::is_always_lock_free, "set by a signal handler");
 
-// A handler may not allocate.
+// A handler must not allocate.
 std::array<char, 4096> line_to_print;
 std::size_t line_length = 0;
 

@@ -1,4 +1,4 @@
-// Signals that stop a program whose work can be continued later.
+// Termination signals, for long work that can be resumed.
 #pragma once
 
 #include <array>
@@ -7,16 +7,17 @@
 
 namespace errbound::support {
 
-/// While an object lives, the first SIGINT or SIGTERM sets a number and prints a line to standard
-/// error; the second ends the program. Ignored signals stay ignored. At most one object at a time.
+/// While it lives, the first SIGINT or SIGTERM sets a number and prints a line to standard error;
+/// the next ends the program. Ignored signals stay ignored. At most one object at a time.
 class awaited_signals {
   public:
-    /// `line` is printed at once when a signal arrives, unless empty.
+    /// `line`, if not empty, is printed at once, as the sender may not wait for long.
     explicit awaited_signals(const std::string& line = {});
     ~awaited_signals();
     awaited_signals(const awaited_signals&) = delete;
     awaited_signals& operator=(const awaited_signals&) = delete;
 
+    /// The signal that arrived, or 0.
     const std::atomic<int>& arrived() const;
 
   private:

@@ -1,3 +1,4 @@
+// Tables as text.
 #include "errbound/support/table.hpp"
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// Text tables with columns as wide as their longest cell.
+// Tables with columns as wide as their longest cell.
 #pragma once
 
 #include <cstddef>
@@ -9,17 +9,18 @@
 
 namespace errbound::support {
 
-/// Rows of cells, all of one length. The first row is the heading.
+/// The first row is the heading; all rows have equal length.
 using table = std::vector<std::vector<std::string>>;
 
-/// Replaces control characters, except those in `kept`, by \xNN: file names may contain escape
-/// sequences of terminals.
+/// Replaces control characters, except those in `kept`, by \xNN. (File names may contain escape
+/// sequences of terminals.)
 std::string printable(std::string_view text, std::string_view kept = {});
 
-/// Returns one printable line per row. The first `left` columns are aligned left, the others right.
+/// A line per row: the first `left` columns aligned left, the others right. Cells are made
+/// printable.
 std::string text_of(const table& rows, std::size_t left);
 
-/// Returns "1,234,567" for 1234567.
+/// 1234567 as "1,234,567".
 std::string grouped(std::uint64_t n);
 
 }  // namespace errbound::support

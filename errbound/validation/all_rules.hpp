@@ -1,5 +1,4 @@
-// The checks of all rules, each kind compiled in a file of its own: they are what takes long to
-// compile. Internal.
+// The checks of all rules, each kind in a file of its own, since they compile slowly. Internal.
 #pragma once
 
 #include <errbound/validation/rule.hpp>
@@ -7,7 +6,6 @@
 
 namespace errbound::validation {
 
-/// Of every rule of all_rules, in its order.
 void set_query_checks(std::span<rule> rules);
 void set_tiny_checks(std::span<rule> rules);
 void set_boost_checks(std::span<rule> rules);

@@ -5,7 +5,7 @@
 
 namespace errbound::validation {
 
-/// `f.operator()<T>()` of the type. Precondition: it is among number_types.
+/// Calls f.operator()<T>() for the type. Precondition: it is among number_types.
 template <class F>
 decltype(auto) with_any_number_type(number_type type, const F& f) {
     return is_boost(type) ? with_boost_number_type(type, f) : with_number_type(type, f);

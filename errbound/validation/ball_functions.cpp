@@ -1,15 +1,13 @@
-// Elementary functions of enclosures: of the ends, as functions are monotone between them, or by
-// the slope.
+// Elementary functions of enclosures: at the ends of monotone pieces, or by the slope.
 #include <errbound/validation/ball.hpp>
 
 namespace errbound::validation {
 namespace {
 
-/// Arguments of waves have at most so many bits before the point: MPFR needs as many of π.
+/// Most bits before the point of arguments of sin, cos and tan: MPFR needs as many of π.
 constexpr mpfr_exp_t largest_exponent_of_angles = 20000;
 
-/// Functions' results beyond 2^±this are taken for unknown or for nearly zero, as for every format
-/// that has functions they are.
+/// Results beyond 2^±this are unknown or nearly zero, as in every format with functions.
 constexpr mpfr_exp_t largest_exponent_of_results = 1 << 15;
 
 bool is_wave(elementary_function f) {
@@ -17,7 +15,6 @@ bool is_wave(elementary_function f) {
            f == elementary_function::tan;
 }
 
-/// The ends of a ball, rounded outwards.
 struct ends {
     mpfr_number lower, upper;
 
@@ -32,12 +29,11 @@ struct ends {
     }
 };
 
-/// The least and the largest of numbers that are rounded outwards.
+/// The hull of numbers, each rounded outwards.
 class hull {
   public:
     explicit hull(mpfr_prec_t precision) : lower_(precision), upper_(precision), one_(precision) {}
 
-    /// compute(to, direction).
     template <class Compute>
     void add(const Compute& compute) {
         compute(one_.get(), MPFR_RNDD);
@@ -48,7 +44,7 @@ class hull {
             mpfr_set(upper_.get(), one_.get(), MPFR_RNDU);
         empty_ = false;
     }
-    /// Of a function of two arguments.
+    /// For a function of two arguments.
     void add_corners(elementary_function f, const ends& a, const ends& b) {
         for (const mpfr_srcptr first : {a.lower.get(), a.upper.get()})
             for (const mpfr_srcptr second : {b.lower.get(), b.upper.get()})
@@ -64,8 +60,8 @@ class hull {
     bool empty_ = true;
 };
 
-/// Whether a pole of the tangent may be between two ends: of less than a period's distance it is
-/// where the tangent falls from one to the other, by as much as 64 bits tell.
+/// True if there may be a pole of the tangent between two ends: less than a period apart, the
+/// tangent falls from one to the other exactly then (in 64 bits).
 bool has_pole(const ends& x) {
     MPFR_DECL_INIT(width, 64);
     mpfr_sub(width, x.upper.get(), x.lower.get(), MPFR_RNDU);
@@ -76,15 +72,15 @@ bool has_pole(const ends& x) {
     return mpfr_lessequal_p(left.get(), right.get()) == 0;
 }
 
-/// Whether x^y is monotone in x for each y, and in y for each x: for positive x, and for negative
-/// ones with a whole exponent; on either side of zero, with a positive one.
+/// True if x^y is monotone in x and in y: for x > 0, for x < 0 with a whole exponent, and across
+/// zero with a positive one.
 bool has_monotone_power(const ends& x, const ball& y) {
     const bool is_whole = y.is_exact() && mpfr_integer_p(y.middle()) != 0;
     return mpfr_sgn(x.lower.get()) > 0 ||
            (is_whole && (mpfr_sgn(x.upper.get()) < 0 || mpfr_sgn(y.middle()) > 0));
 }
 
-/// Whether the angle of (x, y) is: apart from the origin and from the negative x axis's lower side.
+/// True if the angle is monotone: away from the origin and the lower side of the negative x axis.
 bool has_monotone_angle(const ends& y, const ends& x) {
     if (mpfr_sgn(y.lower.get()) >= 0) return !(y.have_zero_between() && x.have_zero_between());
     return mpfr_sgn(y.upper.get()) < 0 || mpfr_sgn(x.lower.get()) > 0;

@@ -1,4 +1,4 @@
-// The checks of Boost's numbers for every rule: instances alone.
+// Instances of the checks of Boost's numbers for every rule.
 #include <cstddef>
 #include <errbound/validation/boost_numbers.hpp>
 

@@ -1,4 +1,4 @@
-// Evidence examined: its chunks on several threads, merged in their order.
+// Runs the chunks of evidence on several threads and merges them in order.
 #include "errbound/validation/chunks.hpp"
 
 #include <atomic>
@@ -14,7 +14,7 @@
 namespace errbound::validation {
 namespace {
 
-/// What MPFR keeps for this thread is freed at the end, also by an exception.
+/// Frees MPFR's cache of the thread at the end, also after an exception.
 struct freed_mpfr_cache {
     freed_mpfr_cache() = default;
     freed_mpfr_cache(const freed_mpfr_cache&) = delete;
@@ -22,7 +22,7 @@ struct freed_mpfr_cache {
     ~freed_mpfr_cache() { mpfr_free_cache(); }
 };
 
-/// Reports merged in the order of their chunks, whenever they come.
+/// Merges reports in the order of their chunks.
 class ordered_sum {
   public:
     void add(std::uint64_t chunk, report found) {

@@ -1,4 +1,4 @@
-// Evidence in chunks, whose sizes depend on what there is to do alone. Internal.
+// Evidence in chunks, whose sizes depend only on the work. Internal.
 #pragma once
 
 #include <algorithm>
@@ -10,7 +10,7 @@ namespace errbound::validation {
 /// Numbered cases in 1 to 400 chunks. A chunk's report takes some hundred kilobytes.
 class chunks {
   public:
-    /// Chunks have `least` cases at least, but for the last.
+    /// Chunks have at least `least` cases, except the last.
     constexpr chunks(std::uint64_t cases, std::uint64_t least)
         : cases_(cases), size_(std::max(least, rounded_up(cases, most))) {}
 
@@ -33,7 +33,7 @@ class chunks {
     std::uint64_t cases_, size_;
 };
 
-/// The same, which sets MPFR up on the thread that calls it, and frees what MPFR keeps there.
+/// The same evidence, with MPFR set up on the calling thread and its cache freed.
 evidence with_mpfr(evidence what);
 
 }  // namespace errbound::validation

@@ -16,7 +16,7 @@ std::size_t bin_of(double log10_ratio) {
 
 }  // namespace
 
-/// Has bins from first_bin on, as many; no fewer than there were.
+/// Makes room for bins from first_bin on.
 void distribution::make_room(std::size_t first_bin, std::size_t bins) {
     auto& b = counts_.bins;
     if (b.empty()) counts_.first_bin = first_bin;

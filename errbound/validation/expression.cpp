@@ -1,4 +1,4 @@
-// Random expressions: their making, their reference values and their text.
+// Random expressions: generation, reference values, text.
 
 #include <algorithm>
 #include <cmath>
@@ -13,11 +13,11 @@
 namespace errbound::validation {
 namespace {
 
-/// What sizes the inputs of one expression have.
+/// Sizes of an expression's inputs.
 enum class operand_scale {
     ordinary,           ///< between 2^-5 and 2^5
-    underflowing,       ///< subnormals, and what has products among them
-    overflowing,        ///< near the largest number, and what has products there
+    underflowing,       ///< subnormals, and numbers with subnormal products
+    overflowing,        ///< near the largest number, and numbers with products there
     mixed,              ///< the whole range
     small_integers,     ///< sums and products cancel exactly
     nearly_cancelling,  ///< one number and its neighbours
@@ -27,7 +27,7 @@ constexpr int operand_scales = 6;
 template <class T>
 class input_maker {
     using traits = number_traits<T>;
-    // Numbers are made as doubles where these hold all of T.
+    // Numbers are doubles while being made, if these hold all of T.
     using maker = std::conditional_t<fits_double<T>, double, T>;
     using making = number_traits<maker>;
 
@@ -74,7 +74,7 @@ class input_maker {
         }
         return maker(0);
     }
-    /// A bound for an input of this value: from far below its last place to its own size.
+    /// A bound for an input: from far below its last place to its size.
     maker error(const maker& value) {
         if (value == 0 || random_.one_in(8)) return making::abs(this->value());
         const maker size = scaled(making::abs(value), -random_.between(-1, traits::digits + 8));
@@ -87,12 +87,12 @@ class input_maker {
         const maker size = making::abs(x);
         return random_.one_in(2) ? maker(-size) : size;
     }
-    /// What a T holds of x, or its largest number.
+    /// x rounded to T, at most the largest number.
     static maker rounded(const maker& x) {
         const maker largest = maker{traits::largest()};
         return maker{static_cast<T>(x < -largest ? maker(-largest) : x > largest ? largest : x)};
     }
-    /// Between 2^(e−1) and 2^e, of few bits or of all.
+    /// In [2^(e−1), 2^e], with few bits or all.
     maker of_exponent(int e) {
         const int bits = random_.one_in(3) ? random_.between(2, 6) : traits::digits;
         const int first = std::min(bits, 53);
@@ -108,15 +108,15 @@ class input_maker {
 
     random_source& random_;
     operand_scale scale_;
-    // 2^least is the smallest positive number, 2^most just too large.
+    // 2^least_ is the smallest positive number, 2^most_ just too large.
     int least_ = has_subnormals<T> ? traits::min_exponent - traits::digits
                                    : traits::exponent(traits::smallest_normal()) - 1;
     int most_ = traits::exponent(traits::largest());
     maker middle_;
 };
 
-/// Out of so many: + − × ÷, −x, ·2^e, √x, |x|, min, max, fma, dot product, polynomial, copysign,
-/// midpoint, lerp, hypot, x^n, any elementary function.
+/// Relative frequencies of + − × ÷, −x, ·2^e, √x, |x|, min, max, fma, dot product, polynomial,
+/// copysign, midpoint, lerp, hypot, x^n, elementary functions.
 using operation_mix = std::array<int, first_function + 1>;
 constexpr std::array<operation_mix, 6> mixes{
     {{3, 3, 6, 0, 1, 1, 0, 0, 0, 0, 0, 2, 2, 0, 0, 0, 0, 0, 0},  // polynomials
@@ -142,7 +142,7 @@ template <class T>
 expression made(random_source& random, std::uint64_t index, int longest) {
     expression e;
     input_maker<T> inputs(random, static_cast<operand_scale>(random.below(operand_scales)));
-    const int bounded = random.below(3);  // no input, some, or every one has a bound of its own
+    const int bounded = random.below(3);  // inputs with bounds: none, some or all
     e.input_count = static_cast<std::size_t>(random.between(1, expression::max_inputs));
     for (std::size_t i = 0; i < e.input_count; ++i) {
         expression_input& in = e.inputs[i];
@@ -156,7 +156,7 @@ expression made(random_source& random, std::uint64_t index, int longest) {
     const operation_mix& mix = mixes[index % 4 == 3   ? mix_with_quotients
                                      : index % 4 == 1 ? mix_with_elementary_functions
                                                       : static_cast<std::size_t>(random.below(4))];
-    // Few operands among the latest values make an expression deep, many make it wide.
+    // Operands among the latest values make an expression deep, others wide.
     const bool deep = random.one_in(2);
     e.operation_count = static_cast<std::size_t>(random.between(1, longest));
     for (std::size_t i = 0; i < e.operation_count; ++i) {
@@ -182,7 +182,6 @@ char letter(std::size_t value) {
     return static_cast<char>('a' + value % 26);
 }
 
-/// a, b, ..., z, a1, b1, ...
 std::string name_of_value(std::size_t value) {
     return letter(value) + (value < 26 ? std::string() : std::to_string(value / 26));
 }
@@ -207,14 +206,14 @@ expression random_expression(std::uint64_t seed, std::uint64_t index, number_typ
 
 namespace {
 
-/// Which values are ±2^k times others. A rule may know that two such cancel, as `affine` does,
-/// where the enclosure of a rounded quotient or root never tells.
+/// Values that are ±2^k times others. A rule such as `affine` may know that two such cancel, which
+/// the enclosure of a rounded quotient or root never shows.
 class multiples {
   public:
     multiples() {
         for (std::size_t n = 0; n < known_.size(); ++n) known_[n].of = n;
     }
-    /// To be called when the operation has set value n, which is set to zero if it is that.
+    /// Call after the operation has set value n; sets n to zero if the values cancel.
     void note(const expression_operation& o, std::size_t n, ball* values) {
         const multiple left = known_[o.left], right = known_[o.right];
         switch (o.kind) {
@@ -265,27 +264,23 @@ class multiples {
     std::array<multiple, expression::max_values> known_;
 };
 
-/// left·right + third·left.
 void set_dot(ball& result, const ball& left, const ball& right, const ball& third) {
     ball product(mpfr_get_prec(result.middle()));
     product.set_product(left, right);
     result.set_fused(third, left, product);
 }
-/// third + right·left + third·left².
 void set_polynomial(ball& result, const ball& left, const ball& right, const ball& third) {
     ball inner(mpfr_get_prec(result.middle()));
     inner.set_fused(third, left, right);
     result.set_fused(inner, left, third);
 }
 
-/// √(left² + right²).
 void set_hypotenuse(ball& result, const ball& left, const ball& right) {
     ball square(mpfr_get_prec(result.middle())), sum(square);
     square.set_product(left, left);
     sum.set_fused(right, right, square);
     result.set_root_of_squares(sum);
 }
-/// left + third·(right − left).
 void set_interpolated(ball& result, const ball& left, const ball& right, const ball& third) {
     const bool defined = left.is_defined() && right.is_defined() && third.is_defined();
     const bool whole = third.is_exact() && mpfr_cmp_ui(third.middle(), 1) == 0;
@@ -297,7 +292,7 @@ void set_interpolated(ball& result, const ball& left, const ball& right, const b
     difference.set_difference(right, left);
     result.set_fused(third, difference, left);
 }
-/// x^n; undefined for n < 0 and x = 0.
+/// Undefined for n < 0 and x = 0.
 void set_power(ball& result, const ball& x, int n) {
     ball one(mpfr_get_prec(result.middle())), power(one);
     one.set(1);
@@ -313,7 +308,7 @@ void set_power(ball& result, const ball& x, int n) {
         result = power;
 }
 
-/// Of operations that are made of others.
+/// Operations made of others.
 void set_compound(ball& result, const expression_operation& o, const ball* values) {
     const ball &left = values[o.left], &right = values[o.right], &third = values[o.third];
     switch (o.kind) {
@@ -339,7 +334,6 @@ void set_compound(ball& result, const expression_operation& o, const ball* value
     }
 }
 
-/// The result of an operation on others of the values.
 void set_result(ball& result, const expression_operation& o, const ball* values) {
     const ball &left = values[o.left], &right = values[o.right];
     switch (o.kind) {
@@ -447,7 +441,7 @@ std::string cpp_text(const expression_operation& o) {
 
 std::string cpp_text(const expression& e, number_type type, std::string_view rule) {
     const std::string number(entry_of(type).cpp_name);
-    // A directive: a rule of one's own may be in no namespace.
+    // A directive: a custom rule may be in no namespace.
     std::string text = "using namespace errbound;\nusing number = tracked<" + number + ", " +
                        std::string(rule) + ">;\n";
     for (std::size_t i = 0; i < e.input_count; ++i) {

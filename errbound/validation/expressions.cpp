@@ -11,12 +11,12 @@
 namespace errbound::validation {
 namespace {
 
-/// The first is enough for most expressions; every sum of doubles is exact in the third, of long
-/// doubles and of binary128 in the last.
+/// The first suffices for most expressions; the third holds every sum of doubles, the last of long
+/// doubles and binary128.
 constexpr std::array<mpfr_prec_t, 5> precisions{192, 768, 3072, 12288, 49152};
-/// As long as errors are not told from zero, it goes on to this one; for promises, to the last.
+/// Errors indistinguishable from zero raise the precision up to this one; promises up to the last.
 constexpr mpfr_prec_t precision_for_errors = 3072;
-/// Beyond this one only sums and products are evaluated: others are not exact in any.
+/// Beyond, only sums and products are evaluated: others are exact in none.
 constexpr mpfr_prec_t precision_for_functions = 12288;
 constexpr std::uint64_t least_chunk = 1000;
 
@@ -24,7 +24,7 @@ void evaluate(const rule& r, number_type type, const expression& e, claim* claim
     r.evaluate[static_cast<std::size_t>(type)](e, claims);
 }
 
-/// The values of one expression: exact ones and how far the computed ones are from them.
+/// Exact values of one expression, and the deviations of the computed ones.
 class reference {
   public:
     reference() : values_(expression::max_values, ball(precisions[0])), off_(values_.size()) {}
@@ -35,12 +35,12 @@ class reference {
         validation::evaluate(e, values_.data());
         measure(e, computed, nullptr);
     }
-    /// How far these are off, after others of the same expression, if there are. Values are mostly
-    /// those of all rules, but zeros may have other signs, of which atan2 makes π and −π.
+    /// Deviations of these claims, after others of the same expression, if any. Values mostly agree
+    /// for all rules, but zeros may have other signs, which atan2 turns into π and −π.
     void measure(const expression& e, const claim* computed, const claim* before) {
         for (std::size_t n = 0; n < e.size(); ++n) {
             const bool known = before && before[n].value == computed[n].value;
-            // (No precision may tell an input from its exact one, if one is far smaller.)
+            // If one input is far smaller, no precision separates it from its exact value.
             if (n < e.input_count && e.inputs[n].value == computed[n].value)
                 off_[n].set(e.inputs[n].error, e.inputs[n].quarters);
             else if (!known && computed[n].value.is_finite() && values_[n].is_defined())
@@ -50,14 +50,14 @@ class reference {
     const ball& value(std::size_t n) const { return values_[n]; }
     const deviation& off(std::size_t n) const { return off_[n]; }
 
-    /// Whether the exact value of an operand is undefined: then nothing is asked of the result.
+    /// False if an operand has no exact value: then the result is not checked.
     bool operands_defined(const expression& e, std::size_t n) const {
         if (n < e.input_count) return true;
         const expression_operation& o = e.operations[n - e.input_count];
         return values_[o.left].is_defined() && (!o.has_right() || values_[o.right].is_defined()) &&
                (!o.has_third() || values_[o.third].is_defined());
     }
-    /// Whether every error is known in size, or known to be zero.
+    /// True if every error's size is known, or it is zero.
     bool tells_errors(const expression& e, const claim* computed) const {
         for (std::size_t n = e.input_count; n < e.size(); ++n)
             if (computed[n].value.is_finite() && values_[n].is_defined() && !off_[n].is_zero() &&
@@ -74,14 +74,13 @@ class reference {
     std::vector<deviation> off_;
 };
 
-/// What is counted under one rule and number type.
+/// Counts for one rule and number type.
 struct tally {
     std::uint64_t expressions = 0, values = 0, violations = 0, undetermined = 0;
     std::array<distribution, operation_kinds> log10;
-    std::vector<std::uint64_t> violating;  ///< indices of the first expressions with a violation
+    std::vector<std::uint64_t> violating;  ///< indices of the first violating expressions
 };
 
-/// A chunk of expressions.
 struct examination {
     reference exact;
     std::vector<std::array<claim, expression::max_values>> claims;  // one per rule
@@ -94,7 +93,7 @@ struct examination {
             return !r.serves(type) || (divides && !r.has_division);
         };
         claims.resize(rules.size());
-        const claim* computed = nullptr;  // whose errors `exact` has
+        const claim* computed = nullptr;  // claims whose errors `exact` has
         for (std::size_t k = 0; k < rules.size(); ++k) {
             if (left_out(rules[k])) continue;
             evaluate(rules[k], type, e, claims[k].data());
@@ -151,7 +150,7 @@ struct examination {
     }
 };
 
-/// Tells what is violated, by the smallest expression that shows it.
+/// Describes a violation by the smallest expression that shows it.
 void tell(violation& to, const rule& r, number_type type, const expression& e) {
     reference exact;
     std::array<claim, expression::max_values> claims;
@@ -176,12 +175,11 @@ void tell(violation& to, const rule& r, number_type type, const expression& e) {
     to.code = cpp_text(small, type, r.name);
 }
 
-/// Random expressions under some rules.
 struct study {
     std::vector<rule> rules;
     expression_options options;
 
-    /// Number of expressions of which rules without division, which skip every fourth, see n.
+    /// Indices that contain n expressions for rules without division, which skip every fourth.
     static std::uint64_t indices(std::uint64_t n) { return n + (n + 2) / 3; }
     std::uint64_t first() const { return indices(options.first); }
     chunks expressions() const {

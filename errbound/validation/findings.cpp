@@ -1,4 +1,4 @@
-// What comparing one value with its reference finds, in words.
+// Comparisons with references, in words.
 
 #include <algorithm>
 #include <cstdio>
@@ -7,7 +7,6 @@
 namespace errbound::validation {
 namespace {
 
-/// 17 digits, whatever the exponent.
 std::string decimal(mpfr_srcptr x) {
     char text[96];
     mpfr_snprintf(text, sizeof text, "%.17Rg", x);
@@ -62,7 +61,7 @@ void add_ratio(distribution& to, error_meaning meaning, const claim& c, const ba
     } else if (off.is_negligible()) {
         to.add_exact();
     } else if (meaning == error_meaning::bound) {
-        // A bound that holds is no less than the error: logarithms are rounded.
+        // A bound that holds is no less than the error, but logarithms are rounded.
         to.add(std::max(0.0, log10_of(c.error) - off.log10()));
     } else if (claims) {
         to.add(c.error.leading > 0 ? log10_of(c.error) - off.log10() : distribution::least_log);

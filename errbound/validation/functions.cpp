@@ -1,4 +1,4 @@
-// The system's elementary functions against MPFR.
+// The C library's elementary functions against MPFR.
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -21,7 +21,7 @@ namespace {
 constexpr std::uint64_t least_chunk = 10000;
 constexpr std::uint64_t float_count = std::uint64_t{1} << 32;
 
-/// A function, a type and what is tried of it.
+/// A function, a type and its arguments.
 struct job {
     elementary_function function{};
     number_type number{};
@@ -29,7 +29,7 @@ struct job {
     chunks cases{0, 1};
 };
 
-/// Some C libraries' errors are not documented for long double.
+/// Some C libraries document no errors for long double.
 template <elementary_function F>
 constexpr bool long_double_is_known = function_error<F, long double> != 0;
 
@@ -72,12 +72,12 @@ void set(mpfr_number& to, T x) {
         mpfr_set_d(to.get(), x, MPFR_RNDN);
 }
 
-/// Holds results of one function of T against the exact ones.
+/// Compares results of one function of T with the exact ones.
 template <elementary_function F, class T>
 class comparison {
     using traits = number_traits<T>;
     static constexpr bool has_two = has_two_arguments(F);
-    // 40 bits more than T's, so that an error is known to 2^-39 units.
+    // 40 bits more than T: an error is known to 2^-39 units.
     static constexpr mpfr_prec_t precision = traits::digits + 40;
     static constexpr double slack = 0x1p-39;
 
@@ -97,7 +97,7 @@ class comparison {
             result = detail::function_of_range<F>(x, T(0));
         const T v = result.value;
         if (!std::isfinite(v) || !std::isfinite(x) || !std::isfinite(y)) return;
-        // The library's own result for a large angle has a bound of its own.
+        // The library's result for a large angle has its own bound.
         const bool is_own = detail::is_function_of_angle(F) &&
                             std::abs(x) >= static_cast<T>(detail::least_reduced_angle);
         if constexpr (std::same_as<T, float> && !has_two)
@@ -112,7 +112,7 @@ class comparison {
         set(second_, y);
         if constexpr (has_two) {
             if (!has_value(F, first_.get(), second_.get())) return;
-            // Of zeros with a sign, the library's own.
+            // The library's own result for a signed zero.
             if (F == elementary_function::atan2 && x == 0 && std::signbit(x)) return;
             mpfr_of_two(F, exact_.get(), first_.get(), second_.get(), MPFR_RNDZ);
         } else {
@@ -129,15 +129,15 @@ class comparison {
         found.at = has_two ? text_of(x) + ", " + text_of(y) : text_of(x);
     }
 
-    /// Some float, tried by another, is off by so much: what is off by less is not the largest.
+    /// Another float's error, found elsewhere: smaller errors are not the largest.
     void is_met_elsewhere(double units) { met_elsewhere_ = units; }
 
     function_errors found;
 
   private:
-    /// An upper bound of units_off(v) by the function of doubles, w = f but for 2^-20 units in the
-    /// last place of a float: 512 of its own, which is a hundred times what is assumed of it. NaN
-    /// where that is not finite. Some 20 times as fast, so that all floats can be tried.
+    /// An upper bound of units_off(v) by the function of doubles, w = f within 2^-20 units in the
+    /// last place of a float: 512 of its own, a hundred times its assumed error. NaN if not finite.
+    /// About 20 times as fast, for trying all floats.
     static double most_units_off(float v, double w) {
         constexpr double slack_of_w = 0x1p-20;
         constexpr int least = -149, digits = 24;
@@ -146,8 +146,8 @@ class comparison {
         const int last = w == 0 ? least : std::max(exponent - digits, least);
         return std::ldexp(std::abs(v - w), -last) + slack_of_w;
     }
-    /// |v − f|, in units in the last place of f, which is towards zero of its own and so has the
-    /// exponent of the exact one; rounded up.
+    /// |v − f| in units in the last place of f, rounded up. exact_ is rounded towards zero and so
+    /// has f's exponent.
     double units_off(T v) {
         set(off_, v);
         mpfr_sub(off_.get(), off_.get(), exact_.get(), MPFR_RNDU);
@@ -157,7 +157,6 @@ class comparison {
         return mpfr_get_d(off_.get(), MPFR_RNDU) + slack;
     }
 
-    /// The exponent of the last place of f.
     mpfr_exp_t last_place() const {
         constexpr mpfr_exp_t least = traits::min_exponent - traits::digits;
         if (mpfr_zero_p(exact_.get()) != 0) return least;
@@ -171,7 +170,7 @@ class comparison {
     double met_elsewhere_ = 0;
 };
 
-/// Arguments that are hard for some function, and others.
+/// Hard arguments for some function, and others.
 template <class T>
 class argument_maker {
     using limits = std::numeric_limits<T>;
@@ -186,7 +185,7 @@ class argument_maker {
         switch (random_.below(8)) {
             case 0:
                 return any_bits();
-            case 1:  // of a few units
+            case 1:  // small
                 return signed_by(uniform(4));
             case 2:  // near multiples of π/2
                 return random_.below(2) == 0 ? hard_angle()
@@ -203,7 +202,7 @@ class argument_maker {
                 return of_any_size();
         }
     }
-    /// Two of them; of powers often those that neither overflow nor underflow.
+    /// Two arguments; for powers often without overflow or underflow.
     std::pair<T, T> two() {
         T x = argument(), y = argument();
         if (function_ == elementary_function::atan2) {
@@ -226,7 +225,7 @@ class argument_maker {
         random_source random(seed);
         return random.bits() ^ chunk * 0x9e3779b97f4a7c15U;
     }
-    /// From 0 to below `end`.
+    /// In [0, end).
     T uniform(double end) {
         if constexpr (std::same_as<T, long double>)
             return static_cast<T>(end) * std::ldexp(static_cast<T>(random_.bits()), -64);
@@ -252,7 +251,6 @@ class argument_maker {
             x = std::nextafter(x, random_.below(2) == 0 ? limits::max() : limits::lowest());
         return x;
     }
-    /// An argument that doubles the result of an exponential.
     double unit_of_exponent() const {
         return function_ == elementary_function::exp2 ? 1.0 : 0.693147180559945309417;
     }
@@ -262,8 +260,8 @@ class argument_maker {
     std::vector<T> hard_;
 };
 
-/// The largest error among some 65,000 floats of the whole line: all chunks ask MPFR of what is off
-/// by so much only, not of thousands of floats in a row along which the error grows.
+/// The largest error among some 65,000 floats of the whole line. Chunks then call MPFR only above
+/// it, not for thousands of neighbouring floats along which the error grows.
 template <elementary_function F>
 double largest_of_some(const function_options& options) {
     constexpr std::uint64_t step = 65537;

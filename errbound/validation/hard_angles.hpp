@@ -1,5 +1,4 @@
-// Angles that are nearer to multiples of π/2 than nearly all others of their size: hard cases for
-// the reduction of arguments of sin, cos and tan.
+// Angles exceptionally close to multiples of π/2: hard cases for argument reduction.
 #pragma once
 
 #include <mpfr.h>
@@ -12,10 +11,9 @@
 namespace errbound::validation {
 
 /// Positive angles m·2^unit below 2^(exponent + 1), unit = exponent + 1 − p, for T of precision p.
-/// m is a denominator q_k of the continued fraction of 2^unit·2/π, 2q_k, or the sum of one of these
-/// and q_(k−1): no integer below q_(k+1) has a product that is nearer to an integer than that of
-/// q_k. Only denominators from 2^(p−8) on are used. Precondition: exponent >= 0. Cost: some 100 µs
-/// for double.
+/// m is a denominator q_k of the continued fraction of 2^unit·2/π, 2q_k, or one of these plus
+/// q_(k−1): no integer below q_(k+1) has a product nearer to an integer than q_k. From 2^(p−8) on.
+/// Precondition: exponent >= 0. Cost: about 100 µs for double.
 template <class T>
 std::vector<T> hard_angles(int exponent) {
     constexpr int p = number_traits<T>::digits;

@@ -1,4 +1,4 @@
-// Makes an expression that shows a violation smaller: greedily, by a measure that only falls.
+// Minimises an expression with a violation: greedily, by a measure that only falls.
 #include "errbound/validation/minimise.hpp"
 
 #include <cmath>
@@ -9,7 +9,7 @@
 namespace errbound::validation {
 namespace {
 
-/// Only what `root` is made of.
+/// The expression of `root` only.
 expression cut(const expression& e, std::size_t root) {
     std::array<bool, expression::max_values> used{};
     used[root] = true;
@@ -35,7 +35,7 @@ expression cut(const expression& e, std::size_t root) {
     return r;
 }
 
-/// Those that are closer to 0, in steps of which a few hundred lead from any.
+/// Exponents closer to 0; a few hundred steps lead there.
 std::vector<int> nearer_exponents(int e) {
     std::vector<int> r{0, e / 2, e - e / 16, e - e / 256};
     if (std::abs(e) < 4096) r.push_back(e + (e > 0 ? -1 : 1));
@@ -58,7 +58,7 @@ double size_of(const exact_value& x) {
     return size;
 }
 
-/// Made of several, the first of which is left·right.
+/// Operations of which left·right is a part.
 bool is_compound(operation_kind kind) {
     return kind == operation_kind::dot || kind == operation_kind::horner ||
            kind == operation_kind::interpolate;
@@ -85,7 +85,7 @@ double size_of(const expression& e) {
     return size;
 }
 
-/// Numbers that are simpler than x and, as doubles, still of its format.
+/// Simpler numbers of the same format, as doubles.
 std::vector<double> simpler_numbers(double x) {
     std::vector<double> r;
     if (x == 0) return r;
@@ -101,7 +101,7 @@ std::vector<double> simpler_numbers(double x) {
     return r;
 }
 
-/// Of a number beyond doubles also its leading part, and one of exponents nearer to 0.
+/// For a number beyond doubles also its leading part, and one with a smaller exponent.
 std::vector<exact_value> simpler_numbers(const exact_value& x) {
     std::vector<exact_value> r;
     for (const double leading : simpler_numbers(x.leading)) {
@@ -119,7 +119,7 @@ std::vector<exact_value> simpler_numbers(const exact_value& x) {
     return r;
 }
 
-/// The operation's value as an input of its own.
+/// Makes the operation's value an input.
 std::optional<expression> with_input(const expression& e, std::size_t n,
                                      const expression_input& in) {
     expression r = cut(e, e.size() - 1);
@@ -134,7 +134,7 @@ std::optional<expression> with_input(const expression& e, std::size_t n,
     return cut(r, n == root ? added : root + 1);
 }
 
-/// Every use of value n is one of value m < n.
+/// Replaces value n by value m < n.
 expression with_other(const expression& e, std::size_t n, std::size_t m) {
     if (n == e.size() - 1) return cut(e, m);
     expression r = e;

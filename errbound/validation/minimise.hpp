@@ -1,4 +1,4 @@
-// Makes an expression that shows a violation smaller, as long as it still shows one. Internal.
+// Minimises an expression that shows a violation. Internal.
 #pragma once
 
 #include <errbound/validation/expression.hpp>
@@ -7,11 +7,11 @@
 
 namespace errbound::validation {
 
-/// Which value of the expression violates a promise, if one does.
+/// The index of a violating value, if any.
 using violation_search = std::function<std::optional<std::size_t>(const expression&)>;
 
-/// The smallest that dropping operations, replacing them by their results and simplifying operands
-/// finds; its last value violates. Precondition: e has a violation.
+/// The smallest expression found by dropping operations, replacing them by their results and
+/// simplifying operands; its last value violates. Precondition: e has a violation.
 expression minimised(const expression& e, number_type type, const violation_search& search);
 
 }  // namespace errbound::validation

@@ -23,14 +23,14 @@ void shadow_session::note(std::string_view quantity, const claim& c, const ball&
 
 namespace {
 
-/// Products of degree 72 in 53-bit coordinates need some 4000 bits to be exact; few queries ask.
+/// Products of degree 72 in 53-bit coordinates need about 4000 bits to be exact; few queries do.
 constexpr std::array<mpfr_prec_t, 4> precisions{384, 1536, 6144, 24576};
 constexpr std::uint64_t least_chunk = 16;
 
 struct tally {
     rule_counts counts;
     std::map<std::string, distribution, std::less<>> quantities;
-    std::vector<violation> violations;  ///< the first
+    std::vector<violation> violations;  ///< the first ones
 };
 
 template <class Query>

@@ -1,4 +1,4 @@
-// The check of queries for every rule: instances alone.
+// Instances of the check of queries for every rule.
 #include <cstddef>
 
 #include "errbound/validation/all_rules.hpp"

@@ -5,7 +5,7 @@
 
 namespace errbound::validation {
 
-/// SplitMix64 (Steele, Lea, Flood 2014): any seed is as good as any other, and costs nothing.
+/// SplitMix64 (Steele, Lea, Flood 2014): all seeds are equally good.
 class random_source {
   public:
     explicit random_source(std::uint64_t seed) : state_(seed) {}
@@ -16,9 +16,8 @@ class random_source {
         z = (z ^ (z >> 27)) * 0x94d049bb133111ebU;
         return z ^ (z >> 31);
     }
-    /// 0 <= result < n. (n is small: the bias is far below one in 2^30.)
+    /// 0 <= result < n. For small n the bias is far below one in 2^30.
     int below(int n) { return static_cast<int>(bits() % static_cast<std::uint64_t>(n)); }
-    /// first <= result <= last.
     int between(int first, int last) {
         const auto count = static_cast<std::uint64_t>(std::int64_t{last} - first + 1);
         return static_cast<int>(first + static_cast<std::int64_t>(bits() % count));

@@ -48,8 +48,8 @@ void claim_checker::check(const tiny_claim& r, const exact_range& exact, const t
 
 namespace {
 
-/// The sign of xy − z, exactly: for x and y of so few bits that xy neither overflows nor
-/// underflows, x infinite.
+/// The exact sign of xy − z, for x and y of so few bits that xy neither overflows nor underflows; x
+/// may be infinite.
 int compare_product(double x, double y, double z) {
     const double product = x * y;
     if (product != z) return product < z ? -1 : 1;

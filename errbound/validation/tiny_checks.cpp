@@ -1,4 +1,4 @@
-// The check of tiny formats for every rule: instances alone.
+// Instances of the check of tiny formats for every rule.
 #include <cstddef>
 
 #include "errbound/validation/all_rules.hpp"

@@ -10,12 +10,12 @@ int bias(int exponent_bits) {
     return (1 << (exponent_bits - 1)) - 1;
 }
 
-/// MPFR's range of exponents is a format's while it lives.
+/// Sets MPFR's exponent range to a format's; restores it at the end.
 class exponent_range {
   public:
     exponent_range(int precision, int exponent_bits)
         : precision_(precision), exponent_bits_(exponent_bits) {
-        // MPFR's mantissas lie in [1/2, 1): the smallest number is 2^(emin − 1).
+        // MPFR's mantissas are in [1/2, 1): the smallest number is 2^(emin − 1).
         mpfr_set_emin(3 - bias(exponent_bits) - precision);
         mpfr_set_emax(bias(exponent_bits) + 1);
     }
@@ -26,7 +26,7 @@ class exponent_range {
     exponent_range(const exponent_range&) = delete;
     exponent_range& operator=(const exponent_range&) = delete;
 
-    /// Of a result, for which MPFR said that it is `off`; flags were cleared before.
+    /// A result's code; `off` is MPFR's ternary value. Precondition: flags were cleared.
     std::uint16_t code(mpfr_t result, int off, mpfr_rnd_t direction) const {
         off = mpfr_check_range(result, off, direction);
         mpfr_subnormalize(result, off, direction);
@@ -68,8 +68,8 @@ std::uint8_t tiny_code(double value, int precision, int exponent_bits) {
     if (std::isinf(size)) {
         code = infinity;
     } else if (size > 0) {
-        // In units of the last place, rounded: 2·fractions of them carry into the exponent, as they
-        // should.
+        // In units of the last place, rounded; 2·fractions of them correctly carry into the
+        // exponent.
         const int e = std::max(std::ilogb(size), least);
         const double units = std::nearbyint(std::ldexp(size, precision - 1 - e));
         code = static_cast<int>(std::min<double>((e - least) * fractions + units, infinity));

@@ -1,4 +1,4 @@
-// The rules that there are, and reports joined.
+// The list of rules, and merging of reports.
 
 #include <algorithm>
 #include <errbound/validation/validation.hpp>
@@ -33,12 +33,11 @@ std::uint64_t report::violation_count() const {
 
 namespace {
 
-/// Entries of reports are in the order of these counts.
 class order_of {
   public:
     explicit order_of(const std::vector<rule_counts>& counts) : counts_(counts) {}
 
-    /// Where the entries of this one's rule and number are.
+    /// The entries with the same rule and number.
     template <class Entry>
     auto places(std::vector<Entry>& entries, const Entry& one) const {
         const auto less = [this](const Entry& a, const Entry& b) { return place(a) < place(b); };

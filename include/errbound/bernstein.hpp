@@ -1,13 +1,10 @@
 // Polynomials on [0, 1] in Bernstein form, of compile-time degree, over any scalar with + − ×.
 //
-// A polynomial p of degree N is kept by its SCALED Bernstein coefficients h_i, that is as the form
+// A polynomial p of degree N is stored by its SCALED Bernstein coefficients h_i:
 //     p(s, t) = Σ h_i s^(N−i) t^i,   p(t) = p(1 − t, t),   h_i = C(N, i)·b_i
-// with b_i the usual Bernstein coefficients (control values). Signs, and so the hull property, are
-// those of b_i; but product, derivative, degree elevation and subdivision need no division, so
-// integers, tracked numbers under every bound rule and SIMD packs are all served. The same numbers
-// are the power-basis coefficients in x = t/s, which maps [0, 1] to [0, ∞].
-//
-// Proof: proofs/Bernstein.v, form_ends, power_basis, hull_bounds.
+// The control values b_i have the same signs: the hull property holds. No operation divides. The
+// h_i are the power-basis coefficients in x = t/s, which maps [0, 1] to [0, ∞]. Proof:
+// proofs/Bernstein.v, form_ends, power_basis, hull_bounds.
 #pragma once
 
 #include <array>
@@ -28,12 +25,11 @@ template <class S, int N>
 struct bernstein {
     static_assert(N >= 0);
     static constexpr int degree = N;
-    std::array<S, std::size_t{N + 1}> h{};  ///< scaled coefficients C(N, i)·b_i
+    std::array<S, std::size_t{N + 1}> h{};  ///< C(N, i)·b_i
 
     constexpr const S& operator[](int i) const { return h[static_cast<std::size_t>(i)]; }
     constexpr S& operator[](int i) { return h[static_cast<std::size_t>(i)]; }
 
-    /// From control values b_i: h_i = C(N, i)·b_i.
     static constexpr bernstein from_control_values(const std::array<S, std::size_t{N + 1}>& b) {
         bernstein p;
         for (int i = 0; i <= N; ++i) {
@@ -60,14 +56,12 @@ struct bernstein {
     }
 };
 
-/// The product: a plain convolution of scaled coefficients. The factors' scalars may differ, where
-/// their product is a type of its own, as of integers of fixed width.
-/// Proof: proofs/Bernstein.v, product_form.
+/// A convolution. The factors' scalars may differ. Proof: proofs/Bernstein.v, product_form.
 template <class S, class T, int A, int B>
 constexpr auto operator*(const bernstein<S, A>& p, const bernstein<T, B>& q) {
     using product = decltype(p[0] * q[0]);
     bernstein<product, A + B> r;
-    // The first term of each sum is stored, not added to zero: an addition to zero has a bound.
+    // Store the first term: adding it to zero would add a rounding bound.
     for (int k = 0; k <= A + B; ++k) {
         const int first = k > B ? k - B : 0;
         product sum = p[first] * q[k - first];
@@ -77,8 +71,7 @@ constexpr auto operator*(const bernstein<S, A>& p, const bernstein<T, B>& q) {
     return r;
 }
 
-/// The same polynomial, one degree higher: the form times s + t.
-/// Proof: proofs/Bernstein.v, elevated_form.
+/// The same polynomial, one degree higher: p·(s + t). Proof: proofs/Bernstein.v, elevated_form.
 template <class S, int N>
 constexpr bernstein<S, N + 1> elevated(const bernstein<S, N>& p) {
     bernstein<S, N + 1> r;
@@ -88,8 +81,7 @@ constexpr bernstein<S, N + 1> elevated(const bernstein<S, N>& p) {
     return r;
 }
 
-/// dp/dt = ∂p/∂t − ∂p/∂s: coefficient i is (i + 1)·h_(i+1) − (N − i)·h_i.
-/// Proof: proofs/Bernstein.v, derivative_form.
+/// Coefficient i is (i + 1)·h_(i+1) − (N − i)·h_i. Proof: proofs/Bernstein.v, derivative_form.
 template <class S, int N>
 requires(N >= 1) constexpr bernstein<S, N - 1> derivative(const bernstein<S, N>& p) {
     const auto times = [](const S& x, int n) { return n == 1 ? x : S(x * S(n)); };
@@ -100,8 +92,7 @@ requires(N >= 1) constexpr bernstein<S, N - 1> derivative(const bernstein<S, N>&
 
 namespace detail {
 
-/// Horner's rule from term I on: sum holds the terms before it, power is t^I. The types may grow
-/// from step to step, as integers of fixed width do.
+/// Horner's rule from term I on: sum holds the earlier terms, power is t^I. Types may grow.
 template <int I, class S, int N, class T, class Sum, class Power>
 constexpr auto value_from_term(const bernstein<S, N>& p, const T& s, const T& t, const Sum& sum,
                                const Power& power) {
@@ -114,9 +105,7 @@ constexpr auto value_from_term(const bernstein<S, N>& p, const T& s, const T& t,
 
 }  // namespace detail
 
-/// The form p(s, t), that is (s + t)^N · p(t/(s + t)). At s = 1 − t it is the polynomial's value.
-/// Cost: 3N − 1 products.
-/// Proof: proofs/Bernstein.v, value_at_form.
+/// (s + t)^N · p(t/(s + t)). Cost: 3N − 1 products. Proof: proofs/Bernstein.v, value_at_form.
 template <class S, int N, class T>
 constexpr auto value_at(const bernstein<S, N>& p, const T& s, const T& t) {
     if constexpr (N == 0)
@@ -125,14 +114,12 @@ constexpr auto value_at(const bernstein<S, N>& p, const T& s, const T& t) {
         return detail::value_from_term<1>(p, s, t, p[0], t);
 }
 
-/// The polynomial's value at t.
 template <class S, int N>
 constexpr S value_at(const bernstein<S, N>& p, const S& t) {
     return value_at(p, S(S(1) - t), t);
 }
 
-/// The polynomial with the two ends of [0, 1] exchanged.
-/// Proof: proofs/Bernstein.v, reversed_form.
+/// Exchanges the ends of [0, 1]. Proof: proofs/Bernstein.v, reversed_form.
 template <class S, int N>
 constexpr bernstein<S, N> reversed(const bernstein<S, N>& p) {
     bernstein<S, N> r;
@@ -140,10 +127,8 @@ constexpr bernstein<S, N> reversed(const bernstein<S, N>& p) {
     return r;
 }
 
-/// The part of p on [0, w/(v + w)], times (v + w)^N, for v, w > 0: the substitution
-/// s → (v + w)s + vt, t → wt, by Horner's rule. The part on [w/(v + w), 1] is
-/// reversed(left_part(reversed(p), w, v)).
-/// Proof: proofs/Bernstein.v, left_part_form.
+/// p on [0, w/(v + w)], times (v + w)^N, for v, w > 0. On the rest use
+/// reversed(left_part(reversed(p), w, v)). Proof: proofs/Bernstein.v, left_part_form.
 template <class S, int N>
 constexpr bernstein<S, N> left_part(const bernstein<S, N>& p, const S& v, const S& w) {
     const S whole = v + w;
@@ -159,16 +144,15 @@ constexpr bernstein<S, N> left_part(const bernstein<S, N>& p, const S& v, const 
     return r;
 }
 
-/// The parts of p on [0, w/(v + w)] and on the rest, both times (v + w)^N > 0.
+/// p on [0, w/(v + w)] and on the rest, both times (v + w)^N > 0.
 template <class S, int N>
 constexpr std::pair<bernstein<S, N>, bernstein<S, N>> split(const bernstein<S, N>& p, const S& v,
                                                             const S& w) {
     return {left_part(p, v, w), reversed(left_part(reversed(p), w, v))};
 }
 
-/// The part of p on [0, 1/2], times 2^N: additions and exact doublings only. The part on [1/2, 1]
-/// is reversed(left_half(reversed(p))).
-/// Proof: proofs/Bernstein.v, left_half_form.
+/// p on [0, 1/2], times 2^N, by additions and exact doublings. On [1/2, 1] use
+/// reversed(left_half(reversed(p))). Proof: proofs/Bernstein.v, left_half_form.
 template <class S, int N>
 constexpr bernstein<S, N> left_half(const bernstein<S, N>& p) {
     bernstein<S, N> r;
@@ -181,14 +165,13 @@ constexpr bernstein<S, N> left_half(const bernstein<S, N>& p) {
     return r;
 }
 
-/// The parts of p on [0, 1/2] and [1/2, 1], times 2^N.
+/// p on [0, 1/2] and [1/2, 1], times 2^N.
 template <class S, int N>
 constexpr std::pair<bernstein<S, N>, bernstein<S, N>> halves(const bernstein<S, N>& p) {
     return {left_half(p), reversed(left_half(reversed(p)))};
 }
 
-/// The form times a power of two that brings its largest coefficient near 1, so that products of
-/// many forms neither underflow nor overflow. Signs are kept; exact numbers are left alone.
+/// Scales a tracked form by a power of two, so that products of many forms stay in range.
 template <class S, int N>
 constexpr bernstein<S, N> normalized(const bernstein<S, N>& p) {
     if constexpr (is_tracked<S>) {
@@ -196,7 +179,7 @@ constexpr bernstein<S, N> normalized(const bernstein<S, N>& p) {
         using traits = number_traits<T>;
         T largest = traits::abs(p[0].value());
         for (int i = 1; i <= N; ++i) largest = (traits::max)(largest, traits::abs(p[i].value()));
-        // Leave sizes that products of up to eight forms can carry.
+        // Products of up to eight forms stay in range.
         constexpr int room = traits::max_exponent / 16;
         if (!(largest > 0) || !traits::is_finite(largest)) return p;
         const int e = traits::exponent(largest);
@@ -209,9 +192,8 @@ constexpr bernstein<S, N> normalized(const bernstein<S, N>& p) {
     }
 }
 
-/// The sign that p has on the open interval (0, 1), as far as its coefficients tell: certain if
-/// none of them has the other sign and one is not zero; zero if all are zero.
-/// Proof: proofs/Bernstein.v, sign_inside_right.
+/// The sign on (0, 1): certain if no coefficient has the other sign and one is not zero; zero if
+/// all are zero. Proof: proofs/Bernstein.v, sign_inside_right.
 template <class S, int N>
 constexpr sign_type sign_inside(const bernstein<S, N>& p) {
     sign_type all = sign_type::zero;
@@ -225,9 +207,8 @@ constexpr sign_type sign_inside(const bernstein<S, N>& p) {
     return all;
 }
 
-/// The sign that p has on all of [0, 1], as far as its coefficients tell: certain if all have that
-/// strict sign; zero if all are zero.
-/// Proof: proofs/Bernstein.v, sign_throughout_right.
+/// The sign on [0, 1]: certain if all coefficients have it strictly; zero if all are zero. Proof:
+/// proofs/Bernstein.v, sign_throughout_right.
 template <class S, int N>
 constexpr sign_type sign_throughout(const bernstein<S, N>& p) {
     const sign_type first = sign_of(p[0]);
@@ -236,8 +217,7 @@ constexpr sign_type sign_throughout(const bernstein<S, N>& p) {
     return first;
 }
 
-/// Whether the coefficients alone show that p has no root in [0, 1].
-/// Proof: proofs/Bernstein.v, rootless_hull.
+/// True if the coefficients exclude roots in [0, 1]. Proof: proofs/Bernstein.v, rootless_hull.
 template <class S, int N>
 constexpr bool certainly_rootless(const bernstein<S, N>& p) {
     const sign_type hull = sign_throughout(p);

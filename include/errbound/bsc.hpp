@@ -1,26 +1,12 @@
-// Bernstein sign classification (BSC): is there t in [0, 1] with Y(t) = 0 and all G_i(t) >= 0,
-// for a cubic Y and quartics G_i, over any scalar that has + − × and a sign?
+// Bernstein sign classification (BSC), over any scalar that has + − × and a sign. Start at
+// root_with_nonnegative.
 //
-// After Tang, Tong, Wang, Manocha (2014) and the conservative operations of the TightCCD paper
-// (Wang, Tang, Manocha, Tong 2015, Section 5), derived anew. Differences to the printed
-// algorithm, each of which closes a hole or lowers a degree:
-//  * Uncertain signs are handled by POSSIBLE WORLDS: each combination of strict signs that the ends
-//    of Y can have is followed, and contact exactly at an end is tested by the ends of the G_i.
-//    A "no" is given only when every world says no. (The paper sets the uncertain sign to one
-//    chosen value.)
-//  * An inflection inside the part is split off at its exact place, in homogeneous form, so that
-//    the curvature of each part is KNOWN. A split at a rounded place would leave an inflection in
-//    one of the parts, and signs at the ends then lose roots (Proof: proofs/Published.v,
-//    inflection_loses_roots). If the curvature's sign is uncertain, Y is monotone by its
-//    derivative's coefficients, or the part is halved; after `max_halvings` of them the answer is
-//    "maybe".
-//  * All reductions cancel one term at each end (factors k0·k3, st) instead of two at one end. They
-//    are then identities without division or degenerate leading coefficient. Where M of the
-//    decomposition vanishes at the root, J is asked (Proof: proofs/Published.v,
-//    decomposition_zero).
+// Derived anew after Tang, Tong, Wang, Manocha (2014) and TightCCD (Wang, Tang, Manocha, Tong 2015,
+// Section 5). Differences: uncertain end signs are followed in every possible world (on_convex); an
+// inflection is split off exactly (without_halving); reductions divide by nothing (reduced).
 //
-// Notation: forms in (s, t) with s + t = 1 as in bernstein.hpp; Y = (y0, y1, y2, y3) scaled, so
-// y0 = Y(0) and y3 = Y(1); D = Y' (a quadratic form); a root is INNER if 0 < t < 1.
+// Notation: forms in (s, t) with s + t = 1 as in bernstein.hpp; cubic Y = (y0, y1, y2, y3) scaled,
+// quartics G_i; D = Y' (a quadratic form); a root is INNER if 0 < t < 1.
 #pragma once
 
 #include <array>
@@ -33,12 +19,12 @@
 
 namespace errbound {
 
-/// Answer to an existence question. `maybe_*` says which sign stayed uncertain.
+/// Answer to an existence question. `maybe_*` names the sign that stayed uncertain.
 enum class existence : std::uint8_t { no, yes, maybe_root, maybe_inside };
 
 namespace bsc {
 
-/// How often a part whose curvature has an uncertain sign is halved before the answer is "maybe".
+/// Halvings of an interval with uncertain curvature sign before the answer is "maybe".
 inline constexpr int max_halvings = 6;
 
 template <class S>
@@ -46,7 +32,7 @@ using cubic = bernstein<S, 3>;
 template <class S, std::size_t M>
 using quartics = std::array<bernstein<S, 4>, M>;
 
-/// The two signs of a function at the two inner roots of Y around its extremum, in order of t.
+/// Signs at the two inner roots of Y around its extremum, in order of t.
 using sign_pair = std::array<sign_type, 2>;
 
 constexpr existence either(existence a, existence b) {
@@ -54,14 +40,14 @@ constexpr existence either(existence a, existence b) {
     return a == existence::no ? b : a;
 }
 
-/// Verdict of the signs of all G_i at one root.
+/// Verdict from the signs of all G_i at one root.
 class conjunction {
   public:
     explicit constexpr conjunction(bool root_is_certain) : root_is_certain_(root_is_certain) {}
 
     constexpr void require_nonnegative(sign_type s) {
         if (s == sign_type::negative) excluded_ = true;
-        // An exact zero satisfies G >= 0; but all G vanish where the normal does: no certain yes.
+        // An exact zero satisfies G >= 0, but all G vanish with the normal: no certain yes.
         if (s != sign_type::positive) all_positive_ = false;
     }
     constexpr bool excluded() const { return excluded_; }
@@ -77,8 +63,8 @@ class conjunction {
     bool all_positive_ = true;
 };
 
-/// A linear form's root (s, t) = (|L1|, |L0|)/(|L0| + |L1|), for L0 and L1 of opposite strict sign,
-/// without the division: positive multiples of s and t.
+/// The root (s, t) = (|L1|, |L0|)/(|L0| + |L1|) of a linear form, up to a positive factor: no
+/// division. Precondition: L0 and L1 have opposite strict signs.
 template <class S>
 struct linear_root {
     S s, t;
@@ -87,7 +73,6 @@ struct linear_root {
           t(sign_of(l[0]) == sign_type::positive ? l[0] : S(-l[0])) {}
 };
 
-/// Signs of a linear form's ends: whether they alone tell its sign on (0, 1).
 struct linear_signs {
     sign_type at0, at1;
 
@@ -106,9 +91,8 @@ struct linear_signs {
 };
 
 /// Sign determination I (TTWM14): the sign of the linear form l at the only inner root of Y, where
-/// Y has the strict sign `before` left of it and the opposite one right of it.
-/// If Y(t_l) has the sign `before`, the root lies right of t_l, where l has the sign l(1).
-/// Proof: proofs/BscSigns.v, sign_determination_1.
+/// Y changes from the strict sign `before` to its opposite. If Y(t_l) has the sign `before`, the
+/// root lies right of t_l. Proof: proofs/BscSigns.v, sign_determination_1.
 template <class S>
 constexpr sign_type sign_at_crossing(const cubic<S>& y, sign_type before,
                                      const bernstein<S, 1>& l) {
@@ -122,11 +106,9 @@ constexpr sign_type sign_at_crossing(const cubic<S>& y, sign_type before,
 }
 
 /// Sign determination II (TTWM14): the signs of the linear form l at the two inner roots t0 <= t1
-/// of a CONVEX Y that is positive at both ends; d = Y'.
-/// Y(t_l) < 0 means t0 < t_l < t1. Else t_l lies outside, on the side of the extremum that
-/// the increasing d tells: d(t_l) < 0 left, so both roots are right of it. If Y(t_l)'s sign is
-/// uncertain, d(t_l) still tells it from the root on the other side of the extremum.
-/// Proof: proofs/BscSigns.v, sign_determination_2.
+/// of a CONVEX Y that is positive at both ends; d = Y'. If Y(t_l) < 0, t0 < t_l < t1. Otherwise t_l
+/// lies outside, left of the extremum if d(t_l) < 0, right of it if d(t_l) > 0; if Y(t_l)'s sign is
+/// uncertain, that decides one root. Proof: proofs/BscSigns.v, sign_determination_2.
 template <class S>
 constexpr sign_pair signs_at_pair(const cubic<S>& y, const bernstein<S, 2>& d,
                                   const bernstein<S, 1>& l) {
@@ -143,18 +125,16 @@ constexpr sign_pair signs_at_pair(const cubic<S>& y, const bernstein<S, 2>& d,
         case sign_type::positive:
             return {ends.at0, at_r == sign_type::positive ? ends.at0 : nearer};
         default:
-            // slope = 0 and Y = 0 at t_l: a double root, where l vanishes.
+            // A double root, where l vanishes.
             if (slope == sign_type::zero && at_r == sign_type::zero)
                 return {sign_type::zero, sign_type::zero};
             return {sign_type::uncertain, sign_type::uncertain};
     }
 }
 
-/// The quadratic J with y0·y3·G = s·t·J modulo Y: cancel s⁴ by y0·G − g0·s·Y = t·E, then t³ of
-/// the cubic E by y3·E − e3·Y = s·J. At an inner root of Y, sign G = sign(y0·y3)·sign J.
-/// (A world may count an end value as strict that is zero in truth. J then vanishes at the root, so
-/// that no certain sign of J but zero can come out and nothing is concluded wrongly.)
-/// Proof: proofs/BscSigns.v, reduction.
+/// The quadratic J with y0·y3·G = s·t·J modulo Y: cancel s⁴ by y0·G − g0·s·Y = t·E, then t³ of the
+/// cubic E by y3·E − e3·Y = s·J. At an inner root of Y, sign G = sign(y0·y3)·sign J. If an end
+/// value is zero but assumed strict, J vanishes at the root. Proof: proofs/BscSigns.v, reduction.
 template <class S>
 constexpr bernstein<S, 2> reduced(const cubic<S>& y, const bernstein<S, 4>& g) {
     const std::array<S, 4> e{y[0] * g[1] - g[0] * y[1], y[0] * g[2] - g[0] * y[2],
@@ -163,23 +143,23 @@ constexpr bernstein<S, 2> reduced(const cubic<S>& y, const bernstein<S, 4>& g) {
         {y[3] * e[0] - e[3] * y[0], y[3] * e[1] - e[3] * y[1], y[3] * e[2] - e[3] * y[2]}});
 }
 
-/// Polynomial decomposition: j0·j2·Y = M·J + s·t·R with M, R linear. At an inner root of Y,
-/// M·J = −s·t·R, so sign J = −sign M · sign R where M is not zero.
-/// Proof: proofs/BscSigns.v, polynomial_decomposition.
+/// Polynomial decomposition: j0·j2·Y = M·J + s·t·R with M, R linear. At an inner root of Y with M
+/// not zero, sign J = −sign M · sign R. Proof: proofs/BscSigns.v, polynomial_decomposition.
 template <class S>
 struct decomposition {
     bernstein<S, 1> m, r;
     constexpr decomposition(const cubic<S>& y, const bernstein<S, 2>& j)
         : m(normalized(bernstein<S, 1>{{y[0] * j[2], y[3] * j[0]}})) {
         const S jj = j[0] * j[2];
-        // m before normalisation is what the identity needs.
+        // The identity needs m before normalisation.
         const S m0 = y[0] * j[2], m1 = y[3] * j[0];
         r = normalized(bernstein<S, 1>{
             {jj * y[1] - m0 * j[1] - m1 * j[0], jj * y[2] - m0 * j[2] - m1 * j[1]}});
     }
 };
 
-/// sign J from those of M and R; where M vanishes at the root, J is asked at M's root.
+/// sign J from M and R, or J at M's root if M vanishes (Proof: proofs/Published.v,
+/// decomposition_zero).
 template <class S>
 constexpr sign_type combined(sign_type m, sign_type r, const bernstein<S, 1>& m_form,
                              const bernstein<S, 2>& j) {
@@ -189,7 +169,7 @@ constexpr sign_type combined(sign_type m, sign_type r, const bernstein<S, 1>& m_
     return sign_of(value_at(j, root.s, root.t));
 }
 
-/// The sign of the quartic g at the only inner root of Y (as in sign_at_crossing).
+/// The sign of the quartic g at the only inner root of Y; see the linear form above.
 template <class S>
 constexpr sign_type sign_at_crossing(const cubic<S>& y, sign_type before,
                                      const bernstein<S, 4>& g) {
@@ -203,7 +183,7 @@ constexpr sign_type sign_at_crossing(const cubic<S>& y, sign_type before,
                      parts.m, j);
 }
 
-/// The signs of the quartic g at the two inner roots of Y (as in signs_at_pair).
+/// The signs of the quartic g at the two inner roots of Y; see the linear form above.
 template <class S>
 constexpr sign_pair signs_at_pair(const cubic<S>& y, const bernstein<S, 2>& d,
                                   const bernstein<S, 4>& g) {
@@ -217,11 +197,9 @@ constexpr sign_pair signs_at_pair(const cubic<S>& y, const bernstein<S, 2>& d,
     return {combined(m[0], r[0], parts.m, j), combined(m[1], r[1], parts.m, j)};
 }
 
-/// The sign of Y at its only inner extremum t_ex, for Y convex there (d0 < 0 < d2 assumed).
-/// Root-finding lemma, reduced at one end: by Euler, Y = A + t·D/3 = B − s·D/3 with the
-/// quadratics A (y0, 2y1/3, y2/3) and B, so at t_ex Y = A = B. Cancelling s² of A by D leaves
-/// d0·Y(t_ex) = t·M(t_ex), cancelling t² of B leaves d2·Y(t_ex) = s·M'(t_ex), with linear M, M'.
-/// Proof: proofs/BscSigns.v, root_finding.
+/// The sign of Y at its only inner extremum t_ex, for convex Y (assumes d0 < 0 < d2). Euler: Y =
+/// A + t·D/3 = B − s·D/3, A and B quadratic. Cancelling s² of A by D leaves d0·Y(t_ex) = t·M(t_ex),
+/// t² of B d2·Y(t_ex) = s·M'(t_ex), M and M' linear. Proof: proofs/BscSigns.v, root_finding.
 template <class S>
 constexpr sign_type sign_at_extremum(const cubic<S>& y, const bernstein<S, 2>& d) {
     // The sign of l at t_ex: d increases, so d(t_l) < 0 puts t_ex right of t_l.
@@ -251,7 +229,7 @@ constexpr sign_type sign_at_extremum(const cubic<S>& y, const bernstein<S, 2>& d
         {d[2] * y[1] - three * (y[3] * d[0]), two * (d[2] * y[2]) - three * (y[3] * d[1])}});
 }
 
-/// A root of Y exactly at an end of the part, if it can be there: the G_i are asked at that end.
+/// A root of Y exactly at an end, if Y can vanish there.
 template <class S, std::size_t M>
 constexpr existence at_end(sign_type y_end, const quartics<S, M>& g, int coefficient) {
     if (!possibly_zero(y_end)) return existence::no;
@@ -261,7 +239,6 @@ constexpr existence at_end(sign_type y_end, const quartics<S, M>& g, int coeffic
     return all.result();
 }
 
-/// One inner root at which Y leaves the strict sign `before`.
 template <class S, std::size_t M>
 [[gnu::noinline]] constexpr existence at_crossing(const cubic<S>& y, sign_type before,
                                                   bool root_is_certain, const quartics<S, M>& g) {
@@ -277,8 +254,7 @@ template <class S, std::size_t M>
                                               bool ends_are_certain, const quartics<S, M>& g) {
     const sign_type d0 = sign_of(d[0]), d2 = sign_of(d[2]);
     if (certainly_nonnegative(d0) || certainly_nonpositive(d2)) return existence::no;  // monotone
-    // Uncertain d0 or d2: either Y is monotone and there is no root, or d0 < 0 < d2 holds, so
-    // it may be assumed.
+    // Uncertain d0 or d2: either Y is monotone without a root, or d0 < 0 < d2 may be assumed.
     const sign_type lowest = sign_at_extremum(y, d);
     if (lowest == sign_type::positive) return existence::no;
     const bool roots_are_certain =
@@ -302,16 +278,16 @@ constexpr existence on_increasing(const cubic<S>& y, const quartics<S, M>& g) {
     return found;
 }
 
-/// Y convex and not constant on [0, 1]: every world of end signs.
+/// Y convex and not constant on [0, 1]. Follows each combination of strict signs that the ends may
+/// have; "no" requires a no in all of them. (The paper sets an uncertain sign to one value.)
 template <class S, std::size_t M>
 [[gnu::noinline]] constexpr existence on_convex(const cubic<S>& y, const bernstein<S, 2>& d,
                                                 const quartics<S, M>& g) {
     const sign_type y0 = sign_of(y[0]), y3 = sign_of(y[3]);
     const bool ends_are_certain = certain(y0) && certain(y3);
     existence found = either(at_end(y0, g, 0), at_end(y3, g, 4));
-    // Where Y(0) is exactly zero, Y is t times a quadratic; that times s + t is a cubic with the
-    // same inner roots and without the one at 0. There is one if Y falls at 0, and none else.
-    // Likewise where Y(1) is.
+    // If Y(0) is exactly zero, Y is t times a quadratic. The quadratic times s + t has the same
+    // inner roots, not the one at 0: one if Y falls at 0, otherwise none. Mirrored for Y(1).
     if (y0 == sign_type::zero) {
         const sign_type slope = sign_of(y[1]);
         if (possibly_negative(slope) && possibly_positive(y3))
@@ -336,7 +312,6 @@ template <class S, std::size_t M>
     return found;
 }
 
-/// Whether the coefficients alone exclude a root with all G_i >= 0.
 template <class S, std::size_t M>
 constexpr bool excluded_by_hull(const cubic<S>& y, const quartics<S, M>& g) {
     if (certainly_rootless(y)) return true;
@@ -345,14 +320,14 @@ constexpr bool excluded_by_hull(const cubic<S>& y, const quartics<S, M>& g) {
     return false;
 }
 
-/// Y and all G_i on a part of the step.
+/// Y and all G_i on an interval of the step.
 template <class S, std::size_t M>
 struct part {
     cubic<S> y;
     quartics<S, M> g;
 };
 
-/// The answer where it does not take the sign of Y''. d = Y'.
+/// The answer if the sign of Y'' is irrelevant. d = Y'.
 template <class S, std::size_t M>
 constexpr std::optional<existence> without_curvature(const part<S, M>& p,
                                                      const bernstein<S, 2>& d) {
@@ -369,14 +344,12 @@ constexpr std::optional<existence> without_curvature(const part<S, M>& p,
     }
 }
 
-/// Y whose second derivative has the strict sign `curvature` on (0, 1).
 template <class S, std::size_t M>
 constexpr existence of_curvature(const part<S, M>& p, const bernstein<S, 2>& d,
                                  sign_type curvature) {
     return curvature == sign_type::positive ? on_convex(p.y, d, p.g) : on_convex(-p.y, -d, p.g);
 }
 
-/// The two parts that `parts_of` makes of each form.
 template <class S, std::size_t M, class PartsOf>
 constexpr std::pair<part<S, M>, part<S, M>> divided(const part<S, M>& p, const PartsOf& parts_of) {
     std::pair<part<S, M>, part<S, M>> parts;
@@ -391,8 +364,9 @@ constexpr std::pair<part<S, M>, part<S, M>> divided(const part<S, M>& p, const P
     return parts;
 }
 
-/// The answer on a part as it is, or split at its inflection; nothing if the sign of Y'' is
-/// uncertain where it matters.
+/// The answer on the interval, split at its exact inflection if it has one; nothing if the sign of
+/// Y'' is uncertain and matters. After a rounded split, end signs would lose roots (Proof:
+/// proofs/Published.v, inflection_loses_roots).
 template <class S, std::size_t M>
 [[gnu::noinline]] constexpr std::optional<existence> without_halving(const part<S, M>& p) {
     const bernstein<S, 2> d = derivative(p.y);
@@ -418,18 +392,17 @@ template <class S, std::size_t M>
     return either(left, on_side(parts.second, ends.at1));
 }
 
-/// The answer on a part, by up to max_halvings of it.
 template <class S, std::size_t M>
 [[gnu::noinline]] constexpr existence by_halving(const part<S, M>& whole) {
     std::array<part<S, M>, max_halvings + 1> waiting;  // the earliest last
-    std::array<int, max_halvings + 1> halvings;        // that led to each
+    std::array<int, max_halvings + 1> halvings;        // halvings that led to each
     std::size_t count = 1;
     waiting[0] = whole;
     halvings[0] = 0;
     while (count > 0) {
         const std::size_t last = count - 1;
         if (const auto found = without_halving(waiting[last])) {
-            // A "maybe" ends the search, lest an undecidable query visit all 2^max_halvings parts.
+            // A "maybe" ends the search; otherwise a query might visit all 2^max_halvings parts.
             if (*found != existence::no) return *found;
             --count;
             continue;
@@ -446,27 +419,24 @@ template <class S, std::size_t M>
 
 }  // namespace bsc
 
-/// Is there t in [0, 1] with y(t) = 0 and every g_i(t) >= 0? `make_g()` gives the g_i as a
-/// std::array and is called only if y may have a root.
+/// Is there t in [0, 1] with y(t) = 0 and every g_i(t) >= 0? `make_g()` returns the g_i as a
+/// std::array; it is called only if y may have a root.
 ///
-/// `yes` and `no` are certain for every scalar whose signs are; all g_i are then strictly positive
-/// at a root of y, or no such t exists. For Y ≡ 0 the answer is `no` or `maybe_root`.
-/// Proof: proofs/Bsc.v, bsc_no, bsc_yes.
-/// Where no sign is uncertain, `maybe_root` means Y ≡ 0, and `maybe_inside` a root of y with every
-/// g_i >= 0, one of them zero, and none with all positive.
-/// Proof: proofs/BscExact.v, bsc_exact_root, bsc_exact_inside.
-/// Cost: bounded; some hundred operations of S in the common cases, at most a few thousand.
+/// `no` is certain, and `yes` is certain with every g_i > 0, if the scalar's signs are. For Y ≡ 0
+/// the answer is `no` or `maybe_root`. Proof: proofs/Bsc.v, bsc_no, bsc_yes. Without uncertain
+/// signs, `maybe_root` stands for Y ≡ 0, and `maybe_inside` a root with every g_i >= 0, one of them
+/// zero, and none with all positive. Proof: proofs/BscExact.v, bsc_exact_root, bsc_exact_inside.
+/// Cost: some hundred operations of S in common cases, at most a few thousand.
 template <class S, class MakeConstraints>
 constexpr existence root_with_nonnegative(const bernstein<S, 3>& y, const MakeConstraints& make_g) {
     const bsc::cubic<S> cubic = normalized(y);
     if (certainly_rootless(cubic)) return existence::no;
     const auto g = make_g();
-    // Assigned, not initialised as part{cubic, {}}: nvcc 13 has no device code for the construction
-    // of a nested array of a class, and calls address 0 instead.
+    // Assigned, not part{cubic, {}}: nvcc 13 cannot construct nested arrays of a class on devices.
     bsc::part<S, std::tuple_size_v<std::remove_cvref_t<decltype(g)>>> whole;
     whole.y = cubic;
     for (std::size_t i = 0; i < g.size(); ++i) whole.g[i] = normalized(g[i]);
-    // Apart, since few queries need the memory of halving.
+    // Separate, since few queries need the memory of halving.
     const auto found = bsc::without_halving(whole);
     return found ? *found : bsc::by_halving(whole);
 }

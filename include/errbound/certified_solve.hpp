@@ -1,15 +1,14 @@
-// Linear systems in double precision, with a certified bound of every entry's error (optional
-// header; needs Eigen 3).
+// Linear systems in double precision with a certified error bound for every entry (optional header;
+// needs Eigen 3).
 //
 //   const auto x = errbound::certified_solve(a, b);      // a: n×n; b: n×m, one system a column
 //   if (x.certified()) use(x.values, x.errors);          // |values − exact solution| <= errors
 //   else std::puts(errbound::reason(x.status));          // say, that a is nearly singular
 //
-// a and b are taken as the doubles that they are. Where the answer is `certified`, a is regular,
-// and every entry of the exact solution lies within its error of the computed one; there is no
-// "almost". The rounding mode is not touched: it must be to nearest (environment.hpp). Products are
-// Eigen's own; bounds serve every order of summation, vectorised, fused or over threads, but no
-// other formula for products (Strassen's).
+// Entries of a and b are exact doubles. If the result is `certified`, a is regular and every entry
+// of the exact solution lies within its error. Rounding must be to nearest (environment.hpp).
+// Products are Eigen's; bounds hold for every order of summation, vectorised, fused or threaded,
+// but not for Strassen's products.
 #pragma once
 
 #include <Eigen/Core>
@@ -21,53 +20,49 @@
 
 namespace errbound {
 
-/// What certified_solve has to say.
 enum class solve_status : std::uint8_t {
     certified,        ///< the matrix is regular, and the errors hold
-    nearly_singular,  ///< the matrix is singular, or too near one that is for doubles to tell
-    not_finite,       ///< an infinity or a NaN is among the numbers given
-    sizes_differ,     ///< the matrix is not square, or the right-hand side has other rows
-    out_of_range,     ///< the matrix is regular; the solution, or a bound of it, is no double
+    nearly_singular,  ///< singular, or too close to singular for doubles to decide
+    not_finite,       ///< an entry is infinite or NaN
+    sizes_differ,     ///< not square, or the right-hand side has another number of rows
+    out_of_range,     ///< regular, but the solution or its bound is not a double
 };
 
-/// The same in words.
 constexpr const char* reason(solve_status status) {
     switch (status) {
         case solve_status::certified:
             return "certified";
         case solve_status::nearly_singular:
-            return "the matrix is singular, or too near it to tell";
+            return "the matrix is singular, or too close to singular";
         case solve_status::not_finite:
-            return "an infinity or a NaN is among the numbers given";
+            return "an entry is infinite or NaN";
         case solve_status::sizes_differ:
-            return "the matrix is not square, or of other rows";
+            return "the matrix is not square, or the right-hand side has another number of rows";
         case solve_status::out_of_range:
-            return "the solution is not in the range of doubles";
+            return "the solution, or its bound, is out of the range of doubles";
     }
     return "";
 }
 
-/// Rows, Columns: of the solution, Eigen::Dynamic where they are known at run time.
+/// Rows, Columns: the size of the solution; Eigen::Dynamic if known only at run time.
 template <int Rows, int Columns>
 struct certified_solution {
-    using matrix = Eigen::Matrix<double, Rows, Columns>;  ///< a right-hand side's solution a column
+    using matrix = Eigen::Matrix<double, Rows, Columns>;  ///< a column for each right-hand side
 
-    solve_status status;  ///< `certified`, or why it is not
+    solve_status status;  ///< `certified`, or the reason
     matrix values;        ///< NaN unless certified
     matrix errors;        ///< |values − exact solution| <= errors; infinite unless certified
-    /// A certified β with |I − RA|v <= βv for some R and v > 0; below one, which proves that the
-    /// matrix is regular, or infinite. It grows with the condition number: 1e-3, say, leaves three
-    /// digits until a system is refused.
+    /// A certified β with |I − RA|v <= βv for some R and v > 0; β < 1 proves regularity. Otherwise
+    /// infinite. At 1e-3, three digits of conditioning are left.
     double contraction;
 
-    /// Whether there is a solution; where not, `status` says why.
     bool certified() const { return status == solve_status::certified; }
 };
 
 namespace linear {
 
-/// An upper bound of |y − ỹ| from an enclosure r of b − Aỹ: the product of R and r's value, here
-/// `step`, is off by γ_n|R||r| + nη, and r's error takes |R| times it.
+/// An upper bound of |y − ỹ| from an enclosure r of b − Aỹ. The product `step` of R and r's value
+/// is off by γ_n|R||r| + nη; r's error contributes |R| times itself.
 template <int N>
 vector<N> error_from_residual(const checked_inverse<N>& inverse, const enclosed_vector<N>& r,
                               const vector<N>& step) {
@@ -82,9 +77,8 @@ vector<N> error_from_residual(const checked_inverse<N>& inverse, const enclosed_
     return inverse.error_from(z);
 }
 
-/// The solution for one right-hand side: ỹ is refined by residuals in twice the precision until
-/// that gains nothing. Then y is enclosed around ỹ + d, d the last correction, and the sum is
-/// rounded, with an error of half a unit in the last place that is known.
+/// Refines ỹ by residuals in twice the precision until that gains nothing, encloses y around ỹ + d
+/// (d: the last correction), and rounds the sum.
 template <int N>
 enclosed_vector<N> solve_column(const checked_inverse<N>& inverse, const vector<N>& b) {
     constexpr int enough = 20;
@@ -122,7 +116,7 @@ inline with_error<double> scaled_back(double value, double error, int e) {
     return {v, exact ? bound : enlarged(bound + 2 * traits::underflow_unit(), 1)};
 }
 
-/// Whether these sizes are the same, as far as they are known when it is compiled.
+/// True if these sizes are equal, as far as known at compile time.
 template <int Rows, int Columns, int OfRight>
 inline constexpr bool may_be_equal =
     (Rows == Columns || Rows == Eigen::Dynamic || Columns == Eigen::Dynamic) &&
@@ -139,16 +133,16 @@ certified_solution<Rows, Columns> refused(solve_status status, Index rows, Index
 
 }  // namespace linear
 
-/// The solution x of ax = b with certified errors, or why there is none.
+/// Returns the solution x of ax = b with certified errors, or the reason for having none.
 ///
-/// Errors are near half a unit in the last place where the matrix is not ill-conditioned, and grow
-/// near the end of what can be certified: condition numbers of some 2^53/√n, whatever the scales of
-/// rows and columns. Any finite matrix is decided: those nearer to singular are refused.
+/// Errors are near half a unit in the last place unless the matrix is ill-conditioned. They grow
+/// near the limit of what can be certified: condition numbers of about 2^53/√n, at all scales
+/// of rows and columns. Matrices closer to singular are refused.
 ///
-/// Cost: LU decomposition and two products of n×n matrices, some six times what solving costs; some
-/// products of doubled precision with a vector for each column of b. Memory: six n×n matrices; on
-/// the heap where n is Eigen::Dynamic, and else none of it. Exceptions: std::bad_alloc. Sources:
-/// linear/checked_inverse.hpp, linear/residual.hpp.
+/// Cost: LU decomposition and two products of n×n matrices, about six times a plain solve; a few
+/// matrix-vector products in doubled precision per column of b. Memory: six n×n matrices, on the
+/// heap only if n is Eigen::Dynamic. Throws std::bad_alloc. Sources: linear/checked_inverse.hpp,
+/// linear/residual.hpp.
 template <class MatrixType, class RightHandSide>
 auto certified_solve(const Eigen::MatrixBase<MatrixType>& a,
                      const Eigen::MatrixBase<RightHandSide>& b) {
@@ -168,7 +162,7 @@ auto certified_solve(const Eigen::MatrixBase<MatrixType>& a,
     if (a.rows() == 0)
         return answer{solve_status::certified, typename answer::matrix(0, b.cols()),
                       typename answer::matrix(0, b.cols()), 0};
-    const auto& given = a.derived().eval();  // no copy of what is a matrix already
+    const auto& given = a.derived().eval();  // no copy if `a` is a plain matrix
     const auto& sides = b.derived().eval();
     if (!given.allFinite() || !sides.allFinite()) return refuse(solve_status::not_finite);
     linear::scaled_matrix<N> scaled(given);

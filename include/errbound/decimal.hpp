@@ -4,8 +4,9 @@
 //   const auto tenth = 0.1_tracked;                             // tracked<double>, off by 2^-57.5
 //   errbound::from_decimal<errbound::tracked<float>>("6.02e23");
 //
-// The value is the nearest number of the type, ties to even, and the error its distance from the
-// decimal, rounded up: 0 if the type holds the decimal, else at most half a unit in the last place.
+// The value is the nearest number of the type, ties to even. The error is its distance from the
+// decimal, rounded up: 0 if the type holds the decimal, otherwise at most half a unit in the last
+// place.
 #pragma once
 
 #include <errbound/environment.hpp>
@@ -17,19 +18,18 @@ namespace errbound {
 
 namespace detail {
 
-/// Called in no program: it is no constant expression.
+/// Not constexpr: a call makes the literal ill-formed. Never defined.
 void tracked_is_for_decimal_literals();
 
 }  // namespace detail
 
-/// The decimal number, in Number, a tracked type whose value type is float, double, long double,
-/// binary128 or a small_float. Text is as in C++, [-]123.25e-2, of any length, with decimal digits
-/// only.
+/// The decimal number as Number: tracked float, double, long double, binary128 or small_float. Text
+/// is as in C++, [-]123.25e-2, of any length, with decimal digits only.
 ///
 /// The error is infinite if the text is no decimal or rounds to no finite number. A decimal below
-/// half of the smallest number is 0 with that number as its error. The result is the same in every
-/// direction of rounding, but the error is infinite at run time where the bound rule needs rounding
-/// to nearest and the direction is another. Cost: about that of strtod.
+/// half of the smallest number is 0 with that number as its error. The result does not depend on
+/// the rounding direction. If the rule needs rounding to nearest and the direction is another, the
+/// error is infinite at run time. Cost: about that of strtod.
 template <class Number>
 constexpr Number from_decimal(std::string_view text) {
     using T = typename Number::value_type;
@@ -44,11 +44,10 @@ constexpr Number from_decimal(std::string_view text) {
     return Number::within(nearest.value, nearest.error);
 }
 
-/// Suffixes of numbers: using namespace errbound::literals.
+/// Suffixes: using namespace errbound::literals.
 namespace literals {
 
-/// A tenth as 0.1_tracked; whole numbers too, 3_tracked. Read by the compiler; what is no decimal,
-/// 0x10 or the octal 010, does not compile.
+/// 0.1_tracked is a tenth. Evaluated at compile time; 0x10 and the octal 010 do not compile.
 consteval tracked<double> operator""_tracked(const char* text) {
     const std::string_view decimal(text);
     const bool octal = decimal.size() > 1 && decimal[0] == '0' &&

@@ -2,18 +2,13 @@
 //
 //   Eigen::Matrix<errbound::tracked<double>, 3, 3> m;
 //   auto d = m.col(0).cross(m.col(1)).dot(m.col(2));   // d.error() bounds its rounding error
-//   auto x = m.partialPivLu().solve(b);                // every entry with the bound of its error
+//   auto x = m.partialPivLu().solve(b);                // a bound for every entry
 //
-// Products, sums, dot, cross, determinant() and inverse() of any size work, products with plain T
-// (2.0 * m), and of the decompositions PartialPivLU, LLT and HouseholderQR, under every rule with
-// division. If a matrix is regular, entries of its solutions and of its inverse, and its
-// determinant, are within their bounds of the exact ones. That it is regular they do not say: ask
-// sign_of(m.determinant()), or LLT's info(), which is Success only if the matrix is certainly
-// positive definite. Unknown entries have infinite or NaN errors.
-//
-// Pivots go by value (by_value): a wrong choice costs tightness, never soundness. What decides a
-// rank or a sign by comparing (FullPivLU, ColPivHouseholderQR, LDLT, isInvertible, eigenvalues,
-// SVD) does not compile: it would have to guess.
+// Products (also with plain T, 2.0 * m), sums, dot, cross, determinant(), inverse(), PartialPivLU,
+// LLT and HouseholderQR work for any size, under every rule with division. For a regular matrix all
+// results are within their bounds. Regularity is not tested: check sign_of(m.determinant()), or
+// LLT's info(), Success only if certainly positive definite. Entries without a bound have infinite
+// or NaN errors.
 #pragma once
 
 #include <Eigen/Core>
@@ -23,8 +18,8 @@
 
 namespace errbound {
 
-/// Whether a and b are certainly equal. With this header alone: Eigen's kernels ask whether a
-/// factor is zero, to leave out what does nothing; "not equal" says that they may differ.
+/// True if a and b are certainly equal. Only this header defines it, for Eigen's kernels, which
+/// skip zero factors. Numbers that are "not equal" may be equal.
 template <class T, class Rule>
 constexpr bool operator==(const tracked<T, Rule>& a, const tracked<T, Rule>& b) {
     return compare(a, b) == sign_type::zero;
@@ -32,6 +27,8 @@ constexpr bool operator==(const tracked<T, Rule>& a, const tracked<T, Rule>& b) 
 
 }  // namespace errbound
 
+// A wrong pivot (by_value) costs tightness, never soundness. FullPivLU, ColPivHouseholderQR, LDLT,
+// isInvertible, eigenvalues and SVD do not compile: they would guess ranks or signs.
 namespace Eigen {
 
 template <class T, class Rule>
@@ -40,7 +37,7 @@ struct NumTraits<errbound::tracked<T, Rule>> : GenericNumTraits<errbound::tracke
     using Real = Scalar;
     using NonInteger = Scalar;
     using Nested = Scalar;
-    using Literal = Scalar;  // plain numbers of other types are within their conversion's error
+    using Literal = Scalar;  // other plain types carry their conversion's error
     enum {
         IsComplex = 0,
         IsInteger = 0,
@@ -59,7 +56,7 @@ struct NumTraits<errbound::tracked<T, Rule>> : GenericNumTraits<errbound::tracke
     static int digits10() { return NumTraits<T>::digits10(); }
 };
 
-/// T and tracked numbers over T mix: T is exact.
+/// T is exact, so T and tracked numbers over T mix.
 template <class T, class Rule, class BinaryOp>
 struct ScalarBinaryOpTraits<errbound::tracked<T, Rule>, T, BinaryOp> {
     using ReturnType = errbound::tracked<T, Rule>;
@@ -76,8 +73,8 @@ template <class Left, class Right>
 concept mixed_tracked_product = errbound::is_tracked<typename Left::Scalar>
 != errbound::is_tracked<typename Right::Scalar>;
 
-/// Products of dynamic size are computed entry by entry, as those of fixed size: Eigen's blocked
-/// kernels convert one scalar to the other.
+/// Computes products of dynamic size entry by entry, as those of fixed size. Eigen's blocked
+/// kernels would convert one scalar to the other.
 template <class Left, class Right>
 requires mixed_tracked_product<Left, Right>
 struct generic_product_impl<Left, Right, DenseShape, DenseShape, GemmProduct>

@@ -4,15 +4,10 @@
 //   errbound::tracked<double> x = ...;
 //   exp(-x * x);            // found by its argument: no errbound:: is needed
 //
-// Values are those of the system's functions. How far these are off is an assumption, which
-// function_error names; what an argument's error does to the result is derived in
-// functions/function_of_range.hpp. Arguments are taken for what any rule says of them,
-// |value() − x| <= error(), and what is known of the result is handed to the rule
-// (tracked::within). Where an argument may be outside of the function's domain, or at a pole,
-// nothing is known of the result.
-//
-// On the host, in rounding to nearest, under any rule. Not in constant expressions, and not in
-// device code: a device's functions have other errors, and no function_error names them.
+// Values are the C library's; its errors are an assumption (function_error). The effect of the
+// argument's error is derived in functions/function_of_range.hpp. If the argument may lie outside
+// the domain or at a pole, the error is infinite. Under any rule, in rounding to nearest, on the
+// host only: no constant expressions, no device code.
 #pragma once
 
 #include <complex>
@@ -27,12 +22,11 @@ namespace errbound {
 
 namespace detail {
 
-/// A plain number that a tracked one is made of, within the error of its conversion.
+/// A plain number that converts to the tracked type, within its conversion's error.
 template <class Number, class T, class Rule>
 concept plain_number_for =
     !is_tracked<Number> && std::constructible_from<tracked<T, Rule>, const Number&>;
 
-/// F of a number, in the type whose functions serve it.
 template <elementary_function F, class T, class Rule>
 tracked<T, Rule> function_of(const tracked<T, Rule>& x) {
     if constexpr (!std::is_same_v<T, function_type<T>>) {
@@ -45,7 +39,7 @@ tracked<T, Rule> function_of(const tracked<T, Rule>& x) {
 
 }  // namespace detail
 
-// Where e of x is zero, an error is that of the system's function alone.
+// For an exact x, the error is only that of the C library's function.
 
 /// e^x; exact for an exact 0.
 template <class T, class Rule>
@@ -63,50 +57,49 @@ tracked<T, Rule> expm1(const tracked<T, Rule>& x) {
     return detail::function_of<elementary_function::expm1>(x);
 }
 
-/// The natural logarithm; unknown unless x is certainly positive. Exact for an exact 1.
+/// The natural logarithm. Infinite error unless x is certainly positive. Exact for an exact 1.
 template <class T, class Rule>
 tracked<T, Rule> log(const tracked<T, Rule>& x) {
     return detail::function_of<elementary_function::log>(x);
 }
-/// To base 2, likewise; exact for exact powers of two.
+/// Base 2, domain as log. Exact for exact powers of two.
 template <class T, class Rule>
 tracked<T, Rule> log2(const tracked<T, Rule>& x) {
     return detail::function_of<elementary_function::log2>(x);
 }
-/// To base 10, likewise; exact for an exact 1.
+/// Base 10, domain as log. Exact for an exact 1.
 template <class T, class Rule>
 tracked<T, Rule> log10(const tracked<T, Rule>& x) {
     return detail::function_of<elementary_function::log10>(x);
 }
-/// log(1 + x); unknown unless x is certainly greater than −1. Exact for an exact 0.
+/// log(1 + x). Infinite error unless x is certainly greater than −1. Exact for an exact 0.
 template <class T, class Rule>
 tracked<T, Rule> log1p(const tracked<T, Rule>& x) {
     return detail::function_of<elementary_function::log1p>(x);
 }
 
-/// Of an angle in radians, of any size; exact for an exact 0. Off by no more than to the other end
-/// of [−1, 1].
+/// x in radians, of any size. Exact for an exact 0. The error is at most about 1 + |value|.
 template <class T, class Rule>
 tracked<T, Rule> sin(const tracked<T, Rule>& x) {
     return detail::function_of<elementary_function::sin>(x);
 }
-/// Likewise.
+/// Same as sin, except inexact at 0.
 template <class T, class Rule>
 tracked<T, Rule> cos(const tracked<T, Rule>& x) {
     return detail::function_of<elementary_function::cos>(x);
 }
-/// Unknown where x may be at a pole, or is off by more than 1.5. Exact for an exact 0.
+/// Infinite error if x may be at a pole, or its error is above 1.5. Exact for an exact 0.
 template <class T, class Rule>
 tracked<T, Rule> tan(const tracked<T, Rule>& x) {
     return detail::function_of<elementary_function::tan>(x);
 }
 
-/// In [−π/2, π/2]; unknown unless x is certainly in [−1, 1]. Exact for an exact 0.
+/// In [−π/2, π/2]. Infinite error unless x is certainly in [−1, 1]. Exact for an exact 0.
 template <class T, class Rule>
 tracked<T, Rule> asin(const tracked<T, Rule>& x) {
     return detail::function_of<elementary_function::asin>(x);
 }
-/// In [0, π]; unknown unless x is certainly in [−1, 1]. Exact for an exact 1.
+/// In [0, π]. Infinite error unless x is certainly in [−1, 1]. Exact for an exact 1.
 template <class T, class Rule>
 tracked<T, Rule> acos(const tracked<T, Rule>& x) {
     return detail::function_of<elementary_function::acos>(x);
@@ -117,7 +110,7 @@ tracked<T, Rule> atan(const tracked<T, Rule>& x) {
     return detail::function_of<elementary_function::atan>(x);
 }
 
-/// Exact for an exact 0, as are the next two.
+/// Exact for an exact 0, as are cosh and tanh.
 template <class T, class Rule>
 tracked<T, Rule> sinh(const tracked<T, Rule>& x) {
     return detail::function_of<elementary_function::sinh>(x);
@@ -135,27 +128,26 @@ template <class T, class Rule>
 tracked<T, Rule> asinh(const tracked<T, Rule>& x) {
     return detail::function_of<elementary_function::asinh>(x);
 }
-/// Not negative; unknown unless x is certainly 1 or more. Exact for an exact 1.
+/// Not negative. Infinite error unless x is certainly 1 or more. Exact for an exact 1.
 template <class T, class Rule>
 tracked<T, Rule> acosh(const tracked<T, Rule>& x) {
     return detail::function_of<elementary_function::acosh>(x);
 }
-/// Unknown unless x is certainly between −1 and 1. Exact for an exact 0.
+/// Infinite error unless x is certainly between −1 and 1. Exact for an exact 0.
 template <class T, class Rule>
 tracked<T, Rule> atanh(const tracked<T, Rule>& x) {
     return detail::function_of<elementary_function::atanh>(x);
 }
 
-/// The cube root, of negative numbers too; exact where x is and the system gives its root.
+/// The cube root, also of negative numbers. Exact if x is and the system returns its root.
 template <class T, class Rule>
 tracked<T, Rule> cbrt(const tracked<T, Rule>& x) {
     return detail::function_of<elementary_function::cbrt>(x);
 }
 
-/// x^y by the system's function, for a number x that is certainly positive; for an x that may be
-/// zero or negative where y is an exact whole number, positive if x may be zero. Elsewhere unknown,
-/// but for an x that is exactly 0 and a y that is certainly positive. x^0 and 1^y are exactly 1
-/// and x^1 is x. For whole exponents by products, as the rule has them: pow(x, int).
+/// x^y by the C library, if x is certainly positive or y is an exact whole number (positive if x
+/// may be zero). Otherwise infinite error, except for an exact 0 x and a certainly positive y. x^0
+/// and 1^y are exactly 1, x^1 is x. Products: pow(x, int).
 template <class T, class Rule>
 tracked<T, Rule> pow(const tracked<T, Rule>& x, const tracked<T, Rule>& y) {
     if constexpr (!std::is_same_v<T, detail::function_type<T>>) {
@@ -168,8 +160,7 @@ tracked<T, Rule> pow(const tracked<T, Rule>& x, const tracked<T, Rule>& y) {
         return tracked<T, Rule>::within(result.value, result.error);
     }
 }
-/// Of a plain exponent; of a plain base. Exact where T holds it, else within the rounding error of
-/// its conversion.
+/// A plain exponent or base: exact if T holds it, otherwise within its conversion's error.
 template <class T, class Rule, detail::plain_number_for<T, Rule> Number>
 requires(!std::same_as<Number, int>) tracked<T, Rule> pow(const tracked<T, Rule>& x,
                                                           const Number& y) {
@@ -180,9 +171,9 @@ tracked<T, Rule> pow(const Number& x, const tracked<T, Rule>& y) {
     return pow(tracked<T, Rule>(x), y);
 }
 
-/// The angle of the point (x, y), in [−π, π]: π for a y that is exactly 0 and x < 0. Unknown where
-/// the point may be the origin. Where it may be on either side of the negative x axis, it is known
-/// no better than that range. Exact for a y that is exactly 0 and x > 0.
+/// The angle of the point (x, y) in [−π, π]; π if y is exactly 0 and x < 0. Infinite error if the
+/// point may be the origin. If the point may be on either side of the negative x axis, the bound
+/// covers that range. Exact if y is exactly 0 and x > 0.
 template <class T, class Rule>
 tracked<T, Rule> atan2(const tracked<T, Rule>& y, const tracked<T, Rule>& x) {
     if constexpr (!std::is_same_v<T, detail::function_type<T>>) {
@@ -193,7 +184,6 @@ tracked<T, Rule> atan2(const tracked<T, Rule>& y, const tracked<T, Rule>& x) {
         return tracked<T, Rule>::within(result.value, result.error);
     }
 }
-/// Where one of them is plain: as pow's.
 template <class T, class Rule, detail::plain_number_for<T, Rule> Number>
 tracked<T, Rule> atan2(const tracked<T, Rule>& y, const Number& x) {
     return atan2(y, tracked<T, Rule>(x));
@@ -203,8 +193,8 @@ tracked<T, Rule> atan2(const Number& y, const tracked<T, Rule>& x) {
     return atan2(tracked<T, Rule>(y), x);
 }
 
-// Complex numbers of tracked parts: write `abs(z)`, or `using std::abs;` before it in generic code;
-// std::abs(z) does not compile. + − × ÷, `norm` and `conj` are those of std::complex.
+// Complex numbers of tracked parts: write `abs(z)`, in generic code after `using std::abs;`.
+// std::abs(z) does not compile. + − × ÷, `norm` and `conj` are std::complex's.
 
 /// |z|: hypot of the parts, without overflow or underflow on the way.
 template <class T, class Rule>
@@ -212,13 +202,12 @@ tracked<T, Rule> abs(const std::complex<tracked<T, Rule>>& z) {
     return hypot(z.real(), z.imag());
 }
 
-/// The angle of z in [−π, π]; unknown where z may be 0. See atan2 for numbers near the cut.
+/// The angle of z in [−π, π]. Infinite error if z may be 0. See atan2 for numbers near the cut.
 template <class T, class Rule>
 tracked<T, Rule> arg(const std::complex<tracked<T, Rule>>& z) {
     return atan2(z.imag(), z.real());
 }
 
-/// The number of size r and angle θ: r·cos θ and r·sin θ.
 template <class T, class Rule>
 std::complex<tracked<T, Rule>> polar(const tracked<T, Rule>& r, const tracked<T, Rule>& angle) {
     return {r * cos(angle), r * sin(angle)};

@@ -1,12 +1,10 @@
-// What the library needs of the compiler and the floating-point environment, checked where it can
-// be. docs/guarantees.md lists what compilers' flags do to it.
+// Requirements on the compiler and the floating-point environment, checked where possible.
 //
-// Needed: IEEE 754 binary formats with gradual underflow, operations rounded once to the format
-// (any rounding direction for `tight` and `safe`; to nearest for `sharp`, `interval`, `residual`,
-// error-free transformations and predicates), and no value-changing optimisation. Contraction to
-// fused multiply-add does not reach the values and bounds of tracked numbers (rounded.hpp); in SIMD
-// packs and plain floating-point code it makes results differ between machines: build with
-// -ffp-contract=off for identical results everywhere.
+// Needed: IEEE 754 binary formats with gradual underflow, operations rounded once to the format, no
+// value-changing optimisation. `tight` and `safe` hold in any rounding direction; `sharp`,
+// `interval`, `residual`, error-free transformations and predicates need rounding to nearest.
+// Contraction to fused multiply-add does not affect tracked numbers (rounded.hpp). Other code
+// differs between machines without -ffp-contract=off. Compiler flags: docs/guarantees.md.
 #pragma once
 
 #include <cfloat>
@@ -29,7 +27,7 @@ static_assert(sizeof(0.1) == sizeof(double) && 0.1 != static_cast<double>(0.1F),
               "errbound: constants must be doubles; compile without -fsingle-precision-constant");
 
 #if (defined(__linux__) || defined(__MINGW32__)) && !defined(__ANDROID__) && \
-    (defined(__x86_64__) || defined(__i386__))  // Android's have 64 or 128 bits.
+    (defined(__x86_64__) || defined(__i386__))  // Android's have 64 or 128 bits
 static_assert(std::numeric_limits<long double>::digits == 64,
               "errbound: long doubles must be those of the C library; compile without "
               "-mlong-double-64 and -mlong-double-128");
@@ -38,8 +36,7 @@ static_assert(std::numeric_limits<long double>::digits == 64,
 namespace errbound {
 namespace detail {
 
-/// A pair of doubles, as long double is on some PowerPC, is none: its operations are not rounded
-/// once. libstdc++ says that it is; by its digits it is told from all formats of IEEE 754.
+/// False for a pair of doubles (long double on some PowerPC), which libstdc++ reports as iec559.
 template <class T>
 constexpr bool is_ieee_format = [] {
     constexpr int digits_of_pair = 2 * std::numeric_limits<double>::digits;
@@ -48,37 +45,36 @@ constexpr bool is_ieee_format = [] {
 
 }  // namespace detail
 
-/// What the calling thread's floating-point environment does, and what the compiler made of the
-/// unit that asks. Compilers do not tell of every flag, and flush-to-zero is set at start-up by
-/// code that other flags link in; so all of this is asked at run time, of float, double and, but
-/// for subnormals, long double, where that is a binary format (on some PowerPC it is two doubles).
+/// The calling thread's floating-point environment and the compiler's treatment of the calling
+/// unit. Tested at run time: compilers do not reveal every flag, and some flags set flush-to-zero
+/// at start-up. Covers float, double and long double (not its subnormals), unless that is two
+/// doubles.
 struct environment_report {
     bool gradual_underflow;  ///< subnormals are neither flushed nor read as zero
-    bool as_written;         ///< sums are in the written order, of the type's bits, no more
-    bool all_bits;           ///< and no fewer: x87 code may have been told to round long doubles
-    bool own_quotients;      ///< quotients are rounded once, and not products with reciprocals
-    bool special_values;     ///< infinity and NaN are told from numbers
-    bool nearest_even;       ///< default rounding
+    bool as_written;         ///< sums in the written order, with the type's bits, no more
+    bool all_bits;           ///< no fewer bits: x87 may be set to round long doubles
+    bool own_quotients;      ///< quotients are rounded once, not products with reciprocals
+    bool special_values;     ///< infinity and NaN are distinguished from numbers
+    bool nearest_even;       ///< default rounding direction
 
-    /// The bounds of `tight` and `safe` hold, which serve every rounding direction.
+    /// The bounds of `tight` and `safe` hold, in any rounding direction.
     constexpr bool sound_in_any_direction() const {
         return gradual_underflow && as_written && all_bits && own_quotients && special_values;
     }
-    /// Every promise of the library is kept.
+    /// The library's every guarantee holds.
     constexpr bool sound() const { return sound_in_any_direction() && nearest_even; }
 };
 
-/// Functions and function templates of each unit's own: an inline one's single copy might be that
-/// of a unit with other flags.
+/// Static in each unit: an inline function's single copy might come from a unit with other flags.
 namespace detail {
 
-/// x, of which the compiler knows nothing; as a result, x as it is stored.
+/// x, hidden from the optimiser and stored in its own type.
 template <class T>
 static T unknown(T x) {
     volatile T v = x;
     return v;
 }
-/// By the processor, and by the compiler, which may compute with constants as it is told to.
+/// Tests the processor and the compiler's constant folding.
 template <class T>
 static bool has_gradual_underflow() {
     using limits = std::numeric_limits<T>;
@@ -87,7 +83,7 @@ static bool has_gradual_underflow() {
     return unknown(subnormal + subnormal) == (limits::min)() && unknown(limits::denorm_min()) > 0 &&
            unknown(factors[0] * factors[1]) > 0;
 }
-/// Sums, against the same ones that are stored after each operation.
+/// Compares sums with the same sums stored after each operation.
 template <class T>
 static bool computes_as_written() {
     constexpr T epsilon = std::numeric_limits<T>::epsilon();
@@ -97,7 +93,7 @@ static bool computes_as_written() {
     bool same = unknown(sum - x) == stored_y &&
                 unknown((x - (sum - y_in_sum)) + (y - y_in_sum)) ==
                     unknown(unknown(x - unknown(stored - stored_y)) + unknown(y - stored_y));
-    // A loop that may be vectorised.
+    // This loop may be vectorised.
     T terms[64];
     for (T& term : terms) term = y;
     terms[0] = x;
@@ -111,7 +107,7 @@ static bool has_all_bits() {
     constexpr T epsilon = std::numeric_limits<T>::epsilon();
     return unknown(unknown(T(1)) + unknown(epsilon)) - 1 == epsilon;
 }
-/// Quotients that are whole: those by way of 1/41 or 1/49 are not, in double or in float.
+/// Whole quotients; through 1/41 or 1/49 they are not whole, in double or float.
 template <class T>
 static bool divides_once() {
     const auto whole = [](T divisor, const auto& quotient) {
@@ -143,8 +139,8 @@ static bool rounds_to_nearest() {
 
 }  // namespace detail
 
-/// Of the calling thread and the calling unit. A program that cares asserts .sound() once in each
-/// unit that is compiled with flags of its own. Cost: some microseconds.
+/// Reports on the calling thread and unit. To be sure, assert .sound() once in each unit compiled
+/// with its own flags. Cost: some microseconds.
 static inline environment_report floating_point_environment() {
     using namespace detail;
     const auto of_all = [](const auto& ask) {

@@ -1,8 +1,7 @@
-// Numbers, predicates and roots: what most programs take of errbound, and what needs nothing but
-// the standard library. By themselves are printing.hpp, which brings streams along;
-// explain/explain.hpp, where an error comes from; binary128.hpp and multiprecision.hpp; rules that
-// few compute with (rules/affine.hpp, relative.hpp, stochastic.hpp), and derived.hpp for rules of
-// your own; and what needs Eigen (eigen.hpp, certified_solve.hpp) or MPFR (validation/).
+// Numbers, predicates and roots: all of errbound that needs only the standard library. Include
+// separately: printing.hpp (streams); explain/explain.hpp (sources of an error); binary128.hpp and
+// multiprecision.hpp; the rules affine.hpp, relative.hpp, stochastic.hpp and derived.hpp in rules/;
+// eigen.hpp and certified_solve.hpp (Eigen); validation/ (MPFR).
 #pragma once
 
 #include <errbound/bernstein.hpp>

@@ -1,5 +1,4 @@
-// Error-free transformations: the rounded result of an operation and its exact rounding error, both
-// as floating-point numbers.
+// Error-free transformations: an operation's rounded result and its exact rounding error.
 //
 // For binary formats with gradual underflow, rounded to nearest. p is the precision, η the smallest
 // positive number, u = 2^-p, ulp(x) the unit in the last place of x (at least η).
@@ -12,7 +11,7 @@
 
 namespace errbound {
 
-/// A rounded result and what was rounded away: the exact result is value + error.
+/// The exact result is value + error.
 template <class T>
 struct with_error {
     T value, error;
@@ -20,9 +19,8 @@ struct with_error {
 
 namespace detail {
 
-/// At least the error of a result that is rounded to v, to nearest, underflow included: u|v| + η,
-/// rounded (u|v| is exact or underflows, and where it is exact and η is lost on it, v does not
-/// underflow).
+/// At least the error of a result rounded to nearest to v, underflow included: u|v| + η, rounded.
+/// u|v| is exact or underflows; if it is exact and absorbs η, v does not underflow.
 template <class T>
 constexpr T half_ulp(const T& v) {
     using traits = number_traits<T>;
@@ -31,11 +29,10 @@ constexpr T half_ulp(const T& v) {
 
 }  // namespace detail
 
-/// a + b = value + error exactly, value = a ⊕ b.
-/// Precondition: no overflow, of the sum or on the way to the error (an operand of the largest size
-/// only); else value or error is infinite or NaN. Underflow does no harm: sums that underflow are
-/// exact. Cost: 6 operations. Source: Knuth, TAOCP 2, Section 4.2.2, Theorem B (TwoSum); any
-/// precision >= 2. Proof: proofs/ErrorFree.v, two_sum_exact.
+/// a + b = value + error exactly, value = a ⊕ b. Precondition: no overflow, even of intermediate
+/// results; otherwise value or error is infinite or NaN. Underflow is harmless. Cost: 6 operations.
+/// Source: Knuth, TAOCP 2, 4.2.2, Theorem B; any precision >= 2. Proof: proofs/ErrorFree.v,
+/// two_sum_exact.
 template <class T>
 constexpr with_error<T> two_sum(const T& a, const T& b) {
     const T x = detail::rounded(a), y = detail::rounded(b);
@@ -44,9 +41,8 @@ constexpr with_error<T> two_sum(const T& a, const T& b) {
     return {sum, (x - (sum - y_in_sum)) + (y - y_in_sum)};
 }
 
-/// a + b = value + error exactly, for |a| >= |b| or a = 0.
-/// Precondition: that, and no overflow. Cost: 3 operations. Source: Dekker 1971 (Fast2Sum).
-/// Proof: proofs/ErrorFree.v, fast_two_sum_exact.
+/// a + b = value + error exactly. Precondition: |a| >= |b| or a = 0, and no overflow. Cost: 3
+/// operations. Source: Dekker 1971 (Fast2Sum). Proof: proofs/ErrorFree.v, fast_two_sum_exact.
 template <class T>
 constexpr with_error<T> fast_two_sum(const T& a, const T& b) {
     const T x = detail::rounded(a), y = detail::rounded(b);
@@ -54,7 +50,7 @@ constexpr with_error<T> fast_two_sum(const T& a, const T& b) {
     return {sum, y - (sum - x)};
 }
 
-/// True where fma(a, b, c) is one instruction.
+/// True if fma(a, b, c) is one instruction.
 template <class T>
 inline constexpr bool has_fast_fma = false;
 #if defined(__FP_FAST_FMA) || defined(__FMA__)
@@ -66,17 +62,14 @@ template <>
 inline constexpr bool has_fast_fma<float> = true;
 #endif
 
-/// The least precision for which Dekker's product (below) is error-free: with s = ⌈p/2⌉ the parts
-/// need 2 <= s <= p − 2.
+/// Dekker's product needs 2 <= s <= p − 2 with s = ⌈p/2⌉.
 inline constexpr int least_precision_for_split = 4;
 
-/// x = value + error exactly, value of at most p − s bits, error of at most s − 1 bits and a sign,
-/// s = ⌈p/2⌉: products of such parts are exact.
-/// Precondition: p >= least_precision_for_split, and (2^s + 1)x does not overflow (|x| < 2^996 for
-/// double, 2^115 for float); else value and error are infinite or NaN. Underflow does no harm.
-/// Cost: 4 operations. Source: Veltkamp; Dekker 1971; proof for radix 2 in Boldo 2006 (Pitfalls of
-/// a full floating-point proof). Proof, of the sum and of at most s bits
-/// in the error: proofs/ErrorFree.v, split_exact.
+/// x = value + error exactly; with s = ⌈p/2⌉, value has at most p − s bits, error at most s − 1 and
+/// a sign, so products of parts are exact. Precondition: p >= least_precision_for_split, and (2^s +
+/// 1)x does not overflow (|x| < 2^996 for double, 2^115 for float); otherwise infinite or NaN.
+/// Cost: 4 operations. Source: Veltkamp; Dekker 1971; Boldo 2006 (Pitfalls of a full floating-point
+/// proof). Proof, with at most s bits in the error: proofs/ErrorFree.v, split_exact.
 template <class T>
 constexpr with_error<T> split(const T& x) {
     constexpr int s = (number_traits<T>::digits + 1) / 2;
@@ -85,10 +78,10 @@ constexpr with_error<T> split(const T& x) {
     return {high, x - high};
 }
 
-/// a·b = value + error exactly, value = a ⊙ b, where product_error_is_exact(a, b, result) holds;
-/// elsewhere error is unreliable, infinite or NaN.
-/// Cost: 2 operations with hardware FMA, else 17. Source: Dekker 1971 (TwoProduct).
-/// Proof: proofs/ErrorFree.v, two_product_exact, two_product_fma_exact.
+/// a·b = value + error exactly, value = a ⊙ b, if product_error_is_exact(a, b, result); otherwise
+/// error is unreliable, infinite or NaN. Cost: 2 operations with hardware FMA, otherwise 17.
+/// Source: Dekker 1971 (TwoProduct). Proof: proofs/ErrorFree.v, two_product_exact,
+/// two_product_fma_exact.
 template <class T>
 constexpr with_error<T> two_product(const T& a, const T& b) {
     const T v = detail::rounded_product(a, b);
@@ -108,17 +101,15 @@ constexpr with_error<T> two_product(const T& a, const T& b) {
     return {v, middle + detail::rounded_product(a_low, b_low)};
 }
 
-/// True if two_product(a, b)'s result is known to be exact: |a|, |b| <= largest()/2^(s+2) (2^995
-/// for double, 2^114 for float), s = ⌈p/2⌉, and an operand is zero or the product is far enough
-/// from underflow, |value| >= 2^(2p)·η (2^-968 for double, 2^-101 for float), and from overflow,
-/// |value| <= largest()/4. Derivation: the error, and each number on Dekker's way to it, is a
-/// multiple of ulp(a)·ulp(b), so it suffices that this power of two is at least η. Since
-/// |a| < 2^p·ulp(a), |ab| >= 2^(2p)·η makes it larger than η·|ab|/(2^(2p)·η); and
-/// |ab| >= |value|/(1 + u), so it is larger than η/2. Fused multiply-add would find the error of
-/// large numbers, even times zero, and Dekker's product would not; both leave them out, so that
-/// bounds are the same on all processors: what is multiplied in split() is below 2^(s+1)·|x|, and
-/// higher parts are at most 1.25|x|, so that nothing on Dekker's way is above half of largest().
-/// Proof: proofs/IeeeInterval.v, product_known.
+/// True if two_product(a, b)'s result is known to be exact: |a|, |b| <= largest()/2^(s+2), s =
+/// ⌈p/2⌉ (2^995 for double, 2^114 for float); and an operand is zero, or 2^(2p)·η <= |value| <=
+/// largest()/4 (from 2^-968 for double, 2^-101 for float). The limits are the same with and without
+/// FMA.
+///
+/// Derivation: the error and Dekker's intermediate results are multiples of ulp(a)·ulp(b), which
+/// must be at least η; |a| < 2^p·ulp(a) and |ab| >= |value|/(1 + u). Products in split() are below
+/// 2^(s+1)·|x|, higher parts at most 1.25|x|: no overflow. Proof: proofs/IeeeInterval.v,
+/// product_known.
 template <class T>
 constexpr bool product_error_is_exact(const T& a, const T& b, const with_error<T>& product) {
     using traits = number_traits<T>;
@@ -133,19 +124,18 @@ constexpr bool product_error_is_exact(const T& a, const T& b, const with_error<T
            traits::underflow_unit() / traits::unit_roundoff() / traits::unit_roundoff();
 }
 
-/// The remainder a − q·b of a rounded quotient q = a ⊘ b, b finite and not zero.
+/// The remainder a − q·b of a rounded quotient q = a ⊘ b. Precondition: b finite and not zero.
 template <class T>
 struct division_remainder {
     T value;
-    bool exact;  ///< value is the remainder; else it is unreliable, infinite or NaN
+    bool exact;  ///< otherwise value is unreliable, infinite or NaN
 };
 
-/// Derivation, where two_product(q, b) = (v, e) is exact: q ≠ 0 is within half of itself of a/b, so
-/// v is between a/2 and 2a and a − v is exact (Sterbenz). The remainder (a − v) − e is a multiple
-/// of ulp(q)·ulp(b), which is at least η, and at most |b|·ulp(q)/2: fewer than p bits, so exact
-/// too. Cost: a two_product and 2 operations. Source: Pichat 1976; Bohlender, Walter, Kornerup,
-/// Matula 1991. Proof: proofs/ErrorFree.v, remainder_of_division_exact; with what may overflow,
-/// proofs/IeeeInterval.v, remainder_known.
+/// If two_product(q, b) = (v, e) is exact, v is between a/2 and 2a and a − v is exact (Sterbenz).
+/// (a − v) − e is a multiple of ulp(q)·ulp(b) >= η and at most |b|·ulp(q)/2, so exact. Cost: a
+/// two_product and 2 operations. Source: Pichat 1976; Bohlender, Walter, Kornerup, Matula 1991.
+/// Proof: proofs/ErrorFree.v, remainder_of_division_exact; with overflow, proofs/IeeeInterval.v,
+/// remainder_known.
 template <class T>
 constexpr division_remainder<T> remainder_of_division(const T& a, const T& b, const T& q) {
     using traits = number_traits<T>;
@@ -155,12 +145,9 @@ constexpr division_remainder<T> remainder_of_division(const T& a, const T& b, co
     return {(a - product.value) - product.error, exact};
 }
 
-/// The remainder x − v² of a rounded root v = √x, x >= 0 finite.
-///
-/// Derivation, where two_product(v, v) = (p, e) is exact and v is not 0: x − p is exact (Sterbenz),
-/// and x − v² is a multiple of ulp(v)², at most v·ulp(v) in size: since |√x − v| <= ulp(v)/2, it is
-/// at most v·ulp(v) + ulp(v)²/4. Cost: as of a quotient. Source: Bohlender, Walter, Kornerup,
-/// Matula 1991. Proof: proofs/IeeeSlopes.v, remainder_of_root_known.
+/// The remainder x − v² of a rounded root v = √x, x >= 0 finite. If two_product(v, v) is exact and
+/// v ≠ 0: |√x − v| <= ulp(v)/2, so x − v² is a multiple of ulp(v)², at most v·ulp(v) in size. Cost
+/// and source: as remainder_of_division. Proof: proofs/IeeeSlopes.v, remainder_of_root_known.
 template <class T>
 constexpr division_remainder<T> remainder_of_root(const T& x, const T& v) {
     return remainder_of_division(x, v, v);

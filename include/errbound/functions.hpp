@@ -1,16 +1,13 @@
-// Functions of tracked numbers: square root, fused multiply and add, absolute value, lesser and
-// greater, midpoint and linear interpolation, length, sign of another number, whole powers; dot
-// products and Horner's rule.
+// Functions of tracked numbers: sqrt, fma, abs, min, max, midpoint, lerp, hypot, copysign, pow with
+// whole exponents, dot and horner.
 //
 //   errbound::tracked<double> x = ...;
 //   sqrt(x * x + y * y);            // found by its argument: no errbound:: is needed
 //
-// They take a number for what any rule says of it, |value() − x| <= error(), and hand the rule back
-// what is known of the result (tracked::within). What is not known not to be in a function's
-// domain gives a result of which nothing is known.
-//
-// Derivations are of numbers rounded in any direction, ε = 2u: a rounded result keeps at least
-// 1 − ε of a bound, but for η where it underflows.
+// They use |value() − x| <= error(), which every rule gives, and return tracked::within. If an
+// argument may lie outside the domain, the result's error is infinite. Derivations hold in any
+// rounding direction, ε = 2u: a rounded result keeps at least 1 − ε of a bound, less η if it
+// underflows.
 #pragma once
 
 #include <cassert>
@@ -26,15 +23,14 @@ namespace errbound {
 
 namespace detail {
 
-/// That of MinGW-w64 computes in long double, rounds that, and then once more.
+/// MinGW-w64 computes fma in long double and rounds twice.
 #if defined(__MINGW32__) && !defined(__FMA__)
 inline constexpr bool fma_rounds_once = false;
 #else
 inline constexpr bool fma_rounds_once = true;
 #endif
 
-/// Pays for up to six roundings on the way to a bound, as in the rule `tight`: (1 + 8ε)(1 − ε)^6
-/// > 1.
+/// Pays for up to six roundings in a bound: (1 + 8ε)(1 − ε)^6 > 1.
 template <class T>
 constexpr T enlarged(const T& bound) {
     return rounded_product(bound, T(1 + 8 * number_traits<T>::epsilon()));
@@ -48,7 +44,7 @@ constexpr T rounding_of(const T& v) {
            traits::underflow_unit();
 }
 
-/// Whether the rule bounds quotients, and does not only say why it has none.
+/// True if the rule bounds quotients, rather than only naming the reason for having none.
 template <class Rule, class T>
 inline constexpr bool rule_divides = [] {
     if constexpr (requires { Rule::has_division; })
@@ -57,14 +53,14 @@ inline constexpr bool rule_divides = [] {
         return rule_has_divide<Rule, T>;
 }();
 
-/// A NaN, which formats without infinities have for one, is passed on.
+/// Infinite, or NaN in formats without infinities, if either error is NaN.
 template <class T, class Rule>
 constexpr T larger_error(const tracked<T, Rule>& a, const tracked<T, Rule>& b) {
     const T x = a.error(), y = b.error();
     return x <= y ? y : y <= x ? x : number_traits<T>::infinity();
 }
 
-/// a if it is certainly not greater than b; else a's value, known as well as the worse of the two.
+/// a if it is certainly not greater than b; otherwise a's value with the larger error.
 template <class T, class Rule>
 constexpr tracked<T, Rule> lesser_or_either(const tracked<T, Rule>& a, const tracked<T, Rule>& b) {
     const sign_type order = compare(a, b);
@@ -76,17 +72,15 @@ constexpr tracked<T, Rule> lesser_or_either(const tracked<T, Rule>& a, const tra
 
 namespace detail {
 
-/// √x by x.error(). With e = x.error() and x̂ = x.value(): |√x − √x̂| = |x − x̂|/(√x + √x̂) <= e/(√x̂ +
-/// √(x̂ − e)), and the computed root of x̂ is off by a rounding of its own. The divisor is rounded up
-/// to three times on its way ((x̂ − e), its root, the sum; v itself is one), the quotient and the
-/// sum once each. Proof: proofs/IeeeFunctions.v, sqrt_known; in any direction, proofs/Functions.v,
-/// sqrt_sound.
+/// √x by e = x.error(), x̂ = x.value(): |√x − √x̂| = |x − x̂|/(√x + √x̂) <= e/(√x̂ + √(x̂ − e)),
+/// and v = fl(√x̂) adds a rounding. Up to five roundings. Proof: proofs/IeeeFunctions.v,
+/// sqrt_known; in any direction, proofs/Functions.v, sqrt_sound.
 template <class T, class Rule>
 constexpr tracked<T, Rule> root_by_error(const tracked<T, Rule>& x) {
     using traits = number_traits<T>;
     using number = tracked<T, Rule>;
     const T v = traits::sqrt(x.value()), e = x.error();
-    // x̂ < e: a difference that is not 0 does not round to 0.
+    // x̂ < e: a nonzero difference does not round to 0.
     if (!(x.value() >= e)) return number::within(v, traits::infinity());
     if (e == 0) {
         const with_error<T> square = two_product(v, v);
@@ -99,8 +93,7 @@ constexpr tracked<T, Rule> root_by_error(const tracked<T, Rule>& x) {
                           enlarged<T>(e / divisor + T(rounding_of(v) + traits::underflow_unit())));
 }
 
-/// `by_slope` if it has the value of `by_error` and an error at most an eighth above its error,
-/// else `by_error`. Both stand for the same number.
+/// `by_slope` if it has the same value and an error at most an eighth larger; otherwise `by_error`.
 template <class T, class Rule>
 constexpr tracked<T, Rule> closer(const tracked<T, Rule>& by_error,
                                   const tracked<T, Rule>& by_slope) {
@@ -110,10 +103,9 @@ constexpr tracked<T, Rule> closer(const tracked<T, Rule>& by_error,
     return by_error;
 }
 
-/// √x = v + (x − v²)/(√x + v) by the rule's operations, v the value of `root`, a number that stands
-/// for √x. x − v² is the remainder x̂ − v², which is a T, and x − x̂: its value is that of the error
-/// of v, so that the sum is v again. `root` itself where the remainder is not known.
-/// Proof: proofs/IeeeSlopes.v, sqrt_by_slope_known; of `affine`, affine_slope_sqrt_gives.
+/// √x = v + (x − v²)/(√x + v) by the rule's operations; v is the value of `root`, which stands for
+/// √x. x − v² is the remainder x̂ − v², a T, plus x − x̂. Returns `root` if the remainder is
+/// unknown. Proof: proofs/IeeeSlopes.v, sqrt_by_slope_known; of `affine`, affine_slope_sqrt_gives.
 template <class T, class Rule>
 constexpr tracked<T, Rule> root_by_slope(const tracked<T, Rule>& x, const tracked<T, Rule>& root) {
     using number = tracked<T, Rule>;
@@ -130,13 +122,10 @@ constexpr tracked<T, Rule> root_by_slope(const tracked<T, Rule>& x, const tracke
 
 }  // namespace detail
 
-/// √x; unknown where x may be negative. Exact where x is and its root is a T.
-///
-/// By the rule's own square_root where it has one (`interval`); where the rule keeps errors to
-/// first order (`residual`, `affine`), they go through the slope 1/(2v), and the rounding error of
-/// v is known; else from x.error().
-/// Proof: proofs/IeeeSlopes.v, slope_sqrt_known, interval_sqrt_known; proofs/IeeeFunctions.v,
-/// sqrt_known.
+/// √x. Infinite error if x may be negative. Exact if x is and its root is a T. Uses the rule's own
+/// square_root (`interval`), or the slope 1/(2v) if the rule keeps errors to first order
+/// (`residual`, `affine`), otherwise x.error(). Proof: proofs/IeeeSlopes.v, slope_sqrt_known,
+/// interval_sqrt_known; proofs/IeeeFunctions.v, sqrt_known.
 template <class T, class Rule>
 constexpr tracked<T, Rule> sqrt(const tracked<T, Rule>& x) {
     static_assert(has_subnormals<T>, "errbound: sqrt needs a number type with subnormal numbers");
@@ -156,8 +145,7 @@ constexpr tracked<T, Rule> sqrt(const tracked<T, Rule>& x) {
     }
 }
 
-/// |x|, by the sign of its value: off by no more than x, for ||x| − |x̂|| <= |x − x̂|.
-/// Proof: proofs/IeeeFunctions.v, abs_known.
+/// |x| by the value's sign, as ||x| − |x̂|| <= |x − x̂|. Proof: proofs/IeeeFunctions.v, abs_known.
 template <class T, class Rule>
 constexpr tracked<T, Rule> abs(const tracked<T, Rule>& x) {
     const bool below = x.value() < 0;
@@ -167,31 +155,30 @@ constexpr tracked<T, Rule> abs(const tracked<T, Rule>& x) {
     return tracked<T, Rule>::within(number_traits<T>::abs(x.value()), x.error());
 }
 
-/// |x|, by C's name for it. Proof: proofs/IeeeFunctions.v, abs_known.
+/// abs by C's name. Proof: proofs/IeeeFunctions.v, abs_known.
 template <class T, class Rule>
 constexpr tracked<T, Rule> fabs(const tracked<T, Rule>& x) {
     return abs(x);
 }
 
-/// True if value and error are finite: the number is known, and finite.
+/// True if value and error are finite.
 template <class T, class Rule>
 constexpr bool isfinite(const tracked<T, Rule>& x) {
     return number_traits<T>::is_finite(x.value()) && number_traits<T>::is_finite(x.error());
 }
-/// True if the value is NaN: nothing is known of the number.
+/// True if the value is NaN.
 template <class T, class Rule>
 constexpr bool isnan(const tracked<T, Rule>& x) {
     return x.value() != x.value();
 }
 
-/// The lesser of a and b, by their values, as plain arithmetic has it. Where it is not certain that
-/// this is the lesser one, off by no more than the larger of their errors, for |min(a, b) −
-/// min(c, d)| <= max(|a − c|, |b − d|). Proof: proofs/IeeeFunctions.v, min_known.
+/// The operand with the lesser value. If the order is uncertain, the error is the larger of the
+/// two: |min(a, b) − min(c, d)| <= max(|a − c|, |b − d|). Proof: proofs/IeeeFunctions.v, min_known.
 template <class T, class Rule>
 constexpr tracked<T, Rule>(min)(const tracked<T, Rule>& a, const tracked<T, Rule>& b) {
     return b.value() < a.value() ? detail::lesser_or_either(b, a) : detail::lesser_or_either(a, b);
 }
-/// The greater of a and b, likewise. Proof: proofs/IeeeFunctions.v, max_known.
+/// Like min, for the greater value. Proof: proofs/IeeeFunctions.v, max_known.
 template <class T, class Rule>
 constexpr tracked<T, Rule>(max)(const tracked<T, Rule>& a, const tracked<T, Rule>& b) {
     return a.value() < b.value() ? -detail::lesser_or_either(-b, -a)
@@ -200,10 +187,9 @@ constexpr tracked<T, Rule>(max)(const tracked<T, Rule>& a, const tracked<T, Rule
 
 namespace detail {
 
-/// ab + c by errors σ, where v is its rounded value: |v − (ab + c)| <= |v|ε/(1 − ε) + η + |â|σb +
-/// σa(|b̂| + σb) + σc. Each product may lose η where it underflows, and |b̂| + σb, rounded before,
-/// some more of it, which the third η pays where σa(|b̂| + σb) is so small that the factor 1 + 8ε is
-/// lost; the longest way to the bound has six roundings.
+/// ab + c by errors σ, v its rounded value: |v − (ab + c)| <= |v|ε/(1 − ε) + η + |â|σb + σa(|b̂| +
+/// σb) + σc. Each product may lose η by underflow. The third η pays for rounding |b̂| + σb if
+/// σa(|b̂| + σb) is so small that the factor 1 + 8ε is lost. The longest path has six roundings.
 /// Proof: proofs/IeeeFunctions.v, fma_known; in any direction, proofs/Functions.v, fma_sound.
 template <class T, class Rule>
 constexpr tracked<T, Rule> fused_by_error(const T& v, const tracked<T, Rule>& a,
@@ -216,10 +202,10 @@ constexpr tracked<T, Rule> fused_by_error(const T& v, const tracked<T, Rule>& a,
         v, enlarged<T>(rounding_of(v) + (products + T(of_c + 3 * traits::underflow_unit()))));
 }
 
-/// ab + c = v + (âb̂ + ĉ − v) + (a(b − b̂) + (a − â)b̂) + (c − ĉ) by the rule's operations, v the
-/// value of `sum`, a number that stands for ab + c. With âb̂ = p + e and p + ĉ = s + f exactly, the
-/// error of v is (s − v) + f + e. `sum` itself where e or f is not known. Proof:
-/// proofs/IeeeSlopes.v, fma_by_slope_known; of `affine`, affine_slope_fma_gives.
+/// ab + c = v + (âb̂ + ĉ − v) + (a(b − b̂) + (a − â)b̂) + (c − ĉ) by the rule's operations; v is
+/// the value of `sum`, which stands for ab + c. With âb̂ = p + e and p + ĉ = s + f exactly, v's
+/// error is (s − v) + f + e. Returns `sum` if e or f is unknown. Proof: proofs/IeeeSlopes.v,
+/// fma_by_slope_known; of `affine`, affine_slope_fma_gives.
 template <class T, class Rule>
 constexpr tracked<T, Rule> fused_by_slope(const tracked<T, Rule>& a, const tracked<T, Rule>& b,
                                           const tracked<T, Rule>& c, const tracked<T, Rule>& sum) {
@@ -230,7 +216,7 @@ constexpr tracked<T, Rule> fused_by_slope(const tracked<T, Rule>& a, const track
     if (!product_error_is_exact(a.value(), b.value(), product) ||
         !number_traits<T>::is_finite(total.error))
         return sum;
-    // One operation after the other: rules count sources.
+    // One statement per operation: rules count sources in order.
     const number difference = number(total.value) - v;
     const number partial = difference + number(total.error);
     const number rounding = partial + number(product.error);
@@ -247,14 +233,10 @@ constexpr tracked<T, Rule> fused_by_slope(const tracked<T, Rule>& a, const track
 
 }  // namespace detail
 
-/// ab + c, rounded once: by number_traits<T>::fma, which is slow where the processor has none. Does
-/// not compile where the C library's rounds twice.
-///
-/// By the rule's own `fused` where it has one (`interval`); where the rule keeps errors to first
-/// order (`residual`, `affine`), they go through the derivatives, and the rounding error of the
-/// value is known; else from the errors of a, b and c.
-/// Proof: proofs/IeeeSlopes.v, slope_fma_known, interval_fma_known; proofs/IeeeFunctions.v,
-/// fma_known.
+/// ab + c, rounded once by number_traits<T>::fma; does not compile if that rounds twice. Uses the
+/// rule's own `fused` (`interval`), or derivatives if the rule keeps errors to first order
+/// (`residual`, `affine`), otherwise the errors of a, b and c. Proof: proofs/IeeeSlopes.v,
+/// slope_fma_known, interval_fma_known; proofs/IeeeFunctions.v, fma_known.
 template <class T, class Rule>
 constexpr tracked<T, Rule> fma(const tracked<T, Rule>& a, const tracked<T, Rule>& b,
                                const tracked<T, Rule>& c) {
@@ -264,7 +246,7 @@ constexpr tracked<T, Rule> fma(const tracked<T, Rule>& a, const tracked<T, Rule>
     using number = tracked<T, Rule>;
     const T v = number_traits<T>::fma(a.value(), b.value(), c.value());
     const auto is_zero = [](const number& x) { return x.value() == 0 && x.error() == 0; };
-    // c's value is v then.
+    // c's value is v here.
     if ((is_zero(a) || is_zero(b)) && number_traits<T>::is_finite(v)) return c;
     if constexpr (detail::rule_has_fused<Rule, T>) {
         return number::from_bound(
@@ -278,25 +260,22 @@ constexpr tracked<T, Rule> fma(const tracked<T, Rule>& a, const tracked<T, Rule>
     }
 }
 
-/// (a + b)/2, as the rule has sum and scaling; where the sum overflows, the sum of halves.
-/// Proof: proofs/IeeeCompound.v, midpoint_known.
+/// (a + b)/2; the sum of halves if a + b overflows. Proof: proofs/IeeeCompound.v, midpoint_known.
 template <class T, class Rule>
 constexpr tracked<T, Rule> midpoint(const tracked<T, Rule>& a, const tracked<T, Rule>& b) {
     const tracked<T, Rule> sum = a + b;
     if (number_traits<T>::is_finite(sum.value()) && number_traits<T>::is_finite(sum.error()))
         return scale(sum, -1);
-    const tracked<T, Rule> half = scale(a, -1);  // one after the other: rules count sources
+    const tracked<T, Rule> half = scale(a, -1);  // one statement each: rules count sources
     return half + scale(b, -1);
 }
 
-/// a + t(b − a); a where t is certainly 0, b where it is certainly 1. Unknown where b − a
-/// overflows.
+/// a + t(b − a); a if t is exactly 0, b if it is exactly 1. Infinite error if b − a overflows.
 ///
-/// With d = fl(b̂ − â) and v = fl(t̂d + â), errors σ: (1 − t)a + tb − (1 − t̂)â − t̂b̂ = (1 − t)(a − â)
-/// + t(b − b̂) + (t − t̂)(b̂ − â), so that σa counts |1 − t| times, not once and |t| times as in
-/// a + t(b − a). Each of two partial sums has up to six roundings with that of its enlarging; four
-/// products, and three that enlarge, may lose η each.
-/// Proof: proofs/IeeeCompound.v, lerp_known; in any direction, proofs/Functions.v, lerp_sound.
+/// With v = fl(t̂·fl(b̂ − â) + â) and errors σ: (1 − t)a + tb − (1 − t̂)â − t̂b̂ = (1 − t)(a − â) +
+/// t(b − b̂) + (t − t̂)(b̂ − â), so σa counts |1 − t| times, not 1 + |t|. Two partial sums have up
+/// to six roundings each; seven products may lose η each. Proof: proofs/IeeeCompound.v, lerp_known;
+/// in any direction, proofs/Functions.v, lerp_sound.
 template <class T, class Rule>
 constexpr tracked<T, Rule> lerp(const tracked<T, Rule>& a, const tracked<T, Rule>& b,
                                 const tracked<T, Rule>& t) {
@@ -319,12 +298,11 @@ constexpr tracked<T, Rule> lerp(const tracked<T, Rule>& a, const tracked<T, Rule
                                (from_ends + T(from_t + 8 * traits::underflow_unit()))));
 }
 
-/// √(x² + y²), without overflow or underflow on the way; from 8 bits of precision on.
+/// √(x² + y²), without intermediate overflow or underflow, for at least 8 bits of precision.
 ///
-/// It changes by no more than its arguments do. With the larger argument scaled to at least 1/2,
-/// two squares, their sum s >= 1/4 and its root are each rounded once, and what underflows is off
-/// by less than 3η of s: relatively 2ε + ε² + 7η, or of the result (ε <= 2^-7) less than 3ε + 8η.
-/// Proof, to nearest: proofs/IeeeCompound.v, hypot_known.
+/// Its change is at most its arguments'. With the larger one scaled to at least 1/2, four roundings
+/// and underflow below 3η of the sum are relatively 2ε + ε² + 7η, of the result (ε <= 2^-7) less
+/// than 3ε + 8η. Proof, to nearest: proofs/IeeeCompound.v, hypot_known.
 template <class T, class Rule>
 constexpr tracked<T, Rule> hypot(const tracked<T, Rule>& x, const tracked<T, Rule>& y) {
     using traits = number_traits<T>;
@@ -334,7 +312,7 @@ constexpr tracked<T, Rule> hypot(const tracked<T, Rule>& x, const tracked<T, Rul
                   "subnormal numbers");
     const T larger = (traits::max)(traits::abs(x.value()), traits::abs(y.value()));
     const T inherited = x.error() + y.error();
-    // A number that is not finite is among the errors, too.
+    // A value that is not finite has an infinite error.
     if (!traits::is_finite(inherited)) return number::within(larger, traits::infinity());
     if (larger == 0) return number::within(T(0), detail::enlarged<T>(inherited));
     const int e = traits::exponent(larger);
@@ -346,9 +324,9 @@ constexpr tracked<T, Rule> hypot(const tracked<T, Rule>& x, const tracked<T, Rul
                                                  T(inherited + 2 * traits::underflow_unit())));
 }
 
-/// |x| with the sign of the exact y, zero's taken for positive; of unknown sign where y's is, and
-/// unknown where y is, which then may not exist. Proof: proofs/IeeeCompound.v, copysign_known; in
-/// any direction, proofs/Functions.v, copysign_sound.
+/// |x| with the sign of the exact y; zero counts as positive. If y's sign is uncertain, so is the
+/// result's; if y has no finite bound, the error is infinite. Proof: proofs/IeeeCompound.v,
+/// copysign_known; in any direction, proofs/Functions.v, copysign_sound.
 template <class T, class Rule>
 constexpr tracked<T, Rule> copysign(const tracked<T, Rule>& x, const tracked<T, Rule>& y) {
     const tracked<T, Rule> size = abs(x);
@@ -361,9 +339,8 @@ constexpr tracked<T, Rule> copysign(const tracked<T, Rule>& x, const tracked<T, 
     return tracked<T, Rule>::within(v, detail::enlarged<T>(2 * size.value() + size.error()));
 }
 
-/// x^n by repeated squaring, as the rule has products; x^0 is 1. For n < 0, 1/x^|n|, unknown by a
-/// rule without quotients. Other exponents than whole numbers of the language:
-/// errbound/elementary.hpp. Proof: proofs/IeeeCompound.v, pow_known.
+/// x^n by repeated squaring; x^0 is 1. For n < 0 1/x^|n|, with infinite error for a rule without
+/// division. Other exponents: errbound/elementary.hpp. Proof: proofs/IeeeCompound.v, pow_known.
 template <class T, class Rule, std::same_as<int> Int>
 constexpr tracked<T, Rule> pow(const tracked<T, Rule>& x, Int n) {
     using number = tracked<T, Rule>;
@@ -396,8 +373,7 @@ concept plain_tracked = requires {
 
 }  // namespace detail
 
-/// Tracked numbers that are found by their index and can be counted: an array, std::vector,
-/// std::span, a vector of Eigen's.
+/// A range of tracked numbers with index and size: an array, std::vector, std::span, Eigen vector.
 template <class Range>
 concept tracked_numbers = requires(const Range& range) {
     std::begin(range)[0];
@@ -407,7 +383,6 @@ concept tracked_numbers = requires(const Range& range) {
 
 namespace detail {
 
-/// An iterator may return a number or a reference to one.
 template <class Range>
 constexpr decltype(auto) number_at(const Range& range, std::size_t i) {
     using difference = typename std::iterator_traits<
@@ -415,7 +390,6 @@ constexpr decltype(auto) number_at(const Range& range, std::size_t i) {
     return std::begin(range)[static_cast<difference>(i)];
 }
 
-/// What `dot` returns, of numbers a(i) and b(i).
 template <class T, class Rule, class A, class B>
 constexpr tracked<T, Rule> dot_of(std::size_t count, const A& a, const B& b) {
     using number = tracked<T, Rule>;
@@ -433,7 +407,7 @@ constexpr tracked<T, Rule> dot_of(std::size_t count, const A& a, const B& b) {
         number sum(0);
         for (std::size_t i = 0; i < count; ++i) {
             const number product = a(i) * b(i);
-            // To 0 it is added exactly: its bound stays, and −0 becomes 0.
+            // Adding to 0 is exact: the bound stays, and −0 becomes 0.
             sum = i == 0 ? number::from_bound(T(0) + product.value(), product.bound())
                          : sum + product;
         }
@@ -441,7 +415,6 @@ constexpr tracked<T, Rule> dot_of(std::size_t count, const A& a, const B& b) {
     }
 }
 
-/// What `horner` returns, of coefficients c(i).
 template <class T, class Rule, class C>
 constexpr tracked<T, Rule> horner_of(std::size_t count, const C& c, const tracked<T, Rule>& x) {
     using number = tracked<T, Rule>;
@@ -456,7 +429,7 @@ constexpr tracked<T, Rule> horner_of(std::size_t count, const C& c, const tracke
             there = there * at + c(i);
             slope = slope * x + there;
         }
-        // The values are result's, and about 0: by it only the sign of a zero could differ.
+        // The values are result's and near 0; only the sign of a zero could differ.
         const number change = slope * (x - at);
         const number by_slope = (there * at + c(0)) + change;
         const bool loses_sign = certain(sign_of(result)) && !certain(sign_of(by_slope));
@@ -468,17 +441,14 @@ constexpr tracked<T, Rule> horner_of(std::size_t count, const C& c, const tracke
 
 }  // namespace detail
 
-/// a₀b₀ + a₁b₁ + ...; 0 of none. The value is that of s = 0, s = s + aᵢbᵢ in order, each operation
-/// rounded by itself.
+/// a₀b₀ + a₁b₁ + ...; 0 if empty. The value is that of s = 0, s = s + aᵢbᵢ in order, each operation
+/// rounded. Precondition (asserted): a and b have equal size.
 ///
-/// The bound is the rule's dot_bound where it has one (`tight` and `sharp`, from 8 and 5 bits of
-/// precision on: the running error bound; `relative`), and else that of the operations one by one:
-/// for `residual`, which keeps their errors, that is the compensated dot product (Ogita, Rump,
-/// Oishi 2005). It is no larger than that of the operations but for a last place or two of the
-/// bound itself, and in the worst case about nuΣ|aᵢbᵢ| where arguments are exact, as a bound from
-/// magnitudes alone always is. Cost: under `tight` and `sharp` fewer operations than one by one.
-/// Precondition, which is asserted: a and b are of one size.
-/// Proof: proofs/IeeeDotProduct.v, tight_dot_known, sharp_dot_known; proofs/IeeeRelative.v,
+/// The bound is the rule's dot_bound (`relative`; `tight` and `sharp`, from 8 and 5 bits of
+/// precision on: the running error bound), which costs less and exceeds that of the operations by a
+/// last place or two at most. Otherwise that of the operations: for `residual` the compensated dot
+/// product (Ogita, Rump, Oishi 2005). The worst case for exact arguments is about nuΣ|aᵢbᵢ|. Proof:
+/// proofs/IeeeDotProduct.v, tight_dot_known, sharp_dot_known; proofs/IeeeRelative.v,
 /// relative_dot_known; of operations one by one, proofs/IeeeCompound.v, dot_known.
 template <tracked_numbers A, tracked_numbers B>
 requires std::same_as<detail::number_of<A>, detail::number_of<B>>
@@ -491,16 +461,14 @@ constexpr detail::number_of<A> dot(const A& a, const B& b) {
         [&](std::size_t i) -> decltype(auto) { return detail::number_at(b, i); });
 }
 
-/// c₀ + c₁x + c₂x² + ...; 0 of none. The value is that of Horner's rule, s = cₙ, s = s·x + cᵢ, each
-/// operation rounded by itself.
+/// c₀ + c₁x + c₂x² + ...; 0 if empty. The value is that of Horner's rule, s = cₙ, s = s·x + cᵢ,
+/// each operation rounded.
 ///
-/// The bound is that of these operations or, where x is not exact, that of p(x̂) + q(x)(x − x̂),
-/// with x̂ = x.value(), if it is less: p(t) = p(x̂) + q(t)(t − x̂) for the polynomial q whose
-/// coefficients are the partial results of Horner's rule at x̂ (synthetic division). One operation
-/// after the other, errors of x add up as if they were different numbers'; this way they count as
-/// often as p'(x̂) says, and |x − x̂|² times what is of second order. Cost: that of the operations,
-/// and twice more where x is not exact.
-/// Proof: proofs/IeeeCompound.v, horner_known; of `tight` in any direction, proofs/Compound.v,
+/// The bound is that of these operations. If x is not exact, it is that of p(x̂) + q(x)(x − x̂) if
+/// that is less; x̂ = x.value(), and q's coefficients are the partial results at x̂ (synthetic
+/// division). So x's error counts p'(x̂) times, plus second order in |x − x̂|², not once per
+/// occurrence. Cost: three times that of the operations if x is not exact. Proof:
+/// proofs/IeeeCompound.v, horner_known; of `tight` in any direction, proofs/Compound.v,
 /// tight_horner_sound.
 template <tracked_numbers C>
 constexpr detail::number_of<C> horner(const C& c,

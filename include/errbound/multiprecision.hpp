@@ -1,10 +1,8 @@
-// Boost.Multiprecision's numbers as errbound scalars (optional header; needs Boost): which are
-// exact.
+// Boost.Multiprecision's exact numbers as errbound scalars (optional header; needs Boost).
 //
-// Its floating-point numbers of a fixed precision that round to nearest, cpp_bin_float and
-// mpfr_float with a number of digits, are number types as they are, tracked<cpp_bin_float_100>,
-// without this header. They have no subnormal numbers: the rule is `tight`, and sqrt and fma do not
-// compile. MPFR's range of exponents must be the one that it starts with.
+// Floating-point numbers of fixed precision (cpp_bin_float, mpfr_float with a number of digits)
+// need no header: tracked<cpp_bin_float_100>. They must round to nearest, MPFR's in the default
+// exponent range. Without subnormal numbers, use the rule `tight`; sqrt and fma do not compile.
 #pragma once
 
 #include <boost/multiprecision/number.hpp>
@@ -13,8 +11,8 @@
 
 namespace errbound {
 
-/// Integers and rationals of unbounded size are exact; fixed-size ones, which wrap around,
-/// and floating-point ones are not.
+/// Integers and rationals of unbounded size are exact. Fixed-size integers wrap around and
+/// floating-point numbers round, so they are not.
 template <class Backend, boost::multiprecision::expression_template_option Et>
 inline constexpr bool is_exact_number<boost::multiprecision::number<Backend, Et>> =
     !std::numeric_limits<boost::multiprecision::number<Backend, Et>>::is_bounded &&

@@ -1,4 +1,4 @@
-// Facts about a floating-point number type: unit roundoff, underflow unit, exponents.
+// Facts about a floating-point type: unit roundoff, underflow unit, exponents.
 #pragma once
 
 #include <cmath>
@@ -8,10 +8,10 @@
 
 namespace errbound {
 
-/// What std::ldexp and std::frexp give, for constant expressions: some compilers' are none.
+/// std::ldexp and std::frexp for constant expressions, where some compilers' do not work.
 namespace detail {
 
-/// By steps of which one rounds at most: the last that does not make it 0.
+/// In steps, of which at most one rounds: the last that does not give 0.
 template <class T>
 constexpr T scaled_by_steps(const T& x, int e) {
     constexpr int most = std::numeric_limits<T>::max_exponent, step = most - most / 8;
@@ -34,7 +34,7 @@ constexpr int exponent_by_steps(const T& x) {
     return e;
 }
 
-/// Whether fused products of the type are an instruction, not the C library's.
+/// True if fma of this type is an instruction, not a call of the C library.
 template <class T>
 inline constexpr bool fma_is_instruction =
 #if defined(__FP_FAST_FMA) || defined(__FMA__) || defined(__AVX512F__) || defined(__CUDA_ARCH__)
@@ -45,29 +45,25 @@ inline constexpr bool fma_is_instruction =
 
 }  // namespace detail
 
-/// Specialise for a type of one's own (a SIMD pack, a multi-precision float); the defaults serve
-/// every type with a std::numeric_limits.
+/// Specialise for a custom type (a SIMD pack). Types with a std::numeric_limits need nothing.
 template <class T>
 struct number_traits {
     static_assert(std::numeric_limits<T>::is_specialized && !std::numeric_limits<T>::is_integer,
                   "errbound: specialise errbound::number_traits for this number type");
     static_assert(!std::is_floating_point_v<T> || detail::is_ieee_format<T>,
                   "errbound: not an IEEE 754 binary format, as long double on some PowerPC");
-    static_assert(
-        std::numeric_limits<T>::radix == 2 &&
-            std::numeric_limits<T>::digits < (std::numeric_limits<int>::max)() &&
-            std::numeric_limits<T>::round_style == std::round_to_nearest,
-        "errbound: numbers must be binary, of a precision that the type says, and rounded "
-        "to nearest");
+    static_assert(std::numeric_limits<T>::radix == 2 &&
+                      std::numeric_limits<T>::digits < (std::numeric_limits<int>::max)() &&
+                      std::numeric_limits<T>::round_style == std::round_to_nearest,
+                  "errbound: numbers must be binary, of fixed precision, and rounded to nearest");
 
-    /// Largest relative error of one rounding in any direction, the paper's ε = 2u: 2^-52 for
-    /// double, 2^-23 for float.
+    /// Largest relative error of one rounding in any direction, the paper's ε = 2u.
     static constexpr T epsilon() { return std::numeric_limits<T>::epsilon(); }
     /// Largest relative error of one rounding to nearest: u = ε/2.
     static constexpr T unit_roundoff() { return epsilon() / 2; }
     /// Smallest positive number: an operation that underflows is off by less than this.
     static constexpr T underflow_unit() {
-        // (Boost.Multiprecision's denorm_min is 0 where there are no subnormal numbers.)
+        // Boost.Multiprecision's denorm_min is 0 if there are no subnormal numbers.
         if constexpr (has_subnormals)
             return std::numeric_limits<T>::denorm_min();
         else
@@ -75,15 +71,15 @@ struct number_traits {
     }
     static constexpr T smallest_normal() { return (std::numeric_limits<T>::min)(); }
     static constexpr T largest() { return (std::numeric_limits<T>::max)(); }
-    /// What overflows; NaN for a format without infinities.
+    /// The result of an overflow; NaN for a format without infinities.
     static constexpr T infinity() { return std::numeric_limits<T>::infinity(); }
     static constexpr bool has_infinity = std::numeric_limits<T>::has_infinity;
     static constexpr int max_exponent = std::numeric_limits<T>::max_exponent;
-    /// 2^(min_exponent − 1) is the smallest normal number, 2^max_exponent just too large
-    /// (the limits of Boost's cpp_bin_float say one less of both).
+    /// 2^(min_exponent − 1) is the smallest normal number; 2^max_exponent is just too large. (The
+    /// limits of Boost's cpp_bin_float are one less for both.)
     static constexpr int min_exponent = std::numeric_limits<T>::min_exponent;
-    /// Whether there are subnormal numbers; else an operation that underflows, a sum too, is off by
-    /// less than the smallest normal one, which the underflow unit then is.
+    /// True if there are subnormal numbers. If not, any operation that underflows, even a sum, is
+    /// off by less than the smallest normal number, which is then the underflow unit.
     static constexpr bool has_subnormals = [] {
         if constexpr (std::is_floating_point_v<T>)
             return true;
@@ -94,7 +90,7 @@ struct number_traits {
     static constexpr int digits = std::numeric_limits<T>::digits;
 
     static constexpr T abs(const T& x) {
-        // One instruction, which the comparison is not: it keeps the sign of zeros.
+        // One instruction, unlike the comparison, which keeps the sign of zeros.
         if constexpr (std::is_floating_point_v<T>)
             if (!std::is_constant_evaluated()) return std::fabs(x);
         return x < 0 ? -x : x;
@@ -108,20 +104,20 @@ struct number_traits {
     }
     /// ab + c, rounded once.
     static constexpr T fma(const T& a, const T& b, const T& c) {
-        // (Boost.Multiprecision's rounds twice, and libstdc++'s of 16 bits.)
+        // Boost.Multiprecision's fma rounds twice, as does libstdc++'s for 16 bits.
         static_assert(std::is_floating_point_v<T> && sizeof(T) >= sizeof(float),
                       "errbound: specialise errbound::number_traits for an fma that rounds once");
 #ifdef __MINGW32__
-        // The C library's rounds twice, and without optimisation std::fma is a call of it.
+        // The C library's fma rounds twice, and std::fma calls it without optimisation.
         static_assert(detail::fma_is_instruction<T>,
-                      "errbound: this C library's fma rounds twice; of float and double compile "
-                      "with -mfma");
+                      "errbound: this C library's fma rounds twice; for float and double "
+                      "compile with -mfma");
         if constexpr (sizeof(T) == sizeof(float))
             return __builtin_fmaf(a, b, c);
         else
             return __builtin_fma(a, b, c);
 #else
-        // Of a product that underflows musl's loses the sign when it adds zero.
+        // If a product underflows, musl's fma loses its sign when it adds zero.
         if constexpr (!detail::fma_is_instruction<T>)
             if (c == 0 && a != 0 && b != 0) return a * b;
         return std::fma(a, b, c);
@@ -145,8 +141,8 @@ struct number_traits {
     }
 };
 
-/// Whether T has infinities; a number_traits of one's own that does not say so has them. One
-/// without has NaN for what overflows, and a `max` that passes NaN on.
+/// True if T has infinities, or if its custom number_traits does not define has_infinity. A type
+/// without infinities overflows to NaN, and its `max` passes NaN on.
 template <class T>
 inline constexpr bool has_infinity = [] {
     if constexpr (requires { number_traits<T>::has_infinity; })
@@ -157,8 +153,7 @@ inline constexpr bool has_infinity = [] {
 
 namespace detail {
 
-/// The type that holds T's numbers and makes its operations, which then round once more; T if there
-/// is none: number_traits<T>::computed_in.
+/// The type that computes T's operations, which then round once more: computed_in, or T.
 template <class T>
 struct type_that_computes {
     using type = T;
@@ -173,7 +168,7 @@ struct type_that_computes<T> {
 
 }  // namespace detail
 
-/// Whether T has subnormal numbers; a number_traits of one's own that does not say so has them.
+/// True if T has subnormal numbers, or if its custom number_traits does not define has_subnormals.
 template <class T>
 inline constexpr bool has_subnormals = [] {
     if constexpr (requires { number_traits<T>::has_subnormals; })

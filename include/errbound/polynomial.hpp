@@ -5,23 +5,10 @@
 //   roots.refine(0, 1e-30);                             // roots[0].low < √2 < roots[0].high
 //   roots.sign_at(errbound::polynomial{-1.5, 1.0}, 0);  // of x − 1.5 at √2: negative
 //
-// Coefficients: double or float, which are exact numbers; built-in integers; integers or rationals
-// of unbounded size, errbound::integer or Boost.Multiprecision's; or tracked numbers, with answers
-// that say so where the coefficients' errors leave them open.
-// Intervals are closed; their ends are doubles, also infinite ones, or the same number twice.
-// Preconditions, which are asserted: coefficients are finite, and a <= b (no NaN, and not both the
-// same infinity). refine throws std::invalid_argument unless its width is positive and finite.
-//
-// Each question is asked in floating point with certified bounds first, then in integers: in
-// errbound::integer, in the coefficients' own where these are of unbounded size, or in a type that
-// is named, as in count_roots<mpz_int>(p, a, b) with errbound/multiprecision.hpp.
-// Allocates; throws only std::bad_alloc, after which roots that were found can be asked on. (GMP's
-// integers end the program instead.) Time and memory are bounded by degree and size of the
-// coefficients; where the first stage decides, by some hundred additions times degree².
-//
-// Worst known (./run bench --worst) of count_roots of doubles of 1e-3 to 1e3, and of all
-// magnitudes: degree 3 9 and 80 µs, 8 40 µs and 1.3 ms, 20 80 µs and 4 ms. docs/polynomials.md
-// tells more.
+// Preconditions (asserted): finite coefficients, and a <= b, doubles, not NaN and not both the same
+// infinity. Intervals are closed. Throws only std::bad_alloc, after which roots found before are
+// valid; refine also std::invalid_argument. GMP's integers end the program instead. Cost, bounded
+// by degree and coefficient size: docs/polynomials.md.
 #pragma once
 
 #include <algorithm>
@@ -44,11 +31,11 @@ namespace errbound {
 
 namespace roots {
 
-/// The integer type to decide in: the one named, that of exact coefficients, or the library's own.
+/// The exact integer type: the named one, the type of exact coefficients, or the library's own.
 template <class Named, class C>
 struct integer_for {
     static_assert(exact_number<Named>,
-                  "errbound: the integer type to decide in never overflows: errbound::integer, or "
+                  "errbound: the integer type must never overflow: use errbound::integer, or "
                   "Boost.Multiprecision's cpp_int or GMP's, by errbound/multiprecision.hpp");
     using type = Named;
 };
@@ -69,7 +56,6 @@ struct integer_for<void, C> {
 template <class Named, class C>
 using integer_for_t = typename integer_for<Named, C>::type;
 
-/// What a function of no arguments returns, or nothing if it throws gave_up.
 template <class Find>
 auto unless_given_up(const Find& find) -> std::optional<decltype(find())> {
     try {
@@ -81,13 +67,18 @@ auto unless_given_up(const Find& find) -> std::optional<decltype(find())> {
 
 }  // namespace roots
 
-/// The distinct roots of p in [a, b], a <= b, each in an interval of its own, with multiplicities.
+/// The distinct roots of p in [a, b], a <= b, in disjoint intervals, with multiplicities.
+///
+/// Coefficients: double, float, built-in integers, unbounded integers or rationals
+/// (errbound::integer, Boost.Multiprecision). Floating point decides first, then integers:
+/// errbound::integer, the coefficients' own type, or a named one, as in count_roots<mpz_int>(p, a,
+/// b).
 template <class Integer = void, class C>
 auto isolate_roots(const polynomial<C>& p, double a, double b) {
     using exact = roots::integer_for_t<Integer, C>;
     return real_roots<exact>(roots::staged<exact>(p), a, b);
 }
-/// The same, or nothing where it would go beyond the limits.
+/// Same as above, or nothing if the work would exceed the limits.
 template <class Integer = void, class C>
 auto isolate_roots(const polynomial<C>& p, double a, double b, const root_limits& limits) {
     using exact = roots::integer_for_t<Integer, C>;
@@ -95,9 +86,8 @@ auto isolate_roots(const polynomial<C>& p, double a, double b, const root_limits
         [&] { return real_roots<exact>(roots::staged<exact>(p), a, b, limits); });
 }
 
-/// The distinct real roots of p, ascending, each rounded to the nearest double as nearest_double of
-/// real_roots does: two of them may round to the same. Precondition, which is asserted: p is not
-/// identically zero.
+/// The distinct real roots of p, ascending, each rounded to the nearest double; two may round to
+/// the same one. Precondition (asserted): p is not identically zero.
 template <class Integer = void, class C>
 std::vector<double> rounded_roots(const polynomial<C>& p) {
     constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -116,7 +106,7 @@ std::size_t count_within(const polynomial<C>& p, double a, double b, const root_
     using exact = roots::integer_for_t<Integer, C>;
     assert(roots::is_interval(a, b));
     if constexpr (std::is_same_v<C, double> || std::is_same_v<C, exact>) {
-        // No intervals are made, and no integers copied, where the filter decides.
+        // If the filter decides, no intervals are made and no integers copied.
         const auto c = roots::floating_coefficients(p.coefficients());
         const std::size_t zeros = roots::leading_zeros(c);
         const std::span others(c.begin() + static_cast<std::ptrdiff_t>(zeros), c.end());
@@ -137,24 +127,23 @@ template <class Integer = void, class C>
 std::size_t count_roots(const polynomial<C>& p, double a, double b) {
     return roots::count_within<Integer>(p, a, b, {});
 }
-/// The same, or nothing where it would go beyond the limits.
+/// Same as above, or nothing if the work would exceed the limits.
 template <class Integer = void, class C>
 std::optional<std::size_t> count_roots(const polynomial<C>& p, double a, double b,
                                        const root_limits& limits) {
     return roots::unless_given_up([&] { return roots::count_within<Integer>(p, a, b, limits); });
 }
 
-/// The same of a polynomial whose coefficients are known within bounds: nothing if polynomials
-/// within them may differ in it, as far as floating point can tell. Of rules that store the
-/// absolute error and nothing else: tight and sharp.
+/// The count, if floating point proves it equal for all polynomials within the coefficients'
+/// bounds; otherwise nothing. For rules that store only the absolute error: tight and sharp.
 template <class Rule>
 std::optional<std::size_t> count_roots(const polynomial<tracked<double, Rule>>& p, double a,
                                        double b) {
     static_assert(roots::absolute_rule<Rule>,
-                  "errbound: count_roots takes tracked numbers by a rule that stores the absolute "
-                  "error alone, as tight and sharp do: make such by within(x.value(), x.error())");
+                  "errbound: count_roots needs a rule that stores only the absolute error, as "
+                  "tight and sharp do: convert by within(x.value(), x.error())");
     assert(roots::is_interval(a, b));
-    // The filter is asked for roots other than 0.
+    // The filter needs roots other than 0.
     std::span others(p.coefficients());
     while (!others.empty() && others[0].value() == 0 && others[0].error() == 0)
         others = others.subspan(1);
@@ -179,13 +168,13 @@ auto common_factor(const polynomial<C>& p, const polynomial<C>& q) {
         roots::common_factor(roots::staged<exact>(p).exact(), roots::staged<exact>(q).exact()));
 }
 
-/// The roots that p and q have in common in [a, b], a <= b, with the lower of their multiplicities.
+/// The common roots of p and q in [a, b], a <= b, with the lower multiplicity.
 template <class Integer = void, class C>
 auto common_roots(const polynomial<C>& p, const polynomial<C>& q, double a, double b) {
     return isolate_roots(common_factor<Integer>(p, q), a, b);
 }
 
-/// The signs that p takes on [a, b], a <= b.
+/// The signs of p on [a, b], a <= b.
 template <class Integer = void, class C>
 occurring_signs sign_on(const polynomial<C>& p, double a, double b) {
     using exact = roots::integer_for_t<Integer, C>;
@@ -207,7 +196,6 @@ bernstein<S, N> form_on(const std::vector<S>& f, const S& a, const S& b, std::si
     }
 }
 
-/// What BSC says for a cubic f and M quartics g on [a, b].
 template <std::size_t M, class Integer>
 existence by_bsc(const staged_polynomial<Integer>& f,
                  const std::vector<staged_polynomial<Integer>>& g, double a, double b) {
@@ -219,7 +207,7 @@ existence by_bsc(const staged_polynomial<Integer>& f,
     });
 }
 
-/// BSC where the degrees allow it, for one to four g.
+/// BSC for one to four g, if the degrees allow.
 template <class Integer>
 existence by_bsc(const staged_polynomial<Integer>& f,
                  const std::vector<staged_polynomial<Integer>>& g, double a, double b) {
@@ -242,10 +230,8 @@ existence by_bsc(const staged_polynomial<Integer>& f,
 
 }  // namespace roots
 
-/// Is there t in [a, b], a <= b, with f(t) = 0 and every g_i(t) >= 0?
-///
-/// Cubic f and one to four quartic g_i on a finite interval are asked by BSC first
-/// (errbound/bsc.hpp).
+/// Is there t in [a, b], a <= b, with f(t) = 0 and every g_i(t) >= 0? BSC (errbound/bsc.hpp) tries
+/// first: cubic f, one to four quartic g_i, a finite interval.
 template <class Integer = void, class C>
 bool root_where_nonnegative(const polynomial<C>& f, const std::vector<polynomial<C>>& g, double a,
                             double b) {
@@ -266,8 +252,8 @@ bool root_where_nonnegative(const polynomial<C>& f, const std::vector<polynomial
         if (quick == existence::yes || quick == existence::no) return quick == existence::yes;
         return holds_at_any(real_roots<exact>(std::move(root_of), a, b));
     }
-    // Where all g_i >= 0 is a closed set: if it is neither empty nor holds the point of [a, b] next
-    // to 0, then its end towards that point is a root of some g_i.
+    // f ≡ 0. The set with all g_i >= 0 is closed. If it is not empty and lacks the point of [a, b]
+    // next to 0, its end towards that point is a root of some g_i.
     const double next_to_zero = (std::min)((std::max)(0.0, a), b);
     const roots::staged_polynomial<exact> shifted(std::vector<double>{-next_to_zero, 1.0});
     if (holds_at_any(real_roots<exact>(shifted, next_to_zero, next_to_zero))) return true;

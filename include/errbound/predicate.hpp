@@ -6,27 +6,9 @@
 //       });
 //   errbound::sign_type s = orient2d(p, q, r);  // arrays, spans, Eigen vectors, structs of x, y, z
 //
-// The expression is a program of +, − and × on coordinates and whole constants. Every result has a
-// type of its own, so its variables are `auto` and are not assigned to. It may branch on signs:
-// then it asks sign_of(x), passes on `uncertain` (returns it at once), and returns a sign_type.
-//
-// It is run on one scalar after the other, until one is certain (`predicate_stage`):
-//  * semi_static_filter, of expressions of many terms: in floating point, with a bound from the
-//    largest coordinate difference;
-//  * static_filter: in floating point, with a bound whose constant the types count while the
-//    expression is compiled; no branch but the last;
-//  * tracked: errbound::tracked, under the bound rule of the options, if they name one;
-//  * integers: exact, coordinates on a common exponent. As they need it: of so few bits that
-//    doubles hold all results, or words of 128 bits do; coordinates of one word, of two, or of up
-//    to the full range of exponents (an expression that branches has no stage of two words).
-//    Without allocation; or the options' own exact type takes the place of the last.
-//
-// Promised, for finite coordinates, under rounding to nearest and gradual underflow
-// (errbound/environment.hpp), contraction allowed: never uncertain, never wrong; underflow and
-// overflow included. `uncertain` where a coordinate that counts is not finite. No exceptions, no
-// global state. Usable in constant expressions; in device code (compiled, not yet run). Cost:
-// the filters 1 to 2 times the expression in floating point, the integers some ten times that, and
-// in the full range up to 30 µs for a degree of 5 and, optimised, 64 KiB of stack for one of 32.
+// Never wrong, overflow and underflow included; `uncertain` only if a coordinate that matters is
+// not finite. Needs rounding to nearest and gradual underflow (errbound/environment.hpp). No
+// exceptions, no global state, no allocation. See predicate() for rules, stages and cost.
 #pragma once
 
 #include <array>
@@ -44,7 +26,7 @@
 
 namespace errbound {
 
-/// What a predicate takes: points of these dimensions. 0 is a plain number.
+/// A predicate's arguments: points of these dimensions. 0 is a plain number.
 template <int... Dimensions>
 struct points {
     static_assert(sizeof...(Dimensions) > 0 && ((Dimensions >= 0) && ...),
@@ -52,7 +34,6 @@ struct points {
                   "at least one, and none negative");
     static constexpr std::size_t count = sizeof...(Dimensions);
     static constexpr std::array<int, count> dimensions{Dimensions...};
-    /// How many numbers these are.
     static constexpr std::size_t size = (std::size_t{Dimensions == 0 ? 1 : Dimensions} + ... + 0);
     static constexpr std::size_t offset(std::size_t argument) {
         std::size_t o = 0;
@@ -62,21 +43,19 @@ struct points {
     }
 };
 
-/// The defaults; derive from it to change some.
+/// The defaults; derive to change some.
 struct predicate_options {
-    /// Bound rule of the tracked stage; void: no such stage.
+    /// Bound rule of the tracked stage; void for no such stage.
     using tracked_rule = void;
     /// Exact number type of the last stage, constructible from double; void: long_integer. For
-    /// Boost.Multiprecision's see predicate_type::value.
+    /// Boost.Multiprecision's types see predicate_type::value.
     using exact_type = void;
-    /// Whether terms of different degree are never added, so that powers of two scale coordinates
-    /// without changing a sign. It is found out for all expressions but those with too many
-    /// branches; a false claim does not compile.
+    /// True if terms of different degree are never added, so scaling by powers of two keeps signs.
+    /// Detected, unless there are too many branches. A false claim does not compile.
     static constexpr bool homogeneous = false;
-    /// The degree of every coordinate, as the shape lists them, where some are not of degree 1:
-    /// {1, 1, 2, 1, 1, 2} of points<3, 3>, each x, y and a squared radius. By these degrees terms
-    /// of different degree are never added; a false claim does not compile. Coordinates far from 1
-    /// are then brought near it by powers of two, which changes no sign.
+    /// The coordinates' degrees in the shape's order, if some are not 1: {1, 1, 2, 1, 1, 2} for
+    /// points<3, 3>, each x, y and a squared radius. Terms of different total degree must never be
+    /// added; a false claim does not compile. Allows scaling coordinates far from 1.
     static constexpr std::array<int, 0> degrees{};
 };
 
@@ -97,10 +76,10 @@ concept exact_stage_number = requires(const Number& x) {
 template <class Shape, class F, class Options>
 class predicate_type {
     static_assert(filters::is_shape<Shape>,
-                  "errbound: predicate's first argument says what it takes: points<2, 2, 2>");
+                  "errbound: predicate's first argument must be a shape: points<2, 2, 2>");
     static_assert(std::is_empty_v<F> && std::is_default_constructible_v<F>,
-                  "errbound: a predicate's expression must not have captures or members: what "
-                  "varies is an argument, a plain number 0 in the shape");
+                  "errbound: a predicate's expression must not have captures or members: pass "
+                  "varying values as arguments (0 in the shape is a plain number)");
     static_assert(std::derived_from<Options, predicate_options>,
                   "errbound: a predicate's options derive from errbound::predicate_options");
     static_assert(std::is_void_v<typename Options::tracked_rule> ||
@@ -118,21 +97,21 @@ class predicate_type {
     using shape = Shape;
     using options = Options;
 
-    /// What the expression asks, for coordinates of one word.
+    /// Counts of the expression, for coordinates of one word.
     static constexpr filters::expression_counts counts = stages::counts;
-    /// The static filter's: certain where |value| exceeds it times the sum of the terms' sizes. Of
-    /// an expression that branches, the largest of all.
+    /// The static filter's constant: the sign is certain if |value| exceeds it times the sum of the
+    /// terms' sizes. For an expression that branches, the largest of all.
     template <class T>
     static constexpr T static_constant = filters::filter_constant<T>(counts.roundings);
-    /// Whether there is a semi-static filter: what it saves grows with the degree.
+    /// True for expressions of high enough degree to gain from a semi-static filter.
     static constexpr bool has_semi_static_filter = stages::has_semi_static_filter;
-    /// So many bits may coordinates have for no result to take more than `bits`.
+    /// Largest coordinate width for which every result fits in `bits` bits.
     static constexpr int coordinate_bits(int bits) { return stages::coordinate_bits(bits); }
 
-    /// The sign. Points: anything that coordinate_of takes, of float or double.
+    /// The sign. Points: anything that coordinate_of accepts, with float or double coordinates.
     template <class... Points>
     [[gnu::flatten]] constexpr sign_type operator()(const Points&... p) const {
-        // Overflow is no constant expression.
+        // Overflow is not allowed in constant expressions.
         if (!std::is_constant_evaluated()) {
             const sign_type s = first_sign(p...);
             if (certain(s)) [[likely]]
@@ -140,7 +119,7 @@ class predicate_type {
         }
         return stages::template decide<number_of<Points...>>(stages::listed(p...), nullptr);
     }
-    /// The same, and the stage that decided is counted.
+    /// Same as above, and counts the deciding stage in the report.
     template <class... Points>
     constexpr sign_type operator()(predicate_report& report, const Points&... p) const {
         using enum predicate_stage;
@@ -151,8 +130,8 @@ class predicate_type {
         }
         return stages::template decide<number_of<Points...>>(stages::listed(p...), &report);
     }
-    /// What the first filter finds out, or the sign_type of an expression that branches. Stored:
-    /// coordinates are read from memory, so that nothing can be fused with their differences.
+    /// The first filter's estimate, or the sign_type of an expression that branches. Stored:
+    /// coordinates are read from memory, so nothing can be fused with their differences.
     template <bool Stored = false, class... Points>
     static constexpr auto estimate(const Points&... p) {
         using T = number_of<Points...>;
@@ -169,16 +148,14 @@ class predicate_type {
                 return filters::sign_estimate<T>{x.value, x.bound()};
         }
     }
-    /// What the static filter computes: a value, with its bound, or the sign_type of an expression
-    /// that branches.
+    /// The static filter's value and bound, or the sign_type of an expression that branches.
     template <bool Stored = false, class... Points>
     static constexpr auto filtered(const Points&... p) {
         using scalars = filters::filtered_scalars<number_of<Points...>, Stored, Points...>;
         return filters::evaluate<Shape>(F(), scalars{{p...}});
     }
-    /// The expression's value over a number type of one's own, constructible from a coordinate.
-    /// Boost.Multiprecision's types: without expression templates (et_off), which do not outlive
-    /// the statements of an expression.
+    /// The expression over a custom number type, constructible from a coordinate.
+    /// Boost.Multiprecision's types need et_off: expression templates do not outlive a statement.
     template <class Number, class... Points>
     static constexpr auto value(const Points&... p) {
         const auto make = [](const auto& x) { return Number(x); };
@@ -187,7 +164,6 @@ class predicate_type {
             F(), filters::listed_scalars<Shape, typename stages::coordinate_list, decltype(make)>{
                      list, make});
     }
-    /// The sign that one stage alone finds.
     template <class... Points>
     constexpr sign_type by(predicate_stage stage, const Points&... p) const {
         using enum predicate_stage;
@@ -208,15 +184,16 @@ class predicate_type {
     template <class... Points>
     struct number {
         static_assert(sizeof...(Points) == Shape::count,
-                      "errbound: a call takes as many arguments as the predicate's shape says");
+                      "errbound: a call takes one argument for each point of the predicate's "
+                      "shape");
         using type = std::common_type_t<decltype(coordinate_of(std::declval<Points>(), 0))...>;
         static_assert(has_dimensions<Points...>(std::index_sequence_for<Points...>()),
-                      "errbound: a point has fewer coordinates than the predicate's shape says");
+                      "errbound: a point has fewer coordinates than the predicate's shape");
         static_assert(
             (std::floating_point<decltype(coordinate_of(std::declval<Points>(), 0))> && ...) &&
                 sizeof(type) <= sizeof(double),
-            "errbound: coordinates must be float or double: convert whole ones of at most "
-            "53 bits, as by static_cast<double>(n) or p.cast<double>()");
+            "errbound: coordinates must be float or double: convert integers of at most 53 "
+            "bits, by static_cast<double>(n) or p.cast<double>()");
     };
     template <class... Points>
     using number_of = typename number<Points...>::type;
@@ -230,7 +207,22 @@ class predicate_type {
     }
 };
 
-/// The predicate of an expression: see the head of this file.
+/// The predicate of an expression: a program of +, − and × on coordinates and whole constants.
+/// Every result has its own type, so variables are `auto` and never reassigned. It may branch on
+/// sign_of(x); then it must return `uncertain` at once, and it returns a sign_type.
+///
+/// The stages (`predicate_stage`), until one is certain:
+/// - semi_static_filter, for many terms: floating point, bounded by the largest coordinate
+///   difference;
+/// - static_filter: floating point, with a bound whose constant is counted at compile time;
+/// - tracked: errbound::tracked under the options' rule, if any;
+/// - integers: exact, coordinates on a common exponent: doubles or 128-bit words that hold all
+///   results, coordinates of one word, of two (not if the expression branches), or of the full
+///   exponent range (or the options' exact type).
+///
+/// Contraction is allowed. Usable in constant expressions and in device code (compiled, not yet
+/// run). Cost: filters 1 to 2 times the plain expression, integers about ten times; full range up
+/// to 30 µs for degree 5 and, optimised, 64 KiB of stack for degree 32.
 template <class Shape, class Options = predicate_options, class F>
 constexpr predicate_type<Shape, F, Options> predicate(F) {
     return {};

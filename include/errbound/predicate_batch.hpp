@@ -1,12 +1,13 @@
-// Predicates on many inputs: the first filter on as many at a time as the processor has lanes.
+// Predicates on many inputs: the first filter runs on as many inputs at a time as the processor has
+// lanes.
 //
 //   std::vector<std::array<double, 2>> a, b, c;
 //   std::vector<errbound::sign_type> signs(a.size());
 //   errbound::batch_signs(errbound::orient2d, signs, a, b, c);
 //
-// No intrinsics: the loops are written for compilers to vectorise (-O2 of clang, -O3 of GCC), and
-// compiled for the instruction sets of x86 side by side; the processor's is chosen at run time. The
-// signs are those of one by one, whatever the instruction set.
+// The signs equal those of single calls, on every instruction set. No intrinsics: compilers
+// vectorise the loops (-O2 of clang, -O3 of GCC). They are compiled for each x86 instruction set;
+// the processor's is chosen at run time.
 #pragma once
 
 #include <array>
@@ -47,18 +48,17 @@ namespace detail {
 
 inline constexpr std::size_t block_size = 64;
 
-/// Input i of a range, by its index or its iterators.
 template <class Range>
 constexpr decltype(auto) input_of(const Range& range, std::size_t i) {
     if constexpr (filters::matrix_point<Range>)
         static_assert(Range::RowsAtCompileTime == 1 || Range::ColsAtCompileTime == 1,
-                      "errbound: a matrix is no range of points: write m.colwise()");
+                      "errbound: a matrix is not a range of points: write m.colwise()");
     if constexpr (requires { range[i]; })
         return range[i];
     else
         return range.begin()[static_cast<std::ptrdiff_t>(i)];
 }
-/// Whether a range has so many inputs, as far as it tells.
+/// True if the range has `count` inputs, or has no size to test.
 template <class Range>
 constexpr bool has_inputs(const Range& range, std::size_t count) {
     if constexpr (requires { range.size(); })
@@ -69,16 +69,15 @@ constexpr bool has_inputs(const Range& range, std::size_t count) {
         return true;
 }
 
-/// Whether coordinates of such points are read from memory, not computed by a function of theirs.
+/// True if coordinates are read from memory, not computed by coordinate_of.
 template <class Point>
 inline constexpr bool has_stored_coordinates =
     std::is_arithmetic_v<Point> || std::is_array_v<Point>;
 template <class T, std::size_t N>
 inline constexpr bool has_stored_coordinates<std::array<T, N>> = true;
 
-/// A block of coordinates that a range computes, or that no pointer leads to. They are rounded when
-/// they are written here: kernels of instruction sets with fused multiply-add would otherwise fuse
-/// products in them with their differences.
+/// Holds coordinates that a range computes, or that no pointer leads to. Storing rounds them:
+/// kernels could otherwise fuse their products with differences.
 template <class T, int Dimension, class Range>
 class computed_block {
     static constexpr std::size_t rows = Dimension == 0 ? 1 : Dimension;
@@ -98,7 +97,6 @@ class computed_block {
     const Range& range_;
     std::array<std::array<T, block_size>, rows> rows_;
 };
-/// Where the coordinates are, for the kernels.
 template <class Point>
 struct stored_block {
     const Point* points;
@@ -129,8 +127,7 @@ auto blocks_of(const coordinate_arrays<U, N>& arrays) {
     return stored_arrays_block<U, N>{arrays};
 }
 
-/// Signs of block_size inputs by the first filter; true if all are certain. In floating point to
-/// the end, so that it is all of one width.
+/// Signs of block_size inputs by the first filter; true if all are certain. Lanes have one width.
 template <class Predicate, class... Ranges>
 [[gnu::always_inline]] inline bool filter_block(sign_type* signs, const Ranges&... p) {
     using T = decltype(Predicate::estimate(p[0]...).value);
@@ -140,7 +137,7 @@ template <class Predicate, class... Ranges>
         const T size = number_traits<T>::abs(x.value);
         const T code = x.value > 0 ? T(2) : T(0);
         const T decided = size > x.bound ? code : T(3);
-        // Kernels may fuse multiply-adds, and must then ask for this (static_filter.hpp).
+        // Kernels may fuse multiply-adds, so they must test this (static_filter.hpp).
         codes[i] = size <= number_traits<T>::largest() ? decided : T(3);
     }
     unsigned all = 0;
@@ -207,11 +204,10 @@ void batch_over(const Predicate& predicate, std::span<sign_type> signs, std::ind
 
 }  // namespace detail
 
-/// signs[i] becomes the predicate's sign of point i of each range: anything that numbers or its
-/// iterators index, such as a matrix's columns, m.colwise(). Precondition: at least signs.size()
-/// points each. Contiguous ranges of arrays, and coordinate_arrays, are read where they are;
-/// coordinates of others are copied first, 64 points at a time.
-/// Expressions that branch go one by one. No allocation.
+/// Sets signs[i] to the predicate's sign of point i of each range, by index or iterators (a
+/// matrix's columns: m.colwise()). Precondition: at least signs.size() points each. Contiguous
+/// arrays and coordinate_arrays are read in place; others are copied, 64 points at a time.
+/// Expressions that branch are evaluated one by one. No allocation.
 template <class Predicate, class... Ranges>
 void batch_signs(const Predicate& predicate, std::span<sign_type> signs, const Ranges&... p) {
     assert((detail::has_inputs(p, signs.size()) && ...) &&

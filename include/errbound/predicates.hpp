@@ -1,19 +1,14 @@
-// Predicates that geometry uses, written as a user of errbound/predicate.hpp would write them.
-//
-// Orientation, for all of them (y up, z towards the reader):
+// Geometric predicates, written with errbound/predicate.hpp. Orientation (y up, z towards the
+// reader):
 //
 //            c                orient2d(a, b, c) > 0: a, b, c turn left, counterclockwise.
 //           / \               orient3d(a, b, c, d) > 0: seen from d, a, b, c turn right, clockwise;
 //          a---b              d is below (away from the reader) if a, b, c are as in the picture.
 //
-// incircle(a, b, c, d) > 0: d lies inside the circle through a, b, c, if these turn left; outside
-// if they turn right. insphere(a, b, c, d, e) > 0: e lies inside the sphere through a, b, c, d, if
-// orient3d(a, b, c, d) > 0; else outside. These are the signs of Shewchuk 1997; CGAL's orientation
-// of four points is the opposite of orient3d.
-//
-// Worst known (./run bench --worst), where coordinates are of 1e-3 to 1e3 and where they are of all
-// magnitudes: orient2d 0.1 and 1 µs, orient3d and incircle 0.2 and 10 µs, insphere 1 and 30 µs;
-// docs/measured.md has the others. Nothing is allocated; insphere takes 40 KiB of stack.
+// Signs are Shewchuk's (1997); CGAL's orientation of four points is the opposite of orient3d. Worst
+// known cost (./run bench --worst), for coordinates of 1e-3 to 1e3 and of all magnitudes: orient2d
+// 0.1 and 1 µs, orient3d and incircle 0.2 and 10 µs, insphere 1 and 30 µs; others in
+// docs/measured.md. No allocation; insphere takes 40 KiB of stack.
 #pragma once
 
 #include <array>
@@ -22,7 +17,7 @@
 
 namespace errbound {
 
-/// The parts of the predicates below, for expressions of one's own.
+/// Building blocks for custom expressions.
 namespace forms {
 
 /// Twice the area of the triangle a, b, c in the plane of axes i and j.
@@ -46,8 +41,8 @@ constexpr auto squared_distance3d(const auto& a, const auto& b) {
     return x * x + y * y + z * z;
 }
 
-/// The determinant of a − d, b − d and c − d, with their heights as a last column: those of a
-/// paraboloid, x² + y², or what height(point, x² + y²) makes of it.
+/// The determinant of a − d, b − d and c − d with heights as last column: x² + y² (a paraboloid),
+/// passed through height(point, x² + y²).
 constexpr auto lifted_area(const auto& a, const auto& b, const auto& c, const auto& d,
                            const auto& height) {
     const auto ax = a[0] - d[0], ay = a[1] - d[1];
@@ -57,7 +52,7 @@ constexpr auto lifted_area(const auto& a, const auto& b, const auto& c, const au
            height(b, bx * bx + by * by) * (cx * ay - ax * cy) +
            height(c, cx * cx + cy * cy) * (ax * by - bx * ay);
 }
-/// The same of a − e, b − e, c − e and d − e.
+/// Like lifted_area, of a − e, b − e, c − e and d − e.
 constexpr auto lifted_volume(const auto& a, const auto& b, const auto& c, const auto& d,
                              const auto& e, const auto& height) {
     const auto ax = a[0] - e[0], ay = a[1] - e[1], az = a[2] - e[2];
@@ -73,10 +68,9 @@ constexpr auto lifted_volume(const auto& a, const auto& b, const auto& c, const 
            (height(b, bx * bx + by * by + bz * bz) * cda -
             height(a, ax * ax + ay * ay + az * az) * bcd);
 }
-/// The height of a paraboloid.
 inline constexpr auto unweighted = [](const auto&, const auto& squared) { return squared; };
 
-/// A point that is given by its parents: anchor + (x, y[, z])/w.
+/// A point given by its parents: anchor + (x, y[, z])/w.
 template <class Anchor, class X, class W>
 struct implicit_point2d {
     const Anchor& anchor;
@@ -93,14 +87,14 @@ template <class Anchor, class X, class W>
 implicit_point2d(const Anchor&, X, X, W) -> implicit_point2d<Anchor, X, W>;
 template <class Anchor, class X, class W>
 implicit_point3d(const Anchor&, X, X, X, W) -> implicit_point3d<Anchor, X, W>;
-/// Where the line through a and b meets that through c and d; w = 0: nowhere, or everywhere.
+/// The intersection of the lines ab and cd; w = 0 if there is none or infinitely many.
 constexpr auto line_line(const auto& a, const auto& b, const auto& c, const auto& d) {
     const auto x = b[0] - a[0], y = b[1] - a[1];
     const auto u = d[0] - c[0], v = d[1] - c[1];
     const auto along = (c[0] - a[0]) * v - (c[1] - a[1]) * u;
     return implicit_point2d{a, x * along, y * along, x * v - y * u};
 }
-/// Where the line through a and b meets the plane through p, q and r; w = 0: nowhere or everywhere.
+/// The intersection of line ab and plane pqr; w = 0 if there is none or infinitely many.
 constexpr auto line_plane(const auto& a, const auto& b, const auto& p, const auto& q,
                           const auto& r) {
     const auto x = b[0] - a[0], y = b[1] - a[1], z = b[2] - a[2];
@@ -111,13 +105,11 @@ constexpr auto line_plane(const auto& a, const auto& b, const auto& p, const aut
     return implicit_point3d{a, x * along, y * along, z * along, nx * x + ny * y + nz * z};
 }
 
-/// Segments ab and cd: see segments_intersect3d.
 constexpr sign_type segments_intersect(const auto& a, const auto& b, const auto& c, const auto& d) {
     const sign_type coplanar = sign_of(volume(a, b, c, d));
     if (!certain(coplanar)) return coplanar;
     if (coplanar != sign_type::zero) return sign_type::negative;
-    // A projection along an axis that is not parallel to the plane changes nothing; where the axis
-    // is, all four areas are zero.
+    // Project along an axis not parallel to the plane; for a parallel one all areas are zero.
     for (int axis = 0; axis < 3; ++axis) {
         const int i = (axis + 1) % 3, j = (axis + 2) % 3;
         const sign_type abc = sign_of(area(a, b, c, i, j)), abd = sign_of(area(a, b, d, i, j));
@@ -127,13 +119,13 @@ constexpr sign_type segments_intersect(const auto& a, const auto& b, const auto&
         if (abc == sign_type::zero && abd == sign_type::zero && cda == sign_type::zero &&
             cdb == sign_type::zero)
             continue;
-        // Positive where the other segment's ends are on different sides.
+        // Positive if the other segment's ends are on different sides.
         const sign_type of_ab = -(abc * abd), of_cd = -(cda * cdb);
         if (of_ab == sign_type::negative || of_cd == sign_type::negative)
             return sign_type::negative;
         return of_ab * of_cd;
     }
-    // All on one line: apart if they are on some axis.
+    // All on one line: disjoint if disjoint along some axis.
     for (int i = 0; i < 3; ++i) {
         const sign_type ca = sign_of(c[i] - a[i]), cb = sign_of(c[i] - b[i]);
         const sign_type da = sign_of(d[i] - a[i]), db = sign_of(d[i] - b[i]);
@@ -143,14 +135,13 @@ constexpr sign_type segments_intersect(const auto& a, const auto& b, const auto&
     }
     return sign_type::zero;
 }
-/// Segment pq and triangle abc: see segment_intersects_triangle.
 constexpr sign_type segment_triangle(const auto& p, const auto& q, const auto& a, const auto& b,
                                      const auto& c) {
     const sign_type side_p = sign_of(volume(a, b, c, p)), side_q = sign_of(volume(a, b, c, q));
     if (!certain(side_p) || !certain(side_q)) return sign_type::uncertain;
     if (side_p != sign_type::zero || side_q != sign_type::zero) {
         if (side_p == side_q) return sign_type::negative;
-        // The line meets the plane in one point, and the segment does.
+        // The line meets the plane in one point, inside the segment.
         const sign_type ab = sign_of(volume(p, q, a, b)), bc = sign_of(volume(p, q, b, c)),
                         ca = sign_of(volume(p, q, c, a));
         const sign_type first = ab * bc, second = bc * ca, third = ca * ab;
@@ -159,7 +150,7 @@ constexpr sign_type segment_triangle(const auto& p, const auto& q, const auto& a
         return -(side_p * side_q) * ab * bc * ca == sign_type::zero ? sign_type::zero
                                                                     : sign_type::positive;
     }
-    // All in one plane, or the triangle is a segment.
+    // Coplanar, or the triangle is a segment.
     const sign_type at_ab = segments_intersect(p, q, a, b), at_bc = segments_intersect(p, q, b, c),
                     at_ca = segments_intersect(p, q, c, a);
     for (const sign_type s : {at_ab, at_bc, at_ca})
@@ -179,35 +170,35 @@ constexpr sign_type segment_triangle(const auto& p, const auto& q, const auto& a
 
 }  // namespace forms
 
-/// Positive if a, b, c turn left, zero if they are on one line.
-/// Proof of its static filter: proofs/Predicates.v, orient2d_sign_certain.
+/// Positive if a, b, c turn left; zero if collinear. Proof of its static filter:
+/// proofs/Predicates.v, orient2d_sign_certain.
 inline constexpr auto orient2d = predicate<points<2, 2, 2>>(
     [](const auto& a, const auto& b, const auto& c) { return forms::area(a, b, c); });
 
-/// Positive if a, b, c turn right seen from d, zero if all are in one plane.
-/// Proof of its static filter: proofs/Predicates.v, orient3d_sign_certain.
+/// Positive if a, b, c turn right seen from d; zero if coplanar. Proof of its static filter:
+/// proofs/Predicates.v, orient3d_sign_certain.
 inline constexpr auto orient3d =
     predicate<points<3, 3, 3, 3>>([](const auto& a, const auto& b, const auto& c, const auto& d) {
         return forms::volume(a, b, c, d);
     });
 
-/// Positive if d is inside the circle through a, b, c, which turn left; zero on it.
-/// Proof of its static filter: proofs/Predicates.v, incircle_sign_certain.
+/// Positive if d is inside the circle through a, b, c, which turn left; zero on it; negated if they
+/// turn right. Proof of its static filter: proofs/Predicates.v, incircle_sign_certain.
 inline constexpr auto incircle =
     predicate<points<2, 2, 2, 2>>([](const auto& a, const auto& b, const auto& c, const auto& d) {
         return forms::lifted_area(a, b, c, d, forms::unweighted);
     });
 
-/// Positive if e is inside the sphere through a, b, c, d, of which orient3d is positive; zero on
-/// it. Proof of its static filter: proofs/Predicates.v, insphere_sign_certain. Proof of its
-/// semi-static filter: proofs/Predicates.v, insphere_semi_static_certain.
+/// Positive if e is inside the sphere through a, b, c, d with positive orient3d; zero on it;
+/// negated if orient3d is negative. Proof of its filters: proofs/Predicates.v,
+/// insphere_sign_certain, insphere_semi_static_certain.
 inline constexpr auto insphere = predicate<points<3, 3, 3, 3, 3>>(
     [](const auto& a, const auto& b, const auto& c, const auto& d, const auto& e) {
         return forms::lifted_volume(a, b, c, d, e, forms::unweighted);
     });
 
-/// Of Count weighted points of that dimension: the last coordinate of each is a square.
-/// Proof: proofs/Predicates.v, power_incircle_scales, power_insphere_scales.
+/// For Count weighted points of that dimension: each one's last coordinate is a square. Proof:
+/// proofs/Predicates.v, power_incircle_scales, power_insphere_scales.
 template <std::size_t Count, std::size_t Dimension>
 struct weighted_options : predicate_options {
     static constexpr std::array<int, Count* Dimension> degrees = [] {
@@ -227,8 +218,8 @@ inline constexpr auto power_incircle = predicate<points<3, 3, 3, 3>, weighted_op
         });
     });
 
-/// insphere for weighted points x, y, z, w: spheres of squared radius w.
-/// Proof of its static filter: proofs/Predicates.v, power_insphere_sign_certain.
+/// insphere for weighted points x, y, z, w: spheres of squared radius w. Proof of its static
+/// filter: proofs/Predicates.v, power_insphere_sign_certain.
 inline constexpr auto power_insphere = predicate<points<4, 4, 4, 4, 4>, weighted_options<5, 4>>(
     [](const auto& a, const auto& b, const auto& c, const auto& d, const auto& e) {
         return forms::lifted_volume(a, b, c, d, e, [&e](const auto& p, const auto& squared) {
@@ -236,9 +227,8 @@ inline constexpr auto power_insphere = predicate<points<4, 4, 4, 4, 4>, weighted
         });
     });
 
-/// Negative if p is nearer to a than to b, zero if it is as far from both.
-/// Proof of its static filter: proofs/Predicates.v, compare_distances2d_sign_certain,
-/// compare_distances3d_sign_certain.
+/// Negative if p is nearer to a than to b, zero if equally far. Proof of its static filter:
+/// proofs/Predicates.v, compare_distances2d_sign_certain, compare_distances3d_sign_certain.
 inline constexpr auto compare_distances2d =
     predicate<points<2, 2, 2>>([](const auto& p, const auto& a, const auto& b) {
         return forms::squared_distance2d(p, a) - forms::squared_distance2d(p, b);
@@ -248,29 +238,28 @@ inline constexpr auto compare_distances3d =
         return forms::squared_distance3d(p, a) - forms::squared_distance3d(p, b);
     });
 
-/// Expressions that branch so much that the compiler does not see all of it.
+/// For expressions with too many branches to analyse at compile time.
 struct homogeneous_options : predicate_options {
     static constexpr bool homogeneous = true;
 };
 
-/// Closed segments ab and cd. Positive: they cross, in one point inside both; zero: they touch
-/// otherwise, or overlap; negative: they are apart. Degenerate segments count as points.
+/// Closed segments ab and cd. Positive: they cross in one point inside both; zero: they touch
+/// otherwise, or overlap; negative: disjoint. A degenerate segment counts as a point.
 inline constexpr auto segments_intersect3d = predicate<points<3, 3, 3, 3>, homogeneous_options>(
     [](const auto& a, const auto& b, const auto& c, const auto& d) {
         return forms::segments_intersect(a, b, c, d);
     });
 
-/// Closed segment pq and triangle abc. Positive: they cross, in one point inside both; zero: they
-/// touch otherwise, or overlap; negative: they are apart. Degenerate ones are what they are.
+/// Closed segment pq and triangle abc. Positive: they cross in one point inside both; zero: they
+/// touch otherwise, or overlap; negative: disjoint. Degenerate ones count as segments or points.
 inline constexpr auto segment_intersects_triangle =
     predicate<points<3, 3, 3, 3, 3>, homogeneous_options>(
         [](const auto& p, const auto& q, const auto& a, const auto& b, const auto& c) {
             return forms::segment_triangle(p, q, a, b, c);
         });
 
-/// orient2d of three points, the first of which is where the lines ab and cd meet: (a, b, c, d, q,
-/// r). Zero if the lines are parallel. Proof: proofs/ImplicitPoints.v, orient2d_line_line_right,
-/// orient2d_line_line_sign_certain.
+/// orient2d of the intersection of lines ab and cd, q and r; zero if the lines are parallel. Proof:
+/// proofs/ImplicitPoints.v, orient2d_line_line_right, orient2d_line_line_sign_certain.
 inline constexpr auto orient2d_line_line = predicate<points<2, 2, 2, 2, 2, 2>>(
     [](const auto& a, const auto& b, const auto& c, const auto& d, const auto& q, const auto& r) {
         const auto p = forms::line_line(a, b, c, d);
@@ -278,9 +267,8 @@ inline constexpr auto orient2d_line_line = predicate<points<2, 2, 2, 2, 2, 2>>(
         return sign_of(x * (q[1] - r[1]) - y * (q[0] - r[0])) * sign_of(p.w);
     });
 
-/// orient3d of four points, the first of which is where the line ab meets the plane pqr: (a, b, p,
-/// q, r, s, t, u). Zero if they are parallel. Proof: proofs/ImplicitPoints.v,
-/// orient3d_line_plane_right, orient3d_line_plane_sign_certain.
+/// orient3d of the intersection of line ab and plane pqr, s, t and u; zero if they are parallel.
+/// Proof: proofs/ImplicitPoints.v, orient3d_line_plane_right, orient3d_line_plane_sign_certain.
 inline constexpr auto orient3d_line_plane = predicate<points<3, 3, 3, 3, 3, 3, 3, 3>>(
     [](const auto& a, const auto& b, const auto& p, const auto& q, const auto& r, const auto& s,
        const auto& t, const auto& u) {
@@ -294,9 +282,9 @@ inline constexpr auto orient3d_line_plane = predicate<points<3, 3, 3, 3, 3, 3, 3
                sign_of(i.w);
     });
 
-/// The order, by x, of the points where lines ab and cd, and ef and gh, meet: negative if the first
-/// is less. Zero if either does not exist. Proof: proofs/ImplicitPoints.v,
-/// compare_x_line_line_right, compare_x_line_line_sign_certain.
+/// Compares, by x, the intersections of lines ab and cd, and ef and gh; zero if either does not
+/// exist. Proof: proofs/ImplicitPoints.v, compare_x_line_line_right,
+/// compare_x_line_line_sign_certain.
 inline constexpr auto compare_x_line_line = predicate<points<2, 2, 2, 2, 2, 2, 2, 2>>(
     [](const auto& a, const auto& b, const auto& c, const auto& d, const auto& e, const auto& f,
        const auto& g, const auto& h) {

@@ -1,16 +1,13 @@
-// Tracked numbers as decimals: digits that are certain, or all with the radius.
+// Prints tracked numbers as decimals: certain digits, or value and radius.
 //
 //   std::cout << x;                         // 0.300000000000000
 //   std::cout << errbound::with_radius(x);  // 0.30000000000000004 ± 6.7e-17
-//   std::format("{:>20}", x);               // where the standard library has it
+//   std::format("{:>20}", x);               // if the standard library has it
 //
-// A decimal that `<<` prints is within one unit of its last digit of the exact number: its digits
-// are right, or the last one is off by one. Trailing zeros are digits like others: 0.30 says more
-// than 0.3. Where no digit is certain it is a zero, 0.00 or 0e+05, which says how large the number
-// can be. An exact number is printed by the shortest decimal that reads back as its value. A number
-// whose error is infinite is printed as "unknown". Streams' precision has no influence, their width
-// has; so it is with std::format, whose width and alignment are a string's and which takes no
-// precision: how many digits are certain the number says.
+// A decimal printed by `<<` is within one unit of its last digit of the exact number, so trailing
+// zeros count: 0.30 is more precise than 0.3. With no certain digit it is a zero, 0.00 or 0e+05, of
+// the possible size. Exact numbers print as the shortest decimal that reads back; infinite errors
+// print "unknown". Width and alignment apply, as for a string; stream precision does not.
 #pragma once
 
 #include <array>
@@ -42,19 +39,17 @@ inline constexpr bool is_small_float<small_float<P, E, HasInfinity>> = true;
 
 }  // namespace detail
 
-/// float, double, long double and those of 8 and 16 bits. Others are converted first (convert),
-/// with the error of that.
+/// float, double, long double, and small_float. Convert other types first (errbound::convert).
 template <class T>
 concept printable_number = std::same_as<T, float> || std::same_as<T, double> ||
     std::same_as<T, long double> || detail::is_small_float<T>;
 
 namespace detail {
 
-/// A type of the language that holds the number.
 template <class T>
 using printed_type = std::conditional_t<std::floating_point<T>, T, float>;
 
-/// Where std::to_chars makes doubles of wider numbers, or writes them in the way of a place.
+/// True if std::to_chars converts wider types to double, or uses the locale's decimal point.
 #if defined(_LIBCPP_VERSION) || defined(_WIN32)
 template <class T>
 inline constexpr bool to_chars_is_wrong =
@@ -64,11 +59,10 @@ template <class>
 inline constexpr bool to_chars_is_wrong = false;
 #endif
 
-/// By std::to_chars, which rounds exactly; `how` is its format and precision, or nothing: the
-/// shortest that reads back.
+/// std::to_chars, which rounds exactly. `how`: format and precision; otherwise shortest.
 template <std::floating_point T, class... How>
 std::string decimal(T x, How... how) {
-    if (std::isnan(x)) return "nan";  // whose sign is the processor's
+    if (std::isnan(x)) return "nan";  // the sign of NaN depends on the processor
     if constexpr (to_chars_is_wrong<T>) return printf_decimal(x, how...);
     std::string text(64, '\0');
     for (;;) {
@@ -80,7 +74,7 @@ std::string decimal(T x, How... how) {
         text.resize(2 * text.size());
     }
 }
-/// Of a decimal d.ddde±dd.
+/// The exponent of d.ddde±dd.
 inline int decimal_exponent(const std::string& scientific) {
     return std::atoi(scientific.c_str() + scientific.find('e') + 1);
 }
@@ -90,13 +84,12 @@ inline std::string with_exponent(std::string_view digits, int exponent) {
            std::to_string(size);
 }
 
-/// With 10^(k−1) <= 2·error < 10^k, a decimal rounded to the place 10^k is off by at most half a
-/// unit, and the number by another half.
+/// With 10^(k−1) <= 2·error < 10^k, rounding to 10^k adds at most half a unit, the error another.
 template <std::floating_point T>
 std::string certain_digits(T value, T error) {
     if (!std::isfinite(value) || !std::isfinite(error)) return "unknown";
     if (error == 0) return decimal(value == 0 ? T(0) : value);
-    // 18 digits may round up to the next power of ten, never to one below.
+    // 18 digits may round up to the next power of ten, never below one.
     constexpr int digits = 17;
     const bool doubles = error <= (std::numeric_limits<T>::max)() / 2;
     const T scaled = doubles ? 2 * error : error;
@@ -112,21 +105,20 @@ std::string certain_digits(T value, T error) {
     }
     if (leading >= k) {
         const std::string rounded = decimal(value, std::chars_format::scientific, leading - k);
-        // Less than 10^leading even so: its 18 digits had been rounded up to that.
+        // Still below 10^leading: `size` had been rounded up to it.
         if (decimal_exponent(rounded) >= leading) return rounded;
         return decimal(value, std::chars_format::scientific, leading - k - 1);
     }
     if (leading + 1 < k) return with_exponent("0", k);
-    // |value| < 10^k: half of that is told from it by the digits, unless they are just these.
+    // The digits decide which half of 10^k |value| is in, unless they equal 5.
     const std::string_view half = "5.00000000000000000";
     const std::string_view mantissa = std::string_view(size).substr(0, half.size());
     if (mantissa > half) return with_exponent(value < 0 ? "-1" : "1", k);
     return with_exponent("0", mantissa < half ? k : k + 1);
 }
 
-/// At least x > 0 when read back, of two digits: at least the shortest decimal that reads back as
-/// x, for reading is monotone. (Read it is not: std::from_chars has no floating-point numbers in
-/// libc++ before 20.)
+/// Two digits that read back as at least x > 0: at least the shortest decimal of x, since reading
+/// is monotone. (std::from_chars lacks floating point in libc++ before 20.)
 template <std::floating_point T>
 std::string decimal_not_below(T x) {
     const std::string text = decimal(x, std::chars_format::scientific, 1);
@@ -159,7 +151,6 @@ std::string value_and_radius(T value, T error) {
 
 }  // namespace detail
 
-/// Digits that are certain, as the head of this file says.
 template <printable_number T, class Rule>
 std::string certain_digits(const tracked<T, Rule>& x) {
     using printed = detail::printed_type<T>;
@@ -171,9 +162,8 @@ std::ostream& operator<<(std::ostream& to, const tracked<T, Rule>& x) {
     return to << certain_digits(x);
 }
 
-/// What streams print as value ± radius: the shortest decimal that reads back as the value, and one
-/// of two digits that reads back as at least the error (`unknown` if that is infinite). Read back
-/// into tracked::within, they hold the exact number.
+/// value ± radius: the shortest decimal that reads back as the value, and two digits that read back
+/// as at least the error (or `unknown`). tracked::within of both encloses the exact number.
 template <printable_number T, class Rule>
 std::string with_radius(const tracked<T, Rule>& x) {
     using printed = detail::printed_type<T>;
@@ -184,8 +174,7 @@ std::string with_radius(const tracked<T, Rule>& x) {
 }  // namespace errbound
 
 #if defined(__cpp_lib_format)
-/// As streams print it: digits that are certain. A precision is an error of the format, and does
-/// not compile where that is constant.
+/// Formats certain digits, as `<<`. A precision is a format error.
 template <errbound::printable_number T, class Rule>
 struct std::formatter<errbound::tracked<T, Rule>, char> : std::formatter<std::string_view, char> {
   private:
@@ -193,8 +182,8 @@ struct std::formatter<errbound::tracked<T, Rule>, char> : std::formatter<std::st
     static constexpr bool has_precision(std::string_view specification) {
         if (specification.size() > 1 && specification[0] != '}' &&
             std::string_view("<>^").find(specification[1]) != std::string_view::npos)
-            specification.remove_prefix(2);  // what fills may be a full stop
-        int depth = 0;                       // of a width that is an argument
+            specification.remove_prefix(2);  // the fill character may be a full stop
+        int depth = 0;                       // for a width that is an argument
         for (const char c : specification) {
             if (c == '.') return true;
             if (c == '}' && depth == 0) return false;
@@ -207,7 +196,7 @@ struct std::formatter<errbound::tracked<T, Rule>, char> : std::formatter<std::st
   public:
     constexpr auto parse(std::format_parse_context& context) {
         if (has_precision({context.begin(), context.end()}))
-            throw std::format_error("errbound: a tracked number has as many digits as are certain");
+            throw std::format_error("errbound: a tracked number takes no precision");
         return of_text::parse(context);
     }
     template <class Context>

@@ -1,4 +1,4 @@
-// Signs that are certain, and the one answer that is not.
+// Certain signs, and the value for an uncertain one.
 #pragma once
 
 #if __cplusplus < 202002L
@@ -12,9 +12,8 @@ namespace errbound {
 /// The sign of a number known up to a bound. `uncertain` is no sign and converts to none.
 enum class sign_type : std::uint8_t { negative, zero, positive, uncertain };
 
-/// Signs have no order, in which `uncertain` would be the largest: compare by ==, or ask
-/// certainly_nonnegative(s) and the like. (Only enumerators compare, as generic code does to learn
-/// of an enumeration whether it is signed, Boost's numbers among it; not what is computed.)
+/// Signs have no order: compare by ==, or call certainly_nonnegative(s) and its neighbours. Only
+/// constant expressions may compare: generic code tests by `<` if an enumeration is signed.
 consteval bool operator<(sign_type s, sign_type t) {
     return static_cast<int>(s) < static_cast<int>(t);
 }
@@ -54,7 +53,7 @@ constexpr sign_type operator-(sign_type s) {
     return s;
 }
 
-/// The sign of x·y. A certain zero makes the product zero whatever the other factor is.
+/// The sign of x·y. A certain zero makes the product zero for any other factor.
 constexpr sign_type operator*(sign_type a, sign_type b) {
     if (a == sign_type::zero || b == sign_type::zero) return sign_type::zero;
     if (!certain(a) || !certain(b)) return sign_type::uncertain;
@@ -62,7 +61,7 @@ constexpr sign_type operator*(sign_type a, sign_type b) {
 }
 
 /// True for types whose operations + − × are exact (integers and rationals of any size).
-/// errbound/multiprecision.hpp says so for Boost.Multiprecision's.
+/// Boost.Multiprecision's: errbound/multiprecision.hpp.
 template <class T>
 inline constexpr bool is_exact_number = false;
 

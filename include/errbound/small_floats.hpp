@@ -1,24 +1,13 @@
-// Number formats of 8 and 16 bits: binary16, bfloat16, and the 8-bit formats of the Open Compute
-// Project, E5M2 and E4M3. Storage types with arithmetic, in constant expressions and device code
-// too.
+// Number formats of 8 and 16 bits: binary16, bfloat16, and the Open Compute Project's E5M2 and
+// E4M3. Storage types with arithmetic, also in constant expressions and device code.
 //
 //   errbound::float16 x(0.1);                       // the nearest one: 0.1 is rounded once
 //   const float wide(x * x);                        // exact
-//   errbound::tracked<errbound::bfloat16> y(...);   // with a bound, as of any number
+//   errbound::tracked<errbound::bfloat16> y(...);   // with a bound
 //
-// Conversions from float and double, and operations, round once, to nearest even. An operation is
-// float's, rounded to the format: float has 24 bits, and 2p + 2 <= 24 suffice for a second rounding
-// of + − × ÷ √ to p bits to give what one alone gives (Figueroa 1995, When is double rounding
-// innocuous?). Where float underflows, which only bfloat16's operations reach: sums are exact; a
-// product of two 8-bit significands is too, or less than half of the smallest number; and no
-// quotient of such is within 2^-17 of the smallest number from a tie, unless it is one. Tests
-// compare all pairs of 8-bit numbers with rationals, and all pairs of 16-bit ones with exact
-// midpoints. Needs rounding to nearest, whatever the bound rule.
-//
-// E4M3 has no infinities: its largest exponent holds numbers up to 448, and one NaN. Results beyond
-// are NaN, never 448: the Open Compute Project's conversion without saturation. (With saturation no
-// bound would notice an overflow.)
-// Source: Open Compute Project, OCP 8-bit Floating Point Specification (OFP8), 1.0, 2023.
+// Conversions from float and double, and operations, round once, to nearest even. E4M3 has no
+// infinities: numbers up to 448 and one NaN, which larger results give (no saturation: a bound
+// would not notice it). Source: OCP 8-bit Floating Point Specification (OFP8), 1.0, 2023.
 #pragma once
 
 #include <bit>
@@ -34,17 +23,17 @@
 
 namespace errbound {
 
-/// A format of that many bits of precision and of exponent, laid out as IEEE 754 does: a sign bit,
-/// the exponent, Precision − 1 bits of fraction, with gradual underflow. Without infinities, the
-/// one code that is all ones is NaN, and the others of the largest exponent are numbers.
+/// A format with these bits of precision and exponent, in IEEE 754 layout with gradual underflow:
+/// sign bit, exponent, Precision − 1 bits of fraction. Without infinities, the all-ones code is
+/// NaN, and the other codes of the largest exponent are numbers.
 template <int Precision, int ExponentBits, bool HasInfinity = true>
 class small_float {
     static_assert(Precision + ExponentBits == 8 || Precision + ExponentBits == 16,
                   "errbound: a small_float has 8 or 16 bits");
     static_assert(Precision >= 3 && 2 * Precision + 2 <= std::numeric_limits<float>::digits &&
                       ExponentBits >= 2 && ExponentBits <= 8,
-                  "errbound: operations of a small_float by way of float are rounded once only for "
-                  "3 to 11 bits of precision and float's exponents");
+                  "errbound: a small_float needs 3 to 11 bits of precision and float's "
+                  "exponents, or operations in float round twice");
 
   public:
     static constexpr int precision = Precision, exponent_bits = ExponentBits;
@@ -53,22 +42,22 @@ class small_float {
 
     /// 2^least_exponent is the smallest normal number.
     static constexpr int least_exponent = 2 - (1 << (ExponentBits - 1));
-    /// Codes of numbers without a sign, which are in the order of the numbers.
+    /// Codes without sign are ordered as the numbers are.
     static constexpr int largest_code =
         HasInfinity ? (((1 << ExponentBits) - 1) << (Precision - 1)) - 1 : codes / 2 - 2;
-    /// What operations that overflow give: infinity, or NaN where there is none.
+    /// Result of overflow: infinity, or NaN without infinities.
     static constexpr int overflow_code = largest_code + 1;
     static constexpr int nan_code = codes / 2 - 1;
 
     constexpr small_float() = default;
-    /// The nearest; beyond the largest number an infinity, or NaN where there is none.
+    /// The nearest; above the largest number, infinity or NaN (overflow_code).
     template <std::floating_point Source>
     requires(sizeof(Source) <= sizeof(double)) constexpr explicit small_float(Source value)
         : code_(nearest_code(value)) {}
     template <int OtherPrecision, int OtherBits, bool OtherInfinity>
     constexpr explicit small_float(small_float<OtherPrecision, OtherBits, OtherInfinity> value)
         : small_float(static_cast<float>(value)) {}
-    /// Implicit, for constants; likewise the nearest.
+    /// Implicit, for constants; the nearest, as above.
     template <std::integral Source>
     constexpr small_float(Source value) : small_float(as_double(value)) {}
     static constexpr small_float from_code(int code) {
@@ -77,11 +66,16 @@ class small_float {
         return x;
     }
     constexpr int code() const { return code_; }
-    /// Exact, of floating-point types; of others as float converts.
+    /// Exact for floating-point types; otherwise converts as float does.
     template <class Target>
     requires std::is_arithmetic_v<Target>
     constexpr explicit operator Target() const { return static_cast<Target>(as_float()); }
 
+    // Operations are float's, rounded to the format. For p bits, 2p + 2 <= 24 makes double rounding
+    // of + − × ÷ √ innocuous (Figueroa 1995). Only bfloat16's operations make float underflow. Then
+    // sums are exact; a product of 8-bit significands is exact or below half of the smallest
+    // number; no quotient is within 2^-17 of the smallest number from a tie without being one.
+    // Tests compare all 8-bit pairs with rationals, all 16-bit pairs with exact midpoints.
     friend constexpr small_float operator+(small_float a, small_float b) {
         return small_float(a.as_float() + b.as_float());
     }
@@ -107,8 +101,7 @@ class small_float {
     }
 
   private:
-    /// The integer, or one of 46 to 53 bits that rounds to the same: its last bit says whether all
-    /// below it were 0.
+    /// The integer, or one of 46 to 53 bits that rounds equally (the last bit is sticky).
     template <class Source>
     static constexpr double as_double(Source value) {
         constexpr int digits = std::numeric_limits<double>::digits;
@@ -128,8 +121,7 @@ class small_float {
     static constexpr Bits shifted(Bits m, int shift) {
         return (m + (Bits{1} << (shift - 1)) - 1 + ((m >> shift) & 1)) >> shift;
     }
-    /// On the bits of a float or double; a carry out of the fraction goes into the exponent, as it
-    /// should.
+    /// Works on the source's bits; a carry out of the fraction correctly enters the exponent.
     template <class Source>
     static constexpr code_type nearest_code(Source value) {
         using bits_of_source =
@@ -143,8 +135,7 @@ class small_float {
         const int sign = static_cast<int>(all >> top) << (bits - 1);
         if (size > (bits_of_source{2 * bias + 1} << fraction))
             return static_cast<code_type>(sign | nan_code);
-        // Below the source's own normal numbers lies nothing that is not 0, but for bfloat16, whose
-        // subnormals are spaced in powers of two as float's are.
+        // The source's subnormals round to 0, except for bfloat16, whose exponent range is float's.
         const int below = least_exponent + bias - static_cast<int>(size >> fraction);
         bits_of_source units = 0;
         if (below <= 0 || least_exponent == 1 - bias)
@@ -203,13 +194,13 @@ struct number_traits<small_float<P, E, HasInfinity>> {
     static constexpr number underflow_unit() { return number::from_code(1); }
     static constexpr number smallest_normal() { return number::from_code(1 << (P - 1)); }
     static constexpr number largest() { return number::from_code(number::largest_code); }
-    /// NaN where there is none: it too says that nothing is known.
+    /// NaN without infinities; it also stands for "no bound".
     static constexpr number infinity() { return number::from_code(number::overflow_code); }
 
     static constexpr number abs(const number& x) {
         return number::from_code(x.code() & (number::codes / 2 - 1));
     }
-    /// Without infinities NaN stands for what is larger than all numbers, and is passed on.
+    /// Without infinities, NaN stands for overflow and is passed on.
     static constexpr number(max)(const number& x, const number& y) {
         if constexpr (!HasInfinity)
             if (y != y) return y;
@@ -221,8 +212,8 @@ struct number_traits<small_float<P, E, HasInfinity>> {
     static constexpr number sqrt(const number& x) {
         return number(std::sqrt(static_cast<float>(x)));
     }
-    /// The product is exact in double. The sum is rounded to odd there, which a second rounding to
-    /// fewer than 52 bits does not notice (Boldo, Melquiond 2008, Emulation of FMA).
+    /// The product is exact in double; the sum is rounded to odd there, so rounding again to fewer
+    /// than 52 bits is harmless (Boldo, Melquiond 2008, Emulation of FMA).
     static constexpr number fma(const number& a, const number& b, const number& c) {
         const double product = static_cast<double>(a) * static_cast<double>(b);
         const auto [sum, error] = two_sum(product, static_cast<double>(c));

@@ -4,11 +4,10 @@
 //   number x = 0.1, y = number::within(0.2, 1e-12);      // exact; known to within 1e-12
 //   sign_of(x * y - x);                                  // never a guess
 //
-// A literal is the double nearest to it: 0.1 above means that double, not a tenth. No exceptions,
-// no allocation, no global state, no virtual calls. For x of any rule that promises a bound
-// (promises_bound in rules/rule.hpp: all of these but `none`), in a sound environment
-// (environment.hpp): the number that exact arithmetic would have given lies within x.error() of
-// x.value().
+// In a sound environment (environment.hpp), the result x of exact arithmetic lies within x.error()
+// of x.value(). This holds for every rule that promises a bound (promises_bound in rules/rule.hpp).
+// A literal is the double nearest to it: 0.1 above is that double, not a tenth. No exceptions, no
+// allocation, no global state, no virtual calls.
 #pragma once
 
 #include <algorithm>
@@ -31,7 +30,7 @@ namespace errbound {
 
 namespace detail {
 
-/// A number, of the language's or a compiler's types but bool, that converts to T and is none.
+/// A built-in arithmetic type, other than bool and T, that converts to and from T.
 template <class Number, class T>
 concept number_other_than =
     !std::same_as<Number, T> && !std::same_as<Number, bool> && !std::is_class_v<Number> &&
@@ -40,16 +39,16 @@ concept number_other_than =
     static_cast<Number>(converted);
 };
 
-/// Whether v, to which `value` was converted, is that number, or not finite, which is known of it.
+/// True if `value` was converted to v exactly, or if v is not finite.
 template <class T, class Number>
 constexpr bool is_exactly(const T& v, Number value) {
     using traits = number_traits<T>;
     if (!traits::is_finite(v)) return true;
     if constexpr (static_cast<Number>(0.5) != Number(0)) {
-        return static_cast<Number>(v) == value;  // which is exact: a type holds the other's numbers
+        return static_cast<Number>(v) == value;  // exact: one type holds the other's numbers
     } else {
-        static_assert(std::integral<Number>, "errbound: this type of integers is not one of C++'s");
-        // A conversion back may overflow. Zeros at the end take no room.
+        static_assert(std::integral<Number>, "errbound: this integer type is not built in");
+        // A conversion back may overflow, so count bits. Trailing zeros need no digits.
         if constexpr (std::numeric_limits<Number>::digits <= traits::digits) return true;
         using bits = std::make_unsigned_t<Number>;
         const bits size = value < 0 ? bits(bits(0) - bits(value)) : bits(value);
@@ -57,9 +56,8 @@ constexpr bool is_exactly(const T& v, Number value) {
     }
 }
 
-/// The type in which Rule keeps bounds of numbers of type T: T, or the one that computes T's
-/// operations, if the rule has a `displacement`. Bounds of 8 or 11 bits would grow with each of
-/// their own roundings.
+/// The type in which Rule keeps bounds of T's numbers. With a `displacement`, it is the type that
+/// computes T's operations: bounds of 8 or 11 bits would grow with each of their own roundings.
 template <class T, class Rule>
 struct type_of_bounds {
     using type = T;
@@ -72,25 +70,24 @@ struct type_of_bounds<T, Rule> {
 template <class T, class Rule>
 inline constexpr bool bounds_are_wider = !std::is_same_v<typename type_of_bounds<T, Rule>::type, T>;
 
-// Types of comparisons that do not exist. Their names are in the compiler's message.
+// Their names appear in the compiler's message.
 struct take_compare_or_by_value;
 struct take_sign_of_or_compare {};
 
 }  // namespace detail
 
-/// T: float, double, long double or any type with the same operations and a number_traits.
-/// Rule: how bounds propagate, a bound_rule (errbound/rules/rule.hpp says what that is).
+/// T: any type with a number_traits. Rule: how bounds propagate (errbound/rules/rule.hpp).
 template <class T = double, class Rule = tight>
 class tracked {
     static_assert(!std::is_integral_v<T> && std::is_same_v<T, std::remove_cvref_t<T>>,
-                  "errbound: the first argument of tracked is a floating-point type, float or "
-                  "double, or one of your own with a number_traits");
+                  "errbound: the first argument of tracked must be a floating-point type: "
+                  "float, double, or a custom type with a number_traits");
     static_assert(bound_rule<Rule, T> || sizeof(detail::rule_check<Rule, T>) == 0,
-                  "errbound: the second argument of tracked is a bound rule");
+                  "errbound: the second argument of tracked must be a bound rule");
     static_assert(
         has_subnormals<T> || detail::holds_without_subnormals<Rule>,
-        "errbound: this number type has no subnormal numbers, so that sums may underflow, "
-        "which this bound rule does not count; use the rule `tight`");
+        "errbound: this number type has no subnormal numbers, so sums may underflow, which this "
+        "bound rule does not cover; use the rule `tight`");
 
   public:
     using value_type = T;
@@ -102,31 +99,30 @@ class tracked {
     constexpr tracked() : tracked(T(0)) {}
     /// Exactly `value`. Implicit, so that generic code may mix numbers and tracked numbers.
     constexpr tracked(const T& value) : tracked(exactly(detail::rounded(value))) {}
-    /// `value`, a number of another type, such as the literal 2: exact if T holds it (every int in
-    /// double, up to 2^24 in float), else within the rounding error of its conversion.
+    /// Converts a number of another type, such as the literal 2. Exact if T holds it (every int in
+    /// double, up to 2^24 in float); otherwise the error bounds the conversion's rounding.
     template <detail::number_other_than<T> Number>
     constexpr tracked(Number value) : tracked(from_other(value)) {}
-    /// A number that is known to lie within `error` of `value`; unknown unless error >= 0.
+    /// A number known to lie within `error` of `value`. The error is infinite unless error >= 0.
     static constexpr tracked within(const T& value, const T& error) {
         const T v = detail::rounded(value);
         return {v, Rule::within(wide(v), wide(error))};
     }
-    /// `value` with what the rule has said of it, for rules that wrap others: bound() of a number
-    /// of that value.
+    /// A number with this bound(), for rules that wrap others.
     static constexpr tracked from_bound(const T& value, const bound_type& bound) {
         return {value, bound};
     }
 
-    /// The value that plain arithmetic would have computed.
+    /// The result of plain arithmetic.
     constexpr const T& value() const { return value_; }
-    /// An upper bound of |value() − exact value|; infinite where nothing is known (NaN in a format
-    /// without infinities), never NaN in others. So `x.error() <= tolerance` is safe, as is its
-    /// opposite.
+    /// An upper bound of |value() − exact value|; infinite if there is none (NaN in a format
+    /// without infinities), otherwise never NaN. `x.error() <= tolerance` and its opposite are
+    /// safe.
     constexpr T error() const {
         const wide e = own_error();
         if constexpr (widens) {
             const T nearest(e);
-            if (wide(nearest) < e)  // ε times it is at least its last place, or η is
+            if (wide(nearest) < e)  // ε·nearest or η is at least its last place
                 return nearest +
                        (nearest * number_traits<T>::epsilon() + number_traits<T>::underflow_unit());
             return e == e ? nearest : number_traits<T>::infinity();
@@ -134,7 +130,7 @@ class tracked {
             return e == e ? e : number_traits<T>::infinity();
         }
     }
-    /// What the rule stores, for those who study bounds.
+    /// The rule's own state, for studying bounds.
     constexpr const bound_type& bound() const { return bound_; }
 
     friend constexpr tracked operator+(const tracked& a, const tracked& b) {
@@ -158,7 +154,7 @@ class tracked {
         else
             return {v, Rule::template multiply<T>(v, a.as_operand(), b.as_operand())};
     }
-    /// Does not compile for a rule without division. Unknown where b may be zero.
+    /// Does not compile for a rule without division. The error is infinite if b may be zero.
     friend constexpr tracked operator/(const tracked& a, const tracked& b) {
         static_assert(detail::rule_has_divide<Rule, T>,
                       "errbound: this bound rule has no divide(result, a, b)");
@@ -180,7 +176,7 @@ class tracked {
     constexpr tracked& operator*=(const tracked& b) { return *this = *this * b; }
     constexpr tracked& operator/=(const tracked& b) { return *this = *this / b; }
 
-    /// x·2^e: exact unless it underflows, and then the bound says so.
+    /// x·2^e. Exact unless it underflows; then the bound includes the loss.
     friend constexpr tracked scale(const tracked& x, int e) {
         const int power = (std::max)(e, -(std::numeric_limits<int>::max)());  // rules negate it
         const T v = number_traits<T>::scale(x.value_, power);
@@ -190,22 +186,21 @@ class tracked {
             return {v, Rule::template scale<T>(v, x.as_operand(), power)};
     }
 
-    /// The certain sign; the rule's own where it has one. Strict: a value that equals its bound may
-    /// belong to zero. Proof of the default: proofs/IeeeRules.v, sign_of_known.
+    /// The certain sign, by the rule's own `sign` if it has one. Strict: a value equal to its bound
+    /// may belong to zero. Proof of the default: proofs/IeeeRules.v, sign_of_known.
     friend constexpr sign_type sign_of(const tracked& x) {
         const wide v(x.value_);
         if constexpr (detail::rule_has_sign<Rule, wide>) return Rule::sign(v, x.bound_);
-        const wide e = x.own_error();  // no number is greater than NaN
+        const wide e = x.own_error();  // comparisons with NaN are false
         if (v > e) return sign_type::positive;
         if (v < -e) return sign_type::negative;
         return v == 0 && e == 0 ? sign_type::zero : sign_type::uncertain;
     }
-    /// The certain sign of a − b. There is no operator<: it would have to guess. For choices that
-    /// may be wrong without harm there is by_value.
+    /// The certain sign of a − b. There is no operator<, which would have to guess; see by_value.
     friend constexpr sign_type compare(const tracked& a, const tracked& b) {
         return sign_of(a - b);
     }
-    /// What a compiler then says names what to take.
+    /// The compiler's message names the functions to use.
     friend detail::take_compare_or_by_value operator<=>(const tracked&, const tracked&) = delete;
 
   private:
@@ -213,13 +208,13 @@ class tracked {
     using wide = typename detail::type_of_bounds<T, Rule>::type;
 
     static constexpr tracked exactly(const T& value) { return {value, Rule::exact(wide(value))}; }
-    /// The rule's own, which may be NaN.
+    /// May be NaN.
     constexpr wide own_error() const { return Rule::error(wide(value_), bound_); }
     constexpr tracked<wide, Rule> widened() const requires widens {
         return tracked<wide, Rule>::from_bound(wide(value_), bound_);
     }
-    /// The exact number that x stands for, by the value v. With d = v − x̂ and a number D that has
-    /// the value d and is 0, x + D has the value v; if d is not exact, it is unknown.
+    /// The same exact number as x, with the value v. With d = v − x̂ and a number D of value d that
+    /// is exactly 0, x + D has the value v. If d is not exact, the error is infinite.
     static constexpr tracked rounded_from(const T& v,
                                           const tracked<wide, Rule>& x) requires widens {
         const wide d = wide(v) - x.value();
@@ -234,9 +229,9 @@ class tracked {
         using traits = number_traits<T>;
         const T v = detail::rounded(static_cast<T>(value));
         if (detail::is_exactly<T>(v, value)) return exactly(v);
-        // What overflows may be the largest number, in some directions of rounding.
+        // In some rounding directions an overflow gives the largest number.
         if (traits::abs(v) == traits::largest()) return within(v, traits::infinity());
-        // Of a normal number in any direction at most ε|v|, in two roundings less than 2ε|v|.
+        // One rounding is off by at most ε|v| in any direction, two by less than 2ε|v|.
         const T relative = detail::rounded_product(traits::abs(v), T(2 * traits::epsilon()));
         return within(v, T(relative + traits::underflow_unit()));
     }
@@ -248,24 +243,22 @@ class tracked {
     [[no_unique_address]] bound_type bound_;
 };
 
-/// There is no ==: it would have to guess. sign_of(x) == sign_type::zero is true if x is certainly
-/// zero; x.value() == 0 compares the value alone. (errbound/eigen.hpp has one of two tracked
-/// numbers.)
+/// No ==, which would have to guess. sign_of(x) == sign_type::zero: x is certainly zero; x.value()
+/// == 0 compares the value. (errbound/eigen.hpp defines == of two tracked numbers.)
 template <class T, class Rule, class Number>
 detail::take_sign_of_or_compare operator==(const tracked<T, Rule>&, const Number&) = delete;
 
-/// Orders tracked numbers by their values alone, NaN last: for choices that may be wrong without
-/// harm, as of pivots, or for sorting. std::sort(begin, end, errbound::by_value{}).
+/// Orders tracked numbers by value, NaN last. For pivoting, sorting and other choices that may be
+/// wrong without harm: std::sort(begin, end, errbound::by_value{}).
 struct by_value {
-    /// Whether a comes before b.
     template <class T, class Rule>
     constexpr bool operator()(const tracked<T, Rule>& a, const tracked<T, Rule>& b) const {
         return a.value() < b.value() || (a.value() == a.value() && !(b.value() == b.value()));
     }
 };
 
-/// Whether generic code may treat it as a tracked number: it has value_type, value(), sign_of and
-/// scale. Specialise for a type that wraps one.
+/// True if generic code may treat the type as a tracked number: it has value_type, value(), sign_of
+/// and scale. Specialise for a type that wraps one.
 template <class>
 inline constexpr bool is_tracked = false;
 template <class T, class Rule>
@@ -273,7 +266,7 @@ inline constexpr bool is_tracked<tracked<T, Rule>> = true;
 
 }  // namespace errbound
 
-/// Those of T; numbers are exact.
+/// Same as numeric_limits<T>. All constants have zero error.
 template <class T, class Rule>
 struct std::numeric_limits<errbound::tracked<T, Rule>> : std::numeric_limits<T> {
   private:

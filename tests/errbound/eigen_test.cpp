@@ -154,7 +154,7 @@ TEST(Eigen, VectorsOfASizeKnownAtRunTimeMakeBatches) {
 }
 
 TEST(Eigen, PointsAndBatchesThatAreTooShortAreAssertions) {
-    constexpr const char* message = "fewer coordinates than the predicate's shape says";
+    constexpr const char* message = "fewer coordinates than the predicate's shape";
     const Eigen::VectorXd one = Eigen::VectorXd::Zero(1);
     EXPECT_DEATH((void)errbound::orient2d(a, b, one), message);
     EXPECT_DEATH((void)errbound::orient2d(a, std::vector<double>{1}, c), message);

@@ -1,3 +1,4 @@
+// POSIX.
 #include <fcntl.h>
 #include <stdlib.h>
 #include <sys/file.h>
@@ -19,7 +20,7 @@
 namespace errbound::support::system {
 namespace {
 
-/// Opens closed descriptors for reading only, so that writing to them still fails.
+/// Read-only, so that writing to a closed stream still fails and is reported.
 void open_standard_descriptors() {
     for (const int descriptor : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
         if (fcntl(descriptor, F_GETFD) == -1 && errno == EBADF) ::open("/dev/null", O_RDONLY);
@@ -33,8 +34,8 @@ constexpr std::size_t stack_size = 1 << 20;
     for (std::size_t end = stack_size; end > 0; end -= page) stack[end - 1] = std::byte{};
 }
 
-/// Grows the first thread's stack now. If address space runs out later, a signal would end the
-/// program without a message.
+/// The main thread's stack grows on use and ends the program by a signal if address space is
+/// missing. Growing it now makes that an error.
 void grow_stack() {
     rlimit limit{};
     if (getrlimit(RLIMIT_STACK, &limit) != 0 || limit.rlim_cur < 2 * stack_size) return;
@@ -121,7 +122,7 @@ bool remove(const std::string& file) {
 }
 
 int create(const std::string& file) {
-    constexpr mode_t all = 0666;  // less what the umask takes
+    constexpr mode_t all = 0666;  // minus the umask
     return ::open(file.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, all);
 }
 int open_to_write(const std::string& file) {

@@ -1,5 +1,5 @@
-// Operating-system functions for programs and files: posix.cpp and windows.cpp.
-// Functions that fail leave the reason in errno.
+// Operating system calls for programs and files: posix.cpp and windows.cpp. Failures leave the
+// reason in errno.
 #pragma once
 
 #include <cstddef>
@@ -10,57 +10,57 @@
 
 namespace errbound::support::system {
 
-/// Opens closed standard descriptors, sets them to binary, makes writes beyond the file size limit
-/// fail, and allocates the first thread's stack. Call it first. Throws std::bad_alloc.
+/// Opens the standard descriptors in binary mode, makes writes beyond a file size limit fail, and
+/// grows the main thread's stack. Throws std::bad_alloc.
 void start_program();
 
+/// True for a terminal that supports ANSI control sequences.
 bool is_terminal(int descriptor);
 
 std::size_t peak_memory_bytes();
-/// The memory of the machine, and its average number of runnable threads over a minute (0 if the
-/// system does not count them).
+/// The machine's memory, and the average number of runnable threads over a minute (0 if unknown).
 double memory_bytes();
 double load();
-/// The program's file, or an empty path if the system does not report it.
+/// The program's file; empty if unknown.
 std::filesystem::path program_file();
 int process_number();
-/// Runs a program with one argument. Returns its exit status; 127 if it cannot be run.
+/// Runs a program with one argument. Returns its exit status; 127 if it cannot run.
 int run(const char* program, const std::string& argument);
 
-/// The characters that separate folders in a path; true if devices have names, such as /dev/stdin.
+/// Separators in a path; true if devices have names as /dev/stdin.
 extern const std::string_view separators;
 extern const bool has_device_files;
-/// Returns the bytes of the system's name, or UTF-8 if its names are not bytes. The functions below
-/// take such names (strings, since paths of libstdc++ 12 hang if memory is missing).
+/// The system's bytes, or UTF-8 if it has none; also for the names below. (Strings, since libstdc++
+/// 12's paths never return if memory runs out.)
 std::string native_name(const std::filesystem::path& path);
-/// Returns the name without links; empty if there is no such file.
+/// Resolves links; empty if there is no such file.
 std::string real_name(const std::string& name);
-/// True if the system does not distinguish the names. Precondition: both are absolute, without
-/// links.
+/// True if two absolute names without links are the same for the system.
 bool are_one_name(const std::string& a, const std::string& b);
 bool exists(const std::string& name);
 bool may_write(const std::string& file);
 bool may_write_in(const std::string& folder);
+/// Renames, and replaces `to`.
 bool replace(const std::string& from, const std::string& to);
 bool remove(const std::string& file);
 
-/// These return descriptors, or -1. create makes a new file with permissions by the user's umask,
-/// and fails if it exists.
+/// Return descriptors, or -1. The file must not exist; the user's mask sets its rights.
 int create(const std::string& file);
 int open_to_write(const std::string& file);
-/// Creates a file for writing and reading. The last six letters of its name are replaced.
+/// A new file to write and read; replaces the name's last six letters.
 int create_named(std::string& pattern);
 int close(int descriptor);
-/// Return the number of bytes written or read, or -1.
+/// Bytes written or read, or -1.
 std::ptrdiff_t write(int descriptor, const char* from, std::size_t size);
 std::ptrdiff_t read_at(int descriptor, std::uint64_t offset, char* to, std::size_t size);
+/// Sets the file's rights to those of another.
 void copy_rights(int descriptor, const std::string& other);
 
-/// Locks a folder until the returned descriptor is closed. Returns -1 with EWOULDBLOCK in errno if
-/// another process has the lock; another errno if locks are not supported.
+/// A descriptor that locks the folder against other processes until it is closed. -1 with
+/// EWOULDBLOCK if it is locked, with another errno if there are no locks.
 int lock(const std::string& folder);
 
-/// While an object lives, writing to a pipe without a reader fails instead of ending the program.
+/// While it lives, writing to a closed pipe fails and does not end the program.
 class failing_pipes {
   public:
     failing_pipes();

@@ -1,3 +1,4 @@
+// Windows, by the C runtime where that suffices.
 #define WIN32_LEAN_AND_MEAN
 #define NOMINMAX
 #include <fcntl.h>
@@ -5,7 +6,7 @@
 #include <process.h>
 #include <sys/stat.h>
 #include <windows.h>
-// Requires windows.h.
+// Must follow windows.h.
 #include <psapi.h>
 
 #include <algorithm>
@@ -20,7 +21,7 @@
 namespace errbound::support::system {
 namespace {
 
-/// A name in UTF-16; empty, and so invalid, if it is too long.
+/// A name in UTF-16; empty, thus invalid, if it is too long.
 class wide {
   public:
     explicit wide(const std::string& name) {
@@ -46,7 +47,6 @@ constexpr int to_exist = 0, to_write = 2;
 int open(const std::string& file, int flags) {
     return _wopen(wide(file).c_str(), flags | _O_BINARY | _O_NOINHERIT, _S_IREAD | _S_IWRITE);
 }
-/// The largest size that one call of the C runtime accepts.
 unsigned at_once(std::size_t size) {
     return static_cast<unsigned>(std::min<std::size_t>(size, INT_MAX));
 }
@@ -165,7 +165,7 @@ std::ptrdiff_t read_at(int descriptor, std::uint64_t offset, char* to, std::size
 }
 void copy_rights(int, const std::string&) {}
 
-// Creates a file that other processes cannot open. Closing its descriptor removes it.
+// An exclusive file, deleted with its descriptor.
 int lock(const std::string& folder) {
     const HANDLE file = CreateFileW(wide(folder + "\\.lock").c_str(), GENERIC_WRITE, 0, nullptr,
                                     OPEN_ALWAYS, FILE_FLAG_DELETE_ON_CLOSE, nullptr);

@@ -1,9 +1,5 @@
-// Bit counts that exist on the host and on CUDA devices.
-//
-// nvcc has no device code for the builtins behind <bit>'s counting functions. Inside constexpr
-// functions it replaces their calls by calls of address 0, without a warning, and removes the code
-// after them as unreachable. Code that a device can reach calls these functions instead;
-// tests/ccd/cuda/null_calls.py searches the device code for such calls.
+// Bit counts for the host and CUDA devices. In constexpr functions, nvcc silently calls address 0
+// for those of <bit>; tests/ccd/cuda/null_calls.py searches for such calls.
 #pragma once
 
 #include <bit>
@@ -31,7 +27,6 @@ constexpr int countl_zero(T x) {
 template <class T>
 constexpr int countr_zero(T x) {
 #ifdef __CUDA_ARCH__
-    // x & -x has only the lowest set bit of x.
     if (x == 0) return std::numeric_limits<T>::digits;
     return std::numeric_limits<T>::digits - 1 -
            countl_zero(static_cast<T>(x & static_cast<T>(~x + 1)));
@@ -40,7 +35,7 @@ constexpr int countr_zero(T x) {
 #endif
 }
 
-/// Number of bits that x takes: 1 + floor(log2 x), and 0 for x == 0.
+/// 1 + floor(log2 x), and 0 for x == 0.
 template <class T>
 constexpr int bit_width(T x) {
     return std::numeric_limits<T>::digits - countl_zero(x);

@@ -1,5 +1,5 @@
-// Long doubles as std::to_chars writes them, by printf and strtold: libc++'s converts them to
-// doubles first, which are others, and libstdc++'s on Windows takes the locale's point.
+// Long doubles as std::to_chars should write them, by printf and strtold. libc++'s to_chars
+// converts them to double, and libstdc++'s on Windows uses the locale's decimal point.
 #pragma once
 
 #include <algorithm>
@@ -14,7 +14,7 @@
 
 namespace errbound::detail {
 
-/// Both round as the environment says: while one lives, to nearest.
+/// Sets rounding to nearest, which printf and strtold obey.
 class to_nearest {
   public:
     to_nearest() { std::fesetround(FE_TONEAREST); }
@@ -40,7 +40,7 @@ inline std::string printf_decimal(long double x, std::chars_format how, int prec
     const to_nearest rounding;
     std::string text =
         printf_text(how == std::chars_format::fixed ? "%.*Lf" : "%.*Le", precision, x);
-    if (std::isfinite(x) && precision > 0) {  // the locale's point, of any length
+    if (std::isfinite(x) && precision > 0) {  // the locale's decimal point, of any length
         const char* others = "+-e0123456789";
         const std::size_t point = text.find_first_not_of(others);
         text.replace(point, text.find_first_of(others, point) - point, ".");
@@ -48,9 +48,7 @@ inline std::string printf_decimal(long double x, std::chars_format how, int prec
     return text;
 }
 
-/// A precision of which the decimal reads back as x, found by bisection. (Next to powers of two the
-/// least can be missed by a digit or two: there the nearest decimal of more digits may not read
-/// back though one of fewer does.)
+/// A precision whose decimal reads back as x, by bisection; not always the least.
 inline int precision_to_read_back(long double x) {
     const to_nearest rounding;
     int too_few = -1, enough = std::numeric_limits<long double>::max_digits10 - 1;
@@ -65,13 +63,13 @@ inline std::string printf_decimal(long double x, std::chars_format) {
     return printf_decimal(x, std::chars_format::scientific,
                           std::isfinite(x) ? precision_to_read_back(x) : 0);
 }
-/// With an exponent where that is shorter.
+/// In scientific notation if that is shorter.
 inline std::string printf_decimal(long double x) {
     if (!std::isfinite(x)) return printf_decimal(x, std::chars_format::fixed, 0);
     const int precision = precision_to_read_back(x);
     std::string scientific = printf_decimal(x, std::chars_format::scientific, precision);
     const int exponent = std::atoi(scientific.c_str() + scientific.find('e') + 1);
-    // Digits before the point and zeros after it are one each.
+    // Each digit before the point and zero after it takes one character.
     if (std::abs(exponent) > static_cast<int>(scientific.size())) return scientific;
     std::string fixed =
         printf_decimal(x, std::chars_format::fixed, (std::max)(0, precision - exponent));

@@ -1,4 +1,4 @@
-// A product that is rounded by itself, whatever the compiler's contraction default.
+// Rounds products separately, despite compilers' contraction defaults.
 #pragma once
 
 #include <concepts>
@@ -6,23 +6,17 @@
 
 namespace errbound::detail {
 
-/// x as a number of its own: a product in it is not fused into the sum that uses it
-/// (-ffp-contract=fast, GCC's default, does so across statements and inlined calls, and
-/// fma(a, b, c) is not the sum of the rounded product). Identity in value; no instruction is made
-/// for it.
-///
-/// Where the target has no fused multiply-add (x86-64 by default), it is nothing at all. Elsewhere
-/// it is an empty asm statement through a register, which also keeps the product out of the
-/// compiler's vectorised loops. (__builtin_assoc_barrier is no substitute: g++ 12 forgets it when
-/// it vectorises, and fuses.) Types of one's own are left alone: what they are made of (SIMD packs)
-/// must be built with -ffp-contract=off; library types (Boost.Multiprecision) never fuse. In CUDA
-/// device code it is an addition of −0 by an intrinsic that is never fused.
+/// x, which the compiler must not fuse into a sum (-ffp-contract=fast, GCC's default, fuses across
+/// statements). No operation; without fused multiply-add (x86-64 by default) nothing at all.
+/// Elsewhere an empty asm statement, which prevents vectorising; g++ 12 drops
+/// __builtin_assoc_barrier. Class types are returned unchanged: build SIMD packs with
+/// -ffp-contract=off.
 template <class T>
 constexpr T rounded(const T& x) {
     return x;
 }
 
-/// False where no compiler can fuse, for want of an instruction.
+/// False if the target has no instruction to fuse.
 #if defined(__x86_64__) && !defined(__CUDACC__) && !defined(__FMA__) && !defined(__FMA4__) && \
     !defined(__AVX512F__)
 inline constexpr bool may_contract = false;
@@ -54,7 +48,7 @@ constexpr T rounded(const T& x) {
     return y;
 }
 #endif
-#ifdef __FLOAT128_HARDWARE__  // POWER9 fuses products of 113 bits, too
+#ifdef __FLOAT128_HARDWARE__  // POWER9 also fuses products of 113 bits
 constexpr __float128 rounded(const __float128& x) {
     if (std::is_constant_evaluated()) return x;
     __float128 y = x;
@@ -64,7 +58,7 @@ constexpr __float128 rounded(const __float128& x) {
 #endif
 #endif
 
-/// a·b, rounded by itself.
+/// a·b, rounded separately.
 template <class T>
 constexpr T rounded_product(const T& a, const T& b) {
 #if defined(__CUDA_ARCH__)

@@ -1,5 +1,4 @@
-// What running error bounds of dot products have in common, whatever a rounding counts: sums over
-// some terms, closed by one factor. Internal; for the rules `tight` and `sharp`.
+// Running error bounds of dot products, for the rules `tight` and `sharp`. Internal.
 #pragma once
 
 #include <errbound/detail/rounded.hpp>
@@ -7,26 +6,23 @@
 
 namespace errbound::detail {
 
-/// The largest m <= 8 with (m + 6)² <= 2^bits; 0 if there is none: for how many terms of a sum one
-/// factor pays, which pays for m + 6 roundings. (With more, the last term's would be too many.)
+/// The largest m <= 8 with (m + 6)² <= 2^bits, or 0: one factor pays for m + 6 roundings.
 constexpr int terms_at_once(int bits) {
     int m = 8;
     while (bits < 8 && m > 0 && (m + 6) * (m + 6) > (1 << bits)) --m;
     return m;
 }
 
-/// Per term what its own roundings lose and what its arguments are off by, Σ |â|σb + σa(|b̂| + σb),
-/// in sums that are closed every terms_at_once(Bits) terms. Derived, the rule's dot_bound, says for
-/// a number of terms, and of those among them whose arguments are uncertain,
-///   factor_units(terms): the factor that pays for the roundings of these sums, less 1, in ε;
-///   underflows(terms, uncertain): how many times η is lost.
-/// Why these are enough is derived where the rule says them.
+/// Sums each term's own roundings and its arguments' errors, Σ |â|σb + σa(|b̂| + σb), closed every
+/// terms_at_once(Bits) terms. Derived, the rule's dot_bound, defines, with a proof:
+///   factor_units(terms): the factor that pays for these sums' roundings, less 1, in ε;
+///   underflows(terms, uncertain): the number of η lost; `uncertain` terms have inexact arguments.
 template <class T, class Derived, int Bits>
 class running_bound {
     static constexpr int most = terms_at_once(Bits);
 
   protected:
-    /// Whether a factor pays for a term at all.
+    /// True if a factor pays for any term.
     static constexpr bool pays = most > 0;
 
     template <class Operand>
@@ -41,7 +37,6 @@ class running_bound {
         }
         if (++terms_ == most) close();
     }
-    /// The bound of all terms.
     constexpr T closed() {
         if (terms_ > 0) close();
         return closed_;

@@ -1,4 +1,4 @@
-// Numbers that tell sources of errors apart, for bound rules that keep terms by source.
+// Numbers for sources of errors, for bound rules that keep terms by source.
 #pragma once
 
 #include <atomic>
@@ -7,12 +7,12 @@
 
 namespace errbound::detail {
 
-/// Stands for a source that cannot be told from others.
+/// A source without a number of its own.
 inline constexpr std::uint64_t no_source = 0;
 
 #if !defined(__CUDA_ARCH__)
-/// Another number at each call, on whatever thread; ascending on each. Threads draw blocks of them,
-/// 2^48 of which there are. (Libraries that hide their symbols must not have a count of their own.)
+/// A new number at each call, on any thread, ascending on each. Threads draw blocks. (Libraries
+/// with hidden symbols must share this counter.)
 #if defined(__GNUC__) && !defined(_WIN32)
 [[gnu::visibility("default")]]
 #endif
@@ -29,9 +29,8 @@ next_source() {
 }
 #endif
 
-/// A source that is no other number's; no_source where none can be had: in constant expressions and
-/// in device code. To be asked for in an argument: what initialises a const integer is taken for a
-/// constant expression.
+/// A new source; no_source in constant expressions and device code. Call it within an argument: the
+/// initialiser of a const integer counts as a constant expression.
 constexpr std::uint64_t fresh_source() {
 #if !defined(__CUDA_ARCH__)
     if (!std::is_constant_evaluated()) return next_source();

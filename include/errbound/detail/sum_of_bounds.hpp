@@ -1,11 +1,8 @@
-// The bound of a sum: its own rounding error and the operands' bounds. Internal; for the rules
-// `tight`, `sharp` and `residual`.
+// The bound of a sum: its rounding error and the operands' bounds. Internal; for the rules.
 //
-// A factor that pays for the roundings of a bound multiplies the inherited bound, too: in a sum of
-// n terms its n-th power. That is harmless while the inherited bound is small: below 2^k times the
-// own error, where 2^k = 2^-10/ε, a factor 1 + 8ε adds at most 2^-7 of the own error. Beyond,
-// bounds are added upwards: exactly if the format has their sum, else to the number above, at most
-// ε more. Types of 40 bits or more use the factor alone: 2^25 of them make 1 + 2^-11.
+// A factor for the roundings of a bound also multiplies the inherited bound: n times in a sum of n
+// terms. If that is below 2^k times the own error, 2^k = 2^-10/ε, 1 + 8ε adds at most 2^-7 of the
+// own error. Beyond, bounds are added upwards. Types of 40 bits or more use only the factor.
 #pragma once
 
 #include <algorithm>
@@ -15,10 +12,8 @@
 
 namespace errbound::detail {
 
-/// At least x + y, for x, y >= 0; x + y if T has it; rounding in any direction. With x >= y,
-/// s = fl(x + y) is between x and 2x, so that s − x is exact, and less than y just if s < x + y.
-/// Then s is normal, and s(1 + ε), rounded, at least its successor.
-/// Proof: proofs/Upper.v, sum_above_sound, sum_above_exact, sum_above_least.
+/// At least x + y, for x, y >= 0, in any rounding direction; x + y if T has it. With x >= y, fl(x +
+/// y) − x is exact. Proof: proofs/Upper.v, sum_above_sound, sum_above_exact, sum_above_least.
 template <class T>
 constexpr T sum_above(const T& x, const T& y) {
     const T sum = x + y;
@@ -26,9 +21,8 @@ constexpr T sum_above(const T& x, const T& y) {
     return rounded_down ? rounded_product(sum, T(1 + number_traits<T>::epsilon())) : sum;
 }
 
-/// At least own + (x + y), for own, x, y >= 0, and at most `enlarged`, which is at least that, too,
-/// by a factor for its roundings. Proof: proofs/Upper.v, sum_of_bounds_sound,
-/// sum_of_bounds_at_most.
+/// At least own + (x + y), for own, x, y >= 0, and at most `enlarged`. Proof: proofs/Upper.v,
+/// sum_of_bounds_sound, sum_of_bounds_at_most.
 template <class T>
 constexpr T sum_of_bounds(const T& enlarged, const T& own, const T& x, const T& y) {
     constexpr int digits = number_traits<T>::digits;

@@ -1,5 +1,4 @@
-// Elementary functions (errbound/elementary.hpp) of explained numbers: each is one operation, whose
-// arguments' contributions are carried on (functions.hpp).
+// Elementary functions (errbound/elementary.hpp) of explained numbers, each one operation.
 #pragma once
 
 #include <cstddef>

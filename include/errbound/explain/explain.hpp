@@ -1,4 +1,4 @@
-// Where the error of a result comes from: all that a program needs to ask.
+// Where the error of a result comes from. Includes everything needed; tutorial: docs/how-wrong.md.
 //
 //   using number = errbound::tracked<double, errbound::explained<>>;
 //   number mean(std::span<const number> x) {
@@ -8,8 +8,6 @@
 //       return sum / static_cast<int>(x.size());
 //   }
 //   std::cout << text_of(errbound::explain(mean(x), "mean of x"));
-//
-// docs/how-wrong.md goes that way from the beginning.
 #pragma once
 
 #include <algorithm>
@@ -24,8 +22,7 @@
 
 namespace errbound {
 
-/// The error of x by its sources; of other number types than double rounded to double. `name` is
-/// what tables call x. Cost: a look-up for each source.
+/// The error of x, called `name`, by its sources, as doubles. Cost: a look-up for each source.
 template <class T, class Rule, std::size_t Limit>
 explanation explain(const tracked<T, explained<Rule, Limit>>& x, std::string name = "result") {
     explanation e{std::move(name),

@@ -1,34 +1,13 @@
-// Rule over a rule: where the error of a tracked number comes from.
+// A rule over a rule: records where the error of a tracked number comes from.
 //
 //   using number = errbound::tracked<double, errbound::explained<errbound::tight>>;
 //   ... a computation, in scopes (scope.hpp) ...
 //   std::cout << text_of(errbound::explain(x));        // a table (explanation.hpp)
 //
-// Values, bounds and signs are those of the rule that is wrapped, bit for bit. Beside its bound a
-// number has a ledger (ledger.hpp): what each source, a scope and a kind of operation, has put into
-// the error. An operation
-//  * carries the operands' contributions on, each times the derivative: 1 for sums, the other
-//    factor for products, 1/b and v/b for quotients v = a/b, 2^e for scalings;
-//  * books its own: what the rule says of the same operation on exact operands of the same values;
-//  * adds what the rule's bound has beyond that (products of errors, factors for its own roundings)
-//    in proportion to these; where a rule's bound is less, contributions are lowered in proportion.
-// So contributions of a number come to its error(), and never to less. Where the rule knows errors
-// with their signs (`correction`, see rules/rule.hpp), known parts are carried with them, and may
-// cancel: they add up to the correction, and their sizes to error() or more.
-//
-// The error that counts is the rule's bound: of what a rule overestimates the explanation tells as
-// it does of real errors.
-//
-// A rule that is derived from another (rules/derived.hpp) is wrapped, not derived from a wrapped
-// one. What makes its result from a value and an error alone, by tracked::within, is an input to
-// its result: functions of one's own that do so are for as_one_operation (functions.hpp).
-//
-// Cost: an operation is linear in the sources of its operands, a tenth of a microsecond with few
-// and one with 32 (docs/measured.md); memory 24 bytes for each of a number's sources (T double), at
-// most Limit of them: beyond that the smallest are put together as "the rest". Numbers allocate,
-// and operations throw std::bad_alloc where there is no memory. Not for device code or SIMD packs.
-// Threads need no more care than for other numbers; but where they meet scopes first in another
-// order, amounts are added up in another order, too, and may differ by roundings.
+// Values, bounds and signs are those of the wrapped rule, bit for bit. The explained error is the
+// rule's bound, overestimation included. Numbers allocate; operations throw std::bad_alloc. Not for
+// device code or SIMD packs. Cost: linear in the operands' sources, a tenth of a microsecond with
+// few and one with 32 (docs/measured.md); 24 bytes per source (T double).
 #pragma once
 
 #include <array>
@@ -41,12 +20,21 @@
 
 namespace errbound {
 
-/// Rule: what bounds are made by. Limit: the most sources that a number keeps apart.
+/// Rule: the wrapped rule. Limit: sources per number; the smallest beyond it become "the rest".
+///
+/// A source is a scope and a kind of operation. An operation carries the operands' contributions
+/// times the derivative (1, the other factor, 1/b and v/b for v = a/b, 2^e), and books its own: the
+/// rule's bound for exact operands. The rest of the bound is distributed in proportion. So
+/// contributions add up to at least error(). With a `correction`, signed parts are carried too and
+/// may cancel: they add up to the correction, and their sizes to error() or more.
+///
+/// To explain a derived rule (rules/derived.hpp), wrap it; do not derive from a wrapped one. A
+/// function that returns tracked::within makes a new "input"; as_one_operation (functions.hpp)
+/// keeps sources. Thread scheduling may change amounts by roundings.
 template <class Rule = tight, std::size_t Limit = 64>
 struct explained {
-    static_assert(Limit > 0, "errbound: an explained number keeps at least one source");
+    static_assert(Limit > 0, "errbound: an explained number needs at least one source");
 
-    /// That of the rule whose bounds these are.
     static constexpr const char* name = Rule::name;
     static constexpr error_meaning error_is = meaning_of_error<Rule>;
     static constexpr bool has_division = detail::rule_divides<Rule, double>;
@@ -82,7 +70,6 @@ struct explained {
     static bound<T> exact(const T& value) {
         return from_outside<T>(value, Rule::template exact<T>(value));
     }
-    /// A source of the kind "input".
     template <class T>
     static bound<T> within(const T& value, const T& error) {
         return from_outside<T>(value, Rule::template within<T>(value, error));
@@ -163,18 +150,17 @@ struct explained {
         return closed<T>(detail::operations::scaled, v, result, own, std::move(contributions));
     }
 
-    /// For functions: x as the rule itself has it.
+    /// For functions: x under the wrapped rule.
     template <class T>
     static tracked<T, Rule> unwrapped(const tracked<T, explained>& x) {
         return tracked<T, Rule>::from_bound(x.value(), x.bound().of_rule);
     }
-    /// The rule's x with contributions that add up to its error.
+    /// The wrapped rule's x, with contributions that add up to its error.
     template <class T>
     static tracked<T, explained> wrapped(const tracked<T, Rule>& x, ledger<T> contributions) {
         return tracked<T, explained>::from_bound(x.value(), {x.bound(), std::move(contributions)});
     }
-    /// A function's result, with what its arguments' errors have put into it and what the function
-    /// has, `own`: what it would be of exact arguments.
+    /// A function's result with its arguments' contributions. `own`: the result for exact ones.
     template <class T>
     static tracked<T, explained> closed(std::uint32_t function, const tracked<T, Rule>& result,
                                         const tracked<T, Rule>& own, ledger<T> contributions) {
@@ -185,8 +171,7 @@ struct explained {
     }
 
   private:
-    /// An operation's result `v` with the rule's bound, with what its operands have put into it;
-    /// the bound would be `own` if they were exact.
+    /// An operation's result with its operands' contributions. `own`: the bound for exact ones.
     template <class T>
     static bound<T> closed(std::uint32_t operation, const T& v, const of_rule<T>& result,
                            const of_rule<T>& own, ledger<T> contributions) {
@@ -234,7 +219,6 @@ struct explained {
         else
             to.carry_unknown(a.bound.contributions);
     }
-    /// bound_of: the rule's operation on two of its own operands.
     template <class T, class BoundOf, class TimesA, class TimesB>
     static bound<T> booked(std::uint32_t operation, const T& v, rule_operand<T, explained> a,
                            rule_operand<T, explained> b, const BoundOf& bound_of,
@@ -252,7 +236,6 @@ struct explained {
     }
 };
 
-/// Whether a rule is `explained` of another one.
 template <class>
 inline constexpr bool is_explained = false;
 template <class Rule, std::size_t Limit>

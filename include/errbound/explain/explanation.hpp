@@ -1,6 +1,4 @@
-// What an explanation is: a number's error by sources, as numbers, as a table, as JSON.
-//
-// `errbound explain FILE` prints what is written here and draws it (docs/how-wrong.md).
+// A number's error by sources: values, table, JSON for `errbound explain` (docs/how-wrong.md).
 #pragma once
 
 #include <algorithm>
@@ -23,33 +21,30 @@
 
 namespace errbound {
 
-/// What one source has put into a result's error.
 struct contribution {
-    std::vector<place> scopes;  ///< that it stands in, the outermost first
-    /// "+", "-", "*", "/", "scale", "input" (a number that is within an error) or a function's
-    /// name; "the rest", in no scope: what was too small to be kept apart.
+    std::vector<place> scopes;  ///< around it, the outermost first
+    /// "+", "-", "*", "/", "scale", "input" (a number within an error) or a function's name. "the
+    /// rest", in no scope: sources too small to be kept.
     std::string operation;
-    /// Its part of the error's bound, at least 0. Infinite: from here on nothing is known.
+    /// Part of the error's bound, at least 0; infinite if the error became infinite here.
     double amount = 0;
-    /// The part of true value − value that it is known to be, with its sign; 0 by rules that know
-    /// no signs.
+    /// Signed part of true value − value; 0 by rules without signs.
     double known = 0;
 };
 
-/// A result's error by its sources.
 struct explanation {
     std::string name;  ///< of the result
-    std::string rule;  ///< by which its error is bounded
+    std::string rule;  ///< the rule that bounds its error
     double value = 0;
-    double error = 0;  ///< infinite: nothing is known
-    /// The largest first. Amounts come to no less than the error, and to more by roundings (a few
-    /// 2^-53 of it for each source) or, by a rule that knows signs, where known parts cancel.
+    double error = 0;  ///< infinite if there is no bound
+    /// The largest first. Amounts add up to at least the error. They exceed it by roundings (a few
+    /// 2^-53 of it per source), or where signed parts cancel.
     std::vector<contribution> contributions;
 };
 
 namespace detail {
 
-/// Positions of the text's bytes that begin no character of UTF-8 are left out.
+/// Bytes of the UTF-8 character at the start of the text; 0 if there is none.
 inline std::size_t character_length(std::string_view text) {
     const auto byte = [&](std::size_t i) {
         return i < text.size() ? static_cast<unsigned char>(text[i]) : 0U;
@@ -63,15 +58,14 @@ inline std::size_t character_length(std::string_view text) {
                                               : 0;
     for (std::size_t i = 1; i < length; ++i)
         if (byte(i) < 0x80 || byte(i) >= 0xc0) return 0;
-    // Overlong forms, surrogates and what is beyond the last character.
+    // Overlong forms, surrogates and codes beyond the last character.
     if ((first == 0xe0 && second < 0xa0) || (first == 0xed && second >= 0xa0) ||
         (first == 0xf0 && second < 0x90) || (first == 0xf4 && second >= 0x90))
         return 0;
     return length;
 }
 
-/// For people: bytes that are no UTF-8 and control characters, which a terminal would obey, are
-/// written as '?'.
+/// For terminals: replaces control characters and invalid UTF-8 by '?'.
 inline std::string printable(std::string_view text) {
     std::string shown;
     while (!text.empty()) {
@@ -88,14 +82,14 @@ inline std::string printable(std::string_view text) {
     }
     return shown;
 }
-/// Of a text that is UTF-8: how many columns it takes, of a character each.
+/// Columns of a UTF-8 text, one per character.
 inline std::size_t columns_of(std::string_view text) {
     return static_cast<std::size_t>(std::count_if(text.begin(), text.end(), [](char c) {
         return (static_cast<unsigned char>(c) & 0xc0) != 0x80;
     }));
 }
 
-/// A JSON string. Bytes that are no UTF-8 (a path may be any) are written as '?'.
+/// A JSON string; invalid UTF-8 (possible in paths) becomes '?'.
 inline std::string json_string(std::string_view text) {
     std::string quoted = "\"";
     while (!text.empty()) {
@@ -115,14 +109,13 @@ inline std::string json_string(std::string_view text) {
     }
     return quoted + '"';
 }
-/// The shortest decimal that reads back; null where there is none. (Readers may take -0 for an
-/// integer, which has no such zero.)
+/// The shortest decimal that reads back; null if not finite. (Readers may take -0 for an integer.)
 inline std::string json_number(double x) {
     if (x == 0 && std::signbit(x)) return "-0.0";
     return std::isfinite(x) ? decimal(x) : "null";
 }
 
-/// The same of a result's value, whose infinities are strings.
+/// Same as json_number, with strings for infinities.
 inline std::string json_value(double x) {
     if (std::isinf(x)) return x > 0 ? "\"inf\"" : "\"-inf\"";
     return json_number(x);
@@ -149,7 +142,6 @@ inline std::string json_of(const explanation& e) {
            contributions + (contributions.empty() ? "]\n    }" : "\n      ]\n    }");
 }
 
-/// 1.25e-16, and as it differs from others: +1.25e-16.
 inline std::string scientific(double x) {
     return decimal(x, std::chars_format::scientific, 2);
 }
@@ -157,7 +149,6 @@ inline std::string with_sign(double x) {
     const std::string text = scientific(x);
     return text[0] == '-' ? text : '+' + text;
 }
-/// 12.5
 inline std::string tenths(double x) {
     return decimal(x, std::chars_format::fixed, 1);
 }
@@ -174,13 +165,12 @@ inline std::string text_of(const std::vector<place>& scopes) {
            std::to_string(scopes.back().line) + ')';
 }
 
-/// area = 2.5 ± 4.0e-03, by tight
 inline std::string heading_of(const explanation& e) {
     return printable(e.name) + " = " + value_and_radius(e.value, e.error) + ", by " +
            printable(e.rule);
 }
 
-/// Rows of cells, the last one aligned left, the others right, but for that of operations.
+/// Aligns columns: the last two left, the others right.
 inline std::string aligned(const std::vector<std::vector<std::string>>& rows) {
     const std::size_t columns = rows.front().size();
     std::vector<std::size_t> widths(columns, 0);
@@ -199,8 +189,7 @@ inline std::string aligned(const std::vector<std::vector<std::string>>& rows) {
     return text;
 }
 
-/// Beside the file that it replaces, which keeps its permissions and the links to it; pipes and
-/// devices are written to.
+/// Writes a temporary file next to `path` and renames it; pipes and devices directly.
 inline void write_file(const std::filesystem::path& path, std::string_view text) {
     namespace fs = std::filesystem;
     std::error_code error;
@@ -226,14 +215,12 @@ inline void write_file(const std::filesystem::path& path, std::string_view text)
     written = written && !error;
     if (!written && !in_place) fs::remove(beside, error);
     if (!written)
-        throw support::file_error(path.string() +
-                                  ": found that it cannot be written, expected a path that can");
+        throw support::file_error(path.string() + ": cannot be written; expected a writable path");
 }
 
 }  // namespace detail
 
-/// The parts of the error that are the contributions', from 0 to 1, in their order; of what makes
-/// it unknown, an equal part each.
+/// Each contribution's share of the error, from 0 to 1. Infinite contributions share equally.
 inline std::vector<double> shares_of(const explanation& e) {
     double largest = 0, unknown = 0;
     for (const contribution& c : e.contributions) {
@@ -254,7 +241,7 @@ inline std::vector<double> shares_of(const explanation& e) {
     return shares;
 }
 
-/// A table for people: the result, and a line for each source, of which no more than `lines`.
+/// A table: the result, and a line for each source, at most `lines`.
 inline std::string text_of(const explanation& e, std::size_t lines = 20) {
     std::string text = detail::heading_of(e) + '\n';
     if (e.contributions.empty()) return text + "  no error\n";
@@ -282,7 +269,7 @@ inline std::string text_of(const explanation& e, std::size_t lines = 20) {
     return text;
 }
 
-/// What `errbound explain` reads.
+/// JSON that `errbound explain` reads.
 inline std::string json_of(const std::vector<explanation>& results) {
     std::string text;
     for (const explanation& e : results) text += (text.empty() ? "\n" : ",\n") + detail::json_of(e);
@@ -290,8 +277,7 @@ inline std::string json_of(const std::vector<explanation>& results) {
            text + (text.empty() ? "]\n}\n" : "\n  ]\n}\n");
 }
 
-/// Writes what `errbound explain FILE` reads, whole or not at all. Throws
-/// errbound::support::file_error.
+/// Writes json_of(results), whole or not at all. Throws errbound::support::file_error.
 inline void write_explanations(const std::filesystem::path& path,
                                const std::vector<explanation>& results) {
     detail::write_file(path, json_of(results));

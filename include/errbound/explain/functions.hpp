@@ -1,11 +1,10 @@
-// Functions of explained numbers: their arguments' contributions are carried on.
+// Functions of explained numbers; contributions of the arguments are kept.
 //
 //   sqrt(x);                                           // as for any tracked number
-//   errbound::as_one_operation("norm", f, x, y, z);    // a function of one's own, as one source
+//   errbound::as_one_operation("norm", f, x, y, z);    // a custom function as one source
 //
-// A function says its error, not how that is made up. So it is asked again: with exact arguments
-// for its own contribution, and with each argument's error alone for that argument's. Functions
-// that are sums and products by themselves (midpoint, pow) are told apart as these.
+// A function is called again with exact arguments for its own contribution, and with one argument's
+// error each. Functions made of sums and products (midpoint, pow) keep these as sources.
 #pragma once
 
 #include <algorithm>
@@ -35,14 +34,14 @@ auto known_correction(const tracked<T, Rule>& x) {
     else
         return T(0);
 }
-/// Whether all that is said of x is said of y.
+/// True if x and y have equal values, errors and corrections.
 template <class T, class Rule>
 bool says_the_same(const tracked<T, Rule>& x, const tracked<T, Rule>& y) {
     return x.value() == y.value() && x.error() == y.error() &&
            known_correction(x) == known_correction(y);
 }
 
-/// What an argument's error adds to a function's result beyond its own error.
+/// The part of a function's error that comes from an argument's error.
 template <class T, class Rule>
 amount_of<T> beyond(const tracked<T, Rule>& with_error, const tracked<T, Rule>& own) {
     using amount = amount_of<T>;
@@ -50,8 +49,7 @@ amount_of<T> beyond(const tracked<T, Rule>& with_error, const tracked<T, Rule>& 
     return more > 0 && number_traits<amount>::is_finite(more) ? more : amount(0);
 }
 
-/// A function as the rule has it: its result, what that would be of exact arguments, and of
-/// arguments of which one alone has its error.
+/// A function under the wrapped rule: for the arguments, exact ones, and one argument's error each.
 template <class T, class Rule, std::size_t Count>
 struct asked_again {
     tracked<T, Rule> result, own;
@@ -83,10 +81,9 @@ tracked<T, explained<Rule, Limit>> booked_function(
 
 }  // namespace detail
 
-/// f(x, others...), which is one operation of that name, whatever f does: f takes numbers of the
-/// rule that is wrapped, and returns one. A result that says the same as an argument, or as an
-/// argument's negative, has its contributions. Names are kept for good. Cost: f is called twice
-/// more than it has arguments.
+/// f(x, others...) as one operation with that name; f takes and returns numbers of the wrapped
+/// rule. A result equal to an argument, or to its negative, keeps that one's contributions. Names
+/// are stored for the program's lifetime. Cost: two calls of f plus one per argument.
 template <class T, class Rule, std::size_t Limit, class F,
           std::same_as<tracked<T, explained<Rule, Limit>>>... Others>
 tracked<T, explained<Rule, Limit>> as_one_operation(std::string_view name, const F& f,
@@ -164,14 +161,14 @@ template <class Range>
 concept explained_numbers =
     tracked_numbers<Range> && is_explained<typename number_of<Range>::rule_type>;
 
-/// Numbers of a range as the rule that is wrapped has them, by index.
+/// Numbers of a range under the wrapped rule, by index.
 template <class Range>
 auto unwrapped_numbers(const Range& range) {
     return [&range](std::size_t i) {
         return number_of<Range>::rule_type::unwrapped(number_at(range, i));
     };
 }
-/// The same, if they were exact.
+/// The same numbers without errors.
 template <class Range>
 auto exact_numbers(const Range& range) {
     using number = number_of<Range>;
@@ -179,7 +176,7 @@ auto exact_numbers(const Range& range) {
     return [&range](std::size_t i) { return plain(number_at(range, i).value()); };
 }
 
-/// Adds x's contributions to a function's result, times the derivative by x.
+/// Adds x's contributions to a result, times the derivative by x.
 template <class Amount, class T, class Rule, std::size_t Limit>
 void carry_times(ledger<Amount>& to, const tracked<T, Rule>& result,
                  const tracked<T, explained<Rule, Limit>>& x, const Amount& derivative) {
@@ -240,7 +237,7 @@ detail::number_of<C> horner(const C& c, const std::type_identity_t<detail::numbe
                         std::move(contributions));
 }
 
-/// convert of conversion.hpp; a new rule is `explained`, too (without it, contributions end).
+/// convert of conversion.hpp; a new rule is `explained`, too (otherwise contributions end).
 template <class To, class NewRule = void, class From, class Rule, std::size_t Limit>
 requires(std::is_void_v<NewRule> ||
          is_explained<NewRule>) auto convert(const tracked<From, explained<Rule, Limit>>& x) {

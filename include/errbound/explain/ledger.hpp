@@ -1,11 +1,8 @@
-// A number's error by its sources: what the rule `explained` (explained.hpp) keeps beside a bound.
+// A number's error by its sources, stored by the rule `explained` (explained.hpp).
 //
-// An entry is what one source has put into the number so far: `known`, a part of true value − value
-// that the rule knows with its sign (`residual` does), and `unknown` >= 0, a bound of the rest.
-// With c what the rule knows of the number's error and e its bound, which are given, the entries
-// of a ledger that is settled have Σ (|known| + unknown) >= e, whatever is rounded on the way; but
-// for roundings, Σ known = c, and equality where nothing is known. Where e is not finite, entries
-// are those that made it so.
+// An entry is one source's part: `known`, a signed part of true value − value, and `unknown` >= 0,
+// a bound of the rest. With c the rule's correction and e its bound, Σ (|known| + unknown) >= e
+// despite rounding, and Σ known = c up to rounding. Infinite entries explain an infinite e.
 #pragma once
 
 #include <algorithm>
@@ -18,7 +15,7 @@
 
 namespace errbound::detail {
 
-/// In which number type contributions are added up: double where it has T's range.
+/// Contributions are added up in double if it has T's range.
 template <class T>
 inline constexpr bool fits_double =
     number_traits<T>::digits <= number_traits<double>::digits&& number_traits<T>::max_exponent <=
@@ -45,7 +42,7 @@ class ledger {
 
     const std::vector<entry>& entries() const { return entries_; }
 
-    /// Adds another's entries, each times a number: `times(x)` is that of x.
+    /// Adds another ledger's entries, each multiplied by `times`.
     template <class Times>
     void carry(const ledger& other, const Times& times) {
         if (other.entries_.empty()) return;
@@ -54,7 +51,7 @@ class ledger {
         auto mine = entries_.begin();
         for (const entry& o : other.entries_) {
             const entry carried{o.from, times(o.known), number_traits<A>::abs(times(o.unknown))};
-            if (!carried.is_finite()) continue;  // the number is known by other means
+            if (!carried.is_finite()) continue;  // overflow; the result's bound is still finite
             while (mine != entries_.end() && mine->from < o.from) all.push_back(*mine++);
             if (mine != entries_.end() && mine->from == o.from)
                 all.push_back(sum(*mine++, carried));
@@ -64,7 +61,7 @@ class ledger {
         all.insert(all.end(), mine, entries_.end());
         entries_.swap(all);
     }
-    /// Adds another's entries by their sizes, of unknown sign, which come to `total` together.
+    /// Adds another ledger's entries by size, without sign, scaled to the sum `total`.
     template <class B>
     void carry_sizes(const ledger<B>& other, const A& total) {
         B sizes(0);
@@ -73,7 +70,7 @@ class ledger {
         for (const ledger_entry<B>& o : other.entries())
             book({o.from, A(0), A(static_cast<A>(o.size() / sizes) * total)});
     }
-    /// Adds the entries of a number of which nothing is known.
+    /// Adds the infinite entries of a number without a bound.
     template <class B>
     void carry_unknown(const ledger<B>& other) {
         for (const ledger_entry<B>& o : other.entries())
@@ -86,9 +83,8 @@ class ledger {
     }
     void book_unknown(const source& from) { at(from) = {from, A(0), number_traits<A>::infinity()}; }
 
-    /// Makes entries add up: to c, where signs are known, and to no less than the error e. What
-    /// the bound has beyond first order goes to all of them, by their sizes; to `own` if there are
-    /// none.
+    /// Makes entries add up to c, if signs are known, and to at least the error e. Distributes the
+    /// bound's part beyond first order by size, or books it to `own` if there are no entries.
     void settle(const source& own, const A& c, const A& e) {
         using traits = number_traits<A>;
         A known(0), unknown(0), sizes(0);
@@ -103,8 +99,7 @@ class ledger {
         }
         const A off = traits::abs(c - known);
         const A wanted = (traits::max)(A(0), e - traits::abs(c)) + off;
-        // (Quotients first: the sums may be larger than what is wanted by more than a number's
-        // range.)
+        // Quotients first: the sums may exceed the wanted amount by more than a number's range.
         if (wanted > unknown && sizes > 0) {
             const A missing = wanted - unknown;
             for (entry& x : entries_) x.unknown += x.size() / sizes * missing;
@@ -116,7 +111,7 @@ class ledger {
         cover(e);
         std::erase_if(entries_, [](const entry& x) { return x.size() == 0; });
     }
-    /// Puts the smallest entries together until there are no more than `limit` >= 1.
+    /// Merges the smallest entries until at most `limit` >= 1 are left.
     void limit(std::size_t limit) {
         while (entries_.size() > limit) {
             entry& rest = at(the_rest);  // the last of all
@@ -132,13 +127,10 @@ class ledger {
     }
 
   private:
-    /// What roundings have left of e uncovered by the sizes, which are rounded themselves, is the
-    /// largest entry's: shares of it that are small may underflow, and the sum Ŝ of n sizes is off
-    /// by n − 1 roundings: their exact sum is at least Ŝ(1 − u)^(n − 1). Ŝ and what is missing of
-    /// e(1 + (n + 4)ε) come to that but for three roundings of no more than e, and the entry is
-    /// rounded twice more: no less than e(1 + 2(n + 4)u − 3u)(1 − u)^(n + 1) is left, which is at
-    /// least e for n <= 2^-10/u. Near underflow, where the product loses more than a rounding, sums
-    /// are exact.
+    /// Adds the part of e that roundings left uncovered to the largest entry. The exact sum of n
+    /// sizes is at least Ŝ(1 − u)^(n − 1); three roundings of at most e and two of the entry leave
+    /// at least e(1 + 2(n + 4)u − 3u)(1 − u)^(n + 1) >= e for n <= 2^-10/u. Near underflow sums are
+    /// exact.
     void cover(const A& e) {
         using traits = number_traits<A>;
         A all(0);
@@ -163,7 +155,7 @@ class ledger {
         return *entries_.insert(place, entry{from});
     }
 
-    std::vector<entry> entries_;  // in the order of sources
+    std::vector<entry> entries_;  // sorted by source
 };
 
 }  // namespace errbound::detail

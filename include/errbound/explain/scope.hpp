@@ -1,18 +1,14 @@
-// Scopes: names for parts of a program, by which errors are told apart (explained.hpp).
+// Scopes: names for parts of a program, to distinguish errors (explained.hpp).
 //
 //   {
 //       const errbound::scope s("mean");   // until the end of the block
 //       mean = sum / n;
 //   }
 //
-// Scopes nest as they are entered, in functions that are called from others, too: each thread has
-// its own nesting, which begins with none. A scope is a local variable: it ends before those around
-// it and on the thread where it began (a coroutine that is resumed elsewhere must not hold one). It
-// is told from others by its name, by the file and line where it stands and by the scopes that it
-// is in; entered again in itself, by recursion, it is the outer one. Operators take their operands
-// and nothing else, no source location either, so that scopes are how places get into an
-// explanation: what is in a scope and of one kind (its products, say) is one source of error. Where
-// that is too coarse, put scopes around less.
+// Scopes nest in the order of entry, across calls, on each thread. A scope is a local variable: it
+// must end before those around it, on its thread (not in a coroutine that resumes elsewhere). Name,
+// file, line and outer scopes identify it; recursion into itself is the same scope. Operations of
+// one kind in a scope are one source of error; for finer sources use smaller scopes.
 #pragma once
 
 #include <algorithm>
@@ -30,7 +26,6 @@
 
 namespace errbound {
 
-/// Where a scope stands.
 struct place {
     std::string name;
     std::string file;
@@ -41,24 +36,24 @@ struct place {
 
 namespace detail {
 
-/// What errors are told apart by: the scope and the kind of operation, numbers of all_sources.
+/// A source of error: a scope and a kind of operation, as indices in all_sources.
 struct source {
     std::uint32_t scope = 0, operation = 0;
 
     friend auto operator<=>(const source&, const source&) = default;
 };
 
-/// Operations that every rule has; functions' numbers follow.
+/// Operations of every rule; functions have the indices after them.
 struct operations {
     enum : std::uint32_t { input, plus, minus, times, divided_by, scaled, rounded, count };
     static constexpr std::array<const char*, count> names{
         "input", "+", "-", "*", "/", "scale", "rounding to the type"};
 };
 
-/// Sources that were too small to be kept apart.
+/// Sources too small to be kept.
 inline constexpr source the_rest{static_cast<std::uint32_t>(-1), 0};
 
-/// The scopes and operations of all threads. They stay: numbers may outlive their scopes.
+/// The scopes and operations of all threads, kept for good: numbers may outlive their scopes.
 class all_sources {
   public:
     static all_sources& instance() {
@@ -66,7 +61,7 @@ class all_sources {
         return all;
     }
 
-    /// The scope of that place in scope `parent`; `parent` itself where there are too many.
+    /// The scope at that place in scope `parent`; `parent` if there are too many.
     std::uint32_t scope_in(std::uint32_t parent, std::string_view name, std::string_view file,
                            std::uint_least32_t line) {
         const std::lock_guard lock(mutex_);
@@ -118,13 +113,13 @@ class all_sources {
     static constexpr std::size_t max_scopes = 100'000;
 
     mutable std::mutex mutex_;
-    std::deque<node> nodes_{node{0, {}}};  // the first is no scope; places stay where they are
+    std::deque<node> nodes_{node{0, {}}};  // the first is no scope; elements never move
     std::map<key, std::uint32_t> scopes_;
     std::deque<std::string> functions_;
     std::map<std::string_view, std::uint32_t> numbers_;  // of functions
 };
 
-/// The scope that the calling thread is in; 0: none.
+/// The calling thread's scope; 0: none.
 inline std::uint32_t& current_scope() {
     thread_local std::uint32_t current = 0;
     return current;
@@ -132,14 +127,12 @@ inline std::uint32_t& current_scope() {
 
 }  // namespace detail
 
-/// A named part of the program, from here to the end of the block.
-///
-/// Cost: a look-up under a lock that all threads share; tens of nanoseconds, more where threads
-/// meet there. A program may have 100,000 scopes (a name that is made when the program runs is a
-/// scope each); beyond, what is in a new one counts for the scope around it. Throws std::bad_alloc.
+/// A named part of the program, until the end of the block. Cost: a look-up under a lock shared by
+/// all threads; tens of nanoseconds without contention. A program has at most 100,000 scopes (each
+/// run-time name is one); further ones count as the scope around. Throws std::bad_alloc.
 class scope {
   public:
-    /// File and line are the caller's (as by std::source_location, which clang 14 does not have).
+    /// File and line of the caller (clang 14 lacks std::source_location).
     [[nodiscard]] explicit scope(std::string_view name, std::string_view file = __builtin_FILE(),
                                  std::uint_least32_t line = __builtin_LINE())
         : outer_(detail::current_scope()) {

@@ -1,4 +1,4 @@
-// Coordinates of what users have as points.
+// Coordinates of users' point types.
 #pragma once
 
 #include <array>
@@ -12,7 +12,7 @@ namespace errbound {
 
 namespace filters {
 
-/// Eigen's vectors, matrices, arrays, and what is made of them: rows, blocks, maps, expressions.
+/// Eigen's vectors, matrices, arrays and expressions of them.
 template <class Point>
 concept matrix_point = requires(const Point& p) {
     static_cast<int>(Point::RowsAtCompileTime);
@@ -20,8 +20,7 @@ concept matrix_point = requires(const Point& p) {
     static_cast<int>(Point::MaxSizeAtCompileTime);
     p.rows() + p.cols();
 };
-/// The element that is coordinate i of a row or a column; a matrix of a size that is known when the
-/// program runs may be one.
+/// Coordinate i of a row or a column. A matrix of dynamic size may be either.
 template <matrix_point Matrix>
 constexpr auto element_of(const Matrix& m, int i) {
     constexpr int rows = Matrix::RowsAtCompileTime, columns = Matrix::ColsAtCompileTime;
@@ -37,13 +36,12 @@ constexpr auto element_of(const Matrix& m, int i) {
 
 }  // namespace filters
 
-/// Coordinate i of a point, or the number itself, of what users have as points. Precondition: i is
-/// less than the point's size, if it tells one.
+/// Coordinate i of a point, or the number itself. Precondition: i < p.size(), if there is one.
 template <class Point>
 constexpr auto coordinate_of(const Point& p, int i) {
     if constexpr (requires { p[i], p.size(); } || filters::matrix_point<Point>)
         assert(static_cast<std::size_t>(i) < static_cast<std::size_t>(p.size()) &&
-               "errbound: a point has fewer coordinates than the predicate's shape says");
+               "errbound: a point has fewer coordinates than the predicate's shape");
     if constexpr (std::is_arithmetic_v<Point>) {
         return p;
     } else if constexpr (filters::matrix_point<Point>) {
@@ -74,8 +72,8 @@ inline constexpr bool is_sized_span = false;
 template <class T, std::size_t Size>
 inline constexpr bool is_sized_span<std::span<T, Size>> = Size != std::dynamic_extent;
 
-/// How many coordinates a point of this type can have; 0 if its type does not tell. x and y without
-/// z, as members or functions, are two: of a point with a third under another name it takes p[i].
+/// Number of coordinates of a point type; 0 if the type does not fix it. x and y without z, as
+/// members or functions, are two; a type with a third under another name needs p[i].
 template <class Point>
 constexpr std::size_t max_dimension() {
     constexpr auto has = [](auto test) {

@@ -1,18 +1,14 @@
-// The error-counting scalar: runs an algorithm once, on sizes instead of numbers, and so derives
-// the constant of a static filter from the very code that the filter will run.
+// The error-counting scalar: runs an algorithm once on sizes, not numbers, and derives a
+// static filter's constant from the code that the filter will run.
 //
-// In notation: ε the largest relative error of one rounding in any direction, η the smallest
-// positive number, M a bound on the sizes of the inputs. A number x computed as x̂ is represented by
+// Notation: ε the largest relative error of one rounding in any direction, η the smallest positive
+// number, M a bound on the sizes of the inputs. A number x of degree k in them, computed as x̂, has
 //     |x̂| <= magnitude·M^k + underflow·η·max(1, M)^(k−1),
 //     |x̂ − x| <= error·ε·M^k + underflow·η·max(1, M)^(k−1)
-// where k is its degree in the inputs. Rounding, in any direction and fused or not, is paid for in
-// `error`; underflow of products in `underflow` (sums do not lose anything to underflow).
-//
-// Products whose factors have sizes of their own (M_x, M_y, ...) are served alike, if all terms of
-// every sum have the same factors or M^k is replaced by the largest of their products.
-//
-// Proof: proofs/ErrorCount.v, count_sound; of expressions whose constants are whole and not zero,
-// and counts far from 1/η (count_height).
+// in any rounding direction, fused or not. Sums do not underflow. Factors with their own sizes
+// (M_x, M_y, ...) work if all terms of a sum have the same, or with the largest product for M^k.
+// Proof: proofs/ErrorCount.v, count_sound; for nonzero whole constants and counts far from 1/η
+// (count_height).
 #pragma once
 
 #include <concepts>
@@ -20,7 +16,7 @@
 
 namespace errbound::filters {
 
-/// Of floating-point type T, in which the counts are computed, too.
+/// Counts in T, the floating-point type of the numbers.
 template <std::floating_point T>
 struct basic_error_count {
     T magnitude = 0;
@@ -29,13 +25,13 @@ struct basic_error_count {
 
     constexpr basic_error_count() = default;
     constexpr basic_error_count(T m, T e, T u) : magnitude(m), error(e), underflow(u) {}
-    /// A constant, exactly known: one that T has.
+    /// A constant that T holds exactly.
     constexpr basic_error_count(double constant)
         : magnitude(static_cast<T>(constant < 0 ? -constant : constant)) {}
 
-    /// An input that is known exactly, of size at most M.
+    /// An exact input of size at most M.
     static constexpr basic_error_count exact() { return {1, 0, 0}; }
-    /// The rounded difference of two exact numbers; M is a bound on the computed differences.
+    /// The rounded difference of exact numbers; M bounds the computed differences.
     static constexpr basic_error_count difference() { return {1, 1, 0}; }
 
     friend constexpr basic_error_count operator+(const basic_error_count& a,
@@ -57,11 +53,11 @@ struct basic_error_count {
                 rounded(a.magnitude * b.error + a.error * b.magnitude +
                         a.error * b.error * epsilon + m),
                 // Twice the third: â may exceed its magnitude by its underflow. In the last: η for
-                // the rounding, and the products of two underflows, far less than one η.
+                // the rounding, and products of two underflows.
                 rounded(a.magnitude * b.underflow + a.underflow * b.magnitude +
                         (a.error * b.underflow + a.underflow * b.error) * (2 * epsilon) + 2)};
     }
-    /// The larger of each, for one constant that serves several results.
+    /// The larger of each, for one constant for several results.
     friend constexpr basic_error_count worst(const basic_error_count& a,
                                              const basic_error_count& b) {
         const auto larger = [](T x, T y) { return x < y ? y : x; };
@@ -70,8 +66,7 @@ struct basic_error_count {
     }
 
   private:
-    /// Pays for the rounding of the count itself and of the counted result's size: every count
-    /// stands for at most ten roundings, each a factor of at most 1 + ε.
+    /// Pays for rounding the count and the counted size: at most ten factors of at most 1 + ε.
     static constexpr T rounded(T count) { return count * (1 + 16 * number_traits<T>::epsilon()); }
 };
 using error_count = basic_error_count<double>;

@@ -1,13 +1,11 @@
-// Whether an expression passes on what is uncertain, found at compile time.
+// Checks at compile time that an expression returns `uncertain` where it must.
 //
-// The expression is run on signs that are supposed: one for each number whose sign it asks, the
-// same wherever it asks again. Then it is run once more for each of these, with that sign
-// uncertain. Its answer may not depend on a sign that it does not know, so that the second answer
-// must be the first, or uncertain. A right expression passes for every supposition, also for one
-// that no points have: whoever returns what is uncertain at once never acts on it.
+// The expression runs on supposed signs, one for each number whose sign it evaluates. Then it runs
+// again for each of these with that sign uncertain: the answer must be the same, or uncertain. A
+// correct expression passes for every supposition, even one that no points realise.
 //
-// Numbers are recognised by their values modulo a prime, at coordinates made of a hash: expressions
-// that are equal as polynomials have equal values, others with a probability of degree/2^31.
+// Numbers are identified by their values modulo a prime, at hashed coordinates. Equal polynomials
+// have equal values, others with probability degree/2^31.
 #pragma once
 
 #include <algorithm>
@@ -20,8 +18,7 @@
 
 namespace errbound::filters {
 
-/// Bits that look random. Source: Steele, Lea, Flood 2014, Fast splittable pseudorandom number
-/// generators (SplitMix64).
+/// Pseudorandom bits. Source: Steele, Lea, Flood 2014 (SplitMix64).
 constexpr std::uint64_t hashed(std::uint64_t x) {
     x += 0x9e3779b97f4a7c15;
     x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9;
@@ -29,26 +26,24 @@ constexpr std::uint64_t hashed(std::uint64_t x) {
     return x ^ (x >> 31);
 }
 
-/// How many are tried.
 inline constexpr std::size_t suppositions = 64;
 
-/// Signs of numbers, given as they are evaluated. In every other supposition the first are zero:
-/// cases where much is zero are the deepest. All other signs are functions of the number, so that
-/// nothing has to be looked up: constant evaluation is slow.
+/// Signs of numbers, in the order of evaluation. In every other supposition the first are zero, as
+/// such cases branch deepest. Others are hashes: no look-up, as constant evaluation is slow.
 struct supposed_signs {
-    /// Beyond any int, so that no number of an expression is a multiple; residues' products fit.
+    /// Beyond any int, so no constant of an expression is a multiple. Products of residues fit.
     static constexpr std::uint64_t prime = (std::uint64_t{1} << 32) - 5;
 
     std::uint64_t supposition;
-    /// Residues up to prime/2 in the order of evaluation, also repeated ones; of the first run.
+    /// Residues up to prime/2 in evaluation order, with repetitions, from the first run.
     std::array<std::uint64_t, counting_run::max_signs> numbers{};
     std::size_t size = 0;
-    std::uint64_t unknown = 0;  ///< the number whose sign is uncertain; 0: none, in the first run
-    int asked = 0;              ///< in this run
-    std::array<std::uint64_t, 16> zeros{};  ///< the numbers that are supposed to be zero
+    std::uint64_t unknown = 0;  ///< the number with uncertain sign; 0 in the first run: none
+    int asked = 0;              ///< signs evaluated in this run
+    std::array<std::uint64_t, 16> zeros{};  ///< the numbers supposed to be zero
     std::size_t zero_count = 0;
 
-    /// Of a residue. Opposite numbers have opposite signs.
+    /// The sign of a residue. Opposite numbers have opposite signs.
     constexpr sign_type sign(std::uint64_t residue) {
         if (residue == 0) return sign_type::zero;
         if (asked++ == counting_run::max_signs) too_many_signs();
@@ -72,8 +67,7 @@ struct supposed_signs {
     }
 };
 
-/// A number of the expression: its residue. An aggregate: constructors cost as much as operations
-/// where constants are evaluated.
+/// A residue. An aggregate: in constant evaluation constructors cost as much as operations.
 struct supposed_number {
     static constexpr std::uint64_t prime = supposed_signs::prime;
 
@@ -119,15 +113,14 @@ struct supposed_number {
 
 enum class expression_fault : std::uint8_t { none, asks_nothing, gives_up, acts_on_uncertain };
 
-/// The fault of an expression, if one supposition shows it. `run(supposed_signs&)`
-/// runs the expression and returns its answer, of a number the sign.
+/// The fault that one supposition shows, if any. `run(supposed_signs&)` returns the answer's sign.
 template <class Run>
 constexpr expression_fault find_fault(std::uint64_t supposition, const Run& run) {
     supposed_signs signs{supposition};
     const sign_type answer = run(signs);
     if (signs.size == 0) return expression_fault::asks_nothing;
     if (!certain(answer)) return expression_fault::gives_up;
-    // Of many signs each has its turn by some supposition.
+    // With many signs, each is tested in some supposition.
     const std::size_t stride = (signs.size + 5) / 6;
     for (auto k = static_cast<std::size_t>(hashed(supposition) % stride); k < signs.size;
          k += stride) {

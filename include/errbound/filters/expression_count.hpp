@@ -1,8 +1,5 @@
-// What an expression asks of the stages of a predicate, found at compile time by running it on a
-// scalar that counts.
-//
-// An expression may branch on signs. Then it is run once for each sequence of signs that it can be
-// given, up to a number of runs; the counts are the largest of all.
+// Counts an expression's operations at compile time. An expression that branches on signs runs once
+// for each sequence of signs, up to a limit; the counts are maxima.
 #pragma once
 
 #include <array>
@@ -15,20 +12,19 @@
 namespace errbound::filters {
 
 struct expression_counts {
-    int roundings = 0;  ///< that bear on a sign: errbound/filters/static_filter.hpp
-    /// Of the longest number of each degree whose sign is asked, for the coordinates' bits given;
-    /// 0: none.
+    int roundings = 0;  ///< those that affect a sign: errbound/filters/static_filter.hpp
+    /// Bits of the longest number of each degree whose sign is evaluated; 0 if none.
     static constexpr int max_degree = 63;
     std::array<int, max_degree + 1> bits{};
-    int degree = 0;        ///< the highest of these numbers
+    int degree = 0;        ///< highest degree of these numbers
     bool mixed = false;    ///< terms of different degree are added
     bool complete = true;  ///< all branches were seen
 };
 
-/// Not for constant expressions: an expression that gets there does not compile.
+/// Not constexpr, so an expression that calls it does not compile.
 inline void too_many_signs() {}
 
-/// One run: the signs that it asks for, and the answers that it gets.
+/// One run: the signs evaluated, and the answers given.
 struct counting_run {
     static constexpr int max_signs = 256;
 
@@ -36,8 +32,8 @@ struct counting_run {
     std::array<sign_type, max_signs> answers{};  ///< by default `negative`, the first of its type
     std::size_t asked = 0;
     int coordinate_bits = 0;
-    bool lacks_coordinates = false;   ///< asked for one that the points do not have
-    bool number_after_signs = false;  ///< asked for signs, and returned a number
+    bool lacks_coordinates = false;   ///< used a coordinate that the points do not have
+    bool number_after_signs = false;  ///< evaluated signs and returned a number
 
     /// The next sequence of signs; false if there is none.
     constexpr bool advance() {
@@ -57,23 +53,22 @@ struct counting_run {
 
 class expression_count {
   public:
-    /// A coordinate.
     constexpr explicit expression_count(counting_run& run, int degree = 1)
         : run_(&run), bits_(run.coordinate_bits), degree_(degree) {}
-    /// A whole number in the expression. No other type: 0.5 would become 0.
+    /// A whole number. No other type: 0.5 would become 0.
     template <class X>
     requires std::is_arithmetic_v<X>
     constexpr expression_count(X) : bits_(32) {
         static_assert(
             std::same_as<X, int>,
-            "errbound: constants in a predicate's expression are of type int: for 0.5 * x "
-            "multiply all the rest by 2, for 2.0 write 2, for a size_t static_cast<int>");
+            "errbound: constants in a predicate's expression must be int: for 0.5 * x multiply "
+            "all the rest by 2, for 2.0 write 2, for a size_t static_cast<int>");
     }
 
     friend constexpr expression_count operator+(const expression_count& x,
                                                 const expression_count& y) {
         const auto run = x.run_ != nullptr ? x.run_ : y.run_;
-        // Apart, for fewer statements in what is most often run: compilers limit them.
+        // Separate, for fewer statements in the common case: compilers limit them.
         if (x.degree_ == y.degree_)
             return {run, (x.bits_ < y.bits_ ? y.bits_ : x.bits_) + 1, x.degree_,
                     (x.roundings_ < y.roundings_ ? y.roundings_ : x.roundings_) + 1};
@@ -90,12 +85,12 @@ class expression_count {
         return {x.run_ != nullptr ? x.run_ : y.run_, x.bits_ + y.bits_, x.degree_ + y.degree_,
                 x.roundings_ + y.roundings_ + 1};
     }
-    // What an expression cannot do, and what it does instead.
+    // Not available in expressions; each message names the replacement.
     template <class X>
     friend constexpr expression_count operator/(const expression_count& x, const X&) {
         static_assert(!sizeof(X),
-                      "errbound: a predicate's expression has only +, - and *: multiply by what "
-                      "you would divide by, and by its sign");
+                      "errbound: a predicate's expression has only +, - and *: multiply by the "
+                      "divisor, and by its sign");
         return x;
     }
     template <class X>
@@ -112,7 +107,7 @@ class expression_count {
     template <class X>
     constexpr expression_count& operator=(X&&) {
         static_assert(!sizeof(X*),
-                      "errbound: every result of a predicate's expression has a type of its own: "
+                      "errbound: every result of a predicate's expression has its own type: "
                       "write const auto sum = a + b; and never =, += or *= afterwards");
         return *this;
     }
@@ -155,7 +150,7 @@ class expression_count {
     constexpr expression_count(counting_run* run, int bits, int degree, int roundings)
         : run_(run), bits_(bits), degree_(degree), roundings_(roundings) {}
     static constexpr int larger(int a, int b) { return a < b ? b : a; }
-    /// The bits, brought to another's degree where that is higher.
+    /// The bits, raised to a higher degree of `other`.
     constexpr int raised(const expression_count& other) const {
         return other.degree_ > degree_
                    ? bits_ + (other.degree_ - degree_) * other.run_->coordinate_bits
@@ -166,21 +161,18 @@ class expression_count {
     int bits_ = 0, degree_ = 0, roundings_ = 0;
 };
 
-/// What the runs of an expression say of it.
 struct expression_findings {
     expression_counts counts;
     bool lacks_coordinates, number_after_signs;
-    bool has_one_answer = true;  ///< of all that were seen
+    bool has_one_answer = true;  ///< in all runs seen
 };
 
-/// The most runs: enough for any expression that evaluates five signs.
+/// Enough for any expression that evaluates five signs.
 inline constexpr int most_counting_runs = 250;
-/// Enough for a declared homogeneous expression. Only the bits of its numbers are still unknown,
-/// and branches that are too many for `most_counting_runs` are the reason for the declaration.
+/// For expressions declared homogeneous, which branch too much: only the bits are needed.
 inline constexpr int few_counting_runs = 28;
 
-/// `run(counting_run&)` runs the expression, whose coordinates are made of that argument, and
-/// returns its answer; where that is a number it asks for its sign.
+/// `run(counting_run&)` runs the expression on such coordinates and returns its answer's sign.
 template <class Run>
 constexpr expression_findings count_expression(int coordinate_bits, int max_runs, const Run& run) {
     counting_run state;

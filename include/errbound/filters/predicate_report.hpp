@@ -1,4 +1,4 @@
-// The stages of a predicate, and how many inputs each decided.
+// The stages of a predicate, and the number of inputs that each decided.
 #pragma once
 
 #include <array>
@@ -7,20 +7,20 @@
 
 namespace errbound {
 
-/// In the order in which an input passes them; it leaves at the first that is certain.
+/// In order of execution, which ends at the first certain stage.
 enum class predicate_stage : std::uint8_t {
     semi_static_filter,
     static_filter,
     tracked,
-    exact_doubles,   ///< coordinates so short that no result takes more than 53 bits
-    short_integers,  ///< so short that none takes more than 128
+    exact_doubles,   ///< coordinates so short that results take at most 53 bits
+    short_integers,  ///< so short that results take at most 127 bits and a sign
     word_integers,
-    two_word_integers,  ///< expressions that branch do not have this stage
+    two_word_integers,  ///< not for expressions that branch
     long_integers,      ///< any finite coordinates; or the options' exact type
 };
 inline constexpr std::size_t predicate_stage_count = 8;
 
-/// How many inputs each stage decided; `undecided` had coordinates that were not finite.
+/// Inputs decided by each stage; `undecided` had coordinates that were not finite.
 struct predicate_report {
     std::array<std::uint64_t, predicate_stage_count> decided{};
     std::uint64_t undecided = 0;

@@ -1,5 +1,4 @@
-// A predicate's expression over the scalars of its stages: what the expression sees as its
-// arguments, and what its result says of the sign.
+// A predicate's expression over the scalars of its stages: arguments, and the sign of the result.
 #pragma once
 
 #include <array>
@@ -19,9 +18,8 @@
 
 namespace errbound::filters {
 
-/// What an expression sees as argument `Argument`: a point, or, of dimension 0, a scalar. The types
-/// of points do not depend on their position, so that a function that an expression calls with
-/// different points is compiled once per scalar.
+/// Argument `Argument` of an expression: a point, or a scalar for dimension 0. Point types do not
+/// depend on their position, so a helper function is compiled once per scalar.
 template <class Shape, std::size_t Argument, class Scalars>
 constexpr decltype(auto) view(const Scalars& scalars) {
     if constexpr (Shape::dimensions[Argument] == 0)
@@ -30,8 +28,8 @@ constexpr decltype(auto) view(const Scalars& scalars) {
         return scalars.template point<Argument>();
 }
 
-/// Coordinate i of a point, as a filter may use it: where it is not stored but computed, a product
-/// in it must not be fused with the difference that uses it, since all stages must see one number.
+/// Coordinate i, for a filter. All stages must use the same number: a product in a computed
+/// coordinate must not be fused into the difference that uses it.
 template <class T, bool Stored, class Point>
 constexpr T unfused_coordinate(const Point& p, int i) {
     const T x = coordinate_of(p, i);
@@ -40,7 +38,6 @@ constexpr T unfused_coordinate(const Point& p, int i) {
     else
         return detail::rounded(x);
 }
-/// A point for the static filter, which reads coordinates where they are.
 template <class T, bool Stored, class Point>
 struct filtered_point {
     const Point& point;
@@ -57,7 +54,6 @@ struct filtered_scalars {
         return filtered_point<T, Stored, type>{std::get<Argument>(points)};
     }
 };
-/// A point for the semi-static filter.
 template <class T, bool Stored, class Point>
 struct semi_static_point {
     const Point& point;
@@ -76,7 +72,7 @@ struct semi_static_scalars {
         return semi_static_point<T, Stored, type>{std::get<Argument>(points), largest};
     }
 };
-/// A point of listed coordinates. `make` turns each into a scalar, which may refer to it.
+/// A point of listed coordinates. `make` turns each into a scalar, possibly a reference.
 template <class Coordinate, class Make>
 struct listed_point {
     const Coordinate* first;
@@ -93,7 +89,7 @@ struct listed_scalars {
                                                              make};
     }
 };
-/// A point of coordinates that only count; `degrees`, if not null, has one for each.
+/// A point for counting; `degrees`, if not null, has one entry per coordinate.
 struct counted_point {
     counting_run& run;
     int dimension;
@@ -115,14 +111,12 @@ struct counted_scalars {
                 degrees == nullptr ? nullptr : degrees + Shape::offset(Argument)};
     }
 };
-/// Residues that stand for the coordinates of a shape.
 template <class Shape>
 inline constexpr auto supposed_residues = [] {
     std::array<std::uint64_t, Shape::size> residues{};
     for (std::size_t i = 0; i < Shape::size; ++i) residues[i] = hashed(i) % supposed_signs::prime;
     return residues;
 }();
-/// A point of coordinates of which only their signs are supposed.
 struct supposed_point {
     supposed_signs* signs;
     const std::uint64_t* residues;
@@ -137,7 +131,7 @@ struct supposed_scalars {
     }
 };
 
-/// A value whose sign is certain where its size exceeds the bound.
+/// A value whose sign is certain if its size exceeds the bound.
 template <class T>
 struct sign_estimate {
     T value, bound;
@@ -151,7 +145,6 @@ struct sign_estimate {
         return sign_type::uncertain;
     }
 };
-/// A result's sign, if it is not one.
 template <class X>
 constexpr sign_type conclude(const X& x) {
     if constexpr (std::is_same_v<X, sign_type>)
@@ -179,16 +172,14 @@ inline constexpr bool takes_points = []<std::size_t... I>(std::index_sequence<I.
     };
 }
 (std::make_index_sequence<Shape::count>());
-/// The type of an expression's result over these scalars.
 template <class Shape, class F, class Scalars>
 using result_over = decltype(evaluate<Shape>(F(), std::declval<const Scalars&>()));
-/// Whether it branches: then it returns a sign.
+/// True if the expression branches: then it returns a sign.
 template <class Shape, class F>
 inline constexpr bool branches =
     std::is_same_v<result_over<Shape, F, counted_scalars<Shape>>, sign_type>;
 
-/// What the expression asks for coordinates of this many bits, and of these degrees, found by at
-/// most `max_runs` runs.
+/// The expression's counts for such coordinates, from at most `max_runs` runs.
 template <class Shape, class F>
 constexpr expression_findings findings_of(int coordinate_bits, int max_runs,
                                           const int* degrees = nullptr) {
@@ -199,8 +190,7 @@ constexpr expression_findings findings_of(int coordinate_bits, int max_runs,
     });
 }
 
-/// What is wrong with an expression, if one supposition shows it; a constant expression for each,
-/// since compilers limit what one may take.
+/// The fault that one supposition shows; a separate constant, as compilers limit each one's length.
 template <class Shape, class F, std::size_t Supposition>
 inline constexpr expression_fault fault_by = find_fault(Supposition, [](supposed_signs& signs) {
     return conclude(evaluate<Shape>(F(), supposed_scalars<Shape>{signs}));

@@ -1,7 +1,5 @@
-// The stages of a predicate after its first filter, and what decides which of them there are.
-//
-// Apart from predicate_type so that a predicate that is declared and not asked costs nothing: what
-// its expression asks of the stages is found when the first of them is compiled.
+// The stages of a predicate after its first filter. Separate from predicate_type, so that an unused
+// predicate costs nothing: its expression is analysed when the first of these is compiled.
 #pragma once
 
 #include <algorithm>
@@ -23,9 +21,9 @@ template <class Shape, class F, class Options>
 class predicate_stages {
     static_assert(takes_points<Shape, F>,
                   "errbound: a predicate's expression takes one argument for each point of the "
-                  "shape, of any type: [](const auto& a, const auto& b) for points<2, 2>; where it "
-                  "does, it uses of points and coordinates what they do not have, as other errors "
-                  "say: they have a[0], +, -, *, sign_of and the like, but no a.dot(b), no "
+                  "shape, of any type: [](const auto& a, const auto& b) for points<2, 2>; if it "
+                  "does, it uses an operation that points and coordinates lack (see other "
+                  "errors): they have a[0], +, -, *, sign_of and the like, but no a.dot(b), no "
                   "std::abs(x)");
     using result = result_over<Shape, F, counted_scalars<Shape>>;
     static_assert(std::is_same_v<result, expression_count> || std::is_same_v<result, sign_type>,
@@ -34,41 +32,40 @@ class predicate_stages {
                   "sign_of(x), which can be uncertain");
 
   public:
-    /// Of coordinates that fit a word.
+    /// Width of coordinates that fit one word.
     static constexpr int word_bits = integers::word_coordinates<1>::max_bits;
 
   private:
     static constexpr int max_runs = Options::homogeneous ? few_counting_runs : most_counting_runs;
     static constexpr expression_findings findings = findings_of<Shape, F>(word_bits, max_runs);
     static_assert(!findings.lacks_coordinates,
-                  "errbound: the expression asks for a coordinate that the predicate's shape does "
-                  "not have: of points<2, 2> a[0] and a[1]");
+                  "errbound: the expression uses a coordinate that the predicate's shape does "
+                  "not have: points<2, 2> have a[0] and a[1]");
     static_assert(!findings.number_after_signs,
-                  "errbound: an expression that asks for signs returns one, so that it can pass on "
-                  "`uncertain`: write return sign_of(x)");
+                  "errbound: an expression that evaluates signs must return one, so that it can "
+                  "return `uncertain`: write return sign_of(x)");
     static_assert(findings.counts.degree <= expression_counts::max_degree,
                   "errbound: the expression is of a higher degree than 63");
     static_assert(!has_fault<Shape, F>(expression_fault::acts_on_uncertain),
                   "errbound: the expression acts on a sign that is uncertain as if it were known: "
                   "after const sign_type s = sign_of(x) write if (!certain(s)) return s");
     static_assert(!has_fault<Shape, F>(expression_fault::asks_nothing),
-                  "errbound: the expression's answer is the same for all points: it asks for no "
-                  "sign, or all its terms cancel");
+                  "errbound: the expression's answer is the same for all points: it evaluates "
+                  "no sign, or all its terms cancel");
     static_assert(!has_fault<Shape, F>(expression_fault::gives_up),
-                  "errbound: the expression returns `uncertain` although all signs that it asked "
-                  "for are certain: return a sign there, `zero` say, even if it never gets there");
+                  "errbound: the expression returns `uncertain` although all signs that it "
+                  "evaluated are certain: return a sign there, such as `zero`, even if that "
+                  "branch is unreachable");
     static_assert(!findings.has_one_answer || !findings.counts.complete,
-                  "errbound: the expression's answer is the same whatever the signs it asks for");
+                  "errbound: the expression's answer is the same for all signs that it "
+                  "evaluates");
 
   public:
-    /// What the expression asks for coordinates of one word.
     static constexpr expression_counts counts = findings.counts;
-    /// Whether there is a semi-static filter: what it saves grows with the degree.
     static constexpr bool has_semi_static_filter =
         !counts.mixed && counts.degree >= 5 && !branches<Shape, F>;
-    /// So many bits may coordinates have for no result to take more than `bits`; 0 where results
-    /// may have been missed.
-    /// Proof: proofs/Widths.v, coordinate_bits_enough.
+    /// Largest coordinate width for which every result fits in `bits` bits; 0 if results may be
+    /// missing. Proof: proofs/Widths.v, coordinate_bits_enough.
     static constexpr int coordinate_bits(int bits) {
         if (!counts.complete) return 0;
         int least = word_bits;
@@ -80,11 +77,10 @@ class predicate_stages {
         return least;
     }
 
-    /// Whether the options say of which degree each coordinate is.
     static constexpr bool has_degrees = !Options::degrees.empty();
     static_assert(
         !has_degrees || Options::degrees.size() == Shape::size,
-        "errbound: a predicate's options have one degree for each coordinate of its shape");
+        "errbound: a predicate's options must have one degree for each coordinate of its shape");
     static constexpr bool is_of_one_degree = [] {
         if (!has_degrees || Options::degrees.size() != Shape::size) return true;
         for (const int degree : Options::degrees)
@@ -94,18 +90,19 @@ class predicate_stages {
         return by_degrees.complete && !by_degrees.mixed;
     }();
     static_assert(is_of_one_degree,
-                  "errbound: by the degrees of the predicate's options, each at least 1, terms of "
-                  "different degree are added, or the compiler does not see all branches");
+                  "errbound: with the degrees of the predicate's options, each at least 1, "
+                  "terms of different degree are added, or there are too many branches to "
+                  "analyse");
 
     static constexpr bool mixed = !Options::homogeneous && (counts.mixed || !counts.complete);
-    /// Where terms of different degree are added, 1 is one more coordinate.
+    /// If terms of different degree are added, 1 is one more coordinate.
     static constexpr std::size_t listed_size = Shape::size + mixed;
     using coordinate_list = std::array<double, listed_size>;
 
     template <class... Points>
     static constexpr coordinate_list listed(const Points&... p) {
         coordinate_list list{};
-        // A copy: device code does not see static members.
+        // A copy: device code cannot access static members.
         constexpr auto dimensions = Shape::dimensions;
         std::size_t i = 0, argument = 0;
         const auto add = [&](const auto& given) {
@@ -118,7 +115,7 @@ class predicate_stages {
         return list;
     }
 
-    /// By the first stage that is certain; counted in the report, if there is one.
+    /// The sign by the first certain stage; counts it in the report, if any.
     template <class T>
     [[gnu::noinline]] static constexpr sign_type decide(const coordinate_list& list,
                                                         predicate_report* report) {
@@ -133,7 +130,7 @@ class predicate_stages {
             return sign_type::uncertain;
         }
         if constexpr (has_semi_static_filter) {
-            // Products of smaller coordinates are all subnormal: slow, and nothing is decided.
+            // Products of smaller coordinates are all subnormal: slow, and never certain.
             const int exponent = static_cast<int>(largest >> 52) - 1021;
             const bool in_range = exponent * counts.degree > std::numeric_limits<T>::min_exponent;
             if (!std::is_constant_evaluated() && in_range) {
@@ -158,7 +155,6 @@ class predicate_stages {
         return decide_exactly(list, largest, counted);
     }
 
-    /// The sign that one of them alone finds.
     template <class T>
     static constexpr sign_type by(predicate_stage stage, const coordinate_list& list) {
         using enum predicate_stage;
@@ -176,12 +172,12 @@ class predicate_stages {
     }
 
   private:
-    /// By integers, the first that hold the coordinates.
+    /// Uses the first integers that hold the coordinates.
     template <class Counted>
     static constexpr sign_type decide_exactly(const coordinate_list& list, std::uint64_t largest,
                                               const Counted& counted) {
         using enum predicate_stage;
-        // Where two words hold all results of one-word coordinates, doubles would gain nothing.
+        // If two words hold all results of one-word coordinates, doubles gain nothing.
         if constexpr (short_bits < word_bits) {
             const sign_type s = by_doubles(list, largest);
             if (certain(s)) return counted(s, exact_doubles);
@@ -200,9 +196,8 @@ class predicate_stages {
         }
         return counted(by_any(list), long_integers);
     }
-    /// The coordinates times 2^(−s·degree), s such that the largest is near 1. Every number whose
-    /// sign the expression asks for is then 2^(−s·d) times what it was, d its degree: its sign is
-    /// the same. Where they are near 1, or a coordinate would lose something, as they are.
+    /// The coordinates times 2^(−s·degree), the largest near 1: each number of degree d scales by
+    /// 2^(−s·d), so signs stay. Unchanged if near 1 already, or if scaling is inexact.
     static constexpr coordinate_list near_one(const coordinate_list& list) {
         using traits = number_traits<double>;
         constexpr int moderate = 16;
@@ -252,7 +247,7 @@ class predicate_stages {
         return sign_over<Shape>(F(), c.value, [&](double v) { return scalar{v, c.unit}; });
     }
 
-    /// Words that are short when brought to the largest common unit.
+    /// Coordinates that are short in the largest common unit.
     static constexpr sign_type by_short(const integers::word_coordinates<listed_size>& words) {
         if (words.least_bits() > short_bits) return sign_type::uncertain;
         if constexpr (short_bits == word_bits) return by_words(words);
@@ -261,7 +256,7 @@ class predicate_stages {
     static constexpr sign_type by_words(const integers::word_coordinates<listed_size>& words) {
         return by_values<word_bits>(words, 0);
     }
-    /// Inlined: passing the values on would cost as much as a small expression.
+    /// Inlined: passing the values would cost as much as a small expression.
     template <int Bits>
     [[gnu::always_inline]] static constexpr sign_type by_values(
         const integers::word_coordinates<listed_size>& words, int shift) {
@@ -273,11 +268,10 @@ class predicate_stages {
     }
 
     static constexpr int short_bits = coordinate_bits(127);
-    /// Coordinates of two words: their differences' products end before a word's end.
+    /// Products of two-word coordinates' differences end just before a word's end.
     static constexpr int two_word_bits = 124;
-    /// Of expressions of a higher degree than 3, operations of two words and more are calls:
-    /// inlined they take a second to compile. Expressions that branch go to the next stage: for
-    /// them this one would gain less time than it takes to compile.
+    /// Above degree 3, operations on two or more words are calls: inlined they take a second to
+    /// compile. Expressions that branch skip this stage for that reason.
     using two_word_level = integers::integer_level<integers::integer_kind::words, two_word_bits,
                                                    mixed, (counts.degree > 3)>;
     [[gnu::noinline]] static constexpr sign_type by_two_words(const coordinate_list& list) {
@@ -289,7 +283,6 @@ class predicate_stages {
 
     [[gnu::noinline]] static constexpr sign_type by_any(const coordinate_list& list) {
         if constexpr (std::is_void_v<typename Options::exact_type>) {
-            // Long ones are made once.
             using level = integers::integer_level<integers::integer_kind::any_length,
                                                   integers::full_range_bits, mixed>;
             using scalar = integers::sized_integer<level, integers::full_range_bits, 1>;

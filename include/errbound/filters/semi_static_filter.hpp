@@ -1,34 +1,10 @@
-// The scalar of semi-static filters: an expression's value alone, with a bound from the largest
-// coordinate difference in it. For expressions of so many terms that their sizes
-// (errbound/filters/static_filter.hpp) would cost more than that maximum; they decide somewhat
-// less.
+// The scalar of semi-static filters: only an expression's value, with a bound from the largest
+// coordinate difference in it. For many terms, whose sizes (errbound/filters/static_filter.hpp)
+// would cost more than that maximum. Decides somewhat less.
 //
-// Notation as in errbound/filters/static_filter.hpp; S is the size there, k the roundings, τ the
-// allowance. For an expression whose terms are all of degree d, with M the largest of |d̂| of its
-// coordinates' differences, and of |x| of coordinates that stand for themselves,
-//     S <= m·M^d + a·τ·(1 + M^d),
-// where the mass m is the value of the expression with all terms positive and all differences 1,
-// and a counts products. By induction over the expression, with X and Y powers of M:
-//  * a coordinate, or a difference of two: m = 1, a = 0;
-//  * x ± y: m and a add up;
-//  * x·y: m = m_x·m_y, a = 2(m_x·a_y + m_y·a_x) + 2, since X(1 + Y) <= 2(1 + XY), (1 + X)(1 + Y)
-//    <= 3(1 + XY), and 3·a_x·a_y·τ is less than 1 for any expression of less than 10^14 terms.
-// The bound computed is
-//     constant(k)/2·(2m·M^d + 2a·τ),
-// with k − 1 roundings for signs, and one more that covers what follows, as constant(k) grows
-// with k by u and the rest is of the order of u²: the roundings of m (no more than of S), M^d and
-// the bound, and a·τ·M^d. The second a·τ covers underflow in M^d, τ being 2^49·η or more.
-//
-// Overflow: where 2m·M^d is finite no number of the expression can have overflown, fused or not.
-// NaN in a coordinate that M misses is one in the value.
-// Proof: proofs/SemiStatic.v, semi_static_overflow_uncertain.
-// Source of the kind: Devillers, Pion 2003, Efficient exact geometric predicates for Delaunay
-// triangulations.
-//
-// m and a are trusted below 2^p = 1/u, where they are whole and exact; else, and where a constant
-// is 0, the bound is infinite. All that is known to the compiler.
-//
-// Proof: proofs/SemiStatic.v, mass_covers_size. (Without contraction.)
+// If 2m·M^d is finite, no number of the expression has overflowed. A NaN coordinate makes the value
+// NaN. Proof: proofs/SemiStatic.v, semi_static_overflow_uncertain. Source of the kind: Devillers,
+// Pion 2003, Efficient exact geometric predicates for Delaunay triangulations.
 #pragma once
 
 #include <concepts>
@@ -37,12 +13,20 @@
 
 namespace errbound::filters {
 
-/// Kept between an expression and its parts; users write `auto`. Mass and allowances, m and a, are
-/// known to the compiler.
+/// An intermediate result; users write `auto`. The mass m and the allowances a are compile-time
+/// values.
+///
+/// Notation of static_filter.hpp: size S, k roundings, allowance τ. If all terms have degree d, and
+/// M is the largest |d̂| of coordinate differences and |x| of plain coordinates,
+///     S <= m·M^d + a·τ·(1 + M^d),
+/// where m is the expression's value with all terms positive and all differences 1, and a counts
+/// products: 0 at first, then a_x + a_y for sums, 2(m_x·a_y + m_y·a_x) + 2 for products. Proof,
+/// without contraction: proofs/SemiStatic.v, mass_covers_size.
 template <std::floating_point T, int Roundings, int Degree>
 struct semi_static {
     static_assert(Roundings < 1000 && Degree < 1000,
-                  "errbound: the derivation of the bound assumes fewer");
+                  "errbound: the bound holds for fewer than 1000 roundings and degrees below "
+                  "1000");
     using value_type = T;
     static constexpr int roundings = Roundings, degree = Degree;
 
@@ -52,8 +36,11 @@ struct semi_static {
 
     constexpr semi_static operator-() const { return {-value, mass, allowances}; }
 
-    /// |value| <= bound(M) leaves the sign open.
-    /// Proof: proofs/SemiStatic.v, semi_static_bound_covers, semi_static_sign_certain.
+    /// The sign is uncertain if |value| <= bound(M). constant(k)/2·(2m·M^d + 2a·τ), where k − 1
+    /// suffices for signs; the spare u covers the O(u²) roundings of m, M^d and the bound, and
+    /// a·τ·M^d. The second a·τ covers underflow in M^d, as τ >= 2^49·η. Below 2^p = 1/u, m and a
+    /// are exact; otherwise, and for a constant 0, infinite. Proof: proofs/SemiStatic.v,
+    /// semi_static_bound_covers, semi_static_sign_certain.
     constexpr T bound(T largest) const {
         constexpr T most = 1 / number_traits<T>::unit_roundoff();
         const bool trusted = mass < most && allowances < most;
@@ -75,7 +62,7 @@ struct semi_static {
     }
 };
 
-/// A coordinate; `largest` becomes M.
+/// A coordinate; `largest` accumulates M.
 template <std::floating_point T>
 struct semi_static_coordinate {
     using value_type = T;
@@ -116,7 +103,8 @@ concept semi_static_operand = is_semi_static<X>;
 
 template <class X, class Y>
 constexpr auto semi_static_sum(typename X::value_type value, const X& x, const Y& y) {
-    static_assert(X::degree == Y::degree, "errbound: the expression was taken for homogeneous");
+    static_assert(X::degree == Y::degree,
+                  "errbound: the expression is not homogeneous as declared");
     constexpr int roundings = (X::roundings > Y::roundings ? X::roundings : Y::roundings) + 1;
     return semi_static<typename X::value_type, roundings, X::degree>{value, x.mass + y.mass,
                                                                      x.allowances + y.allowances};
@@ -141,12 +129,12 @@ template <semi_static_operand X, semi_static_operand Y>
 constexpr auto operator*(const X& x, const Y& y) {
     return semi_static_product(as_semi_static(x), as_semi_static(y));
 }
-/// By a whole number. (Sums with one are of mixed degree, and not for this filter.)
+/// The product with a whole number. (Sums with one are of mixed degree, not for this filter.)
 template <semi_static_operand X>
 constexpr auto operator*(const X& x, std::same_as<int> auto c) {
     using T = typename X::value_type;
     const auto factor = filtered_constant<T>(c);
-    // Times 0 a part's mass would be lost.
+    // A factor 0 would erase the mass of x.
     const T mass = c == 0 ? number_traits<T>::infinity() : factor.size;
     return as_semi_static(x) *
            semi_static<T, decltype(factor)::roundings, 0>{factor.value, mass, 0};

@@ -1,40 +1,14 @@
-// The scalar of static filters: an expression's value, a bound on its size, and, in its type, how
-// many roundings went into it. What the compiler makes of an expression over it is the expression,
-// its size, and one comparison with a constant.
+// The scalar of static filters: an expression's value, a bound on its size and, in its type, the
+// number of roundings. It compiles to the expression, its size, and one comparison with a constant.
 //
-// Notation: u the unit roundoff, η the smallest positive number, m the smallest normal one.
-// Rounding is to nearest. For a number x computed as x̂ from coordinates, S is its size: the value
-// of the same expression with every term made positive, where a product's size is that of its
-// factors times each other, plus `allowance`, τ = 4m/u. After k roundings (as `filtered` counts
-// them)
-//     |x̂ − x| <= ((1 + u)^k − 1)·S.
-// Proof, by induction over the expression:
-//  * a coordinate: k = 0. The difference of two: |d̂ − d| <= u|d̂|; its size is |d̂|, k = 1. (It is
-//    |d̂|, as computed, that enters all sizes.) Differences lose nothing to underflow;
-//  * x ± y: k = max(k_x, k_y) + 1, S = S_x + S_y. What is rounded is at most (1 + u)^max·S in size;
-//    rounding it adds u times that. Sums lose nothing to underflow;
-//  * x·y: k = k_x + k_y + 1, S = S_x·S_y + τ. The exact product of the computed factors is off by
-//    ((1 + u)^(k_x + k_y) − 1)·S_x·S_y, rounding adds u(1 + u)^(k_x + k_y)·S_x·S_y, and underflow
-//    η/2 at most, less than uτ/2.
-// The last rounding leaves a sign as it is: k − 1 serves for signs.
+// Notation: u the unit roundoff, η the smallest positive number, m the smallest normal one;
+// rounding is to nearest. S is the size of a number x computed as x̂: the expression with every
+// term positive, where each product adds `allowance`, τ = 4m/u. After k roundings (counted by
+// `filtered`) |x̂ − x| <= ((1 + u)^k − 1)·S.
 //
-// Sizes are computed too. On a path to S there are at most 2k + 2 roundings, each by a factor of at
-// least 1 − u; where a product of sizes underflows, the half of τ that is left pays. Then
-//     |x̂ − x| <= ku(1 + ku)·(1 + (2k + 5)u)·Ŝ < constant(k)·Ŝ,   constant(k) = ku(1 + (4k + 8)u),
-// where the sum of the slacks, at least 3u, covers the rounding of the constant, of the bound and
-// of x̂ itself. The bound does not underflow: uτ > m.
-//
-// Overflow: rounding is monotone, so Ŝ >= |x̂| for every number of an expression; where one is
-// infinite or NaN, so are all that are made of it, and their sizes: no sign passes.
-// Proof: proofs/StaticFilter.v, overflow_uncertain.
-//
-// Fused multiply-add (contraction) leaves out roundings and keeps all of this but the last: a value
-// can overflow where its size just does not. Where it may happen, values are asked to be finite.
-// For orient2d, orient3d and incircle the counts k − 1 are those of Shewchuk's A-filters: 3, 7 and
-// 10; for insphere 15, where his is 16. Source of these: Shewchuk 1997, Adaptive Precision
-// Floating-Point Arithmetic.
-//
-// Proof: proofs/StaticFilter.v, filter_error. (Without contraction.)
+// The counts k − 1 of orient2d, orient3d and incircle are those of Shewchuk's A-filters: 3, 7 and
+// 10; insphere has 15 instead of 16. Source: Shewchuk 1997, Adaptive Precision Floating-Point
+// Arithmetic. Proof, without contraction: proofs/StaticFilter.v, filter_error.
 #pragma once
 
 #include <concepts>
@@ -45,22 +19,34 @@
 
 namespace errbound::filters {
 
-/// The error of k roundings in units of the size: see above.
+/// The error bound of k roundings, in units of the computed size Ŝ. At most 2k + 2 roundings of Ŝ
+/// each keep at least 1 − u; the spare half of τ pays for underflow. Then
+///     |x̂ − x| <= ku(1 + ku)·(1 + (2k + 5)u)·Ŝ < constant(k)·Ŝ,   constant(k) = ku(1 + (4k + 8)u),
+/// where the slack, at least 3u, covers rounding the constant, the bound and x̂. Since uτ > m, it
+/// does not underflow.
 template <std::floating_point T>
 constexpr T filter_constant(int k) {
     constexpr T u = number_traits<T>::unit_roundoff();
     return T(k) * u * (1 + T(4 * k + 8) * u);
 }
 
-/// Kept between an expression and its parts; users write `auto`.
-/// Roundings: k. Products: how often τ has still to be added to the size. Plain: size = |value|.
+/// An intermediate result; users write `auto`. Roundings: k. Products: how often τ is still to be
+/// added to the size. Plain: size = |value|. Induction for the error bound:
+/// - a coordinate: k = 0. A difference d of two: |d̂ − d| <= u|d̂|, size |d̂| as computed, k = 1.
+/// - x ± y: k = max(k_x, k_y) + 1, S = S_x + S_y; the rounded sum is at most (1 + u)^max·S.
+/// - x·y: k = k_x + k_y + 1, S = S_x·S_y + τ. The computed factors' product is off by ((1 + u)^(k_x
+///   + k_y) − 1)·S_x·S_y; rounding adds u times it, underflow at most η/2 < uτ/2.
+///
+/// Rounding is monotone, so Ŝ >= |x̂|: everything made of an infinity or NaN has an infinite or NaN
+/// size, and no sign is certain. Proof: proofs/StaticFilter.v, overflow_uncertain. With contraction
+/// a value can overflow where its size does not, so values are tested.
 template <std::floating_point T, int Roundings, int Products, bool Plain>
 struct filtered {
-    static_assert(Roundings < 1000, "errbound: the derivation of the constant assumes fewer");
+    static_assert(Roundings < 1000, "errbound: the constant holds for fewer than 1000 roundings");
     using value_type = T;
     static constexpr int roundings = Roundings, products = Products;
     static constexpr bool plain = Plain;
-    /// τ; see above.
+    /// τ
     static constexpr T allowance =
         4 * number_traits<T>::smallest_normal() / number_traits<T>::unit_roundoff();
 
@@ -70,8 +56,8 @@ struct filtered {
     constexpr T full_size() const { return Products == 0 ? size : size + T(Products) * allowance; }
     constexpr filtered operator-() const { return {-value, size}; }
 
-    /// |value| <= bound() leaves the sign open; so does a value that is not finite.
-    /// Proof: proofs/StaticFilter.v, filter_bound.
+    /// The sign is uncertain if |value| <= bound() or the value is not finite. The last rounding
+    /// keeps signs: k − 1 suffices. Proof: proofs/StaticFilter.v, filter_bound.
     constexpr T bound() const {
         if constexpr (Roundings <= 1) return T(0);
         return filter_constant<T>(Roundings - 1) *
@@ -86,13 +72,13 @@ struct filtered {
             decided = decided && number_traits<T>::is_finite(x.value);
         if (decided) [[likely]]
             return x.value > 0 ? sign_type::positive : sign_type::negative;
-        // What was rounded once at most is zero only where it is zero.
+        // After at most one rounding, a zero is exact.
         return Roundings <= 1 && Products == 0 && x.value == 0 ? sign_type::zero
                                                                : sign_type::uncertain;
     }
 };
 
-/// A coordinate: its differences to others are known better than from the sizes of both.
+/// A coordinate; differences of two are bounded better than by both sizes.
 template <std::floating_point T>
 struct filtered_coordinate {
     using value_type = T;
@@ -125,7 +111,7 @@ inline constexpr bool is_filtered<filtered_coordinate<T>> = true;
 template <class X>
 concept filtered_operand = is_filtered<X>;
 
-/// A whole number in an expression: an int may be rounded on its way to float.
+/// A whole number; an int may be rounded on conversion to float.
 template <std::floating_point T>
 constexpr auto filtered_constant(int c) {
     const T v = static_cast<T>(c);

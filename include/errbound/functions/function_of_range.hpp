@@ -1,9 +1,8 @@
-// What an elementary function of all numbers within e of x̂ is within. Internal.
+// Bounds of an elementary function over all numbers within e of x̂. Internal.
 //
 // Notation: x̂ and e an argument's value and error, v the computed result, f the function, η the
 // smallest positive number, u = ε/2 the unit roundoff. A computed bound keeps at least (1 − u)^13
-// of itself on its way, for which enlarged() pays, (1 + 16u)(1 − u)^13 > 1; what underflows is
-// counted.
+// of itself; enlarged() pays, (1 + 16u)(1 − u)^13 > 1. Underflow is counted separately.
 #pragma once
 
 #include <cmath>
@@ -19,7 +18,7 @@ namespace errbound {
 
 namespace detail {
 
-/// The type whose functions serve T: T itself, or float for types of 8 and 16 bits.
+/// The type that evaluates functions of T: T, or float for 8- and 16-bit types.
 template <class T>
 struct type_of_functions {
     using type = T;
@@ -39,8 +38,8 @@ template <elementary_function F, class... T>
 auto system_function(const T&... x) {
     using enum elementary_function;
     static_assert((has_system_functions<T> && ...),
-                  "errbound: elementary functions are those of float, double, long double and the "
-                  "types of 8 and 16 bits");
+                  "errbound: elementary functions exist for float, double, long double and 8- "
+                  "and 16-bit types");
     if constexpr (F == exp) return std::exp(x...);
     if constexpr (F == exp2) return std::exp2(x...);
     if constexpr (F == expm1) return std::expm1(x...);
@@ -65,32 +64,31 @@ auto system_function(const T&... x) {
     if constexpr (F == atan2) return std::atan2(x...);
 }
 
-/// At least |v − f|, but for enlarged(). With k units: the last place of f is at most ε|f| + η, and
-/// |f| <= (|v| + kη)/(1 − kε), so that |v − f| <= kε|v|/(1 − kε) + kη + k²εη/(1 − kε); and
-/// 1/(1 − kε) < 1 + 2kε, k²ε < 1/8. Another 2kε >= u pays for k that T rounds, and another η for
-/// the product's underflow.
+/// At least |v − f|, before enlarged(). With k units: the last place of f is at most ε|f| + η, and
+/// |f| <= (|v| + kη)/(1 − kε), so |v − f| <= kε|v|/(1 − kε) + kη + k²εη/(1 − kε); and 1/(1 − kε) <
+/// 1 + 2kε, k²ε < 1/8. Another 2kε >= u pays for rounding k to T, another η for the product's
+/// underflow.
 template <elementary_function F, class T>
 T error_of_function(const T& v) {
     using traits = number_traits<T>;
     constexpr double k = function_error<F, T>;
     static_assert(k != 0,
-                  "errbound: how far this C library's elementary functions are off is not known; "
+                  "errbound: the errors of this C library's elementary functions are unknown; "
                   "specialise errbound::function_error");
     static_assert(k == 0 || (k >= 0.5 && k <= 1024),
-                  "errbound: function_error is from 0.5 to 1024 units in the last place");
+                  "errbound: function_error must be from 0.5 to 1024 units in the last place");
     constexpr T relative = T(k) * traits::epsilon();
     return rounded_product(traits::abs(v), T(relative * (1 + 4 * relative))) +
            T(static_cast<int>(k) + 2) * traits::underflow_unit();
 }
 
-/// A value, and at least its distance from the exact one, but for enlarged() where that is said;
-/// infinite or NaN where nothing is known.
+/// A value, and at least its distance from the exact one; infinite or NaN if there is no bound.
 template <class T>
 struct bounded {
     T value, error;
 };
 
-/// A function's value at a T, but for enlarged().
+/// A function's value at a T, before enlarged().
 template <elementary_function F, class T>
 bounded<T> evaluated(const T& x) {
     const T v = system_function<F>(x);
@@ -106,7 +104,7 @@ sign_type order_of_sum(const T& a, const T& b, const T& limit) {
     return side > 0 ? sign_type::positive : side < 0 ? sign_type::negative : sign_type::zero;
 }
 
-/// Whether every number within e of x̂ is in the domain of F, and no pole.
+/// True if every number within e of x̂ is in the domain of F, and no pole.
 template <elementary_function F, class T>
 bool is_in_domain(const T& x, const T& e) {
     using enum elementary_function;
@@ -119,7 +117,6 @@ bool is_in_domain(const T& x, const T& e) {
     return true;
 }
 
-/// Whether v³ = x.
 template <class T>
 bool is_cube_root(const T& v, const T& x) {
     const with_error<T> square = two_product(v, v), cube = two_product(square.value, v);
@@ -127,9 +124,8 @@ bool is_cube_root(const T& v, const T& x) {
            product_error_is_exact(square.value, v, cube) && cube.error == 0 && cube.value == x;
 }
 
-/// Whether v is the exact result for an exact x. There are no other rational results of rational
-/// arguments, but for the logarithms of powers of ten (by the theorems of Lindemann, and of
-/// Gelfond and Schneider).
+/// True if v is the exact result for an exact x. Other rational results exist only for logarithms
+/// of powers of ten (theorems of Lindemann, and of Gelfond and Schneider).
 template <elementary_function F, class T>
 bool is_exact_result(const T& x, const T& v) {
     using enum elementary_function;
@@ -150,8 +146,7 @@ bool is_exact_result(const T& x, const T& v) {
     return x == 0 && v == 0;
 }
 
-/// Where |f'| does not decrease: for greater arguments, for lesser ones, away from zero, towards
-/// it. On both sides of zero alike, for the last two.
+/// Where |f'| does not decrease: for greater arguments, lesser ones, away from or towards zero.
 enum class steeper_side { above, below, outward, inward };
 
 template <elementary_function F>
@@ -179,7 +174,7 @@ constexpr steeper_side steeper() {
     }
 }
 
-/// By how much an argument can change before f' changes by much.
+/// Scale of the argument over which f' changes much.
 template <elementary_function F, class T>
 T natural_distance(const T& x) {
     using enum elementary_function;
@@ -192,14 +187,13 @@ T natural_distance(const T& x) {
     return size > 1 ? size : T(1);
 }
 
-/// x̂ ± distance or, where that is not a T, the next one beyond; of the domains that have their
-/// ends, no number beyond these.
+/// x̂ ± distance, rounded away from x̂; never beyond the end of a closed domain.
 template <elementary_function F, class T>
 T moved(const T& x, const T& distance, bool up) {
     using enum elementary_function;
     const with_error<T> sum = two_sum(x, up ? distance : T(-distance));
     T p = sum.value;
-    // An error that is NaN (overflow) steps on, too.
+    // A NaN error (overflow) also steps.
     if (!(up ? sum.error <= 0 : sum.error >= 0))
         p = std::nextafter(p, up ? number_traits<T>::infinity() : T(-number_traits<T>::infinity()));
     if constexpr (F == asin || F == acos) return p > 1 ? T(1) : p < -1 ? T(-1) : p;
@@ -207,14 +201,12 @@ T moved(const T& x, const T& distance, bool up) {
     return p;
 }
 
-/// At least |v − f(x)| for x within e > 0 of x̂, all of them in the domain.
+/// At least |v − f(x)| for x within e > 0 of x̂, all in the domain.
 ///
-/// |f(x) − f(x̂)| is at most the integral of |f'| over the e beyond x̂ on the side where it is
-/// steeper. On a longer way there, from x̂ to p, at a distance d >= e, the mean of |f'| is no less,
-/// so that it is at most (e/d)·|f(p) − f(x̂)|: f is monotone there. A d of about √ε natural
-/// distances gives the derivative to about √ε, whatever e. Where |f'| grows towards zero, p goes
-/// beyond only if x can be zero, and then at d = e: the integral is still the largest of all
-/// intervals of that length with an end at x̂.
+/// |f(x) − f(x̂)| is at most the integral of |f'| over the e beyond x̂ on the steeper side. To a p
+/// there, at a distance d >= e, the mean of |f'| is no less, so the change is at most (e/d)·|f(p) −
+/// f(x̂)|. d = √ε natural distances gives the derivative to about √ε. If |f'| grows towards zero, p
+/// passes zero only if x can be zero, with d = e: the integral is still the largest of that length.
 template <elementary_function F, class T>
 T error_by_slope(const T& x, const T& e, const T& v) {
     using traits = number_traits<T>;
@@ -234,14 +226,14 @@ T error_by_slope(const T& x, const T& e, const T& v) {
     const bounded<T> end = evaluated<F>(p);
     const T own = error_of_function<F>(v), way = traits::abs(T(p - x));
     const T difference = traits::abs(T(end.value - v)) + (own + end.error);
-    // Where the way is rounded to e or less, or infinite, the share is 1.
+    // If the way is rounded to e or less, or infinite, the share is 1.
     const bool shares = !to_the_end && way > e && traits::is_finite(way);
     const T share = shares ? T(e / way + traits::underflow_unit()) : T(1);
     return own + (rounded_product(share, difference) + traits::underflow_unit());
 }
 
-/// At least |f(x) − f(x̂)| for f = sin or cos, `slope` of its derivative at x̂, the other one's
-/// value: with d = x − x̂, |2 sin(d/2) cos(x̂ + d/2)| <= e·min(1, |cos x̂| + e/2), likewise of cos.
+/// At least |f(x) − f(x̂)| for f = sin or cos; `slope` is the other function at x̂. With d = x −
+/// x̂, |2 sin(d/2) cos(x̂ + d/2)| <= e·min(1, |cos x̂| + e/2), and the same for cos.
 template <class T>
 T change_of_wave(const bounded<T>& slope, const T& e) {
     using traits = number_traits<T>;
@@ -250,9 +242,9 @@ T change_of_wave(const bounded<T>& slope, const T& e) {
            traits::underflow_unit();
 }
 
-/// At least |tan x − tan x̂| for x within e of x̂; infinite where a pole may be among them. With
-/// t = |tan x̂| and q = tan e, e < π/2: tan(x̂ + d) − tan x̂ = tan d (1 + tan² x̂)/(1 − tan x̂ tan d) is
-/// at most q(1 + t²)/(1 − tq), and there is no pole as long as tq < 1.
+/// At least |tan x − tan x̂| for x within e of x̂; infinite if a pole may be among them. With t =
+/// |tan x̂| and q = tan e, e < π/2: tan(x̂ + d) − tan x̂ = tan d (1 + tan² x̂)/(1 − tan x̂ tan d)
+/// is at most q(1 + t²)/(1 − tq), without a pole if tq < 1.
 template <class T>
 T change_of_tangent(const bounded<T>& tangent, const T& e) {
     using traits = number_traits<T>;
@@ -266,8 +258,8 @@ T change_of_tangent(const bounded<T>& tangent, const T& e) {
     return enlarged<T>(numerator / (1 - product)) + traits::underflow_unit();
 }
 
-/// f(h + l + d) for |d| <= r.error, h = r.high and l = r.low, from f(h) and f'(h), where |f'| <= 3
-/// and |f''| <= 6: f(h) + l·f'(h) is off by at most 3l² + 3|d|. The error is enlarged.
+/// f(h + l + d) for |d| <= r.error, h = r.high, l = r.low, from f(h) and f'(h), with |f'| <= 3 and
+/// |f''| <= 6: f(h) + l·f'(h) is off by at most 3l² + 3|d|. The error is enlarged.
 template <class T>
 bounded<T> moved_by_low_part(const reduced_angle<T>& r, const bounded<T>& at_high,
                              const bounded<T>& slope) {
@@ -280,8 +272,7 @@ bounded<T> moved_by_low_part(const reduced_angle<T>& r, const bounded<T>& at_hig
     return {sum.value, enlarged<T>(at_high.error + (traits::abs(sum.error) + error))};
 }
 
-/// −1/y, its error enlarged; infinite where y may be 0: |1/(ŷ + d) − 1/ŷ| <= e/(|ŷ|(|ŷ| − e)) for
-/// |d| <= e.
+/// −1/y, error enlarged: |1/(ŷ + d) − 1/ŷ| <= e/(|ŷ|(|ŷ| − e)), |d| <= e. Infinite if y may be 0.
 template <class T>
 bounded<T> negative_reciprocal(const bounded<T>& y) {
     using traits = number_traits<T>;
@@ -291,12 +282,12 @@ bounded<T> negative_reciprocal(const bounded<T>& y) {
     return {v, enlarged<T>(y.error / divisor + (half_ulp(v) + traits::underflow_unit()))};
 }
 
-/// The tangent of a reduced angle, its error enlarged.
+/// The tangent of a reduced angle, error enlarged.
 template <class T>
 bounded<T> tangent_of(const reduced_angle<T>& r) {
     const bounded<T> at_high = evaluated<elementary_function::tan>(r.high);
     const T t = at_high.value;
-    // |t| < 1.01, so that two roundings are off by less than 2ε.
+    // |t| < 1.01, so two roundings are off by less than 2ε.
     const bounded<T> slope{T(1 + rounded_product(t, t)),
                            T(3 * (at_high.error + number_traits<T>::epsilon()))};
     const bounded<T> result = moved_by_low_part(r, at_high, slope);
@@ -319,22 +310,20 @@ void sine_of(const reduced_angle<T>& r, int quadrants, bounded<T>& sine, bounded
     if (quadrants % 4 >= 2) sine = negated(sine), derivative = negated(derivative);
 }
 
-/// At least |v − f(x)| for x within e > 0 of x̂ and f = sin, cos or tan, from f(x̂), computed as v,
-/// and from its derivative there.
+/// At least |v − f(x)|, x within e > 0 of x̂, f = sin, cos or tan; `at` is the computed f(x̂).
 template <elementary_function F, class T>
 T error_of_angle_function(const bounded<T>& at, const bounded<T>& derivative, const T& e) {
     if constexpr (F == elementary_function::tan) {
         return enlarged<T>(at.error + change_of_tangent<T>(at, e));
     } else {
         const T error = at.error + change_of_wave<T>(derivative, e);
-        // No more than the distance of v from the other end of the range.
+        // At most the distance of v from the other end of the range.
         const T range = 1 + number_traits<T>::abs(at.value);
         return enlarged<T>(error < range ? error : range);
     }
 }
 
-/// F of what is within e of x̂, for |x̂| >= least_reduced_angle: from the system's functions of
-/// angles up to π/4.
+/// F over numbers within e of x̂, |x̂| >= least_reduced_angle, by functions of angles up to π/4.
 template <elementary_function F, class T>
 [[gnu::noinline]] bounded<T> function_of_large_angles(T x, T e) {
     using enum elementary_function;
@@ -350,7 +339,6 @@ template <elementary_function F, class T>
     return {at.value, error_of_angle_function<F>(at, derivative, e)};
 }
 
-/// F of what is within e of x̂.
 template <elementary_function F, class T>
 bounded<T> function_of_range(const T& x, const T& e) {
     using enum elementary_function;
@@ -372,10 +360,9 @@ bounded<T> function_of_range(const T& x, const T& e) {
     }
 }
 
-/// At least |v − x^y| for |x̂| > e_x, where v is the computed power of x̂ and ŷ.
-///
-/// |log(x^y) − log(x̂^ŷ)| <= |ŷ|·λ + e_y·(|log |x̂|| + λ) =: s, λ = log(|x̂|/(|x̂| − e_x)), of which
-/// log1p(e_x/(|x̂| − e_x)) is another form; and x^y is off from x̂^ŷ by a factor of at most e^s.
+/// At least |v − x^y| for |x̂| > e_x, where v is the computed power of x̂ and ŷ. |log(x^y) −
+/// log(x̂^ŷ)| <= |ŷ|·λ + e_y·(|log |x̂|| + λ) =: s, λ = log(|x̂|/(|x̂| − e_x)) = log1p(e_x/(|x̂| −
+/// e_x)), and x^y differs from x̂^ŷ by a factor of at most e^s.
 template <class T>
 T error_of_power(const T& size, const T& of_x, const T& y, const T& of_y, const T& v) {
     using enum elementary_function;
@@ -400,8 +387,7 @@ T error_of_power(const T& size, const T& of_x, const T& y, const T& of_y, const 
                   traits::underflow_unit());
 }
 
-/// At least the error of x^n for a whole n > 0, where x may be zero: |x^n − x̂^n| <= (|x̂| + e)^n −
-/// |x̂|^n.
+/// At least the error of x^n for n > 0, x possibly zero: |x^n − x̂^n| <= (|x̂| + e)^n − |x̂|^n.
 template <class T>
 T error_of_power_at_zero(const T& size, const T& e, const T& n, const T& v) {
     using enum elementary_function;
@@ -410,11 +396,10 @@ T error_of_power_at_zero(const T& size, const T& e, const T& n, const T& v) {
     return own + ((end - number_traits<T>::abs(v)) + (error_of_function<pow>(end) + own));
 }
 
-/// At least |atan2(y, x) − atan2(ŷ, x̂)| where the path from one to the other crosses no cut:
-/// infinite where this does not tell. The angle's tangent is (x̂·dy − ŷ·dx)/(x̂² + ŷ² + x̂·dx + ŷ·dy),
-/// and an angle is at most its tangent. In units of the larger of |x̂| and |ŷ|, which cannot be
-/// zero; what underflows there, four scalings and products at most in each sum, is less than η
-/// each.
+/// At least |atan2(y, x) − atan2(ŷ, x̂)| if the path crosses no cut. An angle is at most its
+/// tangent, (x̂·dy − ŷ·dx)/(x̂² + ŷ² + x̂·dx + ŷ·dy); infinite if that fails. In units of the
+/// larger of |x̂| and |ŷ|. Underflow of at most four scalings and products in each sum loses less
+/// than η each.
 template <class T>
 T change_of_angle(const T& y, const T& of_y, const T& x, const T& of_x) {
     using traits = number_traits<T>;
@@ -431,13 +416,13 @@ T change_of_angle(const T& y, const T& of_y, const T& x, const T& of_x) {
     return enlarged<T>(across) / least + lost;
 }
 
-/// x^y of what is within e_x of x̂ and e_y of ŷ.
+/// x^y over numbers within e_x of x̂ and e_y of ŷ.
 template <class T>
 bounded<T> power_of_ranges(const T& x, const T& of_x, const T& y, const T& of_y) {
     using traits = number_traits<T>;
     const T v = system_function<elementary_function::pow>(x, y);
     const bounded<T> unknown{v, traits::infinity()};
-    // A number that is not finite is among the errors, too.
+    // A value that is not finite has an infinite error.
     if (!traits::is_finite(of_x) || !traits::is_finite(of_y)) return unknown;
     if (of_y == 0 && y == 0) return {T(1), T(0)};
     const bool is_whole = of_y == 0 && std::trunc(y) == y;
@@ -452,7 +437,7 @@ bounded<T> power_of_ranges(const T& x, const T& of_x, const T& y, const T& of_y)
     return {v, enlarged<T>(error_of_power_at_zero(size, of_x, y, v))};
 }
 
-/// The angle of (x, y) in [−π, π] of what is within e_y of ŷ and e_x of x̂.
+/// The angle of (x, y) in [−π, π] over numbers within e_y of ŷ and e_x of x̂.
 template <class T>
 bounded<T> angle_of_ranges(const T& y, const T& of_y, const T& x, const T& of_x) {
     using traits = number_traits<T>;
@@ -462,7 +447,7 @@ bounded<T> angle_of_ranges(const T& y, const T& of_y, const T& x, const T& of_x)
         return {v, traits::infinity()};
     if (y == 0 && of_y == 0 && x > of_x && v == 0) return {v, T(0)};
     const T own = error_of_function<elementary_function::atan2>(v);
-    // What is not above or below the cut, where x may be negative. (−0 is below it.)
+    // Not certainly above or below the cut, where x may be negative. (−0 is below it.)
     const bool above = y >= of_y && !std::signbit(y), below = y < -of_y;
     const T range = traits::abs(v) + T(3.14159265358979323846264338327950288L);
     if (!(x > of_x) && !above && !below) return {v, enlarged<T>(range)};

@@ -8,8 +8,7 @@
 
 namespace errbound::integers {
 
-/// A double as ±magnitude·2^exponent with a whole magnitude below 2^53. Infinities and NaN get the
-/// exponent `not_finite`. (A float is a double.)
+/// ±magnitude·2^exponent, magnitude below 2^53; the exponent of infinities and NaN is `not_finite`.
 struct binary_double {
     static constexpr int not_finite = 2047 - 1075;
 
@@ -24,17 +23,17 @@ struct binary_double {
         exponent = static_cast<int>(field) + (field == 0) - 1075;
         negative = bits >> 63 != 0;
     }
-    /// For x not zero, the odd number that x is times 2^last_bit().
+    /// The odd part n of x = n·2^last_bit(). Precondition: x is not zero.
     constexpr std::int64_t odd_part() const {
         const auto odd = static_cast<std::int64_t>(magnitude >> detail::countr_zero(magnitude));
         return negative ? -odd : odd;
     }
-    /// The place of the last bit that is set; of 0 above every other's.
+    /// Position of the lowest bit set; for 0 above all others.
     constexpr int last_bit() const {
         return magnitude == 0 ? (std::numeric_limits<int>::max)()
                               : exponent + detail::countr_zero(magnitude);
     }
-    /// One above the place of the first bit that is set; of 0 below every other's.
+    /// One above the position of the highest bit set; for 0 below all others.
     constexpr int end_bit() const { return exponent + detail::bit_width(magnitude); }
 };
 

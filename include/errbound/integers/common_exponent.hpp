@@ -1,4 +1,4 @@
-// Coordinates as integers on one common exponent: how many bits they take, and they themselves.
+// Coordinates as integers with one common exponent, and their widths.
 #pragma once
 
 #include <algorithm>
@@ -14,7 +14,7 @@
 
 namespace errbound::integers {
 
-/// The size of the largest coordinate, as bits of a double; infinities and NaN exceed all others.
+/// The largest magnitude, as bits of a double; infinities and NaN exceed all others.
 template <std::size_t N>
 constexpr std::uint64_t largest_size(const std::array<double, N>& coordinates) {
     std::uint64_t largest = 0;
@@ -28,21 +28,19 @@ constexpr bool is_finite_size(std::uint64_t size) {
 
 using detail::power_of_two;
 
-/// Coordinates that are whole numbers of few bits: x = value·2^unit, |value| < 2^Bits, Bits <= 50.
+/// Coordinates with few bits: x = value·2^unit, |value| < 2^Bits, Bits <= 50.
 template <std::size_t N, int Bits>
 struct short_coordinates {
     std::array<double, N> value;
     int unit;
     bool fit = false;
 
-    /// `largest` is largest_size(coordinates), finite. A sum of x and 3·2^51 units is a whole
-    /// number of units, x's nearest; only multiples of the unit come back from it. Then, and only
-    /// then, is the product with a power of two known to be exact.
-    /// Proof: proofs/Widths.v, short_coordinates_exact.
+    /// `largest` is largest_size(coordinates), finite. Adding 3·2^51 units rounds x to whole units;
+    /// only multiples survive. Proof: proofs/Widths.v, short_coordinates_exact.
     constexpr short_coordinates(const std::array<double, N>& coordinates, std::uint64_t largest) {
         const auto field = static_cast<int>(largest >> 52);
         unit = field - 1022 - Bits;
-        if (unit < -1022 || unit > 970) return;  // not all powers of two below are normal numbers
+        if (unit < -1022 || unit > 970) return;  // all powers of two below must be normal
         const double shift = 3 * power_of_two(unit + 51), to_unit = power_of_two(-unit);
         std::uint64_t lost = 0;
         for (std::size_t i = 0; i < N; ++i) {
@@ -57,19 +55,17 @@ struct short_coordinates {
 /// Coordinates that fit one word: x = value·2^unit.
 template <std::size_t N>
 struct word_coordinates {
-    /// Coordinates are less than 2^max_bits units: with 61 their differences' products, and the
-    /// sums of these that predicates need, come out at the end of a word or just before.
+    /// Coordinates are below 2^61 units: products of their differences, and the sums that
+    /// predicates need, end at a word's end or just before.
     static constexpr int max_bits = 61;
 
     std::array<std::int64_t, N> value;
     int unit;
     bool fit;
 
-    /// `largest` is largest_size(coordinates), finite. The largest coordinate is less than
-    /// 2^(field − 1022); a unit of 2^-61 of that is tried, by way of products that are exact where
-    /// the answer is yes: i·2^unit = x. (They can also be rounded where the result is subnormal,
-    /// but i·2^unit, a multiple of 2^-1074, is not.)
-    /// Proof: proofs/Widths.v, word_coordinates_exact.
+    /// `largest` is largest_size(coordinates), finite, so coordinates are below 2^(field − 1022).
+    /// It fits if i·2^unit = x, which is not rounded. Proof: proofs/Widths.v,
+    /// word_coordinates_exact.
     constexpr word_coordinates(const std::array<double, N>& coordinates, std::uint64_t largest) {
         const auto field = static_cast<int>(largest >> 52);
         unit = field - 1022 - max_bits;
@@ -88,14 +84,14 @@ struct word_coordinates {
         least_bits_ = any == 0 ? 0 : max_bits - detail::countr_zero(any);
     }
 
-    /// Of values in the largest common unit.
+    /// Bits of the values in the largest common unit.
     constexpr int least_bits() const { return least_bits_; }
 
   private:
     int least_bits_ = max_bits;
 };
 
-/// The common unit of any finite coordinates, and how many bits they take in it.
+/// The largest common unit of finite coordinates, and their width in it.
 struct common_unit {
     int unit = 0;
     int bits = 0;
@@ -114,8 +110,7 @@ struct common_unit {
         bits = end - last;
     }
 
-    /// A coordinate as a number of the level, which has the bits.
-    /// Proof: proofs/Widths.v, converted_exact.
+    /// x as a number of the level, which is wide enough. Proof: proofs/Widths.v, converted_exact.
     template <class Level>
     constexpr sized_integer<Level, Level::coordinate_bits, 1> converted(double x) const {
         using storage = typename sized_integer<Level, Level::coordinate_bits, 1>::storage;
@@ -132,7 +127,7 @@ struct common_unit {
     }
 };
 
-/// All finite doubles are multiples of 2^-1074 and less than 2^1024.
+/// All finite doubles are multiples of 2^-1074 and below 2^1024.
 inline constexpr int full_range_bits = 1024 + 1074;
 
 }  // namespace errbound::integers

@@ -1,13 +1,13 @@
-// The number of a binary format that is nearest to a decimal, and its distance rounded up.
+// The number of a binary format nearest to a decimal, and its distance rounded up.
 //
 //   constexpr auto x = errbound::integers::nearest_decimal<double>(decimal_text("0.1"));
 //   x.value;  // 0.1
 //   x.error;  // |0.1 - x.value|, rounded up to a double
 //
-// Rounds once, to nearest, ties to even. Only whole numbers are computed with: the direction of
-// rounding has no influence, and constant expressions give the same. No allocation, no exceptions.
-// Cost: 38 digits and a power of five of 128 bits decide almost always; else products as long as
-// the exact decimals of midpoints (2 KiB of stack for double, 24 for binary128).
+// Rounds once, to nearest, ties to even, by integers only: independent of the rounding direction.
+// No allocation, no exceptions. Cost: 38 digits and a power of five of 128 bits almost always
+// suffice; otherwise products as long as midpoints' exact decimals (stack: 2 KiB for double, 24 for
+// binary128).
 #pragma once
 
 #include <algorithm>
@@ -26,11 +26,10 @@ namespace errbound::integers {
 using words::word;
 using words::word_pair;
 
-/// [+-]d...[.d...][(e|E)[+-]d...], at least one digit, as ±digits·10^exponent. Separators of
-/// literals' digits are skipped where they are between two.
+/// [+-]d...[.d...][(e|E)[+-]d...] as ±digits·10^exponent. Skips a literal's digit separators.
 class decimal_text {
   public:
-    /// Digits that two words hold.
+    /// Two words hold this many.
     static constexpr int leading_digits = 38;
 
     constexpr explicit decimal_text(std::string_view text) {
@@ -41,7 +40,7 @@ class decimal_text {
             ++i;
             const bool minus = sign(text, i);
             well_formed = is_digit(text, i);
-            // Saturated beyond any text's length, so that no digits make up for it.
+            // Saturates beyond any text's length, so that no digits compensate.
             constexpr std::int64_t most = std::int64_t{1} << 58;
             std::int64_t e = 0;
             for (; is_digit(text, i); ++i) e = e < most / 10 ? 10 * e + (text[i] - '0') : most;
@@ -53,9 +52,9 @@ class decimal_text {
     constexpr bool well_formed() const { return well_formed_; }
     constexpr bool negative() const { return negative_; }
     constexpr bool is_zero() const { return digits_ == 0; }
-    /// n with 10^(n-1) <= |x| < 10^n, for x not zero.
+    /// n with 10^(n-1) <= |x| < 10^n. Precondition: x is not zero.
     constexpr std::int64_t magnitude() const { return digits_ + exponent_; }
-    /// The first digits, at most 38, as a whole number.
+    /// The first digits, at most 38, as an integer.
     constexpr word_pair leading() const {
         const auto more = static_cast<int>(std::min<std::int64_t>(digits_, leading_digits)) - 19;
         if (more <= 0) return {0, first_};
@@ -65,17 +64,17 @@ class decimal_text {
         const word high = words::multiply_by_word(&low, &first_, 1, power, next_);
         return {high, low};
     }
-    /// Power of ten of the last of these.
+    /// Power of ten of the last digit of leading().
     constexpr std::int64_t leading_exponent() const {
         return exponent_ + std::max<std::int64_t>(digits_ - leading_digits, 0);
     }
     /// False if a later digit is not zero.
     constexpr bool leading_is_all() const { return !has_rest_; }
-    /// How many digits there are from the first that is not zero.
+    /// Number of digits from the first nonzero one.
     constexpr std::int64_t digits() const { return digits_; }
-    /// Power of ten of the last one.
+    /// Power of ten of the last digit.
     constexpr std::int64_t exponent() const { return exponent_; }
-    /// visit(digit) for the first `count` of these; returns whether a later one is not zero.
+    /// Calls visit(digit) for the first `count` digits; true if a later one is not zero.
     template <class Visit>
     constexpr bool for_digits(std::int64_t count, const Visit& visit) const {
         for (const char c : significant_) {
@@ -97,9 +96,9 @@ class decimal_text {
     static constexpr bool is_digit(std::string_view text, std::size_t i) {
         return i < text.size() && text[i] >= '0' && text[i] <= '9';
     }
-    /// Returns whether there is a digit.
+    /// False if there is no digit.
     constexpr bool read_digits(std::string_view text, std::size_t& i) {
-        // Local variables, which stay in registers.
+        // Local variables stay in registers.
         std::size_t at = i, first = i;
         std::int64_t all = 0, count = 0, before_point = -1;
         word value = 0;
@@ -133,31 +132,30 @@ class decimal_text {
         return all > 0;
     }
 
-    std::string_view significant_;  ///< from the first digit that is not zero
+    std::string_view significant_;  ///< from the first nonzero digit
     std::int64_t digits_ = 0, exponent_ = 0;
     word first_ = 0, next_ = 0;
     bool well_formed_ = false, negative_ = false, has_rest_ = false;
 };
 
-/// A number between (m)·2^exponent and (m + error)·2^exponent, m of 128 bits of which the first is
-/// set.
+/// A number in [m, m + error]·2^exponent; m has 128 bits, the first one set.
 struct leading_bits {
     word_pair m;
     int exponent;
     word error;
 };
 
-/// x·2^n, for 0 <= n <= 128, modulo 2^128.
+/// x·2^n modulo 2^128, 0 <= n <= 128.
 constexpr word_pair shifted_up(word_pair x, int n) {
     if (n >= 64) return {n >= 128 ? 0 : x.low << (n - 64), 0};
     return {x.high << n | x.low >> 1 >> (63 - n), x.low << n};
 }
-/// ⌊x/2^n⌋, for 0 <= n <= 128.
+/// ⌊x/2^n⌋, 0 <= n <= 128.
 constexpr word_pair shifted_down(word_pair x, int n) {
     if (n >= 64) return {0, n >= 128 ? 0 : x.high >> (n - 64)};
     return {x.high >> n, x.low >> n | x.high << 1 << (63 - n)};
 }
-/// Modulo 2^128.
+/// x + y modulo 2^128.
 constexpr word_pair sum_of(word_pair x, word y) {
     const word low = x.low + y;
     return {x.high + (low < y ? 1 : 0), low};
@@ -169,13 +167,13 @@ constexpr int width_of(word_pair x) {
     return static_cast<int>(x.high != 0 ? 64 + std::bit_width(x.high) : std::bit_width(x.low));
 }
 
-/// x·2^exponent, for x not zero. `error` is that of x.
+/// x·2^exponent with x's error. Precondition: x is not zero.
 constexpr leading_bits normalized(word_pair x, int exponent, word error) {
     const int shift = 128 - width_of(x);
     return {shifted_up(x, shift), exponent - shift, error == 0 ? 0 : error << shift};
 }
-/// (a + s)(b + t) exceeds ab by at most 2^128·(s + t) + st, and what is cut off is less than a
-/// unit; a shift by a bit doubles the former. Exact where nothing is cut off.
+/// (a + s)(b + t) exceeds ab by at most 2^128·(s + t) + st; the truncated part is below a unit; a
+/// shift by a bit doubles the former. Exact if nothing is truncated.
 constexpr leading_bits operator*(const leading_bits& a, const leading_bits& b) {
     const std::array<word, 2> x{a.m.low, a.m.high}, y{b.m.low, b.m.high};
     std::array<word, 4> r{};
@@ -189,7 +187,6 @@ constexpr leading_bits operator*(const leading_bits& a, const leading_bits& b) {
             exact ? word{cut} : 2 * (a.error + b.error) + 2};
 }
 
-/// 5^(2^i) and 5^-(2^i).
 struct squares_of_five {
     static constexpr int count = 13;
     std::array<leading_bits, count> up{}, down{};
@@ -211,13 +208,13 @@ inline constexpr auto small_powers_of_five = [] {
     return powers;
 }();
 
-/// The decimal's leading digits times their power of ten, of at most 5^±8191.
+/// The leading digits times their power of ten, at most 5^±8191.
 constexpr leading_bits leading_bits_of(const decimal_text& text) {
     word_pair digits = text.leading();
     int e = static_cast<int>(text.leading_exponent());
     const int binary = e;
     const word error = text.leading_is_all() ? 0 : 1;
-    // A dyadic number is found to be one.
+    // Detects dyadic numbers.
     if (e < 0 && -e < static_cast<int>(small_powers_of_five.size()) && digits.high == 0) {
         const word power = small_powers_of_five[static_cast<std::size_t>(-e)];
         if (digits.low % power == 0) {
@@ -233,7 +230,6 @@ constexpr leading_bits leading_bits_of(const decimal_text& text) {
     return x;
 }
 
-/// units·2^unit, the nearest number of a format, and its distance.
 struct rounded_decimal {
     word_pair units;
     int unit;
@@ -242,21 +238,21 @@ struct rounded_decimal {
     bool certain;
 };
 
-/// Numbers of T are whole multiples of 2^unit_of(x), x being the place above the first bit.
+/// Numbers of T are multiples of 2^unit_of(x), x the position above the first bit.
 template <class T>
 struct binary_format {
     using traits = number_traits<T>;
     static constexpr int digits = traits::digits;
-    static constexpr int least = traits::min_exponent - digits;  ///< 2^least is the smallest
+    static constexpr int least = traits::min_exponent - digits;  ///< 2^least is the smallest number
     static constexpr int unit_of(int end) { return (std::max)(end - digits, least); }
     static_assert(has_subnormals<T> && digits <= 113 && traits::max_exponent <= 16384,
-                  "errbound: decimals are read into binary formats with subnormal numbers, of at "
-                  "most 113 bits");
+                  "errbound: decimals need a binary format with subnormal numbers and at most "
+                  "113 bits");
 
-    /// units·2^unit, of at most `digits` bits or 2^digits; finite.
+    /// units·2^unit, at most `digits` bits or 2^digits; finite.
     static constexpr T number(word_pair units, int unit) {
         if constexpr (std::is_same_v<T, double>) {
-            // The unit's exponent in the place of the exponent, to which the first bit adds 1.
+            // The first bit adds 1 to the exponent field.
             return std::bit_cast<double>((static_cast<word>(unit - least) << 52) + units.low);
         } else if constexpr (digits < 53) {
             return static_cast<T>(static_cast<double>(units.low) * detail::power_of_two(unit));
@@ -275,8 +271,7 @@ struct binary_format {
         const bool cut = drop > 128 || shifted_up(units, drop) != x;
         return number(sum_of(units, cut ? 1 : 0), unit);
     }
-    /// By the bits alone; certain only if all of [m, m + error] is rounded to one number, and the
-    /// distance is known to a thousandth.
+    /// Certain only if [m, m + error] rounds to one number and the distance is known to 1/1000.
     static constexpr rounded_decimal rounded(const leading_bits& x) {
         const int unit = unit_of(x.exponent + 128), drop = unit - x.exponent;
         const word_pair end = sum_of(x.m, x.error);
@@ -287,7 +282,7 @@ struct binary_format {
         const word_pair to_next = difference_of(shifted_up({0, 1}, drop), rest);
         rounded_decimal r{sum_of(units, up ? 1 : 0), unit, up ? to_next : rest, x.exponent, true};
         if (x.error == 0) return r;
-        // The nearest end of what x can be must be far from the number, and on one side of half.
+        // Both ends of [m, m + error] must be far from the number and on one side of half.
         const word_pair to_half = up ? difference_of(rest, half) : difference_of(half, rest);
         const word_pair least_distance = up ? difference_of(r.distance, {0, x.error}) : r.distance;
         r.certain = x.error < (word{1} << 40) && is_far(to_half, x.error) &&
@@ -302,7 +297,7 @@ struct binary_format {
     }
 };
 
-/// Whole numbers with room for what exact decimals of T's midpoints need.
+/// A natural number large enough for exact decimals of T's midpoints.
 template <std::size_t Capacity>
 class exact_natural {
   public:
@@ -317,7 +312,6 @@ class exact_natural {
 
     constexpr void push(word w) { words_[static_cast<std::size_t>(size_++)] = w; }
     constexpr void trim() { size_ = words::trimmed(words_.data(), size_); }
-    /// x·factor + more.
     constexpr void multiply(word factor, word more = 0) {
         const word carry =
             words::multiply_by_word(words_.data(), words_.data(), size_, factor, more);
@@ -340,7 +334,7 @@ class exact_natural {
         size_ += whole;
         if (beyond != 0) push(beyond);
     }
-    /// x·y for y not zero.
+    /// Precondition: y is not zero.
     constexpr exact_natural times(word_pair y) const {
         exact_natural r, high = *this;
         r = *this;
@@ -354,7 +348,6 @@ class exact_natural {
         if (carry != 0) r.push(carry);
         return r;
     }
-    /// |x − y|.
     constexpr exact_natural distance(const exact_natural& y) const {
         const bool less =
             size_ != y.size_ ? size_ < y.size_ : words::compare(data(), y.data(), size_) < 0;
@@ -364,7 +357,7 @@ class exact_natural {
         r.trim();
         return r;
     }
-    /// x/y for both not zero: the first bits, with an error of 1 where others follow.
+    /// The first bits of x/y, with error 1 if others follow. Precondition: neither is zero.
     constexpr leading_bits quotient(exact_natural y) const {
         exact_natural x = *this;
         const int y_shift = (y.size_ < 2 ? 64 : 0) + (std::max)(0, x.width() - y.width() - 128);
@@ -392,13 +385,12 @@ class exact_natural {
     std::array<word, Capacity> words_{};
 };
 
-/// Exact, by the decimal's digits up to those that a midpoint of T can have; whether others follow
-/// is one digit more.
+/// Exact, from as many digits as a midpoint of T can have, and one digit for the others.
 template <class T>
 class exact_decimal {
     using format = binary_format<T>;
-    static constexpr int places = 1 - format::least;  ///< binary ones of the smallest midpoint
-    /// j·2^-places for j < 2^(digits + 1) has at most so many digits.
+    static constexpr int places = 1 - format::least;  ///< binary places of the smallest midpoint
+    /// The number of digits of j·2^-places for j < 2^(digits + 1).
     static constexpr int most_digits =
         places - (places - format::digits - 1) * 30102LL / 100000 + 2;
     static constexpr int most_power = most_digits + places * 30103LL / 100000 + 8;
@@ -409,7 +401,7 @@ class exact_decimal {
     using natural = exact_natural<static_cast<std::size_t>(most_bits / 64 + 8)>;
 
   public:
-    /// For a decimal that is not certainly beyond the format's numbers.
+    /// Precondition: the decimal is not certainly beyond the format's range.
     static constexpr rounded_decimal rounded(const decimal_text& text) {
         natural x, divisor;
         int e = 0;
@@ -428,7 +420,7 @@ class exact_decimal {
             up = rest > half || (rest == half && (leading.error != 0 || units.low % 2 == 1));
             units = sum_of(units, up ? 1 : 0);
         }
-        // The end that is farther away: the appended digit, 1, stands for 0 to 10.
+        // Use the farther end: the appended digit 1 stands for 0 to 10.
         if (truncated && up) x = x.distance(one());
         if (truncated && !up) x.add(9);
         return with_distance(x, divisor, e, units, unit);
@@ -440,7 +432,7 @@ class exact_decimal {
         x.push(1);
         return x;
     }
-    /// The digits; returns whether a last one stands for others.
+    /// True if a last digit stands for others.
     static constexpr bool read(const decimal_text& text, natural& x, int& exponent) {
         word chunk = 0, power = 1;
         const auto flush = [&] {
@@ -481,8 +473,7 @@ class exact_decimal {
     }
 };
 
-/// A number, and how far the decimal is from it, rounded up; `finite` is false if the decimal
-/// rounds to no finite number of T.
+/// A number and the decimal's distance, rounded up; not `finite` if it rounds to no finite T.
 template <class T>
 struct nearest_number {
     T value{}, error{};

@@ -1,5 +1,4 @@
-// Numbers of two words, what a product of two words needs: the compiler's, or where it has none (on
-// processors of 32 bits) our own.
+// 128-bit unsigned integers: the compiler's, or a class where it has none (32-bit processors).
 #pragma once
 
 #include <bit>
@@ -10,8 +9,7 @@ namespace errbound::integers::words {
 
 using word = std::uint64_t;
 
-/// A number of 128 bits without sign, modulo 2^128, as the compilers' own: with the operations that
-/// are used here.
+/// Unsigned, modulo 2^128; only the operations used here.
 class two_words {
   public:
     constexpr two_words(std::unsigned_integral auto low) : low_(low) {}
@@ -33,9 +31,9 @@ class two_words {
         return product;
     }
     constexpr two_words& operator+=(two_words b) { return *this = *this + b; }
-    /// By 64 bits alone.
+    /// Only for shifts by 64.
     friend constexpr two_words operator>>(two_words a, int) { return {a.high_, 0}; }
-    /// The remainder of a division by p, 0 < p < 2^63: bit by bit.
+    /// Precondition: 0 < p < 2^63. Bit by bit.
     friend constexpr two_words operator%(two_words a, word p) {
         word rest = a.high_ % p;
         for (int bit = 63; bit >= 0; --bit) {
@@ -48,7 +46,7 @@ class two_words {
   private:
     constexpr two_words(word low, word high) : low_(low), high_(high) {}
 
-    /// By halves of words: no sum on the way exceeds a word.
+    /// Multiplies half words; no intermediate sum exceeds a word.
     static constexpr two_words product_of(word a, word b) {
         constexpr word half = 0xffffffff;
         const word low = (a & half) * (b & half);
@@ -64,7 +62,7 @@ class two_words {
 #ifdef __SIZEOF_INT128__
 __extension__ using double_word = unsigned __int128;
 __extension__ using signed_double_word = __int128;
-/// Bits of the widest number that the compiler itself computes with.
+/// Width of the compiler's widest integer.
 inline constexpr int native_bits = 128;
 #else
 using double_word = two_words;

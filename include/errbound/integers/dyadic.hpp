@@ -1,5 +1,4 @@
-// Dyadic numbers n·2^e with an exact integer n: every finite double is one, and so is every point
-// that halving an interval between two of them reaches.
+// Dyadic numbers n·2^e: all finite doubles, and all points reached by halving between them.
 #pragma once
 
 #include <cmath>
@@ -11,14 +10,13 @@
 
 namespace errbound {
 
-/// ⌊log2 |x|⌋ for x not zero. Integer: what errbound/roots/integer_polynomial.hpp asks for.
+/// ⌊log2 |x|⌋. Precondition: x is not zero.
 template <exact_number Integer>
 int floor_log2(const Integer& x) {
     return static_cast<int>(x < 0 ? msb(Integer(-x)) : msb(x));
 }
 
-/// x·2^shift, cut towards zero to a whole number. (Magnitudes are shifted: Boost 1.74 loses the
-/// sign of some negative numbers.)
+/// x·2^shift, truncated. (By magnitudes: Boost 1.74 loses the sign of some negative numbers.)
 template <exact_number Integer>
 Integer shifted(const Integer& x, int shift) {
     if (shift >= 0) return Integer(x << static_cast<unsigned>(shift));
@@ -26,11 +24,11 @@ Integer shifted(const Integer& x, int shift) {
     return x < 0 ? Integer(-Integer(Integer(-x) >> bits)) : Integer(x >> bits);
 }
 
-/// The double nearest to n·2^e but for one ulp; infinite where none is near.
+/// A double within one ulp of n·2^e; infinite beyond their range.
 template <exact_number Integer>
 double nearby_double(const Integer& n, int e) {
     if (n == 0) return 0;
-    // What is cut off is less than an ulp; negative numbers are cut towards zero, too.
+    // The dropped part is below an ulp.
     Integer head = abs(n);
     const int excess = floor_log2(head) - 62;
     if (excess > 0) head >>= static_cast<unsigned>(excess);
@@ -39,8 +37,8 @@ double nearby_double(const Integer& n, int e) {
     return n < 0 ? -x : x;
 }
 
-/// An exact number numerator·2^exponent; the numerator is odd, or both are zero.
-/// Proof: proofs/Dyadic.v, dyadic_sum, dyadic_difference, dyadic_product, dyadic_scale.
+/// numerator·2^exponent with an odd numerator, or both zero. Proof: proofs/Dyadic.v, dyadic_sum,
+/// dyadic_difference, dyadic_product, dyadic_scale.
 template <exact_number Integer>
 class dyadic {
   public:
@@ -56,12 +54,12 @@ class dyadic {
     }
     dyadic(const dyadic&) = default;
     dyadic(dyadic&&) = default;
-    /// By way of a copy: where that finds no memory, Boost's integers lose the value they had.
+    /// Copies first: if memory runs out, Boost's integers lose their value.
     dyadic& operator=(const dyadic& other) { return *this = dyadic(other); }
     dyadic& operator=(dyadic&&) = default;
     ~dyadic() = default;
 
-    /// x, which is finite.
+    /// Precondition: x is finite.
     static dyadic from(double x) {
         if (x == 0) return {};
         const integers::binary_double d(x);
@@ -75,7 +73,7 @@ class dyadic {
     const Integer& numerator() const { return numerator_; }
     int exponent() const { return exponent_; }
     bool is_zero() const { return numerator_ == 0; }
-    /// Within an ulp; infinite beyond double's range.
+    /// Within one ulp; infinite beyond double's range.
     double to_double() const { return nearby_double(numerator_, exponent_); }
 
     friend dyadic operator+(const dyadic& a, const dyadic& b) {
@@ -87,7 +85,6 @@ class dyadic {
         return {Integer(a.numerator_ * b.numerator_), a.exponent_ + b.exponent_};
     }
     dyadic operator-() const { return {Integer(-numerator_), exponent_}; }
-    /// x·2^e
     friend dyadic scale(const dyadic& x, int e) { return {x.numerator_, x.exponent_ + e}; }
 
     /// Proof: proofs/Dyadic.v, dyadic_equal, dyadic_order.
@@ -102,10 +99,10 @@ class dyadic {
     }
     friend sign_type sign_of(const dyadic& x) { return sign_of(x.numerator_); }
     friend dyadic magnitude(const dyadic& x) { return x.numerator_ < 0 ? -x : x; }
-    /// ⌊log2 |x|⌋ for x not zero. Proof: proofs/Dyadic.v, dyadic_floor_log2.
+    /// ⌊log2 |x|⌋. Precondition: x is not zero. Proof: proofs/Dyadic.v, dyadic_floor_log2.
     friend int floor_log2(const dyadic& x) { return floor_log2(x.numerator_) + x.exponent_; }
 
-    /// x/2^unit, for unit <= exponent(). Proof: proofs/Dyadic.v, dyadic_in_units.
+    /// x/2^unit. Precondition: unit <= exponent(). Proof: proofs/Dyadic.v, dyadic_in_units.
     Integer in_units(int unit) const {
         return Integer(numerator_ << static_cast<unsigned>(is_zero() ? 0 : exponent_ - unit));
     }
@@ -115,7 +112,7 @@ class dyadic {
     int exponent_ = 0;
 };
 
-/// a/b to about this many bits, for a and b not zero.
+/// a/b to about this many bits. Precondition: neither is zero.
 template <exact_number Integer>
 dyadic<Integer> quotient(const dyadic<Integer>& a, const dyadic<Integer>& b, int bits) {
     const int shift = bits + floor_log2(b.numerator()) - floor_log2(a.numerator());
@@ -123,7 +120,6 @@ dyadic<Integer> quotient(const dyadic<Integer>& a, const dyadic<Integer>& b, int
             a.exponent() - b.exponent() - shift};
 }
 
-/// (a + b)/2
 template <exact_number Integer>
 dyadic<Integer> middle(const dyadic<Integer>& a, const dyadic<Integer>& b) {
     return scale(a + b, -1);

@@ -1,15 +1,9 @@
-// Exact integers of a width that is known at compile time: no allocation, no branches on size.
+// Exact integers of compile-time width: no allocation, no branches on size, usable in device code.
 //
-// fixed_integer<Words> is a two's complement number of 64·Words bits. A product has as many words
-// as its factors together and is always exact. Sums, differences and shifts keep the width of
-// their operands and wrap around: their result is right if it fits, whatever happened on the way,
-// so it is the caller's to bound the results. Forms of a degree that is known in advance over
-// coordinates of a bounded size (errbound/bernstein.hpp) get by with that, at a small part of the
-// cost of unbounded integers.
-//
-// Everything is constexpr, without exceptions, intrinsics headers or global state, and fit for
-// device code. Cost: A·B multiplications of words for a product of A and B words, one addition with
-// carry per word for a sum.
+// fixed_integer<Words> is a two's complement number of 64·Words bits. A product has the words of
+// both factors and is exact. Sums, differences and shifts keep their width and wrap around: a
+// result that fits is right. Callers bound the results. Cost: A·B word multiplications for a
+// product of A and B words, an addition with carry per word for a sum.
 #pragma once
 
 #include <array>
@@ -25,14 +19,12 @@ namespace errbound::integers {
 
 namespace words {
 
-// Clang keeps a carry in the processor's flag by itself. GCC needs to be told, by builtins that
-// device compilers lack.
+// Clang keeps carries in the flag; GCC needs builtins, which device compilers lack.
 #if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(__CUDACC__)
 #define ERRBOUND_X86_CARRY
 #endif
 
-/// a + b + carry; carry (0 or 1) becomes the one out of it.
-/// Proof: proofs/Words.v, add_with_carry_exact.
+/// a + b + carry; updates carry (0 or 1). Proof: proofs/Words.v, add_with_carry_exact.
 constexpr word add_with_carry(word a, word b, unsigned char& carry) {
 #ifdef ERRBOUND_X86_CARRY
     if (!std::is_constant_evaluated()) {
@@ -46,8 +38,7 @@ constexpr word add_with_carry(word a, word b, unsigned char& carry) {
     return static_cast<word>(sum);
 }
 
-/// a − b − borrow; borrow (0 or 1) becomes the one out of it.
-/// Proof: proofs/Words.v, subtract_with_borrow_exact.
+/// a − b − borrow; updates borrow (0 or 1). Proof: proofs/Words.v, subtract_with_borrow_exact.
 constexpr word subtract_with_borrow(word a, word b, unsigned char& borrow) {
 #ifdef ERRBOUND_X86_CARRY
     if (!std::is_constant_evaluated()) {
@@ -62,13 +53,12 @@ constexpr word subtract_with_borrow(word a, word b, unsigned char& borrow) {
 }
 #undef ERRBOUND_X86_CARRY
 
-/// All ones if the word's first bit is set, else 0.
+/// All ones for a negative word, otherwise 0.
 constexpr word sign_word(word w) {
     return static_cast<word>(static_cast<std::int64_t>(w) >> 63);
 }
 
-/// r += a·b for a magnitude of n words; returns what goes beyond the n words of r.
-/// Proof: proofs/Words.v, add_multiple_exact.
+/// r += a·b for n words; returns the carry out of r. Proof: proofs/Words.v, add_multiple_exact.
 [[gnu::always_inline]] constexpr word add_multiple(word* r, word a, const word* b, int n) {
     word carry = 0;
 #ifndef __CUDACC__
@@ -83,10 +73,8 @@ constexpr word sign_word(word w) {
     return carry;
 }
 
-/// r = a·b, for two's complement numbers of m and n words and an r of m + n. The unsigned product
-/// of the words is a·b, plus 2^(64m)·b where a < 0, plus 2^(64n)·a where b < 0, modulo the width of
-/// the result.
-/// Proof: proofs/Words.v, product_exact.
+/// r = a·b, of m + n words. The unsigned product is a·b, plus 2^(64m)·b if a < 0, plus 2^(64n)·a if
+/// b < 0, modulo the result's width. Proof: proofs/Words.v, product_exact.
 [[gnu::always_inline]] constexpr void multiply(word* r, const word* a, int m, const word* b,
                                                int n) {
     for (int j = 0; j < n; ++j) r[j] = 0;
@@ -98,7 +86,7 @@ constexpr word sign_word(word w) {
     for (int i = 0; i < m; ++i) r[n + i] = subtract_with_borrow(r[n + i], a[i] & if_b, borrow);
 }
 
-/// The same of one word each.
+/// multiply for one word each.
 [[gnu::always_inline]] constexpr void multiply_one(word* r, word a, word b) {
 #ifdef __SIZEOF_INT128__
     const auto product =
@@ -110,7 +98,7 @@ constexpr word sign_word(word w) {
 #endif
 }
 
-/// The same for any sizes in one piece of code.
+/// multiply, compiled once for all sizes.
 [[gnu::noinline]] constexpr void multiply_long(word* r, const word* a, int m, const word* b,
                                                int n) {
     multiply(r, a, m, b, n);
@@ -124,9 +112,8 @@ class fixed_integer {
     using word = words::word;
 
   public:
-    static constexpr int width = 64 * Words;  ///< in bits, the sign's included
+    static constexpr int width = 64 * Words;  ///< in bits, with sign
 
-    /// Zero.
     constexpr fixed_integer() = default;
     constexpr fixed_integer(std::int64_t value) {
         words_[0] = static_cast<word>(value);
@@ -137,14 +124,13 @@ class fixed_integer {
         for (int i = 0; i < Words; ++i)
             at(i) = i < Narrower ? x[i] : words::sign_word(x[Narrower - 1]);
     }
-    /// From words, the least significant first.
+    /// Least significant word first.
     static constexpr fixed_integer from_words(const std::array<word, std::size_t{Words}>& w) {
         fixed_integer x;
         x.words_ = w;
         return x;
     }
-    /// magnitude·2^shift, for shift >= 0, less whole multiples of 2^width where it does not fit.
-    /// Proof: proofs/WordBits.v, shifted_exact.
+    /// magnitude·2^shift modulo 2^width, for shift >= 0. Proof: proofs/WordBits.v, shifted_exact.
     static constexpr fixed_integer shifted(word magnitude, int shift) {
         fixed_integer x;
         const int whole = shift / 64, bits = shift % 64;
@@ -171,8 +157,7 @@ class fixed_integer {
         return r;
     }
     constexpr fixed_integer operator-() const { return fixed_integer() - *this; }
-    /// x·2^bits, for 0 <= bits < 64.
-    /// Proof: proofs/Words.v, shift_exact.
+    /// x·2^bits, 0 <= bits < 64. Proof: proofs/Words.v, shift_exact.
     friend constexpr fixed_integer operator<<(const fixed_integer& x, int bits) {
         if (bits == 0) return x;
         fixed_integer r;
@@ -189,7 +174,7 @@ class fixed_integer {
     /// Proof: proofs/Words.v, compare_exact.
     friend constexpr std::strong_ordering operator<=>(const fixed_integer& a,
                                                       const fixed_integer& b) {
-        // With the sign bits inverted, the order is that of unsigned numbers.
+        // With inverted sign bits, compare as unsigned numbers.
         constexpr word sign_bit = word(1) << 63;
         for (int i = Words - 1; i >= 0; --i) {
             const word invert = i == Words - 1 ? sign_bit : 0;
@@ -205,8 +190,7 @@ class fixed_integer {
         return any == 0 ? sign_type::zero : sign_type::positive;
     }
 
-    /// The least n with −2^n <= x < 2^n.
-    /// Proof: proofs/WordBits.v, bit_length_exact.
+    /// The least n with −2^n <= x < 2^n. Proof: proofs/WordBits.v, bit_length_exact.
     constexpr int bit_length() const {
         const word invert = words::sign_word(words_[Words - 1]);
         for (int i = Words - 1; i >= 0; --i) {
@@ -216,8 +200,7 @@ class fixed_integer {
         return 0;
     }
 
-    /// ⌊x/2^shift⌋ in Result words, modulo their width, for shift >= 0.
-    /// Proof: proofs/WordBits.v, from_bit_exact.
+    /// ⌊x/2^shift⌋ modulo the result's width, shift >= 0. Proof: proofs/WordBits.v, from_bit_exact.
     template <int Result>
     constexpr fixed_integer<Result> from_bit(int shift) const {
         const word beyond = words::sign_word(words_[Words - 1]);
@@ -227,19 +210,17 @@ class fixed_integer {
         word low = word_at(whole);
         for (int i = 0; i < Result; ++i) {
             const word high = word_at(whole + i + 1);
-            // Two shifts: one by 64, where bits = 0, is undefined.
+            // Two shifts: a single one by 64, for bits = 0, is undefined.
             r.at(i) = low >> bits | high << 1 << (63 - bits);
             low = high;
         }
         return r;
     }
-    /// The same modulo 2^64.
+    /// ⌊x/2^shift⌋ modulo 2^64.
     constexpr std::int64_t word_from_bit(int shift) const { return from_bit<1>(shift).low_word(); }
-    /// The number modulo 2^64.
     constexpr std::int64_t low_word() const { return static_cast<std::int64_t>(words_[0]); }
 
-    /// The exact product. Small ones are unrolled where they stand: calls would cost as much as
-    /// they do. Large ones are rare, and code for each size would be long.
+    /// The exact product. Small ones are unrolled in place; large ones are rare and share code.
     template <int B>
     [[gnu::always_inline]] constexpr fixed_integer<Words + B> times(
         const fixed_integer<B>& b) const {
@@ -263,7 +244,7 @@ class fixed_integer {
     constexpr word& at(int i) { return words_[static_cast<std::size_t>(i)]; }
     static constexpr word& at(fixed_integer& x, int i) { return x.at(i); }
 
-    /// Called, not inlined, but for these sizes only.
+    /// A call, for medium sizes.
     template <std::size_t A, std::size_t B>
     [[gnu::noinline]] static constexpr void multiply(std::array<word, A + B>& r,
                                                      const std::array<word, A>& a,
@@ -274,14 +255,13 @@ class fixed_integer {
     std::array<word, std::size_t{Words}> words_{};
 };
 
-/// The exact product.
 template <int A, int B>
 [[gnu::always_inline]] constexpr fixed_integer<A + B> operator*(const fixed_integer<A>& a,
                                                                 const fixed_integer<B>& b) {
     return a.times(b);
 }
 
-/// x·2^e for 0 <= e < 64, as for other exact numbers.
+/// x·2^e, 0 <= e < 64.
 template <int Words>
 constexpr fixed_integer<Words> scale(const fixed_integer<Words>& x, int e) {
     return x << e;

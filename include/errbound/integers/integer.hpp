@@ -1,18 +1,14 @@
-// An integer of any size, errbound::integer: what polynomials and their roots are decided in, and
-// an exact number for whatever else asks for one. errbound/polynomial.hpp brings it.
+// An integer of any size, errbound::integer. Included by errbound/polynomial.hpp.
 //
 //   errbound::integer x = 5;
-//   x = (x << 100) + 1;                                   // built-in integers convert by
-//   themselves const auto y = errbound::integer::from_string("-12345678901234567890"); std::cout <<
-//   x * y / 7 << ' ' << gcd(x, y) << '\n';
+//   x = (x << 100) + 1;  // built-in integers convert implicitly
+//   const auto y = errbound::integer::from_string("-12345678901234567890");
+//   std::cout << x * y / 7 << ' ' << gcd(x, y) << '\n';
 //
-// Operators are those of built-in integers: quotients are cut towards zero, x = x/y·y + x % y, and
-// x >> n is ⌊x/2^n⌋. Never a wrong result: where memory runs out, or a number would have 2^31 bits
-// or more, std::bad_alloc is thrown, and all numbers are as they were. Preconditions, which are
-// asserted: divisors are not zero, doubles are finite, shifts are not negative.
-//
-// Numbers of up to four words of 64 bits need no allocation. Cost: that of schoolbook arithmetic
-// by words, of products of many words that of Karatsuba's.
+// Operators as for built-in integers: quotients truncate, x = x/y·y + x % y, and x >> n is ⌊x/2^n⌋.
+// Throws std::bad_alloc without memory or at 2^31 bits, leaving all numbers unchanged.
+// Preconditions (asserted): nonzero divisors, finite doubles, shifts >= 0. Up to 256 bits without
+// allocation. Cost: schoolbook arithmetic, Karatsuba's for long products.
 #pragma once
 
 #include <algorithm>
@@ -43,7 +39,7 @@ namespace errbound {
 
 namespace integers {
 
-/// Those of 64 bits or less (with some compilers' options std::integral has wider ones, too).
+/// At most 64 bits. (With some compiler options std::integral includes wider types.)
 template <class T>
 concept built_in_integer = std::integral<T> && sizeof(T) <= sizeof(words::word);
 
@@ -53,7 +49,7 @@ constexpr bool is_negative(T x) {
     return false;
 }
 
-/// Words to compute in, on the stack where they are few.
+/// Scratch words, on the stack if few.
 class scratch_words {
     static constexpr int few = 64;
 
@@ -69,8 +65,7 @@ class scratch_words {
 
 }  // namespace integers
 
-/// An integer of any size, by words of 64 bits; up to four of them without allocation. Costs,
-/// limits and what throws: at the head of errbound/integers/integer.hpp.
+/// An integer of any size. Cost, limits and exceptions: head of errbound/integers/integer.hpp.
 class integer {
     using word = integers::words::word;
     using double_word = integers::words::double_word;
@@ -83,7 +78,7 @@ class integer {
         few_[0] = negative ? 0 - static_cast<word>(value) : static_cast<word>(value);
         size_ = negative ? -1 : few_[0] != 0;
     }
-    /// Cut towards zero.
+    /// Truncates.
     explicit integer(double value) {
         assert(std::isfinite(value));
         const integers::binary_double d(value);
@@ -112,7 +107,7 @@ class integer {
         size_ = x.size_;
         return *this;
     }
-    /// What is moved from becomes zero.
+    /// A moved-from integer is zero.
     integer& operator=(integer&& x) noexcept {
         if (this == &x) return *this;
         release();
@@ -121,7 +116,7 @@ class integer {
     }
     ~integer() { release(); }
 
-    /// Modulo 2^(bits of T) where T is too small, as built-in integers convert.
+    /// Modulo 2^(bits of T), as built-in conversions.
     template <integers::built_in_integer T>
     explicit operator T() const {
         if constexpr (std::is_same_v<T, bool>)
@@ -129,10 +124,8 @@ class integer {
         else
             return static_cast<T>(size_ < 0 ? 0 - low_word() : low_word());
     }
-    /// The nearest, of two the even one; infinite beyond the largest.
+    /// The nearest, ties to even; infinite beyond the largest.
     explicit operator double() const;
-
-    // Sums
 
     friend integer operator+(const integer& a, const integer& b) {
         integer r;
@@ -165,8 +158,6 @@ class integer {
     integer& operator++() { return *this += 1; }
     integer& operator--() { return *this -= 1; }
 
-    // Products and quotients
-
     friend integer operator*(const integer& a, const integer& b) {
         integer r;
         r.assign_product(a, b);
@@ -195,8 +186,6 @@ class integer {
         return *this;
     }
 
-    // Bits
-
     friend integer operator<<(const integer& x, std::integral auto n) {
         integer r;
         r.assign_shifted_left(x, shift(n));
@@ -216,9 +205,9 @@ class integer {
         assign_shifted_right(*this, shift(n));
         return *this;
     }
-    /// x·2^e for e >= 0, as of other exact numbers.
+    /// x·2^e, e >= 0.
     friend integer scale(const integer& x, int e) { return x << e; }
-    /// ⌊log2 |x|⌋, the place of |x|'s first bit, and that of its last, for x not zero.
+    /// ⌊log2 |x|⌋, the highest bit's position; lsb: the lowest bit's. Precondition: x is not zero.
     friend int msb(const integer& x) {
         assert(x.size_ != 0);
         return 64 * x.size() - 1 - detail::countl_zero(x.data()[x.size() - 1]);
@@ -230,8 +219,6 @@ class integer {
         while (x.data()[i] == 0) ++i;
         return 64 * i + detail::countr_zero(x.data()[i]);
     }
-
-    // Order
 
     friend bool operator==(const integer& a, const integer& b) noexcept {
         return a.size_ == b.size_ && std::equal(a.data(), a.data() + a.size(), b.data());
@@ -250,10 +237,7 @@ class integer {
         return b == 0 ? a.size_ <=> 0 : a <=> integer(b);
     }
 
-    // Text
-
-    /// Digits of this base, 2 to 36, after a sign or none. Throws std::invalid_argument if there
-    /// is anything else, or nothing.
+    /// Digits in base 2 to 36 after an optional sign. Otherwise throws std::invalid_argument.
     static integer from_string(std::string_view digits, int base = 10);
     friend std::string to_string(const integer& x, int base = 10) { return x.text(base); }
     template <class Traits>
@@ -262,9 +246,9 @@ class integer {
         return out << x.text(10).c_str();
     }
 
-    /// Not negative; 0 if both are.
+    /// At least 0; 0 if both are 0.
     friend integer gcd(integer a, integer b) { return common_divisor(a, b); }
-    /// Not negative; 0 if one is.
+    /// At least 0; 0 if one is 0.
     friend integer lcm(const integer& a, const integer& b) {
         if (a == 0 || b == 0) return 0;
         return abs(a / gcd(a, b) * b);
@@ -274,8 +258,8 @@ class integer {
     static constexpr int inline_words = 4;
     static constexpr int max_words = (std::numeric_limits<int>::max)() / 64;
 
-    /// Where words are written that become a number's: its own ones if there are enough, or new
-    /// ones, so that operands may be the number itself and nothing has changed if memory runs out.
+    /// Words for a result: the number's own if they suffice, otherwise new ones. So operands may be
+    /// the number itself, and nothing changes if memory runs out.
     struct room {
         word* words;
         int capacity;
@@ -283,9 +267,8 @@ class integer {
 
     word* data() noexcept { return capacity_ > inline_words ? many_ : few_; }
     const word* data() const noexcept { return capacity_ > inline_words ? many_ : few_; }
-    /// Of the magnitude.
     int size() const noexcept { return size_ < 0 ? -size_ : size_; }
-    /// Of the magnitude; 0 of zero.
+    /// The magnitude's lowest word; 0 for zero.
     word low_word() const noexcept { return size_ == 0 ? 0 : data()[0]; }
 
     static word* new_words(int n) {
@@ -297,7 +280,7 @@ class integer {
         const int capacity = (std::max)(n, capacity_ + capacity_ / 2);
         return {new_words(capacity), capacity};
     }
-    /// The number becomes what was written there, without zeros at the end.
+    /// Takes the words written there, without leading zeros.
     void keep(const room& from, int size, bool negative) noexcept {
         if (from.words != data()) adopt(from);
         size = integers::words::trimmed(from.words, size);
@@ -308,7 +291,7 @@ class integer {
         many_ = from.words;
         capacity_ = from.capacity;
     }
-    /// Word by word: to load two words at once that were stored one by one stalls.
+    /// Word by word: loading pairs of words just stored one by one stalls.
     static void copy_few(const word* from, int n, word* to) noexcept {
         if (n > 0) to[0] = from[0];
         if (n > 1) to[1] = from[1];
@@ -319,7 +302,7 @@ class integer {
         if (capacity_ > inline_words) delete[] many_;
     }
     void take(integer& x) noexcept {
-        // (Where size and capacity are copied both, compilers load them as one word, which stalls.)
+        // Copying size and capacity together would load both as one word, which stalls.
         size_ = x.size_;
         if (x.capacity_ > inline_words) {
             capacity_ = x.capacity_;
@@ -331,7 +314,6 @@ class integer {
         x.size_ = 0;
         x.capacity_ = inline_words;
     }
-    /// ±(high·2^64 + low)
     void assign_words(word low, word high, bool negative) noexcept {
         word* const to = data();
         to[0] = low;
@@ -354,7 +336,7 @@ class integer {
                 assign_difference(a, b, a_negative);
             return;
         }
-        // In two's complement, without branches: signs are often as good as random.
+        // In two's complement without branches: signs are often unpredictable.
         const word x = a.low_word(), y = b.low_word();
         const word if_x = 0 - word(a_negative), if_y = 0 - word(b_negative);
         const word s = (x ^ if_x) - if_x, t = (y ^ if_y) - if_y, low = s + t;
@@ -363,18 +345,16 @@ class integer {
         const word size = (low ^ if_sum) - if_sum;
         assign_words(size, (high ^ if_sum) + (if_sum & word(size == 0)), if_sum != 0);
     }
-    /// ±(|a| + |b|)
     void assign_larger(const integer& a, const integer& b, bool negative) {
         const integer &longer = a.size() < b.size() ? b : a, &shorter = a.size() < b.size() ? a : b;
         const int m = longer.size(), n = shorter.size();
-        // Whether the sum may have a word more.
+        // True if the sum may need another word.
         const bool carries = longer.data()[m - 1] >= ~(n == m ? shorter.data()[m - 1] : word(0));
         const room to = room_for(m + carries);
         const word carry = integers::words::add(to.words, longer.data(), m, shorter.data(), n);
         if (carries) to.words[m] = carry;
         keep(to, m + carries, negative);
     }
-    /// ±(|a| − |b|)
     void assign_difference(const integer& a, const integer& b, bool negative) {
         const int m = a.size(), n = b.size();
         const bool a_is_larger =
@@ -470,8 +450,7 @@ class integer {
             keep(to, n, negative);
         }
     }
-    /// Copies of two numbers, the second one of two words at least and not longer than the first,
-    /// times the power of two that makes its first bit one.
+    /// Copies of a and b, shifted so that b's first bit is set. Precondition: 2 <= b's size <= a's.
     class long_division {
       public:
         long_division(const integer& a, const integer& b)
@@ -488,7 +467,7 @@ class integer {
         void divide(const Store& store) {
             integers::words::divide_long(a_, m_, b_, n_, store);
         }
-        /// After the division; n words.
+        /// Call after the division; n words.
         void take_remainder(word* to) const { integers::words::shift_right(to, a_, n_, shift_); }
 
       private:
@@ -532,8 +511,7 @@ class integer {
         keep(to, size + up, negative);
     }
 
-    /// The steps that Lehmer's algorithm makes of a >= b > 0, b of three words at least, or one
-    /// division.
+    /// Lehmer's steps for a >= b > 0, b of at least three words, or one division.
     static void euclid_steps(integer& a, integer& b) {
         const int n = a.size(), shift = detail::countl_zero(a.data()[n - 1]);
         const auto first_bits = [&](const integer& x) {
@@ -574,7 +552,7 @@ class integer {
 
     std::string text(int base) const;
 
-    int size_ = 0;  ///< of the magnitude, in words of which the last is not 0; negative: −size
+    int size_ = 0;  ///< words of the magnitude, the last not 0; negated for negative numbers
     int capacity_ = inline_words;
     union {
         word few_[inline_words] = {};
@@ -582,7 +560,6 @@ class integer {
     };
 };
 
-/// Never overflows.
 template <>
 inline constexpr bool is_exact_number<integer> = true;
 
@@ -592,8 +569,7 @@ inline integer::operator double() const {
         const auto x = static_cast<double>(low_word());
         return size_ < 0 ? -x : x;
     }
-    // The first 64 bits, the last of them set where any is that follows: to round them to double is
-    // to round all.
+    // The first 64 bits; the last is set if any later bit is: they round to the same double.
     const int whole = excess / 64, bits = excess % 64;
     const word* const w = data();
     word head = w[whole] >> bits;
@@ -605,7 +581,7 @@ inline integer::operator double() const {
 
 namespace integers {
 
-/// The largest power of the base that is a word, and its exponent.
+/// The largest power of the base in a word, and its exponent.
 struct power_in_word {
     words::word power = 1;
     int digits = 0;
@@ -624,7 +600,7 @@ inline std::string integer::text(int base) const {
     const integers::power_in_word piece(base);
     std::string reversed;
     for (integer rest = *this; rest.size_ != 0;) {
-        // The remainder first: the quotient takes the number's place.
+        // The remainder first: the quotient overwrites the number.
         word digits = integer(rest % integer(piece.power)).low_word();
         rest /= integer(piece.power);
         for (int i = 0; i < piece.digits && (digits != 0 || rest.size_ != 0); ++i) {
@@ -680,7 +656,7 @@ class std::numeric_limits<errbound::integer> {
                           has_denorm_loss = false;
     static constexpr float_denorm_style has_denorm = denorm_absent;
     static constexpr float_round_style round_style = round_toward_zero;
-    /// There is no largest number: what is not bounded has no digits to count.
+    /// Unbounded: there is no largest number, and digits has no meaning.
     static constexpr int radix = 2, digits = 0, digits10 = 0, max_digits10 = 0, min_exponent = 0,
                          min_exponent10 = 0, max_exponent = 0, max_exponent10 = 0;
     static integer(min)() { return 0; }

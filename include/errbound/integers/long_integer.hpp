@@ -1,7 +1,5 @@
-// Exact integers as long as they need to be, up to a capacity that their type says: no allocation.
-//
-// Numbers made of doubles far apart in size have long runs of zero words, or, where a small one was
-// subtracted, of words all ones. Products leave these out.
+// Exact integers of run-time length up to a compile-time capacity: no allocation. Products skip
+// words that are all zero or all ones, frequent in numbers made of doubles far apart in size.
 #pragma once
 
 #include <array>
@@ -15,33 +13,29 @@ namespace errbound::integers {
 
 namespace words {
 
-/// What a two's complement number of n words is as a sum of signed words times powers of 2^64:
-/// those that are not zero, by visit(index, magnitude, negative), in ascending order.
-///
-/// A word before one that is all ones, and the last of a negative number, is taken for negative and
-/// so passes on a carry, which turns ones to zeros: w = 2^64 − (2^64 − w). The words visited up to
-/// some index add up to less than zero just if the last of them is negative.
-/// Proof that all add up to the number: proofs/Words.v, signed_words_exact.
+/// A two's complement number as a sum of signed words times powers of 2^64: visit(index, magnitude,
+/// negative) for the nonzero ones, ascending. A word before an all-ones word, and the last of a
+/// negative number, counts as negative and passes on a carry: w = 2^64 − (2^64 − w). Partial sums
+/// are negative exactly if their last word is. Proof: proofs/Words.v, signed_words_exact.
 template <class Visit>
 constexpr void for_signed_words(const word* x, int n, const Visit& visit) {
     word carry = 0;
     for (int i = 0; i < n; ++i) {
         const word w = x[i] + carry;
-        if (w == 0) continue;  // the carry, if there is one, goes on
+        if (w == 0) continue;  // a carry persists
         carry = i + 1 < n ? x[i + 1] == ~word(0) : x[i] >> 63;
         visit(i, carry != 0 ? 0 - w : w, carry != 0);
     }
 }
 
-/// How many words are neither 0 nor all ones.
 constexpr int count_filled(const word* x, int n) {
     int count = 0;
     for (int i = 0; i < n; ++i) count += x[i] + 1 > 1;
     return count;
 }
 
-/// r −= a·b for a magnitude of n words; returns what is to be taken from the words beyond.
-/// Proof, as part of the product: proofs/SparseProduct.v, sparse_product_exact.
+/// r −= a·b for n words; returns the borrow from the words beyond. Proof, as part of the product:
+/// proofs/SparseProduct.v, sparse_product_exact.
 [[gnu::always_inline]] constexpr word subtract_multiple(word* r, word a, const word* b, int n) {
     word carry = 0;
     for (int j = 0; j < n; ++j) {
@@ -53,15 +47,13 @@ constexpr int count_filled(const word* x, int n) {
     return carry;
 }
 
-/// r = a·b, for two's complement numbers of m and n words, b not zero, and an r of m + n. By the
-/// signed words of a.
-/// Proof: proofs/SparseProduct.v, sparse_product_exact.
+/// r = a·b in two's complement, of m, n and m + n words, by the signed words of a. Precondition: b
+/// is not zero. Proof: proofs/SparseProduct.v, sparse_product_exact.
 [[gnu::noinline]] constexpr void multiply_sparse(word* r, const word* a, int m, const word* b,
                                                  int n) {
     int low = 0;
     while (b[low] == 0) ++low;
-    // r holds the sum so far, modulo a power of 2^64, in its words before `end`; those after would
-    // all be `beyond`.
+    // Words before `end` hold the sum so far, modulo a power of 2^64; later ones are `beyond`.
     int end = low;
     word beyond = 0;
     for (int i = 0; i < low; ++i) r[i] = 0;
@@ -76,17 +68,17 @@ constexpr int count_filled(const word* x, int n) {
         beyond = negative ? ~word(0) : 0;
     });
     for (; end < m + n; ++end) r[end] = beyond;
-    // b's words were taken for those of a positive number, 2^(64n) too much if it is not.
+    // b's words were taken as positive: 2^(64n) too much if b is negative.
     if (b[n - 1] >> 63 != 0) {
         unsigned char borrow = 0;
         for (int i = 0; i < m; ++i) r[n + i] = subtract_with_borrow(r[n + i], a[i], borrow);
     }
 }
 
-/// r = a·b, for two's complement numbers of m and n words, trimmed, and an r of m + n.
-/// Proof: proofs/SparseProduct.v, any_product_exact.
+/// r = a·b, trimmed, of m and n words; r has m + n. Proof: proofs/SparseProduct.v,
+/// any_product_exact.
 [[gnu::noinline]] constexpr void multiply_any(word* r, const word* a, int m, const word* b, int n) {
-    // Choosing words costs more than it saves unless most are left out.
+    // Worthwhile only if most words are skipped.
     constexpr int worth = 4;
     const auto is_sparse = [](const word* x, int size) {
         return worth * count_filled(x, size) < size;
@@ -99,18 +91,17 @@ constexpr int count_filled(const word* x, int n) {
         multiply_long(r, a, m, b, n);
 }
 
-/// The word of index i of a trimmed two's complement number of n words, also beyond its end.
+/// Word i of a two's complement number, also beyond its end.
 constexpr word word_or_sign(const word* x, int n, int i) {
     return i < n ? x[i] : sign_word(x[n - 1]);
 }
-/// The size of x, of n words, without those that only repeat its sign.
-/// Proof: proofs/Words.v, trim_exact.
+/// The size of x without words that repeat its sign. Proof: proofs/Words.v, trim_exact.
 constexpr int trimmed_size(const word* x, int n) {
     while (n > 1 && x[n - 1] == sign_word(x[n - 2])) --n;
     return n;
 }
-/// r = a + b, or a - b, by steps with a carry, for two's complement numbers of m and n words and an
-/// r of at most `capacity`; returns its trimmed size. Not inlined: one copy serves all capacities.
+/// r = a ± b by steps with a carry, in two's complement, up to `capacity` words; returns the
+/// trimmed size. Not inlined: one copy for all capacities.
 template <word (*Step)(word, word, unsigned char&)>
 [[gnu::noinline]] constexpr int combine(word* r, int capacity, const word* a, int m, const word* b,
                                         int n) {
@@ -126,18 +117,15 @@ template <word (*Step)(word, word, unsigned char&)>
 
 }  // namespace words
 
-/// A two's complement number of at most Words words, as long as it needs to be. Sums and products
-/// must fit.
+/// A two's complement number of at most Words words. Sums and products must fit.
 template <int Words>
 class long_integer {
     using word = words::word;
 
   public:
-    /// Zero.
     constexpr long_integer() : long_integer(0) {}
     constexpr long_integer(std::int64_t value) : size_(1) { at(0) = static_cast<word>(value); }
-    /// ±magnitude·2^shift.
-    /// Proof: proofs/WordBits.v, long_shifted_exact.
+    /// ±magnitude·2^shift. Proof: proofs/WordBits.v, long_shifted_exact.
     constexpr long_integer(word magnitude, int shift, bool negative) {
         const int whole = shift / 64, bits = shift % 64;
         const word low = magnitude << bits, high = bits == 0 ? 0 : magnitude >> (64 - bits);
@@ -157,7 +145,7 @@ class long_integer {
         copy(x);
         trim();
     }
-    /// One of another capacity, which it fits.
+    /// Precondition: x fits.
     template <int Other>
     constexpr long_integer(const long_integer<Other>& x) : size_(x.size()) {
         copy(x);
@@ -194,7 +182,7 @@ class long_integer {
         return difference(a, b);
     }
     constexpr long_integer operator-() const { return difference(long_integer(), *this); }
-    /// x·2^bits, for bits >= 0. Proof: that of product, and proofs/WordBits.v, long_shifted_exact.
+    /// x·2^bits, bits >= 0. Proof: that of product, and proofs/WordBits.v, long_shifted_exact.
     friend constexpr long_integer operator<<(const long_integer& x, int bits) {
         return product(x, long_integer<Words>(1, bits, false));
     }
@@ -209,19 +197,17 @@ class long_integer {
         return x.size_ == 1 && x[0] == 0 ? sign_type::zero : sign_type::positive;
     }
 
-    /// The least n with −2^n <= x < 2^n.
-    /// Proof: proofs/WordBits.v, long_bit_length_exact.
+    /// The least n with −2^n <= x < 2^n. Proof: proofs/WordBits.v, long_bit_length_exact.
     constexpr int bit_length() const {
         const word invert = words::sign_word((*this)[size_ - 1]);
-        // Trimmed, so the last word says nothing at most if the one before it says all.
+        // The number is trimmed, so at most the last word repeats the sign.
         const int last = size_ > 1 && (*this)[size_ - 1] == invert ? size_ - 2 : size_ - 1;
         return 64 * last + detail::bit_width((*this)[last] ^ invert);
     }
-    /// ⌊x/2^shift⌋ modulo 2^64, for shift >= 0.
-    /// Proof, of one word: proofs/WordBits.v, from_bit_exact.
+    /// ⌊x/2^shift⌋ modulo 2^64, shift >= 0. Proof, of one word: proofs/WordBits.v, from_bit_exact.
     constexpr std::int64_t word_from_bit(int shift) const {
         const int whole = shift / 64, bits = shift % 64;
-        // Two shifts: one by 64, where bits = 0, is undefined.
+        // Two shifts: a single one by 64, for bits = 0, is undefined.
         return static_cast<std::int64_t>(or_sign(whole) >> bits | or_sign(whole + 1)
                                                                       << 1 << (63 - bits));
     }
@@ -246,7 +232,7 @@ class long_integer {
             words::multiply_any(words_.data(), a.words_.data(), a.size(), b.words_.data(),
                                 b.size());
             size_ = whole;
-        } else {  // before it is trimmed
+        } else {  // before trimming
             std::array<word, std::size_t{A + B}> r;
             words::multiply_any(r.data(), a.words_.data(), a.size(), b.words_.data(), b.size());
             size_ = Words;
@@ -264,16 +250,15 @@ class long_integer {
     constexpr void trim() { size_ = words::trimmed_size(words_.data(), size_); }
 
     int size_;
-    std::array<word, std::size_t{Words}> words_;  ///< beyond the size never read
+    std::array<word, std::size_t{Words}> words_;  ///< never read beyond the size
 };
 
-/// The exact product.
 template <int A, int B>
 constexpr long_integer<A + B> operator*(const long_integer<A>& a, const long_integer<B>& b) {
     return long_integer<A + B>::product(a, b);
 }
 
-/// x·2^e for e >= 0, as for other exact numbers.
+/// x·2^e, e >= 0.
 template <int Words>
 constexpr long_integer<Words> scale(const long_integer<Words>& x, int e) {
     return x << e;

@@ -1,9 +1,6 @@
-// Natural numbers of any length, as words in memory of which the first counts least: what
-// errbound/integers/integer.hpp computes with.
-//
-// Sizes are numbers of words, at least 1 unless said otherwise. Results have the sizes that are
-// told and may begin with zeros at their end; where nothing is said of it, a result's words are no
-// operand's.
+// Natural numbers of any length, as words in memory, least significant first. Sizes are in words,
+// at least 1 unless stated. Results have the stated size and may have leading zeros; unless stated,
+// they must not overlap operands.
 #pragma once
 
 #include <algorithm>
@@ -16,19 +13,19 @@
 
 namespace errbound::integers::words {
 
-/// The size of a, or 0, without zeros at the end.
+/// The size without leading zeros, possibly 0.
 constexpr int trimmed(const word* a, int n) {
     while (n > 0 && a[n - 1] == 0) --n;
     return n;
 }
 
-/// Of numbers of one size, which may be 0.
+/// Compares numbers of equal size, possibly 0.
 constexpr std::strong_ordering compare(const word* a, const word* b, int n) {
     while (n > 0 && a[n - 1] == b[n - 1]) --n;
     return n == 0 ? std::strong_ordering::equal : a[n - 1] <=> b[n - 1];
 }
 
-/// r = a + b of m and n <= m words, n >= 0, modulo 2^(64m); returns the carry. r may be a or b.
+/// r = a + b of m and n <= m words, n >= 0; returns the carry. r may be a or b.
 constexpr word add(word* r, const word* a, int m, const word* b, int n) {
     unsigned char carry = 0;
 #ifndef __CUDACC__
@@ -39,7 +36,7 @@ constexpr word add(word* r, const word* a, int m, const word* b, int n) {
     return carry;
 }
 
-/// r = a − b of m and n <= m words, n >= 0, modulo 2^(64m); returns the borrow. r may be a or b.
+/// r = a − b of m and n <= m words, n >= 0; returns the borrow. r may be a or b.
 constexpr word subtract(word* r, const word* a, int m, const word* b, int n) {
     unsigned char borrow = 0;
 #ifndef __CUDACC__
@@ -50,25 +47,22 @@ constexpr word subtract(word* r, const word* a, int m, const word* b, int n) {
     return borrow;
 }
 
-/// r = a·2^bits, 0 <= bits < 64, modulo 2^(64n); returns what goes beyond. r may be a, or begin
-/// inside of it.
+/// r = a·2^bits, 0 <= bits < 64; returns the bits shifted out. r may be a, or begin inside it.
 constexpr word shift_left(word* r, const word* a, int n, int bits) {
-    // Two shifts: one by 64, where bits = 0, is undefined.
+    // Two shifts: a single one by 64, for bits = 0, is undefined.
     const word beyond = a[n - 1] >> 1 >> (63 - bits);
     for (int i = n - 1; i > 0; --i) r[i] = a[i] << bits | a[i - 1] >> 1 >> (63 - bits);
     r[0] = a[0] << bits;
     return beyond;
 }
 
-/// r = ⌊a/2^bits⌋, 0 <= bits < 64. r may be a, or a begin inside of it.
+/// r = ⌊a/2^bits⌋, 0 <= bits < 64. r may be a, or a may begin inside it.
 constexpr void shift_right(word* r, const word* a, int n, int bits) {
     for (int i = 0; i + 1 < n; ++i) r[i] = a[i] >> bits | a[i + 1] << 1 << (63 - bits);
     r[n - 1] = a[n - 1] >> bits;
 }
 
-// Products
-
-/// r = a·b + carry, of n words and one; returns what goes beyond n words. r may be a.
+/// r = a·b + carry for n words; returns the carry. r may be a.
 constexpr word multiply_by_word(word* r, const word* a, int n, word b, word carry = 0) {
     for (int i = 0; i < n; ++i) {
         const auto product = double_word(a[i]) * b + carry;
@@ -84,19 +78,18 @@ constexpr void multiply_rows(word* r, const word* a, int m, const word* b, int n
     for (int i = 1; i < m; ++i) r[n + i] = a[i] == 0 ? 0 : add_multiple(r + i, a[i], b, n);
 }
 
-/// From so many words on Karatsuba's three products of halves take less time than four.
+/// From this size on Karatsuba's three half products beat four.
 inline constexpr int karatsuba_words = 32;
 
-/// Words that a product needs beside its own, of whose factors the shorter one has n words:
-/// multiply_by_halves takes 2n + 3 for itself, multiply_natural, of pieces, 2n and, of what is left
-/// over, at most 2n again before there is less than half of n; so 12n + 9·log2(n) are enough.
+/// Scratch words for a shorter factor of n words. multiply_by_halves needs 2n + 3, multiply_natural
+/// 2n for pieces and 2n for the remainder: 12n + 9·log2(n) suffice.
 constexpr int product_scratch(int n) {
     return n < karatsuba_words ? 0 : 16 * n;
 }
 
 constexpr void multiply_natural(word* r, const word* a, int m, const word* b, int n, word* scratch);
 
-/// r = |a − b|, of m and n words, m − 1 <= n <= m; returns whether it was negative.
+/// r = |a − b|, of m and n words, m − 1 <= n <= m; true if negative.
 constexpr bool subtract_size(word* r, const word* a, int m, const word* b, int n) {
     const bool negative = (n == m || a[m - 1] == 0) && compare(a, b, n) < 0;
     if (negative) {
@@ -108,12 +101,12 @@ constexpr bool subtract_size(word* r, const word* a, int m, const word* b, int n
     return negative;
 }
 
-/// r = a·b of 2n words, n >= 2, by halves a = a1·W + a0 and b likewise:
-/// a0·b1 + a1·b0 = a0·b0 + a1·b1 − (a0 − a1)(b0 − b1). (A. Karatsuba, Yu. Ofman 1962.)
+/// r = a·b of 2n words, n >= 2, by halves a = a1·W + a0, b = b1·W + b0: a0·b1 + a1·b0 = a0·b0 +
+/// a1·b1 − (a0 − a1)(b0 − b1). (A. Karatsuba, Yu. Ofman 1962.)
 constexpr void multiply_by_halves(word* r, const word* a, const word* b, int n, word* scratch) {
     const int low = (n + 1) / 2, high = n - low;
     word *const cross = scratch, *const sum = cross + 2 * low, *const rest = sum + 2 * low + 1;
-    // The differences stand where their product's place among the results comes later.
+    // Store the differences where later products go.
     const bool a_negative = subtract_size(r, a, low, a + low, high),
                b_negative = subtract_size(r + low, b, low, b + low, high);
     multiply_natural(cross, r, low, r + low, low, rest);
@@ -124,11 +117,11 @@ constexpr void multiply_by_halves(word* r, const word* a, const word* b, int n, 
         subtract(sum, sum, 2 * low + 1, cross, 2 * low);
     else
         add(sum, sum, 2 * low + 1, cross, 2 * low);
-    // It may have a word more than there is place for, a zero.
+    // The sum may have one word too many, a zero.
     add(r + low, r + low, 2 * n - low, sum, (std::min)(2 * low + 1, 2 * n - low));
 }
 
-/// r = a·b of m + n words, by pieces of a as long as b: n <= m.
+/// r = a·b of m + n words, n <= m, by pieces of a as long as b.
 constexpr void multiply_by_pieces(word* r, const word* a, int m, const word* b, int n,
                                   word* scratch) {
     multiply_natural(r, a, n, b, n, scratch);
@@ -140,8 +133,8 @@ constexpr void multiply_by_pieces(word* r, const word* a, int m, const word* b, 
     }
 }
 
-/// r = a·b of m + n words, n <= m, with product_scratch(n) words to write to. Zeros at both ends of
-/// the factors are left out: numbers made of doubles far apart in size have many.
+/// r = a·b of m + n words, n <= m, with product_scratch(n) words of scratch. Skips zeros at both
+/// ends of the factors, frequent in numbers made of doubles far apart in size.
 constexpr void multiply_natural(word* r, const word* a, int m, const word* b, int n,
                                 word* scratch) {
     if (n < karatsuba_words) {
@@ -170,10 +163,9 @@ constexpr void multiply_natural(word* r, const word* a, int m, const word* b, in
     }
 }
 
-// Quotients. (N. Möller, T. Granlund, Improved division by invariant integers, IEEE Transactions on
-// Computers 60, 2011.)
+// Quotients: N. Möller, T. Granlund, Improved division by invariant integers, IEEE TC 60, 2011.
 
-/// ⌊(2^128 − 1)/d⌋ − 2^64 for d >= 2^63: two digits of 32 bits by Knuth's algorithm D.
+/// ⌊(2^128 − 1)/d⌋ − 2^64 for d >= 2^63: two 32-bit digits by Knuth's algorithm D.
 constexpr word reciprocal(word d) {
     constexpr word half = 0xffffffff;
     const word high_half = d >> 32, low_half = d & half;
@@ -191,8 +183,7 @@ constexpr word reciprocal(word d) {
     return high << 32 | digit((~d << 32 | half) - high * d);
 }
 
-/// ⌊(rest·2^64 + low)/d⌋ for rest < d and 2^63 <= d, whose reciprocal is v; rest becomes the
-/// remainder.
+/// ⌊(rest·2^64 + low)/d⌋ for rest < d, 2^63 <= d with reciprocal v; rest becomes the remainder.
 constexpr word divide_two_words(word& rest, word low, word d, word v) {
     const auto estimate = double_word(v) * rest;
     const word fraction = static_cast<word>(estimate) + low;
@@ -209,8 +200,7 @@ constexpr word divide_two_words(word& rest, word low, word d, word v) {
     return q;
 }
 
-/// The quotient of a by d, not zero, to store(i, word) for i = n − 1, ..., 0; returns the
-/// remainder.
+/// Divides a by d, not zero: store(i, word) for i = n − 1, ..., 0; returns the remainder.
 template <class Store>
 constexpr word divide_by_word(const word* a, int n, word d, const Store& store) {
     const int shift = detail::countl_zero(d);
@@ -223,11 +213,11 @@ constexpr word divide_by_word(const word* a, int n, word d, const Store& store) 
     return rest >> shift;
 }
 
-/// A divisor's first two words, the higher one >= 2^63, and what divides by them.
+/// A divisor of two words, the higher one >= 2^63.
 class two_word_divisor {
   public:
     constexpr two_word_divisor(word high, word low) : high_(high), low_(low) {
-        // Of 2^192 − 1 by both words: the reciprocal of the higher one, made less.
+        // For 2^192 − 1 by both words: the higher word's reciprocal, reduced.
         v_ = reciprocal(high);
         word p = high * v_ + low;
         if (p < low) {
@@ -247,13 +237,12 @@ class two_word_divisor {
         }
     }
 
-    /// Of three words by it, at most 2^64 − 1; the first two are not above it.
+    /// The quotient of three words, below 2^64. Precondition: the first two <= the divisor.
     constexpr word quotient(word a2, word a1, word a0) const {
         if (a2 == high_ && a1 == low_) return ~word(0);
         const auto estimate = double_word(v_) * a2;
         const word fraction = static_cast<word>(estimate) + a1;
         word q = static_cast<word>(estimate >> 64) + a2 + (fraction < a1);
-        // The remainder, of two words.
         word r1 = a1 - q * high_, r0 = a0;
         const auto t = double_word(q) * low_;
         unsigned char borrow = 0;
@@ -277,16 +266,14 @@ class two_word_divisor {
     word high_, low_, v_;
 };
 
-/// Of a, m + 1 words of which the last n are less than d, by d, n >= 2 words whose first bit is
-/// set: the quotient's m + 1 − n words, each to store(i, word) from the last on; a's first n words
-/// become the remainder, the others zero. (Knuth's algorithm D, The Art of Computer Programming
-/// 4.3.1, with quotients of three words by two.)
+/// Divides a, of m + 1 words whose last n are below d, by d, n >= 2 words with its first bit set:
+/// store(i, word) from the last; a becomes the remainder. (Knuth, TAOCP 4.3.1, algorithm D.)
 template <class Store>
 constexpr void divide_long(word* a, int m, const word* d, int n, const Store& store) {
     const two_word_divisor divisor(d[n - 1], d[n - 2]);
     for (int i = m - n; i >= 0; --i) {
         word* const part = a + i;
-        // The quotient by the first two words is the digit or, hardly ever, one more.
+        // The two-word quotient is the digit or, very rarely, one more.
         word q = divisor.quotient(part[n], part[n - 1], part[n - 2]);
         if (subtract_multiple(part, q, d, n) > part[n]) {
             --q;
@@ -297,18 +284,15 @@ constexpr void divide_long(word* a, int m, const word* d, int n, const Store& st
     }
 }
 
-// Greatest common divisors
-
-/// A matrix of determinant ±1 that takes (a, b) to (|m00·a − m01·b|, |m10·a − m11·b|).
+/// A matrix of determinant ±1: (a, b) becomes (|m00·a − m01·b|, |m10·a − m11·b|).
 struct euclid_steps {
     word m00 = 1, m01 = 0, m10 = 0, m11 = 1;
-    bool even = true;  ///< the signs are as written; else both differences are the other way round
+    bool even = true;  ///< signs as written; otherwise both differences are negated
     bool none() const { return m01 == 0; }
 };
 
-/// The steps of Euclid's algorithm that all numbers a >= b have in common which begin with these
-/// words. (D. H. Lehmer 1938; the condition is G. E. Collins's, in T. Jebelean, A
-/// double-digit Lehmer-Euclid algorithm, J. Symbolic Computation 19, 1995.)
+/// The steps of Euclid's algorithm common to all numbers a >= b that begin with these words. (D. H.
+/// Lehmer 1938; condition: G. E. Collins, in T. Jebelean, J. Symbolic Computation 19, 1995.)
 constexpr euclid_steps common_steps(word a, word b) {
     euclid_steps sure, m;
     while (b >= m.m11 && a - b >= m.m01 + m.m11) {
@@ -321,7 +305,7 @@ constexpr euclid_steps common_steps(word a, word b) {
     return sure;
 }
 
-/// Replaces numbers of n words by what the steps make of them.
+/// Applies the steps to numbers of n words.
 constexpr void apply(const euclid_steps& m, word* a, word* b, int n) {
     word c00 = 0, c01 = 0, c10 = 0, c11 = 0;
     unsigned char borrow_a = 0, borrow_b = 0;
@@ -346,14 +330,14 @@ struct word_pair {
     friend constexpr auto operator<=>(const word_pair&, const word_pair&) = default;
 };
 
-/// Of a number that is not zero.
+/// Precondition: x is not zero.
 constexpr word_pair odd_part(word_pair x) {
     if (x.low == 0) x = {0, x.high};
     const int zeros = detail::countr_zero(x.low);
     return {x.high >> zeros, x.low >> zeros | x.high << 1 << (63 - zeros)};
 }
 
-/// The greatest common divisor of odd numbers, by differences and halves. (J. Stein 1967.)
+/// Takes differences and halves. (J. Stein 1967.) Precondition: a and b are odd.
 constexpr word_pair odd_common_divisor(word_pair a, word_pair b) {
     while ((a.high | b.high) != 0) {
         if (a == b) return a;

@@ -1,13 +1,7 @@
-// Exact integers whose types know how many bits they can have, and so grow through an expression:
-// no overflow, no allocation, and no word more than it takes.
-//
-// A number stands for value·2^(unit·degree), where all coordinates are whole multiples of 2^unit
-// and degree is the number's degree in them. Numbers of different degree are brought to the higher
-// one by factors of 1 = 2^−unit units; that asks for unit <= 0, and for 1 to have no more bits than
-// coordinates may have.
-//
-// `level` says how many bits coordinates have, and thereby everything else. From `long_from` bits
-// on lengths are found at run time: types then only bound them.
+// Exact integers whose types carry their largest width and so grow through an expression: no
+// overflow, no allocation. A number stands for value·2^(unit·degree); all coordinates are multiples
+// of 2^unit. Lower degrees are raised by factors of 1 = 2^−unit units, which requires unit <= 0 and
+// 1 to be as narrow as coordinates.
 #pragma once
 
 #include <array>
@@ -22,12 +16,11 @@
 
 namespace errbound::integers {
 
-/// What numbers are made of: doubles that hold whole numbers, words, or as many words as it takes.
+/// Storage: integers in doubles, in words, or in words of run-time length.
 enum class integer_kind : std::uint8_t { floating, words, any_length };
 
-/// Coordinates lie strictly between −2^CoordinateBits and 2^CoordinateBits. Mixed: terms of
-/// different degree may be added. Called: operations of more words than the compiler has integers
-/// for are calls.
+/// Coordinates are below 2^CoordinateBits in size. Mixed: terms of different degree may be added.
+/// Called: operations wider than the compiler's integers are calls.
 template <integer_kind Kind, int CoordinateBits, bool Mixed, bool Called = false>
 struct integer_level {
     static constexpr integer_kind kind = Kind;
@@ -39,7 +32,7 @@ template <integer_kind Kind, int Bits>
 constexpr auto integer_of() {
     constexpr int word_count = Bits / 64 + 1;
     if constexpr (Kind == integer_kind::floating) {
-        static_assert(Bits <= 53, "errbound: the number of bits is not what was counted");
+        static_assert(Bits <= 53, "errbound: an integer has more bits than were counted");
         return double();
     } else if constexpr (Kind == integer_kind::any_length) {
         return long_integer<word_count>(0);
@@ -67,7 +60,7 @@ template <int Words>
 constexpr const fixed_integer<Words>& as_fixed(const fixed_integer<Words>& x) {
     return x;
 }
-/// x, which fits, in no more words than it has.
+/// x, which fits, in fewer words.
 template <int Words, int Wider>
 constexpr fixed_integer<Words> narrowed(const fixed_integer<Wider>& x) {
     std::array<words::word, std::size_t{Words}> low;
@@ -75,9 +68,7 @@ constexpr fixed_integer<Words> narrowed(const fixed_integer<Wider>& x) {
     return fixed_integer<Words>::from_words(low);
 }
 
-/// |x| < 2^Bits units of its degree.
-/// Proof: proofs/Widths.v, sized_exact.
-/// Proof: proofs/Widths.v, sized_fits.
+/// |x| < 2^Bits units of its degree. Proof: proofs/Widths.v, sized_exact, sized_fits.
 template <class Level, int Bits, int Degree>
 struct sized_integer {
     static constexpr int bits = Bits, degree = Degree;
@@ -88,7 +79,7 @@ struct sized_integer {
         (Level::kind == integer_kind::words && Bits < words::native_bits);
 
     storage value;
-    int unit;  ///< the coordinates': 2^unit
+    int unit;  ///< coordinates are multiples of 2^unit
 
     constexpr sized_integer operator-() const {
         if constexpr (is_native)
@@ -113,24 +104,20 @@ inline constexpr bool is_sized_integer<sized_integer<Level, Bits, Degree>> = tru
 template <class X>
 concept sized_operand = is_sized_integer<X>;
 
-/// A whole number in an expression.
 template <class Level>
 constexpr sized_integer<Level, 32, 0> sized_constant(int c, int unit) {
     using storage = typename sized_integer<Level, 32, 0>::storage;
     return {static_cast<storage>(c), unit};
 }
 
-// Operators are inlined whatever the compiler thinks of it: most are one instruction or a few, and
-// the others call what is longer themselves.
+// Operators are always inlined: most are a few instructions, and the others call long operations.
 
-/// Not inlined: what a product needs beside itself, as many words again, is then on the stack for
-/// as long as it is made, and not as often as formulas multiply.
+/// Not inlined, so that its scratch words are on the stack only during the product.
 template <class Storage, class X, class Y>
 [[gnu::noinline]] constexpr Storage long_product(const X& x, const Y& y) {
     return Storage::product(x, y);
 }
-/// Operations of more words, as calls: inlined they are most of a long expression's code, which few
-/// inputs reach.
+/// Calls: inlined they would be most of a long expression's code, which few inputs reach.
 template <class Storage, class X, class Y>
 [[gnu::noinline]] constexpr Storage called_product(const X& x, const Y& y) {
     return narrowed<Storage::width / 64>(x * y);
@@ -155,7 +142,7 @@ template <sized_operand X, sized_operand Y>
     }
 }
 
-/// magnitude·2^n, for n >= 0, which fits.
+/// magnitude·2^n, which fits; n >= 0.
 template <class Storage>
 constexpr Storage shifted_word(words::word magnitude, int n) {
     if constexpr (std::is_same_v<Storage, double>)
@@ -168,14 +155,14 @@ constexpr Storage shifted_word(words::word magnitude, int n) {
         return static_cast<Storage>(static_cast<Storage>(magnitude) << n);
 }
 
-/// x brought to a higher degree: times a power of 1 = 2^−unit units. x itself where it is of that.
+/// x raised to Degree by factors of 1 = 2^−unit units.
 template <int Degree, class X>
 [[gnu::always_inline]] constexpr decltype(auto) raised(const X& x) {
     using level = typename X::level;
     if constexpr (X::degree >= Degree) {
         return (x);
     } else {
-        static_assert(level::mixed, "errbound: the expression was taken for homogeneous");
+        static_assert(level::mixed, "errbound: the expression is not homogeneous as declared");
         using one_type = sized_integer<level, level::coordinate_bits, 1>;
         using storage = typename one_type::storage;
         const one_type one{shifted_word<storage>(1, -x.unit), x.unit};

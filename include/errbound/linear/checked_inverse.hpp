@@ -1,15 +1,13 @@
-// An approximate inverse R of a matrix A, and certified bounds of I − RA, which tell whether A is
-// regular and how far a residual is from an error.
+// An approximate inverse R of a matrix A, with certified bounds of I − RA: they prove that A is
+// regular and turn residuals into error bounds. Theorem: if |I − RA|v <= βv for some v > 0 and β <
+// 1, then A and R are regular, and for any ỹ the solution y of Ay = b has, entry by entry,
 //
-// Theorem: if |I − RA|v <= βv for some v > 0 and β < 1, then A and R are regular, and whatever ỹ
-// is, the solution y of Ay = b has
+//   |y − ỹ| <= z + w·max_i(z_i/v_i)/(1 − β),   z >= |R(b − Aỹ)|, w >= |I − RA|v.
 //
-//   |y − ỹ| <= z + w·max_i(z_i/v_i)/(1 − β),   z >= |R(b − Aỹ)|, w >= |I − RA|v, entry by entry.
-//
-// For E = I − RA, ρ(|E|) <= β < 1, so that RA = I − E is regular; y − ỹ = (I − E)^-1 R(b − Aỹ), and
-// |(I − E)^-1|z <= Σ |E|^k z <= z + |E|Σ|E|^k z <= z + |E|v·ζ/(1 − β) with z <= ζv. Sources: Rump
-// 2010 (Verification methods, Acta Numerica 19), Sections 10.4 to 10.6; Oishi and Rump 2002 (Numer.
-// Math. 90) for doing without other rounding modes; Rump 2013 (J. Comput. Appl. Math. 242) for v.
+// For E = I − RA, ρ(|E|) <= β < 1, so RA = I − E is regular; y − ỹ = (I − E)^-1 R(b − Aỹ), and |(I
+// − E)^-1|z <= Σ |E|^k z <= z + |E|Σ|E|^k z <= z + |E|v·ζ/(1 − β) with z <= ζv. Sources: Rump 2010
+// (Acta Numerica 19), Sections 10.4 to 10.6; Oishi, Rump 2002 (Numer. Math. 90): rounding to
+// nearest only; Rump 2013 (J. Comput. Appl. Math. 242): v.
 #pragma once
 
 #include <Eigen/LU>
@@ -18,31 +16,25 @@
 
 namespace errbound::linear {
 
-/// R for the entries A of a scaled matrix. These stand for numbers that are off by at most η/2
-/// each, and what is said of A here holds for all such.
+/// R for the entries A of a scaled matrix, and for all matrices within η/2 of them.
 template <int N>
 class checked_inverse {
   public:
-    /// Cost: LU decomposition, and two products of matrices (one of them for the inverse).
+    /// Cost: LU decomposition and two matrix products, one of them for the inverse.
     explicit checked_inverse(square<N>&& a)
         : a_(std::move(a)), inverse_(a_.partialPivLu().inverse()), defect_(product_in_blocks()) {
         defect_.diagonal().array() -= 1;
         if (inverse_.allFinite() && defect_.allFinite()) choose_weights();
     }
 
-    /// Whether A is certainly regular. What follows is for such.
+    /// True if A is certainly regular; the other members require it.
     bool regular() const { return contraction_ < 1; }
-    /// β
     double contraction() const { return contraction_; }
     const square<N>& matrix() const { return a_; }
     const square<N>& approximation() const { return inverse_; }
 
-    /// An upper bound of |I − RA|v, for v >= 0.
-    ///
-    /// |I − RA| <= |I − fl(RA)| + γ_h|R||A| + nη, h the roundings of a product on its way through a
-    /// block and the sum of blocks; and what A's entries may be off by takes |R|(η/2). The two
-    /// bounds' own roundings: n + 1 of each product with v, a few more; one of the subtraction of
-    /// I.
+    /// An upper bound of |I − RA|v, v >= 0. |I − RA| <= |I − fl(RA)| + γ_h|R||A| + nη, h the
+    /// roundings in a block and the sum of blocks; entries off by η/2 add |R|(η/2).
     vector<N> defect_times(const vector<N>& v) const {
         const Index n = a_.rows();
         const double lost = relative_loss((std::min)(n, block) + n / block + 3);
@@ -58,8 +50,8 @@ class checked_inverse {
         return bound;
     }
 
-    /// An upper bound of |y − ỹ| from z >= |R(b − Aỹ)|: the theorem, then once more |y − ỹ| <= z +
-    /// |I − RA||y − ỹ|, where entries are of different sizes. Infinite or NaN where it overflows.
+    /// An upper bound of |y − ỹ| from z >= |R(b − Aỹ)|: by the theorem, then |y − ỹ| <= z + |I −
+    /// RA||y − ỹ| for entries of different sizes. Infinite or NaN on overflow.
     vector<N> error_from(const vector<N>& z) const {
         const Index n = a_.rows();
         double ratio = 0;
@@ -79,10 +71,10 @@ class checked_inverse {
     }
 
   private:
-    /// Of the inner dimension of RA: rounding errors grow with it and with the number of blocks.
+    /// Inner block size of RA; rounding errors grow with it and with the number of blocks.
     static constexpr Index block = 256;
 
-    /// RA; each block's product is finished before it is added.
+    /// RA; each block's product is complete before it is added.
     square<N> product_in_blocks() const {
         const Index n = a_.rows(), first = (std::min)(block, n);
         square<N> sum(n, n);
@@ -97,8 +89,8 @@ class checked_inverse {
         return sum;
     }
 
-    /// v = 1 first; where that gives no β well below one, v = |I − RA|v, which tends to the vector
-    /// with the least β (Perron, Frobenius).
+    /// Starts with v = 1; if β is not well below one, iterates v = |I − RA|v, which tends to the
+    /// vector with the least β (Perron, Frobenius).
     void choose_weights() {
         const Index n = a_.rows();
         constexpr int enough = 6;

@@ -1,11 +1,10 @@
-// What Eigen's decompositions need to know of tracked scalars: how to choose pivots, and versions
-// of Cholesky's and Householder's methods that leave out nothing that is not certainly zero.
+// Eigen's decompositions for tracked scalars: pivot choice, and Cholesky's and Householder's
+// methods, which skip only certain zeros.
 //
-// Why the bounds hold, whatever the pivots: where no exact pivot is zero, all numbers are those of
-// exact elimination, rounded, and tracked. Where a pivot may be zero, what is divided by it is
-// unknown. What is known nevertheless does not depend on it (or is an exact zero times it): it
-// would be the same with the pivot moved a little, off zero, and so, by continuity, it holds for
-// the matrix, too, if that is regular.
+// Soundness for any pivots: if no exact pivot is zero, all numbers are exact elimination's, rounded
+// and tracked. If a pivot may be zero, quotients by it have infinite errors, and finite results do
+// not depend on it (or multiply it by an exact zero). They hold for a slightly moved pivot and, by
+// continuity, for the matrix, if it is regular.
 #pragma once
 
 #include <Eigen/Cholesky>
@@ -16,8 +15,7 @@
 
 namespace errbound::linear {
 
-/// How good a pivot x is: the size of its value. Zero only for an exact zero, since elimination
-/// passes over a column whose best pivot has no score.
+/// The size of a pivot's value; zero only for an exact zero, as elimination skips columns scored 0.
 template <class T, class Rule>
 T pivot_score(const tracked<T, Rule>& x) {
     using scalar_traits = number_traits<T>;
@@ -26,15 +24,14 @@ T pivot_score(const tracked<T, Rule>& x) {
     return scalar_traits::underflow_unit();
 }
 
-/// The reflection H = I − τww', w = (1, essential), with Hx = (β, 0, ..., 0).
+/// The reflection H = I − τww', w = (1, essential), Hx = (β, 0, ..., 0).
 template <class Number>
 struct reflection {
     Number tau, beta;
 };
 
-/// Stores `essential` in place of x's entries but the first. H = I where these are certainly zero.
-/// x is scaled by a power of two, so that squares neither overflow nor underflow. The sign of β
-/// goes by the first entry's value. Source: Golub and Van Loan 2013, Algorithm 5.1.1.
+/// Overwrites x's entries, except the first, with `essential`; H = I if these are certainly zero.
+/// Scales against overflow and underflow. Source: Golub and Van Loan 2013, Algorithm 5.1.1.
 template <class Vector>
 reflection<typename Vector::Scalar> reflect_in_place(Vector x) {
     using number = typename Vector::Scalar;
@@ -56,9 +53,8 @@ reflection<typename Vector::Scalar> reflect_in_place(Vector x) {
     return {tau, scale(beta, e)};
 }
 
-/// a = LL' in place, by columns; a's upper triangle is left as it is. True if all pivots are
-/// certainly positive, which proves that the symmetric matrix of a's lower triangle is positive
-/// definite.
+/// a = LL' in place, by columns; the upper triangle is kept. True if all pivots are certainly
+/// positive: the lower triangle's symmetric matrix is then positive definite.
 template <class Matrix>
 bool cholesky_in_place(Matrix a) {
     using number = typename Matrix::Scalar;
@@ -80,7 +76,7 @@ template <class T>
 struct guessing_decomposition {
     static_assert(sizeof(T) == 0,
                   "errbound: this decomposition compares numbers whose order is not certain, to "
-                  "decide a rank or a sign; take PartialPivLU, LLT or HouseholderQR, which do not");
+                  "decide a rank or a sign; use PartialPivLU, LLT or HouseholderQR");
 };
 
 }  // namespace errbound::linear
@@ -97,7 +93,7 @@ struct scalar_score_coeff_op<errbound::tracked<T, Rule>> {
     }
 };
 
-/// Eigen's own takes a tail for zero that is not, if it is small.
+/// Eigen's version treats a small nonzero tail as zero.
 template <class MatrixQR, class Coefficients, class T, class Rule, bool InnerStrideIsOne>
 struct householder_qr_inplace_blocked<MatrixQR, Coefficients, errbound::tracked<T, Rule>,
                                       InnerStrideIsOne> {
@@ -116,7 +112,7 @@ struct householder_qr_inplace_blocked<MatrixQR, Coefficients, errbound::tracked<
 
 }  // namespace internal
 
-/// Eigen's own stops at a pivot whose value is not positive, and what it leaves is no factor.
+/// Eigen's version stops at a pivot whose value is not positive, without a factor.
 template <class T, class Rule, int Rows, int Columns, int Options, int MaxRows, int MaxColumns,
           int UpLo_>
 class LLT<Matrix<errbound::tracked<T, Rule>, Rows, Columns, Options, MaxRows, MaxColumns>, UpLo_>
@@ -156,7 +152,7 @@ class LLT<Matrix<errbound::tracked<T, Rule>, Rows, Columns, Options, MaxRows, Ma
     MatrixType reconstructedMatrix() const {
         return matrixL() * matrixL().adjoint().toDenseMatrix();
     }
-    /// Success: the matrix is certainly positive definite. NumericalIssue: it may not be.
+    /// Success: certainly positive definite. NumericalIssue: possibly not.
     ComputationInfo info() const { return m_info; }
     const LLT& adjoint() const { return *this; }
     Index rows() const { return m_matrix.rows(); }
@@ -179,7 +175,7 @@ class LLT<Matrix<errbound::tracked<T, Rule>, Rows, Columns, Options, MaxRows, Ma
 
   private:
     MatrixType m_matrix;
-    bool m_isInitialized = false;  // the name that SolverBase knows
+    bool m_isInitialized = false;  // SolverBase uses this name
     ComputationInfo m_info = InvalidInput;
 };
 

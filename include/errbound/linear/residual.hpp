@@ -1,4 +1,4 @@
-// Residuals b − Ay as if in twice the precision, with certified bounds of their errors.
+// Residuals b − Ay as in twice the precision, with certified error bounds.
 #pragma once
 
 #include <errbound/error_free.hpp>
@@ -11,14 +11,13 @@ struct enclosed_vector {
     vector<N> value, error;  ///< |value − exact| <= error
 };
 
-/// b − Ay, for A and b that may be off by η/2 in each entry. Infinite or NaN where it overflows.
-/// Cost: n² times two_product, two_sum and some sums.
+/// b − Ay, where entries of A and b may be off by η/2. Infinite or NaN on overflow. Cost: n² times
+/// two_product, two_sum and some sums.
 ///
-/// Each row's sum is s + Σ(e + f), s its rounded sum, e and f the exact errors of products and
-/// sums: but for underflow, where a product and its error are off by at most 5η (Ogita, Rump, Oishi
-/// 2005, Section 3). The computed c of Σ(e + f) is off by γ_(n+1)Σ(|e| + |f|), for which that sum
-/// is taken, too; s + c is rounded once. Entries' η/2 take (1 + Σ|y_j|)η/2. Source: Dot2 of the
-/// same paper, whose bound beforehand has n times as much.
+/// Each row's sum is s + Σ(e + f), e and f the exact errors of products and sums; with underflow a
+/// product and its error are off by at most 5η (Ogita, Rump, Oishi 2005, Section 3). The computed
+/// Σ(e + f) is off by γ_(n+1)Σ(|e| + |f|); the final sum is rounded once. Entries' η/2 add (1 +
+/// Σ|y_j|)η/2. Source: Dot2 of that paper, whose a priori bound is n times larger.
 template <int N>
 enclosed_vector<N> residual(const square<N>& a, const vector<N>& b, const vector<N>& y) {
     const Index n = a.rows();

@@ -1,14 +1,13 @@
-// What sums of products lose in whatever order they are taken, for bounds of matrix products.
+// Rounding errors of sums of products in any order, for bounds of matrix products.
 //
-// u = 2^-53 is the unit roundoff, η the smallest positive number, µ the smallest normal one. A sum
-// of products, as Eigen's kernels compute it, is a tree: each product passes through some number of
-// roundings, fused or not, on its way to the root, at most h. Then (Higham 2002, Section 3.1, where
-// nothing is said of the order)
+// u = 2^-53, η the smallest positive number, µ the smallest normal one. In Eigen's kernels each
+// product passes through at most h roundings, fused or not. Then (Higham 2002, Section 3.1, for any
+// order)
 //
 //   |computed − Σ x_i y_i| <= γ_h Σ |x_i y_i| + kη,  γ_h = hu/(1 − hu),  k the number of products:
 //
-// sums do not underflow, a product's rounding is off by at most η/2 where it does, and what it is
-// enlarged by afterwards is at most 1 + γ_h < 2. For a dot product of length n, h = n.
+// sums do not underflow, a product's underflow is at most η/2, and later growth at most 1 + γ_h <
+// 2. For a dot product of length n, h = n.
 #pragma once
 
 #include <Eigen/Core>
@@ -21,25 +20,24 @@ namespace errbound::linear {
 using Eigen::Index;
 using traits = number_traits<double>;
 
-/// At least γ_h, for h <= 2^50: hu and 1 − hu are exact.
+/// At least γ_h. Precondition: h <= 2^50, so hu and 1 − hu are exact.
 inline double relative_loss(Index h) {
     const double x = static_cast<double>(h) * traits::unit_roundoff();
     return x / (1 - x) * (1 + 2 * traits::epsilon());
 }
 
-/// At least the exact value of something not negative that was computed as x from numbers not
-/// negative by sums, products and quotients, through at most `roundings` <= 2^48 of them, if none
-/// underflowed: 1/(1 − u)^k <= (1 + 2(k + 4)u)(1 − u)³.
+/// At least the exact value of a sum, product or quotient tree over nonnegative numbers, computed
+/// as x with at most `roundings` <= 2^48 and no underflow: 1/(1 − u)^k <= (1 + 2(k + 4)u)(1 − u)³.
 inline double enlarged(double x, Index roundings) {
     return x * (1 + static_cast<double>(roundings + 4) * traits::epsilon());
 }
 
-/// Added to what may have underflowed: more than 2^51 roundings of numbers that did can take.
+/// More than 2^51 underflows can lose.
 inline double underflow_margin() {
     return traits::smallest_normal();
 }
 
-/// |m|v for v >= 0. An upper bound of it is enlarged(·, n + 1) and n underflows, n = m.cols().
+/// |m|v for v >= 0. Its upper bound is enlarged(·, n + 1) plus n underflows, n = m.cols().
 template <class Matrix, class Vector>
 Vector absolute_product(const Matrix& m, const Vector& v) {
     Vector sum = Vector::Zero(m.rows());

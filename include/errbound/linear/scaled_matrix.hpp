@@ -1,5 +1,4 @@
-// A square matrix whose rows and columns are scaled by powers of two, so that entries are of about
-// size one: bounds in one number for a matrix, norms, then suit matrices of any scales.
+// A square matrix scaled by powers of two in rows and columns, for norms at any scale.
 #pragma once
 
 #include <algorithm>
@@ -15,24 +14,22 @@ using vector = Eigen::Matrix<double, N, 1>;
 template <int N>
 using exponents = Eigen::Matrix<int, N, 1>;
 
-/// The exponent of zero: less than that of any number, and sums of a few still fit an int.
+/// Below any number's exponent; sums of a few still fit an int.
 inline constexpr int exponent_of_zero = (std::numeric_limits<int>::min)() / 8;
 
-/// e with |x| in [2^(e−1), 2^e), for x finite.
+/// e with 2^(e−1) <= |x| < 2^e. Precondition: x is finite.
 inline int exponent_of(double x) {
     return x == 0 ? exponent_of_zero : traits::exponent(x);
 }
 
-/// entries(i, j) = a(i, j)·2^−(row(i) + column(j)), rounded once: exactly, or off by at most η/2
-/// where it is subnormal. Every row and column has an entry of size 1/2 or more, and none has one
-/// of size 1 or more. Not so where a has a row or a column of zeros.
+/// entries(i, j) = a(i, j)·2^−(row(i) + column(j)): exact, or off by at most η/2 if subnormal. The
+/// largest entry of every row and column is in [1/2, 1), unless a has a zero row or column.
 template <int N>
 struct scaled_matrix {
     square<N> entries;
     exponents<N> row, column;
     bool has_zero_row_or_column = false;
 
-    /// Cost: O(n²). Precondition: a is finite.
     template <class Matrix>
     explicit scaled_matrix(const Matrix& a)
         : entries(a), row(exponents<N>::Constant(a.rows(), exponent_of_zero)), column(row) {
@@ -53,7 +50,7 @@ struct scaled_matrix {
     }
 };
 
-/// b(i)·2^−(row(i) + whole), likewise: the largest is of size 1/2 or more, and less than 1.
+/// b(i)·2^−(row(i) + whole), rounded in the same way; the largest is in [1/2, 1).
 template <int N>
 struct scaled_vector {
     vector<N> entries;

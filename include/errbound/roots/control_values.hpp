@@ -1,5 +1,5 @@
-// Polynomials by their control values (plain Bernstein coefficients), for subdivision in floating
-// point: halving is a triangle of midpoints, and every coefficient has the same error bound.
+// Polynomials by control values (Bernstein coefficients), for subdivision in floating point:
+// halving is a triangle of midpoints, and all coefficients have the same error bound.
 #pragma once
 
 #include <array>
@@ -18,8 +18,7 @@ struct control_values {
     constexpr S& operator[](int i) { return b[static_cast<std::size_t>(i)]; }
 };
 
-/// The least common multiple of the binomials C(N, i): the control values times this are whole
-/// multiples of the scaled coefficients, so that no division is needed.
+/// The least common multiple of the binomials C(N, i): no division.
 constexpr int multiple(int degree) {
     int m = 1;
     for (int i = 0; i <= degree; ++i) {
@@ -31,7 +30,6 @@ constexpr int multiple(int degree) {
     return m;
 }
 
-/// multiple(N)·b_i = h_i·multiple(N)/C(N, i).
 template <class S, int N>
 constexpr control_values<S, N> control_values_of(const bernstein<S, N>& p) {
     control_values<S, N> c;
@@ -42,15 +40,14 @@ constexpr control_values<S, N> control_values_of(const bernstein<S, N>& p) {
     return c;
 }
 
-/// Of neighbours in a row. By index, so that compilers keep rows in registers: of loops over arrays
-/// they make loads of pairs that were stored one by one, which stalls.
+/// Midpoints of neighbours. Unrolled: loops load pairs just stored one by one, which stalls.
 template <class S, std::size_t... I>
 constexpr std::array<S, sizeof...(I)> midpoints(const std::array<S, sizeof...(I) + 1>& row,
                                                 std::index_sequence<I...>) {
     return {S((row[I] + row[I + 1]) * S(0.5))...};
 }
 
-/// Row by row, each one shorter: its ends are control values of the halves.
+/// The ends of each midpoint row are control values of the halves.
 template <class S, int N, std::size_t Left>
 constexpr void halve(const std::array<S, Left>& row, control_values<S, N>& left,
                      control_values<S, N>& right) {
@@ -60,8 +57,8 @@ constexpr void halve(const std::array<S, Left>& row, control_values<S, N>& left,
         halve(midpoints(row, std::make_index_sequence<Left - 1>()), left, right);
 }
 
-/// The halves on [0, 1/2] and [1/2, 1] (de Casteljau).
-/// Proof: proofs/Subdivision.v, halves_cubic, halves_quartic.
+/// On [0, 1/2] and [1/2, 1] (de Casteljau). Proof: proofs/Subdivision.v, halves_cubic,
+/// halves_quartic.
 template <class S, int N>
 constexpr std::pair<control_values<S, N>, control_values<S, N>> halves(
     const control_values<S, N>& p) {

@@ -1,13 +1,11 @@
-// The roots of a square-free polynomial between two positive points, each in an interval of its
-// own.
+// Isolates the roots of a square-free polynomial between two positive points, by Descartes' rule on
+// intervals (Vincent, Collins, Akritas; in Bernstein form: Lane, Riesenfeld 1981).
 //
-// By Descartes' rule on intervals (Vincent, Collins, Akritas; in Bernstein form: Lane, Riesenfeld
-// 1981): there is no root inside an interval if its Bernstein coefficients have no sign change, and
-// exactly one if they have one; other intervals are split. That ends by the two-circle theorem
-// (Krandick, Mehlhorn 2006). Where halving leaves all roots in one half again and again, they are
-// near each other, and Newton's method for a multiple root finds the place; an interval around it
-// is kept if Descartes' rule says that nothing is beside it, and is then narrowed twice as fast
-// (Sagraloff, Mehlhorn, Computing real roots of real polynomials, J. Symb. Comp. 73, 2016).
+// Bernstein coefficients without sign change exclude a root inside an interval; one change proves
+// exactly one; other intervals are split. This ends by the two-circle theorem (Krandick, Mehlhorn
+// 2006). If halving keeps all roots in one half, Newton's method for a multiple root locates the
+// cluster. An interval around it is kept if Descartes' rule excludes other roots; the next one is
+// narrowed twice as fast (Sagraloff, Mehlhorn, J. Symb. Comp. 73, 2016).
 #pragma once
 
 #include <algorithm>
@@ -26,8 +24,7 @@
 
 namespace errbound {
 
-/// One root: low = high is the root, or it lies strictly between them and is the only one in
-/// [low, high].
+/// One root: low = high is the root, or it is the only one in [low, high] and strictly inside.
 template <exact_number Integer>
 struct isolating_interval {
     dyadic<Integer> low, high;
@@ -40,15 +37,13 @@ struct isolating_interval {
 
 namespace errbound::roots {
 
-/// A point between 2^exponent and twice that, and such that halving from there hardly meets the
-/// numbers that people choose as roots.
+/// A point in [2^exponent, 2^(exponent + 1)); halving from there rarely meets simple roots.
 template <class Integer>
 dyadic<Integer> unlikely_root(int exponent) {
     return {Integer(45), exponent - 5};
 }
 
-/// A zero in (0, 1) of the derivative of the form with these control values, by Newton's method in
-/// plain doubles from the middle; what is not there if that leaves (0, 1).
+/// A zero in (0, 1) of the derivative of control values b, by Newton's method; outside on failure.
 inline double extremum(const std::vector<double>& b) {
     const std::size_t n = b.size() - 1;
     std::vector<double> slopes(n);
@@ -71,7 +66,7 @@ class descartes_search {
     using point = dyadic<Integer>;
     using interval = isolating_interval<Integer>;
 
-    /// p, square-free, and the meter outlive this.
+    /// p, square-free, and the meter must outlive this.
     descartes_search(const form& p, work_meter& meter) : p_(p), meter_(meter) {}
 
     struct end {
@@ -79,9 +74,8 @@ class descartes_search {
         bool is_root;
     };
 
-    /// Appends the roots strictly between, 0 < low < high, in ascending order. Uses as much stack
-    /// for any input.
-    /// Proof: proofs/RootIsolation.v, on_part_right.
+    /// Appends the roots strictly between low and high, ascending. Precondition: 0 < low < high.
+    /// Bounded stack. Proof: proofs/RootIsolation.v, on_part_right.
     void find(const end& low, const end& high, std::vector<interval>& roots) {
         add({low.at, high.at, low.is_root, high.is_root});
         while (!parts_.empty()) {
@@ -100,9 +94,9 @@ class descartes_search {
         bool root_at_low = false, root_at_high = false;
         int variations = 3;  ///< as max_sign_variations counts
         int halvings = 0;
-        int lone_halvings = 0;  ///< the last ones, which left nothing beside this part
-        int speed = slowest;    ///< log2 of the factor by which Newton's method is to narrow it
-        int bits = row_bits;    ///< asked of the local form
+        int lone_halvings = 0;  ///< latest ones that left all roots in this part
+        int speed = slowest;    ///< log2 of the factor by which Newton's method narrows it
+        int bits = row_bits;    ///< requested of the local form
         std::optional<fixed_row<4>> row = {};
         std::optional<local_form<Integer>> local = {};
 
@@ -114,15 +108,12 @@ class descartes_search {
     static constexpr int slowest = 8, row_bits = 256, lone = 32, most_bits = 1 << 28,
                          most_lost_bits = 1 << 20;
 
-    /// Keeps a part to look at if it may have roots.
     void add(part p) {
         count_variations(p);
         if (p.variations > 0) parts_.push_back(std::move(p));
     }
 
-    // Sign changes
-
-    /// Of a row without those ends that are known to be zero; nothing if its ends are uncertain.
+    /// Sign changes of a row without ends known to be zero; nothing if an end is uncertain.
     template <class Sign>
     static std::optional<int> variations(const part& p, std::size_t size, const Sign& sign) {
         const std::size_t first = p.root_at_low ? 1 : 0,
@@ -138,8 +129,8 @@ class descartes_search {
     static std::optional<int> variations_of_row(const part& p) {
         return variations(p, p.row->size(), [&](std::size_t i) { return p.row->sign(i); });
     }
-    /// From the coefficients that the part has, exact ones if they are short, or those at as many
-    /// bits as it takes for certain signs at the ends; which are the part's from then on.
+    /// Counts from the part's coefficients, from exact ones if short, or from as many bits as give
+    /// certain signs at the ends; stores these in the part.
     void count_variations(part& p) {
         std::optional<int> found;
         if (p.row) {
@@ -178,12 +169,11 @@ class descartes_search {
     static int bits_of_ends(const part& p) {
         return (std::max)(floor_log2(p.low.numerator()), floor_log2(p.high.numerator())) + 1;
     }
-    /// Whether all bits of the Bernstein coefficients are hardly more than a row keeps.
+    /// True if exact Bernstein coefficients are hardly longer than a row.
     bool exact_row_is_cheap(const part& p) const {
         return p_.size() <= 40 && static_cast<int>(p_.size()) * bits_of_ends(p) <= 2048;
     }
-    /// Whether the coefficients' sizes differ by more bits than are worth counting: 3 changes of
-    /// sign are assumed, and the part is divided.
+    /// True if the coefficients' sizes differ too much to count: assumes 3 sign changes.
     bool varies_too_much(const part& p) const {
         return floor_log2(p.high) > floor_log2(p.low) + 1 &&
                local_form<Integer>::precision(p_.size(), p.low, p.high - p.low, 0) > most_lost_bits;
@@ -193,17 +183,15 @@ class descartes_search {
         charge(local_form<Integer>::precision(p_.size(), p.low, width, p.bits));
         p.local.emplace(p_, p.low, width, p.bits, &meter_);
     }
-    /// For a row of numbers of so many bits: products of their size, and sums.
+    /// Charges a row of numbers with this many bits: products of their size, and sums.
     void charge(std::int64_t bits) {
         const std::uint64_t n = p_.size(), words = static_cast<std::uint64_t>(bits) / 64 + 1;
         meter_.hold(8 * n * (4 * words + 8 * (parts_.size() + 1)));
         meter_.spend(n * (n + words / 4) * words);
     }
 
-    // Division of a part
-
     void divide(part whole) {
-        // Of wide parts halve the exponents, so that roots far apart in size take few steps.
+        // Halve the exponents of wide parts, so that roots far apart in size take few steps.
         const int low_exponent = floor_log2(whole.low), high_exponent = floor_log2(whole.high);
         const int exponents = high_exponent - low_exponent;
         const auto between = [&] { return unlikely_root<Integer>(low_exponent + exponents / 2); };
@@ -231,13 +219,12 @@ class descartes_search {
         }
     }
     static point half(const part& p) { return middle(p.low, p.high); }
-    /// Whether to look for the place where all roots of the part may be: after 32, 64, 128, ...
-    /// lone halvings, and again where it went faster.
+    /// True if all roots may be in one place: after 32, 64, ... lone halvings, and after a success.
     static bool near_each_other(const part& p) {
         const auto n = static_cast<unsigned>(p.lone_halvings);
         return p.speed > slowest || (n >= lone && std::has_single_bit(n));
     }
-    /// Replaces a part by two, which have coefficients or get them here.
+    /// Replaces a part by two, counting the sign changes of both.
     void split(part whole, point x, part left = {}, part right = {}) {
         const bool root_between = !right.low_end_is_certain() && is_root(x);
         left.low = std::move(whole.low);
@@ -256,21 +243,18 @@ class descartes_search {
             left.lone_halvings = right.lone_halvings = whole.lone_halvings + 1;
         else
             left.speed = right.speed = slowest;
-        // What comes last is looked at first.
+        // The last part is processed first.
         if (right.variations > 0) parts_.push_back(std::move(right));
         if (root_between) parts_.push_back({x, x});
         if (left.variations > 0) parts_.push_back(std::move(left));
     }
 
-    // Near roots
-
-    /// Where a part's roots seem to be, in units of 2^(−depth) of its width, and how many. Only a
-    /// hint.
+    /// Estimated position of a part's roots, in units of 2^(−depth) of its width, and their number.
     struct place {
         Integer from;
         int roots;
     };
-    /// By f/f' at both ends, which is about (x − place)/roots there.
+    /// Uses f/f' at both ends, about (x − position)/roots there.
     static std::optional<place> place_of_roots(const local_form<Integer>& local, int depth) {
         const auto cut = [&](Integer& a, Integer& b) {
             const Integer size = (std::max)(Integer(abs(a)), Integer(abs(b)));
@@ -289,7 +273,6 @@ class descartes_search {
         return place{Integer((distance << static_cast<unsigned>(depth)) / sum),
                      roots > 0 && roots < local.degree() ? static_cast<int>(roots) + 1 : 1};
     }
-    /// Tries to narrow a part by Newton's method; false if nothing comes of it.
     bool narrowed(part& whole) {
         const int depth = whole.speed + 2;
         if (!whole.local) expand(whole);
@@ -332,12 +315,11 @@ class descartes_search {
         return true;
     }
 
-    /// Two close roots, or two that are not real, would take many halvings to part. Where at most
-    /// two are left, the part is split at the extremum between them instead, which Newton's method
-    /// finds to more and more bits: they lie on either side of it, or in neither of the circles
-    /// that have its sides as diameters, so that no sign change is left. Tried after 0, 8, 16, 32,
-    /// ... halvings; false if nothing comes of it.
-    /// Proof: proofs/SignVariations.v, two_variations_two_roots.
+    /// Two close roots, real or complex, would need many halvings to separate. With at most two
+    /// left, splits at the extremum between them, by Newton's method with growing precision.
+    /// Complex roots lie outside both circles with the sides as diameters, so no sign change
+    /// remains. Tried after 0, 8, 16, 32, ... halvings. Proof: proofs/SignVariations.v,
+    /// two_variations_two_roots.
     bool divided_as_pair(part& whole) {
         if (whole.has_root_at_end() || whole.halvings % 8 != 0 ||
             (whole.halvings & (whole.halvings - 1)) != 0)
@@ -362,7 +344,7 @@ class descartes_search {
                 return true;
             }
             const point rise = value_at(slope_, x, meter_), bend = value_at(curvature_, x, meter_);
-            // By its parabola, the extremum is on the same side as p(x) if p·p'' > p'²/2.
+            // The parabola's extremum is on the same side as p(x) if p·p'' > p'²/2.
             if (bits > 256 || rise.is_zero() || bend.is_zero() ||
                 rise * rise < magnitude(value * bend))
                 break;
@@ -373,7 +355,7 @@ class descartes_search {
         return true;
     }
 
-    /// Modulo a prime first, which most values are not multiples of.
+    /// Tests modulo a prime first, which few values are multiples of.
     bool is_root(const point& x) {
         if (residues_.empty()) residues_ = residues(p_, field_);
         return value_at(residues_, field_, x) == 0 && sign_at(p_, x, meter_) == sign_type::zero;
@@ -384,7 +366,7 @@ class descartes_search {
     const prime_field field_{large_prime(0)};
     std::vector<std::uint64_t> residues_;
     form slope_ = {}, curvature_ = {};
-    std::vector<part> parts_;  ///< to be looked at, from the last, in ascending order
+    std::vector<part> parts_;  ///< ascending; processed from the last
 };
 
 }  // namespace errbound::roots

@@ -1,5 +1,5 @@
-// Bernstein coefficients cut to a fixed number of words: what errbound/roots/root_isolation.hpp
-// halves instead of integers that grow by the degree with every halving.
+// Bernstein coefficients truncated to a fixed number of words. errbound/roots/root_isolation.hpp
+// halves them instead of integers that grow by the degree with every halving.
 #pragma once
 
 #include <algorithm>
@@ -14,18 +14,18 @@
 
 namespace errbound::roots {
 
-/// Multiples of one unit, each within `error` units of the coefficient it stands for.
+/// Multiples of one unit, each within `error` units of its coefficient.
 template <int Words>
 class fixed_row {
   public:
-    /// Of not all zero coefficients, each given within `error`.
-    /// Proof: proofs/ControlValues.v, row_cut_right, row_uncertain; proofs/FixedRow.v, row_fits.
+    /// From coefficients, not all zero, each given within `error`. Proof: proofs/ControlValues.v,
+    /// row_cut_right, row_uncertain; proofs/FixedRow.v, row_fits.
     template <exact_number Integer>
     fixed_row(const integer_form<Integer>& b, const Integer& error) {
         int bits = 0;
         for (const Integer& c : b)
             if (c != 0) bits = (std::max)(bits, floor_log2(c) + 1);
-        // Room for the sign and for a sum of two.
+        // Leaves room for the sign and a sum of two.
         const int excess = bits - (integers::fixed_integer<Words>::width - 3);
         const Integer word = Integer(1) << 64U;
         b_.reserve(b.size());
@@ -47,8 +47,7 @@ class fixed_row {
             std::fill(b_.begin(), b_.end(), integers::fixed_integer<Words>(0));
     }
 
-    /// 1 or −1 for a certain sign, otherwise 0.
-    /// Proof: proofs/ControlValues.v, row_signs_right.
+    /// 1 or −1 for a certain sign, otherwise 0. Proof: proofs/ControlValues.v, row_signs_right.
     int sign(std::size_t i) const {
         if (b_[i].negative()) return -b_[i] > integers::fixed_integer<Words>(error_) ? -1 : 0;
         return b_[i] > integers::fixed_integer<Words>(error_) ? 1 : 0;
@@ -68,9 +67,9 @@ class fixed_row {
         return values;
     }
 
-    /// Of the two halves, by de Casteljau. A midpoint inherits at most the error of its ends, and
-    /// rounding takes half a unit in each of the degree's steps.
-    /// Proof: proofs/ControlValues.v, row_halves_right; proofs/FixedRow.v, row_stays.
+    /// The two halves, by de Casteljau. A midpoint inherits at most the error of its ends; rounding
+    /// adds half a unit in each of the degree's steps. Proof: proofs/ControlValues.v,
+    /// row_halves_right; proofs/FixedRow.v, row_stays.
     std::pair<fixed_row, fixed_row> halves() && {
         const std::size_t n = b_.size() - 1;
         fixed_row left;

@@ -1,9 +1,8 @@
-// Roots of quadratics and cubics in plain floating point: approximations, which their callers guard
-// by bounds of their own or do without.
+// Approximate roots of quadratics and cubics in plain floating point, which callers must guard.
 //
-// Polynomials are in the power basis here: a bernstein<S, N> whose coefficient i belongs to t^i.
-// That is the form of errbound/bernstein.hpp at s = 1: products are the same convolutions, and
-// value_at(p, S(1), t) is the value at t.
+// Power basis: coefficient i of a bernstein<S, N> belongs to t^i, the form of
+// errbound/bernstein.hpp at s = 1. Products are the same convolutions, and value_at(p, S(1), t) is
+// the value at t.
 #pragma once
 
 #include <array>
@@ -16,7 +15,6 @@
 
 namespace errbound::roots {
 
-/// dp/dt for p in the power basis.
 template <class S, int N>
 requires(N >= 1) constexpr bernstein<S, N - 1> power_derivative(const bernstein<S, N>& p) {
     bernstein<S, N - 1> r;
@@ -25,13 +23,12 @@ requires(N >= 1) constexpr bernstein<S, N - 1> power_derivative(const bernstein<
     return r;
 }
 
-/// The two roots of c0 + c1·t + c2·t² in no order, then its vertex. Complex roots are replaced by
-/// the vertex; what does not exist is infinite or NaN. With m the largest of |c0|, |c1|, |c2|: each
-/// root is one of a quadratic whose coefficients differ by at most 16·ε·m, the same for both.
-/// Proof: the discriminant is off by at most δ = 4ε(c1² + 4|c0·c2|), and what is computed are, but
-/// for the last divisions, q/c2 and c0/q with q² + c1·q + c0·c2 = δ/4; their sum is off from
-/// −c1/c2 by |δ/(4·c2·q)| and q is at least |c1|/2, and at least √|c0·c2| where that is larger and
-/// the roots are real.
+/// The two roots of c0 + c1·t + c2·t², unordered, then its vertex, which also replaces complex
+/// roots. Nonexistent ones are infinite or NaN. With m the largest of |c0|, |c1|, |c2|: each root
+/// is one of a quadratic, the same for both, with coefficients within 16·ε·m. Proof: the
+/// discriminant is off by at most δ = 4ε(c1² + 4|c0·c2|); before division, q² + c1·q + c0·c2 = δ/4.
+/// The roots' sum is off by |δ/(4·c2·q)|; q is at least |c1|/2, and at least √|c0·c2| if that is
+/// larger and they are real.
 template <class T>
 constexpr std::array<T, 3> quadratic_roots(T c0, T c1, T c2) {
     using traits = number_traits<T>;
@@ -43,14 +40,14 @@ constexpr std::array<T, 3> quadratic_roots(T c0, T c1, T c2) {
     return {q / c2, c0 / q, -c1 / (2 * c2)};
 }
 
-/// The first `count` of `at`, in ascending order: 0, the computed roots of f' in (0, 1), 1.
+/// The first `count` of `at`, ascending: 0, the computed roots of f' in (0, 1), 1.
 template <class T>
 struct piece_ends {
     std::array<T, 4> at{};
     std::size_t count = 0;
 };
 
-/// The ends of the pieces of [0, 1] on which f rises or falls, but for rounding.
+/// Intervals of [0, 1] on which f is monotone, up to rounding.
 template <class T>
 constexpr piece_ends<T> monotone_pieces(const bernstein<T, 3>& f) {
     const auto slope = power_derivative(f);
@@ -64,9 +61,8 @@ constexpr piece_ends<T> monotone_pieces(const bernstein<T, 3>& f) {
     return ends;
 }
 
-/// A point of [low, high] near a root of p, whose values at the two ends have opposite signs. A
-/// Newton step that leaves the bracket, or is more than half as long as the one before, becomes a
-/// halving of the bracket: so every two steps halve one of them, and 2·digits of them are enough.
+/// A point of [low, high] near a root of p, whose end values have opposite signs. A Newton step
+/// that leaves the bracket, or is not half the last one, becomes a halving: 2·digits steps suffice.
 template <class T, int N>
 constexpr T guarded_newton(const bernstein<T, N>& p, T low, T high) {
     const bernstein<T, N - 1> slope = power_derivative(p);

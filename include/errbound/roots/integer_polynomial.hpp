@@ -2,8 +2,8 @@
 // division, common factors.
 //
 // Coefficients ascend in the power basis; the last one is not zero; empty is identically zero.
-// Integer is an exact type with + − × / % << >>, comparison, abs(), gcd(), msb() and lsb() found by
-// argument-dependent lookup (Boost.Multiprecision's integers).
+// Integer is an exact type with + − × / % << >>, comparison, and abs(), gcd(), msb() and lsb()
+// found by argument-dependent lookup (as Boost.Multiprecision's).
 #pragma once
 
 #include <algorithm>
@@ -24,7 +24,7 @@ namespace errbound::roots {
 template <exact_number Integer>
 using integer_form = std::vector<Integer>;
 
-/// −1, 0 or 1, as counts of sign changes take it.
+/// −1, 0 or 1, for counts of sign changes.
 template <exact_number Integer>
 int sign(const Integer& x) {
     return x == 0 ? 0 : x > 0 ? 1 : -1;
@@ -35,7 +35,7 @@ void trim(integer_form<Integer>& p) {
     while (!p.empty() && p.back() == 0) p.pop_back();
 }
 
-/// p divided by the (positive) greatest common divisor of its coefficients.
+/// Divides p by the (positive) greatest common divisor of its coefficients.
 template <class Integer>
 void make_primitive(integer_form<Integer>& p) {
     Integer content = 0;
@@ -54,19 +54,18 @@ integer_form<Integer> derivative(const integer_form<Integer>& p) {
     return d;
 }
 
-/// p(−x)
 template <class Integer>
 integer_form<Integer> mirrored(integer_form<Integer> p) {
     for (std::size_t i = 1; i < p.size(); i += 2) p[i] = -p[i];
     return p;
 }
 
-/// a = quotient·b; empty if b, which is not zero, does not divide a over the integers.
-/// Proof: proofs/CommonFactor.v, divided_right.
+/// a/b; empty if b ≠ 0 does not divide a over the integers. Proof: proofs/CommonFactor.v,
+/// divided_right.
 template <class Integer>
 integer_form<Integer> divided(integer_form<Integer> a, const integer_form<Integer>& b) {
     integer_form<Integer> quotient(a.size() < b.size() ? 0 : a.size() - b.size() + 1);
-    Integer term;  // kept, so that it allocates once
+    Integer term;  // reuses its memory
     for (std::size_t k = quotient.size(); k-- > 0;) {
         Integer& factor = quotient[k];
         factor = a[k + b.size() - 1];
@@ -84,7 +83,6 @@ integer_form<Integer> divided(integer_form<Integer> a, const integer_form<Intege
     return quotient;
 }
 
-/// x^n
 template <class Integer>
 Integer power(Integer x, std::size_t n, work_meter& meter) {
     if (n == 1) return x;
@@ -97,17 +95,15 @@ Integer power(Integer x, std::size_t n, work_meter& meter) {
     }
 }
 
-/// The value at a point.
 template <class Integer>
 dyadic<Integer> value_at(const integer_form<Integer>& p, const dyadic<Integer>& x,
                          work_meter& meter) {
     if (p.empty()) return {};
-    // Horner's rule for the integer p(m·2^e)·2^(−e·n), or for p itself where e >= 0; over
-    // coefficients that are zero at once.
+    // Horner's rule for the integer p(m·2^e)·2^(−e·n), or for p if e >= 0; skips runs of zeros.
     const int e = (std::min)(x.exponent(), 0);
     const Integer m = x.in_units(e);
     Integer sum = p.back();
-    Integer term;  // kept, so that it allocates once
+    Integer term;  // reuses its memory
     unsigned shift = 0;
     std::size_t done = p.size() - 1;
     for (std::size_t i = done; i-- > 0;) {
@@ -132,8 +128,7 @@ dyadic<Integer> value_at(const integer_form<Integer>& p, const dyadic<Integer>& 
     return value_at(p, x, unlimited);
 }
 
-/// The value at a point to within 2^-bits of it, or exactly. Values of more and more bits come
-/// first where the exact one is long.
+/// The value at x within 2^-bits of it, or exactly. Long exact values come last.
 template <class Integer>
 nearby_value<Integer> value_within(const integer_form<Integer>& p, const dyadic<Integer>& x,
                                    int bits, work_meter& meter) {
@@ -156,9 +151,8 @@ sign_type sign_at(const integer_form<Integer>& p, const dyadic<Integer>& x) {
     return sign_at(p, x, unlimited);
 }
 
-/// The numbers 1/C(n, i), times the least common multiple of the C(n, i). For n <= 40, 64 bits hold
-/// them (the multiple is lcm(1, ..., n + 1)/(n + 1)).
-/// Proof: proofs/ControlValues.v, weights_right, weights_fit.
+/// 1/C(n, i) times the least common multiple of the C(n, i), which is lcm(1, ..., n + 1)/(n + 1)
+/// and fits 64 bits for n <= 40. Proof: proofs/ControlValues.v, weights_right, weights_fit.
 template <class Number>
 std::vector<Number> inverse_binomials(std::size_t n) {
     using std::gcd;
@@ -186,7 +180,7 @@ integer_form<Integer> control_values_on(integer_form<Integer> p, const dyadic<In
         const std::size_t power = e >= 0 ? i : n - i;
         p[i] <<= static_cast<unsigned>(power) * static_cast<unsigned>(e >= 0 ? e : -e);
     }
-    Integer term;  // kept, so that it allocates once
+    Integer term;  // reuses its memory
     if (start != 0)
         for (std::size_t i = 0; i < n; ++i) {
             meter.poll();
@@ -223,7 +217,6 @@ integer_form<Integer> control_values_on(integer_form<Integer> p, const dyadic<In
     return control_values_on(std::move(p), low, high, unlimited);
 }
 
-/// x modulo the field's prime.
 template <class Integer>
 std::uint64_t residue(const Integer& x, const prime_field& field) {
     const auto p = static_cast<std::int64_t>(field.modulus());
@@ -235,7 +228,7 @@ std::uint64_t residue(const Integer& x, const prime_field& field) {
     return static_cast<std::uint64_t>(rest < 0 ? rest + p : rest);
 }
 
-/// The coefficients' residues, each divided by R: those of a multiple of p, in Montgomery's form.
+/// The coefficients' residues divided by R, which are a multiple of p in Montgomery's form.
 template <class Integer>
 std::vector<std::uint64_t> residues(const integer_form<Integer>& p, const prime_field& field) {
     std::vector<std::uint64_t> r;
@@ -244,13 +237,12 @@ std::vector<std::uint64_t> residues(const integer_form<Integer>& p, const prime_
     return r;
 }
 
-/// The residue of the value at x, times 2^(−e·n) where x is a multiple of 2^e and no higher power
-/// and e < 0, from p's residues: not zero only where the value is not.
-/// Proof: proofs/PrimeField.v, value_modulo_right.
+/// The residue of the value at x, times 2^(−e·n) for e < 0, where 2^e is the highest power dividing
+/// x. If nonzero, the value is not zero. Proof: proofs/PrimeField.v, value_modulo_right.
 template <class Integer>
 std::uint64_t value_at(const std::vector<std::uint64_t>& residues, const prime_field& field,
                        const dyadic<Integer>& x) {
-    // Horner's rule for p(m·2^e)·2^(−e·n), or for p itself where e >= 0.
+    // Horner's rule for p(m·2^e)·2^(−e·n), or for p if e >= 0.
     const int e = x.exponent();
     const std::uint64_t two = field.add(field.one(), field.one());
     const std::uint64_t power = field.power(two, static_cast<std::uint64_t>(e < 0 ? -e : e));
@@ -263,14 +255,12 @@ std::uint64_t value_at(const std::vector<std::uint64_t>& residues, const prime_f
     return sum;
 }
 
-/// A polynomial known modulo a product of primes (Chinese remainders), by its coefficients of
-/// least size.
+/// A polynomial modulo a product of primes (Chinese remainders), by its least coefficients.
 template <class Integer>
 struct remainders {
     integer_form<Integer> p;
     Integer modulus = 1;
 
-    /// Adds residues modulo another prime.
     void add(const std::vector<std::uint64_t>& r, const prime_field& field) {
         const auto inverse = field.inverse(field.to_form(residue(modulus, field)));
         const Integer next = modulus * Integer(field.modulus()), half = next / 2;
@@ -284,7 +274,7 @@ struct remainders {
         }
         modulus = next;
     }
-    /// Whether the modulus is likely to be large enough: all coefficients are far below it.
+    /// True if the modulus is probably large enough: all coefficients are far below it.
     bool decided() const {
         const Integer bound = modulus >> 12U;
         return std::all_of(p.begin(), p.end(),
@@ -292,7 +282,7 @@ struct remainders {
     }
 };
 
-/// Whether p, primitive, is found to have no multiple roots.
+/// True if p, primitive, certainly has no multiple roots.
 template <class Integer>
 bool surely_squarefree(const integer_form<Integer>& p, work_meter& meter) {
     const prime_field field(large_prime(0));
@@ -305,10 +295,10 @@ bool surely_squarefree(const integer_form<Integer>& p, work_meter& meter) {
 
 /// The greatest common divisor, primitive; empty only if both are identically zero.
 ///
-/// By images modulo primes (W. S. Brown, On Euclid's algorithm and the computation of polynomial
-/// greatest common divisors, JACM 18, 1971): their degree is at least that of the divisor sought,
-/// so coprime polynomials are found out by the first prime; a divisor put together from several is
-/// checked by division. Proof: proofs/CommonFactor.v, common_factor_right, common_factor_divides.
+/// Uses images modulo primes (W. S. Brown, On Euclid's algorithm and the computation of polynomial
+/// greatest common divisors, JACM 18, 1971). Their degree is at least the divisor's, so one prime
+/// detects coprime polynomials. A divisor combined from several primes is verified by division.
+/// Proof: proofs/CommonFactor.v, common_factor_right, common_factor_divides.
 template <exact_number Integer>
 integer_form<Integer> common_factor(integer_form<Integer> a, integer_form<Integer> b,
                                     work_meter& meter) {
@@ -328,7 +318,7 @@ integer_form<Integer> common_factor(integer_form<Integer> a, integer_form<Intege
         if (image.size() == 1) return {Integer(1)};
         if (!found.p.empty() && image.size() > found.p.size()) continue;
         if (image.size() < found.p.size()) found = {};
-        // Its last coefficient becomes `lead`, a multiple of that of the divisor sought.
+        // Its last coefficient becomes `lead`, a multiple of the divisor's.
         const std::uint64_t factor =
             field.multiply(residue(lead, field), field.inverse(image.back()));
         for (auto& c : image) c = field.multiply(c, factor);
@@ -347,12 +337,11 @@ integer_form<Integer> common_factor(integer_form<Integer> a, integer_form<Intege
     return common_factor(std::move(a), std::move(b), unlimited);
 }
 
-/// Square-free polynomials f_1, f_2, ... of positive degree: a root of multiplicity m of p, which
-/// is not constant, is a root of f_1 to f_m and of no other. Each divides the one before it.
-///
-/// `most` limits their number. Cost where p has no multiple roots: that of Euclid's algorithm
-/// modulo one prime. Proof: proofs/CommonFactor.v, chain_multiplicities, cofactors_rootless; that
-/// the first has all roots of p: proofs/RootIsolation.v, squarefree_part_roots.
+/// Square-free polynomials f_1, f_2, ..., each dividing the one before: a root of multiplicity m of
+/// p is a root of exactly f_1 to f_m. At most `most`. Precondition: p is not constant. Cost without
+/// multiple roots: Euclid's algorithm modulo one prime. Proof: proofs/CommonFactor.v,
+/// chain_multiplicities, cofactors_rootless; that the first has all roots of p:
+/// proofs/RootIsolation.v, squarefree_part_roots.
 template <exact_number Integer>
 std::vector<integer_form<Integer>> squarefree_chain(integer_form<Integer> p, std::size_t most,
                                                     work_meter& meter) {

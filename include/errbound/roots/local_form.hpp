@@ -1,6 +1,5 @@
-// A polynomial near some place: its Taylor coefficients on a part of the line, cut to as many bits
-// as are asked for, and the signs of its Bernstein coefficients there. On a short part few
-// coefficients count, so that going deeper costs less and less.
+// A polynomial on an interval: truncated Taylor coefficients, and signs of its Bernstein
+// coefficients. Few coefficients matter on short intervals, so deeper ones cost less.
 #pragma once
 
 #include <algorithm>
@@ -14,13 +13,13 @@
 
 namespace errbound::roots {
 
-/// mantissa·2^exponent, cut towards zero to some number of bits.
+/// mantissa·2^exponent, truncated towards zero.
 template <class Integer>
 struct cut_number {
     Integer mantissa;
     int exponent = 0;
 
-    /// What is not zero.
+    /// Precondition: the number is not zero.
     void cut(int bits) {
         const int excess = floor_log2(mantissa) + 1 - bits;
         if (excess <= 0) return;
@@ -29,26 +28,26 @@ struct cut_number {
     }
 };
 
-/// A row of numbers, each within `error` of what it stands for.
+/// Numbers, each within `error` of the exact one.
 template <class Integer>
 struct approximate_row {
     integer_form<Integer> values;
     Integer error;
 };
 
-/// p(low + width·u) = c·Σ a_j u^j for a positive c, with integers kept for the first a_j, each
-/// within `error` of it; the others are within `error` of 0.
+/// p(low + width·u) = c·Σ a_j u^j for a positive c. Stores the first a_j, as integers within
+/// `error`; the others are within `error` of 0.
 template <exact_number Integer>
 class local_form {
   public:
     using form = integer_form<Integer>;
     using point = dyadic<Integer>;
 
-    /// 0 < low, 0 < width. The error is about 2^(−bits) of p's largest term at `low`.
+    /// The error is about 2^(−bits) of p's largest term at `low`. Precondition: 0 < low, 0 < width.
     ///
-    /// Cost: degree multiplications of numbers of so many bits, and degree additions for each
-    /// coefficient kept. `meter`, which outlives this, is polled for each row of these, in later
-    /// calls, too. Proof: proofs/TaylorCoefficients.v, taylor_right.
+    /// Cost: degree multiplications of numbers of `bits` bits, and degree additions per coefficient
+    /// kept. `meter` is polled for each row of these, also in later calls, and must outlive this.
+    /// Proof: proofs/TaylorCoefficients.v, taylor_right.
     local_form(const form& p, const point& low, const point& width, int bits,
                work_meter* meter = nullptr)
         : degree_(static_cast<int>(p.size()) - 1), bits_(bits), meter_(meter) {
@@ -65,18 +64,18 @@ class local_form {
         error_ = Integer(4) << static_cast<unsigned>(lost);
     }
 
-    /// Bits of the largest numbers that this constructor computes with.
+    /// Bits of the largest numbers in this constructor.
     static std::int64_t precision(std::size_t size, const point& low, const point& width,
                                   int bits) {
         return bits + error_bits(size, ratio_exponent(low, width));
     }
 
-    /// On u = (from + length·v)/2^depth, v in [0, 1]; 0 <= from, 0 < length, from + length <=
-    /// 2^depth. Proof: proofs/LocalForm.v, part_right, dropped_right.
+    /// On u = (from + length·v)/2^depth, v in [0, 1]. Precondition: 0 <= from, 0 < length, from +
+    /// length <= 2^depth. Proof: proofs/LocalForm.v, part_right, dropped_right.
     local_form part(const Integer& from, const Integer& length, int depth) const {
         local_form result = *this;
         form& a = result.a_;
-        Integer term;  // kept, so that it allocates once
+        Integer term;  // reuses its memory
         if (from != 0)
             for (std::size_t i = 0; i + 1 < a.size(); ++i) {
                 poll();
@@ -91,24 +90,24 @@ class local_form {
             power *= length;
             a[j] = shifted(Integer(a[j] * power), -depth * static_cast<int>(j));
         }
-        // What is off by e in a_i is off by at most e in each new coefficient, as from + length <=
-        // 2^depth; and so is each of the cuts.
+        // An error e in a_i adds at most e to each new one: from + length <= 2^depth. So do
+        // truncations.
         result.error_ = error_ * Integer(degree_ + 1) + Integer(a.size() * a.size());
         result.drop_small_terms();
         return result;
     }
 
-    /// The Bernstein coefficients times C(n, i), up to a positive factor, from the a_j cut to this
-    /// many bits of the largest. The i-th is within error·C(n + 1, i), here called its margin: of
-    /// the errors of a_j there are C(n − j, i − j) in it. Proof: proofs/LocalForm.v, cut_right.
+    /// The Bernstein coefficients times C(n, i), up to a positive factor, from the a_j truncated to
+    /// this many bits of the largest. The i-th is within its margin, error·C(n + 1, i), as it has
+    /// C(n − j, i − j) of the error of a_j. Proof: proofs/LocalForm.v, cut_right.
     approximate_row<Integer> scaled_coefficients(int bits) const {
         int excess = 0;
         for (const Integer& a : a_) excess = (std::max)(excess, bits_of(a) - bits);
         return {scaled_coefficients(static_cast<std::size_t>(degree_), excess),
                 excess > 0 ? Integer(shifted(error_, -excess) + 2) : error_};
     }
-    /// The Bernstein coefficients, up to a positive factor.
-    /// Proof: proofs/LocalForm.v, coefficients_right, row_signs_of_coefficients.
+    /// The Bernstein coefficients, up to a positive factor. Proof: proofs/LocalForm.v,
+    /// coefficients_right, row_signs_of_coefficients.
     approximate_row<Integer> coefficients(int bits) const {
         auto row = scaled_coefficients(bits);
         Integer binomial = 1;
@@ -120,8 +119,7 @@ class local_form {
         row.error = row.error * Integer(row.values.size()) + 1;
         return row;
     }
-    /// The signs of the Bernstein coefficients, 0 where uncertain, from the a_j cut to this many
-    /// bits of the largest. Proof: proofs/LocalForm.v, signs_right.
+    /// Signs of scaled_coefficients(bits), 0 if uncertain. Proof: proofs/LocalForm.v, signs_right.
     std::vector<signed char> signs(int bits) const {
         const auto h = scaled_coefficients(bits);
         std::vector<signed char> result;
@@ -136,9 +134,8 @@ class local_form {
         return result;
     }
 
-    /// Whether the values on all of [0, 1] are found to be beyond the error, by the Bernstein
-    /// coefficients of what is kept: that takes few operations where little is kept.
-    /// Proof: proofs/LocalForm.v, surely_rootless_right.
+    /// True if all values on [0, 1] certainly exceed the error, by the Bernstein coefficients of
+    /// the stored terms. Cheap if few are stored. Proof: proofs/LocalForm.v, surely_rootless_right.
     bool surely_rootless() const {
         const form h = scaled_coefficients(a_.size() - 1, 0);
         Integer margin = error_ * Integer(degree_ + 1);
@@ -151,7 +148,7 @@ class local_form {
         return true;
     }
 
-    /// Bits by which the values at both ends exceed the error; at least 0.
+    /// Bits by which both end values exceed the error; at least 0.
     int certain_bits() const {
         const int least = (std::min)(bits_of(a_[0]), bits_of(value_at_end()));
         return (std::max)(0, least - bits_of(error_));
@@ -159,7 +156,7 @@ class local_form {
 
     int degree() const { return degree_; }
     int bits() const { return bits_; }
-    /// Whether few bits, of those asked for, are spent on the terms being larger at one end.
+    /// True if terms larger at one end cost less than half of the requested bits.
     bool ends_are_alike() const { return bits_of(error_) < bits_ / 2; }
     /// Proof: proofs/LocalForm.v, low_end_right, high_end_right.
     bool low_end_is_certain() const { return abs(a_[0]) > error_; }
@@ -181,7 +178,7 @@ class local_form {
     void poll() const {
         if (meter_ != nullptr) meter_->poll();
     }
-    /// Σ a_j t^j (s + t)^(n − j) for a_j cut by some bits: the coefficients of s^(n − i) t^i.
+    /// Σ a_j t^j (s + t)^(n − j) for truncated a_j: the coefficients of s^(n − i) t^i.
     form scaled_coefficients(std::size_t n, int cut) const {
         form h{shifted(a_[0], -cut)};
         h.reserve(n + 1);
@@ -195,8 +192,7 @@ class local_form {
     }
     static int bits_of(const Integer& x) { return x == 0 ? 0 : floor_log2(x) + 1; }
 
-    /// c_i·low^i in a common unit, the largest of about this many bits, each off by 3 at most.
-    /// Proof: proofs/TaylorCoefficients.v, terms_right.
+    /// c_i·low^i in a common unit, each within 3. Proof: proofs/TaylorCoefficients.v, terms_right.
     static form terms(const form& p, const point& low, int bits, int count_bits) {
         const int precision = bits + count_bits + 1;
         std::vector<cut_number<Integer>> all;
@@ -223,11 +219,11 @@ class local_form {
     }
 
     static int bits_of_count(std::size_t size) { return static_cast<int>(std::bit_width(size)); }
-    /// width < low·2^(this).
+    /// width < low·2^(result).
     static int ratio_exponent(const point& low, const point& width) {
         return floor_log2(width) - floor_log2(low) + 1;
     }
-    /// How many of so many coefficients exceed the error, at most.
+    /// At most this many of `size` coefficients exceed the error.
     static std::size_t kept_terms(std::size_t size, int precision, int ratio) {
         const int falling = -(ratio + bits_of_count(size));
         if (falling <= 0) return size;
@@ -235,7 +231,6 @@ class local_form {
             size, static_cast<std::size_t>((precision + bits_of_count(size)) / falling + 2));
     }
 
-    /// a_j becomes a_j·(width/low)^j.
     void scale(const point& low, const point& width, int precision) {
         const int shift = precision + floor_log2(low.numerator()) - floor_log2(width.numerator());
         cut_number<Integer> ratio{shifted(width.numerator(), shift),
@@ -251,8 +246,8 @@ class local_form {
         }
     }
 
-    /// log2 of a bound of all C(n + 1, j + 1)·(width/low)^j.
-    /// Proof: proofs/TaylorCoefficients.v, error_bits_right.
+    /// log2 of a bound of C(n + 1, j + 1)·(width/low)^j. Proof: proofs/TaylorCoefficients.v,
+    /// error_bits_right.
     static std::int64_t error_bits(std::size_t size, int ratio) {
         if (ratio + bits_of_count(size) <= 0) return bits_of_count(size);
         const auto count = static_cast<std::int64_t>(size);

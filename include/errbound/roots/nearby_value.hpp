@@ -1,8 +1,5 @@
-// Values of polynomials to a number of bits, with a bound of the error. They decide signs at points
-// where exact values have millions of bits.
-//
-// Cost: a product of numbers of that many bits for each coefficient that is not zero, and a few for
-// each gap between such coefficients.
+// Values of polynomials with error bounds, for signs at points where exact values have millions of
+// bits. Cost: a product of numbers of `bits` bits per nonzero coefficient and gap.
 #pragma once
 
 #include <algorithm>
@@ -16,25 +13,21 @@
 
 namespace errbound::roots {
 
-/// A number x with |x − value·2^exponent| <= error·2^exponent.
-/// Proof: proofs/NearbyValue.v, near_exact, near_product, near_sum, near_shifted, near_cut,
-/// near_widened, near_sign.
+/// A number x with |x − value·2^exponent| <= error·2^exponent. Proof: proofs/NearbyValue.v,
+/// near_exact, near_product, near_sum, near_shifted, near_cut, near_widened, near_sign.
 template <exact_number Integer>
 struct nearby_value {
     Integer value = 0, error = 0;
     std::int64_t exponent = 0;
 
-    /// True if the error is at most 2^-bits of the value.
     bool is_within(int bits) const {
         return error == 0 || Integer(error << static_cast<unsigned>(bits)) < Integer(abs(value));
     }
-    /// The certain sign.
     sign_type sign() const { return is_within(0) ? sign_of(value) : sign_type::uncertain; }
-    /// ⌊log2 |value·2^exponent|⌋ for a value that is not zero.
+    /// ⌊log2 |value·2^exponent|⌋. Precondition: the value is not zero.
     std::int64_t log2() const { return floor_log2(value) + exponent; }
 
-    /// Drops bits beyond the leading ones of the value or of the error: one unit of error for
-    /// those of the value, one for those of the error.
+    /// Drops bits beyond the leading ones of the value or error; adds a unit of error for each.
     void cut(int bits) {
         const int excess =
             (std::max)(value == 0 ? 0 : floor_log2(value), error == 0 ? 0 : floor_log2(error)) -
@@ -55,13 +48,13 @@ struct nearby_value {
     }
 };
 
-/// a + b, each cut to about this many bits of the larger one first.
+/// a + b, each first cut to about this many bits of the larger one.
 template <exact_number Integer>
 nearby_value<Integer> sum(nearby_value<Integer> a, nearby_value<Integer> b, int bits) {
     if (a.value == 0 && a.error == 0) return b;
     if (b.value == 0 && b.error == 0) return a;
     if (a.exponent < b.exponent) std::swap(a, b);
-    // a, of the higher exponent, is shifted up as far as it has room.
+    // Shift a, of the higher exponent, up as far as there is room.
     const int size =
         (std::max)(a.value == 0 ? 0 : floor_log2(a.value), a.error == 0 ? 0 : floor_log2(a.error));
     const std::int64_t distance = a.exponent - b.exponent,
@@ -74,7 +67,7 @@ nearby_value<Integer> sum(nearby_value<Integer> a, nearby_value<Integer> b, int 
                                             b.error == 0 ? 0 : floor_log2(b.error)) +
                                  1;
         b.drop(static_cast<int>((std::min)(down, all)));
-        b.exponent = a.exponent;  // nothing but the error is left if fewer bits were dropped
+        b.exponent = a.exponent;  // with fewer bits dropped, only the error is left
     }
     a.value += b.value;
     a.error += b.error;
@@ -117,7 +110,7 @@ nearby_value<Integer> value_near(const std::vector<Integer>& p, const dyadic<Int
     return result;
 }
 
-/// The bits of p(x), about: its numerator's in Horner's rule.
+/// Approximate bits of p(x): its numerator's in Horner's rule.
 template <exact_number Integer>
 std::int64_t bits_of_value(const std::vector<Integer>& p, const dyadic<Integer>& x) {
     if (x.is_zero()) return 0;

@@ -1,5 +1,4 @@
-// Polynomials as users write them, and as the two stages of errbound/roots/real_roots.hpp want
-// them.
+// Polynomials of users, and their form for the two stages of errbound/roots/real_roots.hpp.
 #pragma once
 
 #include <algorithm>
@@ -18,13 +17,12 @@
 
 namespace errbound {
 
-/// Σ c_i x^i. Coefficients are finite.
+/// Σ c_i x^i. Precondition (asserted): coefficients are finite.
 template <class Coefficient>
 class polynomial {
   public:
     using coefficient_type = Coefficient;
 
-    /// Identically zero.
     polynomial() = default;
     polynomial(std::initializer_list<Coefficient> c) : polynomial(std::vector<Coefficient>(c)) {}
     explicit polynomial(std::vector<Coefficient> c) : c_(std::move(c)) {
@@ -33,14 +31,13 @@ class polynomial {
                 std::all_of(c_.begin(), c_.end(), [](Coefficient x) { return std::isfinite(x); }));
     }
 
-    /// In ascending order.
     const std::vector<Coefficient>& coefficients() const& { return c_; }
     std::vector<Coefficient> coefficients() && { return std::move(c_); }
 
   private:
     std::vector<Coefficient> c_;
 };
-/// Of numbers of several types, as in {1, 2.5}: those of the one that holds all.
+/// Mixed types, as in {1, 2.5}, become their common type.
 template <class... Numbers>
 polynomial(Numbers...) -> polynomial<std::common_type_t<Numbers...>>;
 
@@ -48,23 +45,21 @@ polynomial(Numbers...) -> polynomial<std::common_type_t<Numbers...>>;
 
 namespace errbound::roots {
 
-/// What the floating-point stage computes with.
 using floating_coefficient = tracked<double, tight>;
 
-/// Exactly the doubles, without zeros at the end.
+/// The exact doubles, without zeros at the end.
 inline std::vector<floating_coefficient> floating_coefficients(const std::vector<double>& p) {
     std::vector<floating_coefficient> c(p.begin(), p.end());
     while (!c.empty() && c.back().value() == 0) c.pop_back();
     return c;
 }
-/// Those of p or, where double's range asks for it, of a positive multiple of p, within bounds;
-/// zero is exact, and zeros at the end are left out.
+/// The coefficients of p, or of a positive multiple in range, within bounds. Zeros are exact.
 template <exact_number Integer>
 std::vector<floating_coefficient> floating_coefficients(const integer_form<Integer>& p) {
     constexpr double epsilon = number_traits<double>::epsilon();
     std::size_t size = p.size();
     while (size > 0 && p[size - 1] == 0) --size;
-    // Asked first: types may throw where a conversion overflows, as Boost 1.83 does.
+    // Test first: some types throw on overflowing conversions, as Boost 1.83 does.
     int unit = 0;
     for (std::size_t i = 0; i < size; ++i)
         if (p[i] != 0) unit = (std::max)(unit, floor_log2(p[i]));
@@ -89,7 +84,7 @@ std::vector<floating_coefficient> floating_coefficients(const integer_form<Integ
     return c;
 }
 
-/// How many coefficients at the beginning are exactly zero: the multiplicity of the root 0.
+/// Number of leading coefficients that are exactly zero: the multiplicity of the root 0.
 inline std::size_t leading_zeros(const std::vector<floating_coefficient>& c) {
     const auto first = std::find_if(c.begin(), c.end(), [](const floating_coefficient& x) {
         return x.value() != 0 || x.error() != 0;
@@ -97,15 +92,14 @@ inline std::size_t leading_zeros(const std::vector<floating_coefficient>& c) {
     return static_cast<std::size_t>(first - c.begin());
 }
 
-/// One polynomial for both stages: exact, and in floating point with error bounds.
+/// A polynomial for both stages: exact, and in floating point with error bounds.
 template <exact_number Integer>
 class staged_polynomial {
   public:
     using number = floating_coefficient;
 
-    /// Identically zero.
     staged_polynomial() = default;
-    /// Of finite doubles, which are exact; integers are made of them when asked for.
+    /// From finite doubles, which are exact; integers are computed on demand.
     explicit staged_polynomial(const std::vector<double>& coefficients)
         : floating_(floating_coefficients(coefficients)) {}
     explicit staged_polynomial(integer_form<Integer> p)
@@ -122,7 +116,7 @@ class staged_polynomial {
             int unit = (std::numeric_limits<int>::max)();
             for (const number& c : floating_)
                 unit = (std::min)(unit, integers::binary_double(c.value()).last_bit());
-            integer_form<Integer> all;  // put in its place whole: memory may run out before
+            integer_form<Integer> all;  // assigned as a whole: memory may run out before
             for (const number& c : floating_)
                 all.push_back(dyadic<Integer>::from(c.value()).in_units(unit));
             exact_ = std::move(all);
@@ -130,7 +124,7 @@ class staged_polynomial {
         return exact_;
     }
 
-    /// Divides by x as often as that goes; how often.
+    /// Divides by x as often as possible; returns how often.
     int divide_by_x() {
         const auto count = static_cast<std::ptrdiff_t>(leading_zeros(floating_));
         if (count == 0) return 0;
@@ -144,21 +138,21 @@ class staged_polynomial {
     integer_form<Integer> exact_;
 };
 
-/// p with its coefficients as both stages want them; a positive multiple where they are rational.
+/// p for both stages; a positive multiple if coefficients are rational.
 template <class Integer, class C>
 staged_polynomial<Integer> staged(const polynomial<C>& p) {
     const std::vector<C>& c = p.coefficients();
     if constexpr (std::is_floating_point_v<C>) {
         static_assert(std::numeric_limits<C>::digits <= std::numeric_limits<double>::digits,
-                      "errbound: floating-point coefficients are float or double");
+                      "errbound: floating-point coefficients must be float or double");
         return staged_polynomial<Integer>(std::vector<double>(c.begin(), c.end()));
     } else if constexpr (std::numeric_limits<C>::is_integer) {
         return staged_polynomial<Integer>(integer_form<Integer>(c.begin(), c.end()));
     } else {
         static_assert(
             exact_number<C>,
-            "errbound: coefficients are float, double or exact numbers; tracked ones go to "
-            "count_roots(p, a, b)");
+            "errbound: coefficients must be float, double or exact numbers; for tracked ones "
+            "only count_roots(p, a, b)");
         Integer common = 1;
         for (const C& x : c) common = lcm(common, Integer(denominator(x)));
         integer_form<Integer> whole;
@@ -168,7 +162,6 @@ staged_polynomial<Integer> staged(const polynomial<C>& p) {
     }
 }
 
-/// The value by Horner's rule.
 template <class Number>
 Number value_at(const std::vector<Number>& coefficients, const Number& x) {
     Number sum(0);

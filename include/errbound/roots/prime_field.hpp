@@ -1,8 +1,6 @@
-// Arithmetic modulo a prime of 62 bits, and greatest common divisors of polynomials there: what
-// makes greatest common divisors over the integers cheap (errbound/roots/integer_polynomial.hpp).
-//
-// Montgomery's form: a residue a is kept as a·R modulo p, R = 2^64. (P. L. Montgomery, Modular
-// multiplication without trial division, Math. Comp. 44, 1985.)
+// Arithmetic and greatest common divisors of polynomials modulo a prime of 62 bits. Montgomery's
+// form: a residue a is stored as a·R modulo p, R = 2^64. (P. L. Montgomery, Modular multiplication
+// without trial division, Math. Comp. 44, 1985.)
 #pragma once
 
 #include <algorithm>
@@ -16,7 +14,7 @@
 
 namespace errbound::roots {
 
-/// A product modulo a prime, counted as so many operations.
+/// Cost of a product modulo a prime, in operations.
 inline constexpr std::uint64_t operations_of_product = 4;
 
 class prime_field {
@@ -24,19 +22,18 @@ class prime_field {
     using word = std::uint64_t;
     using double_word = integers::words::double_word;
 
-    /// p < 2^62 odd, more than 2.
-    /// Proof: proofs/PrimeField.v, negative_inverse_right, constants_right.
+    /// Precondition: p < 2^62 odd, above 2. Proof: proofs/PrimeField.v, negative_inverse_right,
+    /// constants_right.
     explicit constexpr prime_field(word p) : p_(p) {
-        word inverse = p;  // right modulo 2^3; each step doubles the number of right bits
+        word inverse = p;  // right modulo 2^3; each step doubles the correct bits
         for (int i = 0; i < 5; ++i) inverse *= 2 - p * inverse;
         negative_inverse_ = 0 - inverse;
         one_ = (0 - p) % p;
         square_ = static_cast<word>(double_word(one_) * one_ % p);
     }
 
-    // Proof that zero is kept as zero, and nothing else is: proofs/PrimeField.v, nonzero_form; of
-    // sums, differences and what leads in and out of the form: field_add, field_subtract,
-    // field_forms.
+    // Proof that exactly zero is stored as zero: proofs/PrimeField.v, nonzero_form; of sums,
+    // differences and conversions: field_add, field_subtract, field_forms.
     constexpr word modulus() const { return p_; }
     constexpr word one() const { return one_; }
     constexpr word add(word a, word b) const { return a + b >= p_ ? a + b - p_ : a + b; }
@@ -50,7 +47,7 @@ class prime_field {
     }
     /// (a·b − c·d)/R. Proof: proofs/PrimeField.v, field_multiply_and_subtract.
     constexpr word multiply_and_subtract(word a, word b, word c, word d) const {
-        // Below 2p², so that the sum is below 2p² + pR and the quotient below 3p/2.
+        // Below 2p², so the sum is below 2p² + pR and the quotient below 3p/2.
         const double_word t = double_word(a) * b + double_word(c) * (p_ - d);
         const word m = static_cast<word>(t) * negative_inverse_;
         const word r = static_cast<word>((t + double_word(m) * p_) >> 64);
@@ -67,15 +64,15 @@ class prime_field {
         }
         return result;
     }
-    /// 1/a, for a not 0.
+    /// 1/a. Precondition: a is not 0.
     constexpr word inverse(word a) const { return power(a, p_ - 2); }
 
   private:
     word p_, negative_inverse_ = 0, one_ = 0, square_ = 0;
 };
 
-/// Miller–Rabin for odd n < 2^62, n > 37: with these bases it is a proof (J. Sorenson, J. Webster,
-/// Strong pseudoprimes to twelve prime bases, Math. Comp. 86, 2017).
+/// Miller–Rabin. Precondition: n odd, 37 < n < 2^62; then these bases are a proof (J. Sorenson, J.
+/// Webster, Strong pseudoprimes to twelve prime bases, Math. Comp. 86, 2017).
 constexpr bool is_prime(std::uint64_t n) {
     const prime_field field(n);
     const std::uint64_t minus_one = field.subtract(0, field.one());
@@ -94,7 +91,6 @@ constexpr bool is_prime(std::uint64_t n) {
     return true;
 }
 
-/// The largest primes below 2^62.
 inline constexpr std::array large_primes = [] {
     std::array<std::uint64_t, 4> primes{57, 87, 117, 143};
     for (auto& p : primes) p = (std::uint64_t(1) << 62) - p;
@@ -107,7 +103,7 @@ constexpr std::uint64_t prime_before(std::uint64_t p) {
     while (!is_prime(p));
     return p;
 }
-/// The k-th of all that count down from there.
+/// The k-th largest prime below 2^62.
 constexpr std::uint64_t large_prime(std::size_t k) {
     if (k < large_primes.size()) return large_primes[k];
     std::uint64_t p = large_primes.back();
@@ -115,7 +111,6 @@ constexpr std::uint64_t large_prime(std::size_t k) {
     return p;
 }
 
-/// The derivative modulo p, in Montgomery's form as the polynomial is.
 inline std::vector<std::uint64_t> derivative(const prime_field& field,
                                              const std::vector<std::uint64_t>& p) {
     std::vector<std::uint64_t> d;
@@ -129,17 +124,15 @@ inline std::vector<std::uint64_t> derivative(const prime_field& field,
     return d;
 }
 
-/// A multiple, not zero, of the greatest common divisor modulo p, of polynomials in the power basis
-/// whose last coefficients are not 0. In and out: residues in Montgomery's form.
-/// Proof: proofs/CommonFactor.v, images_in_ideal.
+/// A nonzero multiple of the greatest common divisor modulo p, in the power basis and Montgomery's
+/// form. Precondition: last coefficients are not 0. Proof: proofs/CommonFactor.v, images_in_ideal.
 inline std::vector<std::uint64_t> common_factor(const prime_field& field,
                                                 std::vector<std::uint64_t> a,
                                                 std::vector<std::uint64_t> b, work_meter& meter) {
     if (a.size() < b.size()) std::swap(a, b);
     while (!b.empty()) {
         if (b.size() == 1) return b;
-        // Division takes a step for each degree, and one by a monic polynomial leaves alone what it
-        // does not reach.
+        // Each degree takes a division step; a monic divisor keeps other coefficients.
         if (a.size() > b.size() + 64) {
             const std::uint64_t inverse = field.inverse(b.back());
             for (std::uint64_t& c : b) c = field.multiply(c, inverse);

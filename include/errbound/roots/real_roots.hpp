@@ -1,8 +1,5 @@
-// Real roots of one polynomial, always exactly: floating point first
-// (errbound/roots/root_filter.hpp), integers for what it leaves open
-// (errbound/roots/root_isolation.hpp).
-//
-// errbound/polynomial.hpp has the calls that most users want.
+// Real roots of one polynomial, always exact: floating point first (root_filter.hpp), integers for
+// the undecided rest (root_isolation.hpp). Most users call errbound/polynomial.hpp.
 #pragma once
 
 #include <algorithm>
@@ -26,10 +23,9 @@
 
 namespace errbound::roots {
 
-/// The form Σ h_i s^(n−i) t^i of p without its roots at t = 0 and t = 1 (leading and trailing zero
-/// coefficients); empty if p is identically zero. Its coefficients are those of the power basis in
-/// x = t/s, in which (0, 1) is (0, ∞). Proof: proofs/UnboundedIntegers.v,
-/// without_end_roots_value.
+/// The form Σ h_i s^(n−i) t^i of p without its roots at t = 0 and t = 1; empty if p is identically
+/// zero. Its coefficients are power-basis coefficients in x = t/s, which maps (0, 1) to (0, ∞).
+/// Proof: proofs/UnboundedIntegers.v, without_end_roots_value.
 template <exact_number Integer, int N>
 integer_form<Integer> without_end_roots(const bernstein<Integer, N>& p) {
     std::size_t first = 0, last = N + 1;
@@ -39,7 +35,7 @@ integer_form<Integer> without_end_roots(const bernstein<Integer, N>& p) {
             p.h.begin() + static_cast<std::ptrdiff_t>(last)};
 }
 
-/// Whether [a, b] is one: with numbers in it.
+/// True if a <= b and [a, b] holds a finite number.
 inline bool is_interval(double a, double b) {
     return a <= b && a < number_traits<double>::infinity() &&
            b > -number_traits<double>::infinity();
@@ -49,10 +45,9 @@ inline bool is_interval(double a, double b) {
 
 namespace errbound {
 
-/// The number of roots of the polynomial that is identically zero.
+/// The number of roots of the zero polynomial.
 inline constexpr std::size_t infinitely_many = (std::numeric_limits<std::size_t>::max)();
 
-/// Which signs a polynomial takes.
 struct occurring_signs {
     bool negative = false, zero = false, positive = false;
 
@@ -64,8 +59,8 @@ struct occurring_signs {
     friend constexpr bool operator==(const occurring_signs&, const occurring_signs&) = default;
 };
 
-/// The distinct roots of a polynomial on a part of the line, in ascending order. What is found out
-/// of a root narrows its interval for what is asked next: not for use by two threads at once.
+/// The distinct roots of a polynomial on an interval, ascending. Calls narrow the roots' intervals,
+/// so no two threads may use an object at once.
 template <exact_number Integer>
 class real_roots {
   public:
@@ -73,16 +68,16 @@ class real_roots {
     using point = dyadic<Integer>;
     using number = typename roots::staged_polynomial<Integer>::number;
 
-    /// The roots of p in (0, ∞) by integers alone; p's first and last coefficients are not zero.
-    /// Proof: proofs/RootFinder.v, found_roots_right.
+    /// The roots of p in (0, ∞), by integers. Precondition: first and last coefficients are not
+    /// zero. Proof: proofs/RootFinder.v, found_roots_right.
     explicit real_roots(const roots::integer_form<Integer>& p) : p_(p) {
         const point zero;
         isolate(zero, exact().upper_bound());
     }
 
-    /// The roots in [a, b], a <= b, which may be infinite. Throws roots::gave_up beyond the limits,
-    /// which hold for this constructor. Only `stop` is kept: later calls that it ends throw
-    /// roots::gave_up, too, and the object stays valid.
+    /// The roots in [a, b], a <= b, possibly infinite. Throws roots::gave_up beyond the limits,
+    /// which apply to this constructor. `stop` persists: later calls that it ends throw
+    /// roots::gave_up and leave the object valid.
     real_roots(roots::staged_polynomial<Integer> p, double a, double b,
                const root_limits& limits = {})
         : p_(std::move(p)), meter_(limits) {
@@ -101,8 +96,8 @@ class real_roots {
         if (a <= 0 && 0 <= b) add_zero();
         meter_.lift();
     }
-    /// How many there are, for a < b and p not zero, where root_filter was asked for the roots
-    /// roots other than 0 and left some of these parts open. Throws roots::gave_up.
+    /// Counts roots for a < b and p not zero, after root_filter found `parts` for the roots other
+    /// than 0 and left some undecided. Throws roots::gave_up.
     static std::size_t count(roots::staged_polynomial<Integer> p, double a, double b,
                              const std::vector<roots::filtered_part>& parts,
                              const root_limits& limits = {}) {
@@ -115,23 +110,22 @@ class real_roots {
         return roots.size() + (zeros > 0 && a <= 0 && 0 <= b);
     }
 
-    /// Whether the polynomial is identically zero: all points are roots, and none is listed.
+    /// True if the polynomial is identically zero: every point is a root, and none is listed.
     bool everywhere() const { return everywhere_; }
     std::size_t size() const { return intervals_.size(); }
     const interval& operator[](std::size_t k) const {
         assert(k < size());
         return intervals_[k];
     }
-    /// Whether no integers were needed to isolate the roots.
+    /// True if isolation needed no integers.
     bool decided_by_filter() const { return decided_by_filter_; }
 
-    /// Narrows root k's interval to at most this width. Throws std::invalid_argument unless it is
-    /// positive and finite.
+    /// Narrows root k's interval to this width. Throws std::invalid_argument unless 0 < width < ∞.
     void refine(std::size_t k, const point& width) {
         assert(k < size());
         if (sign_of(width) != sign_type::positive)
             throw std::invalid_argument(
-                "errbound::real_roots::refine: the width is not positive and finite");
+                "errbound::real_roots::refine: the width must be positive and finite");
         if (width < intervals_[k].high - intervals_[k].low) narrow(intervals_[k]);
         if (width < intervals_[k].high - intervals_[k].low)
             exact().refine(intervals_[k], width, meter_);
@@ -140,8 +134,8 @@ class real_roots {
         refine(k, point::from(std::isfinite(width) ? width : 0));
     }
 
-    /// Root k as doubles tell it: the one that it is, twice, or the two neighbours between which it
-    /// lies (one of them infinite beyond the largest). Narrows its interval.
+    /// Two adjacent doubles around root k (one of them infinite beyond the largest), or the root
+    /// twice if it is a double. Narrows its interval.
     std::pair<double, double> neighbouring_doubles(std::size_t k) {
         constexpr std::int64_t few = 64, of_one_exponent = std::int64_t(1) << 52;
         assert(k < size());
@@ -150,7 +144,7 @@ class real_roots {
         for (;;) {
             const std::int64_t low = roots::order_at_or_below(root.low),
                                high = roots::order_at_or_above(root.high);
-            // Low = high only for a point: else the root is strictly between root.low and high.
+            // low = high only for a point; otherwise the root is strictly inside.
             if (high - low <= 1) return {roots::double_of_order(low), roots::double_of_order(high)};
             if (high - low <= few || high - low > of_one_exponent)
                 exact().cut(root, point::from(roots::double_of_order(low + (high - low) / 2)),
@@ -160,8 +154,8 @@ class real_roots {
         }
     }
 
-    /// Root k rounded to the nearest double, to the even one of two; infinite from half a last
-    /// place above the largest on, and never −0. Narrows its interval.
+    /// Root k rounded to the nearest double, ties to even; infinite from half a last place above
+    /// the largest on, never −0. Narrows its interval.
     double nearest_double(std::size_t k) {
         const auto [low, high] = neighbouring_doubles(k);
         if (low == high) return low;
@@ -177,14 +171,14 @@ class real_roots {
         return is_below ? low : high;
     }
 
-    /// Root k within the bounds that floating point finds for it.
+    /// Root k with a floating-point error bound.
     number enclosure(std::size_t k) {
         assert(k < size());
         narrow(intervals_[k]);
         return enclosure(intervals_[k]);
     }
 
-    /// The sign of g at root k, exactly.
+    /// The exact sign of g at root k.
     sign_type sign_at(roots::staged_polynomial<Integer>& g, std::size_t k) {
         assert(k < size());
         interval& root = intervals_[k];
@@ -201,17 +195,17 @@ class real_roots {
         return sign_at(p, k);
     }
 
-    /// The same by integers alone.
+    /// The exact sign of g at root k, by integers only.
     sign_type sign_at_root(const roots::integer_form<Integer>& g, std::size_t k) {
         return exact().sign_at_root(g, intervals_[k], meter_);
     }
 
-    /// The signs of the polynomial on [a, b], for which these roots were asked.
+    /// The signs of the polynomial on [a, b], the interval given to the constructor.
     occurring_signs signs_on(double a, double b) {
         occurring_signs signs;
         if (everywhere_ || size() > 0) signs.zero = true;
         if (everywhere_ || (a == b && signs.zero)) return signs;
-        // At a root of odd multiplicity inside, the sign changes; otherwise there is but one.
+        // The sign changes exactly at inner roots of odd multiplicity.
         for (const interval& root : intervals_) {
             const bool at_end = root.is_point() && (is_at(root, a) || is_at(root, b));
             if (root.multiplicity % 2 == 1 && !at_end) signs.negative = signs.positive = true;
@@ -236,7 +230,7 @@ class real_roots {
         for (std::size_t i = 0; i < parts.size(); ++i) add(parts, i);
         decided_by_filter_ = !exact_;
     }
-    /// The filter's part i, together with its neighbours if it is not known.
+    /// The filter's part i; if undecided, together with adjacent undecided parts.
     void add(const std::vector<roots::filtered_part>& parts, std::size_t& i) {
         const roots::filtered_part& part = parts[i];
         if (part.has_one_root) {
@@ -252,7 +246,7 @@ class real_roots {
         }
         isolate(low, high);
     }
-    /// Both in ascending order; root bounds for infinite ends, as far as they leave anything.
+    /// Both ends, ascending; root bounds replace infinite ends, if they leave anything.
     std::pair<point, point> ends(const roots::filtered_part& part) {
         const auto end = [this](double x, double other) {
             if (std::isfinite(x)) return point::from(x);
@@ -272,7 +266,7 @@ class real_roots {
         return from < to ? std::pair{from, to} : std::pair{to, from};
     }
 
-    /// Puts the root at 0 in its place, if there is one; no other interval may hold it.
+    /// Inserts the root at 0, if any; no other interval may contain it.
     void add_zero() {
         if (zeros_ == 0) return;
         const point zero;
@@ -287,8 +281,7 @@ class real_roots {
         intervals_.insert(next, interval{zero, zero, zeros_});
     }
 
-    /// Some t >= 0 without root of p_ in [−t, t], if t > 0: with |c_i| t^i < |c_0|/2^i for i >= 1,
-    /// the sum of all these is less than |c_0|.
+    /// No root of p_ is in [−t, t]: the sum of |c_i| t^i < |c_0|/2^i for i >= 1 is below |c_0|.
     double rootless_radius() const {
         const std::vector<number>& c = p_.floating();
         const double first = std::abs(c[0].value()) - c[0].error();
@@ -297,7 +290,7 @@ class real_roots {
         for (std::size_t i = 1; i < c.size(); ++i) {
             const double size = std::abs(c[i].value()) + c[i].error();
             if (size == 0) continue;
-            // Below 2^(ilogb + 2), whatever the rounding of these two.
+            // Below 2^(ilogb + 2), however these two were rounded.
             const int quotient = std::ilogb(first) - 1 - (std::ilogb(size) + 2);
             const int degree = static_cast<int>(i);
             const int root =
@@ -306,7 +299,7 @@ class real_roots {
         }
         return std::ldexp(1.0, exponent);
     }
-    /// The root, which lies within that of a double, and no more where it is a double itself.
+    /// The root, enclosed around a double; exact if it is a double.
     static number enclosure(const interval& root) {
         using traits = number_traits<double>;
         const double low = root.low.to_double(), high = root.high.to_double();
@@ -319,7 +312,7 @@ class real_roots {
         return sign_of(roots::value_at(p_.floating(), x));
     }
 
-    /// A quarter of the distance of doubles near the interval's larger end, or less.
+    /// At most a quarter of the distance of doubles near the interval's larger end.
     static point quarter_ulp(const interval& root) {
         using limits = std::numeric_limits<double>;
         const int exponent = floor_log2((std::max)(magnitude(root.low), magnitude(root.high)));
@@ -351,7 +344,7 @@ class real_roots {
         }
         return narrowed;
     }
-    /// By Newton's method in plain doubles, or halving where its steps do not halve.
+    /// Newton's method in doubles; halves the bracket when steps do not halve.
     double approximate_root(double low, double high, bool rising) const {
         double x = low + (high - low) / 2, last_step = high - low;
         for (int i = 0; i < 4 * number_traits<double>::digits; ++i) {
@@ -375,7 +368,7 @@ class real_roots {
     static bool is_at(const interval& root, double x) {
         return std::isfinite(x) && root.low == point::from(x);
     }
-    /// The polynomial's sign somewhere in [a, b], a < b, where it is not zero; or at a = b.
+    /// The polynomial's sign at a point of [a, b], a < b, that is no root; or at a = b.
     sign_type sign_beside_roots(double a, double b) {
         const point x = beside_roots(a, b);
         const number place = enclosure({x, x});
@@ -383,7 +376,6 @@ class real_roots {
         const sign_type s = floating_sign_at(place);
         return power * (certain(s) ? s : roots::sign_at(p_.exact(), x, meter_));
     }
-    /// A point of [a, b] that is not a root.
     point beside_roots(double a, double b) const {
         if (intervals_.empty()) return point::from(std::isfinite(a) ? a : std::isfinite(b) ? b : 0);
         const interval& first = intervals_[0];

@@ -1,12 +1,7 @@
-// Real roots of polynomials in floating point: what tracked Bernstein coefficients tell for
-// certain, and which parts of the line they leave open. The first stage of
-// errbound/roots/real_roots.hpp.
-//
-// Descartes' rule in Bernstein form, as in errbound/roots/root_isolation.hpp: control values
-// (Bernstein coefficients) without sign change exclude a root inside the part, one change proves
-// exactly one. Every control value has an error bound of its own, by a rule that bounds absolute
-// errors; values and bounds lie in arrays of their own, so that halving a part, which is additions
-// alone, runs in vector registers.
+// Real roots of polynomials in floating point, by Descartes' rule on tracked Bernstein
+// coefficients: certain roots and undecided intervals. The first stage of
+// errbound/roots/real_roots.hpp. Each coefficient has an absolute error bound. Values and bounds
+// are separate arrays, so that halving, by additions only, is vectorised.
 #pragma once
 
 #include <algorithm>
@@ -27,23 +22,22 @@
 
 namespace errbound::roots {
 
-/// A rule that stores the absolute error and nothing else.
+/// A rule that stores only the absolute error.
 template <class Rule>
 concept absolute_rule = bound_rule<Rule> && requires(typename Rule::template bound<double> b) {
     requires sizeof(b) == sizeof(double);
     b.error;
 };
 
-/// A part of the line: x = at0 + (at1 − at0)·u for from <= u <= to, all exactly these doubles.
+/// An interval: x = at0 + (at1 − at0)·u for from <= u <= to, with these exact doubles.
 struct filtered_part {
     double at0, at1;
     double from, to;
-    /// It holds exactly one root, a simple one, strictly inside, and none at its ends. Otherwise
-    /// nothing is known of it. (Neighbours that are not known either touch it.)
+    /// Exactly one root, simple and strictly inside, none at the ends. Otherwise undecided.
     bool has_one_root;
 };
 
-/// The x of the part's u if that is a double, and found to be one.
+/// The part's x at u, if it is certainly a double.
 inline std::optional<double> exact_place(const filtered_part& part, double u) {
     if (u == 0) return part.at0;
     if (u == 1) return part.at1;
@@ -55,13 +49,12 @@ inline std::optional<double> exact_place(const filtered_part& part, double u) {
     return exact ? std::optional(x.value) : std::nullopt;
 }
 
-/// Control values with their errors, in arrays that the caller keeps.
+/// Control values with errors, in the caller's arrays.
 template <absolute_rule Rule>
 struct tracked_row {
     double* value;
     double* error;
 
-    /// this[j] += this[j + 1] for j < count.
     void add_next(std::size_t count) const {
         double* const __restrict v = value;
         double* const __restrict e = error;
@@ -71,7 +64,6 @@ struct tracked_row {
             v[j] = sum;
         }
     }
-    /// this[j] += this[j − 1] for first <= j <= last, from the last on.
     void add_previous(std::size_t first, std::size_t last) const {
         double* const __restrict v = value;
         double* const __restrict e = error;
@@ -81,9 +73,8 @@ struct tracked_row {
             v[j] = sum;
         }
     }
-    /// this[j] *= factor[j] for first <= j <= last, powers of two <= 1. Where that underflows,
-    /// value and error are each off by less than the smallest number; the last factor covers the
-    /// two roundings after that.
+    /// this[j] *= factor[j] for first <= j <= last, powers of two <= 1. Underflow changes value and
+    /// error by less than the smallest number each; the last factor covers two roundings.
     void shrink(const double* factor, std::size_t first, std::size_t last) const {
         constexpr double lost = 2 * number_traits<double>::underflow_unit();
         for (std::size_t j = first; j <= last; ++j) {
@@ -112,16 +103,15 @@ class root_filter {
   public:
     using number = tracked<double, Rule>;
 
-    /// Up to this degree n, binomials are exact in double, and so are their products with n.
+    /// Up to this n, binomials and their products with n are exact in double.
     static constexpr std::size_t max_degree = 50;
     static constexpr int max_halvings = 200;
-    /// Ends of parts of at least half this share of their distance from at0 are exact in double.
+    /// Ends of parts at least half as wide, relative to their distance from at0, are doubles.
     static constexpr double narrowest = 0x1p-46;
-    /// Of parts on the way.
     static constexpr std::size_t max_rows = 64;
 
-    /// The parts of [a, b] that have a root or may have one, in ascending order, for a < b, which
-    /// may be infinite. Coefficients ascend in the power basis; empty means zero.
+    /// The parts of [a, b] that have or may have a root, ascending. Precondition: a < b, possibly
+    /// infinite. Coefficients ascend in the power basis; empty is zero.
     root_filter(std::span<const number> coefficients, double a, double b) {
         const std::size_t size = coefficients.size();
         if (size == 0 || size - 1 > max_degree || !is_strict(sign_of(coefficients.back()))) {
@@ -131,7 +121,7 @@ class root_filter {
         if (size == 1) return;
         double largest = 0;
         for (const number& c : coefficients) largest = (std::max)(largest, std::abs(c.value()));
-        // Leave room for powers, binomials and sums, and above the smallest numbers.
+        // Leaves room for powers, binomials and sums, and above the smallest numbers.
         int e = number_traits<double>::exponent(largest);
         if (std::abs(e) < number_traits<double>::max_exponent / 2) e = 0;
         c_ = {first_.data(), size};
@@ -148,7 +138,6 @@ class root_filter {
     }
 
     const std::vector<filtered_part>& parts() const { return parts_; }
-    /// Whether all of them hold exactly one root.
     bool decides() const {
         return std::all_of(parts_.begin(), parts_.end(),
                            [](const filtered_part& p) { return p.has_one_root; });
@@ -186,9 +175,8 @@ class root_filter {
         subdivide();
     }
 
-    /// A bound of Kioustelidis (see positive_root_exponent), not a power of two so that the ends of
-    /// parts are rarely numbers that people choose as roots. 0 if there is no positive root,
-    /// infinite if there is no bound in range.
+    /// A bound of Kioustelidis (see positive_root_exponent), not a power of two, so that ends are
+    /// rarely roots that people choose. 0 without positive root, infinite without bound in range.
     double root_bound() const {
         const std::size_t n = c_.size() - 1;
         const auto largest = [](const number& c) {
@@ -215,7 +203,6 @@ class root_filter {
                           number_traits<double>::smallest_normal());
     }
 
-    /// The control values on [at0, at1] as a new row.
     void set_control_values() {
         const std::size_t n = c_.size() - 1;
         const number high(at1_);
@@ -238,7 +225,7 @@ class root_filter {
         }
         for (std::size_t i = 1; i <= n; ++i) first.add_previous(i, n);
         if (at0_ == 0) return;
-        // These are on [0, at1]; the right part is de Casteljau's.
+        // So far on [0, at1]; the right part by de Casteljau.
         for (std::size_t i = 0; i <= n; ++i) b[i] = number::within(first.value[i], first.error[i]);
         const number right = number(at0_) / high, left = (high - number(at0_)) / high;
         for (std::size_t i = 0; i < n; ++i)
@@ -254,7 +241,7 @@ class root_filter {
         return {&rows_[2 * k * size], &rows_[(2 * k + 1) * size]};
     }
 
-    /// De Casteljau's scheme, but for the powers of two: leaves the right half where the whole was.
+    /// De Casteljau's scheme without the powers of two; `whole` becomes the right half.
     static void take_left_half(const tracked_row<Rule>& whole, const tracked_row<Rule>& left,
                                std::size_t n) {
         for (std::size_t i = 0; i <= n; ++i) {
@@ -293,7 +280,7 @@ class root_filter {
                 --count;
                 continue;
             }
-            // Ends of an uncertain sign stay so however often the part is halved.
+            // Halving does not help ends of uncertain sign.
             if (whole.sign(0) == 0 || whole.sign(n) == 0 || halvings == max_halvings ||
                 count == max_rows || to - from < narrowest * to) {
                 parts_.push_back({at0_, at1_, from, to, false});
@@ -312,10 +299,9 @@ class root_filter {
         }
     }
 
-    /// Two close roots would take many halvings to part. Where at most two are left, a point
-    /// between them is tried: the extremum, as far as plain doubles find it. If the sign there is
-    /// not `outside`, that of both ends, there is one on either side; if it is uncertain, no
-    /// halving will tell more. Tried after 4, 8, 16, ... halvings; false if nothing comes of it.
+    /// Two close roots would need many halvings to separate. With at most two left, tries the
+    /// extremum in doubles. If its sign differs from `outside`, that of both ends, each side has
+    /// one root; if it is uncertain, the part is undecided. Tried after 4, 8, 16, ... halvings.
     bool add_pair(double from, double to, int outside) {
         const int halvings = -std::ilogb(to - from);
         if (halvings < 4 || !std::has_single_bit(static_cast<unsigned>(halvings))) return false;
@@ -334,8 +320,7 @@ class root_filter {
         }
         return true;
     }
-    /// A zero of the derivative, by Newton's method from the middle; NaN if it fails. Of 46 bits,
-    /// so that it mostly belongs to a point that is a double.
+    /// A zero of the derivative, by Newton's method from the middle; NaN on failure. 46 bits long.
     double extremum(double from, double to) const {
         const double width = at1_ - at0_;
         double u = from + (to - from) / 2;
@@ -350,7 +335,7 @@ class root_filter {
             const double step = slope / (2 * half_curvature * width);
             u -= step;
             if (std::abs(step) <= 0x1p-30 * u) {
-                const double much = u * 129;  // as by errbound/error_free.hpp's split
+                const double much = u * 129;  // as split in errbound/error_free.hpp
                 return much - (much - u);
             }
         }
@@ -358,7 +343,7 @@ class root_filter {
     }
 
     std::array<number, max_degree + 1> first_;
-    std::span<number> c_;  ///< of first_
+    std::span<number> c_;  ///< view of first_
     double at0_ = 0, at1_ = 0;
     std::vector<double> rows_;
     std::vector<filtered_part> parts_;

@@ -1,8 +1,6 @@
-// Real roots of polynomials with integer coefficients, exactly: isolation, refinement, signs of
-// other polynomials there. The exact stage of errbound/roots/real_roots.hpp.
-//
-// Allocates; time and memory are bounded by degree and size of the coefficients. Stack is not:
-// nothing here recurses.
+// Real roots of integer polynomials, exactly: isolation, refinement, signs of other polynomials
+// there. The exact stage of errbound/roots/real_roots.hpp. Allocates; time and memory are bounded
+// by degree and coefficient size. Bounded stack: no recursion.
 #pragma once
 
 #include <algorithm>
@@ -16,11 +14,10 @@
 
 namespace errbound::roots {
 
-/// A bound of Kioustelidis (1986): no root of p is at or above 2^(this). p has a last coefficient,
-/// not zero. INT_MIN: p has no positive root.
-/// Proof: with M the largest (|c_i|/|c_n|)^(1/(n−i)) over the c_i of the other sign than c_n's, and
-/// x >= 2M, these terms are at most |c_n|x^n·Σ 2^(i−n) < |c_n|x^n in sum.
-/// Checked: proofs/ControlValues.v, root_exponent_right.
+/// A bound of Kioustelidis (1986): no root of p is at or above 2^(result). INT_MIN: no positive
+/// root. Precondition: the last coefficient is not zero. Proof: with M the largest
+/// (|c_i|/|c_n|)^(1/(n−i)) over c_i of the sign opposite to c_n's, and x >= 2M, these terms sum to
+/// at most |c_n|x^n·Σ 2^(i−n) < |c_n|x^n. Checked: proofs/ControlValues.v, root_exponent_right.
 template <class Integer>
 int positive_root_exponent(const integer_form<Integer>& p) {
     const int n = static_cast<int>(p.size()) - 1;
@@ -37,7 +34,7 @@ int positive_root_exponent(const integer_form<Integer>& p) {
     return exponent;
 }
 
-/// The roots of one polynomial p with p(0) ≠ 0, and what is asked at them.
+/// The roots of one polynomial p with p(0) ≠ 0, and signs there.
 template <exact_number Integer>
 class root_isolation {
   public:
@@ -46,7 +43,7 @@ class root_isolation {
     using interval = isolating_interval<Integer>;
     using end = typename descartes_search<Integer>::end;
 
-    /// Multiplicities are reported if they are at most this.
+    /// Multiplicities are reported up to this.
     root_isolation(const form& p, std::size_t multiplicities, work_meter& meter)
         : chain_(squarefree_chain(p, multiplicities, meter)) {
         if (chain_.empty()) chain_.push_back({Integer(1)});
@@ -54,19 +51,18 @@ class root_isolation {
         left_ = half_line(mirrored(squarefree()));
     }
 
-    /// p without its factors' multiplicities.
+    /// p with its multiple factors reduced to simple ones.
     const form& squarefree() const { return chain_[0]; }
 
-    /// All roots lie between these, strictly.
+    /// All roots lie strictly between these.
     point upper_bound() const { return unlikely_root<Integer>(right_.upper); }
     point lower_bound() const { return -unlikely_root<Integer>(left_.upper); }
 
-    /// Between 0 and the positive or the negative roots, strictly.
+    /// Strictly between 0 and the positive, or negative, roots.
     point least_positive() const { return unlikely_root<Integer>(right_.lower - 1); }
     point greatest_negative() const { return -unlikely_root<Integer>(left_.lower - 1); }
 
-    /// Appends the roots in [low, high], low <= high, in ascending order.
-    /// Proof: proofs/RootIsolation.v, isolate_right.
+    /// Appends the roots in [low, high], ascending. Proof: proofs/RootIsolation.v, isolate_right.
     void isolate(const point& low, const point& high, std::vector<interval>& roots,
                  work_meter& meter) const {
         const std::size_t first = roots.size();
@@ -87,18 +83,18 @@ class root_isolation {
             roots[k].multiplicity = multiplicity(roots[k], meter);
     }
 
-    /// Narrows the root's interval to at most half of it, or to this width.
+    /// Narrows the root's interval to at most half of it.
     void refine(interval& root, work_meter& meter) const {
         refine(root, scale(root.high - root.low, -1), meter);
     }
-    /// Quadratic interval refinement (J. Abbott 2006): the secant picks one of 2^bits parts, and
-    /// bits doubles if that is right.
+    /// Narrows it to this width. Quadratic interval refinement (J. Abbott 2006): success doubles
+    /// bits.
     void refine(interval& root, const point& width, work_meter& meter) const {
         for (int bits = 1; width < root.high - root.low;)
             bits = keep_part(root, bits, meter) ? 2 * bits : (std::max)(1, bits / 2);
     }
 
-    /// Keeps the side of x, strictly inside the interval, on which the root is, or x if it is that.
+    /// Keeps the root's side of x, strictly inside the interval, or x if it is the root.
     void cut(interval& root, const point& x, work_meter& meter) const {
         const sign_type s = sign_at(squarefree(), x, meter);
         if (s == sign_type::zero)
@@ -107,9 +103,8 @@ class root_isolation {
             (s == sign_at(squarefree(), root.low, meter) ? root.low : root.high) = x;
     }
 
-    /// The sign of g at the root; refines it. Zero is decided by a common factor, any other sign
-    /// when all of g's control values on the interval have it.
-    /// Proof: proofs/RootIsolation.v, sign_at_root_right.
+    /// The sign of g at the root; refines it. A common factor decides zero, equal signs of g's
+    /// control values any other sign. Proof: proofs/RootIsolation.v, sign_at_root_right.
     sign_type sign_at_root(const form& g, interval& root, work_meter& meter) const {
         if (g.empty()) return sign_type::zero;
         form common;
@@ -128,8 +123,8 @@ class root_isolation {
 
   private:
     /// A square-free polynomial; bounds 2^lower < x < 2^upper of its positive roots x, upper <
-    /// lower if there is none; the number of its coefficients' sign changes, which is 1 only if
-    /// there is one (Descartes). Proof: proofs/ControlValues.v, half_line_right.
+    /// lower if none; its coefficients' sign changes, 1 only for a single root (Descartes). Proof:
+    /// proofs/ControlValues.v, half_line_right.
     struct half_line {
         form p;
         int lower = 1, upper = 0;
@@ -145,12 +140,11 @@ class root_isolation {
         }
     };
 
-    /// For square-free f without root at the ends of the interval.
+    /// Precondition: f is square-free, without root at the interval's ends.
     static bool changes_sign(const form& f, const interval& root, work_meter& meter) {
         return sign_at(f, root.low, meter) != sign_at(f, root.high, meter);
     }
-    /// Whether f, a divisor of p's, vanishes at the root. Proof: proofs/CommonFactor.v,
-    /// vanishes_right.
+    /// True if f, a divisor of p's, is zero there. Proof: proofs/CommonFactor.v, vanishes_right.
     static bool vanishes(const form& f, const interval& root, work_meter& meter) {
         if (f.size() < 2) return false;
         if (root.is_point()) return sign_at(f, root.low, meter) == sign_type::zero;
@@ -162,9 +156,8 @@ class root_isolation {
                                     (chain_.begin() + 1));
     }
 
-    /// ⌊2^bits·a/(a + b)⌋ for the magnitudes a and b of the values at the ends. Errors of these
-    /// only make it a worse choice. Precondition: b is not 0. Proof: proofs/RootIsolation.v,
-    /// secant_part_right.
+    /// ⌊2^bits·a/(a + b)⌋ for the magnitudes a and b of the end values; their errors only worsen
+    /// the choice. Precondition: b is not 0. Proof: proofs/RootIsolation.v, secant_part_right.
     static Integer secant_part(const nearby_value<Integer>& at_low,
                                const nearby_value<Integer>& at_high, int bits) {
         const Integer parts = Integer(1) << static_cast<unsigned>(bits);
@@ -178,9 +171,8 @@ class root_isolation {
         const Integer a = size(at_low), b = size(at_high);
         return Integer(a << static_cast<unsigned>(bits)) / Integer(a + b);
     }
-    /// Keeps one of 2^bits parts of the interval if the root is in the one where the secant has it,
-    /// and otherwise what lies on the root's side of that; one half if bits is 1.
-    /// Proof: proofs/RootIsolation.v, keep_part_right.
+    /// Keeps the secant's choice of 2^bits parts if it holds the root; otherwise the root's side of
+    /// it (a half for bits = 1). Proof: proofs/RootIsolation.v, keep_part_right.
     bool keep_part(interval& root, int bits, work_meter& meter) const {
         const form& f = squarefree();
         const auto at_low = value_within(f, root.low, bits + 4, meter);
@@ -188,7 +180,7 @@ class root_isolation {
         const point width = root.high - root.low, start = root.low;
         const auto place = [&](const Integer& k) { return start + width * point(k, -bits); };
         const sign_type before = at_low.sign();
-        // The part's ends: the sign there tells on which side of it the root is.
+        // The sign at an end decides on which side of it the root is.
         const point left = place(part), right = place(Integer(part + 1));
         if (root.low < left) {
             const sign_type s = sign_at(f, left, meter);
@@ -205,7 +197,6 @@ class root_isolation {
         return true;
     }
 
-    /// Of Horner's rule.
     std::uint64_t work_of_value(const point& x) const {
         const std::uint64_t n = squarefree().size();
         return x.is_zero()
@@ -231,8 +222,8 @@ class root_isolation {
         if (line.variations > 1) {
             descartes_search<Integer>(line.p, meter).find(low, high, roots);
         } else if (line.variations == 1 && !low.is_root && !high.is_root) {
-            // The only positive root is between if the signs say so.
-            // Proof: proofs/RootIsolation.v, isolate_right.
+            // A sign change proves that it holds the root. Proof: proofs/RootIsolation.v,
+            // isolate_right.
             if (all || sign_at(line.p, low.at, meter) != sign_at(line.p, high.at, meter))
                 roots.push_back({low.at, high.at});
         }

@@ -1,13 +1,12 @@
-// Sign changes along a row of coefficients, as Descartes' rule counts them.
+// Counts sign changes in a row of coefficients, for Descartes' rule.
 #pragma once
 
 #include <cstddef>
 
 namespace errbound::roots {
 
-/// The number of sign changes among sign(0), ..., sign(count − 1), which are 1, −1 or 0, zeros left
-/// out.
-/// Proof: proofs/SignVariations.v, no_variation_no_root, one_variation_one_root.
+/// Sign changes among sign(0), ..., sign(count − 1), each 1, −1 or 0; skips zeros. Proof:
+/// proofs/SignVariations.v, no_variation_no_root, one_variation_one_root.
 template <class Sign>
 int sign_variations(std::size_t count, const Sign& sign) {
     int changes = 0, last = 0;
@@ -20,11 +19,10 @@ int sign_variations(std::size_t count, const Sign& sign) {
     return changes;
 }
 
-/// The same where 0 means that a sign is uncertain: the largest number that there can be, 3
-/// standing for all above 2 and for an uncertain sign at an end. 0 and 1 are the number itself,
-/// whose parity the ends' signs tell. (Uncertain signs between opposite ones add two for each two
-/// of them; between equal ones already the first adds two.)
-/// Proof: proofs/SignVariations.v, max_variations_right.
+/// The largest possible count if 0 stands for uncertain; 3 stands for more than 2 and for an
+/// uncertain end. 0 and 1 are exact, as the end signs fix the parity. (Between opposite signs, each
+/// two uncertain ones add two; between equal ones the first already does.) Proof:
+/// proofs/SignVariations.v, max_variations_right.
 template <class Sign>
 int max_sign_variations(std::size_t count, const Sign& sign) {
     int last = sign(0), most = 0, open = 0;

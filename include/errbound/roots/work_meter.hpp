@@ -1,4 +1,4 @@
-// Limits of what finding roots may cost, for callers that must not wait, and the meter that counts.
+// Limits on the cost of finding roots, for callers that must not wait.
 #pragma once
 
 #include <cstdint>
@@ -8,16 +8,16 @@
 
 namespace errbound {
 
-/// What a call may spend before it gives up.
+/// The limits of a call before it gives up.
 struct root_limits {
     static constexpr std::uint64_t none = (std::numeric_limits<std::uint64_t>::max)();
 
-    /// On words of 64 bits, about a nanosecond each, counted before they are made as if no
-    /// coefficient were zero.
+    /// Operations on 64-bit words, about a nanosecond each, estimated as if no coefficient were
+    /// zero.
     std::uint64_t operations = none;
-    /// Of rows of numbers held at a time, estimated; p and its copies beside.
+    /// Estimated bytes of the rows held at a time, without p and its copies.
     std::uint64_t bytes = none;
-    /// Polled periodically; true gives up. Real roots poll it in later calls, too. Empty: never.
+    /// Polled periodically; return true to cancel. Real roots poll it in later calls, too.
     std::function<bool()> stop = {};
 };
 
@@ -27,7 +27,7 @@ namespace errbound::roots {
 
 struct gave_up {};
 
-/// Throws gave_up where something would go beyond the limits, before it is done, or if stopped.
+/// Throws gave_up before work beyond the limits, or if stopped.
 class work_meter {
   public:
     work_meter() = default;
@@ -44,7 +44,6 @@ class work_meter {
     void hold(std::uint64_t bytes) const {
         if (bytes > left_.bytes) throw gave_up();
     }
-    /// Removes the limits of operations and bytes.
     void lift() { left_.operations = left_.bytes = root_limits::none; }
 
   private:

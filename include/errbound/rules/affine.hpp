@@ -1,37 +1,14 @@
 // Bound rule `affine`: affine arithmetic. The error is a sum of terms, one for each source: an
-// input that is known to within something, or an operation that rounded. What came of one source
-// cancels where it meets again: x − x is exactly 0, and (x + y) − (x − y) knows nothing of x.
-// Rounding must be to nearest.
+// inexact input, or an operation that rounded. Equal sources cancel: x − x is exactly 0, and (x +
+// y) − (x − y) does not depend on x. Rounding must be to nearest.
 //
-// Notation: v the computed value, true value = v + Σ cᵢεᵢ + ρ. Each source has its own εᵢ,
-// |εᵢ| <= 1, one number wherever the source appears; |ρ| <= rest, which is 0 but for numbers made
-// in constant expressions or device code, where sources are not counted (detail/sources.hpp). u =
-// 2^-p, ε = 2u, η the smallest positive number. An operation
-//  * combines the terms of its operands to first order, source by source;
-//  * adds one term of a new source for all that is left: its own rounding (as error_free.hpp tells
-//    it; at most u|v| + η/2 where that does not), what coefficients lost in rounding, terms of
-//    second order, and the operands' rests. Its ε is by definition what is left over its
-//    coefficient;
-//  * has no new term where nothing is left: exact operations on exact numbers give exact ones;
-//  * where that makes more terms than the limit, adds the smallest to that new one. They are then
-//    not told apart any more, but are still one source: x − x stays 0.
-// All amounts that are not coefficients are rounded upwards without touching the rounding mode:
-//  * fl(x + y)(1 + ε), rounded, is at least x + y >= 0: with s = fl(x + y) normal, sε is at least
-//    its last place, so that s(1 + ε) is at least its successor; subnormal, s is x + y, and
-//    rounding is monotone;
-//  * of a product or quotient likewise, and η more where it underflows;
-//  * fl(x − y)(1 − ε), rounded, is at most x − y > 0, for the same reason.
-// A number whose value, or the sum of whose terms, overflows or is NaN is unknown: no terms, and an
-// infinite rest.
-// Whole computations, each operation with its source: proofs/IeeeAffineFunctions.v, computed_known;
-// functions among them: gives_known.
-// Source: Comba, Stolfi 1993; de Figueiredo, Stolfi 2004 (Numerical Algorithms 37), with new terms
-// as small as error-free transformations make them.
+// Notation: v the computed value, true value = v + Σ cᵢεᵢ + ρ, |εᵢ| <= 1, one εᵢ per source, |ρ| <=
+// rest. The rest is 0 except in constant expressions and device code, which count no sources.
+// Sources are distinct across a program's threads; recreate another process's numbers by `within`.
+// sqrt and fma keep sources; other functions start new ones. The source counter is global.
 //
-// sqrt and fma keep sources; other functions (functions.hpp, elementary.hpp) start from the error
-// of their arguments, so that their results are new sources. Sources are told apart on all threads
-// of one program; a number that another process made must be made anew, by `within`. Not part of
-// tracked.hpp: what counts sources is global.
+// Sources: Comba, Stolfi 1993; de Figueiredo, Stolfi 2004 (Numerical Algorithms 37). Proof, of
+// whole computations: proofs/IeeeAffineFunctions.v, computed_known, gives_known.
 #pragma once
 
 #include <array>
@@ -45,10 +22,8 @@ namespace errbound {
 
 namespace detail {
 
-/// The limit of `affine`.
 inline constexpr std::size_t usual_affine_limit = 16;
 
-/// The name of affine_of<Limit>, with a zero at its end.
 template <std::size_t Limit>
 inline constexpr std::array<char, 32> affine_name = [] {
     std::array<char, 32> name{'a', 'f', 'f', 'i', 'n', 'e'};
@@ -64,11 +39,17 @@ inline constexpr std::array<char, 32> affine_name = [] {
 
 }  // namespace detail
 
-/// Affine arithmetic with at most Limit terms, which fill 16 bytes each, used or not. Cost: an
-/// operation is linear in the number of terms, plus Limit writes.
+/// Affine arithmetic with at most Limit terms of 16 bytes each, used or not. Cost: linear in the
+/// number of terms, plus Limit writes.
+///
+/// An operation combines terms to first order, source by source. One new term takes everything
+/// else: the rounding error (exact, or at most u|v| + η/2), roundings of coefficients, second-order
+/// terms and the operands' rests. Exact operations on exact numbers add none. Above the limit, the
+/// smallest terms join the new one; x − x stays 0. If value or radius overflows or is NaN, there
+/// are no terms and the rest is infinite.
 template <std::size_t Limit>
 struct affine_of {
-    static_assert(Limit >= 1, "errbound: affine arithmetic keeps one term at least");
+    static_assert(Limit >= 1, "errbound: affine arithmetic needs at least one term");
     /// "affine" for `affine`, else "affine<Limit>".
     static constexpr const char* name = detail::affine_name<Limit>.data();
     static constexpr bool keeps_first_order = true;
@@ -94,8 +75,7 @@ struct affine_of {
         const T nothing = value - value;  // NaN if the value is not finite
         return {nothing, nothing, 0, {}};
     }
-    /// One term, of a new source.
-    /// Proof: proofs/IeeeAffine.v, affine_within_known.
+    /// One term, of a new source. Proof: proofs/IeeeAffine.v, affine_within_known.
     template <class T>
     static constexpr bound<T> within(const T& value, const T& error) {
         if (!(error >= 0)) return unknown<T>();
@@ -108,8 +88,7 @@ struct affine_of {
     static constexpr T error(const T&, const bound<T>& b) {
         return b.radius;
     }
-    /// True at the limit on terms. A root, by which many numbers are divided, is then one source:
-    /// its own terms would push others out.
+    /// True at the limit: a root, a frequent divisor, then is one source and displaces no others.
     template <class T>
     static constexpr bool is_crowded(const bound<T>& b) {
         return b.count == Limit;
@@ -122,8 +101,7 @@ struct affine_of {
         return r;
     }
 
-    /// a + b = v + δ + Σ (aᵢ + bᵢ)εᵢ; what a sum of coefficients loses is known exactly.
-    /// Proof: proofs/IeeeAffine.v, affine_add_known.
+    /// a + b = v + δ + Σ (aᵢ + bᵢ)εᵢ. Proof: proofs/IeeeAffine.v, affine_add_known.
     template <class T>
     static constexpr bound<T> add(const T& v, operand<T> a, operand<T> b) {
         return sum<false, T>(v, a, b);
@@ -133,9 +111,8 @@ struct affine_of {
     static constexpr bound<T> subtract(const T& v, operand<T> a, operand<T> b) {
         return sum<true, T>(v, a, b);
     }
-    /// ab = v + δ + Σ (â·bᵢ + aᵢ·b̂)εᵢ, and besides at most |â|·rest_b + rest_a·|b̂| and the product
-    /// of the radii.
-    /// Proof: proofs/IeeeAffine.v, affine_multiply_known.
+    /// ab = v + δ + Σ (â·bᵢ + aᵢ·b̂)εᵢ, plus at most |â|·rest_b + rest_a·|b̂| and the product of
+    /// the radii. Proof: proofs/IeeeAffine.v, affine_multiply_known.
     template <class T>
     static constexpr bound<T> multiply(const T& v, operand<T> a, operand<T> b) {
         using traits = number_traits<T>;
@@ -158,10 +135,9 @@ struct affine_of {
         r.add_left(upper_product<T>(a.bound.radius, b.bound.radius));
         return r.finished(v);
     }
-    /// With q = v and the remainder of division r, a/b − q = N/b, where
-    /// N = r + Σ (aᵢ − q·bᵢ)εᵢ ± (rest_a + |q|·rest_b), and N/b − N/b̂ = N/b̂·(b̂ − b)/b is at most
-    /// |N/b̂|·radius_b/(|b̂| − radius_b). Where r is not known, r/b̂, the error of q, is at most
-    /// u|v| + η/2. Unknown where b may be zero.
+    /// With q = v and the remainder r, a/b − q = N/b, N = r + Σ (aᵢ − q·bᵢ)εᵢ ± (rest_a +
+    /// |q|·rest_b), and N/b − N/b̂ = N/b̂·(b̂ − b)/b is at most |N/b̂|·radius_b/(|b̂| − radius_b).
+    /// If r is unknown, r/b̂, the error of q, is at most u|v| + η/2. Infinite if b may be zero.
     /// Proof: proofs/IeeeAffine.v, affine_divide_known.
     template <class T>
     static constexpr bound<T> divide(const T& v, operand<T> a, operand<T> b) {
@@ -174,7 +150,7 @@ struct affine_of {
         const division_remainder<T> division = remainder_of_division<T>(a.value, b.value, v);
         builder<T> r;
         if (!division.exact) r.add_left(detail::half_ulp<T>(v));
-        // Of N, besides its terms.
+        // The part of N outside its terms.
         T left = upper_sum<T>(upper_product<T>(traits::abs(v), b.bound.rest), a.bound.rest);
         if (division.exact) left = upper_sum<T>(left, traits::abs(division.value));
         for_each_source(a.bound, b.bound, [&](std::uint64_t source, const T& of_a, const T& of_b) {
@@ -192,8 +168,7 @@ struct affine_of {
             r.add_left(upper_quotient<T>(upper_product<T>(quotient, b.bound.radius), distance));
         return r.finished(v);
     }
-    /// Scaling by a power of two is exact unless it underflows: then value, coefficients and rest
-    /// are each off by at most η/2.
+    /// Exact unless it underflows; then value, coefficients and rest are each off by at most η/2.
     /// Proof: proofs/IeeeAffine.v, affine_scale_known.
     template <class T>
     static constexpr bound<T> scale(const T& v, operand<T> a, int e) {
@@ -225,7 +200,9 @@ struct affine_of {
         return a.value == 0 && a.bound.radius == 0;
     }
 
-    /// At least x + y, for x, y >= 0.
+    /// At least x + y, for x, y >= 0. With s = fl(x + y) normal, s(1 + ε) is at least its
+    /// successor; a subnormal s is exact. Products and quotients are similar, plus η for underflow;
+    /// and fl(x − y)(1 − ε), rounded, is at most x − y > 0.
     template <class T>
     static constexpr T upper_sum(const T& x, const T& y) {
         if (x == 0) return y;
@@ -248,14 +225,14 @@ struct affine_of {
         return detail::rounded_product(T(x / y), T(1 + traits::epsilon())) +
                traits::underflow_unit();
     }
-    /// A result as its terms come, by ascending source, and what is left over.
+    /// Builds a result from its terms, by ascending source, and the amount left over.
     template <class T>
     class builder {
       public:
         constexpr void add(std::uint64_t source, const T& coefficient) {
             if (coefficient != 0) terms_[count_++] = {source, coefficient};
         }
-        /// An amount >= 0 that no term above has.
+        /// An amount >= 0 outside the terms.
         constexpr void add_left(const T& amount) { left_ = upper_sum<T>(left_, amount); }
         constexpr const T& left() const { return left_; }
         constexpr T radius() const {
@@ -277,7 +254,7 @@ struct affine_of {
         }
 
       private:
-        /// Makes room for a term of what is left, to which the smallest are added.
+        /// Moves the smallest terms into the amount left over, to make room for its term.
         constexpr void shorten() {
             using traits = number_traits<T>;
             while (count_ >= Limit) {
@@ -289,8 +266,8 @@ struct affine_of {
                 for (--count_; least < count_; ++least) terms_[least] = terms_[least + 1];
             }
         }
-        /// Makes what is left a term, of a source that is mostly the last. Returns the rest: all of
-        /// it if that is no source.
+        /// Makes the amount left over a term, usually the last. Without a source, returns it as the
+        /// rest.
         constexpr T as_term_of(std::uint64_t source) {
             if (source == detail::no_source) return left_;
             std::size_t i = count_++;
@@ -336,7 +313,7 @@ struct affine_of {
     }
 };
 
-/// With at most 16 terms.
+/// At most 16 terms.
 using affine = affine_of<detail::usual_affine_limit>;
 
 }  // namespace errbound

@@ -1,10 +1,10 @@
-// A bound rule that is another but for a part.
+// Derives a bound rule from another, to change one operation.
 //
 //   struct mine : errbound::derived_rule<mine, errbound::tight> {
 //       static constexpr const char* name = "mine";
 //       template <class T>
 //       static constexpr bound<T> add(const T& v, errbound::rule_operand<T, mine> a,
-//                                     errbound::rule_operand<T, mine> b);  // what is different
+//                                     errbound::rule_operand<T, mine> b);  // the changed operation
 //   };
 #pragma once
 
@@ -12,15 +12,13 @@
 
 namespace errbound {
 
-/// Everything as in Rule: its state, its operations, what it says of itself; but for a dot_bound,
-/// which would not see what is different: dot products are one operation after the other. Self, the
-/// rule that is made, hides what it has another of. Rule's operations call Rule's own (its
-/// `subtract` its `add`), not Self's. Self has Rule's name in tables unless it has one of its own.
-/// What Rule promises no longer follows where an operation is changed: say so by error_is, or prove
-/// it, and have it validated.
+/// Same as Rule in state, operations and constants, except dot_bound: dot products apply Self's
+/// operations one by one. Members of Self hide Rule's. Rule's operations call each other (its
+/// `subtract` its `add`), not Self's. A changed operation voids Rule's promise: set error_is, or
+/// prove and validate the change.
 template <class Self, class Rule>
 struct derived_rule : Rule {
-    /// What a proof needs less than others is not taken for proved of Self, too: Self may say it.
+    /// Rule's proof does not cover Self, which may redefine these.
     static constexpr bool holds_in_directed_rounding = false, holds_without_subnormals = false;
 
     template <class T>
@@ -62,7 +60,7 @@ struct derived_rule : Rule {
         return Rule::template fused<T>(v, original<T>(a), original<T>(b), original<T>(c));
     }
 
-    /// An operand as one of Rule's, for Self to hand on.
+    /// Converts Self's operand to Rule's.
     template <class T>
     static constexpr rule_operand<T, Rule> original(rule_operand<T, Self> a) {
         return {a.value, a.bound};

@@ -1,20 +1,10 @@
 // Bound rule `interval`: interval arithmetic, rounded outwards without touching the rounding mode,
 // which must be to nearest.
 //
-// The true value lies in [lower, upper], and so does the computed value: operations and rounding
-// are monotone. Ends are finite, but an unknown number has [−∞, ∞]: one whose value or an end of
-// which overflowed or is NaN. Notation: p the precision, u = 2^-p, η the smallest positive number.
-//  * below(c) < c is the predecessor of c (or, near underflow, less): with e = 1.25·u|c| + η more
-//  than
-//    half an ulp(c), c ⊖ e <= pred(c); likewise above(c). After Rump, Zimmermann, Boldo,
-//    Melquiond 2009 (BIT 49), with 1.25 for their 1 + 2u, which serves three bits and formats whose
-//    range ends near u. Proof that e > ulp(c)/2: u|c| >= ulp(c)/2, and its rounded value is no
-//    less where ulp(c)/2 is representable; 1.25 times that is exact from 4η on, and below it, as in
-//    the range where ulp(c)/2 is not representable, η is more than what rounding took.
-//  * sums: the exact sign of two_sum's error says on which side of the rounded sum the true one
-//    lies, so ends are rounded correctly, and exact sums stay points;
-//  * products and quotients of points likewise, where the error is known exactly; those of wider
-//    intervals take one step outwards always.
+// The true and the computed value lie in [lower, upper]. Ends are finite, except for [−∞, ∞], which
+// stands for any overflow or NaN. Notation: p the precision, u = 2^-p, η the smallest positive
+// number. Sums, and products and quotients of points, use the exact error's sign: ends are rounded
+// correctly, exact results stay points. Other products and quotients always take one step outwards.
 #pragma once
 
 #include <errbound/error_free.hpp>
@@ -51,7 +41,7 @@ struct interval {
         const T off = (traits::max)(b.upper - value, value - b.lower);
         if (off == 0) return off;
         const T enough = above<T>(off);
-        // Ends of one sign are no further from each other than the largest number.
+        // Ends of one sign are at most the largest number apart.
         return certain(sign<T>(value, b)) && !(enough < traits::largest()) ? traits::largest()
                                                                            : enough;
     }
@@ -81,8 +71,8 @@ struct interval {
         return sum<T>(v, a.bound, negate<T>(b.bound));
     }
     /// Both ends are among the four products of ends. A product 0·∞ stands for 0, which is then
-    /// among the others too: NaN may be passed over.
-    /// Proof: proofs/IeeeInterval.v, interval_multiply_known.
+    /// another of the four, so NaN may be ignored. Proof: proofs/IeeeInterval.v,
+    /// interval_multiply_known.
     template <class T>
     static constexpr bound<T> multiply(const T& v, rule_operand<T, interval> a,
                                        rule_operand<T, interval> b) {
@@ -97,8 +87,7 @@ struct interval {
                        detail::rounded_product(a.bound.upper, b.bound.lower),
                        detail::rounded_product(a.bound.upper, b.bound.upper));
     }
-    /// Unknown where b may be zero.
-    /// Proof: proofs/IeeeInterval.v, interval_divide_known.
+    /// Infinite if b may be zero. Proof: proofs/IeeeInterval.v, interval_divide_known.
     template <class T>
     static constexpr bound<T> divide(const T& v, rule_operand<T, interval> a,
                                      rule_operand<T, interval> b) {
@@ -111,8 +100,8 @@ struct interval {
         return hull<T>(v, a.bound.lower / b.bound.lower, a.bound.lower / b.bound.upper,
                        a.bound.upper / b.bound.lower, a.bound.upper / b.bound.upper);
     }
-    /// The roots of both ends, which remainders round outwards where these are known.
-    /// Proof: proofs/IeeeSlopes.v, interval_square_root_known.
+    /// The roots of both ends, rounded outwards, by exact remainders if known. Proof:
+    /// proofs/IeeeSlopes.v, interval_square_root_known.
     template <class T>
     static constexpr bound<T> square_root(const T& v, rule_operand<T, interval> a) {
         using traits = number_traits<T>;
@@ -123,8 +112,8 @@ struct interval {
         return checked<T>(v, of_lower.exact && of_lower.value >= 0 ? lower : below<T>(lower),
                           of_upper.exact && of_upper.value <= 0 ? upper : above<T>(upper));
     }
-    /// Both ends are among the four products of ends with the end of c, each rounded once.
-    /// Proof: proofs/IeeeSlopes.v, interval_fused_known.
+    /// Both ends are among the four products of ends with the end of c, each rounded once. Proof:
+    /// proofs/IeeeSlopes.v, interval_fused_known.
     template <class T>
     static constexpr bound<T> fused(const T& v, rule_operand<T, interval> a,
                                     rule_operand<T, interval> b, rule_operand<T, interval> c) {
@@ -134,7 +123,7 @@ struct interval {
             return unknown<T>();
         const auto least = [](const T& m, const T& n) { return n < m ? n : m; };
         const auto most = [](const T& m, const T& n) { return n > m ? n : m; };
-        bool overflows = false;  // to NaN, which no comparison would choose
+        bool overflows = false;  // to NaN, which comparisons would skip
         const auto corner = [&](const T& x, const T& y, const T& z) {
             const T value = traits::fma(x, y, z);
             if constexpr (!has_infinity<T>) overflows |= !traits::is_finite(value);
@@ -150,8 +139,7 @@ struct interval {
         const T upper = above<T>(end(most, c.bound.upper));
         return overflows ? unknown<T>() : checked<T>(v, lower, upper);
     }
-    /// Scaling by a power of two is exact unless it underflows.
-    /// Proof: proofs/IeeeInterval.v, interval_scale_known.
+    /// Exact unless it underflows. Proof: proofs/IeeeInterval.v, interval_scale_known.
     template <class T>
     static constexpr bound<T> scale(const T& v, rule_operand<T, interval> a, int e) {
         using traits = number_traits<T>;
@@ -167,11 +155,10 @@ struct interval {
     static constexpr bound<T> unknown() {
         return {-number_traits<T>::infinity(), number_traits<T>::infinity()};
     }
-    /// [lower, upper] if all is finite.
     template <class T>
     static constexpr bound<T> checked(const T& value, const T& lower, const T& upper) {
         const T infinity = number_traits<T>::infinity();
-        // Where there is no infinity, it is NaN, and so is what overflowed.
+        // Without infinities, overflow is NaN.
         const bool finite = !has_infinity<T> || (-infinity < lower && upper < infinity);
         if (finite && lower <= value && value <= upper) return {lower, upper};
         return unknown<T>();
@@ -185,7 +172,10 @@ struct interval {
         return b.lower == 0 && b.upper == 0;
     }
 
-    /// More than half an ulp of c.
+    /// e > ulp(c)/2, so c ⊖ e is at most c's predecessor and c ⊕ e at least its successor. After
+    /// Rump, Zimmermann, Boldo, Melquiond 2009 (BIT 49), with 1.25 for 1 + 2u, which suits three
+    /// bits and formats whose range ends near u. u|c| >= ulp(c)/2, also rounded, if ulp(c)/2 is
+    /// representable; 1.25 times it is exact from 4η on; below, η exceeds the roundings' loss.
     template <class T>
     static constexpr T step(const T& c) {
         using traits = number_traits<T>;
@@ -201,15 +191,14 @@ struct interval {
         return c + step(c);
     }
 
-    /// The interval between v and its neighbour on the side of the exact v + error; v itself if
-    /// there is no error.
+    /// The interval from v to its neighbour towards the exact v + error; v if exact.
     template <class T>
     static constexpr bound<T> nearest(const T& v, const T& error) {
         return checked<T>(v, error < 0 ? below<T>(v) : v, error > 0 ? above<T>(v) : v);
     }
     template <class T>
     static constexpr bound<T> sum(const T& v, const bound<T>& a, const bound<T>& b) {
-        // An error that is NaN (overflow) steps outwards too.
+        // A NaN error (overflow) also steps outwards.
         const auto [lower, below_error] = two_sum<T>(a.lower, b.lower);
         const auto [upper, above_error] = two_sum<T>(a.upper, b.upper);
         return checked<T>(v, below_error >= 0 ? lower : below<T>(lower),

@@ -1,12 +1,12 @@
-// Bound rule `none`: plain arithmetic, no bound, no promise.
+// Bound rule `none`: plain arithmetic without bounds.
 #pragma once
 
 #include <errbound/rules/rule.hpp>
 
 namespace errbound {
 
-/// Treats every finite result as exact, as unprotected code does: signs are guesses
-/// (proofs/IeeeRules.v, none_guesses). Results that are not finite are still uncertain.
+/// Treats every finite result as exact: signs are guesses (proofs/IeeeRules.v, none_guesses).
+/// A result that is not finite is uncertain.
 struct none {
     static constexpr const char* name = "none";
     static constexpr error_meaning error_is = error_meaning::nothing;

@@ -1,30 +1,13 @@
 // Bound rule `relative`: counts factors 1 + δ, as error analyses on paper do. Made for products,
 // quotients and sums of numbers of one sign; rounding must be to nearest.
 //
-// Notation: v the computed value, x the true one, u = 2^-p, ε = 2u. A number is known by k:
-// v = x·Π(1 + δᵢ)^±1 over k factors, |δᵢ| <= u (Higham 2002, Lemma 3.1; Stewart's counter of k), so
-// that v and x have one sign, and |ln(v/x)| <= kw, w = −ln(1 − u). It is kw that k stands for,
-// which need not be whole.
-//  * exact numbers have k = 0; an operation adds one to the count unless it is exact, as
-//    error_free.hpp tells;
-//  * products and quotients: k = ka + kb; sums of one sign: k = max(ka, kb), for a sum of such lies
-//    between the extremes of its parts;
-//  * sums of unlike signs have no count by themselves. They fall back on absolute errors,
-//    E = Ea + Eb, taken relatively: with r = E/|â + b̂| < 1, the logarithm is at most −ln(1 − r) <=
-//    r(6 − 5r)/(2(1 − r)(3 − r)), and that is divided by u <= w for k. (With x = 1/(1 − r), it says
-//    ln x <= (x − 1)(x + 5)/(4x + 2); both are 0 at 1, and the difference has the derivative
-//    (x − 1)³/(x(2x + 1)²).) So what cancellation leaves has a count that shows what was lost. From
-//    r = 1 on, and where the value is 0, nothing is known: not even that x − x is 0, unless x is
-//    exact;
-//  * underflow, of anything but a sum, and overflow: unknown, k infinite.
-// In numbers: |v − x| <= |v|(e^L − 1), L = kw, and e^L − 1 <= L/(1 − L/2) for 0 <= L < 2, since
-// ln((2 + L)/(2 − L)) = L + L³/12 + ... So for k factors about k·u|v|, as Higham's γ_k = ku/(1 −
-// ku). From L = 7/4 on nothing is said any more.
+// Notation: v the computed value, x the true one, u = 2^-p, ε = 2u. The bound is k: v = x·Π(1 +
+// δᵢ)^±1 over k factors, |δᵢ| <= u (Higham 2002, Lemma 3.1; Stewart's counter). So v and x have one
+// sign, and |ln(v/x)| <= kw, w = −ln(1 − u); k need not be whole. Exact numbers have k = 0. The
+// error is about k·u|v|, as with Higham's γ_k = ku/(1 − ku).
 //
-// Counts are doubles whatever the type of numbers, which float16 and its like would not do for;
-// sums of counts are exact, or rounded up by a factor 1 + ε of double's, which leads to their
-// successor. Factors 1 + 8ε, 16 times double's u, pay for the roundings of the other formulas:
-// twelve or fewer, where that of 5r counts up to five times, and that of L up to eight.
+// Infinite error: underflow of anything but a sum, overflow, cancellation down to the error, 0
+// unless exact, and kw from 7/4 on. x − x of an inexact x is not known to be 0.
 #pragma once
 
 #include <errbound/error_free.hpp>
@@ -39,7 +22,7 @@ struct relative {
 
     template <class T>
     struct bound {
-        double factors;  ///< k; infinite where nothing is known
+        double factors;  ///< k, a double for every T; infinite if there is no bound
     };
 
     /// Proof: proofs/IeeeRelative.v, relative_exact_known.
@@ -47,8 +30,8 @@ struct relative {
     static constexpr bound<T> exact(const T& value) {
         return {number_traits<T>::is_finite(value) ? 0 : unknown};
     }
-    /// Unknown unless error < |value|: a relative rule cannot say that a number is small.
-    /// Proof: proofs/IeeeRelative.v, relative_within_known.
+    /// Infinite unless error < |value|: a relative rule cannot represent a small number. Proof:
+    /// proofs/IeeeRelative.v, relative_within_known.
     template <class T>
     static constexpr bound<T> within(const T& value, const T& error) {
         using traits = number_traits<T>;
@@ -56,12 +39,13 @@ struct relative {
         if (!(error > 0) || !traits::is_finite(value)) return {unknown};
         return {factors_of<T>(error, traits::abs(value))};
     }
-    /// Proof: proofs/IeeeRelative.v, relative_error_known.
+    /// |v − x| <= |v|(e^L − 1), L = kw, and e^L − 1 <= L/(1 − L/2) for 0 <= L < 2, since ln((2 +
+    /// L)/(2 − L)) = L + L³/12 + ... Proof: proofs/IeeeRelative.v, relative_error_known.
     template <class T>
     static constexpr T error(const T& value, const bound<T>& b) {
         using traits = number_traits<T>;
         if (b.factors == 0) return T(0);
-        // What is subnormal loses more than a factor.
+        // A subnormal loses more than a factor.
         const double l = upper<double>(b.factors * of_one_factor<T>()) +
                          std::numeric_limits<double>::denorm_min();
         if (!(l < 1.75)) return traits::infinity();
@@ -71,8 +55,7 @@ struct relative {
         return upper<T>(detail::rounded_product(traits::abs(value), share)) +
                traits::underflow_unit();
     }
-    /// That of the value, wherever anything is known.
-    /// Proof: proofs/IeeeRelative.v, relative_sign_known.
+    /// The value's sign if the error is finite. Proof: proofs/IeeeRelative.v, relative_sign_known.
     template <class T>
     static constexpr sign_type sign(const T& value, const bound<T>& b) {
         if (!number_traits<T>::is_finite(error<T>(value, b))) return sign_type::uncertain;
@@ -92,7 +75,7 @@ struct relative {
                                        rule_operand<T, relative> b) {
         return sum<T>(v, a.value, a.bound, T(-b.value), b.bound);
     }
-    /// Proof: proofs/IeeeRelative.v, relative_multiply_known.
+    /// k = ka + kb, plus one unless exact. Proof: proofs/IeeeRelative.v, relative_multiply_known.
     template <class T>
     static constexpr bound<T> multiply(const T& v, rule_operand<T, relative> a,
                                        rule_operand<T, relative> b) {
@@ -102,8 +85,8 @@ struct relative {
             product_error_is_exact<T>(a.value, b.value, product) && product.error == 0;
         return rounded_to<T>(v, count_sum(a.bound.factors, b.bound.factors), is_exact);
     }
-    /// Unknown where b may be zero, which is where b's value is, or nothing is known of it.
-    /// Proof: proofs/IeeeRelative.v, relative_divide_known.
+    /// k = ka + kb, plus one unless exact. Infinite if b may be zero: its value is, or it has no
+    /// bound. Proof: proofs/IeeeRelative.v, relative_divide_known.
     template <class T>
     static constexpr bound<T> divide(const T& v, rule_operand<T, relative> a,
                                      rule_operand<T, relative> b) {
@@ -120,12 +103,10 @@ struct relative {
                              e >= 0 || number_traits<T>::scale(v, -e) == a.value);
     }
 
-    /// Σ aᵢbᵢ by absolute errors, taken relatively at the end: the sum of what products are off by,
-    /// as their counts say, and of what the partial sums are, which two_sum knows. Or by the count
-    /// of operations one by one, if that is less. So partial sums may cancel, as long as the last
-    /// does not; and of n terms of one size and sign about n/2 factors are counted, not n, for most
-    /// roundings are of sums that are smaller than the last.
-    /// Proof: proofs/IeeeRelative.v, relative_dot_known.
+    /// Σ aᵢbᵢ by absolute errors, made relative at the end: the errors of the products, by their
+    /// counts, and of the partial sums, by two_sum. If less, the count of single operations.
+    /// Partial sums may cancel if the last does not. For n terms of one size and sign about n/2
+    /// factors are counted, not n. Proof: proofs/IeeeRelative.v, relative_dot_known.
     template <class T>
     class dot_bound {
       public:
@@ -155,30 +136,33 @@ struct relative {
     static constexpr bool is_zero(rule_operand<T, relative> a) {
         return a.value == 0 && a.bound.factors == 0;
     }
-    /// At least the successor of x >= 0, or x itself if that is subnormal.
+    /// At least the successor of x >= 0, or x if subnormal.
     template <class T>
     static constexpr T upper(const T& x) {
         return detail::rounded_product(x, T(1 + number_traits<T>::epsilon()));
     }
 
-    /// At least −ln(1 − u), which is what one factor counts.
+    /// At least −ln(1 − u), one factor. 1 + 8ε, 16 times double's u, pays for twelve roundings.
     template <class T>
     static constexpr double of_one_factor() {
         const double u = static_cast<double>(number_traits<T>::unit_roundoff());
         return u * (1 - u / 2) / (1 - u) * (1 + 8 * epsilon);
     }
+    // Rounded up by a factor 1 + ε, to the successor, unless exact.
     static constexpr double count_sum(double j, double k) {
         const with_error<double> sum = two_sum<double>(j, k);
         return sum.error > 0 ? upper<double>(sum.value) : sum.value;
     }
-    /// How many factors an error of `error` is on something of size `size`.
+    /// The number of factors in a relative error r = error/size < 1. −ln(1 − r) <= r(6 − 5r)/(2(1 −
+    /// r)(3 − r)), divided by u <= w. (With x = 1/(1 − r): ln x <= (x − 1)(x + 5)/(4x + 2), equal
+    /// at 1, and the difference has the derivative (x − 1)³/(x(2x + 1)²).)
     template <class T>
     static constexpr double factors_of(const T& error, const T& size) {
         using traits = number_traits<T>;
         if (!(size > 0)) return unknown;  // 0 may be −0
         const T share = upper<T>(T(error / size)) + traits::underflow_unit();
         if (!(share < T(1))) return unknown;
-        // Not less, of types wider than double; below 1 also after that.
+        // Not less for types wider than double, and still below 1.
         const double r =
             upper<double>(static_cast<double>(share)) + std::numeric_limits<double>::denorm_min();
         if (!(r < 1)) return unknown;
@@ -187,7 +171,7 @@ struct relative {
                (1 + 8 * epsilon);
     }
 
-    /// Of a result with k factors that is rounded to v, if it is not exact.
+    /// Adds a factor for rounding to v, unless exact.
     template <class T>
     static constexpr bound<T> rounded_to(const T& v, double k, bool is_exact) {
         using traits = number_traits<T>;
@@ -196,6 +180,7 @@ struct relative {
         if (traits::abs(v) >= traits::smallest_normal()) return {count_sum(k, 1)};
         return {unknown};
     }
+    // One sign: k = max(ka, kb), as the sum lies between. Unlike signs: (Ea + Eb)/|â + b̂|.
     template <class T>
     static constexpr bound<T> sum(const T& v, const T& a, const bound<T>& of_a, const T& b,
                                   const bound<T>& of_b) {
@@ -205,13 +190,13 @@ struct relative {
         if (k == 0 || (a >= 0 && b >= 0) || (a <= 0 && b <= 0))
             return rounded_sum<T>(v, k, is_exact);
         const T off = upper<T>(T(error<T>(a, of_a) + error<T>(b, of_b)));
-        // |â + b̂| is at least the predecessor of |v|, which |v|(1 − ε), rounded, does not exceed.
+        // |â + b̂| is at least the predecessor of |v|, which is at least |v|(1 − ε), rounded.
         const T size = traits::abs(v);
         const T least = is_exact ? size : detail::rounded_product(size, T(1 - traits::epsilon()));
         if (!traits::is_finite(v) || !(off < least)) return {unknown};
         return rounded_sum<T>(v, factors_of<T>(off, least), is_exact);
     }
-    /// Sums do not underflow but exactly.
+    /// Sums that underflow are exact.
     template <class T>
     static constexpr bound<T> rounded_sum(const T& v, double k, bool is_exact) {
         if (!number_traits<T>::is_finite(v)) return {unknown};

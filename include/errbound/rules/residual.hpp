@@ -1,21 +1,13 @@
-// Bound rule `residual`: the rounding error itself, to first order. Each operation's exact error
-// (error_free.hpp) is carried along beside the value and propagated in plain floating point; only
-// what that leaves out is bounded, and it is of second order. Rounding must be to nearest.
+// Bound rule `residual`: carries each rounding error itself, to first order, by error_free.hpp.
+// Only the second-order remainder is bounded. Rounding must be to nearest.
 //
-// Notation: v the computed value, c the correction, ρ the remainder, |v + c − true value| <= ρ;
-// u = 2^-p, η the smallest positive number, δ an operation's exact error. Before ρ stands what the
-// rule's own arithmetic needs:
-//  * every rounding of a correction is counted in ρ, as u times its result, or exactly where
-//    two_sum gives it; an underflow of a product on the way as η/2;
-//  * roundings of ρ: up to eight, paid for by the factor 1 + 8ε >= (1 + u)^9 (u <= 1/8);
-//  * where δ is not known exactly (near underflow; overflow inside Dekker's product), δ = 0 is
-//    taken and u|v| + η/2, which bounds it, goes into ρ;
-//  * exact numbers have c = ρ = 0; sums of numbers with ρ = 0 keep ρ = 0 as long as c holds their
-//    error exactly, and v + c = 0, ρ = 0 is a certain zero;
-//  * a value that is not finite has a correction or remainder that is not finite either, which no
-//    sign passes.
-// Source: error-free transformations as in Ogita, Rump, Oishi 2005 (Accurate sum and dot product),
-// propagated as in Langlois 2001 (Automatic linear correction of rounding errors).
+// Notation: v the computed value, c the correction, ρ the remainder, |v + c − true value| <= ρ; u =
+// 2^-p, η the smallest positive number, δ an operation's exact error. Exact numbers have c = ρ = 0.
+// Sums keep ρ = 0 while c holds their error exactly; v + c = 0 with ρ = 0 is a certain zero. For a
+// value that is not finite, neither is c or ρ, so no sign is certain.
+//
+// Sources: Ogita, Rump, Oishi 2005 (Accurate sum and dot product); Langlois 2001 (Automatic linear
+// correction of rounding errors).
 #pragma once
 
 #include <errbound/detail/sum_of_bounds.hpp>
@@ -45,8 +37,8 @@ struct residual {
     static constexpr bound<T> within(const T& value, const T& error) {
         return {T(0), error >= 0 ? error + (value - value) : number_traits<T>::infinity()};
     }
-    /// The bound of a number of this value that is known to be 0.
-    /// Proof: proofs/IeeeResidual.v, residual_displacement_known.
+    /// The bound of a number that is exactly 0. Proof: proofs/IeeeResidual.v,
+    /// residual_displacement_known.
     template <class T>
     static constexpr bound<T> displacement(const T& value) {
         return {-value, value - value};
@@ -58,14 +50,12 @@ struct residual {
         if (b.remainder == 0) return traits::abs(b.correction);
         return inflated<T>(traits::abs(b.correction) + b.remainder);
     }
-    /// c.
     template <class T>
     static constexpr T correction(const T&, const bound<T>& b) {
         return b.correction;
     }
-    /// v + c is known to ρ, a bound of second order: that tells far more than error(). With
-    /// s = v ⊕ c, |v + c| >= |s|(1 − u), and (1 + 8ε)(1 − u)/(1 + u) > 1; where s is subnormal, it
-    /// is exact. Proof: proofs/IeeeResidual.v, residual_sign_known.
+    /// v + c is known to ρ, of second order. With s = v ⊕ c, |v + c| >= |s|(1 − u), and (1 + 8ε)(1
+    /// − u)/(1 + u) > 1; a subnormal s is exact. Proof: proofs/IeeeResidual.v, residual_sign_known.
     template <class T>
     static constexpr sign_type sign(const T& value, const bound<T>& b) {
         using traits = number_traits<T>;
@@ -82,8 +72,7 @@ struct residual {
         return {-b.correction, b.remainder};
     }
 
-    /// a + b = v + δ + (ca + cb) ± (ρa + ρb); the two sums that make c are error-free too.
-    /// Proof: proofs/IeeeResidual.v, residual_add_known.
+    /// a + b = v + δ + (ca + cb) ± (ρa + ρb). Proof: proofs/IeeeResidual.v, residual_add_known.
     template <class T>
     static constexpr bound<T> add(const T& v, rule_operand<T, residual> a,
                                   rule_operand<T, residual> b) {
@@ -95,9 +84,9 @@ struct residual {
                                        rule_operand<T, residual> b) {
         return sum<T>(v, a.value, a.bound, T(-b.value), negate<T>(b.bound));
     }
-    /// ab = v + δ + (va·cb + ca·vb) + ca·cb, and with the remainders
-    /// (|va| + |ca|)ρb + (|vb| + |cb| + ρb)ρa.
-    /// Proof: proofs/IeeeResidual.v, residual_multiply_known.
+    /// ab = v + δ + (va·cb + ca·vb) + ca·cb; the remainders add (|va| + |ca|)ρb + (|vb| + |cb| +
+    /// ρb)ρa. If δ is not known exactly, it counts as 0, and ρ includes u|v| + η/2. Proof:
+    /// proofs/IeeeResidual.v, residual_multiply_known.
     template <class T>
     static constexpr bound<T> multiply(const T& v, rule_operand<T, residual> a,
                                        rule_operand<T, residual> b) {
@@ -122,11 +111,10 @@ struct residual {
         return {correction,
                 inflated<T>(remainder + roundings<T>(x, y, inherited, correction) + unknown)};
     }
-    /// With q = v and the remainder of division r: a/b − q = N/b, N = r + ca − q·cb ± (ρa + |q|ρb),
-    /// and N/b − N/vb = N/vb·(vb − b)/b. So c = N/vb, and what is left is at most
-    /// (|N/vb|(|cb| + ρb) + ρa + |q|ρb + roundings)/(|vb| − |cb| − ρb). Where r is not known, it is
-    /// left out of c: what N/vb then lacks, r/vb, is the error of q. Unknown where b may be zero.
-    /// Proof: proofs/IeeeResidual.v, residual_divide_known.
+    /// With q = v and the remainder r: a/b − q = N/b, N = r + ca − q·cb ± (ρa + |q|ρb), and N/b −
+    /// N/vb = N/vb·(vb − b)/b. So c = N/vb, and ρ is at most (|N/vb|(|cb| + ρb) + ρa + |q|ρb +
+    /// roundings)/(|vb| − |cb| − ρb). If r is unknown, c omits it; the omitted r/vb is the error of
+    /// q. Infinite if b may be zero. Proof: proofs/IeeeResidual.v, residual_divide_known.
     template <class T>
     static constexpr bound<T> divide(const T& v, rule_operand<T, residual> a,
                                      rule_operand<T, residual> b) {
@@ -146,7 +134,7 @@ struct residual {
         const T numerator = own + inherited;
         const T correction = numerator / b.value;
         // |N/vb| <= |c|(1 + u) + η/2 + unknown. The inner factor 1 + 8ε covers seven roundings,
-        // that of the distance among them, the outer one for four.
+        // including that of the distance, the outer one four.
         const T lost = unknown + traits::underflow_unit();
         const T c = traits::abs(correction) + lost, q = traits::abs(v);
         const T left = (detail::rounded_product(c, off) +
@@ -155,8 +143,8 @@ struct residual {
         return {correction,
                 inflated<T>(inflated<T>(left) / distance + detail::half_ulp<T>(correction) + lost)};
     }
-    /// Scaling by a power of two is exact unless it underflows: then value, correction and
-    /// remainder are each off by at most η/2. Proof: proofs/IeeeResidual.v, residual_scale_known.
+    /// Exact unless it underflows; then value, correction and remainder are each off by at most
+    /// η/2. Proof: proofs/IeeeResidual.v, residual_scale_known.
     template <class T>
     static constexpr bound<T> scale(const T& v, rule_operand<T, residual> a, int e) {
         using traits = number_traits<T>;
@@ -184,8 +172,8 @@ struct residual {
         return {correction.value, remainder + (v - v)};
     }
 
-    /// What the roundings of two products x and y and of two sums take at most, with 4η for these
-    /// products' underflows and those of four others.
+    /// Bounds the roundings of products x and y and of two sums: u times each result, and 4η for
+    /// the underflows of these and four other products.
     template <class T>
     static constexpr T roundings(const T& x, const T& y, const T& first, const T& second) {
         using traits = number_traits<T>;
@@ -194,6 +182,7 @@ struct residual {
         return detail::rounded_product(sizes, traits::unit_roundoff()) +
                4 * traits::underflow_unit();
     }
+    // Pays for up to eight roundings of ρ: 1 + 8ε >= (1 + u)^9 (u <= 1/8).
     template <class T>
     static constexpr T inflated(const T& bound) {
         return detail::rounded_product(bound, T(1 + 8 * number_traits<T>::epsilon()));

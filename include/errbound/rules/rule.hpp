@@ -1,54 +1,15 @@
-// What a bound rule is: how a certified bound passes through operations.
+// Bound rules: how a certified bound passes through operations.
 //
-// A type with
-//   name                                         a string, for tables and messages
-//   template <class T> struct bound              what it stores beside a value
-//   exact(value)                                 the bound of a number that is exact
-//   within(value, error)                         of a number known to be within error of value
-//   error(value, bound)                          an upper bound of |value − true value|;
-//                                                infinity or NaN: nothing is known
-//                                                (tracked::error() returns infinity for both)
-//   add, subtract, multiply(result, a, b)        the bound of the rounded result of a ∘ b
-//   divide(result, a, b)                         likewise; leave it out if the rule has none
-//   scale(result, a, e)                          the bound of result = a·2^e, rounded once
-// and, only where the defaults do not serve,
-//   negate(bound)                                the bound of −value; default: the same bound
-//   sign(value, bound)                           the certain sign, for a rule that knows more than
-//                                                |value − true value| <= error; default: what value
-//                                                and error tell. Uncertain where value or error is
-//                                                not finite; zero only if the true value is zero
-//   correction(value, bound)                     what the rule knows of true value − value,
-//                                                signed and no larger than the error; default: 0
-//   square_root(result, a)                       the bound of the rounded √a, unknown where a may
-//                                                be negative; default: what the error of a tells
-//   fused(result, a, b, c)                       the bound of ab + c, rounded once; default: what
-//                                                the errors of a, b and c tell
-//   keeps_first_order                            true where the rule keeps errors with their signs
-//                                                or sources: √a and ab + c are then made of the
-//                                                rule's operations, which `divide` is among
-//   is_crowded(bound)                            of such a rule: true where √a is better one source
-//   displacement(value)                          the bound of a number of that value that is known
-//                                                to be 0: with it, bounds of numbers of 8 and 16
-//                                                bits are floats (tracked.hpp)
-//   template <class T> class dot_bound           what bounds s = 0, s += ab, s += cd, ... better
-//                                                than one operation after the other: for each step
-//                                                add_product(ab, s before, s after, a, b), at the
-//                                                end finished(s), which returns bound<T>
-//   minimal_precision                            the number of bits of T that the proof needs
-//   has_division                                 false where `divide` only says why there is none
-//   holds_in_directed_rounding                   true where the proof does not need rounding to
-//                                                nearest: validation then tries every direction
-//   holds_without_subnormals                     true where sums may underflow: T then is a type
-//                                                without gradual underflow
-//   error_is                                     error_meaning::estimate or nothing, where no
-//                                                bound is promised
-//   claimed_rate                                 of an estimate: the probability, by what it is
-//                                                made for, that the error is no larger
-// Of T a rule may use + − × ÷ (with two operands: a += b is not in every type), negation,
-// comparisons, construction from int and what number_traits<T> has. All are static; see
-// rules/tight.hpp for one that fits on a page, and examples/own_rule.cpp. A rule that differs from
-// another in a part is derived from it: rules/derived.hpp. The state may be of any size, terms by
-// source for instance: rules/affine.hpp.
+//   struct my_rule {
+//       static constexpr const char* name = "my_rule";
+//       template <class T> struct bound { T error; };
+//       // exact, within, error, add, subtract, multiply, scale: see bound_rule below
+//   };
+//   using number = errbound::tracked<double, my_rule>;
+//
+// A missing member does not compile, and the message names it. rules/tight.hpp fits on a page;
+// another example is examples/own_rule.cpp. To change one operation of a rule, derive from it
+// (rules/derived.hpp).
 #pragma once
 
 #include <concepts>
@@ -58,19 +19,17 @@
 
 namespace errbound {
 
-/// What a rule sees of an operand: its value and the bound that the rule itself gave it.
-/// References: valid during the rule's call only.
+/// An operand's value and its bound by the same rule. Valid only during the rule's call.
 template <class T, class Rule>
 struct rule_operand {
     const T& value;
     const typename Rule::template bound<T>& bound;
 };
 
-/// What a rule means by its error().
 enum class error_meaning : std::uint8_t {
     bound,     ///< |value − true value| is no more; a certain sign is the true one
-    estimate,  ///< about as large as |value − true value|; signs go by it, and may be wrong
-    nothing,   ///< zero whatever the true error: signs are guesses
+    estimate,  ///< about |value − true value|; signs follow it and may be wrong
+    nothing,   ///< always zero: signs are guesses
 };
 
 template <class Rule>
@@ -81,7 +40,7 @@ inline constexpr error_meaning meaning_of_error = [] {
         return error_meaning::bound;
 }();
 
-/// The probability that a rule claims for its estimates; 0 where it claims none, or promises more.
+/// The probability that a rule claims for its estimates; 0 for none, or for certified bounds.
 template <class Rule>
 inline constexpr double claimed_rate = [] {
     if constexpr (requires { Rule::claimed_rate; })
@@ -90,7 +49,6 @@ inline constexpr double claimed_rate = [] {
         return 0.0;
 }();
 
-/// Whether the rule promises a bound at all.
 template <class Rule>
 inline constexpr bool promises_bound = meaning_of_error<Rule> == error_meaning::bound;
 
@@ -190,12 +148,11 @@ inline constexpr bool holds_without_subnormals = [] {
         return false;
 }();
 
-/// Says in words what a type lacks that is taken for a rule.
+/// Names the member that a bound rule lacks.
 template <class Rule, class T>
 struct rule_check {
-    static_assert(
-        rule_has_bound<Rule, T>,
-        "errbound: a bound rule needs a template bound<T>, what it stores beside a value");
+    static_assert(rule_has_bound<Rule, T>,
+                  "errbound: a bound rule needs a template bound<T>, its state for a value");
     static_assert(rule_has_name<Rule, T>, "errbound: a bound rule needs a name, a string");
     static_assert(rule_has_exact<Rule, T>,
                   "errbound: a bound rule needs exact(value), which returns bound<T>");
@@ -217,8 +174,41 @@ struct rule_check {
 
 }  // namespace detail
 
-/// Whether Rule is a bound rule for numbers of type T, as the head of this file says. That its
-/// bounds hold is for a proof and for errbound/validation.
+/// True if Rule is a bound rule for T. Soundness needs a proof; see also errbound/validation. A
+/// rule may use + − × ÷ of T (no a += b), negation, comparisons, construction from int,
+/// number_traits<T>. All members are static:
+///
+///   name                                    for tables and messages
+///   template <class T> struct bound         the state stored with a value, of any size
+///   exact(value)                            the bound of an exact number
+///   within(value, error)                    the bound of a number within error of value
+///   error(value, bound)                     at least |value − true value|; infinity or NaN if none
+///   add, subtract, multiply(result, a, b)   the bound of the rounded result of a ∘ b
+///   divide(result, a, b)                    as above; omit it if the rule has no division
+///   scale(result, a, e)                     the bound of result = a·2^e, rounded once
+/// Optional, with defaults:
+///   negate(bound)                           the bound of −value; default: the same bound
+///   sign(value, bound)                      the certain sign; default: from value and error.
+///                                           Uncertain if either is not finite; zero only if exact
+///   correction(value, bound)                estimates true value − value, within error; default: 0
+///   square_root(result, a)                  the bound of the rounded √a, unknown if a may be
+///                                           negative; default: from the error of a
+///   fused(result, a, b, c)                  the bound of ab + c, rounded once; default: from
+///   errors keeps_first_order                       true if errors keep signs or sources: √a and ab
+///   + c
+///                                           then use the rule's operations, including divide
+///   is_crowded(bound)                       for such a rule: true if √a should be one source
+///   displacement(value)                     the bound of a number of that value that is exactly 0:
+///                                           then 8- and 16-bit numbers have float bounds
+///   template <class T> class dot_bound      bounds s = 0, s += ab, ...: a call of
+///                                           add_product(ab, s before, s after, a, b) per step,
+///                                           then finished(s), which returns bound<T>
+///   minimal_precision                       the bits of T that the proof needs
+///   has_division                            false if `divide` exists only for its message
+///   holds_in_directed_rounding              true if the proof holds in any rounding direction
+///   holds_without_subnormals                true if sums may underflow (no gradual underflow)
+///   error_is                                error_meaning::estimate or nothing
+///   claimed_rate                            the probability that an estimate claims to hold
 template <class Rule, class T = double>
 concept bound_rule = detail::rule_has_bound<Rule, T> && detail::rule_has_name<Rule, T> &&
     detail::rule_has_exact<Rule, T> && detail::rule_has_within<Rule, T> &&

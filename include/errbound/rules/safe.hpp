@@ -1,14 +1,9 @@
 // Bound rule `safe`: SafeBound (Wang 2014; Section 4.2 of the TightCCD paper), its gaps closed.
 //
-// A number is known by (B, k): |f| <= B and |f̂ − f| <= B[(1 + ε)^k − 1]. Closed here:
-//  * B is itself rounded: every B is multiplied by 1 + 4ε, so that it is at least the exact
-//    Ba + Bb or Ba·Bb in any rounding direction;
-//  * underflow: B of a product is at least the smallest normal number m. A product that underflows
-//    is off by at most η = mε <= Bε, which is what one more in k pays; one that does not
-//    underflow is off by ε of itself, which the same k pays;
-//  * exact zero: a product with an exact zero is an exact zero;
-//  * overflow: B is then infinite, the value infinite or NaN, and no sign passes.
-// There is no rule for division: (B, k) has no lower bound of |f| to divide by.
+// The bound is (B, k): |f| <= B and |f̂ − f| <= B[(1 + ε)^k − 1]. Beyond the printed rule, B is
+// inflated for its own rounding, underflow is covered, and a product with an exact zero is an exact
+// zero. Overflow makes B infinite and the value infinite or NaN, so no sign is certain. No
+// division: (B, k) has no lower bound of |f|.
 #pragma once
 
 #include <errbound/detail/rounded.hpp>
@@ -18,9 +13,9 @@ namespace errbound {
 
 struct safe {
     static constexpr const char* name = "safe";
-    /// But for the overflow that is named above.
+    /// Except for overflow.
     static constexpr bool holds_in_directed_rounding = true;
-    /// `divide` is there to tell why.
+    /// `divide` only names the reason.
     static constexpr bool has_division = false;
 
     template <class T>
@@ -34,19 +29,18 @@ struct safe {
     static constexpr bound<T> exact(const T& value) {
         return {number_traits<T>::abs(value), 0};
     }
-    /// B = max(|value| + error, error/ε), k = 1: then Bε >= error. Proof: proofs/IeeeSafe.v,
-    /// safe_within_known.
+    /// B = max(|value| + error, error/ε), k = 1. Proof: proofs/IeeeSafe.v, safe_within_known.
     template <class T>
     static constexpr bound<T> within(const T& value, const T& error) {
         using traits = number_traits<T>;
         if (error == 0) return exact(value);
         if (!(error > 0)) return {traits::infinity(), 1};
-        // error/ε overflows beyond that: in some directions to the largest number, which is less.
+        // Larger errors make error/ε overflow; in some directions to the largest number, too small.
         const bool overflows = error > traits::largest() * traits::epsilon();
         const T least = overflows ? traits::infinity() : error / traits::epsilon();
         return {enlarged<T>((traits::max)(traits::abs(value) + error, least)), 1};
     }
-    /// B[(1 + ε)^k − 1] <= B·kε(1 + kε), since e^x − 1 <= x + x² for x <= 1; unknown beyond.
+    /// B[(1 + ε)^k − 1] <= B·kε(1 + kε), since e^x − 1 <= x + x² for x <= 1; infinite beyond.
     /// Proof: proofs/IeeeSafe.v, safe_error_known; in any direction, proofs/Safe.v,
     /// safe_error_sound.
     template <class T>
@@ -75,8 +69,9 @@ struct safe {
                                        rule_operand<T, safe> b) {
         return add(v, a, b);
     }
-    /// B = Ba·Bb, k = ka + kb + 1. Proof: proofs/IeeeSafe.v, safe_multiply_known; in any direction,
-    /// proofs/Safe.v, safe_multiply_sound.
+    /// B = Ba·Bb, at least the smallest normal number m, k = ka + kb + 1. The 1 in k pays for
+    /// rounding by ε, or for underflow by η = mε <= Bε. Proof: proofs/IeeeSafe.v,
+    /// safe_multiply_known; in any direction, proofs/Safe.v, safe_multiply_sound.
     template <class T>
     static constexpr bound<T> multiply(const T&, rule_operand<T, safe> a, rule_operand<T, safe> b) {
         using traits = number_traits<T>;
@@ -92,9 +87,8 @@ struct safe {
                       "only); use the rule `tight`, or rewrite the expression without division");
         return {};
     }
-    /// (B·2^e, k) is exact unless it underflows; B is then kept at the smallest normal number and
-    /// one more in k pays. Proof: proofs/IeeeSafe.v, safe_scale_known; in any direction,
-    /// proofs/Safe.v, safe_scale_sound.
+    /// (B·2^e, k) is exact unless it underflows; then B is at least m and k grows by one. Proof:
+    /// proofs/IeeeSafe.v, safe_scale_known; in any direction, proofs/Safe.v, safe_scale_sound.
     template <class T>
     static constexpr bound<T> scale(const T& v, rule_operand<T, safe> a, int e) {
         using traits = number_traits<T>;
@@ -107,11 +101,11 @@ struct safe {
     }
 
   private:
-    /// From here on k is not counted any more, and nothing is known. Two of it fit an int.
+    /// The largest k, for an infinite error. Two of it fit an int.
     static constexpr int too_many = 1 << 29;
-    /// k + 1
     static constexpr int counted(int k) { return k < too_many - 1 ? k + 1 : too_many; }
 
+    // At least the exact Ba + Bb or Ba·Bb, in any rounding direction.
     template <class T>
     static constexpr T enlarged(const T& x) {
         return detail::rounded_product(x, T(1 + 4 * number_traits<T>::epsilon()));

@@ -1,17 +1,11 @@
 // Bound rule `sharp`: TightBound with the unit roundoff u in place of ε = 2u, for rounding to
 // nearest only. Its bounds are half of `tight`'s.
 //
-// Notation: η the smallest positive number, v the computed result, σ a bound. In rounding to
-// nearest an operation is off by at most max(u|v|, η/2), a sum by at most u|v| (Higham 2002,
-// Theorem 2.3). The rule's own arithmetic is paid for as follows:
-//  * roundings: each keeps at least 1/(1 + u) of a bound, or all of it where it is a sum that
-//    underflows (exact). A sum's bound has three on the way, (1 + u)³ <= 1 + 4u = 1 + 2ε; a
-//    product's has five, (1 + u)^5 <= 1 + 8u = 1 + 4ε; both for u <= 1/8. No factor with one bit
-//    less would do for the sum: 1 + ε < (1 + u)³;
-//  * underflow: u|v| is a power of two times v, and half an ulp of an inexact sum is at least η, so
-//    that u|v| rounds to no less than it. A product's value and the three products inside its bound
-//    are each off by at most η/2 where they underflow: 2η is added;
-//  * exact zero, and overflow, as for `tight`; nothing goes unnoticed in rounding to nearest.
+// Notation: η the smallest positive number, v the computed result, σ a bound. An operation is off
+// by at most max(u|v|, η/2), a sum by at most u|v| (Higham 2002, Theorem 2.3). Half an ulp of an
+// inexact sum is at least η, so u|v| rounds to no less. A product's value and the three products in
+// its bound may each lose η/2: 2η is added. Exact zeros and overflow: as for `tight`; no overflow
+// goes unnoticed.
 #pragma once
 
 #include <errbound/detail/rounded.hpp>
@@ -41,19 +35,19 @@ struct sharp {
     static constexpr bound<T> within(const T& value, const T& error) {
         return {error >= 0 ? error + (value - value) : number_traits<T>::infinity()};
     }
-    /// The bound of a number of this value that is known to be 0.
-    /// Proof: proofs/IeeeRules.v, tight_within_known.
+    /// The bound of a number that is exactly 0. Proof: proofs/IeeeRules.v, tight_within_known.
     template <class T>
     static constexpr bound<T> displacement(const T& value) {
         return within<T>(value, number_traits<T>::abs(value));
     }
-    /// Proof of the sign that it makes: proofs/IeeeRules.v, sign_of_known.
+    /// Proof of the resulting sign: proofs/IeeeRules.v, sign_of_known.
     template <class T>
     static constexpr T error(const T&, const bound<T>& b) {
         return b.error;
     }
 
-    /// |v − (a + b)| <= u|v| + σa + σb. Proof: proofs/IeeeRules.v, sharp_add_known.
+    /// |v − (a + b)| <= u|v| + σa + σb. The bound has three roundings, (1 + u)³ <= 1 + 4u = 1 + 2ε
+    /// for u <= 1/8; 1 + ε is too small. Proof: proofs/IeeeRules.v, sharp_add_known.
     template <class T>
     static constexpr bound<T> add(const T& v, rule_operand<T, sharp> a, rule_operand<T, sharp> b) {
         using traits = number_traits<T>;
@@ -80,8 +74,8 @@ struct sharp {
             detail::rounded_product(a.bound.error, T(traits::abs(b.value) + b.bound.error));
         return {inflated<T>((rounding(v) + 2 * traits::underflow_unit()) + inherited)};
     }
-    /// Where |b̂| > σb: |v − a/b| <= u|v| + η/2 + (σa + |â/b̂|σb)/(|b̂| − σb); see `tight`. Elsewhere
-    /// the result is unknown. Proof: proofs/IeeeRules.v, sharp_divide_known.
+    /// If |b̂| > σb: |v − a/b| <= u|v| + η/2 + (σa + |â/b̂|σb)/(|b̂| − σb), as in `tight`;
+    /// otherwise infinite. Proof: proofs/IeeeRules.v, sharp_divide_known.
     template <class T>
     static constexpr bound<T> divide(const T& v, rule_operand<T, sharp> a,
                                      rule_operand<T, sharp> b) {
@@ -89,16 +83,16 @@ struct sharp {
         const T distance = traits::abs(b.value) - b.bound.error;  // of b from zero
         if (!(distance > 0)) return {traits::infinity()};
         if (is_zero(a)) return {rounding(v)};
-        // |â/b̂| <= |v|(1 + u) + η/2. Where b is not exact, η covers underflow in the numerator
-        // before the division enlarges it. Up to eight roundings, (1 + u)^8 <= (1 + 8u)².
+        // |â/b̂| <= |v|(1 + u) + η/2. If b is not exact, η covers underflow in the numerator before
+        // the division enlarges it. Up to eight roundings, (1 + u)^8 <= (1 + 8u)².
         const T quotient = inflated<T>(traits::abs(v) + traits::underflow_unit());
         const T lost = b.bound.error > 0 ? traits::underflow_unit() : T(0);
         const T inherited =
             (a.bound.error + (detail::rounded_product(quotient, b.bound.error) + lost)) / distance;
         return {inflated<T>((rounding(v) + 2 * traits::underflow_unit()) + inflated<T>(inherited))};
     }
-    /// Scaling by a power of two is exact unless it underflows: then value and bound are each off
-    /// by at most η/2. Proof: proofs/IeeeRules.v, sharp_scale_known.
+    /// Off by at most η/2 each if value or bound underflow. Proof: proofs/IeeeRules.v,
+    /// sharp_scale_known.
     template <class T>
     static constexpr bound<T> scale(const T& v, rule_operand<T, sharp> a, int e) {
         using traits = number_traits<T>;
@@ -108,19 +102,15 @@ struct sharp {
         return {lossless ? scaled + (v - v) : inflated<T>(scaled + traits::underflow_unit())};
     }
 
-    /// Σ aᵢbᵢ, a running error bound: a product p is off by at most u|p| + η/2, a partial sum
-    /// s' = fl(s + p) by no more than u|s'|, than |p| and than |s|, since s and p are numbers that
-    /// s' might have been. So what is added to something much larger counts no more than it is, and
-    /// the first term, added to 0, not at all. The arguments' errors add Σ |â|σb + σa(|b̂| + σb).
+    /// Σ aᵢbᵢ, a running error bound. A product p is off by at most u|p| + η/2; a partial sum s' =
+    /// fl(s + p) by at most u|s'|, |p| and |s|, since s and p are candidates for s'. The arguments'
+    /// errors add Σ |â|σb + σa(|b̂| + σb).
     ///
-    /// One factor pays for the roundings of the bounds of m terms. Σ (u|p| + min(u|s'|, |p|, |s|))
-    /// has m on the way, an argument's share m + 2, m − 1 of which are the sum's; three sums and
-    /// the factor's own rounding follow: with j = m + 6, (1 + u)^−j is left, and (1 + u)^j <=
-    /// 1 + ju + (ju)² <= 1 + (⌈j/2⌉ + 1)ε where j²ε <= 4. Underflow takes at most η/2 each of m
-    /// products of the value, as many u|p|, two in an uncertain argument's share, and the last
-    /// product.
-    /// Source: Higham 2002, Section 3.3; Jeannerod, Rump 2013 (SIAM J. Matrix Anal. Appl. 34) for
-    /// sums that are off by no more than a term. Proof: proofs/IeeeDotProduct.v, sharp_dot_known.
+    /// One factor pays for the roundings of m terms' bounds: m in Σ (u|p| + min(u|s'|, |p|, |s|)),
+    /// m + 2 in an argument's share, four more. With j = m + 6, (1 + u)^j <= 1 + ju + (ju)² <= 1 +
+    /// (⌈j/2⌉ + 1)ε if j²ε <= 4. Underflow takes at most η/2 each in m products, m of u|p|, two in
+    /// an uncertain share, and the last. Source: Higham 2002, Section 3.3; Jeannerod, Rump 2013
+    /// (SIAM J. Matrix Anal. Appl. 34). Proof: proofs/IeeeDotProduct.v, sharp_dot_known.
     template <class T>
     class dot_bound : detail::running_bound<T, dot_bound<T>, number_traits<T>::digits + 1> {
         static constexpr bool serves = dot_bound::pays;
@@ -130,7 +120,7 @@ struct sharp {
                                    rule_operand<T, sharp> a,
                                    rule_operand<T, sharp> b) requires serves {
             using traits = number_traits<T>;
-            if (is_zero(a) || is_zero(b)) return;  // 0 is added, or NaN, which the sum then is
+            if (is_zero(a) || is_zero(b)) return;  // adds 0, or a NaN that makes the sum NaN
             const T smaller = least(traits::abs(product), traits::abs(before));
             this->add_term(T(rounding(product) + least(rounding(sum), smaller)), a, b);
         }
@@ -148,6 +138,7 @@ struct sharp {
     static constexpr T rounding(const T& v) {
         return detail::rounded_product(number_traits<T>::abs(v), number_traits<T>::unit_roundoff());
     }
+    // Pays for five roundings: (1 + u)^5 <= 1 + 8u = 1 + 4ε for u <= 1/8.
     template <class T>
     static constexpr T inflated(const T& bound) {
         return detail::rounded_product(bound, T(1 + 4 * number_traits<T>::epsilon()));

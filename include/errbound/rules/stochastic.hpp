@@ -1,28 +1,10 @@
-// Bound rule `stochastic`: stochastic arithmetic, which estimates errors and promises nothing.
-// Beside a number stand samples of it, computed with every operation rounded up or down at random;
-// how far they scatter tells how far rounding carries. For comparison with bounds, and for programs
-// on which bounds tell too little. Its type says what it is: error_is is error_meaning::estimate,
-// and promises_bound<stochastic> is false; signs go by the estimate and may be wrong, so that no
-// predicate takes this rule.
+// Bound rule `stochastic`: stochastic arithmetic, which estimates errors and promises nothing. A
+// number carries samples, computed with every operation randomly rounded up or down; their scatter
+// estimates the rounding error. For comparison with bounds, and where bounds are too wide.
 //
-//  * A sample's operation is rounded to one of the two neighbours of the exact result, to the
-//    nearer with the higher probability (stochastic rounding, which is right on average: Croci,
-//    Fasi, Higham, Mary, Mikaitis 2022; random rounding of Parker's Monte Carlo arithmetic, 1997).
-//    The exact result is known by error_free.hpp; near underflow, where it is not, a last place or
-//    none is added or taken away.
-//  * Nothing is drawn: chance is a hash of the operands, of the sample's number and of Seed. So
-//    results are the same in each run, there is no generator to share, and the same operation on
-//    the same operands rounds alike, as it does in the arithmetic that samples stand for: a + b and
-//    b + a are one, and b − a is −(a − b). (So do the modes of Verrou that end in _det.)
-//  * `within` gives samples spread evenly over what the number may be, by value and error alone:
-//  two
-//    numbers within the same move together, as if they were one.
-//  * The value is plain arithmetic's. With m the mean of the samples' deviations from it and s
-//    their standard deviation, the estimate is |m| + τs/√N, where τ is Student's for 95 %: CESTAC's
-//    (Vignes 1993), which has the mean for its result, with what the value is off it. Where samples
-//    do not scatter, the estimate is 0.
-// What goes wrong: errors that are not of rounding (truncation), branches that samples do not take,
-// and chance. How often estimates are too small is among what `errbound validate` measures.
+// error_is is error_meaning::estimate: signs follow the estimate and may be wrong, so no predicate
+// takes this rule. It misses truncation errors and branches that samples do not take. `errbound
+// validate` measures how often estimates are too small.
 #pragma once
 
 #include <array>
@@ -35,8 +17,13 @@
 
 namespace errbound {
 
-/// Stochastic arithmetic with that many samples, 2 to 8. Cost: an operation is Samples times an
-/// error-free one, and a hash each.
+/// Stochastic arithmetic with 2 to 8 samples. Cost: an error-free operation and a hash per sample.
+///
+/// A sample's operation is rounded to a neighbour of the exact result, the nearer one more often,
+/// right on average (Croci, Fasi, Higham, Mary, Mikaitis 2022; Parker's Monte Carlo arithmetic,
+/// 1997). The random bits are a hash of the operands, the sample's index and Seed. So results are
+/// reproducible, and equal operations round equally, as in the modelled arithmetic: a + b and b + a
+/// agree, and b − a is −(a − b), as in Verrou's _det modes.
 template <std::size_t Samples, std::uint64_t Seed = 0>
 struct stochastic_of {
     static_assert(Samples >= 2 && Samples <= 8, "errbound: stochastic takes 2 to 8 samples");
@@ -55,7 +42,7 @@ struct stochastic_of {
     static constexpr bound<T> exact(const T& value) {
         return by_sample<T>([&](std::size_t) { return value; });
     }
-    /// Evenly from value − error to value + error.
+    /// Spread evenly over value ± error; equal arguments give equal samples.
     template <class T>
     static constexpr bound<T> within(const T& value, const T& error) {
         return by_sample<T>([&](std::size_t k) {
@@ -64,7 +51,9 @@ struct stochastic_of {
             return T(value + detail::rounded_product(error, static_cast<T>(share)));
         });
     }
-    /// An estimate; infinite where a sample is not finite.
+    /// An estimate; infinite if a sample is not finite. CESTAC's (Vignes 1993), |m| + τs/√N: the
+    /// mean deviation m from the value, the standard deviation s, Student's τ for 95 %. (CESTAC
+    /// returns the mean instead of the value.) 0 if samples do not scatter.
     template <class T>
     static constexpr T error(const T& value, const bound<T>& b) {
         using traits = number_traits<T>;
@@ -138,7 +127,7 @@ struct stochastic_of {
     }
 
   private:
-    /// For 95 % on both sides and one degree of freedom to seven.
+    /// Two-sided 95 %, one to seven degrees of freedom.
     static constexpr std::array<double, 7> students_t{12.706, 4.303, 3.182, 2.776,
                                                       2.571,  2.447, 2.365};
 
@@ -155,14 +144,14 @@ struct stochastic_of {
         const with_error<T> r = two_sum<T>(a, b);
         return at_random<T>(r.value, r.error, symmetric_hash<T>(a, b, k | of_sum));
     }
-    /// Half an ulp of v and somewhat more, so that v and this round to v's neighbour.
+    /// Above half an ulp of v: v ± step rounds to v's neighbour.
     template <class T>
     static constexpr T step(const T& v) {
         using traits = number_traits<T>;
         return detail::rounded_product(T(traits::abs(v) * traits::unit_roundoff()), T(1.25)) +
                traits::underflow_unit();
     }
-    /// v + error, rounded to v or to its neighbour on that side.
+    /// v + error, rounded to v or its neighbour on that side.
     template <class T>
     static constexpr T at_random(const T& v, const T& error, std::uint64_t random) {
         if (error == 0 || !number_traits<T>::is_finite(error)) return v;
@@ -170,18 +159,18 @@ struct stochastic_of {
         const T share = error / (neighbour - v);
         return share > static_cast<T>(chance(random)) ? neighbour : v;
     }
-    /// v or, half the time, one of its neighbours.
+    /// v or, half the time, a neighbour; for errors unknown near underflow.
     template <class T>
     static constexpr T disturbed(const T& v, std::uint64_t random) {
         const T off = random >> 63 == 0 ? T(0) : step<T>(v);
         return (random >> 62 & 1) == 0 ? v - off : v + off;
     }
 
-    /// Evenly in [0, 1).
+    /// Uniform in [0, 1).
     static constexpr double chance(std::uint64_t random) {
         return static_cast<double>(random >> 11) * 0x1p-53;
     }
-    /// Operations of the same operands are hashed apart.
+    /// Distinguishes operations on equal operands.
     enum operation : std::uint64_t {
         of_sum = 0,
         of_product = 8,
@@ -189,7 +178,7 @@ struct stochastic_of {
         of_scaling = 24
     };
 
-    /// Whatever the order of a and b, and their signs.
+    /// Independent of the operands' order and signs.
     template <class T>
     static constexpr std::uint64_t symmetric_hash(const T& a, const T& b, std::uint64_t which) {
         const T x = number_traits<T>::abs(a), y = number_traits<T>::abs(b);
@@ -208,7 +197,7 @@ struct stochastic_of {
         }
         return h;
     }
-    /// The last step of SplitMix64 (Steele, Lea, Flood 2014): a bijection that mixes bits.
+    /// The last step of SplitMix64 (Steele, Lea, Flood 2014), a bijection.
     static constexpr std::uint64_t mixed(std::uint64_t z) {
         z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9U;
         z = (z ^ (z >> 27)) * 0x94d049bb133111ebU;
@@ -216,7 +205,7 @@ struct stochastic_of {
     }
 };
 
-/// With three samples, as CADNA has.
+/// Three samples, as CADNA uses.
 using stochastic = stochastic_of<3>;
 
 }  // namespace errbound

@@ -1,9 +1,8 @@
-// Real numbers known two-sidedly, by MPFR: a midpoint and a radius, |x − midpoint| <= radius.
+// Real numbers enclosed by MPFR: a midpoint and a radius, |x − midpoint| <= radius.
 //
-// Sums and products are exact, radius 0, as long as they fit the precision. Every rounding of a
-// midpoint adds half a last place to the radius, and radii are rounded up, so that the enclosure
-// holds whatever the precision; a larger one only makes it narrower. The exponent range must be
-// MPFR's widest (exponents::widest).
+// Sums and products that fit the precision are exact, with radius 0. A midpoint's rounding adds
+// half a last place to the radius; radii are rounded up. So enclosures hold at every precision. The
+// exponent range must be MPFR's widest (exponents::widest).
 #pragma once
 
 #include <mpfr.h>
@@ -16,19 +15,19 @@
 
 namespace errbound::validation {
 
-/// Operations in an expression, at most.
+/// The largest number of operations in an expression.
 inline constexpr int max_operations = 48;
 
-/// Exponents of no format come near these, and MPFR's are far beyond, ±2^62 where a long has 64
-/// bits: numbers that are larger are unknown, those that are smaller nearly zero.
+/// Beyond all formats' exponents, and far below MPFR's, ±2^62 for a 64-bit long. Larger numbers are
+/// unknown, smaller ones nearly zero.
 inline constexpr mpfr_exp_t largest_exponent =
     mpfr_exp_t{1} << (std::numeric_limits<mpfr_exp_t>::digits > 40 ? 40 : 27);
 
-/// Sets the calling thread's range of exponents while it lives.
+/// Sets the thread's exponent range; restores it at the end.
 class exponents {
   public:
     static exponents widest() { return {mpfr_get_emin_min(), mpfr_get_emax_max()}; }
-    /// What MPFR starts with, and Boost's numbers need.
+    /// MPFR's default, which Boost's numbers need.
     static exponents initial() { return {initial_least, initial_most}; }
 
     ~exponents() {
@@ -47,7 +46,6 @@ class exponents {
     mpfr_exp_t least_, most_;
 };
 
-/// An mpfr_t that cleans up after itself.
 class mpfr_number {
   public:
     explicit mpfr_number(mpfr_prec_t precision) {
@@ -70,7 +68,7 @@ class mpfr_number {
 
     mpfr_ptr get() { return x_; }
     mpfr_srcptr get() const { return x_; }
-    /// Rounded once, to nearest: exact at exact_bits. What mpfr_add tells of the rounding.
+    /// Rounded once, to nearest; exact at exact_bits. Returns mpfr_add's ternary value.
     int set(const exact_value& x) {
         if (x.is_double()) return mpfr_set_d(x_, x.leading, MPFR_RNDN);
         MPFR_DECL_INIT(sum, exact_bits);
@@ -85,10 +83,10 @@ class mpfr_number {
 
 class ball {
   public:
-    /// Exactly zero; midpoints are rounded to `precision` bits.
+    /// Exactly zero; `precision`: bits of midpoints.
     explicit ball(mpfr_prec_t precision) : middle_(precision), radius_(radius_precision) {}
 
-    /// Exactly zero, at another precision.
+    /// Exactly zero, with another precision.
     void restart(mpfr_prec_t precision) {
         mpfr_set_prec(middle_.get(), precision);
         mpfr_set_zero(middle_.get(), 1);
@@ -98,7 +96,6 @@ class ball {
         mpfr_set_zero(radius_.get(), 1);
         rounded(middle_.set(value));
     }
-    /// value + error·quarters/4.
     void set(const exact_value& value, const exact_value& error, int quarters) {
         mpfr_number sum(exact_bits), part(exact_bits + 3);
         sum.set(value);
@@ -141,8 +138,7 @@ class ball {
         }
         rounded(off);
     }
-    /// |x/y − a/b| <= (ra + |a/b|·rb)/(|b| − rb); undefined if b is exactly 0, unknown if it may
-    /// be.
+    /// |x/y − a/b| <= (ra + |a/b|·rb)/(|b| − rb). Undefined if b is 0, unknown if b may be 0.
     void set_quotient(const ball& a, const ball& b) {
         if (b.is_zero()) {
             set_undefined();
@@ -171,7 +167,7 @@ class ball {
         mpfr_neg(middle_.get(), a.middle(), MPFR_RNDN);
         mpfr_set(radius_.get(), a.radius(), MPFR_RNDU);
     }
-    /// |√x − √m| <= r/√m; undefined if a is below 0, unknown if it may be.
+    /// |√x − √m| <= r/√m. Undefined if a is below 0, unknown if it may be.
     void set_root(const ball& a) {
         MPFR_DECL_INIT(least, radius_precision);
         mpfr_sub(least, a.middle(), a.radius(), MPFR_RNDD);
@@ -190,7 +186,7 @@ class ball {
         }
         rounded(mpfr_sqrt(middle_.get(), a.middle(), MPFR_RNDN));
     }
-    /// √ of a sum of squares, which is not below 0 even where the enclosure is.
+    /// √ of a sum of squares, which is not negative even if the enclosure is.
     void set_root_of_squares(const ball& a) {
         MPFR_DECL_INIT(most, radius_precision);
         mpfr_sub(most, a.middle(), a.radius(), MPFR_RNDD);
@@ -203,8 +199,7 @@ class ball {
         mpfr_abs(middle_.get(), a.middle(), MPFR_RNDN);
         mpfr_set(radius_.get(), a.radius(), MPFR_RNDU);
     }
-    /// |x| with the sign of what is in b, zero's taken for positive; where b does not tell, what is
-    /// between −|x| and |x|.
+    /// |x| with b's sign; zero counts as positive. If b's sign is uncertain, encloses [−|x|, |x|].
     void set_with_sign(const ball& a, const ball& b) {
         if (!a.is_defined() || !b.is_defined()) return set_undefined();
         if (b.is_unknown()) return set_unknown();
@@ -213,19 +208,17 @@ class ball {
         if (sign == sign_type::negative) mpfr_neg(middle_.get(), middle_.get(), MPFR_RNDN);
         if (!certain(sign)) widen_about_zero();
     }
-    /// Of the two the lesser or the greater: |max(x, y) − max(a, b)| <= max(ra, rb).
+    /// The lesser or the greater: |max(x, y) − max(a, b)| <= max(ra, rb).
     void set_lesser(const ball& a, const ball& b) { set_one(a, b, mpfr_lessequal_p); }
     void set_greater(const ball& a, const ball& b) { set_one(a, b, mpfr_greaterequal_p); }
-    /// ab + c.
     void set_fused(const ball& a, const ball& b, const ball& c) {
         ball product(mpfr_get_prec(middle_.get()));
         product.set_product(a, b);
         set_sum(product, c);
     }
-    /// f of what is in a and, if it has two arguments, in b; undefined where none of it has a
-    /// value, unknown where some may have none, or the precision does not tell.
+    /// f over a, and b if it has two arguments. Undefined if it has no value there, unknown if it
+    /// may have none or the precision is too small.
     void set_function(elementary_function f, const ball& a, const ball& b);
-    /// a·2^e.
     void set_scaled(const ball& a, int e) {
         mpfr_mul_2si(middle_.get(), a.middle(), e, MPFR_RNDN);
         mpfr_mul_2si(radius_.get(), a.radius(), e, MPFR_RNDU);
@@ -235,11 +228,11 @@ class ball {
     mpfr_srcptr radius() const { return radius_.get(); }
     bool is_exact() const { return mpfr_zero_p(radius_.get()) != 0; }
     bool is_zero() const { return is_exact() && mpfr_zero_p(middle_.get()) != 0; }
-    /// Nothing is known: the precision did not tell a divisor from zero.
+    /// The precision was too small to separate a divisor from zero.
     bool is_unknown() const { return mpfr_inf_p(radius_.get()) != 0; }
-    /// False for what was divided by exactly zero, and all that comes of it.
+    /// False after a division by exactly zero.
     bool is_defined() const { return mpfr_nan_p(middle_.get()) == 0; }
-    /// The sign, where the enclosure tells.
+    /// The certain sign.
     sign_type sign() const {
         if (!is_defined()) return sign_type::uncertain;
         if (mpfr_cmpabs(middle_.get(), radius_.get()) <= 0)
@@ -259,21 +252,21 @@ class ball {
     void set_function_of_two(elementary_function f, const ball& a, const ball& b);
     void set_power(const ball& a, const ball& b);
     void set_angle(const ball& a, const ball& b);
-    /// What is between two numbers; unknown unless both are finite.
+    /// Encloses [lower, upper]; unknown unless both are finite.
     void set_between(mpfr_srcptr lower, mpfr_srcptr upper);
-    /// The midpoint has been set to a function's rounded value.
+    /// Call after setting the midpoint to a function's rounded value.
     void set_computed(int off);
-    /// To all numbers that are no larger than some of its.
+    /// Widens to all numbers no larger in size.
     void widen_about_zero() {
         MPFR_DECL_INIT(size, radius_precision);
         mpfr_abs(size, middle_.get(), MPFR_RNDU);
         mpfr_add(radius_.get(), radius_.get(), size, MPFR_RNDU);
         mpfr_set_zero(middle_.get(), 1);
     }
-    /// Gives up a midpoint of an exponent beyond `largest`.
+    /// Replaces a midpoint whose exponent is beyond `largest`.
     void confine(mpfr_exp_t largest);
 
-    /// The one that `first` says; exact where that is certain and it is.
+    /// The number that `first` chooses, with its own radius if the choice is certain.
     void set_one(const ball& a, const ball& b, int (*first)(mpfr_srcptr, mpfr_srcptr)) {
         if (!a.is_defined() || !b.is_defined()) {
             set_undefined();
@@ -292,7 +285,7 @@ class ball {
                  MPFR_RNDU);
     }
 
-    /// Pays for the rounding of the midpoint, where there was one: half a last place.
+    /// Adds half a last place for a rounded midpoint.
     void rounded(int off) {
         if (mpfr_regular_p(middle_.get()) == 0) return;
         const mpfr_exp_t e = mpfr_get_exp(middle_.get());
@@ -307,10 +300,10 @@ class ball {
     mpfr_number middle_, radius_;
 };
 
-/// Whether a claim holds, as far as the enclosure tells.
+/// The verdict on a claim.
 enum class judgement { holds, violated, undetermined };
 
-/// |value − x| for a finite value and x in a ball: two-sided.
+/// Bounds of |value − x| for a finite value and x in a ball.
 class deviation {
   public:
     deviation() : lower_(precision), upper_(precision), value_(exact_bits) {}
@@ -325,7 +318,7 @@ class deviation {
         mpfr_add(upper_.get(), upper_.get(), x.radius(), MPFR_RNDU);
         mpfr_sub(lower_.get(), lower_.get(), x.radius(), MPFR_RNDD);
     }
-    /// Of a value and what stands error·quarters/4 from it.
+    /// error·quarters/4.
     void set(const exact_value& error, int quarters) {
         value_.set(error);
         // Exact: formats have fewer bits.
@@ -342,16 +335,16 @@ class deviation {
                                                         : judgement::undetermined;
     }
     bool is_zero() const { return mpfr_zero_p(upper_.get()) != 0; }
-    /// Zero, or too small for the enclosure to tell its size.
+    /// True if zero, or if the enclosure is too wide for its size.
     bool is_negligible() const {
         return is_zero() || mpfr_sgn(lower_.get()) <= 0 ||
                mpfr_get_exp(upper_.get()) > mpfr_get_exp(lower_.get()) + 1;
     }
-    /// Unless it is negligible.
+    /// Precondition: not negligible.
     double log10() const { return log10_of(upper_.get()); }
     mpfr_srcptr upper() const { return upper_.get(); }
 
-    /// For x > 0, whatever its exponent.
+    /// Precondition: x > 0.
     static double log10_of(mpfr_srcptr x);
 
   private:

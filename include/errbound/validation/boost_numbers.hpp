@@ -1,5 +1,5 @@
-// Boost.Multiprecision's numbers in validation: one of binary128's bits and exponents, but without
-// subnormal numbers, and MPFR's. Needs Boost, which no other header of validation does.
+// Boost.Multiprecision's numbers in validation: binary128 without subnormal numbers, and MPFR's.
+// The only header of validation that needs Boost.
 #pragma once
 
 #include <boost/multiprecision/cpp_bin_float.hpp>
@@ -8,8 +8,7 @@
 
 namespace errbound::validation {
 
-/// `f.operator()<T>()` of the type, in the range of exponents that MPFR's numbers need.
-/// Precondition: is_boost(type).
+/// Calls f.operator()<T>() for the type, in MPFR's exponent range. Precondition: is_boost(type).
 template <class F>
 decltype(auto) with_boost_number_type(number_type type, const F& f) {
     const exponents range = exponents::initial();
@@ -18,7 +17,7 @@ decltype(auto) with_boost_number_type(number_type type, const F& f) {
     return f.template operator()<boost::multiprecision::mpfr_float_50>();
 }
 
-/// What the rule says of expressions in these types, if it serves numbers without subnormal ones.
+/// Adds these types to a rule that works without subnormal numbers.
 template <class Rule>
 constexpr void set_boost_checks(rule& r) {
     if constexpr (errbound::detail::holds_without_subnormals<Rule>) {

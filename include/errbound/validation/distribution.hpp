@@ -1,4 +1,4 @@
-// Distributions of log10 of a ratio, as counts: adding and merging in any order give the same.
+// Counts of log10 of a ratio, independent of the order of adding and merging.
 #pragma once
 
 #include <cstddef>
@@ -9,38 +9,37 @@ namespace errbound::validation {
 
 class distribution {
   public:
-    /// Quantiles are known to within this.
+    /// Quantiles are within this.
     static constexpr double resolution = 0.02;
-    // Beyond these ends, ratios share the outermost bins; the extremes are still kept exactly.
+    // Larger ratios share the outermost bins; extremes are kept exactly.
     static constexpr double least_log = -40, max_log = 100;
 
-    /// A ratio by its log10, which is finite.
+    /// Precondition: log10_ratio is finite.
     void add(double log10_ratio);
-    /// The true error is zero, or too small for the reference to tell.
+    /// The true error is zero, or too small for the reference.
     void add_exact() { ++counts_.exact; }
-    /// The bound is infinite or NaN: nothing is claimed.
+    /// The bound is infinite or NaN.
     void add_unknown() { ++counts_.unknown; }
     void merge(const distribution& other);
 
     std::uint64_t ratios() const { return ratios_; }
-    /// Ratios that are at least 1.
     std::uint64_t covered() const { return counts_.covered; }
     std::uint64_t exact() const { return counts_.exact; }
     std::uint64_t unknown() const { return counts_.unknown; }
     std::uint64_t count() const { return ratios_ + exact() + unknown(); }
-    /// Of the ratios: the least log10 that at least `share` of them do not exceed, 0 <= share <= 1;
-    /// 0 and 1 are the extremes themselves. NaN without ratios.
+    /// The least log10 that at least `share` of the ratios do not exceed, 0 <= share <= 1; 0 and 1
+    /// give the extremes. NaN without ratios.
     double quantile(double share) const;
-    /// Whether that quantile is at an end or beyond, where ratios are not told apart: it is no more
-    /// than least_log, or no less than max_log. An extreme is, where it stands for 0 or infinity.
+    /// True if that quantile is in an outermost bin, where ratios are not distinguished, or an
+    /// extreme that stands for 0 or infinity.
     bool is_clamped(double share) const;
 
   private:
     void make_room(std::size_t first_bin, std::size_t bins);
     void widen(double least, double most);
 
-    /// Bin i counts the ratios whose log10 is nearest to least_log + i · resolution. bins[0] is bin
-    /// first_bin. The first and the last bin are not zero.
+    /// Bin i counts ratios with log10 nearest to least_log + i · resolution. bins[0] is bin
+    /// first_bin.
     struct counts {
         std::uint64_t exact = 0, unknown = 0, covered = 0;
         std::size_t first_bin = 0;

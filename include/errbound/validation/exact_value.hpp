@@ -1,4 +1,4 @@
-// What numbers of every format are taken to for comparison: their values, exactly.
+// Exact values of numbers of every format, for comparison.
 #pragma once
 
 #include <array>
@@ -12,9 +12,8 @@ namespace errbound::validation {
 
 inline constexpr int exact_bits = 4 * std::numeric_limits<double>::digits;
 
-/// (leading + rest[0] + rest[1] + ...)·2^exponent, a number of up to exact_bits bits; or an
-/// infinity or NaN, which `leading` is. What a double holds is `leading` alone. Equal values are
-/// equal in parts.
+/// (leading + rest[0] + rest[1] + ...)·2^exponent, up to exact_bits bits; or an infinity or NaN in
+/// `leading`. A double is `leading` only. Equal values have equal parts.
 struct exact_value {
     double leading = 0;
     std::array<double, 3> rest{};
@@ -28,12 +27,11 @@ struct exact_value {
     constexpr bool operator==(const exact_value&) const = default;
 };
 
-/// log10 |x| of a number that is finite and not zero, to double's accuracy.
+/// log10 |x| to double's accuracy. Precondition: x is finite and not zero.
 inline double log10_of(const exact_value& x) {
     return std::log10(std::abs(x.leading)) + x.exponent * std::log10(2.0);
 }
 
-/// Whether every T is a double.
 template <class T>
 inline constexpr bool fits_double = [] {
     using traits = number_traits<T>;
@@ -51,7 +49,7 @@ exact_value exactly(const T& x) {
         return nearest;
     } else {
         static_assert(traits::digits <= exact_bits);
-        // (numeric_limits of MPFR's numbers has not the largest one: is_finite is too strict.)
+        // numeric_limits of MPFR's numbers lacks the largest one, so is_finite is too strict.
         if (!(T(x - x) == 0) || T(nearest) == x) return nearest;
         exact_value r;
         r.exponent = traits::exponent(x);
@@ -66,7 +64,7 @@ exact_value exactly(const T& x) {
     }
 }
 
-/// Precondition: T has it.
+/// Precondition: T holds x.
 template <class T>
 T number_of(const exact_value& x) {
     if constexpr (fits_double<T>) {

@@ -1,7 +1,5 @@
-// Straight-line programs: expressions whose parts may be shared, for validation.
-//
-// Values are numbered: first the inputs, then the results of the operations, each of which takes
-// earlier values. Inputs are numbers of the type that the program is run in.
+// Straight-line programs for validation: expressions with shared subexpressions. Values are
+// numbered: the inputs, then the results of operations on earlier values.
 #pragma once
 
 #include <array>
@@ -41,7 +39,7 @@ enum class operation_kind : std::uint8_t {
     interpolate,
     hypotenuse,
     power,
-    function  ///< and after it all others of elementary_function, in its order
+    function  ///< followed by all of elementary_function, in its order
 };
 inline constexpr std::size_t first_function = static_cast<std::size_t>(operation_kind::function);
 inline constexpr std::size_t operation_kinds = first_function + named_functions.size();
@@ -55,16 +53,16 @@ constexpr elementary_function function_of(operation_kind kind) {
     return static_cast<elementary_function>(static_cast<std::size_t>(kind) - first_function);
 }
 
-/// Stands for value + error·quarters/4, and is known to within error of value; error 0: exact.
+/// Stands for value + error·quarters/4, known to within error; error 0: exact.
 struct expression_input {
     exact_value value = 0, error = 0;
     int quarters = 0;
 };
 
-/// left ∘ right; −left, √left, |left|; left·2^exponent; left·right + third; the dot product
-/// left·right + third·left, the polynomial third + right·left + third·left²; |left| with right's
-/// sign, the middle of left and right, left + third·(right − left), √(left² + right²);
-/// left^exponent; a function of left, or of left and right.
+/// left ∘ right; −left, √left, |left|; left·2^exponent; left·right + third; left·right + third·left
+/// (dot); third + right·left + third·left² (horner); |left| with right's sign; the midpoint; left +
+/// third·(right − left); √(left² + right²); left^exponent; a function of left, or of left and
+/// right.
 struct expression_operation {
     operation_kind kind = operation_kind::add;
     std::uint8_t left = 0, right = 0, third = 0;
@@ -80,7 +78,6 @@ struct expression_operation {
         return kind == operation_kind::fused || kind == operation_kind::dot ||
                kind == operation_kind::horner || kind == operation_kind::interpolate;
     }
-    /// Calls visit with each operand's place.
     template <class Visit>
     void for_each_operand(const Visit& visit) {
         visit(left);
@@ -102,7 +99,7 @@ struct expression {
     bool divides() const {
         return has([](operation_kind kind) { return kind == operation_kind::divide; });
     }
-    /// Whether enough bits hold all values exactly.
+    /// True if enough bits hold all values exactly.
     bool is_polynomial() const {
         return !has([](operation_kind kind) {
             return kind == operation_kind::divide || kind == operation_kind::root ||
@@ -133,13 +130,13 @@ enum class number_type : std::uint8_t {
     mpfr_float_type
 };
 inline constexpr std::size_t number_type_count = 10;
-/// A number type and what it is called, in tables and in C++.
+/// A number type and its names in tables and in C++.
 struct named_number_type {
     number_type type;
     std::string_view name, cpp_name;
 };
-/// Those that the system has: long double where it has more bits than double, float128 where that
-/// is not it and the C library has its functions. The last two are Boost.Multiprecision's.
+/// The system's types: long double if it has more bits than double, float128 if that differs and
+/// the C library has its functions. The last two are Boost.Multiprecision's.
 inline constexpr named_number_type number_types[] = {
     {number_type::double_type, "double", "double"},
     {number_type::float_type, "float", "float"},
@@ -168,7 +165,7 @@ constexpr bool is_boost(number_type type) {
     return type == number_type::cpp_bin_float_type || type == number_type::mpfr_float_type;
 }
 
-/// `f.operator()<T>()` of the type. Precondition: it is among number_types and !is_boost(type).
+/// Calls f.operator()<T>() for the type. Precondition: among number_types and !is_boost(type).
 template <class F>
 constexpr decltype(auto) with_number_type(number_type type, const F& f) {
     switch (type) {
@@ -195,14 +192,14 @@ constexpr decltype(auto) with_number_type(number_type type, const F& f) {
     }
 }
 
-/// Of types that have them, where it is known how far the C library's are off.
+/// True if T has elementary functions with known errors.
 template <class T>
 inline constexpr bool has_elementary_functions =
     detail::has_system_functions<detail::function_type<T>>&&
         function_error<elementary_function::exp, detail::function_type<T>> != 0;
 
-/// Whether tracked numbers of type T have the operation: without subnormal numbers there are no
-/// roots and fused products, nor what is made of these; not all types have elementary functions.
+/// True if tracked numbers of type T have the operation. Roots and fused products, and operations
+/// made of them, need subnormal numbers.
 template <class T>
 constexpr bool has_operation(operation_kind kind) {
     if (kind == operation_kind::root || kind == operation_kind::fused ||
@@ -214,18 +211,18 @@ constexpr bool has_operation(operation_kind kind) {
     return true;
 }
 
-/// The expression of this index: the same for the same seed. Every fourth one may divide, and
-/// another fourth has elementary functions; no others do. At most `longest` operations.
+/// The expression with this index; equal for equal seeds. Every fourth one may divide, another
+/// fourth has elementary functions. At most `longest` operations.
 expression random_expression(std::uint64_t seed, std::uint64_t index, number_type type,
                              int longest);
 
-/// What a rule says of a value.
+/// A rule's result.
 struct claim {
     exact_value value, error;
     sign_type sign;
 };
 
-/// An elementary function of values that are there. Precondition: T has it.
+/// An elementary function of earlier values. Precondition: T has it.
 template <class Rule, class T>
 tracked<T, Rule> applied_elementary(elementary_function f, const tracked<T, Rule>& left,
                                     const tracked<T, Rule>& right) {
@@ -241,7 +238,6 @@ tracked<T, Rule> applied_elementary(elementary_function f, const tracked<T, Rule
     return {};
 }
 
-/// Of those that are made of roots, fused products and others.
 template <class Rule, class T>
 tracked<T, Rule> applied_compound(const expression_operation& o, const tracked<T, Rule>* x) {
     const auto &left = x[o.left], &right = x[o.right], &third = x[o.third];
@@ -275,8 +271,8 @@ tracked<T, Rule> applied_compound(const expression_operation& o, const tracked<T
     return {};
 }
 
-/// The result of an operation on values that are there. Precondition: T has it, and it does not
-/// divide, or the rule has division.
+/// The result of an operation on earlier values. Precondition: T has it, and the rule has division
+/// if needed.
 template <class Rule, class T>
 tracked<T, Rule> applied(const expression_operation& o, const tracked<T, Rule>* x) {
     const auto &left = x[o.left], &right = x[o.right];
@@ -306,8 +302,8 @@ tracked<T, Rule> applied(const expression_operation& o, const tracked<T, Rule>* 
     }
 }
 
-/// Every value of the expression in tracked<T, Rule>. Precondition: T has its operations, and it
-/// does not divide, or the rule has division.
+/// All values of the expression in tracked<T, Rule>. Precondition: T has its operations, and the
+/// rule has division if needed.
 template <class Rule, class T>
 void evaluate(const expression& e, claim* claims) {
     using number = tracked<T, Rule>;
@@ -324,14 +320,14 @@ void evaluate(const expression& e, claim* claims) {
         claims[i] = {exactly(T(x[i].value())), exactly(T(x[i].error())), sign_of(x[i])};
 }
 
-/// Every value of the expression, as what it stands for: an enclosure each.
+/// Enclosures of all values.
 void evaluate(const expression& e, ball* values);
 
-/// The expression in C++, a line per value, for a person to paste.
+/// The expression in C++, a line per value, ready to paste.
 std::string cpp_text(const expression& e, number_type type, std::string_view rule);
 
-/// "0x1.8p-3"; of another type as its constant, "0x1.8p-3F" or "errbound::float16(0x1.8p-3)"; of
-/// more bits or larger exponents as what makes it.
+/// "0x1.8p-3"; for other types a constant, "0x1.8p-3F" or "errbound::float16(0x1.8p-3)", or an
+/// expression for more bits or larger exponents.
 std::string hexadecimal(const exact_value& x, number_type type = number_type::double_type);
 
 }  // namespace errbound::validation

@@ -1,4 +1,4 @@
-// What comparing one value with its reference finds. Internal.
+// Comparison of one value with its reference. Internal.
 #pragma once
 
 #include <errbound/validation/ball.hpp>
@@ -13,8 +13,8 @@ enum class finding {
     holds,
     bound_broken,  ///< |value − exact value| > error()
     sign_wrong,    ///< a certain sign that is not the exact one
-    baseless,      ///< a certain sign, or a finite bound, of no finite value
-    undetermined,  ///< the enclosure is too wide to tell
+    baseless,      ///< a certain sign, or a finite bound, without a finite value
+    undetermined,  ///< the enclosure is too wide
 };
 
 constexpr bool is_violation(finding f) {
@@ -23,7 +23,7 @@ constexpr bool is_violation(finding f) {
 
 /// Compares; `off` must be the claim's deviation from x wherever both are finite.
 inline finding compare(const claim& c, const ball& x, const deviation& off) {
-    if (!certain(c.sign) && !c.error.is_finite()) return finding::holds;  // nothing is claimed
+    if (!certain(c.sign) && !c.error.is_finite()) return finding::holds;  // no claim
     if (!c.value.is_finite() || !x.is_defined()) return finding::baseless;
     if (x.is_unknown()) return finding::undetermined;
     if (certain(c.sign)) {
@@ -43,13 +43,13 @@ inline finding compare(const claim& c, const ball& x, const deviation& off) {
     }
 }
 
-/// What is measured under a rule: "bound/error", "estimate/error" or "error/value".
+/// The measure for a rule: "bound/error", "estimate/error" or "error/value".
 std::string_view measure_of(error_meaning meaning);
-/// Adds log10 of that. `off` is as for compare.
+/// Adds the log10 of the measure. `off`: as for compare.
 void add_ratio(distribution& to, error_meaning meaning, const claim& c, const ball& x,
                const deviation& off);
 
-/// One sentence for a person. Precondition: is_violation(f).
+/// A sentence about the violation. Precondition: is_violation(f).
 std::string sentence(finding f, const claim& c, const ball& x, const deviation& off);
 
 }  // namespace errbound::validation

@@ -1,4 +1,4 @@
-// Elementary functions by MPFR, correctly rounded, and where they have values.
+// Elementary functions by MPFR, correctly rounded, and their domains.
 #pragma once
 
 #include <mpfr.h>
@@ -36,7 +36,7 @@ constexpr bool has_two_arguments(elementary_function f) {
     return f == elementary_function::pow || f == elementary_function::atan2;
 }
 
-/// `f.operator()<F>()` of the function.
+/// Calls visit.operator()<F>() for the function.
 template <class Visit>
 constexpr decltype(auto) with_function(elementary_function f, const Visit& visit) {
     using enum elementary_function;
@@ -89,7 +89,6 @@ constexpr decltype(auto) with_function(elementary_function f, const Visit& visit
 }
 
 using mpfr_function = int (*)(mpfr_ptr, mpfr_srcptr, mpfr_rnd_t);
-/// Of a function of one argument, in the order of elementary_function.
 inline mpfr_function mpfr_function_of(elementary_function f) {
     static constexpr mpfr_function all[] = {
         mpfr_exp,  mpfr_exp2, mpfr_expm1, mpfr_log,   mpfr_log2,  mpfr_log10, mpfr_log1p,
@@ -97,8 +96,7 @@ inline mpfr_function mpfr_function_of(elementary_function f) {
         mpfr_cosh, mpfr_tanh, mpfr_asinh, mpfr_acosh, mpfr_atanh, mpfr_cbrt};
     return all[static_cast<std::size_t>(f)];
 }
-/// x^y or the angle of (x, y), atan2(y, x): of a and b in the order of the function's arguments. A
-/// zero has no sign here: what MPFR tells of +0.
+/// x^y or atan2(y, x), in the function's argument order. Zeros have no sign here: +0 is used.
 inline int mpfr_of_two(elementary_function f, mpfr_ptr to, mpfr_srcptr a, mpfr_srcptr b,
                        mpfr_rnd_t direction) {
     if (f == elementary_function::pow) return mpfr_pow(to, a, b, direction);
@@ -108,7 +106,7 @@ inline int mpfr_of_two(elementary_function f, mpfr_ptr to, mpfr_srcptr a, mpfr_s
     return mpfr_atan2(to, zero, b, direction);
 }
 
-/// Whether f has a value at the number x; poles have none.
+/// True if f has a value at x; poles have none.
 inline bool has_value(elementary_function f, mpfr_srcptr x) {
     using enum elementary_function;
     switch (f) {
@@ -129,7 +127,7 @@ inline bool has_value(elementary_function f, mpfr_srcptr x) {
             return true;
     }
 }
-/// Of two arguments; 0^0 is 1, as elsewhere.
+/// For two arguments; 0^0 is 1.
 inline bool has_value(elementary_function f, mpfr_srcptr a, mpfr_srcptr b) {
     if (f == elementary_function::atan2) return !mpfr_zero_p(a) || !mpfr_zero_p(b);
     if (mpfr_sgn(a) > 0 || mpfr_zero_p(b)) return true;

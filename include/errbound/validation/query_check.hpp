@@ -1,4 +1,4 @@
-// One stored query in shadowed arithmetic: its forms, the quantities that decide it, and BSC.
+// One stored query in shadowed arithmetic: its forms, the deciding quantities, and BSC.
 #pragma once
 
 #include <ccd/methods/bsc.hpp>
@@ -13,7 +13,7 @@ void note(shadow_session& session, std::string_view quantity, const shadowed<Rul
     session.note(quantity, x.claimed(), x.exact(), meaning_of_error<Rule>);
 }
 
-/// The form's value at the root of l, if it has one inside: where BSC asks for it.
+/// The form's value at the inner root of l, if any, where BSC evaluates it.
 template <class S, int N>
 void note_at_root(shadow_session& session, std::string_view quantity, const bernstein<S, N>& form,
                   const bernstein<S, 1>& l) {
@@ -22,8 +22,7 @@ void note_at_root(shadow_session& session, std::string_view quantity, const bern
     note(session, quantity, value_at(form, root.s, root.t));
 }
 
-/// What BSC reduces the quartic g to, as far as it goes: J, then M and R of its decomposition, and
-/// Y at their roots.
+/// BSC's reduction of the quartic g: J, then M and R of its decomposition, and Y at their roots.
 template <class S>
 void note_reduction(shadow_session& session, const bernstein<S, 3>& y, const bernstein<S, 4>& g) {
     for (int i = 0; i <= 4; ++i) note(session, "G", g[i]);
@@ -40,7 +39,7 @@ void note_reduction(shadow_session& session, const bernstein<S, 3>& y, const ber
     note_at_root(session, "Y(t_R)", y, parts.r);
 }
 
-/// Checks every operation, of the quantities and of BSC as decide_bsc runs it.
+/// Checks every operation, of the quantities and of BSC as in decide_bsc.
 template <class Rule, template <class> class Query>
 void check_query(const Query<double>& query, shadow_session& session) {
     using scalar = shadowed<Rule>;
@@ -62,7 +61,7 @@ void check_query(const Query<double>& query, shadow_session& session) {
         g = normalized(g);
         note_reduction(session, y, g);
     }
-    // BSC itself; it normalises once more, which leaves normalised forms as they are.
+    // BSC normalises again, which keeps normalised forms.
     (void)root_with_nonnegative(y, [&] { return inside; });
 }
 

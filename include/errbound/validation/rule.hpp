@@ -1,4 +1,4 @@
-// A bound rule as validation sees it: its name, its promises, and its code as functions.
+// A bound rule for validation: its name, its promises, and its code as functions.
 #pragma once
 
 #include <array>
@@ -14,14 +14,14 @@ namespace errbound::validation {
 
 using evaluation = void (*)(const expression&, claim*);
 
-/// Made by rule_of; a rule that is not in errbound/validation/rule_list.hpp can be validated as
-/// well. Boost's number types: set_boost_checks (errbound/validation/boost_numbers.hpp).
+/// Made by rule_of, also for rules outside errbound/validation/rule_list.hpp. Boost's number types:
+/// set_boost_checks (errbound/validation/boost_numbers.hpp).
 struct rule {
     std::string_view name;
     error_meaning error_is = error_meaning::nothing;
-    double claimed_rate = 0;  ///< of an estimate
+    double claimed_rate = 0;  ///< for an estimate
     bool has_division = false;
-    /// What it says of an expression, by number_type; null of types that it does not serve.
+    /// Evaluates expressions, by number_type; null for unsupported types.
     std::array<evaluation, number_type_count> evaluate{};
     void (*check_vertex_face)(const ccd::vertex_face<double>&, shadow_session&) = nullptr;
     void (*check_edge_edge)(const ccd::edge_edge<double>&, shadow_session&) = nullptr;
@@ -33,7 +33,6 @@ struct rule {
     }
 };
 
-/// The rule's name and promises, and what it says of expressions.
 template <class Rule>
 constexpr void set_expression_checks(rule& r) {
     r.name = Rule::name;

@@ -1,5 +1,4 @@
-// The one list of bound rules that validation, its tests and reports go through: a new rule is
-// one line here.
+// The list of bound rules for validation, tests and reports: a new rule is one line here.
 #pragma once
 
 #include <errbound/rules/affine.hpp>
@@ -9,7 +8,7 @@
 
 namespace errbound {
 
-/// Types, nothing more: what for_each_rule calls its function with.
+/// Only types, for for_each_rule.
 template <class... Rules>
 struct rule_types {};
 
@@ -21,8 +20,8 @@ constexpr void for_each_rule(rule_types<Rules...>, const F& f) {
     (f.template operator()<Rules>(), ...);
 }
 
-/// Whether the rule bounds quotients: it has `divide` and does not say has_division = false (as a
-/// rule does whose `divide` is there only to tell why there is none).
+/// True if the rule bounds quotients. (`divide` may exist only for its message: has_division =
+/// false.)
 template <class Rule>
 inline constexpr bool has_division = [] {
     if constexpr (requires { Rule::has_division; })

@@ -1,6 +1,5 @@
-// A tracked number beside the exact one that it stands for: every operation is done in both and
-// compared at once. It takes the place of a tracked scalar in the library's own templates, follows
-// its signs, and so validates the code that is used as it is used.
+// A tracked number with its exact value: every operation is done in both and compared. It replaces
+// the scalar in the library's templates and follows its signs, so it validates the code as used.
 #pragma once
 
 #include <cstdint>
@@ -16,7 +15,7 @@
 
 namespace errbound::validation {
 
-/// What the shadowed operations of one thread report to while it lives: a run at one precision.
+/// Collects the shadowed operations of one thread, at one precision.
 class shadow_session {
   public:
     explicit shadow_session(mpfr_prec_t precision) : precision_(precision), outer_(current_) {
@@ -29,7 +28,7 @@ class shadow_session {
     static shadow_session& current() { return *current_; }
     mpfr_prec_t precision() const { return precision_; }
 
-    /// Compares a result, made from operands that `how` describes if it is asked.
+    /// Compares a result; `how` describes its operands on demand.
     template <class Describe>
     void check(const claim& c, const ball& x, const Describe& how) {
         ++values_;
@@ -64,7 +63,7 @@ class shadow_session {
     std::map<std::string, distribution, std::less<>> quantities_;
 };
 
-/// Needs a shadow_session on the thread.
+/// Requires a shadow_session on the thread.
 template <class Rule>
 class shadowed {
   public:
@@ -130,7 +129,7 @@ class shadowed {
 }  // namespace errbound::validation
 
 namespace errbound {
-/// normalized and its like scale it as they scale the tracked number.
+/// normalized scales it as it scales a tracked number.
 template <class Rule>
 inline constexpr bool is_tracked<validation::shadowed<Rule>> = true;
 }  // namespace errbound

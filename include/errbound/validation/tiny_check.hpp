@@ -1,4 +1,4 @@
-// A bound rule in every case of formats of 6 to 8 bits.
+// Checks a bound rule in every case of formats of 6 to 8 bits.
 #pragma once
 
 #include <algorithm>
@@ -22,13 +22,13 @@ namespace errbound::validation {
 
 template <class...>
 struct tiny_format_types {};
-/// Of 6, 7 and 8 bits. Three bits of exponent at least, so that u is a number of the format.
+/// Three bits of exponent at least, so that u is a number of the format.
 using tiny_formats = tiny_format_types<tiny_float<3, 3>, tiny_float<2, 4>, tiny_float<4, 3>,
                                        tiny_float<3, 4>, tiny_float<5, 3>, tiny_float<4, 4>,
                                        tiny_float<3, 5>, float8_e5m2, float8_e4m3>;
 inline constexpr std::size_t tiny_format_count = 9;
 
-/// How a format is called, and in which directions its operations round.
+/// Names of a format, and the directions in which its operations round.
 template <class Tiny>
 struct tiny_format;
 
@@ -39,7 +39,7 @@ struct tiny_format<tiny_float<P, E>> {
         return "tiny_float<" + std::to_string(P) + ", " + std::to_string(E) + ">";
     }
     static std::string cpp_name() { return "errbound::validation::" + name(); }
-    /// Calls check(direction) to nearest first, and in the others if that is asked for.
+    /// Calls check(direction), to nearest first, then in the other directions if `all`.
     template <class Check>
     static void in_directions(bool all, const Check& check) {
         constexpr std::array<std::pair<mpfr_rnd_t, std::string_view>, 4> directions{
@@ -72,7 +72,7 @@ struct tiny_format<small_float<P, E, HasInfinity>> {
     static constexpr void clear_flag() {}
 };
 
-/// What a rule was found to do in one format.
+/// A rule's violations in one format.
 struct tiny_findings {
     struct broken {
         std::string what, code;
@@ -83,7 +83,7 @@ struct tiny_findings {
     std::vector<broken> first;  ///< the first few
 };
 
-/// The least precision for which the rule's bounds are proved, where it names one.
+/// The least precision that the rule's proof needs, if stated.
 template <class Rule>
 inline constexpr int minimal_precision = [] {
     if constexpr (requires { Rule::minimal_precision; })
@@ -91,7 +91,6 @@ inline constexpr int minimal_precision = [] {
     else
         return 2;
 }();
-/// Whether the rule's bounds hold in directed rounding too.
 template <class Rule>
 inline constexpr bool holds_in_directed_rounding = [] {
     if constexpr (requires { Rule::holds_in_directed_rounding; })
@@ -100,15 +99,14 @@ inline constexpr bool holds_in_directed_rounding = [] {
         return false;
 }();
 
-/// Where an exact result may lie; by default nowhere: there is none.
+/// The range of an exact result; by default there is none.
 struct exact_range {
     double low = -std::numeric_limits<double>::infinity();
     double high = std::numeric_limits<double>::infinity();
     bool defined() const { return std::isfinite(low) && std::isfinite(high); }
 };
 
-/// How a result came about: operands a, b, c, as many as there are; d, where it is made of a and b
-/// first; and the operation.
+/// How a result was computed: operands a, b, c; d, if a and b are combined first; the operation.
 struct tiny_account {
     struct operand {
         double value, error;
@@ -120,42 +118,39 @@ struct tiny_account {
     int exponent = 0;  ///< of the operation "scale"
 };
 
-/// What a rule says of a result.
+/// A rule's result.
 struct tiny_claim {
     double value, error;
     sign_type sign;
 };
 
-/// left·right + addend.
 struct fused_value {
     double left, right, addend;
 };
 
-/// Holds results to what they may be the results of. Exact references are doubles here: every sum
-/// and difference of what formats of 8 bits and their bounds hold fits 53 bits; a product is
-/// compared with such, exactly, and quotients are compared multiplied out.
+/// Compares results with their exact ranges. References are doubles: sums and differences of
+/// numbers and bounds of 8-bit formats fit 53 bits; products and quotients are compared exactly.
 class claim_checker {
   public:
     claim_checker(tiny_findings& found, std::string_view rule, std::string_view direction)
         : found_(found), rule_(rule), direction_(direction) {}
 
     void check(const tiny_claim& r, const exact_range& exact, const tiny_account& how);
-    /// A product of what lies in these ranges: at the corners, among which are the extremes.
+    /// A product over these ranges; its extremes are at the corners.
     void check_product(const tiny_claim& r, const exact_range& a, const exact_range& b,
                        const tiny_account& how);
-    /// A quotient of what lies in these ranges: compared multiplied by the divisor, at the corners,
-    /// among which are the extremes if the divisor cannot be zero.
+    /// A quotient over these ranges, compared after multiplication by the divisor, at the corners.
     void check_quotient(const tiny_claim& r, const exact_range& n, const exact_range& d,
                         const tiny_account& how);
 
-    /// The root of what lies in a range: compared squared.
+    /// A root over a range, compared squared.
     void check_root(const tiny_claim& r, const exact_range& x, const tiny_account& how);
-    /// A result that lies between some of these.
+    /// A result between some of these.
     void check_fused(const tiny_claim& r, std::span<const fused_value> ends,
                      const tiny_account& how);
 
   private:
-    /// A certain sign must be that of all numbers from low to high.
+    /// A certain sign must hold for all numbers from low to high.
     void check_sign(const tiny_claim& r, double low, double high, const tiny_account& how);
     void add(const tiny_claim& r, const char* broken, const tiny_account& how);
 
@@ -163,7 +158,6 @@ class claim_checker {
     std::string_view rule_, direction_;
 };
 
-/// Every operation of a rule in one format.
 template <class Rule, class Tiny>
 class tiny_checker {
     using number = tracked<Tiny, Rule>;
@@ -187,12 +181,12 @@ class tiny_checker {
             check_bounded();
         else if (format::for_users)
             check_some_bounded();
-        // References fit 53 bits where exponents are few.
+        // References fit 53 bits if exponents have few bits.
         if (all && Tiny::exponent_bits <= 4) check_two_operations();
     }
 
   private:
-    /// A number and all that it may stand for: low to high.
+    /// A number and the range of its exact value.
     struct operand_range {
         number x;
         double low, high;
@@ -210,7 +204,7 @@ class tiny_checker {
                 {value, off}};
     }
 
-    /// The flag is cleared after a result was looked at, and so before each operation.
+    /// The flag is cleared after each result is compared, that is before each operation.
     template <class Check>
     void check_by(const Check& check, const number& r, tiny_account& how, const char* operation) {
         if (!format::overflowed_unnoticed()) {  // the one thing that a rule may miss
@@ -234,7 +228,6 @@ class tiny_checker {
                  operation);
     }
 
-    /// Every operation on two operands.
     void check_pair(const operand_range& a, const operand_range& b) {
         tiny_account how{{a.as_operand, b.as_operand}, 2};
         format::clear_flag();
@@ -254,7 +247,7 @@ class tiny_checker {
               how, "max(a, b)");
         check_product(dot(std::array{a.x, b.x}, std::array{b.x, a.x}), {2 * a.low, 2 * a.high},
                       {b.low, b.high}, how, "dot(std::array{a, b}, std::array{b, a})");
-        // References fit 53 bits where exponents are few.
+        // References fit 53 bits if exponents have few bits.
         if (Tiny::exponent_bits == 3 && a.as_operand.error == 0)
             check(horner(std::array{a.x, number(1), a.x}, b.x), values_of_square(a.low, b), how,
                   "horner(std::array{a, number(1), a}, b)");
@@ -263,7 +256,7 @@ class tiny_checker {
         check(copysign(a.x, b.x), both ? signed_sizes(a, b) : exact_range{}, how, "copysign(a, b)");
         check_fused_pair(a, b, how);
     }
-    /// |x| with the sign of y, zero's taken for positive.
+    /// |x| with the sign of y; zero counts as positive.
     static exact_range signed_sizes(const operand_range& x, const operand_range& y) {
         const exact_range sizes = sizes_of(x);
         if (y.low >= 0) return sizes;
@@ -279,7 +272,7 @@ class tiny_checker {
         check_by([&](const tiny_claim& c) { claims_.check_fused(c, ends, how); }, r, how,
                  operation);
     }
-    /// ab + a and a + t(b − a), which are between their values at the ends.
+    /// ab + a and a + t(b − a), which lie between their values at the ends.
     void check_fused_pair(const operand_range& a, const operand_range& b, tiny_account& how) {
         constexpr double t = -1.5;
         std::array<fused_value, 4> fused, between;
@@ -293,7 +286,7 @@ class tiny_checker {
         check_fused(lerp(a.x, b.x, number(Tiny(t))), between, how,
                     "lerp(a, b, number(format(-1.5)))");
     }
-    /// Where c + t + ct² lies for t in a range: its values at the ends and in the middle.
+    /// The range of c + t + ct²: its values at the ends and in the middle.
     static exact_range values_of_square(double c, const operand_range& t) {
         exact_range values;
         if (!std::isfinite(c) || !std::isfinite(t.low)) return values;
@@ -305,8 +298,7 @@ class tiny_checker {
         }
         return values;
     }
-    /// The operand itself, −x, |x|, x², 1/x, √x, of an exact one x³, and x·2^e for every e that
-    /// leaves something.
+    /// x, −x, |x|, x², 1/x, √x, for an exact x also x³, and x·2^e for every e with an effect.
     void check_one(const operand_range& a) {
         tiny_account how{{a.as_operand}, 1};
         format::clear_flag();
@@ -333,14 +325,14 @@ class tiny_checker {
     }
 
     void check_exact_pairs() {
-        // Infinities and NaN among them: all codes.
+        // All codes, infinities and NaN included.
         for (int a = 0; a < Tiny::codes; ++a) {
             check_one(exactly(Tiny::from_code(a)));
             for (int b = 0; b < Tiny::codes; ++b)
                 check_pair(exactly(Tiny::from_code(a)), exactly(Tiny::from_code(b)));
         }
     }
-    /// Every pair of numbers with some pairs of bounds, among which all are.
+    /// Every pair of numbers with some pairs of bounds, which together cover all.
     void check_some_bounded() {
         constexpr std::size_t pairs_of_bounds = 8;
         std::size_t next = 0;
@@ -357,7 +349,7 @@ class tiny_checker {
     }
     /// Every pair of numbers with every pair of bounds.
     void check_bounded() {
-        // Made twice: a rule may know that a number and its copy are one.
+        // Made twice: a rule may treat a number and its copy as one.
         std::vector<operand_range> first, second;
         for (auto* const all : {&first, &second})
             for (const Tiny x : finite_)
@@ -367,8 +359,8 @@ class tiny_checker {
             for (const operand_range& b : second) check_pair(a, b);
         }
     }
-    /// Every (a ∘ b) ∘ c and c ∘ (a ∘ b) of exact numbers, the inner operation not a division:
-    /// bounds as rules make them themselves.
+    /// Every (a ∘ b) ∘ c and c ∘ (a ∘ b) of exact numbers, without an inner division: tests bounds
+    /// that rules compute.
     void check_two_operations() {
         for (const Tiny a : finite_)
             for (const Tiny b : finite_) {
@@ -430,8 +422,8 @@ void check_tiny_format(bool every_bound, tiny_findings& found) {
     });
 }
 
-/// The rule in the format of this index, 0 <= format < tiny_format_count. Of the types of 8 bits
-/// that users have, with every pair of bounds if asked for.
+/// The rule in format number `format` < tiny_format_count. For users' 8-bit types, `every_bound`
+/// tries every pair of bounds.
 template <class Rule>
 void check_tiny(std::size_t format, bool every_bound, tiny_findings& found) {
     [&]<class... Tiny>(tiny_format_types<Tiny...>) {

@@ -1,9 +1,8 @@
 // Floating-point formats of 6 to 8 bits, small enough to try every case.
 //
-// tiny_float<P, E> has P bits of precision and E of exponent, laid out as IEEE 754 does: a sign
-// bit, the exponent, P − 1 bits of fraction, with gradual underflow, infinities and NaN. Its
-// operations are MPFR's, at its precision and exponent range (mpfr_subnormalize), looked up in
-// tables, but for fma. The rounding direction is the calling thread's choice (tiny_rounding).
+// tiny_float<P, E> has P bits of precision and E of exponent in IEEE 754 layout, with gradual
+// underflow, infinities and NaN. Its operations are MPFR's (mpfr_subnormalize), from tables, except
+// fma. The calling thread sets the rounding direction (tiny_rounding).
 #pragma once
 
 #include <mpfr.h>
@@ -18,15 +17,15 @@
 
 namespace errbound::validation {
 
-/// What a result's code is joined with where an operation overflowed, but not to infinity: that
-/// happens in directed rounding, and no rule notices.
+/// Flag in a result's code: in directed rounding, the operation overflowed to a finite number,
+/// which no rule notices.
 inline constexpr std::uint16_t unnoticed_overflow = 1U << 15;
 
-/// The results of all operations of one format in one rounding direction, by the operands' codes.
+/// Results of all operations of one format in one direction, by operand codes.
 struct tiny_tables {
-    static constexpr int max_scale = 64;  ///< scaling by more has the same result
+    static constexpr int max_scale = 64;  ///< scaling by more gives the same result
 
-    int bits = 0;  ///< codes have so many
+    int bits = 0;  ///< bits of a code
     mpfr_rnd_t direction = MPFR_RNDN;
     std::vector<std::uint16_t> sum, difference, product, quotient, scaled, root;
 
@@ -38,17 +37,15 @@ struct tiny_tables {
     }
 };
 
-/// ab + c of three values of a format, rounded once: its code, as in the tables, which would be
-/// long for three operands.
+/// The code of ab + c, rounded once. Not in tables, which would be long for three operands.
 std::uint16_t tiny_fma(double a, double b, double c, int precision, int exponent_bits,
                        mpfr_rnd_t direction);
 
-/// Every code's value.
 std::vector<double> tiny_values(int precision, int exponent_bits);
 /// The code of a value, rounded to nearest even.
 std::uint8_t tiny_code(double value, int precision, int exponent_bits);
 
-/// Needs a tiny_rounding on the thread.
+/// Requires a tiny_rounding on the thread.
 template <int P, int E>
 class tiny_float {
     static_assert(P >= 2 && E >= 2 && P + E <= 8);
@@ -82,7 +79,6 @@ class tiny_float {
     friend tiny_float operator/(tiny_float a, tiny_float b) {
         return looked_up(tables_->quotient[tables_->pair(a.code_, b.code_)]);
     }
-    /// x·2^e.
     tiny_float times_power(int e) const {
         return looked_up(tables_->scaled[tables_->scale(code_, e)]);
     }
@@ -94,7 +90,7 @@ class tiny_float {
     friend bool operator==(tiny_float a, tiny_float b) { return double(a) == double(b); }
     friend auto operator<=>(tiny_float a, tiny_float b) { return double(a) <=> double(b); }
 
-    /// Whether an operation on this thread overflowed unnoticed since the flag was cleared.
+    /// True if an operation on this thread overflowed unnoticed since clear_flag().
     static bool overflowed_unnoticed() { return overflowed_; }
     static void clear_flag() { overflowed_ = false; }
 
@@ -124,8 +120,8 @@ class tiny_float {
     std::uint8_t code_ = 0;
 };
 
-/// The rounding direction of Tiny's operations on this thread, while it lives: MPFR_RNDN, RNDZ,
-/// RNDU or RNDD. Conversions from constants always round to nearest.
+/// Sets the rounding direction of Tiny's operations on this thread: MPFR_RNDN, RNDZ, RNDU or RNDD.
+/// Constants always round to nearest.
 template <class Tiny>
 class tiny_rounding {
   public:

@@ -1,11 +1,10 @@
-// Validation of bound rules against MPFR, and how tight their bounds are: what `errbound validate`
-// runs, as functions that return structs and print nothing.
+// Validation of bound rules against MPFR, and the tightness of their bounds: the functions behind
+// `errbound validate`, which return structs and print nothing.
 //
-// Three kinds of evidence: random expressions, the polynomials and the sign classification of
-// stored collision queries, and number formats so small that every case can be tried. In all of
-// them a rule is held to two promises: |value − exact value| <= error(), and every certain sign is
-// the exact one. A fourth is of what tracked elementary functions assume of the system's.
-// docs/measured.md tells more.
+// Evidence: random expressions, the polynomials and sign classification of stored collision
+// queries, and every case of tiny number formats. Each rule must keep two promises: |value − exact
+// value| <= error(), and every certain sign is the exact one. A fourth kind tests the assumed
+// errors of the C library's functions. Results: docs/measured.md.
 #pragma once
 
 #include <ccd/query.hpp>
@@ -25,50 +24,50 @@ namespace errbound::validation {
 /// Every rule of errbound/validation/rule_list.hpp.
 std::span<const rule> rules();
 
-/// A broken promise, with what it takes to see it again.
+/// A broken promise, reproducible.
 struct violation {
     std::string rule, number;
     std::uint64_t index = 0;  ///< of the expression or query, from 0
-    std::string what;         ///< one sentence: which promise, and by how much it is broken
-    std::string code;         ///< C++ that shows it, as small as it could be made; lines end in \n
+    std::string what;         ///< one sentence: the promise, and by how much it is broken
+    std::string code;         ///< C++ that shows it, minimised; lines end in \n
 };
 
-/// How tight bounds are, or how large errors, of one quantity under one rule.
+/// Tightness of bounds, or size of errors, of one quantity under one rule.
 struct tightness {
     std::string rule, number, quantity;
     /// "bound/error"; under a rule that promises no bound "estimate/error" or "error/value".
     std::string measure;
     distribution log10;
-    double claimed = 0;  ///< claimed_rate of the rule
+    double claimed = 0;  ///< the rule's claimed_rate
 
-    /// Of the results about which something is said: of how many the error is no larger.
+    /// The share of results with a finite estimate whose error is no larger.
     double observed() const {
         const std::uint64_t all = log10.ratios() + log10.exact();
         return static_cast<double>(log10.covered() + log10.exact()) / static_cast<double>(all);
     }
 };
 
-/// What was done under one rule and number type.
+/// Counts for one rule and number type.
 struct rule_counts {
     std::string rule, number;
     std::uint64_t cases = 0;   ///< expressions, queries, or operations of tiny formats
-    std::uint64_t values = 0;  ///< that were compared with the reference
+    std::uint64_t values = 0;  ///< compared with the reference
     std::uint64_t violations = 0;
-    std::uint64_t undetermined = 0;  ///< where even the largest precision did not tell
+    std::uint64_t undetermined = 0;  ///< even the largest precision did not decide
 };
 
-/// How far the system's function is off, in units in the last place of the exact result.
+/// Errors of a C library function, in units in the last place of the exact result.
 struct function_errors {
     std::string function, number;
-    std::uint64_t arguments = 0;   ///< those with a value and a finite result: what was compared
+    std::uint64_t arguments = 0;   ///< compared: those with a value and a finite result
     double largest = 0;            ///< rounded up, by less than 2^-30
-    std::string at;                ///< where it is the largest: hexadecimal, as in C++
-    double assumed = 0;            ///< function_error, or what the options say
-    std::uint64_t violations = 0;  ///< errors that are larger than that
+    std::string at;                ///< argument with the largest error: hexadecimal, as in C++
+    double assumed = 0;            ///< function_error, or the options' units
+    std::uint64_t violations = 0;  ///< errors above that
 };
 
 struct report {
-    /// Violations that are told, of each entry of counts; all are counted.
+    /// Violations kept per entry of counts; all are counted.
     static constexpr std::size_t kept_violations = 5;
 
     std::vector<rule_counts> counts;
@@ -76,65 +75,64 @@ struct report {
     std::vector<tightness> distributions;
     std::vector<function_errors> functions;
 
-    /// Of rules, and of what is assumed of functions.
+    /// Violations of rules and of function_error.
     std::uint64_t violation_count() const;
-    /// Adds what was found of further cases. Entries of counts that are not here come last.
+    /// Adds the results of further cases. New entries of counts come last.
     void merge(report later);
 };
 
-/// Evidence in numbered chunks, which do not depend on the number of threads.
+/// Evidence in numbered chunks, independent of the number of threads.
 struct evidence {
     std::uint64_t chunks = 0;
-    /// What a chunk finds. May be called from several threads at once.
+    /// The result of a chunk. Called from several threads at once.
     std::function<report(std::uint64_t chunk)> report_of;
-    /// Tells the violations of a report that all chunks' were merged into, in their order: before,
-    /// `what` and `code` may be empty.
+    /// Fills `what` and `code` of the violations in the merged report of all chunks, in order; they
+    /// may be empty before.
     std::function<void(report&)> tell;
 };
 
-/// Called now and then, from the calling thread only, with how much of all is done.
+/// Called periodically, from the calling thread only.
 using progress = std::function<void(std::uint64_t done, std::uint64_t all)>;
 
-/// What all chunks find; the same for every number of threads (0: one per core). Throws what a
-/// chunk throws, once all threads have ended.
+/// The merged result of all chunks, independent of the number of threads (0: one per core).
+/// Rethrows a chunk's exception after all threads have ended.
 report examine(const evidence& what, int threads, const progress& show = {});
 
 struct expression_options {
-    std::uint64_t expressions = 10'000'000;  ///< at least so many per rule and number type
+    std::uint64_t expressions = 10'000'000;  ///< at least this many per rule and number type
     std::uint64_t seed = 1;
-    /// The number of skipped expressions of the seed's sequence. Ranges that follow one another
-    /// partition it.
+    /// The number of skipped expressions of the seed's sequence. Consecutive ranges partition it.
     std::uint64_t first = 0;
-    int operations = 16;  ///< at most, in one expression; 1 to 48
+    int operations = 16;  ///< in one expression, at most; 1 to 48
     int threads = 0;      ///< 0: one per core
     std::vector<number_type> numbers{number_type::double_type, number_type::float_type};
 };
 
-/// Random expressions in each number type under all the rules against one reference. Rules
-/// without division are left out of expressions that divide; each gets its number all the same.
-/// Cost: some microseconds an expression.
+/// Random expressions in each number type under all rules, against one reference. Rules without
+/// division skip expressions that divide, but get their full number. Cost: some microseconds per
+/// expression.
 evidence evidence_of_expressions(std::span<const rule> rules, const expression_options& options);
 report validate_expressions(std::span<const rule> rules, const expression_options& options,
                             const progress& show = {});
 
 struct function_options {
-    std::vector<elementary_function> functions{};  ///< none: nothing is done
-    std::uint64_t samples = 1'000'000;  ///< arguments, or pairs, of each function and type
-    bool every_float = false;           ///< all floats instead, of functions of one argument
-    std::optional<double> units{};      ///< what they are held to, instead of function_error
+    std::vector<elementary_function> functions{};  ///< none: does nothing
+    std::uint64_t samples = 1'000'000;             ///< arguments, or pairs, per function and type
+    bool every_float = false;       ///< all floats instead, for functions of one argument
+    std::optional<double> units{};  ///< the limit, instead of function_error
     std::uint64_t seed = 1;
     std::vector<number_type> numbers{number_type::double_type, number_type::float_type};
 };
 
-/// Compares the system's functions with MPFR's: whether function_error holds. Arguments are random
-/// bits, and hard ones: near multiples of π/2 of every size, near zeros and ends of domains, and
-/// where results overflow, underflow or pass a power of two. sin, cos and tan of 2^20 and more are
-/// the library's own, and are compared with their bounds. For float, double and long double; other
-/// types are skipped. Cost: about a microsecond an argument.
+/// Compares the C library's functions with MPFR's, against function_error. Arguments are random
+/// bits and hard cases: near multiples of π/2, near zeros and ends of domains, and where results
+/// overflow, underflow or pass a power of two. sin, cos and tan from 2^20 on are this library's and
+/// are compared with their bounds. float, double and long double only. Cost: about a microsecond
+/// per argument.
 evidence evidence_of_functions(const function_options& options);
 
-/// The forms of stored queries and BSC itself on them, operation by operation, in double. The
-/// evidence looks at the queries as long as it is used. Cost: about a millisecond a query and rule.
+/// The forms of stored queries, and BSC on them, operation by operation, in double. The queries
+/// must outlive the evidence. Cost: about a millisecond per query and rule.
 evidence evidence_of_queries(std::span<const rule> rules,
                              std::span<const ccd::vertex_face<double>> queries);
 evidence evidence_of_queries(std::span<const rule> rules,
@@ -147,9 +145,9 @@ report validate_queries(std::span<const rule> rules,
                         const progress& show = {});
 
 /// Every operation on every pair of numbers of formats of 6 to 8 bits, in every rounding direction
-/// that a rule promises; in 6 bits also with every pair of bounds that operands can have. Of
-/// float8_e5m2 and float8_e4m3 with some of these pairs, or, if so asked, with every one, and for
-/// float8_e4m3 every two operations in a row: long.
+/// that a rule promises; in 6 bits also with every pair of bounds. float8_e5m2 and float8_e4m3:
+/// with some of these pairs; if every_bound, with all, and in float8_e4m3 every two operations in a
+/// row (long).
 evidence evidence_of_tiny(std::span<const rule> rules, bool every_bound = false);
 report validate_tiny(std::span<const rule> rules, int threads, const progress& show = {});
 

@@ -142,15 +142,15 @@ TEST(File, IsWrittenWholeOrNotAtAll) {
     const auto missing = directory.path / "no" / "out.json";
     EXPECT_NE(message_of([&] {
                   errbound::write_explanations(missing, {some()});
-              }).find("out.json: found that it cannot be written"),
+              }).find("out.json: cannot be written"),
               std::string::npos);
     EXPECT_NE(message_of([&] {
                   errbound::write_explanations(directory.path, {some()});
-              }).find("found that it cannot be written"),
+              }).find("cannot be written"),
               std::string::npos);
     EXPECT_NE(message_of([] {
                   errbound::write_explanations("/dev/full", {some()});
-              }).find("/dev/full: found that it cannot be written"),
+              }).find("/dev/full: cannot be written"),
               std::string::npos);
     namespace fs = std::filesystem;
     EXPECT_EQ(std::distance(fs::directory_iterator(directory.path), fs::directory_iterator{}), 1);
