@@ -228,7 +228,7 @@ def make_plates():
     Every plate moves by the same drift, so nothing comes nearer to anything. But the plates of a
     layer are coplanar up to rounding, and layers are a few ulps to a micrometre apart: whether two
     touch is beyond the reach of floating-point arithmetic with an error bound, while exact
-    arithmetic knows. The last two layers are level and, at multiples of 1/64, touch exactly.
+    arithmetic decides it. The last two layers are level and, at multiples of 1/64, touch exactly.
     """
     points, faces = [], []
 

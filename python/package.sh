@@ -1,9 +1,12 @@
 #!/usr/bin/env bash
 # Builds the Python package and installs it in the virtual environment out/python/env.
-# package.sh            then runs mypy and the tests; with ERRBOUND_VIEWERS=1 also those with a
-#                       browser, VTK, polyscope and ipctk (1.2 GB)
-# package.sh --bench    then measures the cost of calls next to C++
-# package.sh --site     builds the site, out/docs/site, with both references, and checks its links
+#
+# package.sh            Then runs mypy and the tests. ERRBOUND_VIEWERS=1 adds tests with a browser, VTK,
+#                       polyscope and ipctk (1.2 GB).
+#
+# package.sh --bench    Then measures the cost of calls next to C++.
+#
+# package.sh --site     Builds the site, out/docs/site, with both references, and checks its links.
 set -euo pipefail
 cd -- "$(dirname -- "${BASH_SOURCE[0]}")/.."
 # shellcheck source=cmake/packages.sh

@@ -1,7 +1,7 @@
 // `exact` on the device: its stages as kernel bodies, and their order. Internal.
 //
 // Each stage reads indices of candidates from a queue, writes certain answers and pushes the other
-// candidates to the next queue, so that the threads of a warp do equal work. An answer is
+// candidates to the next queue. So the threads of a warp do equal work. An answer is
 // `uncertain` until a stage decides it. The first stage reads floats; later ones read the few
 // undecided candidates again, which is cheaper than storing their differences.
 #pragma once

@@ -86,17 +86,18 @@ class arena {
 
 /// Runs bodies on the host, sequentially, in another order than that of the items. All launchers
 /// have:
-///   buffer<T>                          memory for bodies: resize(launcher, n) (may drop contents),
-///                                      extend(launcher, n), data(), size()
-///   for_each(n, body)                  body(i) for all i < n, in any order
-///   for_each_queued(queue, body)       body(item) for all items in the queue
-///   set(p, value)                      *p = value, in the order of the other work
-///   reduce(n, of, combine, start, r)   *r = combination of all of(i) and `start`
-///   exclusive_scan(in, out, n)         out[i] = in(0) + ... + in(i − 1), for i <= n
-///   sort(keys, values, n)              by ascending keys, stable
-///   read(p, n, to), write(p, n, from)  waits and copies between memory for bodies and the host's
-///   wait()                             until all work is done
-///   ok()                               false after an error; then no more work is done
+///
+/// * buffer<T>: memory for bodies, with data(), size(), extend(launcher, n) and
+///   resize(launcher, n), which may drop contents
+/// * for_each(n, body): body(i) for all i < n, in any order
+/// * for_each_queued(queue, body): body(item) for all items in the queue
+/// * set(p, value): *p = value, in the order of the other work
+/// * reduce(n, of, combine, start, r): *r = combination of all of(i) and `start`
+/// * exclusive_scan(in, out, n): out[i] = in(0) + ... + in(i − 1), for i <= n
+/// * sort(keys, values, n): by ascending keys, stable
+/// * read(p, n, to), write(p, n, from): waits and copies between memory for bodies and the host's
+/// * wait(): until all work is done
+/// * ok(): false after an error; then no more work is done
 class host_launcher {
   public:
     template <class T>

@@ -16,7 +16,9 @@ from pathlib import Path
 
 MOST_WORDS = 25
 MOST_LINES = 12
-ROOMS = ["README.md", "CONTRIBUTING.md", "CHANGELOG.md", "docs/*.md", "packaging/*.md"]
+ROOMS = ["README.md", "CONTRIBUTING.md", "CHANGELOG.md", "docs/*.md",
+         *(f"{room}/{files}" for room in ("ccd/cuda", "ccd/program", "cmake", "examples", "packaging", "python")
+           for files in ("*", "**/*"))]  # "*" of git matches in subfolders, too
 OPENINGS = re.compile(r"(Of|That|Those|What|Whether|By|As)\b(?! (is|are|was) )")
 WORDS = re.compile(
     r"\b(but for|so many|likewise|held against|told apart|left open|whoever|nobody|as it comes|as long as it takes|"

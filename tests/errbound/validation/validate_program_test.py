@@ -149,8 +149,8 @@ class Validate(unittest.TestCase):
                                    (("--every-float",), "--every-float: found without --functions"),
                                    (("--every-bound",), "--every-bound: found without --tiny"),
                                    (("--tiny", "--first", 3), "--first: found without --expressions"),
-                                   (("--rules", "tight,tight"), "--rules: found 'tight' twice"),
-                                   (("--functions", "exp,exp"), "--functions: found 'exp' twice")):
+                                   (("--rules", "tight,tight"), "--rules is 'tight,tight', with 'tight' twice"),
+                                   (("--functions", "exp,exp"), "--functions is 'exp,exp', with 'exp' twice")):
             done = self.run_program("validate", *arguments)
             self.assertEqual((done.returncode, done.stdout), (2, ""))
             self.assertIn(message, done.stderr)
