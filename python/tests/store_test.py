@@ -59,22 +59,6 @@ def test_what_is_no_store_is_told(files, tmp_path):
         io.read_queries(torn)
 
 
-def test_what_hdf5_does_not_see_is_told(files, tmp_path):
-    with h5py.File(files[1]) as file:
-        chunk = file["queries"].id.get_chunk_info(0)
-        assert not file["queries"].compression
-    stored = bytearray(files[1].read_bytes())
-    at = stored.find(b"\0\0", chunk.byte_offset, chunk.byte_offset + chunk.size)
-    at += (at - chunk.byte_offset) % 2  # an index of 0 begins at an even place
-    assert stored[at:at + 2] == b"\0\0"
-    stored[at:at + 2] = b"\xff\xff"
-    (tmp_path / "seen.h5").write_bytes(stored)
-    with h5py.File(tmp_path / "seen.h5") as file:
-        assert file["queries"][0:1].shape == (1, 4)  # without a word
-    with pytest.raises(FileError, match="seen.h5: found no whole store of queries .*another checksum"):
-        io.read_queries(tmp_path / "seen.h5")
-
-
 def test_a_link_is_not_followed_and_chunks_are_bounded(files, tmp_path):
     """A link to a pipe that nobody writes to would block; a chunk is read whole, whatever the rows' width."""
     def forged(change):
