@@ -1,6 +1,6 @@
-"""Runs fuzzers by libFuzzer, each for some minutes, and says what they ran, covered and found.
+"""Runs fuzzers with libFuzzer, each for some minutes, and prints runs, coverage and findings.
 
-Argument: a build folder of the preset `fuzz`; options as --help says. Fuzzers are the build's
+Argument: a build folder of the preset `fuzz`; --help lists the options. Fuzzers are the build's
 targets fuzz_*. Status 1 if any fuzzer found something: its input is then in out/fuzz/NAME.
 """
 import argparse
@@ -22,17 +22,17 @@ SEEDS = 15
 def arguments():
     parser = argparse.ArgumentParser(prog="./run fuzz", description="Fuzzers by libFuzzer.")
     parser.add_argument("build", type=pathlib.Path, help=argparse.SUPPRESS)
-    parser.add_argument("names", nargs="*", metavar="NAME", help="those with one of these in their names")
-    parser.add_argument("--minutes", type=float, default=1, metavar="M", help="each, else 1")
+    parser.add_argument("names", nargs="*", metavar="NAME", help="run the fuzzers with one of these in their names")
+    parser.add_argument("--minutes", type=float, default=1, metavar="M", help="minutes for each (1)")
     parser.add_argument("--jobs", type=int, default=os.cpu_count(), metavar="N",
-                        help="fuzzers at a time, else one per core")
+                        help="fuzzers at a time (one per core)")
     parser.add_argument("--minimise", action="store_true",
-                        help=f"then keep in tests/fuzz/corpus the {SEEDS} inputs of each that cover most")
+                        help=f"keep the {SEEDS} inputs of each that cover most in tests/fuzz/corpus")
     return parser.parse_intermixed_args()  # names also after options
 
 
 def fuzzers(build, names):
-    """The build's targets that were asked for."""
+    """Return the build's targets with one of the names."""
     listed = subprocess.run(["cmake", "--build", build, "--target", "help"], check=True,
                             stdout=subprocess.PIPE, text=True).stdout
     known = sorted(set(re.findall(r"^(?:\.\.\. )?(fuzz_\w+)(?::|$)", listed, re.MULTILINE)))
@@ -43,7 +43,7 @@ def fuzzers(build, names):
 
 
 def run(build, name, minutes):
-    """A row of the table: what libFuzzer's last lines say."""
+    """Run a fuzzer; return its row of the table, from libFuzzer's last lines."""
     folder = FOUND / name
     corpus = folder / "corpus"
     corpus.mkdir(parents=True, exist_ok=True)
@@ -65,7 +65,7 @@ def run(build, name, minutes):
 
 
 def features(build, name):
-    """The inputs, old and new, each with the features (edges) that it covers."""
+    """Return the inputs, old and new, each with the features (edges) that it covers."""
     folder = FOUND / name
     control = folder / "control"
     control.unlink(missing_ok=True)
@@ -85,7 +85,7 @@ def features(build, name):
 
 
 def minimise(build, name):
-    """Keeps at most SEEDS inputs, each the one that adds the most edges, a small one where several do."""
+    """Keep at most SEEDS inputs: each adds the most edges, and is the smallest that does."""
     saved = SAVED / name
     saved.mkdir(exist_ok=True)
     left = features(build, name)
@@ -105,17 +105,17 @@ def minimise(build, name):
 
 
 def main():
-    asked = arguments()
-    build = asked.build.resolve()
-    names = fuzzers(build, asked.names)
+    options = arguments()
+    build = options.build.resolve()
+    names = fuzzers(build, options.names)
     subprocess.run(["cmake", "--build", build, "--target", *names], check=True)
-    with concurrent.futures.ThreadPoolExecutor(max(asked.jobs, 1)) as jobs:
-        rows = list(jobs.map(lambda name: run(build, name, asked.minutes), names))
+    with concurrent.futures.ThreadPoolExecutor(max(options.jobs, 1)) as jobs:
+        rows = list(jobs.map(lambda name: run(build, name, options.minutes), names))
     heading = ["fuzzer", "runs", "edges covered", "features", "corpus", "found"]
     widths = [max(len(str(row[i])) for row in [heading, *rows]) for i in range(len(heading))]
     for row in [heading, *rows]:
         print("  ".join(str(cell).ljust(width) for cell, width in zip(row, widths)).rstrip())
-    if asked.minimise:
+    if options.minimise:
         for name in names:
             minimise(build, name)
     return any(row[-1] != "nothing" for row in rows)
