@@ -3,15 +3,12 @@ find_path(ERRBOUND_GMP_INCLUDE gmp.h)
 find_library(ERRBOUND_GMP_LIBRARY gmp)
 find_path(ERRBOUND_MPFR_INCLUDE mpfr.h)
 find_library(ERRBOUND_MPFR_LIBRARY mpfr)
-# Only the library: CMake's module would also link the dependencies of a static one.
+# Only the C library: CMake's own module also links the dependencies of a static one.
 find_path(ERRBOUND_HDF5_INCLUDE hdf5.h PATH_SUFFIXES hdf5/serial)
 find_library(ERRBOUND_HDF5_LIBRARY NAMES hdf5_serial hdf5)
-find_path(ERRBOUND_ZLIB_INCLUDE zlib.h)
-find_library(ERRBOUND_ZLIB_LIBRARY z)
-mark_as_advanced(ERRBOUND_HDF5_INCLUDE ERRBOUND_HDF5_LIBRARY ERRBOUND_ZLIB_INCLUDE ERRBOUND_ZLIB_LIBRARY)
+mark_as_advanced(ERRBOUND_HDF5_INCLUDE ERRBOUND_HDF5_LIBRARY)
 set(errbound_has_query_stores FALSE)
-if(ERRBOUND_WITH_HDF5 AND ERRBOUND_HDF5_INCLUDE AND ERRBOUND_HDF5_LIBRARY AND ERRBOUND_ZLIB_INCLUDE AND
-   ERRBOUND_ZLIB_LIBRARY AND CMAKE_CXX_BYTE_ORDER STREQUAL "LITTLE_ENDIAN")
+if(ERRBOUND_WITH_HDF5 AND ERRBOUND_HDF5_INCLUDE AND ERRBOUND_HDF5_LIBRARY)
   set(errbound_has_query_stores TRUE)
 endif()
 mark_as_advanced(ERRBOUND_GMP_INCLUDE ERRBOUND_GMP_LIBRARY ERRBOUND_MPFR_INCLUDE

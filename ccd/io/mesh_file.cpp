@@ -1,4 +1,4 @@
-// Frames of either format, and what two frames of one mesh must share.
+// Files of either format, and the topology that two frames of a mesh must share.
 #include <algorithm>
 #include <boost/interprocess/file_mapping.hpp>
 #include <boost/interprocess/mapped_region.hpp>
@@ -7,8 +7,7 @@
 #include <stdexcept>
 #include <system_error>
 
-#include "ccd/io/element_check.hpp"
-#include "ccd/io/mesh_shares.hpp"
+#include "ccd/io/mesh_reading.hpp"
 #include "ccd/io/text.hpp"
 #include "errbound/support/output_file.hpp"
 
@@ -24,32 +23,27 @@ std::string text_of(std::span<const vertex_index> element) {
 }
 
 std::optional<std::string> fault_of(std::span<const vertex_index> element, std::size_t vertices) {
-    for (const vertex_index i : element) {
-        if (i >= vertices) {
-            return "found vertex index " + std::to_string(i) + ", expected less than " +
-                   std::to_string(vertices);
-        }
-    }
-    return std::nullopt;
+    const auto bad = std::ranges::find_if(element, [=](vertex_index i) { return i >= vertices; });
+    if (bad == element.end()) return std::nullopt;
+    return "found vertex index " + std::to_string(*bad) + ", expected less than " +
+           std::to_string(vertices);
 }
 
-void check_corners(std::uint64_t corners, const mesh_options& options, const std::string& where) {
-    if (corners == 3 || (corners > 3 && options.triangulate)) return;
-    throw file_error(where + ": found a face with " + std::to_string(corners) +
-                     " vertices, expected a triangle" +
-                     (corners > 3 ? " (the option triangulate splits polygons)" : ""));
+std::optional<std::string> fault_of_corners(std::uint64_t corners, const mesh_options& options) {
+    if (corners == 3 || (corners > 3 && options.triangulate)) return std::nullopt;
+    return "found a face with " + std::to_string(corners) + " vertices, expected a triangle" +
+           (corners > 3 ? " (the option triangulate splits polygons)" : "");
 }
 
 namespace {
 
 enum class format { ply, obj };
 
-/// By the extension, or by the text where there is none and of pipes.
+/// The format that the extension names; for pipes and without extension, that of the text.
 format format_of(const std::filesystem::path& path, std::string_view text) {
     std::string extension = path.extension().string();
-    for (char& c : extension) {
+    for (char& c : extension)
         if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-    }
     if (extension == ".ply") return format::ply;
     if (extension == ".obj") return format::obj;
     if (extension.empty() || !std::filesystem::is_regular_file(path)) {
@@ -94,7 +88,7 @@ mesh_share read_mesh_share(const std::filesystem::path& path, std::size_t share,
     const std::string name = path.string();
     std::error_code failed;
     if (!std::filesystem::is_regular_file(path, failed)) {
-        if (!std::filesystem::exists(path, failed)) read_whole(path);  // says what is wrong
+        if (!std::filesystem::exists(path, failed)) read_whole(path);  // throws
         throw file_error(name + ": found something other than a file, expected one, of which " +
                          "shares can be read");
     }
@@ -115,7 +109,7 @@ mesh_share read_mesh_share(const std::filesystem::path& path, std::size_t share,
 
 namespace {
 
-/// What two frames must share, of a share of them or of all.
+/// The part of a frame, or of a share of one, that two frames must share.
 struct topology {
     const std::string& name;
     const mesh& elements;

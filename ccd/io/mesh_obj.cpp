@@ -1,4 +1,5 @@
-// The OBJ reader. Our own, because the libraries at hand do not round coordinates correctly.
+// The OBJ reader. A reader of our own, because the libraries at hand do not round coordinates
+// correctly.
 #include <algorithm>
 #include <array>
 #include <ccd/io/mesh_file.hpp>
@@ -10,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-#include "ccd/io/element_check.hpp"
+#include "ccd/io/mesh_reading.hpp"
 #include "ccd/io/text.hpp"
 
 namespace ccd::io {
@@ -18,16 +19,15 @@ namespace {
 
 using errbound::support::file_error;
 
-/// Keywords that say nothing of vertices, faces or edges: names, materials, rendering, what belongs
-/// to vertices or to free-form geometry.
+/// Keywords without vertices, faces or edges: names, materials, rendering, attributes of vertices,
+/// parts of free-form geometry.
 constexpr std::array<std::string_view, 32> skipped_keywords{
     "vt",        "vn",     "vp",     "g",      "s",      "mg",     "o",     "bevel",
     "c_interp",  "lod",    "usemtl", "mtllib", "usemap", "maplib", "ctech", "d_interp",
     "trace_obj", "cstype", "deg",    "bmat",   "step",   "curv2",  "parm",  "shadow_obj",
     "hole",      "scrv",   "sp",     "end",    "con",    "res",    "trim",  "stech"};
 
-/// Free-form curves and surfaces, and what takes lines from elsewhere: a mesh would lack what they
-/// stand for.
+/// Free-form curves and surfaces, and lines from other files, which a mesh would lack.
 constexpr std::array<std::string_view, 8> refused_keywords{"curv", "surf", "bzp",  "bsp",
                                                            "cdc",  "cdp",  "call", "csh"};
 
@@ -38,14 +38,14 @@ bool is_blank(char c) {
 class obj_parser {
   public:
     obj_parser(std::string_view text, const std::string& name, const mesh_options& options)
-        : text_(text), name_(name), options_(options) {}
+        : lines_(text, name), options_(options) {}
 
     mesh parse() {
         while (std::optional<std::string_view> line = next_line()) {
             const std::string_view keyword = take_word(*line);
             if (keyword == "v")
                 read_vertex(*line);
-            else if (keyword == "f" || keyword == "fo")  // fo: what f was called at first
+            else if (keyword == "f" || keyword == "fo")  // fo: an old name of f
                 read_face(*line);
             else if (keyword == "l")
                 read_polyline(*line);
@@ -55,8 +55,8 @@ class obj_parser {
                 require_skipped(keyword);
         }
         if (result_.vertices.empty())
-            throw file_error(name_ + ": found no vertices, expected lines 'v x y z'");
-        // A face may come before its vertices, so this must wait until all are read.
+            throw file_error(lines_.name() + ": found no vertices, expected lines 'v x y z'");
+        // A face may come before its vertices.
         require_good(options_.triangulate ? "triangle" : "face", result_.faces, face_lines_);
         require_good("edge", result_.edges, edge_lines_);
         require_good("point", points_, point_lines_);
@@ -65,24 +65,19 @@ class obj_parser {
     }
 
   private:
-    std::string where() const { return name_ + ":" + std::to_string(line_); }
-    [[noreturn]] void fail(const std::string& what) const {
-        throw file_error(where() + ": " + what);
-    }
+    [[noreturn]] void fail(const std::string& what) const { fail_at(lines_.name(), line_, what); }
 
-    /// The next line without its comment, and with the lines that a backslash at its end adds.
+    /// The next line without its comment, joined with the lines that backslashes add.
     std::optional<std::string_view> next_line() {
-        line_ += continuations_ + 1;
-        continuations_ = 0;
+        line_ = lines_.line() + 1;
         const std::optional<std::string_view> first = next_piece();
         if (!first || !first->ends_with('\\')) return first;
         joined_ = *first;
         while (joined_.ends_with('\\')) {
             joined_.pop_back();
-            ++continuations_;
             const std::optional<std::string_view> next = next_piece();
             if (!next) fail("found a backslash at the end of the file, expected a line after it");
-            // Whether a word goes on across the line end is where readers differ.
+            // Readers differ on whether a word goes on across the line end.
             const bool may_split = !joined_.empty() && !next->empty() &&
                                    !is_blank(joined_.back()) && !is_blank(next->front());
             if (may_split)
@@ -92,10 +87,10 @@ class obj_parser {
         return joined_;
     }
 
-    /// A line of the file without its comment, which starts at a '#' that begins a word. (Another
-    /// one is a part of its word: 1.#INF, usemtl a#b.)
+    /// A line of the file without its comment, which starts at a '#' that begins a word. Any other
+    /// '#' is a part of its word: 1.#INF, usemtl a#b.
     std::optional<std::string_view> next_piece() {
-        const std::optional<std::string_view> whole = take_line(text_);
+        const std::optional<std::string_view> whole = lines_.next();
         if (!whole) return whole;
         std::size_t end = whole->find('#');
         while (end != std::string_view::npos && end > 0 && !is_blank((*whole)[end - 1]))
@@ -115,13 +110,12 @@ class obj_parser {
     }
 
     template <class Element>
-    void require_good(const char* name, const std::vector<Element>& elements,
-                      const std::vector<std::size_t>& lines) {
-        for (std::size_t i = 0; i < elements.size(); ++i) {
-            line_ = lines[i];
+    void require_good(const std::string& name, const std::vector<Element>& elements,
+                      const std::vector<std::size_t>& lines) const {
+        for (std::size_t i = 0; i < elements.size(); ++i)
             if (const auto fault = fault_of(elements[i], result_.vertices.size()))
-                fail(std::string(name) + " " + std::to_string(i) + " (indices from 0): " + *fault);
-        }
+                fail_at(lines_.name(), lines[i],
+                        name + " " + std::to_string(i) + " (indices from 0): " + *fault);
     }
 
     void read_vertex(std::string_view line) {
@@ -131,29 +125,27 @@ class obj_parser {
         for (std::string_view word = take_word(line); !word.empty(); word = take_word(line)) {
             if (count == values.size()) fail("found more than 7 values of a vertex");
             const number value = parse_double(word, false);
-            if (value.status != number_status::ok) fail(describe(value.status, word));
+            if (value.status != number_status::ok) fail(describe(value.status, excerpt(word)));
             values[count++] = value.value;
         }
-        if (count < 3 || count == 5) {
+        if (count < 3 || count == 5)
             fail("found " + std::to_string(count) + " values of a vertex, expected 3 (x y z)");
-        }
         if (count == 4 && values[3] != 1) fail("found a vertex with weight, expected none or 1");
-        if (result_.vertices.size() == std::numeric_limits<vertex_index>::max()) {
+        if (result_.vertices.size() == std::numeric_limits<vertex_index>::max())
             fail("found more vertices than expected, fewer than 2^32");
-        }
         result_.vertices.push_back({values[0], values[1], values[2]});
     }
 
     void read_face(std::string_view line) {
         read_corners(line);
-        if (corners_.size() != 3) check_corners(corners_.size(), options_, where());
+        if (const auto fault = fault_of_corners(corners_.size(), options_)) fail(*fault);
         for (std::size_t i = 2; i < corners_.size(); ++i) {
             result_.faces.push_back({corners_[0], corners_[i - 1], corners_[i]});
             face_lines_.push_back(line_);
         }
     }
 
-    /// An edge between every two neighbours.
+    /// Adds an edge between every two neighbours.
     void read_polyline(std::string_view line) {
         read_corners(line);
         if (corners_.size() < 2)
@@ -193,7 +185,7 @@ class obj_parser {
             corners_.push_back(corner(word));
     }
 
-    /// With a sign or without, as numbers of vertices.
+    /// An integer with or without a sign.
     static bool read_index(std::string_view token, std::int64_t& index) {
         const bool plus = token.starts_with('+') && !token.starts_with("+-");
         if (plus) token.remove_prefix(1);
@@ -202,8 +194,8 @@ class obj_parser {
         return error == std::errc{} && stop == end;
     }
 
-    /// The vertex index of v, v/vt, v//vn or v/vt/vn, from 0. Without vt and vn slashes may stay:
-    /// v/, v//, v/vt/.
+    /// The vertex index of v, v/vt, v//vn or v/vt/vn, from 0. If vt and vn are absent, slashes may
+    /// stay: v/, v//, v/vt/.
     vertex_index corner(std::string_view word) const {
         std::array<std::int64_t, 3> indices{};
         std::string_view rest = word;
@@ -213,7 +205,7 @@ class obj_parser {
             const bool last = slash == std::string_view::npos;
             const bool is_left_out = token.empty() && part > 0;
             const bool is_index = read_index(token, indices[part]) &&
-                                  (part == 0 || indices[part] != 0);  // v is judged below
+                                  (part == 0 || indices[part] != 0);  // v is checked below
             if (!is_index && !is_left_out)
                 fail("found " + excerpt(word) +
                      ", expected v, v/vt, v//vn or v/vt/vn, integers other than 0");
@@ -225,24 +217,21 @@ class obj_parser {
         const std::int64_t i = indices[0];
         const bool in_range =
             i > 0 ? i <= std::numeric_limits<vertex_index>::max() : i < 0 && i >= -vertices;
-        if (!in_range) {
+        if (!in_range)
             fail("found vertex index " + std::to_string(i) +
                  ", expected 1 or more, or one back from the last vertex so far (-1 to -" +
                  std::to_string(vertices) + ")");
-        }
         return static_cast<vertex_index>(i > 0 ? i - 1 : vertices + i);
     }
 
-    std::string_view text_;
-    const std::string& name_;
+    line_reader lines_;
     const mesh_options& options_;
     std::string joined_;  ///< lines that backslashes join
     mesh result_;
     std::vector<vertex_index> corners_;  ///< of the last element
     std::vector<std::array<vertex_index, 1>> points_;
     std::vector<std::size_t> face_lines_, edge_lines_, point_lines_;
-    std::size_t line_ = 0;           ///< the first of those joined
-    std::size_t continuations_ = 0;  ///< lines joined to it
+    std::size_t line_ = 0;  ///< the first of those joined
 };
 
 }  // namespace

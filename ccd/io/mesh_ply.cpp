@@ -1,17 +1,17 @@
-// The PLY reader. Our own, because the PLY libraries that distributions carry convert coordinates
-// to float.
+// The reader and the writer of PLY. A reader of our own, because the PLY libraries of distributions
+// convert coordinates to float.
 #include <algorithm>
+#include <bit>
 #include <ccd/io/mesh_file.hpp>
 #include <cmath>
 #include <cstdint>
 #include <errbound/support/error.hpp>
 #include <limits>
+#include <type_traits>
 #include <utility>
 
-#include "ccd/io/element_check.hpp"
-#include "ccd/io/mesh_shares.hpp"
-#include "ccd/io/ply_header.hpp"
-#include "ccd/io/ply_values.hpp"
+#include "ccd/io/mesh_reading.hpp"
+#include "ccd/io/ply.hpp"
 
 namespace ccd::io {
 
@@ -49,17 +49,53 @@ class body_reader {
     }
 
   private:
+    [[noreturn]] void fail(const std::string& what) const { throw file_error(name_ + ": " + what); }
+
+    void require_elements() const {
+        bool has_vertices = false;
+        for (const element& e : header_.elements) {
+            if (e.count > 0 && e.number_of(role::misplaced) > 0)
+                fail("found vertex indices in element " + excerpt(e.name) +
+                     ", expected them in face or edge");
+            if (e.name == "vertex") {
+                has_vertices = true;
+                if (e.count > std::numeric_limits<vertex_index>::max())
+                    fail("found " + std::to_string(e.count) +
+                         " vertices, expected fewer than 2^32");
+                for (const auto& [axis, r] :
+                     {std::pair("x", role::x), {"y", role::y}, {"z", role::z}})
+                    require_property(e, axis, r, "x, y and z");
+            } else if (e.name == "face" && e.count > 0) {
+                const auto lists = e.number_of(role::corners);
+                if (lists != 1)
+                    fail(std::string("found ") + (lists == 0 ? "no" : "more than one") +
+                         " list of vertex indices in face, expected one list of integers called "
+                         "vertex_indices or vertex_index");
+            } else if (e.name == "edge" && e.count > 0) {
+                require_property(e, "vertex1", role::vertex1, "integers vertex1 and vertex2");
+                require_property(e, "vertex2", role::vertex2, "integers vertex1 and vertex2");
+            }
+        }
+        if (!has_vertices) fail("found no element 'vertex', expected one");
+    }
+
+    void require_property(const element& e, const char* wanted, role r,
+                          const char* expected) const {
+        if (e.number_of(r) == 0)
+            fail(std::string("found no property '") + wanted + "' of " + e.name + ", expected " +
+                 expected);
+    }
+
     template <class Element>
-    void require_good(const char* kind, const std::vector<Element>& elements,
+    void require_good(const std::string& kind, const std::vector<Element>& elements,
                       std::size_t first) const {
         for (std::size_t i = 0; i < elements.size(); ++i)
             if (const auto fault = fault_of(elements[i], result_.vertices.all))
-                throw file_error(name_ + ": " + kind + " " + std::to_string(first + i) + ": " +
-                                 *fault);
+                fail(kind + " " + std::to_string(first + i) + ": " + *fault);
     }
 
-    /// No more than the bytes that are there can hold, whatever the header claims. Every element
-    /// takes at least one byte per property.
+    /// Reserves no more than the bytes that are there can hold, whatever the header claims. Every
+    /// element takes at least one byte per property.
     void reserve(const element& e, std::uint64_t count) {
         const std::size_t limit =
             values_.remaining() / std::max<std::size_t>(e.properties.size(), 1);
@@ -83,134 +119,50 @@ class body_reader {
         }
     }
 
-    /// Of an element in a binary file, where all have as many: a face its three vertices. If one
-    /// has not, then whose share has the first such face reads it where it is, and tells.
+    /// The bytes of each element in a binary file, if all have the same number. Every face is taken
+    /// for a triangle: the share that has the first other face reads that face, and fails.
     static std::optional<std::size_t> bytes_of_each(const element& e) {
         std::size_t bytes = 0;
         for (const property& p : e.properties) {
-            const bool is_face = e.name == "face" && is_face_list(p);
+            const bool is_face = p.role == role::corners;
             if (p.count_type && !is_face) return std::nullopt;
-            bytes += is_face ? io::ply::bytes_of(*p.count_type) + 3 * io::ply::bytes_of(p.type)
-                             : io::ply::bytes_of(p.type);
+            bytes += is_face ? bytes_of(*p.count_type) + 3 * bytes_of(p.type) : bytes_of(p.type);
         }
         return bytes;
     }
 
-    const element* find(std::string_view element_name) const {
-        const auto found = std::ranges::find(header_.elements, element_name, &element::name);
-        return found == header_.elements.end() ? nullptr : &*found;
-    }
-
-    /// Elements that would be lost with what they say of faces or edges, such as tristrips.
-    void require_no_other_geometry() const {
-        for (const element& e : header_.elements) {
-            if (e.count == 0 || e.name == "vertex" || e.name == "face" || e.name == "edge")
-                continue;
-            const bool has_indices = std::ranges::any_of(e.properties, [](const property& p) {
-                return is_face_list(p) || is_vertex_of_edge(p);
-            });
-            if (has_indices)
-                throw file_error(name_ + ": found vertex indices in element " + excerpt(e.name) +
-                                 ", expected them in face or edge");
-        }
-    }
-
-    void require_elements() const {
-        require_no_other_geometry();
-        const element* const vertices = find("vertex");
-        const element* const faces = find("face");
-        const element* const edges = find("edge");
-        if (vertices == nullptr)
-            throw file_error(name_ + ": found no element 'vertex', expected one");
-        if (vertices->count > std::numeric_limits<vertex_index>::max()) {
-            throw file_error(name_ + ": found " + std::to_string(vertices->count) +
-                             " vertices, expected fewer than 2^32");
-        }
-        const bool has_faces = faces != nullptr && faces->count > 0;
-        const bool has_edges = edges != nullptr && edges->count > 0;
-        for (const char* axis : {"x", "y", "z"}) require_property(*vertices, axis, is_coordinate);
-        if (has_faces) require_face_list(*faces);
-        if (has_edges)
-            for (const char* end : {"vertex1", "vertex2"})
-                require_property(*edges, end, is_vertex_of_edge);
-    }
-
-    template <class IsOne>
-    void require_property(const element& of, const char* wanted, const IsOne& is_one) const {
-        const bool found = std::ranges::any_of(
-            of.properties, [&](const property& p) { return p.name == wanted && is_one(p); });
-        if (found) return;
-        const bool coordinates = of.name == "vertex";
-        throw file_error(name_ + ": found no property '" + wanted + "' of " + of.name +
-                         ", expected " +
-                         (coordinates ? "x, y and z" : "integers vertex1 and vertex2"));
-    }
-
-    void require_face_list(const element& faces) const {
-        const auto lists = std::ranges::count_if(faces.properties, is_face_list);
-        if (lists != 1) {
-            throw file_error(name_ + ": found " + (lists == 0 ? "no" : "more than one") +
-                             " list of vertex indices in face, expected one list of integers "
-                             "called vertex_indices or vertex_index");
-        }
-    }
-
-    static bool is_coordinate(const property& p) {
-        return !p.count_type && (p.name == "x" || p.name == "y" || p.name == "z");
-    }
-    static bool is_vertex_of_edge(const property& p) {
-        return !p.count_type && is_integer(p.type) && (p.name == "vertex1" || p.name == "vertex2");
-    }
-    static bool is_face_list(const property& p) {
-        return p.count_type && is_integer(p.type) &&
-               (p.name == "vertex_indices" || p.name == "vertex_index");
-    }
-
-    void read_element(const element& e, std::uint64_t number) {
-        values_.begin(e.name, number);
-        if (e.name == "vertex") {
-            result_.elements.vertices.push_back(read_vertex(e));
-        } else if (e.name == "face") {
-            read_face(e);
-        } else if (e.name == "edge") {
-            result_.elements.edges.push_back(read_edge(e));
-        } else {
-            for (const property& p : e.properties) skip(p);
-        }
-        values_.end();
-    }
-
-    point<double> read_vertex(const element& e) {
+    void read_element(const element& e, std::uint64_t index) {
+        values_.begin(e.name, index);
         point<double> position;
-        for (const property& p : e.properties) {
-            if (is_coordinate(p))
-                (p.name == "x"   ? position.x
-                 : p.name == "y" ? position.y
-                                 : position.z) = coordinate(p);
-            else
-                skip(p);
-        }
-        return position;
-    }
-
-    void read_face(const element& e) {
-        for (const property& p : e.properties) {
-            if (is_face_list(p))
-                read_corners(p);
-            else
-                skip(p);
-        }
-    }
-
-    edge read_edge(const element& e) {
         edge ends{};
         for (const property& p : e.properties) {
-            if (is_vertex_of_edge(p))
-                ends[p.name == "vertex1" ? 0 : 1] = read_index(p);
-            else
-                skip(p);
+            switch (p.role) {
+                case role::x:
+                    position.x = coordinate(p);
+                    break;
+                case role::y:
+                    position.y = coordinate(p);
+                    break;
+                case role::z:
+                    position.z = coordinate(p);
+                    break;
+                case role::corners:
+                    read_corners(p);
+                    break;
+                case role::vertex1:
+                    ends[0] = read_index(p);
+                    break;
+                case role::vertex2:
+                    ends[1] = read_index(p);
+                    break;
+                case role::none:
+                case role::misplaced:
+                    skip(p);
+            }
         }
-        return ends;
+        if (e.name == "vertex") result_.elements.vertices.push_back(position);
+        if (e.name == "edge") result_.elements.edges.push_back(ends);
+        values_.end();
     }
 
     void skip(const property& p) { values_.skip(p.type, p.count_type ? list_size(p) : 1); }
@@ -223,16 +175,15 @@ class body_reader {
 
     double coordinate(const property& p) {
         const double value = values_.next(p.type);
-        if (!std::isfinite(value)) {
+        if (!std::isfinite(value))
             values_.fail(std::string("found ") + (std::isnan(value) ? "NaN" : "an infinity") +
                          " as " + p.name + ", expected a finite number");
-        }
         return value;
     }
 
     void read_corners(const property& p) {
         const std::uint64_t count = list_size(p);
-        if (count != 3) check_corners(count, options_, values_.where());
+        if (const auto fault = fault_of_corners(count, options_)) values_.fail(*fault);
         face triangle;
         for (vertex_index& i : triangle) i = read_index(p);
         result_.elements.faces.push_back(triangle);
@@ -244,10 +195,9 @@ class body_reader {
 
     vertex_index read_index(const property& p) {
         const double value = values_.next(p.type);
-        if (value < 0) {
+        if (value < 0)
             values_.fail("found vertex index " + std::to_string(static_cast<std::int64_t>(value)) +
                          ", expected 0 or more");
-        }
         return static_cast<vertex_index>(value);
     }
 
@@ -278,6 +228,36 @@ mesh_share parse_share_ply(std::string_view text, const std::string& name, share
 
 mesh parse_mesh_ply(std::string_view text, const std::string& name, const mesh_options& options) {
     return parse_share_ply(text, name, share_of_file(), options).elements;
+}
+
+namespace {
+
+template <class Value>
+void append(std::string& text, const Value& value) {
+    static_assert(std::is_trivially_copyable_v<Value>);
+    text.append(reinterpret_cast<const char*>(&value), sizeof value);
+}
+
+}  // namespace
+
+std::string ply_of(const mesh& frame) {
+    std::string text = "ply\nformat binary_";
+    text += std::endian::native == std::endian::little ? "little" : "big";
+    text += "_endian 1.0\nelement vertex " + std::to_string(frame.vertices.size());
+    for (const char axis : {'x', 'y', 'z'}) (text += "\nproperty double ") += axis;
+    text += "\nelement face " + std::to_string(frame.faces.size());
+    text += "\nproperty list uchar uint vertex_indices";
+    if (!frame.edges.empty())
+        text += "\nelement edge " + std::to_string(frame.edges.size()) +
+                "\nproperty uint vertex1\nproperty uint vertex2";
+    text += "\nend_header\n";
+    for (const point<double>& p : frame.vertices) append(text, p);
+    for (const face& f : frame.faces) {
+        append(text, std::uint8_t(f.size()));
+        append(text, f);
+    }
+    for (const edge& e : frame.edges) append(text, e);
+    return text;
 }
 
 }  // namespace ccd::io

@@ -1,4 +1,4 @@
-#include "ccd/io/ply_header.hpp"
+// The header of a PLY file.
 
 #include <algorithm>
 #include <array>
@@ -6,14 +6,12 @@
 #include <errbound/support/error.hpp>
 #include <utility>
 
-#include "ccd/io/text.hpp"
+#include "ccd/io/ply.hpp"
 
 namespace ccd::io::ply {
 namespace {
 
-using errbound::support::file_error;
-
-/// Elements of a header, or properties of an element, at most: names are compared pairwise.
+/// Largest number of elements, and of an element's properties. Names are compared pairwise.
 constexpr std::size_t max_names = 1000;
 
 std::optional<std::uint64_t> parse_count(std::string_view token) {
@@ -24,76 +22,89 @@ std::optional<std::uint64_t> parse_count(std::string_view token) {
     return value;
 }
 
-struct scalar_name {
-    std::string_view name;
+struct named_scalar {
+    std::string_view name, other_name;
     scalar type;
 };
 
-constexpr std::array<scalar_name, 16> scalar_names{{{"char", scalar::int8},
-                                                    {"uchar", scalar::uint8},
-                                                    {"short", scalar::int16},
-                                                    {"ushort", scalar::uint16},
-                                                    {"int", scalar::int32},
-                                                    {"uint", scalar::uint32},
-                                                    {"float", scalar::float32},
-                                                    {"double", scalar::float64},
-                                                    {"int8", scalar::int8},
-                                                    {"uint8", scalar::uint8},
-                                                    {"int16", scalar::int16},
-                                                    {"uint16", scalar::uint16},
-                                                    {"int32", scalar::int32},
-                                                    {"uint32", scalar::uint32},
-                                                    {"float32", scalar::float32},
-                                                    {"float64", scalar::float64}}};
+constexpr std::array named_scalars{named_scalar{"char", "int8", std::int8_t()},
+                                   named_scalar{"uchar", "uint8", std::uint8_t()},
+                                   named_scalar{"short", "int16", std::int16_t()},
+                                   named_scalar{"ushort", "uint16", std::uint16_t()},
+                                   named_scalar{"int", "int32", std::int32_t()},
+                                   named_scalar{"uint", "uint32", std::uint32_t()},
+                                   named_scalar{"float", "float32", float()},
+                                   named_scalar{"double", "float64", double()}};
+
+struct known_property {
+    std::string_view element, name;
+    ply::role role;
+};
+
+constexpr std::array known_properties{known_property{"vertex", "x", role::x},
+                                      known_property{"vertex", "y", role::y},
+                                      known_property{"vertex", "z", role::z},
+                                      known_property{"face", "vertex_indices", role::corners},
+                                      known_property{"face", "vertex_index", role::corners},
+                                      known_property{"edge", "vertex1", role::vertex1},
+                                      known_property{"edge", "vertex2", role::vertex2}};
+
+role role_of(const property& p, std::string_view element) {
+    const auto known = std::ranges::find(known_properties, p.name, &known_property::name);
+    if (known == known_properties.end()) return role::none;
+    const bool is_coordinate = known->element == "vertex";
+    if (p.count_type.has_value() != (known->role == role::corners)) return role::none;
+    if (!is_coordinate && !is_integer(p.type)) return role::none;
+    if (known->element == element) return known->role;
+    const bool is_other = element != "vertex" && element != "face" && element != "edge";
+    return is_other && !is_coordinate ? role::misplaced : role::none;
+}
 
 class header_parser {
   public:
     header_parser(std::string_view& text, const std::string& name) : text_(text), name_(name) {}
 
     header parse() {
-        // Where CR alone ends the first line it ends all: a LF after the last is of a binary body.
+        // If CR alone ends the first line, it ends all: a LF after the last is of a binary body.
         const std::size_t first_end = text_.find_first_of("\r\n");
         if (first_end != std::string_view::npos && !text_.substr(first_end).starts_with("\r\n"))
             line_end_ = text_[first_end];
-        std::string_view line = next_line();
-        if (trimmed(line) != "ply") fail("found " + excerpt(line) + ", expected 'ply'");
+        line_ = rest_ = next_line();
+        if (trimmed(line_) != "ply") fail("found " + excerpt(line_) + ", expected 'ply'");
         bool has_format = false;
         while (true) {
-            const std::string_view whole = next_line();
-            line = whole;
-            const std::string_view keyword = take_word(line);
+            line_ = rest_ = next_line();
+            const std::string_view keyword = take_word(rest_);
             if (keyword == "end_header") break;
             if (keyword == "comment" || keyword == "obj_info") continue;
             // Some readers would end a line there, or a word.
-            if (std::ranges::any_of(whole, is_control))
-                fail("found a control character in " + excerpt(whole) + ", expected none");
+            if (std::ranges::any_of(line_, is_control))
+                fail("found a control character in " + excerpt(line_) + ", expected none");
             if (keyword == "format") {
                 if (has_format) fail("found a second format line, expected one");
-                read_format(line, whole);
+                read_format();
                 has_format = true;
             } else if (keyword == "element") {
-                read_element(line, whole);
+                read_element();
             } else if (keyword == "property") {
-                read_property(line, whole);
+                read_property();
             } else {
-                fail("found " + excerpt(whole) +
-                     ", expected format, element, property, comment or end_header");
+                fail_expecting("format, element, property, comment or end_header");
             }
         }
         if (!has_format) fail("found no format line before end_header, expected one");
-        for (const element& e : header_.elements) {
-            // Data without bytes would let a count alone keep the reader busy.
-            if (e.properties.empty() && e.count > 0) {
-                throw file_error(name_ + ": found no properties in element " + excerpt(e.name) +
-                                 ", expected at least one");
-            }
-        }
+        for (const element& e : header_.elements)
+            // Elements without data would let a count alone keep the reader busy.
+            if (e.properties.empty() && e.count > 0)
+                throw errbound::support::file_error(name_ + ": found no properties in element " +
+                                                    excerpt(e.name) + ", expected at least one");
         return std::move(header_);
     }
 
   private:
-    [[noreturn]] void fail(const std::string& what) const {
-        throw file_error(name_ + ":" + std::to_string(header_.lines) + ": " + what);
+    [[noreturn]] void fail(const std::string& what) const { fail_at(name_, header_.lines, what); }
+    [[noreturn]] void fail_expecting(const std::string& expected) const {
+        fail("found " + excerpt(line_) + ", expected " + expected);
     }
 
     std::string_view next_line() {
@@ -105,87 +116,64 @@ class header_parser {
         return line;
     }
 
-    void read_format(std::string_view line, std::string_view whole) {
-        const std::string_view format = take_word(line), version = take_word(line);
-        if (format == "ascii") {
-            header_.format = encoding::ascii;
-        } else if (format == "binary_little_endian") {
-            header_.format = encoding::little;
-        } else if (format == "binary_big_endian") {
-            header_.format = encoding::big;
-        } else {
-            fail("found " + excerpt(whole) +
-                 ", expected format ascii, binary_little_endian or binary_big_endian");
-        }
-        if (version != "1.0" || !trimmed(line).empty()) {
-            fail("found " + excerpt(whole) + ", expected version 1.0");
-        }
+    bool at_end() const { return trimmed(rest_).empty(); }
+
+    void read_format() {
+        constexpr std::array<std::string_view, 3> formats{"ascii", "binary_little_endian",
+                                                          "binary_big_endian"};
+        const auto found = std::ranges::find(formats, take_word(rest_));
+        if (found == formats.end())
+            fail_expecting("format ascii, binary_little_endian or binary_big_endian");
+        header_.format = static_cast<encoding>(found - formats.begin());
+        if (take_word(rest_) != "1.0" || !at_end()) fail_expecting("version 1.0");
     }
 
-    void read_element(std::string_view line, std::string_view whole) {
-        element e;
-        e.name = take_word(line);
-        const std::optional<std::uint64_t> count = parse_count(take_word(line));
-        if (e.name.empty() || !count || !trimmed(line).empty()) {
-            fail("found " + excerpt(whole) + ", expected element NAME COUNT");
+    void read_element() {
+        const std::string_view name = take_word(rest_);
+        const std::optional<std::uint64_t> count = parse_count(take_word(rest_));
+        if (name.empty() || !count || !at_end()) fail_expecting("element NAME COUNT");
+        add(header_.elements, {std::string(name), *count, {}}, "element");
+    }
+
+    void read_property() {
+        if (header_.elements.empty()) fail("found a property before any element");
+        property p;
+        std::string_view word = take_word(rest_);
+        if (word == "list") {
+            p.count_type = scalar_type(take_word(rest_));
+            if (!is_integer(*p.count_type)) fail_expecting("an integer type for the list's count");
+            word = take_word(rest_);
         }
-        e.count = *count;
-        if (header_.elements.size() == max_names)
-            fail("found more than 1000 elements, expected at most that many");
-        for (const element& other : header_.elements) {
-            if (other.name == e.name) fail("found element " + excerpt(e.name) + " twice");
-        }
-        header_.elements.push_back(std::move(e));
+        p.type = scalar_type(word);
+        p.name = take_word(rest_);
+        if (p.name.empty() || !at_end()) fail_expecting("property [list TYPE] TYPE NAME");
+        p.role = role_of(p, header_.elements.back().name);
+        add(header_.elements.back().properties, std::move(p), "property");
     }
 
     scalar scalar_type(std::string_view word) const {
-        for (const scalar_name& known : scalar_names) {
-            if (known.name == word) return known.type;
-        }
+        for (const named_scalar& known : named_scalars)
+            if (known.name == word || known.other_name == word) return known.type;
         fail("found type " + excerpt(word) + ", expected a PLY type such as float or uchar");
     }
 
-    void read_property(std::string_view line, std::string_view whole) {
-        if (header_.elements.empty()) fail("found a property before any element");
-        property p;
-        std::string_view word = take_word(line);
-        if (word == "list") {
-            p.count_type = scalar_type(take_word(line));
-            if (!is_integer(*p.count_type)) {
-                fail("found " + excerpt(whole) + ", expected an integer type for the list's count");
-            }
-            word = take_word(line);
-        }
-        p.type = scalar_type(word);
-        p.name = take_word(line);
-        if (p.name.empty() || !trimmed(line).empty()) {
-            fail("found " + excerpt(whole) + ", expected property [list TYPE] TYPE NAME");
-        }
-        std::vector<property>& properties = header_.elements.back().properties;
-        if (properties.size() == max_names)
-            fail("found more than 1000 properties, expected at most that many");
-        for (const property& other : properties) {
-            if (other.name == p.name) fail("found property " + excerpt(p.name) + " twice");
-        }
-        properties.push_back(std::move(p));
+    template <class Named>
+    void add(std::vector<Named>& all, Named&& one, const std::string& what) const {
+        if (all.size() == max_names)
+            fail("found more than 1000 of " + what + ", expected at most that many");
+        if (std::ranges::find(all, one.name, &Named::name) != all.end())
+            fail("found " + what + " " + excerpt(one.name) + " twice");
+        all.push_back(std::move(one));
     }
 
     std::string_view& text_;
     const std::string& name_;
-    char line_end_ = '\n';  ///< maybe after a CR
+    char line_end_ = '\n';          ///< maybe after a CR
+    std::string_view line_, rest_;  ///< the line that is read, and the part not yet read
     header header_;
 };
 
 }  // namespace
-
-bool is_integer(scalar type) {
-    return type != scalar::float32 && type != scalar::float64;
-}
-
-std::size_t bytes_of(scalar type) {
-    constexpr std::array<std::size_t, 8> sizes = {1, 1, 2, 2, 4, 4, 4, 8};
-    return sizes[static_cast<std::size_t>(type)];
-}
 
 header parse_header(std::string_view& text, const std::string& name) {
     return header_parser(text, name).parse();

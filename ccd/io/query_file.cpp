@@ -19,14 +19,13 @@ namespace {
 using errbound::support::file_error;
 using errbound::support::read_whole;
 
-constexpr std::size_t rows_per_query = 8;
 constexpr std::size_t max_columns = 7;
 
 constexpr const char* row_forms =
     "6 integers (numerator, denominator of x, y, z) or 3 decimal or hexadecimal floats, then "
     "optionally truth (0 or 1)";
 
-/// One line's columns. `count` goes on past the last column that is stored.
+/// The columns of a line. `count` goes on past the last column that is stored.
 struct columns {
     std::array<std::string_view, max_columns> values;
     std::size_t count = 0;
@@ -34,12 +33,10 @@ struct columns {
 
 columns split(std::string_view line) {
     columns result;
-    for (bool more = true; more;) {
+    for (bool more = true; more; ++result.count) {
         const std::size_t comma = line.find(',');
-        if (result.count < max_columns) {
+        if (result.count < max_columns)
             result.values[result.count] = trimmed(line.substr(0, comma));
-        }
-        ++result.count;
         more = comma != std::string_view::npos;
         if (more) line.remove_prefix(comma + 1);
     }
@@ -48,54 +45,53 @@ columns split(std::string_view line) {
 
 class query_parser {
   public:
-    query_parser(const std::string& name, ccd::kind kind, bool round, std::size_t rows = 0,
-                 std::size_t columns = 0)
-        : name_(name), round_(round), columns_(rows > 0 ? columns : 0), line_(rows) {
+    /// `text` follows `rows` other rows of `columns` columns, if there are such rows.
+    query_parser(std::string_view text, const std::string& name, ccd::kind kind, bool round,
+                 std::size_t rows = 0, std::size_t columns = 0)
+        : lines_(content(text, name, rows), name, rows),
+          round_(round),
+          columns_(rows > 0 ? columns : 0) {
         visit_stored_kind(kind, [this]<ccd::kind K>() {
             result_.queries.emplace<std::vector<typename kind_traits<K>::template query<double>>>();
         });
     }
 
-    query_file parse(std::string_view text) {
-        if (line_ == 0) text = without_byte_order_mark(text, name_);
-        text = without_end_mark(text);
-        text = text.substr(0, text.find_last_not_of(" \t\r\n") + 1);
-        if (text.empty()) {
-            throw file_error(name_ + ": found an empty file, expected rows of " + row_forms);
-        }
-        while (const std::optional<std::string_view> line = take_line(text)) {
-            ++line_;
-            read_row(*line);
-        }
-        if (row_ != 0) {
-            throw file_error(name_ + ":" + std::to_string(line_) + ": found a truncated query, " +
-                             std::to_string(row_) + " rows from line " +
-                             std::to_string(line_ - row_ + 1) + " on, expected 8 rows per query");
-        }
+    query_file parse() {
+        while (const std::optional<std::string_view> line = lines_.next()) read_row(*line);
+        const std::size_t last = lines_.line() - 1;
+        if (row_ != 0)
+            fail_at(lines_.name(), last,
+                    "found a truncated query, " + std::to_string(row_) + " rows from line " +
+                        std::to_string(last - row_ + 1) + " on, expected 8 rows per query");
         if (has_truth()) result_.truth = std::move(truth_);
         return std::move(result_);
     }
 
   private:
+    static std::string_view content(std::string_view text, const std::string& name,
+                                    std::size_t rows) {
+        if (rows == 0) text = without_byte_order_mark(text, name);
+        text = without_end_mark(text);
+        text = text.substr(0, text.find_last_not_of(" \t\r\n") + 1);
+        if (text.empty())
+            throw file_error(name + ": found an empty file, expected rows of " + row_forms);
+        return text;
+    }
+
     bool is_rational() const { return columns_ >= 6; }
     bool has_truth() const { return columns_ == 4 || columns_ == 7; }
 
-    [[noreturn]] void fail(const std::string& what) const {
-        throw file_error(name_ + ":" + std::to_string(line_) + ": " + what);
-    }
-
     void read_row(std::string_view line) {
-        if (trimmed(line).empty()) fail("found a blank line, expected a row");
+        if (trimmed(line).empty()) lines_.fail("found a blank line, expected a row");
         const columns row = split(line);
         if (columns_ == 0) {
-            if (row.count != 3 && row.count != 4 && row.count != 6 && row.count != 7) {
-                fail("found " + excerpt(line) + " (columns: " + std::to_string(row.count) +
-                     "), expected " + row_forms);
-            }
+            if (row.count != 3 && row.count != 4 && row.count != 6 && row.count != 7)
+                lines_.fail("found " + excerpt(line) + " (columns: " + std::to_string(row.count) +
+                            "), expected " + row_forms);
             columns_ = row.count;
         } else if (row.count != columns_) {
-            fail("found " + std::to_string(row.count) + " columns, expected " +
-                 std::to_string(columns_) + " as in the first row");
+            lines_.fail("found " + std::to_string(row.count) + " columns, expected " +
+                        std::to_string(columns_) + " as in the first row");
         }
         points_[row_] = {coordinate(row, 0), coordinate(row, 1), coordinate(row, 2)};
         if (has_truth()) read_truth(row.values[columns_ - 1]);
@@ -103,56 +99,38 @@ class query_parser {
     }
 
     double coordinate(const columns& row, std::size_t axis) const {
-        constexpr std::array<const char*, 3> axes = {"x", "y", "z"};
-        const std::string where = std::string(" as ") + axes[axis];
-        number result;
-        std::string token;
-        if (is_rational()) {
-            const std::string_view n = row.values[2 * axis], d = row.values[2 * axis + 1];
-            result = parse_quotient(n, d, round_);
-            if (result.status == number_status::ok) return result.value;
-            if (result.status == number_status::malformed) {
-                const bool n_is_wrong =
-                    parse_quotient(n, "1", true).status == number_status::malformed;
-                fail("found " + excerpt(n_is_wrong ? n : d) + " as the " +
-                     (n_is_wrong ? "numerator" : "denominator") + " of " + axes[axis] +
-                     ", expected an integer");
-            }
-            if (result.status == number_status::too_long) {
-                fail("found more than " + std::to_string(longest_number) + " digits" + where +
-                     ", expected a number that a double can equal");
-            }
-            // Each side in quotes of its own, so that a long one does not hide the other.
-            token = excerpt(n) + "/" + excerpt(d);
-        } else {
-            result = parse_double(row.values[axis], round_);
-            if (result.status == number_status::ok) return result.value;
-            token = excerpt(row.values[axis]);
+        const std::string name(1, "xyz"[axis]);
+        if (!is_rational()) {
+            const std::string_view token = row.values[axis];
+            return checked(parse_double(token, round_), excerpt(token) + " as " + name);
         }
-        switch (result.status) {
-            case number_status::zero_denominator:
-                fail("found " + token + where + ", expected a nonzero denominator");
-            case number_status::inexact:
-                fail("found " + token + where +
-                     ", which no double equals, expected an exact double (or --round)");
-            case number_status::overflow:
-                fail("found " + token + where + ", which overflows, expected a finite double");
-            case number_status::not_finite:
-                fail("found " + token + where + ", expected a finite number");
-            default:
-                fail("found " + token + where + ", expected a decimal or hexadecimal float");
+        const std::string_view n = row.values[2 * axis], d = row.values[2 * axis + 1];
+        const number result = parse_quotient(n, d, round_);
+        if (result.status == number_status::malformed) {
+            const bool n_is_wrong = parse_quotient(n, "1", true).status == result.status;
+            lines_.fail("found " + excerpt(n_is_wrong ? n : d) + " as the " +
+                        (n_is_wrong ? "numerator" : "denominator") + " of " + name +
+                        ", expected an integer");
         }
+        // Each side has its own quotes, so that a long one does not hide the other.
+        return checked(result, excerpt(n) + "/" + excerpt(d) + " as " + name);
+    }
+
+    double checked(const number& result, const std::string& found) const {
+        if (result.status == number_status::ok) return result.value;
+        lines_.fail(describe(result.status, found) +
+                    (result.status == number_status::inexact ? " (or --round)" : ""));
     }
 
     void read_truth(std::string_view token) {
         if (token != "0" && token != "1")
-            fail("found " + excerpt(token) + " as truth, expected 0 or 1");
+            lines_.fail("found " + excerpt(token) + " as truth, expected 0 or 1");
         const bool value = token == "1";
         if (row_ == 0) {
             truth_.push_back(value);
         } else if (truth_.back() != value) {
-            fail("found truth " + std::string(token) + ", expected " + (value ? "0" : "1") +
-                 " as in the first row of this query");
+            lines_.fail("found truth " + std::string(token) + ", expected " + (value ? "0" : "1") +
+                        " as in the first row of this query");
         }
     }
 
@@ -168,18 +146,17 @@ class query_parser {
         row_ = 0;
     }
 
-    const std::string& name_;
+    line_reader lines_;
     bool round_;
     query_file result_;
     std::vector<bool> truth_;
     std::array<point<double>, rows_per_query> points_;
-    std::size_t columns_ = 0;  ///< of every row; 0 before the first
-    std::size_t row_ = 0;      ///< within the query
-    std::size_t line_ = 0;
+    std::size_t columns_;  ///< of every row; 0 before the first
+    std::size_t row_ = 0;  ///< within the query
 };
 
-/// Takes booleans as JSON's parser meets them. (A parsed document is not an alternative: its
-/// destructor allocates, and ends the program where there is no memory.)
+/// Collects booleans during the parse. The destructor of a parsed document would allocate memory,
+/// and end the program if there is none.
 class truth_reader final : public nlohmann::json_sax<nlohmann::json> {
   public:
     explicit truth_reader(const std::string& name) : name_(name) {}
@@ -244,34 +221,23 @@ std::optional<ccd::kind> kind_from_path(const fs::path& path) {
         if (stem.ends_with(short_name(k)) &&
             (stem.size() == 2 || !std::isalpha(static_cast<unsigned char>(stem[stem.size() - 3]))))
             return k;
-    // The innermost directory that names a kind counts.
-    std::optional<kind> result;
-    for (const fs::path& part : path) {
+    std::optional<kind> result;  // of the innermost folder that names a kind
+    for (const fs::path& part : path)
         if (const auto k = find_kind(part.stem().string())) result = k;
-    }
     return result;
 }
 
 query_file parse_queries(std::string_view text, const std::string& name, ccd::kind kind,
                          bool round) {
-    return query_parser(name, kind, round).parse(text);
+    return query_parser(text, name, kind, round).parse();
 }
 
 query_file parse_rows(std::string_view text, const std::string& name, ccd::kind kind, bool round,
                       std::uint64_t rows, std::uint64_t columns) {
-    return query_parser(name, kind, round, rows, columns).parse(text);
+    return query_parser(text, name, kind, round, rows, columns).parse();
 }
 
 namespace {
-
-ccd::kind kind_in(const store_reader& store, const fs::path& path,
-                  const std::optional<ccd::kind>& asked) {
-    if (asked && *asked != store.kind())
-        throw file_error(path.string() + ": found queries of kind " +
-                         std::string(name(store.kind())) + ", expected " +
-                         std::string(name(*asked)));
-    return store.kind();
-}
 
 bool is_store_file(const fs::path& path) {
     std::error_code error;
@@ -281,41 +247,52 @@ bool is_store_file(const fs::path& path) {
     return is_store({first.data(), first.size()});
 }
 
-void add_truth_beside(const fs::path& path, query_file& to) {
-    const fs::path truth_path = truth_beside(path);
-    std::error_code error;
-    if (!fs::exists(truth_path, error)) return;
-    to.truth = parse_truth(read_whole(truth_path), truth_path.string());
-    if (to.truth->size() != to.size())
-        throw file_error(truth_path.string() + ": found " + std::to_string(to.truth->size()) +
-                         " truth values, expected " + std::to_string(to.size()) +
-                         ", one per query of " + path.string());
+ccd::kind kind_in(const store_reader& store, const std::string& name,
+                  const std::optional<ccd::kind>& expected) {
+    if (expected && *expected != store.kind())
+        throw file_error(name + ": found queries of kind " + std::string(ccd::name(store.kind())) +
+                         ", expected " + std::string(ccd::name(*expected)));
+    return store.kind();
 }
 
 }  // namespace
 
 ccd::kind kind_of_file(const fs::path& path, std::optional<ccd::kind> kind) {
-    if (is_store_file(path)) return kind_in(store_reader(path), path, kind);
+    if (is_store_file(path)) return kind_in(*open_store(path), path.string(), kind);
     if (!kind) kind = kind_from_path(path);
-    if (!kind) {
+    if (!kind)
         throw file_error(path.string() +
                          ": found no kind of query in the path, expected a folder "
                          "'vertex-face', 'edge-edge', 'vf' or 'ee', a name that ends in 'vf' or "
                          "'ee', or a kind that is named (--kind)");
-    }
     return *kind;
 }
 
-fs::path truth_beside(const fs::path& path) {
-    return path.parent_path() / ".." / "mma_bool" / (path.stem().string() + "_mma_bool.json");
+truth_file::truth_file(const fs::path& queries)
+    : queries_(queries.string()),
+      path_(queries.parent_path() / ".." / "mma_bool" /
+            (queries.stem().string() + "_mma_bool.json")) {
+    std::error_code error;
+    if (fs::exists(path_, error)) truth_ = parse_truth(read_whole(path_), path_.string());
+}
+
+void truth_file::add_to(query_file& queries, std::uint64_t first, bool is_last) const {
+    if (!truth_ || queries.truth) return;
+    const std::size_t end = first + queries.size();
+    if (is_last ? truth_->size() != end : truth_->size() < end)
+        throw file_error(path_.string() + ": found " + std::to_string(truth_->size()) +
+                         " truth values, expected " + (is_last ? "" : "at least ") +
+                         std::to_string(end) + ", one per query of " + queries_);
+    queries.truth.emplace(truth_->begin() + static_cast<std::ptrdiff_t>(first),
+                          truth_->begin() + static_cast<std::ptrdiff_t>(end));
 }
 
 query_file parse_stored_queries(std::string_view bytes, const std::string& name,
                                 std::optional<ccd::kind> kind, bool round) {
     if (!is_store(bytes)) return parse_queries(bytes, name, kind_of_file(name, kind), round);
-    store_reader store(bytes, name);
-    kind_in(store, name, kind);
-    return store.read(0, store.size());
+    const auto store = open_store(bytes, name);
+    kind_in(*store, name, kind);
+    return store->read(0, store->size());
 }
 
 query_file read_queries(const fs::path& path, std::optional<ccd::kind> kind, bool round,
@@ -327,14 +304,14 @@ query_file read_queries(const fs::path& path, std::optional<ccd::kind> kind, boo
                              std::to_string(range.first) + ", which are skipped");
         return range.first + std::min(range.count, size - range.first);
     };
-    if (is_store_file(path)) {  // without a copy of all that is in it
-        store_reader store(path);
-        kind_in(store, path, kind);
-        return store.read(range.first, end_in(store.size()));
+    if (is_store_file(path)) {  // of which only the range is read
+        const auto store = open_store(path);
+        kind_in(*store, path.string(), kind);
+        return store->read(range.first, end_in(store->size()));
     }
     const std::string text = read_whole(path);
     query_file result = parse_stored_queries(text, path.string(), kind, round);
-    if (!result.truth && !is_store(text)) add_truth_beside(path, result);
+    if (!result.truth && !is_store(text)) truth_file(path).add_to(result, 0, true);
     const auto keep = [first = static_cast<std::ptrdiff_t>(range.first),
                        end = static_cast<std::ptrdiff_t>(end_in(result.size()))](auto& all) {
         all.erase(all.begin() + end, all.end());

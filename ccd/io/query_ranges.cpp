@@ -1,4 +1,4 @@
-// Where ranges of queries are in a file, and what is read of one.
+// Files of stored queries, read one range at a time.
 #include "ccd/io/query_ranges.hpp"
 
 #include <algorithm>
@@ -15,16 +15,14 @@ namespace {
 
 using errbound::support::file_error;
 
-constexpr std::size_t rows_per_query = 8;
-
-/// Counts rows as they go by.
+/// Counts the rows of a text that comes in blocks.
 class row_scanner {
   public:
     explicit row_scanner(std::uint64_t rows_of_a_range) : per_range_(rows_of_a_range) {}
 
     void take(std::string_view bytes) {
         for (const char c : bytes) {
-            if (c == '\n' && after_cr_) {  // the end of the line has been met
+            if (c == '\n' && after_cr_) {  // CR has ended the line
                 ++offset_;
                 line_begin_ = offset_;
                 after_cr_ = false;
@@ -99,7 +97,7 @@ query_index index_queries(const std::filesystem::path& path, std::size_t queries
     while (in.read(block.data(), block.size()), in.gcount() > 0) {
         const std::string_view bytes(block.data(), static_cast<std::size_t>(in.gcount()));
         if (std::exchange(is_first, false) && is_store(bytes))
-            return {ranges_of(store_reader(path), queries_of_a_range)};
+            return {ranges_of(*open_store(path), queries_of_a_range)};
         rows.take(bytes);
     }
     if (!in.eof() || in.bad()) throw file_error(path.string() + ": cannot be read");
@@ -118,32 +116,18 @@ query_file range_reader::read(std::size_t range) {
     if (index_.columns == 0) return read_from_store(where);
     query_file result = parse_rows(read_bytes(path_, where.begin, where.end), path_.string(), kind_,
                                    round_, where.rows, index_.columns);
-    if (!result.truth) add_truth(where, result);
+    if (result.truth) return result;
+    if (!truth_) truth_.emplace(path_);
+    truth_->add_to(result, where.rows / rows_per_query, where.end == index_.ranges.back().end);
     return result;
 }
 
 query_file range_reader::read_from_store(const query_range& range) {
-    if (!store_) store_.emplace(path_);
+    if (!store_) store_ = open_store(path_);
     if (range.end > store_->size())
         throw file_error(path_.string() + ": found " + std::to_string(store_->size()) +
                          " queries, where it had more before");
     return store_->read(range.begin, range.end);
-}
-
-void range_reader::add_truth(const query_range& range, query_file& to) {
-    const std::filesystem::path beside = truth_beside(path_);
-    std::error_code error;
-    if (!std::exchange(has_looked_for_truth_, true) && std::filesystem::exists(beside, error))
-        truth_ = parse_truth(errbound::support::read_whole(beside), beside.string());
-    if (!truth_) return;
-    const std::size_t begin = range.rows / rows_per_query, end = begin + to.size();
-    const bool is_last = range.end == index_.ranges.back().end;
-    if (is_last ? truth_->size() != end : truth_->size() < end)
-        throw file_error(beside.string() + ": found " + std::to_string(truth_->size()) +
-                         " truth values, expected " + (is_last ? "" : "at least ") +
-                         std::to_string(end) + ", one per query of " + path_.string());
-    to.truth.emplace(truth_->begin() + static_cast<std::ptrdiff_t>(begin),
-                     truth_->begin() + static_cast<std::ptrdiff_t>(end));
 }
 
 }  // namespace ccd::io

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -14,7 +15,9 @@
 
 namespace ccd::io {
 
-/// Rows of whole queries, but for the last range of a CSV file that is truncated.
+inline constexpr std::size_t rows_per_query = 8;
+
+/// Rows of whole queries, except the last range of a truncated CSV file.
 struct query_range {
     std::uint64_t begin = 0, end = 0;  ///< bytes; of a store: queries
     std::uint64_t rows = 0;            ///< before it
@@ -25,41 +28,53 @@ struct query_index {
     std::uint64_t columns = 0;        ///< of the first row; of a store: 0
 };
 
-/// Where each range of so many queries is, told by line ends alone. Throws
-/// errbound::support::file_error: no file that can be read in parts.
+/// Finds the ranges of `queries_of_a_range` queries by line ends only. Throws
+/// errbound::support::file_error unless the file can be read in parts.
 query_index index_queries(const std::filesystem::path& path, std::size_t queries_of_a_range);
 
-/// Reads ranges of a file. The truth beside it is read once, if it is needed.
+/// The truth that may lie beside a file of queries, as read_queries has it.
+class truth_file {
+  public:
+    /// Reads it, if there is one. Throws errbound::support::file_error.
+    explicit truth_file(const std::filesystem::path& queries);
+
+    /// Adds the truth to queries without truth, which are those from `first` on, to the end of the
+    /// file if they are the last. Throws errbound::support::file_error unless the numbers match.
+    void add_to(query_file& queries, std::uint64_t first, bool is_last) const;
+
+  private:
+    std::string queries_;
+    std::filesystem::path path_;
+    std::optional<std::vector<bool>> truth_;
+};
+
+/// Reads ranges of a file.
 class range_reader {
   public:
     range_reader(std::filesystem::path path, std::optional<ccd::kind> kind, bool round,
                  query_index index);
 
-    /// The queries of a range, with their truth, as read_queries returns them. Throws as that does,
-    /// with the file's line numbers.
+    /// The queries of a range, with their truth, as read_queries returns them. Throws as
+    /// read_queries, with the file's line numbers.
     query_file read(std::size_t range);
 
   private:
     query_file read_from_store(const query_range& range);
-    void add_truth(const query_range& range, query_file& to);
 
     std::filesystem::path path_;
     ccd::kind kind_;
     bool round_;
     query_index index_;
-    bool has_looked_for_truth_ = false;
-    std::optional<std::vector<bool>> truth_;  // that lies beside it
-    std::optional<store_reader> store_;       // once it is open
+    std::optional<truth_file> truth_;      ///< once it is needed
+    std::unique_ptr<store_reader> store_;  ///< once it is open
 };
 
-/// As parse_queries, of rows that follow `rows` others of so many columns.
+/// As parse_queries, for rows that follow `rows` other rows of `columns` columns.
 query_file parse_rows(std::string_view text, const std::string& name, ccd::kind kind, bool round,
                       std::uint64_t rows, std::uint64_t columns);
 
-/// As read_queries has them: the kind of a file's queries (of a store its own, which `kind` must
-/// not contradict), and where the truth beside it is.
-/// Throws errbound::support::file_error.
+/// The kind of a file's queries: that of a store, which `kind` must not contradict, else `kind`,
+/// else the one in the path. Throws errbound::support::file_error.
 ccd::kind kind_of_file(const std::filesystem::path& path, std::optional<ccd::kind> kind);
-std::filesystem::path truth_beside(const std::filesystem::path& path);
 
 }  // namespace ccd::io

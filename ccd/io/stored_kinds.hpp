@@ -1,4 +1,4 @@
-// Code that is generic in the kinds that files hold (ccd::stored_kinds).
+// Generic code over the kinds that files hold (ccd::stored_kinds).
 #pragma once
 
 #include <ccd/kind.hpp>
@@ -6,7 +6,7 @@
 
 namespace ccd {
 
-/// visit_kind of a stored kind.
+/// As visit_kind, for a stored kind.
 template <class Visit>
 constexpr decltype(auto) visit_stored_kind(kind k, Visit&& visit) {
     return k == kind::edge_edge ? visit.template operator()<kind::edge_edge>()
@@ -27,7 +27,7 @@ struct by_stored_kind {
     const auto& of() const {
         return member<K>(*this);
     }
-    /// visit(of<K>()) for all, in the order of stored_kinds.
+    /// Calls visit(of<K>()) for each kind, in the order of stored_kinds.
     template <class Visit>
     void for_each(Visit&& visit) {
         visit(vertex_face);

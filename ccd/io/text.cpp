@@ -1,4 +1,4 @@
-// Exact numbers from tokens, line by line reading, safe quoting.
+// Lines and words, exact numbers, and messages.
 #include "ccd/io/text.hpp"
 
 #include <algorithm>
@@ -25,10 +25,6 @@ constexpr number fail(number_status status) {
 
 constexpr std::string_view blanks = " \t";
 
-bool is_digit(char c) {
-    return c >= '0' && c <= '9';
-}
-
 /// Takes an optional sign off the front; true for a minus.
 bool take_sign(std::string_view& token) {
     const bool negative = token.starts_with('-');
@@ -36,7 +32,7 @@ bool take_sign(std::string_view& token) {
     return negative;
 }
 
-/// The double nearest to n/d (n, d > 0), and whether it equals it. Overflow gives that status.
+/// The double equal to n/d (n, d > 0), or with `round` the nearest one.
 number nearest_quotient(const cpp_int& n, const cpp_int& d, bool round) {
     // e = floor(log2(n/d)), first up to one too large.
     long e = static_cast<long>(msb(n)) - static_cast<long>(msb(d));
@@ -73,7 +69,7 @@ struct integer {
 std::optional<integer> parse_integer(std::string_view token) {
     integer result;
     result.negative = take_sign(token);
-    if (token.empty() || !std::all_of(token.begin(), token.end(), is_digit)) return std::nullopt;
+    if (token.empty() || token.find_first_not_of("0123456789") != token.npos) return std::nullopt;
     token.remove_prefix(std::min(token.find_first_not_of('0'), token.size() - 1));
     result.digits = token;
     std::uint64_t value = 0;
@@ -83,50 +79,30 @@ std::optional<integer> parse_integer(std::string_view token) {
     return result;
 }
 
-int hex_digit(char c) {
-    if (is_digit(c)) return c - '0';
-    if (c >= 'a' && c <= 'f') return c - 'a' + 10;
-    if (c >= 'A' && c <= 'F') return c - 'A' + 10;
-    return -1;
-}
-
 /// A hexadecimal float after its sign and "0x".
 number parse_hexadecimal(std::string_view token, bool round) {
-    std::string digits;
-    bool any = false, point = false;
-    long fraction_digits = 0;
-    while (!token.empty()) {
-        const char c = token.front();
-        if (c == '.' && !point) {
-            point = true;
-        } else if (hex_digit(c) >= 0) {
-            any = true;
-            if (point) ++fraction_digits;
-            if (c != '0' || !digits.empty()) digits += c;
-        } else {
-            break;
-        }
-        token.remove_prefix(1);
-    }
-    if (!any) return fail(number_status::malformed);
-
+    const std::size_t end = std::min(token.find_first_of("pP"), token.size());
+    std::string digits(token.substr(0, end));
     long exponent = 0;
-    if (!token.empty()) {
-        if (token.front() != 'p' && token.front() != 'P') return fail(number_status::malformed);
-        token.remove_prefix(1);
-        const bool negative = take_sign(token);
-        if (token.empty() || !std::all_of(token.begin(), token.end(), is_digit)) {
-            return fail(number_status::malformed);
-        }
-        for (const char c : token) exponent = std::min(exponent * 10 + (c - '0'), 1'000'000'000L);
-        if (negative) exponent = -exponent;
+    if (const std::size_t point = digits.find('.'); point != std::string::npos) {
+        digits.erase(point, 1);
+        exponent = -4 * static_cast<long>(digits.size() - point);
     }
+    if (digits.empty() || digits.find_first_not_of("0123456789abcdefABCDEF") != std::string::npos)
+        return fail(number_status::malformed);
+    if (end < token.size()) {
+        const std::optional<integer> power = parse_integer(token.substr(end + 1));
+        if (!power) return fail(number_status::malformed);
+        constexpr std::uint64_t most = 1'000'000'000;
+        const auto size = static_cast<long>(std::min(power->small.value_or(most), most));
+        exponent += power->negative ? -size : size;
+    }
+    digits.erase(0, digits.find_first_not_of('0'));
     if (digits.empty()) return {0, number_status::ok};
     if (digits.size() > longest_number) return fail(number_status::too_long);
-    exponent -= 4 * fraction_digits;
 
     const cpp_int mantissa("0x" + digits);
-    // Decided here so that no shift below is longer than the digits call for.
+    // These returns bound the shifts below.
     const long top = static_cast<long>(msb(mantissa)) + exponent;
     if (top > 1023) return fail(number_status::overflow);
     if (top < -1080) return round ? number{} : fail(number_status::inexact);
@@ -140,7 +116,7 @@ number parse_hexadecimal(std::string_view token, bool round) {
 template <class T>
 number parse_decimal(std::string_view token) {
     using errbound::support::decimal_status;
-    // A second minus would be taken.
+    // parse_decimal would take a second minus.
     if (token.starts_with('-')) return fail(number_status::malformed);
     const auto [value, status] = errbound::support::parse_decimal<T>(token);
     if (status == decimal_status::malformed) return fail(number_status::malformed);
@@ -231,25 +207,33 @@ std::string_view take_word(std::string_view& line) {
     return word;
 }
 
-std::string describe(number_status status, std::string_view token) {
-    const std::string found = "found " + excerpt(token);
+void fail_at(const std::string& name, std::size_t line, const std::string& what) {
+    throw errbound::support::file_error(name + ":" + std::to_string(line) + ": " + what);
+}
+
+std::string describe(number_status status, const std::string& found) {
+    const char* expected = ", expected a number";
     switch (status) {
         case number_status::ok:
         case number_status::malformed:
-            return found + ", expected a number";
+            break;
         case number_status::not_finite:
-            return found + ", expected a finite number";
+            expected = ", expected a finite number";
+            break;
         case number_status::overflow:
-            return found + ", which overflows, expected a finite number";
+            expected = ", which overflows, expected a finite number";
+            break;
         case number_status::inexact:
-            return found + ", which no double equals, expected an exact value";
+            expected = ", which no double equals, expected an exact double";
+            break;
         case number_status::zero_denominator:
-            return found + " with a zero denominator, expected a nonzero one";
+            expected = ", expected a nonzero denominator";
+            break;
         case number_status::too_long:
-            return found + ", which has too many digits, expected at most " +
+            return "found " + found + ", which has too many digits, expected at most " +
                    std::to_string(longest_number);
     }
-    return found;
+    return "found " + found + expected;
 }
 
 number parse_double(std::string_view token, bool round) {

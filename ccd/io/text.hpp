@@ -1,4 +1,4 @@
-// What the text readers share: exact numbers from tokens, line by line reading, safe quoting.
+// The reader of text files: lines and words, exact numbers, and messages with file and line.
 #pragma once
 
 #include <cstddef>
@@ -11,14 +11,15 @@ namespace ccd::io {
 /// `found` in quotes for a message: printable ASCII only, at most 40 characters of it.
 std::string excerpt(std::string_view found);
 
-/// The text of a file without a byte order mark of UTF-8. Throws errbound::support::file_error,
-/// with `name` in its message, where the mark is that of UTF-16 or UTF-32.
+/// Returns the text of a file without a UTF-8 byte order mark. Throws
+/// errbound::support::file_error, with `name` in its message, if the mark is that of UTF-16 or
+/// UTF-32.
 std::string_view without_byte_order_mark(std::string_view text, const std::string& name);
 
 /// `text` without the end mark of DOS, Ctrl-Z, and the blanks around it.
 std::string_view without_end_mark(std::string_view text);
 
-/// Whether it is a control character, and no tab.
+/// True if c is a control character other than tab.
 constexpr bool is_control(char c) {
     return (static_cast<unsigned char>(c) < ' ' && c != '\t') || c == 0x7f;
 }
@@ -33,6 +34,32 @@ std::optional<std::string_view> take_line(std::string_view& text);
 /// Takes the next run of characters that are not blanks off the front of `line`; empty at the end.
 std::string_view take_word(std::string_view& line);
 
+/// Throws errbound::support::file_error: "NAME:LINE: what".
+[[noreturn]] void fail_at(const std::string& name, std::size_t line, const std::string& what);
+
+/// The lines of a text, counted for messages.
+class line_reader {
+  public:
+    /// `name` is not copied. `lines` is the number of the file's lines before the text.
+    line_reader(std::string_view text, const std::string& name, std::size_t lines = 0)
+        : text_(text), name_(name), line_(lines) {}
+
+    /// The next line, or nothing at the end, which counts as a line.
+    std::optional<std::string_view> next() {
+        ++line_;
+        return take_line(text_);
+    }
+    std::size_t line() const { return line_; }
+    std::size_t remaining() const { return text_.size(); }
+    const std::string& name() const { return name_; }
+    [[noreturn]] void fail(const std::string& what) const { fail_at(name_, line_, what); }
+
+  private:
+    std::string_view text_;
+    const std::string& name_;
+    std::size_t line_;
+};
+
 enum class number_status {
     ok,
     malformed,         ///< not a number of this form
@@ -43,8 +70,8 @@ enum class number_status {
     too_long,          ///< more digits than longest_number
 };
 
-/// Digits beyond which a rational or hexadecimal number is refused, so that the time for a token
-/// stays bounded. No double needs more than 1100 in any form.
+/// A rational or hexadecimal number with more digits is refused, which bounds the time for a token.
+/// No double needs more than 1100 in any form.
 inline constexpr std::size_t longest_number = 4096;
 
 struct number {
@@ -52,14 +79,15 @@ struct number {
     number_status status = number_status::ok;
 };
 
-/// "found T, expected E" in words, for a status other than ok. `token` is what was read.
-std::string describe(number_status status, std::string_view token);
+/// A message, "found F, expected E", for a status other than ok. `found` is an excerpt of the
+/// number, and may name it.
+std::string describe(number_status status, const std::string& found);
 
 /// The double nearest to a decimal number, or the one equal to a hexadecimal float ("0x1.8p3"). A
 /// hexadecimal float that no double equals is inexact unless `round`. Independent of the locale.
 number parse_double(std::string_view token, bool round);
 
-/// The same for a float, widened.
+/// As parse_double without rounding, for a float, which is then widened.
 number parse_float(std::string_view token);
 
 /// The double equal to numerator/denominator, two decimal integers of any size. If no double equals

@@ -86,7 +86,7 @@ class converted {
             kind_ = queries.kind();
             has_truth_ = queries.truth.has_value();
             if (to_store_)
-                packer_.emplace(*kind_, has_truth_);
+                packer_ = io::make_query_packer(*kind_, has_truth_);
             else
                 rows_.emplace();
         }
@@ -111,7 +111,7 @@ class converted {
     bool to_store_, has_truth_ = false;
     std::optional<kind> kind_;
     query_content content_;
-    std::optional<io::query_packer> packer_;
+    std::unique_ptr<io::query_packer> packer_;
     std::optional<errbound::support::scratch_file> rows_;
 };
 

@@ -1,7 +1,9 @@
-// Tracked numbers in another number type, against rationals: the exact number stays within the
-// bound, and what the type holds stays exact.
+// Tracked numbers converted to another number type, and made of other types' numbers in every
+// rounding direction, against rationals: the exact number stays within the bound, and a number that
+// the type holds stays exact.
 #include <gtest/gtest.h>
 
+#include <cfenv>
 #include <cfloat>
 #include <cmath>
 #include <errbound/binary128.hpp>
@@ -10,15 +12,17 @@
 #include <limits>
 #include <random>
 #include <type_traits>
+#include <vector>
 
-#include "tests/support/any_format.hpp"
 #include "tests/support/long_double.hpp"
 #include "tests/support/scaled.hpp"
+#include "tests/support/special_values.hpp"
 
 namespace {
 
 using errbound::convert;
 using errbound::number_traits;
+using errbound::sign_type;
 using errbound::tracked;
 
 /// The number of a small format nearest to x, ties to even, by its neighbours.
@@ -26,7 +30,7 @@ template <class To>
 To nearest(const rational& x) {
     // What would come after the largest number is as far from it as the one before.
     const auto number_of = [](int code) {
-        const auto of = [](int c) { return exactly_of(To::from_code(c)); };
+        const auto of = [](int c) { return exactly(To::from_code(c)); };
         return code <= To::largest_code ? of(code) : rational(2 * of(code - 1) - of(code - 2));
     };
     const rational size = boost::multiprecision::abs(x);
@@ -42,7 +46,7 @@ To nearest_to(const From& value) {
     if constexpr (requires { static_cast<To>(value); })
         return static_cast<To>(value);
     else
-        return nearest<To>(exactly_of(value));
+        return nearest<To>(exactly(value));
 }
 
 template <class Rule, class To, class From>
@@ -56,23 +60,23 @@ void check(From value, From error) {
                              std::to_string(static_cast<double>(error));
     if (!number_traits<From>::is_finite(value) || !number_traits<From>::is_finite(x.error())) {
         ASSERT_FALSE(traits::is_finite(y.error())) << what;
-        ASSERT_EQ(sign_of(y), errbound::sign_type::uncertain) << what;
+        ASSERT_EQ(sign_of(y), sign_type::uncertain) << what;
         return;
     }
     const To plain = nearest_to<To>(value);
     if (!traits::is_finite(plain) || !traits::is_finite(y.error())) {
-        ASSERT_EQ(sign_of(y), errbound::sign_type::uncertain) << what;
+        ASSERT_EQ(sign_of(y), sign_type::uncertain) << what;
         // Only what is too large for the type is unknown.
         ASSERT_TRUE(!traits::is_finite(plain) ||
-                    exactly_of(x.error()) * 4 + exactly_of(traits::abs(plain)) * 4 >
-                        exactly_of(traits::largest() * traits::unit_roundoff()))
+                    exactly(x.error()) * 4 + exactly(traits::abs(plain)) * 4 >
+                        exactly(traits::largest() * traits::unit_roundoff()))
             << what;
         return;
     }
     ASSERT_EQ(y.value(), plain) << what;
-    const rational off = exactly_of(plain) - exactly_of(value);
+    const rational off = exactly(plain) - exactly(value);
     const rational away = boost::multiprecision::abs(off);
-    const rational needed = away + exactly_of(error), bound = exactly_of(y.error());
+    const rational needed = away + exactly(error), bound = exactly(y.error());
     ASSERT_GE(bound, needed) << what;
     if (away == 0 && error == From(0)) {
         ASSERT_EQ(bound, 0) << what;
@@ -109,8 +113,8 @@ TYPED_TEST(Conversion, KeepsTheExactNumberWithinItsBound) {
     using traits = number_traits<From>;
     std::mt19937_64 random(4);
     for (int k = 0; k < support::scaled(5000) && !testing::Test::HasFatalFailure(); ++k) {
-        const From value = any_number<From>(random);
-        From error = traits::abs(any_number<From>(random));
+        const From value = special_value<From>(random);
+        From error = traits::abs(special_value<From>(random));
         if (random() % 4 == 0) error = From(0);
         if (random() % 2 == 0)
             error = traits::scale(traits::abs(value), -static_cast<int>(random() % 60)) *
@@ -189,7 +193,7 @@ TEST(Conversions, FromTypesWiderThanDoubleAreRoundedOnce) {
     EXPECT_EQ(tiny.value(), float16(0));
     EXPECT_EQ(tiny.error(), number_traits<float16>::underflow_unit());
     const auto huge = convert<float8_e4m3>(tracked<float128>(number_traits<float128>::largest()));
-    EXPECT_EQ(sign_of(huge), errbound::sign_type::uncertain);
+    EXPECT_EQ(sign_of(huge), sign_type::uncertain);
 #endif
     static_assert(convert<float16>(tracked<support::long_double>(0.5)).value() == float16(0.5));
 }
@@ -204,7 +208,6 @@ TEST(Conversions, ToAnotherRuleAndInConstantExpressions) {
 }
 
 TEST(Conversions, WhatOverflowsOrUnderflowsIsNotCertain) {
-    using errbound::sign_type;
     EXPECT_EQ(sign_of(convert<float>(tracked<double>(1e39))), sign_type::uncertain);
     EXPECT_EQ(sign_of(convert<float8_e4m3>(tracked<float>(465))), sign_type::uncertain);
     EXPECT_EQ(sign_of(convert<float>(tracked<double>::within(1, 1e39))), sign_type::uncertain);
@@ -212,6 +215,95 @@ TEST(Conversions, WhatOverflowsOrUnderflowsIsNotCertain) {
     EXPECT_EQ(tiny.value(), 0);
     EXPECT_EQ(tiny.error(), 0x1p-149F);
     EXPECT_EQ(convert<float>(tracked<double>::within(1, 1e-60)).error(), 0x1p-149F);
+}
+
+template <class Number>
+Number any_constant(std::mt19937_64& random) {
+    if constexpr (std::integral<Number>)
+        // Of any length, some with zeros at the end.
+        return static_cast<Number>(static_cast<Number>(random()) >> random() % (8 * sizeof(Number))
+                                                                        << random() % 4);
+    else
+        return special_value<Number>(random);
+}
+template <class Number>
+rational exact_constant(Number value) {
+    if constexpr (std::integral<Number>)
+        return rational(value);
+    else
+        return exactly(value);
+}
+
+template <class T, class Rule, class Number>
+void check_constant(Number value) {
+    const tracked<T, Rule> x = value;
+    using traits = number_traits<T>;
+    if (!traits::is_finite(x.value()) || !traits::is_finite(x.error())) {
+        ASSERT_EQ(sign_of(x), sign_type::uncertain);
+        // Only NaN and numbers too large for the type are unknown.
+        if constexpr (!std::integral<Number>)
+            if (!number_traits<Number>::is_finite(value)) return;
+        const rational size = boost::multiprecision::abs(exact_constant(value));
+        ASSERT_GE(size * 2, exactly(traits::largest()));
+        return;
+    }
+    const rational off =
+        boost::multiprecision::abs(rational(exact_constant(value) - exactly(x.value())));
+    ASSERT_LE(off, exactly(x.error())) << static_cast<double>(value);
+    if (off == 0) {
+        ASSERT_EQ(x.error(), T(0)) << static_cast<double>(value);
+    }
+}
+
+template <class Made>
+class Constant : public testing::Test {};
+using made =
+    testing::Types<pair_of_types<double, float>, pair_of_types<float, double>,
+                   pair_of_types<support::long_double, double>,
+                   pair_of_types<support::long_double, float>, pair_of_types<double, float16>,
+                   pair_of_types<float, bfloat16>, pair_of_types<double, float8_e4m3>,
+                   pair_of_types<float, float8_e5m2>, pair_of_types<int, float>,
+                   pair_of_types<int, float16>, pair_of_types<unsigned, float8_e5m2>,
+                   pair_of_types<long long, double>, pair_of_types<unsigned long long, double>,
+                   pair_of_types<unsigned long long, float>, pair_of_types<long long, float>,
+                   pair_of_types<signed char, float8_e4m3>, pair_of_types<short, double>>;
+TYPED_TEST_SUITE(Constant, made);
+
+TYPED_TEST(Constant, IsExactOrWithinItsBound) {
+    using number = typename TypeParam::from;
+    using type = typename TypeParam::to;
+    using limits = std::numeric_limits<number>;
+    for (const int direction : {FE_TONEAREST, FE_UPWARD, FE_DOWNWARD, FE_TOWARDZERO}) {
+        std::mt19937_64 random(7);
+        std::vector<number> constants{limits::min(), limits::max(), limits::lowest(), number(0)};
+        for (int k = 0; k < support::scaled(5000); ++k)
+            constants.push_back(any_constant<number>(random));
+        for (const number& constant : constants) {
+            std::fesetround(direction);
+            check_constant<type, errbound::tight>(constant);
+            // The bounds of `interval` hold only in rounding to nearest.
+            if (direction == FE_TONEAREST) check_constant<type, errbound::interval>(constant);
+            std::fesetround(FE_TONEAREST);
+            if (testing::Test::HasFatalFailure()) return;
+        }
+    }
+}
+
+TEST(Constants, OfSmallFormatsAreNotCutOff) {
+    // A double must not become an int on the way to these types.
+    EXPECT_EQ(sign_of(tracked<float16>(0.1)), sign_type::positive);
+    EXPECT_GT(tracked<float16>(0.1).error(), float16(0));
+    EXPECT_EQ((tracked<bfloat16>(bfloat16(2)) * 0.5).value(), bfloat16(1));
+    EXPECT_EQ(sign_of(tracked<float8_e4m3>(1000000)), sign_type::uncertain);
+}
+
+TEST(Constants, OfEveryTypeOfTheLanguage) {
+    const std::vector<double> five(5);
+    EXPECT_EQ((tracked<double>(10) / five.size()).value(), 2);
+    EXPECT_EQ(sign_of(1L + tracked<double>(1) - 3U), sign_type::negative);
+    EXPECT_EQ(sign_of(tracked<float>(0.1) - 0.1), sign_type::uncertain);
+    constexpr tracked<float> quarter = 0.25;
+    static_assert(sign_of(quarter * 4LL) == sign_type::positive);
 }
 
 }  // namespace

@@ -10,14 +10,15 @@
 #include <cstdio>
 #include <errbound/binary128.hpp>
 #include <errbound/decimal.hpp>
+#include <errbound/small_floats.hpp>
 #include <limits>
 #include <random>
 #include <string>
 #include <type_traits>
 
-#include "tests/support/any_format.hpp"
 #include "tests/support/long_double.hpp"
 #include "tests/support/scaled.hpp"
+#include "tests/support/special_values.hpp"
 
 namespace {
 
@@ -26,33 +27,6 @@ using errbound::number_traits;
 using errbound::sign_type;
 using errbound::tracked;
 using namespace errbound::literals;
-
-using integer =
-    boost::multiprecision::number<boost::multiprecision::gmp_int, boost::multiprecision::et_off>;
-
-/// Any number of a binary format as a rational, also one of 113 bits.
-template <class T>
-rational exact(const T& x) {
-    using traits = number_traits<T>;
-    if constexpr (traits::digits <= 64) {
-        return exactly_of(x);
-    } else {
-        if (x == 0) return 0;
-        const int e = traits::exponent(x);
-        const T fraction = traits::scale(x, -e);
-        const auto high = static_cast<double>(fraction);
-        const auto middle = static_cast<double>(fraction - T(high));
-        const auto low = static_cast<double>(fraction - T(high) - T(middle));
-        const rational power(integer(1) << static_cast<unsigned>(std::abs(e)));
-        const rational sum = exactly(high) + exactly(middle) + exactly(low);
-        return e < 0 ? rational(sum / power) : rational(sum * power);
-    }
-}
-rational power_of(int base, int n) {
-    const integer size =
-        boost::multiprecision::pow(integer(base), static_cast<unsigned>(std::abs(n)));
-    return n < 0 ? rational(integer(1), size) : rational(size);
-}
 
 /// x > 0 rounded to a multiple of the format's unit there: down, to nearest with ties to even, or
 /// up. A second way to what from_decimal computes.
@@ -64,7 +38,7 @@ rational rounded(const rational& x, direction to) {
     end += x >= power_of(2, end) ? 1 : 0;  // 2^(end - 1) <= x < 2^end
     const int unit = std::max(end, traits::min_exponent) - traits::digits;
     const rational units = x * power_of(2, -unit);
-    integer n = numerator(units) / denominator(units);
+    whole_number n = numerator(units) / denominator(units);
     const rational rest = units - n, half(1, 2);
     if (to == direction::up ? rest != 0 : rest > half || (rest == half && n % 2 != 0)) ++n;
     return n * power_of(2, unit);
@@ -79,14 +53,14 @@ void check_text(const std::string& text, const rational& x) {
     const std::string shown = text.size() < 100 ? text : text.substr(0, 100) + "...";
     const rational size = abs(x);
     const rational nearest = size == 0 ? size : rounded<T>(size, direction::nearest);
-    if (nearest > exact(traits::largest())) {
+    if (nearest > exactly(traits::largest())) {
         EXPECT_FALSE(traits::is_finite(read.error())) << shown;
         return;
     }
     ASSERT_TRUE(traits::is_finite(read.error())) << shown;
-    const rational value = exact(read.value()), off = abs(rational(value - x));
+    const rational value = exactly(read.value()), off = abs(rational(value - x));
     ASSERT_EQ(value, x < 0 ? rational(-nearest) : nearest) << shown;
-    const rational error = exact(read.error());
+    const rational error = exactly(read.error());
     ASSERT_GE(error, off) << shown;
     if (std::is_same_v<Rule, errbound::safe>) return;  // bounds all by the value's size
     const rational most = off + off / 1000;
@@ -105,7 +79,7 @@ struct random_decimal {
         const int point = static_cast<int>(random() % static_cast<unsigned>(digits + 1));
         int e = static_cast<int>(random() % static_cast<unsigned>(2 * reach + 1)) - reach;
         if (random() % 2) e = 0;
-        integer all = 0;
+        whole_number all = 0;
         for (int i = 0; i < digits; ++i) {
             if (i == point) text += '.';
             const int digit = random() % 3 ? static_cast<int>(random() % 10) : 0;
@@ -119,28 +93,28 @@ struct random_decimal {
 };
 
 /// n·2^e as a decimal of all its digits, which end in `more` of them.
-std::string exact_text(const integer& n, int e, const std::string& more = "") {
-    const integer digits =
-        e < 0 ? integer(n * numerator(power_of(5, -e))) : integer(n << static_cast<unsigned>(e));
+std::string exact_text(const whole_number& n, int e, const std::string& more = "") {
+    const whole_number digits = e < 0 ? whole_number(n * numerator(power_of(5, -e)))
+                                      : whole_number(n << static_cast<unsigned>(e));
     return digits.str() + more + "e" +
            std::to_string(std::min(e, 0) - static_cast<int>(more.size()));
 }
 /// The last digit one less, with a 9 after it: what is just below.
-std::string just_below(const integer& n, int e) {
-    const integer digits =
-        (e < 0 ? integer(n * numerator(power_of(5, -e))) : integer(n << static_cast<unsigned>(e))) *
-            10 -
-        1;
+std::string just_below(const whole_number& n, int e) {
+    const whole_number digits = (e < 0 ? whole_number(n * numerator(power_of(5, -e)))
+                                       : whole_number(n << static_cast<unsigned>(e))) *
+                                    10 -
+                                1;
     return digits.str() + "e" + std::to_string(std::min(e, 0) - 1);
 }
 
 /// A number of the format, the midpoint above it and what is next to that midpoint, by all digits:
 /// up to 767 of them for double.
 template <class T>
-void check_midpoint(const integer& significand, int unit) {
-    const auto x = [&](const integer& n, int e) { return rational(n) * power_of(2, e); };
+void check_midpoint(const whole_number& significand, int unit) {
+    const auto x = [&](const whole_number& n, int e) { return rational(n) * power_of(2, e); };
     check_text<T>(exact_text(significand, unit), x(significand, unit));
-    const integer n = 2 * significand + 1;
+    const whole_number n = 2 * significand + 1;
     const rational middle = x(n, unit - 1);
     const int places = std::max(1 - unit, 0);
     check_text<T>(exact_text(n, unit - 1), middle);
@@ -153,15 +127,15 @@ template <class T>
 void check_midpoints(int step) {
     using traits = number_traits<T>;
     std::mt19937_64 random(8);
-    const integer first = integer(1) << static_cast<unsigned>(traits::digits - 1);
+    const whole_number first = whole_number(1) << static_cast<unsigned>(traits::digits - 1);
     const int least = traits::min_exponent - traits::digits;
     for (const int n : {0, 1, 2, 3}) check_midpoint<T>(n, least);
     for (int unit = least; unit <= traits::max_exponent - traits::digits; unit += step) {
         check_midpoint<T>(first, unit);
         check_midpoint<T>(2 * first - 1, unit);
-        integer any = first;
+        whole_number any = first;
         for (int bit = 0; bit < traits::digits - 1; ++bit)
-            if (random() % 2 != 0) any |= integer(1) << static_cast<unsigned>(bit);
+            if (random() % 2 != 0) any |= whole_number(1) << static_cast<unsigned>(bit);
         check_midpoint<T>(any, unit);
     }
     check_midpoint<T>(first - 1, least);

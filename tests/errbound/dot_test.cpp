@@ -6,7 +6,6 @@
 #include <cmath>
 #include <cstddef>
 #include <errbound/functions.hpp>
-#include <errbound/multiprecision.hpp>
 #include <errbound/rules/affine.hpp>
 #include <errbound/rules/derived.hpp>
 #include <errbound/rules/relative.hpp>
@@ -18,7 +17,7 @@
 #include <string>
 #include <vector>
 
-#include "tests/support/any_format.hpp"
+#include "tests/support/random_programs.hpp"
 #include "tests/support/scaled.hpp"
 
 namespace {
@@ -57,10 +56,7 @@ template <class T, class Rule>
 class checker {
     using number = tracked<T, Rule>;
     using traits = number_traits<T>;
-    struct sample {
-        number x;
-        rational exact;
-    };
+    using sample = support::sample<number>;
 
   public:
     void run(int count) {
@@ -77,16 +73,15 @@ class checker {
   private:
     /// Of any size, or such that sums stay in range; exact, or with a bound and anywhere within.
     sample input() {
-        T v = any_number<T>(random_);
+        T v = special_value<T>(random_);
         if (largest_exponent_ != 0 || !traits::is_finite(v))
             v = traits::scale(static_cast<T>(static_cast<double>(random_() % 4097) / 2048 - 1),
                               static_cast<int>(random_() % 3) * largest_exponent_ - 2);
-        if (random_() % 2 != 0) return {number(v), exactly_of(v)};
+        if (random_() % 2 != 0) return {number(v), exactly(v)};
         T error = traits::scale(traits::abs(v), -static_cast<int>(random_() % 40));
-        if (random_() % 16 == 0) error = traits::abs(any_number<T>(random_));
-        if (!traits::is_finite(error)) return {number(v), exactly_of(v)};
-        const int quarters = random_() % 2 != 0 ? 4 : static_cast<int>(random_() % 9) - 4;
-        return {number::within(v, error), exactly_of(v) + exactly_of(error) * quarters / 4};
+        if (random_() % 16 == 0) error = traits::abs(special_value<T>(random_));
+        if (!traits::is_finite(error)) return {number(v), exactly(v)};
+        return support::sample_within<number>(v, error, random_);
     }
     /// Pairs, some of which cancel earlier ones, or nearly; or all but the first of which are lost,
     /// each half a last place of the first.
@@ -99,7 +94,7 @@ class checker {
             if (lost && !a_.empty()) {
                 a_.push_back(number(traits::scale(a_[0].value(), -traits::digits)));
                 b_.push_back(number(b_[0].value()));
-                exact_.push_back({exactly_of(a_.back().value()), exactly_of(b_.back().value())});
+                exact_.push_back({exactly(a_.back().value()), exactly(b_.back().value())});
                 continue;
             }
             if (!a_.empty() && random_() % 4 == 0) {
@@ -110,8 +105,8 @@ class checker {
                 continue;
             }
             const sample x = input(), y = input();
-            a_.push_back(x.x);
-            b_.push_back(y.x);
+            a_.push_back(x.number);
+            b_.push_back(y.number);
             exact_.push_back({x.exact, y.exact});
         }
     }
@@ -132,14 +127,14 @@ class checker {
     }
     void check_horner() {
         const sample x = input();
-        const number found = horner(a_, x.x);
+        const number found = horner(a_, x.number);
         T plain(0);
         number one_by_one(0);
         rational exact = 0;
         for (std::size_t i = a_.size(); i-- > 0;) {
             const bool first = i + 1 == a_.size();
-            plain = first ? a_[i].value() : plain_product(plain, x.x.value()) + a_[i].value();
-            one_by_one = first ? number(a_[i]) : one_by_one * x.x + a_[i];
+            plain = first ? a_[i].value() : plain_product(plain, x.number.value()) + a_[i].value();
+            one_by_one = first ? number(a_[i]) : one_by_one * x.number + a_[i];
             exact = exact * x.exact + exact_[i][0];
         }
         ASSERT_TRUE(same(found.value(), plain)) << Rule::name;
@@ -149,17 +144,9 @@ class checker {
 
     void check(const number& found, const rational& exact, const char* what) {
         if constexpr (!errbound::promises_bound<Rule>) return;
-        if (!traits::is_finite(found.value()) || !traits::is_finite(found.error())) {
-            ASSERT_EQ(sign_of(found), sign_type::uncertain) << what << " " << Rule::name;
-            return;
-        }
-        ++known_;
-        const rational off = exactly_of(found.value()) - exact;
-        ASSERT_LE(boost::multiprecision::abs(off), exactly_of(found.error()))
-            << what << " " << Rule::name << " " << a_.size();
-        const sign_type sign = sign_of(found);
-        ASSERT_TRUE(sign == sign_type::uncertain || sign == errbound::sign_of(exact))
-            << what << " " << Rule::name;
+        known_ += !support::claims_nothing(found);
+        support::check(sample{found, exact},
+                       std::string(what) + " " + Rule::name + " of " + std::to_string(a_.size()));
     }
     /// Except for the factor 1 + (terms + 7)ε and some η of each closing of terms.
     void check_not_worse(const number& found, const number& one_by_one, std::size_t terms,
@@ -167,10 +154,10 @@ class checker {
         if (!errbound::promises_bound<Rule> || !traits::is_finite(one_by_one.error())) return;
         ASSERT_TRUE(traits::is_finite(found.error())) << what << " " << Rule::name;
         const rational slack = terms == 0 ? 0 : 1;
-        ASSERT_LE(exactly_of(found.error()),
-                  exactly_of(one_by_one.error()) *
-                          (1 + slack * (terms + 8) * exactly_of(traits::epsilon())) +
-                      slack * (terms / 2 + 2) * exactly_of(traits::underflow_unit()))
+        ASSERT_LE(
+            exactly(found.error()),
+            exactly(one_by_one.error()) * (1 + slack * (terms + 8) * exactly(traits::epsilon())) +
+                slack * (terms / 2 + 2) * exactly(traits::underflow_unit()))
             << what << " " << Rule::name << " " << terms;
     }
 

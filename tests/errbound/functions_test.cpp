@@ -240,6 +240,40 @@ TEST(FunctionsOfNone, AreThoseOfPlainArithmetic) {
     EXPECT_EQ(sign_of(sqrt(number(-1))), sign_type::uncertain);
 }
 
+// Midpoint, linear interpolation, length and whole powers: bounds are not much larger than needed.
+TEST(CompoundFunctions, AreTight) {
+    using number = tracked<double>;
+    const number a = number::within(1, 0x1p-20), b = number::within(2, 0x1p-20);
+    // The error is σ(1 − t) + σt; that of a + t(b − a) is σ(1 + 2t).
+    EXPECT_LE(lerp(a, b, number(0.5)).error(), 1.001 * 0x1p-20);
+    EXPECT_GE((a + number(0.5) * (b - a)).error(), 1.999 * 0x1p-20);
+    EXPECT_LE(hypot(number(3e200), number(4e200)).error(), 3.01 * 0x1p-52 * 5e200);
+    EXPECT_EQ(hypot(number(0x3p600), number(0x4p600)).value(), 0x5p600);
+    EXPECT_EQ(midpoint(number(1e308), number(1.5e308)).value(), 1.25e308);
+    EXPECT_EQ(midpoint(number(1), number(2)).value(), 1.5);
+    EXPECT_EQ(lerp(a, b, number(0)).error(), 0x1p-20);
+    EXPECT_EQ(lerp(a, b, number(1)).value(), 2);
+    EXPECT_EQ(pow(number(3), 4).value(), 81);
+    EXPECT_EQ(pow(number(0.1), 1).error(), 0);
+    EXPECT_EQ(pow(number(0), 0).value(), 1);
+    EXPECT_EQ(pow(number(2), -2).value(), 0.25);
+    EXPECT_EQ(sign_of(copysign(number(2), number(-0.5))), sign_type::negative);
+    EXPECT_EQ(sign_of(copysign(number(2), number::within(-0.5, 1))), sign_type::uncertain);
+    // A copied sign is unknown if its number may not exist.
+    const number root = sqrt(number(-1));
+    EXPECT_FALSE(std::isfinite(copysign(number(2), root).error()));
+    EXPECT_EQ(sign_of(copysign(number(0), root)), sign_type::uncertain);
+    using safe_number = tracked<double, errbound::safe>;
+    EXPECT_EQ(sign_of(pow(safe_number(2), 3)), sign_type::positive);
+    EXPECT_EQ(sign_of(pow(safe_number(2), -3)), sign_type::uncertain);
+}
+
+TEST(CompoundFunctions, WorkInConstantExpressions) {
+    constexpr tracked<double> a = 3, b = 5;
+    static_assert(sign_of(midpoint(a, b) - pow(a, 2)) == sign_type::negative);
+    static_assert(sign_of(copysign(a, -b)) == sign_type::negative);
+}
+
 /// Written once over plain and tracked numbers.
 template <class T>
 T distance(const T& x, const T& y) {

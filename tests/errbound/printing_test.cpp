@@ -7,25 +7,20 @@
 #include <cmath>
 #include <errbound/detail/printf_decimal.hpp>
 #include <errbound/printing.hpp>
+#include <errbound/small_floats.hpp>
 #include <iomanip>
 #include <limits>
 #include <random>
 #include <sstream>
 #include <string>
 
-#include "tests/support/any_format.hpp"
 #include "tests/support/long_double.hpp"
 #include "tests/support/scaled.hpp"
+#include "tests/support/special_values.hpp"
 
 namespace {
 
 using errbound::tracked;
-
-rational power_of_ten(int e) {
-    using boost::multiprecision::mpz_int;
-    const mpz_int power = pow(mpz_int(10), static_cast<unsigned>(std::abs(e)));
-    return e < 0 ? rational(1, rational(power)) : rational(power);
-}
 
 /// What a decimal stands for, and the place of its last digit.
 struct read_decimal {
@@ -44,7 +39,7 @@ struct read_decimal {
         if (negative) digits.erase(0, 1);
         EXPECT_EQ(digits.find_first_not_of("0123456789"), std::string::npos) << text;
         digits.erase(0, std::min(digits.find_first_not_of('0'), digits.size() - 1));
-        value = rational(boost::multiprecision::mpz_int(digits)) * power_of_ten(last_place);
+        value = rational(whole_number(digits)) * power_of(10, last_place);
         if (negative) value = -value;
     }
 };
@@ -68,16 +63,16 @@ void check(T value, T error) {
         return;
     }
     const read_decimal read(text);
-    const rational off = boost::multiprecision::abs(rational(read.value - exactly_of(value)));
+    const rational off = boost::multiprecision::abs(rational(read.value - exactly(value)));
     const auto what = [&] { return text + " for " + with_radius(x); };
     if (error == T(0)) {
-        ASSERT_LE(off, power_of_ten(read.last_place)) << what();
+        ASSERT_LE(off, power_of(10, read.last_place)) << what();
         using printed = errbound::detail::printed_type<T>;
         ASSERT_EQ(read_back<printed>(text), static_cast<printed>(value)) << what();
     } else {
-        ASSERT_LE(off + exactly_of(error), power_of_ten(read.last_place)) << what();
+        ASSERT_LE(off + exactly(error), power_of(10, read.last_place)) << what();
         // Not many digits fewer than there are: two more would not be.
-        ASSERT_GT(exactly_of(error) * 220, power_of_ten(read.last_place)) << what();
+        ASSERT_GT(exactly(error) * 220, power_of(10, read.last_place)) << what();
     }
 }
 
@@ -93,8 +88,8 @@ TYPED_TEST(Printing, EveryDigitIsCertain) {
     std::mt19937_64 random(1);
     const int count = support::scaled(std::numeric_limits<T>::max_exponent > 2000 ? 300 : 20000);
     for (int k = 0; k < count && !testing::Test::HasFatalFailure(); ++k) {
-        const T value = any_number<T>(random);
-        T error = traits::abs(any_number<T>(random));
+        const T value = special_value<T>(random);
+        T error = traits::abs(special_value<T>(random));
         if (random() % 4 != 0)
             error = traits::scale(traits::abs(value), -static_cast<int>(random() % 70)) *
                     T(1 + static_cast<int>(random() % 5));
@@ -124,7 +119,7 @@ TYPED_TEST(Printing, ValueAndRadiusHoldTheNumber) {
     using traits = errbound::number_traits<T>;
     std::mt19937_64 random(2);
     for (int k = 0; k < support::scaled(3000); ++k) {
-        const T value = any_number<T>(random), error = traits::abs(any_number<T>(random));
+        const T value = special_value<T>(random), error = traits::abs(special_value<T>(random));
         const auto x = tracked<T>::within(value, error);
         const std::string text = with_radius(x);
         const std::size_t between = text.find(" ± ");
@@ -201,7 +196,7 @@ TEST(PrintingText, ByPrintfIsByToChars) {
     for (const int mode : {FE_TONEAREST, FE_UPWARD, FE_DOWNWARD, FE_TOWARDZERO}) {
         std::fesetround(mode);
         for (int k = 0; k < support::scaled(300) && !HasFatalFailure(); ++k)
-            check(any_number<long double>(random));
+            check(special_value<long double>(random));
         EXPECT_EQ(std::fegetround(), mode);
         std::fesetround(FE_TONEAREST);
     }

@@ -11,125 +11,39 @@
 #include <errbound/rules/affine.hpp>
 #include <errbound/rules/relative.hpp>
 #include <limits>
-#include <optional>
 #include <random>
 #include <string>
 #include <vector>
 
 #include "tests/support/long_double.hpp"
+#include "tests/support/random_programs.hpp"
 #include "tests/support/scaled.hpp"
-#include "tests/support/special_values.hpp"
 
 namespace {
 
 using errbound::sign_type;
 using errbound::tracked;
-/// A value or one of its own kind of operand that arrives with a bound, and the exact number that
-/// it stands for.
-template <class Number>
-struct sample {
-    Number number;
-    rational exact;
-};
+using support::check;
+using support::sample;
 
 template <class T, class Rule>
-void check(const sample<tracked<T, Rule>>& s, const std::string& what) {
-    const T value = s.number.value(), error = s.number.error();
-    const sign_type sign = sign_of(s.number);
-    if (!std::isfinite(value) || !std::isfinite(error)) {
-        ASSERT_EQ(sign, sign_type::uncertain) << what;
-        return;
-    }
-    ASSERT_GE(error, T(0)) << what;
-    const rational off = exactly(value) - s.exact;
-    ASSERT_LE(boost::multiprecision::abs(off), exactly(error))
-        << what << " value " << value << " error " << error;
-    ASSERT_TRUE(sign == sign_type::uncertain || sign == errbound::sign_of(s.exact)) << what;
-}
-
-/// Random programs: each step combines two earlier numbers; exact numbers and numbers with bounds
-/// come in at random. Division only where the rule has it.
-template <class T, class Rule, bool WithDivision>
-class random_programs {
-  public:
-    explicit random_programs(std::uint64_t seed) : seed_(seed), random_(seed) {}
-
-    void run(int programs) {
-        for (int k = 0; k < programs && !testing::Test::HasFatalFailure(); ++k) {
-            start();
-            for (int step = 0; step < 7; ++step) {
-                const auto next = combination();
-                if (!next) continue;
-                if (directed_ &&
-                    !(std::abs(next->number.value()) < huge_ && next->number.error() < huge_))
-                    break;
-                check(*next, std::string(Rule::name) + " seed " + std::to_string(seed_) +
-                                 " program " + std::to_string(k) + " step " + std::to_string(step));
-                if (testing::Test::HasFatalFailure()) return;
-                pool_.push_back(*next);
-            }
-        }
-    }
-
-  private:
-    using number = tracked<T, Rule>;
-
-    T draw() {
-        T x = special_value<T>(random_);
-        while (directed_ && std::abs(x) > huge_) x = special_value<T>(random_);
-        return x;
-    }
-
-    void start() {
-        pool_.clear();
-        for (int i = 0; i < 4; ++i) {
-            const T value = draw();
-            if (random_() % 4 == 0) {
-                const T error = std::abs(draw()) * (random_() % 2 ? T(1) : T(0));
-                const rational offset =
-                    exactly(error) * rational(static_cast<int>(random_() % 9) - 4) / 4;
-                pool_.push_back({number::within(value, error), exactly(value) + offset});
-            } else {
-                pool_.push_back({number(value), exactly(value)});
-            }
-        }
-    }
-
-    /// Of two numbers of the pool; nothing where that would divide by zero.
-    std::optional<sample<number>> combination() {
-        const auto& a = pool_[random_() % pool_.size()];
-        const auto& b = pool_[random_() % pool_.size()];
-        switch (random_() % (WithDivision ? 6 : 5)) {
-            case 0:
-                return sample<number>{a.number + b.number, a.exact + b.exact};
-            case 1:
-                return sample<number>{a.number - b.number, a.exact - b.exact};
-            case 2:
-                return sample<number>{a.number * b.number, a.exact * b.exact};
-            case 3:
-                return sample<number>{-a.number, -a.exact};
-            case 4: {
-                const int e = static_cast<int>(random_() % 200) - 100;
-                return sample<number>{scale(a.number, e), a.exact * exactly(std::ldexp(T(1), e))};
-            }
-        }
-        if constexpr (WithDivision)
-            if (b.exact != 0) return sample<number>{a.number / b.number, a.exact / b.exact};
-        return std::nullopt;
-    }
-
-    std::uint64_t seed_;
-    std::mt19937_64 random_;
-    // In directed rounding overflow may end at the largest finite number, unnoticed (see
-    // rules/tight.hpp): there, inputs are smaller and programs that grow far end early.
-    bool directed_ = std::fegetround() != FE_TONEAREST;
-    T huge_ = std::sqrt(std::numeric_limits<T>::max());
-    std::vector<sample<number>> pool_;
-};
-
-template <class T, class Rule, bool WithDivision>
 void run_programs(int programs, std::uint64_t seed) {
-    random_programs<T, Rule, WithDivision>(seed).run(programs);
+    const auto draw = [](std::mt19937_64& random) { return special_value<T>(random); };
+    support::random_programs<T, Rule, decltype(draw)>(seed, draw).run(programs);
+}
+/// In directed rounding overflow may end at the largest finite number, unnoticed (rules/tight.hpp):
+/// numbers stay smaller.
+template <class Rule>
+void run_directed_programs(int programs, std::uint64_t seed) {
+    const double most = std::sqrt(std::numeric_limits<double>::max());
+    const auto draw = [most](std::mt19937_64& random) {
+        double x = special_value<double>(random);
+        while (std::abs(x) > most) x = special_value<double>(random);
+        return x;
+    };
+    support::random_programs<double, Rule, decltype(draw)> programs_below(seed, draw);
+    programs_below.stay_below(most);
+    programs_below.run(programs);
 }
 
 const int programs = support::scaled(20000);
@@ -142,17 +56,16 @@ using rules = testing::Types<errbound::tight, errbound::safe, errbound::sharp, e
 TYPED_TEST_SUITE(TrackedBy, rules);
 
 TYPED_TEST(TrackedBy, BoundsHoldInRandomPrograms) {
-    constexpr bool with_division = !std::same_as<TypeParam, errbound::safe>;
-    run_programs<double, TypeParam, with_division>(programs, 1);
-    run_programs<float, TypeParam, with_division>(programs, 3);
-    run_programs<support::long_double, TypeParam, with_division>(programs / 10, 5);
+    run_programs<double, TypeParam>(programs, 1);
+    run_programs<float, TypeParam>(programs, 3);
+    run_programs<support::long_double, TypeParam>(programs / 10, 5);
 }
 
 TEST(Tracked, BoundsHoldInEveryRoundingDirection) {
     for (const int direction : {FE_UPWARD, FE_DOWNWARD, FE_TOWARDZERO}) {
         ASSERT_EQ(std::fesetround(direction), 0);
-        run_programs<double, errbound::tight, true>(programs / 4, 7);
-        run_programs<double, errbound::safe, false>(programs / 4, 8);
+        run_directed_programs<errbound::tight>(programs / 4, 7);
+        run_directed_programs<errbound::safe>(programs / 4, 8);
         std::fesetround(FE_TONEAREST);
     }
 }
@@ -244,9 +157,9 @@ void check_straight_lines(std::uint64_t seed) {
         const rational a = exactly(x[i]), b = exactly(y[i]), c = exactly(z[i]);
         volatile T product = x[i] * y[i];
         const std::string what = std::string(Rule::name) + " line " + std::to_string(i);
-        check<T, Rule>({difference[i], a * b - c}, what);
-        check<T, Rule>({from_product[i], exactly(T(product)) - c}, what);
-        check<T, Rule>({sum[i], a * b * c + a}, what);
+        check<number>({difference[i], a * b - c}, what);
+        check<number>({from_product[i], exactly(T(product)) - c}, what);
+        check<number>({sum[i], a * b * c + a}, what);
         for (const T v :
              {difference[i].value(), from_product[i].value(), value[i], value_from_product[i]})
             ASSERT_EQ(v, product - z[i]) << what;
@@ -390,8 +303,8 @@ TEST(Tracked, ResidualCountsAnUnknownRemainderWithTheDivisorsError) {
     check(quotient, "quotient");
     for (int i = -40; i <= 40; ++i) {
         const double near = quotient.number.value() + i * 0x1p-54;
-        check<double, errbound::residual>(
-            {quotient.number - number(near), quotient.exact - exactly(near)}, std::to_string(i));
+        check<number>({quotient.number - number(near), quotient.exact - exactly(near)},
+                      std::to_string(i));
     }
 }
 

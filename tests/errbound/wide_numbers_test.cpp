@@ -3,21 +3,17 @@
 #include <gtest/gtest.h>
 
 #include <boost/multiprecision/cpp_bin_float.hpp>
-#include <boost/multiprecision/gmp.hpp>
 #include <boost/multiprecision/mpfr.hpp>
-#include <cstdint>
 #include <errbound/binary128.hpp>
 #include <errbound/conversion.hpp>
 #include <errbound/functions.hpp>
 #include <errbound/multiprecision.hpp>
 #include <errbound/rules/affine.hpp>
 #include <errbound/rules/relative.hpp>
-#include <optional>
 #include <random>
-#include <string>
-#include <vector>
 
 #include "tests/support/long_double.hpp"
+#include "tests/support/random_programs.hpp"
 #include "tests/support/scaled.hpp"
 
 namespace {
@@ -26,152 +22,44 @@ namespace multiprecision = boost::multiprecision;
 using errbound::number_traits;
 using errbound::sign_type;
 using errbound::tracked;
-using rational = multiprecision::number<multiprecision::gmp_rational, multiprecision::et_off>;
-
-rational power_of_two(int e) {
-    multiprecision::mpz_int power = 1;
-    power <<= std::abs(e);
-    return e < 0 ? rational(1, rational(power)) : rational(power);
-}
-/// By 30 bits at a time.
-template <class T>
-rational exactly(const T& x) {
+/// Numbers of few bits or of all. Those of one program are ordinary, about to underflow or about to
+/// overflow; `Reach` > 0 limits the exponents.
+template <class T, int Reach>
+class edge_numbers {
     using traits = number_traits<T>;
-    if (x == 0) return 0;
-    const int e = traits::exponent(x);
-    T rest = traits::scale(traits::abs(x), -e);
-    rational r = 0;
-    int places = 0;
-    while (rest != 0) {
-        rest = traits::scale(rest, 30);
-        places += 30;
-        const auto part = static_cast<long long>(rest);
-        rest -= T(static_cast<double>(part));
-        r = r * power_of_two(30) + static_cast<int>(part);
-    }
-    r = r * power_of_two(e - places);
-    return x < 0 ? rational(-r) : r;
-}
-
-/// A tracked number and what it stands for.
-template <class T, class Rule>
-struct sample {
-    tracked<T, Rule> number;
-    rational exact;
-};
-
-template <class T, class Rule, int Reach>
-class programs {
-    using number = tracked<T, Rule>;
-    using traits = number_traits<T>;
-    using one = sample<T, Rule>;
 
   public:
-    explicit programs(std::uint64_t seed) : random_(seed) {}
-
-    void run(int count) {
-        for (int k = 0; k < count && !testing::Test::HasFatalFailure(); ++k) {
-            scale_ = static_cast<int>(random_() % 3);
-            std::vector<one> pool;
-            for (int i = 0; i < 4; ++i) pool.push_back(input());
-            for (int step = 0; step < 5; ++step)
-                if (auto next =
-                        combined(pool[random_() % pool.size()], pool[random_() % pool.size()])) {
-                    check(*next, std::string(Rule::name) + " program " + std::to_string(k));
-                    pool.push_back(*next);
-                }
-        }
-    }
-
-  private:
-    /// Of few bits or of all, of exponents as the program's scale has it.
-    T value() {
-        if (random_() % 16 == 0) return T(0);
-        T m = T(static_cast<int>(random_() % 15) + 1);
-        if (random_() % 3 != 0)
+    T operator()(std::mt19937_64& random) {
+        if (drawn_++ % 32 == 0) scale_ = static_cast<int>(random() % 3);
+        if (random() % 16 == 0) return T(0);
+        T m = T(static_cast<int>(random() % 15) + 1);
+        if (random() % 3 != 0)
             for (int bits = 0; bits < traits::digits; bits += 28)
-                m = traits::scale(m, 28) + T(static_cast<int>(random_() >> 36));
+                m = traits::scale(m, 28) + T(static_cast<int>(random() >> 36));
         m = traits::scale(m, -traits::exponent(m));
         constexpr int least = Reach > 0 ? -Reach : traits::min_exponent;
         constexpr int most = Reach > 0 ? Reach : traits::max_exponent;
         const auto near = [&](int e, int spread) {
-            return e + static_cast<int>(random_() % static_cast<unsigned>(2 * spread + 1)) - spread;
+            return e + static_cast<int>(random() % static_cast<unsigned>(2 * spread + 1)) - spread;
         };
         int e = near(0, 4);
-        if (scale_ == 1 && random_() % 3 != 0)
-            e = random_() % 2 ? std::max(near(least, traits::digits), least - traits::digits + 2)
-                              : near(least / 2, traits::digits);
-        if (scale_ == 2 && random_() % 3 != 0)
-            e = random_() % 2 ? std::min(near(most, 3), most) : near(most / 2, 2);
+        if (scale_ == 1 && random() % 3 != 0)
+            e = random() % 2 ? std::max(near(least, traits::digits), least - traits::digits + 2)
+                             : near(least / 2, traits::digits);
+        if (scale_ == 2 && random() % 3 != 0)
+            e = random() % 2 ? std::min(near(most, 3), most) : near(most / 2, 2);
         const T x = traits::scale(m, e);
-        return random_() % 2 ? x : T(-x);
-    }
-    one input() {
-        const T v = value();
-        if (random_() % 2) return {number(v), exactly(v)};
-        const T relative = traits::scale(traits::abs(v), -static_cast<int>(random_() % 150));
-        const T error = random_() % 4 ? relative : traits::abs(value());
-        const int quarters = static_cast<int>(random_() % 9) - 4;
-        return {number::within(v, error), exactly(v) + exactly(error) * quarters / 4};
-    }
-    std::optional<one> combined(const one& a, const one& b) {
-        switch (random_() % 8) {
-            case 0:
-                return one{a.number + b.number, a.exact + b.exact};
-            case 1:
-            case 2:
-                return one{a.number - b.number, a.exact - b.exact};
-            case 3:
-                return one{a.number * b.number, a.exact * b.exact};
-            case 4: {
-                const int e = static_cast<int>(random_() % 100) - 50;
-                return one{scale(-a.number, e), -a.exact * power_of_two(e)};
-            }
-            case 5:
-                if constexpr (errbound::has_subnormals<T>) {
-                    const one& c = random_() % 2 ? a : b;
-                    return one{fma(a.number, b.number, -c.number), a.exact * b.exact - c.exact};
-                }
-                break;
-            case 6:
-                if constexpr (errbound::has_subnormals<T>) check_root(a);
-                break;
-            default:
-                if constexpr (!std::same_as<Rule, errbound::safe>)
-                    if (b.exact != 0) return one{a.number / b.number, a.exact / b.exact};
-        }
-        return std::nullopt;
+        return random() % 2 ? x : T(-x);
     }
 
-    static bool claims_nothing(const number& x) {
-        return !traits::is_finite(x.value()) || !traits::is_finite(x.error());
-    }
-    void check(const one& s, const std::string& what) {
-        const sign_type sign = sign_of(s.number);
-        if (claims_nothing(s.number)) {
-            ASSERT_EQ(sign, sign_type::uncertain) << what;
-            return;
-        }
-        const rational off = exactly(s.number.value()) - s.exact;
-        ASSERT_LE(multiprecision::abs(off), exactly(s.number.error())) << what;
-        ASSERT_TRUE(sign == sign_type::uncertain || sign == errbound::sign_of(s.exact)) << what;
-    }
-    void check_root(const one& a) {
-        const number root = sqrt(a.number);
-        if (claims_nothing(root)) return;
-        ASSERT_GE(a.exact, 0);
-        const rational v = exactly(root.value()), e = exactly(root.error());
-        ASSERT_TRUE(v - e <= 0 || (v - e) * (v - e) <= a.exact);
-        ASSERT_GE((v + e) * (v + e), a.exact);
-    }
-
-    std::mt19937_64 random_;
-    int scale_ = 0;
+  private:
+    int drawn_ = 0, scale_ = 0;
 };
 
 template <class T, int Reach = 0, class... Rules>
 void check_rules(int count) {
-    (programs<T, Rules, Reach>(7).run(support::scaled(count)), ...);
+    using draw = edge_numbers<T, Reach>;
+    (support::random_programs<T, Rules, draw>(7, draw()).run(support::scaled(count)), ...);
 }
 
 TEST(WideNumbers, LongDoubleUnderEveryRule) {
@@ -263,7 +151,7 @@ TEST(WideNumbers, Binary128ScalesWithOneRounding) {
         const float128 x = traits::scale(m, static_cast<int>(random() % 30000) - 16000);
         if (!traits::is_finite(x)) continue;
         const int e = -16494 - traits::exponent(x) + static_cast<int>(random() % 130);
-        const rational exact = exactly(x) * power_of_two(e);
+        const rational exact = exactly(x) * power_of(2, e);
         const float128 y = traits::scale(x, e);
         const rational off = multiprecision::abs(rational(exactly(y) - exact));
         const rational half = exactly(traits::underflow_unit()) / 2;

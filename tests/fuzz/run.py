@@ -1,7 +1,7 @@
-"""Runs fuzzers by libFuzzer, each for some minutes, and prints runs, coverage and findings.
+"""Runs fuzzers with libFuzzer, each for some minutes, and prints runs, coverage and findings.
 
-Argument: a build folder of the preset `fuzz`; --help lists options. Fuzzers are the build's targets fuzz_*.
-Status 1 if any fuzzer found an error: its input is then in out/fuzz/NAME.
+Argument: a build folder of the preset `fuzz`; --help lists the options. Fuzzers are the build's
+targets fuzz_*. Status 1 if any fuzzer found something: its input is then in out/fuzz/NAME.
 """
 import argparse
 import concurrent.futures
@@ -22,26 +22,28 @@ SEEDS = 15
 def arguments():
     parser = argparse.ArgumentParser(prog="./run fuzz", description="Fuzzers by libFuzzer.")
     parser.add_argument("build", type=pathlib.Path, help=argparse.SUPPRESS)
-    parser.add_argument("names", nargs="*", metavar="NAME", help="only fuzzers with one of these in their names")
-    parser.add_argument("--minutes", type=float, default=1, metavar="M", help="minutes for each (%(default)s)")
+    parser.add_argument("names", nargs="*", metavar="NAME", help="run the fuzzers with one of these in their names")
+    parser.add_argument("--minutes", type=float, default=1, metavar="M", help="minutes for each (1)")
     parser.add_argument("--jobs", type=int, default=os.cpu_count(), metavar="N",
-                        help="fuzzers at a time; one per core by default")
+                        help="fuzzers at a time (one per core)")
     parser.add_argument("--minimise", action="store_true",
-                        help=f"then keep in tests/fuzz/corpus the {SEEDS} inputs of each that cover most")
+                        help=f"keep the {SEEDS} inputs of each that cover most in tests/fuzz/corpus")
     return parser.parse_intermixed_args()  # names also after options
 
 
 def fuzzers(build, names):
+    """Return the build's targets with one of the names."""
     listed = subprocess.run(["cmake", "--build", build, "--target", "help"], check=True,
                             stdout=subprocess.PIPE, text=True).stdout
     known = sorted(set(re.findall(r"^(?:\.\.\. )?(fuzz_\w+)(?::|$)", listed, re.MULTILINE)))
     chosen = [name for name in known if not names or any(part in name for part in names)]
     if not chosen:
-        sys.exit(f"run: name is {' '.join(names)}; expected one of {', '.join(known)}")
+        sys.exit(f"run: found no fuzzer named {' '.join(names)}, expected one of {', '.join(known)}")
     return chosen
 
 
 def run(build, name, minutes):
+    """Run a fuzzer; return its row of the table, from libFuzzer's last lines."""
     folder = FOUND / name
     corpus = folder / "corpus"
     corpus.mkdir(parents=True, exist_ok=True)
@@ -63,6 +65,7 @@ def run(build, name, minutes):
 
 
 def features(build, name):
+    """Return the inputs, old and new, each with the features (edges) that it covers."""
     folder = FOUND / name
     control = folder / "control"
     control.unlink(missing_ok=True)
@@ -75,14 +78,14 @@ def features(build, name):
     paths = [pathlib.Path(path) for path in lines[2:2 + int(lines[0])]]
     covered = {}
     for line in lines[2 + len(paths):]:
-        kind, number, *found = line.split()
-        if kind == "FT":
+        what, number, *found = line.split()
+        if what == "FT":
             covered[paths[int(number)]] = set(found)
     return covered
 
 
 def minimise(build, name):
-    """Keeps at most SEEDS inputs. Each adds the most edges; ties are won by small inputs."""
+    """Keep at most SEEDS inputs: each adds the most edges, and is the smallest that does."""
     saved = SAVED / name
     saved.mkdir(exist_ok=True)
     left = features(build, name)
@@ -102,17 +105,17 @@ def minimise(build, name):
 
 
 def main():
-    asked = arguments()
-    build = asked.build.resolve()
-    names = fuzzers(build, asked.names)
+    options = arguments()
+    build = options.build.resolve()
+    names = fuzzers(build, options.names)
     subprocess.run(["cmake", "--build", build, "--target", *names], check=True)
-    with concurrent.futures.ThreadPoolExecutor(max(asked.jobs, 1)) as jobs:
-        rows = list(jobs.map(lambda name: run(build, name, asked.minutes), names))
+    with concurrent.futures.ThreadPoolExecutor(max(options.jobs, 1)) as jobs:
+        rows = list(jobs.map(lambda name: run(build, name, options.minutes), names))
     heading = ["fuzzer", "runs", "edges covered", "features", "corpus", "found"]
     widths = [max(len(str(row[i])) for row in [heading, *rows]) for i in range(len(heading))]
     for row in [heading, *rows]:
         print("  ".join(str(cell).ljust(width) for cell, width in zip(row, widths)).rstrip())
-    if asked.minimise:
+    if options.minimise:
         for name in names:
             minimise(build, name)
     return any(row[-1] != "nothing" for row in rows)

@@ -23,12 +23,12 @@ matplotlib.use("Agg")
 import matplotlib.colors
 import matplotlib.pyplot as plt
 import numpy
-from matplotlib.ticker import FuncFormatter, LogLocator, NullLocator
+from matplotlib.ticker import EngFormatter, FuncFormatter, LogLocator, NullLocator
 
 FOLDER = pathlib.Path(__file__).resolve().parent
 PIXELS = 2000
 INK, PALE, BAND = "#333333", "#d9d9d9", "#f2f2f2"
-# Told apart by people who see few colours, too (Paul Tol's palettes).
+# Distinguishable by colour-blind people (Paul Tol's palettes).
 COLOURS = ["#4477aa", "#ee6677", "#228833", "#ccbb44", "#66ccee", "#aa3377", "#bbbbbb",
            "#000000", "#ee7733", "#009988", "#882255", "#999933", "#332288", "#ddcc77"]
 
@@ -44,7 +44,7 @@ plt.rcParams.update({
 
 
 def table(name):
-    """The file's rows as dictionaries, numbers as numbers; none where there is no such file."""
+    """Return the file's rows as dictionaries, with numbers as floats; none if there is no such file."""
     path = FOLDER / name
     if not path.exists():
         return []
@@ -60,7 +60,7 @@ def table(name):
 
 
 def save(figure, name):
-    """As PNG of at most PIXELS a side, which fits a screen, and as SVG."""
+    """Write the figure as PNG, at most PIXELS a side, and as SVG."""
     figure.canvas.draw()
     box, pad = figure.get_tightbbox(figure.canvas.get_renderer()), 0.15
     dpi = min(200, PIXELS / (max(box.width, box.height) + 2 * pad + 0.05))
@@ -71,7 +71,7 @@ def save(figure, name):
 
 
 def in_order(values):
-    """Each value once, in the order of first appearance."""
+    """Return each value once, in the order of first appearance."""
     return list(dict.fromkeys(values))
 
 
@@ -98,58 +98,23 @@ def power(exponent):
     return f"{10 ** exponent:.2g}" if -3 < exponent < 2 else f"1e{exponent:.0f}"
 
 
-def nanoseconds(ns):
-    for size, unit in ((1e9, "s"), (1e6, "ms"), (1e3, "µs")):
-        if ns >= size:
-            return f"{ns / size:.3g} {unit}"
-    return f"{ns:.3g} ns"
-
-
-NANOSECONDS = FuncFormatter(lambda ns, _: nanoseconds(ns))
+NANOSECONDS = FuncFormatter(lambda ns, _: EngFormatter("s")(ns / 1e9))
 SHORT = FuncFormatter(lambda number, _: short(number))
 
 
 # ---- Error against run time ----
 
 def rate_axis(axes, rates):
-    """A logarithmic axis of rates with a band below it for exact zero, and the band's ends."""
-    positive = [rate for rate in rates if rate > 0]
-    low = 10.0 ** math.floor(math.log10(min(positive)) - 0.1) if positive else 1.0
-    high = 10.0 ** math.ceil(math.log10(max(positive)) + 0.1) if positive else 10.0
-    share = 0.2 + 0.3 * sum(rate == 0 for rate in rates) / len(rates)
-    bottom = low / (high / low) ** (share / (1 - share))
-    axes.set_yscale("log")
-    axes.set_ylim(bottom, high)
-    axes.axhspan(bottom, low, color=BAND, lw=0, zorder=0)
-    axes.axhline(low, color=INK, lw=0.7)
-    first, last = round(math.log10(low)), round(math.log10(high))
-    ticks = [10.0 ** e for e in range(first, last + 1, max(1, round((last - first) / 6)))]
-    axes.set_yticks(ticks)
-    axes.set_yticklabels([short(tick) for tick in ticks])
-    axes.yaxis.set_minor_locator(NullLocator())
-    axes.text(-0.012, share / 2, "exactly 0", ha="right", va="center", transform=axes.transAxes)
-    return bottom, low
-
-
-def place_in_band(axes, names, ns, band):
-    """Heights in the band of the points there, so that no label meets another point or label."""
-    left, right = (math.log10(x) for x in axes.get_xlim())
-    width = axes.get_window_extent().width / axes.figure.dpi * 72
-    lanes, lane_of = [], {}  # how far each lane is taken, in points
-    for name in sorted(names, key=lambda name: ns[name]):
-        at = (math.log10(ns[name]) - left) / (right - left) * width
-        free = [i for i, taken in enumerate(lanes) if taken < at - 8]
-        if not free:
-            lanes.append(0)
-        lane_of[name] = free[0] if free else len(lanes) - 1
-        lanes[lane_of[name]] = at + 14 + 6 * len(name)
-    bottom, top = (math.log10(y) for y in band)
-    step = (top - bottom) / (len(lanes) + 1)
-    return {name: 10 ** (top - step * (lane + 1)) for name, lane in lane_of.items()}
+    """Make a logarithmic axis of rates, linear below the least positive rate to show exact zeros."""
+    least = 10.0 ** math.floor(math.log10(min((r for r in rates if r > 0), default=1)))
+    axes.set_yscale("symlog", linthresh=least, linscale=0.5)
+    axes.set_ylim(-0.3 * least, 10.0 ** math.ceil(math.log10(max(*rates, least)) + 0.1))
+    axes.yaxis.set_major_formatter(SHORT)
+    axes.axhspan(-0.3 * least, 0.6 * least, color=BAND, lw=0, zorder=0)
 
 
 def label_points(axes, points):
-    """Writes each (x, y, text, colour) beside its point, where it meets neither point nor label."""
+    """Write each (x, y, text, colour) next to its point, clear of points and labels."""
     figure = axes.figure
     figure.canvas.draw()
     renderer = figure.canvas.get_renderer()
@@ -169,7 +134,7 @@ def label_points(axes, points):
     at = axes.transData.transform([point[:2] for point in points])
     for x, y, text, colour in sorted(points, key=lambda point: point[:2]):
         px, py = axes.transData.transform((x, y))
-        # Of two points that nearly coincide, the left one's label stands on the left.
+        # If two points nearly coincide, the left one's label stands on the left.
         neighbour = any(0 < qx - px < 14 * pixel and abs(qy - py) < 10 * pixel for qx, qy in at)
         for dx, dy in [(-8, 0)] * neighbour + offsets:
             side = "left" if dx > 1 else "right" if dx < -1 else "center"
@@ -190,7 +155,7 @@ def label_points(axes, points):
 
 
 def totals(rows):
-    """Per method: sums over data sets and kinds, and the mean of ns weighted by queries."""
+    """Return for each method sums over data sets and kinds, and the mean of ns weighted by queries."""
     methods = {}
     for row in rows:
         m = methods.setdefault(row["method"], dict.fromkeys(
@@ -226,18 +191,15 @@ def pareto(rows, name, of_what):
     figure.tight_layout(h_pad=2)
     for axes, errors, among, _, _ in judged:
         rates = {name: 1e6 * m[errors] / max(m[among], 1) for name, m in methods.items()}
-        band = rate_axis(axes, rates.values())
-        heights = place_in_band(axes, [name for name in rates if rates[name] == 0], ns, band)
-        points = [(ns[name], heights.get(name, rates[name]), name, colour[name])
-                  for name in methods]
+        rate_axis(axes, rates.values())
+        points = [(ns[name], rates[name], name, colour[name]) for name in methods]
         for x, y, _, c in points:
             axes.plot(x, y, "o", ms=7, mfc=c, mec="white", mew=0.8, zorder=3, clip_on=False)
         label_points(axes, points)
     save(figure, name)
 
 
-def paretos():
-    rows = table("methods.csv")
+def methods(rows):
     pareto([r for r in rows if r["origin"] == "scene"], "pareto", "candidate pairs of steps")
     pareto([r for r in rows if r["origin"] != "scene"], "pareto-queries",
            "queries picked to be hard")
@@ -257,7 +219,7 @@ def spread(axes, at, row, prefix, colour, vertical):
 
 
 def legend(figure, handles, note):
-    """A line above the figure, and one with the note above that."""
+    """Add a line of handles above the figure, and the note above it."""
     figure.legend(handles=handles, loc="lower left", bbox_to_anchor=(0.01, 1.0),
                   ncol=len(handles), frameon=False, borderaxespad=0)
     figure.text(0.012, 1 + 0.3 / figure.get_figheight(), note, va="bottom")
@@ -271,7 +233,7 @@ SPREAD_NOTE = "Dot: median; thick: middle half; thin: 1 % to 99 %"
 
 
 def grid(rows, height):
-    """A panel for each data set (down) and kind (across): yields (axes, rows of the panel).
+    """Make a panel for each data set (down) and kind (across). Return the figure and (axes, rows).
 
     Many data sets stand in several columns, so that the figure is not taller than wide.
     """
@@ -294,14 +256,11 @@ def grid(rows, height):
     return figure, cells
 
 
-def bounds():
-    rows = table("bounds.csv")
-    if not rows:
-        return
+def bounds(rows):
     rules = in_order(r["rule"] for r in rows)
     colour = colours(rules)
     variables = in_order(r["variable"] for r in rows)
-    # Beyond these nothing is known, or nothing need be: a query's k may all be rounding errors.
+    # All values of a query's k may be rounding errors, so the axis is bounded.
     low, high = 1e-18, 1e3
     figure, cells = grid(rows, 2.1)
     for axes, here in cells:
@@ -323,9 +282,8 @@ def bounds():
     save(figure, "bounds")
 
 
-def tightness():
-    rows = [r for r in table("tightness.csv")
-            if r["number"] == "double" and r["measure"] != "error/value"]
+def tightness(rows):
+    rows = [r for r in rows if r["number"] == "double" and r["measure"] != "error/value"]
     if not rows:
         return
     for r in rows:
@@ -359,10 +317,7 @@ def tightness():
     save(figure, "tightness")
 
 
-def times():
-    rows = table("times.csv")
-    if not rows:
-        return
+def times(rows):
     methods = in_order(r["method"] for r in rows)
     marks = (("ns_median", "o", "median"), ("ns_99", "|", "99 %"), ("ns_99_9", "d", "99.9 %"),
              ("ns_worst", "x", "worst"))
@@ -394,10 +349,7 @@ def times():
 
 # ---- First contacts ----
 
-def contacts():
-    rows = table("contacts.csv")
-    if not rows:
-        return
+def contacts(rows):
     names = [f"{r['data_set']}, {r['kind']}" for r in rows]
     figure, (kinds, costs) = plt.subplots(1, 2, figsize=(9, 1.2 + 0.17 * len(rows)), sharey=True,
                                           gridspec_kw={"width_ratios": (2, 3)})
@@ -417,7 +369,7 @@ def contacts():
         costs.plot([r[prefix + "time"] / r[prefix + "decision"] for r in rows], range(len(rows)),
                    mark, ms=5, color=colour, mec="white", mew=0.6, label=label)
     costs.axvline(1, color=INK, lw=0.7)
-    costs.set_title("First times beside yes or no")
+    costs.set_title("First times compared with yes or no")
     costs.set_xlabel("time with first times / time of yes or no")
     kinds.set_yticks(range(len(rows)))
     kinds.set_yticklabels(names, fontsize=8)
@@ -432,10 +384,7 @@ def contacts():
 
 # ---- Stress heat maps ----
 
-def stress():
-    rows = table("stress.csv")
-    if not rows:
-        return
+def stress(rows):
     families, methods = in_order(r["family"] for r in rows), in_order(r["method"] for r in rows)
     cells = {}  # (family, knob, method): sums over kinds
     for r in rows:
@@ -490,5 +439,6 @@ def heat_map(value, families, methods, knob_names, name, title, is_time):
     save(figure, name)
 
 
-for draw in (paretos, bounds, tightness, times, contacts, stress):
-    draw()
+for draw in (methods, bounds, tightness, times, contacts, stress):
+    if table_rows := table(f"{draw.__name__}.csv"):
+        draw(table_rows)

@@ -16,7 +16,7 @@ std::string csv_of(const std::vector<std::string>& columns,
 /// The columns of methods.csv.
 extern const std::vector<std::string> method_columns;
 
-/// Exit statuses of draw_pictures beside 0.
+/// Exit statuses of draw_pictures other than 0.
 inline constexpr int no_matplotlib = 3, no_python = 127;
 
 /// Writes plot.py into the folder and runs it there. Returns its exit status. Throws

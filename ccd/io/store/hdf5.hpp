@@ -1,22 +1,18 @@
-// HDF5's handles, its errors as exceptions, and the checksum of a chunk of queries.
+// HDF5's handles, and its errors as exceptions.
 #pragma once
 
 #include <hdf5.h>
-#include <zlib.h>
 
-#include <cstddef>
-#include <cstdint>
 #include <errbound/support/error.hpp>
 #include <mutex>
-#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
 
 namespace ccd::io::hdf5 {
 
-/// While one lives no other call of ours is in the library, which is not for several threads, and
-/// it prints nothing; what the process had set is set again.
+/// Locks the library, which is not safe for threads, and keeps it from printing its errors. The
+/// destructor restores the process's setting.
 class quiet_use {
   public:
     quiet_use() : lock_(mutex()) {
@@ -37,9 +33,9 @@ class quiet_use {
     void* data_ = nullptr;
 };
 
-/// What the library says of its last failure, where it began.
+/// The innermost cause of the library's last failure, on one line.
 inline std::string reason() {
-    std::string said;
+    std::string cause;
     H5Ewalk2(
         H5E_DEFAULT, H5E_WALK_UPWARD,
         [](unsigned, const H5E_error2_t* error, void* data) -> herr_t {
@@ -47,32 +43,32 @@ inline std::string reason() {
             if (text.empty() && error->desc != nullptr) text = error->desc;
             return 0;
         },
-        &said);
-    if (said.empty()) return "no reason";
-    // Of the system's failures it says much more, on several lines.
+        &cause);
+    if (cause.empty()) return "no reason";
+    // A failure of the system has several lines, with its message in quotes.
     constexpr std::string_view of_system = "error message = '";
-    if (const std::size_t at = said.find(of_system); at != std::string::npos) {
+    if (const std::size_t at = cause.find(of_system); at != std::string::npos) {
         const std::size_t begin = at + of_system.size();
-        return said.substr(begin, said.find('\'', begin) - begin);
+        return cause.substr(begin, cause.find('\'', begin) - begin);
     }
-    return said.substr(0, said.find('\n'));
+    return cause.substr(0, cause.find('\n'));
 }
 
-/// Of a call that is negative where it fails. `what` says where: "FILE: dataset points".
+/// Returns the status of a call, and throws file_error if it is negative. `where` begins the
+/// message: "FILE: dataset points".
 template <class Status>
-Status checked(Status status, const std::string& what) {
+Status checked(Status status, const std::string& where) {
     if (status < 0)
-        throw errbound::support::file_error(what + ": cannot be read or made (HDF5: " + reason() +
+        throw errbound::support::file_error(where + ": cannot be read or made (HDF5: " + reason() +
                                             ")");
     return status;
 }
 
-/// Closed in the end.
+/// An object of the library, closed by the destructor.
 class handle {
   public:
-    handle() = default;
-    handle(hid_t id, herr_t (*how)(hid_t), const std::string& what)
-        : id_(checked(id, what)), close_(how) {}
+    handle(hid_t id, herr_t (*close)(hid_t), const std::string& where)
+        : id_(checked(id, where)), close_(close) {}
     handle(handle&& other) noexcept
         : id_(std::exchange(other.id_, H5I_INVALID_HID)), close_(other.close_) {}
     handle& operator=(handle&& other) noexcept {
@@ -81,33 +77,19 @@ class handle {
         return *this;
     }
     ~handle() {
-        if (id_ >= 0) close_(id_);
+        if (id_ < 0) return;
+        const quiet_use use;
+        close_(id_);
     }
-    /// Now, since what is to be written may fail to be.
-    void close(const std::string& what) {
-        checked(close_(std::exchange(id_, H5I_INVALID_HID)), what);
+    /// Closes it now, and throws file_error if data cannot be written.
+    void close(const std::string& where) {
+        checked(close_(std::exchange(id_, H5I_INVALID_HID)), where);
     }
     operator hid_t() const { return id_; }
 
   private:
-    hid_t id_ = H5I_INVALID_HID;
-    herr_t (*close_)(hid_t) = nullptr;
+    hid_t id_;
+    herr_t (*close_)(hid_t);
 };
 
 }  // namespace ccd::io::hdf5
-
-namespace ccd::io {
-
-/// CRC-32, as zlib's and PNG's, of the bytes of points, queries and truth one after the other, as
-/// they are stored. (Stores are built where numbers have their least significant byte first.)
-/// HDF5's own, Fletcher32, adds words of 16 bits modulo 65535, so 0x0000 equals 0xffff in it.
-inline std::uint32_t checksum(std::span<const std::byte> points, std::span<const std::byte> queries,
-                              std::span<const std::byte> truth) {
-    uLong sum = crc32_z(0, nullptr, 0);
-    for (const std::span<const std::byte> part : {points, queries, truth})
-        if (!part.empty())  // of a null pointer crc32_z makes the sum of nothing at all
-            sum = crc32_z(sum, reinterpret_cast<const Bytef*>(part.data()), part.size());
-    return static_cast<std::uint32_t>(sum);
-}
-
-}  // namespace ccd::io

@@ -1,7 +1,4 @@
-// Stores of queries: HDF5 files, read a range at a time.
-//
-// What is in one: docs/program.md. Where this is built without HDF5 they are recognised, and
-// refused.
+// Reader of stores of queries: HDF5 files, read a range at a time. Their layout: docs/program.md.
 #pragma once
 
 #include <ccd/io/query_file.hpp>
@@ -13,37 +10,32 @@
 
 namespace ccd::io {
 
-/// Queries of a chunk, which has points of its own.
+/// Number of queries of a chunk. Each chunk has its own points.
 inline constexpr std::uint64_t queries_of_a_chunk = 65536;
 
-/// Whether a file that begins so is a store.
+/// True if a file that begins with these bytes is a store.
 constexpr bool is_store(std::string_view first_bytes) {
     return first_bytes.starts_with("\x89HDF\r\n\x1a\n");
 }
 
-/// For programs that use no HDF5 of their own, before all else: the library does nothing at exit,
-/// where 1.10 prints complaints if it has met a damaged file.
+/// Keeps the HDF5 library from running code at exit, where version 1.10 prints complaints after it
+/// has met a damaged file. For programs without other uses of HDF5, before anything else.
 void leave_stores_at_exit();
 
-/// Every call throws errbound::support::file_error where the file is damaged or no store, with
-/// `name` in its message. One call at a time in a process: they wait for each other.
+/// An open store. Calls from several threads wait for each other.
+/// Throws errbound::support::file_error, with the store's name, if the file is damaged.
 class store_reader {
   public:
-    /// Of a file's bytes, copied; or of a file, which is read in parts.
-    store_reader(std::string_view bytes, const std::string& name);
-    explicit store_reader(const std::filesystem::path& path);
-    ~store_reader();
-    store_reader(store_reader&&) noexcept;
-    store_reader& operator=(store_reader&&) noexcept;
-
-    ccd::kind kind() const;
-    std::uint64_t size() const;
+    virtual ~store_reader() = default;
+    virtual ccd::kind kind() const = 0;
+    virtual std::uint64_t size() const = 0;
     /// Queries [begin, end). Precondition: begin <= end <= size().
-    query_file read(std::uint64_t begin, std::uint64_t end) const;
-
-  private:
-    class opened;
-    std::unique_ptr<opened> opened_;
+    virtual query_file read(std::uint64_t begin, std::uint64_t end) const = 0;
 };
+
+/// Opens a file, or copies the bytes of one. Throws errbound::support::file_error if that is no
+/// store, or if this was built without HDF5.
+std::unique_ptr<store_reader> open_store(const std::filesystem::path& path);
+std::unique_ptr<store_reader> open_store(std::string_view bytes, const std::string& name);
 
 }  // namespace ccd::io

@@ -1,4 +1,4 @@
-// The page: the template with a step's arrays put in.
+// The page of a step: a template and its arrays.
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -9,17 +9,16 @@
 #include <string_view>
 #include <utility>
 
-#include "ccd/io/view/base64.hpp"
-#include "ccd/io/view/checks.hpp"
+#include "ccd/io/view/view_files.hpp"
 
 namespace ccd::io {
 
-// Made of the files in page/ when this is built.
-extern const std::string_view page_template, page_style, page_camera, page_picture, page_script;
+// Generated from the files in page/ by the build.
+extern const std::string_view page_template, page_camera, page_picture, page_script;
 
 namespace {
 
-/// Numbers as a page reads them: the least significant byte first, on every machine.
+/// Appends a number, least significant byte first on every machine.
 template <class Number>
 void append_number(std::string& bytes, Number number) {
     auto text = std::bit_cast<std::array<char, sizeof(Number)>>(number);
@@ -35,7 +34,7 @@ std::string bytes_of_rows(const Rows& rows) {
     return bytes;
 }
 
-/// An array of the page: `id` is what its script asks for.
+/// Appends an array, which the page's script finds by `id`.
 void append_array(std::string& text, std::string_view id, std::string bytes) {
     text += "<script type=\"text/plain\" id=\"array-";
     text += id;
@@ -44,7 +43,7 @@ void append_array(std::string& text, std::string_view id, std::string bytes) {
     text += "</script>\n";
 }
 
-/// Bodies, numbered from 0 to 5 and then again: the page's colours.
+/// The index of each vertex's body, modulo the number of the page's colours.
 std::string bytes_of_parts(const step_view& step) {
     constexpr int colours = 6;
     std::string bytes;
@@ -53,7 +52,7 @@ std::string bytes_of_parts(const step_view& step) {
     return bytes;
 }
 
-/// Where each pair with a time meets, to be read by people: weights and normal, in floats.
+/// Weights and normal, in floats, of each pair with a time.
 template <kind K>
 std::string bytes_of_contacts(const step_view& step) {
     std::string bytes;
@@ -99,8 +98,10 @@ std::string page_of(const step_view& step) {
     detail::require_view(step);
     const std::string arrays = arrays_of(step);
     const std::pair<std::string_view, std::string_view> parts[] = {
-        {"{{style}}", page_style},     {"{{arrays}}", arrays},      {"{{camera}}", page_camera},
-        {"{{picture}}", page_picture}, {"{{script}}", page_script},
+        {"{{arrays}}", arrays},
+        {"{{camera}}", page_camera},
+        {"{{picture}}", page_picture},
+        {"{{script}}", page_script},
     };
     std::string text;
     std::string_view rest = page_template;

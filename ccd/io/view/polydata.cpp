@@ -8,46 +8,104 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <map>
+#include <span>
 #include <stdexcept>
 #include <string_view>
+#include <type_traits>
+#include <vector>
 
-#include "ccd/io/view/base64.hpp"
-#include "ccd/io/view/checks.hpp"
-#include "ccd/io/view/participation.hpp"
+#include "ccd/io/view/view_files.hpp"
 
 namespace ccd::io {
 namespace {
 
 using place = std::array<double, 3>;
 
+/// In which pairs a vertex, an edge or a face takes part.
+class participation {
+  public:
+    /// The number of pairs, and the earliest time: NaN without pairs or times.
+    struct share {
+        std::uint32_t pairs = 0;
+        double toi = std::numeric_limits<double>::quiet_NaN();
+
+        void add(const share& other) {
+            pairs += other.pairs;
+            toi = std::fmin(toi, other.toi);  // prefers numbers to NaN
+        }
+    };
+
+    explicit participation(const step_view& step) {
+        for_each_kind([&]<kind K>() {
+            const auto& times = step.times.of<K>();
+            for (std::size_t i = 0; i < step.pairs.of<K>().size(); ++i) {
+                const auto v = vertices_of(step.pairs.of<K>()[i]);
+                const share one{1, times.empty() ? share{}.toi : times[i].low};
+                constexpr std::size_t of_first = kind_traits<K>::first_vertices;
+                elements_[key_of(std::span(v).template first<of_first>())].add(one);
+                elements_[key_of(std::span(v).template subspan<of_first>())].add(one);
+            }
+        });
+    }
+
+    /// The share of a cell of at most three vertices: the sum over all elements whose vertices are
+    /// among the cell's. No pair is counted twice, because its two elements share no vertex, and a
+    /// cell has too few vertices for both.
+    share of(std::span<const vertex_index> cell) const {
+        const vertex_key all = key_of(cell);
+        const auto last = std::ranges::find(all, all.back()) - all.begin();
+        share sum;
+        for (unsigned subset = 1; subset < 2u << last; ++subset) {
+            vertex_key element;
+            std::size_t size = 0;
+            for (std::size_t i = 0; i < all.size(); ++i)
+                if ((subset >> i & 1) != 0) element[size++] = all[i];
+            if (const auto found = elements_.find(key_of(std::span(element).first(size)));
+                found != elements_.end())
+                sum.add(found->second);
+        }
+        return sum;
+    }
+
+  private:
+    /// Ascending, each vertex once, then the last one again.
+    using vertex_key = std::array<vertex_index, 3>;
+
+    static vertex_key key_of(std::span<const vertex_index> vertices) {
+        const vertex_index last = std::ranges::max(vertices);
+        vertex_key key;
+        key.fill(last);
+        std::ranges::copy(vertices, key.begin());
+        std::ranges::sort(key);
+        std::ranges::fill(std::ranges::unique(key), last);
+        return key;
+    }
+
+    std::map<vertex_key, share> elements_;
+};
+
 template <class Number>
-constexpr std::string_view type_name();
-template <>
-constexpr std::string_view type_name<double>() {
-    return "Float64";
-}
-template <>
-constexpr std::string_view type_name<std::int64_t>() {
-    return "Int64";
-}
-template <>
-constexpr std::string_view type_name<std::uint32_t>() {
-    return "UInt32";
-}
-template <>
-constexpr std::string_view type_name<std::int8_t>() {
-    return "Int8";
+constexpr std::string_view type_name() {
+    if (std::is_same_v<Number, double>) return "Float64";
+    if (std::is_same_v<Number, std::int64_t>) return "Int64";
+    return std::is_same_v<Number, std::uint32_t> ? "UInt32" : "Int8";
 }
 
-/// An array: its size in bytes and its bytes. Extra attributes start with a space.
+/// The bytes of numbers in this machine's order.
+template <class Items>
+std::string_view bytes_of(const Items& items) {
+    return {reinterpret_cast<const char*>(items.data()), items.size() * sizeof(*items.data())};
+}
+
+/// Appends an array: its size in bytes and its bytes. `more` are attributes, after a space.
 template <class Number>
 void append_array(std::string& text, std::string_view name, const std::vector<Number>& numbers,
                   std::string_view more = "") {
     text.append("<DataArray type=\"").append(type_name<Number>());
     text.append("\" Name=\"").append(name).append("\"").append(more).append(" format=\"binary\">");
     const std::array<std::uint64_t, 1> size{numbers.size() * sizeof(Number)};
-    detail::append_base64(text,
-                          std::string(detail::bytes_of(size)).append(detail::bytes_of(numbers)));
+    detail::append_base64(text, std::string(bytes_of(size)).append(bytes_of(numbers)));
     text += "</DataArray>\n";
 }
 
@@ -58,14 +116,14 @@ void append_vectors(std::string& text, std::string_view name, const std::vector<
     append_array(text, name, numbers, " NumberOfComponents=\"3\"");
 }
 
-/// What all cells have, in the order of PolyData: vertices, lines, polygons.
+/// The arrays of all cells, in the order of PolyData: vertices, lines, polygons.
 struct cell_arrays {
     std::vector<std::uint32_t> pairs;
     std::vector<double> toi;
     std::vector<std::int64_t> pair;
     std::vector<std::int8_t> kind;
 
-    void add(const detail::participation::share& share, std::int64_t which, std::int8_t what) {
+    void add(const participation::share& share, std::int64_t which, std::int8_t what) {
         pairs.push_back(share.pairs);
         toi.push_back(share.toi);
         pair.push_back(which);
@@ -73,7 +131,7 @@ struct cell_arrays {
     }
 };
 
-/// The points, and the cells that they are joined to, while a file is made.
+/// The points and cells of a file.
 class polydata {
   public:
     polydata(const step_view& step, frame shown)
@@ -126,7 +184,7 @@ class polydata {
     }
 
   private:
-    /// A cell each vertex that is on no edge.
+    /// Adds a cell for each vertex that is on no edge.
     void add_points() {
         std::vector<bool> on_edge(step_.positions.vertices);
         for (const face& f : step_.faces)
@@ -140,7 +198,7 @@ class polydata {
         }
     }
 
-    /// A point and a cell each pair of a kind.
+    /// Adds a point and a cell for each pair of a kind.
     template <kind K>
     void add_contacts() {
         const auto& pairs = step_.pairs.of<K>();
@@ -160,8 +218,8 @@ class polydata {
         }
     }
 
-    /// Where the first element's points have their contact's weights, or else, where these are
-    /// unknown, in the middle of all.
+    /// The contact point on the first element, or the middle of all vertices if the contact is
+    /// unknown.
     template <kind K>
     place place_of(const pair_of_kind<K>& pair, const first_contact& contact, double t) const {
         const auto vertices = vertices_of(pair);
@@ -193,31 +251,25 @@ class polydata {
 
     const step_view& step_;
     frame shown_;
-    detail::participation shares_;
+    participation shares_;
     std::vector<place> points_, displacements_, normals_;
     std::vector<std::array<std::int64_t, 1>> vertices_;
     cell_arrays cells_;
     std::int64_t number_of_contacts_ = 0;
 };
 
-/// As XML has it in an attribute.
+/// The text as the value of an XML attribute.
 std::string escaped(std::string_view text) {
     std::string out;
-    for (const char c : text) {
-        switch (c) {
-            case '&':
-                out += "&amp;";
-                break;
-            case '<':
-                out += "&lt;";
-                break;
-            case '"':
-                out += "&quot;";
-                break;
-            default:
-                out += c;
-        }
-    }
+    for (const char c : text)
+        if (c == '&')
+            out += "&amp;";
+        else if (c == '<')
+            out += "&lt;";
+        else if (c == '"')
+            out += "&quot;";
+        else
+            out += c;
     return out;
 }
 

@@ -1,21 +1,38 @@
-// A view of a step as files, whose format is that of the name.
+// Views of a step as files, and what their writers share.
 #pragma once
 
 #include <ccd/io/step_view.hpp>
 #include <filesystem>
+#include <string>
+#include <string_view>
 #include <vector>
 
 #include "errbound/support/output_file.hpp"
 
 namespace ccd::io {
 
-/// The files that a view of that name is of: NAME.html and `-` a page; NAME.vtp the frame before;
-/// NAME.pvd a series of NAME-0.vtp and NAME-1.vtp, which are those before it. Throws
-/// std::invalid_argument where the name ends otherwise.
+/// The files of a view: NAME.html or `-` is a page; NAME.vtp is the frame before; NAME.pvd is a
+/// series of NAME-0.vtp and NAME-1.vtp, which come first. Throws std::invalid_argument if the name
+/// ends otherwise.
 std::vector<std::filesystem::path> view_paths(const std::filesystem::path& path);
 
-/// The same, with what goes into each. Throws as page_of does, too.
+/// The files of view_paths, with their content. Throws as view_paths and page_of.
 std::vector<errbound::support::output> view_files(const std::filesystem::path& path,
                                                   const step_view& step);
+
+namespace detail {
+
+/// Appends bytes in base64, padded.
+void append_base64(std::string& text, std::string bytes);
+
+/// Throws std::invalid_argument with list, row, found and expected unless all indices are in range
+/// and there are no times or one a pair.
+void require_view(const step_view& step);
+
+/// Throws std::invalid_argument if a name has control characters: XML cannot hold them, and readers
+/// replace line ends by blanks.
+void require_xml_name(std::string_view name);
+
+}  // namespace detail
 
 }  // namespace ccd::io

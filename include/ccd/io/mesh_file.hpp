@@ -19,56 +19,56 @@ struct mesh_options {
     bool triangulate = false;
 };
 
-/// Reads a frame. The extension is the format (.ply or .obj); pipes and files without an extension
-/// are recognised by their content. Everything that ccd::step takes is read: faces and edges that
-/// repeat a vertex, points only, no elements. Throws errbound::support::file_error if counts do not
-/// match, an index is out of range, a face has fewer than three vertices, a coordinate is not
-/// finite, or the file is truncated or unreadable.
+/// Reads a frame. The extension names the format (.ply or .obj); pipes and files without an
+/// extension are recognised by their content. Accepts all frames of ccd::step, also with faces and
+/// edges that repeat a vertex, with points only, or without elements. Throws
+/// errbound::support::file_error if counts do not match, an index is out of range, a face has fewer
+/// than three vertices, a coordinate is not finite, or the file is truncated or unreadable.
 mesh read_mesh(const std::filesystem::path& path, const mesh_options& options = {});
 
-/// Reads a frame from the text of a PLY file: all scalar types, elements in any order, elements and
-/// properties other than the vertices' x, y, z, the faces' vertex_indices (or vertex_index) and the
-/// edges' vertex1, vertex2 skipped; other elements with vertex indices (tristrips) are refused. A
+/// Reads a frame from the text of a PLY file, with all scalar types and elements in any order. Uses
+/// the vertices' x, y, z, the faces' vertex_indices (or vertex_index) and the edges' vertex1,
+/// vertex2. Refuses other elements with vertex indices (tristrips), and skips all else. A
 /// coordinate is the value of its declared type: `property float x` with the text "0.1" is the
-/// float nearest to 0.1. `name` is used in messages. Throws as read_mesh does.
+/// float nearest to 0.1. `name` is used in messages. Throws as read_mesh.
 mesh parse_mesh_ply(std::string_view text, const std::string& name,
                     const mesh_options& options = {});
 
-/// Reads a frame from the text of an OBJ file: `v`, `f`, `l` (a polyline, whose parts are edges)
+/// Reads a frame from the text of an OBJ file: `v`, `f`, `l` (a polyline, whose segments are edges)
 /// and `p`, with v, v/vt, v//vn or v/vt/vn for a vertex; negative indices count back. A point `p`
-/// on no face and no edge is returned as an edge that repeats its vertex. The format's other
-/// keywords are skipped. Curves, surfaces and `call`, which a mesh cannot hold, and unknown words
-/// are refused. A comment starts at a `#` that begins a word. `name` is used in messages. Throws as
-/// read_mesh does, and if there is no vertex.
+/// on no face and no edge becomes an edge that repeats its vertex. Skips the format's other
+/// keywords. Refuses unknown words, and curves, surfaces and `call`, which a mesh cannot hold. A
+/// comment starts at a `#` that begins a word. `name` is used in messages. Throws as read_mesh, and
+/// if there is no vertex.
 mesh parse_mesh_obj(std::string_view text, const std::string& name,
                     const mesh_options& options = {});
 
-/// Some of a frame's vertices, faces and edges, one after the other; faces and edges name vertices
-/// by their indices in the whole frame.
+/// Consecutive vertices, faces and edges of a frame. Faces and edges have the indices of their
+/// vertices in the whole frame.
 struct mesh_share {
     struct place {
-        std::size_t first = 0, all = 0;  ///< of how many of the whole frame
+        std::size_t first = 0, all = 0;  ///< `all`: number in the whole frame
     };
     mesh elements;
     place vertices, faces, edges;
 };
 
-/// One of `shares` shares of a frame in a file (not a pipe), for processes that read one together.
-/// Of a PLY file no more is held than the share: binary ones are not even looked at elsewhere; OBJ
-/// files are read whole. Throws as read_mesh does, on some share if there is reason to, and
-/// std::invalid_argument unless share < shares.
+/// Reads one of `shares` shares of a frame in a file (not a pipe), for processes that read a file
+/// together. Memory: the share of a PLY file, all of an OBJ file. Other bytes of a binary PLY file
+/// are not read. At least one share throws what read_mesh would throw. Throws std::invalid_argument
+/// unless share < shares.
 mesh_share read_mesh_share(const std::filesystem::path& path, std::size_t share,
                            std::size_t shares);
 
 /// Throws errbound::support::file_error unless both frames have the same topology.
 void require_same_topology(const mesh& before, const std::string& before_name, const mesh& after,
                            const std::string& after_name);
-/// Of the same share of both.
+/// As above, for equal shares of both frames.
 void require_same_topology(const mesh_share& before, const std::string& before_name,
                            const mesh_share& after, const std::string& after_name);
 
-/// A frame as the text of a PLY file, binary, in this machine's byte order: coordinates in doubles,
-/// bit for bit. read_mesh reads it back as it was.
+/// Returns a frame as a binary PLY file in this machine's byte order, with coordinates in doubles.
+/// read_mesh returns the same frame, bit for bit.
 std::string ply_of(const mesh& frame);
 
 }  // namespace ccd::io

@@ -29,35 +29,35 @@ struct query_file {
     }
 };
 
-/// What --kind takes: "vf", "ee".
+/// The values of the option --kind: "vf", "ee".
 std::vector<std::string> kind_names();
 
-/// The kind that a path names, if it names one: its name without extension ends in `vf` or `ee`,
-/// with no letter before, else a folder is named `vertex-face`, `edge-edge`, `vf` or `ee`.
+/// The kind that a path names, if any: the name without extension ends in `vf` or `ee`, with no
+/// letter before, or else a folder is named `vertex-face`, `edge-edge`, `vf` or `ee`.
 std::optional<ccd::kind> kind_from_path(const std::filesystem::path& path);
 
 /// Reads queries of a stored kind from text. `name` is used in messages.
 /// With `round`, a rational that no double equals is rounded to nearest instead of refused.
-/// Throws errbound::support::file_error: rows of another form, numbers that are not finite or that
-/// no double equals, a truncated query.
+/// Throws errbound::support::file_error if rows have another form, a number is not finite or equals
+/// no double, or the last query is truncated.
 query_file parse_queries(std::string_view text, const std::string& name, ccd::kind kind,
                          bool round);
 
-/// The same of text, or of a store's bytes (ccd/io/query_store.hpp), whose kind `kind` must not
-/// contradict.
+/// As parse_queries, for text or for the bytes of a store (ccd/io/query_store.hpp), whose kind
+/// `kind` must not contradict.
 query_file parse_stored_queries(std::string_view bytes, const std::string& name,
                                 std::optional<ccd::kind> kind, bool round);
 
-/// Some of a file's queries: at most `count`, from query `first` on.
+/// A range of a file's queries: at most `count`, from query `first` on.
 struct file_range {
     std::uint64_t first = 0;
     std::uint64_t count = std::numeric_limits<std::uint64_t>::max();
 };
 
-/// Reads a file, and truth from its column or from `../mma_bool/NAME_mma_bool.json` beside it.
-/// The kind is `kind` if given, else from the path. A store (ccd/io/query_store.hpp) has kind and
-/// truth of its own. Returns the queries in `range`; text is read and checked in full. Throws
-/// errbound::support::file_error: bad content, or no query in the range.
+/// Reads a file, and truth from its column or from `../mma_bool/NAME_mma_bool.json` next to it. The
+/// kind is `kind` if given, else the one in the path. A store (ccd/io/query_store.hpp) holds its
+/// own kind and truth. Returns the queries in `range`; text is read and checked in full. Throws
+/// errbound::support::file_error for bad content, or if no query is in the range.
 query_file read_queries(const std::filesystem::path& path, std::optional<ccd::kind> kind,
                         bool round, file_range range = {});
 

@@ -1,5 +1,5 @@
-// Stored queries in a binary, checksummed, chunked form (target errbound::ccd_io): an HDF5 file,
-// which read_queries (ccd/io/query_file.hpp) reads as it does CSV. Its layout: docs/program.md.
+// Writer of stores of queries (target errbound::ccd_io): HDF5 files, chunked and checksummed, which
+// read_queries (ccd/io/query_file.hpp) reads as it reads CSV. Their layout: docs/program.md.
 #pragma once
 
 #include <ccd/io/query_file.hpp>
@@ -9,33 +9,30 @@
 
 namespace ccd::io {
 
-/// Whether this was built with HDF5. Without it, stores are neither made nor read.
+/// True if this was built with HDF5. Otherwise stores are neither written nor read.
 bool has_query_stores();
 
-/// Makes a store of any number of queries, in the folder for temporary files
-/// (std::filesystem::temp_directory_path()), where it takes up to 16 bytes a query more than in the
-/// end. Memory: some 30 megabytes.
+/// Writes a store of any number of queries to a file in the folder for temporary files
+/// (std::filesystem::temp_directory_path()), where it takes up to 16 bytes a query more until it is
+/// finished. Memory: some 30 megabytes.
 class query_packer {
   public:
-    /// Throws std::runtime_error: built without HDF5.
-    query_packer(ccd::kind kind, bool with_truth);
-    ~query_packer();
-    query_packer(query_packer&&) noexcept;
-    query_packer& operator=(query_packer&&) noexcept;
+    virtual ~query_packer() = default;
 
-    /// Appends queries; before finish() alone. Throws std::invalid_argument: another kind, truth
-    /// missing or not expected, a coordinate that is not finite; errbound::support::file_error
-    /// where there is no room. What has been added before is then undefined.
-    void add(const query_file& queries);
-    std::uint64_t size() const;
+    /// Appends queries. Precondition: finish() was not called. Throws std::invalid_argument if the
+    /// kind differs, truth is missing or not expected, or a coordinate is not finite; throws
+    /// errbound::support::file_error if there is no room. After an exception the store is
+    /// unspecified.
+    virtual void add(const query_file& queries) = 0;
+    virtual std::uint64_t size() const = 0;
 
-    /// The store: a file to be copied, which goes away with this; the same bytes for the same
-    /// queries. Throws std::runtime_error: no queries; errbound::support::file_error as add.
-    const std::filesystem::path& finish();
-
-  private:
-    class chunks;
-    std::unique_ptr<chunks> chunks_;
+    /// Returns the store's file, which the destructor removes. Equal queries give equal bytes.
+    /// Throws std::runtime_error if there are no queries, and errbound::support::file_error as add.
+    virtual const std::filesystem::path& finish() = 0;
 };
+
+/// Begins a store of queries of one kind, all with truth or all without. Throws std::runtime_error
+/// if this was built without HDF5.
+std::unique_ptr<query_packer> make_query_packer(ccd::kind kind, bool with_truth);
 
 }  // namespace ccd::io

@@ -1,4 +1,4 @@
-// Steps to look at (target errbound::ccd_io): a page for any browser, and files for ParaView.
+// Views of steps (target errbound::ccd_io): a page for any browser, and files for ParaView.
 #pragma once
 
 #include <ccd/batch.hpp>
@@ -12,50 +12,49 @@
 
 namespace ccd::io {
 
-/// What is shown of a step. Not owned.
+/// The content of a view. Not owned.
 struct step_view {
     vertex_rows positions;
     std::span<const face> faces;
-    std::span<const edge> edges;  ///< those beside the faces' own, as a mesh has them
+    std::span<const edge> edges;  ///< other than those of faces, as in a mesh
     const pair_lists& pairs;
-    const time_lists& times;  ///< of the pairs, or empty: unknown
+    const time_lists& times;  ///< of the pairs, or empty if unknown
 };
 
-/// A page of HTML, whole in itself, that fetches nothing: the mesh at every time of the step, to
-/// turn, move and zoom with mouse, fingers or keys, its pairs, and a list of them, each with its
+/// Returns a page of HTML that fetches nothing. It shows the mesh at every time of the step, to
+/// turn, move and zoom with mouse, fingers or keys, its pairs, and a list of pairs, each with its
 /// time, weights and normal, and as a query in numbers that read back exactly. Needs a browser with
 /// WebGL 2.
 ///
 /// Size: 65 bytes a vertex and 16 a face, and 22 a pair, or 80 with times. Cost: a contact's data
-/// for each pair with a time. Throws
-/// std::invalid_argument if an index is out of range, or times are neither none nor as many as
-/// pairs.
+/// for each pair with a time. Throws std::invalid_argument if an index is out of range, or if there
+/// are times but not one a pair.
 std::string page_of(const step_view& step);
 
 /// One of the two frames.
 enum class frame : std::uint8_t { before, after };
 
-/// One frame as VTK's XML PolyData, binary, coordinates bit for bit: points on no edge, edges, and
-/// faces, each in the order given, and a vertex cell for each pair, in the order of `pairs` by
-/// kind, where it first touches, or where that is unknown in the middle of its vertices.
+/// Returns one frame as VTK's XML PolyData, binary, with coordinates bit for bit: points on no
+/// edge, edges and faces, each in the given order, and a vertex cell for each pair, by kind in the
+/// order of `pairs`. That vertex is the first contact point, or the middle of the pair's vertices
+/// if the contact is unknown.
 ///
-/// Of points: `displacement`, from t = 0 to 1; `normal`, of contacts, as ccd/contact_data.hpp has
-/// it, else 0. Of cells: `pairs`, in how many pairs one of its vertices, edges or itself is;
-/// `toi`, when the earliest of these is there (`low`), NaN where none is or times are unknown;
-/// `pair`, which it is, or -1; `kind`, as ccd::kind numbers it, or -1. The frame's time, 0 or 1, is
-/// the field TimeValue.
+/// Arrays of points: `displacement` from t = 0 to 1; `normal` of contacts (ccd/contact_data.hpp),
+/// else 0. Arrays of cells: `pairs`, the number of pairs of the cell, its edges and its vertices;
+/// `toi`, the lowest `low` of these pairs, or NaN; `pair`, the index of a pair's own cell, or -1;
+/// `kind`, the number of its ccd::kind, or -1. The field TimeValue is the frame's time, 0 or 1.
 ///
-/// Cost: a contact's data for each pair with a time. Throws as page_of does.
+/// Cost: a contact's data for each pair with a time. Throws as page_of.
 std::string vtp_of(const step_view& step, frame shown);
 
-/// An entry of a series: a file, its path from the series' folder, and its time.
+/// An entry of a series: a file's time, and its path from the series' folder.
 struct series_entry {
     double time = 0;
     std::string file;
 };
 
-/// A series of files as ParaView's PVD. Throws std::invalid_argument if a time is not finite or a
-/// name has a control character, which XML cannot hold.
+/// Returns a series of files as ParaView's PVD. Throws std::invalid_argument if a time is not
+/// finite or a name has a control character, which XML cannot hold.
 std::string pvd_of(std::span<const series_entry> series);
 
 }  // namespace ccd::io

@@ -1,13 +1,16 @@
-// The readers of stored queries: what they read, and what they say about bad input.
+// The readers of stored queries: the points that rows are, ranges of files, messages for bad input.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <ccd/io/query_file.hpp>
+#include <ccd/methods/transform.hpp>
 #include <filesystem>
-#include <limits>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
+#include "ccd/io/query_ranges.hpp"
 #include "tests/support/files.hpp"
 
 namespace {
@@ -20,16 +23,19 @@ using test_files::temporary_directory;
 using test_files::write;
 namespace fs = std::filesystem;
 
+/// A text or a file, and part of the message that refuses it.
+using bad_case = std::pair<std::string, std::string>;
+
+void expect_message(const std::string& found, const std::string& part, const std::string& of) {
+    EXPECT_NE(found.find(part), std::string::npos) << of << '\n' << found;
+}
+
 query_file queries(const std::string& text, bool round = false) {
     return parse_queries(text, "q.csv", kind::vertex_face, round);
 }
 
 const std::vector<vertex_face<double>>& vertex_faces(const query_file& file) {
     return std::get<std::vector<vertex_face<double>>>(file.queries);
-}
-
-std::string query_error(const std::string& text) {
-    return message_of([&] { queries(text); });
 }
 
 TEST(Queries, RowsBecomePoints) {
@@ -52,17 +58,6 @@ TEST(Queries, RowsBecomePoints) {
     EXPECT_EQ(edges[0].b1, q.f2);
 }
 
-TEST(Queries, ByteOrderMarksAndCarriageReturns) {
-    const std::string rows = repeated("1,1,1,1,1,1\n", 8);
-    EXPECT_EQ(queries("\xef\xbb\xbf" + rows).size(), 1U);
-    EXPECT_EQ(query_error("\xff\xfe" + rows),
-              "q.csv: found UTF-16 or UTF-32, expected ASCII or UTF-8");
-    EXPECT_EQ(query_error("\xef\xbb\xbf").substr(0, 27), "q.csv: found an empty file,");
-    EXPECT_EQ(queries(repeated("1,1,1,1,1,1\r", 16)).size(), 2U);
-    EXPECT_EQ(query_error(std::string("1,\0,1\n", 7)),
-              "q.csv:1: found '\\x00' as y, expected a decimal or hexadecimal float");
-}
-
 TEST(Queries, FormsAndLineEnds) {
     const query_file truth =
         queries(repeated("1,1,1,1,1,1,1\r\n", 8) + repeated("1,1,1,1,1,1,0\r\n", 8) + "\r\n\n");
@@ -73,113 +68,208 @@ TEST(Queries, FormsAndLineEnds) {
     EXPECT_EQ(vertex_faces(decimal)[0].f2.t1, (point<double>{0.1, 3, -300}));
     EXPECT_EQ(vertex_faces(decimal)[0].v.t0, (point<double>{0.1, 3, -300}));
     EXPECT_EQ(vertex_faces(queries(repeated("1,3,0,1,0,1\n", 8), true))[0].v.t0.x, 1.0 / 3);
+    EXPECT_EQ(queries("\xef\xbb\xbf" + repeated("1,1,1,1,1,1\n", 8)).size(), 1U);
+    EXPECT_EQ(queries(repeated("1,1,1,1,1,1\r", 16)).size(), 2U);
 }
 
 TEST(Queries, BadInput) {
-    const std::string good = "1,1,1,1,1,1\n", seven = repeated(good, 7);
-    EXPECT_EQ(query_error("").substr(0, 33), "q.csv: found an empty file, expec");
-    EXPECT_EQ(query_error("\n\r\n").substr(0, 26), "q.csv: found an empty file");
-    EXPECT_EQ(
-        query_error(repeated(good, 12)),
-        "q.csv:12: found a truncated query, 4 rows from line 9 on, expected 8 rows per query");
-    EXPECT_EQ(query_error(good + "1,1,1.5,1,1,1\n"),
-              "q.csv:2: found '1.5' as the numerator of y, expected an integer");
-    EXPECT_EQ(query_error("1,1,1,1,1,x\n"),
-              "q.csv:1: found 'x' as the denominator of z, expected an integer");
-    EXPECT_EQ(query_error("nan,1,1,1,1,1\n"),
-              "q.csv:1: found 'nan' as the numerator of x, expected an integer");
-    EXPECT_EQ(query_error("1,1,1,,1,1\n"),
-              "q.csv:1: found '' as the denominator of y, expected an integer");
-    EXPECT_EQ(query_error(seven + "1,1,1,0,1,1\n"),
-              "q.csv:8: found '1'/'0' as y, expected a nonzero denominator");
-    EXPECT_EQ(query_error(good + "1,3,1,1,1,1\n"),
-              "q.csv:2: found '1'/'3' as x, which no double equals, expected an exact double (or "
-              "--round)");
-    EXPECT_EQ(query_error("1,1,1,1,1" + repeated("0", 400) + ",1\n"),
-              "q.csv:1: found '1" + repeated("0", 36) +
-                  "...'/'1' as z, which overflows, expected a finite double");
-    EXPECT_EQ(
-        query_error("1,1,1,1," + repeated("1", 9999) + ",1\n"),
-        "q.csv:1: found more than 4096 digits as z, expected a number that a double can equal");
-    EXPECT_EQ(query_error("0,NaN,0\n"), "q.csv:1: found 'NaN' as y, expected a finite number");
-    EXPECT_EQ(query_error("0,0,-inf\n"), "q.csv:1: found '-inf' as z, expected a finite number");
-    EXPECT_EQ(query_error("0,0,1e999\n"),
-              "q.csv:1: found '1e999' as z, which overflows, expected a finite double");
-    EXPECT_EQ(
-        query_error("0,0,0x1p-2000\n"),
-        "q.csv:1: found '0x1p-2000' as z, which no double equals, expected an exact double (or "
-        "--round)");
-    EXPECT_EQ(query_error("0,zero,0\n"),
-              "q.csv:1: found 'zero' as y, expected a decimal or hexadecimal float");
-    EXPECT_EQ(query_error(good + "1,1,1\n"),
-              "q.csv:2: found 3 columns, expected 6 as in the first row");
-    EXPECT_EQ(query_error("1,2\n").substr(0, 46), "q.csv:1: found '1,2' (columns: 2), expected 6 ");
-    EXPECT_EQ(query_error(good + "\n" + good), "q.csv:2: found a blank line, expected a row");
-    EXPECT_EQ(query_error("1,1,1,1,1,1,2\n"), "q.csv:1: found '2' as truth, expected 0 or 1");
-    EXPECT_EQ(query_error("1,1,1,1,1,1,1\n1,1,1,1,1,1,0\n"),
-              "q.csv:2: found truth 0, expected 1 as in the first row of this query");
+    const std::string good = "1,1,1,1,1,1\n";
     std::string garbage;
     for (int i = 0; i < 4096; ++i) garbage += static_cast<char>(i * 37 + i / 256);
-    const std::string message = query_error(garbage);
-    EXPECT_TRUE(message.starts_with("q.csv:1: found '"));
-    EXPECT_LT(message.size(), 300U);
+    const std::vector<bad_case> cases{
+        {"", "q.csv: found an empty file, expected rows of 6 integers"},
+        {"\n\r\n", "q.csv: found an empty file"},
+        {"\xef\xbb\xbf", "q.csv: found an empty file"},
+        {"\xff\xfe" + good, "q.csv: found UTF-16 or UTF-32, expected ASCII or UTF-8"},
+        {repeated(good, 12),
+         "q.csv:12: found a truncated query, 4 rows from line 9 on, expected 8 rows per query"},
+        {good + "1,1,1.5,1,1,1\n",
+         "q.csv:2: found '1.5' as the numerator of y, expected an integer"},
+        {"1,1,1,1,1,x\n", "q.csv:1: found 'x' as the denominator of z, expected an integer"},
+        {"nan,1,1,1,1,1\n", "q.csv:1: found 'nan' as the numerator of x, expected an integer"},
+        {"1,1,1,,1,1\n", "q.csv:1: found '' as the denominator of y, expected an integer"},
+        {repeated(good, 7) + "1,1,1,0,1,1\n",
+         "q.csv:8: found '1'/'0' as y, expected a nonzero denominator"},
+        {good + "1,3,1,1,1,1\n",
+         "q.csv:2: found '1'/'3' as x, which no double equals, expected an exact double (or "
+         "--round)"},
+        {"1,1,1,1,1" + repeated("0", 400) + ",1\n",
+         "...'/'1' as z, which overflows, expected a finite number"},
+        {"1,1,1,1," + repeated("1", 9999) + ",1\n",
+         "...'/'1' as z, which has too many digits, expected at most 4096"},
+        {"0x" + repeated("1", 9999) + ",1,1\n", "which has too many digits, expected at most 4096"},
+        {"0,NaN,0\n", "q.csv:1: found 'NaN' as y, expected a finite number"},
+        {"0,0,-inf\n", "q.csv:1: found '-inf' as z, expected a finite number"},
+        {"0,0,1e999\n", "q.csv:1: found '1e999' as z, which overflows, expected a finite number"},
+        {"0,0,0x1p-2000\n",
+         "q.csv:1: found '0x1p-2000' as z, which no double equals, expected an exact double (or "
+         "--round)"},
+        {"0,zero,0\n", "q.csv:1: found 'zero' as y, expected a number"},
+        {std::string("1,\0,1\n", 7), "q.csv:1: found '\\x00' as y, expected a number"},
+        {good + "1,1,1\n", "q.csv:2: found 3 columns, expected 6 as in the first row"},
+        {"1,2\n", "q.csv:1: found '1,2' (columns: 2), expected 6 integers"},
+        {good + "\n" + good, "q.csv:2: found a blank line, expected a row"},
+        {"1,1,1,1,1,1,2\n", "q.csv:1: found '2' as truth, expected 0 or 1"},
+        {"1,1,1,1,1,1,1\n1,1,1,1,1,1,0\n",
+         "q.csv:2: found truth 0, expected 1 as in the first row of this query"},
+        {garbage, "q.csv:1: found '"}};
+    for (const auto& [text, part] : cases) {
+        const std::string message = message_of([&] { queries(text); });
+        expect_message(message, part, text);
+        EXPECT_LT(message.size(), 300U);
+    }
+}
+
+TEST(Queries, BadStore) {
+    const auto no_store = [] {
+        parse_stored_queries("\x89HDF\r\n\x1a\nnothing", "s.h5", std::nullopt, false);
+    };
+    expect_message(message_of(no_store), "s.h5: ", "with HDF5 or without");
 }
 
 TEST(Queries, KindFromPath) {
-    EXPECT_EQ(kind_from_path("a/vertex-face/data.csv"), kind::vertex_face);
-    EXPECT_EQ(kind_from_path("a/edge-edge/b/data.csv"), kind::edge_edge);
-    EXPECT_EQ(kind_from_path("queries/227vf.csv"), kind::vertex_face);
-    EXPECT_EQ(kind_from_path("vertex-face/227ee.csv"), kind::edge_edge);
-    EXPECT_EQ(kind_from_path("ee/data.csv"), kind::edge_edge);
-    EXPECT_EQ(kind_from_path("vf.csv"), kind::vertex_face);
-    EXPECT_EQ(kind_from_path("coffee.csv"), std::nullopt);
-    EXPECT_EQ(kind_from_path("not-edge-edges/data.csv"), std::nullopt);
+    for (const auto& [path, kind] : {std::pair("a/vertex-face/data.csv", "vf"),
+                                     {"a/edge-edge/b/data.csv", "ee"},
+                                     {"queries/227vf.csv", "vf"},
+                                     {"vertex-face/227ee.csv", "ee"},
+                                     {"ee/data.csv", "ee"},
+                                     {"vf.csv", "vf"},
+                                     {"coffee.csv", ""},
+                                     {"not-edge-edges/data.csv", ""}}) {
+        const auto found = kind_from_path(path);
+        EXPECT_EQ(found ? short_name(*found) : "", kind) << path;
+    }
 }
 
 TEST(Queries, Files) {
     const temporary_directory directory;
     const fs::path file = directory.path / "queries" / "7vf.csv";
-    write(file, repeated("1,1,1,1,1,1\n", 16));
-    EXPECT_FALSE(read_queries(file, std::nullopt, false).truth.has_value());
-    EXPECT_EQ(read_queries(file, kind::edge_edge, false).kind(), kind::edge_edge);
-
     const fs::path truth = directory.path / "mma_bool" / "7vf_mma_bool.json";
+    const auto read = [](const fs::path& path) { return read_queries(path, std::nullopt, false); };
+    write(file, repeated("1,1,1,1,1,1\n", 16));
+    EXPECT_FALSE(read(file).truth.has_value());
+    EXPECT_EQ(read_queries(file, kind::edge_edge, false).kind(), kind::edge_edge);
     write(truth, "[true, false]");
-    EXPECT_EQ(read_queries(file, std::nullopt, false).truth, (std::vector<bool>{true, false}));
-    write(truth, "[true]");
-    const auto read = [&] { read_queries(file, std::nullopt, false); };
-    EXPECT_NE(message_of(read).find("found 1 truth values, expected 2, one per query of"),
-              std::string::npos);
+    EXPECT_EQ(read(file).truth, (std::vector<bool>{true, false}));
 
-    EXPECT_NE(message_of([&] {
-                  read_queries("/no/such/vf.csv", std::nullopt, false);
-              }).find("/no/such/vf.csv: found no such file"),
-              std::string::npos);
-    EXPECT_NE(message_of([&] {
-                  read_queries(directory.path, kind::edge_edge, false);
-              }).find("found a directory, expected a file"),
-              std::string::npos);
+    write(truth, "[true]");
     write(directory.path / "plain.csv", "1,1,1\n");
-    EXPECT_NE(message_of([&] {
-                  read_queries(directory.path / "plain.csv", std::nullopt, false);
-              }).find("found no kind of query in the path"),
-              std::string::npos);
+    fs::create_directory(directory.path / "folder-vf");
+    for (const auto& [path, part] :
+         {std::pair(file, "found 1 truth values, expected 2, one per query of"),
+          {"/no/such/vf.csv", "/no/such/vf.csv: found no such file"},
+          {directory.path / "folder-vf", "found a directory, expected a file"},
+          {directory.path / "plain.csv", "found no kind of query in the path"}})
+        expect_message(message_of([&] { read(path); }), part, path.string());
 }
 
 TEST(Queries, Truth) {
     EXPECT_EQ(parse_truth("[true,false ,true]\n", "t"), (std::vector<bool>{true, false, true}));
     EXPECT_TRUE(parse_truth("[]", "t").empty());
-    const auto error = [](const std::string& text) {
-        return message_of([&] { parse_truth(text, "t.json"); });
+    const std::vector<bad_case> cases{
+        {"[true, 1]", "t.json: element 1: found number, expected true or false"},
+        {"{}", "t.json: found object, expected a JSON array of booleans"},
+        {"[true", "t.json: found no JSON at byte 6, expected a JSON array of booleans"},
+        {"", "found no JSON"},
+        {"\x7f\xff garbage", "found no JSON"},
+        {"[1e999]", "number out of range"},
+        {std::string(1000000, '['), "t.json: element 0: found array, expected true or false"}};
+    for (const auto& [text, part] : cases)
+        expect_message(message_of([&] { parse_truth(text, "t.json"); }), part, text.substr(0, 20));
+}
+
+/// The numbers and the truth of queries, put together.
+struct content {
+    std::vector<double> numbers;
+    std::vector<bool> truth;
+
+    void add(const query_file& file) {
+        for (const auto& query : vertex_faces(file))
+            for (const auto& p : points_of(query))
+                for (const auto& x : {p.t0, p.t1}) numbers.insert(numbers.end(), {x.x, x.y, x.z});
+        if (file.truth) truth.insert(truth.end(), file.truth->begin(), file.truth->end());
+    }
+    bool operator==(const content&) const = default;
+};
+
+/// Ranges, of range_reader and of read_queries, are together the whole file.
+void expect_ranges(const fs::path& file, std::size_t size) {
+    const query_file whole = read_queries(file, std::nullopt, false);
+    const query_index index = index_queries(file, size);
+    EXPECT_EQ(index.ranges.size(), (whole.size() + size - 1) / size);
+    range_reader reader(file, std::nullopt, false, index);
+    content expected, by_reader, by_file;
+    expected.add(whole);
+    for (std::size_t i = 0; i < index.ranges.size(); ++i) {
+        const query_file part = reader.read(i);
+        const query_file same = read_queries(file, std::nullopt, false, {i * size, size});
+        EXPECT_EQ(part.size(), std::min(size, whole.size() - i * size));
+        EXPECT_EQ(part.truth.has_value(), whole.truth.has_value());
+        by_reader.add(part);
+        by_file.add(same);
+    }
+    EXPECT_EQ(by_reader, expected);
+    EXPECT_EQ(by_file, expected);
+    EXPECT_EQ(message_of([&] { read_queries(file, std::nullopt, false, {whole.size()}); }),
+              file.string() + ": found " + std::to_string(whole.size()) +
+                  " queries, expected more than the first " + std::to_string(whole.size()) +
+                  ", which are skipped");
+}
+
+std::string rows(std::size_t queries, const std::string& end, const std::string& last_column) {
+    std::string text;
+    for (std::size_t i = 0; i < 8 * queries; ++i)
+        text += std::to_string(i) + ", 0.5 ,-1" + last_column + end;
+    return text;
+}
+
+TEST(QueryRanges, AreTheFile) {
+    const temporary_directory directory;
+    const fs::path file = directory.path / "queries" / "vf.csv";
+    for (const std::string end : {"\n", "\r\n", "\r"})
+        for (const std::string column : {"", ",1"})
+            for (const std::string tail : {"", "\n", "\r\n \t\r\n\r\n"})
+                for (const std::string head : {"", "\xEF\xBB\xBF"}) {
+                    std::string text = head + rows(17, end, column);
+                    text.resize(text.size() - end.size());
+                    write(file, text + tail);
+                    for (const std::size_t size : {1, 2, 5, 17, 100}) expect_ranges(file, size);
+                }
+    write(file, rows(5, "\n", ""));
+    write(directory.path / "mma_bool" / "vf_mma_bool.json", "[true,false,false,true,true]");
+    for (const std::size_t size : {1, 2, 5}) expect_ranges(file, size);
+}
+
+TEST(QueryRanges, ErrorsNameTheFilesLines) {
+    const temporary_directory directory;
+    const fs::path file = directory.path / "q" / "vf.csv";
+    const auto message = [&](std::size_t range) {
+        return message_of(
+            [&] { range_reader(file, std::nullopt, false, index_queries(file, 2)).read(range); });
     };
-    EXPECT_EQ(error("[true, 1]"), "t.json: element 1: found number, expected true or false");
-    EXPECT_EQ(error("{}"), "t.json: found object, expected a JSON array of booleans");
-    EXPECT_EQ(error("[true"), "t.json: found no JSON at byte 6, expected a JSON array of booleans");
-    EXPECT_NE(error("").find("found no JSON"), std::string::npos);
-    EXPECT_NE(error("\x7f\xff garbage").find("found no JSON"), std::string::npos);
-    EXPECT_NE(error("[1e999]").find("number out of range"), std::string::npos);
-    EXPECT_EQ(error(std::string(1000000, '[')),
-              "t.json: element 0: found array, expected true or false");
+    const std::string good = rows(4, "\n", "");
+    const std::vector<bad_case> cases{
+        {good + "1,2,x\n", "vf.csv:33: found 'x' as z"},
+        {good + "1,2,3,0\n", "vf.csv:33: found 4 columns, expected 3"},
+        {good + "1,2,3\n1,2,3\n", "vf.csv:34: found a truncated query, 2 rows from line 33 on"}};
+    for (const auto& [text, part] : cases) {
+        write(file, text);
+        expect_message(message(2), part, text);
+    }
+    write(file, "\n \n");
+    expect_message(message(0), "found an empty file", "blank lines");
+    expect_message(message_of([&] { index_queries(directory.path, 1); }), "found no regular file",
+                   "a folder");
+    write(file, good);
+    const query_index index = index_queries(file, 2);
+    write(file, "");
+    const auto read_shrunk = [&] { range_reader(file, std::nullopt, false, index).read(1); };
+    expect_message(message_of(read_shrunk), "cannot be read from byte", "a file that shrank");
+    write(file, good);
+    write(directory.path / "mma_bool" / "vf_mma_bool.json", "[true,true,true]");
+    expect_message(message(1), "found 3 truth values, expected 4", "last range");
+    write(directory.path / "mma_bool" / "vf_mma_bool.json", "[true]");
+    expect_message(message(0), "found 1 truth values, expected at least 2", "first range");
 }
 
 }  // namespace

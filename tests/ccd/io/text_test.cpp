@@ -99,7 +99,7 @@ TEST(Numbers, Floats) {
     EXPECT_EQ(parse_double("+0.1", false).value, 0.1);
     EXPECT_TRUE(std::signbit(parse_double("-0", false).value));
     for (const char* bad :
-         {"", "-", "+-1", "--1", "1x", "0x", "0xp1", "0x1p", "0x1q", "1 2", "e5"}) {
+         {"", "-", "+-1", "--1", "1x", "0x", "0xp1", "0x1p", "0x1q", "0x1.2.3", "1 2", "e5"}) {
         EXPECT_EQ(parse_double(bad, false).status, number_status::malformed) << bad;
     }
     EXPECT_EQ(parse_double("0x1.8p3", false).value, 12);

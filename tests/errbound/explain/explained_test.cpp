@@ -2,6 +2,7 @@
 // add up to the error, in exact rationals; what is booked where, for errors that are known by hand.
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <errbound/errbound.hpp>
 #include <errbound/explain/explain.hpp>
@@ -9,6 +10,7 @@
 #include <errbound/rules/derived.hpp>
 #include <errbound/rules/relative.hpp>
 #include <errbound/rules/stochastic.hpp>
+#include <errbound/small_floats.hpp>
 #include <limits>
 #include <optional>
 #include <random>
@@ -17,10 +19,10 @@
 #include <type_traits>
 #include <vector>
 
-#include "tests/support/any_format.hpp"
 #include "tests/support/assumed_errors.hpp"
 #include "tests/support/long_double.hpp"
 #include "tests/support/scaled.hpp"
+#include "tests/support/special_values.hpp"
 
 namespace {
 
@@ -52,8 +54,9 @@ template <class T>
 constexpr bool fuses = true;
 #endif
 
-/// Random programs by a rule and by `explained` of it, step by step.
-template <class T, class Rule, std::size_t Limit>
+/// Random programs by a rule and by `explained` of it, step by step. `Elementary`: half of the
+/// functions are elementary functions, dot products and polynomials, and most inputs are near 1.
+template <class T, class Rule, std::size_t Limit, bool Elementary = false>
 class lockstep {
     using plain = tracked<T, Rule>;
     using told = tracked<T, explained<Rule, Limit>>;
@@ -84,7 +87,9 @@ class lockstep {
 
   private:
     sample input() {
-        T v = any_number<T>(random_), e = traits::abs(any_number<T>(random_));
+        T v = special_value<T>(random_), e = traits::abs(special_value<T>(random_));
+        if (Elementary && random_() % 4 != 0)
+            v = static_cast<T>(static_cast<double>(random_() >> 10) * 0x1p-52) - T(2);
         if (random_() % 2) return {plain(v), told(v), exact_of(v)};
         if (random_() % 2) e = traits::scale(traits::abs(v), -static_cast<int>(random_() % 30));
         std::optional<rational> exact = exact_of(v);
@@ -97,7 +102,7 @@ class lockstep {
     }
     static std::optional<rational> exact_of(const T& v) {
         if (!traits::is_finite(v)) return std::nullopt;
-        return exactly_of(v);
+        return exactly(v);
     }
     const sample& any() { return pool_[random_() % pool_.size()]; }
 
@@ -128,40 +133,75 @@ class lockstep {
                     exact && *b.exact != 0 ? result(*a.exact / *b.exact) : result()};
         return a;
     }
-    sample function() {
+    /// One of the functions, of three numbers.
+    template <class... Functions>
+    sample one_of(const Functions&... functions) {
         const sample a = any(), b = any(), c = any();
-        const auto of_both = [&](const auto& f) {
-            return sample{f(a.by_rule, b.by_rule, c.by_rule),
+        sample result = a;
+        std::size_t left = random_() % sizeof...(Functions);
+        const auto call = [&](const auto& f) {
+            if (left-- == 0)
+                result = {f(a.by_rule, b.by_rule, c.by_rule),
                           f(a.by_explained, b.by_explained, c.by_explained), std::nullopt};
         };
+        (call(functions), ...);
+        return result;
+    }
+    sample function() {
+        if constexpr (Elementary)
+            if (random_() % 2 == 0) return elementary_function();
         const int n = static_cast<int>(random_() % 7) - 2;
-        switch (random_() % 10) {
-            case 0:
-                return of_both([](auto x, auto, auto) { return sqrt(x); });
-            case 1:
-                return of_both([](auto x, auto, auto) { return abs(x); });
-            case 2:
-                return of_both([](auto x, auto y, auto) { return min(x, y); });
-            case 3:
-                return of_both([](auto x, auto y, auto) { return max(x, y); });
-            case 4:
-                if constexpr (fuses<T>)
-                    return of_both([](auto x, auto y, auto z) { return fma(x, y, z); });
-                return a;
-            case 5:
-                return of_both([](auto x, auto y, auto) { return midpoint(x, y); });
-            case 6:
-                if constexpr (fuses<T>)
-                    return of_both([](auto x, auto y, auto z) { return lerp(x, y, z); });
-                return a;
-            case 7:
-                return of_both([](auto x, auto y, auto) { return copysign(x, y); });
-            case 8:
-                return of_both([n](auto x, auto, auto) { return pow(x, n); });
-        }
-        if constexpr (traits::digits >= 8)
-            return of_both([](auto x, auto y, auto) { return hypot(x, y); });
-        return a;
+        return one_of([](auto x, auto, auto) { return sqrt(x); },
+                      [](auto x, auto, auto) { return abs(x); },
+                      [](auto x, auto y, auto) { return min(x, y); },
+                      [](auto x, auto y, auto) { return max(x, y); },
+                      [](auto x, auto y, auto) { return midpoint(x, y); },
+                      [](auto x, auto y, auto) { return copysign(x, y); },
+                      [n](auto x, auto, auto) { return pow(x, n); },
+                      [](auto x, auto y, auto z) {
+                          if constexpr (fuses<T>)
+                              return fma(x, y, z);
+                          else
+                              return x;
+                      },
+                      [](auto x, auto y, auto z) {
+                          if constexpr (fuses<T>)
+                              return lerp(x, y, z);
+                          else
+                              return x;
+                      },
+                      [](auto x, auto y, auto) {
+                          if constexpr (traits::digits >= 8)
+                              return hypot(x, y);
+                          else
+                              return x;
+                      });
+    }
+    sample elementary_function() {
+        return one_of(
+            [](auto x, auto, auto) { return exp(x); }, [](auto x, auto, auto) { return exp2(x); },
+            [](auto x, auto, auto) { return expm1(x); }, [](auto x, auto, auto) { return log(x); },
+            [](auto x, auto, auto) { return log2(x); }, [](auto x, auto, auto) { return log10(x); },
+            [](auto x, auto, auto) { return log1p(x); }, [](auto x, auto, auto) { return cbrt(x); },
+            [](auto x, auto y, auto) { return pow(x, y); },
+            [](auto x, auto, auto) { return pow(x, T(0.3)); },
+            [](auto x, auto, auto) { return pow(T(0.3), x); },
+            [](auto x, auto, auto) { return sin(x); }, [](auto x, auto, auto) { return cos(x); },
+            [](auto x, auto, auto) { return tan(x); }, [](auto x, auto, auto) { return asin(x); },
+            [](auto x, auto, auto) { return acos(x); }, [](auto x, auto, auto) { return atan(x); },
+            [](auto x, auto y, auto) { return atan2(x, y); },
+            [](auto x, auto, auto) { return sinh(x); }, [](auto x, auto, auto) { return cosh(x); },
+            [](auto x, auto, auto) { return tanh(x); }, [](auto x, auto, auto) { return asinh(x); },
+            [](auto x, auto, auto) { return acosh(x); },
+            [](auto x, auto, auto) { return atanh(x); },
+            [](auto x, auto y, auto) {
+                return dot(std::array{x, y, x, y}, std::array{y, y, -y, x});
+            },
+            [](auto x, auto y, auto) { return dot(std::array{x}, std::array{y}); },
+            [](auto x, auto y, auto) {
+                return horner(std::array{y, x, y, -x}, x);
+            },
+            [](auto x, auto y, auto) { return horner(std::array{y}, x); });
     }
 
     void check(const sample& s, const std::string& what) {
@@ -179,10 +219,10 @@ class lockstep {
                 rational amounts = 0;
                 for (const auto& e : entries) {
                     ASSERT_TRUE(e.is_finite()) << where;
-                    amounts += exactly_of(e.size());
+                    amounts += exactly(e.size());
                 }
-                const rational factor = 1 + 2 * exactly_of(traits::epsilon());
-                ASSERT_GE(rational(amounts * factor), exactly_of(traits::largest())) << where;
+                const rational factor = 1 + 2 * exactly(traits::epsilon());
+                ASSERT_GE(rational(amounts * factor), exactly(traits::largest())) << where;
             } else {
                 for (const auto& e : entries) ASSERT_FALSE(e.is_finite()) << where;
             }
@@ -195,24 +235,24 @@ class lockstep {
         const auto& entries = s.by_explained.bound().contributions.entries();
         for (const auto& e : entries) {
             ASSERT_TRUE(e.is_finite() && e.unknown >= 0) << where;
-            sizes += boost::multiprecision::abs(exactly_of(e.known)) + exactly_of(e.unknown);
-            amounts += exactly_of(e.size());
-            known += exactly_of(e.known);
-            unknown += exactly_of(e.unknown);
+            sizes += boost::multiprecision::abs(exactly(e.known)) + exactly(e.unknown);
+            amounts += exactly(e.size());
+            known += exactly(e.known);
+            unknown += exactly(e.unknown);
         }
         // Roundings of a sum of so many terms, and of scaling them.
         using limits = std::numeric_limits<amount>;
         const int count = static_cast<int>(entries.size()) + 2;
         const rational slack = sizes * 4 * count * exactly(limits::epsilon()) +
                                4 * count * exactly(limits::denorm_min());
-        const rational error = exactly_of(s.by_explained.error());
+        const rational error = exactly(s.by_explained.error());
         // Covered, whatever was rounded; where no overflow is near.
         if (error < exactly(limits::max()) / 2) {
             // error() is rounded upwards to T if the bound is kept in a wider type.
             const rational lost =
                 errbound::detail::bounds_are_wider<T, Rule>
-                    ? rational(error * 2 * exactly_of(errbound::number_traits<T>::epsilon()) +
-                               2 * exactly_of(errbound::number_traits<T>::underflow_unit()))
+                    ? rational(error * 2 * exactly(errbound::number_traits<T>::epsilon()) +
+                               2 * exactly(errbound::number_traits<T>::underflow_unit()))
                     : rational(0);
             ASSERT_GE(rational(amounts + lost), error) << where;
         }
@@ -220,7 +260,7 @@ class lockstep {
             ASSERT_LE(sizes, rational(error + slack)) << where;
         }
         if (!s.exact || !errbound::promises_bound<Rule>) return;
-        const rational off = *s.exact - exactly_of(s.by_explained.value());
+        const rational off = *s.exact - exactly(s.by_explained.value());
         ASSERT_LE(boost::multiprecision::abs(off), error) << where;
         // Known parts are what the value is off by; unknown ones bound the rest.
         ASSERT_LE(boost::multiprecision::abs(rational(off - known)), rational(unknown + slack))
@@ -254,6 +294,13 @@ TEST(Explained, IsTheRuleItselfInOtherNumberTypesInRandomPrograms) {
     lockstep<errbound::float16, errbound::residual, 64>(4).run(programs);
     lockstep<errbound::float8_e4m3, errbound::tight, 64>(5).run(programs);
     lockstep<support::long_double, errbound::residual, 64>(6).run(programs / 4);
+}
+
+TEST(Explained, IsTheRuleItselfInFunctionsInRandomPrograms) {
+    const int programs = support::scaled(4000);
+    lockstep<double, errbound::tight, 64, true>(7).run(programs);
+    lockstep<float, errbound::residual, 64, true>(8).run(programs);
+    lockstep<double, errbound::affine, 64, true>(9).run(programs / 4);
 }
 
 TEST(Explained, SaysWhatTheRulesErrorMeans) {

@@ -310,17 +310,13 @@ void check_built_in() {
         }
     }
 }
+template <class... T>
+void check_all_built_in() {
+    (check_built_in<T>(), ...);
+}
 TEST(Integer, BuiltInIntegers) {
-    check_built_in<signed char>();
-    check_built_in<unsigned char>();
-    check_built_in<short>();
-    check_built_in<unsigned short>();
-    check_built_in<int>();
-    check_built_in<unsigned>();
-    check_built_in<long>();
-    check_built_in<unsigned long>();
-    check_built_in<long long>();
-    check_built_in<unsigned long long>();
+    check_all_built_in<signed char, unsigned char, short, unsigned short, int, unsigned, long,
+                       unsigned long, long long, unsigned long long>();
     EXPECT_EQ(integer(true), 1);
     EXPECT_TRUE(static_cast<bool>(integer(2) << 64U));
     EXPECT_FALSE(static_cast<bool>(integer(0)));

@@ -40,13 +40,15 @@ std::string text(const sample& s) {
     return all;
 }
 
-real_roots<integer> isolate(const sample& s, double a, double b) {
-    if (!s.doubles.empty()) return isolate_roots<integer>(polynomial<double>(s.doubles), a, b);
-    return isolate_roots(polynomial<integer>(s.whole), a, b);
+template <class Integer = integer>
+real_roots<Integer> isolate(const sample& s, double a, double b) {
+    if (!s.doubles.empty()) return isolate_roots<Integer>(polynomial<double>(s.doubles), a, b);
+    return isolate_roots(polynomial<Integer>(polynomial_families::in<Integer>(s.whole)), a, b);
 }
+/// Counted in the library's own integers.
 std::size_t count(const sample& s, double a, double b) {
-    if (!s.doubles.empty()) return count_roots<integer>(polynomial<double>(s.doubles), a, b);
-    return count_roots(polynomial<integer>(s.whole), a, b);
+    if (!s.doubles.empty()) return count_roots(polynomial<double>(s.doubles), a, b);
+    return count_roots(polynomial(polynomial_families::in<errbound::integer>(s.whole)), a, b);
 }
 
 /// All that `roots` promises, against the truth; [a, b] is finite.
@@ -87,6 +89,7 @@ TEST_P(Families, CountsAndIntervalsAgreeWithSturm) {
         const auto whole = isolate(s, -infinity, infinity);
         ASSERT_EQ(whole.size(), sturm.everywhere()) << text(s);
         ASSERT_EQ(count(s, -infinity, infinity), whole.size()) << text(s);
+        ASSERT_EQ(count(s, 0, infinity), sturm.from({})) << text(s);
         decided += whole.decided_by_filter();
         // Small numbers are often roots.
         for (const double unit : {1.0, 0.25}) {
@@ -127,6 +130,8 @@ TEST_P(Families, SignsAtRootsAgreeWithTarskisQuery) {
             if (!f.empty()) g = {f};
         }
         auto roots = isolate(s, -infinity, infinity);
+        auto own = isolate<errbound::integer>(s, -infinity, infinity);
+        const polynomial own_g(polynomial_families::in<errbound::integer>(g.whole));
         for (std::size_t i = 0; i < roots.size(); ++i) {
             const auto root = roots[i];
             const auto truth =
@@ -134,6 +139,7 @@ TEST_P(Families, SignsAtRootsAgreeWithTarskisQuery) {
                     ? sign_at(g.whole, root.low)
                     : sign_of(integer(tarski(s.whole, g.whole).between(root.low, root.high)));
             ASSERT_EQ(roots.sign_at(polynomial<integer>(g.whole), i), truth) << text(s);
+            ASSERT_EQ(own.sign_at(own_g, i), truth) << text(s);
             if (!g.doubles.empty()) {
                 ASSERT_EQ(roots.sign_at(polynomial<double>(g.doubles), i), truth) << text(s);
             }

@@ -40,13 +40,10 @@ class tarski {
         return variations_at(low) - variations_at(high);
     }
     /// On the whole line.
-    int everywhere() const {
-        const auto at_end = [&](bool right) {
-            return variations([&](const form& f) {
-                return right || f.size() % 2 == 1 ? f.back() : integer(-f.back());
-            });
-        };
-        return at_end(false) - at_end(true);
+    int everywhere() const { return variations_at_end(false) - variations_at_end(true); }
+    /// In [low, infinity).
+    int from(const point& low) const {
+        return variations_at(low) - variations_at_end(true) + is_root(low);
     }
     bool is_root(const point& x) const { return value(chain_[0], x) == 0; }
     int in_closed(const point& low, const point& high) const {
@@ -77,6 +74,11 @@ class tarski {
     }
     int variations_at(const point& x) const {
         return variations([&](const form& f) { return value(f, x); });
+    }
+    int variations_at_end(bool right) const {
+        return variations([&](const form& f) {
+            return right || f.size() % 2 == 1 ? f.back() : integer(-f.back());
+        });
     }
     static form negative_remainder(form a, const form& b) {
         const integer lead = abs(b.back());

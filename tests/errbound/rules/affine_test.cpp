@@ -103,20 +103,8 @@ class shared_programs {
             for (const auto& x : exact_)
                 if (x[j] == 0) return;
         const auto apply = [&](const auto& x, const auto& y, const auto& scaled) {
-            switch (operation) {
-                case 0:
-                case 1:
-                    return x + y;
-                case 2:
-                case 3:
-                    return x - y;
-                case 4:
-                    return x / y;
-                case 5:
-                    return scaled;
-                default:
-                    return x * y;
-            }
+            if (operation == 4) return x / y;
+            return operation < 2 ? x + y : operation < 4 ? x - y : operation == 5 ? scaled : x * y;
         };
         numbers_.push_back(apply(numbers_[i], numbers_[j], scale(numbers_[i], e)));
         for (auto& x : exact_)

@@ -10,8 +10,8 @@
 #include <limits>
 #include <random>
 
-#include "tests/support/any_format.hpp"
 #include "tests/support/scaled.hpp"
+#include "tests/support/special_values.hpp"
 
 namespace {
 
@@ -26,7 +26,7 @@ double between_half_and_2(std::mt19937_64& random) {
 
 /// |value − exact| <= error <= (1 + slack)·count·u·|value|.
 void expect_count(const number& x, const rational& exact, double count) {
-    EXPECT_LE(boost::multiprecision::abs(exactly_of(x.value()) - exact), exactly_of(x.error()));
+    EXPECT_LE(boost::multiprecision::abs(exactly(x.value()) - exact), exactly(x.error()));
     EXPECT_LE(x.error(), 1.00001 * count * 0x1p-53 * std::abs(x.value()));
     EXPECT_EQ(sign_of(x), errbound::sign_of(exact));
 }
@@ -35,13 +35,13 @@ TEST(Relative, AProductOfManyFactorsIsOffByAsManyRoundings) {
     std::mt19937_64 random(1);
     const int count = std::min(support::scaled(10000), 10000);
     number product = between_half_and_2(random);
-    rational exact = exactly_of(product.value());
+    rational exact = exactly(product.value());
     for (int i = 1; i < count; ++i) {
         // Neither over- nor underflow.
         double x = between_half_and_2(random);
         if ((product.value() > 1) == (x > 1)) x = 1 / x;
         product *= number(x);
-        exact *= exactly_of(x);
+        exact *= exactly(x);
     }
     EXPECT_LE(product.bound().factors, count - 1);
     EXPECT_GE(product.bound().factors, 0.9 * (count - 1));
@@ -52,11 +52,11 @@ TEST(Relative, ASumOfOneSignIsOffByItsDepth) {
     std::mt19937_64 random(2);
     const int count = support::scaled(10000);
     number sum = -between_half_and_2(random);
-    rational exact = exactly_of(sum.value());
+    rational exact = exactly(sum.value());
     for (int i = 1; i < count; ++i) {
         const double x = between_half_and_2(random);
         sum -= number(x) * number(0.1);
-        exact -= exactly_of(x) * exactly_of(0.1);
+        exact -= exactly(x) * exactly(0.1);
     }
     expect_count(sum, exact, count);
     EXPECT_EQ(sign_of(sum), sign_type::negative);

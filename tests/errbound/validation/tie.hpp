@@ -15,6 +15,7 @@
 #include <errbound/rules/affine.hpp>
 #include <errbound/rules/relative.hpp>
 #include <errbound/tracked.hpp>
+#include <errbound/validation/rule_list.hpp>
 #include <errbound/validation/tiny_float.hpp>
 #include <functional>
 #include <limits>
@@ -33,6 +34,9 @@ using errbound::validation::tiny_float;
 
 /// With few terms, so that results have to be shortened.
 using affine = errbound::affine_of<3>;
+using tied_rules =
+    errbound::rule_types<errbound::tight, errbound::sharp, errbound::safe, errbound::interval,
+                         errbound::residual, errbound::relative, affine>;
 
 /// The rule's name in the table, where `affine` has one for every limit on terms.
 template <class Rule>
@@ -219,176 +223,119 @@ struct operand_state {
     rule_operand<T, Rule> as_operand() const { return {value, bound}; }
 };
 
-/// Rules whose bound is an error.
+/// `exact`: exact operands, if a selection of all states has few; else empty.
 template <class T, class Rule>
-struct states {
+struct state_lists {
     using bound_type = typename Rule::template bound<T>;
     using state = operand_state<T, Rule>;
-    std::vector<state> all;
-
-    explicit states(const format<T>& f) {
-        for (const T& v : f.values)
-            for (const T& e : f.bounds) all.push_back({v, {e}});
-    }
-    static void put(hash& h, const bound_type& b) { format<T>::put(h, b.error); }
-    void own(const format<T>&, std::vector<operation>&) const {}
+    std::vector<state> all, exact;
 };
 
-/// Products and quotients of exact operands, of which a selection of all states has few.
-template <class States, class T, class Rule>
-void add_exact_operations(const std::vector<operand_state<T, Rule>>& exact,
-                          std::vector<operation>& all_operations) {
-    using state = operand_state<T, Rule>;
-    all_operations.push_back(
-        of_two("multiply_exact", exact, exact, [](hash& h, const state& a, const state& b) {
-            States::put(h, Rule::template multiply<T>(T(a.value * b.value), a.as_operand(),
-                                                      b.as_operand()));
-        }));
-    all_operations.push_back(
-        of_two("divide_exact", exact, exact, [](hash& h, const state& a, const state& b) {
-            States::put(
-                h, Rule::template divide<T>(T(a.value / b.value), a.as_operand(), b.as_operand()));
-        }));
-}
-
+/// Rules whose bound is an error.
 template <class T, class Rule>
-requires std::same_as<typename Rule::template bound<T>, errbound::safe::bound<T>>
-struct states<T, Rule> {
-    using bound_type = typename Rule::template bound<T>;
-    using state = operand_state<T, Rule>;
-    std::vector<state> all;
+struct states : state_lists<T, Rule> {
+    explicit states(const format<T>& f) {
+        for (const T& v : f.values)
+            for (const T& e : f.bounds) this->all.push_back({v, {e}});
+    }
+    static void put(hash& h, const typename Rule::template bound<T>& b) {
+        format<T>::put(h, b.error);
+    }
+};
 
+template <class T>
+struct states<T, errbound::safe> : state_lists<T, errbound::safe> {
     explicit states(const format<T>& f) {
         using traits = number_traits<T>;
         const T infinity = traits::infinity();
         for (const T& v : {T(0), T(1), T(-traits::largest()), infinity, T(infinity - infinity)})
             for (const T& b : f.bounds)
-                for (const int k : {0, 1, 2, 5, (1 << 29) - 1, 1 << 29}) all.push_back({v, {b, k}});
+                for (const int k : {0, 1, 2, 5, (1 << 29) - 1, 1 << 29})
+                    this->all.push_back({v, {b, k}});
     }
-    static void put(hash& h, const bound_type& b) {
+    static void put(hash& h, const errbound::safe::bound<T>& b) {
         format<T>::put(h, b.magnitude);
         h.put(static_cast<std::uint32_t>(b.operations));
     }
-    void own(const format<T>&, std::vector<operation>& all_operations) const {
-        all_operations.push_back(of_one("error", all, [](hash& h, const state& s) {
-            format<T>::put(h, Rule::template error<T>(s.value, s.bound));
-        }));
-    }
-};
-
-template <class T, class Rule>
-requires std::same_as<typename Rule::template bound<T>, errbound::interval::bound<T>>
-struct states<T, Rule> {
-    using bound_type = typename Rule::template bound<T>;
-    using state = operand_state<T, Rule>;
-    std::vector<state> all, exact;
-
-    /// Unknown numbers; lower <= upper and a value that is one of them.
-    explicit states(const format<T>& f) {
-        for (const T& v : f.values) exact.push_back({v, {v, v}});
-        const T infinity = number_traits<T>::infinity();
-        for (const T& v : f.values) all.push_back({v, {-infinity, infinity}});
-        for (const T& lower : f.values)
-            for (const T& upper : f.values)
-                if (lower <= upper)
-                    for (const T& v : {lower, upper}) all.push_back({v, {lower, upper}});
-    }
-    static void put(hash& h, const bound_type& b) {
-        format<T>::put(h, b.lower);
-        format<T>::put(h, b.upper);
-    }
-    void own(const format<T>&, std::vector<operation>& all_operations) const {
-        all_operations.push_back(of_one("error", all, [](hash& h, const state& s) {
-            format<T>::put(h, Rule::template error<T>(s.value, s.bound));
-        }));
-        all_operations.push_back(of_one("sign", all, [](hash& h, const state& s) {
-            h.put(static_cast<std::uint32_t>(Rule::template sign<T>(s.value, s.bound)));
-        }));
-        add_exact_operations<states>(exact, all_operations);
-    }
-};
-
-template <class T, class Rule>
-requires std::same_as<typename Rule::template bound<T>, errbound::residual::bound<T>>
-struct states<T, Rule> {
-    using bound_type = typename Rule::template bound<T>;
-    using state = operand_state<T, Rule>;
-    std::vector<bound_type> bounds;
-    std::vector<state> all, exact;
-
-    explicit states(const format<T>& f) {
-        for (const T& v : f.values) exact.push_back({v, {T(0), T(0)}});
-        for (const T& c : f.values)
-            for (const T& r : f.bounds) bounds.push_back({c, r});
-        for (const T& v : f.values)
-            for (const bound_type& b : bounds) all.push_back({v, b});
-    }
-    static void put(hash& h, const bound_type& b) {
-        format<T>::put(h, b.correction);
-        format<T>::put(h, b.remainder);
-    }
-    void own(const format<T>&, std::vector<operation>& all_operations) const {
-        all_operations.push_back(of_one("error", bounds, [](hash& h, const bound_type& b) {
-            format<T>::put(h, Rule::template error<T>(T(0), b));
-        }));
-        all_operations.push_back(of_one("sign", all, [](hash& h, const state& s) {
-            h.put(static_cast<std::uint32_t>(Rule::template sign<T>(s.value, s.bound)));
-        }));
-        add_exact_operations<states>(exact, all_operations);
-    }
+    const auto& with_errors() const { return this->all; }
 };
 
 template <class T>
-struct states<T, errbound::relative> {
-    using Rule = errbound::relative;
-    using bound_type = Rule::bound<T>;
-    using state = operand_state<T, Rule>;
-    std::vector<state> all, exact;
+struct states<T, errbound::interval> : state_lists<T, errbound::interval> {
+    /// Unknown numbers; lower <= upper and a value that is one of them.
+    explicit states(const format<T>& f) {
+        for (const T& v : f.values) this->exact.push_back({v, {v, v}});
+        const T infinity = number_traits<T>::infinity();
+        for (const T& v : f.values) this->all.push_back({v, {-infinity, infinity}});
+        for (const T& lower : f.values)
+            for (const T& upper : f.values)
+                if (lower <= upper)
+                    for (const T& v : {lower, upper}) this->all.push_back({v, {lower, upper}});
+    }
+    static void put(hash& h, const errbound::interval::bound<T>& b) {
+        format<T>::put(h, b.lower);
+        format<T>::put(h, b.upper);
+    }
+    const auto& with_errors() const { return this->all; }
+};
 
+template <class T>
+struct states<T, errbound::residual> : state_lists<T, errbound::residual> {
+    explicit states(const format<T>& f) {
+        for (const T& v : f.values) this->exact.push_back({v, {T(0), T(0)}});
+        for (const T& c : f.values)
+            for (const T& r : f.bounds) bounds_.push_back({T(0), {c, r}});
+        for (const T& v : f.values)
+            for (const auto& b : bounds_) this->all.push_back({v, b.bound});
+    }
+    static void put(hash& h, const errbound::residual::bound<T>& b) {
+        format<T>::put(h, b.correction);
+        format<T>::put(h, b.remainder);
+    }
+    const auto& with_errors() const { return bounds_; }
+
+  private:
+    std::vector<operand_state<T, errbound::residual>> bounds_;
+};
+
+template <class T>
+struct states<T, errbound::relative> : state_lists<T, errbound::relative> {
     explicit states(const format<T>& f) {
         constexpr int p = number_traits<T>::digits;
         using limits = std::numeric_limits<double>;
         for (const T& v : f.values) {
-            exact.push_back({v, {0}});
+            this->exact.push_back({v, {0}});
             for (const double k : {0.0, 1.0, 2.0, 0.75, 3.5, 1 + limits::epsilon(), 100.0,
                                    std::ldexp(1, p - 1), std::ldexp(1.5, p), std::ldexp(1.75, p),
                                    std::ldexp(1, 60), limits::denorm_min(), limits::infinity()})
-                all.push_back({v, {k}});
+                this->all.push_back({v, {k}});
         }
     }
-    static void put(hash& h, const bound_type& b) { format<double>::put(h, b.factors); }
-    void own(const format<T>&, std::vector<operation>& all_operations) const {
-        all_operations.push_back(of_one("error", all, [](hash& h, const state& s) {
-            format<T>::put(h, Rule::error<T>(s.value, s.bound));
-        }));
-        all_operations.push_back(of_one("sign", all, [](hash& h, const state& s) {
-            h.put(static_cast<std::uint32_t>(Rule::sign<T>(s.value, s.bound)));
-        }));
-        add_exact_operations<states>(exact, all_operations);
+    static void put(hash& h, const errbound::relative::bound<T>& b) {
+        format<double>::put(h, b.factors);
     }
+    const auto& with_errors() const { return this->all; }
 };
 
 /// Numbers with up to Limit terms, of few sources, so that they have some in common; some of these
 /// come after all new ones.
 template <class T, std::size_t Limit>
-struct states<T, errbound::affine_of<Limit>> {
+struct states<T, errbound::affine_of<Limit>> : state_lists<T, errbound::affine_of<Limit>> {
     using Rule = errbound::affine_of<Limit>;
     using bound_type = typename Rule::template bound<T>;
-    using state = operand_state<T, Rule>;
-    std::vector<state> all, exact;
 
     explicit states(const format<T>& f) {
         for (const T& v : f.values) {
-            exact.push_back({v, Rule::template exact<T>(v)});
+            this->exact.push_back({v, Rule::template exact<T>(v)});
             if (number_traits<T>::abs(v) <= T(2)) small_.push_back(v);
         }
         sequence numbers;
         for (int i = 0; i < 600; ++i) {
             const T value = number(f, numbers);
-            all.push_back({value, bound_of(f, value, numbers)});
+            this->all.push_back({value, bound_of(f, value, numbers)});
         }
     }
-    /// New sources are told from others, but not from each other.
+    /// Distinguishes new sources from others, but not from each other.
     static void put(hash& h, const bound_type& b) {
         format<T>::put(h, b.radius);
         format<T>::put(h, b.rest);
@@ -400,12 +347,7 @@ struct states<T, errbound::affine_of<Limit>> {
             format<T>::put(h, b.terms[i].coefficient);
         }
     }
-    void own(const format<T>&, std::vector<operation>& all_operations) const {
-        all_operations.push_back(of_one("error", all, [](hash& h, const state& s) {
-            format<T>::put(h, Rule::template error<T>(s.value, s.bound));
-        }));
-        add_exact_operations<states>(exact, all_operations);
-    }
+    const auto& with_errors() const { return this->all; }
 
   private:
     static constexpr std::uint64_t late = std::uint64_t{1} << 40;
@@ -437,11 +379,33 @@ struct states<T, errbound::affine_of<Limit>> {
     std::vector<T> small_;
 };
 
+/// The errors and signs that the rule computes from its bounds.
+template <class T, class Rule>
+void add_claims(const states<T, Rule>& s, std::vector<operation>& all) {
+    using state = typename states<T, Rule>::state;
+    if constexpr (requires { s.with_errors(); })
+        all.push_back(of_one("error", s.with_errors(), [](hash& h, const state& x) {
+            format<T>::put(h, Rule::template error<T>(x.value, x.bound));
+        }));
+    if constexpr (requires(const state& x) { Rule::template sign<T>(x.value, x.bound); })
+        all.push_back(of_one("sign", s.all, [](hash& h, const state& x) {
+            h.put(static_cast<std::uint32_t>(Rule::template sign<T>(x.value, x.bound)));
+        }));
+}
+
 /// Every operation of a rule.
 template <class T, class Rule>
 std::vector<operation> operations_of(const format<T>& f, const states<T, Rule>& s) {
     using states_type = states<T, Rule>;
     using state = typename states_type::state;
+    const auto binary = [](std::string name, const std::vector<state>& of, auto result) {
+        return of_two(std::move(name), of, of, [result](hash& h, const state& a, const state& b) {
+            states_type::put(h, result(a.value, a.as_operand(), b.value, b.as_operand()));
+        });
+    };
+    const auto multiply = [](const T& x, const auto& a, const T& y, const auto& b) {
+        return Rule::template multiply<T>(T(x * y), a, b);
+    };
     std::vector<operation> all{
         of_one("exact", f.values,
                [](hash& h, const T& v) { states_type::put(h, Rule::template exact<T>(v)); }),
@@ -449,36 +413,35 @@ std::vector<operation> operations_of(const format<T>& f, const states<T, Rule>& 
                [](hash& h, const T& v, const T& e) {
                    states_type::put(h, Rule::template within<T>(v, e));
                }),
-        of_two("add", s.all, s.all,
-               [](hash& h, const state& a, const state& b) {
-                   states_type::put(h, Rule::template add<T>(T(a.value + b.value), a.as_operand(),
-                                                             b.as_operand()));
+        binary("add", s.all,
+               [](const T& x, const auto& a, const T& y, const auto& b) {
+                   return Rule::template add<T>(T(x + y), a, b);
                }),
-        of_two("subtract", s.all, s.all,
-               [](hash& h, const state& a, const state& b) {
-                   states_type::put(h, Rule::template subtract<T>(T(a.value - b.value),
-                                                                  a.as_operand(), b.as_operand()));
+        binary("subtract", s.all,
+               [](const T& x, const auto& a, const T& y, const auto& b) {
+                   return Rule::template subtract<T>(T(x - y), a, b);
                }),
-        of_two("multiply", s.all, s.all,
-               [](hash& h, const state& a, const state& b) {
-                   states_type::put(h, Rule::template multiply<T>(T(a.value * b.value),
-                                                                  a.as_operand(), b.as_operand()));
-               }),
+        binary("multiply", s.all, multiply),
         of_two("scale", s.all, exponents, [](hash& h, const state& a, int e) {
             states_type::put(
                 h, Rule::template scale<T>(number_traits<T>::scale(a.value, e), a.as_operand(), e));
         })};
-    if constexpr (!std::same_as<typename Rule::template bound<T>, errbound::safe::bound<T>>)
-        all.push_back(of_two("divide", s.all, s.all, [](hash& h, const state& a, const state& b) {
-            states_type::put(
-                h, Rule::template divide<T>(T(a.value / b.value), a.as_operand(), b.as_operand()));
-        }));
-    s.own(f, all);
+    if constexpr (errbound::has_division<Rule>) {
+        const auto divide = [](const T& x, const auto& a, const T& y, const auto& b) {
+            return Rule::template divide<T>(T(x / y), a, b);
+        };
+        all.push_back(binary("divide", s.all, divide));
+        if (!s.exact.empty()) {
+            all.push_back(binary("multiply_exact", s.exact, multiply));
+            all.push_back(binary("divide_exact", s.exact, divide));
+        }
+    }
+    add_claims(s, all);
     for (operation& o : all) o.name = table_name<Rule>() + "." + o.name;
     return all;
 }
 
-/// What is no rule's own.
+/// The operations that belong to no rule.
 template <class T>
 std::vector<operation> other_operations(const format<T>& f) {
     using F = format<T>;
@@ -511,7 +474,7 @@ std::vector<operation> other_operations(const format<T>& f) {
             })};
 }
 
-/// The operations whose results are not those of the table.
+/// The operations whose results differ from the table's.
 template <class T>
 std::vector<std::string> differences(const table& expected, const std::vector<operation>& all,
                                      selection selected) {
@@ -535,27 +498,12 @@ std::vector<std::string> differences(const table& expected, const std::vector<op
     return found;
 }
 
+/// The operations of the rule whose results differ from the table's.
 template <class T, class Rule>
 std::vector<std::string> differences(const table& expected) {
     const format<T> f;
     const states<T, Rule> s(f);
     return differences<T>(expected, operations_of<T, Rule>(f, s), format<T>::of_rules);
-}
-
-template <class T>
-void expect_the_proofs_results() {
-    const table expected = read_table();
-    ASSERT_FALSE(expected.empty()) << ERRBOUND_TIE_TABLE;
-    const std::vector<std::string> none;
-    const format<T> f;
-    EXPECT_EQ(differences<T>(expected, other_operations<T>(f), format<T>::of_rules), none);
-    EXPECT_EQ((differences<T, errbound::tight>(expected)), none);
-    EXPECT_EQ((differences<T, errbound::sharp>(expected)), none);
-    EXPECT_EQ((differences<T, errbound::safe>(expected)), none);
-    EXPECT_EQ((differences<T, errbound::interval>(expected)), none);
-    EXPECT_EQ((differences<T, errbound::residual>(expected)), none);
-    EXPECT_EQ((differences<T, errbound::relative>(expected)), none);
-    EXPECT_EQ((differences<T, affine>(expected)), none);
 }
 
 }  // namespace tie

@@ -16,59 +16,7 @@ namespace tie {
 
 using errbound::tracked;
 
-/// The library's functions; mutants hide one each.
-struct library_functions {
-    template <class Number>
-    static Number root(const Number& x) {
-        return sqrt(x);
-    }
-    template <class Number>
-    static Number size(const Number& x) {
-        return abs(x);
-    }
-    template <class Number>
-    static Number lesser(const Number& a, const Number& b) {
-        return min(a, b);
-    }
-    template <class Number>
-    static Number greater(const Number& a, const Number& b) {
-        return max(a, b);
-    }
-    template <class Number>
-    static Number fused(const Number& a, const Number& b, const Number& c) {
-        return fma(a, b, c);
-    }
-    template <class Number>
-    static Number middle(const Number& a, const Number& b) {
-        return midpoint(a, b);
-    }
-    template <class Number>
-    static Number between(const Number& a, const Number& b, const Number& t) {
-        return lerp(a, b, t);
-    }
-    template <class Number>
-    static Number length(const Number& x, const Number& y) {
-        return hypot(x, y);
-    }
-    template <class Number>
-    static Number with_sign(const Number& x, const Number& y) {
-        return copysign(x, y);
-    }
-    template <class Number>
-    static Number power(const Number& x, int n) {
-        return pow(x, n);
-    }
-    template <class Number>
-    static Number product(const std::vector<Number>& a, const std::vector<Number>& b) {
-        return dot(a, b);
-    }
-    template <class Number>
-    static Number polynomial(const std::vector<Number>& c, const Number& x) {
-        return horner(c, x);
-    }
-};
-
-/// The number of this value and bound, which a tracked number is made of, but takes from nobody.
+/// The tracked number with this value and bound, which no constructor takes.
 template <class T, class Rule>
 tracked<T, Rule> restored(const operand_state<T, Rule>& state) {
     return std::bit_cast<tracked<T, Rule>>(state);
@@ -141,8 +89,8 @@ class number_draws {
     std::vector<number> any_, small_, exact_;
 };
 
-/// The operations on states of a rule, of which `some` are for those on three, and `exact` exact.
-template <class T, class Rule, class Functions>
+/// The functions of a rule's states. `some_`: those for functions of three numbers.
+template <class T, class Rule>
 class functions_of {
     using number = tracked<T, Rule>;
     using state = operand_state<T, Rule>;
@@ -156,7 +104,7 @@ class functions_of {
     }
     std::vector<operation> operations() const {
         std::vector<operation> made = of_one_number();
-        for (auto& more : {of_two_numbers(), of_three_numbers(), of_lists()})
+        for (auto& more : {of_more_numbers(), of_lists()})
             made.insert(made.end(), more.begin(), more.end());
         for (operation& o : made) o.name = table_name<Rule>() + "." + o.name;
         return made;
@@ -166,11 +114,6 @@ class functions_of {
     static void put(hash& h, const number& x) {
         format<T>::put(h, x.value());
         states<T, Rule>::put(h, x.bound());
-    }
-    template <class Function>
-    static operation one(std::string name, const std::vector<state>& of, Function function) {
-        return of_one(std::move(name), of,
-                      [function](hash& h, const state& x) { put(h, function(restored(x))); });
     }
     template <class Function>
     static operation two(std::string name, const std::vector<state>& of, Function function) {
@@ -189,57 +132,49 @@ class functions_of {
     }
 
     std::vector<operation> of_one_number() const {
-        return {one("sqrt", all_, [](const number& x) { return Functions::root(x); }),
+        return {of_one("sqrt", all_, [](hash& h, const state& x) { put(h, sqrt(restored(x))); }),
                 of_one("sqrt_exact", values_,
                        [](hash& h, const T& v) {
-                           put(h, Functions::root(number(v)));
-                           put(h, Functions::root(number(T(v * v))));
+                           put(h, sqrt(number(v)));
+                           put(h, sqrt(number(T(v * v))));
                        }),
-                one("abs", all_, [](const number& x) { return Functions::size(x); }),
-                of_two("pow", some_, powers, [](hash& h, const state& x, int n) {
-                    put(h, Functions::power(restored(x), n));
-                })};
+                of_one("abs", all_, [](hash& h, const state& x) { put(h, abs(restored(x))); }),
+                of_two("pow", some_, powers,
+                       [](hash& h, const state& x, int n) { put(h, pow(restored(x), n)); })};
     }
-    std::vector<operation> of_two_numbers() const {
-        const auto length = [](const auto& x, const auto& y) { return Functions::length(x, y); };
-        const auto midpoint = [](const number& x, const number& y) {
-            return Functions::middle(x, y);
+    std::vector<operation> of_more_numbers() const {
+        const auto least = [](const auto& x, const auto& y) { return min(x, y); };
+        const auto most = [](const auto& x, const auto& y) { return max(x, y); };
+        const auto middle = [](const auto& x, const auto& y) { return midpoint(x, y); };
+        const auto with_sign = [](const auto& x, const auto& y) { return copysign(x, y); };
+        const auto fused = [](const auto& x, const auto& y, const auto& z) { return fma(x, y, z); };
+        const auto between = [](const auto& x, const auto& y, const auto& t) {
+            return lerp(x, y, t);
         };
-        const auto copysign = [](const number& x, const number& y) {
-            return Functions::with_sign(x, y);
-        };
-        std::vector<operation> made{
-            two("min", all_,
-                [](const number& x, const number& y) { return Functions::lesser(x, y); }),
-            two("max", all_,
-                [](const number& x, const number& y) { return Functions::greater(x, y); }),
-            two("midpoint", all_, midpoint), two("copysign", all_, copysign)};
+        std::vector<operation> made{two("min", all_, least),
+                                    two("max", all_, most),
+                                    two("midpoint", all_, middle),
+                                    two("copysign", all_, with_sign),
+                                    three("fma", some_, some_, fused),
+                                    three("fma_exact", exact_, exact_, fused),
+                                    three("lerp", some_, some_, between),
+                                    three("lerp_at_exact", some_, exact_, between)};
         if constexpr (number_traits<T>::digits >= 8) {
+            const auto length = [](const auto& x, const auto& y) { return hypot(x, y); };
             made.push_back(two("hypot", all_, length));
             made.push_back(two("hypot_of_zeros", zeros_, length));
         }
         return made;
     }
-    std::vector<operation> of_three_numbers() const {
-        const auto fused = [](const number& x, const number& y, const number& z) {
-            return Functions::fused(x, y, z);
-        };
-        const auto between = [](const number& x, const number& y, const number& t) {
-            return Functions::between(x, y, t);
-        };
-        return {three("fma", some_, some_, fused), three("fma_exact", exact_, exact_, fused),
-                three("lerp", some_, some_, between),
-                three("lerp_at_exact", some_, exact_, between)};
-    }
     std::vector<operation> of_lists() const {
         return {{"dot", format<T>::lists,
                  [this](hash& h, std::uint64_t i) {
                      const auto [a, b] = numbers_.pairs(i);
-                     put(h, Functions::product(a, b));
+                     put(h, dot(a, b));
                  }},
                 {"horner", format<T>::lists, [this](hash& h, std::uint64_t i) {
                      const auto [c, x] = numbers_.polynomial(i);
-                     put(h, Functions::polynomial(c, x));
+                     put(h, horner(c, x));
                  }}};
     }
 
@@ -249,26 +184,26 @@ class functions_of {
     number_draws<T, Rule> numbers_;
 };
 
-template <class T, class Rule, class Functions = library_functions>
+template <class T, class Rule>
 std::vector<std::string> differences_of_functions(const table& expected) {
     const format<T> f;
     const states<T, Rule> s(f);
-    const functions_of<T, Rule, Functions> functions(f, s);
+    const functions_of<T, Rule> functions(f, s);
     return differences<T>(expected, functions.operations(), format<T>::of_functions);
 }
 
+/// The rules in T, and functions by them, have the results of the proofs' table.
 template <class T>
-void expect_the_proofs_functions() {
+void expect_the_proofs_results() {
     const table expected = read_table();
     ASSERT_FALSE(expected.empty()) << ERRBOUND_TIE_TABLE;
     const std::vector<std::string> none;
-    EXPECT_EQ((differences_of_functions<T, errbound::tight>(expected)), none);
-    EXPECT_EQ((differences_of_functions<T, errbound::sharp>(expected)), none);
-    EXPECT_EQ((differences_of_functions<T, errbound::safe>(expected)), none);
-    EXPECT_EQ((differences_of_functions<T, errbound::interval>(expected)), none);
-    EXPECT_EQ((differences_of_functions<T, errbound::residual>(expected)), none);
-    EXPECT_EQ((differences_of_functions<T, errbound::relative>(expected)), none);
-    EXPECT_EQ((differences_of_functions<T, affine>(expected)), none);
+    const format<T> f;
+    EXPECT_EQ(differences<T>(expected, other_operations<T>(f), format<T>::of_rules), none);
+    errbound::for_each_rule(tied_rules(), [&]<class Rule>() {
+        EXPECT_EQ((differences<T, Rule>(expected)), none);
+        EXPECT_EQ((differences_of_functions<T, Rule>(expected)), none);
+    });
 }
 
 }  // namespace tie

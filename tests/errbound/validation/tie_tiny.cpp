@@ -3,7 +3,6 @@
 
 #include <errbound/validation/tiny_float.hpp>
 
-#include "tests/errbound/validation/tie.hpp"
 #include "tests/errbound/validation/tie_functions.hpp"
 
 namespace {
@@ -14,7 +13,6 @@ template <class Tiny>
 void expect_the_proofs_results_of_tiny() {
     const errbound::validation::tiny_rounding<Tiny> nearest(MPFR_RNDN);
     tie::expect_the_proofs_results<Tiny>();
-    tie::expect_the_proofs_functions<Tiny>();
 }
 
 TEST(Tie, EveryCaseOfSixBits) {

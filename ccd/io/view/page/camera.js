@@ -1,8 +1,8 @@
-// The camera: it turns about a target, one axis always up. Lengths are the picture's: the mesh is
-// within -1 and 1 along each axis.
+// The camera, which turns about a target with one axis up. In its units the mesh is within -1 and 1
+// along each axis.
 "use strict";
 
-const LENS = Math.tan(Math.PI / 12);  // half the height of what is seen at distance 1
+const LENS = Math.tan(Math.PI / 12);  // half the visible height at distance 1
 const NEAREST = 1e-6, FARTHEST = 100;
 
 class Camera {
@@ -34,19 +34,19 @@ class Camera {
     return [right, above, back];
   }
 
-  /// By a part of the picture's height to the right and down.
+  /// Turns by x to the right and y down, in heights of the picture.
   turn(x, y) {
     this.yaw -= 3 * x;
     this.pitch = Math.min(Math.max(this.pitch + 3 * y, -Math.PI / 2), Math.PI / 2);
   }
 
-  /// So that what is at the target goes by a part of the picture's height to the right and down.
+  /// Moves the picture by x to the right and y down, in its heights, at the target's depth.
   move(x, y) {
     const [right, above] = this.axes(), length = 2 * LENS * this.distance;
     this.target = this.target.map((c, i) => c + length * (y * above[i] - x * right[i]));
   }
 
-  /// What is there, to the right and below the middle in heights of the picture, stays there.
+  /// Zooms about the point x to the right of and y below the middle, in heights of the picture.
   zoom(factor, x, y) {
     const before = this.distance;
     this.distance = Math.min(Math.max(before * factor, NEAREST), FARTHEST);
@@ -59,7 +59,7 @@ class Camera {
     this.distance = Math.min(Math.max(radius / LENS, NEAREST), FARTHEST);
   }
 
-  /// Where a point of the picture is: in heights of it, right of and below the middle; and how deep.
+  /// Returns a point's position, right of and below the middle in heights of the picture, and depth.
   project(point) {
     const [right, above, back] = this.axes();
     const from = point.map((c, i) => c - this.target[i]);

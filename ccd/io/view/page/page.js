@@ -1,10 +1,10 @@
-// The page: what its arrays say, the list of pairs, and what the mouse, fingers and keys do.
+// The page: its arrays, the list of pairs, and the actions of mouse, fingers and keys.
 const NAMES = ["vertex_face", "edge_edge", "vertex_edge", "vertex_vertex"];
 const SHORT = ["vf", "ee", "ve", "vv"], WORDS = ["vertex", "edge", "face"];
 const FIRST = [1, 2, 1, 1], POINTS = [4, 4, 3, 2];  // vertices of the first element, of both
 const BOXES = ["faces", "wires", "pairs", "through", "cut"];
-const ROW = 22;                                     // pixels, as the style says
-const TALLEST = 8e6;                                // browsers hold no element much taller
+const ROW = 22;                                     // pixels, as in the style
+const TALLEST = 8e6;                                // limit of browsers for an element's height
 
 const element = id => document.getElementById(id);
 
@@ -14,8 +14,8 @@ function bytes(id) {
   return found.buffer;
 }
 
-/// The step: positions in doubles, all pairs one after the other, by kind. `times` is empty
-/// where they are unknown.
+/// The step: positions in doubles, all pairs one after the other, by kind. `times` is empty if they
+/// are unknown.
 function readStep() {
   const step = {before: new Float64Array(bytes("before")), after: new Float64Array(bytes("after")),
     faces: new Uint32Array(bytes("faces")), edges: new Uint32Array(bytes("edges")), parts: new Uint8Array(bytes("parts"))};
@@ -28,7 +28,7 @@ function readStep() {
   return step;
 }
 
-/// Kind and vertices of a pair, and its times, weights and normal where they are known.
+/// Kind and vertices of a pair, and its times, weights and normal if they are known.
 function pairOf(step, i) {
   let k = 0;
   while (i >= step.kinds[k].count) i -= step.kinds[k++].count;
@@ -63,7 +63,7 @@ function pointsOf(step) {
   return Uint32Array.from(used.keys()).filter(v => !used[v]);
 }
 
-/// The faces, of three vertices, or edges, of two, of all pairs of a kind: each once.
+/// The faces (size 3) or edges (size 2) of all pairs of a kind, each once.
 function elementsOf(step, k, size) {
   const found = new Map();
   for (let i = 0; i < step.kinds[k].count; ++i)
@@ -72,7 +72,7 @@ function elementsOf(step, k, size) {
   return Uint32Array.from([...found.values()].flat());
 }
 
-/// A mark a pair: at its vertex, or in the middle of its two edges.
+/// A mark for each pair: at its vertex, or in the middle of its two edges.
 function marksOf(step, before, after) {
   const marks = {before: new Float32Array(3 * step.count), after: new Float32Array(3 * step.count),
     kinds: new Uint8Array(step.count)};
@@ -121,7 +121,7 @@ function setTime(t) {
   redraw();
 }
 
-// The list: of its rows only those in sight exist.
+// The list. Only the visible rows exist.
 
 function inSight() { return Math.max(1, Math.floor(element("list").clientHeight / ROW)); }
 
@@ -193,7 +193,7 @@ function whenOf(pair) {
   return pair.low === pair.high ? `First at t = ${pair.low}.` : `First between t = ${pair.low} and ${pair.high}.`;
 }
 
-/// Weights are all 0 where features do not touch at that time: they come within a distance.
+/// All weights are 0 if the features only come within a distance.
 function whereOf(pair) {
   if (!pair.weights.some(w => w > 0)) return "";
   const digits = x => String(Number(x.toPrecision(4)));
@@ -206,7 +206,7 @@ function queryOf(pair) {
   return [step.before, step.after].flatMap(frame => pair.vertices.map(v => row(frame, v))).join("\n") + "\n";
 }
 
-/// When it is first there, if that is known: the time, and the middle of its vertices and their reach.
+/// The time of first contact if it is known, else the time shown; the middle of the vertices and their radius.
 function placeOfPair(pair) {
   const t = step.timed ? pair.low : time();
   const at = pair.vertices.map(v =>

@@ -1,10 +1,10 @@
-// The picture, by WebGL 2: faces, wires and pairs between the two frames, and the chosen pair. The
-// graphics card moves the vertices, so that a time costs one number.
+// The picture, in WebGL 2: faces, wires and pairs between the two frames, and the chosen pair. The
+// graphics card interpolates the vertices, so a new time costs one number.
 const BODIES = [[.88, .82, .68], [.56, .68, .84], [.70, .82, .66], [.84, .68, .72], [.74, .70, .86], [.78, .78, .78]];
 const KINDS = [[.79, .15, .10], [.04, .31, .77], [.54, .17, .69], [.10, .50, .22]];
 const CHOSEN = [1, .55, 0], WIRE = [.2, .2, .25];
 
-// Where a vertex is at a time, and projected.
+// The position of a vertex at a time, and its projection.
 const PROJECTION = `#version 300 es
 precision highp float;
 uniform float time, eye, bias;
@@ -45,7 +45,7 @@ void main() {
   pixel = vec4(light * colour, opacity);
 }`;
 
-// Lines as wide as wished: a rectangle each, cut off in front of the eye.
+// Lines of any width: a rectangle each, clipped in front of the eye.
 const LINE_VERTICES = PROJECTION + `
 in vec3 a_before, a_after, b_before, b_after;
 uniform vec2 screen;
@@ -71,7 +71,7 @@ out vec4 pixel;
 void main() { pixel = vec4(colour, opacity); }`;
 
 class Picture {
-  /// Throws an Error that says what the browser lacks.
+  /// Throws an Error if the browser lacks WebGL 2.
   constructor(canvas, scene) {
     this.gl = canvas.getContext("webgl2", {antialias: true});
     if (!this.gl) throw new Error("This browser shows no picture: it has no WebGL 2.");
@@ -84,7 +84,7 @@ class Picture {
     this.marks = this.points(scene.marks.before, scene.marks.after, scene.marks.kinds);
     for (const name of ["faces", "points", "struck"]) this[name] = this.indices(scene[name]);
     for (const name of ["rods", "crossed"]) this[name] = this.segments(scene[name]);
-    this.wires = null;  // made when they are first asked for
+    this.wires = null;  // made at the first use
   }
 
   program(vertices, pixels, attributes) {
@@ -165,7 +165,7 @@ class Picture {
     return at;
   }
 
-  /// Of the mesh or of the marks. `look`: colours (one or six), opacity, shaded, bias, size of dots.
+  /// Draws the mesh or the marks. `look`: colours (one or six), opacity, shaded, bias, size of dots.
   draw(points, mode, indices, look) {
     const gl = this.gl, at = this.use(this.mesh);
     const colours = Array.from({length: 6}, (_, i) => look.colours[i % look.colours.length]);
@@ -212,7 +212,7 @@ class Picture {
     this.draw(this.vertices, gl.POINTS, this.points, {colours: [WIRE], dots: this.dots(.3, 3, 9)});
   }
 
-  /// Sizes of dots: so many typical edges wide, at least and at most so many pixels.
+  /// Sizes of dots: a width in typical edges, bounded below and above in pixels.
   dots(edges, least, most) {
     const unit = this.canvas.height / (2 * LENS) * this.scene.edgeLength;
     return [edges * unit, least * this.scale, most * this.scale];
@@ -225,7 +225,7 @@ class Picture {
     this.draw(this.marks, gl.POINTS, null, {colours: KINDS, opacity, bias, dots: this.dots(.25, 1.5, 9)});
   }
 
-  /// The chosen pair, if any: its vertices, edges and face; and where it is.
+  /// Sets the chosen pair, if any: its vertices, edges and face, its middle and radius.
   choose(elements, middle, radius) {
     const gl = this.gl;
     if (this.chosen) {
@@ -247,7 +247,7 @@ class Picture {
     this.draw(this.vertices, gl.POINTS, this.chosen.dots, {colours: [CHOSEN], dots: this.dots(0, 8, 8)});
   }
 
-  /// All of it: `show` says what.
+  /// Draws the picture. `show` has a switch for each part.
   show(camera, time, show) {
     const gl = this.gl;
     this.scale = window.devicePixelRatio || 1;

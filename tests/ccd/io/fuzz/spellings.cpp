@@ -12,7 +12,7 @@
 namespace ccd::fuzz {
 namespace {
 
-/// What the bytes choose, one after the other; zeros after the last.
+/// Choices by bytes, one after the other; zeros after the last.
 class choices {
   public:
     explicit choices(std::span<const std::uint8_t> bytes) : bytes_(bytes) {}
@@ -26,7 +26,7 @@ class choices {
     const char* one_of(std::initializer_list<const char*> texts) {
         return texts.begin()[below(static_cast<unsigned>(texts.size()))];
     }
-    /// Of float's values where `narrow`.
+    /// A finite number; a float's value if `narrow`.
     double coordinate(bool narrow) {
         std::uint64_t bits = 0;
         for (int i = 0; i < 8; ++i) bits = bits << 8 | below(256);
@@ -52,7 +52,7 @@ mesh some_mesh(choices& choose, bool narrow) {
     return m;
 }
 
-/// A number that is read as this double, or as this float where `narrow`.
+/// A spelling of x, as a float if `narrow`.
 std::string spelled(choices& choose, double x, bool narrow) {
     std::array<char, 400> digits;
     const auto written = [&](auto... how) {
@@ -80,7 +80,7 @@ std::string spelled(choices& choose, double x, bool narrow) {
     }
 }
 
-/// OBJ's lines, each spelled anew.
+/// The lines of an OBJ file, each with its own spelling.
 class obj_writer {
   public:
     obj_writer(choices& choose, const ccd::mesh& m)
@@ -136,7 +136,7 @@ class obj_writer {
     std::string end_, text_;
 };
 
-/// A PLY file of any format, types, order of elements, and properties and elements beside.
+/// A PLY file of any format, types and order of elements, with other properties and elements.
 class ply_writer {
   public:
     ply_writer(choices& choose, const ccd::mesh& m, bool narrow)
@@ -180,13 +180,13 @@ class ply_writer {
     }
 
     void add_vertices() {
-        const bool beside = choose_.below(2) == 1;
+        const bool has_lists = choose_.below(2) == 1;
         const std::string type =
             narrow_ ? choose_.one_of({"float", "float32"}) : choose_.one_of({"double", "float64"});
         header_ += "element vertex " + std::to_string(mesh_.vertices.size()) + "\n";
         for (const char* axis : {"x", "y", "z"})
             header_ += "property " + type + " " + axis + "\n" +
-                       (beside ? std::string("property list uint8 short n") + axis + "\n" : "");
+                       (has_lists ? std::string("property list uint8 short n") + axis + "\n" : "");
         for (const auto& p : mesh_.vertices) {
             for (const double x : {p.x, p.y, p.z}) {
                 const std::string spelling = spelled(choose_, x, narrow_);
@@ -194,7 +194,7 @@ class ply_writer {
                     add(static_cast<float>(x), spelling);
                 else
                     add(x, spelling);
-                if (beside) add(std::uint8_t{1}), add(std::int16_t{-7});
+                if (has_lists) add(std::uint8_t{1}), add(std::int16_t{-7});
             }
             end_element();
         }

@@ -13,7 +13,7 @@ struct spelling {
     std::string text;
 };
 
-/// A mesh and a spelling of it, as the bytes choose, one after the other; zeros after the last.
+/// A mesh and a spelling of it, both chosen by the bytes; any bytes will do.
 spelling spelled_obj(std::span<const std::uint8_t> bytes);
 spelling spelled_ply(std::span<const std::uint8_t> bytes);
 

@@ -1,13 +1,10 @@
-// Our PLY reader beside CGAL's.
+// Our PLY reader compared with CGAL's.
 #undef NDEBUG  // CGAL's assertions keep it from reading properties of other types than it expects
-#include "tests/ccd/io/peers/ply_peer.hpp"
-
 #include <CGAL/IO/PLY.h>
 #include <CGAL/Simple_cartesian.h>
 #include <CGAL/assertions_behaviour.h>
 
 #include <array>
-#include <charconv>
 #include <cstdint>
 #include <cstdlib>
 #include <iterator>
@@ -16,8 +13,8 @@
 #include <vector>
 
 #include "ccd/io/text.hpp"
-#include "tests/ccd/io/fuzz/same_mesh.hpp"
-#include "tests/ccd/io/peers/words.hpp"
+#include "tests/ccd/io/meshes.hpp"
+#include "tests/ccd/io/peers/peer.hpp"
 
 namespace ccd::peers {
 namespace {
@@ -69,6 +66,10 @@ struct element {
     }
 };
 
+bool is_coordinate(const property& p) {
+    return p.name == "x" || p.name == "y" || p.name == "z";
+}
+
 bool is_index_list(const property& p) {
     return p.count != nullptr && (p.name == "vertex_indices" || p.name == "vertex_index");
 }
@@ -77,7 +78,7 @@ bool is_index(const property& p) {
     return is_index_list(p) || p.name == "vertex1" || p.name == "vertex2";
 }
 
-/// A text taken apart as far as it goes.
+/// The header of a text, as far as it can be read, and its body.
 struct outline {
     std::vector<words> lines;  ///< the header's
     std::vector<element> elements;
@@ -129,8 +130,22 @@ bool is_of_type(const std::string& word, const type& t) {
            word.find_first_of("xXnN") == std::string::npos;
 }
 
-/// Shows each value of an ascii body: what it belongs to, its type and spelling. Whether each line
-/// that is not blank holds one element; it ends at a list of no known length.
+/// A word of an ascii body, and the number that the header promises there.
+struct value {
+    const element& of;
+    const property& in;
+    const type& declared;
+    const std::string& word;
+
+    bool is_used() const {
+        return (of.name == "vertex" && is_coordinate(in)) ||
+               (of.name == "face" && is_index_list(in)) || (of.name == "edge" && is_index(in));
+    }
+    bool fits() const { return is_of_type(word, declared); }
+};
+
+/// Calls show(value) for each value of an ascii body, up to a list of unknown length. True if each
+/// line that is not blank holds one element.
 template <class Show>
 bool show_values(const outline& o, const Show& show) {
     std::string_view body = o.body;
@@ -148,13 +163,13 @@ bool show_values(const outline& o, const Show& show) {
                 std::uint64_t count = 1;
                 if (p.count != nullptr) {
                     if (word == line.end()) return false;
-                    show(e, p, *p.count, *word);
+                    show(value{e, p, *p.count, *word});
                     if (!is_of_type(*word, *p.count)) return true;
                     count = std::strtoull(word++->c_str(), nullptr, 0);
                 }
                 for (; count > 0; --count) {
                     if (word == line.end()) return false;
-                    show(e, p, *p.value, *word++);
+                    show(value{e, p, *p.value, *word++});
                 }
             }
             if (word != line.end()) return false;
@@ -163,29 +178,25 @@ bool show_values(const outline& o, const Show& show) {
     return true;
 }
 
-template <class Predicate>
-bool any_value(std::string_view text, const Predicate& predicate) {
-    const outline o(text);
-    bool found = false;
-    if (o.is_ascii)
-        show_values(o, [&](const element& e, const property& p, const type& t,
-                           const std::string& word) { found |= predicate(e, p, t, word); });
-    return found;
+using predicate = std::function<bool(std::string_view text)>;
+
+/// True if a value of an ascii body satisfies the condition.
+template <class Condition>
+predicate some_value(const Condition& holds) {
+    return [holds](std::string_view text) {
+        const outline o(text);
+        bool found = false;
+        if (o.is_ascii) show_values(o, [&](const value& v) { found |= holds(v); });
+        return found;
+    };
 }
 
-bool is_used(const element& e, const property& p) {
-    return (e.name == "vertex" && (p.name == "x" || p.name == "y" || p.name == "z")) ||
-           (e.name == "face" && is_index_list(p)) || (e.name == "edge" && is_index(p));
-}
-
-template <class Predicate>
-bool any_header_line(std::string_view text, const Predicate& predicate) {
-    return std::ranges::any_of(outline(text).lines, predicate);
-}
-
-template <class Predicate>
-bool any_element(std::string_view text, const Predicate& predicate) {
-    return std::ranges::any_of(outline(text).elements, predicate);
+/// True if an element, or a line of the header, satisfies the condition.
+template <auto Member, class Condition>
+predicate some(const Condition& holds) {
+    return [holds](std::string_view text) {
+        return std::ranges::any_of(outline(text).*Member, holds);
+    };
 }
 
 bool is_odd_header_line(const words& line) {
@@ -215,173 +226,123 @@ bool has_doubled_name(std::string_view text) {
            std::ranges::any_of(o.elements, [&](const element& e) { return doubled(e.properties); });
 }
 
-bool has_plural_name(std::string_view text) {
-    return any_element(text,
-                       [](const element& e) { return e.name == "vertices" || e.name == "faces"; });
+bool has_plural_name(const element& e) {
+    return e.name == "vertices" || e.name == "faces";
 }
+
+const std::string body = "end_header\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n";
+const std::string plain =
+    "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"
+    "property float z\nelement face 1\nproperty list uchar int vertex_indices\n" +
+    body;
 
 constexpr outcome refused = outcome::we_refuse, read = outcome::peer_differs;
 
-constexpr std::array differences{
-    difference{refused,
-               "header lines that it does not know, versions and words too many are skipped",
-               [](std::string_view text) { return any_header_line(text, is_odd_header_line); },
-               "ply\nformat ascii 2.0\nelement vertex 3\nproperty float x\nproperty float y\n"
-               "property float z\nelement face 1\nproperty list uchar int vertex_indices\n"
-               "end_header\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n"},
-    difference{refused, "elements, properties and lines of ply or format may come twice",
-               has_doubled_name,
-               "ply\nformat ascii 1.0\nformat ascii 1.0\nelement vertex 3\nproperty float x\n"
-               "property float y\nproperty float z\nelement face 1\n"
-               "property list uchar int vertex_indices\n"
-               "end_header\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n"},
-    difference{refused, "properties of unknown types have no values",
-               [](std::string_view text) { return outline(text).has_odd_type; },
-               "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"
-               "property float z\nproperty half w\nelement face 1\n"
-               "property list uchar int vertex_indices\n"
-               "end_header\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n"},
-    difference{refused, "elements without properties are counted through",
-               [](std::string_view text) {
-                   return any_element(
-                       text, [](const element& e) { return e.count > 0 && e.properties.empty(); });
-               },
-               "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"
-               "property float z\nelement nothing 5\nelement face 1\n"
-               "property list uchar int vertex_indices\n"
-               "end_header\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n"},
-    difference{refused, "vertices and faces are elements as vertex and face", has_plural_name,
-               "ply\nformat ascii 1.0\nelement vertices 3\nproperty float x\nproperty float y\n"
-               "property float z\nelement face 1\nproperty list uchar int vertex_indices\n"
-               "end_header\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n"},
-    difference{refused, "absent coordinates are 0",
-               [](std::string_view text) {
-                   return any_element(text, [](const element& e) {
-                       return e.name == "vertex" && !(e.has("x") && e.has("y") && e.has("z"));
-                   });
-               },
-               "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"
-               "element face 1\nproperty list uchar int vertex_indices\n"
-               "end_header\n0 0\n1 0\n0 1\n3 0 1 2\n"},
-    difference{refused, "of two lists of indices one is read",
-               [](std::string_view text) {
-                   return any_element(text, [](const element& e) {
-                       return e.name == "face" &&
-                              std::ranges::count_if(e.properties, is_index_list) > 1;
-                   });
-               },
-               "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"
-               "property float z\nelement face 1\nproperty list uchar int vertex_indices\n"
-               "property list uchar int vertex_index\n"
-               "end_header\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2 3 0 1 2\n"},
-    difference{refused, "edges, strips and other elements are skipped with the indices in them",
-               [](std::string_view text) {
-                   return any_element(text, [](const element& e) {
-                       return e.count > 0 && e.name != "vertex" && e.name != "face" &&
-                              (e.name == "edge" || std::ranges::any_of(e.properties, is_index));
-                   });
-               },
-               "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"
-               "property float z\nelement face 1\nproperty list uchar int vertex_indices\n"
-               "element edge 1\nproperty int vertex1\nproperty int vertex2\n"
-               "end_header\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n7 7\n"},
-    difference{refused, "an element may take several lines, or share one",
-               [](std::string_view text) {
-                   const outline o(text);
-                   return o.is_ascii && !show_values(o, [](const auto&...) {});
-               },
-               "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"
-               "property float z\nelement face 1\nproperty list uchar int vertex_indices\n"
-               "end_header\n0 0 0 1 0 0\n0 1 0\n3 0 1 2\n"},
-    difference{refused, "integers beyond their type are taken modulo its size",
-               [](std::string_view text) {
-                   return any_value(text, [](const element&, const property&, const type& t,
-                                             const std::string& word) {
-                       return t.whole && is_integer(word) && !is_of_type(word, t);
-                   });
-               },
-               "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"
-               "property float z\nelement face 1\nproperty list uchar int vertex_indices\n"
-               "end_header\n0 0 0\n1 0 0\n0 1 0\n259 0 1 2\n"},
-    difference{refused, "carriage returns, vertical tabs and form feeds are blanks",
-               [](std::string_view text) { return text.find_first_of("\r\v\f") != text.npos; },
-               "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"
-               "property float z\nelement face 1\nproperty list uchar int vertex_indices\n"
-               "end_header\n0 0 0\v\n1 0 0\n0 1 0\n3 0 1 2\n"},
-    difference{refused, "names may have control characters in them",
-               [](std::string_view text) {
-                   return any_header_line(text, [](const words& line) {
-                       return !line.empty() && line[0] != "comment" && line[0] != "obj_info" &&
-                              std::ranges::any_of(line, [](const std::string& word) {
-                                  return std::ranges::any_of(word, io::is_control);
-                              });
-                   });
-               },
-               "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"
-               "property float z\nelement face 1\nproperty list uchar int vertex_indices\n"
-               "element ed\x05 0\n"
-               "end_header\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n"},
-    difference{read, "the format must be told in the second line",
-               [](std::string_view text) {
-                   const outline o(text);
-                   return o.lines.size() > 1 && !o.lines[1].empty() && o.lines[1][0] != "format";
-               },
-               "ply\ncomment first\nformat ascii 1.0\nelement vertex 3\nproperty float x\n"
-               "property float y\nproperty float z\nelement face 1\n"
-               "property list uchar int vertex_indices\n"
-               "end_header\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n"},
-    difference{read, "faces must have a list of indices of type int or uint, no face too",
-               [](std::string_view text) {
-                   return any_element(text, [](const element& e) {
-                       const auto list = std::ranges::find_if(e.properties, is_index_list);
-                       return e.name == "face" &&
-                              (list == e.properties.end() ||
-                               (list->value->name != "int" && list->value->name != "uint"));
-                   });
-               },
-               "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"
-               "property float z\nelement face 1\nproperty list uchar short vertex_indices\n"
-               "end_header\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n"},
-    difference{read, "coordinates must be floats or doubles",
-               [](std::string_view text) {
-                   return any_element(text, [](const element& e) {
-                       return std::ranges::any_of(e.properties, [&](const property& p) {
-                           return e.name == "vertex" && is_used(e, p) && p.value->whole;
-                       });
-                   });
-               },
-               "ply\nformat ascii 1.0\nelement vertex 3\nproperty short x\nproperty float y\n"
-               "property float z\nelement face 1\nproperty list uchar int vertex_indices\n"
-               "end_header\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n"},
-    difference{read, "values that we skip must be of their types too",
-               [](std::string_view text) {
-                   return any_value(text, [](const element& e, const property& p, const type& t,
-                                             const std::string& word) {
-                       return !is_used(e, p) && !is_of_type(word, t);
-                   });
-               },
-               "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"
-               "property float z\nproperty int w\nelement face 1\n"
-               "property list uchar int vertex_indices\n"
-               "end_header\n0 0 0 none\n1 0 0 1\n0 1 0 1\n3 0 1 2\n"},
-    difference{read, "integers may not be spelled with a point or an exponent",
-               [](std::string_view text) {
-                   return any_value(text, [](const element& e, const property& p, const type& t,
-                                             const std::string& word) {
-                       return is_used(e, p) && t.whole && !is_integer(word);
-                   });
-               },
-               "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"
-               "property float z\nelement face 1\nproperty list uchar int vertex_indices\n"
-               "end_header\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2.0\n"},
-    difference{read, "vertices and faces are elements as vertex and face", has_plural_name,
-               "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"
-               "property float z\nelement face 1\nproperty list uchar int vertex_indices\n"
-               "element vertices 1\nproperty float x\n"
-               "end_header\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n0\n"},
+const std::vector<difference> differences{
+    {refused,
+     "header lines that it does not know, versions and words too many are skipped",
+     some<&outline::lines>(is_odd_header_line),
+     {"ascii 1.0", "ascii 2.0"}},
+    {refused,
+     "elements, properties and lines of ply or format may come twice",
+     has_doubled_name,
+     {"element vertex", "format ascii 1.0\nelement vertex"}},
+    {refused,
+     "properties of unknown types have no values",
+     [](std::string_view text) { return outline(text).has_odd_type; },
+     {"float z\n", "float z\nproperty half w\n"}},
+    {refused,
+     "elements without properties are counted through",
+     some<&outline::elements>([](const element& e) { return e.count > 0 && e.properties.empty(); }),
+     {"element face", "element nothing 5\nelement face"}},
+    {refused,
+     "vertices and faces are elements as vertex and face",
+     some<&outline::elements>(has_plural_name),
+     {"element vertex", "element vertices"}},
+    {refused,
+     "absent coordinates are 0",
+     some<&outline::elements>([](const element& e) {
+         return e.name == "vertex" && !(e.has("x") && e.has("y") && e.has("z"));
+     }),
+     {"float z", "float w"}},
+    {refused,
+     "of two lists of indices one is read",
+     some<&outline::elements>([](const element& e) {
+         return e.name == "face" && std::ranges::count_if(e.properties, is_index_list) > 1;
+     }),
+     {body,
+      "property list uchar int vertex_index\nend_header\n"
+      "0 0 0\n1 0 0\n0 1 0\n3 0 1 2 3 0 1 2\n"}},
+    {refused,
+     "edges, strips and other elements are skipped with the indices in them",
+     some<&outline::elements>([](const element& e) {
+         return e.count > 0 && e.name != "vertex" && e.name != "face" &&
+                (e.name == "edge" || std::ranges::any_of(e.properties, is_index));
+     }),
+     {body, "element edge 1\nproperty int vertex1\nproperty int vertex2\n" + body + "7 7\n"}},
+    {refused,
+     "an element may take several lines, or share one",
+     [](std::string_view text) {
+         const outline o(text);
+         return o.is_ascii && !show_values(o, [](const auto&...) {});
+     },
+     {"0 0 0\n1 0 0", "0 0 0 1 0 0"}},
+    {refused,
+     "integers beyond their type are taken modulo its size",
+     some_value([](const value& v) { return v.declared.whole && is_integer(v.word) && !v.fits(); }),
+     {"3 0 1 2", "259 0 1 2"}},
+    {refused,
+     "carriage returns, vertical tabs and form feeds are blanks",
+     [](std::string_view text) { return text.find_first_of("\r\v\f") != text.npos; },
+     {"0 0 0\n", "0 0 0\v\n"}},
+    {refused,
+     "names may have control characters in them",
+     some<&outline::lines>([](const words& line) {
+         return !line.empty() && line[0] != "comment" && line[0] != "obj_info" &&
+                std::ranges::any_of(line, [](const std::string& word) {
+                    return std::ranges::any_of(word, io::is_control);
+                });
+     }),
+     {"end_header", "element ed\x05 0\nend_header"}},
+    {read,
+     "the second line must be that of the format",
+     [](std::string_view text) {
+         const outline o(text);
+         return o.lines.size() > 1 && !o.lines[1].empty() && o.lines[1][0] != "format";
+     },
+     {"ply\n", "ply\ncomment first\n"}},
+    {read,
+     "faces must have a list of indices of type int or uint, even if there are no faces",
+     some<&outline::elements>([](const element& e) {
+         const auto list = std::ranges::find_if(e.properties, is_index_list);
+         return e.name == "face" && (list == e.properties.end() ||
+                                     (list->value->name != "int" && list->value->name != "uint"));
+     }),
+     {"uchar int", "uchar short"}},
+    {read,
+     "coordinates must be floats or doubles",
+     some<&outline::elements>([](const element& e) {
+         return e.name == "vertex" && std::ranges::any_of(e.properties, [](const property& p) {
+                    return is_coordinate(p) && p.value->whole;
+                });
+     }),
+     {"float x", "short x"}},
+    {read,
+     "skipped values must be of their types too",
+     some_value([](const value& v) { return !v.is_used() && !v.fits(); }),
+     {body, "property int w\nend_header\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2 none\n"}},
+    {read,
+     "integers may not be spelled with a point or an exponent",
+     some_value(
+         [](const value& v) { return v.is_used() && v.declared.whole && !is_integer(v.word); }),
+     {"3 0 1 2", "3 0 1 2.0"}},
+    {read,
+     "vertices and faces are elements as vertex and face",
+     some<&outline::elements>(has_plural_name),
+     {body, "element vertices 1\nproperty float x\n" + body + "0\n"}},
 };
 
-/// Carriage returns that end the header's lines alone as line feeds.
+/// The text with line feeds in place of carriage returns that end the header's lines alone.
 std::string with_line_feeds(std::string_view text) {
     std::string result(text);
     const std::size_t first = text.find_first_of("\r\n");
@@ -394,49 +355,41 @@ std::string with_line_feeds(std::string_view text) {
     return result;
 }
 
-constexpr std::array rewritings{
-    rewriting{"a byte order mark is no part of ply",
-              [](std::string_view text) {
-                  return std::string(text.substr(text.starts_with("\xef\xbb\xbf") ? 3 : 0));
-              },
-              "\xef\xbb\xbfply\nformat ascii 1.0\nelement vertex 3\nproperty float x\n"
-              "property float y\nproperty float z\nelement face 1\n"
-              "property list uchar int vertex_indices\n"
-              "end_header\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n"},
-    rewriting{"a carriage return alone ends no line", with_line_feeds,
-              "ply\rformat ascii 1.0\relement vertex 3\rproperty float x\rproperty float y\r"
-              "property float z\relement face 1\rproperty list uchar int vertex_indices\r"
-              "end_header\r0 0 0\r1 0 0\r0 1 0\r3 0 1 2\r"},
-    rewriting{"of a hexadecimal number it reads the 0 before the x",
-              [](std::string_view text) {
-                  return outline(text).is_ascii ? with_decimals(text) : std::string(text);
-              },
-              "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"
-              "property float z\nelement face 1\nproperty list uchar int vertex_indices\n"
-              "end_header\n0 0 0x1p-3\n1 0 0\n0 1 0\n3 0 1 2\n"},
+const std::vector<rewriting> rewritings{
+    {"a byte order mark is no part of ply", without_byte_order_mark, {"ply", "\xef\xbb\xbfply"}},
+    {"a carriage return alone ends no line",
+     with_line_feeds,
+     {plain,
+      "ply\rformat ascii 1.0\relement vertex 3\rproperty float x\rproperty float y\r"
+      "property float z\relement face 1\rproperty list uchar int vertex_indices\r"
+      "end_header\r0 0 0\r1 0 0\r0 1 0\r3 0 1 2\r"}},
+    {"of a hexadecimal number it reads the 0 before the x",
+     [](std::string_view text) {
+         return outline(text).is_ascii ? with_decimals(text) : std::string(text);
+     },
+     {"0 0 0", "0 0 0x1p-3"}},
 };
 
-/// What CGAL cannot be given: a property of no element (it takes the second line for the format
-/// whatever it says), elements without bytes that it counts through, and lists as long as they
-/// claim to be, or, after a value that is not of its type, as long as chance has it.
-bool harms_cgal(std::string_view text, bool is_taken_by_us) {
+/// True for a text that crashes or exhausts CGAL: a property of no element (its second line is the
+/// format's, whatever it holds), many elements without bytes, lists as long as they claim to be, or
+/// of a random length after a value that is not of its type.
+bool harms_cgal(std::string_view text, bool is_read_by_us) {
     const outline o(text);
     const bool mistakes_line = o.lines.size() > 1 && !o.lines[1].empty() &&
                                (o.lines[1][0] == "element" || o.lines[1][0] == "end_header");
-    const bool has_odd_value =
-        any_value(text, [](const element&, const property&, const type& t,
-                           const std::string& word) { return !is_of_type(word, t); });
+    const bool may_mistake_length =
+        !is_read_by_us || some_value([](const value& v) { return !v.fits(); })(text);
     return o.has_stray_property || mistakes_line ||
            std::ranges::any_of(o.elements, [&](const element& e) {
                const bool may_be_long = std::ranges::any_of(e.properties, [](const property& p) {
                    return p.count && p.count->highest > 1e5;
                });
                return (e.properties.empty() && e.count > 1000) ||
-                      (may_be_long && (!is_taken_by_us || has_odd_value));
+                      (may_be_long && may_mistake_length);
            });
 }
 
-/// The mesh that CGAL takes the text for, if that is a mesh of triangles to the end of the text.
+/// The mesh that CGAL reads, if that is a mesh of triangles to the end of the text.
 std::optional<mesh> read_by_cgal(std::string_view text) {
     CGAL::set_error_handler([](const char*, const char*, const char*, int, const char*) {});
     std::vector<CGAL::Simple_cartesian<double>::Point_3> points;
@@ -461,29 +414,53 @@ std::optional<mesh> read_by_cgal(std::string_view text) {
             return static_cast<vertex_index>(std::min<std::size_t>(i, UINT32_MAX));
         });
     }
-    if (!is_sound(m)) return std::nullopt;
+    if (!test_meshes::is_sound(m)) return std::nullopt;
     return m;
 }
 
-}  // namespace
-
-outcome compare_ply(std::string_view text, std::string_view given) {
+/// Compares vertices bit for bit, and faces. CGAL skips edges.
+outcome compare(std::string_view text, std::string_view given) {
     std::optional<mesh> ours = read_by(io::parse_mesh_ply, text);
     if (harms_cgal(given, ours.has_value())) return outcome::same;
     const std::optional<mesh> peers = read_by_cgal(given);
     if (!ours) return peers ? outcome::we_refuse : outcome::same;
     ours->edges.clear();
-    const bool agree =
-        peers && ours->vertices.size() == peers->vertices.size() && fuzz::same_mesh(*ours, *peers);
-    return agree ? outcome::same : outcome::peer_differs;
+    return peers && test_meshes::same_mesh(*ours, *peers) ? outcome::same : outcome::peer_differs;
 }
 
-std::span<const rewriting> ply_rewritings() {
-    return rewritings;
-}
+}  // namespace
 
-std::span<const difference> ply_differences() {
-    return differences;
+const peer& the_peer() {
+    static const peer cgal{compare,
+                           plain,
+                           rewritings,
+                           differences,
+                           {"ply",
+                            "format",
+                            "ascii",
+                            "binary_little_endian",
+                            "binary_big_endian",
+                            "1.0",
+                            "element",
+                            "vertex",
+                            "face",
+                            "edge",
+                            "list",
+                            "char",
+                            "uint8",
+                            "short",
+                            "ushort",
+                            "int32",
+                            "uint",
+                            "float",
+                            "double",
+                            "x",
+                            "property",
+                            "vertex_index",
+                            "property uchar red",
+                            "end_header"},
+                           fuzz::spelled_ply};
+    return cgal;
 }
 
 }  // namespace ccd::peers

@@ -1,14 +1,27 @@
-// Which elements of a file are a share of it.
+// What the readers of OBJ and PLY share: checks of elements, and shares of a file.
 #pragma once
 
 #include <ccd/io/mesh_file.hpp>
+#include <ccd/mesh.hpp>
+#include <cstddef>
 #include <cstdint>
+#include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 
 namespace ccd::io {
 
-/// One of so many shares, as large as one another but for one element.
+/// The indices of an element, for messages.
+std::string text_of(std::span<const vertex_index> element);
+
+/// The end of a message if an element has an index that is not below `vertices`.
+std::optional<std::string> fault_of(std::span<const vertex_index> element, std::size_t vertices);
+
+/// The end of a message if a face with that many corners cannot be read.
+std::optional<std::string> fault_of_corners(std::uint64_t corners, const mesh_options& options);
+
+/// A share of a file. The sizes of two shares differ by at most one element.
 struct share_of_file {
     std::uint64_t share = 0, shares = 1;
 
@@ -22,7 +35,7 @@ struct share_of_file {
     }
 };
 
-/// Reads a share of a PLY file. Elements of other shares are skipped, in ascii line by line, else
+/// Reads a share of a PLY file. Elements of other shares are skipped: in ascii line by line, else
 /// at once. Only a whole file can be triangulated.
 mesh_share parse_share_ply(std::string_view text, const std::string& name, share_of_file share,
                            const mesh_options& options = {});

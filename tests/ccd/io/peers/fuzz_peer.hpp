@@ -1,23 +1,30 @@
-// Changes texts of meshes by lines and words.
-#include "tests/ccd/io/peers/token_mutator.hpp"
+// Fuzzes a reader of meshes and its peer: they agree, or a listed difference explains why they do
+// not. A source file of each fuzzer includes this.
+#pragma once
 
 #include <algorithm>
 #include <array>
 #include <charconv>
+#include <cstddef>
+#include <cstdint>
 #include <cstdio>
+#include <cstdlib>
+#include <random>
+#include <string>
 #include <vector>
 
-namespace ccd::peers {
-namespace {
+#include "tests/ccd/io/peers/peer.hpp"
 
-constexpr std::array<std::string_view, 24> numbers{
+namespace ccd::peers {
+inline constexpr std::array<std::string_view, 24> numbers{
     "0",   "1",     "-1",      "2",     "3",        "-0",     "+1",         "1.",
     ".5",  "1e5",   "-2.5E-3", "1e308", "4.9e-324", "1e999",  "0.1",        "00003",
     "255", "65536", "nan",     "inf",   "1.5x",     "0x1p-2", "4294967296", "0.30000000000000004"};
 
+/// Exchanges, deletes, doubles or respells a few lines, words or numbers of a text.
 class token_mutator {
   public:
-    token_mutator(std::string text, unsigned seed, std::span<const std::string_view> words)
+    token_mutator(std::string text, unsigned seed, const std::vector<std::string_view>& words)
         : text_(std::move(text)), random_(seed), words_(words) {}
 
     std::string mutated() {
@@ -84,7 +91,7 @@ class token_mutator {
         }
     }
 
-    /// Another decimal spelling where it is a number, of the same value or one beside it.
+    /// Another decimal spelling of a number, of the same value or of the value plus 1.
     std::string spelled_otherwise(const std::string& word) {
         double value = 0;
         const char* const end = word.data() + word.size();
@@ -98,25 +105,31 @@ class token_mutator {
 
     std::string text_;
     std::minstd_rand random_;
-    std::span<const std::string_view> words_;
+    const std::vector<std::string_view>& words_;
 };
 
-}  // namespace
-
-std::size_t mutate_tokens(std::uint8_t* data, std::size_t size, std::size_t max_size, unsigned seed,
-                          std::span<const std::string_view> words,
-                          fuzz::spelling (*spelled)(std::span<const std::uint8_t>)) {
-    std::string text(reinterpret_cast<const char*>(data), size);
+/// Changes the text, or another legal text, by lines and words.
+inline std::string mutated(std::string text, const peer& of, unsigned seed) {
     std::minstd_rand random(seed);
     if (text.empty() || random() % 4 == 0) {
         std::array<std::uint8_t, 512> bytes;
         std::ranges::generate(bytes, [&] { return static_cast<std::uint8_t>(random() >> 8); });
-        text = spelled(bytes).text;
+        text = of.spelled(bytes).text;
     }
-    text = token_mutator(std::move(text), seed, words).mutated();
-    const std::size_t kept = std::min(text.size(), max_size);
-    std::copy_n(text.begin(), kept, data);
-    return kept;
+    return token_mutator(std::move(text), seed, of.words).mutated();
 }
 
 }  // namespace ccd::peers
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+    const std::string_view text(reinterpret_cast<const char*>(data), size);
+    if (!ccd::peers::the_peer().agrees(text)) std::abort();
+    return 0;
+}
+
+extern "C" std::size_t LLVMFuzzerCustomMutator(std::uint8_t* data, std::size_t size,
+                                               std::size_t max_size, unsigned seed) {
+    const std::string text = ccd::peers::mutated({reinterpret_cast<const char*>(data), size},
+                                                 ccd::peers::the_peer(), seed);
+    return text.copy(reinterpret_cast<char*>(data), max_size);
+}
