@@ -280,10 +280,10 @@ step_result step(const mesh& before, const mesh& after, const step_options& opti
     if (!ccd::detail::has_faces_alone(before))
         return failed({"ccd::cuda: found edges or points, expected a mesh of faces alone"});
     ccd::detail::check_options(options, before.vertices.size());
-    if (!options.distances.ask_for_contact())
+    if (!options.distances.is_contact())
         return failed({"ccd::cuda: found distances asked for, expected contact alone"});
     const pair_filter& filter = options.filter;
-    if (filter.can_collide || !filter.groups.empty() || !filter.pinned.empty() || filter.part ||
+    if (filter.can_collide || !filter.groups.empty() || !filter.pinned.empty() || filter.region ||
         filter.skip_unused)
         return failed({"ccd::cuda: found a filter of pairs, expected none"});
     ccd::detail::stopwatch total, watch;

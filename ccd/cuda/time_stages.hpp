@@ -6,7 +6,6 @@
 // Internal.
 #pragma once
 
-#include <ccd/contact.hpp>
 #include <ccd/cuda.hpp>
 #include <ccd/verdict.hpp>
 #include <cstddef>

@@ -1,7 +1,6 @@
 // Many queries at once, stored and by index.
 #include <ccd/batch.hpp>
-#include <ccd/first_contacts.hpp>
-#include <ccd/first_times.hpp>
+#include <ccd/contact.hpp>
 #include <vector>
 
 #include "tests/everywhere/sections.hpp"

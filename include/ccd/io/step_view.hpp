@@ -39,7 +39,7 @@ enum class frame : std::uint8_t { before, after };
 /// faces, each in the order given, and a vertex cell for each pair, in the order of `pairs` by
 /// kind, where it first touches, or where that is unknown in the middle of its vertices.
 ///
-/// Of points: `displacement`, from t = 0 to 1; `normal`, of contacts, as ccd/contact_data.hpp has
+/// Of points: `displacement`, from t = 0 to 1; `normal`, of contacts, as ccd/contact.hpp has
 /// it, else 0. Of cells: `pairs`, in how many pairs one of its vertices, edges or itself is;
 /// `toi`, when the earliest of these is there (`low`), NaN where none is or times are unknown;
 /// `pair`, which it is, or -1; `kind`, as ccd::kind numbers it, or -1. The frame's time, 0 or 1, is
