@@ -155,7 +155,7 @@ class Build:
 
     def prepare(self, with_tests):
         self.make_libraries(with_tests)
-        self.cmake(ROOT, "build", *(f"-DERRBOUND_WITH_{x}=OFF" for x in ("CUDA", "MPI", "HDF5", "MPFR", "GMP")))
+        self.cmake(ROOT, "build", *(f"-DERRBOUND_WITH_{x}=OFF" for x in ("CUDA", "MPI", "HDF5", "MPFR")))
 
     def refusal(self):
         """What the headers say to a compiler that they must not be used with."""
