@@ -1,8 +1,7 @@
 // A first contact and its response: a vertex bounces off a face that gives way. Then one of two
 // beads falls on an edge in the plane; a single query and a list of pairs give the same time.
 #include <array>
-#include <ccd/contact_data.hpp>
-#include <ccd/first_times.hpp>
+#include <ccd/contact.hpp>
 #include <ccd/plane.hpp>
 #include <cmath>
 #include <cstdio>

@@ -1,6 +1,6 @@
 // The impacts of a step in order of time, and the zones that must be solved together.
 #include <algorithm>
-#include <ccd/first_contacts.hpp>
+#include <ccd/contact.hpp>
 #include <ccd/step.hpp>
 #include <cstddef>
 #include <cstdio>

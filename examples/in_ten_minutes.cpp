@@ -1,6 +1,6 @@
 // From arrays of a simulation to a step without collisions, and to its contacts.
 #include <ccd/advance.hpp>
-#include <ccd/first_contacts.hpp>
+#include <ccd/contact.hpp>
 #include <cstddef>
 #include <cstdio>
 #include <vector>

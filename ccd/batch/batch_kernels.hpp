@@ -6,7 +6,6 @@
 // another file could share: tests/ccd/batch/instruction_sets_test.sh looks at its symbols.
 #pragma once
 
-#include <ccd/batch.hpp>
 #include <ccd/explain.hpp>
 #include <ccd/kind.hpp>
 #include <ccd/verdict.hpp>
@@ -16,28 +15,28 @@
 
 namespace ccd::detail {
 
-/// How a stage fares in a stream of queries: where it does not pay it pauses.
+/// The state of a stage in a stream of queries: it pauses while it decides too few of them.
 struct stage_pause {
-    std::size_t poor_blocks = 0;     ///< of which it decided too few, in a row
-    std::size_t blocks_to_pass = 0;  ///< before it is asked again
+    std::size_t poor_blocks = 0;     ///< successive blocks of which it decided too few
+    std::size_t blocks_to_pass = 0;  ///< before it runs again
 };
 
-/// Axes are asked in floats where there are rounded positions, else, or where they decide too
-/// little, in doubles.
+/// Axes are tested in floats if there are rounded positions; otherwise, or if they decide too few
+/// queries, in doubles.
 struct axes_pauses {
     stage_pause in_floats, in_doubles;
 };
 
-/// Within which distance features count as in contact, and the gaps in floats that are more. By
-/// default contact itself. `collides` then says that they do touch.
+/// The distance within which features count as in contact, and the gaps in floats that exceed it.
+/// By default contact itself; only then `collides` is certain contact.
 struct distance_asked {
     double distance = 0;
     rounded_axes::least_gaps gaps = {};
 };
 
-/// Decide `count` queries in floating point: `uncertain` in answers[i] leaves the query to exact
-/// arithmetic. Indexed coordinates must be finite; stored queries that are not are `uncertain`.
-/// `report` may be null. No allocation; some 300 KB of stack.
+/// Functions that decide `count` queries in floating point: `uncertain` in answers[i] leaves the
+/// query to exact arithmetic. Precondition: coordinates of `positions` are finite. Queries by value
+/// that are not finite are `uncertain`. `report` may be null. No allocation; some 300 KB of stack.
 template <kind K>
 struct kernels_of_kind {
     using pair = typename kind_traits<K>::pair;
@@ -48,8 +47,8 @@ struct kernels_of_kind {
                     stage_report* report);
     void (*stored)(const query* queries, std::size_t count, outcome* answers, axes_pauses& pauses,
                    stage_report* report);
-    /// The first times of queries that collide: between low[i] and high[i], which are neighbours,
-    /// or NaN where that was not found out.
+    /// The first times of colliding queries: between the adjacent doubles low[i] and high[i], or
+    /// NaN if undecided.
     void (*indexed_times)(const batch_positions& positions, const pair* queries, std::size_t count,
                           double* low, double* high);
     void (*stored_times)(const query* queries, std::size_t count, double* low, double* high);
@@ -57,6 +56,14 @@ struct kernels_of_kind {
 struct batch_kernels {
     kernels_of_kind<kind::vertex_face> vertex_face;
     kernels_of_kind<kind::edge_edge> edge_edge;
+
+    template <kind K>
+    constexpr const kernels_of_kind<K>& of() const {
+        if constexpr (K == kind::vertex_face)
+            return vertex_face;
+        else
+            return edge_edge;
+    }
 };
 
 // Which of them there are is up to the build: ERRBOUND_HAVE_X86_KERNELS.

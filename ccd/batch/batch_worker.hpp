@@ -1,22 +1,22 @@
-// One thread's part of a batch or a step: blocks of queries, decided as they come. Internal.
+// One thread's state in a batch or a step: it decides blocks of queries. Internal.
 #pragma once
 
 #include <algorithm>
-#include <ccd/batch.hpp>
 #include <ccd/contact.hpp>
 #include <ccd/explain.hpp>
-#include <ccd/first_times.hpp>
 #include <ccd/kind.hpp>
-#include <ccd/separation.hpp>
 #include <ccd/verdict.hpp>
+#include <optional>
 #include <span>
 
 #include "ccd/batch/batch_kernels.hpp"
+#include "ccd/exact/finite.hpp"
+#include "ccd/exact/stages.hpp"
 
 namespace ccd::detail {
 
-/// `set`, which must be one of instruction_sets(); by default the strongest. Throws
-/// std::invalid_argument otherwise.
+/// Returns `set`, by default the strongest. Throws std::invalid_argument if it is not one of
+/// instruction_sets().
 instruction_set runnable(std::optional<instruction_set> set);
 
 /// The kernels for runnable(set).
@@ -28,21 +28,36 @@ class batch_worker {
     batch_worker(const batch_kernels& kernels, bool counted)
         : kernels_(&kernels), counted_(counted) {}
 
-    /// Decides by `exact`. Indexed coordinates must be finite and indices in range; stored queries
-    /// that are not finite are uncertain.
-    void decide(const batch_positions& positions, std::span<const vertex_face_pair> queries,
-                outcome* answers);
-    void decide(const batch_positions& positions, std::span<const edge_edge_pair> queries,
-                outcome* answers);
-    void decide(std::span<const vertex_face<double>> queries, outcome* answers);
-    void decide(std::span<const edge_edge<double>> queries, outcome* answers);
+    /// Decides by `exact`. Precondition: coordinates are finite and indices in range. Queries by
+    /// value that are not finite are `uncertain`.
+    template <cubic_pair Pair>
+    void decide(const batch_positions& positions, std::span<const Pair> queries, outcome* answers) {
+        kernels<Pair>().indexed(positions, queries.data(), queries.size(), {}, answers,
+                                pauses<Pair>(), counts());
+        decide_uncertain(
+            queries.size(), [&](std::size_t i) { return query_of(positions.exact, queries[i]); },
+            answers);
+    }
+    template <cubic_query Query>
+    void decide(std::span<const Query> queries, outcome* answers) {
+        kernels<Query>().stored(queries.data(), queries.size(), answers, pauses<Query>(), counts());
+        decide_uncertain(
+            queries.size(), [&](std::size_t i) { return queries[i]; }, answers);
+    }
 
-    /// Whether pairs come within those distances. The same conditions; `distance` is at least every
-    /// pair's.
-    template <class Pair>
+    /// Decides which pairs come within `distances`. Preconditions: as decide; no pair's distance
+    /// exceeds `max_distance`.
+    template <any_pair Pair>
     void decide_within(const batch_positions& positions, std::span<const Pair> queries,
-                       const pair_distances& distances, double distance, outcome* answers) {
-        decide_by_floats(positions, queries, distance, answers);
+                       const pair_distances& distances, double max_distance, outcome* answers) {
+        if constexpr (cubic_pair<Pair>) {
+            const distance_asked within{max_distance,
+                                        rounded_axes::gaps_beyond(max_distance * positions.scale)};
+            kernels<Pair>().indexed(positions, queries.data(), queries.size(), within, answers,
+                                    pauses<Pair>(), nullptr);
+        } else {
+            std::fill_n(answers, queries.size(), outcome::uncertain);
+        }
         for (std::size_t i = 0; i < queries.size(); ++i)
             if (answers[i] == outcome::uncertain)
                 answers[i] = ccd::decide_within(query_of(positions.exact, queries[i]),
@@ -50,40 +65,72 @@ class batch_worker {
                                  .outcome;
     }
 
-    /// The first times of queries that collide, t in [0, 1]. The same conditions.
-    void find_times(const batch_positions& positions, std::span<const vertex_face_pair> queries,
-                    first_time* times) const;
-    void find_times(const batch_positions& positions, std::span<const edge_edge_pair> queries,
-                    first_time* times) const;
-    void find_times(std::span<const vertex_face<double>> queries, first_time* times) const;
-    void find_times(std::span<const edge_edge<double>> queries, first_time* times) const;
-    /// Those of the other kinds one by one.
-    template <class Pair>
+    /// Finds the first times in [0, 1] of queries that collide. Preconditions: as decide.
+    template <any_pair Pair>
     void find_times(const batch_positions& positions, std::span<const Pair> queries,
                     first_time* times) const {
-        for (const Pair& query : queries)
-            *times++ = time_of_impact(query_of(positions.exact, query));
+        const auto query_at = [&](std::size_t i) { return query_of(positions.exact, queries[i]); };
+        find_times_by<kind_of<Pair>>(
+            queries.size(), query_at,
+            [&](const auto& kernels, std::size_t first, std::size_t count, double* low,
+                double* high) {
+                kernels.indexed_times(positions, &queries[first], count, low, high);
+            },
+            times);
     }
-    template <class Query>
+    template <any_query Query>
     void find_times(std::span<const Query> queries, first_time* times) const {
-        for (const Query& query : queries) *times++ = time_of_impact(query);
+        const auto query_at = [&](std::size_t i) { return queries[i]; };
+        find_times_by<kind_of<Query>>(
+            queries.size(), query_at,
+            [&](const auto& kernels, std::size_t first, std::size_t count, double* low,
+                double* high) { kernels.stored_times(&queries[first], count, low, high); },
+            times);
     }
 
     const stage_report& report() const { return report_; }
 
   private:
-    void decide_by_floats(const batch_positions& positions,
-                          std::span<const vertex_face_pair> queries, double distance,
-                          outcome* answers);
-    void decide_by_floats(const batch_positions& positions, std::span<const edge_edge_pair> queries,
-                          double distance, outcome* answers);
-    template <class Pair>
-    void decide_by_floats(const batch_positions&, std::span<const Pair> queries, double,
-                          outcome* answers) {
-        std::fill_n(answers, queries.size(), outcome::uncertain);
+    template <class QueryOrPair>
+    const auto& kernels() const {
+        return kernels_->of<kind_of<QueryOrPair>>();
+    }
+    template <class QueryOrPair>
+    axes_pauses& pauses() {
+        return kind_of<QueryOrPair> == kind::vertex_face ? vertex_face_pauses_ : edge_edge_pauses_;
+    }
+    stage_report* counts() { return counted_ ? &report_ : nullptr; }
+
+    /// Decides what the kernels left uncertain by the exact stages, unless it is not finite.
+    template <class QueryAt>
+    void decide_uncertain(std::size_t count, const QueryAt& query_at, outcome* answers) {
+        for (std::size_t i = 0; i < count; ++i) {
+            if (answers[i] != outcome::uncertain) continue;
+            const auto query = query_at(i);
+            if (is_finite(query)) answers[i] = decide_with_integers(query, counts()).outcome;
+        }
     }
 
-    stage_report* counts() { return counted_ ? &report_ : nullptr; }
+    /// By blocks: find(kernels, first, count, low, high) calls the kernels of a cubic kind.
+    /// time_of_impact finds the other times.
+    template <kind K, class QueryAt, class Find>
+    void find_times_by(std::size_t count, const QueryAt& query_at, const Find& find,
+                       first_time* times) const {
+        if constexpr (is_cubic(K)) {
+            constexpr std::size_t block = 256;
+            double low[block], high[block];
+            for (std::size_t first = 0; first < count; first += block) {
+                const std::size_t size = std::min(count - first, block);
+                find(kernels_->of<K>(), first, size, low, high);
+                for (std::size_t i = 0; i < size; ++i)
+                    times[first + i] = low[i] < high[i]
+                                           ? first_time{outcome::collides, low[i], high[i]}
+                                           : time_of_impact(query_at(first + i));
+            }
+        } else {
+            for (std::size_t i = 0; i < count; ++i) times[i] = time_of_impact(query_at(i));
+        }
+    }
 
     const batch_kernels* kernels_;
     axes_pauses vertex_face_pauses_, edge_edge_pauses_;

@@ -1,9 +1,8 @@
-// Checks of what batches are given; they throw std::invalid_argument. Internal.
+// Checks of the input of batches; they throw std::invalid_argument. Internal.
 #pragma once
 
 #include <algorithm>
-#include <ccd/batch.hpp>
-#include <ccd/first_times.hpp>
+#include <ccd/contact.hpp>
 #include <ccd/kind.hpp>
 #include <charconv>
 #include <cmath>
@@ -15,7 +14,7 @@
 
 namespace ccd::detail {
 
-/// That pairs name vertices that there are. `first` is the number of the first pair.
+/// Throws if a pair has an index >= `vertices`. `first` is the index of the first pair.
 template <class Pair>
 void check_indices(const char* caller, std::span<const Pair> pairs, std::size_t first,
                    std::size_t vertices) {
@@ -37,7 +36,7 @@ inline void check_pointers(const char* caller, const vertex_rows& rows) {
                                     ": found a null pointer, expected positions");
 }
 
-/// In the fewest digits that name it.
+/// The shortest decimal that converts to x.
 inline std::string text_of(double x) {
     char text[32];
     return {text, std::to_chars(text, text + sizeof text, x).ptr};
@@ -49,8 +48,8 @@ inline void check_t_max(const char* caller, double t_max) {
                                     ", expected a finite one");
 }
 
-/// That distances are finite and not negative, given one way, and of `vertices` vertices where they
-/// are by vertex.
+/// Throws if a distance is negative or not finite, if both kinds of distances are given, or if
+/// there is not a thickness for each of `vertices` vertices.
 inline void check_distances(const char* caller, const pair_distances& distances,
                             std::size_t vertices) {
     const auto check = [caller](double distance, const std::string& of) {

@@ -1,4 +1,4 @@
-// Batches of queries, by index or stored, and their chunks, which threads decide. Internal.
+// Batches of queries, by value or as pairs, and their chunks, which threads decide. Internal.
 #pragma once
 
 #include <tbb/blocked_range.h>
@@ -9,8 +9,8 @@
 #include <array>
 #include <bit>
 #include <ccd/batch.hpp>
+#include <ccd/contact.hpp>
 #include <ccd/exact.hpp>
-#include <ccd/first_times.hpp>
 #include <ccd/kind.hpp>
 #include <cstddef>
 #include <optional>
@@ -25,12 +25,12 @@
 
 namespace ccd::detail {
 
-/// Queries that a thread takes at a time, at most: enough to make the call cheap, few enough for
-/// the second cache.
+/// The largest number of queries that a thread takes at once: enough to make the call cheap, few
+/// enough for the second cache.
 constexpr std::size_t chunk_size = 4096;
 
-/// Calls decide(worker, first, count) for chunks of `size` queries, the last of fewer. Returns what
-/// the stages did. Throws ccd::stopped if options.stop says so.
+/// Calls decide(worker, first, count) for chunks of at most `size` queries. Returns the stages'
+/// report. Throws ccd::stopped if options.stop returns true.
 template <class Decide>
 stage_report for_each_chunk(std::size_t count, std::size_t size, const batch_options& options,
                             const Decide& decide) {
@@ -68,7 +68,7 @@ bool has_finite_vertices(const vertex_rows& rows, const Pair& pair) {
     });
 }
 
-/// Calls decide(first, count) for the runs of finite queries; the others are uncertain.
+/// Calls decide(first, count) for each run of finite queries; the others are uncertain.
 template <class IsFinite, class Decide>
 void decide_finite(std::size_t count, outcome* answers, bool all_are_finite,
                    const IsFinite& is_finite, const Decide& decide) {
@@ -83,9 +83,12 @@ void decide_finite(std::size_t count, outcome* answers, bool all_are_finite,
     }
 }
 
-template <class QueryOrPair>
-constexpr bool has_kernels =
-    kind_of<QueryOrPair> == kind::vertex_face || kind_of<QueryOrPair> == kind::edge_edge;
+/// The test to run, and the caller's name for error messages.
+struct request {
+    const char* caller = "ccd::decide_batch";
+    bool at_start = false;                   ///< contact at t = 0
+    const pair_distances* within = nullptr;  ///< a distance instead of contact
+};
 
 template <class Query>
 Query without_motion(const Query& query) {
@@ -95,18 +98,17 @@ Query without_motion(const Query& query) {
     return std::bit_cast<Query>(points);
 }
 
-/// Queries by index. Throws std::invalid_argument, also from decide, as `asked.caller`.
+/// Pairs. Throws std::invalid_argument, also from decide, with asked.caller in the message.
 template <class Pair>
 class pair_batch {
   public:
-    pair_batch(const vertex_rows& positions, std::span<const Pair> pairs, const question& asked)
+    pair_batch(const vertex_rows& positions, std::span<const Pair> pairs, const request& asked)
         : rows_(positions), pairs_(pairs), asked_(asked) {
         if (asked.at_start) rows_.after = rows_.before;
         check_pointers(asked.caller, rows_);
-        if (asked.within) most_ = asked.within->most();
-        // Work on every vertex pays only where there are queries enough: rounding one costs some
-        // 5 ns, and saves some 10 ns a query.
-        const bool many = has_kernels<Pair> && 2 * pairs.size() > rows_.vertices;
+        if (asked.within) max_distance_ = asked.within->max_distance();
+        // Rounding a vertex costs some 5 ns and saves some 10 ns a query.
+        const bool many = cubic_pair<Pair> && 2 * pairs.size() > rows_.vertices;
         all_are_finite_ = many && all_finite(rows_.before, 3 * rows_.vertices) &&
                           all_finite(rows_.after, 3 * rows_.vertices);
         if (all_are_finite_) rounded_.emplace(rows_);
@@ -126,7 +128,7 @@ class pair_batch {
     }
 
     Pair item(std::size_t i) const { return pairs_[i]; }
-    /// The times in [0, 1] of such items, which decide said collide.
+    /// The times in [0, 1] of items that collide.
     void find_times(const batch_worker& worker, std::span<const Pair> some,
                     first_time* times) const {
         worker.find_times(positions(), some, times);
@@ -138,8 +140,8 @@ class pair_batch {
     }
     void decide_part(batch_worker& worker, std::span<const Pair> part, outcome* answers) const {
         if (asked_.within)
-            worker.decide_within(positions(), part, *asked_.within, most_, answers);
-        else if constexpr (has_kernels<Pair>)
+            worker.decide_within(positions(), part, *asked_.within, max_distance_, answers);
+        else if constexpr (cubic_pair<Pair>)
             worker.decide(positions(), part, answers);
         else
             std::ranges::transform(part, answers, [&](const Pair& p) {
@@ -149,17 +151,17 @@ class pair_batch {
 
     vertex_rows rows_;
     std::span<const Pair> pairs_;
-    question asked_;
-    double most_ = 0;  ///< of the distances asked for
+    request asked_;
+    double max_distance_ = 0;
     bool all_are_finite_;
     std::optional<rounded_positions> rounded_;
 };
 
-/// Stored queries; of distances, none are asked for.
+/// Queries by value; distances are not supported.
 template <class Query>
 class query_batch {
   public:
-    query_batch(std::span<const Query> queries, const question& asked)
+    query_batch(std::span<const Query> queries, const request& asked)
         : queries_(queries), at_start_(asked.at_start) {}
     std::size_t size() const { return queries_.size(); }
 
@@ -172,7 +174,7 @@ class query_batch {
             std::ranges::transform(part, still.begin(), without_motion<Query>);
             part = still;
         }
-        if constexpr (has_kernels<Query>)
+        if constexpr (cubic_query<Query>)
             worker.decide(part, answers);
         else
             std::ranges::transform(part, answers,
@@ -180,7 +182,7 @@ class query_batch {
     }
 
     const Query& item(std::size_t i) const { return queries_[i]; }
-    /// The times in [0, 1] of such items, which decide said collide.
+    /// The times in [0, 1] of items that collide.
     void find_times(const batch_worker& worker, std::span<const Query> some,
                     first_time* times) const {
         worker.find_times(some, times);
@@ -190,5 +192,28 @@ class query_batch {
     std::span<const Query> queries_;
     bool at_start_;
 };
+
+/// The batch of an input. (Class template deduction alone cannot choose the class.)
+template <class Item>
+auto batch_of(const batch_input<Item>& input, const request& asked) {
+    if constexpr (any_pair<Item>)
+        return pair_batch<Item>(input.positions, input.items, asked);
+    else
+        return query_batch<Item>(input.items, asked);
+}
+
+/// Throws std::invalid_argument if there is not one answer for each query.
+template <class Batch>
+stage_report decide_chunks(const Batch& batch, std::span<outcome> answers,
+                           const batch_options& options, const request& asked) {
+    if (batch.size() != answers.size())
+        throw std::invalid_argument(std::string(asked.caller) + ": " +
+                                    std::to_string(batch.size()) + " queries, but room for " +
+                                    std::to_string(answers.size()) + " answers");
+    return for_each_chunk(batch.size(), chunk_size, options,
+                          [&](batch_worker& worker, std::size_t first, std::size_t count) {
+                              batch.decide(worker, first, count, &answers[first]);
+                          });
+}
 
 }  // namespace ccd::detail

@@ -1,11 +1,11 @@
-// First times of many queries: decided as batches are, then timed where there is a contact.
+// First times of many queries: decided as batches are, then timed if there is a contact.
 #include <tbb/enumerable_thread_specific.h>
 
 #include <algorithm>
 #include <array>
 #include <atomic>
 #include <bit>
-#include <ccd/first_times.hpp>
+#include <ccd/contact.hpp>
 #include <cmath>
 #include <cstring>
 #include <limits>
@@ -29,72 +29,49 @@ batch_options batch_options_of(const time_options& options) {
     return {.threads = options.threads, .set = options.set, .stop = options.stop};
 }
 
-/// Queries, however they are given, and what is asked of them.
-template <class Pair>
-class indexed_questions {
+/// The queries of a batch, with their distances.
+template <class Item>
+class timed_queries {
   public:
-    indexed_questions(const vertex_rows& positions, std::span<const Pair> pairs,
-                      const time_options& options)
-        : positions_(positions), pairs_(pairs), options_(options) {
-        check_distances(caller, options.distances, positions.vertices);
-        check_t_max(caller, options.t_max);
+    explicit timed_queries(const timed_batch<Item>& all)
+        : input_(all.queries), options_(all.options) {
+        check_distances(caller, distances(), any_pair<Item> ? input_.positions.vertices : 0);
+        check_t_max(caller, options_.t_max);
+        if constexpr (any_query<Item>) (void)kernels_for(options_.set);  // throws if there are none
     }
-    std::size_t size() const { return pairs_.size(); }
+    std::size_t size() const { return input_.items.size(); }
     const time_options& options() const { return options_; }
-    auto query(std::size_t i) const { return query_of(positions_, pairs_[i]); }
-    separation distance(std::size_t i) const { return options_.distances.of(pairs_[i]); }
-    pair_batch<Pair> batch() const { return {positions_, pairs_, question()}; }
-    /// Whether there is a contact, or a distance within that asked for, in [0, 1].
+    auto query(std::size_t i) const { return query_at(input_, i); }
+    separation distance(std::size_t i) const {
+        if constexpr (any_pair<Item>) return distances().of(input_.items[i]);
+        return {distances().all, 0};
+    }
+    auto batch() const { return batch_of(input_, asked()); }
+    /// Contact, or a distance within `distances`, in [0, 1].
     std::vector<outcome> decisions() const {
         std::vector<outcome> answers(size());
-        decide_pairs(positions_, pairs_, std::span(answers), batch_options_of(options_),
-                     question());
+        if (any_pair<Item> || distances().is_contact())
+            decide_chunks(batch(), std::span(answers), batch_options_of(options_), asked());
+        else
+            for_each_index(size(), options_.threads, [&](std::size_t i) {
+                stop_if_asked(options_.stop);
+                answers[i] = decide_within(query(i), distance(i)).outcome;
+            });
         return answers;
     }
 
   private:
-    detail::question question() const {
-        const bool of_distances = !options_.distances.ask_for_contact();
-        return {caller, false, of_distances ? &options_.distances : nullptr};
+    const pair_distances& distances() const { return options_.distances; }
+    request asked() const {
+        return {caller, false, distances().is_contact() ? nullptr : &distances()};
     }
 
-    const vertex_rows& positions_;
-    std::span<const Pair> pairs_;
+    const batch_input<Item>& input_;
     const time_options& options_;
 };
 
-template <class Query>
-class stored_questions {
-  public:
-    stored_questions(std::span<const Query> queries, const time_options& options)
-        : queries_(queries), options_(options) {
-        check_distances(caller, options.distances, 0);
-        check_t_max(caller, options.t_max);
-        (void)kernels_for(options.set);  // throws if there are none
-    }
-    std::size_t size() const { return queries_.size(); }
-    const time_options& options() const { return options_; }
-    const Query& query(std::size_t i) const { return queries_[i]; }
-    separation distance(std::size_t) const { return {options_.distances.all, 0}; }
-    query_batch<Query> batch() const { return {queries_, {caller}}; }
-    std::vector<outcome> decisions() const {
-        if (options_.distances.ask_for_contact())
-            return decide_batch(queries_, batch_options_of(options_)).answers;
-        std::vector<outcome> answers(size());
-        for_each_index(size(), options_.threads, [&](std::size_t i) {
-            stop_if_asked(options_.stop);
-            answers[i] = decide_within(queries_[i], distance(i)).outcome;
-        });
-        return answers;
-    }
-
-  private:
-    std::span<const Query> queries_;
-    const time_options& options_;
-};
-
-/// Those that are not separate in [0, 1], their times yet unknown; answers[0] is that of query
-/// `first`. Most are separate: words of eight answers are passed over at once.
+/// Returns the queries that are not separate in [0, 1], without times; answers[0] is that of query
+/// `first`. Most are separate, so eight answers are skipped at once.
 std::vector<timed_contact> possible_contacts(std::span<const outcome> answers,
                                              std::size_t first = 0) {
     constexpr std::array<outcome, 8> word{};
@@ -111,7 +88,7 @@ std::vector<timed_contact> possible_contacts(std::span<const outcome> answers,
     return possible;
 }
 
-/// Times contacts, as many at a time as stay in the first cache; what is uncertain remains so.
+/// Times contacts in blocks that stay in the first cache; uncertain ones stay uncertain.
 template <class Batch>
 void find_times(const batch_worker& worker, const Batch& batch, std::span<timed_contact> some) {
     using item = std::remove_cvref_t<decltype(batch.item(0))>;
@@ -127,7 +104,7 @@ void find_times(const batch_worker& worker, const Batch& batch, std::span<timed_
     }
 }
 
-/// Only those in [0, t_max] are kept.
+/// Keeps the contacts in [0, t_max].
 void erase_later(std::vector<timed_contact>& contacts, double t_max) {
     std::erase_if(contacts, [t_max](const timed_contact& c) {
         return c.time.outcome == outcome::separate ||
@@ -135,13 +112,13 @@ void erase_later(std::vector<timed_contact>& contacts, double t_max) {
     });
 }
 
-/// Few enough that every thread has several: where all collide, a chunk takes milliseconds.
+/// Every thread has several chunks: if all queries collide, a chunk takes milliseconds.
 std::size_t timed_chunk_size(std::size_t queries, int threads) {
     const auto all = static_cast<std::size_t>(threads_of(threads));
     return std::clamp<std::size_t>(queries / (8 * all), 256, chunk_size);
 }
 
-/// Chunk by chunk, while what was decided is in the caches.
+/// Times each chunk while its decisions are in the caches.
 template <class Batch>
 std::vector<timed_contact> contacts_of_chunks(const Batch& batch, const time_options& options) {
     const std::size_t size = timed_chunk_size(batch.size(), options.threads);
@@ -163,10 +140,10 @@ std::vector<timed_contact> contacts_of_chunks(const Batch& batch, const time_opt
     return all;
 }
 
-template <class Questions>
-std::vector<timed_contact> contacts_among(const Questions& asked) {
+template <class Item>
+std::vector<timed_contact> contacts_among(const timed_queries<Item>& asked) {
     const time_options& options = asked.options();
-    if (options.distances.ask_for_contact()) return contacts_of_chunks(asked.batch(), options);
+    if (options.distances.is_contact()) return contacts_of_chunks(asked.batch(), options);
     std::vector<timed_contact> found = possible_contacts(asked.decisions());
     for_each_index(found.size(), options.threads, [&](std::size_t i) {
         stop_if_asked(options.stop);
@@ -177,8 +154,8 @@ std::vector<timed_contact> contacts_among(const Questions& asked) {
     return found;
 }
 
-template <class Questions>
-std::vector<first_time> all_times(const Questions& asked) {
+template <class Item>
+std::vector<first_time> all_times(const timed_queries<Item>& asked) {
     const std::vector<timed_contact> contacts = contacts_among(asked);
     std::vector<first_time> times(asked.size(), first_time{outcome::separate});
     for (const timed_contact& c : contacts) times[c.query] = c.time;
@@ -189,7 +166,7 @@ auto order_of(const first_time& time) {
     return std::tuple(time.low, time.high);
 }
 
-/// What one thread has found: the earliest of its queries, and those that start in contact.
+/// The earliest of one thread's queries, and those that start in contact.
 class earliest_of_thread {
   public:
     void add(const first_time& time, std::size_t query) {
@@ -220,7 +197,7 @@ class earliest_of_thread {
     earliest_time found_;
 };
 
-/// What is told if some queries are uncertain: those.
+/// Returns the uncertain queries, if there are any.
 std::optional<earliest_time> only_uncertain(const std::vector<timed_contact>& contacts) {
     std::vector<std::size_t> uncertain;
     for (const auto& [query, time] : contacts)
@@ -229,7 +206,7 @@ std::optional<earliest_time> only_uncertain(const std::vector<timed_contact>& co
     return earliest_time{{}, std::move(uncertain), {}};
 }
 
-/// A contact's time costs less than to see that it is not the earliest.
+/// Computing a time is cheaper than proving that it is not the minimum.
 earliest_time earliest_of_times(const std::vector<timed_contact>& contacts) {
     if (auto uncertain = only_uncertain(contacts)) return *std::move(uncertain);
     earliest_of_thread all;
@@ -237,8 +214,8 @@ earliest_time earliest_of_times(const std::vector<timed_contact>& contacts) {
     return std::move(all).sorted();
 }
 
-/// Whether nothing happens in [0, t_max], seen at the cost of a decision on that part of the step,
-/// whose end is rounded.
+/// True if there is certainly no contact in [0, t_max], by a decision on that interval, whose end
+/// positions are rounded.
 ///
 /// std::lerp is off by at most 2^-50 M + 2^-1072, in every rounding direction, M the largest
 /// coordinate; so are the points of the rounded motion, coordinate by coordinate, and the distance
@@ -264,12 +241,11 @@ void lower(std::atomic<double>& bound, double value) {
     while (value < now && !bound.compare_exchange_weak(now, value)) continue;
 }
 
-/// A query with the earliest time is found whatever the bound has become: times are asked for up to
-/// the upper end of the least bracket yet found, itself included.
-template <class Questions>
-earliest_time earliest_of_all(const Questions& asked) {
-    if (asked.options().distances.ask_for_contact())
-        return earliest_of_times(contacts_among(asked));
+/// `bound` never excludes a query with the earliest time: times are computed up to and including
+/// the upper end of the least bracket found.
+template <class Item>
+earliest_time earliest_of_all(const timed_queries<Item>& asked) {
+    if (asked.options().distances.is_contact()) return earliest_of_times(contacts_among(asked));
     const std::vector<timed_contact> contacts = possible_contacts(asked.decisions());
     if (auto uncertain = only_uncertain(contacts)) return *std::move(uncertain);
     std::atomic<double> bound = asked.options().t_max;
@@ -293,46 +269,30 @@ earliest_time earliest_of_all(const Questions& asked) {
 
 }  // namespace
 
-template <kind K>
-std::vector<outcome> timed_batch<K>::decisions(const vertex_rows& positions, pairs all,
-                                               const time_options& options) {
-    return indexed_questions(positions, all, options).decisions();
+template <class Item>
+std::vector<outcome> timed_batch<Item>::decisions() const {
+    return timed_queries(*this).decisions();
 }
-template <kind K>
-std::vector<outcome> timed_batch<K>::decisions(queries all, const time_options& options) {
-    return stored_questions(all, options).decisions();
+template <class Item>
+std::vector<timed_contact> timed_batch<Item>::contacts() const {
+    return contacts_among(timed_queries(*this));
 }
-template <kind K>
-std::vector<timed_contact> timed_batch<K>::contacts(const vertex_rows& positions, pairs all,
-                                                    const time_options& options) {
-    return contacts_among(indexed_questions(positions, all, options));
+template <class Item>
+std::vector<first_time> timed_batch<Item>::times() const {
+    return all_times(timed_queries(*this));
 }
-template <kind K>
-std::vector<timed_contact> timed_batch<K>::contacts(queries all, const time_options& options) {
-    return contacts_among(stored_questions(all, options));
-}
-template <kind K>
-std::vector<first_time> timed_batch<K>::times(const vertex_rows& positions, pairs all,
-                                              const time_options& options) {
-    return all_times(indexed_questions(positions, all, options));
-}
-template <kind K>
-std::vector<first_time> timed_batch<K>::times(queries all, const time_options& options) {
-    return all_times(stored_questions(all, options));
-}
-template <kind K>
-earliest_time timed_batch<K>::earliest(const vertex_rows& positions, pairs all,
-                                       const time_options& options) {
-    return earliest_of_all(indexed_questions(positions, all, options));
-}
-template <kind K>
-earliest_time timed_batch<K>::earliest(queries all, const time_options& options) {
-    return earliest_of_all(stored_questions(all, options));
+template <class Item>
+earliest_time timed_batch<Item>::earliest() const {
+    return earliest_of_all(timed_queries(*this));
 }
 
-template class timed_batch<kind::vertex_face>;
-template class timed_batch<kind::edge_edge>;
-template class timed_batch<kind::vertex_edge>;
-template class timed_batch<kind::vertex_vertex>;
+template struct timed_batch<vertex_face_pair>;
+template struct timed_batch<edge_edge_pair>;
+template struct timed_batch<vertex_edge_pair>;
+template struct timed_batch<vertex_vertex_pair>;
+template struct timed_batch<vertex_face<double>>;
+template struct timed_batch<edge_edge<double>>;
+template struct timed_batch<vertex_edge<double>>;
+template struct timed_batch<vertex_vertex<double>>;
 
 }  // namespace ccd::detail

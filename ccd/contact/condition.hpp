@@ -17,8 +17,8 @@
 // Proof: proofs/FirstConditions.v, first_is_candidate, candidate_holds.
 #pragma once
 
-#include <ccd/contact.hpp>
 #include <ccd/methods/forms.hpp>
+#include <ccd/verdict.hpp>
 #include <errbound/tracked.hpp>
 #include <functional>
 #include <vector>

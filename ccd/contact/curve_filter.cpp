@@ -100,7 +100,7 @@ bool certainly_separate(std::span<const curve> points) {
     if (boxes_are_separate<K>(points, 0)) return true;
     if (!is_of_low_degree(points)) return false;
     const auto q = relative_paths<K>(points);
-    if constexpr (K == kind::vertex_face || K == kind::edge_edge) {
+    if constexpr (is_cubic(K)) {
         const sign_type s = forms_of(q).y()[0].sign_throughout();
         if (s == sign_type::positive || s == sign_type::negative) return true;
     }

@@ -6,7 +6,7 @@
 
 #include <ccd/curves.hpp>
 #include <ccd/kind.hpp>
-#include <ccd/separation.hpp>
+#include <ccd/query.hpp>
 #include <errbound/tracked.hpp>
 #include <span>
 #include <vector>

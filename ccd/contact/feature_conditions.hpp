@@ -179,7 +179,7 @@ void visit_distance_conditions(const paths<K, R>& q, const R& squared, const Vis
     if constexpr (K != kind::vertex_vertex)
         for (const auto& corner : corners_of(q))
             visit([&] { return distance_condition(corner, squared); });
-    if constexpr (K == kind::vertex_face || K == kind::edge_edge) {
+    if constexpr (is_cubic(K)) {
         for (const auto& edge : edges_of(q))
             visit([&] { return distance_condition(edge, squared); });
         visit([&] { return distance_condition_inside(forms_of(q), squared); });

@@ -31,7 +31,7 @@ first_time first_contact(std::span<const curve> points, double t_max, arithmetic
     const bool filtered = by == arithmetic::floating_point_first;
     if (filtered && certainly_separate<K>(points)) return never;
     const auto q = in_units<K>(points, whole_exponents(points));
-    if constexpr (K == kind::vertex_face || K == kind::edge_edge) {
+    if constexpr (is_cubic(K)) {
         const time_polynomial y = forms_of(q).y()[0];
         if (!y.is_zero()) {
             root_questions asked{{}, [&] { return contact_conditions<K>(q); }};
@@ -56,7 +56,7 @@ first_time first_at_distance(std::span<const curve> points, separation d, double
     const auto last_bit = [](double x) { return errbound::integers::binary_double(x).last_bit(); };
     const int unit = std::min({own.x, own.y, own.z, last_bit(d.first), last_bit(d.second)});
     const integer distance = whole(d.first, unit) + whole(d.second, unit);
-    const time_polynomial squared({integer(distance * distance)});
+    const time_polynomial squared({distance * distance});
     exact_conditions conditions;
     std::size_t visited = 0;
     visit_distance_conditions<K>(in_units<K>(points, {unit, unit, unit}), squared,

@@ -6,11 +6,11 @@
 #pragma once
 
 #include <array>
-#include <ccd/contact.hpp>
 #include <ccd/curves.hpp>
 #include <ccd/kind.hpp>
 #include <ccd/methods/transform.hpp>
-#include <ccd/separation.hpp>
+#include <ccd/query.hpp>
+#include <ccd/verdict.hpp>
 #include <cstddef>
 #include <span>
 
@@ -24,7 +24,7 @@ bool is_distance(separation d);
 enum class arithmetic { integers, floating_point_first };
 
 /// When the features of a query of this kind first come within d, in [0, t_max]; of d = 0, when
-/// they first touch: what ccd/separation.hpp promises. `points` are those of points_of, in its
+/// they first touch: what ccd/contact.hpp promises. `points` are those of points_of, in its
 /// order.
 template <kind K>
 first_time first_within_of(std::span<const curve> points, separation d, double t_max,

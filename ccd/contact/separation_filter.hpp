@@ -13,7 +13,6 @@
 #include <ccd/kind.hpp>
 #include <ccd/methods/transform.hpp>
 #include <ccd/query.hpp>
-#include <ccd/separation.hpp>
 #include <ccd/verdict.hpp>
 #include <cmath>
 #include <cstddef>

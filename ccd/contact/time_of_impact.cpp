@@ -1,4 +1,4 @@
-// First contacts, stage by stage: see include/ccd/contact.hpp for what they promise.
+// First times of contact, stage by stage: see include/ccd/contact.hpp.
 #include <ccd/contact.hpp>
 #include <ccd/kind.hpp>
 #include <ccd/reference.hpp>
@@ -11,10 +11,10 @@
 namespace ccd {
 namespace {
 
-/// Floating point separates, or finds the part of the first contact, whose time integers then tell.
+/// Floating point separates, or finds the interval of the first contact; integers compute its time.
 template <class Query>
 detail::found_time found_before_reference(const Query& query) {
-    if constexpr (kind_of<Query> == kind::vertex_face || kind_of<Query> == kind::edge_edge) {
+    if constexpr (cubic_query<Query>) {
         static_filter::contact_part part;
         switch (detail::decide_in_floating_point(query, nullptr, &part,
                                                  static_filter::halvings_for_times)
@@ -30,15 +30,17 @@ detail::found_time found_before_reference(const Query& query) {
     return detail::first_contact_in_integers(query);
 }
 
-template <class Query>
-first_time first_contact(const Query& query, double t_max) {
+}  // namespace
+
+template <any_query Query>
+first_time time_of_impact(const Query& query, double t_max) {
     if (!std::isfinite(t_max) || !detail::is_finite(query)) return {};
     const detail::found_time found = found_before_reference(query);
     switch (found.outcome) {
         case outcome::separate:
             return {outcome::separate, 0, 0};
         case outcome::collides:
-            // A time between two neighbouring doubles is over when the later one is.
+            // A time between two adjacent doubles is at most t_max if the later one is.
             if (found.time.high > t_max) return {outcome::separate, 0, 0};
             return {outcome::collides, found.time.low, found.time.high};
         default:
@@ -46,19 +48,9 @@ first_time first_contact(const Query& query, double t_max) {
     }
 }
 
-}  // namespace
-
-first_time time_of_impact(const vertex_face<double>& q, double t_max) {
-    return first_contact(q, t_max);
-}
-first_time time_of_impact(const edge_edge<double>& q, double t_max) {
-    return first_contact(q, t_max);
-}
-first_time time_of_impact(const vertex_edge<double>& q, double t_max) {
-    return first_contact(q, t_max);
-}
-first_time time_of_impact(const vertex_vertex<double>& q, double t_max) {
-    return first_contact(q, t_max);
-}
+template first_time time_of_impact(const vertex_face<double>&, double);
+template first_time time_of_impact(const edge_edge<double>&, double);
+template first_time time_of_impact(const vertex_edge<double>&, double);
+template first_time time_of_impact(const vertex_vertex<double>&, double);
 
 }  // namespace ccd

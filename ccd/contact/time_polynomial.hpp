@@ -96,7 +96,7 @@ inline time_polynomial coordinate_in_time(const curve& points, double point<doub
     time_polynomial::form coefficients;
     integer binomial = 1;
     for (std::size_t j = 0; j <= degree; ++j) {
-        coefficients.push_back(integer(binomial * values[0]));
+        coefficients.push_back(binomial * values[0]);
         for (std::size_t i = 0; i + j < degree; ++i) values[i] = values[i + 1] - values[i];
         binomial = binomial * integer(degree - j) / integer(j + 1);
     }

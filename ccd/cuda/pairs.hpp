@@ -3,8 +3,8 @@
 
 #include <algorithm>
 #include <ccd/batch.hpp>
+#include <ccd/contact.hpp>
 #include <ccd/cuda.hpp>
-#include <ccd/first_times.hpp>
 #include <cstddef>
 #include <cstdint>
 #include <span>

@@ -278,10 +278,10 @@ step_result step(const mesh& before, const mesh& after, const step_options& opti
     if (!ccd::detail::has_faces_alone(before))
         return failed({"ccd::cuda: mesh has edges or points; expected only faces"});
     ccd::detail::check_options(options, before.vertices.size());
-    if (!options.distances.ask_for_contact())
+    if (!options.distances.is_contact())
         return failed({"ccd::cuda: distances are not 0; expected 0"});
     const pair_filter& filter = options.filter;
-    if (filter.can_collide || !filter.groups.empty() || !filter.pinned.empty() || filter.part ||
+    if (filter.can_collide || !filter.groups.empty() || !filter.pinned.empty() || filter.region ||
         filter.skip_unused)
         return failed({"ccd::cuda: filter of pairs is not empty; expected an empty one"});
     ccd::detail::stopwatch total, watch;

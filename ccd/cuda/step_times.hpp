@@ -3,11 +3,11 @@
 #pragma once
 
 #include <algorithm>
-#include <ccd/contact.hpp>
 #include <ccd/cuda.hpp>
 #include <ccd/kind.hpp>
 #include <ccd/mesh.hpp>
 #include <ccd/step.hpp>
+#include <ccd/verdict.hpp>
 #include <cstddef>
 #include <cstdint>
 #include <numeric>

@@ -5,7 +5,6 @@
 // are also decided. Queues are as in ccd/cuda/exact_stages.hpp. Internal.
 #pragma once
 
-#include <ccd/contact.hpp>
 #include <ccd/cuda.hpp>
 #include <ccd/verdict.hpp>
 #include <cstddef>

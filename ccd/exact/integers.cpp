@@ -1,4 +1,4 @@
-// Decisions in integers without allocation: see ccd/exact/integers.hpp for what they promise.
+// Decisions in integers without allocation: see ccd/exact/integers.hpp.
 #include "ccd/exact/integers.hpp"
 
 #include "ccd/exact/axis_units.hpp"
@@ -20,12 +20,14 @@ outcome decide_to_the_end(const Query& query, const integer_units& units) {
     return found;
 }
 
-template <template <class> class Query>
-verdict decide_any(const Query<double>& query) {
+}  // namespace
+
+template <any_query Query>
+verdict decide_in_integers(const Query& query) {
     const integer_units units(query);
     if (!units.finite()) return {outcome::uncertain, cause::range};
     if (units.bits() > extent_limit(4)) {
-        // What comparing coordinates tells, at whatever scale.
+        // Comparisons of coordinates hold at every scale.
         if (separated_by_coordinates(query)) return {outcome::separate, cause::none};
         return {outcome::uncertain, cause::range};
     }
@@ -35,19 +37,9 @@ verdict decide_any(const Query<double>& query) {
     return {found, found == outcome::uncertain ? cause::inside : cause::none};
 }
 
-}  // namespace
-
-verdict decide_in_integers(const vertex_face<double>& q) {
-    return decide_any(q);
-}
-verdict decide_in_integers(const edge_edge<double>& q) {
-    return decide_any(q);
-}
-verdict decide_in_integers(const vertex_edge<double>& q) {
-    return decide_any(q);
-}
-verdict decide_in_integers(const vertex_vertex<double>& q) {
-    return decide_any(q);
-}
+template verdict decide_in_integers(const vertex_face<double>&);
+template verdict decide_in_integers(const edge_edge<double>&);
+template verdict decide_in_integers(const vertex_edge<double>&);
+template verdict decide_in_integers(const vertex_vertex<double>&);
 
 }  // namespace ccd::detail

@@ -1,4 +1,4 @@
-// The reference decisions: see include/ccd/reference.hpp for what they promise.
+// The reference decisions: see include/ccd/reference.hpp.
 //
 // A query collides exactly if one of these holds (algebra in brackets):
 //  * VF, EE: Y = 0, N ≠ 0 and all G_i >= 0 at some t in [0, 1]    [roots of the cubic Y]
@@ -75,27 +75,19 @@ bool touches(const vertex_vertex<integer>& query, const vertex_vertex<double>&) 
     return vertices_touch(query);
 }
 
-template <template <class> class Query>
-verdict decide_finite(const Query<double>& query) {
-    if (!is_finite(query)) return {outcome::uncertain, cause::range};
-    return {touches(to_integers(query), query) ? outcome::collides : outcome::separate,
-            cause::none};
-}
-
 }  // namespace
 }  // namespace detail
 
-verdict decide_reference(const vertex_face<double>& q) {
-    return detail::decide_finite(q);
+template <any_query Query>
+verdict decide_reference(const Query& query) {
+    if (!detail::is_finite(query)) return {outcome::uncertain, cause::range};
+    const bool touches = detail::touches(detail::to_integers(query), query);
+    return {touches ? outcome::collides : outcome::separate, cause::none};
 }
-verdict decide_reference(const edge_edge<double>& q) {
-    return detail::decide_finite(q);
-}
-verdict decide_reference(const vertex_edge<double>& q) {
-    return detail::decide_finite(q);
-}
-verdict decide_reference(const vertex_vertex<double>& q) {
-    return detail::decide_finite(q);
-}
+
+template verdict decide_reference(const vertex_face<double>&);
+template verdict decide_reference(const edge_edge<double>&);
+template verdict decide_reference(const vertex_edge<double>&);
+template verdict decide_reference(const vertex_vertex<double>&);
 
 }  // namespace ccd

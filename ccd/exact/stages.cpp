@@ -1,5 +1,5 @@
-// The order of the stages of `exact`, for one query; exact_stages (ccd/explain.hpp) says what each
-// asks. Each decides the query or leaves it to the next.
+// The order of the stages of `exact`, for one query; exact_stages (ccd/explain.hpp) describes each.
+// Each decides the query or leaves it to the next.
 #include "ccd/exact/stages.hpp"
 
 #include <ccd/methods/forms.hpp>
@@ -20,8 +20,8 @@ namespace {
 
 /// Proof: proofs/FilterStages.v, filter_face_separate, filter_face_collides, filter_edges_separate,
 /// filter_edges_collide, filter_bounded.
-template <template <class> class Forms, template <class> class Query>
-[[gnu::flatten]] verdict axes_to_subdivision(const Query<double>& query, stage_report* report,
+template <template <class> class Forms, class Query>
+[[gnu::flatten]] verdict axes_to_subdivision(const Query& query, stage_report* report,
                                              static_filter::contact_part* found,
                                              std::size_t deepest) {
     constexpr verdict separate{outcome::separate, cause::none};
@@ -32,7 +32,7 @@ template <template <class> class Forms, template <class> class Query>
     {
         stage_timer timer(report, stage::axes);
         const bool separated =
-            ERRBOUND_INSTRUCTION_SET::separated_by_coordinates<kind_of<Query<double>>>(numbers);
+            ERRBOUND_INSTRUCTION_SET::separated_by_coordinates<kind_of<Query>>(numbers);
         timer.count(1, separated, 0);
         if (separated) return separate;
     }
@@ -67,8 +67,17 @@ template <template <class> class Forms, template <class> class Query>
     return {answer, answer == outcome::uncertain ? cause::inside : cause::none};
 }
 
-template <class Query>
-verdict integers_to_unbounded(const Query& query, stage_report* report) {
+}  // namespace
+
+template <cubic_query Query>
+verdict decide_in_floating_point(const Query& query, stage_report* report,
+                                 static_filter::contact_part* found, std::size_t deepest) {
+    return axes_to_subdivision<forms_of_kind<kind_of<Query>>::template type>(query, report, found,
+                                                                             deepest);
+}
+
+template <any_query Query>
+verdict decide_with_integers(const Query& query, stage_report* report) {
     const auto decided = [&](stage s, const auto& decide) {
         stage_timer timer(report, s);
         const verdict answer = decide(query);
@@ -81,28 +90,14 @@ verdict integers_to_unbounded(const Query& query, stage_report* report) {
     return decided(stage::unbounded, [](const Query& q) { return decide_reference(q); });
 }
 
-}  // namespace
+template verdict decide_in_floating_point(const vertex_face<double>&, stage_report*,
+                                          static_filter::contact_part*, std::size_t);
+template verdict decide_in_floating_point(const edge_edge<double>&, stage_report*,
+                                          static_filter::contact_part*, std::size_t);
 
-verdict decide_in_floating_point(const vertex_face<double>& query, stage_report* report,
-                                 static_filter::contact_part* found, std::size_t deepest) {
-    return axes_to_subdivision<linear_vertex_face_forms>(query, report, found, deepest);
-}
-verdict decide_in_floating_point(const edge_edge<double>& query, stage_report* report,
-                                 static_filter::contact_part* found, std::size_t deepest) {
-    return axes_to_subdivision<linear_edge_edge_forms>(query, report, found, deepest);
-}
-
-verdict decide_exactly(const vertex_face<double>& query, stage_report* report) {
-    return integers_to_unbounded(query, report);
-}
-verdict decide_exactly(const edge_edge<double>& query, stage_report* report) {
-    return integers_to_unbounded(query, report);
-}
-verdict decide_exactly(const vertex_edge<double>& query, stage_report* report) {
-    return integers_to_unbounded(query, report);
-}
-verdict decide_exactly(const vertex_vertex<double>& query, stage_report* report) {
-    return integers_to_unbounded(query, report);
-}
+template verdict decide_with_integers(const vertex_face<double>&, stage_report*);
+template verdict decide_with_integers(const edge_edge<double>&, stage_report*);
+template verdict decide_with_integers(const vertex_edge<double>&, stage_report*);
+template verdict decide_with_integers(const vertex_vertex<double>&, stage_report*);
 
 }  // namespace ccd::detail

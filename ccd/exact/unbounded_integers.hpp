@@ -1,33 +1,20 @@
-// Queries in integers of unbounded size, and the exact contact of a vertex with an edge in them.
-//
-// Shared by the decisions that serve every finite input: the reference, `bsc-exact` and
-// `root-parity`. Allocates. Internal.
+// Queries in unbounded integers, and the exact contact of a vertex with an edge in them: for the
+// reference, `bsc-exact` and `root-parity`. Allocates. Internal.
 #pragma once
 
 #include <ccd/methods/forms.hpp>
 #include <ccd/methods/transform.hpp>
 #include <cstddef>
 #include <errbound/integers/binary_double.hpp>
-#include <errbound/multiprecision.hpp>
+#include <errbound/integers/integer.hpp>
 #include <errbound/roots/real_roots.hpp>
 
 #include "ccd/exact/axis_units.hpp"
 #include "ccd/exact/features.hpp"
-#ifdef ERRBOUND_HAVE_GMP
-#include <boost/multiprecision/gmp.hpp>
-#else
-#include <boost/multiprecision/cpp_int.hpp>
-#endif
 
 namespace ccd::detail {
 
-#ifdef ERRBOUND_HAVE_GMP
-using integer =
-    boost::multiprecision::number<boost::multiprecision::gmp_int, boost::multiprecision::et_off>;
-#else
-using integer = boost::multiprecision::number<boost::multiprecision::cpp_int_backend<>,
-                                              boost::multiprecision::et_off>;
-#endif
+using errbound::integer;
 
 /// The query, of finite coordinates, in integers: each axis times a power of two of its own.
 /// Proof: proofs/UnboundedIntegers.v, to_integers_right.
@@ -36,13 +23,13 @@ Query<integer> to_integers(const Query<double>& query) {
     return integer_units(query).converted(query, [](double x, int unit) {
         if (x == 0) return integer(0);
         const errbound::integers::binary_double d(x);
-        return integer(integer(d.odd_part()) << (d.last_bit() - unit));
+        return integer(d.odd_part()) << (d.last_bit() - unit);
     });
 }
 
-/// W × E = 0 and W·(W − E) <= 0 at some t in [0, 1], with W = v − e0, E = e1 − e0. (On the line, v
-/// lies between e0 and e1 exactly if W and W − E do not point the same way; this holds for E = 0
-/// too, where it says W = 0.) The times are the roots of the three quadratics' common factor.
+/// True if W × E = 0 and W·(W − E) <= 0 at some t in [0, 1], with W = v − e0, E = e1 − e0. (On the
+/// line, v lies between e0 and e1 exactly if W and W − E do not point the same way; for E = 0 this
+/// means W = 0.) The times are the roots of the three quadratics' common factor.
 /// Proof: proofs/UnboundedIntegers.v, integer_contact_right.
 inline bool vertex_touches_edge(const vertex_edge<integer>& query) {
     const auto e = difference(query.e1, query.e0);
@@ -75,8 +62,8 @@ inline bool vertex_touches_edge(const vertex_edge<integer>& query) {
     return false;
 }
 
-/// Whether the vertex of a VF query meets one of the face's edges, or an end of one edge of an EE
-/// query the other edge. `original`: the same query before its conversion.
+/// True if the vertex of a VF query meets one of the face's edges, or an end of one edge of an EE
+/// query the other edge. `original` is the query before its conversion.
 /// Proof: proofs/UnboundedIntegers.v, face_border_right, edges_border_right.
 template <template <class> class Query>
 bool touches_at_border(const Query<integer>& query, const Query<double>& original) {

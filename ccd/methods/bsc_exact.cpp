@@ -33,21 +33,17 @@ bool collides(const Query<double>& original) {
     return detail::touches_at_border(query, original);
 }
 
-template <class Query>
-verdict decide_any(const Query& query) {
+}  // namespace
+
+template <cubic_query Query>
+verdict decide_bsc_exact(const Query& query) {
     if (!detail::is_finite(query)) return {outcome::uncertain, cause::range};
     const verdict filtered = decide_bsc<errbound::interval>(query);
     if (filtered.outcome != outcome::uncertain) return filtered;
     return {collides(query) ? outcome::collides : outcome::separate, cause::none};
 }
 
-}  // namespace
-
-verdict decide_bsc_exact(const vertex_face<double>& query) {
-    return decide_any(query);
-}
-verdict decide_bsc_exact(const edge_edge<double>& query) {
-    return decide_any(query);
-}
+template verdict decide_bsc_exact(const vertex_face<double>&);
+template verdict decide_bsc_exact(const edge_edge<double>&);
 
 }  // namespace ccd

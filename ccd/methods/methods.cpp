@@ -57,8 +57,26 @@ constexpr method_info table[] = {
      "static error bounds, then integers of fixed and of unbounded width (ccd step --explain)"},
 };
 
-template <class Query>
-verdict decide_any(method m, const Query& query) {
+}  // namespace
+
+std::span<const method_info> methods() {
+    return table;
+}
+
+std::optional<method> find_method(std::string_view name) {
+    const auto found = std::ranges::find(table, name, &method_info::name);
+    if (found == std::end(table)) return std::nullopt;
+    return found->method;
+}
+
+method_info info(method m) {
+    const auto found = std::ranges::find(table, m, &method_info::method);
+    return found != std::end(table) ? *found
+                                    : method_info{m, "unknown", true, true, "none", "none"};
+}
+
+template <cubic_query Query>
+verdict decide(method m, const Query& query) {
     switch (m) {
         case method::float_:
             return decide_bsc<errbound::none>(query);
@@ -88,29 +106,7 @@ verdict decide_any(method m, const Query& query) {
     return {};
 }
 
-}  // namespace
-
-std::span<const method_info> methods() {
-    return table;
-}
-
-std::optional<method> find_method(std::string_view name) {
-    const auto found = std::ranges::find(table, name, &method_info::name);
-    if (found == std::end(table)) return std::nullopt;
-    return found->method;
-}
-
-method_info info(method m) {
-    const auto found = std::ranges::find(table, m, &method_info::method);
-    return found != std::end(table) ? *found
-                                    : method_info{m, "unknown", true, true, "none", "none"};
-}
-
-verdict decide(method m, const vertex_face<double>& query) {
-    return decide_any(m, query);
-}
-verdict decide(method m, const edge_edge<double>& query) {
-    return decide_any(m, query);
-}
+template verdict decide(method, const vertex_face<double>&);
+template verdict decide(method, const edge_edge<double>&);
 
 }  // namespace ccd

@@ -207,8 +207,10 @@ crossing in_integers(const Query<double>& original) {
     });
 }
 
-template <template <class> class Query>
-verdict decide_any(const Query<double>& query) {
+}  // namespace
+
+template <cubic_query Query>
+verdict decide_root_parity(const Query& query) {
     const auto [tracked, finite] = tracked_query<errbound::interval>(query);
     if (!finite) return {outcome::uncertain, cause::range};
     crossing found =
@@ -217,13 +219,7 @@ verdict decide_any(const Query<double>& query) {
     return {found == crossing::none ? outcome::separate : outcome::collides, cause::none};
 }
 
-}  // namespace
-
-verdict decide_root_parity(const vertex_face<double>& query) {
-    return decide_any(query);
-}
-verdict decide_root_parity(const edge_edge<double>& query) {
-    return decide_any(query);
-}
+template verdict decide_root_parity(const vertex_face<double>&);
+template verdict decide_root_parity(const edge_edge<double>&);
 
 }  // namespace ccd

@@ -3,7 +3,7 @@
 
 #include <mpi.h>
 
-#include <ccd/stop.hpp>
+#include <ccd/execution.hpp>
 #include <exception>
 #include <new>
 #include <stdexcept>

@@ -64,7 +64,7 @@ void check_mesh(exchanger& ranks, const mesh_part& mesh, const pair_filter& filt
             if (!unique.insert(number).second)
                 throw std::invalid_argument(caller + ": found a vertex's number given twice, " +
                                             std::to_string(number));
-        if (filter.can_collide || filter.part)
+        if (filter.can_collide || filter.region)
             throw std::invalid_argument(caller +
                                         ": found can_collide or a part of space, expected groups "
                                         "and pinned flags alone");

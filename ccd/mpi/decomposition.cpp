@@ -97,7 +97,7 @@ std::vector<decomposition::sample> decomposition::weighted_samples(
 
 /// Returns the node's place.
 std::size_t decomposition::cut(std::size_t first, std::size_t count, std::span<sample> samples,
-                               const space_part& part) {
+                               const space_region& part) {
     const std::size_t i = nodes_.size();
     nodes_.push_back({first, count});
     if (count == 1) {
@@ -124,7 +124,7 @@ std::size_t decomposition::cut(std::size_t first, std::size_t count, std::span<s
                                       [&](const sample& s) { return place(s) < at; });
     const auto of_below = static_cast<std::size_t>(above - samples.begin());
 
-    space_part low = part, high = part;
+    space_region low = part, high = part;
     low.high[axis] = high.low[axis] = at;
     const std::size_t a = cut(first, below, samples.first(of_below), low);
     const std::size_t b = cut(first + below, count - below, samples.subspan(of_below), high);

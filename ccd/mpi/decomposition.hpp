@@ -22,7 +22,7 @@ class decomposition {
     /// least, at most 2^19 or 64 a rank), once for each bit of the number of ranks.
     decomposition(exchanger& ranks, std::span<const swept_box> boxes);
 
-    const space_part& part(std::size_t rank) const { return parts_[rank]; }
+    const space_region& part(std::size_t rank) const { return parts_[rank]; }
 
     /// Calls visit(rank) for each rank whose part a closed box meets.
     template <class Visit>
@@ -46,7 +46,7 @@ class decomposition {
 
     static std::vector<sample> weighted_samples(exchanger& ranks, std::span<const swept_box> boxes);
     std::size_t cut(std::size_t first, std::size_t count, std::span<sample> samples,
-                    const space_part& part);
+                    const space_region& part);
 
     template <class Visit>
     void for_each_met(std::size_t i, const swept_box& box, const Visit& visit) const {
@@ -60,7 +60,7 @@ class decomposition {
     }
 
     std::vector<node> nodes_;
-    std::vector<space_part> parts_;
+    std::vector<space_region> parts_;
 };
 
 }  // namespace ccd::mpi::detail

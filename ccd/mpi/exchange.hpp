@@ -4,7 +4,7 @@
 #include <mpi.h>
 
 #include <algorithm>
-#include <ccd/contact.hpp>
+#include <ccd/verdict.hpp>
 #include <cstddef>
 #include <cstdint>
 #include <limits>

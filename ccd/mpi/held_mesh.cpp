@@ -173,11 +173,11 @@ std::vector<std::array<vertex_index, N>> held_mesh::by_index(
     return elements;
 }
 
-pair_filter held_mesh::filter(const space_part& part, const pair_filter& given) const {
+pair_filter held_mesh::filter(const space_region& part, const pair_filter& given) const {
     pair_filter own = given;
     own.groups = groups_;
     own.pinned = pinned_;
-    own.part = part;
+    own.region = part;
     return own;
 }
 

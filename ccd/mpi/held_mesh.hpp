@@ -49,7 +49,7 @@ class held_mesh {
 
     mesh_steps steps() const { return {faces_, edges_, numbers_.size()}; }
     /// The pairs that begin in that part of space, of what options let through.
-    pair_filter filter(const space_part& part, const pair_filter& given) const;
+    pair_filter filter(const space_region& part, const pair_filter& given) const;
     pair_distances distances(const pair_distances& given) const { return {given.all, thickness_}; }
 
     /// Of each pair the lowest rank that has the first element.

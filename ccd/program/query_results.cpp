@@ -1,8 +1,7 @@
 #include "ccd/program/query_results.hpp"
 
 #include <algorithm>
-#include <ccd/first_times.hpp>
-#include <ccd/separation.hpp>
+#include <ccd/contact.hpp>
 #include <chrono>
 #include <cstdio>
 #include <limits>

@@ -65,7 +65,7 @@ struct step_outcome {
 /// Vertex/edge and vertex/vertex rows are shown only if there are any.
 template <kind K>
 bool is_shown(const step_result& result) {
-    return K == kind::vertex_face || K == kind::edge_edge || !result.pairs.of<K>().empty() ||
+    return is_cubic(K) || !result.pairs.of<K>().empty() ||
            (result.candidates && result.candidates->of<K>() > 0);
 }
 

@@ -1,7 +1,6 @@
 // First contacts: their brackets, and what they cost beside yes or no.
 #include <ccd/contact.hpp>
 #include <ccd/exact.hpp>
-#include <ccd/first_times.hpp>
 
 #include "ccd/report/measuring/statistics.hpp"
 #include "ccd/report/sections.hpp"

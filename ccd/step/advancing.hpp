@@ -194,7 +194,7 @@ void advancing<Others>::ask_near_ones() {
 template <class Others>
 void advancing<Others>::ask_whole_way() {
     step_options asked = step_asked();
-    const bool contact = options_.distances.ask_for_contact();
+    const bool contact = options_.distances.is_contact();
     asked.first_contact = true;
     asked.times = islands_;
     const step_result whole = step(way_, asked);

@@ -17,7 +17,7 @@
 namespace ccd::detail {
 
 inline bool lets_all_through(const pair_filter& filter) {
-    return !filter.can_collide && filter.groups.empty() && filter.pinned.empty() && !filter.part;
+    return !filter.can_collide && filter.groups.empty() && filter.pinned.empty() && !filter.region;
 }
 
 inline bool may_collide(const pair_filter& filter, vertex_index v, vertex_index w) {
@@ -48,7 +48,7 @@ class pair_test {
     template <class Pair>
     bool operator()(const Pair& pair) const {
         return may_collide(filter_, pair) &&
-               (!filter_.part || filter_.part->has(lower_corner(pair)));
+               (!filter_.region || filter_.region->has(lower_corner(pair)));
     }
 
   private:

@@ -182,7 +182,7 @@ std::size_t candidate_search::find_kind(const question& asked, First& first, Sec
     if (!asked.visitor.of<K>() || first.size() == 0 || second.size() == 0) return 0;
     if (asked.boxes.need_doubles<Second::vertices>(second))
         return find_by<K>(in_doubles_, asked, first, second);
-    if constexpr (K == kind::vertex_face || K == kind::edge_edge)
+    if constexpr (is_cubic(K))
         if (asked.close != nullptr) return find_close<K>(asked, first, second);
     return find_by<K>(in_floats_, asked, first, second);
 }

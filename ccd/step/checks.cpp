@@ -93,7 +93,7 @@ void check_positions(const vertex_rows& positions, std::size_t vertices,
 
 bool ask_for_times_or_distances(const step_options& options) {
     return options.times || options.first_contact || options.t_max < 1 ||
-           !options.distances.ask_for_contact();
+           !options.distances.is_contact();
 }
 
 void check_plane(const vertex_rows& positions) {

@@ -4,9 +4,9 @@
 #include <tbb/enumerable_thread_specific.h>
 
 #include <algorithm>
+#include <ccd/contact.hpp>
 #include <ccd/exact.hpp>
 #include <ccd/method.hpp>
-#include <ccd/separation.hpp>
 #include <ccd/step.hpp>
 #include <span>
 #include <utility>
@@ -57,18 +57,19 @@ class narrow_phase {
         : positions_(positions),
           method_(options.method),
           distances_(options.distances),
-          most_(options.distances.most()),
+          max_distance_(options.distances.max_distance()),
           parts_(part{{}, batch_worker(kernels_for(options.set), options.explain), {}, 0}) {}
 
     /// From any thread.
     void decide(std::span<const pair> candidates) {
         stopwatch watch;
         part& local = parts_.local();
-        if (!distances_.ask_for_contact()) {
+        if (!distances_.is_contact()) {
             decide_block(local, candidates, [&](outcome* answers) {
-                local.worker.decide_within(positions_, candidates, distances_, most_, answers);
+                local.worker.decide_within(positions_, candidates, distances_, max_distance_,
+                                           answers);
             });
-        } else if constexpr (K == kind::vertex_face || K == kind::edge_edge) {
+        } else if constexpr (is_cubic(K)) {
             if (method_ == method::exact)
                 decide_block(local, candidates, [&](outcome* answers) {
                     local.worker.decide(positions_, candidates, answers);
@@ -124,7 +125,7 @@ class narrow_phase {
     batch_positions positions_;
     method method_;
     pair_distances distances_;
-    double most_;
+    double max_distance_;
     tbb::enumerable_thread_specific<part> parts_;
 };
 

@@ -45,7 +45,7 @@ step_result run_step(detail::candidate_search& search, const vertex_rows& positi
     using wanted = detail::candidate_search::wanted;
     const bool counted = options.count_candidates || options.explain;
     const bool close_do =
-        !counted && options.method == method::exact && options.distances.ask_for_contact();
+        !counted && options.method == method::exact && options.distances.is_contact();
     const pair_counts counts =
         search.find(at, options, visitor, close_do ? wanted::close_pairs : wanted::candidates);
     if (counted) result.candidates = counts;
@@ -110,7 +110,7 @@ void find_touching_at_start(const vertex_rows& positions, time_options asked, st
     const auto& pairs = result.pairs.of<K>();
     asked.t_max = 0;
     std::vector<outcome> answers;
-    if (asked.distances.ask_for_contact())
+    if (asked.distances.is_contact())
         answers =
             touches_at_start_batch(positions, pairs,
                                    {.threads = asked.threads, .set = asked.set, .stop = asked.stop})

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 #include <array>
-#include <ccd/first_times.hpp>
+#include <ccd/contact.hpp>
 #include <cmath>
 #include <cstddef>
 #include <limits>
@@ -49,7 +49,7 @@ class swept_boxes {
                 }
             }
         if constexpr (std::is_same_v<Real, double>)
-            if (!distances_.ask_for_contact()) widen(all, part_of_distance(element));
+            if (!distances_.is_contact()) widen(all, part_of_distance(element));
         return all;
     }
 
@@ -67,7 +67,7 @@ class swept_boxes {
     /// And whether they are to be widened, which floats would not round outwards.
     template <std::size_t N>
     bool need_doubles(std::span<const std::array<vertex_index, N>> elements) const {
-        if (!distances_.ask_for_contact()) return true;
+        if (!distances_.is_contact()) return true;
         std::size_t confused = 0, samples = 0;
         for (std::size_t i = 0; i < elements.size();
              i += sampling_stride(elements.size()), ++samples) {
@@ -85,7 +85,7 @@ class swept_boxes {
     /// What an element brings to the distance of its pairs, or more.
     template <std::size_t N>
     double part_of_distance(const std::array<vertex_index, N>& element) const {
-        if (!distances_.thickness.empty()) return distances_.thickest(element);
+        if (!distances_.thickness.empty()) return distances_.thickness_of(element);
         return above(distances_.all / 2);
     }
     /// No less than what was rounded to x, nor more than the largest double, in every rounding

@@ -1,15 +1,13 @@
-// All of collision detection but devices (ccd/cuda.hpp).
+// All of collision detection except devices (ccd/cuda.hpp) and ranks (ccd/mpi.hpp).
 #pragma once
 
 #include <ccd/advance.hpp>
 #include <ccd/batch.hpp>
 #include <ccd/contact.hpp>
-#include <ccd/contact_data.hpp>
 #include <ccd/curves.hpp>
 #include <ccd/exact.hpp>
+#include <ccd/execution.hpp>
 #include <ccd/explain.hpp>
-#include <ccd/first_contacts.hpp>
-#include <ccd/first_times.hpp>
 #include <ccd/kind.hpp>
 #include <ccd/mesh.hpp>
 #include <ccd/method.hpp>
@@ -25,7 +23,5 @@
 #include <ccd/plane.hpp>
 #include <ccd/query.hpp>
 #include <ccd/reference.hpp>
-#include <ccd/separation.hpp>
 #include <ccd/step.hpp>
-#include <ccd/stop.hpp>
 #include <ccd/verdict.hpp>

@@ -1,20 +1,18 @@
 // Motion along curves: points that move by polynomials in t of any degree.
 //
-// The decisions and first times of ccd/exact.hpp, ccd/contact.hpp and ccd/separation.hpp, with the
-// same meaning and as exact, for points given in Bernstein form (Bézier curves in time). Floating
-// point under tracked bounds decides what is clearly separate; the rest is decided in unbounded
-// integers, as ccd/reference.hpp says. Allocates; throws only std::bad_alloc.
-//
-// What else motion is given by has this form: degrees may differ from point to point, a power basis
-// converts, and a B-spline is the Bézier pieces that knot insertion makes of it.
+// The calls of ccd/exact.hpp and ccd/contact.hpp, with the same meaning and as exact, for points in
+// Bernstein form (Bézier curves in time). Degrees may differ from point to point. A power basis
+// converts to this form, and knot insertion converts a B-spline to Bézier pieces.
+// Floating point under tracked bounds decides clearly separate queries, unbounded integers decide
+// the others (ccd/reference.hpp). Allocates; throws only std::bad_alloc.
 #pragma once
 
 #include <algorithm>
-#include <ccd/contact.hpp>
+#include <ccd/kind.hpp>
 #include <ccd/query.hpp>
-#include <ccd/separation.hpp>
 #include <ccd/verdict.hpp>
 #include <cmath>
+#include <concepts>
 #include <cstddef>
 #include <limits>
 #include <span>
@@ -22,11 +20,11 @@
 
 namespace ccd {
 
-/// A point's motion, x(t) = Σ C(m, i)(1 − t)^(m−i) t^i c_i for t in [0, 1], by its m + 1 control
-/// points: one for a point at rest, two for motion along a line at constant speed. Not owned.
+/// The m + 1 control points c_i of x(t) = Σ C(m, i)(1 − t)^(m−i) t^i c_i for t in [0, 1]: one for a
+/// point at rest, two for motion along a line at constant speed. Not owned.
 using curve = std::span<const point<double>>;
 
-/// The four kinds of query (ccd/query.hpp), with every point on a curve of its own.
+/// The four kinds of query (ccd/query.hpp), with a curve for each point.
 struct vertex_face_curves {
     curve v, f0, f1, f2;
 };
@@ -40,45 +38,51 @@ struct vertex_vertex_curves {
     curve v, w;
 };
 
+namespace detail {
+
+template <>
+struct kind_constant<vertex_face_curves> : kind_constant<vertex_face<double>> {};
+template <>
+struct kind_constant<edge_edge_curves> : kind_constant<edge_edge<double>> {};
+template <>
+struct kind_constant<vertex_edge_curves> : kind_constant<vertex_edge<double>> {};
+template <>
+struct kind_constant<vertex_vertex_curves> : kind_constant<vertex_vertex<double>> {};
+
+}  // namespace detail
+
+/// One of the four kinds above.
+template <class T>
+concept curve_query = std::same_as<T, vertex_face_curves> || std::same_as<T, edge_edge_curves> ||
+    std::same_as<T, vertex_edge_curves> || std::same_as<T, vertex_vertex_curves>;
+
 /// As decide_exact of ccd/exact.hpp; `uncertain` only if a coordinate is not finite or a curve has
 /// no control point.
-verdict decide_exact(const vertex_face_curves& query);
-verdict decide_exact(const edge_edge_curves& query);
-verdict decide_exact(const vertex_edge_curves& query);
-verdict decide_exact(const vertex_vertex_curves& query);
+template <curve_query Query>
+verdict decide_exact(const Query& query);
 
-/// As time_of_impact of ccd/contact.hpp. The first time is algebraic, of degree 3m at most for
-/// curves of degree m.
-first_time time_of_impact(const vertex_face_curves& query, double t_max = 1);
-first_time time_of_impact(const edge_edge_curves& query, double t_max = 1);
-first_time time_of_impact(const vertex_edge_curves& query, double t_max = 1);
-first_time time_of_impact(const vertex_vertex_curves& query, double t_max = 1);
+/// As the functions of these names in ccd/contact.hpp. For curves of degree m the first time of
+/// contact is algebraic, of degree at most 3m.
+template <curve_query Query>
+first_time time_of_impact(const Query& query, double t_max = 1);
+template <curve_query Query>
+verdict decide_within(const Query& query, separation d);
+template <curve_query Query>
+first_time time_within(const Query& query, separation d, double t_max = 1);
 
-/// As decide_within and time_within of ccd/separation.hpp.
-verdict decide_within(const vertex_face_curves& query, separation d);
-verdict decide_within(const edge_edge_curves& query, separation d);
-verdict decide_within(const vertex_edge_curves& query, separation d);
-verdict decide_within(const vertex_vertex_curves& query, separation d);
-first_time time_within(const vertex_face_curves& query, separation d, double t_max = 1);
-first_time time_within(const edge_edge_curves& query, separation d, double t_max = 1);
-first_time time_within(const vertex_edge_curves& query, separation d, double t_max = 1);
-first_time time_within(const vertex_vertex_curves& query, separation d, double t_max = 1);
-
-/// One piece of motion along splines: between two knots, t from 0 to 1 as time goes from `from` to
-/// `to`.
+/// The motion between two knots of splines: t goes from 0 to 1 as time goes from `from` to `to`.
 template <class Curves>
 struct spline_piece {
     double from = 0, to = 1;
     Curves motion;
 };
 
-/// The first time of motion in pieces.
+/// The first time of motion along splines.
 struct spline_time {
     ccd::outcome outcome = ccd::outcome::uncertain;
-    std::size_t piece = 0;  ///< the first piece with such a time, or that is uncertain
-    first_time in_piece;    ///< when, in that piece's t: exact as always
-    /// Where there is one: it is between these, within some units in the last place of knots; at a
-    /// knot they are that knot.
+    std::size_t piece = 0;  ///< the first piece with a first time, or that is uncertain
+    first_time in_piece;    ///< exact, in that piece's t
+    /// Bounds of the first time, some units in the last place apart; at a knot both are the knot.
     double low = 0, high = 0;
 };
 
@@ -97,8 +101,8 @@ inline std::pair<double, double> time_between(double from, double to, double t) 
 
 }  // namespace detail
 
-/// When the features first touch, or come within d if given, of consecutive pieces: a contiguous
-/// range of spline_piece of one kind. Knots are finite and ascend.
+/// Returns the first time at which the features touch, or come within d, over consecutive pieces: a
+/// contiguous range of spline_piece of one kind. Precondition: knots are finite and ascend.
 template <class Pieces>
 spline_time first_time_of_pieces(const Pieces& pieces, separation d = {}) {
     for (std::size_t i = 0; i < std::size(pieces); ++i) {

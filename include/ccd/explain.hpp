@@ -1,4 +1,4 @@
-// The stages of `exact`: what each asks, what it decided, and at what cost.
+// The stages of `exact`: the test, the decisions and the time of each.
 #pragma once
 
 #include <array>
@@ -8,7 +8,7 @@
 
 namespace ccd {
 
-/// In the order in which a query passes them; it leaves at the first that is certain.
+/// In the order in which a query passes them; the first certain answer ends the query.
 enum class stage : std::uint8_t { axes, coplanarity, inside, subdivision, integers, unbounded };
 inline constexpr std::size_t stage_count = 6;
 
@@ -17,9 +17,8 @@ struct stage_info {
     std::string_view name, question, arithmetic;
 };
 
-/// The stages in their order. Y is the cubic that vanishes where the four points are coplanar, G_i
-/// the quartics that are not negative where a contact is inside both features; coefficients are
-/// those of Bernstein forms. One query asks the axes x, y, z first, and the others after Y.
+/// The stages in their order, for the symbols of ccd/methods/forms.hpp; coefficients are those of
+/// Bernstein forms. A single query tests the axes x, y, z first, and the others after Y.
 inline constexpr std::array<stage_info, stage_count> exact_stages{{
     {stage::axes, "axes",
      "does x, y, z, x ± y, y ± z or z ± x separate the features the same way at both ends?",
@@ -40,20 +39,20 @@ inline constexpr std::array<stage_info, stage_count> exact_stages{{
      "integers of unbounded width"},
 }};
 
-/// The entry of exact_stages; one of the name "unknown" for any other value.
+/// Returns the entry of exact_stages; for any other value an entry named "unknown".
 constexpr stage_info info(stage s) {
     const auto i = static_cast<std::size_t>(s);
     return i < stage_count ? exact_stages[i] : stage_info{s, "unknown", "", ""};
 }
 
-/// What the stages did. Counters only grow, so one report can serve many calls.
+/// Counts and times of the stages. Calls add to it, so one report can collect many calls.
 struct stage_report {
     struct entry {
-        std::uint64_t entered = 0;   ///< queries that the stage was asked
-        std::uint64_t left_out = 0;  ///< queries that passed it by, where it decided too few
+        std::uint64_t entered = 0;   ///< queries that the stage tested
+        std::uint64_t left_out = 0;  ///< queries that skipped it, after it decided too few
         std::uint64_t separate = 0;
         std::uint64_t collides = 0;
-        double seconds = 0;  ///< of all threads together
+        double seconds = 0;  ///< the sum over threads
     };
     std::array<entry, stage_count> stages{};
 

@@ -1,20 +1,23 @@
-// The four kinds of query, and what belongs to each: its query, its pairs of a mesh, its names.
+// The four kinds of query, with the types and names of each.
 //
-// Whoever is generic in the kind asks kind_traits; nobody else maps kinds to types or to names.
+// Generic code uses kind_traits, kind_of and the concepts below. Do not map kinds to types or to
+// names anywhere else.
 #pragma once
 
 #include <array>
 #include <ccd/query.hpp>
 #include <compare>
+#include <concepts>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string_view>
 #include <utility>
 
 namespace ccd {
 
-/// Names a vertex of a mesh.
+/// The index of a vertex in a mesh.
 using vertex_index = std::uint32_t;
 
 /// Vertex v and face f0 f1 f2.
@@ -38,24 +41,10 @@ struct vertex_vertex_pair {
     friend auto operator<=>(const vertex_vertex_pair&, const vertex_vertex_pair&) = default;
 };
 
-constexpr std::array<vertex_index, 4> vertices_of(const vertex_face_pair& p) {
-    return {p.v, p.f0, p.f1, p.f2};
-}
-constexpr std::array<vertex_index, 4> vertices_of(const edge_edge_pair& p) {
-    return {p.a0, p.a1, p.b0, p.b1};
-}
-constexpr std::array<vertex_index, 3> vertices_of(const vertex_edge_pair& p) {
-    return {p.v, p.e0, p.e1};
-}
-constexpr std::array<vertex_index, 2> vertices_of(const vertex_vertex_pair& p) {
-    return {p.v, p.w};
-}
-
 enum class kind : std::uint8_t { vertex_face, edge_edge, vertex_edge, vertex_vertex };
 
-/// What belongs to a kind: `query<T>`, `pair`, the numbers of vertices of its two elements, and its
-/// names in files, options and tables. (ccd/methods/forms.hpp has the forms of those that have
-/// any.)
+/// Holds the types `query<T>` and `pair` of a kind, the number of vertices of its two features, and
+/// its names in files, options and tables.
 template <kind K>
 struct kind_traits;
 template <>
@@ -99,7 +88,7 @@ struct kind_traits<kind::vertex_vertex> {
 template <kind K>
 using pair_of_kind = typename kind_traits<K>::pair;
 
-/// Something for each kind: an `Of<K>` by the kind's name, or `of<K>()`.
+/// Holds one `Of<K>` for each kind, accessed by the kind's name or as `of<K>()`.
 template <template <kind> class Of>
 struct by_kind {
     Of<kind::vertex_face> vertex_face{};
@@ -159,6 +148,31 @@ struct kind_constant<vertex_edge_pair> : kind_constant<vertex_edge<double>> {};
 template <>
 struct kind_constant<vertex_vertex_pair> : kind_constant<vertex_vertex<double>> {};
 
+template <class T>
+concept has_kind = requires {
+    kind_constant<T>::value;
+};
+
+/// Calls f with the members of a query or pair, in order, and returns its result.
+template <has_kind T, class F>
+constexpr auto with_members(const T& all, const F& f) {
+    using traits = kind_traits<kind_constant<T>::value>;
+    constexpr std::size_t count = traits::first_vertices + traits::second_vertices;
+    if constexpr (count == 4) {
+        const auto& [a, b, c, d] = all;
+        return f(a, b, c, d);
+    } else if constexpr (count == 3) {
+        const auto& [a, b, c] = all;
+        return f(a, b, c);
+    } else {
+        const auto& [a, b] = all;
+        return f(a, b);
+    }
+}
+
+template <class R>
+using item_of = typename decltype(std::span(std::declval<const R&>()))::value_type;
+
 }  // namespace detail
 
 /// The kind of a query, of any number type, or of a pair.
@@ -171,7 +185,39 @@ using pair_of_query = typename kind_traits<kind_of<Query>>::pair;
 template <class Pair, class T = double>
 using query_of_pair = typename kind_traits<kind_of<Pair>>::template query<T>;
 
-/// Calls `visit.operator()<K>()` with the kind as a constant, and returns what that returns.
+/// True for vertex_face and edge_edge. Their contacts are at roots of the cubic Y
+/// (ccd/methods/forms.hpp); every method decides them, and files of queries hold them.
+constexpr bool is_cubic(kind k) {
+    return k == kind::vertex_face || k == kind::edge_edge;
+}
+
+/// A query in doubles: vertex_face, edge_edge, vertex_edge or vertex_vertex.
+template <class T>
+concept any_query = detail::has_kind<T> && std::same_as<T, query_of_pair<T>>;
+/// The same for vertex_face and edge_edge only.
+template <class T>
+concept cubic_query = any_query<T> && is_cubic(kind_of<T>);
+
+/// A pair of one of the four kinds.
+template <class T>
+concept any_pair = detail::has_kind<T> && std::same_as<T, pair_of_query<T>>;
+template <class T>
+concept cubic_pair = any_pair<T> && is_cubic(kind_of<T>);
+
+/// A span, vector or other contiguous range of queries in doubles, all of one kind.
+template <class R>
+concept query_range = any_query<detail::item_of<R>>;
+/// A span, vector or other contiguous range of pairs of one kind.
+template <class R>
+concept pair_range = any_pair<detail::item_of<R>>;
+
+/// The vertex indices of a pair, in the order of its members.
+template <any_pair Pair>
+constexpr auto vertices_of(const Pair& pair) {
+    return detail::with_members(pair, [](auto... v) { return std::array{v...}; });
+}
+
+/// Calls `visit.operator()<K>()` with the kind as a constant, and returns its result.
 template <class Visit>
 constexpr decltype(auto) visit_kind(kind k, Visit&& visit) {
     switch (k) {
@@ -186,23 +232,23 @@ constexpr decltype(auto) visit_kind(kind k, Visit&& visit) {
     }
 }
 
-/// As files, options and tables write it: "vf", "ee", "ve", "vv".
+/// The kind's name in files, options and tables: "vf", "ee", "ve", "vv".
 constexpr std::string_view short_name(kind k) {
     return visit_kind(k, [&]<kind K>() { return kind_traits<K>::short_name; });
 }
-/// As directories are named that hold stored queries: "vertex-face".
+/// The kind's name in paths of query files: "vertex-face".
 constexpr std::string_view path_name(kind k) {
     return visit_kind(k, [&]<kind K>() { return kind_traits<K>::path_name; });
 }
-/// As JSON writes it: "vertex_face".
+/// The kind's name in JSON: "vertex_face".
 constexpr std::string_view name(kind k) {
     return visit_kind(k, [&]<kind K>() { return kind_traits<K>::name; });
 }
 
-/// The kinds that files of queries hold and that every method decides.
+/// The kinds for which is_cubic() is true.
 inline constexpr std::array stored_kinds{kind::vertex_face, kind::edge_edge};
 
-/// The stored kind of that short or path name, if there is one.
+/// The cubic kind with that short name or path name; nothing for any other name.
 constexpr std::optional<kind> find_kind(std::string_view wanted) {
     for (const kind k : stored_kinds)
         if (wanted == short_name(k) || wanted == path_name(k)) return k;

@@ -1,11 +1,13 @@
-// The methods by name: what each promises, its source, and one call to decide a query with it.
+// The methods by name: the promise and source of each, and one call to decide a query.
 //
-// decide() allocates only inside `exact`, `bsc-exact` and `root-parity` (unbounded integers, in
-// `exact` seldom), throws only std::bad_alloc there (or aborts if built with GMP), and may be
-// called from any thread. Coordinates must be finite: an infinity or NaN gives `uncertain` with
-// cause `range`.
+//     ccd::verdict v = ccd::decide(ccd::method::tight, query);
+//
+// Coordinates must be finite: otherwise `uncertain` with cause `range`. Callable from any thread.
+// Allocates only in `exact` (seldom), `bsc-exact` and `root-parity`, for unbounded integers, and
+// throws only std::bad_alloc there.
 #pragma once
 
+#include <ccd/kind.hpp>
 #include <ccd/query.hpp>
 #include <ccd/verdict.hpp>
 #include <optional>
@@ -38,21 +40,20 @@ struct method_info {
     std::string_view source;   ///< paper or section
 };
 
-/// All methods, in the order in which tables show them.
+/// Returns all methods, in the order of tables.
 std::span<const method_info> methods();
 
-/// The method of that command-line name, if there is one.
+/// Returns the method with that command-line name; nothing for any other name.
 std::optional<method> find_method(std::string_view name);
 
-/// The entry of methods(); for any other value one of the name "unknown", which promises nothing.
+/// Returns the entry of methods(); for any other value an entry named "unknown", with no promise.
 method_info info(method m);
 
-/// By any method. Worst known (./run bench --worst): a hundredth of a millisecond or two in
-/// floating point, a third of a millisecond by integers where coordinates are of 1e-3 to 1e3, a
-/// tenth of a second where they are of all magnitudes. (Programs that need `exact` alone call
-/// decide_exact of ccd/exact.hpp, which links no other method and can report its stages.) A value
-/// that is none of methods() leaves every query `uncertain`.
-verdict decide(method m, const vertex_face<double>& query);
-verdict decide(method m, const edge_edge<double>& query);
+/// Decides by any method; a value that is not among methods() leaves the query `uncertain`.
+/// Programs that need only `exact` call decide_exact of ccd/exact.hpp, which links no other method.
+/// Worst cost known (./run bench --worst): some 20 µs in floating point; by integers a third of a
+/// millisecond if coordinates are of 1e-3 to 1e3, a tenth of a second if of all magnitudes.
+template <cubic_query Query>
+verdict decide(method m, const Query& query);
 
 }  // namespace ccd

@@ -1,18 +1,15 @@
 // Steps of meshes that are spread over the ranks of MPI. Target: errbound::ccd_mpi.
 //
-// Each rank gives what it has: faces and edges, the numbers of their vertices in the whole mesh,
-// and positions before and after the step. For this step alone space is cut into a box a rank, by
-// recursive coordinate bisection (Berger, Bokhari 1987) of a sample of all elements, weighted by
-// the work that they are expected to make. Elements go to each rank whose box the box that they
-// sweep meets, so that of each pair some rank has both; the rank decides it in whose box the pair
-// begins (ccd::pair_filter::part), which no message is needed for. Pairs then go where their first
-// element came from, or all to rank 0.
+//     const ccd::mpi::step_result found = ccd::mpi::step(MPI_COMM_WORLD, {numbers, positions,
+//     faces});
 //
-// What comes out is what ccd::step finds of the whole mesh, whatever the number of ranks and who
-// has what: pairs, times, the first contact, candidates.
-//
-// All calls are collective: every rank of the communicator makes them, with the same options. What
-// one rank finds wrong is thrown on all, with that rank's message.
+// Each rank passes its faces and edges, the numbers of their vertices in the whole mesh, and
+// positions before and after the step. Results are those of ccd::step for the whole mesh, for every
+// number of ranks and every distribution. All calls are collective, with the same options on every
+// rank. If one rank finds an error, all ranks throw, with that rank's message.
+// Method: each step cuts space into a box a rank by recursive coordinate bisection (Berger, Bokhari
+// 1987) of a weighted sample of elements. A rank receives the elements whose swept boxes meet its
+// box, and decides the pairs that begin in it (ccd::pair_filter::region).
 #pragma once
 
 #include <mpi.h>
@@ -29,16 +26,16 @@
 
 namespace ccd::mpi {
 
-/// Names a vertex of the whole mesh. Any numbers will do, gaps included.
+/// The number of a vertex in the whole mesh; numbers may have gaps.
 using vertex_number = std::uint64_t;
 
-/// What one rank has of the mesh. A vertex may be on many ranks, with the same positions; so may a
-/// face or an edge, and counts once.
+/// One rank's part of the mesh. A vertex may be on many ranks, with the same positions. A face or
+/// an edge may be on many ranks and counts once.
 struct mesh_part {
-    std::span<const vertex_number> numbers;  ///< of the vertices that this rank has, each once
+    std::span<const vertex_number> numbers;  ///< of this rank's vertices, each once
     vertex_rows positions;                   ///< of these vertices
-    std::span<const face> faces = {};        ///< by place in `numbers`
-    std::span<const edge> edges = {};        ///< likewise; those of faces need not be given
+    std::span<const face> faces = {};        ///< indices into `numbers`
+    std::span<const edge> edges = {};  ///< indices into `numbers`; edges of faces may be omitted
 };
 
 /// The numbers of a pair's vertices, in the order of its kind; those of faces and edges ascend.
@@ -51,41 +48,40 @@ using numbered_list = std::vector<numbered_pair<K>>;
 }
 using pair_lists = by_kind<detail::numbered_list>;
 
-/// Where a step's pairs are wanted.
+/// The rank that receives a pair.
 enum class placement : std::uint8_t {
-    owners,  ///< on the lowest rank that has the pair's first element
-    root     ///< all on rank 0
+    owners,  ///< the lowest rank that has the pair's first element
+    root     ///< rank 0 receives all
 };
 
-/// What a step took of this rank.
+/// The work of this rank in a step.
 struct rank_work {
-    std::uint64_t elements_given = 0;  ///< faces, edges and vertices without one, as given
-    std::uint64_t elements_held = 0;   ///< those sent to it, by itself too
+    std::uint64_t elements_given = 0;  ///< faces, edges and vertices without one, as passed
+    std::uint64_t elements_held = 0;   ///< received, from itself too
     std::uint64_t bytes_sent = 0;      ///< to other ranks
     double seconds = 0;
 };
 
 struct step_result {
-    pair_lists pairs;              ///< those of this rank, sorted
-    pair_lists touching_at_start;  ///< of `pairs`, if asked for
-    time_lists times;              ///< of `pairs`, if asked for
-    first_time first_contact;      ///< of the whole step, the same on all ranks, if asked for
-    std::optional<pair_counts> candidates;  ///< of the whole step, if asked for
-    std::optional<pair_counts> decided;     ///< of those, the ones that this rank decided
+    pair_lists pairs;                       ///< those of this rank, sorted
+    pair_lists touching_at_start;           ///< of `pairs`, with initial_contact
+    time_lists times;                       ///< of `pairs`, with step_options::times
+    first_time first_contact;               ///< of the whole step, the same on all ranks
+    std::optional<pair_counts> candidates;  ///< of the whole step
+    std::optional<pair_counts> decided;     ///< by this rank
     rank_work work;
 };
 
-/// One step. Options mean what they mean to ccd::step; groups, pinned flags and thicknesses are
-/// those of mesh.numbers; can_collide and part must not be given. options.threads counts for each
-/// rank.
+/// One step, with the options of ccd::step. Groups, pinned flags and thicknesses are those of
+/// mesh.numbers. can_collide and region must be empty. options.threads applies to each rank.
 ///
-/// Throws std::invalid_argument on all ranks if one of them finds: what ccd::mesh_steps would not
-/// take, a number given twice, a vertex with other positions (groups, flags, thicknesses) than
-/// elsewhere, or more than 2^32 − 1 vertices in its box.
+/// Throws std::invalid_argument on all ranks if on one of them ccd::mesh_steps would throw it, a
+/// number occurs twice, a vertex has other positions (groups, flags, thicknesses) than on another
+/// rank, or its box has more than 2^32 − 1 vertices.
 ///
-/// Memory of a rank: 56 bytes a vertex and 24 a face that it sends and receives, what
-/// ccd::mesh_steps takes for the elements that meet its box, and 64 bytes for each of 4,096
-/// samples, or of 64 a rank. Messages: to and from every rank that has elements of its box.
+/// Memory of a rank: 56 bytes a vertex and 24 a face that it sends and receives, that of
+/// ccd::mesh_steps for the elements that meet its box, and 64 bytes for each of 4,096 samples, or
+/// of 64 a rank. Messages: to and from every rank that has elements of its box.
 step_result step(MPI_Comm comm, const mesh_part& mesh, const step_options& options = {},
                  placement pairs = placement::owners);
 
@@ -98,15 +94,14 @@ struct advance_result {
     rank_work work;
 };
 
-/// What ccd::advance of the whole mesh returns, bit for bit, if numbers order vertices as indices
-/// do there. Options mean what they mean to it: options.groups and the filter's are those of
-/// mesh.numbers, the same number being the same group on every rank; can_collide and part must not
-/// be given.
+/// Returns the result of ccd::advance for the whole mesh, bit for bit, if numbers order vertices as
+/// indices do there, with the options of ccd::advance. Groups (the options' and the filter's) are
+/// those of mesh.numbers, with the same index on every rank. can_collide and region must be empty.
 ///
-/// Throws as ccd::mpi::step, and ccd::stopped on all ranks where options.stop says so on one.
+/// Throws as ccd::mpi::step, and ccd::stopped on all ranks if options.stop returns true on one.
 ///
 /// Memory: that of a step; and, on every rank, the pairs of the whole mesh that touch or are near
-/// at the start, those that meet by rounding, and, where groups are given, all that meet.
+/// at the start, those that meet by rounding, and, with groups, all that meet.
 advance_result advance(MPI_Comm comm, const mesh_part& mesh, const advance_options& options = {});
 
 }  // namespace ccd::mpi

@@ -1,20 +1,16 @@
-// Queries in the plane: a vertex and an edge, or two vertices, with positions of two coordinates.
+// Queries in the plane: a vertex and an edge, or two vertices, with positions x, y.
 //
-// What exact.hpp, contact.hpp and separation.hpp promise of space, by the same code at z = 0. That
-// loses nothing: features of the plane share a point, or have a distance, in space exactly if they
-// do in the plane; and an axis on which all is 0 takes no bits, and costs a few products with 0.
-// (A contact of two edges begins at an end of one of them, unless they cross at the start: vertex
-// and edge is all that motion in the plane needs.)
+// The calls of ccd/exact.hpp and ccd/contact.hpp at z = 0, with the same guarantees: features of
+// the plane share a point, or have a distance, in space exactly if they do in the plane. A contact
+// of two edges begins at an end of one of them, unless they cross at t = 0, so vertex and edge are
+// all that motion in the plane needs. Cost: as in space; the third axis adds a few products with 0.
 #pragma once
 
 #include <ccd/contact.hpp>
-#include <ccd/contact_data.hpp>
 #include <ccd/exact.hpp>
 #include <ccd/query.hpp>
-#include <ccd/separation.hpp>
 #include <ccd/verdict.hpp>
 
-/// Queries of two dimensions: the same calls as in space, in namespace ccd.
 namespace ccd::plane {
 
 /// A position.
@@ -50,48 +46,35 @@ constexpr ccd::vertex_vertex<double> in_space(const vertex_vertex& q) {
     return {in_space(q.v), in_space(q.w)};
 }
 
-/// Whether they touch at some t in [0, 1]: as ccd/exact.hpp says.
-inline verdict decide_exact(const vertex_edge& query) {
+/// A query in the plane.
+template <class T>
+concept any_query = std::same_as<T, vertex_edge> || std::same_as<T, vertex_vertex>;
+
+/// As the functions of these names in ccd/exact.hpp.
+template <any_query Query>
+verdict decide_exact(const Query& query) {
     return ccd::decide_exact(in_space(query));
 }
-inline verdict decide_exact(const vertex_vertex& query) {
-    return ccd::decide_exact(in_space(query));
-}
-/// Whether they do at t = 0.
-inline verdict touches_at_start(const vertex_edge& query) {
-    return ccd::touches_at_start(in_space(query));
-}
-inline verdict touches_at_start(const vertex_vertex& query) {
+template <any_query Query>
+verdict touches_at_start(const Query& query) {
     return ccd::touches_at_start(in_space(query));
 }
 
-/// When they first touch: as ccd/contact.hpp says.
-inline first_time time_of_impact(const vertex_edge& query, double t_max = 1) {
+/// As the functions of these names in ccd/contact.hpp. The normal lies in the plane.
+template <any_query Query>
+first_time time_of_impact(const Query& query, double t_max = 1) {
     return ccd::time_of_impact(in_space(query), t_max);
 }
-inline first_time time_of_impact(const vertex_vertex& query, double t_max = 1) {
-    return ccd::time_of_impact(in_space(query), t_max);
-}
-
-/// The first contact and its data: as ccd/contact_data.hpp says; the normal lies in the plane.
-inline first_contact find_first_contact(const vertex_edge& query, double t_max = 1) {
+template <any_query Query>
+first_contact find_first_contact(const Query& query, double t_max = 1) {
     return ccd::find_first_contact(in_space(query), t_max);
 }
-inline first_contact find_first_contact(const vertex_vertex& query, double t_max = 1) {
-    return ccd::find_first_contact(in_space(query), t_max);
-}
-
-/// Whether, and when first, they come within d: as ccd/separation.hpp says.
-inline verdict decide_within(const vertex_edge& query, separation d) {
+template <any_query Query>
+verdict decide_within(const Query& query, separation d) {
     return ccd::decide_within(in_space(query), d);
 }
-inline verdict decide_within(const vertex_vertex& query, separation d) {
-    return ccd::decide_within(in_space(query), d);
-}
-inline first_time time_within(const vertex_edge& query, separation d, double t_max = 1) {
-    return ccd::time_within(in_space(query), d, t_max);
-}
-inline first_time time_within(const vertex_vertex& query, separation d, double t_max = 1) {
+template <any_query Query>
+first_time time_within(const Query& query, separation d, double t_max = 1) {
     return ccd::time_within(in_space(query), d, t_max);
 }
 

@@ -1,44 +1,29 @@
 // The reference: decisions and first times in unbounded integers.
 //
-// Slow and simple, so that everything faster can be compared with it; it is the last stage of
-// `exact`. Decided in integers, one unit an axis (one for all where a distance is asked for), so
-// nothing is rounded. Time and memory grow with
-// the spread of the coordinates' exponents (about 100 bits in ordinary scenes, 2,100 at most) and
-// are bounded. Allocates; throws only std::bad_alloc. (Where the library was built with GMP,
-// integers that find no memory end the program instead: GMP aborts.) Coordinates must be finite:
-// otherwise the answer is `uncertain` with cause `range`, the only case in which it is not certain.
-// Promised in a sound environment (errbound/environment.hpp): no flush-to-zero.
+// Slow and simple, so that every faster call can be compared with it; also the last stage of
+// `exact`. Nothing is rounded: each axis has a power of two as its unit (all axes the same one if a
+// distance is given). Time and memory grow with the spread of the coordinates' exponents (about 100
+// bits in ordinary scenes, at most 2,100). Allocates; throws only std::bad_alloc.
+// `uncertain`, with cause `range`, only if a coordinate is not finite. Requires a sound environment
+// (errbound/environment.hpp): no flush-to-zero.
 #pragma once
 
-#include <ccd/contact.hpp>
+#include <ccd/kind.hpp>
 #include <ccd/query.hpp>
-#include <ccd/separation.hpp>
 #include <ccd/verdict.hpp>
 
 namespace ccd {
 
-verdict decide_reference(const vertex_face<double>& query);
-verdict decide_reference(const edge_edge<double>& query);
-verdict decide_reference(const vertex_edge<double>& query);
-verdict decide_reference(const vertex_vertex<double>& query);
+/// As decide_exact of ccd/exact.hpp.
+template <any_query Query>
+verdict decide_reference(const Query& query);
 
-/// What time_of_impact promises (ccd/contact.hpp).
-first_time time_of_impact_reference(const vertex_face<double>& query, double t_max = 1);
-first_time time_of_impact_reference(const edge_edge<double>& query, double t_max = 1);
-first_time time_of_impact_reference(const vertex_edge<double>& query, double t_max = 1);
-first_time time_of_impact_reference(const vertex_vertex<double>& query, double t_max = 1);
-
-/// What decide_within promises (ccd/separation.hpp).
-verdict decide_within_reference(const vertex_face<double>& query, separation d);
-verdict decide_within_reference(const edge_edge<double>& query, separation d);
-verdict decide_within_reference(const vertex_edge<double>& query, separation d);
-verdict decide_within_reference(const vertex_vertex<double>& query, separation d);
-
-/// What time_within promises (ccd/separation.hpp).
-first_time time_within_reference(const vertex_face<double>& query, separation d, double t_max = 1);
-first_time time_within_reference(const edge_edge<double>& query, separation d, double t_max = 1);
-first_time time_within_reference(const vertex_edge<double>& query, separation d, double t_max = 1);
-first_time time_within_reference(const vertex_vertex<double>& query, separation d,
-                                 double t_max = 1);
+/// As time_of_impact, decide_within and time_within of ccd/contact.hpp.
+template <any_query Query>
+first_time time_of_impact_reference(const Query& query, double t_max = 1);
+template <any_query Query>
+verdict decide_within_reference(const Query& query, separation d);
+template <any_query Query>
+first_time time_within_reference(const Query& query, separation d, double t_max = 1);
 
 }  // namespace ccd

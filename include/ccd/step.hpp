@@ -1,30 +1,19 @@
 // One step of a mesh: from positions at two times to the colliding pairs.
 //
-// Pairs are those of two elements that share no vertex, of four kinds:
+//     const ccd::step_result found = ccd::step(before, after);  // two frames of a ccd::mesh
+//     for (const auto& [v, f0, f1, f2] : found.pairs.vertex_face) ...
 //
-//   vertex/face    every vertex, every face
-//   edge/edge      every two edges, of faces or not
-//   vertex/edge    every point (a vertex on no edge), every edge that bounds no face
-//   vertex/vertex  every two points
-//
-// These are enough: where two elements (faces, edges that bound no face, points) without a common
-// vertex first touch, one of their pairs of these kinds does. A point touches a face or an edge of
-// a face as vertex/face, another edge as vertex/edge, a point as vertex/vertex. Two edges are a
-// pair themselves, their ends included, since edges are closed. An edge that meets a face for the
-// first time does so at one of its ends (vertex/face), at the face's boundary (edge/edge), or
-// within the face's plane, where both hold; and so for two faces. What is pierced already at t = 0
-// is not found before its boundary moves on: start from a state free of intersections.
-//
-// In the plane a mesh is of edges and points, and pairs of two kinds are enough:
-//
-//   vertex/edge    every vertex, every edge
-//   vertex/vertex  every two points
+// Many steps of one mesh: mesh_steps. A pair is two elements without a common vertex: vertex/face,
+// edge/edge and, where the mesh has rods or points, vertex/edge and vertex/vertex. These kinds
+// contain the first contact of any two elements (docs/collision-detection.md, Steps). Elements that
+// intersect at t = 0 are reported only once a boundary moves through the other element, so start
+// from a state free of intersections. Results are the same for every number of threads.
+// Throws std::invalid_argument for bad input.
 #pragma once
 
 #include <array>
 #include <ccd/batch.hpp>
 #include <ccd/contact.hpp>
-#include <ccd/first_times.hpp>
 #include <ccd/kind.hpp>
 #include <ccd/mesh.hpp>
 #include <ccd/method.hpp>
@@ -39,8 +28,8 @@
 
 namespace ccd {
 
-/// An axis-aligned part of space, closed below and open above; by default all of it.
-struct space_part {
+/// An axis-aligned box, closed below and open above; by default all of space.
+struct space_region {
     static constexpr double everywhere = std::numeric_limits<double>::infinity();
     std::array<double, 3> low{-everywhere, -everywhere, -everywhere};
     std::array<double, 3> high{everywhere, everywhere, everywhere};
@@ -52,30 +41,29 @@ struct space_part {
     }
 };
 
-/// Which pairs a step looks at, vertex by vertex: a pair if some vertex of one element may
-/// collide with some vertex of the other. Two vertices may unless one of these says no; an empty
-/// one says nothing. Not owned; groups and pinned have one entry a vertex.
+/// The pairs that a step tests: those with a vertex of one element that may collide with a vertex
+/// of the other. Two vertices may collide unless one of these members excludes it; an empty member
+/// excludes nothing. Not owned; `groups` and `pinned` have one entry a vertex.
 struct pair_filter {
     enum class group_rule : std::uint8_t {
         between_groups,  ///< two vertices of one group may not collide
         within_groups,   ///< two vertices of different groups may not collide
     };
 
-    /// Whether two vertices may collide. Called from several threads at once. What it
-    /// throws ends the call, and the object of the steps is as before.
+    /// True if two vertices may collide. Called from several threads at once. An exception ends
+    /// the call and leaves the mesh_steps object as before.
     std::function<bool(vertex_index, vertex_index)> can_collide = {};
     std::span<const int> groups = {};  ///< the group of each vertex: its body, its layer, ...
     group_rule rule = group_rule::between_groups;
-    /// Not 0: the vertex does not move, or moves as prescribed. Two such may not collide, so pairs
-    /// of which all vertices are pinned are left out.
+    /// Not 0: the vertex does not move, or moves as prescribed. Two such vertices may not collide,
+    /// so pairs with only pinned vertices are skipped.
     std::span<const std::uint8_t> pinned = {};
-    /// Of what the others let through, only pairs that begin there: at the lower corner of what the
-    /// boxes that their elements sweep (wider where pairs have a distance) have in common. So parts
-    /// that tile space share all pairs of a step, each of one part; a part needs the elements alone
-    /// whose boxes meet it.
-    std::optional<space_part> part = {};
-    /// Skips the vertices that no face and no edge has (unused_vertices); by default they are
-    /// points. A face or an edge that repeats its vertex keeps it a point.
+    /// Keeps a pair if the lower corner of the intersection of its swept boxes (widened by the
+    /// distance, if any) lies in this region. Regions that tile space therefore partition the
+    /// pairs; a region needs only the elements whose boxes meet it.
+    std::optional<space_region> region = {};
+    /// Skips the vertices of no face and no edge (unused_vertices); by default they are points. A
+    /// face or an edge that repeats its vertex keeps it a point.
     bool skip_unused = false;
 };
 
@@ -84,13 +72,13 @@ struct step_options {
     int threads = 0;                          ///< at most; 0: one per core
     std::optional<instruction_set> set = {};  ///< for `exact`; by default the strongest
     bool count_candidates = false;            ///< fill step_result::candidates
-    bool explain = false;  ///< that, and step_result::stages, which other methods have none of
+    bool explain = false;          ///< also fill step_result::stages (method `exact` only)
     bool initial_contact = false;  ///< fill step_result::touching_at_start
     bool first_contact = false;    ///< fill step_result::first_contact, and touching_at_start
     bool times = false;            ///< fill step_result::times, and both of these
-    double t_max = 1;              ///< report pairs with a contact in [0, t_max] alone
-    /// Report, in place of those in contact, pairs that come within a distance; times and what is
-    /// there at the start are then of that.
+    double t_max = 1;              ///< report only pairs with a contact in [0, t_max]
+    /// Report pairs that come within a distance, instead of pairs in contact. Then times and
+    /// touching_at_start refer to that distance.
     pair_distances distances = {};
     stop_query stop = {};  ///< ends the call by throwing ccd::stopped
     pair_filter filter = {};
@@ -107,7 +95,7 @@ template <kind K>
 using block_visitor = std::function<void(std::span<const pair_of_kind<K>>)>;
 }  // namespace detail
 
-/// Numbers of pairs: `vertex_face`, `edge_edge`, `vertex_edge`, `vertex_vertex`.
+/// The number of pairs of each kind: `vertex_face`, `edge_edge`, `vertex_edge`, `vertex_vertex`.
 using pair_counts = by_kind<detail::count_of_kind>;
 
 /// Lists of pairs, each sorted: a vertex_face_pair is {v, f0, f1, f2}, an edge_edge_pair
@@ -115,89 +103,92 @@ using pair_counts = by_kind<detail::count_of_kind>;
 /// with the edge ascending, a vertex_vertex_pair {v, w} with v < w.
 using pair_lists = by_kind<detail::list_of_kind>;
 
-/// How many pairs there are, of all kinds.
+/// Returns the number of pairs of all kinds.
 inline std::size_t number_of(const pair_lists& pairs) {
     std::size_t number = 0;
     for_each_kind([&]<kind K>() { number += pairs.of<K>().size(); });
     return number;
 }
 
-/// The first times of such lists, in their order.
+/// The first times of pair_lists, in their order.
 using time_lists = by_kind<detail::times_of_kind>;
 
-/// Called with blocks of up to 2048 pairs, from several threads at once; must not throw. Kinds
-/// without one are not looked for.
+/// Callbacks for blocks of up to 2048 pairs, called from several threads at once; they must not
+/// throw. Kinds without a callback are not searched.
 using candidate_visitor = by_kind<detail::block_visitor>;
 
 struct step_result {
-    /// Pairs whose swept boxes touch and that the filter lets through, if counted.
+    /// Pairs whose swept boxes touch and that the filter keeps, with
+    /// step_options::count_candidates.
     std::optional<pair_counts> candidates;
-    pair_lists pairs;  ///< those reported, the vertices of faces ascending
-    /// Those of `pairs` that touch already at t = 0, by `exact` whatever the method; if asked for.
+    pair_lists pairs;  ///< the reported pairs, vertices of faces ascending
+    /// The pairs that touch at t = 0, by `exact` whatever the method, with initial_contact.
     pair_lists touching_at_start;
-    time_lists times;                 ///< of `pairs`, if asked for
-    first_time first_contact;         ///< the earliest of those not touching at t = 0, if asked for
-    double prepare_seconds = 0;       ///< checks of the input, the mesh's edges
-    double broad_phase_seconds = 0;   ///< the search for candidates, less the narrow phase
-    double narrow_phase_seconds = 0;  ///< of all threads together, over their number
-    double sort_seconds = 0;          ///< of the reported pairs
-    double contact_seconds = 0;       ///< of first times, and of what touches at t = 0
+    time_lists times;                 ///< of `pairs`, with step_options::times
+    first_time first_contact;         ///< the earliest not at t = 0, with first_contact
+    double prepare_seconds = 0;       ///< input checks, the mesh's edges
+    double broad_phase_seconds = 0;   ///< the search for candidates, without the narrow phase
+    double narrow_phase_seconds = 0;  ///< the sum over threads, divided by their number
+    double sort_seconds = 0;          ///< sorting the reported pairs
+    double contact_seconds = 0;       ///< first times, and pairs that touch at t = 0
     double total_seconds = 0;
     int threads = 0;      ///< used at most
-    stage_report stages;  ///< of `exact` for vertex/face and edge/edge pairs, if asked for
+    stage_report stages;  ///< of `exact` for vertex/face and edge/edge pairs, with explain
 };
 
+/// Returns the pairs of one step: mesh_steps(faces, edges, positions.vertices).run(positions,
+/// options), and throws as these.
+step_result step(std::span<const face> faces, std::span<const edge> edges,
+                 const vertex_rows& positions, const step_options& options = {});
+/// Two frames of one mesh. Throws std::invalid_argument also if they differ in faces, edges or
+/// number of vertices.
+step_result step(const mesh& before, const mesh& after, const step_options& options = {});
+
 /// Steps of one mesh: keeps its unique faces and edges, their orders and its memory from step to
-/// step. One call at a time.
+/// step. One call at a time. Results do not depend on earlier steps.
 ///
-/// Candidates are the pairs (see above) whose swept boxes (closed, exact doubles) touch and that
-/// the filter lets through; where pairs have a distance, boxes wider by that, rounded outwards.
-/// They are found by trees over the boxes and decided block by block,
-/// never stored as a whole. Where nobody asks for them, `exact` leaves out already in the search
-/// what some axis separates. Results are the same for every number of threads, and whatever steps
-/// went before.
+/// Candidates are the pairs whose swept boxes (closed, exact doubles, widened outwards by the
+/// pair's distance) touch and that the filter keeps. Trees over the boxes find them, and blocks of
+/// them are decided at once, never stored as a whole. Unless candidates are counted, `exact`
+/// discards axis-separated pairs during the tree traversal.
 ///
 /// A face that repeats a vertex is the segment or point that it is, and is paired as any other
 /// face. Faces with the same three vertices count once, as do edges: a pair is reported once.
+/// Vertex/edge and vertex/vertex pairs are decided by `exact` with every method.
 ///
-/// Vertex/edge and vertex/vertex pairs are always decided by `exact`: no other method has them.
-/// Every two points at one place are a pair: n unused vertices make n²/2 pairs if they are all at
-/// the origin, unless pair_filter::skip_unused skips them.
-///
-/// Time: that of the search, and of decide_exact at worst for each candidate; of which there are
-/// n²/2 where all elements are at one place.
-///
-/// Memory: about ten times that of the two frames; where candidates are counted or another method
-/// decides, about three times, or four where parts of the mesh are so far apart that floats do not
-/// tell their elements' boxes apart; kept.
+/// Cost: that of the search, and of decide_exact for each candidate. All pairs are candidates if
+/// all elements are at one place: n unused vertices at the origin make n²/2 pairs, unless
+/// pair_filter::skip_unused skips them. Memory: about ten times that of the two frames; about three
+/// times if candidates are counted or another method decides, or four if floats do not separate the
+/// boxes of elements that are far from the origin. Kept between steps.
 class mesh_steps {
   public:
     /// Throws std::invalid_argument if an index is not below `vertices`.
     mesh_steps(std::span<const face> faces, std::span<const edge> edges, std::size_t vertices);
     explicit mesh_steps(const mesh& mesh);
-    /// Steps in the plane, of edges and points: positions must have z = 0. Throws
+    /// Steps in the plane, of edges and points: positions must have z = 0. Pairs are vertex/edge
+    /// (every vertex, every edge) and vertex/vertex (every two points). Throws
     /// std::invalid_argument if an index is not below `vertices`.
     static mesh_steps in_plane(std::span<const edge> edges, std::size_t vertices);
     ~mesh_steps();
-    /// What was moved from may only be destroyed or assigned to.
+    /// A moved-from object may only be destroyed or assigned to.
     mesh_steps(mesh_steps&&) noexcept;
     mesh_steps& operator=(mesh_steps&&) noexcept;
 
-    /// The pairs of one step that options.method cannot certify as separate.
+    /// Returns the pairs of one step that options.method cannot certify as separate.
     ///
-    /// Throws std::invalid_argument if there are not as many positions as vertices or a coordinate
-    /// is not finite, or, in the plane, a z not 0; if the method is none, the instruction set not
-    /// one of instruction_sets(), or the filter of another length; if times, a t_max below 1 or
-    /// distances are asked of a method other than `exact`, or are not what ccd/first_times.hpp
-    /// expects.
+    /// Throws std::invalid_argument if the numbers of positions and vertices differ, a coordinate
+    /// is not finite, z is not 0 in the plane, the method is none of methods(), the instruction set
+    /// none of instruction_sets(), the filter has another length, distances are not as
+    /// pair_distances requires, or a method other than `exact` has times, t_max < 1 or distances.
     step_result run(const vertex_rows& positions, const step_options& options = {});
 
-    /// All candidates of a step, the vertices of faces in the mesh's order, for narrow phases of
-    /// one's own. Of the options, `threads`, `stop`, `filter` and `distances` count. Memory: up to
-    /// 33 bytes a candidate. Throws as run(); the instruction set is not looked at.
+    /// Returns all candidates of a step, the vertices of faces in the mesh's order, for custom
+    /// narrow phases. Uses `threads`, `stop`, `filter` and `distances` of the options. Memory: up
+    /// to 33 bytes a candidate. Throws as run(), but ignores the instruction set.
     pair_lists candidates(const vertex_rows& positions, const step_options& options = {});
 
-    /// The same in blocks as they are found, in no particular order, never stored as a whole. The
+    /// Visits the candidates in blocks, in no particular order, and returns their numbers. The
     /// visitor must not wait for other tasks of oneTBB.
     pair_counts for_each_candidate(const vertex_rows& positions, const candidate_visitor& visitor,
                                    const step_options& options = {});
@@ -208,15 +199,7 @@ class mesh_steps {
     std::unique_ptr<state> state_;
 };
 
-/// One step alone: mesh_steps(faces, edges, positions.vertices).run(positions, options). Throws
-/// what those throw.
-step_result step(std::span<const face> faces, std::span<const edge> edges,
-                 const vertex_rows& positions, const step_options& options = {});
-/// Of two frames of one mesh, which must have the same faces, edges and numbers of vertices; throws
-/// std::invalid_argument otherwise.
-step_result step(const mesh& before, const mesh& after, const step_options& options = {});
-
-/// The candidates of one step alone.
+/// Returns the candidates of one step, as mesh_steps::candidates.
 pair_lists candidates(std::span<const face> faces, std::span<const edge> edges,
                       const vertex_rows& positions, const step_options& options = {});
 pair_lists candidates(const mesh& before, const mesh& after, const step_options& options = {});

@@ -1,4 +1,4 @@
-// The answer to a query: one value, no out-parameters.
+// Answers to a query: a verdict, or a first time.
 #pragma once
 
 #include <array>
@@ -11,20 +11,19 @@ namespace ccd {
 enum class outcome : std::uint8_t {
     separate,   ///< certainly no contact in the closed step
     collides,   ///< certainly a contact
-    uncertain,  ///< the method's arithmetic could not tell; conservative callers count it as
-                ///< contact
+    uncertain,  ///< not decided by the method's arithmetic; conservative callers count a contact
 };
 
-/// Why an outcome is uncertain.
+/// The reason why an outcome is uncertain.
 enum class cause : std::uint8_t {
     none,         ///< the outcome is certain
     coplanarity,  ///< whether, or how often, the four points become coplanar
     inside,       ///< whether the contact lies inside both features at that time
     range,        ///< a value overflowed, or an input is not finite
-    undecided,    ///< nothing has decided the query yet
+    undecided,    ///< no method has run yet
 };
 
-/// As tables and files write them; "unknown" for any other value.
+/// The names in tables and files; "unknown" for any other value.
 constexpr std::string_view name(outcome o) {
     constexpr std::array<std::string_view, 3> names{"separate", "collides", "uncertain"};
     const auto i = static_cast<std::size_t>(o);
@@ -45,9 +44,25 @@ struct verdict {
     friend constexpr bool operator==(const verdict&, const verdict&) = default;
 };
 
-/// What a conservative caller reports: true unless the features are certainly separate.
+/// True unless the features are certainly separate.
 constexpr bool may_collide(verdict v) {
     return v.outcome != outcome::separate;
 }
+
+/// The first time in [0, t_max] at which the features touch, or come within a distance.
+struct first_time {
+    /// `collides`: there is a first time. `separate`: there is none. `uncertain`: a coordinate,
+    /// a distance or t_max is not finite.
+    ccd::outcome outcome = ccd::outcome::uncertain;
+    /// If low == high, the first time itself; else the two adjacent doubles around it. The
+    /// features touch nowhere in [0, low), and not at `low` if low < high.
+    double low = 0, high = 0;
+
+    /// True if the features touch at t = 0. (A time below the least double above 0 has low = 0
+    /// and high > 0.)
+    constexpr bool at_start() const { return outcome == ccd::outcome::collides && high == 0; }
+
+    friend constexpr bool operator==(const first_time&, const first_time&) = default;
+};
 
 }  // namespace ccd

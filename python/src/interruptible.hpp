@@ -4,7 +4,7 @@
 #include <nanobind/nanobind.h>
 
 #include <algorithm>
-#include <ccd/stop.hpp>
+#include <ccd/execution.hpp>
 #include <chrono>
 #include <cstddef>
 #include <thread>

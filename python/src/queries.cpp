@@ -5,8 +5,7 @@
 #include <algorithm>
 #include <ccd/adapters/kept_gap.hpp>
 #include <ccd/batch.hpp>
-#include <ccd/first_contacts.hpp>
-#include <ccd/first_times.hpp>
+#include <ccd/contact.hpp>
 #include <ccd/method.hpp>
 #include <cstdint>
 #include <limits>

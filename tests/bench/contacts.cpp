@@ -1,6 +1,5 @@
-#include <ccd/contact_data.hpp>
+#include <ccd/contact.hpp>
 #include <ccd/exact.hpp>
-#include <ccd/first_times.hpp>
 #include <cmath>
 
 #include "tests/bench/sections.hpp"

@@ -5,8 +5,8 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <ccd/batch.hpp>
+#include <ccd/contact.hpp>
 #include <ccd/cuda.hpp>
-#include <ccd/first_times.hpp>
 #include <ccd/step.hpp>
 #include <cstdio>
 #include <exception>

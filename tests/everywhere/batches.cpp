@@ -1,6 +1,5 @@
 #include <ccd/batch.hpp>
-#include <ccd/first_contacts.hpp>
-#include <ccd/first_times.hpp>
+#include <ccd/contact.hpp>
 #include <vector>
 
 #include "tests/everywhere/sections.hpp"

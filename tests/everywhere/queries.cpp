@@ -1,11 +1,9 @@
 // Queries one by one: decisions, first times, contact data, distances; curves.
 #include <array>
 #include <ccd/contact.hpp>
-#include <ccd/contact_data.hpp>
 #include <ccd/curves.hpp>
 #include <ccd/exact.hpp>
 #include <ccd/method.hpp>
-#include <ccd/separation.hpp>
 #include <cmath>
 
 #include "tests/everywhere/sections.hpp"

@@ -2,7 +2,7 @@
 #pragma once
 
 #include <bit>
-#include <ccd/contact_data.hpp>
+#include <ccd/contact.hpp>
 #include <ccd/kind.hpp>
 #include <ccd/verdict.hpp>
 #include <cmath>

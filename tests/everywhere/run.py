@@ -156,7 +156,7 @@ class Build:
 
     def prepare(self, with_tests):
         self.make_libraries(with_tests)
-        self.cmake(ROOT, "build", *(f"-DERRBOUND_WITH_{x}=OFF" for x in ("CUDA", "MPI", "HDF5", "MPFR", "GMP")))
+        self.cmake(ROOT, "build", *(f"-DERRBOUND_WITH_{x}=OFF" for x in ("CUDA", "MPI", "HDF5", "MPFR")))
 
     def refusal(self):
         """Checks the error of the headers for a compiler that they reject."""

@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <array>
-#include <ccd/separation.hpp>
+#include <ccd/contact.hpp>
 #include <random>
 
 namespace {

@@ -3,10 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <bit>
-#include <ccd/contact_data.hpp>
+#include <ccd/contact.hpp>
 #include <ccd/curves.hpp>
 #include <ccd/exact.hpp>
-#include <ccd/first_times.hpp>
 #include <ccd/methods/transform.hpp>
 #include <ccd/reference.hpp>
 #include <cmath>

@@ -3,9 +3,7 @@
 #pragma once
 
 #include <ccd/contact.hpp>
-#include <ccd/contact_data.hpp>
 #include <ccd/kind.hpp>
-#include <ccd/separation.hpp>
 #include <functional>
 #include <string>
 #include <utility>

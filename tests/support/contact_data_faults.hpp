@@ -3,7 +3,7 @@
 
 #include <array>
 #include <boost/multiprecision/gmp.hpp>
-#include <ccd/contact_data.hpp>
+#include <ccd/contact.hpp>
 #include <ccd/kind.hpp>
 #include <ccd/methods/transform.hpp>
 #include <cmath>

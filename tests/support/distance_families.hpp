@@ -3,7 +3,7 @@
 
 #include <algorithm>
 #include <array>
-#include <ccd/separation.hpp>
+#include <ccd/contact.hpp>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <ccd/contact.hpp>
-#include <ccd/separation.hpp>
 #include <cmath>
 #include <string>
 

@@ -1,6 +1,6 @@
-// Contact data: see include/ccd/contact_data.hpp for what it promises.
+// Contact data: see include/ccd/contact.hpp.
 #include <algorithm>
-#include <ccd/contact_data.hpp>
+#include <ccd/contact.hpp>
 #include <ccd/kind.hpp>
 #include <ccd/methods/transform.hpp>
 #include <cmath>
@@ -134,8 +134,14 @@ bool certainly_apart(const contact_state& state) {
            certainly_not_zero(state.motion.position);
 }
 
-template <class Query>
-first_contact data_of(const Query& query, const first_time& time) {
+}  // namespace
+}  // namespace ccd::detail
+
+namespace ccd {
+
+template <any_query Query>
+first_contact contact_at(const Query& query, const first_time& time) {
+    using namespace detail;
     constexpr kind whole = kind_of<Query>;
     first_contact result;
     result.time = time;
@@ -155,7 +161,7 @@ first_contact data_of(const Query& query, const first_time& time) {
 
     const bool from_second = result.features.points[0] >= kind_traits<whole>::first_vertices;
     const auto velocity = from_second ? -state.motion.velocity : state.motion.velocity;
-    if constexpr (whole == kind::vertex_face || whole == kind::edge_edge) {
+    if constexpr (is_cubic(whole)) {
         if (!set_cross_product(query, inside.across, velocity, result))
             set_substitute_normal(state, velocity, &inside.across, result);
     } else {
@@ -165,22 +171,9 @@ first_contact data_of(const Query& query, const first_time& time) {
     return result;
 }
 
-}  // namespace
-}  // namespace ccd::detail
-
-namespace ccd {
-
-first_contact contact_at(const vertex_face<double>& q, const first_time& time) {
-    return detail::data_of(q, time);
-}
-first_contact contact_at(const edge_edge<double>& q, const first_time& time) {
-    return detail::data_of(q, time);
-}
-first_contact contact_at(const vertex_edge<double>& q, const first_time& time) {
-    return detail::data_of(q, time);
-}
-first_contact contact_at(const vertex_vertex<double>& q, const first_time& time) {
-    return detail::data_of(q, time);
-}
+template first_contact contact_at(const vertex_face<double>&, const first_time&);
+template first_contact contact_at(const edge_edge<double>&, const first_time&);
+template first_contact contact_at(const vertex_edge<double>&, const first_time&);
+template first_contact contact_at(const vertex_vertex<double>&, const first_time&);
 
 }  // namespace ccd

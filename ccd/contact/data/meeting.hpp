@@ -3,7 +3,6 @@
 
 #include <array>
 #include <ccd/contact.hpp>
-#include <ccd/contact_data.hpp>
 #include <ccd/kind.hpp>
 #include <ccd/methods/transform.hpp>
 #include <ccd/query.hpp>

@@ -7,11 +7,11 @@
 
 #include <algorithm>
 #include <array>
-#include <ccd/contact.hpp>
 #include <ccd/kind.hpp>
 #include <ccd/methods/forms.hpp>
 #include <ccd/methods/transform.hpp>
 #include <ccd/query.hpp>
+#include <ccd/verdict.hpp>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>

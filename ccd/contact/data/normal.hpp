@@ -72,7 +72,7 @@ inline std::optional<direction> direction_of(const enclosed_vector& p) {
 template <int N>
 errbound::sign_type sign_beside(const errbound::bernstein<integer, N>& f, const integer& s,
                                 const integer& t, bool before) {
-    const errbound::sign_type here = errbound::sign_of(integer(value_at(f, s, t)));
+    const errbound::sign_type here = errbound::sign_of(value_at(f, s, t));
     if (here != errbound::sign_type::zero) return here;
     if constexpr (N == 0) {
         return here;

@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <array>
 #include <bit>
-#include <ccd/first_contacts.hpp>
+#include <ccd/contact.hpp>
 #include <ccd/io/step_view.hpp>
 #include <charconv>
 #include <cmath>

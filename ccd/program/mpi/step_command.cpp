@@ -146,7 +146,7 @@ class distributed_step final : public command {
     /// Vertex/edge and vertex/vertex rows are shown only if there are any.
     template <kind K>
     static bool is_shown(const mpi::step_result& found) {
-        return K == kind::vertex_face || K == kind::edge_edge || !found.pairs.of<K>().empty() ||
+        return is_cubic(K) || !found.pairs.of<K>().empty() ||
                (found.candidates && found.candidates->of<K>() > 0);
     }
 

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 #include <ccd/batch.hpp>
-#include <ccd/first_times.hpp>
+#include <ccd/contact.hpp>
 #include <ccd/mesh.hpp>
 #include <cstddef>
 #include <span>

@@ -1,26 +1,25 @@
-// time_within (ccd/separation.hpp) for callers who ask pair after pair with the least time before
-// as the last: most pairs are nowhere near by then, which is cheaper to know than when they get
-// there.
+// time_within (ccd/contact.hpp) for callers that pass the least time found so far as t_max: most
+// pairs stay apart until then, and proving that is cheaper than computing their times.
 #pragma once
 
 #include <algorithm>
 #include <ccd/contact.hpp>
 #include <ccd/methods/transform.hpp>
 #include <ccd/query.hpp>
-#include <ccd/separation.hpp>
 #include <ccd/verdict.hpp>
 #include <cmath>
 #include <limits>
 
 namespace ccd::adapters::detail {
 
-/// Whether the features certainly stay more than d apart in [0, t_max], for 0 <= t_max <= 1.
+/// True if the features certainly stay more than d apart in [0, t_max], for 0 <= t_max <= 1.
 ///
-/// Asked of the motion to where the points are at t_max, rounded. With coordinates of at most M,
+/// Tests the motion to the rounded positions at t_max. With coordinates of at most M,
 /// x0 + t_max (x1 - x0) is off by at most 6u M + 2^-1074 after three roundings by u = 2^-53, fused
-/// or not: a difference of at most 2M, its product, a sum of at most M. At a time before, points
-/// are off by a part of that; so a distance is by less than 2 sqrt(3) times that, for which twice
-/// 2^-48 M + 2^-1072 is added to d. What overflows is not finite, and nothing is certain then.
+/// or not: a difference of at most 2M, its product, a sum of at most M. At earlier times, points
+/// are off by a fraction of that. A distance is therefore off by less than 2 sqrt(3) times that,
+/// for which twice 2^-48 M + 2^-1072 is added to d. Values that overflow are not finite, and then
+/// nothing is certain.
 template <class Query>
 bool stays_apart(const Query& query, separation d, double t_max) {
     double largest = 0;

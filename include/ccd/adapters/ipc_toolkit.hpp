@@ -6,8 +6,8 @@
 //
 // Decisions are exact, without tolerance or limit of iterations, and thread-safe. Coordinates,
 // min_distance >= 0 and tmax must be finite; otherwise the answer is true with `toi` 0.
-// Cost: time_of_impact (ccd/contact.hpp); with a distance or a gap time_within
-// (ccd/separation.hpp), but far less if the features are not that near by tmax.
+// Cost: time_of_impact (ccd/contact.hpp); with a distance or a gap time_within, but far less if the
+// features are not that near by tmax.
 #pragma once
 
 #include <cassert>

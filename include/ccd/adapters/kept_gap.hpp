@@ -6,7 +6,6 @@
 #include <ccd/adapters/first_within.hpp>
 #include <ccd/adapters/start_distance.hpp>
 #include <ccd/contact.hpp>
-#include <ccd/separation.hpp>
 #include <ccd/verdict.hpp>
 #include <cmath>
 #include <limits>

@@ -1,13 +1,12 @@
-// What the adapters share: positions of other libraries as ours.
+// Conversion of positions of other libraries.
 #pragma once
 
 #include <ccd/query.hpp>
 
 namespace ccd::adapters::detail {
 
-/// A position from a vector with [] and size(), of two coordinates or three; of two in the plane
-/// z = 0, where they have the contacts and distances that they have in a plane (ccd/plane.hpp).
-/// Floats are exact doubles.
+/// A position from a vector with [] and size(). Two coordinates give a point with z = 0, with the
+/// contacts and distances of the plane (ccd/plane.hpp). Floats are exact doubles.
 template <class Vector>
 point<double> position(const Vector& p) {
     return {p[0], p[1], p.size() > 2 ? p[2] : 0};

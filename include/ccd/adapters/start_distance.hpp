@@ -1,7 +1,6 @@
-// About how far the features of a query are apart at the start, in doubles: a length to choose gaps
-// by, of which nothing is promised. It is far too large for some slivers and nearly parallel edges,
-// and may be 0, infinite or NaN where products of the coordinates' differences underflow or
-// overflow.
+// An estimate, without guarantee, of the distance of a query's features at the start: a length to
+// choose gaps by. It is far too large for some slivers and nearly parallel edges. It may be 0,
+// infinite or NaN if products of the coordinates' differences underflow or overflow.
 #pragma once
 
 #include <algorithm>
@@ -25,7 +24,7 @@ inline point<double> along(const point<double>& p, const point<double>& directio
     return {p.x + s * direction.x, p.y + s * direction.y, p.z + s * direction.z};
 }
 
-/// Of p and the segment e0 e1.
+/// The distance of p and the segment e0 e1.
 inline double distance(const point<double>& p, const point<double>& e0, const point<double>& e1) {
     const point<double> e = difference(e1, e0), to_p = difference(p, e0);
     const double square = dot(e, e);
@@ -41,8 +40,8 @@ inline double start_distance(const vertex_edge<double>& q) {
     return distance(q.v.t0, q.e0.t0, q.e1.t0);
 }
 
-/// The least distance to an edge, or to the foot on the plane if that is inside. (To a point of the
-/// face, wherever rounding puts it: along the normal of a sliver it might be far too small, too.)
+/// The least distance to an edge, or to the foot on the plane if that is inside. (The foot is a
+/// point of the face, rounded: a distance along the normal of a sliver might be far too small.)
 inline double start_distance(const vertex_face<double>& q) {
     const point<double> v = q.v.t0, f[] = {q.f0.t0, q.f1.t0, q.f2.t0};
     const point<double> n = cross(difference(f[1], f[0]), difference(f[2], f[0]));

@@ -1,32 +1,14 @@
-// Calls of the shape of Tight-Inclusion's, answered by `exact` (optional header; needs Eigen, and
-// nothing of Tight-Inclusion).
+// Calls with the signatures of Tight-Inclusion, decided by `exact`. Needs Eigen, but no file of
+// Tight-Inclusion.
 //
-//   namespace ticcd = ccd::adapters::tight_inclusion;
+//     namespace ticcd = ccd::adapters::tight_inclusion;
 //
-// in place of its header leaves calls as they are, with doubles or floats (which are exact
-// doubles). What its answers promise is kept:
-//
-// * `false`: the features are certainly free in [0, t_max]; with ms > 0, at no time is the distance
-//   of a point of the one and a point of the other at most ms on every axis. `toi` is infinite.
-// * `true`: they touch, or come as near as that. `toi` is not after the first such time.
-//
-// What differs is how many are reported. With ms = 0: those that touch, and no others; `toi` is
-// the last number of type Scalar that is not after the first contact. With ms > 0: those whose
-// Euclidean distance gets to the half diagonal of the box, sqrt(3) ms, rounded up by less than two
-// last places: the least ball around the box, so that `false` promises what it did. It reports
-// pairs up to 1.74 times as far apart along an axis as the box does. Who means the Euclidean
-// distance asks ccd::time_within (ccd/separation.hpp).
-//
-// The other arguments:
-//
-// * err, tolerance, max_itr, ccd_method: not needed, since nothing is rounded, and not read;
-//   output_tolerance is set to tolerance, as after a search that was not cut short.
-// * no_zero_toi: a pair that is within ms at the start is asked for contact alone, so that `toi` is
-//   0 only if it touches at the start, or before the least positive Scalar.
-//
-// Coordinates, ms >= 0 and t_max must be finite; if not, nothing is known, and the answer is true
-// with `toi` 0. Safe to be called by many threads at once. Cost: that of time_of_impact
-// (ccd/contact.hpp); with ms > 0 that of time_within, or less where t_max is below 1.
+// instead of its header leaves calls as they are, with doubles or floats. An answer `false`
+// certifies that the features stay free, or farther apart than ms on some axis; `toi` is not after
+// the first time of an answer `true` (vertexFaceCCD has the details). Coordinates, ms >= 0 and
+// t_max must be finite; otherwise the answer is `true` with `toi` 0. Callable from many threads.
+// Cost: that of time_of_impact (ccd/contact.hpp); with ms > 0 that of time_within, or less if
+// t_max < 1.
 #pragma once
 
 #include <Eigen/Core>
@@ -34,7 +16,6 @@
 #include <ccd/adapters/points.hpp>
 #include <ccd/contact.hpp>
 #include <ccd/query.hpp>
-#include <ccd/separation.hpp>
 #include <ccd/verdict.hpp>
 #include <cmath>
 #include <concepts>
@@ -54,7 +35,7 @@ inline constexpr Scalar DEFAULT_CCD_DISTANCE_TOL = 1e-6;
 
 namespace detail {
 
-/// Types of arguments that `toi` alone decides about, so that others convert.
+/// Argument types that are not deduced: only `toi` determines T, other arguments convert.
 template <class T>
 using scalar = std::type_identity_t<T>;
 template <class T>
@@ -87,6 +68,19 @@ bool answer(const Query& query, double ms, double t_max, bool no_zero_toi, T& to
 }  // namespace detail
 
 /// Vertex v and triangle f0 f1 f2, whose positions move linearly from t0 to t1.
+///
+/// ms = 0: true exactly if they touch in [0, t_max]. `toi` is the last number of type Scalar that
+/// is not after the first contact.
+/// ms > 0: true exactly if their Euclidean distance reaches sqrt(3) ms, the half diagonal of the
+/// box, rounded up by less than two units in the last place. This ball contains the box of
+/// Tight-Inclusion, so `false` certifies what it does there; pairs up to 1.74 times as far apart
+/// along an axis are reported. For a Euclidean distance call ccd::time_within.
+/// `toi` is infinite if the answer is false.
+///
+/// err, tolerance, max_itr and ccd_method are ignored, since nothing is rounded. output_tolerance
+/// is set to tolerance, as after a complete search. With no_zero_toi, a pair within ms at the start
+/// is tested for contact only, so `toi` is 0 only if it touches at the start, or before the least
+/// positive Scalar.
 template <class T>
 requires std::same_as<T, double> || std::same_as<T, float>
 bool vertexFaceCCD(
@@ -103,7 +97,7 @@ bool vertexFaceCCD(
                           ms, t_max, no_zero_toi, toi);
 }
 
-/// Edge ea0 ea1 and edge eb0 eb1, the same.
+/// Edge ea0 ea1 and edge eb0 eb1, as vertexFaceCCD.
 template <class T>
 requires std::same_as<T, double> || std::same_as<T, float>
 bool edgeEdgeCCD(const detail::vector<T>& ea0_t0, const detail::vector<T>& ea1_t0,

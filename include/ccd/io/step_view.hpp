@@ -39,7 +39,7 @@ enum class frame : std::uint8_t { before, after };
 /// order of `pairs`. That vertex is the first contact point, or the middle of the pair's vertices
 /// if the contact is unknown.
 ///
-/// Arrays of points: `displacement` from t = 0 to 1; `normal` of contacts (ccd/contact_data.hpp),
+/// Arrays of points: `displacement` from t = 0 to 1; `normal` of contacts (ccd/contact.hpp),
 /// else 0. Arrays of cells: `pairs`, the number of pairs of the cell, its edges and its vertices;
 /// `toi`, the lowest `low` of these pairs, or NaN; `pair`, the index of a pair's own cell, or -1;
 /// `kind`, the number of its ccd::kind, or -1. The field TimeValue is the frame's time, 0 or 1.

@@ -1,12 +1,12 @@
-// The BSC methods: one template, whose scalar decides what it promises.
+// The BSC methods: one template; the bound rule of its scalar determines what it guarantees.
 //
 //   decide_bsc<none>    `float`: plain arithmetic; may be wrong either way
 //   decide_bsc<safe>    `safe`:  BSC with SafeBound; `separate` and `collides` are certain
 //   decide_bsc<tight>   `tight`: TightCCD; `separate` and `collides` are certain
-//   decide_bsc<sharp>, <interval>, <residual>   the methods of those names: certain likewise
+//   decide_bsc<sharp>, <interval>, <residual>   the methods with these names: as above
 //
-// Sources: Wang, Tang, Manocha, Tong 2015 (TightCCD), Sections 3 to 5; errbound/bsc.hpp tells how
-// the branches differ from the printed ones and why.
+// Sources: Wang, Tang, Manocha, Tong 2015 (TightCCD), Sections 3 to 5; errbound/bsc.hpp has
+// the differences from the printed branches, with reasons.
 #pragma once
 
 #include <ccd/methods/forms.hpp>
@@ -16,8 +16,8 @@
 
 namespace ccd {
 
-/// Whether the signs of Y's coefficients show that the points are never coplanar: decide_bsc_of's
-/// first test, which suffices for most queries.
+/// True if the signs of Y's coefficients show that the points are never coplanar: decide_bsc_of's
+/// first test, which decides most queries.
 template <class Scalar, template <class> class Query>
 constexpr bool never_coplanar(const Query<Scalar>& query) {
     return certainly_rootless(normalized(forms_of(query).y()));

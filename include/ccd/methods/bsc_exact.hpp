@@ -1,20 +1,20 @@
-// `bsc-exact`: BSC in interval arithmetic first, then over integers of unbounded size.
+// `bsc-exact`: BSC in interval arithmetic, then over integers of unbounded size.
 //
-// No false negative and no false positive on any finite input. A coordinate that is not finite:
-// `uncertain` with cause `range`, the only case in which the answer is not certain. Time and memory
-// grow with the spread of the coordinates' exponents and are bounded. Allocates where the filter
-// cannot tell; throws only std::bad_alloc. Promised in a sound environment
-// (errbound/environment.hpp) that rounds to nearest, which intervals need.
-// Source: Tang, Tong, Wang, Manocha 2014, as the evaluation of Wang, Tang, Manocha, Tong 2015 uses
-// it (interval filter and exact arithmetic).
+// No false negative and no false positive on any finite input; `uncertain`, with cause `range`,
+// only if a coordinate is not finite. Time and memory grow with the spread of the coordinates'
+// exponents and are bounded. Allocates if the intervals do not decide; throws only std::bad_alloc.
+// Requires a sound environment (errbound/environment.hpp) that rounds to nearest.
+// Source: Tang, Tong, Wang, Manocha 2014, as evaluated in Wang, Tang, Manocha, Tong 2015 (interval
+// filter and exact arithmetic).
 #pragma once
 
+#include <ccd/kind.hpp>
 #include <ccd/query.hpp>
 #include <ccd/verdict.hpp>
 
 namespace ccd {
 
-verdict decide_bsc_exact(const vertex_face<double>& query);
-verdict decide_bsc_exact(const edge_edge<double>& query);
+template <cubic_query Query>
+verdict decide_bsc_exact(const Query& query);
 
 }  // namespace ccd

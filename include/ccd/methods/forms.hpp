@@ -147,13 +147,10 @@ struct forms_of_kind<kind::edge_edge> {
 template <kind K, class S>
 using linear_forms = typename detail::forms_of_kind<K>::template type<S>;
 
-template <class S>
-constexpr vertex_face_forms<S> forms_of(const vertex_face<S>& q) {
-    return vertex_face_forms<S>(q);
-}
-template <class S>
-constexpr edge_edge_forms<S> forms_of(const edge_edge<S>& q) {
-    return edge_edge_forms<S>(q);
+/// The forms of a vertex_face or edge_edge query.
+template <template <class> class Query, class S>
+requires(is_cubic(kind_of<Query<S>>)) constexpr auto forms_of(const Query<S>& q) {
+    return linear_forms<kind_of<Query<S>>, S>(q);
 }
 
 }  // namespace ccd

@@ -1,14 +1,13 @@
 // `provot`: roots of the coplanarity cubic in floating point, and an inside test at each of them
-// (Provot 1997), as textbooks give it.
+// (Provot 1997), as in textbooks.
 //
-// The cubic in powers of t, from differences to one vertex; its roots in [0, 1] in number type T,
-// without any error bound; at each root the points' places, and there barycentric weights (VF) or
-// edge parameters (EE) from the normal equations, compared without tolerance. Where the normal
-// vanishes the test says no, and there is no test of vertices against edges. So collisions are lost
-// and invented by rounding, and those of degenerate features and of coplanar motion are lost by
-// design. (A motion that stays coplanar has no isolated root; t = 0 and t = 1 are asked, as ends at
-// which the cubic is zero.) Coordinates are not scaled, so tiny ones underflow; huge ones overflow,
-// and what is then not finite gives `uncertain` with cause `range`, never an answer.
+// Computes the cubic in powers of t from differences to one vertex, and its roots in [0, 1] in
+// number type T, without error bounds. At each root it compares barycentric weights (VF) or edge
+// parameters (EE) from the normal equations, without tolerance. If the normal vanishes the test
+// fails, and there is no vertex/edge test. Rounding therefore loses and invents collisions, and
+// those of degenerate features and of coplanar motion are lost by design. (Coplanar motion has no
+// isolated root; t = 0 and t = 1 are tested, as ends at which the cubic is zero.) Coordinates are
+// not scaled: tiny ones underflow. If values overflow the answer is `uncertain` with cause `range`.
 #pragma once
 
 #include <ccd/methods/forms.hpp>
@@ -45,19 +44,19 @@ struct weights {
         of_b = cc * bp - bc * cp;
         of_c = bb * cp - bc * bp;
     }
-    /// Whether nothing has overflowed.
+    /// True if no value has overflowed.
     constexpr bool finite() const {
         using traits = errbound::number_traits<T>;
         return traits::is_finite(of_b) && traits::is_finite(of_c) && traits::is_finite(whole);
     }
 };
 
-/// At a time when the four points are coplanar: is v in the triangle?
+/// True if v is in the triangle, at a time when the four points are coplanar.
 template <class T>
 constexpr bool inside(const vertex_face_forms<T, 0>&, const weights<T>& w) {
     return w.whole > 0 && w.of_b >= 0 && w.of_c >= 0 && w.of_b + w.of_c <= w.whole;
 }
-/// Do the edges cross? a0 + x·b = b0 + y·c is p = x·b − y·c.
+/// True if the edges cross: a0 + x·b = b0 + y·c is p = x·b − y·c.
 template <class T>
 constexpr bool inside(const edge_edge_forms<T, 0>&, const weights<T>& w) {
     return w.whole > 0 && w.of_b >= 0 && w.of_b <= w.whole && w.of_c <= 0 && -w.of_c <= w.whole;
@@ -65,8 +64,7 @@ constexpr bool inside(const edge_edge_forms<T, 0>&, const weights<T>& w) {
 
 }  // namespace provot
 
-/// Decides a vertex_face or edge_edge query; never certain, whatever it says. No allocation, never
-/// throws.
+/// Decides a vertex_face or edge_edge query, without any guarantee. No allocation, never throws.
 template <class T, template <class> class Query>
 verdict decide_provot(const Query<T>& query) {
     using traits = errbound::number_traits<T>;

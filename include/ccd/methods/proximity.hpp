@@ -1,4 +1,4 @@
-// Proximity of a moving vertex and a moving edge: certainly never within reach, or perhaps.
+// Proximity of a moving vertex and a moving edge: certainly never within reach, or uncertain.
 //
 // After the vertex/edge and vertex/vertex tests of SafeCCD (Wang 2014), with thresholds for any
 // reach: proofs/README.md, "Proximity of a vertex and an edge", derives them.
@@ -61,7 +61,7 @@ class line_proximity {
                reach;
     }
 
-    /// Whether it is so at one of the candidate times.
+    /// True if this holds at one of the candidate times.
     constexpr bool touches() const {
         if (touches_at(T(0)) || touches_at(T(1))) return true;
         for (const quadratic& f : q_)

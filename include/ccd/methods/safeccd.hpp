@@ -3,7 +3,7 @@
 //   decide_safeccd<safe>    `safeccd`: tolerances from one uniform bound on all coordinates
 //   decide_safeccd<tight>   `safeccd-tight`: tolerances from each variable's own bound
 //
-// Why no contact is lost, and what was changed against the published method: proofs/README.md,
+// Why no contact is lost, and the differences from the published method: proofs/README.md,
 // "SafeCCD". Sources: Wang 2014, Defending continuous collision detection against errors; Wang,
 // Tang, Manocha, Tong 2015, Section 6 (SafeCCD with TightBound).
 #pragma once
@@ -28,7 +28,7 @@ namespace safeccd {
 
 using errbound::sign_type;
 
-/// The value's sign if it holds within `drift` too.
+/// The value's sign, if the value cannot change its sign by `drift`.
 template <class Scalar, class T>
 constexpr sign_type sign_within(const Scalar& x, T drift) {
     const T e = x.error() + drift;
@@ -42,7 +42,7 @@ constexpr auto upper_magnitude(const Scalar& x) {
     return number_traits<typename Scalar::value_type>::abs(x.value()) + x.error();
 }
 
-/// One query under way.
+/// The decision of one query.
 template <class T, class Rule, template <class> class Query>
 class solver {
   public:

@@ -1,8 +1,8 @@
-// Queries in double precision, decided in single precision where that is enough.
+// Queries in double precision, decided in single precision if that suffices.
 //
-// A query's coordinates are taken relative to one of its points and rounded to float, with what
-// that loses as each number's bound: so a float method keeps its promise for double input, and what
-// is lost is small beside the query itself, however far it lies from the origin.
+// Coordinates are relative to one of the query's points and rounded to float, with the rounding
+// error as each number's bound. A float method therefore keeps its promise for double input, and
+// the loss is small compared with the query, however far it lies from the origin.
 #pragma once
 
 #include <algorithm>
@@ -16,9 +16,9 @@
 
 namespace ccd {
 
-/// The query over tracked floats, translated so that its first point starts at the origin, and
-/// times the power of two that brings its largest coordinate near 1, if that is far from it. False
-/// in `second` if a coordinate is not finite.
+/// Returns the query over tracked floats, translated so that its first point starts at the origin,
+/// and times the power of two that brings its largest coordinate near 1 if it is far from 1.
+/// `second` is false if a coordinate is not finite.
 ///
 /// Bounds: d = fl(x − c) is off by at most 2^-53·|d|, and the float f nearest to it by 2^-24·|d|,
 /// or by half of η where that underflows. Together that is less than |f|(2^-24 + 2^-44) + η,
@@ -53,7 +53,7 @@ constexpr std::pair<Query<errbound::tracked<float, Rule>>, bool> single_precisio
     return {transformed(moved, converted), finite};
 }
 
-/// BSC in floats for a query in doubles: as decide_bsc, `uncertain` where floats cannot tell.
+/// BSC in floats for a query in doubles: as decide_bsc, `uncertain` if floats do not decide.
 template <class Rule, template <class> class Query>
 constexpr verdict decide_bsc_in_single_precision(const Query<double>& query) {
     const auto [converted, finite] = single_precision_query<Rule>(query);
@@ -61,7 +61,7 @@ constexpr verdict decide_bsc_in_single_precision(const Query<double>& query) {
     return decide_bsc_of(converted);
 }
 
-/// SafeCCD in floats likewise.
+/// SafeCCD in floats, as above.
 template <class Rule, template <class> class Query>
 constexpr verdict decide_safeccd_in_single_precision(const Query<double>& query) {
     const auto [converted, finite] = single_precision_query<Rule>(query);

@@ -1,4 +1,4 @@
-// A query over tracked numbers, at a scale that suits them.
+// A query over tracked numbers, scaled to coordinates near 1.
 #pragma once
 
 #include <ccd/methods/transform.hpp>
@@ -8,10 +8,10 @@
 
 namespace ccd {
 
-/// The query over tracked numbers, times the power of two that brings its largest coordinate near
-/// 1. A coordinate that underflows when scaled carries that loss as its bound. False in `second` if
-/// a coordinate is not finite. Scalar is the tracked number, or what stands for one
-/// (errbound::is_tracked).
+/// Returns the query over tracked numbers, times the power of two that brings its largest
+/// coordinate near 1. If a coordinate underflows when scaled, its bound contains the loss. `second`
+/// is false if a coordinate is not finite. Scalar is the tracked number type, or a type with
+/// errbound::is_tracked.
 template <class Rule, class T, template <class> class Query,
           class Scalar = errbound::tracked<T, Rule>>
 constexpr std::pair<Query<Scalar>, bool> tracked_query(const Query<T>& query) {

@@ -1,45 +1,26 @@
-// Queries as lists of their moving points, conversion of every position or coordinate, and the
+// The points of a query as an array, conversion of every position or coordinate, and the
 // vertex/edge queries that bound a query.
 #pragma once
 
 #include <array>
+#include <ccd/kind.hpp>
 #include <ccd/query.hpp>
 
 namespace ccd {
 
-template <class T>
-constexpr std::array<moving_point<T>, 4> points_of(const vertex_face<T>& q) {
-    return {q.v, q.f0, q.f1, q.f2};
-}
-template <class T>
-constexpr std::array<moving_point<T>, 4> points_of(const edge_edge<T>& q) {
-    return {q.a0, q.a1, q.b0, q.b1};
-}
-template <class T>
-constexpr std::array<moving_point<T>, 3> points_of(const vertex_edge<T>& q) {
-    return {q.v, q.e0, q.e1};
-}
-template <class T>
-constexpr std::array<moving_point<T>, 2> points_of(const vertex_vertex<T>& q) {
-    return {q.v, q.w};
+/// The moving points of a query, in the order of its members.
+template <detail::has_kind Query>
+constexpr auto points_of(const Query& q) {
+    return detail::with_members(q, [](const auto&... p) { return std::array{p...}; });
 }
 
 /// The query with `f` applied to the motion of every point.
-template <class T, class F>
-constexpr auto transformed_motions(const vertex_face<T>& q, const F& f) {
-    return vertex_face<decltype(f(q.v).t0.x)>{f(q.v), f(q.f0), f(q.f1), f(q.f2)};
-}
-template <class T, class F>
-constexpr auto transformed_motions(const edge_edge<T>& q, const F& f) {
-    return edge_edge<decltype(f(q.a0).t0.x)>{f(q.a0), f(q.a1), f(q.b0), f(q.b1)};
-}
-template <class T, class F>
-constexpr auto transformed_motions(const vertex_edge<T>& q, const F& f) {
-    return vertex_edge<decltype(f(q.v).t0.x)>{f(q.v), f(q.e0), f(q.e1)};
-}
-template <class T, class F>
-constexpr auto transformed_motions(const vertex_vertex<T>& q, const F& f) {
-    return vertex_vertex<decltype(f(q.v).t0.x)>{f(q.v), f(q.w)};
+template <detail::has_kind Query, class F>
+constexpr auto transformed_motions(const Query& q, const F& f) {
+    return detail::with_members(q, [&f](const auto& first, const auto&... others) {
+        using scalar = decltype(f(first).t0.x);
+        return query_of_pair<Query, scalar>{f(first), f(others)...};
+    });
 }
 
 /// The query with `f` applied to every position.
@@ -58,7 +39,7 @@ constexpr auto transformed(const Query& q, const F& f) {
     });
 }
 
-/// `f` called with each of the query's coordinates.
+/// Calls `f` with each coordinate of the query.
 template <class Query, class F>
 constexpr void for_each_coordinate(const Query& q, const F& f) {
     const auto at_position = [&f](const auto& x) {

@@ -3,9 +3,9 @@
 #pragma once
 
 #include <algorithm>
+#include <ccd/contact.hpp>
 #include <ccd/kind.hpp>
 #include <ccd/methods/transform.hpp>
-#include <ccd/separation.hpp>
 #include <cmath>
 #include <limits>
 #include <string>

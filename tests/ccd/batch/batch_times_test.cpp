@@ -1,7 +1,7 @@
 // First times of batches of every kind against one query at a time; the earliest of many.
 #include <gtest/gtest.h>
 
-#include <ccd/first_times.hpp>
+#include <ccd/contact.hpp>
 #include <cmath>
 #include <limits>
 #include <random>

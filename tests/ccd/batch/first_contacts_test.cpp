@@ -1,8 +1,7 @@
 // Contact data of batches against one query at a time.
 #include <gtest/gtest.h>
 
-#include <ccd/first_contacts.hpp>
-#include <ccd/first_times.hpp>
+#include <ccd/contact.hpp>
 #include <cstddef>
 #include <cstdint>
 #include <random>

@@ -7,8 +7,8 @@
 #include <algorithm>
 #include <bit>
 #include <ccd/batch.hpp>
+#include <ccd/contact.hpp>
 #include <ccd/exact.hpp>
-#include <ccd/first_times.hpp>
 #include <cstdlib>
 #include <errbound/predicates.hpp>
 #include <functional>

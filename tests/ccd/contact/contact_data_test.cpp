@@ -2,9 +2,8 @@
 #include <gtest/gtest.h>
 
 #include <array>
-#include <ccd/contact_data.hpp>
+#include <ccd/contact.hpp>
 #include <ccd/plane.hpp>
-#include <ccd/separation.hpp>
 #include <cmath>
 
 #include "tests/ccd/contact/by_hand.hpp"

@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <array>
-#include <ccd/contact_data.hpp>
+#include <ccd/contact.hpp>
 #include <ccd/methods/transform.hpp>
 #include <cmath>
 #include <cstddef>

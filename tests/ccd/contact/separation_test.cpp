@@ -2,8 +2,8 @@
 // reference.
 #include <gtest/gtest.h>
 
+#include <ccd/contact.hpp>
 #include <ccd/reference.hpp>
-#include <ccd/separation.hpp>
 #include <cmath>
 #include <limits>
 

@@ -3,9 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <ccd/contact.hpp>
 #include <ccd/cuda.hpp>
 #include <ccd/exact.hpp>
-#include <ccd/first_times.hpp>
 #include <ccd/io/mesh_file.hpp>
 #include <ccd/method.hpp>
 #include <ccd/step.hpp>

@@ -1,7 +1,7 @@
 // First times on devices: compares kernel bodies, run on the host in loops, with the host's times.
 #include <gtest/gtest.h>
 
-#include <ccd/first_times.hpp>
+#include <ccd/contact.hpp>
 #include <ccd/io/mesh_file.hpp>
 #include <ccd/step.hpp>
 #include <cstddef>

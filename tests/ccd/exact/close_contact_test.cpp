@@ -110,7 +110,7 @@ TEST(CloseContact, RootsThatHillClimbingOnTimeBroughtTogetherNeedNoReference) {
         0x1.2a23fadea2cbap-3,  -0x1.3c2d161cc6083p-4, 0x1.56c1854fcf038p-3,  -0x1.3e492b943031cp-1};
     ccd::stage_report report;
     const auto answer =
-        ccd::detail::decide_exactly(std::bit_cast<ccd::edge_edge<double>>(x), &report);
+        ccd::detail::decide_with_integers(std::bit_cast<ccd::edge_edge<double>>(x), &report);
     EXPECT_EQ(answer.outcome, outcome::separate);
     EXPECT_EQ(report[ccd::stage::unbounded].entered, 0);
 }

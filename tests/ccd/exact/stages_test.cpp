@@ -176,7 +176,7 @@ TEST(stages, features_that_a_coordinate_separates_need_no_unbounded_integers_at_
                                    at_rest(1e-300, 1e200, 2), at_rest(-1, -1e250, 2)};
     const auto entered_last = [&query] {
         ccd::stage_report report;
-        const ccd::verdict answer = ccd::detail::decide_exactly(query, &report);
+        const ccd::verdict answer = ccd::detail::decide_with_integers(query, &report);
         EXPECT_EQ(answer.outcome, ccd::outcome::separate);
         return report[ccd::stage::unbounded].entered;
     };

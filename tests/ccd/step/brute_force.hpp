@@ -3,9 +3,9 @@
 
 #include <algorithm>
 #include <array>
+#include <ccd/contact.hpp>
 #include <ccd/exact.hpp>
 #include <ccd/method.hpp>
-#include <ccd/separation.hpp>
 #include <ccd/step.hpp>
 #include <cstddef>
 #include <functional>

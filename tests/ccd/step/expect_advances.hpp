@@ -19,8 +19,8 @@ inline void expect_none_but_told(ccd::mesh_steps& steps, const ccd::mesh& before
                                  const ccd::pair_distances& distances = {}) {
     const ccd::vertex_rows way(before.vertices, result.positions);
     const auto touching = steps.run(way).pairs;
-    const auto near = distances.ask_for_contact() ? ccd::pair_lists()
-                                                  : steps.run(way, {.distances = distances}).pairs;
+    const auto near =
+        distances.is_contact() ? ccd::pair_lists() : steps.run(way, {.distances = distances}).pairs;
     ccd::for_each_kind([&]<ccd::kind K>() {
         const auto& told = result.touching_at_start.of<K>();
         const auto& told_near = result.near_at_start.of<K>();

@@ -3,7 +3,7 @@
 
 #include <atomic>
 #include <ccd/advance.hpp>
-#include <ccd/first_times.hpp>
+#include <ccd/contact.hpp>
 #include <ccd/io/mesh_file.hpp>
 #include <ccd/step.hpp>
 #include <string>

@@ -77,12 +77,12 @@ class checking {
             const ccd::separation d = distances.of(pair);
             const bool touches = in_contact(query, interval::instant(0));
             const bool is_near =
-                !touches && !distances.ask_for_contact() && within(query, d, interval::instant(0));
+                !touches && !distances.is_contact() && within(query, d, interval::instant(0));
             if (touches) touching.of<K>().push_back(brute_force::as_reported(pair));
             if (is_near) near.of<K>().push_back(brute_force::as_reported(pair));
-            const question asked = touches                                  ? question::nothing
-                                   : is_near || distances.ask_for_contact() ? question::contact
-                                                                            : question::distance;
+            const question asked = touches                             ? question::nothing
+                                   : is_near || distances.is_contact() ? question::contact
+                                                                       : question::distance;
             pairs_.push_back({pair, asked, d});
         });
         ccd::for_each_kind([&]<ccd::kind K>() {

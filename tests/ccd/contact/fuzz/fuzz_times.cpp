@@ -1,7 +1,6 @@
 // First contacts of queries of all kinds, and first times within a distance, against the oracle.
 #include <ccd/contact.hpp>
 #include <ccd/kind.hpp>
-#include <ccd/separation.hpp>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>

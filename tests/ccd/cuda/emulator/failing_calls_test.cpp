@@ -3,9 +3,9 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <ccd/contact.hpp>
 #include <ccd/cuda.hpp>
 #include <ccd/exact.hpp>
-#include <ccd/first_times.hpp>
 #include <ccd/step.hpp>
 #include <cstdio>
 #include <cstdlib>
