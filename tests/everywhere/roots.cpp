@@ -12,7 +12,7 @@
 namespace everywhere {
 namespace {
 
-using ccd::stress::source;
+using ccd::lab::source;
 using coefficients = std::vector<double>;
 
 /// The product with x − root.
