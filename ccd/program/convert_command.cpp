@@ -14,9 +14,9 @@
 #include <utility>
 
 #include "ccd/io/query_ranges.hpp"
+#include "ccd/lab/queries.hpp"
 #include "ccd/program/command.hpp"
 #include "ccd/program/options.hpp"
-#include "ccd/stress/generators/query_points.hpp"
 #include "errbound/support/command_line.hpp"
 #include "errbound/support/error.hpp"
 #include "errbound/support/output_file.hpp"
@@ -70,7 +70,7 @@ std::string rows_of(const io::query_file& queries) {
         [&](const auto& all) {
             for (std::size_t i = 0; i < all.size(); ++i) {
                 const char* const truth = !queries.truth ? "" : (*queries.truth)[i] ? ",1" : ",0";
-                text += stress::csv(points_of(all[i]), truth);
+                text += lab::csv(points_of(all[i]), truth);
             }
         },
         queries.queries);

@@ -2,15 +2,12 @@
 #include <ccd/exact.hpp>
 #include <cmath>
 
+#include "ccd/lab/tables.hpp"
 #include "tests/bench/sections.hpp"
 
 namespace bench {
 namespace {
 
-/// Of what is sorted.
-double at_share(const std::vector<double>& sorted, double share) {
-    return sorted[static_cast<std::size_t>(share * static_cast<double>(sorted.size() - 1))];
-}
 cell error(double e) {
     if (!std::isfinite(e)) return {"unknown", nullptr};
     char text[16];
@@ -18,7 +15,7 @@ cell error(double e) {
     return {text, e};
 }
 
-/// Data of all contacts, and what is uncertain of them.
+/// Errors of the data of all contacts.
 struct accuracy {
     std::size_t inside = 0;
     std::vector<double> weights, normals;  ///< errors, sorted
@@ -62,10 +59,11 @@ void add_contacts_row(const query_set<Query>& set, const options& o,
     const auto all = static_cast<double>(colliding.size());
     const auto ns = [&](std::size_t i) { return number(1e9 * timings[i].minimum / all, 0); };
     const accuracy of(colliding, times);
-    rows.push_back({word(short_name(ccd::kind_of<Query>)), count(colliding.size()), ns(0), ns(1),
-                    ns(2), percent(static_cast<double>(of.inside) / all),
-                    error(at_share(of.weights, 0.5)), error(at_share(of.weights, 0.99)),
-                    error(at_share(of.normals, 0.5)), error(at_share(of.normals, 0.99))});
+    rows.push_back(
+        {word(short_name(ccd::kind_of<Query>)), count(colliding.size()), ns(0), ns(1), ns(2),
+         percent(static_cast<double>(of.inside) / all), error(ccd::lab::quantile(of.weights, 0.5)),
+         error(ccd::lab::quantile(of.weights, 0.99)), error(ccd::lab::quantile(of.normals, 0.5)),
+         error(ccd::lab::quantile(of.normals, 0.99))});
 }
 
 /// The mean length of all faces' edges before the step.
@@ -79,7 +77,7 @@ double mean_edge(const ccd::mesh& m) {
     return sum / (3 * static_cast<double>(m.faces.size()));
 }
 
-/// All candidates in batches: yes or no, that and the first times, and within a distance.
+/// All candidates in batches: yes or no, also with the first times, and within a distance.
 template <class Query>
 void add_batch_rows(const query_set<Query>& set, double distance, const options& o,
                     std::vector<std::vector<cell>>& rows) {
@@ -109,8 +107,7 @@ void add_batch_rows(const query_set<Query>& set, double distance, const options&
 void batches(const scene& s, const options& o, report& out) {
     const double distance = 1e-3 * mean_edge(s.before);
     std::vector<std::vector<cell>> rows;
-    add_batch_rows(s.queries.vertex_face, distance, o, rows);
-    add_batch_rows(s.queries.edge_edge, distance, o, rows);
+    s.queries.for_each([&](const auto& set) { add_batch_rows(set, distance, o, rows); });
     out.table("contacts in batches", {{"scene", s.name}},
               s.name +
                   ": all candidates in batches, ns of each on one thread; within a thousandth "
@@ -133,8 +130,7 @@ void contacts(const scene& s, const options& o, report& out) {
     const std::size_t most =
         o.quick ? o.max_queries() : s.queries.vertex_face.size() + s.queries.edge_edge.size();
     std::vector<std::vector<cell>> rows;
-    add_contacts_row(s.queries.vertex_face.at_most(most), o, rows);
-    add_contacts_row(s.queries.edge_edge.at_most(most), o, rows);
+    s.queries.for_each([&](const auto& set) { add_contacts_row(set.at_most(most), o, rows); });
     out.table("contacts", {{"scene", s.name}},
               s.name + ": colliding queries one by one, ns of each; errors of the contacts' data",
               {{"kind", "kind", true},

@@ -1,4 +1,4 @@
-// ./run bench-gpu: every method on the device, beside the host; first times; whole steps; as
+// ./run bench-gpu: every method on the device, next to the host; first times; whole steps; as
 // tables.
 #include <cuda_runtime_api.h>
 
@@ -15,7 +15,7 @@
 #include <string>
 #include <vector>
 
-#include "ccd/report/measuring/machine.hpp"
+#include "ccd/lab/machine.hpp"
 #include "errbound/support/output_file.hpp"
 #include "tests/bench/gpu_peaks.hpp"
 #include "tests/bench/harness.hpp"
@@ -76,8 +76,8 @@ std::string name_of(precision p) {
     return p == precision::float32 ? "float32" : "float64";
 }
 
-/// A scene's candidates of one kind, over and over until there are at least so many, on the device,
-/// with what it takes to decide them.
+/// A scene's candidates of one kind, repeated until there are at least `least`, on the device, with
+/// the memory for their decision.
 template <class Query>
 class device_batch {
   public:
@@ -102,8 +102,8 @@ class device_batch {
     }
     std::vector<ccd::outcome> answers() const { return answers_.copied(); }
 
-    /// Lists those that collide, once they are decided by `exact`, and finds their times; `times`
-    /// must be at least as many.
+    /// Lists the colliding candidates and finds their times. Preconditions: `exact` has decided
+    /// them; `times` is as large as their number.
     ccd::cuda::time_stage_counts find_times(const device_array<ccd::vertex_index>& numbers,
                                             const device_array<ccd::first_time>& times) const {
         const ccd::cuda::scratch scratch{memory_.data(), memory_.size()};
@@ -135,7 +135,7 @@ class device_batch {
 
 struct contestant {
     ccd::cuda::batch_options options;
-    std::size_t false_positives = 0, false_negatives = 0;  ///< of one of the copies
+    ccd::lab::tally errors = {};  ///< of one of the copies
 };
 
 /// All methods in both precisions, with their errors.
@@ -150,12 +150,8 @@ std::vector<contestant> contestants_of(const device_batch<Query>& batch,
             contestant& c = all.emplace_back(contestant{{m, p, nullptr}});
             batch.decide(c.options);
             const auto found = batch.answers();
-            for (std::size_t i = 0; i < truth.size(); ++i) {
-                const bool said = found[i] != ccd::outcome::separate;
-                const bool is = truth[i] != ccd::outcome::separate;
-                c.false_positives += said && !is;
-                c.false_negatives += !said && is;
-            }
+            for (std::size_t i = 0; i < truth.size(); ++i)
+                c.errors.add(found[i], truth[i] != ccd::outcome::separate);
         }
     return all;
 }
@@ -181,16 +177,16 @@ void add_methods_table(const bench::scene& s, const device_batch<Query>& batch,
     const auto count = static_cast<double>(batch.size());
     for (std::size_t i = 0; i < contestants.size(); ++i) {
         const contestant& c = contestants[i];
-        // What has to come from memory at least: the rows, once, and an answer each.
+        // The least transfer: the rows, once, and an answer each.
         const double moved =
             count * (sizeof(ccd::pair_of_query<Query>) + sizeof(ccd::outcome)) / times[i].minimum;
-        table.push_back({bench::word(info(c.options.method).name),
-                         bench::word(name_of(c.options.precision)),
-                         bench::number(count / times[i].minimum / 1e9, 3),
-                         bench::number(count / times[i].median / 1e9, 3),
-                         bench::number(1e9 * times[i].minimum / count, 3),
-                         bench::percent(moved / peaks.bytes_per_second),
-                         bench::count(c.false_positives), bench::count(c.false_negatives)});
+        table.push_back(
+            {bench::word(info(c.options.method).name), bench::word(name_of(c.options.precision)),
+             bench::number(count / times[i].minimum / 1e9, 3),
+             bench::number(count / times[i].median / 1e9, 3),
+             bench::number(1e9 * times[i].minimum / count, 3),
+             bench::percent(moved / peaks.bytes_per_second), bench::count(c.errors.false_positives),
+             bench::count(c.errors.false_negatives)});
     }
     const std::string kind(short_name(ccd::kind_of<Query>));
     out.table("gpu-methods", {{"scene", s.name}, {"kind", kind}, {"queries", batch.size()}},
@@ -208,7 +204,8 @@ void add_methods_table(const bench::scene& s, const device_batch<Query>& batch,
               table);
 }
 
-/// The stages of exact: what they were asked, and what that is beside the peaks in `seconds`.
+/// The stages of exact: the candidates that enter, and their operations compared with the peaks in
+/// `seconds`.
 template <class Query>
 void add_stages_table(const bench::scene& s, const device_batch<Query>& batch, double seconds,
                       const bench::device_peaks& peaks, bench::report& out) {
@@ -226,7 +223,7 @@ void add_stages_table(const bench::scene& s, const device_batch<Query>& batch, d
     out.table("gpu-stages",
               {{"scene", s.name}, {"kind", std::string(short_name(ccd::kind_of<Query>))}},
               "Stages of exact: candidates that enter, operations of each, and those of all "
-              "beside the peak rate in the time of the whole",
+              "as a share of the peak rate in the time of the whole",
               {{"stage", "stage", true},
                {"entered", "entered"},
                {"share", "share"},
@@ -257,7 +254,7 @@ std::vector<bench::cell> row_of_times(const char* where, std::size_t queries, st
                           1)};
 }
 
-/// First times of all that collide, beside the decision alone, on the device and on the host.
+/// First times of all that collide, next to the decision only, on the device and on the host.
 template <class Query>
 void add_times_table(const bench::scene& s, const device_batch<Query>& batch,
                      const bench::query_set<Query>& once, const bench::options& o,
@@ -287,23 +284,23 @@ void add_times_table(const bench::scene& s, const device_batch<Query>& batch,
     auto first_copy = found.copied();
     first_copy.resize(contacts / batch.copies());
     const std::string kind(short_name(ccd::kind_of<Query>));
-    out.table(
-        "gpu-times", {{"scene", s.name}, {"kind", kind}, {"agree", first_copy == on_host}},
-        "First times of the " + kind + " candidates that collide, and the decision alone, in " +
-            "ns a query; " + (first_copy == on_host ? "the same" : "NOT THE SAME") +
-            " on the host. On the device " + std::to_string(stages.roots_one_word) +
-            " were asked for a root in one word, " + std::to_string(stages.integers_one_word) +
-            " in one word alone, " + std::to_string(stages.roots_two_words) + " and " +
-            std::to_string(stages.integers_two_words) + " in two, " +
-            std::to_string(stages.left_open) + " left to the host",
-        {{"where", "where", true},
-         {"contacts", "contacts"},
-         {"decided", "decided"},
-         {"timed", "with times"},
-         {"ratio", "ratio"},
-         {"ns_per_contact", "ns/contact"}},
-        {row_of_times("device", batch.size(), contacts, passes[0], passes[1]),
-         row_of_times("host", once.size(), on_host.size(), passes[2], passes[3])});
+    out.table("gpu-times", {{"scene", s.name}, {"kind", kind}, {"agree", first_copy == on_host}},
+              "First times of the " + kind +
+                  " candidates that collide, and the decision alone, in " + "ns a query; " +
+                  (first_copy == on_host ? "the same" : "NOT THE SAME") +
+                  " on the host. On the device " + std::to_string(stages.roots_one_word) +
+                  " needed a root in one word, " + std::to_string(stages.integers_one_word) +
+                  " in one word alone, " + std::to_string(stages.roots_two_words) + " and " +
+                  std::to_string(stages.integers_two_words) + " in two, " +
+                  std::to_string(stages.left_open) + " left to the host",
+              {{"where", "where", true},
+               {"contacts", "contacts"},
+               {"decided", "decided"},
+               {"timed", "with times"},
+               {"ratio", "ratio"},
+               {"ns_per_contact", "ns/contact"}},
+              {row_of_times("device", batch.size(), contacts, passes[0], passes[1]),
+               row_of_times("host", once.size(), on_host.size(), passes[2], passes[3])});
 }
 
 template <class Query>
@@ -322,8 +319,8 @@ void methods(const bench::scene& s, const device_scene& device, const bench::que
     add_times_table(s, batch, once, o, out);
 }
 
-/// What a step is asked, on the device and on the host.
-struct step_asked {
+/// A step's options, on the device and on the host.
+struct step_request {
     const char* name;
     ccd::cuda::mesh_step_options options;
 
@@ -333,7 +330,7 @@ struct step_asked {
                 .times = options.times};
     }
 };
-constexpr step_asked steps_asked[] = {
+constexpr step_request step_requests[] = {
     {"exact", {}},
     {"exact, first contact", {.first_contact = true}},
     {"exact, times", {.times = true}},
@@ -343,19 +340,19 @@ constexpr step_asked steps_asked[] = {
 void steps(const bench::scene& s, const device_scene& device, const bench::options& o,
            bench::report& out) {
     std::vector<std::vector<bench::cell>> table;
-    for (const step_asked& asked : steps_asked) {
+    for (const step_request& request : step_requests) {
         ccd::cuda::mesh_steps steps(s.before.faces, s.before.vertices.size());
         ccd::cuda::mesh_steps::result found;
         ccd::step_result on_host;
         const auto times =
             bench::race({[&] {
-                             found = steps.run(device.at, asked.options);
+                             found = steps.run(device.at, request.options);
                              check(found);
                          },
-                         [&] { on_host = ccd::step(s.before, s.after, asked.on_host()); }},
+                         [&] { on_host = ccd::step(s.before, s.after, request.on_host()); }},
                         o.repeats());
         table.push_back(
-            {bench::word(asked.name),
+            {bench::word(request.name),
              bench::count(found.candidates.vertex_face + found.candidates.edge_edge),
              bench::count(found.pairs.vertex_face.size() + found.pairs.edge_edge.size()),
              bench::word(found.pairs.vertex_face.size() == on_host.pairs.vertex_face.size() &&
@@ -371,7 +368,7 @@ void steps(const bench::scene& s, const device_scene& device, const bench::optio
         "gpu-steps", {{"scene", s.name}},
         "A step: from vertices on the device to pairs and times there, in ms; by the host with "
         "all its threads, from its memory",
-        {{"method", "asked", true},
+        {{"method", "step", true},
          {"candidates", "candidates"},
          {"pairs", "pairs"},
          {"agree", "agree", true},
@@ -391,37 +388,36 @@ void add_options(CLI::App& app, run_options& o) {
     app.add_flag("--quick", o.quick, "Fewer queries and repeats: shows that all works");
     app.add_option("--json", o.json, "The tables as JSON, to this file");
     app.add_option("--scene", o.scene, "Only scenes whose name holds this");
-    app.add_option("--queries", o.queries, "Candidates are replicated to at least so many")
+    app.add_option("--queries", o.queries, "Candidates are replicated to at least this number")
         ->check(CLI::Range(std::size_t(1), std::size_t(2'000'000'000)));
     app.add_option("--commit", o.commit, "To be printed at the head");
 }
 
-/// Prints what it runs on; returns the same for machines.
+/// Prints the device and the host; returns the same for machines.
 nlohmann::json say_machine(const bench::device_peaks& peaks, const std::string& commit) {
     cudaDeviceProp device{};
     check(cudaGetDeviceProperties(&device, 0));
-    const ccd::report::machine host = ccd::report::this_machine();
+    nlohmann::json here = ccd::lab::this_machine();
+    here.update({{"device", device.name},
+                 {"bytes_per_second", peaks.bytes_per_second},
+                 {"float_operations", peaks.float_operations},
+                 {"double_operations", peaks.double_operations},
+                 {"commit", commit}});
     std::printf(
-        "%s, %d multiprocessors; host: %s, %u cores; commit %s\n"
+        "%s, %d multiprocessors; host: %s, %s cores; commit %s\n"
         "measured: %.0f GB/s copied, %.1f and %.1f Tflop/s in floats and doubles, not "
         "fused\n",
-        device.name, device.multiProcessorCount, host.processor.c_str(), host.cores, commit.c_str(),
-        1e-9 * peaks.bytes_per_second, 1e-12 * peaks.float_operations,
-        1e-12 * peaks.double_operations);
-    return {{"device", device.name},
-            {"processor", host.processor},
-            {"cores", host.cores},
-            {"bytes_per_second", peaks.bytes_per_second},
-            {"float_operations", peaks.float_operations},
-            {"double_operations", peaks.double_operations},
-            {"commit", commit}};
+        device.name, device.multiProcessorCount, here["processor"].get<std::string>().c_str(),
+        here["cores"].dump().c_str(), commit.c_str(), 1e-9 * peaks.bytes_per_second,
+        1e-12 * peaks.float_operations, 1e-12 * peaks.double_operations);
+    return here;
 }
 
 void measure_scene(const std::string& name, const run_options& o, const bench::device_peaks& peaks,
                    bench::report& out) {
     bench::scene s;
     if (!bench::load(name, s)) {
-        bench::report::say("\n== " + name + ": left out, its data is not here");
+        bench::report::say("\n== " + name + ": skipped, its data is missing");
         return;
     }
     if (!s.is_step()) return;

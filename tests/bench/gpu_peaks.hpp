@@ -1,4 +1,4 @@
-// What the device can do at most, as measured.
+// The measured peak rates of the device.
 #pragma once
 
 #include <cuda_runtime_api.h>

@@ -1,4 +1,4 @@
-// What the benchmarks share: their options, and tables for people and machines.
+// Shared by the benchmarks: options, and tables for people and machines.
 #pragma once
 
 #include <algorithm>
@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-#include "ccd/report/measuring/timing.hpp"
+#include "ccd/lab/timing.hpp"
 
 namespace bench {
 
@@ -19,7 +19,7 @@ struct options {
     std::vector<std::string> sections = {};  ///< of section_names; empty: all
 
     int repeats() const { return quick ? 3 : 7; }
-    /// Of queries one by one, which are drawn evenly from more.
+    /// The number of queries one by one; they are drawn evenly from more.
     std::size_t max_queries() const { return quick ? 10'000 : 200'000; }
     bool wants(std::string_view section) const {
         return sections.empty() || std::ranges::find(sections, section) != sections.end();
@@ -33,11 +33,11 @@ struct options {
 inline constexpr std::string_view section_names[] = {"methods", "stages",     "contacts", "steps",
                                                      "growth",  "predicates", "curves"};
 
-using ccd::report::clock;
-using ccd::report::keep;
-using ccd::report::race;
-using ccd::report::seconds_since;
-using ccd::report::timing;
+using ccd::lab::clock;
+using ccd::lab::keep;
+using ccd::lab::race;
+using ccd::lab::seconds_since;
+using ccd::lab::timing;
 
 /// A value for people and the same for machines.
 struct cell {

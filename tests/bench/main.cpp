@@ -1,35 +1,31 @@
-// ./run bench: what `exact` costs, beside the other methods, as tables.
+// ./run bench: the cost of `exact` next to the other methods, as tables.
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <exception>
 #include <string>
 
-#include "ccd/report/measuring/machine.hpp"
+#include "ccd/lab/machine.hpp"
 #include "errbound/support/output_file.hpp"
 #include "tests/bench/sections.hpp"
 
 namespace {
 
+/// Prints the machine and the build; returns the same for machines.
 nlohmann::json head(const std::string& commit) {
-    const ccd::report::machine here = ccd::report::this_machine();
-    const nlohmann::json all{{"processor", here.processor},
-                             {"cores", here.cores},
-                             {"load", here.load},
-                             {"instruction_sets", here.instruction_sets},
-                             {"compiler", here.compiler},
-                             {"flags", here.flags},
-                             {"commit", commit}};
-    std::printf("%s, %u cores, load %.2f; instruction sets: %s\n%s, flags: %s\ncommit %s\n",
-                here.processor.c_str(), here.cores, here.load, here.instruction_sets.c_str(),
-                here.compiler.c_str(), here.flags.c_str(), commit.c_str());
-    return all;
+    nlohmann::json here = ccd::lab::this_machine();
+    here["commit"] = commit;
+    for (const char* key :
+         {"processor", "cores", "load", "instruction_sets", "compiler", "flags", "commit"})
+        bench::report::say(key + (": " + (here[key].is_string() ? here[key].get<std::string>()
+                                                                : here[key].dump())));
+    return here;
 }
 
 void run_scene(const std::string& name, const bench::options& o, bench::report& out) {
     bench::scene s;
     const bench::clock::time_point start = bench::clock::now();
     if (!bench::load(name, s)) {
-        bench::report::say("\n== " + name + ": left out, its data is not here");
+        bench::report::say("\n== " + name + ": skipped, its data is missing");
         return;
     }
     char seconds[32];
@@ -40,16 +36,12 @@ void run_scene(const std::string& name, const bench::options& o, bench::report& 
                                     : "") +
                        bench::count(s.queries.vertex_face.size()).text + " vf and " +
                        bench::count(s.queries.edge_edge.size()).text + " ee " +
-                       (s.is_step() ? "candidates" : "queries") + " (made ready in " + seconds +
-                       ")");
+                       (s.is_step() ? "candidates" : "queries") + " (prepared in " + seconds + ")");
     if (o.wants("methods")) bench::methods(s, o, out);
     if (o.wants("stages")) bench::stages(s, o, out);
     if (o.wants("contacts")) bench::contacts(s, o, out);
     if (o.wants("steps") && s.is_step()) bench::steps(s, o, out);
-    if (o.wants("growth") && s.is_step()) {
-        bench::growth_with_queries(s, o, out);
-        bench::growth_with_copies(s, o, out);
-    }
+    if (o.wants("growth") && s.is_step()) bench::growth(s, o, out);
 }
 
 }  // namespace
@@ -59,10 +51,8 @@ int main(int argc, char** argv) try {
     app.name("./run bench");
     app.footer(
         "./run bench also takes, as its first argument, --linear, --predicates, --roots or "
-        "--rules: those beside\nother libraries; --worst: worst cases; and --native: these by a "
-        "build for this "
-        "processor "
-        "beside these.");
+        "--rules: those next to\nother libraries; --worst: worst cases; and --native: these by a "
+        "build for this processor\nnext to these.");
     bench::options o;
     std::string json, commit = "unknown";
     app.add_flag("--quick", o.quick, "Fewer queries and repeats: shows that all works");
@@ -95,7 +85,6 @@ int main(int argc, char** argv) try {
                      o.scene.c_str(), names.c_str());
         return 1;
     }
-    if (o.wants("growth") && o.scene.empty()) bench::growth_with_mesh(o, out);
     if (o.wants("predicates") && o.scene.empty()) bench::predicates(o, out);
     if (o.wants("curves") && o.scene.empty()) bench::curves(o, out);
     if (!json.empty()) {

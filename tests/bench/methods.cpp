@@ -9,14 +9,8 @@
 namespace bench {
 namespace {
 
-struct contestant {
-    std::string name;
-    std::size_t queries;
-    std::size_t collisions;  ///< or uncertain
-};
-
-// How many of the sample's queries one pass of a method takes on: a pass is to last some half a
-// second at most, as a first look at a few tells.
+/// The number of the sample's queries for one pass of a method: a pass takes half a second at most,
+/// estimated from the first queries.
 template <class Query>
 std::size_t affordable(ccd::method method, const std::vector<Query>& sample) {
     const std::size_t few = std::min<std::size_t>(1000, sample.size());
@@ -29,26 +23,27 @@ std::size_t affordable(ccd::method method, const std::vector<Query>& sample) {
                : sample.size();
 }
 
-/// What is raced on the queries of one kind of a scene: every method one by one, and batches.
+/// The contestants on the queries of one kind of a scene: every method one by one, and batches.
 template <class Query>
 class methods_race {
   public:
-    methods_race(const scene& s, const query_set<Query>& all, const options& o)
-        : scene_(s.name),
-          all_(all),
+    methods_race(const query_set<Query>& all, const options& o)
+        : all_(all),
           sample_(all.at_most(o.max_queries()).all_stored()),
           batch_(o.quick ? all.at_most(5 * o.max_queries()) : all),
           answers_(batch_.size()) {
         for (const ccd::method_info& m : ccd::methods()) add_method(m);
         for (const ccd::instruction_set set : ccd::instruction_sets())
-            add_batch(set, 1, "batch on " + std::string(ccd::name(set)));
-        // What batches answered is what the queries get one by one.
+            add_batch("batch on " + std::string(ccd::name(set)), set, 1);
+        const ccd::instruction_set best = ccd::instruction_sets().back();
+        const std::string on_best = "batch on " + std::string(ccd::name(best));
+        add_batch(on_best + ", all threads", best, 0);
         for (std::size_t i = 0; i < batch_.size(); i += 1 + batch_.size() / o.max_queries())
             if (ccd::decide(ccd::method::exact, batch_[i]).outcome != answers_[i])
-                throw std::runtime_error(scene_ + ": batches and one by one differ");
-        const std::string best(ccd::name(ccd::instruction_sets().back()));
-        add_batch(ccd::instruction_sets().back(), 0, "batch on " + best + ", all threads");
-        add_stored_batch("batch on " + best + ", stored queries");
+                throw std::runtime_error("batches and one by one differ");
+        of_sample_.resize(sample_.size());  // stored: 192 bytes a query
+        add_exact(on_best + ", stored queries", of_sample_,
+                  [this] { ccd::decide_batch(sample_, of_sample_, {.threads = 1}); });
     }
     methods_race(const methods_race&) = delete;  // the passes refer to it
     methods_race& operator=(const methods_race&) = delete;
@@ -69,6 +64,11 @@ class methods_race {
     }
 
   private:
+    struct contestant {
+        std::string name;
+        std::size_t queries, collisions;  ///< uncertain counts as a collision
+    };
+
     void add_method(const ccd::method_info& m) {
         if (m.method == ccd::method::tight) tight_ = contestants_.size();
         const std::size_t size = affordable(m.method, sample_);
@@ -82,70 +82,53 @@ class methods_race {
             for (const Query& q : queries) keep(ccd::decide(method, q));
         });
     }
-    void add_batch(ccd::instruction_set set, int threads, const std::string& how) {
-        const auto pass = [this, set, threads] {
+    void add_batch(const std::string& how, ccd::instruction_set set, int threads) {
+        const auto before = answers_;
+        const bool is_first = contestants_.size() == std::size(ccd::methods());
+        add_exact(how, answers_, [this, set, threads] {
             batch_.decide_batch(0, answers_, {.threads = threads, .set = set});
-        };
-        const auto previous = answers_;
-        pass();
-        if (contestants_.size() > std::size(ccd::methods()) && answers_ != previous)
-            throw std::runtime_error(scene_ + ": answers differ on " + how);
-        add_exact(how, batch_.size(), answers_, pass);
+        });
+        if (!is_first && answers_ != before) throw std::runtime_error("answers differ on " + how);
     }
-    /// The same sample as one by one, stored: 192 bytes a query.
-    void add_stored_batch(const std::string& how) {
-        answers_of_sample_.resize(sample_.size());
-        const auto pass = [this] {
-            ccd::decide_batch(sample_, answers_of_sample_, {.threads = 1});
-        };
+    /// Runs the pass once, for its answers.
+    void add_exact(const std::string& how, const std::vector<ccd::outcome>& answers,
+                   const std::function<void()>& pass) {
         pass();
-        add_exact(how, sample_.size(), answers_of_sample_, pass);
-    }
-    void add_exact(const std::string& how, std::size_t queries,
-                   const std::vector<ccd::outcome>& answers, const std::function<void()>& pass) {
+        const auto collisions = std::ranges::count(answers, ccd::outcome::collides);
         contestants_.push_back(
-            {"exact, " + how, queries,
-             static_cast<std::size_t>(std::ranges::count(answers, ccd::outcome::collides))});
+            {"exact, " + how, answers.size(), static_cast<std::size_t>(collisions)});
         passes_.push_back(pass);
     }
 
-    std::string scene_;
     const query_set<Query>& all_;
     std::vector<Query> sample_;
     query_set<Query> batch_;
-    std::vector<ccd::outcome> answers_, answers_of_sample_;
+    std::vector<ccd::outcome> answers_, of_sample_;
     std::deque<std::vector<Query>> parts_;  ///< of the sample, for slow methods
     std::vector<contestant> contestants_;
     std::vector<std::function<void()>> passes_;
-    std::size_t tight_ = 0;  ///< its place
+    std::size_t tight_ = 0;  ///< its index
 };
-
-template <class Query>
-void add_rows(const scene& s, const query_set<Query>& all, const options& o,
-              std::vector<std::vector<cell>>& rows) {
-    if (all.size() > 0) methods_race<Query>(s, all, o).run(o.repeats(), rows);
-}
 
 }  // namespace
 
 void methods(const scene& s, const options& o, report& out) {
     std::vector<std::vector<cell>> rows;
-    add_rows(s, s.queries.vertex_face, o, rows);
-    add_rows(s, s.queries.edge_edge, o, rows);
-    out.table(
-        "methods", {{"scene", s.name}},
-        s.name +
-            ": ns per query, one by one (on an even sample where there are fewer) and "
-            "in batches, on one thread unless said; last, how many times as fast as tight one "
-            "by one",
-        {{"kind", "kind", true},
-         {"contestant", "method", true},
-         {"queries", "queries"},
-         {"collisions", "collide"},
-         {"ns_min", "min ns"},
-         {"ns_median", "median ns"},
-         {"times_tight", "speed-up over tight"}},
-        rows);
+    s.queries.for_each([&]<class Query>(const query_set<Query>& all) {
+        if (all.size() > 0) methods_race<Query>(all, o).run(o.repeats(), rows);
+    });
+    out.table("methods", {{"scene", s.name}},
+              s.name +
+                  ": ns per query, one by one (on an even sample where there are fewer) and in "
+                  "batches, on one thread by default; last, the speed-up over tight one by one",
+              {{"kind", "kind", true},
+               {"contestant", "method", true},
+               {"queries", "queries"},
+               {"collisions", "collide"},
+               {"ns_min", "min ns"},
+               {"ns_median", "median ns"},
+               {"times_tight", "speed-up over tight"}},
+              rows);
 }
 
 }  // namespace bench

@@ -13,7 +13,7 @@
 #include <string_view>
 #include <vector>
 
-#include "ccd/report/measuring/machine.hpp"
+#include "ccd/lab/machine.hpp"
 #include "tests/bench/harness.hpp"
 #include "tests/errbound/roots/flint_polynomial.hpp"
 #include "tests/errbound/roots/polynomial_families.hpp"
@@ -242,9 +242,7 @@ int main(int argc, char** argv) {
         std::fprintf(stderr, "usage: ./run bench --roots [--quick]\n");
         return 2;
     }
-    const ccd::report::machine here = ccd::report::this_machine();
-    std::printf("%s, %u cores, load %.2f\n%s, flags: %s\n", here.processor.c_str(), here.cores,
-                here.load, here.compiler.c_str(), here.flags.c_str());
+    std::printf("%s\n", ccd::lab::text_of(ccd::lab::this_machine(), 1).c_str());
     run(quick);
     run_hard_cases(quick);
     return 0;

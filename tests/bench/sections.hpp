@@ -10,26 +10,19 @@ namespace bench {
 /// threads. Throws std::runtime_error if batches and one by one disagree.
 void methods(const scene& s, const options& o, report& out);
 
-/// What each stage of `exact` decides and costs, its slowest single queries, and those that reach
-/// the integers.
+/// The decisions and cost of each stage of `exact`, its slowest single queries, and those that
+/// reach the integers.
 void stages(const scene& s, const options& o, report& out);
 
 /// First times of colliding queries and the data of their contacts: ns, and certified errors.
 void contacts(const scene& s, const options& o, report& out);
 
-/// Whole steps: time by phase, memory. Throws std::runtime_error if a step has other candidates
-/// than those found here.
+/// Whole steps: time by phase, memory.
 void steps(const scene& s, const options& o, report& out);
 
-/// ns per query of batches against the number of queries.
-void growth_with_queries(const scene& s, const options& o, report& out);
-
-/// Whole steps of ever more copies of a scene side by side, up to ten million faces: time and
-/// memory, and repeated steps of one mesh beside fresh ones.
-void growth_with_copies(const scene& s, const options& o, report& out);
-
-/// Whole steps against the size of the mesh.
-void growth_with_mesh(const options& o, report& out);
+/// Whole steps of more and more copies of a scene side by side, up to ten million faces: time and
+/// memory, and repeated steps of one mesh next to fresh ones.
+void growth(const scene& s, const options& o, report& out);
 
 /// Predicates against their expressions in plain double, one by one and in batches. Throws
 /// std::runtime_error if these disagree.

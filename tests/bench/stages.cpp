@@ -13,7 +13,7 @@ double total_seconds(const ccd::stage_report& r) {
                            [](double sum, const auto& e) { return sum + e.seconds; });
 }
 
-/// Of several runs the one that took least.
+/// The fastest of several runs.
 template <class Query>
 ccd::stage_report quickest_report(const query_set<Query>& set, int repeats) {
     std::vector<ccd::outcome> answers(set.size());

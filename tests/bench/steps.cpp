@@ -1,13 +1,88 @@
+#include <malloc.h>
+
+#include <algorithm>
+#include <atomic>
 #include <ccd/step.hpp>
 #include <cmath>
+#include <cstdlib>
 #include <limits>
+#include <new>
 #include <stdexcept>
 
-#include "tests/bench/heap.hpp"
 #include "tests/bench/sections.hpp"
+
+// ---- The heap's peak ----
+//
+// This program counts the memory of operator new and operator delete. It does not see memory from
+// malloc (big integers of the reference, the thread library's own).
+
+namespace {
+
+std::atomic<bool> counting = false;
+std::atomic<std::ptrdiff_t> in_use = 0;  // below zero if memory from before is freed
+std::atomic<std::ptrdiff_t> peak = 0;
+
+void add(void* p) {
+    if (!counting.load(std::memory_order_relaxed)) return;
+    const auto size = static_cast<std::ptrdiff_t>(malloc_usable_size(p));
+    const std::ptrdiff_t now = in_use.fetch_add(size, std::memory_order_relaxed) + size;
+    std::ptrdiff_t highest = peak.load(std::memory_order_relaxed);
+    while (now > highest && !peak.compare_exchange_weak(highest, now, std::memory_order_relaxed)) {
+    }
+}
+
+void* counted(void* p) {
+    if (p == nullptr) throw std::bad_alloc();
+    add(p);
+    return p;
+}
+
+void release(void* p) noexcept {
+    if (p != nullptr && counting.load(std::memory_order_relaxed)) {
+        in_use.fetch_sub(static_cast<std::ptrdiff_t>(malloc_usable_size(p)),
+                         std::memory_order_relaxed);
+    }
+    std::free(p);
+}
+
+}  // namespace
+
+// The forms for arrays and without exceptions call these.
+void* operator new(std::size_t size) {
+    return counted(std::malloc(std::max<std::size_t>(size, 1)));
+}
+void* operator new(std::size_t size, std::align_val_t alignment) {
+    const auto to = static_cast<std::size_t>(alignment);
+    return counted(std::aligned_alloc(to, (std::max<std::size_t>(size, 1) + to - 1) / to * to));
+}
+void operator delete(void* p) noexcept {
+    release(p);
+}
+void operator delete(void* p, std::size_t) noexcept {
+    release(p);
+}
+void operator delete(void* p, std::align_val_t) noexcept {
+    release(p);
+}
+void operator delete(void* p, std::size_t, std::align_val_t) noexcept {
+    release(p);
+}
 
 namespace bench {
 namespace {
+
+/// The most bytes that were allocated at once within `work`, above the allocations before it.
+template <class Work>
+std::size_t peak_heap(const Work& work) {
+    in_use = 0;
+    peak = 0;
+    counting = true;
+    work();
+    counting = false;
+    return static_cast<std::size_t>(peak.load());
+}
+
+// ---- Whole steps ----
 
 /// A way to do a step, and its best run.
 struct contestant {
@@ -83,10 +158,6 @@ void steps(const scene& s, const options& o, report& out) {
         contestants.push_back({ccd::method::float_, 1});
     }
     const auto timings = race_steps(s.before, s.after, contestants, o.repeats());
-    const auto counted = ccd::step(s.before, s.after, {.count_candidates = true}).candidates;
-    if (counted->vertex_face != s.queries.vertex_face.size() ||
-        counted->edge_edge != s.queries.edge_edge.size())
-        throw std::runtime_error(s.name + ": the step has other candidates than found here");
     std::vector<std::vector<cell>> rows;
     for (std::size_t i = 0; i < contestants.size(); ++i) {
         rows.push_back(row_of(s, contestants[i], timings[i]));
@@ -114,6 +185,8 @@ void steps(const scene& s, const options& o, report& out) {
 }
 
 namespace {
+
+// ---- Growth ----
 
 /// Copies of a frame in rows of a square, `apart` from one another.
 ccd::mesh copies_of(const ccd::mesh& frame, std::size_t copies, double apart) {
@@ -143,7 +216,7 @@ double width_of(const scene& s) {
 
 }  // namespace
 
-void growth_with_copies(const scene& s, const options& o, report& out) {
+void growth(const scene& s, const options& o, report& out) {
     std::vector<std::vector<cell>> rows;
     const std::size_t most = o.quick ? 10 * s.before.faces.size() : 10'000'000;
     for (std::size_t faces = s.before.faces.size(), n = 1; n * faces < 10 * most; n *= 10) {
@@ -185,39 +258,6 @@ void growth_with_copies(const scene& s, const options& o, report& out) {
                {"frames_mb", "frames MB"},
                {"peak_mb", "peak MB"},
                {"bytes_per_face", "bytes per face"}},
-              rows);
-}
-
-void growth_with_mesh(const options& o, report& out) {
-    std::vector<std::vector<cell>> rows;
-    for (const int n : o.quick ? std::vector{25, 50} : std::vector{50, 100, 200, 400, 800}) {
-        ccd::mesh before, after;
-        make_cloth_over_sphere(n, before, after);
-        std::vector<contestant> contestants{{ccd::method::exact, 1}, {ccd::method::exact, 0}};
-        const auto timings = race_steps(before, after, contestants, o.repeats());
-        const ccd::step_result& r = contestants[0].quickest;
-        const auto counted = ccd::step(before, after, {.count_candidates = true}).candidates;
-        const std::size_t candidates = counted->vertex_face + counted->edge_edge;
-        const auto vertices = static_cast<double>(before.vertices.size());
-        rows.push_back({count(before.vertices.size()), count(before.faces.size()),
-                        count(candidates),
-                        count(r.pairs.vertex_face.size() + r.pairs.edge_edge.size()),
-                        number(1e3 * timings[0].minimum, 2), number(1e3 * timings[1].minimum, 2),
-                        number(1e9 * timings[0].minimum / vertices, 0),
-                        number(1e9 * timings[0].minimum / static_cast<double>(candidates), 1),
-                        number(timings[0].minimum / timings[1].minimum, 2)});
-    }
-    out.table("growth", {{"with", "mesh"}},
-              "cloth on a sphere, made for this: a whole step by exact against the mesh's size",
-              {{"vertices", "vertices"},
-               {"faces", "faces"},
-               {"candidates", "candidates"},
-               {"pairs", "pairs"},
-               {"ms_one_thread", "min ms, 1 thread"},
-               {"ms_all_threads", "all threads"},
-               {"ns_per_vertex", "ns per vertex"},
-               {"ns_per_candidate", "ns per candidate"},
-               {"speedup", "speed-up, all threads"}},
               rows);
 }
 

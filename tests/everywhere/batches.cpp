@@ -35,7 +35,7 @@ struct all_queries {
         for (const auto& f : query_families::families)
             for (std::uint64_t i = 0; i * f.thinning < per_family; ++i) {
                 const auto points = query_families::make(f, K, 3, i);
-                stored.push_back(ccd::stress::as_query<query>(points));
+                stored.push_back(ccd::lab::as_query<query>(points));
                 const auto v = static_cast<ccd::vertex_index>(before.size());
                 for (const auto& p : points) {
                     before.push_back(p.t0);

@@ -12,7 +12,7 @@
 namespace everywhere {
 namespace {
 
-using ccd::stress::source;
+using ccd::lab::source;
 
 template <class Number>
 Number any_result(source& random, const Number& a, const Number& b, const Number& c) {

@@ -21,7 +21,7 @@ auto queries_of(const query_families::family& family) {
     using query = typename ccd::kind_traits<K>::template query<double>;
     std::vector<query> queries;
     for (std::uint64_t i = 0; i < queries_of_a_kind; ++i)
-        queries.push_back(ccd::stress::as_query<query>(query_families::make(family, K, 7, i)));
+        queries.push_back(ccd::lab::as_query<query>(query_families::make(family, K, 7, i)));
     return queries;
 }
 

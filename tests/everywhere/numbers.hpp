@@ -6,14 +6,14 @@
 #include <cstdint>
 #include <limits>
 
-#include "ccd/stress/generators/query_points.hpp"
+#include "ccd/lab/queries.hpp"
 
 namespace everywhere {
 
 /// Small integers, numbers with all 24 bits of a float, of every size, and their adjacent numbers.
 /// With `of_any_size`, also any finite bits, and zeros of both signs.
 template <class T>
-T any_number(ccd::stress::source& random, bool of_any_size) {
+T any_number(ccd::lab::source& random, bool of_any_size) {
     using limits = std::numeric_limits<T>;
     const auto small = static_cast<T>(random.between(-9, 9));
     switch (random.between(0, of_any_size ? 7 : 4)) {

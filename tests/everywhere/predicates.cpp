@@ -15,7 +15,7 @@
 namespace everywhere {
 namespace {
 
-using ccd::stress::source;
+using ccd::lab::source;
 
 constexpr std::size_t inputs = 640;
 
@@ -40,7 +40,7 @@ std::array<T, Dimension> any_point(source& random, int spread) {
 template <class T, std::size_t Dimension, class Predicate, std::size_t... I>
 void record_predicate(recorder& to, const char* name, const Predicate& predicate,
                       std::index_sequence<I...>) {
-    source random = ccd::stress::source_of(name, {});
+    source random = ccd::lab::source_of(name, {});
     std::array<std::vector<std::array<T, Dimension>>, sizeof...(I)> points;
     for (std::size_t i = 0; i < inputs; ++i) {
         const int spread = random.between(0, 3);

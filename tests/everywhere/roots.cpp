@@ -11,7 +11,7 @@
 namespace everywhere {
 namespace {
 
-using ccd::stress::source;
+using ccd::lab::source;
 using coefficients = std::vector<double>;
 
 coefficients with_root(const coefficients& p, double root) {

@@ -34,12 +34,12 @@ void for_each_query(std::uint64_t per_family, std::uint64_t seed, const Visit& v
                                   ccd::kind::vertex_edge, ccd::kind::vertex_vertex})
         for (const auto& f : query_families::families)
             for (std::uint64_t i = 0; i * f.thinning < per_family; ++i)
-                ccd::stress::visit_query(which, query_families::make(f, which, seed, i),
-                                         [&](const auto& query) {
-                                             visit(query, std::string(f.name) + ' ' +
-                                                              std::string(ccd::short_name(which)) +
-                                                              ' ' + std::to_string(i));
-                                         });
+                ccd::lab::visit_query(which, query_families::make(f, which, seed, i),
+                                      [&](const auto& query) {
+                                          visit(query, std::string(f.name) + ' ' +
+                                                           std::string(ccd::short_name(which)) +
+                                                           ' ' + std::to_string(i));
+                                      });
 }
 
 }  // namespace everywhere

@@ -12,7 +12,7 @@ namespace everywhere {
 namespace {
 
 using ccd::vertex_index;
-using ccd::stress::source;
+using ccd::lab::source;
 
 struct two_frames {
     ccd::mesh before, after;

@@ -40,13 +40,12 @@ LAYERS = [
     ("ccd: steps", r"ccd/step/"),
     ("ccd: devices, ranks", r"ccd/(cuda|mpi)/"),
     ("files", r"ccd/io/"),
-    ("stress", r"ccd/stress/"),
-    ("reports", r"ccd/report/"),
+    ("experiments", r"ccd/lab/"),
     ("programs", r"(ccd|errbound)/program/"),
     ("Python package", r"python/"),
 ]
 KNOWS_CCD = r"(include/)?errbound/(validation|program)/"  # as their CMakeLists.txt say
-INTERNAL = r"(errbound/(detail|integers|filters|linear|roots)|ccd/(exact|contact|batch|step|cuda|mpi|io|stress|report))/\w+\.hpp"
+INTERNAL = r"(errbound/(detail|integers|filters|linear|roots)|ccd/(exact|contact|batch|step|cuda|mpi|io|lab))/\w+\.hpp"
 PUBLIC_HEADERS = r"include/(errbound/(rules/|validation/)?|ccd/((methods|study|adapters)/)?)\w+\.hpp$"
 
 

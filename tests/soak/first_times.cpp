@@ -1,5 +1,4 @@
-#include "tests/soak/first_times.hpp"
-
+// The parts of the soak that compute first contacts, and first times within a distance.
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -20,8 +19,7 @@
 #include <utility>
 
 #include "ccd/contact/integer_times.hpp"
-#include "tests/soak/comparison.hpp"
-#include "tests/soak/deciders.hpp"
+#include "tests/soak/parts.hpp"
 #include "tests/support/contact_data_faults.hpp"
 #include "tests/support/distance_families.hpp"
 #include "tests/support/first_time_faults.hpp"
@@ -32,12 +30,11 @@ namespace {
 using ccd::first_time;
 using ccd::outcome;
 using ccd::separation;
-using query_families::families;
 using query_families::kind;
 using query_families::source;
 
 constexpr std::uint64_t queries_per_block = 8;  // of a family and kind
-constexpr unsigned slow = 16;                   // the stride of deciders that are
+constexpr unsigned slow = 16;                   // the stride of slow deciders
 
 bool is_double(const first_time& t) {
     return t.outcome == outcome::collides && t.low == t.high;
@@ -56,7 +53,7 @@ std::string text_of(separation d, double t_max) {
 }
 
 /// A query's motion from about its first time on, many times as fast: its first time is about 0,
-/// down to below the least double, or 0.
+/// possibly below the least double, or 0.
 query_families::points hastened(const query_families::points& at, double first, int exponent) {
     const auto moved = [&](double t0, double t1, double& from, double& to) {
         constexpr double largest = std::numeric_limits<double>::max();
@@ -73,7 +70,7 @@ query_families::points hastened(const query_families::points& at, double first, 
     return out;
 }
 
-/// Ends of time to ask about: near the first time, or any.
+/// A value of t_max: near the first time, or any.
 double some_end(source& random, const first_time& right) {
     switch (random.between(0, 7)) {
         case 0:
@@ -100,7 +97,7 @@ first_time until(const first_time& right, double t_max) {
                : first_time{.outcome = outcome::separate};
 }
 
-struct question {
+struct timed_query {
     std::string name;  ///< of the query: kind, family, index
     query_families::points at;
     separation d = {};
@@ -122,19 +119,19 @@ auto query_of(const query_families::points& at) {
     return query_families::as_query<typename ccd::kind_traits<K>::template query<double>>(at);
 }
 
-/// Asks all deciders, and the oracle about the first of them, whose answer it returns.
+/// Compares all deciders with the first, and the first with the oracle; returns its answer.
 template <kind K>
-first_time ask(const std::vector<time_decider>& deciders, const question& asked, source& random,
-               findings& out) {
-    const auto query = query_of<K>(asked.at);
+first_time check(const std::vector<time_decider>& deciders, const timed_query& of, source& random,
+                 findings& out) {
+    const auto query = query_of<K>(of.at);
     const auto differ = [&](const time_decider& by, double t_max, const std::string& what) {
         ++out.table("decider")[by.name][1];
-        out.differ({asked.name + ", " + text_of(asked.d, t_max) + ": " + by.name + " says " + what +
-                    "\n" + query_families::csv(asked.at)});
+        out.differ({of.name + ", " + text_of(of.d, t_max) + ": " + by.name + " returns " + what +
+                    "\n" + query_families::csv(of.at)});
     };
-    const first_time right = deciders[0].when.of<K>()(query, asked.d, 1);
-    const std::string fault = asked.of_distance ? support::fault_of(query, asked.d, right)
-                                                : support::fault_of(query, right);
+    const first_time right = deciders[0].when.of<K>()(query, of.d, 1);
+    const std::string fault =
+        of.of_distance ? support::fault_of(query, of.d, right) : support::fault_of(query, right);
     if (!fault.empty()) differ(deciders[0], 1, text_of(right) + ", but " + fault);
 
     const double t_max = some_end(random, right);
@@ -143,30 +140,30 @@ first_time ask(const std::vector<time_decider>& deciders, const question& asked,
         auto& counts = out.table("decider")[by.name];
         if (by.whether.of<K>()) {
             ++counts[0];
-            const outcome said = by.whether.of<K>()(query, asked.d);
-            if (said != right.outcome) differ(by, 1, std::string(ccd::name(said)));
+            const outcome found = by.whether.of<K>()(query, of.d);
+            if (found != right.outcome) differ(by, 1, std::string(ccd::name(found)));
             continue;
         }
         if (by.what.of<K>()) {
             if (right.outcome != outcome::collides) continue;
             ++counts[0];
-            const ccd::first_contact said = by.what.of<K>()(query, right);
-            const std::string faults = support::contact_data::check(query, said).faults();
-            if (!faults.empty() || said.time != right) differ(by, 1, "what is not so: " + faults);
+            const ccd::first_contact found = by.what.of<K>()(query, right);
+            const std::string faults = support::contact_data::check(query, found).faults();
+            if (!faults.empty() || found.time != right) differ(by, 1, "what is not so: " + faults);
             continue;
         }
         for (const double end : {1.0, t_max}) {
             ++counts[0];
-            if (&by == &deciders[0] && end == 1) continue;  // said already
-            const first_time said = by.when.of<K>()(query, asked.d, end);
+            if (&by == &deciders[0] && end == 1) continue;  // checked above
+            const first_time found = by.when.of<K>()(query, of.d, end);
             const first_time expected = until(right, end);
-            if (said != expected) differ(by, end, text_of(said) + ", not " + text_of(expected));
+            if (found != expected) differ(by, end, text_of(found) + ", not " + text_of(expected));
         }
     }
     return right;
 }
 
-/// The earliest of the times that are not at the start, as ccd::earliest tells it.
+/// The earliest of the times that are not at the start, as ccd::earliest returns it.
 ccd::earliest_time earliest_of(std::span<const first_time> right) {
     ccd::earliest_time all{{.outcome = outcome::separate}, {}, {}};
     const auto order = [](const first_time& t) { return std::pair(t.low, t.high); };
@@ -185,17 +182,17 @@ ccd::earliest_time earliest_of(std::span<const first_time> right) {
     return all;
 }
 
-/// A block's questions of one kind at once, and what is right.
+/// A block's queries of one kind at once, and their right times.
 template <kind K>
 struct batch {
-    questions<K> queries = {};
+    query_list<K> queries = {};
     std::vector<double> thickness = {};  ///< of each vertex, whose distances then are the queries'
-    std::vector<question> asked = {};
+    std::vector<timed_query> listed = {};
     std::vector<first_time> right = {};
 
-    void add(const question& q, const first_time& time) {
+    void add(const timed_query& q, const first_time& time) {
         const auto first = static_cast<ccd::vertex_index>(queries.before.size());
-        std::array<ccd::vertex_index, questions<K>::point_count> at;
+        std::array<ccd::vertex_index, query_list<K>::point_count> at;
         for (std::size_t i = 0; i < at.size(); ++i) {
             at[i] = first + static_cast<ccd::vertex_index>(i);
             queries.add_vertex(q.at[i]);
@@ -204,7 +201,7 @@ struct batch {
                                                                             : q.d.second);
         }
         queries.add_pair(at);
-        asked.push_back(q);
+        listed.push_back(q);
         right.push_back(time);
     }
 
@@ -236,20 +233,21 @@ struct batch {
             found.at_start == expected.at_start)
             return;
         ++counts[1];
-        out.differ({"the earliest of " + asked[first].name + " to " +
-                    asked[first + count - 1].name + ": " + text_of(found.time) + ", not " +
+        out.differ({"the earliest of " + listed[first].name + " to " +
+                    listed[first + count - 1].name + ": " + text_of(found.time) + ", not " +
                     text_of(expected.time) + ", or of other queries"});
     }
 
-    void expect(const std::string& name, const std::vector<first_time>& said, findings& out) const {
+    void expect(const std::string& name, const std::vector<first_time>& times,
+                findings& out) const {
         auto& counts = out.table("decider")[name];
         for (std::size_t i = 0; i < right.size(); ++i) {
             ++counts[0];
-            if (said[i] == right[i]) continue;
+            if (times[i] == right[i]) continue;
             ++counts[1];
-            out.differ({asked[i].name + ", " + text_of(asked[i].d, 1) + ": " + name + " says " +
-                        text_of(said[i]) + ", not " + text_of(right[i]) + "\n" +
-                        query_families::csv(asked[i].at)});
+            out.differ({listed[i].name + ", " + text_of(listed[i].d, 1) + ": " + name +
+                        " returns " + text_of(times[i]) + ", not " + text_of(right[i]) + "\n" +
+                        query_families::csv(listed[i].at)});
         }
     }
 };
@@ -261,21 +259,21 @@ void compare(std::uint64_t seed, std::uint64_t block, const std::vector<time_dec
     for (const family_query& q : block_queries(seed, block, queries_per_block, K)) {
         source random = query_families::source_of(
             q.family->name, {static_cast<std::uint64_t>(K), seed, q.index, /*of times*/ 8});
-        question asked{.name = std::string(short_name(K)) + " " + std::string(q.family->name) +
-                               " " + std::to_string(q.index),
-                       .at = q.at,
-                       .of_distance = of_distance};
+        timed_query query{.name = std::string(short_name(K)) + " " + std::string(q.family->name) +
+                                  " " + std::to_string(q.index),
+                          .at = q.at,
+                          .of_distance = of_distance};
         const auto& distance = distance_families::draw(random);
-        if (of_distance) asked.d = distance.make(random, K, q.at);
+        if (of_distance) query.d = distance.make(random, K, q.at);
         if (random.one_in(64)) {
-            const first_time t = deciders[0].when.of<K>()(query_of<K>(q.at), asked.d, 1);
+            const first_time t = deciders[0].when.of<K>()(query_of<K>(q.at), query.d, 1);
             const bool little = of_distance || !random.one_in(8);  // of much distances take long
-            asked.at =
+            query.at =
                 hastened(q.at, t.low, little ? random.between(0, 100) : random.between(960, 1023));
-            asked.name += ", hastened";
+            query.name += ", hastened";
         }
-        const first_time right = ask<K>(deciders, asked, random, out);
-        all.add(asked, right);
+        const first_time right = check<K>(deciders, query, random, out);
+        all.add(query, right);
         count(out.table("family"), row_name(*q.family), right);
         count(out.table("kind"), short_name(K), right);
         if (of_distance) count(out.table("distance"), distance.name, right);
@@ -286,12 +284,11 @@ void compare(std::uint64_t seed, std::uint64_t block, const std::vector<time_dec
     all.compare(out);
 }
 
-/// Tables with all their rows, whatever a block has of them.
+/// Tables with all their rows, even those that a block leaves empty.
 findings empty_findings(const std::vector<time_decider>& deciders, bool of_distance) {
     const std::vector<std::string> columns{"queries",           "with a time", "at the start",
                                            "at another double", "below 2^-60", "below 2^-1074"};
-    findings out{.blocks = 1, .tables = {{"family", columns}, {"kind", columns}}};
-    for (const auto& f : families) out.table("family")[row_name(f)];
+    findings out{.blocks = 1, .tables = {family_table(columns), {"kind", columns}}};
     ccd::for_each_kind([&]<kind K>() { out.table("kind")[short_name(K)]; });
     if (of_distance) {
         out.tables.push_back({"distance", columns});
@@ -309,11 +306,7 @@ findings empty_findings(const std::vector<time_decider>& deciders, bool of_dista
 
 part part_of(std::string name, std::vector<time_decider> deciders, bool of_distance) {
     part all{.name = std::move(name), .unit = "queries", .version = family_names()};
-    all.count = [](std::uint64_t blocks) {
-        std::uint64_t count = 0;
-        for (const auto& f : families) count += 4 * family_end(f, blocks, queries_per_block);
-        return count;
-    };
+    all.count = [](std::uint64_t blocks) { return 4 * queries_in(blocks, queries_per_block); };
     all.compare_block = [deciders = std::move(deciders), of_distance](std::uint64_t seed,
                                                                       std::uint64_t block) {
         findings out = empty_findings(deciders, of_distance);
@@ -323,9 +316,9 @@ part part_of(std::string name, std::vector<time_decider> deciders, bool of_dista
     return all;
 }
 
-/// ask(the query with its points on curves of degree 1)
-template <class Query, class Ask>
-first_time along_curves(const Query& query, const Ask& ask) {
+/// time(the query with its points on curves of degree 1)
+template <class Query, class Time>
+first_time along_curves(const Query& query, const Time& time) {
     constexpr std::size_t count = std::tuple_size_v<decltype(ccd::points_of(query))>;
     std::array<std::array<ccd::point<double>, 2>, count> ends;
     std::ranges::transform(ccd::points_of(query), ends.begin(), [](const auto& m) {
@@ -333,16 +326,16 @@ first_time along_curves(const Query& query, const Ask& ask) {
     });
     constexpr kind K = ccd::kind_of<Query>;
     if constexpr (K == kind::vertex_face)
-        return ask(ccd::vertex_face_curves{ends[0], ends[1], ends[2], ends[3]});
+        return time(ccd::vertex_face_curves{ends[0], ends[1], ends[2], ends[3]});
     else if constexpr (K == kind::edge_edge)
-        return ask(ccd::edge_edge_curves{ends[0], ends[1], ends[2], ends[3]});
+        return time(ccd::edge_edge_curves{ends[0], ends[1], ends[2], ends[3]});
     else if constexpr (K == kind::vertex_edge)
-        return ask(ccd::vertex_edge_curves{ends[0], ends[1], ends[2]});
+        return time(ccd::vertex_edge_curves{ends[0], ends[1], ends[2]});
     else
-        return ask(ccd::vertex_vertex_curves{ends[0], ends[1]});
+        return time(ccd::vertex_vertex_curves{ends[0], ends[1]});
 }
 
-/// The stage after the filters alone: it sees what they decide before it.
+/// The stage after the filters, without them: they otherwise decide most queries.
 template <class Query>
 first_time in_integers_unfiltered(const Query& query, double t_max) {
     const ccd::detail::found_time found = ccd::detail::first_contact_in_integers(query);
@@ -354,9 +347,9 @@ first_time in_integers_unfiltered(const Query& query, double t_max) {
 
 std::vector<time_decider> contact_deciders() {
     std::vector<time_decider> all;
-    const auto when = [&](std::string name, unsigned stride, const auto& ask) {
-        all.push_back(by_time(std::move(name), [ask](const auto& q, separation, double t_max) {
-            return ask(q, t_max);
+    const auto when = [&](std::string name, unsigned stride, const auto& time) {
+        all.push_back(by_time(std::move(name), [time](const auto& q, separation, double t_max) {
+            return time(q, t_max);
         }));
         all.back().stride = stride;
     };

@@ -1,7 +1,5 @@
 // The soak of first times: it sees a time that is a last place off or lost, a distance that was
 // rounded, and nearest points left out.
-#include "tests/soak/first_times.hpp"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -11,6 +9,8 @@
 #include <string_view>
 #include <utility>
 #include <vector>
+
+#include "tests/soak/parts.hpp"
 
 namespace {
 

@@ -28,7 +28,7 @@ bool sum_is_exact(double a, double b) {
 
 }  // namespace
 
-query_images::query_images(const ccd::stress::points& query, std::size_t count, splitmix& random) {
+query_images::query_images(const ccd::lab::points& query, std::size_t count, splitmix& random) {
     std::array<std::array<std::array<double, 2>, 4>, 3> value{}, zero{};
     for (std::size_t axis = 0; axis < 3; ++axis)
         for (std::size_t i = 0; i < count; ++i)
@@ -116,7 +116,7 @@ image query_images::draw(splitmix& random) const {
     return m;
 }
 
-ccd::stress::points query_images::of(const image& m) const {
+ccd::lab::points query_images::of(const image& m) const {
     const auto axis_of = [&](std::size_t k) {
         const image::axis& axis = m.axes[k];
         auto values = axes_[axis.from].as[static_cast<std::size_t>(axis.as)].at;
@@ -130,7 +130,7 @@ ccd::stress::points query_images::of(const image& m) const {
         return values;
     };
     const auto x = axis_of(0), y = axis_of(1), z = axis_of(2);
-    ccd::stress::points p;
+    ccd::lab::points p;
     for (std::size_t i = 0; i < p.size(); ++i)
         p[i] = {{x[i][0], y[i][0], z[i][0]}, {x[i][1], y[i][1], z[i][1]}};
     return p;

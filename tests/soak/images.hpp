@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "ccd/stress/generators/query_points.hpp"
+#include "ccd/lab/queries.hpp"
 
 namespace soak {
 
@@ -37,8 +37,8 @@ class splitmix {
 
 /// A map of the query's space and time; every axis of the image comes from one of the query's.
 struct image {
-    /// What of an axis: itself; all points moved so that one is at 0; all moved by a power of two;
-    /// another axis added or taken off. Moved differently at each end of the step.
+    /// The map of an axis: none; moves one point to 0; moves all by a power of two; adds or
+    /// subtracts another axis. The motions of the two ends of the step differ.
     enum class form : std::uint8_t { plain, at_point, moved, sheared };
     struct axis {
         std::uint8_t from = 0;
@@ -49,17 +49,17 @@ struct image {
     std::array<axis, 3> axes{{{0}, {1}, {2}}};
     bool reversed = false;
 };
-/// As a person reads it: "x = -y moved 2^5, ..., time reversed".
+/// For a person: "x = -y moved 2^5, ..., time reversed".
 std::string text_of(const image& m);
 
 /// The images of one query.
 class query_images {
   public:
-    /// Of the first `count` of the points.
-    query_images(const ccd::stress::points& query, std::size_t count, splitmix& random);
+    /// Uses the first `count` of the points.
+    query_images(const ccd::lab::points& query, std::size_t count, splitmix& random);
     /// A random image that is exact.
     image draw(splitmix& random) const;
-    ccd::stress::points of(const image& m) const;
+    ccd::lab::points of(const image& m) const;
 
   private:
     static constexpr std::size_t form_count = 4;
@@ -81,10 +81,10 @@ class query_images {
     std::array<choice, 3> axes_;
 };
 
-/// Which of a query's points stand for those of an image: `image_kind` may have more points, of
+/// The query's points that are an image's points. The kind of the image may have more points, of
 /// which some are then the same.
 using slot_map = std::array<std::uint8_t, 4>;
-/// All such of one kind in another; none if a query of the kind cannot be asked so.
+/// All maps of one kind to another; none if queries of the kind have no such image.
 std::span<const slot_map> slot_maps(ccd::kind query, ccd::kind image);
 
 }  // namespace soak

@@ -10,72 +10,29 @@
 #include <stdexcept>
 #include <thread>
 #include <utility>
-#include <vector>
 
 #include "errbound/support/joined_threads.hpp"
 #include "errbound/support/output_file.hpp"
 
 namespace soak {
+
+using nlohmann::json;
+
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(count_table::row, name, counts);
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(count_table, title, columns, largest, rows);
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(difference, text, file, lines);
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(findings, blocks, tables, different, differences, checksum);
+
 namespace {
 
 namespace fs = std::filesystem;
 using clock = std::chrono::steady_clock;
-using nlohmann::json;
 
 double seconds_since(clock::time_point start) {
     return std::chrono::duration<double>(clock::now() - start).count();
 }
 
-/// Refuses what is not a whole number or is too large to have been counted.
-std::uint64_t whole(const json& j) {
-    if (!j.is_number_unsigned() || j.get<std::uint64_t>() >> 48 != 0)
-        throw std::runtime_error("not the state of a run: found " + j.dump() +
-                                 ", expected a count");
-    return j.get<std::uint64_t>();
-}
-
-json json_of(const count_table& table) {
-    json all{{"title", table.title}, {"columns", table.columns}, {"rows", json::array()}};
-    for (const auto& [name, counts] : table.rows)
-        all["rows"].push_back({{"name", name}, {"counts", counts}});
-    return all;
-}
-
-count_table table_of(const json& j) {
-    count_table table{j.at("title").get<std::string>(),
-                      j.at("columns").get<std::vector<std::string>>()};
-    for (const json& row : j.at("rows")) {
-        auto& counts = table[row.at("name").get<std::string>()];
-        for (std::size_t k = 0; k < counts.size(); ++k) counts[k] = whole(row.at("counts").at(k));
-    }
-    return table;
-}
-
-json json_of(const findings& f) {
-    json all{{"blocks", f.blocks},
-             {"checksum", f.checksum},
-             {"different", f.different},
-             {"tables", json::array()},
-             {"differences", json::array()}};
-    for (const count_table& table : f.tables) all["tables"].push_back(json_of(table));
-    for (const difference& d : f.differences)
-        all["differences"].push_back({{"text", d.text}, {"file", d.file}, {"lines", d.lines}});
-    return all;
-}
-
-findings findings_of(const json& all) {
-    findings f;
-    f.blocks = whole(all.at("blocks"));
-    f.checksum = all.at("checksum").get<std::uint64_t>();
-    f.different = whole(all.at("different"));
-    for (const json& table : all.at("tables")) f.tables.push_back(table_of(table));
-    for (const json& d : all.at("differences"))
-        f.differences.push_back({d.at("text").get<std::string>(), d.at("file").get<std::string>(),
-                                 d.at("lines").get<std::string>()});
-    return f;
-}
-
-/// Threads that compare block after block, and what they have found.
+/// Threads that compare block after block, and their findings.
 class comparing_threads {
   public:
     comparing_threads(const state& from, const run_options& options, const part& what,
@@ -86,28 +43,29 @@ class comparing_threads {
           what_(what),
           stop_(stop),
           next_(from.found.blocks),
-          found_(from.found) {
+          sum_(from.found) {
         const unsigned count = options.threads > 0
                                    ? options.threads
                                    : std::max(1u, std::thread::hardware_concurrency());
         working_ = count;
         try {
             for (unsigned i = 0; i < count; ++i) threads_.start([this] { work(); });
-        } catch (...) {  // no more threads: those begun end, too
+        } catch (...) {  // the system has no more threads: the running ones end, too
             ending_ = true;
             throw;
         }
     }
-    /// Waits for the blocks that are begun.
+    /// Waits for the blocks in progress.
     ~comparing_threads() { ending_ = true; }
 
     bool finished_within(std::chrono::milliseconds time) {
         std::unique_lock lock(mutex_);
         return finished_.wait_for(lock, time, [&] { return working_ == 0; });
     }
+    /// Of all blocks before the first that is missing.
     findings found() {
         const std::scoped_lock lock(mutex_);
-        return found_.sum();
+        return sum_;
     }
     void rethrow_failure() {
         const std::scoped_lock lock(mutex_);
@@ -115,7 +73,7 @@ class comparing_threads {
     }
 
   private:
-    // Stopping only between blocks, all that are begun are finished, so none is lost.
+    // Threads stop only between blocks: all blocks in progress are finished, so none is lost.
     void work() {
         while (stop_ == 0 && !ending_) {
             const std::uint64_t block = next_++;
@@ -123,7 +81,7 @@ class comparing_threads {
             try {
                 findings of_block = what_.compare_block(seed_, first_ + block);
                 const std::scoped_lock lock(mutex_);
-                found_.add(block, std::move(of_block));
+                add(block, std::move(of_block));
             } catch (...) {
                 ending_ = true;
                 const std::scoped_lock lock(mutex_);
@@ -134,6 +92,12 @@ class comparing_threads {
         --working_;
         finished_.notify_all();
     }
+    void add(std::uint64_t block, findings of_block) {
+        waiting_.emplace(block, std::move(of_block));
+        for (auto next = waiting_.begin(); next != waiting_.end() && next->first == sum_.blocks;
+             next = waiting_.erase(next))
+            sum_.add(next->second);
+    }
 
     std::uint64_t seed_, first_, blocks_;
     const part& what_;
@@ -142,30 +106,73 @@ class comparing_threads {
     std::atomic<std::uint64_t> next_;
     std::mutex mutex_;  // of all that follows
     std::condition_variable finished_;
-    collector found_;
+    findings sum_;
+    std::map<std::uint64_t, findings> waiting_;  // for blocks before them
     std::exception_ptr failure_;
     unsigned working_ = 0;
-    errbound::support::joined_threads threads_;  // joined before anything else goes
+    errbound::support::joined_threads threads_;  // joined before the other members are destroyed
 };
 
 }  // namespace
+
+std::vector<std::uint64_t>& count_table::operator[](std::string_view name) {
+    auto found = std::ranges::find(rows, name, &row::name);
+    if (found == rows.end()) {
+        rows.push_back({std::string(name), std::vector<std::uint64_t>(columns.size())});
+        found = rows.end() - 1;
+    }
+    return found->counts;
+}
+
+const count_table& findings::table(std::string_view title) const {
+    const auto found = std::ranges::find(tables, title, &count_table::title);
+    if (found == tables.end()) throw std::out_of_range("no table \"" + std::string(title) + "\"");
+    return *found;
+}
+
+count_table& findings::table(std::string_view title) {
+    return const_cast<count_table&>(std::as_const(*this).table(title));
+}
+
+void findings::differ(difference d) {
+    ++different;
+    if (differences.size() < max_kept) differences.push_back(std::move(d));
+}
+
+void findings::add(const findings& next) {
+    blocks += next.blocks;
+    if (tables.empty())
+        tables = next.tables;
+    else
+        for (const count_table& from : next.tables) {
+            count_table& into = table(from.title);
+            for (const auto& [name, counts] : from.rows)
+                std::ranges::transform(counts, into[name], into[name].begin(),
+                                       [&](std::uint64_t a, std::uint64_t b) {
+                                           return from.largest ? std::max(a, b) : a + b;
+                                       });
+        }
+    different += next.different;
+    for (const difference& d : next.differences)
+        if (differences.size() < max_kept) differences.push_back(d);
+    stir(next.checksum);
+}
 
 std::uint64_t part::blocks_for(std::uint64_t questions) const {
     std::uint64_t low = 0, high = 1;
     while (count(high) < questions) high *= 2;
     while (low < high) {
         const std::uint64_t middle = low + (high - low) / 2;
-        if (count(middle) >= questions) {
+        if (count(middle) >= questions)
             high = middle;
-        } else {
+        else
             low = middle + 1;
-        }
     }
     return low;
 }
 
 std::string to_json(const state& s, const part& of) {
-    json all = json_of(s.found);
+    json all = s.found;
     all.update({{"part", of.name},
                 {"version", of.version},
                 {"seed", s.seed},
@@ -178,9 +185,9 @@ state from_json(const std::string& text, const part& of) {
     try {
         const json all = json::parse(text);
         if (all.at("part") != of.name || all.at("version") != of.version)
-            throw std::runtime_error("the run asked other questions than this program does");
-        return {all.at("seed").get<std::uint64_t>(), whole(all.at("first")), findings_of(all),
-                all.at("seconds").get<double>()};
+            throw std::runtime_error("the run has other questions than this program");
+        return {all.at("seed").get<std::uint64_t>(), all.at("first").get<std::uint64_t>(),
+                all.get<findings>(), all.at("seconds").get<double>()};
     } catch (const json::exception& error) {
         throw std::runtime_error(std::string("not the state of a run: ") + error.what());
     }
@@ -204,7 +211,7 @@ void save(const state& s, const part& of, const fs::path& folder) {
 }
 
 state run(state from, const run_options& options, const part& what, const std::atomic<int>& stop,
-          const progress& show) {
+          const std::function<void(const state&)>& show) {
     // A folder that cannot be written to is refused now, not in an hour.
     save(from, what, options.folder);
     const clock::time_point start = clock::now();

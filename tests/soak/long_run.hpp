@@ -1,32 +1,80 @@
-// A long run of comparisons: all cores, stopped and resumed at any time without a trace in its
-// result.
+// A long run of comparisons on all cores. It can be stopped and resumed at any time without a trace
+// in its result.
 //
-// A run is a sequence of blocks. Block b of a seed asks the same on every machine. The state of a
-// run is therefore the first block, the number of blocks and what they found.
+// A run is a sequence of blocks. Block b of a seed holds the same questions on every machine. The
+// state of a run is therefore the first block, the number of blocks and their findings.
 #pragma once
 
 #include <atomic>
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <string>
-
-#include "tests/soak/findings.hpp"
+#include <string_view>
+#include <vector>
 
 namespace soak {
 
-/// What a run repeats.
+/// Counts under two names. Rows and columns stay in the order in which they were added.
+struct count_table {
+    struct row {
+        std::string name;
+        std::vector<std::uint64_t> counts;  ///< one for each column
+        friend bool operator==(const row&, const row&) = default;
+    };
+    std::string title;  ///< over the rows' names
+    std::vector<std::string> columns;
+    bool largest = false;  ///< tables are merged by the larger counts instead of the sums
+    std::vector<row> rows = {};
+
+    /// The counts of the row of that name, which is added if there is none.
+    std::vector<std::uint64_t>& operator[](std::string_view name);
+    friend bool operator==(const count_table&, const count_table&) = default;
+};
+
+/// A question with a wrong answer.
+struct difference {
+    std::string text;        ///< all that is needed to repeat it, and the answers
+    std::string file = {};   ///< the name of the file to which `lines` are added, if there is one
+    std::string lines = {};  ///< as the program `ccd` reads them
+    friend bool operator==(const difference&, const difference&) = default;
+};
+
+struct findings {
+    /// Only the first differences are kept; all are counted.
+    static constexpr std::size_t max_kept = 10000;
+
+    std::uint64_t blocks = 0;
+    std::vector<count_table> tables = {};
+    std::uint64_t different = 0;  ///< questions with a wrong answer
+    std::vector<difference> differences = {};
+    std::uint64_t checksum = 0xcbf29ce484222325;  ///< of right answers, in their order (FNV-1a)
+
+    /// Adds the findings of the blocks that follow.
+    void add(const findings& next);
+    /// The table of that title; throws std::out_of_range if there is none.
+    const count_table& table(std::string_view title) const;
+    count_table& table(std::string_view title);
+    /// Counts the difference and keeps it if there is room.
+    void differ(difference d);
+    /// Adds an answer to the checksum.
+    void stir(std::uint64_t answer) { checksum = (checksum ^ answer) * 0x100000001b3; }
+
+    friend bool operator==(const findings&, const findings&) = default;
+};
+
+/// The comparison that a run repeats.
 struct part {
-    std::string name;  ///< "symmetries"
-    std::string unit;  ///< what is counted: "queries"
-    std::string version =
-        {};  ///< of the questions: names of families; states of others are refused
+    std::string name;          ///< "symmetries"
+    std::string unit;          ///< what is counted: "queries"
+    std::string version = {};  ///< of the questions: names of families; other states are refused
     /// Compares all answers of one block. Called from several threads at once.
     std::function<findings(std::uint64_t seed, std::uint64_t block)> compare_block = {};
-    /// How many questions that many blocks hold.
+    /// The number of questions in the first blocks.
     std::function<std::uint64_t(std::uint64_t blocks)> count = {};
 
-    /// The least number of blocks with at least so many questions.
+    /// The least number of blocks with at least that many questions.
     std::uint64_t blocks_for(std::uint64_t questions) const;
 };
 
@@ -38,12 +86,12 @@ struct state {
     friend bool operator==(const state&, const state&) = default;
 };
 
-/// The state as JSON and back. from_json throws std::runtime_error with what is wrong: no such
-/// text, or questions other than this program's.
+/// The state as JSON and back. from_json throws std::runtime_error if the text is no state, or one
+/// of other questions.
 std::string to_json(const state& s, const part& of);
 state from_json(const std::string& text, const part& of);
 
-/// Where a run keeps its state; files of differing queries lie beside it.
+/// The file of a run's state; files of differing queries lie next to it.
 std::filesystem::path state_path(const std::filesystem::path& folder);
 
 /// Writes the state, whole or not at all, and the files of differences if there are any; removes
@@ -57,13 +105,11 @@ struct run_options {
     double seconds_between_saves = 30;
 };
 
-/// Called now and then, from the calling thread.
-using progress = std::function<void(const state&)>;
-
-/// Continues `from` until all blocks are done or `stop` is not 0, and saves now and then and at the
-/// end. Blocks count in their order alone, so the result depends on nothing but seed and number of
-/// blocks. `show` is called about ten times a second. Throws what the part or save throws.
+/// Continues `from` until all blocks are done or `stop` is not 0; saves periodically and at the
+/// end. Findings are added in the order of blocks, so the result depends only on the seed and the
+/// number of blocks. `show` is called about ten times a second, on the calling thread. Throws what
+/// the part or save throws.
 state run(state from, const run_options& options, const part& what, const std::atomic<int>& stop,
-          const progress& show);
+          const std::function<void(const state&)>& show);
 
 }  // namespace soak

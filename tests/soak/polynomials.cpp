@@ -1,5 +1,4 @@
-#include "tests/soak/polynomials.hpp"
-
+// The part of the soak that counts and isolates roots, where FLINT is installed.
 #include <algorithm>
 #include <array>
 #include <cstdint>
@@ -10,6 +9,7 @@
 
 #include "tests/errbound/roots/flint_polynomial.hpp"
 #include "tests/errbound/roots/polynomial_families.hpp"
+#include "tests/soak/parts.hpp"
 
 namespace soak {
 namespace {
@@ -90,7 +90,7 @@ struct root_counts {
     }
 };
 
-/// Decided in one type of integers; whether the filter did it alone.
+/// Compares one type of integers; returns true if the filter decided without it.
 template <class Integer>
 bool compare_by(const std::string& integers, const sample& s, const root_counts& truth,
                 std::uint64_t& differences, const std::string& name, findings& out) {

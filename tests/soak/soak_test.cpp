@@ -1,5 +1,5 @@
-// The soak itself: it sees a wrong answer, writes it out to be replayed, and a run that was stopped
-// and resumed ends as one that was not.
+// The soak detects a wrong answer and writes it out to be replayed; a run that was stopped and
+// resumed ends like an uninterrupted one.
 #include <gtest/gtest.h>
 #include <unistd.h>
 
@@ -17,11 +17,8 @@
 #include <vector>
 
 #include "errbound/support/output_file.hpp"
-#include "tests/soak/comparison.hpp"
 #include "tests/soak/images.hpp"
-#include "tests/soak/long_run.hpp"
-#include "tests/soak/steps/meshes.hpp"
-#include "tests/soak/symmetries.hpp"
+#include "tests/soak/parts.hpp"
 
 namespace {
 
@@ -59,8 +56,8 @@ soak::decider changed(std::string name, const soak::decider& right, const Change
     soak::decider all{.name = std::move(name)};
     ccd::for_each_kind([&]<ccd::kind K>() {
         all.decide.of<K>() = [decide = right.decide.of<K>(), change](
-                                 const auto& asked, std::span<ccd::outcome> answers) {
-            const ccd::stage_report stages = decide(asked, answers);
+                                 const auto& list, std::span<ccd::outcome> answers) {
+            const ccd::stage_report stages = decide(list, answers);
             change(answers);
             return stages;
         };
@@ -208,7 +205,7 @@ TEST_F(soak_test, images_of_a_query_have_one_answer) {
     std::uint64_t answers = 0;
     for (const auto& d : soak::exact_deciders()) answers += count(s.found, "decider", d.name, 0);
     EXPECT_EQ(answers, part.count(few_blocks));
-    // Late stages are asked, and `tight` is certain now and then.
+    // Late stages decide, too, and `tight` is certain at times.
     EXPECT_GT(count(s.found, "decided by", "integers", 0), answers / 10);
     EXPECT_GT(count(s.found, "decided by", "unbounded", 0), 0u);
     EXPECT_LT(count(s.found, "decider", "tight", 1), count(s.found, "decider", "tight", 0));
@@ -225,14 +222,14 @@ TEST_F(soak_test, one_answer_turned_round_among_thousands_is_found) {
         });
     const soak::findings found = soak::symmetry_part({exact(), once}).compare_block(1, 0);
     EXPECT_EQ(found.different, 1u);
-    EXPECT_NE(found.differences.at(0).text.find("wrong once says"), std::string::npos);
+    EXPECT_NE(found.differences.at(0).text.find("wrong once returns"), std::string::npos);
     EXPECT_NE(found.differences.at(0).text.find("0x1"), std::string::npos);  // hexadecimal floats
 }
 
 TEST_F(soak_test, rounding_methods_contradict_themselves_on_images) {
     const soak::decider wrong = by_method(ccd::method::float_);
     EXPECT_GT(soak::symmetry_part({wrong}).compare_block(1, 0).different, 0u);
-    // As if `float` were conservative: it is certain of what is wrong.
+    // Treats `float` as if it were conservative: certain answers are wrong.
     soak::decider certain = wrong;
     certain.may_be_uncertain = true;
     EXPECT_GT(soak::symmetry_part({exact(), certain}).compare_block(1, 0).different, 0u);
@@ -259,7 +256,7 @@ TEST_F(soak_test, a_step_that_loses_one_pair_is_found) {
 TEST_F(soak_test, a_throwing_decider_ends_the_run) {
     soak::decider throwing = exact();
     throwing.decide.vertex_face = [](const auto&, auto) -> ccd::stage_report {
-        throw std::runtime_error("as asked");
+        throw std::runtime_error("as expected");
     };
     EXPECT_THROW(run({.seed = 1}, folder, soak::comparison_part(exact(), {throwing})),
                  std::runtime_error);

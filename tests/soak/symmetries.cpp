@@ -1,5 +1,4 @@
-#include "tests/soak/symmetries.hpp"
-
+// The part of the soak that needs no reference: all images of a query have one answer.
 #include <algorithm>
 #include <array>
 #include <ccd/explain.hpp>
@@ -9,30 +8,29 @@
 #include <string>
 #include <utility>
 
-#include "tests/soak/comparison.hpp"
 #include "tests/soak/images.hpp"
+#include "tests/soak/parts.hpp"
 
 namespace soak {
 namespace {
 
-using query_families::families;
 using query_families::kind;
 using query_families::points;
 
-/// Of a family: vertices and edges are also asked as faces and as pairs of edges, so they are
-/// fewer.
+/// The queries of a family. Vertices and edges are fewer, since they are also decided as faces and
+/// as pairs of edges.
 constexpr std::uint64_t queries_per_block(kind k) {
     return k == kind::vertex_face || k == kind::edge_edge ? 8 : 2;
 }
 
-/// How many images of a query a decider is asked at a time: maps of space and time, and so many
-/// names for the points of each.
+/// The images of a query that a decider gets at a time: maps of space and time, and names for the
+/// points of each.
 struct image_counts {
     std::size_t maps, names;
     std::size_t all() const { return maps * names; }
 };
 constexpr std::size_t images_per_decider = 8;
-/// Vertices that many pairs share take another way through the batch than those of one pair each.
+/// Vertices that many pairs share take another path through the batch than those of one pair each.
 image_counts image_counts_of(std::uint64_t block, const decider& d) {
     if (d.may_be_uncertain) return {1, 1};
     return block % 4 < 2 ? image_counts{images_per_decider, 1}
@@ -41,8 +39,8 @@ image_counts image_counts_of(std::uint64_t block, const decider& d) {
 
 /// The images of a block's queries of one kind, as another kind, and where they came from.
 template <kind As>
-struct asked_images {
-    questions<As> asked;
+struct image_list {
+    query_list<As> queries;
     std::vector<image> maps;
 };
 
@@ -54,7 +52,7 @@ class block_of_kind {
         : seed_(seed), block_(block), deciders_(deciders), out_(out) {
         queries_ = block_queries(seed, block, queries_per_block(K), K);
         splitmix random(seed * 0x100000001b3 + block * 4 + static_cast<std::uint64_t>(K));
-        questions<K> themselves;
+        query_list<K> themselves;
         for (const family_query& q : queries_) {
             images_.emplace_back(q.at, point_count, random);
             add(themselves, q.at, slot_maps(K, K)[0]);
@@ -73,35 +71,35 @@ class block_of_kind {
     }
 
   private:
-    static constexpr std::size_t point_count = questions<K>::point_count;
+    static constexpr std::size_t point_count = query_list<K>::point_count;
 
     template <kind As>
-    static void add_pair(questions<As>& to, ccd::vertex_index first, const slot_map& slots) {
-        std::array<ccd::vertex_index, questions<As>::point_count> at;
+    static void add_pair(query_list<As>& to, ccd::vertex_index first, const slot_map& slots) {
+        std::array<ccd::vertex_index, query_list<As>::point_count> at;
         for (std::size_t i = 0; i < at.size(); ++i) at[i] = first + slots[i];
         to.add_pair(at);
     }
     template <kind As>
-    static void add(questions<As>& to, const points& p, const slot_map& slots) {
+    static void add(query_list<As>& to, const points& p, const slot_map& slots) {
         const auto first = static_cast<ccd::vertex_index>(to.before.size());
         for (std::size_t i = 0; i < point_count; ++i) to.add_vertex(p[i]);
         add_pair(to, first, slots);
     }
 
     template <kind As>
-    asked_images<As> images_for(std::size_t d, const image_counts& counts) const {
+    image_list<As> images_for(std::size_t d, const image_counts& counts) const {
         splitmix random(((seed_ * 0x100000001b3 + block_) * 64 + d) * 16 +
                         static_cast<std::uint64_t>(K) * 4 + static_cast<std::uint64_t>(As));
         const auto slots = slot_maps(K, As);
-        asked_images<As> all;
+        image_list<As> all;
         for (const query_images& of : images_) {
             for (std::size_t m = 0; m < counts.maps; ++m) {
                 all.maps.push_back(of.draw(random));
                 const points p = of.of(all.maps.back());
-                const auto first = static_cast<ccd::vertex_index>(all.asked.before.size());
-                for (std::size_t i = 0; i < point_count; ++i) all.asked.add_vertex(p[i]);
+                const auto first = static_cast<ccd::vertex_index>(all.queries.before.size());
+                for (std::size_t i = 0; i < point_count; ++i) all.queries.add_vertex(p[i]);
                 for (std::size_t n = 0; n < counts.names; ++n)
-                    add_pair(all.asked, first,
+                    add_pair(all.queries, first,
                              slots[static_cast<std::size_t>(
                                  random.between(0, static_cast<int>(slots.size()) - 1))]);
             }
@@ -113,46 +111,47 @@ class block_of_kind {
     void compare(std::size_t d) {
         const decider& by = deciders_[d];
         const image_counts counts = image_counts_of(block_, by);
-        const asked_images<As> images = images_for<As>(d, counts);
-        // Made invalid first, so that a query left out is seen.
-        std::vector<ccd::outcome> said(images.asked.pairs.size(), static_cast<ccd::outcome>(255));
-        count_stages(by.decide.of<As>()(images.asked, said));
+        const image_list<As> images = images_for<As>(d, counts);
+        // Made invalid first, so that a skipped query is detected.
+        std::vector<ccd::outcome> found(images.queries.pairs.size(),
+                                        static_cast<ccd::outcome>(255));
+        count_stages(by.decide.of<As>()(images.queries, found));
         auto& row = out_.table("decider")[by.name];
-        row[0] += said.size();
-        for (std::size_t i = 0; i < said.size(); ++i) {
-            if (said[i] == right_[i / counts.all()]) continue;
-            if (by.may_be_uncertain && said[i] == ccd::outcome::uncertain) {
+        row[0] += found.size();
+        for (std::size_t i = 0; i < found.size(); ++i) {
+            if (found[i] == right_[i / counts.all()]) continue;
+            if (by.may_be_uncertain && found[i] == ccd::outcome::uncertain) {
                 ++row[1];
                 continue;
             }
             ++row[2];
-            const auto& asked = images.asked.stored[i];
-            report(i / counts.all(), by.name, images.maps[i / counts.names], asked, said[i]);
+            report(i / counts.all(), by.name, images.maps[i / counts.names],
+                   images.queries.stored[i], found[i]);
         }
     }
 
     template <class Query>
-    void report(std::size_t q, const std::string& who, const image& as, const Query& asked,
-                ccd::outcome said) {
+    void report(std::size_t q, const std::string& who, const image& as, const Query& of_image,
+                ccd::outcome found) {
         const auto text = [](ccd::outcome o) { return std::string(ccd::name(o)); };
-        constexpr kind asked_kind = ccd::kind_of<Query>;
+        constexpr kind image_kind = ccd::kind_of<Query>;
         points p{};
-        std::ranges::copy(ccd::points_of(asked), p.begin());
-        const ccd::outcome truth = ccd::decide_reference(asked).outcome;
-        const bool stored = asked_kind == kind::vertex_face || asked_kind == kind::edge_edge;
+        std::ranges::copy(ccd::points_of(of_image), p.begin());
+        const ccd::outcome truth = ccd::decide_reference(of_image).outcome;
+        const bool stored = image_kind == kind::vertex_face || image_kind == kind::edge_edge;
         const std::string rows =
             query_families::csv(p, truth == ccd::outcome::collides ? ",1" : ",0");
         const family_query& of = queries_[q];
         out_.differ({std::string(of.family->name) + " " + std::string(short_name(K)) + " " +
-                         std::to_string(of.index) + ": " + deciders_[0].name + " says " +
+                         std::to_string(of.index) + ": " + deciders_[0].name + " returns " +
                          text(right_[q]) + ", the reference " +
                          text(ccd::decide_reference(
-                                  query_families::as_query<typename questions<K>::query>(of.at))
+                                  query_families::as_query<typename query_list<K>::query>(of.at))
                                   .outcome) +
                          "\n" + query_families::csv(of.at) + "as " +
-                         std::string(short_name(asked_kind)) + ", " + text_of(as) + ": " + who +
-                         " says " + text(said) + ", the reference " + text(truth) + "\n" + rows,
-                     stored ? "differences-" + std::string(short_name(asked_kind)) + ".csv" : "",
+                         std::string(short_name(image_kind)) + ", " + text_of(as) + ": " + who +
+                         " returns " + text(found) + ", the reference " + text(truth) + "\n" + rows,
+                     stored ? "differences-" + std::string(short_name(image_kind)) + ".csv" : "",
                      stored ? rows : ""});
     }
 
@@ -200,24 +199,7 @@ std::uint64_t answers_per_query(const std::vector<decider>& deciders) {
     return answers;
 }
 
-findings empty_findings() {
-    findings out{.blocks = 1,
-                 .tables = {{"family",
-                             {"vf queries", "vf collisions", "ee queries", "ee collisions",
-                              "ve queries", "ve collisions", "vv queries", "vv collisions"}},
-                            {"decided by", {"answers", "collisions"}},
-                            {"decider", {"answers", "uncertain", "differences"}}}};
-    for (const auto& f : families) out.table("family")[row_name(f)];
-    return out;
-}
-
 }  // namespace
-
-std::vector<decider> symmetric_deciders() {
-    std::vector<decider> all = exact_deciders();
-    for (decider& d : conservative_deciders()) all.push_back(std::move(d));
-    return all;
-}
 
 part symmetry_part(std::vector<decider> deciders) {
     part all{.name = "symmetries", .unit = "queries", .version = family_names()};
@@ -227,14 +209,18 @@ part symmetry_part(std::vector<decider> deciders) {
     all.count = [per_query = std::to_array(per_query)](std::uint64_t blocks) {
         std::uint64_t count = 0;
         ccd::for_each_kind([&]<kind K>() {
-            for (const auto& f : families)
-                count += per_query[static_cast<std::size_t>(K)] *
-                         family_end(f, blocks, queries_per_block(K));
+            count +=
+                per_query[static_cast<std::size_t>(K)] * queries_in(blocks, queries_per_block(K));
         });
         return count;
     };
     all.compare_block = [deciders = std::move(deciders)](std::uint64_t seed, std::uint64_t block) {
-        findings out = empty_findings();
+        findings out{
+            .blocks = 1,
+            .tables = {family_table({"vf queries", "vf collisions", "ee queries", "ee collisions",
+                                     "ve queries", "ve collisions", "vv queries", "vv collisions"}),
+                       {"decided by", {"answers", "collisions"}},
+                       {"decider", {"answers", "uncertain", "differences"}}}};
         ccd::for_each_kind(
             [&]<kind K>() { block_of_kind<K>(seed, block, deciders, out).compare(); });
         return out;

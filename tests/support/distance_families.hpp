@@ -11,14 +11,14 @@
 #include <string_view>
 #include <vector>
 
-#include "ccd/stress/generators/query_points.hpp"
+#include "ccd/lab/queries.hpp"
 
 namespace distance_families {
 
 using ccd::kind;
 using ccd::separation;
-using ccd::stress::points;
-using ccd::stress::source;
+using ccd::lab::points;
+using ccd::lab::source;
 
 struct family {
     std::string_view name;

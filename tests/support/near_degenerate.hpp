@@ -6,16 +6,15 @@
 #include <cstddef>
 #include <limits>
 
-#include "ccd/stress/generators/contacts.hpp"
-#include "ccd/stress/generators/coordinates.hpp"
+#include "ccd/lab/generators.hpp"
 
 namespace query_families::detail {
 
 using ccd::kind;
 using ccd::moving_point;
 using ccd::point;
-using namespace ccd::stress;
-using namespace ccd::stress::generators;
+using namespace ccd::lab;
+using namespace ccd::lab::generators;
 
 /// One of the 24 numbers moved to a neighbouring double; zeros as jitter moves them.
 inline points nudged(source& random, const points& p) {

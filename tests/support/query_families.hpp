@@ -6,17 +6,13 @@
 #include <string>
 #include <string_view>
 
-#include "ccd/stress/generators/contacts.hpp"
-#include "ccd/stress/generators/coordinates.hpp"
-#include "ccd/stress/generators/degenerate.hpp"
-#include "ccd/stress/generators/roots.hpp"
-#include "ccd/stress/generators/sheets.hpp"
+#include "ccd/lab/generators.hpp"
 #include "tests/support/near_degenerate.hpp"
 
 namespace query_families {
 
 using ccd::kind;
-using namespace ccd::stress;  // points, their source, and what makes queries of them
+using namespace ccd::lab;  // points, their source, and what makes queries of them
 
 struct family {
     std::string_view name;

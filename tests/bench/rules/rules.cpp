@@ -8,7 +8,7 @@
 #include <string>
 #include <string_view>
 
-#include "ccd/report/measuring/machine.hpp"
+#include "ccd/lab/machine.hpp"
 #include "tests/bench/rules/contestants.hpp"
 
 namespace bench {
@@ -108,9 +108,7 @@ int main(int argc, char** argv) try {
         std::fprintf(stderr, "usage: ./run bench --rules [--quick]\n");
         return 2;
     }
-    const ccd::report::machine here = ccd::report::this_machine();
-    std::printf("%s, %u cores, load %.2f\n%s, flags: %s\n", here.processor.c_str(), here.cores,
-                here.load, here.compiler.c_str(), here.flags.c_str());
+    std::printf("%s\n", ccd::lab::text_of(ccd::lab::this_machine(), 1).c_str());
 #ifndef ERRBOUND_HAVE_MPFI
     bench::report::say("built without MPFI (libmpfi-dev)");
 #endif

@@ -10,9 +10,7 @@
 
 #include "errbound/support/output_file.hpp"
 #include "tests/bench/harness.hpp"
-#include "tests/bench/worst_cases/search.hpp"
-#include "tests/bench/worst_cases/stack.hpp"
-#include "tests/bench/worst_cases/subjects.hpp"
+#include "tests/bench/worst_cases/worst_cases.hpp"
 
 namespace {
 

@@ -44,9 +44,9 @@ std::vector<fs::path> files_in(const fs::path& folder, const std::string& extens
 template <class Query>
 void expect_right_times(const Query& query, std::size_t index) {
     EXPECT_EQ(support::fault_of(query, ccd::time_of_impact(query)), "") << "query " << index;
-    ccd::stress::points at{};
+    ccd::lab::points at{};
     std::ranges::copy(ccd::points_of(query), at.begin());
-    auto random = ccd::stress::source_of("stored", {index});
+    auto random = ccd::lab::source_of("stored", {index});
     const auto& family = distance_families::draw(random);
     const ccd::separation d = family.make(random, ccd::kind_of<Query>, at);
     EXPECT_EQ(support::fault_of(query, d, ccd::time_within(query, d)), "")

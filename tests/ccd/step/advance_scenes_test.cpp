@@ -18,7 +18,7 @@
 #include <string>
 #include <vector>
 
-#include "ccd/stress/families.hpp"
+#include "ccd/lab/families.hpp"
 #include "tests/ccd/step/expect_advances.hpp"
 #include "tests/ccd/step/query_meshes.hpp"
 #include "tests/support/scaled.hpp"
@@ -95,17 +95,17 @@ TEST(AdvanceOfScenes, Stored) {
 }
 
 /// A mesh of queries of a family, of all kinds, at one value of its knob.
-two_frames mesh_of(const ccd::stress::family& family, double knob) {
+two_frames mesh_of(const ccd::lab::family& family, double knob) {
     two_frames at;
     for (const ccd::kind which : {ccd::kind::vertex_face, ccd::kind::edge_edge,
                                   ccd::kind::vertex_edge, ccd::kind::vertex_vertex})
         for (std::uint64_t i = 0; i < 3; ++i)
-            brute_force::add_query(at, which, ccd::stress::make(family, knob, which, 1, i));
+            brute_force::add_query(at, which, ccd::lab::make(family, knob, which, 1, i));
     return at;
 }
 
 TEST(AdvanceOfScenes, OfStress) {
-    for (const ccd::stress::family& family : ccd::stress::families()) {
+    for (const ccd::lab::family& family : ccd::lab::families()) {
         if (!family.finite) continue;
         std::size_t free = 0, far = 0, held = 0;
         double least = 1;

@@ -1,14 +1,14 @@
 // Queries as parts of a mesh.
 #pragma once
 
-#include "ccd/stress/generators/query_points.hpp"
+#include "ccd/lab/queries.hpp"
 #include "tests/ccd/step/brute_force.hpp"
 
 namespace brute_force {
 
 /// Adds four vertices, and the face or the edges that make a query of this kind of them; those that
 /// it has no use for are points.
-inline void add_query(two_frames& at, ccd::kind which, const ccd::stress::points& points) {
+inline void add_query(two_frames& at, ccd::kind which, const ccd::lab::points& points) {
     ccd::mesh &before = at.first, &after = at.second;
     const auto v = static_cast<vertex_index>(before.vertices.size());
     for (const auto& p : points) {

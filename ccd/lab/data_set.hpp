@@ -1,0 +1,94 @@
+// Sources of queries with their truth: stored queries, scenes of two frames, generated queries.
+#pragma once
+
+#include <ccd/mesh.hpp>
+#include <cstddef>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "ccd/lab/families.hpp"
+#include "ccd/lab/query_set.hpp"
+
+namespace ccd::lab {
+
+/// The files of a data set.
+struct data_source {
+    std::string name;                            ///< unique among those found together
+    std::vector<std::filesystem::path> queries;  ///< CSV files, sorted
+    std::vector<std::filesystem::path> frames;   ///< of a scene: two, and no CSV files
+};
+
+/// A skipped file or folder.
+struct omission {
+    std::filesystem::path path;
+    std::string why;
+};
+
+struct found_data {
+    std::vector<data_source> sources;
+    std::vector<omission> skipped;
+};
+
+/// Searches the folders recursively.
+///
+/// Stored queries are CSV files whose path names their kind; those of one folder, and of its
+/// folders edge-edge, vertex-face, ee and vf, are one data set. A folder with exactly two meshes
+/// (PLY or OBJ) is a scene; the one with the shorter, then lesser name is its first frame. Throws
+/// errbound::support::file_error if a folder is missing.
+found_data find_data(const std::vector<std::filesystem::path>& folders);
+
+/// Queries of one kind with their truth.
+template <class Query>
+struct queries_with_truth {
+    query_set<Query> queries;
+    std::vector<unsigned char> collides;  ///< the truth of each, 0 or 1
+    std::size_t colliding = 0;
+    std::size_t stored_truths = 0;  ///< taken from files, or compared with them
+    /// Of a scene's stored truths, those that `exact` contradicts, and collisions that they lack.
+    std::size_t contradictions = 0;
+};
+
+/// A loaded data set. Its queries refer to its frames, so it cannot be copied or moved.
+struct data_set {
+    std::string name;
+    std::string fingerprint;  ///< of its files' contents
+    /// "scene": all candidates of a step of a mesh; "stored": files; "made": the program itself.
+    std::string_view origin = "stored";
+    mesh before, after;
+    by_stored_kind<queries_with_truth> queries;
+
+    data_set() = default;
+    data_set(const data_set&) = delete;
+    data_set& operator=(const data_set&) = delete;
+
+    /// visit(queries_with_truth) of a stored kind.
+    template <class Visit>
+    decltype(auto) visit(kind which, Visit&& visit) const {
+        return visit_stored_kind(
+            which, [&]<kind K>() -> decltype(auto) { return visit(queries.template of<K>()); });
+    }
+};
+using loaded_data = std::unique_ptr<data_set>;
+
+/// Reads the files and finds the truth.
+///
+/// Stored queries: from their file (io::read_queries), otherwise by `exact`. A scene: all pairs
+/// that share no vertex and whose swept boxes touch, sorted, their truth by `exact`. Truth that is
+/// stored next to it, as in the scalable benchmark, is compared with that: ../boxes/*vf.json and
+/// *ee.json name pairs of elements, ../mma_bool/NAME_mma_bool.json which of them collide; all
+/// others do not. Memory: some 20 bytes a query of a scene, 200 of a stored one. Throws
+/// errbound::support::file_error.
+loaded_data load(const data_source& source, int threads);
+
+/// Generated queries, the same everywhere: contacts, and their neighbours within a few units in the
+/// last place; small integers, most of them degenerate.
+std::vector<loaded_data> made_data(int threads);
+
+/// Queries of a family: `each` of each value of its knob, fewer where it is thinned.
+loaded_data data_of(const family& from, std::size_t each, int threads);
+
+}  // namespace ccd::lab

@@ -1,0 +1,504 @@
+// Generators of random queries: of every scale, rounding and regularity; degenerate; in contact or
+// near one; with chosen roots.
+#pragma once
+
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <cstdlib>
+#include <limits>
+#include <utility>
+
+#include "ccd/lab/queries.hpp"
+
+namespace ccd::lab::generators {
+
+// ---- Numbers and coordinates ----
+
+using position = std::array<double, 3>;  // also a displacement
+
+// A position at the start and one at the end of the step.
+using ends = std::array<position, 2>;
+
+inline moving_point<double> moving(const ends& e) {
+    return {{e[0][0], e[0][1], e[0][2]}, {e[1][0], e[1][1], e[1][2]}};
+}
+
+// make(point, end, axis) for all 24 numbers, in one fixed order.
+template <class Make>
+points fill(Make make) {
+    points out;
+    for (std::size_t i = 0; i < 4; ++i) {
+        ends e;
+        for (std::size_t end = 0; end < 2; ++end) {
+            for (std::size_t axis = 0; axis < 3; ++axis) e[end][axis] = make(i, end, axis);
+        }
+        out[i] = moving(e);
+    }
+    return out;
+}
+
+// The result of change(value, point, end, axis) for all 24 numbers.
+template <class Change>
+points map(const points& p, Change change) {
+    return fill([&](std::size_t i, std::size_t end, std::size_t axis) {
+        const point<double>& at = end == 0 ? p[i].t0 : p[i].t1;
+        return change(std::array{at.x, at.y, at.z}[axis], i, end, axis);
+    });
+}
+
+// The sign of every exponent below is drawn: 2^exponent or 2^-exponent.
+inline int either_sign(source& random, int exponent) {
+    return random.one_in(2) ? exponent : -exponent;
+}
+
+inline points scale(source& random, const points& p, int exponent) {
+    const int drawn = either_sign(random, exponent);
+    return map(p, [&](double x, auto...) { return std::ldexp(x, drawn); });
+}
+
+inline points scale_axis(source& random, const points& p, int exponent) {
+    const int drawn = either_sign(random, exponent);
+    const auto scaled = static_cast<std::size_t>(random.between(0, 2));
+    return map(p, [&](double x, std::size_t, std::size_t, std::size_t axis) {
+        return axis == scaled ? std::ldexp(x, drawn) : x;
+    });
+}
+
+inline points scale_point(source& random, const points& p, int exponent) {
+    const int drawn = either_sign(random, exponent);
+    const auto scaled = static_cast<std::size_t>(random.between(0, 3));
+    return map(p, [&](double x, std::size_t point, auto...) {
+        return point == scaled ? std::ldexp(x, drawn) : x;
+    });
+}
+
+// Moves x by at most `max_units` units in its last place; moves a zero by units of 2^-53, since its
+// neighbours would add a second scale (the families of mixed scales do that).
+inline double jitter(source& random, double x, int max_units) {
+    const int units = random.between(-max_units, max_units);
+    if (x == 0) return std::ldexp(units, -53);
+    for (int n = std::abs(units); n > 0; --n) {
+        x = std::nextafter(x, units * std::numeric_limits<double>::infinity());
+    }
+    return x;
+}
+
+inline points jitter(source& random, const points& p, int max_units) {
+    return map(p, [&](double x, auto...) { return jitter(random, x, max_units); });
+}
+
+inline points uniform(source& random) {
+    return fill([&](auto...) { return random.symmetric(); });
+}
+
+// All points and motions are within 2^-10.
+inline points clustered(source& random) {
+    const position centre{random.symmetric(), random.symmetric(), random.symmetric()};
+    return fill([&](std::size_t, std::size_t, std::size_t axis) {
+        return centre[axis] + std::ldexp(random.symmetric(), -10);
+    });
+}
+
+inline points grid(source& random, int half) {
+    return fill([&](auto...) { return random.between(-half, half); });
+}
+
+// Every point makes a quarter turn about one axis, one way or the other, as spinning bodies do. The
+// cubics have extrema and an inflection inside.
+inline points rotating(source& random) {
+    points p = uniform(random);
+    for (auto& m : p) {
+        const double lift = 0.25 * random.symmetric();
+        const double grow = 1 + 0.25 * random.symmetric();
+        m.t1 = {-grow * m.t0.y, grow * m.t0.x, m.t0.z + lift};
+        if (random.one_in(2)) std::swap(m.t0, m.t1);
+    }
+    return p;
+}
+
+// Multiples of the least positive double.
+inline points subnormal(source& random) {
+    const int size = random.between(1, 16);
+    return fill(
+        [&](auto...) { return std::ldexp(random.between(-(1 << size), 1 << size), -1074); });
+}
+
+// Any finite doubles.
+inline points any_bits(source& random) {
+    return fill([&](auto...) {
+        for (;;) {
+            const auto x = std::bit_cast<double>(random.bits());
+            if (std::isfinite(x)) return x;
+        }
+    });
+}
+
+// Powers of two of every size, so that one query holds many scales.
+inline points mixed_scales(source& random, int range) {
+    return fill([&](auto...) {
+        const int factor = random.between(-2, 2);
+        return std::ldexp(factor, random.between(-range, range));
+    });
+}
+
+// Coordinates like those of files and programs in single precision.
+inline points rounded_to_float(const points& p) {
+    return map(p, [](double x, auto...) { return static_cast<float>(x); });
+}
+
+// Coordinates like those of text with three digits after the point.
+inline points rounded_to_digits(const points& p) {
+    return map(p, [](double x, auto...) { return std::round(1000 * x) / 1000; });
+}
+
+// Each axis has three values: exact degeneracies of coordinates that fill their 53 bits.
+inline points few_values(source& random) {
+    std::array<position, 3> values;
+    for (auto& axis : values) axis = {random.symmetric(), random.symmetric(), random.symmetric()};
+    return fill([&](std::size_t, std::size_t, std::size_t axis) {
+        return values[axis][static_cast<std::size_t>(random.between(0, 2))];
+    });
+}
+
+// ---- Degenerate queries, exactly or nearly ----
+
+// Half of the points, at random, do not move.
+inline points part_frozen(source& random, points p) {
+    for (auto& m : p) {
+        if (random.one_in(2)) m.t1 = m.t0;
+    }
+    return p;
+}
+
+inline points all_frozen(points p) {
+    for (auto& m : p) m.t1 = m.t0;
+    return p;
+}
+
+inline points in_plane(source& random, const points& p) {
+    const auto flat = static_cast<std::size_t>(random.between(0, 2));
+    return map(p, [&](double x, std::size_t, std::size_t, std::size_t axis) {
+        return axis == flat ? 0 : x;
+    });
+}
+
+inline points on_line(source& random, const points& p) {
+    const auto line = static_cast<std::size_t>(random.between(0, 2));
+    return map(p, [&](double x, std::size_t, std::size_t, std::size_t axis) {
+        return axis == line ? x : 0;
+    });
+}
+
+// Identical points: at one end or at both, one point takes another's place.
+inline points merged(source& random, points p) {
+    const auto from = static_cast<std::size_t>(random.between(0, 3));
+    const auto to = static_cast<std::size_t>(random.between(0, 3));
+    const int which = random.between(0, 2);
+    if (which != 1) p[to].t0 = p[from].t0;
+    if (which != 0) p[to].t1 = p[from].t1;
+    return p;
+}
+
+inline point<double> along(const point<double>& a, const point<double>& b, const point<double>& c,
+                           int k) {
+    return {a.x + k * (c.x - b.x), a.y + k * (c.y - b.y), a.z + k * (c.z - b.z)};
+}
+
+// Moves the fourth point: the edges are parallel, or the triangle is a segment, throughout the step
+// or only at its start or its end.
+inline points parallel(source& random, kind which, points p) {
+    const int k = random.between(-2, 2);
+    const int when = random.between(0, 2);
+    const std::size_t from = which == kind::vertex_face ? 1 : 0;
+    const std::size_t base = which == kind::vertex_face ? 1 : 2;
+    if (when != 1) p[3].t0 = along(p[base].t0, p[from].t0, p[from + 1].t0, k);
+    if (when != 0) p[3].t1 = along(p[base].t1, p[from].t1, p[from + 1].t1, k);
+    return p;
+}
+
+// Nearly planar motion: on one axis all coordinates are at most 2^exponent.
+inline points nearly_in_plane(source& random, const points& p, int exponent) {
+    const auto flat = static_cast<std::size_t>(random.between(0, 2));
+    return map(p, [&](double x, std::size_t, std::size_t, std::size_t axis) {
+        return axis == flat ? std::ldexp(random.symmetric(), exponent) : x;
+    });
+}
+
+// ---- Queries in contact, or near one ----
+
+// The number of points of a query's first feature.
+inline std::size_t first_feature_size(kind which) {
+    return which == kind::edge_edge ? 2 : 1;
+}
+
+// Each feature moves as a whole.
+inline points translated(source& random, kind which, const points& p) {
+    const std::size_t first_feature = first_feature_size(which);
+    std::array<position, 2> shift;
+    for (auto& s : shift) s = {random.symmetric(), random.symmetric(), random.symmetric()};
+    points out = all_frozen(p);
+    return map(out, [&](double x, std::size_t i, std::size_t end, std::size_t axis) {
+        return end == 0 ? x : x + shift[i < first_feature ? 0 : 1][axis];
+    });
+}
+
+// Weights of a point of a segment or triangle; `corners` of them, often on its border.
+inline position weights(source& random, std::size_t corners) {
+    position w{};
+    double rest = 1;
+    for (std::size_t i = 0; i + 1 < corners; ++i) {
+        const int pick = random.between(0, 5);
+        const double part = pick == 0 ? 0 : pick == 1 ? 1 : pick == 2 ? 0.5 : random.unit();
+        w[i] = rest * part;
+        rest -= w[i];
+    }
+    w[corners - 1] = rest;
+    return w;
+}
+
+// Four positions, drawn before those that a contact moves.
+inline std::array<position, 4> positions(source& random) {
+    std::array<position, 4> at;
+    for (auto& p : at) p = {random.symmetric(), random.symmetric(), random.symmetric()};
+    return at;
+}
+
+// A contact at one instant, as near as rounding allows: the first feature of `at` (EE: the second)
+// is moved there, then each point gets a velocity of its own, times `speed`.
+// pick(random, corners) gives the weights of the point of contact.
+template <class Pick>
+points contact_at(source& random, kind which, double speed, std::array<position, 4> at, Pick pick) {
+    if (which == kind::edge_edge) {
+        const position a = pick(random, 2);
+        const position b = pick(random, 2);
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            const double gap =
+                a[0] * at[0][axis] + a[1] * at[1][axis] - b[0] * at[2][axis] - b[1] * at[3][axis];
+            at[2][axis] += gap;
+            at[3][axis] += gap;
+        }
+    } else {
+        const std::size_t corners = which == kind::vertex_face   ? 3
+                                    : which == kind::vertex_edge ? 2
+                                                                 : 1;
+        const position w = pick(random, corners);
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            at[0][axis] = w[0] * at[1][axis] + w[1] * at[2][axis] + w[2] * at[3][axis];
+        }
+    }
+    const int when = random.between(0, 3);
+    const double t = when == 0 ? 0 : when == 1 ? 1 : when == 2 ? 0.5 : random.unit();
+    const std::array<position, 4> velocity = positions(random);
+    return fill([&](std::size_t i, std::size_t end, std::size_t axis) {
+        return at[i][axis] + speed * velocity[i][axis] * (end == 0 ? -t : 1 - t);
+    });
+}
+
+inline points near_contact(source& random, kind which, double speed) {
+    return contact_at(random, which, speed, positions(random), weights);
+}
+
+inline points far_from_origin(source& random, kind which, int exponent) {
+    const position offset{random.symmetric(), random.symmetric(), random.symmetric()};
+    return map(near_contact(random, which, 0.5),
+               [&](double x, std::size_t, std::size_t, std::size_t axis) {
+                   return x + std::ldexp(offset[axis], exponent);
+               });
+}
+
+// Weights of a point of contact within 2^-30 to 2^-58 of a border, inside or outside.
+inline position border_weights(source& random, std::size_t corners) {
+    const int exponent = -random.between(30, 58);
+    const double beyond = std::ldexp(random.one_in(2) ? 1 : -1, exponent);
+    if (corners == 1) return {1, 0, 0};
+    if (corners == 2) {
+        return random.one_in(2) ? position{beyond, 1 - beyond, 0} : position{1 - beyond, beyond, 0};
+    }
+    const double second = (1 - beyond) * random.unit();
+    const std::array<double, 3> w{beyond, second, 1 - beyond - second};
+    const auto turn = static_cast<std::size_t>(random.between(0, 2));
+    return {w[turn], w[(turn + 1) % 3], w[(turn + 2) % 3]};
+}
+
+inline points border_contact(source& random, kind which) {
+    return contact_at(random, which, 1, positions(random), border_weights);
+}
+
+// Moves the first feature by at most 2^exponent on each axis.
+inline points shifted(source& random, kind which, const points& p, int exponent) {
+    const position shift{random.symmetric(), random.symmetric(), random.symmetric()};
+    return map(p, [&](double x, std::size_t i, std::size_t, std::size_t axis) {
+        return i < first_feature_size(which) ? x + std::ldexp(shift[axis], exponent) : x;
+    });
+}
+
+// Everything moves by one vector: features in contact stay so, except for rounding.
+inline points drifting(source& random, const points& p) {
+    const position drift{random.symmetric(), random.symmetric(), random.symmetric()};
+    return map(p, [&](double x, std::size_t, std::size_t end, std::size_t axis) {
+        return end == 0 ? x : x + drift[axis];
+    });
+}
+
+inline points resting(source& random, kind which) {
+    return drifting(random, near_contact(random, which, 0));
+}
+
+// A contact of edges that are parallel except for 2^exponent, or of a triangle as flat: only at the
+// contact, or throughout if motion is as small.
+inline points sliver(source& random, kind which, int exponent) {
+    std::array<position, 4> at = positions(random);
+    const bool face = which == kind::vertex_face;
+    const std::size_t base = face ? 1 : 2, from = face ? 1 : 0;
+    const double along = 2 * random.symmetric();
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        at[3][axis] = at[base][axis] + along * (at[from + 1][axis] - at[from][axis]) +
+                      std::ldexp(random.symmetric(), exponent);
+    }
+    const double speed = random.one_in(2) ? 1 : std::ldexp(1, exponent);
+    return contact_at(random, which, speed, at, weights);
+}
+
+// A contact with one edge of length 2^exponent.
+inline points needle(source& random, kind which, int exponent) {
+    std::array<position, 4> at = positions(random);
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        at[3][axis] = at[2][axis] + std::ldexp(random.symmetric(), exponent);
+    }
+    const double speed = random.one_in(2) ? 1 : std::ldexp(1, exponent);
+    return contact_at(random, which, speed, at, weights);
+}
+
+// ---- Contacts at chosen roots ----
+
+using matrix = std::array<position, 3>;  // rows
+
+inline matrix product(const matrix& a, const matrix& b) {
+    matrix c{};
+    for (std::size_t i = 0; i < 3; ++i) {
+        for (std::size_t j = 0; j < 3; ++j) {
+            for (std::size_t k = 0; k < 3; ++k) c[i][j] += a[i][k] * b[k][j];
+        }
+    }
+    return c;
+}
+
+struct fraction {
+    int numerator = 0, denominator = 1;
+};
+
+// Contacts at chosen roots of the coplanarity function, multiplicities included. They are exact.
+//
+// The columns of M(t) = U T(t) V are the query's three differences. T is upper triangular, its
+// diagonal vanishes at the chosen roots r0, r1 and r2, so det M has exactly those. At r0 the first
+// unit vector is in T's kernel, and V = n A^-1 for A with first column (x, y, n) puts (x, y, n)
+// into M's. Therefore x and y, over n, are the weights of the contact. All numbers are small whole
+// numbers, so nothing rounds.
+inline points chosen_roots(source& random, kind which, const std::array<fraction, 3>& roots) {
+    const bool face = which == kind::vertex_face;
+    const int n = random.between(1, 4);
+    const int i = random.between(0, n);
+    const int j = random.between(0, face ? n - i : n);
+    // VF: p - f0 = (i (f1 - f0) + j (f2 - f0)) / n. EE: a0 + (i/n) a = b0 + (j/n) b.
+    const double x = face ? -i : i;
+    const double y = -j;
+    const double w = face ? n : -n;
+    const matrix v{{{0, 0, 1}, {w, 0, -x}, {0, w, -y}}};
+    const matrix u{{{1, static_cast<double>(random.between(-1, 1)), 0},
+                    {0, 1, static_cast<double>(random.between(-1, 1))},
+                    {static_cast<double>(random.between(-1, 1)), 0, 1}}};
+    std::array<matrix, 2> m;
+    const std::array<double, 3> above{static_cast<double>(random.between(-2, 2)),
+                                      static_cast<double>(random.between(-2, 2)),
+                                      static_cast<double>(random.between(-2, 2))};
+    const std::array<double, 3> slope{static_cast<double>(random.between(-2, 2)),
+                                      static_cast<double>(random.between(-2, 2)),
+                                      static_cast<double>(random.between(-2, 2))};
+    for (std::size_t end = 0; end < 2; ++end) {
+        const auto t = static_cast<double>(end);
+        const auto vanishing = [t](const fraction& root) {
+            return root.denominator * t - root.numerator;
+        };
+        const matrix upper{{{vanishing(roots[0]), above[0] + t * slope[0], above[1] + t * slope[1]},
+                            {0, vanishing(roots[1]), above[2] + t * slope[2]},
+                            {0, 0, vanishing(roots[2])}}};
+        m[end] = product(product(u, upper), v);
+    }
+    ends base;
+    for (auto& e : base) {
+        for (double& c : e) c = random.between(-2, 2);
+    }
+    const auto offset = [&](std::size_t column, std::size_t end, std::size_t axis) {
+        return base[end][axis] + m[end][axis][column];
+    };
+    return fill([&](std::size_t point, std::size_t end, std::size_t axis) {
+        if (face) {
+            if (point == 1) return base[end][axis];
+            return offset(point == 0 ? 2 : point - 2, end, axis);
+        }
+        if (point == 0) return base[end][axis];
+        if (point == 1) return offset(0, end, axis);
+        const double b0 = offset(2, end, axis);
+        return point == 2 ? b0 : b0 + m[end][axis][1];
+    });
+}
+
+inline std::array<fraction, 3> root_triple(source& random, int multiplicity) {
+    std::array<fraction, 3> r;
+    for (fraction& root : r) {
+        root.denominator = random.between(1, 8);
+        root.numerator = random.between(0, root.denominator);
+    }
+    if (multiplicity > 1) r[1] = r[0];
+    if (multiplicity > 2) r[2] = r[0];
+    return r;
+}
+
+// ---- Neighbouring elements of two curved sheets ----
+
+// Neighbouring elements of two curved sheets of one grid, as in a folded cloth. The sheets drift
+// and bend, and one moves towards or through the other. At times both elements are of one sheet.
+inline points sheets(source& random, kind which) {
+    constexpr double cell = 0.0625;
+    const int exponent = -random.between(4, 12);
+    const double gap = std::ldexp(random.unit(), exponent);
+    const double advance = 2 * random.unit() * gap;
+    const bool same_sheet = random.one_in(4);
+    const position curve{random.symmetric(), random.symmetric(), random.symmetric()};
+    const position bend{cell * random.symmetric(), cell * random.symmetric(),
+                        cell * random.symmetric()};
+    const position drift{random.symmetric(), random.symmetric(), random.symmetric()};
+    const position slide{cell * random.symmetric(), cell * random.symmetric(), 0};
+    const auto height = [](const position& c, double x, double y) {
+        return c[0] * x * x + c[1] * x * y + c[2] * y * y;
+    };
+    const auto at = [&](int i, int j, bool upper) {
+        const double x = cell * i, y = cell * j;
+        const position start{x + (upper ? slide[0] : 0), y + (upper ? slide[1] : 0),
+                             height(curve, x, y) + (upper ? gap : 0)};
+        const position end{start[0] + drift[0], start[1] + drift[1],
+                           start[2] + drift[2] + height(bend, x, y) - (upper ? advance : 0)};
+        return moving({start, end});
+    };
+    const bool upper = !same_sheet;
+    const int i = random.between(0, 2), j = random.between(0, 2);
+    const int k = random.between(0, 2), l = random.between(0, 2);
+    if (which == kind::edge_edge) {
+        // Along the grid or a diagonal.
+        const auto step = [&random] {
+            constexpr std::array<std::array<int, 2>, 3> steps{{{1, 0}, {0, 1}, {1, 1}}};
+            return steps[static_cast<std::size_t>(random.between(0, 2))];
+        };
+        const auto a = step(), b = step();
+        return {at(i, j, upper), at(i + a[0], j + a[1], upper), at(k, l, false),
+                at(k + b[0], l + b[1], false)};
+    }
+    const int right = random.between(0, 1);  // which half of the cell
+    return {at(i, j, upper), at(k, l, false), at(k + 1, l + 1 - right, false),
+            at(k + right, l + 1, false)};
+}
+
+}  // namespace ccd::lab::generators

@@ -1,0 +1,37 @@
+// Timing of contestants alternately, so that a disturbance of the machine hits all alike.
+#pragma once
+
+#include <chrono>
+#include <functional>
+#include <vector>
+
+namespace ccd::lab {
+
+using clock = std::chrono::steady_clock;
+
+inline double seconds_since(clock::time_point start) {
+    return std::chrono::duration<double>(clock::now() - start).count();
+}
+
+/// Makes the compiler compute `value`.
+template <class T>
+void keep(const T& value) {
+    asm volatile("" : : "g"(&value) : "memory");
+}
+
+/// Seconds of one pass.
+struct timing {
+    double minimum = 0;
+    double median = 0;
+};
+
+/// Times `passes` alternately: a warm-up, then `repeats` rounds, back and forth. A pass shorter
+/// than 2 ms is repeated until it takes 2 ms. Between timings, `show` gets the finished share.
+std::vector<timing> race(
+    const std::vector<std::function<void()>>& passes, int repeats,
+    const std::function<void(double)>& show = [](double) {});
+
+/// The least difference of two readings of the clock, one right after the other, in seconds.
+double clock_overhead();
+
+}  // namespace ccd::lab

@@ -1,0 +1,172 @@
+// `ccd stress`: every method on stiff and extreme queries, compared with the exact answer; `ccd
+// report`: error against run time, into a folder.
+#include <algorithm>
+#include <filesystem>
+#include <iostream>
+#include <system_error>
+
+#include "ccd/lab/machine.hpp"
+#include "ccd/lab/report.hpp"
+#include "ccd/lab/stress.hpp"
+#include "ccd/program/command.hpp"
+#include "ccd/program/options.hpp"
+#include "errbound/support/command_line.hpp"
+#include "errbound/support/progress_line.hpp"
+
+namespace ccd::program {
+namespace {
+
+namespace fs = std::filesystem;
+
+class stress_run final : public command {
+  public:
+    explicit stress_run(CLI::App& program)
+        : command(program, "stress",
+                  "Every method on stiff and extreme queries, family by family, each with a knob "
+                  "that is\n"
+                  "swept over its whole range; truth by unbounded integers") {
+        line_.add_flag("--quick", quick_, "About a minute instead of ten");
+        line_
+            .add_option("--family", families_,
+                        "Families F[,F...], else all. A family's queries do not depend on\n"
+                        "the others")
+            ->type_name("F[,F...]");
+        line_
+            .add_option("--queries", plan_.queries,
+                        "Queries of each family, kind and value of the knob; fewer where the "
+                        "truth\ntakes tenths of a second. 1000, or 100 with --quick")
+            ->check(CLI::Range(1, 1000000));
+        line_.add_option("--seed", plan_.seed, "Same seed, same queries")
+            ->check(errbound::support::checked_seed)
+            ->capture_default_str();
+        add_threads_option(line_, plan_.threads,
+                           "Threads that find the truth; 0: one per core. Methods are timed on "
+                           "one");
+        line_.add_option("--out", out_.folder, "Write DIR/stress.csv, a row per cell")
+            ->type_name("DIR");
+        line_
+            .add_option("--json", out_.json,
+                        "Write the cells as JSON; a knob of null is exactly zero (CSV: -inf)")
+            ->type_name("OUT");
+    }
+
+    exit_status run() override {
+        for (const ccd::method m : methods_.methods())
+            plan_.subjects.push_back(lab::subject_named(info(m).name));
+        if (line_.count("--family") > 0)
+            plan_.families =
+                errbound::support::all_named("--family", families_, [](const std::string& name) {
+                    return &errbound::support::entry_named("--family", name, lab::families(),
+                                                           &lab::family::name);
+                });
+        else
+            for (const lab::family& entry : lab::families()) plan_.families.push_back(&entry);
+        if (line_.count("--queries") == 0) plan_.queries = quick_ ? 100 : 1000;
+        plan_.seconds = quick_ ? 0.002 : 0.02;
+
+        std::vector<fs::path> others;
+        if (out_.folder) others = {*out_.folder / "stress.csv"};
+        errbound::support::require_good_outputs({out_.json}, std::move(others));
+        std::ostream& text = errbound::support::stream_for_people({out_.json});
+        return lab::run_and_write(plan_, out_, text) ? done : broken_promise;
+    }
+
+  private:
+    lab::plan plan_;
+    lab::stress_outputs out_;
+    std::string families_;
+    bool quick_ = false;
+    methods_option methods_{line_};
+};
+
+/// The bundled scenes: next to an installed program, else in the source tree.
+fs::path bundled_scenes() {
+    std::error_code error;
+    const fs::path installed =
+        fs::read_symlink("/proc/self/exe", error).parent_path() / ERRBOUND_RELATIVE_SCENES;
+    if (!error && fs::is_directory(installed)) return installed.lexically_normal();
+    return ERRBOUND_SCENES;
+}
+
+class report_run final : public command {
+  public:
+    explicit report_run(CLI::App& program)
+        : command(program, "report",
+                  "Error against run time: tables and pictures of all methods and bound rules.\n"
+                  "A stopped report continues") {
+        settings_.out = "out/report";
+        settings_.commit = lab::configured_commit();
+        std::vector<std::string> names;
+        for (const lab::section& s : lab::sections()) names.push_back(s.name);
+        line_.add_option(
+            "DATA", settings_.data,
+            "Folders with stored queries (CSV; kind from the path) and scenes (folders of two\n"
+            "meshes), searched recursively; else the bundled scene and generated queries");
+        line_.add_option("--out", settings_.out, "The report's folder, else out/report")
+            ->type_name("DIR");
+        line_.add_flag("--quick", settings_.quick, "Fewer queries are timed");
+        line_
+            .add_option("--sections", settings_.sections,
+                        "Only these: methods, times, contacts, bounds, tightness (needs a build\n"
+                        "with MPFR), stress")
+            ->type_name("S[,S...]")
+            ->delimiter(',')
+            ->check(CLI::IsMember(names));
+        add_threads_option(line_, settings_.threads,
+                           "Threads that count errors; 0: one per core (times are taken on one)");
+        line_
+            .add_option("--commit", settings_.commit,
+                        "Named in the report, else that of the configured build")
+            ->type_name("TEXT");
+    }
+
+    exit_status run() override {
+        if (settings_.data.empty()) {
+            settings_.data.push_back(bundled_scenes());
+            settings_.made = true;
+        }
+        for (const ccd::method method : methods_.methods()) {
+            if (std::ranges::find(settings_.methods, info(method).name) != settings_.methods.end())
+                continue;
+            settings_.methods.emplace_back(info(method).name);
+            if (method == method::exact) settings_.methods.emplace_back(lab::batch_name);
+        }
+
+        errbound::support::progress_line progress;
+        const lab::report_summary result = lab::make_report(
+            settings_, [&](double share, const std::string& what) { progress.show(share, what); },
+            [&](const std::string& line) {
+                progress.clear();
+                std::cout << line << std::endl;
+            });
+        progress.clear();
+
+        const auto all = lab::totals(result.tables.at("methods"), [](const auto&) { return true; });
+        std::cout << errbound::support::text_of(
+                         lab::cells_of(all,
+                                       {"method", "queries", "FP", "FN", "uncertain", "ns/query"},
+                                       {"method", "queries", "false_positives", "false_negatives",
+                                        "uncertain", "ns"}),
+                         1)
+                  << "report: " << (settings_.out / "report.md").string() << '\n';
+        for (const std::string& failure : result.failures)
+            std::cout << "FAILED: " << failure << '\n';
+        return result.failures.empty() ? done : broken_promise;
+    }
+
+  private:
+    lab::report_options settings_;
+    methods_option methods_{line_};
+};
+
+}  // namespace
+
+std::unique_ptr<command> stress_command(CLI::App& program) {
+    return std::make_unique<stress_run>(program);
+}
+
+std::unique_ptr<command> report_command(CLI::App& program) {
+    return std::make_unique<report_run>(program);
+}
+
+}  // namespace ccd::program

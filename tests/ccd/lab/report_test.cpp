@@ -1,0 +1,259 @@
+// The pieces of `ccd report`: statistics, stored parts, data sets and their truth, counts of
+// errors.
+#include "ccd/lab/report.hpp"
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <errbound/support/error.hpp>
+#include <filesystem>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "ccd/io/plots/plots.hpp"
+#include "ccd/lab/sections.hpp"
+#include "errbound/support/output_file.hpp"
+
+namespace {
+
+namespace fs = std::filesystem;
+namespace lab = ccd::lab;
+using ccd::kind;
+using lab::row;
+using lab::rows;
+
+class Report : public testing::Test {
+  protected:
+    Report() { fs::create_directories(folder_); }
+    ~Report() override { fs::remove_all(folder_); }
+
+    fs::path write(const fs::path& name, const std::string& text) const {
+        fs::create_directories((folder_ / name).parent_path());
+        errbound::support::write_whole(folder_ / name, text);
+        return folder_ / name;
+    }
+
+    const fs::path folder_ =
+        fs::temp_directory_path() / ("report_test." + std::to_string(getpid()));
+};
+
+TEST_F(Report, QuantilesAreOfTheNumbers) {
+    const std::vector<double> four{1, 2, 3, 4};
+    EXPECT_EQ(lab::quantile(four, 0), 1);
+    EXPECT_EQ(lab::quantile(four, 0.25), 1);
+    EXPECT_EQ(lab::quantile(four, 0.26), 2);
+    EXPECT_EQ(lab::quantile(four, 0.5), 2);
+    EXPECT_EQ(lab::quantile(four, 0.99), 4);
+    EXPECT_EQ(lab::quantile(four, 1), 4);
+    EXPECT_EQ(lab::quantile(std::vector<double>{7}, 0.5), 7);
+    EXPECT_TRUE(std::isnan(lab::quantile({}, 0.5)));
+}
+
+TEST_F(Report, CsvQuotesWhatNeedsIt) {
+    EXPECT_EQ(ccd::io::csv_of({"a", "b", "c"},
+                              {{{"c", 0.1}, {"a", "x, \"y\""}}, {{"a", 3}, {"b", nullptr}}}),
+              "a,b,c\n\"x, \"\"y\"\"\",,0.1\n3,,\n");
+}
+
+TEST_F(Report, PartsAreFoundOnlyUndamagedAndWithTheSameDependencies) {
+    const auto part = [](const std::string& name, const row& depends_on) {
+        return lab::part{name, depends_on, "methods", 1, {}, {}};
+    };
+    const lab::part p = part("cloth, vf: errors", {{"program", "p"}, {"data", "d"}});
+    const rows kept{{{"method", "exact"}, {"ns", 0.1}, {"bound", nullptr}}};
+    EXPECT_FALSE(lab::stored_part(folder_, p));
+    lab::store_part(folder_, p, kept);
+    EXPECT_EQ(lab::stored_part(folder_, p), kept);
+    EXPECT_FALSE(lab::stored_part(folder_, part("cloth; vf: errors", p.depends_on)));
+    EXPECT_FALSE(lab::stored_part(folder_, part(p.name, {{"program", "p"}, {"data", "e"}})));
+
+    const fs::path path = lab::path_of_part(folder_, p.name);
+    const std::string text = errbound::support::read_whole(path);
+    std::string changed = text;
+    changed.replace(text.find("0.1"), 3, "0.2");
+    for (const std::string& damaged :
+         {changed, text.substr(0, text.size() / 2), std::string(), std::string("[]"),
+          std::string("{\"rows\":[]}"), std::string("{\"rows\":[],\"depends_on\":1}")}) {
+        errbound::support::write_whole(path, damaged);
+        EXPECT_FALSE(lab::stored_part(folder_, p)) << damaged;
+    }
+    errbound::support::write_whole(path, text);
+    EXPECT_TRUE(lab::stored_part(folder_, p));
+}
+
+TEST_F(Report, PartsNeedAFolder) {
+    EXPECT_THROW(lab::make_folder(write("file", "") / "parts"), errbound::support::file_error);
+}
+
+// A vertex that falls through a triangle, and one that stays above it.
+constexpr const char* hit = "0.25,0.25,1\n0,0,0\n1,0,0\n0,1,0\n0.25,0.25,-1\n0,0,0\n1,0,0\n0,1,0\n";
+constexpr const char* miss =
+    "0.25,0.25,1\n0,0,0\n1,0,0\n0,1,0\n0.25,0.25,0.5\n0,0,0\n1,0,0\n0,1,0\n";
+
+// A triangle, and one that falls from `z`, through it if that is negative.
+std::string frame(double z) {
+    std::string text;
+    for (const char* corner : {"0 0 ", "1 0 ", "0 1 "}) text += std::string("v ") + corner + "0\n";
+    for (const char* corner : {"0.2 0.2 ", "0.4 0.2 ", "0.2 0.4 "})
+        text += std::string("v ") + corner + std::to_string(z) + '\n';
+    return text + "f 1 2 3\nf 4 5 6\n";
+}
+
+TEST_F(Report, FindsQueriesByFolderAndScenesOfTwoFrames) {
+    write("a/vertex-face/1.csv", hit);
+    write("a/edge-edge/1.csv", hit);
+    write("a/edge-edge/2.csv", hit);
+    write("b/queries/1vf.csv", hit);
+    write("other/table.csv", "x,y\n");
+    write("b/frames/10.obj", frame(-1));
+    write("b/frames/9.obj", frame(1));
+    write("c/one.obj", frame(1));
+    const auto found = lab::find_data({folder_, folder_ / "a"});
+    ASSERT_EQ(found.sources.size(), 3U);
+    EXPECT_EQ(found.sources[0].name, "b");
+    ASSERT_EQ(found.sources[0].frames.size(), 2U);
+    EXPECT_EQ(found.sources[0].frames[0].filename(), "9.obj");
+    EXPECT_EQ(found.sources[1].name, "a");
+    EXPECT_EQ(found.sources[1].queries.size(), 3U);
+    EXPECT_EQ(found.sources[2].name, "b queries");
+    ASSERT_EQ(found.skipped.size(), 2U);
+    EXPECT_EQ(found.skipped[0].path.filename(), "table.csv");
+    EXPECT_EQ(found.skipped[1].path.filename(), "c");
+    EXPECT_THROW(lab::find_data({folder_ / "none"}), errbound::support::file_error);
+}
+
+TEST_F(Report, TruthIsTheFilesElseExact) {
+    const std::string lines = std::string(hit) + miss;
+    std::string with_truth;
+    for (std::size_t at = 0; at < lines.size(); at = lines.find('\n', at) + 1)
+        with_truth += lines.substr(at, lines.find('\n', at) - at) + ",1\n";  // wrong of the second
+    write("a/vf/1.csv", lines);
+    write("a/vf/2.csv", with_truth);
+    const auto data = lab::load(lab::find_data({folder_}).sources.at(0), 1);
+    const auto& known = data->queries.vertex_face;
+    EXPECT_EQ(known.collides, (std::vector<unsigned char>{1, 0, 1, 1}));
+    EXPECT_EQ(known.colliding, 3U);
+    EXPECT_EQ(known.stored_truths, 2U);
+
+    for (const char* method : {"exact", "exact, batch"}) {
+        const rows counted = lab::count_errors(*data, kind::vertex_face, method, 1, [](double) {});
+        ASSERT_EQ(counted.size(), 1U);
+        EXPECT_EQ(counted[0]["queries"], 4);
+        EXPECT_EQ(counted[0]["collisions"], 2);
+        EXPECT_EQ(counted[0]["false_negatives"], 1) << "against the file's wrong truth";
+        EXPECT_EQ(counted[0]["false_positives"], 0);
+    }
+}
+
+TEST_F(Report, SceneTruthIsComparedWithWhatIsStored) {
+    write("s/frames/0.obj", frame(1));
+    write("s/frames/1.obj", frame(-1));
+    const auto load = [this] { return lab::load(lab::find_data({folder_}).sources.at(0), 1); };
+    // Vertices 3, 4 and 5 fall through face 0, whose number follows 6 vertices and 6 edges.
+    write("s/boxes/0vf.json", "[[3,12],[4,12],[5,12],[0,13]]");
+    write("s/mma_bool/0vf_mma_bool.json", "[true,true,true,false]");
+    auto data = load();
+    EXPECT_EQ(data->origin, "scene");
+    EXPECT_EQ(data->queries.vertex_face.colliding, 3U);
+    EXPECT_EQ(data->queries.vertex_face.stored_truths, 4U);
+    EXPECT_EQ(data->queries.vertex_face.contradictions, 0U);
+    const std::string before = data->fingerprint;
+
+    write("s/boxes/0vf.json", "[[3,12],[0,13]]");  // one is wrong, two are not listed
+    write("s/mma_bool/0vf_mma_bool.json", "[false,true]");
+    data = load();
+    EXPECT_EQ(data->queries.vertex_face.contradictions, 4U);
+    EXPECT_NE(data->fingerprint, before);
+
+    write("s/boxes/0vf.json", "[[3,14],[0,13]]");
+    EXPECT_THROW(load(), errbound::support::file_error);
+    write("s/boxes/0vf.json", "[[3,12]]");
+    EXPECT_THROW(load(), errbound::support::file_error);
+}
+
+// A triangle, and one that falls through it across two of its edges.
+std::string crossing_frame(double z) {
+    std::string text;
+    for (const char* corner : {"0 0 ", "1 0 ", "0 1 "}) text += std::string("v ") + corner + "0\n";
+    for (const char* corner : {"0.4 -0.5 ", "0.4 0.3 ", "2 -0.4 "})
+        text += std::string("v ") + corner + std::to_string(z) + '\n';
+    return text + "f 1 2 3\nf 4 5 6\n";
+}
+
+TEST_F(Report, StoredPairsOfEdgesAreInAnyOrder) {
+    write("s/frames/0.obj", crossing_frame(1));
+    write("s/frames/1.obj", crossing_frame(-1));
+    // Edges follow 6 vertices: 01 02 12 34 35 45.
+    write("s/boxes/0ee.json", "[[9,6],[8,11],[10,7]]");
+    write("s/mma_bool/0ee_mma_bool.json", "[true,true,false]");
+    const auto data = lab::load(lab::find_data({folder_}).sources.at(0), 1);
+    EXPECT_EQ(data->queries.edge_edge.colliding, 2U);
+    EXPECT_EQ(data->queries.edge_edge.stored_truths, 3U);
+    EXPECT_EQ(data->queries.edge_edge.contradictions, 0U);
+}
+
+TEST_F(Report, FirstContactsAreInBracketsOfTwoNeighbours) {
+    // The vertex touches at 1/2, or at 1/3, or not at all, or at the start.
+    std::string third = hit, start = hit;
+    third.replace(third.find("-1"), 2, "-2");
+    start.replace(start.find(",1"), 2, ",0");
+    write("vf/1.csv", std::string(hit) + third + miss + start + hit);
+    const auto data = lab::load(lab::find_data({folder_}).sources.at(0), 1);
+    const rows all =
+        lab::find_contacts(*data, kind::vertex_face, lab::sizes(true), 1, [](double) {});
+    ASSERT_EQ(all.size(), 1U);
+    const row& r = all[0];
+    EXPECT_EQ(r["queries"], 5);
+    EXPECT_EQ(r["contacts"], 4);
+    EXPECT_EQ(r["at_start"], 1);
+    EXPECT_EQ(r["one_double"], 2);
+    EXPECT_EQ(r["neighbours"], 1);
+    EXPECT_EQ(r["width_largest"], 0x1p-54);
+    EXPECT_EQ(r["timed_contacts"], 4);
+    EXPECT_GT(r["ns_batch_time"], 0);
+    EXPECT_FALSE(r.contains("broken")) << r;
+    EXPECT_TRUE(
+        lab::find_contacts(*data, kind::edge_edge, lab::sizes(true), 1, [](double) {}).empty());
+}
+
+TEST_F(Report, FirstContactsOfStressAreOfBothKinds) {
+    lab::sample_sizes few = lab::sizes(true);
+    few.repeats = 1;
+    for (const lab::family& family : lab::families()) {
+        if (family.name != "touch-start" && family.name != "double-root") continue;
+        const auto data = lab::data_of(family, 2, 1);
+        for (const kind which : ccd::stored_kinds) {
+            const row r = lab::find_contacts(*data, which, few, 1, [](double) {}).at(0);
+            EXPECT_EQ(r["queries"], 2 * family.knobs.size());
+            EXPECT_GT(r["contacts"], 0);
+            EXPECT_FALSE(r.contains("broken")) << r;
+        }
+    }
+}
+
+TEST_F(Report, BoundsOfEveryRuleCoverTheSixVariables) {
+    write("vf/1.csv", std::string(hit) + miss);
+    const auto data = lab::load(lab::find_data({folder_}).sources.at(0), 1);
+    const rows bounds = lab::take_bounds(*data, kind::vertex_face, lab::sizes(true));
+    ASSERT_FALSE(bounds.empty());
+    EXPECT_EQ(bounds.size() % 6, 0U);
+    for (const row& r : bounds) {
+        EXPECT_EQ(r["count"], 2);
+        EXPECT_EQ(r["unknown"], 0);
+        EXPECT_LE(r["q0"], r["q100"]);
+        EXPECT_GE(r["q0"], 0);
+        EXPECT_LT(r["relative_q100"], 1e-10) << r;
+    }
+}
+
+TEST_F(Report, MadeQueriesCollideAndDoNot) {
+    for (const auto& data : lab::made_data(1)) {
+        EXPECT_EQ(data->queries.vertex_face.queries.size(), data->queries.edge_edge.queries.size());
+        EXPECT_GT(data->queries.vertex_face.colliding, 100U);
+        EXPECT_GT(data->queries.edge_edge.colliding, 100U);
+        EXPECT_LT(data->queries.edge_edge.colliding + 100, data->queries.edge_edge.queries.size());
+    }
+}
+
+}  // namespace

@@ -1,0 +1,201 @@
+// Checks of an advance, by the oracle on every pair.
+#include <algorithm>
+#include <ccd/batch.hpp>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "tests/soak/advance_scenes.hpp"
+#include "tests/support/first_time_faults.hpp"
+#include "tests/support/oracle.hpp"
+
+namespace soak {
+namespace {
+
+using ccd::vertex_index;
+using oracle::interval;
+
+/// The condition that a pair must not meet, by its state at the start.
+enum class condition : std::uint8_t { nothing, contact, distance };
+
+struct checked_pair {
+    std::variant<ccd::vertex_face_pair, ccd::edge_edge_pair, ccd::vertex_edge_pair,
+                 ccd::vertex_vertex_pair>
+        pair;
+    condition unwanted;
+    ccd::separation d;
+};
+
+bool within(const auto& query, ccd::separation d, const interval& when) {
+    return oracle::within(query, d.first, d.second, oracle::shortcuts::on, when);
+}
+bool in_contact(const auto& query, const interval& when) {
+    return oracle::collides(query, oracle::shortcuts::on, when);
+}
+
+bool holds(const ccd::vertex_rows& way, const checked_pair& of, const interval& when) {
+    return std::visit(
+        [&](const auto& pair) {
+            const auto query = query_of(way, pair);
+            if (of.unwanted == condition::distance) return within(query, of.d, when);
+            return of.unwanted == condition::contact && in_contact(query, when);
+        },
+        of.pair);
+}
+
+/// At least the distance of a pair, in doubles.
+double at_least(ccd::separation d) {
+    return std::nextafter(d.first + d.second, std::numeric_limits<double>::infinity());
+}
+
+class checking {
+  public:
+    checking(const advance_scene& scene, const ccd::advance_result& result)
+        : scene_(scene), result_(result), whole_(scene.at.first, scene.at.second) {
+        check_pairs_at_start();
+        check_first_contact();
+        check_positions();
+        check_fractions();
+        check_way();
+        check_progress();
+        check_.pairs = pairs_.size();
+    }
+    advance_check check_;
+
+  private:
+    void fault(const std::string& what) { check_.faults += what + "; "; }
+
+    void check_pairs_at_start() {
+        ccd::pair_lists touching, near;
+        const ccd::pair_distances distances = scene_.distances();
+        scene_.for_each_pair([&]<class Pair>(const Pair& pair) {
+            constexpr ccd::kind K = ccd::kind_of<Pair>;
+            const auto query = query_of(whole_, pair);
+            const ccd::separation d = distances.of(pair);
+            const bool touches = in_contact(query, interval::instant(0));
+            const bool is_near =
+                !touches && !distances.is_contact() && within(query, d, interval::instant(0));
+            if (touches) touching.of<K>().push_back(brute_force::as_reported(pair));
+            if (is_near) near.of<K>().push_back(brute_force::as_reported(pair));
+            const condition unwanted = touches                             ? condition::nothing
+                                       : is_near || distances.is_contact() ? condition::contact
+                                                                           : condition::distance;
+            pairs_.push_back({pair, unwanted, d});
+        });
+        ccd::for_each_kind([&]<ccd::kind K>() {
+            std::ranges::sort(touching.of<K>());
+            std::ranges::sort(near.of<K>());
+        });
+        if (touching != result_.touching_at_start) fault("other pairs touch at the start");
+        if (near != result_.near_at_start) fault("other pairs are near at the start");
+    }
+
+    void check_first_contact() {
+        const std::string wrong =
+            support::fault_of(result_.first_contact, 1, [&](const interval& when) {
+                return std::ranges::any_of(
+                    pairs_, [&](const checked_pair& p) { return holds(whole_, p, when); });
+            });
+        if (!wrong.empty()) fault("first contact: " + wrong);
+    }
+
+    void check_positions() {
+        if (result_.positions.size() != whole_.vertices ||
+            result_.fractions.size() != whole_.vertices)
+            return fault("positions of other vertices");
+        for (vertex_index v = 0; v < whole_.vertices; ++v) {
+            const auto [before, after] = whole_[v];
+            const auto& at = result_.positions[v];
+            const double f = result_.fractions[v];
+            if (!is_taken_back(before.x, std::lerp(before.x, after.x, f), at.x) ||
+                !is_taken_back(before.y, std::lerp(before.y, after.y, f), at.y) ||
+                !is_taken_back(before.z, std::lerp(before.z, after.z, f), at.z))
+                fault("vertex " + std::to_string(v) + " is not where its fraction leads");
+        }
+    }
+    static bool is_taken_back(double before, double there, double at) {
+        for (int places = 0; places < 1024 && at != there; ++places)
+            there = std::nextafter(there, before);
+        return at == there;
+    }
+
+    void check_fractions() {
+        std::map<int, double> of_group;
+        double least = 1;
+        for (std::size_t v = 0; v < result_.fractions.size(); ++v) {
+            const double f = result_.fractions[v];
+            least = std::min(least, f);
+            const int group = scene_.groups.empty() ? 0 : scene_.groups[v];
+            if (!(f >= 0 && f <= 1)) fault("a fraction out of [0, 1]");
+            if (of_group.try_emplace(group, f).first->second != f)
+                fault("two fractions of group " + std::to_string(group));
+        }
+        if (least != result_.fraction) fault("not the least fraction");
+    }
+
+    void check_way() {
+        const ccd::vertex_rows way(scene_.at.first.vertices, result_.positions);
+        for (const checked_pair& p : pairs_)
+            if (holds(way, p, {})) return fault("a pair meets on the way to the positions");
+    }
+
+    /// Numbers of what vertices can have been joined to: groups with pairs whose boxes, swept all
+    /// the way, are within their distance.
+    std::vector<int> islands() const {
+        std::vector<ccd::edge> joined;
+        std::map<int, vertex_index> first_of;
+        for (vertex_index v = 0; v < whole_.vertices; ++v) {
+            const int group = scene_.groups.empty() ? 0 : scene_.groups[v];
+            joined.push_back({first_of.try_emplace(group, v).first->second, v});
+        }
+        for (const checked_pair& p : pairs_)
+            std::visit(
+                [&](const auto& pair) {
+                    if (!brute_force::boxes_touch(scene_.at, pair, at_least(p.d))) return;
+                    const auto vertices = vertices_of(pair);
+                    for (const vertex_index v : vertices) joined.push_back({vertices[0], v});
+                },
+                p.pair);
+        return ccd::connected_parts({}, joined, whole_.vertices);
+    }
+
+    void check_progress() {
+        const std::vector<int> island = islands();
+        std::map<int, double> least;
+        for (std::size_t v = 0; v < island.size(); ++v) {
+            double& f = least.try_emplace(island[v], 1).first->second;
+            f = std::min(f, result_.fractions[v]);
+        }
+        for (const auto& [number, f] : least) {
+            if (f == 1) continue;
+            if (!is_held(island, number, 1)) fault("nothing holds the vertices of an island");
+            // The quotient is rounded, and contacts may be within a bracket.
+            const double end = std::nextafter(std::nextafter(f / 0.99, 2), 2);
+            check_.is_short |= !is_held(island, number, std::min(end, 1.0));
+        }
+    }
+    /// True if a pair of an island meets in [0, end] when all go all the way.
+    bool is_held(const std::vector<int>& island, int number, double end) const {
+        return std::ranges::any_of(pairs_, [&](const checked_pair& p) {
+            const auto v =
+                std::visit([](const auto& pair) { return vertices_of(pair)[0]; }, p.pair);
+            return island[v] == number && holds(whole_, p, {0, end});
+        });
+    }
+
+    const advance_scene& scene_;
+    const ccd::advance_result& result_;
+    const ccd::vertex_rows whole_;
+    std::vector<checked_pair> pairs_;
+};
+
+}  // namespace
+
+advance_check check(const advance_scene& scene, const ccd::advance_result& result) {
+    return checking(scene, result).check_;
+}
+
+}  // namespace soak

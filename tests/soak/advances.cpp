@@ -1,0 +1,102 @@
+// The part of the soak that advances small meshes.
+#include <algorithm>
+#include <bit>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <utility>
+
+#include "tests/soak/advance_scenes.hpp"
+#include "tests/soak/parts.hpp"
+
+namespace soak {
+namespace {
+
+using query_families::families;
+
+const std::vector<std::string> columns{"scenes", "pairs",       "with a contact", "touching",
+                                       "near",   "all the way", "short",          "differences"};
+
+bool is_same(const ccd::advance_result& a, const ccd::advance_result& b) {
+    return a.positions == b.positions && a.fraction == b.fraction && a.fractions == b.fractions &&
+           a.first_contact == b.first_contact && a.touching_at_start == b.touching_at_start &&
+           a.near_at_start == b.near_at_start;
+}
+
+void compare(const advance_scene& scene, const std::string& row, const std::string& name,
+             const advancer& advance, findings& out) {
+    const ccd::advance_result found = advance(scene, 1);
+    const advance_check checked = check(scene, found);
+    std::string faults = checked.faults;
+    if (!is_same(advance(scene, 2), found)) faults += "another result on two threads; ";
+    const bool has_contact = found.first_contact.outcome == ccd::outcome::collides;
+    const std::uint64_t counts[] = {1,
+                                    checked.pairs,
+                                    has_contact,
+                                    number_of(found.touching_at_start) > 0,
+                                    number_of(found.near_at_start) > 0,
+                                    found.fraction == 1,
+                                    checked.is_short,
+                                    !faults.empty()};
+    const auto count = [&](const char* table, std::string_view in_row) {
+        auto& sums = out.table(table)[in_row];
+        for (std::size_t i = 0; i < sums.size(); ++i) sums[i] += counts[i];
+    };
+    count("scenes", row);
+    count("where", scene.in_plane ? "in the plane" : "in space");
+    count("distances", scene.distances_name);
+    count("groups", scene.groups_name);
+    for (const auto& p : found.positions)
+        for (const double x : {p.x, p.y, p.z}) out.stir(std::bit_cast<std::uint64_t>(x));
+    if (!faults.empty()) out.differ({name + ": " + faults + "\n" + scene.text()});
+}
+
+/// The scenes of a family of queries in that many blocks.
+std::uint64_t scenes_in(const query_families::family& family, std::uint64_t blocks) {
+    return blocks / family.thinning;
+}
+
+findings compare_block(std::uint64_t seed, std::uint64_t block, const advancer& advance) {
+    findings out{
+        .blocks = 1,
+        .tables = {
+            {"scenes", columns}, {"where", columns}, {"distances", columns}, {"groups", columns}}};
+    for (const std::string_view row : {"in space", "in the plane"}) out.table("where")[row];
+    for (const std::string_view row : distances_names) out.table("distances")[row];
+    for (const std::string_view row : groups_names) out.table("groups")[row];
+    const auto one = [&](const std::string& row, const auto& family, std::uint64_t index) {
+        compare(scene_of(family, seed, index), row, row + " " + std::to_string(index), advance,
+                out);
+    };
+    for (const auto& f : families) {
+        const std::string row(f.name);
+        out.table("scenes")[row];
+        for (std::uint64_t i = scenes_in(f, block); i < scenes_in(f, block + 1); ++i)
+            one(row, f, i);
+    }
+    for (const auto& f : advance_families) one(std::string(f.name), f, block);
+    return out;
+}
+
+}  // namespace
+
+ccd::advance_result library_advance(const advance_scene& scene, int threads) {
+    ccd::mesh_steps steps = scene.steps();
+    return ccd::advance(steps, {scene.at.first, scene.at.second}, scene.options(threads));
+}
+
+part advance_part(advancer advance) {
+    part all{.name = "advances", .unit = "scenes", .version = family_names()};
+    for (const auto& f : advance_families) all.version += std::string(f.name) + "; ";
+    all.count = [](std::uint64_t blocks) {
+        std::uint64_t count = blocks * advance_families.size();
+        for (const auto& f : families) count += scenes_in(f, blocks);
+        return count;
+    };
+    all.compare_block = [advance = std::move(advance)](std::uint64_t seed, std::uint64_t block) {
+        return compare_block(seed, block, advance);
+    };
+    return all;
+}
+
+}  // namespace soak

@@ -1,0 +1,270 @@
+// ./run soak: `exact`, one by one and in batches, on millions of queries: against the reference, or
+// against itself on images of them; steps and advances of meshes against every pair; roots against
+// FLINT; predicates against oracles.
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cstdint>
+#include <cstdio>
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <stdexcept>
+#include <string>
+
+#include "errbound/support/command_line.hpp"
+#include "errbound/support/output_file.hpp"
+#include "errbound/support/progress_line.hpp"
+#include "errbound/support/signals.hpp"
+#include "errbound/support/table.hpp"
+#include "tests/soak/parts.hpp"
+
+namespace soak {
+namespace {
+
+namespace fs = std::filesystem;
+using errbound::support::grouped;
+
+std::string duration(double seconds) {
+    const auto minutes = static_cast<std::uint64_t>(seconds / 60);
+    if (minutes >= 60)
+        return std::to_string(minutes / 60) + " h " + std::to_string(minutes % 60) + " min";
+    if (minutes >= 2) return std::to_string(minutes) + " min";
+    return std::to_string(static_cast<std::uint64_t>(seconds)) + " s";
+}
+
+/// The number of questions in the first `blocks` blocks of a run.
+std::uint64_t questions_of(const part& of, std::uint64_t first, std::uint64_t blocks) {
+    const std::uint64_t before = of.blocks_for(first);
+    return of.count(before + blocks) - of.count(before);
+}
+std::uint64_t questions_of(const part& of, const state& s) {
+    return questions_of(of, s.first, s.found.blocks);
+}
+
+/// A bar on a terminal; elsewhere a line at half-minute intervals.
+class progress_display {
+  public:
+    progress_display(const part& of, const state& from, std::uint64_t blocks)
+        : of_(of), from_(from), all_(questions_of(of, from.first, blocks)) {}
+
+    void operator()(const state& now) {
+        const double here = now.seconds - from_.seconds;
+        const bool is_terminal = errbound::support::system::is_terminal(2);
+        if (here < shown_ + (is_terminal ? 0.5 : 30)) return;
+        shown_ = here;
+        const std::uint64_t done = questions_of(of_, now);
+        const double rate = static_cast<double>(done - questions_of(of_, from_)) / here;
+        const double share = static_cast<double>(done) / static_cast<double>(all_);
+        const std::string text =
+            grouped(done) + " of " + grouped(all_) + " " + of_.unit + ", " +
+            grouped(static_cast<std::uint64_t>(rate)) + " a second, " +
+            grouped(now.found.different) + " differ, " +
+            (rate > 0 ? duration(static_cast<double>(all_ - done) / rate) : "?") + " left";
+        if (is_terminal) return bar_.show(share, text);
+        std::printf("%5.1f %%  %s\n", 100 * share, text.c_str());
+        std::fflush(stdout);
+    }
+
+  private:
+    const part& of_;
+    state from_;
+    std::uint64_t all_;
+    errbound::support::progress_line bar_;
+    double shown_ = 0;  // seconds of this sitting
+};
+
+/// With each row's share of the first column, and the sum of all rows.
+std::string text_of(const count_table& counts) {
+    std::vector<std::uint64_t> sums(counts.columns.size());
+    for (const auto& row : counts.rows)
+        for (std::size_t k = 0; k < sums.size(); ++k) sums[k] += row.counts[k];
+    errbound::support::table text{{counts.title}};
+    text[0].insert(text[0].end(), counts.columns.begin(), counts.columns.end());
+    if (!counts.largest) text[0].emplace_back("share");
+    const auto add = [&](const std::string& name, const std::vector<std::uint64_t>& row) {
+        auto& cells = text.emplace_back(std::vector<std::string>{name});
+        for (const std::uint64_t n : row) cells.push_back(grouped(n));
+        if (counts.largest) return;
+        char share[32];
+        std::snprintf(share, sizeof share, "%.2f %%",
+                      100 * static_cast<double>(row[0]) /
+                          static_cast<double>(std::max<std::uint64_t>(sums[0], 1)));
+        cells.emplace_back(share);
+    };
+    for (const auto& row : counts.rows) add(row.name, row.counts);
+    if (!counts.largest) add("all", sums);
+    return errbound::support::text_of(text, 1);
+}
+
+void report(const part& of, const state& s, const fs::path& folder) {
+    for (const count_table& table : s.found.tables) std::printf("\n%s", text_of(table).c_str());
+    for (std::size_t i = 0; i < s.found.differences.size() && i < 10; ++i)
+        std::printf("\n%s", s.found.differences[i].text.c_str());
+    std::printf("\nseed %ju: %s %s in %s, %s differ, checksum %016jx\n", std::uintmax_t{s.seed},
+                grouped(questions_of(of, s)).c_str(), of.unit.c_str(), duration(s.seconds).c_str(),
+                grouped(s.found.different).c_str(), std::uintmax_t{s.found.checksum});
+    for (const auto which : ccd::stored_kinds) {
+        const fs::path path = folder / ("differences-" + std::string(short_name(which)) + ".csv");
+        if (fs::exists(path))
+            std::printf("differing queries, the reference's answer as truth: ccd query %s\n",
+                        path.string().c_str());
+    }
+    if (s.found.different > s.found.differences.size())
+        std::printf("only the first %s of them are kept\n",
+                    grouped(s.found.differences.size()).c_str());
+    std::printf("state, with all that differ: %s\n", state_path(folder).string().c_str());
+}
+
+struct command_line {
+    std::uint64_t count = 20'000'000;
+    std::function<soak::part()> part;
+    std::string predicate;
+    run_options options;
+    std::optional<std::uint64_t> seed, first;
+    bool resume = false, anew = false;
+};
+
+/// The state to continue. Options that are given must agree with a resumed state.
+state begin(const part& of, const command_line& given) {
+    const fs::path path = state_path(given.options.folder);
+    if (!given.resume) {
+        if (fs::exists(path))
+            throw std::runtime_error(path.string() +
+                                     ": found a run's state; go on with --resume, "
+                                     "or forget it with --anew");
+        return {.seed = given.seed.value_or(1), .first = given.first.value_or(0)};
+    }
+    state s;
+    const std::string text = errbound::support::read_whole(path);
+    try {
+        s = from_json(text, of);
+    } catch (const std::runtime_error& error) {
+        throw std::runtime_error(path.string() + ": " + error.what());
+    }
+    const auto require_same = [&](const char* name, std::uint64_t found, auto expected) {
+        if (expected && found != *expected)
+            throw std::runtime_error(path.string() + ": found " + name + " " +
+                                     std::to_string(found) + ", expected the " + name + " given, " +
+                                     std::to_string(*expected));
+    };
+    require_same("seed", s.seed, given.seed);
+    require_same("first", s.first, given.first);
+    return s;
+}
+
+void add_parts(CLI::App& app, command_line& given) {
+    CLI::Option* const queries =
+        app.add_option("--queries", given.count,
+                       "At least that many, a resumed run's earlier ones included")
+            ->capture_default_str();
+    CLI::Option_group& parts = *app.add_option_group("Instead");
+    parts.require_option(0, 1);
+    const auto of_queries = [&](const char* name, const char* what, auto part) {
+        return parts.add_flag_callback(
+            name, [&given, part] { given.part = part; }, what);
+    };
+    const auto counted = [&](const char* name, const char* what, auto part) {
+        const auto choose = [&given, part](std::uint64_t count) {
+            given.count = count;
+            given.part = part;
+        };
+        parts.add_option_function<std::uint64_t>(name, choose, what)
+            ->type_name("N")
+            ->excludes(queries);
+    };
+    of_queries("--symmetries",
+               "Without a reference: images of a query, by all ways to decide, have one answer",
+               [] { return symmetry_part(symmetric_deciders()); });
+    counted("--meshes", "Steps of N small meshes, by the reference on every pair",
+            [] { return mesh_part(); });
+#ifdef ERRBOUND_HAS_ORACLE
+    of_queries("--times", "First times of contact, against an oracle",
+               [] { return contact_time_part(contact_deciders()); });
+    of_queries("--separation", "First times within distances, against an oracle",
+               [] { return distance_time_part(distance_deciders()); });
+    counted("--advances", "Advances of N small meshes, by the oracle on every pair",
+            [] { return advance_part(); });
+#endif
+#ifdef ERRBOUND_HAS_FLINT
+    counted("--polynomials", "Roots of N polynomials, against FLINT's counts", polynomial_part);
+#endif
+#ifdef ERRBOUND_HAS_PREDICATES
+    CLI::Option* const predicates =
+        of_queries("--predicates",
+                   "Signs of predicates against oracles, and bounds of their filters; --queries\n"
+                   "inputs of each predicate and number type",
+                   [&given] { return predicate_part(given.predicate); });
+    app.add_option("--predicate", given.predicate, "Only predicates whose name holds this")
+        ->needs(predicates);
+#endif
+}
+
+void add_options(CLI::App& app, command_line& given) {
+    app.name("./run soak");
+    add_parts(app, given);
+    app.add_option("--seed", given.seed, "Same seed, same questions; 1 by default")
+        ->check(errbound::support::checked_seed);
+    app.add_option(
+           "--first", given.first,
+           "Skip the first N questions of the seed's sequence. Runs with --first 0, M, 2M, ...\n"
+           "and M questions each partition one long run")
+        ->check(CLI::Range(std::uint64_t{0}, std::uint64_t{1} << 40));
+    app.add_flag("--resume", given.resume, "Go on where the last run stopped");
+    app.add_flag("--anew", given.anew, "Forget the last run")->excludes("--resume");
+    app.add_option("--threads", given.options.threads, "0: one per core")->capture_default_str();
+    app.add_option("--folder", given.options.folder,
+                   "For the state and what differs; by default out/soak/PART");
+    app.footer(
+        "Exit status: 0 no difference, 1 a difference or bad input, 2 bad usage, 3 stopped "
+        "by a signal (go on with --resume).");
+}
+
+/// Runs the part to its end or to a signal; returns the exit status. Throws std::runtime_error.
+int run_part(command_line& given) {
+    const part of = given.part();
+    run_options& options = given.options;
+    if (options.folder.empty()) options.folder = fs::path("out/soak") / of.name;
+    if (given.anew) fs::remove(state_path(options.folder));
+    const state from = begin(of, given);
+    options.blocks = of.blocks_for(from.first + given.count) - of.blocks_for(from.first);
+    const errbound::support::awaited_signals signals("soak: stopping; --resume goes on\n");
+    std::printf("%s, seed %ju: %s of %s %s done\n", of.name.c_str(), std::uintmax_t{from.seed},
+                grouped(questions_of(of, from)).c_str(),
+                grouped(questions_of(of, from.first, options.blocks)).c_str(), of.unit.c_str());
+    std::fflush(stdout);
+    state last;
+    {
+        progress_display display(of, from, options.blocks);
+        last = run(from, options, of, signals.arrived(), std::ref(display));
+    }
+    report(of, last, options.folder);
+    if (last.found.different > 0) return 1;
+    if (last.found.blocks < options.blocks) {
+        std::printf("stopped by signal %d; --resume goes on\n", signals.arrived().load());
+        return 3;
+    }
+    return 0;
+}
+
+}  // namespace
+}  // namespace soak
+
+int main(int argc, char** argv) try {
+    CLI::App app{"What is exact against a reference, or against itself."};
+    soak::command_line given;
+    given.part = [] {
+        auto deciders = soak::exact_deciders();
+        deciders.push_back(soak::unfiltered_integers());
+        return soak::comparison_part(soak::reference(), std::move(deciders));
+    };
+    soak::add_options(app, given);
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::ParseError& error) {
+        return app.exit(error) == 0 ? 0 : 2;
+    }
+    return soak::run_part(given);
+} catch (const std::exception& error) {
+    std::fprintf(stderr, "soak: %s\n", error.what());
+    return 1;
+}
