@@ -169,13 +169,13 @@ class obj_parser {
     /// Adds an edge for each point that no element has yet.
     void add_points() {
         if (points_.empty()) return;
-        std::vector<bool> is_alone(result_.vertices.size());
+        std::vector<bool> is_unused(result_.vertices.size());
         for (const vertex_index v :
              unused_vertices(result_.faces, result_.edges, result_.vertices.size()))
-            is_alone[v] = true;
+            is_unused[v] = true;
         for (const auto& [v] : points_) {
-            if (is_alone[v]) result_.edges.push_back({v, v});
-            is_alone[v] = false;
+            if (is_unused[v]) result_.edges.push_back({v, v});
+            is_unused[v] = false;
         }
     }
 

@@ -65,7 +65,8 @@ class header_parser {
     header_parser(std::string_view& text, const std::string& name) : text_(text), name_(name) {}
 
     header parse() {
-        // If CR alone ends the first line, it ends all: a LF after the last is of a binary body.
+        // If CR alone ends the first line, it ends all: a LF after the last one belongs to a binary
+        // body.
         const std::size_t first_end = text_.find_first_of("\r\n");
         if (first_end != std::string_view::npos && !text_.substr(first_end).starts_with("\r\n"))
             line_end_ = text_[first_end];
@@ -94,7 +95,7 @@ class header_parser {
         }
         if (!has_format) fail("found no format line before end_header, expected one");
         for (const element& e : header_.elements)
-            // Elements without data would let a count alone keep the reader busy.
+            // Elements without data would let a mere count keep the reader busy.
             if (e.properties.empty() && e.count > 0)
                 throw errbound::support::file_error(name_ + ": found no properties in element " +
                                                     excerpt(e.name) + ", expected at least one");

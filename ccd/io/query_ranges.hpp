@@ -32,7 +32,7 @@ struct query_index {
 /// errbound::support::file_error unless the file can be read in parts.
 query_index index_queries(const std::filesystem::path& path, std::size_t queries_of_a_range);
 
-/// The truth that may lie beside a file of queries, as read_queries has it.
+/// The truth that may lie next to a file of queries (read_queries).
 class truth_file {
   public:
     /// Reads it, if there is one. Throws errbound::support::file_error.

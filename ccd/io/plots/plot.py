@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Draws a report's pictures from the CSV files beside this script, as PNG and SVG.
+"""Draws a report's pictures from the CSV files in this script's folder, as PNG and SVG.
 
     python3 plot.py
 
@@ -363,9 +363,9 @@ def contacts(rows):
     kinds.set_title("Times of contacts")
     kinds.set_xlim(0, 1)
     kinds.set_xlabel("share of contacts")
-    asked = (("ns_batch_", "s", "in batches"), ("ns_", "o", "one by one"),
-             ("ns_contact_", "d", "one by one, of contacts alone"))
-    for (prefix, mark, label), colour in zip(asked, COLOURS[3:]):
+    requests = (("ns_batch_", "s", "in batches"), ("ns_", "o", "one by one"),
+                ("ns_contact_", "d", "one by one, only contacts"))
+    for (prefix, mark, label), colour in zip(requests, COLOURS[3:]):
         costs.plot([r[prefix + "time"] / r[prefix + "decision"] for r in rows], range(len(rows)),
                    mark, ms=5, color=colour, mec="white", mew=0.6, label=label)
     costs.axvline(1, color=INK, lw=0.7)

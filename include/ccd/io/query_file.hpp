@@ -1,5 +1,5 @@
 // Readers of stored queries (target errbound::ccd_io): the public CCD benchmark's CSV form, decimal
-// and hexadecimal-float rows, and truth beside a file. Lines end in LF, CRLF or CR; a byte order
+// and hexadecimal-float rows, and truth next to a file. Lines end in LF, CRLF or CR; a byte order
 // mark of UTF-8 is skipped, UTF-16 refused.
 #pragma once
 

@@ -342,7 +342,7 @@ const std::vector<difference> differences{
      {body, "element vertices 1\nproperty float x\n" + body + "0\n"}},
 };
 
-/// The text with line feeds in place of carriage returns that end the header's lines alone.
+/// The text with line feeds in place of carriage returns without line feeds in the header.
 std::string with_line_feeds(std::string_view text) {
     std::string result(text);
     const std::size_t first = text.find_first_of("\r\n");
@@ -357,7 +357,7 @@ std::string with_line_feeds(std::string_view text) {
 
 const std::vector<rewriting> rewritings{
     {"a byte order mark is no part of ply", without_byte_order_mark, {"ply", "\xef\xbb\xbfply"}},
-    {"a carriage return alone ends no line",
+    {"a carriage return without line feed ends no line",
      with_line_feeds,
      {plain,
       "ply\rformat ascii 1.0\relement vertex 3\rproperty float x\rproperty float y\r"
