@@ -2,7 +2,7 @@
 # Functions for ./run and its scripts, which source this file: errors, headings, packages.
 
 build_packages=(g++ cmake ninja-build libboost-dev libgmp-dev libhdf5-dev libmpfr-dev libcli11-dev
-    nlohmann-json3-dev libtbb-dev libxsimd-dev zlib1g-dev)
+    nlohmann-json3-dev libtbb-dev libxsimd-dev)
 test_packages=(libgtest-dev librapidcheck-dev libeigen3-dev libflint-dev python3 libopenmpi-dev
     openmpi-bin pkg-config)
 python_packages=(python3 python3-dev python3-venv)

@@ -8,7 +8,6 @@
 #include <ccd/batch.hpp>
 #include <ccd/contact.hpp>
 #include <ccd/exact.hpp>
-#include <ccd/first_times.hpp>
 #include <ccd/method.hpp>
 #include <ccd/methods/bsc.hpp>
 #include <cmath>

@@ -5,10 +5,8 @@
 #include <ccd/advance.hpp>
 #include <ccd/batch.hpp>
 #include <ccd/contact.hpp>
-#include <ccd/contact_data.hpp>
 #include <ccd/kind.hpp>
 #include <ccd/methods/transform.hpp>
-#include <ccd/separation.hpp>
 #include <cstddef>
 #include <functional>
 #include <span>
