@@ -5,6 +5,7 @@
 #include <errbound/validation/validation.hpp>
 #include <iterator>
 #include <map>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -44,18 +45,14 @@ std::string text_of(const Query& query) {
     return text;
 }
 
-void check(const rule& r, const ccd::vertex_face<double>& query, shadow_session& session) {
-    r.check_vertex_face(query, session);
-}
-void check(const rule& r, const ccd::edge_edge<double>& query, shadow_session& session) {
-    r.check_edge_edge(query, session);
-}
-
 template <class Query>
 void check(const rule& r, const Query& query, std::uint64_t index, tally& to) {
     for (const mpfr_prec_t precision : precisions) {
         shadow_session session(precision);
-        check(r, query, session);
+        if constexpr (std::is_same_v<Query, ccd::vertex_face<double>>)
+            r.check_vertex_face(query, session);
+        else
+            r.check_edge_edge(query, session);
         if (session.undetermined() > 0 && precision != precisions.back()) continue;
         ++to.counts.cases;
         to.counts.values += session.values();
@@ -94,8 +91,10 @@ report report_of(std::span<const rule> rules, std::span<const Query> queries,
     return result;
 }
 
+}  // namespace
+
 template <class Query>
-evidence evidence_of(std::span<const rule> rules, std::span<const Query> queries) {
+evidence evidence_of_queries(std::span<const rule> rules, std::span<const Query> queries) {
     const chunks c(queries.size(), least_chunk);
     return with_mpfr(
         {.chunks = c.count(),
@@ -105,27 +104,9 @@ evidence evidence_of(std::span<const rule> rules, std::span<const Query> queries
              },
          .tell = [](report&) {}});
 }
-
-}  // namespace
-
-evidence evidence_of_queries(std::span<const rule> rules,
-                             std::span<const ccd::vertex_face<double>> queries) {
-    return evidence_of(rules, queries);
-}
-evidence evidence_of_queries(std::span<const rule> rules,
-                             std::span<const ccd::edge_edge<double>> queries) {
-    return evidence_of(rules, queries);
-}
-
-report validate_queries(std::span<const rule> rules,
-                        std::span<const ccd::vertex_face<double>> queries, int threads,
-                        const progress& show) {
-    return examine(evidence_of(rules, queries), threads, show);
-}
-report validate_queries(std::span<const rule> rules,
-                        std::span<const ccd::edge_edge<double>> queries, int threads,
-                        const progress& show) {
-    return examine(evidence_of(rules, queries), threads, show);
-}
+template evidence evidence_of_queries(std::span<const rule>,
+                                      std::span<const ccd::vertex_face<double>>);
+template evidence evidence_of_queries(std::span<const rule>,
+                                      std::span<const ccd::edge_edge<double>>);
 
 }  // namespace errbound::validation

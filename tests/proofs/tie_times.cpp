@@ -61,19 +61,13 @@ void put_times(hash& h, const Query& query, int k) {
     put_part(h, query, k);
     put(h, first_contact_in_integers(query));
 }
-ccd::vertex_edge<double> vertex_edge_of(const drawn_query& q) {
-    return {q.moving(0), q.moving(1), q.moving(2)};
-}
-void put_fewer(hash& h, const drawn_query& q) {
-    put(h, first_contact_in_integers(vertex_edge_of(q)));
-    put(h, first_contact_in_integers(ccd::vertex_vertex<double>{q.moving(0), q.moving(1)}));
+void put_smaller(hash& h, const drawn_query& q) {
+    tie::with_smaller_queries(
+        q, [&h](const auto& query) { put(h, first_contact_in_integers(query)); });
 }
 void put_times(hash& h, const drawn_query& q, int k) {
-    if (q.edges)
-        put_times(h, q.as<ccd::edge_edge<double>>(), k);
-    else
-        put_times(h, q.as<ccd::vertex_face<double>>(), k);
-    put_fewer(h, q);
+    tie::with_query(q, [&](const auto& query) { put_times(h, query, k); });
+    put_smaller(h, q);
 }
 
 /// Whatever the extents are.
@@ -91,11 +85,8 @@ void put_wide(hash& h, const Query& query) {
 }
 void put_wide(hash& h, const drawn_query& q) {
     if (!std::all_of(q.x.begin(), q.x.end(), [](double x) { return std::isfinite(x); })) return;
-    if (q.edges)
-        put_wide(h, q.as<ccd::edge_edge<double>>());
-    else
-        put_wide(h, q.as<ccd::vertex_face<double>>());
-    put_fewer(h, q);
+    tie::with_query(q, [&h](const auto& query) { put_wide(h, query); });
+    put_smaller(h, q);
 }
 
 /// Where doubles hold the query: its points from one of them on.
@@ -183,10 +174,11 @@ std::vector<tie::line> all_lines() {
     lines.push_back(line_of(
         "times forms", 4000, numbers, [](sequence& s) { return tie::whole_forms_maker(s).forms(); },
         put_of_forms));
-    lines.push_back(
-        {"times small", 2 * 6561 + 2401, [](hash& h, std::uint64_t k) {
-             put(h, first_contact_in_integers(vertex_edge_of(small_query(static_cast<int>(k)))));
-         }});
+    lines.push_back({"times small", 2 * 6561 + 2401, [](hash& h, std::uint64_t k) {
+                         const drawn_query q = small_query(static_cast<int>(k));
+                         put(h, first_contact_in_integers(ccd::vertex_edge<double>{
+                                    q.moving(0), q.moving(1), q.moving(2)}));
+                     }});
     lines.push_back(line_of("times search", 8000, numbers, tie::draw_search,
                             [](hash& h, const tie::drawn_search& s, int) { put_search(h, s); }));
     return lines;

@@ -68,6 +68,15 @@ struct drawn_forms {
         return quotient;
     }
 
+    /// Calls visit.operator()<Forms>().
+    template <class Visit>
+    void with_kind(const Visit& visit) const {
+        if (edges)
+            visit.template operator()<ccd::edge_edge_forms>();
+        else
+            visit.template operator()<ccd::vertex_face_forms>();
+    }
+
     /// In integers that `convert` makes of coordinates.
     template <template <class, int> class Forms, class Convert>
     auto as(const Convert& convert) const {

@@ -16,6 +16,21 @@
 
 namespace tie {
 
+/// Calls visit with the query of all four points.
+template <class Visit>
+void with_query(const drawn_query& q, const Visit& visit) {
+    if (q.edges)
+        visit(q.as<ccd::edge_edge<double>>());
+    else
+        visit(q.as<ccd::vertex_face<double>>());
+}
+/// Calls visit with the queries of the first three and of the first two points.
+template <class Visit>
+void with_smaller_queries(const drawn_query& q, const Visit& visit) {
+    visit(ccd::vertex_edge<double>{q.moving(0), q.moving(1), q.moving(2)});
+    visit(ccd::vertex_vertex<double>{q.moving(0), q.moving(1)});
+}
+
 class whole_query_maker {
   public:
     explicit whole_query_maker(sequence& s) : s_(s) {}

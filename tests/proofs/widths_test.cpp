@@ -61,12 +61,9 @@ void decide(const Query& query, int bits) {
 }
 template <int Words>
 void decide(const tie::drawn_query& q, int bits) {
-    if (q.edges)
-        decide<Words>(q.as<ccd::edge_edge<double>>(), bits);
-    else
-        decide<Words>(q.as<ccd::vertex_face<double>>(), bits);
-    decide<Words>(ccd::vertex_edge<double>{q.moving(0), q.moving(1), q.moving(2)}, bits);
-    decide<Words>(ccd::vertex_vertex<double>{q.moving(0), q.moving(1)}, bits);
+    const auto decide_one = [bits](const auto& query) { decide<Words>(query, bits); };
+    tie::with_query(q, decide_one);
+    tie::with_smaller_queries(q, decide_one);
 }
 
 template <int Words, template <class, int> class Forms>
@@ -128,10 +125,8 @@ void decide_all(int bits) {
         decide<Words>(tie::whole_query_maker(numbers).query(), bits);
     for (int k = 0; k < support::scaled(1000); ++k) {
         const auto f = tie::whole_forms_maker(numbers).forms();
-        if (f.edges)
-            decide_forms<Words, ccd::edge_edge_forms>(f, bits);
-        else
-            decide_forms<Words, ccd::vertex_face_forms>(f, bits);
+        f.with_kind(
+            [&]<template <class, int> class Forms>() { decide_forms<Words, Forms>(f, bits); });
     }
 }
 

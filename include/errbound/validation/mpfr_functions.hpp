@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <errbound/elementary.hpp>
 #include <string_view>
+#include <utility>
 
 namespace errbound::validation {
 
@@ -36,56 +37,19 @@ constexpr bool has_two_arguments(elementary_function f) {
     return f == elementary_function::pow || f == elementary_function::atan2;
 }
 
-/// Calls visit.operator()<F>() for the function.
+template <elementary_function F, class Visit>
+constexpr decltype(auto) call_with(const Visit& visit) {
+    return visit.template operator()<F>();
+}
+
+/// Returns `visit.operator()<F>()` for F = f.
 template <class Visit>
 constexpr decltype(auto) with_function(elementary_function f, const Visit& visit) {
-    using enum elementary_function;
-    switch (f) {
-        case exp:
-            return visit.template operator()<exp>();
-        case exp2:
-            return visit.template operator()<exp2>();
-        case expm1:
-            return visit.template operator()<expm1>();
-        case log:
-            return visit.template operator()<log>();
-        case log2:
-            return visit.template operator()<log2>();
-        case log10:
-            return visit.template operator()<log10>();
-        case log1p:
-            return visit.template operator()<log1p>();
-        case sin:
-            return visit.template operator()<sin>();
-        case cos:
-            return visit.template operator()<cos>();
-        case tan:
-            return visit.template operator()<tan>();
-        case asin:
-            return visit.template operator()<asin>();
-        case acos:
-            return visit.template operator()<acos>();
-        case atan:
-            return visit.template operator()<atan>();
-        case sinh:
-            return visit.template operator()<sinh>();
-        case cosh:
-            return visit.template operator()<cosh>();
-        case tanh:
-            return visit.template operator()<tanh>();
-        case asinh:
-            return visit.template operator()<asinh>();
-        case acosh:
-            return visit.template operator()<acosh>();
-        case atanh:
-            return visit.template operator()<atanh>();
-        case cbrt:
-            return visit.template operator()<cbrt>();
-        case pow:
-            return visit.template operator()<pow>();
-        default:
-            return visit.template operator()<atan2>();
+    return [&]<std::size_t... I>(std::index_sequence<I...>)->decltype(auto) {
+        constexpr std::array calls{&call_with<static_cast<elementary_function>(I), Visit>...};
+        return calls[static_cast<std::size_t>(f)](visit);
     }
+    (std::make_index_sequence<named_functions.size()>());
 }
 
 using mpfr_function = int (*)(mpfr_ptr, mpfr_srcptr, mpfr_rnd_t);

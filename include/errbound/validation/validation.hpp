@@ -133,16 +133,13 @@ evidence evidence_of_functions(const function_options& options);
 
 /// The forms of stored queries, and BSC on them, operation by operation, in double. The queries
 /// must outlive the evidence. Cost: about a millisecond per query and rule.
-evidence evidence_of_queries(std::span<const rule> rules,
-                             std::span<const ccd::vertex_face<double>> queries);
-evidence evidence_of_queries(std::span<const rule> rules,
-                             std::span<const ccd::edge_edge<double>> queries);
-report validate_queries(std::span<const rule> rules,
-                        std::span<const ccd::vertex_face<double>> queries, int threads,
-                        const progress& show = {});
-report validate_queries(std::span<const rule> rules,
-                        std::span<const ccd::edge_edge<double>> queries, int threads,
-                        const progress& show = {});
+template <class Query>
+evidence evidence_of_queries(std::span<const rule> rules, std::span<const Query> queries);
+template <class Query>
+report validate_queries(std::span<const rule> rules, std::span<const Query> queries, int threads,
+                        const progress& show = {}) {
+    return examine(evidence_of_queries(rules, queries), threads, show);
+}
 
 /// Every operation on every pair of numbers of formats of 6 to 8 bits, in every rounding direction
 /// that a rule promises; in 6 bits also with every pair of bounds. float8_e5m2 and float8_e4m3:

@@ -12,8 +12,7 @@
 #include <concepts>
 #include <cstdint>
 #include <errbound/error_free.hpp>
-#include <errbound/rules/affine.hpp>
-#include <errbound/rules/relative.hpp>
+#include <errbound/rules/derived.hpp>
 #include <errbound/tracked.hpp>
 #include <errbound/validation/rule_list.hpp>
 #include <errbound/validation/tiny_float.hpp>
@@ -45,41 +44,11 @@ std::string table_name() {
     return name.substr(0, name.find('<'));
 }
 
-/// The error that it is told, to ask the default sign_of.
-struct given_error {
-    static constexpr const char* name = "given error";
-    template <class T>
-    struct bound {
-        T error;
-    };
-    template <class T>
-    static bound<T> exact(const T&) {
-        return {T(0)};
-    }
+/// A rule with a given error and the default sign_of.
+struct given_error : errbound::derived_rule<given_error, errbound::tight> {
     template <class T>
     static bound<T> within(const T&, const T& error) {
         return {error};
-    }
-    template <class T>
-    static T error(const T&, const bound<T>& b) {
-        return b.error;
-    }
-    // A rule has these; nothing is asked of them.
-    template <class T>
-    static bound<T> add(const T&, auto, auto) {
-        return {};
-    }
-    template <class T>
-    static bound<T> subtract(const T&, auto, auto) {
-        return {};
-    }
-    template <class T>
-    static bound<T> multiply(const T&, auto, auto) {
-        return {};
-    }
-    template <class T>
-    static bound<T> scale(const T&, auto, int) {
-        return {};
     }
 };
 
@@ -144,26 +113,12 @@ struct format<F> {
     }
     static T number(sequence& numbers, bool with_sign) {
         constexpr std::uint64_t bias = limits::max_exponent - 1, p = limits::digits;
-        std::uint64_t exponent = 0;
-        switch (numbers.draw(8)) {
-            case 0:
-            case 1:
-            case 2:
-                exponent = bias - 2 + numbers.draw(5);
-                break;
-            case 3:
-            case 4:
-                exponent = bias - p - 2 + numbers.draw(5);
-                break;
-            case 5:
-                exponent = numbers.draw(4);
-                break;
-            case 6:
-                exponent = bias / 2 - p + numbers.draw(2 * p);
-                break;
-            default:
-                exponent = 2 * bias - numbers.draw(4);
-        }
+        const std::uint64_t kind = numbers.draw(8);
+        const std::uint64_t exponent = kind < 3    ? bias - 2 + numbers.draw(5)
+                                       : kind < 5  ? bias - p - 2 + numbers.draw(5)
+                                       : kind == 5 ? numbers.draw(4)
+                                       : kind == 6 ? bias / 2 - p + numbers.draw(2 * p)
+                                                   : 2 * bias - numbers.draw(4);
         const std::uint64_t sign = with_sign ? numbers.draw(2) : 0;
         const bool is_short = numbers.draw(4) == 0;
         constexpr int upper_bits = one_word ? 23 : 20;

@@ -61,20 +61,11 @@ class word_cases {
         const std::uint64_t kind = numbers.draw(8);
         const std::uint64_t upper = numbers.draw(std::uint64_t{1} << 32);
         const std::uint64_t lower = numbers.draw(std::uint64_t{1} << 32);
-        switch (kind) {
-            case 0:
-            case 1:
-                return 0;
-            case 2:
-            case 3:
-                return ~std::uint64_t{0};
-            case 4:
-                return 1;
-            case 5:
-                return std::uint64_t{1} << 63;
-            default:
-                return upper << 32 | lower;
-        }
+        return kind < 2    ? 0
+               : kind < 4  ? ~std::uint64_t{0}
+               : kind == 4 ? 1
+               : kind == 5 ? std::uint64_t{1} << 63
+                           : upper << 32 | lower;
     }
     static std::array<std::uint64_t, Words> words_of(const integer& x) {
         std::array<std::uint64_t, Words> all;

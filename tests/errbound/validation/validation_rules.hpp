@@ -16,24 +16,9 @@ using errbound::number_traits;
 using errbound::rule_operand;
 
 /// TightBound as the paper prints it: no term for underflow, none for the bound's own rounding.
-struct as_printed {
+struct as_printed : errbound::derived_rule<as_printed, errbound::tight> {
     static constexpr const char* name = "as_printed";
-    template <class T>
-    struct bound {
-        T error;
-    };
-    template <class T>
-    static constexpr bound<T> exact(const T& value) {
-        return {value - value};
-    }
-    template <class T>
-    static constexpr bound<T> within(const T& value, const T& error) {
-        return {error + (value - value)};
-    }
-    template <class T>
-    static constexpr T error(const T&, const bound<T>& b) {
-        return b.error;
-    }
+    static constexpr bool has_division = false;
     template <class T>
     static constexpr bound<T> add(const T& v, rule_operand<T, as_printed> a,
                                   rule_operand<T, as_printed> b) {
