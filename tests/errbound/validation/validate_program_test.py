@@ -155,7 +155,7 @@ class Validate(unittest.TestCase):
         file.write_text(HIT)
         for message, *arguments in (
                 ("found no command",), ("nothing", "nothing"),
-                ("--rules: found", "validate", "--rules", "loose"),
+                ("--rules is 'loose'", "validate", "--rules", "loose"),
                 ("--rules is 'tight,tight', with 'tight' twice", "validate", "--rules", "tight,tight"),
                 ("--expressions", "validate", "--expressions", "0"),
                 ("--operations", "validate", "--operations", "49"),
@@ -163,7 +163,7 @@ class Validate(unittest.TestCase):
                 ("--round: found without", "validate", "--round"),
                 ("", "validate", "--queries", file, "--json", file), ("", "validate", "--queries", "-", "-"),
                 ("--operations: found without", "validate", "--queries", file, "--operations", "3"),
-                ("--functions: found", "validate", "--functions", "erf"),
+                ("--functions is 'erf'", "validate", "--functions", "erf"),
                 ("--functions is 'exp,sin,exp', with 'exp' twice", "validate", "--functions", "exp,sin,exp"),
                 ("--functions: found --numbers", "validate", "--functions", "exp", "--numbers", "float16"),
                 ("--samples: found without --functions", "validate", "--samples", 10),
