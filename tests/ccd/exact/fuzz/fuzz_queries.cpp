@@ -1,11 +1,11 @@
-// Queries of all kinds: every way of asking `exact`, and what each method promises, against an
-// independent exact decision.
+// Compares every call of `exact` and the promises of each method with an independent exact
+// decision, on queries of all kinds.
 #include <array>
 #include <ccd/method.hpp>
 #include <string>
 #include <vector>
 
-#include "tests/soak/deciders.hpp"
+#include "tests/soak/parts.hpp"
 #include "tests/support/fuzz_numbers.hpp"
 #include "tests/support/oracle.hpp"
 #include "tests/support/query_families.hpp"
@@ -26,7 +26,8 @@ points reversed(points p) {
                query_families::csv(p));
 }
 
-/// Whether a method may answer so. Who may err on one side says there that it is uncertain.
+/// True if the method may give this answer. A method that may err on one side reports `uncertain`
+/// there.
 bool keeps_promise(const ccd::method_info& method, ccd::outcome said, bool truth) {
     if (method.may_lose_collisions)
         return truth || said == ccd::outcome::separate || method.may_report_false_collisions;
@@ -34,11 +35,11 @@ bool keeps_promise(const ccd::method_info& method, ccd::outcome said, bool truth
     return (said == ccd::outcome::collides) == truth;
 }
 
-/// The query and its way back in turn, so many in all, of the same vertices.
+/// `count` queries of the same vertices: the query and its reverse alternately.
 template <ccd::kind K>
-soak::questions<K> there_and_back(const points& p, std::size_t count) {
-    soak::questions<K> all;
-    constexpr std::size_t vertices = soak::questions<K>::point_count;
+soak::query_list<K> there_and_back(const points& p, std::size_t count) {
+    soak::query_list<K> all;
+    constexpr std::size_t vertices = soak::query_list<K>::point_count;
     for (const points& way : {p, reversed(p)})
         for (std::size_t i = 0; i < vertices; ++i) all.add_vertex(way[i]);
     for (std::size_t i = 0; i < count; ++i) {
@@ -52,11 +53,11 @@ soak::questions<K> there_and_back(const points& p, std::size_t count) {
 
 template <ccd::kind K>
 void check(const points& p, std::size_t copies) {
-    using query = typename soak::questions<K>::query;
+    using query = typename soak::query_list<K>::query;
     const query q = query_families::as_query<query>(p);
     const bool truth = oracle::collides(q);
     const ccd::outcome right = truth ? ccd::outcome::collides : ccd::outcome::separate;
-    const auto expect = [&](const soak::decider& d, const soak::questions<K>& asked) {
+    const auto expect = [&](const soak::decider& d, const soak::query_list<K>& asked) {
         std::vector<ccd::outcome> answers(asked.pairs.size(), static_cast<ccd::outcome>(255));
         d.decide.of<K>()(asked, answers);
         for (const ccd::outcome said : answers)
@@ -64,7 +65,7 @@ void check(const points& p, std::size_t copies) {
     };
     static const std::vector<soak::decider> exact = soak::exact_deciders();
     static const std::array slow{soak::reference(), soak::unfiltered_integers()};
-    const soak::questions<K> one = there_and_back<K>(p, 1), many = there_and_back<K>(p, copies);
+    const soak::query_list<K> one = there_and_back<K>(p, 1), many = there_and_back<K>(p, copies);
     for (const soak::decider& d : slow) expect(d, one);
     for (const soak::decider& d : exact) expect(d, many);
     if constexpr (requires { ccd::decide(ccd::method::exact, q); })
@@ -81,7 +82,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     fuzz::numbers from(data, size);
     const auto which = static_cast<ccd::kind>(from.below(4));
     const std::size_t copies = 1 + from.below(17);
-    // In the order of coordinates, so that copies of earlier ones are of the same axis.
+    // Axis by axis, so that the input's copies of earlier numbers stay on one axis.
     points p{};
     for (const auto axis : {&ccd::point<double>::x, &ccd::point<double>::y, &ccd::point<double>::z})
         for (auto& m : p) {
