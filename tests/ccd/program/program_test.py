@@ -210,8 +210,8 @@ class Query(ProgramTest):
         out.parent.mkdir()
         (self.directory / "link").symlink_to(out.parent)
         for name in os.path.relpath(out), self.directory / "link" / "out", out.parent / ".." / "folder" / "out":
-            self.assertIn("twice", self.bad_usage("query", file, "--method", "exact", "--verdicts", out,
-                                                  "--json", name))
+            self.assertIn("is also an input or another output",
+                          self.bad_usage("query", file, "--method", "exact", "--verdicts", out, "--json", name))
             self.assertFalse(out.exists())
 
     def test_bad_usage(self):
@@ -540,7 +540,7 @@ class Device(ProgramTest):
                       self.bad_usage("query", file, "--precision", "float32"))
         frames = [self.write("0.ply", ply(BEFORE, FACES)), self.write("1.ply", ply(AFTER, FACES))]
         if self.device() is None:
-            self.assertIn("found 'provot' with --device cuda",
+            self.assertIn("--method is 'provot' with --device cuda",
                           self.bad_usage("query", file, "--device", "cuda", "--method", "provot"))
             self.bad_usage("step", *frames, "--device", "cuda", "--explain")
             self.bad_usage("step", *frames, "--device", "cuda", "--threads", "2")
