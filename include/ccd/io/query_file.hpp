@@ -51,7 +51,7 @@ query_file parse_stored_queries(std::string_view bytes, const std::string& name,
 /// A range of a file's queries: at most `count`, from query `first` on.
 struct file_range {
     std::uint64_t first = 0;
-    std::uint64_t count = std::numeric_limits<std::uint64_t>::max();
+    std::uint64_t count = (std::numeric_limits<std::uint64_t>::max)();
 };
 
 /// Reads a file, and truth from its column or from `../mma_bool/NAME_mma_bool.json` next to it. The
