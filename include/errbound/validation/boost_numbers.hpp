@@ -8,7 +8,7 @@
 
 namespace errbound::validation {
 
-/// Calls f.operator()<T>() for the type, in MPFR's exponent range. Precondition: is_boost(type).
+/// Calls `f.operator()<T>()` for the type, in MPFR's exponent range. Precondition: is_boost(type).
 template <class F>
 decltype(auto) with_boost_number_type(number_type type, const F& f) {
     const exponents range = exponents::initial();

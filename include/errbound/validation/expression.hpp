@@ -165,7 +165,7 @@ constexpr bool is_boost(number_type type) {
     return type == number_type::cpp_bin_float_type || type == number_type::mpfr_float_type;
 }
 
-/// Calls f.operator()<T>() for the type. Precondition: among number_types and !is_boost(type).
+/// Calls `f.operator()<T>()` for the type. Precondition: among number_types and !is_boost(type).
 template <class F>
 constexpr decltype(auto) with_number_type(number_type type, const F& f) {
     switch (type) {
