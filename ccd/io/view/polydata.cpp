@@ -78,7 +78,7 @@ class participation {
         key.fill(last);
         std::ranges::copy(vertices, key.begin());
         std::ranges::sort(key);
-        std::ranges::fill(std::ranges::unique(key), last);
+        std::fill(std::unique(key.begin(), key.end()), key.end(), last);
         return key;
     }
 
