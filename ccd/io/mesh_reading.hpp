@@ -1,4 +1,4 @@
-// What the readers of OBJ and PLY share: checks of elements, and shares of a file.
+// Shared by the readers of OBJ and PLY: checks of elements, and shares of a file.
 #pragma once
 
 #include <ccd/io/mesh_file.hpp>

@@ -195,7 +195,7 @@ void load_scene(const data_source& source, int threads, data_set& into, std::str
 
 // ---- Stored queries ----
 
-/// Of each query, -1 for none.
+/// One truth per query; -1 if none is stored.
 template <class Query>
 using stored_truths = std::vector<signed char>;
 

@@ -48,7 +48,7 @@ struct queries_with_truth {
     std::vector<unsigned char> collides;  ///< the truth of each, 0 or 1
     std::size_t colliding = 0;
     std::size_t stored_truths = 0;  ///< taken from files, or compared with them
-    /// Of a scene's stored truths, those that `exact` contradicts, and collisions that they lack.
+    /// The stored truths of a scene that `exact` contradicts, plus collisions that they lack.
     std::size_t contradictions = 0;
 };
 

@@ -152,7 +152,7 @@ std::string tightness(const report_summary& report) {
            table(lines, columns, columns, 2);
 }
 
-/// By `exact`: brackets, then costs.
+/// Tables of the times of `exact`: brackets, then costs.
 std::string first_contacts(const report_summary& report) {
     rows all = table_of(report, "contacts");
     if (all.empty()) return "";

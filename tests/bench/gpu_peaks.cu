@@ -1,4 +1,4 @@
-// What the device can do at most, as measured: copies, and products and sums that are not fused.
+// Measured peaks of the device: copies, and products and sums that are not fused.
 #include <cuda_runtime.h>
 
 #include <algorithm>

@@ -220,7 +220,7 @@ TEST(Conversions, WhatOverflowsOrUnderflowsIsNotCertain) {
 template <class Number>
 Number any_constant(std::mt19937_64& random) {
     if constexpr (std::integral<Number>)
-        // Of any length, some with zeros at the end.
+        // Integers of any length, some with trailing zeros.
         return static_cast<Number>(static_cast<Number>(random()) >> random() % (8 * sizeof(Number))
                                                                         << random() % 4);
     else

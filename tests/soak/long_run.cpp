@@ -62,7 +62,7 @@ class comparing_threads {
         std::unique_lock lock(mutex_);
         return finished_.wait_for(lock, time, [&] { return working_ == 0; });
     }
-    /// Of all blocks before the first that is missing.
+    /// Results of all blocks before the first that is missing.
     findings found() {
         const std::scoped_lock lock(mutex_);
         return sum_;

@@ -222,7 +222,7 @@ class packer final : public query_packer {
     hsize_t query_chunk_ = 0;  ///< rows of a chunk of queries and truth
     std::uint64_t size_ = 0;
     std::vector<std::uint64_t> first_point_{0};  ///< of each chunk, and their number
-    // Of the chunk that is being collected:
+    // State of the chunk that is being collected:
     std::vector<point_row> points_;
     std::vector<query_row> queries_;
     std::vector<std::uint8_t> truth_;

@@ -25,7 +25,7 @@ constexpr T two_thirds_power(const T& x) {
     return traits::scale(root * root, 2 * third);
 }
 
-/// What counts as too close to tell, from each variable's own bound.
+/// The thresholds below which nothing is certain, from each variable's own bound.
 template <class T, class Rule>
 struct tolerances {
     using scalar = errbound::tracked<T, Rule>;
@@ -51,7 +51,7 @@ struct tolerances {
 
     /// The time t, or all of [t − w, t + w].
     static constexpr scalar time(T t, T w) { return scalar::within(t, w); }
-    /// What the inside forms may change by within w, beside what time(t, w) says.
+    /// The largest change of the inside forms within w, beyond the interval of time(t, w).
     static constexpr T drift(T) { return 0; }
 
     /// ν for the bound μ of |f| and edges at least `length` long: minimises μ/ν + r.
@@ -64,9 +64,9 @@ struct tolerances {
     static constexpr T known_length(T length) { return length; }
 };
 
-/// What counts as too close to tell, from one bound B on all coordinate differences during the step
-/// and the bound V on displacements: Wang 2014, with e = ε + 2σ/B where coordinates are known to
-/// within σ.
+/// The thresholds below which nothing is certain, from one bound B on all coordinate differences
+/// during the step and the bound V on displacements: Wang 2014, with e = ε + 2σ/B where coordinates
+/// are known to within σ.
 template <class T>
 struct tolerances<T, errbound::safe> {
     using scalar = errbound::tracked<T, errbound::safe>;

@@ -35,7 +35,7 @@
 
 namespace ccd::study {
 
-/// What a rule said of queries, and what that cost.
+/// The decisions under one rule, and their cost.
 struct rule_row {
     std::string rule, number;  ///< number: "double" or "float"
     bool promises = false;     ///< promises_bound of the rule
@@ -45,7 +45,7 @@ struct rule_row {
     std::size_t wrong = 0;    ///< `separate` or `collides` that is not the truth
     double ns_per_query = 0;  ///< on one thread, the least of the passes
 
-    /// Whether the rule promises that certain signs are right, and they were not.
+    /// True if the rule promises that certain signs are right, and some were not.
     bool is_broken() const { return promises && wrong > 0; }
 };
 

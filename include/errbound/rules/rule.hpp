@@ -208,6 +208,7 @@ struct rule_check {
 //   holds_without_subnormals                true if sums may underflow (no gradual underflow)
 //   error_is                                error_meaning::estimate or nothing
 //   claimed_rate                            the probability that an estimate claims to hold
+
 /// True if Rule is a bound rule for T, with the members in the table above. Soundness needs a
 /// proof; see also errbound/validation.
 template <class Rule, class T = double>

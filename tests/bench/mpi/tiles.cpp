@@ -149,7 +149,7 @@ struct rank_row {
     std::size_t memory = 0;
 };
 
-/// By ccd::step of the whole mesh.
+/// The same step by ccd::step on the whole mesh.
 std::uint64_t hash_of_whole(const tiles& all) {
     std::vector<ccd::point<double>> before, after;
     for (vertex_number v = 0; v < all.vertices(); ++v) {

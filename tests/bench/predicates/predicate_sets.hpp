@@ -1,4 +1,4 @@
-// What benchmarks of predicates share: the expressions in their plain form, and sets of inputs.
+// Shared by the benchmarks of predicates: the expressions in their plain form, and sets of inputs.
 #pragma once
 
 #include <array>

@@ -1,5 +1,5 @@
-// What each operation costs under each bound rule, and where errors are explained, beside plain
-// double and the intervals of other libraries: what is installed of Boost.Interval, MPFI and arb.
+// The cost of each operation under each bound rule, and of explained errors, next to plain double
+// and to the intervals of Boost.Interval, MPFI and arb, if they are installed.
 #include <cstdio>
 #include <errbound/functions.hpp>
 #include <errbound/validation/rule_list.hpp>

@@ -15,7 +15,7 @@ namespace {
 
 using ccd::io::query_file;
 
-/// What `parse` returns, or nothing for a file_error.
+/// Returns the result of `parse`, or nothing for a file_error.
 template <class Parse>
 auto read_by(const Parse& parse) -> std::optional<decltype(parse())> {
     try {
