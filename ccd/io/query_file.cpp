@@ -99,13 +99,16 @@ class query_parser {
     }
 
     double coordinate(const columns& row, std::size_t axis) const {
-        const std::string name(1, "xyz"[axis]);
+        const char name = "xyz"[axis];
         if (!is_rational()) {
             const std::string_view token = row.values[axis];
-            return checked(parse_double(token, round_), excerpt(token) + " as " + name);
+            const number result = parse_double(token, round_);
+            if (result.status == number_status::ok) return result.value;
+            fail_at_number(result.status, excerpt(token) + " as " + name);
         }
         const std::string_view n = row.values[2 * axis], d = row.values[2 * axis + 1];
         const number result = parse_quotient(n, d, round_);
+        if (result.status == number_status::ok) return result.value;
         if (result.status == number_status::malformed) {
             const bool n_is_wrong = parse_quotient(n, "1", true).status == result.status;
             lines_.fail("found " + excerpt(n_is_wrong ? n : d) + " as the " +
@@ -113,13 +116,13 @@ class query_parser {
                         ", expected an integer");
         }
         // Each side has its own quotes, so that a long one does not hide the other.
-        return checked(result, excerpt(n) + "/" + excerpt(d) + " as " + name);
+        fail_at_number(result.status, excerpt(n) + "/" + excerpt(d) + " as " + name);
     }
 
-    double checked(const number& result, const std::string& found) const {
-        if (result.status == number_status::ok) return result.value;
-        lines_.fail(describe(result.status, found) +
-                    (result.status == number_status::inexact ? " (or --round)" : ""));
+    /// `found` names the number. Callers build it only for an error: it costs more than parsing.
+    [[noreturn]] void fail_at_number(number_status status, const std::string& found) const {
+        lines_.fail(describe(status, found) +
+                    (status == number_status::inexact ? " (or --round)" : ""));
     }
 
     void read_truth(std::string_view token) {
