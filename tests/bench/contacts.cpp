@@ -77,7 +77,8 @@ double mean_edge(const ccd::mesh& m) {
     return sum / (3 * static_cast<double>(m.faces.size()));
 }
 
-/// All candidates in batches: yes or no, also with the first times, and within a distance.
+/// Decides all candidates in batches: only the answers, answers with first times, and answers for a
+/// distance.
 template <class Query>
 void add_batch_rows(const query_set<Query>& set, double distance, const options& o,
                     std::vector<std::vector<cell>>& rows) {

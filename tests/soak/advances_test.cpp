@@ -1,5 +1,5 @@
-// The soak of advances detects a contact on the way, a distance that is not kept, a pair that is
-// not reported, and a step that stops early.
+// The soak of advances detects a contact on the way, a violated distance, a missing pair, and a
+// step that stops early.
 #include <gtest/gtest.h>
 
 #include <algorithm>

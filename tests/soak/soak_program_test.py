@@ -42,7 +42,7 @@ class StopAndResume(unittest.TestCase):
         for sent in [signal.SIGINT, signal.SIGTERM] * 50:
             command = self.command("parts", queries, *options, *more)
             part = subprocess.Popen(command, stdout=subprocess.PIPE, text=True)
-            part.stdout.readline()  # only then has it started
+            part.stdout.readline()  # wait for the start
             time.sleep(0.1)
             part.send_signal(sent)
             text = part.stdout.read()
