@@ -58,8 +58,8 @@ class Mutant:
         self.line_number = text.count("\n", 0, start) + 1
         before = text[text.rfind("\n", 0, start) + 1:start]
         nth = before.count(text[start:end]) + 1
-        self.change = (f"{text.split(chr(10))[self.line_number - 1].strip()} | {text[start:end]} -> {new}" +
-                       (f" ({nth})" if nth > 1 else ""))
+        line = re.sub(r"//.*", "", text.split("\n")[self.line_number - 1]).strip()
+        self.change = f"{line} | {text[start:end]} -> {new}" + (f" ({nth})" if nth > 1 else "")
 
     def by_number(self, number):
         (start, end, _), *_ = self.changes

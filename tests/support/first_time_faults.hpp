@@ -1,5 +1,5 @@
-// Whether a first time is right, by the oracle: a bracket is two yes/no questions, without any
-// number but its ends.
+// Checks first times by the oracle. A bracket is right if two yes/no questions have the right
+// answers; no number except its ends is used.
 #pragma once
 
 #include <algorithm>
@@ -11,10 +11,10 @@
 
 namespace support {
 
-/// What is wrong with `claimed`, as the first time in [0, t_max] at which something holds, or
-/// nothing; `holds(interval)` says whether it does at a time in the interval. Times of contact and
-/// of closeness are closed intervals, so the first is before `high`, or at it, exactly if it holds
-/// in an interval that ends there.
+/// Returns the fault of `claimed` as the first time in [0, t_max] at which a property holds, or "".
+/// `holds(interval)` is true if it holds at a time in the interval. Times of contact and of
+/// closeness are closed intervals. So the first time is at most `high` if and only if the property
+/// holds in an interval that ends there.
 template <class Holds>
 std::string fault_of(const ccd::first_time& claimed, double t_max, const Holds& holds) {
     const double last = std::min(t_max, 1.0), low = claimed.low, high = claimed.high;
@@ -31,7 +31,7 @@ std::string fault_of(const ccd::first_time& claimed, double t_max, const Holds& 
     return holds(oracle::interval{low, high, false, false}) ? "" : "it does not hold between";
 }
 
-/// The same of an answer of time_of_impact.
+/// Checks a result of time_of_impact.
 template <class Query>
 std::string fault_of(const Query& query, const ccd::first_time& claimed, double t_max = 1) {
     return fault_of(claimed, t_max, [&](const oracle::interval& when) {
@@ -39,7 +39,7 @@ std::string fault_of(const Query& query, const ccd::first_time& claimed, double 
     });
 }
 
-/// And of time_within.
+/// Checks a result of time_within.
 template <class Query>
 std::string fault_of(const Query& query, ccd::separation d, const ccd::first_time& claimed,
                      double t_max = 1) {

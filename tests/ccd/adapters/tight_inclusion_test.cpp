@@ -1,4 +1,5 @@
-// Calls of Tight-Inclusion's shape: by hand, and against the oracle on all families of queries.
+// The adapter for Tight-Inclusion, in cases made by hand and compared with the oracle on all
+// families of queries.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -23,7 +24,7 @@ namespace adapter = ccd::adapters::tight_inclusion;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-// Each call is one of theirs, but for the type of the method.
+// Each call has the original's type, except for the type of the method.
 [[maybe_unused]] ticcd::call<double, adapter::CCDRootFindingMethod>* const calls_in_double[] = {
     adapter::vertexFaceCCD, adapter::edgeEdgeCCD};
 [[maybe_unused]] ticcd::call<float, adapter::CCDRootFindingMethod>* const calls_in_float[] = {
@@ -95,10 +96,10 @@ TEST(calls, take_expressions_and_defaults) {
     EXPECT_EQ(output_tolerance, 1e-6);
 }
 TEST(calls, keep_the_box_of_a_minimum_separation_free) {
-    // The half diagonal of a box of 0.5 is 0.866.
+    // A box of half width 0.5 has a half diagonal of 0.866.
     const double toi = ask(onto_face, 0.5).toi;
     EXPECT_NEAR(toi, (1 - std::sqrt(0.75)) / 4, 1e-15);
-    // A vertex that passes the corner of a box around another, on its diagonal.
+    // A vertex that passes a corner of the box around another vertex, on its diagonal.
     const auto passing = [](double offset) {
         const ccd::moving_point<double> v{{offset, offset, 5}, {offset, offset, -5}};
         const auto f = still({0, 0, 0});
@@ -135,7 +136,7 @@ TEST(calls, in_float_round_times_down) {
     EXPECT_EQ(ask<float>(query, 0, a.toi).collides, false);
 }
 
-/// The ball holds the box, and is at most two last places larger.
+/// The ball contains the box and is at most two last places larger.
 TEST(calls, ask_for_the_ball_around_the_box) {
     std::mt19937_64 random(18);
     const auto check = [](double ms) {
@@ -159,7 +160,7 @@ std::string fault(const Query& query, T ms, T t_max, const answer<T>& a) {
                                  t_max);
 }
 
-/// A query's coordinates as floats, where that leaves them finite.
+/// A query with coordinates rounded to floats, unless that overflows.
 template <class Query>
 Query in_float(const Query& query) {
     return ccd::transformed(query, [](double x) {
@@ -168,7 +169,7 @@ Query in_float(const Query& query) {
     });
 }
 
-/// check(query, what it is) for vertex/face and edge/edge queries of all families.
+/// Calls check(query, text) for vertex/face and edge/edge queries of all families.
 template <class Check>
 void for_some_queries(int per_family, std::uint64_t seed, const Check& check) {
     query_families::for_some_queries(support::scaled(static_cast<std::uint64_t>(per_family)), seed,

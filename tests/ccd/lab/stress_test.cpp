@@ -1,4 +1,4 @@
-// The families of `ccd stress` have the properties that they promise; the run finds wrong answers.
+// The families of `ccd stress` have their promised properties, and the run finds wrong answers.
 #include "ccd/lab/stress.hpp"
 
 #include <gtest/gtest.h>
@@ -42,7 +42,7 @@ bool collides(kind which, const points& p) {
     });
 }
 
-/// test(kind, points) for some queries of both kinds.
+/// Calls test(kind, points) for some queries of both kinds.
 template <class Test>
 void for_queries(std::string_view family, double knob, const Test& test) {
     for (const kind which : ccd::stored_kinds) {
@@ -86,7 +86,7 @@ TEST(families, are_finite_where_they_say_so) {
     }
 }
 
-/// Where the knob leaves queries on both sides of the decision, both are there.
+/// If the knob leaves queries on both sides of the decision, the family has both.
 TEST(families, hold_collisions_and_misses) {
     for (const lab::family& f : lab::families()) {
         if (!f.finite) continue;
@@ -103,8 +103,8 @@ TEST(families, hold_collisions_and_misses) {
     }
 }
 
-/// The same on every machine, and as when their properties were checked: the bits of some queries
-/// of every cell, as one number.
+/// The bits of some queries of every cell, as one number: they do not depend on the machine, and
+/// have not changed since their properties were checked.
 TEST(families, are_the_same_everywhere) {
     std::uint64_t hash = 0xcbf29ce484222325;
     for (const lab::family& f : lab::families()) {
@@ -241,10 +241,10 @@ TEST(stress_run, no_promise_is_broken) {
         if (plan.subjects[c.subject].name == "float") by_float += c.wrong_certain;
     }
     EXPECT_GT(collisions, 0u);
-    EXPECT_GT(by_float, 0u);  // so hard are they
+    EXPECT_GT(by_float, 0u);  // because they are so hard
 }
 
-// ---- What is printed and written ----
+// ---- Output ----
 
 class stress_output : public testing::Test {
   protected:

@@ -1,4 +1,4 @@
-// Compares every call of `exact` and the promises of each method with an independent exact
+// Compares every function of `exact` and the promises of each method with an independent exact
 // decision, on queries of all kinds.
 #include <array>
 #include <ccd/method.hpp>
