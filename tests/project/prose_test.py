@@ -52,7 +52,7 @@ def of_python(text):
 
 
 def of_scripts(text):
-    """Blocks of comment lines."""
+    """Returns blocks of comment lines."""
     return re.findall(r"(?:^ *# ?.*\n?)+", text, re.MULTILINE)
 
 
@@ -75,7 +75,7 @@ def sentences(block):
 
 
 def broken(path, text):
-    """Pairs of rule and sentence."""
+    """Yields pairs of a broken rule and its sentence."""
     for block in READERS[path.suffix](text):
         for sentence in sentences(block):
             if OPENINGS.match(sentence):

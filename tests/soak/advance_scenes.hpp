@@ -66,8 +66,8 @@ struct advance_check {
 /// - Lists of pairs at the start are complete, and the earliest contact is right.
 /// - No other pair is in contact, or within its distance, on the way to the positions.
 /// - Positions agree with the fractions.
-/// - A vertex that does not move all the way has a contact that stops it, of its group or of a
-///   group near enough to be joined with it.
+/// - A contact stops every vertex that does not move all the way. It is one
+///   of the vertex's group, or of a group near enough to be joined with it.
 ///
 /// The caller checks `is_short`, which gaps of a few last places excuse.
 advance_check check(const advance_scene& scene, const ccd::advance_result& result);

@@ -1,4 +1,4 @@
-"""The soak program as a person uses it: stopped by signals, resumed, same report as in one go.
+"""The soak program as users run it: stopped by signals and resumed, with the report of an uninterrupted run.
 
     SOAK_PROGRAM=build/tests/soak/errbound_soak python3 soak_program_test.py
 """

@@ -45,7 +45,7 @@ std::vector<double> thicknesses() {
     return all;
 }
 
-/// Single calls, without the filters of batches.
+/// Results of single calls, without the earlier decision that batches make.
 template <class Pair>
 std::vector<first_time> one_by_one(const ccd::vertex_rows& rows, const std::vector<Pair>& pairs,
                                    const ccd::time_options& options) {
@@ -164,7 +164,7 @@ TYPED_TEST(FirstTimes, WithinADistanceOfWhatIsNotFiniteAreUncertain) {
             const auto expected = one_by_one(rows, pairs, {.distances = d});
             for (const ccd::instruction_set set : ccd::instruction_sets())
                 EXPECT_EQ(ccd::first_times(rows, pairs, {.distances = d, .set = set}), expected);
-            // If few pairs have many vertices, only the pairs' vertices are tested.
+            // With few pairs of many vertices, batches test each pair instead of all vertices.
             EXPECT_EQ(ccd::first_times(rows, std::span(pairs).first(1), {.distances = d})[0],
                       expected[0]);
         }

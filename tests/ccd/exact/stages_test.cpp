@@ -224,8 +224,7 @@ TEST(batch, indices_give_the_same_answers_as_stored_queries) {
             std::conditional_t<std::is_same_v<query_type, ccd::vertex_face<double>>,
                                ccd::vertex_face_pair, ccd::edge_edge_pair>;
         const rows_of_queries<query_type> positions(set.queries);
-        // Once with few queries per vertex, once with so many that positions are rounded for axes
-        // in floats.
+        // Few queries per vertex; then many, so that positions are rounded for axes in floats.
         for (const std::size_t times : {std::size_t(1), std::size_t(5)}) {
             std::vector<indices_type> indices;
             std::vector<ccd::outcome> truth;
