@@ -14,7 +14,7 @@
 namespace bench {
 
 struct options {
-    bool quick = false;  ///< fewer repeats and queries: tests that everything runs
+    bool quick = false;      ///< fewer repeats and queries: tests that everything runs
     std::string scene = {};  ///< only scenes whose name contains this
     std::vector<std::string> sections = {};  ///< names in section_names; empty: all
 
@@ -51,9 +51,9 @@ cell percent(double share);
 cell none();  ///< a dash; null
 
 struct column {
-    std::string key;  ///< name in JSON
+    std::string key;      ///< name in JSON
     std::string heading;  ///< heading in text
-    bool left = false;  ///< left-aligned; columns of words come first
+    bool left = false;    ///< left-aligned; columns of words come first
 };
 
 /// Prints tables immediately and collects them.

@@ -74,7 +74,8 @@ void add_batch_rows(const Form& form, const options& o, std::vector<std::vector<
                                    [&] { of_arrays(set, form.predicate, arrays); }},
                                   o.repeats());
         if (batch != single || arrays != single)
-            throw std::runtime_error(std::string(form.name) + ": batches and single calls disagree");
+            throw std::runtime_error(std::string(form.name) +
+                                     ": batches and single calls disagree");
         const auto ns = [&](const timing& t) {
             return number(1e9 * t.minimum / static_cast<double>(inputs), 2);
         };

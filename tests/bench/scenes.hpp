@@ -15,7 +15,7 @@ using ccd::lab::query_sets;
 struct scene {
     std::string name;
     ccd::mesh before, after;  ///< empty if there are only queries
-    query_sets queries;  ///< indexes into the two frames: do not copy or move a scene
+    query_sets queries;       ///< indexes into the two frames: do not copy or move a scene
     bool is_step() const { return !before.vertices.empty(); }
 
     scene() = default;

@@ -44,7 +44,7 @@ void try_every_allocation(const std::string& name, const Make& make, const Use& 
                 fail_at(n, which);
                 auto result = use(object);
                 failed = stop();
-                EXPECT_TRUE(result == expected) << "another result, and no exception";
+                EXPECT_TRUE(result == expected) << "a different result without an exception";
             } catch (const std::bad_alloc&) {
                 failed = stop();
             } catch (const std::exception& error) {

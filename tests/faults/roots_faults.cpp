@@ -118,7 +118,7 @@ TEST(IntegerFaults, OperationsInPlace) {
                         change(x);
                     } catch (...) {
                         faults::stop();  // the comparison allocates nothing, a report does
-                        EXPECT_TRUE(x == before) << name << " left another number";
+                        EXPECT_TRUE(x == before) << name << " changed the number";
                         throw;
                     }
                     std::swap(x, again);

@@ -39,11 +39,11 @@ inline int pick(sequence& s, int size) {
 struct drawn_forms {
     bool edges;
     std::array<whole_vector, 3> vectors;  ///< b, c and p
-    int level;  ///< of the subinterval
-    std::uint64_t path;  ///< to the subinterval, where no sign change determines it
-    std::int64_t off;  ///< distance from the root's expected position there
+    int level;                            ///< of the subinterval
+    std::uint64_t path;            ///< to the subinterval, where no sign change determines it
+    std::int64_t off;              ///< distance from the root's expected position there
     whole_number root, root_unit;  ///< the root of all is their quotient
-    int words, cut;  ///< of a position there: `cut` determines the number of words
+    int words, cut;                ///< of a position there: `cut` determines the number of words
 
     /// The most bits of an axis' coordinates.
     int bits(std::size_t axis) const {

@@ -36,7 +36,7 @@ struct count_table {
 /// A question with a wrong answer.
 struct difference {
     std::string text;        ///< all that is needed to repeat it, and the answers
-    std::string file = {};  ///< the file to which `lines` are appended, if there is one
+    std::string file = {};   ///< the file to which `lines` are appended, if there is one
     std::string lines = {};  ///< in the format of the program `ccd`
     friend bool operator==(const difference&, const difference&) = default;
 };
@@ -66,8 +66,8 @@ struct findings {
 
 /// The comparison that a run repeats.
 struct part {
-    std::string name;          ///< "symmetries"
-    std::string unit;          ///< what is counted: "queries"
+    std::string name;  ///< "symmetries"
+    std::string unit;  ///< what is counted: "queries"
     /// version of the questions, such as names of families; states of other versions are rejected
     std::string version = {};
     /// Compares all answers of one block. Several threads call it at a time.

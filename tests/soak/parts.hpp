@@ -206,10 +206,10 @@ struct advance_scene;
 using advancer = std::function<ccd::advance_result(const advance_scene&, int threads)>;
 ccd::advance_result library_advance(const advance_scene& scene, int threads);
 
-/// Small meshes of every family of queries, and others with contacts a last place apart. They are in
-/// space and in the plane, with and without distances and groups, and are advanced with one thread,
-/// where the oracle checks every pair, and with two, with the same result. Tables: "scenes" by
-/// family, and "where", "distances", "groups".
+/// Small meshes of every family of queries, and others with contacts a last place apart, in space
+/// and in the plane. Some have distances and groups. They are advanced with one thread, where the
+/// oracle checks every pair, and with two, with the same result. Tables: "scenes" by family, and
+/// "where", "distances", "groups".
 part advance_part(advancer advance = library_advance);
 
 // ---- Others ----
@@ -220,9 +220,9 @@ part advance_part(advancer advance = library_advance);
 part polynomial_part();
 
 /// Every predicate whose name contains `name`, in float and double. An oracle checks its sign, and
-/// for one input in eight also batches and every stage. Exact
-/// arithmetic checks the bound of its static filter on inputs of all families. Climbs from them
-/// by changes of last places look for larger errors.
+/// for one input in eight also batches and every stage. Exact arithmetic checks the bound of its
+/// static filter on inputs of all families. Climbs from them by changes of last places look for
+/// larger errors.
 part predicate_part(const std::string& name);
 
 }  // namespace soak

@@ -21,12 +21,12 @@ std::string fault_of(const ccd::first_time& claimed, double t_max, const Holds& 
     if (claimed.outcome == ccd::outcome::uncertain) return "it is uncertain";
     if (claimed.outcome == ccd::outcome::separate)
         return last >= 0 && holds(oracle::interval{0, last}) ? "there is one" : "";
-    if (!(0 <= low && low <= high && high <= last)) return "it is not within the times asked";
+    if (!(0 <= low && low <= high && high <= last)) return "it is outside [0, t_max]";
     if (low == high) {
         if (!holds(oracle::interval::instant(low))) return "it does not hold at that instant";
         return holds(oracle::interval{.high = low, .with_high = false}) ? "it holds before" : "";
     }
-    if (std::nextafter(low, 1) != high) return "the ends are no neighbours";
+    if (std::nextafter(low, 1) != high) return "the ends are not adjacent";
     if (holds(oracle::interval{0, low})) return "it holds at low or before";
     return holds(oracle::interval{low, high, false, false}) ? "" : "it does not hold between";
 }

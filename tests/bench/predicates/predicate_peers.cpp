@@ -103,7 +103,7 @@ void decide_by_boost_geometry(const set_of<orient2d_form>& set, std::size_t coun
 template <class Form>
 struct peer {
     std::string_view key, heading;
-    decider<Form> decide;  ///< null if the peer lacks the predicate or is not installed
+    decider<Form> decide;      ///< null if the peer lacks the predicate or is not installed
     std::size_t thinning = 1;  ///< slow peers are timed on one of `thinning` inputs
 };
 #ifdef ERRBOUND_HAVE_CGAL

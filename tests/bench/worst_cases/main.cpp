@@ -77,8 +77,9 @@ int main(int argc, char** argv) try {
     std::string only;
     std::filesystem::path path = WORST_CASES;
     app.add_flag("--quick", quick, "Fewer repeats: tests that everything runs");
-    app.add_option("--search", search,
-                   "First search this many seconds for each function and range; store slower inputs")
+    app.add_option(
+           "--search", search,
+           "First search this many seconds for each function and range; store slower inputs")
         ->check(CLI::PositiveNumber);
     app.add_option("--seed", seed, "Seed of the search");
     app.add_option("--function", only, "Only functions whose name contains this");

@@ -106,7 +106,7 @@ TEST(narrow_phase, takes_the_defaults_of_the_interface) {
     EXPECT_TRUE(exact.point_point_ccd(p, q, q, p, toi));
     EXPECT_EQ(toi, 0.5);
 }
-TEST(narrow_phase, finds_contacts_until_tmax_alone) {
+TEST(narrow_phase, finds_contacts_only_until_tmax) {
     const exact_narrow_phase exact;
     EXPECT_EQ(ask(exact, onto_face, 0, 0.25), at(0.25));
     EXPECT_EQ(ask(exact, onto_face, 0, std::nextafter(0.25, 0)), never);
@@ -125,7 +125,7 @@ TEST(narrow_phase, keeps_a_distance) {
     EXPECT_EQ(ask(exact, onto_edge, 0.5, 0.125), at(0.125));
     EXPECT_EQ(ask(exact, onto_edge, 0.5, 0.1), never);
 }
-TEST(narrow_phase, says_0_of_what_is_within_the_distance_at_the_start) {
+TEST(narrow_phase, returns_0_within_the_distance_at_the_start) {
     const exact_narrow_phase exact;
     EXPECT_EQ(ask(exact, onto_face, 1), at(0));
     EXPECT_EQ(ask(exact, onto_face, 1, 0), at(0));
@@ -137,7 +137,7 @@ TEST(narrow_phase, says_0_of_what_is_within_the_distance_at_the_start) {
     const ccd::vertex_vertex<double> leaving{{{1, 2, 3}, {1, 2, 4}}, still({1, 2, 3})};
     EXPECT_EQ(ask(exact, leaving), at(0));
 }
-TEST(narrow_phase, says_0_where_no_double_is_between_the_start_and_the_contact) {
+TEST(narrow_phase, returns_0_without_a_double_between_start_and_contact) {
     const exact_narrow_phase exact;
     const ccd::vertex_vertex<double> fast{{{0x1p-1000, 0, 0}, {-0x1p1000, 0, 0}}, still({0, 0, 0})};
     EXPECT_EQ(ask(exact, fast), at(0));
@@ -147,7 +147,7 @@ TEST(narrow_phase, says_0_where_no_double_is_between_the_start_and_the_contact) 
                                               {{0, 0, 0}, {0x1p537, 0, 0}}};
     EXPECT_EQ(ask(exact, at_least), at(least));
 }
-TEST(narrow_phase, knows_nothing_of_what_is_not_finite) {
+TEST(narrow_phase, returns_0_for_invalid_numbers) {
     const double nan = std::numeric_limits<double>::quiet_NaN();
     const exact_narrow_phase exact;
     EXPECT_EQ(ask(exact, meeting, nan), at(0));
@@ -205,13 +205,13 @@ TEST(max_gap, does_not_report_pairs_that_stay_above_it) {
     EXPECT_EQ(ask(exact_narrow_phase(0.75, 1), nearer), at(1));
     EXPECT_EQ(ask(exact_narrow_phase(0.75, 0.5), nearer), never);
 }
-TEST(conservative_rescaling, reports_what_gets_nearer_without_contact) {
+TEST(conservative_rescaling, reports_pairs_that_get_nearer_without_contact) {
     const ccd::vertex_vertex<double> nearer{{{0, 0, 0}, {3, 0, 0}}, still({4, 0, 0})};
     EXPECT_EQ(ask(exact_narrow_phase(), nearer), never);
     EXPECT_EQ(ask(exact_narrow_phase(0.75), nearer), at(1));
     EXPECT_EQ(ask(exact_narrow_phase(0.875), nearer), never);
 }
-TEST(conservative_rescaling, leaves_0_to_what_is_within_the_distance_at_the_start) {
+TEST(conservative_rescaling, returns_0_only_within_the_distance_at_the_start) {
     EXPECT_EQ(ask(exact_narrow_phase(0.5), onto_face, 1), at(0));
     EXPECT_EQ(ask(exact_narrow_phase(0.5), onto_face, 1, 0), at(0));
     EXPECT_EQ(ask(exact_narrow_phase(0.5), onto_face, 1, -1), never);
@@ -240,7 +240,7 @@ void expect_right_around(const exact_narrow_phase& exact, const auto& query, dou
     }
 }
 
-TEST(families, are_answered_as_the_oracle_says) {
+TEST(families, agree_with_the_oracle) {
     const exact_narrow_phase exact;
     std::size_t queries = 0, true_answers = 0;
     std::uint64_t seed = 0;
@@ -266,7 +266,7 @@ ccd::moving_point<double> upright(const ccd::moving_point<double>& p) {
     return {{p.t0.x, 0, p.t0.y}, {p.t1.x, 0, p.t1.y}};
 }
 
-TEST(families, of_the_plane_are_answered_as_the_oracle_says) {
+TEST(families, of_the_plane_agree_with_the_oracle) {
     const exact_narrow_phase exact;
     std::mt19937_64 random(18);
     for (int i = 0; i < support::scaled(1500); ++i) {

@@ -108,7 +108,7 @@ TEST(calls, keep_the_box_of_a_minimum_separation_free) {
     EXPECT_TRUE(ask(passing(0.5), 0.5).collides);
     EXPECT_EQ(ask(passing(0.7), 0.5), never);
 }
-TEST(calls, say_0_of_what_is_near_at_the_start_unless_told_not_to) {
+TEST(calls, return_0_if_near_at_the_start_unless_zero_times_are_off) {
     EXPECT_EQ(ask(onto_face, 1.0), at(0));
     EXPECT_EQ(ask(onto_face, 1.0, 1.0, true), at(0.25));
     EXPECT_EQ(ask(onto_face, 1.0, 0.125, true), never);
@@ -117,7 +117,7 @@ TEST(calls, say_0_of_what_is_near_at_the_start_unless_told_not_to) {
                                             onto_face.f2};
     EXPECT_EQ(ask(touching, 0.0, 1.0, true), at(0)) << "it touches";
 }
-TEST(calls, know_nothing_of_what_is_not_finite) {
+TEST(calls, return_0_for_invalid_numbers) {
     const double nan = std::numeric_limits<double>::quiet_NaN();
     EXPECT_EQ(ask(onto_face, nan), at(0));
     EXPECT_EQ(ask(onto_face, infinity), at(0));
@@ -137,7 +137,7 @@ TEST(calls, in_float_round_times_down) {
 }
 
 /// The ball contains the box and is at most two last places larger.
-TEST(calls, ask_for_the_ball_around_the_box) {
+TEST(calls, use_the_ball_around_the_box) {
     std::mt19937_64 random(18);
     const auto check = [](double ms) {
         const ccd::separation d = adapter::detail::ball_around_box(ms);
@@ -180,7 +180,7 @@ void for_some_queries(int per_family, std::uint64_t seed, const Check& check) {
                                      });
 }
 
-TEST(families, are_answered_as_the_oracle_says) {
+TEST(families, agree_with_the_oracle) {
     std::size_t queries = 0, true_answers = 0;
     std::uint64_t seed = 0;
     for_some_queries(16, 18, [&](const auto& query, const std::string& text) {
@@ -202,7 +202,7 @@ TEST(families, are_answered_as_the_oracle_says) {
     std::printf("%zu answers, %zu true\n", queries, true_answers);
 }
 
-TEST(families, near_at_the_start_are_asked_for_contact_alone_without_zero_times) {
+TEST(families, near_at_the_start_are_tested_only_for_contact_without_zero_times) {
     for_some_queries(8, 19, [&](const auto& query, const std::string& text) {
         for (const double ms : {0.0, 0.5}) {
             const answer<double> a = ask(query, ms), b = ask(query, ms, 1.0, true);

@@ -101,7 +101,7 @@ TEST(contact_data, of_a_touch_without_crossing_is_on_the_side_it_came_from) {
     expect_normal(found, normal_source::cross_product, {0, 0, -1}, 0);
     EXPECT_TRUE(found.sided);
 }
-TEST(contact_data, weights_error_counts_what_its_own_rounding_loses) {
+TEST(contact_data, weight_error_includes_the_rounding_of_weights) {
     // At t = 1/3 the weights are 2^-54, 2^-54 + 2^-106/3, and 1 minus both. The last is a tie
     // twice, rounded to 1 each time.
     const auto found = ccd::find_first_contact(
@@ -204,7 +204,7 @@ TEST(contact_data, in_the_plane_has_its_normal_there) {
                   -std::sqrt(8));
 }
 
-TEST(contact_data, of_what_does_not_meet_is_nothing) {
+TEST(contact_data, of_separate_features_is_empty) {
     const auto apart = ccd::find_first_contact(over_triangle({2, 2, 1}, {2, 2, -1}));
     EXPECT_EQ(apart.time.outcome, outcome::separate);
     EXPECT_EQ(apart.weights, (std::array<double, 4>{}));
@@ -216,7 +216,7 @@ TEST(contact_data, of_what_does_not_meet_is_nothing) {
     EXPECT_EQ(unknown.time.outcome, outcome::uncertain);
 }
 /// If a corner of the face or an end of an edge is nearest, the cross product is not a normal.
-TEST(contact_data, of_a_time_within_a_distance_is_nothing) {
+TEST(contact_data, of_a_time_within_a_distance_is_empty) {
     const vertex_face above_a_corner{from_to({-3, -3, 5}, {-3, -3, 0}), still({0, 0, 0}),
                                      still({1, 0, 0}), still({0, 1, 0})};
     const edge_edge beside{from_to({-1, 0, 2}, {-1, 0, -1}), from_to({1, 0, 2}, {1, 0, -1}),
@@ -259,7 +259,7 @@ TEST(contact_data, of_coordinates_of_all_magnitudes) {
         EXPECT_NEAR(found.normal_velocity / unit, -2, 1e-14);
     }
 }
-TEST(contact_data, of_a_sliver_says_how_little_it_knows) {
+TEST(contact_data, of_a_sliver_has_large_errors) {
     // Edges that rotate past each other, parallel except for 2^-60.
     const double tilt = 0x1p-60;
     const auto found = ccd::find_first_contact(

@@ -63,7 +63,7 @@ TEST(curves, within_a_distance) {
     EXPECT_EQ(ccd::decide_within(query, {0.5}).outcome, outcome::separate);
     EXPECT_EQ(ccd::time_within(query, {2}), at(0));
 }
-TEST(curves, that_are_none_are_uncertain) {
+TEST(curves, that_are_invalid_are_uncertain) {
     EXPECT_EQ(over_triangle({}), first_time{});
     EXPECT_EQ(over_triangle({{0, 0, 1}, {0, 0, infinity}, {0, 0, 1}}), first_time{});
     EXPECT_EQ(over_triangle({{0, 0, 1}}, infinity), first_time{});
@@ -184,7 +184,7 @@ void for_random_curves(int count, std::size_t most, const Check& check) {
     }
 }
 
-TEST(random_curves, touch_first_when_the_oracle_says_so) {
+TEST(random_curves, touch_first_at_the_time_of_the_oracle) {
     for_random_curves(400, 4, [](const auto& query, const auto& points, auto& random) {
         const double t_max = random.number() % 4 == 0 ? 0.5 : 1;
         const first_time found = ccd::time_of_impact(query, t_max);
@@ -193,7 +193,7 @@ TEST(random_curves, touch_first_when_the_oracle_says_so) {
             << text(points);
     });
 }
-TEST(random_curves, come_near_first_when_the_oracle_says_so) {
+TEST(random_curves, come_near_first_at_the_time_of_the_oracle) {
     for_random_curves(150, 3, [](const auto& query, const auto& points, auto& random) {
         const separation d{std::ldexp(1, static_cast<int>(random.number() % 5) - 3),
                            random.number() % 2 * 1.0};

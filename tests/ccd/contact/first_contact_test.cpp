@@ -66,7 +66,7 @@ TEST(first_contact, after_t_max_is_none) {
     EXPECT_EQ(contact(query, 7), at(0.5));
     EXPECT_EQ(contact(over_triangle({0.25, 0.25, 1}, {0.25, 0.25, -2}), 1.0 / 3), never);
 }
-TEST(first_contact, of_what_is_not_finite_is_uncertain) {
+TEST(first_contact, with_coordinates_that_are_not_finite_is_uncertain) {
     EXPECT_EQ(contact(over_triangle({0.25, 0.25, infinity}, {0.25, 0.25, 1})), first_time{});
     EXPECT_EQ(contact(over_triangle({2, 2, 2}, {2, 2, 2}), infinity), first_time{});
     EXPECT_EQ(contact(over_triangle({2, 2, 2}, {2, 2, 2}), std::nan("")), first_time{});
@@ -139,7 +139,7 @@ TEST(first_contact, with_a_triangle_that_is_a_segment_or_a_point) {
                              still({0, 0, 0})};
     EXPECT_EQ(contact(missed), never);
 }
-TEST(first_contact, with_a_triangle_that_is_a_segment_at_that_time_alone) {
+TEST(first_contact, with_a_triangle_that_is_a_segment_only_at_that_time) {
     // f2 falls onto the line of f0 f1 together with v, at t = 1/2.
     const vertex_face query{from_to({0.5, -1, 0}, {0.5, 1, 0}), still({0, 0, 0}), still({1, 0, 0}),
                             from_to({0, 0, 1}, {0, 0, -1})};

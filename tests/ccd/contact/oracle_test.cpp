@@ -155,7 +155,7 @@ TEST(distance, from_each_part_of_a_face) {
     expect(13, -3, 12, 12);  // f2
 }
 
-TEST(distance, from_faces_that_are_none) {
+TEST(distance, from_degenerate_faces) {
     const auto line = [](moving v) {
         return ccd::vertex_face<double>{v, rest(0, 0, 0), rest(2, 0, 0), rest(8, 0, 0)};
     };
@@ -189,11 +189,11 @@ TEST(faults, of_brackets) {
     };
     EXPECT_EQ(fault(low, high), "");
     EXPECT_EQ(fault(low, high, high), "");
-    EXPECT_EQ(fault(low, high, low), "it is not within the times asked");
+    EXPECT_EQ(fault(low, high, low), "it is outside [0, t_max]");
     EXPECT_EQ(fault(before(low), low), "it does not hold between");
     EXPECT_EQ(fault(high, after(high)), "it holds at low or before");
-    EXPECT_EQ(fault(before(low), high), "the ends are no neighbours");
-    EXPECT_EQ(fault(high, low), "it is not within the times asked");
+    EXPECT_EQ(fault(before(low), high), "the ends are not adjacent");
+    EXPECT_EQ(fault(high, low), "it is outside [0, t_max]");
     EXPECT_EQ(fault(low, low), "it does not hold at that instant");
     EXPECT_EQ(support::fault_of(q, first_time{outcome::separate}), "there is one");
     EXPECT_EQ(support::fault_of(q, first_time{outcome::separate}, low), "");

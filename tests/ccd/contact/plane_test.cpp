@@ -61,7 +61,7 @@ ccd::moving_point<double> upright(const plane::moving_point& p) {
     return {{p.t0.x, 0, p.t0.y}, {p.t1.x, 0, p.t1.y}};
 }
 
-TEST(random_plane_queries, are_what_the_oracle_says_of_another_plane) {
+TEST(random_plane_queries, agree_with_the_oracle_in_another_plane) {
     std::mt19937_64 random(11);
     const auto check = [](const auto& query, const auto& upright_query, ccd::separation d) {
         EXPECT_EQ(support::fault_of(upright_query, plane::time_of_impact(query)), "");

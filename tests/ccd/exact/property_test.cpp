@@ -175,8 +175,8 @@ void check_methods(kind which, std::size_t family, std::uint64_t index, report& 
     ++count.queries;
     count.collisions += truth;
     const auto fail = [&](std::string_view who, ccd::outcome said) {
-        const std::string what = std::string(who) + " says " + std::string(ccd::name(said)) +
-                                 ", the oracle says " + std::string(ccd::name(right));
+        const std::string what = std::string(who) + " returns " + std::string(ccd::name(said)) +
+                                 ", the oracle returns " + std::string(ccd::name(right));
         out.failures.push_back(describe(family, which, index, p, what));
     };
     const auto require_right = [&](std::string_view who, ccd::verdict said) {

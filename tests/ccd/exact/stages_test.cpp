@@ -285,7 +285,7 @@ TEST(batch, coordinates_that_are_not_finite_are_uncertain_and_harm_no_other_quer
     }
 }
 
-TEST(batch, refuses_what_it_cannot_do) {
+TEST(batch, rejects_invalid_arguments) {
     const std::vector<double> numbers(12);
     const ccd::vertex_rows rows(numbers.data(), numbers.data(), 4);
     std::vector<ccd::outcome> answers(1);

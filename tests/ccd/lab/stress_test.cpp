@@ -71,7 +71,7 @@ TEST(families, are_well_formed) {
     }
 }
 
-TEST(families, are_finite_where_they_say_so) {
+TEST(families, are_finite_as_declared) {
     for (const lab::family& f : lab::families()) {
         for (const double knob : f.knobs) {
             for (const kind which : ccd::stored_kinds) {
@@ -123,7 +123,7 @@ TEST(families, are_the_same_everywhere) {
     EXPECT_NE(lab::make(f, 0, kind::edge_edge, 1, 0), lab::make(f, 100, kind::edge_edge, 1, 0));
 }
 
-TEST(families, touches_are_where_they_say) {
+TEST(families, touch_at_their_declared_times) {
     for (const double knob : {-21., -1., 0., 1., 21.}) {
         for (const auto* family : {"touch-start", "touch-end", "touch-edge", "touch-vertex"})
             for_queries(family, knob, [&](kind which, const points& p) {
@@ -160,7 +160,7 @@ constexpr ccd::verdict hit{ccd::outcome::collides, ccd::cause::none};
 constexpr ccd::verdict unsure{ccd::outcome::uncertain, ccd::cause::inside};
 constexpr ccd::verdict out_of_range{ccd::outcome::uncertain, ccd::cause::range};
 
-TEST(promises, are_broken_by_what_contradicts_them) {
+TEST(promises, are_broken_by_contradicting_answers) {
     const auto broken = [](ccd::verdict said, ccd::outcome truth, bool may_lose, bool may_report) {
         return lab::broken_by(always(said, may_lose, may_report), said, truth).has_value();
     };
@@ -191,7 +191,7 @@ std::vector<lab::cell> run(const lab::plan& plan) {
     return lab::run(plan, [](std::size_t, std::size_t, const lab::family&) {});
 }
 
-TEST(stress_run, counts_what_a_wrong_method_says) {
+TEST(stress_run, counts_the_answers_of_a_wrong_method) {
     const auto cells = run(plan_of(
         {"touch-start", "not-finite"},
         {always(separate, false, true), always(hit, true, false), always(unsure, false, true)}));
@@ -255,7 +255,7 @@ class stress_output : public testing::Test {
     std::ostringstream printed;
 };
 
-TEST_F(stress_output, names_and_keeps_what_breaks_a_promise) {
+TEST_F(stress_output, prints_and_stores_queries_that_break_a_promise) {
     const lab::plan plan =
         plan_of({"touch-end", "not-finite"},
                 {always(separate, false, true), lab::subject_named(ccd::methods().back().name)});

@@ -75,7 +75,7 @@ TYPED_TEST(guarded_newton, degrees_below_three) {
     EXPECT_EQ(count({T(1), 0, 0, 0}), 2U);
     EXPECT_EQ(count({0, 0, 0, 0}), 2U);
     EXPECT_EQ(count({0, 0, 0, T(1)}), 2U);           // t³ turns at 0, which is an end
-    EXPECT_EQ(count({0, 0, T(-1), T(1)}), 3U);  // t³ − t² also turns at 2/3
+    EXPECT_EQ(count({0, 0, T(-1), T(1)}), 3U);       // t³ − t² also turns at 2/3
     EXPECT_EQ(count({0, T(3), T(-7.5), T(5)}), 4U);  // 15t² − 15t + 3 at 0.28 and 0.72
     EXPECT_EQ(
         errbound::roots::guarded_newton(errbound::bernstein<T, 3>{T(-1), T(4), 0, 0}, T(0), T(1)),
@@ -167,7 +167,7 @@ Query with_coordinate(Query query, std::size_t index, double value) {
     return ccd::transformed(query, [&](double x) { return i++ == index ? value : x; });
 }
 
-TEST(methods, what_is_not_finite_is_uncertain) {
+TEST(methods, coordinates_that_are_not_finite_are_uncertain) {
     constexpr double infinity = std::numeric_limits<double>::infinity();
     const auto check = [](const auto& query) {
         for (const ccd::method_info& m : ccd::methods()) {

@@ -197,7 +197,7 @@ bool separated_by_an_axis(const Query& query) {
 }
 
 // On a grid of floats, the search skips exactly the pairs that one of the nine axes separates.
-TEST(Search, LeavesOutWhatAxesSeparateAndNothingElse) {
+TEST(Search, SkipsExactlyThePairsThatAxesSeparate) {
     using enum ccd::detail::candidate_search::wanted;
     const auto at = random_soup(11, 700, 600);
     const auto all = found_by_search(at, ccd::instruction_set::baseline, candidates);

@@ -59,7 +59,7 @@ struct bit_count {
     bool on = false;
     std::uint64_t numbers = 0, beyond = 0;
     std::map<int, int> fullest{};  ///< the most bits without the sign, by the number of words
-    std::string first{};  ///< the first number that exceeds its words
+    std::string first{};           ///< the first number that exceeds its words
 };
 inline bit_count counted;
 
