@@ -67,13 +67,13 @@ def of_pages(text):
 
 
 def of_proofs(text):
-    """Yields the comments of Coq and OCaml, which may nest."""
+    """Yields the comments of Coq and OCaml, which may nest, without their lists of theorems."""
     depth = start = 0
     for m in re.finditer(r"'\"'|\"[^\"]*\"|\(\*+|\*+\)", text):
         start = start if depth else m.end()
         depth += m[0].startswith("(") - m[0].endswith(")")
         if not depth and m[0].endswith(")"):
-            yield text[start:m.start()]
+            yield re.sub(r"^ {8,}.*$", "\n", text[start:m.start()], flags=re.MULTILINE)
 
 
 READERS = {".hpp": of_cpp, ".cpp": of_cpp, ".cuh": of_cpp, ".cu": of_cpp, ".py": of_python, ".pyi": of_python,
