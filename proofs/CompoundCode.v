@@ -1,7 +1,7 @@
-(** The C++ code, line by line, over any number type, as in Code.v. It has the functions of
-    include/errbound/functions.hpp that consist of a rule's operations (midpoint, pow, dot, horner), those without a
-    rule (lerp, hypot, copysign), and the running bounds of dot products (detail/running_bound.hpp, rules/tight.hpp,
-    rules/sharp.hpp). Nothing is proved here. *)
+(** The C++ code, line by line, over any number type, as in Code.v: functions of include/errbound/functions.hpp that
+    consist of a rule's operations (midpoint, pow, dot, horner), and those without a rule (lerp, hypot, copysign).
+    Also the running bounds of dot products (detail/running_bound.hpp, rules/tight.hpp, rules/sharp.hpp). Nothing is
+    proved here. *)
 
 From Coq Require Import ZArith Bool List.
 From Errbound Require Import Code.

@@ -1,7 +1,7 @@
 (** Bound rule `affine` (include/errbound/rules/affine.hpp) over IEEE formats (Ieee.v), to nearest, including
     overflow: the functions of AffineCode.v, with p >= 4, emax > p, and any limit on terms. A source s has a number e
     s of size at most 1, as in Affine.v. A number x is known by its value v and a bound if the radius holds
-    (IeeeRules.v) and, if rest and terms are finite, |x - v - sum of c (e s)| <= rest. An operation has a new source
+    (IeeeRules.v). If rest and terms are finite, also |x - v - sum of c (e s)| <= rest. An operation has a new source
     or none. If the radius is finite, nothing before overflowed (except sums of discarded terms), so the floats are
     the real numbers of Affine.v. Results: a number of the new source exists (`made`) for which the returned bound
     holds:

@@ -1,6 +1,6 @@
 (** Bound rule `interval` (include/errbound/rules/interval.hpp) over IEEE formats (Ieee.v), to nearest, including
-    overflow; p >= 3, emax > p. A number x with value a is known by two floats if they and a are finite and both a
-    and x lie between them, or if they are -infinity and +infinity. Products and quotients are with fused
+    overflow; p >= 3, emax > p. A number x with value a is known by two floats if all are finite and both a and x lie
+    between the floats. It is also known by -infinity and +infinity. Products and quotients are with fused
     multiply-add and without (`fused`). two_sum overflows after its sum only to NaN (two_sum_known). Results: the
     bounds that the code returns hold:
         interval_exact_known, interval_within_known, interval_negate_known, interval_add_known,

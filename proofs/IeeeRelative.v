@@ -1,10 +1,9 @@
 (** Bound rule `relative` (include/errbound/rules/relative.hpp) over IEEE formats (Ieee.v), to nearest, including
     overflow: the functions of RelativeCode.v. Numbers have p digits, p >= 4, emax > p. Counts have a format with q
-    digits, q >= p and q >= 24, qmax >= emax, qmax >= 5q + 3: double in the code, for formats of up to 53 digits and
-    emax up to 1024 (relative_keeps_operations_doubles). A number x is known by a value v and a nonnegative count k
-    if, for a finite k, v is finite, v and x have one sign or both are 0, and |ln(v/x)| <= kw (`holds` of
-    Relative.v). Steps that cannot overflow are proved forwards (forward_times and others); after others, a finite
-    result implies finite operands. Results:
+    digits, q >= p and q >= 24, qmax >= emax, qmax >= 5q + 3. It is double in the code, for formats of up to 53
+    digits and emax up to 1024 (relative_keeps_operations_doubles). A number x is known by a value v and a
+    nonnegative count k, if k is infinite, or if v is finite and `holds` (Relative.v). Steps that cannot overflow are
+    proved forwards (forward_times and others); after others, a finite result implies finite operands. Results:
         relative_exact_known, relative_within_known, relative_negate_known, relative_add_known,
             relative_subtract_known,
         relative_multiply_known, relative_divide_known, relative_scale_known   the count that the code returns holds

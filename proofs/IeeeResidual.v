@@ -1,8 +1,9 @@
 (** Bound rule `residual` (include/errbound/rules/residual.hpp) over IEEE formats (Ieee.v), to nearest, including
     overflow; p >= 3, emax > p.
 
-    A number x is known by its value v, correction c and remainder r if r is not negative (but possibly infinite or
-    NaN) and, if c and r are finite, v is, and |v + c - x| <= r. Results: the bounds that the code returns hold:
+    A number x is known by its value v, correction c and remainder r. The remainder r is not negative, but possibly
+    infinite or NaN. If c and r are finite, so is v, and |v + c - x| <= r. Results: the bounds that the code returns
+    hold:
         residual_exact_known, residual_within_known, residual_negate_known, residual_add_known,
         residual_subtract_known, residual_multiply_known, residual_divide_known (with fused multiply-add and without,
         `fused`), residual_scale_known

@@ -1,8 +1,8 @@
 (** Bound rules over IEEE formats (Ieee.v), to nearest, including overflow: the functions of Code.v.
 
-    A number x is known by a value a and an error s, both floats, if s is not negative (but possibly infinite or NaN)
-    and, if s is finite, so is a, and |a - x| <= s. Results, for p >= 3 and emax > p: bounds of `exact` hold, and so
-    do bounds of operations on known numbers, even after an overflow:
+    A number x is known by a value a and an error s, both floats. The error s is not negative, but possibly infinite
+    or NaN. If s is finite, so is a, and |a - x| <= s. Results, for p >= 3 and emax > p: bounds of `exact` hold, and
+    so do bounds of operations on known numbers, even after an overflow:
         tight_exact_known, tight_within_known, tight_add_known, tight_subtract_known, tight_multiply_known,
         tight_divide_known, tight_scale_known
         sharp_add_known, sharp_subtract_known, sharp_multiply_known, sharp_divide_known, sharp_scale_known (exact and

@@ -1,6 +1,6 @@
-(** The first contact inside a face or both edges, in integers of fixed width (ccd/contact/interior_time.hpp), and
-    the first contact of vertex and face, or of two edges (ccd/contact/integer_first_contact.hpp). Estimates are
-    arbitrary, as in InteriorContact.v. The search by signs has the properties that TimeSearch.v proves. Results:
+(** The first contact inside a face or both edges in integers of fixed width (ccd/contact/interior_time.hpp). From it
+    follows the first contact of vertex and face, or of two edges (ccd/contact/integer_first_contact.hpp). Estimates
+    are arbitrary, as in InteriorContact.v. The search by signs has the properties that TimeSearch.v proves. Results:
         asked_root            an interval that `root_of` tests has one root of Y, where Y changes its sign
         in_parts_right        roots of Y in waiting intervals are tested, each with its bracket, or are later than
             the

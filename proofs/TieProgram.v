@@ -13,7 +13,7 @@ Variables p emax : Z.
 Context {p_positive : Prec_gt_0 p}.
 Context {p_below : Prec_lt_emax p emax}.
 
-(** A float as IEEE 754 lays it out: sign, exponent, fraction. One NaN. *)
+(** The fields of an IEEE 754 float: sign, exponent, fraction. There is one NaN. *)
 Definition least_normal : Z := 2 ^ (p - 1).
 Definition sign_bit : Z := 2 * emax * least_normal.
 Definition code_of_infinity : Z := sign_bit - least_normal.
