@@ -1,20 +1,15 @@
-(** Whole computations by the rule `affine` over IEEE formats, including overflow: the operations of AffineCode.v and
-    functions of tracked numbers (include/errbound/functions.hpp), with p >= 4, emax > p, to nearest, and any limit
-    on terms. IeeeAffine.v proves single operations. Each operation has its own source, or none. Results:
+(** Whole computations by the rule `affine` over IEEE formats, including overflow: AffineCode.v's operations, each
+    with a source or none, and functions of tracked numbers (functions.hpp). p >= 4, emax > p, to nearest, any limit
+    on terms. Results:
         affine_promises, affine_keeps_operations   without sources, IeeeFunctions.v and IeeeCompound.v apply
-        next_known, computed_known, computed_error   if an assignment e of the sources' numbers makes all numbers
-            known,
-            an extension of e does so after one more operation with a new source, and after any number of operations;
-                for
-            numbers made of nothing, the radius is an error
+        next_known, computed_known, computed_error   an assignment of the sources' numbers that makes all numbers
+            known has
+            an extension after each operation; for numbers made of nothing, the radius is an error
         affine_midpoint_gives, affine_min_gives, affine_max_gives, affine_pow_gives, affine_dot_gives,
-            affine_horner_gives,
-        affine_copysign_gives, affine_sqrt_gives, affine_abs_gives, affine_fma_gives, affine_lerp_gives, and from p =
-            8 on
-        affine_hypot_gives   `gives l k m r`: from numbers of l, after k operations, m computes a number that stands
-            for r
-        gives_known, gives_error   such a number is known by an assignment as in next_known, and its radius is an
-            error *)
+        affine_horner_gives, affine_copysign_gives, affine_sqrt_gives, affine_abs_gives, affine_fma_gives,
+        affine_lerp_gives, and from p = 8 on affine_hypot_gives
+            `gives l k m r`: from numbers of l, after k operations, m computes a number that stands for r
+        gives_known, gives_error   it is known by an assignment as in next_known, and its radius is an error *)
 
 From Coq Require Import Reals ZArith Lia Lra Bool List.
 From Flocq Require Import Core IEEE754.BinarySingleNaN.

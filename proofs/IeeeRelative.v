@@ -1,16 +1,16 @@
 (** Bound rule `relative` (include/errbound/rules/relative.hpp) over IEEE formats (Ieee.v), to nearest, including
-    overflow: the functions of RelativeCode.v. Numbers have p digits, p >= 4, emax > p. Counts have a format with q
-    digits, q >= p and q >= 24, qmax >= emax, qmax >= 5q + 3. It is double in the code, for formats of up to 53
-    digits and emax up to 1024 (relative_keeps_operations_doubles). A number x is known by a value v and a
-    nonnegative count k, if k is infinite, or if v is finite and `holds` (Relative.v). Steps that cannot overflow are
-    proved forwards (forward_times and others); after others, a finite result implies finite operands. Results:
+    overflow: the functions of RelativeCode.v. Numbers have p >= 4 digits, emax > p. Counts have q digits, q >= p, q
+    >= 24, qmax >= emax, qmax >= 5q + 3: double in the code, up to 53 digits and emax 1024
+    (relative_keeps_operations_doubles). A number x is known by a value v and a nonnegative count k if k is infinite,
+    or v is finite and `holds` of Relative.v. Steps that cannot overflow are proved forwards (forward_times and
+    others); after others, a finite result implies finite operands. Results:
         relative_exact_known, relative_within_known, relative_negate_known, relative_add_known,
             relative_subtract_known,
         relative_multiply_known, relative_divide_known, relative_scale_known   the count that the code returns holds
         relative_error_known, relative_sign_known   a finite error bounds |v - x|; the sign is right or uncertain
         relative_promises, relative_keeps_operations, relative_dot_known   functions (IeeeFunctions.v,
-            IeeeCompound.v),
-                                                                           and dot products by the rule's dot_bound *)
+            IeeeCompound.v), and
+            dot products by the rule's dot_bound *)
 
 From Coq Require Import Reals ZArith Lia Lra Psatz Bool List.
 From Flocq Require Import Core IEEE754.BinarySingleNaN.

@@ -405,7 +405,7 @@ Proof.
     rewrite Rabs_pos_eq in L by exact N. split; [| exact L].
     destruct (fma _ F a b c) as [| [|] | | ]; cbn in E; try discriminate; reflexivity.
 Qed.
-(** Of C's two numbers, the smaller or larger one has the smaller or larger rounded value. *)
+(** The smaller or larger of C's two numbers has the smaller or larger rounded value. *)
 Ltac chosen C := exfalso; first
   [ lra
   | match type of C with ?a = ?b => assert (X : a = negb b) by

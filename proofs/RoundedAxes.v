@@ -2,11 +2,9 @@
     ccd/step/swept_boxes.hpp. Coordinates in double are mapped by a translation per axis and one scale, and rounded
     to float, in any direction, the same in both formats. Results:
         rounded_monotone          rounding preserves the order, not strictly
-        rounded_face_separate, rounded_edges_separate   features that an axis separates as computed in float are
-            apart
-                                  throughout the step
-        swept_face_separate, swept_edges_separate   features with rounded swept boxes that do not touch have no
-            contact
+        rounded_face_separate, rounded_edges_separate   an axis that separates them as computed in float does so
+            exactly
+        swept_face_separate, swept_edges_separate   if rounded swept boxes do not touch, there is no contact
         swept_rounded_first       rounding before the minimum and maximum gives the same boxes
         converted_difference_near   a difference in units of a power of two, rounded to double and then to float,
                                   differs by at most eps of itself or by eta

@@ -1,5 +1,5 @@
 (** Bound rule `sharp` (include/errbound/rules/sharp.hpp): TightBound with u in place of eps, as the C++ code
-    computes it, to nearest, ties to even, from 3 bits on, with u a number (emin <= -p).
+    computes it. Rounding is to nearest, ties to even, from 3 bits on, with u a number (emin <= -p).
 
     A number x has a value a and a bound sa, |a - x| <= sa. Results:
         sharp_add_sound, sharp_subtract_sound, sharp_multiply_sound, sharp_divide_sound *)

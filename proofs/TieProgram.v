@@ -1,6 +1,6 @@
 (** The definitions of Code.v, CompoundCode.v, SlopeCode.v, RelativeCode.v and AffineCode.v over IEEE floats, and
-    those of integers of words, as a program: tie.ml evaluates them on tiny formats, on float and on double, and on
-    integers of up to four words, and tests/errbound/validation/tie_test.cpp compares the C++ code with the results. *)
+    those of integers of words, as a program. tie.ml evaluates them on tiny formats, float, double, and integers of
+    up to four words. tests/errbound/validation/tie_test.cpp compares the C++ code with the results. *)
 
 From Coq Require Import ZArith Extraction ExtrOcamlBasic.
 From Flocq Require Import Core IEEE754.BinarySingleNaN.

@@ -1,6 +1,6 @@
 (** Bound rule `tight` (include/errbound/rules/tight.hpp): TightBound, as the C++ code computes it.
 
-    A number x has a value a and a bound sa, |a - x| <= sa, and u is a number (emin <= -p), as in every IEEE format.
+    A number x has a value a and a bound sa, |a - x| <= sa. u is a number (emin <= -p), as in every IEEE format.
     Results:
         tight_add_sound, tight_subtract_sound, tight_multiply_sound, tight_divide_sound
             rounding in any one direction, from 5 bits on

@@ -1,5 +1,5 @@
-(** The first contact of vertex and edge, and of two vertices, in closed form (ccd/contact/vertex_edge_time.hpp),
-    over the real numbers, since the code's integers and signs are exact. Results:
+(** The first contact of vertex and edge, and of two vertices, in closed form (ccd/contact/vertex_edge_time.hpp). It
+    is over the real numbers, since the code's integers and signs are exact. Results:
         first_root_right      `first_root_nonpositive`: the first root of f in (0, 1) with b <= 0, every branch
         first_contact_right   `first_vertex_edge_contact` returns the first contact, or that there is none
         first_bracket_right   the bracket of its result is that of the first contact
