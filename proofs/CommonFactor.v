@@ -353,7 +353,7 @@ Qed.
 Definition primitive (f g : list Z) : Prop := exists c, c <> 0 /\ f = multiple c g.
 
 (** common_factor: if a or b is empty, the other. Otherwise a divisor of both with the size of the image modulo the
-    last prime ([1] if the image is constant). That prime does not divide a's last coefficient. *)
+    last prime ([1] if the image is constant). The last prime does not divide a's last coefficient. *)
 Inductive common_factor (a b : list Z) : list Z -> Prop :=
 | other_empty c : a = [] -> primitive b c -> common_factor a b c
 | no_other c : b = [] -> primitive a c -> common_factor a b c

@@ -1,9 +1,9 @@
 (** Bound rule `relative` (include/errbound/rules/relative.hpp) over IEEE formats (Ieee.v), to nearest, including
     overflow: the functions of RelativeCode.v. Numbers have p >= 4 digits, emax > p. Counts have q digits, q >= p, q
     >= 24, qmax >= emax, qmax >= 5q + 3: double in the code, up to 53 digits and emax 1024
-    (relative_keeps_operations_doubles). A number x is known by a value v and a nonnegative count k if k is infinite,
-    or v is finite and `holds` of Relative.v. Steps that cannot overflow are proved forwards (forward_times and
-    others); after others, a finite result implies finite operands. Results:
+    (relative_keeps_operations_doubles). A number is known by a value and a nonnegative count if the count is
+    infinite, or the value finite and `holds` of Relative.v. Steps that cannot overflow are proved forwards; after
+    others, a finite result implies finite operands. Results:
         relative_exact_known, relative_within_known, relative_negate_known, relative_add_known,
             relative_subtract_known,
         relative_multiply_known, relative_divide_known, relative_scale_known   the count that the code returns holds
