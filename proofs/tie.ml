@@ -352,7 +352,7 @@ let operations f =
          let hypot = tracked_hypot a operations f.exponent in
          let zeros = of_value (a.integer Z0) in
          [ two "hypot" states states hypot; two "hypot_of_zeros" zeros zeros hypot ]) in
-  (* with the rule's dot bound, if it applies to any number of terms *)
+  (* with the rule's dot bound, if one factor covers at least one term *)
   let own_dot most dot = if most a = O then None else Some (dot a) in
   let of_rules =
     [ of_two "sign_of" f.values f.values (fun v e -> put_sign (sign_of a v e));
