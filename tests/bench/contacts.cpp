@@ -66,7 +66,6 @@ void add_contacts_row(const query_set<Query>& set, const options& o,
          error(ccd::lab::quantile(of.normals, 0.99))});
 }
 
-/// The mean length of all faces' edges before the step.
 double mean_edge(const ccd::mesh& m) {
     double sum = 0;
     for (const ccd::face& f : m.faces)

@@ -60,7 +60,6 @@ class device_array {
     std::size_t count_;
 };
 
-/// A scene's positions on the device.
 struct device_scene {
     device_array<double> before, after;
     ccd::cuda::positions at;
@@ -320,7 +319,6 @@ void methods(const bench::scene& s, const device_scene& device, const bench::que
     add_times_table(s, batch, once, o, out);
 }
 
-/// A step's options, on the device and on the host.
 struct step_request {
     const char* name;
     ccd::cuda::mesh_step_options options;

@@ -52,7 +52,6 @@ void make_degenerate(query_sets& queries) {
     }
 }
 
-/// The folder of a scene's two frames.
 fs::path frames_of(const std::string& name) {
     return name == "cloth-over-ball" ? fs::path(ERRBOUND_SCENES) / name
                                      : data_folder() / "scenes" / name / "frames";

@@ -42,7 +42,6 @@ void add_stage_rows(const query_set<Query>& set, const options& o,
     }
 }
 
-/// The seconds of one query in a single call.
 template <class Query>
 double seconds_of(const Query& q) {
     const clock::time_point start = clock::now();

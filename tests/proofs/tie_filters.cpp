@@ -90,7 +90,7 @@ void put_static(hash& h, tie::sequence& s, const Expression& expression) {
     put(h, f.bound());
     put(h, static_cast<int>(sign_of(e)));
 }
-/// Magnitude and allowances, if no factor is 0.
+/// Mass and allowances, if no factor is 0.
 template <class T, class Expression>
 void put_semi_static(hash& h, tie::sequence& s, const Expression& expression) {
     const numbers<T> x = draw_numbers<T>(s);

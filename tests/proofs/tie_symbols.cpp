@@ -77,7 +77,6 @@ void put_polynomial(hash& h) {
     put(h, -p);
 }
 
-/// Functions of signs.
 template <int N>
 void put_signs(hash& h) {
     const auto p = given<N>(0);

@@ -32,7 +32,6 @@ void expect_found_out(const soak::findings& found, std::string_view fault) {
     })) << fault;
 }
 
-/// The sum over all scenes.
 std::uint64_t sum(const soak::findings& found, std::size_t column) {
     std::uint64_t all = 0;
     for (const auto& row : found.table("scenes").rows) all += row.counts.at(column);

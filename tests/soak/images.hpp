@@ -51,7 +51,6 @@ struct image {
 /// A readable text: "x = -y moved 2^5, ..., time reversed".
 std::string text_of(const image& m);
 
-/// The images of one query.
 class query_images {
   public:
     /// Uses the first `count` of the points.

@@ -51,14 +51,12 @@ struct findings {
     std::vector<difference> differences = {};
     std::uint64_t checksum = 0xcbf29ce484222325;  ///< of right answers, in their order (FNV-1a)
 
-    /// Adds the findings of the next blocks.
     void add(const findings& next);
     /// The table of that title; throws std::out_of_range if there is none.
     const count_table& table(std::string_view title) const;
     count_table& table(std::string_view title);
     /// Counts the difference and keeps it if there is room.
     void differ(difference d);
-    /// Adds an answer to the checksum.
     void stir(std::uint64_t answer) { checksum = (checksum ^ answer) * 0x100000001b3; }
 
     friend bool operator==(const findings&, const findings&) = default;

@@ -32,7 +32,6 @@ std::string duration(double seconds) {
     return std::to_string(static_cast<std::uint64_t>(seconds)) + " s";
 }
 
-/// The number of questions in the first `blocks` blocks of a run.
 std::uint64_t questions_of(const part& of, std::uint64_t first, std::uint64_t blocks) {
     const std::uint64_t before = of.blocks_for(first);
     return of.count(before + blocks) - of.count(before);

@@ -22,7 +22,6 @@ namespace soak {
 
 // ---- Queries of families ----
 
-/// The row of a family in tables.
 std::string row_name(const query_families::family& family);
 /// The families' names, for part::version.
 std::string family_names();
@@ -34,7 +33,6 @@ std::uint64_t family_end(const query_families::family& family, std::uint64_t blo
 /// The number of queries of all families in the first `blocks` blocks.
 std::uint64_t queries_in(std::uint64_t blocks, std::uint64_t per_block);
 
-/// A query of a family.
 struct family_query {
     const query_families::family* family;
     std::uint64_t index;
@@ -45,7 +43,6 @@ struct family_query {
 std::vector<family_query> block_queries(std::uint64_t seed, std::uint64_t block,
                                         std::uint64_t per_block, ccd::kind which);
 
-/// A table with a row for each family.
 count_table family_table(std::vector<std::string> columns);
 
 /// The same queries twice: as stored points, and as pairs of a mesh's vertices.

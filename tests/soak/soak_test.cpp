@@ -72,7 +72,6 @@ soak::decider forgetful() {
     });
 }
 
-/// One count of a decider's row.
 std::uint64_t count(const soak::findings& found, std::string_view table, std::string_view row,
                     std::size_t column) {
     for (const auto& [name, counts] : found.table(table).rows)

@@ -193,7 +193,6 @@ inline constexpr family list[] = {
 
 inline constexpr auto& families = detail::list;
 
-/// A random family, by weights.
 inline const family& draw(source& random) {
     unsigned all = 0;
     for (const family& f : families) all += f.weight;

@@ -35,7 +35,6 @@ class numbers {
     std::size_t below(std::size_t end) { return byte() % end; }
     bool empty() const { return rest_.empty(); }
 
-    /// A finite number.
     double next() {
         const double x = made(byte());
         seen_.push_back(std::isfinite(x) ? x : 0);

@@ -58,7 +58,6 @@ struct instant {
     polynomial p;
     dyadic low, high;
 
-    /// The sign of g at this instant.
     int sign(const polynomial& g) const;
 };
 

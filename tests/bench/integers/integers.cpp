@@ -22,7 +22,6 @@ namespace {
 namespace mp = boost::multiprecision;
 using boost_integer = mp::number<mp::cpp_int_backend<>, mp::et_off>;
 
-/// Integers of `words` words, of twice as many, and of one word.
 template <class Integer>
 struct numbers {
     static constexpr std::size_t count = 32;

@@ -62,7 +62,6 @@ double true_error(double x, double y) {
     return double(std::abs(3.0L * x - y) / 3);
 }
 
-/// The greatest number, or 0 if there is none.
 double greatest(const std::vector<double>& numbers) {
     return numbers.empty() ? 0 : *std::max_element(numbers.begin(), numbers.end());
 }

@@ -84,7 +84,6 @@ struct input_set {
         for (std::size_t d = 0; d < D; ++d) a.coordinates[d] = arrays[argument][d].data();
         return a;
     }
-    /// Returns call(points of input i).
     template <class Call>
     auto with(std::size_t i, const Call& call) const {
         return [&]<std::size_t... K>(std::index_sequence<K...>) {

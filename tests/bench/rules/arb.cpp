@@ -23,7 +23,6 @@ class ball {
     arb_t value_;
 };
 
-/// Operations at the precision of doubles.
 struct arithmetic : composed<ball, arithmetic> {
     static constexpr slong precision = 53;
     static ball made(double x, double y) {

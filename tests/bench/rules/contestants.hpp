@@ -148,7 +148,6 @@ struct composed {
     }
 };
 
-/// A contestant's operands and results.
 template <class Number>
 struct operands {
     std::vector<Number> a, b, c, r;

@@ -20,7 +20,6 @@ std::vector<subject> of_queries();     ///< exact, the other methods, batches, s
 std::vector<subject> of_predicates();  ///< errbound/predicates.hpp
 std::vector<subject> of_roots();       ///< errbound/polynomial.hpp
 
-/// A range of coordinates.
 struct range {
     const char* name;
     double low, high;  ///< of magnitudes; zeros are allowed, too

@@ -71,7 +71,7 @@ ccd::earliest_time earliest_of(const std::vector<first_time>& times) {
     return found;
 }
 
-/// All contacts that are not separate.
+/// The contacts whose time is not `separate`.
 std::vector<ccd::timed_contact> contacts_of(const std::vector<first_time>& times) {
     std::vector<ccd::timed_contact> contacts;
     for (std::size_t i = 0; i < times.size(); ++i)

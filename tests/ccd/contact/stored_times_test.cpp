@@ -72,7 +72,6 @@ TEST(stored, queries) {
     std::cout << count << " queries\n";
 }
 
-/// Compares all pairs that collide from one frame to the next.
 void expect_right_scene(const fs::path& before, const fs::path& after) {
     SCOPED_TRACE(before.string());
     const ccd::mesh first = ccd::io::read_mesh(before), second = ccd::io::read_mesh(after);

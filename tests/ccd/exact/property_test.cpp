@@ -83,7 +83,6 @@ struct errors {
     std::uint64_t false_positives = 0, false_negatives = 0;
 };
 
-// Results of one family's queries.
 struct tally {
     std::uint64_t queries = 0;
     std::uint64_t collisions = 0;
@@ -215,7 +214,6 @@ void check_methods(kind which, std::size_t family, std::uint64_t index, report& 
     }
 }
 
-// Prints a row per family: counts, and the errors that methods may make.
 void print(kind which, const report& r) {
     struct column {
         std::string title;

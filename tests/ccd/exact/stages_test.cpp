@@ -65,7 +65,6 @@ const test_set<ccd::edge_edge<double>>& edge_edge_set() {
     return set;
 }
 
-/// Calls test(set) for both kinds.
 template <class Test>
 void for_both_kinds(const Test& test) {
     test(vertex_face_set());

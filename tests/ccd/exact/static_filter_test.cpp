@@ -30,7 +30,6 @@ double largest_error(const errbound::roots::control_values<double, N>& computed,
         const rational error = abs(rational(rational(computed[i]) - exact[i]));
         largest = std::max(largest, error);
     }
-    // Rounded up.
     const double rounded = largest.convert_to<double>();
     return rational(rounded) < largest ? std::nextafter(rounded, HUGE_VAL) : rounded;
 }

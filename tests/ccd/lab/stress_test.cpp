@@ -42,7 +42,6 @@ bool collides(kind which, const points& p) {
     });
 }
 
-/// Calls test(kind, points) for some queries of both kinds.
 template <class Test>
 void for_queries(std::string_view family, double knob, const Test& test) {
     for (const kind which : ccd::stored_kinds) {
@@ -147,7 +146,6 @@ TEST(families, touch_at_their_declared_times) {
 
 // ---- The run ----
 
-/// A method that gives one answer to all.
 lab::subject always(ccd::verdict said, bool may_lose, bool may_report) {
     const auto decide = [said](auto queries, std::span<ccd::verdict> verdicts) {
         std::fill_n(verdicts.begin(), queries.size(), said);

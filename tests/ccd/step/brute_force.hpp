@@ -87,7 +87,6 @@ struct elements {
     }
 };
 
-/// True if two elements have a common vertex.
 template <std::size_t A, std::size_t B>
 bool share_vertex(const std::array<vertex_index, A>& a, const std::array<vertex_index, B>& b) {
     return std::ranges::any_of(a,
@@ -125,7 +124,6 @@ void for_each_pair(const ccd::mesh& m, const Visit& visit) {
     for_each_two(of.points, of.rods, visit);
     for_each_two(of.points, of.points, visit);
 }
-/// Calls visit(pair) for every pair of a mesh in the plane.
 template <class Visit>
 void for_each_pair_in_plane(const ccd::mesh& m, const Visit& visit) {
     const elements of(m);
@@ -144,7 +142,6 @@ Pair as_reported(Pair pair) {
     return pair;
 }
 
-/// The vertices of a pair's two elements.
 template <class Pair>
 auto elements_of(const Pair& pair) {
     constexpr std::size_t first = ccd::kind_traits<ccd::kind_of<Pair>>::first_vertices;

@@ -7,7 +7,6 @@
 
 namespace brute_force {
 
-/// Expects equal pairs and candidates.
 inline void expect_same(const ccd::step_result& found, const ccd::step_result& expected) {
     EXPECT_EQ(found.candidates, expected.candidates);
     EXPECT_EQ(found.pairs, expected.pairs);

@@ -146,7 +146,6 @@ TEST(Step, HoldsInEveryRoundingDirection) {
     }
 }
 
-/// The search's candidates of two kinds of pairs, sorted.
 ccd::pair_lists found_by_search(const brute_force::two_frames& at, ccd::instruction_set set,
                                 ccd::detail::candidate_search::wanted wanted) {
     const ccd::vertex_rows rows(at.first, at.second);
