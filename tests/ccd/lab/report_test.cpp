@@ -127,7 +127,7 @@ TEST_F(Report, TruthIsTheFilesElseExact) {
     const std::string lines = std::string(hit) + miss;
     std::string with_truth;
     for (std::size_t at = 0; at < lines.size(); at = lines.find('\n', at) + 1)
-        // one query of the second set has a wrong answer
+        // wrong for the second query
         with_truth += lines.substr(at, lines.find('\n', at) - at) + ",1\n";
     write("a/vf/1.csv", lines);
     write("a/vf/2.csv", with_truth);

@@ -136,7 +136,7 @@ TEST(RulesMain, ReadsFilesAndSaysWhatItMust) {
     testing::internal::CaptureStderr();
     EXPECT_EQ(run<renamed>({(folder.path / "no_vf.csv").string()}), 1);
     EXPECT_NE(testing::internal::GetCapturedStderr().find("no_vf.csv"), std::string::npos);
-    // The stored answer contradicts the method, which breaks its promise.
+    // The stored answer contradicts that of the method, so its promise counts as broken.
     const std::string stored = (folder.path / "truth" / "vf.csv").string();
     test_files::write(stored,
                       "0x1.3p-2,0.1,0.7,0\n0.1,-0.3,0,0\n1.3,0,0.1,0\n0.1,1.7,0,0\n"
