@@ -5,10 +5,10 @@
         affine_keeps         bounds still hold when a source is new
         affine_error_sound   the error that the code reports is a bound
 
-    A source s has a number e s of size at most 1. A number x has a value v, terms, a rest with |x - v - sum of c (e
-    s) over the terms| <= rest, and a radius with |x - v| <= radius. An operation has a new source f for its own
-    error. The theorems prove that a number of f exists for which the result is right. Without sources (None) that
-    error goes to the rest. *)
+    A source s has a number e s of size at most 1. A number x has a value v, terms, a rest and a radius: |x - v - sum
+    of c (e s) over the terms| <= rest and |x - v| <= radius. An operation has a new source f for its own error. The
+    theorems prove that a number of f exists for which the result is right. Without sources (None) that error goes to
+    the rest. *)
 
 From Coq Require Import Reals ZArith Lia Lra Psatz Bool List.
 From Flocq Require Import Core.

@@ -88,7 +88,7 @@ inline int count_differences(const std::vector<line>& lines, bool first_alone) {
             found->second.hash == results.value())
             continue;
         const auto cases = static_cast<unsigned long long>(l.cases);
-        std::printf("%s: %llu %08x, which proofs/tie.txt has not\n", l.name.c_str(), cases,
+        std::printf("%s: %llu %08x, not in proofs/tie.txt\n", l.name.c_str(), cases,
                     static_cast<unsigned>(results.value()));
         ++differences;
         if (first_alone) break;
