@@ -1,4 +1,3 @@
-// First contact times in integers of fixed width: see ccd/contact/integer_times.hpp.
 #include "ccd/contact/integer_times.hpp"
 
 #include "ccd/contact/integer_first_contact.hpp"

@@ -1,4 +1,3 @@
-// First times of contact, stage by stage: see include/ccd/contact.hpp.
 #include <ccd/contact.hpp>
 #include <ccd/kind.hpp>
 #include <ccd/reference.hpp>
@@ -11,7 +10,7 @@
 namespace ccd {
 namespace {
 
-/// Floating point separates, or finds the interval of the first contact; integers compute its time.
+/// Floating point separates, or finds the interval of the first contact. Integers compute its time.
 template <class Query>
 detail::found_time found_before_reference(const Query& query) {
     if constexpr (cubic_query<Query>) {

@@ -1,5 +1,4 @@
-// The order of the stages of `exact`, for one query; exact_stages (ccd/explain.hpp) describes each.
-// Each decides the query or leaves it to the next.
+// The order of the stages of `exact` for one query. exact_stages (ccd/explain.hpp) describes each.
 #include "ccd/exact/stages.hpp"
 
 #include <ccd/methods/forms.hpp>
@@ -48,10 +47,10 @@ template <template <class> class Forms, class Query>
         if (rootless) return separate;
     }
     {
-        // Diagonals cost one query more than Y's four coefficients do, a pack of floats less.
+        // Diagonals cost more than Y's four coefficients here, but less in packs of floats.
         stage_timer timer(report, stage::axes);
         const bool separated = static_filter::separated_by_diagonals<double>(forms, extents);
-        timer.count(0, separated, 0);  // it entered above
+        timer.count(0, separated, 0);  // the stage already counted this query above
         if (separated) return separate;
     }
     stage_timer inside_timer(report, stage::inside);
