@@ -38,7 +38,7 @@ stage_report for_each_chunk(std::size_t count, std::size_t size, const batch_opt
     if (options.threads == 1 || count <= size) {
         batch_worker worker = fresh;
         for (std::size_t first = 0; first < count; first += size) {
-            stop_if_asked(options.stop);
+            stop_if_requested(options.stop);
             decide(worker, first, std::min(size, count - first));
         }
         return worker.report();
@@ -50,7 +50,7 @@ stage_report for_each_chunk(std::size_t count, std::size_t size, const batch_opt
                           [&](const tbb::blocked_range<std::size_t>& range) {
                               batch_worker& worker = workers.local();
                               for (std::size_t c = range.begin(); c < range.end(); ++c) {
-                                  stop_if_asked(options.stop);
+                                  stop_if_requested(options.stop);
                                   decide(worker, c * size, std::min(size, count - c * size));
                               }
                           });

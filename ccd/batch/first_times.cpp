@@ -54,7 +54,7 @@ class timed_queries {
             decide_chunks(batch(), std::span(answers), batch_options_of(options_), asked());
         else
             for_each_index(size(), options_.threads, [&](std::size_t i) {
-                stop_if_asked(options_.stop);
+                stop_if_requested(options_.stop);
                 answers[i] = decide_within(query(i), distance(i)).outcome;
             });
         return answers;
@@ -146,7 +146,7 @@ std::vector<timed_contact> contacts_among(const timed_queries<Item>& asked) {
     if (options.distances.is_contact()) return contacts_of_chunks(asked.batch(), options);
     std::vector<timed_contact> found = possible_contacts(asked.decisions());
     for_each_index(found.size(), options.threads, [&](std::size_t i) {
-        stop_if_asked(options.stop);
+        stop_if_requested(options.stop);
         auto& [query, time] = found[i];
         time = time_within(asked.query(query), asked.distance(query), options.t_max);
     });
@@ -251,7 +251,7 @@ earliest_time earliest_of_all(const timed_queries<Item>& asked) {
     std::atomic<double> bound = asked.options().t_max;
     tbb::enumerable_thread_specific<earliest_of_thread> parts;
     for_each_index(contacts.size(), asked.options().threads, [&](std::size_t i) {
-        stop_if_asked(asked.options().stop);
+        stop_if_requested(asked.options().stop);
         const double t_max = bound;
         const std::size_t number = contacts[i].query;
         const auto& query = asked.query(number);

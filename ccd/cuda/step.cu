@@ -275,7 +275,7 @@ step_result step(const mesh& before, const mesh& after, const step_options& opti
     ccd::detail::check_frames(before, after);
     ccd::detail::check_positions(vertex_rows(before, after), before.vertices.size());
     ccd::detail::check_elements(before.faces, {}, before.vertices.size(), "ccd::cuda::step");
-    if (!ccd::detail::has_faces_alone(before))
+    if (!ccd::detail::has_faces_only(before))
         return failed({"ccd::cuda: mesh has edges or points; expected only faces"});
     ccd::detail::check_options(options, before.vertices.size());
     if (!options.distances.is_contact())

@@ -1,4 +1,3 @@
-// Advances of a mesh in one process.
 #include <algorithm>
 #include <ccd/advance.hpp>
 #include <stdexcept>

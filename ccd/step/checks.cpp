@@ -91,7 +91,7 @@ void check_positions(const vertex_rows& positions, std::size_t vertices,
     check_finite(positions.after, vertices, "1", numbers);
 }
 
-bool ask_for_times_or_distances(const step_options& options) {
+bool needs_times_or_distances(const step_options& options) {
     return options.times || options.first_contact || options.t_max < 1 ||
            !options.distances.is_contact();
 }
@@ -117,7 +117,7 @@ void check_options(const step_options& options, std::size_t vertices) {
                                     ", expected between_groups or within_groups");
     check_t_max("ccd::step", options.t_max);
     check_distances("ccd::step", options.distances, vertices);
-    if (ask_for_times_or_distances(options) && options.method != method::exact)
+    if (needs_times_or_distances(options) && options.method != method::exact)
         throw std::invalid_argument("ccd::step: found method " +
                                     std::string(info(options.method).name) +
                                     ", expected exact, which alone has times and distances");
@@ -125,7 +125,7 @@ void check_options(const step_options& options, std::size_t vertices) {
     check_length("pinned flags", options.filter.pinned.size(), vertices);
 }
 
-bool has_faces_alone(const mesh& mesh) {
+bool has_faces_only(const mesh& mesh) {
     std::vector<bool> on_an_edge(mesh.vertices.size());
     for (const edge& e : unique_edges(mesh.faces)) on_an_edge[e[0]] = on_an_edge[e[1]] = true;
     return mesh.edges.empty() && std::ranges::count(on_an_edge, false) < 2;

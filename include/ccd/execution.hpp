@@ -37,7 +37,7 @@ using stop_query = std::function<bool()>;
 
 namespace detail {
 
-inline void stop_if_asked(const stop_query& stop) {
+inline void stop_if_requested(const stop_query& stop) {
     if (stop && stop()) throw stopped();
 }
 
