@@ -1,4 +1,3 @@
-// Contact data of many queries: see include/ccd/contact.hpp.
 #include <ccd/contact.hpp>
 #include <stdexcept>
 #include <string>

@@ -27,7 +27,7 @@ class stage_timer {
         entry_->collides += collides;
     }
 
-    [[gnu::always_inline]] inline void leave_out(std::size_t queries) {
+    [[gnu::always_inline]] inline void skip(std::size_t queries) {
         if (entry_ != nullptr) entry_->left_out += queries;
     }
 

@@ -69,7 +69,7 @@ class range_reader {
     std::unique_ptr<store_reader> store_;  ///< once it is open
 };
 
-/// As parse_queries, for rows that follow `rows` other rows of `columns` columns.
+/// Same as parse_queries, for rows that follow `rows` other rows of `columns` columns.
 query_file parse_rows(std::string_view text, const std::string& name, ccd::kind kind, bool round,
                       std::uint64_t rows, std::uint64_t columns);
 

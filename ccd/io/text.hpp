@@ -87,7 +87,7 @@ std::string describe(number_status status, const std::string& found);
 /// hexadecimal float that no double equals is inexact unless `round`. Independent of the locale.
 number parse_double(std::string_view token, bool round);
 
-/// As parse_double without rounding, for a float, which is then widened.
+/// Same as parse_double without rounding, for a float, which is then widened.
 number parse_float(std::string_view token);
 
 /// The double equal to numerator/denominator, two decimal integers of any size. If no double equals

@@ -276,8 +276,8 @@ double border_weight(source& random) {
 }
 
 /// A vertex that passes a triangle of the given heights over its base, or an edge that passes one
-/// of the given lengths, at a place of constant weights w (of the height) and u. Heights are on an
-/// axis of their own, so that even the tiniest are exact.
+/// of the given lengths. The position has constant weights w (of the height) and u. Heights are on
+/// a separate axis, so that even the tiniest are exact.
 points passing_thin(source& random, kind which, const std::array<double, 2>& height) {
     const double l = random.between(4, 8) / 8.0, c = random.between(0, 8) / 8.0;
     // At most one of the weights is off a border, so that their product is exact.

@@ -392,11 +392,11 @@ struct fraction {
 
 // Contacts at chosen roots of the coplanarity function, multiplicities included. They are exact.
 //
-// The columns of M(t) = U T(t) V are the query's three differences. T is upper triangular, its
-// diagonal vanishes at the chosen roots r0, r1 and r2, so det M has exactly those. At r0 the first
-// unit vector is in T's kernel, and V = n A^-1 for A with first column (x, y, n) puts (x, y, n)
-// into M's. Therefore x and y, over n, are the weights of the contact. All numbers are small whole
-// numbers, so nothing rounds.
+// The columns of M(t) = U T(t) V are the query's three differences. T is upper triangular, and its
+// diagonal vanishes at the chosen roots r0, r1 and r2, which are the roots of det M. At r0 the
+// first unit vector is in T's kernel. With V = n A^-1, where A has the first column (x, y, n),
+// (x, y, n) is in the kernel of M. So x/n and y/n are the weights of the contact. All numbers are
+// small integers, so nothing rounds.
 inline points chosen_roots(source& random, kind which, const std::array<fraction, 3>& roots) {
     const bool face = which == kind::vertex_face;
     const int n = random.between(1, 4);

@@ -1,8 +1,8 @@
-// Advances of a mesh that is spread over ranks: each holds what is near to its part of space, and
-// all know how every group moves, for they join, shorten and take back by the same list of pairs.
+// Advances of a mesh on many ranks. Each rank holds the elements near its region of space. All know
+// the motion of every group, because all join, shorten and take back by the same list of pairs.
 //
-// Elements stay where the whole step brought them: a shorter way is within the box of the whole
-// one, and so is what two shorter ways' boxes share.
+// Elements stay on the ranks of the whole step: boxes of a shorter way, and intersections of two
+// such boxes, are inside those of the whole step.
 #include <algorithm>
 #include <ccd/mpi.hpp>
 #include <chrono>
@@ -20,13 +20,13 @@
 namespace ccd::mpi {
 namespace {
 
-/// A rank's vertices by index: first those that it holds, then all others that it has heard of.
+/// A rank's vertices by index: first those that it holds, then others that it has received.
 class known_vertices {
   public:
     known_vertices(const detail::held_mesh& held, bool islands)
         : held_(held), islands_(islands), groups_(held.vertices()) {
         if (!islands) groups_.join_all();
-        if (groups_.vertices() == 0) groups_.add();  // for what all vertices do
+        if (groups_.vertices() == 0) groups_.add();  // represents all vertices
         first_other_ = static_cast<vertex_index>(groups_.vertices());
         for (vertex_index v = 0; islands && v < held.vertices(); ++v)
             groups_.join_named(held.island(v), v);
@@ -61,13 +61,13 @@ class known_vertices {
     std::vector<int> islands_of_others_;
 };
 
-/// What ccd::detail::advancing asks of those that have the rest of the mesh.
+/// The exchange of ccd::detail::advancing with the ranks that have the rest of the mesh.
 class other_ranks {
   public:
     other_ranks(detail::exchanger& ranks, known_vertices& vertices)
         : ranks_(ranks), vertices_(vertices) {}
 
-    /// In the order of numbers.
+    /// Returns pairs in the order of numbers.
     template <class Pair>
     std::vector<ccd::detail::timed_pair<Pair>> found_by_all(
         const std::vector<ccd::detail::timed_pair<Pair>>& own) {
@@ -138,12 +138,12 @@ advance_result advance(MPI_Comm comm, const mesh_part& mesh, const advance_optio
         own[i] = vertices.index(mesh.numbers[i], islands ? options.groups[i] : 0);
     other_ranks others(ranks, vertices);
     mesh_steps steps = held.steps();
-    advance_options asked = options;
-    asked.filter = held.filter(parts.part(ranks.rank()), options.filter);
-    asked.distances = held.distances(options.distances);
+    advance_options local = options;
+    local.filter = held.filter(parts.part(ranks.rank()), options.filter);
+    local.distances = held.distances(options.distances);
     const vertex_rows way = held.way();
     const ccd::advance_result found =
-        ccd::detail::advancing(steps, way, asked, islands, vertices.groups(), others).run();
+        ccd::detail::advancing(steps, way, local, islands, vertices.groups(), others).run();
 
     advance_result result;
     result.first_contact = found.first_contact;

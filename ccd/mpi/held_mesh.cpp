@@ -1,5 +1,4 @@
-// Elements on their way to the ranks whose parts of space they meet, and the mesh that they make
-// there.
+// Sends elements to the ranks whose regions they meet, and builds the mesh there.
 #include "ccd/mpi/held_mesh.hpp"
 
 #include <algorithm>
@@ -18,13 +17,13 @@ template <class Item>
 std::vector<std::vector<Item>> picked(std::span<const Item> items,
                                       const std::vector<std::vector<vertex_index>>& places) {
     std::vector<std::vector<Item>> lists(places.size());
-    if (items.empty()) return lists;  // nobody gave any
+    if (items.empty()) return lists;
     for (std::size_t r = 0; r < places.size(); ++r)
         for (const vertex_index i : places[r]) lists[r].push_back(items[i]);
     return lists;
 }
 
-/// The rank that an item at that place came from.
+/// Returns the source rank of each item.
 template <class Item>
 std::vector<std::size_t> sources(const received<Item>& sent) {
     std::vector<std::size_t> ranks(sent.items.size());
@@ -114,16 +113,17 @@ held_mesh::held_mesh(exchanger& ranks, const mesh_part& mesh, const given_elemen
         faces_.size() + edges_.size() + unused_vertices(faces_, edges_, numbers_.size()).size();
 }
 
-/// One of each, in the order of their numbers.
+/// Keeps one copy of each vertex, in the order of their numbers.
 void held_mesh::keep_vertices(const received<sent_vertex>& sent,
                               const received_lists& of_vertices) {
     const auto& [groups, pinned, thickness, islands] = of_vertices;
     if (sent.items.size() > std::numeric_limits<vertex_index>::max())
-        throw std::length_error("ccd::mpi: found " + std::to_string(sent.items.size()) +
-                                " vertices in one part of space, expected fewer than 2^32 - 1");
+        throw std::length_error("ccd::mpi: number of vertices in one region is " +
+                                std::to_string(sent.items.size()) +
+                                "; expected fewer than 2^32 - 1");
     std::vector<vertex_index> order(sent.items.size());
     for (vertex_index i = 0; i < order.size(); ++i) order[i] = i;
-    // Stable: of copies, that of the lowest rank is first.
+    // Stable, so that the lowest rank's copy is first.
     std::ranges::stable_sort(order, {}, [&](vertex_index i) { return sent.items[i].number; });
     const std::vector<std::size_t> ranks = sources(sent);
     const auto differ = [](vertex_index i, vertex_index j, const auto&... lists) {
@@ -140,9 +140,10 @@ void held_mesh::keep_vertices(const received<sent_vertex>& sent,
             if (v.before != w.before || v.after != w.after ||
                 differ(i, kept, groups, pinned, thickness, islands))
                 throw std::invalid_argument(
-                    "ccd::mpi: found vertex " + std::to_string(v.number) +
-                    " with other positions, group, flag or thickness on rank " +
-                    std::to_string(ranks[i]) + " than on rank " + std::to_string(ranks[kept]));
+                    "ccd::mpi: vertex " + std::to_string(v.number) + " on rank " +
+                    std::to_string(ranks[i]) + " differs from its copy on rank " +
+                    std::to_string(ranks[kept]) +
+                    "; expected the same positions, group, flag, thickness and island");
             continue;
         }
         first = k;
@@ -188,7 +189,7 @@ std::vector<std::size_t> held_mesh::owners(const std::vector<Pair>& pairs) const
         for (std::size_t i = 0; i < pairs.size(); ++i)
             owners[i] = owner_of_vertex_[vertices_of(pairs[i])[0]];
     } else {
-        // The first edges, and the lowest rank that has each, as an edge or a side of a face.
+        // The first edges, and the lowest rank that has each as an edge or a side of a face.
         std::vector<std::pair<edge, std::size_t>> first;
         for (const Pair& p : pairs) first.push_back({{p.a0, p.a1}, ~std::size_t(0)});
         std::ranges::sort(first);

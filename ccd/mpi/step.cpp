@@ -1,4 +1,4 @@
-// One step of a mesh that is spread over ranks.
+// One step of a mesh on many ranks.
 #include <algorithm>
 #include <ccd/mpi.hpp>
 #include <chrono>
@@ -13,7 +13,7 @@
 namespace ccd::mpi {
 namespace {
 
-/// A pair on its way to who asked for it.
+/// A pair in a message to the rank that reports it.
 template <kind K>
 struct sent_pair {
     numbered_pair<K> vertices;

@@ -51,7 +51,7 @@ struct advance_result {
 ///
 /// A group's fraction is at least 0.99 of its first contact's time, or of that of a group it was
 /// joined with. It is less, at worst 0, only if no free positions were found within 1024 units in
-/// the last place, which gaps of a few such units cause.
+/// the last place. Gaps of a few such units cause this.
 ///
 /// Throws as mesh_steps::run, and std::invalid_argument if the numbers of groups and vertices
 /// differ. Cost: two such steps; one if all is free; a few more, at most 80, if groups meet by

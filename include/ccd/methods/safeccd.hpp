@@ -102,10 +102,10 @@ class solver {
     }
 
     /// How far f may move against `direction` on [p, q]: the length times a bound of how far f'
-    /// falls below zero, times direction. The better of two bounds on the least f': that of its
-    /// Bernstein coefficients on [p, q], certified one by one; and the least value of the computed
-    /// f', at an end or at its vertex, less all errors of its coefficients and what evaluation and
-    /// the vertex' own rounding (second order) can add. The true f' may have its vertex anywhere.
+    /// falls below zero, times direction. Takes the better of two bounds on the least f'. One is
+    /// that of its Bernstein coefficients on [p, q], certified one by one. The other is the least
+    /// value of the computed f', at an end or at its vertex, minus errors: those of coefficients,
+    /// of evaluation and of the vertex (second order). The true f' may have its vertex anywhere.
     constexpr T slack_of(const errbound::bernstein<scalar, 2>& slope, T vertex, T direction, T p,
                          T q) const {
         const auto low_end = [&](const scalar& x) { return direction * x.value() - x.error(); };

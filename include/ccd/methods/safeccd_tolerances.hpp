@@ -95,8 +95,8 @@ struct tolerances<T, errbound::safe> {
             first = false;
         }
         const T extent = (std::max)({high.x - low.x, high.y - low.y, high.z - low.z});
-        // One part in a million pays for the roundings here and for coordinates that underflowed
-        // when the query was scaled, unless all differences are of their size.
+        // One part in a million covers the roundings here. It also covers coordinates that
+        // underflowed when the query was scaled, unless all differences are of their size.
         constexpr T enlarged = 1 + T(0x1p-20);
         v_ = (displacement + 2 * sigma_) * enlarged;
         b_ = (extent + 2 * displacement + 6 * sigma_) * enlarged;

@@ -1,8 +1,8 @@
 // Queries in double precision, decided in single precision if that suffices.
 //
 // Coordinates are relative to one of the query's points and rounded to float, with the rounding
-// error as each number's bound. A float method therefore keeps its promise for double input, and
-// the loss is small compared with the query, however far it lies from the origin.
+// error as each number's bound. A float method therefore keeps its promise for double input. The
+// loss is small compared with the query, at any distance from the origin.
 #pragma once
 
 #include <algorithm>
@@ -16,9 +16,9 @@
 
 namespace ccd {
 
-/// Returns the query over tracked floats, translated so that its first point starts at the origin,
-/// and times the power of two that brings its largest coordinate near 1 if it is far from 1.
-/// `second` is false if a coordinate is not finite.
+/// Returns the query over tracked floats, translated so that its first point starts at the origin.
+/// If its largest coordinate is far from 1, a power of two brings it near 1. `second` is false if a
+/// coordinate is not finite.
 ///
 /// Bounds: d = fl(x − c) is off by at most 2^-53·|d|, and the float f nearest to it by 2^-24·|d|,
 /// or by half of η where that underflows. Together that is less than |f|(2^-24 + 2^-44) + η,

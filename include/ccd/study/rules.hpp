@@ -1,5 +1,5 @@
-// Bound rules of one's own in collision detection: what they decide, and at what cost, in double
-// and in float.
+// Compares custom bound rules in collision detection: their decisions and their cost, in double and
+// in float.
 //
 //   struct mine : errbound::derived_rule<mine, errbound::tight> { ... };
 //   int main(int argc, char** argv) {
@@ -92,9 +92,9 @@ inline void count(rule_row& row, outcome said, bool truth) {
 }  // namespace detail
 
 /// Decides the queries, vertex_face<double> or edge_edge<double>, under each rule in double and in
-/// float, where coordinates are rounded to floats with what that loses as their bounds. truth[i]:
-/// whether query i collides. Rules take turns, `passes` >= 1 times, so that a machine that slows
-/// down slows them alike. Allocates an answer for each query, rule and number type.
+/// float. Floats have the error of their conversion as bound. truth[i] is true if query i collides.
+/// Rules alternate, `passes` >= 1 times, so that a slower machine affects all of them. Allocates an
+/// answer for each query, rule and number type.
 template <class... Rules, class Query>
 std::vector<rule_row> compare_rules(const std::vector<Query>& queries,
                                     const std::vector<bool>& truth, int passes = 5) {
@@ -164,11 +164,10 @@ inline void print(const compared_file& file) {
 
 }  // namespace detail
 
-/// A main program: compares the rules on stored queries, files as `ccd query` takes them, whose
-/// kind the path says and whose truth, where they have none, is that of `exact`. Prints a row for
-/// each file, rule and number type; with `--out FOLDER` before the files it also calls
-/// write_comparison. Returns 0; 1 after bad input, or where certain answers under a rule that
-/// promises a bound were wrong; 2 without files.
+/// A main program that compares the rules on stored queries, in files of `ccd query`. The path
+/// gives their kind; `exact` gives the truth if a file has none. Prints a row for each file, rule
+/// and number type. With `--out FOLDER` before the files it also calls write_comparison. Returns 0,
+/// 2 without files, or 1 after bad input or wrong certain answers under a rule with a true bound.
 template <class... Rules>
 int rules_main(int argc, const char* const* argv) {
     const bool writes = argc > 2 && std::string_view(argv[1]) == "--out";

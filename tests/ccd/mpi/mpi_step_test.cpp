@@ -132,22 +132,22 @@ void refuse_all() {
     const std::string who = "rank " + std::to_string(size - 1) + ": ";
     const std::vector<ccd::mpi::vertex_number> numbers{7, 8, 9}, twice{7, 8, 7};
     const std::vector<ccd::face> faces{{0, 1, 2}}, beyond{{0, 1, 3}};
-    refuse(who + "ccd::mpi::step: found a vertex's number given twice",
+    refuse(who + "ccd::mpi::step: number of a vertex is 7 twice; expected unique numbers",
            {is_last ? twice : numbers, {points, points}, faces});
     refuse(who + "ccd::mpi::step: ", {numbers, {points, points}, is_last ? beyond : faces});
     if (is_last) others[2].x = std::numeric_limits<double>::quiet_NaN();
-    refuse(who + "ccd::step: the x of vertex 9 at t = 1 is not finite",
+    refuse(who + "ccd::step: x of vertex 9 at t = 1 is nan; expected a finite number",
            {numbers, {points, others}, faces});
-    refuse("expected groups and pinned flags alone", {numbers, {points, points}, faces},
+    refuse("expected only groups and pinned flags", {numbers, {points, points}, faces},
            {.filter = {.can_collide = [](auto, auto) { return true; }}});
     if (size > 1) {
         others = points;
         others[1].y = is_last ? 1e-300 : 0;
-        refuse("found vertex 8 with other positions", {numbers, {points, others}, faces});
-        refuse(who + "ccd::mpi::step: found other options than on rank 0",
+        refuse("differs from its copy on rank", {numbers, {points, others}, faces});
+        refuse(who + "ccd::mpi::step: options differ from those on rank 0",
                {numbers, {points, points}, faces}, {.times = is_last});
         const std::vector<int> groups(is_last ? 3 : 0);
-        refuse("found other lists of groups", {numbers, {points, points}, faces},
+        refuse("lists of groups, flags", {numbers, {points, points}, faces},
                {.filter = {.groups = groups}});
     }
 }
