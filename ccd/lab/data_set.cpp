@@ -55,7 +55,7 @@ void add(data_source source, const fs::path& folder, found_data& found) {
 /// Adds all regular files below the folder, by absolute path.
 void add_files_below(const fs::path& folder, std::set<fs::path>& files) {
     if (!fs::is_directory(folder))
-        throw file_error(folder.string() + ": found no such folder, expected one of data");
+        throw file_error(folder.string() + ": folder does not exist; expected one of data");
     const auto options = fs::directory_options::skip_permission_denied;
     for (auto entry = fs::recursive_directory_iterator(fs::canonical(folder), options);
          entry != fs::recursive_directory_iterator(); ++entry) {
@@ -90,8 +90,8 @@ std::optional<fs::path> stored_pairs(const fs::path& frame, const std::string& e
     for (const auto& entry : fs::directory_iterator(folder)) {
         if (!entry.path().filename().string().ends_with(ending)) continue;
         if (found)
-            throw file_error(folder.string() + ": found several files *" + ending +
-                             ", expected the one of the frames next to it");
+            throw file_error(folder.string() + ": number of files *" + ending +
+                             " is more than 1; expected that of the frames next to it");
         found = entry.path();
     }
     return found;
@@ -103,8 +103,8 @@ std::vector<std::array<std::size_t, 2>> read_pairs(const fs::path& path) {
         return nlohmann::json::parse(read_whole(path))
             .get<std::vector<std::array<std::size_t, 2>>>();
     } catch (const nlohmann::json::exception& error) {
-        throw file_error(path.string() + ": found " + error.what() +
-                         ", expected a JSON array of pairs of elements");
+        throw file_error(path.string() + ": content is no list (" + error.what() +
+                         "); expected a JSON array of pairs of elements");
     }
 }
 
@@ -150,17 +150,17 @@ void compare_stored(const fs::path& frame, const numbered_elements& elements,
     const auto pairs = read_pairs(*path);
     const std::vector<bool> truth = io::parse_truth(read_whole(truth_path), truth_path.string());
     if (truth.size() != pairs.size())
-        throw file_error(truth_path.string() + ": found " + std::to_string(truth.size()) +
-                         " truth values, expected " + std::to_string(pairs.size()) +
-                         ", one per pair of " + path->string());
+        throw file_error(truth_path.string() + ": number of truth values is " +
+                         std::to_string(truth.size()) + "; expected " +
+                         std::to_string(pairs.size()) + ", one for each pair of " + path->string());
     contents += read_whole(*path) + read_whole(truth_path);
 
     std::map<pair_of_query<Query>, bool> stored;  // a pair may be in the file twice
     for (std::size_t i = 0; i < pairs.size(); ++i) {
         const auto pair = elements.pair<pair_of_query<Query>>(pairs[i][0], pairs[i][1]);
         if (!pair)
-            throw file_error(path->string() + ": element " + std::to_string(i) +
-                             ": found an index out of range, expected one of the frames'");
+            throw file_error(path->string() + ": index in element " + std::to_string(i) +
+                             " is out of range; expected indices of the frames' elements");
         stored[detail::canonical(*pair)] = truth[i];
     }
     known.stored_truths = pairs.size();
@@ -278,8 +278,9 @@ found_data find_data(const std::vector<fs::path>& folders) {
     }
     for (auto& [folder, frames] : meshes) {
         if (frames.size() != 2) {
-            found.skipped.push_back({folder, "found " + std::to_string(frames.size()) +
-                                                 " meshes there, expected two frames"});
+            found.skipped.push_back(
+                {folder,
+                 "number of meshes is " + std::to_string(frames.size()) + "; expected two frames"});
             continue;
         }
         std::ranges::sort(frames, {}, [](const fs::path& frame) {

@@ -253,9 +253,8 @@ std::vector<loaded_data> collect_data(report_summary& report, const show_progres
         }
     }
     if (all.empty()) {
-        std::string message = "found no stored queries and no scene in";
+        std::string message = "number of data sets is 0; expected stored queries or a scene in";
         for (const fs::path& folder : settings.data) message.append(" ").append(folder.string());
-        message.append(", expected a data set");
         for (const omission& o : report.skipped)
             message.append("; skipped: ").append(o.path.string() + ": " + o.why);
         throw file_error(message);

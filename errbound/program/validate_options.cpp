@@ -30,9 +30,9 @@ std::string names_of_numbers() {
 /// Each number type needs a rule.
 void require_rules_of_numbers(const validate_arguments& all) {
     for (const number_type number : all.options.numbers)
-        if (std::ranges::none_of(all.rules, [&](const rule& r) { return r.serves(number); }))
-            throw support::usage_error("--numbers: found " + std::string(name_of(number)) +
-                                       ", expected one that a rule of --rules serves");
+        if (std::ranges::none_of(all.rules, [&](const rule& r) { return r.supports(number); }))
+            throw support::usage_error("--numbers is '" + std::string(name_of(number)) +
+                                       "'; expected a type that a rule of --rules supports");
 }
 elementary_function function_named(const std::string& name) {
     return support::entry_named("--functions", name, named_functions, &named_function::name)
@@ -45,10 +45,11 @@ std::vector<elementary_function> functions_named(const std::string& names) {
     return all;
 }
 
-void require_use_of_every_float(const function_options& asked) {
-    if (std::ranges::all_of(asked.functions, has_two_arguments) ||
-        std::ranges::find(asked.numbers, number_type::float_type) == asked.numbers.end())
-        throw support::usage_error("--every-float: found no function of one argument in float");
+void require_use_of_every_float(const function_options& options) {
+    if (std::ranges::all_of(options.functions, has_two_arguments) ||
+        std::ranges::find(options.numbers, number_type::float_type) == options.numbers.end())
+        throw support::usage_error(
+            "--every-float is given; expected a function of one argument, and float");
 }
 
 }  // namespace
@@ -140,7 +141,7 @@ validate_arguments validate_options::checked() {
         all.options.numbers = support::all_named("--numbers", numbers_, number_named);
     if (line_.count("--functions") > 0) all.functions.functions = functions_named(functions_);
     if (const auto units = all.functions.units; units && !(*units > 0 && *units <= most_units))
-        throw support::usage_error("--units: found a number that is none from above 0 to 1024");
+        throw support::usage_error("--units is out of range; expected a number > 0 and <= 1024");
     support::require_one_standard_input("--queries", all.queries);
     all.functions.numbers = all.options.numbers;
     const auto has_functions = [](number_type number) {
@@ -150,8 +151,7 @@ validate_arguments validate_options::checked() {
     if (!all.functions.functions.empty() &&
         std::ranges::none_of(all.functions.numbers, has_functions))
         throw support::usage_error(
-            "--functions: found --numbers without float, double and long double, expected one of "
-            "them");
+            "--numbers has no float, double or long double; expected one of them with --functions");
     all.functions.seed = all.options.seed;
     all.kind = ccd::find_kind(kind_);
     all.expressions = line_.count("--expressions") > 0 ||
@@ -182,8 +182,8 @@ void validate_options::require_use_of_options(const validate_arguments& all) con
         {"--csv", all.expressions || !all.queries.empty(), "--expressions or --queries"}};
     for (const auto& [option, is_used, by] : needs)
         if (line_.count(option) > 0 && !is_used)
-            throw support::usage_error(std::string(option) + ": found without " + by +
-                                       ", expected both");
+            throw support::usage_error(std::string(option) + " is given without " + by +
+                                       "; expected both");
 }
 
 }  // namespace errbound::validation

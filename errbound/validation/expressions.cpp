@@ -90,7 +90,7 @@ struct examination {
                std::uint64_t index) {
         const bool divides = e.divides();
         const auto left_out = [&](const rule& r) {
-            return !r.serves(type) || (divides && !r.has_division);
+            return !r.supports(type) || (divides && !r.has_division);
         };
         claims.resize(rules.size());
         const claim* computed = nullptr;  // claims whose errors `exact` has
@@ -199,7 +199,7 @@ struct study {
         report result;
         for (std::size_t k = 0; k < rules.size(); ++k)
             for (const number_type type : options.numbers) {
-                if (!rules[k].serves(type)) continue;
+                if (!rules[k].supports(type)) continue;
                 auto& of_type = found.tallies[type];
                 of_type.resize(rules.size());
                 add(result, rules[k], name_of(type), of_type[k]);

@@ -117,12 +117,11 @@ class packer final : public query_packer {
 
     void add(const query_file& queries) override {
         if (queries.kind() != kind_)
-            throw std::invalid_argument("found queries of kind " +
-                                        std::string(name(queries.kind())) + ", expected " +
-                                        std::string(name(kind_)));
+            throw std::invalid_argument("kind of queries is " + std::string(name(queries.kind())) +
+                                        "; expected " + std::string(name(kind_)));
         if (queries.truth.has_value() != with_truth_)
-            throw std::invalid_argument(with_truth_ ? "found queries without truth, expected it"
-                                                    : "found queries with truth, expected none");
+            throw std::invalid_argument(with_truth_ ? "truth is missing; expected truth values"
+                                                    : "truth is given; expected none");
         const auto add_all = [&](const auto& all) {
             for (std::size_t i = 0; i < all.size(); ++i) {
                 using query = std::remove_cvref_t<decltype(all[i])>;
@@ -137,7 +136,7 @@ class packer final : public query_packer {
     std::uint64_t size() const override { return size_; }
 
     const std::filesystem::path& finish() override {
-        if (size_ == 0) throw std::runtime_error("found no queries, expected at least one");
+        if (size_ == 0) throw std::runtime_error("number of queries is 0; expected at least 1");
         if (!queries_.empty()) {
             const hdf5::quiet_use use;
             write_chunk(true);
@@ -161,8 +160,8 @@ class packer final : public query_packer {
         for (std::size_t i = 0; i < 4; ++i) {
             for (const std::uint64_t bits : points[i])
                 if (!std::isfinite(std::bit_cast<double>(bits)))
-                    throw std::invalid_argument("found a coordinate that is not finite in query " +
-                                                std::to_string(size_));
+                    throw std::invalid_argument("coordinate of query " + std::to_string(size_) +
+                                                " is not finite; expected finite numbers");
             const auto next = static_cast<std::uint32_t>(points_.size());
             const auto [place, is_new] = indices_.try_emplace(points[i], next);
             if (is_new) points_.push_back(points[i]);

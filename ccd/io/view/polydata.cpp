@@ -285,8 +285,8 @@ std::string pvd_of(std::span<const series_entry> series) {
         "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"1.0\">\n<Collection>\n";
     for (const series_entry& entry : series) {
         if (!std::isfinite(entry.time))
-            throw std::invalid_argument("times: found one of '" + entry.file +
-                                        "' that is not finite");
+            throw std::invalid_argument("time of '" + entry.file +
+                                        "' is not finite; expected finite numbers");
         detail::require_xml_name(entry.file);
         char time[32];
         const auto end = std::to_chars(std::begin(time), std::end(time), entry.time).ptr;

@@ -191,7 +191,8 @@ int rules_main(int argc, const char* const* argv) {
             for (const rule_row& r : files.back().rows) broken = broken || r.is_broken();
         }
         if (writes && !write_comparison(argv[2], files))
-            std::fprintf(stderr, "%s: no pictures: found no Python with matplotlib\n", argv[2]);
+            std::fprintf(stderr, "%s: no pictures, since no Python with matplotlib was found\n",
+                         argv[2]);
     } catch (const errbound::support::file_error& error) {
         std::fprintf(stderr, "%s\n", error.what());
         return 1;

@@ -52,7 +52,7 @@ TEST(Validate, EveryRuleKeepsItsPromisesInRandomExpressions) {
 
 std::size_t served(validation::number_type type) {
     return static_cast<std::size_t>(std::ranges::count_if(
-        validation::rules(), [type](const rule& r) { return r.serves(type); }));
+        validation::rules(), [type](const rule& r) { return r.supports(type); }));
 }
 
 /// All rules that serve them keep their promises in these formats. `open`: how many values of a
