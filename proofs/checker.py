@@ -1,7 +1,7 @@
 """Reads, builds and checks a folder of Coq files, so that nothing is believed that Coq does not say.
 
 A folder has _CoqProject, which names its files and nothing else, and those files. What a text search
-can miss, Coq is asked twice: Print Assumptions of each theorem, whose every line has to be understood,
+can miss, Coq runs two commands: Print Assumptions of each theorem, whose every line has to be understood,
 and coqchk, which checks the compiled files anew and says by full names what they rest on. What a
 theorem states is printed, to be held against a text that people read.
 """
@@ -139,19 +139,19 @@ def compile_all(folder, build, more=()):
         shutil.copy(path, build)
 
 
-def asked(build, library, found, subject, questions, *before):
-    """Coq's answers to questions, by what each is about; after other commands. Nothing that a file can make Coq print
-    is taken for an answer: what separates them is drawn each time."""
+def outputs(build, library, found, subject, commands, *before):
+    """Returns Coq's output of each command, by its name; `before` runs first. A random mark separates outputs, so that
+    no file can imitate it."""
     mark = secrets.token_hex(16)
     script = [f"From {library} Require {' '.join(dict.fromkeys(name for name, _ in found))}.", *before,
               "Set Printing Width 100.", "Set Printing Depth 1000000.", "Set Printing Implicit."]
-    for about, question in questions.items():
-        script += [f'Goal True. idtac "{mark} {about}". exact I. Qed.', question]
-    file = f"asked_{subject}.v"
+    for name, command in commands.items():
+        script += [f'Goal True. idtac "{mark} {name}". exact I. Qed.', command]
+    file = f"print_{subject}.v"
     (build / file).write_text("\n".join(script) + "\n")
     blocks = re.split(rf"^{mark} (\S+)\n", run(build, "coqc", "-Q", ".", library, file, silent=True), flags=re.MULTILINE)
-    if blocks[0] or blocks[1::2] != list(questions):
-        raise Refused(f"Coq did not answer each question of {subject} once: {blocks[0][:200]}")
+    if blocks[0] or blocks[1::2] != list(commands):
+        raise Refused(f"Coq did not run each command of {subject} once: {blocks[0][:200]}")
     return dict(zip(blocks[1::2], blocks[2::2]))
 
 
@@ -175,14 +175,14 @@ def axioms_of(text):
 
 
 def assumptions(build, library, found):
-    """By file, its theorems and the names of the axioms that they rest on, which are allowed. Coq is asked once of all
+    """By file, its theorems and the names of the axioms that they rest on, which are allowed. Coq runs once for all
     that a file has, since it looks through the libraries each time."""
     files = {name: [theorem for of, theorem in found if of == name] for name, _ in found}
     together = {name: ", ".join(f"@{name}.{theorem}" for theorem in theorems) for name, theorems in files.items()}
-    questions = {name: f"Definition of_{name} := ({all_}).\nPrint Assumptions of_{name}."
-                 for name, all_ in together.items()}
+    commands = {name: f"Definition of_{name} := ({all_}).\nPrint Assumptions of_{name}."
+                for name, all_ in together.items()}
     used = {}
-    for name, text in asked(build, library, found, "assumptions", questions).items():
+    for name, text in outputs(build, library, found, "assumptions", commands).items():
         try:
             axioms = axioms_of(text)
         except Refused as why:
@@ -198,7 +198,7 @@ def statements(build, library, found):
     """What the theorems state, with what sections supposed, in the real numbers' notations and no others."""
     notations = ("From Coq Require Import ZArith Reals.", "Open Scope R_scope.")
     names = [f"{name}.{theorem}" for name, theorem in found]
-    answers = asked(build, library, found, "statements", {name: f"Check @{name}." for name in names}, *notations)
+    answers = outputs(build, library, found, "statements", {name: f"Check @{name}." for name in names}, *notations)
     for name, answer in answers.items():
         if not re.match(rf"@?{re.escape(name)}\n +: ", answer) or "..." in answer or "\nwhere" in answer:
             raise Refused(f"{name}: found '{answer}', expected a whole statement")

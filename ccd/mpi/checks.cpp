@@ -27,7 +27,6 @@ void check_lengths(const vertex_lists& lists, std::size_t vertices, const std::s
     for (const std::size_t length :
          {lists.groups.size(), lists.pinned.size(), lists.thickness.size(), lists.islands.size()})
         if (length != 0 && length != vertices)
-            throw std::invalid_argument(caller + ": found a list of " + std::to_string(length) +
             throw std::invalid_argument(caller + ": length of a list is " + std::to_string(length) +
                                         "; expected " + std::to_string(vertices) +
                                         ", one entry for each number");

@@ -21,7 +21,7 @@ std::string fault_of(const ccd::first_time& claimed, double t_max, const Holds& 
     if (claimed.outcome == ccd::outcome::uncertain) return "it is uncertain";
     if (claimed.outcome == ccd::outcome::separate)
         return last >= 0 && holds(oracle::interval{0, last}) ? "there is one" : "";
-    if (!(0 <= low && low <= high && high <= last)) return "it is not within the times asked";
+    if (!(0 <= low && low <= high && high <= last)) return "it is not within the tested times";
     if (low == high) {
         if (!holds(oracle::interval::instant(low))) return "it does not hold at that instant";
         return holds(oracle::interval{.high = low, .with_high = false}) ? "it holds before" : "";

@@ -51,7 +51,7 @@ amount_of<T> beyond(const tracked<T, Rule>& with_error, const tracked<T, Rule>& 
 
 /// A function under the wrapped rule: for the arguments, exact ones, and one argument's error each.
 template <class T, class Rule, std::size_t Count>
-struct asked_again {
+struct repeated_calls {
     tracked<T, Rule> result, own;
     std::array<tracked<T, Rule>, Count> of_one;
 };
@@ -59,7 +59,7 @@ struct asked_again {
 template <class T, class Rule, std::size_t Limit, std::size_t Count>
 tracked<T, explained<Rule, Limit>> booked_function(
     std::string_view name, const std::array<const tracked<T, explained<Rule, Limit>>*, Count>& x,
-    const asked_again<T, Rule, Count>& f) {
+    const repeated_calls<T, Rule, Count>& f) {
     using rule = explained<Rule, Limit>;
     using number = tracked<T, rule>;
     typename rule::template ledger<T> contributions;
@@ -97,13 +97,13 @@ tracked<T, explained<Rule, Limit>> as_one_operation(std::string_view name, const
         given[i] = explained<Rule, Limit>::unwrapped(*arguments[i]);
         exact[i] = plain(arguments[i]->value());
     }
-    detail::asked_again<T, Rule, count> asked{std::apply(f, given), std::apply(f, exact), {}};
+    detail::repeated_calls<T, Rule, count> calls{std::apply(f, given), std::apply(f, exact), {}};
     for (std::size_t i = 0; i < count; ++i) {
         std::array<plain, count> one = exact;
         one[i] = given[i];
-        asked.of_one[i] = std::apply(f, one);
+        calls.of_one[i] = std::apply(f, one);
     }
-    return detail::booked_function<T, Rule, Limit, count>(name, arguments, asked);
+    return detail::booked_function<T, Rule, Limit, count>(name, arguments, calls);
 }
 
 template <class T, class Rule, std::size_t Limit>

@@ -100,10 +100,10 @@ def compare_copies(given, name, frames, copies, failures):
     first = measured(given, 1, frames, "--copies", copies)
     if first["hash"] != first["hash_of_whole"]:
         failures.append(f"{name}, {copies} copies: the whole mesh has another hash")
-    asked = [(ranks, "blocks") for ranks in RANKS]
+    runs = [(ranks, "blocks") for ranks in RANKS]
     if first["faces"] <= 1_000_000:
-        asked += [(ranks, placement) for placement in ("interleaved", "one", "empty") for ranks in (3, 8)]
-    for ranks, placement in asked:
+        runs += [(ranks, placement) for placement in ("interleaved", "one", "empty") for ranks in (3, 8)]
+    for ranks, placement in runs:
         result = measured(given, ranks, frames, "--copies", copies, "--placement", placement)
         same(result, first, f"{name}, {copies} copies, {ranks} ranks, {placement}", failures)
         yield row_of(name, copies, result, placement)

@@ -35,7 +35,7 @@ std::string answer_fault(bool answer, T toi, double t_max, const Holds& holds) {
         if (toi != std::numeric_limits<T>::infinity()) return "a time without a contact";
         return holds(oracle::interval{0, last}) ? "missed" : "";
     }
-    if (!(0 <= toi && toi <= last)) return "the time is not one of those asked";
+    if (!(0 <= toi && toi <= last)) return "the time is not within the tested times";
     if (toi > 0 && holds(oracle::interval{.high = toi, .with_high = false})) return "late";
     const double next = std::nextafter(toi, T(2));
     return holds(oracle::interval{toi, std::min(next, last)}) ? "" : "early, or no contact at all";

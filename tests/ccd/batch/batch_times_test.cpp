@@ -96,9 +96,9 @@ TYPED_TEST(FirstTimes, AreThoseOfOneByOne) {
     const ccd::vertex_rows rows(before, after);
     const auto pairs = random_pairs<TypeParam>(130);
     const std::vector<double> thickness = thicknesses();
-    const ccd::time_options asked[] = {
+    const ccd::time_options all_options[] = {
         {}, {.t_max = 0.25}, {.distances = {0.25}}, {.t_max = 0.5, .distances = {0, thickness}}};
-    for (ccd::time_options options : asked) {
+    for (ccd::time_options options : all_options) {
         const auto expected = one_by_one(rows, pairs, options);
         for (options.threads = 0; options.threads < 3; ++options.threads) {
             EXPECT_EQ(ccd::first_times(rows, pairs, options), expected);

@@ -188,11 +188,11 @@ TEST(faults, of_brackets) {
     };
     EXPECT_EQ(fault(low, high), "");
     EXPECT_EQ(fault(low, high, high), "");
-    EXPECT_EQ(fault(low, high, low), "it is not within the times asked");
+    EXPECT_EQ(fault(low, high, low), "it is not within the tested times");
     EXPECT_EQ(fault(before(low), low), "it does not hold between");
     EXPECT_EQ(fault(high, after(high)), "it holds at low or before");
     EXPECT_EQ(fault(before(low), high), "the ends are no neighbours");
-    EXPECT_EQ(fault(high, low), "it is not within the times asked");
+    EXPECT_EQ(fault(high, low), "it is not within the tested times");
     EXPECT_EQ(fault(low, low), "it does not hold at that instant");
     EXPECT_EQ(support::fault_of(q, first_time{outcome::separate}), "there is one");
     EXPECT_EQ(support::fault_of(q, first_time{outcome::separate}, low), "");

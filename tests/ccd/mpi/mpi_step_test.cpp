@@ -15,7 +15,7 @@ namespace {
 
 using namespace distributed;
 
-struct question {
+struct step_case {
     std::string name;
     ccd::step_options options;
     bool groups = false, pinned = false, thickness = false;
@@ -27,11 +27,11 @@ struct of_vertices {
     std::vector<std::uint8_t> pinned;
     std::vector<double> thickness;
 
-    of_vertices(const question& asked, const std::vector<ccd::vertex_index>& vertices) {
+    of_vertices(const step_case& test, const std::vector<ccd::vertex_index>& vertices) {
         for (const ccd::vertex_index v : vertices) {
-            if (asked.groups) groups.push_back(static_cast<int>(v % 3));
-            if (asked.pinned) pinned.push_back(v % 2 == 0);
-            if (asked.thickness) thickness.push_back(0.001 * (v % 5));
+            if (test.groups) groups.push_back(static_cast<int>(v % 3));
+            if (test.pinned) pinned.push_back(v % 2 == 0);
+            if (test.thickness) thickness.push_back(0.001 * (v % 5));
         }
     }
     ccd::step_options fill(ccd::step_options options) const {
@@ -42,12 +42,12 @@ struct of_vertices {
     }
 };
 
-void compare(const scene& s, const question& asked, const std::string& placed, const placing& place,
+void compare(const scene& s, const step_case& test, const std::string& placed, const placing& place,
              const ccd::step_result& expected) {
-    const std::string name = s.name + ", " + asked.name + ", " + placed + ": ";
+    const std::string name = s.name + ", " + test.name + ", " + placed + ": ";
     const share own = share_of(s, place, placed == "doubled");
-    const of_vertices lists(asked, own.of_whole);
-    const ccd::step_options options = lists.fill(asked.options);
+    const of_vertices lists(test, own.of_whole);
+    const ccd::step_options options = lists.fill(test.options);
 
     const auto at_root =
         ccd::mpi::step(MPI_COMM_WORLD, own.part(), options, ccd::mpi::placement::root);
@@ -76,8 +76,8 @@ void compare(const scene& s, const question& asked, const std::string& placed, c
     expect(at_root.candidates == expected.candidates, name + "candidates differ");
 }
 
-std::vector<question> questions() {
-    std::vector<question> all;
+std::vector<step_case> step_cases() {
+    std::vector<step_case> all;
     all.push_back({"contacts", {}});
     all.push_back({"candidates", {.count_candidates = true}});
     all.push_back(
@@ -94,18 +94,18 @@ std::vector<question> questions() {
 void compare_scene(const scene& s) {
     std::vector<ccd::vertex_index> all(s.before.vertices.size());
     for (ccd::vertex_index v = 0; v < all.size(); ++v) all[v] = v;
-    for (const question& asked : questions()) {
-        const of_vertices lists(asked, all);
-        const auto expected = ccd::step(s.before, s.after, lists.fill(asked.options));
+    for (const step_case& test : step_cases()) {
+        const of_vertices lists(test, all);
+        const auto expected = ccd::step(s.before, s.after, lists.fill(test.options));
         const auto [name, place] = next_placing(s);
-        compare(s, asked, name, place, expected);
+        compare(s, test, name, place, expected);
     }
 }
 
-/// Many small scenes, of one question.
+/// Many small scenes, with one case.
 void compare_few_corners() {
     std::mt19937 random(11);
-    const question counted{"candidates", {.count_candidates = true}};
+    const step_case counted{"candidates", {.count_candidates = true}};
     for (int i = 0; i < (size <= 3 ? 60 : 20); ++i) {
         const scene s = distributed::few_corners(random, 4 + random() % 6, 1 + random() % 80);
         const auto expected = ccd::step(s.before, s.after, counted.options);
