@@ -1,9 +1,9 @@
 """Reads, builds and checks a folder of Coq files, so that nothing is believed that Coq does not say.
 
 A folder has _CoqProject, which names its files and nothing else, and those files. What a text search
-can miss, Coq runs two commands: Print Assumptions of each theorem, whose every line has to be understood,
-and coqchk, which checks the compiled files anew and says by full names what they rest on. What a
-theorem states is printed, to be held against a text that people read.
+can miss, two commands find: Print Assumptions of each theorem, whose every line must be understood,
+and coqchk, which checks the compiled files again and prints what they rest on by full names. The
+statements of theorems are printed, for comparison with a text that people read.
 """
 import os
 import re

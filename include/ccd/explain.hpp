@@ -8,7 +8,7 @@
 
 namespace ccd {
 
-/// In the order in which a query passes them; the first certain answer ends the query.
+/// In the order in which a query passes them, until an answer is certain.
 enum class stage : std::uint8_t { axes, coplanarity, inside, subdivision, integers, unbounded };
 inline constexpr std::size_t stage_count = 6;
 

@@ -55,9 +55,8 @@ constexpr vector_form<S, 0> coefficient(const vector_form<S, N>& p, int i) {
 }
 
 /// Coplanarity and inside forms of a query: b, c, p as in the paper, n = b × c. They are linear in
-/// t; of degree 0, it is the forms' values at one time. Over integers of W words
-/// n has coefficients of 2W words, y of 3W and the others of 4W; every other scalar is its own
-/// product.
+/// t; with degree 0 they are the values at one time. Over integers of W words, n has coefficients
+/// of 2W words, y of 3W and the others of 4W; products of other scalars keep their type.
 template <class S, int Degree = 1>
 struct coplanarity_forms {
     using product = decltype(std::declval<S>() * std::declval<S>());

@@ -67,7 +67,7 @@ void decide_all(std::span<const Query> queries, std::span<outcome> answers) {
             answers[i] = decide_bsc<Rule>(queries[i]).outcome;
 }
 
-/// In each number type.
+/// The runs in each number type.
 template <class Rule, class Query>
 void add_runs(std::vector<rule_run<Query>>& runs, std::size_t queries) {
     const bool promises = errbound::promises_bound<Rule>;
@@ -137,8 +137,8 @@ bool write_comparison(const std::filesystem::path& folder, const std::vector<com
 
 namespace detail {
 
-/// Reads a file of queries, whose truth is that of `exact` where it has none, and compares the
-/// rules. Throws errbound::support::file_error.
+/// Reads a file of queries and compares the rules. `exact` gives the truth if the file has none.
+/// Throws errbound::support::file_error.
 template <class... Rules>
 compared_file compare_on_file(const std::string& path) {
     const io::query_file file = io::read_queries(path, std::nullopt, false);
