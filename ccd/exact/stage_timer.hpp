@@ -28,7 +28,7 @@ class stage_timer {
     }
 
     [[gnu::always_inline]] inline void skip(std::size_t queries) {
-        if (entry_ != nullptr) entry_->left_out += queries;
+        if (entry_ != nullptr) entry_->skipped += queries;
     }
 
     [[gnu::always_inline]] inline void end() {

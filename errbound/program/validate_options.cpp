@@ -57,16 +57,15 @@ void require_use_of_every_float(const function_options& options) {
 validate_options::validate_options(CLI::App& program)
     : line_(*program.add_subcommand(
           "validate",
-          "Hold every bound rule's bounds and certain signs against MPFR, and report how tight "
-          "they\nare. Random expressions, unless --tiny, --queries or --functions asks for "
-          "those.")) {
+          "Compare bounds and certain signs of every rule with MPFR, and report how tight they\n"
+          "are. Tests random expressions, unless --tiny, --queries or --functions is given.")) {
     add_expressions();
     line_
         .add_option("--queries", arguments_.queries,
-                    "Stored queries (ccd query --help says their form): their forms and BSC")
+                    "Stored queries (see ccd query --help): their forms and BSC")
         ->type_name("FILE...")
         ->transform(support::input_named);
-    line_.add_option("--kind", kind_, "Kind of queries; else the path says")
+    line_.add_option("--kind", kind_, "Kind of queries; by default that in the path")
         ->check(CLI::IsMember(ccd::io::kind_names()));
     line_.add_flag("--round", arguments_.round,
                    "Round rationals that no double equals, instead of refusing them");
@@ -111,9 +110,10 @@ void validate_options::add_expressions() {
 
 void validate_options::add_functions() {
     line_
-        .add_option("--functions", functions_,
-                    "The system's elementary functions F[,F...], or all of them: how far they are "
-                    "off,\nin float and double, and whether function_error says so")
+        .add_option(
+            "--functions", functions_,
+            "Elementary functions F[,F...] of the system, or all: their errors in float and "
+            "double,\ncompared with function_error")
         ->type_name("F[,F...]");
     line_
         .add_option("--samples", arguments_.functions.samples,

@@ -36,7 +36,7 @@ auto known_correction(const tracked<T, Rule>& x) {
 }
 /// True if x and y have equal values, errors and corrections.
 template <class T, class Rule>
-bool says_the_same(const tracked<T, Rule>& x, const tracked<T, Rule>& y) {
+bool are_equal(const tracked<T, Rule>& x, const tracked<T, Rule>& y) {
     return x.value() == y.value() && x.error() == y.error() &&
            known_correction(x) == known_correction(y);
 }
@@ -65,9 +65,9 @@ tracked<T, explained<Rule, Limit>> booked_function(
     typename rule::template ledger<T> contributions;
     for (std::size_t i = 0; i < Count; ++i) {
         const number negative = -*x[i];
-        if (says_the_same(f.result, rule::unwrapped(*x[i])))
+        if (are_equal(f.result, rule::unwrapped(*x[i])))
             return rule::wrapped(f.result, x[i]->bound().contributions);
-        if (says_the_same(f.result, rule::unwrapped(negative)))
+        if (are_equal(f.result, rule::unwrapped(negative)))
             return rule::wrapped(f.result, negative.bound().contributions);
     }
     for (std::size_t i = 0; i < Count; ++i)

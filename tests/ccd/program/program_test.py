@@ -398,8 +398,8 @@ class Step(ProgramTest):
                                       str(result["collisions"]["vertex_face"])])
         for s in stages:
             self.assertEqual(rows[s["stage"]][1:5],
-                             [str(s[k]) for k in ("entered", "left_out", "separate", "collides")])
-            self.assertEqual(s["left_open"], s["entered"] - s["separate"] - s["collides"])
+                             [str(s[k]) for k in ("entered", "skipped", "separate", "collides")])
+            self.assertEqual(s["undecided"], s["entered"] - s["separate"] - s["collides"])
         self.assertEqual(result["pairs_of_mesh"], {"vertex_face": 12, "edge_edge": 15})
         # Six vertices, two faces and six edges: pairs that the boxes discard.
         self.assertIn("of the mesh  apart  candidates", text)
