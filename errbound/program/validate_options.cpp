@@ -123,7 +123,7 @@ void validate_options::add_functions() {
     line_.add_flag("--every-float", arguments_.functions.every_float,
                    "With --functions: all floats, of functions of one argument: long");
     line_.add_option("--units", arguments_.functions.units,
-                     "With --functions: hold them to so many units in the last place, instead of "
+                     "With --functions: the allowed error in units in the last place, instead of "
                      "function_error");
     line_
         .add_option("--functions-csv", arguments_.functions_csv,

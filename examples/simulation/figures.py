@@ -140,7 +140,7 @@ def streams(given):
                 cells[method][1] += len(pairs - found["exact"][2])
                 cells[method][2] += len(found["exact"][2] - pairs)
         row = [f"{1e6 * seconds / max(queries, 1):.3f}, {false}" + (f", {lost} lost" if lost else "")
-                for seconds, false, lost in cells.values()]
+               for seconds, false, lost in cells.values()]
         lines.append(f"| {scene} | {queries:,} | " + " | ".join(row) + " |")
     return lines
 
