@@ -147,7 +147,6 @@ class obj_parser {
         }
     }
 
-    /// Adds an edge between every two neighbours.
     void read_polyline(std::string_view line) {
         read_corners(line);
         if (corners_.size() < 2)
@@ -188,7 +187,6 @@ class obj_parser {
             corners_.push_back(corner(word));
     }
 
-    /// An integer with or without a sign.
     static bool read_index(std::string_view token, std::int64_t& index) {
         const bool plus = token.starts_with('+') && !token.starts_with("+-");
         if (plus) token.remove_prefix(1);

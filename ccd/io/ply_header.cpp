@@ -1,4 +1,3 @@
-// The header of a PLY file.
 
 #include <algorithm>
 #include <array>

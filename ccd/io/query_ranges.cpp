@@ -1,4 +1,3 @@
-// Files of stored queries, read one range at a time.
 #include "ccd/io/query_ranges.hpp"
 
 #include <algorithm>
@@ -15,7 +14,6 @@ namespace {
 
 using errbound::support::file_error;
 
-/// Counts the rows of a text that comes in blocks.
 class row_scanner {
   public:
     explicit row_scanner(std::uint64_t rows_of_a_range) : per_range_(rows_of_a_range) {}

@@ -1,4 +1,3 @@
-// Lines and words, exact numbers, and messages.
 #include "ccd/io/text.hpp"
 
 #include <algorithm>

@@ -24,8 +24,6 @@ using errbound::support::read_whole;
 
 namespace fs = std::filesystem;
 
-// ---- Finding ----
-
 bool is_mesh(const fs::path& path) {
     return path.extension() == ".ply" || path.extension() == ".obj";
 }
@@ -52,7 +50,6 @@ void add(data_source source, const fs::path& folder, found_data& found) {
     found.sources.push_back(std::move(source));
 }
 
-/// Adds all regular files below the folder, by absolute path.
 void add_files_below(const fs::path& folder, std::set<fs::path>& files) {
     if (!fs::is_directory(folder))
         throw file_error(folder.string() + ": folder does not exist; expected one of data");
@@ -62,8 +59,6 @@ void add_files_below(const fs::path& folder, std::set<fs::path>& files) {
         if (entry->is_regular_file()) files.insert(entry->path());
     }
 }
-
-// ---- Truth ----
 
 template <class Query>
 void decide_by_exact(queries_with_truth<Query>& into, int threads) {
@@ -80,8 +75,6 @@ void decide_truth(data_set& data, int threads) {
     data.queries.for_each([threads](auto& known) { decide_by_exact(known, threads); });
 }
 
-// ---- Scenes ----
-
 /// The one file of ../boxes next to a scene's frames whose name has this ending, if there is one.
 std::optional<fs::path> stored_pairs(const fs::path& frame, const std::string& ending) {
     const fs::path folder = frame.parent_path().parent_path() / "boxes";
@@ -97,7 +90,6 @@ std::optional<fs::path> stored_pairs(const fs::path& frame, const std::string& e
     return found;
 }
 
-/// Pairs of a file, a JSON array of [i, j]: elements by index.
 std::vector<std::array<std::size_t, 2>> read_pairs(const fs::path& path) {
     try {
         return nlohmann::json::parse(read_whole(path))
@@ -193,8 +185,6 @@ void load_scene(const data_source& source, int threads, data_set& into, std::str
         [&](auto& known) { compare_stored(source.frames[0], elements, known, contents); });
 }
 
-// ---- Stored queries ----
-
 /// One truth per query; -1 if none is stored.
 template <class Query>
 using stored_truths = std::vector<signed char>;
@@ -227,8 +217,6 @@ void load_queries(const data_source& source, int threads, data_set& into, std::s
         contents.append(known.collides.begin(), known.collides.end());
     });
 }
-
-// ---- Generated queries ----
 
 /// `count` queries of each kind, query i by make(i, kind).
 template <class Make>

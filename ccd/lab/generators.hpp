@@ -126,7 +126,6 @@ inline points subnormal(source& random) {
         [&](auto...) { return std::ldexp(random.between(-(1 << size), 1 << size), -1074); });
 }
 
-// Any finite doubles.
 inline points any_bits(source& random) {
     return fill([&](auto...) {
         for (;;) {
@@ -229,12 +228,10 @@ inline points nearly_in_plane(source& random, const points& p, int exponent) {
 
 // ---- Queries in contact, or near one ----
 
-// The number of points of a query's first feature.
 inline std::size_t first_feature_size(kind which) {
     return which == kind::edge_edge ? 2 : 1;
 }
 
-// Each feature moves as a whole.
 inline points translated(source& random, kind which, const points& p) {
     const std::size_t first_feature = first_feature_size(which);
     std::array<position, 2> shift;

@@ -1,4 +1,3 @@
-// The options of `errbound validate`.
 #include "errbound/program/validate_options.hpp"
 
 #include <algorithm>

@@ -1,4 +1,3 @@
-// Reads and writes whole files.
 #include "errbound/support/output_file.hpp"
 
 #include <array>
@@ -55,7 +54,6 @@ void write_to(int descriptor, const output& out) {
         for_each_block(out.from, write);
 }
 
-/// Writes, then closes the descriptor.
 void write_and_close(int descriptor, const output& out) {
     const fs::path& shown = out.path;
     if (descriptor < 0) throw file_error(shown.string() + ": cannot be written" + reason());

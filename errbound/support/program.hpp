@@ -1,4 +1,3 @@
-// Common code of every main.
 #pragma once
 
 #include <functional>

@@ -22,7 +22,6 @@ struct freed_mpfr_cache {
     ~freed_mpfr_cache() { mpfr_free_cache(); }
 };
 
-/// Merges reports in the order of their chunks.
 class ordered_sum {
   public:
     void add(std::uint64_t chunk, report found) {

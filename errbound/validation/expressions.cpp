@@ -74,7 +74,6 @@ class reference {
     std::vector<deviation> off_;
 };
 
-/// Counts for one rule and number type.
 struct tally {
     std::uint64_t expressions = 0, values = 0, violations = 0, undetermined = 0;
     std::array<distribution, operation_kinds> log10;

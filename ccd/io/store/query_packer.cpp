@@ -40,7 +40,6 @@ handle new_file(const std::string& path) {
     return {H5Fcreate(path.c_str(), H5F_ACC_TRUNC, how, access), H5Fclose, path};
 }
 
-/// The shape of a dataset and its chunks.
 struct row_format {
     hsize_t columns, rows_of_a_chunk;
     bool compressed;

@@ -40,7 +40,6 @@ struct number_types {
     const char* names;
 };
 
-/// A dataset of rows of numbers.
 class rows_on_disk {
   public:
     rows_on_disk(hid_t file, const std::string& store, const char* name, const number_types& types,
@@ -114,7 +113,6 @@ class rows_on_disk {
     std::uint64_t rows_ = 0;
 };
 
-/// Reads an attribute of one value of this type.
 void read_attribute(hid_t file, const std::string& store, const char* name, hid_t type, void* to) {
     const std::string where = store + ": attribute " + name;
     const handle id(H5Aopen(file, name, H5P_DEFAULT), H5Aclose, where);
