@@ -19,9 +19,9 @@ using namespace generators;
 // ---- Knobs, and exact building ----
 //
 // These queries are built without rounding, so that their contacts are where they should be: local
-// coordinates are multiples of `unit`, or tiny numbers on an axis of their own.
+// coordinates are multiples of `unit`, or tiny numbers on a separate axis.
 
-/// A position at each end of the step of each point, on axes of its own.
+/// A position at each end of the step of each point, on separate axes.
 using local_points = std::array<ends, 4>;
 
 /// One unit in the last place of numbers from 4 to 8.

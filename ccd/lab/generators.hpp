@@ -264,7 +264,7 @@ inline std::array<position, 4> positions(source& random) {
 }
 
 // A contact at one instant, as near as rounding allows: the first feature of `at` (EE: the second)
-// is moved there, then each point gets a velocity of its own, times `speed`.
+// is moved there, then each point gets its own velocity, times `speed`.
 // pick(random, corners) gives the weights of the point of contact.
 template <class Pick>
 points contact_at(source& random, kind which, double speed, std::array<position, 4> at, Pick pick) {

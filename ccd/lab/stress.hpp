@@ -34,7 +34,7 @@ struct subject {
     by_stored_kind<decider> decide;
 };
 
-/// The name of `exact` in batches, as a method of its own.
+/// The name of `exact` in batches, as a separate method.
 inline constexpr std::string_view batch_name = "exact, batch";
 
 /// The method of ccd::methods() with that name, or `exact` in batches. Precondition: there is one.

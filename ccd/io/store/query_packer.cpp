@@ -103,7 +103,7 @@ void write_text(hid_t file, const char* name, std::string_view text) {
 }
 
 /// Collects a chunk at a time. The width of all point indices is known only at the end, so until
-/// then their rows are in a file of their own.
+/// then their rows are in a separate file.
 class packer final : public query_packer {
   public:
     packer(ccd::kind kind, bool with_truth)

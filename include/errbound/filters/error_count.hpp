@@ -67,7 +67,7 @@ struct basic_error_count {
     }
 
   private:
-    /// Pays for rounding the count and the counted size: at most ten factors of at most 1 + ε.
+    /// Covers rounding the count and the counted size: at most ten factors of at most 1 + ε.
     static constexpr T rounded(T count) { return count * (1 + 16 * number_traits<T>::epsilon()); }
 };
 using error_count = basic_error_count<double>;
