@@ -141,7 +141,6 @@ std::vector<condition<R>> contact_conditions(const paths<K, R>& q) {
     }
 }
 
-/// |W|² − D
 template <class R>
 condition<R> distance_condition(const vertex_vertex_paths<R>& q, const R& squared) {
     const path<R> w = q.v - q.w;

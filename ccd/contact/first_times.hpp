@@ -48,7 +48,6 @@ struct query_curves {
     query_curves& operator=(const query_curves&) = delete;
 };
 
-/// Overload for motion along lines.
 template <class Query>
 first_time first_within_of(const Query& query, separation d, double t_max, arithmetic by) {
     const query_curves<Query> points(query);

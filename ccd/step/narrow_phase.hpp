@@ -19,7 +19,6 @@
 
 namespace ccd::detail {
 
-/// The pairs that one thread collects.
 template <kind K>
 struct pair_list_of_thread {
     std::vector<pair_of_kind<K>> pairs;

@@ -64,7 +64,6 @@ void set_extent(extents_pack& packed, std::size_t axis, std::size_t end, std::si
 inline float_quad extreme(const float_quad& x, const float_quad& y, bool most) {
     return most ? (x < y ? y : x) : (x < y ? x : y);
 }
-/// The least or greatest value of a column.
 inline float extreme(const float (&column)[size], bool most) {
     float_quad x;
     __builtin_memcpy(&x, column, sizeof(x));

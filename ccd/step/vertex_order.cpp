@@ -21,7 +21,6 @@ namespace {
 /// A key: the class of a box in the highest bits, then its place in an order, then the item.
 using order_key = std::uint64_t;
 
-/// The bits of a key.
 struct key_layout {
     static constexpr unsigned class_bits = 2;
     unsigned item_bits, place_bits;
@@ -52,7 +51,6 @@ struct curve_layout : key_layout {
         : key_layout(items, 64), axis_bits(std::clamp(item_bits / 2 + 2, 10U, place_bits / 3)) {
         place_bits = 3 * axis_bits;
     }
-    /// The number of cells along an axis.
     double cells() const { return static_cast<double>(1U << axis_bits); }
 };
 

@@ -26,7 +26,6 @@ inline std::size_t shares_of(std::size_t count) {
     const auto threads = static_cast<std::size_t>(tbb::this_task_arena::max_concurrency());
     return std::clamp<std::size_t>(count / least, 1, threads);
 }
-/// The index of a share's first item.
 constexpr std::size_t begin_of_share(std::size_t share, std::size_t shares, std::size_t count) {
     return count / shares * share + std::min(share, count % shares);
 }
