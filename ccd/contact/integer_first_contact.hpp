@@ -70,7 +70,7 @@ constexpr found_time first_contact_in_words(const Query<double>& query,
 /// Proof: proofs/ContactPart.v, face_part_bracket, edges_part_bracket.
 template <int Words, template <class> class Query>
 constexpr found_time root_in_words(const Query<double>& query, const integer_units& units,
-                                   const static_filter::contact_part& part) {
+                                   const static_filter::contact_interval& part) {
     const auto y = forms_of(units.converted<Words>(query)).y();
     const auto before =
         part.y[0] > 0 ? errbound::sign_type::positive : errbound::sign_type::negative;

@@ -14,7 +14,7 @@ namespace {
 template <class Query>
 detail::found_time found_before_reference(const Query& query) {
     if constexpr (cubic_query<Query>) {
-        static_filter::contact_part part;
+        static_filter::contact_interval part;
         switch (detail::decide_in_floating_point(query, nullptr, &part,
                                                  static_filter::halvings_for_times)
                     .outcome) {

@@ -70,7 +70,7 @@ struct root_stage : time_stage<Pair> {
             wider.push(i);
             return;
         }
-        static_filter::contact_part part;
+        static_filter::contact_interval part;
         const outcome found = part_of_contact(query, part);
         if (found == outcome::separate || part.low > this->t_max.get())
             this->answer(i, outcome::separate);
@@ -85,7 +85,7 @@ struct root_stage : time_stage<Pair> {
     using forms = linear_forms<kind_of<Pair>, S>;
 
     static constexpr outcome part_of_contact(const query_of_pair<Pair, double>& query,
-                                             static_filter::contact_part& part) {
+                                             static_filter::contact_interval& part) {
         const forms<double> f(query);
         const static_filter::difference_extents<double> extents(f);
         if (!extents.usable) return outcome::uncertain;

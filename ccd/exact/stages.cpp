@@ -21,7 +21,7 @@ namespace {
 /// filter_edges_collide, filter_bounded.
 template <template <class> class Forms, class Query>
 [[gnu::flatten]] verdict axes_to_subdivision(const Query& query, stage_report* report,
-                                             static_filter::contact_part* found,
+                                             static_filter::contact_interval* found,
                                              std::size_t deepest) {
     constexpr verdict separate{outcome::separate, cause::none};
     static_assert(sizeof(query) == 24 * sizeof(double));
@@ -70,7 +70,7 @@ template <template <class> class Forms, class Query>
 
 template <cubic_query Query>
 verdict decide_in_floating_point(const Query& query, stage_report* report,
-                                 static_filter::contact_part* found, std::size_t deepest) {
+                                 static_filter::contact_interval* found, std::size_t deepest) {
     return axes_to_subdivision<forms_of_kind<kind_of<Query>>::template type>(query, report, found,
                                                                              deepest);
 }
@@ -90,9 +90,9 @@ verdict decide_with_integers(const Query& query, stage_report* report) {
 }
 
 template verdict decide_in_floating_point(const vertex_face<double>&, stage_report*,
-                                          static_filter::contact_part*, std::size_t);
+                                          static_filter::contact_interval*, std::size_t);
 template verdict decide_in_floating_point(const edge_edge<double>&, stage_report*,
-                                          static_filter::contact_part*, std::size_t);
+                                          static_filter::contact_interval*, std::size_t);
 
 template verdict decide_with_integers(const vertex_face<double>&, stage_report*);
 template verdict decide_with_integers(const edge_edge<double>&, stage_report*);

@@ -17,7 +17,7 @@ namespace ccd::detail {
 /// contact. Halves intervals at most `deepest` times. No allocation, never throws.
 template <cubic_query Query>
 verdict decide_in_floating_point(const Query& query, stage_report* report,
-                                 static_filter::contact_part* found = nullptr,
+                                 static_filter::contact_interval* found = nullptr,
                                  std::size_t deepest = static_filter::max_depth);
 
 /// Runs the other stages: integers of fixed width, then of unbounded width.

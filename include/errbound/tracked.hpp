@@ -71,7 +71,7 @@ template <class T, class Rule>
 inline constexpr bool bounds_are_wider = !std::is_same_v<typename type_of_bounds<T, Rule>::type, T>;
 
 // Their names appear in the compiler's message.
-struct take_compare_or_by_value;
+struct use_compare_or_by_value;
 struct take_sign_of_or_compare {};
 
 }  // namespace detail
@@ -201,7 +201,7 @@ class tracked {
         return sign_of(a - b);
     }
     /// The compiler's message names the functions to use.
-    friend detail::take_compare_or_by_value operator<=>(const tracked&, const tracked&) = delete;
+    friend detail::use_compare_or_by_value operator<=>(const tracked&, const tracked&) = delete;
 
   private:
     static constexpr bool widens = detail::bounds_are_wider<T, Rule>;

@@ -16,7 +16,7 @@ inline constexpr std::size_t halvings_for_times = 6;
 
 /// The interval [low, high] of the step in which contact was found. There is certainly no contact
 /// before `low`.
-struct contact_part {
+struct contact_interval {
     double low = 0, high = 1;
     errbound::roots::control_values<double, 3> y{};  ///< computed control values of Y there
     bool one_root = false;                           ///< Y certainly has exactly one root there
@@ -41,8 +41,8 @@ struct waiting_parts {
 /// Proof: proofs/Subdivision.v, subdivision_separate, subdivision_collides; of `found`,
 /// proofs/ContactPart.v, part_found, first_part_right, first_root_in_part.
 template <template <class> class Forms>
-constexpr outcome subdivide(const whole_step<double, Forms>& whole, contact_part* found = nullptr,
-                            std::size_t deepest = max_depth) {
+constexpr outcome subdivide(const whole_step<double, Forms>& whole,
+                            contact_interval* found = nullptr, std::size_t deepest = max_depth) {
     constexpr std::size_t constraints = whole_step<double, Forms>::constraints;
     const auto& errors = whole.errors;
     waiting_parts<constraints> waiting;

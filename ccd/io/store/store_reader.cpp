@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "ccd/io/store/hdf5.hpp"
-#include "ccd/io/text.hpp"
+#include "errbound/support/table.hpp"
 
 namespace ccd::io {
 namespace {
@@ -131,15 +131,16 @@ ccd::kind kind_of_store(hid_t file, const std::string& store) {
     read_attribute(file, store, "version", H5T_NATIVE_UINT32, &version);
     read_attribute(file, store, "kind", text, kind.data());
     if (std::string_view(format.data()) != "errbound queries")
-        throw file_error(store + ": attribute format is " + excerpt(format.data()) +
-                         "; expected 'errbound queries'");
+        throw file_error(store + ": attribute format is '" +
+                         errbound::support::printable(format.data()) +
+                         "'; expected 'errbound queries'");
     if (version != 1)
         throw file_error(store + ": attribute version is " + std::to_string(version) +
                          "; expected 1");
     for (const ccd::kind k : stored_kinds)
         if (std::string_view(kind.data()) == ccd::name(k)) return k;
-    throw file_error(store + ": attribute kind is " + excerpt(kind.data()) +
-                     "; expected vertex_face or edge_edge");
+    throw file_error(store + ": attribute kind is '" + errbound::support::printable(kind.data()) +
+                     "'; expected vertex_face or edge_edge");
 }
 
 class open_file final : public store_reader {

@@ -31,12 +31,12 @@ class given_elements {
     std::vector<swept_box> boxes_;
 };
 
-class held_mesh {
+class local_mesh {
   public:
     /// Sends elements and the entries of vertex lists. Collective. Throws std::invalid_argument on
     /// all ranks if copies of a vertex differ.
-    held_mesh(exchanger& ranks, const mesh_part& mesh, const given_elements& given,
-              const decomposition& parts, const vertex_lists& of_vertices);
+    local_mesh(exchanger& ranks, const mesh_part& mesh, const given_elements& given,
+               const decomposition& parts, const vertex_lists& of_vertices);
 
     /// The number of received faces and edges, each copy counted, and single vertices.
     std::size_t elements() const { return elements_; }

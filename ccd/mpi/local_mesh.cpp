@@ -1,5 +1,5 @@
 // Sends elements to the ranks whose regions they meet, and builds the mesh there.
-#include "ccd/mpi/held_mesh.hpp"
+#include "ccd/mpi/local_mesh.hpp"
 
 #include <algorithm>
 #include <limits>
@@ -54,8 +54,8 @@ given_elements::given_elements(const mesh_part& mesh, const pair_distances& dist
         boxes_.push_back(boxes.swept_box<double>(std::array{v}));
 }
 
-held_mesh::routes held_mesh::routes_of(std::size_t ranks, const mesh_part& mesh,
-                                       const given_elements& given, const decomposition& parts) {
+local_mesh::routes local_mesh::routes_of(std::size_t ranks, const mesh_part& mesh,
+                                         const given_elements& given, const decomposition& parts) {
     routes to;
     for (auto* lists : {&to.vertices, &to.faces, &to.edges}) lists->resize(ranks);
     const std::size_t faces = mesh.faces.size(), elements = faces + mesh.edges.size();
@@ -80,8 +80,8 @@ held_mesh::routes held_mesh::routes_of(std::size_t ranks, const mesh_part& mesh,
     return to;
 }
 
-held_mesh::held_mesh(exchanger& ranks, const mesh_part& mesh, const given_elements& given,
-                     const decomposition& parts, const vertex_lists& of_vertices) {
+local_mesh::local_mesh(exchanger& ranks, const mesh_part& mesh, const given_elements& given,
+                       const decomposition& parts, const vertex_lists& of_vertices) {
     const routes to = routes_of(ranks.size(), mesh, given, parts);
     std::vector<std::vector<sent_vertex>> vertices(ranks.size());
     std::vector<std::vector<sent_face>> faces(ranks.size());
@@ -114,8 +114,8 @@ held_mesh::held_mesh(exchanger& ranks, const mesh_part& mesh, const given_elemen
 }
 
 /// Keeps one copy of each vertex, in the order of their numbers.
-void held_mesh::keep_vertices(const received<sent_vertex>& sent,
-                              const received_lists& of_vertices) {
+void local_mesh::keep_vertices(const received<sent_vertex>& sent,
+                               const received_lists& of_vertices) {
     const auto& [groups, pinned, thickness, islands] = of_vertices;
     if (sent.items.size() > std::numeric_limits<vertex_index>::max())
         throw std::length_error("ccd::mpi: number of vertices in one region is " +
@@ -158,14 +158,14 @@ void held_mesh::keep_vertices(const received<sent_vertex>& sent,
     }
 }
 
-std::optional<vertex_index> held_mesh::find(vertex_number number) const {
+std::optional<vertex_index> local_mesh::find(vertex_number number) const {
     const auto found = std::ranges::lower_bound(numbers_, number);
     if (found == numbers_.end() || *found != number) return {};
     return static_cast<vertex_index>(found - numbers_.begin());
 }
 
 template <std::size_t N>
-std::vector<std::array<vertex_index, N>> held_mesh::by_index(
+std::vector<std::array<vertex_index, N>> local_mesh::by_index(
     const received<std::array<vertex_number, N>>& sent) const {
     std::vector<std::array<vertex_index, N>> elements(sent.items.size());
     for (std::size_t i = 0; i < elements.size(); ++i)
@@ -174,7 +174,7 @@ std::vector<std::array<vertex_index, N>> held_mesh::by_index(
     return elements;
 }
 
-pair_filter held_mesh::filter(const space_region& part, const pair_filter& given) const {
+pair_filter local_mesh::filter(const space_region& part, const pair_filter& given) const {
     pair_filter own = given;
     own.groups = groups_;
     own.pinned = pinned_;
@@ -183,7 +183,7 @@ pair_filter held_mesh::filter(const space_region& part, const pair_filter& given
 }
 
 template <class Pair>
-std::vector<std::size_t> held_mesh::owners(const std::vector<Pair>& pairs) const {
+std::vector<std::size_t> local_mesh::owners(const std::vector<Pair>& pairs) const {
     std::vector<std::size_t> owners(pairs.size());
     if constexpr (kind_of<Pair> != kind::edge_edge) {
         for (std::size_t i = 0; i < pairs.size(); ++i)
@@ -213,9 +213,9 @@ std::vector<std::size_t> held_mesh::owners(const std::vector<Pair>& pairs) const
     return owners;
 }
 
-template std::vector<std::size_t> held_mesh::owners(const std::vector<vertex_face_pair>&) const;
-template std::vector<std::size_t> held_mesh::owners(const std::vector<edge_edge_pair>&) const;
-template std::vector<std::size_t> held_mesh::owners(const std::vector<vertex_edge_pair>&) const;
-template std::vector<std::size_t> held_mesh::owners(const std::vector<vertex_vertex_pair>&) const;
+template std::vector<std::size_t> local_mesh::owners(const std::vector<vertex_face_pair>&) const;
+template std::vector<std::size_t> local_mesh::owners(const std::vector<edge_edge_pair>&) const;
+template std::vector<std::size_t> local_mesh::owners(const std::vector<vertex_edge_pair>&) const;
+template std::vector<std::size_t> local_mesh::owners(const std::vector<vertex_vertex_pair>&) const;
 
 }  // namespace ccd::mpi::detail
