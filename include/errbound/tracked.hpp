@@ -72,7 +72,7 @@ inline constexpr bool bounds_are_wider = !std::is_same_v<typename type_of_bounds
 
 // Their names appear in the compiler's message.
 struct use_compare_or_by_value;
-struct take_sign_of_or_compare {};
+struct use_sign_of_or_compare {};
 
 }  // namespace detail
 
@@ -246,7 +246,7 @@ class tracked {
 /// No ==, which would have to guess. sign_of(x) == sign_type::zero: x is certainly zero; x.value()
 /// == 0 compares the value. (errbound/eigen.hpp defines == of two tracked numbers.)
 template <class T, class Rule, class Number>
-detail::take_sign_of_or_compare operator==(const tracked<T, Rule>&, const Number&) = delete;
+detail::use_sign_of_or_compare operator==(const tracked<T, Rule>&, const Number&) = delete;
 
 /// Orders tracked numbers by value, NaN last. For pivoting, sorting and other choices that may be
 /// wrong without harm: std::sort(begin, end, errbound::by_value{}).
