@@ -189,7 +189,7 @@ function said(elements) {
 
 function whenOf(pair) {
   if (!step.timed) return "The first time was not computed.";
-  if (pair.high === 0) return "There at the start.";
+  if (pair.high === 0) return "In contact at the start.";
   return pair.low === pair.high ? `First at t = ${pair.low}.` : `First between t = ${pair.low} and ${pair.high}.`;
 }
 
