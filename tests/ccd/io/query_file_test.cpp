@@ -171,7 +171,7 @@ TEST(Queries, Truth) {
         {"[true", "t.json: text at byte 6 is not JSON; expected a JSON array of booleans"},
         {"", "is not JSON"},
         {"\x7f\xff garbage", "is not JSON"},
-        {"[1e999]", "number out of range"},
+        {"[1e999]", "number is out of range"},
         {std::string(1000000, '['), "t.json: type of element 0 is array; expected true or false"}};
     for (const auto& [text, part] : cases)
         expect_message(message_of([&] { parse_truth(text, "t.json"); }), part, text.substr(0, 20));

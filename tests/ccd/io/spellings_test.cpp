@@ -124,8 +124,8 @@ constexpr spelling of_vertices[]{
     {"v 1 2 1e", "!value is '1e'; expected a number"},
     {"v 1 2 0x", "!value is '0x'; expected a number"},
     {"v 1 2 --3", "!value is '--3'; expected a number"},
-    {"v 1 2 \\\n3\\\n4", "!a backslash that may split a word"},
-    {"v 1 2 3 \\", "!a backslash at the end of the file"},
+    {"v 1 2 \\\n3\\\n4", "!backslash may split a word"},
+    {"v 1 2 3 \\", "!last line ends with a backslash"},
     {"v 1 2 3\n\x1av 1 2 3", "!line is '\\x1av 1 2 3'; expected no control"},
     {"v 1 2 3\x1a\nv 1 2 3", "!line is 'v 1 2 3\\x1a'; expected no control"},
     {"v 1 2 3\f", "!expected no control characters"},
@@ -279,7 +279,8 @@ TEST(Spellings, LineEnds) {
         for (const char* first : {"# all of it\n", "o one\n"})
             expect_meaning(obj, with_line_ends(first + five, end), "", described_five);
     for (const char* end : {"\f", "\v", "\x1a", "\x1c"})
-        expect_meaning(obj, with_line_ends("o one\n" + five, end), "!a control character");
+        expect_meaning(obj, with_line_ends("o one\n" + five, end),
+                       "!expected no control characters");
 }
 
 constexpr std::string_view ply_vertices =

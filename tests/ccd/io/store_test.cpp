@@ -377,7 +377,7 @@ TEST_F(ForgedStore, DataFitInMemory) {
          {"points", number, {points_in_it, 6}}},
         {"dataset truth: size of chunks is 67108865 x 1 numbers",
          {"truth", byte, {queries_in_it}, {}, {(1 << 26) + 1}}},
-        {"more than the file can hold", {"truth", byte, {hsize_t{1} << 50}, {}, {65536}}}};
+        {"as many as the file can hold", {"truth", byte, {hsize_t{1} << 50}, {}, {65536}}}};
     for (const auto& [message, set] : cases) expect(message, replace(set));
 }
 
