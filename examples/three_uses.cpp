@@ -34,7 +34,7 @@ void a_number_that_knows_its_error() {
     using number = errbound::tracked<double>;  // value + certified bound, rule `tight`
     const number x = number(0.1) * 0.1 - number(0.3) * 0.7;
     std::printf("%g +- %g\n", x.value(), x.error());
-    if (sign_of(x) == errbound::sign_type::uncertain) std::puts("ask exact arithmetic");
+    if (sign_of(x) == errbound::sign_type::uncertain) std::puts("use exact arithmetic");
 }
 
 }  // namespace

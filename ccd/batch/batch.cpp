@@ -1,4 +1,3 @@
-// Decisions of batches: see include/ccd/batch.hpp.
 #include <ccd/batch.hpp>
 
 #include "ccd/batch/chunks.hpp"
@@ -8,8 +7,8 @@ namespace ccd::detail {
 template <class Item>
 stage_report decide_items(const batch_input<Item>& queries, std::span<outcome> answers,
                           const batch_options& options, bool at_start) {
-    const request asked{at_start ? "ccd::touches_at_start_batch" : "ccd::decide_batch", at_start};
-    return decide_chunks(batch_of(queries, asked), answers, options, asked);
+    const request test{at_start ? "ccd::touches_at_start_batch" : "ccd::decide_batch", at_start};
+    return decide_chunks(batch_of(queries, test), answers, options, test);
 }
 
 template stage_report decide_items(const batch_input<vertex_face_pair>&, std::span<outcome>,

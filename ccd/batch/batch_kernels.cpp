@@ -1,8 +1,8 @@
-// The SIMD pipeline: see ccd/batch/batch_kernels.hpp for what is special about this file.
+// The SIMD pipeline: see ccd/batch/batch_kernels.hpp for the rules of this file.
 //
-// Queries flow through the stages; what a stage cannot decide is compacted into the next one's
-// input, so that every stage works on full packs. Buffers hold some hundred queries: about 200 KB
-// in all, which stay in the second cache.
+// Each stage compacts the queries that it cannot decide into the input of the next, so that every
+// stage works on full packs. Buffers hold some hundred queries: about 200 KB in all, which stay in
+// the second-level cache.
 #include "ccd/batch/batch_kernels.hpp"
 
 #include <cstdint>
@@ -17,19 +17,19 @@
 namespace ccd::detail::ERRBOUND_INSTRUCTION_SET {
 namespace {
 
-/// The stages of ccd/exact/stages.cpp in their order, but that all axes are asked first: where
-/// there are rounded positions by test_rounded_axes, of stored queries the coordinate axes by
-/// test_stored_coordinates, before the queries come here.
+/// The stages of ccd/exact/stages.cpp in their order, except that all axes come first. For rounded
+/// positions test_rounded_axes tests them, for stored queries test_stored_coordinates tests the
+/// coordinate axes, before the queries come here.
 template <kind K>
 class pipeline {
   public:
-    /// For features within that distance, 0 for contact: then axes must have been asked.
+    /// For features within that distance; 0 means contact. Otherwise axes must have been tested.
     explicit pipeline(const decisions& decided, axes_left axes, double distance = 0)
         : decided_(decided), axes_(axes), distance_(distance) {}
 
-    /// Takes in queries. `read(id, at)` writes the 24 coordinates of one to at[0], at[stride],
-    /// at[2·stride], ... of coordinate_columns: by point, end of the step, axis. Where `pause` is
-    /// null, axes have been asked.
+    /// Adds queries. `read(id, at)` writes the 24 coordinates of one to at[0], at[stride],
+    /// at[2·stride], ... of coordinate_columns: by point, end of the step, axis. If `pause` is
+    /// null, axes have been tested.
     template <class Read>
     void process(const std::uint32_t* ids, std::size_t count, const Read& read,
                  stage_pause* pause) {
@@ -42,12 +42,12 @@ class pipeline {
         }
     }
 
-    /// Decides what still waits.
+    /// Decides the queries that still wait.
     void finish() { run_stages(1); }
 
   private:
-    /// Runs the last stage for which at least `enough` queries wait, until there is none: so each
-    /// has room for what its predecessor hands on.
+    /// Runs the last stage for which at least `enough` queries wait, until there is none. So each
+    /// stage has room for the output of its predecessor.
     void run_stages(std::size_t enough) {
         for (;;) {
             if (subdivision_.size() >= enough)
@@ -69,7 +69,7 @@ class pipeline {
     pack_subdivision<K> subdivision_;
 };
 
-/// Reads coordinates as pipeline::process wants them.
+/// Reads coordinates for pipeline::process.
 template <kind K>
 auto reader_of(const batch_positions& positions, const typename kind_traits<K>::pair* queries) {
     return [&positions, queries](std::size_t id, double* at) {
@@ -90,7 +90,7 @@ auto reader_of(const typename kind_traits<K>::template query<double>* queries) {
 
 template <kind K>
 void decide_indexed(const batch_positions& positions, const typename kind_traits<K>::pair* queries,
-                    std::size_t count, const distance_asked& within, outcome* answers,
+                    std::size_t count, const distance_request& within, outcome* answers,
                     axes_pauses& pauses, stage_report* report) {
     const decisions decided{answers, report};
     pipeline<K> stages(decided, axes_left::all, within.distance);

@@ -1,9 +1,9 @@
 // The floating-point stages of `exact` over SIMD packs, compiled once per instruction set.
 //
-// Internal. ccd/batch/batch_kernels.cpp is compiled several times, each time with other flags and
-// another value of ERRBOUND_INSTRUCTION_SET, the namespace of its results. So that nothing compiled
-// for a newer machine is ever called on an older one, what it includes may define no function that
-// another file could share: tests/ccd/batch/instruction_sets_test.sh looks at its symbols.
+// Internal. ccd/batch/batch_kernels.cpp is compiled several times, with different flags and values
+// of ERRBOUND_INSTRUCTION_SET, the namespace of its results. Its includes must not define functions
+// that another file could share, so that no code for a newer machine runs on an older one.
+// tests/ccd/batch/instruction_sets_test.sh checks its symbols.
 #pragma once
 
 #include <ccd/explain.hpp>
@@ -28,8 +28,8 @@ struct axes_pauses {
 };
 
 /// The distance within which features count as in contact, and the gaps in floats that exceed it.
-/// By default contact itself; only then `collides` is certain contact.
-struct distance_asked {
+/// The default 0 is contact; `collides` is certain contact only then.
+struct distance_request {
     double distance = 0;
     rounded_axes::least_gaps gaps = {};
 };
@@ -43,7 +43,7 @@ struct kernels_of_kind {
     using query = typename kind_traits<K>::template query<double>;
 
     void (*indexed)(const batch_positions& positions, const pair* queries, std::size_t count,
-                    const distance_asked& within, outcome* answers, axes_pauses& pauses,
+                    const distance_request& within, outcome* answers, axes_pauses& pauses,
                     stage_report* report);
     void (*stored)(const query* queries, std::size_t count, outcome* answers, axes_pauses& pauses,
                    stage_report* report);
@@ -66,7 +66,7 @@ struct batch_kernels {
     }
 };
 
-// Which of them there are is up to the build: ERRBOUND_HAVE_X86_KERNELS.
+// avx2 and avx512 exist only if the build has ERRBOUND_HAVE_X86_KERNELS.
 namespace baseline {
 extern const batch_kernels kernels;
 }

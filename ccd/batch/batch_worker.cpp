@@ -67,8 +67,8 @@ instruction_set runnable(std::optional<instruction_set> set) {
     const auto available = instruction_sets();
     const instruction_set wanted = set.value_or(available.back());
     if (std::ranges::find(available, wanted) == available.end())
-        throw std::invalid_argument("ccd: this build or machine does not run the instruction set " +
-                                    std::string(name(wanted)));
+        throw std::invalid_argument("ccd: instruction set is " + std::string(name(wanted)) +
+                                    "; expected one that this build and machine have");
     return wanted;
 }
 

@@ -51,8 +51,8 @@ class batch_worker {
     void decide_within(const batch_positions& positions, std::span<const Pair> queries,
                        const pair_distances& distances, double max_distance, outcome* answers) {
         if constexpr (cubic_pair<Pair>) {
-            const distance_asked within{max_distance,
-                                        rounded_axes::gaps_beyond(max_distance * positions.scale)};
+            const distance_request within{
+                max_distance, rounded_axes::gaps_beyond(max_distance * positions.scale)};
             kernels<Pair>().indexed(positions, queries.data(), queries.size(), within, answers,
                                     pauses<Pair>(), nullptr);
         } else {
@@ -111,8 +111,8 @@ class batch_worker {
         }
     }
 
-    /// By blocks: find(kernels, first, count, low, high) calls the kernels of a cubic kind.
-    /// time_of_impact finds the other times.
+    /// Works in blocks. find(kernels, first, count, low, high) calls the kernels of a cubic kind,
+    /// and time_of_impact finds the times that they leave undecided.
     template <kind K, class QueryAt, class Find>
     void find_times_by(std::size_t count, const QueryAt& query_at, const Find& find,
                        first_time* times) const {

@@ -25,15 +25,15 @@ void check_indices(const char* caller, std::span<const Pair> pairs, std::size_t 
     for (std::size_t i = 0; i < pairs.size(); ++i)
         for (const vertex_index v : vertices_of(pairs[i]))
             if (v >= vertices)
-                throw std::invalid_argument(std::string(caller) + ": query " +
-                                            std::to_string(first + i) + " names vertex " +
-                                            std::to_string(v) + " of " + std::to_string(vertices));
+                throw std::invalid_argument(std::string(caller) + ": vertex index of query " +
+                                            std::to_string(first + i) + " is " + std::to_string(v) +
+                                            "; expected less than " + std::to_string(vertices));
 }
 
 inline void check_pointers(const char* caller, const vertex_rows& rows) {
     if (rows.vertices > 0 && (rows.before == nullptr || rows.after == nullptr))
         throw std::invalid_argument(std::string(caller) +
-                                    ": found a null pointer, expected positions");
+                                    ": pointer to positions is null; expected positions");
 }
 
 /// The shortest decimal that converts to x.
@@ -44,32 +44,30 @@ inline std::string text_of(double x) {
 
 inline void check_t_max(const char* caller, double t_max) {
     if (!(std::abs(t_max) <= std::numeric_limits<double>::max()))
-        throw std::invalid_argument(std::string(caller) + ": found a t_max of " + text_of(t_max) +
-                                    ", expected a finite one");
+        throw std::invalid_argument(std::string(caller) + ": t_max is " + text_of(t_max) +
+                                    "; expected a finite number");
 }
 
-/// Throws if a distance is negative or not finite, if both kinds of distances are given, or if
-/// there is not a thickness for each of `vertices` vertices.
+/// Throws if a distance is negative or not finite, or if both kinds of distances are given. Also
+/// throws if the number of thicknesses is not 0 or `vertices`.
 inline void check_distances(const char* caller, const pair_distances& distances,
                             std::size_t vertices) {
     const auto check = [caller](double distance, const std::string& of) {
         if (!(distance >= 0 && distance <= std::numeric_limits<double>::max()))
-            throw std::invalid_argument(std::string(caller) + ": found " + of + " " +
-                                        text_of(distance) +
-                                        ", expected a finite one that is not negative");
+            throw std::invalid_argument(std::string(caller) + ": " + of + " is " +
+                                        text_of(distance) + "; expected a finite number >= 0");
     };
-    check(distances.all, "a distance of");
+    check(distances.all, "distance");
     if (distances.thickness.empty()) return;
     if (distances.all != 0)
         throw std::invalid_argument(std::string(caller) +
-                                    ": found a distance of all pairs and thicknesses, expected "
-                                    "one of the two");
+                                    ": distance and thicknesses are given; expected one of them");
     if (distances.thickness.size() != vertices)
-        throw std::invalid_argument(std::string(caller) + ": found thicknesses of " +
-                                    std::to_string(distances.thickness.size()) +
-                                    " vertices, there are " + std::to_string(vertices));
+        throw std::invalid_argument(std::string(caller) + ": number of thicknesses is " +
+                                    std::to_string(distances.thickness.size()) + "; expected " +
+                                    std::to_string(vertices) + ", one for each vertex");
     for (std::size_t v = 0; v < vertices; ++v)
-        check(distances.thickness[v], "for vertex " + std::to_string(v) + " a thickness of");
+        check(distances.thickness[v], "thickness of vertex " + std::to_string(v));
 }
 
 }  // namespace ccd::detail

@@ -25,8 +25,8 @@
 
 namespace ccd::detail {
 
-/// The largest number of queries that a thread takes at once: enough to make the call cheap, few
-/// enough for the second cache.
+/// The largest number of queries that a thread takes at once. The call's cost is then negligible,
+/// and the queries fit in the second-level cache.
 constexpr std::size_t chunk_size = 4096;
 
 /// Calls decide(worker, first, count) for chunks of at most `size` queries. Returns the stages'
@@ -38,7 +38,7 @@ stage_report for_each_chunk(std::size_t count, std::size_t size, const batch_opt
     if (options.threads == 1 || count <= size) {
         batch_worker worker = fresh;
         for (std::size_t first = 0; first < count; first += size) {
-            stop_if_asked(options.stop);
+            stop_if_requested(options.stop);
             decide(worker, first, std::min(size, count - first));
         }
         return worker.report();
@@ -50,7 +50,7 @@ stage_report for_each_chunk(std::size_t count, std::size_t size, const batch_opt
                           [&](const tbb::blocked_range<std::size_t>& range) {
                               batch_worker& worker = workers.local();
                               for (std::size_t c = range.begin(); c < range.end(); ++c) {
-                                  stop_if_asked(options.stop);
+                                  stop_if_requested(options.stop);
                                   decide(worker, c * size, std::min(size, count - c * size));
                               }
                           });
@@ -98,15 +98,15 @@ Query without_motion(const Query& query) {
     return std::bit_cast<Query>(points);
 }
 
-/// Pairs. Throws std::invalid_argument, also from decide, with asked.caller in the message.
+/// Pairs. Throws std::invalid_argument, also from decide, with request::caller in the message.
 template <class Pair>
 class pair_batch {
   public:
-    pair_batch(const vertex_rows& positions, std::span<const Pair> pairs, const request& asked)
-        : rows_(positions), pairs_(pairs), asked_(asked) {
-        if (asked.at_start) rows_.after = rows_.before;
-        check_pointers(asked.caller, rows_);
-        if (asked.within) max_distance_ = asked.within->max_distance();
+    pair_batch(const vertex_rows& positions, std::span<const Pair> pairs, const request& test)
+        : rows_(positions), pairs_(pairs), test_(test) {
+        if (test.at_start) rows_.after = rows_.before;
+        check_pointers(test.caller, rows_);
+        if (test.within) max_distance_ = test.within->max_distance();
         // Rounding a vertex costs some 5 ns and saves some 10 ns a query.
         const bool many = cubic_pair<Pair> && 2 * pairs.size() > rows_.vertices;
         all_are_finite_ = many && all_finite(rows_.before, 3 * rows_.vertices) &&
@@ -118,7 +118,7 @@ class pair_batch {
     void decide(batch_worker& worker, std::size_t first, std::size_t count,
                 outcome* answers) const {
         const auto part = pairs_.subspan(first, count);
-        check_indices(asked_.caller, part, first, rows_.vertices);
+        check_indices(test_.caller, part, first, rows_.vertices);
         decide_finite(
             count, answers, all_are_finite_,
             [&](std::size_t i) { return has_finite_vertices(rows_, part[i]); },
@@ -139,8 +139,8 @@ class pair_batch {
         return rounded_ ? batch_positions(rows_, *rounded_) : batch_positions(rows_);
     }
     void decide_part(batch_worker& worker, std::span<const Pair> part, outcome* answers) const {
-        if (asked_.within)
-            worker.decide_within(positions(), part, *asked_.within, max_distance_, answers);
+        if (test_.within)
+            worker.decide_within(positions(), part, *test_.within, max_distance_, answers);
         else if constexpr (cubic_pair<Pair>)
             worker.decide(positions(), part, answers);
         else
@@ -151,7 +151,7 @@ class pair_batch {
 
     vertex_rows rows_;
     std::span<const Pair> pairs_;
-    request asked_;
+    request test_;
     double max_distance_ = 0;
     bool all_are_finite_;
     std::optional<rounded_positions> rounded_;
@@ -161,8 +161,8 @@ class pair_batch {
 template <class Query>
 class query_batch {
   public:
-    query_batch(std::span<const Query> queries, const request& asked)
-        : queries_(queries), at_start_(asked.at_start) {}
+    query_batch(std::span<const Query> queries, const request& test)
+        : queries_(queries), at_start_(test.at_start) {}
     std::size_t size() const { return queries_.size(); }
 
     void decide(batch_worker& worker, std::size_t first, std::size_t count,
@@ -195,21 +195,21 @@ class query_batch {
 
 /// The batch of an input. (Class template deduction alone cannot choose the class.)
 template <class Item>
-auto batch_of(const batch_input<Item>& input, const request& asked) {
+auto batch_of(const batch_input<Item>& input, const request& test) {
     if constexpr (any_pair<Item>)
-        return pair_batch<Item>(input.positions, input.items, asked);
+        return pair_batch<Item>(input.positions, input.items, test);
     else
-        return query_batch<Item>(input.items, asked);
+        return query_batch<Item>(input.items, test);
 }
 
 /// Throws std::invalid_argument if there is not one answer for each query.
 template <class Batch>
 stage_report decide_chunks(const Batch& batch, std::span<outcome> answers,
-                           const batch_options& options, const request& asked) {
+                           const batch_options& options, const request& test) {
     if (batch.size() != answers.size())
-        throw std::invalid_argument(std::string(asked.caller) + ": " +
-                                    std::to_string(batch.size()) + " queries, but room for " +
-                                    std::to_string(answers.size()) + " answers");
+        throw std::invalid_argument(std::string(test.caller) + ": number of answers is " +
+                                    std::to_string(answers.size()) + "; expected " +
+                                    std::to_string(batch.size()) + ", one for each query");
     return for_each_chunk(batch.size(), chunk_size, options,
                           [&](batch_worker& worker, std::size_t first, std::size_t count) {
                               batch.decide(worker, first, count, &answers[first]);

@@ -1,6 +1,6 @@
-// The stages of `exact` that look at the whole step, over packs of doubles. Internal.
+// The stages of `exact` over the whole step, for packs of doubles. Internal.
 //
-// Each decides what it can and pushes the other queries to the next one's queue.
+// Each decides some queries and pushes the others to the queue of the next.
 #pragma once
 
 #include <ccd/explain.hpp>
@@ -20,15 +20,15 @@
 namespace ccd::detail::ERRBOUND_INSTRUCTION_SET {
 namespace {
 
-/// Whether a stage is to be asked now; counts down its pause.
+/// Returns whether a stage runs now; counts down its pause.
 inline bool is_due(stage_pause& pause) {
     if (pause.blocks_to_pass == 0) return true;
     --pause.blocks_to_pass;
     return false;
 }
 
-/// Axes cost about as much as the next stage. Where they decide fewer than a quarter of several
-/// blocks in a row, they are left out of the next ones.
+/// Axes cost about as much as the next stage. If they decide fewer than a quarter of several blocks
+/// in a row, the next blocks skip them.
 inline void update_pause(stage_pause& pause, std::size_t decided, std::size_t of) {
     constexpr std::size_t patience = 4, length = 124;
     pause.poor_blocks = 4 * decided < of ? pause.poor_blocks + 1 : 0;
@@ -40,7 +40,7 @@ struct coordinate_columns {
     static constexpr std::size_t stride = block + 8;
     alignas(64) double at[24][stride];
 
-    /// Makes the last pack a whole one.
+    /// Fills the last pack.
     void pad(std::size_t size) {
         for (std::size_t i = size; i % width != 0; ++i)
             for (auto& column : at) column[i] = 0;
@@ -60,21 +60,21 @@ struct coordinate_columns {
     }
 };
 
-/// Which of the nine axes have not been asked.
+/// The axes that have not been tested.
 enum class axes_left { all, diagonals };
 
-/// These axes at once. Where `pause` is null or the stage pauses, nothing is decided.
+/// Tests these axes. If `pause` is null or the stage pauses, decides nothing.
 template <kind K>
 [[gnu::flatten]] void test_axes(axes_left axes, const coordinate_columns& coordinates,
                                 const std::uint32_t* ids, std::size_t size, stage_pause* pause,
                                 const decisions& decided, difference_queue<K>& open) {
     stage_timer timer(pause != nullptr ? decided.report : nullptr, stage::axes);
-    const bool asked = pause != nullptr && is_due(*pause);
+    const bool due = pause != nullptr && is_due(*pause);
     std::size_t separate = 0;
     for (std::size_t at = 0; at < size; at += width) {
         const auto forms = coordinates.forms_at<K>(at);
         lanes left = first_lanes(lesser(size - at, width));
-        if (asked) {
+        if (due) {
             const static_filter::difference_extents<pack> extents(forms);
             pack_mask apart = static_filter::separated_by_diagonals<pack>(forms, extents);
             if (axes == axes_left::all)
@@ -86,15 +86,15 @@ template <kind K>
         }
         if (left != 0) open.push(forms, ids + at, left);
     }
-    if (asked) {
+    if (due) {
         timer.count(size, separate, 0);
         update_pause(*pause, separate, size);
     } else {
-        timer.leave_out(size);
+        timer.skip(size);
     }
 }
 
-/// The coefficients of Y.
+/// Tests the coefficients of Y.
 template <kind K>
 [[gnu::flatten]] void test_coplanarity(difference_queue<K>& waiting, double distance,
                                        const decisions& decided, difference_queue<K>& open) {
@@ -115,7 +115,7 @@ template <kind K>
     });
 }
 
-/// The coefficients of the G_i. Queries whose differences are too large stay uncertain.
+/// Tests the coefficients of the G_i. Queries with too large differences stay uncertain.
 template <kind K>
 [[gnu::flatten]] void test_inside(difference_queue<K>& waiting, double distance,
                                   const decisions& decided, pack_subdivision<K>& open) {

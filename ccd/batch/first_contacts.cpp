@@ -1,4 +1,3 @@
-// Contact data of many queries: see include/ccd/contact.hpp.
 #include <ccd/contact.hpp>
 #include <stdexcept>
 #include <string>
@@ -18,8 +17,9 @@ std::vector<first_contact> contacts_of_items(const batch_input<Item>& queries,
         check_indices(caller.c_str(), items, 0, positions.vertices);
     }
     if (items.size() != times.size())
-        throw std::invalid_argument(caller + ": " + std::to_string(items.size()) +
-                                    " queries, but " + std::to_string(times.size()) + " times");
+        throw std::invalid_argument(caller + ": number of times is " +
+                                    std::to_string(times.size()) + "; expected " +
+                                    std::to_string(items.size()) + ", one for each query");
     std::vector<first_contact> found(items.size());
     for_each_index(items.size(), threads,
                    [&](std::size_t i) { found[i] = contact_at(query_at(queries, i), times[i]); });

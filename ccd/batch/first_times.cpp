@@ -37,7 +37,7 @@ class timed_queries {
         : input_(all.queries), options_(all.options) {
         check_distances(caller, distances(), any_pair<Item> ? input_.positions.vertices : 0);
         check_t_max(caller, options_.t_max);
-        if constexpr (any_query<Item>) (void)kernels_for(options_.set);  // throws if there are none
+        if constexpr (any_query<Item>) (void)kernels_for(options_.set);  // throws if not available
     }
     std::size_t size() const { return input_.items.size(); }
     const time_options& options() const { return options_; }
@@ -46,15 +46,15 @@ class timed_queries {
         if constexpr (any_pair<Item>) return distances().of(input_.items[i]);
         return {distances().all, 0};
     }
-    auto batch() const { return batch_of(input_, asked()); }
+    auto batch() const { return batch_of(input_, test()); }
     /// Contact, or a distance within `distances`, in [0, 1].
     std::vector<outcome> decisions() const {
         std::vector<outcome> answers(size());
         if (any_pair<Item> || distances().is_contact())
-            decide_chunks(batch(), std::span(answers), batch_options_of(options_), asked());
+            decide_chunks(batch(), std::span(answers), batch_options_of(options_), test());
         else
             for_each_index(size(), options_.threads, [&](std::size_t i) {
-                stop_if_asked(options_.stop);
+                stop_if_requested(options_.stop);
                 answers[i] = decide_within(query(i), distance(i)).outcome;
             });
         return answers;
@@ -62,7 +62,7 @@ class timed_queries {
 
   private:
     const pair_distances& distances() const { return options_.distances; }
-    request asked() const {
+    request test() const {
         return {caller, false, distances().is_contact() ? nullptr : &distances()};
     }
 
@@ -88,7 +88,7 @@ std::vector<timed_contact> possible_contacts(std::span<const outcome> answers,
     return possible;
 }
 
-/// Times contacts in blocks that stay in the first cache; uncertain ones stay uncertain.
+/// Times contacts in blocks that stay in the first-level cache. Uncertain ones stay uncertain.
 template <class Batch>
 void find_times(const batch_worker& worker, const Batch& batch, std::span<timed_contact> some) {
     using item = std::remove_cvref_t<decltype(batch.item(0))>;
@@ -141,23 +141,23 @@ std::vector<timed_contact> contacts_of_chunks(const Batch& batch, const time_opt
 }
 
 template <class Item>
-std::vector<timed_contact> contacts_among(const timed_queries<Item>& asked) {
-    const time_options& options = asked.options();
-    if (options.distances.is_contact()) return contacts_of_chunks(asked.batch(), options);
-    std::vector<timed_contact> found = possible_contacts(asked.decisions());
+std::vector<timed_contact> contacts_among(const timed_queries<Item>& queries) {
+    const time_options& options = queries.options();
+    if (options.distances.is_contact()) return contacts_of_chunks(queries.batch(), options);
+    std::vector<timed_contact> found = possible_contacts(queries.decisions());
     for_each_index(found.size(), options.threads, [&](std::size_t i) {
-        stop_if_asked(options.stop);
+        stop_if_requested(options.stop);
         auto& [query, time] = found[i];
-        time = time_within(asked.query(query), asked.distance(query), options.t_max);
+        time = time_within(queries.query(query), queries.distance(query), options.t_max);
     });
     erase_later(found, options.t_max);
     return found;
 }
 
 template <class Item>
-std::vector<first_time> all_times(const timed_queries<Item>& asked) {
-    const std::vector<timed_contact> contacts = contacts_among(asked);
-    std::vector<first_time> times(asked.size(), first_time{outcome::separate});
+std::vector<first_time> all_times(const timed_queries<Item>& queries) {
+    const std::vector<timed_contact> contacts = contacts_among(queries);
+    std::vector<first_time> times(queries.size(), first_time{outcome::separate});
     for (const timed_contact& c : contacts) times[c.query] = c.time;
     return times;
 }
@@ -214,12 +214,12 @@ earliest_time earliest_of_times(const std::vector<timed_contact>& contacts) {
     return std::move(all).sorted();
 }
 
-/// True if there is certainly no contact in [0, t_max], by a decision on that interval, whose end
+/// True if there is certainly no contact in [0, t_max]. Decides on that interval, whose end
 /// positions are rounded.
 ///
-/// std::lerp is off by at most 2^-50 M + 2^-1072, in every rounding direction, M the largest
-/// coordinate; so are the points of the rounded motion, coordinate by coordinate, and the distance
-/// of two of them by at most four times that: half of what is added.
+/// std::lerp is off by at most 2^-50 M + 2^-1072 in every rounding direction, where M is the
+/// largest coordinate. Coordinates of the rounded motion are off by as much, and distances of two
+/// points by at most four times as much. That is half of the margin.
 template <class Query>
 bool is_certainly_later(const Query& query, separation d, double t_max) {
     constexpr std::size_t count = sizeof(Query) / sizeof(moving_point<double>);
@@ -244,18 +244,18 @@ void lower(std::atomic<double>& bound, double value) {
 /// `bound` never excludes a query with the earliest time: times are computed up to and including
 /// the upper end of the least bracket found.
 template <class Item>
-earliest_time earliest_of_all(const timed_queries<Item>& asked) {
-    if (asked.options().distances.is_contact()) return earliest_of_times(contacts_among(asked));
-    const std::vector<timed_contact> contacts = possible_contacts(asked.decisions());
+earliest_time earliest_of_all(const timed_queries<Item>& queries) {
+    if (queries.options().distances.is_contact()) return earliest_of_times(contacts_among(queries));
+    const std::vector<timed_contact> contacts = possible_contacts(queries.decisions());
     if (auto uncertain = only_uncertain(contacts)) return *std::move(uncertain);
-    std::atomic<double> bound = asked.options().t_max;
+    std::atomic<double> bound = queries.options().t_max;
     tbb::enumerable_thread_specific<earliest_of_thread> parts;
-    for_each_index(contacts.size(), asked.options().threads, [&](std::size_t i) {
-        stop_if_asked(asked.options().stop);
+    for_each_index(contacts.size(), queries.options().threads, [&](std::size_t i) {
+        stop_if_requested(queries.options().stop);
         const double t_max = bound;
         const std::size_t number = contacts[i].query;
-        const auto& query = asked.query(number);
-        const separation d = asked.distance(number);
+        const auto& query = queries.query(number);
+        const separation d = queries.distance(number);
         if (t_max < 1 && is_certainly_later(query, d, std::max(t_max, 0.0))) return;
         const first_time time = time_within(query, d, t_max);
         if (time.outcome != outcome::collides) return;

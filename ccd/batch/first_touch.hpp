@@ -1,5 +1,5 @@
-// Memory whose pages are first used by the thread that fills them: the system clears a page when it
-// is first written, and that takes as long as much of a step does.
+// Memory whose pages are first written by the thread that fills them. The system clears a page at
+// the first write, which takes as long as much of a step.
 #pragma once
 
 #include <memory>
@@ -9,7 +9,7 @@
 
 namespace ccd::detail {
 
-/// Leaves elements that get no value unset.
+/// Does not initialise elements without a value.
 template <class T>
 struct first_touch_allocator : std::allocator<T> {
     static_assert(std::is_trivially_copyable_v<T>);

@@ -1,5 +1,5 @@
-// The last floating-point stage of `exact` over packs: ccd/exact/static_filter/subdivision.hpp, but
-// that the parts of all queries are halved together, level by level. Internal.
+// The last floating-point stage of `exact` over packs: ccd/exact/static_filter/subdivision.hpp with
+// the parts of all queries halved together, level by level. Internal.
 #pragma once
 
 #include <array>
@@ -38,7 +38,7 @@ class pack_subdivision {
         parts_[0].push_ids(ids, some);
     }
 
-    /// Decides all that were pushed, or leaves them uncertain.
+    /// Decides the pushed queries, or leaves them uncertain.
     [[gnu::flatten]] void run(const decisions& decided) {
         stage_timer timer(decided.report, stage::subdivision);
         const std::size_t entered = parts_[0].size;
@@ -54,7 +54,7 @@ class pack_subdivision {
                 halve(depth, at, test(depth, at, count, decided, collide));
             });
         }
-        // Every part of these is excluded.
+        // All parts of the remaining queries are excluded.
         for (std::size_t i = 0; i < entered; ++i)
             if (open_[i]) {
                 decided.answers[ids_[i]] = outcome::separate;
@@ -64,7 +64,7 @@ class pack_subdivision {
     }
 
   private:
-    /// Tests the parts of one pack: returns those to be halved.
+    /// Tests the parts of one pack. Returns those to be halved.
     lanes test(std::size_t depth, std::size_t at, std::size_t count, const decisions& decided,
                std::size_t& collide) {
         const part_queue& parts = parts_[depth % 2];
@@ -100,12 +100,12 @@ class pack_subdivision {
         return left & ~hopeless;
     }
 
-    /// Puts the halves of those parts of a pack into the other queue.
+    /// Puts the halves of these parts of a pack into the other queue.
     void halve(std::size_t depth, std::size_t at, lanes some) {
         if (some == 0) return;
         const part_queue& parts = parts_[depth % 2];
         part_queue& halved = parts_[(depth + 1) % 2];
-        const std::size_t lefts = count_of(some);  // the right halves come behind them
+        const std::size_t lefts = count_of(some);  // the right halves follow them
         const auto put_halves = [&](const auto& form, std::size_t column) {
             const auto halves = errbound::roots::halves(form);
             put_form(halved, halves.first, column, some);
@@ -144,7 +144,7 @@ class pack_subdivision {
     }
 
     std::array<part_queue, 2> parts_;  ///< the first receives whole steps
-    // While it runs, ids of parts are places in these.
+    // During a run, ids of parts are indices into these.
     std::uint32_t ids_[capacity];
     bool open_[capacity];  ///< neither decided nor left uncertain
 };

@@ -1,7 +1,6 @@
 // Queues of queries between the stages of the batch kernels. Internal.
 //
-// They hold one column per number (structure of arrays), so that the next stage works on full
-// packs.
+// One column per number (structure of arrays), so that the next stage works on full packs.
 #pragma once
 
 #include <ccd/kind.hpp>
@@ -22,11 +21,11 @@ constexpr std::size_t lesser(std::size_t a, std::size_t b) {
     return a < b ? a : b;
 }
 
-/// `Columns` numbers each, and the query they belong to.
+/// `Columns` numbers for each query, and its id.
 template <std::size_t Columns, std::size_t Capacity>
 struct query_queue {
     static constexpr std::size_t capacity = Capacity;
-    /// An odd number of cache lines apart, so that columns do not compete for the same ones.
+    /// An odd number of cache lines, so that columns do not compete for the same ones.
     static constexpr std::size_t stride = Capacity / 8 * 8 + (Capacity / 8 % 2 == 0 ? 8 : 16);
     alignas(64) double column[Columns][stride];
     std::uint32_t ids[Capacity];
@@ -34,17 +33,17 @@ struct query_queue {
 
     pack load(std::size_t c, std::size_t at) const { return pack::load_unaligned(&column[c][at]); }
 
-    /// Writes some lanes of one column behind the first size + offset numbers.
+    /// Writes some lanes of one column after the first size + offset numbers.
     void put(std::size_t c, const pack& values, lanes some, std::size_t offset = 0) {
         compress(values, some, &column[c][size + offset]);
     }
-    /// Makes queries of what was put, with those lanes of `of` as their ids.
+    /// Makes queries of the written numbers, with these lanes of `of` as ids.
     void push_ids(const std::uint32_t* of, lanes some) {
         for_each_lane(some, [&](std::uint32_t lane) { ids[size++] = of[lane]; });
     }
 
     /// Takes up to `limit` queries from the end, in packs: visit(at, count). The last pack's other
-    /// lanes hold zeros and are not to be looked at.
+    /// lanes hold zeros and must not be used.
     template <class Visit>
     void pop_packs(std::size_t limit, const Visit& visit) {
         for (std::size_t i = size; i % width != 0; ++i)
@@ -55,8 +54,8 @@ struct query_queue {
     }
 };
 
-/// Queries by the differences b, c, p of their forms, at both ends of the step. What hands queries
-/// on hands at most a block, and runs where less than a block waits.
+/// Queries by the differences b, c, p of their forms, at both ends of the step. A stage pushes at
+/// most a block, and runs when less than a block waits in the next queue.
 template <kind K>
 struct difference_queue : query_queue<18, 2 * block> {
     using forms = linear_forms<K, pack>;
@@ -79,7 +78,7 @@ struct difference_queue : query_queue<18, 2 * block> {
     }
 };
 
-/// Where the stages' answers and counts go. An answer is `uncertain` until a stage decides it.
+/// Destinations of the stages' answers and counts. An answer is `uncertain` until a stage decides.
 struct decisions {
     outcome* answers;
     stage_report* report;

@@ -13,7 +13,7 @@
 namespace ccd::detail::ERRBOUND_INSTRUCTION_SET {
 namespace {
 
-/// Queries that the stage looks at together.
+/// The number of queries that the stage tests together.
 constexpr std::size_t rounded_block = 256;
 
 using float_pack = pack_of<float>;
@@ -34,7 +34,7 @@ struct rounded_columns {
         }
     }
 
-    /// From the rows of the queries' vertices; lanes beyond the last query repeat it.
+    /// Reads the rows of the queries' vertices. Lanes beyond the last query repeat it.
     template <class Pair>
     void fill(const float* rounded, const Pair* queries, std::size_t count) {
         for (std::size_t lane = 0; lane < count; lane += 4)
@@ -48,7 +48,7 @@ struct rounded_columns {
             }
     }
 
-    /// The queries from `lane` on whose features an axis certainly separates by those gaps.
+    /// Returns the queries from `lane` on whose features an axis certainly separates by these gaps.
     template <class Pair>
     lanes separated(std::size_t lane, const rounded_axes::least_gaps& least) const {
         float_pack coordinates[3][2][4];
@@ -61,8 +61,8 @@ struct rounded_columns {
     }
 };
 
-/// Decides those of the queries first, first + 1, ... that an axis certainly separates by those
-/// gaps, and writes the others to `open`. Returns how many these are.
+/// Decides the queries from `first` on that an axis certainly separates by these gaps, and writes
+/// the others to `open`. Returns the number of the others.
 template <class Pair>
 [[gnu::flatten]] std::size_t test_rounded_axes(const float* rounded, const Pair* queries,
                                                std::size_t first, std::size_t count,
@@ -78,7 +78,7 @@ template <class Pair>
             [&](std::uint32_t lane) {
                 open[size++] = static_cast<std::uint32_t>(first + at) + lane;
             });
-    // Most are: it is cheaper to write all, then the open ones again.
+    // Most are separate: it is cheaper to write all, then the undecided ones again.
     for (std::size_t i = 0; i < count; ++i) decided.answers[first + i] = outcome::separate;
     for (std::size_t i = 0; i < size; ++i) decided.answers[open[i]] = outcome::uncertain;
     timer.count(count, count - size, 0);

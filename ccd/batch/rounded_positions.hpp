@@ -14,12 +14,12 @@ class rounded_positions {
     /// Floats of a vertex: x y z at the start, a zero, x y z at the end of the step, a zero.
     static constexpr std::size_t row = 8;
 
-    /// Of finite positions. Cost: some 5 ns a vertex; memory: 32 bytes a vertex.
+    /// Precondition: positions are finite. Cost: some 5 ns a vertex; memory: 32 bytes a vertex.
     explicit rounded_positions(const vertex_rows& rows) : floats_(row * rows.vertices) {
         rounded_axes::extent extent = rounded_axes::extent::nothing();
         for (const double* frame : {rows.before, rows.after})
             for (std::size_t v = 0; v < rows.vertices; ++v)
-                for (std::size_t k = 0; k < 3; ++k)  // six chains side by side
+                for (std::size_t k = 0; k < 3; ++k)  // six independent chains
                     extent.widen(k, frame[3 * v + k]);
         const rounded_axes::frame rounded(extent);
         scale_ = rounded.scale();
@@ -39,7 +39,7 @@ class rounded_positions {
     double scale_;
 };
 
-/// Positions, and what they are rounded to, if they are.
+/// Positions, and their rounded values if available.
 struct batch_positions {
     vertex_rows exact;
     const float* rounded = nullptr;  ///< rounded_positions::data(), or null

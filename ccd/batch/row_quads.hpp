@@ -11,7 +11,7 @@ namespace {
 
 typedef float float_quad __attribute__((vector_size(16)));
 
-/// Of the eight numbers of a and b, in their order, those of these places.
+/// Selects numbers from the eight of a and b by their indices.
 template <int... Places>
 float_quad chosen(const float_quad& a, const float_quad& b) {
 #if defined __clang__ || __GNUC__ >= 12
@@ -22,7 +22,7 @@ float_quad chosen(const float_quad& a, const float_quad& b) {
 #endif
 }
 
-/// Of four rows of rounded_positions, the coordinates at one end of the step: axis by axis.
+/// The coordinates of four rows of rounded_positions at one end of the step, axis by axis.
 struct row_quads {
     float_quad axis[3];
 

@@ -1,5 +1,5 @@
-// The first stage of stored queries: the coordinate axes, on their numbers as they lie in memory.
-// Internal; for kernels.
+// The first stage for stored queries: the coordinate axes, read directly from memory. Internal; for
+// kernels.
 #pragma once
 
 #include <ccd/kind.hpp>
@@ -13,11 +13,11 @@
 namespace ccd::detail::ERRBOUND_INSTRUCTION_SET {
 namespace {
 
-/// Queries that the stage looks at together: 48 KB.
+/// The number of queries that the stage tests together: 48 KB.
 constexpr std::size_t stored_block = 256;
 
-/// Decides those of the queries first, first + 1, ... that a coordinate axis separates, and writes
-/// the others, if they are finite, to `open`. Returns how many these are.
+/// Decides the queries from `first` on that a coordinate axis separates, and writes the others, if
+/// finite, to `open`. Returns the number of the others.
 template <kind K>
 [[gnu::flatten]] std::size_t test_stored_coordinates(
     const typename kind_traits<K>::template query<double>* queries, std::size_t first,
@@ -25,13 +25,13 @@ template <kind K>
     static_assert(sizeof(*queries) == 24 * sizeof(double));
     stage_timer timer(decided.report, stage::axes);
     const auto* numbers = reinterpret_cast<const double*>(queries + first);
-    // That queries come from memory is what the stage waits for: 40 ahead, 8 KB, served best.
+    // The stage is bound by memory. Prefetching 40 queries ahead (8 KB) was fastest.
     const bool all_are_finite = are_finite<40>(numbers, 24 * count);
     std::size_t size = 0, finite = 0;
     for (std::size_t from = 0; from < count; from += 32) {
         const std::size_t some = lesser(count - from, 32);
         lanes apart = 0, usable = ~lanes(0) >> (32 - some);
-        // Without branches: which are apart is as good as random.
+        // Branch-free, because the results are unpredictable.
         for (std::size_t i = 0; i < some; ++i)
             apart |= lanes(separated_by_coordinates<K>(numbers + 24 * (from + i))) << i;
         if (!all_are_finite)

@@ -1,4 +1,4 @@
-// Runs parallel work on a wanted number of threads. Internal.
+// Runs parallel work on a given number of threads. Internal.
 #pragma once
 
 #include <tbb/blocked_range.h>
@@ -14,27 +14,27 @@
 
 namespace ccd::detail {
 
-/// How many are meant by `threads`: 0, or more than the machine has cores, one per core. Throws
+/// Returns the number of threads: one per core if `threads` is 0 or exceeds the cores. Throws
 /// std::invalid_argument if it is negative.
 inline int threads_of(int threads) {
     if (threads < 0)
-        throw std::invalid_argument("ccd: found " + std::to_string(threads) +
-                                    " threads, expected 0 (one per core) or more");
+        throw std::invalid_argument("ccd: number of threads is " + std::to_string(threads) +
+                                    "; expected 0 (one per core) or more");
     const int cores = tbb::info::default_concurrency();
     return threads > 0 ? std::min(threads, cores) : cores;
 }
 
-/// On MinGW-w64, keeps oneTBB's threads until the program ends. By itself oneTBB ends them when the
-/// last thread ends that has used it, and that can wait for ever there: a std::thread holds a lock
-/// of MinGW's while destructors of its thread_local objects take the loader's, a native thread that
-/// ends holds the loader's and takes MinGW's.
+/// On MinGW-w64, keeps oneTBB's threads until the program ends. Otherwise oneTBB ends them with the
+/// last thread that has used it, which can deadlock. A std::thread holds a lock of MinGW's while
+/// destructors of its thread_local objects take the loader's lock. A native thread that ends takes
+/// these locks in the other order.
 inline void keep_workers() {
 #ifdef __MINGW32__
     static const tbb::task_scheduler_handle kept{tbb::attach{}};
 #endif
 }
 
-/// Runs `work` where parallel loops use at most threads_of(threads). Returns that number.
+/// Runs `work` with at most threads_of(threads) threads in parallel loops. Returns that number.
 template <class Work>
 int on_threads(int threads, const Work& work) {
     keep_workers();
@@ -43,7 +43,7 @@ int on_threads(int threads, const Work& work) {
     return arena.max_concurrency();
 }
 
-/// Calls visit(begin, end) for parts of 0 to `count`, on at most so many threads.
+/// Calls visit(begin, end) for intervals of 0 to `count`, on at most `threads` threads.
 template <class Visit>
 void for_each_part(std::size_t count, int threads, const Visit& visit) {
     constexpr std::size_t few = 64;
@@ -53,7 +53,7 @@ void for_each_part(std::size_t count, int threads, const Visit& visit) {
                           [&](const auto& range) { visit(range.begin(), range.end()); });
     });
 }
-/// Calls visit(i) for i below `count`, the same way.
+/// Calls visit(i) for each i < count in the same way.
 template <class Visit>
 void for_each_index(std::size_t count, int threads, const Visit& visit) {
     for_each_part(count, threads, [&](std::size_t begin, std::size_t end) {

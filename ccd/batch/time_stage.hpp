@@ -1,10 +1,10 @@
-// First times of queries that are known to collide, over packs: the brackets of most. Internal.
+// First times of colliding queries, over packs: the brackets of most. Internal.
 //
-// Every contact is at a root of Y. So where Y certainly has but one root, that is the time; where
-// it has two, contact is at the first if the G_i certainly are positive there, and at the second if
-// one certainly is negative. How many it has is told by signs on two parts of the step. The
-// neighbouring doubles between which a root lies are found by Newton's method, and proved by Y's
-// signs there, in twice double's precision with an error bound.
+// Every contact is at a root of Y. If Y certainly has exactly one root, that is the time. If it has
+// two, contact is at the first if all G_i are certainly positive there. It is at the second if one
+// is certainly negative there. Signs on two parts of the step determine the number of roots.
+// Newton's method finds the adjacent doubles around a root. Signs of Y there, in twice double's
+// precision with an error bound, prove them.
 #pragma once
 
 #include <ccd/kind.hpp>
@@ -26,14 +26,14 @@ namespace {
 
 constexpr double epsilon = std::numeric_limits<double>::epsilon();
 constexpr int newton_steps = 9;
-constexpr double converged = 0x1p-28;  ///< the next step of Newton's would move by its square
+constexpr double converged = 0x1p-28;  ///< the next Newton step is about the square of this
 constexpr int neighbours_tried = 3;
 
 template <int N>
 using pack_values = errbound::roots::control_values<pack, N>;
 
-/// The value, off by 16ε of the largest control value more than those are, and the slope at t of
-/// the polynomial that has these control values (de Casteljau).
+/// The value and the slope at t of the polynomial with these control values (de Casteljau). The
+/// value's error exceeds that of the control values by 16ε of the largest.
 /// Proof: proofs/TimeStage.v, value_near.
 template <int N>
 struct value_and_slope {
@@ -47,7 +47,8 @@ struct value_and_slope {
     }
 };
 
-/// The parts of a cubic before and after t, off by another 32ε of its largest control value.
+/// The parts of a cubic before and after t, with a further error of 32ε of its largest control
+/// value.
 /// Proof: proofs/TimeStage.v, lerp_near, parts_at.
 struct parts_of_cubic {
     pack_values<3> before, after;
@@ -60,17 +61,17 @@ struct parts_of_cubic {
     }
 };
 
-/// Times as brackets of neighbouring doubles, in the lanes that are `told`.
+/// Times as brackets of adjacent doubles, in the lanes that are `known`.
 struct pack_times {
     pack low, high;
-    pack_mask told;
+    pack_mask known;
 };
 
-/// Y of a pack of queries at any time, in twice the precision.
+/// Y of a pack of queries at any time, in twice double's precision.
 template <kind K>
 class twofold_y {
   public:
-    /// From coordinates as coordinate_columns have them.
+    /// Reads coordinates in the layout of coordinate_columns.
     twofold_y(const coordinate_columns& x, std::size_t first,
               const static_filter::difference_extents<pack>& m) {
         const auto f = forms_at(x, first);
@@ -81,10 +82,10 @@ class twofold_y {
                 change_[i++] = (*axis)[1] - (*axis)[0];
             }
         // A difference at t is off by 51u² of its largest size, a product of two by 116u² of
-        // theirs, N by 243u², Y by 1166u² < 2^-95, of the extents' product. Proof:
+        // theirs. N is off by 243u², and Y by 1166u² < 2^-95, of the extents' product. Proof:
         // proofs/Twofold.v, y_near, time_stage_sign, error_enough.
         error_ = m.x * m.y * m.z * pack(0x1p-94);
-        const pack least(0x1p-150), most(0x1p150);  // so that nothing is lost to underflow
+        const pack least(0x1p-150), most(0x1p150);  // prevents underflow
         usable_ = m.usable & (min(min(m.x, m.y), m.z) > least) & (max(max(m.x, m.y), m.z) < most);
     }
     const pack_mask& usable() const { return usable_; }
@@ -121,16 +122,16 @@ class twofold_y {
     pack_mask usable_;
 };
 
-/// A part of the step where Y certainly has one root: its sign before it is `before`, 1 or -1.
+/// A part of the step where Y certainly has exactly one root. Before it, Y has the sign `before`.
 struct pack_parts {
     pack from, to, before;
 };
 
-/// A root of Y, whose control values on the whole step are y, and its slope there.
+/// A root of Y, whose control values over the step are y, and its slope there.
 struct pack_roots {
     pack t, slope;
 
-    /// By Newton's method in the lanes that are `wanted`, in floating point.
+    /// Newton's method in floating point in the lanes that are `wanted`.
     pack_roots(const pack_values<3>& y, const pack_parts& part, const pack_mask& wanted) {
         const pack at_from = value_and_slope<3>(y, part.from).value;
         const pack at_to = value_and_slope<3>(y, part.to).value;
@@ -152,12 +153,12 @@ struct pack_roots {
     }
 };
 
-/// The neighbouring doubles that a part's root is between, from what it is estimated to be.
+/// Brackets a part's root between adjacent doubles, from an estimate.
 /// Proof: proofs/TimeStage.v, bracket_around.
 template <kind K>
 pack_times bracket_of_root(const twofold_y<K>& exact, const pack_roots& root,
                            const pack_parts& part, const pack_mask& wanted) {
-    // Control values are 3 times what Y's are.
+    // Control values are 3 times those of Y.
     constexpr double scale = errbound::roots::multiple(3);
     pack t = root.t - pack(scale) * exact.at(root.t) / root.slope;
     t = min(max(t, part.from), part.to);
@@ -169,28 +170,28 @@ pack_times bracket_of_root(const twofold_y<K>& exact, const pack_roots& root,
         const pack value_there = part.before * exact.at(other);
         const pack_mask opposite =
             (earlier & (value_there < -exact.error())) | (later & (value_there > exact.error()));
-        const pack_mask now = opposite & !found.told;
+        const pack_mask now = opposite & !found.known;
         found.low = select(now, min(t, other), found.low);
         found.high = select(now, max(t, other), found.high);
-        found.told = found.told | now;
-        if (all(found.told | !wanted)) break;
+        found.known = found.known | now;
+        if (all(found.known | !wanted)) break;
         t = other;
         value = value_there;
     }
-    found.told = wanted & found.told & (found.low >= part.from) & (found.high <= part.to) &
-                 (found.low > pack(0.0));
+    found.known = wanted & found.known & (found.low >= part.from) & (found.high <= part.to) &
+                  (found.low > pack(0.0));
     return found;
 }
 
-/// Whether at the first root of Y, near t, all G_i are certainly positive or one is certainly
-/// negative. Certain signs of Y bracket the root, and within the bracket no G_i changes by more
-/// than 8 of its largest control value's size times the bracket's width.
+/// True if at the first root of Y, near t, all G_i are certainly positive (`inside`) or one is
+/// certainly negative (`outside`). Certain signs of Y bracket the root. Within the bracket, no G_i
+/// changes by more than 8 times its largest control value times the bracket's width.
 /// Proof: proofs/TimeStage.v, root_reached, quartic_slope.
 template <kind K>
 struct signs_at_root {
     pack_mask inside = pack_mask(true), outside = pack_mask(false);
 
-    /// y_error bounds the error of Y's value at any time; before that root its sign is `before`.
+    /// y_error bounds the error of Y's value at any time. Y has the sign `before` before that root.
     signs_at_root(const static_filter::whole_step<pack, forms_of_kind<K>::template type>& whole,
                   const pack& y_error, const pack& t, const pack& before) {
         constexpr double reach = 0x1p-28;
@@ -219,15 +220,15 @@ class time_stage {
     using forms = linear_forms<K, S>;
 
   public:
-    /// Writes brackets to low and high, NaN where it cannot tell. Of size queries.
+    /// Writes brackets of `size` queries to low and high, NaN if undecided.
     [[gnu::flatten]] static void run(const coordinate_columns& coordinates, std::size_t size,
                                      double* low, double* high) {
         for (std::size_t at = 0; at < size; at += width) {
             const pack_times found = times_of(coordinates, at);
             alignas(64) double lows[width], highs[width];
             const pack nan(std::numeric_limits<double>::quiet_NaN());
-            select(found.told, found.low, nan).store_aligned(lows);
-            select(found.told, found.high, nan).store_aligned(highs);
+            select(found.known, found.low, nan).store_aligned(lows);
+            select(found.known, found.high, nan).store_aligned(highs);
             for (std::size_t i = 0; i < lesser(size - at, width); ++i) {
                 low[at + i] = lows[i];
                 high[at + i] = highs[i];
@@ -245,7 +246,7 @@ class time_stage {
         const pack zero(0.0), one(1.0);
         const pack before = select(y[0] > zero, one, -one);
 
-        // An odd number of roots is taken for one, an even number for two.
+        // Assume one root if the number is odd, else two.
         const pack_mask odd = y[0] * y[3] < zero;
         const pack split = select(odd, pack(0.5), turning_point(y, before));
         const parts_of_cubic parts(y, split);
@@ -278,12 +279,13 @@ class time_stage {
         return bracket_of_root(exact, root, part, certain);
     }
 
-    /// Where y, with that sign at 0, is extreme on the other side; anything if it is nowhere.
+    /// Returns the extremum of y on the other side, where `sign` is the sign of y at 0. Any value
+    /// if there is none.
     static pack turning_point(const pack_values<3>& y, const pack& sign) {
         const pack d0 = y[1] - y[0], d1 = y[2] - y[1], d2 = y[3] - y[2];
         const pack root = sign * sqrt(max(d1 * d1 - d0 * d2, pack(0.0)));
-        // (d0 − d1 ± root)/(d0 − 2d1 + d2), whose two numerators' product is d0·(d0 − 2d1 + d2):
-        // that without cancellation.
+        // (d0 − d1 ± root)/(d0 − 2d1 + d2). The product of the two numerators is
+        // d0·(d0 − 2d1 + d2). Use the one without cancellation.
         const pack q = (d0 - d1) + root, other = (d0 - d1) - root;
         return select(abs(q) >= abs(other), q / ((d0 - d1) - (d1 - d2)), d0 / other);
     }

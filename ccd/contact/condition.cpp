@@ -21,16 +21,16 @@ std::vector<staged_polynomial> staged(const std::vector<time_polynomial>& polyno
     return r;
 }
 
-/// A condition of which `asked` outlives this.
+/// A condition and the stages of its polynomials. Keeps a reference to `c`.
 class staged_condition {
   public:
-    explicit staged_condition(const condition<time_polynomial>& asked)
-        : vanishing(staged(asked.vanishing)), asked_(asked) {}
+    explicit staged_condition(const condition<time_polynomial>& c)
+        : vanishing(staged(c.vanishing)), condition_(c) {}
 
-    bool also_below() const { return asked_.also_below; }
+    bool also_below() const { return condition_.also_below; }
     side_conditions<staged_polynomial>& sides() {
         if (!sides_) {
-            const auto exact = asked_.sides();
+            const auto exact = condition_.sides();
             sides_ = {staged(exact.nonnegative), staged(exact.not_all_zero)};
         }
         return *sides_;
@@ -39,7 +39,7 @@ class staged_condition {
     std::vector<staged_polynomial> vanishing;
 
   private:
-    const condition<time_polynomial>& asked_;
+    const condition<time_polynomial>& condition_;
     std::optional<side_conditions<staged_polynomial>> sides_;
 };
 
@@ -67,7 +67,7 @@ bool holds_at_start(staged_condition& c) {
     });
 }
 
-/// The polynomials among whose roots the condition's first time is, if it is not 0.
+/// Polynomials of which one has the condition's first time as a root, if it is not 0.
 std::vector<staged_polynomial> candidates(staged_condition& c) {
     if (c.vanishing.empty()) return {};
     const auto is_zero = [](const staged_polynomial& p) { return p.is_zero(); };
@@ -99,7 +99,7 @@ first_time first_time_of(const exact_conditions& conditions, double t_max) {
             roots_in_time roots(std::move(p), 0, end);
             for (std::size_t k = 0; k < roots.size(); ++k) {
                 if (!sides_hold(c, [&](auto& side) { return roots.sign_at(side, k); })) continue;
-                // Of another root in the same bracket it does not matter which is the first.
+                // For another root in the same bracket, the order of the two is irrelevant.
                 const first_time found = at_root(roots, k);
                 if (first.outcome == outcome::separate || found.low < first.low ||
                     found.high < first.high)
@@ -112,17 +112,16 @@ first_time first_time_of(const exact_conditions& conditions, double t_max) {
     return first;
 }
 
-first_time first_time_at_roots(const time_polynomial& y, const root_questions& asked,
-                               double t_max) {
+first_time first_time_at_roots(const time_polynomial& y, const root_test& test, double t_max) {
     roots_in_time roots(staged_polynomial(y.coefficients()), 0, std::min(t_max, 1.0));
     exact_conditions conditions;
     std::vector<staged_condition> all;
     const auto holds_at = [&](std::size_t k) {
         const outcome known =
-            asked.holds_at ? asked.holds_at(roots.enclosure(k)) : outcome::uncertain;
+            test.holds_at ? test.holds_at(roots.enclosure(k)) : outcome::uncertain;
         if (known != outcome::uncertain) return known == outcome::collides;
         if (all.empty()) {
-            conditions = asked.conditions();
+            conditions = test.conditions();
             all = std::vector<staged_condition>(conditions.begin(), conditions.end());
         }
         return std::any_of(all.begin(), all.end(), [&](staged_condition& c) {

@@ -1,5 +1,5 @@
-// Polynomials on [0, 1] in Bernstein form as errbound/bernstein.hpp has them, but of run-time
-// degree: a ring, so that conditions are made over it. Internal.
+// Polynomials on [0, 1] in Bernstein form, as in errbound/bernstein.hpp but of run-time degree.
+// They form a ring, so conditions can be computed over them. Internal.
 #pragma once
 
 #include <algorithm>
@@ -10,15 +10,15 @@
 
 namespace ccd::detail {
 
-/// Σ h_i s^(n−i) t^i at s = 1 − t; without coefficients, identically zero.
+/// Σ h_i s^(n−i) t^i at s = 1 − t. Without coefficients it is identically zero.
 template <class S>
 class control_polynomial {
   public:
     control_polynomial() = default;
-    /// Scaled coefficients.
+    /// h holds scaled coefficients.
     explicit control_polynomial(std::vector<S> h) : h_(std::move(h)) {}
 
-    /// The sign that it has on all of [0, 1], as far as its coefficients tell.
+    /// Returns the common sign of all coefficients, which the polynomial has on [0, 1].
     errbound::sign_type sign_throughout() const {
         if (h_.empty()) return errbound::sign_type::zero;
         const auto first = sign_of(h_[0]);
@@ -37,7 +37,7 @@ class control_polynomial {
         const std::size_t a = p.h_.size() - 1, b = q.h_.size() - 1;
         std::vector<S> product;
         product.reserve(a + b + 1);
-        // The first term of each sum is stored, not added to zero: an addition to zero has a bound.
+        // The first term of each sum is stored, because even an addition to zero has an error.
         for (std::size_t k = 0; k <= a + b; ++k) {
             std::size_t i = k > b ? k - b : 0;
             product.push_back(p.h_[i] * q.h_[k - i]);
@@ -48,7 +48,7 @@ class control_polynomial {
     }
 
   private:
-    /// Of the same degree: times s + t as often as that takes.
+    /// Elevates the degree by multiplication with powers of s + t.
     std::vector<S> elevated_to(std::size_t size) const {
         if (h_.empty()) return std::vector<S>(size, S(0));
         std::vector<S> h = h_;

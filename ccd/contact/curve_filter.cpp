@@ -17,8 +17,8 @@ using errbound::sign_type;
 using number = errbound::tracked<double>;
 using polynomial = control_polynomial<number>;
 
-/// Whether all control points of p are above all of q by more than `distance`. Rounding is
-/// monotone: a difference that exceeds a double when rounded does so itself.
+/// True if all control points of p are above all of q by more than `distance`. Rounding is
+/// monotone: if the rounded difference exceeds a double, so does the difference.
 bool above(std::span<const curve> p, std::span<const curve> q, double point<double>::*axis,
            double distance) {
     double low = std::numeric_limits<double>::infinity(), high = -low;
@@ -38,7 +38,8 @@ bool boxes_are_separate(std::span<const curve> points, double distance) {
     return false;
 }
 
-/// Distances from `origin`; scaled by binomials, which doubles hold up to this degree.
+/// Coordinates relative to `origin`. They are scaled by binomials, which are exact doubles up to
+/// this degree.
 constexpr std::size_t max_degree = 50;
 polynomial coordinate(const curve& points, double origin, double point<double>::*axis) {
     const std::size_t degree = points.size() - 1;
@@ -56,7 +57,7 @@ path<polynomial> path_of(const curve& points, const point<double>& origin) {
             {{coordinate(points, origin.z, &point<double>::z)}}};
 }
 
-/// Whether the condition holds nowhere in [0, 1].
+/// True if the condition holds nowhere in [0, 1].
 bool is_excluded(const condition<polynomial>& c) {
     const auto excludes = [&](const polynomial& p) {
         const sign_type s = p.sign_throughout();
@@ -80,7 +81,7 @@ paths<K, polynomial> relative_paths(std::span<const curve> points) {
     return paths_of<K, polynomial>(points, [&](const curve& p) { return path_of(p, origin); });
 }
 
-/// The point's distance from `origin` at t, by de Casteljau's rule.
+/// The point relative to `origin` at t, by de Casteljau's algorithm.
 path<number> position(const curve& points, const point<double>& origin, const number& t) {
     const auto along = [&](double origin_there, double point<double>::*axis) {
         std::vector<number> h;
@@ -128,8 +129,7 @@ outcome touches_at_root(std::span<const curve> points, const number& t) {
     const point<double> origin = points[0][0];
     const auto q =
         paths_of<K, number>(points, [&](const curve& p) { return position(p, origin, t); });
-    // Where N is not zero, the weights say whether it is contact; where it is, all of them are
-    // zero.
+    // If N is not zero, the signs of the weights decide. In a contact with N = 0 all weights are 0.
     auto found = outcome::collides;
     for (const auto& g : forms_of(q).inside()) {
         const sign_type s = sign_of(g[0]);

@@ -1,7 +1,7 @@
-// What floating point tells of motion along curves: that features are certainly separate, where
-// they may not be, and whether they touch at a time. Internal.
+// Floating-point filters for motion along curves. Internal.
 //
-// Points are finite, in the order of points_of, with a control point or more; d is a distance.
+// Points are finite and in the order of points_of, each with at least one control point. d is a
+// distance.
 #pragma once
 
 #include <ccd/curves.hpp>
@@ -13,18 +13,18 @@
 
 namespace ccd::detail {
 
-/// Whether it is certain that the features of a query of this kind do not touch: the boxes of their
-/// control points do not, or each condition of ccd/contact/feature_conditions.hpp has a polynomial
-/// whose Bernstein coefficients, tracked, are all of a sign that excludes it.
+/// True if the features of a query of this kind certainly do not touch: the boxes of their control
+/// points are disjoint, or the tracked Bernstein coefficients of a polynomial exclude each
+/// condition of ccd/contact/feature_conditions.hpp by their signs.
 template <kind K>
 bool certainly_separate(std::span<const curve> points);
 
-/// Which of the conditions of distance <= d, d > 0, in the order of visit_distance_conditions, may
-/// hold in [0, 1].
+/// Returns which of the conditions of distance <= d, d > 0, may hold in [0, 1], in the order of
+/// visit_distance_conditions.
 template <kind K>
 std::vector<bool> possible_conditions(std::span<const curve> points, separation d);
 
-/// Whether VF or EE queries touch at a time at which Y = 0, known within bounds.
+/// Decides whether a VF or EE query touches at a time t at which Y = 0, given by an enclosure.
 template <kind K>
 outcome touches_at_root(std::span<const curve> points, const errbound::tracked<double>& t);
 

@@ -1,5 +1,5 @@
-// Motion along curves: see include/ccd/curves.hpp. That there is a first time if there is any:
-// proofs/Curves.v, face_curves_first, edges_curves_first, smooth_continuous.
+// Proof that a first time exists if there is a contact: proofs/Curves.v, face_curves_first,
+// edges_curves_first, smooth_continuous.
 #include <ccd/curves.hpp>
 #include <ccd/kind.hpp>
 #include <ccd/methods/transform.hpp>

@@ -1,10 +1,10 @@
-// The conditions of contact and of distance, for each kind of query: those of the head of
-// ccd/exact/reference.cpp, and for distance Z <= 0 between features of each dimension, where the
-// nearest points are inside both. Over any ring R of polynomials in t. Internal.
+// The conditions of contact and of distance for each kind of query, over any ring R of polynomials
+// in t. Internal. The head of ccd/exact/reference.cpp lists those of contact. The conditions of
+// distance are Z <= 0 between features of each dimension whose nearest points are inside both.
 //
-// The least distance of two features is attained inside both, or on an edge, or at a vertex; where
-// N = 0, or an edge has no length, in a lower dimension. So the union is complete; and each
-// condition says that some two points of the features are that near, so that it is not too large.
+// The least distance of two features is attained inside both, on an edge or at a vertex; if N = 0,
+// or an edge has no length, in a lower dimension. So the union is complete. Each condition implies
+// that some two points of the features are that near, so the union is not too large.
 #pragma once
 
 #include <array>
@@ -19,7 +19,6 @@
 
 namespace ccd::detail {
 
-/// The moving points of a query.
 template <kind K, class R>
 struct paths;
 template <class R>
@@ -39,7 +38,7 @@ struct paths<kind::vertex_vertex, R> {
     path<R> v, w;
 };
 
-/// `path_of` applied to each of the query's points, in the order of points_of.
+/// Applies `path_of` to each of the query's points, in the order of points_of.
 template <kind K, class R, class PathOf>
 paths<K, R> paths_of(std::span<const curve> points, const PathOf& path_of) {
     constexpr std::size_t count = kind_traits<K>::first_vertices + kind_traits<K>::second_vertices;
@@ -98,7 +97,6 @@ template <class R>
 std::array<vertex_edge_paths<R>, 4> edges_of(const edge_edge_paths<R>& q) {
     return {{{q.a0, q.b0, q.b1}, {q.a1, q.b0, q.b1}, {q.b0, q.a0, q.a1}, {q.b1, q.a0, q.a1}}};
 }
-/// The vertex/vertex pairs.
 template <class R>
 std::array<vertex_vertex_paths<R>, 3> corners_of(const vertex_face_paths<R>& q) {
     return {{{q.v, q.f0}, {q.v, q.f1}, {q.v, q.f2}}};
@@ -112,26 +110,25 @@ std::array<vertex_vertex_paths<R>, 2> corners_of(const vertex_edge_paths<R>& q) 
     return {{{q.v, q.e0}, {q.v, q.e1}}};
 }
 
-/// W = 0.
 template <class R>
 condition<R> contact_condition(const vertex_vertex_paths<R>& q) {
     return {list(q.v - q.w), [] { return side_conditions<R>{}; }};
 }
-/// W × E = 0 and W·(E − W) >= 0: of an edge without length it asks W = 0.
+/// W × E = 0 and W·(E − W) >= 0. For an edge without length this means W = 0.
 template <class R>
 condition<R> contact_condition(const vertex_edge_paths<R>& q) {
     return {list(cross(q.v - q.e0, q.e1 - q.e0)), [q] {
                 return side_conditions<R>{list(dot(q.v - q.e0, q.e1 - q.v)), {}};
             }};
 }
-/// Where the plane or the pair of lines is one, and the nearest points inside.
+/// Conditions on the weights, where the features' planes or lines meet or are at the distance.
 template <class Forms>
 auto inside_conditions(const Forms& forms) {
     const auto inside = list(forms.inside());
     return side_conditions<typename decltype(inside)::value_type>{inside, list(forms.n)};
 }
 
-/// Of VF and EE at times at which Y = 0.
+/// Conditions of VF and EE at times at which Y = 0.
 template <kind K, class R>
 std::vector<condition<R>> contact_conditions(const paths<K, R>& q) {
     if constexpr (K == kind::vertex_vertex || K == kind::vertex_edge) {
@@ -144,13 +141,12 @@ std::vector<condition<R>> contact_conditions(const paths<K, R>& q) {
     }
 }
 
-/// |W|² − D
 template <class R>
 condition<R> distance_condition(const vertex_vertex_paths<R>& q, const R& squared) {
     const path<R> w = q.v - q.w;
     return {{dot(w, w)[0] - squared}, [] { return side_conditions<R>{}; }, true};
 }
-/// |E × W|² − D E·E, on an edge that has a length, with the nearest point between its ends.
+/// |E × W|² − D E·E on an edge with length, with the nearest point between its ends.
 template <class R>
 condition<R> distance_condition(const vertex_edge_paths<R>& q, const R& squared) {
     const path<R> w = q.v - q.e0, e = q.e1 - q.e0, moment = cross(e, w);
@@ -169,8 +165,8 @@ condition<R> distance_condition_inside(const Forms& forms, const R& squared) {
             true};
 }
 
-/// Calls visit(make) for every condition of distance² <= D, all axes in one unit; make() is the
-/// condition.
+/// Calls visit(make) for every condition of distance² <= D, all axes in one unit. make() returns
+/// the condition.
 /// Proof: proofs/Distance.v, vertex_edge_within, face_within_union, edges_within_union; of first
 /// times, proofs/FirstConditions.v, vertex_edge_near_candidate, face_near_candidate,
 /// edges_near_candidate.

@@ -25,7 +25,7 @@ paths<K, time_polynomial> in_units(std::span<const curve> points, const axis_exp
     });
 }
 
-/// Each axis has a unit of its own: contact does not depend on them.
+/// Contact does not depend on units, so each axis has its own.
 template <kind K>
 first_time first_contact(std::span<const curve> points, double t_max, arithmetic by) {
     const bool filtered = by == arithmetic::floating_point_first;
@@ -34,16 +34,16 @@ first_time first_contact(std::span<const curve> points, double t_max, arithmetic
     if constexpr (is_cubic(K)) {
         const time_polynomial y = forms_of(q).y()[0];
         if (!y.is_zero()) {
-            root_questions asked{{}, [&] { return contact_conditions<K>(q); }};
+            root_test test{{}, [&] { return contact_conditions<K>(q); }};
             if (filtered)
-                asked.holds_at = [&](const auto& t) { return touches_at_root<K>(points, t); };
-            return first_time_at_roots(y, asked, t_max);
+                test.holds_at = [&](const auto& t) { return touches_at_root<K>(points, t); };
+            return first_time_at_roots(y, test, t_max);
         }
     }
     return first_time_of(contact_conditions<K>(q), t_max);
 }
 
-/// One unit for all axes and for d.
+/// Uses one unit for all axes and d.
 template <kind K>
 first_time first_at_distance(std::span<const curve> points, separation d, double t_max,
                              arithmetic by) {
@@ -68,9 +68,8 @@ first_time first_at_distance(std::span<const curve> points, separation d, double
     return first_time_of(conditions, t_max);
 }
 
-/// Whether the question has an answer: all is finite, every curve has a control point, and d is a
-/// distance.
-bool is_question(std::span<const curve> points, separation d, double t_max) {
+/// True if all numbers are finite, every curve has a control point, and d is a distance.
+bool is_valid_query(std::span<const curve> points, separation d, double t_max) {
     const auto is_finite = [](const point<double>& p) {
         return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
     };
@@ -90,7 +89,7 @@ bool is_distance(separation d) {
 template <kind K>
 first_time first_within_of(std::span<const curve> points, separation d, double t_max,
                            arithmetic by) {
-    if (!is_question(points, d, t_max)) return {};
+    if (!is_valid_query(points, d, t_max)) return {};
     if (t_max < 0) return never;
     return d.first == 0 && d.second == 0 ? first_contact<K>(points, t_max, by)
                                          : first_at_distance<K>(points, d, t_max, by);

@@ -1,8 +1,7 @@
 // First times of contact and of distance in unbounded integers, for points that move along
 // polynomials in t of any degree. Internal.
 //
-// Allocates; time and memory are bounded by the degrees and by the spread of the coordinates'
-// exponents.
+// Allocates. The degrees and the spread of the coordinates' exponents bound time and memory.
 #pragma once
 
 #include <array>
@@ -16,16 +15,15 @@
 
 namespace ccd::detail {
 
-/// Whether d is a distance: finite and not negative.
+/// True if d is a distance: finite and not negative.
 bool is_distance(separation d);
 
-/// Whether floating point under error bounds (ccd/contact/curve_filter.hpp) may answer what it can.
-/// The answers are the same.
+/// `floating_point_first` filters with error bounds (ccd/contact/curve_filter.hpp). Both have the
+/// same results.
 enum class arithmetic { integers, floating_point_first };
 
-/// When the features of a query of this kind first come within d, in [0, t_max]; of d = 0, when
-/// they first touch: what ccd/contact.hpp promises. `points` are those of points_of, in its
-/// order.
+/// Returns the first time in [0, t_max] at which the features of a query of this kind come within
+/// d, or touch if d = 0: see ccd/contact.hpp. `points` are in the order of points_of.
 template <kind K>
 first_time first_within_of(std::span<const curve> points, separation d, double t_max,
                            arithmetic by);
@@ -50,7 +48,6 @@ struct query_curves {
     query_curves& operator=(const query_curves&) = delete;
 };
 
-/// The same of motion along lines.
 template <class Query>
 first_time first_within_of(const Query& query, separation d, double t_max, arithmetic by) {
     const query_curves<Query> points(query);

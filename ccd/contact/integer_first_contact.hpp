@@ -1,11 +1,11 @@
-// The first contact of one query in integers of a given fixed width. Internal:
-// ccd/contact/integer_times.hpp says what it promises; this is what host and device code share.
+// The first contact of one query in integers of a fixed width, on the host or a device. Internal;
+// see ccd/contact/integer_times.hpp for its guarantees.
 //
 // The first contact of a face or two edges is the earliest of those at their borders and of those
 // inside. Every contact has Y = 0. If Y ≡ 0, contact inside that does not begin at t = 0 begins at
 // a border. Proof: proofs/FirstContact.v, face_contact_root, edges_contact_root, face_times,
-// edges_times, face_planar_first, edges_planar_first; of all that is put together here,
-// proofs/InteriorTime.v, face_time_right, edges_time_right.
+// edges_times, face_planar_first, edges_planar_first; of the code, proofs/InteriorTime.v,
+// face_time_right, edges_time_right.
 #pragma once
 
 #include <ccd/methods/forms.hpp>
@@ -57,20 +57,20 @@ constexpr found_time first_contact_converted(
     return first_vertex_vertex_contact(query);
 }
 
-/// Asks integers of Words words. units = integer_units(query), with at most extent_limit(Words)
-/// bits (ccd/exact/integer_decision.hpp); `uncertain` is rare.
+/// Computes in integers of Words words; `uncertain` is rare. Preconditions: units =
+/// integer_units(query), with at most extent_limit(Words) bits (ccd/exact/integer_decision.hpp).
 template <int Words, template <class> class Query>
 constexpr found_time first_contact_in_words(const Query<double>& query,
                                             const integer_units& units) {
     return first_contact_converted<Words>(units.converted<Words>(query), query, units);
 }
 
-/// The same where floating point has found the part of the first contact, in which Y has one root
-/// only.
+/// The same if floating point has found the interval of the first contact, in which Y has exactly
+/// one root.
 /// Proof: proofs/ContactPart.v, face_part_bracket, edges_part_bracket.
 template <int Words, template <class> class Query>
 constexpr found_time root_in_words(const Query<double>& query, const integer_units& units,
-                                   const static_filter::contact_part& part) {
+                                   const static_filter::contact_interval& part) {
     const auto y = forms_of(units.converted<Words>(query)).y();
     const auto before =
         part.y[0] > 0 ? errbound::sign_type::positive : errbound::sign_type::negative;

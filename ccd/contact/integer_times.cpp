@@ -1,4 +1,3 @@
-// First contact times in integers of fixed width: see ccd/contact/integer_times.hpp.
 #include "ccd/contact/integer_times.hpp"
 
 #include "ccd/contact/integer_first_contact.hpp"
@@ -15,7 +14,7 @@ found_time first_contact_in_integers(const Query& query) {
 }
 
 template <cubic_query Query>
-found_time root_in_integers(const Query& query, const static_filter::contact_part& part) {
+found_time root_in_integers(const Query& query, const static_filter::contact_interval& part) {
     if (!part.one_root) return first_contact_in_integers(query);
     const integer_units units(query);
     if (units.bits() <= extent_limit(1)) return root_in_words<1>(query, units, part);
@@ -29,7 +28,8 @@ template found_time first_contact_in_integers(const vertex_edge<double>&);
 template found_time first_contact_in_integers(const vertex_vertex<double>&);
 
 template found_time root_in_integers(const vertex_face<double>&,
-                                     const static_filter::contact_part&);
-template found_time root_in_integers(const edge_edge<double>&, const static_filter::contact_part&);
+                                     const static_filter::contact_interval&);
+template found_time root_in_integers(const edge_edge<double>&,
+                                     const static_filter::contact_interval&);
 
 }  // namespace ccd::detail

@@ -1,8 +1,8 @@
 // The first contact inside a face or inside both edges, in integers of fixed width.
 //
-// As ccd/exact/interior_contact.hpp, which decides whether there is one, with the roots of Y asked
-// in their order. Vertex/edge contacts may be there, too, from a known time on: contact inside is
-// asked for before it only, where all that holds without vertex/edge contacts does.
+// Visits the roots of Y in their order, as ccd/exact/interior_contact.hpp does to decide.
+// Vertex/edge contacts may exist from a known time on. Contact inside is searched before that time
+// only, so the precondition of interior_contact.hpp holds.
 #pragma once
 
 #include <ccd/methods/forms.hpp>
@@ -33,8 +33,8 @@ class interior_time : interior_contact<Words, Forms> {
                             const time_bracket& end)
         : base(forms, y, units), search_(y), first_(end) {}
 
-    /// The first time with Y = 0 and all G_i > 0, if its bracket is earlier than `end`; if Y ≡ 0,
-    /// of t = 0 and 1. Proof: proofs/InteriorTime.v, interior_time_right.
+    /// Returns the first time with Y = 0 and all G_i > 0, if its bracket is earlier than `end`. If
+    /// Y ≡ 0, considers t = 0 and 1 only. Proof: proofs/InteriorTime.v, interior_time_right.
     constexpr found_time find() {
         if (y_[0] == 0) consider(time_bracket{0, 0}, [this] { return at_end(0); });
         if (y_[3] == 0) consider(time_bracket{1, 1}, [this] { return at_end(1); });
@@ -52,8 +52,8 @@ class interior_time : interior_contact<Words, Forms> {
   private:
     using base::forms_, base::y_;
 
-    /// A root of Y, and whether there is contact: asked if it is earlier than what is known.
-    /// Proof: proofs/IntegerTimes.v, considered_right.
+    /// Considers a root of Y. `contact` is called only if the root is earlier than the first
+    /// contact so far. Proof: proofs/IntegerTimes.v, considered_right.
     template <class Contact>
     constexpr void consider(const std::optional<time_bracket>& root, const Contact& contact) {
         if (root && !(*root < first_)) return;
@@ -73,7 +73,7 @@ class interior_time : interior_contact<Words, Forms> {
     }
     constexpr outcome at_end(int end) const { return strict(forms_at_end(forms_, end)); }
 
-    /// Parts wait as in interior_contact::by_halving, the earliest last.
+    /// The stack of parts has the earliest last, as in interior_contact::by_halving.
     /// Proof: proofs/InteriorTime.v, in_parts_right, in_parts_ends.
     constexpr void in_parts(const inner_sign_changes& roots) {
         std::array<part, 3> waiting;
@@ -110,8 +110,8 @@ class interior_time : interior_contact<Words, Forms> {
         return strict(forms_at(forms_, end - t, t));
     }
 
-    /// Considers the part's root if it is certainly the only one; false if not, or there is none.
-    /// Beside a double root the weights found may be those there.
+    /// Considers the part's root if it is certainly the only one. Returns false if there is none or
+    /// there may be others. Next to a double root, the weights may be those at the double root.
     /// Proof: proofs/InteriorTime.v, asked_root; that the weights are of a root inside the part:
     /// proofs/InteriorContact.v, near_here.
     constexpr bool root_of(const part& whole) {
@@ -133,9 +133,9 @@ class interior_time : interior_contact<Words, Forms> {
     }
 
     const root_search<3 * Words, 3> search_;
-    time_bracket first_;                 ///< what is later is not asked
+    time_bracket first_;                 ///< the first contact so far, or `end`
     outcome found_ = outcome::separate;  ///< at `first_`
-    bool unplaced_ = false;              ///< of some root that matters, time or place is unknown
+    bool unplaced_ = false;              ///< a relevant root has an unknown time or position
 };
 
 }  // namespace ccd::detail

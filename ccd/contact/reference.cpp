@@ -1,4 +1,3 @@
-// First times in unbounded integers: see include/ccd/reference.hpp.
 #include <ccd/reference.hpp>
 
 #include "ccd/contact/first_times.hpp"

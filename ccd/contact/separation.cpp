@@ -1,4 +1,3 @@
-// Distances: see include/ccd/contact.hpp.
 #include <algorithm>
 #include <ccd/contact.hpp>
 #include <ccd/exact.hpp>

@@ -1,11 +1,9 @@
-// Whether two features come within a distance, in floating point: certain answers or none.
-// Internal.
+// A floating-point filter for "the features come within a distance d". Internal.
 //
-// On ever smaller parts of the step: the direction between the points that are nearest at its
-// middle is an axis. What it separates by more than d at both ends of a part, it separates
-// throughout; the two points themselves, if they are certainly nearer than d, are an answer, too.
-// Where the points are has no part in what is certain. Proof that ends are enough:
-// proofs/Separation.v, face_apart, edges_apart.
+// Bisects the step. The direction between the nearest points at the middle of a part is an axis. If
+// it separates the features by more than d at both ends of the part, it does so throughout. If the
+// two points are certainly nearer than d, the query collides. Errors of the nearest points do not
+// affect certainty. Proof that the ends suffice: proofs/Separation.v, face_apart, edges_apart.
 #pragma once
 
 #include <algorithm>
@@ -35,19 +33,19 @@ constexpr double dot(const vector& a, const vector& b) {
     return a.x * b.x + a.y * b.y + a.z * b.z;
 }
 
-/// s/t cut to [0, 1]; 0 where t is 0.
+/// Returns s/t clamped to [0, 1]; 0 if t is 0.
 inline double part_of(double s, double t) {
     return s > 0 ? (s < t ? s / t : 1) : 0;
 }
 
-/// From a point near the one of the segment p + s·e, 0 <= s <= 1, that is nearest to the origin.
+/// Approximates the point nearest to the origin on the segment p + s·e, 0 <= s <= 1.
 inline vector from_segment(const vector& p, const vector& e) {
     return p + part_of(-dot(p, e), dot(e, e)) * e;
 }
 
-/// A vector from a point of the first feature to one of the second, both about as near to each
-/// other as any: of points in the order of points_of. Every one is the exact vector between two
-/// points of the features, but for rounding.
+/// Returns a vector from a point of the first feature to one of the second that are about nearest.
+/// x holds the points in the order of points_of. Except for rounding, the result is the exact
+/// vector between two points of the features.
 inline vector nearest(const std::array<vector, 2>& x) {
     return x[1] - x[0];
 }
@@ -57,7 +55,7 @@ inline vector nearest(const std::array<vector, 3>& x) {
 template <kind K>
 vector nearest(const std::array<vector, 4>& x) {
     if constexpr (K == kind::vertex_face) {
-        // Inside the face, if the weights say so; else on an edge (Ericson 2005, 5.1.5).
+        // Inside the face, if the weights show it; else on an edge (Ericson 2005, 5.1.5).
         const vector p = x[1] - x[0], b = x[2] - x[1], c = x[3] - x[1];
         const double bb = dot(b, b), bc = dot(b, c), cc = dot(c, c), pb = -dot(p, b),
                      pc = -dot(p, c);
@@ -83,7 +81,6 @@ vector nearest(const std::array<vector, 4>& x) {
     }
 }
 
-/// The features of one query.
 template <class Query>
 class features {
     static constexpr kind K = kind_of<Query>;
@@ -92,7 +89,7 @@ class features {
     static constexpr double epsilon = std::numeric_limits<double>::epsilon();
 
   public:
-    /// Of finite coordinates and thicknesses that are not negative.
+    /// Preconditions: coordinates are finite and thicknesses >= 0.
     features(const Query& query, separation d) {
         const auto points = points_of(query);
         const vector origin = points[0].t0;
@@ -106,7 +103,7 @@ class features {
         }
         const double unscaled = largest.x + largest.y + largest.z;
         if (!(unscaled > 0 && std::isfinite(unscaled))) return;
-        // By a power of two, exactly but for what underflows far below `tiny`.
+        // A power of two is exact, except for underflow far below `tiny`.
         const double scale = std::ldexp(1, std::clamp(-std::ilogb(unscaled), -1000, 1000));
         for (std::size_t i = 0; i < count; ++i) {
             start_[i] = scale * start_[i];
@@ -114,12 +111,12 @@ class features {
         }
         size_ = scale * unscaled;
         const double sum = scale * (d.first + d.second);
-        // Rounded away from d, and by what the comparisons below lose.
+        // Rounded away from d, and widened by the errors of the comparisons below.
         above_ = sum * (1 + 24 * epsilon) + 10 * epsilon * size_ + tiny;
         below_ = sum * (1 - 24 * epsilon) - 40 * epsilon * size_ - tiny;
     }
 
-    /// `collides`: they certainly come within d. `separate`: they certainly do not.
+    /// Returns whether they certainly come within d (`collides`) or certainly do not (`separate`).
     outcome decide() const {
         if (!(above_ < largest_distance)) return outcome::uncertain;
         struct part {
@@ -147,10 +144,10 @@ class features {
   private:
     static constexpr int max_depth = 10;
     static constexpr double largest_distance = 0x1p300;  ///< in units of size_
-    static constexpr double tiny = 0x1p-500;             ///< above the root of what products lose
+    static constexpr double tiny = 0x1p-500;  ///< above the root of what products lose to underflow
 
-    /// Whether two points are certainly nearer than d where `between`, that is nearest_at(t), would
-    /// be shortest if it went on as it does at t, or a second such step later.
+    /// True if two points are certainly nearer than d at an estimated time: where `between`, which
+    /// is nearest_at(t), is shortest if its rate of change is that at t, or one such step later.
     bool comes_near(double t, vector between, double low, double high) const {
         for (double step = (high - low) / 64; step > (high - low) / 1e6; step /= 1024) {
             const vector change = (1 / step) * (nearest_at(t + step) - between);
@@ -162,9 +159,9 @@ class features {
         return false;
     }
 
-    /// Off by at most 40ε·size_ in length: positions by 2ε of a coordinate's largest size m, their
-    /// differences by 5ε, multiples by up to 1 of these by 6ε, and all sums of vectors of at most
-    /// 2m to 6m together by 23ε. The root's own rounding is left to below_'s 24ε.
+    /// The error is at most 40ε·size_ in length. Positions are off by 2ε of a coordinate's largest
+    /// size m, differences by 5ε, multiples by up to 1 of these by 6ε. All sums of vectors of at
+    /// most 2m to 6m add 23ε. The 24ε of below_ include the root's own rounding.
     vector nearest_at(double t) const {
         std::array<vector, count> x;
         for (std::size_t i = 0; i < count; ++i) x[i] = (1 - t) * start_[i] + t * end_[i];
@@ -174,10 +171,11 @@ class features {
             return nearest(x);
     }
 
-    /// Whether the features are apart by more than d along the axis, of about unit length, at t =
-    /// low and at t = high, the same way. A projection is off by 2.1ε·size_, between the ends of
-    /// the step by 3.1ε·size_, a difference of two by 7.3ε·size_; the axis is longer than 1 by 4ε
-    /// at most. Proof: proofs/SeparationFilter.v, projection_near, separated_right, separated_part,
+    /// True if the axis, of about unit length, separates the features by more than d in the same
+    /// order at t = low and t = high. A projection is off by 2.1ε·size_, between the ends of the
+    /// step by 3.1ε·size_, a difference of two by 7.3ε·size_. The axis is longer than 1 by at most
+    /// 4ε.
+    /// Proof: proofs/SeparationFilter.v, projection_near, separated_right, separated_part,
     /// axis_length, distance_rounded, size_rounded.
     bool separated(const vector& axis, double low, double high) const {
         const auto gap = [&](double t) {
@@ -192,7 +190,7 @@ class features {
         return gap(low) > above_ && gap(high) > above_;
     }
 
-    std::array<vector, count> start_, end_;  ///< from a point of the first feature, scaled
+    std::array<vector, count> start_, end_;  ///< relative to a point of the first feature, scaled
     double size_ = 0;                        ///< the sum of the largest coordinates' sizes
     double above_ = std::numeric_limits<double>::infinity(), below_ = 0;
 };

@@ -1,10 +1,8 @@
-// The neighbouring doubles between which a root of a polynomial lies, by its exact signs at
-// doubles.
+// Brackets a root of a polynomial between adjacent doubles by its exact signs at doubles. Internal.
 //
-// The polynomial has coefficients of fixed width and one sign change in a given interval. Where the
-// root is estimated to be decides how many signs are asked, never the answer: with a good estimate
-// two or three, else some dozens, at most 100. Internal; the bracket of a root is the same whoever
-// finds it.
+// The polynomial has coefficients of fixed width and one sign change in a given interval. The
+// estimate of the root affects only the number of signs that are evaluated: two or three if it is
+// good, else some dozens, at most 100. All algorithms find the same bracket.
 #pragma once
 
 #include <algorithm>
@@ -24,15 +22,15 @@
 
 namespace ccd::detail {
 
-/// A time: the double that it is if low == high, else the neighbouring doubles that it lies
-/// between. Of two different brackets the lesser, by low and then by high, has the earlier time.
+/// A time: a double if low == high, else a time between the adjacent doubles low and high. The
+/// lesser of two different brackets, by low and then by high, has the earlier time.
 /// Proof: proofs/TimeBrackets.v, lesser_bracket, least_bracket, bracket_of_first.
 struct time_bracket {
     double low = 0, high = 0;
     friend constexpr auto operator<=>(const time_bracket&, const time_bracket&) = default;
 };
 
-/// x·2^exponent, but for a few units in the last place.
+/// Returns x·2^exponent, except for a few units in the last place.
 template <int Words>
 constexpr double approximated(const errbound::integers::fixed_integer<Words>& x, int exponent) {
     const int cut = std::max(0, x.bit_length() - 63);
@@ -40,7 +38,7 @@ constexpr double approximated(const errbound::integers::fixed_integer<Words>& x,
 }
 
 /// A polynomial of degree N on [0, 1] with coefficients h_i of `Words` words
-/// (errbound/bernstein.hpp), any but the least number that these hold.
+/// (errbound/bernstein.hpp). No h_i may be the least number of that width.
 template <int Words, int N>
 class root_search {
   public:
@@ -52,13 +50,13 @@ class root_search {
         slope_ = derivative(floating_);
     }
 
-    /// Its coefficients in floating point, times one power of two.
+    /// Returns the coefficients in floating point, scaled by one power of two.
     constexpr const std::array<double, N + 1>& floating() const { return floating_.h; }
 
-    /// Its only root in the open interval from low to high, where it changes its sign, which is
-    /// `before` just above low; or another of its roots there that is a double itself. Nothing if
-    /// the root is so near to 0 that fixed widths cannot tell.
-    /// Proof: proofs/TimeBrackets.v, search_right; of the loop, and that it asks at most 100 signs,
+    /// Returns the only root in (low, high), where the polynomial changes its sign; or another of
+    /// its roots there that is a double. `before` is the sign just above low. Returns nothing if
+    /// the root is too near to 0 for fixed widths. Evaluates at most 100 signs.
+    /// Proof: proofs/TimeBrackets.v, search_right; of the loop and the number of signs,
     /// proofs/TimeSearch.v, between_searches, search_ends, double_numbers.
     constexpr std::optional<time_bracket> between(double low, double high,
                                                   errbound::sign_type before,
@@ -75,7 +73,7 @@ class root_search {
             if (value->sign == errbound::sign_type::zero) return time_bracket{t, t};
             const bool earlier = value->sign == before;
             (earlier ? a : b) = x;
-            // A Newton step, as long as it tells more than on which side the root is.
+            // A Newton step, as long as it stays inside the interval.
             const double next = t - value->size / errbound::value_at(slope_, t);
             if (corrections++ < max_corrections && next > double_of_order(a) &&
                 next < double_of_order(b)) {
@@ -88,7 +86,7 @@ class root_search {
         return time_bracket{double_of_order(a), double_of_order(b)};
     }
 
-    /// Its sign at a double in [0, 1]; nothing if fixed widths cannot tell.
+    /// Returns the sign at a double in [0, 1]; nothing if fixed widths do not suffice.
     constexpr std::optional<errbound::sign_type> sign_at(double t) const {
         const auto value = value_at(t);
         if (!value) return {};
@@ -102,10 +100,10 @@ class root_search {
 
     struct value_type {
         errbound::sign_type sign;
-        double size;  ///< near the value, in the unit of the floating-point coefficients
+        double size;  ///< approximates the value, in units of the floating-point coefficients
     };
 
-    /// For roots near 0, where what was known of the place has no digit left; else the middle.
+    /// For roots near 0, where the estimate lost all digits; otherwise returns the middle.
     constexpr double estimate_from_start(double low, double high) const {
         const double step = floating_[0] / -slope_[0];
         return low == 0 && step > 0 && step < high ? step : low + (high - low) / 2;
@@ -119,8 +117,8 @@ class root_search {
         if (bits <= 126) return value_in_words<2>(d.magnitude >> zeros, bits);
         return {};
     }
-    /// At numerator/2^bits, with s + t = 2^bits. Proof that all fits: proofs/TimeSearch.v,
-    /// search_widths.
+    /// Evaluates at numerator/2^bits, with s + t = 2^bits. Proof of the widths:
+    /// proofs/TimeSearch.v, search_widths.
     template <int T>
     constexpr value_type value_in_words(std::uint64_t numerator, int bits) const {
         using number = errbound::integers::fixed_integer<T>;
@@ -139,9 +137,8 @@ class root_search {
     errbound::bernstein<double, N - 1> slope_;
 };
 
-/// The root of p0·s + p1·t, whose coefficients have opposite signs or one of which is zero, but not
-/// both.
-/// Proof: proofs/TimeBrackets.v, linear_bracket_right.
+/// Brackets the root of p0·s + p1·t. Precondition: the coefficients have opposite signs, or exactly
+/// one is zero. Proof: proofs/TimeBrackets.v, linear_bracket_right.
 template <int Words>
 constexpr std::optional<time_bracket> bracket_of_linear_root(
     const errbound::bernstein<errbound::integers::fixed_integer<Words>, 1>& p) {
@@ -152,15 +149,15 @@ constexpr std::optional<time_bracket> bracket_of_linear_root(
     return search.between(0, 1, sign_of(p[0]), start / (start - end));
 }
 
-/// Where the roots of a quadratic in (0, 1) are, which are simple: an only one, or the first or
-/// second of two. Its coefficients tell: the ends are not zero, their signs differ or the
-/// discriminant is positive and the middle coefficient has the other sign.
+/// A simple root of a quadratic in (0, 1): the only one, or the first or second of two. The end
+/// coefficients are not zero. Either their signs differ, or the discriminant is positive and the
+/// middle coefficient has the other sign.
 enum class quadratic_root { only, first, second };
 
 /// Estimates of the roots t/(s + t) of f0 s² + f1 st + f2 t², the lesser first.
 constexpr std::array<double, 2> estimated_roots(const std::array<double, 3>& f) {
     const double root = std::sqrt(std::max(0.0, f[1] * f[1] - 4 * f[0] * f[2]));
-    // x = t/s; q is the sum of two numbers of one sign.
+    // x = t/s. q is a sum of two numbers of one sign.
     const double q = -(f[1] + (f[1] < 0 ? -root : root)) / 2;
     const auto place = [](double t, double s) { return t / (s + t); };
     const double x = place(q, f[2]), y = place(f[0], q);
@@ -180,7 +177,7 @@ constexpr std::optional<time_bracket> bracket_of_quadratic_root(
         const double estimate = estimates[0] > 0 ? estimates[0] : estimates[1];
         return search.between(0, 1, first, estimate);
     }
-    // Between the two roots f is extreme, where its slope is zero.
+    // f has an extremum between the two roots, where its slope is zero.
     const errbound::bernstein<errbound::integers::fixed_integer<Words>, 1> slope{
         {f[1] - (f[0] << 1), (f[2] << 1) - f[1]}};
     const auto extreme = bracket_of_linear_root(slope);

@@ -1,4 +1,3 @@
-// First times of contact, stage by stage: see include/ccd/contact.hpp.
 #include <ccd/contact.hpp>
 #include <ccd/kind.hpp>
 #include <ccd/reference.hpp>
@@ -11,11 +10,11 @@
 namespace ccd {
 namespace {
 
-/// Floating point separates, or finds the interval of the first contact; integers compute its time.
+/// Floating point separates, or finds the interval of the first contact. Integers compute its time.
 template <class Query>
 detail::found_time found_before_reference(const Query& query) {
     if constexpr (cubic_query<Query>) {
-        static_filter::contact_part part;
+        static_filter::contact_interval part;
         switch (detail::decide_in_floating_point(query, nullptr, &part,
                                                  static_filter::halvings_for_times)
                     .outcome) {

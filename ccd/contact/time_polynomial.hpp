@@ -16,13 +16,13 @@
 
 namespace ccd::detail {
 
-/// Σ c_i t^i; the last coefficient is not zero. A ring, so that ccd/methods/forms.hpp takes it as a
+/// Σ c_i t^i with a nonzero last coefficient. A ring, so ccd/methods/forms.hpp accepts it as
 /// scalar.
 class time_polynomial {
   public:
     using form = errbound::roots::integer_form<integer>;
 
-    /// Identically zero.
+    /// Creates the zero polynomial.
     time_polynomial() = default;
     explicit time_polynomial(form ascending) : c_(std::move(ascending)) {
         errbound::roots::trim(c_);
@@ -40,7 +40,7 @@ class time_polynomial {
     friend time_polynomial operator*(const time_polynomial& p, const time_polynomial& q) {
         if (p.c_.empty() || q.c_.empty()) return {};
         form product(p.c_.size() + q.c_.size() - 1);
-        integer term;  // kept, so that it allocates once
+        integer term;  // reused, so that it allocates once
         for (std::size_t i = 0; i < p.c_.size(); ++i) {
             for (std::size_t j = 0; j < q.c_.size(); ++j) {
                 term = p.c_[i];
@@ -64,12 +64,12 @@ class time_polynomial {
     form c_;
 };
 
-/// Exponents of the powers of two in which the axes' coordinates are whole numbers.
+/// The coordinates of an axis are integers in units of 2^exponent.
 struct axis_exponents {
     int x, y, z;
 };
 
-/// The greatest such exponent of one axis, or any where all coordinates are zero.
+/// Returns the greatest such exponent of one axis; any if all its coordinates are zero.
 inline int whole_exponent(std::span<const curve> points, double point<double>::*axis) {
     int last = std::numeric_limits<int>::max();
     for (const curve& p : points)
@@ -82,7 +82,7 @@ inline axis_exponents whole_exponents(std::span<const curve> points) {
             whole_exponent(points, &point<double>::z)};
 }
 
-/// x/2^exponent, a whole number.
+/// Returns x/2^exponent. Precondition: it is an integer.
 inline integer whole(double x, int exponent) {
     return errbound::dyadic<integer>::from(x).in_units(exponent);
 }

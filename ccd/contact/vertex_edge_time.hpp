@@ -1,8 +1,7 @@
 // The first contact of a vertex with an edge, and of two vertices, in integers of fixed width.
 //
-// The algebra and the widths are those of ccd/exact/vertex_edge_contact.hpp, which decides whether
-// there is one: it comes at t = 0, at a rational time, or at the root of a quadratic. Here the
-// times are told in their order.
+// Algebra and widths are those of ccd/exact/vertex_edge_contact.hpp. A contact begins at t = 0, at
+// a rational time, or at the root of a quadratic. Here the times are visited in their order.
 #pragma once
 
 #include <array>
@@ -19,7 +18,7 @@
 
 namespace ccd::detail {
 
-/// The first time, if `outcome` is `collides`; `uncertain` where fixed widths cannot tell it.
+/// The first time, if `outcome` is `collides`; `uncertain` if fixed widths cannot determine it.
 struct found_time {
     ccd::outcome outcome = ccd::outcome::separate;
     time_bracket time{};
@@ -32,9 +31,9 @@ struct found_time {
           time(t.value_or(time_bracket{})) {}
 };
 
-/// The first root of f in (0, 1) where b <= 0, for an f whose coefficients have both signs, whose
-/// roots are f's only zeros that count.
-/// Proof: proofs/VertexEdgeTime.v, first_root_right; of its widths, proofs/TimeSearch.v,
+/// Returns the first root of f in (0, 1) where b <= 0. Precondition: f's coefficients have both
+/// signs, and contact requires f = 0.
+/// Proof: proofs/VertexEdgeTime.v, first_root_right; of the widths, proofs/TimeSearch.v,
 /// first_root_widths.
 template <int Words>
 constexpr found_time first_root_nonpositive(const quadratic_form<Words>& f,
@@ -42,7 +41,7 @@ constexpr found_time first_root_nonpositive(const quadratic_form<Words>& f,
     using errbound::sign_of;
     using errbound::sign_type;
     using errbound::value_at;
-    // The root of c0·s + c1·t, of opposite signs.
+    // The root of c0·s + c1·t, whose coefficients have opposite signs.
     const auto at_rational = [&b](const auto& c0, const auto& c1) -> found_time {
         if (!(value_at(b, magnitude(c1), magnitude(c0)) <= 0)) return outcome::separate;
         return bracket_of_linear_root(linear_form<Words>{{c0, c1}});
@@ -60,7 +59,7 @@ constexpr found_time first_root_nonpositive(const quadratic_form<Words>& f,
     const auto root = [&f](quadratic_root which) -> found_time {
         return bracket_of_quadratic_root(f, which);
     };
-    // At f's roots b has the sign of f2·l: see nonpositive_at_a_root.
+    // At the roots of f, b has the sign of f2·l: see nonpositive_at_a_root.
     const linear_form<2 * Words> l{{f[2] * b[0] - b[2] * f[0], f[2] * b[1] - b[2] * f[1]}};
     const auto nonpositive = [last](sign_type of_l) {
         return errbound::certainly_nonpositive(last * of_l);
@@ -68,7 +67,7 @@ constexpr found_time first_root_nonpositive(const quadratic_form<Words>& f,
     const auto first_root = two_roots ? quadratic_root::first : quadratic_root::only;
     const auto everywhere = sign_inside(l);
     if (certain(everywhere)) return nonpositive(everywhere) ? root(first_root) : outcome::separate;
-    // l changes its sign at t = |l0|, s = |l1|.
+    // l changes sign at t = |l0|, s = |l1|.
     const auto s = magnitude(l[1]), t = magnitude(l[0]);
     const auto there = sign_of(value_at(f, s, t));
     if (!two_roots) {
@@ -80,7 +79,7 @@ constexpr found_time first_root_nonpositive(const quadratic_form<Words>& f,
         return root(nonpositive(sign_of(l[0])) ? quadratic_root::first : quadratic_root::second);
     const linear_form<Words> slope{{f[1] - (f[0] << 1), (f[2] << 1) - f[1]}};
     const bool before_both = sign_of(value_at(slope, s, t)) == -first;
-    if (there == sign_type::zero) {  // l's root is one of them, and b = 0 there
+    if (there == sign_type::zero) {  // the root of l is one of them, and b = 0 there
         if (before_both) return root(quadratic_root::first);
         return root(nonpositive(sign_of(l[0])) ? quadratic_root::first : quadratic_root::second);
     }
@@ -88,7 +87,7 @@ constexpr found_time first_root_nonpositive(const quadratic_form<Words>& f,
                                                            : outcome::separate;
 }
 
-/// The first time at which the vertex touches the edge. Widths as for vertex_touches_edge.
+/// Returns the first time at which the vertex touches the edge. Same widths as vertex_touches_edge.
 /// Proof: proofs/VertexEdgeTime.v, first_contact_right, first_bracket_right.
 template <int Words>
 constexpr found_time first_vertex_edge_contact(
@@ -97,7 +96,7 @@ constexpr found_time first_vertex_edge_contact(
     using errbound::sign_type;
     const auto e = difference(query.e1, query.e0);
     const auto w = difference(query.v, query.e0);
-    std::array<quadratic_form<2 * Words>, 3> f;  // W × E, one component after the other
+    std::array<quadratic_form<2 * Words>, 3> f;  // W × E
     f[0] = w.y * e.z - w.z * e.y;
     if (certainly_rootless(f[0])) return outcome::separate;
     f[1] = w.z * e.x - w.x * e.z;
@@ -131,8 +130,8 @@ constexpr found_time first_vertex_edge_contact(
             inside = first_root_nonpositive(*roots.quadratic, b);
             break;
         case kind::everywhere:
-            // Collinear throughout, and b > 0 at 0: contact begins at b's first root. At t = 1 it
-            // may be 0, a root like others.
+            // The motion is collinear throughout, and b > 0 at t = 0, so contact begins at the
+            // first root of b, which may be t = 1.
             if (b[2] <= 0 || (b[1] < 0 && b[1] * b[1] >= (b[0] * b[2]) << 2))
                 return first_root_nonpositive(b, b);
             break;
@@ -140,7 +139,7 @@ constexpr found_time first_vertex_edge_contact(
     return inside.outcome == outcome::separate ? at_end() : inside;
 }
 
-/// The first time at which the two vertices coincide: W(t) = 0 for the linear W.
+/// Returns the first time at which the two vertices coincide: W(t) = 0 for the linear W.
 /// Proof: proofs/VertexEdgeTime.v, vertices_time_right.
 template <int Words>
 constexpr found_time first_vertex_vertex_contact(

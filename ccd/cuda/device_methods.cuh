@@ -35,9 +35,9 @@ void queue_exact(device_launcher& launcher, const positions& at,
 /// run_time_stages, compiled in ccd/cuda/times.cu.
 void queue_times(device_launcher& launcher, const positions& at,
                  const candidates<vertex_face_pair>& candidates, first_time* times,
-                 const time_memory& memory, const times_asked& asked);
+                 const time_memory& memory, const times_request& request);
 void queue_times(device_launcher& launcher, const positions& at,
                  const candidates<edge_edge_pair>& candidates, first_time* times,
-                 const time_memory& memory, const times_asked& asked);
+                 const time_memory& memory, const times_request& request);
 
 }  // namespace ccd::cuda::detail

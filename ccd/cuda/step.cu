@@ -20,7 +20,7 @@ struct mesh_steps::state {
     std::size_t vertices = 0;
     bool mesh_copied = false;
     detail::device_launcher launcher{nullptr};
-    detail::asked_steps<detail::device_launcher> steps;
+    detail::timed_steps<detail::device_launcher> steps;
     detail::device_launcher::buffer<std::byte> batch;
 
     std::string fault_of(const positions& at, const mesh_step_options& options) const;
@@ -51,13 +51,13 @@ struct mesh_steps::state {
         detail::queue_exact(launcher, at, block, answers, all, options.precision);
         return detail::finish_exact(launcher, at, block, answers, all).left;
     }
-    /// The callback of asked_pairs::ask.
+    /// The callback of timed_pairs::find_times.
     template <class Pair>
     std::size_t find(const positions& at, const candidates<Pair>& pairs, first_time* times,
-                     const detail::times_asked& asked) {
+                     const detail::times_request& request) {
         const auto all = memory_of<detail::time_memory>(pairs.count);
         if (!launcher.ok()) return 0;
-        detail::queue_times(launcher, at, pairs, times, all, asked);
+        detail::queue_times(launcher, at, pairs, times, all, request);
         return detail::finish_times(launcher, at, pairs, times, all).left;
     }
 };
@@ -71,7 +71,7 @@ std::string mesh_steps::state::fault_of(const positions& at,
         return "ccd::cuda: positions are a null pointer; expected device memory";
     if (std::string why = detail::fault_of_method(options.method); !why.empty()) return why;
     if (std::string why = detail::fault_of_t_max(options.t_max); !why.empty()) return why;
-    if (options.method != method::exact && detail::ask_for_first_contact(options))
+    if (options.method != method::exact && detail::needs_first_contact(options))
         return "ccd::cuda: method is " + std::string(info(options.method).name) +
                "; expected exact with options for times";
     return {};
@@ -112,7 +112,7 @@ mesh_steps::result mesh_steps::run(const positions& positions, const mesh_step_o
             detail::rounded_position* rows) {
             return state_->decide(positions, options, block, answers, scene, rows);
         },
-        [&](const auto& some, first_time* times, const detail::times_asked& of) {
+        [&](const auto& some, first_time* times, const detail::times_request& of) {
             return state_->find(positions, some, times, of);
         });
     if (!launcher.ok()) return fault(launcher.result().error);
@@ -229,8 +229,8 @@ status times_of_stored(std::span<const Query> queries, std::span<first_time> tim
     detail::device_launcher::buffer<first_time> found;
     std::vector<vertex_index> numbers;
     std::vector<first_time> found_on_host;
-    const auto ask = [&](std::size_t first, const positions& at, const auto& all,
-                         const outcome* answers, const scratch& memory) -> status {
+    const auto find_times = [&](std::size_t first, const positions& at, const auto& all,
+                                const outcome* answers, const scratch& memory) -> status {
         colliding.select(launcher, detail::may_collide_at{answers}, all.count);
         found.resize(launcher, colliding.size());
         if (!launcher.ok()) return launcher.result();
@@ -275,7 +275,7 @@ step_result step(const mesh& before, const mesh& after, const step_options& opti
     ccd::detail::check_frames(before, after);
     ccd::detail::check_positions(vertex_rows(before, after), before.vertices.size());
     ccd::detail::check_elements(before.faces, {}, before.vertices.size(), "ccd::cuda::step");
-    if (!ccd::detail::has_faces_alone(before))
+    if (!ccd::detail::has_faces_only(before))
         return failed({"ccd::cuda: mesh has edges or points; expected only faces"});
     ccd::detail::check_options(options, before.vertices.size());
     if (!options.distances.is_contact())

@@ -53,19 +53,19 @@ struct earlier_time {
 };
 
 /// True if the options require all times, the earliest time, or any time.
-constexpr bool ask_for_all_times(const mesh_step_options& asked) {
-    return asked.times || asked.t_max < 1;
+constexpr bool needs_all_times(const mesh_step_options& options) {
+    return options.times || options.t_max < 1;
 }
-constexpr bool ask_for_first_contact(const mesh_step_options& asked) {
-    return asked.first_contact || ask_for_all_times(asked);
+constexpr bool needs_first_contact(const mesh_step_options& options) {
+    return options.first_contact || needs_all_times(options);
 }
-constexpr bool ask_for_any_time(const mesh_step_options& asked) {
-    return asked.initial_contact || ask_for_first_contact(asked);
+constexpr bool needs_any_time(const mesh_step_options& options) {
+    return options.initial_contact || needs_first_contact(options);
 }
 
 /// The result if there is no first contact; uncertain if it is not computed.
-constexpr first_time no_contact(const mesh_step_options& asked) {
-    return {ask_for_first_contact(asked) ? outcome::separate : outcome::uncertain};
+constexpr first_time no_contact(const mesh_step_options& options) {
+    return {needs_first_contact(options) ? outcome::separate : outcome::uncertain};
 }
 
 template <class Pair>
@@ -76,40 +76,40 @@ struct pairs_and_times {
 };
 
 template <class Launcher, class Pair>
-class asked_pairs {
+class timed_pairs {
   public:
     template <class T>
     using buffer = typename Launcher::template buffer<T>;
 
-    /// Computes the times of pairs. `find(candidates, times, asked)` queues first times and returns
-    /// the number found on the host, which ask also returns. `first` is the earliest time found so
-    /// far.
+    /// Computes the times of pairs. `find(candidates, times, request)` queues first times and
+    /// returns the number found on the host, which find_times also returns. `first` is the earliest
+    /// time found so far.
     template <class Find>
-    std::size_t ask(Launcher& launcher, std::span<const Pair> pairs, const mesh_step_options& asked,
-                    first_time& first, const Find& find) {
+    std::size_t find_times(Launcher& launcher, std::span<const Pair> pairs,
+                           const mesh_step_options& options, first_time& first, const Find& find) {
         found_ = {pairs, {}, {}};
-        if (!ask_for_any_time(asked)) return 0;
+        if (!needs_any_time(options)) return 0;
         times_.resize(launcher, pairs.size());
         if (!launcher.ok()) return 0;
         const auto all = candidates<Pair>::rows(pairs.data(), pairs.size());
         const std::size_t found_on_host =
-            pairs.empty() ? 0 : find(all, times_.data(), times_asked_of(asked, first));
+            pairs.empty() ? 0 : find(all, times_.data(), request_of(options, first));
         found_.times = {times_.data(), pairs.size()};
         found_.touching_at_start =
             selected(launcher, is_at_start{times_.data()}, found_.pairs, touching_);
-        if (ask_for_first_contact(asked)) first = earliest(launcher, first);
-        if (asked.t_max < 1) drop_late(launcher);
-        if (!asked.times) found_.times = {};
+        if (needs_first_contact(options)) first = earliest(launcher, first);
+        if (options.t_max < 1) drop_late(launcher);
+        if (!options.times) found_.times = {};
         return found_on_host;
     }
 
     const pairs_and_times<Pair>& found() const { return found_; }
 
   private:
-    static times_asked times_asked_of(const mesh_step_options& asked, const first_time& first) {
-        if (ask_for_all_times(asked)) return {asked.t_max, false};
-        if (!asked.first_contact) return {0, false};
-        return {first.outcome == outcome::collides ? first.high : asked.t_max, true};
+    static times_request request_of(const mesh_step_options& options, const first_time& first) {
+        if (needs_all_times(options)) return {options.t_max, false};
+        if (!options.first_contact) return {0, false};
+        return {first.outcome == outcome::collides ? first.high : options.t_max, true};
     }
     template <class IsSelected, class T>
     std::span<const T> selected(Launcher& launcher, const IsSelected& is_selected,
@@ -140,9 +140,9 @@ class asked_pairs {
 };
 
 template <class Launcher>
-class asked_steps {
+class timed_steps {
   public:
-    explicit asked_steps(std::size_t block = step_memory<Launcher>::default_block)
+    explicit timed_steps(std::size_t block = step_memory<Launcher>::default_block)
         : memory_(block) {}
 
     void set_mesh(Launcher& launcher, std::size_t vertices, std::span<const face> faces,
@@ -150,18 +150,18 @@ class asked_steps {
         memory_.set_mesh(launcher, vertices, faces, edges);
     }
 
-    /// `decide`: as in step_memory::run; `find`: as in asked_pairs::ask.
+    /// `decide`: as in step_memory::run; `find`: as in timed_pairs::find_times.
     template <class Decide, class Find>
-    found_pairs run(Launcher& launcher, const positions& at, const mesh_step_options& asked,
+    found_pairs run(Launcher& launcher, const positions& at, const mesh_step_options& options,
                     const Decide& decide, const Find& find) {
         found_pairs found = memory_.run(launcher, at, decide);
-        first_contact_ = no_contact(asked);
-        const auto ask = [&](auto& of_kind, const auto* pairs, std::size_t count) {
-            found.finished_on_host +=
-                of_kind.ask(launcher, std::span(pairs, count), asked, first_contact_, find);
+        first_contact_ = no_contact(options);
+        const auto find_times = [&](auto& of_kind, const auto* pairs, std::size_t count) {
+            found.finished_on_host += of_kind.find_times(launcher, std::span(pairs, count), options,
+                                                         first_contact_, find);
         };
-        ask(vertex_face_, memory_.vertex_face().data(), found.vertex_face);
-        ask(edge_edge_, memory_.edge_edge().data(), found.edge_edge);
+        find_times(vertex_face_, memory_.vertex_face().data(), found.vertex_face);
+        find_times(edge_edge_, memory_.edge_edge().data(), found.edge_edge);
         launcher.wait();
         return found;
     }
@@ -172,8 +172,8 @@ class asked_steps {
 
   private:
     step_memory<Launcher> memory_;
-    asked_pairs<Launcher, vertex_face_pair> vertex_face_;
-    asked_pairs<Launcher, edge_edge_pair> edge_edge_;
+    timed_pairs<Launcher, vertex_face_pair> vertex_face_;
+    timed_pairs<Launcher, edge_edge_pair> edge_edge_;
     first_time first_contact_;
 };
 

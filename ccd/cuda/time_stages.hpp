@@ -20,7 +20,7 @@
 
 namespace ccd::cuda::detail {
 
-struct times_asked {
+struct times_request {
     double t_max;
     bool earliest;  ///< only those at the start, and the least of the others
 };
@@ -70,7 +70,7 @@ struct root_stage : time_stage<Pair> {
             wider.push(i);
             return;
         }
-        static_filter::contact_part part;
+        static_filter::contact_interval part;
         const outcome found = part_of_contact(query, part);
         if (found == outcome::separate || part.low > this->t_max.get())
             this->answer(i, outcome::separate);
@@ -85,7 +85,7 @@ struct root_stage : time_stage<Pair> {
     using forms = linear_forms<kind_of<Pair>, S>;
 
     static constexpr outcome part_of_contact(const query_of_pair<Pair, double>& query,
-                                             static_filter::contact_part& part) {
+                                             static_filter::contact_interval& part) {
         const forms<double> f(query);
         const static_filter::difference_extents<double> extents(f);
         if (!extents.usable) return outcome::uncertain;
@@ -124,17 +124,17 @@ struct time_memory {
 /// Queues all stages. The host decides the rest (ccd/cuda/pairs.hpp).
 template <class Launcher, class Pair>
 void run_time_stages(Launcher& launcher, const positions& at, const candidates<Pair>& candidates,
-                     first_time* times, const time_memory& memory, const times_asked& asked) {
+                     first_time* times, const time_memory& memory, const times_request& request) {
     launcher.set(memory.counters, time_counters{});
-    launcher.set(memory.t_max, asked.t_max);
+    launcher.set(memory.t_max, request.t_max);
     time_counters& sizes = *memory.counters;
     const queue to_one_word{memory.first, &sizes.one_word};
     const queue to_roots_in_two_words{memory.second, &sizes.roots_in_two_words};
     const queue to_two_words{memory.first, &sizes.two_words};
     const queue left{memory.left, &sizes.left};
     const auto stage = [&](const queue& open) {
-        return time_stage<Pair>{at,   candidates, times, asked.earliest, shared_time(memory.t_max),
-                                open, left};
+        return time_stage<Pair>{
+            at, candidates, times, request.earliest, shared_time(memory.t_max), open, left};
     };
     launcher.for_each(candidates.count,
                       root_stage<Pair, 1>{stage(to_one_word), to_roots_in_two_words});

@@ -6,8 +6,8 @@ namespace ccd::cuda::detail {
 
 void queue_times(device_launcher& launcher, const positions& at,
                  const candidates<ERRBOUND_PAIR>& candidates, first_time* times,
-                 const time_memory& memory, const times_asked& asked) {
-    run_time_stages(launcher, at, candidates, times, memory, asked);
+                 const time_memory& memory, const times_request& request) {
+    run_time_stages(launcher, at, candidates, times, memory, request);
 }
 
 }  // namespace ccd::cuda::detail

@@ -1,7 +1,7 @@
-// Coordinates as integers, each axis in a unit of its own.
+// Converts coordinates to integers. Each axis has its own unit, a power of two.
 //
-// Contact does not depend on the axes' units: they scale all three kinds of equation at a contact
-// by positive factors, and integers stay short when one axis is much smaller than the others.
+// Units scale all equations of a contact by positive factors, so contact does not depend on them.
+// Integers stay short if one axis is much smaller than the others.
 // Proof: proofs/AxisUnits.v, face_units, edges_units, vertex_edge_units.
 #pragma once
 
@@ -13,7 +13,7 @@
 
 namespace ccd::detail {
 
-/// One axis of a query: its unit, and how many units its coordinates differ by.
+/// The unit of one axis, and the number of units by which coordinates differ.
 struct axis_extent {
     int unit = 0;  ///< 2^unit divides every coordinate
     int bits = 0;  ///< coordinates at one end of the step differ by less than 2^bits units
@@ -32,9 +32,9 @@ struct axis_extent {
             low0 = std::min(low0, x0), high0 = std::max(high0, x0);
             low1 = std::min(low1, x1), high1 = std::max(high1, x1);
         }
-        // Rounding is monotone, so a rounded difference below a power of two was below it before;
-        // one that overflows is below 2^1025, as the infinity's end_bit() says. Proof:
-        // proofs/IntegerUnits.v, extent_bits_enough.
+        // Rounding is monotone, so an exact difference is below the same powers of two as the
+        // rounded one. If it overflows, it is below 2^1025, and the infinity's end_bit() is 1025.
+        // Proof: proofs/IntegerUnits.v, extent_bits_enough.
         const errbound::integers::binary_double extent(std::max(high0 - low0, high1 - low1));
         if (last == std::numeric_limits<int>::max()) return;  // all are zero
         unit = last;
@@ -42,7 +42,7 @@ struct axis_extent {
     }
 };
 
-/// What it takes to write a query in integers.
+/// The units of a query's three axes.
 struct integer_units {
     axis_extent x, y, z;
 
@@ -53,7 +53,7 @@ struct integer_units {
     /// Coordinates of one axis at one end of the step differ by less than 2^bits() units.
     constexpr int bits() const { return std::max({x.bits, y.bits, z.bits}); }
 
-    /// The query with every coordinate x converted: convert(x, unit) is x/2^unit in some integers.
+    /// Returns the query with every coordinate x replaced by convert(x, unit), that is x/2^unit.
     template <class Query, class Convert>
     constexpr auto converted(const Query& query, const Convert& convert) const {
         return transformed_points(query, [&](const point<double>& p) {
@@ -61,8 +61,8 @@ struct integer_units {
                                                          convert(p.z, z.unit)};
         });
     }
-    /// In integers of Words words, modulo their width: differences at one end of the step are right
-    /// if bits() < 64·Words. Proof: proofs/IntegerUnits.v, difference_in_units_exact.
+    /// Converts to integers of Words words, modulo their width. Differences at one end of the step
+    /// are exact if bits() < 64·Words. Proof: proofs/IntegerUnits.v, difference_in_units_exact.
     template <int Words, class Query>
     constexpr auto converted(const Query& query) const {
         return converted(query, [](double x, int unit) { return in_units<Words>(x, unit); });

@@ -1,4 +1,4 @@
-// An integer that stands for a real number near it.
+// An integer with a bound on its distance from the real number that it approximates.
 #pragma once
 
 #include <algorithm>
@@ -6,13 +6,12 @@
 
 namespace ccd::detail {
 
-/// The real number that it stands for is less than 2^error_bits away from `value`, or equal to it
-/// if error_bits is below exact/2. Bounds are kept to powers of two, and rounded up: some ten
-/// operations cost as many bits, which is little where errors are far below the values. Integer is
-/// a fixed_integer or long_integer (errbound/integers), whose widths and caller's duties hold here.
+/// The real number is less than 2^error_bits away from `value`, or equal to it if error_bits is
+/// below exact/2. Bounds are powers of two, rounded up: each operation costs at most about one bit
+/// of precision. Integer is a fixed_integer or long_integer, whose preconditions on widths apply.
 template <class Integer>
 struct bounded_integer {
-    /// So low that a few operations leave it below exact/2.
+    /// Low enough to stay below exact/2 after a few operations.
     static constexpr int exact = -(1 << 20);
 
     Integer value;
@@ -35,9 +34,8 @@ struct bounded_integer {
     }
 };
 
-/// With sizes |a| <= 2^m, |b| <= 2^n and errors below 2^d, 2^e the product is known up to
-/// 2^(m + e) + 2^(n + d) + 2^(d + e).
-/// Proof: proofs/BoundedInteger.v, bounded_product_known.
+/// With |a| <= 2^m, |b| <= 2^n and errors below 2^d, 2^e, the error of the product is below
+/// 2^(m + e) + 2^(n + d) + 2^(d + e). Proof: proofs/BoundedInteger.v, bounded_product_known.
 template <class A, class B>
 constexpr auto operator*(const bounded_integer<A>& a, const bounded_integer<B>& b) {
     using product = decltype(a.value * b.value);

@@ -1,16 +1,13 @@
-// Contact inside a face or inside both edges where brackets of fixed width cannot tell: roots of Y
-// that lie too close together, or a G_i too small at one of them. In integers as long as it takes.
+// Contact inside a face or both edges for roots of Y that lie too close together, or a G_i too
+// small at one, for ccd/exact/interior_contact.hpp. Same precondition: no vertex/edge contact.
 //
-// Asked, as ccd/exact/interior_contact.hpp is and for the reasons it gives, of queries without
-// vertex/edge contact. Y is known on a part of [0, 1] by its exact coefficients there. Floating
-// point estimates from them where in the part its root is, or the extremum between its two roots,
-// and Y's exact coefficients on a narrow part around that place prove it: some 40 bits are won at
-// once, 20 around two roots. Where two or three roots are near an end of the part, exponents of the
-// coefficients show it; where nothing does, the part is halved. Two roots part so after a few steps
-// however close they are. G_i are bounded on the part each time that its place has half
-// as many bits again, until they tell.
+// Y is kept on a subinterval of [0, 1] by its exact coefficients there. Floating point estimates
+// its root, or the extremum between two roots, and exact coefficients on a narrow part around it
+// prove the estimate: a step gains some 40 bits, or 20 around two roots. Exponents of coefficients
+// show roots near an end of the part. If nothing works, the part is halved. G_i are bounded on the
+// part again each time that its position has half as many bits more.
 //
-// What stays uncertain: what needs more than `max_bits` bits of a place.
+// `uncertain`: a position needs more than `max_bits` bits.
 #pragma once
 
 #include <algorithm>
@@ -31,20 +28,20 @@
 
 namespace ccd::detail {
 
-/// The extremum of a cubic inside (0, 1), about, and about how far on either side its two roots
-/// are; coefficients are scaled. Nothing if its slopes at the ends do not show an extremum.
+/// The extremum of a cubic inside (0, 1) and the distance of its two roots on either side,
+/// estimated. Coefficients are scaled. Nothing if the slopes at the ends do not show an extremum.
 struct root_pair {
     double middle, radius;
 };
 inline std::optional<root_pair> estimated_pair(const std::array<double, 4>& h) {
-    // The derivative d0·s² + d1·st + d2·t², whose root t/s comes from the larger of two terms.
+    // The derivative is d0·s² + d1·st + d2·t². Its root t/s comes from the larger of two terms.
     const double d0 = h[1] - 3 * h[0], d1 = 2 * (h[2] - h[1]), d2 = 3 * h[3] - h[2];
     if (!(d0 * d2 < 0)) return {};
     const double q = -(d1 + std::copysign(std::sqrt(d1 * d1 - 4 * d0 * d2), d1)) / 2;
     const double x = q / d2 > 0 ? q / d2 : d0 / q;
     const double t = x / (1 + x), s = 1 - t;
     const double value = ((h[0] * s + h[1] * t) * s + h[2] * t * t) * s + h[3] * t * t * t;
-    // Near the extremum the cubic is value + bend·(place − t)²; at the ends it nearly is.
+    // Near the extremum the cubic is value + bend·(place − t)². Assume the same at the ends.
     const double bend =
         std::max(std::fabs(h[0] - value) / (t * t), std::fabs(h[3] - value) / (s * s));
     double largest = 0;
@@ -52,8 +49,8 @@ inline std::optional<root_pair> estimated_pair(const std::array<double, 4>& h) {
     return root_pair{t, std::sqrt((std::fabs(value) + 0x1p-48 * largest) / bend)};
 }
 
-/// No root t/s of a cubic with sign changes is at or above 2^(this): the bound of Kioustelidis
-/// (1986), which errbound/roots/root_isolation.hpp derives.
+/// Returns e such that no root t/s of a cubic with sign changes is >= 2^e, by the bound of
+/// Kioustelidis (1986), which errbound/roots/root_isolation.hpp derives.
 template <class Integer>
 int root_exponent(const errbound::bernstein<Integer, 3>& y) {
     using errbound::sign_type;
@@ -70,8 +67,8 @@ int root_exponent(const errbound::bernstein<Integer, 3>& y) {
     return exponent;
 }
 
-/// The decision for one query. Forms: vertex_face_forms or edge_edge_forms over integers of at most
-/// `coordinate_words` words, in which differences stay below 2^(64·coordinate_words − 3).
+/// Decides one query. Forms is vertex_face_forms or edge_edge_forms over integers of at most
+/// `coordinate_words` words. Precondition: differences are below 2^(64·coordinate_words − 3).
 template <template <class, int> class Forms>
 class close_contact {
     template <int W>
@@ -90,49 +87,49 @@ class close_contact {
         three_real_roots_ = discriminant == sign_type::positive;
     }
 
-    /// Whether Y = 0 and all G_i > 0 at some t in (0, 1) that is no multiple root of Y.
+    /// Returns whether Y = 0 and all G_i > 0 at some t in (0, 1) that is no multiple root of Y.
     /// Proof: proofs/CloseContact.v, close_contact_right, close_contact_ends.
     outcome decide() const { return by_narrowing(whole_step()); }
 
   protected:
     static constexpr int place_words = 24, max_bits = 64 * place_words - 2;
     static constexpr int y_words = 3 * (coordinate_words + place_words) + 4;
-    /// Of the place of a root, and of that of an extremum, that doubles may know.
+    /// Bits by which an estimate narrows a part around a root, and around an extremum.
     static constexpr int root_bits = 40, pair_bits = 22;
-    /// Narrowed at once by no more than this, which an std::int64_t holds.
+    /// The most bits by which one step narrows, which an std::int64_t holds.
     static constexpr int most_at_once = 60;
-    /// So that narrowing once fits. Proof: proofs/CloseContact.v, close_widths, narrowed_fits.
+    /// Coefficients of at most this size can be narrowed once more. Proof: proofs/CloseContact.v,
+    /// close_widths, narrowed_fits.
     static constexpr int most_y_bits = 64 * y_words - 3 * most_at_once - 8;
-    /// G_i are not asked before: interior_contact did.
-    static constexpr int first_asked_bits = 40;
+    /// G_i are first tested at this position, because interior_contact tested them before.
+    static constexpr int first_tested_bits = 40;
 
     using place_number = number<place_words>;
     using cubic = errbound::bernstein<number<y_words>, 3>;
 
-    /// From low/2^unit_bits, 2^width_bits units wide; y: Y's coefficients there, times a power of
-    /// two.
+    /// The interval from low/2^unit_bits, 2^width_bits units wide. y holds Y's coefficients there,
+    /// times a power of two.
     struct part {
         cubic y;
         inner_sign_changes roots;
         place_number low;
         int unit_bits = 0, width_bits = 0;
-        int ask_from = first_asked_bits;
+        int test_from = first_tested_bits;
 
         int bits() const { return unit_bits - width_bits; }
         bool can_be_narrowed() const {
-            // Products of place and coordinates, Y's coefficients and their sums.
+            // Products of position and coordinates, and Y's coefficients and their sums, must fit.
             return unit_bits + most_at_once <= max_bits &&
                    std::all_of(y.h.begin(), y.h.end(),
                                [](const auto& h) { return h.bit_length() <= most_y_bits; });
         }
 
-        /// That between a/2^n and (a + 2^w)/2^n of this one's width: y's power coefficients there,
-        /// by Horner's rule.
-        /// Proof: proofs/CloseContact.v, sub_part_right.
+        /// Returns the part between a/2^n and (a + 2^w)/2^n of this one's width. Horner's rule
+        /// gives the power coefficients of y there. Proof: proofs/CloseContact.v, sub_part_right.
         part sub_part(int n, std::int64_t a, int w) const {
             using big = number<y_words>;
             const big thrice = y[0] + y[0] + y[0];
-            // Of x^k in y(x/2^n)·2^3n, then in y((a + x)/2^n)·2^3n.
+            // Coefficients of x^k in y(x/2^n)·2^3n, then in y((a + x)/2^n)·2^3n.
             std::array<big, 4> c{y[0] << 3 * n, (y[1] - thrice) << 2 * n,
                                  (y[2] - y[1] - y[1] + thrice) << n, y[3] - y[2] + y[1] - y[0]};
             for (std::size_t first = 0; first < 3; ++first)
@@ -150,10 +147,10 @@ class close_contact {
             r.low = (low << (n - width_bits)) + place_number(a);
             r.unit_bits = unit_bits + n - width_bits;
             r.width_bits = w;
-            r.ask_from = ask_from;
+            r.test_from = test_from;
             return r;
         }
-        /// Of two units around a place in it, about 2^-n of its width.
+        /// Returns the part of two units around `place`, with units of 2^-n of this one's width.
         part around(double place, int n) const {
             const std::int64_t whole = std::int64_t(1) << n;
             const auto middle = static_cast<std::int64_t>(std::ldexp(place, n) + 0.5);
@@ -168,7 +165,7 @@ class close_contact {
         return whole;
     }
 
-    /// What `decide` answers, on a part.
+    /// Decides on a part.
     /// Proof: proofs/CloseContact.v, by_narrowing_right, three_close_parts_wait.
     outcome by_narrowing(const part& whole) const {
         std::array<std::optional<part>, 3> waiting;  // the earliest last
@@ -180,11 +177,11 @@ class close_contact {
         wait(whole);
         while (count > 0) {
             part last = *waiting[--count];
-            if (last.bits() >= last.ask_from) {
+            if (last.bits() >= last.test_from) {
                 const auto known = throughout(last);
                 if (known == outcome::collides) return outcome::collides;
                 if (known == outcome::separate || normal_vanishes(last)) continue;
-                last.ask_from = last.bits() + last.bits() / 2;
+                last.test_from = last.bits() + last.bits() / 2;
             }
             if (!last.can_be_narrowed()) {
                 found = outcome::uncertain;
@@ -202,17 +199,17 @@ class close_contact {
         return found;
     }
 
-    /// As interior_contact's.
+    /// See interior_contact::any_root.
     bool any_root(const inner_sign_changes& roots) const {
         return roots.opposite || (three_real_roots_ && roots.count > 0);
     }
-    /// Whether one root is there that is not multiple, and no other (but for a double one).
+    /// True if the part has exactly one root that is not a double root, and that root is simple.
     bool is_single(const inner_sign_changes& roots) const {
         return roots.opposite && (roots.count == 1 || !three_real_roots_);
     }
 
-    /// A part that has the same roots (but for a double one), if estimates show one.
-    /// Proof, whatever they are: proofs/CloseContact.v, opposite_inside, as_many_changes.
+    /// Returns a part with the same roots (except a double root), if estimates show one.
+    /// Proof, for any estimates: proofs/CloseContact.v, opposite_inside, as_many_changes.
     std::optional<part> narrowed(const part& whole) const {
         const auto h = approximated(whole.y.h);
         if (is_single(whole.roots)) {
@@ -254,9 +251,9 @@ class close_contact {
         }
         return found;
     }
-    /// What the signs of all G_i are from low/2^bits to less than (low + 2^width_bits)/2^bits, or
-    /// at low/2^bits if there is no width: `collides` if all are positive, `separate` if one is
-    /// negative, else `uncertain`.
+    /// Returns the signs of all G_i from low/2^bits to less than (low + 2^width_bits)/2^bits, or at
+    /// low/2^bits without a width: `collides` if all are positive, `separate` if one is negative,
+    /// else `uncertain`.
     /// Proof: proofs/CloseContact.v, inside_from_right.
     outcome inside_from(const place_number& low, int bits, std::optional<int> width_bits) const {
         using known = bounded_integer<number<coordinate_words + place_words>>;
@@ -280,7 +277,7 @@ class close_contact {
         return inside_from(middle, p.unit_bits + 1, {}) == outcome::collides;
     }
 
-    /// Whether N = 0 at the part's only root, which is no contact then.
+    /// True if N = 0 at the part's only root, which is then no contact.
     /// Proof: proofs/InteriorContact.v, normal_vanishes_right.
     bool normal_vanishes(const part& p) const {
         if (!is_single(p.roots) || !(distinct_ || p.roots.count == 1)) return false;
@@ -290,7 +287,7 @@ class close_contact {
         const common_roots roots(n);
         using kind = typename decltype(roots)::kind_type;
         if (roots.kind == kind::one) {
-            const auto& s = roots.squares[0];  // s² and st, that is s and t
+            const auto& s = roots.squares[0];  // s² and st are used as s and t
             const auto& t = roots.squares[1];
             return sign_of(t * (end - low) - s * low) == sign_type::positive &&
                    sign_of(s * high - t * (end - high)) == sign_type::positive;
@@ -308,7 +305,7 @@ class close_contact {
     bool three_real_roots_;  ///< Y may have a pair of roots between equal signs
 };
 
-/// Decides what decide_in_words leaves uncertain, which has no vertex/edge contact.
+/// Decides queries that decide_in_words leaves uncertain, which have no vertex/edge contact.
 /// Proof: proofs/CloseContact.v, decided_inside.
 template <int Words, template <class, int> class Forms>
 outcome decide_close(const Forms<errbound::integers::fixed_integer<Words>, 1>& f) {

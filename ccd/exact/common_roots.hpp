@@ -1,13 +1,11 @@
-// The common roots of three quadratics inside (0, 1), exactly, in integers of fixed width or as
-// long as it takes.
+// The common roots of three quadratics inside (0, 1), exactly, in integers.
 //
-// No search is needed: two quadratics that are not proportional have at most one root in common,
-// and it is rational. There (s², st, t²) is orthogonal to both coefficient vectors, hence parallel
-// to their cross product m, and a vector m is of that form exactly if m1² = m0·m2.
+// Two quadratics that are not proportional have at most one common root, and it is rational.
+// There (s², st, t²) is parallel to the cross product m of their coefficient vectors. A vector m
+// has that form exactly if m1² = m0·m2.
 //
-// Widths, for quadratics of 2W words as the products of two differences give them (|f0|, |f2| <=
-// 2D², |f1| <= 4D², D = 2^(64W − 3)): m in 4W words (16D⁴), m1² in 8W, f·m in 6W (96D⁶).
-//
+// Widths, for quadratics of 2W words that are products of two differences (|f0|, |f2| <= 2D²,
+// |f1| <= 4D², D = 2^(64W − 3)): m in 4W words (16D⁴), m1² in 8W, f·m in 6W (96D⁶).
 // Proof: proofs/VertexEdge.v, common_roots_right.
 #pragma once
 
@@ -23,7 +21,7 @@ using linear_form = errbound::bernstein<errbound::integers::fixed_integer<Words>
 template <int Words>
 using quadratic_form = errbound::bernstein<errbound::integers::fixed_integer<Words>, 2>;
 
-/// f at the point whose (s², st, t²) is m.
+/// Evaluates f at the point whose (s², st, t²) is m.
 template <class A, class B>
 constexpr auto value_at_squares(const errbound::bernstein<A, 2>& f,
                                 const errbound::bernstein<B, 2>& m) {
@@ -37,15 +35,15 @@ struct common_roots {
 
     enum class kind_type {
         none,
-        one,           ///< where (s², st, t²) is parallel to `squares`, all of which are positive
-        of_quadratic,  ///< at most those of *quadratic, whose coefficients have both signs
-        everywhere     ///< all three are identically zero
+        one,  ///< where (s², st, t²) is parallel to `squares`, whose entries are positive
+        of_quadratic,  ///< at most the roots of *quadratic, whose coefficients have both signs
+        everywhere     ///< all three quadratics are identically zero
     };
     kind_type kind = kind_type::none;
     squares_type squares{};
     const quadratic_type* quadratic = nullptr;
 
-    /// Keeps a pointer into f. Cost: comparisons, and if no f has one sign, some ten products.
+    /// Stores a pointer into f. Cost: comparisons, and if no f has one sign, some ten products.
     explicit constexpr common_roots(const std::array<errbound::bernstein<Integer, 2>, 3>& f) {
         using errbound::sign_of;
         using errbound::sign_type;

@@ -1,5 +1,4 @@
-// The coordinate axes of one query, over packs, on its numbers as they lie in memory. Internal; for
-// kernels and for one query at a time.
+// Separation of one query by the coordinate axes, with packs, read directly from memory. Internal.
 #pragma once
 
 #include <ccd/kind.hpp>
@@ -11,7 +10,7 @@
 namespace ccd::detail::ERRBOUND_INSTRUCTION_SET {
 namespace {
 
-/// The coordinates of a point in motion: x y z at the start, x y z at the end of the step.
+/// The coordinates of a moving point: x y z at the start, then x y z at the end of the step.
 class six_numbers {
   public:
     explicit six_numbers(const double* at) {
@@ -28,7 +27,7 @@ class six_numbers {
     friend six_numbers max(const six_numbers& a, const six_numbers& b) {
         return of(a, b, [](const pack& x, const pack& y) { return max(x, y); });
     }
-    /// Those of a that exceed b's: bit k is the k-th.
+    /// Bit k is set if the k-th coordinate of a exceeds that of b.
     friend lanes above(const six_numbers& a, const six_numbers& b) {
         lanes all = 0;
         for (std::size_t i = 0; i < parts; ++i) {
@@ -39,7 +38,7 @@ class six_numbers {
     }
 
   private:
-    /// Of four lanes there are two parts, which overlap.
+    /// With packs of four lanes there are two parts, which overlap.
     static constexpr std::size_t parts = (6 + width - 1) / width;
     static constexpr std::size_t first(std::size_t part) {
         return width < 6 ? part * width < 6 - width ? part * width : 6 - width : 0;
@@ -71,8 +70,8 @@ six_numbers greatest_of(const double* points) {
         return max(six_numbers(points), greatest_of<Count - 1>(points + 6));
 }
 
-/// Whether a coordinate axis separates the features of a query of finite numbers:
-/// separated_by_coordinates of ccd/exact/features.hpp, over packs.
+/// True if a coordinate axis separates the features of a query with finite coordinates. Equals
+/// separated_by_coordinates of ccd/exact/features.hpp, computed with packs.
 template <kind K>
 bool separated_by_coordinates(const double* p) {
     constexpr std::size_t first = kind_traits<K>::first_vertices;
@@ -83,8 +82,8 @@ bool separated_by_coordinates(const double* p) {
     return (((p_above & p_above >> 3) | (q_above & q_above >> 3)) & 7) != 0;
 }
 
-/// Whether the numbers of queries are finite: x - x is 0, or NaN if x is not. Numbers that lie
-/// `Ahead` queries further on are sent for.
+/// True if all numbers of the queries are finite: x - x is 0, or NaN if x is not finite. Prefetches
+/// the numbers that lie `Ahead` queries further on.
 template <std::size_t Ahead = 0>
 bool are_finite(const double* numbers, std::size_t count) {
     constexpr std::size_t line = 8, packs = 24 / width;
@@ -94,7 +93,7 @@ bool are_finite(const double* numbers, std::size_t count) {
         for (std::size_t i = 0; i < packs; ++i) {
             const double* next = &numbers[at + i * width];
             if (Ahead > 0 && i * width % line == 0) {
-                // Perhaps beyond the last query, where no pointer may be.
+                // An integer, because a pointer past the last query would be undefined behaviour.
                 const auto address = std::uintptr_t(next) + Ahead * 24 * sizeof(double);
                 __builtin_prefetch(reinterpret_cast<const void*>(address));
             }

@@ -1,8 +1,7 @@
-// Roots of a cubic in (0, 1), with coefficients of fixed width: counted, and put between brackets.
+// Counts and brackets the roots in (0, 1) of a cubic with coefficients of fixed width.
 //
-// A root's place is estimated in floating point; exact signs of the cubic at both ends of a bracket
-// around it prove it, so nothing depends on the estimate. A bracket predicts
-// the next, with some 40 more bits.
+// Floating point estimates a root, and exact signs of the cubic at both ends of a bracket prove it.
+// Each bracket predicts the next one, with some 40 more bits.
 #pragma once
 
 #include <algorithm>
@@ -21,18 +20,18 @@ namespace ccd::detail {
 template <int Words>
 using cubic_form = errbound::bernstein<errbound::integers::fixed_integer<Words>, 3>;
 
-/// 3x, which must fit.
+/// Returns 3x. Precondition: it fits.
 template <class Integer>
 constexpr Integer thrice(const Integer& x) {
     return (x << 1) + x;
 }
 
-/// What the coefficients' signs tell about the roots of a cubic in (0, 1).
+/// The sign changes of a cubic's coefficients, which bound the number of its roots in (0, 1).
 /// Proof: proofs/CubicRoots.v, no_changes, one_change, odd_changes.
 struct inner_sign_changes {
-    int count = 0;          ///< of changes: none means no root, one means one
-    bool opposite = false;  ///< it is odd: just inside the ends, the signs are opposite
-    errbound::sign_type first = errbound::sign_type::zero;  ///< just inside t = 0
+    int count = 0;          ///< number of changes; without changes no root, with one change one
+    bool opposite = false;  ///< count is odd: the cubic has opposite signs just inside the ends
+    errbound::sign_type first = errbound::sign_type::zero;  ///< sign just inside t = 0
 
     constexpr inner_sign_changes() = default;
     template <class Integer>
@@ -51,12 +50,11 @@ struct inner_sign_changes {
     }
 };
 
-/// The Hessian of a cubic form: a quadratic form that has its double root as a double root, and is
-/// zero if the root is triple. 4·h0·h2 − h1² is 3 times the discriminant: positive if there are
-/// three distinct real roots t/s, infinity included, negative if there is one and a complex pair.
-/// Proof of what follows: proofs/CubicRoots.v, any_change, one_real_root, double_root_place,
-/// triple_root_place.
-/// In 2·Words words, if |h_i| <= 18D³ <= 2^(64·Words − 4.8): at most 648D⁶.
+/// Returns the Hessian of a cubic form, a quadratic form. A double root of y is a double root of
+/// it; it is zero if y has a triple root. 4·h0·h2 − h1² is 3 times the discriminant: positive for
+/// three distinct real roots t/s (infinity included), negative for one and a complex pair.
+/// If |y_i| <= 18D³ <= 2^(64·Words − 4.8), it fits in 2·Words words (at most 648D⁶).
+/// Proof: proofs/CubicRoots.v, any_change, one_real_root, double_root_place, triple_root_place.
 template <class Integer>
 constexpr auto hessian(const errbound::bernstein<Integer, 3>& y) {
     return errbound::bernstein<decltype(y[0] * y[0]), 2>{{y[1] * y[1] - thrice(y[0] * y[2]),
@@ -64,7 +62,7 @@ constexpr auto hessian(const errbound::bernstein<Integer, 3>& y) {
                                                           y[2] * y[2] - thrice(y[1] * y[3])}};
 }
 
-/// All numbers, in floating point, times one power of two.
+/// Converts to floating point, all scaled by the same power of two.
 template <class Integer, std::size_t N>
 constexpr std::array<double, N> approximated(const std::array<Integer, N>& x) {
     int bits = 0;
@@ -75,14 +73,14 @@ constexpr std::array<double, N> approximated(const std::array<Integer, N>& x) {
     return r;
 }
 
-/// A root in [0, 1] of a cubic, given by scaled Bernstein coefficients whose ends have opposite
-/// signs (or are zero): by Newton's method, and bisection where that leaves the interval known.
-/// Proof that it lies in [0, 1]: proofs/Places.v, estimated_root_inside.
+/// Estimates a root in [0, 1] of a cubic with scaled Bernstein coefficients h. Precondition: the
+/// end coefficients have opposite signs or are zero. Newton's method, with bisection if a step
+/// leaves the known interval. Proof that it lies in [0, 1]: proofs/Places.v, estimated_root_inside.
 constexpr double estimated_root(const std::array<double, 4>& h) {
     constexpr double precision = 0x1p-52, converged = 0x1p-30;
     constexpr int max_steps = 60;
     const bool rising = h[3] > h[0];
-    // The secant's root; if an end is a root itself, the one inside is asked for.
+    // The secant's root. If an end is a root, start in the middle to find the inner one.
     double low = 0, high = 1, t = h[0] == 0 || h[3] == 0 ? 0.5 : h[0] / (h[0] - h[3]);
     for (int k = 0; k < max_steps && high - low > precision; ++k) {
         const double s = 1 - t;
@@ -96,15 +94,15 @@ constexpr double estimated_root(const std::array<double, 4>& h) {
         const double next = inside ? newton : (low + high) / 2;
         const double moved = std::fabs(next - t);
         t = next;
-        // What a step of Newton's leaves is of the order of its square, and in a last place the
-        // next one would go astray.
+        // The remaining error is about the square of a Newton step. A further step from the last
+        // place would not improve t.
         if (moved <= (inside ? converged : precision)) break;
     }
     return t;
 }
 
-/// A cubic on [index, index + 1]/2^level: its coefficients there, times a power of two, in spare
-/// words for `max_halvings`, each of which multiplies them by 8.
+/// A cubic on [index, index + 1]/2^level: its coefficients there, times a power of two. Each
+/// halving multiplies them by 8; the two spare words suffice for `max_halvings`.
 template <int Words>
 struct cubic_part {
     static constexpr int max_halvings = 40;
@@ -115,15 +113,15 @@ struct cubic_part {
     int level;
 };
 
-/// A point numerator/2^bits.
+/// The point numerator/2^bits.
 template <int T>
 struct dyadic_point {
     errbound::integers::fixed_integer<T> numerator;
     int bits;
 };
 
-/// A root of a cubic between low and high, over 2^bits, where y_low and y_high are its values times
-/// 2^(3·bits); or the root itself if low = high.
+/// A root of a cubic between low/2^bits and high/2^bits. y_low and y_high are the cubic's values
+/// there, times 2^(3·bits). If low = high, it is the root itself.
 template <int Words, int T>
 struct root_bracket {
     errbound::integers::fixed_integer<T> low, high;
@@ -138,7 +136,7 @@ struct root_bracket {
     }
 };
 
-/// The estimated place of a part's root, if its ends have opposite signs.
+/// Estimates the root of a cubic_part whose ends have opposite signs.
 /// Proof that its numerator is at most 2^bits: proofs/Places.v, estimated_place_bits.
 template <int Words>
 constexpr dyadic_point<1> estimated_place(const cubic_part<Words>& part) {
@@ -147,8 +145,8 @@ constexpr dyadic_point<1> estimated_place(const cubic_part<Words>& part) {
     return {(part.index << to_bits) + static_cast<std::int64_t>(place), bits};
 }
 
-/// A bracket around `place` for the part's root, where signs at the part's ends are opposite;
-/// nothing if the root is far from there. Numerators of `place` have at most 64·T − 2 bits.
+/// Returns a bracket around `place` for the root of `part`; nothing if the root is too far away.
+/// Preconditions: `part` has opposite signs at its ends, and place.numerator at most 64·T − 2 bits.
 /// Proof, for any place: proofs/CubicRoots.v, bracket_near_right.
 template <int Words, int T>
 constexpr std::optional<root_bracket<Words, T>> bracket_near(const cubic_form<Words>& y,
@@ -168,7 +166,7 @@ constexpr std::optional<root_bracket<Words, T>> bracket_near(const cubic_form<Wo
             std::max(middle - reach, first), std::min(middle + reach, last), place.bits, {}, {}};
         r.y_low = value_at(y, end - r.low, r.low);
         r.y_high = value_at(y, end - r.high, r.high);
-        // Just inside the part's ends, signs are known whatever Y is there.
+        // The signs just inside the part's ends are known, even if Y is zero at an end.
         const auto at_low = r.low == first ? part.roots.first : sign_of(r.y_low);
         const auto at_high = r.high == last ? -part.roots.first : sign_of(r.y_high);
         if (at_low == sign_type::zero)
@@ -182,15 +180,15 @@ constexpr std::optional<root_bracket<Words, T>> bracket_near(const cubic_form<Wo
     return {};
 }
 
-/// The root's place to as many bits more as doubles know of it: the root of the cubic that has the
-/// bracket's end values and slopes, that is of y itself.
-/// Proof of its bits: proofs/Places.v, refined_place_bits.
+/// Estimates the root to as many more bits as doubles can: the root of the cubic with the
+/// bracket's end values and slopes, which is y itself.
+/// Proof of the bits: proofs/Places.v, refined_place_bits.
 template <int Words, int T>
 constexpr dyadic_point<T + 1> refined_place(const cubic_form<Words>& y,
                                             const root_bracket<Words, T>& bracket) {
     using number = errbound::integers::fixed_integer<Words + 3 * T>;
     const auto end = errbound::integers::fixed_integer<T>::shifted(1, bracket.bits);
-    // dy/dt, at most twice as large as y's coefficients may be.
+    // dy/dt. Its coefficients are at most twice the bound of y's.
     const errbound::bernstein<errbound::integers::fixed_integer<Words>, 2> slope{
         {y[1] - thrice(y[0]), (y[2] - y[1]) << 1, thrice(y[3]) - y[2]}};
     const errbound::integers::fixed_integer<1> width(bracket.width());

@@ -1,4 +1,3 @@
-// Exact decisions of one query: see include/ccd/exact.hpp.
 #include <ccd/exact.hpp>
 #include <ccd/methods/transform.hpp>
 

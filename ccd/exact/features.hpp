@@ -1,5 +1,4 @@
-// What the exact decisions share: a cheap rejection of any query, and the contact of two vertices
-// over any exact scalar.
+// Tests shared by the exact decisions: separation by coordinate axes, and vertex/vertex contact.
 #pragma once
 
 #include <array>
@@ -12,8 +11,7 @@
 
 namespace ccd::detail {
 
-/// The extents of some points of a query, which has them as rows of x, y, z at the start and then
-/// at the end of the step.
+/// The extents of some points of a query. Rows are x, y, z at the start, then at the end.
 struct ends_extents {
     std::array<double, 6> least, most;
 
@@ -27,10 +25,10 @@ struct ends_extents {
     }
 };
 
-/// True if some coordinate axis separates the features the same way at t = 0 and at t = 1, and
-/// therefore, the motion being linear, throughout. Coordinates must be finite. Without branches:
-/// which axis separates them, if any, is as good as random. Proof: proofs/Decisions.v,
-/// face_separated, edges_separated; proofs/AxisUnits.v, separated_right.
+/// True if a coordinate axis separates the features in the same order at t = 0 and t = 1. Motion is
+/// linear, so it then separates them throughout. Precondition: finite coordinates. Branch-free,
+/// because the separating axis is unpredictable. Proof: proofs/Decisions.v, face_separated,
+/// edges_separated; proofs/AxisUnits.v, separated_right.
 template <class Query>
 constexpr bool separated_by_coordinates(const Query& query) {
     using traits = kind_traits<kind_constant<Query>::value>;
@@ -48,7 +46,7 @@ constexpr bool separated_by_coordinates(const Query& query) {
     return apart;
 }
 
-/// W(t) = 0 for the linear W from w0 to w1: they are antiparallel, or one of them is zero.
+/// True if the linear W from w0 to w1 is 0 at some t: w0 and w1 are antiparallel, or one is zero.
 /// Proof: proofs/Contact.v, vertex_vertex_contact; proofs/AxisUnits.v, vertices_contact_right.
 template <class S>
 constexpr bool vertices_touch(const vertex_vertex<S>& query) {

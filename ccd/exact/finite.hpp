@@ -1,4 +1,4 @@
-// Whether coordinates are finite, at the cost of reading them. Internal.
+// A fast test that coordinates are finite. Internal.
 #pragma once
 
 #include <array>
@@ -8,7 +8,7 @@
 
 namespace ccd::detail {
 
-/// x − x is 0, or NaN if x is not finite. Four sums side by side make vector operations of it.
+/// x − x is 0, or NaN if x is not finite. Four independent sums let the compiler vectorise.
 inline bool all_finite(const double* numbers, std::size_t count) {
     double zeros[4] = {0, 0, 0, 0};
     const std::size_t whole = count / 4 * 4;

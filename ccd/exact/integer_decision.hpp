@@ -1,5 +1,5 @@
-// The decision of one query in integers of a given fixed width. Internal: ccd/exact/integers.hpp
-// says what it promises; this is what host and device code share.
+// Decides one query in integers of a fixed width, on the host or a device. Internal; see
+// ccd/exact/integers.hpp for its guarantees.
 #pragma once
 
 #include <ccd/methods/forms.hpp>
@@ -14,17 +14,17 @@
 
 namespace ccd::detail {
 
-/// The most bits that coordinates may differ by (integer_units::bits) for Words words to carry
-/// through all forms: ccd/exact/vertex_edge_contact.hpp and ccd/exact/interior_contact.hpp say how.
+/// The largest integer_units::bits for which all forms fit in Words words. The widths are in
+/// ccd/exact/vertex_edge_contact.hpp and ccd/exact/interior_contact.hpp.
 /// Proof, for 1, 2 and 4 words: proofs/FixedWidths.v, vertex_edge_widths, vertex_vertex_widths,
 /// interior_widths, halving_widths, bracket_widths, cut_widths.
 constexpr int extent_limit(int words) {
     return 64 * words - 3;
 }
 
-/// VF and EE: the union that the head of ccd/exact/reference.cpp states, vertex/edge contacts
-/// first. Every contact has Y = 0. Proof: proofs/InteriorContact.v, face_decision_right,
-/// edges_decision_right.
+/// Decides VF and EE queries by the union in the head of ccd/exact/reference.cpp. Vertex/edge
+/// contacts come first. Every contact has Y = 0. Proof: proofs/InteriorContact.v,
+/// face_decision_right, edges_decision_right.
 template <int Words, template <class> class Query>
 constexpr outcome decide_converted(const Query<errbound::integers::fixed_integer<Words>>& query,
                                    const Query<double>& original, const integer_units& units) {
@@ -53,8 +53,8 @@ constexpr outcome decide_converted(
     return vertices_touch(query) ? outcome::collides : outcome::separate;
 }
 
-/// Decides in integers of Words words. units = integer_units(query), with at most
-/// extent_limit(Words) bits; `uncertain` is rare.
+/// Decides in integers of Words words; `uncertain` is rare. Preconditions: units =
+/// integer_units(query), with at most extent_limit(Words) bits.
 template <int Words, template <class> class Query>
 constexpr outcome decide_in_words(const Query<double>& query, const integer_units& units) {
     return decide_converted<Words>(units.converted<Words>(query), query, units);

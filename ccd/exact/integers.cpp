@@ -1,4 +1,3 @@
-// Decisions in integers without allocation: see ccd/exact/integers.hpp.
 #include "ccd/exact/integers.hpp"
 
 #include "ccd/exact/axis_units.hpp"
@@ -9,7 +8,7 @@
 namespace ccd::detail {
 namespace {
 
-/// In integers of Words words.
+/// Decides in integers of Words words, then with decide_close.
 /// Proof: proofs/CloseContact.v, face_to_the_end_right, edges_to_the_end_right.
 template <int Words, class Query>
 outcome decide_to_the_end(const Query& query, const integer_units& units) {
@@ -27,7 +26,7 @@ verdict decide_in_integers(const Query& query) {
     const integer_units units(query);
     if (!units.finite()) return {outcome::uncertain, cause::range};
     if (units.bits() > extent_limit(4)) {
-        // Comparisons of coordinates hold at every scale.
+        // Comparisons of coordinates are exact at every scale.
         if (separated_by_coordinates(query)) return {outcome::separate, cause::none};
         return {outcome::uncertain, cause::range};
     }

@@ -1,26 +1,14 @@
 // Contact inside a face or inside both edges, in integers of fixed width.
 //
-// Asked of queries WITHOUT vertex/edge contact at any time of the step. Then contact holds exactly
-// if Y = 0 and all G_i > 0, strictly, at some t in [0, 1]: the G_i add up to (pairs of them to)
-// |N|² >= 0, so strict signs imply N ≠ 0 and contact; and a contact where some G_i = 0, or N = 0,
-// lies on a border, as the head of ccd/exact/reference.cpp shows, which makes it a vertex/edge
-// contact. If Y ≡ 0, t = 0 alone is to be asked: let contact hold at some t > 0, and go back in
-// time as long as all G_i > 0. Either that leads to t = 0, or to a first time at which it still is
-// contact, since contact is closed, but with some G_i = 0: a vertex/edge contact. Proof:
-// proofs/Contact.v, face_inside, edges_inside, face_coplanar, edges_coplanar; and that this is what
-// is found: proofs/InteriorContact.v, interior_contact_right.
+// Precondition: the query has no vertex/edge contact in the step. Then contact holds exactly if
+// Y = 0 and all G_i > 0 at some t in [0, 1]. (The G_i, or pairs of them, add up to |N|² >= 0, so
+// strict signs imply N ≠ 0. A contact with some G_i = 0 or N = 0 is a vertex/edge contact.)
 //
-// So G_i are needed at roots of Y alone, and are never expanded into quartics:
-//  * Roots at t = 0 and 1, double and triple roots are rational: G_i are evaluated there.
-//  * Other inner roots are isolated by halving Y, whose scaled Bernstein coefficients stay whole.
-//    A root's place is then estimated in floating point, bracketed by exact signs of Y, and G_i are
-//    evaluated exactly at one end of the bracket. Their signs hold at the root if they exceed what
-//    they can change by within the bracket. If not, the bracket's end values predict the root to
-//    some 40 more bits, and so on.
-//  * Where N = 0 at a root, every G_i vanishes and no bracket tells; N's components then have a
-//    common root there, which ccd/exact/common_roots.hpp finds.
-// What stays uncertain: G_i too tiny for the last bracket, and pairs of roots too close to part
-// with a G_i that changes its sign near them. ccd/exact/close_contact.hpp goes on there.
+// G_i are evaluated at roots of Y only, exactly at rational ones, else by refined brackets.
+// `uncertain`: some G_i is too small for the last bracket, or two roots are too close together;
+// ccd/exact/close_contact.hpp decides such queries.
+// Proof: proofs/Contact.v, face_inside, edges_inside, face_coplanar, edges_coplanar; of the code,
+// proofs/InteriorContact.v, interior_contact_right.
 #pragma once
 
 #include <algorithm>
@@ -40,17 +28,19 @@
 
 namespace ccd::detail {
 
-/// The decision for one query. Forms: vertex_face_forms or edge_edge_forms over integers of Words
-/// words, in which differences stay below 2^(64·Words − 3).
+/// Decides one query. Forms is vertex_face_forms or edge_edge_forms over integers of Words words.
+/// Precondition: differences are below 2^(64·Words − 3).
 template <int Words, template <class, int> class Forms>
 class interior_contact {
   public:
-    /// y = forms.y(). Differences of coordinates are below 2^units.x.bits and so on.
+    /// y = forms.y(). Differences of coordinates are below 2^units.x.bits, and so on per axis.
     constexpr interior_contact(const Forms<errbound::integers::fixed_integer<Words>, 1>& forms,
                                const cubic_form<3 * Words>& y, const integer_units& units)
         : forms_(forms), y_(y), units_(units) {}
 
-    /// Whether Y = 0 and all G_i > 0 at some t in [0, 1]; if Y ≡ 0, at t = 0 or 1.
+    /// Returns whether Y = 0 and all G_i > 0 at some t in [0, 1]; if Y ≡ 0, at t = 0 or 1. With
+    /// Y ≡ 0, contact inside that does not hold at t = 0 begins at a border, as a vertex/edge
+    /// contact, which the precondition excludes.
     /// Proof: proofs/InteriorContact.v, interior_contact_right, interior_contact_ends.
     constexpr outcome decide() {
         if (y_[0] == 0 && all_positive(forms_at_end(forms_, 0))) return outcome::collides;
@@ -72,7 +62,7 @@ class interior_contact {
     using sign_type = errbound::sign_type;
     using part = cubic_part<3 * Words>;
 
-    /// Brackets after the first have two words as their ends' numerators, then three and so on.
+    /// The ends of the first bracket have one word as numerator, later ones one more each.
     static constexpr int max_end_words = 4;
 
     template <class Values>
@@ -81,10 +71,9 @@ class interior_contact {
         return std::all_of(g.begin(), g.end(), [](const auto& form) { return form[0] > 0; });
     }
 
-    /// The multiple root of Y, if there is one inside, as that of c0·s + c1·t with c0 <= 0 < c1.
-    /// Finds out whether there are other roots. The Hessian's discriminant has 12W words
-    /// (2^20.2·D^12). Proof: proofs/CubicRoots.v, one_real_root, double_root_place,
-    /// triple_root_place.
+    /// Returns the multiple root of Y inside (0, 1) as the root of c0·s + c1·t with c0 <= 0 < c1,
+    /// and sets the flags for other roots. The Hessian's discriminant has 12W words (2^20.2·D^12).
+    /// Proof: proofs/CubicRoots.v, one_real_root, double_root_place, triple_root_place.
     constexpr std::optional<errbound::bernstein<number<6 * Words>, 1>> multiple_root() {
         const auto h = hessian(y_);
         const auto discriminant = sign_of(((h[0] * h[2]) << 2) - h[1] * h[1]);
@@ -93,18 +82,18 @@ class interior_contact {
         if (distinct_) return {};
         triple_ = h[2] == 0;
         if (triple_) {
-            // Of 3·y3·t + y2·s, and inside as there are sign changes.
+            // The root of 3·y3·t + y2·s. It is inside, since there are sign changes.
             const auto c1 = thrice(y_[3]);
             if (c1.negative()) return {{{-y_[2], -c1}}};
             return {{{y_[2], c1}}};
         }
-        // h is h2·(t − xs)² with h2 > 0 for the double root x, which lies inside if x > 0.
+        // h is h2·(t − xs)² with h2 > 0 for the double root x, which is inside if x > 0.
         if (h[1] < 0) return {{{h[1], h[2] << 1}}};
         return {};
     }
 
-    /// Asks at a multiple root of Y, if there is one inside; `uncertain` if there may be others. G
-    /// has 28W words there (2^47·D^28).
+    /// Evaluates G at a multiple root of Y inside; `uncertain` if there may be other roots. G has
+    /// 28W words there (2^47·D^28).
     constexpr outcome at_multiple_root() {
         const auto root = multiple_root();
         if (root && all_positive(forms_at(forms_, (*root)[1], -(*root)[0])))
@@ -112,16 +101,16 @@ class interior_contact {
         return triple_ ? outcome::separate : outcome::uncertain;
     }
 
-    /// Whether there are roots on the part that are not a double root. An odd number of sign
-    /// changes says so, and any number if Y has three real roots: Descartes' count is then exact.
-    /// Otherwise an even number stems from a complex pair or the double root.
+    /// True if the part has roots other than a double root. An odd number of sign changes proves
+    /// one. If Y has three real roots, any change does, since Descartes' count is then exact.
+    /// Otherwise an even number comes from a complex pair or the double root.
     /// Proof: proofs/CubicRoots.v, odd_changes, any_change, one_real_root.
     constexpr bool any_root(const inner_sign_changes& roots) const {
         return roots.opposite || (three_real_roots_ && roots.count > 0);
     }
 
-    /// Parts with roots wait, the earliest last: halves have no more sign changes together than the
-    /// whole, so there are never more of them than the cubic's three.
+    /// Isolates roots by halving. The stack has the earliest part last. Halves have no more sign
+    /// changes together than the whole, so at most three parts with roots wait.
     /// Proof: proofs/InteriorContact.v, by_halving_right, three_parts_wait.
     constexpr outcome by_halving(const part& whole) const {
         std::array<part, 3> waiting;
@@ -146,15 +135,14 @@ class interior_contact {
         return found;
     }
 
-    /// The answer on a part; nothing if its halves are to be asked.
+    /// Decides a part; nothing if it has to be halved.
     constexpr std::optional<outcome> without_halving(const part& whole) const {
         if (!any_root(whole.roots)) return outcome::separate;
         if (whole.roots.opposite && (whole.roots.count == 1 || !three_real_roots_)) {
             const auto found = near(whole, estimated_place(whole));
             if (found) return found;
         }
-        // There is a root; if all over the part G_i have the signs asked for, its place matters
-        // not.
+        // There is a root. If every G_i keeps its sign over the part, its position is irrelevant.
         if (whole.level == part::max_halvings) return throughout<1>(whole.index, whole.level, 1);
 
         const auto middle = sign_of(whole.y[0] + whole.y[1] + whole.y[2] + whole.y[3]);
@@ -166,8 +154,8 @@ class interior_contact {
         return {};
     }
 
-    /// Decides by a bracket near that place of the part's only root (but for a double root);
-    /// nothing if no bracket holds it. Proof: proofs/InteriorContact.v, near_right.
+    /// Decides by a bracket near `place` of the part's only root (except a double root); nothing
+    /// if no bracket holds the root. Proof: proofs/InteriorContact.v, near_right.
     template <int T>
     constexpr std::optional<outcome> near(const part& whole, const dyadic_point<T>& place) const {
         const auto bracket = bracket_near(y_, whole, place);
@@ -188,8 +176,9 @@ class interior_contact {
             return near(whole, refined_place(y_, *bracket)).value_or(outcome::uncertain);
     }
 
-    /// Whether N = 0 inside the bracket: a root of Y without contact, and the only one there if Y
-    /// has no multiple roots. Proof: proofs/InteriorContact.v, normal_vanishes_right.
+    /// True if N = 0 inside the bracket, at a root of Y without contact. It is the bracket's only
+    /// root if Y has no multiple root. Every G_i is then 0, so that no refined bracket decides.
+    /// Proof: proofs/InteriorContact.v, normal_vanishes_right.
     template <int T>
     constexpr bool normal_vanishes(const root_bracket<3 * Words, T>& bracket) const {
         const auto end = number<T>::shifted(1, bracket.bits);
@@ -198,7 +187,7 @@ class interior_contact {
         const common_roots roots(n);
         using kind = typename decltype(roots)::kind_type;
         if (roots.kind == kind::one) {
-            const auto& s = roots.squares[0];  // s² and st, that is s and t
+            const auto& s = roots.squares[0];  // s² and st are used as s and t
             const auto& t = roots.squares[1];
             return t * (end - low) > s * low && t * (end - high) < s * high;
         }
@@ -208,10 +197,10 @@ class interior_contact {
                sign_type::negative;
     }
 
-    /// What the signs of all G_i are between t = low/2^bits and (low + width)/2^bits, width <
+    /// Returns the signs of all G_i between t = low/2^bits and (low + width)/2^bits, width <
     /// 2^width_bits: `collides` if all are positive, `separate` if one is negative, else
-    /// `uncertain`. More is not known of the root, so the differences at low, times 2^bits, are cut
-    /// to T words, one unit for each axis: of G_i's signs, those at roots of Y are kept.
+    /// `uncertain`. Differences at low, times 2^bits, are cut to T words with one unit for each
+    /// axis. This keeps the signs of G_i at roots of Y.
     /// Proof: proofs/InteriorContact.v, throughout_right.
     template <int T>
     constexpr outcome throughout(const number<T>& low, int bits, int width_bits) const {
@@ -220,7 +209,7 @@ class interior_contact {
         const auto component = [&](const linear_form<Words>& x, const axis_extent& axis) {
             const int cut = std::max(0, bits + axis.bits - (64 * T - 4));
             known r{value_at(x, s, low).template from_bit<T>(cut)};
-            // Changes within the bracket, and the cut.
+            // The error covers the change within the bracket and the cut.
             const auto slope = x[1] - x[0];
             if (!(slope == 0)) r.error_bits = slope.bit_length() + width_bits - cut;
             if (cut > 0) r.error_bits = std::max(r.error_bits, 0) + 1;

@@ -1,18 +1,15 @@
-// The reference decisions: see include/ccd/reference.hpp.
-//
-// A query collides exactly if one of these holds (algebra in brackets):
+// The reference decisions. A query collides exactly if one of these holds (algebra in brackets):
 //  * VF, EE: Y = 0, N ≠ 0 and all G_i >= 0 at some t in [0, 1]    [roots of the cubic Y]
 //  * one of three (VF) or four (EE) vertex/edge contacts
-//  * VE: W × E = 0 and W·(W − E) <= 0 at some t, with W = v − e0, E = e1 − e0. (On the line, v lies
-//    between e0 and e1 exactly if W and W − E do not point the same way; this holds for E = 0
-//    too, where it says W = 0.)                                   [roots of a common factor]
-// Complete: a contact with N ≠ 0 satisfies the first. If N = 0 at the contact, the triangle is then
-// a segment, which its edges cover, or the two edges are parallel, and an end of one lies on the
-// other. If Y ≡ 0 the first case is asked at t = 0 and 1 only: a contact inside a triangle (or
-// crossing edges) that did not hold at t = 0 began at an edge (or an end).
+//  * VE: W × E = 0 and W·(W − E) <= 0 at some t [roots of a common factor], with W = v − e0,
+//    E = e1 − e0.
+//
+// A contact with N ≠ 0 satisfies the first. If N = 0, the triangle is a segment that its edges
+// cover, or the two edges are parallel and one has an end on the other. If Y ≡ 0, the first case is
+// tested at t = 0 and 1 only, since a later contact inside begins at an edge or an end.
 // Proof: proofs/Contact.v, vertex_face_union, edge_edge_union, vertex_edge_contact, face_coplanar,
-// edges_coplanar; that the code asks just that: proofs/Reference.v, reference_face,
-// reference_edges, reference_vertex_edge, reference_vertex_vertex.
+// edges_coplanar; of the code, proofs/Reference.v, reference_face, reference_edges,
+// reference_vertex_edge, reference_vertex_vertex.
 #include <ccd/methods/forms.hpp>
 #include <ccd/reference.hpp>
 #include <cstddef>
@@ -29,7 +26,7 @@ namespace {
 using errbound::sign_type;
 using form = errbound::roots::integer_form<integer>;
 
-/// Y = 0, N ≠ 0 and all G_i >= 0 at some t in [0, 1].
+/// True if Y = 0, N ≠ 0 and all G_i >= 0 at some t in [0, 1].
 template <template <class> class Query>
 bool regular_contact(const Query<integer>& query) {
     const auto forms = forms_of(query);
@@ -63,7 +60,6 @@ bool regular_contact(const Query<integer>& query) {
     return false;
 }
 
-/// VF and EE: the union stated at the head of this file.
 template <template <class> class Query>
 bool touches(const Query<integer>& query, const Query<double>& original) {
     return regular_contact(query) || touches_at_border(query, original);

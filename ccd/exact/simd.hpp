@@ -1,5 +1,5 @@
-// Packs of doubles and of floats, and what xsimd 8 lacks of them. Internal: see
-// ccd/batch/batch_kernels.hpp for what is special about everything the kernels include.
+// Packs of doubles and of floats, and functions that xsimd 8 lacks. Internal; see
+// ccd/batch/batch_kernels.hpp for the rules of headers that kernels include.
 #pragma once
 
 #include <concepts>
@@ -11,7 +11,7 @@
 #define ERRBOUND_INSTRUCTION_SET baseline
 #endif
 
-// Of x86 and of 64-bit ARM xsimd has doubles.
+// xsimd has packs of doubles on x86 and 64-bit ARM only.
 #if !XSIMD_WITH_SSE2 && !XSIMD_WITH_NEON64
 #define ERRBOUND_VECTOR_PACKS
 #include "ccd/exact/vector_pack.hpp"
@@ -36,7 +36,7 @@ using pack = pack_of<double>;
 using pack_mask = mask_of<double>;
 constexpr std::size_t width = pack::size;
 
-/// Some lanes of a pack: lane i is bit i.
+/// A set of lanes: bit i is lane i.
 using lanes = std::uint32_t;
 
 inline std::size_t count_of(lanes some) {
@@ -46,13 +46,12 @@ inline lanes first_lanes(std::size_t count) {
     return (lanes(1) << count) - 1;
 }
 
-/// Calls visit(lane) for all of them, in ascending order.
+/// Calls visit(lane) for each lane of the set, in ascending order.
 template <class Visit>
 inline void for_each_lane(lanes some, const Visit& visit) {
     for (; some != 0; some &= some - 1) visit(static_cast<std::uint32_t>(__builtin_ctz(some)));
 }
 
-/// The lanes that are set.
 template <class T>
 lanes lanes_of(const mask_of<T>& m) {
 #if defined __AVX512F__
@@ -78,8 +77,7 @@ lanes lanes_of(const mask_of<T>& m) {
 }
 
 #ifndef ERRBOUND_VECTOR_PACKS
-/// The same bits as another pack, which xsimd 8 is told by the pack's type, later ones by its
-/// numbers'.
+/// Reinterprets the bits. xsimd 8 takes the pack's type as argument, later versions the numbers'.
 template <class To, class From>
 To with_bits_of(const From& x) {
     if constexpr (requires {
@@ -91,7 +89,7 @@ To with_bits_of(const From& x) {
 }
 #endif
 
-/// The double after t > 0, or before it.
+/// Returns the double after t > 0 where `after` is set, else the one before it.
 inline pack neighbour(const pack& t, const pack_mask& after) {
 #ifdef ERRBOUND_VECTOR_PACKS
     return select(after, pack::of_bits(bits_of(t) + 1), pack::of_bits(bits_of(t) - 1));
@@ -104,7 +102,7 @@ inline pack neighbour(const pack& t, const pack_mask& after) {
 }
 
 #if defined __AVX2__ && !defined __AVX512F__
-/// For every set of four lanes, the halves of those lanes in order.
+/// For each set of four lanes, the order that moves its lanes to the front (as halves of doubles).
 struct lane_orders {
     alignas(32) std::int32_t halves[16][8];
 
@@ -122,7 +120,7 @@ struct lane_orders {
 constexpr lane_orders orders;
 #endif
 
-/// Writes some lanes one after the other; may write up to a pack's width.
+/// Writes the lanes of the set one after the other. May write up to a pack's width.
 inline void compress(const pack& values, lanes some, double* to) {
 #if defined __AVX512F__
     _mm512_storeu_pd(to, _mm512_maskz_compress_pd(static_cast<__mmask8>(some), values));

@@ -1,5 +1,5 @@
-// Counts and times one stage's turn. Internal; included by kernels that are compiled for several
-// instruction sets, so everything here is forced inline (see ccd/batch/batch_kernels.hpp).
+// Counts and times one stage. Internal; everything is forced inline, because kernels for several
+// instruction sets include it (see ccd/batch/batch_kernels.hpp).
 #pragma once
 
 #include <ccd/explain.hpp>
@@ -27,11 +27,10 @@ class stage_timer {
         entry_->collides += collides;
     }
 
-    [[gnu::always_inline]] inline void leave_out(std::size_t queries) {
-        if (entry_ != nullptr) entry_->left_out += queries;
+    [[gnu::always_inline]] inline void skip(std::size_t queries) {
+        if (entry_ != nullptr) entry_->skipped += queries;
     }
 
-    /// Stops the clock before the end of the scope.
     [[gnu::always_inline]] inline void end() {
         if (entry_ != nullptr) entry_->seconds += now() - start_;
         entry_ = nullptr;

@@ -1,5 +1,4 @@
-// The order of the stages of `exact`, for one query; exact_stages (ccd/explain.hpp) describes each.
-// Each decides the query or leaves it to the next.
+// The order of the stages of `exact` for one query. exact_stages (ccd/explain.hpp) describes each.
 #include "ccd/exact/stages.hpp"
 
 #include <ccd/methods/forms.hpp>
@@ -22,7 +21,7 @@ namespace {
 /// filter_edges_collide, filter_bounded.
 template <template <class> class Forms, class Query>
 [[gnu::flatten]] verdict axes_to_subdivision(const Query& query, stage_report* report,
-                                             static_filter::contact_part* found,
+                                             static_filter::contact_interval* found,
                                              std::size_t deepest) {
     constexpr verdict separate{outcome::separate, cause::none};
     static_assert(sizeof(query) == 24 * sizeof(double));
@@ -48,10 +47,10 @@ template <template <class> class Forms, class Query>
         if (rootless) return separate;
     }
     {
-        // Diagonals cost one query more than Y's four coefficients do, a pack of floats less.
+        // Diagonals cost more than Y's four coefficients here, but less in packs of floats.
         stage_timer timer(report, stage::axes);
         const bool separated = static_filter::separated_by_diagonals<double>(forms, extents);
-        timer.count(0, separated, 0);  // it entered above
+        timer.count(0, separated, 0);  // the stage already counted this query above
         if (separated) return separate;
     }
     stage_timer inside_timer(report, stage::inside);
@@ -71,7 +70,7 @@ template <template <class> class Forms, class Query>
 
 template <cubic_query Query>
 verdict decide_in_floating_point(const Query& query, stage_report* report,
-                                 static_filter::contact_part* found, std::size_t deepest) {
+                                 static_filter::contact_interval* found, std::size_t deepest) {
     return axes_to_subdivision<forms_of_kind<kind_of<Query>>::template type>(query, report, found,
                                                                              deepest);
 }
@@ -91,9 +90,9 @@ verdict decide_with_integers(const Query& query, stage_report* report) {
 }
 
 template verdict decide_in_floating_point(const vertex_face<double>&, stage_report*,
-                                          static_filter::contact_part*, std::size_t);
+                                          static_filter::contact_interval*, std::size_t);
 template verdict decide_in_floating_point(const edge_edge<double>&, stage_report*,
-                                          static_filter::contact_part*, std::size_t);
+                                          static_filter::contact_interval*, std::size_t);
 
 template verdict decide_with_integers(const vertex_face<double>&, stage_report*);
 template verdict decide_with_integers(const edge_edge<double>&, stage_report*);

@@ -1,5 +1,5 @@
-// Queries in unbounded integers, and the exact contact of a vertex with an edge in them: for the
-// reference, `bsc-exact` and `root-parity`. Allocates. Internal.
+// Queries in unbounded integers, and their exact vertex/edge contacts, for the reference,
+// `bsc-exact` and `root-parity`. Allocates. Internal.
 #pragma once
 
 #include <ccd/methods/forms.hpp>
@@ -16,7 +16,7 @@ namespace ccd::detail {
 
 using errbound::integer;
 
-/// The query, of finite coordinates, in integers: each axis times a power of two of its own.
+/// Converts a query of finite coordinates to integers: each axis is scaled by its own power of two.
 /// Proof: proofs/UnboundedIntegers.v, to_integers_right.
 template <template <class> class Query>
 Query<integer> to_integers(const Query<double>& query) {
@@ -37,7 +37,7 @@ inline bool vertex_touches_edge(const vertex_edge<integer>& query) {
     const auto off_line = cross(w, e);
     for (const auto* f : {&off_line.x, &off_line.y, &off_line.z})
         if (errbound::certainly_rootless(*f)) return false;
-    // W·(W − E), not positive between the ends.
+    // W·(W − E), which is <= 0 between the ends.
     const auto beyond = dot(w, difference(query.v, query.e1));
     const auto on_line_at = [&](std::size_t i) {
         return off_line.x.h[i] == 0 && off_line.y.h[i] == 0 && off_line.z.h[i] == 0;
@@ -45,12 +45,12 @@ inline bool vertex_touches_edge(const vertex_edge<integer>& query) {
     if (on_line_at(0) && beyond.h[0] <= 0) return true;
     if (on_line_at(2) && beyond.h[2] <= 0) return true;
 
-    // The common factor of the three; empty: the motion is collinear throughout.
+    // The common factor of the three. It is empty if the motion is collinear throughout.
     errbound::roots::integer_form<integer> on_line;
     for (const auto* f : {&off_line.x, &off_line.y, &off_line.z})
         on_line = errbound::roots::common_factor(on_line, errbound::roots::without_end_roots(*f));
     if (on_line.empty()) {
-        // Both ends are positive by now, so a value <= 0 inside needs real roots with t/s > 0.
+        // Both ends are positive here, so a value <= 0 inside needs real roots with t/s > 0.
         return beyond.h[1] < 0 && beyond.h[1] * beyond.h[1] >= 4 * beyond.h[0] * beyond.h[2];
     }
     if (on_line.size() < 2) return false;
@@ -62,8 +62,8 @@ inline bool vertex_touches_edge(const vertex_edge<integer>& query) {
     return false;
 }
 
-/// True if the vertex of a VF query meets one of the face's edges, or an end of one edge of an EE
-/// query the other edge. `original` is the query before its conversion.
+/// True if a vertex meets an edge: the vertex of a VF query one of the face's edges, or an end of
+/// an edge of an EE query the other edge. `original` is the query before its conversion.
 /// Proof: proofs/UnboundedIntegers.v, face_border_right, edges_border_right.
 template <template <class> class Query>
 bool touches_at_border(const Query<integer>& query, const Query<double>& original) {

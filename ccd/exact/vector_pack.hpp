@@ -1,9 +1,6 @@
-// Packs by the compilers' own vectors of sixteen bytes, where xsimd has none: with the part of its
-// interface that is used here. Internal: see ccd/batch/batch_kernels.hpp for what is special about
-// everything the kernels include. Included by ccd/exact/simd.hpp alone.
-//
-// Where the processor has such vectors, compilers use its instructions; elsewhere they take element
-// by element.
+// Packs for processors without xsimd packs, made of the compiler's vectors of sixteen bytes, with
+// the part of xsimd's interface that is used here. Internal; included by ccd/exact/simd.hpp only.
+// See ccd/batch/batch_kernels.hpp for the rules of headers that kernels include.
 #pragma once
 
 #include <cmath>
@@ -64,7 +61,7 @@ struct vector_pack {
 
     vector_pack() = default;
     explicit vector_pack(const vector& v) : data(v) {}
-    vector_pack(T x) : data(x - vector{}) {}  // less 0 is the same, of -0 too
+    vector_pack(T x) : data(x - vector{}) {}  // x - 0 is x, also for -0
 
     static vector_pack load_unaligned(const T* from) {
         vector_pack x;
@@ -119,7 +116,6 @@ struct vector_pack {
         return x;
     }
 
-    /// As whole numbers, and back.
     friend bits bits_of(const vector_pack& x) { return __builtin_bit_cast(bits, x.data); }
     static vector_pack of_bits(const bits& b) { return vector_pack(__builtin_bit_cast(vector, b)); }
 };

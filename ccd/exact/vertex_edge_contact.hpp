@@ -1,14 +1,13 @@
 // Vertex/edge contact in closed form, in integers of fixed width.
 //
-// With E = e1 − e0, W = v − e0, X = v − e1, contact at t means that the three quadratics of W × E
-// vanish there and that the quadratic W·X is not positive (ccd/exact/reference.cpp says why). Where
-// the three have a rational root in common, W·X is evaluated there. Where they are all proportional
-// to some f, W·X modulo f is a linear form times s, whose sign at f's roots follows from the sign
-// of f at the linear form's own root.
+// Let E = e1 − e0, W = v − e0, X = v − e1. Contact at t means that all three quadratics of W × E
+// are 0 and that the quadratic W·X is <= 0. If the three have a rational root in common, W·X is
+// evaluated there. If all are proportional to some f, W·X modulo f is a linear form times s. Its
+// sign at the roots of f follows from the sign of f at the root of the linear form.
 //
-// Widths, for coordinates of W words whose differences stay below D = 2^(64W − 3): f in 2W words
-// (|f0|, |f2| <= 2D², |f1| <= 4D²), b = W·X in 2W words (3D², 6D²), b at a rational root in 6W
-// (144D⁶), the remainder l in 4W (12D⁴, 24D⁴), f at l's root in 10W (2592·D^10).
+// Widths, for coordinates of W words with differences below D = 2^(64W − 3): f in 2W words (|f0|,
+// |f2| <= 2D², |f1| <= 4D²). b = W·X takes 2W words (3D², 6D²), and 6W at a rational root (144D⁶).
+// The remainder l takes 4W (12D⁴, 24D⁴), and f at l's root 10W (2592·D^10).
 #pragma once
 
 #include <array>
@@ -26,7 +25,7 @@ constexpr errbound::integers::fixed_integer<Words> magnitude(
     return x.negative() ? -x : x;
 }
 
-/// Whether b <= 0 at some root of f in (0, 1), for an f whose coefficients have both signs.
+/// True if b <= 0 at some root of f in (0, 1). Precondition: f's coefficients have both signs.
 /// Proof: proofs/VertexEdge.v, nonpositive_at_a_root_right.
 template <int Words>
 constexpr bool nonpositive_at_a_root(const quadratic_form<Words>& f,
@@ -35,11 +34,11 @@ constexpr bool nonpositive_at_a_root(const quadratic_form<Words>& f,
     using errbound::sign_type;
     using errbound::value_at;
     const auto first = sign_of(f[0]), last = sign_of(f[2]);
-    // A root at an end leaves a linear form, whose root is rational.
+    // If an end is a root, a linear form remains, whose root is rational.
     if (first == sign_type::zero) return value_at(b, magnitude(f[2]), magnitude(f[1])) <= 0;
     if (last == sign_type::zero) return value_at(b, magnitude(f[1]), magnitude(f[0])) <= 0;
 
-    const bool two_roots = first == last;  // else one, where f changes its sign
+    const bool two_roots = first == last;  // else one root, where f changes sign
     if (two_roots) {
         const auto discriminant = sign_of(f[1] * f[1] - ((f[0] * f[2]) << 2));
         if (discriminant == sign_type::negative) return false;
@@ -55,19 +54,19 @@ constexpr bool nonpositive_at_a_root(const quadratic_form<Words>& f,
     if (certain(everywhere)) return nonpositive(everywhere);
     const auto s = magnitude(l[1]), t = magnitude(l[0]);  // l's root
     const auto there = sign_of(value_at(f, s, t));
-    // A root of both, or one of f's roots on either side of l's, where l has either sign.
+    // A common root, or roots of f on either side of l's root, where l has both signs.
     if (there == sign_type::zero || (two_roots && there != first)) return true;
     bool roots_are_later = there == first;
-    if (two_roots) {  // both on one side of l's root: f still moves towards them, or away
+    if (two_roots) {  // both roots of f on one side of l's: the slope of f shows which
         const linear_form<Words> slope{{f[1] - (f[0] << 1), (f[2] << 1) - f[1]}};
         roots_are_later = sign_of(value_at(slope, s, t)) != first;
     }
     return nonpositive(sign_of(roots_are_later ? l[1] : l[0]));
 }
 
-/// Whether the vertex touches the edge. Differences of coordinates at one end of the step must be
-/// below 2^(64·Words − 3). Cost: some 40 products of words, and up to a few hundred if W × E has a
-/// root in [0, 1] in all three components.
+/// True if the vertex touches the edge. Precondition: differences of coordinates at one end of the
+/// step are below 2^(64·Words − 3). Cost: some 40 products of words, and up to a few hundred if all
+/// three components of W × E have a root in [0, 1].
 /// Proof: proofs/VertexEdge.v, contact_right.
 template <int Words>
 constexpr bool vertex_touches_edge(
@@ -76,7 +75,7 @@ constexpr bool vertex_touches_edge(
     using errbound::sign_type;
     const auto e = difference(query.e1, query.e0);
     const auto w = difference(query.v, query.e0);
-    std::array<quadratic_form<2 * Words>, 3> f;  // W × E, one component after the other
+    std::array<quadratic_form<2 * Words>, 3> f;  // W × E
     f[0] = w.y * e.z - w.z * e.y;
     if (certainly_rootless(f[0])) return false;
     f[1] = w.z * e.x - w.x * e.z;
@@ -91,7 +90,7 @@ constexpr bool vertex_touches_edge(
     };
     if (touches_at_end(0) || touches_at_end(2)) return true;
 
-    // Other contacts are inside the step, where b must not be positive throughout.
+    // Other contacts are inside the step and need b <= 0 at some t.
     if (sign_inside(b) == sign_type::positive) return false;
     const common_roots roots(f);
     using kind = typename decltype(roots)::kind_type;
@@ -105,8 +104,8 @@ constexpr bool vertex_touches_edge(
         case kind::everywhere:
             break;
     }
-    // Collinear throughout: b is positive at both ends by now, so it has a value <= 0 inside
-    // exactly if it has real roots t/s > 0.
+    // The motion is collinear throughout. b is positive at both ends here, so it has a value <= 0
+    // inside exactly if it has real roots t/s > 0.
     return b[1] < 0 && b[1] * b[1] >= (b[0] * b[2]) << 2;
 }
 

@@ -25,13 +25,13 @@ std::string text_of(std::span<const vertex_index> element) {
 std::optional<std::string> fault_of(std::span<const vertex_index> element, std::size_t vertices) {
     const auto bad = std::ranges::find_if(element, [=](vertex_index i) { return i >= vertices; });
     if (bad == element.end()) return std::nullopt;
-    return "found vertex index " + std::to_string(*bad) + ", expected less than " +
+    return "vertex index is " + std::to_string(*bad) + "; expected less than " +
            std::to_string(vertices);
 }
 
 std::optional<std::string> fault_of_corners(std::uint64_t corners, const mesh_options& options) {
     if (corners == 3 || (corners > 3 && options.triangulate)) return std::nullopt;
-    return "found a face with " + std::to_string(corners) + " vertices, expected a triangle" +
+    return "number of vertices of a face is " + std::to_string(corners) + "; expected 3" +
            (corners > 3 ? " (the option triangulate splits polygons)" : "");
 }
 
@@ -50,8 +50,8 @@ format format_of(const std::filesystem::path& path, std::string_view text) {
         std::string_view rest = without_byte_order_mark(text, path.string());
         return trimmed(take_line(rest).value_or("")) == "ply" ? format::ply : format::obj;
     }
-    throw file_error(path.string() + ": found extension " + excerpt(extension) +
-                     ", expected .ply or .obj");
+    throw file_error(path.string() + ": extension is " + excerpt(extension) +
+                     "; expected .ply or .obj");
 }
 
 /// Cuts a share out of a whole frame.
@@ -82,15 +82,13 @@ mesh read_mesh(const std::filesystem::path& path, const mesh_options& options) {
 mesh_share read_mesh_share(const std::filesystem::path& path, std::size_t share,
                            std::size_t shares) {
     if (share >= shares)
-        throw std::invalid_argument("ccd::io::read_mesh_share: found share " +
-                                    std::to_string(share) + ", expected less than " +
-                                    std::to_string(shares));
+        throw std::invalid_argument("ccd::io::read_mesh_share: share is " + std::to_string(share) +
+                                    "; expected less than " + std::to_string(shares));
     const std::string name = path.string();
     std::error_code failed;
     if (!std::filesystem::is_regular_file(path, failed)) {
         if (!std::filesystem::exists(path, failed)) read_whole(path);  // throws
-        throw file_error(name + ": found something other than a file, expected one, of which " +
-                         "shares can be read");
+        throw file_error(name + ": path is not a regular file; expected one, to read shares");
     }
     if (std::filesystem::file_size(path) == 0) return share_of(read_mesh(path), {share, shares});
     namespace shm = boost::interprocess;
@@ -119,17 +117,17 @@ struct topology {
 void require_same(const topology& before, const topology& after) {
     const auto require_equal = [&](std::size_t found, std::size_t expected, const char* what) {
         if (found == expected) return;
-        throw file_error(after.name + ": found " + std::to_string(found) + " " + what +
-                         ", expected " + std::to_string(expected) + " as in " + before.name);
+        throw file_error(after.name + ": number of " + what + " is " + std::to_string(found) +
+                         "; expected " + std::to_string(expected) + " as in " + before.name);
     };
     const auto require_equal_elements = [&](const auto& found, const auto& expected,
                                             const std::string& one, std::size_t first) {
         const auto [a, b] = std::ranges::mismatch(found, expected);
         if (a == found.end()) return;
-        throw file_error(after.name + ": " + one + " " +
+        throw file_error(after.name + ": vertices of " + one + " " +
                          std::to_string(first + static_cast<std::size_t>(a - found.begin())) +
-                         ": found vertices " + text_of(*a) + ", expected " + text_of(*b) +
-                         " as in " + before.name);
+                         " are " + text_of(*a) + "; expected " + text_of(*b) + " as in " +
+                         before.name);
     };
     require_equal(after.vertices.all, before.vertices.all, "vertices");
     require_equal(after.faces.all, before.faces.all, "faces");

@@ -55,7 +55,7 @@ class obj_parser {
                 require_skipped(keyword);
         }
         if (result_.vertices.empty())
-            throw file_error(lines_.name() + ": found no vertices, expected lines 'v x y z'");
+            throw file_error(lines_.name() + ": number of vertices is 0; expected lines 'v x y z'");
         // A face may come before its vertices.
         require_good(options_.triangulate ? "triangle" : "face", result_.faces, face_lines_);
         require_good("edge", result_.edges, edge_lines_);
@@ -76,12 +76,11 @@ class obj_parser {
         while (joined_.ends_with('\\')) {
             joined_.pop_back();
             const std::optional<std::string_view> next = next_piece();
-            if (!next) fail("found a backslash at the end of the file, expected a line after it");
+            if (!next) fail("last line ends with a backslash; expected a line after it");
             // Readers differ on whether a word goes on across the line end.
             const bool may_split = !joined_.empty() && !next->empty() &&
                                    !is_blank(joined_.back()) && !is_blank(next->front());
-            if (may_split)
-                fail("found a backslash that may split a word, expected a blank before it");
+            if (may_split) fail("backslash may split a word; expected a blank before it");
             joined_ += *next;
         }
         return joined_;
@@ -97,16 +96,16 @@ class obj_parser {
             end = whole->find('#', end + 1);
         const std::string_view piece = whole->substr(0, end);
         if (std::ranges::any_of(piece, is_control))
-            fail("found a control character in " + excerpt(piece) + ", expected text");
+            fail("line is " + excerpt(piece) + "; expected no control characters");
         return piece;
     }
 
     void require_skipped(std::string_view keyword) const {
         if (std::ranges::find(refused_keywords, keyword) != refused_keywords.end())
-            fail("found " + excerpt(keyword) + ", which a mesh cannot hold, expected triangles");
+            fail("keyword is " + excerpt(keyword) +
+                 ", which a mesh cannot hold; expected triangles");
         if (std::ranges::find(skipped_keywords, keyword) == skipped_keywords.end())
-            fail("found the keyword " + excerpt(keyword) +
-                 ", expected v, f, l or another of OBJ's");
+            fail("keyword is " + excerpt(keyword) + "; expected v, f, l or another of OBJ's");
     }
 
     template <class Element>
@@ -123,16 +122,19 @@ class obj_parser {
         std::array<double, 7> values{};
         std::size_t count = 0;
         for (std::string_view word = take_word(line); !word.empty(); word = take_word(line)) {
-            if (count == values.size()) fail("found more than 7 values of a vertex");
+            if (count == values.size())
+                fail("number of values of a vertex is more than 7; expected 3 (x y z)");
             const number value = parse_double(word, false);
-            if (value.status != number_status::ok) fail(describe(value.status, excerpt(word)));
+            if (value.status != number_status::ok)
+                fail(describe(value.status, "value", excerpt(word)));
             values[count++] = value.value;
         }
         if (count < 3 || count == 5)
-            fail("found " + std::to_string(count) + " values of a vertex, expected 3 (x y z)");
-        if (count == 4 && values[3] != 1) fail("found a vertex with weight, expected none or 1");
+            fail("number of values of a vertex is " + std::to_string(count) +
+                 "; expected 3 (x y z)");
+        if (count == 4 && values[3] != 1) fail("weight of a vertex is not 1; expected none or 1");
         if (result_.vertices.size() == std::numeric_limits<vertex_index>::max())
-            fail("found more vertices than expected, fewer than 2^32");
+            fail("number of vertices is 2^32 or more; expected fewer than 2^32");
         result_.vertices.push_back({values[0], values[1], values[2]});
     }
 
@@ -145,12 +147,11 @@ class obj_parser {
         }
     }
 
-    /// Adds an edge between every two neighbours.
     void read_polyline(std::string_view line) {
         read_corners(line);
         if (corners_.size() < 2)
-            fail("found " + std::to_string(corners_.size()) +
-                 " as the number of a line's vertices, expected 2 or more");
+            fail("number of vertices of a line is " + std::to_string(corners_.size()) +
+                 "; expected 2 or more");
         for (std::size_t i = 1; i < corners_.size(); ++i) {
             result_.edges.push_back({corners_[i - 1], corners_[i]});
             edge_lines_.push_back(line_);
@@ -159,7 +160,8 @@ class obj_parser {
 
     void read_points(std::string_view line) {
         read_corners(line);
-        if (corners_.empty()) fail("found a point element without vertices, expected 1 or more");
+        if (corners_.empty())
+            fail("number of vertices of a point element is 0; expected 1 or more");
         for (const vertex_index v : corners_) {
             points_.push_back({v});
             point_lines_.push_back(line_);
@@ -185,7 +187,6 @@ class obj_parser {
             corners_.push_back(corner(word));
     }
 
-    /// An integer with or without a sign.
     static bool read_index(std::string_view token, std::int64_t& index) {
         const bool plus = token.starts_with('+') && !token.starts_with("+-");
         if (plus) token.remove_prefix(1);
@@ -203,14 +204,14 @@ class obj_parser {
             const std::size_t slash = rest.find('/');
             const std::string_view token = rest.substr(0, slash);
             const bool last = slash == std::string_view::npos;
-            const bool is_left_out = token.empty() && part > 0;
+            const bool is_omitted = token.empty() && part > 0;
             const bool is_index = read_index(token, indices[part]) &&
                                   (part == 0 || indices[part] != 0);  // v is checked below
-            if (!is_index && !is_left_out)
-                fail("found " + excerpt(word) +
-                     ", expected v, v/vt, v//vn or v/vt/vn, integers other than 0");
+            if (!is_index && !is_omitted)
+                fail("vertex is " + excerpt(word) +
+                     "; expected v, v/vt, v//vn or v/vt/vn, integers other than 0");
             if (last) break;
-            if (part == 2) fail("found " + excerpt(word) + ", expected at most v/vt/vn");
+            if (part == 2) fail("vertex is " + excerpt(word) + "; expected at most v/vt/vn");
             rest.remove_prefix(slash + 1);
         }
         const auto vertices = static_cast<std::int64_t>(result_.vertices.size());
@@ -218,8 +219,8 @@ class obj_parser {
         const bool in_range =
             i > 0 ? i <= std::numeric_limits<vertex_index>::max() : i < 0 && i >= -vertices;
         if (!in_range)
-            fail("found vertex index " + std::to_string(i) +
-                 ", expected 1 or more, or one back from the last vertex so far (-1 to -" +
+            fail("vertex index is " + std::to_string(i) +
+                 "; expected 1 or more, or one back from the last vertex so far (-1 to -" +
                  std::to_string(vertices) + ")");
         return static_cast<vertex_index>(i > 0 ? i - 1 : vertices + i);
     }
@@ -237,7 +238,7 @@ class obj_parser {
 }  // namespace
 
 mesh parse_mesh_obj(std::string_view text, const std::string& name, const mesh_options& options) {
-    if (text.empty()) throw file_error(name + ": found an empty file, expected an OBJ mesh");
+    if (text.empty()) throw file_error(name + ": file is empty; expected an OBJ mesh");
     text = without_end_mark(without_byte_order_mark(text, name));
     return obj_parser(text, name, options).parse();
 }

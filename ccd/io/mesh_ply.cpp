@@ -55,34 +55,33 @@ class body_reader {
         bool has_vertices = false;
         for (const element& e : header_.elements) {
             if (e.count > 0 && e.number_of(role::misplaced) > 0)
-                fail("found vertex indices in element " + excerpt(e.name) +
-                     ", expected them in face or edge");
+                fail("element " + excerpt(e.name) +
+                     " has vertex indices; expected them in face or edge");
             if (e.name == "vertex") {
                 has_vertices = true;
                 if (e.count > std::numeric_limits<vertex_index>::max())
-                    fail("found " + std::to_string(e.count) +
-                         " vertices, expected fewer than 2^32");
+                    fail("number of vertices is " + std::to_string(e.count) +
+                         "; expected fewer than 2^32");
                 for (const auto& [axis, r] :
                      {std::pair("x", role::x), {"y", role::y}, {"z", role::z}})
                     require_property(e, axis, r, "x, y and z");
             } else if (e.name == "face" && e.count > 0) {
                 const auto lists = e.number_of(role::corners);
                 if (lists != 1)
-                    fail(std::string("found ") + (lists == 0 ? "no" : "more than one") +
-                         " list of vertex indices in face, expected one list of integers called "
-                         "vertex_indices or vertex_index");
+                    fail("number of lists of vertex indices in face is " + std::to_string(lists) +
+                         "; expected 1, of integers, called vertex_indices or vertex_index");
             } else if (e.name == "edge" && e.count > 0) {
                 require_property(e, "vertex1", role::vertex1, "integers vertex1 and vertex2");
                 require_property(e, "vertex2", role::vertex2, "integers vertex1 and vertex2");
             }
         }
-        if (!has_vertices) fail("found no element 'vertex', expected one");
+        if (!has_vertices) fail("number of elements 'vertex' is 0; expected 1");
     }
 
     void require_property(const element& e, const char* wanted, role r,
                           const char* expected) const {
         if (e.number_of(r) == 0)
-            fail(std::string("found no property '") + wanted + "' of " + e.name + ", expected " +
+            fail(std::string("property '") + wanted + "' of " + e.name + " is missing; expected " +
                  expected);
     }
 
@@ -169,15 +168,17 @@ class body_reader {
 
     std::uint64_t list_size(const property& p) {
         const double count = values_.next(*p.count_type);
-        if (count < 0) values_.fail("found a negative count of a list");
+        if (count < 0)
+            values_.fail("count of a list is " + std::to_string(static_cast<std::int64_t>(count)) +
+                         "; expected 0 or more");
         return static_cast<std::uint64_t>(count);
     }
 
     double coordinate(const property& p) {
         const double value = values_.next(p.type);
         if (!std::isfinite(value))
-            values_.fail(std::string("found ") + (std::isnan(value) ? "NaN" : "an infinity") +
-                         " as " + p.name + ", expected a finite number");
+            values_.fail(p.name + " is " + (std::isnan(value) ? "NaN" : "an infinity") +
+                         "; expected a finite number");
         return value;
     }
 
@@ -196,8 +197,8 @@ class body_reader {
     vertex_index read_index(const property& p) {
         const double value = values_.next(p.type);
         if (value < 0)
-            values_.fail("found vertex index " + std::to_string(static_cast<std::int64_t>(value)) +
-                         ", expected 0 or more");
+            values_.fail("vertex index is " + std::to_string(static_cast<std::int64_t>(value)) +
+                         "; expected 0 or more");
         return static_cast<vertex_index>(value);
     }
 
@@ -213,7 +214,7 @@ class body_reader {
 
 mesh_share parse_share_ply(std::string_view text, const std::string& name, share_of_file share,
                            const mesh_options& options) {
-    if (text.empty()) throw file_error(name + ": found an empty file, expected a PLY mesh");
+    if (text.empty()) throw file_error(name + ": file is empty; expected a PLY mesh");
     using namespace ply;
     text = without_byte_order_mark(text, name);
     const header head = parse_header(text, name);

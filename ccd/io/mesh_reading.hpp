@@ -12,7 +12,6 @@
 
 namespace ccd::io {
 
-/// The indices of an element, for messages.
 std::string text_of(std::span<const vertex_index> element);
 
 /// The end of a message if an element has an index that is not below `vertices`.

@@ -102,9 +102,8 @@ class binary_values {
 
     void finish() const {
         if (text_.empty()) return;
-        throw errbound::support::file_error(
-            name_ + ": found " + std::to_string(text_.size()) +
-            " bytes after the last element, expected the end of the file");
+        throw errbound::support::file_error(name_ + ": number of bytes after the last element is " +
+                                            std::to_string(text_.size()) + "; expected 0");
     }
 
     std::size_t remaining() const { return text_.size(); }
@@ -117,7 +116,7 @@ class binary_values {
 
   private:
     [[noreturn]] void fail_truncated() const {
-        fail("found the end of the file, expected more data (truncated, or a wrong count)");
+        fail("file ends here; expected more data (truncated, or a wrong count)");
     }
 
     template <class T>
@@ -147,8 +146,8 @@ class ascii_values {
         do {
             const std::optional<std::string_view> line = lines_.next();
             if (!line)
-                fail("found the end of the file, expected " + element_name + " " +
-                     std::to_string(index) + " (truncated, or a wrong count)");
+                fail("file ends here; expected " + element_name + " " + std::to_string(index) +
+                     " (truncated, or a wrong count)");
             line_ = *line;
         } while (trimmed(line_).empty());
     }
@@ -159,8 +158,8 @@ class ascii_values {
             std::holds_alternative<float>(type) ? parse_float(word) : parse_double(word, false);
         const bool is_number = result.status == number_status::ok;
         if (is_integer(type) && !(is_number && holds(type, result.value)))
-            fail("found " + excerpt(word) + ", expected an integer of the declared type");
-        if (!is_number) fail(describe(result.status, excerpt(word)));
+            fail("value is " + excerpt(word) + "; expected an integer of the declared type");
+        if (!is_number) fail(describe(result.status, "value", excerpt(word)));
         return result.value;
     }
 
@@ -177,15 +176,15 @@ class ascii_values {
 
     void end() {
         if (!trimmed(line_).empty())
-            fail("found " + excerpt(trimmed(line_)) +
-                 " after the last property, expected the end of the line");
+            fail("text after the last property is " + excerpt(trimmed(line_)) +
+                 "; expected the end of the line");
     }
 
     void finish() {
         while (const std::optional<std::string_view> line = lines_.next())
             if (!trimmed(*line).empty())
-                fail("found " + excerpt(*line) +
-                     " after the last element, expected the end of the file");
+                fail("text after the last element is " + excerpt(*line) +
+                     "; expected the end of the file");
     }
 
     std::size_t remaining() const { return lines_.remaining(); }
@@ -194,7 +193,7 @@ class ascii_values {
   private:
     std::string_view next_word() {
         const std::string_view word = take_word(line_);
-        if (word.empty()) fail("found too few values, expected one per property");
+        if (word.empty()) fail("line has too few values; expected one for each property");
         return word;
     }
 

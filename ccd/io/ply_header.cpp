@@ -1,4 +1,3 @@
-// The header of a PLY file.
 
 #include <algorithm>
 #include <array>
@@ -71,7 +70,7 @@ class header_parser {
         if (first_end != std::string_view::npos && !text_.substr(first_end).starts_with("\r\n"))
             line_end_ = text_[first_end];
         line_ = rest_ = next_line();
-        if (trimmed(line_) != "ply") fail("found " + excerpt(line_) + ", expected 'ply'");
+        if (trimmed(line_) != "ply") fail_expecting("'ply'");
         bool has_format = false;
         while (true) {
             line_ = rest_ = next_line();
@@ -79,10 +78,9 @@ class header_parser {
             if (keyword == "end_header") break;
             if (keyword == "comment" || keyword == "obj_info") continue;
             // Some readers would end a line there, or a word.
-            if (std::ranges::any_of(line_, is_control))
-                fail("found a control character in " + excerpt(line_) + ", expected none");
+            if (std::ranges::any_of(line_, is_control)) fail_expecting("no control characters");
             if (keyword == "format") {
-                if (has_format) fail("found a second format line, expected one");
+                if (has_format) fail("number of format lines is 2; expected 1");
                 read_format();
                 has_format = true;
             } else if (keyword == "element") {
@@ -93,24 +91,24 @@ class header_parser {
                 fail_expecting("format, element, property, comment or end_header");
             }
         }
-        if (!has_format) fail("found no format line before end_header, expected one");
+        if (!has_format) fail("number of format lines is 0; expected 1");
         for (const element& e : header_.elements)
             // Elements without data would let a mere count keep the reader busy.
             if (e.properties.empty() && e.count > 0)
-                throw errbound::support::file_error(name_ + ": found no properties in element " +
-                                                    excerpt(e.name) + ", expected at least one");
+                throw errbound::support::file_error(name_ + ": number of properties of element " +
+                                                    excerpt(e.name) + " is 0; expected at least 1");
         return std::move(header_);
     }
 
   private:
     [[noreturn]] void fail(const std::string& what) const { fail_at(name_, header_.lines, what); }
     [[noreturn]] void fail_expecting(const std::string& expected) const {
-        fail("found " + excerpt(line_) + ", expected " + expected);
+        fail("line is " + excerpt(line_) + "; expected " + expected);
     }
 
     std::string_view next_line() {
         ++header_.lines;
-        if (text_.empty()) fail("found the end of the file in the header, expected end_header");
+        if (text_.empty()) fail("file ends in the header; expected end_header");
         std::string_view line = text_.substr(0, text_.find(line_end_));
         text_.remove_prefix(std::min(line.size() + 1, text_.size()));
         if (line_end_ == '\n' && line.ends_with('\r')) line.remove_suffix(1);
@@ -137,7 +135,7 @@ class header_parser {
     }
 
     void read_property() {
-        if (header_.elements.empty()) fail("found a property before any element");
+        if (header_.elements.empty()) fail("property is before all elements; expected an element");
         property p;
         std::string_view word = take_word(rest_);
         if (word == "list") {
@@ -155,15 +153,15 @@ class header_parser {
     scalar scalar_type(std::string_view word) const {
         for (const named_scalar& known : named_scalars)
             if (known.name == word || known.other_name == word) return known.type;
-        fail("found type " + excerpt(word) + ", expected a PLY type such as float or uchar");
+        fail("type is " + excerpt(word) + "; expected a PLY type such as float or uchar");
     }
 
     template <class Named>
     void add(std::vector<Named>& all, Named&& one, const std::string& what) const {
         if (all.size() == max_names)
-            fail("found more than 1000 of " + what + ", expected at most that many");
+            fail("number of lines '" + what + "' is more than 1000; expected at most 1000");
         if (std::ranges::find(all, one.name, &Named::name) != all.end())
-            fail("found " + what + " " + excerpt(one.name) + " twice");
+            fail(what + " " + excerpt(one.name) + " is given twice; expected unique names");
         all.push_back(std::move(one));
     }
 

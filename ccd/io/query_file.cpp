@@ -61,8 +61,8 @@ class query_parser {
         const std::size_t last = lines_.line() - 1;
         if (row_ != 0)
             fail_at(lines_.name(), last,
-                    "found a truncated query, " + std::to_string(row_) + " rows from line " +
-                        std::to_string(last - row_ + 1) + " on, expected 8 rows per query");
+                    "number of rows of the query from line " + std::to_string(last - row_ + 1) +
+                        " on is " + std::to_string(row_) + "; expected 8 (truncated)");
         if (has_truth()) result_.truth = std::move(truth_);
         return std::move(result_);
     }
@@ -73,8 +73,7 @@ class query_parser {
         if (rows == 0) text = without_byte_order_mark(text, name);
         text = without_end_mark(text);
         text = text.substr(0, text.find_last_not_of(" \t\r\n") + 1);
-        if (text.empty())
-            throw file_error(name + ": found an empty file, expected rows of " + row_forms);
+        if (text.empty()) throw file_error(name + ": file is empty; expected rows of " + row_forms);
         return text;
     }
 
@@ -82,15 +81,15 @@ class query_parser {
     bool has_truth() const { return columns_ == 4 || columns_ == 7; }
 
     void read_row(std::string_view line) {
-        if (trimmed(line).empty()) lines_.fail("found a blank line, expected a row");
+        if (trimmed(line).empty()) lines_.fail("line is blank; expected a row");
         const columns row = split(line);
         if (columns_ == 0) {
             if (row.count != 3 && row.count != 4 && row.count != 6 && row.count != 7)
-                lines_.fail("found " + excerpt(line) + " (columns: " + std::to_string(row.count) +
-                            "), expected " + row_forms);
+                lines_.fail("line is " + excerpt(line) + " (columns: " + std::to_string(row.count) +
+                            "); expected " + row_forms);
             columns_ = row.count;
         } else if (row.count != columns_) {
-            lines_.fail("found " + std::to_string(row.count) + " columns, expected " +
+            lines_.fail("number of columns is " + std::to_string(row.count) + "; expected " +
                         std::to_string(columns_) + " as in the first row");
         }
         points_[row_] = {coordinate(row, 0), coordinate(row, 1), coordinate(row, 2)};
@@ -99,40 +98,40 @@ class query_parser {
     }
 
     double coordinate(const columns& row, std::size_t axis) const {
-        const char name = "xyz"[axis];
+        const std::string name(1, "xyz"[axis]);
         if (!is_rational()) {
             const std::string_view token = row.values[axis];
             const number result = parse_double(token, round_);
             if (result.status == number_status::ok) return result.value;
-            fail_at_number(result.status, excerpt(token) + " as " + name);
+            fail_at_number(result.status, name, excerpt(token));
         }
         const std::string_view n = row.values[2 * axis], d = row.values[2 * axis + 1];
         const number result = parse_quotient(n, d, round_);
         if (result.status == number_status::ok) return result.value;
         if (result.status == number_status::malformed) {
             const bool n_is_wrong = parse_quotient(n, "1", true).status == result.status;
-            lines_.fail("found " + excerpt(n_is_wrong ? n : d) + " as the " +
-                        (n_is_wrong ? "numerator" : "denominator") + " of " + name +
-                        ", expected an integer");
+            lines_.fail((n_is_wrong ? "numerator of " : "denominator of ") + name + " is " +
+                        excerpt(n_is_wrong ? n : d) + "; expected an integer");
         }
         // Each side has its own quotes, so that a long one does not hide the other.
-        fail_at_number(result.status, excerpt(n) + "/" + excerpt(d) + " as " + name);
+        fail_at_number(result.status, name, excerpt(n) + "/" + excerpt(d));
     }
 
-    /// `found` names the number. Callers build it only for an error: it costs more than parsing.
-    [[noreturn]] void fail_at_number(number_status status, const std::string& found) const {
-        lines_.fail(describe(status, found) +
+    /// Callers build `found` only for an error, because it costs more than parsing.
+    [[noreturn]] void fail_at_number(number_status status, const std::string& name,
+                                     const std::string& found) const {
+        lines_.fail(describe(status, name, found) +
                     (status == number_status::inexact ? " (or --round)" : ""));
     }
 
     void read_truth(std::string_view token) {
         if (token != "0" && token != "1")
-            lines_.fail("found " + excerpt(token) + " as truth, expected 0 or 1");
+            lines_.fail("truth is " + excerpt(token) + "; expected 0 or 1");
         const bool value = token == "1";
         if (row_ == 0) {
             truth_.push_back(value);
         } else if (truth_.back() != value) {
-            lines_.fail("found truth " + std::string(token) + ", expected " + (value ? "0" : "1") +
+            lines_.fail("truth is " + std::string(token) + "; expected " + (value ? "0" : "1") +
                         " as in the first row of this query");
         }
     }
@@ -191,17 +190,17 @@ class truth_reader final : public nlohmann::json_sax<nlohmann::json> {
                      const nlohmann::json::exception& error) override {
         if (dynamic_cast<const nlohmann::json::parse_error*>(&error) == nullptr)
             throw file_error(name_ +
-                             ": found a number out of range, expected a JSON array of booleans");
-        throw file_error(name_ + ": found no JSON at byte " + std::to_string(position) +
-                         ", expected a JSON array of booleans");
+                             ": a number is out of range; expected a JSON array of booleans");
+        throw file_error(name_ + ": text at byte " + std::to_string(position) +
+                         " is not JSON; expected a JSON array of booleans");
     }
 
   private:
     [[noreturn]] void refuse(const char* found) const {
         if (!in_array_)
-            throw file_error(name_ + ": found " + found + ", expected a JSON array of booleans");
-        throw file_error(name_ + ": element " + std::to_string(result_.size()) + ": found " +
-                         found + ", expected true or false");
+            throw file_error(name_ + ": type is " + found + "; expected a JSON array of booleans");
+        throw file_error(name_ + ": type of element " + std::to_string(result_.size()) + " is " +
+                         found + "; expected true or false");
     }
 
     const std::string& name_;
@@ -253,8 +252,8 @@ bool is_store_file(const fs::path& path) {
 ccd::kind kind_in(const store_reader& store, const std::string& name,
                   const std::optional<ccd::kind>& expected) {
     if (expected && *expected != store.kind())
-        throw file_error(name + ": found queries of kind " + std::string(ccd::name(store.kind())) +
-                         ", expected " + std::string(ccd::name(*expected)));
+        throw file_error(name + ": kind of queries is " + std::string(ccd::name(store.kind())) +
+                         "; expected " + std::string(ccd::name(*expected)));
     return store.kind();
 }
 
@@ -265,9 +264,8 @@ ccd::kind kind_of_file(const fs::path& path, std::optional<ccd::kind> kind) {
     if (!kind) kind = kind_from_path(path);
     if (!kind)
         throw file_error(path.string() +
-                         ": found no kind of query in the path, expected a folder "
-                         "'vertex-face', 'edge-edge', 'vf' or 'ee', a name that ends in 'vf' or "
-                         "'ee', or a kind that is named (--kind)");
+                         ": path has no kind of query; expected a folder 'vertex-face', "
+                         "'edge-edge', 'vf' or 'ee', a name that ends in 'vf' or 'ee', or --kind");
     return *kind;
 }
 
@@ -283,9 +281,10 @@ void truth_file::add_to(query_file& queries, std::uint64_t first, bool is_last) 
     if (!truth_ || queries.truth) return;
     const std::size_t end = first + queries.size();
     if (is_last ? truth_->size() != end : truth_->size() < end)
-        throw file_error(path_.string() + ": found " + std::to_string(truth_->size()) +
-                         " truth values, expected " + (is_last ? "" : "at least ") +
-                         std::to_string(end) + ", one per query of " + queries_);
+        throw file_error(path_.string() + ": number of truth values is " +
+                         std::to_string(truth_->size()) + "; expected " +
+                         (is_last ? "" : "at least ") + std::to_string(end) +
+                         ", one for each query of " + queries_);
     queries.truth.emplace(truth_->begin() + static_cast<std::ptrdiff_t>(first),
                           truth_->begin() + static_cast<std::ptrdiff_t>(end));
 }
@@ -302,9 +301,9 @@ query_file read_queries(const fs::path& path, std::optional<ccd::kind> kind, boo
                         file_range range) {
     const auto end_in = [&](std::uint64_t size) {
         if (range.first > 0 && range.first >= size)
-            throw file_error(path.string() + ": found " + std::to_string(size) +
-                             " queries, expected more than the first " +
-                             std::to_string(range.first) + ", which are skipped");
+            throw file_error(path.string() + ": number of queries is " + std::to_string(size) +
+                             "; expected more than the first " + std::to_string(range.first) +
+                             ", which are skipped");
         return range.first + std::min(range.count, size - range.first);
     };
     if (is_store_file(path)) {  // of which only the range is read

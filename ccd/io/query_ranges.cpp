@@ -1,4 +1,3 @@
-// Files of stored queries, read one range at a time.
 #include "ccd/io/query_ranges.hpp"
 
 #include <algorithm>
@@ -15,7 +14,6 @@ namespace {
 
 using errbound::support::file_error;
 
-/// Counts the rows of a text that comes in blocks.
 class row_scanner {
   public:
     explicit row_scanner(std::uint64_t rows_of_a_range) : per_range_(rows_of_a_range) {}
@@ -86,10 +84,10 @@ query_index index_queries(const std::filesystem::path& path, std::size_t queries
     std::error_code error;
     const auto type = std::filesystem::status(path, error).type();
     if (type == std::filesystem::file_type::not_found)
-        throw file_error(path.string() + ": found no such file, expected a readable file");
+        throw file_error(path.string() + ": file does not exist; expected a readable file");
     if (type != std::filesystem::file_type::regular)
         throw file_error(path.string() +
-                         ": found no regular file, expected one, which can be read in parts");
+                         ": path is not a regular file; expected one, to read ranges");
     std::ifstream in(path, std::ios::binary);
     row_scanner rows(rows_per_query * queries_of_a_range);
     std::array<char, 1 << 16> block;
@@ -125,8 +123,9 @@ query_file range_reader::read(std::size_t range) {
 query_file range_reader::read_from_store(const query_range& range) {
     if (!store_) store_ = open_store(path_);
     if (range.end > store_->size())
-        throw file_error(path_.string() + ": found " + std::to_string(store_->size()) +
-                         " queries, where it had more before");
+        throw file_error(path_.string() + ": number of queries is " +
+                         std::to_string(store_->size()) + "; expected at least " +
+                         std::to_string(range.end) + " as before");
     return store_->read(range.begin, range.end);
 }
 

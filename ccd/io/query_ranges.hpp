@@ -35,7 +35,6 @@ query_index index_queries(const std::filesystem::path& path, std::size_t queries
 /// The truth that may lie next to a file of queries (read_queries).
 class truth_file {
   public:
-    /// Reads it, if there is one. Throws errbound::support::file_error.
     explicit truth_file(const std::filesystem::path& queries);
 
     /// Adds the truth to queries without truth, which are those from `first` on, to the end of the
@@ -48,7 +47,6 @@ class truth_file {
     std::optional<std::vector<bool>> truth_;
 };
 
-/// Reads ranges of a file.
 class range_reader {
   public:
     range_reader(std::filesystem::path path, std::optional<ccd::kind> kind, bool round,
@@ -69,7 +67,7 @@ class range_reader {
     std::unique_ptr<store_reader> store_;  ///< once it is open
 };
 
-/// As parse_queries, for rows that follow `rows` other rows of `columns` columns.
+/// Same as parse_queries, for rows that follow `rows` other rows of `columns` columns.
 query_file parse_rows(std::string_view text, const std::string& name, ccd::kind kind, bool round,
                       std::uint64_t rows, std::uint64_t columns);
 

@@ -6,14 +6,14 @@
 
 namespace ccd {
 
-/// As visit_kind, for a stored kind.
+/// Same as visit_kind, for a stored kind.
 template <class Visit>
 constexpr decltype(auto) visit_stored_kind(kind k, Visit&& visit) {
     return k == kind::edge_edge ? visit.template operator()<kind::edge_edge>()
                                 : visit.template operator()<kind::vertex_face>();
 }
 
-/// Of<Query> for the queries of each stored kind.
+/// One member Of<Query> for each stored kind.
 template <template <class Query> class Of>
 struct by_stored_kind {
     Of<ccd::vertex_face<double>> vertex_face;

@@ -1,4 +1,3 @@
-// Lines and words, exact numbers, and messages.
 #include "ccd/io/text.hpp"
 
 #include <algorithm>
@@ -171,8 +170,8 @@ std::string excerpt(std::string_view found) {
 
 std::string_view without_byte_order_mark(std::string_view text, const std::string& name) {
     if (text.starts_with("\xfe\xff") || text.starts_with("\xff\xfe"))
-        throw errbound::support::file_error(name +
-                                            ": found UTF-16 or UTF-32, expected ASCII or UTF-8");
+        throw errbound::support::file_error(
+            name + ": encoding is UTF-16 or UTF-32; expected ASCII or UTF-8");
     if (text.starts_with("\xef\xbb\xbf")) text.remove_prefix(3);
     return text;
 }
@@ -211,29 +210,29 @@ void fail_at(const std::string& name, std::size_t line, const std::string& what)
     throw errbound::support::file_error(name + ":" + std::to_string(line) + ": " + what);
 }
 
-std::string describe(number_status status, const std::string& found) {
-    const char* expected = ", expected a number";
+std::string describe(number_status status, const std::string& name, const std::string& found) {
+    std::string expected = "; expected a number";
     switch (status) {
         case number_status::ok:
         case number_status::malformed:
             break;
         case number_status::not_finite:
-            expected = ", expected a finite number";
+            expected = "; expected a finite number";
             break;
         case number_status::overflow:
-            expected = ", which overflows, expected a finite number";
+            expected = ", which overflows; expected a finite number";
             break;
         case number_status::inexact:
-            expected = ", which no double equals, expected an exact double";
+            expected = ", which no double equals; expected an exact double";
             break;
         case number_status::zero_denominator:
-            expected = ", expected a nonzero denominator";
+            expected = "; expected a nonzero denominator";
             break;
         case number_status::too_long:
-            return "found " + found + ", which has too many digits, expected at most " +
-                   std::to_string(longest_number);
+            expected =
+                ", which has too many digits; expected at most " + std::to_string(longest_number);
     }
-    return "found " + found + expected;
+    return name + " is " + found + expected;
 }
 
 number parse_double(std::string_view token, bool round) {

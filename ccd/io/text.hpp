@@ -79,15 +79,15 @@ struct number {
     number_status status = number_status::ok;
 };
 
-/// A message, "found F, expected E", for a status other than ok. `found` is an excerpt of the
-/// number, and may name it.
-std::string describe(number_status status, const std::string& found);
+/// The message "NAME is FOUND; expected ..." for a status other than ok. `found` is an excerpt of
+/// the number.
+std::string describe(number_status status, const std::string& name, const std::string& found);
 
 /// The double nearest to a decimal number, or the one equal to a hexadecimal float ("0x1.8p3"). A
 /// hexadecimal float that no double equals is inexact unless `round`. Independent of the locale.
 number parse_double(std::string_view token, bool round);
 
-/// As parse_double without rounding, for a float, which is then widened.
+/// Same as parse_double without rounding, for a float, which is then widened.
 number parse_float(std::string_view token);
 
 /// The double equal to numerator/denominator, two decimal integers of any size. If no double equals

@@ -24,8 +24,6 @@ using errbound::support::read_whole;
 
 namespace fs = std::filesystem;
 
-// ---- Finding ----
-
 bool is_mesh(const fs::path& path) {
     return path.extension() == ".ply" || path.extension() == ".obj";
 }
@@ -52,18 +50,15 @@ void add(data_source source, const fs::path& folder, found_data& found) {
     found.sources.push_back(std::move(source));
 }
 
-/// Adds all regular files below the folder, by absolute path.
 void add_files_below(const fs::path& folder, std::set<fs::path>& files) {
     if (!fs::is_directory(folder))
-        throw file_error(folder.string() + ": found no such folder, expected one of data");
+        throw file_error(folder.string() + ": folder does not exist; expected one of data");
     const auto options = fs::directory_options::skip_permission_denied;
     for (auto entry = fs::recursive_directory_iterator(fs::canonical(folder), options);
          entry != fs::recursive_directory_iterator(); ++entry) {
         if (entry->is_regular_file()) files.insert(entry->path());
     }
 }
-
-// ---- Truth ----
 
 template <class Query>
 void decide_by_exact(queries_with_truth<Query>& into, int threads) {
@@ -80,8 +75,6 @@ void decide_truth(data_set& data, int threads) {
     data.queries.for_each([threads](auto& known) { decide_by_exact(known, threads); });
 }
 
-// ---- Scenes ----
-
 /// The one file of ../boxes next to a scene's frames whose name has this ending, if there is one.
 std::optional<fs::path> stored_pairs(const fs::path& frame, const std::string& ending) {
     const fs::path folder = frame.parent_path().parent_path() / "boxes";
@@ -90,21 +83,20 @@ std::optional<fs::path> stored_pairs(const fs::path& frame, const std::string& e
     for (const auto& entry : fs::directory_iterator(folder)) {
         if (!entry.path().filename().string().ends_with(ending)) continue;
         if (found)
-            throw file_error(folder.string() + ": found several files *" + ending +
-                             ", expected the one of the frames next to it");
+            throw file_error(folder.string() + ": number of files *" + ending +
+                             " is more than 1; expected that of the frames next to it");
         found = entry.path();
     }
     return found;
 }
 
-/// Pairs of a file, a JSON array of [i, j]: elements by index.
 std::vector<std::array<std::size_t, 2>> read_pairs(const fs::path& path) {
     try {
         return nlohmann::json::parse(read_whole(path))
             .get<std::vector<std::array<std::size_t, 2>>>();
     } catch (const nlohmann::json::exception& error) {
-        throw file_error(path.string() + ": found " + error.what() +
-                         ", expected a JSON array of pairs of elements");
+        throw file_error(path.string() + ": content is no list (" + error.what() +
+                         "); expected a JSON array of pairs of elements");
     }
 }
 
@@ -150,17 +142,17 @@ void compare_stored(const fs::path& frame, const numbered_elements& elements,
     const auto pairs = read_pairs(*path);
     const std::vector<bool> truth = io::parse_truth(read_whole(truth_path), truth_path.string());
     if (truth.size() != pairs.size())
-        throw file_error(truth_path.string() + ": found " + std::to_string(truth.size()) +
-                         " truth values, expected " + std::to_string(pairs.size()) +
-                         ", one per pair of " + path->string());
+        throw file_error(truth_path.string() + ": number of truth values is " +
+                         std::to_string(truth.size()) + "; expected " +
+                         std::to_string(pairs.size()) + ", one for each pair of " + path->string());
     contents += read_whole(*path) + read_whole(truth_path);
 
     std::map<pair_of_query<Query>, bool> stored;  // a pair may be in the file twice
     for (std::size_t i = 0; i < pairs.size(); ++i) {
         const auto pair = elements.pair<pair_of_query<Query>>(pairs[i][0], pairs[i][1]);
         if (!pair)
-            throw file_error(path->string() + ": element " + std::to_string(i) +
-                             ": found an index out of range, expected one of the frames'");
+            throw file_error(path->string() + ": index in element " + std::to_string(i) +
+                             " is out of range; expected indices of the frames' elements");
         stored[detail::canonical(*pair)] = truth[i];
     }
     known.stored_truths = pairs.size();
@@ -192,8 +184,6 @@ void load_scene(const data_source& source, int threads, data_set& into, std::str
     into.queries.for_each(
         [&](auto& known) { compare_stored(source.frames[0], elements, known, contents); });
 }
-
-// ---- Stored queries ----
 
 /// One truth per query; -1 if none is stored.
 template <class Query>
@@ -227,8 +217,6 @@ void load_queries(const data_source& source, int threads, data_set& into, std::s
         contents.append(known.collides.begin(), known.collides.end());
     });
 }
-
-// ---- Generated queries ----
 
 /// `count` queries of each kind, query i by make(i, kind).
 template <class Make>
@@ -278,8 +266,9 @@ found_data find_data(const std::vector<fs::path>& folders) {
     }
     for (auto& [folder, frames] : meshes) {
         if (frames.size() != 2) {
-            found.skipped.push_back({folder, "found " + std::to_string(frames.size()) +
-                                                 " meshes there, expected two frames"});
+            found.skipped.push_back(
+                {folder,
+                 "number of meshes is " + std::to_string(frames.size()) + "; expected two frames"});
             continue;
         }
         std::ranges::sort(frames, {}, [](const fs::path& frame) {

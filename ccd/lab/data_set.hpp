@@ -15,14 +15,12 @@
 
 namespace ccd::lab {
 
-/// The files of a data set.
 struct data_source {
     std::string name;                            ///< unique among those found together
     std::vector<std::filesystem::path> queries;  ///< CSV files, sorted
     std::vector<std::filesystem::path> frames;   ///< of a scene: two, and no CSV files
 };
 
-/// A skipped file or folder.
 struct omission {
     std::filesystem::path path;
     std::string why;
@@ -41,7 +39,6 @@ struct found_data {
 /// errbound::support::file_error if a folder is missing.
 found_data find_data(const std::vector<std::filesystem::path>& folders);
 
-/// Queries of one kind with their truth.
 template <class Query>
 struct queries_with_truth {
     query_set<Query> queries;
@@ -65,7 +62,6 @@ struct data_set {
     data_set(const data_set&) = delete;
     data_set& operator=(const data_set&) = delete;
 
-    /// visit(queries_with_truth) of a stored kind.
     template <class Visit>
     decltype(auto) visit(kind which, Visit&& visit) const {
         return visit_stored_kind(
@@ -74,7 +70,6 @@ struct data_set {
 };
 using loaded_data = std::unique_ptr<data_set>;
 
-/// Reads the files and finds the truth.
 ///
 /// Stored queries: from their file (io::read_queries), otherwise by `exact`. A scene: all pairs
 /// that share no vertex and whose swept boxes touch, sorted, their truth by `exact`. Truth that is

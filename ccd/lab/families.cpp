@@ -19,9 +19,9 @@ using namespace generators;
 // ---- Knobs, and exact building ----
 //
 // These queries are built without rounding, so that their contacts are where they should be: local
-// coordinates are multiples of `unit`, or tiny numbers on an axis of their own.
+// coordinates are multiples of `unit`, or tiny numbers on a separate axis.
 
-/// A position at each end of the step of each point, on axes of its own.
+/// A position at each end of the step of each point, on separate axes.
 using local_points = std::array<ends, 4>;
 
 /// One unit in the last place of numbers from 4 to 8.
@@ -45,7 +45,6 @@ std::vector<double> joined(std::vector<double> values, const std::vector<double>
     return values;
 }
 
-/// 2^exponent for a logarithmic knob.
 double power_of_two(double knob) {
     return knob == exact_zero ? 0 : std::ldexp(1, static_cast<int>(knob));
 }
@@ -151,8 +150,6 @@ position any_weights(source& random, std::size_t corners) {
     return random.one_in(2) ? border_weights(random, corners) : weights(random, corners);
 }
 
-// ---- Scale ----
-
 points of_scale(source& random, kind which, double knob) {
     const points p = near_decision(random, which);
     double largest = 0;
@@ -206,8 +203,6 @@ points of_displacement(source& random, kind which, double knob) {
         contact_at(random, which, std::ldexp(1, exponent), positions(random), any_weights);
     return random.one_in(2) ? p : shifted(random, which, p, exponent - random.between(0, 30));
 }
-
-// ---- Gaps ----
 
 /// At rest except for a common motion: above the middle of the other feature by the gap, or in its
 /// plane and outside or inside its border by the gap.
@@ -264,8 +259,6 @@ points of_approached_gap(source& random, kind which, double knob) {
     return relabelled(random, which, placed(random, p));
 }
 
-// ---- Thin features ----
-
 /// A weight that is inside, on a border, or off it by 2^-3 to 2^-40.
 double border_weight(source& random) {
     const int pick = random.between(0, 5);
@@ -276,8 +269,8 @@ double border_weight(source& random) {
 }
 
 /// A vertex that passes a triangle of the given heights over its base, or an edge that passes one
-/// of the given lengths, at a place of constant weights w (of the height) and u. Heights are on an
-/// axis of their own, so that even the tiniest are exact.
+/// of the given lengths. The position has constant weights w (of the height) and u. Heights are on
+/// a separate axis, so that even the tiniest are exact.
 points passing_thin(source& random, kind which, const std::array<double, 2>& height) {
     const double l = random.between(4, 8) / 8.0, c = random.between(0, 8) / 8.0;
     // At most one of the weights is off a border, so that their product is exact.
@@ -356,8 +349,6 @@ points of_coplanar(source& random, kind which, double knob) {
     });
 }
 
-// ---- Touches ----
-
 /// Knob 0, ±1, ±2, ±3, ...: 0, ±1, ±2, ±4, ... units.
 double units_of(double knob) {
     return knob == 0 ? 0
@@ -421,8 +412,6 @@ points of_touch_at_border(source& random, kind which, double knob) {
     return relabelled(random, which, placed(random, p));
 }
 
-// ---- Roots ----
-
 /// The coplanarity function is exactly r² + η (two roots, η = ±(separation/2)²) or r³ − s²·r
 /// (three), for r = t − eighth/8.
 ///
@@ -472,8 +461,6 @@ points of_roots(source& random, kind which, double knob) {
     return relabelled(random, which, placed(random, p, general ? 3 : 2));
 }
 
-// ---- Others ----
-
 /// A thin layer, like a stiff one: relative positions on one axis, and all relative motion, are
 /// 2^knob of the common motion; in contact, or missing it by a fraction of the relative motion.
 points of_stiffness(source& random, kind which, double knob) {
@@ -505,8 +492,6 @@ points of_not_finite(source& random, kind which, double knob) {
                    return spoilt[6 * point + 3 * end + axis] ? instead[random.between(0, 2)] : x;
                });
 }
-
-// ---- The table ----
 
 constexpr std::string_view ulps_inside = "ulps inside: sign(k) 2^(abs(k)-1)";
 

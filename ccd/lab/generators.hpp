@@ -126,7 +126,6 @@ inline points subnormal(source& random) {
         [&](auto...) { return std::ldexp(random.between(-(1 << size), 1 << size), -1074); });
 }
 
-// Any finite doubles.
 inline points any_bits(source& random) {
     return fill([&](auto...) {
         for (;;) {
@@ -229,12 +228,10 @@ inline points nearly_in_plane(source& random, const points& p, int exponent) {
 
 // ---- Queries in contact, or near one ----
 
-// The number of points of a query's first feature.
 inline std::size_t first_feature_size(kind which) {
     return which == kind::edge_edge ? 2 : 1;
 }
 
-// Each feature moves as a whole.
 inline points translated(source& random, kind which, const points& p) {
     const std::size_t first_feature = first_feature_size(which);
     std::array<position, 2> shift;
@@ -267,7 +264,7 @@ inline std::array<position, 4> positions(source& random) {
 }
 
 // A contact at one instant, as near as rounding allows: the first feature of `at` (EE: the second)
-// is moved there, then each point gets a velocity of its own, times `speed`.
+// is moved there, then each point gets its own velocity, times `speed`.
 // pick(random, corners) gives the weights of the point of contact.
 template <class Pick>
 points contact_at(source& random, kind which, double speed, std::array<position, 4> at, Pick pick) {
@@ -392,11 +389,11 @@ struct fraction {
 
 // Contacts at chosen roots of the coplanarity function, multiplicities included. They are exact.
 //
-// The columns of M(t) = U T(t) V are the query's three differences. T is upper triangular, its
-// diagonal vanishes at the chosen roots r0, r1 and r2, so det M has exactly those. At r0 the first
-// unit vector is in T's kernel, and V = n A^-1 for A with first column (x, y, n) puts (x, y, n)
-// into M's. Therefore x and y, over n, are the weights of the contact. All numbers are small whole
-// numbers, so nothing rounds.
+// The columns of M(t) = U T(t) V are the query's three differences. T is upper triangular, and its
+// diagonal vanishes at the chosen roots r0, r1 and r2, which are the roots of det M. At r0 the
+// first unit vector is in T's kernel. With V = n A^-1, where A has the first column (x, y, n),
+// (x, y, n) is in the kernel of M. So x/n and y/n are the weights of the contact. All numbers are
+// small integers, so nothing rounds.
 inline points chosen_roots(source& random, kind which, const std::array<fraction, 3>& roots) {
     const bool face = which == kind::vertex_face;
     const int n = random.between(1, 4);

@@ -82,7 +82,6 @@ decltype(auto) visit_query(kind which, const points& p, Visit&& visit) {
     });
 }
 
-/// The same for a visit that takes only stored kinds.
 template <class Visit>
 decltype(auto) visit_stored_query(kind which, const points& p, Visit&& visit) {
     return visit_stored_kind(which, [&]<kind K>() -> decltype(auto) {

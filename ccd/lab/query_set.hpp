@@ -54,7 +54,6 @@ struct query_set {
         return result;
     }
     query_set at_most(std::size_t count) const { return size() > count ? resized(count) : *this; }
-    /// All as stored queries.
     std::vector<Query> all_stored() const {
         std::vector<Query> queries;
         queries.reserve(size());

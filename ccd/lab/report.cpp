@@ -31,8 +31,6 @@ std::string now() {
     return text;
 }
 
-// ---- Parts ----
-
 /// The parts of a report, in the order in which they are measured. They refer to the list and to
 /// the data, which must stay where they are.
 class part_list {
@@ -231,9 +229,6 @@ void measure(const std::vector<part>& parts, report_summary& report, const show_
                 r.update(s);
 }
 
-// ---- Data ----
-
-/// Reads the data. Data that cannot be read is skipped and reported.
 std::vector<loaded_data> collect_data(report_summary& report, const show_progress& show) {
     const report_options& settings = report.settings;
     const found_data found = find_data(settings.data);
@@ -253,9 +248,8 @@ std::vector<loaded_data> collect_data(report_summary& report, const show_progres
         }
     }
     if (all.empty()) {
-        std::string message = "found no stored queries and no scene in";
+        std::string message = "number of data sets is 0; expected stored queries or a scene in";
         for (const fs::path& folder : settings.data) message.append(" ").append(folder.string());
-        message.append(", expected a data set");
         for (const omission& o : report.skipped)
             message.append("; skipped: ").append(o.path.string() + ": " + o.why);
         throw file_error(message);
@@ -292,8 +286,6 @@ void describe(const data_set& data, report_summary& report) {
                                   std::to_string(contradictions) + " of " + std::to_string(stored) +
                                   " stored truths");
 }
-
-// ---- Results ----
 
 std::string text(const row& r, const char* column) {
     return r[column].is_string() ? r[column].get<std::string>() : r[column].dump();
@@ -333,7 +325,6 @@ void add_failures(report_summary& report) {
     });
 }
 
-/// Writes the tables; removes those of an earlier run.
 void write_tables(report_summary& report) {
     for (const section& s : sections()) {
         const fs::path path = report.settings.out / (s.name + ".csv");

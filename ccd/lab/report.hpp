@@ -58,12 +58,10 @@ std::optional<rows> stored_part(const std::filesystem::path& folder, const part&
 /// Writes the part, whole or not at all. Throws errbound::support::file_error.
 void store_part(const std::filesystem::path& folder, const part& p, const rows& measured);
 
-/// A PNG in the report's folder, and its caption.
 struct picture {
     std::string file, caption;
 };
 
-/// The content of report.md.
 struct report_summary {
     report_options settings;
     row machine;  ///< at the start
@@ -89,7 +87,6 @@ report_summary make_report(const report_options& settings,
                            const std::function<void(double, const std::string&)>& show,
                            const std::function<void(const std::string&)>& print);
 
-/// The text of report.md.
 std::string text_of(const report_summary& report);
 
 }  // namespace ccd::lab

@@ -94,7 +94,6 @@ std::string data(const report_summary& report) {
     return text + (report.skipped.empty() ? "" : "\n");
 }
 
-/// All rows of methods and times.
 std::string per_data_set(const report_summary& report) {
     const rows &methods = table_of(report, "methods"), &times = table_of(report, "times");
     std::string text;

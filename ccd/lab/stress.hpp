@@ -34,7 +34,7 @@ struct subject {
     by_stored_kind<decider> decide;
 };
 
-/// The name of `exact` in batches, as a method of its own.
+/// The name of `exact` in batches, as a separate method.
 inline constexpr std::string_view batch_name = "exact, batch";
 
 /// The method of ccd::methods() with that name, or `exact` in batches. Precondition: there is one.
@@ -81,10 +81,10 @@ using stress_progress = std::function<void(std::size_t done, std::size_t all, co
 /// are timed on the calling one while nothing else runs. Deterministic except for times.
 std::vector<cell> run(const plan& what, const stress_progress& show);
 
-/// How `answer` breaks a promise of `who`, if it does. `truth` is uncertain if coordinates are not
-/// finite. Promises: no collision lost and none reported falsely, as far as the method says so;
-/// `collides` and `separate` are certain, if the method promises any of these; an answer, if it
-/// promises both; `uncertain` with cause `range` for coordinates that are not finite.
+/// Returns the promise of `who` that `answer` breaks, if any. `truth` is uncertain if coordinates
+/// are not finite. Promises: no lost and no false collisions, as in the method's description. If it
+/// promises one of these, `collides` and `separate` are certain; if both, it decides. Coordinates
+/// that are not finite give `uncertain` with cause `range`.
 std::optional<std::string_view> broken_by(const subject& who, verdict answer, outcome truth);
 
 /// The columns of stress.csv.

@@ -1,5 +1,5 @@
-// `bsc-exact`: the BSC template over intervals, then over integers, and the contacts of vertices
-// and edges that decide what it leaves open. Why that is right: proofs/README.md, "bsc-exact".
+// `bsc-exact`: the BSC template over intervals, then over integers. Contacts of vertices and edges
+// decide the queries that remain. Derivation: proofs/README.md, "bsc-exact".
 // Proof: proofs/BscExact.v, bsc_exact_face, bsc_exact_edges.
 #include <algorithm>
 #include <ccd/methods/bsc.hpp>

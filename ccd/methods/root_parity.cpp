@@ -1,5 +1,5 @@
-// `root-parity`: the parity of a ray's crossings with the image of the domain's boundary, once over
-// intervals, where an uncertain sign ends it, and once over integers. proofs/README.md, "Root
+// `root-parity`: the parity of a ray's crossings with the image of the domain's boundary, first
+// over intervals, which end at an uncertain sign, then over integers. proofs/README.md, "Root
 // parity", derives the map, the patches' triangles and the ray that is never degenerate.
 #include <algorithm>
 #include <array>
@@ -21,7 +21,7 @@ using errbound::sign_type;
 template <std::size_t Corners>
 using corner_indices = std::array<std::size_t, Corners>;
 
-/// F at the corners of the domain, and which of them make up its boundary. Patch i is that of
+/// F at the corners of the domain, and the faces of its boundary. Patch i is that of
 /// vertex_edge_queries()[i].
 template <class S>
 struct boundary_image {
@@ -30,7 +30,7 @@ struct boundary_image {
     std::span<const corner_indices<4>> patches;
 };
 
-/// Corner k: the vertex of the face it belongs to; three more at t = 1.
+/// Corners 0 to 2 are the face's vertices at t = 0; three more are at t = 1.
 template <class S>
 boundary_image<S> image_of(const vertex_face<S>& q) {
     static constexpr corner_indices<3> triangles[] = {{0, 1, 2}, {3, 4, 5}};
@@ -45,7 +45,7 @@ boundary_image<S> image_of(const vertex_face<S>& q) {
     }
     return image;
 }
-/// Corner i + 2j: ends i of edge a and j of edge b; four more at t = 1.
+/// Corner i + 2j is of end i of edge a and end j of edge b; four more are at t = 1.
 template <class S>
 boundary_image<S> image_of(const edge_edge<S>& q) {
     static constexpr corner_indices<3> triangles[] = {{0, 1, 3}, {0, 3, 2}, {4, 5, 7}, {4, 7, 6}};
@@ -64,7 +64,7 @@ boundary_image<S> image_of(const edge_edge<S>& q) {
     return image;
 }
 
-/// What the ray does with a part of the boundary's image.
+/// The crossings of the ray with a part of the boundary's image.
 enum class crossing { none, odd, at_origin, uncertain };
 
 constexpr crossing combined(crossing a, crossing b) {
@@ -73,8 +73,7 @@ constexpr crossing combined(crossing a, crossing b) {
                                                                 : crossing::none;
 }
 
-/// Whether one strict sign is common to a coordinate of all corners; it then is the sign of that
-/// coordinate in all that they span.
+/// True if a coordinate of all corners has this strict sign, which all points that they span share.
 template <class Corners, class Axis>
 bool all_have(sign_type sign, const Corners& corners, const Axis& axis) {
     return std::ranges::all_of(corners,
@@ -85,7 +84,7 @@ bool all_have(sign_type sign, const Corners& corners, const Axis& axis) {
 template <class S, std::size_t Corners>
 using part_corners = std::array<const vector_form<S, 0>*, Corners>;
 
-/// Whether the ray passes the corners' convex hull by, as its sides along the axes tell.
+/// True if the ray certainly misses the corners' convex hull, by the signs of coordinates.
 template <class S, std::size_t Corners>
 bool ray_misses(const part_corners<S, Corners>& c) {
     using vector = vector_form<S, 0>;
@@ -96,8 +95,8 @@ bool ray_misses(const part_corners<S, Corners>& c) {
            all_have(sign_type::positive, c, &vector::z);
 }
 
-/// Whether the projection of the side from p to q passes the ray's origin on the side +y: then the
-/// sign of its rise in z, else zero.
+/// Returns the sign of the rise in z from p to q. Returns zero unless the projection of this side
+/// passes the ray's origin on the side +y.
 template <class S>
 sign_type rise_beside_origin(const vector_form<S, 0>& p, const vector_form<S, 0>& q) {
     const sign_type at_p = sign_of(p.z[0]), at_q = sign_of(q.z[0]);
@@ -109,7 +108,7 @@ sign_type rise_beside_origin(const vector_form<S, 0>& p, const vector_form<S, 0>
     return turn == -rise ? sign_type::zero : rise;
 }
 
-/// Does the ray hit the triangle, whose det(p, q, r) has the sign `determinant`?
+/// Tests the ray against the triangle, whose det(p, q, r) has the sign `determinant`.
 template <class S>
 crossing at_triangle(const part_corners<S, 3>& c, sign_type determinant) {
     if (ray_misses<S>(c)) return crossing::none;
@@ -127,9 +126,9 @@ crossing at_triangle(const part_corners<S, 3>& c, sign_type determinant) {
     return determinant == normal_x ? crossing::odd : crossing::none;
 }
 
-/// A triangle of the image itself. The origin lies in it if it lies in its plane and the corners'
-/// cross products do not point opposite ways. (Its sides that are sides of patches are left to
-/// those, and so is all of a triangle without area.)
+/// Tests a triangle of the image. The origin lies in it if it lies in its plane and the corners'
+/// cross products do not point opposite ways. (Sides that are sides of patches are left to the
+/// patches, as are triangles without area.)
 template <class S>
 crossing at_face(const part_corners<S, 3>& c) {
     if (ray_misses<S>(c)) return crossing::none;
@@ -147,7 +146,7 @@ crossing at_face(const part_corners<S, 3>& c) {
     return holds_origin ? crossing::at_origin : crossing::none;
 }
 
-/// A patch. `flat_contact()` tells, if its plane holds the origin, whether it does itself.
+/// Tests a patch. If its plane contains the origin, `flat_contact()` tests whether the patch does.
 template <class S, class FlatContact>
 crossing at_patch(const part_corners<S, 4>& c, const FlatContact& flat_contact) {
     if (ray_misses<S>(c)) return crossing::none;
@@ -174,7 +173,7 @@ crossing at_patch(const part_corners<S, 4>& c, const FlatContact& flat_contact) 
                                   at_triangle<S>({c[0], c[2], c[3]}, -signs[1]));
 }
 
-/// All of the boundary's image. `flat_contact(i)` as above, of patch i.
+/// Tests the whole boundary's image. flat_contact(i) is that of patch i.
 template <class S, class FlatContact>
 crossing at_boundary(const boundary_image<S>& image, const FlatContact& flat_contact) {
     const auto corners_of = [&image]<std::size_t Corners>(const corner_indices<Corners>& indices) {

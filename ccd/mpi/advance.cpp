@@ -1,8 +1,8 @@
-// Advances of a mesh that is spread over ranks: each holds what is near to its part of space, and
-// all know how every group moves, for they join, shorten and take back by the same list of pairs.
+// Advances of a mesh on many ranks. Each rank holds the elements near its region of space. All know
+// the motion of every group, because all join, shorten and take back by the same list of pairs.
 //
-// Elements stay where the whole step brought them: a shorter way is within the box of the whole
-// one, and so is what two shorter ways' boxes share.
+// Elements stay on the ranks of the whole step: boxes of a shorter way, and intersections of two
+// such boxes, are inside those of the whole step.
 #include <algorithm>
 #include <ccd/mpi.hpp>
 #include <chrono>
@@ -13,27 +13,27 @@
 #include "ccd/mpi/checks.hpp"
 #include "ccd/mpi/decomposition.hpp"
 #include "ccd/mpi/exchange.hpp"
-#include "ccd/mpi/held_mesh.hpp"
+#include "ccd/mpi/local_mesh.hpp"
 #include "ccd/step/advancing.hpp"
 #include "ccd/step/vertex_groups.hpp"
 
 namespace ccd::mpi {
 namespace {
 
-/// A rank's vertices by index: first those that it holds, then all others that it has heard of.
+/// A rank's vertices by index: first those that it holds, then others that it has received.
 class known_vertices {
   public:
-    known_vertices(const detail::held_mesh& held, bool islands)
-        : held_(held), islands_(islands), groups_(held.vertices()) {
+    known_vertices(const detail::local_mesh& local, bool islands)
+        : local_(local), islands_(islands), groups_(local.vertices()) {
         if (!islands) groups_.join_all();
-        if (groups_.vertices() == 0) groups_.add();  // for what all vertices do
+        if (groups_.vertices() == 0) groups_.add();  // represents all vertices
         first_other_ = static_cast<vertex_index>(groups_.vertices());
-        for (vertex_index v = 0; islands && v < held.vertices(); ++v)
-            groups_.join_named(held.island(v), v);
+        for (vertex_index v = 0; islands && v < local.vertices(); ++v)
+            groups_.join_named(local.island(v), v);
     }
 
     vertex_index index(vertex_number number, int island) {
-        if (const auto held = held_.find(number)) return *held;
+        if (const auto local = local_.find(number)) return *local;
         const auto [at, is_new] = others_.try_emplace(number, 0);
         if (is_new) {
             at->second = groups_.add();
@@ -44,15 +44,15 @@ class known_vertices {
         return at->second;
     }
     vertex_number number(vertex_index v) const {
-        return v < first_other_ ? held_.number(v) : numbers_[v - first_other_];
+        return v < first_other_ ? local_.number(v) : numbers_[v - first_other_];
     }
     int island(vertex_index v) const {
-        return v < first_other_ ? held_.island(v) : islands_of_others_[v - first_other_];
+        return v < first_other_ ? local_.island(v) : islands_of_others_[v - first_other_];
     }
     ccd::detail::vertex_groups& groups() { return groups_; }
 
   private:
-    const detail::held_mesh& held_;
+    const detail::local_mesh& local_;
     bool islands_;
     ccd::detail::vertex_groups groups_;
     vertex_index first_other_ = 0;
@@ -61,13 +61,13 @@ class known_vertices {
     std::vector<int> islands_of_others_;
 };
 
-/// What ccd::detail::advancing asks of those that have the rest of the mesh.
+/// The exchange of ccd::detail::advancing with the ranks that have the rest of the mesh.
 class other_ranks {
   public:
     other_ranks(detail::exchanger& ranks, known_vertices& vertices)
         : ranks_(ranks), vertices_(vertices) {}
 
-    /// In the order of numbers.
+    /// Returns pairs in the order of numbers.
     template <class Pair>
     std::vector<ccd::detail::timed_pair<Pair>> found_by_all(
         const std::vector<ccd::detail::timed_pair<Pair>>& own) {
@@ -129,21 +129,21 @@ advance_result advance(MPI_Comm comm, const mesh_part& mesh, const advance_optio
     detail::check_options(ranks, options, mesh.numbers.size(), "ccd::mpi::advance");
     const detail::given_elements given(mesh, options.distances, options.filter.skip_unused);
     const detail::decomposition parts(ranks, given.boxes());
-    const detail::held_mesh held(ranks, mesh, given, parts, lists);
+    const detail::local_mesh local(ranks, mesh, given, parts, lists);
 
     const bool islands = detail::is_given_anywhere(ranks, options.groups);
-    known_vertices vertices(held, islands);
+    known_vertices vertices(local, islands);
     std::vector<vertex_index> own(mesh.numbers.size());
     for (std::size_t i = 0; i < own.size(); ++i)
         own[i] = vertices.index(mesh.numbers[i], islands ? options.groups[i] : 0);
     other_ranks others(ranks, vertices);
-    mesh_steps steps = held.steps();
-    advance_options asked = options;
-    asked.filter = held.filter(parts.part(ranks.rank()), options.filter);
-    asked.distances = held.distances(options.distances);
-    const vertex_rows way = held.way();
+    mesh_steps steps = local.steps();
+    advance_options adjusted = options;
+    adjusted.filter = local.filter(parts.part(ranks.rank()), options.filter);
+    adjusted.distances = local.distances(options.distances);
+    const vertex_rows way = local.way();
     const ccd::advance_result found =
-        ccd::detail::advancing(steps, way, asked, islands, vertices.groups(), others).run();
+        ccd::detail::advancing(steps, way, adjusted, islands, vertices.groups(), others).run();
 
     advance_result result;
     result.first_contact = found.first_contact;
@@ -159,7 +159,7 @@ advance_result advance(MPI_Comm comm, const mesh_part& mesh, const advance_optio
             ccd::detail::between(mesh.positions[i], f, vertices.groups().last_places_back(own[i])));
     }
     result.fraction = ranks.least(result.fraction);
-    result.work = {given.boxes().size(), held.elements(), ranks.bytes(),
+    result.work = {given.boxes().size(), local.elements(), ranks.bytes(),
                    std::chrono::duration<double>(clock::now() - start).count()};
     return result;
 }

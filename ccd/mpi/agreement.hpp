@@ -1,4 +1,4 @@
-// What one rank finds wrong, thrown on all.
+// Throws the error of one rank on all.
 #pragma once
 
 #include <mpi.h>
@@ -11,7 +11,7 @@
 
 namespace ccd::mpi::detail {
 
-/// What ends a call; the lesser goes before where ranks differ.
+/// Causes that end a call. If ranks differ, the lesser one takes precedence.
 enum class failure : int { refused, stopped, out_of_memory, other, none };
 
 inline failure failure_of(const std::exception& error) {
@@ -28,9 +28,9 @@ inline failure failure_of(const std::exception& error) {
     throw std::runtime_error(message);
 }
 
-/// Calls check() on every rank. If it throws on some, throws on all what the first of these ranks
-/// did: std::invalid_argument, ccd::stopped, std::bad_alloc, or else std::runtime_error, with that
-/// rank's message.
+/// Calls check() on every rank. If it throws on some, throws the exception of the first of these
+/// ranks on all, with its message: std::invalid_argument, ccd::stopped, std::bad_alloc, or else
+/// std::runtime_error.
 template <class Check>
 void agree(MPI_Comm comm, const Check& check) {
     int rank = 0;

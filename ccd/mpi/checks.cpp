@@ -1,4 +1,4 @@
-// Checks of what ranks are given.
+// Checks the input of ranks.
 #include "ccd/mpi/checks.hpp"
 
 #include <algorithm>
@@ -12,14 +12,14 @@
 namespace ccd::mpi::detail {
 namespace {
 
-/// By numbers that must be the same everywhere.
+/// Compares numbers that must be the same on all ranks.
 template <std::size_t N>
-void check_same(exchanger& ranks, const std::array<double, N>& asked, const std::string& caller) {
-    const auto all = ranks.gather(std::vector{asked}).items;
+void check_same(exchanger& ranks, const std::array<double, N>& options, const std::string& caller) {
+    const auto all = ranks.gather(std::vector{options}).items;
     ranks.agree([&] {
-        if (all.front() != asked)
-            throw std::invalid_argument(caller +
-                                        ": found other options than on rank 0, expected the same");
+        if (all.front() != options)
+            throw std::invalid_argument(
+                caller + ": options differ from those on rank 0; expected the same on all ranks");
     });
 }
 
@@ -27,25 +27,25 @@ void check_lengths(const vertex_lists& lists, std::size_t vertices, const std::s
     for (const std::size_t length :
          {lists.groups.size(), lists.pinned.size(), lists.thickness.size(), lists.islands.size()})
         if (length != 0 && length != vertices)
-            throw std::invalid_argument(caller + ": found a list of " + std::to_string(length) +
-                                        " vertices, expected " + std::to_string(vertices) +
-                                        ", one entry a number");
+            throw std::invalid_argument(caller + ": length of a list is " + std::to_string(length) +
+                                        "; expected " + std::to_string(vertices) +
+                                        ", one entry for each number");
 }
 
-/// Of lists that one rank with vertices has and another does not.
+/// Checks that all ranks with vertices have the same lists.
 void check_given_alike(exchanger& ranks, const vertex_lists& lists, std::size_t vertices,
                        const std::string& caller) {
     const std::array given{!lists.groups.empty(), !lists.pinned.empty(), !lists.thickness.empty(),
                            !lists.islands.empty()};
-    // Ranks without vertices have nothing to say.
+    // Ranks without vertices do not take part.
     const auto all =
         ranks.gather(vertices == 0 ? std::vector<std::array<bool, 4>>() : std::vector{given});
     ranks.agree([&] {
         if (vertices != 0 && all.items.front() != given)
             throw std::invalid_argument(
                 caller +
-                ": found other lists of groups, flags or thicknesses than elsewhere, expected the "
-                "same on all ranks with vertices");
+                ": lists of groups, flags, thicknesses or islands are not those of other ranks; "
+                "expected the same ones on all ranks with vertices");
     });
 }
 
@@ -56,18 +56,19 @@ void check_mesh(exchanger& ranks, const mesh_part& mesh, const pair_filter& filt
     const std::size_t vertices = mesh.numbers.size();
     ranks.agree([&] {
         if (mesh.positions.vertices != vertices)
-            throw std::invalid_argument(
-                caller + ": found " + std::to_string(mesh.positions.vertices) +
-                " positions, expected " + std::to_string(vertices) + ", one a number");
+            throw std::invalid_argument(caller + ": number of positions is " +
+                                        std::to_string(mesh.positions.vertices) + "; expected " +
+                                        std::to_string(vertices) + ", one for each number");
         std::unordered_set<vertex_number> unique;
         for (const vertex_number number : mesh.numbers)
             if (!unique.insert(number).second)
-                throw std::invalid_argument(caller + ": found a vertex's number given twice, " +
-                                            std::to_string(number));
+                throw std::invalid_argument(caller + ": number of a vertex is " +
+                                            std::to_string(number) +
+                                            " twice; expected unique numbers");
         if (filter.can_collide || filter.region)
             throw std::invalid_argument(caller +
-                                        ": found can_collide or a part of space, expected groups "
-                                        "and pinned flags alone");
+                                        ": filter has can_collide or a region; expected only "
+                                        "groups and pinned flags");
         ccd::detail::check_elements(mesh.faces, mesh.edges, vertices, caller);
         ccd::detail::check_positions(mesh.positions, vertices, mesh.numbers);
         check_lengths(lists, vertices, caller);

@@ -1,5 +1,5 @@
-// Checks of what ranks are given. check_... throw std::invalid_argument on all ranks if one of them
-// is given something else than expected; `caller` is named in the message.
+// Checks the input of ranks. check_... throw std::invalid_argument on all ranks if one of them
+// fails; the message names `caller`.
 #pragma once
 
 #include <ccd/advance.hpp>
@@ -13,12 +13,12 @@
 
 namespace ccd::mpi::detail {
 
-/// What options say of each vertex; empty where they say nothing.
+/// Lists of options with an entry for each vertex; empty if not given.
 struct vertex_lists {
     std::span<const int> groups;             ///< of the filter
     std::span<const std::uint8_t> pinned;    ///< of the filter
     std::span<const double> thickness = {};  ///< of the distances
-    std::span<const int> islands = {};       ///< of what moves by one fraction, in an advance
+    std::span<const int> islands = {};       ///< groups that move by one fraction, in an advance
 
     vertex_lists(const pair_filter& filter, const pair_distances& distances,
                  std::span<const int> moving_as_one = {})
@@ -28,18 +28,18 @@ struct vertex_lists {
           islands(moving_as_one) {}
 };
 
-/// That a rank's part of a mesh is one, with lists of as many entries as it has vertices or, on all
-/// ranks with vertices, none; and that the filter can be sent.
+/// Checks a rank's part of a mesh and its lists: all ranks with vertices have the same ones, with
+/// an entry for each vertex. Also checks that the filter can be sent.
 void check_mesh(exchanger& ranks, const mesh_part& mesh, const pair_filter& filter,
                 const vertex_lists& lists, const std::string& caller);
 
-/// That all ranks ask for the same.
+/// Checks that all ranks have the same options.
 void check_options(exchanger& ranks, const step_options& options, placement pairs,
                    std::size_t vertices, const std::string& caller);
 void check_options(exchanger& ranks, const advance_options& options, std::size_t vertices,
                    const std::string& caller);
 
-/// Whether a list was given on some rank. Collective.
+/// True if a list was given on some rank. Collective.
 bool is_given_anywhere(exchanger& ranks, std::span<const int> list);
 
 }  // namespace ccd::mpi::detail

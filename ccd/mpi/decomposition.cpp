@@ -1,4 +1,4 @@
-// Samples, their expected work, and cuts.
+// Samples elements, estimates their work and cuts space.
 #include "ccd/mpi/decomposition.hpp"
 
 #include <algorithm>
@@ -7,16 +7,16 @@
 namespace ccd::mpi::detail {
 namespace {
 
-/// Of all ranks together: enough of each box to weigh it, in 50 MB or less up to 10,000 ranks.
+/// The number of samples of all ranks: enough to weigh each box, at most 50 MB up to 10,000 ranks.
 std::size_t samples_wanted(std::size_t ranks) {
     const std::size_t most = std::max<std::size_t>(1 << 19, 64 * ranks);
     return std::max<std::size_t>(4096, std::min(256 * ranks, most));
 }
 
-/// Of these, so many are asked what touches a sample.
-constexpr std::size_t others_asked = 4096;
+/// The number of samples that each sample is compared with.
+constexpr std::size_t compared_samples = 4096;
 
-/// A candidate's share of the work that an element makes by being there.
+/// The work of a candidate relative to that of an element.
 constexpr double work_of_candidate = 0.1;
 
 bool touch(const swept_box& a, const swept_box& b) {
@@ -25,8 +25,8 @@ bool touch(const swept_box& a, const swept_box& b) {
     return true;
 }
 
-/// The place such that those before it have about so large a share of all the work; 0 if there is
-/// none. Time: linear in their number.
+/// Returns the place such that the samples before it have about this share of the work; 0 without
+/// samples. Linear time.
 template <class Sample, class Place>
 double weighted_quantile(std::span<Sample> samples, const Place& place, double share) {
     if (samples.empty()) return 0;
@@ -64,20 +64,20 @@ decomposition::decomposition(exchanger& ranks, std::span<const swept_box> boxes)
     cut(0, ranks.size(), samples, {});
 }
 
-/// A pair begins near the smaller of its boxes: its work is that one's.
+/// A pair begins near the smaller of its boxes, so its work counts for that one.
 std::vector<decomposition::sample> decomposition::weighted_samples(
     exchanger& ranks, std::span<const swept_box> boxes) {
     std::size_t elements = 0;
     for (const std::size_t n : ranks.gather(std::vector{boxes.size()}).items) elements += n;
     const std::size_t wanted = samples_wanted(ranks.size());
-    // As large a share of the samples as of the elements.
+    // Each rank's share of the samples equals its share of the elements.
     std::vector<sample> own(elements <= wanted ? boxes.size()
                                                : (boxes.size() * wanted + elements - 1) / elements);
     for (std::size_t i = 0; i < own.size(); ++i)
         own[i] = {boxes[i * boxes.size() / own.size()],
                   static_cast<double>(boxes.size()) / static_cast<double>(own.size())};
     received<sample> all = ranks.gather(own);
-    const std::size_t step = std::max<std::size_t>(1, all.items.size() / others_asked);
+    const std::size_t step = std::max<std::size_t>(1, all.items.size() / compared_samples);
     std::vector<double> work;
     for (const sample& s : own) {
         double candidates = 0;
@@ -86,7 +86,7 @@ std::vector<decomposition::sample> decomposition::weighted_samples(
             if (size(s.box) <= size(other.box) && touch(s.box, other.box))
                 candidates += static_cast<double>(step) * other.elements;
         }
-        // Itself may be among them.
+        // The sample itself may be among them.
         work.push_back(s.elements *
                        (1 + work_of_candidate * std::max(0.0, candidates - s.elements)));
     }
@@ -95,7 +95,7 @@ std::vector<decomposition::sample> decomposition::weighted_samples(
     return std::move(all.items);
 }
 
-/// Returns the node's place.
+/// Returns the node's index.
 std::size_t decomposition::cut(std::size_t first, std::size_t count, std::span<sample> samples,
                                const space_region& part) {
     const std::size_t i = nodes_.size();
@@ -114,8 +114,7 @@ std::size_t decomposition::cut(std::size_t first, std::size_t count, std::span<s
     const auto axis = static_cast<std::size_t>(std::ranges::max_element(spreads) - spreads.begin());
     const auto place = [axis](const sample& s) { return s.box.low[axis]; };
     const std::size_t below = count / 2;
-    // Where there are no samples it may be anywhere in the part, which both halves must stay
-    // within.
+    // Without samples the quantile is arbitrary. Clamp it, so that both halves stay in the part.
     const double at = std::clamp(
         weighted_quantile(samples, place, static_cast<double>(below) / static_cast<double>(count)),
         part.low[axis], part.high[axis]);

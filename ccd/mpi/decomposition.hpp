@@ -1,4 +1,4 @@
-// Space cut into a box for each rank, by recursive coordinate bisection of weighted samples.
+// Cuts space into a box for each rank, by recursive coordinate bisection of weighted samples.
 #pragma once
 
 #include <array>
@@ -14,17 +14,17 @@ namespace ccd::mpi::detail {
 
 using swept_box = ccd::detail::box<double>;
 
-/// Boxes that tile space, one a rank; the same on all ranks. Some may be empty.
+/// Boxes that tile space, one for each rank; the same on all ranks. Some may be empty.
 class decomposition {
   public:
-    /// By some of each rank's boxes, which elements sweep. Collective. Time: at most
-    /// a million tests of boxes a rank, and what it takes to cut the samples, 256 a rank (4096 at
-    /// least, at most 2^19 or 64 a rank), once for each bit of the number of ranks.
+    /// Samples each rank's boxes, which elements sweep. Collective. Time: at most a million tests
+    /// of boxes a rank, plus the cuts of the samples, once for each bit of the number of ranks.
+    /// There are 256 samples a rank, at least 4096, at most 2^19 or 64 a rank.
     decomposition(exchanger& ranks, std::span<const swept_box> boxes);
 
     const space_region& part(std::size_t rank) const { return parts_[rank]; }
 
-    /// Calls visit(rank) for each rank whose part a closed box meets.
+    /// Calls visit(rank) for each rank whose region a closed box meets.
     template <class Visit>
     void for_each_met(const swept_box& box, const Visit& visit) const {
         for_each_met(0, box, visit);
@@ -33,7 +33,7 @@ class decomposition {
   private:
     struct sample {
         swept_box box;
-        double elements;  ///< that it stands for
+        double elements;  ///< the number of elements that it represents
         double work = 0;
     };
     /// A cut of ranks [first, first + count): below `at` on the axis are the first half.

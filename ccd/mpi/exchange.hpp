@@ -1,4 +1,4 @@
-// Lists of plain items from every rank to every rank.
+// Exchanges lists of plain items between all ranks.
 #pragma once
 
 #include <mpi.h>
@@ -19,7 +19,7 @@
 
 namespace ccd::mpi::detail {
 
-/// An item's bytes as one element of a message, whose count is an int.
+/// An item's bytes as one element of a message, because MPI counts elements by an int.
 template <class T>
 class item_type {
   public:
@@ -37,8 +37,7 @@ class item_type {
     MPI_Datatype type_;
 };
 
-/// Items in the order of the ranks that they came from: those of rank r are at starts[r] to
-/// starts[r + 1].
+/// Items in the order of their source ranks: rank r sent those from starts[r] to starts[r + 1].
 template <class T>
 struct received {
     std::vector<T> items;
@@ -61,7 +60,7 @@ class exchanger {
     MPI_Comm comm() const { return comm_; }
     std::size_t rank() const { return static_cast<std::size_t>(rank_); }
     std::size_t size() const { return static_cast<std::size_t>(size_); }
-    /// Sent to other ranks so far.
+    /// Bytes sent to other ranks so far.
     std::uint64_t bytes() const { return bytes_; }
 
     template <class Check>
@@ -69,7 +68,7 @@ class exchanger {
         detail::agree(comm_, check);
     }
 
-    /// lists[r] to rank r.
+    /// Sends lists[r] to rank r.
     template <class T>
     received<T> all_to_all(const std::vector<std::vector<T>>& lists) {
         std::vector<int> to(size()), from(size());
@@ -101,7 +100,7 @@ class exchanger {
         return result;
     }
 
-    /// Everybody's list, to all.
+    /// Sends every rank's list to all.
     template <class T>
     received<T> gather(const std::vector<T>& list) {
         std::vector<int> counts(size());
@@ -120,7 +119,7 @@ class exchanger {
         return result;
     }
 
-    /// Of all ranks' times that of the earliest contact; this rank's own if there is none.
+    /// Returns the time of the earliest contact of all ranks; `own` if there is none.
     first_time earliest(const first_time& own) {
         first_time earliest = own;
         for (const first_time& time : gather(std::vector{own}).items) {
@@ -141,8 +140,9 @@ class exchanger {
   private:
     static void require_int(std::size_t count, const char* what) {
         if (count > static_cast<std::size_t>(std::numeric_limits<int>::max()))
-            throw std::length_error("ccd::mpi: found " + std::to_string(count) + " items to " +
-                                    what + ", expected fewer than 2^31: use more ranks");
+            throw std::length_error("ccd::mpi: number of items to " + std::string(what) + " is " +
+                                    std::to_string(count) +
+                                    "; expected fewer than 2^31 (use more ranks)");
     }
 
     MPI_Comm comm_;

@@ -1,4 +1,4 @@
-// One step of a mesh that is spread over ranks.
+// One step of a mesh on many ranks.
 #include <algorithm>
 #include <ccd/mpi.hpp>
 #include <chrono>
@@ -8,12 +8,12 @@
 #include "ccd/mpi/checks.hpp"
 #include "ccd/mpi/decomposition.hpp"
 #include "ccd/mpi/exchange.hpp"
-#include "ccd/mpi/held_mesh.hpp"
+#include "ccd/mpi/local_mesh.hpp"
 
 namespace ccd::mpi {
 namespace {
 
-/// A pair on its way to who asked for it.
+/// A pair in a message to the rank that reports it.
 template <kind K>
 struct sent_pair {
     numbered_pair<K> vertices;
@@ -25,18 +25,18 @@ struct sent_pair {
 };
 
 template <kind K>
-void return_pairs(detail::exchanger& ranks, const detail::held_mesh& held,
+void return_pairs(detail::exchanger& ranks, const detail::local_mesh& local,
                   const ccd::step_result& found, placement where, step_result& result) {
     const auto& pairs = found.pairs.of<K>();
     const auto& times = found.times.of<K>();
     const auto& at_start = found.touching_at_start.of<K>();
     std::vector<std::vector<sent_pair<K>>> to(ranks.size());
     const std::vector<std::size_t> owners =
-        where == placement::root ? std::vector<std::size_t>(pairs.size(), 0) : held.owners(pairs);
+        where == placement::root ? std::vector<std::size_t>(pairs.size(), 0) : local.owners(pairs);
     for (std::size_t i = 0; i < pairs.size(); ++i) {
         sent_pair<K> pair{};
         std::ranges::transform(vertices_of(pairs[i]), pair.vertices.begin(),
-                               [&](vertex_index v) { return held.number(v); });
+                               [&](vertex_index v) { return local.number(v); });
         if (!times.empty()) pair.time = times[i];
         pair.touches_at_start = std::ranges::binary_search(at_start, pairs[i]);
         to[owners[i]].push_back(pair);
@@ -69,20 +69,20 @@ step_result step(MPI_Comm comm, const mesh_part& mesh, const step_options& optio
     detail::check_options(ranks, options, where, mesh.numbers.size(), "ccd::mpi::step");
     const detail::given_elements given(mesh, options.distances, options.filter.skip_unused);
     const detail::decomposition parts(ranks, given.boxes());
-    const detail::held_mesh held(ranks, mesh, given, parts, lists);
+    const detail::local_mesh local(ranks, mesh, given, parts, lists);
 
     ccd::step_result found;
     step_options own = options;
-    own.filter = held.filter(parts.part(ranks.rank()), options.filter);
-    own.distances = held.distances(options.distances);
-    ranks.agree([&] { found = held.steps().run(held.way(), own); });
+    own.filter = local.filter(parts.part(ranks.rank()), options.filter);
+    own.distances = local.distances(options.distances);
+    ranks.agree([&] { found = local.steps().run(local.way(), own); });
     step_result result;
-    for_each_kind([&]<kind K>() { return_pairs<K>(ranks, held, found, where, result); });
+    for_each_kind([&]<kind K>() { return_pairs<K>(ranks, local, found, where, result); });
     if (options.times || options.first_contact || options.t_max < 1)
         result.first_contact = ranks.earliest(found.first_contact);
     result.decided = found.candidates;
     if (found.candidates) result.candidates = sum_of(ranks, *found.candidates);
-    result.work = {given.boxes().size(), held.elements(), ranks.bytes(),
+    result.work = {given.boxes().size(), local.elements(), ranks.bytes(),
                    std::chrono::duration<double>(clock::now() - start).count()};
     return result;
 }

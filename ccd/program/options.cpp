@@ -62,7 +62,7 @@ double number_option::value(double otherwise, double max) const {
     if (!was_given()) return otherwise;
     const io::number number = io::parse_double(text_, false);
     if (number.status != io::number_status::ok)
-        throw usage_error(name_ + ": " + io::describe(number.status, text_));
+        throw usage_error(io::describe(number.status, name_, io::excerpt(text_)));
     if (number.value >= 0 && number.value <= max) return number.value;
     throw usage_error(name_ + " is " + io::excerpt(text_) + "; expected a number " +
                       (max == 1 ? "from 0 to 1" : ">= 0"));

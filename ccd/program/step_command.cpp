@@ -73,7 +73,7 @@ const first_time& first_contact_of(const step_outcome& found) {
     return found.advance ? found.advance->first_contact : found.result.first_contact;
 }
 
-std::uint64_t left_open(const stage_report::entry& entry) {
+std::uint64_t undecided(const stage_report::entry& entry) {
     return entry.entered - entry.separate - entry.collides;
 }
 
@@ -134,10 +134,10 @@ std::string json_of(const step_request& request, const mesh& before, const step_
             const stage_report::entry& entry = result.stages[stage.stage];
             document["stages"].push_back({{"stage", stage.name},
                                           {"entered", entry.entered},
-                                          {"left_out", entry.left_out},
+                                          {"skipped", entry.skipped},
                                           {"separate", entry.separate},
                                           {"collides", entry.collides},
-                                          {"left_open", left_open(entry)},
+                                          {"undecided", undecided(entry)},
                                           {"seconds", entry.seconds}});
         }
     }
@@ -166,22 +166,22 @@ std::string text_of_boxes(const step_request& request, const mesh& before,
 }
 
 std::string text_of_stages(const step_result& result) {
-    table rows = {{"stage", "queries", "skipped", "separate", "collide", "left open", "thread ms",
+    table rows = {{"stage", "queries", "skipped", "separate", "collide", "undecided", "thread ms",
                    "ns/query"}};
     std::string notes;
     double seconds = 0;
     for (const stage_info& stage : exact_stages) {
         const stage_report::entry& entry = result.stages[stage.stage];
         rows.push_back(
-            {std::string(stage.name), std::to_string(entry.entered), std::to_string(entry.left_out),
+            {std::string(stage.name), std::to_string(entry.entered), std::to_string(entry.skipped),
              std::to_string(entry.separate), std::to_string(entry.collides),
-             std::to_string(left_open(entry)), fixed(1e3 * entry.seconds, "%.2f"),
+             std::to_string(undecided(entry)), fixed(1e3 * entry.seconds, "%.2f"),
              entry.entered == 0
                  ? "-"
                  : fixed(1e9 * entry.seconds / static_cast<double>(entry.entered), "%.1f")});
         notes += std::string(stage.name) + ": " + std::string(stage.question) + " In " +
                  std::string(stage.arithmetic) + ".\n";
-        if (entry.left_out > 0)
+        if (entry.skipped > 0)
             notes += "    skipped where it decided fewer than a quarter of the queries before\n";
         seconds += entry.seconds;
     }
@@ -190,7 +190,7 @@ std::string text_of_stages(const step_result& result) {
            "queries from stage to stage took " + fixed(1e3 * std::max(rest, 0.0), "%.2f") +
            "\n\nY is zero where the four points are coplanar; no G_i is negative where that "
            "happens\n"
-           "within both features. Queries left open, and skipped ones, go on to the next stage.\n" +
+           "within both features. Undecided and skipped queries go to the next stage.\n" +
            notes;
 }
 

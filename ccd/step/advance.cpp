@@ -1,4 +1,3 @@
-// Advances of a mesh in one process.
 #include <algorithm>
 #include <ccd/advance.hpp>
 #include <stdexcept>
@@ -13,9 +12,9 @@ namespace {
 
 detail::vertex_groups groups_of(std::size_t vertices, std::span<const int> groups) {
     if (!groups.empty() && groups.size() != vertices)
-        throw std::invalid_argument("ccd::advance: found groups of " +
-                                    std::to_string(groups.size()) + " vertices, the mesh has " +
-                                    std::to_string(vertices));
+        throw std::invalid_argument("ccd::advance: number of groups is " +
+                                    std::to_string(groups.size()) + "; expected " +
+                                    std::to_string(vertices) + ", one for each vertex");
     detail::vertex_groups made(vertices);
     if (groups.empty()) made.join_all();
     for (vertex_index v = 0; v < groups.size(); ++v) made.join_named(groups[v], v);

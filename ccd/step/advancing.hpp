@@ -1,6 +1,5 @@
-// Advances: positions are tried, asked and shortened until a step to them is free. Written once for
-// a mesh in one process and for one that is spread over many, which tell one another what they
-// find (`Others`).
+// Advances: a step to the positions is tested and shortened until it is free. One template serves a
+// mesh in one process and one on many ranks, which exchange their contacts (`Others`).
 #pragma once
 
 #include <algorithm>
@@ -18,13 +17,13 @@
 
 namespace ccd::detail {
 
-/// The largest double before which, itself included, there certainly is no contact.
+/// The largest double such that there is certainly no contact up to and at it.
 inline double last_before(const first_time& time) {
     return time.low < time.high ? time.low : std::nextafter(time.low, 0.0);
 }
 
-/// The position at a fraction of the way, moved back by a number of last places, at most to
-/// `before`. Fractions 0 and 1 give the ends bit for bit: std::lerp can turn -0.0 into +0.0.
+/// Returns the position at a fraction of the way, moved back towards `before` by a number of last
+/// places. Fractions 0 and 1 give the ends bit for bit: std::lerp can turn -0.0 into +0.0.
 inline point<double> between(const moving_point<double>& way, double fraction,
                              int last_places_back) {
     const auto on_axis = [=](double before, double after) {
@@ -44,14 +43,13 @@ std::vector<Pair> without(const std::vector<Pair>& pairs, const std::vector<Pair
     return rest;
 }
 
-/// A pair with a contact, and when.
 template <class Pair>
 struct timed_pair {
     Pair pair;
     first_time time;
 };
 
-/// The mesh is in this process alone: nothing is found elsewhere.
+/// For a mesh that is in this process only.
 struct no_others {
     template <class Pair>
     std::vector<timed_pair<Pair>> found_by_all(std::vector<timed_pair<Pair>> pairs) {
@@ -62,13 +60,13 @@ struct no_others {
     bool all(bool holds) { return holds; }
 };
 
-/// One advance. Others must have the members of no_others: found_by_all gives on all processes the
-/// same pairs in the same order, call throws on all what `what` throws on one. Vertices that are
-/// not of `way` follow those that are, in `groups`.
+/// One advance. Others must have the members of no_others: found_by_all returns the same pairs in
+/// the same order on all processes. If `what` throws on one, call throws on all. In `groups`,
+/// vertices of other processes follow those of `way`.
 template <class Others>
 class advancing {
   public:
-    /// Of groups that are as the caller made them: `islands`, or one of all.
+    /// `groups` must be new. With `islands` it has groups; otherwise all vertices are one group.
     advancing(mesh_steps& steps, const vertex_rows& way, const advance_options& options,
               bool islands, vertex_groups& groups, Others& others)
         : steps_(steps),
@@ -78,11 +76,11 @@ class advancing {
           groups_(groups),
           others_(others) {}
 
-    /// All but result.fraction, which is 1; the lists hold what all found.
+    /// Returns all except result.fraction, which is 1. The lists are those of all processes.
     advance_result run() {
-        ask_whole_way();
-        // Each round joins groups, takes vertices back or shortens a way. Where meetings go on, all
-        // become one group, whose way is then not shortened more often than vertex_groups says.
+        evaluate_whole_way();
+        // Each round joins groups, takes vertices back or shortens a way. After rounds_by_group all
+        // become one group, and vertex_groups bounds how often its way is shortened.
         constexpr int rounds_by_group = 60;
         for (int round = 0; set_positions(); ++round) {
             may_retreat_ = round < rounds_by_group;
@@ -93,14 +91,14 @@ class advancing {
     }
 
   private:
-    /// What is on the whole way: who is left out, who is known to meet, and how far groups get.
-    void ask_whole_way();
+    /// Evaluates the whole way: finds the pairs to skip, pairs with a contact, and fractions.
+    void evaluate_whole_way();
     template <class Pair>
     void hold(const timed_pair<Pair>& contact);
     template <kind K>
-    void ask_near_ones();
+    void find_near_contacts();
 
-    /// Where the groups' fractions lead. Returns false if that is the whole way of all.
+    /// Sets positions from the groups' fractions. Returns false if all move the whole way.
     bool set_positions();
     vertex_rows way_to_result() const {
         return {way_.before, reinterpret_cast<const double*>(result_.positions.data()),
@@ -108,16 +106,16 @@ class advancing {
     }
 
     /// Separates pairs in contact on the way to the result's positions: known ones, or any. Returns
-    /// whether there were any.
+    /// true if there were any.
     bool separate_known();
     bool separate_others();
-    /// Separates what this and the others found. Returns whether there was any.
+    /// Separates the pairs that any process found. Returns true if there were any.
     template <class Pair>
     bool separate(const std::vector<Pair>& found);
 
-    step_result step(const vertex_rows& way, const step_options& asked) {
+    step_result step(const vertex_rows& way, const step_options& options) {
         step_result found;
-        others_.call([&] { found = steps_.run(way, asked); });
+        others_.call([&] { found = steps_.run(way, options); });
         return found;
     }
     template <class Pair>
@@ -140,7 +138,7 @@ class advancing {
         return all;
     }
 
-    step_options step_asked() const {
+    step_options base_options() const {
         return {.threads = options_.threads,
                 .set = options_.set,
                 .distances = options_.distances,
@@ -154,13 +152,13 @@ class advancing {
     bool islands_;
     vertex_groups& groups_;
     Others& others_;
-    pair_lists at_start_;            ///< of all
-    pair_lists known_, known_near_;  ///< found here
+    pair_lists at_start_;            ///< of all processes
+    pair_lists known_, known_near_;  ///< of this process
     bool may_retreat_ = true;
     advance_result result_;
 };
 
-/// Joins a pair's vertices, which then get to just before that time.
+/// Joins a pair's vertices, and limits their way to just before its contact.
 template <class Others>
 template <class Pair>
 void advancing<Others>::hold(const timed_pair<Pair>& contact) {
@@ -175,10 +173,10 @@ void advancing<Others>::hold(const timed_pair<Pair>& contact) {
         first = time;
 }
 
-/// Of pairs within their distance at the start: which touch, and when the others do.
+/// Finds contacts of pairs that are within their distance at the start.
 template <class Others>
 template <kind K>
-void advancing<Others>::ask_near_ones() {
+void advancing<Others>::find_near_contacts() {
     const auto contacts = timed(way_, known_near_.of<K>(), {});
     known_near_.of<K>().clear();
     for (const auto& contact : contacts)
@@ -192,12 +190,12 @@ void advancing<Others>::ask_near_ones() {
 }
 
 template <class Others>
-void advancing<Others>::ask_whole_way() {
-    step_options asked = step_asked();
+void advancing<Others>::evaluate_whole_way() {
+    step_options options = base_options();
     const bool contact = options_.distances.is_contact();
-    asked.first_contact = true;
-    asked.times = islands_;
-    const step_result whole = step(way_, asked);
+    options.first_contact = true;
+    options.times = islands_;
+    const step_result whole = step(way_, options);
     result_.first_contact = others_.earliest(whole.first_contact);
     if (result_.first_contact.outcome == outcome::collides && !islands_)
         groups_.limit(0, last_before(result_.first_contact));
@@ -215,7 +213,7 @@ void advancing<Others>::ask_whole_way() {
         }
         if (!contact) {
             known_near_.of<K>() = whole.touching_at_start.of<K>();
-            ask_near_ones<K>();
+            find_near_contacts<K>();
         }
     });
 }
@@ -259,7 +257,7 @@ bool advancing<Others>::separate_known() {
 
 template <class Others>
 bool advancing<Others>::separate_others() {
-    const step_result found = step(way_to_result(), step_asked());
+    const step_result found = step(way_to_result(), base_options());
     bool any = false;
     for_each_kind([&]<kind K>() {
         const auto others = without(found.pairs.of<K>(), at_start_.of<K>());

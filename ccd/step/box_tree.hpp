@@ -1,8 +1,8 @@
 // A tree over boxes, eight to a node, that finds all boxes touching a given one.
 //
-// The boxes come in an order in which neighbours are near each other; eight consecutive boxes form
-// a leaf, eight consecutive leaves a node above it, and so on up to one root. Nodes therefore need
-// no pointers, and one box is compared with a whole node by straight loops over floats.
+// The boxes are ordered so that neighbours are near each other. Eight consecutive boxes form a
+// leaf, eight consecutive leaves a node, and so on up to one root. Nodes need no pointers, and
+// straight loops over floats compare one box with a whole node.
 #pragma once
 
 #include <tbb/blocked_range.h>
@@ -27,7 +27,7 @@ struct box {
     std::array<Real, 3> low, high;
 };
 
-/// Bit i stands for box i of a pack.
+/// Bit i represents box i of a pack.
 using pack_mask = std::uint32_t;
 
 template <class Mask, class Visit>
@@ -35,10 +35,9 @@ void for_each_bit(Mask mask, const Visit& visit) {
     for (; mask != 0; mask &= mask - 1) visit(static_cast<std::size_t>(std::countr_zero(mask)));
 }
 
-/// Up to eight boxes side by side; the rest are nowhere and touch nothing.
+/// Up to eight boxes in columns; unused ones touch nothing.
 ///
-/// The comparisons are written with the vector types of GCC and clang, on which plain loops were
-/// vectorised in some places where they are inlined and not in others.
+/// Uses vector types of GCC and clang, because not all inlined plain loops were vectorised.
 template <class Real>
 class box_pack {
   public:
@@ -69,7 +68,6 @@ class box_pack {
         return b;
     }
 
-    /// The smallest box around all of them.
     box<Real> hull() const {
         box<Real> all = (*this)[0];
         for (std::size_t i = 1; i < size; ++i) {
@@ -82,7 +80,7 @@ class box_pack {
         return all;
     }
 
-    /// Those that touch b.
+    /// Returns the boxes that touch b.
     pack_mask touching(const box<Real>& b) const {
         return mask_of([&](std::size_t part) {
             lanes found = lanes{} - 1;
@@ -92,7 +90,7 @@ class box_pack {
         });
     }
 
-    /// Those that touch b, and none of whose ends touches an end of b.
+    /// Returns the boxes that touch b without a common end.
     pack_mask overlapping(const box<Real>& b) const {
         return mask_of([&](std::size_t part) {
             lanes found = lanes{} - 1;
@@ -104,12 +102,12 @@ class box_pack {
 
   private:
     using lane = std::conditional_t<sizeof(Real) == 4, std::int32_t, std::int64_t>;
-    static constexpr std::size_t vector_bytes = 16;  // what every processor has
+    static constexpr std::size_t vector_bytes = 16;  // available on every processor
     static constexpr std::size_t width = vector_bytes / sizeof(Real), parts = size / width;
     typedef Real reals __attribute__((vector_size(vector_bytes)));
     typedef lane lanes __attribute__((vector_size(vector_bytes)));
 
-    /// One bit for each lane of lanes_of(0), lanes_of(1), ... that is -1 rather than 0.
+    /// Collects the lanes of lanes_of(0), lanes_of(1), ... that are -1 rather than 0 as bits.
     template <class LanesOf>
     static pack_mask mask_of(const LanesOf& lanes_of) {
         lanes bits, found{};
@@ -129,9 +127,9 @@ class box_tree {
   public:
     using pack = box_pack<Real>;
 
-    /// Makes it one over the boxes box_of(0), ..., box_of(count - 1), in the memory that it has if
-    /// that suffices. Cost: O(count), on all threads of the arena; memory: 27.5 bytes a box for
-    /// floats, 55 for doubles.
+    /// Builds the tree over the boxes box_of(0), ..., box_of(count - 1), in its own memory if that
+    /// suffices. Cost: O(count), on all threads of the arena. Memory: 27.5 bytes a box for floats,
+    /// 55 for doubles.
     template <class BoxOf>
     void build(std::size_t count, const BoxOf& box_of) {
         levels_ = 0;
@@ -155,8 +153,8 @@ class box_tree {
     /// Leaf p holds boxes 8 p to 8 p + 7.
     std::span<const pack> leaves() const { return {packs_.data(), level_start_[1]}; }
 
-    /// The sum of the leaves' lengths along the axes, which an order that gathers neighbours keeps
-    /// small; 0 where there is but one leaf.
+    /// The sum of the leaves' lengths along the axes, 0 if there is only one leaf. A good order
+    /// keeps it small.
     double length_of_leaves() const {
         double sum = 0;
         if (levels_ < 2) return sum;
@@ -194,11 +192,10 @@ class box_tree {
     }
 
   private:
-    /// Eight to the power of 11 exceeds every number of indices.
+    /// Eight to the power of 11 exceeds the number of indices.
     static constexpr std::size_t max_levels = 11;
     static constexpr std::size_t pack_bits = std::countr_zero(pack::size);
 
-    /// Sets the packs of a level to `count` boxes.
     template <class BoxOf>
     void fill(std::size_t level, std::size_t count, const BoxOf& box_of) {
         const std::size_t start = level_start_[level];
@@ -219,9 +216,9 @@ class box_tree {
     std::size_t levels_ = 0;
 };
 
-/// Calls visit(local, i, j, certain) for all pairs of box i of `a` and box j of `b` that touch; if
-/// both are one tree, once for each pair of two of its boxes. `certain`: no end of one is at an end
-/// of the other. From several threads at once; `local` is local_of() of the thread that calls.
+/// Calls visit(local, i, j, certain) for all pairs of box i of `a` and box j of `b` that touch. If
+/// both are one tree, visits each pair of two boxes once. `certain`: they have no common end. Calls
+/// come from several threads at once; `local` is local_of() of the calling thread.
 template <class Real, class LocalOf, class Visit>
 void for_each_touching(const box_tree<Real>& a, const box_tree<Real>& b, const LocalOf& local_of,
                        const Visit& visit) {

@@ -1,4 +1,4 @@
-// Candidates on their way from the search to whoever asked for them, block by block.
+// Passes candidates from the search to their consumer in blocks.
 #pragma once
 
 #include <tbb/enumerable_thread_specific.h>
@@ -38,10 +38,10 @@ bool may_collide(const pair_filter& filter, const Pair& pair) {
     return false;
 }
 
-/// A filter of pairs whose elements sweep such boxes.
+/// Applies a filter to pairs, with the boxes that their elements sweep.
 class pair_test {
   public:
-    /// Both must outlive it.
+    /// Keeps references to both.
     pair_test(const pair_filter& filter, const swept_boxes& boxes)
         : filter_(filter), boxes_(boxes) {}
 
@@ -81,14 +81,14 @@ class candidate_blocks {
         block(const visitor& visit, const pair_test* filter, const stop_query& stop)
             : visit_(&visit), filter_(filter), stop_(&stop) {}
 
-        /// Adds the candidate if `is_one`.
+        /// Adds the candidate if `is_one` is true.
         void add(const Pair& c, bool is_one) {
             candidates_[size_] = c;  // unconditionally: a branch would often be mispredicted
             size_ += is_one;
             if (size_ == block_size) flush();
         }
         void flush() {
-            stop_if_asked(*stop_);
+            stop_if_requested(*stop_);
             std::span<const Pair> found(candidates_.data(), size_);
             if (filter_ != nullptr) {
                 const auto end = std::remove_if(candidates_.begin(), candidates_.begin() + size_,
@@ -109,17 +109,17 @@ class candidate_blocks {
         std::array<Pair, block_size> candidates_;
     };
 
-    /// `filter` may be null: all pass.
+    /// If `filter` is null, all pairs pass.
     candidate_blocks(const visitor& visit, const pair_test* filter, const stop_query& stop)
         : stop_(stop), blocks_([&visit, filter, &stop] { return block(visit, filter, stop); }) {}
 
-    /// Throws ccd::stopped if the caller asked for it, as flush() does.
+    /// Throws ccd::stopped if `stop` requests it, as flush() does.
     block& local() {
-        stop_if_asked(stop_);
+        stop_if_requested(stop_);
         return blocks_.local();
     }
 
-    /// Hands out what is left. Returns the number of candidates.
+    /// Flushes all blocks. Returns the number of candidates.
     std::size_t finish() {
         tbb::parallel_for_each(blocks_, [](block& b) { b.flush(); });
         return std::transform_reduce(blocks_.begin(), blocks_.end(), std::size_t(0), std::plus<>(),

@@ -30,7 +30,7 @@ std::vector<std::array<vertex_index, 1>> vertices_on_no_edge(const std::vector<e
     return points;
 }
 
-/// The unique ones of `edges` that are not among `face_edges`.
+/// Returns the unique ones of `edges` that are not among `face_edges`.
 std::vector<edge> edges_of_no_face(std::span<const edge> edges,
                                    const std::vector<edge>& face_edges) {
     std::vector<edge> rods;
@@ -44,7 +44,7 @@ template <std::size_t N>
 template <class Real, class Tree, class Sort, class Build>
 void ordered_elements<N>::build_tree(const Tree& tree, const Sort& sort, const Build& build) {
     constexpr bool by_doubles = std::is_same_v<Real, double>;
-    constexpr double worth_sorting = 1.25;  // times as long as the leaves have been
+    constexpr double worth_sorting = 1.25;  // sort if leaves are this much longer than their least
     auto& least = std::is_same_v<Tree, extents_tree> ? least_of_extents_ : least_of_boxes_;
     if (ordered_ && by_doubles_ == by_doubles) {
         build();
@@ -117,18 +117,18 @@ auto candidate_search::sorting(const swept_boxes& boxes, const ordered_elements<
 }
 
 template <kind K, class Real, class First, class Second>
-std::size_t candidate_search::find_by(tree_pair<Real>& trees, const question& asked, First& first,
-                                      Second& second) {
+std::size_t candidate_search::find_by(tree_pair<Real>& trees, const search_request& request,
+                                      First& first, Second& second) {
     constexpr bool within_one = std::is_same_v<First, Second>;
     const auto build = [&](box_tree<Real>& tree, auto& elements) {
-        elements.template build_tree<Real>(tree, sorting<Real>(asked.boxes, second), [&] {
+        elements.template build_tree<Real>(tree, sorting<Real>(request.boxes, second), [&] {
             tree.build(elements.size(),
-                       [&](std::size_t i) { return asked.boxes.swept_box<Real>(elements[i]); });
+                       [&](std::size_t i) { return request.boxes.swept_box<Real>(elements[i]); });
         });
     };
     build(trees.second, second);
     if constexpr (!within_one) build(trees.first, first);
-    candidate_blocks<pair_of_kind<K>> blocks(asked.visitor.of<K>(), asked.filter, asked.stop);
+    candidate_blocks<pair_of_kind<K>> blocks(request.visitor.of<K>(), request.filter, request.stop);
     for_each_touching(
         within_one ? trees.second : trees.first,
         trees.second, [&]() -> auto& { return blocks.local(); },
@@ -136,18 +136,19 @@ std::size_t candidate_search::find_by(tree_pair<Real>& trees, const question& as
             const auto& a = first[i];
             const auto& b = second[j];
             const bool apart = !share_vertex(a, b);
-            block.add(candidate_of(a, b), certain ? apart : apart && asked.boxes.touch(a, b));
+            block.add(candidate_of(a, b), certain ? apart : apart && request.boxes.touch(a, b));
         });
     return blocks.finish();
 }
 
 template <kind K, class First, class Second>
-std::size_t candidate_search::find_close(const question& asked, First& first, Second& second) {
+std::size_t candidate_search::find_close(const search_request& request, First& first,
+                                         Second& second) {
     constexpr bool within_one = std::is_same_v<First, Second>;
     const auto build = [&](extents_tree& tree, auto& elements) {
         constexpr std::size_t n = std::remove_cvref_t<decltype(elements)>::vertices;
-        elements.template build_tree<float>(tree, sorting<float>(asked.boxes, second), [&] {
-            tree.build<n>(*asked.close, asked.rounded, elements);
+        elements.template build_tree<float>(tree, sorting<float>(request.boxes, second), [&] {
+            tree.build<n>(*request.close, request.rounded, elements);
         });
     };
     extents_tree& b = of_extents_.second;
@@ -155,7 +156,7 @@ std::size_t candidate_search::find_close(const question& asked, First& first, Se
     build(b, second);
     if constexpr (!within_one) build(a, first);
 
-    candidate_blocks<pair_of_kind<K>> blocks(asked.visitor.of<K>(), asked.filter, asked.stop);
+    candidate_blocks<pair_of_kind<K>> blocks(request.visitor.of<K>(), request.filter, request.stop);
     struct context {
         const First& first;
         const Second& second;
@@ -171,43 +172,45 @@ std::size_t candidate_search::find_close(const question& asked, First& first, Se
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, a.leaves(), 8),
                       [&](const tbb::blocked_range<std::size_t>& range) {
                           context to{first, second, blocks.local()};
-                          (asked.close->*find)(a.levels(), b.levels(), range.begin(), range.end(),
-                                               &to, add);
+                          (request.close->*find)(a.levels(), b.levels(), range.begin(), range.end(),
+                                                 &to, add);
                       });
     return blocks.finish();
 }
 
 template <kind K, class First, class Second>
-std::size_t candidate_search::find_kind(const question& asked, First& first, Second& second) {
-    if (!asked.visitor.of<K>() || first.size() == 0 || second.size() == 0) return 0;
-    if (asked.boxes.need_doubles<Second::vertices>(second))
-        return find_by<K>(in_doubles_, asked, first, second);
+std::size_t candidate_search::find_kind(const search_request& request, First& first,
+                                        Second& second) {
+    if (!request.visitor.of<K>() || first.size() == 0 || second.size() == 0) return 0;
+    if (request.boxes.need_doubles<Second::vertices>(second))
+        return find_by<K>(in_doubles_, request, first, second);
     if constexpr (is_cubic(K))
-        if (asked.close != nullptr) return find_close<K>(asked, first, second);
-    return find_by<K>(in_floats_, asked, first, second);
+        if (request.close != nullptr) return find_close<K>(request, first, second);
+    return find_by<K>(in_floats_, request, first, second);
 }
 
 pair_counts candidate_search::find(const batch_positions& positions, const step_options& options,
                                    const candidate_visitor& visitor, wanted pairs) {
     const swept_boxes boxes(positions, options.distances);
     const pair_test test(options.filter, boxes);
-    const question asked{boxes,
-                         lets_all_through(options.filter) ? nullptr : &test,
-                         visitor,
-                         options.stop,
-                         positions.rounded,
-                         pairs == wanted::close_pairs ? &search_kernels_for(options.set) : nullptr};
+    const search_request request{
+        boxes,
+        lets_all_through(options.filter) ? nullptr : &test,
+        visitor,
+        options.stop,
+        positions.rounded,
+        pairs == wanted::close_pairs ? &search_kernels_for(options.set) : nullptr};
     skip_unused(options.filter.skip_unused);
     order_.forget();
     pair_counts counts;
     if (in_plane_) {
-        counts.vertex_edge = find_kind<kind::vertex_edge>(asked, vertices_, edges_);
+        counts.vertex_edge = find_kind<kind::vertex_edge>(request, vertices_, edges_);
     } else {
-        counts.edge_edge = find_kind<kind::edge_edge>(asked, edges_, edges_);
-        counts.vertex_face = find_kind<kind::vertex_face>(asked, vertices_, faces_);
-        counts.vertex_edge = find_kind<kind::vertex_edge>(asked, points_, rods_);
+        counts.edge_edge = find_kind<kind::edge_edge>(request, edges_, edges_);
+        counts.vertex_face = find_kind<kind::vertex_face>(request, vertices_, faces_);
+        counts.vertex_edge = find_kind<kind::vertex_edge>(request, points_, rods_);
     }
-    counts.vertex_vertex = find_kind<kind::vertex_vertex>(asked, points_, points_);
+    counts.vertex_vertex = find_kind<kind::vertex_vertex>(request, points_, points_);
     return counts;
 }
 

@@ -19,8 +19,8 @@ namespace ccd::detail {
 
 class pair_test;
 
-/// Elements of N vertices in an order that gathers neighbours, which stays from step to step as
-/// long as it does.
+/// Elements of N vertices in an order that gathers neighbours. The order is kept from step to step
+/// while it is good.
 template <std::size_t N>
 class ordered_elements {
   public:
@@ -34,39 +34,38 @@ class ordered_elements {
     const std::array<vertex_index, N>& operator[](std::size_t i) const { return elements_[i]; }
     operator std::span<const std::array<vertex_index, N>>() const { return elements_; }
 
-    /// Makes `tree` one over them by calling build(), after sort(elements) where they are in no
-    /// good order.
+    /// Builds `tree` by build(), after sort(elements) if their order is not good.
     template <class Real, class Tree, class Sort, class Build>
     void build_tree(const Tree& tree, const Sort& sort, const Build& build);
 
   private:
     std::vector<std::array<vertex_index, N>> elements_;
     bool ordered_ = false, by_doubles_ = false;
-    /// Of a tree's leaves since they were sorted; unknown where there was none yet.
+    /// The least length of a tree's leaves since the last sort.
     std::optional<double> least_of_boxes_, least_of_extents_;
 };
 
-/// Of one mesh, from step to step. Working memory: about 40 bytes a face or 44 an edge, whichever
-/// is more, and 18 a vertex, twice as much where floats do not do, or for close pairs 187, 191 and
-/// 183; and 32 KB a thread; kept.
+/// The search in one mesh, for many steps. Keeps its working memory: about 40 bytes a face or 44 an
+/// edge, whichever is more, 18 a vertex, and 32 KB a thread. Elements and vertices take twice as
+/// much if floats do not suffice, and 187, 191 and 183 bytes for close pairs.
 class candidate_search {
   public:
-    /// Indices must be in range.
+    /// Precondition: indices are in range.
     candidate_search(std::span<const face> faces, std::span<const edge> edges,
                      std::size_t vertices);
 
-    /// In the plane: every vertex with every edge, and every two points.
+    /// In the plane, pairs are each vertex with each edge, and each two points.
     static candidate_search in_plane(std::span<const edge> edges, std::size_t vertices);
 
     std::size_t vertices() const { return vertex_count_; }
     bool is_in_plane() const { return in_plane_; }
 
-    /// What is handed out: all candidates, or of vertex/face and edge/edge pairs only those that no
-    /// axis separates as floats tell, where that was found out. The latter know no distances.
+    /// The pairs to visit: all candidates, or without the vertex/face and edge/edge pairs that an
+    /// axis separates in floats, if that was tested. The latter is only for contact, not distances.
     enum class wanted : bool { candidates, close_pairs };
 
-    /// Hands pairs of the kinds that have a visitor to it, each once, as candidate_visitor tells.
-    /// Positions must be finite, distances valid. Returns how many.
+    /// Visits each pair once if its kind has a visitor: see candidate_visitor. Returns the number
+    /// of pairs. Preconditions: positions are finite and distances valid.
     pair_counts find(const batch_positions& positions, const step_options& options,
                      const candidate_visitor& visitor, wanted pairs = wanted::candidates);
 
@@ -75,9 +74,9 @@ class candidate_search {
     struct tree_pair {
         box_tree<Real> first, second;
     };
-    struct question {
+    struct search_request {
         const swept_boxes& boxes;
-        const pair_test* filter;  // null: all pass
+        const pair_test* filter;  // null: all pairs pass
         const candidate_visitor& visitor;
         const stop_query& stop;
         const float* rounded;
@@ -88,16 +87,17 @@ class candidate_search {
         extents_tree first, second;
     };
 
-    /// Sorts elements by the order of the vertices, with cells as elements of the sample ask for.
+    /// Sorts elements by the order of the vertices, with cells that suit the elements of the
+    /// sample.
     template <class Real, std::size_t N>
     auto sorting(const swept_boxes& boxes, const ordered_elements<N>& sample);
     template <kind K, class First, class Second>
-    std::size_t find_kind(const question& asked, First& first, Second& second);
+    std::size_t find_kind(const search_request& request, First& first, Second& second);
     template <kind K, class Real, class First, class Second>
-    std::size_t find_by(tree_pair<Real>& trees, const question& asked, First& first,
+    std::size_t find_by(tree_pair<Real>& trees, const search_request& request, First& first,
                         Second& second);
     template <kind K, class First, class Second>
-    std::size_t find_close(const question& asked, First& first, Second& second);
+    std::size_t find_close(const search_request& request, First& first, Second& second);
 
     /// Removes the unused vertices from the search, or adds them again.
     void skip_unused(bool skip);

@@ -19,8 +19,8 @@ void check_indices(std::span<const std::array<vertex_index, N>> elements, const 
     for (std::size_t i = 0; i < elements.size(); ++i)
         for (const vertex_index v : elements[i])
             if (v >= vertices)
-                throw std::invalid_argument(of + std::to_string(i) + " names vertex " +
-                                            std::to_string(v) + " of " + std::to_string(vertices));
+                throw std::invalid_argument(of + std::to_string(i) + " is " + std::to_string(v) +
+                                            "; expected less than " + std::to_string(vertices));
 }
 
 void check_finite(const double* frame, std::size_t vertices, const char* time,
@@ -29,17 +29,17 @@ void check_finite(const double* frame, std::size_t vertices, const char* time,
     const double* bad =
         std::find_if_not(frame, frame + 3 * vertices, [](double x) { return std::isfinite(x); });
     const auto at = static_cast<std::size_t>(bad - frame);
-    throw std::invalid_argument("ccd::step: the " + std::string(1, "xyz"[at % 3]) + " of vertex " +
+    throw std::invalid_argument("ccd::step: " + std::string(1, "xyz"[at % 3]) + " of vertex " +
                                 std::to_string(numbers.empty() ? at / 3 : numbers[at / 3]) +
-                                " at t = " + time + " is not finite (" + std::to_string(*bad) +
-                                ")");
+                                " at t = " + time + " is " + std::to_string(*bad) +
+                                "; expected a finite number");
 }
 
 void check_length(const char* of, std::size_t found, std::size_t vertices) {
     if (found != 0 && found != vertices)
-        throw std::invalid_argument("ccd::step: the filter has " + std::string(of) + " of " +
-                                    std::to_string(found) + " vertices, the mesh has " +
-                                    std::to_string(vertices));
+        throw std::invalid_argument("ccd::step: number of " + std::string(of) + " is " +
+                                    std::to_string(found) + "; expected " +
+                                    std::to_string(vertices) + ", one for each vertex");
 }
 
 std::string text(std::span<const vertex_index> indices) {
@@ -51,21 +51,23 @@ std::string text(std::span<const vertex_index> indices) {
 template <class Elements>
 void check_same(const std::string& of, const Elements& before, const Elements& after) {
     if (before.size() != after.size())
-        throw std::invalid_argument("ccd::step: " + std::to_string(before.size()) + " " + of +
-                                    "s before, " + std::to_string(after.size()) + " after");
+        throw std::invalid_argument("ccd::step: number of " + of + "s after is " +
+                                    std::to_string(after.size()) + "; expected " +
+                                    std::to_string(before.size()) + " as before");
     const auto [b, a] = std::ranges::mismatch(before, after);
     if (b != before.end())
         throw std::invalid_argument("ccd::step: " + of + " " + std::to_string(b - before.begin()) +
-                                    " is " + text(*b) + " before, " + text(*a) + " after");
+                                    " after is " + text(*a) + "; expected " + text(*b) +
+                                    " as before");
 }
 
 }  // namespace
 
 void check_frames(const mesh& before, const mesh& after) {
     if (before.vertices.size() != after.vertices.size())
-        throw std::invalid_argument("ccd::step: " + std::to_string(before.vertices.size()) +
-                                    " vertices before, " + std::to_string(after.vertices.size()) +
-                                    " after");
+        throw std::invalid_argument("ccd::step: number of vertices after is " +
+                                    std::to_string(after.vertices.size()) + "; expected " +
+                                    std::to_string(before.vertices.size()) + " as before");
     check_same("face", before.faces, after.faces);
     check_same("edge", before.edges, after.edges);
 }
@@ -73,25 +75,27 @@ void check_frames(const mesh& before, const mesh& after) {
 void check_elements(std::span<const face> faces, std::span<const edge> edges, std::size_t vertices,
                     const std::string& caller) {
     if (std::max({vertices, faces.size(), edges.size()}) > std::numeric_limits<vertex_index>::max())
-        throw std::invalid_argument(caller + ": more vertices, faces or edges than can be named");
-    check_indices(faces, caller + ": face ", vertices);
-    check_indices(edges, caller + ": edge ", vertices);
+        throw std::invalid_argument(caller +
+                                    ": number of vertices, faces or edges is too large; expected "
+                                    "fewer than 2^32");
+    check_indices(faces, caller + ": vertex index of face ", vertices);
+    check_indices(edges, caller + ": vertex index of edge ", vertices);
 }
 
 void check_positions(const vertex_rows& positions, std::size_t vertices,
                      std::span<const std::uint64_t> numbers) {
     if (positions.vertices != vertices)
-        throw std::invalid_argument("ccd::step: positions of " +
-                                    std::to_string(positions.vertices) +
-                                    " vertices, the mesh has " + std::to_string(vertices));
+        throw std::invalid_argument("ccd::step: number of positions is " +
+                                    std::to_string(positions.vertices) + "; expected " +
+                                    std::to_string(vertices) + ", one for each vertex");
     if (vertices == 0) return;
     if (positions.before == nullptr || positions.after == nullptr)
-        throw std::invalid_argument("ccd::step: found a null pointer, expected positions");
+        throw std::invalid_argument("ccd::step: pointer to positions is null; expected positions");
     check_finite(positions.before, vertices, "0", numbers);
     check_finite(positions.after, vertices, "1", numbers);
 }
 
-bool ask_for_times_or_distances(const step_options& options) {
+bool needs_times_or_distances(const step_options& options) {
     return options.times || options.first_contact || options.t_max < 1 ||
            !options.distances.is_contact();
 }
@@ -100,32 +104,32 @@ void check_plane(const vertex_rows& positions) {
     for (vertex_index v = 0; v < positions.vertices; ++v) {
         const auto [before, after] = positions[v];
         if (before.z != 0 || after.z != 0)
-            throw std::invalid_argument("ccd::step: found a z of vertex " + std::to_string(v) +
-                                        " that is not 0, expected positions in the plane");
+            throw std::invalid_argument("ccd::step: z of vertex " + std::to_string(v) +
+                                        " is not 0; expected positions in the plane z = 0");
     }
 }
 
 void check_options(const step_options& options, std::size_t vertices) {
     if (std::ranges::find(methods(), options.method, &method_info::method) == methods().end())
-        throw std::invalid_argument("ccd::step: found method " +
+        throw std::invalid_argument("ccd::step: method is " +
                                     std::to_string(static_cast<int>(options.method)) +
-                                    ", expected one of ccd::methods()");
+                                    "; expected one of ccd::methods()");
     if (options.filter.rule != pair_filter::group_rule::between_groups &&
         options.filter.rule != pair_filter::group_rule::within_groups)
-        throw std::invalid_argument("ccd::step: found group rule " +
+        throw std::invalid_argument("ccd::step: group rule is " +
                                     std::to_string(static_cast<int>(options.filter.rule)) +
-                                    ", expected between_groups or within_groups");
+                                    "; expected between_groups or within_groups");
     check_t_max("ccd::step", options.t_max);
     check_distances("ccd::step", options.distances, vertices);
-    if (ask_for_times_or_distances(options) && options.method != method::exact)
-        throw std::invalid_argument("ccd::step: found method " +
+    if (needs_times_or_distances(options) && options.method != method::exact)
+        throw std::invalid_argument("ccd::step: method is " +
                                     std::string(info(options.method).name) +
-                                    ", expected exact, which alone has times and distances");
+                                    "; expected exact, the only one with times and distances");
     check_length("groups", options.filter.groups.size(), vertices);
     check_length("pinned flags", options.filter.pinned.size(), vertices);
 }
 
-bool has_faces_alone(const mesh& mesh) {
+bool has_faces_only(const mesh& mesh) {
     std::vector<bool> on_an_edge(mesh.vertices.size());
     for (const edge& e : unique_edges(mesh.faces)) on_an_edge[e[0]] = on_an_edge[e[1]] = true;
     return mesh.edges.empty() && std::ranges::count(on_an_edge, false) < 2;

@@ -1,4 +1,4 @@
-// Unique edges and faces: sorted by their lowest vertices, equal ones follow each other.
+// Unique edges and faces: sorted by their lowest vertices, so that equal ones are adjacent.
 #include <algorithm>
 #include <ccd/mesh.hpp>
 #include <compare>
@@ -21,7 +21,7 @@ vertex_index largest(std::span<const std::array<vertex_index, N>> elements) {
     return last;
 }
 
-/// Two indices as one number, which compares fast.
+/// Packs two indices into one number, which is fast to compare.
 constexpr std::uint64_t packed(vertex_index upper, vertex_index lower) {
     return std::uint64_t(upper) << 32 | lower;
 }
@@ -32,8 +32,7 @@ constexpr vertex_index lower(std::uint64_t indices) {
     return static_cast<vertex_index>(indices);
 }
 
-/// A face's vertices, ascending, and its number: equal faces follow each other, the first one
-/// first.
+/// A face's vertices, ascending, and its index. Equal faces are sorted by index.
 struct numbered_face {
     std::uint64_t low_and_middle, high_and_number;
     friend auto operator<=>(const numbered_face&, const numbered_face&) = default;

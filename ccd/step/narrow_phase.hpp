@@ -1,4 +1,4 @@
-// The narrow phase of a step: decides candidates as they come and keeps the pairs that may collide.
+// The narrow phase of a step: decides blocks of candidates and keeps the pairs that may collide.
 #pragma once
 
 #include <tbb/enumerable_thread_specific.h>
@@ -19,7 +19,6 @@
 
 namespace ccd::detail {
 
-/// Pairs that threads collect, each in `pairs` of its own.
 template <kind K>
 struct pair_list_of_thread {
     std::vector<pair_of_kind<K>> pairs;
@@ -27,7 +26,7 @@ struct pair_list_of_thread {
 template <kind K>
 using lists_of_threads = tbb::enumerable_thread_specific<pair_list_of_thread<K>>;
 
-/// All pairs of the threads' lists, sorted. The lists are released.
+/// Returns the pairs of all threads' lists, sorted. Releases the lists.
 template <class Pair, class Parts>
 std::vector<Pair> take_sorted(Parts& parts) {
     const auto vertex_of = [](const Pair& pair) { return vertices_of(pair)[0]; };
@@ -60,7 +59,7 @@ class narrow_phase {
           max_distance_(options.distances.max_distance()),
           parts_(part{{}, batch_worker(kernels_for(options.set), options.explain), {}, 0}) {}
 
-    /// From any thread.
+    /// Thread-safe.
     void decide(std::span<const pair> candidates) {
         stopwatch watch;
         part& local = parts_.local();
@@ -83,14 +82,14 @@ class narrow_phase {
         local.seconds += watch.lap();
     }
 
-    /// What the stages of `exact` did, if that was asked for.
+    /// The stages of `exact`, if they were counted.
     stage_report report() const {
         stage_report sum;
         for (const part& p : parts_) sum += p.worker.report();
         return sum;
     }
 
-    /// Of all threads together.
+    /// The sum over all threads.
     double seconds() const {
         double sum = 0;
         for (const part& p : parts_) sum += p.seconds;

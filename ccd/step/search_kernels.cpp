@@ -1,5 +1,4 @@
-// Trees of extents: see ccd/step/search_kernels.hpp, and ccd/batch/batch_kernels.hpp for what is
-// special about this file.
+// Kernels for trees of extents: see ccd/batch/batch_kernels.hpp for the rules of this file.
 #include "ccd/step/search_kernels.hpp"
 
 #include <cstdint>
@@ -17,7 +16,7 @@ constexpr std::size_t float_width = float_pack::size;
 constexpr std::size_t size = extents_pack::size, columns = extents::columns;
 static_assert(size % float_width == 0);
 
-/// Columns 4a and 4a + 1 hold least values, 4a + 2 and 4a + 3 most.
+/// Columns 4a and 4a + 1 hold least values, 4a + 2 and 4a + 3 the most.
 constexpr bool is_most(std::size_t column) {
     return (column & 2) != 0;
 }
@@ -49,7 +48,7 @@ struct corner_columns {
     }
 };
 
-/// Sets one axis' columns at one end of the step: values(v) of vertex v.
+/// Sets one axis' columns at one end of the step. values(v) are those of vertex v.
 template <std::size_t N, class Values>
 void set_extent(extents_pack& packed, std::size_t axis, std::size_t end, std::size_t lane,
                 float margin, const Values& values) {
@@ -65,7 +64,6 @@ void set_extent(extents_pack& packed, std::size_t axis, std::size_t end, std::si
 inline float_quad extreme(const float_quad& x, const float_quad& y, bool most) {
     return most ? (x < y ? y : x) : (x < y ? x : y);
 }
-/// The least or the most of a column.
 inline float extreme(const float (&column)[size], bool most) {
     float_quad x;
     __builtin_memcpy(&x, column, sizeof(x));
@@ -131,7 +129,7 @@ void fill_nodes(const extents* below, std::size_t count, std::size_t first, std:
     }
 }
 
-/// The extents that a pack is compared with: a hull, or those of one member of another pack.
+/// The extents to compare a pack with: a hull, or those of one member of another pack.
 struct hull_reader {
     const extents& of;
     float operator()(std::size_t column) const { return of.of[column]; }
@@ -142,8 +140,8 @@ struct member_reader {
     float operator()(std::size_t column) const { return pack.at[column][member]; }
 };
 
-/// Those of a pack that no axis separates from other extents. Most that one does, a coordinate axis
-/// does: the others are asked only where those leave lanes.
+/// Returns the lanes of a pack that no axis separates from other extents. Coordinate axes separate
+/// most, so the others are tested only if lanes remain.
 template <class Extents>
 lanes touching(const extents_pack& packed, const Extents& other) {
     constexpr std::size_t parts = size / float_width;
@@ -175,7 +173,7 @@ lanes touching(const extents_pack& packed, const Extents& other) {
 
 typedef vertex_index index_quad __attribute__((vector_size(16)));
 
-/// Those of a leaf's elements of M vertices that share one with element i, of N, of another leaf.
+/// Returns the lanes of a leaf's elements that share a vertex with element i of another leaf.
 template <std::size_t N, std::size_t M>
 lanes sharing(const leaf_vertices& leaf, const leaf_vertices& other, std::uint32_t i) {
     index_quad found{}, bits = {1, 2, 4, 8};
@@ -192,7 +190,7 @@ lanes sharing(const leaf_vertices& leaf, const leaf_vertices& other, std::uint32
     return found[0] | found[1] | found[2] | found[3];
 }
 
-/// What is found, on its way to the visitor.
+/// A buffer of pairs for the visitor.
 struct found_pairs {
     static constexpr std::size_t room = 512;
 
@@ -202,7 +200,7 @@ struct found_pairs {
     element_pair pairs[room];
 
     found_pairs(void* to, search_kernels::visitor by) : context(to), visit(by) {}
-    /// Makes room for as many pairs as one comparison finds.
+    /// Makes room for the pairs of one comparison.
     void make_room() {
         if (count + size > room) flush();
     }
@@ -215,8 +213,8 @@ struct found_pairs {
     }
 };
 
-/// Pairs of leaf p of the tree `a`, with elements of N vertices, and leaf q of `b`, of M; within
-/// one tree only those where the element of `b` is the later.
+/// Finds pairs of leaf p of `a`, with elements of N vertices, and leaf q of `b`, of M vertices. In
+/// one tree, the element of `b` is the later one.
 template <std::size_t N, std::size_t M>
 void pairs_of_leaves(const extents_levels& a, std::size_t p, const extents_levels& b, std::size_t q,
                      found_pairs& found) {

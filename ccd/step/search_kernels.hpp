@@ -1,5 +1,5 @@
-// Building and searching trees of extents, compiled once per instruction set: see
-// ccd/batch/batch_kernels.hpp for what is special about such files. Internal.
+// Kernels that build and search trees of extents, compiled once per instruction set: see
+// ccd/batch/batch_kernels.hpp for the rules of such files. Internal.
 #pragma once
 
 #include <ccd/batch.hpp>
@@ -12,30 +12,30 @@
 namespace ccd::detail {
 
 struct search_kernels {
-    /// Called with pairs as they are found.
+    /// Called with pairs when they are found.
     using visitor = void (*)(void* context, const element_pair* pairs, std::size_t count);
 
-    /// Sets leaf p and its hull for first <= p < end, of elements of one, two and three vertices.
-    /// `rounded`: rounded_positions::data(); `count` elements in all.
+    /// Sets leaves p, first <= p < end, and their hulls, for elements of one, two and three
+    /// vertices. `rounded` is rounded_positions::data(); `count` is the number of elements.
     using fill_leaves = void (*)(const float* rounded, const vertex_index* elements,
                                  std::size_t count, std::size_t first, std::size_t end,
                                  extents_pack* leaves, extents* hulls, leaf_vertices* vertices);
     fill_leaves of_vertices, of_edges, of_faces;
 
-    /// Sets pack p and its hull for first <= p < end of the level over `count` packs of these
-    /// hulls.
+    /// Sets packs p, first <= p < end, of the level over the `count` packs of these hulls, and
+    /// their hulls.
     void (*fill_nodes)(const extents* below, std::size_t count, std::size_t first, std::size_t end,
                        extents_pack* packs, extents* hulls);
 
-    /// All pairs that share no vertex and that no axis separates, of an element in the leaves
-    /// first <= p < end of `a` and one of `b`: vertices and faces, or edges of one tree, of which
-    /// the second is the later.
+    /// Finds pairs without a common vertex that no axis separates, of an element in the leaves
+    /// first <= p < end of `a` and one of `b`: vertices and faces, or edges of one tree, the later
+    /// second.
     using find_pairs = void (*)(const extents_levels& a, const extents_levels& b, std::size_t first,
                                 std::size_t end, void* context, visitor visit);
     find_pairs of_vertices_and_faces, of_two_edges;
 };
 
-/// Those for runnable(set).
+/// Returns the kernels for runnable(set).
 const search_kernels& search_kernels_for(std::optional<instruction_set> set);
 
 namespace baseline {

@@ -1,4 +1,4 @@
-// Steps of a mesh: the search hands its candidates to the narrow phase block by block.
+// Steps of a mesh: the search passes blocks of candidates to the narrow phase.
 #include <tbb/enumerable_thread_specific.h>
 
 #include <algorithm>
@@ -24,7 +24,7 @@ namespace {
 template <kind K>
 using phase = detail::narrow_phase<K>;
 
-/// All but first times and what touches at the start, on the threads of the arena.
+/// Runs a step on the threads of the arena, except first times and contacts at the start.
 step_result run_step(detail::candidate_search& search, const vertex_rows& positions,
                      const step_options& options) {
     detail::stopwatch watch;
@@ -44,10 +44,10 @@ step_result run_step(detail::candidate_search& search, const vertex_rows& positi
     });
     using wanted = detail::candidate_search::wanted;
     const bool counted = options.count_candidates || options.explain;
-    const bool close_do =
+    const bool close_pairs_suffice =
         !counted && options.method == method::exact && options.distances.is_contact();
-    const pair_counts counts =
-        search.find(at, options, visitor, close_do ? wanted::close_pairs : wanted::candidates);
+    const pair_counts counts = search.find(
+        at, options, visitor, close_pairs_suffice ? wanted::close_pairs : wanted::candidates);
     if (counted) result.candidates = counts;
     for_each_kind([&]<kind K>() { result.narrow_phase_seconds += phases.of<K>().seconds(); });
     result.narrow_phase_seconds /= tbb::this_task_arena::max_concurrency();
@@ -61,9 +61,9 @@ step_result run_step(detail::candidate_search& search, const vertex_rows& positi
     return result;
 }
 
-/// Those of `items` whose number is asked for by is_wanted(i).
+/// Returns the items with is_wanted(i).
 template <class Item, class IsWanted>
-std::vector<Item> those_of(const std::vector<Item>& items, const IsWanted& is_wanted) {
+std::vector<Item> selected(const std::vector<Item>& items, const IsWanted& is_wanted) {
     std::vector<Item> wanted;
     for (std::size_t i = 0; i < items.size(); ++i)
         if (is_wanted(i)) wanted.push_back(items[i]);
@@ -74,18 +74,18 @@ bool is_earlier(const first_time& a, const first_time& b) {
     return std::tuple(a.low, a.high) < std::tuple(b.low, b.high);
 }
 
-/// Of each reported pair: times, and from them what touches at the start and what is first. Drops
-/// pairs whose time is after t_max.
+/// Computes the time of each reported pair; from these, contacts at the start and the first
+/// contact. Drops pairs whose time is after t_max.
 template <kind K>
-void find_times(const vertex_rows& positions, const time_options& asked, bool keep_times,
+void find_times(const vertex_rows& positions, const time_options& options, bool keep_times,
                 step_result& result) {
     auto& pairs = result.pairs.of<K>();
-    std::vector<first_time> times = first_times(positions, pairs, asked);
+    std::vector<first_time> times = first_times(positions, pairs, options);
     const auto in_time = [&](std::size_t i) { return times[i].outcome == outcome::collides; };
-    pairs = those_of(pairs, in_time);
-    times = those_of(times, in_time);
+    pairs = selected(pairs, in_time);
+    times = selected(times, in_time);
     result.touching_at_start.of<K>() =
-        those_of(pairs, [&](std::size_t i) { return times[i].at_start(); });
+        selected(pairs, [&](std::size_t i) { return times[i].at_start(); });
     for (const first_time& time : times)
         if (!time.at_start() && (result.first_contact.outcome != outcome::collides ||
                                  is_earlier(time, result.first_contact)))
@@ -93,48 +93,50 @@ void find_times(const vertex_rows& positions, const time_options& asked, bool ke
     if (keep_times) result.times.of<K>() = std::move(times);
 }
 
-/// The first contact alone, and what touches at the start.
+/// Computes only the first contact and the contacts at the start.
 template <kind K>
-void find_first(const vertex_rows& positions, time_options asked, step_result& result) {
+void find_first(const vertex_rows& positions, time_options options, step_result& result) {
     const auto& pairs = result.pairs.of<K>();
     const bool any = result.first_contact.outcome == outcome::collides;
-    if (any) asked.t_max = result.first_contact.high;
-    const earliest_time found = earliest(positions, pairs, asked);
+    if (any) options.t_max = result.first_contact.high;
+    const earliest_time found = earliest(positions, pairs, options);
     if (!found.queries.empty() && (!any || is_earlier(found.time, result.first_contact)))
         result.first_contact = found.time;
     for (const std::size_t i : found.at_start) result.touching_at_start.of<K>().push_back(pairs[i]);
 }
 
 template <kind K>
-void find_touching_at_start(const vertex_rows& positions, time_options asked, step_result& result) {
+void find_touching_at_start(const vertex_rows& positions, time_options options,
+                            step_result& result) {
     const auto& pairs = result.pairs.of<K>();
-    asked.t_max = 0;
+    options.t_max = 0;
     std::vector<outcome> answers;
-    if (asked.distances.is_contact())
-        answers =
-            touches_at_start_batch(positions, pairs,
-                                   {.threads = asked.threads, .set = asked.set, .stop = asked.stop})
-                .answers;
+    if (options.distances.is_contact())
+        answers = touches_at_start_batch(
+                      positions, pairs,
+                      {.threads = options.threads, .set = options.set, .stop = options.stop})
+                      .answers;
     else
-        for (const first_time& time : first_times(positions, pairs, asked))
+        for (const first_time& time : first_times(positions, pairs, options))
             answers.push_back(time.outcome);
     result.touching_at_start.of<K>() =
-        those_of(pairs, [&](std::size_t i) { return answers[i] == outcome::collides; });
+        selected(pairs, [&](std::size_t i) { return answers[i] == outcome::collides; });
 }
 
-/// What is asked of the reported pairs.
-void ask_pairs(const vertex_rows& positions, const step_options& options, step_result& result) {
-    const time_options asked{options.t_max, options.distances, options.threads, options.set,
-                             options.stop};
+/// Computes the times that the options need for the reported pairs.
+void find_pair_times(const vertex_rows& positions, const step_options& options,
+                     step_result& result) {
+    const time_options timing{options.t_max, options.distances, options.threads, options.set,
+                              options.stop};
     if (options.times || options.first_contact || options.t_max < 1)
         result.first_contact = {outcome::separate};
     for_each_kind([&]<kind K>() {
         if (options.times || options.t_max < 1)
-            find_times<K>(positions, asked, options.times, result);
+            find_times<K>(positions, timing, options.times, result);
         else if (options.first_contact)
-            find_first<K>(positions, asked, result);
+            find_first<K>(positions, timing, result);
         else if (options.initial_contact)
-            find_touching_at_start<K>(positions, asked, result);
+            find_touching_at_start<K>(positions, timing, result);
     });
 }
 
@@ -177,7 +179,7 @@ step_result mesh_steps::run(const vertex_rows& positions, const step_options& op
     result.threads = threads;
     result.prepare_seconds += check_seconds;
     watch.lap();
-    ask_pairs(positions, options, result);
+    find_pair_times(positions, options, result);
     result.contact_seconds = watch.lap();
     result.total_seconds = total.lap();
     return result;
@@ -216,7 +218,7 @@ pair_lists mesh_steps::candidates(const vertex_rows& positions, const step_optio
 
 namespace {
 
-/// For one call alone, with no more threads than it has.
+/// For a single call, with at most its number of threads.
 mesh_steps steps_once(std::span<const face> faces, std::span<const edge> edges,
                       std::size_t vertices, int threads) {
     std::optional<mesh_steps> steps;

@@ -5,7 +5,7 @@
 
 namespace ccd::detail {
 
-/// Seconds since it was made or last read.
+/// Measures seconds since construction or the last lap.
 class stopwatch {
   public:
     double lap() {

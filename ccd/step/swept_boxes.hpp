@@ -1,4 +1,4 @@
-// The two frames of a step as the search for candidates sees them: swept boxes, exact and rounded.
+// The two frames of a step for the search for candidates: swept boxes, exact and rounded.
 #pragma once
 
 #include <algorithm>
@@ -15,24 +15,24 @@
 
 namespace ccd::detail {
 
-/// The sampling stride of `count` to take for a sample of about a thousand.
+/// The stride of a sample of about a thousand out of `count`.
 constexpr std::size_t sampling_stride(std::size_t count) {
     return 1 + count / 1024;
 }
 
 class swept_boxes {
   public:
-    /// Of finite positions and what they are rounded to, whose memory must outlive this.
-    /// `distances` must be valid, and outlive it too.
+    /// Keeps references to both. Preconditions: positions are finite, distances valid.
     swept_boxes(const batch_positions& positions, const pair_distances& distances)
         : positions_(positions), distances_(distances) {}
 
-    /// The box that an element (1, 2 or 3 vertices) sweeps. In doubles it is exact, or, where pairs
-    /// have a distance, wider by the element's part of it, rounded outwards: boxes of elements that
-    /// come within their distance touch. In floats, which must not be asked for then, it is
-    /// that of the rounded positions, which keep their order though not strictly: boxes that touch
-    /// still do, and boxes that touch without a common end did so before. Where ends coincide, ask
-    /// touch().
+    /// Returns the box that an element of 1, 2 or 3 vertices sweeps.
+    ///
+    /// In doubles it is exact. If pairs have a distance, it is widened by the element's share,
+    /// rounded outwards: boxes of elements that come within their distance touch. Floats, not to be
+    /// used with distances, give the box of rounded positions. Rounding is monotone, so boxes that
+    /// touch still do, and rounded boxes that touch without a common end also touch exactly. If
+    /// they have a common end, use touch().
     /// Proof: proofs/RoundedAxes.v, swept_rounded_first, swept_face_separate, swept_edges_separate,
     /// swept_boxes_touch.
     template <class Real, std::size_t N>
@@ -53,7 +53,7 @@ class swept_boxes {
         return all;
     }
 
-    /// Whether the closed exact boxes that two elements sweep touch.
+    /// True if the closed exact boxes that two elements sweep touch.
     template <std::size_t A, std::size_t B>
     bool touch(const std::array<vertex_index, A>& a, const std::array<vertex_index, B>& b) const {
         const box<double> x = swept_box<double>(a), y = swept_box<double>(b);
@@ -62,9 +62,9 @@ class swept_boxes {
         return true;
     }
 
-    /// Whether floats would confuse the boxes: of a sample, more than one in sixteen have an axis
-    /// on which only doubles tell their ends apart. So it is where small parts are very far apart.
-    /// And whether they are to be widened, which floats would not round outwards.
+    /// True if floats do not suffice: boxes have to be widened, which floats do not round outwards;
+    /// or in a sample, more than one box in sixteen has zero length on an axis only after rounding.
+    /// The latter happens for small parts that are very far apart.
     template <std::size_t N>
     bool need_doubles(std::span<const std::array<vertex_index, N>> elements) const {
         if (!distances_.is_contact()) return true;
@@ -82,14 +82,14 @@ class swept_boxes {
     }
 
   private:
-    /// What an element brings to the distance of its pairs, or more.
+    /// The element's share of its pairs' distance, or more.
     template <std::size_t N>
     double part_of_distance(const std::array<vertex_index, N>& element) const {
         if (!distances_.thickness.empty()) return distances_.thickness_of(element);
         return above(distances_.all / 2);
     }
-    /// No less than what was rounded to x, nor more than the largest double, in every rounding
-    /// direction.
+    /// At least any real number that was rounded to x in any rounding direction, and at most the
+    /// largest double.
     static double above(double x) {
         constexpr double most = std::numeric_limits<double>::max();
         return std::min(std::nextafter(x, std::numeric_limits<double>::infinity()), most);
@@ -101,7 +101,6 @@ class swept_boxes {
         }
     }
 
-    /// The coordinates of a vertex at one end of the step.
     template <class Real>
     const Real* row(vertex_index v, std::size_t end) const {
         if constexpr (std::is_same_v<Real, double>)

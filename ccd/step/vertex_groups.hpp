@@ -1,5 +1,4 @@
-// Groups of vertices that are joined (union and find, by size), and the fraction of its way that
-// each moves.
+// Groups of joined vertices (union-find by size), and the fraction of its way that each moves.
 #pragma once
 
 #include <algorithm>
@@ -16,13 +15,13 @@ namespace ccd::detail {
 
 class vertex_groups {
   public:
-    /// Each vertex by itself, all the way.
+    /// Each vertex is a separate group, which moves the whole way.
     explicit vertex_groups(std::size_t vertices)
         : parent_(vertices), groups_(vertices), retreats_(vertices) {
         std::iota(parent_.begin(), parent_.end(), vertex_index(0));
     }
 
-    /// One more vertex, which goes all the way by itself; all have become one group: with them.
+    /// Adds a vertex as a group that moves the whole way; to the single group after join_all().
     vertex_index add() {
         const auto v = static_cast<vertex_index>(parent_.size());
         parent_.push_back(v);
@@ -33,7 +32,7 @@ class vertex_groups {
     }
 
     std::size_t vertices() const { return parent_.size(); }
-    /// A vertex of its group, the same for all of one group.
+    /// The vertex that represents the group.
     vertex_index root_of(vertex_index v) {
         while (parent_[v] != v) v = parent_[v] = parent_[parent_[v]];
         return v;
@@ -44,7 +43,7 @@ class vertex_groups {
         g.fraction = std::min(g.fraction, fraction);
     }
 
-    /// Makes one group of theirs, which moves by the lesser fraction.
+    /// Joins both groups. The new group moves by the lesser fraction.
     void join(vertex_index v, vertex_index w) {
         v = root_of(v);
         w = root_of(w);
@@ -58,7 +57,7 @@ class vertex_groups {
             all.shortened = more.shortened;
         }
     }
-    /// Joins it with the others that were named the same.
+    /// Joins v with the other vertices of this name.
     void join_named(int name, vertex_index v) {
         join(first_named_.try_emplace(name, v).first->second, v);
     }
@@ -67,16 +66,16 @@ class vertex_groups {
         for (vertex_index v = 1; v < parent_.size(); ++v) join(0, v);
     }
 
-    /// Last places by which a vertex is taken back from where its fraction leads.
+    /// The number of last places by which a vertex is moved back from its fraction's position.
     int last_places_back(vertex_index v) const {
         return retreats_[v] == 0 ? 0 : 1 << (retreats_[v] - 1);
     }
     static constexpr int max_last_places_back = 1024;
 
-    /// Handles pairs in contact. Joins groups of one that move by different fractions; where there
-    /// is none such, so that only rounding can have brought pairs together, joins theirs and
-    /// shortens the ways, or, if `may_retreat` and they were shortened a little before, takes the
-    /// pairs' vertices back a little.
+    /// Handles pairs in contact. Joins groups of pairs that move by different fractions. If there
+    /// are none, only rounding can have caused the contacts: joins the groups of all pairs and
+    /// shortens their ways. If `may_retreat` and a way was shortened a little before, takes the
+    /// pairs' vertices back instead.
     template <class Pair>
     void separate(const std::vector<Pair>& pairs, bool may_retreat) {
         if (join_different(pairs)) return;
@@ -102,12 +101,12 @@ class vertex_groups {
     struct group {
         std::size_t size = 1;
         double fraction = 1;
-        int shortened = 0;  ///< how often
+        int shortened = 0;  ///< number of times
     };
 
     group& group_of(vertex_index v) { return groups_[root_of(v)]; }
 
-    /// Returns whether there was one whose groups move by different fractions.
+    /// Returns true if the groups of some pair moved by different fractions.
     template <class Pair>
     bool join_different(const std::vector<Pair>& pairs) {
         bool any = false;
@@ -122,8 +121,8 @@ class vertex_groups {
         return any;
     }
 
-    /// By 2^-50 at first, then by ever more up to 2^-8, which leaves more than 0.99 after `close`
-    /// times; then to a half, a quarter, ..., and at last to nothing.
+    /// Shortens by 2^-50 at first, then by more up to 2^-8, which leaves more than 0.99 after
+    /// `close` times; then to a half, a quarter and so on, and at last to 0.
     static void shorten(group& g) {
         const int times = g.shortened++;
         if (times < close)
@@ -143,7 +142,7 @@ class vertex_groups {
 
     std::vector<vertex_index> parent_;
     std::vector<group> groups_;           ///< at the root of each
-    std::vector<std::uint8_t> retreats_;  ///< of each vertex, how often
+    std::vector<std::uint8_t> retreats_;  ///< number of retreats of each vertex
     std::unordered_map<int, vertex_index> first_named_;
     bool all_are_one_ = false;
 };

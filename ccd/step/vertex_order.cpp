@@ -1,4 +1,4 @@
-// The order of vertices along Hilbert's curve, and of elements by their vertices.
+// Orders vertices along Hilbert's curve, and elements by their vertices.
 #include "ccd/step/vertex_order.hpp"
 
 #include <tbb/blocked_range.h>
@@ -18,15 +18,14 @@
 namespace ccd::detail {
 namespace {
 
-/// A place in an order, above it the class of a box, below it the item.
+/// A key: the class of a box in the highest bits, then its place in an order, then the item.
 using order_key = std::uint64_t;
 
-/// Which bits of a key are what.
 struct key_layout {
     static constexpr unsigned class_bits = 2;
     unsigned item_bits, place_bits;
 
-    /// Of so many items, at least one, in places of so many bits, or fewer where there is no room.
+    /// For at least one item, with places of `bits` bits, or fewer if there is no room.
     key_layout(std::size_t items, unsigned bits)
         : item_bits(static_cast<unsigned>(std::bit_width(items - 1))),
           place_bits(std::min(bits, 64 - class_bits - item_bits)) {}
@@ -34,7 +33,7 @@ struct key_layout {
     std::size_t item_of(order_key key) const {
         return static_cast<std::size_t>(key & ((order_key(1) << item_bits) - 1));
     }
-    /// With the class.
+    /// The place including the class.
     std::uint64_t place_of(order_key key) const { return key >> item_bits; }
     std::uint64_t class_of(order_key key) const { return place_of(key) >> place_bits; }
     order_key key(std::uint64_t its_class, std::uint64_t place, std::size_t item) const {
@@ -42,17 +41,16 @@ struct key_layout {
     }
 };
 
-/// Of keys whose places are cells along a curve.
+/// Keys whose places are cells along a curve.
 struct curve_layout : key_layout {
     unsigned axis_bits;
 
-    /// Along each axis four cells for every one that a surface of so many items needs, so that
-    /// cells are seldom shared; 1,024 at least.
+    /// Uses four times the cells along each axis that a surface of this many items needs, at least
+    /// 1,024, so that few items share a cell.
     explicit curve_layout(std::size_t items)
         : key_layout(items, 64), axis_bits(std::clamp(item_bits / 2 + 2, 10U, place_bits / 3)) {
         place_bits = 3 * axis_bits;
     }
-    /// Along an axis.
     double cells() const { return static_cast<double>(1U << axis_bits); }
 };
 
@@ -104,13 +102,13 @@ std::array<unit_axis, 3> axes_of(const box<double>& b) {
             unit_axis(b.low[2], b.high[2])};
 }
 
-/// Half of a box's length on axis k, as a part of half the whole's; it may be infinite.
+/// Half of a box's length on axis k, relative to half the axis' length. May be infinite.
 template <class Box>
 double length(const std::array<unit_axis, 3>& axes, const Box& b, std::size_t k) {
     return 0.5 * (axes[k](b.high[k]) - axes[k](b.low[k]));
 }
 
-/// 0, or 1 + the axis on which a box is long beside the whole, and longest.
+/// 0, or 1 + the axis on which a box is longest, if it is long compared with the whole.
 template <class Box>
 std::uint64_t class_of(const std::array<unit_axis, 3>& axes, const Box& b) {
     double longest = 1.0 / 16;
@@ -123,7 +121,7 @@ std::uint64_t class_of(const std::array<unit_axis, 3>& axes, const Box& b) {
     return found;
 }
 
-/// Of about a thousand of `count` boxes.
+/// Samples about a thousand of `count` boxes.
 template <class BoxAt>
 std::vector<box<double>> sample_of(std::size_t count, const BoxAt& box_at) {
     std::vector<box<double>> sample;
@@ -134,10 +132,10 @@ std::vector<box<double>> sample_of(std::size_t count, const BoxAt& box_at) {
     return sample;
 }
 
-/// By radix, each share of the keys by one thread: no sort by comparisons was as fast.
+/// Radix sort, one share of the keys for each thread. Faster than sorts by comparison.
 void sort_keys(std::span<order_key> keys, const key_layout& layout) {
     constexpr std::size_t few = 4096;
-    constexpr unsigned most_digit_bits = 11;  // whose counts stay in the first cache
+    constexpr unsigned most_digit_bits = 11;  // counts stay in the first-level cache
     if (keys.size() < few) {
         std::ranges::sort(keys);
         return;
@@ -170,7 +168,7 @@ void sort_keys(std::span<order_key> keys, const key_layout& layout) {
     if (passes % 2 == 1) std::ranges::copy(from, keys.begin());
 }
 
-/// Sorted keys by class: of boxes that are long on no axis, and on each.
+/// Sorted keys by class: boxes that are long on no axis, and those long on each axis.
 struct key_classes {
     std::span<order_key> short_ones;
     std::array<std::span<order_key>, 3> long_ones;
@@ -204,13 +202,12 @@ void for_each_run(std::span<order_key> keys, const key_layout& layout, const Vis
 
 /// The cells of a curve through the middles of boxes.
 ///
-/// They are as many times longer on one axis than on another as boxes of the sample are whose
-/// middles are among these: an axis on which boxes are long tells few of them apart. Boxes of no
-/// length get cubes.
+/// Cells have the proportions of the sample's boxes with middles in this range, because an axis on
+/// which boxes are long distinguishes few of them. Boxes without length get cubes.
 template <class BoxOf>
 class curve_grid {
   public:
-    /// `keys` must not be empty.
+    /// Precondition: `keys` is not empty.
     curve_grid(std::span<const order_key> keys, const curve_layout& layout, const BoxOf& box_of,
                std::span<const box<double>> sample)
         : box_of_(box_of),
@@ -223,7 +220,7 @@ class curve_grid {
             half_spread[k] = 0.5 * middles_.high[k] - 0.5 * middles_.low[k];
         const double widest = *std::ranges::max_element(half_spread);
         if (widest == 0)
-            return;  // all middles in one cell: they differ by an underflow unit at most
+            return;  // all middles are in one cell: they differ by at most an underflow unit
         // Ratios of spreads first: a cube's length may underflow.
         for (std::size_t k = 0; k < 3; ++k)
             if (half_spread[k] > 0)
@@ -232,11 +229,11 @@ class curve_grid {
         for (double& half : half_cells_) half *= 0.5 * (layout.cells() - 1) / largest;
     }
 
-    /// Whether all middles are one point, which has no cells.
+    /// True if all middles are one point, which has no cells.
     bool is_one_point() const { return middles_.low == middles_.high; }
     const std::array<unit_axis, 3>& axes() const { return axes_; }
 
-    /// The key with its item's place: the cell's, after its class's if they are told apart.
+    /// Returns the key with its item's cell as place, below its class unless `one_class`.
     order_key place(order_key key, bool one_class) const {
         const std::size_t item = layout_.item_of(key);
         const auto b = box_of_(item);
@@ -261,7 +258,7 @@ class curve_grid {
                 is_among &= middles_.low[k] <= middle(b, k) && middle(b, k) <= middles_.high[k];
             if (!is_among) continue;
             ++count;
-            for (std::size_t k = 0; k < 3; ++k)  // which may be infinite: bounded
+            for (std::size_t k = 0; k < 3; ++k)  // bounded, since lengths may be infinite
                 sum[k] += std::min(length(axes_, b, k), layout_.cells());
         }
         for (double& s : sum) s /= static_cast<double>(std::max<std::size_t>(count, 1));
@@ -275,13 +272,12 @@ class curve_grid {
     std::array<double, 3> half_cells_{};  // half the number of cells along each axis
 };
 
-/// Sorts the keys by their items' boxes: along a Hilbert curve through the middles, which gathers
-/// in each leaf boxes that are near each other. Returns the axes of the middles.
+/// Sorts the keys along a Hilbert curve through the middles of their items' boxes, so that each
+/// leaf gathers boxes that are near each other. Returns the axes of the middles.
 ///
-/// Boxes that are long beside the whole (unless all are of `one_class`) come after all others, by
-/// the axis on which they are longest, each class along a curve of its own: one long box, or two
-/// that cross, would make a leaf of everything. What shares a cell in the end is sorted again by
-/// finer cells, so that nothing remote leaves the others in disorder.
+/// Unless `one_class`, boxes that are long compared with the whole come last: one class for each
+/// axis on which they are longest, each along a separate curve. Otherwise one long box would make a
+/// leaf of everything. Items that share a cell are sorted again by finer cells.
 template <class BoxOf>
 std::array<unit_axis, 3> sort_along_curve(std::span<order_key> keys, const curve_layout& layout,
                                           const BoxOf& box_of, std::span<const box<double>> sample,
@@ -303,8 +299,8 @@ std::array<unit_axis, 3> sort_along_curve(std::span<order_key> keys, const curve
 }  // namespace
 
 unit_axis::unit_axis(double low, double high) {
-    // Halved before adding, and the inverse bounded: neither may overflow. A flat axis keeps its
-    // unit (its radius is −0 where rounding is downward).
+    // Halved before the addition, and with a bounded inverse, so that neither overflows. A flat
+    // axis keeps its unit (its radius is −0 if rounding is downward).
     middle_ = low / 2 + high / 2;
     const double radius = std::max(high - middle_, middle_ - low);
     if (radius > 0) scale_ = std::min(1 / radius, std::numeric_limits<double>::max());

@@ -27,7 +27,7 @@ class element {
         const auto found = value_.find(name);
         const std::string path = path_.empty() ? name : path_ + '.' + name;
         if (found == value_.end())
-            throw file_error(file_ + ": " + path + ": found nothing, expected a value");
+            throw file_error(file_ + ": " + path + " is missing; expected a value");
         return {*found, file_, path};
     }
     template <class Read>
@@ -82,8 +82,8 @@ class element {
                                   : std::string("an ") + value_.type_name();
         constexpr std::size_t longest = 40;
         if (found.size() > longest) found = std::string("a long ") + value_.type_name();
-        throw file_error(file_ + ": " + (path_.empty() ? "" : path_ + ": ") + "found " + found +
-                         ", expected " + expected);
+        throw file_error(file_ + ": " + (path_.empty() ? "content" : path_) + " is " + found +
+                         "; expected " + expected);
     }
 
     const json& value_;
@@ -106,10 +106,10 @@ json parsed(std::string_view text, const std::string& name) {
     try {
         return json::parse(text);
     } catch (const json::parse_error& error) {
-        throw file_error(name + ": found no JSON at byte " + std::to_string(error.byte) +
-                         ", expected what errbound::write_explanations writes");
+        throw file_error(name + ": text at byte " + std::to_string(error.byte) +
+                         " is not JSON; expected output of errbound::write_explanations");
     } catch (const json::exception&) {
-        throw file_error(name + ": found a number out of range, expected those of double");
+        throw file_error(name + ": a number is out of range; expected numbers of double");
     }
 }
 

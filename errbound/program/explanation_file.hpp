@@ -8,8 +8,8 @@
 
 namespace errbound::explaining {
 
-/// The results in a file's text; `name` is for messages. Throws errbound::support::file_error, with
-/// position, found and expected.
+/// The results in a file's text; `name` is for messages. Throws errbound::support::file_error with
+/// the position.
 std::vector<explanation> parse_explanations(std::string_view text, const std::string& name);
 
 }  // namespace errbound::explaining

@@ -16,7 +16,6 @@ constexpr double width = 1000, margin = 10, bar_height = 20, heading = 28;
 constexpr double whole = width - 2 * margin;                     // a result's bar
 constexpr double thinnest = 0.2, letter = 7.3, text_margin = 4;  // pixels, of 12 pixel monospace
 
-/// The meaning of a bar.
 struct frame {
     bool operation = false;
     std::string name, where{};  ///< for a scope: file:line
@@ -70,7 +69,6 @@ std::string escaped(std::string_view text) {
     return result;
 }
 
-/// The text's beginning that fits.
 std::string shortened(std::string_view text, double room) {
     const auto fit = static_cast<std::size_t>(std::max(0.0, (room - 2 * text_margin) / letter));
     std::size_t characters = 0, bytes = 0, kept = 0;

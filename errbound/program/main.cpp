@@ -26,7 +26,7 @@ int run_command_line(int argc, char** argv) {
         app.parse(argc, argv);
         if (explain.was_given()) return explain.run();
         if (!validate.was_given())
-            throw support::usage_error("found no command, errbound --help lists them");
+            throw support::usage_error("command is missing; errbound --help lists the commands");
         return run_validate(validate.checked());
     } catch (const CLI::ParseError& error) {
         if (error.get_exit_code() != 0) throw support::usage_error(error.what());

@@ -1,4 +1,3 @@
-// `errbound validate`.
 #include "errbound/program/validate_command.hpp"
 
 #include <ccd/io/query_file.hpp>

@@ -1,4 +1,3 @@
-// The options of `errbound validate`.
 #include "errbound/program/validate_options.hpp"
 
 #include <algorithm>
@@ -30,9 +29,9 @@ std::string names_of_numbers() {
 /// Each number type needs a rule.
 void require_rules_of_numbers(const validate_arguments& all) {
     for (const number_type number : all.options.numbers)
-        if (std::ranges::none_of(all.rules, [&](const rule& r) { return r.serves(number); }))
-            throw support::usage_error("--numbers: found " + std::string(name_of(number)) +
-                                       ", expected one that a rule of --rules serves");
+        if (std::ranges::none_of(all.rules, [&](const rule& r) { return r.supports(number); }))
+            throw support::usage_error("--numbers is '" + std::string(name_of(number)) +
+                                       "'; expected a type that a rule of --rules supports");
 }
 elementary_function function_named(const std::string& name) {
     return support::entry_named("--functions", name, named_functions, &named_function::name)
@@ -45,10 +44,11 @@ std::vector<elementary_function> functions_named(const std::string& names) {
     return all;
 }
 
-void require_use_of_every_float(const function_options& asked) {
-    if (std::ranges::all_of(asked.functions, has_two_arguments) ||
-        std::ranges::find(asked.numbers, number_type::float_type) == asked.numbers.end())
-        throw support::usage_error("--every-float: found no function of one argument in float");
+void require_use_of_every_float(const function_options& options) {
+    if (std::ranges::all_of(options.functions, has_two_arguments) ||
+        std::ranges::find(options.numbers, number_type::float_type) == options.numbers.end())
+        throw support::usage_error(
+            "--every-float is given; expected a function of one argument, and float");
 }
 
 }  // namespace
@@ -56,16 +56,15 @@ void require_use_of_every_float(const function_options& asked) {
 validate_options::validate_options(CLI::App& program)
     : line_(*program.add_subcommand(
           "validate",
-          "Hold every bound rule's bounds and certain signs against MPFR, and report how tight "
-          "they\nare. Random expressions, unless --tiny, --queries or --functions asks for "
-          "those.")) {
+          "Compare bounds and certain signs of every rule with MPFR, and report how tight they\n"
+          "are. Tests random expressions, unless --tiny, --queries or --functions is given.")) {
     add_expressions();
     line_
         .add_option("--queries", arguments_.queries,
-                    "Stored queries (ccd query --help says their form): their forms and BSC")
+                    "Stored queries (see ccd query --help): their forms and BSC")
         ->type_name("FILE...")
         ->transform(support::input_named);
-    line_.add_option("--kind", kind_, "Kind of queries; else the path says")
+    line_.add_option("--kind", kind_, "Kind of queries; by default that in the path")
         ->check(CLI::IsMember(ccd::io::kind_names()));
     line_.add_flag("--round", arguments_.round,
                    "Round rationals that no double equals, instead of refusing them");
@@ -110,9 +109,10 @@ void validate_options::add_expressions() {
 
 void validate_options::add_functions() {
     line_
-        .add_option("--functions", functions_,
-                    "The system's elementary functions F[,F...], or all of them: how far they are "
-                    "off,\nin float and double, and whether function_error says so")
+        .add_option(
+            "--functions", functions_,
+            "Elementary functions F[,F...] of the system, or all: their errors in float and "
+            "double,\ncompared with function_error")
         ->type_name("F[,F...]");
     line_
         .add_option("--samples", arguments_.functions.samples,
@@ -122,7 +122,7 @@ void validate_options::add_functions() {
     line_.add_flag("--every-float", arguments_.functions.every_float,
                    "With --functions: all floats, of functions of one argument: long");
     line_.add_option("--units", arguments_.functions.units,
-                     "With --functions: hold them to so many units in the last place, instead of "
+                     "With --functions: the allowed error in units in the last place, instead of "
                      "function_error");
     line_
         .add_option("--functions-csv", arguments_.functions_csv,
@@ -140,7 +140,7 @@ validate_arguments validate_options::checked() {
         all.options.numbers = support::all_named("--numbers", numbers_, number_named);
     if (line_.count("--functions") > 0) all.functions.functions = functions_named(functions_);
     if (const auto units = all.functions.units; units && !(*units > 0 && *units <= most_units))
-        throw support::usage_error("--units: found a number that is none from above 0 to 1024");
+        throw support::usage_error("--units is out of range; expected a number > 0 and <= 1024");
     support::require_one_standard_input("--queries", all.queries);
     all.functions.numbers = all.options.numbers;
     const auto has_functions = [](number_type number) {
@@ -150,8 +150,7 @@ validate_arguments validate_options::checked() {
     if (!all.functions.functions.empty() &&
         std::ranges::none_of(all.functions.numbers, has_functions))
         throw support::usage_error(
-            "--functions: found --numbers without float, double and long double, expected one of "
-            "them");
+            "--numbers has no float, double or long double; expected one of them with --functions");
     all.functions.seed = all.options.seed;
     all.kind = ccd::find_kind(kind_);
     all.expressions = line_.count("--expressions") > 0 ||
@@ -182,8 +181,8 @@ void validate_options::require_use_of_options(const validate_arguments& all) con
         {"--csv", all.expressions || !all.queries.empty(), "--expressions or --queries"}};
     for (const auto& [option, is_used, by] : needs)
         if (line_.count(option) > 0 && !is_used)
-            throw support::usage_error(std::string(option) + ": found without " + by +
-                                       ", expected both");
+            throw support::usage_error(std::string(option) + " is given without " + by +
+                                       "; expected both");
 }
 
 }  // namespace errbound::validation

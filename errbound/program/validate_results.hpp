@@ -9,7 +9,6 @@
 
 namespace errbound::validation {
 
-/// The result of one part.
 struct found_part {
     std::string name;  ///< "expressions", "tiny", "functions" or the file
     report found;

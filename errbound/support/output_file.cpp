@@ -1,4 +1,3 @@
-// Reads and writes whole files.
 #include "errbound/support/output_file.hpp"
 
 #include <array>
@@ -55,7 +54,6 @@ void write_to(int descriptor, const output& out) {
         for_each_block(out.from, write);
 }
 
-/// Writes, then closes the descriptor.
 void write_and_close(int descriptor, const output& out) {
     const fs::path& shown = out.path;
     if (descriptor < 0) throw file_error(shown.string() + ": cannot be written" + reason());
@@ -103,21 +101,21 @@ void replace_file(const std::string& target, const output& out) {
 
 /// The file's real name, also of a new file; nothing for a pipe or a device. Throws file_error.
 std::optional<std::string> file_behind(const fs::path& path) {
-    const auto refuse = [&path](const char* found) {
-        throw file_error("'" + path.string() + "': found " + found + ", expected a file to write");
+    const auto refuse = [&path](const char* fault) {
+        throw file_error("'" + path.string() + "' " + fault + "; expected a file to write");
     };
     std::error_code error;
     const fs::file_status status = fs::status(path, error);
-    if (fs::is_directory(status)) refuse("a directory");
+    if (fs::is_directory(status)) refuse("is a directory");
     if (fs::exists(status)) {
         if (!fs::is_regular_file(status)) return std::nullopt;
         std::string real = system::real_name(system::native_name(path));
         if (real.empty()) throw file_error(path.string() + ": cannot be written" + reason());
         return real;
     }
-    if (fs::is_symlink(fs::symlink_status(path, error))) refuse("a symbolic link to nothing");
+    if (fs::is_symlink(fs::symlink_status(path, error))) refuse("is a symbolic link to nothing");
     std::string name = system::native_name(path);
-    if (name.empty() || folder_of(name) == name) refuse("no file name");
+    if (name.empty() || folder_of(name) == name) refuse("has no file name");
     return name;
 }
 
@@ -175,10 +173,10 @@ std::string read_whole(const fs::path& path) {
     std::error_code error;
     const fs::file_status status = fs::status(path, error);
     if (status.type() == fs::file_type::not_found && !is_standard_input(path)) {
-        throw file_error(path.string() + ": found no such file, expected a readable file");
+        throw file_error(path.string() + ": file does not exist; expected a readable file");
     }
     if (fs::is_directory(status)) {
-        throw file_error(path.string() + ": found a directory, expected a file");
+        throw file_error(path.string() + ": path is a directory; expected a file");
     }
     std::string text;
     for_each_block(path, [&text](std::string_view block) { text += block; });

@@ -1,4 +1,3 @@
-// Common code of every main.
 #pragma once
 
 #include <functional>
@@ -6,8 +5,8 @@
 
 namespace errbound::support {
 
-/// Returns the status of `body`, or, after a message that begins with `name`, 2 if it throws
-/// usage_error, 1 if it throws anything else or standard output fails. Opens closed standard
+/// Returns the status of `body`. Returns 2 if it throws usage_error, and 1 if it throws anything
+/// else or standard output fails, after a message that begins with `name`. Opens closed standard
 /// descriptors first, so that no file gets their numbers.
 int run_program(const std::string& name, const std::function<int()>& body);
 

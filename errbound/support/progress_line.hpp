@@ -27,7 +27,6 @@ class progress_line {
     void show(double share, const std::string& what) {
         draw(share, std::to_string(static_cast<int>(100 * share)) + " % " + what);
     }
-    /// Clears the line for output.
     void clear() {
         if (shown_) std::fputs("\r\x1b[K", stderr);
         shown_ = false;

@@ -14,7 +14,8 @@ scratch_file::scratch_file() {
     std::error_code error;
     const std::filesystem::path folder = std::filesystem::temp_directory_path(error);
     if (error)
-        throw file_error("TMPDIR: found no folder for temporary files (" + error.message() + ")");
+        throw file_error("TMPDIR is not usable (" + error.message() +
+                         "); expected a folder for temporary files");
     const std::string pattern = "errbound-XXXXXX";
     name_ = system::native_name(folder / pattern);
     descriptor_ = system::create_named(name_);

@@ -12,7 +12,6 @@ namespace errbound::support {
 /// A new file in std::filesystem::temp_directory_path(), removed with this object.
 class scratch_file {
   public:
-    /// Throws file_error.
     scratch_file();
     ~scratch_file();
     scratch_file(const scratch_file&) = delete;

@@ -1,4 +1,3 @@
-// Tables as text.
 #include "errbound/support/table.hpp"
 
 #include <algorithm>

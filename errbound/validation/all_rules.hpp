@@ -1,4 +1,4 @@
-// The checks of all rules, each kind in a file of its own, since they compile slowly. Internal.
+// The checks of all rules, each kind in a separate file, since they compile slowly. Internal.
 #pragma once
 
 #include <errbound/validation/rule.hpp>

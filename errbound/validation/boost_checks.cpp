@@ -1,4 +1,3 @@
-// Instances of the checks of Boost's numbers for every rule.
 #include <cstddef>
 #include <errbound/validation/boost_numbers.hpp>
 

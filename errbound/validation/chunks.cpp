@@ -22,7 +22,6 @@ struct freed_mpfr_cache {
     ~freed_mpfr_cache() { mpfr_free_cache(); }
 };
 
-/// Merges reports in the order of their chunks.
 class ordered_sum {
   public:
     void add(std::uint64_t chunk, report found) {
@@ -51,8 +50,8 @@ evidence with_mpfr(evidence what) {
                     const exponents range = exponents::widest();
                     return work(chunk);
                 },
-            .tell =
-                [work = std::move(what.tell)](report& found) {
+            .describe =
+                [work = std::move(what.describe)](report& found) {
                     const freed_mpfr_cache cache;
                     const exponents range = exponents::widest();
                     work(found);
@@ -83,7 +82,7 @@ report examine(const evidence& what, int threads, const progress& show) {
             if (show) show(done, what.chunks);
     for (auto& one : running) one.get();
     report all = sum.take();
-    what.tell(all);
+    what.describe(all);
     return all;
 }
 

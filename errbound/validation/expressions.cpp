@@ -58,7 +58,7 @@ class reference {
                (!o.has_third() || values_[o.third].is_defined());
     }
     /// True if every error's size is known, or it is zero.
-    bool tells_errors(const expression& e, const claim* computed) const {
+    bool has_all_errors(const expression& e, const claim* computed) const {
         for (std::size_t n = e.input_count; n < e.size(); ++n)
             if (computed[n].value.is_finite() && values_[n].is_defined() && !off_[n].is_zero() &&
                 off_[n].is_negligible())
@@ -74,7 +74,6 @@ class reference {
     std::vector<deviation> off_;
 };
 
-/// Counts for one rule and number type.
 struct tally {
     std::uint64_t expressions = 0, values = 0, violations = 0, undetermined = 0;
     std::array<distribution, operation_kinds> log10;
@@ -90,7 +89,7 @@ struct examination {
                std::uint64_t index) {
         const bool divides = e.divides();
         const auto left_out = [&](const rule& r) {
-            return !r.serves(type) || (divides && !r.has_division);
+            return !r.supports(type) || (divides && !r.has_division);
         };
         claims.resize(rules.size());
         const claim* computed = nullptr;  // claims whose errors `exact` has
@@ -113,7 +112,7 @@ struct examination {
                     if (exact.finding_at(e, n, claims[k][n]) == finding::undetermined) return true;
                 return false;
             };
-            bool more = precision < precision_for_errors && !exact.tells_errors(e, computed);
+            bool more = precision < precision_for_errors && !exact.has_all_errors(e, computed);
             for (std::size_t k = 0; k < rules.size() && !more; ++k) more = undetermined(k);
             if (!more) break;
         }
@@ -151,7 +150,7 @@ struct examination {
 };
 
 /// Describes a violation by the smallest expression that shows it.
-void tell(violation& to, const rule& r, number_type type, const expression& e) {
+void describe(violation& to, const rule& r, number_type type, const expression& e) {
     reference exact;
     std::array<claim, expression::max_values> claims;
     const auto finding_of = [&](const expression& tried, std::size_t n) {
@@ -199,7 +198,7 @@ struct study {
         report result;
         for (std::size_t k = 0; k < rules.size(); ++k)
             for (const number_type type : options.numbers) {
-                if (!rules[k].serves(type)) continue;
+                if (!rules[k].supports(type)) continue;
                 auto& of_type = found.tallies[type];
                 of_type.resize(rules.size());
                 add(result, rules[k], name_of(type), of_type[k]);
@@ -220,12 +219,12 @@ struct study {
             to.violations.push_back({name, number, index, {}, {}});
     }
 
-    void tell_all(report& found) const {
+    void describe_all(report& found) const {
         for (violation& v : found.violations) {
             const auto by_rule = [&v](const rule& r) { return r.name == v.rule; };
             const number_type type =
                 std::ranges::find(number_types, v.number, &named_number_type::name)->type;
-            tell(v, *std::ranges::find_if(rules, by_rule), type, at(v.index, type));
+            describe(v, *std::ranges::find_if(rules, by_rule), type, at(v.index, type));
         }
     }
 };
@@ -236,7 +235,7 @@ evidence evidence_of_expressions(std::span<const rule> rules, const expression_o
     const study s{{rules.begin(), rules.end()}, options};
     return with_mpfr({.chunks = s.expressions().count(),
                       .report_of = [s](std::uint64_t chunk) { return s.report_of(chunk); },
-                      .tell = [s](report& found) { s.tell_all(found); }});
+                      .describe = [s](report& found) { s.describe_all(found); }});
 }
 
 report validate_expressions(std::span<const rule> rules, const expression_options& options,

@@ -318,7 +318,7 @@ evidence evidence_of_functions(const function_options& options) {
         {.chunks = chunks,
          .report_of = [jobs,
                        options](std::uint64_t chunk) { return report_of(jobs, options, chunk); },
-         .tell = [](report&) {}});
+         .describe = [](report&) {}});
 }
 
 }  // namespace errbound::validation

@@ -102,7 +102,7 @@ evidence evidence_of_queries(std::span<const rule> rules, std::span<const Query>
              [rules = std::vector(rules.begin(), rules.end()), queries, c](std::uint64_t chunk) {
                  return report_of(std::span(rules), queries, c, chunk);
              },
-         .tell = [](report&) {}});
+         .describe = [](report&) {}});
 }
 template evidence evidence_of_queries(std::span<const rule>,
                                       std::span<const ccd::vertex_face<double>>);

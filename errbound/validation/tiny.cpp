@@ -180,7 +180,7 @@ evidence evidence_of_tiny(std::span<const rule> rules, bool every_bound) {
                  return report_of(rules[chunk / tiny_format_count], chunk % tiny_format_count,
                                   every_bound);
              },
-         .tell = [](report&) {}});
+         .describe = [](report&) {}});
 }
 
 report validate_tiny(std::span<const rule> rules, int threads, const progress& show) {

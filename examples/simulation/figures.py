@@ -139,9 +139,9 @@ def streams(given):
                 cells[method][0] += seconds
                 cells[method][1] += len(pairs - found["exact"][2])
                 cells[method][2] += len(found["exact"][2] - pairs)
-        told = [f"{1e6 * seconds / max(queries, 1):.3f}, {false}" + (f", {lost} lost" if lost else "")
-                for seconds, false, lost in cells.values()]
-        lines.append(f"| {scene} | {queries:,} | " + " | ".join(told) + " |")
+        row = [f"{1e6 * seconds / max(queries, 1):.3f}, {false}" + (f", {lost} lost" if lost else "")
+               for seconds, false, lost in cells.values()]
+        lines.append(f"| {scene} | {queries:,} | " + " | ".join(row) + " |")
     return lines
 
 

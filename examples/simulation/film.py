@@ -98,9 +98,9 @@ def main():
     if not frames:
         sys.exit(f"film: number of frames in {given.folder} is 0; expected frames/*.ply")
     text = (given.folder / "run.txt").read_text()
-    told = {name: [float(x) for x in values.split()]
+    recorded = {name: [float(x) for x in values.split()]
             for name, values in re.findall(r"^(eye|target) (.*)$", text, re.MULTILINE)}
-    view = camera(numpy.array(given.eye or told["eye"]), numpy.array(given.target or told["target"]),
+    view = camera(numpy.array(given.eye or recorded["eye"]), numpy.array(given.target or recorded["target"]),
                   tuple(given.size))
     chosen = sorted({round(i) for i in numpy.linspace(0, len(frames) - 1, given.pictures)})
     body, film = None, []

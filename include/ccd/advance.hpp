@@ -44,14 +44,14 @@ struct advance_result {
     pair_lists near_at_start;      ///< within their distance at t = 0: only contact is avoided
 };
 
-/// Returns the longest step found to be free, from positions.before towards positions.after: a step
-/// from positions.before to the result's positions has no pair in contact (or within its distance)
-/// except those of its two lists. If a group has a contact on the way, it stops just before its
-/// first contact, or slightly earlier if rounding causes a contact there.
+/// Returns the longest step from positions.before towards positions.after that was found to be
+/// free: it has no pair in contact (or within its distance) except those of the result's two lists.
+/// If a group has a contact on the way, it stops just before its first contact, or slightly earlier
+/// if rounding causes a contact there.
 ///
 /// A group's fraction is at least 0.99 of its first contact's time, or of that of a group it was
 /// joined with. It is less, at worst 0, only if no free positions were found within 1024 units in
-/// the last place, which gaps of a few such units cause.
+/// the last place. Gaps of a few such units cause this.
 ///
 /// Throws as mesh_steps::run, and std::invalid_argument if the numbers of groups and vertices
 /// differ. Cost: two such steps; one if all is free; a few more, at most 80, if groups meet by

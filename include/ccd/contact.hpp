@@ -77,9 +77,9 @@ enum class normal_source : std::uint8_t {
 struct first_contact {
     first_time time;
     meeting_features features;
-    /// One weight in [0, 1] for each point. Those of a feature add up to 1 within one rounding, and
-    /// are 0 for points that are not among `features`. The contact is at the weighted sum of the
-    /// first feature's points, and of the second's.
+    /// One weight in [0, 1] for each point. Weights of a feature add up to 1 within one rounding,
+    /// and are 0 for points that are not among `features`. The contact is at the weighted sum of
+    /// the first feature's points, and of the second's.
     std::array<double, 4> weights{};
     double weight_error =
         std::numeric_limits<double>::infinity();  ///< of each; infinite in slivers
@@ -120,9 +120,9 @@ first_contact find_first_contact(const Query& query, double t_max = 1) {
 }
 
 /// The distance within which two elements count as in contact: `all`, the same for all pairs; or a
-/// `thickness` for each vertex. An element is as thick as the thickest of its vertices, and the
-/// distance of a pair is the exact sum of the thicknesses of its two elements. By default 0, which
-/// is contact. Finite and >= 0, in the unit of the coordinates. Not owned.
+/// `thickness` for each vertex. An element is as thick as the thickest of its vertices. The
+/// distance of a pair is the exact sum of the thicknesses of its two elements. The default is 0,
+/// that is contact. Finite and >= 0, in the unit of the coordinates. Not owned.
 struct pair_distances {
     double all = 0;
     std::span<const double> thickness = {};
@@ -224,9 +224,10 @@ std::vector<outcome> decide_within_batch(const Queries& queries, const time_opti
 /// Returns the queries that collide in [0, t_max], ascending, with their first times, and those
 /// that are `uncertain` because a coordinate is not finite. All others are separate.
 ///
-/// Throws std::invalid_argument as decide_batch, and if t_max is not finite, a distance is negative
-/// or not finite, `all` and `thickness` are both given, the numbers of thicknesses and vertices
-/// differ, or queries by value have a thickness. Cost: that of decide_batch or decide_within_batch,
+/// Throws std::invalid_argument as decide_batch, and if t_max is not finite or a distance is
+/// negative or not finite. Also throws if `all` and `thickness` are both given, the numbers of
+/// thicknesses and vertices differ, or queries by value have a thickness.
+/// Cost: that of decide_batch or decide_within_batch,
 /// plus some 0.15 to 0.5 µs for each vertex/face or edge/edge contact; for other kinds and with
 /// distances that of time_of_impact or time_within.
 template <pair_range Pairs>

@@ -41,7 +41,7 @@ status device_status();
 
 /// The number type that a method tries first. `float32` keeps every promise for any input:
 /// coordinates are relative to one of the query's points, with the error of the conversion as their
-/// bound, and queries that floats do not decide are decided in doubles, on the device. (Positions
+/// bound. Doubles, on the device, decide the queries that floats do not decide. (Positions
 /// in floats are not converted. The method `float` promises nothing, and stays in floats.)
 enum class precision : std::uint8_t { float64, float32 };
 
@@ -265,8 +265,8 @@ class mesh_steps {
 struct [[nodiscard]] step_result : status, ccd::step_result {};
 
 /// ccd::step() on the device: copies both frames there and the pairs back. Throws as ccd::step().
-/// Errors: a mesh with edges in addition to the faces' or with more than one vertex on no face,
-/// since the device has only vertex/face and edge/edge pairs; distances; a filter. Uses the options
+/// Errors: a mesh with edges in addition to the faces' or with more than one vertex on no face;
+/// distances; a filter. (The device has only vertex/face and edge/edge pairs.) Uses the options
 /// that mesh_step_options has; narrow_phase_seconds includes both phases and the times.
 step_result step(const mesh& before, const mesh& after, const step_options& options = {},
                  precision precision = precision::float64);

@@ -56,12 +56,12 @@ template <class T>
 concept curve_query = std::same_as<T, vertex_face_curves> || std::same_as<T, edge_edge_curves> ||
     std::same_as<T, vertex_edge_curves> || std::same_as<T, vertex_vertex_curves>;
 
-/// As decide_exact of ccd/exact.hpp; `uncertain` only if a coordinate is not finite or a curve has
-/// no control point.
+/// Same as decide_exact of ccd/exact.hpp. `uncertain` only if a coordinate is not finite or a curve
+/// has no control point.
 template <curve_query Query>
 verdict decide_exact(const Query& query);
 
-/// As the functions of these names in ccd/contact.hpp. For curves of degree m the first time of
+/// Same as in ccd/contact.hpp. For curves of degree m the first time of
 /// contact is algebraic, of degree at most 3m.
 template <curve_query Query>
 first_time time_of_impact(const Query& query, double t_max = 1);

@@ -6,9 +6,9 @@
 // A degenerate triangle or edge is the segment or point that it is. `uncertain`, with cause
 // `range`, only if a coordinate is not finite. Requires a sound environment
 // (errbound/environment.hpp): no flush-to-zero.
-// Cost (./run bench --worst): tens to hundreds of nanoseconds, at worst some 50 µs if coordinates
-// are of 1e-3 to 1e3, and a tenth of a second if they are of all magnitudes. Allocates only in its
-// last stage (ccd/reference.hpp).
+// Cost (./run bench --worst): tens to hundreds of nanoseconds. At worst some 50 µs for coordinates
+// of 1e-3 to 1e3, and a tenth of a second for all magnitudes. Allocates only in its last stage
+// (ccd/reference.hpp).
 #pragma once
 
 #include <ccd/explain.hpp>
@@ -19,8 +19,8 @@
 namespace ccd {
 
 /// Runs the stages of ccd/explain.hpp until one decides; vertex/edge and vertex/vertex queries
-/// start with `integers`. That stage decides every query whose coordinates differ, on each axis and
-/// at each end of the step, by less than 2^253 units in their last place.
+/// start with `integers`. `integers` decides every query whose coordinates differ by less than
+/// 2^253 units in their last place, on each axis and at each end of the step.
 ///
 /// Adds the counts and times of the stages to `report` if it is not null: some 50 ns a stage.
 template <any_query Query>

@@ -24,7 +24,7 @@ std::optional<instruction_set> find_instruction_set(std::string_view name);
 /// Thrown by a call that its stop_query ended. The call's output is unspecified; objects are as
 /// before the call and can be used again.
 struct stopped : std::runtime_error {
-    stopped() : std::runtime_error("ccd: stopped, as the caller asked") {}
+    stopped() : std::runtime_error("ccd: stopped by the caller") {}
 };
 
 /// A callback that is polled periodically, from several threads at once; one of them is the calling
@@ -37,7 +37,7 @@ using stop_query = std::function<bool()>;
 
 namespace detail {
 
-inline void stop_if_asked(const stop_query& stop) {
+inline void stop_if_requested(const stop_query& stop) {
     if (stop && stop()) throw stopped();
 }
 

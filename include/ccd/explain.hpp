@@ -8,7 +8,7 @@
 
 namespace ccd {
 
-/// In the order in which a query passes them; the first certain answer ends the query.
+/// In the order in which a query passes them, until an answer is certain.
 enum class stage : std::uint8_t { axes, coplanarity, inside, subdivision, integers, unbounded };
 inline constexpr std::size_t stage_count = 6;
 
@@ -48,8 +48,8 @@ constexpr stage_info info(stage s) {
 /// Counts and times of the stages. Calls add to it, so one report can collect many calls.
 struct stage_report {
     struct entry {
-        std::uint64_t entered = 0;   ///< queries that the stage tested
-        std::uint64_t left_out = 0;  ///< queries that skipped it, after it decided too few
+        std::uint64_t entered = 0;  ///< queries that the stage tested
+        std::uint64_t skipped = 0;  ///< queries that skipped it, after it decided too few
         std::uint64_t separate = 0;
         std::uint64_t collides = 0;
         double seconds = 0;  ///< the sum over threads
@@ -61,7 +61,7 @@ struct stage_report {
     stage_report& operator+=(const stage_report& other) {
         for (std::size_t i = 0; i < stage_count; ++i) {
             stages[i].entered += other.stages[i].entered;
-            stages[i].left_out += other.stages[i].left_out;
+            stages[i].skipped += other.stages[i].skipped;
             stages[i].separate += other.stages[i].separate;
             stages[i].collides += other.stages[i].collides;
             stages[i].seconds += other.stages[i].seconds;

@@ -98,9 +98,9 @@ struct vertex_rows {
   private:
     static std::size_t common_size(std::size_t at_start, std::size_t at_end) {
         if (at_start != at_end)
-            throw std::invalid_argument("ccd::vertex_rows: " + std::to_string(at_start) +
-                                        " vertices at t = 0, " + std::to_string(at_end) +
-                                        " at t = 1");
+            throw std::invalid_argument("ccd::vertex_rows: number of vertices at t = 1 is " +
+                                        std::to_string(at_end) + "; expected " +
+                                        std::to_string(at_start) + " as at t = 0");
         return at_start;
     }
     template <dense_matrix M>
@@ -122,7 +122,8 @@ struct vertex_rows {
                       "lie side by side");
         if (m.cols() != 3 || m.outerStride() != 3 || m.innerStride() != 1)
             throw std::invalid_argument(
-                "ccd::vertex_rows: expected matrices of three columns without gaps");
+                "ccd::vertex_rows: layout of a matrix differs; expected three columns without "
+                "gaps");
         return static_cast<std::size_t>(m.rows());
     }
 };

@@ -75,13 +75,13 @@ struct step_result {
 /// One step, with the options of ccd::step. Groups, pinned flags and thicknesses are those of
 /// mesh.numbers. can_collide and region must be empty. options.threads applies to each rank.
 ///
-/// Throws std::invalid_argument on all ranks if on one of them ccd::mesh_steps would throw it, a
-/// number occurs twice, a vertex has other positions (groups, flags, thicknesses) than on another
-/// rank, or its box has more than 2^32 − 1 vertices.
+/// Throws std::invalid_argument on all ranks if on one of them ccd::mesh_steps would throw it or a
+/// number occurs twice. Also throws if a vertex has other positions (groups, flags, thicknesses)
+/// than on another rank, or if a box has more than 2^32 − 1 vertices.
 ///
-/// Memory of a rank: 56 bytes a vertex and 24 a face that it sends and receives, that of
-/// ccd::mesh_steps for the elements that meet its box, and 64 bytes for each of 4,096 samples, or
-/// of 64 a rank. Messages: to and from every rank that has elements of its box.
+/// Memory of a rank: 56 bytes a vertex and 24 a face that it sends and receives, and that of
+/// ccd::mesh_steps for the elements that meet its box. Samples take 64 bytes each, for 4,096 or 64
+/// a rank. Messages: to and from every rank that has elements of its box.
 step_result step(MPI_Comm comm, const mesh_part& mesh, const step_options& options = {},
                  placement pairs = placement::owners);
 
@@ -100,8 +100,8 @@ struct advance_result {
 ///
 /// Throws as ccd::mpi::step, and ccd::stopped on all ranks if options.stop returns true on one.
 ///
-/// Memory: that of a step; and, on every rank, the pairs of the whole mesh that touch or are near
-/// at the start, those that meet by rounding, and, with groups, all that meet.
+/// Memory: that of a step, and on every rank some pairs of the whole mesh: those that touch or are
+/// near at the start, those that meet by rounding, and with groups all that meet.
 advance_result advance(MPI_Comm comm, const mesh_part& mesh, const advance_options& options = {});
 
 }  // namespace ccd::mpi

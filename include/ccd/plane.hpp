@@ -2,8 +2,9 @@
 //
 // The calls of ccd/exact.hpp and ccd/contact.hpp at z = 0, with the same guarantees: features of
 // the plane share a point, or have a distance, in space exactly if they do in the plane. A contact
-// of two edges begins at an end of one of them, unless they cross at t = 0, so vertex and edge are
-// all that motion in the plane needs. Cost: as in space; the third axis adds a few products with 0.
+// of two edges begins at an end of one of them, unless they cross at t = 0. So the kinds
+// vertex/edge and vertex/vertex suffice. Cost: as in space; the third axis adds a few products with
+// 0.
 #pragma once
 
 #include <ccd/contact.hpp>
@@ -51,7 +52,7 @@ constexpr ccd::vertex_vertex<double> in_space(const vertex_vertex& q) {
 template <class T>
 concept any_query = std::same_as<T, vertex_edge> || std::same_as<T, vertex_vertex>;
 
-/// As the functions of these names in ccd/exact.hpp.
+/// Same as in ccd/exact.hpp.
 template <any_query Query>
 verdict decide_exact(const Query& query) {
     return ccd::decide_exact(in_space(query));
@@ -61,7 +62,7 @@ verdict touches_at_start(const Query& query) {
     return ccd::touches_at_start(in_space(query));
 }
 
-/// As the functions of these names in ccd/contact.hpp. The normal lies in the plane.
+/// Same as in ccd/contact.hpp. The normal lies in the plane.
 template <any_query Query>
 first_time time_of_impact(const Query& query, double t_max = 1) {
     return ccd::time_of_impact(in_space(query), t_max);

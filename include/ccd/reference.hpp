@@ -14,11 +14,11 @@
 
 namespace ccd {
 
-/// As decide_exact of ccd/exact.hpp.
+/// Same as decide_exact of ccd/exact.hpp.
 template <any_query Query>
 verdict decide_reference(const Query& query);
 
-/// As time_of_impact, decide_within and time_within of ccd/contact.hpp.
+/// Same as time_of_impact, decide_within and time_within of ccd/contact.hpp.
 template <any_query Query>
 first_time time_of_impact_reference(const Query& query, double t_max = 1);
 template <any_query Query>

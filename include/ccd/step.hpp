@@ -98,9 +98,9 @@ using block_visitor = std::function<void(std::span<const pair_of_kind<K>>)>;
 /// The number of pairs of each kind: `vertex_face`, `edge_edge`, `vertex_edge`, `vertex_vertex`.
 using pair_counts = by_kind<detail::count_of_kind>;
 
-/// Lists of pairs, each sorted: a vertex_face_pair is {v, f0, f1, f2}, an edge_edge_pair
-/// {a0, a1, b0, b1} with both edges ascending and the lesser first, a vertex_edge_pair {v, e0, e1}
-/// with the edge ascending, a vertex_vertex_pair {v, w} with v < w.
+/// Lists of pairs, each sorted. A vertex_face_pair is {v, f0, f1, f2}. An edge_edge_pair is
+/// {a0, a1, b0, b1} with both edges ascending and the lesser first. A vertex_edge_pair is
+/// {v, e0, e1} with the edge ascending, a vertex_vertex_pair {v, w} with v < w.
 using pair_lists = by_kind<detail::list_of_kind>;
 
 /// Returns the number of pairs of all kinds.
@@ -158,9 +158,9 @@ step_result step(const mesh& before, const mesh& after, const step_options& opti
 ///
 /// Cost: that of the search, and of decide_exact for each candidate. All pairs are candidates if
 /// all elements are at one place: n unused vertices at the origin make n²/2 pairs, unless
-/// pair_filter::skip_unused skips them. Memory: about ten times that of the two frames; about three
-/// times if candidates are counted or another method decides, or four if floats do not separate the
-/// boxes of elements that are far from the origin. Kept between steps.
+/// pair_filter::skip_unused skips them. Memory, kept between steps: about ten times that of the two
+/// frames. About three times if candidates are counted or another method decides; four times if
+/// floats do not separate the boxes of elements that are far from the origin.
 class mesh_steps {
   public:
     /// Throws std::invalid_argument if an index is not below `vertices`.
@@ -177,10 +177,10 @@ class mesh_steps {
 
     /// Returns the pairs of one step that options.method cannot certify as separate.
     ///
-    /// Throws std::invalid_argument if the numbers of positions and vertices differ, a coordinate
-    /// is not finite, z is not 0 in the plane, the method is none of methods(), the instruction set
-    /// none of instruction_sets(), the filter has another length, distances are not as
-    /// pair_distances requires, or a method other than `exact` has times, t_max < 1 or distances.
+    /// Throws std::invalid_argument if positions or a filter's entries are not as many as vertices,
+    /// a coordinate is not finite, or distances are not valid. Throws if z is not 0 in the plane,
+    /// the method is not in methods(), or the instruction set not in instruction_sets(). Also
+    /// throws if a method other than `exact` has times, t_max < 1 or distances.
     step_result run(const vertex_rows& positions, const step_options& options = {});
 
     /// Returns all candidates of a step, the vertices of faces in the mesh's order, for custom

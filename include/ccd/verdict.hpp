@@ -36,7 +36,7 @@ constexpr std::string_view name(cause c) {
     return i < names.size() ? names[i] : "unknown";
 }
 
-/// `cause` is `none` exactly if `outcome` is certain. By default nothing is decided.
+/// `cause` is `none` exactly if `outcome` is certain. The default is undecided.
 struct verdict {
     ccd::outcome outcome = ccd::outcome::uncertain;
     ccd::cause cause = ccd::cause::undecided;

@@ -123,7 +123,7 @@ static bool divides_once() {
            whole(49, [b](T x) { return x / b; }) && whole(49, [](T x) { return x / T(49); });
 }
 template <class T>
-static bool tells_special_values() {
+static bool distinguishes_special_values() {
     using limits = std::numeric_limits<T>;
     const T infinity = unknown(limits::infinity()), nothing = infinity - infinity;
     return std::isinf(infinity) && std::isnan(nothing) && infinity > (limits::max)() &&
@@ -143,16 +143,16 @@ static bool rounds_to_nearest() {
 /// with its own flags. Cost: some microseconds.
 static inline environment_report floating_point_environment() {
     using namespace detail;
-    const auto of_all = [](const auto& ask) {
-        bool all = ask(float()) && ask(double());
-        if constexpr (is_ieee_format<long double>) all = all && ask(0.0L);
+    const auto of_all = [](const auto& check) {
+        bool all = check(float()) && check(double());
+        if constexpr (is_ieee_format<long double>) all = all && check(0.0L);
         return all;
     };
     return {has_gradual_underflow<float>() && has_gradual_underflow<double>(),
             of_all([](auto x) { return computes_as_written<decltype(x)>(); }),
             of_all([](auto x) { return has_all_bits<decltype(x)>(); }),
             of_all([](auto x) { return divides_once<decltype(x)>(); }),
-            of_all([](auto x) { return tells_special_values<decltype(x)>(); }),
+            of_all([](auto x) { return distinguishes_special_values<decltype(x)>(); }),
             of_all([](auto x) { return rounds_to_nearest<decltype(x)>(); })};
 }
 

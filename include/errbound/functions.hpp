@@ -30,7 +30,7 @@ inline constexpr bool fma_rounds_once = false;
 inline constexpr bool fma_rounds_once = true;
 #endif
 
-/// Pays for up to six roundings in a bound: (1 + 8ε)(1 − ε)^6 > 1.
+/// Covers up to six roundings in a bound: (1 + 8ε)(1 − ε)^6 > 1.
 template <class T>
 constexpr T enlarged(const T& bound) {
     return rounded_product(bound, T(1 + 8 * number_traits<T>::epsilon()));
@@ -188,7 +188,7 @@ constexpr tracked<T, Rule>(max)(const tracked<T, Rule>& a, const tracked<T, Rule
 namespace detail {
 
 /// ab + c by errors σ, v its rounded value: |v − (ab + c)| <= |v|ε/(1 − ε) + η + |â|σb + σa(|b̂| +
-/// σb) + σc. Each product may lose η by underflow. The third η pays for rounding |b̂| + σb if
+/// σb) + σc. Each product may lose η by underflow. The third η covers rounding |b̂| + σb if
 /// σa(|b̂| + σb) is so small that the factor 1 + 8ε is lost. The longest path has six roundings.
 /// Proof: proofs/IeeeFunctions.v, fma_known; in any direction, proofs/Functions.v, fma_sound.
 template <class T, class Rule>

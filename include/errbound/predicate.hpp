@@ -216,9 +216,9 @@ class predicate_type {
 ///   difference;
 /// - static_filter: floating point, with a bound whose constant is counted at compile time;
 /// - tracked: errbound::tracked under the options' rule, if any;
-/// - integers: exact, coordinates on a common exponent: doubles or 128-bit words that hold all
-///   results, coordinates of one word, of two (not if the expression branches), or of the full
-///   exponent range (or the options' exact type).
+/// - integers: exact, coordinates on a common exponent. The number types are doubles or 128-bit
+///   words that hold all results; then integers for coordinates of one word or of two (not if the
+///   expression branches); then those for the full exponent range (or the options' exact type).
 ///
 /// Contraction is allowed. Usable in constant expressions and in device code (compiled, not yet
 /// run). Cost: filters 1 to 2 times the plain expression, integers about ten times; full range up

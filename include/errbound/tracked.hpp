@@ -71,8 +71,8 @@ template <class T, class Rule>
 inline constexpr bool bounds_are_wider = !std::is_same_v<typename type_of_bounds<T, Rule>::type, T>;
 
 // Their names appear in the compiler's message.
-struct take_compare_or_by_value;
-struct take_sign_of_or_compare {};
+struct use_compare_or_by_value;
+struct use_sign_of_or_compare {};
 
 }  // namespace detail
 
@@ -201,7 +201,7 @@ class tracked {
         return sign_of(a - b);
     }
     /// The compiler's message names the functions to use.
-    friend detail::take_compare_or_by_value operator<=>(const tracked&, const tracked&) = delete;
+    friend detail::use_compare_or_by_value operator<=>(const tracked&, const tracked&) = delete;
 
   private:
     static constexpr bool widens = detail::bounds_are_wider<T, Rule>;
@@ -246,7 +246,7 @@ class tracked {
 /// No ==, which would have to guess. sign_of(x) == sign_type::zero: x is certainly zero; x.value()
 /// == 0 compares the value. (errbound/eigen.hpp defines == of two tracked numbers.)
 template <class T, class Rule, class Number>
-detail::take_sign_of_or_compare operator==(const tracked<T, Rule>&, const Number&) = delete;
+detail::use_sign_of_or_compare operator==(const tracked<T, Rule>&, const Number&) = delete;
 
 /// Orders tracked numbers by value, NaN last. For pivoting, sorting and other choices that may be
 /// wrong without harm: std::sort(begin, end, errbound::by_value{}).

@@ -46,7 +46,7 @@ class Stage:
     """Counts of queries in one stage of "exact", and its seconds summed over threads."""
     name: str
     entered: int
-    left_out: int
+    skipped: int
     separate: int
     collides: int
     seconds: float

@@ -57,13 +57,13 @@ class _Queries:
                                  "(before, after)")
             self.stored = doubles("queries", queries, (None, 2 * points, 3))
             rows = self.stored.reshape(-1, 2, points, 3).swapaxes(1, 2).reshape(-1, 6 * points)
-            self.native = _native.Questions(kind, np.require(rows, requirements="C"), None, None, None)
+            self.native = _native.Queries(kind, np.require(rows, requirements="C"), None, None, None)
             self.vertices = 0
         else:
             self.frames = before, after = frames_of(positions)
             self.vertices = len(before)
             self.pairs = indices("queries", queries, points, self.vertices)
-            self.native = _native.Questions(kind, None, self.pairs, before, after)
+            self.native = _native.Queries(kind, None, self.pairs, before, after)
 
     def check_indices(self) -> None:
         if self.pairs is not None:
@@ -266,7 +266,7 @@ def _checked_option(name: str, value: Any, kind: Any, vertices: int) -> Any:
 
 
 def _request(vertices: int, known: dict[str, Any], options: Mapping[str, Any]) -> Any:
-    request = _native.StepQuestion()
+    request = _native.StepRequest()
     for name, value in options.items():
         if name not in known:
             raise TypeError(f"option is {name!r}; expected one of {', '.join(sorted(known))}")

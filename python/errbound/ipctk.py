@@ -238,7 +238,7 @@ class _Pairs:
         """Returns the narrow phase's least time in [0, t_max], or infinity."""
         least = math.inf
         for kind, rows in self._rows.items():
-            queries = _native.Questions(kind, None, np.require(rows, np.uint32, ["C", "A"]), self._start, end)
+            queries = _native.Queries(kind, None, np.require(rows, np.uint32, ["C", "A"]), self._start, end)
             least = min(least, queries.least_time(self._distance, rescaling, max_gap, min(t_max, least),
                                                   lambda row, kind=kind: self._allows(kind, row)))
         return least
@@ -310,7 +310,7 @@ class ExactNarrowPhase(ipctk.NarrowPhaseCCD):  # type: ignore[misc, unused-ignor
     def _result(self, kind: ccd.Kind, start: Any, end: Any, min_distance: float, tmax: float) -> tuple[bool, float]:
         points = np.zeros((len(start), 2, 3))
         points[:, 0, :len(start[0])], points[:, 1, :len(end[0])] = start, end
-        time = _native.Questions(kind, points.reshape(1, -1), None, None, None).least_time(
+        time = _native.Queries(kind, points.reshape(1, -1), None, None, None).least_time(
             min_distance, self.conservative_rescaling, self.max_gap, tmax, None)
         return time < math.inf, time
 

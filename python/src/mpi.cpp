@@ -11,7 +11,7 @@
 #include "arrays.hpp"
 #include "interruptible.hpp"
 #include "results.hpp"
-#include "step_question.hpp"
+#include "step_request.hpp"
 
 namespace errbound::python {
 namespace {
@@ -40,8 +40,8 @@ nb::dict dict_of(const ccd::mpi::rank_work& work) {
     return found;
 }
 
-nb::dict step(const distributed_mesh& mesh, const step_question& asked, bool gather) {
-    ccd::step_options options = asked.step_options();
+nb::dict step(const distributed_mesh& mesh, const step_request& request, bool gather) {
+    ccd::step_options options = request.step_options();
     ccd::mpi::step_result result = without_gil([&](const ccd::stop_query& stop) {
         options.stop = stop;
         return ccd::mpi::step(mesh.communicator(), mesh.part(), options,
@@ -53,7 +53,7 @@ nb::dict step(const distributed_mesh& mesh, const step_question& asked, bool gat
     found["touching_at_start"] =
         pairs_of<ccd::mpi::vertex_number>(std::move(result.touching_at_start));
     found["times"] = nb::none();
-    if (asked.times)
+    if (request.times)
         found["times"] = of_each_kind(std::move(result.times),
                                       [](auto&& times) { return times_of(std::move(times)); });
     found["first_contact"] = time_of(result.first_contact);
@@ -61,8 +61,8 @@ nb::dict step(const distributed_mesh& mesh, const step_question& asked, bool gat
     return found;
 }
 
-nb::dict advance(const distributed_mesh& mesh, const step_question& asked) {
-    ccd::advance_options options = asked.advance_options();
+nb::dict advance(const distributed_mesh& mesh, const step_request& request) {
+    ccd::advance_options options = request.advance_options();
     ccd::mpi::advance_result result = without_gil([&](const ccd::stop_query& stop) {
         options.stop = stop;
         return ccd::mpi::advance(mesh.communicator(), mesh.part(), options);
@@ -92,13 +92,13 @@ std::string library_version() {
 NB_MODULE(_mpi, m) {
     using namespace errbound::python;
     m.doc() = "Functions for errbound.mpi. Arguments are made by errbound._arrays.";
-    nb::module_::import_("errbound._native");  // defines step_question
+    nb::module_::import_("errbound._native");  // defines step_request
     m.def("library_version", &library_version);
     nb::class_<distributed_mesh>(m, "Mesh").def(
         nb::init<int, numbered, positions, positions, input<std::uint32_t, -1, 3>,
                  input<std::uint32_t, -1, 2>>(),
         nb::arg("comm"), nb::arg("numbers"), nb::arg("before"), nb::arg("after"), nb::arg("faces"),
         nb::arg("edges"));
-    m.def("step", &step, nb::arg("mesh"), nb::arg("question"), nb::arg("gather"));
-    m.def("advance", &advance, nb::arg("mesh"), nb::arg("question"));
+    m.def("step", &step, nb::arg("mesh"), nb::arg("request"), nb::arg("gather"));
+    m.def("advance", &advance, nb::arg("mesh"), nb::arg("request"));
 }

@@ -26,11 +26,11 @@ using positions = input<double, -1, 3>;
 using numbers = input<double, -1>;
 
 /// Queries of one kind. They, and positions, are the caller's arrays.
-class questions {
+class query_input {
   public:
-    questions(const std::string& kind, std::optional<input<double, -1, -1>> stored,
-              std::optional<input<std::uint32_t, -1, -1>> pairs, std::optional<positions> before,
-              std::optional<positions> after)
+    query_input(const std::string& kind, std::optional<input<double, -1, -1>> stored,
+                std::optional<input<std::uint32_t, -1, -1>> pairs, std::optional<positions> before,
+                std::optional<positions> after)
         : kind_(kind_named(kind)),
           stored_(std::move(stored)),
           pairs_(std::move(pairs)),
@@ -66,10 +66,10 @@ class questions {
     ccd::vertex_rows rows_;
 };
 
-nb::tuple decide(const questions& asked, int threads, bool explain, bool at_start) {
+nb::tuple decide(const query_input& all, int threads, bool explain, bool at_start) {
     ccd::batch_result result = without_gil([&](const ccd::stop_query& stop) {
         const ccd::batch_options options{.threads = threads, .explain = explain, .stop = stop};
-        return asked.visit([&](const auto&... queries) {
+        return all.visit([&](const auto&... queries) {
             return at_start ? ccd::touches_at_start_batch(queries..., options)
                             : ccd::decide_batch(queries..., options);
         });
@@ -89,11 +89,11 @@ ccd::outcome decide_one(ccd::method method, const Query& query) {
         "method: vertex/edge and vertex/vertex queries are decided by 'exact' alone");
 }
 
-nb::object decide_by(const questions& asked, const std::string& name) {
+nb::object decide_by(const query_input& all, const std::string& name) {
     const ccd::method method = method_of(name);
-    std::vector<ccd::outcome> answers(asked.size());
+    std::vector<ccd::outcome> answers(all.size());
     in_parts(answers.size(), 4096, [&](std::size_t first, std::size_t count) {
-        asked.visit([&](const auto& queries, const auto&... pairs) {
+        all.visit([&](const auto& queries, const auto&... pairs) {
             for (std::size_t i = first; i < first + count; ++i)
                 if constexpr (sizeof...(pairs) == 0)
                     answers[i] = decide_one(method, queries[i]);
@@ -113,20 +113,20 @@ ccd::time_options time_options_of(double t_max, double distance,
     return options;
 }
 
-nb::object decide_within(const questions& asked, double distance,
+nb::object decide_within(const query_input& all, double distance,
                          const std::optional<numbers>& thickness, int threads) {
     return numbers_of<std::uint8_t>(without_gil([&](const ccd::stop_query& stop) {
         const auto options = time_options_of(1, distance, thickness, threads, stop);
-        return asked.visit(
+        return all.visit(
             [&](const auto&... queries) { return ccd::decide_within_batch(queries..., options); });
     }));
 }
 
-std::vector<ccd::timed_contact> timed(const questions& asked, double t_max, double distance,
+std::vector<ccd::timed_contact> timed(const query_input& all, double t_max, double distance,
                                       const std::optional<numbers>& thickness, int threads) {
     return without_gil([&](const ccd::stop_query& stop) {
         const auto options = time_options_of(t_max, distance, thickness, threads, stop);
-        return asked.visit(
+        return all.visit(
             [&](const auto&... queries) { return ccd::timed_contacts(queries..., options); });
     });
 }
@@ -142,25 +142,25 @@ nb::dict times_among(std::vector<ccd::timed_contact>&& contacts) {
     return found;
 }
 
-nb::dict first_times(const questions& asked, double t_max, double distance,
+nb::dict first_times(const query_input& all, double t_max, double distance,
                      const std::optional<numbers>& thickness, int threads) {
-    return times_among(timed(asked, t_max, distance, thickness, threads));
+    return times_among(timed(all, t_max, distance, thickness, threads));
 }
 
-std::vector<ccd::first_contact> contacts_at(const questions& asked,
+std::vector<ccd::first_contact> contacts_at(const query_input& all,
                                             const std::vector<ccd::timed_contact>& contacts,
                                             int threads) {
     std::vector<ccd::first_contact> found(contacts.size());
     in_parts(contacts.size(), 65536, [&](std::size_t first, std::size_t count) {
         std::vector<ccd::first_time> times;
         for (std::size_t i = first; i < first + count; ++i) times.push_back(contacts[i].time);
-        const auto chosen = [&](const auto& all) {
-            std::vector<std::ranges::range_value_t<decltype(all)>> some;
+        const auto chosen = [&](const auto& items) {
+            std::vector<std::ranges::range_value_t<decltype(items)>> some;
             for (std::size_t i = first; i < first + count; ++i)
-                some.push_back(all[contacts[i].query]);
+                some.push_back(items[contacts[i].query]);
             return some;
         };
-        const auto data = asked.visit([&](const auto& queries, const auto&... pairs) {
+        const auto data = all.visit([&](const auto& queries, const auto&... pairs) {
             if constexpr (sizeof...(pairs) == 0)
                 return ccd::first_contacts(chosen(queries), times, threads);
             else
@@ -171,9 +171,9 @@ std::vector<ccd::first_contact> contacts_at(const questions& asked,
     return found;
 }
 
-nb::dict first_contacts(const questions& asked, double t_max, int threads) {
-    std::vector<ccd::timed_contact> contacts = timed(asked, t_max, 0, std::nullopt, threads);
-    const shared_items shared(contacts_at(asked, contacts, threads));
+nb::dict first_contacts(const query_input& all, double t_max, int threads) {
+    std::vector<ccd::timed_contact> contacts = timed(all, t_max, 0, std::nullopt, threads);
+    const shared_items shared(contacts_at(all, contacts, threads));
     nb::dict found = times_among(std::move(contacts));
     const ccd::first_contact& c = shared.first();
     const auto code = [](const auto& x) -> auto& {
@@ -200,7 +200,7 @@ bool is_counted(const nb::object& counts, std::size_t query) {
 
 /// Returns the least time in [0, t_max] of a narrow phase that keeps a gap, over queries with
 /// counts(query), or infinity. counts is called only for queries with an earlier time than before.
-double least_time(const questions& asked, double min_distance, double rescaling, double max_gap,
+double least_time(const query_input& all, double min_distance, double rescaling, double max_gap,
                   double t_max, const nb::object& counts) {
     const ccd::adapters::detail::kept_gap kept{rescaling, max_gap};
     double least = std::numeric_limits<double>::infinity();
@@ -209,8 +209,8 @@ double least_time(const questions& asked, double min_distance, double rescaling,
             ccd::adapters::detail::answer(query, kept, min_distance, std::min(t_max, least));
         if (found.collides && found.toi < least && is_counted(counts, i)) least = found.toi;
     };
-    in_parts(asked.size(), 4096, [&](std::size_t first, std::size_t count) {
-        asked.visit([&](const auto& queries, const auto&... pairs) {
+    in_parts(all.size(), 4096, [&](std::size_t first, std::size_t count) {
+        all.visit([&](const auto& queries, const auto&... pairs) {
             for (std::size_t i = first; i < first + count; ++i)
                 if constexpr (sizeof...(pairs) == 0)
                     shorten(i, queries[i]);
@@ -240,7 +240,7 @@ nb::list instruction_sets() {
 }  // namespace
 
 void bind_queries(nb::module_& m) {
-    nb::class_<questions>(m, "Questions")
+    nb::class_<query_input>(m, "Queries")
         .def(nb::init<const std::string&, std::optional<input<double, -1, -1>>,
                       std::optional<input<std::uint32_t, -1, -1>>, std::optional<positions>,
                       std::optional<positions>>(),

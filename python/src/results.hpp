@@ -19,7 +19,7 @@ inline nb::list stages_of(const ccd::stage_report& report) {
     nb::list rows;
     for (const ccd::stage_info& stage : ccd::exact_stages) {
         const auto& e = report[stage.stage];
-        rows.append(nb::make_tuple(std::string(stage.name), e.entered, e.left_out, e.separate,
+        rows.append(nb::make_tuple(std::string(stage.name), e.entered, e.skipped, e.separate,
                                    e.collides, e.seconds));
     }
     return rows;

@@ -11,12 +11,12 @@
 #include "bindings.hpp"
 #include "interruptible.hpp"
 #include "results.hpp"
-#include "step_question.hpp"
+#include "step_request.hpp"
 
 namespace errbound::python {
 namespace {
 
-nb::dict result_of(ccd::step_result&& result, const step_question& asked) {
+nb::dict result_of(ccd::step_result&& result, const step_request& request) {
     nb::dict seconds, found;
     seconds["prepare"] = result.prepare_seconds;
     seconds["broad_phase"] = result.broad_phase_seconds;
@@ -28,13 +28,13 @@ nb::dict result_of(ccd::step_result&& result, const step_question& asked) {
     found["pairs"] = pairs_of(std::move(result.pairs));
     found["touching_at_start"] = pairs_of(std::move(result.touching_at_start));
     found["times"] = nb::none();
-    if (asked.times)
+    if (request.times)
         found["times"] = of_each_kind(std::move(result.times),
                                       [](auto&& times) { return times_of(std::move(times)); });
     found["first_contact"] = time_of(result.first_contact);
     found["seconds"] = seconds;
     found["threads"] = result.threads;
-    found["stages"] = asked.stages ? nb::object(stages_of(result.stages)) : nb::none();
+    found["stages"] = request.stages ? nb::object(stages_of(result.stages)) : nb::none();
     return found;
 }
 
@@ -54,24 +54,24 @@ class steps {
         : steps_(items_of<ccd::face>(faces), items_of<ccd::edge>(edges), vertices) {}
     explicit steps(ccd::mesh_steps&& made) : steps_(std::move(made)) {}
 
-    nb::dict run(const positions& before, const positions& after, const step_question& asked) {
-        ccd::step_options options = asked.step_options();
+    nb::dict run(const positions& before, const positions& after, const step_request& request) {
+        ccd::step_options options = request.step_options();
         return result_of(alone([&](const ccd::stop_query& stop) {
                              options.stop = stop;
                              return steps_.run(rows(before, after), options);
                          }),
-                         asked);
+                         request);
     }
     nb::dict candidates(const positions& before, const positions& after,
-                        const step_question& asked) {
-        ccd::step_options options = asked.step_options();
+                        const step_request& request) {
+        ccd::step_options options = request.step_options();
         return pairs_of(alone([&](const ccd::stop_query& stop) {
             options.stop = stop;
             return steps_.candidates(rows(before, after), options);
         }));
     }
-    nb::dict advance(const positions& before, const positions& after, const step_question& asked) {
-        ccd::advance_options options = asked.advance_options();
+    nb::dict advance(const positions& before, const positions& after, const step_request& request) {
+        ccd::advance_options options = request.advance_options();
         ccd::advance_result result = alone([&](const ccd::stop_query& stop) {
             options.stop = stop;
             return ccd::advance(steps_, rows(before, after), options);
@@ -94,24 +94,24 @@ class steps {
 }  // namespace
 
 void bind_steps(nb::module_& m) {
-    nb::class_<step_question>(m, "StepQuestion")
+    nb::class_<step_request>(m, "StepRequest")
         .def(nb::init<>())
-        .def_rw("method", &step_question::method)
-        .def_rw("threads", &step_question::threads)
-        .def_rw("count_candidates", &step_question::count_candidates)
-        .def_rw("stages", &step_question::stages)
-        .def_rw("initial_contact", &step_question::initial_contact)
-        .def_rw("first_contact", &step_question::first_contact)
-        .def_rw("times", &step_question::times)
-        .def_rw("between_groups", &step_question::between_groups)
-        .def_rw("skip_unused", &step_question::skip_unused)
-        .def_rw("t_max", &step_question::t_max)
-        .def_rw("distance", &step_question::distance)
-        .def_rw("thickness", &step_question::thickness, nb::arg("value").none())
-        .def_rw("groups", &step_question::groups, nb::arg("value").none())
-        .def_rw("islands", &step_question::islands, nb::arg("value").none())
-        .def_rw("pinned", &step_question::pinned, nb::arg("value").none())
-        .def_rw("can_collide", &step_question::can_collide, nb::arg("value").none());
+        .def_rw("method", &step_request::method)
+        .def_rw("threads", &step_request::threads)
+        .def_rw("count_candidates", &step_request::count_candidates)
+        .def_rw("stages", &step_request::stages)
+        .def_rw("initial_contact", &step_request::initial_contact)
+        .def_rw("first_contact", &step_request::first_contact)
+        .def_rw("times", &step_request::times)
+        .def_rw("between_groups", &step_request::between_groups)
+        .def_rw("skip_unused", &step_request::skip_unused)
+        .def_rw("t_max", &step_request::t_max)
+        .def_rw("distance", &step_request::distance)
+        .def_rw("thickness", &step_request::thickness, nb::arg("value").none())
+        .def_rw("groups", &step_request::groups, nb::arg("value").none())
+        .def_rw("islands", &step_request::islands, nb::arg("value").none())
+        .def_rw("pinned", &step_request::pinned, nb::arg("value").none())
+        .def_rw("can_collide", &step_request::can_collide, nb::arg("value").none());
     nb::class_<steps>(m, "Steps")
         .def(nb::init<const input<std::uint32_t, -1, 3>&, const input<std::uint32_t, -1, 2>&,
                       std::size_t>(),
@@ -122,10 +122,10 @@ void bind_steps(nb::module_& m) {
                 return new steps(ccd::mesh_steps::in_plane(items_of<ccd::edge>(edges), vertices));
             },
             nb::arg("edges"), nb::arg("vertices"), nb::rv_policy::take_ownership)
-        .def("run", &steps::run, nb::arg("before"), nb::arg("after"), nb::arg("question"))
+        .def("run", &steps::run, nb::arg("before"), nb::arg("after"), nb::arg("request"))
         .def("candidates", &steps::candidates, nb::arg("before"), nb::arg("after"),
-             nb::arg("question"))
-        .def("advance", &steps::advance, nb::arg("before"), nb::arg("after"), nb::arg("question"));
+             nb::arg("request"))
+        .def("advance", &steps::advance, nb::arg("before"), nb::arg("after"), nb::arg("request"));
 }
 
 }  // namespace errbound::python

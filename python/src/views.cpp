@@ -3,7 +3,6 @@
 
 #include <ccd/io/step_view.hpp>
 #include <cstdint>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -41,11 +40,7 @@ struct listed_pairs {
 void write_view(const std::string& path, const positions& before, const positions& after,
                 const input<std::uint32_t, -1, 3>& faces, const input<std::uint32_t, -1, 2>& edges,
                 const nb::dict& pairs, const nb::dict& times) {
-    try {
-        ccd::io::view_paths(path);
-    } catch (const std::invalid_argument& error) {
-        throw std::invalid_argument(std::string("path: ") + error.what());
-    }
+    ccd::io::view_paths(path);  // throws before the pairs are converted
     const listed_pairs listed(pairs, times);
     const nb::gil_scoped_release released;
     support::write_whole(ccd::io::view_files(path, {{before.data(), after.data(), before.shape(0)},

@@ -36,7 +36,7 @@ FRAMES = io.Mesh(BEFORE, np.array(FACES)), io.Mesh(AFTER, np.array(FACES))
     ({"thickness": [0, 0, np.inf, 0]}, ValueError, "thickness of vertex 2 is inf"),
     ({"thickness": 0.1}, ValueError, "thickness is 0.1; expected a number for each of 4 vertices, or distance= for one"),
     ({"thickness": [0, 0]}, ValueError, r"shape of thickness is \(2,\); expected \(4,\)"),
-    ({"method": "tight", "times": True}, ValueError, "^found method tight, expected exact"),
+    ({"method": "tight", "times": True}, ValueError, "^method is tight; expected exact"),
     ({"between_groups": False}, ValueError, "between_groups is False without groups"),
     ({"pinned": [0, 3]}, ValueError, r"shape of pinned is \(2,\); expected \(4,\): a flag for each vertex"),
     ({"pinned": [0, 3, 1, 2]}, ValueError, "pinned is an array of int64 with other values than 0 and 1"),

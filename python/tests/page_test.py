@@ -249,7 +249,7 @@ def test_rods_points_and_no_times(opened, tmp_path):
     assert [row[1:] for row in listed(page)] == [["ve", "2 | 0 1"], ["ve", "3 | 0 1"], ["vv", "2 | 3"]]
     assert (picture(page) < 100).any()
     page.locator("#pair-2").click()
-    assert page.inner_text("#when") == "When it is first there was not asked for."
+    assert page.inner_text("#when") == "The first time was not computed."
     assert page.locator("#order option").count() == 1
 
 

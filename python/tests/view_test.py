@@ -75,7 +75,7 @@ def test_a_page_without_a_path(scene, step, monkeypatch, tmp_path):
 
 @pytest.mark.parametrize("call, error, message", [
     (lambda b, a, s: show(b, a, s, "step.vtp"), ValueError, "path is 'step.vtp'; expected .* .html"),
-    (lambda b, a, s: io.write_view("step.obj", b, a, s), ValueError, "path: found 'step.obj', expected .* .pvd"),
+    (lambda b, a, s: io.write_view("step.obj", b, a, s), ValueError, "path is 'step.obj'; expected .* .pvd"),
     (lambda b, a, s: show(b, io.Mesh(a.vertices, a.faces[1:]), s, "x.html"), ValueError, "faces of after differ"),
     (lambda b, a, s: show(b, io.Mesh(a.vertices[1:], a.faces), s, "x.html"), ValueError, "number of vertices in after is 2401"),
     (lambda b, a, s: show(b, io.Mesh(a.vertices * np.nan, a.faces), s, "x.html"), ValueError, "row 0 of after is"),

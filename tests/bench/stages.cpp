@@ -35,7 +35,7 @@ void add_stage_rows(const query_set<Query>& set, const options& o,
         const auto& e = r[stage.stage];
         const auto entered = static_cast<double>(e.entered);
         rows.push_back({word(short_name(ccd::kind_of<Query>)), word(stage.name), count(e.entered),
-                        count(e.left_out), percent(entered / all), count(e.separate),
+                        count(e.skipped), percent(entered / all), count(e.separate),
                         count(e.collides), percent(e.seconds / total_seconds(r)),
                         e.entered > 0 ? number(1e9 * e.seconds / entered, 1) : none(),
                         number(1e9 * e.seconds / all, 2)});

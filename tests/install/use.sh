@@ -12,7 +12,7 @@ if [[ -f $work/build/use_adapters ]]; then "$work/build/use_adapters"; fi
 scene=$source/examples/scenes/cloth-over-ball
 "$work/build/use_ccd_io" "$scene"/frame{0,1}.ply
 if "$work/build/use_ccd_io" "$scene"/frame0.ply missing.ply 2>"$work/said"; then exit 1; fi
-grep -q "missing.ply: found no such file" "$work/said"
+grep -q "missing.ply: file does not exist" "$work/said"
 for optional in ccd_cuda validation; do
     library=$(find "$prefix"/lib* -name "liberrbound_$optional.a" -print -quit)
     if [[ -n $library ]]; then "$work/build/use_$optional" >/dev/null; fi

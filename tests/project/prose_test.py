@@ -18,7 +18,7 @@ MOST_WORDS = 25
 MOST_LINES = 12
 ROOMS = ["README.md", "CONTRIBUTING.md", "CHANGELOG.md", "docs/*.md",
          *(f"{room}/{files}" for room in (
-             "ccd/cuda", "ccd/program", "cmake", "examples", "packaging", "proofs", "python", "tests/bench",
+             "ccd", "cmake", "errbound", "examples", "include", "packaging", "proofs", "python", "tests/bench",
              "tests/ccd/adapters", "tests/ccd/batch", "tests/ccd/contact", "tests/ccd/exact", "tests/ccd/lab",
              "tests/ccd/methods", "tests/ccd/mpi", "tests/ccd/program", "tests/ccd/step", "tests/everywhere",
              "tests/faults", "tests/fuzz", "tests/install", "tests/must_not_compile", "tests/project", "tests/proofs",
@@ -30,7 +30,8 @@ WORDS = re.compile(
     r"in turns|now and then|nothing is known|(?:is|are|was|were) asked|asks|says|tells|knows|of one's own|mended|mends)\b",
     re.IGNORECASE)
 # Sentences that the rules do not fit, by their file and a part of them.
-EXCEPTIONS = []
+TABLE = "include/errbound/rules/rule.hpp"  # the members of a rule
+EXCEPTIONS = [(TABLE, "for tables and messages"), (TABLE, "minimal_precision")]
 
 
 def of_cpp(text):

@@ -175,7 +175,7 @@ template <class Part>
 void put_part(hash& h, const Part& p) {
     for (const auto& y : p.y.h) put_number(h, y);
     put_number(h, p.low);
-    for (const int n : {p.roots.count, p.unit_bits, p.width_bits, p.ask_from, p.bits()})
+    for (const int n : {p.roots.count, p.unit_bits, p.width_bits, p.test_from, p.bits()})
         h.put(static_cast<std::uint32_t>(n));
     h.put(p.can_be_narrowed());
 }
@@ -201,7 +201,7 @@ void put_parts(hash& h, const tie::drawn_forms& f) {
         p = narrow ? *narrow : contact.any_root(half.roots) ? half : p.sub_part(1, 1 - path % 2, 0);
     }
     put_part(h, p);
-    p.ask_from = p.bits() + static_cast<int>(path % 2);
+    p.test_from = p.bits() + static_cast<int>(path % 2);
     put(h, contact.by_narrowing(p));
 }
 /// Roots that appear late, and sizes near the most bits.
@@ -215,7 +215,7 @@ void put_deep(hash& h, const tie::drawn_deep& d) {
     deep.y = {{number(-1), number(1, d.root_bits, false), number(0), number(1)}};
     deep.roots = ccd::detail::inner_sign_changes(deep.y);
     deep.unit_bits = d.unit_bits;
-    deep.ask_from = d.ask_from;
+    deep.test_from = d.test_from;
     put(h, contact.by_narrowing(deep));
     part limit;
     limit.unit_bits = d.limit_unit_bits;

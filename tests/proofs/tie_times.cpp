@@ -51,7 +51,8 @@ void put_part(hash& h, const Query& query, int k) {
     const sign_type before = sign_at(index);
     if (before == sign_type::zero || sign_at(index + 1) != -before) return;
     const double start = before == sign_type::positive ? 1 : -1;
-    ccd::static_filter::contact_part part{std::ldexp(index, -depth), std::ldexp(index + 1, -depth)};
+    ccd::static_filter::contact_interval part{std::ldexp(index, -depth),
+                                              std::ldexp(index + 1, -depth)};
     part.y.b = {start, k % 5 - 2.0, k % 7 - 3.0, -start};
     part.one_root = true;
     put(h, ccd::detail::root_in_integers(query, part));
@@ -76,7 +77,7 @@ void put_wide(hash& h, const Query& query) {
     if (ccd::detail::integer_units(query).bits() <= ccd::detail::extent_limit(2)) {
         put_part(h, query, 0);
     } else {
-        ccd::static_filter::contact_part part{0, 1};
+        ccd::static_filter::contact_interval part{0, 1};
         part.y.b = {1, 0, 0, -1};
         part.one_root = true;
         put(h, ccd::detail::root_in_integers(query, part));

@@ -243,7 +243,7 @@ class whole_forms_maker {
 /// two close roots.
 struct drawn_deep {
     drawn_forms forms;
-    int unit_bits, root_bits, ask_from;
+    int unit_bits, root_bits, test_from;
     int limit_unit_bits, limit_bits;
     int limit_index;
     bool limit_negative;
@@ -261,7 +261,7 @@ inline drawn_deep draw_deep(sequence& s) {
     }
     d.unit_bits = draw(s, 1535);
     d.root_bits = draw(s, 700);
-    d.ask_from = d.unit_bits + (draw(s, 2) == 0 ? 0 : draw(s, 200));
+    d.test_from = d.unit_bits + (draw(s, 2) == 0 ? 0 : draw(s, 200));
     d.limit_unit_bits = 1472 + draw(s, 4);
     d.limit_bits = 5442 + draw(s, 4);
     d.limit_index = static_cast<int>(draw(s, 4));

@@ -1,4 +1,3 @@
-// Contact data: see include/ccd/contact.hpp.
 #include <algorithm>
 #include <ccd/contact.hpp>
 #include <ccd/kind.hpp>
@@ -18,15 +17,15 @@ namespace {
 using errbound::sign_type;
 using traits = errbound::number_traits<double>;
 
-/// In [0, 1], also what is not a number.
+/// Clamps to [0, most]; NaN becomes 0.
 double clamped(double weight, double most) {
     return weight > 0 ? std::min(weight, most) : 0;
 }
 
-/// Weights of the points of one feature: those but the first, cut to what is left of 1; the rest
-/// is the first's. The true ones are in [0, 1] and add up to 1, so that no cut adds to an error;
-/// the first's is at most the sum of the others'. Two differences up to 1 are off by ε/4 each, and
-/// three roundings of this sum are paid for.
+/// Sets the weights of the points of one feature. Each except the first is cut to the rest of 1;
+/// the first gets the remainder. True weights are in [0, 1] and add up to 1, so a cut adds no
+/// error. The error of the first is at most the sum of the others'. Two differences up to 1 are off
+/// by ε/4 each; the bound includes three roundings of this sum.
 /// Proof: proofs/ContactWeights.v, weights_right.
 void set_weights(const contact_state& state, const point_numbers& points, std::size_t first,
                  std::size_t count, first_contact& into) {
@@ -61,10 +60,10 @@ void set_normal(const direction& along, normal_source source, bool sided, first_
     into.sided = sided;
 }
 
-/// The sign of the cross product N that points to the side on which the first feature was before
-/// the contact; nothing if none was. `velocity`: of the first feature relative to the second.
-/// Y = N·P is 0 at the contact, and its derivative there is N times the velocity of P's end; where
-/// that has a sign, Y had the opposite one before.
+/// Returns the sign with which the cross product N points to the side of the first feature before
+/// the contact; nothing if there was no side. `velocity` is that of the first feature relative to
+/// the second. Y = N·P is 0 at the contact, where its derivative is N times the velocity of P's
+/// end. If the derivative has a certain sign, Y had the opposite sign before.
 template <class Query>
 std::optional<int> side_of(const Query& query, const first_time& time, const enclosed_vector& n,
                            const enclosed_vector& velocity) {
@@ -73,12 +72,12 @@ std::optional<int> side_of(const Query& query, const first_time& time, const enc
     if (approach == sign_type::positive) return -1;
     const sign_type side = side_before(query, time);
     if (side == sign_type::zero) return std::nullopt;
-    // P is the vertex relative to the face, but the second edge relative to the first.
+    // P is the vertex relative to the face, or the second edge relative to the first.
     constexpr bool towards_first = kind_of<Query> == kind::vertex_face;
     return (side == sign_type::positive) == towards_first ? 1 : -1;
 }
 
-/// Sets the cross product as the normal, if there is a side for it or the start leaves none.
+/// Sets the cross product as the normal, if its side is known or the start determines none.
 template <class Query>
 bool set_cross_product(const Query& query, const enclosed_vector& n,
                        const enclosed_vector& velocity, first_contact& into) {
@@ -86,7 +85,7 @@ bool set_cross_product(const Query& query, const enclosed_vector& n,
     const auto along = direction_of(n);
     if (!along || !(inside || is_known(*along))) return false;
     const bool start = into.time.at_start();
-    // Inside at the start, or of slivers, there is no side to ask for.
+    // Contacts inside at the start, and those of slivers, have no side.
     if (inside && (start || !is_known(*along))) {
         set_normal(*along, normal_source::cross_product, false, into);
         return true;
@@ -97,8 +96,8 @@ bool set_cross_product(const Query& query, const enclosed_vector& n,
     return true;
 }
 
-/// Against the velocity, less its part along the edge that meets; where that has no direction, the
-/// `cross_product`, if that has; else against all of the velocity.
+/// Sets a normal against the velocity without its component along the edge that meets. If that has
+/// no direction, uses `cross_product` if it has one, else the whole velocity.
 void set_substitute_normal(const contact_state& state, const enclosed_vector& velocity,
                            const enclosed_vector* cross_product, first_contact& into) {
     const auto set = [&](const enclosed_vector& p, normal_source source, bool sided) {
@@ -126,8 +125,8 @@ void set_normal_velocity(const enclosed_vector& velocity, int exponent, first_co
     into.normal_velocity_error = std::isfinite(value) && error >= 0 ? error : traits::infinity();
 }
 
-/// Whether the features certainly do not touch then: of a contact all weights are in [0, 1], those
-/// of a feature add up to 1, and the points are the same.
+/// True if the features certainly do not touch at that time. In a contact all weights are in
+/// [0, 1], those of a feature add up to 1, and both points are equal.
 bool certainly_apart(const contact_state& state) {
     const auto is_negative = [](const enclosure& w) { return sign_of(w) == sign_type::negative; };
     return std::ranges::any_of(state.weights, is_negative) ||

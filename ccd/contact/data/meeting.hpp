@@ -1,4 +1,4 @@
-// Which features of a query meet at its first contact. Internal.
+// The features of a query that meet at its first contact. Internal.
 #pragma once
 
 #include <array>
@@ -16,7 +16,7 @@
 
 namespace ccd::detail {
 
-/// Inside both features of the query.
+/// The query's features themselves, which meet inside.
 template <kind K>
 constexpr meeting_features whole_query() {
     meeting_features all{K, {}};
@@ -26,14 +26,15 @@ constexpr meeting_features whole_query() {
     return all;
 }
 
-/// A smaller pair of features within a query: the numbers of its points, and that of the point
-/// whose weight is 0 where it meets.
+/// A smaller pair of features within a query: the indices of its points, and of the point whose
+/// weight is 0 if the pair meets.
 struct smaller_pair {
     point_numbers points;
     std::uint8_t without;
 };
 
-/// The vertex/edge pairs, or of a vertex and an edge the vertex/vertex pairs.
+/// Lists the vertex/edge pairs of a face or two edges, or a vertex/edge query's vertex/vertex
+/// pairs.
 template <kind K>
 constexpr auto smaller_pairs() {
     if constexpr (K == kind::vertex_face)
@@ -57,10 +58,10 @@ bool meet_at(const Points& points, const first_time& time, const point_numbers& 
     return !separated_by_coordinates(query) && time_of_impact(query, time.high) == time;
 }
 
-/// `weights`: enclosures of those inside both. Where the features meet inside, they are unique: a
-/// smaller pair that meets has one that is 0; where they are not (N = 0, or an edge without
-/// length), no sign of an enclosure is certain. A smaller pair's first contact is not before the
-/// query's, so if it has another bracket it is later.
+/// `weights` are enclosures for contact inside both features. If the features meet inside, weights
+/// are unique, and a smaller pair that meets has a weight of 0. Otherwise (N = 0, or an edge
+/// without length) no enclosure has a certain sign. A smaller pair's first contact is not before
+/// the query's, so it is later if it has another bracket.
 template <class Query>
 meeting_features features_at(const Query& query, const first_time& time,
                              const std::array<enclosure, 4>& weights) {

@@ -1,8 +1,7 @@
-// The points of a query at a time that is known to a bracket: enclosures of differences, weights
-// and relative velocity. Internal.
+// The points of a query at a time given by a bracket: enclosures of differences, weights and
+// relative velocity. Internal.
 //
-// Under the rule `residual`: plain bounds would be some ten times as wide as what the bracket
-// leaves open.
+// Uses the rule `residual`, because plain bounds would be some ten times as wide as the bracket's.
 #pragma once
 
 #include <algorithm>
@@ -24,7 +23,7 @@ namespace ccd::detail {
 
 using enclosure = errbound::tracked<double, errbound::residual>;
 using enclosed_vector = vector_form<enclosure, 0>;
-/// Numbers of points of a query.
+/// Indices of points of a query.
 using point_numbers = std::array<std::uint8_t, 4>;
 
 inline enclosed_vector operator+(const enclosed_vector& p, const enclosed_vector& q) {
@@ -43,25 +42,23 @@ inline enclosed_vector operator-(const enclosed_vector& p) {
 inline std::array<enclosure, 3> components(const enclosed_vector& p) {
     return {p.x[0], p.y[0], p.z[0]};
 }
-/// The largest component's magnitude.
 inline double size(const enclosed_vector& p) {
     double largest = 0;
     for (const enclosure& x : components(p)) largest = std::max(largest, std::abs(x.value()));
     return largest;
 }
-/// p·2^e
+/// Returns p·2^e.
 inline enclosed_vector scaled(const enclosed_vector& p, int e) {
     if (e == 0) return p;
     return {{{scale(p.x[0], e)}}, {{scale(p.y[0], e)}}, {{scale(p.z[0], e)}}};
 }
 
-/// All times of the bracket.
+/// An enclosure of all times of the bracket.
 inline enclosure enclosed_time(const first_time& time) {
     const double width = time.high - time.low, half = width / 2;
-    return enclosure(time.low) + enclosure::within(half, width - half);  // half may be cut to 0
+    return enclosure(time.low) + enclosure::within(half, width - half);  // half may underflow
 }
 
-/// One point relative to another.
 struct relative_motion {
     enclosed_vector position, velocity;
 
@@ -79,13 +76,13 @@ inline bool certainly_not_zero(const enclosed_vector& p) {
     });
 }
 
-/// e with 2^(e−1) <= size < 2^e, or 0 where |e| <= moderate.
+/// Returns e with 2^(e−1) <= size < 2^e, or 0 if |e| <= moderate.
 inline int excess_exponent(double size, int moderate) {
     const int e = size > 0 ? errbound::number_traits<double>::exponent(size) : 0;
     return std::abs(e) > moderate ? e : 0;
 }
 
-/// The points of one query at such a time, all times one power of two.
+/// The points of one query at such a time, all scaled by one power of two.
 class contact_moment {
   public:
     template <class Query>
@@ -98,10 +95,10 @@ class contact_moment {
             points_[i] = {enclosed(points[i].t0), enclosed(points[i].t1)};
     }
 
-    /// Positions and velocities are those of the query over two to this.
+    /// Positions and velocities are the query's, divided by 2^exponent().
     int exponent() const { return exponent_; }
 
-    /// Differences of points first, which are relatively small and exact; then in time.
+    /// Subtracts points first, because differences are small and exact, then interpolates in time.
     relative_motion relative(std::size_t point, std::size_t to) const {
         const auto way = difference(points_[point], points_[to]);
         const enclosed_vector start = coefficient(way, 0);
@@ -109,7 +106,7 @@ class contact_moment {
         return {start + t_ * velocity, velocity};
     }
 
-    /// About the square of the distance of two points.
+    /// Approximates the square of the distance of two points.
     double squared_distance(std::size_t point, std::size_t to) const {
         const double t = t_.value();
         const auto square = [t](const enclosure& p0, const enclosure& p1, const enclosure& q0,

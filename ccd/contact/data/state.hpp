@@ -1,8 +1,6 @@
-// Weights, relative velocity and what the normal is made of, for features that meet inside both.
-// Internal.
+// Weights, relative velocity and the normal's vector for features that meet inside both. Internal.
 //
-// Weights are those of contact.md, section 4: G_i/N·N of a face and of edges that cross, W·E/E·E of
-// a vertex on an edge.
+// Weights: G_i/N·N for a face and for edges that cross, W·E/E·E for a vertex on an edge.
 #pragma once
 
 #include <array>
@@ -14,17 +12,16 @@
 
 namespace ccd::detail {
 
-/// Of the kind's points, in its order: `first` − `second` is the kind's first feature less its
-/// second.
+/// The state at the contact. Weights are in the order of the kind's points.
 struct contact_state {
     std::array<enclosure, 4> weights;
     relative_motion motion;  ///< of the contact point of the first feature relative to the second's
-    /// N of faces and of edges that cross; the edge of a vertex and an edge. Times some power of
-    /// two.
+    /// N of a face or of edges that cross, or the edge of a vertex/edge pair. Scaled by some power
+    /// of two.
     enclosed_vector across;
 };
 
-/// Forms of moderate size: times a power of two, which is the same for all differences.
+/// Forms of moderate size: all differences are scaled by one power of two.
 template <template <class, int> class Forms>
 Forms<enclosure, 0> moderate_forms(const relative_motion& b, const relative_motion& c,
                                    const relative_motion& p) {
@@ -32,8 +29,8 @@ Forms<enclosure, 0> moderate_forms(const relative_motion& b, const relative_moti
     return {scaled(b.position, -e), scaled(c.position, -e), scaled(p.position, -e)};
 }
 
-/// The points of a face, 1 to 3, turned so that the longest edge is that of the last two: the cross
-/// product of the two others is off by least, where two points are near each other most of all.
+/// The points of a face, 1 to 3, rotated so that the longest edge is that of the last two. The
+/// cross product of the two other edges has the smallest error, above all if two points are close.
 inline std::array<std::size_t, 3> with_longest_edge_last(const contact_moment& at,
                                                          const point_numbers& i) {
     const double opposite[] = {at.squared_distance(i[2], i[3]), at.squared_distance(i[3], i[1]),

@@ -1,4 +1,4 @@
-// What the signs of a form's computed control values tell, given a bound on their errors.
+// Certain signs of a form's computed control values, given a bound on their errors.
 #pragma once
 
 #include <algorithm>
@@ -9,7 +9,7 @@
 
 namespace ccd::static_filter {
 
-/// All control values certainly positive (`above`), or negative (`below`).
+/// True if all control values are certainly positive (`above`) or negative (`below`).
 template <class S, int N>
 constexpr mask<S> above(const errbound::roots::control_values<S, N>& c, const S& error) {
     using std::min;
@@ -25,7 +25,7 @@ constexpr mask<S> below(const errbound::roots::control_values<S, N>& c, const S&
     return greatest < -error;
 }
 
-/// The largest control value's size.
+/// The largest magnitude of a control value.
 template <class S, int N>
 constexpr S size_of(const errbound::roots::control_values<S, N>& c) {
     using std::abs, std::max;
@@ -34,7 +34,7 @@ constexpr S size_of(const errbound::roots::control_values<S, N>& c) {
     return size;
 }
 
-/// The end values certainly differ in sign: a root is certain.
+/// True if the end values certainly differ in sign, which proves a root.
 template <class S, int N>
 constexpr mask<S> changes_sign(const errbound::roots::control_values<S, N>& c, const S& error) {
     const S& start = c[0];
@@ -44,8 +44,8 @@ constexpr mask<S> changes_sign(const errbound::roots::control_values<S, N>& c, c
     return (starts_above & ends_below) | (starts_below & ends_above);
 }
 
-/// The end values certainly differ in sign, and one inner value has, certainly, the sign of the end
-/// beside it: signs change once, whatever those are that are not certain, so there is one root.
+/// True if the end values certainly differ in sign, and one inner value certainly has the sign of
+/// the end next to it. Then signs change once, whatever the uncertain ones are: there is one root.
 /// Proof: proofs/ContactPart.v, changes_sign_once_right.
 template <class S>
 constexpr mask<S> changes_sign_once(const errbound::roots::control_values<S, 3>& c,
@@ -55,7 +55,7 @@ constexpr mask<S> changes_sign_once(const errbound::roots::control_values<S, 3>&
     return falls | rises;
 }
 
-/// No control value has a certain sign, nor will any of a part's.
+/// True if no control value has a certain sign, which also holds for every subinterval.
 template <class S, int N>
 constexpr mask<S> within_error(const errbound::roots::control_values<S, N>& c, const S& error) {
     return size_of(c) <= error;

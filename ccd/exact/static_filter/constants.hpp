@@ -1,8 +1,8 @@
-// The constants of the static filters' error bounds, which the forms themselves count.
+// The constants of the static filters' error bounds, computed by evaluating the forms.
 //
-// Every term of Y has one factor from each axis, so Y's errors are in units of m_x·m_y·m_z; every
-// term of a G_i has two factors from each of two axes, so theirs are in units of the largest
-// (m_i·m_j)². The m are a query's difference_extents.
+// Errors of Y are in units of m_x·m_y·m_z, since each of its terms has one factor from each axis.
+// Errors of a G_i are in units of the largest (m_i·m_j)², since each term has two factors from each
+// of two axes. The m are a query's difference_extents.
 #pragma once
 
 #include <ccd/methods/forms.hpp>
@@ -13,22 +13,22 @@
 
 namespace ccd::static_filter {
 
-/// How often the subdivision may halve.
+/// The maximum number of halvings of the subdivision.
 inline constexpr std::size_t max_depth = 12;
 
-/// From this depth on, a part where Y is as small as its error goes to exact arithmetic: its halves
-/// would be no better. (Before it, halving may yet show that some G_i is negative everywhere.)
+/// From this depth on, a part where Y is within its error goes to exact arithmetic. (Before it,
+/// halving may still show that some G_i is negative everywhere.)
 inline constexpr std::size_t patient_depth = 3;
 
-/// Larger differences go to later stages: the forms of degree 4 stay far from overflow. (Floats are
-/// for differences in units of a scene's size.)
+/// Larger differences go to later stages, so that forms of degree 4 stay far from overflow. (Floats
+/// hold differences in units of a scene's size.)
 template <class Real>
 inline constexpr Real largest_difference = 0x1p200;
 template <>
 inline constexpr float largest_difference<float> = 4;
 
-/// Constants of a form: |ĥ − h| <= relative·unit + absolute, for the control values of the form
-/// times multiple(N), and what each halving of them adds.
+/// Constants of a form: |ĥ − h| <= relative·unit + absolute for its control values times
+/// multiple(N). `halvings` is the error that halvings add.
 template <class Real>
 struct constants {
     Real relative;  ///< times the unit
@@ -51,8 +51,8 @@ constexpr basic_error_count<Real> worst_of(const control_values<basic_error_coun
     return w;
 }
 
-/// The error that max_depth halvings of control values of size at most 1 add. Which half is taken
-/// each time is not known, so the worst error of a level is taken for all values of the next.
+/// The error that max_depth halvings add to control values of size at most 1. Each level takes the
+/// worst error of the previous one for all values, so it holds for either half.
 /// Proof: proofs/FilterStages.v, halving_error_enough.
 template <int N>
 constexpr double halving_error() {
@@ -66,17 +66,16 @@ constexpr double halving_error() {
     return c[0].error;
 }
 
-/// The bounds are evaluated in a handful of rounded operations: one per cent is plenty.
+/// Covers the roundings of the bounds' own evaluation.
 inline constexpr double slack = 1.01;
 
-/// Smaller than anything that matters, and larger than what the bounds' own evaluation loses to
-/// underflow.
+/// Covers the underflow of the bounds' own evaluation, and is far below any bound that matters.
 template <class Real>
 inline constexpr double negligible = 0x1p-1000;
 template <>
 inline constexpr double negligible<float> = 0x1p-140;
 
-/// Underflow happens in forms of at most degree `degree`, whose factors are at most
+/// Assumes underflow in all forms of at most degree `degree`, with factors of at most
 /// largest_difference.
 template <class Real, int N>
 constexpr constants<Real> constants_of(basic_error_count<Real> c, int degree) {
@@ -89,7 +88,7 @@ constexpr constants<Real> constants_of(basic_error_count<Real> c, int degree) {
             Real(slack * halving_error<N>() * epsilon)};
 }
 
-/// A difference of doubles that is rounded to Real, which floats may underflow in.
+/// A difference of doubles rounded to Real. Floats may underflow there.
 /// Proof: proofs/RoundedAxes.v, converted_difference_near.
 template <class Real>
 constexpr vector_form<basic_error_count<Real>, 1> any_difference() {

@@ -1,7 +1,7 @@
-// How large a query's differences are, and what errors its forms then have at most.
+// The size of a query's differences, and the error bounds of its forms that follow from it.
 //
-// One template for one query (S = double) and for a pack of queries (S a SIMD batch, masks instead
-// of bools): the pack's lanes compute what the scalar computes, bit for bit.
+// One template serves one query (S = double) and a pack of queries (S a SIMD batch, masks instead
+// of bools). Each lane computes bit for bit the scalar result.
 #pragma once
 
 #include <algorithm>
@@ -12,7 +12,7 @@
 
 namespace ccd::static_filter {
 
-/// The number type whose roundings S makes: that of a pack is double.
+/// The number type whose roundings S makes: double for a pack of doubles.
 template <class S>
 struct real_of {
     using type = double;
@@ -22,18 +22,18 @@ struct real_of<float> {
     using type = float;
 };
 
-/// What a comparison of two S gives: bool, or a SIMD mask.
+/// The type of a comparison of two S: bool, or a SIMD mask.
 template <class S>
 using mask = decltype(S() < S());
 
-/// m_x, m_y, m_z: the sizes of a query's largest differences, by axis, after one point is
-/// subtracted from the others. Coordinates must be finite (differences that overflow are infinite;
-/// only those of infinities are NaN, which the maximum may overlook).
+/// m_x, m_y, m_z: by axis, the largest magnitude of differences from one of the query's points.
+/// Precondition: finite coordinates. (Differences that overflow are infinite. NaN results only from
+/// infinite coordinates, and the maximum may skip it.)
 template <class S>
 struct difference_extents {
     using real = typename real_of<S>::type;
     S x, y, z;
-    /// False if a difference is too large: then no test may be believed.
+    /// False if a difference is too large for the error bounds.
     mask<S> usable;
 
     explicit constexpr difference_extents(const coplanarity_forms<S>& f) {
@@ -49,10 +49,9 @@ struct difference_extents {
         usable = max(max(x, y), z) <= S(largest_difference<real>);
     }
 
-    /// Bounds |ĥ − h| of the control values of Y, and of every G_i. Proofs are of double.
-    /// Proof: proofs/CcdFilter.v, error_of_y_sound.
-    /// Proof: proofs/CcdFilter.v, error_of_vertex_face_sound.
-    /// Proof: proofs/CcdFilter.v, error_of_edge_edge_sound.
+    /// Bounds |ĥ − h| of the control values of Y, or of every G_i. Proved for double.
+    /// Proof: proofs/CcdFilter.v, error_of_y_sound, error_of_vertex_face_sound,
+    /// error_of_edge_edge_sound.
     template <template <class> class Forms>
     constexpr S error_of_y() const {
         return x * y * z * S(y_constants<Forms, real>.relative) +

@@ -1,10 +1,10 @@
-// How far Y and the G_i must be from zero for the features to be farther apart than a distance.
+// Margins of Y and the G_i that prove that the features are farther apart than a distance d.
 //
-// |Y|/|N| is the distance of the vertex from the face's plane, or of the two edges' lines. Where
-// some G_i is negative, |G_i|/(|N|·L), with L the length of the face's edge i, or of the other
-// edge, is how far the vertex, dropped onto the plane, is from the face, or one edge from the line
-// of the other. Distances of what is dropped onto a plane are at most those themselves. So where
-// Y's size exceeds d·|N|, or that of a negative G_i d·|N|·L, the features are farther apart than d.
+// |Y|/|N| is the distance of the vertex from the face's plane, or of the two edges' lines. If some
+// G_i < 0, |G_i|/(|N|·L) is also a distance, where L is the length of an edge: of the projected
+// vertex from the line of the face's edge i, or of one projected edge from the other's line.
+// Projection does not increase distances. So the features are farther apart than d if
+// |Y| > d·|N|, or if a negative G_i has |G_i| > d·|N|·L.
 // Proof: proofs/DistanceMargins.v, plane_face_apart, plane_edges_apart, outside_face_apart,
 // outside_edges_apart.
 #pragma once
@@ -29,7 +29,7 @@ constexpr S longer(const S& length, const vector_form<S, 1>& v) {
         squared = max(squared, S(v.x[end] * v.x[end] + v.y[end] * v.y[end] + v.z[end] * v.z[end]));
     return max(length, S(sqrt(squared)));
 }
-/// The longest of what G_i are measured by.
+/// The largest L: the length of a face's longest edge, or of the longer of two edges.
 template <class S>
 constexpr S longest(const vertex_face_forms<S>& f) {
     const vector_form<S, 1> third{f.c.x - f.b.x, f.c.y - f.b.y, f.c.z - f.b.z};
@@ -42,15 +42,16 @@ constexpr S longest(const edge_edge_forms<S>& f) {
 
 }  // namespace detail
 
-/// Added to the errors of the control values on the whole step, these exclude parts for a distance
-/// `d`, and so do they on parts: |N| is at most the longest of its control vectors, a length that
-/// of one end. Proof: proofs/DistanceMargins.v, margins_face_apart, margins_edges_apart.
+/// Returns margins for the distance d, which are added to the errors of the control values over the
+/// step. The sums exclude the step or an interval of it: |N| is at most its longest control vector,
+/// and a length is at most that at one end.
+/// Proof: proofs/DistanceMargins.v, margins_face_apart, margins_edges_apart.
 ///
-/// N's control vectors are off by less than 2^-48 of the extents' products, 6ε of each term's size;
-/// what else is lost is less than the part 2^-40 that is added. Underflow: the squares of an N
-/// below 2^-516 may lose all, where 2^-48 of the products makes up for it, or these are below
-/// 2^-468. But then the product of all three is below 2^-702, and no value of Y exceeds its error,
-/// 2^-669 at least; likewise of G_i where lengths are below 2^-516.
+/// Errors: N's control vectors are off by less than 2^-48 of the extents' products (6ε of each
+/// term's size); the factor 1 + 2^-40 covers the rest. Squares of an N below 2^-516 may underflow.
+/// Then 2^-48 of the products suffices, or these are below 2^-468. In the latter case the product
+/// of all three is below 2^-702, and no value of Y exceeds its error, at least 2^-669. The same
+/// holds for G_i if lengths are below 2^-516.
 template <class S, class Forms>
 constexpr form_errors<S> distance_margins(const Forms& f, const difference_extents<S>& m,
                                           double d) {

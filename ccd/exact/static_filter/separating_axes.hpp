@@ -1,4 +1,4 @@
-// Whether a fixed axis separates the two features of a query throughout the step.
+// Separation of the two features of a query by a fixed axis throughout the step.
 #pragma once
 
 #include <algorithm>
@@ -13,8 +13,8 @@ namespace ccd::static_filter {
 
 namespace detail {
 
-/// Whether the projections separate the features the same way at both ends of the step; `project`
-/// takes a difference and an end, and is off by at most margin/2.
+/// True if the projections separate the features in the same order at both ends of the step.
+/// `project` takes a difference and an end; its error is at most margin/2.
 template <class S, class Project>
 constexpr mask<S> separated_along(const vertex_face_forms<S>& f, const S& margin,
                                   const Project& project) {
@@ -47,7 +47,6 @@ inline constexpr double margin = 9.2 * errbound::number_traits<double>::epsilon(
 
 }  // namespace detail
 
-/// The first three axes of separated_by_axes.
 template <class S, class Forms>
 constexpr mask<S> separated_by_coordinates(const Forms& f, const difference_extents<S>& m) {
     static_assert(std::is_same_v<typename difference_extents<S>::real, double>);
@@ -60,7 +59,6 @@ constexpr mask<S> separated_by_coordinates(const Forms& f, const difference_exte
     return x | y | z;
 }
 
-/// The other six.
 template <class S, class Forms>
 constexpr mask<S> separated_by_diagonals(const Forms& f, const difference_extents<S>& m) {
     static_assert(std::is_same_v<typename difference_extents<S>::real, double>);
@@ -87,15 +85,15 @@ constexpr mask<S> separated_by_diagonals(const Forms& f, const difference_extent
     return xy | yz | zx;
 }
 
-/// Whether one of nine fixed axes (x, y, z, x ± y, y ± z, z ± x) separates the features the same
-/// way at both ends of the step. The motion is linear, so it then separates them throughout. Proof:
-/// proofs/Decisions.v, face_separated, edges_separated. Proof of the margin:
+/// True if one of nine fixed axes separates the features in the same order at both ends of the
+/// step: x, y, z, x ± y, y ± z, z ± x. Motion is linear, so it then separates them throughout.
+/// Proof: proofs/Decisions.v, face_separated, edges_separated. Proof of the margin:
 /// proofs/SeparatingAxis.v, separated_face_separate, separated_edges_separate.
 ///
-/// Margins: a difference d̂ is off by at most ε·m, a sum of two axes by 2ε(1 + ε)(m_x + m_y), so two
-/// compared projections together by 4ε(1 + ε)(m_x + m_y); an edge's far end is a sum of two such,
-/// rounded once more, of twice the size: 8ε(1 + ε)(m_x + m_y). The bound's own addition rounds too,
-/// by ε(m_x + m_y): 9.2ε serves all. Sums lose nothing to underflow.
+/// Margins: the error of a difference is at most ε·m, of a sum of two axes 2ε(1 + ε)(m_x + m_y), of
+/// two compared projections twice that. An edge's far end is a rounded sum of two projections,
+/// which doubles it again: 8ε(1 + ε)(m_x + m_y). The bound's own addition adds ε(m_x + m_y). So
+/// 9.2ε suffices for all. Sums lose nothing to underflow.
 template <class S, class Forms>
 constexpr mask<S> separated_by_axes(const Forms& f, const difference_extents<S>& m) {
     return separated_by_coordinates<S>(f, m) | separated_by_diagonals<S>(f, m);

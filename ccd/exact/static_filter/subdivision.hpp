@@ -1,5 +1,5 @@
-// The last floating-point stage of `exact`, one query at a time: Y and the G_i on ever smaller
-// parts of the step. Internal; host and device code share it.
+// The last floating-point stage of `exact`, for one query: bisects the step until the signs of Y
+// and the G_i decide. Internal; host and device code share it.
 #pragma once
 
 #include <array>
@@ -10,19 +10,19 @@
 
 namespace ccd::static_filter {
 
-/// What floating point does not tell of a first contact after so many halvings, contact at a border
-/// most often, costs integers less than more of them.
+/// The number of halvings for first contacts. Integers cost less than further halvings for the
+/// queries that remain, most of which touch at a border.
 inline constexpr std::size_t halvings_for_times = 6;
 
-/// Where contact was found: inside the part from `low` to `high` of the step, and certainly nowhere
+/// The interval [low, high] of the step in which contact was found. There is certainly no contact
 /// before `low`.
-struct contact_part {
+struct contact_interval {
     double low = 0, high = 1;
-    errbound::roots::control_values<double, 3> y{};  ///< of Y there, as computed
-    bool one_root = false;                           ///< Y certainly has but one root there
+    errbound::roots::control_values<double, 3> y{};  ///< computed control values of Y there
+    bool one_root = false;                           ///< Y certainly has exactly one root there
 };
 
-/// Parts of the step that wait for their turn, the earliest last.
+/// A stack of the intervals to visit, the earliest last.
 template <std::size_t Constraints>
 struct waiting_parts {
     struct part {
@@ -30,19 +30,19 @@ struct waiting_parts {
         std::size_t depth;
         std::size_t index;  ///< it begins at index/2^depth
     };
-    // Every halving takes one part and leaves two.
+    // Every halving replaces one part by two.
     std::array<part, max_depth + 2> parts;
     std::size_t size = 0;
 };
 
-/// `separate` and `collides` are certain; `uncertain` where halving further would not help, or
-/// `deepest` <= max_depth halvings do not tell. If it is `collides`, `found` says where, if it is
+/// `separate` and `collides` are certain. `uncertain` means that further halving would not help, or
+/// that `deepest` <= max_depth halvings did not decide. On `collides`, sets `*found` if `found` is
 /// not null.
-/// Proof: proofs/Subdivision.v, subdivision_separate, subdivision_collides; of what is found,
+/// Proof: proofs/Subdivision.v, subdivision_separate, subdivision_collides; of `found`,
 /// proofs/ContactPart.v, part_found, first_part_right, first_root_in_part.
 template <template <class> class Forms>
-constexpr outcome subdivide(const whole_step<double, Forms>& whole, contact_part* found = nullptr,
-                            std::size_t deepest = max_depth) {
+constexpr outcome subdivide(const whole_step<double, Forms>& whole,
+                            contact_interval* found = nullptr, std::size_t deepest = max_depth) {
     constexpr std::size_t constraints = whole_step<double, Forms>::constraints;
     const auto& errors = whole.errors;
     waiting_parts<constraints> waiting;

@@ -1,4 +1,4 @@
-// Y and the G_i of a query over the whole step, with error bounds that hold for every part of it.
+// Y and the G_i of a query over the step, with error bounds that hold for every interval of it.
 #pragma once
 
 #include <algorithm>
@@ -14,20 +14,18 @@
 
 namespace ccd::static_filter {
 
-/// Y and G_i on a part of the step.
 template <class S, std::size_t Constraints>
 struct part_forms {
     errbound::roots::control_values<S, 3> y;
     std::array<errbound::roots::control_values<S, 4>, Constraints> g;
 };
 
-/// The errors of all control values after up to max_depth halvings.
+/// The error bounds of all control values after at most max_depth halvings.
 template <class S>
 struct form_errors {
     S y, g;
 };
 
-/// The forms over the whole step, with the errors that all their parts share.
 template <class S, template <class> class Forms>
 struct whole_step {
     static constexpr std::size_t constraints =
@@ -52,7 +50,7 @@ struct whole_step {
                   g_error + largest * S(g_constants<Forms, real>.halvings)};
     }
 
-    /// Some G_i is certainly negative throughout.
+    /// True if some G_i is certainly negative throughout.
     constexpr mask<S> outside() const {
         mask<S> found = below(forms.g[0], errors.g);
         for (std::size_t i = 1; i < constraints; ++i) found = found | below(forms.g[i], errors.g);

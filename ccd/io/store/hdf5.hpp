@@ -64,7 +64,6 @@ Status checked(Status status, const std::string& where) {
     return status;
 }
 
-/// An object of the library, closed by the destructor.
 class handle {
   public:
     handle(hid_t id, herr_t (*close)(hid_t), const std::string& where)

@@ -40,7 +40,6 @@ handle new_file(const std::string& path) {
     return {H5Fcreate(path.c_str(), H5F_ACC_TRUNC, how, access), H5Fclose, path};
 }
 
-/// The shape of a dataset and its chunks.
 struct row_format {
     hsize_t columns, rows_of_a_chunk;
     bool compressed;
@@ -104,7 +103,7 @@ void write_text(hid_t file, const char* name, std::string_view text) {
 }
 
 /// Collects a chunk at a time. The width of all point indices is known only at the end, so until
-/// then their rows are in a file of their own.
+/// then their rows are in a separate file.
 class packer final : public query_packer {
   public:
     packer(ccd::kind kind, bool with_truth)
@@ -117,12 +116,11 @@ class packer final : public query_packer {
 
     void add(const query_file& queries) override {
         if (queries.kind() != kind_)
-            throw std::invalid_argument("found queries of kind " +
-                                        std::string(name(queries.kind())) + ", expected " +
-                                        std::string(name(kind_)));
+            throw std::invalid_argument("kind of queries is " + std::string(name(queries.kind())) +
+                                        "; expected " + std::string(name(kind_)));
         if (queries.truth.has_value() != with_truth_)
-            throw std::invalid_argument(with_truth_ ? "found queries without truth, expected it"
-                                                    : "found queries with truth, expected none");
+            throw std::invalid_argument(with_truth_ ? "truth is missing; expected truth values"
+                                                    : "truth is given; expected none");
         const auto add_all = [&](const auto& all) {
             for (std::size_t i = 0; i < all.size(); ++i) {
                 using query = std::remove_cvref_t<decltype(all[i])>;
@@ -137,7 +135,7 @@ class packer final : public query_packer {
     std::uint64_t size() const override { return size_; }
 
     const std::filesystem::path& finish() override {
-        if (size_ == 0) throw std::runtime_error("found no queries, expected at least one");
+        if (size_ == 0) throw std::runtime_error("number of queries is 0; expected at least 1");
         if (!queries_.empty()) {
             const hdf5::quiet_use use;
             write_chunk(true);
@@ -161,8 +159,8 @@ class packer final : public query_packer {
         for (std::size_t i = 0; i < 4; ++i) {
             for (const std::uint64_t bits : points[i])
                 if (!std::isfinite(std::bit_cast<double>(bits)))
-                    throw std::invalid_argument("found a coordinate that is not finite in query " +
-                                                std::to_string(size_));
+                    throw std::invalid_argument("coordinate of query " + std::to_string(size_) +
+                                                " is not finite; expected finite numbers");
             const auto next = static_cast<std::uint32_t>(points_.size());
             const auto [place, is_new] = indices_.try_emplace(points[i], next);
             if (is_new) points_.push_back(points[i]);

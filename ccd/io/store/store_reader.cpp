@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "ccd/io/store/hdf5.hpp"
+#include "errbound/support/table.hpp"
 
 namespace ccd::io {
 namespace {
@@ -29,7 +30,7 @@ handle opened_set(hid_t file, const char* name, const std::string& where) {
     H5L_info_t link;
     checked(H5Lget_info(file, name, &link, H5P_DEFAULT), where);
     if (link.type != H5L_TYPE_HARD)
-        throw file_error(where + ": found a link to another place, expected it in this file");
+        throw file_error(where + ": link leads to another place; expected a dataset of this file");
     return {H5Dopen2(file, name, H5P_DEFAULT), H5Dclose, where};
 }
 
@@ -39,7 +40,6 @@ struct number_types {
     const char* names;
 };
 
-/// A dataset of rows of numbers.
 class rows_on_disk {
   public:
     rows_on_disk(hid_t file, const std::string& store, const char* name, const number_types& types,
@@ -49,16 +49,16 @@ class rows_on_disk {
           columns_(columns) {
         // First of all: virtual datasets and external storage lead to other files.
         const handle how(H5Dget_create_plist(set_), H5Pclose, where_);
-        if (H5Pget_layout(how) != H5D_CHUNKED) refuse("found no chunks, expected stored chunks");
+        if (H5Pget_layout(how) != H5D_CHUNKED) refuse("layout is not chunked; expected chunks");
         const handle type(H5Dget_type(set_), H5Tclose, where_);
         if (std::ranges::none_of(types.stored, [&](hid_t t) { return H5Tequal(type, t) > 0; }))
-            refuse("found numbers of another type, expected " + std::string(types.names) +
+            refuse("type of numbers is another one; expected " + std::string(types.names) +
                    ", least significant byte first");
         const handle space(H5Dget_space(set_), H5Sclose, where_);
         hsize_t size[2] = {0, 1}, chunk[2] = {0, 1};
         if (H5Sget_simple_extent_ndims(space) != rank() ||
             H5Sget_simple_extent_dims(space, size, nullptr) != rank() || size[1] != columns_)
-            refuse("found another shape, expected rows of " + std::to_string(columns_));
+            refuse("shape is another one; expected rows of " + std::to_string(columns_));
         checked(H5Pget_chunk(how, 2, chunk), where_);
         rows_ = size[0];
         require_bounded(H5Tget_size(type), chunk);
@@ -82,7 +82,7 @@ class rows_on_disk {
 
     void require_rows(std::uint64_t expected) const {
         if (rows_ != expected)
-            refuse("found " + std::to_string(rows_) + " rows, expected " +
+            refuse("number of rows is " + std::to_string(rows_) + "; expected " +
                    std::to_string(expected));
     }
     [[noreturn]] void refuse(const std::string& what) const {
@@ -99,11 +99,12 @@ class rows_on_disk {
     void require_bounded(std::size_t bytes_of_number, const hsize_t* chunk) const {
         const auto bytes = static_cast<double>(bytes_of_number);
         if (bytes * static_cast<double>(chunk[0]) * static_cast<double>(chunk[1]) > 1 << 26)
-            refuse("found chunks of " + std::to_string(chunk[0]) + " x " +
-                   std::to_string(chunk[1]) + " numbers, expected at most 64 MiB each");
+            refuse("size of chunks is " + std::to_string(chunk[0]) + " x " +
+                   std::to_string(chunk[1]) + " numbers; expected at most 64 MiB each");
         // Deflate makes at most 1032 bytes of one.
         if (rows_ > 1100 * H5Dget_storage_size(set_) / bytes_of_number / columns_)
-            refuse("found " + std::to_string(rows_) + " rows, more than the file can hold");
+            refuse("number of rows is " + std::to_string(rows_) +
+                   "; expected at most as many as the file can hold");
     }
 
     std::string where_;
@@ -112,12 +113,12 @@ class rows_on_disk {
     std::uint64_t rows_ = 0;
 };
 
-/// Reads an attribute of one value of this type.
 void read_attribute(hid_t file, const std::string& store, const char* name, hid_t type, void* to) {
     const std::string where = store + ": attribute " + name;
     const handle id(H5Aopen(file, name, H5P_DEFAULT), H5Aclose, where);
     const handle space(H5Aget_space(id), H5Sclose, where);
-    if (H5Sget_simple_extent_npoints(space) != 1) throw file_error(where + ": expected one value");
+    if (H5Sget_simple_extent_npoints(space) != 1)
+        throw file_error(where + ": number of values is not 1; expected 1");
     checked(H5Aread(id, type, to), where);
 }
 
@@ -130,13 +131,16 @@ ccd::kind kind_of_store(hid_t file, const std::string& store) {
     read_attribute(file, store, "version", H5T_NATIVE_UINT32, &version);
     read_attribute(file, store, "kind", text, kind.data());
     if (std::string_view(format.data()) != "errbound queries")
-        throw file_error(store + ": attribute format: found another, expected errbound queries");
+        throw file_error(store + ": attribute format is '" +
+                         errbound::support::printable(format.data()) +
+                         "'; expected 'errbound queries'");
     if (version != 1)
-        throw file_error(store + ": attribute version: found " + std::to_string(version) +
-                         ", expected 1");
+        throw file_error(store + ": attribute version is " + std::to_string(version) +
+                         "; expected 1");
     for (const ccd::kind k : stored_kinds)
         if (std::string_view(kind.data()) == ccd::name(k)) return k;
-    throw file_error(store + ": attribute kind: expected vertex_face or edge_edge");
+    throw file_error(store + ": attribute kind is '" + errbound::support::printable(kind.data()) +
+                     "'; expected vertex_face or edge_edge");
 }
 
 class open_file final : public store_reader {
@@ -147,7 +151,7 @@ class open_file final : public store_reader {
           points_(file_, name, "points", {{H5T_IEEE_F64LE}, "float64"}, 6),
           queries_(file_, name, "queries", {{H5T_STD_U16LE, H5T_STD_U32LE}, "uint16 or uint32"},
                    4) {
-        if (size() == 0) queries_.refuse("found no rows, expected at least one");
+        if (size() == 0) queries_.refuse("number of rows is 0; expected at least 1");
         if (checked(H5Lexists(file_, "truth", H5P_DEFAULT), name) > 0) {
             truth_.emplace(file_, name, "truth", number_types{{H5T_STD_U8LE}, "uint8"}, 1);
             truth_->require_rows(size());
@@ -162,7 +166,7 @@ class open_file final : public store_reader {
         };
         if (begins_.front() != 0 || begins_.back() != points_.rows() ||
             std::ranges::adjacent_find(begins_, is_no_chunk) != begins_.end())
-            first_point.refuse("expected rows that ascend from 0 to " +
+            first_point.refuse("rows are out of order; expected rows that ascend from 0 to " +
                                std::to_string(points_.rows()) + ", each by at most " +
                                std::to_string(most));
     }
@@ -194,8 +198,8 @@ class open_file final : public store_reader {
             using row = std::array<std::uint32_t, 4>;
             for (const row& r : queries_.read<row>(H5T_NATIVE_UINT32, at, next)) {
                 if (const auto most = std::ranges::max(r); most >= points.size())
-                    queries_.refuse(at, "found point " + std::to_string(most) +
-                                            ", expected one of the chunk's " +
+                    queries_.refuse(at, "point index is " + std::to_string(most) +
+                                            "; expected less than " +
                                             std::to_string(points.size()));
                 all.push_back(std::bit_cast<Query>(
                     std::array{points[r[0]], points[r[1]], points[r[2]], points[r[3]]}));
@@ -210,7 +214,7 @@ class open_file final : public store_reader {
         auto points = points_.read<moving>(H5T_NATIVE_DOUBLE, first, begins_[chunk + 1]);
         for (std::size_t i = 0; i < points.size(); ++i)
             if (!std::ranges::all_of(points[i], [](double x) { return std::isfinite(x); }))
-                points_.refuse(first + i, "found a number that is not finite");
+                points_.refuse(first + i, "a number is not finite; expected finite numbers");
         return points;
     }
 
@@ -219,7 +223,7 @@ class open_file final : public store_reader {
         for (const auto value : truth_->read<std::uint8_t>(H5T_NATIVE_UINT8, begin, end)) {
             if (value > 1)
                 truth_->refuse(begin + truth.size(),
-                               "found " + std::to_string(value) + ", expected 0 or 1");
+                               "value is " + std::to_string(value) + "; expected 0 or 1");
             truth.push_back(value == 1);
         }
         return truth;

@@ -15,7 +15,7 @@ std::unique_ptr<store_reader> open_store(const std::filesystem::path& path) {
 
 std::unique_ptr<store_reader> open_store(std::string_view, const std::string& name) {
     throw errbound::support::file_error(
-        name + ": found an HDF5 file, expected CSV: this was built without HDF5");
+        name + ": file is an HDF5 store; expected CSV, since this was built without HDF5");
 }
 
 bool has_query_stores() {
@@ -23,7 +23,7 @@ bool has_query_stores() {
 }
 
 std::unique_ptr<query_packer> make_query_packer(ccd::kind, bool) {
-    throw std::runtime_error("stores of queries are not made: this was built without HDF5");
+    throw std::runtime_error("stores cannot be written, since this was built without HDF5");
 }
 
 }  // namespace ccd::io

@@ -1,4 +1,3 @@
-// The page of a step: a template and its arrays.
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -18,7 +17,6 @@ extern const std::string_view page_template, page_camera, page_picture, page_scr
 
 namespace {
 
-/// Appends a number, least significant byte first on every machine.
 template <class Number>
 void append_number(std::string& bytes, Number number) {
     auto text = std::bit_cast<std::array<char, sizeof(Number)>>(number);

@@ -92,7 +92,6 @@ constexpr std::string_view type_name() {
     return std::is_same_v<Number, std::uint32_t> ? "UInt32" : "Int8";
 }
 
-/// The bytes of numbers in this machine's order.
 template <class Items>
 std::string_view bytes_of(const Items& items) {
     return {reinterpret_cast<const char*>(items.data()), items.size() * sizeof(*items.data())};
@@ -131,7 +130,6 @@ struct cell_arrays {
     }
 };
 
-/// The points and cells of a file.
 class polydata {
   public:
     polydata(const step_view& step, frame shown)
@@ -184,7 +182,6 @@ class polydata {
     }
 
   private:
-    /// Adds a cell for each vertex that is on no edge.
     void add_points() {
         std::vector<bool> on_edge(step_.positions.vertices);
         for (const face& f : step_.faces)
@@ -198,7 +195,6 @@ class polydata {
         }
     }
 
-    /// Adds a point and a cell for each pair of a kind.
     template <kind K>
     void add_contacts() {
         const auto& pairs = step_.pairs.of<K>();
@@ -258,7 +254,6 @@ class polydata {
     std::int64_t number_of_contacts_ = 0;
 };
 
-/// The text as the value of an XML attribute.
 std::string escaped(std::string_view text) {
     std::string out;
     for (const char c : text)
@@ -285,8 +280,8 @@ std::string pvd_of(std::span<const series_entry> series) {
         "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"1.0\">\n<Collection>\n";
     for (const series_entry& entry : series) {
         if (!std::isfinite(entry.time))
-            throw std::invalid_argument("times: found one of '" + entry.file +
-                                        "' that is not finite");
+            throw std::invalid_argument("time of '" + entry.file +
+                                        "' is not finite; expected finite numbers");
         detail::require_xml_name(entry.file);
         char time[32];
         const auto end = std::to_chars(std::begin(time), std::end(time), entry.time).ptr;

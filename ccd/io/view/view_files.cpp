@@ -18,8 +18,8 @@ std::vector<fs::path> view_paths(const fs::path& path) {
         const std::string stem = name.substr(0, name.size() - extension.size());
         return {stem + "-0.vtp", stem + "-1.vtp", path};
     }
-    throw std::invalid_argument("found '" + name +
-                                "', expected a name that ends in .html, .vtp or .pvd");
+    throw std::invalid_argument("path is '" + name +
+                                "'; expected a name that ends in .html, .vtp or .pvd");
 }
 
 std::vector<output> view_files(const fs::path& path, const step_view& step) {
@@ -49,9 +49,9 @@ void require_view(const step_view& step) {
     const auto require = [&step](std::string_view list, std::size_t row, const auto& element) {
         for (const vertex_index v : element)
             if (v >= step.positions.vertices)
-                throw std::invalid_argument(std::string(list) + ": row " + std::to_string(row) +
-                                            ": found vertex " + std::to_string(v) +
-                                            ", expected less than " +
+                throw std::invalid_argument("vertex index in row " + std::to_string(row) + " of " +
+                                            std::string(list) + " is " + std::to_string(v) +
+                                            "; expected less than " +
                                             std::to_string(step.positions.vertices));
     };
     for (std::size_t i = 0; i < step.faces.size(); ++i) require("faces", i, step.faces[i]);
@@ -62,16 +62,16 @@ void require_view(const step_view& step) {
         const std::size_t times = step.times.of<K>().size();
         for (std::size_t i = 0; i < pairs.size(); ++i) require(name(K), i, vertices_of(pairs[i]));
         if (timed && times != pairs.size())
-            throw std::invalid_argument(std::string(name(K)) + ": found " + std::to_string(times) +
-                                        " times, expected one a pair, " +
-                                        std::to_string(pairs.size()));
+            throw std::invalid_argument("number of times of " + std::string(name(K)) + " is " +
+                                        std::to_string(times) + "; expected " +
+                                        std::to_string(pairs.size()) + ", one for each pair");
     });
 }
 
 void require_xml_name(std::string_view name) {
     if (std::ranges::any_of(name, [](char c) { return static_cast<unsigned char>(c) < 0x20; }))
-        throw std::invalid_argument("found '" + std::string(name) +
-                                    "', expected a name without control characters");
+        throw std::invalid_argument("name is '" + std::string(name) +
+                                    "'; expected a name without control characters");
 }
 
 }  // namespace detail

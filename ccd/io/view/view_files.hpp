@@ -25,8 +25,8 @@ namespace detail {
 /// Appends bytes in base64, padded.
 void append_base64(std::string& text, std::string bytes);
 
-/// Throws std::invalid_argument with list, row, found and expected unless all indices are in range
-/// and there are no times or one a pair.
+/// Throws std::invalid_argument unless all indices are in range, and there are no times or one for
+/// each pair.
 void require_view(const step_view& step);
 
 /// Throws std::invalid_argument if a name has control characters: XML cannot hold them, and readers

@@ -1,5 +1,5 @@
-// Sorting of what has vertices: into parts by a vertex of each, then into buckets, which leaves
-// short runs to sort.
+// Sorts items that have vertices: into parts by one vertex, then into buckets, then each short
+// bucket.
 #pragma once
 
 #include <tbb/enumerable_thread_specific.h>
@@ -19,27 +19,27 @@
 
 namespace ccd::detail {
 
-/// So many shares of `count` things as have work for each thread of the arena; one at least.
+/// The number of shares of `count` items, at least one, such that each thread of the arena has
+/// work.
 inline std::size_t shares_of(std::size_t count) {
     constexpr std::size_t least = 4096;
     const auto threads = static_cast<std::size_t>(tbb::this_task_arena::max_concurrency());
     return std::clamp<std::size_t>(count / least, 1, threads);
 }
-/// The first of a share.
 constexpr std::size_t begin_of_share(std::size_t share, std::size_t shares, std::size_t count) {
     return count / shares * share + std::min(share, count % shares);
 }
 
-/// Where items of each share go, so that those with a digit come one share after the other.
+/// Destinations of the items of each share: items with one digit are adjacent, in order of shares.
 class share_places {
   public:
     share_places(std::size_t shares, std::size_t digits)
         : digits_(digits), next_(shares * digits) {}
 
     void clear() { std::ranges::fill(next_, 0); }
-    /// By digit.
+    /// The counts, later the destinations, of a share by digit.
     std::size_t* of(std::size_t share) { return &next_[share * digits_]; }
-    /// From how many there are to where the first is to go. Returns how many in all.
+    /// Replaces counts by the destinations of the first items. Returns the total count.
     std::size_t from_counts() {
         std::size_t before = 0;
         for (std::size_t d = 0; d < digits_; ++d)
@@ -53,13 +53,13 @@ class share_places {
     std::vector<std::size_t> next_;
 };
 
-/// Calls act(i) for all i < count, each as a task of its own.
+/// Calls act(i) for all i < count, each as a separate task.
 template <class Act>
 void for_each_task(std::size_t count, const Act& act) {
     tbb::parallel_for(std::size_t(0), count, act, tbb::simple_partitioner());
 }
 
-/// Sorts a part's items: into buckets by their vertices, which run from `first` to `last`.
+/// Sorts a part's items into buckets by their vertices, which are from `first` to `last`.
 template <class Item, class VertexOf>
 class part_sorter {
   public:
@@ -87,14 +87,15 @@ class part_sorter {
     first_touch_vector<Item> in_buckets_;
 };
 
-/// Sorts items that come in shares, at least one: for_each(share, visit) calls visit(item) for all
-/// of a share; it is called twice for each, from several threads at once. Lesser items (by <) have
-/// no greater vertex_of(item), which is `last` at most. Cost: O(count) where few items have a
-/// vertex, on all threads of the arena. The result is the same for any shares.
+/// Sorts items that come in shares, at least one. for_each(share, visit) calls visit(item) for all
+/// items of a share; it is called twice for each share, from several threads at once.
+/// Preconditions: vertex_of(item) is at most `last`, and does not decrease in the order by <. Cost:
+/// O(count) if few items share a vertex, on all threads of the arena. Shares do not affect the
+/// result.
 template <class Item, class ForEach, class VertexOf>
 std::vector<Item> sorted_by_vertex(std::size_t shares, vertex_index last, const ForEach& for_each,
                                    const VertexOf& vertex_of) {
-    // Parts whose items and buckets stay in a processor's cache, and few enough to write to all.
+    // Items and buckets of a part fit in the cache, and parts are few enough to write to all.
     constexpr vertex_index vertices_of_a_part = 4096, most_parts = 512;
     const auto shift =
         static_cast<unsigned>(std::bit_width(std::max(last / most_parts, vertices_of_a_part - 1)));

@@ -1,8 +1,8 @@
-// Hilbert's curve through the cells of a cube: neighbours along it are neighbours in space.
+// Hilbert's curve through the cells of a cube. Neighbours along it are neighbours in space.
 //
-// In each cube the curve goes through the octants in the order of Gray's code, seen from the corner
-// where it enters along the axis on which it leaves (Hamilton and Rau-Chaplin, "Compact Hilbert
-// indices", 2008). That corner and axis are the state that a cube hands to its octants.
+// In each cube the curve visits the octants in the order of Gray's code. The order depends on the
+// corner where the curve enters and on the axis along which it leaves, the state of the cube. A
+// cube passes a state to each octant (Hamilton and Rau-Chaplin, "Compact Hilbert indices", 2008).
 #pragma once
 
 #include <array>
@@ -11,7 +11,7 @@
 
 namespace ccd::detail {
 
-/// Which octant comes when, by state.
+/// The order of the octants, by state.
 class hilbert_states {
   public:
     struct step {
@@ -42,8 +42,7 @@ class hilbert_states {
         const unsigned by = (along + 1) % axes;
         return (octant << by | octant >> (axes - by)) & (octants - 1);
     }
-    /// Of the octant that comes i-th: the corner where the curve enters it, and the axis along
-    /// which it leaves.
+    /// The corner where the curve enters the i-th octant, and the axis along which it leaves.
     static constexpr unsigned entry(unsigned i) {
         const unsigned before = i == 0 ? 0 : (i - 1) & ~1U;
         return before ^ (before >> 1);
@@ -57,8 +56,8 @@ class hilbert_states {
 
 inline constexpr hilbert_states states_of_hilbert;
 
-/// The position along Hilbert's curve of the cell at `morton` along Morton's, whose digits are
-/// octants, of so many bits an axis.
+/// Returns the position along Hilbert's curve of the cell at `morton` along Morton's curve. The
+/// digits of `morton` are octants, with `axis_bits` bits an axis.
 constexpr std::uint64_t hilbert_position(std::uint64_t morton, unsigned axis_bits) {
     std::uint64_t along = 0;
     unsigned state = 0;

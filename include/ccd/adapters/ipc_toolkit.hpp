@@ -53,7 +53,7 @@ Position first_parameter(bool (Interface::*)(Position, Rest...) const);
 /// A step of that length may end in contact. A barrier needs a gap: give a conservative_rescaling
 /// below 1. The distance tested is then the sum of min_distance and a gap: the fraction
 /// 1 - conservative_rescaling of the distance above min_distance at the start, at most max_gap.
-/// That gap remains at every time up to `toi`, and all features that get nearer are reported. If
+/// The gap remains at every time up to `toi`, and all features that get nearer are reported. If
 /// rounding leaves nothing of the gap, min_distance is tested, and the time is multiplied by
 /// conservative_rescaling; `toi` is 0 in no other cases. Degenerate triangles and edges are the
 /// segments and points that they are.

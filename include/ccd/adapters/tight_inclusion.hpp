@@ -72,14 +72,14 @@ bool answer(const Query& query, double ms, double t_max, bool no_zero_toi, T& to
 /// ms = 0: true exactly if they touch in [0, t_max]. `toi` is the last number of type Scalar that
 /// is not after the first contact.
 /// ms > 0: true exactly if their Euclidean distance reaches sqrt(3) ms, the half diagonal of the
-/// box, rounded up by less than two units in the last place. This ball contains the box of
-/// Tight-Inclusion, so `false` certifies what it does there; pairs up to 1.74 times as far apart
+/// box. It is rounded up by less than two units in the last place. This ball contains the box of
+/// Tight-Inclusion, so `false` certifies the same as there. Pairs up to 1.74 times as far apart
 /// along an axis are reported. For a Euclidean distance call ccd::time_within.
 /// `toi` is infinite if the answer is false.
 ///
 /// err, tolerance, max_itr and ccd_method are ignored, since nothing is rounded. output_tolerance
 /// is set to tolerance, as after a complete search. With no_zero_toi, a pair within ms at the start
-/// is tested for contact only, so `toi` is 0 only if it touches at the start, or before the least
+/// is tested for contact only. Then `toi` is 0 only if it touches at the start, or before the least
 /// positive Scalar.
 template <class T>
 requires std::same_as<T, double> || std::same_as<T, float>

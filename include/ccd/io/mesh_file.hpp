@@ -22,8 +22,9 @@ struct mesh_options {
 /// Reads a frame. The extension names the format (.ply or .obj); pipes and files without an
 /// extension are recognised by their content. Accepts all frames of ccd::step, also with faces and
 /// edges that repeat a vertex, with points only, or without elements. Throws
-/// errbound::support::file_error if counts do not match, an index is out of range, a face has fewer
-/// than three vertices, a coordinate is not finite, or the file is truncated or unreadable.
+/// errbound::support::file_error if counts do not match, an index is out of range or a face has
+/// fewer than three vertices. Also throws if a coordinate is not finite, or if the file is
+/// truncated or unreadable.
 mesh read_mesh(const std::filesystem::path& path, const mesh_options& options = {});
 
 /// Reads a frame from the text of a PLY file, with all scalar types and elements in any order. Uses
@@ -63,7 +64,7 @@ mesh_share read_mesh_share(const std::filesystem::path& path, std::size_t share,
 /// Throws errbound::support::file_error unless both frames have the same topology.
 void require_same_topology(const mesh& before, const std::string& before_name, const mesh& after,
                            const std::string& after_name);
-/// As above, for equal shares of both frames.
+/// Overload for equal shares of both frames.
 void require_same_topology(const mesh_share& before, const std::string& before_name,
                            const mesh_share& after, const std::string& after_name);
 

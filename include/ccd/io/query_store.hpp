@@ -12,9 +12,8 @@ namespace ccd::io {
 /// True if this was built with HDF5. Otherwise stores are neither written nor read.
 bool has_query_stores();
 
-/// Writes a store of any number of queries to a file in the folder for temporary files
-/// (std::filesystem::temp_directory_path()), where it takes up to 16 bytes a query more until it is
-/// finished. Memory: some 30 megabytes.
+/// Writes a store of any number of queries to a file in std::filesystem::temp_directory_path(). Up
+/// to 16 bytes a query more are in use there until it is finished. Memory: some 30 megabytes.
 class query_packer {
   public:
     virtual ~query_packer() = default;

@@ -21,10 +21,10 @@ struct step_view {
     const time_lists& times;  ///< of the pairs, or empty if unknown
 };
 
-/// Returns a page of HTML that fetches nothing. It shows the mesh at every time of the step, to
-/// turn, move and zoom with mouse, fingers or keys, its pairs, and a list of pairs, each with its
-/// time, weights and normal, and as a query in numbers that read back exactly. Needs a browser with
-/// WebGL 2.
+/// Returns a page of HTML that fetches nothing. It shows the mesh and its pairs at every time of
+/// the step, to turn, move and zoom with mouse, fingers or keys. A list has each pair's time,
+/// weights and normal, and the pair as a query in numbers that read back exactly. Needs a browser
+/// with WebGL 2.
 ///
 /// Size: 65 bytes a vertex and 16 a face, and 22 a pair, or 80 with times. Cost: a contact's data
 /// for each pair with a time. Throws std::invalid_argument if an index is out of range, or if there
@@ -34,10 +34,10 @@ std::string page_of(const step_view& step);
 /// One of the two frames.
 enum class frame : std::uint8_t { before, after };
 
-/// Returns one frame as VTK's XML PolyData, binary, with coordinates bit for bit: points on no
-/// edge, edges and faces, each in the given order, and a vertex cell for each pair, by kind in the
-/// order of `pairs`. That vertex is the first contact point, or the middle of the pair's vertices
-/// if the contact is unknown.
+/// Returns one frame as VTK's XML PolyData, binary, with coordinates bit for bit. Cells are points
+/// on no edge, edges and faces, each in the given order. A vertex cell for each pair follows, by
+/// kind in the order of `pairs`: the first contact point, or the middle of the pair's vertices if
+/// the contact is unknown.
 ///
 /// Arrays of points: `displacement` from t = 0 to 1; `normal` of contacts (ccd/contact.hpp),
 /// else 0. Arrays of cells: `pairs`, the number of pairs of the cell, its edges and its vertices;

@@ -16,8 +16,8 @@
 
 namespace ccd {
 
-/// True if the signs of Y's coefficients show that the points are never coplanar: decide_bsc_of's
-/// first test, which decides most queries.
+/// True if the signs of Y's coefficients show that the points are never coplanar. This first test
+/// of decide_bsc_of decides most queries.
 template <class Scalar, template <class> class Query>
 constexpr bool never_coplanar(const Query<Scalar>& query) {
     return certainly_rootless(normalized(forms_of(query).y()));
@@ -39,13 +39,13 @@ constexpr verdict decide_bsc_of(const Query<Scalar>& query) {
     }
 }
 
-/// Decides a vertex_face or edge_edge query. `separate` is certain whenever signs under Rule are,
-/// `collides` too: then some root of Y has all weights strictly positive, so that the normal does
-/// not vanish there. Proof: proofs/Decisions.v, bsc_face_separate, bsc_face_collides,
-/// bsc_edges_separate, bsc_edges_collide; with each rule: proofs/TrackedBsc.v,
-/// tracked_face_separate, tracked_face_collides, tracked_edges_separate, tracked_edges_collide.
-/// Cost: at most a few thousand operations, no
-/// allocation, never throws.
+/// Decides a vertex_face or edge_edge query. `separate` and `collides` are certain if signs under
+/// Rule are. `collides` means that all weights are strictly positive at some root of Y, so the
+/// normal does not vanish there. Cost: at most a few thousand operations, no allocation, never
+/// throws.
+/// Proof: proofs/Decisions.v, bsc_face_separate, bsc_face_collides, bsc_edges_separate,
+/// bsc_edges_collide; with each rule: proofs/TrackedBsc.v, tracked_face_separate,
+/// tracked_face_collides, tracked_edges_separate, tracked_edges_collide.
 template <class Rule, class T, template <class> class Query>
 constexpr verdict decide_bsc(const Query<T>& query) {
     const auto [scaled, finite] = tracked_query<Rule>(query);

@@ -1,9 +1,9 @@
 // The polynomials of a query, over any scalar: coplanarity cubic Y and inside quartics G_i.
 //
-// In the notation of the TightCCD paper, Section 3: VF asks for t in [0, 1] with Y(t) = N·P = 0 and
-// the three barycentric weights times |N|² not negative; EE for the two edge parameters times |N|²
-// within [0, |N|²]. Every contact satisfies these; where the normal N vanishes they are satisfied
-// without contact. All forms are in scaled Bernstein coefficients (errbound/bernstein.hpp).
+// In the notation of the TightCCD paper, Section 3: a VF contact has a t in [0, 1] with Y(t) = N·P
+// = 0 and the three barycentric weights times |N|² >= 0. An EE contact has the two edge parameters
+// times |N|² within [0, |N|²]. If the normal N vanishes, the conditions can hold without contact.
+// All forms are in scaled Bernstein coefficients (errbound/bernstein.hpp).
 #pragma once
 
 #include <array>
@@ -41,8 +41,8 @@ constexpr auto dot(const vector_form<S, A>& p, const vector_form<T, B>& q) {
     return p.x * q.x + p.y * q.y + p.z * q.z;
 }
 
-/// The form of degree 0 that is p's value at (s, t), as value_at says; coefficient 0 is its value
-/// at t = 0, and coefficient N at t = 1.
+/// Evaluates p at (s, t) by value_at, as a form of degree 0. Coefficient 0 is p's value at t = 0,
+/// and coefficient N at t = 1.
 template <class S, int N, class T>
 constexpr auto value_at(const vector_form<S, N>& p, const T& s, const T& t) {
     using value = decltype(value_at(p.x, s, t));
@@ -55,9 +55,8 @@ constexpr vector_form<S, 0> coefficient(const vector_form<S, N>& p, int i) {
 }
 
 /// Coplanarity and inside forms of a query: b, c, p as in the paper, n = b × c. They are linear in
-/// t; of degree 0, it is the forms' values at one time. Over integers of W words
-/// n has coefficients of 2W words, y of 3W and the others of 4W; every other scalar is its own
-/// product.
+/// t; with degree 0 they are the values at one time. Over integers of W words, n has coefficients
+/// of 2W words, y of 3W and the others of 4W; products of other scalars keep their type.
 template <class S, int Degree = 1>
 struct coplanarity_forms {
     using product = decltype(std::declval<S>() * std::declval<S>());
@@ -107,7 +106,7 @@ struct edge_edge_forms : coplanarity_forms<S, Degree> {
     }
 };
 
-/// The forms' values at (s, t), as value_at says.
+/// Evaluates the forms at (s, t) by value_at.
 template <template <class, int> class Forms, class S, class T>
 constexpr auto forms_at(const Forms<S, 1>& f, const T& s, const T& t) {
     const auto b = value_at(f.b, s, t);

@@ -13,7 +13,8 @@ struct distance_bounds {
     T low, high;
 };
 
-/// |w(t)|₂ is least where w·w' = 0; a rounded place costs a few ε of the sizes. `w` in power form.
+/// |w(t)|₂ is least where w·w' = 0; rounding that time costs a few ε of the sizes. `w` is in power
+/// form.
 template <class Scalar>
 constexpr auto least_distance(const vector_form<Scalar, 1>& w) {
     using T = typename Scalar::value_type;
@@ -27,7 +28,7 @@ constexpr auto least_distance(const vector_form<Scalar, 1>& w) {
         error += (*x)[0].error() + (*x)[1].error();
     }
     T t = along / speed;
-    if (!(t > 0)) t = 0;  // also NaN: it does not move
+    if (!(t > 0)) t = 0;  // also if t is NaN, since w does not move then
     if (t > 1) t = 1;
     T square = 0;
     for (const auto* x : {&w.x, &w.y, &w.z}) {
@@ -35,7 +36,7 @@ constexpr auto least_distance(const vector_form<Scalar, 1>& w) {
         square += at_t * at_t;
     }
     const T distance = std::sqrt(square);
-    // The last term is above whatever squares lose to underflow.
+    // The last term exceeds all losses of squares to underflow.
     const T doubt =
         error + 32 * traits::epsilon() * size + std::sqrt(traits::smallest_normal()) * 256;
     return distance_bounds<T>{distance - doubt, distance + doubt};

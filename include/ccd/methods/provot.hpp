@@ -3,11 +3,11 @@
 //
 // Computes the cubic in powers of t from differences to one vertex, and its roots in [0, 1] in
 // number type T, without error bounds. At each root it compares barycentric weights (VF) or edge
-// parameters (EE) from the normal equations, without tolerance. If the normal vanishes the test
-// fails, and there is no vertex/edge test. Rounding therefore loses and invents collisions, and
-// those of degenerate features and of coplanar motion are lost by design. (Coplanar motion has no
-// isolated root; t = 0 and t = 1 are tested, as ends at which the cubic is zero.) Coordinates are
-// not scaled: tiny ones underflow. If values overflow the answer is `uncertain` with cause `range`.
+// parameters (EE) from the normal equations, without tolerance. So rounding loses and invents
+// collisions. Collisions of degenerate features are lost, because the test fails if the normal
+// vanishes and there is no vertex/edge test. So are those of coplanar motion, except at t = 0 and t
+// = 1. Coordinates are not scaled: tiny ones underflow. Overflow gives `uncertain` with cause
+// `range`.
 #pragma once
 
 #include <ccd/methods/forms.hpp>
@@ -20,8 +20,8 @@
 namespace ccd {
 namespace provot {
 
-/// x(0) and x(1) − x(0): the same motion in powers of t. (Products of forms are plain convolutions,
-/// which serve powers as well.)
+/// x(0) and x(1) − x(0): the same motion in powers of t. Products of forms are plain convolutions,
+/// so they work for powers too.
 template <class T>
 constexpr vector_form<T, 1> in_powers(const vector_form<T, 1>& v) {
     return {{{v.x[0], v.x[1] - v.x[0]}}, {{v.y[0], v.y[1] - v.y[0]}}, {{v.z[0], v.z[1] - v.z[0]}}};
@@ -31,7 +31,7 @@ constexpr Forms<T, 1> in_powers(const Forms<T, 1>& f) {
     return {in_powers(f.b), in_powers(f.c), in_powers(f.p)};
 }
 
-/// The weights of b and c in the point of their plane that is nearest to p, times `whole` = |N|².
+/// The weights of b and c in the point of their plane nearest to p, times `whole` = |N|².
 template <class T>
 struct weights {
     T of_b, of_c, whole;
@@ -70,7 +70,7 @@ verdict decide_provot(const Query<T>& query) {
     using traits = errbound::number_traits<T>;
     const auto motion = provot::in_powers(forms_of(query));
     const errbound::bernstein<T, 3> y = motion.y();
-    // Bounds whatever is computed of the cubic. NaN and infinities do not pass.
+    // Bounds all values computed from the cubic. NaN and infinities fail the test.
     const T size = traits::abs(y[0]) + traits::abs(y[1]) + traits::abs(y[2]) + traits::abs(y[3]);
     if (!traits::is_finite(16 * size)) return {outcome::uncertain, cause::range};
 

@@ -1,7 +1,7 @@
 // Proximity of a moving vertex and a moving edge: certainly never within reach, or uncertain.
 //
-// After the vertex/edge and vertex/vertex tests of SafeCCD (Wang 2014), with thresholds for any
-// reach: proofs/README.md, "Proximity of a vertex and an edge", derives them.
+// The vertex/edge and vertex/vertex tests of SafeCCD (Wang 2014), with thresholds for any reach.
+// proofs/README.md, "Proximity of a vertex and an edge", derives them.
 #pragma once
 
 #include <array>
@@ -14,12 +14,12 @@
 
 namespace ccd::safeccd {
 
-/// A linear or quadratic polynomial in power form, in plain numbers, and what its values on [0, 1]
-/// may be off by.
+/// A linear or quadratic polynomial in power form, in plain numbers, with a bound on the errors of
+/// its values on [0, 1].
 template <class T, int N>
 struct plain_form {
     errbound::bernstein<T, N> p;
-    T error = 0;  ///< of any value on [0, 1]
+    T error = 0;  ///< bound for any value on [0, 1]
     T size = 0;   ///< the sum of the coefficients' sizes
 
     template <class Scalar>
@@ -39,8 +39,8 @@ struct plain_form {
     }
 };
 
-/// Where the vertex may touch the edge's line, and the foot lie on the edge: E is the edge's
-/// vector, W the vertex's place relative to its first end, both in power form.
+/// Finds times at which the vertex may touch the edge's line with its foot on the edge. E is the
+/// edge's vector, and W the vertex relative to its first end, both in power form.
 template <class Scalar>
 class line_proximity {
   public:
@@ -53,7 +53,7 @@ class line_proximity {
     /// False if no threshold holds.
     constexpr bool usable() const { return traits::is_finite(tau_); }
 
-    /// D: where no candidate touches, the vertex is within reach only if it is this near to an end.
+    /// D: if no candidate touches, the vertex is within reach only if it is this near to an end.
     constexpr T end_distance(T reach) const {
         const T line_distance = slope_ + (tau_ > 0 ? tau_ / std::sqrt(lambda_squared_) : T(0));
         return std::sqrt(line_distance * line_distance + lambda_squared_ * T(0.3125)) *
@@ -61,7 +61,7 @@ class line_proximity {
                reach;
     }
 
-    /// True if this holds at one of the candidate times.
+    /// True if the vertex may touch at one of the candidate times.
     constexpr bool touches() const {
         if (touches_at(T(0)) || touches_at(T(1))) return true;
         for (const quadratic& f : q_)
@@ -122,12 +122,13 @@ class line_proximity {
     std::array<quadratic, 3> q_;  ///< E × W
     std::array<linear, 3> edge_, place_;
     T slope_;                ///< 3·reach
-    T tau_ = 0, doubt_ = 0;  ///< what |E × W| and the foot's comparison may be off by
-    T lambda_squared_ = 0;   ///< edges at least this long have a foot to be told
+    T tau_ = 0, doubt_ = 0;  ///< error bounds of |E × W| and of the foot's comparison
+    T lambda_squared_ = 0;   ///< the foot is tested for edges of at least this length
 };
 
-/// False only if the vertex is never within `reach` of the edge. `e`: from the edge's first end to
-/// its second; `w0`, `w1`: from each end to the vertex; all in power form. `off_line` raises τ.
+/// False only if the vertex is never within `reach` of the edge. `e` goes from the edge's first end
+/// to its second; `w0` and `w1` from each end to the vertex; all in power form. `off_line` raises
+/// τ.
 template <class Scalar, class T = typename Scalar::value_type>
 constexpr bool proximity(const vector_form<Scalar, 1>& e, const vector_form<Scalar, 1>& w0,
                          const vector_form<Scalar, 1>& w1, T reach, T off_line) {

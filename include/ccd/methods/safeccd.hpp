@@ -3,9 +3,9 @@
 //   decide_safeccd<safe>    `safeccd`: tolerances from one uniform bound on all coordinates
 //   decide_safeccd<tight>   `safeccd-tight`: tolerances from each variable's own bound
 //
-// Why no contact is lost, and the differences from the published method: proofs/README.md,
-// "SafeCCD". Sources: Wang 2014, Defending continuous collision detection against errors; Wang,
-// Tang, Manocha, Tong 2015, Section 6 (SafeCCD with TightBound).
+// proofs/README.md, "SafeCCD", shows that no contact is lost, and lists the differences from the
+// published method. Sources: Wang 2014, Defending continuous collision detection against errors;
+// Wang, Tang, Manocha, Tong 2015, Section 6 (SafeCCD with TightBound).
 #pragma once
 
 #include <algorithm>
@@ -28,7 +28,7 @@ namespace safeccd {
 
 using errbound::sign_type;
 
-/// The value's sign, if the value cannot change its sign by `drift`.
+/// The value's sign, if a change of `drift` cannot reverse it.
 template <class Scalar, class T>
 constexpr sign_type sign_within(const Scalar& x, T drift) {
     const T e = x.error() + drift;
@@ -42,7 +42,6 @@ constexpr auto upper_magnitude(const Scalar& x) {
     return number_traits<typename Scalar::value_type>::abs(x.value()) + x.error();
 }
 
-/// The decision of one query.
 template <class T, class Rule, template <class> class Query>
 class solver {
   public:
@@ -77,7 +76,7 @@ class solver {
   private:
     using limits = tolerances<T, Rule>;
 
-    /// q − p in power form: the position at t = 0 and the displacement.
+    /// q − p in power form: the position at t = 0, then the displacement.
     static constexpr vector_form<scalar, 1> motion(const moving_point<scalar>& q,
                                                    const moving_point<scalar>& p, const limits& l) {
         const auto along = [&](scalar point<scalar>::*axis) {
@@ -101,11 +100,11 @@ class solver {
         return value_at(p, scalar(T(1)), scalar(t));
     }
 
-    /// How far f may move against `direction` on [p, q]: the length times a bound of how far f'
-    /// falls below zero, times direction. The better of two bounds on the least f': that of its
-    /// Bernstein coefficients on [p, q], certified one by one; and the least value of the computed
-    /// f', at an end or at its vertex, less all errors of its coefficients and what evaluation and
-    /// the vertex' own rounding (second order) can add. The true f' may have its vertex anywhere.
+    /// How far f may move against `direction` on [p, q]: the length times a bound on how far f'
+    /// times direction falls below zero. Takes the better of two bounds on the least f'. One is
+    /// that of its Bernstein coefficients on [p, q], certified one by one. The other is the least
+    /// value of the computed f', at an end or at its vertex, minus errors: those of coefficients,
+    /// of evaluation and of the vertex (second order). The true f' may have its vertex anywhere.
     constexpr T slack_of(const errbound::bernstein<scalar, 2>& slope, T vertex, T direction, T p,
                          T q) const {
         const auto low_end = [&](const scalar& x) { return direction * x.value() - x.error(); };
@@ -121,7 +120,7 @@ class solver {
             least -= slope[i].error() + 16 * traits::epsilon() * traits::abs(slope[i].value());
 
         const T low = (traits::max)(hull, least);
-        // NaN counts as unbounded.
+        // NaN is unbounded.
         return low >= 0 ? T(0) : low < 0 ? -low * (q - p) * (1 + T(0x1p-10)) : traits::infinity();
     }
 
@@ -141,7 +140,7 @@ class solver {
 
         T root = p;
         if (low < 0) root = high > 0 ? errbound::roots::guarded_newton(plain, p, q) : q;
-        // f rises (times direction) through the window, if its ends tell.
+        // True if the signs at its ends show that f rises (times direction) through the window.
         bool before = false, after = false, within = false;
         T left = p, right = q;
         for (T w = limits_.first_window; !within && w <= limits_.last_window;
@@ -166,8 +165,7 @@ class solver {
         return at_root(at(f, root), slack, root);
     }
 
-    /// Step 3 of proofs/README.md, "SafeCCD": reports the root, or leaves it to the proximity
-    /// tests.
+    /// Step 3 of proofs/README.md, "SafeCCD": reports the root or leaves it to the proximity tests.
     constexpr verdict at_root(const scalar& f, T slack, T root) {
         const auto now = forms_at(forms_, scalar(T(1)), scalar(root));
         const std::array<scalar, 3> n{now.n.x[0], now.n.y[0], now.n.z[0]};
@@ -176,7 +174,7 @@ class solver {
             longest = (traits::max)(longest, traits::abs(x.value()));
             error = (traits::max)(error, x.error());
         }
-        // A floor keeps the quotients finite; it is far below anything that the query holds.
+        // A lower limit far below all sizes of the query keeps the quotients finite.
         const T mu = upper_magnitude(f) + slack + traits::smallest_normal();
         const T length = limits_.known_length(
             (traits::max)(least_distance(forms_.b).low, least_distance(forms_.c).low));
@@ -188,7 +186,7 @@ class solver {
                 inside = inside && sign_within(g[0], T(0)) != sign_type::negative;
             if (inside) return {outcome::uncertain, cause::inside};
         }
-        const T wide = T(1.7320509) * (nu + 2 * error);  // |N|₂ where |N|∞ may be below ν
+        const T wide = T(1.7320509) * (nu + 2 * error);  // bounds |N|₂ if |N|∞ may be below ν
         T radius = std::sqrt(wide) / 2;
         if (length > 0) radius = (std::min)(radius, wide / (2 * length));
         radius = (traits::max)(radius, T(0.8660255) * limits_.normal_per_length);
@@ -234,9 +232,9 @@ constexpr verdict decide_safeccd_of(const Query<errbound::tracked<T, Rule>>& que
     return safeccd::solver<T, Rule, Query>(query).decide();
 }
 
-/// Decides a vertex_face or edge_edge query. `separate` is certain whenever signs under Rule are,
-/// and `collides`: then f changes its sign within a window in which all inside forms are positive.
-/// Cost: bounded, no allocation, never throws; some microseconds where it comes to proximity.
+/// Decides a vertex_face or edge_edge query. `separate` and `collides` are certain if signs under
+/// Rule are. `collides` means that f changes its sign within a window in which all inside forms are
+/// positive. Cost: bounded, no allocation, never throws; some microseconds with proximity tests.
 template <class Rule, class T, template <class> class Query>
 constexpr verdict decide_safeccd(const Query<T>& query) {
     const auto [scaled, finite] = tracked_query<Rule>(query);

@@ -13,7 +13,7 @@ namespace ccd::safeccd {
 
 using errbound::number_traits;
 
-/// About x^(2/3), by operations that every machine rounds alike (std::cbrt is not among them).
+/// About x^(2/3), by operations that all machines round alike (unlike std::cbrt).
 template <class T>
 constexpr T two_thirds_power(const T& x) {
     using traits = number_traits<T>;
@@ -35,17 +35,17 @@ struct tolerances {
 
     /// False if the tolerances do not hold for this query.
     static constexpr bool usable = true;
-    /// |f| up to this counts as a root, beside its certified error.
+    /// |f| up to this plus its certified error counts as a root.
     static constexpr T root = 0;
-    /// Half widths w of the windows that are tried: from the first to the last, times the growth.
+    /// Half widths w of the windows: from the first to the last, multiplied by the growth.
     static constexpr T first_window = 64 * number_traits<T>::epsilon(), last_window = T(0x1p-8),
                        window_growth = 64;
-    /// The normal must be so much longer than the longest edge.
+    /// The least length of the normal relative to the longest edge.
     static constexpr T normal_per_length = 0;
-    /// Added to what counts as touching the line of an edge: |E × W|.
+    /// Added to the threshold of |E × W| for touching an edge's line.
     static constexpr T off_line = 0;
 
-    /// a − b at the start of the step; of one point's positions, its displacement.
+    /// a − b at the start of the step, or of a point's two positions: its displacement.
     static constexpr scalar difference(const scalar& a, const scalar& b) { return a - b; }
     static constexpr scalar displacement(const scalar& a, const scalar& b) { return a - b; }
 
@@ -54,7 +54,7 @@ struct tolerances {
     /// The largest change of the inside forms within w, beyond the interval of time(t, w).
     static constexpr T drift(T) { return 0; }
 
-    /// ν for the bound μ of |f| and edges at least `length` long: minimises μ/ν + r.
+    /// ν for the bound μ of |f| and edges of at least `length`: minimises μ/ν + r.
     static constexpr T smallest_normal(T mu, T length) {
         const T for_any = two_thirds_power(mu);
         const T for_long = std::sqrt(mu * length);
@@ -65,7 +65,7 @@ struct tolerances {
 };
 
 /// The thresholds below which nothing is certain, from one bound B on all coordinate differences
-/// during the step and the bound V on displacements: Wang 2014, with e = ε + 2σ/B where coordinates
+/// during the step and the bound V on displacements. Wang 2014 with e = ε + 2σ/B, if coordinates
 /// are known to within σ.
 template <class T>
 struct tolerances<T, errbound::safe> {
@@ -76,7 +76,7 @@ struct tolerances<T, errbound::safe> {
     T root, normal_per_length, off_line;
     static constexpr T first_window = T(0.001), last_window = T(0.001), window_growth = 2;
 
-    /// B = E + 2V, E the largest difference of coordinates at t = 0.
+    /// B = E + 2V, where E is the largest difference of coordinates at t = 0.
     template <class Query>
     explicit constexpr tolerances(const Query& query) {
         point<T> low, high;
@@ -95,8 +95,8 @@ struct tolerances<T, errbound::safe> {
             first = false;
         }
         const T extent = (std::max)({high.x - low.x, high.y - low.y, high.z - low.z});
-        // One part in a million pays for the roundings here and for coordinates that underflowed
-        // when the query was scaled, unless all differences are of their size.
+        // One part in a million covers the roundings here. It also covers coordinates that
+        // underflowed when the query was scaled, unless all differences are of their size.
         constexpr T enlarged = 1 + T(0x1p-20);
         v_ = (displacement + 2 * sigma_) * enlarged;
         b_ = (extent + 2 * displacement + 6 * sigma_) * enlarged;
@@ -109,7 +109,7 @@ struct tolerances<T, errbound::safe> {
         off_line = 725 * b_ * b_ * root_e;
     }
 
-    /// Rounded once, so off by at most εB, beside what the coordinates are off by.
+    /// The error is one rounding, at most εB, plus that of the coordinates.
     constexpr scalar difference(const scalar& a, const scalar& b) const {
         return scalar::within(a.value() - b.value(), traits::epsilon() * b_ + 2 * sigma_);
     }
@@ -118,8 +118,8 @@ struct tolerances<T, errbound::safe> {
     }
 
     static constexpr scalar time(T t, T) { return scalar(t); }
-    /// An inside form is the scalar product of two cross products of differences, each of size at
-    /// most B and speed at most 2V: 12 terms of four factors.
+    /// An inside form is the scalar product of two cross products of differences: 12 terms of four
+    /// factors, each of size at most B and speed at most 2V.
     constexpr T drift(T w) const { return 48 * b_ * b_ * b_ * 2 * v_ * w; }
 
     constexpr T smallest_normal(T, T) const { return normal_; }

@@ -1,8 +1,8 @@
 // Queries in double precision, decided in single precision if that suffices.
 //
 // Coordinates are relative to one of the query's points and rounded to float, with the rounding
-// error as each number's bound. A float method therefore keeps its promise for double input, and
-// the loss is small compared with the query, however far it lies from the origin.
+// error as each number's bound. A float method therefore keeps its promise for double input. The
+// loss is small compared with the query, at any distance from the origin.
 #pragma once
 
 #include <algorithm>
@@ -16,13 +16,13 @@
 
 namespace ccd {
 
-/// Returns the query over tracked floats, translated so that its first point starts at the origin,
-/// and times the power of two that brings its largest coordinate near 1 if it is far from 1.
-/// `second` is false if a coordinate is not finite.
+/// Returns the query over tracked floats, translated so that its first point starts at the origin.
+/// If its largest coordinate is far from 1, a power of two brings it near 1. `second` is false if a
+/// coordinate is not finite.
 ///
-/// Bounds: d = fl(x − c) is off by at most 2^-53·|d|, and the float f nearest to it by 2^-24·|d|,
-/// or by half of η where that underflows. Together that is less than |f|(2^-24 + 2^-44) + η,
-/// rounded downwards as it may be. (Where d overflows, f and its bound are infinite.)
+/// Bounds: d = fl(x − c) is off by at most 2^-53·|d|, and the nearest float f by 2^-24·|d|, or by
+/// half of η if it underflows. Together that is less than |f|(2^-24 + 2^-44) + η, even rounded
+/// downwards. If d overflows, f and its bound are infinite.
 template <class Rule, template <class> class Query>
 constexpr std::pair<Query<errbound::tracked<float, Rule>>, bool> single_precision_query(
     const Query<double>& query) {
@@ -53,7 +53,8 @@ constexpr std::pair<Query<errbound::tracked<float, Rule>>, bool> single_precisio
     return {transformed(moved, converted), finite};
 }
 
-/// BSC in floats for a query in doubles: as decide_bsc, `uncertain` if floats do not decide.
+/// BSC in floats for a query in doubles, with decide_bsc's results. `uncertain` if floats do not
+/// decide.
 template <class Rule, template <class> class Query>
 constexpr verdict decide_bsc_in_single_precision(const Query<double>& query) {
     const auto [converted, finite] = single_precision_query<Rule>(query);
@@ -61,7 +62,7 @@ constexpr verdict decide_bsc_in_single_precision(const Query<double>& query) {
     return decide_bsc_of(converted);
 }
 
-/// SafeCCD in floats, as above.
+/// SafeCCD in floats for a query in doubles.
 template <class Rule, template <class> class Query>
 constexpr verdict decide_safeccd_in_single_precision(const Query<double>& query) {
     const auto [converted, finite] = single_precision_query<Rule>(query);

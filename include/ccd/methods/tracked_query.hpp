@@ -22,7 +22,7 @@ constexpr std::pair<Query<Scalar>, bool> tracked_query(const Query<T>& query) {
         finite = finite && traits::is_finite(x);
         largest = (traits::max)(largest, traits::abs(x));
     });
-    // Moderate sizes are left alone; the room is that of errbound::normalized.
+    // Moderate sizes are not scaled. The room is that of errbound::normalized.
     constexpr int room = traits::max_exponent / 32;
     const int e = finite && largest > 0 ? traits::exponent(largest) : 0;
     if (e >= -room && e <= room)

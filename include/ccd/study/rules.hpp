@@ -1,5 +1,5 @@
-// Bound rules of one's own in collision detection: what they decide, and at what cost, in double
-// and in float.
+// Compares custom bound rules in collision detection: their decisions and their cost, in double and
+// in float.
 //
 //   struct mine : errbound::derived_rule<mine, errbound::tight> { ... };
 //   int main(int argc, char** argv) {
@@ -67,7 +67,7 @@ void decide_all(std::span<const Query> queries, std::span<outcome> answers) {
             answers[i] = decide_bsc<Rule>(queries[i]).outcome;
 }
 
-/// In each number type.
+/// The runs in each number type.
 template <class Rule, class Query>
 void add_runs(std::vector<rule_run<Query>>& runs, std::size_t queries) {
     const bool promises = errbound::promises_bound<Rule>;
@@ -92,9 +92,9 @@ inline void count(rule_row& row, outcome said, bool truth) {
 }  // namespace detail
 
 /// Decides the queries, vertex_face<double> or edge_edge<double>, under each rule in double and in
-/// float, where coordinates are rounded to floats with what that loses as their bounds. truth[i]:
-/// whether query i collides. Rules take turns, `passes` >= 1 times, so that a machine that slows
-/// down slows them alike. Allocates an answer for each query, rule and number type.
+/// float. Floats have the error of their conversion as bound. truth[i] is true if query i collides.
+/// Rules alternate, `passes` >= 1 times, so that a slower machine affects all of them. Allocates an
+/// answer for each query, rule and number type.
 template <class... Rules, class Query>
 std::vector<rule_row> compare_rules(const std::vector<Query>& queries,
                                     const std::vector<bool>& truth, int passes = 5) {
@@ -137,8 +137,8 @@ bool write_comparison(const std::filesystem::path& folder, const std::vector<com
 
 namespace detail {
 
-/// Reads a file of queries, whose truth is that of `exact` where it has none, and compares the
-/// rules. Throws errbound::support::file_error.
+/// Reads a file of queries and compares the rules. `exact` gives the truth if the file has none.
+/// Throws errbound::support::file_error.
 template <class... Rules>
 compared_file compare_on_file(const std::string& path) {
     const io::query_file file = io::read_queries(path, std::nullopt, false);
@@ -164,11 +164,10 @@ inline void print(const compared_file& file) {
 
 }  // namespace detail
 
-/// A main program: compares the rules on stored queries, files as `ccd query` takes them, whose
-/// kind the path says and whose truth, where they have none, is that of `exact`. Prints a row for
-/// each file, rule and number type; with `--out FOLDER` before the files it also calls
-/// write_comparison. Returns 0; 1 after bad input, or where certain answers under a rule that
-/// promises a bound were wrong; 2 without files.
+/// A main program that compares the rules on stored queries, in files of `ccd query`. The path
+/// gives their kind; `exact` gives the truth if a file has none. Prints a row for each file, rule
+/// and number type. With `--out FOLDER` before the files it also calls write_comparison. Returns 0,
+/// 2 without files, or 1 after bad input or wrong certain answers under a rule with a true bound.
 template <class... Rules>
 int rules_main(int argc, const char* const* argv) {
     const bool writes = argc > 2 && std::string_view(argv[1]) == "--out";
@@ -192,7 +191,8 @@ int rules_main(int argc, const char* const* argv) {
             for (const rule_row& r : files.back().rows) broken = broken || r.is_broken();
         }
         if (writes && !write_comparison(argv[2], files))
-            std::fprintf(stderr, "%s: no pictures: found no Python with matplotlib\n", argv[2]);
+            std::fprintf(stderr, "%s: no pictures, since no Python with matplotlib was found\n",
+                         argv[2]);
     } catch (const errbound::support::file_error& error) {
         std::fprintf(stderr, "%s\n", error.what());
         return 1;

@@ -6,7 +6,7 @@
 
 namespace errbound::detail {
 
-/// The largest m <= 8 with (m + 6)² <= 2^bits, or 0: one factor pays for m + 6 roundings.
+/// The largest m <= 8 with (m + 6)² <= 2^bits, or 0: one factor covers m + 6 roundings.
 constexpr int terms_at_once(int bits) {
     int m = 8;
     while (bits < 8 && m > 0 && (m + 6) * (m + 6) > (1 << bits)) --m;
@@ -15,14 +15,14 @@ constexpr int terms_at_once(int bits) {
 
 /// Sums each term's own roundings and its arguments' errors, Σ |â|σb + σa(|b̂| + σb), closed every
 /// terms_at_once(Bits) terms. Derived, the rule's dot_bound, defines, with a proof:
-///   factor_units(terms): the factor that pays for these sums' roundings, less 1, in ε;
+///   factor_units(terms): the factor that covers these sums' roundings, less 1, in ε;
 ///   underflows(terms, uncertain): the number of η lost; `uncertain` terms have inexact arguments.
 template <class T, class Derived, int Bits>
 class running_bound {
     static constexpr int most = terms_at_once(Bits);
 
   protected:
-    /// True if a factor pays for any term.
+    /// True if a factor covers any term.
     static constexpr bool pays = most > 0;
 
     template <class Operand>

@@ -36,7 +36,7 @@ auto known_correction(const tracked<T, Rule>& x) {
 }
 /// True if x and y have equal values, errors and corrections.
 template <class T, class Rule>
-bool says_the_same(const tracked<T, Rule>& x, const tracked<T, Rule>& y) {
+bool are_equal(const tracked<T, Rule>& x, const tracked<T, Rule>& y) {
     return x.value() == y.value() && x.error() == y.error() &&
            known_correction(x) == known_correction(y);
 }
@@ -51,7 +51,7 @@ amount_of<T> beyond(const tracked<T, Rule>& with_error, const tracked<T, Rule>& 
 
 /// A function under the wrapped rule: for the arguments, exact ones, and one argument's error each.
 template <class T, class Rule, std::size_t Count>
-struct asked_again {
+struct repeated_calls {
     tracked<T, Rule> result, own;
     std::array<tracked<T, Rule>, Count> of_one;
 };
@@ -59,15 +59,15 @@ struct asked_again {
 template <class T, class Rule, std::size_t Limit, std::size_t Count>
 tracked<T, explained<Rule, Limit>> booked_function(
     std::string_view name, const std::array<const tracked<T, explained<Rule, Limit>>*, Count>& x,
-    const asked_again<T, Rule, Count>& f) {
+    const repeated_calls<T, Rule, Count>& f) {
     using rule = explained<Rule, Limit>;
     using number = tracked<T, rule>;
     typename rule::template ledger<T> contributions;
     for (std::size_t i = 0; i < Count; ++i) {
         const number negative = -*x[i];
-        if (says_the_same(f.result, rule::unwrapped(*x[i])))
+        if (are_equal(f.result, rule::unwrapped(*x[i])))
             return rule::wrapped(f.result, x[i]->bound().contributions);
-        if (says_the_same(f.result, rule::unwrapped(negative)))
+        if (are_equal(f.result, rule::unwrapped(negative)))
             return rule::wrapped(f.result, negative.bound().contributions);
     }
     for (std::size_t i = 0; i < Count; ++i)
@@ -97,13 +97,13 @@ tracked<T, explained<Rule, Limit>> as_one_operation(std::string_view name, const
         given[i] = explained<Rule, Limit>::unwrapped(*arguments[i]);
         exact[i] = plain(arguments[i]->value());
     }
-    detail::asked_again<T, Rule, count> asked{std::apply(f, given), std::apply(f, exact), {}};
+    detail::repeated_calls<T, Rule, count> calls{std::apply(f, given), std::apply(f, exact), {}};
     for (std::size_t i = 0; i < count; ++i) {
         std::array<plain, count> one = exact;
         one[i] = given[i];
-        asked.of_one[i] = std::apply(f, one);
+        calls.of_one[i] = std::apply(f, one);
     }
-    return detail::booked_function<T, Rule, Limit, count>(name, arguments, asked);
+    return detail::booked_function<T, Rule, Limit, count>(name, arguments, calls);
 }
 
 template <class T, class Rule, std::size_t Limit>

@@ -2,10 +2,11 @@
 // static filter's constant from the code that the filter will run.
 //
 // Notation: ε the largest relative error of one rounding in any direction, η the smallest positive
-// number, M a bound on the sizes of the inputs. A number x of degree k in them, computed as x̂, has
+// number, M a bound on the sizes of the inputs. Let x have degree k in them, computed as x̂. Then:
 //     |x̂| <= magnitude·M^k + underflow·η·max(1, M)^(k−1),
 //     |x̂ − x| <= error·ε·M^k + underflow·η·max(1, M)^(k−1)
-// in any rounding direction, fused or not. Sums do not underflow. Factors with their own sizes
+//
+// This holds in any rounding direction, fused or not. Sums do not underflow. Factors with own sizes
 // (M_x, M_y, ...) work if all terms of a sum have the same, or with the largest product for M^k.
 // Proof: proofs/ErrorCount.v, count_sound; for nonzero whole constants and counts far from 1/η
 // (count_height).
@@ -66,7 +67,7 @@ struct basic_error_count {
     }
 
   private:
-    /// Pays for rounding the count and the counted size: at most ten factors of at most 1 + ε.
+    /// Covers rounding the count and the counted size: at most ten factors of at most 1 + ε.
     static constexpr T rounded(T count) { return count * (1 + 16 * number_traits<T>::epsilon()); }
 };
 using error_count = basic_error_count<double>;

@@ -39,14 +39,14 @@ struct supposed_signs {
     std::array<std::uint64_t, counting_run::max_signs> numbers{};
     std::size_t size = 0;
     std::uint64_t unknown = 0;  ///< the number with uncertain sign; 0 in the first run: none
-    int asked = 0;              ///< signs evaluated in this run
+    int evaluated = 0;          ///< signs evaluated in this run
     std::array<std::uint64_t, 16> zeros{};  ///< the numbers supposed to be zero
     std::size_t zero_count = 0;
 
     /// The sign of a residue. Opposite numbers have opposite signs.
     constexpr sign_type sign(std::uint64_t residue) {
         if (residue == 0) return sign_type::zero;
-        if (asked++ == counting_run::max_signs) too_many_signs();
+        if (evaluated++ == counting_run::max_signs) too_many_signs();
         const bool opposite = residue > prime / 2;
         const std::uint64_t number = opposite ? prime - residue : residue;
         if (number == unknown) return sign_type::uncertain;
@@ -125,7 +125,7 @@ constexpr expression_fault find_fault(std::uint64_t supposition, const Run& run)
     for (auto k = static_cast<std::size_t>(hashed(supposition) % stride); k < signs.size;
          k += stride) {
         signs.unknown = signs.numbers[k];
-        signs.asked = 0;
+        signs.evaluated = 0;
         const sign_type other = run(signs);
         if (certain(other) && other != answer) return expression_fault::acts_on_uncertain;
     }

@@ -30,22 +30,22 @@ struct counting_run {
 
     expression_counts counts;
     std::array<sign_type, max_signs> answers{};  ///< by default `negative`, the first of its type
-    std::size_t asked = 0;
+    std::size_t evaluated = 0;
     int coordinate_bits = 0;
     bool lacks_coordinates = false;   ///< used a coordinate that the points do not have
     bool number_after_signs = false;  ///< evaluated signs and returned a number
 
     /// The next sequence of signs; false if there is none.
     constexpr bool advance() {
-        while (asked > 0) {
-            sign_type& last = answers[asked - 1];
+        while (evaluated > 0) {
+            sign_type& last = answers[evaluated - 1];
             if (last != sign_type::positive) {
                 last = last == sign_type::negative ? sign_type::zero : sign_type::positive;
-                asked = 0;
+                evaluated = 0;
                 return true;
             }
             last = sign_type::negative;
-            --asked;
+            --evaluated;
         }
         return false;
     }
@@ -142,8 +142,8 @@ class expression_count {
             int& bits = run.counts.bits[static_cast<std::size_t>(x.degree_)];
             bits = larger(bits, x.bits_);
         }
-        if (run.asked == counting_run::max_signs) too_many_signs();
-        return run.answers[run.asked++];
+        if (run.evaluated == counting_run::max_signs) too_many_signs();
+        return run.answers[run.evaluated++];
     }
 
   private:

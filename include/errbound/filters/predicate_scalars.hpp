@@ -185,7 +185,7 @@ constexpr expression_findings findings_of(int coordinate_bits, int max_runs,
                                           const int* degrees = nullptr) {
     return count_expression(coordinate_bits, max_runs, [degrees](counting_run& run) {
         const auto x = evaluate<Shape>(F(), counted_scalars<Shape>{run, degrees});
-        if (!branches<Shape, F> && run.asked > 0) run.number_after_signs = true;
+        if (!branches<Shape, F> && run.evaluated > 0) run.number_after_signs = true;
         return conclude(x);
     });
 }

@@ -149,10 +149,10 @@ class predicate_stages {
             if (scaled != list) {
                 const sign_type s = by_filter<double>(scaled);
                 if (certain(s)) return counted(s, static_filter);
-                return decide_exactly(scaled, integers::largest_size(scaled), counted);
+                return decide_with_integers(scaled, integers::largest_size(scaled), counted);
             }
         }
-        return decide_exactly(list, largest, counted);
+        return decide_with_integers(list, largest, counted);
     }
 
     template <class T>
@@ -174,8 +174,8 @@ class predicate_stages {
   private:
     /// Uses the first integers that hold the coordinates.
     template <class Counted>
-    static constexpr sign_type decide_exactly(const coordinate_list& list, std::uint64_t largest,
-                                              const Counted& counted) {
+    static constexpr sign_type decide_with_integers(const coordinate_list& list,
+                                                    std::uint64_t largest, const Counted& counted) {
         using enum predicate_stage;
         // If two words hold all results of one-word coordinates, doubles gain nothing.
         if constexpr (short_bits < word_bits) {

@@ -16,11 +16,13 @@ namespace errbound::filters {
 /// An intermediate result; users write `auto`. The mass m and the allowances a are compile-time
 /// values.
 ///
-/// Notation of static_filter.hpp: size S, k roundings, allowance τ. If all terms have degree d, and
-/// M is the largest |d̂| of coordinate differences and |x| of plain coordinates,
-///     S <= m·M^d + a·τ·(1 + M^d),
-/// where m is the expression's value with all terms positive and all differences 1, and a counts
-/// products: 0 at first, then a_x + a_y for sums, 2(m_x·a_y + m_y·a_x) + 2 for products. Proof,
+/// Notation of static_filter.hpp: size S, k roundings, allowance τ. Let all terms have degree d,
+/// and let M be the largest |d̂| of coordinate differences and |x| of plain coordinates. Then:
+///
+///     S <= m·M^d + a·τ·(1 + M^d)
+///
+/// m is the expression's value with all terms positive and all differences 1. The allowance a
+/// counts products: 0 at first, a_x + a_y for sums, 2(m_x·a_y + m_y·a_x) + 2 for products. Proof,
 /// without contraction: proofs/SemiStatic.v, mass_covers_size.
 template <std::floating_point T, int Roundings, int Degree>
 struct semi_static {

@@ -20,9 +20,11 @@
 namespace errbound::filters {
 
 /// The error bound of k roundings, in units of the computed size Ŝ. At most 2k + 2 roundings of Ŝ
-/// each keep at least 1 − u; the spare half of τ pays for underflow. Then
-///     |x̂ − x| <= ku(1 + ku)·(1 + (2k + 5)u)·Ŝ < constant(k)·Ŝ,   constant(k) = ku(1 + (4k + 8)u),
-/// where the slack, at least 3u, covers rounding the constant, the bound and x̂. Since uτ > m, it
+/// each keep at least 1 − u; the spare half of τ covers underflow. Then:
+///
+///     |x̂ − x| <= ku(1 + ku)·(1 + (2k + 5)u)·Ŝ < constant(k)·Ŝ,   constant(k) = ku(1 + (4k + 8)u)
+///
+/// The slack, at least 3u, covers rounding the constant, the bound and x̂. Since uτ > m, the bound
 /// does not underflow.
 template <std::floating_point T>
 constexpr T filter_constant(int k) {

@@ -64,8 +64,8 @@ inline constexpr double least_reduced_angle = 0x1p20;
 
 }  // namespace detail
 
-/// The assumption: if F has a finite result v for arguments of type T in its domain, v is within
-/// this many units in the last place of the exact result f. For subnormal f the unit is η. Rounding
+/// The assumption for arguments of type T in the domain of F: a finite result v is within this many
+/// units in the last place of the exact result f. For subnormal f the unit is η. Rounding
 /// is to nearest. Between 0.5 and 1024. For sin, cos and tan only below 2^20: glibc reduces larger
 /// doubles with an absolute error, and cos(0x1.69eab0985179bp+246) is off by 136,921 units.
 ///

@@ -66,7 +66,7 @@ auto system_function(const T&... x) {
 
 /// At least |v − f|, before enlarged(). With k units: the last place of f is at most ε|f| + η, and
 /// |f| <= (|v| + kη)/(1 − kε), so |v − f| <= kε|v|/(1 − kε) + kη + k²εη/(1 − kε); and 1/(1 − kε) <
-/// 1 + 2kε, k²ε < 1/8. Another 2kε >= u pays for rounding k to T, another η for the product's
+/// 1 + 2kε, k²ε < 1/8. Another 2kε >= u covers rounding k to T, another η for the product's
 /// underflow.
 template <elementary_function F, class T>
 T error_of_function(const T& v) {

@@ -616,13 +616,17 @@ inline integer integer::from_string(std::string_view digits, int base) {
     assert(2 <= base && base <= 36);
     const bool negative = digits.starts_with('-');
     if (negative || digits.starts_with('+')) digits.remove_prefix(1);
-    if (digits.empty()) throw std::invalid_argument("errbound::integer: no digits");
+    if (digits.empty())
+        throw std::invalid_argument(
+            "errbound::integer: number has no digits; expected at least one");
     const auto value_of = [&](char c) {
         const int value = c >= '0' && c <= '9'   ? c - '0'
                           : c >= 'a' && c <= 'z' ? c - 'a' + 10
                           : c >= 'A' && c <= 'Z' ? c - 'A' + 10
                                                  : base;
-        if (value >= base) throw std::invalid_argument("errbound::integer: not a digit");
+        if (value >= base)
+            throw std::invalid_argument(
+                "errbound::integer: a character is not a digit; expected digits of the base");
         return static_cast<word>(value);
     };
     const auto b = static_cast<word>(base);

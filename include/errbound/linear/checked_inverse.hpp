@@ -1,6 +1,6 @@
 // An approximate inverse R of a matrix A, with certified bounds of I − RA: they prove that A is
-// regular and turn residuals into error bounds. Theorem: if |I − RA|v <= βv for some v > 0 and β <
-// 1, then A and R are regular, and for any ỹ the solution y of Ay = b has, entry by entry,
+// regular and turn residuals into error bounds. Theorem: let |I − RA|v <= βv for some v > 0 and
+// β < 1. Then A and R are regular. For any ỹ the solution y of Ay = b has, entry by entry:
 //
 //   |y − ỹ| <= z + w·max_i(z_i/v_i)/(1 − β),   z >= |R(b − Aỹ)|, w >= |I − RA|v.
 //

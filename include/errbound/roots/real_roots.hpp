@@ -125,7 +125,8 @@ class real_roots {
         assert(k < size());
         if (sign_of(width) != sign_type::positive)
             throw std::invalid_argument(
-                "errbound::real_roots::refine: the width must be positive and finite");
+                "errbound::real_roots::refine: width is out of range; expected a finite number > "
+                "0");
         if (width < intervals_[k].high - intervals_[k].low) narrow(intervals_[k]);
         if (width < intervals_[k].high - intervals_[k].low)
             exact().refine(intervals_[k], width, meter_);

@@ -135,8 +135,9 @@ struct affine_of {
         r.add_left(upper_product<T>(a.bound.radius, b.bound.radius));
         return r.finished(v);
     }
-    /// With q = v and the remainder r, a/b − q = N/b, N = r + Σ (aᵢ − q·bᵢ)εᵢ ± (rest_a +
-    /// |q|·rest_b), and N/b − N/b̂ = N/b̂·(b̂ − b)/b is at most |N/b̂|·radius_b/(|b̂| − radius_b).
+    /// Let q = v with the remainder r, and N = r + Σ (aᵢ − q·bᵢ)εᵢ ± (rest_a + |q|·rest_b). Then
+    /// a/b − q = N/b.
+    /// N/b − N/b̂ = N/b̂·(b̂ − b)/b is at most |N/b̂|·radius_b/(|b̂| − radius_b).
     /// If r is unknown, r/b̂, the error of q, is at most u|v| + η/2. Infinite if b may be zero.
     /// Proof: proofs/IeeeAffine.v, affine_divide_known.
     template <class T>

@@ -142,7 +142,7 @@ struct relative {
         return detail::rounded_product(x, T(1 + number_traits<T>::epsilon()));
     }
 
-    /// At least −ln(1 − u), one factor. 1 + 8ε, 16 times double's u, pays for twelve roundings.
+    /// At least −ln(1 − u), one factor. 1 + 8ε, 16 times double's u, covers twelve roundings.
     template <class T>
     static constexpr double of_one_factor() {
         const double u = static_cast<double>(number_traits<T>::unit_roundoff());

@@ -182,7 +182,7 @@ struct residual {
         return detail::rounded_product(sizes, traits::unit_roundoff()) +
                4 * traits::underflow_unit();
     }
-    // Pays for up to eight roundings of ρ: 1 + 8ε >= (1 + u)^9 (u <= 1/8).
+    // Covers up to eight roundings of ρ: 1 + 8ε >= (1 + u)^9 (u <= 1/8).
     template <class T>
     static constexpr T inflated(const T& bound) {
         return detail::rounded_product(bound, T(1 + 8 * number_traits<T>::epsilon()));

@@ -69,7 +69,7 @@ struct safe {
                                        rule_operand<T, safe> b) {
         return add(v, a, b);
     }
-    /// B = Ba·Bb, at least the smallest normal number m, k = ka + kb + 1. The 1 in k pays for
+    /// B = Ba·Bb, at least the smallest normal number m, k = ka + kb + 1. The 1 in k covers
     /// rounding by ε, or for underflow by η = mε <= Bε. Proof: proofs/IeeeSafe.v,
     /// safe_multiply_known; in any direction, proofs/Safe.v, safe_multiply_sound.
     template <class T>

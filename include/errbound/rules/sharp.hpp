@@ -106,7 +106,7 @@ struct sharp {
     /// fl(s + p) by at most u|s'|, |p| and |s|, since s and p are candidates for s'. The arguments'
     /// errors add Σ |â|σb + σa(|b̂| + σb).
     ///
-    /// One factor pays for the roundings of m terms' bounds: m in Σ (u|p| + min(u|s'|, |p|, |s|)),
+    /// One factor covers the roundings of m terms' bounds: m in Σ (u|p| + min(u|s'|, |p|, |s|)),
     /// m + 2 in an argument's share, four more. With j = m + 6, (1 + u)^j <= 1 + ju + (ju)² <= 1 +
     /// (⌈j/2⌉ + 1)ε if j²ε <= 4. Underflow takes at most η/2 each in m products, m of u|p|, two in
     /// an uncertain share, and the last. Source: Higham 2002, Section 3.3; Jeannerod, Rump 2013
@@ -138,7 +138,7 @@ struct sharp {
     static constexpr T rounding(const T& v) {
         return detail::rounded_product(number_traits<T>::abs(v), number_traits<T>::unit_roundoff());
     }
-    // Pays for five roundings: (1 + u)^5 <= 1 + 8u = 1 + 4ε for u <= 1/8.
+    // Covers five roundings: (1 + u)^5 <= 1 + 8u = 1 + 4ε for u <= 1/8.
     template <class T>
     static constexpr T inflated(const T& bound) {
         return detail::rounded_product(bound, T(1 + 4 * number_traits<T>::epsilon()));

@@ -121,7 +121,7 @@ struct tight {
     /// off by at most Σ (|pᵢ| + |sᵢ|)·ε/(1 − ε), without s₁ = p₁, and η per product. The arguments'
     /// errors add Σ |â|σb + σa(|b̂| + σb).
     ///
-    /// One factor pays for the roundings of m terms' bounds: m in the sum of rounding(p) and
+    /// One factor covers the roundings of m terms' bounds: m in the sum of rounding(p) and
     /// rounding(s), m + 2 in an argument's share, four more. With j = m + 6, 1 + (j + 1)ε >= 1/(1 −
     /// jε) >= (1 − ε)^−j if j²ε <= 1/2. Underflow takes less than η each in m products, two in an
     /// uncertain share, and the last. Source: Higham 2002, Section 3.3 (running error analysis).

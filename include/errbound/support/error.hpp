@@ -5,7 +5,7 @@
 
 namespace errbound::support {
 
-/// Bad input or output. what() is a full sentence with file, line or element, found and expected.
+/// Bad input or output. what() has file, line or element, the value and the expected condition.
 /// The program prints it and exits with status 1.
 struct file_error : std::runtime_error {
     using std::runtime_error::runtime_error;

@@ -28,7 +28,7 @@ struct rule {
     void (*check_tiny)(std::size_t format, bool every_bound, tiny_findings&) = nullptr;
 
     bool promises() const { return error_is == error_meaning::bound; }
-    bool serves(number_type type) const {
+    bool supports(number_type type) const {
         return evaluate[static_cast<std::size_t>(type)] != nullptr;
     }
 };

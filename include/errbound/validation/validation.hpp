@@ -88,7 +88,7 @@ struct evidence {
     std::function<report(std::uint64_t chunk)> report_of;
     /// Fills `what` and `code` of the violations in the merged report of all chunks, in order; they
     /// may be empty before.
-    std::function<void(report&)> tell;
+    std::function<void(report&)> describe;
 };
 
 /// Called periodically, from the calling thread only.

@@ -96,9 +96,9 @@ TYPED_TEST(FirstTimes, AreThoseOfOneByOne) {
     const ccd::vertex_rows rows(before, after);
     const auto pairs = random_pairs<TypeParam>(130);
     const std::vector<double> thickness = thicknesses();
-    const ccd::time_options asked[] = {
+    const ccd::time_options all_options[] = {
         {}, {.t_max = 0.25}, {.distances = {0.25}}, {.t_max = 0.5, .distances = {0, thickness}}};
-    for (ccd::time_options options : asked) {
+    for (ccd::time_options options : all_options) {
         const auto expected = one_by_one(rows, pairs, options);
         for (options.threads = 0; options.threads < 3; ++options.threads) {
             EXPECT_EQ(ccd::first_times(rows, pairs, options), expected);
@@ -206,27 +206,24 @@ TEST(FirstTimesOf, RefuseWhatIsNoQuestion) {
         return refusal([&] { ccd::first_times(rows, pairs, options); });
     };
     EXPECT_EQ(refused({.t_max = std::numeric_limits<double>::quiet_NaN()}),
-              "ccd::first_times: found a t_max of nan, expected a finite one");
+              "ccd::first_times: t_max is nan; expected a finite number");
     const std::vector<ccd::vertex_vertex<double>> stored{query_of(rows, pairs[0])};
     const auto no_set = static_cast<ccd::instruction_set>(77);
     EXPECT_NE(refusal([&] { ccd::first_times(stored, {.distances = {1}, .set = no_set}); }),
               "nothing refused");
     EXPECT_EQ(refused({.distances = {-1}}),
-              "ccd::first_times: found a distance of -1, expected a finite one that is not "
-              "negative");
+              "ccd::first_times: distance is -1; expected a finite number >= 0");
     const std::vector<double> few(3), wrong(vertices, std::numeric_limits<double>::infinity());
     EXPECT_EQ(refused({.distances = {0, few}}),
-              "ccd::first_times: found thicknesses of 3 vertices, there are 60");
+              "ccd::first_times: number of thicknesses is 3; expected 60, one for each vertex");
     EXPECT_EQ(refused({.distances = {0, wrong}}),
-              "ccd::first_times: found for vertex 0 a thickness of inf, expected a finite one that "
-              "is not negative");
+              "ccd::first_times: thickness of vertex 0 is inf; expected a finite number >= 0");
     EXPECT_EQ(refused({.distances = {1, few}}),
-              "ccd::first_times: found a distance of all pairs and thicknesses, expected one of "
-              "the two");
+              "ccd::first_times: distance and thicknesses are given; expected one of them");
     EXPECT_EQ(refusal([&] { ccd::earliest(rows, far); }),
-              "ccd::first_times: query 0 names vertex 60 of 60");
+              "ccd::first_times: vertex index of query 0 is 60; expected less than 60");
     EXPECT_EQ(refusal([&] { ccd::earliest(ccd::vertex_rows(nullptr, nullptr, 9), pairs); }),
-              "ccd::first_times: found a null pointer, expected positions");
+              "ccd::first_times: pointer to positions is null; expected positions");
 }
 
 }  // namespace

@@ -62,8 +62,10 @@ TEST(first_contacts, refuse_times_of_other_queries) {
         }
         return std::string();
     };
-    EXPECT_EQ(message({{0, 1, 2, 3}, {4, 5, 6, 7}}), "ccd::first_contacts: 2 queries, but 1 times");
-    EXPECT_EQ(message({{0, 1, 2, 40}}), "ccd::first_contacts: query 0 names vertex 40 of 40");
+    EXPECT_EQ(message({{0, 1, 2, 3}, {4, 5, 6, 7}}),
+              "ccd::first_contacts: number of times is 1; expected 2, one for each query");
+    EXPECT_EQ(message({{0, 1, 2, 40}}),
+              "ccd::first_contacts: vertex index of query 0 is 40; expected less than 40");
 }
 
 }  // namespace

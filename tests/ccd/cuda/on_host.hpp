@@ -64,13 +64,14 @@ std::vector<ccd::outcome> decide_by(const ccd::cuda::positions& at,
 template <class Pair>
 std::vector<ccd::first_time> first_times(const ccd::cuda::positions& at,
                                          const ccd::cuda::candidates<Pair>& all,
-                                         const ccd::cuda::detail::times_asked& asked = {1, false},
+                                         const ccd::cuda::detail::times_request& request = {1,
+                                                                                            false},
                                          ccd::cuda::detail::time_counters* counters = nullptr) {
     ccd::cuda::detail::host_launcher launcher;
     // Results must not depend on old contents.
     std::vector<ccd::first_time> times(all.count, {ccd::outcome::collides, -1, 2});
     const laid_out<ccd::cuda::detail::time_memory> memory(all.count);
-    run_time_stages(launcher, at, all, times.data(), *memory, asked);
+    run_time_stages(launcher, at, all, times.data(), *memory, request);
     const auto counted = finish_times(launcher, at, all, times.data(), *memory);
     if (counters != nullptr) *counters = counted;
     return times;
@@ -81,11 +82,11 @@ constexpr std::size_t default_block =
 
 /// A step by `exact` with the device's code, except the launches.
 inline ccd::step_result step(const ccd::mesh& before, const ccd::mesh& after,
-                             const ccd::cuda::mesh_step_options& asked = {},
+                             const ccd::cuda::mesh_step_options& options = {},
                              std::size_t block = default_block) {
     using namespace ccd::cuda::detail;
     host_launcher launcher;
-    asked_steps<host_launcher> steps(block);
+    timed_steps<host_launcher> steps(block);
     using coordinates = ccd::cuda::coordinates<double>;
     const ccd::vertex_rows rows(before, after);
     const ccd::cuda::positions at(coordinates::rows(rows.before), coordinates::rows(rows.after),
@@ -99,7 +100,7 @@ inline ccd::step_result step(const ccd::mesh& before, const ccd::mesh& after,
         return finish_exact(launcher, at, part, answers, *all).left;
     };
     const auto find = [&](const auto& pairs, ccd::first_time* times,
-                          const times_asked& times_of) -> std::size_t {
+                          const times_request& times_of) -> std::size_t {
         const laid_out<time_memory> all(pairs.count);
         run_time_stages(launcher, at, pairs, times, *all, times_of);
         return finish_times(launcher, at, pairs, times, *all).left;
@@ -107,7 +108,7 @@ inline ccd::step_result step(const ccd::mesh& before, const ccd::mesh& after,
     ccd::step_result result;
     // Runs twice: the second step reuses the memory of the first.
     for (int i = 0; i < 2; ++i) {
-        const found_pairs found = steps.run(launcher, at, asked, decide, find);
+        const found_pairs found = steps.run(launcher, at, options, decide, find);
         result = {};
         result.candidates = {found.vertex_face_candidates, found.edge_edge_candidates};
         read_lists<ccd::kind::vertex_face>(launcher, steps.vertex_face(), result);

@@ -142,18 +142,18 @@ void expect_steps_as_on_host(const ccd::mesh& before, const ccd::mesh& after,
                              std::size_t block = cuda_on_host::default_block) {
     const auto first = ccd::step(before, after, {.first_contact = true}).first_contact;
     for (const double t_max : {1.0, first.high, first.low, 0.5, 0.0, -1.0})
-        for (unsigned asked = 0; asked < 8; ++asked) {
-            SCOPED_TRACE(testing::Message() << "t_max " << t_max << ", asked " << asked);
-            const ccd::cuda::mesh_step_options questions{.initial_contact = (asked & 1) != 0,
-                                                         .first_contact = (asked & 2) != 0,
-                                                         .times = (asked & 4) != 0,
-                                                         .t_max = t_max};
+        for (unsigned bits = 0; bits < 8; ++bits) {
+            SCOPED_TRACE(testing::Message() << "t_max " << t_max << ", options " << bits);
+            const ccd::cuda::mesh_step_options options{.initial_contact = (bits & 1) != 0,
+                                                       .first_contact = (bits & 2) != 0,
+                                                       .times = (bits & 4) != 0,
+                                                       .t_max = t_max};
             const auto expected = ccd::step(before, after,
-                                            {.initial_contact = questions.initial_contact,
-                                             .first_contact = questions.first_contact,
-                                             .times = questions.times,
+                                            {.initial_contact = options.initial_contact,
+                                             .first_contact = options.first_contact,
+                                             .times = options.times,
                                              .t_max = t_max});
-            const auto found = cuda_on_host::step(before, after, questions, block);
+            const auto found = cuda_on_host::step(before, after, options, block);
             EXPECT_EQ(found.pairs, expected.pairs);
             EXPECT_EQ(found.times, expected.times);
             EXPECT_EQ(found.touching_at_start, expected.touching_at_start);

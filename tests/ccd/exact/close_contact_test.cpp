@@ -54,8 +54,8 @@ outcome in_words(const Query& query, const integer_units& units) {
 template <class Query>
 void roots_that_brackets_do_not_part() {
     std::mt19937_64 random(7);
-    int asked = 0, collided = 0;
-    while (asked < 300) {
+    int decided = 0, collided = 0;
+    while (decided < 300) {
         const auto query =
             std::bit_cast<Query>(nearly_coincident(random, 20 + static_cast<int>(random() % 80)));
         const integer_units units(query);
@@ -63,7 +63,7 @@ void roots_that_brackets_do_not_part() {
             continue;
         const outcome right = decide_reference(query).outcome;
         ASSERT_EQ(ccd::detail::decide_in_integers(query).outcome, right);
-        ++asked;
+        ++decided;
         collided += right == outcome::collides;
     }
     EXPECT_GT(collided, 10);
@@ -78,15 +78,15 @@ TEST(CloseContact, OfTwoEdgesIsDecided) {
 template <class Query>
 void scales_far_apart() {
     std::mt19937_64 random(8);
-    int asked = 0, collided = 0;
-    while (asked < 3000) {
+    int decided = 0, collided = 0;
+    while (decided < 3000) {
         const auto query =
             std::bit_cast<Query>(nearly_coincident(random, 100 + static_cast<int>(random() % 150)));
         const int bits = integer_units(query).bits();
         if (bits <= extent_limit(2) || bits > extent_limit(4)) continue;
         const outcome right = decide_reference(query).outcome;
         ASSERT_EQ(ccd::detail::decide_in_integers(query).outcome, right) << bits;
-        ++asked;
+        ++decided;
         collided += right == outcome::collides;
     }
     EXPECT_GT(collided, 100);

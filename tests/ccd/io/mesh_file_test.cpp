@@ -153,19 +153,19 @@ TEST(Ply, BadBinary) {
     const std::string good = double_ply(some_mesh(), "binary_little_endian");
     const std::size_t header = good.find("end_header\n") + 11;
     const std::string truncated =
-        "found the end of the file, expected more data (truncated, or a wrong count)";
+        "file ends here; expected more data (truncated, or a wrong count)";
     EXPECT_EQ(ply_error(good.substr(0, header + 30)), "m.ply: vertex 1: " + truncated);
     for (std::size_t size = 0; size < good.size(); ++size)
         EXPECT_NE(ply_error(good.substr(0, size)), "no error") << size;
     EXPECT_EQ(ply_error(good + "x"),
-              "m.ply: found 1 bytes after the last element, expected the end of the file");
+              "m.ply: number of bytes after the last element is 1; expected 0");
     mesh m = some_mesh();
     m.vertices[2].y = std::numeric_limits<double>::infinity();
     EXPECT_EQ(ply_error(ply<float, std::int32_t>(m, "binary_big_endian", "float", "int")),
-              "m.ply: vertex 2: found an infinity as y, expected a finite number");
+              "m.ply: vertex 2: y is an infinity; expected a finite number");
     m.vertices[2].y = std::nan("");
     EXPECT_EQ(ply_error(double_ply(m, "binary_big_endian")),
-              "m.ply: vertex 2: found NaN as y, expected a finite number");
+              "m.ply: vertex 2: y is NaN; expected a finite number");
     // A list that claims 4 GiB.
     std::string list = good.substr(0, header) + "\xff\xff\xff\xff";
     list.insert(list.find("element"), "element a 1\nproperty list uint double b\n");
@@ -181,13 +181,13 @@ TEST(Meshes, Topology) {
     b.vertices[0].x = 17;
     EXPECT_EQ(error(b), "no error");
     b.edges[0] = {0, 3};
-    EXPECT_EQ(error(b), "b.ply: edge 0: found vertices 0 3, expected 3 0 as in a.ply");
+    EXPECT_EQ(error(b), "b.ply: vertices of edge 0 are 0 3; expected 3 0 as in a.ply");
     b.faces[1] = {3, 1, 2};
-    EXPECT_EQ(error(b), "b.ply: face 1: found vertices 3 1 2, expected 3 2 1 as in a.ply");
+    EXPECT_EQ(error(b), "b.ply: vertices of face 1 are 3 1 2; expected 3 2 1 as in a.ply");
     b.faces.pop_back();
-    EXPECT_EQ(error(b), "b.ply: found 1 faces, expected 2 as in a.ply");
+    EXPECT_EQ(error(b), "b.ply: number of faces is 1; expected 2 as in a.ply");
     b.vertices.emplace_back();
-    EXPECT_EQ(error(b), "b.ply: found 5 vertices, expected 4 as in a.ply");
+    EXPECT_EQ(error(b), "b.ply: number of vertices is 5; expected 4 as in a.ply");
 }
 
 TEST(Meshes, Files) {
@@ -198,9 +198,9 @@ TEST(Meshes, Files) {
     write(directory.path / "m.stl", text);
     fs::create_directory(directory.path / "d.ply");
     for (const auto& [name, message] :
-         {std::pair("m.stl", "found extension '.stl', expected .ply or .obj"),
-          {"none.ply", "no such file"},
-          {"d.ply", "found a directory"}}) {
+         {std::pair("m.stl", "extension is '.stl'; expected .ply or .obj"),
+          {"none.ply", "file does not exist"},
+          {"d.ply", "is a directory"}}) {
         const std::string found = message_of([&] { read_mesh(directory.path / name); });
         EXPECT_NE(found.find(message), std::string::npos) << found;
     }
@@ -267,27 +267,27 @@ TEST(Shares, SomeShareReportsABadFile) {
     };
     const std::string good = double_ply(larger_mesh(), "binary_little_endian");
     EXPECT_EQ(first_error(good), "no error");
-    EXPECT_EQ(first_error(""), "found an empty file, expected a PLY mesh");
+    EXPECT_EQ(first_error(""), "file is empty; expected a PLY mesh");
     for (std::size_t size = 1; size < good.size(); size += 7)
         EXPECT_NE(first_error(good.substr(0, size)), "no error") << size;
-    EXPECT_EQ(first_error(good + '0'),
-              "found 1 bytes after the last element, expected the end of the file");
+    EXPECT_EQ(first_error(good + '0'), "number of bytes after the last element is 1; expected 0");
     std::string quad = good;
     quad[quad.size() - 5 * 8 - 13 * 10] = 4;  // the eleventh face's count
     EXPECT_EQ(first_error(quad),
-              "face 11: found a face with 4 vertices, expected a triangle (the option "
+              "face 11: number of vertices of a face is 4; expected 3 (the option "
               "triangulate splits polygons)");
     mesh beyond = larger_mesh();
     beyond.faces[20][1] = 23;
     EXPECT_EQ(first_error(double_ply(beyond, "ascii")),
-              "face 20: found vertex index 23, expected less than 23");
+              "face 20: vertex index is 23; expected less than 23");
     EXPECT_THROW(read_mesh_share(path, 3, 3), std::invalid_argument);
     if (fs::exists("/dev/null")) {  // not on Windows
         const std::string error = message_of([&] { read_mesh_share("/dev/null", 0, 3); });
-        EXPECT_NE(error.find("expected one, of which"), std::string::npos) << error;
+        EXPECT_NE(error.find("expected one, to read shares"), std::string::npos) << error;
     }
-    EXPECT_NE(message_of([&] { read_mesh_share(directory.path / "none", 0, 3); }).find("no such"),
-              std::string::npos);
+    EXPECT_NE(
+        message_of([&] { read_mesh_share(directory.path / "none", 0, 3); }).find("does not exist"),
+        std::string::npos);
 }
 
 }  // namespace

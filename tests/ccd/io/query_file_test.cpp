@@ -77,42 +77,41 @@ TEST(Queries, BadInput) {
     std::string garbage;
     for (int i = 0; i < 4096; ++i) garbage += static_cast<char>(i * 37 + i / 256);
     const std::vector<bad_case> cases{
-        {"", "q.csv: found an empty file, expected rows of 6 integers"},
-        {"\n\r\n", "q.csv: found an empty file"},
-        {"\xef\xbb\xbf", "q.csv: found an empty file"},
-        {"\xff\xfe" + good, "q.csv: found UTF-16 or UTF-32, expected ASCII or UTF-8"},
+        {"", "q.csv: file is empty; expected rows of 6 integers"},
+        {"\n\r\n", "q.csv: file is empty"},
+        {"\xef\xbb\xbf", "q.csv: file is empty"},
+        {"\xff\xfe" + good, "q.csv: encoding is UTF-16 or UTF-32; expected ASCII or UTF-8"},
         {repeated(good, 12),
-         "q.csv:12: found a truncated query, 4 rows from line 9 on, expected 8 rows per query"},
-        {good + "1,1,1.5,1,1,1\n",
-         "q.csv:2: found '1.5' as the numerator of y, expected an integer"},
-        {"1,1,1,1,1,x\n", "q.csv:1: found 'x' as the denominator of z, expected an integer"},
-        {"nan,1,1,1,1,1\n", "q.csv:1: found 'nan' as the numerator of x, expected an integer"},
-        {"1,1,1,,1,1\n", "q.csv:1: found '' as the denominator of y, expected an integer"},
+         "q.csv:12: number of rows of the query from line 9 on is 4; expected 8 (truncated)"},
+        {good + "1,1,1.5,1,1,1\n", "q.csv:2: numerator of y is '1.5'; expected an integer"},
+        {"1,1,1,1,1,x\n", "q.csv:1: denominator of z is 'x'; expected an integer"},
+        {"nan,1,1,1,1,1\n", "q.csv:1: numerator of x is 'nan'; expected an integer"},
+        {"1,1,1,,1,1\n", "q.csv:1: denominator of y is ''; expected an integer"},
         {repeated(good, 7) + "1,1,1,0,1,1\n",
-         "q.csv:8: found '1'/'0' as y, expected a nonzero denominator"},
+         "q.csv:8: y is '1'/'0'; expected a nonzero denominator"},
         {good + "1,3,1,1,1,1\n",
-         "q.csv:2: found '1'/'3' as x, which no double equals, expected an exact double (or "
+         "q.csv:2: x is '1'/'3', which no double equals; expected an exact double (or "
          "--round)"},
         {"1,1,1,1,1" + repeated("0", 400) + ",1\n",
-         "...'/'1' as z, which overflows, expected a finite number"},
+         "...'/'1', which overflows; expected a finite number"},
         {"1,1,1,1," + repeated("1", 9999) + ",1\n",
-         "...'/'1' as z, which has too many digits, expected at most 4096"},
-        {"0x" + repeated("1", 9999) + ",1,1\n", "which has too many digits, expected at most 4096"},
-        {"0,NaN,0\n", "q.csv:1: found 'NaN' as y, expected a finite number"},
-        {"0,0,-inf\n", "q.csv:1: found '-inf' as z, expected a finite number"},
-        {"0,0,1e999\n", "q.csv:1: found '1e999' as z, which overflows, expected a finite number"},
+         "...'/'1', which has too many digits; expected at most 4096"},
+        {"0x" + repeated("1", 9999) + ",1,1\n", "which has too many digits; expected at most 4096"},
+        {"0,NaN,0\n", "q.csv:1: y is 'NaN'; expected a finite number"},
+        {"0,0,-inf\n", "q.csv:1: z is '-inf'; expected a finite number"},
+        {"0,0,1e999\n", "q.csv:1: z is '1e999', which overflows; expected a finite number"},
         {"0,0,0x1p-2000\n",
-         "q.csv:1: found '0x1p-2000' as z, which no double equals, expected an exact double (or "
+         "q.csv:1: z is '0x1p-2000', which no double equals; expected an exact double (or "
          "--round)"},
-        {"0,zero,0\n", "q.csv:1: found 'zero' as y, expected a number"},
-        {std::string("1,\0,1\n", 7), "q.csv:1: found '\\x00' as y, expected a number"},
-        {good + "1,1,1\n", "q.csv:2: found 3 columns, expected 6 as in the first row"},
-        {"1,2\n", "q.csv:1: found '1,2' (columns: 2), expected 6 integers"},
-        {good + "\n" + good, "q.csv:2: found a blank line, expected a row"},
-        {"1,1,1,1,1,1,2\n", "q.csv:1: found '2' as truth, expected 0 or 1"},
+        {"0,zero,0\n", "q.csv:1: y is 'zero'; expected a number"},
+        {std::string("1,\0,1\n", 7), "q.csv:1: y is '\\x00'; expected a number"},
+        {good + "1,1,1\n", "q.csv:2: number of columns is 3; expected 6 as in the first row"},
+        {"1,2\n", "q.csv:1: line is '1,2' (columns: 2); expected 6 integers"},
+        {good + "\n" + good, "q.csv:2: line is blank; expected a row"},
+        {"1,1,1,1,1,1,2\n", "q.csv:1: truth is '2'; expected 0 or 1"},
         {"1,1,1,1,1,1,1\n1,1,1,1,1,1,0\n",
-         "q.csv:2: found truth 0, expected 1 as in the first row of this query"},
-        {garbage, "q.csv:1: found '"}};
+         "q.csv:2: truth is 0; expected 1 as in the first row of this query"},
+        {garbage, "q.csv:1: line is '"}};
     for (const auto& [text, part] : cases) {
         const std::string message = message_of([&] { queries(text); });
         expect_message(message, part, text);
@@ -156,10 +155,10 @@ TEST(Queries, Files) {
     write(directory.path / "plain.csv", "1,1,1\n");
     fs::create_directory(directory.path / "folder-vf");
     for (const auto& [path, part] :
-         {std::pair(file, "found 1 truth values, expected 2, one per query of"),
-          {"/no/such/vf.csv", "/no/such/vf.csv: found no such file"},
-          {directory.path / "folder-vf", "found a directory, expected a file"},
-          {directory.path / "plain.csv", "found no kind of query in the path"}})
+         {std::pair(file, "number of truth values is 1; expected 2, one for each query of"),
+          {"/no/such/vf.csv", "/no/such/vf.csv: file does not exist"},
+          {directory.path / "folder-vf", "path is a directory; expected a file"},
+          {directory.path / "plain.csv", "path has no kind of query"}})
         expect_message(message_of([&] { read(path); }), part, path.string());
 }
 
@@ -167,13 +166,13 @@ TEST(Queries, Truth) {
     EXPECT_EQ(parse_truth("[true,false ,true]\n", "t"), (std::vector<bool>{true, false, true}));
     EXPECT_TRUE(parse_truth("[]", "t").empty());
     const std::vector<bad_case> cases{
-        {"[true, 1]", "t.json: element 1: found number, expected true or false"},
-        {"{}", "t.json: found object, expected a JSON array of booleans"},
-        {"[true", "t.json: found no JSON at byte 6, expected a JSON array of booleans"},
-        {"", "found no JSON"},
-        {"\x7f\xff garbage", "found no JSON"},
-        {"[1e999]", "number out of range"},
-        {std::string(1000000, '['), "t.json: element 0: found array, expected true or false"}};
+        {"[true, 1]", "t.json: type of element 1 is number; expected true or false"},
+        {"{}", "t.json: type is object; expected a JSON array of booleans"},
+        {"[true", "t.json: text at byte 6 is not JSON; expected a JSON array of booleans"},
+        {"", "is not JSON"},
+        {"\x7f\xff garbage", "is not JSON"},
+        {"[1e999]", "number is out of range"},
+        {std::string(1000000, '['), "t.json: type of element 0 is array; expected true or false"}};
     for (const auto& [text, part] : cases)
         expect_message(message_of([&] { parse_truth(text, "t.json"); }), part, text.substr(0, 20));
 }
@@ -211,8 +210,8 @@ void expect_ranges(const fs::path& file, std::size_t size) {
     EXPECT_EQ(by_reader, expected);
     EXPECT_EQ(by_file, expected);
     EXPECT_EQ(message_of([&] { read_queries(file, std::nullopt, false, {whole.size()}); }),
-              file.string() + ": found " + std::to_string(whole.size()) +
-                  " queries, expected more than the first " + std::to_string(whole.size()) +
+              file.string() + ": number of queries is " + std::to_string(whole.size()) +
+                  "; expected more than the first " + std::to_string(whole.size()) +
                   ", which are skipped");
 }
 
@@ -249,17 +248,17 @@ TEST(QueryRanges, ErrorsNameTheFilesLines) {
     };
     const std::string good = rows(4, "\n", "");
     const std::vector<bad_case> cases{
-        {good + "1,2,x\n", "vf.csv:33: found 'x' as z"},
-        {good + "1,2,3,0\n", "vf.csv:33: found 4 columns, expected 3"},
-        {good + "1,2,3\n1,2,3\n", "vf.csv:34: found a truncated query, 2 rows from line 33 on"}};
+        {good + "1,2,x\n", "vf.csv:33: z is 'x'"},
+        {good + "1,2,3,0\n", "vf.csv:33: number of columns is 4; expected 3"},
+        {good + "1,2,3\n1,2,3\n", "vf.csv:34: number of rows of the query from line 33 on is 2"}};
     for (const auto& [text, part] : cases) {
         write(file, text);
         expect_message(message(2), part, text);
     }
     write(file, "\n \n");
-    expect_message(message(0), "found an empty file", "blank lines");
-    expect_message(message_of([&] { index_queries(directory.path, 1); }), "found no regular file",
-                   "a folder");
+    expect_message(message(0), "file is empty", "blank lines");
+    expect_message(message_of([&] { index_queries(directory.path, 1); }),
+                   "path is not a regular file", "a folder");
     write(file, good);
     const query_index index = index_queries(file, 2);
     write(file, "");
@@ -267,9 +266,9 @@ TEST(QueryRanges, ErrorsNameTheFilesLines) {
     expect_message(message_of(read_shrunk), "cannot be read from byte", "a file that shrank");
     write(file, good);
     write(directory.path / "mma_bool" / "vf_mma_bool.json", "[true,true,true]");
-    expect_message(message(1), "found 3 truth values, expected 4", "last range");
+    expect_message(message(1), "number of truth values is 3; expected 4", "last range");
     write(directory.path / "mma_bool" / "vf_mma_bool.json", "[true]");
-    expect_message(message(0), "found 1 truth values, expected at least 2", "first range");
+    expect_message(message(0), "number of truth values is 1; expected at least 2", "first range");
 }
 
 }  // namespace

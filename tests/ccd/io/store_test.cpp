@@ -166,7 +166,7 @@ TEST(Store, IsReadInRanges) {
     EXPECT_EQ(all, content_of(file));
     const auto as_faces = [&] { read_queries(path, kind::vertex_face, false); };
     EXPECT_EQ(message_of(as_faces),
-              path.string() + ": found queries of kind edge_edge, expected vertex_face");
+              path.string() + ": kind of queries is edge_edge; expected vertex_face");
 }
 
 TEST(Store, RefusesWhatItCannotHold) {
@@ -296,32 +296,33 @@ const std::vector<double> ones(24, 1.0), zeros(12, 0.0);
 TEST_F(ForgedStore, TypesShapesAndNumbersAreThoseOfTheFormat) {
     expect("no error", replace({"points", H5T_IEEE_F64LE, {points_in_it, 6}, ones}));
     for (const hid_t type : {H5T_IEEE_F64BE, H5T_IEEE_F32LE, H5T_STD_I64LE})
-        expect("dataset points: found numbers of another type, expected float64",
+        expect("dataset points: type of numbers is another one; expected float64",
                replace({"points", type, {points_in_it, 6}, ones}));
     for (const hid_t type : {H5T_STD_I16LE, H5T_STD_U16BE, H5T_STD_U8LE, H5T_STD_I64LE})
-        expect("dataset queries: found numbers of another type, expected uint16 or uint32",
+        expect("dataset queries: type of numbers is another one; expected uint16 or uint32",
                replace({"queries", type, {queries_in_it, 4}, zeros}));
     for (const std::vector<hsize_t>& size :
          {std::vector<hsize_t>{24}, {4, 5}, {3, 7}, {2, 2, 6}, {6, 4}})
-        expect("dataset points: found another shape, expected rows of 6",
+        expect("dataset points: shape is another one; expected rows of 6",
                replace({"points", H5T_IEEE_F64LE, size, ones}));
-    expect("dataset truth: found 2 rows, expected 3", replace({"truth", H5T_STD_U8LE, {2}, ones}));
+    expect("dataset truth: number of rows is 2; expected 3",
+           replace({"truth", H5T_STD_U8LE, {2}, ones}));
     expect("dataset points", [](hid_t file) { require(H5Ldelete(file, "points", H5P_DEFAULT)); });
     expect("dataset points", [](hid_t file) {
         require(H5Ldelete(file, "points", H5P_DEFAULT));
         const handle group(H5Gcreate2(file, "points", H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT),
                            H5Gclose, "group");
     });
-    expect("dataset truth: row 1: found 2, expected 0 or 1", set_number("truth", 3, 1, 2));
-    expect("dataset queries: row 2: found point 4, expected one of the chunk's 4",
+    expect("dataset truth: row 1: value is 2; expected 0 or 1", set_number("truth", 3, 1, 2));
+    expect("dataset queries: row 2: point index is 4; expected less than 4",
            set_number("queries", 12, 11, 4));
-    expect("dataset points: row 3: found a number that is not finite",
+    expect("dataset points: row 3: a number is not finite",
            set_number("points", 24, 23, std::numeric_limits<double>::quiet_NaN()));
     for (const auto& [first, last] : {std::pair(1, 4), {0, 3}, {4, 0}, {4, 4}})
-        expect("dataset first_point: expected rows that ascend from 0 to 4",
+        expect("dataset first_point: rows are out of order; expected rows that ascend from 0 to 4",
                replace({"first_point", H5T_STD_U64LE, {2}, {double(first), double(last)}}));
     expect("attribute kind", [](hid_t file) { require(H5Adelete(file, "kind")); });
-    expect("attribute version: found 7, expected 1", [](hid_t file) {
+    expect("attribute version is 7; expected 1", [](hid_t file) {
         const handle version(H5Aopen(file, "version", H5P_DEFAULT), H5Aclose, "version");
         const std::uint32_t seven = 7;
         require(H5Awrite(version, H5T_NATIVE_UINT32, &seven));
@@ -335,7 +336,7 @@ TEST_F(ForgedStore, DatasetsAreInTheFileItself) {
     ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
     write(good, good_);
     write(raw, std::string(48 * points_in_it, '\0'));
-    const std::string link = ": found a link to another place";
+    const std::string link = ": link leads to another place";
     for (const auto& other : {good, pipe, folder_.path / "none"})
         expect("dataset points" + link, link_to("points", other));
     expect("dataset truth" + link, link_to("truth", pipe));
@@ -354,7 +355,7 @@ TEST_F(ForgedStore, DatasetsAreInTheFileItself) {
             require(H5Pset_layout(how, H5D_CONTIGUOUS));
             require(H5Pset_external(how, other.c_str(), 0, 48 * points_in_it));
         };
-        const std::string chunks = "dataset points: found no chunks";
+        const std::string chunks = "dataset points: layout is not chunked";
         expect(chunks,
                replace({"points", H5T_IEEE_F64LE, {points_in_it, 6}, {}, {}, make_virtual}));
         expect(chunks,
@@ -366,17 +367,17 @@ TEST_F(ForgedStore, DatasetsAreInTheFileItself) {
 TEST_F(ForgedStore, DataFitInMemory) {
     const hid_t number = H5T_IEEE_F64LE, byte = H5T_STD_U8LE;
     const std::vector<std::pair<std::string, forged_set>> cases{
-        {"dataset points: found chunks of 1048576 x 100 numbers, expected at most 64 MiB each",
+        {"dataset points: size of chunks is 1048576 x 100 numbers; expected at most 64 MiB each",
          {"points", number, {40, 6}, {}, {1 << 20, 100}}},
-        {"dataset points: found chunks of 1048576 x 9 numbers",
+        {"dataset points: size of chunks is 1048576 x 9 numbers",
          {"points", number, {40, 6}, {}, {1 << 20, 9}}},
-        {"dataset points: found 40 rows, more than the file can hold",
+        {"dataset points: number of rows is 40; expected at most as many",
          {"points", number, {40, 6}, {}, {1 << 20, 8}}},
-        {"dataset points: found 4 rows, more than the file can hold",
+        {"dataset points: number of rows is 4; expected at most as many",
          {"points", number, {points_in_it, 6}}},
-        {"dataset truth: found chunks of 67108865 x 1 numbers",
+        {"dataset truth: size of chunks is 67108865 x 1 numbers",
          {"truth", byte, {queries_in_it}, {}, {(1 << 26) + 1}}},
-        {"more than the file can hold", {"truth", byte, {hsize_t{1} << 50}, {}, {65536}}}};
+        {"as many as the file can hold", {"truth", byte, {hsize_t{1} << 50}, {}, {65536}}}};
     for (const auto& [message, set] : cases) expect(message, replace(set));
 }
 

@@ -13,14 +13,14 @@ namespace {
 
 using namespace distributed;
 
-struct question {
+struct advance_case {
     std::string name;
     std::vector<int> groups;  ///< of the whole mesh's vertices
     double distance = 0;
     bool thickness = false, filtered = false;
 };
 
-std::vector<question> questions(const scene& s) {
+std::vector<advance_case> advance_cases(const scene& s) {
     const auto& mesh = s.before;
     std::vector<int> parts, single, few;
     for (const auto part : ccd::connected_parts(mesh.faces, mesh.edges, mesh.vertices.size()))
@@ -47,29 +47,29 @@ std::vector<T> of(const std::vector<T>& whole, const std::vector<ccd::vertex_ind
     return own;
 }
 
-void compare(const scene& s, const question& asked) {
+void compare(const scene& s, const advance_case& test) {
     std::vector<double> thickness;
     std::vector<std::uint8_t> pinned;
     for (std::size_t v = 0; v < s.before.vertices.size(); ++v) {
-        if (asked.thickness) thickness.push_back(0.001 * double(v % 5));
-        if (asked.filtered) pinned.push_back(v % 3 == 0);
+        if (test.thickness) thickness.push_back(0.001 * double(v % 5));
+        if (test.filtered) pinned.push_back(v % 3 == 0);
     }
     const auto expected =
         ccd::advance(s.before, s.after,
-                     {.groups = asked.groups,
-                      .distances = {asked.distance, thickness},
-                      .filter = {.pinned = pinned, .skip_unused = asked.filtered}});
+                     {.groups = test.groups,
+                      .distances = {test.distance, thickness},
+                      .filter = {.pinned = pinned, .skip_unused = test.filtered}});
     const auto [placed, place] = next_placing(s);
-    const std::string name = s.name + ", " + asked.name + ", " + placed + ": ";
+    const std::string name = s.name + ", " + test.name + ", " + placed + ": ";
     const share own = share_of(s, place, placed == "doubled");
-    const auto groups = of(asked.groups, own.of_whole);
+    const auto groups = of(test.groups, own.of_whole);
     const auto own_thickness = of(thickness, own.of_whole);
     const auto own_pinned = of(pinned, own.of_whole);
     const auto found =
         ccd::mpi::advance(MPI_COMM_WORLD, own.part(),
                           {.groups = groups,
-                           .distances = {asked.distance, own_thickness},
-                           .filter = {.pinned = own_pinned, .skip_unused = asked.filtered}});
+                           .distances = {test.distance, own_thickness},
+                           .filter = {.pinned = own_pinned, .skip_unused = test.filtered}});
     expect(found.fraction == expected.fraction, name + "fractions differ");
     expect(same(found.first_contact, expected.first_contact), name + "first contacts differ");
     expect(found.positions == of(expected.positions, own.of_whole), name + "positions differ");
@@ -84,7 +84,7 @@ void compare(const scene& s, const question& asked) {
 }
 
 void compare_scene(const scene& s) {
-    for (const question& asked : questions(s)) compare(s, asked);
+    for (const advance_case& test : advance_cases(s)) compare(s, test);
 }
 
 /// Contacts a few last places apart: rounding matters, and vertices are moved back.

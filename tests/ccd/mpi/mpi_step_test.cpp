@@ -16,7 +16,7 @@ namespace {
 
 using namespace distributed;
 
-struct question {
+struct step_case {
     std::string name;
     ccd::step_options options;
     bool groups = false, pinned = false, thickness = false;
@@ -28,11 +28,11 @@ struct of_vertices {
     std::vector<std::uint8_t> pinned;
     std::vector<double> thickness;
 
-    of_vertices(const question& asked, const std::vector<ccd::vertex_index>& vertices) {
+    of_vertices(const step_case& test, const std::vector<ccd::vertex_index>& vertices) {
         for (const ccd::vertex_index v : vertices) {
-            if (asked.groups) groups.push_back(static_cast<int>(v % 3));
-            if (asked.pinned) pinned.push_back(v % 2 == 0);
-            if (asked.thickness) thickness.push_back(0.001 * (v % 5));
+            if (test.groups) groups.push_back(static_cast<int>(v % 3));
+            if (test.pinned) pinned.push_back(v % 2 == 0);
+            if (test.thickness) thickness.push_back(0.001 * (v % 5));
         }
     }
     ccd::step_options fill(ccd::step_options options) const {
@@ -43,12 +43,12 @@ struct of_vertices {
     }
 };
 
-void compare(const scene& s, const question& asked, const std::string& placed, const placing& place,
+void compare(const scene& s, const step_case& test, const std::string& placed, const placing& place,
              const ccd::step_result& expected) {
-    const std::string name = s.name + ", " + asked.name + ", " + placed + ": ";
+    const std::string name = s.name + ", " + test.name + ", " + placed + ": ";
     const share own = share_of(s, place, placed == "doubled");
-    const of_vertices lists(asked, own.of_whole);
-    const ccd::step_options options = lists.fill(asked.options);
+    const of_vertices lists(test, own.of_whole);
+    const ccd::step_options options = lists.fill(test.options);
 
     const auto at_root =
         ccd::mpi::step(MPI_COMM_WORLD, own.part(), options, ccd::mpi::placement::root);
@@ -77,8 +77,8 @@ void compare(const scene& s, const question& asked, const std::string& placed, c
     expect(at_root.candidates == expected.candidates, name + "candidates differ");
 }
 
-std::vector<question> questions() {
-    std::vector<question> all;
+std::vector<step_case> step_cases() {
+    std::vector<step_case> all;
     all.push_back({"contacts", {}});
     all.push_back({"candidates", {.count_candidates = true}});
     all.push_back(
@@ -95,18 +95,18 @@ std::vector<question> questions() {
 void compare_scene(const scene& s) {
     std::vector<ccd::vertex_index> all(s.before.vertices.size());
     for (ccd::vertex_index v = 0; v < all.size(); ++v) all[v] = v;
-    for (const question& asked : questions()) {
-        const of_vertices lists(asked, all);
-        const auto expected = ccd::step(s.before, s.after, lists.fill(asked.options));
+    for (const step_case& test : step_cases()) {
+        const of_vertices lists(test, all);
+        const auto expected = ccd::step(s.before, s.after, lists.fill(test.options));
         const auto [name, place] = next_placing(s);
-        compare(s, asked, name, place, expected);
+        compare(s, test, name, place, expected);
     }
 }
 
 /// Many small scenes with the same request.
 void compare_few_corners() {
     std::mt19937 random(11);
-    const question counted{"candidates", {.count_candidates = true}};
+    const step_case counted{"candidates", {.count_candidates = true}};
     for (int i = 0; i < (size <= 3 ? 60 : 20); ++i) {
         const scene s = distributed::few_corners(random, 4 + random() % 6, 1 + random() % 80);
         const auto expected = ccd::step(s.before, s.after, counted.options);
@@ -133,22 +133,22 @@ void refuse_all() {
     const std::string who = "rank " + std::to_string(size - 1) + ": ";
     const std::vector<ccd::mpi::vertex_number> numbers{7, 8, 9}, twice{7, 8, 7};
     const std::vector<ccd::face> faces{{0, 1, 2}}, beyond{{0, 1, 3}};
-    refuse(who + "ccd::mpi::step: found a vertex's number given twice",
+    refuse(who + "ccd::mpi::step: number of a vertex is 7 twice; expected unique numbers",
            {is_last ? twice : numbers, {points, points}, faces});
     refuse(who + "ccd::mpi::step: ", {numbers, {points, points}, is_last ? beyond : faces});
     if (is_last) others[2].x = std::numeric_limits<double>::quiet_NaN();
-    refuse(who + "ccd::step: the x of vertex 9 at t = 1 is not finite",
+    refuse(who + "ccd::step: x of vertex 9 at t = 1 is nan; expected a finite number",
            {numbers, {points, others}, faces});
-    refuse("expected groups and pinned flags alone", {numbers, {points, points}, faces},
+    refuse("expected only groups and pinned flags", {numbers, {points, points}, faces},
            {.filter = {.can_collide = [](auto, auto) { return true; }}});
     if (size > 1) {
         others = points;
         others[1].y = is_last ? 1e-300 : 0;
-        refuse("found vertex 8 with other positions", {numbers, {points, others}, faces});
-        refuse(who + "ccd::mpi::step: found other options than on rank 0",
+        refuse("differs from its copy on rank", {numbers, {points, others}, faces});
+        refuse(who + "ccd::mpi::step: options differ from those on rank 0",
                {numbers, {points, points}, faces}, {.times = is_last});
         const std::vector<int> groups(is_last ? 3 : 0);
-        refuse("found other lists of groups", {numbers, {points, points}, faces},
+        refuse("lists of groups, flags", {numbers, {points, points}, faces},
                {.filter = {.groups = groups}});
     }
 }

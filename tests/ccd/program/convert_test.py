@@ -65,7 +65,7 @@ class ConvertTest(ProgramTest):
             done = subprocess.run([*command, out], env=dict(environment, TMPDIR=str(self.folder / "none")),
                                   capture_output=True, text=True)
             self.assertEqual(done.returncode, 1, done.stderr)
-            self.assertIn("TMPDIR: found no folder for temporary files", done.stderr)
+            self.assertIn("TMPDIR is not usable", done.stderr)
             self.assertFalse(out.exists())
             for size in (0, 1 << 12, 1 << 20):
                 done = subprocess.run([*command, out], env=environment, capture_output=True, text=True,
@@ -108,10 +108,10 @@ class ConvertTest(ProgramTest):
                  "convert", vf, plain, out)
         self.bad(1, "ee.csv: kind of queries is edge_edge; expected vertex_face", "convert", vf, edges, out)
         self.bad(2, "is also an input or another output", "convert", vf, vf)
-        self.bad(1, "none.csv: found no such file", "convert", self.folder / "none.csv", out)
+        self.bad(1, "none.csv: file does not exist", "convert", self.folder / "none.csv", out)
         self.assertFalse(out.exists())
         self.good("convert", vf, out)
-        self.bad(1, "out.h5: found queries of kind vertex_face, expected edge_edge", "query", out, "--kind", "ee")
+        self.bad(1, "out.h5: kind of queries is vertex_face; expected edge_edge", "query", out, "--kind", "ee")
         whole = out.read_bytes()
         out.write_bytes(whole[:60] + bytes([whole[60] ^ 255]) + whole[61:])
         self.bad(1, "out.h5: ", "query", out)

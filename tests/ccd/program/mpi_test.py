@@ -64,8 +64,8 @@ class DistributedStep(ProgramTest):
     def test_errors_are_reported_once(self):
         a = self.write("a.ply", ply(BEFORE, FACES))
         for message, status, arguments in (
-                ("c.ply: found no such file", 1, (a, self.directory / "c.ply")),
-                ("found 5 vertices, expected 6", 1, (a, self.write("d.ply", ply(AFTER[:5], [(0, 1, 2)])))),
+                ("c.ply: file does not exist", 1, (a, self.directory / "c.ply")),
+                ("number of vertices is 5; expected 6", 1, (a, self.write("d.ply", ply(AFTER[:5], [(0, 1, 2)])))),
                 ("--method is 'none'", 2, (a, a, "--method", "none")),
                 ("--method is tight; expected exact with --toi", 2, (a, a, "--method", "tight", "--toi", "-")),
                 ("is also an input or another output", 1, (a, a, "--pairs", a))):

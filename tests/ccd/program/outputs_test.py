@@ -122,7 +122,7 @@ class Refusals(Outputs):
 
     def test_an_output_that_fails_beside_another(self):
         """Expects status 1 and the file's name; the other output is whole, and no other file is left."""
-        for bad, why in (("/dev/full", "No space left on device"), (self.directory, "found a directory"),
+        for bad, why in (("/dev/full", "No space left on device"), (self.directory, "is a directory"),
                          (self.directory / "none" / "out", "No such file")):
             other = self.directory / "other"
             done = self.run_with("step", *self.frames, "--pairs", other, "--json", bad)
@@ -166,7 +166,7 @@ class Refusals(Outputs):
 
     def test_links(self):
         (self.directory / "link").symlink_to("target")
-        self.refused("found a symbolic link to nothing", "step", *self.frames, "--pairs",
+        self.refused("is a symbolic link to nothing", "step", *self.frames, "--pairs",
                      self.directory / "link")
         self.write("target", "old")
         self.good("step", *self.frames, "--pairs", self.directory / "link")

@@ -137,7 +137,7 @@ class Query(ProgramTest):
 
     def test_round(self):
         file = self.write("vf.csv", HIT.replace("1,4,1,4,1,1", "1,3,1,3,1,1"))
-        self.bad_input("vf.csv:1: found '1'/'3' as x, which no double equals", "query", file)
+        self.bad_input("vf.csv:1: x is '1'/'3', which no double equals", "query", file)
         self.good("query", file, "--round")
 
     def test_ranges_together_make_the_whole_file(self):
@@ -154,7 +154,7 @@ class Query(ProgramTest):
         self.assertEqual(whole, "1\n0\n0\n1\n0\n")
         self.assertEqual(verdicts(("--count", 2), ("--first", 2, "--count", 1),
                                   ("--first", 3, "--count", 100)), whole)
-        self.bad_input("vf.csv: found 5 queries, expected more than the first 5, which are skipped",
+        self.bad_input("vf.csv: number of queries is 5; expected more than the first 5, which are skipped",
                        "query", file, "--first", 5)
         self.bad_usage("query", file, "--count", 0)
 
@@ -168,26 +168,26 @@ class Query(ProgramTest):
     def test_bad_input(self):
         garbage = bytes(range(256)) * 64
         for name, content, message in [
-                ("empty", "", "empty/vf.csv: found an empty file, expected"),
-                ("truncated", HIT + "1,1,1,1,1,1\n" * 3, "found a truncated query"),
+                ("empty", "", "empty/vf.csv: file is empty; expected"),
+                ("truncated", HIT + "1,1,1,1,1,1\n" * 3, "expected 8 (truncated)"),
                 ("token", HIT.replace("1,4,1", "1,4,one", 1),
-                 "token/vf.csv:1: found 'one' as the numerator of y, expected an integer"),
+                 "token/vf.csv:1: numerator of y is 'one'; expected an integer"),
                 ("zero", HIT.replace("1,4", "1,0", 1), "nonzero denominator"),
-                ("nan", "nan,0,0\n" * 8, "found 'nan' as x, expected a finite number"),
-                ("infinity", "0,inf,0\n" * 8, "found 'inf' as y, expected a finite number"),
+                ("nan", "nan,0,0\n" * 8, "x is 'nan'; expected a finite number"),
+                ("infinity", "0,inf,0\n" * 8, "y is 'inf'; expected a finite number"),
                 ("overflow", "0,0,1e999\n" * 8, "overflows"),
-                ("garbage", garbage, "garbage/vf.csv:1: found"),
-                ("mixed", "1,1,1,1,1,1\n1,1,1\n", "columns, expected 6")]:
+                ("garbage", garbage, "garbage/vf.csv:1: line is"),
+                ("mixed", "1,1,1,1,1,1\n1,1,1\n", "number of columns is 3; expected 6")]:
             with self.subTest(name):
                 file = self.write(f"{name}/vf.csv", content)
                 self.bad_input(message, "query", file, "--method", "exact")
-        self.bad_input("no such file", "query", self.directory / "none" / "vf.csv")
-        self.bad_input("found a directory", "query", self.directory, "--kind", "vf")
-        self.bad_input("found no kind of query", "query", self.write("data.csv", HIT))
+        self.bad_input("file does not exist", "query", self.directory / "none" / "vf.csv")
+        self.bad_input("is a directory", "query", self.directory, "--kind", "vf")
+        self.bad_input("path has no kind of query", "query", self.write("data.csv", HIT))
         good = self.write("good/vf.csv", HIT)
-        self.bad_input("no such file", "query", good, self.directory / "vf.csv")
+        self.bad_input("file does not exist", "query", good, self.directory / "vf.csv")
         self.write("s/mma_bool/1vf_mma_bool.json", "[true,true]")
-        self.bad_input("found 2 truth values, expected 1", "query",
+        self.bad_input("number of truth values is 2; expected 1", "query",
                        self.write("s/queries/1vf.csv", HIT))
 
     def test_output_that_cannot_be_written(self):
@@ -339,7 +339,8 @@ class Step(ProgramTest):
         quad, fan = [(0, 1, 2, 3), (4, 4, 4)], [(0, 1, 2), (0, 2, 3), (4, 4, 4)]
         files = [[self.write(f"{i}{name}.ply", frame(z, faces)) for i, z in enumerate((1, -1))]
                  for name, faces in (("quad", quad), ("fan", fan))]
-        self.bad_input("face with 4 vertices, expected a triangle (the option triangulate splits polygons)", "step", *files[0])
+        self.bad_input("vertices of a face is 4; expected 3 (the option triangulate splits polygons)", "step",
+                       *files[0])
         pairs = self.directory / "pairs"
         for frames in files:
             self.good("step", *frames, "--triangulate", "--pairs", pairs)
@@ -397,8 +398,8 @@ class Step(ProgramTest):
                                       str(result["collisions"]["vertex_face"])])
         for s in stages:
             self.assertEqual(rows[s["stage"]][1:5],
-                             [str(s[k]) for k in ("entered", "left_out", "separate", "collides")])
-            self.assertEqual(s["left_open"], s["entered"] - s["separate"] - s["collides"])
+                             [str(s[k]) for k in ("entered", "skipped", "separate", "collides")])
+            self.assertEqual(s["undecided"], s["entered"] - s["separate"] - s["collides"])
         self.assertEqual(result["pairs_of_mesh"], {"vertex_face": 12, "edge_edge": 15})
         # Six vertices, two faces and six edges: pairs that the boxes discard.
         self.assertIn("of the mesh  apart  candidates", text)
@@ -432,29 +433,29 @@ class Step(ProgramTest):
                  b"property list uchar int vertex_indices\nend_header\n" + bytes(100)
         infinite = [(0, 0, "inf")] + BEFORE[1:]
         for name, content, message in [
-                ("empty.ply", "", "found an empty file"),
-                ("garbage.ply", bytes(range(256)), "found"),
-                ("garbage.obj", bytes(range(256)), "found a control character"),
+                ("empty.ply", "", "file is empty"),
+                ("garbage.ply", bytes(range(256)), "expected 'ply'"),
+                ("garbage.obj", bytes(range(256)), "expected no control characters"),
                 ("counts.ply", ply(BEFORE, FACES, vertex_count=7), "expected the end of the line"),
                 ("faces.ply", ply(BEFORE, FACES, face_count=3), "truncated, or a wrong count"),
                 ("trailing.ply", ply(BEFORE, FACES, face_count=1), "after the last element"),
                 ("truncated.ply", binary, "truncated, or a wrong count"),
                 ("range.ply", ply(BEFORE, [(0, 1, 2), (3, 4, 6)]),
-                 "face 1: found vertex index 6, expected less than 6"),
-                ("negative.ply", ply(BEFORE, [(0, 1, -2)]), "found vertex index -2"),
-                ("two.ply", ply(BEFORE, [(0, 1)]), "found a face with 2 vertices"),
-                ("four.ply", ply(BEFORE, [(0, 1, 2, 3)]), "found a face with 4 vertices"),
-                ("nan.ply", ply([("nan", 0, 0)] + BEFORE[1:], FACES), "found 'nan'"),
-                ("infinity.ply", ply(infinite, FACES), "found 'inf'"),
+                 "face 1: vertex index is 6; expected less than 6"),
+                ("negative.ply", ply(BEFORE, [(0, 1, -2)]), "vertex index is -2"),
+                ("two.ply", ply(BEFORE, [(0, 1)]), "number of vertices of a face is 2"),
+                ("four.ply", ply(BEFORE, [(0, 1, 2, 3)]), "number of vertices of a face is 4"),
+                ("nan.ply", ply([("nan", 0, 0)] + BEFORE[1:], FACES), "value is 'nan'"),
+                ("infinity.ply", ply(infinite, FACES), "value is 'inf'"),
                 ("topology.ply", ply(BEFORE, [(5, 4, 3), (0, 2, 1)]),
-                 "face 1: found vertices 0 2 1, expected 0 1 2 as in"),
-                ("fewer.ply", ply(BEFORE, FACES[:1]), "found 1 faces, expected 2 as in"),
-                ("more.ply", ply(BEFORE + BASE, FACES), "found 9 vertices, expected 6 as in"),
+                 "vertices of face 1 are 0 2 1; expected 0 1 2 as in"),
+                ("fewer.ply", ply(BEFORE, FACES[:1]), "number of faces is 1; expected 2 as in"),
+                ("more.ply", ply(BEFORE + BASE, FACES), "number of vertices is 9; expected 6 as in"),
                 ("mesh.stl", "solid\n", "expected .ply or .obj")]:
             with self.subTest(name):
                 self.bad_input(message, "step", good, self.write("bad/" + name, content))
-        self.bad_input("no such file", "step", good, self.directory / "none.ply")
-        self.bad_input("found a directory", "step", good, self.directory)
+        self.bad_input("file does not exist", "step", good, self.directory / "none.ply")
+        self.bad_input("is a directory", "step", good, self.directory)
 
     def test_bad_usage(self):
         frame = self.write("0.ply", ply(BEFORE, FACES))

@@ -54,12 +54,12 @@ void advance_scene(const fs::path& before, const fs::path& after) {
     const struct {
         const char* name;
         ccd::advance_options options;
-    } asked[] = {{"as one", {}},
+    } cases[] = {{"as one", {}},
                  {"by bodies", {.groups = bodies}},
                  {"by vertices", {.groups = each}},
                  {"keeping 1e-3 of the mean edge", {.distances = {1e-3 * edge}}},
                  {"keeping 1e-12 of it", {.distances = {1e-12 * edge}}}};
-    for (const auto& [name, options] : std::span(asked).first(scaled(std::size(asked)))) {
+    for (const auto& [name, options] : std::span(cases).first(scaled(std::size(cases)))) {
         SCOPED_TRACE(name);
         const auto result = expect_free(at, options);
         EXPECT_TRUE(goes_far(result));

@@ -31,25 +31,29 @@ TEST(StepRefuses, FramesThatDoNotBelongTogether) {
     const ccd::mesh &before = frames.first, &after = frames.second;
     ccd::mesh other = after;
     other.faces.pop_back();
-    EXPECT_EQ(refusal_of(before, other), "ccd::step: 5 faces before, 4 after");
+    EXPECT_EQ(refusal_of(before, other),
+              "ccd::step: number of faces after is 4; expected 5 as before");
     other = after;
     other.faces[2] = {1, 2, 4};
-    EXPECT_TRUE(refusal_of(before, other).starts_with("ccd::step: face 2 is ("));
-    EXPECT_TRUE(refusal_of(before, other).ends_with(" before, (1, 2, 4) after"));
+    EXPECT_TRUE(
+        refusal_of(before, other).starts_with("ccd::step: face 2 after is (1, 2, 4); expected ("));
+    EXPECT_TRUE(refusal_of(before, other).ends_with(") as before"));
     other = after;
     other.edges = {{0, 1}};
-    EXPECT_EQ(refusal_of(before, other), "ccd::step: 0 edges before, 1 after");
+    EXPECT_EQ(refusal_of(before, other),
+              "ccd::step: number of edges after is 1; expected 0 as before");
     other = after;
     other.vertices.pop_back();
-    EXPECT_EQ(refusal_of(before, other), "ccd::step: 10 vertices before, 9 after");
+    EXPECT_EQ(refusal_of(before, other),
+              "ccd::step: number of vertices after is 9; expected 10 as before");
     EXPECT_EQ(refusal([&] {
                   ccd::mesh_steps(before).run({other, other});
               }),
-              "ccd::step: positions of 9 vertices, the mesh has 10");
+              "ccd::step: number of positions is 9; expected 10, one for each vertex");
     EXPECT_EQ(refusal([&] {
                   ccd::mesh_steps(before).run({nullptr, nullptr, 10});
               }),
-              "ccd::step: found a null pointer, expected positions");
+              "ccd::step: pointer to positions is null; expected positions");
 }
 
 TEST(StepRefuses, CoordinatesThatAreNotFinite) {
@@ -58,11 +62,10 @@ TEST(StepRefuses, CoordinatesThatAreNotFinite) {
     ccd::mesh other = after;
     other.vertices[3].y = -std::numeric_limits<double>::infinity();
     EXPECT_EQ(refusal_of(before, other),
-              "ccd::step: the y of vertex 3 at t = 1 is not finite (-inf)");
+              "ccd::step: y of vertex 3 at t = 1 is -inf; expected a finite number");
     other = before;
     other.vertices[9].z = std::numeric_limits<double>::quiet_NaN();
-    EXPECT_NE(refusal_of(other, after).find("the z of vertex 9 at t = 0 is not finite"),
-              std::string::npos);
+    EXPECT_NE(refusal_of(other, after).find("z of vertex 9 at t = 0 is"), std::string::npos);
     EXPECT_NE(refusal([&] { ccd::candidates(other, after); }).find("vertex 9"), std::string::npos);
 }
 
@@ -70,27 +73,29 @@ TEST(StepRefuses, IndicesOutOfRange) {
     auto frames = random_soup(1, 10, 5);
     ccd::mesh &before = frames.first, &after = frames.second;
     before.faces[2][1] = after.faces[2][1] = 10;
-    EXPECT_EQ(refusal_of(before, after), "ccd::mesh_steps: face 2 names vertex 10 of 10");
+    EXPECT_EQ(refusal_of(before, after),
+              "ccd::mesh_steps: vertex index of face 2 is 10; expected less than 10");
     const ccd::mesh rods{{{0, 0, 0}}, {}, {{0, 0}, {0, 1}}};
-    EXPECT_EQ(refusal_of(rods, rods), "ccd::mesh_steps: edge 1 names vertex 1 of 1");
+    EXPECT_EQ(refusal_of(rods, rods),
+              "ccd::mesh_steps: vertex index of edge 1 is 1; expected less than 1");
 }
 
 TEST(StepRefuses, OptionsThatAreNone) {
     const auto frames = random_soup(1, 10, 5);
     const ccd::mesh &before = frames.first, &after = frames.second;
     EXPECT_EQ(refusal_of(before, after, {.method = ccd::method(77)}),
-              "ccd::step: found method 77, expected one of ccd::methods()");
+              "ccd::step: method is 77; expected one of ccd::methods()");
     EXPECT_THROW(ccd::step({}, {}, {.set = ccd::instruction_set(7)}), std::invalid_argument);
     EXPECT_EQ(refusal_of(before, after, {.threads = -5}),
-              "ccd: found -5 threads, expected 0 (one per core) or more");
+              "ccd: number of threads is -5; expected 0 (one per core) or more");
     EXPECT_EQ(refusal_of(before, after, {.filter = {.rule = ccd::pair_filter::group_rule(9)}}),
-              "ccd::step: found group rule 9, expected between_groups or within_groups");
+              "ccd::step: group rule is 9; expected between_groups or within_groups");
     const std::vector<int> groups(9);
     EXPECT_EQ(refusal_of(before, after, {.filter = {.groups = groups}}),
-              "ccd::step: the filter has groups of 9 vertices, the mesh has 10");
+              "ccd::step: number of groups is 9; expected 10, one for each vertex");
     const std::vector<std::uint8_t> pinned(11);
     EXPECT_EQ(refusal_of(before, after, {.filter = {.pinned = pinned}}),
-              "ccd::step: the filter has pinned flags of 11 vertices, the mesh has 10");
+              "ccd::step: number of pinned flags is 11; expected 10, one for each vertex");
 }
 
 TEST(StepTakes, AnEmptyMesh) {

@@ -20,12 +20,12 @@ TEST(MeshSteps, FindWhatFreshOnesFindWhateverWentBefore) {
     auto before = mesh.vertices, after = second.vertices;
     for (unsigned step = 0; step < 40; ++step) {
         const ccd::vertex_rows rows(before, after);
-        const ccd::step_options asked{.threads = 1 + static_cast<int>(step % 2)};
+        const ccd::step_options threaded{.threads = 1 + static_cast<int>(step % 2)};
         const auto expected = ccd::step(mesh.faces, mesh.edges, rows, {.count_candidates = true});
-        expect_both_ways(expected, asked, [&](const auto& options) {
+        expect_both_ways(expected, threaded, [&](const auto& options) {
             return (options.count_candidates ? counting : leaving_out).run(rows, options);
         });
-        expect_both_ways(expected, asked,
+        expect_both_ways(expected, threaded,
                          [&](const auto& options) { return both.run(rows, options); });
         before = after;
         // Small motions, then a shuffle; parts so far apart that floats do not distinguish them.

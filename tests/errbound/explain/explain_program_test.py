@@ -101,8 +101,8 @@ class Explain(unittest.TestCase):
 
     def test_bad_input(self):
         picture = self.directory / "out.svg"
-        for text, message in (("", "found no JSON at byte 1"), ("{}", "format: found nothing"),
-                              (self.file.read_text()[:-20], "found no JSON at byte")):
+        for text, message in (("", "text at byte 1 is not JSON"), ("{}", "format is missing"),
+                              (self.file.read_text()[:-20], "text at byte")):
             bad = self.directory / "bad.json"
             bad.write_text(text)
             done = self.run_program(bad, "--picture", picture)

@@ -61,45 +61,45 @@ std::string message_with(const std::string& from, const std::string& to) {
 }
 
 TEST(ExplanationFile, IsRefusedWithPlaceFoundAndExpected) {
-    EXPECT_EQ(message_of([] { parse_explanations("{\"a\": ", "f.json"); }),
-              "f.json: found no JSON at byte 7, expected what errbound::write_explanations writes");
+    EXPECT_EQ(
+        message_of([] { parse_explanations("{\"a\": ", "f.json"); }),
+        "f.json: text at byte 7 is not JSON; expected output of errbound::write_explanations");
     EXPECT_EQ(message_of([] { parse_explanations("[]", "f.json"); }),
-              "f.json: found [], expected an object");
+              "f.json: content is []; expected an object");
     EXPECT_EQ(message_with("errbound explanation", "other"),
-              "f.json: format: found \"other\", expected \"errbound explanation\"");
-    EXPECT_EQ(message_with("\"version\": 1", "\"version\": 2"),
-              "f.json: version: found 2, expected 1");
+              "f.json: format is \"other\"; expected \"errbound explanation\"");
+    EXPECT_EQ(message_with("\"version\": 1", "\"version\": 2"), "f.json: version is 2; expected 1");
     EXPECT_EQ(message_with("\"error\": 0.004", "\"error\": -0.004"),
-              "f.json: results[0].error: found -0.004, expected a number that is not negative, or "
+              "f.json: results[0].error is -0.004; expected a number that is not negative, or "
               "null");
     EXPECT_EQ(message_with("\"value\": 0.1", "\"value\": \"0.1\""),
-              "f.json: results[0].value: found \"0.1\", expected a number, \"inf\", \"-inf\" "
+              "f.json: results[0].value is \"0.1\"; expected a number, \"inf\", \"-inf\" "
               "or null");
     EXPECT_EQ(message_with("\"value\": 0.1", "\"value\": 1e999"),
-              "f.json: found a number out of range, expected those of double");
+              "f.json: a number is out of range; expected numbers of double");
     EXPECT_EQ(message_with("\"line\": 14", "\"line\": -1"),
-              "f.json: results[0].contributions[0].scopes[1].line: found -1, expected a line's "
+              "f.json: results[0].contributions[0].scopes[1].line is -1; expected a line's "
               "number");
     EXPECT_EQ(message_with("\"amount\": 0.001", "\"amunt\": 0.001"),
-              "f.json: results[0].contributions[1].amount: found nothing, expected a value");
+              "f.json: results[0].contributions[1].amount is missing; expected a value");
     EXPECT_EQ(message_with("\"operation\": \"/\"", "\"operation\": [1]"),
-              "f.json: results[2].contributions[0].operation: found an array, expected a string");
+              "f.json: results[2].contributions[0].operation is an array; expected a string");
     EXPECT_EQ(
         message_with("\"name\": \"area\"", "\"name\": {\"a\": \"" + std::string(99, 'x') + "\"}"),
-        "f.json: results[0].name: found an object, expected a string");
+        "f.json: results[0].name is an object; expected a string");
     EXPECT_EQ(message_with("\"contributions\": []", "\"contributions\": {}"),
-              "f.json: results[1].contributions: found {}, expected an array");
-    EXPECT_NE(message_with("area", "\xff").find("found no JSON at byte"), std::string::npos);
+              "f.json: results[1].contributions is {}; expected an array");
+    EXPECT_NE(message_with("area", "\xff").find("text at byte"), std::string::npos);
 }
 
 TEST(ExplanationFile, MayBeNestedAsDeepAsItLikes) {
     constexpr std::size_t depth = 200'000;
     const std::string inner = std::string(depth, '[') + std::string(depth, ']');
     EXPECT_EQ(message_with("\"errbound explanation\"", inner),
-              "f.json: format: found an array, expected \"errbound explanation\"");
+              "f.json: format is an array; expected \"errbound explanation\"");
     EXPECT_EQ(message_with("\"operation\": \"/\"", "\"operation\": " + inner),
-              "f.json: results[2].contributions[0].operation: found an array, expected a string");
-    EXPECT_NE(message_with("\"operation\": \"/\"", std::string(depth, '[')).find("found no JSON"),
+              "f.json: results[2].contributions[0].operation is an array; expected a string");
+    EXPECT_NE(message_with("\"operation\": \"/\"", std::string(depth, '[')).find("is not JSON"),
               std::string::npos);
 }
 
@@ -108,7 +108,7 @@ TEST(ExplanationFile, CutAnywhereIsRefused) {
     for (std::size_t length = 0; length + 1 < text.size(); ++length)
         EXPECT_TRUE(message_of([&] {
                         parse_explanations(text.substr(0, length), "f");
-                    }).starts_with("f: found no JSON at byte"));
+                    }).starts_with("f: text at byte"));
 }
 
 TEST(FlameGraph, HasABarForEachScopeAndOperation) {

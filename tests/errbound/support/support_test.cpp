@@ -46,7 +46,7 @@ TEST(Output, WholeOrNotAtAll) {
     write_whole(file, "one");
     write_whole(file, "two\n");
     EXPECT_EQ(read_whole(file), "two\n");
-    expect_refusal([&] { write_whole(directory.path, "x"); }, "found a directory");
+    expect_refusal([&] { write_whole(directory.path, "x"); }, "is a directory");
     expect_refusal([&] { write_whole(directory.path / "no" / "out", "x"); }, "cannot be written");
     expect_refusal([&] { write_whole("", "x"); }, "no file name");
     EXPECT_EQ(files_in(directory.path), 1);
@@ -60,7 +60,7 @@ TEST(Output, StopsAtTheFirstThatFails) {
         [&] {
             write_whole({{first, "new"}, {directory.path, "new"}, {last, "new"}});
         },
-        "found a directory");
+        "is a directory");
     EXPECT_EQ(read_whole(first), "new");
     EXPECT_EQ(read_whole(last), "as it was");
     EXPECT_EQ(files_in(directory.path), 2);
@@ -90,7 +90,7 @@ TEST(Output, IsRefusedBeforeThereIsAnythingToWrite) {
     for (const fs::path& good : {fs::path("here"), fs::path("-"), fs::path("/dev/null"),
                                  directory.path / "new", directory.path / "file"})
         EXPECT_NO_THROW(require_writable(good)) << good;
-    expect_refused(directory.path, "found a directory");
+    expect_refused(directory.path, "is a directory");
     expect_refused(directory.path / "no" / "out", "No such file");
 #ifndef _WIN32  // where that is known only when the file is made
     const std::string too_long = std::generic_category().message(ENAMETOOLONG);
@@ -154,7 +154,7 @@ TEST(Scratch, NeedsAFolder) {
     const char* const before = std::getenv("TMPDIR");
     const std::string kept = before ? before : "";
     setenv("TMPDIR", (directory.path / "no").c_str(), 1);
-    expect_refusal([] { const scratch_file file; }, "TMPDIR: found no folder");
+    expect_refusal([] { const scratch_file file; }, "TMPDIR is not usable");
     if (before)
         setenv("TMPDIR", kept.c_str(), 1);
     else

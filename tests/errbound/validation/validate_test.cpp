@@ -52,7 +52,7 @@ TEST(Validate, EveryRuleKeepsItsPromisesInRandomExpressions) {
 
 std::size_t served(validation::number_type type) {
     return static_cast<std::size_t>(std::ranges::count_if(
-        validation::rules(), [type](const rule& r) { return r.serves(type); }));
+        validation::rules(), [type](const rule& r) { return r.supports(type); }));
 }
 
 /// All rules that serve them keep their promises in these formats. `open`: how many values of a
@@ -303,7 +303,7 @@ TEST(Validate, ChunksAreTheWhole) {
     for (std::uint64_t c = 0; c < what.chunks; ++c)
         (c < what.chunks / 2 ? first : second).merge(what.report_of(c));
     first.merge(second);
-    what.tell(first);
+    what.describe(first);
     const validation::report whole = validation::validate_expressions(rules, options);
     EXPECT_EQ(all_violations(first), all_violations(whole));
     ASSERT_EQ(first.counts.size(), 6U);
@@ -330,7 +330,7 @@ TEST(Validate, AFailedChunkIsTold) {
                                   if (c == 7) throw std::runtime_error("seven");
                                   return {};
                               },
-                              .tell = [](validation::report&) {}};
+                              .describe = [](validation::report&) {}};
     for (const int threads : {1, 3})
         EXPECT_THROW(validation::examine(what, threads), std::runtime_error);
     what.chunks = 0;

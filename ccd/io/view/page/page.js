@@ -188,8 +188,8 @@ function said(elements) {
 }
 
 function whenOf(pair) {
-  if (!step.timed) return "When it is first there was not asked for.";
-  if (pair.high === 0) return "There at the start.";
+  if (!step.timed) return "The first time was not computed.";
+  if (pair.high === 0) return "In contact at the start.";
   return pair.low === pair.high ? `First at t = ${pair.low}.` : `First between t = ${pair.low} and ${pair.high}.`;
 }
 

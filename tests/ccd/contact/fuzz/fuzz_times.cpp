@@ -31,12 +31,11 @@ void check(const points& p, ccd::separation d, double t_max) {
     const auto expect = [&](const char* who, const ccd::first_time& said,
                             const std::string& fault) {
         if (fault.empty()) return;
-        char asked[120];
-        std::snprintf(asked, sizeof asked,
+        char text[120];
+        std::snprintf(text, sizeof text,
                       " of %s, distance %a + %a, t_max %a: ", std::string(short_name(K)).c_str(),
                       d.first, d.second, t_max);
-        fuzz::fail(who + (asked + text_of(said)) + ", but " + fault + "\n" +
-                   query_families::csv(p));
+        fuzz::fail(who + (text + text_of(said)) + ", but " + fault + "\n" + query_families::csv(p));
     };
     const ccd::first_time first = ccd::time_of_impact(q, t_max);
     expect("time_of_impact", first, support::fault_of(q, first, t_max));

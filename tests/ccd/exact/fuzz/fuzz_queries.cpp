@@ -57,9 +57,9 @@ void check(const points& p, std::size_t copies) {
     const query q = query_families::as_query<query>(p);
     const bool truth = oracle::collides(q);
     const ccd::outcome right = truth ? ccd::outcome::collides : ccd::outcome::separate;
-    const auto expect = [&](const soak::decider& d, const soak::query_list<K>& asked) {
-        std::vector<ccd::outcome> answers(asked.pairs.size(), static_cast<ccd::outcome>(255));
-        d.decide.of<K>()(asked, answers);
+    const auto expect = [&](const soak::decider& d, const soak::query_list<K>& queries) {
+        std::vector<ccd::outcome> answers(queries.pairs.size(), static_cast<ccd::outcome>(255));
+        d.decide.of<K>()(queries, answers);
         for (const ccd::outcome said : answers)
             if (said != right) fail(K, p, d.name, said, truth);
     };

@@ -1,4 +1,4 @@
-// What a rank is given of a mesh, and what it holds of all that meets its part of space.
+// The part of a mesh that a rank is given, and the mesh that it holds: all that meets its region.
 #pragma once
 
 #include <array>
@@ -16,13 +16,13 @@
 
 namespace ccd::mpi::detail {
 
-/// The faces and edges of a part of a mesh, its vertices without one, and the boxes that they
-/// sweep.
+/// The faces, edges and single vertices (those without an element) of a part of a mesh, and their
+/// swept boxes.
 class given_elements {
   public:
     given_elements(const mesh_part& mesh, const pair_distances& distances, bool skip_unused);
 
-    /// Of faces, then edges, then single vertices.
+    /// Boxes of faces, then edges, then single vertices.
     std::span<const swept_box> boxes() const { return boxes_; }
     std::span<const vertex_index> single_vertices() const { return single_vertices_; }
 
@@ -31,28 +31,28 @@ class given_elements {
     std::vector<swept_box> boxes_;
 };
 
-class held_mesh {
+class local_mesh {
   public:
-    /// Collective. What is said of each vertex is sent along. Throws std::invalid_argument on all
-    /// ranks where copies of a vertex differ.
-    held_mesh(exchanger& ranks, const mesh_part& mesh, const given_elements& given,
-              const decomposition& parts, const vertex_lists& of_vertices);
+    /// Sends elements and the entries of vertex lists. Collective. Throws std::invalid_argument on
+    /// all ranks if copies of a vertex differ.
+    local_mesh(exchanger& ranks, const mesh_part& mesh, const given_elements& given,
+               const decomposition& parts, const vertex_lists& of_vertices);
 
-    /// Faces and edges that were sent here, each copy counted, and vertices without one.
+    /// The number of received faces and edges, each copy counted, and single vertices.
     std::size_t elements() const { return elements_; }
     vertex_number number(vertex_index v) const { return numbers_[v]; }
     std::size_t vertices() const { return numbers_.size(); }
     std::optional<vertex_index> find(vertex_number number) const;
     vertex_rows way() const { return {before_, after_}; }
-    /// 0 if none were given.
+    /// The vertex's island; 0 if none were given.
     int island(vertex_index v) const { return islands_.empty() ? 0 : islands_[v]; }
 
     mesh_steps steps() const { return {faces_, edges_, numbers_.size()}; }
-    /// The pairs that begin in that part of space, of what options let through.
+    /// A filter for the pairs that begin in that region and pass the given filter.
     pair_filter filter(const space_region& part, const pair_filter& given) const;
     pair_distances distances(const pair_distances& given) const { return {given.all, thickness_}; }
 
-    /// Of each pair the lowest rank that has the first element.
+    /// For each pair, the lowest rank that has the first element.
     template <class Pair>
     std::vector<std::size_t> owners(const std::vector<Pair>& pairs) const;
 
@@ -63,7 +63,7 @@ class held_mesh {
     };
     using sent_face = std::array<vertex_number, 3>;
     using sent_edge = std::array<vertex_number, 2>;
-    /// What is sent to each rank: places in the lists given.
+    /// Indices into the given lists of the elements to send to each rank.
     struct routes {
         std::vector<std::vector<vertex_index>> vertices, faces, edges;
     };

@@ -33,7 +33,7 @@ inline bool truth_of(const nb::object& result) {
 }
 
 /// Options that Python sets by name. They keep the arrays to which their spans refer.
-struct step_question {
+struct step_request {
     std::string method = "exact";
     int threads = 0;
     bool count_candidates = false, stages = false, initial_contact = false, first_contact = false,

@@ -1,6 +1,5 @@
-// Elements on their way to the ranks whose parts of space they meet, and the mesh that they make
-// there.
-#include "ccd/mpi/held_mesh.hpp"
+// Sends elements to the ranks whose regions they meet, and builds the mesh there.
+#include "ccd/mpi/local_mesh.hpp"
 
 #include <algorithm>
 #include <limits>
@@ -18,13 +17,13 @@ template <class Item>
 std::vector<std::vector<Item>> picked(std::span<const Item> items,
                                       const std::vector<std::vector<vertex_index>>& places) {
     std::vector<std::vector<Item>> lists(places.size());
-    if (items.empty()) return lists;  // nobody gave any
+    if (items.empty()) return lists;
     for (std::size_t r = 0; r < places.size(); ++r)
         for (const vertex_index i : places[r]) lists[r].push_back(items[i]);
     return lists;
 }
 
-/// The rank that an item at that place came from.
+/// Returns the source rank of each item.
 template <class Item>
 std::vector<std::size_t> sources(const received<Item>& sent) {
     std::vector<std::size_t> ranks(sent.items.size());
@@ -55,8 +54,8 @@ given_elements::given_elements(const mesh_part& mesh, const pair_distances& dist
         boxes_.push_back(boxes.swept_box<double>(std::array{v}));
 }
 
-held_mesh::routes held_mesh::routes_of(std::size_t ranks, const mesh_part& mesh,
-                                       const given_elements& given, const decomposition& parts) {
+local_mesh::routes local_mesh::routes_of(std::size_t ranks, const mesh_part& mesh,
+                                         const given_elements& given, const decomposition& parts) {
     routes to;
     for (auto* lists : {&to.vertices, &to.faces, &to.edges}) lists->resize(ranks);
     const std::size_t faces = mesh.faces.size(), elements = faces + mesh.edges.size();
@@ -81,8 +80,8 @@ held_mesh::routes held_mesh::routes_of(std::size_t ranks, const mesh_part& mesh,
     return to;
 }
 
-held_mesh::held_mesh(exchanger& ranks, const mesh_part& mesh, const given_elements& given,
-                     const decomposition& parts, const vertex_lists& of_vertices) {
+local_mesh::local_mesh(exchanger& ranks, const mesh_part& mesh, const given_elements& given,
+                       const decomposition& parts, const vertex_lists& of_vertices) {
     const routes to = routes_of(ranks.size(), mesh, given, parts);
     std::vector<std::vector<sent_vertex>> vertices(ranks.size());
     std::vector<std::vector<sent_face>> faces(ranks.size());
@@ -114,16 +113,17 @@ held_mesh::held_mesh(exchanger& ranks, const mesh_part& mesh, const given_elemen
         faces_.size() + edges_.size() + unused_vertices(faces_, edges_, numbers_.size()).size();
 }
 
-/// One of each, in the order of their numbers.
-void held_mesh::keep_vertices(const received<sent_vertex>& sent,
-                              const received_lists& of_vertices) {
+/// Keeps one copy of each vertex, in the order of their numbers.
+void local_mesh::keep_vertices(const received<sent_vertex>& sent,
+                               const received_lists& of_vertices) {
     const auto& [groups, pinned, thickness, islands] = of_vertices;
     if (sent.items.size() > std::numeric_limits<vertex_index>::max())
-        throw std::length_error("ccd::mpi: found " + std::to_string(sent.items.size()) +
-                                " vertices in one part of space, expected fewer than 2^32 - 1");
+        throw std::length_error("ccd::mpi: number of vertices in one region is " +
+                                std::to_string(sent.items.size()) +
+                                "; expected fewer than 2^32 - 1");
     std::vector<vertex_index> order(sent.items.size());
     for (vertex_index i = 0; i < order.size(); ++i) order[i] = i;
-    // Stable: of copies, that of the lowest rank is first.
+    // Stable, so that the lowest rank's copy is first.
     std::ranges::stable_sort(order, {}, [&](vertex_index i) { return sent.items[i].number; });
     const std::vector<std::size_t> ranks = sources(sent);
     const auto differ = [](vertex_index i, vertex_index j, const auto&... lists) {
@@ -140,9 +140,10 @@ void held_mesh::keep_vertices(const received<sent_vertex>& sent,
             if (v.before != w.before || v.after != w.after ||
                 differ(i, kept, groups, pinned, thickness, islands))
                 throw std::invalid_argument(
-                    "ccd::mpi: found vertex " + std::to_string(v.number) +
-                    " with other positions, group, flag or thickness on rank " +
-                    std::to_string(ranks[i]) + " than on rank " + std::to_string(ranks[kept]));
+                    "ccd::mpi: vertex " + std::to_string(v.number) + " on rank " +
+                    std::to_string(ranks[i]) + " differs from its copy on rank " +
+                    std::to_string(ranks[kept]) +
+                    "; expected the same positions, group, flag, thickness and island");
             continue;
         }
         first = k;
@@ -157,14 +158,14 @@ void held_mesh::keep_vertices(const received<sent_vertex>& sent,
     }
 }
 
-std::optional<vertex_index> held_mesh::find(vertex_number number) const {
+std::optional<vertex_index> local_mesh::find(vertex_number number) const {
     const auto found = std::ranges::lower_bound(numbers_, number);
     if (found == numbers_.end() || *found != number) return {};
     return static_cast<vertex_index>(found - numbers_.begin());
 }
 
 template <std::size_t N>
-std::vector<std::array<vertex_index, N>> held_mesh::by_index(
+std::vector<std::array<vertex_index, N>> local_mesh::by_index(
     const received<std::array<vertex_number, N>>& sent) const {
     std::vector<std::array<vertex_index, N>> elements(sent.items.size());
     for (std::size_t i = 0; i < elements.size(); ++i)
@@ -173,7 +174,7 @@ std::vector<std::array<vertex_index, N>> held_mesh::by_index(
     return elements;
 }
 
-pair_filter held_mesh::filter(const space_region& part, const pair_filter& given) const {
+pair_filter local_mesh::filter(const space_region& part, const pair_filter& given) const {
     pair_filter own = given;
     own.groups = groups_;
     own.pinned = pinned_;
@@ -182,13 +183,13 @@ pair_filter held_mesh::filter(const space_region& part, const pair_filter& given
 }
 
 template <class Pair>
-std::vector<std::size_t> held_mesh::owners(const std::vector<Pair>& pairs) const {
+std::vector<std::size_t> local_mesh::owners(const std::vector<Pair>& pairs) const {
     std::vector<std::size_t> owners(pairs.size());
     if constexpr (kind_of<Pair> != kind::edge_edge) {
         for (std::size_t i = 0; i < pairs.size(); ++i)
             owners[i] = owner_of_vertex_[vertices_of(pairs[i])[0]];
     } else {
-        // The first edges, and the lowest rank that has each, as an edge or a side of a face.
+        // The first edges, and the lowest rank that has each as an edge or a side of a face.
         std::vector<std::pair<edge, std::size_t>> first;
         for (const Pair& p : pairs) first.push_back({{p.a0, p.a1}, ~std::size_t(0)});
         std::ranges::sort(first);
@@ -212,9 +213,9 @@ std::vector<std::size_t> held_mesh::owners(const std::vector<Pair>& pairs) const
     return owners;
 }
 
-template std::vector<std::size_t> held_mesh::owners(const std::vector<vertex_face_pair>&) const;
-template std::vector<std::size_t> held_mesh::owners(const std::vector<edge_edge_pair>&) const;
-template std::vector<std::size_t> held_mesh::owners(const std::vector<vertex_edge_pair>&) const;
-template std::vector<std::size_t> held_mesh::owners(const std::vector<vertex_vertex_pair>&) const;
+template std::vector<std::size_t> local_mesh::owners(const std::vector<vertex_face_pair>&) const;
+template std::vector<std::size_t> local_mesh::owners(const std::vector<edge_edge_pair>&) const;
+template std::vector<std::size_t> local_mesh::owners(const std::vector<vertex_edge_pair>&) const;
+template std::vector<std::size_t> local_mesh::owners(const std::vector<vertex_vertex_pair>&) const;
 
 }  // namespace ccd::mpi::detail
