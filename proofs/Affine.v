@@ -1,15 +1,14 @@
-(** Bound rule `affine` (include/errbound/rules/affine.hpp), as the C++ code computes it; rounding to nearest,
-    ties to even, from 4 bits on, u a number (emin <= -p-1). Results:
-        affine_exact_sound, affine_within_sound, affine_negate_sound, affine_add_sound,
-        affine_subtract_sound, affine_multiply_sound, affine_divide_sound, affine_scale_sound: the
-        result is known by what the code returns;
-        affine_keeps: what was known still is when a source is new;
-        affine_error_sound: the error that the code reports is one.
+(** Bound rule `affine` (include/errbound/rules/affine.hpp), as the C++ code computes it. Rounding is to nearest,
+    ties to even, with at least 4 bits, and u is a number (emin <= -p-1). Results:
+        affine_exact_sound, affine_within_sound, affine_negate_sound, affine_add_sound, affine_subtract_sound,
+        affine_multiply_sound, affine_divide_sound, affine_scale_sound   the bound that the code returns holds
+        affine_keeps         bounds still hold when a source is new
+        affine_error_sound   the error that the code reports is a bound
 
-    A source s has a number e s of size 1 at most. A number x is known by its value v, terms and rest if
-    x = v + sum of c (e s) over the terms, but for rest, and by a radius if that is not less than |v - x|.
-    An operation has a source of its own, f, for what is left over, which is in no operand: the number of
-    f that makes the result right is shown to exist. Without sources (None) what is left is the rest. *)
+    A source s has a number e s of size at most 1. A number x has a value v, terms, a rest and a radius: |x - v - sum
+    of c (e s) over the terms| <= rest and |x - v| <= radius. An operation has a new source f for its own error. The
+    theorems prove that a number of f exists for which the result is right. Without sources (None) that error goes to
+    the rest. *)
 
 From Coq Require Import Reals ZArith Lia Lra Psatz Bool List.
 From Flocq Require Import Core.
@@ -39,7 +38,7 @@ Definition upper_product (x y : R) : R :=
 Definition upper_quotient (x y : R) : R :=
   if Req_bool x 0 then 0 else fl (upper (fl (x / y)) + eta).
 
-(** What is left over, and the terms as they come. *)
+(** The error that is left so far, and the terms in order. *)
 Definition builder : Set := R * terms.
 Definition nothing : builder := (0, []).
 Definition add (s : Z) (c : R) (B : builder) : builder :=
@@ -47,7 +46,7 @@ Definition add (s : Z) (c : R) (B : builder) : builder :=
 Definition add_left (x : R) (B : builder) : builder := (upper_sum (fst B) x, snd B).
 Definition radius_of (B : builder) : R :=
   fold_left (fun r (t : Z * R) => upper_sum r (Rabs (snd t))) (snd B) 0.
-(** The first of the smallest, and the others. *)
+(** The first of the smallest terms, and the others. *)
 Fixpoint least (t : Z * R) (l : terms) : (Z * R) * terms :=
   match l with
   | [] => (t, [])
@@ -61,7 +60,7 @@ Fixpoint shorten (limit fuel : nat) (B : builder) : builder :=
     else B
   | _, _ => B
   end.
-(** From the last term. *)
+(** The search for the position starts at the last term. *)
 Fixpoint placed (t : Z * R) (l : terms) : terms :=
   match l with
   | [] => [t]
@@ -113,7 +112,7 @@ Definition product_step (a b : R) (r : builder) (t : Z * (R * R)) : builder :=
   let r := if Req_bool (snd (snd t)) 0 || Req_bool a 0 then r else add_left (half_ulp x) r in
   let r := if Req_bool (fst (snd t)) 0 || Req_bool b 0 then r else add_left (half_ulp y) r in
   add_left (Rabs (snd c)) r.
-(** `known`: the product's rounding error, if error_free.hpp's transformations tell it. *)
+(** `known` is the product's rounding error, if the transformations of error_free.hpp give it. *)
 Definition affine_multiply limit (v a : R) (A : bound) (b : R) (B : bound) (known : option R) f : bound :=
   if is_zero a A || is_zero b B then affine_exact
   else
@@ -122,7 +121,7 @@ Definition affine_multiply limit (v a : R) (A : bound) (b : R) (B : bound) (know
     let r := add_left (upper_product (Rabs a) (rest B)) r in
     let r := add_left (upper_product (rest A) (Rabs b)) r in
     finished limit (add_left (upper_product (radius A) (radius B)) r) f.
-(** Of the pair what is left of N, and the builder. *)
+(** A pair of terms: the rest of the numerator's term, and the builder. *)
 Definition quotient_step (v b : R) (r : R * builder) (t : Z * (R * R)) : R * builder :=
   let x := fl (v * snd (snd t)) in
   let n := two_sum p emin (fst (snd t)) (- x) in
@@ -131,7 +130,7 @@ Definition quotient_step (v b : R) (r : R * builder) (t : Z * (R * R)) : R * bui
   let c := fl (fst n / b) in
   let r := add (fst t) c (snd r) in
   (left, if Req_bool (fst n) 0 then r else add_left (half_ulp c) r).
-(** `known`: the remainder, likewise. *)
+(** `known` is the remainder, if it is exact. *)
 Definition affine_divide limit (v a : R) (A : bound) (b : R) (B : bound) (known : option R) f :
   option bound :=
   let distance := fl (fl (Rabs b - radius B) * fl (1 - eps)) in
@@ -158,7 +157,7 @@ Definition affine_scale limit (v a : R) (A : bound) (e : Z) f : bound :=
   let scaled := fl (rest A * bpow radix2 e) in
   finished limit (add_left (lost scaled (rest A) e) (add_left scaled r)) f.
 
-(** What a number's value and bound say of x, e being the sources' numbers. *)
+(** The meaning of a number's value and bound for x, with the numbers e of the sources. *)
 Definition sum_of (e : Z -> R) (l : terms) : R := fold_right (fun t s => snd t * e (fst t) + s) 0 l.
 Definition holds (e : Z -> R) (v : R) (A : bound) (x : R) : Prop :=
   number v /\ Forall (fun t => number (snd t)) (of A) /\
@@ -216,7 +215,7 @@ Proof.
   - apply up_eta_sound. unfold Rdiv. apply Rmult_le_pos; auto. left. now apply Rinv_0_lt_compat.
 Qed.
 
-(** A builder has of d all but what is left; its terms are of other sources than f. *)
+(** The builder's terms and rest give d, except for what is left. Its terms have sources other than f. *)
 Definition accounts (e : Z -> R) (f : Z) (d : R) (B : builder) : Prop :=
   amount (fst B) /\ Forall (fun t => fst t <> f /\ number (snd t)) (snd B) /\
   Rabs (d - sum_of e (snd B)) <= fst B.
@@ -329,7 +328,7 @@ Proof.
   - split; [simpl; ring |]. intros P T H. inversion H. subst. auto.
 Qed.
 
-(** With a number of f that makes it right, or without sources. *)
+(** The result holds with some number of f, or without sources. *)
 Definition made (v : R) (A : bound) (x : R) (g : option Z) : Prop :=
   match g with
   | Some g => g = f /\ exists t, Rabs t <= 1 /\ holds (set e f t) v A x
@@ -414,7 +413,7 @@ Proof.
   - inversion F. subst. simpl. eapply accounts_eq; [apply IH; [auto |]; apply S; eauto |]. simpl. ring.
 Qed.
 
-(** What is known of two operands. *)
+(** Hypotheses on two operands. *)
 Variables (a x b y : R) (A B : bound).
 Hypothesis of_a : holds e a A x.
 Hypothesis of_b : holds e b B y.
@@ -588,7 +587,7 @@ Proof.
     apply (Rlt_not_le _ _ F). apply rnd_below; auto with typeclass_instances; [apply number_0 | lra].
 Qed.
 
-(** In a quotient's terms D and what is left of its numerator, all of m. *)
+(** The quotient's terms D and the rest of the numerator give all of m. *)
 Definition divides (d m : R) (r : R * builder) : Prop :=
   amount (fst r) /\ exists D, accounts D (snd r) /\ Rabs (m - b * (D - d)) <= fst r.
 Lemma quotient_step_sound v d m r t : b <> 0 -> fit t -> divides d m r ->
@@ -723,7 +722,7 @@ Proof.
     field. exact B0.
 Qed.
 
-(** Of one operand. *)
+(** Operations of one operand. *)
 Theorem affine_scale_sound k :
   made (fl (a * bpow radix2 k)) (affine_scale limit (fl (a * bpow radix2 k)) a A k g) (x * bpow radix2 k) g.
 Proof.
@@ -766,7 +765,7 @@ Proof.
   { unfold rho. rewrite Rabs_mult, (Rabs_pos_eq (bpow radix2 k)) by apply bpow_ge_0.
     apply Rle_trans with (rest A * bpow radix2 k); [apply Rmult_le_compat_r; auto; apply bpow_ge_0 |].
     apply Rabs_le_inv in L4. lra. }
-  (* of rho as much as the scaled rest, then what that lost *)
+  (* subtract the scaled rest from rho as far as possible, then the error of that *)
   set (part := Rmax (- scaled) (Rmin scaled rho)).
   assert (PART : Rabs part <= scaled /\ Rabs (rho - part) <= lost scaled (rest A) k).
   { destruct SP as [_ SP]. destruct L3 as [_ L3]. apply Rabs_le_inv in RHO. unfold part, Rmax, Rmin.
@@ -814,7 +813,7 @@ Proof.
   unfold is_new, negated. simpl. apply Forall_forall. intros t T. apply in_map_iff in T.
   destruct T as (s & <- & S). simpl. now apply (proj1 (Forall_forall _ _) FB).
 Qed.
-(** What was known still is when a source is new. *)
+(** Bounds still hold when a source is new. *)
 Theorem affine_keeps e f t v A x : is_new f A -> holds e v A x -> holds (set e f t) v A x.
 Proof.
   intros F (N & NA & (R1 & R2 & R) & D). split; auto. split; auto. split; auto. split; auto. split; auto.

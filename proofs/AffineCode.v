@@ -1,5 +1,6 @@
-(** The C++ code, line by line, over any number type, as Code.v: rule `affine` (include/errbound/rules/affine.hpp),
-    with at most `limit` terms. `f` is an operation's new source, if there are sources. Nothing is proved here. *)
+(** The C++ code of the rule `affine` (include/errbound/rules/affine.hpp), line by line, over any number type, as
+    in Code.v. It has at most `limit` terms. `f` is an operation's new source, if there are sources. Nothing is
+    proved here. *)
 
 From Coq Require Import ZArith Bool List.
 From Errbound Require Import Code CompoundCode.
@@ -36,13 +37,13 @@ Definition upper_sum (x y : T) : T := if x == #0 then y else if y == #0 then x e
 Definition upper_product (x y : T) : T := if (x == #0) || (y == #0) then #0 else (x * y) * (#1 + ε) + η.
 Definition upper_quotient (x y : T) : T := if x == #0 then #0 else (x / y) * (#1 + ε) + η.
 
-(** What is left over, and the terms as they come. *)
+(** The error that is left so far, and the terms in order. *)
 Definition builder : Type := T * terms.
 Definition nothing : builder := (#0, []).
 Definition add (s : Z) (c : T) (B : builder) : builder := if c == #0 then B else (fst B, snd B ++ [(s, c)]).
 Definition add_left (x : T) (B : builder) : builder := (upper_sum (fst B) x, snd B).
 Definition radius_of (B : builder) : T := fold_left (fun r (t : Z * T) => upper_sum r (abs (snd t))) (snd B) #0.
-(** The first of the smallest, and the others. *)
+(** The first of the smallest terms, and the others. *)
 Fixpoint least (t : Z * T) (l : terms) : (Z * T) * terms :=
   match l with
   | [] => (t, [])
@@ -56,7 +57,7 @@ Fixpoint shorten (fuel : nat) (B : builder) : builder :=
     else B
   | _, _ => B
   end.
-(** From the last term. *)
+(** The search for the position starts at the last term. *)
 Fixpoint placed (t : Z * T) (l : terms) : terms :=
   match l with
   | [] => [t]
@@ -120,7 +121,7 @@ Definition affine_multiply (v a : T) (sa : affine) (b : T) (sb : affine) f : aff
     let r := add_left (upper_product (abs a) (rest sb)) r in
     let r := add_left (upper_product (rest sa) (abs b)) r in
     finished v (add_left (upper_product (radius sa) (radius sb)) r) f.
-(** Of the pair what is left of N, and the builder. *)
+(** A pair of terms: the rest of the numerator's term, and the builder. *)
 Definition quotient_step (v b : T) (r : T * builder) (t : Z * (T * T)) : T * builder :=
   let x := v * snd (snd t) in
   let n := two_sum T A (fst (snd t)) (- x) in
@@ -153,7 +154,7 @@ Definition affine_scale (v a : T) (sa : affine) (e : Z) f : affine :=
   let scaled := scale T A (rest sa) e in
   finished v (add_left (lost scaled (rest sa) e) (add_left scaled r)) f.
 
-(** What tracked.hpp asks of a rule. Here every operation has the same source, or none. *)
+(** The functions of a rule that tracked.hpp needs. Here every operation has the same source, or none. *)
 Definition affine_rule (f : option Z) : rule T affine := {|
   rule_exact := affine_exact;
   rule_within v error := affine_within v error f;

@@ -1,9 +1,8 @@
-(** Queries in integers, each axis in units of its own, and what is asked of the coordinates as they are.
-    Results:
+(** Queries in integers, with a separate unit for each axis, and decisions by the coordinates themselves. Results:
         face_units, edges_units, vertex_edge_units   collisions do not depend on the axes' units
         vertices_contact_right   `vertices_touch` (ccd/exact/features.hpp) is true exactly if they meet
-        separated_right   where `separated_by_coordinates` (ccd/exact/features.hpp) says so, vertex and
-                          edge do not meet *)
+        separated_right          if `separated_by_coordinates` (ccd/exact/features.hpp) is true, vertex and edge do
+                                 not meet *)
 
 From Coq Require Import Reals ZArith Lra List Bool.
 From Errbound Require Import Sign Bernstein Contact Decisions.
@@ -11,7 +10,7 @@ From Errbound Require BoundedInteger.
 Import ListNotations.
 Open Scope R_scope.
 
-(** Exact integers, as scalars of Bernstein.v. *)
+(** Exact integers as scalars of Bernstein.v. *)
 Program Definition integers : scalar := {|
   number := Z; add := Z.add; sub := Z.sub; mul := Z.mul; opp := Z.opp; whole := fun n => n;
   twice := Z.mul 2; normalized := fun p => p; sign_of := BoundedInteger.sign_of_integer; exact := IZR;
@@ -24,7 +23,7 @@ Qed.
 
 (** ** Units *)
 
-(** Every axis in units of its own. *)
+(** Every axis in a separate unit. *)
 Definition stretched (k p : point) : point := Point (x k * x p) (y k * y p) (z k * z p).
 Definition stretched_motion (k : point) (m : moving) : moving :=
   Moving (stretched k (start m)) (stretched k (finish m)).
@@ -87,7 +86,7 @@ Proof.
   destruct edges; cbv zeta; now rewrite !(vertex_edge_units k).
 Qed.
 
-(** What moves as m, in integers. *)
+(** The motion m in integers. *)
 Definition in_integers (k : point) (m : moving) (i : @moving_point integers) : Prop :=
   exact_motion i = stretched_motion k m.
 

@@ -1,19 +1,14 @@
-(** Polynomials in Bernstein form (include/errbound/bernstein.hpp), over every scalar of the library.
-
-    A scalar is what the C++ templates compute with: a number x of the code that stands for a real
-    number, exact x (tracked numbers of any rule, integers, rationals). What is asked of it: that its
-    operations are those of the numbers it stands for, and that its signs are right or uncertain.
-    How that is so for the tracked numbers of a rule is in that rule's file and in Sign.v.
-
-    A list h of scaled coefficients is the form  h_0 s^N + h_1 s^(N-1) t + ... + h_N t^N, the
-    polynomial's value where s = 1 - t. Results, of the code's operations:
-        value_at_form, product_form, elevated_form, derivative_form   the forms that they say
+(** Polynomials in Bernstein form (include/errbound/bernstein.hpp), over every scalar of the library. A scalar is a
+    number x of the C++ templates that represents a real number, exact x (tracked numbers of any rule, integers,
+    rationals). Its operations are those of the real numbers, and its signs are right or uncertain. Each rule's
+    file and Sign.v prove this for tracked numbers. A list h of scaled coefficients is the form h_0 s^N + h_1
+    s^(N-1) t + ... + h_N t^N, the polynomial's value if s = 1 - t. Results:
+        value_at_form, product_form, elevated_form, derivative_form   operations give the forms that they name
         left_part_form, left_half_form   subdivision
-        form_ends          the end coefficients are the end values
-        power_basis        the coefficients are those of the power basis in x = t/s
-        hull_bounds        min b_i <= p(t) <= max b_i for the control values b_i = h_i/C(N, i)
-        rootless_hull      one strict sign of all coefficients: no root in [0, 1]
-        sign_inside_right, sign_throughout_right   what the code concludes of the coefficients *)
+        form_ends, power_basis   end coefficients are end values; coefficients are those of powers of x = t/s
+        hull_bounds, rootless_hull   min b_i <= p(t) <= max b_i for the control values b_i = h_i/C(N, i); with one
+            strict sign of all coefficients there is no root in [0, 1]
+        sign_inside_right, sign_throughout_right   conclusions of the code from signs of coefficients *)
 
 From Coq Require Import Reals ZArith Lia Lra List.
 From Errbound Require Import Sign.
@@ -50,7 +45,7 @@ Fixpoint form (h : list R) (s t : R) : R :=
   | a :: l => a * s ^ length l + t * form l s t
   end.
 
-(** The polynomial that a form of the code stands for. *)
+(** The polynomial that a form of the code represents. *)
 Definition at_time {S : scalar} (p : list S) (t : R) : R := form (map exact p) (1 - t) t.
 
 Ltac exacts := repeat rewrite ?exact_add, ?exact_sub, ?exact_mul, ?exact_opp, ?exact_whole,
@@ -87,7 +82,7 @@ Proof.
   injection L as L. rewrite IH by easy. rewrite map_length, combine_length, L, Nat.min_id. ring.
 Qed.
 
-(** For x = t/s, with h_0 the constant term. *)
+(** The form at x = t/s, with h_0 as the constant term. *)
 Fixpoint power_form (h : list R) (x : R) : R :=
   match h with [] => 0 | a :: l => a + x * power_form l x end.
 Theorem power_basis a l s t : s <> 0 -> form (a :: l) s t = s ^ length l * power_form (a :: l) (t / s).
@@ -134,7 +129,7 @@ Proof.
   - apply hull_inside; auto; lra.
 Qed.
 
-(** C(N, 0), ..., C(N, N), as Pascal's triangle has them. *)
+(** C(N, 0), ..., C(N, N) by Pascal's triangle. *)
 Fixpoint binomials (n : nat) : list R :=
   match n with
   | O => [1]
@@ -243,8 +238,8 @@ Proof.
   destruct p as [| a l]; simpl; [now exacts |]. now rewrite H, map_length.
 Qed.
 
-(** p * q, a convolution: each coefficient's terms p_i q_(k-i) are added up from the smallest i, the
-    first stored. `sums` are the coefficients so far, from p_i's first one on. *)
+(** p * q, a convolution: the terms p_i q_(k-i) of a coefficient are added from the smallest i on, and the first
+    one is stored. `sums` are the coefficients so far, from the first one of p_i on. *)
 Fixpoint plus (p q : list S) : list S :=
   match p, q with
   | a :: p, b :: q => add a b :: plus p q
@@ -406,7 +401,7 @@ Fixpoint part_from (all v w : S) (part : list S) (power : S) (p : list S) : list
 Definition left_part (p : list S) (v w : S) : list S :=
   match p with [] => [] | a :: l => part_from (add v w) v w [a] w l end.
 
-(** left_half(p): the same with v = w = 1, and doublings. *)
+(** left_half(p): left_part with v = w = 1, and doublings. *)
 Fixpoint half_shifted (before : S) (part : list S) (term : S) : list S :=
   match part with
   | [] => [add before term]
@@ -525,7 +520,7 @@ Definition sign_throughout (p : list S) : sign :=
 Definition certainly_rootless (p : list S) : bool :=
   match sign_throughout p with positive | negative => true | _ => false end.
 
-(** What sign_inside tells of the coefficients. *)
+(** The meaning of the result of sign_inside for the coefficients. *)
 Definition signs_inside (s : sign) (h : list R) : Prop :=
   match s with
   | negative => Forall (Rle 0) (map Ropp h) /\ Exists (Rlt 0) (map Ropp h)

@@ -1,11 +1,11 @@
-(** Integers that stand for a real number near them (ccd/exact/bounded_integer.hpp), over the integers: that
-    they fit their words is argued where they are used.
+(** Integers that stand for a real number near them (ccd/exact/bounded_integer.hpp), over the integers. The files
+    that use them prove that they fit their words.
 
-    A number stands for every real number less than 2^error_bits away from its value; for the value alone
-    if error_bits is below exact/2. Results, without conditions on sizes or error bits:
+    A number stands for every real number less than 2^error_bits away from its value. If error_bits is below
+    exact/2, it stands only for its value. Results, without conditions on sizes or error bits:
         bit_length_bounds       |x| <= 2^bit_length, and 2^(bit_length - 1) <= |x| unless that is 0
         bounded_sum_known, bounded_difference_known, bounded_product_known
-                                what is returned stands for the sum, difference and product
+                                the result stands for the sum, difference and product
         bounded_sign_certain    sign_of is right or uncertain *)
 
 From Coq Require Import ZArith Reals Lia Lra Bool.
@@ -15,7 +15,7 @@ Open Scope Z_scope.
 
 Notation pow2 := (bpow radix2).
 
-(** bit_length(): of x, or of its complement -x - 1 if it is negative. *)
+(** bit_length() of x, or of its complement -x - 1 if x is negative. *)
 Definition bit_width (x : Z) : Z := if x =? 0 then 0 else Z.log2 x + 1.
 Definition bit_length (x : Z) : Z := bit_width (if x <? 0 then - x - 1 else x).
 
@@ -52,7 +52,7 @@ Definition sign_of (x : bounded) : sign :=
   if negb (is_exact x) && (bit_length (value x) <=? Z.max (error_bits x) 0) then uncertain
   else sign_of_integer (value x).
 
-(** What a number stands for. *)
+(** The real numbers that a number stands for. *)
 Definition stands (x : bounded) (r : R) : Prop :=
   if is_exact x then r = IZR (value x) else (Rabs (r - IZR (value x)) < pow2 (error_bits x))%R.
 
@@ -63,7 +63,7 @@ Proof.
   unfold stands. destruct (is_exact x); auto. intros ->. rewrite Rminus_diag_eq, Rabs_R0 by easy.
   apply bpow_gt_0.
 Qed.
-(** An error bound of a result is that of an exact number only if both operands are exact. *)
+(** A result's error bound is that of an exact number only if both operands are exact. *)
 Lemma stands_if x r a b : (Z.max (error_bits a) (error_bits b) < error_bits x)%Z ->
   (is_exact a = true -> is_exact b = true -> r = IZR (value x)) ->
   ((is_exact a = false \/ is_exact b = false) -> Rabs (r - IZR (value x)) < pow2 (error_bits x)) ->

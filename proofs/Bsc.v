@@ -1,9 +1,7 @@
-(** Bernstein sign classification (include/errbound/bsc.hpp): its answers, over every scalar whose
-    operations are those of the numbers that it stands for and whose signs are right or uncertain
-    (Bernstein.v). BscCode.v has the code, BscSigns.v what its signs at roots rest on. Results:
+(** Bernstein sign classification (include/errbound/bsc.hpp): its answers over every scalar of Bernstein.v.
+    BscCode.v has the code, BscSigns.v the lemmas on its signs at roots. Results, for any uncertain signs:
         bsc_no     the answer "no": at every root of Y in [0, 1] some G is negative
-        bsc_yes    the answer "yes": at some root of Y in [0, 1] every G is positive
-    whatever signs stay uncertain. *)
+        bsc_yes    the answer "yes": at some root of Y in [0, 1] every G is positive *)
 
 From Coq Require Import Reals ZArith Lia Lra Psatz List Bool.
 From Errbound Require Import Sign Bernstein.
@@ -29,7 +27,7 @@ Notation five gs := (Forall (fun g : list S => length g = 5%nat) gs).
 Definition excluded gs (t : R) : Prop := Exists (fun g => form_at g t < 0) gs.
 Definition all_positive gs (t : R) : Prop := Forall (fun g => 0 < form_at g t) gs.
 
-(** What an answer promises of a root, and of a whole part. *)
+(** The meaning of an answer for a root, and for a whole interval. *)
 Definition right_at (e : existence) gs (t : R) : Prop :=
   (e = no -> excluded gs t) /\ (e = yes -> all_positive gs t).
 Definition sound (e : existence) y gs : Prop :=
@@ -108,7 +106,7 @@ Proof.
   intros t. apply derivable_continuous_pt. exists (form_at (derivative f) t). apply derivative_form.
 Qed.
 
-(** Certain strict signs of two ends: a root between them. *)
+(** If the signs of two ends are certain and opposite, there is a root between them. *)
 Lemma signs_of (x : S) :
   (sign_of x = negative -> exact x < 0) /\ (sign_of x = zero -> exact x = 0) /\ (sign_of x = positive ->
     0 < exact x).
@@ -251,7 +249,7 @@ Proof.
 Qed.
 
 
-(** Y without its root at an end. *)
+(** Y divided by its root at an end. *)
 Lemma without_start y t : length y = 4%nat -> form_at y 0 = 0 ->
   t * form_at (elevated [y#1; y#2; y#3]) t = form_at y t.
 Proof.
@@ -321,7 +319,7 @@ Proof.
   assert (D1 : form_at d 1 = 3 * exact (y#3) - exact (y#2))
     by (rewrite (at_time_by d (dy y) 1 Ed); clear -L; four y L; values; ring).
   set (ec := certain (sign_of (y#0)) && certain (sign_of (y#3))).
-  (* both ends of a part, where the code asks for a crossing *)
+  (* both ends of an interval in which the code needs a crossing *)
   assert (Ec : ec = true -> certain (sign_of (y#0)) = true /\ certain (sign_of (y#3)) = true)
     by apply andb_prop.
   destruct (at_pair_sound y d ec gs L Ld Ed F C) as (PairNo & PairYes).
@@ -460,7 +458,7 @@ Proof.
 Qed.
 
 
-(** ** A part of the step *)
+(** ** A subinterval of the step *)
 
 Lemma inside_signs l : length l = 2%nat -> opposite l = false -> signs_inside (inside l) (exacts l).
 Proof.
@@ -540,7 +538,7 @@ Lemma on_curved_sound y gs curvature : length y = 4%nat -> five gs ->
   signs_inside curvature (exacts (ddy y)) -> curvature <> zero -> sound (on_curved y gs curvature) y gs.
 Proof. intros L F K N. apply on_whole_part_sound; auto. now split. Qed.
 
-(** q is p on [a, b], times a positive number. *)
+(** q is a positive multiple of p on [a, b]. *)
 Definition is_part (p q : list S) (a b : R) : Prop :=
   length q = length p /\ exists c, 0 < c /\ forall t, form_at q t = c * form_at p (a + (b - a) * t).
 
@@ -643,7 +641,7 @@ Proof.
           Sign; auto.
 Qed.
 
-(** The second derivative of a part. *)
+(** The second derivative on a subinterval. *)
 Lemma second_of_part y q a b : length y = 4%nat -> is_part y q a b ->
   exists c, 0 < c /\ forall t, form_at (ddy q) t = c * ((b - a) * (b - a) * form_at (ddy y) (a + (b - a)
     * t)).
@@ -788,7 +786,7 @@ Proof.
   intros L F E T Z. apply Exists_exists. now apply (proj1 (root_with_nonnegative_sound y gs L F)).
 Qed.
 
-(** Neither is a "yes". *)
+(** A "yes" is never wrong. *)
 Theorem bsc_yes y gs : length y = 4%nat -> five gs -> root_with_nonnegative y gs = yes ->
   exists t, 0 <= t <= 1 /\ form_at y t = 0 /\ forall g, In g gs -> 0 < form_at g t.
 Proof.

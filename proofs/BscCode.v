@@ -1,4 +1,4 @@
-(** Bernstein sign classification as coded (include/errbound/bsc.hpp, in its order), over every scalar
+(** The code of Bernstein sign classification (include/errbound/bsc.hpp), in its order, over every scalar
     (Bernstein.v). Y is a cubic and each G a quartic, as lists of scaled coefficients. *)
 
 From Coq Require Import Reals ZArith List Bool.
@@ -127,7 +127,7 @@ Definition quartic_at_pair y d g : sign * sign :=
       let rs := linear_at_pair y d r in
       (combined (fst ms) (fst rs) m j, combined (snd ms) (snd rs) m j).
 
-(** The sign of a linear form at the extremum: sign_at of sign_at_extremum. *)
+(** The sign of a linear form at the extremum: sign_at in sign_at_extremum. *)
 Definition linear_at_extremum d (form : list S) : sign :=
   let l := normalized form in
   if negb (opposite l) then inside l
@@ -206,8 +206,7 @@ Definition on_convex y d (g : list (list S)) : existence :=
 Definition excluded_by_hull y (g : list (list S)) : bool :=
   certainly_rootless y || existsb (fun f => same_sign (sign_throughout f) negative) g.
 
-(** without_curvature, then of_curvature; `parts` is the answer by splitting Y, whose second
-    derivative is given. *)
+(** without_curvature, then of_curvature. `parts` is the answer of splitting Y, whose second derivative is given. *)
 Definition on_whole_part y (g : list (list S)) (curvature : sign) (parts : list S -> existence) :
   existence :=
   if excluded_by_hull y g then no
@@ -228,12 +227,12 @@ Definition on_whole_part y (g : list (list S)) (curvature : sign) (parts : list 
         end
     end.
 
-(** A part beside the inflection: its curvature is negative or positive, so that it is not split. *)
+(** A subinterval next to the inflection: its curvature is negative or positive, so it is not split. *)
 Definition on_curved y (g : list (list S)) (curvature : sign) : existence :=
   on_whole_part y g curvature (fun _ => maybe_root).
 
-(** without_halving and by_halving. The code keeps the parts that wait in an array, the earliest last,
-    and stops at the first answer that is not "no": the recursion here takes them in that order. *)
+(** without_halving and by_halving. The code stores waiting subintervals in an array, the earliest last, and stops
+    at the first answer that is not "no". The recursion here takes them in that order. *)
 Fixpoint on_part y (g : list (list S)) (halvings_left : nat) : existence :=
   on_whole_part y g uncertain (fun second =>
     if opposite second then

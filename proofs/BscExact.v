@@ -1,12 +1,11 @@
 (** `bsc-exact` (ccd/methods/bsc_exact.cpp): Bernstein sign classification over a scalar whose signs are never
-    uncertain (integers), and the contacts that settle what it leaves open. Results, for a cubic Y and
-    quartics G as in Bsc.v:
+    uncertain (integers), and the contacts that decide its "maybe". Results, for a cubic Y and quartics G as in
+    Bsc.v:
         bsc_exact_root     the answer "maybe_root": Y = 0 at every t
-        bsc_exact_inside   the answer "maybe_inside": at some root of Y in [0, 1] no G is negative and
-                           one is zero, and at none are all positive
-    and of what bsc_exact.cpp decides, given doubles, common_factor and real_roots as in
-    UnboundedIntegers.v:
-        bsc_exact_face, bsc_exact_edges   it is `collides` exactly if they do *)
+        bsc_exact_inside   the answer "maybe_inside": at some root of Y in [0, 1] no G is negative and one is zero,
+                           and at none are all positive
+        bsc_exact_face, bsc_exact_edges   bsc_exact.cpp returns `collides` exactly if the features do, given
+                           doubles, common_factor and real_roots as in UnboundedIntegers.v *)
 
 From Coq Require Import Reals ZArith Lia Lra Psatz List Bool.
 From Errbound Require Import RootIsolation Sign Bernstein Bsc Contact Decisions AxisUnits UnboundedIntegers.
@@ -57,7 +56,7 @@ Proof.
   assert (f <> uncertain) by apply at_extremum_certain. now destruct f.
 Qed.
 
-(** Where Y has a root with no positive value at the extremum, no sign at a pair is uncertain. *)
+(** If Y has a root and no positive value at the extremum, no sign at a pair is uncertain. *)
 Lemma at_pair_certain y d l r : length l = 2%nat -> y <> [] -> d <> [] ->
   convex (form_at y) (form_at d) -> 0 < r < 1 -> form_at y r = 0 ->
   fst (linear_at_pair y d l) <> uncertain /\ snd (linear_at_pair y d l) <> uncertain.
@@ -83,7 +82,7 @@ Proof.
   symmetry in H. apply Rmult_integral in H. lra.
 Qed.
 
-(** M vanishes at the root only where J is asked, or where J has a certain sign by its coefficients. *)
+(** M does not vanish at a root at which J is evaluated, unless coefficients give J a certain sign. *)
 Lemma combined_tells y j r m s : length y = 4%nat -> length j = 3%nat -> form_at y r = 0 -> 0 < r < 1 ->
   exact (y#0) * exact (y#3) <> 0 -> certain (sign_inside j) = false ->
   tells m (form_at (decomposition_m y j) r) -> tells s (form_at (decomposition_r y j) r) ->
@@ -111,7 +110,7 @@ Proof.
   destruct (sign_of a), (sign_of c), (sign_of b); simpl in *; try easy; lra.
 Qed.
 
-(** The sign of G from that of J. *)
+(** The sign of G from the sign of J. *)
 Lemma reduced_tells y g r s : length y = 4%nat -> length g = 5%nat -> form_at y r = 0 -> 0 < r < 1 ->
   tells s (form_at (reduced y g) r) ->
   (exact (y#0) * exact (y#3) < 0 -> tells (negate s) (form_at g r)) /\
@@ -166,7 +165,7 @@ Qed.
 Definition touching gs (t : R) : Prop :=
   Forall (fun g => 0 <= form_at g t) gs /\ Exists (fun g => form_at g t = 0) gs.
 
-(** What an answer says of the roots of Y that it was asked of. *)
+(** The meaning of an answer for the roots of Y that were tested. *)
 Definition answers (e : existence) (root : R -> Prop) gs : Prop :=
   match e with
   | no => forall t, root t -> excluded gs t
@@ -230,7 +229,7 @@ Proof.
   specialize (M g I). lra.
 Qed.
 
-(** Roots of Y in [0, 1], and those inside. *)
+(** Roots of Y in [0, 1], and interior ones. *)
 Definition roots y (t : R) : Prop := 0 <= t <= 1 /\ form_at y t = 0.
 Definition inner y (t : R) : Prop := 0 < t < 1 /\ form_at y t = 0.
 
@@ -449,9 +448,9 @@ Proof.
 Qed.
 
 
-(** ** A part of the step *)
+(** ** A subinterval of the step *)
 
-(** The answer of a part, where Y may be zero throughout. *)
+(** The answer of a subinterval in which Y may be zero throughout. *)
 Definition answered (e : existence) y gs : Prop :=
   e = maybe_root /\ (forall t, form_at y t = 0) \/ answers e (roots y) gs.
 
@@ -461,7 +460,7 @@ Proof.
   split; intros (T & Z); split; auto; lra.
 Qed.
 
-(** No inflection and no curvature: Y is linear. *)
+(** Without inflection and curvature, Y is linear. *)
 Lemma linear_slope d : length d = 3%nat -> Forall (eq 0) (exacts (dy d)) -> sign_inside d <> uncertain.
 Proof.
   intros L F. destruct (length_3 d L) as (a & b & c & ->). revert F. unfold derivative. cbn [map
@@ -583,7 +582,7 @@ Proof.
     intros t T P. destruct (From t T) as (v & V & ->). apply (N v V). now apply Same.
 Qed.
 
-(** At its inflection Y is split in two parts of known curvature. *)
+(** Y is split at its inflection into two subintervals of known curvature. *)
 Lemma split_answers y gs : length y = 4%nat -> five gs -> opposite (ddy y) = true ->
   let (v, w) := linear_root (ddy y) in
   let parts_of f := let (a, b) := split f v w in (normalized a, normalized b) in
@@ -632,7 +631,7 @@ Proof.
     apply (strict_beside_0 _ _ _ (proj2 (opposite_signs _ O)) (sign_right S (ddy y # 1)) K1).
 Qed.
 
-(** No part is halved. *)
+(** No subinterval is halved. *)
 Lemma on_part_answered y gs halvings : length y = 4%nat -> five gs ->
   answered (on_part y gs halvings) y gs.
 Proof.

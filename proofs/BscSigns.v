@@ -1,14 +1,11 @@
-(** Bernstein sign classification: the lemmas that its signs at roots rest on, over every scalar whose
-    operations are those of the numbers that it stands for and whose signs are right or uncertain
-    (Bernstein.v); BscCode.v has the code.
-
-    Y is a cubic and each G a quartic, as lists of scaled coefficients; f(t) is at_time f t. Results:
+(** Bernstein sign classification: lemmas on its signs at roots, over every scalar of Bernstein.v. BscCode.v has
+    the code. Y is a cubic and each G a quartic, as lists of scaled coefficients; f(t) is at_time f t. Results, for
+    any uncertain signs:
         sign_determination_1   the sign of a linear form at the only inner root of Y
-        sign_determination_2   at either of two inner roots of a convex Y
+        sign_determination_2   the sign at either of two inner roots of a convex Y
         reduction              y0 y3 G = s t J at a root of Y, up to a positive factor
         polynomial_decomposition   M J = - s t R at a root of Y, up to positive factors
-        root_finding           the sign of Y at its only inner extremum
-    whatever signs stay uncertain. *)
+        root_finding           the sign of Y at its only inner extremum *)
 
 From Coq Require Import Reals ZArith Lia Lra Psatz List Bool.
 From Errbound Require Import Sign Bernstein.
@@ -60,7 +57,7 @@ Lemma second_difference y x h : length y = 4%nat ->
 Proof. intros L. four y L. values. ring. Qed.
 
 
-(** What is used of a curve without inflection: it lies above its tangents, and its slope increases. *)
+(** The used properties of a curve without inflection: it lies above its tangents, and its slope increases. *)
 Definition convex (Y D : R -> R) : Prop :=
   (forall a b, 0 <= a <= 1 -> 0 <= b <= 1 -> a <> b -> Y a + D a * (b - a) < Y b) /\
   (forall a b, 0 <= a <= 1 -> 0 <= b <= 1 -> a < b -> D a < D b).
@@ -108,13 +105,13 @@ Proof.
   apply (Rmult_lt_compat_l (b - m)) in P; [| lra]. apply (Rmult_lt_compat_l (m - a)) in Q; [| lra]. lra.
 Qed.
 
-(** The root r, at which Y leaves the sign of sigma. *)
+(** At the root r, Y changes from the sign of sigma to the opposite one. *)
 Definition crossing (Y : R -> R) (sigma r : R) : Prop :=
   0 < r < 1 /\ Y r = 0 /\ (forall t, 0 < t < r -> 0 < sigma * Y t) /\ (forall t, r < t < 1 -> sigma * Y
     t < 0)
   /\ 0 <= sigma * Y 0 /\ sigma * Y 1 <= 0.
 
-(** Y(0) <= 0, then Y(1) > 0 and there is one inner root; likewise from the other end. *)
+(** If Y(0) <= 0, then Y(1) > 0 and there is one inner root. The other end is symmetric. *)
 Lemma rising_crossing Y D r : convex Y D -> 0 < r < 1 -> Y r = 0 -> Y 0 <= 0 -> crossing Y (-1) r /\ 0 <
   Y 1.
 Proof.
@@ -166,7 +163,7 @@ Qed.
 Lemma sign_scaled s c x : 0 < c -> sign_is_right s (c * x) -> sign_is_right s x.
 Proof. intros C. destruct s; simpl; auto; nra. Qed.
 
-(** An opposite form has its root r inside; what sign_at_root_of says there. *)
+(** An opposite form has an inner root r, and sign_at_root_of is right there. *)
 Lemma opposite_root l : length l = 2%nat -> opposite l = true ->
   exists r, 0 < r < 1 /\ form_at l r = 0 /\
     (forall t, t < r -> sign_is_right (sign_of (l#0)) (form_at l t)) /\
@@ -240,7 +237,7 @@ Proof.
     try (apply Right; lra); try (apply Left; lra).
 Qed.
 
-(** At the root r left of the extremum, and at the one right of it; a double root is both. *)
+(** At the root r to the left of the extremum, and at the one to the right; a double root is both. *)
 Theorem sign_determination_2 y d l r : length l = 2%nat -> y <> [] -> d <> [] ->
   convex (form_at y) (form_at d) -> 0 < r < 1 -> form_at y r = 0 ->
   (form_at d r <= 0 -> sign_is_right (fst (linear_at_pair y d l)) (form_at l r)) /\
@@ -341,7 +338,7 @@ Definition not_wrong (s : sign) (x : R) : Prop :=
 Lemma right_not_wrong s x : sign_is_right s x -> not_wrong s x.
 Proof. destruct s; simpl; auto. Qed.
 
-(** sign J from those of M and R: never a wrong strict sign; and right if M's sign is certain. *)
+(** The sign of J from those of M and R: never a wrong strict sign, and right if M's sign is certain. *)
 Lemma combined_right y j r m_sign r_sign : length y = 4%nat -> length j = 3%nat -> form_at y r = 0 -> 0
   < r < 1 ->
   sign_is_right m_sign (form_at (decomposition_m y j) r) ->

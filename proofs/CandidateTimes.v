@@ -1,12 +1,10 @@
-(** The loop of `first_time_of` (ccd/contact/condition.cpp), over the real numbers: roots of candidates, asked of one
-    polynomial after the other, up to what is found already. Of each polynomial the times stand at which it is zero
-    and the sides of its condition hold.
-
-    Results:
-        code_comparison      the comparison of two brackets there is that of TimeBrackets.v
-        first_time_of_right  the bracket returned is that of the first time, if this is not after t_max; else none is
-        vertices_time_of, vertex_edge_time_of, face_planar_time_of, edges_planar_time_of   so of contact
-        vertices_near_time_of, vertex_edge_near_time_of, face_near_time_of, edges_near_time_of   and of distance *)
+(** The loop of `first_time_of` (ccd/contact/condition.cpp), over the real numbers. It tests the roots of one
+    candidate polynomial after the other, up to the time found so far. A polynomial is represented by the times at
+    which it is zero and the sides of its condition hold. Results:
+        code_comparison      the comparison of two brackets is that of TimeBrackets.v
+        first_time_of_right  the bracket returned is that of the first time, or none if this is after t_max
+        vertices_time_of, vertex_edge_time_of, face_planar_time_of, edges_planar_time_of   for contact
+        vertices_near_time_of, vertex_edge_near_time_of, face_near_time_of, edges_near_time_of   for a distance *)
 
 From Coq Require Import Reals Lra List.
 From Errbound Require Import Contact Distance Separation FirstContact FirstConditions TimeBrackets IntegerTimes.
@@ -44,7 +42,7 @@ Inductive loop : option bracket -> list (R -> Prop) -> option bracket -> Prop :=
   | first_root s (P : R -> Prop) rest s' r b : 0 < r <= end_of s -> P r -> (forall q, 0 < q < r -> ~ P q) -> holds_time b r ->
       loop (earlier s (Some b)) rest s' -> loop s (P :: rest) s'.
 
-(** What holds once all of D is asked. *)
+(** The property after all of D was tested. *)
 Definition asked_all (D : R -> Prop) (s : option bracket) : Prop :=
   match s with
   | None => forall q, 0 < q <= last -> ~ D q
@@ -103,7 +101,7 @@ Proof.
     + intros [H | (P' & [<- | I] & H)]; eauto.
 Qed.
 
-(** What is returned, H not holding at t = 0. *)
+(** The result, if H does not hold at t = 0. *)
 Definition told_until (H : R -> Prop) (o : option bracket) : Prop :=
   match o with
   | None => forall t, 0 <= t <= last -> ~ H t
@@ -133,7 +131,7 @@ Proof.
     destruct (At r F ltac:(lra)) as (Rl & C). now apply (A r).
 Qed.
 
-(** ** Of contact and distance: the parts are what `candidates` returns of the conditions, with their sides *)
+(** ** Contact and distance. `candidates` returns one polynomial for each condition, with its sides *)
 
 Definition parts_of (cs : list asked) (parts : list (R -> Prop)) : Prop :=
   forall t, (exists P, In P parts /\ P t) <-> exists c, In c cs /\ candidate c t.
@@ -164,7 +162,7 @@ Proof.
   - intros t F T. exists (vertex_edge_asked v e0 e1). split; [now left | now apply vertex_edge_candidate].
   - intros t c _ [<- | []]. apply vertex_edge_met.
 Qed.
-(** Y = 0 throughout: the condition inside has no candidates. *)
+(** If Y = 0 throughout, the inner condition has no candidates. *)
 Lemma query_planar_time_of edges m0 m1 m2 m3 parts o : (forall s, 0 <= s <= 1 -> query_y edges m0 m1 m2 m3 s = 0) ->
   0 <= last <= 1 -> ~ query_touches edges m0 m1 m2 m3 0 -> parts_of (query_border_asked edges m0 m1 m2 m3) parts ->
   loop None parts o -> told_until (query_touches edges m0 m1 m2 m3) o.

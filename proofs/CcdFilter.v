@@ -1,12 +1,11 @@
-(** The bounds of the collision filter (ccd/exact/static_filter/difference_extents.hpp): in double, rounded in any
-    direction; constants, which the compiler computes, to nearest.
+(** The bounds of the collision filter (ccd/exact/static_filter/difference_extents.hpp), in double, rounded in any
+    direction. The compiler computes constants to nearest.
 
-    Y, a cubic, and the inside forms G_i, quartics, are kept by control values times 3 and 12.
-    Differences of one axis are at most m_x, m_y or m_z, each at most 2^200. Results:
+    Y, a cubic, and the inside forms G_i, quartics, are stored as control values times 3 and 12. Differences on an
+    axis are at most m_x, m_y or m_z, each at most 2^200. Results:
         error_of_y_sound             the control values of Y are within error_of_y() of the exact ones
-        error_of_vertex_face_sound   likewise those of the G_i and error_of_g()
-        error_of_edge_edge_sound     likewise
-    with some room left, that the halvings use. *)
+        error_of_vertex_face_sound   the control values of the G_i are within error_of_g() of the exact ones
+        error_of_edge_edge_sound     the same for edges, with a margin for halvings *)
 
 From Coq Require Import Reals ZArith List Lia Lra Psatz.
 From Flocq Require Import Core.
@@ -18,8 +17,8 @@ Notation p := 53%Z (only parsing).
 Notation emin := (-1074)%Z (only parsing).
 #[global] Instance double_precision : Prec_gt_0 p := eq_refl.
 
-(** Polynomials as errbound::bernstein has them, over expressions: products by convolution, the
-    first term of each sum stored. *)
+(** Polynomials of errbound::bernstein over expressions: products are convolutions, and the first term of each sum
+    is stored. *)
 Definition form := list counted.
 Definition at_ (f : form) (i : nat) : counted := nth i f (Constant 0).
 Definition convolved (f g : form) (k : nat) : counted :=
@@ -55,7 +54,7 @@ Definition edge_edge_inside (q : query) : list form :=
   let on_a := dot (cross (p_ q) (c_ q)) n in
   let on_b := dot (cross (p_ q) (b_ q)) n in
   [on_a; minus (dot n n) on_a; on_b; minus (dot n n) on_b].
-(** Times 3 or 12: multiple(N) / C(N, i). *)
+(** Control values times 3 or 12: multiple(N) / C(N, i). *)
 Definition controlled (factors : list Z) (f : form) : form :=
   map (fun i => match nth i factors 1%Z with
                 | 1%Z => at_ f i
@@ -64,13 +63,13 @@ Definition controlled (factors : list Z) (f : form) : form :=
 Definition cubic := controlled [3; 1; 1; 3]%Z.
 Definition quartic := controlled [12; 3; 2; 3; 12]%Z.
 
-(** The code runs the forms over this to count. *)
+(** The number type over which the code evaluates the forms to count. *)
 Definition any_difference : vector :=
   let d := [Difference 0 0 0; Difference 0 0 0] in {| x_ := d; y_ := d; z_ := d |}.
 Definition any_query : query :=
   {| b_ := any_difference; c_ := any_difference; p_ := any_difference |}.
 
-(** Which depends on nothing but an expression's shape. *)
+(** The shape of an expression, without its values. *)
 Fixpoint shape (e : counted) : counted :=
   match e with
   | Exact _ _ => Exact 0 0
@@ -132,7 +131,7 @@ Lemma emin_p : (emin <= 1 - 2 * p)%Z. Proof. lia. Qed.
 Lemma W_1 : 1 <= W.
 Proof. change 1 with (bpow radix2 0). apply bpow_le. lia. Qed.
 
-(** What a form's coefficients have in common. *)
+(** A common bound of a form's coefficients. *)
 Definition fits (U : R) (k h : nat) (e : counted) : Prop :=
   admissible e /\ unit e <= U /\ degree e = k /\ (height e <= h)%nat.
 Definition all_fit (U : R) (k h : nat) (f : form) : Prop := Forall (fits U k h) f.
@@ -210,7 +209,7 @@ Section Query.
 
 Variables mx my mz : R.
 Variable q : query.
-(** Vectors are made of differences at both ends of the step. *)
+(** Components are differences at both ends of the step. *)
 Definition differences_fit (m : R) (f : form) : Prop :=
   length f = 2%nat /\ forall e, In e f ->
     exists a b, e = Difference a b m /\ number a /\ number b /\ Rabs (fl (a - b)) <= m <= W.
@@ -257,7 +256,7 @@ Proof.
   repeat split; apply P; auto.
 Qed.
 
-(** A scalar product whose three terms are of one size. *)
+(** A scalar product with three terms of one size. *)
 Lemma dot_fits m n U h h' v w X Y Z X' Y' Z' k l : (1 <= k + l)%nat -> (m <= 2)%nat ->
   vector_fits (S m) X Y Z k h v -> vector_fits (S n) X' Y' Z' l h' w ->
   X * X' <= U -> Y * Y' <= U -> Z * Z' <= U ->
@@ -297,7 +296,7 @@ Proof.
   destruct (nth i factors 1%Z) as [| [| |] |]; auto.
 Qed.
 
-(** Every control value's counts are among those that the code takes the worst of. *)
+(** The code's worst count is a maximum over counts that include each control value's. *)
 Lemma worst_covers count_of l e : In e l -> count_of (count e) <= worst count_of l.
 Proof.
   induction l as [| a l IH]; simpl; [easy |]. intros [-> | I].
@@ -415,7 +414,7 @@ Proof.
   { apply Rle_trans with (2 := L1). rewrite (Rmult_comm _ ((1 - eps) ^ _)).
     apply Rmult_le_compat_r; auto. apply Rmult_le_pos; [lra | apply pow_le; lra]. }
   generalize (eta_positive emin); intros E.
-  (* to nearest, below the normal numbers, by half of eta at most *)
+  (* to nearest, below the normal numbers, by at most half of eta *)
   assert (Y : x * eta * (1 - eps) - eta / 2 <= flc (x * eta)).
   { apply Rle_trans with (x * eta * (1 - u) - eta / 2).
     - generalize (eps_2u p) (u_positive p). intros. assert (0 <= x * eta) by nra. nra.
@@ -443,8 +442,8 @@ Proof.
   nra.
 Qed.
 
-(** The bound as evaluated: V is the unit, V' what the code computed of it, less eta K. The last
-    summand is left for the halvings. *)
+(** The bound as evaluated: V is the unit, V' its computed value plus eta K. The last summand is left for the
+    halvings. *)
 Lemma bound_enough E Un n k V V' K :
   E = 0 \/ 1 <= E -> E <= bpow radix2 n -> (0 <= n <= 61)%Z -> (k <= 5)%nat -> 1 <= Un ->
   number V' -> 0 <= V -> 0 <= V' -> 0 <= K -> V * (1 - 4 * eps) <= V' + eta * K ->
@@ -463,7 +462,7 @@ Proof.
   set (rel := relative E) in *. set (ab := absolute Un k) in *.
   set (h := W ^ (k - 1)) in *.
   assert (Ph : 1 <= h) by (apply pow_R1_Rle; auto).
-  (* eta is nothing beside tiny *)
+  (* eta is negligible compared with tiny *)
   assert (Small : eta <= tiny / 1000000).
   { apply Rle_trans with (tiny * bpow radix2 (- 22)).
     - unfold tiny, Format.eta. rewrite <- bpow_plus. apply bpow_le. lia.
@@ -472,7 +471,7 @@ Proof.
   set (th := eta * h) in *. assert (Pth : eta <= th) by (unfold th; nra).
   assert (Pab : 0 <= ab).
   { assert (0 <= Un * th) by nra. nra. }
-  (* K's share *)
+  (* the share of K *)
   assert (KS : eta * K * rel <= th / 1000).
   { apply Rle_trans with (eta * (h * bpow radix2 (- 20)) * bpow radix2 10).
     - assert (R3 : rel <= bpow radix2 10) by (apply Rle_trans with (1 := R2); apply bpow_le; lia).
@@ -538,7 +537,7 @@ Proof.
   assert (0 <= eps * s) by (apply Q; lra). lra.
 Qed.
 
-(** All expressions of one kind of form: their counts' worst makes a bound for each. *)
+(** The worst count of all expressions of one kind of form gives a bound for each. *)
 Lemma all_within (all : list counted) (shapes : list counted) V V' k h K :
   map shape all = shapes -> (2 <= k <= 5)%nat -> (h <= 61)%nat ->
   all_fit V k h all -> (exists x y, In (Product x y) all) ->
@@ -577,7 +576,7 @@ Proof.
   - apply Rmult_le_compat_r; auto.
 Qed.
 
-(** Sizes as the code multiplies them. *)
+(** Sizes in the code's order of products. *)
 Lemma product_lower a b : 0 <= a * b -> a * b * (1 - eps) - eta <= fl (a * b).
 Proof. intros H. exact (rnd_lower p emin direction eps eta any_error (a * b) H). Qed.
 

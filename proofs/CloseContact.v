@@ -1,16 +1,14 @@
-(** Roots that nearly coincide (ccd/exact/close_contact.hpp), and the two stages in integers together
-    (ccd/exact/integers.cpp): their certain answers are right. Estimates of places are arbitrary functions:
-    nothing depends on them. Results:
-        as_many_changes, opposite_inside   which parts of a part have all its roots
-        sub_part_right          coefficients are those of Y on that part, times a positive number
-        inside_from_right       signs of G_i that are known all over a part are right
-        by_narrowing_right      what the loop's answers mean
-        three_close_parts_wait, close_contact_ends   at most three parts wait, and the loop ends
-        close_contact_right     collides: Y = 0 and all G_i > 0 at some t in [0, 1]; separate: at none in (0, 1)
-                                but multiple roots of Y
-        decided_inside          where interior_contact is undecided, separate means nowhere in [0, 1]
-        face_to_the_end_right, edges_to_the_end_right
-                                certain answers of decide_to_the_end are right
+(** Roots that nearly coincide (ccd/exact/close_contact.hpp), and both stages in integers (ccd/exact/integers.cpp):
+    certain answers are right. Estimates of positions are arbitrary functions. Results:
+        as_many_changes, opposite_inside   which subintervals of an interval have all its roots
+        sub_part_right         coefficients are those of Y on the subinterval, times a positive number
+        inside_from_right      signs of G_i that are certain throughout an interval are right
+        by_narrowing_right     the meaning of the loop's answers
+        three_close_parts_wait, close_contact_ends   at most three intervals wait, and the loop ends
+        close_contact_right    collides: Y = 0 and all G_i > 0 at some t in [0, 1]; separate: at none in (0, 1)
+                               except multiple roots of Y
+        decided_inside         if interior_contact is undecided, separate means nowhere in [0, 1]
+        face_to_the_end_right, edges_to_the_end_right   certain answers of decide_to_the_end are right
         close_widths, narrowed_fits   all numbers fit their types *)
 
 From Coq Require Import Reals ZArith Lia Lra Psatz List Bool Classical.
@@ -20,9 +18,9 @@ From Errbound Require BoundedInteger FixedWidths.
 Import ListNotations.
 Open Scope R_scope.
 
-(** ** Parts of a cubic *)
+(** ** Subintervals of a cubic *)
 
-(** The form at s0 s + s1 t and t0 s + t1 t. *)
+(** The form after substitution of s0 s + s1 t for s and t0 s + t1 t for t. *)
 Definition substituted (y : list R) (s0 s1 t0 t1 : R) : list R :=
   match y with
   | [y0; y1; y2; y3] =>
@@ -38,7 +36,7 @@ Lemma substituted_form y s0 s1 t0 t1 s t : length y = 4%nat ->
   form (substituted y s0 s1 t0 t1) s t = form y (s0 * s + s1 * t) (t0 * s + t1 * t).
 Proof. intros L. four y L. simpl. ring. Qed.
 
-(** The part between a and b. *)
+(** The form on [a, b]. *)
 Definition part_of (y : list R) (a b : R) : list R := substituted y (1 - a) (1 - b) a b.
 Lemma part_of_length y a b : length y = 4%nat -> length (part_of y a b) = 4%nat.
 Proof. intros L. now four y L. Qed.
@@ -87,7 +85,7 @@ Proof.
   - apply (Rmult_lt_compat_r (b - a)) in T, U; lra.
 Qed.
 
-(** Signs just inside the ends of a part. *)
+(** Signs just inside the ends of a subinterval. *)
 Notation changes_in y a b := (inner_sign_changes (part_of y a b)).
 Lemma signs_in y a b : length y = 4%nat -> a < b -> ~ Forall (eq 0) y -> let c := changes_in y a b in
   sign_after (first c) (at_ y) a /\ sign_before (if opposite c then opposed (first c) else first c) (at_ y) b /\
@@ -130,7 +128,8 @@ Proof.
   assert (0 < (1 - u) * (b - a)) by (apply Rmult_lt_0_compat; lra). lra.
 Qed.
 
-(** ** Parts of a part change their signs no more often together, and once less if they part at a simple root *)
+(** ** Subintervals together have no more sign changes than their union, and one less if they are split at a simple
+    root *)
 
 Lemma split_changes y p : length y = 4%nat -> 0 < p < 1 ->
   (count (changes_in y 0 p) + count (changes_in y p 1) <= count (inner_sign_changes y))%nat /\
@@ -173,8 +172,7 @@ Proof.
   - rewrite discriminant_part by easy. apply Rmult_lt_0_compat; auto. apply pow_lt. lra.
   - now rewrite <- at_part.
 Qed.
-(** Descartes' rule is exact where all roots are real: a part of a part that changes its sign as often has
-    all its roots. *)
+(** Descartes' rule is exact if all roots are real: a subinterval with as many sign changes has all the roots. *)
 Lemma fewer_changes y a a' b' b : length y = 4%nat -> a <= a' -> a' < b' -> b' <= b ->
   (count (changes_in y a' b') <= count (changes_in y a b))%nat.
 Proof.
@@ -197,7 +195,7 @@ Proof.
     destruct K as [K | <-]; [| specialize (H' D Z); lia].
     apply (none_in y b' b t L B' N); auto; [lia | lra].
 Qed.
-(** And a part of a part with one crossing, at whose ends Y has opposite signs, has the crossing. *)
+(** If an interval has one crossing, a subinterval with opposite signs of Y at its ends has that crossing. *)
 Theorem opposite_inside y a a' b' b Q : length y = 4%nat -> ~ Forall (eq 0) y ->
   a <= a' -> a' < b' -> b' <= b -> opposite (changes_in y a' b') = true -> crosses_once a b (at_ y) Q ->
   exists r, a' < r < b' /\ at_ y r = 0 /\ forall t, a < t < b -> at_ y t = 0 -> t = r \/ Q t.
@@ -214,9 +212,9 @@ Proof.
   - destruct (Req_EM_T w b); [exfalso; unfold m in *; lra |]. destruct St as [St | St]; rewrite St in *; simpl in *; lra.
   - exists r. split; [unfold m in *; lra |]. auto.
 Qed.
-(** ** Their coefficients as integers *)
+(** ** Coefficients as integers *)
 
-(** sub_part's y: the power coefficients at a/2^n by Horner's rule, times 2^3n. *)
+(** sub_part's y: the power coefficients at a/2^n by Horner's rule, times 2^(3n). *)
 Definition power_coefficients (y0 y1 y2 y3 v : Z) : Z * Z * Z * Z :=
   let thrice := (y0 + y0 + y0)%Z in
   (y0 * (v * v * v), (y1 - thrice) * (v * v), (y2 - y1 - y1 + thrice) * v, y3 - y2 + y1 - y0)%Z.
@@ -248,7 +246,7 @@ Proof.
   apply same_four; repeat rewrite ?plus_IZR, ?mult_IZR, ?minus_IZR; ring.
 Qed.
 
-(** What the coefficients are: those of the part between a/2^n and (a + 2^w)/2^n, times 2^3n. *)
+(** The coefficients are those on [a/2^n, (a + 2^w)/2^n], times 2^(3n). *)
 Theorem sub_part_right y n a w : length y = 4%nat -> (0 <= n)%Z -> map IZR (sub_y y n a w) =
   map (Rmult (IZR (2 ^ n) ^ 3)) (part_of (map IZR y) (over a n) (over (a + 2 ^ w) n)).
 Proof.
@@ -260,7 +258,7 @@ Qed.
 Lemma sub_y_length y n a w : length y = 4%nat -> length (sub_y y n a w) = 4%nat.
 Proof. intros L. destruct y as [| y0 [| y1 [| y2 [| y3 [|]]]]]; try discriminate. reflexivity. Qed.
 
-(** ** Parts *)
+(** ** Intervals *)
 
 (** close_contact::part: from low/2^unit_bits, 2^width_bits units wide. *)
 Record close_part := ClosePart { close_y : list Z; close_roots : sign_changes; low : Z; unit_bits : Z;
@@ -272,11 +270,11 @@ Definition sub_part (q : close_part) (n a w : Z) : close_part :=
   let y := sub_y (close_y q) n a w in
   ClosePart y (inner_sign_changes (map IZR y)) (low q * 2 ^ (n - width_bits q) + a)%Z
     (unit_bits q + n - width_bits q)%Z w (ask_from q).
-(** The place times 2^n, rounded, is `middle`. *)
+(** The position times 2^n, rounded, is `middle`. *)
 Definition around (q : close_part) (middle n : Z) : close_part :=
   sub_part q n (Z.max 0 (Z.min (middle - 1) (2 ^ n - 2))) 1.
 
-(** Its coefficients are those of y there, times a positive number. *)
+(** Its coefficients are a positive multiple of those of y there. *)
 Definition is_close_part (y : list R) (q : close_part) : Prop :=
   length (close_y q) = 4%nat /\ close_roots q = inner_sign_changes (map IZR (close_y q)) /\
   (0 <= width_bits q <= 1 /\ width_bits q <= unit_bits q /\ 0 <= low q /\ low q + 2 ^ width_bits q <= 2 ^ unit_bits q)%Z /\
@@ -293,7 +291,7 @@ Qed.
 Lemma close_changes y q : is_close_part y q -> close_roots q = changes_in y (close_start q) (close_end q).
 Proof. intros (_ & -> & _ & k & K & ->). now apply changes_scaled. Qed.
 
-(** sub_part is a part of the part, where a >= 0 and a + 2^w <= 2^n. *)
+(** sub_part returns a subinterval if a >= 0 and a + 2^w <= 2^n. *)
 Lemma over_within low wb ub n a : (0 <= wb <= n)%Z -> (0 <= ub)%Z -> (wb <= ub)%Z ->
   over (low * 2 ^ (n - wb) + a) (ub + n - wb) =
   over low ub + over a n * (over (low + 2 ^ wb) ub - over low ub).
@@ -340,9 +338,9 @@ Proof.
   rewrite part_of_part, map_map by easy. rewrite Es, Ee. apply map_ext. intros x. ring.
 Qed.
 
-(** ** G_i over a part *)
+(** ** G_i over an interval *)
 
-(** inside_from, of differences as they are: where there is no width, at low/2^bits. *)
+(** inside_from with exact differences. Without a width it is at low/2^bits. *)
 Definition close_component (low bits : Z) (width : option Z) (l : list Z) : known :=
   let slope := (nth 1 l 0 - nth 0 l 0)%Z in
   BoundedInteger.Bounded (nth 0 l 0 * (2 ^ bits - low) + nth 1 l 0 * low)%Z
@@ -377,7 +375,7 @@ Proof.
     + apply Rmult_lt_compat_l; lra.
 Qed.
 
-(** At one place, numbers are what they stand for, if they are of less than 2000 bits. *)
+(** At a position, numbers of less than 2000 bits are exact. *)
 Definition near_exact (m e : Z) (x : known) : Prop :=
   (Z.abs (BoundedInteger.value x) <= 2 ^ m /\ 0 <= m /\ BoundedInteger.error_bits x <= BoundedInteger.exact + e)%Z.
 Lemma near_sum m e m' e' x y : near_exact m e x -> near_exact m' e' y ->
@@ -449,7 +447,7 @@ Proof.
   apply (W 6 19)%Z; try lia. apply (S 5 18)%Z; [apply (S 4 17)%Z; now apply D |].
   apply near_weaker with (4 * m + 4)%Z (8 * m + 17)%Z; try lia. now apply D.
 Qed.
-(** Then none is uncertain. *)
+(** Then no sign is uncertain. *)
 Lemma conclusion_exact gs ws found m e : (e <= 500000)%Z -> Forall2 stands gs ws -> Forall (near_exact m e) gs ->
   Forall (Rlt 0) ws -> conclusion found gs = found.
 Proof.
@@ -481,7 +479,7 @@ Section Query.
 Variable edges : bool.
 Variables b c p : @vector_form integers.
 Hypotheses (degree_b : degree b 1) (degree_c : degree c 1) (degree_p : degree p 1).
-(** What extent_limit says of four words. *)
+(** The hypotheses that extent_limit gives for four words. *)
 Hypotheses (below_b : below 253 b) (below_c : below 253 c) (below_p : below 253 p).
 Let y : list R := map IZR (y_form b c p).
 Let Inside (t : R) : Prop := weights_positive edges (vector_at b t) (vector_at c t) (vector_at p t).
@@ -498,7 +496,7 @@ Lemma homogeneous_inside k t : 0 < k -> Forall (Rlt 0) (weights edges (stretched
   (stretched (Point k k k) (vector_at c t)) (stretched (Point k k k) (vector_at p t))) <-> Inside t.
 Proof. intros K. rewrite (weights_homogeneous edges b c p), inside_scaled by now apply pow_lt. easy. Qed.
 
-(** Inside a part signs that are known are right. *)
+(** Certain signs on an interval are right inside it. *)
 Theorem inside_from_right q t : is_close_part y q -> close_start q < t < close_end q ->
   let known := inside_from (low q) (unit_bits q) (Some (width_bits q)) in
   (known = collides -> Inside t) /\ (known = separate -> ~ Inside t).
@@ -514,7 +512,7 @@ Proof.
   - now apply H, Yes.
   - intros I. destruct (No O) as [| N]; [discriminate |]. now apply N, H.
 Qed.
-(** And at one place they tell. *)
+(** Signs at one position are certain. *)
 Lemma inside_from_place n bits : (0 <= n <= 2 ^ bits)%Z -> (0 <= bits <= 1535)%Z ->
   inside_from n bits None = collides <-> Inside (over n bits).
 Proof.
@@ -548,15 +546,15 @@ Proof.
   - apply conclusion_exact with (2 := F) (3 := Near); [easy | now apply H].
 Qed.
 
-(** A part's only root, which is no contact. *)
+(** The only root of an interval, which is not a contact. *)
 Definition normal_vanishes_at_root (distinct three : bool) (q : close_part) : bool :=
   is_single three (close_roots q) && (distinct || Nat.eqb (count (close_roots q)) 1) &&
   normal_vanishes b c (low q) (low q + 2 ^ width_bits q) (unit_bits q).
 Definition contact_in_middle (q : close_part) : bool :=
   match inside_from (low q * 2 + 2 ^ width_bits q) (unit_bits q + 1) None with collides => true | _ => false end.
 
-(** Estimates, any: of a root's place times 2^n, rounded; of the least n such that roots t/s are below 2^n;
-    of an extremum's place, likewise, and of its roots' distance from it, the exponent. *)
+(** Arbitrary estimates: of a root's position times 2^n, rounded; of the least n such that roots t/s are below 2^n;
+    of an extremum's position; and of the exponent of its roots' distance from it. *)
 Variable estimated_root : list Z -> Z -> Z.
 Variable root_exponent : list Z -> Z.
 Variable estimated_pair : list Z -> option ((Z -> Z) * Z).
@@ -580,7 +578,7 @@ Definition narrowed (three : bool) (q : close_part) : option close_part :=
       end
     else None.
 
-(** What is done with a part that waits: an answer on it, or the parts that are to wait for it. *)
+(** The result of a waiting interval: an answer, or the intervals that wait next. *)
 Definition next_of (distinct three : bool) (q : close_part) : outcome + list close_part :=
   let ask := (ask_from q <=? bits q)%Z in
   let known := if ask then inside_from (low q) (unit_bits q) (Some (width_bits q)) else undecided in
@@ -602,7 +600,7 @@ Definition next_of (distinct three : bool) (q : close_part) : outcome + list clo
         end
   end.
 
-(** decide, with that many steps; the part that is asked next comes first. *)
+(** decide with a number of steps; the interval that is tested next comes first. *)
 Definition that_wait (three : bool) (parts : list close_part) : list close_part :=
   filter (fun q => any_root three (close_roots q)) parts.
 Fixpoint by_narrowing (distinct three : bool) (steps : nat) (waiting : list close_part) (found : outcome) : outcome :=
@@ -626,7 +624,7 @@ Definition close_contact (steps : nat) : outcome :=
 
 (** ** Its answers *)
 
-(** Times that need not be asked: those of multiple roots, or where it is known that not all G_i > 0. *)
+(** Times that need no test: multiple roots, and times at which not all G_i > 0. *)
 Variable told : R -> Prop.
 Definition close_answers (a b : R) (o : outcome) : Prop :=
   match o with
@@ -690,7 +688,7 @@ Proof.
   destruct (only_crossing _ _ _ _ _ t s Once S0 T Hs Z Zs) as [-> | [[] | []]]. exact Ns.
 Qed.
 
-(** A narrowed part has all roots that are to be asked. *)
+(** A narrowed interval has all roots that must be tested. *)
 Definition narrower (q r : close_part) : Prop :=
   close_good r /\ close_start q <= close_start r /\ close_end r <= close_end q /\ (bits q < bits r)%Z /\
   (count (close_roots r) <= count (close_roots q))%nat.
@@ -767,7 +765,7 @@ Proof.
   destruct (is_single three (close_roots q)) eqn:S; [now apply single_narrowed | now apply counted_narrowed].
 Qed.
 
-(** Where the halves meet. *)
+(** The common end of the halves. *)
 Lemma middle_of q : is_close_part y q -> let h := close_y q in
   let m := close_start q + / 2 * (close_end q - close_start q) in
   over (low q * 2 + 2 ^ width_bits q) (unit_bits q + 1) = m /\
@@ -896,7 +894,7 @@ Proof.
   - exact I.
 Qed.
 
-(** ** The parts that wait *)
+(** ** Waiting intervals *)
 
 Definition all_changes (parts : list close_part) : nat := list_sum (map (fun q => count (close_roots q)) parts).
 Lemma all_changes_cons q l : all_changes (q :: l) = (count (close_roots q) + all_changes l)%nat.
@@ -930,7 +928,7 @@ Proof.
       ltac:(lra)) as (Le & _). lia.
 Qed.
 
-(** At most three: the code's array. *)
+(** At most three intervals fit in the code's array. *)
 Definition close_waiting_fits (waiting : list close_part) : Prop :=
   Forall (fun q => close_good q /\ (0 < count (close_roots q))%nat) waiting /\ (all_changes waiting <= 3)%nat.
 Theorem three_close_parts_wait distinct three q rest parts : close_waiting_fits (q :: rest) ->
@@ -1031,7 +1029,7 @@ Let y_length : length y = 4%nat := InteriorContact.y_length b c p degree_b degre
 Let y_at t : at_ y t = det (vector_at b t) (vector_at c t) (vector_at p t) :=
   InteriorContact.y_at b c p degree_b degree_c degree_p t.
 
-(** The stage by itself. *)
+(** The stage alone. *)
 Theorem close_contact_right steps :
   (contact steps = collides -> contact_inside edges b c p) /\
   (contact steps = separate -> forall t, 0 < t < 1 -> at_ y t = 0 -> ~ multiple_root y t ->
@@ -1062,7 +1060,7 @@ Proof.
   - destruct A as (t & T & Z & I). exists t. split; [easy |]. split; [now rewrite <- y_at | exact I].
 Qed.
 
-(** What interior_contact knows where it is uncertain. *)
+(** Facts that hold if interior_contact is uncertain. *)
 Lemma uncertain_interior extent_x extent_y extent_z estimate refine steps :
   interior_contact edges b c p extent_x extent_y extent_z estimate refine steps = undecided ->
   (forall t, t = 0 \/ t = 1 -> at_ y t = 0 ->
@@ -1177,8 +1175,8 @@ End Decisions.
 
 (** ** Widths *)
 
-(** Expressions of proofs/FixedWidths.v, where differences are below 2^253: s and t of 24 words, at most 2^max_bits;
-    what inside_from and normal_vanishes compute with them. *)
+(** Expressions of proofs/FixedWidths.v, with differences below 2^253: s and t of 24 words, at most 2^max_bits.
+    These are the numbers that inside_from and normal_vanishes compute. *)
 Section Widths.
 Import FixedWidths.
 Definition place_number (x : list Z) : expression := Given 24 1 max_bits x.
@@ -1193,7 +1191,7 @@ Definition place_numbers (b c p : vector) (s t s' t' : list Z) : list expression
     let m := map Opposite (FixedWidths.cross_product (fst pq) (snd pq)) in
     [nth 1 m (Whole 0) ⊗ s ⊖ nth 0 m (Whole 0) ⊗ t; nth 0 m (Whole 0) ⊗ t' ⊖ nth 1 m (Whole 0) ⊗ s']) (pairs n) ++
   common_roots_numbers n ++ map (fun f => value_at f s t) n ++ map (fun f => value_at f s' t') n.
-(** Of Y's coefficients on a part, their sum. *)
+(** The number of words of the sum of Y's coefficients on an interval. *)
 Definition y_words : nat := 88.
 Definition sum_of_coefficients (y : list (list Z)) : expression :=
   let y := map (Given y_words 1 most_y_bits) y in
@@ -1205,7 +1203,7 @@ Theorem close_widths b c p s t s' t' y0 y1 y2 y3 :
 Proof. split; [apply interior_widths; simpl; auto | split]; apply all_measured; vm_cast_no_check (eq_refl true). Qed.
 End Widths.
 
-(** And all that sub_part computes of them fits the words of the part's. *)
+(** All numbers that sub_part computes fit the words of the interval's coefficients. *)
 Section Narrowed.
 Variables m v : Z.
 (** At most k times m·v^e. *)
@@ -1228,7 +1226,7 @@ Proof.
 Qed.
 End Narrowed.
 
-(** All numbers on the way, in sub_part's order. *)
+(** All intermediate numbers, in sub_part's order. *)
 Definition sub_numbers (y0 y1 y2 y3 v a q : Z) : list Z :=
   let thrice := (y0 + y0 + y0)%Z in
   let '(c0, c1, c2, c3) := power_coefficients y0 y1 y2 y3 v in

@@ -1,13 +1,13 @@
-(** The C++ code, line by line, over any number type: what include/errbound/rules/*.hpp, the default
-    sign_of of tracked.hpp, error_free.hpp and functions.hpp compute with the operations of `arithmetic`.
+(** The C++ code, line by line, over any number type: include/errbound/rules/*.hpp, the default sign_of of
+    tracked.hpp, error_free.hpp and functions.hpp, with the operations of `arithmetic`.
 
-    Nothing is proved here. Ieee.v takes IEEE floats for the numbers and proves that these functions
-    then are those that the theorems are about. TieProgram.v makes a program of them, against which
-    tests/errbound/validation/tie_test.cpp compares the C++ code. *)
+    Nothing is proved here. Ieee.v takes IEEE floats as the numbers and proves that these functions are those of the
+    theorems. TieProgram.v makes a program of them, with which tests/errbound/validation/tie_test.cpp compares the
+    C++ code. *)
 
 From Coq Require Import ZArith Bool.
 
-(** What the code uses of a number type T and its number_traits. Comparisons are false of NaN. *)
+(** The operations of a number type T and its number_traits that the code uses. Comparisons with NaN are false. *)
 Record arithmetic (T : Type) := {
   plus : T -> T -> T;
   minus : T -> T -> T;
@@ -37,8 +37,8 @@ Section Code.
 
 Variable T : Type.
 Variable A : arithmetic T.
-(** Whether fma is one instruction. In constant expressions two_product is that without, while
-    product_error_is_exact asks has_fast_fma still: the same, from 4 digits on, of any product. *)
+(** True if fma is one instruction. In constant expressions two_product does not use fma, but product_error_is_exact
+    still tests has_fast_fma. From 4 digits on both give the same for every product. *)
 Variable has_fast_fma : bool.
 
 Declare Scope code.
@@ -337,7 +337,7 @@ Definition residual_scale (v a : T) (sa : T * T) (e : Z) : T * T :=
   (correction,
    if lossless then remainder + (v - v) else residual_inflated (remainder + #2 * η)).
 
-(** What tracked.hpp asks of a rule, as far as functions.hpp needs it; B is a bound. *)
+(** The functions of a rule that functions.hpp uses; B is a bound. *)
 Record rule (B : Type) := {
   rule_exact : T -> B;
   rule_within : T -> T -> B;
@@ -387,7 +387,7 @@ Definition residual_rule : rule (T * T) := {|
   rule_sign := residual_sign
 |}.
 
-(** functions.hpp, of tracked numbers: a value and a bound. *)
+(** functions.hpp, for tracked numbers: a value and a bound. *)
 Section Functions.
 
 Variable B : Type.

@@ -1,13 +1,11 @@
 (** Common factors by images modulo primes (include/errbound/roots/integer_polynomial.hpp, prime_field.hpp):
-    polynomials with integer coefficients, as lists, ascending.
-
-    Results:
-        images_in_ideal       what Euclid's algorithm modulo a prime reaches is u a + v b modulo it
-        divided_right         a quotient that is returned is one
-        common_factor_right   the roots of what common_factor returns are the common roots
+    polynomials with integer coefficients, as lists, ascending. Results:
+        images_in_ideal       a result of Euclid's algorithm modulo a prime is u a + v b modulo it
+        divided_right         a returned quotient is right
+        common_factor_right   the roots of common_factor's result are the common roots
         common_factor_divides   it divides both
         chain_multiplicities  squarefree_chain: a root of multiplicity k is one of the first k polynomials
-        vanishes_right        and that is seen by their signs *)
+        vanishes_right        the polynomials' sign changes give these multiplicities *)
 
 From Coq Require Import Reals ZArith Znumtheory Lia Lra List Classical Wf_nat.
 From Errbound Require Import Sign Bernstein SignVariations RootIsolation.
@@ -55,7 +53,7 @@ Qed.
 (** ** Degrees modulo p, which is prime or 0 *)
 
 Definition zero_or_prime (p : Z) : Prop := p = 0 \/ prime p.
-(** The last coefficient that p does not divide is the d-th. *)
+(** d is the index of the last coefficient that p does not divide. *)
 Definition degree (p : Z) (f : list Z) (d : nat) : Prop :=
   ~ (p | coefficient f d) /\ forall i, (d < i)%nat -> (p | coefficient f i).
 
@@ -119,7 +117,7 @@ Proof.
     rewrite <- (IH d); auto; [ring |]. intros i I. apply (F (S i)). lia.
 Qed.
 
-(** Equal everywhere: the same coefficients. *)
+(** Polynomials that are equal everywhere have the same coefficients. *)
 Lemma zero_everywhere f : (forall x, poly f x = 0%R) -> forall i, coefficient f i = 0.
 Proof.
   induction f as [| a f IH]; intros Z i; [apply coefficient_nil |].
@@ -200,7 +198,7 @@ Proof.
     rewrite IH. change (S i <? S k)%nat with (i <? k)%nat. cbn [Nat.sub]. destruct (i <? k)%nat; ring.
 Qed.
 
-(** It divides every other, but for a factor. *)
+(** It divides every other such polynomial, up to a factor. *)
 Lemma pseudo_quotient g k : minimal g k -> forall n f, (forall i, (n <= i)%nat -> coefficient f i = 0) -> poly f r = 0%R ->
   exists m q, m <> 0 /\ forall x, (IZR m * poly f x = poly q x * poly g x)%R.
 Proof.
@@ -235,8 +233,8 @@ Proof.
     rewrite <- Eq, coefficient_multiple. exists (m' * coefficient f (d + e)). ring.
 Qed.
 
-(** image = u a + v b modulo p has degree k; a's last coefficient is no multiple of p; a divisor of both of
-    degree k: what is left of the two has no common root. *)
+(** image = u a + v b modulo p has degree k, p does not divide a's last coefficient, and a divisor of both has degree
+    k. Then the quotients by the divisor have no common root. *)
 Lemma no_common_root (a b divisor image u v w fa fb : list Z) (n k : nat) :
   degree 0 a n -> ~ (p | coefficient a n) ->
   (forall x, poly a x = poly divisor x * poly fa x)%R -> (forall x, poly b x = poly divisor x * poly fb x)%R ->
@@ -262,7 +260,7 @@ Proof.
     - intros i I. unfold coefficient. now apply nth_overflow.
     - now apply (without_prime g e f De m q). }
   destruct (Quotient fa Zfa) as (m1 & q1 & M1 & E1). destruct (Quotient fb Zfb) as (m2 & q2 & M2 & E2).
-  (* g's last coefficient is no multiple of p *)
+  (* p does not divide g's last coefficient *)
   assert (Lg : ~ (p | coefficient g l)).
   { assert (S1 : same (multiple m1 fa) (product q1 g)) by (apply equal_same; intros x; now rewrite multiple_at, product_at).
     destruct (some_degree 0 q1) as [All | (i & Dq)].
@@ -311,8 +309,8 @@ End Root.
 
 (** ** The code *)
 
-(** Euclid's algorithm modulo p: multiples of the images of a and b, and, step by step, a multiple of one
-    polynomial less a multiple of another, shifted. *)
+(** Euclid's algorithm modulo p: multiples of the images of a and b. Each step subtracts a shifted multiple of one
+    polynomial from a multiple of another. *)
 Definition congruent (p : Z) (f g : list Z) : Prop := forall i, (p | coefficient f i - coefficient g i).
 Inductive reached (p : Z) (a b : list Z) : list Z -> Prop :=
 | image_of_a s f : congruent p f (multiple s a) -> reached p a b f
@@ -340,7 +338,7 @@ Proof.
     intros x. rewrite E, !sum_at, !multiple_at, !product_at, F, G. ring.
 Qed.
 
-(** divided: quotients of last coefficients are taken until nothing is left. *)
+(** divided: quotients of last coefficients, until nothing remains. *)
 Inductive divided (b : list Z) : list Z -> list Z -> Prop :=
 | nothing_left a : (forall i, coefficient a i = 0) -> divided b a []
 | next_factor a c k q : divided b (sum a (multiple (-1) (product (monomial c k) b))) q ->
@@ -354,8 +352,8 @@ Qed.
 (** make_primitive *)
 Definition primitive (f g : list Z) : Prop := exists c, c <> 0 /\ f = multiple c g.
 
-(** common_factor: one of a and b where the other is empty; or a divisor of both that has the size of the
-    image modulo the last prime, which does not divide a's last coefficient ([1] if the image is constant). *)
+(** common_factor: if a or b is empty, the other. Otherwise a divisor of both with the size of the image modulo the
+    last prime ([1] if the image is constant). The last prime does not divide a's last coefficient. *)
 Inductive common_factor (a b : list Z) : list Z -> Prop :=
 | other_empty c : a = [] -> primitive b c -> common_factor a b c
 | no_other c : b = [] -> primitive a c -> common_factor a b c
@@ -383,8 +381,8 @@ Proof.
     destruct H as [H |]; auto. now apply eq_IZR in H.
 Qed.
 
-(** What the divisor leaves of both has no common root: what chain_step asks of p and p', and, with the
-    divisor [1], chain_squarefree (surely_squarefree). *)
+(** The quotients of both by the divisor have no common root. chain_step uses this for p and p', chain_squarefree
+    (surely_squarefree) with the divisor [1]. *)
 Theorem cofactors_rootless a' b' c p image qa qb : a' <> [] -> last a' 0 <> 0 -> prime p -> ~ (p | last a' 0) ->
   reached p a' b' image -> degree p image (length c - 1) -> c <> [] -> last c 0 <> 0 -> divided c a' qa -> divided c b' qb ->
   forall x, ~ (poly qa x = 0%R /\ poly qb x = 0%R).
@@ -438,8 +436,8 @@ Definition multiplicity (p : list R) (r : R) (k : nat) : Prop :=
   exists u, power_form u r <> 0 /\ forall x, power_form p x = (x - r) ^ k * power_form u x.
 Definition rootless_together (f g : list R) : Prop := forall x, ~ (power_form f x = 0 /\ power_form g x = 0).
 
-(** Each polynomial of the chain is p divided by the greatest common divisor m of p and p'; then m takes p's
-    place. The last one has no multiple roots (surely_squarefree, or a constant m). *)
+(** Each polynomial of the chain is p divided by the greatest common divisor m of p and p'; then m replaces p. The
+    last one has no multiple roots (surely_squarefree, or a constant m). *)
 Inductive chain : list R -> list (list R) -> Prop :=
 | chain_constant p : (forall x, power_form p x <> 0) -> chain p []
 | chain_squarefree p : rootless_together p (RootIsolation.derivative p) -> chain p [p]
@@ -456,7 +454,7 @@ Proof.
   - now apply Rmult_integral_contrapositive.
   - intros x. rewrite E, F, G, pow_add. ring.
 Qed.
-(** One multiplicity at most. *)
+(** There is at most one multiplicity. *)
 Lemma power_unique r j k (u v : R -> R) : continuity u -> continuity v -> u r <> 0 -> v r <> 0 ->
   (forall x, (x - r) ^ j * u x = (x - r) ^ k * v x) -> j = k.
 Proof.
@@ -530,7 +528,7 @@ Proof.
   replace j with k in Mm by lia. replace i with 1%nat in Mf by lia. now split.
 Qed.
 
-(** A root of multiplicity k is one of the first k polynomials of the chain, simple there, and of no other. *)
+(** A root of multiplicity k is a root of exactly the first k polynomials of the chain, and simple there. *)
 Theorem chain_multiplicities p l r : chain p l -> forall k, multiplicity p r k -> (k <= length l)%nat /\
   forall i, (i < length l)%nat -> (power_form (nth i l []) r = 0 <-> (i < k)%nat) /\ ((i < k)%nat -> multiplicity (nth i l []) r 1).
 Proof.
@@ -555,8 +553,8 @@ Proof.
       * simpl in I. destruct (H i ltac:(lia)) as (A & B). split; [rewrite A; lia | intros; apply B; lia].
 Qed.
 
-(** `vanishes` asks for a sign change over the root's interval, of polynomials with no other root there: what
-    `multiplicity` counts are those of the chain that have the root. *)
+(** `vanishes` tests for a sign change over the root's interval, for polynomials without another root there. So
+    `multiplicity` counts the polynomials of the chain that have the root. *)
 Theorem vanishes_right c lo hi r : lo < r < hi -> (forall x, lo <= x <= hi -> power_form c x = 0 -> x = r) ->
   (power_form c r = 0 -> multiplicity c r 1) ->
   (sgn (power_form c lo) <> sgn (power_form c hi) <-> power_form c r = 0).

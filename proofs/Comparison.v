@@ -1,10 +1,9 @@
-(** Theorem 2 of the TightCCD paper: TightBound never exceeds SafeBound; bounds as printed, in exact
-    arithmetic, for + − ×.
-
-    Results:
-        tight_at_most_safe     it holds where SafeBound's magnitudes are chosen as the paper asks beside
-                               the theorem: B >= |v|/(1 - eps) for every number v of the expression
-        tight_may_exceed_safe  it does not hold for B = |a| alone: a = b = 1 is a counterexample *)
+(** Theorem 2 of the TightCCD paper: TightBound never exceeds SafeBound. Bounds as printed, in exact arithmetic, for
+    + − ×. Results:
+        tight_at_most_safe     it holds if SafeBound's magnitudes are chosen as the paper requires next to the
+            theorem:
+                               B >= |v|/(1 - eps) for every number v of the expression
+        tight_may_exceed_safe  it does not hold if only B = |a|: a = b = 1 is a counterexample *)
 
 From Coq Require Import Reals Lra Lia Psatz.
 Open Scope R_scope.
@@ -19,8 +18,8 @@ Definition tight_product (v a sa b sb : R) : R :=
   Rabs v * eps / (1 - eps) + Rabs a * sb + sa * Rabs b + sa * sb.
 Definition safe (B : R) (k : nat) : R := B * ((1 + eps) ^ k - 1).
 
-(** v, computed by an expression, has TightBound s and SafeBound (B, k). Differences are sums with an
-    operand's sign changed, which changes neither bound. *)
+(** v, computed by an expression, has TightBound s and SafeBound (B, k). Differences are sums with the opposite of an
+    operand, which changes neither bound. *)
 Inductive bounded : R -> R -> R -> nat -> Prop :=
 | exact_number v B : Rabs v / (1 - eps) <= B -> bounded v 0 B 0
 | sum a sa Ba ka b sb Bb kb v :
@@ -96,7 +95,7 @@ Proof.
     lra.
 Qed.
 
-(** 1 + 1 = 2 without any error: TightBound 2 eps/(1 - eps), SafeBound ((|1| + |1|), 1) 2 eps. *)
+(** 1 + 1 = 2 without any error: TightBound is 2 eps/(1 - eps), SafeBound (|1| + |1|, 1) is 2 eps. *)
 Theorem tight_may_exceed_safe : safe (Rabs 1 + Rabs 1) 1 < tight_sum (1 + 1) 0 0.
 Proof.
   unfold safe, tight_sum. rewrite (Rabs_pos_eq 1), (Rabs_pos_eq (1 + 1)) by lra. simpl.

@@ -1,9 +1,10 @@
-(** Functions of tracked numbers that are made of a rule's operations (include/errbound/functions.hpp: midpoint,
-    whole powers, dot products one operation after the other, Horner's rule), as CompoundCode.v has them, over
-    any number type and by every rule whose operations keep what it promises (`keeps`):
+(** Functions of tracked numbers that consist of a rule's operations (include/errbound/functions.hpp): midpoint,
+    whole powers, dot products by single operations, Horner's rule, as in CompoundCode.v. Over any number type and
+    every rule whose operations preserve its bounds (`keeps`):
         midpoint_kept, power_kept, dot_kept, horner_kept
-    IeeeCompound.v takes IEEE floats for the numbers. Here, over the real numbers of DotProduct.v, rounded in any
-    one direction, from p = 5 on:
+
+    IeeeCompound.v takes IEEE floats as the numbers. Over the real numbers of DotProduct.v, rounded in any one
+    direction, from p = 5 on:
         tight_keeps, tight_horner_sound *)
 
 From Coq Require Import Reals ZArith Lia Lra Bool List.
@@ -26,7 +27,7 @@ Variable B : Type.
 Variable by_rule : operations T B.
 Notation rule := (the_rule T B by_rule).
 
-(** Which real number a number is; that one is known by a value and a bound. *)
+(** The real number of a number, and the meaning of a value and a bound for it. *)
 Variable real : T -> R.
 Variable holds : T -> B -> R -> Prop.
 Definition tracked_holds (x : T * B) (r : R) : Prop := holds (fst x) (snd x) r.
@@ -43,7 +44,7 @@ Record keeps : Prop := {
     holds (times _ A a b) (rule_multiply _ _ by_rule (times _ A a b) a sa b sb) (x * y);
   keeps_scale a sa x e : holds a sa x ->
     holds (scale _ A a e) (rule_scale _ _ by_rule (scale _ A a e) a sa e) (x * bpow radix2 e);
-  (** A bound is that of a number with the sign of another zero, too. *)
+  (** A bound also holds for a number that is a zero of the other sign. *)
   keeps_beside_zero a b x : holds a b x -> holds (plus _ A (integer T A 0%Z) a) b x;
   keeps_without_zero a sa x b c d r e : holds a sa x ->
     let v := plus _ A a (times _ A b (minus _ A c c)) in
@@ -60,7 +61,7 @@ Proof. apply (keeps_multiply K). Qed.
 Lemma scale_kept x r e : tracked_holds x r -> tracked_holds (tracked_scale T A B by_rule x e) (r * bpow radix2 e).
 Proof. apply (keeps_scale K). Qed.
 
-(** Whether the sum is finite does not matter. *)
+(** The sum need not be finite. *)
 Theorem midpoint_kept x r y s : tracked_holds x r -> tracked_holds y s ->
   tracked_holds (tracked_midpoint T A B by_rule x y) ((r + s) / 2).
 Proof.
@@ -99,7 +100,7 @@ Proof.
   apply power_loop_kept with x r; auto; [discriminate | simpl; ring].
 Qed.
 
-(** Dot products of rules without a bound of their own. *)
+(** Dot products under rules without a dot_bound. *)
 Definition tracked_pair (pair : (T * B) * (T * B)) (exact : R * R) : Prop :=
   tracked_holds (fst pair) (fst exact) /\ tracked_holds (snd pair) (snd exact).
 Theorem dot_kept pairs exacts : Forall2 tracked_pair pairs exacts ->
@@ -121,7 +122,7 @@ Proof. intros X S C. unfold horner_step. apply add_kept; auto. now apply multipl
 Lemma steps_kept x r l e : tracked_holds x r -> Forall2 tracked_holds l e -> forall s p, tracked_holds s p ->
   tracked_holds (fold_left (horner_step T A B by_rule x) l s) (fold_left (fun sum a => sum * r + a) e p).
 Proof. intros X. induction 1; intros s p S; simpl; auto. apply IHForall2. now apply step_kept. Qed.
-(** At the value v of x, and q at x: p(x) x = p(v) v + q(x) (x - v). *)
+(** If p has value v at x and slope q: p(x) x = p(v) v + q(x) (x - v). *)
 Lemma slope_kept at_value v x r l e : tracked_holds at_value v -> tracked_holds x r -> Forall2 tracked_holds l e ->
   forall s p t q, tracked_holds (fst s) t -> tracked_holds (snd s) q -> p * r = t * v + q * (r - v) ->
   exists t' q', tracked_holds (fst (fold_left (slope_step T A B by_rule at_value x) l s)) t' /\
@@ -176,7 +177,7 @@ Qed.
 
 End Compound.
 
-(** Rule tight over the real numbers, rounded in any one direction. *)
+(** The rule tight over the real numbers, rounded in any one direction. *)
 Section Tight_keeps.
 
 Variables p emin : Z.

@@ -1,7 +1,7 @@
-(** The C++ code, line by line, over any number type, as Code.v: functions of include/errbound/functions.hpp
-    that are made of a rule's operations (midpoint, pow, dot, horner), those of no rule (lerp, hypot,
-    copysign), and the running bounds of dot products (detail/running_bound.hpp, rules/tight.hpp,
-    rules/sharp.hpp). Nothing is proved here. *)
+(** The C++ code, line by line, over any number type, as in Code.v: functions of include/errbound/functions.hpp that
+    consist of a rule's operations (midpoint, pow, dot, horner), and those without a rule (lerp, hypot, copysign).
+    Also the running bounds of dot products (detail/running_bound.hpp, rules/tight.hpp, rules/sharp.hpp). Nothing is
+    proved here. *)
 
 From Coq Require Import ZArith Bool List.
 From Errbound Require Import Code.
@@ -27,7 +27,7 @@ Notation abs := (abs T A).
 Notation is_finite := (is_finite T A).
 Open Scope code.
 
-(** detail/running_bound.hpp: the sums over terms that are not closed yet, and what is closed. *)
+(** detail/running_bound.hpp: the sums over terms that are not closed yet, and the closed sum. *)
 Fixpoint most_terms (bits : Z) (m : nat) : nat :=
   match m with
   | O => O
@@ -70,8 +70,8 @@ Definition add_term (s : running) (v a sa b sb : T) : running :=
 Definition closed_bound (s : running) : T :=
   closed (if Nat.ltb 0 (terms s) then close_terms s else s).
 
-(** A rule's dot_bound with dot_of: `own_of` of whether it is the first term that is not zero, the product,
-    the sum before and after. A number is a value and an error. *)
+(** A rule's dot_bound with dot_of. `own_of` gets true for the first term that is not zero, the product, and the sum
+    before and after. A number is a value and an error. *)
 Variable own_of : bool -> T -> T -> T -> T.
 Definition dot_step (s : T * bool * running) (pair : (T * T) * (T * T)) : T * bool * running :=
   let '(before, first, bound) := s in
@@ -103,7 +103,8 @@ Definition sharp_own (first : bool) (product before sum : T) : T :=
   sharp_rounding T A product + least T A (sharp_rounding T A sum) smaller.
 Definition sharp_dot := dot_of sharp_most sharp_units sharp_underflows sharp_own.
 
-(** What tracked.hpp asks of a rule beside `rule`: the result's value, and each operand's value and bound. *)
+(** The functions of a rule that tracked.hpp uses, in addition to `rule`. Arguments are the result's value, and each
+    operand's value and bound. *)
 Record operations (B : Type) := {
   the_rule : rule T B;
   rule_add : T -> T -> B -> T -> B -> B;
@@ -147,7 +148,7 @@ Definition residual_operations : operations (T * T) := {|
   rule_scale := residual_scale T A
 |}.
 
-(** functions.hpp, of tracked numbers: a value and a bound. *)
+(** functions.hpp, for tracked numbers: a value and a bound. *)
 Section Functions.
 
 Variable B : Type.
@@ -173,7 +174,7 @@ Definition tracked_midpoint (a b : number) : number :=
   if is_finite (fst sum) && is_finite (error_of sum) then tracked_scale sum (-1)
   else let half := tracked_scale a (-1) in tracked_add half (tracked_scale b (-1)).
 
-(** By the bits of the exponent, from the last. *)
+(** The loop over the exponent's bits, from the last. *)
 Fixpoint power_loop (bits : BinNums.positive) (first : bool) (result power : number) : number :=
   match bits with
   | xH => if first then power else tracked_multiply result power
@@ -196,7 +197,7 @@ Definition tracked_pow (x : number) (n : Z) : number :=
       end
   end.
 
-(** By rules without a dot_bound. *)
+(** For rules without a dot_bound. *)
 Definition tracked_dot (pairs : list (number * number)) : number :=
   match pairs with
   | [] => exactly #0
@@ -208,7 +209,7 @@ Definition tracked_dot (pairs : list (number * number)) : number :=
 
 Definition is_certain (s : sign_type) : bool := match s with uncertain => false | _ => true end.
 Definition horner_step (x result c : number) : number := tracked_add (tracked_multiply result x) c.
-(** The partial results at `at_value`, and of the slope. *)
+(** Partial results at `at_value`, and of the slope. *)
 Definition slope_step (at_value x : number) (s : number * number) (c : number) : number * number :=
   let there := horner_step at_value (fst s) c in
   (there, tracked_add (tracked_multiply (snd s) x) there).
@@ -247,7 +248,7 @@ Definition tracked_lerp (a b t : number) : number :=
     let from_t := enlarged T A ((abs d + of_d) * of_t + size * of_d) in
     within v (enlarged T A (rounding_of T A v + (from_ends + (from_t + #8 * η)))).
 
-(** `exponent` is number_traits'. *)
+(** `exponent` is the function of number_traits. *)
 Definition tracked_hypot (exponent : T -> Z) (x y : number) : number :=
   let larger := max T A (abs (fst x)) (abs (fst y)) in
   let inherited := error_of x + error_of y in

@@ -1,12 +1,12 @@
 (** Theorem 2 of the TightCCD paper (Comparison.v) for bounds as the code computes them
-    (include/errbound/rules/tight.hpp, safe.hpp), + − ×: to nearest, p >= 8, emin <= 2 - 2p.
+    (include/errbound/rules/tight.hpp, safe.hpp), for + − ×, to nearest, with p >= 8 and emin <= 2 - 2p.
 
-    In an expression's number, tight's error is s and safe's bound (B, k), its error e. Results:
-        tight_at_most_safe_computed   s <= (1 + 6m/least) (1 + 22 eps)^k e, where no B is below
-                                      `least`, m the smallest normal number <= least
+    A number of an expression has tight's error s, and safe's bound (B, k) with the error e. Results:
+        tight_at_most_safe_computed   s <= (1 + 6m/least) (1 + 22 eps)^k e, if no B is below `least`, and m is the
+                                      smallest normal number, m <= least
         tight_at_most_safe_always     s <= 7 (1 + 22 eps)^k e
-        computed_tight_may_exceed     s <= e does not hold: 1 + 0 + ... + 0, of 50 zeros and 8 bits
-        underflowed_tight_exceeds     nor with one operation, where it underflows: eta eta *)
+        computed_tight_may_exceed     s <= e does not hold: 1 + 0 + ... + 0, with 50 zeros and 8 bits
+        underflowed_tight_exceeds     nor after one operation if it underflows: eta eta *)
 
 From Coq Require Import Reals ZArith Lia Lra Psatz Bool.
 From Flocq Require Import Core IEEE754.BinarySingleNaN.
@@ -34,8 +34,7 @@ Notation safe_add := (Safe.safe_add p emin nearest).
 Notation safe_multiply := (Safe.safe_multiply p emin nearest).
 Notation safe_error := (Safe.safe_error p emin nearest).
 
-(** v, computed by an expression, has tight's error s and safe's bound (B, k), no B but 0 below
-    `least`. *)
+(** v, computed by an expression, has tight's error s and safe's bound (B, k). No B except 0 is below `least`. *)
 Inductive computed (least : R) : R -> R -> R -> Z -> Prop :=
 | exact_number v : number v -> computed least v (Tight.tight_exact p emin nearest v) (Rabs v) 0
 | number_within v error B : number v -> number error -> 0 < error -> B = safe_within v error ->
@@ -88,7 +87,7 @@ Lemma covered x y : Rabs x <= y -> Rabs (fl x) <= fl y.
 Proof.
   intros H. unfold rnd. rewrite <- (round_NE_abs radix2 (FLT_exp emin p)). apply (Format.rnd_le p emin nearest). exact H.
 Qed.
-(** Less than half of eta beyond a number is lost. *)
+(** A sum loses less than half of eta. *)
 Lemma up_lost x d : number x -> 0 <= x -> d < eta / 2 -> fl (x + d) <= x.
 Proof.
   intros N P D. apply round_N_le_midp; auto with typeclass_instances.
@@ -143,7 +142,7 @@ Proof.
   generalize (up_lost 0 x (number_0 p emin) (Rle_refl 0) C). rewrite Rplus_0_l. lra.
 Qed.
 
-(** What all roundings of a bound may add, and the factor of each operation. *)
+(** The sum of all roundings of a bound, and the factor of each operation. *)
 Let f := 1 + 22 * eps.
 Lemma all_roundings : (1 + eps) * ((1 + 32 * u) * (1 + u) ^ 6) <= f.
 Proof.
@@ -161,7 +160,7 @@ Qed.
 Lemma f_1 : 1 <= f.
 Proof. unfold f. generalize (eps_positive p). lra. Qed.
 
-(** The bound that the proof carries on: s <= c (f^k - 1) B. *)
+(** The induction's bound: s <= c (f^k - 1) B. *)
 Variables D least : R.
 Hypothesis D_range : 1 <= D <= 7.
 Hypothesis D_least : 6 * smallest_normal <= (D - 1) * Rmax least smallest_normal.
@@ -182,7 +181,7 @@ Proof. intros. apply Rle_pow; [apply f_1 | lia]. Qed.
 Lemma power_succ k : (0 <= k)%Z -> power (k + 1) = power k * f.
 Proof. intros H. rewrite Z2Nat.inj_add, pow_add by lia. simpl. ring. Qed.
 
-(** Of what is lost below the smallest normal number, D has a share. *)
+(** D has a share of the losses below the smallest normal number. *)
 Lemma lost_share B : least <= B -> smallest_normal <= B -> 6 * eta <= (D - 1) * (eps * B).
 Proof.
   intros L M. rewrite <- (smallest_normal_eps p emin). generalize (eps_positive p). intros P.
@@ -230,7 +229,7 @@ Proof.
 Qed.
 
 
-(** What safe's bounds cover. *)
+(** Inequalities of safe's bounds. *)
 Lemma g_q3 : 1 <= (1 + 4 * eps) * ((1 - u) * (1 - u) * (1 - u)).
 Proof.
   rewrite (eps_2u p). replace (4 * (2 * u)) with (8 * u) by ring. apply Safe.three_roundings_nearest.
@@ -251,7 +250,7 @@ Proof.
   destruct (Z.ltb_spec k (536870912 - 1)); lia.
 Qed.
 
-(** What is proved of each number. *)
+(** The invariant of each number. *)
 Definition carries (v s B : R) (k : Z) : Prop :=
   number v /\ number s /\ number B /\ 0 <= s /\ (0 <= k <= Safe.too_many)%Z /\ Rabs v <= B /\
   ((k < Safe.too_many)%Z -> s <= c * (power k - 1) * B /\ (k = 0%Z -> s = 0)).
@@ -310,7 +309,7 @@ Proof.
       replace ((sa + sb) * (1 + u) * h) with ((1 + u) * h * (sa + sb)) by ring. apply Rmult_le_compat; try lra.
       apply Rmult_le_pos; lra.
 Qed.
-(** An operation's own error and what is lost on the way, in a product's bound. *)
+(** An operation's own error and losses, in a product's bound. *)
 Lemma own_of_product v B : Rabs v <= B -> least <= B -> smallest_normal <= B ->
   (Rabs v * (eps * (1 + eps))) * ((1 + 32 * u) * (1 + u) ^ 6) + 11 / 2 * eta * ((1 + 32 * u) * (1 + u) ^ 6) <=
   D * f * (eps * B).
@@ -488,7 +487,7 @@ Proof.
   - now apply product_carries with (1 := IA) (2 := IB).
 Qed.
 
-(** c (f^k - 1) B is little more than k eps B, which safe's error is no less than. *)
+(** c (f^k - 1) B is little more than k eps B, and safe's error is at least that. *)
 Lemma power_above n : f * (f ^ n - 1) <= INR n * (f - 1) * f ^ n.
 Proof.
   generalize f_1. intros F. induction n as [| n IH]; [simpl; lra |]. rewrite S_INR, <- tech_pow_Rmult.
@@ -532,7 +531,7 @@ Notation eps := (eps p).
 Notation eta := (eta emin).
 Notation smallest_normal := (smallest_normal p emin).
 
-(** No B but 0 is below `least`. *)
+(** The theorem if no B except 0 is below `least`. *)
 Theorem tight_at_most_safe_computed least v s B k e : smallest_normal <= least ->
   computed p emin least v s B k -> Safe.safe_error p emin nearest B k = Some e ->
   s <= (1 + 6 * smallest_normal / least) * (1 + 22 * eps) ^ Z.to_nat k * e.
@@ -544,7 +543,7 @@ Proof.
   apply (compared p emin p_8 emin_2p (1 + 6 * smallest_normal / least) least); [lra |].
   rewrite Rmax_left by auto. right. field. lra.
 Qed.
-(** Whatever underflows. *)
+(** The theorem with any underflow. *)
 Theorem tight_at_most_safe_always v s B k e :
   computed p emin 0 v s B k -> Safe.safe_error p emin nearest B k = Some e ->
   s <= 7 * (1 + 22 * eps) ^ Z.to_nat k * e.
@@ -553,7 +552,7 @@ Proof.
   generalize (smallest_normal_positive p emin) (Rmax_r 0 smallest_normal). lra.
 Qed.
 
-(** eta eta, of exact numbers. *)
+(** eta eta with exact factors. *)
 Theorem underflowed_tight_exceeds :
   let v := rnd p emin nearest (eta * eta) in
   let exact := Tight.tight_exact p emin nearest eta in

@@ -1,15 +1,13 @@
-(** What the exact collision decisions rest on, over the real numbers: a collision is one of the cases
-    that ccd/exact/reference.cpp and ccd/exact/interior_contact.hpp ask for.
+(** The basis of the exact collision decisions, over the real numbers. A collision is one of the cases that
+    ccd/exact/reference.cpp and ccd/exact/interior_contact.hpp test.
 
-    Points move from start to finish in t from 0 to 1; a query collides if the closed features share a
-    point at some t in [0, 1] (include/ccd/query.hpp), degenerate triangles and edges included.
-    Results:
-        vertex_edge_contact, vertex_vertex_contact   the code's tests are contact
-        vertex_face_union, edge_edge_union   contact where the normal is not zero, or vertex/edge
-          contact
-        face_inside, edges_inside       where there is no vertex/edge contact: all weights positive
-        face_coplanar, edges_coplanar   Y = 0 throughout: the same at t = 0, or vertex/edge contact
-        query_...       the same of either query *)
+    Points move from start to finish in t from 0 to 1. A query collides if the closed features share a point at some
+    t in [0, 1] (include/ccd/query.hpp), including degenerate triangles and edges. Results:
+        vertex_edge_contact, vertex_vertex_contact   the code's tests are equivalent to contact
+        vertex_face_union, edge_edge_union   contact with a nonzero normal, or vertex/edge contact
+        face_inside, edges_inside            without vertex/edge contact: all weights are positive
+        face_coplanar, edges_coplanar        Y = 0 throughout: contact at t = 0, or vertex/edge contact
+        query_...       the same for either query *)
 
 From Coq Require Import Reals Lra Psatz List FunctionalExtensionality.
 Import ListNotations.
@@ -75,7 +73,7 @@ Definition weight_2 (b c p : point) : R := dot (cross b p) (cross b c).
 Definition weight_1 (b c p : point) : R := dot (cross p c) (cross b c).
 Definition weight_0 (b c p : point) : R := dot (cross b c) (cross b c) - weight_1 b c p - weight_2 b c
   p.
-(** And of two edges. *)
+(** The code's inside() of two edges. *)
 Definition on_a (b c p : point) : R := dot (cross p c) (cross b c).
 Definition on_b (b c p : point) : R := dot (cross p b) (cross b c).
 Definition square_normal (b c : point) : R := dot (cross b c) (cross b c).
@@ -156,7 +154,7 @@ Proof.
   destruct a, b, c. coordinates. apply same_point; simpl; ring.
 Qed.
 
-(** The contact of a face's interior as the code asks for it. *)
+(** Contact in the interior of a face, as the code tests it. *)
 Definition regular_face (p a b c : point) : Prop :=
   let B := minus b a in let C := minus c a in let P := minus p a in
   cross B C <> origin /\ det B C P = 0 /\ 0 <= weight_2 B C P /\ 0 <= weight_1 B C P /\ 0 <= weight_0 B
@@ -193,7 +191,7 @@ Proof.
         same_point; simpl; ring.
 Qed.
 
-(** Two edges. *)
+(** Contact in the interior of two edges, as the code tests it. *)
 Definition regular_edges (a0 a1 b0 b1 : point) : Prop :=
   let B := minus a1 a0 in let C := minus b1 b0 in let P := minus b0 a0 in
   cross B C <> origin /\ det B C P = 0 /\ 0 <= on_a B C P /\ 0 <= square_normal B C - on_a B C P /\
@@ -233,7 +231,7 @@ Proof.
     split; ring.
 Qed.
 
-(** In contact Y = 0 and no weight is negative. *)
+(** In contact, Y = 0 and no weight is negative. *)
 Lemma touching_conditions p a b c : in_triangle p a b c ->
   let B := minus b a in let C := minus c a in let P := minus p a in
   det B C P = 0 /\ 0 <= weight_2 B C P /\ 0 <= weight_1 B C P /\ 0 <= weight_0 B C P.
@@ -318,7 +316,7 @@ Proof.
         simpl; ring.
 Qed.
 
-(** Vertex/edge contact as the code asks for it: W x E = 0 and W X <= 0, with W = v - e0, X = v - e1. *)
+(** Vertex/edge contact as the code tests it: W x E = 0 and W X <= 0, with W = v - e0, X = v - e1. *)
 Definition vertex_edge_test (v e0 e1 : point) : Prop :=
   cross (minus v e0) (minus e1 e0) = origin /\ dot (minus v e0) (minus v e1) <= 0.
 
@@ -376,7 +374,7 @@ Definition face_border_collides (v f0 f1 f2 : moving) : Prop :=
 Definition edges_border_collides (a0 a1 b0 b1 : moving) : Prop :=
   vertex_edge_collides a0 b0 b1 \/ vertex_edge_collides a1 b0 b1 \/
   vertex_edge_collides b0 a0 a1 \/ vertex_edge_collides b1 a0 a1.
-(** regular_contact of ccd/exact/reference.cpp, of all times *)
+(** regular_contact of ccd/exact/reference.cpp, at all times *)
 Definition face_regular_at (v f0 f1 f2 : moving) (t : R) : Prop :=
   regular_face (place v t) (place f0 t) (place f1 t) (place f2 t).
 Definition edges_regular_at (a0 a1 b0 b1 : moving) (t : R) : Prop :=
@@ -404,7 +402,7 @@ Proof.
       apply edges_at_a_time; unfold edges_border; auto.
 Qed.
 
-(** W(t) = 0 for the linear W: the ends are antiparallel, or one of them is zero. *)
+(** W(t) = 0 for a linear W: the ends are antiparallel, or one of them is zero. *)
 Theorem vertex_vertex_contact v w : vertex_vertex_collides v w <->
   cross (minus (start v) (start w)) (minus (finish v) (finish w)) = origin /\
   dot (minus (start v) (start w)) (minus (finish v) (finish w)) <= 0.
@@ -643,7 +641,7 @@ Ltac continuous := unfold on_a, on_b, square_normal, weight_0, weight_1, weight_
   repeat (apply cont_min || apply cont_dot || apply smooth_cross || apply smooth_difference || apply
     cont_minus || apply cont_const).
 
-(** A plane that parts two moving points at one time does so for a while. *)
+(** A plane that separates two moving points at one time separates them for a while. *)
 Lemma stays_separated n p q s : 0 < dot n (minus (place q s) (place p s)) ->
   exists e, s < e /\ forall t, s <= t < e -> 0 < dot n (minus (place q t) (place p t)).
 Proof.
@@ -661,7 +659,7 @@ Proof.
   rewrite <- Ev in H. unfold v in H. lra.
 Qed.
 
-(** Contact of a face that degenerates at time s, where it holds right after s. *)
+(** Contact of a face that degenerates at time s, if there is contact right after s. *)
 Lemma face_closed v f0 f1 f2 s b : s < b ->
   cross (minus (place f1 s) (place f0 s)) (minus (place f2 s) (place f0 s)) = origin ->
   (forall t, s < t <= b -> in_triangle (place v t) (place f0 t) (place f1 t) (place f2 t)) ->
@@ -727,7 +725,7 @@ Proof.
   specialize (Mix u _ _ U H0 H1). lra.
 Qed.
 
-(** All weights positive: what interior_contact asks for. *)
+(** All weights are positive, as interior_contact tests. *)
 Definition inside_face (p a b c : point) : Prop :=
   let B := minus b a in let C := minus c a in let P := minus p a in
   0 < weight_2 B C P /\ 0 < weight_1 B C P /\ 0 < weight_0 B C P.
@@ -754,7 +752,7 @@ Proof.
   unfold square_normal in *. lra.
 Qed.
 
-(** A contact with a weight of zero is one of the border. *)
+(** A contact with a weight of zero is on the border. *)
 Lemma regular_face_border p a b c : regular_face p a b c -> inside_face p a b c \/ face_border p a b c.
 Proof.
   intros (N & Y & W2 & W1 & W0). pose proof (face_at_normal p a b c N Y) as E. cbv zeta in E.
@@ -811,7 +809,7 @@ Qed.
 
 (** ** Either query: q0 to q3 are a vertex and the vertices of a face, or the ends of two edges *)
 
-(** What B, C and P are differences of. *)
+(** The points whose differences are B, C and P. *)
 Definition side_b {A V : Type} (edges : bool) (minus : A -> A -> V) (q0 q1 q2 q3 : A) : V :=
   if edges then minus q1 q0 else minus q2 q1.
 Definition side_c {A V : Type} (edges : bool) (minus : A -> A -> V) (q0 q1 q2 q3 : A) : V :=
@@ -949,11 +947,11 @@ Let C (t : R) := minus (place f2 t) (place f0 t).
 Let P (t : R) := minus (place v t) (place f0 t).
 Let inside (t : R) := inside_face (place v t) (place f0 t) (place f1 t) (place f2 t).
 
-(** For a query without vertex/edge contact: contact is Y = 0 with all weights positive. *)
+(** In a query without vertex/edge contact, contact is equivalent to Y = 0 with all weights positive. *)
 Theorem face_inside : ~ face_border_collides v f0 f1 f2 ->
   (vertex_face_collides v f0 f1 f2 <-> sometime (fun t => det (B t) (C t) (P t) = 0 /\ inside t)).
 Proof. exact (query_inside false v f0 f1 f2). Qed.
-(** Y = 0 throughout: t = 0 alone is to be asked. *)
+(** If Y = 0 throughout, only t = 0 must be tested. *)
 Theorem face_coplanar : (forall t, 0 <= t <= 1 -> det (B t) (C t) (P t) = 0) ->
   (vertex_face_collides v f0 f1 f2 <-> inside 0 \/ face_border_collides v f0 f1 f2).
 Proof. exact (query_coplanar false v f0 f1 f2). Qed.

@@ -1,12 +1,12 @@
-(** The part of the step in which floating point finds the first contact: what `subdivide` of
-    ccd/exact/static_filter/subdivision.hpp leaves in `found`, over numbers that stand for control values as in
-    Subdivision.v.
-
+(** The interval of the step in which floating point finds the first contact: `found` of `subdivide`
+    (ccd/exact/static_filter/subdivision.hpp), over numbers that stand for control values as in Subdivision.v.
     Results:
-        changes_sign_once_right   then Y has exactly one root in the part, where it changes its sign
-        part_found                where the answer is "collides", there is such a part
-        first_part_right          before it some G is negative wherever Y = 0, in it all G are positive
-        first_root_in_part        the first root of Y at which no G is negative is in it; of one root, that one
+        changes_sign_once_right   then Y has exactly one root in the interval, where it changes its sign
+        part_found                if the answer is "collides", there is such an interval
+        first_part_right          before it some G is negative wherever Y = 0, and in it all G are positive
+        first_root_in_part        it has the first root of Y at which no G is negative; if Y has one root there, it
+            is
+                                  this one
         face_part_bracket, edges_part_bracket    the bracket of this root is that of the first contact *)
 
 From Coq Require Import Reals Lia Lra Psatz List Bool.
@@ -57,7 +57,7 @@ Variable none : S.
 Variable midpoint : S -> S -> S.
 Notation halves := (halves none midpoint).
 
-(** Where the ends' signs are certainly opposite. *)
+(** The signs at the ends are certainly opposite. *)
 Definition changes_sign_once (sign_of : S -> sign) (p : list S) : bool :=
   match p with
   | [a; b; c; d] =>
@@ -89,7 +89,7 @@ Proof.
          right; destruct (sign_of c'); try discriminate; simpl in SA, SC; nra]).
 Qed.
 
-(** ** The part *)
+(** ** The interval *)
 
 Variables sign_y sign_g : S -> sign.
 Variable hopeless : nat -> list S -> bool.
@@ -101,7 +101,7 @@ Definition certain_contact (y : list S) (gs : list (list S)) : bool :=
 Definition lefts (gs : list (list S)) := map (fun g => fst (halves g)) gs.
 Definition rights (gs : list (list S)) := map (fun g => snd (halves g)) gs.
 
-(** found: from low to high, with Y's control values there. *)
+(** found: the interval from low to high, with Y's control values. *)
 Inductive first_part : nat -> list S -> list (list S) -> R -> R -> list S -> Prop :=
   | whole_part n y gs : excluded y gs = false -> certain_contact y gs = true -> first_part n y gs 0 1 y
   | left_part n y gs low high p : excluded y gs = false -> certain_contact y gs = false ->
@@ -129,7 +129,7 @@ Variables max_y max_g : nat.
 Hypothesis reads_y : reads midpoint sign_y stands_y max_y.
 Hypothesis reads_g : reads midpoint sign_g stands_g max_g.
 
-(** Y's control values on the part, and what is known of all G. *)
+(** Y's control values on the interval, and facts about all G. *)
 Definition part_is (Y : list R) (Gs : list (list R)) (low high : R) (p : list S) : Prop :=
   0 <= low < high /\ high <= 1 /\
   (forall t, 0 <= t <= low -> control_at Y t = 0 -> exists G, In G Gs /\ control_at G t < 0) /\
@@ -206,7 +206,8 @@ Proof.
     + exists k, P. split; auto. split; auto. intros u. rewrite E, (proj1 (proj2 (halves_cubic Y _ LY))). f_equal. field.
 Qed.
 
-(** Contact in the part; and where Y has one root there, this is the first contact, at which Y changes its sign. *)
+(** There is contact in the interval. If Y has one root there, the first contact is the root, at which Y changes its
+    sign. *)
 Theorem first_root_in_part Y Gs low high p : part_is Y Gs low high p ->
   (exists r, low < r < high /\ control_at Y r = 0 /\ forall G, In G Gs -> 0 < control_at G r) /\
   (changes_sign_once sign_y p = true -> exists r, low < r < high /\ control_at Y r = 0 /\
@@ -244,8 +245,8 @@ Qed.
 
 Variable double : R -> Prop.
 
-(** Y and the G_i are k and l times what is zero and not negative in contact; root_in_integers searches with exact
-    signs, `before` the sign of Y at low. *)
+(** Y and the G_i are k and l times the functions that are zero and not negative in contact. root_in_integers
+    searches with exact signs; `before` is the sign of Y at low. *)
 Lemma part_bracket (touches inside : R -> Prop) (y : R -> R) Y Gs k low high p before b :
   (forall t, touches t -> y t = 0 /\ forall G, In G Gs -> 0 <= control_at G t) ->
   (forall t, y t = 0 -> (forall G, In G Gs -> 0 < control_at G t) -> touches t) ->

@@ -1,7 +1,7 @@
-(** Weights of contact data (set_weights of ccd/contact/data/contact_data.cpp): the points of one feature but the first
-    have theirs cut to what is left of 1, which is the first's. double, to nearest.
+(** Weights of contact data (set_weights of ccd/contact/data/contact_data.cpp), in double, to nearest. The weights of
+    a feature's points except the first are clamped to the rest of 1, and the first gets what remains.
 
-    Result: weights_right   each is in [0, 1] and off by at most `weight_error` *)
+    Result: weights_right   each is in [0, 1] and differs by at most `weight_error` *)
 
 From Coq Require Import Reals ZArith Lia Lra List.
 From Flocq Require Import Core.
@@ -17,8 +17,8 @@ Notation eps := (eps 53).
 
 (** clamped *)
 Definition clamped (weight most : R) : R := if Rlt_dec 0 weight then Rmin weight most else 0.
-(** The loop, over what `nearest` tells of the weights but the first, the last one first: the weights found, what
-    remains, and the sum of errors. *)
+(** The loop over the rounded weights except the first, starting with the last: the resulting weights, the rest, and
+    the sum of errors. *)
 Fixpoint cut (told : list (R * R)) (remains error : R) : list R * R * R :=
   match told with
   | [] => ([], remains, error)
@@ -27,7 +27,7 @@ Fixpoint cut (told : list (R * R)) (remains error : R) : list R * R * R :=
       let '(weights, first, total) := cut rest (fl (remains - weight)) (fl (error + off)) in
       (weight :: weights, first, total)
   end.
-(** Of more than one point. *)
+(** The error if there is more than one point. *)
 Definition weight_error (error : R) : R := fl (fl (error + eps / 2) * (1 + 4 * eps)).
 
 Lemma double_1 : double 1.
@@ -54,7 +54,7 @@ Definition told_right (told : R * R) (w : R) : Prop := double (fst told) /\ 0 <=
 Lemma sum_nonnegative told weights : Forall2 told_right told weights -> 0 <= sum weights.
 Proof. induction 1 as [| t w told weights (_ & W & _) F IH]; cbn [sum fold_right] in *; [lra | unfold sum in *; lra]. Qed.
 
-(** rest: what the first weight and those still to come are together. *)
+(** rest: the sum of the first weight and the weights that follow in the loop. *)
 Lemma cut_right told weights : Forall2 told_right told weights -> forall remains rest off error,
   double remains -> 0 <= remains <= 1 -> Rabs (remains - rest) <= off -> 0 <= rest - sum weights ->
   let total := off + sum (map snd told) + INR (length told) * (u / 2) in
@@ -96,7 +96,7 @@ Proof.
     split; [constructor; auto; split; [lra |] | split; auto]. lra.
 Qed.
 
-(** Of edges, one weight is told, of faces two. *)
+(** Edges have one given weight, faces two. *)
 Theorem weights_right told weights : Forall2 told_right told weights -> (1 <= length told <= 2)%nat ->
   Forall (fun t => double (snd t)) told -> sum weights <= 1 ->
   let '(found, first, error) := cut told 1 0 in

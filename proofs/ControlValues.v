@@ -1,14 +1,12 @@
-(** Bounds of the positive roots and control values of any degree, as include/errbound/roots/root_isolation.hpp
-    computes them in integers.
-
-    Results:
+(** Bounds of the positive roots, and control values of any degree, as include/errbound/roots/root_isolation.hpp
+    computes them in integers. Results:
         root_exponent_right        no root of p is at or above 2^(positive_root_exponent(p))
         half_line_right            all positive roots lie strictly between the points used as bounds
         control_values_on_right    control_values_on is a positive multiple of p's control values
-        found_in_integers_right    what real_roots finds of integers is found as RootIsolation.v asks
+        found_in_integers_right    real_roots finds intervals of integer polynomials as RootIsolation.v requires
         row_cut_right, row_uncertain, row_signs_right, row_halves_right
                                    fixed_row: errors, signs, halves
-        weights_right, weights_fit  inverse_binomials, and that 64 bits hold them *)
+        weights_right, weights_fit  inverse_binomials, which fit in 64 bits *)
 
 From Coq Require Import Reals ZArith Lia Lra Psatz List Bool.
 From Flocq Require Import Core.
@@ -129,7 +127,7 @@ Proof.
   - exfalso. apply No. discriminate.
 Qed.
 
-(** Bounds on both sides: half_line, and the points beyond them that `inside` takes (unlikely_root). *)
+(** Bounds on both sides: half_line, and the points beyond them that `inside` uses (unlikely_root). *)
 Definition unlikely_root (e : Z) : R := 45 * pow2 (e - 5).
 Definition half_line (p : list Z) : option (R * R) :=
   match positive_root_exponent p, positive_root_exponent (rev p) with
@@ -181,7 +179,7 @@ Qed.
 
 (** ** Control values *)
 
-(** Of n + 1 control values f 0, ..., f n: the form's value, by de Casteljau. *)
+(** The value of a form with the n + 1 control values f 0, ..., f n, by de Casteljau's rule. *)
 Fixpoint casteljau (n : nat) (f : nat -> R) (s t : R) : R :=
   match n with O => f O | S n => s * casteljau n f s t + t * casteljau n (fun i => f (S i)) s t end.
 
@@ -251,7 +249,7 @@ Qed.
 
 (** Sums of neighbours: one pass of the code's loops. *)
 Fixpoint pairs (l : list R) : list R := match l with a :: (b :: _) as r => a + b :: pairs r | _ => [] end.
-(** What n passes leave: the first of each row. *)
+(** The first value of each row after n passes. *)
 Fixpoint first_of_rows (n : nat) (l : list R) : list R :=
   match n with O => [] | S n => hd 0 l :: first_of_rows n (pairs l) end.
 
@@ -290,8 +288,8 @@ Proof.
   intros L. rewrite <- row_first_form. apply casteljau_same. intros i I. apply first_of_rows_index; lia.
 Qed.
 
-(** control_values_on. Its passes over the array, in order: powers of 2^e; Taylor's shift by `start`,
-    Horner's rule on shorter and shorter parts; weights and powers of `length`; sums. *)
+(** control_values_on. Its passes over the array, in order: powers of 2^e; Taylor's shift by `start`, by Horner's
+    rule on shorter and shorter lists; weights and powers of `length`; sums. *)
 Fixpoint times_powers (r power : R) (p : list R) : list R :=
   match p with [] => [] | a :: l => a * power :: times_powers r (power * r) l end.
 Fixpoint times_descending (r : R) (p : list R) : list R :=
@@ -382,7 +380,7 @@ Proof.
   rewrite E, power_form_scaled, times_powers_value, S, U, Rmult_1_l, <- Rmult_assoc. do 2 f_equal. ring.
 Qed.
 
-(** De Casteljau: each row's first and last value, times the powers of two that make up for the halvings. *)
+(** De Casteljau's rule: each row's first and last value, times powers of two that compensate the halvings. *)
 Definition left_half (n : nat) (b : list R) : list R := times_descending 2 (first_of_rows (S n) b).
 Definition right_half (n : nat) (b : list R) : list R := rev (times_descending 2 (first_of_rows (S n) (rev b))).
 
@@ -455,7 +453,7 @@ Qed.
 Lemma last_reals (p : list Z) : List.last (reals_of p) (IZR 0) = IZR (List.last p 0%Z).
 Proof. induction p as [| a [| b p] IH]; [easy | easy |]. exact IH. Qed.
 
-(** f is the first of p's chain. *)
+(** f is the first polynomial of p's chain. *)
 Definition found_in_integers (p f : list Z) (found : list interval) : Prop :=
   first_of_chain (reals_of p) (reals_of f) /\ List.last f 0%Z <> 0%Z /\
   isolate (reals_of f) (half_line f) (half_line (mirrored_integers f)) 0 (upper_bound f) found.
@@ -476,7 +474,7 @@ Proof.
   - intros x X Z. destruct (U x X Z) as (e & E & Lt). unfold upper_bound. now rewrite E.
 Qed.
 
-(** ** Rows cut to a fixed number of bits: fixed_row *)
+(** ** Rows rounded to a fixed number of bits: fixed_row *)
 
 (** Multiples of one unit, each within `error` units of a control value. *)
 Definition within (row : list Z) (error : Z) (unit : R) (b : list R) : Prop :=
@@ -494,7 +492,7 @@ Proof.
     destruct (Z.ltb_spec x 0); [destruct (Z.ltb_spec error (- x)) as [H1 | H1] | destruct (Z.ltb_spec error x) as [H1 | H1]]; intros N; try easy;
       apply K in H1; rewrite ?opp_IZR in H1; destruct (sgn_cases c) as [(L & ->) | [(L & ->) | (L & ->)]]; auto; exfalso; lra.
 Qed.
-(** An array of integers cut by whole bits: by less than one unit of 2^excess, or not at all. *)
+(** Rounds an array of integers by whole bits, with an error below one unit of 2^excess, or not at all. *)
 Definition cut (excess c : Z) : Z := (Z.sgn c * (Z.abs c / 2 ^ excess))%Z.
 Lemma cut_within excess c : (0 < excess)%Z -> Rabs (IZR (cut excess c) * IZR (2 ^ excess) - IZR c) <= 1 * IZR (2 ^ excess).
 Proof.
@@ -505,7 +503,7 @@ Proof.
     rewrite E' in *; nia.
 Qed.
 
-(** x·2^shift, cut towards zero (`shifted` of include/errbound/integers/dyadic.hpp). *)
+(** x·2^shift, rounded towards zero (`shifted` of include/errbound/integers/dyadic.hpp). *)
 Definition cut_shift (shift x : Z) : Z := if (0 <=? shift)%Z then (x * 2 ^ shift)%Z else cut (- shift) x.
 Lemma pow2_integer e : (0 <= e)%Z -> IZR (2 ^ e) = pow2 e.
 Proof. exact (IZR_Zpower radix2 e). Qed.
@@ -538,7 +536,7 @@ Proof.
   rewrite <- Rmult_assoc, Rinv_r, Rmult_1_l in H by lra. lra.
 Qed.
 
-(** The constructor, of numbers given within `error`: cut by `excess` bits, or shifted by as many, exactly. *)
+(** The constructor, from numbers with errors up to `error`: rounded by `excess` bits, or shifted exactly. *)
 Definition cut_row (excess : Z) (b : list Z) : list Z := map (cut_shift (- excess)) b.
 Definition cut_error (excess error : Z) : Z := (cut_shift (- excess) error + 2)%Z.
 Theorem row_cut_right excess error b truth : (0 <= error)%Z -> within b error 1 truth ->
@@ -554,7 +552,7 @@ Proof.
   assert (Kx : IZR x * / u * u = IZR x) by (field; lra). assert (Ke : IZR error * / u * u = IZR error) by (field; lra).
   destruct Hx as (X1 & X2), He as (E1 & E2). apply G in X1, X2, E1, E2. lra.
 Qed.
-(** Errors too large to keep: all numbers become zero, and all their signs uncertain. *)
+(** If errors are too large, all numbers become zero, and all their signs uncertain. *)
 Theorem row_uncertain b truth : length b = length truth ->
   Forall2 sign_seen (map (fun _ : Z => row_sign 0 0) b) (map sgn truth).
 Proof.
@@ -562,8 +560,8 @@ Proof.
   injection L as L. constructor; [| now apply IH]. split; [| easy]. pose proof (sgn_plain [c]) as F. now inversion_clear F.
 Qed.
 
-(** Halving: each step takes neighbours' sums without their last bit (from_bit), half a unit off. The left
-    half has the first of each row, the right half the last. *)
+(** Halving: each step takes sums of neighbours without their last bit (from_bit), with an error of half a unit. The
+    left half has the first of each row, the right half the last. *)
 Fixpoint next_row (row : list Z) : list Z :=
   match row with a :: (b :: _) as l => ((a + b) / 2)%Z :: next_row l | _ => [] end.
 Fixpoint first_of_cut_rows (n : nat) (row : list Z) : list Z :=
@@ -758,7 +756,7 @@ Proof.
   inversion_clear D as [| ? ? (q & Q) D']. constructor; auto. rewrite <- mult_IZR. f_equal. rewrite Q, Z.div_mul by lia. ring.
 Qed.
 
-(** What 64 bits have to hold for n <= 40: the products in both loops. *)
+(** The products of both loops that must fit in 64 bits for n <= 40. *)
 Fixpoint row_products (n i c : Z) (rest : nat) : list Z :=
   match rest with O => [] | S rest => c * (n - i) :: row_products n (i + 1) (c * (n - i) / (i + 1)) rest end.
 Fixpoint multiples (m : Z) (l : list Z) : list Z :=

@@ -1,12 +1,11 @@
-(** Roots of a cubic in (0, 1) (ccd/exact/cubic_roots.hpp), over the real numbers: the code's integers are exact,
-    and so are their signs. The estimates in floating point are arbitrary here: nothing depends on them.
-    Results:
-        no_changes, one_change, odd_changes   what the coefficients' changes of sign say (Descartes)
-        any_change          with three distinct real roots, any change of sign is a root
-        one_real_root       otherwise, one root is crossed at most, and others are multiple
-        double_root_place, triple_root_place   where those are
-        halves_at, halves_changes   halves are parts, with no more changes together than the whole
-        bracket_near_right  a bracket holds the root that is crossed, or is a root *)
+(** Roots of a cubic in (0, 1) (ccd/exact/cubic_roots.hpp), over the real numbers, since the code's integers and
+    signs are exact. The estimates in floating point are arbitrary here. Results:
+        no_changes, one_change, odd_changes   consequences of the coefficients' sign changes (Descartes)
+        any_change          with three distinct real roots, any sign change is a root
+        one_real_root       otherwise at most one root is crossed, and others are multiple
+        double_root_place, triple_root_place   the positions of multiple roots
+        halves_at, halves_changes   halves of an interval together have no more sign changes than the whole
+        bracket_near_right  a bracket contains the root that is crossed, or is a root *)
 
 From Coq Require Import Reals ZArith Lia Lra Psatz List Bool Classical.
 From Errbound Require Import Sign Bernstein VertexEdge.
@@ -80,7 +79,7 @@ Proof.
   intros u U. replace u with (1 - (1 - u)) by ring. rewrite <- reversed_at. apply H. lra.
 Qed.
 
-(** All of four signs. *)
+(** Destructs a list of four coefficients. *)
 Ltac four y L := destruct y as [| ?y0 [| ?y1 [| ?y2 [| ?y3 [|]]]]]; try discriminate L; clear L.
 Ltac four_signs a b c d :=
   cases_of_sign a; cases_of_sign b; cases_of_sign c; cases_of_sign d.
@@ -97,7 +96,7 @@ Proof.
   intros L. four y L. unfold inner_sign_changes. cbn [rev app map first_sign].
   four_signs y0 y1 y2 y3; cbn; repeat split; auto; try discriminate; try lia; repeat constructor; auto.
 Qed.
-(** What is known of the signs just inside the ends, unless Y is zero throughout. *)
+(** Facts about the signs just inside the ends, unless Y is zero throughout. *)
 Lemma changes_first y : length y = 4%nat -> ~ Forall (eq 0) y -> let c := inner_sign_changes y in
   sign_after (first c) (at_ y) 0 /\
   sign_before (if opposite c then opposed (first c) else first c) (at_ y) 1 /\
@@ -179,8 +178,8 @@ Proof.
   - exists r. split; auto. lra.
 Qed.
 
-(** Between a and b, f is, but for a factor that changes no sign, linear: it crosses zero once at most,
-    and all other roots are Q. *)
+(** Between a and b, f is linear up to a factor of constant sign. It crosses zero at most once, and all other roots
+    are in Q. *)
 Definition crosses_once (a b : R) (f : R -> R) (Q : R -> Prop) : Prop :=
   exists l0 l1 q, forall t, a < t < b -> f t = (l0 + l1 * t) * q t /\ 0 <= q t /\ (q t = 0 -> Q t).
 
@@ -239,7 +238,7 @@ Proof.
   - assert (0 < q1 * ((1 - u) * u)) by (apply Rmult_lt_0_compat; lra). lra.
   - assert (0 < q0 * (1 - u) ^ 2) by (apply Rmult_lt_0_compat; lra). lra.
 Qed.
-(** Times a factor without roots, whatever its sign. *)
+(** The product with a factor without roots, of any sign. *)
 Lemma linear_times_once r q0 q1 q2 (Q : R -> Prop) :
   (forall u, 0 < u < 1 -> 0 <= quadratic_value q0 q1 q2 u /\ (quadratic_value q0 q1 q2 u = 0 -> Q u)) \/
   (forall u, 0 < u < 1 -> quadratic_value q0 q1 q2 u <= 0 /\ (quadratic_value q0 q1 q2 u = 0 -> Q u)) ->
@@ -287,7 +286,7 @@ Proof.
   intros L. four y L. unfold inner_sign_changes. cbn [map].
   four_signs y0 y1 y2 y3; cbn; intros C; congruence.
 Qed.
-(** Exactly one root, where Y changes its sign; at the ends it may vanish. *)
+(** There is exactly one root, at which Y changes its sign; Y may vanish at the ends. *)
 Theorem one_change y : length y = 4%nat -> let c := inner_sign_changes y in count c = 1%nat ->
   exists r, 0 < r < 1 /\ at_ y r = 0 /\ forall t, 0 < t < 1 ->
     (t < r -> 0 < unit_of (first c) * at_ y t) /\ (r < t -> unit_of (first c) * at_ y t < 0).
@@ -378,7 +377,7 @@ Proof.
   repeat split; [rewrite E0, E1 | rewrite E1 |]; field; lra.
 Qed.
 
-(** No three distinct real roots: Y crosses zero once at most, and other roots are multiple. *)
+(** If there are not three distinct real roots, Y crosses zero at most once, and other roots are multiple. *)
 Theorem one_real_root y : length y = 4%nat -> discriminant y <= 0 ->
   crosses_once 0 1 (at_ y) (fun u => multiple_root y u /\ discriminant y = 0).
 Proof.
@@ -387,7 +386,7 @@ Proof.
   destruct (divided y r L U Z) as (q0 & q1 & q2 & ->). clear Z L.
   rewrite discriminant_divided in *.
   destruct (Req_dec (quadratic_value q0 q1 q2 r) 0) as [Zr | Nr].
-  { (* r itself is multiple *)
+  { (* r is multiple *)
     assert (E : exists a b, q0 = - r * a /\ q1 = (1 - r) * a - r * b /\ q2 = (1 - r) * b).
     { exists (- q0 / r), (q2 / (1 - r)). repeat split; [field; lra | | field; lra].
       apply Rmult_eq_reg_r with (r * (1 - r)); [| apply Rmult_integral_contrapositive; lra].
@@ -407,13 +406,13 @@ Proof.
   apply linear_times_once. destruct (semidefinite q0 q1 q2 S) as [H | H]; [left | right]; auto.
 Qed.
 
-(** ** Where the code asks at a multiple root *)
+(** ** Positions of multiple roots in the code *)
 
 Lemma cubic_at_ratio y0 y1 y2 y3 s t : s + t <> 0 ->
   form [y0; y1; y2; y3] s t = (s + t) ^ 3 * at_ [y0; y1; y2; y3] (t / (s + t)).
 Proof. intros N. unfold at_. simpl. field. easy. Qed.
 
-(** The discriminant is zero, and h2 is not: Y = 0 where t/s = -h1/(2 h2), and no other root is multiple. *)
+(** If the discriminant is zero and h2 is not, Y = 0 at t/s = -h1/(2 h2), and no other root is multiple. *)
 Theorem double_root_place y : length y = 4%nat -> discriminant y = 0 -> let h := hessian y in c2 h <> 0 ->
   0 < c2 h /\ form y (2 * c2 h) (- c1 h) = 0 /\
   forall r, 0 < r < 1 -> multiple_root y r -> c1 h < 0 /\ r = - c1 h / (2 * c2 h - c1 h).
@@ -439,7 +438,7 @@ Proof.
     split; [lra |]. apply Rmult_eq_reg_r with (2 * (k * (1 - r) ^ 2) - - (2 * k * r * (1 - r))); [| lra].
     field. lra.
 Qed.
-(** h2 = 0 as well: a triple root, inside where there is more than one change of sign. *)
+(** If also h2 = 0, there is a triple root, inside if there is more than one sign change. *)
 Theorem triple_root_place y : length y = 4%nat -> discriminant y = 0 -> c2 (hessian y) = 0 ->
   (1 < count (inner_sign_changes y))%nat -> let s := 3 * nth 3 y 0 in let t := nth 2 y 0 in
   (s < 0 -> 0 < t /\ forall u, at_ y u = 0 <-> u = t / (- s + t)) /\
@@ -486,7 +485,7 @@ Proof.
     replace (- (- 3 * y3 * x) / (3 * y3 + - (- 3 * y3 * x))) with (x / (1 + x)); [easy | field; nra].
 Qed.
 
-(** ** Three distinct real roots: each change of sign is a root *)
+(** ** Three distinct real roots: each sign change is a root *)
 
 Lemma opposite_changes y : length y = 4%nat -> let c := inner_sign_changes (map Ropp y) in
   count c = count (inner_sign_changes y) /\ opposite c = opposite (inner_sign_changes y) /\
@@ -498,7 +497,7 @@ Proof.
   rewrite !O. four_signs y0 y1 y2 y3; cbn; repeat split.
 Qed.
 
-(** A value below zero at the extremum t/s, if both ends are positive. *)
+(** The value at the extremum t/s is negative if both ends are positive. *)
 Lemma dips_between y : length y = 4%nat -> 0 < discriminant y -> first (inner_sign_changes y) = positive ->
   opposite (inner_sign_changes y) = false -> (0 < count (inner_sign_changes y))%nat ->
   exists s t, 0 < s /\ 0 < t /\ form y s t < 0.
@@ -612,7 +611,7 @@ Proof.
   cases_of_sign a; cases_of_sign b; simpl; cases_of_sign (k * a + l * b); auto; exfalso; nra.
 Qed.
 
-(** Two parts of a part change their signs no more often together, and once less if they part at a simple root. *)
+(** Two subintervals together have no more sign changes than their union, and one less if they meet at a simple root. *)
 Definition parts_change_no_more : bool :=
   let all := [negative; zero; positive] in
   forallb (fun a => forallb (fun b => forallb (fun c => forallb (fun d =>
@@ -640,7 +639,7 @@ Proof.
   now apply Nat.leb_le.
 Qed.
 
-(** So parts that wait have no more changes together than the whole. *)
+(** So waiting intervals together have no more sign changes than the whole. *)
 Theorem halves_changes y : length y = 4%nat ->
   (count (inner_sign_changes (left_half_of y)) + count (inner_sign_changes (right_half_of y)) <=
    count (inner_sign_changes y))%nat.
@@ -670,7 +669,7 @@ Lemma linear_sign s l q : 0 < s * (l * q) -> 0 <= q -> 0 < s * l.
 Proof. intros P Q. apply Rnot_le_lt. intros N. assert (0 <= - (s * l) * q) by (apply Rmult_le_pos; lra).
   lra. Qed.
 
-(** The same sign at both ends: other roots alone. *)
+(** With the same sign at both ends, there are only other roots. *)
 Lemma uncrossed a b f Q s t : crosses_once a b f Q -> sign_after s f a -> sign_before s f b ->
   a < t < b -> f t = 0 -> Q t.
 Proof.
@@ -686,7 +685,7 @@ Proof.
   assert (unit_of s * ((w - t) * (l0 + l1 * u) + (t - u) * (l0 + l1 * w)) = 0) by (rewrite <- E; ring). lra.
 Qed.
 
-(** Opposite signs at l and h, or just inside the ends: the crossing lies between them. *)
+(** With opposite signs at l and h, or just inside the ends, the crossing lies between them. *)
 Lemma crossed a b f Q s l h : crosses_once a b f Q -> a <= l -> l < h -> h <= b ->
   (if Req_EM_T l a then sign_after s f a else 0 < unit_of s * f l) ->
   (if Req_EM_T h b then sign_before (opposed s) f b else unit_of s * f h < 0) ->
@@ -729,7 +728,7 @@ Proof.
   destruct Z as [Z | Z]; auto. left. assert (Z' : l1 * (t - r) = 0) by lra. apply Rmult_integral in Z'. lra.
 Qed.
 
-(** Two roots are one, or others. *)
+(** Two roots are equal, or are other roots. *)
 Lemma only_crossing a b f Q s t u : crosses_once a b f Q -> sign_after s f a ->
   a < t < b -> a < u < b -> f t = 0 -> f u = 0 -> t = u \/ Q t \/ Q u.
 Proof.
@@ -743,7 +742,7 @@ Proof.
   - assert (Z : l1 * (t - u) = 0) by lra. apply Rmult_integral in Z. lra.
 Qed.
 
-(** ** Parts *)
+(** ** Subintervals *)
 
 (** `cubic_part`: a cubic on [index, index + 1]/2^level, times a positive number. *)
 Record part := Part { part_y : list R; roots : sign_changes; index : Z; level : Z }.
@@ -781,7 +780,7 @@ Proof.
   - replace 1 with (over (2 ^ level p) (level p)) by (unfold over; field; lra). now apply over_le.
 Qed.
 
-(** Signs just inside its ends. *)
+(** The signs just inside its ends. *)
 Lemma part_signs y p : is_part y p -> sign_after (first (roots p)) (at_ y) (part_start p) /\
   sign_before (if opposite (roots p) then opposed (first (roots p)) else first (roots p)) (at_ y) (part_end
     p) /\
@@ -865,7 +864,7 @@ Proof.
   - unfold over. rewrite P, !plus_IZR, !mult_IZR. field. lra.
 Qed.
 
-(** One change of sign on a part: one root, and no other. *)
+(** A subinterval with one sign change has one root and no other. *)
 Lemma one_change_part y p Q : is_part y p -> count (roots p) = 1%nat ->
   crosses_once (part_start p) (part_end p) (at_ y) Q.
 Proof.
@@ -879,7 +878,7 @@ Qed.
 
 (** ** Brackets *)
 
-(** bracket_near, for any estimate of the place: nothing depends on it. *)
+(** bracket_near, for any estimate of the position. *)
 Definition sign_at (y : list R) (numerator bits : Z) : sign :=
   sign_of_real (form y (IZR (2 ^ bits - numerator)) (IZR numerator)).
 Definition bracket_within (y : list R) (p : part) (place bits radius : Z) : option (Z * Z) :=
@@ -917,7 +916,7 @@ Proof.
   - unfold at_, over. rewrite minus_IZR. simpl. field. lra.
 Qed.
 
-(** What a bracket is: the root itself, or the part's crossing strictly inside. *)
+(** A bracket is the root itself, or contains the subinterval's crossing strictly inside. *)
 Definition brackets (y : list R) (p : part) (Q : R -> Prop) (low high bits : Z) : Prop :=
   (0 <= low <= high /\ high <= 2 ^ bits /\ high - low <= 2 ^ 25)%Z /\
   part_start p <= over low bits /\ over high bits <= part_end p /\
@@ -952,7 +951,7 @@ Proof.
   assert (Ph : over hi bits <= part_end p) by (rewrite <- Ef; apply over_le; lia).
   assert (Nl : first (roots p) <> zero /\ opposed (first (roots p)) <> zero)
     by (destruct F as [-> | ->]; split; discriminate).
-  (* a sign that is zero is that of an inner point *)
+  (* a position with a zero sign is inside *)
   assert (Inner : forall n, (begin < n < finish)%Z -> sign_at y n bits = zero ->
     part_start p < over n bits < part_end p /\ at_ y (over n bits) = 0).
   { intros n N S. split; [rewrite <- Es, <- Ef; split; apply over_less; lia |].

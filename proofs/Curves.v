@@ -1,11 +1,10 @@
-(** First times of points that move continuously, on any curves (ccd/contact/curves.cpp): times of contact, and of a distance,
-    are closed, so that there is a first.
-
-    Results:
-        first_of_closed      of times that are closed, one is the first
-        face_near_after_moving, edges_near_after_moving   what was within a distance and moved by d is within that and 2d
-        face_curves_closed, edges_curves_closed, face_curves_first, edges_curves_first   so times of contact are closed
-        smooth_continuous    coordinates that are continuous, as those of polynomials, are enough *)
+(** First times of points that move continuously, on any curves (ccd/contact/curves.cpp). Times of contact, and of a
+    distance, are closed, so there is a first one. Results:
+        first_of_closed      a nonempty closed set of times has a first one
+        face_near_after_moving, edges_near_after_moving   points within a distance that move by d are within that and
+            2d
+        face_curves_closed, edges_curves_closed, face_curves_first, edges_curves_first   times of contact are closed
+        smooth_continuous    paths are continuous if their coordinates are, like polynomials *)
 
 From Coq Require Import Reals Lra Psatz List.
 From Errbound Require Import Contact Distance Separation FirstContact.
@@ -32,7 +31,7 @@ Proof.
   eapply Rle_trans; [apply norm_along |]. assert (norm origin = 0); [| lra].
   unfold norm. replace (dot origin origin) with 0 by (coordinates; ring). apply sqrt_0.
 Qed.
-(** So do points between. *)
+(** Points between them move by no more. *)
 Lemma moved_between d a b c e u : 0 <= u <= 1 -> moved d a c -> moved d b e ->
   moved d (along a u (minus b a)) (along c u (minus e c)).
 Proof.
@@ -72,7 +71,7 @@ Proof.
   apply near_moved with (1 := Q); now apply moved_between.
 Qed.
 
-(** What is farther apart stays so while no point has moved by a quarter of the difference. *)
+(** Points that are farther apart stay so while no point has moved by a quarter of the difference. *)
 Lemma apart_for_a_while (nearby : R -> Prop) D : 0 <= D -> (exists m, distances nearby m) -> ~ nearby D ->
   exists d, 0 < d /\ ~ nearby (farther D d).
 Proof.
@@ -90,7 +89,7 @@ Qed.
 
 Section Paths.
 
-Variable D : R.  (** the distance's square: 0 for contact *)
+Variable D : R.  (** the square of the distance: 0 for contact *)
 Hypothesis D_0 : 0 <= D.
 Variables p0 p1 p2 p3 : path.
 Hypotheses (C0 : continuous p0) (C1 : continuous p1) (C2 : continuous p2) (C3 : continuous p3).
@@ -122,7 +121,7 @@ Proof. apply first_of_closed, edges_curves_closed. Qed.
 
 End Paths.
 
-(** Coordinates that are continuous, as those of polynomials are. *)
+(** Coordinates are continuous, like polynomials. *)
 Theorem smooth_continuous p : smooth p -> continuous p.
 Proof.
   intros (X & Y & Z) s d D. assert (D4 : 0 < d / 4) by lra.

@@ -1,12 +1,12 @@
 (** Collision decisions of the floating-point methods, over every scalar (Bernstein.v): the forms of
-    include/ccd/methods/forms.hpp, BSC on them (include/ccd/methods/bsc.hpp), and the tests that part two features.
+    include/ccd/methods/forms.hpp, BSC on them (include/ccd/methods/bsc.hpp), and tests that separate two features.
     Results:
         forms_y, forms_weights      the forms are Y and the weights of Contact.v at every t
         bsc_face_separate, bsc_face_collides, bsc_edges_separate, bsc_edges_collides
-                                    what decide_bsc answers is so
+                                    answers of decide_bsc are right
         rootless_separate, outside_separate   one strict sign of Y, or no G >= 0: no collision
-        face_separated, edges_separated, vertex_edge_separated   a fixed axis that parts the features the same
-                                    way at both ends of the step parts them throughout *)
+        face_separated, edges_separated, vertex_edge_separated   a fixed axis that separates the features in the
+                                    same direction at both ends of the step separates them throughout *)
 
 From Coq Require Import Reals ZArith Lia Lra Psatz List.
 From Errbound Require Import Sign Bernstein Bsc Contact.
@@ -210,7 +210,7 @@ Lemma query_weights_at (Q : R -> Prop) t : Forall (fun g => Q (form_at g t)) (in
   Forall Q (weights edges (vector_at b t) (vector_at c t) (vector_at p t)).
 Proof. rewrite <- (proj2 (query_forms_at t)), Forall_map. reflexivity. Qed.
 
-(** At a collision Y vanishes and no weight is negative. *)
+(** At a collision, Y vanishes and no weight is negative. *)
 Lemma query_collision : query_collides edges m0 m1 m2 m3 -> exists t, 0 <= t <= 1 /\ form_at (y_form b c p) t = 0 /\
   Forall (fun g => 0 <= form_at g t) (inside_forms edges b c p).
 Proof.
@@ -284,9 +284,9 @@ End Edges.
 
 End Forms.
 
-(** ** Axes that part the features at both ends of the step: `separated` and swept boxes *)
+(** ** Axes that separate the features at both ends of the step: `separated` and swept boxes *)
 
-(** Where m is along the axis n, at the start and at the end. *)
+(** The position of m along the axis n, at the start and at the end. *)
 Definition before (n : point) (p q : moving) : Prop :=
   dot n (start p) < dot n (start q) /\ dot n (finish p) < dot n (finish q).
 

@@ -1,12 +1,11 @@
 (** Distance of two closed features at one time, over the real numbers: the conditions of
     ccd/contact/feature_conditions.hpp are complete.
 
-    Each condition says that two points of the features are that near: corners, a vertex and the inside of an edge,
-    the insides of both features. Degenerate triangles and edges are included. D is d squared.
-    Results:
+    Each condition means that two points of the features are within d: corners, a vertex and the interior of an edge,
+    or the interiors of both features. Degenerate triangles and edges are included. D is d squared. Separation.v has
+    times. Results:
         vertex_edge_within, face_within_union, edges_within_union   within d exactly if a condition holds
-        vertex_edge_distance, face_distance, edges_distance         there is a least distance
-    Times: Separation.v. *)
+        vertex_edge_distance, face_distance, edges_distance         there is a least distance *)
 
 From Coq Require Import Reals Lra Psatz List.
 From Errbound Require Import Contact.
@@ -15,7 +14,7 @@ Open Scope R_scope.
 
 (** ** Conditions *)
 
-(** Z = top - D weight; where the sides hold, the weight is positive. *)
+(** Z = top - D weight. If the sides hold, the weight is positive. *)
 Record condition := Condition { sides : Prop; top : R; weight : R }.
 Definition excess (D : R) (c : condition) : R := top c - D * weight c.
 Definition holds (D : R) (c : condition) : Prop := sides c /\ excess D c <= 0.
@@ -130,9 +129,9 @@ Proof.
   inversion_clear H as [? ? H' | ? ? H']; [now apply edge_sound | inversion H'].
 Qed.
 
-(** ** Inside a face and inside both edges *)
+(** ** Interior of a face and interiors of both edges *)
 
-(** P by the plane's two directions and its normal. *)
+(** P in the basis of the plane's two directions and its normal. *)
 Lemma in_basis B C P : cross B C <> origin -> exists h k n,
   P = along (along (along origin h B) k C) n (cross B C) /\ h * square_normal B C = weight_1 B C P /\
   k * square_normal B C = weight_2 B C P /\ n * square_normal B C = det B C P.
@@ -157,7 +156,7 @@ Proof. unfold flat. destruct B, C. coordinates. ring. Qed.
 Lemma flat_nonnegative a b B C : 0 <= flat a b B C.
 Proof. apply square_nonnegative. Qed.
 
-(** From numbers >= 0 towards others: as long as all stay >= 0, up to the others or to a zero. *)
+(** From numbers >= 0 towards others: until the others are reached or one number becomes zero, all stay >= 0. *)
 Definition between (l : R) (a : R * R) : R := fst a + l * (snd a - fst a).
 Lemma leaving pairs : Forall (fun a => 0 <= fst a) pairs ->
   exists l, 0 <= l <= 1 /\ Forall (fun a => 0 <= between l a) pairs /\
@@ -294,13 +293,13 @@ Proof.
     eexists. split; [| apply near_sym, H]. exists s. split; [lra | easy].
 Qed.
 
-(** The difference of a point of each edge. *)
+(** The difference of a point of one edge and a point of the other. *)
 Lemma between_edges a0 a1 b0 b1 s t : let B := minus a1 a0 in let C := minus b1 b0 in
   let X := along (along (minus b0 a0) (- s) B) (- - t) C in
   dot (minus (along a0 s B) (along b0 t C)) (minus (along a0 s B) (along b0 t C)) = dot X X.
 Proof. intros B C X. unfold X. clearbody B C. coordinates. ring. Qed.
 
-(** Parallel edges: from one pair of points to another as far apart, where one edge ends. *)
+(** Parallel edges: a pair of points can be shifted at equal distance until one edge ends. *)
 Lemma parallel_near D a0 a1 b0 b1 : cross (minus a1 a0) (minus b1 b0) = origin ->
   edges_near D a0 a1 b0 b1 -> edges_border_near D a0 a1 b0 b1.
 Proof.
@@ -447,7 +446,7 @@ Proof.
   exists m. assert (Q : forall D, near D <-> m <= D) by (intros D'; now rewrite E). split; auto.
   apply Positive, Q. lra.
 Qed.
-(** With Z < 0 they are nearer than d. *)
+(** If Z < 0, the points are nearer than d. *)
 Lemma nearer near conditions m D c : distances near m -> (forall D, near D <-> Exists (holds D) conditions) ->
   In c conditions -> well_formed c -> sides c -> excess D c < 0 -> m < D.
 Proof.

@@ -1,12 +1,11 @@
-(** How far Y and the G_i must be from zero for features to be farther apart than a distance
-    (ccd/exact/static_filter/distance_margins.hpp), over the real numbers.
-
-    Results:
-        plane_face_apart, plane_edges_apart     |Y| > d |N|: farther apart than d
-        outside_face_apart, outside_edges_apart   so where G_i < - d |N| L, L the length that it is measured by
-        normal_below, length_below              |N| is at most the longest of its control vectors, a difference that of
-                                                its ends
-        margins_face_apart, margins_edges_apart   what control values beyond the margins exclude, on the step or a part *)
+(** Margins of Y and the G_i for which features are farther apart than a distance d
+    (ccd/exact/static_filter/distance_margins.hpp), over the real numbers. Results:
+        plane_face_apart, plane_edges_apart       |Y| > d |N|: farther apart than d
+        outside_face_apart, outside_edges_apart   the same if G_i < - d |N| L, with the length L of its direction
+        normal_below, length_below                |N| is at most its longest control vector, a difference at most the
+                                                  longer of its ends
+        margins_face_apart, margins_edges_apart   consequences of control values beyond the margins, on the step or
+                                                  a subinterval *)
 
 From Coq Require Import Reals Lra Psatz List.
 From Errbound Require Import Contact Distance Subdivision Separation FirstContact.
@@ -52,7 +51,7 @@ Let C := minus f2 f0.
 Let P := minus v f0.
 Let N := cross B C.
 
-(** From a point of the triangle. *)
+(** The distance from a point of the triangle. *)
 Lemma from_triangle q : in_triangle q f0 f1 f2 -> exists u w, 0 <= u /\ 0 <= w /\ 0 <= 1 - u - w /\
   minus v q = along (along P (- u) B) (- w) C.
 Proof.
@@ -136,7 +135,7 @@ Qed.
 
 End Edges.
 
-(** ** In the course of the step *)
+(** ** During the step *)
 
 Lemma length_below (v w : moving) t k : 0 <= t <= 1 -> norm (minus (start v) (start w)) <= k ->
   norm (minus (finish v) (finish w)) <= k -> norm (minus (place v t) (place w t)) <= k.
@@ -175,7 +174,7 @@ Proof.
   apply (Rmult_le_compat_l _ _ _ P2) in N2. lra.
 Qed.
 
-(** Control values above or below a number, on the step or a part of it. *)
+(** Control values above or below a number, on the step or a subinterval. *)
 Lemma control_above p m t : length p = 4%nat \/ length p = 5%nat -> Forall (Rlt m) p -> 0 <= t <= 1 -> m < control_at p t.
 Proof.
   intros L F T.

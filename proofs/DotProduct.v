@@ -1,12 +1,12 @@
-(** Running error bounds of dot products (include/errbound/detail/running_bound.hpp; `dot_bound` of the rules
-    tight and sharp), as the C++ code computes them: CompoundCode.v over the real numbers, each operation
-    rounded to the format.
+(** Running error bounds of dot products (include/errbound/detail/running_bound.hpp; `dot_bound` of the rules tight
+    and sharp), as the C++ code computes them: CompoundCode.v over the real numbers, with each operation rounded to
+    the format.
 
-    A number x is known by a value a and a bound sa, |a - x| <= sa. Of lists of known a_i and b_i of any
-    length, |dot as computed - exact dot| <= the bound that is computed with it:
-        tight_dot_sound   rounding in any one direction, from 8 bits on;
-        sharp_dot_sound   to nearest, ties to even, from 5 bits on:
-    from as many as the code has such bounds. u is a number (emin <= -p). *)
+    A number x has a value a and a bound sa, |a - x| <= sa. For lists of such a_i and b_i of any length, |computed
+    dot product - exact one| is at most the computed bound:
+        tight_dot_sound   rounding in any one direction, from 8 bits on
+        sharp_dot_sound   to nearest, ties to even, from 5 bits on, the least with such bounds in the code; u is a
+                          number (emin <= -p) *)
 
 From Coq Require Import Reals ZArith Lia Lra Psatz Bool List.
 From Flocq Require Import Core.
@@ -28,8 +28,8 @@ Notation eps := (Format.eps p).
 Notation eta := (Format.eta emin).
 Notation smallest_normal := (Format.smallest_normal p emin).
 
-(** The real numbers as a number type whose operations round. It has no largest number and no infinity:
-    no definition here asks for these. *)
+(** The real numbers as a number type whose operations round. They have no largest number and no infinity, which no
+    definition here uses. *)
 Definition reals : arithmetic R := {|
   plus x y := fl (x + y);
   minus x y := fl (x - y);
@@ -64,7 +64,7 @@ Proof. apply Tight.is_zero_true. Qed.
 Lemma zero_is_zero : Code.is_zero R reals 0 0 = true.
 Proof. unfold Code.is_zero. cbn [equal reals integer]. now rewrite Req_bool_true. Qed.
 
-(** What a dot product is given: a factor that is exactly 0 asks nothing of the other. *)
+(** Operands of a dot product. If a factor is exactly 0, the other may be anything. *)
 Definition pair_known (pair : (R * R) * (R * R)) (exact : R * R) : Prop :=
   let '((a, sa), (b, sb)) := pair in
   let '(x, y) := exact in
@@ -75,7 +75,7 @@ Definition exact_dot (pairs : list (R * R)) : R := fold_right (fun xy sum => fst
 
 Section Running.
 
-(** q is what a rounding leaves, or h what it takes. *)
+(** q is the part that remains after a rounding, h the part that it takes. *)
 Variables q h : R.
 Hypothesis q_1 : 0 < q <= 1.
 Hypothesis h_0 : 0 <= h.
@@ -94,7 +94,7 @@ Hypothesis factor_pays : forall m, (1 <= m <= most)%nat -> 1 <= factor m * q ^ (
 Hypothesis lost_exact : forall m k, (k <= m <= most)%nat ->
   number (IZR (underflows m k) * eta).
 Hypothesis lost_pays : forall m k, (INR m + 1 + 2 * INR k) * h <= IZR (underflows m k) * eta.
-(** A term of its own pays for what product and sum are rounded by, but for h. *)
+(** A term's own error covers the roundings of product and sum, except for h. *)
 Hypothesis own_pays : forall (first : bool) a b s, number a -> number b -> number s -> (first = true -> s = 0) ->
   let product := fl (a * b) in
   let v := own_of first product s (fl (s + product)) in
@@ -116,7 +116,8 @@ Let rnd_nonnegative := Format.rnd_nonnegative p emin direction.
 Let rnd_exact := Format.rnd_exact p emin direction.
 Let rnd_0 := Format.rnd_0 p emin direction.
 
-(** Off by D: W of the terms' own, E of what was inherited, q^n of which is left after n roundings. *)
+(** Invariant: the difference D is covered by the terms' own errors W and the inherited error E, of which q^n remains
+    after n roundings. *)
 Record covers (r : running) (D : R) : Prop := {
   closed_number : number (closed r);
   own_number : number (own r);
@@ -149,7 +150,7 @@ Proof. intros P. rewrite <- (Rmult_1_r x) at 2. apply Rmult_le_compat_l; lra. Qe
 Lemma lower_both x : 0 <= x -> x * q - h <= fl x.
 Proof. intros P. generalize (less_q x P). destruct (lower x P); lra. Qed.
 
-(** One factor pays for the roundings of m terms. *)
+(** One factor covers the roundings of m terms. *)
 Lemma factor_pays_less m n : (1 <= m <= most)%nat -> (n <= m + 6)%nat -> 1 <= factor m * q ^ n.
 Proof.
   intros M N. apply Rle_trans with (1 := factor_pays m M). apply Rmult_le_compat_l.
@@ -182,7 +183,7 @@ Proof.
   assert (L2 : (own r + S1) * q <= S2) by (apply sum_lower; auto; apply rnd_number).
   assert (L3 : (S2 + lost) * q <= S).
   { apply sum_lower; auto; [apply rnd_number | apply lost_exact; lia]. }
-  (* what the sums leave *)
+  (* the remains after the sums *)
   assert (Q2 := power_q 2). assert (Q3 := power_q 3).
   assert (LS : W * q ^ (m + 2) + E * q ^ (m + 5) + closed r * q ^ 3 + (lost - 2 * INR k * h) * q <= S).
   { apply Rle_trans with (own r * q ^ 2 + inherited r * q ^ 3 + closed r * q ^ 3 + lost * q).
@@ -228,7 +229,7 @@ Proof.
   exists 0, 0. cbn [INR]. repeat split; lra.
 Qed.
 
-(** What an uncertain product inherits is computed by five roundings, as Tight.v has it. *)
+(** The inherited error of an uncertain product is computed with five roundings, as in Tight.v. *)
 Lemma inherited_lower a sa b sb : number a -> number b -> number sa -> number sb -> 0 <= sa -> 0 <= sb ->
   let I := fl (fl (Rabs a * sb) + fl (sa * fl (Rabs b + sb))) in
   0 <= I /\ (Rabs a * sb + sa * (Rabs b + sb)) * q ^ 3 - 2 * h <= I.
@@ -409,7 +410,7 @@ Qed.
 End Running.
 End Rounded.
 
-(** So many terms that (m + 6)^2 <= 2^bits, and at least one from 6 bits on. *)
+(** A number of terms with (m + 6)^2 <= 2^bits, and at least one from 6 bits on. *)
 Lemma terms_squared bits m : (1 <= m <= terms_at_once bits)%nat ->
   (m <= 8)%nat /\ (INR m + 6) * (INR m + 6) <= bpow radix2 bits.
 Proof.
@@ -627,7 +628,7 @@ Proof.
     { unfold R2. apply Rmin_case; [apply (Format.rnd_number p emin nearest) |].
       apply Rmin_case; now apply Format.number_abs. }
     assert (D2 : Rabs (after - (s + product)) <= R2).
-    { (* s and the product are numbers that the sum might have been *)
+    { (* s and the product are possible values of the sum *)
       assert (Near : forall g, number g -> Rabs (after - (s + product)) <= Rabs (g - (s + product))).
       { intros g G. apply (round_N_pt radix2 (FLT_exp emin p) (fun n => negb (Z.even n)) (s + product)); auto. }
       unfold R2. apply Rmin_glb; [now apply (Sharp.rounding_sum p emin P3) |]. apply Rmin_glb.

@@ -1,9 +1,6 @@
-(** Dyadic numbers n 2^e (include/errbound/integers/dyadic.hpp), n an exact integer.
-
-    Results:
+(** Dyadic numbers n 2^e (include/errbound/integers/dyadic.hpp), n an exact integer. Results:
         dyadic_sum, dyadic_difference, dyadic_product, dyadic_scale   are those of the numbers, in normal form
-        dyadic_equal            == compares numbers
-        dyadic_order            <=> likewise
+        dyadic_equal, dyadic_order   == and <=> compare the numbers
         dyadic_in_units         in_units: x/2^unit
         dyadic_floor_log2       floor_log2 *)
 

@@ -1,21 +1,20 @@
-(** The error-counting scalar (include/errbound/filters/error_count.hpp): what it counts, in floating point,
-    bounds the error of every expression, rounded in any direction.
+(** The error-counting scalar (include/errbound/filters/error_count.hpp): its counts, in floating point, bound the
+    error of every expression, rounded in any direction.
 
-    eps is the largest relative error of a rounding in any direction, eta the smallest positive
-    number. An expression has a unit (the product of its factors' sizes; of a sum the larger) and a
-    degree in its inputs; W >= 1 is no less than any input's size. Results, where counts stay far
-    from 1/eta:
+    eps is the largest relative error of a rounding in any direction, eta the smallest positive number. An expression
+    has a unit (for a product that of its factors' sizes, for a sum the larger one) and a degree in its inputs. W >=
+    1 is at least every input's size. Results, for counts far from 1/eta:
         count_sound    |value| <= magnitude unit + underflow eta W^(degree - 1),
                        |value - exact| <= error eps unit + underflow eta W^(degree - 1)
-        count_height   no count exceeds 2^height, a number that the expression's shape gives *)
+        count_height   no count exceeds 2^height, a number that depends on the expression's shape *)
 
 From Coq Require Import Reals ZArith Lia Lra Psatz.
 From Flocq Require Import Core.
 From Errbound Require Import Format.
 Open Scope R_scope.
 
-(** Inputs come with M, a bound on their sizes as computed; constants are whole. Converted is what a
-    difference of longer numbers became (RoundedAxes.v, converted_difference_near). *)
+(** Inputs come with M, a bound on their computed sizes; constants are whole. Converted is a converted difference of
+    longer numbers (RoundedAxes.v, converted_difference_near). *)
 Inductive counted :=
 | Exact (x M : R)
 | Difference (a b M : R)
@@ -69,7 +68,7 @@ Context {p_positive : Prec_gt_0 p}.
 Variable direction : R -> Z.
 Context {direction_valid : Valid_rnd direction}.
 Notation fl := (rnd p emin direction).
-(** Counts are rounded to nearest: the compiler computes them. *)
+(** Counts are rounded to nearest, since the compiler computes them. *)
 Notation flc := (rnd p emin nearest).
 Notation number := (number p emin).
 Notation eps := (eps p).
@@ -120,7 +119,7 @@ Fixpoint count (e : counted) : error_count :=
 Variable W : R.
 Hypothesis W_1 : 1 <= W.
 
-(** Inputs are numbers within their bounds, constants numbers and not zero; no product of constants. *)
+(** Inputs are numbers within their bounds, constants are nonzero numbers, and there is no product of constants. *)
 Fixpoint admissible (e : counted) : Prop :=
   match e with
   | Exact x M => number x /\ Rabs x <= M <= W
@@ -149,8 +148,8 @@ Qed.
 Lemma eps_small : 0 < eps <= / 512.
 Proof. generalize u_small (eps_2u p). lra. Qed.
 
-(** x was computed in j roundings as c, or more than that was: c is a number, and no less than
-    (1 - u)^j x. Counts are zero or at least eps: they do not underflow. *)
+(** c is a number with c >= (1 - u)^j x: at least x computed with j roundings. Counts are zero or at least eps, so
+    they do not underflow. *)
 Definition shrunk (j : nat) : R := (1 - u) ^ j.
 Lemma shrunk_positive j : 0 < shrunk j <= 1.
 Proof.
@@ -230,7 +229,7 @@ Qed.
 Lemma number_growth : number (1 + 16 * eps).
 Proof. rewrite <- growth_exact. apply rnd_number; auto with typeclass_instances. Qed.
 
-(** `rounded` pays for six roundings and one of the counted value. *)
+(** `rounded` covers six roundings and one of the counted value. *)
 Lemma rounded_covers i c x : (i <= 6)%nat -> covers i c x ->
   number (rounded c) /\ 0 <= x /\ (1 + eps) * x <= rounded c /\ c <= rounded c.
 Proof.
@@ -257,7 +256,7 @@ Proof.
   - apply rnd_above; auto with typeclass_instances. nra.
 Qed.
 
-(** What holds of counts. *)
+(** Properties of counts. *)
 Definition proper (c : error_count) : Prop :=
   number (magnitude c) /\ number (error c) /\ number (underflow c) /\ 1 <= magnitude c /\
   (error c = 0 \/ 1 <= error c) /\ (underflow c = 0 \/ 1 <= underflow c).
@@ -557,7 +556,7 @@ Proof.
   - intros (_ & _ & L) D. lia.
 Qed.
 
-(** v is near x: what count_sound says. *)
+(** v is near x: the property of count_sound. *)
 Definition near (v x U T : R) (c : error_count) : Prop :=
   Rabs v <= magnitude c * U + underflow c * (eta * T) /\
   Rabs (v - x) <= error c * (eps * U) + underflow c * (eta * T).
@@ -615,8 +614,7 @@ Proof.
   - generalize (relative_error_any p emin direction x C). lra.
 Qed.
 
-(** T, T' go with the factors, S with the product: where a factor has no underflow, no matter which
-    T it has. *)
+(** T and T' belong to the factors, S to the product. If a factor has no underflow, its T is arbitrary. *)
 Lemma near_product v w x y a b U V T T' S :
   proper a -> proper b -> 0 <= U -> 0 <= V -> 0 <= T -> 0 <= T' -> 1 <= S ->
   (underflow b = 0 \/ U * T' <= S) -> (underflow a = 0 \/ T * V <= S) ->
@@ -630,7 +628,7 @@ Proof.
   generalize eps_small (eta_positive emin); intros P Q.
   set (ma := magnitude a) in *. set (mb := magnitude b) in *. set (ea := error a) in *.
   set (eb := error b) in *. set (ua := underflow a) in *. set (ub := underflow b) in *.
-  (* what underflow contributes, in units of eta S *)
+  (* the contribution of underflow, in units of eta S *)
   set (h := eta * S). assert (Hh : eta <= h).
   { unfold h. rewrite <- (Rmult_1_r eta) at 1. apply Rmult_le_compat_l; lra. }
   assert (X1 : U * (ub * (eta * T')) <= ub * h).

@@ -1,13 +1,11 @@
-(** Error-free transformations (include/errbound/error_free.hpp), rounded to nearest, ties to even:
-    Flocq's theorems (its module Pff2Flocq), restated for the operations as the code orders them.
-
-    Results:
+(** Error-free transformations (include/errbound/error_free.hpp), rounded to nearest, ties to even: Flocq's theorems
+    (its module Pff2Flocq), restated for the operations in the code's order. Results:
         two_sum_exact         value + error = a + b; from 2 bits on
-        fast_two_sum_exact    the same where |a| >= |b|, and where a = 0
+        fast_two_sum_exact    the same if |a| >= |b|, or if a = 0
         split_exact           value + error = x; the error has at most s bits; from 4 bits on
-        two_product_exact     value + error = a b where product_error_is_exact says so; from 4 bits on
+        two_product_exact     value + error = a b if product_error_is_exact; from 4 bits on
         two_product_fma_exact the same with fused multiply-add; from 2 bits on
-        remainder_of_division_exact   the remainder a - q b, where it says that it is exact *)
+        remainder_of_division_exact   the remainder a - q b, if the code reports that it is exact *)
 
 From Coq Require Import Reals ZArith Lia Lra Psatz.
 From Flocq Require Import Core Mult_error Sterbenz Pff2Flocq.
@@ -30,7 +28,7 @@ Definition two_sum (a b : R) : R * R :=
   (sum, fl (fl (a - fl (sum - b_in_sum)) + fl (b - b_in_sum))).
 Definition fast_two_sum (a b : R) : R * R :=
   let sum := fl (a + b) in (sum, fl (b - fl (sum - a))).
-(** s = (p + 1) / 2, rounded down: what Flocq writes p - p / 2. *)
+(** s = (p + 1) / 2, rounded down: Flocq's p - p / 2. *)
 Definition half_bits : Z := ((p + 1) / 2)%Z.
 Definition split (x : R) : R * R :=
   let c := fl ((bpow radix2 half_bits + 1) * x) in
@@ -84,7 +82,7 @@ Proof.
     (Z.mod_pos_bound p 2) (Z.mod_pos_bound (p + 1) 2). lia.
 Qed.
 
-(** As Veltkamp's algorithm is written there. *)
+(** Veltkamp's algorithm as Flocq has it. *)
 Lemma split_as_there x : split x =
   let c := fl (x * (bpow radix2 half_bits + 1)) in
   let high := fl (fl (x - c) + c) in
@@ -108,7 +106,7 @@ Proof.
   split; [symmetry; exact H1 | exact H2].
 Qed.
 
-(** The code's threshold, 2^(2p) eta, and the exact product's. *)
+(** The code's threshold, 2^(2p) eta, and that of the exact product. *)
 Lemma threshold : (1 <= p)%Z -> fl (fl (eta / u) / u) = bpow radix2 (emin + 2 * p).
 Proof.
   intros P. assert (D : forall e, bpow radix2 e / u = bpow radix2 (e + p)).

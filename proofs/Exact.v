@@ -1,15 +1,11 @@
-(** `exact` as one: ccd/exact/exact.cpp, ccd/exact/stages.cpp, ccd/exact/integers.cpp. Whatever stage answers a query
-    of finite coordinates, the answer is right.
-
-    Results:
-        in_any_order        tests whose certain answers are right, asked in any order until one is certain
-        differences_fit     differences of whole coordinates are within the bits that extents tell
-        exact_face_right, exact_edges_right
-                            the filter in doubles, integers where their widths suffice, the reference: `collides`
-                            exactly if the features collide. Of what the reference's algorithms return, only what
-                            this query asks is supposed, and only if it comes to that
-        batch_face_right, batch_edges_right
-                            likewise with the culls of batches and steps before, in any order *)
+(** `exact` as a whole: ccd/exact/exact.cpp, ccd/exact/stages.cpp, ccd/exact/integers.cpp. Whatever stage answers a
+    query of finite coordinates, the answer is right. Results:
+        in_any_order        tests whose certain answers are right may run in any order until one is certain
+        differences_fit     differences of whole coordinates are within the bits that extents give
+        exact_face_right, exact_edges_right   the filter in doubles, integers if their widths suffice, the reference:
+                            `collides` exactly if the features collide. Hypotheses about the reference's algorithms
+                            concern only the calls of this query, and only if it reaches the reference
+        batch_face_right, batch_edges_right   the same with the earlier tests of batches and steps, in any order *)
 
 From Coq Require Import Reals ZArith List Bool Lia.
 From Flocq Require Import Core.
@@ -21,11 +17,11 @@ Import ListNotations.
 
 Notation answer := Subdivision.outcome.
 
-(** What is certain is right: of whether K. *)
+(** A certain answer to "does K hold" is right. *)
 Definition sound (K : Prop) (a : answer) : Prop :=
   match a with Subdivision.separate => ~ K | Subdivision.collides => K | Subdivision.undecided => True end.
 
-(** The first certain answer, or the last question's. *)
+(** The first certain answer, or the last test's. *)
 Fixpoint first_certain (tests : list answer) (last : bool) : bool :=
   match tests with
   | [] => last
@@ -46,12 +42,13 @@ Qed.
 
 (** ** Extents *)
 
-(** axis_extent and integer_units::bits: of one axis, `E` has 2^E above every difference at either end, as computed in
-    doubles; then whole numbers are below 2^(E - unit). An infinite difference has the exponent 1025, as here. *)
+(** axis_extent and integer_units::bits on one axis: `E` has 2^E above every difference at either end, as computed in
+    doubles. Then whole numbers are below 2^(E - unit). An infinite difference has the exponent 1025 here and in the
+    code. *)
 Definition least (l : list R) : R := fold_left Rmin l (hd 0%R l).
 Definition most (l : list R) : R := fold_left Rmax l (hd 0%R l).
 Definition spread (l : list R) : R := rnd 53 (-1074) nearest (most l - least l).
-(** binary_double::end_bit, which of a double that is not 0 is -1073 at least *)
+(** binary_double::end_bit; for a double other than 0 it is at least -1073 *)
 Definition end_bit (x : R) : Z := if Req_bool x 0 then -1074 else Z.max (-1074) (mag radix2 x).
 Definition along (axis : doubles -> dyadic) (e : given -> doubles) (query : list given) : list R :=
   map (fun m => double (axis (e m))) query.
@@ -62,7 +59,7 @@ Definition query_bits (query : list given) : Z :=
 
 Notation double_number := (Format.number 53 (-1074)).
 
-(** Of Rmin and Rmax, and the order in which their results come first. *)
+(** Rmin and Rmax, and the order in which their result comes first. *)
 Lemma extreme_in (f : R -> R -> R) (first : R -> R -> Prop) :
   (forall x, first x x) -> (forall x y z, first x y -> first y z -> first x z) ->
   (forall x y, (f x y = x \/ f x y = y) /\ first (f x y) x /\ first (f x y) y) ->
@@ -121,11 +118,11 @@ Qed.
 
 Section Exact.
 
-(** The rounding of the filter, which is to nearest: any is right. *)
+(** The rounding direction of the filter, which is to nearest; any is right. *)
 Variable direction : R -> Z.
 Context {direction_valid : Valid_rnd direction}.
 
-(** Estimates in integers: whatever they are. *)
+(** Arbitrary estimates in integers. *)
 Variables extent_x extent_y extent_z : Z.
 Variable estimate : CubicRoots.part -> Z.
 Variable refine : Z -> CubicRoots.part -> Z -> Z -> Z -> Z.
@@ -134,7 +131,7 @@ Variable estimated_root : list Z -> Z -> Z.
 Variable root_exponent : list Z -> Z.
 Variable estimated_pair : list Z -> option ((Z -> Z) * Z).
 
-(** What the reference's algorithms return. *)
+(** Results of the reference's algorithms. *)
 Variable common : list Z -> list Z -> list Z.
 Variable squarefree : list Z -> list Z.
 Variable intervals : list Z -> list RootIsolation.interval.
@@ -145,7 +142,7 @@ Notation returned := (returned common squarefree intervals sign_there).
 Notation numbers q := (SeparatingAxis.numbers (given_motion q)).
 Notation difference := (@Decisions.difference integers).
 
-(** decide_in_integers, where extents tell that differences are below 2^253. *)
+(** decide_in_integers, if extents show that differences are below 2^253. *)
 Definition in_integers_decided (edges : bool) (q0 q1 q2 q3 : given) : answer :=
   let i := to_integers [q0; q1; q2; q3] in
   if (query_bits [q0; q1; q2; q3] <=? 253)%Z then CloseContact.decide_to_the_end edges extent_x extent_y extent_z estimate refine steps estimated_root

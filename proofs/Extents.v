@@ -1,17 +1,15 @@
-(** What a step's search compares, ccd/step/extents_pack.hpp and ccd/step/search_kernels.cpp: extents of elements
-    and of groups of elements along nine axes at both ends of the step, in single precision, of coordinates rounded
-    as in RoundedAxes.v. Any direction, the same in both formats; all positions within the frame's box.
-
-    Results: coordinate_extents_hold   along x, y, z extents hold the rounded coordinates of all vertices
-             diagonal_extents_hold   along x ± y, y ± z, z ± x they hold the exact projections, moved and scaled
-                                 as coordinates are: the margin of 7 eps covers all roundings, its own included
-             extents_tell        where one element's most is below another's least, all vertices of the first
-                                 come before all of the second in exact arithmetic
-             group_extents_hold  a group's extents hold those of all members, whatever the depth of the tree
-             group_extents_apart   where extents that hold two elements' are apart, so are the elements' own
-             apart_face_separate, apart_edges_separate
-                                 a pair dropped by its own extents, or by those of groups around one or both: no
-                                 contact at any time of the step *)
+(** Comparisons of a step's search (ccd/step/extents_pack.hpp and ccd/step/search_kernels.cpp): extents of elements
+    and groups along nine axes at both ends of the step. They are in single precision, with coordinates rounded as in
+    RoundedAxes.v, in any direction, the same in both formats. All positions are in the frame's box. Results:
+        coordinate_extents_hold   along x, y, z extents contain the rounded coordinates of all vertices
+        diagonal_extents_hold     along x ± y, y ± z, z ± x they contain the exact projections, moved and scaled like
+                                  coordinates: the margin of 7 eps covers all roundings, including its own
+        extents_tell              if one element's most is below another's least, all vertices of the first come
+                                  before all of the second in exact arithmetic
+        group_extents_hold, group_extents_apart   a group's extents contain those of all members, at any depth; if
+                                  extents around two elements are apart, so are the elements' extents
+        apart_face_separate, apart_edges_separate   a pair skipped by its extents, or by those of groups around
+                                  one or both, has no contact in the step *)
 
 From Coq Require Import Reals ZArith List Lia Lra Bool.
 From Flocq Require Import Core.
@@ -41,13 +39,13 @@ Notation in_frame := (in_frame low high).
 
 (** ** The code *)
 
-(** An axis, and extents_pack::margin or 0: what its extents are widened by. *)
+(** An axis, and the margin of its extents: extents_pack::margin or 0. *)
 Definition search_axis : Type := float_axis * R.
 Definition outwards : R := 7 * eps.
 Definition search_axes : list search_axis :=
   map (fun a => (a, 0)) coordinates_in_float ++ map (fun a => (a, outwards)) (diagonals_in_float direction).
 
-(** Of every axis and both ends of the step: `false` is the start. *)
+(** Extents on every axis at both ends of the step; `false` is the start. *)
 Record extent := Extent { least : R; most : R }.
 Definition extents : Type := search_axis -> bool -> extent.
 
@@ -58,8 +56,8 @@ Definition of_element (first : moving) (others : list moving) : extents := fun a
   (single (fold_left (fun m q => Rmin m (computed a e q)) others (computed a e first) - snd a))
   (single (fold_left (fun m q => Rmax m (computed a e q)) others (computed a e first) + snd a)).
 
-(** fill_nodes, of a group's first member and its others, in any order: least and greatest are exact. Lanes
-    without a member are infinite and leave it as it is. *)
+(** fill_nodes, from a group's first member and its others, in any order, since minimum and maximum are exact. Lanes
+    without a member are infinite and change nothing. *)
 Definition hull (E F : extents) : extents := fun a e =>
   Extent (Rmin (least (E a e)) (least (F a e))) (Rmax (most (E a e)) (most (F a e))).
 Definition of_group (first : extents) (others : list extents) : extents := fold_left hull others first.
@@ -88,7 +86,7 @@ Proof.
   pose proof (Rmax_l m (value q)). pose proof (Rmax_r m (value q)).
   split; [lra |]. intros r [<- | I]; [lra | now apply B].
 Qed.
-(** Extents are at least as wide as if the vertex were alone. *)
+(** Extents are at least as wide as those of a single vertex. *)
 Lemma wider_than_vertex first others a e q : In q (first :: others) ->
   least (of_element first others a e) <= single (computed a e q - snd a) /\
   single (computed a e q + snd a) <= most (of_element first others a e).
@@ -111,7 +109,7 @@ Proof.
   rewrite Rplus_0_r, (rnd_exact _ _ direction _ (computed_float a e q A)) in M. now split.
 Qed.
 
-(** A projection in the units of the floats. *)
+(** A projection in the units of floats. *)
 Definition scaled (n p : point) : R := dot n (minus p (middle f)) * scale f.
 
 Lemma sum_size r s : Rabs r <= 1.001 -> Rabs s <= 1.001 -> Rabs (single (r + s)) <= 2.003.
@@ -161,7 +159,7 @@ Proof.
     now apply difference_in_float.
 Qed.
 
-(** Moved outwards and rounded, what is computed is still beyond the exact projection: 7 - 2.01 > 4.05. *)
+(** Moved outwards and rounded, the computed projection is still beyond the exact one: 7 - 2.01 > 4.05. *)
 Lemma moved_outwards r g : Rabs r <= 2.003 -> Rabs (r - g) <= 4.05 * eps ->
   single (r - outwards) <= g <= single (r + outwards).
 Proof.
@@ -208,7 +206,7 @@ Qed.
 Definition holds (G E : extents) : Prop := forall a e,
   least (G a e) <= least (E a e) /\ most (E a e) <= most (G a e).
 
-(** G is E, or of a group with a member around E. *)
+(** G is E, or the extents of a group with a member around E. *)
 Inductive around (E : extents) : extents -> Prop :=
   | around_itself : around E E
   | around_group first others F : In F (first :: others) -> around E F -> around E (of_group first others).
@@ -255,7 +253,7 @@ Qed.
 
 (** ** Pairs *)
 
-(** Two elements apart: an axis along which all vertices of one come before all of the other. *)
+(** Two elements are apart if all vertices of one come before all of the other along an axis. *)
 Lemma apart_before p l r m : apart (of_element p l) (of_element r m) = true ->
   (forall q, In q (p :: l) -> in_frame q) -> (forall t, In t (r :: m) -> in_frame t) ->
   exists n, forall q t, In q (p :: l) -> In t (r :: m) -> before n q t.

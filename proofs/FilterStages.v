@@ -1,11 +1,11 @@
-(** The floating-point stages of `exact` (ccd/exact/stages.cpp) from floats to contact, for one query: in
-    double, rounded in any direction; constants, which the compiler computes, to nearest.
-
-    Results: halving_error_enough   `halving_error` covers what 12 halvings add to an error
-             filter_face_separate, filter_face_collides, filter_edges_separate, filter_edges_collide
-                                    what the stages answer is so
-             filter_bounded         where the filter is usable no number of a form exceeds 2^900, far
-                                    from overflow; where a difference overflowed it is not usable *)
+(** The floating-point stages of `exact` (ccd/exact/stages.cpp) for one query, from floats to contact: in double,
+    rounded in any direction. The compiler computes constants to nearest. Results:
+        halving_error_enough   `halving_error` covers the error of 12 halvings
+        filter_face_separate, filter_face_collides, filter_edges_separate, filter_edges_collide
+                               answers of the stages are right
+        filter_bounded         if the filter is usable, no number of a form exceeds 2^900, far from overflow; after
+            an
+                               overflow of a difference it is not usable *)
 
 From Coq Require Import Reals ZArith List Lia Lra Psatz Bool.
 From Flocq Require Import Core Mult_error.
@@ -29,7 +29,7 @@ Defined.
 Definition exact_form (f : form) : list (Bernstein.number reals) := map exact f.
 Definition exact_vector (v : vector) : @Decisions.vector_form reals :=
   Decisions.VectorForm (exact_form (x_ v)) (exact_form (y_ v)) (exact_form (z_ v)).
-(** Of n coefficients each. *)
+(** Vectors with n coefficients each. *)
 Definition of_length (n : nat) (v : vector) : Prop :=
   length (x_ v) = n /\ length (y_ v) = n /\ length (z_ v) = n.
 
@@ -112,7 +112,7 @@ Qed.
 
 End Query.
 
-(** Control values of the code are times 3 and 12. *)
+(** The code's control values are times 3 and 12. *)
 Lemma control_cubic f t : length f = 4%nat ->
   Subdivision.control_at (map exact (cubic f)) t = 3 * @Bernstein.at_time reals (exact_form f) t.
 Proof.
@@ -213,7 +213,7 @@ Proof.
       apply IZR_le. lia.
     + apply worst_error_covers. left. reflexivity.
 Qed.
-(** Each midpoint adds an error of eps times the largest value, and the constant says 2 eps. *)
+(** Each midpoint adds an error of eps times the largest value, and the constant has 2 eps. *)
 Lemma halving_error_counts n : n = 3%nat \/ n = 4%nat -> IZR (2 * Z.of_nat (n * max_depth)) <= halving_error n.
 Proof.
   intros N. unfold halving_error.
@@ -246,7 +246,7 @@ Proof.
   assert (0 <= k * eps) by (apply Rmult_le_pos; lra). rewrite I. lra.
 Qed.
 
-(** Numbers of the code that stand for x after i midpoints, of at most M in size. *)
+(** Numbers of the code that stand for x after i midpoints, with sizes of at most M. *)
 Definition stands (M E : R) (i : nat) (a r : R) : Prop :=
   number a /\ Rabs a <= M /\ Rabs (a - r) <= E + INR i * (eps * M + eta).
 Definition midpoint (a b : R) : R := fl (fl (a + b) * (1 / 2)).
@@ -288,7 +288,7 @@ Proof.
     destruct (Rlt_bool_spec error a); [simpl; lra |]. destruct (Rlt_bool_spec a (- error)); simpl; [lra | easy].
 Qed.
 
-(** halving_error: the error of all parts covers that of the whole step, E, and of 12 halvings. *)
+(** halving_error: the error of all subintervals covers E, that of the whole step, and 12 halvings. *)
 Theorem halving_error_enough E bound largest n : n = 3%nat \/ n = 4%nat ->
   number bound -> number largest -> 0 <= largest -> 0 <= E -> E + tiny / 1000 <= bound * (1 - eps) ->
   E + INR (n * max_depth) * (eps * largest + eta) <= error_of_parts bound largest n.
@@ -349,7 +349,7 @@ Definition sizes (d : SeparatingAxis.differences) : Contact.point :=
 Definition usable (m : Contact.point) : bool :=
   Rle_bool (Rmax (Rmax (Contact.x m) (Contact.y m)) (Contact.z m)) W.
 
-(** The forms' differences, of points and a bound on their sizes. *)
+(** The forms' differences, from points and a bound on their sizes. *)
 Definition moving_difference (m : Contact.point) (q r : Contact.moving) : vector :=
   let of coordinate size :=
     [Difference (coordinate (Contact.start q)) (coordinate (Contact.start r)) size;
@@ -388,7 +388,7 @@ Definition filter_face (v f0 f1 f2 : Contact.moving) : Subdivision.outcome :=
 Definition filter_edges (a0 a1 b0 b1 : Contact.moving) : Subdivision.outcome :=
   filter (SeparatingAxis.edge_sides direction) edge_edge_inside a1 a0 b1 b0 b0 a0.
 
-(** ** Control values and what they stand for *)
+(** ** Control values and the numbers that they stand for *)
 
 Lemma size_of_bounds l : Forall number l ->
   number (size_of l) /\ 0 <= size_of l /\ forall a, In a l -> Rabs a <= size_of l.
@@ -419,7 +419,7 @@ Proof.
   intros F. induction F as [| e l (N & B & D) F IH]; constructor; auto. split; [| split]; auto.
   simpl INR. lra.
 Qed.
-(** With more of an error than they have, signs are right without a halving. *)
+(** If the assumed error is at least the real one, signs are right without a halving. *)
 Lemma signs_read M E error : number M -> 0 <= M -> E <= error ->
   Subdivision.reads midpoint (certain error) (stands M E) 0.
 Proof. intros N P L. apply stands_read; auto. simpl INR. lra. Qed.
@@ -678,7 +678,7 @@ Qed.
 
 End At.
 
-(** What is asked of a kind of query: K says that it collides. *)
+(** Hypotheses on a kind of query; K means that it collides. *)
 Variable inside : query -> list form.
 Variable sides : sides_of.
 Variable K : Prop.
@@ -788,7 +788,7 @@ Qed.
 
 (** ** Overflow *)
 
-(** Everything that is computed on the way to e. *)
+(** All intermediate values of e. *)
 Fixpoint steps (e : counted) : list counted :=
   e :: match e with
        | Sum x y | Minus x y | Product x y => steps x ++ steps y
@@ -826,7 +826,7 @@ Proof.
   - auto.
 Qed.
 
-(** Where the filter is usable, none of what is computed of Y and the G_i exceeds 2^900. *)
+(** If the filter is usable, no intermediate value of Y and the G_i exceeds 2^900. *)
 Theorem filter_bounded inside b1 b0 c1 c0 p1 p0 f : SeparatingAxis.numbers b1 -> SeparatingAxis.numbers b0 ->
   SeparatingAxis.numbers c1 -> SeparatingAxis.numbers c0 -> SeparatingAxis.numbers p1 -> SeparatingAxis.numbers p0 ->
   inside = vertex_face_inside \/ inside = edge_edge_inside ->
@@ -851,7 +851,7 @@ Proof.
   destruct F as (u & k & h & Hk & Hh & (A & _ & D & H)). apply step_bounded with e; auto; lia.
 Qed.
 
-(** Of floating-point coordinates. *)
+(** The theorems for floating-point coordinates. *)
 Theorem filter_face_separate v f0 f1 f2 : SeparatingAxis.numbers v -> SeparatingAxis.numbers f0 -> SeparatingAxis.numbers f1 ->
   SeparatingAxis.numbers f2 -> filter_face v f0 f1 f2 = Subdivision.separate ->
   ~ Contact.vertex_face_collides v f0 f1 f2.

@@ -1,12 +1,10 @@
-(** Where ccd/contact/condition.cpp looks for the first time at which one of several conditions holds, over the real
-    numbers: functions of t stand for polynomials, of which continuity is all that is needed.
-
-    Results:
+(** Candidates of ccd/contact/condition.cpp for the first time at which one of several conditions holds, over the
+    real numbers. Continuous functions of t stand for polynomials. Results:
         candidate_holds        a condition holds at each of its candidates
         first_is_candidate     the first time, if not 0, is a candidate of some condition
-        vertices_candidate, vertex_edge_candidate, face_planar_candidate, edges_planar_candidate   so of first contacts
-        vertices_near_candidate, vertex_edge_near_candidate, face_near_candidate, edges_near_candidate  of
-          distance *)
+        vertices_candidate, vertex_edge_candidate, face_planar_candidate, edges_planar_candidate   for contact
+        vertices_near_candidate, vertex_edge_near_candidate, face_near_candidate, edges_near_candidate   for a
+                               distance *)
 
 From Coq Require Import Reals Lra Psatz List.
 From Errbound Require Import Contact Distance Separation FirstContact.
@@ -25,8 +23,8 @@ Definition is_met (c : asked) (t : R) : Prop :=
 Definition vanish_at (c : asked) (t : R) : Prop := forall p, In p (vanishing c) -> p t = 0.
 
 Definition identically_0 (p : R -> R) : Prop := forall t, p t = 0.
-(** A root of what `candidates` returns (of several vanishing polynomials it is the common factor) at which the sides
-    hold. *)
+(** A root of the result of `candidates` (for several vanishing polynomials, of their common factor) at which the
+    sides hold. *)
 Definition candidate (c : asked) (t : R) : Prop :=
   vanishing c <> [] /\ sides_hold c t /\ vanish_at c t /\
   ((exists p, In p (vanishing c) /\ ~ identically_0 p) \/
@@ -57,8 +55,8 @@ Proof.
   intros q s [<- | Q] Nq S; [apply G; lra | apply H; auto; lra].
 Qed.
 
-(** The first time at which one of the conditions holds, if it is not 0, is a candidate: where a condition without
-    `vanishing` holds then, another one does; and where one holds that is `also_below`, its polynomial is zero, not
+(** If the first time at which one of the conditions holds is not 0, it is a candidate. Hypotheses: if a condition
+    without `vanishing` holds then, another one does; if one holds that is `also_below`, its polynomial is zero, not
     negative. *)
 Theorem first_is_candidate (cs : list asked) t :
   (forall c p, In c cs -> In p (vanishing c) \/ In p (nonnegative c) \/ In p (not_all_zero c) -> continuity p) ->
@@ -201,7 +199,7 @@ Proof.
   - intros c [<- | []]. now apply not_below.
 Qed.
 
-(** Y = 0 throughout: contact_conditions. *)
+(** contact_conditions, if Y = 0 throughout. *)
 Definition face_border_asked (v f0 f1 f2 : moving) : list asked :=
   [vertex_edge_asked v f0 f1; vertex_edge_asked v f1 f2; vertex_edge_asked v f2 f0].
 Definition edges_border_asked (a0 a1 b0 b1 : moving) : list asked :=
@@ -264,7 +262,7 @@ Definition all_edges_near_asked (D : R) (a0 a1 b0 b1 : moving) : list asked :=
    edge_asked D a0 b0 b1; edge_asked D a1 b0 b1; edge_asked D b0 a0 a1; edge_asked D b1 a0 a1;
    edges_near_asked D a0 a1 b0 b1].
 
-(** What is asked at time t is the condition of Distance.v. *)
+(** The condition at time t is that of Distance.v. *)
 Definition asks (D t : R) (c : asked) (k : condition) : Prop :=
   (sides_hold c t <-> sides k) /\ also_below c = true /\ exists z, vanishing c = [z] /\ z t = excess D k.
 Lemma asks_met D t c k : asks D t c k -> (is_met c t <-> holds D k).

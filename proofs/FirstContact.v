@@ -1,11 +1,9 @@
-(** The first time of contact, over the real numbers: what ccd/contact/ asks for it.
-
-    Results:
-        face_contact_root, edges_contact_root   in contact, border contacts included, Y = 0 and no weight is negative
+(** The first time of contact, over the real numbers, as ccd/contact/ computes it. Results:
+        face_contact_root, edges_contact_root   in contact, on the border or inside, Y = 0 and no weight is negative
         face_times, edges_times     the times of contact are those inside and those of the border
         vertices_first, vertex_edge_first, face_first, edges_first   if there is contact, there is a first time of it
-        face_times_closed, edges_times_closed    no contact at one time: none shortly before and after
-        face_planar, edges_planar   Y = 0 up to a contact: it was there inside at t = 0, or at the border meanwhile
+        face_times_closed, edges_times_closed    without contact at a time, there is none shortly before and after
+        face_planar, edges_planar   if Y = 0 up to a contact, there was one inside at t = 0 or at the border since
         face_planar_first, edges_planar_first    so the first contact is at t = 0 or at the border *)
 
 From Coq Require Import Reals Lra Psatz List.
@@ -13,7 +11,7 @@ From Errbound Require Import Contact Distance Separation.
 Import ListNotations.
 Open Scope R_scope.
 
-(** ** Where it can be *)
+(** ** Necessary conditions *)
 
 Theorem face_contact_root p a b c : in_triangle p a b c ->
   let B := minus b a in let C := minus c a in let P := minus p a in
@@ -46,7 +44,7 @@ Definition face_y (v f0 f1 f2 : moving) (t : R) : R :=
 Definition edges_y (a0 a1 b0 b1 : moving) (t : R) : R :=
   det (minus (place a1 t) (place a0 t)) (minus (place b1 t) (place b0 t)) (minus (place b0 t) (place a0 t)).
 
-(** The inside strictly, and with Y = 0. *)
+(** All weights are positive, also with Y = 0. *)
 Definition query_y (edges : bool) (m0 m1 m2 m3 : moving) (t : R) : R :=
   det (side_b edges minus (place m0 t) (place m1 t) (place m2 t) (place m3 t))
     (side_c edges minus (place m0 t) (place m1 t) (place m2 t) (place m3 t))

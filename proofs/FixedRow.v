@@ -1,15 +1,13 @@
-(** Rows of Bernstein coefficients cut to W words (include/errbound/roots/fixed_row.hpp): integers, whose errors
-    ControlValues.v has. Their words are exact integers here (Words.v).
-
-    Results:
+(** Rows of Bernstein coefficients rounded to W words (include/errbound/roots/fixed_row.hpp), as integers;
+    ControlValues.v has their errors. Their words are exact integers here (Words.v). Results:
         row_fits     a row's numbers are below 2^(64W - 3)
-        row_stays    and halving does not make them larger: sums of two fit *)
+        row_stays    halving does not enlarge them: sums of two fit *)
 
 From Coq Require Import ZArith List Lia.
 Import ListNotations.
 Open Scope Z_scope.
 
-(** The cut of a coefficient c in units of 2^excess, towards zero. *)
+(** The coefficient c in units of 2^excess, rounded towards zero. *)
 Definition cut_to (excess c : Z) : Z :=
   let size := if 0 <? excess then Z.abs c / 2 ^ excess else Z.abs c * 2 ^ (- excess) in
   if c <? 0 then - size else size.
@@ -31,7 +29,7 @@ Proof.
     assert (0 <= Z.abs c * 2 ^ (- excess)) by lia. destruct (c <? 0); lia.
 Qed.
 
-(** One step of de Casteljau: neighbours' means, rounded down. *)
+(** One step of de Casteljau's rule: means of neighbours, rounded down. *)
 Fixpoint means (row : list Z) : list Z :=
   match row with a :: (b :: _) as l => (a + b) / 2 :: means l | _ => [] end.
 Fixpoint after (k : nat) (row : list Z) : list Z :=

@@ -1,23 +1,20 @@
-(** Widths of the exact decisions in integers of fixed width (ccd/exact/integer_decision.hpp, vertex_edge_contact.hpp,
-    common_roots.hpp, interior_contact.hpp, cubic_roots.hpp).
-
-    Where differences of coordinates are below D = 2^(64W - 3), W = 1, 2 or 4, every number that these
-    compute fits the words that its type has. Numbers are kept as expressions: how they were computed, the most that
-    they can be, and their words. Results:
-        expression_exact       if no subexpression exceeds its width, the words computed (Words.v) are those
-                               of the exact number
+(** Widths of the exact decisions in integers of fixed width (ccd/exact/integer_decision.hpp,
+    vertex_edge_contact.hpp, common_roots.hpp, interior_contact.hpp, cubic_roots.hpp). If differences of coordinates
+    are below D = 2^(64W - 3), W = 1, 2 or 4, every computed number fits the words of its type. Numbers are
+    expressions with an upper bound and a number of words. Results:
+        expression_exact       if no subexpression exceeds its width, the computed words (Words.v) are those of the
+                               exact number
         vertex_edge_widths, vertex_vertex_widths   none does in vertex/edge and vertex/vertex contact
-        interior_widths        nor in interior contact, but for halves of Y and brackets;
-        halving_widths         nor in those halves,
-        bracket_widths         nor with brackets of T = 1, ..., 4 words
-        cut_widths             nor in what is left, cut to T words, where only a bracket is known *)
+        interior_widths        nor in interior contact, except for halves of Y and brackets
+        halving_widths, bracket_widths   nor in halves of Y, nor with brackets of T = 1, ..., 4 words
+        cut_widths             nor in rounded forms with T words, if only a bracket is known *)
 
 From Coq Require Import Reals ZArith List Lia Lra Bool.
 From Errbound Require Import Sign Bernstein Decisions Words.
 Import ListNotations.
 Open Scope Z_scope.
 
-(** A number given by n words is at most m 2^k in size; `Whole` is none of fixed width. *)
+(** A number with n words has a size of at most m 2^k; `Whole` has no fixed width. *)
 Inductive expression :=
 | Given (n : nat) (m k : Z) (x : list Z)
 | Whole (n : Z)
@@ -58,7 +55,7 @@ Fixpoint number (e : expression) : Z :=
   | Magnitude x => Z.abs (number x)
   | Longer x _ => number x
   end.
-(** What the code computes. *)
+(** The computed words. *)
 Definition opposite (x : list Z) : list Z := difference (zeros (length x)) x.
 Fixpoint computed (e : expression) : list Z :=
   match e with
@@ -73,7 +70,7 @@ Fixpoint computed (e : expression) : list Z :=
   | Longer x words => extended (computed x) (width x + words)
   end.
 
-(** Bounds are below half of what the width holds, and sums are of one type. *)
+(** Bounds are below half of the width's range, and operands of sums have one type. *)
 Definition within (e : expression) : bool := 2 * bound e <? B ^ Z.of_nat (width e).
 Fixpoint fine (e : expression) : bool :=
   within e &&
@@ -184,7 +181,7 @@ Proof.
     split; [now rewrite S' | split; [exact L' | split; [exact W' | split; [exact Bx | lia]]]].
 Qed.
 
-(** Expressions as a scalar of Bernstein.v, so that the code of forms is the one restated there. *)
+(** Expressions as a scalar of Bernstein.v, so that its code of forms applies. *)
 Definition sign_of_number (z : Z) : sign :=
   match z ?= 0 with Lt => Sign.negative | Eq => Sign.zero | Gt => Sign.positive end.
 Program Definition expressions : scalar := {|
@@ -203,7 +200,7 @@ Next Obligation.
   unfold sign_of_number. destruct (Z.compare_spec (number x) 0) as [-> | H | H]; cbn; [easy | now apply IZR_lt ..].
 Qed.
 
-(** The same, quicker: width, and the bound as m 2^k with a small m. *)
+(** A faster version: the width, and the bound as m 2^k with a small m. *)
 Definition checked (w : nat) (m k : Z) : option (nat * Z * Z) :=
   if (0 <=? k) && (Z.log2 m + k + 1 <? 64 * Z.of_nat w) then Some (w, m, k) else None.
 Definition checked_sum (x y : option (nat * Z * Z)) : option (nat * Z * Z) :=
@@ -307,7 +304,7 @@ Infix "⊕" := Plus (at level 50, left associativity).
 Infix "⊖" := Less (at level 50, left associativity).
 Infix "⊗" := Times (at level 40, left associativity).
 Definition thrice (x : expression) : expression := Shifted x 1 ⊕ x.
-(** Components in turn. *)
+(** The components one after the other. *)
 Definition components (v : vector) : list polynomial := [vx v; vy v; vz v].
 Definition all_of (v : vector) : list expression := vx v ++ vy v ++ vz v.
 
@@ -341,7 +338,7 @@ Definition vertex_edge_numbers (w e x : vector) : list expression :=
 
 (** contact(vertex_vertex) *)
 Definition vertex_vertex_numbers (w0 w1 : vector) : list expression := all_of (cross_form w0 w1) ++ dot_form w0 w1.
-(** The weights of either kind, where b, c and p are constant. *)
+(** The weights of either kind, with constant b, c and p. *)
 Definition inside_numbers (b c p : vector) : list expression :=
   concat (inside_face_forms b c p) ++ concat (inside_edges_forms b c p).
 Definition vector_at (v : vector) (s t : expression) : vector :=
@@ -353,7 +350,7 @@ Definition inside_at_end (b c p : vector) (i : nat) : list expression :=
   inside_numbers (coefficient b i) (coefficient c i) (coefficient p i).
 Definition hessian (y : polynomial) : polynomial :=
   [y#1 ⊗ y#1 ⊖ thrice (y#0 ⊗ y#2); y#1 ⊗ y#2 ⊖ thrice (thrice (y#0 ⊗ y#3)); y#2 ⊗ y#2 ⊖ thrice (y#1 ⊗ y#3)].
-(** interior_contact up to the halves; normal_vanishes' quadratics are those of n. *)
+(** interior_contact before the halves; the quadratics of normal_vanishes are those of n. *)
 Definition interior_numbers (b c p : vector) : list expression :=
   let y := y_form b c p in
   let h := hessian y in
@@ -362,14 +359,14 @@ Definition interior_numbers (b c p : vector) : list expression :=
   inside_at b c p (Opposite s) (y#2) ++ inside_at b c p s (Opposite y#2) ++
   inside_at b c p (Shifted h#2 1) (Opposite h#1) ++ common_roots_numbers (components (cross_form b c)).
 
-(** Halves of a part of Y: its coefficients, 6 8^level (1, 3, 3, 1) D^3 at most, in two words more. *)
+(** Halves of an interval of Y: its coefficients, at most 6 8^level (1, 3, 3, 1) D^3, with two more words. *)
 Definition part (W : nat) (level : Z) (x : list (list Z)) : polynomial :=
   let coefficient i m := Given (3 * W + 2) m (3 * (64 * Z.of_nat W - 3) + 3 * level) (nth i x []) in
   [coefficient 0%nat 6; coefficient 1%nat 18; coefficient 2%nat 18; coefficient 3%nat 6].
 Definition halving_numbers (y : polynomial) : list expression :=
   @left_half expressions y ++ @left_half expressions (rev y) ++ [y#0 ⊕ y#1 ⊕ y#2 ⊕ y#3].
-(** With brackets of T words: t is an end of one, s = 2^bits - t, bits <= 64T - 2. What Y and its slope are
-    there, the weights if it is a root, what `normal_vanishes` asks, and the next place. *)
+(** Brackets of T words: t is an end of one, s = 2^bits - t, bits <= 64T - 2. The numbers are Y and its slope there,
+    the weights if it is a root, those of `normal_vanishes`, and the next position. *)
 Definition bracket_numbers (T : nat) (b c p : vector) (place reach s t width estimate : list Z) :
   list expression :=
   let of_bits x := Given T 1 (64 * Z.of_nat T - 2) x in
@@ -387,11 +384,11 @@ Definition bracket_numbers (T : nat) (b c p : vector) (place reach s t width est
   flat_map (fun pq : polynomial * polynomial =>
     let m := map Opposite (cross_product (fst pq) (snd pq)) in [m#1 ⊗ s; m#0 ⊗ t]) (pairs n) ++
   map (fun f => value_at f s t) n ++ map (fun x => x#1 ⊖ x#0) linear_forms.
-(** Where a bracket alone is known: constants, cut to T words. *)
+(** If only a bracket is known: constants rounded to T words. *)
 Definition cut_vector (T : nat) (x : list (list Z)) : vector :=
   let known i := [Given T 1 (64 * Z.of_nat T - 4) (nth i x [])] in
   @VectorForm expressions (known 0%nat) (known 1%nat) (known 2%nat).
-(** Differences of coordinates, for W words. *)
+(** Differences of coordinates, with W words. *)
 Definition D_bits (W : nat) : Z := 64 * Z.of_nat W - 3.
 Definition linear (W : nat) (x0 x1 : list Z) : polynomial := [Given W 1 (D_bits W) x0; Given W 1 (D_bits W) x1].
 Definition moving (W : nat) (x : list (list Z)) : vector := @VectorForm expressions
@@ -410,7 +407,7 @@ Proof. intros [<- | [<- | [<- | []]]]; widths. Qed.
 Definition levels : list Z := map Z.of_nat (seq 0 40).
 Lemma levels_all level : 0 <= level < 40 -> In level levels.
 Proof. intros H. apply in_map_iff. exists (Z.to_nat level). split; [lia | apply in_seq; lia]. Qed.
-(** The whole is within the bounds of the first level's parts, halves within those of the next level's. *)
+(** The whole is within the bounds of the first level's intervals, and halves are within those of the next level's. *)
 Theorem halving_widths W level b c p x y : In W [1; 2; 4]%nat -> 0 <= level < 40 ->
   map bound (map (fun h => Longer h 2) (y_form (moving W b) (moving W c) (moving W p))) = map bound (part W 0 y) /\
   forallb fine (halving_numbers (part W level x)) = true /\

@@ -1,14 +1,13 @@
-(** The floating-point format, its roundings, and what one operation costs.
+(** The floating-point format, its roundings, and the error of one operation.
 
-    A format is radix 2, precision p, smallest positive number eta = 2^emin (Flocq's FLT: gradual
-    underflow). There is no largest number here: a computation that overflows nowhere gives the same
-    numbers with one and without; what happens where it does is not part of these files.
-    "direction" is any of the ways to round to a neighbour (up, down, to zero, to nearest); what
-    holds for nearest only says so. Notation, that of the C++ headers:
+    A format has radix 2, precision p, and the smallest positive number eta = 2^emin (Flocq's FLT: gradual
+    underflow). It has no largest number: a computation without overflow gives the same numbers in a format with one.
+    These files do not cover overflow. "direction" is any rounding to a neighbour (up, down, to zero, to nearest);
+    results for nearest say so. Notation, as in the C++ headers:
         eps = 2^(1-p)     the largest relative error of a rounding in any direction
-        u   = 2^-p        to nearest
+        u   = 2^-p        the largest relative error to nearest
         eta = 2^emin      the smallest positive number
-        smallest_normal = 2^(emin+p-1); its ulp, and that of all below, is eta. *)
+        smallest_normal = 2^(emin+p-1); its ulp, and that of all smaller numbers, is eta *)
 
 From Coq Require Import Reals ZArith Lia Lra Psatz Bool.
 From Flocq Require Import Core Relative Plus_error Mult_error.
@@ -79,7 +78,7 @@ Proof. apply generic_format_opp. Qed.
 Lemma number_abs x : number x -> number (Rabs x).
 Proof. apply generic_format_abs. Qed.
 
-(** Integers times a power of two, of at most p bits. *)
+(** Integers of at most p bits times a power of two. *)
 Lemma number_integer (n e : Z) :
   (emin <= e)%Z -> (Z.abs n <= 2 ^ p)%Z -> number (IZR n * bpow radix2 e).
 Proof.
@@ -144,8 +143,8 @@ Proof. apply abs_round_ge_generic; auto with typeclass_instances. Qed.
 Lemma rnd_abs_below x y : number y -> Rabs x <= y -> Rabs (rnd x) <= y.
 Proof. apply abs_round_le_generic; auto with typeclass_instances. Qed.
 
-(** One rounding in any direction: within eps of the exact result, or within eta where that is
-    smaller than the smallest normal number. *)
+(** One rounding in any direction: within eps of the exact result, relative, or within eta below the smallest normal
+    number. *)
 Lemma relative_error_any x : smallest_normal <= Rabs x -> Rabs (rnd x - x) <= eps * Rabs x.
 Proof.
   intros H. unfold eps. replace (1 - p)%Z with (- p + 1)%Z by lia.
@@ -158,7 +157,7 @@ Proof.
   - apply Rlt_le_trans with (1 := H). apply bpow_le. lia.
 Qed.
 
-(** Scaling up is exact, and so was scaling down where scaling up takes it back. *)
+(** Scaling up is exact, and scaling down was if scaling up restores the number. *)
 Lemma scale_up x e : number x -> (0 <= e)%Z -> rnd (x * bpow radix2 e) = x * bpow radix2 e.
 Proof. intros. apply rnd_exact, mult_bpow_pos_exact_FLT; auto. Qed.
 Lemma scale_back v a e : number v -> (e < 0)%Z -> rnd (v * bpow radix2 (- e)) = a ->
@@ -168,15 +167,14 @@ Proof.
   rewrite Rmult_assoc, <- bpow_plus. replace (- e + e)%Z with 0%Z by lia. simpl. ring.
 Qed.
 
-(** What rules that keep an error do where they scale by 2^e, v being a 2^e as computed. *)
+(** The bound of rules with an error after scaling by 2^e; v is 2^e as computed. *)
 Definition scaled_error (inflate : R -> R) (v a sa : R) (e : Z) : R :=
   let scaled := rnd (sa * bpow radix2 e) in
   let lossless := (0 <=? e)%Z ||
     (Req_bool (rnd (v * bpow radix2 (- e))) a && Req_bool (rnd (scaled * bpow radix2 (- e))) sa) in
   if lossless then rnd (scaled + rnd (v - v)) else inflate scaled.
 
-(** What the proofs need of a rounding: r is its largest relative error, h its largest error below
-    the smallest normal number. *)
+(** Properties of a rounding: r is its largest relative error, h its largest error below the smallest normal number. *)
 Record rounding_error (r h : R) : Prop := {
   error_relative : forall x, smallest_normal <= Rabs x -> Rabs (rnd x - x) <= r * Rabs x;
   error_absolute : forall x, Rabs x < smallest_normal -> Rabs (rnd x - x) <= h;
@@ -195,7 +193,7 @@ Proof.
   - generalize eta_positive; lra.
 Qed.
 
-(** Sums that underflow are exact: up to 2^p eta, and that is twice the smallest normal number. *)
+(** Sums that underflow are exact: up to 2^p eta, twice the smallest normal number. *)
 Lemma sum_exact x y :
   number x -> number y -> Rabs (x + y) <= bpow radix2 (p + emin) -> number (x + y).
 Proof. apply FLT_format_plus_small. exact p_positive. Qed.
@@ -213,8 +211,8 @@ Proof.
   generalize smallest_normal_positive. lra.
 Qed.
 
-(** The rule's term for its own rounding: fl(|v| c), c >= eps, is at least the error of a sum that
-    was rounded to v; of a product or quotient, together with h. *)
+(** The rule's term for its rounding, fl(|v| c) with c >= eps, is at least the error of a sum rounded to v. For a
+    product or quotient, this holds together with h. *)
 Lemma ulp_covered v c :
   eps <= c -> smallest_normal <= Rabs v -> ulp radix2 format v <= rnd (Rabs v * c).
 Proof.
@@ -258,7 +256,7 @@ Proof.
   - generalize (rounding_of_normal s c C S) (error_h r h E). lra.
 Qed.
 
-(** Lower ends of what a rounding leaves of a number that is not negative. *)
+(** Lower bounds of a rounded nonnegative number. *)
 Section Lower.
 
 Variables r h : R.
@@ -279,7 +277,7 @@ Proof.
   apply Rabs_le_inv in B. lra.
 Qed.
 
-(** Of any number: one of both is lost. *)
+(** For any number, one of both errors applies. *)
 Lemma rnd_lower x : 0 <= x -> x * (1 - r) - h <= rnd x.
 Proof.
   intros P. generalize (error_r r h E) (error_r_1 r h E) (error_h r h E); intros.
@@ -296,7 +294,7 @@ Proof.
   intros H. apply Rnot_le_lt. intros C. apply rnd_normal in C. lra.
 Qed.
 
-(** Scaling by a power of two: exact unless it underflows, and off by at most h then. *)
+(** Scaling by a power of two is exact unless it underflows; then the error is at most h. *)
 Lemma scale_error x e : number x -> Rabs (rnd (x * bpow radix2 e) - x * bpow radix2 e) <= h.
 Proof.
   intros N. destruct (Rlt_or_le (Rabs (x * bpow radix2 e)) smallest_normal) as [S | S].
@@ -340,8 +338,7 @@ Proof.
   cbn [andb]. rewrite Z. apply scale_back in B, C; auto. now rewrite B, C.
 Qed.
 
-(** A sum of numbers that are not negative loses r of itself; nothing below the smallest normal
-    number. *)
+(** A sum of nonnegative numbers has the relative error r, and none below the smallest normal number. *)
 Lemma sum_relative x y :
   number x -> number y -> 0 <= x -> 0 <= y -> (x + y) * (1 - r) <= rnd (x + y).
 Proof.
@@ -369,7 +366,7 @@ Proof.
   - now apply (error_relative r h E).
 Qed.
 
-(** Multiplying by a factor f >= 1 loses nothing below the smallest normal number. *)
+(** A product with a factor f >= 1 is no smaller below the smallest normal number. *)
 Lemma scaled_up x f : number x -> 0 <= x -> 1 <= f -> x <= rnd (x * f).
 Proof. intros X P H. apply rnd_above; auto. nra. Qed.
 
@@ -381,7 +378,7 @@ Qed.
 
 End Lower.
 
-(** What a rounding leaves at least: q of a normal number, and all but h of a smaller one. *)
+(** A rounding leaves at least q times a normal number, and all but h of a smaller one. *)
 Section Leaves.
 
 Variables q h : R.
@@ -415,7 +412,7 @@ Qed.
 Lemma scaled_left s f : smallest_normal <= s -> 1 <= f -> s * (f * q) <= rnd (s * f).
 Proof. intros M F. rewrite <- Rmult_assoc. apply normal_left. generalize smallest_normal_positive. nra. Qed.
 
-(** A sum of three times a factor that pays for three roundings. *)
+(** A sum of three terms, times a factor that covers three roundings. *)
 Lemma sum_of_three x y z f : 1 <= f -> 1 <= f * (q * q * q) ->
   number x -> number y -> number z -> 0 <= x -> 0 <= y -> 0 <= z -> x + y + z <= rnd (rnd (rnd (x + y) + z) * f).
 Proof.
@@ -436,7 +433,7 @@ Proof.
     + apply Rmult_le_compat_r; auto. apply Rmult_le_pos; lra.
 Qed.
 
-(** |s|, from s as it was rounded. *)
+(** |s| in terms of the rounded s. *)
 Lemma covered_by_rounded s f : 1 <= f -> 1 <= f * (q * q * q) -> Rabs s <= rnd (rnd (Rabs (rnd s) + eta) * f).
 Proof.
   intros F F3. generalize eta_positive (Rabs_pos s) (Rabs_pos (rnd s)); intros. set (w := rnd (Rabs (rnd s) + eta)).
@@ -460,7 +457,7 @@ Proof.
     + apply Rmult_le_compat_r; auto. apply Rmult_le_pos; lra.
 Qed.
 
-(** What a product inherits of its factors' bounds, as the rules compute it. *)
+(** The error that a product inherits from its factors' bounds, as the rules compute it. *)
 Lemma product_inherited A B sa sb d : number B -> number sb -> 0 <= A -> 0 <= B -> 0 <= sa -> 0 <= sb ->
   (forall x w, 0 <= x -> x * q <= w -> w + eta < smallest_normal -> x - d <= w) ->
   let inherited := rnd (rnd (A * sb) + rnd (sa * rnd (B + sb))) in
@@ -489,7 +486,7 @@ Proof.
     assert (T * (q * q) <= sa * t * q) by (rewrite <- Rmult_assoc; apply Rmult_le_compat_r; lra). lra.
 Qed.
 
-(** A quotient w that four roundings made less than Z, times a factor that pays for five. *)
+(** A quotient w that four roundings made less than Z, times a factor that covers five. *)
 Lemma quotient_inflated Z w f : 0 <= Z -> 1 <= f -> 1 <= f * (q * q * q * q * q) -> Z * (q * q * q * q) <= w ->
   0 <= w ->
   let inflated := rnd (rnd w * f) in
@@ -525,7 +522,7 @@ Qed.
 
 End Rounding.
 
-(** A factor that pays for more roundings pays for fewer. *)
+(** A factor that covers some roundings covers fewer. *)
 Lemma fewer_roundings f q fewer : 0 <= f -> 0 < q <= 1 -> 1 <= f * (fewer * q) -> 1 <= f * fewer.
 Proof. intros F Q H. rewrite <- Rmult_assoc in H. nra. Qed.
 
@@ -548,7 +545,7 @@ Proof.
   - generalize eta_positive. lra.
 Qed.
 
-(** The error in units of the result, where it is not small, and where it is. *)
+(** The error in units of the result, for large and small results. *)
 Lemma error_of_large s : bpow radix2 (p + emin) <= Rabs (rnd nearest s) ->
   Rabs (rnd nearest s - s) <= rnd nearest (Rabs (rnd nearest s) * u).
 Proof.
@@ -581,7 +578,7 @@ Proof.
   - rewrite bpow_plus. change (bpow radix2 1) with 2. unfold u. field.
 Qed.
 
-(** The smallest positive number is lost beside 1. *)
+(** The smallest positive number disappears in a sum with 1. *)
 Lemma eta_lost : (3 <= p)%Z -> (emin <= - p - 1)%Z -> rnd nearest (1 + eta) = 1.
 Proof.
   intros P L.

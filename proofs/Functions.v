@@ -1,14 +1,13 @@
-(** Functions of tracked numbers (include/errbound/functions.hpp): the bounds of a square root, of a
-    fused product and sum, of linear interpolation and of a length, as the C++ code computes them.
+(** Functions of tracked numbers (include/errbound/functions.hpp): the bounds of a square root, of a fused product
+    and sum, of linear interpolation and of a length, as the C++ code computes them.
 
-    A number x is known by a value a and a bound sa, |a - x| <= sa. Results:
-        sqrt_sound, fma_sound, copysign_sound   rounding in any one direction, from 5 bits on;
-        lerp_sound                              likewise, from 6 bits on;
+    A number x has a value a and a bound sa, |a - x| <= sa. Square roots need emin <= 2 - 2p, as in every IEEE format
+    whose largest exponent is above p: they do not underflow there. Fused products need emin <= -p. Results:
+        sqrt_sound, fma_sound, copysign_sound   rounding in any one direction, from 5 bits on
+        lerp_sound                              rounding in any one direction, from 6 bits on
         sqrt_sound_nearest, fma_sound_nearest, lerp_sound_nearest, copysign_sound_nearest
-                                                to nearest, ties to even, from 3 bits on;
-        hypot_sound_nearest                     likewise, from 8 bits on.
-    Square roots need emin <= 2 - 2p, as it is in every IEEE format whose largest exponent is above p:
-    they do not underflow there. Fused products need emin <= -p. *)
+                                                to nearest, ties to even, from 3 bits on
+        hypot_sound_nearest                     to nearest, ties to even, from 8 bits on *)
 
 From Coq Require Import Reals ZArith Lia Lra Psatz Bool.
 From Flocq Require Import Core Mult_error.
@@ -16,7 +15,7 @@ From Errbound Require Import Format.
 From Errbound Require Tight.
 Open Scope R_scope.
 
-(** Of numbers known to within e, as far as the root goes: x is not below zero, as a >= e. *)
+(** The inherited error for arguments with an error of at most e; x is not negative, since a >= e. *)
 Lemma root_inherits a x e : 0 < e <= a -> Rabs (a - x) <= e ->
   0 <= x /\ Rabs (sqrt a - sqrt x) <= e / (sqrt a + sqrt (a - e)).
 Proof.
@@ -64,7 +63,7 @@ Definition lerp_error (v d a sa b sb t st : R) : R :=
   let from_t := inflated (fl (fl (fl (Rabs d + of_d) * st) + fl (size * of_d))) in
   inflated (fl (rounding_of v + fl (from_ends + fl (from_t + fl (8 * eta))))).
 
-(** e: the exponent of the larger of |x| and |y|, which is not 0. *)
+(** e is the exponent of the larger of |x| and |y|, which is not 0. *)
 Definition hypot_value (x y : R) (e : Z) : R :=
   let a := fl (x * bpow radix2 (- e)) in
   let b := fl (y * bpow radix2 (- e)) in
@@ -97,7 +96,7 @@ Lemma f_1 : 1 <= f.
 Proof. unfold f. generalize (eps_positive p). lra. Qed.
 Lemma q_8 : 7 / 8 <= q <= 1.
 Proof. unfold q. generalize (error_r _ _ _ _ _ E). lra. Qed.
-(** One factor q less. *)
+(** Without one factor q. *)
 Lemma less_q x : 0 <= x -> 1 <= f * (x * q) -> 1 <= f * x.
 Proof.
   intros P H. generalize f_1 q_8. intros F Q. assert (0 <= f * x) by (apply Rmult_le_pos; lra). nra.
@@ -125,8 +124,8 @@ Proof.
   apply sum_relative; try lra; [apply rnd_number | exact (number_eta p emin)].
 Qed.
 
-(** What inflating S makes of a bound Z: all roundings on the way are paid for above the smallest
-    normal number; below, sums are exact, and only S times f is rounded. *)
+(** Inflating S covers a bound Z. Above the smallest normal number, it covers all roundings. Below, sums are exact,
+    and only S times f is rounded. *)
 Lemma inflated_covers S Z : 0 <= S -> Z <= S * (f * q) ->
   (S < smallest_normal -> Z + h <= S * f) -> Z <= inflated S.
 Proof.
@@ -170,7 +169,7 @@ Proof.
   - rewrite sqrt_0, (Format.rnd_0 p emin direction), Rminus_0_r, Rabs_R0. apply rounding_nonnegative.
 Qed.
 
-(** The divisor is at most (1 + r)^3 of the exact one. *)
+(** The computed divisor is at most (1 + r)^3 times the exact one. *)
 Lemma divisor_upper a e : number a -> number e -> 0 < e <= a ->
   0 < fl (fl (sqrt a) + fl (sqrt (fl (a - e)))) <=
     (sqrt a + sqrt (a - e)) * ((1 + r) * (1 + r) * (1 + r)).
@@ -405,7 +404,7 @@ Proof.
   intros P. rewrite (Tight.inflated_exact p emin direction p_3 emin_p). fold f.
   apply rnd_nonnegative, Rmult_le_pos; auto. generalize f_1. lra.
 Qed.
-(** A sum of two products with factors as computed, X q^i and Y q^j, enlarged. *)
+(** A sum of two products with computed factors, X q^i and Y q^j, enlarged. *)
 Lemma products_lower X Y A B : 0 <= A -> 0 <= B -> 0 <= X -> 0 <= Y -> X * (q * q) <= A -> Y * (q * q) <= B ->
   X + Y - (2 * f + 1) * h <= inflated (fl (fl A + fl B)).
 Proof.
@@ -560,7 +559,7 @@ Proof.
     apply Rle_trans with (fl (R0 + W) * 1); [lra |]. apply Rmult_le_compat_l; lra.
 Qed.
 
-(** A size s of |X|, with a sign that may be the wrong one. *)
+(** A size s of |X|, with a possibly wrong sign. *)
 Definition copysign_error (s sx : R) : R := inflated (fl (fl (2 * s) + sx)).
 Lemma copysign_covered s v X T sx : number s -> number sx -> 0 <= s -> Rabs (s - Rabs X) <= sx ->
   Rabs v = s -> Rabs T = Rabs X -> Rabs (v - T) <= copysign_error s sx.
@@ -583,7 +582,7 @@ Proof.
     apply rnd_above; [rewrite <- ES; apply rnd_number |]. apply no_less; lra.
 Qed.
 
-(** Lengths. Of numbers whose larger one is A, scaled to at least 1/2. *)
+(** Lengths of numbers whose larger one is A, scaled to at least 1/2. *)
 Hypothesis eps_128 : eps <= / 128.
 Hypothesis eta_small : eta <= / 8192.
 Hypothesis h_half : 31 / 10 * h <= 2 * eta.
@@ -655,7 +654,7 @@ Proof.
     apply Rinv_le; [apply Rmult_lt_0_compat; lra | lra].
   - right. rewrite <- (sqrt_sqrt T) at 1 by lra. field. lra.
 Qed.
-(** Lengths differ by no more than their legs. *)
+(** A length changes by no more than its legs. *)
 Lemma length_inherits x X y Y sx sy : Rabs (x - X) <= sx -> Rabs (y - Y) <= sy ->
   Rabs (sqrt (x * x + y * y) - sqrt (X * X + Y * Y)) <= sx + sy.
 Proof.
@@ -726,7 +725,7 @@ Proof.
       assert (e <= mag radix2 z)%Z; [| lia]. replace e with (e - 1 + 1)%Z at 1 by lia.
       apply Zlt_le_succ, lt_bpow with radix2. apply Rle_lt_trans with (1 := H).
       apply bpow_mag_gt. }
-    (* by sizes: the larger one is exact *)
+    (* distinguishes sizes: the larger one is exact *)
     assert (G : forall z t, number z -> number t -> Rabs t <= Rabs z -> bpow radix2 (e - 1) <= Rabs z < w ->
       Rabs (fl (sqrt (fl (fl (fl (z * / w) * fl (z * / w)) + fl (fl (t * / w) * fl (t * / w))))) * w -
             sqrt (z * z + t * t)) <= (p0 + r * (1 + p0)) * sqrt (z * z + t * t)).
@@ -796,7 +795,7 @@ Proof.
   assert (HV : Rabs (v - root * w) <= h) by (rewrite EV; now apply (scale_error p emin direction r h E)).
   apply Rabs_le_inv in HV. assert (HR2' := HR2). apply Rabs_le_inv in HR2'.
   assert (RM : rho * M <= / 40 * M) by (apply Rmult_le_compat_r; lra).
-  (* in units of what was computed *)
+  (* in units of the computed value *)
   set (rel := 212 / 100 * eps + 75 / 10 * eta).
   assert (RV : rho * M <= rel * (v + h)).
   { apply Rle_trans with (rho * (40 / 39 * (v + h))); [apply Rmult_le_compat_l; lra |].
@@ -842,7 +841,7 @@ Proof.
   assert (LZ : (P + J) * q <= fl (P + J)) by (apply sum_relative; auto; apply rnd_number).
   assert (HQ : h <= h * 1) by lra.
   apply inflated_covers; [apply rnd_nonnegative, Rplus_le_le_0_compat; auto | |].
-  - (* P may be 0: its h is paid by what 2 eta leaves *)
+  - (* if P is 0, the rest of 2 eta covers its h *)
     assert (V1 : (P + h) * (f * (q * q)) >= P + h).
     { apply Rle_ge, no_less; lra. }
     assert (T1 : (sx + sy) * (q * q) + 2 * eta * q <= J).
@@ -940,7 +939,7 @@ Theorem sqrt_sound_nearest a x sa : (emin <= 2 - 2 * p)%Z -> number a -> number 
 Proof.
   intros H. apply (sqrt_covered p emin nearest p_3 ltac:(lia) _ _ error (Tight.nearest_q6 p p_3) u_8 H).
 Qed.
-(** The quotient in the code is one. *)
+(** The code's divisor is positive. *)
 Lemma divisor_positive a e : (emin <= 2 - 2 * p)%Z -> number a -> number e -> 0 < e <= a ->
   0 < fl (fl (sqrt a) + fl (sqrt (fl (a - e)))).
 Proof.

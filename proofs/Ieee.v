@@ -1,9 +1,9 @@
-(** IEEE formats, with a largest number, infinities and NaN, rounded to nearest, ties to even: Flocq's,
-    as an `arithmetic` for the code of Code.v.
+(** IEEE formats, with a largest number, infinities and NaN, rounded to nearest, ties to even: those of Flocq as an
+    `arithmetic` for the code of Code.v.
 
-    plus_finite and the like: a finite result is the rounded exact one, of finite operands. So where
-    the code's result is finite nothing on the way overflowed, and the definitions over real numbers
-    (Tight.v, ...) are what it computed. `nonnegative`: not below zero, though perhaps infinite or NaN. *)
+    plus_finite and similar: a finite result has finite operands and is the rounded exact one. So if the code's
+    result is finite, nothing before overflowed, and the code computed the definitions over real numbers (Tight.v,
+    ...). `nonnegative` means not below zero, but possibly infinite or NaN. *)
 
 From Coq Require Import Reals ZArith Lia Lra Psatz Bool.
 From Flocq Require Import Core IEEE754.BinarySingleNaN.
@@ -21,7 +21,7 @@ Notation float := (binary_float p emax).
 (** n 2^e, rounded. *)
 Definition constant (n e : Z) : float := binary_normalize p emax p_positive p_below mode_NE n e false.
 
-(** What number_traits says of such a format, and its operations. *)
+(** number_traits of such a format, and its operations. *)
 Definition floats : arithmetic float := {|
   plus := Bplus mode_NE;
   minus := Bminus mode_NE;
@@ -44,7 +44,7 @@ Definition floats : arithmetic float := {|
   largest := Bmax_float;
   infinity := B754_infinity false
 |}.
-(** That for which 1/2 <= |x| / 2^e < 1. *)
+(** The e with 1/2 <= |x| / 2^e < 1. *)
 Definition exponent (x : float) : Z := snd (Bfrexp x).
 
 Notation emin := (3 - emax - p)%Z.
@@ -55,7 +55,7 @@ Notation finite x := (BinarySingleNaN.is_finite x = true).
 Lemma number_B2R (x : float) : number (B2R x).
 Proof. apply (generic_format_B2R p emax x). Qed.
 
-(** A finite result is the rounded exact one, of finite operands. *)
+(** A finite result has finite operands and is the rounded exact one. *)
 Lemma plus_finite x y : finite (plus _ floats x y) ->
   finite x /\ finite y /\ B2R (plus _ floats x y) = fl (B2R x + B2R y).
 Proof.
@@ -202,7 +202,7 @@ Proof.
   - now rewrite Rabs_pos_eq.
 Qed.
 
-(** Not below zero: +infinity and NaN may be. *)
+(** Not below zero, but possibly +infinity or NaN. *)
 Definition nonnegative (x : float) : Prop :=
   match x with
   | B754_zero _ | B754_nan => True
@@ -313,7 +313,7 @@ Proof.
 Qed.
 End Ieee.
 
-(** Takes finite results apart: finite operands, and the value. *)
+(** Splits finite results into finite operands and the value. *)
 Ltac finite_parts p emax p_3 := repeat match goal with
   | H : BinarySingleNaN.is_finite (plus _ (floats p emax) _ _) = true |- _ =>
       apply plus_finite in H; destruct H as (? & ? & ?)
@@ -324,7 +324,7 @@ Ltac finite_parts p emax p_3 := repeat match goal with
   | H : BinarySingleNaN.is_finite (abs _ _ _) = true |- _ =>
       apply (abs_finite p emax p_3) in H; destruct H as (? & ?)
   end.
-(** Puts in the values of constants, and those known from equations. *)
+(** Rewrites with the values of constants and with known equations. *)
 Ltac known_values p emax p_3 := repeat match goal with
   | |- context [B2R (integer _ _ ?n)] => rewrite (proj2 (integer_value p emax p_3 n ltac:(lia)))
   | |- context [B2R (epsilon _ _)] => rewrite (proj2 (eps_value p emax p_3))
@@ -332,7 +332,7 @@ Ltac known_values p emax p_3 := repeat match goal with
   | |- context [B2R (underflow_unit _ _)] => rewrite (proj2 (eta_value p emax p_3))
   | E : B2R ?x = _ |- context [B2R ?x] => rewrite E
   end.
-(** Sums and products of what is not below zero are not. *)
+(** Sums and products of nonnegative numbers are nonnegative. *)
 Ltac positive := repeat first
   [ apply nonnegative_plus | apply nonnegative_times
   | apply nonnegative_abs; assumption | apply nonnegative_eps; assumption

@@ -1,16 +1,14 @@
-(** Bound rule `affine` (include/errbound/rules/affine.hpp) over IEEE formats (Ieee.v), to nearest, overflow
-    included: AffineCode.v's functions, which are the C++ code line by line; p >= 4, emax > p; any limit on terms.
-
-    A source s has a number e s of size 1 at most, as in Affine.v. A number x is known by its value v and a bound if
-    its radius says so in the sense of IeeeRules.v and, where rest and terms are finite, x = v + sum of c (e s) but for
-    the rest. An operation has a new source, which is in no operand, or none. Results: there is a number of that source
-    (`made`) for which what the code returns is known:
+(** Bound rule `affine` (include/errbound/rules/affine.hpp) over IEEE formats (Ieee.v), to nearest, including
+    overflow: the functions of AffineCode.v, with p >= 4, emax > p, and any limit on terms. A source s has a number e
+    s of size at most 1, as in Affine.v. A number x is known by its value v and a bound if the radius holds
+    (IeeeRules.v). If rest and terms are finite, also |x - v - sum of c (e s)| <= rest. An operation has a new source
+    or none. If the radius is finite, nothing before overflowed (except sums of discarded terms), so the floats are
+    the real numbers of Affine.v. Results: a number of the new source exists (`made`) for which the returned bound
+    holds:
         affine_exact_known, affine_within_known, affine_negate_known, affine_add_known, affine_subtract_known,
         affine_multiply_known, affine_divide_known (with fused multiply-add and without, `fused`), affine_scale_known
         affine_error_known   the radius is an error, in the sense of IeeeRules.v
-        affine_known_stays   what was known still is where sources get other numbers that the number has not
-    By reduction to Affine.v: where the radius is finite, nothing on the way overflowed (but where terms are thrown
-    together, which happens after the radius is known), so that the code's floats are Affine.v's real numbers. *)
+        affine_known_stays   bounds still hold if other sources get other numbers *)
 
 From Coq Require Import Reals ZArith Lia Lra Psatz Bool List.
 From Flocq Require Import Core IEEE754.BinarySingleNaN.
@@ -19,8 +17,8 @@ From Errbound Require Format ErrorFree Residual Upper Affine IeeeInterval IeeeRe
 Import ListNotations.
 Open Scope R_scope.
 
-(** Of a list whose items are worked in one after the other: where the result is good, all were, and what stands for
-    the result is what stands for the items, worked in. *)
+(** A list whose items are processed one after the other. If the result is good, all items were, and the result
+    stands for the processed real items. *)
 Lemma fold_backward {S X S' X'} (good : S -> Prop) (fine : X -> Prop) (read : S -> S') (item : X -> X')
     (step : S -> X -> S) (step' : S' -> X' -> S') :
   (forall s t, good (step s t) -> good s /\ fine t /\ read (step s t) = step' (read s) (item t)) ->
@@ -70,7 +68,7 @@ Proof. apply (zero_value p emax at_least_3). Qed.
 Ltac split_finite := finite_parts p emax at_least_3.
 Ltac values := known_values p emax at_least_3.
 
-(** What the code's floats are over the real numbers. *)
+(** The real numbers of the code's floats. *)
 Definition real_terms (l : terms) : Affine.terms := map (fun t => (fst t, B2R (snd t))) l.
 Definition real (B : builder) : Affine.builder := (B2R (fst B), real_terms (snd B)).
 Definition real_pair (t : Z * (float * float)) : Z * (R * R) := (fst t, (B2R (fst (snd t)), B2R (snd (snd t)))).
@@ -106,7 +104,7 @@ Proof.
     + split_finite. rewrite equal_zero in X, Y by auto. rewrite X, Y. repeat split; auto.
       unfold Upper.upper. values. rewrite <- (proj2 factor_value). now values.
 Qed.
-(** One factor may be anything if the other is 0. *)
+(** If one factor is 0, the other may be anything. *)
 Lemma product_finite x y r s : (finite x -> B2R x = r) -> (finite y -> B2R y = s) -> finite (upper_product _ F x y) ->
   B2R (upper_product _ F x y) = Affine.upper_product p emin r s /\
   (finite x /\ finite y \/ finite x /\ B2R x = 0 \/ finite y /\ B2R y = 0).
@@ -130,7 +128,7 @@ Proof.
     unfold Upper.upper. values. rewrite <- (proj2 factor_value). now values.
 Qed.
 
-(** A result's terms and what is left over. *)
+(** A result's terms and rest. *)
 Lemma real_length B : length (snd (real B)) = length (snd B).
 Proof. apply map_length. Qed.
 Lemma nothing_real : real (nothing _ F) = Affine.nothing.
@@ -204,13 +202,13 @@ Proof.
   destruct (fst t <? fst x)%Z; inversion H; auto.
 Qed.
 
-(** What a number's value and bound say of x, e being the sources' numbers (Affine.v): what the radius does, if it is
-    finite, and if rest and terms are, what those do. *)
+(** The meaning of a number's value and bound for x, with the numbers e of the sources (Affine.v). If the radius is
+    finite, it bounds the error; if rest and terms are, they do. *)
 Definition affine_known (e : Z -> R) (v : float) (A : affine) (x : R) : Prop :=
   known v (radius A) x /\
   (finite (rest A) -> all_finite (parts A) -> finite (radius A) /\ Affine.holds p emin e (B2R v) (real_bound A) x).
 Definition is_new (f : Z) (A : affine) : Prop := Forall (fun t => fst t <> f) (parts A).
-(** With a number of the new source that makes it right, or without sources. *)
+(** The result holds with some number of the new source, or without sources. *)
 Definition made (e : Z -> R) (v : float) (A : affine) (x : R) (g : option Z) : Prop :=
   match g with
   | Some f => exists t, Rabs t <= 1 /\ affine_known (Affine.set e f t) v A x
@@ -388,7 +386,7 @@ Proof.
   apply scale_finite in FC. destruct FC as [_ ->]. auto.
 Qed.
 
-(** A divisor's distance from zero, a little less. *)
+(** A lower bound of a divisor's distance from zero. *)
 Lemma shrinking_value : finite (integer _ F 1 ⊖ epsilon _ F) /\
   B2R (integer _ F 1 ⊖ epsilon _ F) = fl (1 - Format.eps p) /\ 0 < fl (1 - Format.eps p) <= 1.
 Proof.
@@ -433,7 +431,7 @@ Proof.
     destruct c as [| | | t m n q]; try discriminate; simpl in *; subst; try discriminate; lra.
 Qed.
 
-(** Operations, e being the sources' numbers so far, and f a new source. *)
+(** Operations, with the numbers e of the sources so far, and a new source f. *)
 Section Operation.
 
 Variable e : Z -> R.
@@ -442,7 +440,7 @@ Variable f : Z.
 Variable g : option Z.
 Hypothesis g_f : g = Some f \/ g = None.
 
-(** What terms say when the rest says nothing: within enough. *)
+(** The meaning of terms with an infinite rest: any large enough radius holds. *)
 Lemma known_within v A x : affine_known e v A x -> finite (radius A) -> all_finite (parts A) -> exists r,
   (finite (rest A) -> B2R (rest A) = r) /\ 0 <= r /\
   Affine.holds p emin e (B2R v)
@@ -481,7 +479,7 @@ Proof.
     now rewrite E0. }
   rewrite E. apply Affine.affine_exact_sound. apply number_B2R.
 Qed.
-(** An error below zero, infinite or NaN says nothing. *)
+(** A negative, infinite or NaN error gives an unknown number. *)
 Theorem affine_within_known v error x :
   (finite error -> 0 <= B2R error -> Rabs (B2R v - x) <= B2R error) ->
   made e v (affine_within _ F limit v error g) x g.
@@ -507,7 +505,7 @@ Proof.
     f_equal. rewrite !map_map. apply map_ext. intros t. cbn [fst snd]. now rewrite opposite_value.
 Qed.
 
-(** What is known of two operands. *)
+(** Hypotheses on two operands. *)
 Variables (a b : float) (sa sb : affine) (x y : R).
 Hypothesis of_a : affine_known e a sa x.
 Hypothesis of_b : affine_known e b sb y.
@@ -530,7 +528,7 @@ Qed.
 Theorem affine_add_known : made e (a ⊕ b) (affine_add _ F limit (a ⊕ b) a sa b sb g) (x + y) g.
 Proof. apply sum_known. apply plus_finite. Qed.
 
-(** A value that is zero for certain. *)
+(** A value that is certainly zero. *)
 Lemma exact_zero_known v sv z : affine_known e v sv z -> is_exact_zero _ F v sv = true -> B2R v = 0 /\ z = 0.
 Proof.
   intros [[_ K] _] H. apply andb_prop in H. destruct H as [H1 H2]. apply equals_zero in H1, H2.
@@ -712,7 +710,7 @@ Proof.
   - intros H. apply minus_finite in H. destruct H as (FA & FB & E). rewrite opposite_value. split; auto. split; auto.
     simpl. now rewrite is_finite_Bopp.
 Qed.
-(** What was known still is where the sources' numbers are the same. *)
+(** Bounds still hold if the number's sources have the same numbers. *)
 Theorem affine_known_stays e e' v A x : (forall s t, In (s, t) (parts A) -> e' s = e s) ->
   affine_known e v A x -> affine_known e' v A x.
 Proof.

@@ -1,23 +1,15 @@
-(** Whole computations by the rule `affine` (include/errbound/rules/affine.hpp) over IEEE formats, overflow included:
-    AffineCode.v's operations, and with them functions of tracked numbers (include/errbound/functions.hpp); p >= 4,
-    emax > p, to nearest, any limit on terms. IeeeAffine.v says what a number is known by, and proves operations one
-    by one.
-
-    Each operation has a source of its own, or none. Results:
-        affine_promises, affine_keeps_operations   without sources: what IeeeFunctions.v and IeeeCompound.v prove of
-            functions by any rule holds of this one
-        next_known    if an assignment e of the sources' numbers makes all numbers so far known, there is one which does
-            so of the next, too, and is e on the sources so far: of an operation, or a function that ends in one, on any
-            of these numbers, with a source that none of them has
-        computed_known   so there is one after any number of operations, however they were chosen
-        computed_error   numbers made of nothing: the radius is an error
-    Functions of several operations, each with its own source, as NumberedCode.v has them; `gives l k m r`: from the
-    numbers of the list l, of which k operations were made, m computes by such operations a number that stands for r:
+(** Whole computations by the rule `affine` over IEEE formats, including overflow: AffineCode.v's operations, each
+    with a source or none, and functions of tracked numbers (functions.hpp). p >= 4, emax > p, to nearest, any limit
+    on terms. Results:
+        affine_promises, affine_keeps_operations   without sources, IeeeFunctions.v and IeeeCompound.v apply
+        next_known, computed_known, computed_error   an assignment of the sources' numbers that makes all numbers
+            known has
+            an extension after each operation; for numbers made of nothing, the radius is an error
         affine_midpoint_gives, affine_min_gives, affine_max_gives, affine_pow_gives, affine_dot_gives,
-        affine_horner_gives, affine_copysign_gives; of one operation: affine_sqrt_gives, affine_abs_gives,
-        affine_fma_gives, affine_lerp_gives, and from p = 8 on affine_hypot_gives
-        gives_known   such a number is known by an assignment as in next_known
-        gives_error   its radius is an error *)
+        affine_horner_gives, affine_copysign_gives, affine_sqrt_gives, affine_abs_gives, affine_fma_gives,
+        affine_lerp_gives, and from p = 8 on affine_hypot_gives
+            `gives l k m r`: from numbers of l, after k operations, m computes a number that stands for r
+        gives_known, gives_error   it is known by an assignment as in next_known, and its radius is an error *)
 
 From Coq Require Import Reals ZArith Lia Lra Bool List.
 From Flocq Require Import Core IEEE754.BinarySingleNaN.
@@ -27,7 +19,7 @@ From Errbound Require Format Tight Functions Affine DotProduct Compound.
 Import ListNotations.
 Open Scope R_scope.
 
-(** Sources of a result are its operands', and its own. *)
+(** A result's sources are those of its operands, and its own. *)
 Section Sources.
 
 Variable T : Type.
@@ -170,7 +162,7 @@ Definition sources (A : affine) : list Z := map fst (parts A).
 Lemma new_intro f A : (forall s, In s (sources A) -> s <> f) -> is_new f A.
 Proof. intros H. apply Forall_forall. intros t T. apply H. now apply in_map. Qed.
 
-(** Without sources: for any numbers of the sources that the given numbers have. *)
+(** Without sources: results for any numbers of the operands' sources. *)
 Section Without_sources.
 
 Variable e : Z -> R.
@@ -221,14 +213,14 @@ Qed.
 
 End Without_sources.
 
-(** Numbers made one after the other, each with the real number that it stands for. *)
+(** Numbers made one after the other, each with its real number. *)
 Definition list_of_numbers : Type := list (number * R).
 Definition unused (f : Z) (l : list_of_numbers) : Prop := forall n x, In (n, x) l -> is_new f (snd n).
 Definition used (l : list_of_numbers) (s : Z) : Prop := exists n x, In (n, x) l /\ In s (sources (snd n)).
 (** A new source, if any. *)
 Definition unused_source (g : option Z) (l : list_of_numbers) : Prop := forall f, g = Some f -> unused f l.
 
-(** What an operation, or a function that ends in one, makes of numbers of the list with g for the new source. *)
+(** Results of an operation on numbers of the list, or of a function that ends in one, with g as the new source. *)
 Inductive result (g : option Z) (l : list_of_numbers) : number -> R -> Prop :=
 | of_exactly v : result g l (tracked_exactly _ _ (rule g) v) (B2R v)
 | of_within v error x : (finite error -> 0 <= B2R error -> Rabs (B2R v - x) <= B2R error) ->
@@ -250,7 +242,7 @@ Inductive result (g : option Z) (l : list_of_numbers) : number -> R -> Prop :=
 | of_hypot exponent a x b y : (8 <= p)%Z ->
     (forall v, finite v -> B2R v <> 0 -> bpow radix2 (exponent v - 1) <= Rabs (B2R v) < bpow radix2 (exponent v)) ->
     In (a, x) l -> In (b, y) l -> result g l (tracked_hypot _ F _ (by_rule g) exponent a b) (sqrt (x * x + y * y)).
-(** Any choice of them, each with a source that no number so far has, or with none. *)
+(** Any sequence of them, each with a source that no earlier number has, or with none. *)
 Inductive computed (from : list_of_numbers) : list_of_numbers -> Prop :=
 | nothing_more : computed from from
 | one_more g l n x : computed from l -> unused_source g l -> result g l n x -> computed from ((n, x) :: l).
@@ -258,7 +250,7 @@ Inductive computed (from : list_of_numbers) : list_of_numbers -> Prop :=
 Definition all_known (e : Z -> R) (l : list_of_numbers) : Prop :=
   Affine.units e /\ forall n x, In (n, x) l -> affine_known e (fst n) (snd n) x.
 
-(** Operations of one source at most: the others say nothing. *)
+(** Operations with at most one source: the others give unknown numbers. *)
 Definition last_operation (g : option Z) : operations float affine := {|
   the_rule := {|
     rule_exact := affine_exact _ F;
@@ -350,7 +342,7 @@ Proof.
   - rewrite <- last_hypot. apply (hypot_known p emax p_3 affine _ _ Last exponent a x b y P8 Exp (M _ _ I) (M _ _ J)).
 Qed.
 
-(** Another number is known by an assignment that extends the one before on the sources so far. *)
+(** An assignment that extends the previous one makes the next number known. *)
 Theorem next_known e g l n x : all_known e l -> unused_source g l -> result g l n x ->
   exists e', all_known e' ((n, x) :: l) /\ forall s, used l s -> e' s = e s.
 Proof.
@@ -368,7 +360,7 @@ Proof.
 Qed.
 Lemma computed_incl from l : computed from l -> incl from l.
 Proof. induction 1 as [| g l n x C IH]; [apply incl_refl | now apply incl_tl]. Qed.
-(** So of whole computations, however their operations were chosen. *)
+(** The same for whole computations with any operations. *)
 Theorem computed_known e from l : all_known e from -> computed from l ->
   exists e', all_known e' l /\ forall s, used from s -> e' s = e s.
 Proof.
@@ -376,7 +368,7 @@ Proof.
   destruct (next_known e' g l n x K' New H) as (e2 & K2 & S2). exists e2. split; auto. intros s U.
   rewrite S2, S; auto. destruct U as (m & y & I & U). exists m, y. split; auto. now apply (computed_incl from).
 Qed.
-(** Numbers made of nothing, then: each is within its error, and its sign right. *)
+(** For numbers made of nothing, each is within its error, and its sign is right. *)
 Theorem computed_error l n x : computed [] l -> In (n, x) l -> known (fst n) (radius (snd n)) x.
 Proof.
   intros C I. destruct (computed_known (fun _ => 0) [] l) as (e & [_ K] & _); auto.
@@ -384,7 +376,7 @@ Proof.
   - now apply K.
 Qed.
 
-(** A result's sources are its operands', and its own. *)
+(** A result's sources are those of its operands, and its own. *)
 Lemma sources_from (P : Z -> Prop) A : all_from P (parts A) <-> forall s, In s (sources A) -> P s.
 Proof.
   unfold all_from, sources. rewrite Forall_forall. split.
@@ -424,8 +416,8 @@ Proof.
   - unfold tracked_hypot. cbv zeta. destruct (negb _); [apply W |]. destruct (equal _ F _ _); apply W.
 Qed.
 
-(** Functions of several operations (NumberedCode.v): the operation after k others has the source `source k`. Those to
-    come are no number's so far, and all different. *)
+(** Functions of several operations (NumberedCode.v): the operation after k others has the source `source k`. The
+    sources to come are new and different. *)
 Variable source : nat -> option Z.
 Hypothesis all_different : forall i j s, source i = Some s -> source j = Some s -> i = j.
 Notation operation := (fun k => by_rule (source k)).
@@ -434,7 +426,7 @@ Record ready (k : nat) (l : list_of_numbers) : Prop := {
   ready_known : exists e, all_known e l;
   ready_sources : forall j, (k <= j)%nat -> unused_source (source j) l
 }.
-(** From the numbers of l, and after k operations, m computes what has P. *)
+(** From numbers of l and after k operations, the result of m has the property P. *)
 Definition makes {X} (l : list_of_numbers) (k : nat) (m : counted X) (P : X -> list_of_numbers -> Prop) : Prop :=
   let (x, j) := m k in exists l', computed l l' /\ ready j l' /\ P x l'.
 Definition gives l k (m : counted number) (r : R) : Prop := makes l k m (fun x l' => In (x, r) l').
@@ -481,7 +473,7 @@ Proof.
   specialize (G Next). unfold makes in *. destruct (m k) as [y j]. destruct G as (l' & C' & G). exists l'. split; auto.
   now apply computed_trans with ((n, x) :: l).
 Qed.
-(** What the list's numbers are known to be, whatever the assignment. *)
+(** Facts about the list's numbers under any assignment. *)
 Lemma error_right k l n x : ready k l -> In (n, x) l -> known (fst n) (radius (snd n)) x.
 Proof. intros [(e & _ & K) _] I. now apply K. Qed.
 Notation the_rule := (the_rule _ _ (operation O)).
@@ -508,7 +500,7 @@ Lemma scale_gives e : gives l k (scale a e) (x * bpow radix2 e).
 Proof. apply gives_once; auto. now apply of_scale. Qed.
 End Operations.
 
-(** Whether the sum is finite does not matter. *)
+(** The sum need not be finite. *)
 Theorem affine_midpoint_gives l k x r y s : ready k l -> In (x, r) l -> In (y, s) l ->
   gives l k (numbered_midpoint _ F _ operation x y) ((r + s) / 2).
 Proof.
@@ -573,7 +565,7 @@ Proof.
   apply makes_at_once; auto. now left.
 Qed.
 
-(** Whole powers; 1/x^-n for n < 0, and whatever it may be if x is zero. *)
+(** Whole powers. For n < 0 it is 1/x^-n, and any number if x is zero. *)
 Lemma power_gives r bits : forall l k first result power s t m, ready k l -> In (power, t) l ->
   (first = false -> In (result, s) l) -> t = r ^ m -> (first = true -> s = 1) ->
   gives l k (numbered_power _ F _ operation bits first result power) (s * r ^ (m * Pos.to_nat bits)).
@@ -788,7 +780,7 @@ Proof.
   - intros R9. apply makes_at_once; auto. now left.
 Qed.
 
-(** The sign of zero is taken for positive. *)
+(** A zero counts as positive. *)
 Theorem affine_copysign_gives l k x r y s : ready k l -> In (x, r) l -> In (y, s) l ->
   gives l k (numbered_copysign _ F _ operation x y) (if Rlt_bool s 0 then - Rabs r else Rabs r).
 Proof.
@@ -847,7 +839,7 @@ Theorem affine_lerp_gives : gives l k (numbered_lerp _ F _ operation a b c) ((1 
 Proof. apply gives_once; auto. now apply of_lerp. Qed.
 End One_operation.
 
-(** What a function gives is known by an assignment that extends the one before, by which the others are still. *)
+(** An extension of the assignment makes a function's result known, and the other numbers still are. *)
 Theorem gives_known e l k m r : all_known e l -> gives l k m r ->
   exists e', all_known e' ((fst (m k), r) :: l) /\ forall s, used l s -> e' s = e s.
 Proof.

@@ -1,12 +1,11 @@
-(** Functions of tracked numbers (include/errbound/functions.hpp) as CompoundCode.v has them, over IEEE formats
-    (Ieee.v), to nearest, overflow included, by every bound rule that keeps what it promises; p >= 3, emax > p.
+(** Functions of tracked numbers (include/errbound/functions.hpp), as in CompoundCode.v, over IEEE formats (Ieee.v),
+    to nearest, including overflow, by every bound rule whose operations keep its bounds; p >= 3, emax > p.
 
-    `keeps_operations`: what such functions ask of a rule, beside `promises` of IeeeFunctions.v. Results:
+    `keeps_operations` are the hypotheses on a rule, in addition to `promises` of IeeeFunctions.v. The dot products
+    of tight and sharp are those of IeeeDotProduct.v. Results:
         tight_keeps_operations, sharp_..., safe_..., interval_..., residual_...
-        midpoint_known, pow_known, dot_known, horner_known
-        lerp_known, copysign_known, and from p = 8 on hypot_known
-    by such a rule, a function of known numbers is known by what the code returns. (dot of tight and sharp is that
-    of IeeeDotProduct.v.) *)
+        midpoint_known, pow_known, dot_known, horner_known, lerp_known, copysign_known, and from p = 8 on hypot_known
+                          by such a rule, the bound that the code returns holds for functions of known numbers *)
 
 From Coq Require Import Reals ZArith Lia Lra Bool List.
 From Flocq Require Import Core IEEE754.BinarySingleNaN.
@@ -44,12 +43,12 @@ Record keeps_operations (B : Type) (by_rule : operations float B) (holds : float
     holds (a ⊕ b) (rule_add _ _ by_rule (a ⊕ b) a sa b sb) (x + y);
   known_product a sa x b sb y : holds a sa x -> holds b sb y ->
     holds (a ⊗ b) (rule_multiply _ _ by_rule (a ⊗ b) a sa b sb) (x * y);
-  (** By zero, whatever it may be. *)
+  (** A quotient by zero may be anything. *)
   known_quotient divide a sa x b sb y : rule_divide _ _ by_rule = Some divide -> holds a sa x -> holds b sb y ->
     forall t, y = 0 \/ t = x / y -> holds (a ⊘ b) (divide (a ⊘ b) a sa b sb) t;
   known_scaled a sa x e : holds a sa x ->
     holds (scale _ F a e) (rule_scale _ _ by_rule (scale _ F a e) a sa e) (x * bpow radix2 e);
-  (** Zeros of either sign are one number. *)
+  (** Zeros of both signs are equal. *)
   known_alike a c b x : finite a -> finite c -> B2R a = B2R c -> holds a b x -> holds c b x
 }.
 
@@ -108,7 +107,7 @@ Proof.
   - intros a c b x A C E [P H]. split; auto. intros H1 H2. rewrite <- E. split; [exact C | now apply H].
 Qed.
 
-(** By any such rule. *)
+(** Theorems for any such rule. *)
 Variable B : Type.
 Variable by_rule : operations float B.
 Variable holds : float -> B -> R -> Prop.
@@ -163,7 +162,7 @@ Theorem midpoint_known x r y s : tracked_known x r -> tracked_known y s ->
   tracked_known (tracked_midpoint _ F _ by_rule x y) ((r + s) / 2).
 Proof. apply (midpoint_kept _ _ _ _ _ _ compound_keeps). Qed.
 
-(** x^n, and 1/x^-n for n < 0; x is not zero then where the error is finite. *)
+(** x^n, and 1/x^-n for n < 0; if the error is finite, x is then not zero. *)
 Theorem pow_known x r n : tracked_known x r ->
   tracked_known (tracked_pow _ F _ by_rule x n) (powerRZ r n) /\
   ((n < 0)%Z -> finite (error_of (tracked_pow _ F _ by_rule x n)) -> r <> 0).
@@ -182,7 +181,7 @@ Proof.
     + apply (nothing_known p emax B rule holds Rule). discriminate.
 Qed.
 
-(** Of dot_of for rules without a dot_bound. *)
+(** dot_of for rules without a dot_bound. *)
 Theorem dot_known pairs exacts :
   Forall2 (fun pair exact => tracked_known (fst pair) (fst exact) /\ tracked_known (snd pair) (snd exact)) pairs exacts ->
   tracked_known (tracked_dot _ F _ by_rule pairs) (exact_dot exacts).
@@ -192,7 +191,7 @@ Theorem horner_known c exact x r : Forall2 tracked_known c exact -> tracked_know
   tracked_known (tracked_horner _ F _ by_rule c x) (exact_horner exact r).
 Proof. apply (horner_kept _ _ _ _ _ _ compound_keeps). Qed.
 
-(** Functions of no rule. *)
+(** Functions without a rule. *)
 Theorem lerp_known x r y s z t : tracked_known x r -> tracked_known y s -> tracked_known z t ->
   tracked_known (tracked_lerp _ F _ by_rule x y z) ((1 - t) * r + t * s).
 Proof.
@@ -238,7 +237,7 @@ Proof.
   unfold tracked_abs. cbv zeta. destruct (tracked_sign _ _ rule x); try (now rewrite E); auto;
     destruct (less _ F (fst x) (integer _ F 0)) eqn:L; auto.
 Qed.
-(** The sign of zero is taken for positive. *)
+(** A zero counts as positive. *)
 Theorem copysign_known x r y s : tracked_known x r -> tracked_known y s ->
   tracked_known (tracked_copysign _ F _ by_rule x y) (if Rlt_bool s 0 then - Rabs r else Rabs r).
 Proof.
@@ -262,7 +261,7 @@ Proof.
     + destruct (Rlt_bool s 0); rewrite ?Rabs_Ropp; apply Rabs_Rabsolu.
 Qed.
 
-(** For any exponent as number_traits has it. *)
+(** For any exponent of number_traits. *)
 Theorem hypot_known exponent x r y s : (8 <= p)%Z ->
   (forall a, finite a -> B2R a <> 0 -> bpow radix2 (exponent a - 1) <= Rabs (B2R a) < bpow radix2 (exponent a)) ->
   tracked_known x r -> tracked_known y s ->

@@ -1,9 +1,8 @@
-(** Running error bounds of dot products over IEEE formats (Ieee.v), to nearest, overflow included: what
-    CompoundCode.v computes there is what DotProduct.v is about, wherever the bound is finite.
-
-    Numbers are known in the sense of IeeeRules.v. Of lists of known numbers of any length, emax > p:
-        tight_dot_known   from p = 8 on, the dot product is known by what the code returns under `tight`;
-        sharp_dot_known   from p = 5 on, likewise under `sharp`. *)
+(** Running error bounds of dot products over IEEE formats (Ieee.v), to nearest, including overflow: if the bound is
+    finite, CompoundCode.v computes the numbers of DotProduct.v. Numbers are known in the sense of IeeeRules.v. For
+    lists of known numbers of any length, emax > p:
+        tight_dot_known   from p = 8 on, the bound that the code returns under `tight` holds for the dot product
+        sharp_dot_known   from p = 5 on, that under `sharp` holds *)
 
 From Coq Require Import Reals ZArith Lia Lra Bool List.
 From Flocq Require Import Core IEEE754.BinarySingleNaN.
@@ -70,7 +69,7 @@ Definition all_finite (s : running) : Prop :=
 Definition real_of (s : running) : CompoundCode.running R :=
   {| closed := B2R (closed _ s); own := B2R (own _ s); inherited := B2R (inherited _ s);
      terms := terms _ s; uncertain_terms := uncertain_terms _ s |}.
-(** Of every state that the loop comes to. *)
+(** The invariant of the loop's states. *)
 Definition regular (s : running) : Prop :=
   nonnegative (closed _ s) /\ nonnegative (own _ s) /\ nonnegative (inherited _ s) /\
   (uncertain_terms _ s <= terms _ s < most)%nat /\

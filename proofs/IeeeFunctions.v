@@ -1,12 +1,12 @@
-(** Functions of tracked numbers (include/errbound/functions.hpp) over IEEE formats (Ieee.v), to nearest,
-    overflow included, by every bound rule that keeps what it promises; p >= 3, emax > p.
+(** Functions of tracked numbers (include/errbound/functions.hpp) over IEEE formats (Ieee.v), to nearest, including
+    overflow, by every bound rule that keeps its promises; p >= 3, emax > p.
 
-    `promises`: what functions ask of a rule. A predicate says that a number x is known by a value and a
-    bound, and the rule's operations keep to it; its error is one in the sense of IeeeRules.v. Results:
+    `promises` are the hypotheses on a rule. A predicate defines when a value and a bound hold for a number x, and
+    the rule's operations preserve it. Its error is one in the sense of IeeeRules.v. Results:
         tight_promises, sharp_promises, safe_promises, interval_promises, residual_promises
-        sqrt_known, abs_known, min_known, max_known, fma_known: by such a rule, a function of known numbers
-        is known by what the code returns; where the error of a square root is finite, its argument is not
-        below zero. *)
+        sqrt_known, abs_known, min_known, max_known, fma_known   the bound that the code returns holds for functions
+            of
+            known numbers; if the error of a square root is finite, its argument is not negative *)
 
 From Coq Require Import Reals ZArith Lia Lra Psatz Bool.
 From Flocq Require Import Core IEEE754.BinarySingleNaN.
@@ -46,7 +46,7 @@ Definition right_sign (s : sign_type) (x : R) : Prop :=
   | uncertain => True
   end.
 
-(** A rule's operations keep what `holds` says: x is known by a value and a bound. *)
+(** A rule's operations preserve `holds`: a value and a bound hold for x. *)
 Record promises (B : Type) (rule : rule float B) (holds : float -> B -> R -> Prop) : Prop := {
   promise_exact a : holds a (rule_exact _ _ rule a) (B2R a);
   promise_within a error x :
@@ -99,7 +99,7 @@ Proof.
   - now apply IeeeResidual.residual_sign_known.
 Qed.
 
-(** The code's terms are those over real numbers, where they are finite. *)
+(** If the code's terms are finite, they are those over real numbers. *)
 Lemma enlarged_finite b : finite (enlarged _ F b) ->
   finite b /\ B2R (enlarged _ F b) = Tight.inflated p emin Format.nearest (B2R b).
 Proof. apply (tight_inflated_finite p emax p_3). Qed.
@@ -133,7 +133,7 @@ Proof.
   rewrite bpow_plus, Rabs_pos_eq by lra. change (bpow radix2 1) with 2. lra.
 Qed.
 
-(** By any such rule. *)
+(** Theorems for any such rule. *)
 Variable B : Type.
 Variable rule : rule float B.
 Variable holds : float -> B -> R -> Prop.
@@ -150,10 +150,10 @@ Qed.
 Lemma negate_known x r : tracked_known x r -> tracked_known (tracked_negate _ F _ rule x) (- r).
 Proof. apply (promise_negate _ _ _ Rule). Qed.
 
-(** A number within an error that is not finite is known whatever it is, so that its error is not finite. *)
+(** With an infinite or NaN error, a number may be anything, so its error is not finite. *)
 Lemma nothing_known v e : ~ finite e -> forall r, tracked_known (tracked_within _ _ rule v e) r.
 Proof. intros N r. apply (promise_within _ _ _ Rule). intros H. contradiction. Qed.
-(** What may be any number has no finite error. *)
+(** A number that may be anything has no finite error. *)
 Lemma any_number_error x : (forall r, tracked_known x r) -> ~ finite (error_of x).
 Proof.
   intros K H. set (s := B2R (error_of x)).

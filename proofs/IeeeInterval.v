@@ -1,17 +1,14 @@
-(** Bound rule `interval` (include/errbound/rules/interval.hpp) over IEEE formats (Ieee.v), to nearest,
-    overflow included; p >= 3, emax > p.
-
-    A number x with value a is known by two floats if they are finite, a is, and both a and x lie
-    between them; or if they are -infinity and +infinity. Results: what the code returns is known:
+(** Bound rule `interval` (include/errbound/rules/interval.hpp) over IEEE formats (Ieee.v), to nearest, including
+    overflow; p >= 3, emax > p. A number x with value a is known by two floats if all are finite and both a and x lie
+    between the floats. It is also known by -infinity and +infinity. Products and quotients are with fused
+    multiply-add and without (`fused`). two_sum overflows after its sum only to NaN (two_sum_known). Results: the
+    bounds that the code returns hold:
         interval_exact_known, interval_within_known, interval_negate_known, interval_add_known,
-        interval_subtract_known, interval_multiply_known, interval_divide_known,
-        interval_scale_known
+        interval_subtract_known, interval_multiply_known, interval_divide_known, interval_scale_known
         interval_sign_known   the rule's sign is right or uncertain
-        interval_error_known  where the error is finite the value is, and |a - x| is at most the error
-        product_known         what product_error_is_exact calls exact is, whatever overflows
-        remainder_known       likewise of remainder_of_division
-    Products and quotients with fused multiply-add and without (`fused`). On the way: two_sum does not
-    overflow after its sum but into NaN (two_sum_known). *)
+        interval_error_known  if the error is finite, so is the value, and |a - x| is at most the error
+        product_known, remainder_known   results that product_error_is_exact and remainder_of_division_exact call
+                              exact are, even after an overflow *)
 
 From Coq Require Import Reals ZArith Lia Lra Psatz Bool.
 From Flocq Require Import Core IEEE754.BinarySingleNaN Sterbenz.
@@ -42,7 +39,7 @@ Infix "⊘" := (over float F) (at level 40, left associativity).
 Notation minus_infinity := (B754_infinity true : float).
 Notation plus_infinity := (B754_infinity false : float).
 
-(** A number x with value a lies between the ends, or nothing is known. *)
+(** A number x with value a lies between the ends, or is unknown. *)
 Definition interval_known (a : float) (b : float * float) (x : R) : Prop :=
   b = (minus_infinity, plus_infinity) \/
   (finite (fst b) /\ finite (snd b) /\ finite a /\
@@ -110,7 +107,7 @@ Proof.
   apply (Interval.above_true p emin p_3); auto. apply number_B2R.
 Qed.
 
-(** Results that fit. The largest number is M, its ulp U. *)
+(** Results without overflow. The largest number is M, its ulp U. *)
 Let U := bpow radix2 (emax - p).
 Let M := bpow radix2 emax - U.
 Lemma U_M : 0 < U /\ 7 * U <= M.
@@ -176,7 +173,7 @@ Proof.
   apply error_le_half_ulp_round; auto with typeclass_instances.
 Qed.
 
-(** two_sum does not overflow after its sum, but for b_in_sum; the error is NaN then. *)
+(** two_sum does not overflow after its sum, except in b_in_sum; then the error is NaN. *)
 Lemma largest_in_sum x y : Rabs x = M -> number y -> Rabs y <= M -> Rabs (fl (x + y)) <= M ->
   fl (fl (x + y) - x) = fl (x + y) - x.
 Proof.
@@ -280,7 +277,7 @@ Qed.
 
 Theorem interval_exact_known a : interval_known a (interval_exact _ F a) (B2R a).
 Proof. apply checked_known. lra. Qed.
-(** An error below zero, infinite or NaN says nothing. *)
+(** A negative, infinite or NaN error gives an unknown number. *)
 Theorem interval_within_known a error x :
   (finite error -> 0 <= B2R error -> Rabs (B2R a - x) <= B2R error) ->
   interval_known a (interval_within _ F a error) x.
@@ -358,7 +355,7 @@ Proof.
   destruct (Req_bool_spec (B2R l) 0), (Req_bool_spec (B2R u) 0); simpl; auto. lra.
 Qed.
 
-(** The least and the greatest of four. *)
+(** The minimum and the maximum of four numbers. *)
 Lemma least_either m n : least _ F m n = m \/ least _ F m n = n.
 Proof. unfold least. destruct (less _ F n m); auto. Qed.
 Lemma max_either m n : most _ F m n = m \/ most _ F m n = n.
@@ -397,8 +394,7 @@ Proof. destruct (max_either m n) as [-> | ->]; auto. Qed.
 Lemma finite_intro m : no_nan m -> m <> minus_infinity -> m <> plus_infinity -> finite m.
 Proof. destruct m as [| [|] | |]; easy. Qed.
 
-(** Ends of exact values Q; where one is not finite, neither is the hull, if none or all are NaN or
-    infinite. *)
+(** Ends of exact values Q. If one is not finite, neither is the hull, if none or all are NaN or infinite. *)
 Lemma hull_known v w x y z t Qw Qx Qy Qz :
   (no_nan w /\ no_nan x /\ no_nan y /\ no_nan z) \/
     (~ finite w /\ ~ finite x /\ ~ finite y /\ ~ finite z) ->
@@ -471,7 +467,7 @@ Proof.
     do 2 case Req_bool_spec; try discriminate. lra.
 Qed.
 
-(** v, rounded from t, and its error's sign. *)
+(** v, rounded from t, and the sign of its error. *)
 Lemma nearest_known v error t : (finite v -> B2R v = fl t) ->
   (finite v -> finite error /\ (B2R error < 0 -> t <= B2R v) /\ (0 < B2R error -> B2R v <= t) /\
     (B2R error = 0 -> B2R v = t)) ->
@@ -736,7 +732,7 @@ Proof.
     rewrite !Ropp_inv_permute by lra. split; apply Rinv_le_contravar; lra.
 Qed.
 
-(** x - y b and the sign of b tell on which side of y the quotient x/b lies. *)
+(** The signs of x - y b and of b determine on which side of y the quotient x/b lies. *)
 Lemma quotient_above x b y : b <> 0 -> 0 <= (if Rlt_bool b 0 then - (x - y * b) else x - y * b) -> y <= x / b.
 Proof.
   intros NB. case Rlt_bool_spec; intros C H.

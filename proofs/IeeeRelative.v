@@ -1,21 +1,16 @@
-(** Bound rule `relative` (include/errbound/rules/relative.hpp) over IEEE formats (Ieee.v), to nearest, overflow
-    included: RelativeCode.v's functions, which are the C++ code line by line, keep what they promise.
-
-    Numbers have p digits, p >= 4, emax > p. Counts are of another format with q digits, q >= p and q >= 24, that has
-    all these numbers, qmax >= emax, and reaches far enough down, qmax >= 5q + 3: double in the code, for formats of up
-    to 53 digits and emax of up to 1024 (relative_keeps_operations_doubles). `converted` rounds to nearest.
-
-    A number x is known by a value v and a count k that is neither below zero nor NaN if, where k is finite, so is v,
-    and v and x have one sign, or both are 0, and |ln(v/x)| <= kw (`holds` of Relative.v). Results:
+(** Bound rule `relative` (include/errbound/rules/relative.hpp) over IEEE formats (Ieee.v), to nearest, including
+    overflow: the functions of RelativeCode.v. Numbers have p >= 4 digits, emax > p. Counts have q digits, q >= p, q
+    >= 24, qmax >= emax, qmax >= 5q + 3: double in the code, up to 53 digits and emax 1024
+    (relative_keeps_operations_doubles). A number is known by a value and a nonnegative count if the count is
+    infinite, or the value finite and `holds` of Relative.v. Steps that cannot overflow are proved forwards; after
+    others, a finite result implies finite operands. Results:
         relative_exact_known, relative_within_known, relative_negate_known, relative_add_known,
-        relative_subtract_known, relative_multiply_known, relative_divide_known, relative_scale_known:
-            what the code returns is known;
-        relative_error_known: where the code's error is finite, so is v, and |v - x| is at most that error;
-        relative_sign_known: the sign is right or uncertain;
-        relative_promises, relative_keeps_operations: so functions are known (IeeeFunctions.v, IeeeCompound.v);
-        relative_dot_known: dot products, by the rule's dot_bound.
-    Steps that cannot overflow are taken forwards (forward_times and others); where a step may, its finite result tells
-    that those before it were finite. *)
+            relative_subtract_known,
+        relative_multiply_known, relative_divide_known, relative_scale_known   the count that the code returns holds
+        relative_error_known, relative_sign_known   a finite error bounds |v - x|; the sign is right or uncertain
+        relative_promises, relative_keeps_operations, relative_dot_known   functions (IeeeFunctions.v,
+            IeeeCompound.v), and
+            dot products by the rule's dot_bound *)
 
 From Coq Require Import Reals ZArith Lia Lra Psatz Bool List.
 From Flocq Require Import Core IEEE754.BinarySingleNaN.
@@ -24,7 +19,7 @@ From Errbound Require Format ErrorFree Upper Tight IeeeInterval Relative.
 Import ListNotations.
 Open Scope R_scope.
 
-(** Of one format. *)
+(** Facts about one format. *)
 Section Format.
 
 Variables p emax : Z.
@@ -55,7 +50,7 @@ Qed.
 Lemma nonnegative_upper x : nonnegative x -> nonnegative (upper _ F x).
 Proof. intros. unfold upper. positive. Qed.
 
-(** What is no larger in size than a number of the format does not overflow. *)
+(** A number of at most the size of a number of the format does not overflow. *)
 Definition fitting (y : R) : Prop := number y /\ y < bpow radix2 emax.
 Lemma fitting_power e : (emin <= e < emax)%Z -> fitting (bpow radix2 e).
 Proof. intros H. split; [apply Format.number_power; auto; lia | apply bpow_lt; lia]. Qed.
@@ -90,7 +85,7 @@ Proof.
   rewrite Rlt_bool_true; [| exact (rounded_fits _ t T H)]. intros (E & G & _). rewrite X in G. now split.
 Qed.
 
-(** Neither below zero nor NaN, though perhaps infinite. *)
+(** Neither negative nor NaN, but possibly infinite. *)
 Definition is_count (k : float) : Prop := nonnegative k /\ BinarySingleNaN.is_nan k = false.
 Lemma finite_no_nan (x : float) : finite x -> BinarySingleNaN.is_nan x = false.
 Proof. now destruct x. Qed.
@@ -286,7 +281,7 @@ Qed.
 Lemma slack_bounds : 1 <= Relative.slack q qmin <= 2.
 Proof. rewrite (Relative.slack_is q qmin q_24 qmin_q). generalize (Relative.v_small q q_24). lra. Qed.
 
-(** Forwards: a step is finite, and known, where its exact value is between 0 and 2^e. *)
+(** Forwards: if the exact value of a step is between 0 and 2^e, the result is finite and known. *)
 Lemma forward_times x y e : finite x -> finite y -> (- q - q - 10 <= e <= q + q + 10)%Z ->
   0 <= B2R x * B2R y <= bpow radix2 e ->
   finite (x *# y) /\ B2R (x *# y) = dl (B2R x * B2R y) /\ 0 <= B2R (x *# y) <= bpow radix2 e.
@@ -658,7 +653,7 @@ Proof.
   apply (Relative.count_of_share_nonnegative q qmin q_24 qmin_q p p_q); auto using number_B2R.
 Qed.
 
-(** An error below zero, infinite or NaN says nothing. *)
+(** A negative, infinite or NaN error gives an unknown number. *)
 Theorem relative_within_known v error x :
   (finite error -> 0 <= B2R error -> Rabs (B2R v - x) <= B2R error) -> relative_known v (relative_within v error) x.
 Proof.
@@ -806,7 +801,7 @@ Proof.
   destruct (zero_value p emax p_3) as [Z0 Z], (zero_value q qmax q_3) as [C0 Z'].
   now rewrite (equal_finite p emax), (equal_finite q qmax), Z, Z' by auto.
 Qed.
-(** A value that is zero for certain. *)
+(** A value that is certainly zero. *)
 Lemma certain_zero_known v : (finite v -> B2R v = 0) -> relative_known v (relative_exact v) 0.
 Proof.
   intros H. destruct (relative_exact_known v) as [K L]. split; [exact K |]. intros FK. destruct (L FK) as [FV HV].
@@ -834,7 +829,7 @@ Proof.
   apply (of_reals Relative.relative_multiply_sound (B2R a) (B2R ka) x (B2R b) (B2R kb) y e n HA HB Exact).
   unfold Relative.relative_multiply. rewrite <- !exact_zero_value, CZ, <- ES by auto. exact E.
 Qed.
-(** Where the count is finite, y is not zero. *)
+(** If the count is finite, y is not zero. *)
 Theorem relative_divide_known a ka x b kb y : relative_known a ka x -> relative_known b kb y ->
   relative_known (a ⊘ b) (relative_divide (a ⊘ b) a ka b kb) (x / y) /\
   (finite (relative_divide (a ⊘ b) a ka b kb) -> y <> 0).
@@ -875,7 +870,7 @@ Proof.
   rewrite EV in E |- *. exact (of_reals Relative.relative_scale_sound (B2R a) (B2R ka) x e n HA E).
 Qed.
 
-(** So functions of numbers known by this rule are known. *)
+(** So bounds of functions of known numbers hold. *)
 Theorem relative_promises : promises p emax _ (relative_rule _ _ F C to_count from_count) relative_known.
 Proof.
   split; cbn [relative_rule rule_exact rule_within rule_error rule_subtract rule_negate rule_sign].
@@ -900,7 +895,7 @@ Proof.
   - intros a c k x _ FC E [K H]. split; [exact K |]. rewrite <- E. intros FK. split; [exact FC | now apply H].
 Qed.
 
-(** Dot products: absolute errors are added up, beside the count of operations one by one. *)
+(** Dot products: the sum of absolute errors, and the count of single operations. *)
 Lemma rounded_off_known a b : finite (snd (two_sum _ F a b)) ->
   finite (a ⊕ b) /\ B2R (a ⊕ b) + B2R (snd (two_sum _ F a b)) = B2R a + B2R b.
 Proof.
@@ -967,7 +962,7 @@ Qed.
 
 End Rule.
 
-(** Counts that are doubles. *)
+(** Counts in double. *)
 Theorem relative_keeps_operations_doubles p emax (p_positive : Prec_gt_0 p) (p_below : Prec_lt_emax p emax)
   (q_positive : Prec_gt_0 53) (q_below : Prec_lt_emax 53 1024) fused : (4 <= p <= 53)%Z -> (emax <= 1024)%Z ->
   keeps_operations p emax _

@@ -1,12 +1,12 @@
-(** Bound rule `residual` (include/errbound/rules/residual.hpp) over IEEE formats (Ieee.v), to nearest,
-    overflow included; p >= 3, emax > p.
+(** Bound rule `residual` (include/errbound/rules/residual.hpp) over IEEE formats (Ieee.v), to nearest, including
+    overflow; p >= 3, emax > p.
 
-    A number x is known by its value v, correction c and remainder r if r is not below zero (it may be
-    infinite or NaN) and, where c and r are finite, v is, and |v + c - x| <= r. Results: what the code
-    returns is known:
+    A number x is known by its value v, correction c and remainder r. The remainder r is not negative, but possibly
+    infinite or NaN. If c and r are finite, so is v, and |v + c - x| <= r. Results: the bounds that the code returns
+    hold:
         residual_exact_known, residual_within_known, residual_negate_known, residual_add_known,
-        residual_subtract_known, residual_multiply_known, residual_divide_known (with fused
-        multiply-add and without, `fused`), residual_scale_known
+        residual_subtract_known, residual_multiply_known, residual_divide_known (with fused multiply-add and without,
+        `fused`), residual_scale_known
         residual_error_known   the error is one, in the sense of IeeeRules.v
         residual_sign_known    the rule's sign is right or uncertain *)
 
@@ -63,7 +63,7 @@ Proof.
   split; [apply nonnegative_nothing; auto |]. unfold residual_exact. cbn [fst snd]. intros _ H. parts.
   split; auto. values. apply Residual.residual_exact_sound; auto using number_B2R, emin_p.
 Qed.
-(** An error below zero, infinite or NaN says nothing. *)
+(** A negative, infinite or NaN error gives an unknown number. *)
 Theorem residual_within_known v error x :
   (finite error -> 0 <= B2R error -> Rabs (B2R v - x) <= B2R error) ->
   residual_known v (residual_within _ F v error) x.
@@ -82,7 +82,7 @@ Proof.
   - now apply Residual.residual_negate_sound.
 Qed.
 
-(** The remainder of a sum, of ra, rb and what its corrections lost, e and f. *)
+(** The remainder of a sum, from ra, rb and the errors e and f of its corrections. *)
 Lemma remainders_finite ra rb e f : nonnegative ra -> nonnegative rb ->
   let lost := abs _ F e ⊕ abs _ F f in
   let bound := sum_of_bounds _ F (residual_inflated _ F (ra ⊕ rb ⊕ lost)) (residual_inflated _ F lost) ra rb in
@@ -136,7 +136,7 @@ Proof.
   intros H. now apply minus_finite in H.
 Qed.
 
-(** A number whose value is d and that is known to be 0. *)
+(** A number with value d that is known to be 0. *)
 Theorem residual_displacement_known d : finite d -> residual_known d (opposite _ F d, integer _ F 0) 0.
 Proof.
   intros FD. destruct (zero_value p emax p_3) as [Z0 Z]. split; [now apply nonnegative_integer |]. cbn [fst snd].
@@ -290,7 +290,7 @@ Proof.
   apply is_exact_true in E. destruct E as (C & N & _). destruct (K C N) as [A HA].
   rewrite is_zero_value in H by auto. apply (ResidualProduct.holds_zero p emin _ _ _ _ HA H).
 Qed.
-(** A value that is zero for certain. *)
+(** A value that is certainly zero. *)
 Lemma zero_known v : (finite v -> B2R v = 0) -> residual_known v (residual_exact _ F v) 0.
 Proof.
   intros Z. destruct (residual_exact_known v) as [P K]. split; auto. intros C N.
@@ -348,7 +348,7 @@ Proof.
     clear EO EU O Real. now values.
 Qed.
 
-(** Divided by a number whose distance from zero is known; where r is finite, so y is not zero. *)
+(** A quotient by a number of known distance from zero; if r is finite, y is not zero. *)
 Theorem residual_divide_known a sa x b sb y : residual_known a sa x -> residual_known b sb y ->
   residual_known (a ⊘ b) (residual_divide _ F fused (a ⊘ b) a sa b sb) (x / y) /\
   (finite (snd (residual_divide _ F fused (a ⊘ b) a sa b sb)) -> y <> 0).

@@ -1,18 +1,15 @@
-(** Bound rules over IEEE formats (Ieee.v), to nearest, overflow included: Code.v's functions, which are
-    the C++ code line by line, keep what they promise.
+(** Bound rules over IEEE formats (Ieee.v), to nearest, including overflow: the functions of Code.v.
 
-    A number x is known by a value a and an error s, both floats, if s is not below zero (it may be
-    infinite or NaN) and, where s is finite, so is a, and |a - x| <= s. Results, for p >= 3 and
-    emax > p: exact numbers are known by what `exact` returns, and results of operations on known
-    numbers by what the rule returns, whatever overflows on the way:
-        tight_exact_known, tight_within_known, tight_add_known, tight_subtract_known,
-        tight_multiply_known, tight_divide_known, tight_scale_known
-        sharp_add_known, sharp_subtract_known, sharp_multiply_known, sharp_divide_known,
-        sharp_scale_known (exact and within are tight's)
-        tight_negate_known   -x by the same bound, of either
-        sign_of_known   the default sign of a known number is right or uncertain
-        none_guesses    not so of the rule none
-    (emax > p makes u a number of the format.) *)
+    A number x is known by a value a and an error s, both floats. The error s is not negative, but possibly infinite
+    or NaN. If s is finite, so is a, and |a - x| <= s. Results, for p >= 3 and emax > p: bounds of `exact` hold, and
+    so do bounds of operations on known numbers, even after an overflow:
+        tight_exact_known, tight_within_known, tight_add_known, tight_subtract_known, tight_multiply_known,
+        tight_divide_known, tight_scale_known
+        sharp_add_known, sharp_subtract_known, sharp_multiply_known, sharp_divide_known, sharp_scale_known (exact and
+        within are those of tight)
+        tight_negate_known   the same bound holds for -x, in both rules
+        sign_of_known, none_guesses   the default sign is right or uncertain, except under the rule none
+                             (emax > p makes u a number of the format) *)
 
 From Coq Require Import Reals ZArith Lia Lra Psatz Bool.
 From Flocq Require Import Core IEEE754.BinarySingleNaN.
@@ -113,8 +110,7 @@ Proof.
   repeat split; auto. now values.
 Qed.
 
-(** Both rules' bounds are taken apart alike: none is below zero, and finite ones are what they are over the real
-    numbers. *)
+(** Splits both rules' bounds: none is negative, and finite ones are those over the real numbers. *)
 Ltac positive_bound := unfold tight_inflated, tight_rounding, sharp_inflated, sharp_rounding; positive.
 Ltac rounded := match goal with
   | H : finite (tight_rounding _ _ _) |- _ => apply tight_rounding_finite in H; destruct H
@@ -160,7 +156,7 @@ Proof.
   rewrite ES. parts. now values.
 Qed.
 
-(** Either the one bound of a sum, or what adds own and x + y upwards. *)
+(** Either bound of a sum: the single formula, or the sum of own and x + y rounded upwards. *)
 Lemma nonnegative_sum_of_bounds enlarged own x y : nonnegative enlarged -> nonnegative own -> nonnegative x ->
   nonnegative y -> nonnegative (sum_of_bounds _ F enlarged own x y).
 Proof.
@@ -204,7 +200,7 @@ Proof.
   split; [apply nonnegative_nothing; auto |]. unfold tight_exact. intros H. parts. split; auto.
   values. replace (B2R a - B2R a) with 0 by ring. rewrite Rabs_R0, rnd_0. lra.
 Qed.
-(** An error below zero, infinite or NaN says nothing. *)
+(** A negative, infinite or NaN error gives an unknown number. *)
 Theorem tight_within_known a error x :
   (finite error -> 0 <= B2R error -> Rabs (B2R a - x) <= B2R error) -> known a (tight_within _ F a error) x.
 Proof.
@@ -248,7 +244,7 @@ Proof.
     apply Sharp.sharp_enlarged_sound; auto using number_B2R, nonnegative_value; apply emin_p.
   - intros FO FA FB. apply sharp_rounding_finite in FO. destruct FO as [FV EV]. rewrite EV. auto.
 Qed.
-(** By what `error` says of the rounded result of known numbers. *)
+(** Proves a sum or difference, from the property `error` of the rounded result. *)
 Ltac sum_known bounded error :=
   intros [PA KA] [PB KB]; apply bounded; auto; intros FV FA FB;
   destruct (KA FA) as [_ HA], (KB FB) as [_ HB]; parts; values;
@@ -298,7 +294,7 @@ Theorem tight_multiply_known a sa x b sb y : known a sa x -> known b sb y ->
   known (a ⊗ b) (tight_multiply _ F (a ⊗ b) a sa b sb) (x * y).
 Proof. unfold tight_multiply. product_known (Tight.tight_multiply_sound_nearest p emin emin_p p_3). Qed.
 
-(** A divisor that is not zero: both are finite, and so is its distance from zero. *)
+(** A nonzero divisor: both are finite, and so is its distance from zero. *)
 Lemma abs_finite_intro x : finite x -> finite (abs _ F x).
 Proof.
   intros X. unfold abs. destruct (less _ F x (integer _ F 0)); auto. simpl. now rewrite is_finite_Bopp.
@@ -370,7 +366,7 @@ Theorem tight_divide_known a sa x b sb y : known a sa x -> known b sb y ->
   (finite (tight_divide _ F (a ⊘ b) a sa b sb) -> y <> 0).
 Proof. unfold tight_divide. quotient_known (Tight.tight_divide_sound_nearest p emin emin_p p_3). Qed.
 
-(** Scaling, of rules whose bound is an error. *)
+(** Scaling for rules whose bound is an error. *)
 Lemma scale_down_finite a e : finite a -> (e < 0)%Z -> finite (scale _ F a e).
 Proof.
   intros A N. generalize (Bldexp_correct p emax _ _ mode_NE a e). rewrite Rlt_bool_true.
@@ -447,7 +443,7 @@ Proof.
   - apply Tight.tight_scale_sound_nearest; auto. apply emin_p.
 Qed.
 
-(** Negation, of the rules without one of their own: the same bound (tracked.hpp). *)
+(** Negation for rules without a separate one: the same bound (tracked.hpp). *)
 Theorem tight_negate_known a s x : known a s x -> known (opposite _ F a) s (- x).
 Proof.
   intros [P K]. split; auto. intros H. destruct (K H) as [A B]. split.
@@ -502,7 +498,7 @@ Proof.
     + destruct a as [| t | | t m e b]; try easy; now destruct t.
 Qed.
 
-(** The rule none: (1 + eta) - 1 is positive, and called zero. *)
+(** The rule none returns zero for (1 + eta) - 1, which is positive. *)
 Theorem none_guesses : let one := integer _ F 1 in let eta := underflow_unit _ F in
   let v := one ⊕ eta ⊖ one in
   B2R one = 1 /\ B2R eta = Format.eta emin /\ sign_of _ F v (none_error _ F v) = zero.

@@ -1,13 +1,12 @@
-(** Bound rule `safe` over IEEE formats (Ieee.v), to nearest, overflow included, without a condition on
-    the number of operations; p >= 3, emax > p.
+(** Bound rule `safe` over IEEE formats (Ieee.v), to nearest, including overflow, with any number of operations; p >=
+    3, emax > p.
 
-    A number x is known by a value a and (B, k) where B is not below zero and, if a is finite and
-    k < 2^29 (where counting stops): k = 0 only if B is |a|; and if B is finite, |x| <= B and
-    |a - x| <= B((1 + eps)^k - 1). Results:
-        safe_exact_known, safe_within_known, safe_add_known, safe_subtract_known,
-        safe_multiply_known, safe_scale_known, safe_negate_known: what the code returns is known;
-        safe_error_known: where the code's error is finite, so is a, and |a - x| is at most that
-        error; from 2^29 operations on it is never finite (IeeeRules.v: `known`, and so the sign). *)
+    A number x is known by a value a and (B, k) with B not negative. If a is finite and k < 2^29 (where counting
+    stops), k = 0 only if B is |a|; if B is also finite, |x| <= B and |a - x| <= B((1 + eps)^k - 1). Results:
+        safe_exact_known, safe_within_known, safe_add_known, safe_subtract_known, safe_multiply_known,
+        safe_scale_known, safe_negate_known   the bound that the code returns holds
+        safe_error_known   a finite error bounds |a - x|, and a is finite; from 2^29 operations on the error is never
+                           finite (IeeeRules.v: `known`, and so the sign) *)
 
 From Coq Require Import Reals ZArith Lia Lra Psatz Bool.
 From Flocq Require Import Core IEEE754.BinarySingleNaN.
@@ -99,7 +98,7 @@ Proof.
   intros _. apply Safe.safe_exact_sound. apply number_B2R.
 Qed.
 
-(** An error below zero, infinite or NaN says nothing. *)
+(** A negative, infinite or NaN error gives an unknown number. *)
 Theorem safe_within_known a error x :
   (finite error -> 0 <= B2R error -> Rabs (B2R a - x) <= B2R error) -> safe_known a (safe_within _ F a error) x.
 Proof.
@@ -271,7 +270,7 @@ Proof.
   replace (- B2R a - - x) with (- (B2R a - x)) by ring. rewrite Rabs_Ropp. auto.
 Qed.
 
-(** Tracked numbers' error: infinite from 2^29 operations on. *)
+(** The error of tracked numbers is infinite from 2^29 operations on. *)
 Theorem safe_error_known a A x : safe_known a A x -> known p emax a (safe_error _ F a (fst A) (snd A)) x.
 Proof.
   destruct A as [B k]. cbn [fst snd]. intros (PB & RB & KB). unfold safe_error. cbv zeta.

@@ -1,12 +1,12 @@
-(** Square roots, and ab + c rounded once, under rules that keep errors to first order and under `interval`: the
-    definitions of SlopeCode.v over IEEE formats (Ieee.v), to nearest, overflow included; p >= 3, emax > p. Results:
-        remainder_of_root_known    where it says so, the remainder x - v^2 of v = fl(sqrt x) is exact
-        sqrt_by_slope_known, fma_by_slope_known    by every rule that keeps its operations (IeeeCompound.v)
-        slope_sqrt_known, slope_fma_known    so a function of known numbers is known by what the code returns
-        residual_sqrt_known, residual_fma_known    in particular by the rule `residual`
-        interval_square_root_known, interval_fused_known, interval_sqrt_known, interval_fma_known    by `interval`
-    Of `affine`, each operation with its source, from p = 4 on (IeeeAffineFunctions.v):
-        affine_slope_sqrt_gives, affine_slope_fma_gives *)
+(** Square roots, and ab + c rounded once, under rules with first-order errors and under `interval`: the definitions
+    of SlopeCode.v over IEEE formats (Ieee.v), to nearest, including overflow; p >= 3, emax > p. Results:
+        remainder_of_root_known    if the code reports so, the remainder x - v^2 of v = fl(sqrt x) is exact
+        sqrt_by_slope_known, fma_by_slope_known    for every rule that keeps its operations (IeeeCompound.v)
+        slope_sqrt_known, slope_fma_known    so returned bounds of functions of known numbers hold
+        residual_sqrt_known, residual_fma_known    in particular for the rule `residual`
+        interval_square_root_known, interval_fused_known, interval_sqrt_known, interval_fma_known    for `interval`
+        affine_slope_sqrt_gives, affine_slope_fma_gives    for `affine`, with a source for each operation, from p = 4
+                                                           on (IeeeAffineFunctions.v) *)
 
 From Coq Require Import Reals ZArith Lia Lra Psatz Bool List.
 From Flocq Require Import Core IEEE754.BinarySingleNaN.
@@ -190,7 +190,7 @@ Proof.
   split; auto. apply minus_finite in FR. destruct FR as (_ & _ & ->). rewrite H, <- RD. exact R.
 Qed.
 
-(** By a rule that keeps its operations. *)
+(** For a rule that keeps its operations. *)
 Section By_operations.
 
 Variable B : Type.
@@ -223,7 +223,7 @@ Qed.
 Lemma closer_either x y : closer _ F B by_rule x y = x \/ closer _ F B by_rule x y = y.
 Proof. unfold closer. cbv zeta. destruct (_ && _); auto. Qed.
 
-(** What a slope needs of the root. *)
+(** The properties of the root that a slope needs. *)
 Lemma slope_of_root x root s : fst root = Code.root _ F (fst x) -> known (fst root) (error_of root) s ->
   no_root_slope _ F fused B by_rule x root = false ->
   finite (error_of root) /\ 0 < B2R (fst root) /\
@@ -367,7 +367,7 @@ Proof.
     apply Rsqr_incr_0_var; [| exact PV]. rewrite Rsqr_sqrt by exact PC. unfold Rsqr. lra.
   - apply (IeeeInterval.above_true p emax p_3); auto. rewrite EV. apply Rle_refl.
 Qed.
-(** Where something is known of the root, x is not below zero. *)
+(** If the bound of the root is finite, x is not negative. *)
 Theorem interval_square_root_known a A x : interval_known a A x ->
   interval_known (root _ F a) (interval_square_root _ F fused (root _ F a) A) (sqrt x) /\
   (interval_square_root _ F fused (root _ F a) A <> interval_unknown _ F -> 0 <= x).
@@ -385,7 +385,7 @@ Theorem interval_sqrt_known x r : tracked_known p emax _ interval_known x r ->
   tracked_known p emax _ interval_known (interval_sqrt _ F fused x) (sqrt r).
 Proof. intros K. apply (interval_square_root_known _ _ _ K). Qed.
 
-(** What is rounded to w, or overflows to it. *)
+(** A number rounded to w, or overflowing to it. *)
 Definition rounds (w : float) (q : R) : Prop :=
   (finite w /\ B2R w = fl q) \/ (w = B754_infinity false /\ bpow radix2 emax <= fl q) \/
   (w = B754_infinity true /\ fl q <= - bpow radix2 emax).
@@ -405,7 +405,7 @@ Proof.
     rewrite Rabs_pos_eq in L by exact N. split; [| exact L].
     destruct (fma _ F a b c) as [| [|] | | ]; cbn in E; try discriminate; reflexivity.
 Qed.
-(** The smaller or larger number is of the smaller or larger rounded value: C, which was chosen. *)
+(** The smaller or larger of C's two numbers has the smaller or larger rounded value. *)
 Ltac chosen C := exfalso; first
   [ lra
   | match type of C with ?a = ?b => assert (X : a = negb b) by
@@ -489,7 +489,7 @@ Qed.
 
 End Slopes.
 
-(** The rule `affine`, each operation with its source. *)
+(** The rule `affine`, with a source for each operation. *)
 Section Affine_slopes.
 
 Variables p emax : Z.

@@ -1,10 +1,10 @@
-(** Predicates of points where lines meet each other, or a plane (include/errbound/predicates.hpp): a point is its
-    anchor and a quotient, anchor + (x, y, z) / w, and a predicate multiplies the sign of a numerator by that of w.
-
-    Results: whatever finds the signs of both, uncertain or right, the predicate's sign is right or uncertain, and
-    zero or uncertain where the lines are parallel:
+(** Predicates of intersection points of lines with lines or planes (include/errbound/predicates.hpp). A point is its
+    anchor and a quotient, anchor + (x, y, z) / w. A predicate multiplies the sign of a numerator by that of w. If
+    the signs of both are right or uncertain, so is the predicate's sign, and it is zero or uncertain if the lines
+    are parallel:
         orient2d_line_line_right, orient3d_line_plane_right, compare_x_line_line_right
-    and of the static filter, which does from so many bits on:
+
+    The static filter satisfies this from this number of bits on:
         orient2d_line_line_sign_certain   10
         orient3d_line_plane_sign_certain   11
         compare_x_line_line_sign_certain   10 *)
@@ -58,7 +58,7 @@ Definition order_line_line (a b c d e f g h : point) : expression :=
 
 Section Signs.
 
-(** What finds the sign of an expression. *)
+(** Any function that returns the sign of an expression. *)
 Variable sign_of : expression -> sign.
 
 Definition orient2d_line_line (a b c d q r : point) : sign :=
@@ -69,9 +69,9 @@ Definition compare_x_line_line (a b c d e f g h : point) : sign :=
   times (times (sign_of (order_line_line a b c d e f g h)) (sign_of (w_line_line a b c d)))
         (sign_of (w_line_line e f g h)).
 
-(** ** What it is of *)
+(** ** The intersection *)
 
-(** x is on the line through a and b, of so many coordinates. *)
+(** x is on the line through a and b; `coordinates` is their number. *)
 Definition on_line (coordinates : nat) (a b x : point) : Prop :=
   exists along, forall i, (i < coordinates)%nat -> x i = a i + along * (b i - a i).
 Definition row (x o : point) : R * R * R := (x 0%nat - o 0%nat, x 1%nat - o 1%nat, x 2%nat - o 2%nat).
@@ -91,7 +91,7 @@ Proof. destruct s, t; simpl; auto; lra. Qed.
 Lemma zero_times_right s t : sign_is_right s 0 -> sign_is_right (times s t) 0.
 Proof. destruct s, t; simpl; auto; lra. Qed.
 
-(** At the common point, which is a + along (b - a). *)
+(** The common point is a + along (b - a). *)
 Lemma at_line_line a b c d x :
   on_line 2 a b x -> on_line 2 c d x ->
   let w := exact (w_line_line a b c d) in let '(px, py, _) := line_line a b c d in

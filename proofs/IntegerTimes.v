@@ -1,12 +1,10 @@
-(** How the first contact of vertex and face, or of two edges, is put together in integers of fixed width
-    (ccd/contact/integer_first_contact.hpp, ccd/contact/interior_time.hpp), over the real numbers: of the borders' brackets and
-    of the roots of Y that are asked before them.
-
-    Results:
-        earlier_right         of two parts' brackets the lesser is that of the first time of both
-        considered_right      `consider`, over all roots that matter, in any order
-        composed_right, composed_first   borders first, then the inside up to what they tell: the bracket of the first
-                              contact
+(** The first contact of vertex and face, or of two edges, from brackets in integers of fixed width
+    (ccd/contact/integer_first_contact.hpp, ccd/contact/interior_time.hpp), over the real numbers. It combines the
+    borders' brackets with roots of Y that may be earlier. Results:
+        earlier_right         the lesser of two bracketed first times is that of the first time of both
+        considered_right      `consider`, over all relevant roots, in any order
+        composed_right, composed_first   borders first, then interior contacts before that: the bracket of the first
+            contact
         format_bracketed      every number has a bracket between numbers of a floating-point format *)
 
 From Coq Require Import Reals ZArith Lra List.
@@ -19,7 +17,7 @@ Section Doubles.
 
 Variable double : R -> Prop.
 Notation holds_time := (holds_time double).
-(** Between any two numbers there are finitely many doubles, so that each time has its bracket. *)
+(** There are finitely many doubles between two numbers, so each time has its bracket. *)
 Hypothesis bracketed : forall t, 0 <= t <= 1 -> exists b, holds_time b t.
 
 Lemma lesser_dec a b : {lesser a b} + {~ lesser a b}.
@@ -41,7 +39,7 @@ Proof.
   - pose proof (lesser_bracket double a b t t A B L). lra.
   - pose proof (lesser_bracket double b a t t B A L). lra.
 Qed.
-(** After a number not below a bracket's low end, no time has a lesser bracket. *)
+(** After a number not below a bracket's low end, no time has a smaller bracket. *)
 Lemma later_bracket a b s t r : holds_time a s -> ~ r < fst a -> r < t -> holds_time b t -> ~ lesser b a.
 Proof.
   intros A N L B Q. pose proof (lesser_bracket double b a t s B A Q) as T.
@@ -50,7 +48,7 @@ Proof.
   pose proof (lesser_bracket double b a t t B A' Q). lra.
 Qed.
 
-(** What is told of the times at which H holds: never, or the bracket of the first. *)
+(** The result for the times at which H holds: none, or the bracket of the first. *)
 Definition told (H : R -> Prop) (o : option bracket) : Prop :=
   match o with
   | None => forall t, 0 <= t <= 1 -> ~ H t
@@ -92,11 +90,11 @@ Proof.
   - intros NoH NoG t T [Ht | Gt]; [now apply (NoH t) | now apply (NoG t)].
 Qed.
 
-(** ** The inside, as far as it is earlier than the border *)
+(** ** Interior contacts before the border's *)
 
 Variable inside : R -> Prop.  (** Y = 0 and all G > 0 *)
 
-(** Of the inside, before `end`. *)
+(** The result for interior contacts before `end`. *)
 Definition told_before (last : bracket) (o : option bracket) : Prop :=
   match o with
   | None => forall r b, 0 <= r <= 1 -> inside r -> holds_time b r -> ~ lesser b last
@@ -114,7 +112,7 @@ Definition consider (s : state) (root : option bracket) (answer : outcome) : sta
       else s
   | None => match answer with separate => s | _ => State (first_found s) (found s) true end
   end.
-(** A root r of Y and what is known of it; or all after a time that is not before `first_` begins. *)
+(** A root r of Y and facts about it; or all times after one that is not before the start of `first_`. *)
 Inductive step := considered (r : R) (root : option bracket) (answer : outcome) | later_than (start : R).
 Definition step_right (x : step) : Prop :=
   match x with
@@ -153,7 +151,7 @@ Proof.
   intros U. apply IH in U. unfold consider in U.
   destruct root as [b |]; [destruct (lesser_dec b (first_found s)) |]; destruct answer; auto; discriminate.
 Qed.
-(** No contact that is covered has a lesser bracket than what is found at the end. *)
+(** No contact that is covered has a smaller bracket than the final result. *)
 Definition is_bracket (b : bracket) : Prop := exists t, holds_time b t.
 Lemma consider_bracket s r root answer : is_bracket (first_found s) -> step_right (considered r root answer) ->
   is_bracket (first_found (consider s root answer)).
@@ -161,7 +159,7 @@ Proof.
   intros V (_ & Root & _). unfold consider. destruct root as [b |]; [destruct (lesser_dec b (first_found s)) |];
     destruct answer; auto; exists r; now apply Root.
 Qed.
-(** No contact that is covered has a lesser bracket than what is found at the end. *)
+(** No contact that is covered has a smaller bracket than the final result. *)
 Lemma run_covers s steps s' r b : run s steps s' -> is_bracket (first_found s) -> Forall step_right steps ->
   unplaced s' = false -> covers steps r -> inside r -> holds_time b r -> ~ lesser b (first_found s').
 Proof.
@@ -264,7 +262,7 @@ Proof.
       apply (Inside t b T It B). now apply (NotLate t).
 Qed.
 
-(** Where Y = 0 throughout, contact inside is asked at the ends alone: `inside` need not be all that touches. *)
+(** If Y = 0 throughout, interior contact is tested only at the ends: `inside` need not be all of the contact. *)
 Theorem composed_first (touches : R -> Prop) o i : (forall t, either inside border t -> touches t) ->
   (sometime touches -> exists t, first touches t /\ either inside border t) ->
   told border o -> told_before (last_of o) i -> told touches (composed o i).

@@ -1,8 +1,7 @@
-(** Coordinates as integers of fixed width, an axis in a unit of its own (ccd/exact/axis_units.hpp).
-
-    Results:
-        difference_in_units_exact   differences of converted coordinates are those of the coordinates, where
-                                    these are below 2^(64W - 1) units, whatever wrapped around before
+(** Coordinates as integers of fixed width, with a unit for each axis (ccd/exact/axis_units.hpp). Results:
+        difference_in_units_exact   differences of converted coordinates are those of the coordinates if they are
+            below
+                                    2^(64W - 1) units, even if the conversion wrapped around
         extent_bits_enough          coordinates of an axis differ by less than 2^bits units *)
 
 From Coq Require Import Reals ZArith List Lia Lra Bool.
@@ -11,7 +10,7 @@ From Errbound Require Import Format Words Widths.
 From Errbound Require WordBits FixedWidths.
 Open Scope Z_scope.
 
-(** integer_units::in_units, of the double (-1)^n m 2^e *)
+(** integer_units::in_units of the double (-1)^n m 2^e *)
 Definition in_units (W : nat) (m e : Z) (negative : bool) (unit : Z) : list Z :=
   let shift := e - unit in
   let size := WordBits.shifted (m / 2 ^ Z.min 63 (Z.max 0 (- shift))) (Z.max shift 0) W in
@@ -76,7 +75,8 @@ Proof.
 Qed.
 
 #[local] Instance double_precision : Prec_gt_0 53 := eq_refl.
-(** high - low, of doubles at one end of the step, rounded, is less than 2^E as its exponent says; infinite, E is 1025. *)
+(** high - low, for doubles at one end of the step, rounded, is less than 2^E with E from its exponent; if infinite,
+    E is 1025. *)
 Theorem extent_bits_enough low high x y E unit : double low -> double high ->
   (low <= x <= high)%R -> (low <= y <= high)%R -> -1074 <= E ->
   (fl (high - low) < bpow radix2 E \/ (E = 1025)%Z /\ Rabs low < bpow radix2 1024 /\ Rabs high < bpow radix2 1024)%R ->

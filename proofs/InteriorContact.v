@@ -1,16 +1,14 @@
-(** The last stage of the exact decisions (ccd/exact/interior_contact.hpp, ccd/exact/integer_decision.hpp): its certain
-    answers are right. Forms have integers as coefficients, since numbers of the code are cut to words;
-    that all numbers fit their words is argued in the headers. Estimates of a root's place and of the next
-    bracket are arbitrary functions: nothing depends on them.
-    Results:
-        throughout_right        signs of G_i that are known all over a bracket are right at a root of Y
+(** The last stage of the exact decisions (ccd/exact/interior_contact.hpp, ccd/exact/integer_decision.hpp): certain
+    answers are right. Forms have exact integers as coefficients, since numbers of the code are rounded to words;
+    FixedWidths.v proves that they fit. Estimates of positions are arbitrary functions. Results:
+        throughout_right        signs of G_i that are certain throughout a bracket are right at a root of Y
         normal_vanishes_right   then N = 0 inside the bracket: a root of Y without contact
-        near_right, near_here, by_halving_right   what the answers on a part mean
-        interior_contact_right  collides: Y = 0 and all G_i > 0 at some t in [0, 1]; separate: nowhere,
-                                or Y = 0 throughout and some G_i <= 0 at t = 0
-        interior_contact_ends, three_parts_wait   the loop ends, and at most three parts wait
-        face_decision_right, edges_decision_right, vertex_edge_decision_right
-                                certain answers of contact_of are right *)
+        near_right, near_here, by_halving_right   the meaning of answers on an interval
+        interior_contact_right  collides: Y = 0 and all G_i > 0 at some t in [0, 1]; separate: nowhere, or Y = 0
+                                throughout and some G_i <= 0 at t = 0
+        interior_contact_ends, three_parts_wait   the loop ends, and at most three intervals wait
+        face_decision_right, edges_decision_right, vertex_edge_decision_right   certain answers of contact_of are
+            right *)
 
 From Coq Require Import Reals ZArith Lia Lra Psatz List Bool Classical.
 From Flocq Require Import Core.
@@ -31,7 +29,7 @@ Proof.
   - now rewrite sign_positive.
 Qed.
 
-(** In other units of the axes, weights at Y = 0 are multiplied by one positive number. *)
+(** In other units of the axes, weights at Y = 0 are multiplied by one positive factor. *)
 Lemma weights_stretched edges k l m b c p : 0 < k -> 0 < l -> 0 < m -> det b c p = 0 -> exists f, 0 < f /\
   weights edges (stretched (Point k l m) b) (stretched (Point k l m) c) (stretched (Point k l m) p) =
   map (Rmult f) (weights edges b c p).
@@ -170,7 +168,7 @@ Proof.
     destruct (B E) as [| N]; [discriminate |]. right. intros K. now inversion_clear K.
 Qed.
 
-(** A difference at low, times 2^bits, cut to T words; extent is axis.bits. *)
+(** A difference at low, times 2^bits, rounded to T words; extent is axis.bits. *)
 Definition cut_of (T bits extent : Z) : Z := Z.max 0 (bits + extent - (64 * T - 4)).
 Definition component (T low bits width_bits extent : Z) (l : list Z) : known :=
   let cut := cut_of T bits extent in
@@ -257,8 +255,8 @@ Qed.
 
 Section Query.
 
-(** Differences of coordinates as integers, of an edge/edge query or a vertex/face query; each axis below
-    2^extent (only to cut: nothing that follows depends on it). *)
+(** Differences of coordinates as integers, of an edge/edge or a vertex/face query. On each axis they are below
+    2^extent, which only determines the rounding. *)
 Variable edges : bool.
 Variables b c p : @vector_form integers.
 Hypotheses (degree_b : degree b 1) (degree_c : degree c 1) (degree_p : degree p 1).
@@ -276,7 +274,7 @@ Proof. unfold y. rewrite map_length. apply (forms_y b c p 0); auto. Qed.
 Lemma y_at t : at_ y t = det (B t) (C t) (P t).
 Proof. apply (forms_y b c p t); auto. Qed.
 
-(** forms_at, and the sign of all G_i there. *)
+(** forms_at, and the signs of all G_i there. *)
 Definition vector_value (v : @vector_form integers) (s t : R) : point :=
   Point (form (map IZR (vx v)) s t) (form (map IZR (vy v)) s t) (form (map IZR (vz v)) s t).
 Definition positive_at (s t : R) : bool :=
@@ -430,7 +428,7 @@ Proof.
     rewrite !Z. intros F. destruct edges; inversion F; lra.
 Qed.
 
-(** Estimates in floating point: any. *)
+(** Arbitrary estimates in floating point. *)
 Variable estimate : part -> Z.
 Variable refine : Z -> part -> Z -> Z -> Z -> Z.
 
@@ -460,7 +458,7 @@ Fixpoint near (distinct : bool) (more : nat) (T : Z) (q : part) (place bits : Z)
         end
   end.
 
-(** What an answer on (a, b) means. *)
+(** The meaning of an answer on (a, b). *)
 Definition answers (a b : R) (o : outcome) : Prop :=
   match o with
   | collides => exists t, 0 <= t <= 1 /\ at_ y t = 0 /\ Inside t
@@ -476,7 +474,7 @@ Proof.
   rewrite Z.log2_pow2 in * by lia. pose proof (Z.log2_nonneg w). rewrite <- Z.add_1_r in *. lia.
 Qed.
 
-(** `collides` is of a root inside the part. *)
+(** `collides` implies a root inside the interval. *)
 Lemma near_told distinct more T q place bits o : is_part y q -> (level q <= bits)%Z ->
   opposite (roots q) = true ->
   crosses_once (part_start q) (part_end q) (at_ y) (fun t => ~ Inside t /\ distinct = false) ->
@@ -534,7 +532,7 @@ Theorem near_here distinct more T q place bits : is_part y q -> (level q <= bits
   exists t, part_start q < t < part_end q /\ at_ y t = 0 /\ Inside t.
 Proof. intros H Hb O One N. now apply near_told in N. Qed.
 
-(** Whether there are roots that are not a double root. *)
+(** True if there are roots other than a double root. *)
 Definition any_root (three : bool) (changes : sign_changes) : bool :=
   opposite changes || (three && Nat.ltb 0 (count changes)).
 Definition max_halvings : Z := 40.
@@ -556,8 +554,8 @@ Definition without_halving (distinct three : bool) (q : part) : option outcome :
           else None
     end.
 
-(** The loop: the part that is asked next comes first. Running out of steps, which the code does not, is
-    no answer. *)
+(** The loop. The interval that is tested next comes first. Running out of steps, which the code does not, gives no
+    answer. *)
 Definition waiting_next (three : bool) (q : part) (rest : list part) : list part :=
   filter (fun half => any_root three (roots half)) [left_of q; right_of q] ++ rest.
 Fixpoint by_halving (distinct three : bool) (steps : nat) (waiting : list part) (found : outcome) : outcome :=
@@ -573,14 +571,14 @@ Fixpoint by_halving (distinct three : bool) (steps : nat) (waiting : list part) 
       end
   end.
 
-(** What is known of Y's other roots once at_multiple_root has asked. *)
+(** Facts about Y's other roots after at_multiple_root. *)
 Definition known_roots (distinct three : bool) : Prop :=
   ~ Forall (eq 0) y /\ (three = true -> 0 < discriminant y) /\
   (three = false -> crosses_once 0 1 (at_ y) (fun t => ~ Inside t /\ distinct = false)).
 Definition good (three : bool) (q : part) : Prop :=
   is_part y q /\ (level q <= max_halvings)%Z /\ (three = true -> 0 < discriminant (part_y q)).
 
-(** A part without roots to ask at: at most those that are not crossed. *)
+(** An interval without roots to test has at most roots that are not crossed. *)
 Lemma unasked three q (Q : R -> Prop) : (three = false -> crosses_once 0 1 (at_ y) Q) -> good three q ->
   any_root three (roots q) = false -> forall t, part_start q < t < part_end q -> at_ y t = 0 -> Q t.
 Proof.
@@ -721,7 +719,7 @@ Qed.
 
 (** ** The decision *)
 
-(** multiple_root: as the root of c0 s + c1 t, if there is one inside; then distinct_, three_real_roots_ and triple_. *)
+(** multiple_root: as the root of c0 s + c1 t, if there is one inside. Then distinct_, three_real_roots_ and triple_. *)
 Definition linear_of_multiple : option (R * R) * (bool * bool * bool) :=
   let h := hessian y in
   let discriminant := sign_of_real (4 * (c0 h * c2 h) - c1 h * c1 h) in
@@ -732,13 +730,13 @@ Definition linear_of_multiple : option (R * R) * (bool * bool * bool) :=
     let s := 3 * nth 3 y 0 in
     (Some (if below_0 s then (- nth 2 y 0, - s) else (nth 2 y 0, s)), (distinct, three, true))
   else (if below_0 (c1 h) then Some (c1 h, 2 * c2 h) else None, (distinct, three, false)).
-(** The answer there, distinct_ and three_real_roots_. *)
+(** The answer at the multiple root, distinct_ and three_real_roots_. *)
 Definition at_multiple_root : outcome * bool * bool :=
   let '(root, (distinct, three, triple)) := linear_of_multiple in
   let contact := match root with Some (p0, p1) => positive_at p1 (- p0) | None => false end in
   (if contact then collides else if triple then separate else undecided, distinct, three).
 
-(** operator()(), with that many steps of the loop. *)
+(** operator()(), with a number of steps of the loop. *)
 Definition interior_contact (steps : nat) : outcome :=
   if is_0 (nth 0 y 0) && positive_at 1 0 then collides
   else if is_0 (nth 3 y 0) && positive_at 0 1 then collides
@@ -758,7 +756,7 @@ Definition interior_contact (steps : nat) : outcome :=
 Lemma below_0_true a : below_0 a = true <-> a < 0.
 Proof. unfold below_0. destruct Rlt_dec; split; easy. Qed.
 
-(** What else is known of Y then: its only multiple root inside is the one told. *)
+(** Then the only multiple root of Y inside is the returned one. *)
 Lemma linear_of_multiple_right : (1 < count (inner_sign_changes y))%nat ->
   let '(root, (distinct, three, triple)) := linear_of_multiple in
   ~ Forall (eq 0) y /\ (three = true -> 0 < discriminant y) /\ (three = false -> discriminant y <= 0) /\
@@ -828,7 +826,7 @@ Proof.
     split; [now apply Not |]. destruct distinct; auto. now apply Dist in D.
 Qed.
 
-(** At some t in [0, 1], Y = 0 and all G_i > 0: what face_inside and edges_inside ask for. *)
+(** At some t in [0, 1], Y = 0 and all G_i > 0, as in face_inside and edges_inside. *)
 Definition contact_inside : Prop := sometime (fun t => det (B t) (C t) (P t) = 0 /\ Inside t).
 
 Definition zero_throughout : Prop := forall t, 0 <= t <= 1 -> det (B t) (C t) (P t) = 0.
@@ -915,9 +913,9 @@ Proof.
     + destruct A as (t & T & Z & I). exists t. split; [easy |]. split; [now rewrite <- y_at | easy].
 Qed.
 
-(** ** The parts that wait *)
+(** ** Waiting intervals *)
 
-(** At most three: the code's array. *)
+(** At most three intervals fit in the code's array. *)
 Definition waiting_fits (waiting : list part) : Prop :=
   Forall (fun q => 0 < count (roots q))%nat waiting /\
   (list_sum (map (fun q => count (roots q)) waiting) <= 3)%nat.
@@ -1011,7 +1009,7 @@ End Query.
 (** ** Queries *)
 
 Notation integer_motion := (@moving_point integers).
-(** decide_converted of ccd/exact/integer_decision.hpp: the points as given, m, and in integers, q. *)
+(** decide_converted of ccd/exact/integer_decision.hpp: the given points m, and their integers q. *)
 Definition vertex_edge_queries {A : Type} (edges : bool) (q0 q1 q2 q3 : A) : list (A * A * A) :=
   if edges then let a0 := q0 in let a1 := q1 in let b0 := q2 in let b1 := q3 in
     [(a0, b0, b1); (a1, b0, b1); (b0, a0, a1); (b1, a0, a1)]

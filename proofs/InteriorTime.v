@@ -1,16 +1,15 @@
-(** The first contact inside a face or both edges, in integers of fixed width (ccd/contact/interior_time.hpp), and with it
-    the first contact of vertex and face, or of two edges (ccd/contact/integer_first_contact.hpp). As in InteriorContact.v,
-    estimates are arbitrary; so is what the search by signs does but for what TimeSearch.v proves of it.
-
-    Results:
-        asked_root            a part that `root_of` asks has one root of Y, where Y changes its sign
-        in_parts_right        roots of Y in the parts that wait are asked, each with its own bracket, or later than
-                              what is found; but for a double root, which was asked before
-        in_parts_ends         the loop ends (at most three parts wait: three_parts_wait of InteriorContact.v)
-        interior_time_right   what `find` tells of the first time with Y = 0 and all G_i > 0; if Y = 0 throughout, of
+(** The first contact inside a face or both edges in integers of fixed width (ccd/contact/interior_time.hpp). From it
+    follows the first contact of vertex and face, or of two edges (ccd/contact/integer_first_contact.hpp). Estimates
+    are arbitrary, as in InteriorContact.v. The search by signs has the properties that TimeSearch.v proves. Results:
+        asked_root            an interval that `root_of` tests has one root of Y, where Y changes its sign
+        in_parts_right        roots of Y in waiting intervals are tested, each with its bracket, or are later than
+            the
+                              result; except for a double root, which was tested before
+        in_parts_ends         the loop ends (at most three intervals wait: three_parts_wait of InteriorContact.v)
+        interior_time_right   `find` returns the first time with Y = 0 and all G_i > 0; if Y = 0 throughout, it tests
                               both ends
-        face_time_right, edges_time_right   what first_contact tells is so
-        doubles_suffice       what these ask of doubles holds *)
+        face_time_right, edges_time_right   first_contact is right
+        doubles_suffice       doubles have the properties that these theorems need *)
 
 From Coq Require Import Reals ZArith Lia Lra List Bool Classical.
 From Flocq Require Import Core.
@@ -36,7 +35,7 @@ Definition interior (t : R) : Prop := at_ y t = 0 /\ Inside t.
 
 Variable double : R -> Prop.
 Hypothesis dyadic : forall n bits, (0 <= bits <= 40)%Z -> (0 <= n <= 2 ^ bits)%Z -> double (over n bits).
-(** root_search::between for a part's root, and bracket_of_linear_root; nothing where fixed widths cannot tell. *)
+(** root_search::between for an interval's root, and bracket_of_linear_root; none if fixed widths do not suffice. *)
 Variable part_root : part -> option bracket.
 Variable linear_root : R -> R -> option bracket.
 Hypothesis part_root_searched : forall q found, part_root q = Some found ->
@@ -45,7 +44,7 @@ Hypothesis linear_root_searched : forall p0 p1 found, linear_root p0 p1 = Some f
 (** place_of *)
 Variable place_of : R -> Z -> Z.
 
-(** ** Parts *)
+(** ** Intervals *)
 
 Definition strictly (s t : R) : outcome := if positive_at s t then collides else separate.
 Definition asked (distinct three : bool) (q : part) : bool :=
@@ -61,7 +60,7 @@ Definition root_answer (distinct : bool) (q : part) : outcome :=
       | None => undecided
       end
   end.
-(** The part that is asked next comes first. Running out of steps, which the code does not, is no answer. *)
+(** The interval that is tested next comes first. Running out of steps, which the code does not, gives no answer. *)
 Fixpoint in_parts (distinct three : bool) (steps : nat) (waiting : list part) (s : state) : state :=
   match steps, waiting with
   | O, _ => consider s None undecided
@@ -81,7 +80,7 @@ Fixpoint in_parts (distinct three : bool) (steps : nat) (waiting : list part) (s
       else in_parts distinct three steps rest s
   end.
 
-(** What is known of Y's roots: those that are not crossed are D's, which were asked before. *)
+(** Facts about Y's roots: those that are not crossed are in D and were tested before. *)
 Definition known_but (distinct three : bool) (D : R -> Prop) : Prop :=
   ~ Forall (eq 0) y /\ (three = true -> 0 < discriminant y) /\ (three = false -> crosses_once 0 1 (at_ y) D) /\
   (distinct = true -> forall t, 0 < t < 1 -> ~ D t).
@@ -246,7 +245,7 @@ Qed.
 
 (** ** All roots *)
 
-(** find(), with that many steps of the loop. No vertex/edge contact is earlier than `last`. *)
+(** find(), with a number of steps of the loop. No vertex/edge contact is earlier than `last`. *)
 Definition at_ends (s : state) : state :=
   let s := if is_0 (nth 0 y 0) then consider s (Some (0, 0)) (strictly 1 0) else s in
   if is_0 (nth 3 y 0) then consider s (Some (1, 1)) (strictly 0 1) else s.
@@ -263,7 +262,7 @@ Definition find (steps : nat) (last : bracket) : state := between_ends steps (at
 
 Definition inside_time (s : state) : option bracket := match found s with collides => Some (first_found s) | _ => None end.
 
-(** The contacts that are asked for. *)
+(** The contacts to find. *)
 Definition wanted (t : R) : Prop := interior t /\ (zero_throughout b c p -> t = 0 \/ t = 1).
 
 Lemma run_app s l s' l' s'' : run s l s' -> run s' l' s'' -> run s (l ++ l') s''.
@@ -391,7 +390,7 @@ Variable double : R -> Prop.
 Hypothesis dyadic : forall n bits, (0 <= bits <= 40)%Z -> (0 <= n <= 2 ^ bits)%Z -> double (over n bits).
 Hypothesis double_2 : double 2.
 Hypothesis bracketed : forall t, 0 <= t <= 1 -> exists b, holds_time double b t.
-(** Each for the polynomial asked. *)
+(** Each for the given polynomial. *)
 Variable part_root : list R -> part -> option bracket.
 Variable linear_root : R -> R -> option bracket.
 Hypothesis part_root_searched : forall y q found, part_root y q = Some found ->
@@ -405,7 +404,7 @@ Variable steps : nat.
 Variable unit : point.
 Hypothesis U : units unit.
 
-(** What an edge of the border tells: first_vertex_edge_contact, or nothing where coordinates are apart. *)
+(** The result for an edge of the border: first_vertex_edge_contact, or none if coordinates separate. *)
 Definition border_time (m0 m1 m2 : moving) (v e0 e1 : integer_motion) (o : option bracket) : Prop :=
   let place := first_vertex_edge_contact (exact_motion v) (exact_motion e0) (exact_motion e1) in
   match o with

@@ -1,8 +1,7 @@
-(** Bound rule `interval` (include/errbound/rules/interval.hpp): its step outwards, rounded to nearest,
-    from 3 bits on. The rule itself is in IeeeInterval.v.
+(** Bound rule `interval` (include/errbound/rules/interval.hpp): its step outwards, rounded to nearest, from 3 bits
+    on. IeeeInterval.v has the rule.
 
-    Results: below_true, above_true: a step from what a number t was rounded to, or from beyond, leads
-    to t at least. *)
+    Results: below_true, above_true   a step from the rounded t, or from beyond it, reaches t or passes it *)
 
 From Coq Require Import Reals ZArith Lia Lra Psatz Bool.
 From Flocq Require Import Core.
@@ -87,7 +86,7 @@ Proof.
     lra.
 Qed.
 
-(** A step leads to the neighbour at least. *)
+(** A step reaches the neighbour or passes it. *)
 Lemma below_pred c : number c -> below c <= pred radix2 format c.
 Proof.
   intros N. unfold below. apply round_N_le_midp; auto with typeclass_instances.

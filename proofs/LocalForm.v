@@ -1,12 +1,10 @@
-(** A polynomial near some place (include/errbound/roots/local_form.hpp): integers for its first Taylor
-    coefficients on a part of the line, all with one bound of their errors; and what is concluded of them.
-    Rows that are shorter than the polynomial have zeros where they end.
-
-    Results:
-        part_right           part: the coefficients on a piece of the part, with the new error
-        dropped_right        likewise without those that are not beyond the error
-        cut_right            and with fewer bits
-        signs_right          the signs of Bernstein coefficients, 0 where uncertain
+(** A polynomial near a position (include/errbound/roots/local_form.hpp): integers for its first Taylor coefficients
+    on an interval, all with one error bound, and conclusions from them. Rows shorter than the polynomial are
+    extended by zeros. Results:
+        part_right           part: the coefficients on a subinterval, with the new error
+        dropped_right        also without those that do not exceed the error
+        cut_right            also with fewer bits
+        signs_right          the signs of Bernstein coefficients, 0 if uncertain
         coefficients_right   Bernstein coefficients, each within an error
         row_signs_of_coefficients   the signs of a fixed_row of them
         surely_rootless_right, low_end_right, high_end_right   no root on [0, 1], at 0, at 1 *)
@@ -17,15 +15,15 @@ From Errbound Require Import Sign Bernstein SignVariations RootIsolation Control
 Import ListNotations.
 Open Scope R_scope.
 
-(** ** What the integers stand for *)
+(** ** The meaning of the integers *)
 
-(** Each within e of a real number, where they end 0. *)
+(** Each is within e of a real number; beyond their end it is 0. *)
 Fixpoint near (e : R) (a : list Z) (exact : list R) : Prop :=
   match exact with
   | [] => a = []
   | y :: exact => Rabs (IZR (hd 0%Z a) - y) <= e /\ near e (tl a) exact
   end.
-(** Of p, of degree n: p(low + width u) = (sum of exact_j u^j)/c. *)
+(** A form of p, of degree n: p(low + width u) = (sum of exact_j u^j)/c. *)
 Definition local_form (p : list R) (low width : R) (n : nat) (a : list Z) (error : Z) : Prop :=
   a <> [] /\ exists exact c, length exact = S n /\ 0 < c /\
     (forall u, power_form exact u = c * power_form p (low + width * u)) /\ near (IZR error) a exact.
@@ -60,14 +58,14 @@ Qed.
 
 (** ** part: on u = (from + length v)/2^depth *)
 
-(** The sum of all differences, the j-th times w^j. *)
+(** The sum of all differences, the j-th multiplied by w^j. *)
 Fixpoint distance (w : R) (a : list Z) (exact : list R) : R :=
   match exact with
   | [] => 0
   | y :: exact => Rabs (IZR (hd 0%Z a) - y) + w * distance w (tl a) exact
   end.
 
-(** The code: the shift by from/2^depth, each product cut; then the powers of length/2^depth. *)
+(** The code: the shift by from/2^depth, with each product rounded, then the powers of length/2^depth. *)
 Fixpoint horner_cut (from depth : Z) (a : list Z) : list Z :=
   match a with
   | [] => []
@@ -301,7 +299,7 @@ Qed.
 
 (** ** Bernstein coefficients *)
 
-(** A row of h_i times s + t, and x in the last place: one pass of scaled_coefficients. *)
+(** A row of h_i times s + t, plus x in the last place: one pass of scaled_coefficients. *)
 Section Rows.
 Context {A : Type} (add : A -> A -> A) (zero : A).
 Fixpoint raised (before : A) (h : list A) (x : A) : list A :=
@@ -326,7 +324,7 @@ Proof.
   cbn [raised_by]. destruct (raised_form h (hd 0 a) (1 - t) t 0) as (E & Lr).
   rewrite IH by (destruct a; simpl in *; lia). rewrite E, Lr. destruct a; simpl; ring.
 Qed.
-(** It is the polynomial, whatever the degree is said to be. *)
+(** It is the polynomial, for any assumed degree. *)
 Lemma exact_row_value n a t : (length a <= S n)%nat -> on_unit (exact_row n a) t = power_form a t.
 Proof.
   intros L. unfold on_unit, bernstein. rewrite raised_by_form by (destruct a; simpl in *; lia). destruct a; simpl; ring.
@@ -428,7 +426,7 @@ Proof.
   replace 1%Z with (choose n 0) by (now destruct n). now apply (row_from_right n n 0).
 Qed.
 
-(** signs: each beyond its margin, or uncertain *)
+(** signs: certain beyond the margin *)
 Definition sign_beyond (margin x : Z) : Z := if (margin <? x)%Z then 1 else if (margin <? - x)%Z then -1 else 0.
 Fixpoint signs_beyond (margins h : list Z) : list Z :=
   match margins, h with m :: margins, x :: h => sign_beyond m x :: signs_beyond margins h | _, _ => [] end.
@@ -495,7 +493,7 @@ Proof.
   replace (S n - 1)%nat with n by lia. rewrite <- (proj1 (binomial_row_right n)), P. now apply exact_row_stands with c.
 Qed.
 
-(** A fixed_row of them: its signs. *)
+(** The signs of a fixed_row of them. *)
 Theorem row_signs_of_coefficients p low width n a error excess : (0 <= error)%Z -> local_form p low width n a error ->
   row_of p low (low + width)
     (map (row_sign (cut_error excess (coefficients_error n error))) (cut_row excess (coefficients n a))).
@@ -506,7 +504,7 @@ Proof.
   rewrite scaled_signs. apply row_signs_right with (pow2 excess); auto. apply bpow_gt_0.
 Qed.
 
-(** ** Parts without roots *)
+(** ** Subintervals without roots *)
 
 Lemma value_near p low width n a error u : (0 <= error)%Z -> local_form p low width n a error -> 0 <= u <= 1 ->
   exists c v, 0 < c /\ v = c * power_form p (low + width * u) /\
@@ -540,7 +538,7 @@ Proof.
   clear. induction a as [| x a IH]; [easy |]. cbn [fold_right map power_form]. rewrite plus_IZR, IH. ring.
 Qed.
 
-(** surely_rootless: the Bernstein coefficients of what is kept, all beyond the margins, on one side *)
+(** surely_rootless: the Bernstein coefficients of the kept terms all exceed the margins on one side *)
 Fixpoint all_beyond (negative : bool) (margins h : list Z) : bool :=
   match margins, h with
   | m :: margins, x :: h => (m <? (if negative then - x else x))%Z && all_beyond negative margins h

@@ -1,12 +1,10 @@
-(** Numbers with a bound of their error (include/errbound/roots/nearby_value.hpp): |x - value 2^k| <= error 2^k.
-
-    Results:
+(** Numbers with an error bound (include/errbound/roots/nearby_value.hpp): |x - value 2^k| <= error 2^k. Results:
         near_exact       a whole number times a power of two
         near_product     a product
         near_sum         a sum in one unit
         near_cut         fewer bits: one unit for the bits of the value, one for those of the error
         near_shifted     a finer unit
-        near_widened     a coarser unit, where only the error is left
+        near_widened     a coarser unit, if only the error is left
         near_sign        the sign, if the value exceeds the error *)
 
 From Coq Require Import Reals ZArith Lia Lra Psatz.
@@ -64,7 +62,7 @@ Qed.
 Lemma two_shift s : (0 <= s)%Z -> two s = IZR (2 ^ s).
 Proof. intros S. rewrite <- (IZR_Zpower radix2) by easy. reflexivity. Qed.
 
-(** sum: a number of the coarser unit in the finer one *)
+(** sum: a number in the coarser unit is converted to the finer one *)
 Theorem near_shifted v e k s x : (0 <= s)%Z -> encloses v e k x -> encloses (v * 2 ^ s) (e * 2 ^ s) (k - s) x.
 Proof.
   intros S N. unfold encloses in *. rewrite !mult_IZR, <- !two_shift by easy.
@@ -72,7 +70,7 @@ Proof.
   now rewrite !Rmult_assoc, E.
 Qed.
 
-(** drop: the value is cut towards zero, the error downwards, and 2 is added. *)
+(** drop: the value is rounded towards zero, the error downwards, and 2 is added. *)
 Theorem near_cut v e k s x : (0 <= s)%Z -> encloses v e k x -> encloses (Z.quot v (2 ^ s)) (Z.quot e (2 ^ s) + 2) (k + s) x.
 Proof.
   intros S N. pose proof (near_error _ _ _ _ N) as E. apply near_part in N. destruct N as (d & -> & D). apply near_part.
@@ -93,7 +91,7 @@ Proof.
     pose proof (Rabs_triang (IZR r) d). nra.
 Qed.
 
-(** sum: where only the error is left, its unit may be coarser. *)
+(** sum: if only the error is left, its unit may be coarser. *)
 Theorem near_widened e k l x : (k <= l)%Z -> encloses 0 e k x -> encloses 0 e l x.
 Proof.
   intros L N. pose proof (near_error _ _ _ _ N) as E. apply IZR_le in E. unfold encloses in *.

@@ -1,7 +1,7 @@
-(** The C++ code, line by line, over any number type, as CompoundCode.v: functions of tracked numbers under rules whose
-    operations differ from call to call, as those of `affine` do, each of which has a source of its own
-    (include/errbound/functions.hpp, detail/sources.hpp). The operation after k others is `by_rule k`'s. With the same
-    operations at each call they are CompoundCode.v's, which is all that is proved here:
+(** The C++ code, line by line, over any number type, as in CompoundCode.v: functions of tracked numbers under rules
+    whose operations differ from call to call (include/errbound/functions.hpp, detail/sources.hpp). For `affine`,
+    each operation has its own source. The operation after k others is that of `by_rule k`. If operations are the
+    same at each call, the functions are those of CompoundCode.v, which is all that is proved here:
         numbered_min_constant, numbered_max_constant, numbered_midpoint_constant, numbered_pow_constant,
         numbered_dot_constant, numbered_horner_constant, numbered_copysign_constant *)
 
@@ -9,7 +9,7 @@ From Coq Require Import ZArith Bool List.
 From Errbound Require Import Code CompoundCode.
 Import ListNotations.
 
-(** What is made by operations, of the number of operations before, which it counts on. *)
+(** A result of operations, as a function of the number of earlier operations, which it continues to count. *)
 Definition counted (X : Type) : Type := nat -> X * nat.
 Definition at_once {X} (x : X) : counted X := fun k => (x, k).
 Definition after {X Y} (m : counted X) (f : X -> counted Y) : counted Y := fun k => let (x, j) := m k in f x j.
@@ -38,7 +38,7 @@ Notation "# n" := (integer T A n%Z) (at level 1, n at level 0, format "# n") : c
 Notation is_finite := (is_finite T A).
 Open Scope code.
 
-(** What no operation is: the same at each call. *)
+(** Functions that are not operations are the same at each call. *)
 Notation rule := (the_rule T B (by_rule O)).
 Notation number := (T * B)%type.
 Notation exactly := (tracked_exactly T B rule).
@@ -54,14 +54,14 @@ Definition numbered_subtract (a b : number) : counted number :=
   once (fun R => tracked_subtract T A B (the_rule T B R) a b).
 Definition numbered_multiply (a b : number) : counted number := once (fun R => tracked_multiply T A B R a b).
 Definition numbered_scale (a : number) (e : Z) : counted number := once (fun R => tracked_scale T A B R a e).
-(** Unknown by a rule without quotients. *)
+(** Unknown under a rule without quotients. *)
 Definition numbered_divide (a b : number) : counted number := once (fun R =>
   let v := over T A (fst a) (fst b) in
   match rule_divide T B R with
   | Some divide => (v, divide v (fst a) (snd a) (fst b) (snd b))
   | None => tracked_within T B (the_rule T B R) (fst b) (infinity T A)
   end).
-(** Functions of at most one operation, which is the last. *)
+(** Functions with at most one operation, which is the last. *)
 Definition numbered_sqrt (x : number) : counted number :=
   once (fun R => tracked_sqrt T A has_fast_fma B (the_rule T B R) x).
 Definition numbered_abs (x : number) : counted number := once (fun R => tracked_abs T A B (the_rule T B R) x).
@@ -107,7 +107,7 @@ Definition numbered_pow (x : number) (n : Z) : counted number :=
   | Zneg bits => let* result := numbered_power bits true (exactly #1) x in numbered_divide (exactly #1) result
   end.
 
-(** By rules without a dot_bound. *)
+(** For rules without a dot_bound. *)
 Definition numbered_dot_step (sum : number) (pair : number * number) : counted number :=
   let* product := numbered_multiply (fst pair) (snd pair) in numbered_add sum product.
 Definition numbered_dot (pairs : list (number * number)) : counted number :=

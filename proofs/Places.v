@@ -1,10 +1,8 @@
-(** Estimated places of roots (ccd/exact/cubic_roots.hpp): whatever the estimate, numerators have the bits that their
-    words are made for. double, to nearest.
-
-    Results:
+(** Estimated positions of roots (ccd/exact/cubic_roots.hpp): for any estimate, numerators fit their words. double,
+    to nearest. Results:
         estimated_root_inside     estimated_root lies in [0, 1]
         estimated_place_bits      estimated_place: 0 <= numerator <= 2^bits
-        refined_place_bits        refined_place, likewise, and its bits fit one word more *)
+        refined_place_bits        the same for refined_place, whose bits fit one more word *)
 
 From Coq Require Import Reals ZArith Lia Lra.
 From Flocq Require Import Core.
@@ -13,16 +11,16 @@ Open Scope R_scope.
 
 #[local] Instance double_precision : Prec_gt_0 53 := eq_refl.
 
-(** The step to a new t: Newton's, if it is a number inside, else the middle. *)
+(** The next t: Newton's if it is inside, else the middle. *)
 Inductive next (low high : R) : R -> Prop :=
 | by_newton x : double x -> low < x < high -> next low high x
 | by_halving : next low high (fl (fl (low + high) / 2)).
-(** What low, high and t may be, however many steps were made; each ends at t or goes on from there. *)
+(** Possible values of low, high and t after any number of steps; each ends at t or continues from there. *)
 Inductive reached (start : R) : R -> R -> R -> Prop :=
 | first : reached start 0 1 start
 | later low high t t' : reached start low high t -> next t high t' -> reached start t high t'
 | earlier low high t t' : reached start low high t -> next low t t' -> reached start low t t'.
-(** The first t, where the end values have opposite signs, or one is zero. *)
+(** The first t, if the end values have opposite signs, or one is zero. *)
 Definition first_t (h0 h3 : R) : R := if Req_bool h0 0 then / 2 else if Req_bool h3 0 then / 2 else fl (h0 / fl (h0 - h3)).
 
 Lemma double_whole z : (Z.abs z <= 2 ^ 53)%Z -> double (IZR z).
@@ -73,14 +71,14 @@ Proof.
   - destruct (next_between low t t' NL Nt ltac:(lra) N) as [B Nt']. repeat split; auto; lra.
 Qed.
 
-(** A whole part does not leave whole bounds. *)
+(** The whole part stays within whole bounds. *)
 Lemma truncated x (m : Z) : 0 <= x <= IZR m -> (0 <= Ztrunc x <= m)%Z.
 Proof.
   intros H. rewrite Ztrunc_floor by lra. split.
   - apply Zfloor_lub. apply H.
   - apply le_IZR. apply Rle_trans with x; [apply Zfloor_lb | apply H].
 Qed.
-(** The part [index, index + 1]/2^level of [0, 1]; t 2^to_bits is exact, or so small that it is cut to 0. *)
+(** The interval [index, index + 1]/2^level of [0, 1]; t 2^to_bits is exact, or so small that it is rounded to 0. *)
 Theorem estimated_place_bits index level to_bits t : (0 <= index)%Z -> (index + 1 <= 2 ^ level)%Z -> (0 <= level)%Z ->
   (0 <= to_bits)%Z -> 0 <= t <= 1 ->
   (0 <= index * 2 ^ to_bits + Ztrunc (fl (t * bpow radix2 to_bits)) <= 2 ^ (level + to_bits))%Z.
@@ -92,7 +90,7 @@ Proof.
     apply (rnd_below 53 (-1074) nearest); [apply number_power; [exact eq_refl | lia] | nra]. }
   rewrite Z.pow_add_r by lia. nia.
 Qed.
-(** low + width, the bracket's higher end, is at most 2^bits; width_bits as the bracket has them. *)
+(** low + width, the bracket's higher end, is at most 2^bits; width_bits is that of the bracket. *)
 Theorem refined_place_bits low width width_bits bits T t : (0 <= low)%Z -> (0 < width < 2 ^ width_bits)%Z ->
   (width_bits <= 26)%Z -> (low + width <= 2 ^ bits)%Z -> (0 <= bits <= 64 * T - 2)%Z -> 0 <= t <= 1 ->
   let more := (46 - width_bits)%Z in

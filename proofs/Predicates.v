@@ -1,21 +1,13 @@
-(** The static filters of orient2d, orient3d, incircle and insphere, of the latter two for weighted points, and of
-    comparisons of distances (include/errbound/predicates.hpp): StaticFilter.v's theorems for their expressions, as
-    the code evaluates them. Points where lines meet are in ImplicitPoints.v.
-
-    Results: for each, the number of roundings that bear on a sign, and that the filter's sign is
-    right or uncertain:
-        orient2d_sign_certain   3, from 9 bits on
-        orient3d_sign_certain   7, from 10 bits on
-        incircle_sign_certain   10, from 10 bits on
-        insphere_sign_certain   15, from 11 bits on
-        power_incircle_sign_certain   11, from 10 bits on
-        power_insphere_sign_certain   16, from 11 bits on
-        compare_distances2d_sign_certain   4, from 9 bits on
-        compare_distances3d_sign_certain   5, from 9 bits on
-    and of insphere's semi-static filter, which comes first:
-        insphere_semi_static_certain   from 24 bits on
-    Of the degrees that the code declares for weighted points, that scaling by them changes no sign:
-        power_incircle_scales, power_insphere_scales *)
+(** The static filters of orient2d, orient3d, incircle and insphere, the latter two also for weighted points, and of
+    comparisons of distances (include/errbound/predicates.hpp): the theorems of StaticFilter.v for their expressions.
+    ImplicitPoints.v has intersection points. Results: the number of roundings that affect a sign, and the number of
+    bits from which the filter's sign is right or uncertain:
+        orient2d_sign_certain   3, from 9 bits on; orient3d_sign_certain   7, from 10 bits on
+        incircle_sign_certain   10, from 10 bits on; insphere_sign_certain   15, from 11 bits on
+        power_incircle_sign_certain   11, from 10 bits on; power_insphere_sign_certain   16, from 11 bits on
+        compare_distances2d_sign_certain   4, from 9 bits on; compare_distances3d_sign_certain   5, from 9 bits on
+        insphere_semi_static_certain   its semi-static filter, from 24 bits on
+        power_incircle_scales, power_insphere_scales   scaling by the degrees of weighted points changes no sign *)
 
 From Coq Require Import Reals ZArith List Lia Lra.
 From Flocq Require Import Core.
@@ -23,10 +15,10 @@ From Errbound Require Import Format Sign StaticFilter SemiStatic.
 Import ListNotations.
 Open Scope R_scope.
 
-(** A point's coordinates by their index. *)
+(** A point as a function from index to coordinate. *)
 Definition point := nat -> R.
 
-(** The code: namespace forms, and the predicates that are more than one of these. *)
+(** The code: namespace forms, and predicates that combine several forms. *)
 Definition area (a b c : point) : expression :=
   Minus (Product (Difference (a 0%nat) (c 0%nat)) (Difference (b 1%nat) (c 1%nat)))
         (Product (Difference (a 1%nat) (c 1%nat)) (Difference (b 0%nat) (c 0%nat))).
@@ -70,7 +62,7 @@ Definition lifted_volume (a b c d e : point) (height : point -> expression -> ex
   Sum (Minus (Product (height d (squared dx dy dz)) abc) (Product (height c (squared cx cy cz)) dab))
       (Minus (Product (height b (squared bx by_ bz)) cda) (Product (height a (squared ax ay az)) bcd)).
 Definition unweighted (p : point) (squared : expression) : expression := squared.
-(** Over the point o, with weights as coordinate i. *)
+(** Relative to the point o, with weights as coordinate i. *)
 Definition weighted (i : nat) (o p : point) (squared : expression) : expression :=
   Minus squared (Difference (p i) (o i)).
 
@@ -101,12 +93,12 @@ Definition lifted3 (x o : point) : R * R * R * R :=
   let d i := x i - o i in
   (d 0%nat, d 1%nat, d 2%nat,
    d 0%nat * d 0%nat + d 1%nat * d 1%nat + d 2%nat * d 2%nat).
-(** The same of weighted points: the weight, as a difference, is subtracted. *)
+(** The same for weighted points: the difference of weights is subtracted. *)
 Definition power_lifted2 (x o : point) : R * R * R :=
   let '(u, v, squared) := lifted2 x o in (u, v, squared - (x 2%nat - o 2%nat)).
 Definition power_lifted3 (x o : point) : R * R * R * R :=
   let '(u, v, w, squared) := lifted3 x o in (u, v, w, squared - (x 3%nat - o 3%nat)).
-(** Point k of those with these degrees, scaled by s. *)
+(** Point k with these degrees, scaled by s. *)
 Definition scaled (degrees : list nat) (dimension : nat) (s : R) (k : nat) (x : point) : point :=
   fun i => s ^ nth (k * dimension + i) degrees 0%nat * x i.
 
@@ -119,7 +111,7 @@ Notation filter_sign := (filter_sign p emin).
 Notation roundings := (roundings p).
 Definition representable (a : point) : Prop := forall i, number p emin (a i).
 
-(** From its counts, which the compiler knows. *)
+(** From its counts, which the compiler evaluates. *)
 Lemma sign_by_counts e k bits x :
   (2 <= bits <= p)%Z -> admissible p emin e -> roundings e = (k + 1)%nat ->
   (64 * Z.of_nat (k + 3) <= 2 ^ bits)%Z -> exact e = x ->

@@ -1,14 +1,12 @@
 (** Arithmetic modulo an odd p < 2^62 (include/errbound/roots/prime_field.hpp), in Montgomery's form: a residue x is
-    kept as a, 0 <= a < p, with a = x R modulo p, R = 2^64. Words are those of Words.v.
-
-    Results:
+    stored as a, 0 <= a < p, with a = x R modulo p, R = 2^64. Words are those of Words.v. Results:
         negative_inverse_right    p negative_inverse = -1 modulo R
         constants_right           one and square are R and R^2 modulo p
         field_add, field_subtract, field_multiply, field_multiply_and_subtract, field_forms
-                                  each returns the form of the result; nothing leaves 128 bits
+                                  each returns the form of the result, and no number exceeds 128 bits
         nonzero_form              the form of a residue is zero exactly if the residue is
         power_right               power
-        value_modulo_right        a polynomial's value modulo p is not zero: nor is the value itself *)
+        value_modulo_right        if a polynomial's value modulo p is not zero, the value is not zero *)
 
 From Coq Require Import ZArith Znumtheory List Lia.
 From Errbound Require Import Words.
@@ -21,7 +19,7 @@ Variable p : Z.
 Hypothesis p_range : 2 < p < 2 ^ 62.
 Hypothesis p_odd : Z.Odd p.
 
-(** The code; double words modulo 2^128. *)
+(** The code, with double words modulo 2^128. *)
 Definition better (inverse : Z) : Z := inverse * ((2 - p * inverse mod B) mod B) mod B.
 Definition inverse_of_p : Z := better (better (better (better (better p)))).
 Definition negative_inverse : Z := (0 - inverse_of_p) mod B.
@@ -168,7 +166,7 @@ Proof.
   exists (q * (one + B) - one * one / p).
   replace (one * one mod p - B * B) with ((one - B) * (one + B) - p * (one * one / p)) by lia. rewrite Q. ring.
 Qed.
-(** a < p in and out of the form. *)
+(** Conversion into the form and back, a < p. *)
 Theorem field_forms a x : (0 <= a < p -> form (to_form a) a) /\
   (form a x -> 0 <= from_form a < p /\ (p | from_form a - x)).
 Proof.
@@ -206,7 +204,7 @@ Proof.
   rewrite <- (Z.mul_1_l (x ^ _)). now apply G.
 Qed.
 
-(** Residues z as they are, not in the form. *)
+(** Ordinary residues z, not in the form. *)
 Definition residue_of (a z : Z) : Prop := 0 <= a < p /\ (p | a - z).
 Lemma plain_multiply a z b y : residue_of a z -> form b y -> residue_of (multiply a b) (z * y).
 Proof.
@@ -226,8 +224,8 @@ Proof.
   rewrite U, S, T, Q, R. ring.
 Qed.
 
-(** The value at num/den times den^degree, by coefficients from the last to the first: in integers, and as
-    value_at of include/errbound/roots/integer_polynomial.hpp has it from their residues. *)
+(** The value at num/den times den^degree, by coefficients from the last to the first: in integers, and from their
+    residues as in value_at of include/errbound/roots/integer_polynomial.hpp. *)
 Fixpoint homogeneous (num den sum scale : Z) (coefficients : list Z) : Z :=
   match coefficients with [] => sum | c :: l => homogeneous num den (sum * num + c * scale) (scale * den) l end.
 Fixpoint value_from (m : Z) (next_scale : Z -> Z) (sum scale : Z) (residues : list Z) : Z :=

@@ -1,11 +1,9 @@
-(** Where the rule as the TightCCD paper prints it does not hold, beside what Tight.v and Sign.v prove
-    of the code; rounding to nearest, from p = 3.
-
-    Results:
-        printed_sign_at_zero    Sign calls an exact zero positive
-        printed_sign_at_bound   and a number that may be zero
-        printed_product_lost    the bound of a product that underflows is none
-        printed_sum_rounded     nor is that of a sum where the bound itself is rounded *)
+(** Counterexamples to the rule as the TightCCD paper prints it, compared with theorems of Tight.v and Sign.v about
+    the code. Rounding to nearest, from p = 3. Results:
+        printed_sign_at_zero    Sign returns positive for an exact zero
+        printed_sign_at_bound   and for a number that may be zero
+        printed_product_lost    the bound of a product that underflows is wrong
+        printed_sum_rounded     so is that of a sum whose bound is rounded *)
 
 From Coq Require Import Reals ZArith Lia Lra.
 From Flocq Require Import Core.
@@ -23,7 +21,7 @@ Notation number := (number p emin).
 Notation eps := (eps p).
 Notation eta := (eta emin).
 
-(** Section 4.1: 1 from sigma on, -1 from -sigma down, else 0: undetermined. *)
+(** Section 4.1: 1 from sigma on, -1 from -sigma down, otherwise 0, which means undetermined. *)
 Definition printed_sign (value error : R) : sign :=
   if Rle_bool error value then positive
   else if Rle_bool value (- error) then negative
@@ -38,7 +36,7 @@ Proof.
   unfold printed_sign. rewrite Rle_bool_true by lra. simpl. lra.
 Qed.
 
-(** eta eta, two exact numbers: the product is lost, and the printed bound is 0. *)
+(** eta eta with exact factors: the product underflows to 0, and the printed bound is 0. *)
 Theorem printed_product_lost : number eta /\
   tight_product eps (fl (eta * eta)) eta 0 eta 0 = 0 /\ 0 < Rabs (fl (eta * eta) - eta * eta).
 Proof.
@@ -54,8 +52,7 @@ Proof.
   split; [unfold Rdiv; ring | lra].
 Qed.
 
-(** 1 and -1, known to within 1 and eta, of 0 and -1 - eta: the bound is rounded to 1, the error is
-    1 + eta. *)
+(** 1 and -1, known to within 1 and eta, stand for 0 and -1 - eta: the bound is rounded to 1, the error is 1 + eta. *)
 Theorem printed_sum_rounded (a := 1) (x := 0) (sa := 1) (b := -1) (y := -1 - eta) (sb := eta) :
   number a /\ number b /\ number sa /\ number sb /\ Rabs (a - x) <= sa /\ Rabs (b - y) <= sb /\
   fl (fl (fl (fl (Rabs (fl (a + b)) * eps) / fl (1 - eps)) + sa) + sb) = 1 /\

@@ -1,16 +1,16 @@
-(** Where statements of the published BSC (TTWM14; TightCCD paper, Sections 3 and 5.2) do not hold as
-    printed: cubics that include/errbound/bsc.hpp decides rightly (Bsc.v).
-        inflection_loses_roots   one extremum at most is concluded from Y' at the ends: wrong with an
-                                 inflection inside, however near to an end (as a rounded split leaves
-                                   it)
+(** Counterexamples to statements of the published BSC (TTWM14; TightCCD paper, Sections 3 and 5.2): cubics that
+    include/errbound/bsc.hpp decides rightly (Bsc.v).
+        inflection_loses_roots   "Y' at the ends implies at most one extremum": wrong with an inflection inside,
+            however
+                                 near to an end, as after a rounded split
         extremum_not_at_start    "the sign of the extreme point is that of T(0)": wrong
-        decomposition_zero       "sign G = - sign M sign R": wrong where M vanishes with Y *)
+        decomposition_zero       "sign G = - sign M sign R": wrong if M vanishes with Y *)
 
 From Coq Require Import Reals Lra Psatz.
 Open Scope R_scope.
 
-(** Y' is negative and Y positive at both ends: no extremum and no root, by classification. But Y has
-    two roots. Its inflection is at 1 - 4e. *)
+(** Y' is negative and Y positive at both ends, so the classification finds no extremum and no root. But Y has two
+    roots. Its inflection is at 1 - 4e. *)
 Theorem inflection_loses_roots e : 0 < e <= 1 / 10 ->
   let u t := t - (1 - 7 * e) in
   let Y t := 9 * e * u t ^ 2 - u t ^ 3 - 49 * e ^ 3 in
@@ -62,8 +62,8 @@ Proof.
   exists t0, t1. repeat split; auto; lra.
 Qed.
 
-(** Y = Y' S + T without inflection inside, and a minimum at 1/2 below zero. Where the signs of Y'(0)
-    and Y'(1) stay uncertain, Section 5.2 takes the extremum's sign from T(0): no root. *)
+(** Y = Y' S + T without inflection inside, and a negative minimum at 1/2. If the signs of Y'(0) and Y'(1) are
+    uncertain, Section 5.2 uses the sign of T(0) for the extremum: no root. *)
 Theorem extremum_not_at_start :
   let Y t := 8 * t ^ 3 - 6 * t + 1 in
   let Y' t := 24 * t ^ 2 - 6 in

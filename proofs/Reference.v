@@ -1,8 +1,8 @@
-(** The reference (ccd/exact/reference.cpp): every decision is right, given doubles, common_factor and
-  real_roots
-    as in UnboundedIntegers.v. Results:
-        reference_face, reference_edges, reference_vertex_edge, reference_vertex_vertex   it decides
-                                  `collides` exactly if the features do *)
+(** The reference (ccd/exact/reference.cpp): every decision is right, given doubles, common_factor and real_roots as
+    in UnboundedIntegers.v. Results:
+        reference_face, reference_edges, reference_vertex_edge, reference_vertex_vertex   it returns `collides`
+            exactly
+                                    if the features collide *)
 
 From Coq Require Import Reals ZArith Lia Lra Psatz List Bool.
 From Errbound Require Import RootIsolation Sign Bernstein Bsc Contact Decisions AxisUnits UnboundedIntegers.
@@ -36,7 +36,7 @@ Definition regular_contact y gs (n2 : list integers) : bool :=
     | inner => existsb (fun k => contact_at (at_root k) n2 gs) (real_roots finder inner)
     end.
 
-(** What it asks of the finder. *)
+(** The hypotheses about the finder. *)
 Definition regular_meets (d : demands) y gs (n2 : list integers) : Prop :=
   let inner := without_end_roots y in
   of_roots d inner /\ Forall (fun f => of_signs d inner (without_end_roots f)) (n2 :: gs).
@@ -147,7 +147,7 @@ Definition reference_decides (edges : bool) (q0 q1 q2 q3 : given) : bool :=
 Definition reference_decides_face : given -> given -> given -> given -> bool := reference_decides false.
 Definition reference_decides_edges : given -> given -> given -> given -> bool := reference_decides true.
 
-(** What they ask of the finder. *)
+(** The hypotheses about the finder. *)
 Definition reference_meets (edges : bool) (d : demands) (q0 q1 q2 q3 : given) : Prop :=
   let i := to_integers [q0; q1; q2; q3] in
   let b := side_b edges difference (i q0) (i q1) (i q2) (i q3) in

@@ -1,16 +1,14 @@
-(** Bound rule `relative` (include/errbound/rules/relative.hpp), as the C++ code computes it; rounding to
-    nearest, ties to even. Numbers have p digits, from 4 on; counts q, no fewer, and are double's in the
-    code (q from 24 on, the smallest positive one eta far enough down). Results:
+(** Bound rule `relative` (include/errbound/rules/relative.hpp), as the C++ code computes it, to nearest, ties to
+    even. Numbers have p >= 4 digits. Counts have q >= p digits, double in the code (q >= 24, with a small enough
+    eta). A number x has a value v and a count k: v and x have one sign, or both are 0, and differ by at most a
+    factor e^(kw), w = - ln(1 - u), which is `close v x (k w)`. Roundings of counts are bounded in units of v = 2^-q
+    (chain_down, chain_up); `slack` covers fourteen roundings and its own. Results:
         relative_exact_sound, relative_within_sound, relative_negate_sound, relative_add_sound,
-        relative_subtract_sound, relative_multiply_sound, relative_divide_sound,
-        relative_scale_sound: the result is known by the count that the code returns, if that is finite;
-        relative_error_sound: the error that the code reports is one;
-        relative_sign_sound: the sign is right or uncertain.
-
-    A number x is known by its value v and a count k: v and x have one sign, or both are 0, and are no
-    more than a factor e^(kw) apart, w = - ln(1 - u), which is what `close v x (k w)` says. What counts
-    themselves lose by rounding is bounded in units of v = 2^-q: chain_down, chain_up; `slack` pays for
-    fourteen roundings and its own. *)
+            relative_subtract_sound,
+        relative_multiply_sound, relative_divide_sound, relative_scale_sound   the returned count holds if it is
+            finite
+        relative_error_sound   the returned error is a bound
+        relative_sign_sound    the sign is right or uncertain *)
 
 From Coq Require Import Reals ZArith Lia Lra Psatz Bool.
 From Flocq Require Import Core.
@@ -192,7 +190,7 @@ Proof.
   repeat split; [apply Rmult_le_pos; auto; apply Rle_0_sqr | |];
     apply Rmult_le_compat_r; auto using Rabs_pos.
 Qed.
-(** Of one sign. *)
+(** The signs of close numbers are equal. *)
 Lemma close_nonnegative v x l : close v x l -> 0 <= v -> 0 <= x.
 Proof.
   intros C P. destruct (Req_dec v 0) as [-> | N].
@@ -214,7 +212,7 @@ Proof.
   apply close_opp. rewrite !Ropp_plus_distr. apply close_add_nonnegative; auto; lra.
 Qed.
 
-(** From an absolute error, and back. *)
+(** The count of an absolute error, and the reverse. *)
 Lemma close_within v x e r : Rabs (v - x) <= e -> e <= r * Rabs v -> r < 1 ->
   0 <= r -> close v x (- ln (1 - r)).
 Proof.
@@ -324,7 +322,7 @@ Proof.
   rewrite Rabs_pos_eq by auto. intros E. specialize (E H). apply Rabs_le_inv in E. nra.
 Qed.
 
-(** What is little beside a number of few digits is lost. *)
+(** A small addend is rounded away if the other number has few digits. *)
 Lemma lost g t k : (qmin + q <= k)%Z -> double g -> bpow radix2 (k - 1) <= g - t -> g <= bpow radix2 k ->
   (exists n, g = IZR n * bpow radix2 (k - q)) -> 0 <= t -> 2 * t < bpow radix2 (k - q) -> dl (g - t) = g.
 Proof.
@@ -404,7 +402,7 @@ Proof.
 Qed.
 
 
-(** Lower and upper bounds of what is computed, in units of v. *)
+(** Lower and upper bounds of computed numbers, in units of v. *)
 Lemma chain_down x y n : 0 <= x -> 0 <= n -> x * (1 - n * v) <= y -> normal <= y ->
   x * (1 - (n + 1) * v) <= dl y.
 Proof.
@@ -455,7 +453,7 @@ Proof.
       assert (0 <= (n * v) * (n * v)) by (apply Rmult_le_pos; lra). lra.
   - apply quotient_le; auto. apply Rmult_le_pos; lra.
 Qed.
-(** The slack pays for fourteen roundings and its own. *)
+(** The slack covers fourteen roundings and its own. *)
 Lemma slack_pays x y n : 0 <= x -> 0 <= n <= 29 / 2 -> x * (1 - n * v) <= y -> normal <= y ->
   x <= dl (y * slack).
 Proof.
@@ -649,7 +647,7 @@ Proof.
   intros H. rewrite <- (Rmult_1_r (IZR n)). change 1 with (bpow radix2 0). apply number_integer; auto; [lia |].
   assert (2 ^ 4 <= 2 ^ q)%Z by (apply Z.pow_le_mono_r; lia). lia.
 Qed.
-(** A small whole number as a multiple of a power of two that its format has beside it. *)
+(** A small whole number is a multiple of a power of two that its format has, too. *)
 Lemma as_multiple n k : (k <= q)%Z -> exists m, IZR n = IZR m * bpow radix2 (k - q).
 Proof.
   intros K. exists (n * 2 ^ (q - k))%Z. rewrite mult_IZR. change 2%Z with (radix_val radix2) at 1.
@@ -779,7 +777,7 @@ Proof.
   apply Rmult_le_reg_r with (- ln (1 - u)); lra.
 Qed.
 
-(** The relative error that a count stands for: e^(kw) - 1 or more, w = - ln(1 - u). *)
+(** The relative error of a count: at least e^(kw) - 1, w = - ln(1 - u). *)
 Definition error_of_count (k : R) : option R :=
   let l := dl (upper_count (dl (k * of_one_factor)) + deta) in
   if Rlt_bool l (7 / 4) then Some (dl (dl (l / dl (1 - dl (l / 2))) * slack)) else None.
@@ -873,7 +871,7 @@ Qed.
 
 End Counts.
 
-(** The rule: numbers with p digits, counts with q, no fewer. *)
+(** The rule: numbers with p digits, counts with q >= p. *)
 Section Rule.
 
 Variables p emin q qmin : Z.
@@ -892,7 +890,7 @@ Notation double := (Format.number q qmin).
 Notation deta := (Format.eta qmin).
 Notation count_sum := (count_sum q qmin).
 
-(** What one factor counts. *)
+(** The logarithm of one factor. *)
 Definition w : R := - ln (1 - u).
 
 (** The code, in its order of evaluation; None stands for an infinite count or error. *)
@@ -914,7 +912,7 @@ Definition relative_error (v k : R) : option R :=
       Some (fl (upper (fl (Rabs v * share)) + eta))
     | None => None
     end.
-(** The sign, where an error is known. *)
+(** The sign, if an error is known. *)
 Definition relative_sign (v k : R) : Code.sign_type :=
   match relative_error v k with
   | None => Code.uncertain
@@ -928,7 +926,8 @@ Definition rounded_to (v k : R) (is_exact : bool) : option R :=
   if is_exact then Some k
   else if Rle_bool smallest_normal (Rabs v) then Some (count_sum k 1) else None.
 Definition rounded_sum (k : R) (is_exact : bool) : R := if is_exact then k else count_sum k 1.
-(** `is_exact`: what error_free.hpp's transformations tell of the rounded sum; so of products and quotients. *)
+(** `is_exact`: the transformations of error_free.hpp report that the rounded sum is exact. Products and quotients
+    have it, too. *)
 Definition relative_add (a ka b kb : R) (is_exact : bool) : option R :=
   let v := fl (a + b) in
   let k := if Rlt_bool ka kb then kb else ka in
@@ -957,7 +956,7 @@ Definition relative_divide (v a ka b kb : R) (is_exact : bool) : option R :=
 Definition relative_scale (v a ka : R) (e : Z) : option R :=
   rounded_to v ka ((0 <=? e)%Z || Req_bool (fl (v * bpow radix2 (- e))) a).
 
-(** What a number and its count say of x. *)
+(** The meaning of a number and its count for x. *)
 Definition holds (v k x : R) : Prop := number v /\ double k /\ 0 <= k /\ close v x (k * w).
 
 Hypothesis p_q : (4 <= p <= q)%Z.

@@ -1,11 +1,11 @@
-(** The C++ code, line by line, over any number type, as Code.v: rule `relative` (include/errbound/rules/relative.hpp),
-    whose counts are numbers of another type, double in the code. Nothing is proved here. *)
+(** The C++ code of the rule `relative` (include/errbound/rules/relative.hpp), line by line, over any number type, as
+    in Code.v. Counts have another number type, double in the code. Nothing is proved here. *)
 
 From Coq Require Import ZArith Bool List.
 From Errbound Require Import Code CompoundCode.
 Import ListNotations.
 
-(** Of either type. *)
+(** Code for counts of either type. *)
 Section Counts.
 
 Variable D : Type.
@@ -24,7 +24,7 @@ Open Scope code.
 Definition upper (x : D) : D := x * (#1 + epsilon D A).
 Definition slack : D := #1 + #8 * epsilon D A.
 
-(** u is what the numbers' unit roundoff is here. *)
+(** u is the unit roundoff of the numbers. *)
 Definition of_one_factor (u : D) : D := u * (#1 - u / #2) / (#1 - u) * slack.
 Definition count_sum (j k : D) : D :=
   let sum := two_sum D A j k in if #0 < snd sum then upper (fst sum) else fst sum.
@@ -145,7 +145,7 @@ Definition relative_operations : operations T D := {|
   rule_scale := relative_scale
 |}.
 
-(** Its dot_bound: the sum, what it is off by, and the count of operations one by one. *)
+(** The rule's dot_bound: the sum, its error, and the count of single operations. *)
 Definition relative_dot_step (s : T * T * D) (pair : (T * D) * (T * D)) : T * T * D :=
   let '(before, off, counted) := s in
   let '((a, ka), (b, kb)) := pair in

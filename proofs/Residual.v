@@ -1,16 +1,12 @@
-(** Bound rule `residual` (include/errbound/rules/residual.hpp), as the C++ code computes it; rounding
-    to nearest, ties to even, from 3 bits on, u a number (emin <= -p).
-
-    A number x is known by its value v, correction c and remainder r, |v + c - x| <= r. Results:
+(** Bound rule `residual` (include/errbound/rules/residual.hpp), as the C++ code computes it, to nearest, ties to
+    even, from 3 bits on, with u a number (emin <= -p). A number x has a value v, correction c and remainder r, |v +
+    c - x| <= r. `covered k h exact computed` counts the rule's own roundings: exact <= computed (1 + u)^k + h. h is
+    negative if the code has added numbers eta that are unused so far. Sums do not underflow: `summed k exact
+    computed`. `inflated` covers eight roundings and its own. Results:
         residual_exact_sound, residual_within_sound, residual_negate_sound, residual_add_sound,
-        residual_subtract_sound, residual_scale_sound: the result is known by what the code returns;
-        residual_error_sound: the error that the code reports is one;
-        residual_sign_sound: the sign is right or uncertain.
-
-    What the rule's own arithmetic loses is counted by `covered k h exact computed`: a computed number
-    and what it stands for, exact <= computed (1 + u)^k + h, after k roundings; h is below zero where
-    the code added smallest numbers eta that nothing has used up yet. Of sums alone nothing underflows:
-    `summed k exact computed`. `inflated` pays for eight roundings and its own. *)
+        residual_subtract_sound, residual_scale_sound   the bound that the code returns holds
+        residual_error_sound   the returned error is a bound
+        residual_sign_sound    the sign is right or uncertain *)
 
 From Coq Require Import Reals ZArith Lia Lra Psatz Bool.
 From Flocq Require Import Core.
@@ -64,7 +60,7 @@ Definition residual_scale (v a ca ra : R) (e : Z) : R * R :=
 Definition is_exact (c r : R) : bool := Req_bool c 0 && Req_bool r 0.
 Definition is_zero (v c r : R) : bool := Req_bool v 0 && is_exact c r.
 
-(** What v, c and r say of x. *)
+(** The meaning of v, c and r for x. *)
 Definition holds (v c r x : R) : Prop :=
   number v /\ number c /\ number r /\ Rabs (v + c - x) <= r.
 
@@ -119,7 +115,7 @@ Proof.
   intros H. apply Rabs_le_inv in H. lra.
 Qed.
 
-(** The factor pays for nine roundings. *)
+(** The factor covers nine roundings. *)
 Lemma power_1 k : 1 <= (1 + u) ^ k.
 Proof. apply pow_R1_Rle. generalize u_8. lra. Qed.
 Lemma power_le k l : (k <= l)%nat -> (1 + u) ^ k <= (1 + u) ^ l.
@@ -159,13 +155,13 @@ Proof. apply rnd_number. Qed.
 Lemma inflated_above x : number x -> 0 <= x -> x <= inflated x.
 Proof. intros X P. rewrite inflated_exact. apply scaled_up; auto. generalize u_8. lra. Qed.
 
-(** What a computed number stands for. *)
+(** The exact number of a computed one. *)
 Definition covered (k : nat) (h exact computed : R) : Prop :=
   number computed /\ 0 <= computed /\ exact <= computed * (1 + u) ^ k + h.
 
 Lemma covered_number x : number x -> 0 <= x -> covered 0 0 x x.
 Proof. intros. repeat split; auto. simpl. lra. Qed.
-(** Some numbers eta that the code adds. *)
+(** Numbers eta that the code adds. *)
 Lemma covered_nothing x : number x -> 0 <= x -> covered 0 (- x) 0 x.
 Proof. intros. repeat split; auto. simpl. lra. Qed.
 Lemma covered_weaken k h X l j Y x : covered k h X x -> (k <= l)%nat -> h <= j -> Y <= X ->
@@ -219,7 +215,7 @@ Proof.
   - assert (0 <= eta / 2 * u) by (apply Rmult_le_pos; lra). lra.
 Qed.
 
-(** Sums alone. *)
+(** Sums only. *)
 Definition summed (k : nat) (exact computed : R) : Prop :=
   covered k 0 exact computed /\ (computed < smallest_normal -> exact <= computed).
 
@@ -278,7 +274,7 @@ Proof.
     generalize (error_of_small p emin s C). fold v. lra.
 Qed.
 
-(** What the roundings of two products and of two sums take at most. *)
+(** An upper bound of the roundings of two products and two sums. *)
 Lemma number_4_eta : number (4 * eta).
 Proof. exact (number_eta_times p emin 2 ltac:(lia)). Qed.
 Lemma roundings_cover X Y a b c d : number a -> number b -> number c -> number d ->
@@ -333,7 +329,7 @@ Proof.
   replace (- v + - c - - x) with (- (v + c - x)) by ring. now rewrite Rabs_Ropp.
 Qed.
 
-(** What the sums that make a correction lose, is all that the code adds to the remainders. *)
+(** The errors of the sums that make a correction are all that the code adds to the remainders. *)
 Lemma residual_sum_error a ca ra x b cb rb y : holds a ca ra x -> holds b cb rb y ->
   let inherited := two_sum p emin ca cb in
   let correction := two_sum p emin (snd (two_sum p emin a b)) (fst inherited) in
@@ -356,7 +352,7 @@ Proof.
   - apply Rle_trans with (1 := Rabs_triang _ _). lra.
   - apply Rle_trans with (1 := Rabs_triang _ _). rewrite !Rabs_Ropp. lra.
 Qed.
-(** Both of the code's bounds of a sum of remainders ra and rb and of losses e and f. *)
+(** Both bounds in the code of a sum of remainders ra and rb and errors e and f. *)
 Lemma inflated_remainders ra rb e f : number ra -> number rb -> number e -> number f ->
   0 <= ra -> 0 <= rb -> 0 <= e -> 0 <= f -> ra + rb + (e + f) <= inflated (fl (fl (ra + rb) + fl (e + f))).
 Proof.
@@ -390,7 +386,7 @@ Proof.
   apply Upper.sum_of_bounds_sound; auto using inflated_number with typeclass_instances; try lia; try lra.
   apply Rle_trans with (1 := H). now apply inflated_remainders.
 Qed.
-(** A number whose value is d and that is known to be 0. *)
+(** A number with value d that is known to be 0. *)
 Theorem residual_displacement_sound d : number d -> holds d (- d) 0 0.
 Proof.
   intros N. repeat split; auto using number_opp, number_0. replace (d + - d - 0) with 0 by ring.
@@ -445,7 +441,7 @@ Proof.
   rewrite Rabs_Ropp. lra.
 Qed.
 
-(** Where the corrected value is larger than the inflated remainder, so was the exact sum. *)
+(** If the corrected value exceeds the inflated remainder, so did the exact sum. *)
 Lemma corrected_above v c r : number v -> number c -> number r -> 0 <= r ->
   inflated r < Rabs (fl (v + c)) -> r < Rabs (v + c).
 Proof.

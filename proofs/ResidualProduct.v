@@ -1,11 +1,9 @@
-(** Bound rule `residual` (include/errbound/rules/residual.hpp): products and quotients, as the C++ code
-    computes them; rounding to nearest, ties to even, from 3 bits on, u a number (emin <= -p).
-
-    Results, where |a + ca - x| <= ra and |b + cb - y| <= rb:
-        residual_multiply_sound   |fl(a b) + c - x y| <= r for c, r as returned
-        residual_divide_sound     |fl(a / b) + c - x / y| <= r, and y is not zero
-    They are told the error of a b, and the remainder of a / b, or that it is not known
-    (ErrorFree.v: two_product_exact, remainder_of_division_exact). *)
+(** Bound rule `residual` (include/errbound/rules/residual.hpp): products and quotients, as the C++ code computes
+    them, to nearest, ties to even, from 3 bits on, with u a number (emin <= -p). Arguments are the error of a b, and
+    the remainder of a / b, or that it is unknown (ErrorFree.v: two_product_exact, remainder_of_division_exact).
+    Results, if |a + ca - x| <= ra and |b + cb - y| <= rb:
+        residual_multiply_sound   |fl(a b) + c - x y| <= r for the returned c, r
+        residual_divide_sound     |fl(a / b) + c - x / y| <= r, and y is not zero *)
 
 From Coq Require Import Reals ZArith Lia Lra Psatz Bool.
 From Flocq Require Import Core.
@@ -87,7 +85,7 @@ Let weaken := covered_weaken p emin p_3.
 Let pays := inflated_covers p emin p_3 emin_p.
 Let half_ulp_above := half_ulp_above p emin p_3.
 
-(** More of what a computed number stands for. *)
+(** More rules for covered numbers. *)
 Lemma sum k X x l Y y : covered k 0 X x -> covered l 0 Y y ->
   covered (S (max k l)) 0 (X + Y) (fl (x + y)).
 Proof. rewrite <- (Rplus_0_r 0) at 3. apply plus. Qed.
@@ -119,7 +117,7 @@ Lemma holds_within v c r x : holds v c r x -> Rabs (x - v - c) <= r.
 Proof.
   intros (_ & _ & _ & H). rewrite <- Rabs_Ropp. now replace (- (x - v - c)) with (v + c - x) by ring.
 Qed.
-(** What is not known of an operation rounded to v. *)
+(** The unknown error of an operation rounded to v. *)
 Lemma own_error (known : bool) error s : number error -> (known = true -> fl s + error = s) ->
   let own := if known then error else 0 in
   let unknown := if known then 0 else half_ulp (fl s) in
@@ -196,7 +194,7 @@ Proof.
     (within_plus Ho (Rle_refl _)) (Rle_refl _)) (Rle_refl _)) (Rle_refl _)) T1) T2) T3). lra.
 Qed.
 
-(** A divisor that is not zero, and its distance from zero. *)
+(** A nonzero divisor, and its distance from zero. *)
 Lemma divisor b cb rb y : holds b cb rb y -> 0 < fl (Rabs b - residual_error cb rb) ->
   let off := residual_error cb rb in
   let D := Rabs b - off in
@@ -220,7 +218,7 @@ Proof.
     change (Rabs b + - off) with (Rabs b - off). rewrite (Rabs_pos_eq (Rabs b - off)) by lra.
     intros S. apply Rabs_le_inv in S. lra.
 Qed.
-(** Of a quotient's correction: what is left of num / b + t where b is y instead. *)
+(** The correction of a quotient: the rest of num / b + t with y instead of b. *)
 Lemma quotient_left num e t ea v eb b y ra rb off N T E : b <> 0 -> y <> 0 ->
   Rabs (b - y) <= off -> Rabs (num / b) <= N -> Rabs t <= T -> Rabs e <= E -> Rabs ea <= ra -> Rabs eb <= rb ->
   Rabs ((num - e + b * t + ea - v * eb) / y - num / b - t) <=

@@ -1,13 +1,10 @@
-(** What the decisions ask of common_factor and real_roots (root_finder, UnboundedIntegers.v) is what the
-    code's algorithms return (CommonFactor.v, RootIsolation.v). So theorems of Reference.v and BscExact.v
-    are of the code, where it ends.
-
-    Results:
-        found_roots_right        of integer coefficients, real_roots finds the roots in (0, oo)
+(** The hypotheses of the decisions about common_factor and real_roots (root_finder, UnboundedIntegers.v) hold for
+    the code's algorithms (CommonFactor.v, RootIsolation.v). So the theorems of Reference.v and BscExact.v hold for
+    the code, if it ends. Results:
+        found_roots_right        for integer coefficients, real_roots finds the roots in (0, oo)
         reference_face_by_isolation, reference_edges_by_isolation, reference_vertex_edge_by_isolation,
-        bsc_exact_face_by_isolation, bsc_exact_edges_by_isolation
-                                 the decisions by any functions that return what the algorithms return of
-                                 the polynomials that the query asks them for *)
+        bsc_exact_face_by_isolation, bsc_exact_edges_by_isolation   the decisions are right with any functions that
+                                 return results of the algorithms for the polynomials of the query *)
 
 From Coq Require Import Reals ZArith Lia Lra List Sorted.
 From Errbound Require Import RootIsolation ControlValues CommonFactor.
@@ -39,8 +36,8 @@ Proof.
   destruct T as [T | T]; [discriminate | now right].
 Qed.
 
-(** squarefree_chain's first polynomial: the primitive part, or its quotient by the factor that it has in
-    common with its derivative. *)
+(** squarefree_chain's first polynomial: the primitive part, or its quotient by the common factor with its
+    derivative. *)
 Inductive first_of_chain (p : list Z) : list Z -> Prop :=
 | itself f : primitive p f -> first_of_chain p f
 | divided_once q m f : primitive p q -> CommonFactor.common_factor q (derivative q) m ->
@@ -91,12 +88,12 @@ Proof.
   apply found_in_integers_right; [| easy]. rewrite poly_at_0 in N. intros Z. now rewrite Z in N.
 Qed.
 
-(** ** Functions that return what the algorithms return *)
+(** ** Functions that return the algorithms' results *)
 
-(** A root: what it is a root of, and its interval. *)
+(** A root: its polynomial and its interval. *)
 Record located := Located { polynomial : list Z; place : interval }.
 
-(** The root, if the interval holds one. *)
+(** The root, if the interval has one. *)
 Definition candidates (k : located) (x : R) : Prop :=
   x = low (place k) \/ low (place k) <= x <= high (place k) /\ poly (polynomial k) x = 0.
 Lemma candidates_bound k : bound (candidates k).
@@ -124,7 +121,7 @@ Variable intervals : list Z -> list interval.
 Variable sign_there : list Z -> list Z -> interval -> sign.
 
 Definition asked (p : list Z) : Prop := trimmed p /\ (2 <= length p)%nat /\ poly p 0 <> 0.
-(** What the algorithms return, of what is asked. The interval may be one that earlier calls have refined:
+(** The results of the algorithms, for the given arguments. The interval may be one that earlier calls have refined:
     after_refining is a case of the relation. *)
 Definition returned : demands := {|
   of_factor := fun f g => trimmed f -> trimmed g -> CommonFactor.common_factor f g (common f g);
@@ -173,7 +170,7 @@ Definition isolation : root_finder := {|
   common_factor := common; root := located; real_roots := all_roots;
   sign_at_root := fun g k => sign_there (polynomial k) g (place k); where_is := root_of |}.
 
-(** What is returned is what is promised. *)
+(** The results have the promised properties. *)
 Lemma factor_promised f g : of_factor returned f g -> of_factor (promises isolation) f g.
 Proof. intros M F G. exact (CommonFactor.common_factor_right f g _ F G (M F G)). Qed.
 Lemma roots_promised p : of_roots returned p -> of_roots (promises isolation) p.

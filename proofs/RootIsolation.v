@@ -1,14 +1,11 @@
-(** Exact real roots of polynomials of any degree (include/errbound/roots/root_isolation.hpp,
-    descartes_search.hpp): where the algorithm ends, its answer is right. Polynomials are lists of
-    coefficients, ascending, in the power basis. What is proved holds whatever points intervals are split at,
-    so for every hint that the code takes of floating-point numbers, and over the real numbers: the code's
-    points are exact.
-
-    Results:
+(** Exact real roots of polynomials of any degree (include/errbound/roots/root_isolation.hpp, descartes_search.hpp):
+    if the algorithm ends, its answer is right. Polynomials are ascending lists of coefficients in the power basis.
+    The proofs allow any points at which intervals are split, so any floating-point hints. They are over the real
+    numbers, since the code's points are exact. Results:
         on_part_right        each root between two points is in exactly one of the intervals found
-        isolate_right        likewise of all roots in [low, high]
+        isolate_right        the same for all roots in [low, high]
         keep_part_right      narrowing keeps the root
-        secant_part_right    the part that the secant picks is one of the 2^bits parts
+        secant_part_right    the secant selects one of the 2^bits subintervals
         sign_at_root_right   the sign of g at a root of a square-free polynomial *)
 
 From Coq Require Import Reals ZArith Lia Lra Psatz List Bool Sorted.
@@ -33,7 +30,7 @@ Proof.
   change (power_form (a :: b :: l) x) with (a + x * power_form (b :: l) x).
   change (power_form (a :: b :: l) c) with (a + c * power_form (b :: l) c). rewrite E. simpl. ring.
 Qed.
-(** Zero between two points, zero everywhere. *)
+(** Zero between two points implies zero everywhere. *)
 Lemma zero_between p lo hi : lo < hi -> (forall x, lo < x < hi -> power_form p x = 0) -> forall x, power_form p x = 0.
 Proof.
   remember (length p) as n eqn:N. revert p N lo. induction n as [| n IH]; intros p N lo L Z x.
@@ -104,33 +101,33 @@ Definition isolates (p : list R) (i : interval) (r : R) : Prop :=
   (low i = r /\ high i = r \/
    low i < r < high i /\ (forall x, low i <= x <= high i -> power_form p x = 0 -> x = r) /\
    power_form p (low i) * power_form p (high i) < 0).
-(** The intervals hold each root with this property once, in ascending order. *)
+(** The intervals contain each root with this property once, in ascending order. *)
 Definition isolated (p : list R) (where_ : R -> Prop) (found : list interval) : Prop :=
   exists roots, Forall2 (isolates p) found roots /\ StronglySorted Rlt roots /\
     forall x, In x roots <-> where_ x /\ power_form p x = 0.
 
-(** Signs of coefficients as the code tells them (fixed_row, or local_form; LocalForm.v): 0 if uncertain. *)
+(** Signs of coefficients as the code computes them (fixed_row, or local_form; LocalForm.v): 0 if uncertain. *)
 Definition row_of (p : list R) (lo hi : R) (signs : list Z) : Prop :=
   exists h, stands_for h p lo hi /\ Forall2 sign_seen signs (map sgn h).
-(** What is counted: without the ends of which it is known that they are zero. *)
+(** The row to count, without ends that are known to be zero. *)
 Definition without_ends {A} (low_end high_end : bool) (row : list A) : list A :=
   let row := if low_end then tl row else row in if high_end then removelast row else row.
 
 Definition point_if_root (p : list R) (x : R) : list interval :=
   if Req_EM_T (power_form p x) 0 then [Interval x x] else [].
 
-(** The sign changes that are counted of a part: of exact coefficients; or of signs seen, where those that are
-    uncertain may make more of them. *)
+(** The sign changes of a subinterval: those of exact coefficients, or the most that computed signs allow, since
+    uncertain ones may add changes. *)
 Inductive counted (p : list R) (lo hi : R) : nat -> Prop :=
 | of_exact b : controls b p lo hi -> counted p lo hi (sign_variations (map sgn b))
 | of_seen signs root_at_low root_at_high : row_of p lo hi signs ->
     (root_at_low = true -> power_form p lo = 0) -> (root_at_high = true -> power_form p hi = 0) ->
     counted p lo hi (match without_ends root_at_low root_at_high signs with [] => 0 | inner => max_sign_variations inner end).
 
-(** descartes_search, which keeps the parts on a stack of its own: the cases in which a part is done with; and
-    the division of a part at whatever point strictly between, whether the middle, one between exponents or
-    one of Newton's method. (Where a part is narrowed, it is divided at one or two points, and what lies
-    beside them is `rootless`, by surely_rootless.) *)
+(** descartes_search, which stores the subintervals on a stack: the cases in which a subinterval is finished, and its
+    division at any point strictly inside: the middle, a point between exponents, or one of Newton's method. (If a
+    subinterval is narrowed, it is divided at one or two points, and the other pieces are `rootless`, by
+    surely_rootless.) *)
 Inductive on_part (p : list R) : R -> R -> list interval -> Prop :=
 | no_variation lo hi : counted p lo hi 0 -> on_part p lo hi []
 | rootless lo hi : (forall x, lo <= x <= hi -> power_form p x <> 0) -> on_part p lo hi []
@@ -274,7 +271,7 @@ Qed.
 
 End Part.
 
-(** An even number of changes: the ends' signs are equal. *)
+(** With an even number of changes, the ends' signs are equal. *)
 Lemma changes_even s signs : plain s -> Forall (fun v => plain v \/ v = 0%Z) signs -> last (s :: signs) 0%Z <> 0%Z ->
   Nat.even (changes_after s signs) = (last (s :: signs) 0 =? s)%Z.
 Proof.
@@ -372,9 +369,9 @@ Qed.
 
 (** ** All roots *)
 
-(** The roots strictly between, 0 <= low < high: `least` and `greatest` are the points beyond the
-    bounds of the positive roots, if the code has bounds. Descartes' rule on the positive numbers is tried first:
-    where it leaves one root, the signs at both ends tell whether that is between. *)
+(** The roots strictly between, 0 <= low < high. `least` and `greatest` are the points beyond the bounds of the
+    positive roots, if the code has bounds. Descartes' rule on the positive numbers is used first. If it leaves one
+    root, the signs at both ends determine if it is between. *)
 Inductive inside (p : list R) (bounds : option (R * R)) (lo hi : R) : list interval -> Prop :=
 | no_positive_roots : bounds = None -> inside p bounds lo hi []
 | nothing_left least greatest : bounds = Some (least, greatest) -> ~ Rmax lo least < Rmin greatest hi ->
@@ -447,7 +444,7 @@ Proof.
     + rewrite !power_form_opp in S. lra.
 Qed.
 
-(** On either side of its root the sign is that of the end there. *)
+(** On each side of its root, the sign is that of the end there. *)
 Lemma sign_beside p u v r x : isolates p (Interval u v) r -> u < v -> u <= x <= v ->
   (x < r -> 0 < power_form p u * power_form p x) /\ (r < x -> 0 < power_form p x * power_form p v).
 Proof.
@@ -623,7 +620,7 @@ Qed.
 
 (** ** Narrowing *)
 
-(** keep_part, with the ends of the part that the secant picks. *)
+(** keep_part, with the ends of the subinterval that the secant selects. *)
 Definition keep_right_side (p : list R) (i : interval) (before : Z) (right : R) : interval :=
   if Rlt_dec right (high i) then
     let s := sgn (power_form p right) in
@@ -688,14 +685,14 @@ Proof.
   rewrite <- S. now apply (keep_right_side_right p (Interval left (high i))).
 Qed.
 
-(** With a = |p(low)| and b = |p(high)| in a common unit: the part's number. *)
+(** The subinterval's index, from a = |p(low)| and b = |p(high)| in a common unit. *)
 Definition secant_part (a b parts : Z) : Z := a * parts / (a + b).
 Theorem secant_part_right a b parts : (0 <= a)%Z -> (0 < b)%Z -> (0 < parts)%Z ->
   (0 <= secant_part a b parts < parts)%Z.
 Proof.
   intros A B P. unfold secant_part. split; [apply Z.div_pos; nia |]. apply Z.div_lt_upper_bound; nia.
 Qed.
-(** Its ends are as keep_part_right asks. *)
+(** Its ends satisfy the hypotheses of keep_part_right. *)
 Lemma part_ends lo hi k parts : (0 <= k < parts)%Z -> lo < hi ->
   let place n := lo + (hi - lo) * (IZR n / IZR parts) in lo <= place k < hi /\ place k < place (k + 1)%Z.
 Proof.
@@ -709,7 +706,7 @@ Proof.
   assert ((hi - lo) * (IZR k / IZR parts) < (hi - lo) * (IZR (k + 1) / IZR parts)) by (apply Rmult_lt_compat_l; lra). lra.
 Qed.
 
-(** refine: parts are kept as long as it asks. *)
+(** refine: subintervals are kept until the interval is narrow enough. *)
 Inductive refined (p : list R) : interval -> interval -> Prop :=
 | narrow_enough i : refined p i i
 | keep i k parts j : low i < high i -> (0 <= k < parts)%Z ->
@@ -751,7 +748,7 @@ Proof.
     rewrite on_unit_opp in P.
     destruct (sgn_cases (on_unit (x :: l) t)) as [(K & D) | [(K & D) | (K & D)]]; auto; lra.
 Qed.
-(** All control values of one sign: so is g throughout. *)
+(** If all control values have one sign, g has it throughout. *)
 Lemma one_sign_throughout b g lo hi x : lo < hi -> controls b g lo hi -> hd 0 b <> 0 ->
   Forall (fun y => sgn y = sgn (hd 0 b)) b -> lo <= x <= hi -> sgn (power_form g x) = sgn (hd 0 b).
 Proof.
@@ -763,8 +760,8 @@ Proof.
     apply in_map_iff in Y. destruct Y as (z & <- & Z). rewrite Forall_forall in F. now apply F.
 Qed.
 
-(** `vanishes`: where a divisor changes its sign, it has a root, which is the only one of p. Nothing more
-    is asked of common_factor here; that it is the greatest ends the loop. *)
+(** `vanishes`: if a divisor changes its sign, it has a root, the only one of p. This needs no other property of
+    common_factor; the loop ends since it is the greatest divisor. *)
 Lemma divisor_changes_sign p c i r : divides c p -> isolates p i r -> low i < high i ->
   sgn (power_form c (low i)) <> sgn (power_form c (high i)) -> power_form c r = 0.
 Proof.
@@ -825,7 +822,7 @@ Proof.
   rewrite Z in K by lra. rewrite Rminus_0_l, Rabs_Ropp in K. lra.
 Qed.
 
-(** p divided by whatever divides p and p' keeps all roots of p. *)
+(** The quotient of p by a divisor of p and p' keeps all roots of p. *)
 Theorem squarefree_part_roots p m f : not_zero p -> (forall x, power_form p x = power_form m x * power_form f x) ->
   divides m (derivative p) -> forall r, power_form p r = 0 <-> power_form f r = 0.
 Proof.
@@ -860,8 +857,7 @@ Proof.
   apply Rmult_integral in H. destruct H as [H | H]; [| easy]. apply Rmult_integral in H. destruct H; lra.
 Qed.
 
-(** The first polynomial of the chain: p itself divided by its coefficients' divisor, or that divided by
-    what common_factor finds. *)
+(** The first polynomial of the chain: p divided by its content, or that divided by the result of common_factor. *)
 Inductive first_of_chain (p : list R) : list R -> Prop :=
 | primitive c f : c <> 0 -> (forall x, power_form p x = c * power_form f x) -> first_of_chain p f
 | quotient c q m f : c <> 0 -> (forall x, power_form p x = c * power_form q x) ->
@@ -880,8 +876,7 @@ Proof.
   - destruct (S c q N E) as (A & B). rewrite A. now apply squarefree_part_roots with m.
 Qed.
 
-(** real_roots of coefficients p with p(0) <> 0: the intervals found for the roots in (0, oo). `upper` is
-    upper_bound(). *)
+(** real_roots of coefficients p with p(0) <> 0: the intervals for the roots in (0, oo). `upper` is upper_bound(). *)
 Inductive real_roots (p f : list R) : list interval -> Prop :=
 | isolated_roots right left upper found : first_of_chain p f -> last f 0 <> 0 ->
     bounds_right f right -> bounds_right (mirrored f) left -> 0 < upper ->

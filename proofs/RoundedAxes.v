@@ -1,16 +1,14 @@
-(** The culls in single precision: ccd/batch/rounded_axes.hpp, ccd/batch/rounded_positions.hpp and the swept boxes of
-    ccd/step/swept_boxes.hpp. Coordinates in double are mapped by one translation per axis and one scale, and
-    rounded to float; any direction, the same in both formats.
-
-    Results: rounded_monotone    rounding preserves order though not strictly
-             rounded_face_separate, rounded_edges_separate
-                                 what an axis parts as computed in float is apart throughout the step
-             swept_face_separate, swept_edges_separate
-                                 rounded swept boxes that do not touch: no contact
-             swept_rounded_first   rounding before the least and greatest are taken gives the same boxes
-             converted_difference_near   a difference in units of a power of two, rounded to double and then to
-                                 float, is off by at most eps of itself or by eta
-             swept_boxes_touch   rounded boxes that touch without a common end do so before rounding *)
+(** Tests in single precision: ccd/batch/rounded_axes.hpp, ccd/batch/rounded_positions.hpp and the swept boxes of
+    ccd/step/swept_boxes.hpp. Coordinates in double are mapped by a translation per axis and one scale, and rounded
+    to float, in any direction, the same in both formats. Results:
+        rounded_monotone          rounding preserves the order, not strictly
+        rounded_face_separate, rounded_edges_separate   an axis that separates them as computed in float does so
+            exactly
+        swept_face_separate, swept_edges_separate   if rounded swept boxes do not touch, there is no contact
+        swept_rounded_first       rounding before the minimum and maximum gives the same boxes
+        converted_difference_near   a difference in units of a power of two, rounded to double and then to float,
+                                  differs by at most eps of itself or by eta
+        swept_boxes_touch         rounded boxes that touch without a common end touch before rounding *)
 
 From Coq Require Import Reals ZArith List Lia Lra Psatz Bool.
 From Flocq Require Import Core.
@@ -58,7 +56,7 @@ Definition edges_gap (a0 a1 b0 b1 : R) : R * R :=
 Definition separated_by (gap : bool -> R * R) : R :=
   Rmax (Rmin (fst (gap false)) (fst (gap true))) (Rmin (snd (gap false)) (snd (gap true))).
 
-(** An axis: what is computed of rounded coordinates, and the axis itself. *)
+(** An axis: its computed projection of rounded coordinates, and the axis itself. *)
 Definition float_axis : Type := (point -> R) * point.
 Definition coordinates_in_float : list float_axis :=
   [(x, Point 1 0 0); (y, Point 0 1 0); (z, Point 0 0 1)].
@@ -87,7 +85,7 @@ Lemma double_number r : number (double r).
 Proof. apply rnd_number; auto with typeclass_instances. Qed.
 Lemma single_number r : float (single r).
 Proof. apply rnd_number; auto with typeclass_instances. Qed.
-(** Of any number: relative, and absolute where that underflows. *)
+(** The rounding error of any number: relative, or absolute after an underflow. *)
 Lemma double_near r : Rabs (double r - r) <= Format.eps 53 * Rabs r + eta (-1074).
 Proof.
   pose proof (bpow_gt_0 radix2 (-1074)) as Q. fold (eta (-1074)) in Q.
@@ -129,7 +127,7 @@ Section Frame.
 Variables low high : point.
 Hypothesis low_numbers : number (x low) /\ number (y low) /\ number (z low).
 Hypothesis high_numbers : number (x high) /\ number (y high) /\ number (z high).
-(** All that double has. *)
+(** Any finite double. *)
 Definition bounded (p : point) : Prop :=
   Rabs (x p) <= bpow radix2 1024 /\ Rabs (y p) <= bpow radix2 1024 /\ Rabs (z p) <= bpow radix2 1024.
 Hypothesis low_bounded : bounded low.
@@ -164,7 +162,7 @@ Proof.
   now rewrite Rabs_Ropp.
 Qed.
 
-(** What is within the box is at most 1 from the middle, scaled, but for roundings. *)
+(** Points in the box are at most 1 from the middle after scaling, except for roundings. *)
 Lemma scale_bounds : 0 <= scale f /\ forall p, inside_box p ->
   Rabs (x p - x (middle f)) * scale f <= 1 + eps / 500 /\
   Rabs (y p - y (middle f)) * scale f <= 1 + eps / 500 /\
@@ -264,7 +262,8 @@ Qed.
 
 (** ** Axes *)
 
-(** Projections, as computed of rounded points, that differ by more than t: so do the points. *)
+(** If computed projections of rounded points differ by more than t, the projections of the points differ in the same
+    direction. *)
 Definition tells (t : R) (a : float_axis) : Prop := forall p q,
   number (x p) -> number (y p) -> number (z p) -> number (x q) -> number (y q) -> number (z q) ->
   inside_box p -> inside_box q ->
@@ -374,7 +373,7 @@ Proof.
   - exists a, float_margin. repeat split; auto; [apply N | now apply diagonals_tell].
 Qed.
 
-(** The order of two points along an axis that tells. *)
+(** The order of two points along such an axis. *)
 Lemma told t a q r e : tells t a -> in_frame q -> in_frame r ->
   t < fst a (rounded_point f (at_end r e)) - fst a (rounded_point f (at_end q e)) ->
   dot (snd a) (at_end q e) < dot (snd a) (at_end r e).
@@ -412,8 +411,8 @@ End Frame.
 
 (** ** Swept boxes *)
 
-(** One axis of swept_box: the least and the greatest coordinate of an element's vertices at both ends of the
-    step, exact and of rounded coordinates; c and s are that axis's middle and the scale. *)
+(** One axis of swept_box: the minimum and maximum coordinate of an element's vertices at both ends of the step,
+    exact and of rounded coordinates. c and s are the axis's middle and scale. *)
 Definition sweep (least : R -> R -> R) (coordinate : point -> R) (first : moving) (others : list moving) : R :=
   fold_left (fun m q => least (least m (coordinate (start q))) (coordinate (finish q))) others
     (least (coordinate (start first)) (coordinate (finish first))).
@@ -463,7 +462,7 @@ Qed.
 
 Section Boxes.
 
-(** box_pack: that rounded boxes do not touch is that on some axis one ends before the other begins. *)
+(** box_pack: rounded boxes do not touch if on some axis one ends before the other begins. *)
 Variables c s : R.
 Hypothesis s_0 : 0 <= s.
 Definition coordinate_of (n : nat) : point -> R := match n with 0%nat => x | 1%nat => y | _ => z end.
@@ -500,7 +499,7 @@ Theorem swept_boxes_touch k a l b m :
   low (coordinate_of k) a l <= high (coordinate_of k) b m.
 Proof. intros H. apply rounded_less in H; auto. lra. Qed.
 
-(** ccd/cuda/step.hpp rounds first and takes the least or greatest after. *)
+(** ccd/cuda/step.hpp rounds first and takes the minimum or maximum then. *)
 Theorem swept_rounded_first least coordinate a l : least = Rmin \/ least = Rmax ->
   rounded c s (sweep least coordinate a l) = sweep least (fun p => rounded c s (coordinate p)) a l.
 Proof.
@@ -516,9 +515,8 @@ Qed.
 End Boxes.
 (** ** Differences that become floats *)
 
-(** forms_of_query of ccd/cuda/exact_stages.hpp: a difference of doubles, in units of a power of two.
-  It is as if
-    rounded once, to a neighbour among the floats. *)
+(** forms_of_query of ccd/cuda/exact_stages.hpp: a difference of doubles, in units of a power of two. The result is
+    that of one rounding to a neighbouring float. *)
 Definition converted_difference (a b : R) (e : Z) : R := single (double (double (a - b) * bpow radix2 (- e))).
 
 Notation down r := (round radix2 (FLT_exp (-149) 24) Zfloor r).
@@ -539,7 +537,7 @@ Proof.
         apply number_smallest_normal; auto with typeclass_instances. }
   intros [-> | ->]; [exact (G Zfloor _) | exact (G Zceil _)].
 Qed.
-(** A float on the grid of r's is a double, scaled. *)
+(** A float on the grid of r is a double after scaling. *)
 Lemma neighbour_number d (V : Valid_rnd d) r e : (-1074 <= cexp radix2 (FLT_exp (-149) 24) r + e)%Z ->
   number (rnd 24 (-149) d r * bpow radix2 e).
 Proof.
@@ -588,7 +586,7 @@ Proof.
       assert (D3 : down r <= double (double (a - b) * bpow radix2 (- e)) <= up r)
         by (split; [apply rnd_above | apply rnd_below]; auto with typeclass_instances; lra).
       split; [apply rnd_above | apply rnd_below]; auto with typeclass_instances; lra.
-  - (* where that grid is finer than double's, the difference is exact *)
+  - (* if that grid is finer than the doubles, the difference is exact *)
     unfold cexp, FLT_exp in C. assert (Small : Rabs (a - b) < smallest_normal 53 (-1074)).
     { rewrite <- Er, Rabs_mult, (Rabs_pos_eq (bpow radix2 e)) by lra.
       apply Rlt_le_trans with (bpow radix2 (mag radix2 r) * bpow radix2 e).

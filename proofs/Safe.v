@@ -1,11 +1,12 @@
 (** Bound rule `safe` (include/errbound/rules/safe.hpp): SafeBound, as the C++ code computes it.
 
-    A number x with computed value a is known by (B, k): |x| <= B and |a - x| <= B((1 + eps)^k - 1).
-    Results, rounding in any one direction from 4 bits on (to nearest from 3):
-        safe_exact_sound, safe_within_sound, safe_add_sound, safe_subtract_sound,
-        safe_multiply_sound: the result is known by what the code returns;
-        safe_error_sound: the error that the code reports is one.
-    They ask for counts below 2^29, where the code stops to count and reports no finite error. *)
+    A number x with computed value a has (B, k): |x| <= B and |a - x| <= B((1 + eps)^k - 1). Counts must be below
+    2^29, where the code stops counting and returns no finite error. Results, rounding in any one direction from 4
+    bits on (to nearest from 3):
+        safe_exact_sound, safe_within_sound, safe_add_sound, safe_subtract_sound, safe_multiply_sound   the bound
+            that
+                           the code returns holds
+        safe_error_sound   the error that the code reports is a bound *)
 
 From Coq Require Import Reals ZArith Lia Lra Psatz Bool.
 From Flocq Require Import Core Mult_error.
@@ -60,7 +61,7 @@ Proof.
   intros. destruct (Z.ltb_spec k (536870912 - 1)); lia.
 Qed.
 
-(** What (B, k) says. *)
+(** The meaning of (B, k). *)
 Definition growth (k : Z) : R := (1 + eps) ^ Z.to_nat k.
 Definition known (a x : R) (bound : R * Z) : Prop :=
   number (fst bound) /\ (0 <= snd bound)%Z /\ Rabs x <= fst bound /\
@@ -133,7 +134,7 @@ Proof.
     + rewrite bpow_plus. reflexivity.
 Qed.
 
-(** An enlarged number is no less than what was rounded to it, a normal product or any sum. *)
+(** An enlarged number is at least the number rounded to it, a normal product or any sum. *)
 Lemma enlarged_above w x :
   number w -> 0 <= x -> x * q <= w -> (w < smallest_normal -> x <= w) -> x <= enlarged w.
 Proof.
@@ -444,7 +445,7 @@ Qed.
 
 End Proof.
 
-(** The theorems: what the code returns is so. *)
+(** The theorems on the code's results. *)
 Hypothesis enough_bits : (4 <= p)%Z \/ ((3 <= p)%Z /\ direction = nearest).
 Hypothesis emin_p : (emin <= - p)%Z.
 
@@ -520,7 +521,7 @@ Theorem safe_scale_sound a x B k e :
   known (fl (a * bpow radix2 e)) (x * bpow radix2 e) (safe_scale (fl (a * bpow radix2 e)) a B k e).
 Proof. destruct a_rounding as (r & h & E & G). apply (scale_sound three_bits emin_p r h E G). Qed.
 
-(** Here eps^2 has to be a number too, as in every IEEE format. *)
+(** eps^2 must be a number too, as in every IEEE format. *)
 Theorem safe_error_sound a x B k bound :
   (emin <= 2 - 2 * p)%Z ->
   known a x (B, k) -> safe_error B k = Some bound -> Rabs (a - x) <= bound.

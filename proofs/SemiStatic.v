@@ -1,11 +1,10 @@
-(** The semi-static filter (include/errbound/filters/semi_static_filter.hpp), rounded to nearest: its bound,
-    from the largest difference M, covers the error.
-
-    Results: mass_covers_size            S <= m M^d + (a - 3/4) tau + a tau M^d
-             semi_static_sign_certain    the sign that the code is certain of is right
-             semi_static_overflow_uncertain   likewise with a largest number, whatever overflows
-    where StaticFilter.v's theorems hold, the degree is at most 2^(p-6), and emin <= -4p - 5 (double and
-    float: -1074 <= -217, -149 <= -101). That m and a are exact the code finds out: `trusted`. *)
+(** The semi-static filter (include/errbound/filters/semi_static_filter.hpp), rounded to nearest: its bound, from the
+    largest difference M, covers the error. Hypotheses are those of StaticFilter.v, a degree of at most 2^(p-6), and
+    emin <= -4p - 5 (double and float: -1074 <= -217, -149 <= -101). The code tests that m and a are exact:
+    `trusted`. Results:
+        mass_covers_size            S <= m M^d + (a - 3/4) tau + a tau M^d
+        semi_static_sign_certain    the certain sign of the code is right
+        semi_static_overflow_uncertain   also with a largest number and any overflow *)
 
 From Coq Require Import Reals ZArith Lia Lra Psatz Bool Classical_Prop.
 From Flocq Require Import Core.
@@ -54,7 +53,7 @@ Section Filter.
 
 Variable M : R.
 
-(** power<Exponent>(x): by squares where the exponent is even. *)
+(** power<Exponent>(x): by squares if the exponent is even. *)
 Fixpoint code_power (fuel n : nat) (x : R) : R :=
   match fuel with
   | O => x
@@ -67,7 +66,7 @@ Definition computed_power (n : nat) : R := code_power n n M.
 Definition semi_static_bound (e : expression) : R :=
   fl (fl (filter_constant p emin (roundings e) / 2) *
       fl (fl (fl (2 * mass e) * computed_power (degree e)) + fl (fl (2 * allowances e) * tau))).
-(** The code trusts m and a below 2^p; a constant 0 has an infinite mass, and so has all that is made of it. *)
+(** The code trusts m and a below 2^p. A constant 0 has an infinite mass, and so do all expressions with it. *)
 Fixpoint constants_not_zero (e : expression) : bool :=
   match e with
   | Coordinate _ | Difference _ _ => true
@@ -82,7 +81,7 @@ Definition semi_static_sign (e : expression) : sign :=
     if Rlt_bool 0 (value e) then positive else negative
   else uncertain.
 
-(** m and a in exact arithmetic, and where they are what is computed. *)
+(** m and a in exact arithmetic, and conditions under which they are the computed ones. *)
 Fixpoint whole_mass (e : expression) : Z :=
   match e with
   | Coordinate _ | Difference _ _ => 1
@@ -172,7 +171,7 @@ Qed.
 
 Lemma power_nonnegative n : 0 <= M ^ n.
 Proof. now apply pow_le. Qed.
-(** Powers of one number: both large, or both small. *)
+(** Powers of one number are both large or both small. *)
 Lemma powers_alike i j : M ^ i <= 1 + M ^ i * M ^ j.
 Proof.
   generalize (power_nonnegative i) (power_nonnegative j). intros P Q.
@@ -187,7 +186,7 @@ Lemma measured_mass_covers_size e : measured e ->
      else (IZR (whole_allowances e) - 3 / 4) * tau + IZR (whole_allowances e) * tau * M ^ degree e).
 Proof.
   generalize tau_positive; intros T.
-  (* as a sum, whether there are allowances or not *)
+  (* the sum, with or without allowances *)
   assert (Sum : forall x y, measured x -> measured y -> degree x = degree y ->
     exact_size x <= IZR (whole_mass x) * M ^ degree x +
       (if (whole_allowances x =? 0)%Z then 0
@@ -236,7 +235,7 @@ Proof.
     apply IZR_le in X1, Y1, X2, Y2, HX, HY.
     set (mx := IZR (whole_mass x)) in *. set (my := IZR (whole_mass y)) in *.
     set (ax := IZR (whole_allowances x)) in *. set (ay := IZR (whole_allowances y)) in *.
-    (* products of allowances are nothing *)
+    (* products of allowances are negligible *)
     assert (Tiny : ax * (ay * tau) <= / 16).
     { apply Rle_trans with (2 := tau_small). apply Rmult_le_compat; auto.
       - apply Rmult_le_pos; lra.
@@ -404,7 +403,7 @@ Proof.
   - auto.
 Qed.
 
-(** The slack: constant(k) grows by 4k + 8 units of u, of which the sizes' roundings take about half. *)
+(** The slack: constant(k) grows by 4k + 8 units of u, of which roundings of sizes take about half. *)
 Lemma slack_enough t : 0 <= t -> 64 * (t + 3 * u) <= 1 ->
   (1 + u) ^ 6 * (1 + t) * ((1 + (t + u) + (t + u) * (t + u)) * (1 + u / 16)) <= 1 + 4 * t + 8 * u.
 Proof.
@@ -516,7 +515,7 @@ Proof.
       assert ((t + u) * (t + u) <= / 64 * (t + u)) by (apply Rmult_le_compat_r; lra). nra. }
     assert (pw * (1 + u / 16) * (tau / 64) <= 2 * (tau / 64)) by (apply Rmult_le_compat_r; lra).
     lra. }
-  (* what is computed *)
+  (* the computed bound *)
   assert (Ptau : number (2 * IZR az * tau)).
   { rewrite (allowance_exact p emin) by lia.
     replace (2 * IZR az * bpow radix2 (emin + 2 * p + 1))
@@ -606,7 +605,7 @@ Proof.
     apply Rmult_le_compat_r; auto. apply Rmult_le_compat_l; lra.
 Qed.
 
-(** What is trusted was counted exactly: no part's m or a exceeds the whole's. *)
+(** Trusted counts are exact: m and a of a subexpression do not exceed those of the whole. *)
 Lemma fl_whole_below n : (0 <= n)%Z -> fl (IZR n) < IZR (2 ^ p) -> fl (IZR n) = IZR n /\ (n < 2 ^ p)%Z.
 Proof.
   intros P L. assert (B : (n < 2 ^ p)%Z).
@@ -623,7 +622,7 @@ Proof.
   induction e; cbn [mass allowances]; split; auto using number_1, number_0; try apply N; try apply IHe.
   now apply number_abs.
 Qed.
-(** A number is no more than what it is added to, or what a factor of at least 1 makes of it. *)
+(** A number is at most its sum with a nonnegative one, and at most its product with a factor >= 1. *)
 Lemma part_of_sum x y : number x -> 0 <= y -> x <= fl (x + y).
 Proof. intros N P. apply rnd_above; auto with typeclass_instances. lra. Qed.
 Lemma part_of_product x y : number x -> 0 <= x -> 1 <= y -> x <= fl (x * y).
@@ -780,7 +779,7 @@ Qed.
 
 Section Overflow.
 
-(** The format's largest number; operations that exceed it give an infinity or NaN, as in StaticFilter.v. *)
+(** The format's largest number. Operations that exceed it give an infinity or NaN, as in StaticFilter.v. *)
 Variable largest : R.
 Hypothesis largest_p : 2 * IZR (2 ^ p) <= largest.
 Notation in_range := (in_range largest).
@@ -800,7 +799,7 @@ Definition bound_in_range (e : expression) : Prop :=
   let size := fl (fl (2 * mass e) * computed_power (degree e)) in
   trusted e = true /\ power_in_range (degree e) (degree e) M /\ in_range size /\
   in_range (fl (size + fl (fl (2 * allowances e) * tau))) /\ in_range (semi_static_bound e).
-(** sign_of, on what the machine has: the bound is infinite or NaN where it is not in range. *)
+(** sign_of with machine numbers: the bound is infinite or NaN if it is not in range. *)
 Definition semi_static_machine_sign (v b : ieee) : sign :=
   if less b (magnitude v) then if less (finite 0) v then positive else negative else uncertain.
 
@@ -823,7 +822,7 @@ Proof.
   - apply IHx; auto.
 Qed.
 
-(** Where the bound does not overflow nothing of the expression does. *)
+(** If the bound does not overflow, nothing in the expression does. *)
 Lemma bound_in_range_value e : admissible p emin e -> homogeneous e -> (1 <= degree e)%nat ->
   64 * INR (roundings e + 3) * u <= 1 -> bound_in_range e -> value_in_range e.
 Proof.

@@ -1,8 +1,9 @@
-(** `separated_by_axes` of ccd/exact/static_filter/separating_axes.hpp: its margin covers the rounding
-    errors of what is compared, underflow included. In double, any direction; the constant, which the compiler computes, to nearest.
-
-    Results: separated_face_separate, separated_edges_separate    where an axis parts the features as
-             computed, with sizes that cover the computed differences, they do not collide *)
+(** `separated_by_axes` of ccd/exact/static_filter/separating_axes.hpp: its margin covers the rounding errors of the
+    compared numbers, including underflow. In double, any direction; the compiler computes the constant to nearest.
+    Results:
+        separated_face_separate, separated_edges_separate    features that an axis separates as computed, with sizes
+            that
+                                  cover the computed differences, do not collide *)
 
 From Coq Require Import Reals ZArith List Lia Lra Psatz Bool.
 From Flocq Require Import Core.
@@ -31,7 +32,7 @@ Definition margin : R := flc (flc 9.2 * eps).
 (** difference, at one end of the step *)
 Definition difference_of (q p : point) : point := Point (fl (x q - x p)) (fl (y q - y p)) (fl (z q - z p)).
 
-(** An axis: what is computed of a difference, the axis itself, and the size as computed. *)
+(** An axis: its computed projection of a difference, the axis itself, and the computed size. *)
 Record axis := Axis { project : point -> R; along_axis : point; size : R }.
 Definition coordinate_axes (mx my mz : R) : list axis :=
   [Axis x (Point 1 0 0) mx; Axis y (Point 0 1 0) my; Axis z (Point 0 0 1) mz].
@@ -59,7 +60,7 @@ Definition edge_sides (d : differences) (a : axis) (finish : bool) : bool * bool
 Definition separated (sides : axis -> bool -> bool * bool) (axes : list axis) : bool :=
   existsb (fun a => separated_along (sides a)) axes.
 
-(** ** Errors: none, or at most a bound less one smallest number *)
+(** ** Errors: zero, or at most a bound minus one smallest number *)
 
 Definition near (bound r : R) : Prop := r = 0 \/ Rabs r <= bound - eta.
 Lemma near_more a b r : a <= b -> near a r -> near b r.
@@ -85,7 +86,7 @@ Qed.
 Lemma number_fl r : number (fl r).
 Proof. apply rnd_number; auto with typeclass_instances. Qed.
 
-(** The error of a sum is a multiple of eta and less than an ulp, which is one, too. *)
+(** The error of a sum is a multiple of eta and less than an ulp, which is a multiple, too. *)
 Lemma sum_near r s : number r -> number s -> near (eps * Rabs (r + s)) (fl (r + s) - (r + s)).
 Proof.
   intros X Y. destruct (Rlt_or_le (Rabs (r + s)) (smallest_normal p emin)) as [S | S].
@@ -119,7 +120,7 @@ Proof.
   split; [apply bpow_gt_0 |]. apply Rle_trans with (bpow radix2 (- 20)); [apply bpow_le; lia |].
   simpl. lra.
 Qed.
-(** In terms of the result. *)
+(** The error in terms of the result. *)
 Lemma near_result r m : near (eps * Rabs r) (fl r - r) -> Rabs (fl r) <= m ->
   near (1.01 * eps * m) (fl r - r).
 Proof.
@@ -163,7 +164,7 @@ Qed.
 
 Section Margin.
 
-(** M is the size, Mc what the code has of it. *)
+(** M is the size, Mc its computed value. *)
 Variables M Mc : R.
 Hypothesis M_0 : 0 <= M.
 Hypothesis Mc_size : M * (1 - eps) <= Mc <= M * (1 + eps).
@@ -197,7 +198,7 @@ Proof.
   split; lra.
 Qed.
 
-(** The rounding of a bound, r with its margin added or subtracted. *)
+(** The rounding of a bound: r with its margin added or subtracted. *)
 Lemma bound_near r s : number r -> Rabs r <= 1.01 * M -> s = allowed \/ s = - allowed ->
   near (1.02 * eps * M) (fl (r + s) - (r + s)).
 Proof.
@@ -217,7 +218,7 @@ Proof.
     apply Rle_trans with (eps * (1.02 * M)); [apply Rmult_le_compat_l; lra | lra].
 Qed.
 
-(** r is computed as r', s as s', with errors of 8.1 eps M together. *)
+(** r' and s' are the computed r and s, with errors of 8.1 eps M together. *)
 Lemma after_margin r s r' s' A B : 0 <= A -> 0 <= B -> A + B <= 8.1 * eps * M ->
   number r' -> Rabs r' <= 1.01 * M -> near A (r' - r) -> near B (s' - s) ->
   (fl (r' + allowed) < s' -> r < s) /\ (s' < fl (r' - allowed) -> s < r).
@@ -242,7 +243,7 @@ End Margin.
 
 (** ** The nine axes *)
 
-(** What the code computes of an axis is off by 2.02 eps M at most. *)
+(** The computed projection on an axis has an error of at most 2.02 eps M. *)
 Definition measures (m : point) (a : axis) : Prop := exists M, 0 <= M /\
   M * (1 - eps) <= size a <= M * (1 + eps) /\
   forall q p, number (x q) -> number (y q) -> number (z q) -> number (x p) -> number (y p) -> number (z p) ->
@@ -336,7 +337,7 @@ Definition within (v : bool -> point) : Prop := forall e,
   Rabs (x (v e)) <= x m /\ Rabs (y (v e)) <= y m /\ Rabs (z (v e)) <= z m.
 Definition sized (d : differences) : Prop := within (b d) /\ within (c d) /\ within (p_ d).
 
-(** An axis as computed of one difference. *)
+(** An axis computed from one difference. *)
 Lemma measured a q r e M : numbers q -> numbers r ->
   within (fun e => difference_of (at_end q e) (at_end r e)) ->
   (forall q p, number (x q) -> number (y q) -> number (z q) -> number (x p) -> number (y p) -> number (z p) ->

@@ -1,14 +1,15 @@
-(** Distance of two moving features in time, over the real numbers: what ccd/contact/condition.cpp asks to find the
-    first time at which they are within d, and ccd/contact/separation.cpp to exclude it. D is d squared.
-
-    Results:
-        distance_continuous       the distance changes by no more than the features' speed times the time
-        vertices_first_within, vertex_edge_first_within, face_first_within, edges_first_within
-          if they are ever within d, there is a first time: 0, or one with Z = 0 where the sides hold, for one of the
-          conditions; and Z < 0 for none of those whose sides hold
-        face_apart, edges_apart, vertex_edge_apart, vertices_apart   what an axis separates at both ends by more than
-          d times its length it separates throughout
-        coordinates_apart         so what the code asks of rounded differences of coordinates *)
+(** Distance of two moving features in time, over the real numbers. ccd/contact/condition.cpp finds the first time at
+    which they are within d, and ccd/contact/separation.cpp excludes such times. D is d squared. Results:
+        distance_continuous       the distance changes by at most the features' speed multiplied by the time
+        vertices_first_within, vertex_edge_first_within, face_first_within, edges_first_within   if they are ever
+            within
+            d, there is a first time: 0, or one with Z = 0 where the sides hold, for one of the conditions; and Z < 0
+                for
+            none of those whose sides hold
+        face_apart, edges_apart, vertex_edge_apart, vertices_apart   features that an axis separates at both ends by
+            more
+            than d times its length are farther apart than d throughout
+        coordinates_apart         the same for the code's rounded differences of coordinates *)
 
 From Coq Require Import Reals ZArith Lra Psatz List.
 From Flocq Require Import Core.
@@ -56,7 +57,7 @@ Proof.
   eapply Rle_trans; [apply norm_along |]. rewrite Rabs_left by lra. lra.
 Qed.
 
-(** ** Differences of two features: of all pairs of their points, moving linearly *)
+(** ** Differences of two features: all pairs of their points, moving linearly *)
 
 Definition family : Type := moving -> Prop.
 Definition family_near (K : family) (D t : R) : Prop := exists m, K m /\ dot (place m t) (place m t) <= D.
@@ -81,7 +82,7 @@ Qed.
 (** ** The first time *)
 
 Definition first (H : R -> Prop) (t : R) : Prop := 0 <= t <= 1 /\ H t /\ forall s, 0 <= s < t -> ~ H s.
-(** What holds at one time, and where it does not hold does not hold for a while either. *)
+(** If a property that holds at some time fails in an open set of times, it holds at a first time. *)
 Lemma least_time (H : R -> Prop) : sometime H ->
   (forall s, 0 <= s <= 1 -> ~ H s -> exists e, s < e /\ forall t, s <= t < e -> ~ H t) ->
   exists t, first H t.
@@ -154,7 +155,7 @@ Hypothesis reads : forall D t, family_near K D t <-> near_at D t.
 Hypothesis formed : forall t, Forall well_formed (conditions t).
 Hypothesis complete : forall D t, near_at D t <-> Exists (holds D) (conditions t).
 
-(** A root of some Z where its sides hold; no Z is negative where its sides hold. *)
+(** A root of some Z at which its sides hold, where no Z whose sides hold is negative. *)
 Definition met (D : R) (all : list condition) : Prop :=
   Exists (fun c => sides c /\ excess D c = 0) all /\ forall c, In c all -> sides c -> 0 <= excess D c.
 Lemma first_within D : sometime (near_at D) ->
@@ -305,7 +306,7 @@ Proof. eapply same_distances; [intros D; apply face_family_near | apply face_dis
 Lemma edges_measured a0 a1 b0 b1 t : exists m, squared_distance (edges_family a0 a1 b0 b1) t m.
 Proof. eapply same_distances; [intros D; apply edges_family_near | apply edges_distance]. Qed.
 
-(** W W - D, whose weight is 1. *)
+(** The condition W W - D, whose weight is 1. *)
 Definition vertices_conditions (v w : point) : list condition := [corner_condition v w].
 
 Theorem vertices_first_within v w D : sometime (fun t => near D (place v t) (place w t)) ->
@@ -460,13 +461,13 @@ Variable direction : R -> Z.
 Context {valid_direction : Valid_rnd direction}.
 Notation fl := (round radix2 fexp direction).
 
-(** A rounded difference above a number of the format is above it itself. *)
+(** If a rounded difference exceeds a number of the format, the difference does. *)
 Lemma rounded_above distance a : generic_format radix2 fexp distance -> distance < fl a -> distance < a.
 Proof.
   intros F L. apply Rnot_le_lt. intros Q. apply (round_le radix2 fexp direction) in Q.
   rewrite (round_generic radix2 fexp direction distance F) in Q. lra.
 Qed.
-(** The next number above a rounded one is above what was rounded. *)
+(** The next number above a rounded one exceeds the number that was rounded. *)
 Lemma next_above a : a <= succ radix2 fexp (fl a).
 Proof. apply succ_round_ge_id; auto. Qed.
 
@@ -480,7 +481,7 @@ Definition coordinates_above (c : coordinate) (distance : R) (ps qs : list movin
     distance < fl (coordinate_of c (start p) - coordinate_of c (start q)) /\
     distance < fl (coordinate_of c (finish p) - coordinate_of c (finish q)).
 
-(** With the distance that the code takes: the sum of both thicknesses, rounded, and the next number above it. *)
+(** The code's distance: the sum of both thicknesses, rounded, and the next number above it. *)
 Theorem coordinates_apart c d0 d1 ps qs : let distance := succ radix2 fexp (fl (d0 + d1)) in
   coordinates_above c distance ps qs -> above_along (unit_axis c) (d0 + d1) ps qs.
 Proof.

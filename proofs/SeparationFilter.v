@@ -1,12 +1,10 @@
-(** What rounding loses where an axis separates two features by more than a distance
-    (ccd/contact/separation_filter.hpp). double, to nearest.
-
-    Results:
+(** Rounding errors in the separation of two features by more than a distance along an axis
+    (ccd/contact/separation_filter.hpp). double, to nearest. Results:
         scaled_near          differences of coordinates in units of a power of two
         projection_near      projections to an axis of about unit length
         separated_right      a gap beyond above_ at a time: points are more than d apart along the axis
-        separated_part       so what `separated` says of a part of the step is what Separation.v asks of an axis
-        axis_length, distance_rounded, size_rounded   what these are given *)
+        separated_part       so `separated` on a subinterval of the step gives an axis as in Separation.v
+        axis_length, distance_rounded, size_rounded   the operands *)
 
 From Coq Require Import Reals ZArith Lia Lra Psatz List.
 From Flocq Require Import Core.
@@ -32,7 +30,7 @@ Proof.
   - pose proof (error_absolute _ _ _ _ _ E x S). lra.
   - pose proof (error_relative _ _ _ _ _ E x S). lra.
 Qed.
-(** fl x, of a size at most m. *)
+(** fl x for |x| <= m. *)
 Lemma fl_within x m : Rabs x <= m -> Rabs (fl x - x) <= u * m + eta /\ Rabs (fl x) <= m + u * m + eta.
 Proof.
   intros H. pose proof (fl_any x) as F. pose proof u_small. assert (u * Rabs x <= u * m) by (apply Rmult_le_compat_l; lra).
@@ -41,7 +39,8 @@ Qed.
 Lemma product_within x y A B : Rabs x <= A -> Rabs y <= B -> Rabs (x * y) <= A * B.
 Proof. intros X Y. rewrite Rabs_mult. apply Rmult_le_compat; auto using Rabs_pos. Qed.
 
-(** features::features: a coordinate less the origin's, times a power of two: exactly or, below normal numbers, off by eta. *)
+(** features::features: a coordinate minus the origin's, times a power of two. It is exact or, below normal numbers,
+    has an error of eta. *)
 Theorem scaled_near q o k m : double q -> double o -> 0 < k -> let s := fl (k * fl (q - o)) in
   Rabs (s - k * fl (q - o)) <= eta -> Rabs s <= m -> Rabs (s - k * (q - o)) <= u * m + 2 * (u * (u * m)) + 3 * eta.
 Proof.
@@ -72,7 +71,7 @@ Qed.
 
 Section Filter.
 
-(** The scaled coordinates' largest sizes; their sum is 1 or more, but for scenes below 2^-1000. *)
+(** The largest sizes of scaled coordinates. Their sum is at least 1, except in scenes below 2^-1000. *)
 Variables mx my mz : R.
 Hypotheses (mx_0 : 0 <= mx) (my_0 : 0 <= my) (mz_0 : 0 <= mz).
 Let S : R := mx + my + mz.
@@ -85,7 +84,7 @@ Proof.
   - pose proof u_small. repeat (apply Rmult_le_compat_l; [lra |]). exact not_tiny.
 Qed.
 
-(** A point in doubles, and where it is: what scaled_near says, axis by axis. *)
+(** A point in doubles and its exact position: scaled_near on each axis. *)
 Definition off (m s t : R) : Prop := Rabs s <= m /\ Rabs (s - t) <= u * m + 2 * (u * (u * m)) + 3 * eta.
 Definition near_point (s t : point) : Prop := off mx (x s) (x t) /\ off my (y s) (y t) /\ off mz (z s) (z t).
 
@@ -136,7 +135,7 @@ Proof.
   distribute. unfold S in *. distribute. split; lra.
 Qed.
 
-(** at(i), where 1 - t is a double. *)
+(** at(i), if 1 - t is a double. *)
 Definition at_time (s e : point) (t : R) : R := fl (fl ((1 - t) * projected s) + fl (t * projected e)).
 Lemma at_time_near s e p0 p1 t : near_point s p0 -> near_point e p1 -> 0 <= t <= 1 ->
   Rabs (at_time s e t - ((1 - t) * dot a p0 + t * dot a p1)) <= 61 / 10 * (u * S) /\ Rabs (at_time s e t) <= 102 / 100 * S.
@@ -165,7 +164,7 @@ Proof.
   apply Rabs_le_inv in R0, R1, R2, M0, M1. apply Rabs_le. split; lra.
 Qed.
 
-(** above_, of a distance D in the scaled units; `sum` and `size` as they are rounded. *)
+(** above_, for a distance D in scaled units; `sum` and `size` are rounded. *)
 Variables D sum size : R.
 Hypothesis D_0 : 0 <= D.
 Hypothesis sum_near : D * (1 - 2 * u) - eta <= sum.
@@ -210,7 +209,7 @@ Proof.
   assert (F : 1 + 8 * u <= (1 + 30 * u) * (1 - u)) by nra. apply (Rmult_le_compat_l D) in F; auto. lra.
 Qed.
 
-(** One pair of points at one time, of a gap that exceeds above_. *)
+(** A pair of points at one time, with a gap that exceeds above_. *)
 Theorem separated_right s0 s1 r0 r1 p0 p1 q0 q1 t : near_point s0 p0 -> near_point s1 p1 -> near_point r0 q0 ->
   near_point r1 q1 -> 0 <= t <= 1 -> above < fl (at_time r0 r1 t - at_time s0 s1 t) ->
   D * norm a < dot a (minus (along q0 t (minus q1 q0)) (along p0 t (minus p1 p0))).
@@ -228,11 +227,11 @@ Proof.
   apply Rabs_le_inv in Dp, Dq, R1. lra.
 Qed.
 
-(** A point as the code has it, at both ends of the step, and where it is. *)
+(** A point in the code at both ends of the step, and its exact position. *)
 Record tracked := Tracked { at_start : point; at_end : point; path : moving }.
 Definition right (m : tracked) : Prop := near_point (at_start m) (start (path m)) /\ near_point (at_end m) (finish (path m)).
 Definition at_ (t : R) (m : tracked) : R := at_time (at_start m) (at_end m) t.
-(** gap: the least of one feature less the greatest of the other. *)
+(** gap: the minimum of one feature minus the maximum of the other. *)
 Definition gap (p : tracked) (ps : list tracked) (q : tracked) (qs : list tracked) (t : R) : R :=
   fl (fold_left Rmin (map (at_ t) qs) (at_ t q) - fold_left Rmax (map (at_ t) ps) (at_ t p)).
 Definition part_of (low high : R) (m : tracked) : moving := Moving (place (path m) low) (place (path m) high).
@@ -272,9 +271,9 @@ Qed.
 
 End Filter.
 
-(** ** What is given above *)
+(** ** The operands *)
 
-(** decide: the vector between two points, over its length as rounded. *)
+(** decide: the vector between two points, divided by its rounded length. *)
 Definition length_of (b : point) : R := fl (sqrt (fl (fl (fl (x b * x b) + fl (y b * y b)) + fl (z b * z b)))).
 Definition axis_of (b : point) : point :=
   let r := fl (1 / length_of b) in Point (fl (r * x b)) (fl (r * y b)) (fl (r * z b)).
@@ -285,7 +284,7 @@ Proof.
     apply Rmult_le_compat; lra. }
   intros P Q W. unfold dot. pose proof (Sq _ _ P). pose proof (Sq _ _ Q). pose proof (Sq _ _ W). lra.
 Qed.
-(** |b|² is little more than the square as rounded. *)
+(** |b|² is slightly more than the rounded square. *)
 Lemma square_rounded b : let q := fl (fl (fl (x b * x b) + fl (y b * y b)) + fl (z b * z b)) in
   bpow radix2 (-1010) <= q -> dot b b <= q * (1 + 4 * u).
 Proof.
@@ -366,7 +365,7 @@ Proof.
       { assert (u * u <= / 1048576 * u) by (apply Rmult_le_compat_r; lra). lra. }
       apply (Rmult_le_compat_l (sqrt q)) in F; [| lra].
       apply Rle_trans with (1 := F). rewrite <- Rmult_assoc. apply Rmult_le_compat_r; lra. }
-  (* all together: a product's error is u of it and eta *)
+  (* a product's error is u of it and eta *)
   pose proof (norm_nonnegative b) as Nb0. set (n := r * norm b) in *.
   assert (N0 : 0 <= n) by (apply Rmult_le_pos; lra).
   assert (C : forall c, Rabs (fl (r * c)) <= (1 + u) * r * Rabs c + eta).
@@ -409,7 +408,7 @@ Proof.
   lra.
 Qed.
 
-(** sum, of the distance D = k (d0 + d1). *)
+(** sum, for the distance D = k (d0 + d1). *)
 Theorem distance_rounded k d0 d1 : 0 < k -> double d0 -> double d1 -> 0 <= d0 -> 0 <= d1 ->
   k * (d0 + d1) * (1 - 2 * u) - eta <= fl (k * fl (d0 + d1)).
 Proof.
@@ -423,7 +422,7 @@ Proof.
   assert (k * (d0 + d1) * (1 - u) * (1 - u) <= k * s * (1 - u)) by (apply Rmult_le_compat_r; lra).
   assert (0 <= k * (d0 + d1) * (u * u)) by (repeat apply Rmult_le_pos; lra). lra.
 Qed.
-(** size_, of the largest coordinates lx, ly, lz before they are scaled. *)
+(** size_, for the largest coordinates lx, ly, lz before scaling. *)
 Theorem size_rounded k lx ly lz mx my mz : 0 < k -> double lx -> double ly -> double lz -> 0 <= lx -> 0 <= ly -> 0 <= lz ->
   mx <= k * lx + eta -> my <= k * ly + eta -> mz <= k * lz + eta -> bpow radix2 (-900) <= mx + my + mz ->
   (mx + my + mz) * (1 - 4 * u) <= fl (k * fl (fl (lx + ly) + lz)).

@@ -1,7 +1,7 @@
-(** Bound rule `sharp` (include/errbound/rules/sharp.hpp): TightBound with u in place of eps, as the C++
-    code computes it; rounding to nearest, ties to even, from 3 bits on, u a number (emin <= -p).
+(** Bound rule `sharp` (include/errbound/rules/sharp.hpp): TightBound with u in place of eps, as the C++ code
+    computes it. Rounding is to nearest, ties to even, from 3 bits on, with u a number (emin <= -p).
 
-    A number x is known by a value a and a bound sa, |a - x| <= sa. Results:
+    A number x has a value a and a bound sa, |a - x| <= sa. Results:
         sharp_add_sound, sharp_subtract_sound, sharp_multiply_sound, sharp_divide_sound *)
 
 From Coq Require Import Reals ZArith Lia Lra Psatz Bool.
@@ -69,7 +69,7 @@ Let sum_error := Format.sum_error p emin nearest _ _ an_error.
 Lemma u_8 : 0 < u <= / 8.
 Proof. generalize (u_positive p) (eps_le p 3 p_3) (eps_2u p). simpl. lra. Qed.
 
-(** A rounding leaves at least q = 1/(1 + u) of a sum, or of a normal number. *)
+(** A rounding leaves at least q = 1/(1 + u) of a sum or a normal number. *)
 Let q := / (1 + u).
 Let f := 1 + 8 * u.
 Lemma q_u : q * (1 + u) = 1.
@@ -96,7 +96,7 @@ Let rnd_lower := any_left p emin nearest q (eta / 2) q_1 h_eta leaves leaves_sma
 Let scaled_relative := scaled_left p emin nearest q leaves.
 Let sum_of_three := sum_of_three p emin nearest q q_1 leaves.
 
-(** The factors pay for three and for five roundings. *)
+(** The factors cover three and five roundings. *)
 Lemma three_roundings : 1 <= (1 + 4 * u) * (q * q * q).
 Proof.
   generalize u_8 q_u q_1. intros U Q Q1.
@@ -128,7 +128,7 @@ Proof. generalize f_2. intros. apply (fewer_roundings f q); [lra | apply q_1 | e
 Lemma f_q3 : 1 <= f * (q * q * q).
 Proof. generalize f_2. intros. apply (fewer_roundings f q); [lra | apply q_1 | exact f_q4]. Qed.
 
-(** They are numbers. *)
+(** These are numbers of the format. *)
 Lemma u_power k : bpow radix2 k * u = bpow radix2 (k - p).
 Proof. unfold Format.u. rewrite <- bpow_plus. f_equal. Qed.
 Lemma add_factor : fl (1 + fl (2 * eps)) = 1 + 4 * u.
@@ -174,7 +174,7 @@ Qed.
 Lemma rounding_0 : rounding (fl 0) = 0.
 Proof. unfold rounding. rewrite rnd_0, Rabs_R0, Rmult_0_l. apply rnd_0. Qed.
 
-(** The error of a sum, and the first of the two bounds of it. *)
+(** The error of a sum, and the first of its two bounds. *)
 Lemma sharp_sum_error a x sa b y sb :
   number a -> number b -> Rabs (a - x) <= sa -> Rabs (b - y) <= sb ->
   Rabs (fl (a + b) - (x + y)) <= rounding (fl (a + b)) + (sa + sb).
@@ -264,7 +264,7 @@ Proof.
   assert (NJ : number J) by apply rnd_number. assert (PJ : 0 <= J) by (apply rnd_nonnegative; lra).
   assert (NS : number S) by apply rnd_number. assert (LJ : J <= S) by (apply rnd_above; auto; lra).
   destruct (Rlt_or_le S smallest_normal) as [C | C].
-  - (* all sums are exact; what the products lost is at most 2 eta *)
+  - (* all sums are exact; the products lose at most 2 eta *)
     apply Rle_trans with S; [| apply scaled_up; auto; lra].
     assert (EJ : J = R + 2 * eta) by (apply (sum_subnormal R (2 * eta)); auto using number_2_eta; [lra | fold J; lra]).
     assert (ES : S = J + I) by (apply (sum_subnormal J I); auto).
@@ -289,7 +289,7 @@ Proof.
     + apply Rmult_le_compat_r; auto. apply Rmult_le_pos; lra.
 Qed.
 
-(** The code's own bound of |a/b|. *)
+(** The code's bound of |a/b|. *)
 Lemma quotient_covered s : Rabs s <= inflated (fl (Rabs (fl s) + eta)).
 Proof.
   rewrite inflated_exact. apply (covered_by_rounded p emin nearest q (eta / 2) q_1 h_eta leaves leaves_small).
@@ -390,7 +390,7 @@ Proof.
     HI PI)
     as (Below & Above). rewrite <- inflated_exact in Below, Above. fold I J in Below, Above.
   destruct (Rlt_or_le I smallest_normal) as [C | C].
-  - (* what underflows inside is paid for by 2 eta *)
+  - (* 2 eta covers underflows inside *)
     specialize (Below C).
     rewrite inflated_exact.
     apply Rle_trans with (R + 2 * eta + J).

@@ -1,9 +1,8 @@
-(** Certain signs: sign_of of include/errbound/tracked.hpp.
-
-    Results: sign_certain: negative, zero and positive are right where the error is one.
-             sign_unknown: an error that is infinite or NaN leaves every sign uncertain, whatever
-             the value (infinite and NaN too). So overflow, which the rules turn into such an error,
-             ends as uncertain. *)
+(** Certain signs: sign_of of include/errbound/tracked.hpp. Results:
+        sign_certain   negative, zero and positive are right if the error is a bound
+        sign_unknown   with an infinite or NaN error, every sign is uncertain, for every value (also infinite and
+            NaN). So
+                       overflow, for which rules return such an error, gives uncertain signs *)
 
 From Coq Require Import Reals Lra Bool.
 From Flocq Require Import Core.

@@ -1,13 +1,12 @@
-(** Descartes' rule as the code counts it (include/errbound/roots/sign_variations.hpp), over the real numbers:
-    for forms of any degree, on the open interval where s and t are positive.
-
-    Results:
-        no_variation_no_root     no sign change: no root inside
-        one_variation_one_root   one, and no root at the ends: one root inside, where the sign changes
-        two_variations_two_roots at most two, equal signs at the ends and another sign at a place
-                                 between: one root on each side of that place
-        max_variations_right    counted of uncertain signs: not below the true number where it is
-                                 below 3, and both even or both odd *)
+(** Descartes' rule as the code counts it (include/errbound/roots/sign_variations.hpp), over the real numbers: for
+    forms of any degree, on the open interval where s and t are positive. Results:
+        no_variation_no_root     without a sign change there is no root inside
+        one_variation_one_root   with one, and no root at the ends, there is one root inside, where the sign changes
+        two_variations_two_roots with at most two, equal signs at the ends and another sign at a position between,
+            there
+                                 is one root on each side of that position
+        max_variations_right     the count of uncertain signs is not below the true number if it is below 3, and both
+                                 are even or both odd *)
 
 From Coq Require Import Reals ZArith Lia Lra Psatz List Bool.
 From Errbound Require Import Sign Bernstein.
@@ -50,7 +49,7 @@ Ltac sgn_of x := let H := fresh "L" in let E := fresh "E" in
 (** ** Uncertain signs *)
 
 Definition plain (s : Z) : Prop := s = 1%Z \/ s = (-1)%Z.
-(** A sign known as s: 0 is uncertain. *)
+(** A known sign s, where 0 is uncertain. *)
 Definition sign_seen (s : Z) (true_sign : Z) : Prop :=
   (plain true_sign \/ true_sign = 0%Z) /\ (s <> 0%Z -> s = true_sign).
 
@@ -117,9 +116,9 @@ Proof.
   destruct (Z.eqb_spec s 0); [easy |]. destruct (Z.eqb_spec s (- 0)); [easy |]. now split.
 Qed.
 
-(** ** What the number of changes says of the coefficients *)
+(** ** Consequences of the number of changes for the coefficients *)
 
-(** n changes, from the sign sg on. *)
+(** n changes, starting with the sign sg. *)
 Inductive alternates : Z -> nat -> list R -> Prop :=
 | one_block sg a : Forall (fun x => 0 <= IZR sg * x) a -> alternates sg 0 a
 | next_block sg n a b l : Forall (fun x => 0 <= IZR sg * x) a -> IZR sg * b < 0 ->
@@ -187,7 +186,7 @@ Proof.
     + assert (x * y * (v * g) < x * y * (w * f)) by (apply Rmult_lt_compat_l; auto). lra.
 Qed.
 
-(** Coefficients >= 0 before others <= 0: divided by a power of x, p decreases. *)
+(** Coefficients >= 0, then <= 0: divided by a power of x, p decreases. *)
 Lemma falls_once a b x y : Forall (Rle 0) a -> Exists (Rlt 0) a -> Forall (fun c => c <= 0) b ->
   0 < x < y -> power_form (a ++ b) x <= 0 -> power_form (a ++ b) y < 0.
 Proof.
@@ -204,7 +203,7 @@ Proof.
   lra.
 Qed.
 
-(** x dp/dx - k p, by which p/x^k changes. *)
+(** x dp/dx - k p, the derivative of p/x^k up to a positive factor. *)
 Fixpoint slope_at (p : list R) (x : R) : R :=
   match p with [] => 0 | a :: l => power_form l x + x * slope_at l x end.
 Lemma derivable_power_form p x : derivable_pt_lim (power_form p) x (slope_at p x).
@@ -258,7 +257,7 @@ Proof.
   cbn [pred]. change (x ^ S k) with (x * x ^ k) in *. field. split; [apply pow_nonzero |]; lra.
 Qed.
 
-(** Two changes: once it rises, p divided by a power of x rises on. *)
+(** With two changes, p divided by a power of x keeps rising once it rises. *)
 Lemma rises_on a b c x y z : Forall (Rle 0) a -> Exists (Rlt 0) a -> Forall (fun v => v <= 0) b ->
   Forall (Rle 0) c -> 0 < x < y -> y < z ->
   power_form (a ++ b ++ c) x <= 0 -> 0 <= power_form (a ++ b ++ c) y -> 0 < power_form (a ++ b ++ c) z.
@@ -301,7 +300,7 @@ Proof.
   apply Rmult_lt_reg_r with (v * v ^ k); auto. rewrite Ev, Rmult_0_l. apply Rmult_lt_0_compat; lra.
 Qed.
 
-(** ** Forms where s = 1 - t *)
+(** ** Forms with s = 1 - t *)
 
 Definition on_unit (h : list R) (t : R) : R := form h (1 - t) t.
 

@@ -1,7 +1,7 @@
-(** The C++ code, line by line, over any number type, as CompoundCode.v: square roots and ab + c rounded once
-    (include/errbound/functions.hpp) under rules that keep errors to first order, `residual` and `affine`, and those
-    of the rule `interval` (include/errbound/rules/interval.hpp). `numbered_...`: by operations that differ from call to
-    call, as NumberedCode.v has them. Nothing is proved here. *)
+(** The C++ code, line by line, over any number type, as in CompoundCode.v: square roots and ab + c rounded once
+    (include/errbound/functions.hpp), under rules with first-order errors, `residual` and `affine`, and under
+    `interval` (include/errbound/rules/interval.hpp). The functions `numbered_...` use operations that differ from
+    call to call, as in NumberedCode.v. Nothing is proved here. *)
 
 From Coq Require Import ZArith Bool.
 From Errbound Require Import Code CompoundCode NumberedCode.
@@ -44,7 +44,7 @@ Definition interval_fused (v : T) (a b c : T * T) : T * T :=
                               (above T A (fused_end (most T A) a b (snd c))).
 Definition interval_sqrt (x : T * (T * T)) : T * (T * T) :=
   let v := root (fst x) in (v, interval_square_root v (snd x)).
-(** Under every rule. *)
+(** For every rule. *)
 Definition product_is_zero (B : Type) (rule : rule T B) (a b : T * B) : bool :=
   is_zero T A (fst a) (tracked_error T A B rule a) || is_zero T A (fst b) (tracked_error T A B rule b).
 Definition interval_fma (a b c : T * (T * T)) : T * (T * T) :=
@@ -67,7 +67,7 @@ Notation subtract := (tracked_subtract T A B rule).
 Notation add := (tracked_add T A B R).
 Notation multiply := (tracked_multiply T A B R).
 
-(** By a rule with quotients. *)
+(** For a rule with quotients. *)
 Definition tracked_divide (a b : number) : number :=
   let v := fst a / fst b in
   match rule_divide T B R with
@@ -114,7 +114,7 @@ Definition fma_by_slope (a b c sum : number) : number :=
     let change := add inherited rounding in
     add v change.
 
-(** `crowded`: whether a bound is made one source. *)
+(** `crowded`: true if a bound becomes one source. *)
 Definition slope_sqrt (crowded : B -> bool) (x : number) : number :=
   let root := tracked_sqrt T A has_fast_fma B rule x in
   let best := closer root (sqrt_by_slope x root) in

@@ -1,16 +1,14 @@
-(** Products by the words that are not zero (include/errbound/integers/long_integer.hpp); words as in Words.v.
-
-    Results:
+(** Products by nonzero words (include/errbound/integers/long_integer.hpp); words as in Words.v. Results:
         sparse_product_exact   multiply_sparse: the product of m and n words, in m + n words
-        any_product_exact      multiply_any, whichever way it goes
-        long_product_exact     long_integer's product, where it fits *)
+        any_product_exact      multiply_any, by either algorithm
+        long_product_exact     long_integer's product, if it fits *)
 
 From Coq Require Import ZArith List Lia Bool.
 From Errbound Require Import Words.
 Import ListNotations.
 Open Scope Z_scope.
 
-(** r - a b of as many words as b has, and what is to be subtracted beyond. *)
+(** r - a b in the words of b, and the rest to be subtracted beyond. *)
 Fixpoint subtract_multiple (r : list Z) (a : Z) (b : list Z) (carry : Z) : list Z * Z :=
   match r, b with
   | x :: r, y :: b =>
@@ -21,7 +19,7 @@ Fixpoint subtract_multiple (r : list Z) (a : Z) (b : list Z) (carry : Z) : list 
   | _, _ => ([], carry)
   end.
 
-(** `r` up to `end`, and `beyond`. One word of the first number, with its place and sign. *)
+(** `r` up to `end`, and `beyond`; one word of the first number, with its position and sign. *)
 Definition visit (low : nat) (b : list Z) (state : list Z * Z) (visited : Z * Z) : list Z * Z :=
   let (i, w) := visited in
   let (r, beyond) := state in
@@ -44,7 +42,7 @@ Definition sparse_product (a b : list Z) : list Z :=
   let r := r ++ repeat beyond (length a + length b - length r) in
   subtract_from (length b) r a (negative b).
 
-(** multiply_any: the number with few words that are neither 0 nor all ones goes first. *)
+(** multiply_any: the number with fewer words that are neither 0 nor all ones goes first. *)
 Definition count_filled (x : list Z) : Z :=
   fold_right (fun w count => (if 1 <? (w + 1) mod B then 1 else 0) + count) 0 x.
 Definition is_sparse (x : list Z) : bool := 4 * count_filled x <? size x.
@@ -95,7 +93,7 @@ Qed.
 Lemma words_repeat w n : word w -> words (repeat w n).
 Proof. intros W. apply Forall_forall. intros v I. now apply repeat_spec in I as ->. Qed.
 
-(** `z`, by words up to `end` and what all beyond are. *)
+(** The state is `z`: words up to `end`, and the value of all words beyond. *)
 Definition stands_for (state : list Z * Z) (z : Z) : Prop :=
   let (r, beyond) := state in
   words r /\ (beyond = 0 /\ z = value r \/ beyond = B - 1 /\ z = value r - B ^ size r).
@@ -108,7 +106,7 @@ Proof.
     + left. split; auto. fold (zeros n). rewrite value_zeros. ring.
     + right. split; auto. rewrite value_repeat_ones. ring.
 Qed.
-(** Of numbers of n words that are the same modulo 2^64n. *)
+(** Numbers of n words that are equal modulo 2^(64n). *)
 Lemma stands_modulo r (up : bool) z k : words r -> value r = z + k * B ^ size r ->
   (if up then 0 <= z < B ^ size r else - B ^ size r <= z < 0) ->
   stands_for (r, if up then 0 else B - 1) z.
@@ -132,7 +130,7 @@ Proof.
   - cbn [skipn length]. change (B ^ Z.of_nat 0) with 1. split; [lia |]. split; [ring | lia].
 Qed.
 
-(** One word: z becomes z + w 2^64i b. *)
+(** One word: z becomes z + w 2^(64i) b. *)
 Lemma visit_exact b low r beyond z i w :
   words b -> low = leading_zeros b -> value b <> 0 -> stands_for (r, beyond) z -> 0 <= i ->
   (length r <= Z.to_nat i + length b)%nat -> w <> 0 -> Z.abs w < B ->
@@ -184,7 +182,7 @@ Proof.
     + rewrite Size by auto. exact Range.
 Qed.
 
-(** Words come in ascending order, none of them zero; so what they add up to has the sign of the last. *)
+(** Words come in ascending order, and none is zero, so their sum has the sign of the last. *)
 Fixpoint ascending (l : list (Z * Z)) (start stop : Z) : Prop :=
   match l with
   | [] => True
@@ -271,7 +269,7 @@ Proof.
   - rewrite E2, K, Ly, Lt, Nat2Z.inj_add, Z.pow_add_r, I by lia. unfold signed. destruct (negative b); ring.
 Qed.
 
-(** Numbers are trimmed: a last word that is all the sign of the one before has gone. *)
+(** Numbers are trimmed: a last word that only extends the sign is removed. *)
 Definition trimmed (x : list Z) : Prop := length x = 1%nat \/ last x 0 <> sign_word (removelast x).
 Lemma not_zero_exact b : words b -> b <> [] -> trimmed b -> not_zero b = true -> signed b <> 0.
 Proof.
@@ -299,7 +297,7 @@ Proof.
   now apply product_exact.
 Qed.
 
-(** long_integer's product, of at most n words; words that say nothing go then (trim_exact). *)
+(** long_integer's product, of at most n words; sign extensions are removed then (trim_exact). *)
 Definition long_product (n : nat) (a b : list Z) : list Z := firstn n (any_product a b).
 Lemma any_product_words a b : a <> [] -> b <> [] -> words a -> words b -> trimmed a -> trimmed b ->
   words (any_product a b) /\ length (any_product a b) = (length a + length b)%nat.

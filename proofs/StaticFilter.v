@@ -1,15 +1,13 @@
-(** Static filters (include/errbound/filters/static_filter.hpp): for every expression of coordinates,
-    differences of coordinates, whole constants (ints, rounded where the format is shorter), sums,
-    differences, products and negations, rounded to nearest.
-
-    k is the number of roundings and S the size of an expression, as that file counts them. Results:
+(** Static filters (include/errbound/filters/static_filter.hpp): for every expression of coordinates, differences of
+    coordinates, whole constants (ints, rounded in shorter formats), sums, differences, products and negations, to
+    nearest. k is the number of roundings and S the size of an expression, as that file counts them. Formats have eta
+    <= u eps (every IEEE format) and 64 (k + 2) u <= 1 (k up to 2^18 - 2 in float). A sum has at most 2^p products.
+    Results:
         filter_error   |value - exact| <= ((1 + u)^k - 1) S
         filter_bound   |unrounded value - exact| <= bound, the code's bound(), from two roundings on
-        filter_sign_certain   the sign that the code is certain of is right
+        filter_sign_certain   the certain sign of the code is right
         size_covers_value     |value| <= size
-        overflow_uncertain    with a largest number, too: what overflows makes no sign certain
-    for formats with eta <= u eps (every IEEE format), 64 (k + 2) u <= 1 (k up to 2^18 - 2 in
-    float), and at most 2^p products added up in any one sum. *)
+        overflow_uncertain    also with a largest number: after an overflow no sign is certain *)
 
 From Coq Require Import Reals ZArith Lia Lra Psatz Bool Classical_Prop.
 From Flocq Require Import Core Plus_error.
@@ -111,8 +109,8 @@ Definition filter_sign (e : expression) : sign :=
   else if (roundings e <=? 1)%nat && (products e =? 0)%nat && Req_bool (value e) 0 then zero
   else uncertain.
 
-(** What the theorems ask of an expression: coordinates are numbers, constants ints; no sum of more
-    products than integers are exact. *)
+(** Hypotheses on an expression: coordinates are numbers, constants ints, and no sum has more products than integers
+    are exact. *)
 Fixpoint admissible (e : expression) : Prop :=
   (Z.of_nat (products e) <= 2 ^ p)%Z /\
   match e with
@@ -164,7 +162,7 @@ Lemma allowance_positive : 0 < allowance.
 Proof. rewrite allowance_exact. apply bpow_gt_0. Qed.
 Lemma number_allowance : number allowance.
 Proof. apply rnd_number. Qed.
-(** u tau is a normal number: more than what any underflow takes. *)
+(** u tau is a normal number, larger than any loss by underflow. *)
 Lemma u_allowance : smallest_normal <= u * allowance.
 Proof.
   rewrite allowance_exact. unfold Format.u. rewrite <- bpow_plus. apply bpow_le. lia.
@@ -174,7 +172,7 @@ Proof.
   generalize u_allowance (eta_le_smallest_normal p emin) (eta_positive emin). lra.
 Qed.
 
-(** One rounding of a product: u of it, or u tau. *)
+(** One rounding of a product has an error of u of it, or u tau. *)
 Lemma product_error x : Rabs (fl x - x) <= u * Rabs x + eta / 2.
 Proof.
   generalize u_small (eta_positive emin) (Rabs_pos x); intros.
@@ -182,7 +180,7 @@ Proof.
   - generalize (error_absolute _ _ _ _ _ an_error x C). nra.
   - generalize (error_relative _ _ _ _ _ an_error x C). lra.
 Qed.
-(** In units of the result. *)
+(** The error in units of the result. *)
 Lemma sum_error_of_result x y :
   number x -> number y -> Rabs (fl (x + y) - (x + y)) <= u * Rabs (fl (x + y)).
 Proof.
@@ -266,8 +264,8 @@ Proof.
   induction e; simpl; auto using Rabs_pos; try lra. nra.
 Qed.
 
-(** The exact product of two numbers that are off by (A - 1) S and (B - 1) T at most, of size A S and
-    B T at most, is off by (A B - 1) S T at most. *)
+(** Two numbers with errors of at most (A - 1) S and (B - 1) T and sizes of at most A S and B T: their exact product
+    has an error of at most (A B - 1) S T. *)
 Lemma opposite a x : a * x <= 0 -> Rabs a + Rabs x <= Rabs (a - x).
 Proof. intros H. unfold Rabs. repeat destruct Rcase_abs; nra. Qed.
 Lemma alike a x low high :
@@ -332,7 +330,7 @@ Proof.
   - rewrite Rabs_mult. split; apply M; lra.
 Qed.
 
-(** What holds of every number of an expression, E = (1 + u)^k. *)
+(** The invariant of every number of an expression, E = (1 + u)^k. *)
 Definition near (v x E S : R) : Prop :=
   Rabs (v - x) <= (E - 1) * S /\ Rabs v <= E * S /\ Rabs x <= E * S.
 
@@ -363,7 +361,7 @@ Proof.
   - rewrite Rabs_mult. replace (E * F * (S * T)) with (E * S * (F * T)) by ring.
     apply Rmult_le_compat; auto using Rabs_pos.
 Qed.
-(** One rounding more, with d for underflow. *)
+(** One more rounding, with d for underflow. *)
 Lemma near_rounded w x E S d :
   1 <= E -> 0 <= S -> 0 <= d -> Rabs (fl w - w) <= u * Rabs w + u * d ->
   near w x E S -> near (fl w) x ((1 + u) * E) (S + d).
@@ -384,7 +382,7 @@ Proof.
   - apply Rle_trans with (1 := H3). lra.
 Qed.
 
-(** What the last operation rounds. *)
+(** The exact result of the last operation. *)
 Fixpoint unrounded (e : expression) : R :=
   match e with
   | Coordinate c => c
@@ -470,7 +468,7 @@ Theorem filter_error e : admissible e ->
   Rabs (value e - exact e) <= ((1 + u) ^ roundings e - 1) * exact_size e.
 Proof. intros H. apply (proj1 (expression_near e H)). Qed.
 
-(** Sizes as computed: power (path e) pays for their roundings. *)
+(** Computed sizes: power (path e) covers their roundings. *)
 Definition over (n : nat) : nat := Nat.min 1 n.
 Fixpoint path (e : expression) : nat :=
   match e with
@@ -797,7 +795,7 @@ Proof.
     unfold bound in B. destruct (roundings e) as [| []]; try lra. lia.
 Qed.
 
-(** Overflow. Every operation of a value has one of the size that is no smaller. *)
+(** Overflow. For every operation of the value there is one of the size that is no smaller. *)
 Lemma fl_abs x : Rabs (fl x) = fl (Rabs x).
 Proof. symmetry. apply round_NE_abs. auto with typeclass_instances. Qed.
 Lemma full_above s n : 0 <= s -> number s -> s <= full s n.
@@ -823,8 +821,8 @@ Qed.
 
 Section Overflow.
 
-(** The format's largest number: rounding to nearest gives an infinity where, without it, a larger
-    one would result. What is made of infinities and NaN by +, - and * is one of them. *)
+(** The format's largest number: rounding to nearest gives an infinity if the result without it would exceed it.
+    Operations +, - and * on infinities and NaN give one of them. *)
 Variable largest : R.
 Hypothesis largest_0 : 0 <= largest.
 Definition in_range (x : R) : Prop := Rabs x <= largest.
@@ -863,7 +861,7 @@ Proof.
   - destruct A as [_ A], R as [_ R]. auto.
 Qed.
 
-(** sign_of, on what the machine has: it asks for a finite value where the bound does not. *)
+(** sign_of with machine numbers: it tests for a finite value if the bound does not. *)
 Definition not_finite (v : ieee) : Prop := v = plus_infinity \/ v = minus_infinity \/ v = nan.
 Definition magnitude (v : ieee) : ieee :=
   match v with

@@ -1,10 +1,9 @@
-(** The last stage of the floating-point filter: ccd/exact/static_filter/subdivision.hpp on control values,
-    that is plain Bernstein coefficients (include/errbound/roots/control_values.hpp), over any numbers that stand for
-    real ones: exactly, or to within an error (Filter.v) that midpoints may increase.
-
-    Results: halves_cubic, halves_quartic       halves are the parts on [0, 1/2] and [1/2, 1]
-             subdivision_separate   the answer "separate": where Y = 0 in [0, 1], some G is negative
-             subdivision_collides   the answer "collides": Y = 0 and all G > 0 at some t in [0, 1] *)
+(** The last stage of the floating-point filter (ccd/exact/static_filter/subdivision.hpp) on control values, which
+    are plain Bernstein coefficients (include/errbound/roots/control_values.hpp). They are numbers that stand for
+    real ones exactly, or within an error (FilterStages.v) that midpoints may increase. Results:
+        halves_cubic, halves_quartic   halves are the polynomials on [0, 1/2] and [1/2, 1]
+        subdivision_separate   the answer "separate": wherever Y = 0 in [0, 1], some G is negative
+        subdivision_collides   the answer "collides": Y = 0 and all G > 0 at some t in [0, 1] *)
 
 From Coq Require Import Reals ZArith Lia Lra Psatz List Bool.
 From Errbound Require Import Sign Bernstein.
@@ -13,8 +12,8 @@ Open Scope R_scope.
 
 Inductive outcome := separate | collides | undecided.
 
-(** halves: each pass of the loop replaces the row by the midpoints of neighbours; the left half has
-    the first of each row, the right half the last. *)
+(** halves: each pass of the loop replaces the row by the midpoints of neighbours. The left half has the first of
+    each row, the right half the last. *)
 Section Halves.
 
 Context {S : Type}.
@@ -98,8 +97,8 @@ Variable none : S.
 Variable midpoint : S -> S -> S.  (** (a + b)*S(0.5) *)
 Notation halves := (halves none midpoint).
 
-(** Signs of numbers of one kind, and the real numbers that they stand for after so many midpoints: the
-    signs are right for as many as `most`. *)
+(** Signs of numbers of one kind, and the real numbers that they stand for after some midpoints: signs are right for
+    up to `most` midpoints. *)
 Record reads (sign_of : S -> sign) (stands : nat -> S -> R -> Prop) (most : nat) : Prop := {
   reads_more : forall i j a x, (i <= j)%nat -> stands i a x -> stands j a x;
   reads_midpoint : forall i a b x y, stands i a x -> stands i b y ->
@@ -156,7 +155,7 @@ Proof.
   destruct (sign_of a'), (sign_of d'); try discriminate; simpl in *; nra.
 Qed.
 
-(** Halves of control values stand for the halves of what those stand for. *)
+(** Halves of control values stand for the halves of their real polynomials. *)
 Lemma halves_stand i p P : length p = 4%nat \/ length p = 5%nat -> Forall2 (stands i) p P ->
   let n := (i + (length p - 1))%nat in
   Forall2 (stands n) (fst (halves p)) (fst (exact_halves P)) /\
@@ -185,8 +184,8 @@ Qed.
 
 End OneKind.
 
-(** The loop: a part's left half is asked before its right half, and the first answer but "separate"
-    ends it. `hopeless` is the test that hands parts on before the last halving. *)
+(** The loop: the left half of an interval is tested before its right half, and the first answer except "separate"
+    ends it. `hopeless` gives intervals to the next stage before the last halving. *)
 Variables sign_y sign_g : S -> sign.
 Variable hopeless : nat -> list S -> bool.
 Fixpoint subdivide (halvings_left : nat) (y : list S) (gs : list (list S)) : outcome :=
@@ -218,7 +217,7 @@ Proof.
   destruct (halves_stand _ _ _ reads_g j g G (or_intror L) F) as (A & B & LA & LB).
   rewrite L in *. cbn [Nat.sub] in A, B. split; constructor; auto.
 Qed.
-(** Of each g an exact polynomial, and the other way round. *)
+(** Each g has an exact polynomial, and each polynomial a g. *)
 Lemma quartics_in j gs Gs : quartics j gs Gs ->
   (forall g, In g gs -> exists G, In G Gs /\ length g = 5%nat /\ Forall2 (stands_g j) g G) /\
   (forall G, In G Gs -> exists g, In g gs /\ length g = 5%nat /\ Forall2 (stands_g j) g G).

@@ -1,10 +1,8 @@
-(** The constructor of local_form (include/errbound/roots/local_form.hpp): the Taylor coefficients of a polynomial
-    on a part of the line, from powers and quotients that are cut to a number of bits.
-
-    Results:
-        terms_right         terms: each within 3 of c_i low^i in a common unit, of so many bits
+(** The constructor of local_form (include/errbound/roots/local_form.hpp): the Taylor coefficients of a polynomial on
+    an interval, from powers and quotients that are rounded to a number of bits. Results:
+        terms_right         terms: each within 3 of c_i low^i in a common unit, with that number of bits
         error_bits_right    error_bits: C(n + 1, j + 1) (width/low)^j is at most 2^error_bits
-        taylor_right        the constructor: what LocalForm.v asks of the integers and their error *)
+        taylor_right        the constructor: the hypotheses of LocalForm.v on the integers and their error *)
 
 From Coq Require Import Reals ZArith Lia Lra Psatz List Bool.
 From Flocq Require Import Core.
@@ -12,7 +10,7 @@ From Errbound Require Import Sign Bernstein SignVariations RootIsolation Control
 Import ListNotations.
 Open Scope R_scope.
 
-(** ** Cut numbers: mantissa 2^exponent *)
+(** ** Rounded numbers: mantissa 2^exponent *)
 
 Definition number : Set := (Z * Z)%type.
 Definition value (x : number) : R := IZR (fst x) * pow2 (snd x).
@@ -23,7 +21,7 @@ Definition cut_to (bits : Z) (x : number) : number :=
   let excess := (bits_of (fst x) - bits)%Z in
   if ((fst x =? 0) || (excess <=? 0))%Z then x else (cut_shift (- excess) (fst x), snd x + excess)%Z.
 
-(** v is X but for k relative errors of size r, and not above it. *)
+(** v is X except for k relative errors of size r, and at most X. *)
 Definition below (k r v X : R) : Prop := X * (1 - k * r) <= v <= X.
 
 Lemma pow2_shifted a b : pow2 a * pow2 b = pow2 (a + b).
@@ -129,7 +127,7 @@ Proof.
   rewrite cut_shift_opp, !opp_IZR, !Rabs_Ropp in G. exact G.
 Qed.
 
-(** A number of the row, and what it stands for. *)
+(** A number of the row, and the real number that it stands for. *)
 Definition term_right (bits : Z) (t : Z) (exact : R) : Prop := Rabs (IZR t - exact) <= 3 /\ Rabs (IZR t) <= pow2 bits.
 Lemma products_right width base bits top p : (0 < width)%Z -> (0 < bits)%Z -> (0 < fst base)%Z -> let r := pow2 (1 - width) in forall power k X,
   (0 < fst power)%Z -> 0 <= k -> 0 < X -> below k r (value power) X -> (k + INR (length p)) * r * pow2 bits <= 1 ->
@@ -204,7 +202,7 @@ Qed.
 
 (** ** The shift by 1 *)
 
-(** Whole numbers: horner_cut of LocalForm.v, with nothing to cut. *)
+(** Whole numbers: horner_cut of LocalForm.v without rounding. *)
 Lemma horner_next x a : horner_cut 1 0 (x :: a) = (x + hd 0 (horner_cut 1 0 a))%Z :: horner_cut 1 0 a.
 Proof. cbn [horner_cut]. rewrite Z.mul_1_r. now rewrite cut_shift_0. Qed.
 
@@ -222,7 +220,7 @@ Proof.
   induction n as [| n IH]; intros h k ms N; [easy |]. cbn [shifted_cut shifted]. apply horner_near in N.
   destruct N; constructor; auto.
 Qed.
-(** What n passes do to a row of ones: the sums of columns of Pascal's triangle. *)
+(** n passes turn a row of ones into sums of columns of Pascal's triangle. *)
 Fixpoint column (k m : nat) : list Z := match m with O => [] | S m => choose (m + k) k :: column k m end.
 Lemma column_0 m : column 0 m = repeat 1%Z m.
 Proof. induction m as [| m IH]; [easy |]. cbn [column repeat]. rewrite IH. f_equal. now destruct m. Qed.

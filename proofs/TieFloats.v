@@ -1,14 +1,14 @@
-(** The filter in doubles, the axes in single precision, and the filters of predicates' expressions as
-    programs: real numbers are OCaml's floats, and a rounding to double is none, since their operations round
-    so; a rounding to float is one. Sums and products of floats are the same rounded to double before.
-    tests/proofs/tie_floats.cpp and tie_filters.cpp hold the C++ templates to what comes out. *)
+(** The filter in doubles, the axes in single precision, and the filters of predicates' expressions as programs. Real
+    numbers are OCaml's floats. A rounding to double is the identity, since their operations round to double; a
+    rounding to float is one. Sums and products of floats are the same if rounded to double before.
+    tests/proofs/tie_floats.cpp and tie_filters.cpp compare the C++ templates with the results. *)
 
 From Coq Require Import Reals Qreals ZArith Extraction ExtrOcamlBasic ExtrOcamlNatInt ExtrOcamlZInt.
 From Flocq Require Import Core.
 From Errbound Require Format ErrorCount CcdFilter FilterStages RoundedAxes ContactPart
   StaticFilter SemiStatic Predicates.
 
-(** Coq's construction of real numbers, of which nothing is computed, comes with their name. *)
+(** Coq's construction of real numbers is extracted with their name; none of it is computed. *)
 Extract Constant ClassicalDedekindReals.sig_forall_dec => "(fun _ -> assert false)".
 Extract Inlined Constant R => "float".
 Extract Inlined Constant IZR => "float_of_int".
@@ -33,7 +33,7 @@ Extract Inlined Constant Format.rnd =>
 Extract Inlined Constant Znearest => "(fun _ (_ : float) -> 0)".
 
 Definition halves_in_doubles (direction : R -> Z) := Subdivision.halves 0%R (FilterStages.midpoint direction).
-(** FilterStages.hopeless, where `deepest` halvings are allowed. *)
+(** FilterStages.hopeless with `deepest` allowed halvings. *)
 Definition hopeless_before (deepest : nat) (error : R) (more : nat) (y : list R) : bool :=
   ((3 <=? deepest - S more)%nat && FilterStages.within_error error y)%bool.
 

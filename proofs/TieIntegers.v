@@ -1,11 +1,11 @@
-(** The decision in integers, and integers of words, as programs: whole numbers, and the real numbers of
-    definitions that compute no others, are OCaml's big integers. tests/proofs/tie_integers.cpp and
-    tie_words.cpp hold the C++ code to what comes out. (`none` of roots is not the one of options: its constructors are polymorphic variants.) *)
+(** The decision in integers, and integers of words, as programs. Whole numbers, and real numbers that are whole, are
+    OCaml's big integers. tests/proofs/tie_integers.cpp and tie_words.cpp compare the C++ code with the results.
+    (`none` of roots is not the one of options: its constructors are polymorphic variants.) *)
 
 From Coq Require Import Reals ZArith Extraction ExtrOcamlBasic ExtrOcamlNatInt ExtrOcamlZBigInt.
 From Errbound Require VertexEdge InteriorContact CloseContact AxisUnits Words WordBits SparseProduct.
 
-(** Coq's construction of real numbers, of which nothing is computed, comes with their name. *)
+(** Coq's construction of real numbers is extracted with their name; none of it is computed. *)
 Extract Constant ClassicalDedekindReals.sig_forall_dec => "(fun _ -> assert false)".
 Extract Inlined Constant R => "Big_int_Z.big_int".
 Extract Inlined Constant IZR => "(fun n -> n)".
@@ -18,7 +18,7 @@ Extract Inlined Constant Rminus => "Big_int_Z.sub_big_int".
 Extract Inlined Constant Rmult => "Big_int_Z.mult_big_int".
 Extract Inlined Constant Ropp => "Big_int_Z.minus_big_int".
 Extract Inlined Constant pow => "Big_int_Z.power_big_int_positive_int".
-(** Quicker than factor by factor, and bit by bit. *)
+(** Faster than by single factors and bits. *)
 Extract Inlined Constant Z.pow => "(fun x n -> if Big_int_Z.sign_big_int n < 0 then Big_int_Z.zero_big_int
   else Big_int_Z.power_big_int_positive_big_int x n)".
 Extract Inlined Constant Z.log2 => "(fun x ->
@@ -41,7 +41,7 @@ Definition bounded_sign := BoundedInteger.sign_of.
 Extraction "integers.ml" decide_once decide_to_the_end edge_contact vertices_contact
   bounded_sum bounded_difference bounded_product bounded_sign.
 
-(** Integers of words, as long as it takes. *)
+(** Integers with as many words as necessary. *)
 Definition word_from_bit (x : list Z) (shift : Z) := WordBits.from_bit x shift 1.
 
 Extraction "words.ml" Words.long_sum Words.long_difference Words.sign_of Words.signed_words SparseProduct.count_filled

@@ -1,6 +1,6 @@
 (** The definitions of Code.v, CompoundCode.v, SlopeCode.v, RelativeCode.v and AffineCode.v over IEEE floats, and
-    those of integers of words, as a program: tie.ml evaluates them on tiny formats, on float and on double, and on
-    integers of up to four words, and tests/errbound/validation/tie_test.cpp compares the C++ code with the results. *)
+    those of integers of words, as a program. tie.ml evaluates them on tiny formats, float, double, and integers of
+    up to four words. tests/errbound/validation/tie_test.cpp compares the C++ code with the results. *)
 
 From Coq Require Import ZArith Extraction ExtrOcamlBasic.
 From Flocq Require Import Core IEEE754.BinarySingleNaN.
@@ -13,7 +13,7 @@ Variables p emax : Z.
 Context {p_positive : Prec_gt_0 p}.
 Context {p_below : Prec_lt_emax p emax}.
 
-(** A float as IEEE 754 lays it out: sign, exponent, fraction. One NaN. *)
+(** The fields of an IEEE 754 float: sign, exponent, fraction. There is one NaN. *)
 Definition least_normal : Z := 2 ^ (p - 1).
 Definition sign_bit : Z := 2 * emax * least_normal.
 Definition code_of_infinity : Z := sign_bit - least_normal.

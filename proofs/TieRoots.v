@@ -1,7 +1,7 @@
-(** What isolation of roots computes with, and first times in integers, as programs: whole numbers are OCaml's
-    big integers, and real numbers rational ones, which Zarith has, too. tests/proofs/tie_roots.cpp and
-    tie_times.cpp hold the C++ code to what comes out. (`none` of common roots is not the one of options: its
-    constructors are polymorphic variants.) *)
+(** The components of root isolation, and first times in integers, as programs. Whole numbers are OCaml's big
+    integers, and real numbers are Zarith's rationals. tests/proofs/tie_roots.cpp and tie_times.cpp compare the C++
+    code with the results. (`none` of common roots is not the one of options: its constructors are polymorphic
+    variants.) *)
 
 From Coq Require Import Reals ZArith Extraction ExtrOcamlBasic ExtrOcamlNatInt ExtrOcamlZBigInt.
 From Flocq Require Import Core.
@@ -9,7 +9,7 @@ From Errbound Require Dyadic PrimeField SignVariations ControlValues LocalForm T
   RootFinder TimeSearch VertexEdgeTime InteriorTime AxisUnits.
 
 Extraction Blacklist Q.
-(** Coq's construction of real numbers, of which nothing is computed, comes with their name. *)
+(** Coq's construction of real numbers is extracted with their name; none of it is computed. *)
 Extract Constant ClassicalDedekindReals.sig_forall_dec => "(fun _ -> assert false)".
 Extract Inlined Constant R => "Q.t".
 Extract Inlined Constant IZR => "Q.of_bigint".
@@ -25,7 +25,7 @@ Extract Inlined Constant Ropp => "Q.neg".
 Extract Inlined Constant pow => "(let rec pow x n = if n = 0 then Q.one else Q.mul x (pow x (n - 1)) in pow)".
 Extract Inlined Constant bpow =>
   "(fun _ e -> let e = Big_int_Z.int_of_big_int e in if e < 0 then Q.div_2exp Q.one (- e) else Q.mul_2exp Q.one e)".
-(** Quicker than factor by factor. *)
+(** Faster than by single factors. *)
 Extract Inlined Constant Z.pow => "(fun x n -> if Big_int_Z.sign_big_int n < 0 then Big_int_Z.zero_big_int
   else Big_int_Z.power_big_int_positive_big_int x n)".
 

@@ -1,12 +1,12 @@
-(** Bernstein sign classification, polynomials, and the forms of queries and of predicates as a program,
-    over a scalar that tie_symbols.ml gives: tests/proofs/tie_symbols.cpp holds the C++ templates to what
-    comes out. No real number is computed. *)
+(** Bernstein sign classification, polynomials, and the forms of queries and of predicates as a program, over the
+    scalar of tie_symbols.ml. tests/proofs/tie_symbols.cpp compares the C++ templates with the results. No real
+    number is computed. *)
 
 From Coq Require Import Reals Extraction ExtrOcamlBasic ExtrOcamlNatInt ExtrOcamlZInt.
 From Errbound Require Import Sign Bernstein BscCode.
 From Errbound Require Decisions Predicates ImplicitPoints.
 
-(** Coq's construction of real numbers, of which nothing is computed, comes with their name. *)
+(** Coq's construction of real numbers is extracted with their name; none of it is computed. *)
 Extract Constant ClassicalDedekindReals.sig_forall_dec => "(fun _ -> assert false)".
 Extract Inlined Constant R => "unit".
 

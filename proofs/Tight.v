@@ -1,11 +1,11 @@
 (** Bound rule `tight` (include/errbound/rules/tight.hpp): TightBound, as the C++ code computes it.
 
-    A number x is known by a value a and a bound sa, |a - x| <= sa. Results:
+    A number x has a value a and a bound sa, |a - x| <= sa. u is a number (emin <= -p), as in every IEEE format.
+    Results:
         tight_add_sound, tight_subtract_sound, tight_multiply_sound, tight_divide_sound
-    rounding in any one direction, from 5 bits on;
+            rounding in any one direction, from 5 bits on
         tight_add_sound_nearest, ... _multiply_..., ... _divide_...
-    rounding to nearest, ties to even, from 3 bits on. Both need u to be a number (emin <= -p), as
-    it is in every IEEE format. *)
+            rounding to nearest, ties to even, from 3 bits on *)
 
 From Coq Require Import Reals ZArith Lia Lra Psatz Bool.
 From Flocq Require Import Core.
@@ -56,7 +56,7 @@ Definition tight_divide (v a sa b sb : R) : option R :=
 Definition tight_scale (v a sa : R) (e : Z) : R :=
   scaled_error p emin direction (fun scaled => inflated (fl (scaled + fl (2 * eta)))) v a sa e.
 
-(** The format's facts, for this direction. *)
+(** Facts about the format, for this direction. *)
 Let rnd_exact := Format.rnd_exact p emin direction.
 Let rnd_number := Format.rnd_number p emin direction.
 Let rnd_le := Format.rnd_le p emin direction.
@@ -68,8 +68,7 @@ Let rnd_subnormal := Format.rnd_subnormal p emin direction.
 Let sum_subnormal := Format.sum_subnormal p emin direction.
 Let scaled_up := Format.scaled_up p emin direction.
 
-(** The proof, from what one rounding does: off by r of the result, or by h below the smallest
-    normal number. *)
+(** The proof for a rounding with a relative error r, or an error h below the smallest normal number. *)
 Section Proof.
 
 Hypothesis p_3 : (3 <= p)%Z.
@@ -101,7 +100,7 @@ Proof. exact (number_eta_times p emin 2 ltac:(lia)). Qed.
 Lemma number_2_eta : number (2 * eta).
 Proof. exact (number_eta_times p emin 1 ltac:(lia)). Qed.
 
-(** The factor 1 + 8 eps is a number, also for three bits (it is 3 there). *)
+(** The factor 1 + 8 eps is a number, even with three bits (it is 3 then). *)
 Lemma number_f : number f.
 Proof.
   unfold f, Format.eps. replace (8 * bpow radix2 (1 - p)) with (bpow radix2 (4 - p)).
@@ -137,7 +136,7 @@ Proof. apply rounding_of_any with r; auto. apply rounding_factor. Qed.
 Lemma rounding_0 : rounding (fl 0) = 0.
 Proof. unfold rounding. rewrite rnd_0, Rabs_R0, Rmult_0_l by auto. now apply rnd_0. Qed.
 
-(** Fewer roundings than six. *)
+(** With fewer than six roundings. *)
 Lemma f_q5 : 1 <= f * (q * q * q * q * q).
 Proof. generalize f_1. intros. apply (fewer_roundings f q); [lra | apply q_1 | exact f_q6]. Qed.
 Lemma f_q4 : 1 <= f * (q * q * q * q).
@@ -149,8 +148,8 @@ Let leaves := leaves_of_error p emin direction r h E.
 Let sum_left := Format.sum_left p emin direction q q_1 (proj1 leaves).
 Let scaled_left := Format.scaled_left p emin direction q (proj1 leaves).
 
-(** A sum of three, inflated, is at least the exact sum: nothing is lost below the smallest normal
-    number, and the factor pays for three roundings above. *)
+(** A sum of three, inflated, is at least the exact sum: nothing is lost below the smallest normal number, and the
+    factor covers three roundings above. *)
 Lemma inflated_sum_left x y z :
   number x -> number y -> number z -> 0 <= x -> 0 <= y -> 0 <= z ->
   x + y + z <= inflated (fl (fl (x + y) + z)).
@@ -165,7 +164,7 @@ Proof.
   now apply inflated_sum_left.
 Qed.
 
-(** The error of a sum, and the bounds of it. *)
+(** The error of a sum, and its bounds. *)
 Lemma sum_error_at_most a x sa b y sb :
   number a -> number b -> Rabs (a - x) <= sa -> Rabs (b - y) <= sb ->
   Rabs (fl (a + b) - (x + y)) <= rounding (fl (a + b)) + (sa + sb).
@@ -192,7 +191,7 @@ Proof.
   apply Rle_trans with (1 := H). now apply enlarged_sound.
 Qed.
 
-(** What the operands' bounds make of an exact product. *)
+(** The error of an exact product from the operands' bounds. *)
 Lemma product_inherits a x sa b y sb :
   Rabs (a - x) <= sa -> Rabs (b - y) <= sb ->
   Rabs (a * b - x * y) <= Rabs a * sb + sa * (Rabs b + sb).
@@ -262,7 +261,7 @@ Proof.
   assert (PRI : 0 <= fl (R + I)) by (apply rnd_nonnegative; auto; lra).
   assert (LRI : fl (R + I) <= S) by (apply rnd_above; [apply rnd_number | lra]).
   destruct (Rlt_or_le S smallest_normal) as [C | C].
-  - (* all sums are exact; what the products lost is at most 4 eta *)
+  - (* all sums are exact; the products lose at most 4 eta *)
     apply Rle_trans with S; [| apply scaled_up; [apply rnd_number | lra ..]].
     assert (ER : fl (R + I) = R + I) by (apply (sum_subnormal R I); auto; lra).
     assert (ES : S = fl (R + I) + 4 * eta) by (apply (sum_subnormal _ (4 * eta)); auto using number_4_eta, rnd_number;
@@ -294,7 +293,7 @@ Proof.
     + apply Rmult_le_compat_r; auto. apply Rmult_le_pos; lra.
 Qed.
 
-(** The printed rule's bound of an exact quotient, multiplied out. *)
+(** The printed rule's bound of an exact quotient, multiplied by the denominators. *)
 Lemma quotient_inherits a x sa b y sb :
   Rabs (a - x) <= sa -> Rabs (b - y) <= sb -> 0 < Rabs b - sb ->
   Rabs (a / b - x / y) <= (sa + Rabs (a / b) * sb) / (Rabs b - sb).
@@ -320,7 +319,7 @@ Proof.
   - apply Rinv_le; auto.
 Qed.
 
-(** The code's own bound of |a/b|. *)
+(** The code's bound of |a/b|. *)
 Lemma quotient_covered s : Rabs s <= inflated (fl (Rabs (fl s) + eta)).
 Proof.
   rewrite inflated_exact.
@@ -440,7 +439,7 @@ Qed.
 
 End Proof.
 
-(** The factor 1 + 8 eps pays for six roundings: by eps each from 5 bits on, by u from 3 on. *)
+(** The factor 1 + 8 eps covers six roundings: of eps each from 5 bits on, of u from 3 bits on. *)
 Lemma power_6_lower e : 0 <= e <= 1 -> 1 - 6 * e + 15 * e * e - 20 * e * e * e <= (1 - e) ^ 6.
 Proof.
   intros H. replace ((1 - e) ^ 6) with (1 - 6 * e + 15 * e * e - 20 * e * e * e
@@ -479,7 +478,7 @@ Proof.
   now rewrite rnd_0, Rplus_0_r, rnd_exact.
 Qed.
 
-(** The code's bounds are numbers, so that results may be operands. *)
+(** The code's bounds are numbers, so results may be operands. *)
 Theorem tight_add_number v sa sb : number (tight_add v sa sb).
 Proof. apply Upper.sum_of_bounds_number, rnd_number; auto. Qed.
 Theorem tight_multiply_number v a sa b sb : number (tight_multiply v a sa b sb).
@@ -493,7 +492,7 @@ Qed.
 
 End Tight.
 
-(** The theorems: what the code returns bounds the error of what it computed. *)
+(** The theorems: the returned bound holds for the computed value. *)
 Section Sound.
 
 Variables p emin : Z.
@@ -579,7 +578,7 @@ Theorem tight_add_sound_nearest a x sa b y sb :
   Rabs (fl (a + b) - (x + y)) <= tight_add p emin nearest (fl (a + b)) sa sb.
 Proof. apply (add_sound p emin nearest p_3 emin_p _ _ error nearest_q6). Qed.
 
-(** What the code adds up, and the first of its two bounds. *)
+(** The sum in the code, and the first of its two bounds. *)
 Lemma tight_sum_error_nearest a x sa b y sb :
   number a -> number b -> Rabs (a - x) <= sa -> Rabs (b - y) <= sb ->
   Rabs (fl (a + b) - (x + y)) <= rounding p emin nearest (fl (a + b)) + (sa + sb).

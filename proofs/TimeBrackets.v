@@ -1,14 +1,12 @@
-(** Brackets of times between neighbouring doubles (ccd/contact/time_bracket.hpp), over the real numbers: any set of
-    numbers stands for the doubles.
-
-    Results:
-        lesser_bracket        of different brackets the lesser has the earlier time
+(** Brackets of times between adjacent doubles (ccd/contact/time_bracket.hpp), over the real numbers. Any set of
+    numbers stands for the doubles. Results:
+        lesser_bracket        the lesser of two different brackets has the earlier time
         least_bracket         the least bracket of several times is that of the least time
-        first_of_union        the first time of several parts is the least of theirs
-        bracket_of_first      what the bracket of a first time says
-        search_right         the search by signs at doubles
+        first_of_union        the first time of a union is the least of the first times
+        bracket_of_first      consequences of the bracket of a first time
+        search_right          the search by signs at doubles
         linear_bracket_right, quadratic_only_right, quadratic_first_right, quadratic_second_right
-          brackets of roots of linear and quadratic forms *)
+                              brackets of roots of linear and quadratic forms *)
 
 From Coq Require Import Reals Lra Psatz List.
 From Errbound Require Import Contact VertexEdge Separation.
@@ -40,7 +38,7 @@ Proof.
   - destruct (Rlt_or_le m h) as [Q |]; [| lra]. exfalso. apply (NoA m Dm). lra.
   - exfalso. apply (NoB h Dh). lra.
 Qed.
-(** Equal brackets need no comparison: the least bracket is that of the least time, whose ever it is. *)
+(** Equal brackets need no comparison: the least bracket is that of the least time. *)
 Theorem least_bracket (times : list (R * bracket)) s a : Forall (fun p => holds_time (snd p) (fst p)) times ->
   In (s, a) times -> (forall t b, In (t, b) times -> s <= t) ->
   forall t b, In (t, b) times -> (forall r c, In (r, c) times -> ~ lesser c b) -> b = a.
@@ -63,7 +61,7 @@ Proof.
   pose proof (Least G r J Fr). destruct Fr as (R0 & _ & Before).
   apply (Before s); auto. lra.
 Qed.
-(** No contact before the bracket, nor at its lower end if it is a part of positive length; contact inside. *)
+(** There is no contact before the bracket, nor at its lower end if it has positive length, and there is one inside. *)
 Theorem bracket_of_first (H : R -> Prop) t b : first H t -> holds_time b t ->
   (forall s, 0 <= s < fst b -> ~ H s) /\ (0 <= fst b < snd b -> ~ H (fst b)) /\
   exists s, fst b <= s <= snd b /\ H s.
@@ -78,7 +76,7 @@ Qed.
 
 (** ** The search *)
 
-(** root_search::between: which double it asks next is arbitrary. `before` has the sign that is expected above low. *)
+(** root_search::between: the next double is arbitrary. `before` has the sign that is expected above low. *)
 Inductive search (p : R -> R) (before : R) : R -> R -> bracket -> Prop :=
   | neighbours_left a b : neighbours a b -> search p before a b (a, b)
   | root_found a b x : double x -> a < x < b -> p x = 0 -> search p before a b (x, x)
@@ -230,7 +228,7 @@ Proof.
   - intros [-> | ->]; ring.
 Qed.
 
-(** beside r, which is the extreme's side of the root. *)
+(** next to r, on the side of the root with the extreme *)
 Ltac beside_extreme r :=
   intros (e & E & C); apply extreme_between in E; assert (M : p < (p + q) / 2 < q) by lra; cbn zeta in C;
   destruct C as [(Z & ->) | [(S & ->) | (S & B)]];

@@ -1,11 +1,9 @@
-(** The search by signs at doubles (root_search::between of ccd/contact/time_bracket.hpp), over the doubles' numbers in
-    their order. Where a root is estimated to be, and where Newton's steps lead, is arbitrary: nothing depends on it.
-
-    Results:
-        between_searches      what it returns is what `search` (TimeBrackets.v) may return, of which search_right speaks
-        search_ends           it asks at most 100 signs
-        double_numbers        doubles in [0, 1] are numbered in their order, up to less than 2^62
-        search_widths         the polynomial's values fit the words that their type has
+(** The search by signs at doubles (root_search::between of ccd/contact/time_bracket.hpp), over the ordered indices
+    of doubles. The estimate of the root and Newton's steps are arbitrary. Results:
+        between_searches      its result is one of `search` (TimeBrackets.v), for which search_right holds
+        search_ends           it evaluates at most 100 signs
+        double_numbers        doubles in [0, 1] have ordered indices below 2^62
+        search_widths         the polynomial's values fit the words of their type
         first_root_widths     so do the numbers of first_root_nonpositive and of bracket_of_quadratic_root *)
 
 From Coq Require Import Reals ZArith Lia Lra List Bool.
@@ -19,14 +17,14 @@ Open Scope R_scope.
 Section Search.
 
 Variable double : R -> Prop.
-(** double_of_order, from 0 up to the number of 1 *)
+(** double_of_order, from 0 to the index of 1 *)
 Variable double_of : Z -> R.
 Variable one : Z.
 Hypothesis numbered : forall x, double x /\ 0 <= x <= 1 <-> exists n, (0 <= n <= one)%Z /\ x = double_of n.
 Hypothesis increasing : forall m n, (0 <= m < n)%Z -> (n <= one)%Z -> double_of m < double_of n.
 
 Variable p : R -> R.
-(** value_at's sign; none where fixed widths cannot tell. *)
+(** value_at's sign; none if fixed widths do not suffice. *)
 Variable sign_of_value : Z -> option sign.
 Hypothesis certain_sign : forall n s, sign_of_value n = Some s -> s = sign_of_real (p (double_of n)).
 Variable before : sign.
@@ -39,7 +37,7 @@ Definition place_asked (a b x step : Z) : Z :=
   if ((x <=? a) || (b <=? x))%Z
   then if (step =? 1)%Z then Z.max (a + 1) (Z.min x (b - 1)) else (a + (b - a) / 2)%Z
   else x.
-(** Running out of steps, which the code does not, is no answer. *)
+(** Running out of steps, which the code does not, gives no answer. *)
 Fixpoint between (steps : nat) (a b x step : Z) (corrections : nat) : option bracket :=
   match steps with
   | O => None
@@ -107,7 +105,7 @@ Qed.
 
 (** ** It ends *)
 
-(** With so many steps or more the answer is the same. *)
+(** More steps do not change the answer. *)
 Definition ends (steps : nat) (a b x step : Z) (corrections : nat) : Prop :=
   forall more, (steps <= more)%nat ->
     between more a b x step corrections = between steps a b x step corrections.
@@ -132,7 +130,7 @@ Proof.
        [destruct ((_ <? next)%Z && (next <? _)%Z) |] |]); apply Same; auto 6.
 Qed.
 
-(** From the farthest step on, each halves the width or takes the farthest step off it. *)
+(** From the farthest step on, each step halves the width or reduces it by the farthest step. *)
 Definition left_to_do (w : Z) : Z := Z.log2_up w + w / farthest_step.
 Lemma halved w v : (1 < w)%Z -> (1 <= v)%Z -> (2 * v <= w + 1)%Z -> (left_to_do v < left_to_do w)%Z.
 Proof.
@@ -170,7 +168,7 @@ Proof.
     apply halved; lia.
   - apply orb_false_iff in K. destruct K as (K0 & K1). apply Z.leb_gt in K0, K1. apply far_off; lia.
 Qed.
-(** Before, it grows. *)
+(** Before that, the step grows. *)
 Lemma growing_ends r : (r <= 30)%nat -> forall a b x corrections, (a < b)%Z -> (b - a <= 2 ^ 62)%Z ->
   (3 <= corrections)%nat -> ends (r + 68) a b x (4 ^ (30 - Z.of_nat r)) corrections.
 Proof.
@@ -190,7 +188,7 @@ Proof.
       assert (4 ^ (30 - Z.of_nat (Datatypes.S r)) <= 4 ^ 29)%Z by (apply Z.pow_le_mono_r; lia).
       rewrite Z.min_l; [easy |]. unfold farthest_step. change (2 ^ 60)%Z with (4 * 4 ^ 29)%Z. lia.
 Qed.
-(** From 0 corrections and step 1; the first three steps may be Newton's. *)
+(** From 0 corrections and step 1; the first three steps may be those of Newton's method. *)
 Lemma early_ends k : (k <= 3)%nat -> forall a b x j, (j + k <= 3)%nat -> (a < b)%Z -> (b - a <= 2 ^ 62)%Z ->
   ends (k + 98) a b x (4 ^ Z.of_nat j) (3 - k).
 Proof.
@@ -217,7 +215,7 @@ End Search.
 (** ** Doubles *)
 
 Notation is_double := (generic_format radix2 (FLT_exp (-1074) 53)).
-(** The double of those bits, as far as to infinity's. *)
+(** The double with those bits, up to infinity. *)
 Definition double_of_order (n : Z) : R :=
   let e := (n / 2 ^ 52)%Z in
   if (e =? 0)%Z then IZR n * bpow radix2 (-1074) else IZR (2 ^ 52 + n mod 2 ^ 52) * bpow radix2 (e - 1075).
@@ -316,12 +314,12 @@ Qed.
 
 Local Open Scope Z_scope.
 
-(** The value at t/2^bits of a form with W words that hold any number, bits <= 64T - 2 and s = 2^bits - t. *)
+(** The value at t/2^bits of a form with W words, bits <= 64T - 2 and s = 2^bits - t. *)
 Definition search_numbers (W T N : nat) (p : list (list Z)) (s t : list Z) : list expression :=
   let of_bits x := Given T 1 (64 * Z.of_nat T - 2) x in
   [of_bits s; of_bits t; @Bernstein.value_at expressions
     (map (fun i => Given W (2 ^ (64 * Z.of_nat W - 1) - 1) 0 (nth i p [])) (seq 0 (Datatypes.S N))) (of_bits s) (of_bits t)].
-(** Y has 3 or 6 words, a multiple root's linear form 6 or 12, and others are between. *)
+(** Y has 3 or 6 words, a multiple root's linear form 6 or 12, and others are between these. *)
 Theorem search_widths W T N p s t : (1 <= W <= 12)%nat -> In T [1; 2]%nat -> In N [1; 2; 3]%nat ->
   forallb fine (search_numbers W T N p s t) = true.
 Proof.
@@ -331,7 +329,8 @@ Proof.
   rewrite forallb_forall in F. specialize (F W ltac:(apply in_seq; lia)). rewrite forallb_forall in F.
   specialize (F T HT). rewrite forallb_forall in F. now apply all_measured, F.
 Qed.
-(** Numbers of first_root_nonpositive(f, b), and of bracket_of_quadratic_root, where f is a component of W × E, or b. *)
+(** The numbers of first_root_nonpositive(f, b), and of bracket_of_quadratic_root, if f is a component of W × E, or
+    b. *)
 Definition first_root_numbers (b f : list expression) : list expression :=
   Shifted (nth 2 f (Whole 0)) 1 :: at_a_root_numbers b f.
 Theorem first_root_widths W w e x : W = 1%nat \/ W = 2%nat ->

@@ -1,12 +1,11 @@
-(** First times of packs of queries (ccd/batch/time_stage.hpp): roots of Y on two parts of the step, and which of them is the
-    contact. double, to nearest, where numbers are rounded; Y's signs at doubles: Twofold.v.
-
+(** First times of packs of queries (ccd/batch/time_stage.hpp): roots of Y on two subintervals of the step, and the
+    one that is the contact. double, to nearest, with rounded numbers; Twofold.v has the signs of Y at doubles.
     Results:
         lerp_near, value_near   de Casteljau's steps, and a value at t, in floating point
-        parts_at                exactly, they are the control values of the parts before and after t
-        quartic_slope           a quartic changes by at most 8 of its largest control value's size times the way
-        only_root_first, first_of_two, second_of_two   which root is the first contact
-        bracket_around          its bracket, by signs at neighbouring doubles *)
+        parts_at                exactly, they are the control values of the subintervals before and after t
+        quartic_slope           a quartic changes by at most 8 times its largest control value's size times the way
+        only_root_first, first_of_two, second_of_two   the root that is the first contact
+        bracket_around          its bracket, by signs at adjacent doubles *)
 
 From Coq Require Import Reals ZArith Lia Lra Psatz List.
 From Flocq Require Import Core.
@@ -59,14 +58,14 @@ Proof.
   eapply Rle_trans; [apply Rabs_triang |]. lra.
 Qed.
 
-(** Rows: each pass has the steps between neighbours. *)
+(** Rows: each pass computes the steps between neighbours. *)
 Theorem parts_at a b c d t v : let l := exact_lerp t in
   let ab := l a b in let bc := l b c in let cd := l c d in let abc := l ab bc in let bcd := l bc cd in let m := l abc bcd in
   control_at [a; ab; abc; m] v = control_at [a; b; c; d] (t * v) /\
   control_at [m; bcd; cd; d] v = control_at [a; b; c; d] (t + (1 - t) * v) /\ m = control_at [a; b; c; d] t.
 Proof. cbv zeta. rewrite !control_cubic. unfold exact_lerp. simpl. repeat split; ring. Qed.
 
-(** Rows of doubles near rows of numbers: e more each time. *)
+(** Rows of doubles near rows of numbers; each pass adds e. *)
 Definition row_near (e m : R) (p q : list R) : Prop := Forall2 (fun a b => double a /\ Rabs a <= m /\ Rabs (a - b) <= e) p q.
 Lemma row_wider e m n p q : m <= n -> row_near e m p q -> row_near e n p q.
 Proof. intros L F. induction F as [| a b p q (A & M & N) F IH]; constructor; auto. repeat split; auto. lra. Qed.
@@ -83,7 +82,7 @@ Proof.
 Qed.
 Fixpoint after_rows (n : nat) (lerp : R -> R -> R) (p : list R) : list R :=
   match n with O => p | S n => after_rows n lerp (next_row lerp p) end.
-(** Off by some 5.2u of the largest size a row. *)
+(** Each row adds an error of about 5.2u of the largest size. *)
 Lemma rows_near t m n : 0 <= t <= 1 -> 0 <= m -> (n <= 4)%nat -> forall e k p q, 0 <= k ->
   (k <= 4 - INR n)%R -> row_near e (m + 52 / 10 * k * (u * m) + 3 * k * eta) p q -> e <= 52 / 10 * k * (u * m) + 3 * k * eta ->
   exists e' m', row_near e' m' (after_rows n (lerp t) p) (after_rows n (exact_lerp t) q) /\
@@ -124,7 +123,7 @@ Proof.
   assert (INR (length p - 1) * eta <= 4 * eta) by (apply Rmult_le_compat_r; lra). lra.
 Qed.
 
-(** ** How far a quartic is from its value nearby *)
+(** ** The change of a quartic near a time *)
 
 Theorem quartic_slope p m s t : length p = 5%nat -> Forall (fun a => Rabs a <= m) p -> 0 <= s <= 1 -> 0 <= t <= 1 ->
   Rabs (control_at p t - control_at p s) <= 8 * m * Rabs (t - s).
@@ -158,7 +157,7 @@ Proof.
     replace (- (form q (1 - t) t - form q (1 - s) s)) with (form q (1 - s) s - form q (1 - t) t) by ring. apply Way; lra.
 Qed.
 
-(** ** Which root *)
+(** ** Selection of the root *)
 
 Section Roots.
 
@@ -186,7 +185,7 @@ Proof.
   intros N. destruct collides as (t & T & Ht). destruct (two_roots t T (at_roots t T Ht)) as [E | E]; [now subst |]. subst t.
   split; auto. split; auto. intros s S Hs. destruct (two_roots s ltac:(lra) (at_roots s ltac:(lra) Hs)) as [E | E]; [now subst | lra].
 Qed.
-(** signs_at_root: the first root is within reach of t, whatever that is. *)
+(** signs_at_root: the first root is within reach of t, for any t. *)
 Theorem root_reached b t reach : (forall s, 0 <= s <= 1 -> 0 < f s * b -> s < r1 \/ r2 < s) ->
   (forall s, 0 <= s <= 1 -> f s * b < 0 -> r1 < s < r2) -> 0 < reach -> 0 <= t <= 1 ->
   0 < f (Rmax (t - reach) 0) * b -> f (Rmin (t + reach) 1) * b < 0 -> Rabs (r1 - t) <= reach.
@@ -199,7 +198,7 @@ Qed.
 
 End Roots.
 
-(** bracket_of_root: neighbouring doubles of a part with one root, where Y's signs are opposite. *)
+(** bracket_of_root: adjacent doubles in an interval with one root, at which Y's signs are opposite. *)
 Theorem bracket_around (number : R -> Prop) f b from to r low high : (forall t, from <= t <= to -> 0 < f t * b -> t < r) ->
   (forall t, from <= t <= to -> f t * b < 0 -> r < t) -> neighbours number low high -> from <= low -> high <= to ->
   0 < f low * b -> f high * b < 0 -> holds_time number (low, high) r.

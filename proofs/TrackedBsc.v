@@ -1,13 +1,11 @@
-(** No collision is lost by TightCCD, nor by BSC over any other bound rule: rules over IEEE formats, overflow
-    included (IeeeRules.v, IeeeSafe.v, IeeeInterval.v, IeeeResidual.v), under BSC (Decisions.v); to nearest,
-    p >= 3, emax > p.
-
-    A tracked number is a computed value with a computed bound, and the real number that they know. The
-    theorems are of every `rule`: tight_rule, sharp_rule, safe_rule, interval_rule, residual_rule, and kept_rule of any
-    that keeps its operations (IeeeCompound.v), such as `relative` (IeeeRelative.v).
-    Coordinates are those of tracked_query: floating-point numbers, or these times one power of two, any.
-    Results: tracked_face_separate, tracked_edges_separate   a "no" is right
-             tracked_face_collides, tracked_edges_collide    and a "yes" *)
+(** TightCCD loses no collision, nor does BSC over any other bound rule: rules over IEEE formats, including overflow
+    (IeeeRules.v, IeeeSafe.v, IeeeInterval.v, IeeeResidual.v), under BSC (Decisions.v); to nearest, p >= 3, emax > p.
+    A tracked number is a computed value with a computed bound, and its real number. The theorems hold for every
+    `rule`: tight_rule, sharp_rule, safe_rule, interval_rule, residual_rule, and kept_rule of any that keeps its
+    operations (IeeeCompound.v), such as `relative` (IeeeRelative.v). Coordinates are those of tracked_query:
+    floating-point numbers, or these times any power of two. Results:
+        tracked_face_separate, tracked_edges_separate   a "no" is right
+        tracked_face_collides, tracked_edges_collide    a "yes" is right *)
 
 From Coq Require Import Reals ZArith Lia Lra List Bool.
 From Flocq Require Import Core IEEE754.BinarySingleNaN.
@@ -17,7 +15,7 @@ From Errbound Require Sign Bernstein BscCode Contact Decisions AxisUnits IeeeSaf
 Import ListNotations.
 Open Scope R_scope.
 
-(** ** BSC over any scalar, as decide_bsc asks it *)
+(** ** BSC over any scalar, as decide_bsc evaluates it *)
 
 Section Any.
 Context {S : Bernstein.scalar}.
@@ -67,7 +65,7 @@ Definition sign_given (s : sign_type) : Sign.sign :=
   | uncertain => Sign.uncertain
   end.
 
-(** What tracked.hpp uses of a rule, and that it keeps its promise. *)
+(** The functions of a rule that tracked.hpp uses, and their promise. *)
 Record rule := Rule {
   bound : Type;
   known : float -> bound -> R -> Prop;
@@ -190,7 +188,7 @@ Definition tracked_scale (a : tracked) (e : Z) : tracked :=
   Tracked _ _ _ (rescale_known r _ _ _ e (is_known a)).
 Definition exactly (a : float) : tracked := Tracked _ _ _ (exact_known r a).
 
-(** Whole numbers: the code has those that are numbers of the format. *)
+(** The code's whole numbers are numbers of the format. *)
 Lemma known_equal v b x y : known r v b x -> x = y -> known r v b y.
 Proof. now intros K <-. Qed.
 Lemma known_unlimited a x : known r a (within r a (infinity _ F)) x.
@@ -249,7 +247,7 @@ Definition exact_point (q : float_point) : Contact.point := Contact.Point (B2R (
 Definition motion (m : float_motion) : Contact.moving :=
   Contact.Moving (exact_point (fst m)) (exact_point (snd m)).
 
-(** tracked_query: coordinates as they are, or all times 2^-e. *)
+(** tracked_query: unchanged coordinates, or all times 2^-e. *)
 Variable chosen : option Z.
 Definition coordinate (x : float) : tracked :=
   match chosen with None => exactly x | Some e => tracked_scale (exactly x) (- e) end.

@@ -1,13 +1,11 @@
-(** Numbers of twice double's precision (ccd/batch/twofold.hpp), and the sign of Y at any time of the step that
-    ccd/batch/time_stage.hpp takes from them. double, to nearest.
-
-    Results:
-        fast_two_sum_near    fast_two_sum of any two numbers is off by 2u of the second at most
-        sum_near             a sum is off by 5u² of its operands' sizes more than those are
-        product_near         a product by 13u², where it is far from underflow's reach
-        product_rounded, product_rounded_fma   what both ways to a product's error tell, underflow included
+(** Numbers with twice double's precision (ccd/batch/twofold.hpp), and the sign of Y at any time of the step that
+    ccd/batch/time_stage.hpp computes from them. double, to nearest. Results:
+        fast_two_sum_near    fast_two_sum of any two numbers has an error of at most 2u of the second
+        sum_near             a sum adds an error of 5u² of its operands' sizes
+        product_near         a product adds 13u², if it is far from underflow
+        product_rounded, product_rounded_fma   results of both algorithms for a product's error, including underflow
         difference_exact     differences of coordinates are exact
-        y_near, time_stage_sign, error_enough   where the value exceeds error(), Y has its sign *)
+        y_near, time_stage_sign, error_enough   if the value exceeds error(), Y has its sign *)
 
 From Coq Require Import Reals ZArith Lia Lra Psatz List.
 From Flocq Require Import Core.
@@ -40,7 +38,7 @@ Proof.
   - pose proof (error_relative _ _ _ _ _ E x S). lra.
 Qed.
 
-(** |x| <= m, as an interval, so that lra may add. *)
+(** |x| <= m as an interval, so that lra can add. *)
 Ltac unabs := repeat match goal with
   | H : Rabs _ <= _ |- _ => apply Rabs_le_inv in H
   | |- Rabs _ <= _ => apply Rabs_le
@@ -78,13 +76,13 @@ Qed.
 
 (** ** Operations *)
 
-(** x is known by a to within k; m bounds its size, and those of a's parts. *)
+(** x is known by a within k; m bounds its size, and those of a's components. *)
 Record known (a : R * R) (x m k : R) : Prop := {
   known_value : double (fst a); known_error : double (snd a); known_size : Rabs x <= m;
   known_first : Rabs (fst a) <= 33 / 32 * m; known_second : Rabs (snd a) <= 33 / 32 * (u * m);
   known_to : Rabs (fst a + snd a - x) <= k }.
 
-(** twofold::normal; the error is beyond the value's last place, or both are tiny. *)
+(** twofold::normal; the error is below the value's last place, or both are tiny. *)
 Lemma normal_near x y X m k : double x -> double y -> Rabs X <= m -> Rabs (x + y - X) <= k -> k <= / 64 * (u * m) ->
   (Rabs x < Rabs y -> Rabs y <= / 1024 * m) -> let r := fast_two_sum x y in
   (Rabs y <= Rabs x /\ known r X m k /\ Rabs (snd r) <= 2 * u * Rabs (fst r)) \/
@@ -159,7 +157,7 @@ Proof.
   { pose proof (Rabs_triang e f). assert (Rabs (e + f) <= 68 / 32 * (u * S)) by lra. nra. }
   destruct (Rle_or_lt (Rabs z) (Rabs s)) as [L | L].
   - destruct (normal_near s z (x + y) m (k + l + 5 * (u * (u * S))) Ns (fl_number _)) as [(_ & K & R) | (L' & _)]; auto; lra.
-  - (* all that is left is tiny *)
+  - (* the rest is tiny *)
     pose proof (Rabs_pos e) as E0. pose proof (Rabs_pos f) as F0. pose proof (Rabs_pos s) as S1.
     assert (Es : Rabs e <= 2 * u * Rabs z).
     { assert (Rabs e <= u * (Rabs s + Rabs e)).
@@ -179,7 +177,7 @@ Proof.
     split; [| right; lra]. destruct K as [K1 K2 K3 K4 K5 K6]. constructor; auto. lra.
 Qed.
 
-(** Of products, some way to tell their errors. *)
+(** Products with any algorithm for their errors. *)
 Section Products.
 
 Variable two_product : R -> R -> R * R.
@@ -271,7 +269,7 @@ Definition difference (a b : R * R) : R * R := sum a (negative_of b).
 Lemma known_less a x A k l : known a x A k -> k <= l -> known a x A l.
 Proof. intros [H1 H2 H3 H4 H5 H6] L. constructor; auto. lra. Qed.
 
-(** Of two coordinates, in doubles at most m apart. *)
+(** Two coordinates, in doubles at most m apart. *)
 Theorem difference_exact a b m : double a -> double b -> Rabs (fl (a - b)) <= m ->
   known (difference (a, 0) (b, 0)) (a - b) (m * (1 + 2 * u)) 0.
 Proof.
@@ -308,7 +306,7 @@ Hypothesis two_product_near : forall a b, double a -> double b -> fst (two_produ
   double (snd (two_product a b)) /\ Rabs (fst (two_product a b) + snd (two_product a b) - a * b) <= bpow radix2 (-870).
 Notation product := (product two_product).
 
-(** Sizes of differences, by axis, at least 2^-150. *)
+(** Sizes of differences on an axis are at least 2^-150. *)
 Definition moderate (m : R) : Prop := bpow radix2 (-150) <= m.
 Lemma lost_little P : bpow radix2 (-450) <= P ->
   bpow radix2 (-870) <= / 64 * (u * (u * P)) /\ eta <= / 64 * (u * (u * P)).
@@ -452,7 +450,7 @@ Proof.
   split; [apply known_less with (1 := T); lra |].
   destruct E as [E | E]; [now left | right]. unfold r, y_of. cbv zeta. lra.
 Qed.
-(** error() is 2^-94 of the product of the sizes as rounded. *)
+(** error() is 2^-94 of the product of the rounded sizes. *)
 Theorem time_stage_sign error : 1210 * (u * (u * M)) <= error ->
   let v := fst (y_of bx by_ bz cx cy cz px py pz) in
   let y := (By * Cz - Bz * Cy) * Px + (Bz * Cx - Bx * Cz) * Py + (Bx * Cy - By * Cx) * Pz in
@@ -475,7 +473,7 @@ Qed.
 End Vectors.
 End Time.
 
-(** error(): sizes as rounded differences have them. *)
+(** error(): sizes of rounded differences. *)
 Theorem error_enough mx my mz : moderate mx -> moderate my -> moderate mz ->
   1210 * (u * (u * (mx * (1 + 2 * u) * (my * (1 + 2 * u)) * (mz * (1 + 2 * u))))) <=
   fl (fl (fl (mx * my) * mz) * bpow radix2 (-94)).
@@ -525,7 +523,7 @@ Proof.
   replace (P * (1 - u) * (1 - u) * h * (1 - u)) with ((1 - u) * (1 - u) * (1 - u) * (h * P)) by ring. exact H.
 Qed.
 
-(** ** Both ways to a product's error *)
+(** ** Both algorithms for a product's error *)
 
 Lemma fl_crude x : Rabs (fl x) <= 2 * Rabs x + eta.
 Proof.
@@ -537,7 +535,7 @@ Proof.
   intros N Z. apply generic_format_ge_bpow with (FLT_exp (-1074) 53); [intros e; unfold FLT_exp; lia | now apply Rabs_pos_lt |].
   now apply generic_format_abs.
 Qed.
-(** Where it is not exact, all is below this. *)
+(** If it is not exact, all numbers are below this. *)
 Lemma tiny_product a b : double a -> double b -> a * b <> 0 -> Rabs (fl (a * b)) < bpow radix2 (-968) ->
   Rabs (a * b) <= 2 * bpow radix2 (-968) /\ eta <= bpow radix2 (-968).
 Proof.

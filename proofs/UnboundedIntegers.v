@@ -1,13 +1,11 @@
-(** Queries in integers of unbounded size (ccd/exact/unbounded_integers.hpp), which the reference, `bsc-exact`
-    and `root-parity` share: the conversion, and contact of a vertex with an edge by common factors and
-    real roots of integer polynomials.
-
-    common_factor and real_roots are given by what they promise (root_finder); all else is restated.
-    Results:
+(** Queries in integers of unbounded size (ccd/exact/unbounded_integers.hpp), shared by the reference, `bsc-exact`
+    and `root-parity`: the conversion, and contact of a vertex with an edge by common factors and real roots of
+    integer polynomials. common_factor and real_roots are represented by their promises (root_finder); all else is
+    restated. Results:
         to_integers_right       the integers are the coordinates, in units of their axes
-        without_end_roots_value   p(t) is that form at t/(1 - t), but for a positive factor
+        without_end_roots_value   p(t) is that form at t/(1 - t), up to a positive factor
         integer_contact_right   `vertex_touches_edge` is true exactly if vertex and edge meet in [0, 1]
-        face_border_right, edges_border_right   touches_at_border is what its name says *)
+        face_border_right, edges_border_right   `touches_at_border` is true exactly if they touch at the border *)
 
 From Coq Require Import Reals ZArith Lia Lra Psatz List Bool.
 From Errbound Require Import RootIsolation Sign Bernstein Bsc Contact Decisions AxisUnits.
@@ -25,7 +23,7 @@ Proof. split; [now destruct n | apply sign_right]. Qed.
 
 (** ** to_integers *)
 
-(** A double's mantissa and exponent, as odd_part and last_bit of `binary_double` give them; mantissa 0 for zero. *)
+(** A double's mantissa and exponent, as odd_part and last_bit of `binary_double` return them; mantissa 0 for zero. *)
 Record dyadic := Dyadic { mantissa : Z; exponent : Z }.
 Definition double (d : dyadic) : R := IZR (mantissa d) * powerRZ 2 (exponent d).
 Record doubles := Doubles { dx : dyadic; dy : dyadic; dz : dyadic }.
@@ -158,7 +156,7 @@ Proof.
   - intros s (U & R). split; auto. destruct s; simpl in *; nra.
 Qed.
 
-(** ** What common_factor and real_roots promise *)
+(** ** Promises of common_factor and real_roots *)
 
 Record root_finder := {
   common_factor : list Z -> list Z -> list Z;
@@ -168,12 +166,12 @@ Record root_finder := {
   where_is : root -> R
 }.
 
-(** What is asked of two polynomials, of one, and of one at another's roots. A query asks it of its own
-    polynomials and no others: so its answer does not depend on what is found of any other's. *)
+(** The arguments of a query's calls: two polynomials, one, and one at another's roots. The query calls them only
+    with its own polynomials, so its answer does not depend on results for others. *)
 Record demands := Demands {
   of_factor : list Z -> list Z -> Prop;
   of_roots : list Z -> Prop;
-  of_signs : list Z -> list Z -> Prop          (** p, whose roots are asked, and the other *)
+  of_signs : list Z -> list Z -> Prop          (** p, whose roots are used, and the other *)
 }.
 Definition promises (finder : root_finder) : demands := {|
   of_factor := fun f g => trimmed f -> trimmed g ->
@@ -195,7 +193,7 @@ Implicit Types (f b : list Z) (fs : list (list Z)).
 Definition on_line fs : list Z :=
   fold_left (fun all f => common_factor finder all (without_end_roots f)) fs [].
 
-(** The factors that on_line asks. *)
+(** The factors that on_line computes. *)
 Fixpoint factors_meet (d : demands) (all : list Z) fs : Prop :=
   match fs with
   | [] => True
@@ -236,7 +234,7 @@ Definition touches fs b : bool :=
           (real_roots finder p)
     end.
 
-(** What it asks of the finder. *)
+(** The hypotheses about the finder. *)
 Definition touches_meets (d : demands) fs b : Prop :=
   factors_meet d [] fs /\ of_roots d (on_line fs) /\ of_signs d (on_line fs) (without_end_roots b).
 

@@ -1,11 +1,10 @@
-(** Sums, products and quotients rounded upwards without touching the rounding mode, as the rules `affine`
-    and `relative` do (include/errbound/rules/affine.hpp, relative.hpp): x times 1 + eps, rounded to nearest,
-    is at least the successor of a normal x. What is subnormal gets eta more, or was exact. Lemmas for
-    Affine.v and Relative.v.
+(** Sums, products and quotients rounded upwards without a change of the rounding mode, as in the rules `affine` and
+    `relative` (include/errbound/rules/affine.hpp, relative.hpp). x times 1 + eps, rounded to nearest, is at least
+    the successor of a normal x. A subnormal number gets eta more, or was exact. Lemmas for Affine.v and Relative.v.
 
-    Sums of bounds, rounded in any one direction, as detail/sum_of_bounds.hpp adds them for the rules `tight`,
-    `sharp` and `residual`: sum_above x y is x + y if that is a number, else the rounded sum or, if that is
-    less, the rounded sum times 1 + eps. *)
+    Sums of bounds, rounded in any one direction, as in detail/sum_of_bounds.hpp for the rules `tight`, `sharp` and
+    `residual`: sum_above x y is x + y if that is a number. Otherwise it is the rounded sum or, if that is less, the
+    rounded sum times 1 + eps. *)
 
 From Coq Require Import Reals ZArith Lia Lra Psatz.
 From Flocq Require Import Core Sterbenz.
@@ -79,7 +78,7 @@ Proof.
   - rewrite <- (ulp_small x), <- succ_eq_pos by auto. apply generic_format_succ; auto with typeclass_instances.
   - apply Rplus_le_compat_r. now apply upper_le.
 Qed.
-(** Of anything that is not negative. *)
+(** For any nonnegative number. *)
 Lemma upper_eta_covers z : 0 <= z -> z <= fl (upper (fl z) + eta).
 Proof.
   intros P. generalize (eta_positive emin) (half_ulp z). intros E H. apply Rabs_le_inv in H.
@@ -91,7 +90,7 @@ Proof.
   - rewrite (ulp_small (fl z)) in H by auto. generalize (upper_eta_small (fl z) N F B). lra.
 Qed.
 
-(** Below its exact value, once what is rounded is normal. *)
+(** Below its exact value, if the rounded number is normal. *)
 Lemma lower_sum_sound a b : number a -> number b -> fl (a + b) <> a + b ->
   fl (Rabs (fl (a + b)) * fl (1 - eps)) <= Rabs (a + b).
 Proof.
@@ -196,7 +195,7 @@ Proof.
   assert (s < succ s); [| lra]. apply succ_gt_id. generalize (smallest_normal_positive p emin). lra.
 Qed.
 
-(** It is no more than one last place above the least bound that the format has. *)
+(** It exceeds the least bound of the format by at most one last place. *)
 Theorem sum_above_exact x y : number x -> number y -> 0 <= x -> 0 <= y -> number (x + y) -> sum_above x y = x + y.
 Proof.
   intros X Y PX PY N. unfold sum_above. cbv zeta. rewrite (rnd_exact p emin direction (x + y) N).

@@ -1,9 +1,7 @@
 (** Vertex/edge contact in closed form (ccd/exact/vertex_edge_contact.hpp, ccd/exact/common_roots.hpp), over the real
-    numbers: the code's integers are exact, and so are their signs.
-
-    Results:
-        common_roots_right              what the common roots of quadratics inside (0, 1) are
-        first_root_told                 the first root of f in (0, 1) where b <= 0, every branch (VertexEdgeTime.v)
+    numbers, since the code's integers and signs are exact. Results:
+        common_roots_right              the common roots of quadratics inside (0, 1)
+        first_root_told                 the first root of f in (0, 1) with b <= 0, every branch (VertexEdgeTime.v)
         nonpositive_at_a_root_right     b <= 0 at some root of f in (0, 1): there is a first one
         contact_right                   `vertex_touches_edge` is true exactly if vertex and edge meet in [0, 1] *)
 
@@ -37,7 +35,7 @@ Definition times (a b : sign) : sign :=
 Definition certainly_nonpositive (s : sign) : bool :=
   match s with zero | negative => true | _ => false end.
 Definition certain (s : sign) : bool := match s with uncertain => false | _ => true end.
-(** x <= 0, x < 0 and x = 0, of numbers. *)
+(** x <= 0, x < 0 and x = 0 for numbers. *)
 Definition nonpositive (x : R) : bool := if Rle_dec x 0 then true else false.
 Definition below_0 (x : R) : bool := if Rlt_dec x 0 then true else false.
 Definition is_0 (x : R) : bool := if Req_EM_T x 0 then true else false.
@@ -121,7 +119,7 @@ Definition opposite (m : quadratic) : quadratic := Quadratic (- c0 m) (- c1 m) (
 
 Inductive kind_of_roots := none | one (squares : quadratic) | of_quadratic (f : quadratic) | everywhere.
 
-(** The loop that collects those not identically zero; nothing if one of them has one sign. *)
+(** The loop that collects those not identically zero; none if one of them has constant sign. *)
 Fixpoint moving_forms (fs : list quadratic) : option (list quadratic) :=
   match fs with
   | [] => Some []
@@ -214,7 +212,7 @@ Proof.
   apply Rmult_integral in E. destruct E as [E | E]; apply Rmult_integral in E; destruct E; lra.
 Qed.
 
-(** What the kinds say of the roots in (0, 1). *)
+(** The meaning of the kinds for the roots in (0, 1). *)
 Definition kind_is_right (kind : kind_of_roots) (vanish : R -> Prop) : Prop :=
   match kind with
   | none => forall r, 0 < r < 1 -> ~ vanish r
@@ -414,7 +412,7 @@ Proof. intros T. unfold quadratic_at. apply ratio_sign. lra. Qed.
 
 Inductive which_root := only_root_of | first_root_of | second_root_of.
 Definition linear_at (p0 p1 t : R) : R := p0 * (1 - t) + p1 * t.
-(** Where the first time is: the root of a linear form, or a root of a quadratic one. *)
+(** The first time: the root of a linear form, or a root of a quadratic one. *)
 Inductive place_in_time :=
   | nowhere | start_time | end_time | linear_root (k0 k1 : R) | quadratic_root (f : quadratic) (which : which_root).
 
@@ -470,7 +468,7 @@ Definition ratio_right (f b : quadratic) (p q : R) (place : place_in_time) : Pro
   | _ => False
   end.
 
-(** lra without the implications among what is known, each of which multiplies the cases that it proves. *)
+(** lra without the implications in the context, each of which multiplies its cases. *)
 Ltac plain_lra := repeat match goal with H : _ -> _ |- _ => clear H end; lra.
 Lemma first_of_two f2 p q b : f2 <> 0 -> p < q -> p <> 0 -> 0 < q ->
   let f := Quadratic (f2 * (p * q)) (- (f2 * (p + q))) f2 in
@@ -555,7 +553,7 @@ Proof.
   all: repeat split; try reflexivity; plain_lra.
 Qed.
 
-(** The time that a place tells, with what the search for its bracket needs. *)
+(** The time of a `place_in_time`, and the facts that the search for its bracket needs. *)
 Definition tells (place : place_in_time) (r : R) : Prop :=
   match place with
   | nowhere => False
@@ -721,7 +719,7 @@ Proof.
     + rewrite Z in Sq. apply Rmult_eq_reg_l with (4 * f2); lra.
 Qed.
 
-(** ** nonpositive_at_a_root: whether there is one *)
+(** ** nonpositive_at_a_root *)
 
 Definition nonpositive_at_a_root (f b : quadratic) : bool :=
   let first := sign_of_real (c0 f) in
@@ -756,7 +754,7 @@ Definition nonpositive_somewhere (f b : quadratic) : Prop :=
   exists x, 0 < x /\ at_ratio f x = 0 /\ at_ratio b x <= 0.
 
 Definition told (place : place_in_time) : bool := match place with nowhere => false | _ => true end.
-(** Outside of two roots the derivative is not zero. *)
+(** Outside of two roots, the derivative is not zero. *)
 Lemma slope_outside f s t : (c0 f < 0 \/ c1 f < 0 \/ c2 f < 0) -> (0 < c0 f \/ 0 < c1 f \/ 0 < c2 f) ->
   0 < c0 f * c2 f -> 0 < c1 f * c1 f - 4 * (c0 f * c2 f) -> 0 < c0 f * code_value f s t ->
   linear_value (c1 f - 2 * c0 f) (2 * c2 f - c1 f) s t <> 0.
@@ -859,7 +857,7 @@ Proof.
   split; split; intuition.
 Qed.
 
-(** b0, b2 > 0: b has a value <= 0 at some x > 0. *)
+(** b0, b2 > 0, and b has a value <= 0 at some x > 0. *)
 Lemma dips b : 0 < c0 b -> 0 < c2 b ->
   (c1 b < 0 /\ 4 * (c0 b * c2 b) - c1 b * c1 b <= 0) <-> exists x, 0 < x /\ at_ratio b x <= 0.
 Proof.

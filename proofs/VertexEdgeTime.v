@@ -1,11 +1,9 @@
-(** The first contact of vertex and edge, and of two vertices, in closed form (ccd/contact/vertex_edge_time.hpp), over
-    the real numbers: the code's integers are exact, and so are their signs.
-
-    Results:
-        first_root_right      `first_root_nonpositive`: the first root of f in (0, 1) where b <= 0, every branch
-        first_contact_right   `first_vertex_edge_contact` tells the first contact, or that there is none
-        first_bracket_right   the bracket of what it tells is that of the first contact
-        vertices_time_right   likewise `first_vertex_vertex_contact` *)
+(** The first contact of vertex and edge, and of two vertices, in closed form (ccd/contact/vertex_edge_time.hpp). It
+    is over the real numbers, since the code's integers and signs are exact. Results:
+        first_root_right      `first_root_nonpositive`: the first root of f in (0, 1) with b <= 0, every branch
+        first_contact_right   `first_vertex_edge_contact` returns the first contact, or that there is none
+        first_bracket_right   the bracket of its result is that of the first contact
+        vertices_time_right   the same for `first_vertex_vertex_contact` *)
 
 From Coq Require Import Reals Lra Psatz List Bool.
 From Errbound Require Import Sign Bernstein Contact VertexEdge Separation FirstContact TimeBrackets.
@@ -44,7 +42,7 @@ Definition first_vertex_edge_contact (v e0 e1 : moving) : place_in_time :=
 
 Definition time_told (H : R -> Prop) (place : place_in_time) : Prop :=
   (place = nowhere /\ forall t, 0 <= t <= 1 -> ~ H t) \/ exists r, tells place r /\ first H r.
-(** Likewise in (0, 1). *)
+(** The same in (0, 1). *)
 Definition inside_told (H : R -> Prop) (place : place_in_time) : Prop :=
   (place = nowhere /\ forall t, 0 < t < 1 -> ~ H t) \/
   exists r, tells place r /\ 0 < r < 1 /\ H r /\ forall t, 0 < t < r -> ~ H t.

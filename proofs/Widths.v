@@ -1,14 +1,14 @@
-(** How many bits exact results take (include/errbound/integers/sized_integer.hpp, expression_count.hpp), and
-    coordinates as integers (include/errbound/integers/common_exponent.hpp).
-
-    Results: sized_exact       every number of an expression is less than 2^bits units of its degree,
-                               and stands for the exact value
-             sized_fits        so it fits the words, or the double, that the code gives it
-             bits_by_degree    bits = what the shape says + degree times the coordinates' bits
-             coordinate_bits_enough   shorter coordinates, by the excess over the degree, are enough
-             converted_exact   common_unit::converted: the coordinate in units, and its bits
-             word_coordinates_exact   where word_coordinates fit, they are the coordinates
-             short_coordinates_exact  likewise short_coordinates *)
+(** Bits of exact results (include/errbound/integers/sized_integer.hpp, expression_count.hpp), and coordinates as
+    integers (include/errbound/integers/common_exponent.hpp). Results:
+        sized_exact       every number of an expression is less than 2^bits units of its degree, and stands for the
+            exact
+                          value
+        sized_fits        so it fits the words, or the double, of the code
+        bits_by_degree    bits = bits of the shape + degree times the coordinates' bits
+        coordinate_bits_enough   coordinates that are shorter by the excess over the degree suffice
+        converted_exact   common_unit::converted: the coordinate in units, and its bits
+        word_coordinates_exact, short_coordinates_exact   if word_coordinates or short_coordinates fit, they are the
+                          coordinates *)
 
 From Coq Require Import Reals ZArith List Lia Lra.
 From Flocq Require Import Core.
@@ -25,7 +25,7 @@ Inductive sized :=
 
 Section Sized.
 
-(** A coordinate's bits; 1 = 2^-unit units, where numbers of different degree are added. *)
+(** A coordinate's bits. 1 is 2^-unit units, if numbers of different degree are added. *)
 Variable coordinate_bits : Z.
 Variable unit : Z.
 
@@ -67,7 +67,7 @@ Fixpoint exact (e : sized) : R :=
   | Negation x => - exact x
   end.
 
-(** Coordinates are in range, constants ints; 1 is in range where degrees differ. *)
+(** Coordinates are in range, constants are ints, and 1 is in range if degrees differ. *)
 Fixpoint admissible (e : sized) : Prop :=
   match e with
   | Coordinate c => Z.abs c < 2 ^ coordinate_bits
@@ -169,7 +169,7 @@ Qed.
 
 End Sized.
 
-(** bits grows by the degree with the coordinates' bits, so that fewer of these save as much. *)
+(** bits grows by the degree times the coordinates' bits, so shorter coordinates save that many bits. *)
 Fixpoint shape_bits (e : sized) : Z :=
   match e with
   | Coordinate _ => 0
@@ -190,7 +190,7 @@ Proof.
   - rewrite (Z.max_comm (degree y)). lia.
   - rewrite (Z.max_comm (degree y)). lia.
 Qed.
-(** predicate_type::coordinate_bits, of one number whose sign is asked. *)
+(** predicate_type::coordinate_bits, for one number whose sign is evaluated. *)
 Theorem coordinate_bits_enough n most fewer e :
   0 <= fewer -> 1 <= degree e -> fewer <= n - (bits n e - most + degree e - 1) / degree e -> fewer <= n ->
   bits fewer e <= most.
@@ -202,7 +202,7 @@ Proof.
   set (q := (s + d * n - most + d - 1) / d) in *. intros. nia.
 Qed.
 
-(** A coordinate m 2^e in units of 2^unit: all its bits lie from unit on, and before unit + bits. *)
+(** A coordinate m 2^e in units of 2^unit, if its bits are all between unit and unit + bits. *)
 Theorem converted_exact m e unit bits :
   0 < m < 2 ^ 53 -> (2 ^ Z.max 0 (unit - e) | m) -> (IZR m * bpow radix2 e < bpow radix2 (unit + bits))%R ->
   let shift := e - unit in
@@ -224,7 +224,7 @@ Proof.
   rewrite E, <- bpow_plus. now rewrite Z.add_comm.
 Qed.
 
-(** Coordinates of double, and arithmetic of double, rounded to nearest. *)
+(** Coordinates in double, and arithmetic in double, rounded to nearest. *)
 Notation fl := (rnd 53 (-1074) nearest).
 Notation double := (Format.number 53 (-1074)).
 #[local] Instance double_precision : Prec_gt_0 53 := eq_refl.
@@ -238,7 +238,7 @@ Qed.
 Lemma double_is m e : Z.abs m < 2 ^ 53 -> -1074 <= e -> double (IZR m * bpow radix2 e).
 Proof. intros M E. apply number_integer; [exact eq_refl | lia | change 2 with 2; lia]. Qed.
 
-(** Truncated, a double is one; so is that times a power of two down to 2^-1021. *)
+(** A truncated double is a double, and so is its product with a power of two down to 2^-1021. *)
 Theorem word_coordinates_exact x unit : double x -> -1021 <= unit ->
   let i := Ztrunc (fl (x * bpow radix2 (- unit))) in
   fl (fl (IZR i) * bpow radix2 unit) = x -> (IZR i * bpow radix2 unit = x)%R.

@@ -1,11 +1,9 @@
 (** Bits of the exact stages' integers (include/errbound/integers/fixed_integer.hpp, long_integer.hpp); words as in
-    Words.v.
-
-    Results:
+    Words.v. Results:
         bit_length_exact   bit_length() <= n exactly if -2^n <= x < 2^n
-        from_bit_exact     from_bit: floor(x/2^shift), where it fits; else modulo the result's width
-        long_bit_length_exact   the same of long_integer
-        shifted_exact      shifted: magnitude 2^shift, likewise
+        from_bit_exact     from_bit: floor(x/2^shift) if it fits, else modulo the result's width
+        long_bit_length_exact   the same for long_integer
+        shifted_exact      shifted: magnitude 2^shift if it fits, else modulo the width
         long_shifted_exact the long integer of a magnitude, a shift and a sign *)
 
 From Coq Require Import ZArith List Lia Bool.
@@ -14,7 +12,7 @@ From Errbound Require SparseProduct.
 Import ListNotations.
 Open Scope Z_scope.
 
-(** A number by its words: the i-th is floor(z/2^64i) modulo 2^64. *)
+(** The words of a number: the i-th is floor(z/2^(64i)) modulo 2^64. *)
 Definition words_of (n : nat) (z : Z) : list Z := map (fun i => z / B ^ Z.of_nat i mod B) (seq 0 n).
 
 Lemma words_of_words n z : words (words_of n z) /\ length (words_of n z) = n.
@@ -45,7 +43,7 @@ Proof.
   - rewrite words_of_value, L. generalize (Z.div_mod z (B ^ Z.of_nat n)) (power_positive n). lia.
 Qed.
 
-(** Words of a number, its sign's beyond the last. *)
+(** The words of a number, with sign words beyond the last. *)
 Definition word_at (x : list Z) (i : nat) : Z := nth i x (sign_word x).
 Lemma nth_value x i : words x -> (i < length x)%nat -> nth i x 0 = value x / B ^ Z.of_nat i mod B.
 Proof.
@@ -252,7 +250,7 @@ Proof.
   - rewrite Z.sub_0_r in *. destruct (Key (value x) ltac:(lia)) as [K1 K2]. split; auto. rewrite K2. lia.
 Qed.
 
-(** long_integer::bit_length: of a number without words that say nothing, one of the last two words tells. *)
+(** long_integer::bit_length of a trimmed number: one of the last two words determines it. *)
 Definition long_bit_length (x : list Z) : Z :=
   let invert := sign_word x in
   let at_last := (length x - (if (1 <? size x)%Z && (last x 0 =? invert)%Z then 2 else 1))%nat in
@@ -283,7 +281,7 @@ Proof.
   rewrite I. destruct (negative ((z ++ [invert]) ++ [w])); reflexivity.
 Qed.
 
-(** long_integer(magnitude, shift, negative), before words that say nothing go; whole < n. *)
+(** long_integer(magnitude, shift, negative) before it is trimmed; whole < n. *)
 Definition long_shifted (magnitude shift : Z) (negative : bool) (n : nat) : list Z :=
   let whole := Z.to_nat (shift / 64) in
   let upper := map (shifted_word magnitude shift) (seq whole (n - whole)) in

@@ -1,19 +1,13 @@
-(** Integers of the exact stages (include/errbound/integers/fixed_integer.hpp, long_integer.hpp): two's
-    complement numbers of 64-bit words, the least significant first. Exact over the integers.
-
-    Results: of words
-        add_with_carry_exact, subtract_with_borrow_exact   the word and the carry are the exact sum's
-        add_multiple_exact      r + a b is what is left and the carry; no step overflows 128 bits
-    of numbers of n words
-        sum_exact, difference_exact   right where the result fits n words, whatever happens on the way
+(** Integers of the exact stages (include/errbound/integers/fixed_integer.hpp, long_integer.hpp): two's complement
+    numbers of 64-bit words, the least significant first. Exact over the integers. Results, for words:
+        add_with_carry_exact, subtract_with_borrow_exact   the word and the carry are those of the exact sum
+        add_multiple_exact      r + a b is the resulting words and the carry; no step overflows 128 bits
+        sum_exact, difference_exact   for n words, right if the result fits n words
         product_exact           the product of m and n words, in m + n words; always right
-        shift_exact             x 2^bits, where it fits
-        sign_exact, compare_exact
-    of numbers as long as they need to be
-        trim_exact              words left out say nothing
-        long_sum_exact, long_difference_exact   one word more than the longer has is enough
-        signed_words_exact      the signed words that sparse products take a number apart to add up
-                                to it *)
+        shift_exact             x 2^bits, if it fits; sign_exact, compare_exact   signs and order
+        trim_exact, long_sum_exact, long_difference_exact   for numbers of any length: removed words are sign
+            extensions, and one word more than the longer number suffices
+        signed_words_exact      the sum of the signed words into which sparse products split a number *)
 
 From Coq Require Import ZArith List Lia Bool.
 Import ListNotations.
@@ -38,7 +32,7 @@ Definition signed (x : list Z) : Z :=
   value x - (if negative x then B ^ size x else 0).
 Definition fits (n : nat) (z : Z) : Prop := - B ^ Z.of_nat n <= 2 * z < B ^ Z.of_nat n.
 
-(** The code. Of double words, what is computed modulo 2^128. *)
+(** The code. Double words are computed modulo 2^128. *)
 Definition add_with_carry (a b carry : Z) : Z * Z :=
   let sum := (a + b + carry) mod (B * B) in (sum mod B, sum / B).
 Definition subtract_with_borrow (a b borrow : Z) : Z * Z :=
@@ -52,7 +46,7 @@ Fixpoint stepped (step : Z -> Z -> Z -> Z * Z) (a b : list Z) (carry : Z) : list
 Definition sum (a b : list Z) : list Z := fst (stepped add_with_carry a b 0).
 Definition difference (a b : list Z) : list Z := fst (stepped subtract_with_borrow a b 0).
 
-(** r + a b of as many words as b has, and what goes beyond. *)
+(** r + a b in the words of b, and the carry beyond. *)
 Fixpoint add_multiple (r : list Z) (a : Z) (b : list Z) (carry : Z) : list Z * Z :=
   match r, b with
   | x :: r, y :: b =>
@@ -61,7 +55,7 @@ Fixpoint add_multiple (r : list Z) (a : Z) (b : list Z) (carry : Z) : list Z * Z
   | _, _ => ([], carry)
   end.
 Definition zeros (n : nat) : list Z := repeat 0 n.
-(** Row by row: `r` holds the words from place i on, of which the first is done after its row. *)
+(** Row by row: `r` has the words from position i on; the first is final after its row. *)
 Fixpoint unsigned_product (r : list Z) (a b : list Z) : list Z :=
   match a with
   | [] => r
@@ -72,7 +66,7 @@ Fixpoint unsigned_product (r : list Z) (a b : list Z) : list Z :=
       | [] => []
       end
   end.
-(** Words from place n on, less those of b where `if_` says so. *)
+(** Words from position n on, minus those of b if `if_`. *)
 Definition subtract_from (n : nat) (r b : list Z) (if_ : bool) : list Z :=
   firstn n r ++ difference (skipn n r) (if if_ then b else zeros (length b)).
 Definition product (a b : list Z) : list Z :=
@@ -180,7 +174,7 @@ Proof.
   intuition lia.
 Qed.
 
-(** Two's complement: of all numbers that are the same modulo B^n, the one that fits n words. *)
+(** Two's complement: among numbers that are equal modulo B^n, the one that fits n words. *)
 Lemma negative_spec x : words x -> x <> [] ->
   if negative x then B ^ size x <= 2 * value x else 2 * value x < B ^ size x.
 Proof.
@@ -272,7 +266,7 @@ Proof.
       rewrite <- Ls in E. rewrite Nat2Z.inj_succ, Z.pow_succ_r in E by lia. nia.
 Qed.
 
-(** Subtracting a number, all words but the first n, changes a value by B^n of it, modulo the width. *)
+(** Subtracting a number from all words except the first n changes a value by B^n times it, modulo the width. *)
 Lemma subtract_from_exact n r b if_ : words r -> words b -> (n + length b = length r)%nat ->
   length (subtract_from n r b if_) = length r /\ words (subtract_from n r b if_) /\
   exists k, value (subtract_from n r b if_) =
@@ -353,7 +347,7 @@ Proof.
     symmetry. apply Z.compare_gt_iff. lia.
 Qed.
 
-(** From the last word on, of which the first bit is inverted. *)
+(** From the last word on, with its first bit inverted. *)
 Fixpoint compare_from_last (x y : list Z) (first : bool) : comparison :=
   match x, y with
   | a :: x, b :: y =>
@@ -421,7 +415,7 @@ Fixpoint shift_words (previous : Z) (x : list Z) (bits : Z) : list Z :=
 Definition shifted (x : list Z) (bits : Z) : list Z :=
   if bits =? 0 then x else shift_words 0 x bits.
 
-(** Bits that do not overlap: "or" adds. *)
+(** For bits that do not overlap, "or" is addition. *)
 Lemma or_is_sum high low n : 0 <= n -> 0 <= low < 2 ^ n -> Z.lor (high * 2 ^ n) low = high * 2 ^ n + low.
 Proof.
   intros N L. assert (E : Z.land (high * 2 ^ n) low = 0).
@@ -450,7 +444,7 @@ Proof.
     unfold word in P, W.
     assert (Q : 0 <= previous / 2 ^ (64 - bits) < 2 ^ bits).
     { split; [apply Z.div_pos; lia | apply Z.div_lt_upper_bound; lia]. }
-    (* the word's bits that stay, and those that go on *)
+    (* the word's bits that stay, and those that move on *)
     set (h := w / 2 ^ (64 - bits)). set (l := w mod 2 ^ (64 - bits)).
     assert (D : w = 2 ^ (64 - bits) * h + l) by (apply Z.div_mod; lia).
     assert (R : 0 <= l < 2 ^ (64 - bits)) by (apply Z.mod_pos_bound; lia).
@@ -480,7 +474,7 @@ Proof.
   - rewrite L, E, J. ring.
 Qed.
 
-(** Of long_integer: words beyond the last are all its sign's. *)
+(** long_integer: words beyond the last are sign words. *)
 Definition sign_word (x : list Z) : Z := if negative x then B - 1 else 0.
 Definition extended (x : list Z) (n : nat) : list Z := x ++ repeat (sign_word x) (n - length x).
 
@@ -543,7 +537,7 @@ Theorem long_difference_exact a b : a <> [] -> b <> [] -> words a -> words b ->
   signed (long_difference a b) = signed a - signed b.
 Proof. long_exact difference_exact. Qed.
 
-(** for_signed_words: what it visits, as signed words and their places. *)
+(** for_signed_words: the visited signed words and their positions. *)
 Fixpoint signed_words (x : list Z) (carry : Z) (i : Z) : list (Z * Z) :=
   match x with
   | [] => []

@@ -1,14 +1,14 @@
 #!/usr/bin/env python3
-"""Builds the proofs from scratch and prints the theorems of each file with the axioms they rest on.
+"""Builds the proofs from scratch and prints the theorems of each file with their axioms.
 
-Fails where a proof is missing or unfinished, rests on another axiom than those of Coq's real numbers
-and classical logic (checker.py); where the theorems do not state what statements.txt has; where README.md
-and the files do not name the same theorems, or the C++ code names one that is not there; and where tie.txt,
-to which tests/errbound/validation/tie_test.cpp holds the C++ code, is not what the proofs' definitions
-compute. --names only compares names, and needs no Coq.
+Fails if a proof is missing or unfinished, or rests on axioms other than those of Coq's real numbers and classical logic
+(checker.py); if the theorems' statements differ from statements.txt; if README.md and the files name different
+theorems, or the C++ code names a theorem that does not exist; or if tie.txt, with which
+tests/errbound/validation/tie_test.cpp compares the C++ code, differs from the results of the proofs' definitions.
+--names only compares names, and does not need Coq.
 
-A full check that passes writes a digest of the files it depends on to passed.txt, which is committed. --passed
-compares names, and fails unless today's files have that digest.
+A full check that passes writes a digest of the files it depends on to passed.txt, which is committed. --passed compares
+names, and fails unless the files have that digest.
 """
 import argparse
 import concurrent.futures
@@ -29,19 +29,19 @@ LIBRARY = "Errbound"
 
 proofs = Path(__file__).resolve().parent
 root = proofs.parent
-# Operations of a bound rule, each of which must name its theorem.
+# Operations of a bound rule. Each must name its theorem.
 ALL = {"exact", "within", "error", "sign", "add", "subtract", "multiply", "divide", "scale"}
 OPERATION = re.compile(r"static (?:constexpr )?(?:bound<T>|T|sign_type) "
                        r"(exact|within|error|sign|add|subtract|multiply|divide|scale)\(")
-# `none` and `stochastic` promise nothing, and `derived` what its own rule does.
+# `none` and `stochastic` promise nothing, and `derived` has the promise of its rule.
 UNPROVED_RULES = {"none", "stochastic", "derived"}
-# A function of tracked numbers, each of which must, too; but for what is internal.
+# Functions of tracked numbers must name their theorems, too, except internal ones.
 FUNCTION = re.compile(r"^constexpr (?:tracked<T, Rule>|detail::number_of<\w>) (\w+)\(")
 INTERNAL = re.compile(r"^namespace detail \{.*?^\}  // namespace detail$", re.MULTILINE | re.DOTALL)
-# What Coq extracts, and the program that runs it.
+# The files that Coq extracts, and the programs that run them.
 TIE_PROGRAMS = {"code": "tie", "symbols": "tie_symbols", "integers": "tie_integers", "floats": "tie_floats",
                 "filters": "tie_filters", "roots": "tie_roots", "words": "tie_words", "times": "tie_times"}
-# What is run side by side of one that takes a core many minutes.
+# Parts of programs that take many minutes, which run in parallel.
 TIE_PARTS = {"tie": [("words",), ("tiny_3_3",), ("tiny_5_3",), ("tiny_4_4",), ("floats",)]}
 
 
@@ -53,11 +53,16 @@ def fail(message):
 
 
 def digest():
-    """A digest of every file that a full check depends on. README.md and the C++ code are compared always."""
+    """Returns a digest of every file that a full check depends on, except README.md and the C++ code, which are always
+    compared. Comments and white space of proofs do not affect it."""
     sum_of_all = hashlib.sha256()
     for path in sorted([*proofs.glob("*.v"), *proofs.glob("*.ml"), *proofs.glob("*.py"), proofs / "tie.txt",
                         proofs / "statements.txt"]):
-        sum_of_all.update(f"{path.name} {path.stat().st_size}\n".encode() + path.read_bytes())
+        text = path.read_text()
+        if path.suffix == ".v":
+            text = checker.words_of(text)
+        content = text.encode()
+        sum_of_all.update(f"{path.name} {len(content)}\n".encode() + content)
     return sum_of_all.hexdigest() + "\n"
 
 
@@ -66,11 +71,11 @@ def compare_with_readme(found):
     missing = [theorem for _, theorem in found if theorem not in named]
     unknown = [name for name in named if name not in [theorem for _, theorem in found]]
     if missing or unknown:
-        fail(f"README.md does not name {missing}; it names {unknown}, which are no theorems")
+        fail(f"README.md does not name {missing}; it names {unknown}, which are not theorems")
 
 
 def named_theorems(comment):
-    """What a C++ comment names: proofs/File.v, theorem, theorem"""
+    """Returns (file, theorem) for the theorems that a C++ comment names as proofs/File.v, theorem, theorem."""
     text = re.sub(r"\s*\n\s*//+!?<?\s*", " ", comment)
     if unlisted := re.search(r"proofs/\w+\.v(?!, \w)|proofs/\w+\.v, (?:\w+, )*\w+ and \w*_\w*", text):
         fail(f"'{unlisted.group()}': theorems are named as proofs/File.v, theorem, theorem")
@@ -79,14 +84,14 @@ def named_theorems(comment):
 
 
 def compare_with_code(found):
-    """Every theorem that the C++ code names is there; every operation of a bound rule names one, and
-    every function of tracked numbers."""
+    """Fails if the C++ code names a theorem that does not exist. Operations of a bound rule and functions of tracked
+    numbers must name one."""
     known = set(found)
     for folder in ("include", "ccd", "errbound", "tests"):
         for path in sorted((root / folder).rglob("*.[hc]pp")):
             for name in named_theorems(path.read_text()):
                 if name not in known:
-                    fail(f"{path.relative_to(root)} names {name[1]} of {name[0]}.v, which is no theorem")
+                    fail(f"{path.relative_to(root)} names {name[1]} of {name[0]}.v, which is not a theorem")
     for path in sorted((root / "include/errbound/rules").glob("*.hpp")):
         text = path.read_text()
         unproved = ALL if path.stem in UNPROVED_RULES else set()
@@ -98,7 +103,7 @@ def compare_with_code(found):
 
 
 def every_one_names(pattern, path, text, unproved):
-    """Whatever the pattern finds has a comment before it that names a theorem."""
+    """Fails if a function that the pattern finds has no comment before it that names a theorem."""
     comment = ""
     for line in text.splitlines():
         if line.lstrip().startswith("//"):
@@ -111,8 +116,8 @@ def every_one_names(pattern, path, text, unproved):
 
 
 def make_tie(build, extracted, program):
-    """A program of extracted definitions; its folder."""
-    folder = build / program  # of its own: compilers of all ties may run at once
+    """Builds a program of extracted definitions; returns its folder."""
+    folder = build / program  # a separate one: compilers of all ties may run in parallel
     folder.mkdir()
     sources = ["tie_hash.ml", "tie_queries.ml", f"{extracted}.ml", f"{program}.ml"]
     for name in sources:  # without extracted.mli, which would hide types
@@ -123,17 +128,17 @@ def make_tie(build, extracted, program):
 
 
 def tie_lines(pool, build):
-    """What all programs of extracted definitions write, part by part, in the order of tie.txt."""
+    """Returns futures of the output of all programs of extracted definitions, part by part, in the order of tie.txt."""
     made = {program: pool.submit(make_tie, build, extracted, program) for extracted, program in TIE_PROGRAMS.items()}
     return [pool.submit(checker.run, folder.result(), "./program", *part)
             for program, folder in made.items() for part in TIE_PARTS.get(program, [()])]
 
 
 def check_tie(build, tables):
-    """The table that the C++ code is held to is what the extracted definitions compute."""
+    """Fails if the table for the C++ code differs from the results of the extracted definitions."""
     table = "".join(tables)
     checker.compare(table, proofs / "tie.txt", build)
-    print(f"\ntie.txt: {len(table.splitlines())} hashes as the definitions compute them")
+    print(f"\ntie.txt: {len(table.splitlines())} hashes equal those of the definitions")
 
 
 def main(build, passed):
@@ -153,7 +158,7 @@ def main(build, passed):
     if build is None:
         return
     checker.compile_all(proofs, build, proofs.glob("*.ml"))
-    with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:  # each on one core; what takes longest first
+    with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:  # each on one core, the longest first
         compiled = pool.submit(checker.check_compiled, build, LIBRARY, checker.files_of(proofs, LIBRARY))
         tables = tie_lines(pool, build)
         used = pool.submit(checker.assumptions, build, LIBRARY, found)
@@ -173,9 +178,9 @@ if __name__ == "__main__":
     parser = argparse.ArgumentParser(description=__doc__,
                                      formatter_class=argparse.RawDescriptionHelpFormatter)
     what = parser.add_mutually_exclusive_group()
-    what.add_argument("build_folder", nargs="?", type=Path, help="where to build; what it holds is removed")
+    what.add_argument("build_folder", nargs="?", type=Path, help="where to build; its contents are removed")
     what.add_argument("--names", action="store_true", help="only compare names")
-    what.add_argument("--passed", action="store_true", help="compare names, and the files with the last full check's")
+    what.add_argument("--passed", action="store_true", help="compare names, and the files with those of the last full check")
     options = parser.parse_args()
     if not (options.names or options.passed) and options.build_folder is None:
         parser.error("a build folder, --names or --passed is required")

@@ -1,9 +1,9 @@
-"""Reads, builds and checks a folder of Coq files, so that nothing is believed that Coq does not say.
+"""Reads, builds and checks a folder of Coq files. Nothing is accepted without Coq's confirmation.
 
-A folder has _CoqProject, which names its files and nothing else, and those files. What a text search
-can miss, Coq is asked twice: Print Assumptions of each theorem, whose every line has to be understood,
-and coqchk, which checks the compiled files anew and says by full names what they rest on. What a
-theorem states is printed, to be held against a text that people read.
+A folder has those files and _CoqProject, which only lists them. A text search could miss an assumption, so Coq confirms
+it twice. Print Assumptions lists the axioms of each theorem, and every line of its output must be recognised. coqchk
+checks the compiled files again and lists their axioms by full names. The theorems' statements are printed, and compared
+with a text for readers.
 """
 import os
 import re
@@ -12,8 +12,8 @@ import shutil
 import subprocess
 from pathlib import Path
 
-# Coq's standard library has its real numbers and classical logic from these; Flocq adds none. By
-# name and type: another file may have an axiom of the same name.
+# Coq's standard library builds its real numbers and classical logic on these; Flocq adds none. They are compared by name
+# and type, since another file may have an axiom of the same name.
 ALLOWED = {
     "ClassicalDedekindReals.sig_not_dec": "forall P : Prop, {~ ~ P} + {~ P}",
     "ClassicalDedekindReals.sig_forall_dec":
@@ -22,46 +22,47 @@ ALLOWED = {
         "forall (A : Type) (B : A -> Type) (f g : forall x : A, B x), (forall x : A, f x = g x) -> f = g",
     "Classical_Prop.classic": "forall P : Prop, P \\/ ~ P",
 }
-# coqchk counts what modules of the standard library hide as axioms, too: only Coq's own may be there.
+# coqchk also counts hidden constants of the standard library's modules as axioms. Only those of Coq are allowed.
 ALLOWED_FULL = re.compile(
     r"Coq\.(Reals\.ClassicalDedekindReals\.(sig_not_dec|sig_forall_dec)"
     r"|Logic\.(FunctionalExtensionality\.functional_extensionality_dep|Classical_Prop\.classic)"
     r"|Reals\.Rdefinitions\.R\w+Impl\.\w+|ssr\.ssrunder\.Under_rel\.\w+)")
-# What leaves a statement without proof, or switches a check of Coq's off; what changes how statements are
-# printed; and modules, in which a theorem would have another name.
+# Commands that leave a statement without proof, disable a check of Coq, or change how statements are printed; and
+# modules, in which a theorem would have another name.
 REFUSED = re.compile(
     r"\b(Admitted|admit|Abort|Axioms?|Parameters?|Conjecture|Admit\s+Obligations|bypass_check)\b"
     r"|\b(Unset|Set)\s+(Guard|Positivity|Universe)\s+Checking|\bDefinitional\s+UIP\b"
     r"|\b(Unset|Set)\s+Printing\b|\b(Module|Functor|Include|Redirect)\b"
     r"|\b(Load|Declare\s+ML\s+Module|Add\s+(Rec\s+)?(LoadPath|ML\s+Path))\b")
-# Of programs, which only files of these names make.
+# Extraction of programs, and the names of files that may use it.
 EXTRACTION, EXTRACTING = re.compile(r"\b(Recursive\s+|Separate\s+)?Extraction\b"), re.compile("Tie")
 SUPPOSED = re.compile(r"\b(?:(Section)\s+\w+|(End)\s+\w+|(Hypothes[ie]s|Variables?|Context))\b")
 
 
 class Refused(Exception):
-    """What is wrong, in a line or more."""
+    """The reason why a folder is rejected, in a line or more."""
 
 
-def code_of(text):
-    """Coq's code without comments, which nest, and what strings hold, which comments may have, too."""
+def code_of(text, strings=False):
+    """Returns Coq's code without comments, which nest, and unless `strings` with empty strings. Comments may contain
+    strings, too."""
     out, depth, i = [], 0, 0
     while i < len(text):
         pair = text[i:i + 2]
         if text[i] == '"':
-            end = i + 1  # two quotes in a string are one that it holds
+            end = i + 1  # two quotes in a string stand for one
             while text[end:end + 1] != '"' or text[end:end + 2] == '""':
                 end += 2 if text[end:end + 2] == '""' else 1
                 if end >= len(text):
                     raise Refused("found a string that does not end")
             if not depth:
-                out.append('""')
+                out.append(text[i:end + 1] if strings else '""')
             i = end + 1
         elif pair == "(*":
             depth, i = depth + 1, i + 2
         elif pair == "*)" and depth:
             depth, i = depth - 1, i + 2
-            out.append("" if depth else " ")  # words on both sides are two
+            out.append("" if depth else " ")  # words on both sides remain two
         else:
             if not depth:
                 out.append(text[i])
@@ -71,9 +72,14 @@ def code_of(text):
     return "".join(out)
 
 
+def words_of(text):
+    """Returns Coq's code without comments, with one space for white space outside of strings."""
+    return re.sub(r'("(?:[^"]|"")*")|\s+', lambda m: m[1] or " ", code_of(text, strings=True)).strip()
+
+
 def files_of(folder, library):
-    """Names of the folder's files without .v, in _CoqProject's order. It has no other words, such as
-    options that would weaken the kernel."""
+    """Returns the names of the folder's files without .v, in _CoqProject's order. _CoqProject must have no other words,
+    such as options that would weaken the kernel."""
     lines = [line.strip() for line in (folder / "_CoqProject").read_text().splitlines() if line.strip()]
     if not lines or lines[0] != f"-Q . {library}":
         raise Refused(f"_CoqProject: found '{lines[0] if lines else ''}', expected -Q . {library}")
@@ -88,7 +94,7 @@ def files_of(folder, library):
 
 
 def theorems(folder, library):
-    """File and name of what is called a theorem, in order."""
+    """Returns (file, name) of every Theorem, in order."""
     found = []
     for name in files_of(folder, library):
         try:
@@ -101,13 +107,13 @@ def theorems(folder, library):
             raise Refused(f"{name}.v: found {supposed} outside of sections")
         named = re.findall(r"^Theorem ([\w']+)", text, re.MULTILINE)
         if len(named) != len(re.findall(r"\bTheorem\b", text)):
-            raise Refused(f"{name}.v: found a Theorem that does not begin a line, with its name behind it")
+            raise Refused(f"{name}.v: found a Theorem that does not begin a line, followed by its name")
         found += [(name, theorem) for theorem in named]
     return found
 
 
 def supposed_outside(text):
-    """What the text supposes where no section ends that; or None."""
+    """Returns a keyword that assumes something outside of sections, or None."""
     depth = 0
     for start, end, word in SUPPOSED.findall(text):
         depth += bool(start) - bool(end)
@@ -117,7 +123,7 @@ def supposed_outside(text):
 
 
 def run(folder, *command, silent=False):
-    """What it prints, errors and warnings among it: none if it has to be `silent` of these."""
+    """Runs a command; returns its output with errors and warnings. If `silent`, fails on errors and warnings."""
     result = subprocess.run(command, cwd=folder, stdout=subprocess.PIPE,
                             stderr=subprocess.PIPE if silent else subprocess.STDOUT, text=True)
     if result.returncode or result.stderr:
@@ -126,9 +132,9 @@ def run(folder, *command, silent=False):
 
 
 def compile_all(folder, build, more=()):
-    """Compiles a copy of the folder's files, and then puts `more` beside them."""
+    """Compiles a copy of the folder's files, then copies `more` next to them."""
     if folder.resolve().is_relative_to(build.resolve()):
-        raise Refused(f"{build}: found a build folder that holds the proofs, expected another: what it holds is removed")
+        raise Refused(f"{build}: the build folder contains the proofs; expected another folder, whose contents are removed")
     shutil.rmtree(build, ignore_errors=True)
     build.mkdir(parents=True)
     for path in [*folder.glob("*.v"), folder / "_CoqProject"]:
@@ -139,24 +145,24 @@ def compile_all(folder, build, more=()):
         shutil.copy(path, build)
 
 
-def asked(build, library, found, subject, questions, *before):
-    """Coq's answers to questions, by what each is about; after other commands. Nothing that a file can make Coq print
-    is taken for an answer: what separates them is drawn each time."""
+def answers(build, library, found, subject, commands, *before):
+    """Returns Coq's output for commands, by their keys, after other commands. Text that a file makes Coq print cannot
+    be mistaken for an answer, since a random mark separates the answers."""
     mark = secrets.token_hex(16)
     script = [f"From {library} Require {' '.join(dict.fromkeys(name for name, _ in found))}.", *before,
               "Set Printing Width 100.", "Set Printing Depth 1000000.", "Set Printing Implicit."]
-    for about, question in questions.items():
-        script += [f'Goal True. idtac "{mark} {about}". exact I. Qed.', question]
-    file = f"asked_{subject}.v"
+    for key, command in commands.items():
+        script += [f'Goal True. idtac "{mark} {key}". exact I. Qed.', command]
+    file = f"answers_{subject}.v"
     (build / file).write_text("\n".join(script) + "\n")
     blocks = re.split(rf"^{mark} (\S+)\n", run(build, "coqc", "-Q", ".", library, file, silent=True), flags=re.MULTILINE)
-    if blocks[0] or blocks[1::2] != list(questions):
-        raise Refused(f"Coq did not answer each question of {subject} once: {blocks[0][:200]}")
+    if blocks[0] or blocks[1::2] != list(commands):
+        raise Refused(f"Coq did not answer each command of {subject} once: {blocks[0][:200]}")
     return dict(zip(blocks[1::2], blocks[2::2]))
 
 
 def axioms_of(text):
-    """Name and type of each axiom that Print Assumptions names. Every line has to be understood."""
+    """Returns the name and type of each axiom in the output of Print Assumptions. Every line must be recognised."""
     lines = text.rstrip("\n").split("\n")
     if lines == ["Closed under the global context"]:
         return {}
@@ -175,14 +181,14 @@ def axioms_of(text):
 
 
 def assumptions(build, library, found):
-    """By file, its theorems and the names of the axioms that they rest on, which are allowed. Coq is asked once of all
-    that a file has, since it looks through the libraries each time."""
+    """Returns the theorems and the axioms' names by file, and fails on other axioms than those allowed. Print
+    Assumptions runs once for a file, since it searches the libraries each time."""
     files = {name: [theorem for of, theorem in found if of == name] for name, _ in found}
     together = {name: ", ".join(f"@{name}.{theorem}" for theorem in theorems) for name, theorems in files.items()}
-    questions = {name: f"Definition of_{name} := ({all_}).\nPrint Assumptions of_{name}."
-                 for name, all_ in together.items()}
+    commands = {name: f"Definition of_{name} := ({all_}).\nPrint Assumptions of_{name}."
+                for name, all_ in together.items()}
     used = {}
-    for name, text in asked(build, library, found, "assumptions", questions).items():
+    for name, text in answers(build, library, found, "assumptions", commands).items():
         try:
             axioms = axioms_of(text)
         except Refused as why:
@@ -195,25 +201,25 @@ def assumptions(build, library, found):
 
 
 def statements(build, library, found):
-    """What the theorems state, with what sections supposed, in the real numbers' notations and no others."""
+    """Returns the theorems' statements, with their sections' hypotheses, in the notations of real numbers only."""
     notations = ("From Coq Require Import ZArith Reals.", "Open Scope R_scope.")
     names = [f"{name}.{theorem}" for name, theorem in found]
-    answers = asked(build, library, found, "statements", {name: f"Check @{name}." for name in names}, *notations)
-    for name, answer in answers.items():
+    printed = answers(build, library, found, "statements", {name: f"Check @{name}." for name in names}, *notations)
+    for name, answer in printed.items():
         if not re.match(rf"@?{re.escape(name)}\n +: ", answer) or "..." in answer or "\nwhere" in answer:
             raise Refused(f"{name}: found '{answer}', expected a whole statement")
-    return "".join(re.sub(r"^\S+\n", f"{name}\n", answers[name].rstrip("\n")) + "\n\n" for name in names)
+    return "".join(re.sub(r"^\S+\n", f"{name}\n", printed[name].rstrip("\n")) + "\n\n" for name in names)
 
 
 def compare(text, path, build):
-    """Of what is kept in `path`, and made anew."""
+    """Fails if the stored file differs from the new text."""
     if not path.exists() or path.read_text() != text:
         (build / path.name).write_text(text)
-        raise Refused(f"{path.name} is not what Coq says, {build / path.name} is: if that is meant, copy it")
+        raise Refused(f"{path.name} differs from Coq's output, {build / path.name}: if the change is intended, copy it")
 
 
 def check_compiled(build, library, names):
-    """By coqchk, of what was compiled; of the libraries it believes what their packages hold."""
+    """Checks the compiled files by coqchk, which trusts the packages of the libraries."""
     printed = run(build, "coqchk", "-o", "-silent", "-Q", ".", library,
                   *(word for name in names for word in ("-norec", f"{library}.{name}")))
     parts = dict(re.findall(r"^\* ([^:\n]+):(.*?)(?=^\* |\Z)", printed, re.MULTILINE | re.DOTALL))

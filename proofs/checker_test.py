@@ -1,4 +1,4 @@
-"""Attacks on checker.py: folders of proofs that prove nothing, each of which has to be refused.
+"""Attacks on checker.py: folders of proofs that prove nothing. Each must be rejected.
 
 usage: checker_test.py BUILD_FOLDER
 """
@@ -21,7 +21,7 @@ Proof. exact (loop 0). Qed.
 
 class Attack(unittest.TestCase):
     def check(self, files, project=None, statements=None, scanned=True):
-        """As check.py does. `scanned`: the files' text is looked at, too."""
+        """Checks the files like check.py. If `scanned`, also searches their text."""
         folder = BUILD / "attack" / self.id().rsplit(".", 1)[-1]
         folder.mkdir(parents=True, exist_ok=True)
         for path in folder.glob("*.v"):
@@ -40,13 +40,13 @@ class Attack(unittest.TestCase):
         checker.compare(checker.statements(build, "Attack", found), folder / "statements.txt", build)
 
     def refused(self, expected, *arguments, **options):
-        """Whether these files are refused so."""
+        """Expects these files to be rejected with this message."""
         with self.assertRaisesRegex(checker.Refused, expected):
             self.check(*arguments, **options)
 
     def test_good_ones_pass(self):
         self.check({"A.v": GOOD}, statements="A.good\n     : (1 + 1)%nat = 2%nat\n\n")
-        self.refused("statements.txt is not what Coq says", {"A.v": GOOD})
+        self.refused("statements.txt differs from Coq's output", {"A.v": GOOD})
 
     def test_strings_that_look_like_comments(self):
         text = 'Require Import String.\nDefinition s := "(*"%string.\n' + GUARD + 'Definition e := "*)"%string.\n'
@@ -86,11 +86,11 @@ Proof. exact ((fun b => match b with make f => f b end) (make (fun b => match b 
     def test_hypotheses_of_sections_are_in_statements(self):
         def text(more):
             return f"Section s.\n{more}Theorem t : 1 = 1.\nProof. {'destruct h.' if more else 'reflexivity.'} Qed.\nEnd s.\n"
-        self.refused("statements.txt is not what Coq says", {"A.v": text("Hypothesis h : False.\n")},
+        self.refused("statements.txt differs from Coq's output", {"A.v": text("Hypothesis h : False.\n")},
                      statements="A.t\n     : 1 = 1\n\n")
 
     def test_weakened_statements(self):
-        self.refused("statements.txt is not what Coq says", {"A.v": "Theorem good : True.\nProof. exact I. Qed.\n"},
+        self.refused("statements.txt differs from Coq's output", {"A.v": "Theorem good : True.\nProof. exact I. Qed.\n"},
                      statements="A.good\n     : (1 + 1)%nat = 2%nat\n\n")
 
     def test_forged_answers(self):
@@ -102,7 +102,7 @@ A.good
      : (1 + 1)%nat = 2%nat
 about junk"; fail : typeclass_instances.
 """
-        self.refused("statements.txt is not what Coq says", {"A.v": hint},
+        self.refused("statements.txt differs from Coq's output", {"A.v": hint},
                      statements="A.good\n     : (1 + 1)%nat = 2%nat\n\n")
         warning = """Lemma weak : True.
 Proof. exact I. Qed.
@@ -117,7 +117,7 @@ Proof. exact I. Qed.
             checker.statements(folder / "build", "Attack", [("A", "good")])
 
     def statement_of(self, text):
-        """What is printed of theorem t."""
+        """Returns the printed statement of theorem t."""
         with self.assertRaises(checker.Refused):
             self.check({"A.v": text}, statements="none")
         return (BUILD / "attack" / self.id().rsplit(".", 1)[-1] / "build/statements.txt").read_text()
@@ -164,7 +164,7 @@ Proof. exact I. Qed.
         folder = BUILD / "attack" / "sources"
         folder.mkdir(parents=True, exist_ok=True)
         for build in folder, folder.parent:
-            with self.assertRaisesRegex(checker.Refused, "found a build folder that holds the proofs"):
+            with self.assertRaisesRegex(checker.Refused, "the build folder contains the proofs"):
                 checker.compile_all(folder, build)
 
     def test_coqchk_by_itself(self):

@@ -1,4 +1,4 @@
-"""How mutants of ties were found, as mutants.txt keeps it, and the table of ties that `./run proofs` prints."""
+"""The results of mutants of ties, stored in mutants.txt, and the table of ties that `./run proofs` prints."""
 import hashlib
 import re
 import sys
@@ -16,7 +16,7 @@ from made_mutants import mutants_of  # noqa: E402
 
 
 def sources_of(path):
-    """A file of the tests, and what it includes of them."""
+    """Returns a file of the tests, and the files of tests that it includes."""
     text, found = (root / path).read_text(), {path}
     for included in re.findall(r'^#include "(tests/[^"]+)"', text, re.MULTILINE):
         found |= sources_of(included)
@@ -24,10 +24,10 @@ def sources_of(path):
 
 
 def digest(tie):
-    """Of the mutants, what finds them, without comments, and the results that they are held to."""
+    """Returns a digest of the mutants, the tests' code and the expected results, without comments and white space."""
     paths, starts = ties.TIES[tie]
-    text = "".join(code_alone((root / path).read_text())
-                   for path in [*paths, "tests/proofs/mutants.hpp", *sorted(sources_of(f"tests/proofs/tie_{tie}.cpp"))])
+    files = [*paths, "tests/proofs/mutants.hpp", *sorted(sources_of(f"tests/proofs/tie_{tie}.cpp"))]
+    text = "".join(" ".join(code_alone((root / path).read_text()).split()) for path in files)
     for path in paths:
         text += "".join(f"{m.name} {m.numbered}\n" for m in mutants_of(path, ties.untied_functions(path))[1])
     text += "".join(line for line in (proofs / "tie.txt").read_text().splitlines()
@@ -36,7 +36,7 @@ def digest(tie):
 
 
 class Record:
-    """How mutants of a tie were found: made and found, those listed with the reason, when, and of what."""
+    """The numbers of a tie's mutants made, found, and listed with a reason; the date and the digest."""
 
     def __init__(self, made, found, listed, date, digest):
         self.made, self.found, self.listed = int(made), int(found), int(listed)
@@ -47,20 +47,20 @@ class Record:
 
 
 def kept():
-    """By tie, what mutants.txt has."""
+    """Returns the records of mutants.txt by tie."""
     lines = [line.split() for line in RECORD.read_text().splitlines() if not line.startswith("#")]
     return {tie: Record(*rest) for tie, *rest in lines}
 
 
 def keep(more):
-    """Writes mutants.txt with these, by tie, and of other ties what it had."""
+    """Writes mutants.txt with these records by tie, and keeps those of other ties."""
     all_kept = {**kept(), **more}
     head = [line for line in RECORD.read_text().splitlines() if line.startswith("#")]
     RECORD.write_text("\n".join(head + [all_kept[tie].line(tie) for tie in ties.TIES if tie in all_kept]) + "\n")
 
 
 def table():
-    """What is tied, as text."""
+    """Returns the table of ties as text."""
     (tied, others), inputs, mutants = ties.count(), ties.cases(), kept()
     lines = [f"{'tie':<10}{'functions':>11}{'inputs':>13}{'mutants found / made':>24}{'listed':>12}"]
     for tie, number in tied.items():

@@ -1,6 +1,6 @@
-(* Writes what the proofs' definitions (code.ml, extracted from Code.v) make of every case of tiny
-   formats, and of a selection of cases of float and double: a line for each operation of each rule, with
-   the number of cases and a hash of all results. tests/errbound/validation/tie_test.cpp does the same with the C++ code. *)
+(* Writes the results of the proofs' definitions (code.ml, extracted from Code.v) for every case of tiny formats, and
+   for selected cases of float and double: a line for each operation of each rule, with the number of cases and a
+   hash of all results. tests/errbound/validation/tie_test.cpp does the same with the C++ code. *)
 open Code
 open Tie_hash
 
@@ -11,7 +11,7 @@ let z n = if n = 0 then Z0 else if n > 0 then Zpos (positive n) else Zneg (posit
 let rec of_positive = function XH -> 1 | XO q -> 2 * of_positive q | XI q -> (2 * of_positive q) + 1
 let of_z = function Z0 -> 0 | Zpos q -> of_positive q | Zneg q -> - of_positive q
 
-(* All cases of an operation where there are at most so many, else so many drawn ones. *)
+(* All cases of an operation if there are at most `exhaustive`, otherwise `samples` random ones. *)
 type selection = { exhaustive : int; samples : int }
 
 type 't format = {
@@ -20,16 +20,16 @@ type 't format = {
   exponent : 't -> z;
   fused : bool;  (* has_fast_fma *)
   values : 't array;
-  bounds : 't array;  (* those that are not negative *)
-  put : 't -> unit;  (* zeros alike, NaN alike *)
+  bounds : 't array;  (* nonnegative ones *)
+  put : 't -> unit;  (* equal for both zeros, and for all NaN *)
   of_rules : selection;
   of_functions : selection;
-  lists : int;  (* of numbers: sums of products, polynomials *)
+  lists : int;  (* for lists of numbers: sums of products, polynomials *)
   to_double : 't -> Float.t;
   of_double : Float.t -> 't;
 }
 
-(* Counts of the rule `relative` are doubles, whatever numbers are: OCaml's. *)
+(* Counts of the rule `relative` are OCaml's doubles for all formats. *)
 let doubles = {
   plus = ( +. ); minus = ( -. ); times = ( *. ); over = ( /. ); fma = Float.fma; root = sqrt; opposite = Float.neg;
   less = (fun (x : Float.t) y -> x < y); at_most = (fun (x : Float.t) y -> x <= y); equal = (fun (x : Float.t) y -> x = y);
@@ -48,12 +48,12 @@ let double_of_float = function
   | B754_finite (s, m, e) ->
       let x = ldexp (Float.of_int (of_positive m)) (of_z e) in
       if s then -. x else x
-(* x >= 0, finite *)
+(* Precondition: x >= 0, finite. *)
 let float_of_double p emax x =
   let m, e = Float.frexp x in
   constant p emax (z (int_of_float (ldexp m 53))) (z (e - 53))
 
-(* Numbers are codes; operations are looked up in tables, of every result of Flocq's. *)
+(* Numbers are codes. Operations look up tables of all results of Flocq's operations. *)
 let tiny p exponent_bits =
   let emax = 1 lsl (exponent_bits - 1) and codes = 1 lsl (p + exponent_bits) in
   let f = floats (z p) (z emax) in
@@ -66,7 +66,7 @@ let tiny p exponent_bits =
   let results operation = table2 (fun x y -> encode (operation x y)) in
   let roots = Array.map (fun x -> encode (f.root x)) decoded in
   let opposites = Array.map (fun x -> encode (f.opposite x)) decoded in
-  let known = 256 in  (* of integers, what is asked most *)
+  let known = 256 in  (* a table of the most frequent integers *)
   let integers = Array.init known (fun n -> encode (f.integer (z n))) in
   let integer n =
     let i = of_z n in
@@ -100,7 +100,7 @@ let tiny p exponent_bits =
     to_double = (let doubles = Array.map double_of_float decoded in fun x -> doubles.(x));
     of_double = (fun x -> encode (float_of_double (z p) (z emax) x)) }
 
-(* float and double: Flocq's operations themselves. Words: 1 or 2 of 32 bits, the upper first. *)
+(* float and double by Flocq's operations. Words: 1 or 2 of 32 bits, the upper first. *)
 let ieee name p exponent_bits words =
   let emax = 1 lsl (exponent_bits - 1) in
   let p' = z p and emax' = z emax in
@@ -146,7 +146,7 @@ let ieee name p exponent_bits words =
 let put_sign = function
   | Negative -> put_word 0 | Zero -> put_word 1 | Positive -> put_word 2 | Uncertain -> put_word 3
 
-(* At most ten thousand of them, evenly: the cases of three can be numbered. *)
+(* At most ten thousand states, evenly spread, so that triples can be numbered. *)
 let spread states =
   let n = Array.length states in
   let most = min n 10007 in
@@ -155,8 +155,8 @@ let spread states =
 let exponents = Array.init 25 (fun i -> i - 12)
 let powers = Array.append (Array.init 22 (fun i -> i - 9)) [| -(1 lsl 31) |]
 
-(* What draws numbers of a kind: any; exact ones; or exact and others, small and known well, so that not
-   all that is made of them is infinite. *)
+(* Random numbers of three kinds: any; exact ones; exact and small ones with small errors, so that some results are
+   finite. *)
 let number_draws f rule states =
   let a = f.a in
   let is_small x = a.at_most (abs a x) (a.integer (z 2)) in
@@ -175,7 +175,7 @@ let relative_counts p =
   [| 0.; 1.; 2.; 0.75; 3.5; 1. +. epsilon_float; 100.; ldexp 1. (p - 1); ldexp 1.5 p; ldexp 1.75 p; ldexp 1. 60;
      ldexp 1. (-1074); Float.infinity |]
 
-(* The rule `affine` with at most three terms. New sources come after all others, one after the other. *)
+(* The rule `affine` with at most three terms. New sources come after all others, in order. *)
 let limit = S (S (S O))
 let affine_operations a fused =
   let last = ref 100 in
@@ -192,8 +192,7 @@ let affine_operations a fused =
     rule_divide = Some (fun v x s y t -> affine_divide a fused limit v x s y t (fresh ()));
     rule_scale = (fun v x s e -> affine_scale a limit v x s e (fresh ())) }
 
-(* Numbers with up to three terms, of few sources, so that they have some in common; some of these come after all new
-   ones. *)
+(* Numbers with up to three terms of few sources, so that they share some. Some sources come after all new ones. *)
 let late = 1 lsl 40
 let affine_states f =
   let a = f.a in
@@ -225,7 +224,7 @@ let put_affine put b =
   put b.radius; put b.rest; put_word (List.length b.parts);
   List.iter (fun (source, c) -> put_source (of_z source); put c) b.parts
 
-(* The i-th list of pairs: one in four is that before it with its first number negated. *)
+(* The i-th list of pairs. One in four is the previous list with its first number negated. *)
 let drawn_pairs f rule number i =
   state := i + 1;
   let kind = draw 4 in
@@ -240,7 +239,7 @@ let drawn_pairs f rule number i =
       pair :: pairs (n - 1) (Some pair) in
   pairs count None
 
-(* A polynomial's coefficients, and where. *)
+(* A polynomial's coefficients, and the argument. *)
 let drawn_polynomial number i =
   state := i + 1;
   let kind = draw 4 in
@@ -248,8 +247,8 @@ let drawn_polynomial number i =
   let x = number kind in
   (List.init count (fun _ -> number kind), x)
 
-(* Every operation of rules, and every function by them: its name, its number of cases, and what puts the results
-   of one. *)
+(* Every operation of rules, and every function by them: its name, its number of cases, and a function that puts a
+   case's results. *)
 let operations f =
   let a = f.a and put = f.put and fused = f.fused in
   let put2 (x, y) = put x; put y in
@@ -259,7 +258,7 @@ let operations f =
      fun i -> case first.(i / count second) second.(i mod count second)) in
   let pairs first second =
     Array.concat (Array.to_list (Array.map (fun x -> Array.map (fun y -> (x, y)) second) first)) in
-  (* states, the operands of a rule: the value, and the bound *)
+  (* states: a rule's operands, value and bound *)
   let arithmetic rule states add subtract multiply divide scale =
     let named operation = rule ^ "." ^ operation in
     [ of_two (named "add") states states (fun (x, s) (y, t) -> add (a.plus x y) x s y t);
@@ -276,7 +275,7 @@ let operations f =
   let safe_counts = Array.map z [| 0; 1; 2; 5; (1 lsl 29) - 1; 1 lsl 29 |] in
   let safe_states = pairs safe_values (pairs f.bounds safe_counts) in
   let put_safe (b, k) = put b; put_word (of_z k) in
-  (* lower <= upper, and a value that is one of them; and unknown *)
+  (* lower <= upper, and a value equal to one of them; and unknown *)
   let interval_states =
     let unknown = Array.map (fun x -> (x, (a.opposite a.infinity, a.infinity))) f.values in
     Array.append unknown
@@ -289,7 +288,7 @@ let operations f =
   let affine = affine_operations a fused and affine_states = affine_states f in
   let residual_states = pairs f.values residual_bounds in
   let of_one name states case = (name, count states, fun i -> case states.(i)) in
-  (* exact operands, of which a selection of all states has few *)
+  (* exact operands, of which selected states have few *)
   let of_exact name operations exact put_bound =
     let divide = Option.get operations.rule_divide in
     let named operation = name ^ "." ^ operation ^ "_exact" in
@@ -297,7 +296,7 @@ let operations f =
           put_bound (operations.rule_multiply (a.times x y) x (exact x) y (exact y)));
       of_two (named "divide") f.values f.values (fun x y ->
           put_bound (divide (a.over x y) x (exact x) y (exact y))) ] in
-  (* all operations of a rule that is put together of them *)
+  (* all operations of a rule *)
   let of_rule operations name states put_bound =
     let rule = operations.the_rule in
     let named operation = name ^ "." ^ operation in
@@ -310,7 +309,7 @@ let operations f =
         (fun v x s y t -> put_bound (operations.rule_multiply v x s y t))
         (Option.map (fun divide v x s y t -> put_bound (divide v x s y t)) operations.rule_divide)
         (fun v x s e -> put_bound (operations.rule_scale v x s e)) in
-  (* functions of tracked numbers, by a rule; `dot`, `sqrt` and `fma` are its own, if it has them *)
+  (* functions of tracked numbers under a rule; `dot`, `sqrt` and `fma` are the rule's, if it has them *)
   let functions operations ?dot ?sqrt ?fma name states put_bound =
     let rule = operations.the_rule in
     let put_number (v, b) = put v; put_bound b in
@@ -353,7 +352,7 @@ let operations f =
          let hypot = tracked_hypot a operations f.exponent in
          let zeros = of_value (a.integer Z0) in
          [ two "hypot" states states hypot; two "hypot_of_zeros" zeros zeros hypot ]) in
-  (* with a bound of its own where one factor pays for a term at all *)
+  (* with the rule's dot bound, if one factor covers at least one term *)
   let own_dot most dot = if most a = O then None else Some (dot a) in
   let of_rules =
     [ of_two "sign_of" f.values f.values (fun v e -> put_sign (sign_of a v e));
@@ -441,7 +440,7 @@ let write ?(only = fun _ -> true) f =
   write_each f.of_rules of_rules;
   write_each f.of_functions of_functions
 
-(* With fused multiply-add: what differs. *)
+(* Operations that differ with fused multiply-add. *)
 let write_fused f =
   let fused = { f with name = f.name ^ ",fma"; fused = true } in
   let asks name =
@@ -455,8 +454,8 @@ let write_fused f =
     List.mem name [ "residual.fma"; "residual.fma_exact"; "affine.fma"; "affine.fma_exact" ] in
   write ~only:asks fused
 
-(* Integers of n words: words of zeros, of ones, with one bit, and random ones. Words are put as two of
-   32 bits, the upper first. *)
+(* Integers of n words: words of zeros, of ones, with one bit, and random ones. Each word is put as two of 32 bits,
+   the upper first. *)
 let words n =
   let word () =
     let kind = draw 8 in
@@ -500,7 +499,7 @@ let words n =
   write "shifted" (with_bits ((64 * n) + 70)) (fun (x, bits) ->
       put_words (words_shifted (List.hd x) (z bits) (nat n)))
 
-(* One part: check.py runs them side by side. *)
+(* Writes one part: check.py runs all parts in parallel. *)
 let () =
   match Sys.argv.(1) with
   | "words" -> List.iter words [ 1; 2; 3; 4 ]

@@ -1,6 +1,6 @@
-(* Writes what the proofs' definitions (filters.ml, extracted by TieFloats.v) make of expressions of
-   coordinates, as static and semi-static filters bound them: what their types count, values, sizes, bounds
-   and signs. tests/proofs/tie_filters.cpp does the same with the C++ templates, on the same numbers. *)
+(* Writes the results of the proofs' definitions (filters.ml, extracted by TieFloats.v) for expressions of
+   coordinates under static and semi-static filters: error counts of types, values, sizes, bounds and signs.
+   tests/proofs/tie_filters.cpp does the same with the C++ templates, on the same numbers. *)
 open Tie_hash
 open Filters
 
@@ -10,7 +10,7 @@ let formats =
     { name = "float"; p = 24; emin = -149; largest_exponent = 128 } ]
 let rounded f x = if f.p = 24 then Int32.float_of_bits (Int32.bits_of_float x) else x
 
-(* Zeros alike, NaN alike. *)
+(* Equal for both zeros, and for all NaN. *)
 let put_number x =
   let bits =
     if Float.is_nan x then 0x7ff8000000000000L else Int64.bits_of_float (if x = 0. then 0. else x) in
@@ -22,8 +22,8 @@ let put_sign = function
 
 let unit () = ldexp (float_of_int (draw (1 lsl 40))) (-40)
 
-(* Three coordinates of each of five points: small and whole, of one size, about 1 but for some ulps, where
-   products underflow or overflow, of every size, and one that is no number or the largest. *)
+(* Three coordinates of each of five points: small and whole, of one size, about 1 except for a few ulps, with
+   products that underflow or overflow, of every size; one NaN or the largest number. *)
 let draw_numbers f =
   let mode = draw 8 in
   let e = match mode with
@@ -47,7 +47,7 @@ let draw_numbers f =
 
 let points x : point array = Array.init 5 (fun k -> fun i -> x.((3 * k) + i))
 
-(* As OCaml's floats have it. *)
+(* The number as an OCaml float. *)
 let ieee x =
   if Float.is_nan x then Nan else if x = infinity then Plus_infinity
   else if x = neg_infinity then Minus_infinity else Finite x
@@ -58,7 +58,7 @@ let put_static f e =
   put_number value; put_number size; put_number (full f.p f.emin size (products e)); put_number bound;
   put_sign (machine_sign f.p e (ieee value) (ieee bound))
 
-(* The largest difference, and coordinate that stands for itself. *)
+(* The largest difference or single coordinate. *)
 let rec largest f = function
   | Coordinate c -> if Float.is_nan c then 0. else abs_float c
   | Difference (a, b) -> let d = rounded f (a -. b) in if Float.is_nan d then 0. else abs_float d
@@ -110,13 +110,13 @@ let homogeneous : (point array -> expression) list =
     (fun q -> Product (Product (d q 0 0, whole 1048576), Product (d q 0 1, whole 8)));
     (fun q -> Product (Product (d q 0 0, whole 1048576), Product (d q 0 1, whole 16)));
     (fun q -> Product (Product (d q 0 0, whole 1048576), Product (d q 0 1, whole 32)));
-    (* Whose allowances are 2^24. *)
+    (* Allowances of 2^24. *)
     (fun q ->
        Sum (Product (Product (d q 0 0, d q 0 1), whole 2097152), Product (Product (d q 1 0, d q 1 1), whole 2097151)));
     (fun q ->
        let e = Product (Product (d q 0 0, whole 1048576), Product (d q 0 1, whole 1048576)) in
        Product (e, Product (e, d q 1 1))) ]
-(* Of mixed degree, which only static filters bound. *)
+(* Expressions of mixed degree, which only static filters bound. *)
 let mixed : (point array -> expression) list =
   [ (fun q -> Sum (c q 0, whole 5));
     (fun q -> Minus (c q 0, whole 16777217));

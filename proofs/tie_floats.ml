@@ -1,4 +1,4 @@
-(* Writes what the proofs' definitions (floats.ml, extracted by TieFloats.v) make of queries: sizes, error
+(* Writes the results of the proofs' definitions (floats.ml, extracted by TieFloats.v) for queries: sizes, error
    bounds and control values, each test of the filter, subdivision, and the axes in single precision.
    tests/proofs/tie_floats.cpp does the same with the C++ templates, on the same queries. *)
 open Tie_hash
@@ -12,12 +12,12 @@ let put_double x =
   put_word (Int64.to_int bits land 0xffffffff)
 let put_bool b = put_word (if b then 1 else 0)
 
-(* Queries, as drawn_query.hpp draws them: x.(6 p + 3 e + k) is coordinate k of point p at end e. *)
+(* Queries as in drawn_query.hpp: x.(6 p + 3 e + k) is coordinate k of point p at end e. *)
 type query = { edges : bool; x : float array; low : float array; high : float array }
 
 let unit () = ldexp (float_of_int (draw (1 lsl 40))) (-40)
 
-(* Point 0 meets the face, or edges cross, at a time and a place that are drawn. *)
+(* Point 0 meets the face, or the edges cross, at a random time and position. *)
 let pass x edges size near =
   let t = unit () in
   let a = unit () in
@@ -35,7 +35,7 @@ let pass x edges size near =
     x.((6 * moved) + 3 + c) <- target +. ((1. -. t) *. d)
   done
 
-(* The features are as far apart along an axis as the filter's margin is large, or that in single precision. *)
+(* The features' gap along an axis is about the filter's margin, or its margin in single precision. *)
 let small_gap x edges coarse =
   for i = 0 to 23 do
     x.(i) <- if coarse then ldexp (float_of_int (draw (1 lsl 19) - (1 lsl 18))) (-20) else (unit () -. 0.5) *. 2.
@@ -61,7 +61,7 @@ let small_gap x edges coarse =
     end
   done
 
-(* Differences about the largest that are allowed. *)
+(* Differences about the largest allowed ones. *)
 let large x =
   for i = 0 to 23 do x.(i) <- (unit () -. 0.5) *. ldexp 1. 200 done;
   for i = 0 to 11 do x.(i) <- 0. done;
@@ -138,7 +138,7 @@ let filter_of q (sizes : point) =
 
 let put_outcome = function Separate -> put_word 0 | Collides -> put_word 1 | Undecided -> put_word 2
 
-(* Whether coordinates at both ends say that the first points are beyond the others. *)
+(* True if coordinates at both ends separate the first points from the others. *)
 let compared_apart q =
   let count = if q.edges then 2 else 1 in
   let beyond k e side =
@@ -176,8 +176,8 @@ let put_tests q differences (m : point) =
   List.iter put_double right;
   List.iter (fun deepest -> put_outcome (subdivided deepest f)) [ max_depth; 6; 0 ]
 
-(* What one query is told, and by which stage: of each, whether it was asked, and its answer. It asks the
-   coordinate axes by comparison alone. *)
+(* The decision of one query, and for each stage whether it was entered and its answer. It tests the coordinate axes
+   only by comparisons. *)
 let put_decision q differences (m : point) =
   let axes = ref (0, 0) and coplanarity = ref (0, 0) and inside = ref (0, 0) and subdivision = ref (0, 0, 0) in
   let filter = if q.edges then filter_edges else filter_face in
@@ -216,12 +216,12 @@ let put_filter q =
   end;
   put_decision q differences m
 
-(* The constants that the forms count. *)
+(* The constants from the forms' error counts. *)
 let put_constants edges =
   let inside = if edges then edge_edge_inside else vertex_face_inside in
   List.iter put_double [ y_relative; y_absolute; halvings 3; g_relative inside; g_absolute inside; halvings 4 ]
 
-(* Control values, small and whole, and errors that some of them are equal to. *)
+(* Small whole control values, and errors that are equal to some of them. *)
 let small () = float_of_int (draw 7 - 3)
 let values count = List.init count (fun _ -> small ())
 let put_signs () =
@@ -235,7 +235,7 @@ let put_signs () =
     [ y; g ];
   put_bool (changes_sign 0. certain y && changes_sign_once certain y)
 
-(* Of parts where Y is small or not, and G_i are of either sign. *)
+(* Subintervals with a small or a large Y, and G_i of either sign. *)
 let put_subdivision edges =
   let y = if draw 2 = 0 then values 4 else List.init 4 (fun _ -> small () /. 8.) in
   let gs = List.init (if edges then 4 else 3) (fun _ -> List.init 5 (fun _ -> float_of_int (draw 40 - 25))) in

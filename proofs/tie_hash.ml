@@ -1,5 +1,5 @@
-(* What the programs that write tie.txt share, and tests/proofs/table.hpp has in C++: hashes, a number
-   sequence, the table's lines. *)
+(* Shared by the programs that write tie.txt, as in tests/proofs/table.hpp: hashes, a sequence of random numbers,
+   lines of the table. *)
 
 (* FNV-1a, of 32-bit words. *)
 let hash = ref 0
@@ -7,13 +7,13 @@ let start () = hash := 2166136261
 let put_word w = hash := ((!hash lxor w) * 16777619) land 0xffffffff
 let put_both w = put_word (w lsr 32); put_word (w land 0xffffffff)
 
-(* A number sequence; the upper bits are used. *)
+(* A sequence of random numbers; the upper bits are used. *)
 let state = ref 0
 let draw n =
   state := (!state * 3935559000370003845) + 2691343689449507681;
   (!state lsr 20) mod n
 
-(* The line of that name: so many cases, and what puts the results of each, numbered from 0. *)
+(* A line of `cases` cases: put hashes the results of a case, numbered from 0. *)
 let line name cases put =
   start ();
   for i = 0 to cases - 1 do put i done;

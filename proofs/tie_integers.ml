@@ -1,7 +1,7 @@
-(* Writes what the proofs' definitions (integers.ml, extracted by TieIntegers.v) decide of queries in
-   integers, in fixed width and to the end. tests/proofs/tie_integers.cpp does the same with the C++ code,
-   on the same queries. What floating point estimates of close roots is taken as the code has it, since the
-   theorems hold whatever it is: ccd/exact/close_contact.hpp. *)
+(* Writes the decisions of the proofs' definitions (integers.ml, extracted by TieIntegers.v) on queries in integers,
+   in fixed width and to the end. tests/proofs/tie_integers.cpp does the same with the C++ code, on the same queries.
+   Floating-point estimates of close roots are copied from ccd/exact/close_contact.hpp, since the theorems hold for
+   any estimates. *)
 module Whole = Z
 open Tie_hash
 open Integers
@@ -64,7 +64,7 @@ let refine y _ _ low high bits = refined_place y low high (Z.to_int bits)
 let place_of q = estimated_place (Z.to_int q.level) q.index q.part_y
 let y_of b c p = (Obj.magic (y_form integers b c p) : Z.t list)
 
-(* By a decision of four moving points, as real numbers and as whole ones. *)
+(* The decision on four moving points, in real numbers and in integers. *)
 let of_points decide d =
   let extent k = Z.of_int (snd d.units.(k)) in
   let y = let b, c, p = differences d in y_of b c p in
@@ -86,13 +86,13 @@ let put_decision d =
   put_outcome (contact (vertex_touches_edge d 0 1 2));
   put_outcome (contact (vertices_contact (whole d 0) (whole d 1)))
 
-(* What is else asked only of few: where roots nearly coincide. *)
+(* Decisions that only few queries need, since roots nearly coincide. *)
 let put_close d =
   let b, c, p = differences d in
   put_outcome (close_contact d.edges b c p root_middle root_exponent estimated_pair steps)
 
-(* Whether an axis has the first points on one side of the others, the same one at both ends of the step: what is
-   asked beyond four words, and of a border separated. *)
+(* True if the first points are on one side of the others on an axis, the same at both ends of the step. It is tested
+   beyond four words, and for separated borders. *)
 let apart first count x =
   let side k e =
     let at p = x.((6 * p) + (3 * e) + k) in
@@ -102,7 +102,7 @@ let apart first count x =
     if least a > most b then 1 else if most a < least b then -1 else 0 in
   List.exists (fun k -> side k 0 <> 0 && side k 0 = side k 1) [ 0; 1; 2 ]
 
-(* Whatever the extents are, or where there are none, of so many points, of which `first` are the first feature's. *)
+(* For all extents, also infinite ones: `count` points, of which `first` belong to the first feature. *)
 let put_wide first count edges x decide =
   let finite = Array.for_all Float.is_finite (Array.sub x 0 (6 * count)) in
   put_word (Bool.to_int finite);
@@ -134,7 +134,7 @@ let put_number n =
   put_word (Z.to_int (Z.logand low (Z.of_int 0xffffffff)))
 let put_if_any put = function None -> put_word 0 | Some found -> put_word 1; put found
 
-(* The part of so many halvings: that where Y changes its sign, or else where `path` leads. *)
+(* The subinterval after `level` halvings: that with a sign change of Y, else that of `path`. *)
 let rec part_at level path q =
   if Z.to_int q.level = level then q
   else
@@ -162,7 +162,7 @@ let put_forms f =
   let without_halving =
     without_halving edges b c p (extent 0) (extent 1) (extent 2) place_of refine in
   put_if_any put_outcome (without_halving distinct three some);
-  (* Where parts with more than one root are halved no more, about the root. *)
+  (* Subintervals around the root, with more than one root, at the limit of halvings. *)
   let near_root bits = Z.div (Z.shift_left f.root bits) f.root_unit in
   for i = 0 to 39 do
     let index = Z.logxor (near_root 40) (Z.shift_left Z.one i) in
@@ -192,7 +192,7 @@ let put_part q =
   List.iter (fun n -> put_word (Z.to_int n)) [ q.unit_bits; q.width_bits; q.ask_from; bits q ];
   put_word (Bool.to_int (can_be_narrowed q))
 
-(* One of the parts that a decision to the end comes to after another, and what it goes on to from the last. *)
+(* The subintervals of a decision to the end, one after the other, and its result from the last one. *)
 let put_parts f =
   let b, c, p = vectors_of f.vectors and edges = f.on_edges in
   let _, ((distinct, three), _) = linear_of_multiple b c p in

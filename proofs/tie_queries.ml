@@ -1,12 +1,12 @@
-(* Queries in whole numbers, and where floating point estimates their roots to be, taken as the code has it
-   (ccd/exact/cubic_roots.hpp), since theorems hold whatever it is: what tie_integers.ml and tie_times.ml share. *)
+(* Queries in integers, and floating-point estimates of their roots, copied from ccd/exact/cubic_roots.hpp, since
+   theorems hold for any estimates. Shared by tie_integers.ml and tie_times.ml. *)
 open Tie_hash
 
 (* ---- Estimates ---- *)
 
 let bit_length x = Z.numbits (if Z.sign x < 0 then Z.lognot x else x)
 
-(* All numbers, in floating point, times one power of two. *)
+(* All numbers in floating point, times one power of two. *)
 let approximated numbers =
   let bits = List.fold_left (fun m x -> max m (bit_length x)) 0 numbers in
   let shift = max 0 (bits - 63) in
@@ -41,14 +41,14 @@ let estimated_place level index part_y =
   Z.add (Z.shift_left index to_bits) (whole_part (ldexp (estimated_root (approximated part_y)) to_bits))
 
 let thrice x = Z.mul (Z.of_int 3) x
-(* A form's value: Horner's rule. *)
+(* A form's value, by Horner's rule. *)
 let value_at form s t =
   let rec from_term sum power = function
     | [] -> sum
     | a :: rest -> from_term (Z.add (Z.mul sum s) (Z.mul a power)) (Z.mul power t) rest in
   from_term (List.hd form) t (List.tl form)
 
-(* The place from a bracket, as refined_place has it. *)
+(* refined_place: the position from a bracket. *)
 let refined_place y low high bits =
   let end_ = Z.shift_left Z.one bits in
   let y0, y1, y2, y3 = match y with [ a; b; c; d ] -> a, b, c, d | _ -> assert false in
@@ -62,15 +62,15 @@ let refined_place y low high bits =
   Z.add (Z.shift_left low more)
     (whole_part (ldexp (Z.to_float width *. estimated_root (approximated h)) more))
 
-(* ---- Queries, as whole_query.hpp draws them ---- *)
+(* ---- Queries, as in whole_query.hpp ---- *)
 
 let sizes = [| 1; 2; 3; 5; 9; 30; 1000; 1 lsl 20; 1 lsl 40 |]
 let pick size = draw ((2 * size) + 1) - size
 
-(* Times 1 - t and t, of t = k/8. *)
+(* The position at t = k/8, times 8. *)
 let place c k p x = ((8 - k) * c.((6 * p) + x)) + (k * c.((6 * p) + 3 + x))
 
-(* Point 0 is at a place of the face, or edges cross there, at t = k/8; or they miss it by a little. *)
+(* Point 0 is at a position of the face, or the edges cross there, at t = k/8; or they miss it slightly. *)
 let meet c edges size sometimes_off on_border =
   let k = draw 9 in
   let a = if on_border then 0 else draw 5 in
@@ -95,8 +95,8 @@ let meet c edges size sometimes_off on_border =
     c.((6 * moved) + 3 + x) <- at_end
   done
 
-(* Y is the product of three linear forms, with roots close to k/8, but for a little: of the rows P, B and C, which
-   are small beside the diagonal. *)
+(* Y is almost the product of three linear forms of the rows P, B and C, with roots close to k/8. Other entries of
+   the rows are small. *)
 let near_roots c edges =
   let k = draw 9 in
   let large = 1 lsl draw 31 in
@@ -146,7 +146,7 @@ let whole_query mode edges =
    | _ -> ());
   c
 
-(* In doubles, some of them in other units and a little off. *)
+(* In doubles; some have other units and are slightly changed. *)
 let query_in_doubles mode c =
   let x = Array.map float_of_int c in
   if mode >= 10 && mode < 15 then begin
@@ -168,7 +168,7 @@ let query_in_doubles mode c =
   end;
   x
 
-(* Some coordinates so large that integers of 1, 2 or 4 words just hold them, or do not; or not finite. *)
+(* Some coordinates are so large that integers of 1, 2 or 4 words just hold them, or do not; some are not finite. *)
 let wide_query () =
   let mode = draw 16 in
   let edges = draw 2 = 1 in
@@ -189,7 +189,7 @@ let wide_query () =
   end;
   edges, x
 
-(* ---- Vectors b, c and p, as whole_forms.hpp draws them ---- *)
+(* ---- Vectors b, c and p, as in whole_forms.hpp ---- *)
 
 let rec drawn_below bits =
   if bits <= 30 then Z.of_int (draw (1 lsl bits))
@@ -200,15 +200,15 @@ let drawn_within bits =
   let size = drawn_below bits in
   if draw 2 = 0 then size else Z.neg size
 
-(* vectors.(i).(x): from where to where; of a part of the step: its level, the path to it where no sign shows one, how
-   far from where the root is expected there; the root of all, a quotient; and of a place there, cut so that it has so
-   many words. *)
+(* vectors.(i).(x): from start to end. A subinterval of the step: its level, the path to it if no sign change
+   determines it, and the distance from the root's expected position there. The root of all as a quotient. A position
+   there: its number of words, and `cut`. *)
 type drawn_forms = { on_edges : bool; vectors : (Z.t * Z.t) array array; part_level : int; path : int; off : int;
                      root : Z.t; root_unit : Z.t; words : int; cut : int }
 
 let orders = [| [| 0; 1; 2 |]; [| 1; 2; 0 |]; [| 2; 0; 1 |]; [| 0; 2; 1 |]; [| 1; 0; 2 |]; [| 2; 1; 0 |] |]
 
-(* With a root u/d, d = (q + 1)*u + 1, at which each coordinate is its value over d: sizes, u and q. *)
+(* The coordinates have given values, over d, at a root u/d, d = (q + 1)*u + 1: draws sizes, u and q. *)
 let draw_place () =
   let bits = match draw 4 with
     | 0 -> 2 + draw 12 | 1 -> 12 + draw 60 | 2 -> 72 + draw 130 | _ -> 202 + draw 46 in
@@ -219,7 +219,7 @@ let draw_place () =
   let q = drawn_below of_q in
   u, q, max 0 (bits - of_q), max 1 (bits - of_q - of_u)
 
-(* At the root in a plane, or almost, p*b and c*b nearly parallel. *)
+(* At the root the vectors are in a plane, or almost, with p*b and c*b nearly parallel. *)
 let in_a_plane values value_bits =
   let of_h = draw (value_bits + 1) in
   let more = value_bits - of_h in
@@ -234,7 +234,7 @@ let in_a_plane values value_bits =
   values.(2) <- [| Z.add (Z.mul h g) d; g; Z.zero |];
   for i = 0 to 2 do values.(i).(2) <- if draw 4 = 0 then Z.of_int (pick 1) else Z.zero done
 
-(* A double root, or a triple one. *)
+(* A double or triple root. *)
 let of_rank_one values =
   if draw 3 = 0 then values.(0) <- Array.make 3 Z.zero;
   for i = 1 to 2 do
@@ -242,7 +242,7 @@ let of_rank_one values =
     values.(i) <- Array.map (Z.mul times) values.(0)
   done
 
-(* b and c in one plane throughout, whose normal vanishes where their cross product does. *)
+(* b and c are in one plane throughout, whose normal vanishes together with their cross product. *)
 let move_in_a_plane values slopes value_bits =
   for i = 0 to 1 do
     let x = drawn_within value_bits in
@@ -251,7 +251,7 @@ let move_in_a_plane values slopes value_bits =
     slopes.(i).(2) <- Z.zero
   done
 
-(* In the middle of both, at a double or triple root, or at three close to each other. *)
+(* A contact in the middle of both features, at a double or triple root, or at three close ones. *)
 let meet_inside values slopes value_bits =
   let triple = draw 2 = 0 in
   let coincide = draw 2 = 0 in
@@ -313,9 +313,8 @@ let forms () =
   { on_edges; vectors = Array.init 3 (fun i -> Array.init 3 (moved order.(i))); part_level; path; off; root; root_unit;
     words; cut }
 
-(* Small vectors, p zero at the start; of a part that begins there, its bits, near which in it a cubic has its root, and
-   from which on weights are asked; of numbers just narrow enough or not; and a cubic with two roots close to each
-   other. *)
+(* Small vectors, p zero at the start. A subinterval from there: its bits, the position of a cubic's root in it, and
+   the bits from which weights are tested. Numbers at the limit of can_be_narrowed, and a cubic with two close roots. *)
 type drawn_deep = { deep_edges : bool; small : (Z.t * Z.t) array array; deep_bits : int; root_bits : int; deep_from : int;
                     limit_unit_bits : int; limit_bits : int; limit_index : int; limit_negative : bool; pair : Z.t list }
 let draw_deep () =
@@ -350,9 +349,9 @@ let draw_deep () =
 let bits_along f x =
   Array.fold_left (fun most v -> let a, b = v.(x) in max most (max (bit_length a) (bit_length b))) 0 f.vectors
 
-(* ---- Quadratics, and numbers that stand for others ---- *)
+(* ---- Quadratics, and integers with error bounds ---- *)
 
-(* Three, the first of which often has roots in common with the others, and with one more. *)
+(* Three quadratics, of which the first often has common roots with the others, and one more. *)
 let draw_quadratics () =
   let size = [| 1; 2; 5; 30; 1 lsl 20 |].(draw 5) in
   let kind = draw 4 in
@@ -377,8 +376,8 @@ let draw_quadratics () =
   let other = if draw 3 = 0 then any () else with_root () in
   [ first; second; third ], other
 
-(* The roots of a product of linear forms, over 2^bits; an interval a few doubles wide in which it changes its sign
-   once, perhaps with roots at its ends or a double one; and an estimate. *)
+(* The roots of a product of linear forms, over 2^bits, an interval a few doubles wide with one sign change, and an
+   estimate. The ends may be roots, and there may be a double root. *)
 type drawn_search = { search_roots : int list; search_bits : int; search_low : int; search_high : int;
                       search_estimate : int; search_negative : bool }
 let draw_search () =
@@ -397,7 +396,7 @@ let draw_search () =
   let search_roots = List.filteri (fun i _ -> i < degree) [ root; second; third ] in
   { search_roots; search_bits; search_low = low; search_high = high; search_estimate; search_negative }
 
-(* Two values and bits of their errors. *)
+(* Two values and the bits of their errors. *)
 let draw_bounded () =
   let bits () = if draw 4 = 0 then draw 2 - (1 lsl 20) else draw 20 - 5 in
   let number () = drawn_within (draw 20) in
@@ -407,14 +406,14 @@ let draw_bounded () =
   let b_bits = bits () in
   (a, a_bits), (b, b_bits)
 
-(* ---- Units, as axis_units.hpp has them ---- *)
+(* ---- Units, as in axis_units.hpp ---- *)
 
 let last_bit x =
   let mantissa, exponent = Float.frexp x in
   let n = Z.of_float (ldexp mantissa 53) in
   exponent - 53 + Z.trailing_zeros n
 
-(* Of so many points. *)
+(* For `count` points. *)
 let axis count x k =
   let at p e = x.((6 * p) + (3 * e) + k) in
   let all e = List.init count (fun p -> at p e) in
@@ -430,7 +429,7 @@ let axis count x k =
 
 type decided = { edges : bool; units : (int * int) array; whole : Z.t array }
 
-(* In whole units; the bits shifted out are zeros. *)
+(* In integer units; the bits shifted out are zeros. *)
 let in_units unit v =
   let mantissa, exponent = Float.frexp v in
   let size = Z.of_float (ldexp mantissa 53) and shift = exponent - 53 - unit in

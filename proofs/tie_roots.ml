@@ -1,6 +1,6 @@
-(* Writes what the proofs' definitions (roots.ml, extracted by TieRoots.v) make of what isolation of roots computes
-   with: dyadic numbers, residues, variations of signs, rows of Bernstein coefficients, polynomials, bounds of
-   roots, their refinement, polynomials near a place. tests/proofs/tie_roots.cpp does the same with the C++ code. *)
+(* Writes the results of the proofs' definitions (roots.ml, extracted by TieRoots.v) for the components of root
+   isolation. They are dyadic numbers, residues, sign variations, rows of Bernstein coefficients, polynomials, bounds
+   of roots and their refinement, and local forms. tests/proofs/tie_roots.cpp does the same with the C++ code. *)
 module Whole = Z
 module Rational = Q
 open Tie_hash
@@ -9,7 +9,7 @@ module Z = Whole
 module Q = Rational
 
 let z = Z.of_int
-(* Its sign, and words of 32 bits from the last. *)
+(* Puts the sign, and words of 32 bits from the last. *)
 let put_whole n =
   put_word (Z.sign n + 1);
   let rest = ref (Z.abs n) in
@@ -26,7 +26,7 @@ let put_double x =
   put_word (Int64.to_int (Int64.shift_right_logical bits 32));
   put_word (Int64.to_int bits land 0xffffffff)
 
-(* Numbers: of so many bits, nonnegative; small, of a word, longer, and zero. *)
+(* Numbers: of `bits` bits, nonnegative; small, one word, longer, and zero. *)
 let rec natural bits = if bits <= 0 then Z.zero else let upper = natural (bits - 30) in
     Z.add (Z.shift_left upper 30) (z (draw (1 lsl 30)))
 let signed n = if draw 2 = 0 then n else Z.neg n
@@ -77,13 +77,13 @@ let put_field () =
       field_multiply_and_subtract p a b c d; field_to_form p a; field_from_form p a ];
   let n = if draw 2 = 0 then z (draw 70) else natural 60 in
   put_whole (field_power p a n)
-(* Of factors of the modulus. *)
+(* Residues that are factors of the modulus. *)
 let put_zero_divisors () =
   let odd () = z ((2 * draw (1 lsl 29)) + 3) in
   let a = odd () in
   let b = odd () in
   put_whole (field_multiply (Z.mul a b) a b)
-(* Of a multiple of the modulus, or beside one. *)
+(* Residues of a multiple of the modulus, or next to one. *)
 let put_residue () =
   let p = moduli.(draw 4) in
   let multiple = Z.mul (z (draw 5 - 2)) p in
@@ -92,11 +92,11 @@ let put_value_modulo () =
   let p = moduli.(draw 4) in
   let f = polynomial (draw 6) in
   let n, e = point () in
-  let put f = (* its residues, too *)
+  let put f = (* also its residues *)
     List.iter (fun c -> put_whole (Z.erem c p)) f;
     put_whole (field_value p n e (List.rev f)) in
   put f;
-  (* Of what is zero there: the power of two is a coefficient. *)
+  (* A polynomial that is zero there: the power of two is a coefficient. *)
   let power = Z.shift_left Z.one (abs (Z.to_int e)) in
   put (if Z.sign e < 0 then [ Z.neg n; power ] else [ Z.neg (Z.mul n power); Z.one ])
 
@@ -111,13 +111,13 @@ let put_variations () =
 
 let bits_of x = Z.numbits (Z.abs x)
 let words = 4
-(* The constructor: rows of numbers of W words, cut where they are longer, longer where they are not; of zeros
-   where the error is large. *)
+(* The constructor: rows of numbers of W words, rounded if they are longer, extended otherwise; zeros if the error is
+   large. *)
 let row_of b error =
   let excess = z (List.fold_left (fun m c -> max m (bits_of c)) 0 b - ((64 * words) - 3)) in
   let error = row_cut_error excess error in
   if Z.lt error (Z.shift_left Z.one 60) then row_cut excess b, error else List.map (fun _ -> Z.zero) b, Z.zero
-(* As doubles, by words from the first. *)
+(* The double of the number, by words from the first. *)
 let nearby x =
   let rec sum n = if Z.sign n = 0 then 0. else
       (sum (Z.shift_right n 64) *. ldexp 1. 64) +. Z.to_float (Z.logand n (Z.pred (Z.shift_left Z.one 64))) in
@@ -125,7 +125,7 @@ let nearby x =
 let put_fixed_row (row, error) =
   put_int (List.length row);
   List.iter (fun x -> put_int (Z.to_int (row_sign error x)); put_double (nearby x)) row
-(* And its halves, some times. *)
+(* Puts the row, and its halves a few times. *)
 let put_halves b error =
   let degree = List.length b - 1 in
   let row = ref (row_of b error) in
@@ -141,8 +141,8 @@ let put_rows () =
   let b = polynomial (draw 9) in
   let b = if draw 3 = 0 then List.map (fun c -> Z.shift_left c 200) b else b in
   put_halves b (match draw 4 with 0 -> Z.zero | 1 -> z (draw 5) | 2 -> natural 60 | _ -> natural 270)
-(* With an error that is small, or about the largest that a row keeps or twice that, and coefficients that are
-   about as large. For the last one nothing is cut off. *)
+(* Errors that are small, or about once or twice the largest that a row keeps, and coefficients of that size. The
+   last row is not rounded. *)
 let put_row_edges () =
   let kind = draw 3 in
   let error = if kind = 0 then z (draw 5) else Z.add (Z.shift_left Z.one (59 + kind)) (z (draw 4 - 4)) in
@@ -178,14 +178,14 @@ let put_of_degree degree =
     put_all (List.map Q.num (form_control_values weights e (units low) (units width) (List.map Q.of_bigint p)))
   end
 let put_polynomial () = put_of_degree (if draw 16 = 0 then 38 + draw 6 else draw 9)
-(* Whose weights 64 bits may not hold. *)
+(* A polynomial whose weights may exceed 64 bits. *)
 let put_long_polynomial () = put_of_degree (44 + draw 8)
 let put_empty_polynomial () =
   let value = form_value [] (q_of (if draw 2 = 0 then z 0, z 0 else point ())) in
   put_q value;
   put_word (Q.sign value + 1)
 
-(* Irreducible, by Eisenstein's criterion, so that nothing is left out of it. *)
+(* Irreducible by Eisenstein's criterion, so that no factor is removed. *)
 let irreducible degree =
   let first = Z.succ (Z.mul (z 3) (z (draw 1000))) in
   let first = signed first in
@@ -196,7 +196,7 @@ let put_half_lines () =
   let p = irreducible (1 + draw 7) in
   put_q (form_upper_bound p);
   put_q (Q.neg (form_upper_bound (form_mirrored p)));
-  (* Where there are none, of the exponent alone: it says nothing. *)
+  (* Without bounds, it is computed from the root exponent only. *)
   let least p = match form_half_line p with
     | Some (low, _) -> low
     | None ->
@@ -205,7 +205,7 @@ let put_half_lines () =
   put_q (least p);
   put_q (Q.neg (least (form_mirrored p)))
 
-(* Whether refine keeps a part, or what lies beside it. *)
+(* True if refine keeps the subinterval, not its complement. *)
 let keep p i bits =
   let value x = of_q (form_value p x) in
   let at_low = value i.low and at_high = value i.high in
@@ -237,7 +237,7 @@ let put_refined () =
   let a = draw 4000 - 2000 in
   let b = draw 4000 - 2000 in
   put_refined_between p (q_of (z a, z e)) (q_of (z b, z e))
-(* With a root that is whole, where two parts meet that halving leads to. *)
+(* A whole root, where two subintervals meet after halvings. *)
 let put_whole_root () =
   let q = irreducible (2 + draw 3) in
   let root = z (draw 2000 - 1000) in
@@ -246,7 +246,7 @@ let put_whole_root () =
   let low = Z.sub root (z (1 + draw (1 lsl bits))) in
   put_refined_between p (Q.of_bigint low) (Q.of_bigint (Z.add low (z (2 lsl bits))))
 
-(* ---- Near a place ---- *)
+(* ---- Local forms ---- *)
 
 type local = { degree : int; a : Z.t list; error : Z.t }
 let put_local f =
@@ -263,7 +263,7 @@ let put_local f =
   put_bool (local_rootless f.degree f.a f.error);
   put_bool (local_low_end f.a f.error);
   put_bool (local_high_end f.degree f.a f.error)
-(* part, and drop_small_terms, which dropped_right is about. *)
+(* part, and drop_small_terms (dropped_right). *)
 let part f from length depth =
   let a = local_part from length (z depth) f.a in
   let error = local_part_error f.degree (z (List.length f.a)) f.error in
@@ -277,7 +277,7 @@ let draw_part f =
   let from = draw (1 lsl depth) in
   let length = 1 + draw ((1 lsl depth) - from) in
   part f (z from) (z length) depth
-(* And parts of parts. *)
+(* Subintervals, and subintervals of them. *)
 let put_parts p low width bits =
   let a, error = local_taylor p low width (z bits) in
   let f = { degree = List.length p - 1; a; error } in
@@ -294,7 +294,7 @@ let put_near () =
   let width = dyadic_made (Z.succ n) (Z.sub (Z.add (dyadic_floor_log2 low) (z ratio)) (z (Z.numbits (Z.succ n)))) in
   let bits = [| 0; 20; 64; 256 |].(draw 4) in
   put_parts p low width (bits + draw 10)
-(* In few bits, which the numerators of powers of `low` just exceed. *)
+(* A polynomial of few bits, which the numerators of powers of `low` just exceed. *)
 let put_near_small () =
   let p = polynomial (if draw 4 = 0 then 30 else draw 5) in
   let numerator = (2 * draw 4) + 1 in
@@ -302,22 +302,22 @@ let put_near_small () =
   let size = Z.sub (dyadic_floor_log2 low) (z (2 + draw 8)) in
   let width = dyadic_made (z (1 + draw 8)) size in
   put_parts p low width (draw 16)
-(* c + 2^20·(x - 1), or the opposite, whose values are about as large as the error. *)
+(* c + 2^20·(x - 1), or its negative, whose values are about as large as the error. *)
 let put_near_error () =
   let bits = 4 + draw 8 in
   let slope = signed (z (1 lsl 20)) in
   let c = z (draw 140 lsl (18 - bits)) in
   let width = dyadic_made (z (1 + draw 63)) (z (- bits - 2)) in
   put_parts [ Z.sub c slope; slope ] (Z.one, Z.zero) width bits
-(* d·(x - 1)^2 + 2^20·(x - 1), of which the last term is about as large as the error. *)
+(* d·(x - 1)^2 + 2^20·(x - 1), whose last term is about as large as the error. *)
 let put_near_small_term () =
   let size = z (1 + draw (1 lsl 20)) in
   let d = signed size in
   let slope = z (1 lsl 20) in
   let width = dyadic_made (z (1 + draw (1 lsl 10))) (z (-12)) in
   put_parts [ Z.sub d slope; Z.sub slope (Z.mul (z 2) d); d ] (Z.one, Z.zero) width (13 + draw 4)
-(* 24·(x - c)^2 + d, or the opposite, whose Bernstein coefficients have one sign if d is large, and if it is
-   less, only those of higher degree. *)
+(* 24·(x - c)^2 + d, or its negative. Its Bernstein coefficients have one sign if d is large; for smaller d, only
+   those of higher degree. *)
 let put_near_minimum () =
   let low = 1 + draw 1000 in
   let d = draw 32 in
@@ -325,7 +325,7 @@ let put_near_minimum () =
   let factor = signed Z.one in
   let p = List.map (fun x -> Z.mul factor (z x)) [ (24 * c * c) + d; -48 * c; 24 ] in
   put_parts p (dyadic_made (z low) Z.zero) (Z.one, Z.one) 40
-(* (x - low)^3, of which nothing is seen. *)
+(* (x - low)^3, whose signs are all uncertain. *)
 let put_near_triple_root () =
   let low = 1 + draw 1000 in
   let width = Z.one, z (-90 - draw 10) in

@@ -1,5 +1,5 @@
-(* Writes what the proofs' definitions (symbols.ml, extracted by TieSymbols.v) make of symbols: names of
-   the expressions that they compute, and what they conclude from signs that are drawn by these names.
+(* Writes the results of the proofs' definitions (symbols.ml, extracted by TieSymbols.v) for symbols: names of the
+   computed expressions, and conclusions from signs that are random functions of the names.
    tests/proofs/tie_symbols.cpp does the same with the C++ templates. *)
 open Tie_hash
 open Symbols
@@ -79,7 +79,7 @@ let put_forms edges =
   put (forms_y s b c p);
   List.iter put ((if edges then forms_inside_edges else forms_inside_face) s b c p)
 
-(* The expression that a predicate is the sign of. *)
+(* The expression whose sign the predicate returns. *)
 let rec named_expression = function
   | Coordinate c -> (Obj.magic c : int)
   | Difference (a, b) -> named 1 (Obj.magic a) (Obj.magic b)
@@ -90,7 +90,7 @@ let rec named_expression = function
   | Negation a -> named 3 (named_expression a) 0
 let sign_of_expression e = sign_of_name (named_expression e)
 let point k i = Obj.magic (given ((10 * k) + i))
-(* A predicate's expression, or its sign, and of which degrees coordinates are, if not all of degree 1. *)
+(* A predicate's expression or its sign, and the degrees of coordinates, if not all are 1. *)
 let put_expression e = put_both (named_expression e)
 let put_weighted e count dimension = put_expression e; List.iter put_word (weighted_degrees count dimension)
 

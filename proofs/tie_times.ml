@@ -1,7 +1,7 @@
-(* Writes what the proofs' definitions (times.ml, extracted by TieRoots.v) tell of first contacts in integers: whether
-   there is one, and between which doubles. tests/proofs/tie_times.cpp does the same with the C++ code, on the same
-   queries. Where floating point expects roots is taken as the code has it, since theorems hold whatever it is, and
-   so is how a quadratic's roots are told apart, since quadratic_bracket is a relation: ccd/contact/time_bracket.hpp. *)
+(* Writes the first contacts of the proofs' definitions (times.ml, extracted by TieRoots.v) in integers: if there is
+   one, and the doubles around it. tests/proofs/tie_times.cpp does the same with the C++ code, on the same queries.
+   Copied from ccd/contact/time_bracket.hpp are floating-point estimates of roots, since theorems hold for any, and
+   the selection of a quadratic's root, since quadratic_bracket is a relation. *)
 module Whole = Z
 module Rational = Q
 open Tie_hash
@@ -12,7 +12,7 @@ open Tie_queries
 
 (* ---- Searches ---- *)
 
-(* The number of a double in their order. *)
+(* The index of a double in ascending order. *)
 let order_of t =
   let size = Z.of_int64 (Int64.bits_of_float (Float.abs t)) in
   if t < 0. then Z.neg size else size
@@ -37,7 +37,7 @@ let slope_at s t =
     power := !power *. t
   done;
   !sum
-(* The value, and a double near it; nothing where fixed widths cannot tell. *)
+(* The value, and a double near it; none if fixed widths do not suffice. *)
 let value s t =
   let n = Array.length s.p - 1 in
   if t = 0. then Some (s.p.(0), scaled s.p.(0) (- s.unit))
@@ -97,7 +97,7 @@ let quadratic_bracket f which =
   | First_root_of -> beside_extreme true
   | Second_root_of -> beside_extreme false
 
-(* What is told of a place in time: no contact, none that can be told, or its bracket. *)
+(* The result for a position in time: no contact, unknown, or its bracket. *)
 type told = Never | Unknown | At of bracket
 let told = function None -> Unknown | Some b -> At b
 let bracket_of = function
@@ -162,12 +162,12 @@ let put_told = function
   | Never -> put_word 0
   | Unknown -> put_word 2
   | At (low, high) -> put_word 1; put_double (Q.to_float low); put_double (Q.to_float high)
-(* Where integers of two words hold all. *)
+(* True if integers of two words hold all numbers. *)
 let fits d = Array.for_all (fun (_, bits) -> bits <= 125) d.units
 let put_if_fitting d tell = put_told (if fits d then tell d else Unknown)
 
-(* Of a part of the step where Y changes its sign, as if the filter had found contact in it: parts and how Y bends
-   there follow from the case's number. *)
+(* The root in a subinterval where Y changes its sign, as if the filter had found contact in it. The case's index
+   determines the subinterval and the shape of Y. *)
 let put_part d k =
   let depth = k mod 4 in
   let index = k / 4 mod (1 lsl depth) in
@@ -193,7 +193,7 @@ let put_times (edges, x) k =
   put_if_fitting (integers_of edges x) first_time;
   put_fewer (edges, x)
 
-(* Whatever the extents are. *)
+(* For all extents. *)
 let put_wide (edges, x) _ =
   if Array.for_all Float.is_finite x then begin
     let d = integers_of edges x in
@@ -202,7 +202,7 @@ let put_wide (edges, x) _ =
     put_fewer (edges, x)
   end
 
-(* Where doubles hold the query: its points from one of them on. *)
+(* For queries that fit in doubles: points relative to one of them. *)
 let put_of_forms f k =
   let bits = max (bits_along f 0) (max (bits_along f 1) (bits_along f 2)) in
   if bits <= 50 then begin
@@ -219,8 +219,8 @@ let put_of_forms f k =
     put_times (f.on_edges, x) k
   end
 
-(* All vertices and edges from 0 on with coordinates -1 to 1 in a plane, or edges along an axis; and with those from -3
-   to 3 on a line. *)
+(* All vertices and edges from 0 with coordinates -1 to 1 in a plane, or edges along an axis; on a line, with
+   coordinates -3 to 3. *)
 let put_small k =
   let each = 6561 in
   let x = Array.make 24 0. in

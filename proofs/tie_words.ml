@@ -1,5 +1,5 @@
-(* Writes what the proofs' definitions (words.ml, extracted by TieIntegers.v) make of integers as long as they need
-   to be, whose words are often all zeros or all ones. tests/proofs/tie_words.cpp does the same with the C++ code. *)
+(* Writes the results of the proofs' definitions (words.ml, extracted by TieIntegers.v) for integers of variable
+   length, whose words are often all zeros or all ones. tests/proofs/tie_words.cpp does the same with the C++ code. *)
 module Whole = Z
 open Tie_hash
 open Words
@@ -13,7 +13,7 @@ let put_whole w =
 let put_int n = put_word (n land 0xffffffff)
 let put_words x = put_int (List.length x); List.iter put_whole x
 
-(* Without words that say nothing, which trim_exact is about. *)
+(* Without sign extensions (trim_exact). *)
 let trimmed x =
   let rec from_last = function
     | last :: (next :: _ as rest) when Z.equal last (if Z.testbit next 63 then ones else Z.zero) -> from_last rest

@@ -1,6 +1,5 @@
-"""Which functions decide, and which of them are tied: what the C++ code makes of some inputs is compared
-with what the proofs' definitions compute (README.md, The tie). Those that are not are in README.md, with
-the reason."""
+"""The functions that decide, and those that are tied: their results on some inputs are compared with those of the
+proofs' definitions (README.md, The tie). README.md lists the others with the reasons."""
 import re
 import sys
 from pathlib import Path
@@ -10,7 +9,7 @@ root = proofs.parent
 sys.path.insert(0, str(root / "tests/project"))
 from layout_test import code_alone, cpp_functions  # noqa: E402
 
-# Of each tie, the files whose functions it compares, and what its lines in tie.txt begin with.
+# For each tie, the files whose functions it compares, and the beginnings of its lines in tie.txt.
 TIES = {
     "rules": (["include/errbound/rules/affine.hpp", "include/errbound/rules/interval.hpp",
                "include/errbound/rules/none.hpp", "include/errbound/rules/relative.hpp",
@@ -43,7 +42,7 @@ TIES = {
     "filters": (["include/errbound/filters/static_filter.hpp", "include/errbound/filters/semi_static_filter.hpp"],
                 ("expression",)),
 }
-# Whose functions decide, too.
+# Other files with functions that decide.
 OTHERS = ["include/errbound/elementary.hpp", "include/errbound/functions/angle_reduction.hpp",
           "include/errbound/functions/function_error.hpp",
           "include/errbound/functions/function_of_range.hpp", "include/errbound/roots/double_order.hpp",
@@ -69,7 +68,7 @@ OTHERS = ["include/errbound/elementary.hpp", "include/errbound/functions/angle_r
 
 
 def functions(path):
-    """(name, first line, lines) of every function of a file."""
+    """Yields (name, first line, number of lines) for every function of a file."""
     text = (root / path).read_text()
     for _, first, lines in cpp_functions(text):
         head = "\n".join(text.split("\n")[first - 1:first - 1 + lines]).split("{")[0]
@@ -77,13 +76,13 @@ def functions(path):
         names = [name for name in re.findall(r"(operator\s*\(\)|operator[^\s(]+|[~\w]+|\])\s*\(", head)
                  if name not in ("requires", "decltype", "noexcept", "explicit")]
         name = names[0] if names else head.split()[0]
-        if name == "]":  # of a lambda, what it is kept as
+        if name == "]":  # the variable of a lambda
             name = re.search(r"(\w+)\s*=[^=]*\[", head)[1]
         yield name, first, lines
 
 
 def untied():
-    """By file, the names of functions that README.md says are not tied."""
+    """Returns the names of untied functions by file, from README.md."""
     found = {}
     text = (proofs / "README.md").read_text().split("### Functions without a tie\n")[1].split("\n## ")[0]
     rows = re.findall(r"^\| `([\w/.]+)` \| (`[^|]+`) \| [^|]+ \|$", text, re.MULTILINE)
@@ -93,14 +92,14 @@ def untied():
 
 
 def untied_functions(path):
-    """(first line, lines) of those of a file that is tied."""
+    """Returns (first line, number of lines) for the untied functions of a tied file."""
     names = untied().get(path, set())
     return [(first, lines) for name, first, lines in functions(path) if name in names]
 
 
 def count():
-    """By tie, how many functions it compares; how many others there are. Fails by a message where README.md
-    names what is not there, or does not name what is."""
+    """Returns the number of compared functions by tie, and the number of others. Raises ValueError if README.md names
+    functions that do not exist, or lacks one."""
     named, tied, others = untied(), {}, 0
     for tie, (paths, _) in TIES.items():
         tied[tie] = 0
@@ -115,20 +114,20 @@ def count():
         names = [name for name, _, _ in functions(path)]
         if named.pop(path, set()) != set(names):
             row = ", ".join(f"`{name}`" for name in dict.fromkeys(names))
-            raise ValueError(f"README.md has to name the functions of {path}, which is not tied: {row}")
+            raise ValueError(f"README.md must name the functions of {path}, which is not tied: {row}")
         others += len(names)
     if named:
-        raise ValueError(f"README.md names functions as not tied of files that decide nothing: {sorted(named)}")
+        raise ValueError(f"README.md names functions as not tied in files that decide nothing: {sorted(named)}")
     listed = {path for paths, _ in TIES.values() for path in paths} | set(OTHERS)
     for path in (path for folder in ("include", "ccd") for path in sorted((root / folder).rglob("*.[hc]pp"))):
         name = str(path.relative_to(root))
         if name not in listed and re.search(r"proofs/\w+\.v", path.read_text()) and any(functions(name)):
-            raise ValueError(f"{name} names theorems, and ties.py lists it neither as tied nor as not")
+            raise ValueError(f"{name} names theorems, and ties.py does not list it")
     return tied, others
 
 
 def cases():
-    """By tie, how many inputs tie.txt compares."""
+    """Returns the number of inputs in tie.txt by tie."""
     found = dict.fromkeys(TIES, 0)
     for line in (proofs / "tie.txt").read_text().splitlines():
         start, _, number, _ = line.split()

@@ -1,21 +1,21 @@
 #!/usr/bin/env python3
-"""Two builds' benchmarks, the least times of several runs of each, and their ratios:
+"""Prints the least times of two builds in several benchmark runs, and their ratios.
 
     compare.py FIRST.json... SECOND.json...
 
-As many files of one as of the other, made by errbound_bench --json in turns. Rows that only one has are
-left out, and counted.
+Both builds have the same number of files, which `errbound_bench --json` wrote alternately. Rows that only one build has
+are counted, not printed.
 """
 
 import json
 import sys
 
-# A figure's unit, and the column that has it.
+# The unit and the column of each figure.
 UNITS = {"ns": "ns_min", "ms": "ms_min", "ns exact": "ns_exact"}
 
 
 def least_times(paths):
-    """(what is measured) -> (least time of all files, its unit)."""
+    """Returns the least time of all files, and its unit, by a row's name."""
     least = {}
     for path in paths:
         for table in json.load(open(path))["tables"]:

@@ -66,7 +66,6 @@ void add_contacts_row(const query_set<Query>& set, const options& o,
          error(ccd::lab::quantile(of.normals, 0.99))});
 }
 
-/// The mean length of all faces' edges before the step.
 double mean_edge(const ccd::mesh& m) {
     double sum = 0;
     for (const ccd::face& f : m.faces)
@@ -77,7 +76,8 @@ double mean_edge(const ccd::mesh& m) {
     return sum / (3 * static_cast<double>(m.faces.size()));
 }
 
-/// All candidates in batches: yes or no, also with the first times, and within a distance.
+/// Decides all candidates in batches: only the answers, answers with first times, and answers for a
+/// distance.
 template <class Query>
 void add_batch_rows(const query_set<Query>& set, double distance, const options& o,
                     std::vector<std::vector<cell>>& rows) {

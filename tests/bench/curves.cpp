@@ -9,7 +9,7 @@ namespace {
 
 using control_points = std::vector<ccd::point<double>>;
 
-/// Control points all over the unit cube: features meet in one of seven cubics.
+/// Random control points in the unit cube: features meet in one of seven cubics.
 std::vector<std::array<control_points, 4>> random_motions(std::size_t count, int degree) {
     std::mt19937 random(1);
     std::uniform_real_distribution<double> coordinate(0, 1);

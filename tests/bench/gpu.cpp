@@ -1,5 +1,5 @@
-// ./run bench-gpu: every method on the device, next to the host; first times; whole steps; as
-// tables.
+// ./run bench-gpu: tables of every method on the device and on the host, of first times and of
+// whole steps.
 #include <cuda_runtime_api.h>
 
 #include <CLI/CLI.hpp>
@@ -31,7 +31,7 @@ void check(const ccd::cuda::status& s) {
     if (!s) throw std::runtime_error(s.error);
 }
 
-/// Device memory, with a copy of host memory if given.
+/// An array in device memory, optionally with a copy of host memory.
 template <class T>
 class device_array {
   public:
@@ -60,7 +60,6 @@ class device_array {
     std::size_t count_;
 };
 
-/// A scene's positions on the device.
 struct device_scene {
     device_array<double> before, after;
     ccd::cuda::positions at;
@@ -76,7 +75,7 @@ std::string name_of(precision p) {
     return p == precision::float32 ? "float32" : "float64";
 }
 
-/// A scene's candidates of one kind, repeated until there are at least `least`, on the device, with
+/// A scene's candidates of one kind on the device, repeated until there are at least `least`, with
 /// the memory for their decision.
 template <class Query>
 class device_batch {
@@ -138,7 +137,7 @@ struct contestant {
     ccd::lab::tally errors = {};  ///< of one of the copies
 };
 
-/// All methods in both precisions, with their errors.
+/// Times all methods in both precisions and counts their errors.
 template <class Query>
 std::vector<contestant> contestants_of(const device_batch<Query>& batch,
                                        const bench::query_set<Query>& once) {
@@ -177,7 +176,7 @@ void add_methods_table(const bench::scene& s, const device_batch<Query>& batch,
     const auto count = static_cast<double>(batch.size());
     for (std::size_t i = 0; i < contestants.size(); ++i) {
         const contestant& c = contestants[i];
-        // The least transfer: the rows, once, and an answer each.
+        // The smallest possible transfer reads every row once and writes every answer once.
         const double moved =
             count * (sizeof(ccd::pair_of_query<Query>) + sizeof(ccd::outcome)) / times[i].minimum;
         table.push_back(
@@ -204,8 +203,8 @@ void add_methods_table(const bench::scene& s, const device_batch<Query>& batch,
               table);
 }
 
-/// The stages of exact: the candidates that enter, and their operations compared with the peaks in
-/// `seconds`.
+/// The stages of exact: candidates that enter each stage, and its operations compared with the
+/// peaks in `seconds`.
 template <class Query>
 void add_stages_table(const bench::scene& s, const device_batch<Query>& batch, double seconds,
                       const bench::device_peaks& peaks, bench::report& out) {
@@ -254,7 +253,8 @@ std::vector<bench::cell> row_of_times(const char* where, std::size_t queries, st
                           1)};
 }
 
-/// First times of all that collide, next to the decision only, on the device and on the host.
+/// First times of all colliding candidates, compared with the decision only, on the device and on
+/// the host.
 template <class Query>
 void add_times_table(const bench::scene& s, const device_batch<Query>& batch,
                      const bench::query_set<Query>& once, const bench::options& o,
@@ -319,7 +319,6 @@ void methods(const bench::scene& s, const device_scene& device, const bench::que
     add_times_table(s, batch, once, o, out);
 }
 
-/// A step's options, on the device and on the host.
 struct step_request {
     const char* name;
     ccd::cuda::mesh_step_options options;
@@ -385,15 +384,15 @@ struct run_options : bench::options {
 };
 
 void add_options(CLI::App& app, run_options& o) {
-    app.add_flag("--quick", o.quick, "Fewer queries and repeats: shows that all works");
+    app.add_flag("--quick", o.quick, "Fewer queries and repeats: tests that everything runs");
     app.add_option("--json", o.json, "The tables as JSON, to this file");
-    app.add_option("--scene", o.scene, "Only scenes whose name holds this");
+    app.add_option("--scene", o.scene, "Only scenes whose name contains this");
     app.add_option("--queries", o.queries, "Candidates are replicated to at least this number")
         ->check(CLI::Range(std::size_t(1), std::size_t(2'000'000'000)));
-    app.add_option("--commit", o.commit, "To be printed at the head");
+    app.add_option("--commit", o.commit, "Commit to print with the results");
 }
 
-/// Prints the device and the host; returns the same for machines.
+/// Prints the device and the host, and returns them as JSON.
 nlohmann::json say_machine(const bench::device_peaks& peaks, const std::string& commit) {
     cudaDeviceProp device{};
     check(cudaGetDeviceProperties(&device, 0));

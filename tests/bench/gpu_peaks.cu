@@ -1,4 +1,4 @@
-// Measured peaks of the device: copies, and products and sums that are not fused.
+// Measured peaks of the device: copies, and unfused products and sums.
 #include <cuda_runtime.h>
 
 #include <algorithm>
@@ -26,10 +26,10 @@ __global__ void multiply_and_add(T* result, T factor) {
             x[c] = x[c] * factor + factor;  // two operations: -fmad=false
     T sum = 0;
     for (int c = 0; c < chains; ++c) sum += x[c];
-    if (sum == T(-1)) *result = sum;  // never, but the compiler cannot know
+    if (sum == T(-1)) *result = sum;  // never true, but the compiler cannot prove it
 }
 
-/// The shortest of some runs, in seconds.
+/// Returns the time of the shortest run, in seconds.
 template <class Run>
 double shortest(const Run& run) {
     cudaEvent_t start, stop;

@@ -5,7 +5,7 @@
 
 namespace bench {
 
-/// Throws std::runtime_error, in CUDA's words, unless all is well.
+/// Throws std::runtime_error with CUDA's message unless the call succeeded.
 void check(cudaError_t e);
 
 struct device_peaks {
@@ -14,7 +14,7 @@ struct device_peaks {
     double double_operations = 0;
 };
 
-/// Throws as check does.
+/// Throws the same exception as check.
 device_peaks measured_peaks();
 
 }  // namespace bench

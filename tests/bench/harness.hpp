@@ -1,4 +1,4 @@
-// Shared by the benchmarks: options, and tables for people and machines.
+// Options and tables shared by the benchmarks, printed as text and as JSON.
 #pragma once
 
 #include <algorithm>
@@ -14,12 +14,12 @@
 namespace bench {
 
 struct options {
-    bool quick = false;                      ///< fewer repeats and queries: to see that all works
-    std::string scene = {};                  ///< only scenes whose name holds this
-    std::vector<std::string> sections = {};  ///< of section_names; empty: all
+    bool quick = false;      ///< fewer repeats and queries: tests that everything runs
+    std::string scene = {};  ///< only scenes whose name contains this
+    std::vector<std::string> sections = {};  ///< names in section_names; empty: all
 
     int repeats() const { return quick ? 3 : 7; }
-    /// The number of queries one by one; they are drawn evenly from more.
+    /// The largest number of queries for one-by-one runs, which sample larger sets evenly.
     std::size_t max_queries() const { return quick ? 10'000 : 200'000; }
     bool wants(std::string_view section) const {
         return sections.empty() || std::ranges::find(sections, section) != sections.end();
@@ -39,7 +39,7 @@ using ccd::lab::race;
 using ccd::lab::seconds_since;
 using ccd::lab::timing;
 
-/// A value for people and the same for machines.
+/// A value as text and as JSON.
 struct cell {
     std::string text;
     nlohmann::json value;
@@ -51,18 +51,18 @@ cell percent(double share);
 cell none();  ///< a dash; null
 
 struct column {
-    std::string key;      ///< for machines
-    std::string heading;  ///< for people
-    bool left = false;    ///< words stand left; columns of words come first
+    std::string key;      ///< name in JSON
+    std::string heading;  ///< heading in text
+    bool left = false;    ///< left-aligned; columns of words come first
 };
 
-/// Prints tables as they come and collects them.
+/// Prints tables immediately and collects them.
 class report {
   public:
-    /// `about` is what the rows have in common ("scene": "cloth-ball").
+    /// `about` is what all rows have in common, such as "scene": "cloth-ball".
     void table(std::string_view section, const nlohmann::json& about, const std::string& title,
                const std::vector<column>& columns, const std::vector<std::vector<cell>>& rows);
-    /// A line of text for people alone.
+    /// Prints a line that is not part of the JSON.
     static void say(const std::string& line);
     const nlohmann::json& tables() const { return tables_; }
 

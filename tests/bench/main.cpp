@@ -1,4 +1,4 @@
-// ./run bench: the cost of `exact` next to the other methods, as tables.
+// ./run bench: tables of the cost of `exact` and of the other methods.
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <exception>
@@ -10,7 +10,7 @@
 
 namespace {
 
-/// Prints the machine and the build; returns the same for machines.
+/// Prints the machine and the build, and returns them as JSON.
 nlohmann::json head(const std::string& commit) {
     nlohmann::json here = ccd::lab::this_machine();
     here["commit"] = commit;
@@ -55,15 +55,15 @@ int main(int argc, char** argv) try {
         "build for this processor\nnext to these.");
     bench::options o;
     std::string json, commit = "unknown";
-    app.add_flag("--quick", o.quick, "Fewer queries and repeats: shows that all works");
+    app.add_flag("--quick", o.quick, "Fewer queries and repeats: tests that everything runs");
     app.add_option("--json", json, "The tables as JSON, to this file");
-    app.add_option("--scene", o.scene, "Only scenes whose name holds this");
+    app.add_option("--scene", o.scene, "Only scenes whose name contains this");
     app.add_option("--sections", o.sections,
                    "Only these: methods, stages, contacts, steps, growth, predicates, curves")
         ->delimiter(',')
         ->check(CLI::IsMember(std::vector<std::string>(std::begin(bench::section_names),
                                                        std::end(bench::section_names))));
-    app.add_option("--commit", commit, "To be printed at the head");
+    app.add_option("--commit", commit, "Commit to print with the results");
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& error) {

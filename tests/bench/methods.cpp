@@ -9,7 +9,7 @@
 namespace bench {
 namespace {
 
-/// The number of the sample's queries for one pass of a method: a pass takes half a second at most,
+/// The number of the sample's queries for one pass of a method. A pass takes at most half a second,
 /// estimated from the first queries.
 template <class Query>
 std::size_t affordable(ccd::method method, const std::vector<Query>& sample) {
@@ -23,7 +23,7 @@ std::size_t affordable(ccd::method method, const std::vector<Query>& sample) {
                : sample.size();
 }
 
-/// The contestants on the queries of one kind of a scene: every method one by one, and batches.
+/// Races the contestants on a scene's queries of one kind: every method one by one, and batches.
 template <class Query>
 class methods_race {
   public:
@@ -40,7 +40,7 @@ class methods_race {
         add_batch(on_best + ", all threads", best, 0);
         for (std::size_t i = 0; i < batch_.size(); i += 1 + batch_.size() / o.max_queries())
             if (ccd::decide(ccd::method::exact, batch_[i]).outcome != answers_[i])
-                throw std::runtime_error("batches and one by one differ");
+                throw std::runtime_error("batches and single calls disagree");
         of_sample_.resize(sample_.size());  // stored: 192 bytes a query
         add_exact(on_best + ", stored queries", of_sample_,
                   [this] { ccd::decide_batch(sample_, of_sample_, {.threads = 1}); });
@@ -88,9 +88,9 @@ class methods_race {
         add_exact(how, answers_, [this, set, threads] {
             batch_.decide_batch(0, answers_, {.threads = threads, .set = set});
         });
-        if (!is_first && answers_ != before) throw std::runtime_error("answers differ on " + how);
+        if (!is_first && answers_ != before) throw std::runtime_error("answers differ: " + how);
     }
-    /// Runs the pass once, for its answers.
+    /// Runs the pass once for its answers.
     void add_exact(const std::string& how, const std::vector<ccd::outcome>& answers,
                    const std::function<void()>& pass) {
         pass();
@@ -104,10 +104,10 @@ class methods_race {
     std::vector<Query> sample_;
     query_set<Query> batch_;
     std::vector<ccd::outcome> answers_, of_sample_;
-    std::deque<std::vector<Query>> parts_;  ///< of the sample, for slow methods
+    std::deque<std::vector<Query>> parts_;  ///< chunks of the sample, for slow methods
     std::vector<contestant> contestants_;
     std::vector<std::function<void()>> passes_;
-    std::size_t tight_ = 0;  ///< its index
+    std::size_t tight_ = 0;  ///< index of the tight method
 };
 
 }  // namespace

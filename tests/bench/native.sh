@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# ./run bench --native: the same benchmarks by a portable build and by one for this processor only, alternately,
-# so that what disturbs the machine disturbs both. Arguments: options of errbound_bench.
+# ./run bench --native: runs the benchmarks of a portable build and of a build for this processor alternately, so that
+# disturbances affect both. Arguments: options of errbound_bench.
 set -euo pipefail
 cd -- "$(dirname -- "${BASH_SOURCE[0]}")/../.."
 cmake --preset native >/dev/null

@@ -1,4 +1,5 @@
-// Floating-point operations of the stages of `exact`, by running them on a scalar that counts.
+// Counts the floating-point operations of the stages of `exact` by running them on a counting
+// scalar.
 #pragma once
 
 #include <ccd/batch.hpp>
@@ -11,7 +12,8 @@
 
 namespace bench {
 
-/// Sums, products, comparisons and extrema count one each; absolute values and negation nothing.
+/// Sums, products, comparisons and extrema count as one each, absolute values and negations as
+/// none.
 template <class T>
 struct counted {
     T value{};
@@ -31,7 +33,7 @@ struct counted {
     friend counted min(counted a, counted b) { return ++operations, b.value < a.value ? b : a; }
 };
 
-/// Operations of one candidate in a stage, whatever its coordinates.
+/// The operations of a stage for one candidate. They do not depend on the coordinates.
 struct stage_operations {
     std::uint64_t axes_in_floats, coplanarity, inside;
 };

@@ -65,7 +65,7 @@ void add_single_rows(const Form& form, const options& o, std::vector<std::vector
 
 template <class Form>
 void add_batch_rows(const Form& form, const options& o, std::vector<std::vector<cell>>& rows) {
-    // In the processor's caches, and in memory: more than it reads in the time that it computes.
+    // 512 inputs fit in the processor's caches; 100,000 are read from memory.
     for (const std::size_t inputs : {std::size_t{512}, std::size_t{100'000}}) {
         const auto set = make_set<Form>(input_kinds[0], inputs);
         signs single(inputs), batch(inputs), arrays(inputs);
@@ -74,7 +74,8 @@ void add_batch_rows(const Form& form, const options& o, std::vector<std::vector<
                                    [&] { of_arrays(set, form.predicate, arrays); }},
                                   o.repeats());
         if (batch != single || arrays != single)
-            throw std::runtime_error(std::string(form.name) + ": batches and one by one disagree");
+            throw std::runtime_error(std::string(form.name) +
+                                     ": batches and single calls disagree");
         const auto ns = [&](const timing& t) {
             return number(1e9 * t.minimum / static_cast<double>(inputs), 2);
         };

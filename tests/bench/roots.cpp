@@ -1,7 +1,7 @@
-// ns per polynomial for counting and isolating real roots, by family and degree, beside FLINT's
-// count of them and arb's isolation. FLINT 2.9 counts exactly, by Sturm's theorem, but does not
-// isolate; arb, its companion, isolates all complex roots. What integers open parts are decided in
-// is compared too: errbound's own, Boost's cpp_int and GMP's.
+// ns per polynomial for counting and isolating real roots, by family and degree, compared with
+// FLINT's count and arb's isolation. FLINT 2.9 counts exactly by Sturm's theorem but does not
+// isolate; arb isolates all complex roots. Also compares the integers that decide undecided
+// intervals: errbound's, Boost's cpp_int and GMP's.
 #include <boost/multiprecision/cpp_int.hpp>
 #include <cstdio>
 #include <cstdlib>
@@ -31,7 +31,7 @@ using gmp_integer = polynomial_families::integer;
 using boost_integer = boost::multiprecision::number<boost::multiprecision::cpp_int_backend<>,
                                                     boost::multiprecision::et_off>;
 
-/// Polynomials with coefficients in the type that users would have them in.
+/// Polynomials with coefficients of the type that users would choose.
 template <class Integer>
 struct by_integers {
     std::vector<errbound::polynomial<Integer>> whole = {};
@@ -90,8 +90,8 @@ struct contest {
         return {nanoseconds(timings[0]), nanoseconds(timings[1]), nanoseconds(timings[2]),
                 bench::number(timings[2].minimum / timings[0].minimum, 1)};
     }
-    /// How long isolation takes by Boost's integers and by GMP's, by errbound's 1: of the least
-    /// times and of the medians.
+    /// The isolation time with Boost's and with GMP's integers, divided by that with errbound's: of
+    /// the least times and of the medians.
     std::vector<bench::cell> integer_cells(int repeats) const {
         const auto t = bench::race({own.isolated(), boost.isolated(), gmp.isolated()}, repeats);
         std::vector<bench::cell> ratios;
@@ -102,7 +102,7 @@ struct contest {
         return ratios;
     }
 #ifdef ERRBOUND_HAS_ARB
-    /// ns per polynomial isolated by arb, and how often that isolated by errbound.
+    /// ns per polynomial isolated by arb, and its ratio to errbound's time.
     std::vector<bench::cell> arb_cells(int repeats) const {
         if (others.empty()) return {bench::none(), bench::none()};
         const auto timings = bench::race({own.isolated(),
@@ -138,7 +138,8 @@ void run(bool quick) {
                 const auto s = make.make(f, degree);
                 all.add(s);
                 if (decided_by_filter(s)) decided.add(s);
-                // arb takes up to milliseconds, and seconds for exponents of any size.
+                // arb takes up to milliseconds per polynomial, and seconds for exponents of any
+                // size.
                 if (k < 8 && f != family::wide) few.add(s);
             }
             std::vector<bench::cell> row{
@@ -173,7 +174,7 @@ void run(bool quick) {
               columns, rows);
 }
 
-/// What takes long: roots near each other, and high degrees.
+/// A slow input: roots near each other, or a high degree.
 struct hard_case {
     std::string name;
     std::vector<double> doubles;

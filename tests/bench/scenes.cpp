@@ -20,7 +20,7 @@ fs::path data_folder() {
     return folder != nullptr ? folder : ERRBOUND_SHARED_DATA;
 }
 
-/// Adds all queries of files under the folder; returns false if there are none.
+/// Adds all queries of files in the folder; returns false if there are none.
 bool read_stored(const fs::path& folder, query_sets& queries) {
     if (!fs::is_directory(folder)) return false;
     bool found = false;
@@ -37,7 +37,7 @@ bool read_stored(const fs::path& folder, query_sets& queries) {
     return found;
 }
 
-/// Queries on small integer grids, most of them degenerate.
+/// Queries on small integer grids; most are degenerate.
 void make_degenerate(query_sets& queries) {
     constexpr std::uint64_t of_each_family = 2000, seed = 1;
     for (const auto& family : query_families::families) {
@@ -52,7 +52,6 @@ void make_degenerate(query_sets& queries) {
     }
 }
 
-/// The folder of a scene's two frames.
 fs::path frames_of(const std::string& name) {
     return name == "cloth-over-ball" ? fs::path(ERRBOUND_SCENES) / name
                                      : data_folder() / "scenes" / name / "frames";

@@ -1,4 +1,4 @@
-// Scenes of two frames with all candidates of their step, and stored queries.
+// Scenes: two frames with all candidates of their step, or stored queries.
 #pragma once
 
 #include <ccd/mesh.hpp>
@@ -14,8 +14,8 @@ using ccd::lab::query_sets;
 
 struct scene {
     std::string name;
-    ccd::mesh before, after;  ///< empty where there are only queries
-    query_sets queries;       ///< by index into the two frames: a scene must not be copied or moved
+    ccd::mesh before, after;  ///< empty if there are only queries
+    query_sets queries;       ///< indexes into the two frames: do not copy or move a scene
     bool is_step() const { return !before.vertices.empty(); }
 
     scene() = default;
@@ -26,7 +26,7 @@ struct scene {
 /// All names, in the order of tables.
 std::vector<std::string> scene_names();
 
-/// Fills in the scene of that name; returns false if its data is missing. Throws
+/// Loads the scene of that name; returns false if its data is missing. Throws
 /// errbound::support::file_error.
 bool load(const std::string& name, scene& into);
 

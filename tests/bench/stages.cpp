@@ -42,7 +42,6 @@ void add_stage_rows(const query_set<Query>& set, const options& o,
     }
 }
 
-/// The seconds of one query one by one.
 template <class Query>
 double seconds_of(const Query& q) {
     const clock::time_point start = clock::now();
@@ -57,7 +56,8 @@ double least_seconds_of(const Query& q, int repeats) {
     return least;
 }
 
-/// The slowest query: of those that one pass over all showed slow, each at its quickest.
+/// The seconds of the slowest query. One pass over all queries finds suspects; each counts with its
+/// shortest time.
 template <class Query>
 double slowest_seconds(const query_set<Query>& set, int repeats) {
     constexpr std::size_t suspects = 2000;
@@ -93,7 +93,8 @@ void add_slow_row(const query_set<Query>& set, const options& o,
 }  // namespace
 
 void stages(const scene& s, const options& o, report& out) {
-    // Quick runs sample, others take all: the slowest query may be the only one of its sort.
+    // Quick runs sample the queries. Others take all: the slowest query may be the only one of its
+    // sort.
     const std::size_t most =
         o.quick ? o.max_queries() : s.queries.vertex_face.size() + s.queries.edge_edge.size();
     const auto vf = s.queries.vertex_face.at_most(most);

@@ -13,13 +13,13 @@
 
 // ---- The heap's peak ----
 //
-// This program counts the memory of operator new and operator delete. It does not see memory from
-// malloc (big integers of the reference, the thread library's own).
+// This program counts the memory of operator new and operator delete. It does not count memory from
+// malloc (large integers of the reference, the thread library).
 
 namespace {
 
 std::atomic<bool> counting = false;
-std::atomic<std::ptrdiff_t> in_use = 0;  // below zero if memory from before is freed
+std::atomic<std::ptrdiff_t> in_use = 0;  // negative if memory allocated earlier is freed
 std::atomic<std::ptrdiff_t> peak = 0;
 
 void add(void* p) {
@@ -47,7 +47,7 @@ void release(void* p) noexcept {
 
 }  // namespace
 
-// The forms for arrays and without exceptions call these.
+// The forms for arrays and those without exceptions call these.
 void* operator new(std::size_t size) {
     return counted(std::malloc(std::max<std::size_t>(size, 1)));
 }
@@ -71,7 +71,7 @@ void operator delete(void* p, std::size_t, std::align_val_t) noexcept {
 namespace bench {
 namespace {
 
-/// The most bytes that were allocated at once within `work`, above the allocations before it.
+/// The largest number of bytes that `work` has allocated at a time, beyond those allocated before.
 template <class Work>
 std::size_t peak_heap(const Work& work) {
     in_use = 0;
@@ -84,7 +84,7 @@ std::size_t peak_heap(const Work& work) {
 
 // ---- Whole steps ----
 
-/// A way to do a step, and its best run.
+/// A way to compute a step, and its best run.
 struct contestant {
     ccd::method method;
     int threads;  ///< 0: all
@@ -105,7 +105,7 @@ void run_timed(const ccd::mesh& before, const ccd::mesh& after, contestant& c) {
     c.quickest = std::move(result);
 }
 
-/// Races the contestants; afterwards each holds its quickest run.
+/// Races the contestants; afterwards each holds its fastest run.
 std::vector<timing> race_steps(const ccd::mesh& before, const ccd::mesh& after,
                                std::vector<contestant>& contestants, int repeats) {
     std::vector<std::function<void()>> passes;
@@ -203,7 +203,7 @@ ccd::mesh copies_of(const ccd::mesh& frame, std::size_t copies, double apart) {
     return all;
 }
 
-/// More than the scene is wide.
+/// A distance larger than the scene's width.
 double width_of(const scene& s) {
     double least = 0, greatest = 0;
     for (const ccd::mesh* frame : {&s.before, &s.after})
@@ -233,7 +233,7 @@ void growth(const scene& s, const options& o, report& out) {
                                    [&] { run_timed(before, after, fresh[1]); }, again},
                                   copies > 10 ? 3 : o.repeats());
         if (pairs != number_of(fresh[0].quickest.pairs))
-            throw std::runtime_error(s.name + ": a repeated step found other pairs");
+            throw std::runtime_error(s.name + ": a repeated step returned different pairs");
         const std::size_t heap = peak_heap([&] { keep(ccd::step(before, after, {.threads = 1})); });
         const auto ms = [&](std::size_t i) { return 1e3 * timings[i].minimum; };
         rows.push_back(

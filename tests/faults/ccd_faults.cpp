@@ -1,4 +1,4 @@
-// Collision detection without memory.
+// Collision detection when memory runs out.
 #include <ccd/curves.hpp>
 #include <ccd/exact.hpp>
 #include <ccd/method.hpp>
@@ -21,13 +21,13 @@ auto content(const pair_lists& lists) {
 auto content(const step_result& result) {
     return std::tuple(content(result.pairs), content(result.touching_at_start), result.candidates);
 }
-/// Each kind in order: threads find candidates in any.
+/// Sorts the pairs of each kind, since threads find candidates in any order.
 auto sorted(pair_lists lists) {
     for_each_kind([&]<kind K>() { std::ranges::sort(lists.of<K>()); });
     return content(lists);
 }
 
-/// Faces, rods and points, some given twice; or, for several threads, many faces.
+/// Faces, rods and points, some of them repeated; for several threads, many faces.
 const brute_force::two_frames& frames_for(int threads) {
     static const auto few = brute_force::random_mixture(7),
                       many = brute_force::random_soup(7, 120, 80);
@@ -97,7 +97,7 @@ TEST(CcdFaults, RepeatedSteps) {
     }
 }
 
-/// Near-degenerate queries, for all stages.
+/// Near-degenerate queries, which reach all stages.
 std::vector<vertex_face<double>> hard_queries() {
     std::vector<vertex_face<double>> queries;
     for (int i = 0; i < 8; ++i) {
@@ -155,7 +155,7 @@ TEST(CcdFaults, OneQuery) {
                          [&] { return all([](const auto& q) { return touches_at_start(q); }); });
 }
 
-// One query alone: its numbers are many.
+// Tests one query, since its computation allocates often.
 TEST(CcdFaults, FirstTimes) {
     const vertex_face<double> q = hard_queries()[4];
     try_every_allocation("time_of_impact_reference", [&] { return time_of_impact_reference(q); });

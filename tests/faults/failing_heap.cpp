@@ -80,7 +80,7 @@ class table : public ::testing::Environment {
 
 }  // namespace
 
-// The forms for arrays and without exceptions call these.
+// The forms for arrays and those without exceptions call these.
 void* operator new(std::size_t size) {
     return counted(size, 1);
 }

@@ -1,7 +1,7 @@
-// Allocations that fail: the n-th of a call, for every n until the call succeeds.
+// Failing allocations: the n-th allocation of a call fails, for every n until the call succeeds.
 //
-// This program replaces operator new. Not seen: memory from malloc, which oneTBB takes for itself,
-// and with which GMP and MPFR end the program when there is none.
+// This program replaces operator new. It does not replace malloc, which oneTBB, GMP and MPFR use;
+// the latter two end the program if malloc fails.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -16,20 +16,20 @@ namespace faults {
 
 enum class failing { one, all_from_it_on };
 
-/// The n-th allocation from now on, of any thread, throws std::bad_alloc.
+/// The n-th allocation from now on, in any thread, throws std::bad_alloc.
 void fail_at(std::uint64_t n, failing which);
-/// No allocation fails any more. Returns whether any has failed.
+/// Ends the failures. Returns true if an allocation has failed.
 bool stop();
-/// Allocations that are not released yet.
+/// The number of allocations that are not released yet.
 std::int64_t live();
 
-/// For the table at the program's end.
+/// Adds a row to the table that is printed at the program's end.
 void add_row(const std::string& name, std::uint64_t points);
 
-/// use(object) with an object of make(), the n-th allocation of use() failing, n = 1, 2, ... until
-/// none fails. Each time it must throw std::bad_alloc or give what it gives without failures; it
-/// must do so again with the same object once there is memory; and nothing may be left when result
-/// and object are gone.
+/// Calls use(object) with an object of make(), with the n-th allocation of use() failing, for n =
+/// 1, 2, ... until none fails. Each call must throw std::bad_alloc or return the result of a call
+/// without failures. A second call with the same object and enough memory must return that result,
+/// too. No memory may be left when result and object are gone.
 template <class Make, class Use>
 void try_every_allocation(const std::string& name, const Make& make, const Use& use) {
     const auto expected = [&] {
@@ -44,7 +44,7 @@ void try_every_allocation(const std::string& name, const Make& make, const Use& 
                 fail_at(n, which);
                 auto result = use(object);
                 failed = stop();
-                EXPECT_TRUE(result == expected) << "another result, and no exception";
+                EXPECT_TRUE(result == expected) << "a different result without an exception";
             } catch (const std::bad_alloc&) {
                 failed = stop();
             } catch (const std::exception& error) {
@@ -62,7 +62,7 @@ void try_every_allocation(const std::string& name, const Make& make, const Use& 
             SCOPED_TRACE(name + ", allocation " + std::to_string(n));
             const std::int64_t before = live();
             const bool failed = fails_at(n, which);
-            if (::testing::Test::HasFailure()) return;  // which hold memory themselves
+            if (::testing::Test::HasFailure()) return;  // its failures hold memory
             EXPECT_EQ(live(), before) << "leaked";
             if (!failed) break;
             ++points;
@@ -70,7 +70,7 @@ void try_every_allocation(const std::string& name, const Make& make, const Use& 
     add_row(name, points);
 }
 
-/// The same of a call without an object.
+/// Tests a call without an object.
 template <class Call>
 void try_every_allocation(const std::string& name, const Call& call) {
     try_every_allocation(

@@ -1,4 +1,4 @@
-// Readers and writers without memory.
+// Readers and writers when memory runs out.
 #include <ccd/io/mesh_file.hpp>
 #include <ccd/io/query_file.hpp>
 #include <filesystem>
@@ -61,7 +61,7 @@ TEST(IoFaults, Meshes) {
     }
 }
 
-/// The message, or that memory ran out.
+/// Tests a call that must throw file_error: its result is the message.
 template <class Call>
 void try_refusal(const std::string& name, const Call& call) {
     try_every_allocation(name, [&] {

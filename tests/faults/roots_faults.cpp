@@ -1,5 +1,4 @@
-// Integers, polynomials and predicates without memory, over integers that take it from operator
-// new.
+// Integers, polynomials and predicates over integers from operator new, when memory runs out.
 #include <boost/multiprecision/cpp_int.hpp>
 #include <errbound/multiprecision.hpp>
 #include <errbound/polynomial.hpp>
@@ -28,7 +27,8 @@ struct integer_names {
 };
 TYPED_TEST_SUITE(RootFaults, integer_types, integer_names);
 
-/// (x - 1) ... (x - 6) near and x^2 - 2; a double root; huge coefficients: filter, then integers.
+/// (x - 1) ... (x - 6), x^2 - 2, a double root, and huge coefficients. The filter decides some of
+/// them, integers the others.
 const std::vector<polynomial<double>>& polynomials() {
     static const std::vector<polynomial<double>> all{
         {720, -1764, 1624, -735, 175, -21, 1},
@@ -46,7 +46,7 @@ auto ends_of(const real_roots<Integer>& roots) {
     return ends;
 }
 
-/// Where the roots are, to the nearest float: intervals may be narrower than asked for.
+/// Positions of the roots, rounded to floats: intervals may be narrower than requested.
 template <class Integer>
 std::vector<float> places_of(const real_roots<Integer>& roots) {
     std::vector<float> places;
@@ -95,8 +95,8 @@ TYPED_TEST(RootFaults, RootsThatWereFound) {
     }
 }
 
-/// Of each operation, the number whose place the result takes; and that it is whole after a
-/// failure.
+/// For each operation: the operand that the result replaces. It must be unchanged or complete after
+/// a failure.
 TEST(IntegerFaults, OperationsInPlace) {
     const auto of_words = [](int n, int seed) {
         integer x = seed;
@@ -113,12 +113,12 @@ TEST(IntegerFaults, OperationsInPlace) {
                 },
                 [&](std::pair<integer, integer>& of_two) {
                     auto& [x, before] = of_two;
-                    integer again = before;  // what x becomes without allocating
+                    integer again = before;  // the new value of x, made without allocating
                     try {
                         change(x);
                     } catch (...) {
-                        faults::stop();  // comparing allocates nothing, reporting does
-                        EXPECT_TRUE(x == before) << name << " left another number";
+                        faults::stop();  // the comparison allocates nothing, a report does
+                        EXPECT_TRUE(x == before) << name << " changed the number";
                         throw;
                     }
                     std::swap(x, again);

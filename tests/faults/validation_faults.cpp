@@ -1,4 +1,4 @@
-// Validation without memory. (MPFR's own comes from malloc and does not fail here.)
+// Validation when memory runs out. (MPFR allocates by malloc, which does not fail here.)
 #include <errbound/validation/validation.hpp>
 #include <tuple>
 #include <vector>

@@ -32,7 +32,7 @@ def arguments():
 
 
 def fuzzers(build, names):
-    """Return the build's targets with one of the names."""
+    """Returns the build's targets with one of the names."""
     listed = subprocess.run(["cmake", "--build", build, "--target", "help"], check=True,
                             stdout=subprocess.PIPE, text=True).stdout
     known = sorted(set(re.findall(r"^(?:\.\.\. )?(fuzz_\w+)(?::|$)", listed, re.MULTILINE)))
@@ -43,7 +43,7 @@ def fuzzers(build, names):
 
 
 def run(build, name, minutes):
-    """Run a fuzzer; return its row of the table, from libFuzzer's last lines."""
+    """Runs a fuzzer; returns its row of the table, from libFuzzer's last lines."""
     folder = FOUND / name
     corpus = folder / "corpus"
     corpus.mkdir(parents=True, exist_ok=True)
@@ -65,7 +65,7 @@ def run(build, name, minutes):
 
 
 def features(build, name):
-    """Return the inputs, old and new, each with the features (edges) that it covers."""
+    """Returns the inputs, old and new, each with the features (edges) that it covers."""
     folder = FOUND / name
     control = folder / "control"
     control.unlink(missing_ok=True)
@@ -85,7 +85,7 @@ def features(build, name):
 
 
 def minimise(build, name):
-    """Keep at most SEEDS inputs: each adds the most edges, and is the smallest that does."""
+    """Keeps at most SEEDS inputs: each adds the most edges, and is the smallest that does."""
     saved = SAVED / name
     saved.mkdir(exist_ok=True)
     left = features(build, name)

@@ -2,7 +2,7 @@
 #include <errbound/predicate.hpp>
 
 #ifdef CASE_asks_nothing
-// A sign that no number was asked for.
+// The answer does not use the points.
 
 constexpr auto predicate =
     errbound::predicate<errbound::points<0, 0>>([](const auto& x, const auto& y) {
@@ -16,7 +16,7 @@ int main() {
 #endif
 
 #ifdef CASE_cancels
-// The second product is the first: the difference is zero for all points.
+// Both products are equal: the difference is zero for all points.
 
 const double a[2]{}, b[2]{};
 
@@ -29,7 +29,7 @@ int main() {
 #endif
 
 #ifdef CASE_endless
-// It asks again until it is certain.
+// The loop evaluates the sign until it is certain.
 
 constexpr auto predicate =
     errbound::predicate<errbound::points<0, 0>>([](const auto& x, const auto& y) {
@@ -44,7 +44,7 @@ int main() {
 #endif
 
 #ifdef CASE_gives_up
-// A degenerate case is no uncertain one.
+// The degenerate case is reported as uncertain.
 
 constexpr auto predicate =
     errbound::predicate<errbound::points<0, 0>>([](const auto& x, const auto& y) {
@@ -59,7 +59,7 @@ int main() {
 #endif
 
 #ifdef CASE_number_after_signs
-// An expression that branches on a sign but returns a number could not pass on `uncertain`.
+// The expression returns a number after it has branched on a sign, so it cannot return `uncertain`.
 
 constexpr auto folded =
     errbound::predicate<errbound::points<0, 0>>([](const auto& x, const auto& y) {
@@ -73,7 +73,7 @@ int main() {
 #endif
 
 #ifdef CASE_one_answer
-// An answer that does not depend on the sign.
+// The answer is the same for all signs.
 
 constexpr auto predicate =
     errbound::predicate<errbound::points<0, 0>>([](const auto& x, const auto& y) {
@@ -89,7 +89,7 @@ int main() {
 #endif
 
 #ifdef CASE_ordered_signs
-// An uncertain sign that is compared by < is the largest of all.
+// operator< on signs orders `uncertain` last.
 
 constexpr auto predicate =
     errbound::predicate<errbound::points<0, 0>>([](const auto& x, const auto& y) {
@@ -103,7 +103,7 @@ int main() {
 #endif
 
 #ifdef CASE_possibly
-// Takes a possibly positive sign for positive.
+// The answer is positive although the sign may be uncertain.
 
 constexpr auto predicate =
     errbound::predicate<errbound::points<0, 0>>([](const auto& x, const auto& y) {
@@ -117,7 +117,7 @@ int main() {
 #endif
 
 #ifdef CASE_returns_bool
-// An answer of type bool cannot say that it is uncertain.
+// An answer of type bool cannot be `uncertain`.
 
 constexpr auto predicate = errbound::predicate<errbound::points<0, 0>>(
     [](const auto& x, const auto& y) { return sign_of(x - y) == errbound::sign_type::positive; });
@@ -128,7 +128,7 @@ int main() {
 #endif
 
 #ifdef CASE_returns_int
-// An answer of type int cannot say that it is uncertain.
+// An answer of type int cannot be `uncertain`.
 
 constexpr auto predicate =
     errbound::predicate<errbound::points<0, 0>>([](const auto& x, const auto& y) {
@@ -141,7 +141,7 @@ int main() {
 #endif
 
 #ifdef CASE_returns_void
-// An expression without an answer: the return was forgotten.
+// The lambda has no return statement.
 
 constexpr auto predicate = errbound::predicate<errbound::points<0, 0>>(
     [](const auto& x, const auto& y) { (void)sign_of(x - y); });
@@ -152,7 +152,7 @@ int main() {
 #endif
 
 #ifdef CASE_without_certain
-// An uncertain sign takes a branch: the line with certain is missing.
+// The code branches on an uncertain sign: the line with certain is missing.
 
 constexpr auto predicate =
     errbound::predicate<errbound::points<0, 0, 0>>([](const auto& x, const auto& y, const auto& z) {
@@ -167,7 +167,7 @@ int main() {
 #endif
 
 #ifdef CASE_without_certain_of_a_multiple
-// An uncertain sign of a large multiple takes a branch: the line with certain is missing.
+// The code branches on an uncertain sign of a large multiple: the line with certain is missing.
 
 constexpr auto predicate =
     errbound::predicate<errbound::points<0, 0, 0>>([](const auto& x, const auto& y, const auto& z) {

@@ -3,7 +3,7 @@
 #include <errbound/predicate.hpp>
 
 #ifdef CASE_argument_types
-// An expression of doubles: the stages have scalars of their own.
+// The expression takes doubles, but stages use other scalars.
 
 constexpr auto predicate =
     errbound::predicate<errbound::points<0, 0>>([](double x, double y) { return x - y; });
@@ -14,7 +14,7 @@ int main() {
 #endif
 
 #ifdef CASE_arguments
-// An expression of two arguments where the shape has three points.
+// The expression has two arguments, the shape three points.
 
 constexpr auto predicate = errbound::predicate<errbound::points<0, 0, 0>>(
     [](const auto& x, const auto& y) { return x - y; });
@@ -25,7 +25,7 @@ int main() {
 #endif
 
 #ifdef CASE_assignment
-// A sum that grows: every result has a type of its own.
+// A sum is assigned: every result has its own type.
 
 constexpr auto predicate =
     errbound::predicate<errbound::points<0, 0>>([](const auto& x, const auto& y) {
@@ -40,7 +40,7 @@ int main() {
 #endif
 
 #ifdef CASE_comparison
-// Numbers are not compared but by the sign of their difference.
+// Numbers are compared by operator< instead of by the sign of their difference.
 
 constexpr auto predicate = errbound::predicate<errbound::points<0, 0>>(
     [](const auto& x, const auto& y) { return x < y ? sign_of(x) : sign_of(y); });
@@ -51,7 +51,7 @@ int main() {
 #endif
 
 #ifdef CASE_condition
-// A number is no condition.
+// A number is used as a condition.
 
 constexpr auto predicate = errbound::predicate<errbound::points<0, 0>>(
     [](const auto& x, const auto& y) { return x - y ? sign_of(x) : sign_of(y); });
@@ -62,7 +62,7 @@ int main() {
 #endif
 
 #ifdef CASE_conversion
-// A number that is taken out of the expression.
+// A number is converted to int.
 
 constexpr auto predicate = errbound::predicate<errbound::points<0, 0>>(
     [](const auto& x, const auto& y) { return y - static_cast<int>(x); });
@@ -73,7 +73,7 @@ int main() {
 #endif
 
 #ifdef CASE_coordinate
-// An expression that asks for a third coordinate of points that have two.
+// The expression uses a third coordinate of points with two.
 
 constexpr auto above = errbound::predicate<errbound::points<2, 2>>(
     [](const auto& a, const auto& b) { return b[2] - a[2]; });
@@ -110,7 +110,7 @@ int main() {
 #endif
 
 #ifdef CASE_equality
-// Neither are they compared for equality.
+// Numbers are compared by operator==.
 
 constexpr auto predicate = errbound::predicate<errbound::points<0, 0>>(
     [](const auto& x, const auto& y) { return x == y ? errbound::sign_type::zero : sign_of(x); });
@@ -121,7 +121,7 @@ int main() {
 #endif
 
 #ifdef CASE_fraction
-// 0.5 is no whole number; as an int it would be 0.
+// The factor 0.5 is not a whole number; as an int it would be 0.
 
 constexpr auto half = errbound::predicate<errbound::points<0, 0>>(
     [](const auto& x, const auto& y) { return 0.5 * x - y; });
@@ -132,7 +132,7 @@ int main() {
 #endif
 
 #ifdef CASE_size
-// A constant of type std::size_t.
+// The constant has type std::size_t.
 
 constexpr auto predicate = errbound::predicate<errbound::points<0, 0>>(
     [](const auto& x, const auto& y) { return std::size_t(2) * x - y; });

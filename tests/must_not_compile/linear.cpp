@@ -1,8 +1,8 @@
-// Matrix functions that must be refused for tracked numbers. Each case is compiled alone, with its
-// name defined.
+// Matrix functions that must be rejected for tracked numbers. Each case is compiled separately,
+// with its name defined.
 
 #ifdef CASE_col_piv_householder_qr
-// So would it by QR decomposition with pivots.
+// The rank of a tracked matrix would be a guess, also by QR decomposition with pivots.
 #include <Eigen/Dense>
 #include <errbound/eigen.hpp>
 
@@ -13,7 +13,7 @@ int main() {
 #endif
 
 #ifdef CASE_float_positions
-// Positions of float would be copied: their copy is the caller's.
+// Positions of type float would have to be copied. Callers copy them.
 #include <Eigen/Core>
 #include <ccd/batch.hpp>
 
@@ -45,7 +45,7 @@ int main() {
 #endif
 
 #ifdef CASE_ldlt
-// Asks LDLT for the sign of a matrix.
+// LDLT returns the sign of a matrix.
 #include <Eigen/Dense>
 #include <errbound/eigen.hpp>
 
@@ -56,7 +56,7 @@ int main() {
 #endif
 
 #ifdef CASE_ordering
-// Eigen's pivots go by value, but tracked numbers still have no operator<.
+// Eigen's pivots compare by value, but tracked numbers have no operator<.
 #include <errbound/eigen.hpp>
 
 int main() {
@@ -66,7 +66,7 @@ int main() {
 #endif
 
 #ifdef CASE_sizes
-// Sizes that are known when it is compiled and do not match.
+// Sizes known at compile time do not match.
 #include <errbound/certified_solve.hpp>
 
 int main() {

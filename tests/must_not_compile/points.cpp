@@ -1,8 +1,10 @@
-// Types that must not be taken for points. Each case is compiled alone, with its name defined.
+// Types that must not be accepted as points. Each case is compiled separately, with its name
+// defined.
 #include <errbound/predicates.hpp>
 
 #ifdef CASE_another_namespace
-// coordinate_of is not in the namespace of the point's type, so that nobody finds it.
+// coordinate_of is not in the namespace of the point's type, so argument-dependent lookup does not
+// find it.
 
 namespace survey {
 struct station {
@@ -20,7 +22,7 @@ int main() {
 #endif
 
 #ifdef CASE_matrix
-// A matrix that is neither a row nor a column as a point.
+// A point is a matrix with several rows and columns.
 #include <Eigen/Core>
 
 int main() {
@@ -30,7 +32,7 @@ int main() {
 #endif
 
 #ifdef CASE_matrix_as_range
-// A matrix as a range of points: of its columns or of its rows?
+// A matrix is passed as a range of points, which could be its columns or its rows.
 #include <Eigen/Core>
 #include <errbound/predicate_batch.hpp>
 
@@ -42,7 +44,7 @@ int main() {
 #endif
 
 #ifdef CASE_too_short
-// Points of two coordinates where three are asked for.
+// Points have two coordinates instead of three.
 
 struct point {
     double x, y;
@@ -55,7 +57,7 @@ int main() {
 #endif
 
 #ifdef CASE_too_short_span
-// A span of two numbers as a point of three.
+// A span of two numbers is passed as a point of three.
 #include <span>
 
 int main() {
@@ -66,7 +68,8 @@ int main() {
 #endif
 
 #ifdef CASE_too_short_vector
-// A vector of at most two elements, how many is known when the program runs, as a point of three.
+// A vector with at most two elements, whose number is known at run time, is passed as a point of
+// three.
 #include <Eigen/Core>
 
 int main() {

@@ -1,9 +1,9 @@
-// Definitions and calls of predicates that must be refused. Each case is compiled alone, with its
-// name defined.
+// Definitions and calls of predicates that must be rejected. Each case is compiled separately, with
+// its name defined.
 #include <errbound/predicates.hpp>
 
 #ifdef CASE_captures
-// A captured value: every stage needs it as an argument.
+// The lambda captures a value: every stage needs it as an argument.
 
 int main() {
     const int factor = 3;
@@ -14,7 +14,7 @@ int main() {
 #endif
 
 #ifdef CASE_degrees
-// x² − y, and the claim that both are of degree 1; with y of degree 2 it would be true.
+// x² − y is declared to have degree 1 in both. With degree 2 in y it would compile.
 
 struct options : errbound::predicate_options {
     static constexpr std::array<int, 2> degrees{1, 1};
@@ -29,7 +29,7 @@ int main() {
 #endif
 
 #ifdef CASE_exact_type
-// A last stage over a type without sign_of.
+// The last stage's type has no sign_of.
 
 struct options : errbound::predicate_options {
     using exact_type = long double;
@@ -44,7 +44,7 @@ int main() {
 #endif
 
 #ifdef CASE_fewer_points
-// Two points for a predicate of three.
+// The predicate takes three points, the call has two.
 
 int main() {
     const double p[2]{};
@@ -53,7 +53,7 @@ int main() {
 #endif
 
 #ifdef CASE_homogeneous
-// Terms of degree 1 and 2, and the claim that there are no such.
+// Terms have degrees 1 and 2, but the expression is declared homogeneous.
 
 struct options : errbound::predicate_options {
     static constexpr bool homogeneous = true;
@@ -68,7 +68,7 @@ int main() {
 #endif
 
 #ifdef CASE_negative_dimension
-// Points of a negative number of coordinates.
+// A shape has a negative number of coordinates.
 
 constexpr auto difference = errbound::predicate<errbound::points<-2, 0>>(
     [](const auto& x, const auto& y) { return x - y; });
@@ -79,7 +79,7 @@ int main() {
 #endif
 
 #ifdef CASE_options
-// Options that lack what they do not change.
+// The options are not derived from the defaults.
 
 struct options {
     using tracked_rule = errbound::tight;
@@ -94,7 +94,7 @@ int main() {
 #endif
 
 #ifdef CASE_rule_without_promise
-// A tracked stage under a rule that only estimates errors.
+// The tracked stage has a rule that only estimates errors.
 #include <errbound/rules/stochastic.hpp>
 
 struct options : errbound::predicate_options {
@@ -110,7 +110,7 @@ int main() {
 #endif
 
 #ifdef CASE_shape
-// A shape that is none.
+// The first template argument is not a shape.
 
 constexpr auto difference =
     errbound::predicate<int>([](const auto& x, const auto& y) { return x - y; });
@@ -121,7 +121,7 @@ int main() {
 #endif
 
 #ifdef CASE_tracked_rule
-// A tracked stage under a type that is no bound rule.
+// The tracked stage has a type that is not a bound rule.
 
 struct options : errbound::predicate_options {
     using tracked_rule = double;
@@ -136,7 +136,7 @@ int main() {
 #endif
 
 #ifdef CASE_whole_coordinates
-// Coordinates of type int.
+// Coordinates have type int.
 
 int main() {
     const int p[2]{};

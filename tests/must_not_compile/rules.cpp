@@ -1,8 +1,8 @@
-// Bound rules, number types, functions and compiler flags that must be refused. Each case is
-// compiled alone, with its name defined.
+// Bound rules, number types, functions and compiler flags that must be rejected. Each case is
+// compiled separately, with its name defined.
 
 #ifdef CASE_fast_math_ccd
-// Compiled with -ffast-math: the headers of collision detection must refuse too.
+// With -ffast-math, the headers of collision detection must not compile.
 #include <ccd/method.hpp>
 
 int main() {
@@ -32,7 +32,7 @@ int main() {
 #endif
 
 #ifdef CASE_fast_math
-// Compiled with -ffast-math: the headers must refuse.
+// With -ffast-math, the headers must not compile.
 #include <errbound/tracked.hpp>
 
 int main() {
@@ -41,7 +41,7 @@ int main() {
 #endif
 
 #ifdef CASE_octal_literal
-// To C++ 010 is eight, to a reader of decimals ten.
+// 010 is eight in C++, but ten as a decimal.
 #include <errbound/decimal.hpp>
 
 int main() {
@@ -51,7 +51,7 @@ int main() {
 #endif
 
 #ifdef CASE_of_numbers
-// A bound rule whose add returns a number instead of a bound: the message must say so.
+// A bound rule whose add returns a number instead of a bound: the message must contain this.
 #include <errbound/tracked.hpp>
 
 struct bare {
@@ -116,7 +116,7 @@ int main() {
 #endif
 
 #ifdef CASE_roots_by_another_rule
-// Roots are counted by rules that store the absolute error and nothing else.
+// Roots are counted only by rules that store just the absolute error.
 #include <errbound/polynomial.hpp>
 
 int main() {
@@ -138,7 +138,7 @@ int main() {
 #endif
 
 #ifdef CASE_safe_division
-// SafeBound has no rule for division: the message must say why.
+// SafeBound has no rule for division: the message must contain this.
 #include <errbound/tracked.hpp>
 
 int main() {
@@ -148,7 +148,7 @@ int main() {
 #endif
 
 #ifdef CASE_twice_rounded_fma
-// MinGW-w64's fma of long doubles rounds twice, whatever the processor has.
+// MinGW-w64's fma of long doubles rounds twice on every processor.
 #include <errbound/functions.hpp>
 
 long double f(long double x) {
@@ -158,7 +158,8 @@ long double f(long double x) {
 #endif
 
 #ifdef CASE_unknown_errors
-// A function of which it is not known how far it is off, as on Windows: the message must say so.
+// The errors of the C library's functions are unknown, as on Windows: the message must contain
+// this.
 #include <errbound/elementary.hpp>
 
 template <>
@@ -180,7 +181,7 @@ int main() {
 #endif
 
 #ifdef CASE_without_multiply
-// A bound rule without products: the message must name what is missing.
+// A bound rule without multiply: the message must name the missing function.
 #include <errbound/tracked.hpp>
 
 struct sums_only {
@@ -222,7 +223,7 @@ int main() {
 #endif
 
 #ifdef CASE_without_subnormals
-// Boost's binary floats have no subnormal numbers: of the rules only `tight` counts sums that
+// Boost's binary floats have no subnormal numbers: only the rule `tight` covers sums that
 // underflow.
 #include <boost/multiprecision/cpp_bin_float.hpp>
 #include <errbound/tracked.hpp>

@@ -17,7 +17,12 @@ from pathlib import Path
 MOST_WORDS = 25
 MOST_LINES = 12
 ROOMS = ["README.md", "CONTRIBUTING.md", "CHANGELOG.md", "docs/*.md",
-         *(f"{room}/{files}" for room in ("ccd/cuda", "ccd/program", "cmake", "examples", "packaging", "python")
+         *(f"{room}/{files}" for room in (
+             "ccd/cuda", "ccd/program", "cmake", "examples", "packaging", "proofs", "python", "tests/bench",
+             "tests/ccd/adapters", "tests/ccd/batch", "tests/ccd/contact", "tests/ccd/exact", "tests/ccd/lab",
+             "tests/ccd/methods", "tests/ccd/mpi", "tests/ccd/program", "tests/ccd/step", "tests/everywhere",
+             "tests/faults", "tests/fuzz", "tests/install", "tests/must_not_compile", "tests/project", "tests/proofs",
+             "tests/simulation", "tests/soak", "tests/support")
            for files in ("*", "**/*"))]  # "*" of git matches in subfolders, too
 OPENINGS = re.compile(r"(Of|That|Those|What|Whether|By|As)\b(?! (is|are|was) )")
 WORDS = re.compile(
@@ -52,7 +57,7 @@ def of_python(text):
 
 
 def of_scripts(text):
-    """Blocks of comment lines."""
+    """Returns blocks of comment lines."""
     return re.findall(r"(?:^ *# ?.*\n?)+", text, re.MULTILINE)
 
 
@@ -61,8 +66,18 @@ def of_pages(text):
     yield re.sub(r"^ *(\||#).*$", "\n", text, flags=re.MULTILINE)
 
 
+def of_proofs(text):
+    """Yields the comments of Coq and OCaml, which may nest, without their lists of theorems."""
+    depth = start = 0
+    for m in re.finditer(r"'\"'|\"[^\"]*\"|\(\*+|\*+\)", text):
+        start = start if depth else m.end()
+        depth += m[0].startswith("(") - m[0].endswith(")")
+        if not depth and m[0].endswith(")"):
+            yield re.sub(r"^ {8,}.*$", "\n", text[start:m.start()], flags=re.MULTILINE)
+
+
 READERS = {".hpp": of_cpp, ".cpp": of_cpp, ".cuh": of_cpp, ".cu": of_cpp, ".py": of_python, ".pyi": of_python,
-           ".md": of_pages, ".sh": of_scripts, ".cmake": of_scripts}
+           ".v": of_proofs, ".ml": of_proofs, ".md": of_pages, ".sh": of_scripts, ".cmake": of_scripts}
 
 
 def sentences(block):
@@ -75,7 +90,7 @@ def sentences(block):
 
 
 def broken(path, text):
-    """Pairs of rule and sentence."""
+    """Yields pairs of a broken rule and its sentence."""
     for block in READERS[path.suffix](text):
         for sentence in sentences(block):
             if OPENINGS.match(sentence):

@@ -1,7 +1,7 @@
-// Queries of vertex and face or of two edges in doubles, as proofs/tie_floats.ml draws them: of any
-// size, with whole coordinates, that meet or almost meet, with gaps about the filter's margins, in
-// a plane or almost, with differences about the largest that are allowed, some not finite; and a
-// box around them.
+// Queries of a vertex and a face or of two edges in doubles, with the random numbers of
+// proofs/tie_floats.ml. Some are of any size, have whole coordinates, meet or almost meet, or have
+// gaps about the filter's margins. Others are in a plane or almost, have differences about the
+// largest allowed ones, or are not finite. Each has a box around it.
 #pragma once
 
 #include <algorithm>
@@ -39,7 +39,7 @@ struct drawn_query {
     }
 };
 
-/// Numbers a few at a time, for what draws them.
+/// Draws the coordinates of a query.
 class query_maker {
   public:
     explicit query_maker(sequence& s) : s_(s) {}
@@ -84,7 +84,7 @@ class query_maker {
         for (std::size_t i = 0; i < 8; ++i) x_[3 * i + 2] = (draw(s_, 3) - 1.0) * tiny;
     }
 
-    /// Point 0 meets the face, or edges cross, at a time and a place that are drawn.
+    /// Point 0 meets the face, or the edges cross, at a random time and position.
     void pass(double size, bool near) {
         const double t = unit(s_), a = unit(s_), b = (1 - a) * unit(s_);
         for (int c = 0; c < 3; ++c) {
@@ -103,8 +103,8 @@ class query_maker {
         }
     }
 
-    /// The features are as far apart along an axis as the filter's margin is large, or that in
-    /// single precision, `coarse`.
+    /// The features' gap along an axis is about the filter's margin, or its margin in single
+    /// precision if `coarse`.
     void small_gap(bool coarse) {
         for (double& x : x_)
             x = coarse ? std::ldexp(draw(s_, 1 << 19) - (1 << 18), -20) : (unit(s_) - 0.5) * 2;
@@ -127,7 +127,7 @@ class query_maker {
         }
     }
 
-    /// Differences about the largest that are allowed.
+    /// Differences about the largest allowed ones.
     void large() {
         const double most = std::ldexp(1.0, 200),
                      infinity = std::numeric_limits<double>::infinity();

@@ -1,5 +1,7 @@
-"""The mutants of tied functions: every change of a constant, comparison, branch, sum or difference, one at a time, as
-text, and with a number, by which one program of all of them (mutants.py) is told which it is to have.
+"""Makes the mutants of tied functions: every change of one constant, comparison, branch, sum or difference.
+
+Each is a change of the text, and a numbered form of it. One program has all numbered forms, and runs the mutant whose
+number it gets (mutants.py).
 """
 import collections
 import re
@@ -12,7 +14,7 @@ from layout_test import code_alone  # noqa: E402
 sys.path.insert(0, str(root / "proofs"))
 import ties  # noqa: E402
 
-# What an operator becomes, and the tag that stands for both.
+# The replacement of each operator, and the tag that stands for both.
 OPERATORS = {"<": ("<=", "less"), "<=": ("<", "at_most"), ">": (">=", "greater"), ">=": (">", "at_least"),
              "==": ("!=", "equal"), "!=": ("==", "unequal"), "&&": ("||", "both"), "||": ("&&", "any"),
              "&": ("|", "both_bits"), "|": ("&", "any_bit"), "+": ("-", "plus"), "-": ("+", "minus")}
@@ -34,10 +36,10 @@ KINDS = {
     "negation": r"(?<![\w)\]])!(?=[\w(*])",
 }
 FOUND = re.compile("|".join(f"(?P<{kind}>{pattern})" for kind, pattern in KINDS.items()))
-# What must not be asked but where the first operand says so: what is not there otherwise, or what changes something.
-# (What is left out here is seen: the code without a mutant differs then.)
+# Second operands that must not be evaluated unless the first one is true, since they would read invalid memory or
+# change something. (An omission is detected: then the code without a mutant differs.)
 SUPPOSING = [r"\(\*", "->", r"\bterms_?\[", r"\broot_of\("]
-# What is of types alone, and what only the compiler asks.
+# Parts of the code that only name types, or that only the compiler evaluates.
 TYPES = [r"\bdecltype\([^;{]*?\)(?=[;,>])", r"static_assert\([^;]*;", r"^ *template <[^\n]*>$",
          r"\bconcept \w+ =.*?;$(?=\n\n)", r"\brequires\s*\(.*?\)(?= (?:constexpr|friend|inline))",
          r"enum class[^{;]*\{[^}]*\};",
@@ -46,20 +48,19 @@ TYPES = [r"\bdecltype\([^;{]*?\)(?=[;,>])", r"static_assert\([^;]*;", r"^ *templ
 
 
 class Mutant:
-    """One change: text[start:end] becomes `new`, and `numbered` where mutants have numbers, K (none: it
-    cannot have one)."""
+    """A change: text[start:end] becomes `new`, or `numbered` with the number K; None if it has no such form."""
 
     def __init__(self, path, text, start, end, new, numbered=None):
         self.path, self.numbered = path, numbered
-        # The other operator binds differently, which the numbered program has not.
+        # The other operator has another precedence, unlike in the numbered program.
         self.binds_differently = text[start:end] in ("&&", "||", "&", "|")
         self.changes = [(start, end, new)]
-        self.after = []  # what is inserted elsewhere, with a number or without
+        self.after = []  # insertions elsewhere, with a number or without
         self.line_number = text.count("\n", 0, start) + 1
         before = text[text.rfind("\n", 0, start) + 1:start]
         nth = before.count(text[start:end]) + 1
-        self.change = (f"{text.split(chr(10))[self.line_number - 1].strip()} | {text[start:end]} -> {new}" +
-                       (f" ({nth})" if nth > 1 else ""))
+        line = re.sub(r"//.*", "", text.split("\n")[self.line_number - 1]).strip()
+        self.change = f"{line} | {text[start:end]} -> {new}" + (f" ({nth})" if nth > 1 else "")
 
     def by_number(self, number):
         (start, end, _), *_ = self.changes
@@ -70,7 +71,7 @@ class Mutant:
 
 
 def blanked(text, untied):
-    """Code alone, without what is not tied: spaces in its place; and without types' arguments."""
+    """Returns the code with spaces for comments, literals, untied functions and arguments of types."""
     code = code_alone(text).split("\n")
     for first, lines in untied:
         for i in range(first - 1, first - 1 + lines):
@@ -79,11 +80,11 @@ def blanked(text, untied):
     for pattern in TYPES:
         code = re.sub(pattern, lambda m: re.sub(r"[^\n]", " ", m[0]), code, flags=re.MULTILINE | re.DOTALL)
 
-    def hide(m):  # but a function's own number
+    def hide(m):  # except a function's number
         own = re.fullmatch(r"[a-z]\w*<\d+>", m[0]) and code[m.end():m.end() + 1] == "("
         return m[0] if own else m[1] + "\1" * (len(m[0]) - len(m[1]))
     before = None
-    while code != before:  # the innermost first
+    while code != before:  # innermost first
         before, code = code, re.sub(r"(\b\w+)<([^<>()&|;]|\(\))*>(?!\s*=)", hide, code)
     return code
 
@@ -94,11 +95,11 @@ def closing(code, opening):
         depth += (code[i] == "(") - (code[i] == ")")
         if depth == 0:
             return i
-    raise ValueError("found a parenthesis that does not close")
+    raise ValueError("a parenthesis does not close")
 
 
 def changed(kind, old, rest):
-    """What `old` becomes, and with a number; `rest` is the line's."""
+    """Returns the replacement of `old` and its numbered form, or None; `rest` is the rest of the line."""
     if kind == "enumerator":
         start, name = old.rsplit("::", 1)
         names = ENUMERATORS[start.rsplit("::", 1)[-1]]
@@ -111,7 +112,7 @@ def changed(kind, old, rest):
     if kind == "operator":
         new, tag = OPERATORS[old]
         opening, close = "<>" if tag in ("less", "at_most", "greater", "at_least") else (old, old)
-        # Both operands would be evaluated, where the second may suppose the first.
+        # Both operands would be evaluated, but the second may require the first.
         supposes = old in ("&&", "||") and re.search("|".join(SUPPOSING), rest)
         return new, None if supposes else f"{opening} ::mutants::{tag}<K>{{}} {close}"
     if kind == "truth":
@@ -131,7 +132,7 @@ def changed(kind, old, rest):
 
 
 def condition(path, text, code, old, end):
-    """`if (c)` with !c, if c declares nothing."""
+    """Returns `if (c)` with !c, or None if c declares a variable."""
     opening = code.index("(", end)
     last = closing(code, opening)
     inside = text[opening + 1:last]
@@ -144,7 +145,7 @@ def condition(path, text, code, old, end):
 
 
 def exchanged_cases(path, text, labels):
-    """Neighbouring labels of one switch in each other's place."""
+    """Yields mutants that swap adjacent labels of a switch."""
     for (s0, e0), (s1, e1) in zip(labels, labels[1:]):
         between = text[e0:s1]
         if "switch" not in between and "}" not in between and between.strip():
@@ -154,7 +155,7 @@ def exchanged_cases(path, text, labels):
 
 
 def mutants_of(path, untied):
-    """The file's text and its mutants."""
+    """Returns the file's text and its mutants."""
     text = (root / path).read_text()
     code = blanked(text, untied)
     found, labels = [], []
@@ -168,7 +169,7 @@ def mutants_of(path, untied):
             found.append(Mutant(path, text, start, end, *change))
     found = [mutant for mutant in found if mutant] + list(exchanged_cases(path, text, labels))
     functions, times = list(ties.functions(path)), collections.Counter()
-    for mutant in found:  # named after file, function and change; those of one name are numbered
+    for mutant in found:  # a name has the file, function and change; equal names are numbered
         around = [name for name, first, lines in functions if first <= mutant.line_number < first + lines]
         name = f"{Path(path).name}, {around[0] if around else 'outside'}: {mutant.change}"
         times[name] += 1

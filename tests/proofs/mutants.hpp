@@ -1,6 +1,7 @@
-// What mutants.py puts into copies of the code: each constant, comparison and branch with a number,
-// and changed where the environment names that number. What is evaluated at compile time stays as
-// it is; that the changed place was come to at run time is told at the end.
+// Functions that mutants.py inserts into copies of the code. Each constant, comparison and branch
+// has a number, and is changed if the environment has that number. Expressions evaluated at compile
+// time stay unchanged. At the end, the program reports whether the changed expression was evaluated
+// at run time.
 #pragma once
 
 #include <cstdio>
@@ -30,7 +31,7 @@ constexpr bool on(int mutant) {
     return !std::is_constant_evaluated() && chosen == mutant && reached();
 }
 
-/// A constant: the next number, or less by an eighth where it may have a fraction, and 1 for 0.
+/// A constant: the next number; for a fraction, less by an eighth; for 0, 1.
 template <int K, class T>
 constexpr T number(T n) {
     if (!on(K)) return n;
@@ -39,13 +40,13 @@ constexpr T number(T n) {
     else
         return T(n + 1);
 }
-/// An enumerator, or another.
+/// An enumerator or its replacement.
 template <int K, class T>
 constexpr T either(T original, T other) {
     return on(K) ? other : original;
 }
 
-/// a OP b is written as a OP tag OP b, of the same precedence: `operand` keeps a until b is known.
+/// a OP b becomes a OP tag OP b with the same precedence: `operand` stores a until b is evaluated.
 template <class Tag, class A>
 struct operand {
     const A& a;
@@ -101,7 +102,7 @@ constexpr bool operator!=(operand<unequal<K>, A> x, const B& b) {
     return on(K) ? !(x.a != b) : x.a != b;
 }
 
-/// Both operands are evaluated.
+/// Evaluates both operands.
 template <int K>
 struct both {};
 template <class A, int K>
@@ -164,7 +165,7 @@ constexpr auto operator-(operand<minus<K>, A> x, const B& b) {
     return on(K) ? x.a + b : x.a - b;
 }
 
-/// !b is written as negation ->* b.
+/// !b becomes negation ->* b.
 template <int K>
 struct negation {};
 template <class B, int K>

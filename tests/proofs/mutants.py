@@ -1,14 +1,13 @@
-"""Changes every constant, comparison, branch, sum and difference of the tied functions once: each change
-must be found.
+"""Changes every constant, comparison, branch, sum and difference of the tied functions once. Tests must find each change.
 
 usage: mutants.py COMPILER BUILD_FOLDER [TIE...]
 
-A tie is a program here, tie_TIE.cpp, that compares the code with what the proofs' definitions compute
-(proofs/tie.txt). In a copy of the files that it ties every mutant (made_mutants.py) has a number (mutants.hpp), and
-one program, told the numbers in turn, runs them all. A mutant that is not found so, and whose place that program does
-not come to, since a constant is one for the compiler, say, is compiled by itself. What is left has to be in
-equivalent_mutants.txt, with the reason why no result shows it. Prints how many were found, and records that in
-proofs/mutants.txt; fails where another mutant is left.
+The test of a tie is the program tie_TIE.cpp, which compares the code with results of the proofs' definitions
+(proofs/tie.txt). A copy of the tied files has all mutants (made_mutants.py) with numbers (mutants.hpp), and one program
+runs them one after the other. Mutants that it neither finds nor evaluates, such as constants of the compiler, are
+compiled separately. The others must be in equivalent_mutants.txt, with the reason why no result differs.
+
+Prints how many were found, and records that in proofs/mutants.txt. Fails if an unlisted mutant is not found.
 """
 import collections
 import concurrent.futures
@@ -28,17 +27,17 @@ import records  # noqa: E402
 import ties  # noqa: E402
 from made_mutants import mutants_of  # noqa: E402
 
-# What reads beyond an array, too, is found. Functions that are not called may call what is not there.
+# Reads out of bounds are detected, too. Functions that are not called may call undefined ones.
 OPTIONS = ["-std=c++20", "-O1", "-ffp-contract=off", "-w", "-fmax-errors=100", "-D_GLIBCXX_ASSERTIONS",
            "-fsanitize=bounds", "-fsanitize-undefined-trap-on-error", "-ffunction-sections",
            "-Wl,--gc-sections", f'-DERRBOUND_TIE_TABLE="{root}/proofs/tie.txt"']
-# Of a tie, what is compiled beside it, and options that it is compiled with in turn.
+# Additional sources of a tie, and the options with which it is compiled, one after the other.
 MORE_SOURCES = {"rules": [root / "errbound/validation/tiny_float.cpp", "-lgtest", "-lmpfr", "-lgmp"]}
 VARIANTS = {"rules": [[], ["-mfma"]]}
 
 
 def edited(text, changes):
-    """`changes`: (start, end, new), which do not overlap."""
+    """Returns the text after changes (start, end, new), which do not overlap."""
     for start, end, new in sorted(changes, reverse=True):
         text = text[:start] + new + text[end:]
     return text
@@ -52,15 +51,15 @@ class Run:
         self.source = root / f"tests/proofs/tie_{tie}.cpp"
         self.start = time.monotonic()
         shutil.rmtree(self.build, ignore_errors=True)
-        self.limit = None  # seconds of a processor that a mutant may take: it may not end
+        self.limit = None  # CPU seconds that a mutant may take, since some do not end
         self.variants = VARIANTS.get(tie, [[]])
         self.texts, self.mutants = {}, []
         for path in ties.TIES[tie][0]:
             self.texts[path], found = mutants_of(path, ties.untied_functions(path))
             self.mutants += found
 
-    def tell(self, what):
-        print(f"{self.tie}: {what}, {time.monotonic() - self.start:.0f} s", file=sys.stderr, flush=True)
+    def report(self, message):
+        print(f"{self.tie}: {message}, {time.monotonic() - self.start:.0f} s", file=sys.stderr, flush=True)
 
     def write(self, folder, texts):
         for path, text in texts.items():
@@ -68,7 +67,7 @@ class Run:
             (folder / path).write_text(text)
 
     def compile(self, folder, options):
-        """The program, of what `folder` has in place of the code's files; None and errors if it does not compile."""
+        """Compiles the program with the files in `folder` in place of the code's. Returns it, or None, and the errors."""
         compiled = [path for path in self.texts if path.endswith(".cpp")]
         sources = [(folder if (folder / path).exists() else root) / path for path in compiled]
         result = subprocess.run(
@@ -77,14 +76,14 @@ class Run:
         return (None if result.returncode else folder / "program"), result.stderr
 
     def differs(self, program, mutant, number=0):
-        """Whether it fails, too, or does not end; and whether the mutant of that number was come to."""
+        """Returns (True if the program fails or does not end, True if it evaluated the mutant of that number)."""
         limited = f'ulimit -t {self.limit}; exec "$0" first "$1"'
         result = subprocess.run(["sh", "-c", limited, program, Path(mutant.path).stem],
                                 capture_output=True, env={**os.environ, "ERRBOUND_MUTANT": str(number)})
         return result.returncode != 0, b"reached" in result.stderr
 
     def expect_none(self, program):
-        """That the code without a mutant does not differ. Mutants may take six times as long."""
+        """Exits if the code without a mutant differs. Sets the time limit of mutants, six times its time."""
         before = resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime
         result = subprocess.run([program, "first"], capture_output=True, text=True)
         if result.returncode:
@@ -92,7 +91,7 @@ class Run:
         self.limit = 10 + int(6 * (resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime - before))
 
     def numbered_program(self, options):
-        """A program of all mutants that compile so; those that it has, by number."""
+        """Returns a program with all numbered mutants that compile, and those mutants by number."""
         folder, left_out = self.build / "numbered", set()
         include = '#include "tests/proofs/mutants.hpp"\n'
         while True:
@@ -105,7 +104,7 @@ class Run:
             program, errors = self.compile(folder, options)
             if program:
                 return program, numbers
-            wrong = {(path, int(line) - 1) for path, line in re.findall(  # there is one line more
+            wrong = {(path, int(line) - 1) for path, line in re.findall(  # the copy has one more line
                 rf"^{re.escape(str(folder))}/(\S+?):(\d+):\d+: (?:fatal )?error:", errors, re.MULTILINE)}
             more = {m for m in numbers.values() if (m.path, m.line_number) in wrong}
             if not more:
@@ -113,7 +112,7 @@ class Run:
             left_out |= more
 
     def alone(self, number, mutant):
-        """Whether it is found, compiled by itself; None where it does not compile."""
+        """Returns True if the separately compiled mutant is found, None if it does not compile."""
         folder, found = self.build / f"mutant{number}", []
         self.write(folder, {mutant.path: edited(self.texts[mutant.path], mutant.by_itself())})
         for options in self.variants:
@@ -125,31 +124,31 @@ class Run:
         return any(found) if found else None
 
     def run(self):
-        """(mutant, whether it is found) of those that compile."""
+        """Returns (mutant, True if it is found) for the mutants that compile."""
         found, reached = {}, set()
         with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
             for options in self.variants:
                 program, numbers = self.numbered_program(options)
-                self.tell(" ".join([f"{len(self.mutants)} mutants, {len(numbers)} of them in one program", *options]))
+                self.report(" ".join([f"{len(self.mutants)} mutants, {len(numbers)} of them in one program", *options]))
                 self.expect_none(program)
                 left = [k for k in numbers if not found.get(k)]
                 for k, (differs, there) in zip(left, pool.map(lambda k: self.differs(program, self.mutants[k - 1], k), left)):
                     found[k] = differs
                     reached |= {k} if there else set()
             rest = {k: m for k, m in enumerate(self.mutants, 1) if not found.get(k) and (k not in reached or m.binds_differently)}
-            self.tell(f"{sum(found.values())} of them are found, {len(rest)} are compiled by themselves")
+            self.report(f"{sum(found.values())} of them are found, {len(rest)} are compiled separately")
             found.update(zip(rest, pool.map(lambda k: self.alone(k, rest[k]), rest)))
         return [(m, found[k]) for k, m in enumerate(self.mutants, 1) if found[k] is not None]
 
 
 def equivalent():
-    """Names of mutants that no result shows."""
+    """Returns the names of the listed mutants, which no result shows."""
     lines = (root / "tests/proofs/equivalent_mutants.txt").read_text().splitlines()
     return {line for line in lines if line and not line.startswith(("#", " "))}
 
 
 def run(compiler, build, chosen=()):
-    """By tie, how many mutants were made, found, and are listed as equivalent; and lines that say what is wrong."""
+    """Returns the numbers of mutants made, found, and listed as equivalent, by tie, and the error messages."""
     counts, wrong, known = {}, [], equivalent()
     for tie in chosen or ties.TIES:
         tried = Run(compiler, build, tie).run()
@@ -163,7 +162,7 @@ def run(compiler, build, chosen=()):
 
 
 def record(counts):
-    """In proofs/mutants.txt."""
+    """Writes the numbers to proofs/mutants.txt."""
     today = datetime.date.today().isoformat()
     records.keep({tie: records.Record(*of_tie, today, records.digest(tie)) for tie, of_tie in counts.items()})
 

@@ -1,7 +1,6 @@
-// A scalar that knows nothing of numbers: each is named by the operation that made it and the names
-// of its operands, and has a sign that is drawn by its name. Where an algorithm over it gives the
-// results that the proofs' definition gives, it computes the same expressions and asks the same
-// signs of them.
+// A scalar without values. Its name is the operation that made it and the names of its operands,
+// and its sign is a random function of its name. If an algorithm over symbols returns the results
+// of the proofs' definition, it computes the same expressions and evaluates the same signs.
 #pragma once
 
 #include <cstdint>
@@ -10,17 +9,17 @@
 
 namespace tie {
 
-/// How often signs are zero and uncertain, in 64ths, and positive of those that are neither.
+/// The rates of zero and of uncertain signs, in 64ths, and of positive ones among the others.
 struct sign_rates {
     std::uint64_t zero, uncertain, positive;
-    std::uint64_t of_difference;  ///< uncertain, where the number is a difference
+    std::uint64_t of_difference;  ///< rate of uncertain signs of differences
 };
 
 class symbol {
   public:
     symbol() = default;
     explicit symbol(int n) : symbol(by::whole, static_cast<std::uint64_t>(n), 0) {}
-    /// What a case is given, by a number.
+    /// Input number `index` of a case.
     static symbol given(std::uint64_t index) { return {by::given, seed, index}; }
 
     friend symbol operator+(const symbol& a, const symbol& b) {
@@ -54,7 +53,7 @@ class symbol {
     }
     std::uint64_t name() const { return name_; }
 
-    /// Of the case: what its numbers and their signs are drawn by.
+    /// The case's seed of names and signs.
     inline static std::uint64_t seed = 0;
     inline static sign_rates rates{};
 
@@ -64,7 +63,7 @@ class symbol {
         : name_((mixed(a, b, std::uint64_t(operation)) & ~std::uint64_t{7}) |
                 std::uint64_t(operation)) {}
 
-    /// Modulo 2^62.
+    /// A hash modulo 2^62.
     static std::uint64_t mixed(std::uint64_t a, std::uint64_t b, std::uint64_t c) {
         constexpr std::uint64_t modulus = (std::uint64_t{1} << 62) - 1;
         std::uint64_t h =

@@ -1,6 +1,6 @@
-// The table of what the proofs' definitions compute, proofs/tie.txt, and what cases are made of,
-// put together and compared by. Programs of the proofs' own definitions write it: proofs/tie_*.ml.
-// What is enumerated here, and in which order, is what is enumerated there.
+// Reads the table of results of the proofs' definitions, proofs/tie.txt, and compares results with
+// it. The programs proofs/tie_*.ml write the table. Tests enumerate the same cases in the same
+// order.
 #pragma once
 
 #include <cstdint>
@@ -19,7 +19,7 @@ struct expected_results {
 };
 using table = std::map<std::string, expected_results>;
 
-/// By "format operation".
+/// Lines by "format operation".
 inline table read_table() {
     std::ifstream file(ERRBOUND_TIE_TABLE);
     table read;
@@ -34,7 +34,7 @@ inline table read_table() {
 class hash {
   public:
     void put(std::uint32_t word) { value_ = (value_ ^ word) * 16777619U; }
-    /// The upper half first.
+    /// Puts the upper half first.
     void put_both(std::uint64_t words) {
         put(static_cast<std::uint32_t>(words >> 32));
         put(static_cast<std::uint32_t>(words));
@@ -45,7 +45,7 @@ class hash {
     std::uint32_t value_ = 2166136261U;
 };
 
-/// A number sequence, modulo 2^63; the upper bits are used.
+/// A sequence of random numbers modulo 2^63; the upper bits are used.
 class sequence {
   public:
     explicit sequence(std::uint64_t start = 1) : state_(start) {}
@@ -58,14 +58,15 @@ class sequence {
     std::uint64_t state_;
 };
 
-/// A line of the table: so many cases, and what puts the results of each, numbered from 0.
+/// A line of the table: the number of cases, and a function that hashes the results of a case,
+/// numbered from 0.
 struct line {
     std::string name;
     std::uint64_t cases;
     std::function<void(hash&, std::uint64_t)> put;
 };
 
-/// A line of so many that are drawn first: put(results, what is drawn, its number).
+/// A line of `cases` cases, drawn in advance: put(results, drawn case, index).
 template <class Draw, class Put>
 line line_of(const std::string& name, int cases, sequence& numbers, const Draw& draw,
              const Put& put) {
@@ -75,7 +76,7 @@ line line_of(const std::string& name, int cases, sequence& numbers, const Draw& 
             [drawn, put](hash& h, std::uint64_t k) { put(h, drawn[k], static_cast<int>(k)); }};
 }
 
-/// Prints the lines whose results are not those of the table, the first or all; how many are.
+/// Prints the lines that differ from the table, only the first or all, and returns their number.
 inline int count_differences(const std::vector<line>& lines, bool first_alone) {
     const table expected = read_table();
     int differences = 0;
@@ -87,7 +88,7 @@ inline int count_differences(const std::vector<line>& lines, bool first_alone) {
             found->second.hash == results.value())
             continue;
         const auto cases = static_cast<unsigned long long>(l.cases);
-        std::printf("%s: %llu %08x, which proofs/tie.txt has not\n", l.name.c_str(), cases,
+        std::printf("%s: %llu %08x, not in proofs/tie.txt\n", l.name.c_str(), cases,
                     static_cast<unsigned>(results.value()));
         ++differences;
         if (first_alone) break;
@@ -95,7 +96,7 @@ inline int count_differences(const std::vector<line>& lines, bool first_alone) {
     return differences;
 }
 
-/// What main returns: whether lines differ. With an argument it stops at the first.
+/// The exit status: 1 if lines differ. With an argument it stops at the first.
 inline int compare(const std::vector<line>& lines, int arguments) {
     return count_differences(lines, arguments > 1) == 0 ? 0 : 1;
 }

@@ -1,6 +1,6 @@
-// Static and semi-static filters of expressions of coordinates, in double and in float: what their
-// types count, values, sizes, bounds and signs, against what the proofs' definitions make of the
-// same (proofs/tie_filters.ml), bit for bit.
+// Compares static and semi-static filters of expressions of coordinates, in double and float, with
+// the proofs' definitions (proofs/tie_filters.ml), bit for bit: error counts of types, values,
+// sizes, bounds and signs.
 #include <array>
 #include <bit>
 #include <cmath>
@@ -23,7 +23,7 @@ using errbound::filters::filtered_coordinate;
 using errbound::filters::semi_static_coordinate;
 using tie::hash;
 
-/// Zeros alike, NaN alike.
+/// Equal for both zeros, and for all NaN.
 void put(hash& h, double x) {
     if (std::isnan(x))
         h.put_both(0x7ff8000000000000U);
@@ -40,8 +40,8 @@ using numbers = std::array<T, 15>;
 template <class Scalar>
 using points = std::array<std::array<Scalar, 3>, 5>;
 
-/// Small and whole, about 1 but for some ulps, of one size, where products underflow or overflow,
-/// of every size, one that is no number or the largest.
+/// Coordinates: small integers, about 1 except for a few ulps, of one size, with products that
+/// underflow or overflow, of every size; one NaN or the largest number.
 template <class T>
 numbers<T> draw_numbers(tie::sequence& s) {
     using limits = std::numeric_limits<T>;
@@ -90,7 +90,7 @@ void put_static(hash& h, tie::sequence& s, const Expression& expression) {
     put(h, f.bound());
     put(h, static_cast<int>(sign_of(e)));
 }
-/// Mass and allowances where no factor is 0.
+/// Mass and allowances, if no factor is 0.
 template <class T, class Expression>
 void put_semi_static(hash& h, tie::sequence& s, const Expression& expression) {
     const numbers<T> x = draw_numbers<T>(s);
@@ -129,7 +129,7 @@ constexpr auto lifted_volume = [](const auto& p) {
                                           errbound::forms::unweighted);
 };
 
-/// A coordinate that stands for itself.
+/// A coordinate as an expression.
 constexpr auto c = [](const auto& p, std::size_t k) { return p[k][0]; };
 constexpr auto d = [](const auto& p, std::size_t k, std::size_t i) {
     return p[k][i] - p[k + 1][i];
@@ -157,7 +157,7 @@ const auto homogeneous =
            [](const auto& p) { return d(p, 0, 0) * 1048576 * (d(p, 0, 1) * 8); },
            [](const auto& p) { return d(p, 0, 0) * 1048576 * (16 * d(p, 0, 1)); },
            [](const auto& p) { return d(p, 0, 0) * 1048576 * (32 * d(p, 0, 1)); },
-           // Whose allowances are 2^24.
+           // Allowances of 2^24.
            [](const auto& p) {
                return d(p, 0, 0) * d(p, 0, 1) * 2097152 + d(p, 1, 0) * d(p, 1, 1) * 2097151;
            },
@@ -165,7 +165,7 @@ const auto homogeneous =
                const auto e = d(p, 0, 0) * 1048576 * (d(p, 0, 1) * 1048576);
                return e * (e * d(p, 1, 1));
            });
-/// Of mixed degree, which only static filters bound.
+/// Expressions of mixed degree, which only static filters bound.
 const auto mixed = listed(
     [](const auto& p) { return 5 + c(p, 0); }, [](const auto& p) { return c(p, 0) - 16777217; },
     [](const auto& p) { return 3 - c(p, 1); },
@@ -173,7 +173,7 @@ const auto mixed = listed(
     [](const auto& p) { return 1 - d(p, 0, 0) * d(p, 0, 1); },
     [](const auto& p) { return (c(p, 0) * c(p, 1) + 2147483647) * (d(p, 0, 0) + 0); });
 
-/// Their lines, in the order in which they draw numbers.
+/// The lines, in the order in which they draw numbers.
 class all_lines {
   public:
     std::vector<tie::line> take() {

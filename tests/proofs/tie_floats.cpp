@@ -1,6 +1,5 @@
-// The filter in doubles, test by test and as one query asks them, and the axes in single precision,
-// against what the proofs' definitions compute on the same queries (proofs/tie_floats.ml), bit for
-// bit.
+// Compares the filter in doubles, and the axes in single precision, with the proofs' definitions
+// (proofs/tie_floats.ml), bit for bit. It compares each test, and whole decisions.
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -49,7 +48,7 @@ bool finite(const drawn_query& q) {
     return std::all_of(q.x.begin(), q.x.end(), [](double x) { return std::isfinite(x); });
 }
 
-/// The tests of the filter, with what they are made of.
+/// The tests of the filter, and their operands.
 template <template <class> class Forms>
 void put_tests(hash& h, const Forms<double>& forms,
                const static_filter::difference_extents<double>& m) {
@@ -76,7 +75,7 @@ void put_tests(hash& h, const Forms<double>& forms,
     for (const std::size_t deepest : {static_filter::max_depth, std::size_t{6}, std::size_t{0}})
         put(h, static_filter::subdivide(whole, nullptr, deepest));
 }
-/// What one query is told, and by which stage: of each, whether it was asked, and its answer.
+/// The decision of one query, and for each stage whether it was entered and its answer.
 template <class Query>
 void put_decision(hash& h, const Query& query) {
     using ccd::stage;
@@ -106,7 +105,7 @@ void put_filter(hash& h, const drawn_query& q) {
         put_filter<ccd::linear_vertex_face_forms>(h, q.as<ccd::vertex_face<double>>(), finite(q));
 }
 
-/// The constants that the forms count, counted now.
+/// The constants of the forms' error counts, computed at run time.
 template <template <class> class Forms>
 void put_constants(hash& h) {
     namespace detail = static_filter::detail;
@@ -118,7 +117,7 @@ void put_constants(hash& h) {
     }
 }
 
-/// Control values, small and whole, and errors that some of them are equal to.
+/// Small whole control values, and errors that are equal to some of them.
 template <int N>
 control_values<double, N> small_values(tie::sequence& s) {
     control_values<double, N> c;
@@ -140,7 +139,7 @@ void put_signs(hash& h, tie::sequence& s) {
     put(h, static_filter::changes_sign_once(y, error));
 }
 
-/// Of parts where Y is small or not, and G_i are of either sign.
+/// Subintervals with a small or a large Y, and G_i of either sign.
 template <template <class> class Forms, class Query>
 void put_subdivision(hash& h, tie::sequence& s) {
     const Forms<double> forms{Query{}};
@@ -169,7 +168,7 @@ void put_axes(hash& h, const drawn_query& q) {
         box.widen(k, q.high[k]);
     }
     const rounded_axes::frame f(box);
-    // A loop that goes beyond the axes finds the features far apart there.
+    // A loop beyond the last axis would find the features far apart there.
     struct {
         float x[3][2][4];
         float beyond[2][4];

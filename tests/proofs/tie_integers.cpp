@@ -1,5 +1,5 @@
-// Decisions in integers, of fixed width and to the end, and what they are made of, against what the
-// proofs' definitions decide of the same queries and forms (proofs/tie_integers.ml).
+// Compares decisions in integers, of fixed width and to the end, and their components with the
+// proofs' definitions on the same queries and forms (proofs/tie_integers.ml).
 #include <algorithm>
 #include <array>
 #include <ccd/methods/forms.hpp>
@@ -42,7 +42,7 @@ void put(hash& h, ccd::outcome o) {
     h.put(static_cast<std::uint32_t>(o));
 }
 
-/// In as many words as it takes.
+/// In the least number of words.
 template <class Query>
 ccd::outcome in_words(const Query& query) {
     const integer_units units(query);
@@ -65,7 +65,7 @@ void put_decision(hash& h, const drawn_query& q) {
     put(h, in_words(ccd::vertex_vertex<double>{q.moving(0), q.moving(1)}));
 }
 
-/// What is else asked only of few: where roots nearly coincide.
+/// Decisions that only few queries need, since roots nearly coincide.
 template <class Query>
 void put_close(hash& h, const Query& query) {
     put(h, ccd::detail::decide_close<4>(forms_of(integer_units(query).converted<4>(query))));
@@ -77,8 +77,7 @@ void put_close(hash& h, const drawn_query& q) {
         put_close(h, q.as<ccd::vertex_face<double>>());
 }
 
-/// Whatever the extents are, or where there are none: units, what coordinates tell, and the
-/// verdict.
+/// For all extents, also infinite ones: units, separation by coordinates, and the verdict.
 template <class Query>
 void put_wide(hash& h, const Query& query) {
     const integer_units units(query);
@@ -109,7 +108,7 @@ void put_number(hash& h, const Integer& x) {
     h.put_both(static_cast<std::uint64_t>(x.word_from_bit(0)));
 }
 
-/// What decides inside, opened.
+/// Makes protected members of the interior decision accessible.
 template <int Words, template <class, int> class Forms>
 struct opened_contact : ccd::detail::interior_contact<Words, Forms> {
     using base = ccd::detail::interior_contact<Words, Forms>;
@@ -117,7 +116,7 @@ struct opened_contact : ccd::detail::interior_contact<Words, Forms> {
         base::normal_vanishes, base::three_real_roots_;
     using typename base::part;
 };
-/// What goes on to the end, opened.
+/// Makes protected members of the decision to the end accessible.
 template <template <class, int> class Forms>
 struct opened_close_contact : ccd::detail::close_contact<Forms> {
     using base = ccd::detail::close_contact<Forms>;
@@ -130,7 +129,7 @@ struct opened_close_contact : ccd::detail::close_contact<Forms> {
     }
 };
 
-/// The part of so many halvings: that where Y changes its sign, or else where `path` leads.
+/// The subinterval after `level` halvings: that with a sign change of Y, else that of `path`.
 template <class Part, int Words>
 Part part_of(const ccd::detail::cubic_form<Words>& y, int level, std::uint64_t path) {
     Part p{{}, ccd::detail::inner_sign_changes(y), 0, 0};
@@ -158,7 +157,7 @@ void put_throughout(hash& h, const Contact& contact, const tie::drawn_forms& f) 
         put(h, contact.template throughout<T>(f.place(bits).from_bit<T>(0), bits, width_bits));
 }
 
-/// Where parts with more than one root are halved no more, about the root.
+/// Subintervals around the root, with more than one root, at the limit of halvings.
 template <class Contact>
 void put_last_halves(hash& h, Contact contact, const tie::drawn_forms& f) {
     using part = typename Contact::part;
@@ -180,8 +179,8 @@ void put_part(hash& h, const Part& p) {
         h.put(static_cast<std::uint32_t>(n));
     h.put(p.can_be_narrowed());
 }
-/// One of the parts that a decision to the end comes to after another, and what it goes on to from
-/// the last.
+/// The subintervals of a decision to the end, one after the other, and its result from the last
+/// one.
 template <template <class, int> class Forms>
 void put_parts(hash& h, const tie::drawn_forms& f) {
     using contact_type = opened_close_contact<Forms>;
@@ -205,7 +204,7 @@ void put_parts(hash& h, const tie::drawn_forms& f) {
     p.ask_from = p.bits() + static_cast<int>(path % 2);
     put(h, contact.by_narrowing(p));
 }
-/// Where a root shows late; and about the most bits.
+/// Roots that appear late, and sizes near the most bits.
 template <template <class, int> class Forms>
 void put_deep(hash& h, const tie::drawn_deep& d) {
     using contact_type = opened_close_contact<Forms>;
@@ -287,7 +286,7 @@ void put_parts(hash& h, const tie::drawn_forms& f) {
         put_parts<ccd::vertex_face_forms>(h, f);
 }
 
-/// At roots of quadratics, and where three have one in common.
+/// Tests at roots of quadratics, and at common roots of three.
 void put_roots(hash& h, const tie::drawn_quadratics& q) {
     using errbound::sign_of;
     const auto& f = q.forms[0];
@@ -302,7 +301,7 @@ void put_roots(hash& h, const tie::drawn_quadratics& q) {
         for (const auto& c : roots.quadratic->h) put_number(h, c);
 }
 
-/// Numbers that stand for others.
+/// Integers with error bounds.
 void put_bounded(hash& h, const tie::drawn_bounded& drawn) {
     using bounded = ccd::detail::bounded_integer<fixed_integer<2>>;
     const bounded a{drawn.a, drawn.a_bits}, b{drawn.b, drawn.b_bits};

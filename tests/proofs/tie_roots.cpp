@@ -1,6 +1,6 @@
-// What isolation of roots computes with, against what the proofs' definitions make of the same
-// numbers (proofs/tie_roots.ml): dyadic numbers, residues, variations of signs, rows of Bernstein
-// coefficients, polynomials, bounds of roots, their refinement, polynomials near a place.
+// Compares the components of root isolation with the proofs' definitions on the same numbers
+// (proofs/tie_roots.ml). They are dyadic numbers, residues, sign variations, rows of Bernstein
+// coefficients, polynomials, bounds of roots and their refinement, and local forms.
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -35,7 +35,7 @@ using whole = boost::multiprecision::number<boost::multiprecision::cpp_int_backe
 using point = errbound::dyadic<whole>;
 using polynomial = errbound::roots::integer_form<whole>;
 
-/// Its sign, and words of 32 bits from the last.
+/// Puts the sign, and words of 32 bits from the last.
 void put(hash& h, const whole& n) {
     h.put(static_cast<std::uint32_t>(n.sign() + 1));
     for (whole rest = abs(n); rest != 0; rest >>= 32)
@@ -56,18 +56,18 @@ void put_double(hash& h, double x) {
     h.put_both(std::bit_cast<std::uint64_t>(x == 0 ? 0.0 : x));
 }
 
-/// Numbers as tie_roots.ml draws them.
+/// Draws numbers like tie_roots.ml.
 class drawn_numbers {
   public:
     int draw(int n) { return tie::draw(s_, n); }
-    /// Of so many bits, nonnegative.
+    /// A nonnegative number of `bits` bits.
     whole natural(int bits) {
         whole n = 0;
         for (; bits > 0; bits -= 30) n = (n << 30) + draw(1 << 30);
         return n;
     }
     whole with_sign(const whole& n) { return draw(2) == 0 ? n : whole(-n); }
-    /// Zero, small, of a word, longer.
+    /// A number that is zero, small, one word or longer.
     whole number() {
         const int kind = draw(5);
         if (kind == 0) return 0;
@@ -81,7 +81,7 @@ class drawn_numbers {
         if (p.back() == 0) p.back() = 1;
         return p;
     }
-    /// Irreducible, by Eisenstein's criterion, so that nothing is left out of it.
+    /// Irreducible by Eisenstein's criterion, so that no factor is removed.
     polynomial irreducible(int degree) {
         polynomial p{with_sign(1 + 3 * draw(1000)) * 3};
         for (int i = 1; i < degree; ++i) p.push_back(number() * 3);
@@ -141,19 +141,19 @@ void put_field(hash& h, drawn_numbers& s) {
     const whole n = s.draw(2) == 0 ? whole(s.draw(70)) : s.natural(60);
     put(h, whole(field.power(a, static_cast<std::uint64_t>(n))));
 }
-/// Of factors of the modulus.
+/// Residues that are factors of the modulus.
 void put_zero_divisors(hash& h, drawn_numbers& s) {
     const auto a = 2 * static_cast<std::uint64_t>(s.draw(1 << 29)) + 3,
                b = 2 * static_cast<std::uint64_t>(s.draw(1 << 29)) + 3;
     put(h, whole(prime_field(a * b).multiply(a, b)));
 }
-/// Of a multiple of the modulus, or beside one.
+/// Residues of a multiple of the modulus, or next to one.
 void put_residue(hash& h, drawn_numbers& s) {
     const prime_field field(errbound::roots::large_prime(static_cast<std::size_t>(s.draw(4))));
     const whole multiple = (s.draw(5) - 2) * whole(field.modulus());
     put(h, whole(errbound::roots::residue(whole(multiple + s.draw(3) - 1), field)));
 }
-/// Of some polynomial, and of one that is zero there.
+/// Values of a random polynomial, and of one that is zero there.
 void put_value_modulo(hash& h, drawn_numbers& s) {
     const prime_field field(errbound::roots::large_prime(static_cast<std::size_t>(s.draw(4))));
     const polynomial p = s.form(s.draw(6));
@@ -186,7 +186,7 @@ void put(hash& h, const row& r) {
         put_double(h, nearby[i]);
     }
 }
-/// And its halves, some times.
+/// Puts the row, and its halves a few times.
 void put(hash& h, row r, drawn_numbers& s) {
     put(h, r);
     for (int steps = 1 + s.draw(6); steps > 0; --steps) {
@@ -206,8 +206,8 @@ void put_rows(hash& h, drawn_numbers& s) {
                                     : s.natural(kind == 2 ? 60 : 270);
     put(h, row(b, error), s);
 }
-/// With an error that is small, or about the largest that a row keeps or twice that, and
-/// coefficients that are about as large. For the last one nothing is cut off.
+/// Errors that are small, or about once or twice the largest that a row keeps, and coefficients of
+/// that size. The last row is not rounded.
 void put_row_edges(hash& h, drawn_numbers& s) {
     const int kind = s.draw(3);
     const whole error = kind == 0 ? whole(s.draw(5)) : (whole(1) << (59 + kind)) - 4 + s.draw(4);
@@ -235,7 +235,7 @@ void put_polynomial(hash& h, drawn_numbers& s, int degree) {
 void put_polynomial(hash& h, drawn_numbers& s) {
     put_polynomial(h, s, s.draw(16) == 0 ? 38 + s.draw(6) : s.draw(9));
 }
-/// Whose weights 64 bits may not hold.
+/// A polynomial whose weights may exceed 64 bits.
 void put_long_polynomial(hash& h, drawn_numbers& s) {
     put_polynomial(h, s, 44 + s.draw(8));
 }
@@ -284,7 +284,7 @@ void put_refined(hash& h, drawn_numbers& s) {
     const point a(s.draw(4000) - 2000, e), b(s.draw(4000) - 2000, e);
     put_refined(h, s, p, a, b);
 }
-/// With a root that is whole, where two parts meet that halving leads to.
+/// A whole root, where two subintervals meet after halvings.
 void put_whole_root(hash& h, drawn_numbers& s) {
     const polynomial q = s.irreducible(2 + s.draw(3));
     const int root = s.draw(2000) - 1000;
@@ -317,7 +317,7 @@ local drawn_part(const local& f, drawn_numbers& s) {
               length = 1 + s.draw((1 << depth) - from);
     return f.part(from, length, depth);
 }
-/// And parts of parts.
+/// Subintervals, and subintervals of them.
 void put_parts(hash& h, drawn_numbers& s, const local& f) {
     put(h, f, s);
     const local once = drawn_part(f, s);
@@ -334,7 +334,7 @@ void put_near(hash& h, drawn_numbers& s) {
     const int some = bits[static_cast<std::size_t>(s.draw(4))];
     put_parts(h, s, {p, low, width, some + s.draw(10)});
 }
-/// In few bits, which the numerators of powers of `low` just exceed.
+/// A polynomial of few bits, which the numerators of powers of `low` just exceed.
 void put_near_small(hash& h, drawn_numbers& s) {
     const polynomial p = s.form(s.draw(4) == 0 ? 30 : s.draw(5));
     const int numerator = 2 * s.draw(4) + 1;
@@ -343,28 +343,28 @@ void put_near_small(hash& h, drawn_numbers& s) {
     const point width(1 + s.draw(8), size);
     put_parts(h, s, {p, low, width, s.draw(16)});
 }
-/// c + 2^20·(x − 1), or the opposite, whose values are about as large as the error.
+/// c + 2^20·(x − 1), or its negative, whose values are about as large as the error.
 void put_near_error(hash& h, drawn_numbers& s) {
     const int bits = 4 + s.draw(8);
     const whole slope = s.with_sign(1 << 20), c = whole(s.draw(140)) << (18 - bits);
     const point width(1 + s.draw(63), -(bits + 2));
     put_parts(h, s, {{c - slope, slope}, {1, 0}, width, bits});
 }
-/// d·(x − 1)² + 2^20·(x − 1), of which the last term is about as large as the error.
+/// d·(x − 1)² + 2^20·(x − 1), whose last term is about as large as the error.
 void put_near_small_term(hash& h, drawn_numbers& s) {
     const whole size = 1 + s.draw(1 << 20), d = s.with_sign(size), slope = 1 << 20;
     const point width(1 + s.draw(1 << 10), -12);
     put_parts(h, s, {{d - slope, slope - 2 * d, d}, {1, 0}, width, 13 + s.draw(4)});
 }
-/// 24·(x − c)² + d, or the opposite, whose Bernstein coefficients have one sign if d is large, and
-/// if it is less, only those of higher degree.
+/// 24·(x − c)² + d, or its negative. Its Bernstein coefficients have one sign if d is large; for
+/// smaller d, only those of higher degree.
 void put_near_minimum(hash& h, drawn_numbers& s) {
     const int low = 1 + s.draw(1000), d = s.draw(32);
     const whole c = low + 1, factor = s.with_sign(1);
     const polynomial p{factor * (24 * c * c + d), factor * -48 * c, factor * 24};
     put_parts(h, s, {p, {low, 0}, {2, 0}, 40});
 }
-/// (x − low)³, of which nothing is seen.
+/// (x − low)³, whose signs are all uncertain.
 void put_near_triple_root(hash& h, drawn_numbers& s) {
     const whole low = 1 + s.draw(1000);
     const point width(1, -90 - s.draw(10));

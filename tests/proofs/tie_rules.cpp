@@ -1,6 +1,6 @@
-// The rules, functions by them and integers of words against what the proofs' definitions compute
-// (proofs/tie.ml), until the first difference: what mutants.py runs, and by fused multiply-add
-// every build. Of tiny formats it leaves out the one that takes longest, which tie_test has.
+// Compares the rules, their functions and integers of words with the proofs' definitions
+// (proofs/tie.ml), up to the first difference. mutants.py runs it, and with fused multiply-add
+// every build does. It skips the slowest tiny format, which tie_test has.
 #include <algorithm>
 #include <array>
 #include <cstdio>
@@ -20,7 +20,7 @@ using errbound::validation::tiny_rounding;
 
 std::string changed_header;
 
-/// True if a header of this name can change the results: the rule's own, or one of no rule.
+/// True if a header of this name can affect the results: the rule's header, or one of no rule.
 bool is_due(const std::string& name) {
     const std::array<std::string, 8> others{"tight",    "sharp",    "safe",   "interval",
                                             "residual", "relative", "affine", "fixed_integer"};
@@ -51,7 +51,7 @@ bool tiny_differs() {
     const tiny_rounding<Tiny> nearest(MPFR_RNDN);
     return differs<Tiny>();
 }
-/// Operations of their own, but no rules.
+/// Operations that are not of a rule.
 template <class Tiny>
 bool tiny_operations_differ() {
     const tiny_rounding<Tiny> nearest(MPFR_RNDN);

@@ -1,6 +1,6 @@
-// Bernstein sign classification, polynomials, and the forms of queries and of predicates over
-// symbols, against the proofs' definitions over the same (proofs/tie_symbols.ml): they compute the
-// same expressions of them, and decide by the same signs.
+// Compares Bernstein sign classification, polynomials, and the forms of queries and predicates over
+// symbols with the proofs' definitions (proofs/tie_symbols.ml): they compute the same expressions
+// and decide by the same signs.
 #include <array>
 #include <ccd/methods/forms.hpp>
 #include <cstddef>
@@ -25,8 +25,8 @@ struct family {
     const char* name;
     tie::sign_rates rates;
 };
-/// Of which signs are: exact numbers, some zero; few uncertain ones, many; none zero; numbers whose
-/// differences are uncertain, so that Y is halved, with parts that are excluded and without.
+/// Exact signs, some of them zero; few and many uncertain signs; no zeros. In the last two,
+/// differences are uncertain, so that Y is halved, with and without excluded subintervals.
 constexpr std::array<family, 6> families{{{"exact", {2, 0, 32, 0}},
                                           {"certain", {2, 2, 32, 2}},
                                           {"uncertain", {10, 10, 32, 10}},
@@ -60,7 +60,7 @@ void put_root(hash& h) {
     h.put(static_cast<std::uint32_t>(found));
 }
 
-/// Everything of a polynomial of degree N, and its product with one of degree 2.
+/// All functions of a polynomial of degree N, and its product with one of degree 2.
 template <int N>
 void put_polynomial(hash& h) {
     const auto p = given<N>(0);
@@ -77,7 +77,6 @@ void put_polynomial(hash& h) {
     put(h, -p);
 }
 
-/// What is concluded from signs.
 template <int N>
 void put_signs(hash& h) {
     const auto p = given<N>(0);
@@ -99,8 +98,7 @@ void put_forms(hash& h) {
     for (const auto& g : f.inside()) put(h, g);
 }
 
-/// A predicate's expression, or its sign, and of which degrees coordinates are, if not all of
-/// degree 1.
+/// A predicate's expression or its sign, and the degrees of coordinates, if not all are 1.
 template <class Shape, class F, class Options>
 void put(hash& h, const errbound::predicate_type<Shape, F, Options>&) {
     const auto point = [](std::uint64_t k) {

@@ -1,6 +1,6 @@
-// First contacts in integers of fixed width, and the doubles between which they are, of the whole
-// step and of parts, against what the proofs' definitions tell of the same queries
-// (proofs/tie_times.ml).
+// Compares first contacts in integers of fixed width, and the doubles around them, with the proofs'
+// definitions on the same queries (proofs/tie_times.ml). It compares the whole step and
+// subintervals.
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -37,8 +37,8 @@ void put(hash& h, const ccd::detail::found_time& found) {
     h.put_both(std::bit_cast<std::uint64_t>(found.time.low));
     h.put_both(std::bit_cast<std::uint64_t>(found.time.high));
 }
-/// Of a part of the step where Y changes its sign, as if the filter had found contact in it: parts
-/// and how Y bends there follow from the case's number.
+/// The root in a subinterval where Y changes its sign, as if the filter had found contact in it.
+/// The case's index determines the subinterval and the shape of Y.
 template <class Query>
 void put_part(hash& h, const Query& query, int k) {
     using errbound::sign_type;
@@ -70,7 +70,7 @@ void put_times(hash& h, const drawn_query& q, int k) {
     put_smaller(h, q);
 }
 
-/// Whatever the extents are.
+/// For all extents.
 template <class Query>
 void put_wide(hash& h, const Query& query) {
     if (ccd::detail::integer_units(query).bits() <= ccd::detail::extent_limit(2)) {
@@ -89,7 +89,7 @@ void put_wide(hash& h, const drawn_query& q) {
     put_smaller(h, q);
 }
 
-/// Where doubles hold the query: its points from one of them on.
+/// For queries that fit in doubles: points relative to one of them.
 void put_of_forms(hash& h, const tie::drawn_forms& f, int k) {
     if (f.bits() > 50) return;
     drawn_query q{f.edges, {}, {}, {}};
@@ -107,8 +107,8 @@ void put_of_forms(hash& h, const tie::drawn_forms& f, int k) {
     put_times(h, q, k);
 }
 
-/// All vertices and edges from 0 on with coordinates −1 to 1 in a plane, or edges along an axis;
-/// and with those from −3 to 3 on a line.
+/// All vertices and edges from 0 with coordinates −1 to 1 in a plane, or edges along an axis; on a
+/// line, with coordinates −3 to 3.
 drawn_query small_query(int k) {
     constexpr int each = 6561;
     constexpr std::array<std::size_t, 8> planar{0, 1, 3, 4, 12, 13, 15, 16},

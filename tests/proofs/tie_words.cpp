@@ -1,5 +1,5 @@
-// Integers as long as they need to be, whose words are often all zeros or all ones, against what
-// the proofs' definitions make of the same (proofs/tie_words.ml).
+// Compares integers of variable length, whose words are often all zeros or all ones, with the
+// proofs' definitions on the same numbers (proofs/tie_words.ml).
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -17,7 +17,7 @@ using word = std::uint64_t;
 
 constexpr int capacity = 12;
 using number = errbound::integers::long_integer<capacity>;
-/// Which every result fits.
+/// A width that every result fits.
 using wide_number = errbound::integers::long_integer<2 * capacity>;
 
 void put_int(hash& h, int n) {
@@ -51,7 +51,7 @@ number drawn_number(tie::sequence& s) {
     return errbound::integers::fixed_integer<capacity>::from_words(all);
 }
 
-/// And in a number that it just fits.
+/// Also in a number that it just fits.
 void put_fitting(hash& h, const wide_number& wide, const number& narrow) {
     put(h, wide);
     if (wide.size() <= capacity) put(h, narrow);

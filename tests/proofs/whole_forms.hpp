@@ -1,6 +1,6 @@
-// The vectors b, c and p of queries in whole numbers of up to 250 bits, as proofs/tie_queries.ml
-// draws them: with a rational root of Y, or close to one, at which weights, the normal or all
-// vectors vanish or nearly do; and a part of the step.
+// The vectors b, c and p of queries in integers of up to 250 bits, and a subinterval of the step,
+// drawn like proofs/tie_queries.ml. Y has a rational root, or one close to a rational, at which
+// weights, the normal or all vectors vanish or nearly do.
 #pragma once
 
 #include <algorithm>
@@ -19,7 +19,7 @@ namespace tie {
 using whole_number = errbound::integers::fixed_integer<4>;
 using whole_vector = ccd::vector_form<whole_number, 1>;
 
-/// Modulo its width.
+/// The product modulo its width.
 inline whole_number product(const whole_number& a, const whole_number& b) {
     return (a * b).from_bit<4>(0);
 }
@@ -39,11 +39,11 @@ inline int pick(sequence& s, int size) {
 struct drawn_forms {
     bool edges;
     std::array<whole_vector, 3> vectors;  ///< b, c and p
-    int level;                            ///< of a part
-    std::uint64_t path;                   ///< to the part, where no sign shows one
-    std::int64_t off;                     ///< from where the root is expected there
-    whole_number root, root_unit;         ///< the root of all: their quotient
-    int words, cut;                       ///< of a place there, cut so that it has so many words
+    int level;                            ///< of the subinterval
+    std::uint64_t path;            ///< to the subinterval, where no sign change determines it
+    std::int64_t off;              ///< distance from the root's expected position there
+    whole_number root, root_unit;  ///< the root of all is their quotient
+    int words, cut;                ///< of a position there: `cut` determines the number of words
 
     /// The most bits of an axis' coordinates.
     int bits(std::size_t axis) const {
@@ -56,7 +56,7 @@ struct drawn_forms {
     }
     int bits() const { return std::max({bits(0), bits(1), bits(2)}); }
 
-    /// The root's place times 2^bits, rounded down.
+    /// The root's position times 2^bits, rounded down.
     whole_number place(int bits) const {
         whole_number quotient, rest = root;
         for (int i = 0; i < bits; ++i) {
@@ -77,7 +77,7 @@ struct drawn_forms {
             visit.template operator()<ccd::vertex_face_forms>();
     }
 
-    /// In integers that `convert` makes of coordinates.
+    /// The forms in integers that `convert` makes of coordinates.
     template <template <class, int> class Forms, class Convert>
     auto as(const Convert& convert) const {
         using integer = decltype(convert(whole_number()));
@@ -135,7 +135,7 @@ class whole_forms_maker {
     }
 
   private:
-    /// The root u/d, d = (q + 1)·u + 1; and sizes.
+    /// Draws the root u/d, d = (q + 1)·u + 1, and sizes.
     void draw_place() {
         const int size = draw(s_, 4);
         const int bits = size == 0   ? 2 + draw(s_, 12)
@@ -153,7 +153,7 @@ class whole_forms_maker {
         slope_bits_ = std::max(1, bits - of_q - of_u);
     }
 
-    /// At the root in a plane, or almost, p·b and c·b nearly parallel.
+    /// At the root the vectors are in a plane, or almost, with p·b and c·b nearly parallel.
     void in_a_plane() {
         const int of_h = draw(s_, value_bits_ + 1), more = value_bits_ - of_h;
         const auto h = drawn_below(s_, of_h);
@@ -170,13 +170,13 @@ class whole_forms_maker {
         values_[2] = {product(h, g) + d, g, 0};
         for (auto& row : values_) row[2] = draw(s_, 4) == 0 ? pick(s_, 1) : 0;
     }
-    /// Y is nearly a product of three linear forms that have the root.
+    /// Y is nearly a product of three linear forms with the root.
     void keep_diagonal() {
         for (std::size_t i = 0; i < 3; ++i)
             for (std::size_t x = 0; x < 3; ++x)
                 if (i != x) slopes_[i][x] = 0;
     }
-    /// A double root, or a triple one.
+    /// A double or triple root.
     void of_rank_one() {
         if (draw(s_, 3) == 0) values_[0] = {0, 0, 0};
         for (std::size_t i = 1; i < 3; ++i) {
@@ -184,7 +184,8 @@ class whole_forms_maker {
             for (std::size_t x = 0; x < 3; ++x) values_[i][x] = product(times, values_[0][x]);
         }
     }
-    /// b and c in one plane throughout, whose normal vanishes where their cross product does.
+    /// b and c are in one plane throughout, whose normal vanishes together with their cross
+    /// product.
     void move_in_a_plane() {
         for (std::size_t i = 0; i < 2; ++i) {
             values_[i] = {drawn_within(s_, value_bits_), drawn_within(s_, value_bits_), 0};
@@ -192,12 +193,13 @@ class whole_forms_maker {
         }
     }
 
-    /// In the middle of both, at a simple root.
+    /// A contact in the middle of both features, at a simple root.
     void cross_inside() {
         const std::int64_t side = draw(s_, 2) == 0 ? 1 : -1;
         values_ = {{{4, 0, 0}, {0, 4 * side, 0}, {1, 1, 0}}};
     }
-    /// In the middle of both, at a double or triple root, or at three close to each other.
+    /// A contact in the middle of both features, at a double or triple root, or at three close
+    /// ones.
     void meet_inside() {
         const bool triple = draw(s_, 2) == 0, coincide = draw(s_, 2) == 0;
         const whole_number side = draw(s_, 2) == 0 ? 1 : -1;
@@ -219,7 +221,8 @@ class whole_forms_maker {
                     if (draw(s_, 6) == 0) value = value + whole_number(pick(s_, 1));
     }
 
-    /// That is its value, over d, at the root: from value + slope·u to −q·value − slope·(d − u).
+    /// The form with this value, over d, at the root: from value + slope·u to −q·value − slope·(d −
+    /// u).
     errbound::bernstein<whole_number, 1> moved(std::size_t row, std::size_t x, bool back) const {
         const whole_number &value = values_[row][x], &slope = slopes_[row][x];
         const whole_number start = value + product(slope, u_);
@@ -235,9 +238,9 @@ class whole_forms_maker {
     std::array<std::array<whole_number, 3>, 3> values_, slopes_;
 };
 
-/// Small vectors, p zero at the start; a part that begins there, 2^-unit_bits wide, and where in it
-/// a cubic has its root: near 2^-root_bits. What is just narrow enough or not; and a cubic with two
-/// roots close to each other.
+/// Small vectors, p zero at the start, and a subinterval of width 2^-unit_bits from there, in which
+/// a cubic has a root near 2^-root_bits. Numbers at the limit of can_be_narrowed, and a cubic with
+/// two close roots.
 struct drawn_deep {
     drawn_forms forms;
     int unit_bits, root_bits, ask_from;
@@ -263,7 +266,7 @@ inline drawn_deep draw_deep(sequence& s) {
     d.limit_bits = 5442 + draw(s, 4);
     d.limit_index = static_cast<int>(draw(s, 4));
     d.limit_negative = draw(s, 2) == 0;
-    // (at − bs)²·(cs + et), but for a little.
+    // (at − bs)²·(cs + et), slightly changed.
     const int a = 1 + draw(s, 16), b = 1 + draw(s, 16), c = 1 + draw(s, 4), e = 1 + draw(s, 4);
     const int bits = draw(s, 63);
     const std::array<int, 4> with_double_root{b * b * c, b * b * e - 2 * a * b * c,
@@ -274,8 +277,7 @@ inline drawn_deep draw_deep(sequence& s) {
     return d;
 }
 
-/// Three quadratics, the first of which often has roots in common with the others, and with one
-/// more.
+/// Three quadratics, of which the first often has common roots with the others, and one more.
 struct drawn_quadratics {
     using form = errbound::bernstein<errbound::integers::fixed_integer<2>, 2>;
     std::array<form, 3> forms;
@@ -310,8 +312,8 @@ inline drawn_quadratics draw_quadratics(sequence& s) {
     return {{first, second, third}, draw(s, 3) == 0 ? any() : with_root()};
 }
 
-/// Of a product of linear forms the roots, over 2^bits; an interval a few doubles wide in which it
-/// changes its sign once, perhaps with roots at its ends or a double one; and an estimate.
+/// The roots of a product of linear forms, over 2^bits, an interval a few doubles wide with one
+/// sign change, and an estimate. The ends may be roots, and there may be a double root.
 struct drawn_search {
     int degree, bits;
     std::int64_t low, high, estimate;
@@ -337,7 +339,7 @@ inline drawn_search draw_search(sequence& s) {
 
 struct drawn_bounded {
     errbound::integers::fixed_integer<2> a, b;
-    int a_bits, b_bits;  ///< of their errors
+    int a_bits, b_bits;  ///< of the errors
 };
 inline drawn_bounded draw_bounded(sequence& s) {
     constexpr int exact = -(1 << 20);

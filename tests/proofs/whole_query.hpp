@@ -1,7 +1,7 @@
-// Queries of vertex and face, or of two edges in whole numbers, as proofs/tie_queries.ml draws
-// them: small and large, in a plane but for a little, that meet or almost meet inside or at a
-// border, with points that coincide, rigid but for a little, out and back; whose Y has its roots
-// close together; some with axes in other units, and a little off.
+// Queries of a vertex and a face or of two edges in integers, drawn like proofs/tie_queries.ml.
+// They are small or large, almost in a plane, or meet or almost meet inside or at a border. Some
+// have equal points, are almost rigid, or move out and back. Some have a Y with close roots, some
+// axes with other units, slightly changed.
 #pragma once
 
 #include <array>
@@ -50,8 +50,8 @@ class whole_query_maker {
         return in_doubles();
     }
 
-    /// Some coordinates so large that integers of 1, 2 or 4 words just hold them, or do not; or not
-    /// finite.
+    /// Some coordinates are so large that integers of 1, 2 or 4 words just hold them, or do not;
+    /// some are not finite.
     drawn_query wide_query() {
         drawn_query q = query();
         const int kind = draw(s_, 8);
@@ -95,8 +95,8 @@ class whole_query_maker {
         for (whole& c : c_) c = mode_ >= 9 && draw(s_, 2) == 0 ? 0 : pick(size_);
     }
 
-    /// Point 0 is at a place of the face, or edges cross there, at t = k/8; or they miss it by a
-    /// little.
+    /// Point 0 is at a position of the face, or the edges cross there, at t = k/8; or they miss it
+    /// slightly.
     void meet(bool sometimes_off, bool on_border) {
         const whole k = draw(s_, 9), a = on_border ? 0 : draw(s_, 5);
         const whole b = edges_ ? 1 + draw(s_, 4) : draw(s_, static_cast<int>(5 - a));
@@ -137,8 +137,8 @@ class whole_query_maker {
             }
     }
 
-    /// Y is the product of three linear forms, with roots close to k/8, but for a little: of the
-    /// rows P, B and C, which are small beside the diagonal.
+    /// Y is almost the product of three linear forms of the rows P, B and C, with roots close to
+    /// k/8. Other entries of the rows are small.
     void near_roots() {
         const whole k = draw(s_, 9), large = whole{1} << draw(s_, 31);
         std::array<std::array<std::array<whole, 2>, 3>, 3> rows;

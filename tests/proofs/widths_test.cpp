@@ -1,8 +1,7 @@
-// Decisions in integers of fixed width over integers that count bits (tests/proofs/counted): at the
-// largest extents that a width is used for, no number that they compute exceeds its words, by
-// how it is computed. FixedWidths.v of the proofs proves that of expressions read off the code;
-// this is of the code as it runs, on the queries and forms of the ties, which come to all its
-// branches.
+// Runs decisions in integers of fixed width over integers that count bits (tests/proofs/counted).
+// At the largest extents of a width, no number may exceed its words, by the bounds of its
+// computation. FixedWidths.v of the proofs proves this for expressions read off the code. This test
+// runs the code on the queries and forms of the ties, which reach all its branches.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -32,7 +31,7 @@ using ccd::detail::integer_units;
 using errbound::integers::counted;
 using errbound::integers::fixed_integer;
 
-/// Counts while it lives.
+/// Counts during its lifetime.
 struct counting {
     counting() { counted.on = true; }
     ~counting() { counted.on = false; }
@@ -40,7 +39,7 @@ struct counting {
     counting& operator=(const counting&) = delete;
 };
 
-/// Where the query fits: its differences are taken for as large as 2^bits along every axis.
+/// If the query fits: its differences are assumed to reach 2^bits along every axis.
 template <int Words, class Query>
 void decide(const Query& query, int bits) {
     integer_units units(query);
@@ -73,7 +72,7 @@ struct opened_contact : ccd::detail::interior_contact<Words, Forms> {
     using typename base::part;
 };
 
-/// About the root of all forms, in T words and with brackets of any width.
+/// Around the root of all forms, in T words and with brackets of any width.
 template <int T, class Contact>
 void ask_throughout(const Contact& contact, const tie::drawn_forms& f) {
     const int bits = std::clamp(64 * T - 4 - f.bits(0) + f.cut, 1, 64 * T - 2);
@@ -84,7 +83,7 @@ void ask_throughout(const Contact& contact, const tie::drawn_forms& f) {
         (void)contact.template throughout<T>(low, bits, width_bits);
 }
 
-/// Forms with contact or almost, whose decision comes to later brackets and halves.
+/// Forms with contact or almost, whose decision reaches later brackets and halves.
 template <int Words, template <class, int> class Forms>
 void decide_forms(const tie::drawn_forms& f, int bits) {
     if (f.bits() > bits) return;
@@ -98,7 +97,7 @@ void decide_forms(const tie::drawn_forms& f, int bits) {
     const auto y = forms.y();
     opened_contact<Words, Forms> contact(forms, y, units);
     (void)contact.decide();
-    // A part of the most halvings: bounds are those of any other.
+    // A subinterval after the most halvings: its bounds hold for any other.
     typename opened_contact<Words, Forms>::part some{{}, ccd::detail::inner_sign_changes(y), 0, 0};
     for (int i = 0; i <= 3; ++i) some.y[i] = y[i];
     for (; some.level < some.max_halvings; ++some.level) {
@@ -140,8 +139,8 @@ TYPED_TEST(Widths, HoldAllNumbersAtTheLargestExtents) {
     constexpr int words = TypeParam::value;
     decide_all<words>(extent_limit(words));
     EXPECT_EQ(counted.beyond, 0U) << counted.first;
-    // The longest were come to: forms at roots of Y whose places have so many words, and at
-    // multiple ones.
+    // The longest numbers were reached, with forms at roots of Y whose positions have `place`
+    // words, and at multiple roots.
     for (int place = 1; place <= (words == 1 ? 3 : 4); ++place)
         EXPECT_TRUE(counted.fullest.contains(4 * (words + place))) << place;
     EXPECT_TRUE(counted.fullest.contains(28 * words));

@@ -189,8 +189,8 @@ struct two_triangles {
     }
 };
 
-// Regression: missing rows were written beyond the end of memory. Missing bodies were reported only
-// in the first frame without convergence. Negative masses were driven in some functions only.
+// Regression: missing rows were written out of bounds. Missing bodies were reported only in the
+// first frame without convergence. Negative masses were driven in some functions only.
 TEST(Runs, AHandlerRefusesWhatMakesNoSense) {
     EXPECT_NO_THROW(two_triangles().resolve());
     const auto refused = [](const std::function<void(two_triangles&)>& change) {

@@ -46,7 +46,7 @@ bool holds(const ccd::vertex_rows& way, const checked_pair& of, const interval& 
         of.pair);
 }
 
-/// At least the distance of a pair, in doubles.
+/// A double that is at least the distance of a pair.
 double at_least(ccd::separation d) {
     return std::nextafter(d.first + d.second, std::numeric_limits<double>::infinity());
 }
@@ -142,8 +142,8 @@ class checking {
             if (holds(way, p, {})) return fault("a pair meets on the way to the positions");
     }
 
-    /// Numbers of what vertices can have been joined to: groups with pairs whose boxes, swept all
-    /// the way, are within their distance.
+    /// The island of each vertex. Two groups are in one island if a pair of their boxes, swept over
+    /// the whole step, is within its distance.
     std::vector<int> islands() const {
         std::vector<ccd::edge> joined;
         std::map<int, vertex_index> first_of;
@@ -172,12 +172,12 @@ class checking {
         for (const auto& [number, f] : least) {
             if (f == 1) continue;
             if (!is_held(island, number, 1)) fault("nothing holds the vertices of an island");
-            // The quotient is rounded, and contacts may be within a bracket.
+            // f / 0.99 is rounded, and a contact time is a bracket.
             const double end = std::nextafter(std::nextafter(f / 0.99, 2), 2);
             check_.is_short |= !is_held(island, number, std::min(end, 1.0));
         }
     }
-    /// True if a pair of an island meets in [0, end] when all go all the way.
+    /// True if a pair of the island meets in [0, end] when all vertices move all the way.
     bool is_held(const std::vector<int>& island, int number, double end) const {
         return std::ranges::any_of(pairs_, [&](const checked_pair& p) {
             const auto v =

@@ -18,7 +18,7 @@ using ccd::vertex_index;
 using query_families::kind;
 using query_families::source;
 
-/// The mesh's shadow: its edges and points, z = 0.
+/// The mesh's projection onto z = 0, with only its edges and points.
 two_frames in_plane(two_frames at) {
     for (ccd::mesh* frame : {&at.first, &at.second}) {
         frame->edges = ccd::unique_edges(frame->faces, frame->edges);
@@ -28,7 +28,7 @@ two_frames in_plane(two_frames at) {
     return at;
 }
 
-/// One that is hard on some pair.
+/// A separation near the distance of a random pair.
 ccd::separation distance_of_some_pair(source& random, const advance_scene& scene) {
     std::vector<std::pair<kind, query_families::points>> all;
     const ccd::vertex_rows rows(scene.at.first, scene.at.second);
@@ -78,7 +78,7 @@ advance_scene with_the_rest_drawn(source& random, const two_frames& at) {
     return scene;
 }
 
-/// A grid of few last places far from the origin: rounding moves by whole cells.
+/// A grid of few last places far from the origin: rounding moves points by whole cells.
 two_frames far_off(source& random, two_frames at) {
     const double unit = std::ldexp(1, -random.between(44, 52));
     for (ccd::mesh* frame : {&at.first, &at.second})

@@ -1,5 +1,5 @@
-// Scenes of advances: small hard meshes, in space and in the plane, with distances to keep and
-// groups; and the checks of their results.
+// Scenes of advances: small hard meshes, in space and in the plane, with minimum distances and
+// groups, and the checks of their results.
 #pragma once
 
 #include <ccd/advance.hpp>
@@ -27,7 +27,7 @@ struct advance_scene {
     ccd::advance_options options(int threads) const {
         return {.groups = groups, .distances = distances(), .threads = threads};
     }
-    /// visit(pair) for every pair.
+    /// Calls visit(pair) for every pair.
     template <class Visit>
     void for_each_pair(const Visit& visit) const {
         if (in_plane)
@@ -35,39 +35,41 @@ struct advance_scene {
         else
             brute_force::for_each_pair(at.first, visit);
     }
-    /// All that is needed to make it again.
+    /// A text with all data of the scene.
     std::string text() const;
 };
 
-/// The names of distances and groups that scenes have.
+/// The names of the scenes' kinds of distances and groups.
 inline constexpr std::string_view distances_names[] = {"contact", "one distance", "thicknesses"};
 inline constexpr std::string_view groups_names[] = {"all are one", "bodies", "each vertex", "few"};
 
-/// Meshes made for advances alone: contacts a last place apart.
+/// Meshes for advances only, with contacts a last place apart.
 struct advance_family {
     std::string_view name;
     brute_force::two_frames (*make)(query_families::source& random);
 };
 extern const std::vector<advance_family> advance_families;
 
-/// A mesh of a family of queries (mesh_of), or of one of these; the rest
-/// is drawn.
+/// A mesh of a family of queries (mesh_of) or of one of these families; all else is random.
 advance_scene scene_of(const query_families::family& family, std::uint64_t seed,
                        std::uint64_t index);
 advance_scene scene_of(const advance_family& family, std::uint64_t seed, std::uint64_t index);
 
 struct advance_check {
-    std::string faults = {};  ///< what is wrong, or nothing
+    std::string faults = {};  ///< faults found, or empty
     std::size_t pairs = 0;
-    /// Whether some vertex goes less than 0.99 of the way to the first contact that could hold it.
+    /// True if a vertex moves less than 0.99 of the way to the first contact that could hold it.
     bool is_short = false;
 };
 
-/// Checks the promises of include/ccd/advance.hpp by the oracle on every pair. Lists of pairs at
-/// the start are complete. The earliest contact is right. No other pair is in contact, or within
-/// its distance, on the way to the positions, and these agree with the fractions. A vertex that
-/// does not go all the way has a contact that stops it: of its group, or of groups near enough to
-/// be joined with it. The caller checks `is_short`, which gaps of a few last places excuse.
+/// Checks the promises of include/ccd/advance.hpp by the oracle on every pair:
+/// - Lists of pairs at the start are complete, and the earliest contact is right.
+/// - No other pair is in contact, or within its distance, on the way to the positions.
+/// - Positions agree with the fractions.
+/// - A contact stops every vertex that does not move all the way. It is one
+///   of the vertex's group, or of a group near enough to be joined with it.
+///
+/// The caller checks `is_short`, which gaps of a few last places excuse.
 advance_check check(const advance_scene& scene, const ccd::advance_result& result);
 
 }  // namespace soak

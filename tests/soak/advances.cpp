@@ -51,7 +51,7 @@ void compare(const advance_scene& scene, const std::string& row, const std::stri
     if (!faults.empty()) out.differ({name + ": " + faults + "\n" + scene.text()});
 }
 
-/// The scenes of a family of queries in that many blocks.
+/// The number of scenes of a family of queries in the first `blocks` blocks.
 std::uint64_t scenes_in(const query_families::family& family, std::uint64_t blocks) {
     return blocks / family.thinning;
 }

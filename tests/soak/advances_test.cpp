@@ -1,5 +1,5 @@
-// The soak of advances detects a contact on the way, a distance that is not kept, a pair that is
-// not reported, and a step that stops early.
+// The soak of advances detects a contact on the way, a violated distance, a missing pair, and a
+// step that stops early.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -32,7 +32,6 @@ void expect_found_out(const soak::findings& found, std::string_view fault) {
     })) << fault;
 }
 
-/// The sum over all scenes.
 std::uint64_t sum(const soak::findings& found, std::size_t column) {
     std::uint64_t all = 0;
     for (const auto& row : found.table("scenes").rows) all += row.counts.at(column);

@@ -52,8 +52,8 @@ std::string text_of(separation d, double t_max) {
     return text;
 }
 
-/// A query's motion from about its first time on, many times as fast: its first time is about 0,
-/// possibly below the least double, or 0.
+/// The query's motion from about its first time on, at many times the speed. Its first time is
+/// about 0, possibly below the least double, or 0.
 query_families::points hastened(const query_families::points& at, double first, int exponent) {
     const auto moved = [&](double t0, double t1, double& from, double& to) {
         constexpr double largest = std::numeric_limits<double>::max();
@@ -70,7 +70,7 @@ query_families::points hastened(const query_families::points& at, double first, 
     return out;
 }
 
-/// A value of t_max: near the first time, or any.
+/// A value of t_max, near the first time or anywhere.
 double some_end(source& random, const first_time& right) {
     switch (random.between(0, 7)) {
         case 0:
@@ -90,7 +90,7 @@ double some_end(source& random, const first_time& right) {
     }
 }
 
-/// The first time in [0, t_max], from that in [0, 1].
+/// The first time in [0, t_max], computed from the first time in [0, 1].
 first_time until(const first_time& right, double t_max) {
     return right.outcome == outcome::collides && right.high <= t_max
                ? right
@@ -182,7 +182,7 @@ ccd::earliest_time earliest_of(std::span<const first_time> right) {
     return all;
 }
 
-/// A block's queries of one kind at once, and their right times.
+/// A block's queries of one kind and their right times.
 template <kind K>
 struct batch {
     query_list<K> queries = {};
@@ -267,7 +267,7 @@ void compare(std::uint64_t seed, std::uint64_t block, const std::vector<time_dec
         if (of_distance) query.d = distance.make(random, K, q.at);
         if (random.one_in(64)) {
             const first_time t = deciders[0].when.of<K>()(query_of<K>(q.at), query.d, 1);
-            const bool little = of_distance || !random.one_in(8);  // of much distances take long
+            const bool little = of_distance || !random.one_in(8);  // distances take long there
             query.at =
                 hastened(q.at, t.low, little ? random.between(0, 100) : random.between(960, 1023));
             query.name += ", hastened";
@@ -284,7 +284,7 @@ void compare(std::uint64_t seed, std::uint64_t block, const std::vector<time_dec
     all.compare(out);
 }
 
-/// Tables with all their rows, even those that a block leaves empty.
+/// Tables with all rows, including those that a block leaves empty.
 findings empty_findings(const std::vector<time_decider>& deciders, bool of_distance) {
     const std::vector<std::string> columns{"queries",           "with a time", "at the start",
                                            "at another double", "below 2^-60", "below 2^-1074"};
@@ -316,7 +316,7 @@ part part_of(std::string name, std::vector<time_decider> deciders, bool of_dista
     return all;
 }
 
-/// time(the query with its points on curves of degree 1)
+/// Returns time(q), where q has its points on curves of degree 1.
 template <class Query, class Time>
 first_time along_curves(const Query& query, const Time& time) {
     constexpr std::size_t count = std::tuple_size_v<decltype(ccd::points_of(query))>;
@@ -335,7 +335,7 @@ first_time along_curves(const Query& query, const Time& time) {
         return time(ccd::vertex_vertex_curves{ends[0], ends[1]});
 }
 
-/// The stage after the filters, without them: they otherwise decide most queries.
+/// Calls the stage after the filters directly, since filters decide most queries.
 template <class Query>
 first_time in_integers_unfiltered(const Query& query, double t_max) {
     const ccd::detail::found_time found = ccd::detail::first_contact_in_integers(query);
@@ -376,7 +376,7 @@ std::vector<time_decider> distance_deciders() {
         by_time("time_within", [](const auto& q, separation d,
                                   double t_max) { return ccd::time_within(q, d, t_max); }),
         by_outcome("decide_within",
-                   [](const auto& q, separation d) {  // a sum has no order
+                   [](const auto& q, separation d) {  // the order of a sum is irrelevant
                        return ccd::decide_within(q, {d.second, d.first}).outcome;
                    }),
         by_time("its reference",

@@ -1,5 +1,5 @@
-// The soak of first times: it sees a time that is a last place off or lost, a distance that was
-// rounded, and nearest points left out.
+// The soak of first times detects a time that is wrong by a last place or missing, a rounded
+// distance, and missing nearest points.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -41,7 +41,7 @@ first_time a_double_later(first_time t) {
     return t;
 }
 
-/// Differences of a decider by itself, against the oracle, and as the second of two.
+/// Expects differences when the decider is compared with the oracle, and with another decider.
 void expect_found_out(soak::part (*part)(std::vector<soak::time_decider>),
                       const soak::time_decider& right, const soak::time_decider& wrong,
                       std::string_view fault) {

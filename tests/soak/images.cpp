@@ -13,14 +13,14 @@ constexpr double at(const ccd::point<double>& p, std::size_t axis) {
     return axis == 0 ? p.x : axis == 1 ? p.y : p.z;
 }
 
-/// The exponent of the lowest bit set, of a number that is not zero.
+/// The exponent of the lowest bit set. Precondition: x is not zero.
 int lowest_exponent(double x) {
     int e;
     const auto digits = static_cast<std::uint64_t>(std::ldexp(std::fabs(std::frexp(x, &e)), 53));
     return e - 53 + std::countr_zero(digits);
 }
 
-/// a + b, if no rounding and no overflow is in it (Knuth's TwoSum).
+/// True if a + b has neither a rounding error nor an overflow (Knuth's TwoSum).
 bool sum_is_exact(double a, double b) {
     const double s = a + b, bb = s - a;
     return std::isfinite(s) && (a - (s - bb)) + (b - bb) == 0;
@@ -53,7 +53,7 @@ query_images::query_images(const ccd::lab::points& query, std::size_t count, spl
         std::ranges::fill(added, shift);
         add_if_exact(axis, image::form::moved, count, added);
 
-        // Only axes that follow are added, so that the map stays invertible.
+        // Only later axes are added, so that the map stays invertible.
         if (axis == 2) continue;
         added = value[static_cast<std::size_t>(random.between(static_cast<int>(axis) + 1, 2))];
         const double side = random.one_in(2) ? 1 : -1;
@@ -155,7 +155,7 @@ std::span<const slot_map> slot_maps(kind query, kind image) {
                               ee[] = {{0, 1, 2, 3}, {1, 0, 2, 3}, {0, 1, 3, 2}, {1, 0, 3, 2},
                                       {2, 3, 0, 1}, {2, 3, 1, 0}, {3, 2, 0, 1}, {3, 2, 1, 0}},
                               ve[] = {{0, 1, 2}, {0, 2, 1}}, vv[] = {{0, 1}, {1, 0}},
-                              // A face or an edge that is less: some of its vertices are the same.
+                              // A face or an edge with repeated vertices.
         ve_as_vf[] = {{0, 1, 1, 2}, {0, 1, 2, 1}, {0, 2, 1, 1},
                       {0, 2, 2, 1}, {0, 2, 1, 2}, {0, 1, 2, 2}},
                               ve_as_ee[] = {{0, 0, 1, 2}, {0, 0, 2, 1}, {1, 2, 0, 0}, {2, 1, 0, 0}},

@@ -1,6 +1,5 @@
-// Images of a query under which its answer stays the same: an invertible linear map, time reversed,
-// a translation at each end of the step, all of them exact in doubles, and other names for the same
-// points.
+// Images of a query that have the same answer. An invertible linear map, reversed time, a
+// translation at each end of the step, and other names for the same points: all exact in doubles.
 #pragma once
 
 #include <array>
@@ -14,7 +13,7 @@
 
 namespace soak {
 
-/// Random numbers that cost next to nothing to seed (Steele, Lea, Flood 2014).
+/// Random numbers with almost no cost of seeding (Steele, Lea, Flood 2014).
 class splitmix {
   public:
     explicit splitmix(std::uint64_t seed) : state_(seed) {}
@@ -49,10 +48,9 @@ struct image {
     std::array<axis, 3> axes{{{0}, {1}, {2}}};
     bool reversed = false;
 };
-/// For a person: "x = -y moved 2^5, ..., time reversed".
+/// A readable text: "x = -y moved 2^5, ..., time reversed".
 std::string text_of(const image& m);
 
-/// The images of one query.
 class query_images {
   public:
     /// Uses the first `count` of the points.
@@ -63,15 +61,15 @@ class query_images {
 
   private:
     static constexpr std::size_t form_count = 4;
-    /// The coordinates of all points at both ends on one axis, and the powers of two by which they
-    /// can be multiplied exactly, least and largest.
+    /// The coordinates of all points at both ends on one axis. The least and the greatest power of
+    /// two by which they can be multiplied exactly.
     struct coordinates {
         std::array<std::array<double, 2>, 4> at{};
         int low = 0, high = 0;
     };
     struct choice {
         std::array<coordinates, form_count> as{};
-        std::array<image::form, form_count> exact{};  ///< those that are, plain first
+        std::array<image::form, form_count> exact{};  ///< forms that are exact, plain first
         int exact_count = 1;
     };
 
@@ -81,10 +79,10 @@ class query_images {
     std::array<choice, 3> axes_;
 };
 
-/// The query's points that are an image's points. The kind of the image may have more points, of
-/// which some are then the same.
+/// The index of a query's point for each point of an image. An image's kind may have more points;
+/// some of them are then equal.
 using slot_map = std::array<std::uint8_t, 4>;
-/// All maps of one kind to another; none if queries of the kind have no such image.
+/// All maps from one kind to another; empty if there is none.
 std::span<const slot_map> slot_maps(ccd::kind query, ccd::kind image);
 
 }  // namespace soak

@@ -1,6 +1,6 @@
-// ./run soak: `exact`, one by one and in batches, on millions of queries: against the reference, or
-// against itself on images of them; steps and advances of meshes against every pair; roots against
-// FLINT; predicates against oracles.
+// ./run soak: compares `exact`, in single calls and in batches, with the reference, and with itself
+// on images of queries. Compares steps and advances of meshes with a test of every pair, roots with
+// FLINT, predicates with oracles.
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdint>
@@ -32,7 +32,6 @@ std::string duration(double seconds) {
     return std::to_string(static_cast<std::uint64_t>(seconds)) + " s";
 }
 
-/// The number of questions in the first `blocks` blocks of a run.
 std::uint64_t questions_of(const part& of, std::uint64_t first, std::uint64_t blocks) {
     const std::uint64_t before = of.blocks_for(first);
     return of.count(before + blocks) - of.count(before);
@@ -41,7 +40,7 @@ std::uint64_t questions_of(const part& of, const state& s) {
     return questions_of(of, s.first, s.found.blocks);
 }
 
-/// A bar on a terminal; elsewhere a line at half-minute intervals.
+/// A progress bar on a terminal; otherwise a line every half minute.
 class progress_display {
   public:
     progress_display(const part& of, const state& from, std::uint64_t blocks)
@@ -73,7 +72,7 @@ class progress_display {
     double shown_ = 0;  // seconds of this sitting
 };
 
-/// With each row's share of the first column, and the sum of all rows.
+/// The table with each row's share of the first column, and the sum of all rows.
 std::string text_of(const count_table& counts) {
     std::vector<std::uint64_t> sums(counts.columns.size());
     for (const auto& row : counts.rows)
@@ -124,7 +123,7 @@ struct command_line {
     bool resume = false, anew = false;
 };
 
-/// The state to continue. Options that are given must agree with a resumed state.
+/// The initial state of the run. Given options must agree with a resumed state.
 state begin(const part& of, const command_line& given) {
     const fs::path path = state_path(given.options.folder);
     if (!given.resume) {
@@ -219,7 +218,7 @@ void add_options(CLI::App& app, command_line& given) {
         "by a signal (go on with --resume).");
 }
 
-/// Runs the part to its end or to a signal; returns the exit status. Throws std::runtime_error.
+/// Runs the part to its end or until a signal; returns the exit status. Throws std::runtime_error.
 int run_part(command_line& given) {
     const part of = given.part();
     run_options& options = given.options;

@@ -22,33 +22,30 @@ namespace soak {
 
 // ---- Queries of families ----
 
-/// The row of a family in tables.
 std::string row_name(const query_families::family& family);
 /// The families' names, for part::version.
 std::string family_names();
 
-/// The first index of `family` after that many blocks of `per_block` of its queries; fewer of a
-/// family that costs the reference tenths of a second.
+/// The first index of `family` after `blocks` blocks of `per_block` queries. Families that cost the
+/// reference tenths of a second have fewer.
 std::uint64_t family_end(const query_families::family& family, std::uint64_t blocks,
                          std::uint64_t per_block);
-/// The number of queries of all families in that many blocks.
+/// The number of queries of all families in the first `blocks` blocks.
 std::uint64_t queries_in(std::uint64_t blocks, std::uint64_t per_block);
 
-/// A query of a family.
 struct family_query {
     const query_families::family* family;
     std::uint64_t index;
     query_families::points at;
 };
 /// A block's queries of one kind, `per_block` of every family, in the order in which deciders get
-/// them: neighbours are of one family in even blocks, of different families in odd ones.
+/// them. Neighbours have the same family in even blocks, different families in odd ones.
 std::vector<family_query> block_queries(std::uint64_t seed, std::uint64_t block,
                                         std::uint64_t per_block, ccd::kind which);
 
-/// A table with a row for each family.
 count_table family_table(std::vector<std::string> columns);
 
-/// The same queries twice: stored, and as pairs of a mesh's vertices.
+/// The same queries twice: as stored points, and as pairs of a mesh's vertices.
 template <ccd::kind K>
 struct query_list {
     using query = typename ccd::kind_traits<K>::template query<double>;
@@ -64,7 +61,7 @@ struct query_list {
         before.push_back(p.t0);
         after.push_back(p.t1);
     }
-    /// Adds the query of vertices that were added.
+    /// Adds the query of vertices added earlier.
     void add_pair(const std::array<ccd::vertex_index, point_count>& at) {
         [&]<std::size_t... I>(std::index_sequence<I...>) {
             pairs.push_back({at[I]...});
@@ -78,7 +75,7 @@ struct query_list {
 // ---- Decisions ----
 
 /// Writes the answer to query i into answers[i], and returns the report of stages, if there is one.
-/// Called from several threads at once.
+/// Several threads call it at a time.
 template <ccd::kind K>
 using batch_decider =
     std::function<ccd::stage_report(const query_list<K>&, std::span<ccd::outcome>)>;
@@ -106,22 +103,22 @@ decider one_by_one(std::string name, const Decide& decide) {
 
 /// ccd::decide_reference.
 decider reference();
-/// `exact` one by one, and batches on every instruction set of this machine, of stored queries and
-/// by index.
+/// `exact` in single calls, and batches with every instruction set of this machine, of stored
+/// queries and by index.
 std::vector<decider> exact_deciders();
 /// The last stages of `exact` without the filters, which otherwise decide most queries.
 decider unfiltered_integers();
 
-/// Families and their collisions in the table "family"; in "against the reference" a row for each
-/// decider: compared, different.
+/// Compares the deciders with `truth`. Table "family": the queries and their collisions. Table
+/// "against the reference": a row for each decider: compared, different.
 part comparison_part(decider truth, std::vector<decider> deciders);
 
 /// Queries of every family and all four kinds. All deciders must give the first decider's answer to
-/// all images of a query (tests/soak/images.hpp), every decider to images of its own. Only answers
-/// of deciders that are never uncertain count. Tables: "family", the queries; "decided by", the
+/// all images of a query (tests/soak/images.hpp); each decider has its own images. Only answers of
+/// deciders that are never uncertain count. Tables: "family", the queries; "decided by", the
 /// stages, of deciders that report them; "decider", all answers.
 part symmetry_part(std::vector<decider> deciders);
-/// exact_deciders(); and `tight` and `safe`, whose certain answers must be right.
+/// exact_deciders() and the methods `tight` and `safe`, whose certain answers must be right.
 std::vector<decider> symmetric_deciders();
 
 // ---- First times ----
@@ -136,8 +133,8 @@ template <ccd::kind K>
 using contact_of = std::function<ccd::first_contact(
     const typename ccd::kind_traits<K>::template query<double>&, const ccd::first_time&)>;
 
-/// Computes when the features first come within a distance (0 for contacts), or whether they do, or
-/// the data of a contact: one of the three. Called from several threads at once.
+/// Computes one of three results: the first time within a distance (0 for contacts), whether there
+/// is one, or the data of a contact. Several threads call it at a time.
 struct time_decider {
     std::string name;
     ccd::by_kind<first_time_of> when = {};
@@ -168,60 +165,61 @@ time_decider by_data(std::string name, const What& what) {
     return all;
 }
 
-/// All ways to compute first contacts, or first times within distances; the first takes all t_max.
+/// All functions that compute first contacts, or first times within distances. The first accepts
+/// all t_max.
 std::vector<time_decider> contact_deciders();
 std::vector<time_decider> distance_deciders();
 
 /// Queries of every family and all four kinds. The oracle checks the first decider's answer for
 /// t_max = 1 (tests/support/first_time_faults.hpp). First times are unique, so all others must
-/// agree, and for any other t_max, near that time or not, the answer follows from it. Data of
-/// contacts are checked by rationals (tests/support/contact_data_faults.hpp). Then a block's
-/// queries are decided at once, on every instruction set, and the earliest of all and of a few.
-/// Tables: "family", the queries; "distance", of distances; "decider", all answers.
+/// agree. For any other t_max, the answer follows from the first time. Rationals check the data of
+/// contacts (tests/support/contact_data_faults.hpp). Then batches of the block's queries are
+/// decided with every instruction set, with the earliest of all and of a few. Tables: "family", the
+/// queries; "distance", the distances; "decider", all answers.
 part contact_time_part(std::vector<time_decider> deciders);
-/// The same for distances of many families (tests/support/distance_families.hpp).
+/// The same comparison for distances of many families (tests/support/distance_families.hpp).
 part distance_time_part(std::vector<time_decider> deciders);
 
 // ---- Meshes ----
 
-/// Three queries of a family, of any kinds, as a small mesh, with more elements between them.
+/// A small mesh of three queries of a family, of any kinds, with more elements between them.
 brute_force::two_frames mesh_of(const query_families::family& family, std::uint64_t seed,
                                 std::uint64_t index);
-/// All that is needed to make the mesh again.
+/// A text with all data of the mesh.
 std::string text_of(const brute_force::two_frames& at);
 
-/// Reports the pairs of a mesh: ccd::step on that many threads, candidates counted or not.
+/// Reports the pairs of a mesh by ccd::step with `threads` threads, with candidates counted or not.
 using stepper =
     std::function<ccd::step_result(const brute_force::two_frames&, int threads, bool counted)>;
 ccd::step_result exact_step(const brute_force::two_frames& at, int threads, bool counted);
 
-/// Small meshes of every family of queries, faces, rods and points, some given twice, and soups on
-/// a grid: candidates and pairs of `step`, counted or not, on one thread and on two, against the
+/// Small meshes of every family of queries, faces, rods and points, some repeated, and soups on a
+/// grid. Candidates and pairs of `step`, with one thread and with two, are compared with the
 /// reference on every pair.
 part mesh_part(stepper step = exact_step);
 
 struct advance_scene;
-/// Advances a scene: ccd::advance on that many threads.
+/// Advances a scene by ccd::advance with `threads` threads.
 using advancer = std::function<ccd::advance_result(const advance_scene&, int threads)>;
 ccd::advance_result library_advance(const advance_scene& scene, int threads);
 
 /// Small meshes of every family of queries, and others with contacts a last place apart, in space
-/// and in the plane, with and without distances and groups. They are advanced on one thread, where
-/// the oracle checks every pair, and on two, with the same result. Tables: "scenes" by family, and
+/// and in the plane. Some have distances and groups. They are advanced with one thread, where the
+/// oracle checks every pair, and with two, with the same result. Tables: "scenes" by family, and
 /// "where", "distances", "groups".
 part advance_part(advancer advance = library_advance);
 
 // ---- Others ----
 
-/// Polynomials of every family of tests/errbound/roots, and with roots that nearly coincide:
-/// isolate_roots and count_roots by errbound's own integers and by GMP's, on the line and on its
-/// positive half, against FLINT's counts.
+/// Polynomials of every family of tests/errbound/roots, and with roots that nearly coincide.
+/// isolate_roots and count_roots with errbound's integers and GMP's, on the line and on its
+/// positive half, are compared with FLINT's counts.
 part polynomial_part();
 
-/// Every predicate whose name holds `name`, in float and double: its sign by an oracle, for one
-/// input in eight also in batches and by every stage separately; and the bound of its static filter
-/// by exact arithmetic, on inputs of all families and on a climb from each to larger errors over
-/// changes in last places.
+/// Every predicate whose name contains `name`, in float and double. An oracle checks its sign, and
+/// for one input in eight also batches and every stage. Exact arithmetic checks the bound of its
+/// static filter on inputs of all families. Climbs from them by changes of last places look for
+/// larger errors.
 part predicate_part(const std::string& name);
 
 }  // namespace soak

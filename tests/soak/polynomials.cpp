@@ -1,4 +1,4 @@
-// The part of the soak that counts and isolates roots, where FLINT is installed.
+// The part of the soak that counts and isolates roots; requires FLINT.
 #include <algorithm>
 #include <array>
 #include <cstdint>
@@ -23,8 +23,8 @@ using polynomial_families::sample;
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr int max_degree = 24;
 
-/// A product of equal or nearly equal factors, with one coefficient off by one at times: roots
-/// whose distance is that of the last place, or which just miss the real line.
+/// A product of equal or nearly equal factors, sometimes with one coefficient changed by one. Roots
+/// are a last place apart, or just miss the real line.
 sample near_multiple(generator& make, int degree) {
     std::vector<integer> c{1};
     const integer scale = integer(1) << static_cast<unsigned>(4 + make.small(4));
@@ -35,7 +35,7 @@ sample near_multiple(generator& make, int degree) {
     return {c};
 }
 
-/// The same, expanded and rounded to doubles.
+/// A similar product, expanded and rounded to doubles.
 sample near_multiple_doubles(generator& make, int degree) {
     const double root = make.uniform();
     std::vector<double> c{1};
@@ -43,7 +43,7 @@ sample near_multiple_doubles(generator& make, int degree) {
     return generator::of_doubles(c);
 }
 
-/// (ax − 1)(x^n − (ax − 1)): a rational root beside one very close to it.
+/// (ax − 1)(x^n − (ax − 1)): a rational root very close to another root.
 sample beside_rational(generator& make, int degree) {
     const integer a = integer(1) << static_cast<unsigned>(20 + make.small(16));
     std::vector<integer> second(static_cast<std::size_t>(std::max(degree, 3)));

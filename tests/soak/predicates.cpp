@@ -62,7 +62,7 @@ class sign_comparison {
             },
             p);
     }
-    /// The inputs that were added in all ways, as a batch; and the counts of stages.
+    /// Decides the inputs chosen for all ways as a batch, and counts the stages.
     void finish() {
         std::vector<sign_type> signs(right_.size());
         std::apply([&](const auto&... q) { errbound::batch_signs(entry_.predicate, signs, q...); },
@@ -96,7 +96,7 @@ class sign_comparison {
 
 // ---- Bounds ----
 
-/// The share of its bound that an error used at these points.
+/// The largest share of its bound that an error has reached at these points.
 template <class T, class Entry, class Points>
 audit audited_at(const Entry& entry, const Points& p) {
     auto& state = audit::current();
@@ -123,7 +123,7 @@ void move_one(generator& random, predicate_inputs::points<T, D, N>& p) {
     if (std::isfinite(moved)) x = moved;
 }
 
-/// Tries to violate the static filter's bound: climbs from inputs of each family.
+/// Searches for a violation of the static filter's bound by climbs from inputs of each family.
 template <class T, class Entry>
 void attack(const Entry& entry, const std::string& name, generator& random, findings& out) {
     constexpr int max_steps = 500, max_vain = 100;  // of a climb
@@ -172,7 +172,7 @@ void compare(const Entry& entry, const char* type, std::uint64_t seed, std::uint
     generator random(ccd::lab::source_of(name, {seed, block}).bits());
     sign_comparison<T, Entry> signs(entry, name, out);
     const auto& families = predicate_inputs::families<T, Entry::dimension, Entry::count>;
-    // Family and surface by the counter's digits, so that each is decided in all ways.
+    // Digits of the counter select family and surface, so that each is decided in all ways.
     for (std::uint64_t i = 0; i < inputs_per_block; ++i)
         signs.add(
             families[i % families.size()].make(random, entry.surfaces[i / families.size() % 2]),
@@ -181,7 +181,7 @@ void compare(const Entry& entry, const char* type, std::uint64_t seed, std::uint
     attack<T>(entry, name, random, out);
 }
 
-/// visit(entry) of each predicate whose name holds `name`.
+/// Calls visit(entry) for each predicate whose name contains `name`.
 template <class Visit>
 void for_each_predicate(const std::string& name, const Visit& visit) {
     const auto one = [&](const auto& entry) {

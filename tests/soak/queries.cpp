@@ -22,13 +22,13 @@ unsigned thinning(const query_families::family& family) {
     return family.thinning > 1 ? 50 * family.thinning : 1;
 }
 
-/// Each query has four vertices of its own.
+/// Each query has four separate vertices.
 template <kind K>
 query_list<K> listed(const std::vector<family_query>& queries) {
     query_list<K> all;
     for (const family_query& q : queries) {
         const auto first = static_cast<ccd::vertex_index>(all.before.size());
-        // Backwards, so that indices do not ascend, as in a mesh.
+        // In reverse order, so that indices do not ascend.
         for (std::size_t k = q.at.size(); k-- > 0;) all.add_vertex(q.at[k]);
         all.add_pair({first + 3, first + 2, first + 1, first});
     }
@@ -41,7 +41,7 @@ void compare(std::uint64_t seed, std::uint64_t block, const decider& truth,
     const std::vector<family_query> queries = block_queries(seed, block, queries_per_block, K);
     const query_list<K> list = listed<K>(queries);
     const auto answers_of = [&](const decider& d) {
-        // Made invalid first, so that a skipped query is detected.
+        // Invalid initial values, so that a skipped query is detected.
         std::vector<ccd::outcome> answers(queries.size(), static_cast<ccd::outcome>(255));
         d.decide.of<K>()(list, answers);
         return answers;
@@ -76,7 +76,7 @@ void compare(std::uint64_t seed, std::uint64_t block, const decider& truth,
     }
 }
 
-/// `decide(queries, answers)` of every kind.
+/// Calls `decide(queries, answers)` for every kind.
 template <class Decide>
 decider of_all_kinds(std::string name, const Decide& decide) {
     decider all{.name = std::move(name)};
@@ -181,8 +181,8 @@ std::vector<decider> exact_deciders() {
             }));
         all.push_back(of_all_kinds(name + ", by index", [set](const auto& list,
                                                               std::span<ccd::outcome> answers) {
-            // Two threads: the split of a batch is compared, too. No
-            // stages, since the skipped ones depend on the split.
+            // Two threads, since the split of a batch is compared, too. Reports no stages, since
+            // the skipped ones depend on the split.
             return ccd::decide_batch(list.rows(), list.pairs, answers, {.threads = 2, .set = set});
         }));
     }

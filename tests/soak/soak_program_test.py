@@ -1,4 +1,4 @@
-"""The soak program as a person uses it: stopped by signals, resumed, same report as in one go.
+"""The soak program as users run it: stopped by signals and resumed, with the report of an uninterrupted run.
 
     SOAK_PROGRAM=build/tests/soak/errbound_soak python3 soak_program_test.py
 """
@@ -42,7 +42,7 @@ class StopAndResume(unittest.TestCase):
         for sent in [signal.SIGINT, signal.SIGTERM] * 50:
             command = self.command("parts", queries, *options, *more)
             part = subprocess.Popen(command, stdout=subprocess.PIPE, text=True)
-            part.stdout.readline()  # only then has it started
+            part.stdout.readline()  # wait for the start
             time.sleep(0.1)
             part.send_signal(sent)
             text = part.stdout.read()

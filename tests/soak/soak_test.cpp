@@ -1,5 +1,5 @@
-// The soak detects a wrong answer and writes it out to be replayed; a run that was stopped and
-// resumed ends like an uninterrupted one.
+// The soak detects a wrong answer and writes it out for a replay. A run that is stopped and resumed
+// has the result of an uninterrupted one.
 #include <gtest/gtest.h>
 #include <unistd.h>
 
@@ -25,7 +25,7 @@ namespace {
 namespace fs = std::filesystem;
 using query_families::kind;
 
-/// A folder of this test, removed with it.
+/// A fixture with a temporary folder.
 class soak_test : public testing::Test {
   protected:
     soak_test() { fs::create_directories(folder); }
@@ -35,7 +35,7 @@ class soak_test : public testing::Test {
         fs::temp_directory_path() / ("errbound_soak_test." + std::to_string(getpid()));
 };
 
-/// The answers of another method: `tight` is uncertain at times, `float` also wrong.
+/// The answers of another method: `tight` is sometimes uncertain, `float` also wrong.
 soak::decider by_method(ccd::method method) {
     return soak::one_by_one(std::string(ccd::info(method).name), [method](const auto& q) {
         if constexpr (requires { ccd::decide(method, q); })
@@ -65,14 +65,13 @@ soak::decider changed(std::string name, const soak::decider& right, const Change
     return all;
 }
 
-/// One that leaves the last query of each batch undecided.
+/// A decider that leaves the last query of each batch undecided.
 soak::decider forgetful() {
     return changed("forgetful", exact(), [](std::span<ccd::outcome> answers) {
         answers.back() = ccd::outcome::uncertain;
     });
 }
 
-/// Part of the row of a decider.
 std::uint64_t count(const soak::findings& found, std::string_view table, std::string_view row,
                     std::size_t column) {
     for (const auto& [name, counts] : found.table(table).rows)
@@ -115,7 +114,7 @@ TEST_F(soak_test, wrong_deciders_are_found_out) {
     EXPECT_EQ(differences("one by one"), 0u);
     EXPECT_GT(differences("float"), 0u);
     EXPECT_GT(differences("tight"), 0u);
-    EXPECT_EQ(differences("forgetful"), 2u);  // one of each kind
+    EXPECT_EQ(differences("forgetful"), 2u);  // one for each kind
     EXPECT_EQ(found.differences.size(), found.different);
     EXPECT_GE(found.different, differences("float"));
 }
@@ -149,7 +148,7 @@ TEST_F(soak_test, resumed_run_ends_like_an_uninterrupted_one) {
     const soak::part part = soak::comparison_part(exact(), deciders);
     const soak::state whole = run({.seed = 5}, folder / "whole", part);
 
-    // Stopped after every few queries, and resumed from the file each time.
+    // The run stops after every few queries and resumes from the file each time.
     soak::state s{.seed = 5};
     int sittings = 0;
     for (; s.found.blocks < few_blocks; ++sittings) {
@@ -170,7 +169,7 @@ TEST_F(soak_test, resumed_run_ends_like_an_uninterrupted_one) {
                   errbound::support::read_whole(folder / "whole" / name));
 }
 
-// Whole numbers can be moved, sheared and scaled without rounding; any doubles are scaled alone.
+// Integers can be moved, sheared and scaled without rounding; arbitrary doubles can only be scaled.
 TEST_F(soak_test, images_are_of_every_form_where_they_are_exact) {
     soak::splitmix random(1);
     const auto forms_of = [&](std::string_view name) {

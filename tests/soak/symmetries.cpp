@@ -1,4 +1,4 @@
-// The part of the soak that needs no reference: all images of a query have one answer.
+// The part of the soak that needs no reference: all images of a query have the same answer.
 #include <algorithm>
 #include <array>
 #include <ccd/explain.hpp>
@@ -17,27 +17,27 @@ namespace {
 using query_families::kind;
 using query_families::points;
 
-/// The queries of a family. Vertices and edges are fewer, since they are also decided as faces and
-/// as pairs of edges.
+/// The number of queries of a family. Vertices and edges are fewer, since they are also decided as
+/// faces and as pairs of edges.
 constexpr std::uint64_t queries_per_block(kind k) {
     return k == kind::vertex_face || k == kind::edge_edge ? 8 : 2;
 }
 
-/// The images of a query that a decider gets at a time: maps of space and time, and names for the
-/// points of each.
+/// The number of images of a query in a call of a decider: maps of space and time, and names for
+/// the points of each.
 struct image_counts {
     std::size_t maps, names;
     std::size_t all() const { return maps * names; }
 };
 constexpr std::size_t images_per_decider = 8;
-/// Vertices that many pairs share take another path through the batch than those of one pair each.
+/// Batches treat vertices that many pairs share in another way than those of one pair.
 image_counts image_counts_of(std::uint64_t block, const decider& d) {
     if (d.may_be_uncertain) return {1, 1};
     return block % 4 < 2 ? image_counts{images_per_decider, 1}
                          : image_counts{2, images_per_decider / 2};
 }
 
-/// The images of a block's queries of one kind, as another kind, and where they came from.
+/// The images of a block's queries of one kind as another kind, with their origins.
 template <kind As>
 struct image_list {
     query_list<As> queries;
@@ -112,7 +112,7 @@ class block_of_kind {
         const decider& by = deciders_[d];
         const image_counts counts = image_counts_of(block_, by);
         const image_list<As> images = images_for<As>(d, counts);
-        // Made invalid first, so that a skipped query is detected.
+        // Invalid initial values, so that a skipped query is detected.
         std::vector<ccd::outcome> found(images.queries.pairs.size(),
                                         static_cast<ccd::outcome>(255));
         count_stages(by.decide.of<As>()(images.queries, found));
@@ -187,7 +187,7 @@ class block_of_kind {
     std::vector<ccd::outcome> right_;
 };
 
-/// How often deciders that are never uncertain answer images of one query.
+/// Counts how often deciders that are never uncertain answer images of one query.
 template <kind K>
 std::uint64_t answers_per_query(const std::vector<decider>& deciders) {
     std::uint64_t answers = 0;

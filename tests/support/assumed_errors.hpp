@@ -1,5 +1,5 @@
-// For tests that compare bounds with bounds, of any elementary functions: how far these are off
-// where the library does not know.
+// Errors of elementary functions on platforms where the library does not know them. For tests that
+// only compare bounds with each other, so any errors suffice.
 #pragma once
 
 #include <errbound/functions/function_error.hpp>

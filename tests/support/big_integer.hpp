@@ -1,5 +1,5 @@
-// GMP's integers for formulas: with operators, and without allocation once as many have been made
-// as live at a time.
+// GMP's integers with operators. They do not allocate once the store has as many as are alive at a
+// time.
 #pragma once
 
 #include <gmp.h>
@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-/// Reads and writes a store of its thread: not shared between threads.
+/// Uses a store of its thread, so it must not be shared between threads.
 class big_integer {
   public:
     big_integer() : value_(taken()) { mpz_set_ui(value_, 0); }
@@ -36,7 +36,7 @@ class big_integer {
         if (value_ != nullptr) store().free.push_back(value_);
     }
 
-    /// By 2^bits; downwards only zeros may be shifted out.
+    /// Shifts by 2^bits; downwards, only zeros may be shifted out.
     big_integer& operator<<=(int bits) {
         if (bits < 0)
             mpz_tdiv_q_2exp(value_, value_, static_cast<mp_bitcnt_t>(-bits));
@@ -73,7 +73,7 @@ class big_integer {
     }
     /// −1, 0 or 1.
     friend int sign(const big_integer& x) { return mpz_sgn(x.value_); }
-    /// a/b, b not zero, to some fifty bits.
+    /// a/b to about fifty bits. Precondition: b is not zero.
     friend double ratio(const big_integer& a, const big_integer& b) {
         long exponent_a, exponent_b;
         const double x = mpz_get_d_2exp(&exponent_a, a.value_);

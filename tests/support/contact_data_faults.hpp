@@ -1,4 +1,4 @@
-// Whether the data of a contact are right, by rationals, with formulas and times of its own.
+// Checks the data of a contact by rationals, with separate formulas and times.
 #pragma once
 
 #include <array>
@@ -46,7 +46,7 @@ inline vector<rational> of(const ccd::point<double>& p) {
     return {rational(p.x), rational(p.y), rational(p.z)};
 }
 
-/// The points of a query at a time, and how they move.
+/// The points of a query at a time, and their velocities.
 struct moment {
     std::vector<vector<rational>> at, velocity;
 
@@ -64,14 +64,14 @@ inline vector<rational> cross_product(ccd::kind k, const moment& m) {
     if (k == ccd::kind::vertex_face) return cross(m.at[2] - m.at[1], m.at[3] - m.at[1]);
     return cross(m.at[1] - m.at[0], m.at[3] - m.at[2]);
 }
-/// Of the first feature above the second, along it; Y or −Y.
+/// The height of the first feature above the second along the cross product: Y or −Y.
 inline rational height(ccd::kind k, const moment& m) {
     const std::size_t base = k == ccd::kind::vertex_face ? 1 : 2;
     return dot(cross_product(k, m), m.at[0] - m.at[base]);
 }
 
-/// Weights of the query's points by Cramer's rule for the pair's nearest points (on planes and
-/// lines); none where they are not unique.
+/// Weights of the query's points for the pair's nearest points (on planes and lines), by Cramer's
+/// rule; none if they are not unique.
 inline std::optional<std::array<rational, 4>> weights(const ccd::meeting_features& pair,
                                                       const moment& m) {
     std::array<rational, 4> w{};
@@ -120,7 +120,7 @@ inline vector<rational> velocity(std::size_t first_points, const std::array<rati
 }
 
 inline vector<real> unit(const vector<rational>& a) {
-    // Divided by the largest first, so that no size is out of range.
+    // Divides by the largest first, so that every size is in range.
     rational largest = 0;
     for (const rational& x : a)
         if (abs(x) > largest) largest = abs(x);
@@ -130,7 +130,7 @@ inline vector<real> unit(const vector<rational>& a) {
     return {r[0] / length, r[1] / length, r[2] / length};
 }
 
-/// Checks one answer of find_first_contact that found a contact; collects what is wrong.
+/// Checks one answer of find_first_contact that reports a contact, and collects the faults.
 template <class Query>
 class check {
     static constexpr ccd::kind whole = ccd::kind_of<Query>;
@@ -157,7 +157,7 @@ class check {
         return !(bound < 1e300) || x <= real(bound);
     }
 
-    /// Whether these points of the query meet at some time of the bracket.
+    /// True if these points of the query meet at some time of the bracket.
     template <class... Point>
     bool meet(Point... i) const {
         const auto p = points_of(query_);
@@ -208,8 +208,8 @@ class check {
         const moment m(query_, t);
         const auto w = weights(found_.features, m);
         if (!w) return;
-        // At times of the bracket before or after the contact, weights may leave [0, 1]; what was
-        // cut off the found ones is then not an error.
+        // At times of the bracket other than the contact, weights may leave [0, 1]. The found
+        // weights were clamped, which is then not an error.
         rational outside = 0;
         for (const rational& x : *w) outside += x < 0 ? -x : rational(0);
         for (std::size_t i = 0; i < m.at.size(); ++i)
@@ -255,7 +255,7 @@ class check {
             abs(dot(n, speed) - real(found_.normal_velocity)) > real(found_.normal_velocity_error))
             fault("velocity off by more than its error");
     }
-    /// The side shortly before, where that is the same twice.
+    /// Compares the side shortly before the contact, if it is the same at two such times.
     void check_side() {
         if constexpr (has_normal) {
             const rational t(found_.time.low), high(found_.time.high);

@@ -1,4 +1,4 @@
-// Seeded families of distances to ask of a query, the same on every standard library.
+// Seeded families of distances for a query, the same with every standard library.
 #pragma once
 
 #include <algorithm>
@@ -23,7 +23,7 @@ using ccd::lab::source;
 struct family {
     std::string_view name;
     separation (*make)(source& random, kind which, const points& p);
-    /// Drawn so often, among all families.
+    /// The relative frequency of the family.
     unsigned weight = 4;
 };
 
@@ -42,7 +42,7 @@ inline vector cross(const vector& a, const vector& b) {
     return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
 
-/// The differences of the two features' vertices at t, in their order around their hull.
+/// The differences of the two features' vertices at t, in order around their hull.
 inline std::vector<vector> differences(kind which, const points& p, double t) {
     std::array<vector, 4> at;
     std::ranges::transform(p, at.begin(), [t](const ccd::moving_point<double>& m) -> vector {
@@ -56,7 +56,8 @@ inline std::vector<vector> differences(kind which, const points& p, double t) {
     return {b - a, c - a, d - a};
 }
 
-/// About the origin's distance from the segment, and from the triangle if it is nearest inside.
+/// Approximate distance of the origin from the segment, and from the triangle if the nearest point
+/// is inside it, else infinity.
 inline number to_segment(const vector& a, const vector& b) {
     const vector e = b - a;
     const number square = dot(e, e);
@@ -73,7 +74,7 @@ inline number to_inside(const vector& a, const vector& b, const vector& c) {
                   : std::numeric_limits<number>::infinity();
 }
 
-/// About the features' distance at t.
+/// Approximate distance of the features at t.
 inline number distance_at(kind which, const points& p, double t) {
     const std::vector<vector> corners = differences(which, p, t);
     number least = std::numeric_limits<number>::infinity();
@@ -84,7 +85,7 @@ inline number distance_at(kind which, const points& p, double t) {
     return least;
 }
 
-/// About a least distance over time.
+/// Approximate minimum of the distance over time.
 inline number least_distance(kind which, const points& p) {
     const auto at = [&](double t) { return distance_at(which, p, t); };
     double best = 0, step = 1 / 16.0;
@@ -98,7 +99,7 @@ inline number least_distance(kind which, const points& p) {
     return at(best);
 }
 
-/// As a double that is finite, moved by some last places.
+/// The nearest finite double, moved by some last places.
 inline double as_double(number d, int places = 0) {
     auto x = static_cast<double>(std::min<number>(d, std::numeric_limits<double>::max()));
     for (; places > 0; --places) x = std::nextafter(x, std::numeric_limits<double>::max());
@@ -119,7 +120,7 @@ inline double some_distance(source& random, kind which, const points& p) {
     }
 }
 
-/// A distance as a sum, in one part or in two, which may be no double.
+/// A distance as a sum of one or two doubles; the sum may not be a double.
 inline separation as_sum(source& random, double d) {
     switch (random.between(0, 3)) {
         case 0:
@@ -192,7 +193,6 @@ inline constexpr family list[] = {
 
 inline constexpr auto& families = detail::list;
 
-/// One of the families, drawn by their weights.
 inline const family& draw(source& random) {
     unsigned all = 0;
     for (const family& f : families) all += f.weight;

@@ -1,4 +1,4 @@
-// Files of a test, their text, and what is said of bad ones.
+// Files of a test: contents, and messages of errors.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -13,7 +13,7 @@
 
 namespace test_files {
 
-/// A directory that goes away with the test.
+/// A directory that is removed with this object.
 class temporary_directory {
   public:
     temporary_directory() {
@@ -45,7 +45,7 @@ inline std::string message_of(const std::function<void()>& call) {
     return "no error";
 }
 
-/// False where the system or its user makes no links, as on many Windows.
+/// Returns false if the system or the user cannot make links, as on many Windows systems.
 inline bool link(const std::filesystem::path& to, const std::filesystem::path& link) {
     std::error_code error;
     std::filesystem::create_symlink(to, link, error);

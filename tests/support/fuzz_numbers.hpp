@@ -1,5 +1,5 @@
-// A fuzzer's bytes as numbers: mostly small, copies of earlier ones, or next to them, so that what
-// they make is degenerate now and then.
+// A fuzzer's bytes as numbers: mostly small, copies of earlier ones, or next to them, so that
+// degenerate input is frequent.
 #pragma once
 
 #include <algorithm>
@@ -17,25 +17,24 @@ namespace fuzz {
 
 class numbers {
   public:
-    /// The first byte says on what scale numbers are; one in eight mixes all scales.
+    /// The first byte selects the scale of numbers; one in eight mixes all scales.
     numbers(const std::uint8_t* data, std::size_t size) : rest_(data, size) {
         const int first = byte();
         all_scales_ = first % 8 == 7;
         if (first >= 192) scale_ = (first - 224) * 30;
     }
 
-    /// 0 where there are no more.
+    /// The next byte, or 0 at the end.
     std::uint8_t byte() {
         if (rest_.empty()) return 0;
         const std::uint8_t b = rest_.front();
         rest_ = rest_.subspan(1);
         return b;
     }
-    /// From 0 to end − 1.
+    /// An index from 0 to end − 1.
     std::size_t below(std::size_t end) { return byte() % end; }
     bool empty() const { return rest_.empty(); }
 
-    /// A finite number.
     double next() {
         const double x = made(byte());
         seen_.push_back(std::isfinite(x) ? x : 0);
@@ -66,7 +65,7 @@ class numbers {
         }
     }
     double earlier() { return seen_.empty() ? 0 : seen_[below(seen_.size())]; }
-    /// A zero moves by 2^-53 of the scale: its neighbours would be of another one.
+    /// A zero moves by 2^-53 of the scale, since its neighbours have another scale.
     double neighbour(double x, int units) const {
         if (x == 0 && !all_scales_) return std::ldexp(units, scale_ - 53);
         for (int n = std::abs(units); n > 0; --n)
@@ -103,7 +102,7 @@ class numbers {
     bool all_scales_ = false;
 };
 
-/// Ends the program, so that the fuzzer keeps its bytes.
+/// Ends the program, so that the fuzzer stores its bytes.
 [[noreturn]] inline void fail(const std::string& what) {
     std::fprintf(stderr, "%s\n", what.c_str());
     std::abort();

@@ -65,7 +65,7 @@ polynomial derivative(const polynomial& p) {
     return d;
 }
 
-// Divides by a positive number that divides all coefficients, the largest.
+// Divides by the largest positive number that divides all coefficients.
 polynomial primitive(polynomial p) {
     integer divisor = 0;
     for (std::size_t i = p.size(); i-- > 0 && divisor != 1;) divisor = gcd(divisor, p[i]);
@@ -74,8 +74,8 @@ polynomial primitive(polynomial p) {
     return p;
 }
 
-// A positive multiple of the remainder of a by b: the factor |leading coefficient of b| keeps the
-// coefficients whole and every sign as it is.
+// A positive multiple of the remainder of a by b. The factor |leading coefficient of b| keeps the
+// coefficients whole and all signs.
 polynomial remainder(polynomial a, const polynomial& b) {
     const integer lead = abs(b.back());
     const bool negative = b.back().sign() < 0;
@@ -91,7 +91,8 @@ polynomial remainder(polynomial a, const polynomial& b) {
     return a;
 }
 
-// a / b where b divides a. Both are primitive, so by Gauss's lemma every division is exact.
+// a / b. Precondition: b divides a. Both are primitive, so by Gauss's lemma every division is
+// exact.
 polynomial quotient(polynomial a, const polynomial& b) {
     polynomial q(a.size() - b.size() + 1);
     for (std::size_t k = q.size(); k-- > 0;) {
@@ -122,8 +123,8 @@ dyadic middle(const dyadic& low, const dyadic& high) {
     return t;
 }
 
-// p without its root t. With an odd numerator the divisor 2^shift t - numerator is primitive, so
-// by Gauss's lemma every division below is exact.
+// p divided by its linear factor with the root t. With an odd numerator the divisor 2^shift t -
+// numerator is primitive, so by Gauss's lemma every division below is exact.
 polynomial without_root(const polynomial& p, const dyadic& t) {
     polynomial quotient(p.size() - 1);
     integer carry = 0;
@@ -134,9 +135,9 @@ polynomial without_root(const polynomial& p, const dyadic& t) {
     return quotient;
 }
 
-// The sign of g throughout [low, high] if its control values there have one, else 0: g lies between
-// the least and the largest of them. They are, but for positive factors, the coefficients of
-// (1 + x)^n g((low + high x) / (1 + x)).
+// The sign of g throughout [low, high] if its control values there have one sign, else 0: g lies
+// between their minimum and maximum. Up to positive factors, they are the coefficients of (1 + x)^n
+// g((low + high x) / (1 + x)).
 int sign_throughout(polynomial g, const dyadic& low, const dyadic& high) {
     const std::size_t n = g.size() - 1;
     const unsigned shift = std::max(low.shift, high.shift);
@@ -158,7 +159,7 @@ int sign_throughout(polynomial g, const dyadic& low, const dyadic& high) {
 
 using chain = std::vector<polynomial>;
 
-// The signed remainder sequence that starts with p and q, each but for a positive factor.
+// The signed remainder sequence of p and q, up to a positive factor of each member.
 chain signed_remainders(const polynomial& p, polynomial q) {
     chain sequence{p};
     while (!q.empty()) {
@@ -179,8 +180,8 @@ int sign_changes(const chain& sequence, const dyadic& t) {
     return changes;
 }
 
-// The sum over the distinct roots of p in (low, high) of the sign of g there, for p nonzero at both
-// ends. Multiple roots count once, so p need not be squarefree.
+// The sum of the signs of g at the distinct roots of p in (low, high). Precondition: p is nonzero
+// at both ends. Multiple roots count once, so p need not be squarefree.
 int tarski_query(const polynomial& p, const polynomial& g, const dyadic& low, const dyadic& high) {
     const polynomial reduced = primitive(remainder(g, p));
     if (reduced.empty()) return 0;
@@ -190,9 +191,9 @@ int tarski_query(const polynomial& p, const polynomial& g, const dyadic& low, co
 
 // ---- Isolation ----
 
-// Isolates all roots of p between low and high by bisection. If a middle happens to be a root it
-// stops and returns true, with that root at the end of `found`: a Tarski query may not end on a
-// root, so the search must start anew without it.
+// Isolates all roots of p between low and high by bisection. If a middle is a root, it stops and
+// returns true, with that root at the end of `found`. Tarski queries may not end at a root, so the
+// search must start again without it.
 bool hits_root(const polynomial& p, const chain& sturm, const dyadic& low, const dyadic& high,
                int changes_low, int changes_high, std::vector<instant>& found) {
     if (changes_low == changes_high) return false;
@@ -210,7 +211,8 @@ bool hits_root(const polynomial& p, const chain& sturm, const dyadic& low, const
            hits_root(p, sturm, t, high, changes, changes_high, found);
 }
 
-// The same root in a shorter interval, where signs throughout it tell more. It is a simple one.
+// The same root in a shorter interval, in which more polynomials have constant sign. Precondition:
+// the root is simple.
 instant narrowed(instant t) {
     const int at_low = sign_at(t.p, t.low);
     for (int i = 0; i < 12; ++i) {

@@ -1,5 +1,5 @@
 // Polynomials in time with whole coefficients, the instants at which they vanish, and the signs of
-// others there: what the oracle's decisions are made of.
+// other polynomials there. The oracle decides with them.
 #pragma once
 
 #include <array>
@@ -33,31 +33,31 @@ vector cross(const vector& a, const vector& b);
 
 // ---- Instants ----
 
-/// A double's value mantissa * 2^exponent with an odd mantissa, or zero, of the largest exponent.
+/// A double's value as mantissa * 2^exponent: zero, or with an odd mantissa, so that the exponent
+/// is the largest possible.
 struct scaled {
     std::int64_t mantissa = 0;
     int exponent = std::numeric_limits<int>::max();
 
     explicit scaled(double x);
-    /// x / 2^unit, which must be whole.
+    /// x / 2^unit. Precondition: it is whole.
     integer in_units_of(int unit) const;
 };
 
-/// The instant numerator / 2^shift, the numerator odd or the shift 0.
+/// The instant numerator / 2^shift. The numerator is odd or the shift is 0.
 struct dyadic {
     integer numerator;
     unsigned shift = 0;
 };
-/// For 0 <= t <= 1.
+/// Precondition: 0 <= t <= 1.
 dyadic dyadic_of(double t);
 
-/// One instant: the number `low` itself if p is empty, or the single root of p in (low, high), at
-/// whose ends p is not zero.
+/// One instant: the number `low` if p is empty, else the single root of p in (low, high). p is not
+/// zero at the ends.
 struct instant {
     polynomial p;
     dyadic low, high;
 
-    /// The sign of g there.
     int sign(const polynomial& g) const;
 };
 
@@ -69,12 +69,12 @@ struct stretch {
     dyadic low, high;
     bool with_low, with_high;
 
-    /// The ends that belong to it; if neither does, its middle.
+    /// The ends that belong to the stretch; if neither does, its middle.
     std::vector<instant> ends() const;
 };
 
-/// Does `holds` at an instant hold anywhere in the stretch? It is asked at `ends()` and at the
-/// roots between them of the polynomials of `roots_of` that are not zero.
+/// True if `holds` is true at an instant of the stretch. It is evaluated at `ends()` and, between
+/// them, at the roots of the polynomials of `roots_of` that are not zero.
 template <class Holds>
 bool holds_somewhere(const stretch& when, std::span<const polynomial> roots_of,
                      const Holds& holds) {

@@ -1,4 +1,4 @@
-// Queries that are degenerate exactly, or but for one last place of one coordinate.
+// Queries that are degenerate, exactly or except for one last place of one coordinate.
 #pragma once
 
 #include <array>
@@ -16,7 +16,7 @@ using ccd::point;
 using namespace ccd::lab;
 using namespace ccd::lab::generators;
 
-/// One of the 24 numbers moved to a neighbouring double; zeros as jitter moves them.
+/// One of the 24 numbers moved to an adjacent double; jitter moves zeros.
 inline points nudged(source& random, const points& p) {
     const int moved = random.between(0, 23);
     int k = 0;
@@ -28,8 +28,8 @@ inline points nudged(source& random, const points& p) {
     });
 }
 
-/// Whole multiples of `directions` whole vectors, on a base that moves: in one plane, of any slope,
-/// or on one line, throughout the step.
+/// Whole multiples of `directions` whole vectors, on a moving base: in one plane of any slope, or
+/// on one line, throughout the step.
 inline points in_skew_span(source& random, std::size_t directions) {
     std::array<position, 2> along{};
     for (std::size_t d = 0; d < directions; ++d)
@@ -51,8 +51,8 @@ inline points in_skew_span(source& random, std::size_t directions) {
     return out;
 }
 
-/// A contact that no rounding disturbs: positions of 40 bits, weights in eighths, at a quarter of
-/// the step or its multiple.
+/// A contact without any rounding: positions of 40 bits, weights in eighths, at a quarter of the
+/// step or a multiple of it.
 inline points exact_contact(source& random, kind which) {
     const auto number = [&random] { return std::ldexp(random.between(-(1 << 28), 1 << 28), -26); };
     std::array<position, 4> at, velocity;
@@ -91,7 +91,7 @@ inline points exact_contact(source& random, kind which) {
     });
 }
 
-/// Two points change places, or one passes through another, in the middle of the step or later.
+/// Two points swap places, or one passes through another, in the middle of the step or later.
 inline points crossing(source& random, points p) {
     const int first = random.between(0, 3), turn = random.between(1, 3),
               ratio = random.between(1, 3);
@@ -122,7 +122,7 @@ inline points mirrored(source& random, const points& p) {
     return out;
 }
 
-/// Small whole numbers beside one large one for each axis, as far from the origin as they stay
+/// Small whole numbers next to one large one for each axis, as far from the origin as they remain
 /// exact.
 inline points far_grid(source& random) {
     position offset;

@@ -1,12 +1,12 @@
-// The oracle's decision: contact at one instant is a sentence in signs of polynomials in t, and
+// The oracle's decision of contact. Contact at one instant depends on signs of polynomials in t.
 // Tarski queries give those signs at any algebraic instant.
 //
-// Why this is complete. "The features share a point at t" depends only on the signs at t of a
-// finite list of polynomials, so it is constant between neighbouring roots of the list's nonzero
-// members; and the instants of contact form a closed set, so contact on such an open stretch shows
-// at its ends too. Hence the roots in an interval together with those of its ends that belong to it
-// are enough to look at, or its middle if neither does: without a root the answer is the same
-// throughout. Where a nonzero polynomial must vanish at every contact, its roots alone are enough.
+// Completeness: "the features share a point at t" depends only on the signs at t of a finite list
+// of polynomials. So it is constant between adjacent roots of the list's nonzero members. The
+// instants of contact form a closed set, so contact on such an open stretch implies contact at its
+// ends. Hence it suffices to test the roots in an interval and those of its ends that belong to it.
+// If there are neither, the answer is constant, and the middle suffices. If a nonzero polynomial
+// vanishes at every contact, its roots suffice.
 #include "tests/support/oracle.hpp"
 
 #include <algorithm>
@@ -25,8 +25,8 @@ namespace {
 
 using namespace detail;
 
-// Does `contact` hold at some instant of the stretch? `vanishing` must all be zero at a contact;
-// `all` are the polynomials whose signs decide it.
+// True if `contact` holds at some instant of the stretch. All of `vanishing` are zero at a contact;
+// `all` are the polynomials whose signs determine it.
 template <class Contact>
 bool contact_somewhere(const stretch& when, std::span<const polynomial> vanishing,
                        std::span<const polynomial> all, const Contact& contact) {
@@ -37,8 +37,8 @@ bool contact_somewhere(const stretch& when, std::span<const polynomial> vanishin
 
 // ---- Contact at one instant ----
 
-// Is the point at w from one end of the closed segment e on that segment? On the segment's line it
-// is exactly where w and w - e do not point the same way; the same words hold for e = 0.
+// True if the point at w from one end of the closed segment e is on that segment. A point of its
+// line is on it if and only if w and w - e do not point the same way; this includes e = 0.
 struct on_segment {
     vector line;
     polynomial between;
@@ -57,10 +57,9 @@ struct on_segment {
     }
 };
 
-// What tells whether coplanar features touch. At an instant where `normal` is nonzero a coordinate
-// in which it is nonzero may be dropped, and what is left is a question of the plane: each of
-// `weights` over `normal` in that coordinate must be at least 0. Where the normal vanishes, one of
-// `segments` must hold.
+// Decides contact of coplanar features. If `normal` is nonzero at an instant, a coordinate in which
+// it is nonzero is dropped. Then each of `weights` divided by `normal` in that coordinate must be
+// at least 0 in the plane. If the normal vanishes, one of `segments` must hold.
 struct planar_features {
     vector normal;
     std::vector<vector> weights;
@@ -85,8 +84,8 @@ struct planar_features {
     }
 };
 
-// Contact somewhere in the stretch of features that are coplanar where `volume` is 0;
-// `make_features()` is asked only if they are at some instant.
+// True if there is contact in the stretch of features that are coplanar where `volume` is 0. Calls
+// `make_features()` only if they are coplanar at some instant.
 template <class MakeFeatures>
 bool planar_contact(const stretch& when, const polynomial& volume,
                     const MakeFeatures& make_features) {
@@ -100,8 +99,8 @@ bool planar_contact(const stretch& when, const polynomial& volume,
     return holds_somewhere(when, made().all(), contact);
 }
 
-// What decides at once: no time at all, or boxes of control points, which swept features stay in,
-// and that are disjoint. Comparing doubles is exact.
+// True if the interval is empty, or if boxes of control points, which contain the swept features,
+// are disjoint. Comparisons of doubles are exact.
 template <std::size_t count>
 bool separate_at_once(const std::array<ccd::curve, count>& points, std::size_t first, shortcuts use,
                       const interval& when) {
@@ -124,8 +123,8 @@ bool separate_at_once(const std::array<ccd::curve, count>& points, std::size_t f
     });
 }
 
-// Every axis gets a unit of its own: stretching an axis moves no point into or out of a segment or
-// a triangle.
+// The points with a separate unit for each axis. Stretching an axis moves no point into or out of a
+// segment or a triangle.
 template <std::size_t count>
 std::array<vector, count> place(const std::array<ccd::curve, count>& points) {
     return in_units(points, {unit_of(points, 0), unit_of(points, 1), unit_of(points, 2)});

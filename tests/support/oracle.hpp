@@ -1,5 +1,5 @@
-// The oracle: a second exact decision of every query, made to share nothing with the library's own
-// but the query types. Tests hold the library against it.
+// The oracle: a second exact decision of every query. It shares only the query types with the
+// library, and tests compare the library with it.
 #pragma once
 
 #include <ccd/curves.hpp>
@@ -7,12 +7,13 @@
 
 namespace oracle {
 
-/// Whether shortcuts may answer at once; off only to test them: disjoint swept boxes, and for
-/// distances that instants are enough at which some nearest points' distance can be the one asked.
+/// Enables early exits; tests of the shortcuts turn them off. One is disjoint swept boxes. For
+/// distances, the other tests only instants at which the distance of some nearest points can equal
+/// the given one.
 enum class shortcuts { on, off };
 
-/// Times t, low <= t <= high, without `low` or `high` where they are said not to belong to it; for
-/// 0 <= low <= high <= 1, which must be finite.
+/// Times t with low <= t <= high, without an end that is marked as excluded. Precondition: 0 <= low
+/// <= high <= 1.
 struct interval {
     double low = 0, high = 1;
     bool with_low = true, with_high = true;
@@ -20,7 +21,8 @@ struct interval {
     static interval instant(double t) { return {t, t}; }
 };
 
-/// Do the two closed features share a point at some t in the interval? Coordinates must be finite.
+/// True if the two closed features share a point at some t in the interval. Precondition:
+/// coordinates are finite.
 bool collides(const ccd::vertex_face<double>& query, shortcuts use = shortcuts::on,
               const interval& when = {});
 bool collides(const ccd::edge_edge<double>& query, shortcuts use = shortcuts::on,
@@ -30,8 +32,8 @@ bool collides(const ccd::vertex_edge<double>& query, shortcuts use = shortcuts::
 bool collides(const ccd::vertex_vertex<double>& query, shortcuts use = shortcuts::on,
               const interval& when = {});
 
-/// Is the Euclidean distance of the two closed features at most d1 + d2, the exact sum of two
-/// finite numbers >= 0, at some t in the interval?
+/// True if the Euclidean distance of the two closed features is at most d1 + d2 at some t in the
+/// interval. The sum is exact. Precondition: d1 and d2 are finite and >= 0.
 bool within(const ccd::vertex_face<double>& query, double d1, double d2,
             shortcuts use = shortcuts::on, const interval& when = {});
 bool within(const ccd::edge_edge<double>& query, double d1, double d2,
@@ -41,7 +43,7 @@ bool within(const ccd::vertex_edge<double>& query, double d1, double d2,
 bool within(const ccd::vertex_vertex<double>& query, double d1, double d2,
             shortcuts use = shortcuts::on, const interval& when = {});
 
-/// The same of motion along curves, with one control point or more each.
+/// The same functions for motion along curves with at least one control point each.
 bool collides(const ccd::vertex_face_curves& query, shortcuts use = shortcuts::on,
               const interval& when = {});
 bool collides(const ccd::edge_edge_curves& query, shortcuts use = shortcuts::on,

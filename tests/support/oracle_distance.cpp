@@ -1,7 +1,7 @@
-// The oracle's decision of distance. That of two features is the distance of the origin from the
-// hull of the differences of their vertices: a point, a segment, a triangle, or for two edges a
-// parallelogram. Which of its points is nearest at an instant is a question of signs: x is, if and
-// only if (c - x).x >= 0 for every corner c.
+// The oracle's decision of distance. The distance of two features is that of the origin from the
+// hull of the differences of their vertices. The hull is a point, a segment, a triangle, or for two
+// edges a parallelogram. Signs determine its nearest point at an instant: x is nearest if and only
+// if (c - x).x >= 0 for every corner c.
 #include <algorithm>
 #include <array>
 #include <cstddef>
@@ -17,11 +17,11 @@ namespace {
 
 using namespace detail;
 
-// A corner, a side without its ends, or the inside of the hull.
+// A corner, a side without its ends, or the interior of the hull.
 struct region {
-    // The hull's nearest point lies in it if these are >= 0 and > 0.
+    // The hull's nearest point lies in the region if these are >= 0 and > 0.
     std::vector<polynomial> at_least_0 = {}, above_0 = {};
-    // Then this has the sign of that point's distance less the distance asked.
+    // Then this has the sign of that point's distance minus the given distance.
     polynomial excess = {};
 
     bool has_nearest(const instant& t) const {
@@ -33,7 +33,7 @@ struct region {
     }
 };
 
-// The hull of corners in their order around it; the origin, and a distance's square.
+// The hull of the corners, which are in order around it, and the square of the given distance.
 template <std::size_t count>
 class hull {
   public:
@@ -48,7 +48,7 @@ class hull {
             for (std::size_t i = 1; i < count; ++i) regions_.push_back(side(i, (i + 1) % count));
             regions_.push_back(inside());
         }
-        // Where no other region has the nearest point the last one has.
+        // If no other region has the nearest point, the last one has it.
         regions_.back().at_least_0.clear();
         regions_.back().above_0.clear();
     }
@@ -59,11 +59,11 @@ class hull {
         return t.sign(region->excess) <= 0;
     }
 
-    // Times at which the features are near are closed intervals: the distance is continuous. On the
-    // far side of such an interval's end one region has the nearest point for a while (a polynomial
-    // changes its sign a few times at most), and there its excess is positive: at that end it is 0,
-    // a root of one of the excesses. So those are enough, and the stretch's own ends, or its middle
-    // if neither belongs to it. Without this shortcut: no sign changes but at the roots of all.
+    // The distance is continuous, so the times at which the features are near are closed intervals.
+    // Just outside an end of such an interval, one region has the nearest point (polynomials change
+    // sign finitely often), and its excess is positive there. At the end its excess is 0. So roots
+    // of the excesses suffice, with the stretch's ends, or its middle if neither belongs to it.
+    // Without this shortcut, the roots of all polynomials are tested.
     bool is_near_somewhere(const stretch& when, shortcuts use) const {
         std::vector<polynomial> roots_of;
         for (const region& r : regions_) {
@@ -83,8 +83,9 @@ class hull {
         return r;
     }
 
-    // The origin's projection on the line through two corners is their mean with weights w over the
-    // sum of the weights, the square of the side's length; it is a corner where one is 0.
+    // The origin's projection on the line through two corners is their mean with weights w, divided
+    // by the sum of the weights. The sum is the square of the side's length. If a weight is 0, the
+    // projection is a corner.
     region side(std::size_t i, std::size_t j) const {
         const polynomial& ij = products_[i][j];
         const polynomial wi = products_[j][j] - ij, wj = products_[i][i] - ij;
@@ -108,8 +109,8 @@ class hull {
     std::vector<region> regions_;
 };
 
-// On an axis all corners are farther from the origin than that, on one side of it, at both ends of
-// the step, and so throughout if they move along lines.
+// True if on one axis all corners are on one side of the origin and farther than the distance, at
+// both ends of the step. If they move along lines, this holds throughout.
 template <std::size_t count>
 bool beyond_on_an_axis(const std::array<vector, count>& corners, const integer& distance) {
     const auto all_above = [&](std::size_t axis, int side) {
@@ -127,7 +128,7 @@ bool beyond_on_an_axis(const std::array<vector, count>& corners, const integer& 
     return false;
 }
 
-// `differences(points)`: the hull's corners.
+// `differences(points)` returns the hull's corners.
 template <std::size_t count, class Differences>
 bool decide_within(const std::array<ccd::curve, count>& points, double d1, double d2, shortcuts use,
                    const interval& when, const Differences& differences) {

@@ -1,4 +1,4 @@
-// Seeded families of random queries, from plain to hostile, the same on every standard library.
+// Seeded families of random queries, from plain to hostile, the same with every standard library.
 #pragma once
 
 #include <cmath>
@@ -12,12 +12,12 @@
 namespace query_families {
 
 using ccd::kind;
-using namespace ccd::lab;  // points, their source, and what makes queries of them
+using namespace ccd::lab;  // points, their source, and their conversion to queries
 
 struct family {
     std::string_view name;
     points (*make)(source& random, kind which);
-    /// Tests take one in this many: where exact answers cost tens of milliseconds.
+    /// Tests take one query in this many, since exact answers of some cost tens of milliseconds.
     unsigned thinning = 1;
 };
 
@@ -166,14 +166,14 @@ inline constexpr family list[] = {
 
 inline constexpr auto& families = detail::list;
 
-/// Query `index` of a family; new families leave the old ones as they were.
+/// Query `index` of a family. New families do not change the existing ones.
 inline points make(const family& f, kind which, std::uint64_t seed, std::uint64_t index) {
     source random = source_of(f.name, {static_cast<std::uint64_t>(which), seed, index});
     return f.make(random, which);
 }
 
-/// check(query, what it is) for some queries of all families and kinds: so many of a family, less
-/// where it is thinned.
+/// Calls check(query, text) for queries of all families and kinds: `per_family` of each, divided by
+/// its thinning.
 template <class Check>
 void for_some_queries(std::uint64_t per_family, std::uint64_t seed, const Check& check) {
     for (const kind which :

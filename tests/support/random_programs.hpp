@@ -1,5 +1,5 @@
-// Random programs of tracked numbers next to exact rationals: after each operation the bound holds,
-// and a certain sign is the right one.
+// Random programs of tracked numbers compared with exact rationals: after each operation the bound
+// must hold, and a certain sign must be right.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -16,14 +16,14 @@
 
 namespace support {
 
-/// A tracked number and the exact number that it stands for.
+/// A tracked number and the exact number that it represents.
 template <class Number>
 struct sample {
     Number number;
     rational exact;
 };
 
-/// v, known to within `error`, and an exact number in that range, often at its end.
+/// v with the bound `error`, and an exact number in that range, often at its end.
 template <class Number>
 sample<Number> sample_within(const typename Number::value_type& v,
                              const typename Number::value_type& error, std::mt19937_64& random) {
@@ -44,7 +44,7 @@ void check(const sample<Number>& s, const std::string& what) {
     const sign_type sign = sign_of(s.number);
     ASSERT_TRUE(sign == sign_type::uncertain || sign == errbound::sign_of(s.exact)) << what;
     if (claims_nothing(s.number)) {
-        // Bounds in a wider type can determine the sign where the error overflows T.
+        // Bounds in a wider type can determine the sign even if the error overflows T.
         if (!errbound::detail::bounds_are_wider<T, typename Number::rule_type> ||
             !errbound::number_traits<T>::is_finite(s.number.value())) {
             ASSERT_EQ(sign, sign_type::uncertain) << what;
@@ -58,7 +58,7 @@ void check(const sample<Number>& s, const std::string& what) {
         << static_cast<double>(s.number.error());
 }
 
-/// `root` is the tracked root of a number that stands for `square`.
+/// `root` is the tracked root of a number that represents `square`.
 template <class Number>
 void check_root(const Number& root, const rational& square, const std::string& what) {
     if (claims_nothing(root)) return;
@@ -109,7 +109,7 @@ class random_programs {
         return sample_within<number>(v, random_() % 4 ? relative : traits::abs(draw_(random_)),
                                      random_);
     }
-    /// Nothing for a division by zero, and for operations that T or the rule lacks.
+    /// Empty for a division by zero, and for operations that T or the rule lacks.
     std::optional<one> combined(const one& a, const one& b) {
         switch (random_() % 8) {
             case 0:
@@ -140,7 +140,7 @@ class random_programs {
         return std::nullopt;
     }
 
-    // On Windows fused products of long doubles do not compile.
+    // On Windows, fused products of long doubles do not compile.
 #ifdef __MINGW32__
     static constexpr bool fuses = sizeof(T) <= sizeof(double);
 #else

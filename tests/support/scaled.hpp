@@ -1,4 +1,4 @@
-// One knob for all random tests: ERRBOUND_TEST_SCALE, a factor on how much they try.
+// The scale of all random tests: the environment's ERRBOUND_TEST_SCALE multiplies their counts.
 #pragma once
 
 #include <algorithm>
@@ -7,8 +7,8 @@
 
 namespace support {
 
-/// `count` times the environment's ERRBOUND_TEST_SCALE (1 where it is not set), at least 1.
-/// Sanitizers take less (tests/CMakeLists.txt), a night may take more.
+/// `count` times ERRBOUND_TEST_SCALE (default 1), at least 1. Sanitizers use less
+/// (tests/CMakeLists.txt), nightly tests more.
 template <std::integral T>
 T scaled(T count) {
     const char* const text = std::getenv("ERRBOUND_TEST_SCALE");

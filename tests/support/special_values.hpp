@@ -1,4 +1,4 @@
-// Numbers that find trouble, and the exact values of numbers of every format.
+// Special values, and the exact values of numbers of every format.
 #pragma once
 
 #include <boost/multiprecision/cpp_int.hpp>
@@ -21,7 +21,7 @@ inline rational power_of(int base, int exponent) {
     return exponent < 0 ? rational(whole_number(1), power) : rational(power);
 }
 
-/// x exactly. Precondition: x is finite.
+/// The exact value of x. Precondition: x is finite.
 template <class T>
 rational exactly(const T& x) {
     using traits = errbound::number_traits<T>;
@@ -43,9 +43,9 @@ rational exactly(const T& x) {
     }
 }
 
-/// Values that find trouble: zeros, powers of two and their neighbours, subnormals, huge numbers,
-/// and mantissas with few bits (many exact results) or all bits. In small formats any code,
-/// infinities and NaN included.
+/// Values that tend to reveal errors: zeros, powers of two and their neighbours, subnormals, huge
+/// numbers, and mantissas with few bits (many exact results) or all bits. In small formats, any
+/// code, including infinities and NaN.
 template <class T>
 T special_value(std::mt19937_64& random) {
     if constexpr (!std::floating_point<T>) {

@@ -1,4 +1,4 @@
-// What is asked of the oracle, in whole numbers: a query's points as polynomials, and when.
+// Input of the oracle in integers: a query's points as polynomials, and the interval.
 #pragma once
 
 #include <algorithm>
@@ -18,7 +18,7 @@ namespace oracle::detail {
 inline constexpr std::array axes{&ccd::point<double>::x, &ccd::point<double>::y,
                                  &ccd::point<double>::z};
 
-/// Linear motion as curves, which are not kept longer than this.
+/// Linear motion as curves that refer to this object.
 template <std::size_t count>
 class lines {
   public:
@@ -37,8 +37,8 @@ class lines {
     std::array<ccd::curve, count> curves_;
 };
 
-/// The largest exponent of which all the control points' coordinates on an axis are whole
-/// multiples.
+/// The largest exponent for which all control points' coordinates on an axis are whole multiples of
+/// its power of two.
 inline int unit_of(std::span<const ccd::curve> points, std::size_t axis) {
     int unit = std::numeric_limits<int>::max();
     for (const ccd::curve& control : points)
@@ -47,7 +47,7 @@ inline int unit_of(std::span<const ccd::curve> points, std::size_t axis) {
     return unit;
 }
 
-/// p(t) from its control values, by de Casteljau's rule with t left as it is.
+/// p(t) from its control values, by de Casteljau's rule with a symbolic t.
 inline polynomial from_control_values(const std::vector<integer>& values) {
     std::vector<polynomial> p;
     for (const integer& value : values) {

@@ -1,5 +1,5 @@
-// Operations of errbound::integer beside Boost's cpp_int and, where it is there, GMP's integers as
-// Boost wraps them: ns of each, by numbers of words.
+// ns per operation of errbound::integer, compared with Boost's cpp_int and, if installed, GMP's
+// integers in Boost's wrapper, by the number of words.
 #include <boost/multiprecision/cpp_int.hpp>
 #include <cstdint>
 #include <cstdio>
@@ -22,7 +22,6 @@ namespace {
 namespace mp = boost::multiprecision;
 using boost_integer = mp::number<mp::cpp_int_backend<>, mp::et_off>;
 
-/// Numbers of so many words, of twice as many, and of one.
 template <class Integer>
 struct numbers {
     static constexpr std::size_t count = 32;
@@ -45,7 +44,7 @@ struct numbers {
             word.push_back(any(1));
         }
     }
-    /// What the operation makes of each pair, of numbers that live long enough.
+    /// Stores the operation's result for each pair, in numbers that outlive the call.
     template <class Operation>
     static std::function<void()> pass(std::shared_ptr<numbers> of, const Operation& operation) {
         return [of, operation] {

@@ -1,5 +1,5 @@
-// certified_solve beside Eigen's plain solution by LU decomposition: time, and certified errors
-// beside true ones, of systems whose exact solutions are known.
+// certified_solve compared with Eigen's solution by LU decomposition: time, and certified errors
+// next to true ones. The systems have known exact solutions.
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
@@ -21,7 +21,8 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-/// 3a·x = ay: for whole numbers it is exact, and its solution, y/3, is mostly no double.
+/// The system 3a·x = ay with whole numbers a and y. It is exact; its solution, y/3, is usually not
+/// a double.
 struct linear_system {
     std::string name;
     MatrixXd a;
@@ -56,12 +57,11 @@ std::vector<linear_system> systems(bool quick) {
     return all;
 }
 
-/// |x − y/3|, of which 3x − y is exact in 64 bits.
+/// |x − y/3|. The difference 3x − y is exact in 64 bits.
 double true_error(double x, double y) {
     return double(std::abs(3.0L * x - y) / 3);
 }
 
-/// The greatest, of those that there are.
 double greatest(const std::vector<double>& numbers) {
     return numbers.empty() ? 0 : *std::max_element(numbers.begin(), numbers.end());
 }
@@ -84,7 +84,7 @@ std::vector<bench::cell> row(const linear_system& s, bool quick) {
         if (!certified.certified()) continue;
         const double error = true_error(certified.values(i), s.y(i));
         if (!(error <= certified.errors(i)))
-            throw std::runtime_error(s.name + ": an error is beyond its certified bound");
+            throw std::runtime_error(s.name + ": an error exceeds its certified bound");
         bounds.push_back(certified.errors(i) / size);
         if (error > 0) ratios.push_back(certified.errors(i) / error);
     }

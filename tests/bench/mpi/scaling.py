@@ -1,8 +1,7 @@
-"""Steps of tiled scenes over ranks: that pairs, times and first contacts are the same however a mesh
-is spread, and how evenly.
+"""Steps of tiled scenes distributed over ranks: compares pairs, times and first contacts, and prints the balance.
 
-Arguments: the benchmark program and mpirun, with --ranks-option=-n or whatever it takes a number of
-ranks by. Status 1 if anything differs. --quick: the bundled scene alone.
+Arguments: the benchmark program, mpirun, and --ranks-option with mpirun's option for the number of ranks. The status is
+1 if results differ. --quick uses only the bundled scene.
 """
 import argparse
 import json
@@ -23,16 +22,16 @@ def arguments():
     for name in ("program", "mpirun"):
         parser.add_argument(name, help=argparse.SUPPRESS)
     parser.add_argument("--ranks-option", default="-n", help=argparse.SUPPRESS)
-    parser.add_argument("--quick", action="store_true", help="the bundled scene alone")
+    parser.add_argument("--quick", action="store_true", help="only the bundled scene")
     parser.add_argument("--faces", type=int, default=10_000_000, metavar="N",
-                        help="of the largest tiled scenes, else 10,000,000")
+                        help="faces of the largest tiled scenes (default: 10,000,000)")
     parser.add_argument("--data", type=pathlib.Path, default=ROOT.parent / "shared/data/scenes",
-                        metavar="DIR", help="stored scenes, else ../shared/data/scenes")
+                        metavar="DIR", help="stored scenes (default: ../shared/data/scenes)")
     return parser.parse_args()
 
 
 def scenes(data, quick):
-    """Name, frames, faces."""
+    """Yields each scene's name and its first two frames."""
     folders = [ROOT / "examples/scenes/cloth-over-ball"]
     if not quick and data.is_dir():
         folders += [folder / "frames" for folder in sorted(data.iterdir()) if (folder / "frames").is_dir()]
@@ -59,7 +58,7 @@ def same(result, expected, what, failures):
 
 
 def spread(values):
-    """Of a list of a figure a rank: all, and the worst over the mean."""
+    """Returns the sum of the ranks' values, and their maximum divided by their mean."""
     return sum(values), max(values) * len(values) / max(1, sum(values))
 
 
@@ -87,7 +86,7 @@ HEADING = ["scene", "copies", "faces", "ranks", "placed", "pairs", "held/given",
 
 
 def sizes(faces, largest):
-    """Numbers of copies: 1, 10, 100, ..., and as many as have so many faces."""
+    """Yields numbers of copies: 1, 10, 100, ..., and the most with at most `largest` faces."""
     copies, most = 1, max(1, largest // faces)
     while copies < most:
         yield copies
@@ -96,14 +95,14 @@ def sizes(faces, largest):
 
 
 def compare_copies(given, name, frames, copies, failures):
-    """Rows of a scene so often; placements that differ for those that take little time."""
+    """Yields rows of `copies` copies of a scene; small scenes are also placed in other ways."""
     first = measured(given, 1, frames, "--copies", copies)
     if first["hash"] != first["hash_of_whole"]:
-        failures.append(f"{name}, {copies} copies: the whole mesh has another hash")
-    asked = [(ranks, "blocks") for ranks in RANKS]
+        failures.append(f"{name}, {copies} copies: the hash differs from that of the whole mesh")
+    runs = [(ranks, "blocks") for ranks in RANKS]
     if first["faces"] <= 1_000_000:
-        asked += [(ranks, placement) for placement in ("interleaved", "one", "empty") for ranks in (3, 8)]
-    for ranks, placement in asked:
+        runs += [(ranks, placement) for placement in ("interleaved", "one", "empty") for ranks in (3, 8)]
+    for ranks, placement in runs:
         result = measured(given, ranks, frames, "--copies", copies, "--placement", placement)
         same(result, first, f"{name}, {copies} copies, {ranks} ranks, {placement}", failures)
         yield row_of(name, copies, result, placement)

@@ -1,6 +1,7 @@
-// A step of copies of two frames side by side, spread over the ranks of MPI: what each rank is
-// given, holds, sends and decides, and one hash of all pairs and times, the same however they are
-// spread. Run by tests/bench/mpi/scaling.py, which compares hashes and makes the tables.
+// Computes a step of copies of two frames side by side, distributed over the ranks of MPI. Prints
+// what each rank is given, holds, sends and decides, and a hash of all pairs and times, which does
+// not depend on the distribution. tests/bench/mpi/scaling.py runs this program, compares the hashes
+// and prints the tables.
 #include <mpi.h>
 
 #include <CLI/CLI.hpp>
@@ -32,8 +33,8 @@ struct arguments {
     bool huge_face = false;
 };
 
-/// Copies of a frame on a square grid in x and y, numbered one after the other; and one face below
-/// them all, if asked for.
+/// Copies of a frame on a square grid in x and y, numbered consecutively, and optionally one face
+/// below them all.
 class tiles {
   public:
     tiles(const arguments& given)
@@ -125,7 +126,7 @@ std::uint64_t mixed(std::uint64_t hash, std::uint64_t with) {
     return hash ^ (hash >> 31);
 }
 
-/// A sum over pairs: their order does not matter.
+/// A hash of a set of pairs: their order does not matter.
 template <class Lists, class VerticesOf>
 std::uint64_t hash_of(const Lists& pairs, const ccd::time_lists& times,
                       const VerticesOf& vertices_of) {
@@ -149,7 +150,7 @@ struct rank_row {
     std::size_t memory = 0;
 };
 
-/// The same step by ccd::step on the whole mesh.
+/// The hash of the same step by ccd::step on the whole mesh.
 std::uint64_t hash_of_whole(const tiles& all) {
     std::vector<ccd::point<double>> before, after;
     for (vertex_number v = 0; v < all.vertices(); ++v) {
@@ -207,8 +208,8 @@ int run(int argc, char** argv) {
                  "errbound_mpi_bench"};
     app.add_option("FRAME0", given.before)->required();
     app.add_option("FRAME1", given.after)->required();
-    app.add_option("--copies", given.copies, "Side by side")->check(CLI::Range(1, 1 << 20));
-    app.add_option("--placement", given.placement, "Of faces")
+    app.add_option("--copies", given.copies, "Copies side by side")->check(CLI::Range(1, 1 << 20));
+    app.add_option("--placement", given.placement, "Distribution of faces")
         ->check(CLI::IsMember({"blocks", "interleaved", "one", "empty"}));
     app.add_flag("--huge-face", given.huge_face, "One more face, which passes through all copies");
     try {

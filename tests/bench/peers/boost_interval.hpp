@@ -1,5 +1,5 @@
-// Intervals of Boost.Interval, for benchmarks beside it: in source files that are compiled for
-// changes of the rounding mode.
+// Intervals of Boost.Interval. Source files that use them are compiled for changes of the rounding
+// mode.
 #pragma once
 
 #include <boost/numeric/interval.hpp>
@@ -9,7 +9,7 @@ namespace bench {
 
 using boost_interval = boost::numeric::interval<double>;
 
-/// Overflow leaves NaN or infinity, and everything open.
+/// The sign is uncertain after an overflow, which leaves NaN or infinity.
 inline errbound::sign_type sign_of_interval(const boost_interval& x) {
     if (x.lower() > 0) return errbound::sign_type::positive;
     if (x.upper() < 0) return errbound::sign_type::negative;

@@ -1,4 +1,4 @@
-// Intervals of MPFI at the precision of doubles, for benchmarks beside it.
+// Intervals of MPFI at the precision of doubles.
 #pragma once
 
 #include <mpfi.h>
@@ -9,7 +9,8 @@
 
 namespace bench {
 
-/// With operators, and without allocation once as many have been made as live at a time.
+/// An interval with operators. It does not allocate once the pool holds as many intervals as are
+/// alive at a time.
 class mpfi_interval {
   public:
     mpfi_interval() : value_(taken()) {}

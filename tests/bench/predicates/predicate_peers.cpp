@@ -1,5 +1,5 @@
-// ns per call and wrong signs of predicates, beside others that decide them: what is installed of
-// CGAL and MPFI, GMP, Boost. Truth: the tests' oracle in GMP integers.
+// ns per call and wrong signs of predicates, compared with CGAL, MPFI, GMP and Boost if they are
+// installed. The expected signs are those of the tests' oracle in GMP integers.
 #include "tests/bench/predicates/predicate_peers.hpp"
 
 #include <CLI/CLI.hpp>
@@ -26,7 +26,7 @@ using errbound::sign_type;
 
 struct run_options {
     bool quick = false;
-    std::string predicate = {};  ///< only those whose name holds this
+    std::string predicate = {};  ///< only predicates whose name contains this
 
     std::size_t inputs() const { return quick ? 1000 : 100'000; }
     int repeats() const { return quick ? 1 : 5; }
@@ -58,7 +58,7 @@ sign_type sign_of_number(const Number& x) {
     return static_cast<sign_type>(1 + x.sign());
 }
 
-/// The expression over whole numbers in the unit of the last bit of any coordinate.
+/// The expression over integers in the unit of the last bit of any coordinate.
 template <class Form, class Integer>
 void decide_by_integers(const set_of<Form>& set, std::size_t count, signs& out) {
     for (std::size_t i = 0; i < count; ++i) {
@@ -89,7 +89,7 @@ void decide_by_rationals(const set_of<Form>& set, std::size_t count, signs& out)
         [](const cpp_rational& x) { return sign_of_number(x); });
 }
 
-/// Not exact: a floating-point determinant, zero where it is small.
+/// Decides by a floating-point determinant, which returns zero if it is small. It is not exact.
 void decide_by_boost_geometry(const set_of<orient2d_form>& set, std::size_t count, signs& out) {
     using point = boost::geometry::model::d2::point_xy<double>;
     using side = boost::geometry::strategy::side::side_by_triangle<>;
@@ -103,8 +103,8 @@ void decide_by_boost_geometry(const set_of<orient2d_form>& set, std::size_t coun
 template <class Form>
 struct peer {
     std::string_view key, heading;
-    decider<Form> decide;      ///< null: not for this predicate, or not installed
-    std::size_t thinning = 1;  ///< the slow ones are timed on one of so many inputs
+    decider<Form> decide;      ///< null if the peer lacks the predicate or is not installed
+    std::size_t thinning = 1;  ///< slow peers are timed on one of `thinning` inputs
 };
 #ifdef ERRBOUND_HAVE_CGAL
 constexpr bool have_cgal = true;
@@ -152,7 +152,8 @@ signs right_signs(const set_of<Form>& set) {
     return right;
 }
 
-/// Cells of one peer: ns a call, that over the plain expression's, wrong signs and undecided ones.
+/// Cells of one peer: ns per call, its ratio to the plain expression's time, wrong signs and
+/// uncertain ones.
 template <class Form>
 std::array<cell, 4> cells_of(const peer<Form>& p, const set_of<Form>& set, const signs& right,
                              double ns, double plain) {
@@ -218,7 +219,7 @@ void beside_peers(const run_options& o, report& out) {
               columns, all.undecided);
 }
 
-/// Coordinates of so many bits, the exponents of their last ones spread evenly over so many.
+/// Coordinates of `bits` bits. The exponents of their last bits spread evenly over `spread`.
 template <class Form>
 set_of<Form> make_spread_set(int bits, int spread, std::size_t inputs) {
     const auto make = [=](predicate_inputs::generator& random, surface) {
@@ -250,7 +251,7 @@ struct exact_stage {
     predicate_stage stage;
     decider<Form> decide;
 };
-/// In their order.
+/// The exact stages in the order of their use.
 template <class Form>
 constexpr auto exact_stages() {
     using enum predicate_stage;
@@ -274,7 +275,7 @@ void add_exact_rows(const run_options& o, std::vector<std::vector<cell>>& rows) 
           coordinates{53, 100}, coordinates{53, 200}, coordinates{53, 500}, coordinates{53, 1000},
           coordinates{53, 2000}}) {
         const auto set = make_spread_set<Form>(bits, spread, inputs);
-        // The first stage that is certain of all.
+        // The first stage that is certain of all inputs.
         signs found(inputs);
         const auto stages = exact_stages<Form>();
         const auto stage = std::ranges::find_if(stages, [&](const auto& s) {
@@ -312,7 +313,7 @@ void exact_stages_alone(const run_options& o, report& out) {
               rows);
 }
 
-/// A double for expressions that ask for signs.
+/// A double for expressions that call sign functions.
 class plain_double {
   public:
     explicit plain_double(double value) : value_(value) {}
@@ -391,8 +392,8 @@ int main(int argc, char** argv) {
     CLI::App app{"Predicates beside others that decide them: ns per call, wrong signs."};
     app.name("./run bench --predicates");
     bench::run_options o;
-    app.add_flag("--quick", o.quick, "Fewer inputs and repeats: shows that all works");
-    app.add_option("--predicate", o.predicate, "Only those whose name holds this");
+    app.add_flag("--quick", o.quick, "Fewer inputs and repeats: tests that everything runs");
+    app.add_option("--predicate", o.predicate, "Only predicates whose name contains this");
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& error) {

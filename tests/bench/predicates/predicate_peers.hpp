@@ -1,5 +1,5 @@
-// Others than errbound that decide predicates, each in the same form. Those of a source file of
-// its own are compiled with flags of their own, where what they need is installed.
+// Other libraries that decide predicates, behind one interface. Some need special compiler flags
+// and have a separate source file, which is compiled if the library is installed.
 #pragma once
 
 #include <cstddef>
@@ -9,11 +9,11 @@
 
 namespace bench {
 
-/// Decides the first so many inputs of a set.
+/// Decides the first `count` inputs of a set.
 template <class Form>
 using decider = void (*)(const set_of<Form>&, std::size_t count, signs&);
 
-/// call(points of input i), their coordinates made into another number type, for each input.
+/// Evaluates the expression for each input, with coordinates converted to another number type.
 template <class Form, class Make, class Sign>
 void decide_over(const set_of<Form>& set, std::size_t count, signs& out, const Make& make,
                  const Sign& sign) {
@@ -32,7 +32,7 @@ void decide_over(const set_of<Form>& set, std::size_t count, signs& out, const M
 /// CGAL's Exact_predicates_inexact_constructions_kernel.
 template <class Form>
 void decide_by_cgal(const set_of<Form>& set, std::size_t count, signs& out);
-/// The expression over intervals, as a filter.
+/// The expression over intervals, used as a filter.
 template <class Form>
 void decide_by_boost_interval(const set_of<Form>& set, std::size_t count, signs& out);
 template <class Form>

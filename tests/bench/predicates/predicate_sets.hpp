@@ -1,4 +1,4 @@
-// Shared by the benchmarks of predicates: the expressions in their plain form, and sets of inputs.
+// The predicates' plain expressions and the sets of inputs, shared by the benchmarks of predicates.
 #pragma once
 
 #include <array>
@@ -58,7 +58,7 @@ struct insphere_form {
 };
 inline constexpr std::tuple<orient2d_form, orient3d_form, incircle_form, insphere_form> all_forms;
 
-/// Inputs as ranges of points, one for each argument.
+/// Inputs stored as ranges of points, one range for each argument.
 template <std::size_t D, std::size_t N>
 struct input_set {
     std::array<std::vector<std::array<double, D>>, N> points;
@@ -84,7 +84,6 @@ struct input_set {
         for (std::size_t d = 0; d < D; ++d) a.coordinates[d] = arrays[argument][d].data();
         return a;
     }
-    /// call(points of input i)
     template <class Call>
     auto with(std::size_t i, const Call& call) const {
         return [&]<std::size_t... K>(std::index_sequence<K...>) {

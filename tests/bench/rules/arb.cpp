@@ -5,7 +5,7 @@
 namespace bench {
 namespace {
 
-/// A ball; many in a row are an array of arb's.
+/// A ball. Consecutive ones are an array for arb.
 class ball {
   public:
     ball() { arb_init(value_); }
@@ -23,7 +23,6 @@ class ball {
     arb_t value_;
 };
 
-/// At the precision of doubles.
 struct arithmetic : composed<ball, arithmetic> {
     static constexpr slong precision = 53;
     static ball made(double x, double y) {

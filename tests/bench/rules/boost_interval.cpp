@@ -7,7 +7,7 @@ namespace {
 
 struct arithmetic : by_operators<boost_interval>, composed<boost_interval, arithmetic> {
     static void root(boost_interval& r, const boost_interval& a) { r = boost::numeric::sqrt(a); }
-    /// It has none: a product and a sum.
+    /// Boost.Interval has no fused operation: computes a product and a sum.
     static void fused(boost_interval& r, const boost_interval& a, const boost_interval& b,
                       const boost_interval& c) {
         r = a * b + c;

@@ -1,5 +1,5 @@
-// Arithmetics whose operations are timed side by side: plain double, tracked numbers under each
-// rule, and intervals of other libraries, each of these in a source file of its own.
+// Number types whose operations are timed side by side: plain double, tracked numbers under each
+// rule, and intervals of other libraries, which have separate source files.
 #pragma once
 
 #include <algorithm>
@@ -33,19 +33,20 @@ consteval std::size_t place_of(std::string_view operation) {
     return static_cast<std::size_t>(std::ranges::find(operation_names, operation) -
                                     operation_names.begin());
 }
-/// Operands of a pass: few enough for the first cache, those of many terms too.
+/// Operands of a pass: few enough for the first cache, even for numbers of many terms.
 inline constexpr std::size_t operands_per_pass = 32;
 
-/// An arithmetic, and a pass over its operands for each operation; empty where it has none.
+/// A number type and, for each operation, a pass over its operands; empty if it lacks the
+/// operation.
 struct contestant {
     std::string key, heading;
     std::array<std::function<void()>, operation_count> passes;
 };
 
-/// By its operators.
+/// The four operations by the number's operators.
 template <class Number>
 struct by_operators {
-    /// The product of two exact numbers between 1 and 2, which is not exact.
+    /// The product of two exact numbers between 1 and 2. It has a rounding error.
     static Number made(double x, double y) { return Number(x) * Number(y); }
     static void add(Number& r, const Number& a, const Number& b) { r = a + b; }
     static void subtract(Number& r, const Number& a, const Number& b) { r = a - b; }
@@ -53,7 +54,7 @@ struct by_operators {
     static void divide(Number& r, const Number& a, const Number& b) { r = a / b; }
 };
 
-/// And by functions that are found by their arguments.
+/// Adds functions that argument-dependent lookup finds.
 template <class Number>
 struct operators : by_operators<Number> {
     static void root(Number& r, const Number& a) {
@@ -106,7 +107,8 @@ struct operators : by_operators<Number> {
     static errbound::sign_type sign(const Number& a) { return sign_of(a); }
 };
 
-/// What is made of an Arithmetic's sums and products, for those that have nothing of their own.
+/// Composes operations from an Arithmetic's sums and products, for libraries without functions for
+/// them.
 template <class Number, class Arithmetic>
 struct composed {
     static void middle(Number& r, const Number& a, const Number& b) {
@@ -146,7 +148,6 @@ struct composed {
     }
 };
 
-/// What one contestant computes with, and where it puts what it finds.
 template <class Number>
 struct operands {
     std::vector<Number> a, b, c, r;
@@ -168,7 +169,7 @@ std::shared_ptr<operands<Number>> random_operands() {
     return x;
 }
 
-/// One whose operations are those of Arithmetic, as `operators` has them.
+/// A contestant with the operations of Arithmetic, which has the interface of `operators`.
 template <class Number, class Arithmetic = operators<Number>, bool Divides = true>
 contestant contestant_of(std::string key, std::string heading) {
     const auto x = random_operands<Number, Arithmetic>();
@@ -179,7 +180,7 @@ contestant contestant_of(std::string key, std::string heading) {
             keep(x->signs);
         };
     };
-    // Where the terms of the i-th dot product begin.
+    // The index of the first term of the i-th dot product.
     constexpr auto first = [](std::size_t i) { return i % (operands_per_pass - term_count + 1); };
     using A = Arithmetic;
     contestant result{

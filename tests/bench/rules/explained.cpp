@@ -1,4 +1,4 @@
-// Tracked numbers that keep where their errors come from (errbound/explain), beside the others.
+// Tracked numbers that store the sources of their errors (errbound/explain).
 #include <errbound/explain/explain.hpp>
 
 #include "tests/bench/rules/contestants.hpp"
@@ -8,7 +8,7 @@ namespace {
 
 using explained_number = errbound::tracked<double, errbound::explained<errbound::tight>>;
 
-/// The sum of as many products, each of a scope of its own, with the scopes in all operands.
+/// Each operand is a sum of products in separate scopes. All operands have the same scopes.
 template <int Sources>
 struct of_sources : operators<explained_number> {
     static explained_number made(double x, double y) {
@@ -17,7 +17,7 @@ struct of_sources : operators<explained_number> {
             const errbound::scope s("product " + std::to_string(i));
             sum += explained_number(x) * explained_number(y);
         }
-        return sum;  // the products, and the sum's own error
+        return sum;  // has the errors of the products and of the sum
     }
 };
 

@@ -1,6 +1,6 @@
-// How tight each rule's bounds are where square roots and quotients follow one another: a vector's
-// length, a fused sum, Cholesky and QR decompositions, an orbit by Verlet's method. A cell is the
-// geometric mean of error() over the true error, which the same program in float128 gives.
+// Tightness of each rule in chains of square roots and quotients: a vector's length, a fused sum,
+// Cholesky and QR decompositions, an orbit by Verlet's method. A cell is the geometric mean of
+// error() divided by the true error, which the same program in float128 gives.
 #include <array>
 #include <cmath>
 #include <cstddef>
@@ -37,7 +37,7 @@ std::vector<S> fused(const inputs& in) {
 }
 
 constexpr std::size_t size = 10;
-/// The lower factor of the matrix with 2·size on its diagonal and inputs elsewhere.
+/// The lower Cholesky factor of the matrix with 2·size on its diagonal and inputs elsewhere.
 template <class S>
 std::vector<S> cholesky(const inputs& in) {
     std::vector<S> l(size * size, S(0));
@@ -49,7 +49,7 @@ std::vector<S> cholesky(const inputs& in) {
         }
     return l;
 }
-/// The upper factor, column by column (modified Gram and Schmidt).
+/// The upper factor R of a QR decomposition, column by column (modified Gram-Schmidt).
 template <class S>
 std::vector<S> orthogonal(const inputs& in) {
     std::vector<S> q(in.begin(), in.end()), r(size * size, S(0));
@@ -70,7 +70,7 @@ std::vector<S> orthogonal(const inputs& in) {
     }
     return r;
 }
-/// The place on an orbit after 50 steps of 1/64.
+/// The position on an orbit after 50 steps of 1/64.
 template <class S>
 std::vector<S> verlet(const inputs& in) {
     S x(1 + in[0] / 8), y(in[1] / 8), vx(in[2] / 8), vy(1);

@@ -4,7 +4,7 @@
 namespace bench {
 namespace {
 
-/// In place, without the operators' copies.
+/// Operations in place, which avoid the operators' copies.
 struct arithmetic : composed<mpfi_interval, arithmetic> {
     using number = mpfi_interval;
     static number made(double x, double y) { return number(x) * number(y); }
@@ -21,13 +21,13 @@ struct arithmetic : composed<mpfi_interval, arithmetic> {
         mpfi_div(r.get(), a.get(), b.get());
     }
     static void root(number& r, const number& a) { mpfi_sqrt(r.get(), a.get()); }
-    /// It has none: a product and a sum.
+    /// MPFI has no fused operation: computes a product and a sum.
     static void fused(number& r, const number& a, const number& b, const number& c) {
         mpfi_mul(r.get(), a.get(), b.get());
         mpfi_add(r.get(), r.get(), c.get());
     }
     static void absolute(number& r, const number& a) { mpfi_abs(r.get(), a.get()); }
-    /// It has none, either, nor the greater one.
+    /// MPFI has no minimum or maximum, either.
     static void lesser(number& r, const number& a, const number& b) {
         mpfr_min(&r.get()->left, &a.get()->left, &b.get()->left, MPFR_RNDD);
         mpfr_min(&r.get()->right, &a.get()->right, &b.get()->right, MPFR_RNDU);

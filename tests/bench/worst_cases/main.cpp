@@ -16,7 +16,7 @@ namespace {
 
 using namespace worst_cases;
 
-/// By the name of a function and that of a range.
+/// Rows by the names of a function and of a range.
 using inputs = std::map<std::pair<std::string, std::string>, std::vector<double>>;
 
 /// Lines "function; range; number number ...", hexadecimal.
@@ -47,7 +47,7 @@ std::string written(const inputs& all) {
     return text;
 }
 
-/// Each function's row, of what is stored for it.
+/// A table row for each function, from its stored inputs.
 std::vector<std::vector<bench::cell>> timed(const std::vector<subject>& subjects, const inputs& all,
                                             int times) {
     std::vector<std::vector<bench::cell>> rows;
@@ -76,13 +76,14 @@ int main(int argc, char** argv) try {
     std::uint64_t seed = 1;
     std::string only;
     std::filesystem::path path = WORST_CASES;
-    app.add_flag("--quick", quick, "Fewer repeats: shows that all works");
-    app.add_option("--search", search,
-                   "Seconds to look for a slower input of each function and range first; keeps it")
+    app.add_flag("--quick", quick, "Fewer repeats: tests that everything runs");
+    app.add_option(
+           "--search", search,
+           "First search this many seconds for each function and range; store slower inputs")
         ->check(CLI::PositiveNumber);
-    app.add_option("--seed", seed, "Of the search");
-    app.add_option("--function", only, "Only functions whose name holds this");
-    app.add_option("--inputs", path, "Where inputs are stored");
+    app.add_option("--seed", seed, "Seed of the search");
+    app.add_option("--function", only, "Only functions whose name contains this");
+    app.add_option("--inputs", path, "File of stored inputs");
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& error) {

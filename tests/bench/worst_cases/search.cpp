@@ -30,7 +30,7 @@ int drawn_family(source& random) {
     return random.between(0, static_cast<int>(std::size(query_families::families)) - 1);
 }
 
-/// The first numbers of a query of that family.
+/// The first numbers of a random query of the family.
 row drawn(source& random, int which_family, std::size_t numbers) {
     const auto& family = query_families::families[which_family];
     const auto kind = random.one_in(2) ? ccd::kind::vertex_face : ccd::kind::edge_edge;
@@ -78,13 +78,13 @@ void* call(void* work) {
     return nullptr;
 }
 
-/// The bytes of stack that change their initial value.
+/// The bytes of the stack whose initial value has changed.
 std::size_t used_by(std::function<void()> work) {
     constexpr unsigned char paint = 0xA5;
     const std::unique_ptr<void, void (*)(void*)> memory(std::aligned_alloc(4096, stack_size),
                                                         std::free);
     auto* const lowest = static_cast<unsigned char*>(memory.get());
-    if (lowest == nullptr) throw std::runtime_error("found no memory for a stack");
+    if (lowest == nullptr) throw std::runtime_error("no memory for a stack");
     std::fill_n(lowest, stack_size, paint);
     pthread_attr_t attributes;
     pthread_attr_init(&attributes);
@@ -92,7 +92,7 @@ std::size_t used_by(std::function<void()> work) {
     pthread_t thread;
     const bool failed = pthread_create(&thread, &attributes, call, &work) != 0;
     pthread_attr_destroy(&attributes);
-    if (failed) throw std::runtime_error("found no thread to measure a stack on");
+    if (failed) throw std::runtime_error("cannot create a thread to measure a stack");
     pthread_join(thread, nullptr);
     return stack_size -
            static_cast<std::size_t>(

@@ -57,7 +57,7 @@ void add_methods(std::vector<subject>& all) {
                                 [of = m.method](const Query& q) { return decide(of, q); }));
 }
 
-/// The step of a vertex and a face that share nothing.
+/// A step of one vertex and one face that share no vertex.
 ccd::step_result step_of(const ccd::vertex_face<double>& q) {
     const ccd::mesh before{{q.v.t0, q.f0.t0, q.f1.t0, q.f2.t0}, {{1, 2, 3}}};
     const ccd::mesh after{{q.v.t1, q.f0.t1, q.f1.t1, q.f2.t1}, {{1, 2, 3}}};

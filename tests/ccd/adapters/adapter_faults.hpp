@@ -1,5 +1,4 @@
-// What adapters are asked, and whether their answers are right, by the oracle: no bracket is taken
-// from the library.
+// Checks the answers of adapters by the oracle, without brackets of the library.
 #pragma once
 
 #include <algorithm>
@@ -16,7 +15,7 @@
 
 namespace support {
 
-/// A distance worth asking of the query: 0 and what is about its own at some time among them.
+/// A useful distance for tests of the query: 0, or about its distance at some time.
 template <class Query>
 double some_distance(query_families::source& random, const Query& query) {
     query_families::points p{};
@@ -25,9 +24,9 @@ double some_distance(query_families::source& random, const Query& query) {
     return std::max(d.first, d.second);
 }
 
-/// What is wrong with an answer and its time, given as a T, as those of whether `holds(interval)`
-/// does at a time in [0, t_max], and when first; or nothing. The time must be no later than the
-/// first, and the next T must not be before it.
+/// Returns the fault of an answer and its time, of type T, or "". The right answer is true if
+/// `holds(interval)` is true at a time in [0, t_max]. The time must be no later than the first such
+/// time, and the next T must not be before it.
 template <class T, class Holds>
 std::string answer_fault(bool answer, T toi, double t_max, const Holds& holds) {
     const double last = std::min(t_max, 1.0);
@@ -35,13 +34,13 @@ std::string answer_fault(bool answer, T toi, double t_max, const Holds& holds) {
         if (toi != std::numeric_limits<T>::infinity()) return "a time without a contact";
         return holds(oracle::interval{0, last}) ? "missed" : "";
     }
-    if (!(0 <= toi && toi <= last)) return "the time is not one of those asked";
+    if (!(0 <= toi && toi <= last)) return "the time is outside [0, t_max]";
     if (toi > 0 && holds(oracle::interval{.high = toi, .with_high = false})) return "late";
     const double next = std::nextafter(toi, T(2));
     return holds(oracle::interval{toi, std::min(next, last)}) ? "" : "early, or no contact at all";
 }
 
-/// The same of a query's answer: contact, or a distance of at most d.
+/// Checks a query's answer for contact, or for a distance of at most d.
 template <class T, class Query>
 std::string answer_fault(const Query& query, ccd::separation d, bool answer, T toi, double t_max) {
     return answer_fault(answer, toi, t_max, [&](const oracle::interval& when) {

@@ -1,5 +1,5 @@
-// `exact` as a narrow phase of ipc-toolkit: by hand, and against the oracle on all families of
-// queries and distances, through the interface alone.
+// `exact` as a narrow phase of ipc-toolkit, in cases made by hand, and compared with the oracle on
+// all families of queries and distances. Uses only the interface.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -82,7 +82,7 @@ ccd::moving_point<double> still(const ccd::point<double>& p) {
     return {p, p};
 }
 
-// From 1 above a face to 3 below, and an edge across another the same way.
+// The vertex moves from 1 above a face to 3 below; one edge crosses another in the same way.
 constexpr ccd::moving_point<double> falling{{0.25, 0.25, 1}, {0.25, 0.25, -3}};
 const ccd::vertex_face<double> onto_face{falling, still({0, 0, 0}), still({1, 0, 0}),
                                          still({0, 1, 0})};
@@ -106,7 +106,7 @@ TEST(narrow_phase, takes_the_defaults_of_the_interface) {
     EXPECT_TRUE(exact.point_point_ccd(p, q, q, p, toi));
     EXPECT_EQ(toi, 0.5);
 }
-TEST(narrow_phase, finds_contacts_until_tmax_alone) {
+TEST(narrow_phase, finds_contacts_only_until_tmax) {
     const exact_narrow_phase exact;
     EXPECT_EQ(ask(exact, onto_face, 0, 0.25), at(0.25));
     EXPECT_EQ(ask(exact, onto_face, 0, std::nextafter(0.25, 0)), never);
@@ -125,7 +125,7 @@ TEST(narrow_phase, keeps_a_distance) {
     EXPECT_EQ(ask(exact, onto_edge, 0.5, 0.125), at(0.125));
     EXPECT_EQ(ask(exact, onto_edge, 0.5, 0.1), never);
 }
-TEST(narrow_phase, says_0_of_what_is_within_the_distance_at_the_start) {
+TEST(narrow_phase, returns_0_within_the_distance_at_the_start) {
     const exact_narrow_phase exact;
     EXPECT_EQ(ask(exact, onto_face, 1), at(0));
     EXPECT_EQ(ask(exact, onto_face, 1, 0), at(0));
@@ -133,11 +133,11 @@ TEST(narrow_phase, says_0_of_what_is_within_the_distance_at_the_start) {
     EXPECT_EQ(ask(exact, onto_face, std::nextafter(1.0, 0)), at(0x1p-55));
     const ccd::vertex_vertex<double> same{still({1, 2, 3}), still({1, 2, 3})};
     EXPECT_EQ(ask(exact, same), at(0));
-    // At rest, or going apart: the start counts.
+    // At rest, or moving apart: the start counts.
     const ccd::vertex_vertex<double> leaving{{{1, 2, 3}, {1, 2, 4}}, still({1, 2, 3})};
     EXPECT_EQ(ask(exact, leaving), at(0));
 }
-TEST(narrow_phase, says_0_where_no_double_is_between_the_start_and_the_contact) {
+TEST(narrow_phase, returns_0_without_a_double_between_start_and_contact) {
     const exact_narrow_phase exact;
     const ccd::vertex_vertex<double> fast{{{0x1p-1000, 0, 0}, {-0x1p1000, 0, 0}}, still({0, 0, 0})};
     EXPECT_EQ(ask(exact, fast), at(0));
@@ -147,7 +147,7 @@ TEST(narrow_phase, says_0_where_no_double_is_between_the_start_and_the_contact) 
                                               {{0, 0, 0}, {0x1p537, 0, 0}}};
     EXPECT_EQ(ask(exact, at_least), at(least));
 }
-TEST(narrow_phase, knows_nothing_of_what_is_not_finite) {
+TEST(narrow_phase, returns_0_for_invalid_numbers) {
     const double nan = std::numeric_limits<double>::quiet_NaN();
     const exact_narrow_phase exact;
     EXPECT_EQ(ask(exact, meeting, nan), at(0));
@@ -199,23 +199,23 @@ TEST(max_gap, caps_the_gap_that_is_kept) {
     exact.max_gap = 0.125;
     EXPECT_EQ(ask(exact, onto_face), at(0.21875));
 }
-// The point stops at a distance of 1 from the other: a quarter of the gap at the start, 4.
+// The point stops at a distance of 1 from the other, a quarter of the initial gap, 4.
 TEST(max_gap, does_not_report_pairs_that_stay_above_it) {
     const ccd::vertex_vertex<double> nearer{{{0, 0, 0}, {3, 0, 0}}, still({4, 0, 0})};
     EXPECT_EQ(ask(exact_narrow_phase(0.75, 1), nearer), at(1));
     EXPECT_EQ(ask(exact_narrow_phase(0.75, 0.5), nearer), never);
 }
-TEST(conservative_rescaling, reports_what_gets_nearer_without_contact) {
+TEST(conservative_rescaling, reports_pairs_that_get_nearer_without_contact) {
     const ccd::vertex_vertex<double> nearer{{{0, 0, 0}, {3, 0, 0}}, still({4, 0, 0})};
     EXPECT_EQ(ask(exact_narrow_phase(), nearer), never);
     EXPECT_EQ(ask(exact_narrow_phase(0.75), nearer), at(1));
     EXPECT_EQ(ask(exact_narrow_phase(0.875), nearer), never);
 }
-TEST(conservative_rescaling, leaves_0_to_what_is_within_the_distance_at_the_start) {
+TEST(conservative_rescaling, returns_0_only_within_the_distance_at_the_start) {
     EXPECT_EQ(ask(exact_narrow_phase(0.5), onto_face, 1), at(0));
     EXPECT_EQ(ask(exact_narrow_phase(0.5), onto_face, 1, 0), at(0));
     EXPECT_EQ(ask(exact_narrow_phase(0.5), onto_face, 1, -1), never);
-    // Of a gap of a last place 0.9 rounds to all of it, and of the least double half to none.
+    // 0.9 of a gap of one last place rounds to the whole gap, and half of the least double to zero.
     const double below = std::nextafter(1.0, 0);
     EXPECT_EQ(ask(exact_narrow_phase(0x1p-60), onto_face, below), at(0x1p-115));
     const ccd::vertex_vertex<double> touching{still({1, 2, 3}), still({1, 2, 3})};
@@ -228,7 +228,7 @@ TEST(conservative_rescaling, leaves_0_to_what_is_within_the_distance_at_the_star
     EXPECT_EQ(ask(exact_narrow_phase(0.75), huge), at(0.375));
 }
 
-/// A query's answers at tmax on and around its first time, from that time.
+/// Expects the answers for several tmax that follow from the query's first time.
 void expect_right_around(const exact_narrow_phase& exact, const auto& query, double d,
                          const std::string& text) {
     const ccd::first_time time = ccd::time_within(query, {d});
@@ -240,7 +240,7 @@ void expect_right_around(const exact_narrow_phase& exact, const auto& query, dou
     }
 }
 
-TEST(families, are_answered_as_the_oracle_says) {
+TEST(families, agree_with_the_oracle) {
     const exact_narrow_phase exact;
     std::size_t queries = 0, true_answers = 0;
     std::uint64_t seed = 0;
@@ -261,12 +261,12 @@ TEST(families, are_answered_as_the_oracle_says) {
     std::printf("%zu answers, %zu true\n", queries, true_answers);
 }
 
-/// In the plane of x and z, which the adapter is not asked about.
+/// Moves the point to the plane of x and z, which the adapter does not treat specially.
 ccd::moving_point<double> upright(const ccd::moving_point<double>& p) {
     return {{p.t0.x, 0, p.t0.y}, {p.t1.x, 0, p.t1.y}};
 }
 
-TEST(families, of_the_plane_are_answered_as_the_oracle_says) {
+TEST(families, of_the_plane_agree_with_the_oracle) {
     const exact_narrow_phase exact;
     std::mt19937_64 random(18);
     for (int i = 0; i < support::scaled(1500); ++i) {
@@ -298,8 +298,8 @@ double norm(const ccd::point<double>& p) {
     return std::hypot(p.x, p.y, p.z);
 }
 
-/// Of the gap above d at the start the fraction `part`, less what doubles may be off by; or 0,
-/// where products of coordinates overflow or underflow.
+/// The fraction `part` of the initial gap above d, less the error of doubles; 0 if products of
+/// coordinates overflow or underflow.
 double gap_of(const auto& query, double part, double d) {
     points p{};
     std::ranges::copy(ccd::points_of(query), p.begin());
@@ -343,7 +343,7 @@ TEST(families, keep_a_fraction_of_their_distance_at_the_start) {
     EXPECT_GT(kept, support::scaled(2000U));
 }
 
-/// As the toolkit finds a step's length: each pair with the least time before as tmax.
+/// Computes a step's length like the toolkit: each pair gets the least time so far as tmax.
 double step_length(const std::vector<ccd::vertex_face<double>>& queries,
                    const ipc::NarrowPhaseCCD& ccd) {
     double length = 1;

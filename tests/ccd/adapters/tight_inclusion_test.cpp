@@ -1,4 +1,5 @@
-// Calls of Tight-Inclusion's shape: by hand, and against the oracle on all families of queries.
+// The adapter for Tight-Inclusion, in cases made by hand and compared with the oracle on all
+// families of queries.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -23,7 +24,7 @@ namespace adapter = ccd::adapters::tight_inclusion;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-// Each call is one of theirs, but for the type of the method.
+// Each call has the original's type, except for the type of the method.
 [[maybe_unused]] ticcd::call<double, adapter::CCDRootFindingMethod>* const calls_in_double[] = {
     adapter::vertexFaceCCD, adapter::edgeEdgeCCD};
 [[maybe_unused]] ticcd::call<float, adapter::CCDRootFindingMethod>* const calls_in_float[] = {
@@ -95,10 +96,10 @@ TEST(calls, take_expressions_and_defaults) {
     EXPECT_EQ(output_tolerance, 1e-6);
 }
 TEST(calls, keep_the_box_of_a_minimum_separation_free) {
-    // The half diagonal of a box of 0.5 is 0.866.
+    // A box of half width 0.5 has a half diagonal of 0.866.
     const double toi = ask(onto_face, 0.5).toi;
     EXPECT_NEAR(toi, (1 - std::sqrt(0.75)) / 4, 1e-15);
-    // A vertex that passes the corner of a box around another, on its diagonal.
+    // A vertex that passes a corner of the box around another vertex, on its diagonal.
     const auto passing = [](double offset) {
         const ccd::moving_point<double> v{{offset, offset, 5}, {offset, offset, -5}};
         const auto f = still({0, 0, 0});
@@ -107,7 +108,7 @@ TEST(calls, keep_the_box_of_a_minimum_separation_free) {
     EXPECT_TRUE(ask(passing(0.5), 0.5).collides);
     EXPECT_EQ(ask(passing(0.7), 0.5), never);
 }
-TEST(calls, say_0_of_what_is_near_at_the_start_unless_told_not_to) {
+TEST(calls, return_0_if_near_at_the_start_unless_zero_times_are_off) {
     EXPECT_EQ(ask(onto_face, 1.0), at(0));
     EXPECT_EQ(ask(onto_face, 1.0, 1.0, true), at(0.25));
     EXPECT_EQ(ask(onto_face, 1.0, 0.125, true), never);
@@ -116,7 +117,7 @@ TEST(calls, say_0_of_what_is_near_at_the_start_unless_told_not_to) {
                                             onto_face.f2};
     EXPECT_EQ(ask(touching, 0.0, 1.0, true), at(0)) << "it touches";
 }
-TEST(calls, know_nothing_of_what_is_not_finite) {
+TEST(calls, return_0_for_invalid_numbers) {
     const double nan = std::numeric_limits<double>::quiet_NaN();
     EXPECT_EQ(ask(onto_face, nan), at(0));
     EXPECT_EQ(ask(onto_face, infinity), at(0));
@@ -135,8 +136,8 @@ TEST(calls, in_float_round_times_down) {
     EXPECT_EQ(ask<float>(query, 0, a.toi).collides, false);
 }
 
-/// The ball holds the box, and is at most two last places larger.
-TEST(calls, ask_for_the_ball_around_the_box) {
+/// The ball contains the box and is at most two last places larger.
+TEST(calls, use_the_ball_around_the_box) {
     std::mt19937_64 random(18);
     const auto check = [](double ms) {
         const ccd::separation d = adapter::detail::ball_around_box(ms);
@@ -159,7 +160,7 @@ std::string fault(const Query& query, T ms, T t_max, const answer<T>& a) {
                                  t_max);
 }
 
-/// A query's coordinates as floats, where that leaves them finite.
+/// A query with coordinates rounded to floats, unless that overflows.
 template <class Query>
 Query in_float(const Query& query) {
     return ccd::transformed(query, [](double x) {
@@ -168,7 +169,7 @@ Query in_float(const Query& query) {
     });
 }
 
-/// check(query, what it is) for vertex/face and edge/edge queries of all families.
+/// Calls check(query, text) for vertex/face and edge/edge queries of all families.
 template <class Check>
 void for_some_queries(int per_family, std::uint64_t seed, const Check& check) {
     query_families::for_some_queries(support::scaled(static_cast<std::uint64_t>(per_family)), seed,
@@ -179,7 +180,7 @@ void for_some_queries(int per_family, std::uint64_t seed, const Check& check) {
                                      });
 }
 
-TEST(families, are_answered_as_the_oracle_says) {
+TEST(families, agree_with_the_oracle) {
     std::size_t queries = 0, true_answers = 0;
     std::uint64_t seed = 0;
     for_some_queries(16, 18, [&](const auto& query, const std::string& text) {
@@ -201,7 +202,7 @@ TEST(families, are_answered_as_the_oracle_says) {
     std::printf("%zu answers, %zu true\n", queries, true_answers);
 }
 
-TEST(families, near_at_the_start_are_asked_for_contact_alone_without_zero_times) {
+TEST(families, near_at_the_start_are_tested_only_for_contact_without_zero_times) {
     for_some_queries(8, 19, [&](const auto& query, const std::string& text) {
         for (const double ms : {0.0, 0.5}) {
             const answer<double> a = ask(query, ms), b = ask(query, ms, 1.0, true);

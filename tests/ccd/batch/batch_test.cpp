@@ -1,4 +1,4 @@
-// Batches of every kind against one query at a time; what positions may be.
+// Batches of every kind compared with single queries; types of positions.
 #include <gtest/gtest.h>
 
 #include <ccd/batch.hpp>
@@ -14,7 +14,7 @@ namespace {
 using ccd::outcome;
 using ccd::vertex_index;
 
-/// Vertices on a small grid, so that contacts abound, two of them not finite.
+/// Vertices on a small grid, so that contacts are frequent; two are not finite.
 std::vector<ccd::point<double>> grid(std::uint64_t seed) {
     std::mt19937_64 random(seed);
     const auto coordinate = [&random] { return static_cast<double>(random() % 4); };
@@ -90,7 +90,7 @@ TEST(BatchOf, RefusesPositionsThatAreNull) {
     EXPECT_EQ(start.answers[0], ccd::outcome::collides);
 }
 
-/// As Eigen's.
+/// A matrix with the interface of Eigen's.
 template <bool RowMajor>
 struct matrix {
     static constexpr bool IsRowMajor = RowMajor;

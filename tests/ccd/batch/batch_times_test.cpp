@@ -1,4 +1,4 @@
-// First times of batches of every kind against one query at a time; the earliest of many.
+// First times of batches of every kind compared with single queries; the earliest of many.
 #include <gtest/gtest.h>
 
 #include <ccd/contact.hpp>
@@ -18,7 +18,7 @@ using ccd::vertex_index;
 
 constexpr vertex_index vertices = 60;
 
-/// Vertices on a small grid, so that contacts, ties and contacts at the start abound.
+/// Vertices on a small grid, so that contacts, ties and contacts at the start are frequent.
 std::vector<ccd::point<double>> grid(std::uint64_t seed) {
     std::mt19937_64 random(seed);
     const auto coordinate = [&random] { return static_cast<double>(random() % 6); };
@@ -45,7 +45,7 @@ std::vector<double> thicknesses() {
     return all;
 }
 
-/// One by one, in another way than batches go: no question is asked before.
+/// Results of single calls, without the earlier decision that batches make.
 template <class Pair>
 std::vector<first_time> one_by_one(const ccd::vertex_rows& rows, const std::vector<Pair>& pairs,
                                    const ccd::time_options& options) {
@@ -55,7 +55,7 @@ std::vector<first_time> one_by_one(const ccd::vertex_rows& rows, const std::vect
     return times;
 }
 
-/// By looking through all times.
+/// The earliest by a search through all times.
 ccd::earliest_time earliest_of(const std::vector<first_time>& times) {
     ccd::earliest_time found{{outcome::separate}, {}, {}};
     const auto order = [](const first_time& t) { return std::tuple(t.low, t.high); };
@@ -71,7 +71,7 @@ ccd::earliest_time earliest_of(const std::vector<first_time>& times) {
     return found;
 }
 
-/// All that are not separate.
+/// The contacts whose time is not `separate`.
 std::vector<ccd::timed_contact> contacts_of(const std::vector<first_time>& times) {
     std::vector<ccd::timed_contact> contacts;
     for (std::size_t i = 0; i < times.size(); ++i)
@@ -147,7 +147,7 @@ TEST(FirstTimesOf, CoordinatesThatAreNotFiniteAreUncertain) {
     EXPECT_EQ(first.queries, (std::vector<std::size_t>{1, 3}));
 }
 
-/// Comparisons overlook NaN: at each of the coordinates it must be found before.
+/// Comparisons with NaN are false, so NaN must be detected in each coordinate beforehand.
 TYPED_TEST(FirstTimes, WithinADistanceOfWhatIsNotFiniteAreUncertain) {
     const auto before = grid(7), after = grid(8);
     const auto pairs = random_pairs<TypeParam>(20);
@@ -164,14 +164,14 @@ TYPED_TEST(FirstTimes, WithinADistanceOfWhatIsNotFiniteAreUncertain) {
             const auto expected = one_by_one(rows, pairs, {.distances = d});
             for (const ccd::instruction_set set : ccd::instruction_sets())
                 EXPECT_EQ(ccd::first_times(rows, pairs, {.distances = d, .set = set}), expected);
-            // Few pairs of many vertices are looked at one by one.
+            // With few pairs of many vertices, batches test each pair instead of all vertices.
             EXPECT_EQ(ccd::first_times(rows, std::span(pairs).first(1), {.distances = d})[0],
                       expected[0]);
         }
     }
 }
 
-/// A distance of a pair is the exact sum of two thicknesses: 1 + 2^-60 is no double.
+/// The distance of a pair is the exact sum of two thicknesses; 1 + 2^-60 is not a double.
 TEST(FirstTimesOf, ThicknessesAreAddedExactly) {
     const std::vector<ccd::point<double>> before{{0, 0, 0}, {1, 0, 0}}, after = before;
     const ccd::vertex_rows rows(before, after);

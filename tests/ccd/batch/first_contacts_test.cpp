@@ -1,4 +1,4 @@
-// Contact data of batches against one query at a time.
+// Contact data of batches compared with single queries.
 #include <gtest/gtest.h>
 
 #include <ccd/contact.hpp>

@@ -1,4 +1,4 @@
-// What a host application may do to its threads and processes, and what must hold all the same.
+// Effects of a host application on its threads and processes, under which calls must work.
 #include <gtest/gtest.h>
 #include <pthread.h>
 #include <sys/wait.h>
@@ -31,8 +31,8 @@ std::vector<Query> queries_of_every_family(unsigned of_each) {
     return all;
 }
 
-/// How many bytes of a thread's stack it takes, with what the C library keeps there: down to the
-/// lowest that was written to. (Some C libraries allow no stack as small as what is asked here.)
+/// The number of bytes of a thread's stack that `work` uses, with those of the C library: down to
+/// the lowest byte written. (Some C libraries do not allow stacks as small as those tested here.)
 std::size_t stack_taken_by(std::function<void()> work) {
     constexpr std::size_t size = std::size_t(1) << 20, page = std::size_t(1) << 16;
     constexpr unsigned char untouched = 0xa5;
@@ -57,7 +57,7 @@ std::size_t stack_taken_by(std::function<void()> work) {
     return static_cast<std::size_t>(stack.get() + size - lowest);
 }
 
-/// Of degree 32: (a − b)^32 − (a − c)^32, squared again and again.
+/// A predicate of degree 32: (a − b)^32 − (a − c)^32, by repeated squaring.
 constexpr auto of_degree_32 =
     errbound::predicate<errbound::points<1, 1, 1>>([](const auto& a, const auto& b, const auto& c) {
         const auto power = [](const auto& x) {
@@ -70,7 +70,7 @@ constexpr auto of_degree_32 =
         return power(a[0] - b[0]) - power(a[0] - c[0]);
     });
 
-// As docs/guarantees.md promises: without optimisation each temporary has a place of its own.
+// The limits of docs/guarantees.md. Without optimisation each temporary has separate memory.
 #ifdef __OPTIMIZE__
 constexpr std::size_t most_of_one_query = 64 << 10;
 #else
@@ -91,7 +91,8 @@ TEST(SmallStacks, HoldExactAndEveryPredicate) {
             signs += certain(errbound::orient3d_line_plane(x, x + 3, x + 6, x + 9, x + 12, x + 15,
                                                            x + 18, x + 21));
         }
-        // Coordinates 2^2000 apart, and a tie but for the least: all the last stage's words.
+        // Coordinates 2^2000 apart, equal or different only in the least double, use all words of
+        // the last stage.
         constexpr double large = 0x1.1p1000, least = 0x1p-1074;
         EXPECT_EQ(of_degree_32(&large, &least, &least), errbound::sign_type::zero);
         constexpr double other = 3 * least;
@@ -116,7 +117,7 @@ TEST(SmallStacks, HoldBatchesIn320KiB) {
     EXPECT_GT(contacts, 0U);
 }
 
-// The parent's threads are not in the child, which must not wait for them.
+// The child process does not have the parent's threads and must not wait for them.
 TEST(Fork, ChildOfAParentWithThreadsDecides) {
     auto queries = queries_of_every_family<ccd::vertex_face<double>>(20);
     const auto once = queries;

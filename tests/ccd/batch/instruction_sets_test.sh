@@ -1,7 +1,6 @@
 #!/usr/bin/env bash
-# Kernels compiled for a newer instruction set must define no function that other code could share:
-# the linker keeps one copy of each, and an older machine might be given the newer one.
-# usage: instruction_sets_test.sh SET OBJECT...
+# Tests that kernels compiled for a newer instruction set define no function that other code could share. The linker
+# keeps one copy of each, and an older machine might get the newer one. usage: instruction_sets_test.sh SET OBJECT...
 set -euo pipefail
 
 set=$1
@@ -14,6 +13,6 @@ for object in "$@"; do
         printf '%s: symbols that do not belong to %s alone:\n%s\n' "$object" "$set" "$shared" >&2
         exit 1
     fi
-    # A table of kernels is there, so that an empty listing cannot pass for a good one.
+    # The table of kernels must exist, so that an empty listing does not pass.
     nm --demangle --defined-only --extern-only "$object" | grep -q -E " [DR] ccd::detail::$set::(kernels|searching)$"
 done

@@ -1,4 +1,4 @@
-// What queries made by hand are written with.
+// Abbreviations for queries made by hand.
 #pragma once
 
 #include <ccd/query.hpp>

@@ -1,4 +1,4 @@
-// Contact data of contacts made by hand: features, weights, normal and velocity are known.
+// Contact data of contacts made by hand, with known features, weights, normals and velocities.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -17,7 +17,7 @@ using ccd::normal_source;
 using ccd::outcome;
 using namespace by_hand;
 
-/// Over the resting triangle (0,0,0), (1,0,0), (0,1,0).
+/// A vertex over the resting triangle (0,0,0), (1,0,0), (0,1,0).
 vertex_face over_triangle(point v0, point v1) {
     return {from_to(v0, v1), still({0, 0, 0}), still({1, 0, 0}), still({0, 1, 0})};
 }
@@ -67,7 +67,7 @@ TEST(contact_data, of_edges_that_cross_from_either_side) {
     expect_normal(below, normal_source::cross_product, {0, 0, 1}, -3);
 }
 TEST(contact_data, of_a_vertex_on_the_border_of_a_face_names_the_border) {
-    // Fallen on f1 f2 sideways: the normal is the face's, not against the velocity.
+    // Falls onto f1 f2 sideways: the normal is the face's, not opposite to the velocity.
     const auto edge = ccd::find_first_contact(over_triangle({0, 0.75, 1}, {0.5, 0.75, -1}));
     EXPECT_EQ(edge.features, (meeting_features{kind::vertex_edge, {0, 2, 3}}));
     expect_weights(edge, {1, 0, 0.25, 0.75});
@@ -81,7 +81,7 @@ TEST(contact_data, of_a_vertex_on_the_border_of_a_face_names_the_border) {
     EXPECT_TRUE(corner.sided);
 }
 TEST(contact_data, of_an_edge_s_end_names_the_vertex_first) {
-    // b0 comes down on the middle of a.
+    // b0 falls onto the middle of a.
     const auto end = ccd::find_first_contact(
         on_x_axis(from_to({0, 0, 1}, {0, 0, -1}), from_to({0, 2, 1}, {0, 2, -1})));
     EXPECT_EQ(end.features, (meeting_features{kind::vertex_edge, {2, 0, 1}}));
@@ -93,7 +93,7 @@ TEST(contact_data, of_an_edge_s_end_names_the_vertex_first) {
     expect_weights(ends, {0, 1, 1, 0});
 }
 TEST(contact_data, of_a_touch_without_crossing_is_on_the_side_it_came_from) {
-    // Y = 4u² with u = 2t − 1: never on the other side.
+    // Y = 4u² with u = 2t − 1 has no second side.
     const auto found = ccd::find_first_contact(
         on_x_axis(from_to({0, 0, 1}, {0, -2, -1}), from_to({0, 2, -1}, {0, 0, 1})));
     EXPECT_EQ(found.time.low, 0.5);
@@ -101,9 +101,9 @@ TEST(contact_data, of_a_touch_without_crossing_is_on_the_side_it_came_from) {
     expect_normal(found, normal_source::cross_product, {0, 0, -1}, 0);
     EXPECT_TRUE(found.sided);
 }
-TEST(contact_data, weights_error_counts_what_its_own_rounding_loses) {
-    // At t = 1/3 weights are 2^-54 and 2^-54 + 2^-106/3, and the first is 1 less both: twice a tie,
-    // rounded to 1 each time.
+TEST(contact_data, weight_error_includes_the_rounding_of_weights) {
+    // At t = 1/3 the weights are 2^-54, 2^-54 + 2^-106/3, and 1 minus both. The last is a tie
+    // twice, rounded to 1 each time.
     const auto found = ccd::find_first_contact(
         over_triangle({0x1p-54, 0x1p-54, 1}, {0x1p-54, 0x1p-54 + 0x1p-106, -2}));
     EXPECT_EQ(found.weights, (std::array<double, 4>{1, 1, 0x1p-54, 0x1p-54}));
@@ -133,7 +133,7 @@ TEST(contact_data, of_features_at_rest) {
 }
 
 TEST(contact_data, of_motion_in_a_plane_is_normal_to_the_edge_that_is_hit) {
-    // Through the edge f2 f0, obliquely.
+    // Moves obliquely through the edge f2 f0.
     const auto found = ccd::find_first_contact(over_triangle({-0.25, 0, 0}, {0.75, 1, 0}));
     EXPECT_EQ(found.features, (meeting_features{kind::vertex_edge, {0, 3, 1}}));
     expect_weights(found, {1, 0.75, 0, 0.25});
@@ -204,7 +204,7 @@ TEST(contact_data, in_the_plane_has_its_normal_there) {
                   -std::sqrt(8));
 }
 
-TEST(contact_data, of_what_does_not_meet_is_nothing) {
+TEST(contact_data, of_separate_features_is_empty) {
     const auto apart = ccd::find_first_contact(over_triangle({2, 2, 1}, {2, 2, -1}));
     EXPECT_EQ(apart.time.outcome, outcome::separate);
     EXPECT_EQ(apart.weights, (std::array<double, 4>{}));
@@ -215,8 +215,8 @@ TEST(contact_data, of_what_does_not_meet_is_nothing) {
     const auto unknown = ccd::find_first_contact(over_triangle({infinity, 0, 0}, {0, 0, 0}));
     EXPECT_EQ(unknown.time.outcome, outcome::uncertain);
 }
-/// Where a face's corner or the end of an edge is nearest, the cross product would be no normal.
-TEST(contact_data, of_a_time_within_a_distance_is_nothing) {
+/// If a corner of the face or an end of an edge is nearest, the cross product is not a normal.
+TEST(contact_data, of_a_time_within_a_distance_is_empty) {
     const vertex_face above_a_corner{from_to({-3, -3, 5}, {-3, -3, 0}), still({0, 0, 0}),
                                      still({1, 0, 0}), still({0, 1, 0})};
     const edge_edge beside{from_to({-1, 0, 2}, {-1, 0, -1}), from_to({1, 0, 2}, {1, 0, -1}),
@@ -231,7 +231,8 @@ TEST(contact_data, of_a_time_within_a_distance_is_nothing) {
     expect_nothing(contact_at(above_a_corner, at_corner), at_corner);
     const ccd::first_time at_end = ccd::time_within(beside, {1, 0});
     expect_nothing(contact_at(beside, at_end), at_end);
-    // In a plane or on a line the features' own planes and lines meet all the time, beside them.
+    // In a plane or on a line, the features' planes or lines meet all the time, outside the
+    // features.
     const vertex_face in_plane{from_to({5, 0.25, 0}, {1, 0.25, 0}), still({0, 0, 0}),
                                still({1, 0, 0}), still({0, 1, 0})};
     const ccd::first_time near_edge = ccd::time_within(in_plane, {1, 0});
@@ -258,8 +259,8 @@ TEST(contact_data, of_coordinates_of_all_magnitudes) {
         EXPECT_NEAR(found.normal_velocity / unit, -2, 1e-14);
     }
 }
-TEST(contact_data, of_a_sliver_says_how_little_it_knows) {
-    // Edges that turn past each other, parallel but for 2^-60.
+TEST(contact_data, of_a_sliver_has_large_errors) {
+    // Edges that rotate past each other, parallel except for 2^-60.
     const double tilt = 0x1p-60;
     const auto found = ccd::find_first_contact(
         on_x_axis(from_to({-1, -tilt, 1}, {-1, -tilt, -2}), from_to({1, tilt, 1}, {1, tilt, -2})));

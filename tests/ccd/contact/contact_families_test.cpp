@@ -1,4 +1,4 @@
-// Contact data of random, degenerate and badly scaled queries, against rationals.
+// Contact data of random, degenerate and badly scaled queries, compared with rationals.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -44,8 +44,9 @@ TEST(contact_families, agree_with_rationals) {
         sources[ccd::normal_source::none]);
 }
 
-/// Whether `image` is the contact of a query's image: its point i the query's point of_point[i],
-/// its vectors `turned`. Where other features of the same size meet, there is nothing to compare.
+/// Compares the contact of a query's image with the query's contact; returns the difference, or "".
+/// Point i of the image is point of_point[i] of the query, and vectors are `turned`. Returns "" if
+/// other features of the same size meet, since they are not comparable.
 template <class Turn>
 std::string image_faults(const first_contact& found, const first_contact& image,
                          std::array<std::size_t, 4> of_point, const Turn& turned) {
@@ -85,7 +86,7 @@ TEST(contact_families, of_turned_and_mirrored_queries_are_turned_and_mirrored) {
             const auto mirrored = ccd::transformed_points(query, [](const point& p) {
                 return point{-p.x, p.y, p.z};
             });
-            // A cross product without a side is mirrored backwards.
+            // A cross product without a side changes its direction when mirrored.
             const double sign =
                 found.normal_from == ccd::normal_source::cross_product && !found.sided ? -1 : 1;
             const auto mirror = [sign](const point& p) {

@@ -1,4 +1,4 @@
-// Motion along curves: cases made by hand, and random ones against the oracle.
+// Motion along curves: cases made by hand, and random ones compared with the oracle.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -45,10 +45,10 @@ TEST(curves, that_touch_a_face_and_turn_back) {
     EXPECT_EQ(over_triangle({{0.25, 0.25, 3}, {0.25, 0.25, -5}, {0.25, 0.25, 3}}), at(0.25));
 }
 TEST(curves, in_the_plane_that_turn_back_at_an_edge) {
-    // x = −(1 − 2t)², in the face's plane.
+    // x = −(1 − 2t)² in the face's plane.
     EXPECT_EQ(over_triangle({{-1, 0.25, 0}, {1, 0.25, 0}, {-1, 0.25, 0}}), at(0.5));
     EXPECT_EQ(over_triangle({{-1, 0.25, 0}, {0.99, 0.25, 0}, {-1, 0.25, 0}}), never);
-    // Along the line of an edge, to its end and back.
+    // The vertex moves along the line of an edge to its end and back.
     const control v{{-1, 0, 0}, {1, 0, 0}, {-1, 0, 0}}, e0{{0, 0, 0}}, e1{{3, 0, 0}};
     EXPECT_EQ(ccd::time_of_impact(ccd::vertex_edge_curves{v, e0, e1}), at(0.5));
     EXPECT_EQ(ccd::time_of_impact(ccd::vertex_vertex_curves{v, e0}), at(0.5));
@@ -63,7 +63,7 @@ TEST(curves, within_a_distance) {
     EXPECT_EQ(ccd::decide_within(query, {0.5}).outcome, outcome::separate);
     EXPECT_EQ(ccd::time_within(query, {2}), at(0));
 }
-TEST(curves, that_are_none_are_uncertain) {
+TEST(curves, that_are_invalid_are_uncertain) {
     EXPECT_EQ(over_triangle({}), first_time{});
     EXPECT_EQ(over_triangle({{0, 0, 1}, {0, 0, infinity}, {0, 0, 1}}), first_time{});
     EXPECT_EQ(over_triangle({{0, 0, 1}}, infinity), first_time{});
@@ -103,9 +103,9 @@ TEST(curves, in_pieces_meet_at_the_first_of_them) {
     EXPECT_EQ(start.high, 3);
 }
 
-// ---- Random ones ----
+// ---- Random curves ----
 
-/// Curves of these control points; the last ones are left out for kinds of fewer points.
+/// Curves with these control points; kinds with fewer points skip the last ones.
 template <ccd::kind K>
 auto curves_of(const std::array<control, 4>& p) {
     if constexpr (K == ccd::kind::vertex_face)
@@ -143,7 +143,7 @@ std::string text(const std::array<control, 4>& points) {
     return all;
 }
 
-/// Points on a coarse grid, on which much coincides, or all over the place.
+/// Points on a coarse grid, where many coincide, or at random positions.
 class random_motion {
   public:
     explicit random_motion(unsigned seed) : random_(seed) {}
@@ -153,7 +153,7 @@ class random_motion {
         for (point& p : c) p = {coordinate(), coordinate(), flat_ ? 0 : coordinate()};
         return c;
     }
-    /// Each of 1 to `most` control points.
+    /// Curves with 1 to `most` control points each.
     std::array<control, 4> of_up_to(std::size_t most) {
         size_ = 1 + static_cast<int>(random_() % 6);
         on_grid_ = random_() % 4 != 0;
@@ -184,7 +184,7 @@ void for_random_curves(int count, std::size_t most, const Check& check) {
     }
 }
 
-TEST(random_curves, touch_first_when_the_oracle_says_so) {
+TEST(random_curves, touch_first_at_the_time_of_the_oracle) {
     for_random_curves(400, 4, [](const auto& query, const auto& points, auto& random) {
         const double t_max = random.number() % 4 == 0 ? 0.5 : 1;
         const first_time found = ccd::time_of_impact(query, t_max);
@@ -193,7 +193,7 @@ TEST(random_curves, touch_first_when_the_oracle_says_so) {
             << text(points);
     });
 }
-TEST(random_curves, come_near_first_when_the_oracle_says_so) {
+TEST(random_curves, come_near_first_at_the_time_of_the_oracle) {
     for_random_curves(150, 3, [](const auto& query, const auto& points, auto& random) {
         const separation d{std::ldexp(1, static_cast<int>(random.number() % 5) - 3),
                            random.number() % 2 * 1.0};
@@ -203,7 +203,7 @@ TEST(random_curves, come_near_first_when_the_oracle_says_so) {
     });
 }
 
-/// Of two control points, what time_of_impact says of the lines.
+/// Two control points are a line, with the result of time_of_impact.
 TEST(random_curves, of_degree_1_are_lines) {
     random_motion random(5);
     for (int i = 0; i < support::scaled(300); ++i) {
@@ -218,8 +218,8 @@ TEST(random_curves, of_degree_1_are_lines) {
         });
     }
 }
-/// The same motion by one control point more: c_i = (i·c_(i−1) + (n − i)·c_i)/n, in multiples
-/// of 60.
+/// The same motion with one more control point: c_i = (i·c_(i−1) + (n − i)·c_i)/n, in multiples of
+/// 60.
 TEST(random_curves, of_raised_degree_are_the_same) {
     random_motion random(7);
     for (int i = 0; i < support::scaled(300); ++i) {

@@ -1,4 +1,4 @@
-// First contacts made by hand, one of each degenerate kind: time_of_impact and the reference.
+// First contacts made by hand, one of each degenerate kind, by time_of_impact and the reference.
 #include <gtest/gtest.h>
 
 #include <ccd/contact.hpp>
@@ -14,7 +14,7 @@ using ccd::first_time;
 using ccd::outcome;
 using namespace by_hand;
 
-/// By both, which agree.
+/// The first time by both functions, which must agree.
 template <class Query>
 first_time contact(const Query& query, double t_max = 1) {
     const first_time found = ccd::time_of_impact(query, t_max);
@@ -30,7 +30,7 @@ first_time between(double low, double high) {
 }
 constexpr first_time never{outcome::separate, 0, 0};
 
-/// Over the resting triangle (0,0,0), (1,0,0), (0,1,0).
+/// A vertex over the resting triangle (0,0,0), (1,0,0), (0,1,0).
 vertex_face over_triangle(point v0, point v1) {
     return {from_to(v0, v1), still({0, 0, 0}), still({1, 0, 0}), still({0, 1, 0})};
 }
@@ -66,14 +66,14 @@ TEST(first_contact, after_t_max_is_none) {
     EXPECT_EQ(contact(query, 7), at(0.5));
     EXPECT_EQ(contact(over_triangle({0.25, 0.25, 1}, {0.25, 0.25, -2}), 1.0 / 3), never);
 }
-TEST(first_contact, of_what_is_not_finite_is_uncertain) {
+TEST(first_contact, with_coordinates_that_are_not_finite_is_uncertain) {
     EXPECT_EQ(contact(over_triangle({0.25, 0.25, infinity}, {0.25, 0.25, 1})), first_time{});
     EXPECT_EQ(contact(over_triangle({2, 2, 2}, {2, 2, 2}), infinity), first_time{});
     EXPECT_EQ(contact(over_triangle({2, 2, 2}, {2, 2, 2}), std::nan("")), first_time{});
 }
 
 TEST(first_contact, in_the_plane_is_at_an_edge) {
-    // Enters over x = 0 at a quarter of the way.
+    // The vertex crosses the edge x = 0 at a quarter of the step.
     EXPECT_EQ(contact(over_triangle({-0.25, 0.25, 0}, {0.75, 0.25, 0})), at(0.25));
     EXPECT_EQ(contact(over_triangle({-0.25, 2, 0}, {0.75, 2, 0})), never);
     EXPECT_EQ(contact(over_triangle({0.25, 0.25, 0}, {2, 2, 0})), at(0));
@@ -88,14 +88,14 @@ TEST(first_contact, at_a_double_root_is_found_though_nothing_crosses) {
     const edge_edge halfway{a0, a1, from_to({0, 0, 1}, {0, -2, -1}),
                             from_to({0, 2, -1}, {0, 0, 1})};
     EXPECT_EQ(contact(halfway), at(0.5));
-    // The same with u = 3t − 1.
+    // The same motion with u = 3t − 1.
     const edge_edge turning{a0, a1, from_to({0, 0, 1}, {0, -3, -2}),
                             from_to({0, 2, -1}, {0, -1, 2})};
     const double third = 1.0 / 3;
     EXPECT_EQ(contact(turning), between(third, std::nextafter(third, 1)));
 }
 TEST(first_contact, at_a_triple_root_is_found) {
-    // b, c and p are along the axes, times 1 − 3t: the figure shrinks to a point at 1/3.
+    // b, c and p are on the axes, times 1 − 3t: the figure shrinks to a point at 1/3.
     const vertex_face query{from_to({0, 0, 1}, {0, 0, -2}), still({0, 0, 0}),
                             from_to({1, 0, 0}, {-2, 0, 0}), from_to({0, 1, 0}, {0, -2, 0})};
     const double third = 1.0 / 3;
@@ -139,8 +139,8 @@ TEST(first_contact, with_a_triangle_that_is_a_segment_or_a_point) {
                              still({0, 0, 0})};
     EXPECT_EQ(contact(missed), never);
 }
-TEST(first_contact, with_a_triangle_that_is_a_segment_at_that_time_alone) {
-    // f2 comes down onto the line of f0 f1, and v with it, at t = 1/2.
+TEST(first_contact, with_a_triangle_that_is_a_segment_only_at_that_time) {
+    // f2 falls onto the line of f0 f1 together with v, at t = 1/2.
     const vertex_face query{from_to({0.5, -1, 0}, {0.5, 1, 0}), still({0, 0, 0}), still({1, 0, 0}),
                             from_to({0, 0, 1}, {0, 0, -1})};
     EXPECT_EQ(contact(query), at(0.5));
@@ -160,13 +160,14 @@ TEST(first_contact, of_a_vertex_and_an_edge) {
     EXPECT_EQ(contact(point_edge), at(0.5));
 }
 TEST(first_contact, along_the_line_of_an_edge_that_grows_from_a_point) {
-    // The edge grows from (1, 0, 0) both ways while v comes from 0: v = t, edge [1 − t, 1 + t].
+    // The edge grows from (1, 0, 0) in both directions while v moves from 0: v = t, edge [1 − t, 1
+    // + t].
     const vertex_edge query{from_to({0, 0, 0}, {1, 0, 0}), from_to({1, 0, 0}, {0, 0, 0}),
                             from_to({1, 0, 0}, {2, 0, 0})};
     EXPECT_EQ(contact(query), at(0.5));
 }
 TEST(first_contact, at_an_irrational_time) {
-    // In y and z: v = (2t, 1) and the edge from 0 to (2, 2t), so 4t² = 2.
+    // In y and z: v = (2t, 1), and the edge goes from 0 to (2, 2t), so 4t² = 2.
     const vertex_edge query{from_to({0, 0, 1}, {0, 2, 1}), still({0, 0, 0}),
                             from_to({0, 2, 0}, {0, 2, 2})};
     const double root = std::sqrt(0.5);  // rounded up
@@ -182,8 +183,8 @@ TEST(first_contact, of_two_vertices) {
     EXPECT_EQ(contact(third), between(1.0 / 3, std::nextafter(1.0 / 3, 1)));
 }
 TEST(first_contact, at_a_double_root_just_after_a_root_that_is_none) {
-    // Y = (t − r)(t − m)². At r the face has no area and v is beside it; the root found at r was
-    // asked with the weights at m, in reach of the bracket around r.
+    // Y = (t − r)(t − m)². At r the face has no area and v is outside it. Regression: the root at r
+    // was tested with the weights at m, which is within the bracket around r.
     const double m = 0.25 + 0x1p-8 + 0x1p-20, r = m - 0x1p-44, y = 0x1p-46;
     const vertex_face query{from_to({0.5, y, -m}, {0.5, y, 1 - m}), still({0, 0, 0}),
                             from_to({1 - m, 0, -2 * m}, {2 - m, 0, 2 - 2 * m}),

@@ -1,4 +1,5 @@
-// The oracle itself: instants, intervals and distances that a person can check, and its shortcuts.
+// Tests of the oracle: instants, intervals and distances that can be checked by hand, and its
+// shortcuts.
 #include "tests/support/oracle.hpp"
 
 #include <gtest/gtest.h>
@@ -46,7 +47,7 @@ bool near(const Query& q, double d, const interval& when = interval()) {
     return with;
 }
 
-// Contact at `t` and at no other time, asked of all that ends or begins there.
+// Expects contact at `t` and at no other time, with intervals of all forms that end or begin there.
 template <class Query>
 void expect_contact_only_at(double t, const Query& q) {
     EXPECT_TRUE(touches(q, {}));
@@ -62,7 +63,7 @@ void expect_contact_only_at(double t, const Query& q) {
     EXPECT_FALSE(touches(q, {t, after(t), false, false}));
 }
 
-// Two edges of which one turns, so that they touch without crossing, at s = 0.
+// Two edges, of which one rotates, so that they touch without crossing, at s = 0.
 ccd::edge_edge<double> grazing(double s0, double s1) {
     return {{{-4, 0, s0}, {-4, 0, s1}},
             {{4, 0, -s0}, {4, 0, -s1}},
@@ -108,7 +109,7 @@ TEST(instants, contact_throughout_shows_where_nothing_changes) {
 }
 
 TEST(instants, times_below_the_least_double) {
-    // w leaves from 2^-1074 to -2^900: contact at about 2^-1974.
+    // w moves from 2^-1074 to -2^900: contact at about 2^-1974.
     const ccd::vertex_vertex<double> q{rest(0, 0, 0), {{0x1p-1074, 0, 0}, {-0x1p900, 0, 0}}};
     EXPECT_FALSE(touches(q, interval::instant(0)));
     EXPECT_TRUE(touches(q, {0, 0x1p-1074, false, false}));
@@ -121,7 +122,7 @@ TEST(instants, no_time_at_all) {
     EXPECT_FALSE(touches(q, {0.5, 0.5, false, true}));
 }
 
-// Near at distance d, and not at the next smaller double.
+// Within distance d, and not within the next smaller double.
 template <class Query>
 void expect_distance(double d, const Query& q, const interval& when = interval()) {
     EXPECT_TRUE(near(q, d, when));
@@ -136,7 +137,7 @@ TEST(distance, of_a_vertex_that_passes) {
     expect_distance(13, q, interval::instant(0));
     EXPECT_FALSE(near(q, 5, {.high = 0.5, .with_high = false}));
     EXPECT_TRUE(oracle::within(q, 2, 3));
-    // Sums that are no doubles.
+    // Sums that are not doubles.
     EXPECT_TRUE(oracle::within(q, 5, 0x1p-1074, shortcuts::on, {.high = 0.5, .with_high = false}));
     EXPECT_FALSE(oracle::within(q, before(5), 0x1p-60));
 }
@@ -154,7 +155,7 @@ TEST(distance, from_each_part_of_a_face) {
     expect(13, -3, 12, 12);  // f2
 }
 
-TEST(distance, from_faces_that_are_none) {
+TEST(distance, from_degenerate_faces) {
     const auto line = [](moving v) {
         return ccd::vertex_face<double>{v, rest(0, 0, 0), rest(2, 0, 0), rest(8, 0, 0)};
     };
@@ -188,11 +189,11 @@ TEST(faults, of_brackets) {
     };
     EXPECT_EQ(fault(low, high), "");
     EXPECT_EQ(fault(low, high, high), "");
-    EXPECT_EQ(fault(low, high, low), "it is not within the times asked");
+    EXPECT_EQ(fault(low, high, low), "it is outside [0, t_max]");
     EXPECT_EQ(fault(before(low), low), "it does not hold between");
     EXPECT_EQ(fault(high, after(high)), "it holds at low or before");
-    EXPECT_EQ(fault(before(low), high), "the ends are no neighbours");
-    EXPECT_EQ(fault(high, low), "it is not within the times asked");
+    EXPECT_EQ(fault(before(low), high), "the ends are not adjacent");
+    EXPECT_EQ(fault(high, low), "it is outside [0, t_max]");
     EXPECT_EQ(fault(low, low), "it does not hold at that instant");
     EXPECT_EQ(support::fault_of(q, first_time{outcome::separate}), "there is one");
     EXPECT_EQ(support::fault_of(q, first_time{outcome::separate}, low), "");

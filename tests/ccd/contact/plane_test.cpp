@@ -1,4 +1,4 @@
-// Queries in the plane: by hand, and against the oracle in another plane of space.
+// Queries in the plane, made by hand, and compared with the oracle in another plane of space.
 #include <gtest/gtest.h>
 
 #include <ccd/plane.hpp>
@@ -56,12 +56,12 @@ TEST(plane_queries, of_what_is_not_finite) {
               first_time{});
 }
 
-/// In the plane of x and z, where it is not told apart from what is not flat.
+/// Moves the point to the plane of x and z, which the library does not treat specially.
 ccd::moving_point<double> upright(const plane::moving_point& p) {
     return {{p.t0.x, 0, p.t0.y}, {p.t1.x, 0, p.t1.y}};
 }
 
-TEST(random_plane_queries, are_what_the_oracle_says_of_another_plane) {
+TEST(random_plane_queries, agree_with_the_oracle_in_another_plane) {
     std::mt19937_64 random(11);
     const auto check = [](const auto& query, const auto& upright_query, ccd::separation d) {
         EXPECT_EQ(support::fault_of(upright_query, plane::time_of_impact(query)), "");

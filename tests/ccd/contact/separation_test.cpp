@@ -1,4 +1,4 @@
-// Distances made by hand, one of each degenerate kind: decide_within, time_within and the
+// Distances made by hand, one of each degenerate kind, by decide_within, time_within and the
 // reference.
 #include <gtest/gtest.h>
 
@@ -16,7 +16,7 @@ using ccd::outcome;
 using ccd::separation;
 using namespace by_hand;
 
-/// By both, which agree, as the decision does with the time.
+/// The first time by both functions. They must agree, and so must the decision.
 template <class Query>
 first_time within(const Query& query, separation d, double t_max = 1) {
     const first_time found = ccd::time_within(query, d, t_max);
@@ -57,7 +57,8 @@ TEST(separation, of_no_distance_is_contact) {
     EXPECT_EQ(within(over_triangle({0.25, 0.25, 1}, {0.25, 0.25, least}), {0, 0}), never);
 }
 TEST(separation, of_two_parts_is_their_exact_sum) {
-    // 1 + 2^-60 is no double; the distance at the end is 1 + 2^-60 on one axis and less on another.
+    // 1 + 2^-60 is not a double. At the end, the distance is 1 + 2^-60 on one axis and less on
+    // another.
     const vertex_vertex query{from_to({3, 0, 0}, {1, 0, 0}), from_to({0, 0, 0}, {-0x1p-60, 0, 0})};
     EXPECT_EQ(within(query, {1, 0x1p-60}), at(1));
     EXPECT_EQ(within(query, {1, std::nextafter(0x1p-60, 0)}), never);
@@ -75,25 +76,26 @@ TEST(separation, that_is_no_distance_is_uncertain) {
 }
 
 TEST(separation, beside_a_face_is_from_its_edge) {
-    // Comes along y = 1/4, z = 0 from x = −2: within 1/2 of the edge x = 0 at x = −1/2.
+    // Moves along y = 1/4, z = 0 from x = −2: within 1/2 of the edge x = 0 at x = −1/2.
     EXPECT_EQ(within(over_triangle({-2, 0.25, 0}, {0, 0.25, 0}), {0.5}), at(0.75));
     // At a height of 3, within 5 at x = −4.
     EXPECT_EQ(within(over_triangle({-8, 0.25, 3}, {0, 0.25, 3}), {5}), at(0.5));
 }
 TEST(separation, beside_a_face_is_from_its_corner) {
-    // From (−3, −4, 0) on: 5 from the corner at the start; moving away from farther.
+    // Reaches (−3, −4, 0), which is 5 from the corner, at t = 1/2.
     EXPECT_EQ(within(over_triangle({-6, -8, 0}, {0, 0, 0}), {5}), at(0.5));
-    // A box of 4 on each axis holds (−3, −3, 0), which is 3√2 from the corner.
+    // A box of 4 on each axis contains (−3, −3, 0), which is 3√2 from the corner.
     EXPECT_EQ(within(over_triangle({-3, -3, 0}, {-3, -3, 0}), {4}), never);
 }
 TEST(separation, sliding_at_exactly_that_height) {
-    // N·P is d|N| throughout: d is reached where v comes over the edge x = 0.
+    // N·P = d|N| throughout: the distance is d from the time at which v is above the edge x = 0.
     EXPECT_EQ(within(over_triangle({-1, 0.25, 2}, {1, 0.25, 2}), {2}), at(0.5));
     EXPECT_EQ(within(over_triangle({-1, 0.25, 2}, {1, 0.25, 2}), {std::nextafter(2.0, 0)}), never);
-    // Along an edge's line: so is |E × W| = d|E|, and where v comes beside its end it is within d.
+    // Along an edge's line |E × W| = d|E| throughout; the distance is d once v is next to the
+    // edge's end.
     const vertex_edge beside{from_to({-1, 2, 0}, {1, 2, 0}), still({0, 0, 0}), still({4, 0, 0})};
     EXPECT_EQ(within(beside, {2}), at(0.5));
-    // A vertex that keeps its distance has it at the start.
+    // The distance of the vertices is constant, so it is reached at the start.
     const vertex_vertex kept{from_to({0, 0, 2}, {5, 5, 7}), from_to({0, 0, 0}, {5, 5, 5})};
     EXPECT_EQ(within(kept, {2}), at(0));
     EXPECT_EQ(within(kept, {1.5}), never);
@@ -110,7 +112,7 @@ TEST(separation, whose_sphere_is_touched_at_once) {
     EXPECT_EQ(within(beside, {3}), at(0.25));
 }
 TEST(separation, at_a_time_that_is_no_double) {
-    // |1 − 3t| = √2 has no root there; 2 − 3t = 1 has: t = 1/3.
+    // |2 − 3t| = 1 first holds at t = 1/3.
     const vertex_vertex query{from_to({2, 0, 0}, {-1, 0, 0}), still({0, 0, 0})};
     EXPECT_EQ(within(query, {1}), between(1.0 / 3, std::nextafter(1.0 / 3, 1)));
 }
@@ -128,7 +130,7 @@ TEST(separation, of_edges) {
     const edge_edge parallel{from_to({0, 0, 4}, {0, 0, 0}), from_to({1, 0, 4}, {1, 0, 0}),
                              still({0.5, 0, 0}), still({1.5, 0, 0})};
     EXPECT_EQ(within(parallel, {1}), at(0.75));
-    // Ends 3 apart along the line: within 5 at a height of 4.
+    // The edges end 3 apart on one line: within 5 at a height of 4.
     const edge_edge in_line{from_to({0, 0, 8}, {0, 0, 0}), from_to({1, 0, 8}, {1, 0, 0}),
                             still({4, 0, 0}), still({9, 0, 0})};
     EXPECT_EQ(within(in_line, {5}), at(0.5));

@@ -1,8 +1,8 @@
-// First times of stored queries, and of all pairs that collide in stored scenes, against the
-// oracle: real data is full of contacts at the start, ties, and touching without crossing.
+// First times of stored queries, and of all colliding pairs of stored scenes, compared with the
+// oracle. Such data has many contacts at the start, ties, and contacts without crossing.
 //
-// Their place is the environment's ERRBOUND_SHARED_DATA, else what the build was given; one scene
-// comes with the repository.
+// Data are in the folder ERRBOUND_SHARED_DATA of the environment, else of the build; one scene is
+// in the repository.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -40,7 +40,7 @@ std::vector<fs::path> files_in(const fs::path& folder, const std::string& extens
     return paths;
 }
 
-/// Contact, and a distance that is drawn.
+/// Compares contact, and a random distance.
 template <class Query>
 void expect_right_times(const Query& query, std::size_t index) {
     EXPECT_EQ(support::fault_of(query, ccd::time_of_impact(query)), "") << "query " << index;
@@ -72,7 +72,6 @@ TEST(stored, queries) {
     std::cout << count << " queries\n";
 }
 
-/// All pairs that collide from one frame to the next.
 void expect_right_scene(const fs::path& before, const fs::path& after) {
     SCOPED_TRACE(before.string());
     const ccd::mesh first = ccd::io::read_mesh(before), second = ccd::io::read_mesh(after);

@@ -1,6 +1,7 @@
-// The stored first contacts of cloth-funnel, found symbolically: each in its bracket.
+// The stored first contacts of cloth-funnel, which were computed symbolically, must be in their
+// brackets.
 //
-// Their place is the environment's ERRBOUND_SHARED_DATA, else what the build was given.
+// Data are in the folder ERRBOUND_SHARED_DATA of the environment, else of the build.
 #include <gtest/gtest.h>
 
 #include <boost/multiprecision/cpp_int.hpp>
@@ -28,7 +29,7 @@ fs::path data_folder() {
     return ERRBOUND_SHARED_DATA;
 }
 
-/// Lines of a query's number and a decimal fraction, cut or rounded after its last digit.
+/// A line with a query's index and a decimal fraction, truncated or rounded after its last digit.
 struct decimal {
     rational value, last_digit;
 };
@@ -41,7 +42,7 @@ std::map<std::size_t, decimal> read_times(const fs::path& path) {
         const whole unit = pow(whole(10), static_cast<unsigned>(digits.size()));
         const std::string before =
             line.substr(comma + 1, dot == std::string::npos ? dot : dot - comma - 1);
-        // A leading zero would make it octal.
+        // GMP would read a number with a leading zero as octal.
         const auto number = [](const std::string& s) {
             whole n = 0;
             for (const char c : s) n = n * 10 + (c - '0');

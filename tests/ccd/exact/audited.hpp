@@ -1,5 +1,5 @@
-// A number of the static filter next to the exact one: where its sign is asked, the filter's bound
-// is compared with the error.
+// A number of the static filter next to the exact number. When its sign is evaluated, the filter's
+// bound is compared with the error.
 #pragma once
 
 #include <algorithm>
@@ -9,10 +9,10 @@
 
 #include "tests/support/big_integer.hpp"
 
-/// What the audited numbers of a thread are measured in, and what was found.
+/// The unit and the findings of a thread's audited numbers.
 struct audit {
     int unit = 0;     ///< of coordinates: 2^unit
-    double used = 0;  ///< the largest error, but for the last rounding, over its bound
+    double used = 0;  ///< the largest ratio of an error, without the last rounding, to its bound
     bool violated = false;
 
     static audit& current() {
@@ -34,7 +34,7 @@ struct audit {
         const int shift = std::max(0, degree * unit - std::min(last_bit(value), last_bit(bound)));
         const int fine = degree * unit - shift;
         exact <<= shift;
-        // All times 2^digits: u|value|, the last rounding, is |value|'s size.
+        // All are multiplied by 2^digits, so that u|value|, the last rounding, becomes |value|.
         big_integer beyond = abs(big_integer(value, fine) - exact), allowed(bound, fine);
         beyond <<= digits;
         allowed <<= digits;
@@ -48,7 +48,7 @@ struct audit {
     }
 };
 
-/// Degree: in the coordinates, in whose unit to that power the exact number is given.
+/// The exact number is in units of 2^(unit·Degree); Degree is the degree in the coordinates.
 template <class Filtered, int Degree>
 struct audited {
     static constexpr int degree = Degree;
@@ -59,7 +59,7 @@ struct audited {
         audit::current().check(as_filtered(x.filtered), x.exact, Degree);
         return static_cast<errbound::sign_type>(1 + sign(x.exact));
     }
-    /// In the unit of a higher degree.
+    /// The exact number in the unit of a higher degree.
     template <int To>
     big_integer raised() const {
         big_integer r = exact;

@@ -1,5 +1,5 @@
-// Roots that nearly coincide, and coordinates of far apart scales: integers without allocation
-// decide them all, as the reference does.
+// Roots that nearly coincide, and coordinates of very different scales: integers without allocation
+// decide them all, with the results of the reference.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -24,8 +24,8 @@ using ccd::detail::integer_units;
 
 using numbers = std::array<double, 24>;
 
-/// Small whole coordinates, many of which do not move, so that roots coincide often; up to three of
-/// them are disturbed by some 2^-tiny.
+/// Small whole coordinates. Many do not move, so that roots often coincide. Up to three are changed
+/// by about 2^-tiny.
 numbers nearly_coincident(std::mt19937_64& random, int tiny) {
     const auto between = [&](int low, int high) {
         return low + static_cast<int>(random() % static_cast<unsigned>(high - low + 1));
@@ -38,7 +38,7 @@ numbers nearly_coincident(std::mt19937_64& random, int tiny) {
             if (random() % 2 == 0) std::copy_n(x.begin() + p, 3, x.begin() + p + 3);
     for (int k = between(1, 3); k > 0; --k) {
         double& c = x[random() % 24];
-        // Beside another number no more than a few last places.
+        // Next to another number, changes are a few last places.
         const int exponent = c == 0 ? -tiny : std::max(-tiny, -50);
         c += std::ldexp(between(-3, 3), exponent);
     }
@@ -98,8 +98,8 @@ TEST(ScalesFarApart, OfTwoEdgesAreDecided) {
     scales_far_apart<ccd::edge_edge<double>>();
 }
 
-/// The slowest query of coordinates of 1e-3 to 1e3 once known: 0.2 milliseconds of the reference,
-/// to part two roots 2^-58 apart.
+/// Once the slowest known query with coordinates of 1e-3 to 1e3: the reference took 0.2
+/// milliseconds to separate two roots 2^-58 apart.
 TEST(CloseContact, RootsThatHillClimbingOnTimeBroughtTogetherNeedNoReference) {
     const numbers x{
         0x1.b91d6dea62386p-3,  -0x1.86dcd9b9da7p-9,   0x1.4fe353fc3d0e8p-2,  -0x1.a819fc0a5fe23p-2,

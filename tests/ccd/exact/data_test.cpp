@@ -1,6 +1,6 @@
-// The stored queries with truth, from the public benchmark: every method keeps its promise.
+// Stored queries with known answers, from the public benchmark: every method keeps its promise.
 //
-// Their place is the environment's ERRBOUND_SHARED_DATA, else what the build was given.
+// Data are in the folder ERRBOUND_SHARED_DATA of the environment, else of the build.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -88,7 +88,7 @@ TEST_P(stored_query_methods, promise_is_kept) {
               << all.uncertain << " uncertain\n";
 }
 
-// The stage of `exact` that its filter keeps most queries from, on all of them.
+// Decides all queries by a stage that few reach in `exact`, because of its filter.
 TEST(stored_queries, are_decided_in_integers_of_fixed_width) {
     const fs::path folder = data_folder();
     if (!fs::is_directory(folder)) GTEST_SKIP() << "No stored queries.";
@@ -109,7 +109,7 @@ TEST(stored_queries, are_decided_in_integers_of_fixed_width) {
                 << "query " << i << " of " << path;
         }
     }
-    // Speed depends on how few are left to the reference: none when this was written.
+    // Speed depends on the number of queries left to the reference, currently none.
     EXPECT_LE(all.uncertain, all.queries / 1000);
     std::cout << all.queries << " queries, " << all.uncertain << " uncertain\n";
 }

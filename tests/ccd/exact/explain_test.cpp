@@ -1,4 +1,4 @@
-// The table of `exact`'s stages, in the code and in the documents.
+// Compares the table of `exact`'s stages in the code with that in the documents.
 #include <gtest/gtest.h>
 
 #include <ccd/explain.hpp>
@@ -26,7 +26,7 @@ TEST(exact_stages, are_the_rows_of_the_page) {
     std::string line;
     while (std::getline(page, line) && line != head) continue;
     ASSERT_EQ(line, head) << "no such table in " << ERRBOUND_STAGES_PAGE;
-    ASSERT_TRUE(std::getline(page, line));  // the rule below the head
+    ASSERT_TRUE(std::getline(page, line));  // the line below the heading
     for (const ccd::stage_info& s : ccd::exact_stages) {
         ASSERT_TRUE(std::getline(page, line));
         EXPECT_EQ(line, "| " + std::string(s.name) + " | " + std::string(s.question) + " | " +

@@ -1,4 +1,4 @@
-// The parts of the decisions in integers of fixed width, each against what defines it.
+// The components of the decisions in integers of fixed width, compared with their definitions.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -26,7 +26,7 @@ std::int64_t between(std::mt19937_64& random, std::int64_t low, std::int64_t hig
 TEST(BoundedInteger, ErrorsStayWithinTheirBounds) {
     std::mt19937_64 random(1);
     for (int k = 0; k < 20000; ++k) {
-        // The real number that each stands for, and the number itself.
+        // The real number that each represents, and the number itself.
         std::array<std::int64_t, 4> real;
         std::array<ccd::detail::bounded_integer<fixed_integer<1>>, 4> x;
         for (std::size_t i = 0; i < 4; ++i) {
@@ -66,7 +66,7 @@ TEST(CommonRoots, OfProductsOfLinearForms) {
     };
     for (int k = 0; k < 5000; ++k) {
         const std::int64_t s = between(random, 1, 30), t = between(random, 1, 30);
-        const linear vanishing{{-t, s}};  // at (s, t)
+        const linear vanishing{{-t, s}};  // zero at (s, t)
         std::array<ccd::detail::quadratic_form<2>, 3> f{
             {vanishing * any_linear(), vanishing * any_linear(), vanishing * any_linear()}};
         const ccd::detail::common_roots<fixed_integer<2>> roots(f);
@@ -106,7 +106,7 @@ TEST(CubicRoots, AreBracketedWithinAFewUnits) {
         ASSERT_TRUE(refined.has_value());
         EXPECT_GE(refined->bits, bracket->bits + 20);
         EXPECT_LE(refined->width(), 32);
-        // Inside the first, but for the few units that it is widened by.
+        // Inside the first bracket, except for the few units of its widening.
         const auto slack = fixed_integer<2>(32);
         const int more = refined->bits - bracket->bits;
         EXPECT_GE(refined->low + slack, fixed_integer<2>(bracket->low) << more);
@@ -126,7 +126,7 @@ TEST(CubicRoots, NoBracketDependsOnTheEstimate) {
     const fixed_integer<1> end(1 << bits);
     for (std::int64_t place = -4 << bits; place <= 8 << bits; ++place) {
         const auto bracket = bracket_near(y, all, ccd::detail::dyadic_point<1>{place, bits});
-        ASSERT_TRUE(bracket.has_value());  // the widest is all of the part
+        ASSERT_TRUE(bracket.has_value());  // the widest bracket is the whole interval
         ASSERT_GE(bracket->low, 0);
         ASSERT_LE(bracket->low, 1 << (bits - 1));
         ASSERT_GE(bracket->high, 1 << (bits - 1));

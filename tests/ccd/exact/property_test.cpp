@@ -1,5 +1,5 @@
-// Random queries of every family: what each method promises against the oracle, and what must not
-// change an exact verdict.
+// Random queries of every family: promises of each method compared with the oracle, and symmetries
+// of exact verdicts.
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
 #include <rapidcheck/gtest.h>
@@ -39,7 +39,7 @@ using query_families::points;
 
 constexpr std::size_t family_count = std::size(families);
 
-constexpr std::uint64_t seed = 1;  // others: ./run soak
+constexpr std::uint64_t seed = 1;  // ./run soak uses other seeds
 
 std::uint64_t queries_per_family() {
     return support::scaled(215000 / family_count);
@@ -57,7 +57,7 @@ ccd::verdict decide(ccd::method method, kind which, const points& p) {
         which, p, [method](const auto& q) { return ccd::decide(method, q); });
 }
 
-// decide(query) of the points as a query of that kind, for a decide() that takes all kinds.
+// Calls decide(query) with the points as a query of that kind; decide() takes all kinds.
 template <class Decide>
 ccd::verdict decide_by(const Decide& decide, kind which, const points& p) {
     return query_families::visit_query(which, p, decide);
@@ -78,18 +78,18 @@ bool oracle_collides(kind which, const points& p, oracle::shortcuts use = oracle
                                        [use](const auto& q) { return oracle::collides(q, use); });
 }
 
-// Verdicts of one method that are not right; a false positive may be an uncertain one.
+// Wrong verdicts of one method; false positives include uncertain ones.
 struct errors {
     std::uint64_t false_positives = 0, false_negatives = 0;
 };
 
-// What one family's queries came to.
 struct tally {
     std::uint64_t queries = 0;
     std::uint64_t collisions = 0;
     std::uint64_t crossed_once = 0;
     std::vector<errors> by_method = std::vector<errors>(ccd::methods().size());
-    std::uint64_t out_of_range = 0, undecided = 0;  // integers of fixed width: uncertain
+    // causes of uncertain answers by integers of fixed width
+    std::uint64_t out_of_range = 0, undecided = 0;
 
     void add(const tally& other) {
         queries += other.queries;
@@ -104,13 +104,13 @@ struct tally {
     }
 };
 
-// One thread's part: its tallies and what it found wrong, so that threads share nothing.
+// Results of one thread, so that threads share nothing.
 struct report {
     std::array<tally, family_count> tallies{};
     std::vector<std::string> failures;
 };
 
-// Runs check(family, index, report) for every query, spread over the machine's threads.
+// Calls check(family, index, report) for every query, on all of the machine's threads.
 template <class Check>
 report for_all_queries(std::uint64_t per_family, const Check& check) {
     const unsigned workers = std::max(1u, std::thread::hardware_concurrency());
@@ -149,8 +149,8 @@ std::string describe(std::size_t family, kind which, std::uint64_t index, const 
            std::string(path_name(which)) + ", index " + std::to_string(index) + "\n" + csv(p);
 }
 
-// Whether Y certainly has one root, a simple one, between t = 0 and t = 1: then a contact is there
-// and nowhere else.
+// True if Y certainly has exactly one, simple, root between t = 0 and t = 1: the only possible
+// contact.
 template <class Query>
 bool crosses_once(const Query& query) {
     const auto [tracked, finite] = ccd::tracked_query<errbound::tight>(query);
@@ -174,14 +174,14 @@ void check_methods(kind which, std::size_t family, std::uint64_t index, report& 
     ++count.queries;
     count.collisions += truth;
     const auto fail = [&](std::string_view who, ccd::outcome said) {
-        const std::string what = std::string(who) + " says " + std::string(ccd::name(said)) +
-                                 ", the oracle says " + std::string(ccd::name(right));
+        const std::string what = std::string(who) + " returns " + std::string(ccd::name(said)) +
+                                 ", the oracle returns " + std::string(ccd::name(right));
         out.failures.push_back(describe(family, which, index, p, what));
     };
     const auto require_right = [&](std::string_view who, ccd::verdict said) {
         if (said.outcome != right) fail(who, said.outcome);
     };
-    // What comes last in `exact` alone too, without the filter that decides most queries before.
+    // The last stages are also called directly, since the filter decides most queries.
     require_right("decide_exact", decide_exact(which, p));
     require_right("decide_reference", decide_reference(which, p));
     const ccd::verdict integers = decide_in_integers(which, p);
@@ -206,7 +206,7 @@ void check_methods(kind which, std::size_t family, std::uint64_t index, report& 
         const bool no_errors = !method.may_lose_collisions && !method.may_report_false_collisions;
         if ((lost && !method.may_lose_collisions) ||
             (invented && !method.may_report_false_collisions) ||
-            // Who may err on one side says there that it is uncertain.
+            // A method that may err on one side reports `uncertain` there.
             (certainly_wrong && !method.may_lose_collisions) ||
             (no_errors && said.outcome == ccd::outcome::uncertain)) {
             fail(method.name, said.outcome);
@@ -214,7 +214,6 @@ void check_methods(kind which, std::size_t family, std::uint64_t index, report& 
     }
 }
 
-// A row per family: counts, and the errors that methods may make.
 void print(kind which, const report& r) {
     struct column {
         std::string title;
@@ -271,8 +270,8 @@ TEST(promises, edge_edge) {
     expect_promises_kept(kind::edge_edge);
 }
 
-// A face with equal corners is an edge or a vertex, and so is an edge with equal ends; the oracle
-// has decisions of its own for those.
+// A face with equal corners is an edge or a vertex, and an edge with equal ends is a vertex. The
+// oracle decides those separately.
 TEST(promises, features_that_are_smaller_than_they_look) {
     const auto check = [](std::size_t family, std::uint64_t index, report& out) {
         const auto agree = [&](kind which, const points& original, const points& as_face,
@@ -319,7 +318,7 @@ TEST(oracle, shortcuts_change_nothing) {
 
 // ---- Symmetries of exact verdicts ----
 
-// RapidCheck's own default is 100 cases. It reads its parameters once, at the first property.
+// The default of RapidCheck is 100 cases. It reads its parameters once, at the first property.
 const bool enough_cases = setenv("RC_PARAMS", "max_success=3000", 0) == 0;
 
 points any_query(kind which) {

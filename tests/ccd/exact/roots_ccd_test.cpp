@@ -1,8 +1,8 @@
-// Collision detection asked as questions about polynomials: root_where_nonnegative against `exact`.
+// Collision detection expressed by polynomials: root_where_nonnegative compared with `exact`.
 //
-// A contact is a t in [0, 1] with Y(t) = 0, N(t) ≠ 0 and all G_i(t) >= 0, or one of a vertex with
-// an edge, where three quadratics vanish and a fourth is not positive (ccd/exact/reference.cpp says
-// why).
+// A contact is a t in [0, 1] with Y(t) = 0, N(t) ≠ 0 and all G_i(t) >= 0, or a contact of a vertex
+// and an edge. There, three quadratics vanish and a fourth is not positive (the reason:
+// ccd/exact/reference.cpp).
 #include <gtest/gtest.h>
 
 #include <boost/multiprecision/cpp_int.hpp>
@@ -49,7 +49,7 @@ form product(const form& a, const form& b) {
     return r;
 }
 
-/// All three vanish where the sum of their squares does.
+/// All three vanish if and only if the sum of their squares does.
 bool meets(const ccd::vertex_edge<integer>& query) {
     const auto w = difference(query.v, query.e0);
     const auto off_line = cross(w, difference(query.e1, query.e0));
@@ -65,7 +65,7 @@ bool meets(const ccd::vertex_edge<integer>& query) {
                                   1);
 }
 
-/// What the polynomials say: `possible` where a root without normal may have made a contact.
+/// The result from polynomials: `possible` if there may be a contact at a root without a normal.
 enum class answer { no, possible, yes };
 
 template <class Query>
@@ -76,7 +76,7 @@ answer ask(const Query& query) {
     form y = power_basis(forms.y());
     const form n2 = power_basis(forms.normal_squared());
     if (n2.empty()) return answer::no;
-    // Without the roots of Y at which the normal vanishes.
+    // Removes the roots of Y at which the normal vanishes.
     for (form common; !y.empty(); y = errbound::roots::divided(y, common)) {
         common = errbound::roots::common_factor(y, n2);
         if (common.size() < 2) break;
@@ -92,7 +92,7 @@ struct tally {
     int no = 0, possible = 0, yes = 0;
 };
 
-/// Vertices on a grid: the fewer places, the more degenerate.
+/// Vertices on a grid; smaller grids have more degenerate queries.
 template <template <class> class Query>
 tally compare(int places, unsigned seed) {
     std::mt19937_64 random(seed);

@@ -1,5 +1,5 @@
-// The stages of `exact`, each alone and all together, on every instruction set: never a wrong
-// certain answer, and the same answers everywhere.
+// The stages of `exact`, separately and together, with every instruction set. A certain answer is
+// never wrong, and all answers agree.
 #include "ccd/exact/stages.hpp"
 
 #include <gtest/gtest.h>
@@ -43,7 +43,7 @@ template <class Query, class As>
 test_set<Query> make_set(kind which, const As& as) {
     test_set<Query> set;
     for (const auto& family : families)
-        // Squared: each of these queries is decided many times.
+        // Thinned twice, since each of these queries is decided many times.
         for (std::uint64_t i = 0; i * family.thinning * family.thinning < queries_per_family();
              ++i) {
             const Query query = as(query_families::make(family, which, 7, i));
@@ -65,14 +65,13 @@ const test_set<ccd::edge_edge<double>>& edge_edge_set() {
     return set;
 }
 
-/// Calls test(set) for both kinds.
 template <class Test>
 void for_both_kinds(const Test& test) {
     test(vertex_face_set());
     test(edge_edge_set());
 }
 
-/// Expects `decide` to be right wherever it is certain; returns how often it is.
+/// Expects `decide` to be right if it is certain; returns the number of certain answers.
 template <class Query, class Decide>
 std::size_t expect_never_wrong(const test_set<Query>& set, const Decide& decide) {
     std::size_t certain = 0, wrong = 0;
@@ -167,7 +166,7 @@ TEST(decide_exact, report_accounts_for_every_query) {
     });
 }
 
-/// Exploded steps are full of them.
+/// Exploded steps have many such queries.
 TEST(stages, features_that_a_coordinate_separates_need_no_unbounded_integers_at_any_scale) {
     const auto at_rest = [](double x, double y, double z) {
         return ccd::moving_point<double>{{x, y, z}, {x, y, z}};
@@ -182,7 +181,7 @@ TEST(stages, features_that_a_coordinate_separates_need_no_unbounded_integers_at_
     };
     EXPECT_EQ(entered_last(), 0);
     query.v.t1.x = -1e300;
-    query.v.t1.z = 1;  // it passes the face's plane, far from the face
+    query.v.t1.z = 1;  // the vertex passes the face's plane, far from the face
     EXPECT_EQ(entered_last(), 1);
 }
 
@@ -202,7 +201,7 @@ TEST(batch, agrees_with_the_reference_on_every_instruction_set_and_thread_count)
     });
 }
 
-/// Queries one after the other as rows of a vertex array.
+/// Consecutive queries as rows of a vertex array.
 template <class Query>
 struct rows_of_queries {
     std::vector<double> before, after;
@@ -224,7 +223,7 @@ TEST(batch, indices_give_the_same_answers_as_stored_queries) {
             std::conditional_t<std::is_same_v<query_type, ccd::vertex_face<double>>,
                                ccd::vertex_face_pair, ccd::edge_edge_pair>;
         const rows_of_queries<query_type> positions(set.queries);
-        // Few queries a vertex, and so many that positions are rounded for axes in floats.
+        // Few queries per vertex; then many, so that positions are rounded for axes in floats.
         for (const std::size_t times : {std::size_t(1), std::size_t(5)}) {
             std::vector<indices_type> indices;
             std::vector<ccd::outcome> truth;
@@ -285,7 +284,7 @@ TEST(batch, coordinates_that_are_not_finite_are_uncertain_and_harm_no_other_quer
     }
 }
 
-TEST(batch, refuses_what_it_cannot_do) {
+TEST(batch, rejects_invalid_arguments) {
     const std::vector<double> numbers(12);
     const ccd::vertex_rows rows(numbers.data(), numbers.data(), 4);
     std::vector<ccd::outcome> answers(1);
@@ -298,8 +297,7 @@ TEST(batch, refuses_what_it_cannot_do) {
     ccd::decide_batch(rows, span(), std::span<ccd::outcome>());
 }
 
-// Where a scene's extent is an ulp or two of its position, the middle as rounded is one of its
-// ends.
+// If a scene's extent is one or two ulps of its position, the rounded middle is one of its ends.
 TEST(rounded_axes, a_scene_becomes_the_unit_box_however_small_it_is) {
     for (const int ulps : {0, 1, 2, 3, 5, 1000}) {
         const double low = 3.0, high = low + ulps * 0x1p-51;
@@ -311,8 +309,8 @@ TEST(rounded_axes, a_scene_becomes_the_unit_box_however_small_it_is) {
 }
 
 TEST(static_filter, constants_are_those_of_the_forms) {
-    // Found by hand for Y: each of its terms is a product of three differences, and so on. A change
-    // of the forms that makes the errors larger must not go unseen.
+    // A bound for Y by hand: each of its terms is a product of three differences, and so on.
+    // Detects a change of the forms that makes the errors larger.
     using namespace ccd::static_filter;
     constexpr double epsilon = std::numeric_limits<double>::epsilon();
     EXPECT_LT(y_constants<ccd::linear_vertex_face_forms>.relative, 400 * epsilon);

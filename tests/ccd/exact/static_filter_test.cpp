@@ -1,5 +1,5 @@
-// The bounds of the static filters against rationals: no computed control value, of the whole step
-// or of any part, is further from the exact one than the filter allows for.
+// The bounds of the static filters compared with rationals. No computed control value, of the whole
+// step or of a subinterval, is farther from the exact one than the filter's bound.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -30,12 +30,11 @@ double largest_error(const errbound::roots::control_values<double, N>& computed,
         const rational error = abs(rational(rational(computed[i]) - exact[i]));
         largest = std::max(largest, error);
     }
-    // Rounded up.
     const double rounded = largest.convert_to<double>();
     return rational(rounded) < largest ? std::nextafter(rounded, HUGE_VAL) : rounded;
 }
 
-/// How much of its bound the worst error used up, over all queries.
+/// The largest ratio of error to bound over all queries.
 struct usage {
     double y = 0, g = 0, y_parts = 0, g_parts = 0;
 };
@@ -87,7 +86,7 @@ void compare_all(kind which, const As& as) {
         for (std::uint64_t i = 0; i < 60; ++i)
             compare<Forms>(as(query_families::make(family, which, 11, i)), random,
                            std::string(family.name) + ", index " + std::to_string(i), worst);
-    // Neither unsound nor so wide that nothing could be decided.
+    // The bounds are sound, and not so large that they are useless.
     for (const double used : {worst.y, worst.g, worst.y_parts, worst.g_parts}) {
         EXPECT_GT(used, 0.002);
         EXPECT_LE(used, 1);
@@ -106,7 +105,7 @@ TEST(bounds, hold_for_edge_edge) {
                                              query_families::as_query<ccd::edge_edge<double>>);
 }
 
-/// Any sequence of halves, on values that are all as large as they may be and of random sign.
+/// Any sequence of halvings, of values that are all as large as allowed, with random signs.
 TEST(bounds, hold_for_halvings) {
     std::mt19937_64 random(3);
     double worst = 0;

@@ -1,5 +1,5 @@
-// Packs by the compiler's vectors against their numbers one by one, on this machine too, where
-// kernels have xsimd's.
+// Packs of the compiler's vectors compared with scalar operations, also on this machine, where
+// kernels use xsimd.
 #include <gtest/gtest.h>
 
 #include <bit>
@@ -40,7 +40,8 @@ struct VectorPack : testing::Test {};
 using numbers = testing::Types<double, float>;
 TYPED_TEST_SUITE(VectorPack, numbers);
 
-/// visit(a, b, lane) for packs of all pairs of special numbers; each pair is once in each lane.
+/// Calls visit(a, b, lane) for packs of all pairs of special numbers; each pair is once in each
+/// lane.
 template <class T, class Visit>
 void for_all_pairs(const Visit& visit) {
     using pack = vector_pack<T>;

@@ -1,5 +1,5 @@
-# Tests of `ccd report` as a user runs it: files it writes, going on after a stop, exit statuses.
-# The path to the program is in the environment variable CCD_PROGRAM.
+# Tests of `ccd report` as users run it: output files, resumption after a stop, exit statuses. The environment variable
+# CCD_PROGRAM has the path to the program.
 import csv
 import os
 import pathlib
@@ -10,7 +10,7 @@ import unittest
 
 PROGRAM = os.environ["CCD_PROGRAM"]
 
-# A triangle, and one that falls through it.
+# A triangle, and another that falls through it.
 BASE = "v 0 0 0\nv 1 0 0\nv 0 1 0\n"
 FACES = "f 1 2 3\nf 4 5 6\n"
 BEFORE = BASE + "v 0.2 0.2 1\nv 0.4 0.2 1.125\nv 0.2 0.4 1.25\n" + FACES
@@ -30,7 +30,7 @@ class Report(unittest.TestCase):
         self.data, self.out = self.directory / "data", self.directory / "out"
         self.write("falling/frame0.obj", BEFORE)
         self.write("falling/frame1.obj", AFTER)
-        # Pictures take seconds: only where they are tested.
+        # Pictures take seconds, so only their tests draw them.
         self.write("../no/matplotlib.py", "raise ImportError")
 
     def write(self, name, text):
@@ -111,7 +111,7 @@ class Report(unittest.TestCase):
         self.assertEqual(self.parts(), first)
         self.assertEqual(self.table("methods.csv"), table)
 
-        # One part is missing, one damaged: these alone are measured anew.
+        # One part is missing and one damaged: only these are measured again.
         gone, damaged = sorted(name for name in first if "errors" in name)[:2]
         (self.out / "parts" / gone).unlink()
         (self.out / "parts" / damaged).write_text(first[damaged].replace('"queries": ',
@@ -121,10 +121,10 @@ class Report(unittest.TestCase):
         self.assertEqual(self.parts()[gone], first[gone])
         self.assertEqual(self.parts()[damaged], first[damaged])
 
-        # Other methods are timed anew; errors and bounds do not depend on that.
+        # Other methods are timed again; errors and bounds do not depend on methods.
         kept = sum("errors_of_exact" in name or "bounds" in name for name in first)
         self.assertEqual(resumed(self.report(self.data, "--method", "exact")), str(kept))
-        # Other data: nothing is kept.
+        # With other data nothing is kept.
         self.write("falling/frame1.obj", AFTER.replace("-0.75", "-0.7"))
         self.assertEqual(resumed(self.report(*arguments)), "0")
 
@@ -162,7 +162,7 @@ class Report(unittest.TestCase):
             self.assertIn("<svg", (self.out / f"{name}.svg").read_text())
             self.assertIn(f"]({name}.png)", markdown)
         self.check_sizes()
-        # A later report that cannot draw does not show these.
+        # A later report that cannot draw does not show these pictures.
         self.report(self.data, "--method", "exact")
         self.assertFalse((self.out / "pareto.png").exists())
         self.assertNotIn("pareto.png", (self.out / "report.md").read_text())

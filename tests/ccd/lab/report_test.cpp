@@ -1,5 +1,5 @@
-// The pieces of `ccd report`: statistics, stored parts, data sets and their truth, counts of
-// errors.
+// Components of `ccd report`: statistics, stored parts, data sets and their known answers, counts
+// of errors.
 #include "ccd/lab/report.hpp"
 
 #include <gtest/gtest.h>
@@ -91,7 +91,7 @@ constexpr const char* hit = "0.25,0.25,1\n0,0,0\n1,0,0\n0,1,0\n0.25,0.25,-1\n0,0
 constexpr const char* miss =
     "0.25,0.25,1\n0,0,0\n1,0,0\n0,1,0\n0.25,0.25,0.5\n0,0,0\n1,0,0\n0,1,0\n";
 
-// A triangle, and one that falls from `z`, through it if that is negative.
+// A triangle, and another that falls from `z`, through it if that is negative.
 std::string frame(double z) {
     std::string text;
     for (const char* corner : {"0 0 ", "1 0 ", "0 1 "}) text += std::string("v ") + corner + "0\n";
@@ -127,7 +127,8 @@ TEST_F(Report, TruthIsTheFilesElseExact) {
     const std::string lines = std::string(hit) + miss;
     std::string with_truth;
     for (std::size_t at = 0; at < lines.size(); at = lines.find('\n', at) + 1)
-        with_truth += lines.substr(at, lines.find('\n', at) - at) + ",1\n";  // wrong of the second
+        // wrong for the second query
+        with_truth += lines.substr(at, lines.find('\n', at) - at) + ",1\n";
     write("a/vf/1.csv", lines);
     write("a/vf/2.csv", with_truth);
     const auto data = lab::load(lab::find_data({folder_}).sources.at(0), 1);
@@ -150,7 +151,7 @@ TEST_F(Report, SceneTruthIsComparedWithWhatIsStored) {
     write("s/frames/0.obj", frame(1));
     write("s/frames/1.obj", frame(-1));
     const auto load = [this] { return lab::load(lab::find_data({folder_}).sources.at(0), 1); };
-    // Vertices 3, 4 and 5 fall through face 0, whose number follows 6 vertices and 6 edges.
+    // Vertices 3, 4 and 5 fall through face 0, whose index follows those of 6 vertices and 6 edges.
     write("s/boxes/0vf.json", "[[3,12],[4,12],[5,12],[0,13]]");
     write("s/mma_bool/0vf_mma_bool.json", "[true,true,true,false]");
     auto data = load();
@@ -172,7 +173,7 @@ TEST_F(Report, SceneTruthIsComparedWithWhatIsStored) {
     EXPECT_THROW(load(), errbound::support::file_error);
 }
 
-// A triangle, and one that falls through it across two of its edges.
+// A triangle, and another that falls through it across two of its edges.
 std::string crossing_frame(double z) {
     std::string text;
     for (const char* corner : {"0 0 ", "1 0 ", "0 1 "}) text += std::string("v ") + corner + "0\n";
@@ -194,7 +195,7 @@ TEST_F(Report, StoredPairsOfEdgesAreInAnyOrder) {
 }
 
 TEST_F(Report, FirstContactsAreInBracketsOfTwoNeighbours) {
-    // The vertex touches at 1/2, or at 1/3, or not at all, or at the start.
+    // The vertex touches at 1/2, at 1/3, never, or at the start.
     std::string third = hit, start = hit;
     third.replace(third.find("-1"), 2, "-2");
     start.replace(start.find(",1"), 2, ",0");

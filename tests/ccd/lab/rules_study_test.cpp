@@ -1,5 +1,6 @@
-// Rules of one's own beside the library's: they decide as the methods of their names do, in double
-// and float; what is wrong is counted; the main program reads files and says what it must.
+// Custom rules compared with those of the library: they decide like the methods of their names, in
+// double and float. Wrong answers are counted. The main program reads files and prints its
+// messages.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -24,7 +25,7 @@ using query = ccd::vertex_face<double>;
 struct renamed : errbound::derived_rule<renamed, errbound::tight> {
     static constexpr const char* name = "renamed";
 };
-/// Says that all is exact, and promises it.
+/// Reports all values as exact, and promises it.
 struct boasting : errbound::derived_rule<boasting, errbound::none> {
     static constexpr const char* name = "boasting";
     static constexpr errbound::error_meaning error_is = errbound::error_meaning::bound;
@@ -74,7 +75,7 @@ TEST(CompareRules, DecideAsTheMethodsDo) {
         EXPECT_GT(row.ns_per_query, 0);
     }
     EXPECT_LE(rows[2].uncertain, rows[0].uncertain);
-    EXPECT_LT(rows[0].uncertain, rows[1].uncertain);  // float tells less
+    EXPECT_LT(rows[0].uncertain, rows[1].uncertain);  // float is less accurate
 }
 
 TEST(CompareRules, CountsBrokenPromises) {
@@ -94,7 +95,7 @@ int run(const std::vector<std::string>& arguments) {
     return ccd::study::rules_main<Rules...>(static_cast<int>(all.size()), all.data());
 }
 
-/// The files of `ccd report`, a rule and number type a method.
+/// The files of `ccd report`, with a method for each rule and number type.
 TEST(RulesMain, WritesCsvJsonAndPictures) {
     const test_files::temporary_directory folder;
     const std::string file = (folder.path / "vf.csv").string();
@@ -116,7 +117,7 @@ TEST(RulesMain, WritesCsvJsonAndPictures) {
     EXPECT_EQ(std::filesystem::exists(out / "pareto-queries.png"), drawn);
     EXPECT_EQ(run<renamed>({"--out", out.string()}), 2);
     testing::internal::CaptureStdout();
-    EXPECT_EQ(run<renamed>({"--out", file, file}), 1);  // a file is no folder
+    EXPECT_EQ(run<renamed>({"--out", file, file}), 1);  // a file is not a folder
     testing::internal::GetCapturedStdout();
 }
 
@@ -135,7 +136,7 @@ TEST(RulesMain, ReadsFilesAndSaysWhatItMust) {
     testing::internal::CaptureStderr();
     EXPECT_EQ(run<renamed>({(folder.path / "no_vf.csv").string()}), 1);
     EXPECT_NE(testing::internal::GetCapturedStderr().find("no_vf.csv"), std::string::npos);
-    // What is stored beside it says otherwise: the promise is taken for broken.
+    // The stored answer contradicts that of the method, so its promise counts as broken.
     const std::string stored = (folder.path / "truth" / "vf.csv").string();
     test_files::write(stored,
                       "0x1.3p-2,0.1,0.7,0\n0.1,-0.3,0,0\n1.3,0,0.1,0\n0.1,1.7,0,0\n"

@@ -1,4 +1,4 @@
-// The families of `ccd stress` have the properties that they promise; the run finds wrong answers.
+// The families of `ccd stress` have their promised properties, and the run finds wrong answers.
 #include "ccd/lab/stress.hpp"
 
 #include <gtest/gtest.h>
@@ -42,7 +42,6 @@ bool collides(kind which, const points& p) {
     });
 }
 
-/// test(kind, points) for some queries of both kinds.
 template <class Test>
 void for_queries(std::string_view family, double knob, const Test& test) {
     for (const kind which : ccd::stored_kinds) {
@@ -71,7 +70,7 @@ TEST(families, are_well_formed) {
     }
 }
 
-TEST(families, are_finite_where_they_say_so) {
+TEST(families, are_finite_as_declared) {
     for (const lab::family& f : lab::families()) {
         for (const double knob : f.knobs) {
             for (const kind which : ccd::stored_kinds) {
@@ -86,7 +85,7 @@ TEST(families, are_finite_where_they_say_so) {
     }
 }
 
-/// Where the knob leaves queries on both sides of the decision, both are there.
+/// If the knob leaves queries on both sides of the decision, the family has both.
 TEST(families, hold_collisions_and_misses) {
     for (const lab::family& f : lab::families()) {
         if (!f.finite) continue;
@@ -103,8 +102,8 @@ TEST(families, hold_collisions_and_misses) {
     }
 }
 
-/// The same on every machine, and as when their properties were checked: the bits of some queries
-/// of every cell, as one number.
+/// The bits of some queries of every cell, as one number: they do not depend on the machine, and
+/// have not changed since their properties were checked.
 TEST(families, are_the_same_everywhere) {
     std::uint64_t hash = 0xcbf29ce484222325;
     for (const lab::family& f : lab::families()) {
@@ -123,7 +122,7 @@ TEST(families, are_the_same_everywhere) {
     EXPECT_NE(lab::make(f, 0, kind::edge_edge, 1, 0), lab::make(f, 100, kind::edge_edge, 1, 0));
 }
 
-TEST(families, touches_are_where_they_say) {
+TEST(families, touch_at_their_declared_times) {
     for (const double knob : {-21., -1., 0., 1., 21.}) {
         for (const auto* family : {"touch-start", "touch-end", "touch-edge", "touch-vertex"})
             for_queries(family, knob, [&](kind which, const points& p) {
@@ -147,7 +146,6 @@ TEST(families, touches_are_where_they_say) {
 
 // ---- The run ----
 
-/// A method that gives one answer to all.
 lab::subject always(ccd::verdict said, bool may_lose, bool may_report) {
     const auto decide = [said](auto queries, std::span<ccd::verdict> verdicts) {
         std::fill_n(verdicts.begin(), queries.size(), said);
@@ -160,7 +158,7 @@ constexpr ccd::verdict hit{ccd::outcome::collides, ccd::cause::none};
 constexpr ccd::verdict unsure{ccd::outcome::uncertain, ccd::cause::inside};
 constexpr ccd::verdict out_of_range{ccd::outcome::uncertain, ccd::cause::range};
 
-TEST(promises, are_broken_by_what_contradicts_them) {
+TEST(promises, are_broken_by_contradicting_answers) {
     const auto broken = [](ccd::verdict said, ccd::outcome truth, bool may_lose, bool may_report) {
         return lab::broken_by(always(said, may_lose, may_report), said, truth).has_value();
     };
@@ -191,7 +189,7 @@ std::vector<lab::cell> run(const lab::plan& plan) {
     return lab::run(plan, [](std::size_t, std::size_t, const lab::family&) {});
 }
 
-TEST(stress_run, counts_what_a_wrong_method_says) {
+TEST(stress_run, counts_the_answers_of_a_wrong_method) {
     const auto cells = run(plan_of(
         {"touch-start", "not-finite"},
         {always(separate, false, true), always(hit, true, false), always(unsure, false, true)}));
@@ -241,10 +239,10 @@ TEST(stress_run, no_promise_is_broken) {
         if (plan.subjects[c.subject].name == "float") by_float += c.wrong_certain;
     }
     EXPECT_GT(collisions, 0u);
-    EXPECT_GT(by_float, 0u);  // so hard are they
+    EXPECT_GT(by_float, 0u);  // because they are so hard
 }
 
-// ---- What is printed and written ----
+// ---- Output ----
 
 class stress_output : public testing::Test {
   protected:
@@ -255,7 +253,7 @@ class stress_output : public testing::Test {
     std::ostringstream printed;
 };
 
-TEST_F(stress_output, names_and_keeps_what_breaks_a_promise) {
+TEST_F(stress_output, prints_and_stores_queries_that_break_a_promise) {
     const lab::plan plan =
         plan_of({"touch-end", "not-finite"},
                 {always(separate, false, true), lab::subject_named(ccd::methods().back().name)});

@@ -1,5 +1,5 @@
-// The methods of the comparison: what each is known to lose, what none may answer, and the root
-// finder of `provot`.
+// The methods of the comparison: known lost collisions, answers that no method may give, and the
+// root finder of `provot`.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -75,7 +75,7 @@ TYPED_TEST(guarded_newton, degrees_below_three) {
     EXPECT_EQ(count({T(1), 0, 0, 0}), 2U);
     EXPECT_EQ(count({0, 0, 0, 0}), 2U);
     EXPECT_EQ(count({0, 0, 0, T(1)}), 2U);           // t³ turns at 0, which is an end
-    EXPECT_EQ(count({0, 0, T(-1), T(1)}), 3U);       // t³ − t² at 2/3 too
+    EXPECT_EQ(count({0, 0, T(-1), T(1)}), 3U);       // t³ − t² also turns at 2/3
     EXPECT_EQ(count({0, T(3), T(-7.5), T(5)}), 4U);  // 15t² − 15t + 3 at 0.28 and 0.72
     EXPECT_EQ(
         errbound::roots::guarded_newton(errbound::bernstein<T, 3>{T(-1), T(4), 0, 0}, T(0), T(1)),
@@ -84,8 +84,9 @@ TYPED_TEST(guarded_newton, degrees_below_three) {
 
 // ---- Queries with known contacts ----
 
-// The plane z = s·x, s from 1 to −1, under a vertex that moves with x = −s: it stands at height
-// z_v + s² above the plane. Of height −1/4 it is below it for |s| < 1/2: in at t = 1/4, out at 3/4.
+// The plane z = s·x, s from 1 to −1, under a vertex that moves with x = −s: the vertex is at height
+// z_v + s² above the plane. With z_v = −1/4 it is below the plane for |s| < 1/2: it enters at t =
+// 1/4 and leaves at t = 3/4.
 constexpr ccd::moving_point<double> crossing_point(double y, double z0, double z1) {
     return {{-1, y, z0}, {1, y, z1}};
 }
@@ -122,7 +123,7 @@ TEST(root_parity, finds_an_odd_number) {
     found(over_tilting_edge(-0.25, -2));
 }
 
-// Sliding along in the face's plane: Y is zero throughout, and no vertex meets an edge.
+// The vertex slides in the face's plane: Y is zero throughout, and no vertex meets an edge.
 TEST(methods, contact_of_coplanar_motion_inside_the_face) {
     const vertex_face<double> query{.v = {{1, 1, 0}, {2, 1, 0}},
                                     .f0 = {{0, 0, 0}, {0, 0, 0}},
@@ -137,7 +138,7 @@ TEST(methods, contact_of_coplanar_motion_inside_the_face) {
 }
 
 TEST(provot, has_no_fallback_for_degenerate_features) {
-    // A vertex falls on a triangle that is a segment.
+    // A vertex falls onto a triangle that is a segment.
     const vertex_face<double> query{.v = {{1, 0, 1}, {1, 0, -1}},
                                     .f0 = {{0, 0, 0}, {0, 0, 0}},
                                     .f1 = {{4, 0, 0}, {4, 0, 0}},
@@ -158,7 +159,7 @@ TEST(provot, in_float_as_in_double) {
     same(over_tilting_edge(0.25, 0.5), outcome::separate);
 }
 
-// ---- What no method may answer ----
+// ---- Wrong answers ----
 
 template <class Query>
 Query with_coordinate(Query query, std::size_t index, double value) {
@@ -166,7 +167,7 @@ Query with_coordinate(Query query, std::size_t index, double value) {
     return ccd::transformed(query, [&](double x) { return i++ == index ? value : x; });
 }
 
-TEST(methods, what_is_not_finite_is_uncertain) {
+TEST(methods, coordinates_that_are_not_finite_are_uncertain) {
     constexpr double infinity = std::numeric_limits<double>::infinity();
     const auto check = [](const auto& query) {
         for (const ccd::method_info& m : ccd::methods()) {
@@ -184,7 +185,7 @@ TEST(methods, what_is_not_finite_is_uncertain) {
     check(over_tilting_edge(-0.25, -2));
 }
 
-// Where arithmetic overflows, a certain answer is the right one or there is none.
+// If arithmetic overflows, an answer is right or uncertain.
 TEST(methods, overflow_is_no_answer) {
     const auto check = [](const auto& query) {
         for (const double factor : {0x1p+300, 0x1p+600, 0x1p+1019}) {

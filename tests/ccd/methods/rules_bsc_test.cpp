@@ -1,5 +1,5 @@
 // BSC over every bound rule, on every family of random queries: `separate` and `collides` are
-// certain whatever the rule.
+// certain under every rule.
 #include <gtest/gtest.h>
 
 #include <ccd/methods/bsc.hpp>

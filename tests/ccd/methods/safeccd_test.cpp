@@ -1,5 +1,5 @@
-// What SafeCCD stands on: roots of quadratics (cubics: methods_test), proximity of vertices and
-// edges, and its promise in single precision. (Its promise in double is held by property_test.)
+// The components of SafeCCD: roots of quadratics (cubics: methods_test), and proximity of vertices
+// and edges. Also its promise in single precision; property_test has the promise in double.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -27,7 +27,7 @@ using vector = std::array<double, 3>;
 TEST(quadratic_roots, are_those_of_a_nearby_quadratic) {
     source random(1);
     for (int i = 0; i < 100000; ++i) {
-        // Ordinary, with nearly equal roots, and of mixed sizes down to underflow.
+        // Ordinary coefficients, nearly equal roots, and mixed sizes down to underflow.
         std::array<double, 3> c{random.symmetric(), random.symmetric(), random.symmetric()};
         if (i % 3 == 1) {
             const double r = random.symmetric();
@@ -44,7 +44,7 @@ TEST(quadratic_roots, are_those_of_a_nearby_quadratic) {
             const mpq_rational value =
                 mpq_rational(c[0]) + mpq_rational(c[1]) * x + mpq_rational(c[2]) * x * x;
             const mpq_rational size = 1 + abs(x) + x * x;
-            // At t the smallest change of coefficients, the same for all, that makes it a root.
+            // The smallest change, equal for all coefficients, that makes t a root.
             EXPECT_LE(abs(value), size * m * 16 * mpq_rational(0x1p-52))
                 << std::hexfloat << c[0] << ' ' << c[1] << ' ' << c[2] << " at " << t;
         }
@@ -67,7 +67,7 @@ struct encounter {
         const double t = random.one_in(4) ? random.between(0, 1) : random.unit();
         const double s = random.one_in(4) ? random.between(0, 1) : random.unit();
         e0 = random_vector(random, edge_size), e_change = random_vector(random, edge_size);
-        // Edges that shrink to nothing at that very time, or turn around.
+        // Edges that shrink to a point or reverse at that time.
         if (random.one_in(8))
             for (std::size_t k = 0; k < 3; ++k) e0[k] = -t * e_change[k];
         vector offset = random_vector(random, 1);
@@ -93,7 +93,7 @@ TEST(proximity, is_never_overlooked) {
         const double speed = std::ldexp(1, -random.between(0, 40));
         const double distance = random.one_in(3) ? 0 : std::ldexp(1, -random.between(1, 50));
         const encounter e(random, distance, edge_size, speed);
-        // The coordinates above are rounded to some 1e-16 of sizes up to 2.
+        // The coordinates above are rounded by about 1e-16 for sizes up to 2.
         EXPECT_TRUE(e.found(distance * (1 + 1e-9) + 2e-15)) << i;
     }
 }
@@ -103,7 +103,7 @@ TEST(proximity, is_denied_at_ten_times_the_reach) {
     int found = 0;
     for (int i = 0; i < 10000; ++i) {
         const double reach = std::ldexp(1, -random.between(10, 20));
-        // The vertex keeps more than ten times the reach from a plane that holds the edge.
+        // The vertex is farther than ten times the reach from a plane that contains the edge.
         encounter e(random, 0, 1, 1);
         e.e0[2] = e.e_change[2] = 0;
         e.w0[2] = 11 * reach, e.w_change[2] = 20 * reach * random.unit();
@@ -112,9 +112,9 @@ TEST(proximity, is_denied_at_ten_times_the_reach) {
     EXPECT_EQ(found, 0);
 }
 
-// f = h − s·t² + c·t³ with an exact zero of f' at t = 0, where the computed f' has no turn: s > 0
-// is lost to rounding in g·x − y. A vertex falls through a tilting triangle by less than that
-// hides.
+// f = h − s·t² + c·t³ with an exact zero of f' at t = 0, where the computed f' has no sign change:
+// s > 0 is lost to rounding in g·x − y. A vertex falls through a tilting triangle by less than this
+// error.
 TEST(safeccd, sees_a_dip_that_rounding_hides) {
     int collisions = 0;
     for (int k = 0; k <= 52; ++k) {
@@ -136,7 +136,7 @@ TEST(safeccd, sees_a_dip_that_rounding_hides) {
     EXPECT_GT(collisions, 100);
 }
 
-// In single precision, whose ε is 2^-23, on queries in single precision.
+// In single precision, with ε = 2^-23, on queries in single precision.
 TEST(safeccd, loses_nothing_in_single_precision) {
     for (const auto& family : query_families::families) {
         int lost = 0;

@@ -1,5 +1,4 @@
-// Meshes that are spread over ranks for tests: every rank makes the same meshes and takes its
-// share.
+// Distributed meshes for tests: every rank makes the same meshes and takes its share.
 #pragma once
 
 #include <algorithm>
@@ -29,8 +28,8 @@ struct scene {
     ccd::mesh before, after;
 };
 
-/// Faces of a few vertices, whose boxes have corners in common: regions of space that are cut again
-/// though there is nothing in them, on any side of the origin.
+/// Faces of a few vertices, whose boxes have common corners on any side of the origin. Regions of
+/// space are then split although nothing is inside.
 inline scene few_corners(std::mt19937& random, std::size_t vertices, std::size_t faces) {
     std::uniform_real_distribution<double> move(-0.5, 0.5);
     scene s{std::to_string(faces) + " faces of " + std::to_string(vertices), {}, {}};
@@ -46,8 +45,7 @@ inline scene few_corners(std::mt19937& random, std::size_t vertices, std::size_t
     return s;
 }
 
-/// Triangles, rods and points at random; `crowd` says how near to one another, in last places at
-/// worst.
+/// Random triangles, rods and points in the unit cube. `length` is the largest motion on each axis.
 inline scene soup(std::mt19937& random, std::size_t vertices, double length) {
     std::uniform_real_distribution<double> place(0, 1), move(-length, length);
     const auto vertex = [&] { return static_cast<ccd::vertex_index>(random() % vertices); };
@@ -58,7 +56,7 @@ inline scene soup(std::mt19937& random, std::size_t vertices, double length) {
         s.after.vertices.push_back({p.x + move(random), p.y + move(random), p.z + move(random)});
     }
     for (std::size_t i = 0; i < vertices / 3; ++i) {
-        // Corners near one another, so that boxes are not of the size of all.
+        // Corners are near one another, so that boxes are small.
         const ccd::vertex_index a = vertex();
         const auto near = [&] {
             ccd::vertex_index best = vertex();
@@ -108,7 +106,7 @@ inline scene sheets(std::size_t layers, std::size_t n) {
     return s;
 }
 
-/// Beside a sheet, one face over all of it and points in a heap at one place.
+/// A sheet, one face over all of it, and many points at one position.
 inline scene huge_face_and_heap() {
     scene s = sheets(1, 20);
     s.name = "a huge face and a heap";
@@ -125,7 +123,7 @@ inline scene huge_face_and_heap() {
     return s;
 }
 
-/// A rank's share: which faces and edges, and which vertices beyond theirs.
+/// A rank's faces and edges, and vertices beyond theirs.
 struct share {
     std::vector<ccd::mpi::vertex_number> numbers;
     std::vector<ccd::vertex_index> of_whole;
@@ -136,8 +134,8 @@ struct share {
     ccd::mpi::mesh_part part() const { return {numbers, {before, after}, faces, edges}; }
 };
 
-/// The number that a vertex has for MPI: none is another's, they do not ascend by ones, but keep
-/// their order.
+/// The global index of a vertex for MPI. Indices are unique and keep the vertices' order, with
+/// gaps.
 inline ccd::mpi::vertex_number number_of(ccd::vertex_index v) {
     return (std::uint64_t(1) << 40) + 1000 * std::uint64_t(v);
 }
@@ -158,7 +156,7 @@ inline share share_of(const scene& s, const placing& place, bool doubled) {
         }
         return at->second;
     };
-    // Some elements are on the next rank as well.
+    // Some elements are also on the next rank.
     const auto is_here = [&](std::size_t i) {
         return place(i) == rank || (doubled && i % 7 == 0 && (place(i) + 1) % size == rank);
     };
@@ -190,7 +188,7 @@ inline bool same(const ccd::first_time& a, const ccd::first_time& b) {
            (a.outcome != ccd::outcome::collides || (a.low == b.low && a.high == b.high));
 }
 
-/// One placing after the other, by name: of element i to a rank.
+/// All placings of elements on ranks, with their names.
 inline std::vector<std::pair<std::string, placing>> placings(const scene& s) {
     const auto faces = s.before.faces.size(), ranks = static_cast<std::size_t>(size);
     const auto as_rank = [](std::size_t i) { return static_cast<int>(i); };
@@ -203,16 +201,16 @@ inline std::vector<std::pair<std::string, placing>> placings(const scene& s) {
              [=](std::size_t i) { return as_rank(i % ((ranks + 1) / 2) * 2); }}};
 }
 
-/// One of the placings for each case. Five scenes in a row that have the same number of cases, not
-/// a multiple of five, combine every case with every placing. All placings of all cases would take
-/// minutes where ranks share cores: each call waits for all ranks hundreds of times.
+/// A different placing for each case. If five consecutive scenes have the same number of cases, not
+/// a multiple of five, every case gets every placing. All placings of all cases would take minutes
+/// if ranks share cores: each call waits for all ranks hundreds of times.
 inline std::pair<std::string, placing> next_placing(const scene& s) {
     static std::size_t calls = 0;
     const auto all = placings(s);
     return all[calls++ % all.size()];
 }
 
-/// Runs tests between MPI_Init and MPI_Finalize; the exit status.
+/// Runs tests between MPI_Init and MPI_Finalize; returns the exit status.
 inline int run(int argc, char** argv, const std::function<void()>& tests) {
     MPI_Init(&argc, &argv);
     MPI_Comm_rank(MPI_COMM_WORLD, &rank);

@@ -1,5 +1,5 @@
-// Advances of distributed meshes against ccd::advance of the whole mesh, bit for bit, whoever has
-// what. Run by mpirun on several ranks; every rank makes the same meshes.
+// Advances of distributed meshes compared bit for bit with ccd::advance of the whole mesh, with
+// every placing. mpirun runs it on several ranks; every rank makes the same meshes.
 #include <algorithm>
 #include <ccd/advance.hpp>
 #include <ccd/mpi.hpp>
@@ -87,7 +87,7 @@ void compare_scene(const scene& s) {
     for (const question& asked : questions(s)) compare(s, asked);
 }
 
-/// Contacts a few last places apart: rounding decides, and takes vertices back.
+/// Contacts a few last places apart: rounding matters, and vertices are moved back.
 scene of_last_places(std::mt19937& random, std::size_t vertices, double unit) {
     scene s = soup(random, vertices, 1);
     s.name += ", a few last places apart";

@@ -1,5 +1,6 @@
-// Steps of distributed meshes against ccd::step of the whole mesh: pairs, times, first contact,
-// candidates, whoever has what. Run by mpirun on several ranks; every rank makes the same meshes.
+// Steps of distributed meshes compared with ccd::step of the whole mesh: pairs, times, first
+// contact, candidates, with every placing. mpirun runs it on several ranks; every rank makes the
+// same meshes.
 #include <algorithm>
 #include <ccd/mpi.hpp>
 #include <limits>
@@ -21,7 +22,7 @@ struct question {
     bool groups = false, pinned = false, thickness = false;
 };
 
-/// Of the whole mesh, or of a rank's part: one entry a vertex.
+/// Values of the whole mesh's or of a rank's vertices: one entry for each vertex.
 struct of_vertices {
     std::vector<int> groups;
     std::vector<std::uint8_t> pinned;
@@ -102,7 +103,7 @@ void compare_scene(const scene& s) {
     }
 }
 
-/// Many small scenes, of one question.
+/// Many small scenes with the same request.
 void compare_few_corners() {
     std::mt19937 random(11);
     const question counted{"candidates", {.count_candidates = true}};
@@ -114,7 +115,7 @@ void compare_few_corners() {
     }
 }
 
-/// What one rank finds wrong is thrown on all.
+/// An error on one rank throws on all.
 void refuse(const std::string& expected, const ccd::mpi::mesh_part& mesh,
             const ccd::step_options& options = {}) {
     try {

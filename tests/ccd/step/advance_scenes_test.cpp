@@ -1,8 +1,8 @@
-// Advances of stored scenes, and of meshes of the stiff and extreme queries that `ccd stress`
-// makes, contacts a last place apart among them: steps to the positions returned are free.
+// Steps to the positions of an advance are free: for stored scenes, and for meshes of the stiff and
+// extreme queries of `ccd stress`, some with contacts a last place apart.
 //
-// Where stored scenes are: the environment's ERRBOUND_SHARED_DATA, else what the build was given;
-// one comes with the repository.
+// Data are in the folder ERRBOUND_SHARED_DATA of the environment, else of the build; one scene is
+// in the repository.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -41,7 +41,8 @@ double mean_edge(const ccd::mesh& frame) {
     return sum / static_cast<double>(edges.size());
 }
 
-/// As one, by bodies, by vertices, and with distances to keep; as one alone where tests try little.
+/// Advances the scene as one group, by bodies, by vertices, and with minimum distances. A small
+/// scale of random tests uses only the first.
 void advance_scene(const fs::path& before, const fs::path& after) {
     SCOPED_TRACE(before.string());
     const two_frames at{ccd::io::read_mesh(before), ccd::io::read_mesh(after)};

@@ -1,4 +1,4 @@
-// Steps that are certainly free: no pair of a step to the positions returned touches, but those
+// Steps that are certainly free: in a step to the returned positions, no pair touches except those
 // that touched at the start.
 #include <gtest/gtest.h>
 
@@ -80,7 +80,7 @@ TEST(Advance, IsFreeWhereContactsAreALastPlaceApart) {
         }
 }
 
-/// A vertex slides along a tilted plane, a last place above it: rounding decides at every step.
+/// A vertex slides along a tilted plane, a last place above it: rounding matters at every step.
 TEST(Advance, IsFreeWhereAVertexSlidesAlongAFace) {
     std::mt19937_64 random(1);
     const auto uniform = [&random] { return nasty_shapes::uniform(random); };
@@ -123,7 +123,7 @@ TEST(Advance, IsFreeAtEveryScale) {
 }
 
 TEST(Advance, LeavesOutWhatTouchesAtTheStart) {
-    // A vertex on a face goes through it, another one falls on it.
+    // A vertex on a face passes through it, another falls onto it.
     const ccd::mesh before{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0.25, 0.25, 0}, {0.5, 0.25, 1}},
                            {{0, 1, 2}}};
     ccd::mesh after = before;
@@ -136,7 +136,7 @@ TEST(Advance, LeavesOutWhatTouchesAtTheStart) {
     EXPECT_TRUE(goes_far(result));
 }
 
-/// Four triangles over a floor each, far from each other: two pairs in contact, at different times.
+/// Four triangles, each over a floor, far from each other: two pairs touch, at different times.
 two_frames four_bodies() {
     ccd::mesh before;
     for (unsigned body = 0; body < 4; ++body) {
@@ -175,8 +175,8 @@ TEST(AdvanceByGroups, ContactsHoldOnlyTheirIsland) {
 }
 
 TEST(AdvanceByGroups, GroupsThatMeetOnlyAsOneIsHeldBecomeOne) {
-    // Three points on a line. The second is stopped by the wall; the first, which would have
-    // followed it, runs into it.
+    // Three points on a line. The wall stops the second; the first, which would have followed it,
+    // runs into it.
     const ccd::mesh before{{{0, 0, 0}, {1, 0, 0}, {2, -1, -1}, {2, 1, -1}, {2, 0, 1}}, {{2, 3, 4}}};
     ccd::mesh after = before;
     after.vertices[0].x = 3;
@@ -218,7 +218,7 @@ TEST(AdvanceKeepingADistance, KeepsIt) {
         }
 }
 
-/// The pair was left out, and went through.
+/// Regression: the pair was skipped and passed through.
 TEST(AdvanceKeepingADistance, NearPairsDoNotTouch) {
     const ccd::mesh before{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0.25, 0.25, 0.5}}, {{0, 1, 2}}};
     ccd::mesh after = before;

@@ -1,4 +1,4 @@
-// What a step must report, by looking at every pair.
+// The expected result of a step, by a test of every pair.
 #pragma once
 
 #include <algorithm>
@@ -22,7 +22,8 @@ using ccd::vertex_index;
 using two_frames = std::pair<ccd::mesh, ccd::mesh>;
 using vertex = std::array<vertex_index, 1>;
 
-/// A soup of triangles on a small grid, so that touching boxes and degenerate contacts abound.
+/// A soup of triangles on a small grid, so that touching boxes and degenerate contacts are
+/// frequent.
 inline two_frames random_soup(std::uint64_t seed, unsigned vertices, unsigned faces) {
     std::mt19937_64 random(seed);
     const auto coordinate = [&random] { return static_cast<double>(random() % 12); };
@@ -38,8 +39,8 @@ inline two_frames random_soup(std::uint64_t seed, unsigned vertices, unsigned fa
     return {before, after};
 }
 
-/// The same with rods among the first vertices, and points. Some edges are faces' own, some are
-/// given twice, in either direction, or repeat a vertex.
+/// A soup with rods among the first vertices, and points. Some edges are faces' edges, some are
+/// repeated, in either direction, and some repeat a vertex.
 inline two_frames random_mixture(std::uint64_t seed) {
     auto [before, after] = random_soup(seed, 24, 6);
     std::mt19937_64 random(seed);
@@ -86,7 +87,6 @@ struct elements {
     }
 };
 
-/// Whether two elements have a vertex in common.
 template <std::size_t A, std::size_t B>
 bool share_vertex(const std::array<vertex_index, A>& a, const std::array<vertex_index, B>& b) {
     return std::ranges::any_of(a,
@@ -106,7 +106,7 @@ inline ccd::vertex_vertex_pair pair_of(const vertex& v, const vertex& w) {
     return {v[0], w[0]};
 }
 
-/// visit(pair) for every two elements that share no vertex; of one list, once for each.
+/// Calls visit(pair) for every two elements without a common vertex, once if both are of one list.
 template <class As, class Bs, class Visit>
 void for_each_two(const As& as, const Bs& bs, const Visit& visit) {
     constexpr bool within_one = std::is_same_v<As, Bs>;
@@ -115,7 +115,7 @@ void for_each_two(const As& as, const Bs& bs, const Visit& visit) {
             if (!share_vertex(as[i], bs[j])) visit(pair_of(as[i], bs[j]));
 }
 
-/// visit(pair) for every pair of a mesh; vertices of faces are in the mesh's order.
+/// Calls visit(pair) for every pair of a mesh; vertices of faces are in the mesh's order.
 template <class Visit>
 void for_each_pair(const ccd::mesh& m, const Visit& visit) {
     const elements of(m);
@@ -124,7 +124,6 @@ void for_each_pair(const ccd::mesh& m, const Visit& visit) {
     for_each_two(of.points, of.rods, visit);
     for_each_two(of.points, of.points, visit);
 }
-/// The same in the plane.
 template <class Visit>
 void for_each_pair_in_plane(const ccd::mesh& m, const Visit& visit) {
     const elements of(m);
@@ -132,7 +131,7 @@ void for_each_pair_in_plane(const ccd::mesh& m, const Visit& visit) {
     for_each_two(of.points, of.points, visit);
 }
 
-/// As steps report a pair: the vertices of a face ascend.
+/// A pair in the form in which steps report it: the vertices of a face ascend.
 template <class Pair>
 Pair as_reported(Pair pair) {
     if constexpr (std::is_same_v<Pair, ccd::vertex_face_pair>) {
@@ -143,7 +142,6 @@ Pair as_reported(Pair pair) {
     return pair;
 }
 
-/// The vertices of a pair's two elements.
 template <class Pair>
 auto elements_of(const Pair& pair) {
     constexpr std::size_t first = ccd::kind_traits<ccd::kind_of<Pair>>::first_vertices;
@@ -155,7 +153,7 @@ auto elements_of(const Pair& pair) {
     return std::pair(a, b);
 }
 
-/// Whether the closed boxes that a pair's elements sweep touch, or are within a distance.
+/// True if the closed swept boxes of a pair's elements touch, or are within a distance.
 template <class Pair>
 bool boxes_touch(const two_frames& at, const Pair& pair, double distance = 0) {
     const auto [a, b] = elements_of(pair);
@@ -178,14 +176,14 @@ bool boxes_touch(const two_frames& at, const Pair& pair, double distance = 0) {
 
 using vertices_may_collide = std::function<bool(vertex_index, vertex_index)>;
 
-/// Pairs that come within a distance: `exact` in place of a method.
+/// A decision by `exact` whether pairs come within a distance.
 struct by_distance {
     double distance = 0;
 
     ccd::verdict operator()(const auto& query) const { return decide_within(query, {distance, 0}); }
 };
 
-/// A method's verdict on queries of all kinds, as steps ask for it.
+/// A method's verdict on queries of all kinds, as in steps.
 struct by_method {
     ccd::method method = ccd::method::exact;
 
@@ -197,7 +195,7 @@ struct by_method {
     }
 };
 
-/// Every pair looked at, and asked by decide(query).
+/// The step's result from calls of decide(query) for every pair.
 template <class Decide = by_method>
 ccd::step_result step(const two_frames& at, const Decide& decide = {},
                       const vertices_may_collide& may = {}) {

@@ -1,4 +1,5 @@
-// Advances must be free: a step to the positions returned reports no pair that they do not tell of.
+// Expectations of advances: a step to the returned positions reports no pair that the result does
+// not list.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -12,8 +13,8 @@
 
 namespace brute_force {
 
-/// That a step to the result has no pairs in contact but those that touched at the start, and none
-/// within their distance but those that were so at the start.
+/// Expects that in a step to the result, the only pairs in contact are those that touched at the
+/// start. The only pairs within their distance are those that were at the start.
 inline void expect_none_but_told(ccd::mesh_steps& steps, const ccd::mesh& before,
                                  const ccd::advance_result& result,
                                  const ccd::pair_distances& distances = {}) {
@@ -32,7 +33,7 @@ inline void expect_none_but_told(ccd::mesh_steps& steps, const ccd::mesh& before
     });
 }
 
-/// The same, and that positions are about where fractions lead. Returns the result.
+/// Also expects positions to agree with the fractions. Returns the result.
 inline ccd::advance_result expect_free(const two_frames& at,
                                        const ccd::advance_options& options = {}) {
     const auto& [before, after] = at;
@@ -48,7 +49,7 @@ inline ccd::advance_result expect_free(const two_frames& at,
     return result;
 }
 
-/// Whether it goes as far as promised wherever rounding lets it.
+/// True if the step is at least 0.99 of the way to the first contact; rounding may prevent this.
 inline bool goes_far(const ccd::advance_result& result) {
     const double first =
         result.first_contact.outcome == ccd::outcome::collides ? result.first_contact.low : 1;

@@ -1,4 +1,4 @@
-// Steps must report what brute force does.
+// Expectations of steps: their results equal those of brute force.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -7,13 +7,12 @@
 
 namespace brute_force {
 
-/// The same pairs, and the same candidates, counted or not.
 inline void expect_same(const ccd::step_result& found, const ccd::step_result& expected) {
     EXPECT_EQ(found.candidates, expected.candidates);
     EXPECT_EQ(found.pairs, expected.pairs);
 }
 
-/// What `run(options)` gives where candidates are counted, and where they are not.
+/// Expects the result of `run(options)` with and without counted candidates.
 template <class Run>
 void expect_both_ways(const ccd::step_result& expected, ccd::step_options options, const Run& run) {
     options.count_candidates = true;
@@ -24,7 +23,7 @@ void expect_both_ways(const ccd::step_result& expected, ccd::step_options option
     EXPECT_EQ(found.pairs, expected.pairs);
 }
 
-/// Steps on one thread and more against every pair looked at.
+/// Compares steps with one to three threads with a test of every pair.
 inline void expect_as_by_brute_force(const two_frames& at, ccd::method method) {
     const auto expected = step(at, by_method{method});
     for (const int threads : {1, 2, 3})

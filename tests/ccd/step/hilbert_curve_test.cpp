@@ -15,7 +15,7 @@ namespace {
 using ccd::detail::hilbert_position;
 using ccd::detail::spread_bits;
 
-// All cells of a cube, each once, and each beside the one before.
+// The curve visits all cells of a cube once, each next to the one before.
 TEST(HilbertCurve, GoesFromNeighbourToNeighbour) {
     for (const unsigned bits : {1U, 2U, 5U}) {
         const std::uint64_t n = std::uint64_t(1) << bits;

@@ -24,7 +24,7 @@ TEST(Mixture, AgreesWithBruteForce) {
     ccd::for_each_kind([&]<ccd::kind K>() { EXPECT_GT(found.of<K>(), 0U) << name(K); });
 }
 
-/// An element of a mesh with all that it is made of.
+/// An element of a mesh with all its vertices and edges.
 struct element {
     std::vector<vertex> vertices;
     std::vector<ccd::edge> edges;
@@ -41,7 +41,7 @@ std::vector<element> elements_of(const ccd::mesh& mesh) {
     return all;
 }
 
-/// Whether a feature of one touches a feature of the other, of whatever kinds.
+/// True if a feature of one element touches a feature of the other, of any kinds.
 bool touch(const ccd::vertex_rows& rows, const element& a, const element& b) {
     const auto hit = [&](const auto& pair) {
         return decide_exact(query_of(rows, pair)).outcome == ccd::outcome::collides;
@@ -69,7 +69,7 @@ bool holds(const element& e, auto... vertices) {
     return (is_one(vertices) && ...);
 }
 
-/// Whether a reported pair has one feature of each.
+/// True if a reported pair has one feature of each element.
 bool reported(const ccd::pair_lists& pairs, const element& a, const element& b) {
     return std::ranges::any_of(
                pairs.vertex_face,
@@ -104,8 +104,9 @@ TEST(Mixture, ReportsEveryContactOfTwoElements) {
     EXPECT_GT(contacts, 100U);
 }
 
-// Points within a few times the least number of each other, and one far away: the length of the
-// curve's cells underflowed to 0, and positions on the curve were NaN taken for integers.
+// Regression: points within a few times the least number of each other, and one far away. The
+// length of the curve's cells underflowed to 0, and positions on the curve were NaN converted to
+// integers.
 TEST(Mixture, PointsAtTheLeastDistances) {
     constexpr double least = std::numeric_limits<double>::denorm_min();
     two_frames at;

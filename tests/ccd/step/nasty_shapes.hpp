@@ -1,4 +1,4 @@
-// Shapes of meshes that are hard on orders, trees and rounding.
+// Meshes that are hard for orders, trees and rounding.
 #pragma once
 
 #include <ccd/query.hpp>
@@ -19,7 +19,7 @@ inline ccd::point<double> operator+(const ccd::point<double>& p, const ccd::poin
     return {p.x + q.x, p.y + q.y, p.z + q.z};
 }
 
-/// Places patch i of a soup: where its vertices start, and where they end.
+/// A function that places patch i of a soup: initial and final positions of its vertices.
 struct shape {
     const char* name;
     ccd::moving_point<double> (*vertex)(generator&, unsigned patch);

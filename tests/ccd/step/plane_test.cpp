@@ -14,7 +14,7 @@ using brute_force::two_frames;
 using ccd::outcome;
 using ccd::vertex_index;
 
-/// Chains of edges, or edges by themselves, and points on a grid; apart at the start.
+/// Chains of edges or separate edges, and points on a grid; they do not touch at the start.
 two_frames edges_and_points(std::uint64_t seed, bool chains) {
     std::mt19937_64 random(seed);
     const auto coordinate = [&random] { return static_cast<double>(random() % 3); };
@@ -53,8 +53,8 @@ TEST(PlaneStep, ReportsEveryVertexAndEdge) {
     EXPECT_GT(found, 40U);
 }
 
-/// Where edges do not cross at the start, they first touch at an end of one of them. (Those that
-/// share a vertex may fold onto each other, which steps in space do not look for.)
+/// If edges do not cross at the start, they first touch at an end of one of them. (Edges with a
+/// common vertex may fold onto each other, which steps in space do not detect.)
 TEST(PlaneStep, FirstContactIsThatInSpace) {
     std::size_t contacts = 0;
     for (std::uint64_t seed = 1; seed <= 40; ++seed) {

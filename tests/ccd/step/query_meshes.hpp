@@ -1,4 +1,4 @@
-// Queries as parts of a mesh.
+// Queries as elements of a mesh.
 #pragma once
 
 #include "ccd/lab/queries.hpp"
@@ -6,8 +6,8 @@
 
 namespace brute_force {
 
-/// Adds four vertices, and the face or the edges that make a query of this kind of them; those that
-/// it has no use for are points.
+/// Adds four vertices, and the face or the edges of a query of this kind; unused vertices are
+/// points.
 inline void add_query(two_frames& at, ccd::kind which, const ccd::lab::points& points) {
     ccd::mesh &before = at.first, &after = at.second;
     const auto v = static_cast<vertex_index>(before.vertices.size());

@@ -1,4 +1,4 @@
-// What steps refuse, and what they say of it.
+// Invalid arguments of steps, and the messages.
 #include <gtest/gtest.h>
 
 #include <ccd/step.hpp>

@@ -28,7 +28,7 @@ TEST(MeshSteps, FindWhatFreshOnesFindWhateverWentBefore) {
         expect_both_ways(expected, asked,
                          [&](const auto& options) { return both.run(rows, options); });
         before = after;
-        // Small motions, then a shuffle; parts so far apart that floats do not tell them apart.
+        // Small motions, then a shuffle; parts so far apart that floats do not distinguish them.
         for (auto& p : after) {
             p.x += 0.25 * static_cast<double>(random() % 5) - 0.5;
             p.y += step % 10 == 4 ? static_cast<double>(random() % 30) : 0;
@@ -125,7 +125,7 @@ TEST(Candidates, AreThoseOfTheStep) {
     ccd::for_each_kind([&]<ccd::kind K>() {
         EXPECT_EQ(listed.of<K>().size(), expected.candidates->of<K>()) << name(K);
         EXPECT_TRUE(std::ranges::is_sorted(listed.of<K>()));
-        // Of vertex/face candidates the faces come in the mesh's order, not ascending.
+        // Faces of vertex/face candidates have vertices in the mesh's order, not ascending.
         if constexpr (K != ccd::kind::vertex_face) {
             EXPECT_TRUE(std::ranges::includes(listed.of<K>(), expected.pairs.of<K>())) << name(K);
         }

@@ -1,4 +1,4 @@
-// Calls that are asked to stop: they end by ccd::stopped, and can be called again.
+// Calls that are cancelled throw ccd::stopped and can be repeated.
 #include <gtest/gtest.h>
 
 #include <atomic>
@@ -17,7 +17,7 @@ const std::string scene = std::string(ERRBOUND_SCENES) + "/cloth-over-ball/frame
 
 class Stop : public testing::TestWithParam<int> {
   protected:
-    /// Ends a call where it asks for the n-th time; counts all.
+    /// Cancels a call at its n-th poll; counts all polls.
     stop_query at(int n) {
         asked_ = 0;
         return [this, n] { return ++asked_ >= n; };

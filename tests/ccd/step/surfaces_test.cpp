@@ -1,4 +1,4 @@
-// Whole steps against brute force, and real frames against their published numbers.
+// Whole steps compared with brute force, and real frames compared with their published numbers.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -122,7 +122,7 @@ TEST(Step, TakesOneFaceAndNone) {
     expect_as_by_brute_force({point, point}, ccd::method::exact);
 }
 
-// Flat on one axis, and not: no rounding direction may lose a candidate.
+// Rounding in any direction loses no candidate, for a mesh that is flat on one axis and for a soup.
 TEST(Step, HoldsInEveryRoundingDirection) {
     ccd::mesh before{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {3, 0.25, 0}, {4, 0, 0}, {4, 1, 0}},
                      {{0, 1, 2}, {3, 4, 5}}};
@@ -146,14 +146,13 @@ TEST(Step, HoldsInEveryRoundingDirection) {
     }
 }
 
-/// What the search hands out of two kinds of pairs, sorted.
 ccd::pair_lists found_by_search(const brute_force::two_frames& at, ccd::instruction_set set,
                                 ccd::detail::candidate_search::wanted wanted) {
     const ccd::vertex_rows rows(at.first, at.second);
     const ccd::detail::rounded_positions rounded(rows);
     ccd::detail::candidate_search search(at.first.faces, {}, rows.vertices);
     ccd::pair_lists found;
-    ccd::candidate_visitor visitor;  // called from this thread alone
+    ccd::candidate_visitor visitor;  // this thread calls it
     visitor.vertex_face = [&](auto block) {
         found.vertex_face.insert(found.vertex_face.end(), block.begin(), block.end());
     };
@@ -168,8 +167,8 @@ ccd::pair_lists found_by_search(const brute_force::two_frames& at, ccd::instruct
     return found;
 }
 
-/// Whether x, y, z, x ± y, y ± z or z ± x separates them the same way at both ends, of coordinates
-/// whose sums are doubles.
+/// True if x, y, z, x ± y, y ± z or z ± x separates the features in the same direction at both
+/// ends. Precondition: sums of coordinates are doubles.
 template <class Query>
 bool separated_by_an_axis(const Query& query) {
     using points = std::array<ccd::moving_point<double>, 4>;
@@ -196,8 +195,8 @@ bool separated_by_an_axis(const Query& query) {
     return false;
 }
 
-// On a grid that floats hold, the search leaves out exactly what the nine axes separate.
-TEST(Search, LeavesOutWhatAxesSeparateAndNothingElse) {
+// On a grid of floats, the search skips exactly the pairs that one of the nine axes separates.
+TEST(Search, SkipsExactlyThePairsThatAxesSeparate) {
     using enum ccd::detail::candidate_search::wanted;
     const auto at = random_soup(11, 700, 600);
     const auto all = found_by_search(at, ccd::instruction_set::baseline, candidates);

@@ -1,4 +1,4 @@
-// When pairs of a step first touch, or come within a distance.
+// First times of contact, or of a distance, of a step's pairs.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -13,7 +13,7 @@ using brute_force::two_frames;
 using ccd::first_time;
 using ccd::outcome;
 
-/// The times of pairs one by one, and the earliest of those not at the start.
+/// The times of pairs by single calls, and the earliest that are not at the start.
 struct timed {
     ccd::time_lists times;
     ccd::pair_lists at_start;
@@ -122,7 +122,7 @@ TEST(StepDistances, OfThicknessesAreThoseOfTheThickestVertices) {
     EXPECT_LT(found.pairs.vertex_face.size(), same.pairs.vertex_face.size());
 }
 
-/// Their boxes, widened, have infinite ends.
+/// The ends of the pairs' boxes, widened by the distance, are infinite.
 TEST(StepDistances, MayOverflow) {
     constexpr double most = std::numeric_limits<double>::max();
     ccd::mesh mesh{{{-most, 0, 0}, {most, 0, 0}, {0, 0, 0}}, {}};

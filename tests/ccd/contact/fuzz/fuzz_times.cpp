@@ -1,4 +1,5 @@
-// First contacts of queries of all kinds, and first times within a distance, against the oracle.
+// First contacts of queries of all kinds, and first times within a distance, compared with the
+// oracle.
 #include <ccd/contact.hpp>
 #include <ccd/kind.hpp>
 #include <cmath>
@@ -53,9 +54,9 @@ void check(const points& p, ccd::separation d, double t_max) {
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     fuzz::numbers from(data, size);
     const auto which = static_cast<ccd::kind>(from.below(4));
-    // The end of time is in eighths, also above 1, or any number, or 1.
+    // t_max is in eighths, also above 1, or any number, or 1.
     const std::size_t end = from.below(18);
-    // In the order of coordinates, so that copies of earlier ones are of the same axis.
+    // Axis by axis, so that copies of earlier numbers are on the same axis.
     points p{};
     for (const auto axis : {&ccd::point<double>::x, &ccd::point<double>::y, &ccd::point<double>::z})
         for (auto& m : p) {

@@ -1,4 +1,4 @@
-// Compares every call of `exact` and the promises of each method with an independent exact
+// Compares every function of `exact` and the promises of each method with an independent exact
 // decision, on queries of all kinds.
 #include <array>
 #include <ccd/method.hpp>
@@ -21,7 +21,7 @@ points reversed(points p) {
 
 [[noreturn]] void fail(ccd::kind which, const points& p, const std::string& who, ccd::outcome said,
                        bool truth) {
-    fuzz::fail(who + " says " + std::string(ccd::name(said)) + ", right is " +
+    fuzz::fail(who + " returns " + std::string(ccd::name(said)) + ", expected " +
                (truth ? "collides" : "separate") + ", " + std::string(short_name(which)) + ":\n" +
                query_families::csv(p));
 }

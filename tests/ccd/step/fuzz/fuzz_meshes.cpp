@@ -1,5 +1,5 @@
-// Steps of small meshes, on one thread and on two, by index into frames of faces, rods and points,
-// against every pair asked of the reference.
+// Steps of small meshes of faces, rods and points, with one thread and with two, compared with the
+// reference on every pair.
 #include <ccd/reference.hpp>
 #include <ccd/step.hpp>
 #include <string>

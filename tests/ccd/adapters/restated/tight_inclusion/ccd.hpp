@@ -1,5 +1,5 @@
-// The calls of Tight-Inclusion that its adapter has the shape of, restated: their types alone, of
-// its builds in double and in single precision.
+// The types of Tight-Inclusion's calls that its adapter imitates, of its builds in double and in
+// single precision.
 #pragma once
 
 #include <Eigen/Core>

@@ -1,10 +1,10 @@
-// In place of the library's header: integers of fixed width that count bits. Beside its words each
-// has what it can be at most, which depends on how it was computed, as expressions have in
-// FixedWidths.v of the proofs (`bound`), and not on its value, but that of constants, and that
-// places in the step are known to be in it. Where it exceeds its words, it is told.
+// Replaces the library's header by integers of fixed width that count bits. Each stores an upper
+// bound next to its words, like `bound` of expressions in FixedWidths.v of the proofs. The bound
+// depends on the computation, not on the value. Exceptions are constants, and positions in the
+// step, which are at most the step. A bound that exceeds the words is reported.
 #pragma once
 
-// The library's own, under another name.
+// The library's class under another name.
 #define fixed_integer words_alone
 #include "include/errbound/integers/fixed_integer.hpp"
 #undef fixed_integer
@@ -28,7 +28,7 @@ struct upper_bound {
         for (; m >> 32 != 0; ++k) m = (m >> 1) + (m & 1);
         return {m, k};
     }
-    /// As a multiple of 2^to, for to >= k.
+    /// A bound that is a multiple of 2^to. Precondition: to >= k.
     constexpr upper_bound raised(int to) const {
         const int by = to - k;
         if (m == 0 || by >= 32) return {std::uint64_t{m != 0}, to};
@@ -45,7 +45,7 @@ struct upper_bound {
         const int k = std::max(a.k, b.k);
         return a.raised(k).m < b.raised(k).m;
     }
-    /// Times 2^e, rounded up to a whole number.
+    /// The bound times 2^e, rounded up to a whole number.
     constexpr upper_bound times_power(int e) const {
         const upper_bound whole = k + e < 0 ? raised(-e) : *this;
         return {whole.m, whole.k + e};
@@ -54,12 +54,12 @@ struct upper_bound {
     constexpr int bits() const { return m == 0 ? 0 : k + static_cast<int>(std::bit_width(m)); }
 };
 
-/// What was counted. Nothing is unless `on`, and of what is made meanwhile no bound is known.
+/// Counts while `on`; numbers made while it is off have no bound.
 struct bit_count {
     bool on = false;
     std::uint64_t numbers = 0, beyond = 0;
-    std::map<int, int> fullest{};  ///< by words: the most bits, the sign's excluded
-    std::string first{};           ///< the first that is beyond
+    std::map<int, int> fullest{};  ///< the most bits without the sign, by the number of words
+    std::string first{};           ///< the first number that exceeds its words
 };
 inline bit_count counted;
 
@@ -87,12 +87,12 @@ class fixed_integer {
         r.is_unit_ = magnitude == 1;
         return r;
     }
-    /// x, which is below 2^bits in size.
+    /// The number x with the bound 2^bits.
     static constexpr fixed_integer given(const numbers& x, int bits) {
         return {x, upper_bound{1, bits}, "given"};
     }
-    /// A coordinate modulo its width, along one axis and at one end of the step, which are
-    /// numbered: differences of such are below 2^bits, and nothing else is known.
+    /// A coordinate modulo its width, with an index of its axis and end of the step. Differences of
+    /// coordinates with the same index are below 2^bits; nothing else has a bound.
     static constexpr fixed_integer coordinate(const numbers& x, int axis_and_end, int bits) {
         fixed_integer r;
         r.x_ = x;
@@ -115,8 +115,8 @@ class fixed_integer {
     friend constexpr fixed_integer operator-(const fixed_integer& a, const fixed_integer& b) {
         if (a.coordinate_ >= 0 && b.coordinate_ == a.coordinate_)
             return given(a.x_ - b.x_, a.difference_bits_);
-        // The rest of the step after a place in it: both are at most the step, 2^bits, which sums
-        // of bounds tell not. Proof: proofs/CubicRoots.v, bracket_near_right.
+        // The rest of the step after a position in it: both are at most the step, 2^bits, which
+        // sums of bounds do not show. Proof: proofs/CubicRoots.v, bracket_near_right.
         if (a.is_unit_ && !b.x_.negative() && b.x_ <= a.x_) {
             b.bound_ = std::min(b.bound_, a.bound_);
             b.is_place_ = true;
@@ -154,12 +154,12 @@ class fixed_integer {
         return {x_.template from_bit<Result>(shift), bound_.times_power(-shift) + upper_bound{1, 0},
                 "from_bit"};
     }
-    /// Modulo 2^64, where that is meant.
+    /// The number modulo 2^64, without a report.
     constexpr std::int64_t word_from_bit(int shift) const {
         used("word_from_bit");
         return x_.word_from_bit(shift);
     }
-    /// The number, which has to fit, as its value tells: of two places in a bracket, say.
+    /// The value, which must fit in a word, such as the difference of two positions in a bracket.
     constexpr std::int64_t low_word() const {
         used("low_word");
         if (counted.on && !(numbers(x_.low_word()) == x_)) told("low_word");
@@ -183,7 +183,7 @@ class fixed_integer {
         : fixed_integer(x, bound, how) {
         a.used(how), b.used(how);
     }
-    /// Where no bound is known, nothing is to be computed.
+    /// Reports a use of a number without a bound.
     constexpr void used(const char* how) const {
         if (counted.on && !is_known_) told(how);
     }
@@ -203,7 +203,7 @@ class fixed_integer {
     numbers x_;
     mutable upper_bound bound_{};
     mutable bool is_place_ = false;
-    bool is_known_ = true;  // of zero
+    bool is_known_ = true;  // zero
     bool is_unit_ = false;
     int coordinate_ = -1, difference_bits_ = 0;
 };

@@ -1,6 +1,6 @@
-// What the adapter for ipc-toolkit needs of it, restated: names and signatures of the interface, as
-// of 1.6, or with RESTATED_IPC_TOOLKIT_EARLY as it first was: positions by plain references, and
-// no conservative_rescaling.
+// Declarations of ipc-toolkit that its adapter needs: names and signatures of version 1.6. With
+// RESTATED_IPC_TOOLKIT_EARLY they are those of the first version, with positions by plain
+// references and without conservative_rescaling.
 #pragma once
 
 #include <Eigen/Core>
