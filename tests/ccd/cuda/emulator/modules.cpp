@@ -63,7 +63,7 @@ void* module::load(const std::string& name, const char* symbol) {
         std::filesystem::create_directories(folder_);
         write_once(file(), ptx_);
         const std::string command = PTXEMU_PYTHON " " PTXEMU_FOLDER "/translate.py '" + file() +
-                                    "' '" + name + "' '" + object + "'";
+                                    "' '" + name + "' '" + object + "' " PTXEMU_COMPILER;
         if (std::system(command.c_str()) != 0) stop("failed: %s", command.c_str());
     }
     void* const library = dlopen(object.c_str(), RTLD_NOW | RTLD_LOCAL);

@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
-"""translate.py MODULE.ptx NAME OUTPUT.so: compiles a kernel or a function of a PTX module for the host.
+"""translate.py MODULE.ptx NAME OUTPUT.so [ccache] COMPILER: compiles a kernel or a function of a PTX module for the host.
 
 A kernel becomes one C++ function for each basic block, which runs it for the lanes of a warp that are there.
 Blocks end at branches, and where lanes of a warp or of a thread block meet. A function becomes a C++ function
-of one lane. CXX in the environment is the compiler.
+of one lane.
 """
 import fcntl
 import os
@@ -14,7 +14,7 @@ import sys
 from instructions import CPP, Writer
 from ptx import Module, Unsupported
 
-FLAGS = ["-std=c++20", "-ffp-contract=off", "-fno-strict-aliasing", "-fPIC", "-fvisibility=hidden", "-shared"]
+FLAGS = ["-std=c++20", "-ffp-contract=off", "-fno-strict-aliasing", "-fPIC", "-fvisibility=hidden"]
 LARGE = 400_000  # characters of C++; the compilation of a larger function takes longer than its runs
 MEETINGS = {"shfl", "vote", "activemask", "bar"}
 ENDS = {"bra", "ret", "exit", "trap"}
@@ -197,7 +197,7 @@ def source(module, name):
     return "\n".join([*head, text, ""])
 
 
-def main(ptx_file, name, output):
+def main(ptx_file, name, output, *compiler):
     with open(output + ".lock", "w") as lock:
         fcntl.flock(lock, fcntl.LOCK_EX)  # other processes may want the same
         if os.path.exists(output):
@@ -209,8 +209,9 @@ def main(ptx_file, name, output):
         cpp = output + ".cpp"
         pathlib.Path(cpp).write_text(text)
         level = "-O0" if len(text) > LARGE else "-O1"
-        subprocess.run([os.environ.get("CXX", "c++"), level, *FLAGS, "-I", os.path.dirname(os.path.abspath(__file__)),
-                        "-o", output + ".new", cpp], check=True)
+        subprocess.run([*compiler, level, *FLAGS, "-I", os.path.dirname(os.path.abspath(__file__)), "-c",
+                        "-o", output + ".o", cpp], check=True)
+        subprocess.run([compiler[-1], "-shared", "-o", output + ".new", output + ".o"], check=True)
         os.rename(output + ".new", output)
 
 
