@@ -144,6 +144,8 @@ I saturated(T x) {
     CASE("add.s" type " %0, %1, %2;", U, r, U, r, a + b);                                          \
     CASE("sub.s" type " %0, %1, %2;", U, r, U, r, a - b);                                          \
     CASE("div.s" type " %0, %1, %2;", T, r, T, r, wrapped_quotient(a, b));                         \
+    CASE("rem.s" type " %0, %1, %2;", T, r, T, r, U(a) - U(wrapped_quotient(a, b)) * U(b));        \
+    CASE("rem.u" type " %0, %1, %2;", U, r, U, r, b == 0 ? a : a % b);                             \
     CASE("abs.s" type " %0, %1;", T, r, T, r, a < 0 ? U(0) - U(a) : U(a));                         \
     CASE("neg.s" type " %0, %1;", U, r, U, r, 0 - a);                                              \
     CASE("min.s" type " %0, %1, %2;", T, r, T, r, a < b ? a : b);                                  \
