@@ -71,7 +71,10 @@ class Writer:
         self.module, self.function, self.body = module, function, function.body
         self.members = members  # registers of a kernel that live across blocks
         self.called = set()
-        self.frame, self.frame_bytes = self.layout(self.body.local)
+        moved = {i.operands[1] for i in self.body.items if not isinstance(i, str) and i.name == "mov"}
+        # The address of a function's parameter is one of local memory.
+        self.addressed = [] if function.is_kernel else [v for v in function.parameters if v.name in moved]
+        self.frame, self.frame_bytes = self.layout([*self.body.local, *self.addressed])
         static = [*self.body.shared, *(v for v in module.shared.values() if v.bytes)]
         dynamic = [v for v in module.shared.values() if not v.bytes]
         self.shared, self.shared_bytes = self.layout([*static, *dynamic])
