@@ -23,7 +23,7 @@
 
 namespace ccd::detail {
 
-template <int Words, template <class> class Query>
+template <int Words, effort Effort = effort::whole, template <class> class Query>
 constexpr found_time first_contact_converted(
     const Query<errbound::integers::fixed_integer<Words>>& query, const Query<double>& original,
     const integer_units& units) {
@@ -40,17 +40,18 @@ constexpr found_time first_contact_converted(
         if (found.outcome == outcome::uncertain) return found;
         if (found.outcome == outcome::collides && found.time < first) first = found.time;
     }
-    const found_time inside = interior_time(forms, y, units, first).find();
+    const found_time inside =
+        interior_time(forms, y, units, first, effort_constant<Effort>()).find();
     if (inside.outcome != outcome::separate) return inside;
     return first == never ? found_time() : found_time(first);
 }
-template <int Words>
+template <int Words, effort Effort = effort::whole>
 constexpr found_time first_contact_converted(
     const vertex_edge<errbound::integers::fixed_integer<Words>>& query,
     const vertex_edge<double>& original, const integer_units&) {
     return separated_by_coordinates(original) ? found_time() : first_vertex_edge_contact(query);
 }
-template <int Words>
+template <int Words, effort Effort = effort::whole>
 constexpr found_time first_contact_converted(
     const vertex_vertex<errbound::integers::fixed_integer<Words>>& query,
     const vertex_vertex<double>&, const integer_units&) {
@@ -59,10 +60,10 @@ constexpr found_time first_contact_converted(
 
 /// Computes in integers of Words words; `uncertain` is rare. Preconditions: units =
 /// integer_units(query), with at most extent_limit(Words) bits (ccd/exact/integer_decision.hpp).
-template <int Words, template <class> class Query>
+template <int Words, effort Effort = effort::whole, template <class> class Query>
 constexpr found_time first_contact_in_words(const Query<double>& query,
                                             const integer_units& units) {
-    return first_contact_converted<Words>(units.converted<Words>(query), query, units);
+    return first_contact_converted<Words, Effort>(units.converted<Words>(query), query, units);
 }
 
 /// The same if floating point has found the interval of the first contact, in which Y has exactly

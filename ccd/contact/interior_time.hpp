@@ -20,9 +20,9 @@
 
 namespace ccd::detail {
 
-template <int Words, template <class, int> class Forms>
-class interior_time : interior_contact<Words, Forms> {
-    using base = interior_contact<Words, Forms>;
+template <int Words, template <class, int> class Forms, effort Effort = effort::whole>
+class interior_time : interior_contact<Words, Forms, Effort> {
+    using base = interior_contact<Words, Forms, Effort>;
     using typename base::part;
     using typename base::sign_type;
 
@@ -30,7 +30,7 @@ class interior_time : interior_contact<Words, Forms> {
     /// y = forms.y(). No vertex/edge contact is earlier than `end`.
     constexpr interior_time(const Forms<errbound::integers::fixed_integer<Words>, 1>& forms,
                             const cubic_form<3 * Words>& y, const integer_units& units,
-                            const time_bracket& end)
+                            const time_bracket& end, effort_constant<Effort> = {})
         : base(forms, y, units), search_(y), first_(end) {}
 
     /// Returns the first time with Y = 0 and all G_i > 0, if its bracket is earlier than `end`. If
@@ -41,8 +41,12 @@ class interior_time : interior_contact<Words, Forms> {
         const inner_sign_changes roots(y_);
         if (roots.count > 1) {
             if (const auto root = this->multiple_root())
-                consider(bracket_of_linear_root(*root),
-                         [&] { return strict(forms_at(forms_, (*root)[1], -(*root)[0])); });
+                consider(bracket_of_linear_root(*root), [&] {
+                    if constexpr (Effort == effort::limited)
+                        return outcome::uncertain;
+                    else
+                        return strict(forms_at(forms_, (*root)[1], -(*root)[0]));
+                });
         }
         if (roots.count > 0 && !this->triple_) in_parts(roots);
         if (unplaced_) return outcome::uncertain;

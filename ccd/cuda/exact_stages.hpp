@@ -171,7 +171,8 @@ struct integer_stage : exact_stage<Pair> {
             this->open.push(i);
             return;
         }
-        const outcome found = ccd::detail::decide_in_words<Words>(query, units);
+        const outcome found =
+            ccd::detail::decide_in_words<Words, ccd::detail::effort::limited>(query, units);
         this->answers[i] = found;
         if (found == outcome::uncertain) left.push(i);
     }

@@ -17,17 +17,10 @@ struct queue {
     std::uint32_t* items;
     std::uint32_t* size;
 
-    /// Any thread may push. Threads of a warp that push together share one atomic addition.
+    /// Any thread may push. Device compilers combine the additions of a warp.
     constexpr void push(std::uint32_t item) const {
 #ifdef __CUDA_ARCH__
-        const unsigned active = __activemask();
-        unsigned lane;
-        asm("mov.u32 %0, %%laneid;" : "=r"(lane));
-        const unsigned before = active & ((1u << lane) - 1);
-        std::uint32_t base = 0;
-        if (before == 0) base = atomicAdd(size, static_cast<unsigned>(__popc(active)));
-        base = __shfl_sync(active, base, __ffs(static_cast<int>(active)) - 1);
-        items[base + static_cast<unsigned>(__popc(before))] = item;
+        items[atomicAdd(size, 1u)] = item;
 #else
         items[(*size)++] = item;
 #endif

@@ -99,7 +99,8 @@ struct integer_time_stage : time_stage<Pair> {
     constexpr void operator()(std::uint32_t i) const {
         const auto query = this->query(i);
         const ccd::detail::integer_units units(query);
-        this->answer(i, ccd::detail::first_contact_in_words<Words>(query, units));
+        this->answer(i, ccd::detail::first_contact_in_words<Words, ccd::detail::effort::limited>(
+                            query, units));
     }
 };
 

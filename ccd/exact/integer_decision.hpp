@@ -25,7 +25,7 @@ constexpr int extent_limit(int words) {
 /// Decides VF and EE queries by the union in the head of ccd/exact/reference.cpp. Vertex/edge
 /// contacts come first. Every contact has Y = 0. Proof: proofs/InteriorContact.v,
 /// face_decision_right, edges_decision_right.
-template <int Words, template <class> class Query>
+template <int Words, effort Effort = effort::whole, template <class> class Query>
 constexpr outcome decide_converted(const Query<errbound::integers::fixed_integer<Words>>& query,
                                    const Query<double>& original, const integer_units& units) {
     const auto forms = forms_of(query);
@@ -36,17 +36,17 @@ constexpr outcome decide_converted(const Query<errbound::integers::fixed_integer
     for (std::size_t i = 0; i < edges.size(); ++i)
         if (!separated_by_coordinates(original_edges[i]) && vertex_touches_edge(edges[i]))
             return outcome::collides;
-    return interior_contact(forms, y, units).decide();
+    return interior_contact(forms, y, units, effort_constant<Effort>()).decide();
 }
 /// Proof: proofs/InteriorContact.v, vertex_edge_decision_right.
-template <int Words>
+template <int Words, effort Effort = effort::whole>
 constexpr outcome decide_converted(
     const vertex_edge<errbound::integers::fixed_integer<Words>>& query,
     const vertex_edge<double>& original, const integer_units&) {
     return !separated_by_coordinates(original) && vertex_touches_edge(query) ? outcome::collides
                                                                              : outcome::separate;
 }
-template <int Words>
+template <int Words, effort Effort = effort::whole>
 constexpr outcome decide_converted(
     const vertex_vertex<errbound::integers::fixed_integer<Words>>& query,
     const vertex_vertex<double>&, const integer_units&) {
@@ -55,9 +55,9 @@ constexpr outcome decide_converted(
 
 /// Decides in integers of Words words; `uncertain` is rare. Preconditions: units =
 /// integer_units(query), with at most extent_limit(Words) bits.
-template <int Words, template <class> class Query>
+template <int Words, effort Effort = effort::whole, template <class> class Query>
 constexpr outcome decide_in_words(const Query<double>& query, const integer_units& units) {
-    return decide_converted<Words>(units.converted<Words>(query), query, units);
+    return decide_converted<Words, Effort>(units.converted<Words>(query), query, units);
 }
 
 }  // namespace ccd::detail

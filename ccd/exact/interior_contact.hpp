@@ -20,6 +20,7 @@
 #include <errbound/bernstein.hpp>
 #include <errbound/integers/fixed_integer.hpp>
 #include <optional>
+#include <type_traits>
 
 #include "ccd/exact/axis_units.hpp"
 #include "ccd/exact/bounded_integer.hpp"
@@ -28,14 +29,21 @@
 
 namespace ccd::detail {
 
+/// Device code leaves rare cases to the host, since they would be most of its integer code:
+/// brackets of roots whose ends have more than two words, and contact at multiple roots.
+enum class effort { whole, limited };
+template <effort E>
+using effort_constant = std::integral_constant<effort, E>;
+
 /// Decides one query. Forms is vertex_face_forms or edge_edge_forms over integers of Words words.
 /// Precondition: differences are below 2^(64·Words − 3).
-template <int Words, template <class, int> class Forms>
+template <int Words, template <class, int> class Forms, effort Effort = effort::whole>
 class interior_contact {
   public:
     /// y = forms.y(). Differences of coordinates are below 2^units.x.bits, and so on per axis.
     constexpr interior_contact(const Forms<errbound::integers::fixed_integer<Words>, 1>& forms,
-                               const cubic_form<3 * Words>& y, const integer_units& units)
+                               const cubic_form<3 * Words>& y, const integer_units& units,
+                               effort_constant<Effort> = {})
         : forms_(forms), y_(y), units_(units) {}
 
     /// Returns whether Y = 0 and all G_i > 0 at some t in [0, 1]; if Y ≡ 0, at t = 0 or 1. With
@@ -48,8 +56,12 @@ class interior_contact {
         const inner_sign_changes roots(y_);
         if (roots.count == 0) return outcome::separate;
         if (roots.count > 1) {
-            const auto multiple = at_multiple_root();
-            if (multiple != outcome::uncertain) return multiple;
+            if constexpr (Effort == effort::limited) {
+                if (multiple_root()) return outcome::uncertain;
+            } else {
+                const auto multiple = at_multiple_root();
+                if (multiple != outcome::uncertain) return multiple;
+            }
         }
         part whole{{}, roots, 0, 0};
         std::copy(y_.h.begin(), y_.h.end(), whole.y.h.begin());
@@ -57,14 +69,23 @@ class interior_contact {
     }
 
   protected:
+    /// Brackets of roots have ends of one word first, then of one word more each, up to these.
+    static constexpr int max_end_words = Effort == effort::whole ? 4 : 2;
+
     template <int W>
     using number = errbound::integers::fixed_integer<W>;
     using sign_type = errbound::sign_type;
     using part = cubic_part<3 * Words>;
 
-    /// The ends of the first bracket have one word as numerator, later ones one more each.
-    static constexpr int max_end_words = 4;
+/// Device code leaves rare cases to the host, since they would be most of its integer code:
+/// brackets of roots whose ends have more than two words, and contact at multiple roots.
+enum class effort { whole, limited };
+template <effort E>
+using effort_constant = std::integral_constant<effort, E>;
 
+/// Decides one query. Forms is vertex_face_forms or edge_edge_forms over integers of Words words.
+/// Precondition: differences are below 2^(64·Words − 3).
+template <int Words, template <class, int> class Forms, effort Effort = effort::whole>
     template <class Values>
     static constexpr bool all_positive(const Values& forms_at_a_time) {
         const auto g = forms_at_a_time.inside();

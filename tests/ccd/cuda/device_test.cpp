@@ -131,6 +131,24 @@ TEST_F(on_device, finds_the_pairs_and_times_of_a_step) {
                              {.first_contact = true, .times = times, .t_max = t_max});
 }
 
+TEST_F(on_device, finds_the_pairs_and_times_of_stored_scenes) {
+    const fs::path scenes = cuda_sets::data_folder() / "scenes";
+    if (!fs::is_directory(scenes)) GTEST_SKIP() << "No stored scenes.";
+    for (const auto& scene : fs::directory_iterator(scenes)) {
+        if (!scene.is_directory()) continue;
+        std::vector<fs::path> frames;
+        for (const auto& file : fs::directory_iterator(scene.path() / "frames"))
+            if (file.path().extension() == ".ply") frames.push_back(file.path());
+        std::ranges::sort(frames);
+        ASSERT_EQ(frames.size(), 2u) << scene.path();
+        const ccd::mesh before = ccd::io::read_mesh(frames[0]);
+        const ccd::mesh after = ccd::io::read_mesh(frames[1]);
+        expect_same_step(before, after, {.times = true});
+        expect_same_step(before, after, {.initial_contact = true, .first_contact = true});
+        expect_same_step(before, after, {.method = ccd::method::tight});
+    }
+}
+
 template <class T>
 void* copied(const std::vector<T>& host) {
     void* p = nullptr;

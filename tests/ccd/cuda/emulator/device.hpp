@@ -45,7 +45,7 @@ class module {
 
   private:
     /// A symbol of the shared object that translate.py makes of a kernel or a function.
-    void* load(const std::string& name, const char* symbol);
+    void* load(const std::string& name);
 
     std::string ptx_, folder_;
     std::map<std::string, const kernel*> kernels_;

@@ -39,6 +39,7 @@ OPERATIONS = [(name, set(modifiers.split()), of, expression, operands) for name,
     ("mad", "lo", "us", "{U}(u64({0}) * {1} + {2})", "u u u"),
     ("mul", "hi", "us", "multiply_high({0}, {1})", "t t"),
     ("div", "", "us", "divide({0}, {1})", "t t"),
+    ("rem", "", "us", "remainder({0}, {1})", "t t"),
     ("abs", "", "s", "{U}({0} < 0 ? -{U}({0}) : {0})", "t"),
     ("neg", "", "s", "{U}(-{U}({0}))", "t"),
     ("min", "", "us", "{T}({0} < {1} ? {0} : {1})", "t t"),
@@ -70,7 +71,10 @@ class Writer:
         self.module, self.function, self.body = module, function, function.body
         self.members = members  # registers of a kernel that live across blocks
         self.called = set()
-        self.frame, self.frame_bytes = self.layout(self.body.local)
+        moved = {i.operands[1] for i in self.body.items if not isinstance(i, str) and i.name == "mov"}
+        # The address of a function's parameter is one of local memory.
+        self.addressed = [] if function.is_kernel else [v for v in function.parameters if v.name in moved]
+        self.frame, self.frame_bytes = self.layout([*self.body.local, *self.addressed])
         static = [*self.body.shared, *(v for v in module.shared.values() if v.bytes)]
         dynamic = [v for v in module.shared.values() if not v.bytes]
         self.shared, self.shared_bytes = self.layout([*static, *dynamic])

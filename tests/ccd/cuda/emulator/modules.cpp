@@ -53,7 +53,7 @@ module::module(const unsigned char* fatbinary) {
               hash(ptx_);
 }
 
-void* module::load(const std::string& name, const char* symbol) {
+void* module::load(const std::string& name) {
     if (ptx_.find(".version") == std::string::npos)
         stop(
             "the program has no PTX in plain text; compile it for a virtual architecture with "
@@ -63,12 +63,12 @@ void* module::load(const std::string& name, const char* symbol) {
         std::filesystem::create_directories(folder_);
         write_once(file(), ptx_);
         const std::string command = PTXEMU_PYTHON " " PTXEMU_FOLDER "/translate.py '" + file() +
-                                    "' '" + name + "' '" + object + "'";
+                                    "' '" + name + "' '" + object + "' " PTXEMU_COMPILER;
         if (std::system(command.c_str()) != 0) stop("failed: %s", command.c_str());
     }
     void* const library = dlopen(object.c_str(), RTLD_NOW | RTLD_LOCAL);
     if (library == nullptr) stop("%s", dlerror());
-    for (auto* v = static_cast<const variable*>(dlsym(library, "translated_variables"));
+    for (auto* v = static_cast<const variable*>(dlsym(library, ("variables_" + hash(name)).c_str()));
          v->name != nullptr; ++v) {
         u64& address = variables_[v->name];
         if (address == 0) {
@@ -80,18 +80,18 @@ void* module::load(const std::string& name, const char* symbol) {
         }
         *v->address = address;
     }
-    return dlsym(library, symbol);
+    return dlsym(library, ("translated_" + hash(name)).c_str());
 }
 
 const kernel& module::find_kernel(const std::string& name) {
     const kernel*& found = kernels_[name];
-    if (found == nullptr) found = static_cast<const kernel*>(load(name, "translated_kernel"));
+    if (found == nullptr) found = static_cast<const kernel*>(load(name));
     return *found;
 }
 
 void* module::find_function(const std::string& name) {
     void*& found = functions_[name];
-    if (found == nullptr) found = load(name, "translated_function");
+    if (found == nullptr) found = load(name);
     return found;
 }
 

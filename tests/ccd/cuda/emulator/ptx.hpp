@@ -223,6 +223,13 @@ T divide(T a, T b) {
     return static_cast<T>(a / b);
 }
 template <class T>
+T remainder(T a, T b) {
+    if (b == 0) return a;  // PTX leaves the value unspecified
+    if constexpr (std::is_signed_v<T>)
+        if (b == -1) return 0;
+    return static_cast<T>(a % b);
+}
+template <class T>
 T shift_left(T a, u32 n) {
     return n < 8 * sizeof(T) ? static_cast<T>(a << n) : T(0);
 }

@@ -144,6 +144,8 @@ I saturated(T x) {
     CASE("add.s" type " %0, %1, %2;", U, r, U, r, a + b);                                          \
     CASE("sub.s" type " %0, %1, %2;", U, r, U, r, a - b);                                          \
     CASE("div.s" type " %0, %1, %2;", T, r, T, r, wrapped_quotient(a, b));                         \
+    CASE("rem.s" type " %0, %1, %2;", T, r, T, r, U(a) - U(wrapped_quotient(a, b)) * U(b));        \
+    CASE("rem.u" type " %0, %1, %2;", U, r, U, r, b == 0 ? a : a % b);                             \
     CASE("abs.s" type " %0, %1;", T, r, T, r, a < 0 ? U(0) - U(a) : U(a));                         \
     CASE("neg.s" type " %0, %1;", U, r, U, r, 0 - a);                                              \
     CASE("min.s" type " %0, %1, %2;", T, r, T, r, a < b ? a : b);                                  \
@@ -203,6 +205,14 @@ CASE("add.s16 %0, %1, %2; shr.u16 %0, %0, 3;", u16, "h", u16, "h", u16(a + b) >>
 CASE("setp.lt.s16 p, %1, %2; not.pred q, p; selp.u16 %0, 1, 2, q;", s16, "h", s16, "h",
      a < b ? 2 : 1);
 
+struct row {
+    u32 x[16];
+};
+/// Indexes its parameter, whose address is one of local memory.
+__device__ __noinline__ u32 at(const row r, u32 i) {
+    const u32* volatile p = r.x;
+    return p[i];
+}
 __global__ void meet(u32* out, u32* sum, u64* least) {
     const u32 t = threadIdx.x, all = ~0u;
     u32* const mine = out + 8 * t;
@@ -214,7 +224,9 @@ __global__ void meet(u32* out, u32* sum, u64* least) {
               4 * u32(__any_sync(all, t == 7));
     mine[5] = t % 2 == 0 ? __activemask() : 0;
     mine[6] = u32(__syncthreads_or(t == 50));
-    atomicAdd(sum, t);
+    row r;
+    for (u32 i = 0; i < 16; ++i) r.x[i] = i * t;
+    atomicAdd(sum, at(r, 1 + t % 2) / (1 + t % 2));
     atomicMin(reinterpret_cast<unsigned long long*>(least), 1000ull - t);
     mine[7] = t < 32 ? 0 : __shfl_sync(all, mine[0], 31);
 }

@@ -1,10 +1,12 @@
 #!/usr/bin/env python3
-"""translate.py MODULE.ptx NAME OUTPUT.so: compiles a kernel or a function of a PTX module for the host.
+"""translate.py MODULE.ptx NAME OUTPUT.so [ccache] COMPILER: compiles a kernel or a function of a PTX module, and the
+functions that it calls, for the host.
 
 A kernel becomes one C++ function for each basic block, which runs it for the lanes of a warp that are there.
 Blocks end at branches, and where lanes of a warp or of a thread block meet. A function becomes a C++ function
-of one lane. CXX in the environment is the compiler.
+of one lane.
 """
+import concurrent.futures
 import fcntl
 import os
 import pathlib
@@ -14,8 +16,8 @@ import sys
 from instructions import CPP, Writer
 from ptx import Module, Unsupported
 
-FLAGS = ["-std=c++20", "-ffp-contract=off", "-fno-strict-aliasing", "-fPIC", "-fvisibility=hidden", "-shared"]
-LARGE = 400_000  # characters of C++; the compilation of a larger function takes longer than its runs
+FLAGS = ["-std=c++20", "-ffp-contract=off", "-fno-strict-aliasing", "-fPIC", "-fvisibility=hidden"]
+LARGE = 200_000  # characters of a C++ file; the compilation of functions twice as large takes longer than their runs
 MEETINGS = {"shfl", "vote", "activemask", "bar"}
 ENDS = {"bra", "ret", "exit", "trap"}
 
@@ -74,7 +76,7 @@ class Kernel:
         parameters = ", ".join(f"{{{writer.parameters[v.name]}, {v.bytes}}}" for v in function.parameters)
         return [*self.lines, "const block blocks[] = {", *table, "};",
                 f"const parameter parameters[] = {{{parameters or '{0, 0}'}}};",
-                'extern "C" [[gnu::visibility("default")]] const kernel translated_kernel = '
+                f'extern "C" [[gnu::visibility("default")]] const kernel translated_{hash_of(function.name)} = '
                 f'{{"{function.name}", blocks, {len(self.blocks)}, sizeof(registers), {writer.frame_bytes}, '
                 f"{writer.shared_bytes}, {writer.parameter_bytes}, parameters, {len(function.parameters)}, "
                 f"{function.max_threads}}};"]
@@ -156,9 +158,12 @@ def signature(function, name):
 def thread_function(module, function):
     body, writer = function.body, Writer(module, function, set())
     used = {name for item in body.items if not isinstance(item, str) for name in item.registers()}
-    lines = [f'extern "C" [[gnu::visibility("default")]] {signature(function, "translated_function")} {{',
+    lines = ['extern "C" [[gnu::visibility("default")]]',
+             signature(function, "translated_" + hash_of(function.name)) + " {",
              *declarations(used & set(body.registers), body), *arguments(body.arguments), "bool carry = false;",
-             f"const frame_scope frame(l, {writer.frame_bytes}, {function.line});"]
+             f"const frame_scope frame(l, {writer.frame_bytes}, {function.line});",
+             *(f"std::memcpy(reinterpret_cast<char*>({writer.address_of(v.name)}), {writer.pointers[v.name]}, {v.bytes});"
+               for v in writer.addressed)]
     for item in body.items:
         if isinstance(item, str):
             lines.append(f"{Writer.identifier(item)}:;")
@@ -172,46 +177,89 @@ def thread_function(module, function):
     return [*lines, "}"], writer
 
 
-def source(module, name):
-    function = module.functions[name]
-    if function.is_kernel:
-        kernel = Kernel(module, function)
-        lines, writer = kernel.write(), kernel.writer
-    else:
-        lines, writer = thread_function(module, function)
-    text = "\n".join(lines)
+def hash_of(text):
+    """The hash of modules.cpp, which names files and symbols."""
+    h, data = 0xcbf29ce484222325, text.encode()
+    for at in range(0, len(data), 8):
+        h = (h ^ int.from_bytes(data[at:at + 8], "little")) * 0x100000001b3 % 2**64
+        h ^= h >> 32
+    return f"{h:016x}"
+
+
+def source(module, functions):
+    """One C++ file of translated functions: pairs of lines and a writer."""
+    bodies = ["\n".join(lines) for lines, _ in functions]
+    called = sorted(set().union(*(writer.called for _, writer in functions)))
     head = ['#include "ptx.hpp"', "using namespace ptx;", "namespace {"]
-    head += [signature(module.functions[f], f"(*f_{Writer.identifier(f)})").replace(")(", ")(") + ";" for f in
-             sorted(writer.called)]
-    used = [v for v in module.globals.values() if f"g_{Writer.identifier(v.name)}" in text]
-    head += [f"u64 g_{Writer.identifier(v.name)};" for v in used]
-    for v in used:
+    head += [signature(module.functions[f], f"(*f_{Writer.identifier(f)})").replace(")(", ")(") + ";" for f in called]
+    used = [[v for v in module.globals.values() if f"g_{Writer.identifier(v.name)}" in body] for body in bodies]
+    for v in {v.name: v for part in used for v in part}.values():
+        head.append(f"u64 g_{Writer.identifier(v.name)};")
         if v.initial:
             head.append(f"const unsigned char i_{Writer.identifier(v.name)}[{v.bytes}] = "
                         f"{{{', '.join(map(str, v.initial))}}};")
-    rows = [f'{{"{v.name}", {v.bytes}, {"i_" + Writer.identifier(v.name) if v.initial else "nullptr"}, '
-            f"&g_{Writer.identifier(v.name)}}}, " for v in used]
     head.append("}")
-    head.append('extern "C" [[gnu::visibility("default")]] const variable translated_variables[] = {'
-                f"{''.join(rows)}{{nullptr, 0, nullptr, nullptr}}}};")
-    return "\n".join([*head, text, ""])
+    for (_, writer), part in zip(functions, used):
+        rows = [f'{{"{v.name}", {v.bytes}, {"i_" + Writer.identifier(v.name) if v.initial else "nullptr"}, '
+                f"&g_{Writer.identifier(v.name)}}}, " for v in part]
+        head.append(f'extern "C" [[gnu::visibility("default")]] const variable '
+                    f"variables_{hash_of(writer.function.name)}[] = {{{''.join(rows)}{{nullptr, 0, nullptr, nullptr}}}};")
+    return "\n".join([*head, *bodies, ""])
 
 
-def main(ptx_file, name, output):
+def translate(module, name):
+    function = module.functions[name]
+    if not function.is_kernel:
+        return thread_function(module, function)
+    kernel = Kernel(module, function)
+    return kernel.write(), kernel.writer
+
+
+def files(module, name, exists):
+    """Translates a function and those that it calls, directly or not, and that do not exist yet. Returns their names,
+    and C++ files of at most LARGE characters where functions are not larger."""
+    names, chunks, size = [name], [], LARGE
+    for each in names:
+        lines, writer = translate(module, each)
+        names += sorted(f for f in writer.called if f not in names and not exists(f))
+        characters = sum(map(len, lines))
+        if size + characters > LARGE:
+            chunks.append([])
+            size = 0
+        chunks[-1].append((lines, writer))
+        size += characters
+    return names, [source(module, chunk) for chunk in chunks]
+
+
+def compile_file(compiler, cpp, text):
+    pathlib.Path(cpp).write_text(text)
+    level = "-O0" if len(text) > 2 * LARGE else "-O1"
+    subprocess.run([*compiler, level, *FLAGS, "-I", os.path.dirname(os.path.abspath(__file__)), "-c", "-o", cpp + ".o",
+                    cpp], check=True)
+    return cpp + ".o"
+
+
+def main(ptx_file, name, output, *compiler):
+    folder = pathlib.Path(output).parent
     with open(output + ".lock", "w") as lock:
         fcntl.flock(lock, fcntl.LOCK_EX)  # other processes may want the same
         if os.path.exists(output):
             return
         try:
-            text = source(Module(pathlib.Path(ptx_file).read_text()), name)
+            names, texts = files(Module(pathlib.Path(ptx_file).read_text()), name,
+                                 lambda f: (folder / f"{hash_of(f)}.so").exists())
         except Unsupported as why:
             sys.exit(f"{ptx_file}: {name}: not implemented by the emulator: {why}")
-        cpp = output + ".cpp"
-        pathlib.Path(cpp).write_text(text)
-        level = "-O0" if len(text) > LARGE else "-O1"
-        subprocess.run([os.environ.get("CXX", "c++"), level, *FLAGS, "-I", os.path.dirname(os.path.abspath(__file__)),
-                        "-o", output + ".new", cpp], check=True)
+        with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as threads:
+            objects = list(threads.map(lambda i: compile_file(compiler, f"{output}.{i}.cpp", texts[i]),
+                                       range(len(texts))))
+        subprocess.run([compiler[-1], "-shared", "-o", output + ".new", *objects], check=True)
         os.rename(output + ".new", output)
+        for other in names[1:]:
+            link = folder / f"{hash_of(other)}.so"
+            new = f"{link}.{os.getpid()}"
+            os.symlink(os.path.basename(output), new)
+            os.rename(new, link)
 
 
 if __name__ == "__main__":
