@@ -69,7 +69,7 @@ class interior_contact {
     }
 
   protected:
-    /// Brackets of roots have ends of one word first, then of one word more each, up to these.
+    /// The ends of the first bracket have one word as numerator, later ones one more each.
     static constexpr int max_end_words = Effort == effort::whole ? 4 : 2;
 
     template <int W>
@@ -77,15 +77,6 @@ class interior_contact {
     using sign_type = errbound::sign_type;
     using part = cubic_part<3 * Words>;
 
-/// Device code leaves rare cases to the host, since they would be most of its integer code:
-/// brackets of roots whose ends have more than two words, and contact at multiple roots.
-enum class effort { whole, limited };
-template <effort E>
-using effort_constant = std::integral_constant<effort, E>;
-
-/// Decides one query. Forms is vertex_face_forms or edge_edge_forms over integers of Words words.
-/// Precondition: differences are below 2^(64·Words − 3).
-template <int Words, template <class, int> class Forms, effort Effort = effort::whole>
     template <class Values>
     static constexpr bool all_positive(const Values& forms_at_a_time) {
         const auto g = forms_at_a_time.inside();
