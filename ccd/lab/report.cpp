@@ -15,7 +15,9 @@
 namespace ccd::lab {
 namespace {
 
+using errbound::support::csv_of;
 using errbound::support::file_error;
+using errbound::support::json_of;
 using errbound::support::read_whole;
 using errbound::support::write_whole;
 
@@ -340,7 +342,7 @@ void write_tables(report_summary& report) {
         std::error_code ignored;
         fs::remove(path, ignored);
         const rows& table = report.tables[s.name];
-        if (!table.empty()) write_whole(path, io::csv_of(s.columns, table));
+        if (!table.empty()) write_whole(path, csv_of(s.columns, table));
     }
 }
 
@@ -423,7 +425,7 @@ std::optional<rows> stored_part(const fs::path& folder, const part& p) {
     const row document = row::parse(read_whole(path), nullptr, false);
     if (!document.is_object() || !document.contains("rows") || !document["rows"].is_array() ||
         document.value("depends_on", row()) != p.depends_on ||
-        document.value("check", row()) != fingerprint_of(text_of(document["rows"], -1)))
+        document.value("check", row()) != fingerprint_of(json_of(document["rows"], -1)))
         return std::nullopt;
     return document["rows"].get<rows>();
 }
@@ -431,9 +433,9 @@ std::optional<rows> stored_part(const fs::path& folder, const part& p) {
 void store_part(const fs::path& folder, const part& p, const rows& measured) {
     const row document = {{"part", p.name},
                           {"depends_on", p.depends_on},
-                          {"check", fingerprint_of(text_of(row(measured), -1))},
+                          {"check", fingerprint_of(json_of(row(measured), -1))},
                           {"rows", measured}};
-    write_whole(path_of_part(folder, p.name), text_of(document, 1) + '\n');
+    write_whole(path_of_part(folder, p.name), json_of(document, 1) + '\n');
 }
 
 rows totals(const rows& methods, const std::function<bool(const row&)>& counts) {
