@@ -11,7 +11,7 @@ import json
 import sys
 
 # A figure's unit, and the column that has it.
-UNITS = {"ns": "ns_min", "ms": "ms_min", "ns exact": "ns_exact"}
+UNITS = {"ns": "ns_min", "ms": "ms_min"}
 
 
 def least_times(paths):
@@ -24,9 +24,9 @@ def least_times(paths):
                 if unit is None:
                     continue
                 words = [str(row[name]) for name in
-                         ("scene", "kind", "contestant", "method", "threads", "copies", "predicate", "inputs", "how") if name in row]
+                         ("scene", "kind", "contestant", "method", "instruction_set", "threads") if name in row]
                 key = ", ".join([table["section"], *words])
-                time = (row[UNITS[unit]], unit.split()[0])
+                time = (row[UNITS[unit]], unit)
                 least[key] = min(time, least.get(key, time))
     return least
 

@@ -38,7 +38,7 @@ inline constexpr std::size_t operands_per_pass = 32;
 
 /// An arithmetic, and a pass over its operands for each operation; empty where it has none.
 struct contestant {
-    std::string key, heading;
+    std::string name;
     std::array<std::function<void()>, operation_count> passes;
 };
 
@@ -170,7 +170,7 @@ std::shared_ptr<operands<Number>> random_operands() {
 
 /// One whose operations are those of Arithmetic, as `operators` has them.
 template <class Number, class Arithmetic = operators<Number>, bool Divides = true>
-contestant contestant_of(std::string key, std::string heading) {
+contestant contestant_of(std::string name) {
     const auto x = random_operands<Number, Arithmetic>();
     const auto pass = [x](auto operation) -> std::function<void()> {
         return [x, operation] {
@@ -183,8 +183,7 @@ contestant contestant_of(std::string key, std::string heading) {
     constexpr auto first = [](std::size_t i) { return i % (operands_per_pass - term_count + 1); };
     using A = Arithmetic;
     contestant result{
-        std::move(key),
-        std::move(heading),
+        std::move(name),
         {pass([](auto& s, auto i) { A::add(s.r[i], s.a[i], s.b[i]); }),
          pass([](auto& s, auto i) { A::subtract(s.r[i], s.a[i], s.b[i]); }),
          pass([](auto& s, auto i) { A::multiply(s.r[i], s.a[i], s.b[i]); }),
