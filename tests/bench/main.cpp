@@ -48,8 +48,7 @@ int main(int argc, char** argv) {
     bench::program bench("./run bench", "Times exact and the other methods; prints tables.");
     bench.line.footer(
         "./run bench also takes, as its first argument, --integers, --linear, --predicates, "
-        "--roots or --rules:\nthose next to other libraries; --worst: worst cases; and --native: "
-        "these by a build for this\nprocessor next to these.");
+        "--roots or --rules:\nthose next to other libraries; --mpi; or --worst: worst cases.");
     options o;
     std::string only;
     bench.line.add_option("--scene", only, "Only scenes whose name holds this");
