@@ -48,7 +48,7 @@ int program::run(int argc, char** argv, const std::function<void(report&)>& body
             support::write_whole(
                 json_,
                 support::json_of({{"machine", machine}, {"tables", out.tables()}}, 1) + '\n');
-        return 0;
+        return status;
     };
     return support::run_program(name_,
                                 [&] { return support::parse_and_run(line, argc, argv, measure); });

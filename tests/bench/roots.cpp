@@ -1,7 +1,7 @@
-// ns per polynomial for counting and isolating real roots, by family and degree, beside FLINT's
-// count of them and arb's isolation. FLINT 2.9 counts exactly, by Sturm's theorem, but does not
-// isolate; arb, its companion, isolates all complex roots. What integers open parts are decided in
-// is compared too: errbound's own, Boost's cpp_int and GMP's.
+// ns per polynomial for counting and isolating real roots, by family and degree, next to FLINT's
+// count and arb's isolation. FLINT 2.9 counts exactly, by Sturm's theorem, but does not isolate;
+// arb, its companion, isolates all complex roots. The integers that decide undecided intervals are
+// compared too: errbound's own, Boost's cpp_int and GMP's.
 #include <boost/multiprecision/cpp_int.hpp>
 #include <errbound/polynomial.hpp>
 #include <functional>
@@ -151,7 +151,7 @@ void run(bool quick, bench::report& out) {
               all_rows);
 }
 
-/// What takes long: roots near each other, and high degrees.
+/// Slow cases: roots near each other, and high degrees.
 struct hard_case {
     std::string name;
     std::vector<double> doubles;

@@ -1,5 +1,5 @@
-// Operations of errbound::integer beside Boost's cpp_int and, where it is there, GMP's integers as
-// Boost wraps them: ns of each, by numbers of words.
+// Operations of errbound::integer next to Boost's cpp_int and, if installed, GMP's integers as Boost
+// wraps them: ns of each, by numbers of words.
 #include <boost/multiprecision/cpp_int.hpp>
 #include <cstdint>
 #include <errbound/integers/integer.hpp>
@@ -19,7 +19,7 @@ namespace {
 namespace mp = boost::multiprecision;
 using boost_integer = mp::number<mp::cpp_int_backend<>, mp::et_off>;
 
-/// Numbers of so many words, of twice as many, and of one.
+/// Numbers of `words` words, of twice as many, and of one.
 template <class Integer>
 struct numbers {
     static constexpr std::size_t count = 32;
@@ -42,7 +42,7 @@ struct numbers {
             word.push_back(any(1));
         }
     }
-    /// What the operation makes of each pair, of numbers that live long enough.
+    /// A pass of the operation over all pairs; it owns the numbers.
     template <class Operation>
     static std::function<void()> pass(std::shared_ptr<numbers> of, const Operation& operation) {
         return [of, operation] {

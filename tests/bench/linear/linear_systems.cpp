@@ -108,9 +108,10 @@ int main(int argc, char** argv) {
     return bench.run(argc, argv, [&](bench::report& out) {
         bench::rows all;
         for (const linear_system& s : systems(bench.quick)) all.push_back(row_of(s, bench.quick));
-        out.table("linear", {},
-                  "certified_solve next to partialPivLu().solve, ms (least of some passes); errors "
-                  "in units of 2^-53 of the solution; overestimate: certified over true error",
-                  all);
+        out.table(
+            "linear", {},
+            "certified_solve next to partialPivLu().solve, ms (least of some passes); errors "
+            "in units of 2^-53 of the solution; overestimate: certified over true error, less 1",
+            all);
     });
 }

@@ -59,7 +59,7 @@ def same(result, expected, what, failures):
 
 
 def spread(values):
-    """Of a list of a figure a rank: all, and the worst over the mean."""
+    """Returns the sum over ranks, and the worst rank over the mean."""
     return sum(values), max(values) * len(values) / max(1, sum(values))
 
 
@@ -87,7 +87,7 @@ HEADING = ["scene", "copies", "faces", "ranks", "placed", "pairs", "held/given",
 
 
 def sizes(faces, largest):
-    """Numbers of copies: 1, 10, 100, ..., and as many as have so many faces."""
+    """Yields 1, 10, 100, ... copies, and the number that has `largest` faces."""
     copies, most = 1, max(1, largest // faces)
     while copies < most:
         yield copies

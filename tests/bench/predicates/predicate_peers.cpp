@@ -104,7 +104,7 @@ template <class Form>
 struct peer {
     std::string_view name;
     decider<Form> decide;      ///< null: not for this predicate, or not installed
-    std::size_t thinning = 1;  ///< the slow ones are timed on one of so many inputs
+    std::size_t thinning = 1;  ///< slow peers are timed on one input in this many
 };
 #ifdef ERRBOUND_HAVE_CGAL
 constexpr bool have_cgal = true;
@@ -219,7 +219,7 @@ void beside_peers(const run_options& o, report& out) {
               all.undecided);
 }
 
-/// Coordinates of so many bits, the exponents of their last ones spread evenly over so many.
+/// Coordinates of `bits` bits, with the exponents of their last bits spread evenly over `spread`.
 template <class Form>
 set_of<Form> make_spread_set(int bits, int spread, std::size_t inputs) {
     const auto make = [=](predicate_inputs::generator& random, surface) {

@@ -1,5 +1,5 @@
-// Others than errbound that decide predicates, each in the same form. Those of a source file of
-// its own are compiled with flags of their own, where what they need is installed.
+// Other libraries that decide predicates, each in the same form. Some have a source file with its
+// own flags, if their library is installed.
 #pragma once
 
 #include <cstddef>
@@ -9,7 +9,7 @@
 
 namespace bench {
 
-/// Decides the first so many inputs of a set.
+/// Decides the first `count` inputs of a set.
 template <class Form>
 using decider = void (*)(const set_of<Form>&, std::size_t count, signs&);
 

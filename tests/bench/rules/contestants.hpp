@@ -42,7 +42,7 @@ struct contestant {
     std::array<std::function<void()>, operation_count> passes;
 };
 
-/// By its operators.
+/// An arithmetic of its operators.
 template <class Number>
 struct by_operators {
     /// The product of two exact numbers between 1 and 2, which is not exact.
@@ -53,7 +53,7 @@ struct by_operators {
     static void divide(Number& r, const Number& a, const Number& b) { r = a / b; }
 };
 
-/// And by functions that are found by their arguments.
+/// An arithmetic of operators and of functions found by argument-dependent lookup.
 template <class Number>
 struct operators : by_operators<Number> {
     static void root(Number& r, const Number& a) {
@@ -106,7 +106,7 @@ struct operators : by_operators<Number> {
     static errbound::sign_type sign(const Number& a) { return sign_of(a); }
 };
 
-/// What is made of an Arithmetic's sums and products, for those that have nothing of their own.
+/// Operations made of sums and products, for an Arithmetic without its own.
 template <class Number, class Arithmetic>
 struct composed {
     static void middle(Number& r, const Number& a, const Number& b) {
@@ -146,7 +146,7 @@ struct composed {
     }
 };
 
-/// What one contestant computes with, and where it puts what it finds.
+/// The operands and results of a contestant.
 template <class Number>
 struct operands {
     std::vector<Number> a, b, c, r;
@@ -179,7 +179,7 @@ contestant contestant_of(std::string name) {
             keep(x->signs);
         };
     };
-    // Where the terms of the i-th dot product begin.
+    // The first term of the i-th dot product.
     constexpr auto first = [](std::size_t i) { return i % (operands_per_pass - term_count + 1); };
     using A = Arithmetic;
     contestant result{

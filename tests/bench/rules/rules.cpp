@@ -1,5 +1,5 @@
-// The cost of each operation under each bound rule, and of explained errors, next to plain double
-// and to the intervals of Boost.Interval, MPFI and arb, if they are installed.
+// The cost of each operation under each bound rule, and of explained errors. Plain double and the
+// intervals of Boost.Interval, MPFI and arb, if installed, are timed next to them.
 #include <errbound/functions.hpp>
 #include <errbound/validation/rule_list.hpp>
 #include <numeric>
@@ -24,7 +24,7 @@ struct plain_operators : operators<double> {
     }
 };
 
-/// With as many terms as there may be, of the same sources in all operands.
+/// All 16 terms, of the same sources in all operands.
 struct full_operators : operators<errbound::tracked<double, errbound::affine>> {
     using number = errbound::tracked<double, errbound::affine>;
     static number made(double x, double y) {

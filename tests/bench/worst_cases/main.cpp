@@ -14,7 +14,7 @@ namespace {
 
 using namespace worst_cases;
 
-/// By the name of a function and that of a range.
+/// The inputs, by the names of a function and a range.
 using inputs = std::map<std::pair<std::string, std::string>, std::vector<double>>;
 
 /// Lines "function; range; number number ...", hexadecimal.
