@@ -45,8 +45,8 @@ class program {
     int status = 0;      ///< returned by run
 
     int repeats() const { return quick ? 3 : 7; }
-    /// Parses the line, prints the machine with the columns of `more`, calls the body and writes the
-    /// tables. Returns the exit status.
+    /// Parses the line, prints the machine with the columns of `more`, calls the body and writes
+    /// the tables. Returns the exit status.
     int run(int argc, char** argv, const std::function<void(report&)>& body,
             const std::function<row()>& more = {});
 

@@ -1,5 +1,5 @@
-// Operations of errbound::integer next to Boost's cpp_int and, if installed, GMP's integers as Boost
-// wraps them: ns of each, by numbers of words.
+// Operations of errbound::integer next to Boost's cpp_int and, if installed, GMP's integers as
+// Boost wraps them: ns of each, by numbers of words.
 #include <boost/multiprecision/cpp_int.hpp>
 #include <cstdint>
 #include <errbound/integers/integer.hpp>
