@@ -78,7 +78,8 @@ template <kind K>
             const static_filter::difference_extents<pack> extents(forms);
             pack_mask apart = static_filter::separated_by_diagonals<pack>(forms, extents);
             if (axes == axes_left::all)
-                apart = apart | static_filter::separated_by_coordinates<pack>(forms, extents);
+                apart =
+                    apart | static_filter::certainly_separated_by_coordinates<pack>(forms, extents);
             const lanes separated = left & lanes_of<double>(apart & extents.usable);
             decided.write(ids + at, separated, outcome::separate);
             separate += count_of(separated);

@@ -33,7 +33,7 @@ template <kind K>
         lanes apart = 0, usable = ~lanes(0) >> (32 - some);
         // Branch-free, because the results are unpredictable.
         for (std::size_t i = 0; i < some; ++i)
-            apart |= lanes(separated_by_coordinates<K>(numbers + 24 * (from + i))) << i;
+            apart |= lanes(packs_separated_by_coordinates<K>(numbers + 24 * (from + i))) << i;
         if (!all_are_finite)
             for (std::size_t i = 0; i < some; ++i)
                 if (!are_finite(numbers + 24 * (from + i), 24)) usable &= ~(lanes(1) << i);

@@ -9,6 +9,7 @@
 
 #include "ccd/contact/control_polynomial.hpp"
 #include "ccd/contact/feature_conditions.hpp"
+#include "ccd/exact/features.hpp"
 
 namespace ccd::detail {
 namespace {
@@ -129,14 +130,8 @@ outcome touches_at_root(std::span<const curve> points, const number& t) {
     const point<double> origin = points[0][0];
     const auto q =
         paths_of<K, number>(points, [&](const curve& p) { return position(p, origin, t); });
-    // If N is not zero, the signs of the weights decide. In a contact with N = 0 all weights are 0.
-    auto found = outcome::collides;
-    for (const auto& g : forms_of(q).inside()) {
-        const sign_type s = sign_of(g[0]);
-        if (s == sign_type::negative) return outcome::separate;
-        if (s != sign_type::positive) found = outcome::uncertain;
-    }
-    return found;
+    // If N is not zero, the weights decide contact; if it is zero, all of them are zero.
+    return decided_by_weights(forms_of(q));
 }
 
 template bool certainly_separate<kind::vertex_face>(std::span<const curve>);

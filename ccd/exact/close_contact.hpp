@@ -25,6 +25,7 @@
 #include "ccd/exact/bounded_integer.hpp"
 #include "ccd/exact/common_roots.hpp"
 #include "ccd/exact/cubic_roots.hpp"
+#include "ccd/exact/features.hpp"
 
 namespace ccd::detail {
 
@@ -241,16 +242,6 @@ class close_contact {
         return {};
     }
 
-    template <class Known>
-    static outcome common_sign(const Known& forms) {
-        auto found = outcome::collides;
-        for (const auto& g : forms.inside()) {
-            const auto sign = sign_of(g[0]);
-            if (sign == sign_type::negative) return outcome::separate;
-            if (sign != sign_type::positive) found = outcome::uncertain;
-        }
-        return found;
-    }
     /// Returns the signs of all G_i from low/2^bits to less than (low + 2^width_bits)/2^bits, or at
     /// low/2^bits without a width: `collides` if all are positive, `separate` if one is negative,
     /// else `uncertain`.
@@ -267,7 +258,8 @@ class close_contact {
             };
             return vector_form<known, 0>{component(v.x), component(v.y), component(v.z)};
         };
-        return common_sign(Forms<known, 0>(at_low(forms_.b), at_low(forms_.c), at_low(forms_.p)));
+        return decided_by_weights(
+            Forms<known, 0>(at_low(forms_.b), at_low(forms_.c), at_low(forms_.p)));
     }
     outcome throughout(const part& p) const {
         return inside_from(p.low, p.unit_bits, p.width_bits);

@@ -73,7 +73,7 @@ six_numbers greatest_of(const double* points) {
 /// True if a coordinate axis separates the features of a query with finite coordinates. Equals
 /// separated_by_coordinates of ccd/exact/features.hpp, computed with packs.
 template <kind K>
-bool separated_by_coordinates(const double* p) {
+bool packs_separated_by_coordinates(const double* p) {
     constexpr std::size_t first = kind_traits<K>::first_vertices;
     constexpr std::size_t second = kind_traits<K>::second_vertices;
     const double* q = p + 6 * first;

@@ -12,6 +12,7 @@
 #include <errbound/bernstein.hpp>
 #include <errbound/detail/bits.hpp>
 #include <errbound/integers/fixed_integer.hpp>
+#include <errbound/roots/sign_variations.hpp>
 #include <optional>
 #include <type_traits>
 
@@ -36,17 +37,11 @@ struct inner_sign_changes {
     constexpr inner_sign_changes() = default;
     template <class Integer>
     explicit constexpr inner_sign_changes(const errbound::bernstein<Integer, 3>& y) {
-        auto last = errbound::sign_type::zero;
-        for (const auto& h : y.h) {
-            const auto sign = sign_of(h);
-            if (sign == errbound::sign_type::zero) continue;
-            if (last == errbound::sign_type::zero)
-                first = sign;
-            else if (sign != last)
-                ++count;
-            last = sign;
-        }
-        opposite = first != last;
+        const auto changes = errbound::roots::sign_changes_of(
+            y.h.size(), errbound::sign_type::zero, [&](std::size_t i) { return sign_of(y.h[i]); });
+        count = changes.count;
+        first = changes.first;
+        opposite = first != changes.last;
     }
 };
 

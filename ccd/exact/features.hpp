@@ -1,4 +1,5 @@
-// Tests shared by the exact decisions: separation by coordinate axes, and vertex/vertex contact.
+// Tests shared by the exact decisions: separation by coordinate axes, vertex/vertex contact, and
+// signs of a contact's weights.
 #pragma once
 
 #include <array>
@@ -7,7 +8,9 @@
 #include <ccd/methods/forms.hpp>
 #include <ccd/methods/transform.hpp>
 #include <ccd/query.hpp>
+#include <ccd/verdict.hpp>
 #include <cstddef>
+#include <errbound/sign.hpp>
 
 namespace ccd::detail {
 
@@ -55,6 +58,20 @@ constexpr bool vertices_touch(const vertex_vertex<S>& query) {
     const vector_form<S, 0> w1{{{w.x[1]}}, {{w.y[1]}}, {{w.z[1]}}};
     const auto c = cross(w0, w1);
     return c.x[0] == 0 && c.y[0] == 0 && c.z[0] == 0 && dot(w0, w1)[0] <= 0;
+}
+
+/// The signs of the constant forms G_i: `collides` if all are positive, `separate` if one is
+/// negative, else `uncertain`.
+template <class Forms>
+constexpr outcome decided_by_weights(const Forms& forms) {
+    using errbound::sign_of;
+    auto found = outcome::collides;
+    for (const auto& g : forms.inside()) {
+        const auto sign = sign_of(g[0]);
+        if (sign == errbound::sign_type::negative) return outcome::separate;
+        if (sign != errbound::sign_type::positive) found = outcome::uncertain;
+    }
+    return found;
 }
 
 }  // namespace ccd::detail

@@ -26,6 +26,7 @@
 #include "ccd/exact/bounded_integer.hpp"
 #include "ccd/exact/common_roots.hpp"
 #include "ccd/exact/cubic_roots.hpp"
+#include "ccd/exact/features.hpp"
 
 namespace ccd::detail {
 
@@ -231,14 +232,8 @@ class interior_contact {
             return vector_form<known, 0>{component(v.x, units_.x), component(v.y, units_.y),
                                          component(v.z, units_.z)};
         };
-        const Forms<known, 0> known_forms(at_low(forms_.b), at_low(forms_.c), at_low(forms_.p));
-        auto found = outcome::collides;
-        for (const auto& g : known_forms.inside()) {
-            const auto sign = sign_of(g[0]);
-            if (sign == sign_type::negative) return outcome::separate;
-            if (sign != sign_type::positive) found = outcome::uncertain;
-        }
-        return found;
+        return decided_by_weights(
+            Forms<known, 0>(at_low(forms_.b), at_low(forms_.c), at_low(forms_.p)));
     }
 
     const Forms<errbound::integers::fixed_integer<Words>, 1>& forms_;

@@ -31,7 +31,7 @@ template <template <class> class Forms, class Query>
     {
         stage_timer timer(report, stage::axes);
         const bool separated =
-            ERRBOUND_INSTRUCTION_SET::separated_by_coordinates<kind_of<Query>>(numbers);
+            ERRBOUND_INSTRUCTION_SET::packs_separated_by_coordinates<kind_of<Query>>(numbers);
         timer.count(1, separated, 0);
         if (separated) return separate;
     }

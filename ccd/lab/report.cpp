@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "ccd/io/plots/plots.hpp"
+#include "ccd/lab/kept.hpp"
 #include "ccd/lab/machine.hpp"
 #include "ccd/lab/sections.hpp"
 #include "ccd/lab/stress.hpp"
@@ -15,6 +16,7 @@
 namespace ccd::lab {
 namespace {
 
+using errbound::support::csv_of;
 using errbound::support::file_error;
 using errbound::support::read_whole;
 using errbound::support::write_whole;
@@ -331,7 +333,7 @@ void write_tables(report_summary& report) {
         std::error_code ignored;
         fs::remove(path, ignored);
         const rows& table = report.tables[s.name];
-        if (!table.empty()) write_whole(path, io::csv_of(s.columns, table));
+        if (!table.empty()) write_whole(path, csv_of(s.columns, table));
     }
 }
 
@@ -411,20 +413,13 @@ std::optional<rows> stored_part(const fs::path& folder, const part& p) {
     const fs::path path = path_of_part(folder, p.name);
     std::error_code error;
     if (!fs::is_regular_file(path, error)) return std::nullopt;
-    const row document = row::parse(read_whole(path), nullptr, false);
-    if (!document.is_object() || !document.contains("rows") || !document["rows"].is_array() ||
-        document.value("depends_on", row()) != p.depends_on ||
-        document.value("check", row()) != fingerprint_of(text_of(document["rows"], -1)))
-        return std::nullopt;
-    return document["rows"].get<rows>();
+    const std::optional<row> kept = kept_value(read_whole(path), p.depends_on);
+    if (!kept || !kept->is_array()) return std::nullopt;
+    return kept->get<rows>();
 }
 
 void store_part(const fs::path& folder, const part& p, const rows& measured) {
-    const row document = {{"part", p.name},
-                          {"depends_on", p.depends_on},
-                          {"check", fingerprint_of(text_of(row(measured), -1))},
-                          {"rows", measured}};
-    write_whole(path_of_part(folder, p.name), text_of(document, 1) + '\n');
+    write_whole(path_of_part(folder, p.name), kept_text(p.depends_on, measured));
 }
 
 rows totals(const rows& methods, const std::function<bool(const row&)>& counts) {

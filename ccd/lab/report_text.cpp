@@ -8,7 +8,10 @@
 namespace ccd::lab {
 namespace {
 
+using errbound::support::cells_of;
+using errbound::support::digits;
 using errbound::support::grouped;
+using errbound::support::markdown_of;
 using strings = std::vector<std::string>;
 
 std::string word(const row& r, const char* column) {

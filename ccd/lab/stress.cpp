@@ -13,7 +13,6 @@
 #include <utility>
 
 #include "ccd/batch/threads.hpp"
-#include "ccd/io/plots/plots.hpp"
 #include "ccd/lab/timing.hpp"
 #include "errbound/support/output_file.hpp"
 #include "errbound/support/progress_line.hpp"
@@ -224,7 +223,7 @@ std::string json_of(const rows& cells) {
     row array = cells;
     for (row& r : array)
         if (r["knob"].is_string()) r["knob"] = nullptr;
-    return text_of(array, 2) + '\n';
+    return errbound::support::json_of(array, 2) + '\n';
 }
 
 }  // namespace
@@ -329,7 +328,9 @@ bool run_and_write(const plan& what, const stress_outputs& to, std::ostream& tex
     rows all;
     for (const cell& c : cells) all.push_back(row_of(c, what));
     std::vector<errbound::support::output> files;
-    if (to.folder) files.push_back({*to.folder / "stress.csv", io::csv_of(stress_columns, all)});
+    if (to.folder)
+        files.push_back(
+            {*to.folder / "stress.csv", errbound::support::csv_of(stress_columns, all)});
     if (to.json) files.push_back({*to.json, json_of(all)});
     write_whole(files);
     text << errbound::support::text_of(lines, 2) << '\n' << legend << verdict;

@@ -13,7 +13,6 @@
 namespace ccd::lab {
 
 using errbound::support::file_error;
-using errbound::support::grouped;
 
 void tally::add(outcome answer, bool collides) {
     const bool reported = answer != outcome::separate;
@@ -41,51 +40,6 @@ double quantile(std::span<const double> sorted, double p) {
     return sorted[static_cast<std::size_t>(std::clamp(std::ceil(p * last), 1.0, last)) - 1];
 }
 
-std::string digits(double x) {
-    char text[48];
-    if (x == 0) return "0";
-    if (x >= 1000 && x < 1e9) return grouped(static_cast<std::size_t>(std::round(x)));
-    if (x < 1e-3 || x >= 1e9) {
-        std::snprintf(text, sizeof text, "%.2e", x);
-    } else {
-        const int after = x >= 100 ? 0 : x >= 10 ? 1 : x >= 1 ? 2 : 3;
-        std::snprintf(text, sizeof text, "%.*f", after, x);
-    }
-    return text;
-}
-
-errbound::support::table cells_of(const rows& all, const std::vector<std::string>& heading,
-                                  const std::vector<std::string>& columns) {
-    const auto cell_of = [](const row& value) -> std::string {
-        if (value.is_string()) return value.get<std::string>();
-        if (value.is_number_integer()) return grouped(value.get<std::size_t>());
-        return value.is_number() ? digits(value.get<double>()) : "-";
-    };
-    errbound::support::table cells{heading};
-    for (const row& r : all) {
-        cells.emplace_back();
-        for (const std::string& column : columns)
-            cells.back().push_back(r.contains(column) ? cell_of(r[column]) : "-");
-    }
-    return cells;
-}
-
-std::string markdown_of(const errbound::support::table& cells, std::size_t left) {
-    const auto line = [](const std::vector<std::string>& row) {
-        std::string text = "|";
-        for (const std::string& cell : row) text += " " + cell + " |";
-        return text + "\n";
-    };
-    std::vector<std::string> rule(cells.front().size(), "---:");
-    std::fill_n(rule.begin(), left, "---");
-    std::string text;
-    for (std::size_t i = 0; i < cells.size(); ++i) {
-        text += line(cells[i]);
-        if (i == 0) text += line(rule);
-    }
-    return text + "\n";
-}
-
 std::string fingerprint_of(std::string_view bytes) {
     std::uint64_t hash = 0xcbf29ce484222325;
     for (const char byte : bytes) hash = (hash ^ static_cast<unsigned char>(byte)) * 0x100000001b3;
@@ -103,10 +57,6 @@ void make_folder(const std::filesystem::path& folder) {
                          (error ? " (" + error.message() + ")" : std::string()));
     if (!system::may_write_in(system::native_name(folder)))
         throw file_error(folder.string() + ": cannot be written to");
-}
-
-std::string text_of(const row& json, int indent) {
-    return json.dump(indent, ' ', false, row::error_handler_t::replace);
 }
 
 }  // namespace ccd::lab

@@ -143,10 +143,10 @@ class report_run final : public command {
 
         const auto all = lab::totals(result.tables.at("methods"), [](const auto&) { return true; });
         std::cout << errbound::support::text_of(
-                         lab::cells_of(all,
-                                       {"method", "queries", "FP", "FN", "uncertain", "ns/query"},
-                                       {"method", "queries", "false_positives", "false_negatives",
-                                        "uncertain", "ns"}),
+                         errbound::support::cells_of(
+                             all, {"method", "queries", "FP", "FN", "uncertain", "ns/query"},
+                             {"method", "queries", "false_positives", "false_negatives",
+                              "uncertain", "ns"}),
                          1)
                   << "report: " << (settings_.out / "report.md").string() << '\n';
         for (const std::string& failure : result.failures)

@@ -1,6 +1,7 @@
 #include "ccd/program/options.hpp"
 
 #include <algorithm>
+#include <ccd/io/query_file.hpp>
 
 #include "ccd/io/text.hpp"
 #include "errbound/support/command_line.hpp"
@@ -92,6 +93,25 @@ std::string text_of_time(const first_time& time) {
     if (time.outcome != outcome::collides) return "-";
     return errbound::support::hexadecimal(time.low) + "," +
            errbound::support::hexadecimal(time.high);
+}
+
+void query_files::add_options(CLI::App& line) {
+    line.add_option(
+            "FILE", paths,
+            "CSV, 8 rows per query: v f0 f1 f2 (or a0 a1 b0 b1) at t = 0, then at t = 1; a row "
+            "is\n"
+            "xnum,xden,ynum,yden,znum,zden or x,y,z, then optionally the truth, 0 or 1;\n"
+            "or an HDF5 store of ccd convert; -: standard input")
+        ->required()
+        ->transform(errbound::support::input_named);
+    line.add_option("--kind", kind,
+                    "Kind of query; by default taken from the path (vertex-face or vf, edge-edge "
+                    "or ee)")
+        ->check(CLI::IsMember(io::kind_names()));
+    line.add_flag(
+        "--round", round,
+        "Round rationals and hexadecimal floats that no double equals; by default they are\n"
+        "errors (decimals are always rounded to the nearest double)");
 }
 
 void add_threads_option(CLI::App& line, int& threads, const std::string& description) {

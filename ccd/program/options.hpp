@@ -4,6 +4,7 @@
 #include <ccd/contact.hpp>
 #include <ccd/method.hpp>
 #include <cstddef>
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -66,6 +67,15 @@ std::string text_of_unused(std::size_t unused, std::size_t vertices, bool skippe
 
 /// Returns `low,high` as hexadecimal floats, or `-` if there is no contact.
 std::string text_of_time(const first_time& time);
+
+/// Files of stored queries: FILE..., --kind, --round.
+struct query_files {
+    std::vector<std::filesystem::path> paths;
+    std::string kind;
+    bool round = false;
+
+    void add_options(CLI::App& line);
+};
 
 void add_threads_option(CLI::App& line, int& threads, const std::string& description);
 

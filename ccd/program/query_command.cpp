@@ -44,9 +44,7 @@ class query final : public command {
     }
     bool requires_exact() const { return toi_ || t_max_.was_given() || separation_.was_given(); }
 
-    std::vector<std::filesystem::path> files_;
-    std::string kind_;
-    bool round_ = false;
+    query_files files_;
     io::file_range range_;
     std::optional<std::filesystem::path> verdicts_, toi_, json_;
     number_option separation_{line_, "--separation",
@@ -57,24 +55,7 @@ class query final : public command {
 };
 
 query::query(CLI::App& program) : command(program, "query", "Decide stored queries") {
-    line_
-        .add_option(
-            "FILE", files_,
-            "CSV, 8 rows per query: v f0 f1 f2 (or a0 a1 b0 b1) at t = 0, then at t = 1; a row "
-            "is\n"
-            "xnum,xden,ynum,yden,znum,zden or x,y,z, then optionally the truth, 0 or 1;\n"
-            "or an HDF5 store of ccd convert; -: standard input")
-        ->required()
-        ->transform(errbound::support::input_named);
-    line_
-        .add_option("--kind", kind_,
-                    "Kind of query; by default taken from the path (vertex-face or vf, edge-edge "
-                    "or ee)")
-        ->check(CLI::IsMember(io::kind_names()));
-    line_.add_flag(
-        "--round", round_,
-        "Round rationals and hexadecimal floats that no double equals; by default they are\n"
-        "errors (decimals are always rounded to the nearest double)");
+    files_.add_options(line_);
     line_.add_option("--first", range_.first, "Skip the first N queries of each file")
         ->check(CLI::Range(std::uint64_t{0}, std::uint64_t{1} << 48))
         ->capture_default_str();
@@ -98,21 +79,21 @@ query::query(CLI::App& program) : command(program, "query", "Decide stored queri
 
 exit_status query::run() {
     const request checked = checked_options();
-    errbound::support::require_good_outputs(outputs(), files_);
+    errbound::support::require_good_outputs(outputs(), files_.paths);
     // All files are read before anything is printed or written.
     write(decide_files(checked));
     return done;
 }
 
 query::request query::checked_options() const {
-    errbound::support::require_one_standard_input("FILE", files_);
+    errbound::support::require_one_standard_input("FILE", files_.paths);
     request checked;
     checked.device = device_.chosen();
     checked.times = checked_times();
     checked.methods = methods_on(checked.device);
     for (const auto& [option, output] : {std::pair("--verdicts", &verdicts_), {"--toi", &toi_}})
-        if (*output && (files_.size() != 1 || checked.methods.size() != 1))
-            throw usage_error(std::string(option) + " has " + std::to_string(files_.size()) +
+        if (*output && (files_.paths.size() != 1 || checked.methods.size() != 1))
+            throw usage_error(std::string(option) + " has " + std::to_string(files_.paths.size()) +
                               " files and " + std::to_string(checked.methods.size()) +
                               " methods; expected one FILE and one --method");
     return checked;
@@ -161,11 +142,11 @@ std::vector<query_result> query::decide_files(const request& checked) const {
     std::vector<query_result> results;
     constexpr double seconds = 0.02;
     errbound::support::progress_line progress;
-    for (std::size_t i = 0; i < files_.size(); ++i) {
-        const std::string file = files_[i].string();
-        progress.show(i, files_.size(), file);
+    for (std::size_t i = 0; i < files_.paths.size(); ++i) {
+        const std::string file = files_.paths[i].string();
+        progress.show(i, files_.paths.size(), file);
         const io::query_file queries =
-            io::read_queries(files_[i], find_kind(kind_), round_, range_);
+            io::read_queries(files_.paths[i], find_kind(files_.kind), files_.round, range_);
         for (const ccd::method m : checked.methods)
             results.push_back(
                 decide_queries(queries, file, m, checked.device, checked.times, seconds));

@@ -1,40 +1,52 @@
 // `errbound explain`.
-#include "errbound/program/explain_command.hpp"
-
+#include <cstddef>
 #include <errbound/explain/explanation.hpp>
+#include <filesystem>
+#include <optional>
 #include <ostream>
 #include <string>
 #include <vector>
 
+#include "errbound/program/commands.hpp"
 #include "errbound/program/explanation_file.hpp"
 #include "errbound/program/flame_graph.hpp"
-#include "errbound/support/command_line.hpp"
 #include "errbound/support/output_file.hpp"
 
 namespace errbound::explaining {
+namespace {
 
 /// Printable: a file may contain any name.
-static std::string shown_name(const explanation& result) {
+std::string shown_name(const explanation& result) {
     return detail::printable(result.name);
 }
 
-explain_command::explain_command(CLI::App& program)
-    : line_(*program.add_subcommand(
-          "explain",
-          "Tell where the errors of results come from, as errbound::write_explanations of a "
-          "program\nthat computes with explained numbers wrote it.")) {
-    line_.add_option("file", file_, "What the program wrote; - is standard input")
+class explain final : public support::command {
+  public:
+    explicit explain(CLI::App& program);
+    support::exit_status run() override;
+
+  private:
+    std::string file_, result_;
+    std::size_t lines_ = 20;
+    std::optional<std::filesystem::path> picture_;
+};
+
+explain::explain(CLI::App& program)
+    : command(program, "explain",
+              "Show where the errors of results come from, as errbound::write_explanations of a "
+              "program\nthat computes with explained numbers wrote it") {
+    line_.add_option("file", file_, "The explanations; - is standard input")
         ->required()
         ->type_name("FILE")
         ->transform(support::input_named);
-    line_.add_option("--result", result_, "The result of that name alone");
+    line_.add_option("--result", result_, "Only the result of that name");
     line_.add_option("--lines", lines_, "Sources in a table, at most")
         ->check(CLI::Range(std::size_t{1}, std::size_t{1} << 40))
         ->capture_default_str();
     line_.add_option("--picture", picture_, "Draw flame graphs, an SVG file")->type_name("OUT");
 }
 
-int explain_command::run() const {
+support::exit_status explain::run() {
     support::require_good_outputs({picture_}, {file_});
     std::vector<explanation> results = parse_explanations(support::read_whole(file_), file_);
     if (line_.count("--result") > 0)
@@ -43,7 +55,12 @@ int explain_command::run() const {
     std::ostream& people = support::stream_for_people({picture_});
     for (std::size_t i = 0; i < results.size(); ++i)
         people << (i > 0 ? "\n" : "") << text_of(results[i], lines_);
-    return 0;
+    return support::done;
 }
 
+}  // namespace
 }  // namespace errbound::explaining
+
+std::unique_ptr<errbound::support::command> errbound::explain_command(CLI::App& program) {
+    return std::make_unique<explaining::explain>(program);
+}

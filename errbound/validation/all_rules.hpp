@@ -6,7 +6,6 @@
 
 namespace errbound::validation {
 
-void set_query_checks(std::span<rule> rules);
 void set_tiny_checks(std::span<rule> rules);
 void set_boost_checks(std::span<rule> rules);
 

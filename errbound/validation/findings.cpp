@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <errbound/validation/findings.hpp>
+#include <errbound/validation/shadowed.hpp>
 
 namespace errbound::validation {
 namespace {
@@ -86,6 +87,15 @@ std::string sentence(finding f, const claim& c, const ball& x, const deviation& 
         default:
             return "certain about what has no finite value: " + value + "; " + exact;
     }
+}
+
+void shadow_session::note(std::string_view quantity, const claim& c, const ball& x,
+                          error_meaning meaning) {
+    auto found = quantities_.find(quantity);
+    if (found == quantities_.end())
+        found = quantities_.emplace(std::string(quantity), distribution()).first;
+    if (c.value.is_finite() && x.is_defined()) off_.compute(c.value, x);
+    add_ratio(found->second, meaning, c, x, off_);
 }
 
 }  // namespace errbound::validation

@@ -16,7 +16,6 @@ std::span<const rule> rules() {
             set_expression_checks<Rule>(one);
             r.push_back(one);
         });
-        set_query_checks(r);
         set_tiny_checks(r);
         set_boost_checks(r);
         return r;

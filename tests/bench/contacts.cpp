@@ -8,11 +8,8 @@
 namespace bench {
 namespace {
 
-cell error(double e) {
-    if (!std::isfinite(e)) return {"unknown", nullptr};
-    char text[16];
-    std::snprintf(text, sizeof text, "%.1e", e);
-    return {text, e};
+row error(double e) {
+    return std::isfinite(e) ? row(e) : row("unknown");
 }
 
 /// Errors of the data of all contacts.
@@ -34,8 +31,7 @@ struct accuracy {
 };
 
 template <class Query>
-void add_contacts_row(const query_set<Query>& set, const options& o,
-                      std::vector<std::vector<cell>>& rows) {
+void add_contacts_row(const query_set<Query>& set, const options& o, rows& table) {
     std::vector<Query> colliding;
     std::vector<ccd::first_time> times;
     for (std::size_t i = 0; i < set.size(); ++i) {
@@ -57,13 +53,18 @@ void add_contacts_row(const query_set<Query>& set, const options& o,
                                }},
                               o.repeats());
     const auto all = static_cast<double>(colliding.size());
-    const auto ns = [&](std::size_t i) { return number(1e9 * timings[i].minimum / all, 0); };
+    const auto ns = [&](std::size_t i) { return 1e9 * timings[i].minimum / all; };
     const accuracy of(colliding, times);
-    rows.push_back(
-        {word(short_name(ccd::kind_of<Query>)), count(colliding.size()), ns(0), ns(1), ns(2),
-         percent(static_cast<double>(of.inside) / all), error(ccd::lab::quantile(of.weights, 0.5)),
-         error(ccd::lab::quantile(of.weights, 0.99)), error(ccd::lab::quantile(of.normals, 0.5)),
-         error(ccd::lab::quantile(of.normals, 0.99))});
+    table.push_back({{"kind", short_name(ccd::kind_of<Query>)},
+                     {"contacts", colliding.size()},
+                     {"ns_decision", ns(0)},
+                     {"ns_first_time", ns(1)},
+                     {"ns_data_then", ns(2)},
+                     {"inside_%", 100 * static_cast<double>(of.inside) / all},
+                     {"weight_error_median", error(ccd::lab::quantile(of.weights, 0.5))},
+                     {"weight_error_99_%", error(ccd::lab::quantile(of.weights, 0.99))},
+                     {"normal_error_median", error(ccd::lab::quantile(of.normals, 0.5))},
+                     {"normal_error_99_%", error(ccd::lab::quantile(of.normals, 0.99))}});
 }
 
 double mean_edge(const ccd::mesh& m) {
@@ -79,8 +80,7 @@ double mean_edge(const ccd::mesh& m) {
 /// Decides all candidates in batches: only the answers, answers with first times, and answers for a
 /// distance.
 template <class Query>
-void add_batch_rows(const query_set<Query>& set, double distance, const options& o,
-                    std::vector<std::vector<cell>>& rows) {
+void add_batch_rows(const query_set<Query>& set, double distance, const options& o, rows& table) {
     for (const ccd::instruction_set instructions : ccd::instruction_sets()) {
         const ccd::time_options contact{.threads = 1, .set = instructions};
         ccd::time_options within = contact;
@@ -92,59 +92,36 @@ void add_batch_rows(const query_set<Query>& set, double distance, const options&
                  o.repeats());
         const auto near = ccd::decide_within_batch(set.rows, set.by_index, within);
         const auto ns = [&](std::size_t i) {
-            return number(1e9 * timings[i].minimum / static_cast<double>(set.size()), 1);
+            return 1e9 * timings[i].minimum / static_cast<double>(set.size());
         };
-        const auto ratio = [&](std::size_t i) {
-            return number(timings[i].minimum / timings[0].minimum, 2);
-        };
-        rows.push_back(
-            {word(short_name(ccd::kind_of<Query>)), word(name(instructions)), count(set.size()),
-             ns(0), ns(1), ratio(1), ns(2), ratio(2),
-             count(static_cast<std::size_t>(std::ranges::count(near, ccd::outcome::collides)))});
+        table.push_back({{"kind", short_name(ccd::kind_of<Query>)},
+                         {"on", name(instructions)},
+                         {"candidates", set.size()},
+                         {"ns_decision", ns(0)},
+                         {"ns_and_first_times", ns(1)},
+                         {"times_ratio", ns(1) / ns(0)},
+                         {"ns_within_distance", ns(2)},
+                         {"within_ratio", ns(2) / ns(0)},
+                         {"pairs_within", std::ranges::count(near, ccd::outcome::collides)}});
     }
-}
-
-void batches(const scene& s, const options& o, report& out) {
-    const double distance = 1e-3 * mean_edge(s.before);
-    std::vector<std::vector<cell>> rows;
-    s.queries.for_each([&](const auto& set) { add_batch_rows(set, distance, o, rows); });
-    out.table("contacts in batches", {{"scene", s.name}},
-              s.name +
-                  ": all candidates in batches, ns of each on one thread; within a thousandth "
-                  "of the mean edge",
-              {{"kind", "kind", true},
-               {"instruction_set", "on", true},
-               {"candidates", "candidates"},
-               {"ns_decision", "decision"},
-               {"ns_times", "and first times"},
-               {"times_ratio", "ratio"},
-               {"ns_within", "within distance"},
-               {"within_ratio", "ratio"},
-               {"within", "pairs within"}},
-              rows);
 }
 
 }  // namespace
 
 void contacts(const scene& s, const options& o, report& out) {
-    const std::size_t most =
-        o.quick ? o.max_queries() : s.queries.vertex_face.size() + s.queries.edge_edge.size();
-    std::vector<std::vector<cell>> rows;
-    s.queries.for_each([&](const auto& set) { add_contacts_row(set.at_most(most), o, rows); });
+    rows one_by_one, batches;
+    s.queries.for_each([&](const auto& known) {
+        add_contacts_row(o.sampled(known.queries), o, one_by_one);
+        if (is_step(s)) add_batch_rows(known.queries, 1e-3 * mean_edge(s.before), o, batches);
+    });
     out.table("contacts", {{"scene", s.name}},
               s.name + ": colliding queries one by one, ns of each; errors of the contacts' data",
-              {{"kind", "kind", true},
-               {"contacts", "contacts"},
-               {"ns_decision", "decision"},
-               {"ns_time", "first time"},
-               {"ns_data", "data, time known"},
-               {"inside_share", "inside"},
-               {"weight_error_median", "weights, median"},
-               {"weight_error_99", "99 % below"},
-               {"normal_error_median", "normal, median"},
-               {"normal_error_99", "99 % below"}},
-              rows);
-    if (s.is_step()) batches(s, o, out);
+              one_by_one);
+    out.table("contacts in batches", {{"scene", s.name}},
+              s.name +
+                  ": all candidates in batches, ns of each on one thread; within a thousandth "
+                  "of the mean edge",
+              batches);
 }
 
 }  // namespace bench

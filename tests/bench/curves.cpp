@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <array>
 #include <ccd/curves.hpp>
 #include <random>
@@ -22,46 +23,42 @@ std::vector<std::array<control_points, 4>> random_motions(std::size_t count, int
 }
 
 template <class Query>
-std::vector<cell> row(std::string_view kind, int degree, const options& o) {
+row row_of(std::string_view kind, int degree, const options& o) {
     const auto motions = random_motions(o.quick ? 200 : 1'000, degree);
     std::vector<ccd::first_time> contacts(motions.size()), near(motions.size());
-    const auto ask = [&motions](std::vector<ccd::first_time>& times, ccd::separation d) {
+    const auto compute = [&motions](std::vector<ccd::first_time>& times, ccd::separation d) {
         for (std::size_t i = 0; i < motions.size(); ++i) {
             const auto& [a, b, c, e] = motions[i];
             times[i] = ccd::time_within(Query{a, b, c, e}, d);
         }
     };
     const auto timings =
-        race({[&] { ask(contacts, {}); }, [&] { ask(near, {0.01}); }}, o.repeats());
+        race({[&] { compute(contacts, {}); }, [&] { compute(near, {0.01}); }}, o.repeats());
     const auto us = [&](const timing& t) {
-        return number(1e6 * t.minimum / static_cast<double>(motions.size()), 1);
+        return 1e6 * t.minimum / static_cast<double>(motions.size());
     };
     const auto found = [](const std::vector<ccd::first_time>& times) {
-        return count(static_cast<std::uint64_t>(std::ranges::count_if(
-            times, [](const auto& t) { return t.outcome == ccd::outcome::collides; })));
+        return std::ranges::count(times, ccd::outcome::collides, &ccd::first_time::outcome);
     };
-    return {word(kind),     number(degree, 0), count(motions.size()), found(contacts),
-            us(timings[0]), found(near),       us(timings[1])};
+    return {{"kind", kind},
+            {"degree", degree},
+            {"queries", motions.size()},
+            {"contacts", found(contacts)},
+            {"us_contact", us(timings[0])},
+            {"within_0.01", found(near)},
+            {"us_within", us(timings[1])}};
 }
 
 }  // namespace
 
 void curves(const options& o, report& out) {
-    std::vector<std::vector<cell>> rows;
+    rows all;
     for (const int degree : {1, 2, 3, 5}) {
-        rows.push_back(row<ccd::vertex_face_curves>("vf", degree, o));
-        rows.push_back(row<ccd::edge_edge_curves>("ee", degree, o));
+        all.push_back(row_of<ccd::vertex_face_curves>("vf", degree, o));
+        all.push_back(row_of<ccd::edge_edge_curves>("ee", degree, o));
     }
     out.table("curves", {},
-              "First times along curves, control points all over the unit cube, us per query",
-              {{"kind", "kind", true},
-               {"degree", "degree"},
-               {"queries", "queries"},
-               {"contacts", "contacts"},
-               {"us_contact", "us"},
-               {"near", "within 0.01"},
-               {"us_near", "us"}},
-              rows);
+              "First times along curves, control points all over the unit cube, us per query", all);
 }
 
 }  // namespace bench

@@ -2,31 +2,26 @@
 // whole steps.
 #include <cuda_runtime_api.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <ccd/batch.hpp>
 #include <ccd/contact.hpp>
 #include <ccd/cuda.hpp>
 #include <ccd/step.hpp>
-#include <cstdio>
-#include <exception>
 #include <functional>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
-#include "ccd/lab/machine.hpp"
-#include "errbound/support/output_file.hpp"
-#include "tests/bench/gpu_peaks.hpp"
 #include "tests/bench/harness.hpp"
-#include "tests/bench/operations.hpp"
 #include "tests/bench/scenes.hpp"
 
 namespace {
 
 using ccd::cuda::precision;
 
-using bench::check;
+void check(cudaError_t e) {
+    if (e != cudaSuccess) throw std::runtime_error(std::string("CUDA: ") + cudaGetErrorString(e));
+}
 void check(const ccd::cuda::status& s) {
     if (!s) throw std::runtime_error(s.error);
 }
@@ -170,95 +165,65 @@ std::vector<bench::timing> race(const device_batch<Query>& batch,
 template <class Query>
 void add_methods_table(const bench::scene& s, const device_batch<Query>& batch,
                        const std::vector<contestant>& contestants,
-                       const std::vector<bench::timing>& times, const bench::device_peaks& peaks,
-                       bench::report& out) {
-    std::vector<std::vector<bench::cell>> table;
+                       const std::vector<bench::timing>& times, bench::report& out) {
+    bench::rows all;
     const auto count = static_cast<double>(batch.size());
     for (std::size_t i = 0; i < contestants.size(); ++i) {
         const contestant& c = contestants[i];
-        // The smallest possible transfer reads every row once and writes every answer once.
-        const double moved =
-            count * (sizeof(ccd::pair_of_query<Query>) + sizeof(ccd::outcome)) / times[i].minimum;
-        table.push_back(
-            {bench::word(info(c.options.method).name), bench::word(name_of(c.options.precision)),
-             bench::number(count / times[i].minimum / 1e9, 3),
-             bench::number(count / times[i].median / 1e9, 3),
-             bench::number(1e9 * times[i].minimum / count, 3),
-             bench::percent(moved / peaks.bytes_per_second), bench::count(c.errors.false_positives),
-             bench::count(c.errors.false_negatives)});
+        all.push_back({{"method", info(c.options.method).name},
+                       {"precision", name_of(c.options.precision)},
+                       {"1e9/s_best", count / times[i].minimum / 1e9},
+                       {"1e9/s_median", count / times[i].median / 1e9},
+                       {"ns_per_query", 1e9 * times[i].minimum / count},
+                       {"FP", c.errors.false_positives},
+                       {"FN", c.errors.false_negatives}});
     }
     const std::string kind(short_name(ccd::kind_of<Query>));
     out.table("gpu-methods", {{"scene", s.name}, {"kind", kind}, {"queries", batch.size()}},
-              "Methods on the device: " + bench::count(batch.size() / batch.copies()).text + ' ' +
+              "Methods on the device: " + std::to_string(batch.size() / batch.copies()) + ' ' +
                   kind + " candidates, " + std::to_string(batch.copies()) +
                   " times; errors of one of the copies",
-              {{"method", "method", true},
-               {"precision", "precision", true},
-               {"billion_per_second", "1e9/s best"},
-               {"median", "median"},
-               {"ns_per_query", "ns/query"},
-               {"bandwidth", "bandwidth"},
-               {"false_positives", "FP"},
-               {"false_negatives", "FN"}},
-              table);
+              all);
 }
 
-/// The stages of exact: candidates that enter each stage, and its operations compared with the
-/// peaks in `seconds`.
+/// The candidates that enter each stage of exact.
 template <class Query>
-void add_stages_table(const bench::scene& s, const device_batch<Query>& batch, double seconds,
-                      const bench::device_peaks& peaks, bench::report& out) {
+void add_stages_table(const bench::scene& s, const device_batch<Query>& batch, bench::report& out) {
     const ccd::cuda::stage_counts counts = batch.decide({});
-    const auto operations = bench::operations_of_stages<Query>();
-    const auto row = [&](const char* stage, std::uint32_t entered, std::uint64_t each,
-                         double peak) {
-        const double share = static_cast<double>(entered) / static_cast<double>(batch.size());
-        return std::vector<bench::cell>{
-            bench::word(stage), bench::count(entered), bench::percent(share),
-            each == 0 ? bench::none() : bench::count(each),
-            each == 0 ? bench::none()
-                      : bench::percent(static_cast<double>(each) * entered / seconds / peak)};
+    bench::rows all;
+    const auto add = [&](const char* stage, std::uint32_t entered) {
+        const auto share = static_cast<double>(entered) / static_cast<double>(batch.size());
+        all.push_back({{"stage", stage}, {"entered", entered}, {"%", 100 * share}});
     };
+    add("axes, floats", counts.axes);
+    add("coplanarity, doubles", counts.coplanarity);
+    add("inside, doubles", counts.inside);
+    add("subdivision", counts.subdivision);
+    add("integers, one word", counts.integers_one_word);
+    add("integers, two words", counts.integers_two_words);
+    add("host", counts.left_open);
     out.table("gpu-stages",
               {{"scene", s.name}, {"kind", std::string(short_name(ccd::kind_of<Query>))}},
-              "Stages of exact: candidates that enter, operations of each, and those of all "
-              "as a share of the peak rate in the time of the whole",
-              {{"stage", "stage", true},
-               {"entered", "entered"},
-               {"share", "share"},
-               {"operations", "operations"},
-               {"peak", "of peak"}},
-              {row("axes, floats", counts.axes, operations.axes_in_floats, peaks.float_operations),
-               row("coplanarity, doubles", counts.coplanarity, operations.coplanarity,
-                   peaks.double_operations),
-               row("inside, doubles", counts.inside, operations.inside, peaks.double_operations),
-               row("subdivision", counts.subdivision, 0, 1),
-               row("integers, one word", counts.integers_one_word, 0, 1),
-               row("integers, two words", counts.integers_two_words, 0, 1),
-               row("host", counts.left_open, 0, 1)});
+              "Stages of exact: the candidates that enter", all);
 }
 
-std::vector<bench::cell> row_of_times(const char* where, std::size_t queries, std::size_t contacts,
-                                      const bench::timing& decided, const bench::timing& timed) {
-    const auto each = [&](double seconds) {
-        return bench::number(1e9 * seconds / static_cast<double>(queries), 3);
-    };
-    return {bench::word(where),
-            bench::count(contacts),
-            each(decided.minimum),
-            each(timed.minimum),
-            bench::number(timed.minimum / decided.minimum, 3),
-            bench::number(1e9 * (timed.minimum - decided.minimum) /
-                              static_cast<double>(std::max<std::size_t>(1, contacts)),
-                          1)};
+bench::row row_of_times(const char* where, std::size_t queries, std::size_t contacts,
+                        const bench::timing& decided, const bench::timing& timed) {
+    const auto each = [&](double seconds) { return 1e9 * seconds / static_cast<double>(queries); };
+    return {{"where", where},
+            {"contacts", contacts},
+            {"decided", each(decided.minimum)},
+            {"with_times", each(timed.minimum)},
+            {"ratio", timed.minimum / decided.minimum},
+            {"ns/contact", 1e9 * (timed.minimum - decided.minimum) /
+                               static_cast<double>(std::max<std::size_t>(1, contacts))}};
 }
 
 /// First times of all colliding candidates, compared with the decision only, on the device and on
 /// the host.
 template <class Query>
 void add_times_table(const bench::scene& s, const device_batch<Query>& batch,
-                     const bench::query_set<Query>& once, const bench::options& o,
-                     bench::report& out) {
+                     const bench::query_set<Query>& once, int repeats, bench::report& out) {
     batch.decide({});
     const auto colliding = [](ccd::outcome a) { return a != ccd::outcome::separate; };
     const auto contacts =
@@ -279,44 +244,33 @@ void add_times_table(const bench::scene& s, const device_batch<Query>& batch,
                                      },
                                      [&] { ccd::decide_batch(rows, once.by_index); },
                                      [&] { on_host = ccd::first_times(rows, once.by_index); }},
-                                    o.repeats());
+                                    repeats);
     std::erase_if(on_host, [&](const ccd::first_time& t) { return !colliding(t.outcome); });
     auto first_copy = found.copied();
     first_copy.resize(contacts / batch.copies());
     const std::string kind(short_name(ccd::kind_of<Query>));
     out.table("gpu-times", {{"scene", s.name}, {"kind", kind}, {"agree", first_copy == on_host}},
               "First times of the " + kind +
-                  " candidates that collide, and the decision alone, in " + "ns a query; " +
+                  " candidates that collide, and the decision alone, in ns a query; " +
                   (first_copy == on_host ? "the same" : "NOT THE SAME") +
                   " on the host. On the device " + std::to_string(stages.roots_one_word) +
                   " needed a root in one word, " + std::to_string(stages.integers_one_word) +
-                  " in one word alone, " + std::to_string(stages.roots_two_words) + " and " +
+                  " only in one word, " + std::to_string(stages.roots_two_words) + " and " +
                   std::to_string(stages.integers_two_words) + " in two, " +
                   std::to_string(stages.left_open) + " left to the host",
-              {{"where", "where", true},
-               {"contacts", "contacts"},
-               {"decided", "decided"},
-               {"timed", "with times"},
-               {"ratio", "ratio"},
-               {"ns_per_contact", "ns/contact"}},
               {row_of_times("device", batch.size(), contacts, passes[0], passes[1]),
                row_of_times("host", once.size(), on_host.size(), passes[2], passes[3])});
 }
 
 template <class Query>
 void methods(const bench::scene& s, const device_scene& device, const bench::query_set<Query>& once,
-             std::size_t least, const bench::device_peaks& peaks, const bench::options& o,
-             bench::report& out) {
+             std::size_t least, int repeats, bench::report& out) {
     if (once.size() == 0) return;
     const device_batch<Query> batch(device, once, least);
     const auto contestants = contestants_of(batch, once);
-    const auto times = race(batch, contestants, o.repeats());
-    add_methods_table(s, batch, contestants, times, peaks, out);
-    const auto exact = std::ranges::find(contestants, ccd::method::exact,
-                                         [](const contestant& c) { return c.options.method; });
-    add_stages_table(s, batch, times[static_cast<std::size_t>(exact - contestants.begin())].minimum,
-                     peaks, out);
-    add_times_table(s, batch, once, o, out);
+    add_methods_table(s, batch, contestants, race(batch, contestants, repeats), out);
+    add_stages_table(s, batch, out);
+    add_times_table(s, batch, once, repeats, out);
 }
 
 struct step_request {
@@ -336,9 +290,8 @@ constexpr step_request step_requests[] = {
     {"tight", {.method = ccd::method::tight}},
 };
 
-void steps(const bench::scene& s, const device_scene& device, const bench::options& o,
-           bench::report& out) {
-    std::vector<std::vector<bench::cell>> table;
+void steps(const bench::scene& s, const device_scene& device, int repeats, bench::report& out) {
+    bench::rows all;
     for (const step_request& request : step_requests) {
         ccd::cuda::mesh_steps steps(s.before.faces, s.before.vertices.size());
         ccd::cuda::mesh_steps::result found;
@@ -349,110 +302,66 @@ void steps(const bench::scene& s, const device_scene& device, const bench::optio
                              check(found);
                          },
                          [&] { on_host = ccd::step(s.before, s.after, request.on_host()); }},
-                        o.repeats());
-        table.push_back(
-            {bench::word(request.name),
-             bench::count(found.candidates.vertex_face + found.candidates.edge_edge),
-             bench::count(found.pairs.vertex_face.size() + found.pairs.edge_edge.size()),
-             bench::word(found.pairs.vertex_face.size() == on_host.pairs.vertex_face.size() &&
-                                 found.pairs.edge_edge.size() == on_host.pairs.edge_edge.size() &&
-                                 found.first_contact == on_host.first_contact
-                             ? "yes"
-                             : "NO"),
-             bench::number(1e3 * times[0].minimum, 3), bench::number(1e3 * times[0].median, 3),
-             bench::number(1e3 * times[1].minimum, 3),
-             bench::number(times[1].minimum / times[0].minimum, 1)});
+                        repeats);
+        const bool agree = found.pairs.vertex_face.size() == on_host.pairs.vertex_face.size() &&
+                           found.pairs.edge_edge.size() == on_host.pairs.edge_edge.size() &&
+                           found.first_contact == on_host.first_contact;
+        all.push_back({{"step", request.name},
+                       {"candidates", found.candidates.vertex_face + found.candidates.edge_edge},
+                       {"pairs", found.pairs.vertex_face.size() + found.pairs.edge_edge.size()},
+                       {"agree", agree},
+                       {"device_best", 1e3 * times[0].minimum},
+                       {"median", 1e3 * times[0].median},
+                       {"host_best", 1e3 * times[1].minimum},
+                       {"host/device", times[1].minimum / times[0].minimum}});
     }
-    out.table(
-        "gpu-steps", {{"scene", s.name}},
-        "A step: from vertices on the device to pairs and times there, in ms; by the host with "
-        "all its threads, from its memory",
-        {{"method", "step", true},
-         {"candidates", "candidates"},
-         {"pairs", "pairs"},
-         {"agree", "agree", true},
-         {"device_ms", "device best"},
-         {"device_median_ms", "median"},
-         {"host_ms", "host best"},
-         {"ratio", "host/device"}},
-        table);
+    out.table("gpu-steps", {{"scene", s.name}},
+              "A step: from vertices on the device to pairs and times there, in ms; by the host "
+              "with all its threads, from its memory",
+              all);
 }
 
-struct run_options : bench::options {
-    std::string json, commit = "unknown";
-    std::size_t queries = 20'000'000;
-};
-
-void add_options(CLI::App& app, run_options& o) {
-    app.add_flag("--quick", o.quick, "Fewer queries and repeats: tests that everything runs");
-    app.add_option("--json", o.json, "The tables as JSON, to this file");
-    app.add_option("--scene", o.scene, "Only scenes whose name contains this");
-    app.add_option("--queries", o.queries, "Candidates are replicated to at least this number")
-        ->check(CLI::Range(std::size_t(1), std::size_t(2'000'000'000)));
-    app.add_option("--commit", o.commit, "Commit to print with the results");
-}
-
-/// Prints the device and the host, and returns them as JSON.
-nlohmann::json say_machine(const bench::device_peaks& peaks, const std::string& commit) {
+/// The device, for the head of the tables.
+bench::row device_row() {
     cudaDeviceProp device{};
-    check(cudaGetDeviceProperties(&device, 0));
-    nlohmann::json here = ccd::lab::this_machine();
-    here.update({{"device", device.name},
-                 {"bytes_per_second", peaks.bytes_per_second},
-                 {"float_operations", peaks.float_operations},
-                 {"double_operations", peaks.double_operations},
-                 {"commit", commit}});
-    std::printf(
-        "%s, %d multiprocessors; host: %s, %s cores; commit %s\n"
-        "measured: %.0f GB/s copied, %.1f and %.1f Tflop/s in floats and doubles, not "
-        "fused\n",
-        device.name, device.multiProcessorCount, here["processor"].get<std::string>().c_str(),
-        here["cores"].dump().c_str(), commit.c_str(), 1e-9 * peaks.bytes_per_second,
-        1e-12 * peaks.float_operations, 1e-12 * peaks.double_operations);
-    return here;
+    if (cudaGetDeviceProperties(&device, 0) != cudaSuccess) return bench::row::object();
+    return {{"device", device.name}, {"multiprocessors", device.multiProcessorCount}};
 }
 
-void measure_scene(const std::string& name, const run_options& o, const bench::device_peaks& peaks,
-                   bench::report& out) {
-    bench::scene s;
-    if (!bench::load(name, s)) {
-        bench::report::say("\n== " + name + ": skipped, its data is missing");
-        return;
-    }
-    if (!s.is_step()) return;
-    const std::size_t queries = o.quick ? std::min<std::size_t>(o.queries, 1'000'000) : o.queries;
+void measure_scene(const std::string& name, std::size_t queries, int repeats, bench::report& out) {
+    const auto loaded = bench::load(name);
+    if (!loaded) return bench::say("\n== " + name + ": skipped, its data is missing");
+    const bench::scene& s = *loaded;
+    if (!bench::is_step(s)) return;
     const device_scene device({s.before, s.after});
-    methods(s, device, s.queries.vertex_face, queries, peaks, o, out);
-    methods(s, device, s.queries.edge_edge, queries, peaks, o, out);
-    steps(s, device, o, out);
+    s.queries.for_each(
+        [&](const auto& known) { methods(s, device, known.queries, queries, repeats, out); });
+    steps(s, device, repeats, out);
 }
 
 }  // namespace
 
-int main(int argc, char** argv) try {
-    CLI::App app{"Times collision detection on a CUDA device; prints tables."};
-    app.name("./run bench-gpu");
-    run_options o;
-    add_options(app, o);
-    try {
-        app.parse(argc, argv);
-    } catch (const CLI::ParseError& error) {
-        return app.exit(error) == 0 ? 0 : 2;
-    }
-    if (const auto s = ccd::cuda::device_status(); !s) {
-        std::printf("No CUDA device, so nothing is measured: %s\n", s.error.c_str());
-        return 77;
-    }
-    const bench::device_peaks peaks = bench::measured_peaks();
-    const nlohmann::json machine = say_machine(peaks, o.commit);
-    bench::report out;
-    for (const std::string& name : bench::scene_names())
-        if (name.find(o.scene) != std::string::npos) measure_scene(name, o, peaks, out);
-    if (!o.json.empty())
-        errbound::support::write_whole(
-            o.json, nlohmann::json{{"machine", machine}, {"tables", out.tables()}}.dump(1) + "\n");
-    return 0;
-} catch (const std::exception& error) {
-    std::fprintf(stderr, "bench-gpu: %s\n", error.what());
-    return 1;
+int main(int argc, char** argv) {
+    bench::program bench("./run bench-gpu", "Times collision detection on a CUDA device.");
+    std::string only;
+    std::size_t queries = 20'000'000;
+    bench.line.add_option("--scene", only, "Only scenes whose name holds this");
+    bench.line
+        .add_option("--queries", queries, "Candidates are replicated to at least this number")
+        ->check(CLI::Range(std::size_t(1), std::size_t(2'000'000'000)));
+    return bench.run(
+        argc, argv,
+        [&](bench::report& out) {
+            if (const auto s = ccd::cuda::device_status(); !s) {
+                bench::say("No CUDA device, so nothing is measured: " + s.error);
+                bench.status = 77;
+                return;
+            }
+            const std::size_t least =
+                bench.quick ? std::min<std::size_t>(queries, 1'000'000) : queries;
+            for (const std::string& name : bench::scene_names())
+                if (name.find(only) != std::string::npos)
+                    measure_scene(name, least, bench.repeats(), out);
+        },
+        device_row);
 }

@@ -48,7 +48,7 @@ class methods_race {
     methods_race(const methods_race&) = delete;  // the passes refer to it
     methods_race& operator=(const methods_race&) = delete;
 
-    void run(int repeats, std::vector<std::vector<cell>>& rows) const {
+    void run(int repeats, rows& table) const {
         const std::vector<timing> timings = race(passes_, repeats);
         const auto ns = [&](std::size_t i, double seconds) {
             return 1e9 * seconds / static_cast<double>(contestants_[i].queries);
@@ -56,10 +56,14 @@ class methods_race {
         for (std::size_t i = 0; i < contestants_.size(); ++i) {
             const contestant& c = contestants_[i];
             const double minimum = ns(i, timings[i].minimum);
-            rows.push_back({word(short_name(ccd::kind_of<Query>)), word(c.name), count(c.queries),
-                            count(c.collisions), number(minimum, 1),
-                            number(ns(i, timings[i].median), 1),
-                            number(ns(tight_, timings[tight_].minimum) / minimum, 2)});
+            table.push_back(
+                {{"kind", short_name(ccd::kind_of<Query>)},
+                 {"contestant", c.name},
+                 {"queries", c.queries},
+                 {"collide", c.collisions},
+                 {"ns_min", minimum},
+                 {"ns_median", ns(i, timings[i].median)},
+                 {"speed-up_over_tight", ns(tight_, timings[tight_].minimum) / minimum}});
         }
     }
 
@@ -113,22 +117,15 @@ class methods_race {
 }  // namespace
 
 void methods(const scene& s, const options& o, report& out) {
-    std::vector<std::vector<cell>> rows;
-    s.queries.for_each([&]<class Query>(const query_set<Query>& all) {
-        if (all.size() > 0) methods_race<Query>(all, o).run(o.repeats(), rows);
+    rows all;
+    s.queries.for_each([&]<class Query>(const ccd::lab::queries_with_truth<Query>& known) {
+        if (known.queries.size() > 0) methods_race<Query>(known.queries, o).run(o.repeats(), all);
     });
     out.table("methods", {{"scene", s.name}},
               s.name +
                   ": ns per query, one by one (on an even sample where there are fewer) and in "
                   "batches, on one thread by default; last, the speed-up over tight one by one",
-              {{"kind", "kind", true},
-               {"contestant", "method", true},
-               {"queries", "queries"},
-               {"collisions", "collide"},
-               {"ns_min", "min ns"},
-               {"ns_median", "median ns"},
-               {"times_tight", "speed-up over tight"}},
-              rows);
+              all);
 }
 
 }  // namespace bench

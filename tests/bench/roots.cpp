@@ -1,19 +1,15 @@
-// ns per polynomial for counting and isolating real roots, by family and degree, compared with
-// FLINT's count and arb's isolation. FLINT 2.9 counts exactly by Sturm's theorem but does not
-// isolate; arb isolates all complex roots. Also compares the integers that decide undecided
-// intervals: errbound's, Boost's cpp_int and GMP's.
+// ns per polynomial for counting and isolating real roots, by family and degree, next to FLINT's
+// count and arb's isolation. FLINT 2.9 counts exactly, by Sturm's theorem, but does not isolate;
+// arb, its companion, isolates all complex roots. The integers that decide undecided intervals are
+// compared too: errbound's own, Boost's cpp_int and GMP's.
 #include <boost/multiprecision/cpp_int.hpp>
-#include <cstdio>
-#include <cstdlib>
 #include <errbound/polynomial.hpp>
 #include <functional>
 #include <limits>
 #include <memory>
 #include <string>
-#include <string_view>
 #include <vector>
 
-#include "ccd/lab/machine.hpp"
 #include "tests/bench/harness.hpp"
 #include "tests/errbound/roots/flint_polynomial.hpp"
 #include "tests/errbound/roots/polynomial_families.hpp"
@@ -43,11 +39,11 @@ struct by_integers {
         else
             doubles.emplace_back(s.doubles);
     }
-    template <class Ask>
-    std::function<void()> pass(const Ask& ask) const {
-        return [this, ask] {
-            for (const auto& p : whole) bench::keep(ask(p));
-            for (const auto& p : doubles) bench::keep(ask(p));
+    template <class Compute>
+    std::function<void()> pass(const Compute& compute) const {
+        return [this, compute] {
+            for (const auto& p : whole) bench::keep(compute(p));
+            for (const auto& p : doubles) bench::keep(compute(p));
         };
     }
     std::function<void()> counted() const {
@@ -74,44 +70,42 @@ struct contest {
         gmp.add(s);
         others.push_back(std::make_unique<flint_polynomial>(s.whole));
     }
-    bench::cell nanoseconds(const bench::timing& t) const {
-        return bench::number(1e9 * t.minimum / static_cast<double>(others.size()), 0);
+    double nanoseconds(const bench::timing& t) const {
+        return 1e9 * t.minimum / static_cast<double>(others.size());
     }
 
     /// ns per polynomial: counted, isolated, counted by FLINT; and the ratio of the counts.
-    std::vector<bench::cell> cells(int repeats) const {
-        if (others.empty()) return {bench::none(), bench::none(), bench::none(), bench::none()};
+    void add_counts(const std::string& of, int repeats, bench::row& to) const {
+        if (others.empty()) return;
         const auto timings = bench::race({own.counted(), own.isolated(),
                                           [this] {
                                               for (const auto& p : others)
                                                   bench::keep(p->distinct_real_roots());
                                           }},
                                          repeats);
-        return {nanoseconds(timings[0]), nanoseconds(timings[1]), nanoseconds(timings[2]),
-                bench::number(timings[2].minimum / timings[0].minimum, 1)};
+        to[of + ":_count"] = nanoseconds(timings[0]);
+        to[of + ":_isolate"] = nanoseconds(timings[1]);
+        to[of + ":_FLINT"] = nanoseconds(timings[2]);
+        to[of + ":_FLINT/count"] = timings[2].minimum / timings[0].minimum;
     }
-    /// The isolation time with Boost's and with GMP's integers, divided by that with errbound's: of
-    /// the least times and of the medians.
-    std::vector<bench::cell> integer_cells(int repeats) const {
+    /// The times of isolation by Boost's integers and by GMP's, as multiples of errbound's.
+    void add_integers(int repeats, bench::row& to) const {
         const auto t = bench::race({own.isolated(), boost.isolated(), gmp.isolated()}, repeats);
-        std::vector<bench::cell> ratios;
-        for (const auto& other : {t[1], t[2]}) {
-            ratios.push_back(bench::number(other.minimum / t[0].minimum, 2));
-            ratios.push_back(bench::number(other.median / t[0].median, 2));
-        }
-        return ratios;
+        to["by_cpp_int/isolate"] = t[1].minimum / t[0].minimum;
+        to["by_GMP/isolate"] = t[2].minimum / t[0].minimum;
     }
 #ifdef ERRBOUND_HAS_ARB
-    /// ns per polynomial isolated by arb, and its ratio to errbound's time.
-    std::vector<bench::cell> arb_cells(int repeats) const {
-        if (others.empty()) return {bench::none(), bench::none()};
+    /// ns per polynomial isolated by arb, and as a multiple of errbound's.
+    void add_arb(bench::row& to) const {
+        if (others.empty()) return;
         const auto timings = bench::race({own.isolated(),
                                           [this] {
                                               for (const auto& p : others)
                                                   bench::keep(isolate_by_arb(*p));
                                           }},
-                                         repeats);
-        return {nanoseconds(timings[1]), bench::number(timings[1].minimum / timings[0].minimum, 0)};
+                                         1);
+        to["arb_isolates"] = nanoseconds(timings[1]);
+        to["arb/isolate"] = timings[1].minimum / timings[0].minimum;
     }
 #endif
 };
@@ -125,9 +119,8 @@ bool decided_by_filter(const polynomial_families::sample& s) {
                              : is_decided(errbound::polynomial(s.doubles));
 }
 
-void run(bool quick) {
-    bench::report out;
-    std::vector<std::vector<bench::cell>> rows;
+void run(bool quick, bench::report& out) {
+    bench::rows all_rows;
     for (const family f : polynomial_families::all) {
         for (const int degree : {2, 3, 5, 8, 12, 20, 30}) {
             if (f == family::wide && degree > 8) continue;
@@ -142,39 +135,24 @@ void run(bool quick) {
                 // size.
                 if (k < 8 && f != family::wide) few.add(s);
             }
-            std::vector<bench::cell> row{
-                bench::word(polynomial_families::names[static_cast<int>(f)]),
-                bench::count(static_cast<std::uint64_t>(degree)),
-                bench::percent(static_cast<double>(decided.others.size()) / polynomials)};
-            const int repeats = quick ? 1 : 5;
-            for (const contest* c : {&decided, &all})
-                for (auto& cell : c->cells(repeats)) row.push_back(cell);
-            for (auto& cell : all.integer_cells(quick ? 1 : 7)) row.push_back(cell);
+            bench::row& r = all_rows.emplace_back(bench::row{
+                {"family", polynomial_families::names[static_cast<int>(f)]},
+                {"degree", degree},
+                {"by_filter_%", 100 * static_cast<double>(decided.others.size()) / polynomials}});
+            decided.add_counts("those", quick ? 1 : 5, r);
+            all.add_counts("all", quick ? 1 : 5, r);
+            all.add_integers(quick ? 1 : 7, r);
 #ifdef ERRBOUND_HAS_ARB
-            for (auto& cell : few.arb_cells(1)) row.push_back(cell);
+            few.add_arb(r);
 #endif
-            rows.push_back(row);
         }
     }
-    std::vector<bench::column> columns{
-        {"family", "family", true},       {"degree", "degree"},
-        {"decided", "decided by filter"}, {"decided_count", "those: count"},
-        {"decided_isolate", "isolate"},   {"decided_flint", "FLINT count"},
-        {"decided_ratio", "FLINT/count"}, {"count", "all: count"},
-        {"isolate", "isolate"},           {"flint", "FLINT count"},
-        {"ratio", "FLINT/count"},         {"boost", "by cpp_int/isolate"},
-        {"boost_median", "medians"},      {"gmp", "by GMP/isolate"},
-        {"gmp_median", "medians"}};
-#ifdef ERRBOUND_HAS_ARB
-    columns.push_back({"arb", "arb isolates"});
-    columns.push_back({"arb_ratio", "arb/isolate"});
-#endif
     out.table("roots", {},
               "distinct real roots on the whole line, ns per polynomial (least of some passes)",
-              columns, rows);
+              all_rows);
 }
 
-/// A slow input: roots near each other, or a high degree.
+/// Slow cases: roots near each other, and high degrees.
 struct hard_case {
     std::string name;
     std::vector<double> doubles;
@@ -207,44 +185,34 @@ template <class Integer>
 std::function<void()> isolated(const errbound::polynomial<double>& p) {
     return [&p] { bench::keep(errbound::isolate_roots<Integer>(p, -infinity, infinity).size()); };
 }
-void run_hard_cases(bool quick) {
-    bench::report out;
-    std::vector<std::vector<bench::cell>> rows;
+void run_hard_cases(bool quick, bench::report& out) {
+    bench::rows all;
     for (const hard_case& c : hard_cases(quick)) {
         const errbound::polynomial<double> p(c.doubles);
-        const std::size_t roots = errbound::count_roots(p, -infinity, infinity);
-        std::vector<bench::cell> row{bench::word(c.name), bench::count(roots)};
-        for (const auto& t : bench::race({isolated<errbound::integer>(p),
-                                          isolated<boost_integer>(p), isolated<gmp_integer>(p)},
-                                         quick ? 1 : 3)) {
-            row.push_back(bench::number(1e3 * t.minimum, 1));
-            row.push_back(bench::number(1e3 * t.median, 1));
+        bench::row& r = all.emplace_back(bench::row{
+            {"polynomial", c.name}, {"roots", errbound::count_roots(p, -infinity, infinity)}});
+        const auto t = bench::race(
+            {isolated<errbound::integer>(p), isolated<boost_integer>(p), isolated<gmp_integer>(p)},
+            quick ? 1 : 3);
+        constexpr const char* integers[] = {"errbound's", "Boost's", "GMP's"};
+        for (std::size_t i = 0; i < t.size(); ++i) {
+            r[integers[i]] = 1e3 * t[i].minimum;
+            r[integers[i] + std::string("_median")] = 1e3 * t[i].median;
         }
-        rows.push_back(row);
     }
-    out.table("hard_roots", {},
-              "hard cases, isolated on the whole line, ms (least and median of some passes)",
-              {{"polynomial", "polynomial", true},
-               {"roots", "roots"},
-               {"own", "errbound's integers"},
-               {"own_median", "median"},
-               {"boost", "Boost's"},
-               {"boost_median", "median"},
-               {"gmp", "GMP's"},
-               {"gmp_median", "median"}},
-              rows);
+    out.table(
+        "hard_roots", {},
+        "hard cases, isolated on the whole line, ms (least and median of some passes), by the "
+        "type of integers",
+        all);
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-    const bool quick = argc == 2 && std::string_view(argv[1]) == "--quick";
-    if (argc > 1 && !quick) {
-        std::fprintf(stderr, "usage: ./run bench --roots [--quick]\n");
-        return 2;
-    }
-    std::printf("%s\n", ccd::lab::text_of(ccd::lab::this_machine(), 1).c_str());
-    run(quick);
-    run_hard_cases(quick);
-    return 0;
+    bench::program bench("./run bench --roots", "Roots of polynomials, next to FLINT's and arb's.");
+    return bench.run(argc, argv, [&](bench::report& out) {
+        run(bench.quick, out);
+        run_hard_cases(bench.quick, out);
+    });
 }

@@ -1,33 +1,24 @@
-// Scenes: two frames with all candidates of their step, or stored queries.
+// Scenes of two frames with all candidates of their step, and sets of queries.
 #pragma once
 
-#include <ccd/mesh.hpp>
 #include <string>
 #include <vector>
 
-#include "ccd/lab/query_set.hpp"
+#include "ccd/lab/data_set.hpp"
 
 namespace bench {
 
 using ccd::lab::query_set;
-using ccd::lab::query_sets;
+using scene = ccd::lab::data_set;
 
-struct scene {
-    std::string name;
-    ccd::mesh before, after;  ///< empty if there are only queries
-    query_sets queries;       ///< indexes into the two frames: do not copy or move a scene
-    bool is_step() const { return !before.vertices.empty(); }
-
-    scene() = default;
-    scene(const scene&) = delete;
-    scene& operator=(const scene&) = delete;
-};
+inline bool is_step(const scene& s) {
+    return s.origin == "scene";
+}
 
 /// All names, in the order of tables.
 std::vector<std::string> scene_names();
 
-/// Loads the scene of that name; returns false if its data is missing. Throws
-/// errbound::support::file_error.
-bool load(const std::string& name, scene& into);
+/// The scene of that name; null if its data is missing. Throws errbound::support::file_error.
+ccd::lab::loaded_data load(const std::string& name);
 
 }  // namespace bench

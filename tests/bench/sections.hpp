@@ -1,13 +1,33 @@
 // The benchmark's tables. Each function prints its own.
 #pragma once
 
+#include <string_view>
+#include <vector>
+
 #include "tests/bench/harness.hpp"
 #include "tests/bench/scenes.hpp"
 
 namespace bench {
 
-/// ns per query of every method one by one, and of batches with every instruction set and with all
-/// threads. Throws std::runtime_error if batches and single calls disagree.
+inline constexpr std::string_view section_names[] = {"methods", "stages", "contacts",
+                                                     "steps",   "growth", "curves"};
+
+struct options {
+    bool quick = false;
+    std::vector<std::string> sections = {};  ///< of section_names; empty: all
+
+    int repeats() const { return quick ? 3 : 7; }
+    /// The number of queries one by one; they are drawn evenly from more.
+    std::size_t max_queries() const { return quick ? 10'000 : 200'000; }
+    /// Quick runs sample, others take all.
+    template <class Query>
+    query_set<Query> sampled(const query_set<Query>& all) const {
+        return quick ? all.at_most(max_queries()) : all;
+    }
+};
+
+/// ns per query of every method one by one, and of batches on every instruction set and with all
+/// threads. Throws std::runtime_error if batches and one by one disagree.
 void methods(const scene& s, const options& o, report& out);
 
 /// The decisions and cost of each stage of `exact`, its slowest single queries, and those that
@@ -23,10 +43,6 @@ void steps(const scene& s, const options& o, report& out);
 /// Whole steps of copies of a scene side by side, up to ten million faces: time and memory. Also
 /// compares repeated steps of one mesh with first steps.
 void growth(const scene& s, const options& o, report& out);
-
-/// Predicates compared with their expressions in plain double, one by one and in batches. Throws
-/// std::runtime_error if single calls and batches disagree.
-void predicates(const options& o, report& out);
 
 /// First times of contact and of a distance along random curves, by degree.
 void curves(const options& o, report& out);

@@ -26,19 +26,23 @@ ccd::stage_report quickest_report(const query_set<Query>& set, int repeats) {
 }
 
 template <class Query>
-void add_stage_rows(const query_set<Query>& set, const options& o,
-                    std::vector<std::vector<cell>>& rows) {
+void add_stage_rows(const query_set<Query>& set, const options& o, rows& table) {
     if (set.size() == 0) return;
     const ccd::stage_report r = quickest_report(set, o.repeats());
     const auto all = static_cast<double>(set.size());
     for (const ccd::stage_info& stage : ccd::exact_stages) {
         const auto& e = r[stage.stage];
         const auto entered = static_cast<double>(e.entered);
-        rows.push_back({word(short_name(ccd::kind_of<Query>)), word(stage.name), count(e.entered),
-                        count(e.skipped), percent(entered / all), count(e.separate),
-                        count(e.collides), percent(e.seconds / total_seconds(r)),
-                        e.entered > 0 ? number(1e9 * e.seconds / entered, 1) : none(),
-                        number(1e9 * e.seconds / all, 2)});
+        table.push_back({{"kind", short_name(ccd::kind_of<Query>)},
+                         {"stage", stage.name},
+                         {"entered", e.entered},
+                         {"skipped", e.skipped},
+                         {"entered_%", 100 * entered / all},
+                         {"separate", e.separate},
+                         {"collide", e.collides},
+                         {"time_%", 100 * e.seconds / total_seconds(r)},
+                         {"ns_per_entered", e.entered > 0 ? row(1e9 * e.seconds / entered) : row()},
+                         {"ns_per_query", 1e9 * e.seconds / all}});
     }
 }
 
@@ -74,8 +78,7 @@ double slowest_seconds(const query_set<Query>& set, int repeats) {
 }
 
 template <class Query>
-void add_slow_row(const query_set<Query>& set, const options& o,
-                  std::vector<std::vector<cell>>& rows) {
+void add_slow_row(const query_set<Query>& set, const options& o, rows& table) {
     if (set.size() == 0) return;
     std::vector<Query> last;
     for (std::size_t i = 0; i < set.size(); ++i) {
@@ -85,48 +88,30 @@ void add_slow_row(const query_set<Query>& set, const options& o,
     }
     double sum = 0;
     for (const Query& q : last) sum += least_seconds_of(q, o.repeats());
-    rows.push_back({word(short_name(ccd::kind_of<Query>)), count(set.size()), count(last.size()),
-                    last.empty() ? none() : number(1e6 * sum / static_cast<double>(last.size()), 2),
-                    number(1e6 * slowest_seconds(set, o.repeats()), 2)});
+    table.push_back({{"kind", short_name(ccd::kind_of<Query>)},
+                     {"queries", set.size()},
+                     {"reach_integers", last.size()},
+                     {"their_mean_us",
+                      last.empty() ? row() : row(1e6 * sum / static_cast<double>(last.size()))},
+                     {"slowest_us", 1e6 * slowest_seconds(set, o.repeats())}});
 }
 
 }  // namespace
 
 void stages(const scene& s, const options& o, report& out) {
-    // Quick runs sample the queries. Others take all: the slowest query may be the only one of its
-    // sort.
-    const std::size_t most =
-        o.quick ? o.max_queries() : s.queries.vertex_face.size() + s.queries.edge_edge.size();
-    const auto vf = s.queries.vertex_face.at_most(most);
-    const auto ee = s.queries.edge_edge.at_most(most);
-    std::vector<std::vector<cell>> rows;
-    add_stage_rows(vf, o, rows);
-    add_stage_rows(ee, o, rows);
+    rows of_stages, slow;
+    s.queries.for_each([&](const auto& known) {
+        const auto set = o.sampled(known.queries);
+        add_stage_rows(set, o, of_stages);
+        add_slow_row(set, o, slow);
+    });
     out.table("stages", {{"scene", s.name}}, s.name + ": stages of exact, in a batch on one thread",
-              {{"kind", "kind", true},
-               {"stage", "stage", true},
-               {"entered", "entered"},
-               {"skipped", "skipped"},
-               {"entered_share", "of all"},
-               {"separate", "separate"},
-               {"collides", "collide"},
-               {"time_share", "share of time"},
-               {"ns_per_entered", "ns per entered"},
-               {"ns_per_query", "ns per query"}},
-              rows);
-    rows.clear();
-    add_slow_row(vf, o, rows);
-    add_slow_row(ee, o, rows);
+              of_stages);
     out.table("slow queries", {{"scene", s.name}},
               s.name +
                   ": exact one by one, each query at its quickest (the clock's own cost, some "
                   "20 ns, included)",
-              {{"kind", "kind", true},
-               {"queries", "queries"},
-               {"reach_integers", "reach integers"},
-               {"integers_us_mean", "their mean us"},
-               {"slowest_us", "slowest us"}},
-              rows);
+              slow);
 }
 
 }  // namespace bench

@@ -123,28 +123,29 @@ double megabytes(std::size_t bytes) {
     return static_cast<double>(bytes) / 1e6;
 }
 
-std::vector<cell> row_of(const scene& s, const contestant& c, const timing& t) {
+row row_of(const scene& s, const contestant& c, const timing& t) {
     const ccd::step_result& r = c.quickest;
     const std::size_t heap = peak_heap([&] { keep(run(s.before, s.after, c)); });
     const std::size_t frames = bytes_of(s.before) + bytes_of(s.after);
     const std::size_t result = r.pairs.vertex_face.size() * sizeof(ccd::vertex_face_pair) +
                                r.pairs.edge_edge.size() * sizeof(ccd::edge_edge_pair);
     const std::size_t without_result = heap - std::min(heap, result);
-    return {word(ccd::info(c.method).name),
-            word(std::string(ccd::name(c.set))),
-            count(static_cast<std::uint64_t>(r.threads)),
-            number(1e3 * t.minimum, 2),
-            number(1e3 * t.median, 2),
-            number(1e3 * r.prepare_seconds, 2),
-            number(1e3 * r.broad_phase_seconds, 2),
-            number(1e3 * r.narrow_phase_seconds, 2),
-            number(1e3 * r.sort_seconds, 2),
-            count(s.queries.vertex_face.size() + s.queries.edge_edge.size()),
-            count(r.pairs.vertex_face.size() + r.pairs.edge_edge.size()),
-            number(megabytes(frames), 2),
-            number(megabytes(result), 2),
-            number(megabytes(heap), 2),
-            number(static_cast<double>(without_result) / static_cast<double>(frames), 2)};
+    return {
+        {"method", ccd::info(c.method).name},
+        {"instruction_set", ccd::name(c.set)},
+        {"threads", r.threads},
+        {"ms_min", 1e3 * t.minimum},
+        {"ms_median", 1e3 * t.median},
+        {"prepare_ms", 1e3 * r.prepare_seconds},
+        {"broad_ms", 1e3 * r.broad_phase_seconds},
+        {"narrow_ms", 1e3 * r.narrow_phase_seconds},
+        {"sort_ms", 1e3 * r.sort_seconds},
+        {"candidates", s.queries.vertex_face.queries.size() + s.queries.edge_edge.queries.size()},
+        {"pairs", r.pairs.vertex_face.size() + r.pairs.edge_edge.size()},
+        {"frames_MB", megabytes(frames)},
+        {"result_MB", megabytes(result)},
+        {"peak_MB", megabytes(heap)},
+        {"peak/frames", static_cast<double>(without_result) / static_cast<double>(frames)}};
 }
 
 }  // namespace
@@ -158,30 +159,14 @@ void steps(const scene& s, const options& o, report& out) {
         contestants.push_back({ccd::method::float_, 1});
     }
     const auto timings = race_steps(s.before, s.after, contestants, o.repeats());
-    std::vector<std::vector<cell>> rows;
-    for (std::size_t i = 0; i < contestants.size(); ++i) {
-        rows.push_back(row_of(s, contestants[i], timings[i]));
-    }
+    rows all;
+    for (std::size_t i = 0; i < contestants.size(); ++i)
+        all.push_back(row_of(s, contestants[i], timings[i]));
     out.table("steps", {{"scene", s.name}},
               s.name +
                   ": whole steps, frames in memory to sorted pairs (peak: heap on top of the "
                   "frames; its ratio to the frames without the result)",
-              {{"method", "method", true},
-               {"instruction_set", "instruction set", true},
-               {"threads", "threads"},
-               {"ms_min", "min ms"},
-               {"ms_median", "median ms"},
-               {"prepare_ms", "prepare ms"},
-               {"broad_ms", "broad ms"},
-               {"narrow_ms", "narrow ms"},
-               {"sort_ms", "sort ms"},
-               {"candidates", "candidates"},
-               {"pairs", "pairs"},
-               {"frames_mb", "frames MB"},
-               {"result_mb", "result MB"},
-               {"peak_mb", "peak MB"},
-               {"peak_to_frames", "peak/frames"}},
-              rows);
+              all);
 }
 
 namespace {
@@ -217,7 +202,7 @@ double width_of(const scene& s) {
 }  // namespace
 
 void growth(const scene& s, const options& o, report& out) {
-    std::vector<std::vector<cell>> rows;
+    rows all;
     const std::size_t most = o.quick ? 10 * s.before.faces.size() : 10'000'000;
     for (std::size_t faces = s.before.faces.size(), n = 1; n * faces < 10 * most; n *= 10) {
         const std::size_t copies = std::min(n, most / faces);
@@ -236,29 +221,26 @@ void growth(const scene& s, const options& o, report& out) {
             throw std::runtime_error(s.name + ": a repeated step returned different pairs");
         const std::size_t heap = peak_heap([&] { keep(ccd::step(before, after, {.threads = 1})); });
         const auto ms = [&](std::size_t i) { return 1e3 * timings[i].minimum; };
-        rows.push_back(
-            {count(copies), count(before.faces.size()), count(pairs), number(ms(0), 1),
-             number(ms(1), 1), number(ms(0) / ms(1), 2), number(ms(2), 1), number(ms(2) / ms(0), 2),
-             number(1e6 * ms(0) / static_cast<double>(before.faces.size()), 0),
-             number(megabytes(bytes_of(before) + bytes_of(after)), 1), number(megabytes(heap), 1),
-             number(static_cast<double>(heap) / static_cast<double>(before.faces.size()), 0)});
+        const auto per_face = static_cast<double>(before.faces.size());
+        all.push_back({{"copies", copies},
+                       {"faces", before.faces.size()},
+                       {"pairs", pairs},
+                       {"ms_one_thread", ms(0)},
+                       {"ms_all_threads", ms(1)},
+                       {"speed-up", ms(0) / ms(1)},
+                       {"ms_again", ms(2)},
+                       {"again/fresh", ms(2) / ms(0)},
+                       {"ns_per_face", 1e6 * ms(0) / per_face},
+                       {"frames_MB", megabytes(bytes_of(before) + bytes_of(after))},
+                       {"peak_MB", megabytes(heap)},
+                       {"bytes_per_face", static_cast<double>(heap) / per_face}});
         if (copies < n) break;
     }
     out.table("growth", {{"scene", s.name}, {"with", "copies"}},
-              s.name + ": whole steps of copies of the scene side by side, by exact",
-              {{"copies", "copies"},
-               {"faces", "faces"},
-               {"pairs", "pairs"},
-               {"ms_one_thread", "min ms, 1 thread"},
-               {"ms_all_threads", "all threads"},
-               {"speedup", "speed-up"},
-               {"ms_again", "again, 1 thread"},
-               {"again_to_fresh", "again/fresh"},
-               {"ns_per_face", "ns per face"},
-               {"frames_mb", "frames MB"},
-               {"peak_mb", "peak MB"},
-               {"bytes_per_face", "bytes per face"}},
-              rows);
+              s.name +
+                  ": whole steps of copies of the scene side by side, by exact, one thread "
+                  "where no other number is given",
+              all);
 }
 
 }  // namespace bench

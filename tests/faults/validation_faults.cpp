@@ -16,18 +16,8 @@ auto content(const report& found) {
     return counts;
 }
 
-TEST(ValidationFaults, QueriesAndExpressions) {
-    const std::vector<ccd::vertex_face<double>> queries{{{{0.25, 0.1, 1}, {0.25, 0.3, -1}},
-                                                         {{0, 0, 0.1}, {0, 0, 0}},
-                                                         {{1.3, 0, 0}, {1, 0, 0}},
-                                                         {{0, 1.7, 0}, {0, 1, 0}}}};
+TEST(ValidationFaults, Expressions) {
     const std::vector<rule> two(rules().begin(), rules().begin() + 2);
-    for (const int threads : {1, 2}) {
-        const std::string of = ", threads: " + std::to_string(threads);
-        try_every_allocation("validate_queries" + of, [&] {
-            return content(validate_queries(two, std::span(queries), threads));
-        });
-    }
     expression_options options;
     options.expressions = options.operations = 1;
     options.threads = 1;

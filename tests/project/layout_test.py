@@ -17,34 +17,7 @@ FOLDERS = ["ccd", "docs", "errbound", "include", "packaging", "python", "example
 CPP = {".hpp", ".cpp", ".cu", ".cuh"}
 SOURCES = CPP | {".py"}
 
-# Lowest first. A file belongs to the first layer whose pattern it matches, and may include files of its own and of
-# lower layers. Folders of a layer must not include each other in a cycle.
-LAYERS = [
-    ("floating-point facts", r"include/errbound/((environment|number_traits|small_floats|binary128|sign|error_free)\.hpp|detail/)"),
-    ("bound rules", r"include/errbound/rules/"),
-    ("tracked scalar", r"include/errbound/(tracked|functions)\.hpp"),
-    ("linear algebra", r"include/errbound/(linear/|(eigen|certified_solve)\.hpp)"),
-    ("exact numbers", r"include/errbound/(integers/|(multiprecision|decimal)\.hpp)"),
-    ("elementary functions", r"include/errbound/functions/"),
-    ("polynomials", r"include/errbound/((bernstein|bsc|polynomial)\.hpp|roots/)"),
-    ("predicates", r"include/errbound/(predicate\w*\.hpp|filters/)"),
-    ("all of errbound", r"include/errbound/(?!validation/)"),
-    ("ccd: queries and calls", r"include/ccd/(?!ccd\.hpp)\w+\.hpp"),
-    ("ccd: methods' headers", r"include/ccd/methods/"),
-    ("all of ccd", r"include/ccd/"),
-    ("support of programs", r"errbound/support/"),
-    ("validation", r"(include/)?errbound/validation/"),
-    ("ccd: one query", r"ccd/(exact|contact)/"),
-    ("ccd: other methods", r"ccd/methods/"),
-    ("ccd: batches", r"ccd/batch/"),
-    ("ccd: steps", r"ccd/step/"),
-    ("ccd: devices, ranks", r"ccd/(cuda|mpi)/"),
-    ("files", r"ccd/io/"),
-    ("experiments", r"ccd/lab/"),
-    ("programs", r"(ccd|errbound)/program/"),
-    ("Python package", r"python/"),
-]
-KNOWS_CCD = r"(include/)?errbound/(validation|program)/"  # as their CMakeLists.txt say
+LAYERS = "docs/architecture.md"
 INTERNAL = r"(errbound/(detail|integers|filters|linear|roots)|ccd/(exact|contact|batch|step|cuda|mpi|io|lab))/\w+\.hpp"
 PUBLIC_HEADERS = r"include/(errbound/(rules/|validation/)?|ccd/((methods|study|adapters)/)?)\w+\.hpp$"
 
@@ -152,8 +125,26 @@ def check_functions(root, sources, found):
         print(f"{lines:12} lines: {where}")
 
 
-def layer_of(path):
-    return next((i for i, (_, pattern) in enumerate(LAYERS) if re.match(pattern, path)), None)
+class layers:
+    """The table of layers in docs/architecture.md. Its files are folders, which end with a slash, or patterns."""
+
+    def __init__(self, root):
+        self.contents, self.patterns = {}, []
+        for number, content, files in re.findall(r"^\| (\d+) \| (.*?) \| (.*?) \|$", (root / LAYERS).read_text(), re.MULTILINE):
+            self.contents[int(number)] = content
+            for pattern in re.findall("`(.*?)`", files):
+                names = re.search(r"\{(.*?)\}", pattern)
+                self.patterns += [(pattern.replace(names[0], name) if names else pattern, int(number))
+                                  for name in (names[1].split(",") if names else [""])]
+        # The most exact first: files, then patterns and folders by length.
+        self.patterns.sort(key=lambda entry: (entry[0].endswith("/") or "*" in entry[0], -len(entry[0])))
+
+    def of(self, path):
+        return next((layer for pattern, layer in self.patterns
+                     if (path.startswith(pattern) if pattern.endswith("/") else pathlib.PurePosixPath(path).match(pattern))), None)
+
+    def name(self, layer):
+        return f"layer {layer}, {self.contents[layer]}"
 
 
 def includes(root, sources):
@@ -194,7 +185,8 @@ def room_of(path):
 
 
 def check_includes(root, sources, found):
-    homeless, upwards, of_ccd, of_tests = set(), [], [], []
+    table = layers(root)
+    homeless, upwards, of_tests = set(), [], []
     rooms = collections.defaultdict(set)
     for file, included in sorted(includes(root, sources)):
         if file.startswith(("tests/", "examples/")):
@@ -204,17 +196,13 @@ def check_includes(root, sources, found):
             continue
         if room_of(file) != room_of(included):
             rooms[room_of(file)].add(room_of(included))
-        layers = layer_of(file), layer_of(included)
-        homeless |= {path for path, layer in zip((file, included), layers) if layer is None}
-        if None not in layers and layers[0] < layers[1]:
-            upwards.append(f"{file} ({LAYERS[layers[0]][0]}) includes {included} ({LAYERS[layers[1]][0]})")
-        if (re.match(r"(include/)?ccd/", included) and re.match(r"(include/)?errbound/", file)
-                and not re.match(KNOWS_CCD, file)):
-            of_ccd.append(f"{file} includes {included}")
+        of = table.of(file), table.of(included)
+        homeless |= {path for path, layer in zip((file, included), of) if layer is None}
+        if None not in of and of[0] < of[1]:
+            upwards.append(f"{file} ({table.name(of[0])}) includes {included} ({table.name(of[1])})")
     found.wrong("files of no layer", sorted(homeless))
     found.wrong("includes of a higher layer", upwards)
     found.wrong("includes of tests", of_tests)
-    found.wrong("includes of ccd by errbound, except its validation", of_ccd)
     around = cycle(rooms)
     found.wrong("cycles of rooms", [" -> ".join(around)] if around else [])
 

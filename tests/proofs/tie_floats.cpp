@@ -55,7 +55,7 @@ void put_tests(hash& h, const Forms<double>& forms,
     put(h, m.x);
     put(h, m.y);
     put(h, m.z);
-    put(h, static_filter::separated_by_coordinates<double>(forms, m));
+    put(h, static_filter::certainly_separated_by_coordinates<double>(forms, m));
     put(h, static_filter::separated_by_diagonals<double>(forms, m));
     put(h, static_filter::separated_by_axes<double>(forms, m));
     const double y_error = m.template error_of_y<Forms>();

@@ -2,16 +2,13 @@
 
 #include <algorithm>
 #include <chrono>
-#include <condition_variable>
-#include <exception>
 #include <map>
-#include <mutex>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
-#include <thread>
 #include <utility>
 
-#include "errbound/support/joined_threads.hpp"
+#include "ccd/lab/kept.hpp"
+#include "errbound/support/ordered_blocks.hpp"
 #include "errbound/support/output_file.hpp"
 
 namespace soak {
@@ -32,86 +29,9 @@ double seconds_since(clock::time_point start) {
     return std::chrono::duration<double>(clock::now() - start).count();
 }
 
-/// Threads that compare block after block, and their findings.
-class comparing_threads {
-  public:
-    comparing_threads(const state& from, const run_options& options, const part& what,
-                      const std::atomic<int>& stop)
-        : seed_(from.seed),
-          first_(what.blocks_for(from.first)),
-          blocks_(options.blocks),
-          what_(what),
-          stop_(stop),
-          next_(from.found.blocks),
-          sum_(from.found) {
-        const unsigned count = options.threads > 0
-                                   ? options.threads
-                                   : std::max(1u, std::thread::hardware_concurrency());
-        working_ = count;
-        try {
-            for (unsigned i = 0; i < count; ++i) threads_.start([this] { work(); });
-        } catch (...) {  // the system has no more threads: the running ones end, too
-            ending_ = true;
-            throw;
-        }
-    }
-    /// Waits for the blocks in progress.
-    ~comparing_threads() { ending_ = true; }
-
-    bool finished_within(std::chrono::milliseconds time) {
-        std::unique_lock lock(mutex_);
-        return finished_.wait_for(lock, time, [&] { return working_ == 0; });
-    }
-    /// Results of all blocks before the first that is missing.
-    findings found() {
-        const std::scoped_lock lock(mutex_);
-        return sum_;
-    }
-    void rethrow_failure() {
-        const std::scoped_lock lock(mutex_);
-        if (failure_) std::rethrow_exception(failure_);
-    }
-
-  private:
-    // Threads stop only between blocks: all blocks in progress are finished, so none is lost.
-    void work() {
-        while (stop_ == 0 && !ending_) {
-            const std::uint64_t block = next_++;
-            if (block >= blocks_) break;
-            try {
-                findings of_block = what_.compare_block(seed_, first_ + block);
-                const std::scoped_lock lock(mutex_);
-                add(block, std::move(of_block));
-            } catch (...) {
-                ending_ = true;
-                const std::scoped_lock lock(mutex_);
-                failure_ = std::current_exception();
-            }
-        }
-        const std::scoped_lock lock(mutex_);
-        --working_;
-        finished_.notify_all();
-    }
-    void add(std::uint64_t block, findings of_block) {
-        waiting_.emplace(block, std::move(of_block));
-        for (auto next = waiting_.begin(); next != waiting_.end() && next->first == sum_.blocks;
-             next = waiting_.erase(next))
-            sum_.add(next->second);
-    }
-
-    std::uint64_t seed_, first_, blocks_;
-    const part& what_;
-    const std::atomic<int>& stop_;
-    std::atomic<bool> ending_ = false;
-    std::atomic<std::uint64_t> next_;
-    std::mutex mutex_;  // of all that follows
-    std::condition_variable finished_;
-    findings sum_;
-    std::map<std::uint64_t, findings> waiting_;  // for blocks before them
-    std::exception_ptr failure_;
-    unsigned working_ = 0;
-    errbound::support::joined_threads threads_;  // joined before the other members are destroyed
-};
+ccd::lab::row dependencies_of(const part& of) {
+    return {{"part", of.name}, {"version", of.version}};
+}
 
 }  // namespace
 
@@ -173,23 +93,20 @@ std::uint64_t part::blocks_for(std::uint64_t questions) const {
 
 std::string to_json(const state& s, const part& of) {
     json all = s.found;
-    all.update({{"part", of.name},
-                {"version", of.version},
-                {"seed", s.seed},
-                {"first", s.first},
-                {"seconds", s.seconds}});
-    return all.dump(1) + "\n";
+    all.update({{"seed", s.seed}, {"first", s.first}, {"seconds", s.seconds}});
+    return ccd::lab::kept_text(dependencies_of(of), all);
 }
 
 state from_json(const std::string& text, const part& of) {
+    const auto kept = ccd::lab::kept_value(text, dependencies_of(of));
+    if (!kept) throw std::runtime_error("the file is not the state of a run of these questions");
     try {
-        const json all = json::parse(text);
-        if (all.at("part") != of.name || all.at("version") != of.version)
-            throw std::runtime_error("the run has other questions than this program");
+        const json all = *kept;
         return {all.at("seed").get<std::uint64_t>(), all.at("first").get<std::uint64_t>(),
                 all.get<findings>(), all.at("seconds").get<double>()};
     } catch (const json::exception& error) {
-        throw std::runtime_error(std::string("not the state of a run: ") + error.what());
+        throw std::runtime_error(std::string("the file is not the state of a run: ") +
+                                 error.what());
     }
 }
 
@@ -215,12 +132,18 @@ state run(state from, const run_options& options, const part& what, const std::a
     // A folder that cannot be written to is refused now, not in an hour.
     save(from, what, options.folder);
     const clock::time_point start = clock::now();
-    comparing_threads threads(from, options, what, stop);
+    const std::uint64_t first = what.blocks_for(from.first);
+    findings sum = from.found;
+    errbound::support::ordered_blocks<findings> blocks(
+        sum.blocks, options.blocks, options.threads,
+        [&](std::uint64_t block) { return what.compare_block(from.seed, first + block); },
+        [&](const findings& next) { sum.add(next); }, stop);
     const auto now = [&] {
-        return state{from.seed, from.first, threads.found(), from.seconds + seconds_since(start)};
+        return state{from.seed, from.first, blocks.between_merges([&](auto) { return sum; }),
+                     from.seconds + seconds_since(start)};
     };
     clock::time_point saved = start;
-    while (!threads.finished_within(std::chrono::milliseconds(100))) {
+    while (!blocks.finished_within(std::chrono::milliseconds(100))) {
         const state current = now();
         if (seconds_since(saved) >= options.seconds_between_saves) {
             save(current, what, options.folder);
@@ -230,7 +153,7 @@ state run(state from, const run_options& options, const part& what, const std::a
     }
     const state last = now();
     save(last, what, options.folder);
-    threads.rethrow_failure();
+    blocks.rethrow_failure();
     return last;
 }
 

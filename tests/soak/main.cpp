@@ -1,7 +1,6 @@
-// ./run soak: compares `exact`, in single calls and in batches, with the reference, and with itself
-// on images of queries. Compares steps and advances of meshes with a test of every pair, roots with
-// FLINT, predicates with oracles.
-#include <CLI/CLI.hpp>
+// ./run soak: `exact`, one by one and in batches, on millions of queries: against the reference, or
+// against itself on images of them; steps and advances of meshes against every pair; roots against
+// FLINT; predicates against oracles.
 #include <algorithm>
 #include <cstdint>
 #include <cstdio>
@@ -11,11 +10,12 @@
 #include <stdexcept>
 #include <string>
 
-#include "errbound/support/command_line.hpp"
+#include "errbound/support/command.hpp"
 #include "errbound/support/output_file.hpp"
+#include "errbound/support/program.hpp"
 #include "errbound/support/progress_line.hpp"
+#include "errbound/support/rows.hpp"
 #include "errbound/support/signals.hpp"
-#include "errbound/support/table.hpp"
 #include "tests/soak/parts.hpp"
 
 namespace soak {
@@ -74,25 +74,20 @@ class progress_display {
 
 /// The table with each row's share of the first column, and the sum of all rows.
 std::string text_of(const count_table& counts) {
+    errbound::support::rows all;
     std::vector<std::uint64_t> sums(counts.columns.size());
     for (const auto& row : counts.rows)
-        for (std::size_t k = 0; k < sums.size(); ++k) sums[k] += row.counts[k];
-    errbound::support::table text{{counts.title}};
-    text[0].insert(text[0].end(), counts.columns.begin(), counts.columns.end());
-    if (!counts.largest) text[0].emplace_back("share");
+        std::ranges::transform(row.counts, sums, sums.begin(), std::plus());
     const auto add = [&](const std::string& name, const std::vector<std::uint64_t>& row) {
-        auto& cells = text.emplace_back(std::vector<std::string>{name});
-        for (const std::uint64_t n : row) cells.push_back(grouped(n));
-        if (counts.largest) return;
-        char share[32];
-        std::snprintf(share, sizeof share, "%.2f %%",
-                      100 * static_cast<double>(row[0]) /
-                          static_cast<double>(std::max<std::uint64_t>(sums[0], 1)));
-        cells.emplace_back(share);
+        auto& r = all.emplace_back(errbound::support::row{{counts.title + ":", name}});
+        for (std::size_t k = 0; k < row.size(); ++k) r[counts.columns[k]] = row[k];
+        if (!counts.largest)
+            r["share_%"] = 100 * static_cast<double>(row[0]) /
+                           static_cast<double>(std::max<std::uint64_t>(sums[0], 1));
     };
     for (const auto& row : counts.rows) add(row.name, row.counts);
     if (!counts.largest) add("all", sums);
-    return errbound::support::text_of(text, 1);
+    return errbound::support::text_of(all);
 }
 
 void report(const part& of, const state& s, const fs::path& folder) {
@@ -199,7 +194,6 @@ void add_parts(CLI::App& app, command_line& given) {
 }
 
 void add_options(CLI::App& app, command_line& given) {
-    app.name("./run soak");
     add_parts(app, given);
     app.add_option("--seed", given.seed, "Same seed, same questions; 1 by default")
         ->check(errbound::support::checked_seed);
@@ -248,8 +242,8 @@ int run_part(command_line& given) {
 }  // namespace
 }  // namespace soak
 
-int main(int argc, char** argv) try {
-    CLI::App app{"What is exact against a reference, or against itself."};
+int main(int argc, char** argv) {
+    CLI::App app{"Compares exact with a reference, or with itself.", "./run soak"};
     soak::command_line given;
     given.part = [] {
         auto deciders = soak::exact_deciders();
@@ -257,13 +251,8 @@ int main(int argc, char** argv) try {
         return soak::comparison_part(soak::reference(), std::move(deciders));
     };
     soak::add_options(app, given);
-    try {
-        app.parse(argc, argv);
-    } catch (const CLI::ParseError& error) {
-        return app.exit(error) == 0 ? 0 : 2;
-    }
-    return soak::run_part(given);
-} catch (const std::exception& error) {
-    std::fprintf(stderr, "soak: %s\n", error.what());
-    return 1;
+    return errbound::support::run_program("soak", [&] {
+        return errbound::support::parse_and_run(app, argc, argv,
+                                                [&] { return soak::run_part(given); });
+    });
 }

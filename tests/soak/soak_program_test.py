@@ -26,7 +26,7 @@ class StopAndResume(unittest.TestCase):
         return [PROGRAM, "--folder", folder, "--queries", str(queries), *options]
 
     def state(self, name):
-        state = json.loads((Path(self.folder.name) / name / "state.json").read_text())
+        state = json.loads((Path(self.folder.name) / name / "state.json").read_text())["value"]
         del state["seconds"]
         return state
 

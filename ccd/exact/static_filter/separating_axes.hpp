@@ -48,7 +48,8 @@ inline constexpr double margin = 9.2 * errbound::number_traits<double>::epsilon(
 }  // namespace detail
 
 template <class S, class Forms>
-constexpr mask<S> separated_by_coordinates(const Forms& f, const difference_extents<S>& m) {
+constexpr mask<S> certainly_separated_by_coordinates(const Forms& f,
+                                                     const difference_extents<S>& m) {
     static_assert(std::is_same_v<typename difference_extents<S>::real, double>);
     const auto along = [&](const S& size, const auto& project) {
         return detail::separated_along<S>(f, size * S(detail::margin), project);
@@ -96,7 +97,7 @@ constexpr mask<S> separated_by_diagonals(const Forms& f, const difference_extent
 /// 9.2ε suffices for all. Sums lose nothing to underflow.
 template <class S, class Forms>
 constexpr mask<S> separated_by_axes(const Forms& f, const difference_extents<S>& m) {
-    return separated_by_coordinates<S>(f, m) | separated_by_diagonals<S>(f, m);
+    return certainly_separated_by_coordinates<S>(f, m) | separated_by_diagonals<S>(f, m);
 }
 
 }  // namespace ccd::static_filter

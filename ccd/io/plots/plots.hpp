@@ -2,16 +2,10 @@
 #pragma once
 
 #include <filesystem>
-#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
 namespace ccd::io {
-
-/// The rows as CSV with these columns; a column that a row lacks stays empty. Texts with a comma or
-/// a quotation mark are quoted.
-std::string csv_of(const std::vector<std::string>& columns,
-                   const std::vector<nlohmann::ordered_json>& rows);
 
 /// The columns of methods.csv.
 extern const std::vector<std::string> method_columns;

@@ -14,7 +14,6 @@
 
 #include "ccd/program/command.hpp"
 #include "ccd/program/mpi/step_command.hpp"
-#include "errbound/support/command_line.hpp"
 #include "errbound/support/program.hpp"
 
 namespace ccd::program {
@@ -22,24 +21,14 @@ namespace {
 
 using errbound::support::usage_error;
 
-exit_status run_command_line(int argc, char** argv, int rank) {
+int run_command_line(int argc, char** argv, int rank) {
     CLI::App app{
         "Exact continuous collision detection over the ranks of MPI.\n"
         "Exit status: 0 done, 1 bad input, 2 bad usage.",
         "ccd_mpi"};
-    app.require_subcommand(0, 1);
     app.set_version_flag("--version", std::string("ccd_mpi ") + ERRBOUND_VERSION);
-    const std::unique_ptr<command> step = distributed_step_command(app);
-    try {
-        app.parse(argc, argv);
-        if (!step->was_given())
-            throw usage_error("command is missing; ccd_mpi --help lists the commands");
-        return step->run();
-    } catch (const CLI::ParseError& error) {
-        if (error.get_exit_code() != 0) throw usage_error(error.what());
-        if (rank == 0) app.exit(error);
-        return done;
-    }
+    const std::unique_ptr<command> commands[] = {distributed_step_command(app)};
+    return errbound::support::run_command(app, argc, argv, commands, rank == 0);
 }
 
 /// Waits for all ranks. An error that one rank throws is thrown on all ranks, unless the rank fails

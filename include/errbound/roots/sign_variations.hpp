@@ -5,18 +5,34 @@
 
 namespace errbound::roots {
 
+/// The signs of a row other than zero: the number of changes, the first and the last.
+template <class S>
+struct sign_changes {
+    int count;
+    S first, last;  ///< zero if there are none
+};
+
+/// The changes among sign(0), ..., sign(count − 1).
+template <class S, class Sign>
+constexpr sign_changes<S> sign_changes_of(std::size_t count, S zero, const Sign& sign) {
+    sign_changes<S> row{0, zero, zero};
+    for (std::size_t i = 0; i < count; ++i) {
+        const S s = sign(i);
+        if (s == zero) continue;
+        if (row.last == zero)
+            row.first = s;
+        else if (s != row.last)
+            ++row.count;
+        row.last = s;
+    }
+    return row;
+}
+
 /// Sign changes among sign(0), ..., sign(count − 1), each 1, −1 or 0; skips zeros. Proof:
 /// proofs/SignVariations.v, no_variation_no_root, one_variation_one_root.
 template <class Sign>
 int sign_variations(std::size_t count, const Sign& sign) {
-    int changes = 0, last = 0;
-    for (std::size_t i = 0; i < count; ++i) {
-        const int s = sign(i);
-        if (s == 0) continue;
-        if (s == -last) ++changes;
-        last = s;
-    }
-    return changes;
+    return sign_changes_of(count, 0, sign).count;
 }
 
 /// The largest possible count if 0 stands for uncertain; 3 stands for more than 2 and for an

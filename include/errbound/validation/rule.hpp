@@ -2,10 +2,8 @@
 #pragma once
 
 #include <array>
-#include <ccd/query.hpp>
 #include <cstddef>
 #include <errbound/validation/expression.hpp>
-#include <errbound/validation/query_check.hpp>
 #include <errbound/validation/rule_list.hpp>
 #include <errbound/validation/tiny_check.hpp>
 #include <string_view>
@@ -23,8 +21,6 @@ struct rule {
     bool has_division = false;
     /// Evaluates expressions, by number_type; null for unsupported types.
     std::array<evaluation, number_type_count> evaluate{};
-    void (*check_vertex_face)(const ccd::vertex_face<double>&, shadow_session&) = nullptr;
-    void (*check_edge_edge)(const ccd::edge_edge<double>&, shadow_session&) = nullptr;
     void (*check_tiny)(std::size_t format, bool every_bound, tiny_findings&) = nullptr;
 
     bool promises() const { return error_is == error_meaning::bound; }
@@ -48,11 +44,6 @@ constexpr void set_expression_checks(rule& r) {
                 });
 }
 template <class Rule>
-constexpr void set_query_checks(rule& r) {
-    r.check_vertex_face = check_query<Rule, ccd::vertex_face>;
-    r.check_edge_edge = check_query<Rule, ccd::edge_edge>;
-}
-template <class Rule>
 constexpr void set_tiny_checks(rule& r) {
     r.check_tiny = check_tiny<Rule>;
 }
@@ -61,7 +52,6 @@ template <class Rule>
 constexpr rule rule_of() {
     rule r;
     set_expression_checks<Rule>(r);
-    set_query_checks<Rule>(r);
     set_tiny_checks<Rule>(r);
     return r;
 }

@@ -1,13 +1,12 @@
 // Validation of bound rules against MPFR, and the tightness of their bounds: the functions behind
 // `errbound validate`, which return structs and print nothing.
 //
-// Evidence: random expressions, the polynomials and sign classification of stored collision
-// queries, and every case of tiny number formats. Each rule must keep two promises: |value − exact
-// value| <= error(), and every certain sign is the exact one. A fourth kind tests the assumed
-// errors of the C library's functions. Results: docs/measured.md.
+// Evidence: random expressions, and every case of tiny number formats. Each rule must keep two
+// promises: |value − exact value| <= error(), and every certain sign is the exact one. A third kind
+// tests the assumed errors of the C library's functions. `ccd validate` adds stored collision
+// queries. Results: docs/measured.md.
 #pragma once
 
-#include <ccd/query.hpp>
 #include <cstdint>
 #include <errbound/validation/distribution.hpp>
 #include <errbound/validation/mpfr_functions.hpp>
@@ -27,7 +26,7 @@ std::span<const rule> rules();
 /// A broken promise, reproducible.
 struct violation {
     std::string rule, number;
-    std::uint64_t index = 0;  ///< of the expression or query, from 0
+    std::uint64_t index = 0;  ///< of the expression, from 0
     std::string what;         ///< one sentence: the promise, and by how much it is broken
     std::string code;         ///< C++ that shows it, minimised; lines end in \n
 };
@@ -50,7 +49,7 @@ struct tightness {
 /// Counts for one rule and number type.
 struct rule_counts {
     std::string rule, number;
-    std::uint64_t cases = 0;   ///< expressions, queries, or operations of tiny formats
+    std::uint64_t cases = 0;   ///< expressions, or operations of tiny formats
     std::uint64_t values = 0;  ///< compared with the reference
     std::uint64_t violations = 0;
     std::uint64_t undetermined = 0;  ///< even the largest precision did not decide
@@ -130,16 +129,6 @@ struct function_options {
 /// are compared with their bounds. float, double and long double only. Cost: about a microsecond
 /// per argument.
 evidence evidence_of_functions(const function_options& options);
-
-/// The forms of stored queries, and BSC on them, operation by operation, in double. The queries
-/// must outlive the evidence. Cost: about a millisecond per query and rule.
-template <class Query>
-evidence evidence_of_queries(std::span<const rule> rules, std::span<const Query> queries);
-template <class Query>
-report validate_queries(std::span<const rule> rules, std::span<const Query> queries, int threads,
-                        const progress& show = {}) {
-    return examine(evidence_of_queries(rules, queries), threads, show);
-}
 
 /// Every operation on every pair of numbers of formats of 6 to 8 bits, in every rounding direction
 /// that a rule promises; in 6 bits also with every pair of bounds. float8_e5m2 and float8_e4m3:

@@ -1,17 +1,14 @@
-// ns per operation of errbound::integer, compared with Boost's cpp_int and, if installed, GMP's
-// integers in Boost's wrapper, by the number of words.
+// Operations of errbound::integer next to Boost's cpp_int and, if installed, GMP's integers as
+// Boost wraps them: ns of each, by numbers of words.
 #include <boost/multiprecision/cpp_int.hpp>
 #include <cstdint>
-#include <cstdio>
 #include <errbound/integers/integer.hpp>
 #include <functional>
 #include <memory>
 #include <random>
 #include <string>
-#include <string_view>
 #include <vector>
 
-#include "ccd/lab/machine.hpp"
 #include "tests/bench/harness.hpp"
 #ifdef ERRBOUND_HAVE_GMP
 #include <boost/multiprecision/gmp.hpp>
@@ -22,6 +19,7 @@ namespace {
 namespace mp = boost::multiprecision;
 using boost_integer = mp::number<mp::cpp_int_backend<>, mp::et_off>;
 
+/// Numbers of `words` words, of twice as many, and of one.
 template <class Integer>
 struct numbers {
     static constexpr std::size_t count = 32;
@@ -44,7 +42,7 @@ struct numbers {
             word.push_back(any(1));
         }
     }
-    /// Stores the operation's result for each pair, in numbers that outlive the call.
+    /// A pass of the operation over all pairs; it owns the numbers.
     template <class Operation>
     static std::function<void()> pass(std::shared_ptr<numbers> of, const Operation& operation) {
         return [of, operation] {
@@ -117,9 +115,8 @@ std::vector<operation> all_operations() {
     };
 }
 
-void run(bool quick) {
-    bench::report out;
-    std::vector<std::vector<bench::cell>> rows;
+void run(bool quick, bench::report& out) {
+    bench::rows all;
     for (const operation& op : all_operations()) {
         for (const int words : {1, 2, 3, 4, 6, 8, 16, 32, 64, 100, 200}) {
             if (quick && words > 4) break;
@@ -127,44 +124,26 @@ void run(bool quick) {
             if (op.by_gmp) passes.push_back(op.by_gmp(words));
             const auto t = bench::race(passes, quick ? 1 : 11);
             const auto nanoseconds = [](double seconds) {
-                return bench::number(1e9 * seconds / numbers<errbound::integer>::count, 1);
+                return 1e9 * seconds / numbers<errbound::integer>::count;
             };
-            std::vector<bench::cell> row{bench::word(op.name),
-                                         bench::count(static_cast<std::uint64_t>(words)),
-                                         nanoseconds(t[0].minimum), nanoseconds(t[0].median)};
-            for (std::size_t other : {1, 2}) {
-                if (other < t.size()) {
-                    row.push_back(bench::number(t[other].minimum / t[0].minimum, 2));
-                    row.push_back(bench::number(t[other].median / t[0].median, 2));
-                } else {
-                    row.push_back(bench::none());
-                    row.push_back(bench::none());
-                }
+            bench::row& r = all.emplace_back(bench::row{{"operation", op.name},
+                                                        {"words", words},
+                                                        {"errbound", nanoseconds(t[0].minimum)},
+                                                        {"median", nanoseconds(t[0].median)}});
+            constexpr const char* others[] = {"cpp_int", "GMP"};
+            for (std::size_t i = 1; i < t.size(); ++i) {
+                const std::string name = others[i - 1];
+                r[name + "/errbound"] = t[i].minimum / t[0].minimum;
+                r[name + "_medians"] = t[i].median / t[0].median;
             }
-            rows.push_back(row);
         }
     }
-    out.table("integers", {}, "operations on integers, ns (least and median of some passes)",
-              {{"operation", "operation", true},
-               {"words", "words"},
-               {"least", "errbound"},
-               {"median", "median"},
-               {"boost", "cpp_int/errbound"},
-               {"boost_median", "medians"},
-               {"gmp", "GMP/errbound"},
-               {"gmp_median", "medians"}},
-              rows);
+    out.table("integers", {}, "operations on integers, ns (least and median of some passes)", all);
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-    const bool quick = argc == 2 && std::string_view(argv[1]) == "--quick";
-    if (argc > 1 && !quick) {
-        std::fprintf(stderr, "usage: ./run bench --integers [--quick]\n");
-        return 2;
-    }
-    std::printf("%s\n", ccd::lab::text_of(ccd::lab::this_machine(), 1).c_str());
-    run(quick);
-    return 0;
+    bench::program bench("./run bench --integers", "Integers next to Boost's and GMP's.");
+    return bench.run(argc, argv, [&](bench::report& out) { run(bench.quick, out); });
 }

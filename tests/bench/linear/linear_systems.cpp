@@ -3,15 +3,12 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <errbound/certified_solve.hpp>
 #include <numeric>
 #include <stdexcept>
 #include <string>
-#include <string_view>
 #include <vector>
 
-#include "ccd/lab/machine.hpp"
 #include "tests/bench/harness.hpp"
 #include "tests/errbound/linear/matrix_families.hpp"
 
@@ -66,7 +63,7 @@ double greatest(const std::vector<double>& numbers) {
     return numbers.empty() ? 0 : *std::max_element(numbers.begin(), numbers.end());
 }
 
-std::vector<bench::cell> row(const linear_system& s, bool quick) {
+bench::row row_of(const linear_system& s, bool quick) {
     const MatrixXd a = 3 * s.a;
     const VectorXd b = s.a * s.y;
     VectorXd plain;
@@ -88,50 +85,33 @@ std::vector<bench::cell> row(const linear_system& s, bool quick) {
         bounds.push_back(certified.errors(i) / size);
         if (error > 0) ratios.push_back(certified.errors(i) / error);
     }
-    std::vector<bench::cell> cells{bench::word(s.name),
-                                   bench::count(std::uint64_t(a.rows())),
-                                   bench::number(1e3 * timings[0].minimum, 4),
-                                   bench::number(1e3 * timings[1].minimum, 4),
-                                   bench::number(timings[1].minimum / timings[0].minimum, 1),
-                                   bench::number(greatest(of_plain), 0)};
-    if (!certified.certified()) {
-        for (int k = 0; k < 3; ++k) cells.push_back(bench::none());
-        return cells;
-    }
+    bench::row r = {{"system", s.name},
+                    {"n", a.rows()},
+                    {"plain_ms", 1e3 * timings[0].minimum},
+                    {"certified_ms", 1e3 * timings[1].minimum},
+                    {"ratio", timings[1].minimum / timings[0].minimum},
+                    {"plain:_greatest_error", greatest(of_plain)}};
+    if (!certified.certified()) return r;
     std::sort(ratios.begin(), ratios.end());
-    cells.push_back(bench::number(greatest(bounds), 3));
-    cells.push_back(ratios.empty() ? bench::none() : bench::number(ratios[ratios.size() / 2], 6));
-    cells.push_back(ratios.empty() ? bench::none() : bench::number(ratios.back(), 6));
-    return cells;
+    r["certified:_greatest_error"] = greatest(bounds);
+    if (ratios.empty()) return r;
+    r["overestimate_-_1,_median"] = ratios[ratios.size() / 2] - 1;
+    r["greatest"] = ratios.back() - 1;
+    return r;
 }
 
 }  // namespace
 
-int main(int argc, char** argv) try {
-    const bool quick = argc == 2 && std::string_view(argv[1]) == "--quick";
-    if (argc > 1 && !quick) {
-        std::fprintf(stderr, "usage: ./run bench --linear [--quick]\n");
-        return 2;
-    }
-    std::printf("%s\n", ccd::lab::text_of(ccd::lab::this_machine(), 1).c_str());
-    std::vector<std::vector<bench::cell>> rows;
-    for (const linear_system& s : systems(quick)) rows.push_back(row(s, quick));
-    bench::report out;
-    out.table("linear", {},
-              "certified_solve beside partialPivLu().solve, ms (least of some passes); errors in "
-              "units of 2^-53 of the solution; overestimate: certified over true error",
-              {{"system", "system", true},
-               {"n", "n"},
-               {"plain_ms", "plain, ms"},
-               {"certified_ms", "certified, ms"},
-               {"ratio", "ratio"},
-               {"plain_error", "plain: greatest error"},
-               {"certified_error", "certified: greatest error"},
-               {"overestimate_median", "overestimate, median"},
-               {"overestimate_max", "greatest"}},
-              rows);
-    return 0;
-} catch (const std::exception& error) {
-    std::fprintf(stderr, "bench: %s\n", error.what());
-    return 1;
+int main(int argc, char** argv) {
+    bench::program bench("./run bench --linear",
+                         "certified_solve next to Eigen's plain solution by LU decomposition.");
+    return bench.run(argc, argv, [&](bench::report& out) {
+        bench::rows all;
+        for (const linear_system& s : systems(bench.quick)) all.push_back(row_of(s, bench.quick));
+        out.table(
+            "linear", {},
+            "certified_solve next to partialPivLu().solve, ms (least of some passes); errors "
+            "in units of 2^-53 of the solution; overestimate: certified over true error, less 1",
+            all);
+    });
 }

@@ -58,7 +58,7 @@ def same(result, expected, what, failures):
 
 
 def spread(values):
-    """Returns the sum of the ranks' values, and their maximum divided by their mean."""
+    """Returns the sum over ranks, and the worst rank over the mean."""
     return sum(values), max(values) * len(values) / max(1, sum(values))
 
 
@@ -86,7 +86,7 @@ HEADING = ["scene", "copies", "faces", "ranks", "placed", "pairs", "held/given",
 
 
 def sizes(faces, largest):
-    """Yields numbers of copies: 1, 10, 100, ..., and the most with at most `largest` faces."""
+    """Yields 1, 10, 100, ... copies, and the number that has `largest` faces."""
     copies, most = 1, max(1, largest // faces)
     while copies < most:
         yield copies

@@ -2,16 +2,16 @@
 // installed. The expected signs are those of the tests' oracle in GMP integers.
 #include "tests/bench/predicates/predicate_peers.hpp"
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <boost/geometry/geometries/point_xy.hpp>
 #include <boost/geometry/strategies/cartesian/side_by_triangle.hpp>
 #include <boost/multiprecision/cpp_int.hpp>
-#include <cstdio>
 #include <errbound/integers/binary_double.hpp>
+#include <errbound/predicate_batch.hpp>
 #include <errbound/predicates.hpp>
 #include <functional>
 #include <limits>
+#include <stdexcept>
 #include <string>
 #include <utility>
 
@@ -102,9 +102,9 @@ void decide_by_boost_geometry(const set_of<orient2d_form>& set, std::size_t coun
 
 template <class Form>
 struct peer {
-    std::string_view key, heading;
-    decider<Form> decide;      ///< null if the peer lacks the predicate or is not installed
-    std::size_t thinning = 1;  ///< slow peers are timed on one of `thinning` inputs
+    std::string_view name;
+    decider<Form> decide;      ///< null: not for this predicate, or not installed
+    std::size_t thinning = 1;  ///< slow peers are timed on one input in this many
 };
 #ifdef ERRBOUND_HAVE_CGAL
 constexpr bool have_cgal = true;
@@ -123,19 +123,19 @@ std::vector<peer<Form>> peers() {
     if constexpr (have_cgal) cgal = decide_by_cgal<Form>;
     if constexpr (have_mpfi) mpfi = decide_by_mpfi<Form>;
     if constexpr (std::is_same_v<Form, orient2d_form>) geometry = decide_by_boost_geometry;
-    return {{"plain", "plain double", decide_plainly<Form>},
-            {"errbound", "errbound", decide_by_errbound<Form>},
-            {"cgal", "CGAL", cgal},
-            {"gmp", "GMP integers", decide_by_integers<Form, big_integer>, 10},
-            {"cpp_int", "Boost cpp_int", decide_by_integers<Form, cpp_int>, 20},
-            {"cpp_rational", "cpp_rational", decide_by_rationals<Form>, 100},
-            {"boost_interval", "Boost.Interval", decide_by_boost_interval<Form>, 20},
-            {"mpfi", "MPFI", mpfi, 20},
-            {"boost_geometry", "Boost.Geometry", geometry}};
+    return {{"plain double", decide_plainly<Form>},
+            {"errbound", decide_by_errbound<Form>},
+            {"CGAL", cgal},
+            {"GMP integers", decide_by_integers<Form, big_integer>, 10},
+            {"Boost cpp_int", decide_by_integers<Form, cpp_int>, 20},
+            {"cpp_rational", decide_by_rationals<Form>, 100},
+            {"Boost.Interval", decide_by_boost_interval<Form>, 20},
+            {"MPFI", mpfi, 20},
+            {"Boost.Geometry", geometry}};
 }
 
-struct rows {
-    std::vector<std::vector<cell>> ns, ratios, wrong, undecided;
+struct tables {
+    rows ns, ratios, wrong, undecided;
 };
 
 template <class Form>
@@ -152,11 +152,9 @@ signs right_signs(const set_of<Form>& set) {
     return right;
 }
 
-/// Cells of one peer: ns per call, its ratio to the plain expression's time, wrong signs and
-/// uncertain ones.
+/// The wrong and the undecided signs of a peer in per cent; nothing for none.
 template <class Form>
-std::array<cell, 4> cells_of(const peer<Form>& p, const set_of<Form>& set, const signs& right,
-                             double ns, double plain) {
+std::array<row, 2> shares_of(const peer<Form>& p, const set_of<Form>& set, const signs& right) {
     const std::size_t inputs = set.size() / p.thinning;
     signs found(set.size());
     p.decide(set, inputs, found);
@@ -164,14 +162,13 @@ std::array<cell, 4> cells_of(const peer<Form>& p, const set_of<Form>& set, const
     for (std::size_t i = 0; i < inputs; ++i)
         certain(found[i]) ? wrong += found[i] != right[i] : ++undecided;
     const auto share = [&](std::size_t n) {
-        return n == 0 ? cell{"", 0} : percent(static_cast<double>(n) / static_cast<double>(inputs));
+        return n == 0 ? row("") : row(100 * static_cast<double>(n) / static_cast<double>(inputs));
     };
-    return {number(ns, ns < 100 ? 1 : 0), number(ns / plain, ns < 100 * plain ? 2 : 0),
-            share(wrong), share(undecided)};
+    return {share(wrong), share(undecided)};
 }
 
 template <class Form>
-void add_rows(const run_options& o, rows& out) {
+void add_rows(const run_options& o, tables& out) {
     if (!o.wants(Form::name)) return;
     const auto all = peers<Form>();
     for (const auto& kind : input_kinds) {
@@ -187,39 +184,42 @@ void add_rows(const run_options& o, rows& out) {
                 });
         const auto timings = race(passes, o.repeats());
 
-        const std::array tables{&out.ns, &out.ratios, &out.wrong, &out.undecided};
-        for (auto* table : tables) table->push_back({word(Form::name), word(kind.name)});
+        for (rows* const table : {&out.ns, &out.ratios, &out.wrong, &out.undecided})
+            table->push_back({{"predicate", Form::name}, {"inputs", kind.name}});
         auto timing = timings.begin();
         double plain = 0;
         for (const auto& p : all) {
-            std::array<cell, 4> cells{none(), none(), none(), none()};
+            const std::string name(p.name);
+            row ns, ratio;
+            std::array<row, 2> shares;
             if (p.decide != nullptr) {
-                const double ns =
+                const double each =
                     1e9 * timing++->minimum / static_cast<double>(set.size() / p.thinning);
-                if (plain == 0) plain = ns;
-                cells = cells_of<Form>(p, set, right, ns, plain);
+                if (plain == 0) plain = each;
+                ns = each;
+                ratio = each / plain;
+                shares = shares_of<Form>(p, set, right);
             }
-            for (std::size_t i = 0; i < tables.size(); ++i) tables[i]->back().push_back(cells[i]);
+            out.ns.back()[name] = ns;
+            out.ratios.back()[name] = ratio;
+            out.wrong.back()[name] = shares[0];
+            out.undecided.back()[name] = shares[1];
         }
     }
 }
 
 void beside_peers(const run_options& o, report& out) {
-    rows all;
+    tables all;
     std::apply([&]<class... Form>(const Form&...) { (add_rows<Form>(o, all), ...); }, all_forms);
-    if (all.ns.empty()) return;
-    std::vector<column> columns{{"predicate", "predicate", true}, {"inputs", "inputs", true}};
-    for (const auto& p : peers<orient2d_form>())
-        columns.push_back({std::string(p.key), std::string(p.heading)});
-    out.table("predicates", {{"what", "ns"}}, "one by one, ns per call", columns, all.ns);
+    out.table("predicates", {{"what", "ns"}}, "one by one, ns per call", all.ns);
     out.table("predicates", {{"what", "ratio"}}, "the same, over the plain double expression",
-              columns, all.ratios);
-    out.table("predicates", {{"what", "wrong"}}, "wrong signs", columns, all.wrong);
-    out.table("predicates", {{"what", "undecided"}}, "left undecided (intervals are filters alone)",
-              columns, all.undecided);
+              all.ratios);
+    out.table("predicates", {{"what", "wrong"}}, "wrong signs, %", all.wrong);
+    out.table("predicates", {{"what", "undecided"}}, "undecided, % (intervals are only filters)",
+              all.undecided);
 }
 
-/// Coordinates of `bits` bits. The exponents of their last bits spread evenly over `spread`.
+/// Coordinates of `bits` bits, with the exponents of their last bits spread evenly over `spread`.
 template <class Form>
 set_of<Form> make_spread_set(int bits, int spread, std::size_t inputs) {
     const auto make = [=](predicate_inputs::generator& random, surface) {
@@ -264,7 +264,7 @@ constexpr auto exact_stages() {
 }
 
 template <class Form>
-void add_exact_rows(const run_options& o, std::vector<std::vector<cell>>& rows) {
+void add_exact_rows(const run_options& o, rows& table) {
     if (!o.wants(Form::name)) return;
     struct coordinates {
         int bits, spread;
@@ -287,33 +287,80 @@ void add_exact_rows(const run_options& o, std::vector<std::vector<cell>>& rows) 
                   [&] { decide_by_integers<Form, big_integer>(set, inputs, found), keep(found); },
                   [&] { decide_by_integers<Form, cpp_int>(set, inputs, found), keep(found); }},
                  o.repeats());
-        rows.push_back({word(Form::name), word(stage_names[static_cast<std::size_t>(stage->stage)]),
-                        count(static_cast<std::uint64_t>(bits)),
-                        count(static_cast<std::uint64_t>(spread))});
-        for (const auto& t : timings)
-            rows.back().push_back(number(1e9 * t.minimum / static_cast<double>(inputs), 0));
-        rows.back().push_back(number(timings[0].minimum / timings[1].minimum, 2));
+        const auto ns = [&](std::size_t i) {
+            return 1e9 * timings[i].minimum / static_cast<double>(inputs);
+        };
+        table.push_back({{"predicate", Form::name},
+                         {"stage", stage_names[static_cast<std::size_t>(stage->stage)]},
+                         {"bits", bits},
+                         {"exponents_over", spread},
+                         {"errbound", ns(0)},
+                         {"GMP_integers", ns(1)},
+                         {"Boost_cpp_int", ns(2)},
+                         {"errbound/GMP", ns(0) / ns(1)}});
     }
 }
 
 void exact_stages_alone(const run_options& o, report& out) {
-    std::vector<std::vector<cell>> rows;
-    std::apply([&]<class... Form>(const Form&...) { (add_exact_rows<Form>(o, rows), ...); },
+    rows all;
+    std::apply([&]<class... Form>(const Form&...) { (add_exact_rows<Form>(o, all), ...); },
                all_forms);
-    if (rows.empty()) return;
-    out.table("predicates", {{"what", "exact stages"}}, "exact stages alone, ns per call",
-              {{"predicate", "predicate", true},
-               {"stage", "stage", true},
-               {"bits", "bits"},
-               {"spread", "exponents over"},
-               {"errbound", "errbound"},
-               {"gmp", "GMP integers"},
-               {"cpp_int", "Boost cpp_int"},
-               {"ratio", "errbound/GMP"}},
-              rows);
+    out.table("predicates", {{"what", "exact stages"}}, "exact stages separately, ns per call",
+              all);
 }
 
-/// A double for expressions that call sign functions.
+template <class Set, class Predicate>
+void in_batch(const Set& set, const Predicate& predicate, signs& out) {
+    [&]<std::size_t... K>(std::index_sequence<K...>) {
+        errbound::batch_signs(predicate, out, set.points[K]...);
+    }
+    (std::make_index_sequence<std::tuple_size_v<decltype(set.points)>>());
+    keep(out);
+}
+template <class Set, class Predicate>
+void of_arrays(const Set& set, const Predicate& predicate, signs& out) {
+    [&]<std::size_t... K>(std::index_sequence<K...>) {
+        errbound::batch_signs(predicate, out, set.as_arrays(K)...);
+    }
+    (std::make_index_sequence<std::tuple_size_v<decltype(set.points)>>());
+    keep(out);
+}
+
+template <class Form>
+void add_batch_rows(const run_options& o, rows& table) {
+    if (!o.wants(Form::name)) return;
+    // In the processor's caches, and in memory: more than it reads in the time that it computes.
+    for (const std::size_t inputs : {std::size_t{512}, std::size_t{100'000}}) {
+        const auto set = make_set<Form>(input_kinds[0], inputs);
+        signs single(inputs), batch(inputs), arrays(inputs);
+        const auto timings =
+            race({[&] { decide_by_errbound<Form>(set, inputs, single), keep(single); },
+                  [&] { in_batch(set, Form::predicate, batch); },
+                  [&] { of_arrays(set, Form::predicate, arrays); }},
+                 o.repeats());
+        if (batch != single || arrays != single)
+            throw std::runtime_error(std::string(Form::name) + ": batches and one by one disagree");
+        const auto ns = [&](std::size_t i) {
+            return 1e9 * timings[i].minimum / static_cast<double>(inputs);
+        };
+        table.push_back({{"predicate", Form::name},
+                         {"inputs", inputs},
+                         {"one_by_one", ns(0)},
+                         {"batch_of_points", ns(1)},
+                         {"batch_of_arrays", ns(2)},
+                         {"speed-up,_points", ns(0) / ns(1)},
+                         {"speed-up,_arrays", ns(0) / ns(2)}});
+    }
+}
+
+void in_batches(const run_options& o, report& out) {
+    rows all;
+    std::apply([&]<class... Form>(const Form&...) { (add_batch_rows<Form>(o, all), ...); },
+               all_forms);
+    out.table("predicates", {{"what", "batches"}}, "in batches, uniform inputs, ns per call", all);
+}
+
+/// A double for expressions that evaluate signs.
 class plain_double {
   public:
     explicit plain_double(double value) : value_(value) {}
@@ -333,9 +380,9 @@ class plain_double {
 };
 
 template <class Entry>
-void add_other_row(const Entry& entry, const run_options& o, std::vector<std::vector<cell>>& rows) {
+void add_other_row(const Entry& entry, const run_options& o, rows& table) {
     if (!o.wants(entry.name)) return;
-    rows.push_back({word(entry.name)});
+    row& r = table.emplace_back(row{{"predicate", entry.name}});
     for (std::size_t family = 0; family < 4; ++family) {
         const input_set<Entry::dimension, Entry::count> set(
             predicate_inputs::families<double, Entry::dimension, Entry::count>[family].make,
@@ -359,51 +406,38 @@ void add_other_row(const Entry& entry, const run_options& o, std::vector<std::ve
         std::size_t wrong = 0;
         for (std::size_t i = 0; i < set.size(); ++i) wrong += plain[i] != found[i];
         const auto all = static_cast<double>(set.size());
-        rows.back().push_back(number(1e9 * timings[0].minimum / all, 1));
-        rows.back().push_back(number(1e9 * timings[1].minimum / all, 1));
-        rows.back().push_back(number(timings[1].minimum / timings[0].minimum, 2));
-        rows.back().push_back(percent(static_cast<double>(wrong) / all));
+        const std::string name(input_kinds[family].name);
+        r[name + ":_plain"] = 1e9 * timings[0].minimum / all;
+        r[name + ":_errbound"] = 1e9 * timings[1].minimum / all;
+        r[name + ":_ratio"] = timings[1].minimum / timings[0].minimum;
+        r[name + ":_plain_wrong_%"] = 100 * static_cast<double>(wrong) / all;
     }
 }
 
 void without_peers(const run_options& o, report& out) {
-    std::vector<std::vector<cell>> rows;
+    rows all;
     const auto other = [&](const auto& entry) {
-        if (entry.constant_of_shewchuk == 0) add_other_row(entry, o, rows);
+        if (entry.constant_of_shewchuk == 0) add_other_row(entry, o, all);
     };
     std::apply([&](const auto&... entry) { (other(entry), ...); }, predicate_list::all);
-    if (rows.empty()) return;
-    std::vector<column> columns{{"predicate", "predicate", true}};
-    for (std::size_t family = 0; family < 4; ++family) {
-        const std::string name(input_kinds[family].name);
-        columns.push_back({name + "_ns_plain", name + ": plain"});
-        columns.push_back({name + "_ns_errbound", "errbound"});
-        columns.push_back({name + "_ratio", "ratio"});
-        columns.push_back({name + "_wrong", "plain wrong"});
-    }
-    out.table("predicates", {{"what", "others"}}, "the other predicates, ns per call", columns,
-              rows);
+    out.table("predicates", {{"what", "others"}}, "the other predicates, ns per call", all);
 }
 
 }  // namespace
 }  // namespace bench
 
 int main(int argc, char** argv) {
-    CLI::App app{"Predicates beside others that decide them: ns per call, wrong signs."};
-    app.name("./run bench --predicates");
+    bench::program bench("./run bench --predicates",
+                         "Predicates next to others that decide them: ns per call, wrong signs.");
     bench::run_options o;
-    app.add_flag("--quick", o.quick, "Fewer inputs and repeats: tests that everything runs");
-    app.add_option("--predicate", o.predicate, "Only predicates whose name contains this");
-    try {
-        app.parse(argc, argv);
-    } catch (const CLI::ParseError& error) {
-        return app.exit(error) == 0 ? 0 : 2;
-    }
-    if (!bench::have_cgal) bench::report::say("built without CGAL (libcgal-dev)");
-    if (!bench::have_mpfi) bench::report::say("built without MPFI (libmpfi-dev)");
-    bench::report out;
-    bench::beside_peers(o, out);
-    bench::exact_stages_alone(o, out);
-    bench::without_peers(o, out);
-    return 0;
+    bench.line.add_option("--predicate", o.predicate, "Only those whose name holds this");
+    return bench.run(argc, argv, [&](bench::report& out) {
+        o.quick = bench.quick;
+        if (!bench::have_cgal) bench::say("built without CGAL (libcgal-dev)");
+        if (!bench::have_mpfi) bench::say("built without MPFI (libmpfi-dev)");
+        bench::beside_peers(o, out);
+        bench::exact_stages_alone(o, out);
+        bench::in_batches(o, out);
+        bench::without_peers(o, out);
+    });
 }

@@ -1,5 +1,5 @@
-// Other libraries that decide predicates, behind one interface. Some need special compiler flags
-// and have a separate source file, which is compiled if the library is installed.
+// Other libraries that decide predicates, each in the same form. Some have a source file with its
+// own flags, if their library is installed.
 #pragma once
 
 #include <cstddef>

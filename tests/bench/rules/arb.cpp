@@ -75,7 +75,7 @@ struct arithmetic : composed<ball, arithmetic> {
 }  // namespace
 
 contestant arb_contestant() {
-    return contestant_of<ball, arithmetic>("arb", "arb");
+    return contestant_of<ball, arithmetic>("arb");
 }
 
 }  // namespace bench

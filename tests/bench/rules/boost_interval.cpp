@@ -28,7 +28,7 @@ struct arithmetic : by_operators<boost_interval>, composed<boost_interval, arith
 }  // namespace
 
 contestant boost_interval_contestant() {
-    return contestant_of<boost_interval, arithmetic>("boost_interval", "Boost.Interval");
+    return contestant_of<boost_interval, arithmetic>("Boost.Interval");
 }
 
 }  // namespace bench

@@ -39,11 +39,11 @@ inline constexpr std::size_t operands_per_pass = 32;
 /// A number type and, for each operation, a pass over its operands; empty if it lacks the
 /// operation.
 struct contestant {
-    std::string key, heading;
+    std::string name;
     std::array<std::function<void()>, operation_count> passes;
 };
 
-/// The four operations by the number's operators.
+/// An arithmetic of its operators.
 template <class Number>
 struct by_operators {
     /// The product of two exact numbers between 1 and 2. It has a rounding error.
@@ -54,7 +54,7 @@ struct by_operators {
     static void divide(Number& r, const Number& a, const Number& b) { r = a / b; }
 };
 
-/// Adds functions that argument-dependent lookup finds.
+/// An arithmetic of operators and of functions found by argument-dependent lookup.
 template <class Number>
 struct operators : by_operators<Number> {
     static void root(Number& r, const Number& a) {
@@ -107,8 +107,7 @@ struct operators : by_operators<Number> {
     static errbound::sign_type sign(const Number& a) { return sign_of(a); }
 };
 
-/// Composes operations from an Arithmetic's sums and products, for libraries without functions for
-/// them.
+/// Operations made of sums and products, for an Arithmetic without its own.
 template <class Number, class Arithmetic>
 struct composed {
     static void middle(Number& r, const Number& a, const Number& b) {
@@ -148,6 +147,7 @@ struct composed {
     }
 };
 
+/// The operands and results of a contestant.
 template <class Number>
 struct operands {
     std::vector<Number> a, b, c, r;
@@ -171,7 +171,7 @@ std::shared_ptr<operands<Number>> random_operands() {
 
 /// A contestant with the operations of Arithmetic, which has the interface of `operators`.
 template <class Number, class Arithmetic = operators<Number>, bool Divides = true>
-contestant contestant_of(std::string key, std::string heading) {
+contestant contestant_of(std::string name) {
     const auto x = random_operands<Number, Arithmetic>();
     const auto pass = [x](auto operation) -> std::function<void()> {
         return [x, operation] {
@@ -180,12 +180,11 @@ contestant contestant_of(std::string key, std::string heading) {
             keep(x->signs);
         };
     };
-    // The index of the first term of the i-th dot product.
+    // The first term of the i-th dot product.
     constexpr auto first = [](std::size_t i) { return i % (operands_per_pass - term_count + 1); };
     using A = Arithmetic;
     contestant result{
-        std::move(key),
-        std::move(heading),
+        std::move(name),
         {pass([](auto& s, auto i) { A::add(s.r[i], s.a[i], s.b[i]); }),
          pass([](auto& s, auto i) { A::subtract(s.r[i], s.a[i], s.b[i]); }),
          pass([](auto& s, auto i) { A::multiply(s.r[i], s.a[i], s.b[i]); }),

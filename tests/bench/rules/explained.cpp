@@ -24,10 +24,10 @@ struct of_sources : operators<explained_number> {
 }  // namespace
 
 contestant explained_contestant() {
-    return contestant_of<explained_number>("explained", "explained, one source");
+    return contestant_of<explained_number>("explained, one source");
 }
 contestant explained_contestant_of_32_sources() {
-    return contestant_of<explained_number, of_sources<32>>("explained_32", "explained, 32 sources");
+    return contestant_of<explained_number, of_sources<32>>("explained, 32 sources");
 }
 
 }  // namespace bench

@@ -45,7 +45,7 @@ struct arithmetic : composed<mpfi_interval, arithmetic> {
 }  // namespace
 
 contestant mpfi_contestant() {
-    return contestant_of<mpfi_interval, arithmetic>("mpfi", "MPFI");
+    return contestant_of<mpfi_interval, arithmetic>("MPFI");
 }
 
 }  // namespace bench

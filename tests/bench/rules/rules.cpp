@@ -1,14 +1,10 @@
-// The cost of each operation under each bound rule and with explained errors. Plain double and, if
-// installed, intervals of Boost.Interval, MPFI and arb are timed, too.
-#include <cstdio>
+// The cost of each operation under each bound rule, and of explained errors. Plain double and the
+// intervals of Boost.Interval, MPFI and arb, if installed, are timed next to them.
 #include <errbound/functions.hpp>
 #include <errbound/validation/rule_list.hpp>
-#include <exception>
 #include <numeric>
 #include <string>
-#include <string_view>
 
-#include "ccd/lab/machine.hpp"
 #include "tests/bench/rules/contestants.hpp"
 
 namespace bench {
@@ -28,7 +24,7 @@ struct plain_operators : operators<double> {
     }
 };
 
-/// Operands with the largest number of terms, all of the same sources.
+/// All 16 terms, of the same sources in all operands.
 struct full_operators : operators<errbound::tracked<double, errbound::affine>> {
     using number = errbound::tracked<double, errbound::affine>;
     static number made(double x, double y) {
@@ -45,14 +41,13 @@ struct full_operators : operators<errbound::tracked<double, errbound::affine>> {
 
 std::vector<contestant> all_contestants() {
     std::vector<contestant> all;
-    all.push_back(contestant_of<double, plain_operators>("plain", "plain double"));
+    all.push_back(contestant_of<double, plain_operators>("plain double"));
     errbound::for_each_rule(errbound::all_rules(), [&]<class Rule>() {
         using number = errbound::tracked<double, Rule>;
-        all.push_back(contestant_of<number, operators<number>, errbound::has_division<Rule>>(
-            Rule::name, Rule::name));
+        all.push_back(
+            contestant_of<number, operators<number>, errbound::has_division<Rule>>(Rule::name));
     });
-    all.push_back(
-        contestant_of<full_operators::number, full_operators>("affine_full", "affine, 16 terms"));
+    all.push_back(contestant_of<full_operators::number, full_operators>("affine, 16 terms"));
     all.push_back(explained_contestant());
     all.push_back(explained_contestant_of_32_sources());
     all.push_back(boost_interval_contestant());
@@ -67,58 +62,44 @@ std::vector<contestant> all_contestants() {
 
 void time_operations(bool quick, report& out) {
     const std::vector<contestant> all = all_contestants();
-    std::vector<column> columns{{"operation", "operation", true}};
-    for (const contestant& c : all) columns.push_back({c.key, c.heading});
-    std::vector<std::vector<cell>> minima, medians, ratios;
+    rows minima, medians, ratios;
     for (std::size_t k = 0; k < operation_count; ++k) {
         std::vector<std::function<void()>> passes;
         for (const contestant& c : all)
             if (c.passes[k]) passes.push_back(c.passes[k]);
         const std::vector<timing> timings = race(passes, quick ? 1 : 15);
-        for (auto* const rows : {&minima, &medians, &ratios})
-            rows->push_back({word(std::string(operation_names[k]))});
+        for (rows* const table : {&minima, &medians, &ratios})
+            table->push_back({{"operation", operation_names[k]}});
         auto taken = timings.begin();
         for (const contestant& c : all) {
-            if (!c.passes[k]) {
-                for (auto* const rows : {&minima, &medians, &ratios})
-                    rows->back().push_back(none());
-                continue;
-            }
+            const bool has = c.passes[k] != nullptr;
             const auto ns = [](double seconds) { return 1e9 * seconds / operands_per_pass; };
-            const double ratio = taken->minimum / timings.front().minimum;
-            minima.back().push_back(number(ns(taken->minimum), 2));
-            medians.back().push_back(number(ns(taken->median), 2));
-            ratios.back().push_back(number(ratio, ratio < 100 ? 1 : 0));
-            ++taken;
+            minima.back()[c.name] = has ? row(ns(taken->minimum)) : row();
+            medians.back()[c.name] = has ? row(ns(taken->median)) : row();
+            ratios.back()[c.name] = has ? row(taken->minimum / timings.front().minimum) : row();
+            taken += has;
         }
     }
     out.table("rules", {{"what", "minimum"}},
               "ns per operation, throughput over arrays in the first cache: least of some passes",
-              columns, minima);
-    out.table("rules", {{"what", "median"}}, "the same, median", columns, medians);
-    out.table("rules", {{"what", "ratio"}}, "the least, over plain double's", columns, ratios);
+              minima);
+    out.table("rules", {{"what", "median"}}, "the same, median", medians);
+    out.table("rules", {{"what", "ratio"}}, "the least, over plain double's", ratios);
 }
 
 }  // namespace
 }  // namespace bench
 
-int main(int argc, char** argv) try {
-    const bool quick = argc == 2 && std::string_view(argv[1]) == "--quick";
-    if (argc > 1 && !quick) {
-        std::fprintf(stderr, "usage: ./run bench --rules [--quick]\n");
-        return 2;
-    }
-    std::printf("%s\n", ccd::lab::text_of(ccd::lab::this_machine(), 1).c_str());
+int main(int argc, char** argv) {
+    bench::program bench("./run bench --rules",
+                         "The cost of each operation under each bound rule.");
+    return bench.run(argc, argv, [&](bench::report& out) {
 #ifndef ERRBOUND_HAVE_MPFI
-    bench::report::say("built without MPFI (libmpfi-dev)");
+        bench::say("built without MPFI (libmpfi-dev)");
 #endif
 #ifndef ERRBOUND_HAS_ARB
-    bench::report::say("built without arb (libflint-arb-dev)");
+        bench::say("built without arb (libflint-arb-dev)");
 #endif
-    bench::report out;
-    bench::time_operations(quick, out);
-    return 0;
-} catch (const std::exception& error) {
-    std::fprintf(stderr, "bench: %s\n", error.what());
-    return 1;
+        bench::time_operations(bench.quick, out);
+    });
 }

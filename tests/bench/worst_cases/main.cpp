@@ -1,12 +1,10 @@
 // ./run bench --worst: the slowest known input of each public function, and the search for it.
-#include <CLI/CLI.hpp>
-#include <algorithm>
 #include <cstdio>
 #include <cstdlib>
-#include <exception>
 #include <filesystem>
 #include <map>
 #include <sstream>
+#include <stdexcept>
 
 #include "errbound/support/output_file.hpp"
 #include "tests/bench/harness.hpp"
@@ -16,7 +14,7 @@ namespace {
 
 using namespace worst_cases;
 
-/// Rows by the names of a function and of a range.
+/// The inputs, by the names of a function and a range.
 using inputs = std::map<std::pair<std::string, std::string>, std::vector<double>>;
 
 /// Lines "function; range; number number ...", hexadecimal.
@@ -47,10 +45,9 @@ std::string written(const inputs& all) {
     return text;
 }
 
-/// A table row for each function, from its stored inputs.
-std::vector<std::vector<bench::cell>> timed(const std::vector<subject>& subjects, const inputs& all,
-                                            int times) {
-    std::vector<std::vector<bench::cell>> rows;
+/// A row for each function and range, of its stored input.
+bench::rows timed(const std::vector<subject>& subjects, const inputs& all, int times) {
+    bench::rows table;
     for (const subject& s : subjects)
         for (const range& within : ranges) {
             const auto found = all.find({s.name, within.name});
@@ -59,59 +56,48 @@ std::vector<std::vector<bench::cell>> timed(const std::vector<subject>& subjects
                                          ": --search finds one");
             const std::vector<double>& numbers = found->second;
             const std::size_t stack = stack_of([&] { s.call(numbers.data()); });
-            rows.push_back({bench::word(s.name), bench::word(within.name),
-                            bench::number(1e6 * seconds_of(s, numbers, times), 2),
-                            bench::number(static_cast<double>(stack) / 1024, 1)});
+            table.push_back({{"function", s.name},
+                             {"coordinates", within.name},
+                             {"us", 1e6 * seconds_of(s, numbers, times)},
+                             {"stack_KiB", static_cast<double>(stack) / 1024}});
         }
-    return rows;
+    return table;
 }
 
 }  // namespace
 
-int main(int argc, char** argv) try {
-    CLI::App app{"The slowest known input of each public function: its time and stack."};
-    app.name("./run bench --worst");
-    bool quick = false;
+int main(int argc, char** argv) {
+    bench::program bench("./run bench --worst",
+                         "The slowest known input of each public function: its time and stack.");
     double search = 0;
     std::uint64_t seed = 1;
     std::string only;
     std::filesystem::path path = WORST_CASES;
-    app.add_flag("--quick", quick, "Fewer repeats: tests that everything runs");
-    app.add_option(
-           "--search", search,
-           "First search this many seconds for each function and range; store slower inputs")
+    bench.line
+        .add_option("--search", search,
+                    "Search that many seconds for a slower input of each function and range first, "
+                    "and keep it")
         ->check(CLI::PositiveNumber);
-    app.add_option("--seed", seed, "Seed of the search");
-    app.add_option("--function", only, "Only functions whose name contains this");
-    app.add_option("--inputs", path, "File of stored inputs");
-    try {
-        app.parse(argc, argv);
-    } catch (const CLI::ParseError& error) {
-        return app.exit(error) == 0 ? 0 : 2;
-    }
-    std::vector<subject> subjects = of_queries();
-    for (subject& s : of_predicates()) subjects.push_back(std::move(s));
-    for (subject& s : of_roots()) subjects.push_back(std::move(s));
-    std::erase_if(subjects, [&](const subject& s) { return s.name.find(only) == s.name.npos; });
+    bench.line.add_option("--seed", seed, "Of the search");
+    bench.line.add_option("--function", only, "Only functions whose name holds this");
+    bench.line.add_option("--inputs", path, "The file of inputs");
+    return bench.run(argc, argv, [&](bench::report& out) {
+        std::vector<subject> subjects = of_queries();
+        for (subject& s : of_predicates()) subjects.push_back(std::move(s));
+        for (subject& s : of_roots()) subjects.push_back(std::move(s));
+        std::erase_if(subjects, [&](const subject& s) { return s.name.find(only) == s.name.npos; });
 
-    inputs all;
-    if (std::filesystem::exists(path)) all = read(path);
-    for (const subject& s : subjects)
-        for (const range& within : ranges) {
-            if (search == 0) break;
-            std::vector<std::vector<double>> known;
-            for (const auto& [key, numbers] : all) known.push_back(numbers);
-            all[{s.name, within.name}] = slowest(s, within, known, search, seed);
-            errbound::support::write_whole(path, written(all));
-        }
-    bench::report().table("worst", {}, "the slowest known input of each function",
-                          {{"function", "function", true},
-                           {"coordinates", "coordinates", true},
-                           {"microseconds", "us"},
-                           {"stack_kib", "stack, KiB"}},
-                          timed(subjects, all, quick ? 1 : 9));
-    return 0;
-} catch (const std::exception& error) {
-    std::fprintf(stderr, "bench: %s\n", error.what());
-    return 1;
+        inputs all;
+        if (std::filesystem::exists(path)) all = read(path);
+        for (const subject& s : subjects)
+            for (const range& within : ranges) {
+                if (search == 0) break;
+                std::vector<std::vector<double>> known;
+                for (const auto& [key, numbers] : all) known.push_back(numbers);
+                all[{s.name, within.name}] = slowest(s, within, known, search, seed);
+                errbound::support::write_whole(path, written(all));
+            }
+        out.table("worst", {}, "the slowest known input of each function",
+                  timed(subjects, all, bench.quick ? 1 : 9));
+    });
 }

@@ -11,7 +11,6 @@
 #include <string>
 #include <vector>
 
-#include "ccd/io/plots/plots.hpp"
 #include "ccd/lab/sections.hpp"
 #include "errbound/support/output_file.hpp"
 
@@ -51,8 +50,8 @@ TEST_F(Report, QuantilesAreOfTheNumbers) {
 }
 
 TEST_F(Report, CsvQuotesWhatNeedsIt) {
-    EXPECT_EQ(ccd::io::csv_of({"a", "b", "c"},
-                              {{{"c", 0.1}, {"a", "x, \"y\""}}, {{"a", 3}, {"b", nullptr}}}),
+    EXPECT_EQ(errbound::support::csv_of(
+                  {"a", "b", "c"}, {{{"c", 0.1}, {"a", "x, \"y\""}}, {{"a", 3}, {"b", nullptr}}}),
               "a,b,c\n\"x, \"\"y\"\"\",,0.1\n3,,\n");
 }
 

@@ -606,6 +606,32 @@ class Stress(ProgramTest):
         self.assertEqual(pathlib.Path(file).read_text(), "old")
 
 
+class Validate(ProgramTest):
+    def setUp(self):
+        super().setUp()
+        if "validate" not in self.good("--help"):
+            self.skipTest("built without MPFR")
+
+    def test_tables_and_json(self):
+        file, out = self.write("vf.csv", HIT), self.directory / "out.json"
+        text = self.good("validate", file, "--rules", "tight,safe", "--json", out)
+        self.assertTrue(text.endswith("\nno violations\n"), text)
+        found = json.loads(out.read_text())
+        self.assertEqual([(c["part"], c["rule"], c["cases"]) for c in found["counts"]],
+                         [(file, "tight", 1), (file, "safe", 1)])
+        quantities = {t["quantity"] for t in found["tightness"]}
+        self.assertLessEqual({"k0", "3 k1", "3 k2", "k3", "Y'(0)", "Y''(1)", "G"}, quantities)
+
+    def test_bad_input_and_usage(self):
+        self.bad_input("vf.csv:1", "validate", self.write("vf.csv", "1,x\n"))
+        file = self.write("vf.csv", HIT)
+        self.bad_usage("validate")
+        self.bad_usage("validate", "-", "-")
+        self.bad_usage("validate", file, "--json", file)
+        self.assertIn("--rules is 'loose'", self.bad_usage("validate", file, "--rules", "loose"))
+        self.assertEqual(pathlib.Path(file).read_text(), HIT)
+
+
 class Methods(ProgramTest):
     def test_methods(self):
         text = self.good("methods")

@@ -11,10 +11,6 @@ from collections import Counter
 
 PROGRAM = os.environ["ERRBOUND_PROGRAM"]
 
-# A vertex that falls through a triangle, with coordinates that round.
-HIT = "0x1.3p-2,0.1,0.7\n0.1,-0.3,0\n1.3,0,0.1\n0.1,1.7,0\n" \
-      "0.23,0.1,-0.7\n0,-0.3,0\n1.3,0.1,0\n0,1.7,0.1\n"
-
 
 class Validate(unittest.TestCase):
     def setUp(self):
@@ -42,12 +38,12 @@ class Validate(unittest.TestCase):
         for entry in found["counts"]:
             self.assertGreaterEqual(entry["cases"], 2000)
             self.assertEqual(entry["violations"], 0)
-            self.assertIn(str(entry["values"]), text)
+            self.assertIn(f"{entry['values']:,}", text)
         rules = {entry["rule"] for entry in found["counts"]}
         last = text.rstrip().splitlines()[-2 - len(rules):-2]  # a line per rule, "", the verdict
         self.assertEqual({line.split()[0] for line in last}, rules)
         for line in last:
-            rule, cases, values = line.split()[:3]
+            rule, cases, values = line.replace(",", "").split()[:3]
             entries = [entry for entry in found["counts"] if entry["rule"] == rule]
             self.assertEqual(int(cases), sum(entry["cases"] for entry in entries))
             self.assertEqual(int(values), sum(entry["values"] for entry in entries))
@@ -98,18 +94,6 @@ class Validate(unittest.TestCase):
             return totals
         self.assertEqual(totals(0, 4000), totals(0, 1000, 1007, 4000))
 
-    def test_queries(self):
-        file = self.directory / "vf.csv"
-        file.write_text(HIT)
-        out = self.directory / "out.json"
-        text = self.good("--queries", file, "--rules", "tight,safe", "--json", out)
-        self.assertNotIn("expressions", text)
-        found = json.loads(out.read_text())
-        self.assertEqual([(c["part"], c["rule"], c["cases"]) for c in found["counts"]],
-                         [(str(file), "tight", 1), (str(file), "safe", 1)])
-        quantities = {t["quantity"] for t in found["tightness"]}
-        self.assertLessEqual({"k0", "3 k1", "3 k2", "k3", "Y'(0)", "Y''(1)", "G"}, quantities)
-
     def test_functions(self):
         out, table = self.directory / "out.json", self.directory / "out.csv"
         common = ("--functions", "exp,cbrt,pow", "--samples", 3000)
@@ -134,16 +118,6 @@ class Validate(unittest.TestCase):
         self.assertEqual(done.returncode, 1)
         self.assertRegex(done.stdout, r"\n[1-9][0-9]+ violations\n$")
 
-    def test_bad_input(self):
-        file = self.directory / "vf.csv"
-        file.write_text(HIT.replace("0.7\n", "x\n", 1))
-        out = self.directory / "out.json"
-        done = self.run_program("validate", "--queries", file, "--json", out)
-        self.assertEqual(done.returncode, 1)
-        self.assertIn("vf.csv", done.stderr)
-        self.assertEqual(done.stdout, "")
-        self.assertFalse(out.exists())
-
     def test_a_table_on_standard_output(self):
         done = self.run_program("validate", "--expressions", 100, "--rules", "tight", "--csv", "-")
         self.assertEqual(done.returncode, 0, done.stderr)
@@ -151,18 +125,13 @@ class Validate(unittest.TestCase):
         self.assertTrue(done.stderr.endswith("\nno violations\n"))
 
     def test_bad_usage(self):
-        file = self.directory / "vf.csv"
-        file.write_text(HIT)
         for message, *arguments in (
                 ("command is missing",), ("nothing", "nothing"),
                 ("--rules is 'loose'", "validate", "--rules", "loose"),
                 ("--rules is 'tight,tight', with 'tight' twice", "validate", "--rules", "tight,tight"),
                 ("--expressions", "validate", "--expressions", "0"),
                 ("--operations", "validate", "--operations", "49"),
-                ("--kind", "validate", "--kind", "vv"), ("--kind is given without", "validate", "--kind", "vf"),
-                ("--round is given without", "validate", "--round"),
-                ("", "validate", "--queries", file, "--json", file), ("", "validate", "--queries", "-", "-"),
-                ("--operations is given without", "validate", "--queries", file, "--operations", "3"),
+                ("--operations is given without", "validate", "--tiny", "--operations", "3"),
                 ("--functions is 'erf'", "validate", "--functions", "erf"),
                 ("--functions is 'exp,sin,exp', with 'exp' twice", "validate", "--functions", "exp,sin,exp"),
                 ("--numbers has no float, double", "validate", "--functions", "exp", "--numbers", "float16"),
@@ -184,7 +153,6 @@ class Validate(unittest.TestCase):
             self.assertEqual((done.returncode, done.stdout), (2, ""), arguments)
             self.assertIn(message, done.stderr)
             self.assertNotEqual(done.stderr, "")
-        self.assertEqual(file.read_text(), HIT)
 
 
 if __name__ == "__main__":

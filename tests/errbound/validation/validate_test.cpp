@@ -14,13 +14,11 @@
 #include <span>
 #include <stdexcept>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "errbound/validation/minimise.hpp"
 #include "tests/errbound/validation/validation_rules.hpp"
 #include "tests/support/long_double.hpp"
-#include "tests/support/query_families.hpp"
 #include "tests/support/scaled.hpp"
 
 namespace {
@@ -173,36 +171,6 @@ TEST(Validate, ErrorsAreOfEachRulesOwnValues) {
         validation::evidence_of_expressions(rules, options).report_of(8'531'125 / 33'334);
     EXPECT_EQ(r.violation_count(), 0U);
     EXPECT_EQ(r.counts.front().cases, 33'334U);
-}
-
-TEST(Validate, EveryRuleKeepsItsPromisesOnQueries) {
-    std::vector<ccd::vertex_face<double>> vertex_face;
-    std::vector<ccd::edge_edge<double>> edge_edge;
-    using query_families::kind;
-    for (const auto& family : query_families::families)
-        for (std::uint64_t i = 0; i < 4; ++i) {
-            vertex_face.push_back(query_families::as_query<ccd::vertex_face<double>>(
-                query_families::make(family, kind::vertex_face, 1, i)));
-            edge_edge.push_back(query_families::as_query<ccd::edge_edge<double>>(
-                query_families::make(family, kind::edge_edge, 1, i)));
-        }
-    const validation::report vf =
-        validation::validate_queries(validation::rules(), std::span(std::as_const(vertex_face)), 0);
-    const validation::report ee =
-        validation::validate_queries(validation::rules(), std::span(std::as_const(edge_edge)), 0);
-    expect_all_kept(vf);
-    expect_all_kept(ee);
-    for (const char* quantity : {"k0", "3 k1", "3 k2", "k3", "Y'(0)", "Y'(1)", "Y''(0)", "Y''(1)",
-                                 "G", "J", "M", "R", "Y(t_M)", "Y(t_R)"})
-        EXPECT_TRUE(std::ranges::any_of(vf.distributions, [quantity](const auto& t) {
-            return t.rule == "tight" && t.quantity == quantity && t.log10.ratios() > 0;
-        })) << quantity;
-    const rule broken[] = {validation::rule_of<too_small>()};
-    const validation::report caught =
-        validation::validate_queries(broken, std::span(std::as_const(vertex_face)), 0);
-    EXPECT_GT(caught.violation_count(), 0U);
-    ASSERT_FALSE(caught.violations.empty());
-    EXPECT_EQ(std::ranges::count(caught.violations.front().code, '\n'), 8);
 }
 
 /// The rule's violations in random expressions, of which there must be some, each made small.

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "ccd/lab/sections.hpp"
+#include "ccd/lab/validation/query_validation.hpp"
 
 namespace ccd::lab {
 namespace {
@@ -54,13 +55,14 @@ rows measure_expressions(const sample_sizes& size, int threads, const progress& 
 
 rows measure_tightness(const std::vector<const data_set*>& data, const sample_sizes& size,
                        int threads, const progress& show) {
+    const std::vector<query_rule> rules = query_rules();
     validation::report found;  // of both kinds of query and all data sets
     for (std::size_t i = 0; i < data.size(); ++i) {
         show(static_cast<double>(i) / static_cast<double>(data.size()));
         data[i]->queries.for_each([&](const auto& known) {
             const auto queries = known.queries.at_most(size.tightness).all_stored();
             found.merge(
-                validation::validate_queries(validation::rules(), std::span(queries), threads));
+                validation::examine(evidence_of_queries(rules, std::span(queries)), threads));
         });
     }
     return rows_of(found);

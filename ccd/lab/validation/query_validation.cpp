@@ -1,28 +1,20 @@
 // Stored queries in shadowed arithmetic, every rule.
+#include "ccd/lab/validation/query_validation.hpp"
+
 #include <algorithm>
 #include <array>
 #include <ccd/methods/transform.hpp>
-#include <errbound/validation/validation.hpp>
 #include <iterator>
 #include <map>
-#include <type_traits>
 #include <utility>
-#include <vector>
 
 #include "errbound/validation/chunks.hpp"
 
-namespace errbound::validation {
-
-void shadow_session::note(std::string_view quantity, const claim& c, const ball& x,
-                          error_meaning meaning) {
-    auto found = quantities_.find(quantity);
-    if (found == quantities_.end())
-        found = quantities_.emplace(std::string(quantity), distribution()).first;
-    if (c.value.is_finite() && x.is_defined()) off_.compute(c.value, x);
-    add_ratio(found->second, meaning, c, x, off_);
-}
+namespace ccd::lab {
 
 namespace {
+
+using namespace errbound::validation;
 
 /// Products of degree 72 in 53-bit coordinates need about 4000 bits to be exact; few queries do.
 constexpr std::array<mpfr_prec_t, 4> precisions{384, 1536, 6144, 24576};
@@ -38,7 +30,7 @@ template <class Query>
 std::string text_of(const Query& query) {
     std::string text;
     for (const int end : {0, 1})
-        for (const auto& p : ccd::points_of(query)) {
+        for (const auto& p : points_of(query)) {
             const auto& x = end == 0 ? p.t0 : p.t1;
             text += hexadecimal(x.x) + "," + hexadecimal(x.y) + "," + hexadecimal(x.z) + "\n";
         }
@@ -46,13 +38,10 @@ std::string text_of(const Query& query) {
 }
 
 template <class Query>
-void check(const rule& r, const Query& query, std::uint64_t index, tally& to) {
+void check(const query_rule& r, const Query& query, std::uint64_t index, tally& to) {
     for (const mpfr_prec_t precision : precisions) {
         shadow_session session(precision);
-        if constexpr (std::is_same_v<Query, ccd::vertex_face<double>>)
-            r.check_vertex_face(query, session);
-        else
-            r.check_edge_edge(query, session);
+        r.check.of<kind_of<Query>>()(query, session);
         if (session.undetermined() > 0 && precision != precisions.back()) continue;
         ++to.counts.cases;
         to.counts.values += session.values();
@@ -73,10 +62,10 @@ void check(const rule& r, const Query& query, std::uint64_t index, tally& to) {
 }
 
 template <class Query>
-report report_of(std::span<const rule> rules, std::span<const Query> queries,
+report report_of(std::span<const query_rule> rules, std::span<const Query> queries,
                  const chunks& of_queries, std::uint64_t chunk) {
     report result;
-    for (const rule& r : rules) {
+    for (const query_rule& r : rules) {
         tally found;
         found.counts.rule = r.name;
         found.counts.number = "double";
@@ -94,7 +83,7 @@ report report_of(std::span<const rule> rules, std::span<const Query> queries,
 }  // namespace
 
 template <class Query>
-evidence evidence_of_queries(std::span<const rule> rules, std::span<const Query> queries) {
+evidence evidence_of_queries(std::span<const query_rule> rules, std::span<const Query> queries) {
     const chunks c(queries.size(), least_chunk);
     return with_mpfr(
         {.chunks = c.count(),
@@ -104,9 +93,16 @@ evidence evidence_of_queries(std::span<const rule> rules, std::span<const Query>
              },
          .describe = [](report&) {}});
 }
-template evidence evidence_of_queries(std::span<const rule>,
-                                      std::span<const ccd::vertex_face<double>>);
-template evidence evidence_of_queries(std::span<const rule>,
-                                      std::span<const ccd::edge_edge<double>>);
+template evidence evidence_of_queries(std::span<const query_rule>,
+                                      std::span<const vertex_face<double>>);
+template evidence evidence_of_queries(std::span<const query_rule>,
+                                      std::span<const edge_edge<double>>);
 
-}  // namespace errbound::validation
+std::vector<query_rule> query_rules() {
+    std::vector<query_rule> all;
+    errbound::for_each_rule(errbound::all_rules(),
+                            [&]<class Rule>() { all.push_back(query_rule_of<Rule>()); });
+    return all;
+}
+
+}  // namespace ccd::lab

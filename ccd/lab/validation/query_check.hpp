@@ -6,19 +6,22 @@
 #include <errbound/validation/shadowed.hpp>
 #include <string_view>
 
-namespace errbound::validation {
+namespace ccd::lab {
+
+using errbound::bernstein;
+using errbound::validation::shadow_session, errbound::validation::shadowed;
 
 template <class Rule>
 void note(shadow_session& session, std::string_view quantity, const shadowed<Rule>& x) {
-    session.note(quantity, x.claimed(), x.exact(), meaning_of_error<Rule>);
+    session.note(quantity, x.claimed(), x.exact(), errbound::meaning_of_error<Rule>);
 }
 
 /// The form's value at the inner root of l, if any, where BSC evaluates it.
 template <class S, int N>
 void note_at_root(shadow_session& session, std::string_view quantity, const bernstein<S, N>& form,
                   const bernstein<S, 1>& l) {
-    if (!bsc::linear_signs(l).opposite()) return;
-    const bsc::linear_root<S> root(l);
+    if (!errbound::bsc::linear_signs(l).opposite()) return;
+    const errbound::bsc::linear_root<S> root(l);
     note(session, quantity, value_at(form, root.s, root.t));
 }
 
@@ -27,10 +30,10 @@ template <class S>
 void note_reduction(shadow_session& session, const bernstein<S, 3>& y, const bernstein<S, 4>& g) {
     for (int i = 0; i <= 4; ++i) note(session, "G", g[i]);
     if (certain(sign_inside(g))) return;
-    const bernstein<S, 2> j = bsc::reduced(y, g);
+    const bernstein<S, 2> j = errbound::bsc::reduced(y, g);
     for (int i = 0; i <= 2; ++i) note(session, "J", j[i]);
     if (certain(sign_inside(j))) return;
-    const bsc::decomposition<S> parts(y, j);
+    const errbound::bsc::decomposition<S> parts(y, j);
     for (int i = 0; i <= 1; ++i) {
         note(session, "M", parts.m[i]);
         note(session, "R", parts.r[i]);
@@ -43,9 +46,9 @@ void note_reduction(shadow_session& session, const bernstein<S, 3>& y, const ber
 template <class Rule, template <class> class Query>
 void check_query(const Query<double>& query, shadow_session& session) {
     using scalar = shadowed<Rule>;
-    const auto [scaled, finite] = ccd::tracked_query<Rule, double, Query, scalar>(query);
+    const auto [scaled, finite] = tracked_query<Rule, double, Query, scalar>(query);
     if (!finite) return;
-    const auto forms = ccd::forms_of(scaled);
+    const auto forms = forms_of(scaled);
     const bernstein<scalar, 3> y = normalized(forms.y());
     constexpr std::string_view k[] = {"k0", "3 k1", "3 k2", "k3"};
     for (int i = 0; i <= 3; ++i) note(session, k[i], y[i]);
@@ -65,4 +68,4 @@ void check_query(const Query<double>& query, shadow_session& session) {
     (void)root_with_nonnegative(y, [&] { return inside; });
 }
 
-}  // namespace errbound::validation
+}  // namespace ccd::lab
