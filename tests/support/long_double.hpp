@@ -1,4 +1,4 @@
-// Long doubles for lists of number types, on processors where they are no IEEE numbers, too.
+// Long doubles for lists of number types.
 #pragma once
 
 #include <errbound/environment.hpp>
@@ -6,8 +6,16 @@
 
 namespace support {
 
-/// `long double`; where that is a pair of doubles, which the library refuses, double once more.
+/// `long double`, or double where the library refuses long double because it is a pair of doubles.
 using long_double =
     std::conditional_t<errbound::detail::is_ieee_format<long double>, long double, double>;
+
+/// True if std::fma compiles for T. On Windows it does not for long doubles.
+template <class T>
+#ifdef __MINGW32__
+inline constexpr bool fuses = sizeof(T) <= sizeof(double);
+#else
+inline constexpr bool fuses = true;
+#endif
 
 }  // namespace support
