@@ -1,4 +1,4 @@
-// Long doubles for lists of number types.
+// Long doubles for lists of number types, on processors where they are no IEEE numbers, too.
 #pragma once
 
 #include <errbound/environment.hpp>
@@ -6,7 +6,7 @@
 
 namespace support {
 
-/// `long double`, or double where the library refuses long double because it is a pair of doubles.
+/// `long double`; where that is a pair of doubles, which the library refuses, double once more.
 using long_double =
     std::conditional_t<errbound::detail::is_ieee_format<long double>, long double, double>;
 

@@ -1,4 +1,4 @@
-// Numbers that often reveal defects, and the exact values of numbers of every format.
+// Numbers that find trouble, and the exact values of numbers of every format.
 #pragma once
 
 #include <boost/multiprecision/cpp_int.hpp>
@@ -21,7 +21,7 @@ inline rational power_of(int base, int exponent) {
     return exponent < 0 ? rational(whole_number(1), power) : rational(power);
 }
 
-/// The exact value of x. Precondition: x is finite.
+/// x exactly. Precondition: x is finite.
 template <class T>
 rational exactly(const T& x) {
     using traits = errbound::number_traits<T>;
@@ -50,7 +50,7 @@ bool same_bits(const T& x, const T& y) {
     return x == y ? is_negative(x) == is_negative(y) : x != x && y != y;
 }
 
-/// Values that often reveal defects: zeros, powers of two and their neighbours, subnormals, huge numbers,
+/// Values that find trouble: zeros, powers of two and their neighbours, subnormals, huge numbers,
 /// and mantissas with few bits (many exact results) or all bits. In small formats any code,
 /// infinities and NaN included.
 template <class T>
