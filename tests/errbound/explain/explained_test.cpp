@@ -35,11 +35,12 @@ using errbound::tracked;
 /// The relative excess of a sum of a few rounded amounts over the error.
 constexpr double rounded = 20 * std::numeric_limits<double>::epsilon();
 
-/// Those of one number that are defined at 0.6.
+/// The elementary functions of one number that are defined at 0.6.
 #define ELEMENTARY_FUNCTIONS(DO)                                                             \
     DO(exp)                                                                                  \
-    DO(exp2) DO(expm1) DO(log) DO(log2) DO(log10) DO(log1p) DO(sin) DO(cos) DO(tan) DO(asin) \
-        DO(acos) DO(atan) DO(sinh) DO(cosh) DO(tanh) DO(asinh) DO(atanh) DO(cbrt)
+    DO(exp2)                                                                                 \
+    DO(expm1) DO(log) DO(log2) DO(log10) DO(log1p) DO(sin) DO(cos) DO(tan) DO(asin) DO(acos) \
+        DO(atan) DO(sinh) DO(cosh) DO(tanh) DO(asinh) DO(atanh) DO(cbrt)
 
 const char* const scope_names[] = {"first", "second", "third", "fourth"};
 
@@ -316,7 +317,7 @@ class first_order {
             }
         }
     }
-    /// The number of contributions of more than a hundredth.
+    /// The number of contributions that are more than a hundredth of the error.
     int checked() const { return checked_; }
 
   private:
