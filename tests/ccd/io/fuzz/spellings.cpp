@@ -202,11 +202,15 @@ class ply_writer {
     void add_faces() {
         const std::string type =
             choose_.one_of({"ushort", "int", "uint32", "char", "uint", "int16", "uint16"});
+        const std::string count = choose_.one_of({"uchar", "int8", "int"});
         header_ += "element face " + std::to_string(mesh_.faces.size()) + "\nproperty list " +
-                   choose_.one_of({"uchar", "int8"}) + " " + type + " " +
-                   choose_.one_of({"vertex_indices", "vertex_index"}) + "\n";
+                   count + " " + type + " " + choose_.one_of({"vertex_indices", "vertex_index"}) +
+                   "\n";
         for (const auto& f : mesh_.faces) {
-            add(std::uint8_t{3});
+            if (count == "int")
+                add(std::int32_t{3});
+            else
+                add(std::uint8_t{3});
             for (const vertex_index i : f) {
                 if (type == "char")
                     add(static_cast<std::int8_t>(i));
