@@ -1,11 +1,9 @@
-// Tracked numbers converted to another number type, and made of other types' numbers in every
-// rounding direction, against rationals: the exact number stays within the bound, and a number that
-// the type holds stays exact.
+// Conversions of tracked numbers to another type, and of plain numbers in every rounding direction,
+// compared with rationals. The exact number stays within the bound; a number of the type is exact.
 #include <gtest/gtest.h>
 
 #include <cfenv>
 #include <cfloat>
-#include <cmath>
 #include <errbound/binary128.hpp>
 #include <errbound/conversion.hpp>
 #include <errbound/small_floats.hpp>
@@ -25,10 +23,10 @@ using errbound::number_traits;
 using errbound::sign_type;
 using errbound::tracked;
 
-/// The number of a small format nearest to x, ties to even, by its neighbours.
+/// The number of a small format nearest to x, ties to even.
 template <class To>
 To nearest(const rational& x) {
-    // What would come after the largest number is as far from it as the one before.
+    // The number after the largest one would be at the distance of the one before.
     const auto number_of = [](int code) {
         const auto of = [](int c) { return exactly(To::from_code(c)); };
         return code <= To::largest_code ? of(code) : rational(2 * of(code - 1) - of(code - 2));
@@ -66,7 +64,7 @@ void check(From value, From error) {
     const To plain = nearest_to<To>(value);
     if (!traits::is_finite(plain) || !traits::is_finite(y.error())) {
         ASSERT_EQ(sign_of(y), sign_type::uncertain) << what;
-        // Only what is too large for the type is unknown.
+        // Only numbers that are too large for the type have infinite errors.
         ASSERT_TRUE(!traits::is_finite(plain) ||
                     exactly(x.error()) * 4 + exactly(traits::abs(plain)) * 4 >
                         exactly(traits::largest() * traits::unit_roundoff()))
@@ -84,7 +82,7 @@ void check(From value, From error) {
 }
 
 template <class From, class To>
-struct pair_of_types {
+struct conversion {
     using from = From;
     using to = To;
 };
@@ -94,20 +92,21 @@ using errbound::float8_e4m3;
 using errbound::float8_e5m2;
 template <class Pair>
 class Conversion : public testing::Test {};
-using pairs = testing::Types<
-    pair_of_types<double, float>, pair_of_types<float, double>, pair_of_types<double, double>,
-    pair_of_types<support::long_double, double>, pair_of_types<support::long_double, float>,
-    pair_of_types<double, support::long_double>, pair_of_types<double, float16>,
-    pair_of_types<float, bfloat16>, pair_of_types<double, bfloat16>,
-    pair_of_types<float16, bfloat16>, pair_of_types<bfloat16, float16>,
-    pair_of_types<float16, float8_e4m3>, pair_of_types<bfloat16, float8_e5m2>,
-    pair_of_types<float8_e5m2, float8_e4m3>, pair_of_types<float8_e4m3, float8_e5m2>,
-    pair_of_types<float8_e4m3, double>, pair_of_types<support::long_double, float16>,
-    pair_of_types<support::long_double, bfloat16>, pair_of_types<support::long_double, float8_e4m3>,
-    pair_of_types<float16, support::long_double>>;
+using support::long_double;
+using pairs =
+    testing::Types<conversion<double, float>, conversion<float, double>, conversion<double, double>,
+                   conversion<long_double, double>, conversion<long_double, float>,
+                   conversion<double, long_double>, conversion<double, float16>,
+                   conversion<float, bfloat16>, conversion<double, bfloat16>,
+                   conversion<float16, bfloat16>, conversion<bfloat16, float16>,
+                   conversion<float16, float8_e4m3>, conversion<bfloat16, float8_e5m2>,
+                   conversion<float8_e5m2, float8_e4m3>, conversion<float8_e4m3, float8_e5m2>,
+                   conversion<float8_e4m3, double>, conversion<long_double, float16>,
+                   conversion<long_double, bfloat16>, conversion<long_double, float8_e4m3>,
+                   conversion<float16, long_double>>;
 TYPED_TEST_SUITE(Conversion, pairs);
 
-TYPED_TEST(Conversion, KeepsTheExactNumberWithinItsBound) {
+TYPED_TEST(Conversion, HoldsTheExactNumber) {
     using From = typename TypeParam::from;
     using To = typename TypeParam::to;
     using traits = number_traits<From>;
@@ -121,7 +120,7 @@ TYPED_TEST(Conversion, KeepsTheExactNumberWithinItsBound) {
                     From(static_cast<int>(random() % 4));
         check<errbound::tight, To>(value, error);
         check<errbound::sharp, To>(value, error);
-        // The others enlarge a bound themselves, and may overflow in doing so.
+        // The others enlarge the bound of an input, which may overflow.
         if (error == From(0)) {
             check<errbound::residual, To>(value, error);
             check<errbound::interval, To>(value, error);
@@ -129,7 +128,7 @@ TYPED_TEST(Conversion, KeepsTheExactNumberWithinItsBound) {
     }
 }
 
-/// Every number with every bound.
+/// Converts every number with every bound.
 template <class From, class To>
 void check_all() {
     for (int i = 0; i < From::codes; ++i)
@@ -144,7 +143,7 @@ TEST(Conversions, OfEvery8BitNumberWithEveryBound) {
     check_all<float8_e5m2, float16>();
 }
 
-/// From next to each midpoint of two numbers, closer than double's last place.
+/// Converts neighbours of each midpoint of two numbers, closer than double's last place.
 template <class From, class To>
 void check_midpoints() {
     for (int code = 0; code < To::largest_code; ++code) {
@@ -159,7 +158,7 @@ void check_midpoints() {
             ASSERT_EQ(converted(middle - off).value().code(), code);
             ASSERT_EQ(converted(middle).value().code(), even);
             ASSERT_EQ(converted(middle + off).value().code(), code + 1);
-            // The bound is half of the difference, and rounded up what is beyond.
+            // The bound is half of the difference, rounded up.
             ASSERT_GE(From(static_cast<double>(converted(middle - off).error())),
                       middle - off - below);
             ASSERT_GT(From(static_cast<double>(converted(middle + off).error())),
@@ -174,7 +173,7 @@ void check_all_midpoints() {
     check_midpoints<From, float8_e4m3>();
     check_midpoints<From, float8_e5m2>();
 }
-TEST(Conversions, FromTypesWiderThanDoubleAreRoundedOnce) {
+TEST(Conversions, FromWiderTypesRoundOnce) {
     check_all_midpoints<double>();
     check_all_midpoints<support::long_double>();
 #if LDBL_MANT_DIG == 113 || defined(__SIZEOF_FLOAT128__)
@@ -207,7 +206,7 @@ TEST(Conversions, ToAnotherRuleAndInConstantExpressions) {
     EXPECT_EQ(convert<double>(tracked<float>::within(1, 0x1p-30F)).error(), 0x1p-30);
 }
 
-TEST(Conversions, WhatOverflowsOrUnderflowsIsNotCertain) {
+TEST(Conversions, ThatOverflowOrUnderflow) {
     EXPECT_EQ(sign_of(convert<float>(tracked<double>(1e39))), sign_type::uncertain);
     EXPECT_EQ(sign_of(convert<float8_e4m3>(tracked<float>(465))), sign_type::uncertain);
     EXPECT_EQ(sign_of(convert<float>(tracked<double>::within(1, 1e39))), sign_type::uncertain);
@@ -240,7 +239,7 @@ void check_constant(Number value) {
     using traits = number_traits<T>;
     if (!traits::is_finite(x.value()) || !traits::is_finite(x.error())) {
         ASSERT_EQ(sign_of(x), sign_type::uncertain);
-        // Only NaN and numbers too large for the type are unknown.
+        // Only NaN and numbers that are too large for the type have infinite errors.
         if constexpr (!std::integral<Number>)
             if (!number_traits<Number>::is_finite(value)) return;
         const rational size = boost::multiprecision::abs(exact_constant(value));
@@ -257,17 +256,14 @@ void check_constant(Number value) {
 
 template <class Made>
 class Constant : public testing::Test {};
-using made =
-    testing::Types<pair_of_types<double, float>, pair_of_types<float, double>,
-                   pair_of_types<support::long_double, double>,
-                   pair_of_types<support::long_double, float>, pair_of_types<double, float16>,
-                   pair_of_types<float, bfloat16>, pair_of_types<double, float8_e4m3>,
-                   pair_of_types<float, float8_e5m2>, pair_of_types<int, float>,
-                   pair_of_types<int, float16>, pair_of_types<unsigned, float8_e5m2>,
-                   pair_of_types<long long, double>, pair_of_types<unsigned long long, double>,
-                   pair_of_types<unsigned long long, float>, pair_of_types<long long, float>,
-                   pair_of_types<signed char, float8_e4m3>, pair_of_types<short, double>>;
-TYPED_TEST_SUITE(Constant, made);
+using constants = testing::Types<
+    conversion<double, float>, conversion<float, double>, conversion<long_double, double>,
+    conversion<long_double, float>, conversion<double, float16>, conversion<float, bfloat16>,
+    conversion<double, float8_e4m3>, conversion<float, float8_e5m2>, conversion<int, float>,
+    conversion<int, float16>, conversion<unsigned, float8_e5m2>, conversion<long long, double>,
+    conversion<unsigned long long, double>, conversion<unsigned long long, float>,
+    conversion<long long, float>, conversion<signed char, float8_e4m3>, conversion<short, double>>;
+TYPED_TEST_SUITE(Constant, constants);
 
 TYPED_TEST(Constant, IsExactOrWithinItsBound) {
     using number = typename TypeParam::from;
@@ -289,15 +285,15 @@ TYPED_TEST(Constant, IsExactOrWithinItsBound) {
     }
 }
 
-TEST(Constants, OfSmallFormatsAreNotCutOff) {
-    // A double must not become an int on the way to these types.
+TEST(Constants, OfSmallFormats) {
+    // A double must not be converted to int on the way to these types.
     EXPECT_EQ(sign_of(tracked<float16>(0.1)), sign_type::positive);
     EXPECT_GT(tracked<float16>(0.1).error(), float16(0));
     EXPECT_EQ((tracked<bfloat16>(bfloat16(2)) * 0.5).value(), bfloat16(1));
     EXPECT_EQ(sign_of(tracked<float8_e4m3>(1000000)), sign_type::uncertain);
 }
 
-TEST(Constants, OfEveryTypeOfTheLanguage) {
+TEST(Constants, OfBuiltInTypes) {
     const std::vector<double> five(5);
     EXPECT_EQ((tracked<double>(10) / five.size()).value(), 2);
     EXPECT_EQ(sign_of(1L + tracked<double>(1) - 3U), sign_type::negative);

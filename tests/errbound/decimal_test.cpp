@@ -1,13 +1,9 @@
-// Decimals as tracked numbers, against rationals.
+// Decimals as tracked numbers, compared with rationals.
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <array>
-#include <bit>
 #include <cfenv>
 #include <cmath>
-#include <cstdint>
-#include <cstdio>
 #include <errbound/binary128.hpp>
 #include <errbound/decimal.hpp>
 #include <errbound/small_floats.hpp>
@@ -28,8 +24,7 @@ using errbound::sign_type;
 using errbound::tracked;
 using namespace errbound::literals;
 
-/// x > 0 rounded to a multiple of the format's unit there: down, to nearest with ties to even, or
-/// up. A second way to what from_decimal computes.
+/// x > 0 rounded to a multiple of the format's unit there: to nearest with ties to even, or up.
 enum class direction { nearest, up };
 template <class T>
 rational rounded(const rational& x, direction to) {
@@ -44,8 +39,8 @@ rational rounded(const rational& x, direction to) {
     return n * power_of(2, unit);
 }
 
-/// Reads ±x, of that text, and compares value and error with what rationals give. Errors exceed the
-/// distance, rounded up, by less than a thousandth.
+/// Reads the text of x and compares value and error with rationals. The error may exceed the
+/// rounded distance by a thousandth.
 template <class T, class Rule = errbound::tight>
 void check_text(const std::string& text, const rational& x) {
     using traits = number_traits<T>;
@@ -62,12 +57,12 @@ void check_text(const std::string& text, const rational& x) {
     ASSERT_EQ(value, x < 0 ? rational(-nearest) : nearest) << shown;
     const rational error = exactly(read.error());
     ASSERT_GE(error, off) << shown;
-    if (std::is_same_v<Rule, errbound::safe>) return;  // bounds all by the value's size
+    if (std::is_same_v<Rule, errbound::safe>) return;  // its errors depend on the value's size
     const rational most = off + off / 1000;
     ASSERT_LE(error, off == 0 ? off : rounded<T>(most, direction::up)) << shown;
 }
 
-/// Random digits, with and without a point and an exponent, and what they stand for.
+/// Random digits, with and without a point and an exponent, and their exact value.
 struct random_decimal {
     std::string text;
     rational exact = 0;
@@ -92,36 +87,29 @@ struct random_decimal {
     }
 };
 
-/// n·2^e as a decimal of all its digits, which end in `more` of them.
-std::string exact_text(const whole_number& n, int e, const std::string& more = "") {
-    const whole_number digits = e < 0 ? whole_number(n * numerator(power_of(5, -e)))
-                                      : whole_number(n << static_cast<unsigned>(e));
-    return digits.str() + more + "e" +
-           std::to_string(std::min(e, 0) - static_cast<int>(more.size()));
-}
-/// The last digit one less, with a 9 after it: what is just below.
-std::string just_below(const whole_number& n, int e) {
-    const whole_number digits = (e < 0 ? whole_number(n * numerator(power_of(5, -e)))
-                                       : whole_number(n << static_cast<unsigned>(e))) *
-                                    10 -
-                                1;
-    return digits.str() + "e" + std::to_string(std::min(e, 0) - 1);
+/// The digits of n·2^e, plus `units` of a place further right, and `more` digits.
+std::string exact_text(const whole_number& n, int e, int units = 0, const std::string& more = "") {
+    whole_number digits = e < 0 ? whole_number(n * numerator(power_of(5, -e)))
+                                : whole_number(n << static_cast<unsigned>(e));
+    if (units != 0) digits = 10 * digits + units;
+    const int places = (units != 0) + static_cast<int>(more.size());
+    return digits.str() + more + "e" + std::to_string(std::min(e, 0) - places);
 }
 
-/// A number of the format, the midpoint above it and what is next to that midpoint, by all digits:
-/// up to 767 of them for double.
+/// Checks a number of the format, the midpoint above it and the neighbours of the midpoint, by all
+/// their digits: up to 767 for double.
 template <class T>
 void check_midpoint(const whole_number& significand, int unit) {
-    const auto x = [&](const whole_number& n, int e) { return rational(n) * power_of(2, e); };
-    check_text<T>(exact_text(significand, unit), x(significand, unit));
+    check_text<T>(exact_text(significand, unit), rational(significand) * power_of(2, unit));
     const whole_number n = 2 * significand + 1;
-    const rational middle = x(n, unit - 1);
+    const rational middle = rational(n) * power_of(2, unit - 1);
     const int places = std::max(1 - unit, 0);
+    const rational step = power_of(10, -places - 1);
     check_text<T>(exact_text(n, unit - 1), middle);
-    check_text<T>("-" + exact_text(n, unit - 1, "1"), -(middle + power_of(10, -places - 1)));
-    check_text<T>(just_below(n, unit - 1), middle - power_of(10, -places - 1));
-    const std::string zeros(1000, '0');
-    check_text<T>(exact_text(n, unit - 1, zeros + "9"), middle + 9 * power_of(10, -places - 1001));
+    check_text<T>("-" + exact_text(n, unit - 1, 1), -(middle + step));
+    check_text<T>(exact_text(n, unit - 1, -1), middle - step);
+    check_text<T>(exact_text(n, unit - 1, 0, std::string(1000, '0') + "9"),
+                  middle + 9 * power_of(10, -places - 1001));
 }
 template <class T>
 void check_midpoints(int step) {
@@ -152,7 +140,7 @@ void check(int reach) {
     }
 }
 
-TEST(Decimals, AreTheNearestNumbersWithTheirDistance) {
+TEST(Decimals, AreTheNearestNumbers) {
     check<double, errbound::tight>(30);
     check<double, errbound::residual>(340);
     check<float, errbound::safe>(50);
@@ -167,9 +155,8 @@ TEST(Decimals, AreTheNearestNumbersWithTheirDistance) {
 #endif
 }
 
-// The decimals that are hardest to round: all digits of midpoints of two numbers, and what is next
-// to them.
-TEST(Decimals, MidpointsAreRoundedToEvenAndWhatIsNextToThemIsNot) {
+// The decimals that are hardest to round: midpoints of two numbers, and their neighbours.
+TEST(Decimals, NearMidpoints) {
     check_midpoints<double>(support::scaled(1) > 1 ? 1 : 37);
     check_midpoints<float>(1);
     check_midpoints<errbound::float16>(1);
@@ -182,28 +169,12 @@ TEST(Decimals, MidpointsAreRoundedToEvenAndWhatIsNextToThemIsNot) {
 #endif
 }
 
-/// printf's 17 digits come back as the double they are of.
-TEST(Decimals, SeventeenDigitsReadBack) {
-    std::mt19937_64 random(9);
-    for (int k = 0; k < support::scaled(20000); ++k) {
-        const auto x = std::bit_cast<double>(random());
-        if (!std::isfinite(x)) continue;
-        std::array<char, 64> text{};
-        std::snprintf(text.data(), text.size(), "%.17g", x);
-        const auto read = from_decimal<tracked<double>>(text.data());
-        ASSERT_EQ(std::bit_cast<std::uint64_t>(read.value()), std::bit_cast<std::uint64_t>(x))
-            << text.data();
-    }
-}
-
 TEST(Decimals, AtTheEndsOfTheRange) {
     using number = tracked<double>;
     constexpr double largest = std::numeric_limits<double>::max();
     constexpr double least = std::numeric_limits<double>::denorm_min();
-    EXPECT_EQ(from_decimal<number>("1.7976931348623157e308").value(), largest);
     EXPECT_EQ(from_decimal<number>("1.7976931348623158e308").value(), largest);
     EXPECT_TRUE(std::isinf(from_decimal<number>("1.7976931348623159e308").error()));
-    EXPECT_EQ(from_decimal<number>("2.2250738585072014e-308").value(), 0x1p-1022);
     EXPECT_EQ(from_decimal<number>("4.9e-324").value(), least);
     const auto tiny = from_decimal<number>("-1e-99999999999");
     EXPECT_EQ(tiny.value(), 0);
@@ -211,8 +182,8 @@ TEST(Decimals, AtTheEndsOfTheRange) {
     EXPECT_TRUE(std::signbit(from_decimal<number>("-0").value()));
 }
 
-/// Digits of an exponent beyond the 6th count: these had been read as 1, 1 and 0.1, exactly.
-TEST(Decimals, ManyZerosDoNotMakeUpForALargeExponent) {
+// Exponents with more than 6 digits were cut off: the values were 1, 1 and 0.1, exactly.
+TEST(Decimals, WithManyZerosAndALargeExponent) {
     using number = tracked<double>;
     const auto zeros = [](std::size_t count) { return std::string(count, '0'); };
     EXPECT_TRUE(std::isinf(from_decimal<number>("0." + zeros(99999) + "1e1000000").error()));
@@ -233,7 +204,7 @@ TEST(Decimals, ManyZerosDoNotMakeUpForALargeExponent) {
     EXPECT_LT(long_third.error(), 0x1p-55);
 }
 
-TEST(Decimals, OfConstantsTheCompilerReadsTheSame) {
+TEST(Decimals, AreConstantExpressions) {
     constexpr auto hard =
         from_decimal<tracked<double>>("2.47032822920623272088284396434110686182e-324");
     static_assert(hard.value() == 0);
@@ -245,22 +216,15 @@ TEST(Decimals, OfConstantsTheCompilerReadsTheSame) {
     static_assert(wide.value() == 0.1L);
 }
 
-TEST(Decimals, WhatTheTypeHoldsIsExact) {
-    for (const char* text : {"0.5", "3", "100", "1e2", "-0.125e1", "1.5e-1", "0.000", "-0", "1e22",
-                             "123456789012345", "0x", "1'000'000.25"}) {
-        const auto x = from_decimal<tracked<double>>(text);
-        if (std::string(text) == "1.5e-1") {
-            EXPECT_GT(x.error(), 0);
-        } else if (std::string(text) == "0x") {
-            EXPECT_FALSE(std::isfinite(x.error()));
-        } else {
-            EXPECT_EQ(x.error(), 0) << text;
-        }
-    }
+TEST(Decimals, OfNumbersOfTheTypeAreExact) {
+    for (const char* text : {"0.5", "3", "100", "1e2", "-0.125e1", "0.000", "-0", "1e22",
+                             "123456789012345", "1'000'000.25"})
+        EXPECT_EQ(from_decimal<tracked<double>>(text).error(), 0) << text;
+    EXPECT_GT(from_decimal<tracked<double>>("1.5e-1").error(), 0);
     EXPECT_EQ(from_decimal<tracked<double>>("-0.125e1").value(), -1.25);
 }
 
-TEST(Decimals, ATenthIsNotTheDoubleNearestToIt) {
+TEST(Decimals, InexactLiteralsHaveErrors) {
     constexpr auto tenth = 0.1_tracked;
     static_assert(tenth.value() == 0.1);
     EXPECT_GT(tenth.error(), 0x1p-58);
@@ -270,17 +234,17 @@ TEST(Decimals, ATenthIsNotTheDoubleNearestToIt) {
     EXPECT_EQ((2.5e3_tracked).value(), 2500);
 }
 
-TEST(Decimals, WhatIsNoneIsUnknown) {
+TEST(Decimals, OtherTextsHaveInfiniteErrors) {
     for (const char* text : {"", "-", ".", "e5", "1e", "1e+", "1.2.3", "1 ", " 1", "nan", "1e5x",
-                             "1e99999999999", "'1", "1'", "1''0", "1'.5", "1.'5"}) {
+                             "0x", "1e99999999999", "'1", "1'", "1''0", "1'.5", "1.'5"}) {
         const auto x = from_decimal<tracked<double>>(text);
         EXPECT_EQ(sign_of(x), sign_type::uncertain) << text;
         EXPECT_FALSE(std::isfinite(x.error())) << text;
     }
 }
 
-/// Values are the same in every direction; the error is infinite only for rules that need rounding
-/// to nearest. What the compiler has read is right in every direction.
+/// Values are the same in every direction. Only rules that need rounding to nearest have infinite
+/// errors. Literals are read by the compiler and are right in every direction.
 TEST(Decimals, AreTheNearestInEveryRoundingDirection) {
     for (const int direction : {FE_UPWARD, FE_DOWNWARD, FE_TOWARDZERO}) {
         std::fesetround(direction);

@@ -1,5 +1,5 @@
-// Dot products and Horner's rule against rationals, beside their operations one by one and a plain
-// loop: of numbers with bounds, of every size, in every format, under every rule.
+// Dot products and Horner's rule against rationals, single operations and a plain loop: of numbers
+// with bounds, of every size, in every format, under every rule.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -11,10 +11,12 @@
 #include <errbound/rules/relative.hpp>
 #include <errbound/rules/stochastic.hpp>
 #include <errbound/small_floats.hpp>
+#include <errbound/validation/rule_list.hpp>
 #include <limits>
 #include <random>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "tests/support/random_programs.hpp"
@@ -26,7 +28,7 @@ using errbound::number_traits;
 using errbound::sign_type;
 using errbound::tracked;
 
-/// `tight` but for its dot_bound, which is not inherited.
+/// `tight` without its dot_bound, which is not inherited.
 struct renamed : errbound::derived_rule<renamed, errbound::tight> {
     static constexpr const char* name = "renamed";
 };
@@ -36,11 +38,6 @@ static_assert(!errbound::detail::rule_has_dot<errbound::tight, errbound::float8_
 static_assert(!errbound::detail::rule_has_dot<errbound::residual, double>);
 static_assert(!errbound::detail::rule_has_dot<renamed, double>);
 
-template <class T>
-bool same(const T& x, const T& y) {
-    const auto is_negative = [](const T& z) { return std::signbit(static_cast<double>(z)); };
-    return x == y ? is_negative(x) == is_negative(y) : x != x && y != y;
-}
 /// A product that no compiler fuses into a sum.
 template <class T>
 T plain_product(const T& a, const T& b) {
@@ -71,7 +68,8 @@ class checker {
     }
 
   private:
-    /// Of any size, or such that sums stay in range; exact, or with a bound and anywhere within.
+    /// A number of any size, or one of those whose sums stay in range. It is exact, or has a bound
+    /// and stands for any number within it.
     sample input() {
         T v = special_value<T>(random_);
         if (largest_exponent_ != 0 || !traits::is_finite(v))
@@ -83,31 +81,28 @@ class checker {
         if (!traits::is_finite(error)) return {number(v), exactly(v)};
         return support::sample_within<number>(v, error, random_);
     }
-    /// Pairs, some of which cancel earlier ones, or nearly; or all but the first of which are lost,
-    /// each half a last place of the first.
+    /// Pairs, some of which cancel earlier ones, or nearly. In one list of eight, each pair after
+    /// the first is half a unit in the last place of the first.
     void draw(std::size_t size) {
         a_.clear();
         b_.clear();
         exact_.clear();
         const bool lost = random_() % 8 == 0;
         while (a_.size() < size) {
+            const auto add = [&](const sample& x, const sample& y) {
+                a_.push_back(x.number);
+                b_.push_back(y.number);
+                exact_.push_back({x.exact, y.exact});
+            };
+            const std::size_t i = a_.empty() ? 0 : random_() % a_.size();
             if (lost && !a_.empty()) {
-                a_.push_back(number(traits::scale(a_[0].value(), -traits::digits)));
-                b_.push_back(number(b_[0].value()));
-                exact_.push_back({exactly(a_.back().value()), exactly(b_.back().value())});
-                continue;
+                const T x = traits::scale(a_[0].value(), -traits::digits), y = b_[0].value();
+                add({x, exactly(x)}, {y, exactly(y)});
+            } else if (!a_.empty() && random_() % 4 == 0) {
+                add({-a_[i], -exact_[i][0]}, {b_[i], exact_[i][1]});
+            } else {
+                add(input(), input());
             }
-            if (!a_.empty() && random_() % 4 == 0) {
-                const std::size_t i = random_() % a_.size();
-                a_.push_back(-number(a_[i]));
-                b_.push_back(number(b_[i]));
-                exact_.push_back({-exact_[i][0], exact_[i][1]});
-                continue;
-            }
-            const sample x = input(), y = input();
-            a_.push_back(x.number);
-            b_.push_back(y.number);
-            exact_.push_back({x.exact, y.exact});
         }
     }
 
@@ -121,7 +116,7 @@ class checker {
             one_by_one = one_by_one + a_[i] * b_[i];
             exact += exact_[i][0] * exact_[i][1];
         }
-        ASSERT_TRUE(same(found.value(), plain)) << Rule::name;
+        ASSERT_TRUE(same_bits(found.value(), plain)) << Rule::name;
         check(found, exact, "dot");
         check_not_worse(found, one_by_one, a_.size(), "dot");
     }
@@ -137,7 +132,7 @@ class checker {
             one_by_one = first ? number(a_[i]) : one_by_one * x.number + a_[i];
             exact = exact * x.exact + exact_[i][0];
         }
-        ASSERT_TRUE(same(found.value(), plain)) << Rule::name;
+        ASSERT_TRUE(same_bits(found.value(), plain)) << Rule::name;
         check(found, exact, "horner");
         check_not_worse(found, one_by_one, 0, "horner");
     }
@@ -148,7 +143,8 @@ class checker {
         support::check(sample{found, exact},
                        std::string(what) + " " + Rule::name + " of " + std::to_string(a_.size()));
     }
-    /// Except for the factor 1 + (terms + 7)ε and some η of each closing of terms.
+    /// The bound of a dot product may be larger by the factor 1 + (terms + 7)ε and a few η for each
+    /// `closing` of terms.
     void check_not_worse(const number& found, const number& one_by_one, std::size_t terms,
                          const char* what) {
         if (!errbound::promises_bound<Rule> || !traits::is_finite(one_by_one.error())) return;
@@ -173,37 +169,31 @@ using numbers = testing::Types<double, float, errbound::float16, errbound::bfloa
                                errbound::float8_e5m2, errbound::float8_e4m3>;
 TYPED_TEST_SUITE(DotAndHorner, numbers);
 
-TYPED_TEST(DotAndHorner, HoldTheExactResultAndArePlainLoops) {
-    const int count = support::scaled(2000);
-    checker<TypeParam, errbound::tight>().run(count);
-    checker<TypeParam, errbound::sharp>().run(count);
-    checker<TypeParam, errbound::safe>().run(count);
-    checker<TypeParam, errbound::interval>().run(count);
-    checker<TypeParam, errbound::residual>().run(count);
-    checker<TypeParam, errbound::affine>().run(count / 4);
-    checker<TypeParam, errbound::relative>().run(count);
-    checker<TypeParam, renamed>().run(count / 4);
+TYPED_TEST(DotAndHorner, HoldTheExactResultAndEqualPlainLoops) {
+    const auto run = []<class Rule>() { checker<TypeParam, Rule>().run(support::scaled(2000)); };
+    using namespace errbound;
+    for_each_rule(rule_types<tight, sharp, safe, interval, residual, relative>(), run);
+    checker<TypeParam, affine>().run(support::scaled(500));
+    checker<TypeParam, renamed>().run(support::scaled(500));
 }
 
-/// Inputs of `n` terms, of one size and sign.
+/// The error of the sum of the squares of a thousand thirds, and the error of a loop.
 template <class Rule>
-std::vector<tracked<double, Rule>> thirds(std::size_t n) {
-    return std::vector<tracked<double, Rule>>(n, tracked<double, Rule>(1.0 / 3));
-}
-template <class Rule>
-double one_by_one(const std::vector<tracked<double, Rule>>& a) {
-    tracked<double, Rule> sum = 0;
-    for (const auto& x : a) sum += x * x;
-    return sum.error();
+std::pair<double, double> errors_of_squares() {
+    using number = tracked<double, Rule>;
+    const std::vector<number> thirds(1000, number(1.0 / 3));
+    number loop = 0;
+    for (const number& x : thirds) loop += x * x;
+    return {dot(thirds, thirds).error(), loop.error()};
 }
 
-TEST(DotOfDoubles, IsSharperWhereTheRuleCanBe) {
+TEST(DotOfDoubles, HasSmallerErrorsThanALoop) {
     using errbound::relative, errbound::sharp, errbound::tight;
-    EXPECT_LT(dot(thirds<tight>(1000), thirds<tight>(1000)).error(),
-              one_by_one(thirds<tight>(1000)));
+    const auto [by_tight, by_loop] = errors_of_squares<tight>();
+    EXPECT_LT(by_tight, by_loop);
     // Half as many factors: partial sums are smaller than the last one.
-    EXPECT_LT(dot(thirds<relative>(1000), thirds<relative>(1000)).error(),
-              0.52 * one_by_one(thirds<relative>(1000)));
+    const auto [by_relative, by_relative_loop] = errors_of_squares<relative>();
+    EXPECT_LT(by_relative, 0.52 * by_relative_loop);
     // A thousand small terms beside a large one: each is off by no more than it is.
     std::vector<tracked<double, sharp>> small(1000, 0x1p-70), ones(1000, 1);
     small[0] = 1 / 3.0;
@@ -211,14 +201,14 @@ TEST(DotOfDoubles, IsSharperWhereTheRuleCanBe) {
     for (const auto& x : small) sum += x;
     EXPECT_LT(dot(small, ones).error(), 0x1p-54 + 1001 * 0x1p-69);
     EXPECT_GT(sum.error(), 900 * 0x1p-55);
-    // What cancels on the way is not lost.
+    // Partial sums that cancel do not lose their errors.
     using counted = tracked<double, relative>;
     const std::vector<counted> a{1 / 3.0, -1 / 3.0, 5}, b{1 / 3.0, 1 / 3.0, 1 / 3.0};
     EXPECT_EQ(sign_of(dot(a, b)), sign_type::positive);
     EXPECT_EQ(sign_of(a[0] * b[0] + a[1] * b[1] + a[2] * b[2]), sign_type::uncertain);
 }
 
-TEST(DotOfDoubles, ByResidualsIsTheCompensatedOne) {
+TEST(DotOfDoubles, OfResidualIsCompensated) {
     using number = tracked<double, errbound::residual>;
     const std::array<number, 3> a{1e16, 1, -1e16}, b{1, 1, 1};
     const number found = dot(a, b);
@@ -228,7 +218,7 @@ TEST(DotOfDoubles, ByResidualsIsTheCompensatedOne) {
     EXPECT_EQ(sign_of(found), sign_type::positive);
 }
 
-TEST(HornerOfDoubles, CountsAnErrorOfXByTheSlope) {
+TEST(HornerOfDoubles, MultipliesTheErrorOfXByTheSlope) {
     using number = tracked<double>;
     // (x − 1)², where the slope is 0.
     const std::array<number, 3> c{1, -2, 1};
@@ -238,12 +228,12 @@ TEST(HornerOfDoubles, CountsAnErrorOfXByTheSlope) {
     using ends = tracked<double, errbound::interval>;
     const std::array<ends, 3> d{1, -2, 1};
     EXPECT_LE(horner(d, ends::within(1, 1e-3)).error(), 1.01e-6);
-    // Where x is so uncertain that the slope tells nothing, no worse.
+    // If x is so uncertain that the slope is useless, the error is no larger than a loop's.
     const number wide = number::within(1, 100);
     EXPECT_LE(horner(c, wide).error(), ((c[2] * wide + c[1]) * wide + c[0]).error());
 }
 
-TEST(DotOfDoubles, OfNothingAndOfZeros) {
+TEST(DotOfDoubles, OfNothingZerosAndInfinities) {
     using number = tracked<double>;
     const std::vector<number> none, zeros(5, number(0)), some(5, number(0.1));
     EXPECT_EQ(sign_of(dot(none, none)), sign_type::zero);
@@ -267,7 +257,7 @@ TEST(DotOfDoubles, WorksInConstantExpressions) {
     EXPECT_EQ(dot(c, a).value(), 11);
 }
 
-TEST(DotOfRulesWithoutPromise, IsAPlainLoopToo) {
+TEST(DotOfDoubles, IsAPlainLoopForRulesWithoutBounds) {
     using number = tracked<double, errbound::none>;
     const std::vector<number> a{0.1, 0.2, 0.3};
     double plain = 0;

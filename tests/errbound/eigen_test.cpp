@@ -1,5 +1,5 @@
-// Tracked scalars inside Eigen's matrices; Eigen's vectors, of every kind, as points.
-#undef NDEBUG  // sizes that are known when the program runs are assertions
+// Tracked scalars in Eigen's matrices; Eigen's vectors, of every kind, as points.
+#undef NDEBUG  // assertions check sizes that are known at run time
 #include <gtest/gtest.h>
 
 #include <Eigen/Dense>
@@ -38,13 +38,6 @@ TEST(Eigen, MatricesOfTrackedScalars) {
     EXPECT_LT(v.sum().error(), 1e-14);
 }
 
-TEST(Eigen, VectorsArePoints) {
-    const Eigen::Vector2d a(0, 0), b(1, 0), c(0, 1);
-    EXPECT_EQ(errbound::orient2d(a, b, c), sign_type::positive);
-    const Eigen::Matrix<float, 3, 4> m = Eigen::Matrix<float, 3, 4>::Identity();
-    EXPECT_EQ(errbound::orient3d(m.col(0), m.col(1), m.col(2), m.col(3)), sign_type::positive);
-}
-
 /// a, b, c turn left.
 const Eigen::VectorXd a = Eigen::Vector2d(0, 0), b = Eigen::Vector2d(1, 0),
                       c = Eigen::Vector2d(0, 1);
@@ -57,7 +50,10 @@ void expect_left_turn(const Points&... p) {
         EXPECT_EQ(errbound::orient2d.by(stage, p...), sign_type::positive);
 }
 
-TEST(Eigen, VectorsOfASizeKnownAtRunTimeArePoints) {
+TEST(Eigen, VectorsArePoints) {
+    const Eigen::Matrix<float, 3, 4> m = Eigen::Matrix<float, 3, 4>::Identity();
+    EXPECT_EQ(errbound::orient3d(m.col(0), m.col(1), m.col(2), m.col(3)), sign_type::positive);
+    expect_left_turn(Eigen::Vector2d(0, 0), Eigen::Vector2d(1, 0), Eigen::Vector2d(0, 1));
     Eigen::MatrixXd columns(2, 3);
     columns << a, b, c;
     const Eigen::MatrixXd rows = columns.transpose(), identity = Eigen::MatrixXd::Identity(2, 2);
@@ -101,7 +97,7 @@ void expect_plain_numbers_converted_within_their_error() {
     EXPECT_EQ(integer.error(), exact.error());
 }
 
-// (1 2; 3 4)(5 6; 7 8) = (19 22; 43 50), each factor plain in turn, of sizes known at run time.
+// (1 2; 3 4)(5 6; 7 8) = (19 22; 43 50); either factor is plain, and sizes are known at run time.
 TEST(Eigen, MixedProductsOfDynamicSize) {
     Eigen::MatrixXd a(2, 2), b(2, 2), both(2, 2);
     a << 1, 2, 3, 4;
@@ -122,7 +118,7 @@ TEST(Eigen, MixedProductsOfDynamicSize) {
         EXPECT_EQ(image(i).value(), both(i, 0));
         EXPECT_EQ(row(i).value(), both(0, i));
     }
-    // 30 terms of 0.1·x, x known to within 1e-3: 30·0.1·1e-3.
+    // The sum of 30 terms 0.1·x, where x has the error 1e-3.
     const Eigen::MatrixX<number> known =
         Eigen::MatrixX<number>::Constant(30, 30, number::within(1, 1e-3));
     const Eigen::MatrixX<number> tenths = Eigen::MatrixXd::Constant(30, 30, 0.1) * known;
@@ -130,7 +126,7 @@ TEST(Eigen, MixedProductsOfDynamicSize) {
     EXPECT_LE(tenths(29, 29).error(), 3.01e-3);
 }
 
-TEST(Eigen, PlainNumbersOfOtherTypesAreWithinTheErrorOfTheirConversion) {
+TEST(Eigen, PlainNumbersOfOtherTypesHaveTheErrorOfTheirConversion) {
     expect_plain_numbers_converted_within_their_error<errbound::tight>();
     expect_plain_numbers_converted_within_their_error<errbound::residual>();
     expect_plain_numbers_converted_within_their_error<errbound::interval>();
@@ -153,7 +149,7 @@ TEST(Eigen, VectorsOfASizeKnownAtRunTimeMakeBatches) {
     expect_left(rows.rowwise());
 }
 
-TEST(Eigen, PointsAndBatchesThatAreTooShortAreAssertions) {
+TEST(Eigen, PointsAndBatchesThatAreTooShortFailAssertions) {
     constexpr const char* message = "fewer coordinates than the predicate's shape";
     const Eigen::VectorXd one = Eigen::VectorXd::Zero(1);
     EXPECT_DEATH((void)errbound::orient2d(a, b, one), message);

@@ -1,4 +1,4 @@
-// What floating_point_environment() finds when it runs. What flags do: flags/flags_test.py.
+// The report of floating_point_environment(). (Compiler flags: flags/flags_test.py.)
 #include <gtest/gtest.h>
 
 #include <cfenv>
@@ -15,14 +15,14 @@ namespace {
 using errbound::environment_report;
 using errbound::floating_point_environment;
 
-// Of two doubles' bits, wherever it is a pair of doubles.
+// A long double of 106 bits is a pair of doubles.
 static_assert(errbound::detail::is_ieee_format<long double> == (LDBL_MANT_DIG != 106));
 
-TEST(Environment, TheTestsRunInASoundOne) {
+TEST(Environment, OfTheTestsIsSound) {
     EXPECT_TRUE(floating_point_environment().sound());
 }
 
-TEST(Environment, AnotherRoundingDirectionIsFoundAndServesTightAndSafe) {
+TEST(Environment, OtherRoundingDirectionsAreReported) {
     for (const int direction : {FE_DOWNWARD, FE_UPWARD, FE_TOWARDZERO}) {
         std::fesetround(direction);
         const environment_report report = floating_point_environment();
@@ -34,13 +34,12 @@ TEST(Environment, AnotherRoundingDirectionIsFoundAndServesTightAndSafe) {
 }
 
 #if defined(__SSE2__)
-TEST(Environment, SubnormalsThatAreFlushedOrReadAsZeroAreFound) {
+TEST(Environment, FlushedSubnormalsAreReported) {
     const unsigned before = _mm_getcsr();
     for (const unsigned mode : {unsigned{_MM_FLUSH_ZERO_ON}, unsigned{_MM_DENORMALS_ZERO_ON}}) {
         _mm_setcsr(before | mode);
         const environment_report report = floating_point_environment();
-        // Another thread has an environment of its own, which it takes from this one; on Windows
-        // each begins with the default.
+        // A new thread inherits the environment; on Windows it starts with the default.
 #ifdef _WIN32
         constexpr bool inherits = false;
 #else

@@ -1,4 +1,4 @@
-// Error-free transformations against rationals: random, extreme and subnormal operands.
+// Error-free transformations compared with rationals: random, extreme and subnormal operands.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -14,7 +14,7 @@ namespace {
 
 using errbound::number_traits;
 
-/// Where a claim held, so that a test cannot pass by excusing all.
+/// The number of cases in which each result was exact.
 struct counts {
     int sums = 0, products = 0, remainders = 0, splits = 0;
 };
@@ -72,7 +72,7 @@ class ErrorFree : public testing::Test {};
 using types = testing::Types<float, double, support::long_double>;
 TYPED_TEST_SUITE(ErrorFree, types);
 
-TYPED_TEST(ErrorFree, ResultAndErrorAreTheExactResult) {
+TYPED_TEST(ErrorFree, ValueAndErrorAreTheExactResult) {
     constexpr int pairs = 30000;
     const counts held = compare<TypeParam>(pairs, 1);
     EXPECT_GT(held.sums, pairs * 9 / 10);
@@ -81,7 +81,7 @@ TYPED_TEST(ErrorFree, ResultAndErrorAreTheExactResult) {
     EXPECT_GT(held.splits, pairs * 9 / 10);
 }
 
-TYPED_TEST(ErrorFree, WhatCannotBeExactIsNotTakenForIt) {
+TYPED_TEST(ErrorFree, InexactErrorsAreReported) {
     using T = TypeParam;
     const auto known = [](T a, T b) {
         return errbound::product_error_is_exact(a, b, errbound::two_product(a, b));
@@ -94,14 +94,14 @@ TYPED_TEST(ErrorFree, WhatCannotBeExactIsNotTakenForIt) {
     EXPECT_FALSE(known(tiny * odd, odd));  // the error is below the smallest number
     EXPECT_FALSE(known(tiny, tiny));
     EXPECT_FALSE(known(huge, huge));
-    // Where two_product without fused multiply-add overflows nobody finds the error.
+    // The error is lost if two_product without fused multiply-add overflows.
     EXPECT_FALSE(known(huge / 2, tiny * 4 * odd));
     EXPECT_FALSE(known(std::sqrt(huge) * odd, std::sqrt(huge) * odd / 2));
     EXPECT_TRUE(known(std::sqrt(huge) * odd, std::sqrt(huge) * odd / 8));
     EXPECT_FALSE(errbound::remainder_of_division(tiny, huge, T(tiny / huge)).exact);
 }
 
-TEST(ErrorFreeConstants, ServesConstantExpressions) {
+TEST(ErrorFreeConstants, AreConstantExpressions) {
     constexpr auto product = errbound::two_product(0.1, 0.1);
     static_assert(product.value == 0.1 * 0.1 && product.error != 0);
     static_assert(errbound::two_sum(1.0, 0x1p-60).error == 0x1p-60);

@@ -1,5 +1,5 @@
-// Tracked numbers as decimals, read back as rationals: every digit that is printed is certain, and
-// value and radius hold the number.
+// Tracked numbers as decimals, read back as rationals: every printed digit is certain, and value
+// and radius hold the number.
 #include <gtest/gtest.h>
 
 #include <cfenv>
@@ -22,7 +22,7 @@ namespace {
 
 using errbound::tracked;
 
-/// What a decimal stands for, and the place of its last digit.
+/// The value of a decimal, and the place of its last digit.
 struct read_decimal {
     rational value;
     int last_place = 0;
@@ -71,7 +71,7 @@ void check(T value, T error) {
         ASSERT_EQ(read_back<printed>(text), static_cast<printed>(value)) << what();
     } else {
         ASSERT_LE(off + exactly(error), power_of(10, read.last_place)) << what();
-        // Not many digits fewer than there are: two more would not be.
+        // Two more digits would not be certain.
         ASSERT_GT(exactly(error) * 220, power_of(10, read.last_place)) << what();
     }
 }
@@ -101,7 +101,7 @@ TYPED_TEST(Printing, EveryDigitIsCertainNextToPowersOfTen) {
     using T = TypeParam;
     using traits = errbound::number_traits<T>;
     std::mt19937_64 random(3);
-    // Of long doubles every seventh: some C libraries take milliseconds to print one.
+    // Only every seventh power for long doubles: some C libraries take milliseconds to print one.
     const T step(traits::max_exponent > 2000 ? 1e7 : 10);
     for (T power(1); power < traits::largest() / T(16); power = power * step) {
         for (int k = 0; k < 8 && !testing::Test::HasFatalFailure(); ++k) {
@@ -146,19 +146,19 @@ tracked<double> within(double value, double error) {
     return tracked<double>::within(value, error);
 }
 
-TEST(PrintingText, IsAsOneWouldWriteIt) {
+TEST(PrintingText, OfSomeNumbers) {
     EXPECT_EQ(text_of(tracked<double>(0.1) + tracked<double>(0.2)), "0.300000000000000");
     EXPECT_EQ(with_radius(within(0.3, 0.25)), "0.3 ± 2.5e-01");
     EXPECT_EQ(text_of(0.1), "0.1");
     EXPECT_EQ(text_of(-3.0), "-3");
     EXPECT_EQ(text_of(-0.0), "0");
-    // 1e153 is less than that: so is 2^434, which it is known to, than one unit of the last digit.
+    // The double is less than 1e153, and 2^434 is less than one unit of the last digit.
     EXPECT_EQ(text_of(within(1e153, 0x1p434)), "9.999999999999999997334e+152");
     EXPECT_EQ(text_of(within(123456, 1000)), "1.2e+05");
     EXPECT_EQ(text_of(within(-123456, 0.01)), "-123456.0");
     EXPECT_EQ(text_of(within(9.96, 0.04)), "10.0");
     EXPECT_EQ(text_of(within(1e-30, 1e-34)), "1.000e-30");
-    // No digit is certain: how large it can be.
+    // If no digit is certain, the text shows the magnitude.
     EXPECT_EQ(text_of(within(7, 3)), "1e+01");
     EXPECT_EQ(text_of(within(-7, 3)), "-1e+01");
     EXPECT_EQ(text_of(within(1, 4)), "0e+01");
@@ -176,8 +176,8 @@ TEST(PrintingText, IsAsOneWouldWriteIt) {
     EXPECT_EQ(with_radius(tracked<double>(0.1)), "0.1 ± 0");
 }
 
-// What libc++ takes for long doubles writes as std::to_chars does, in every rounding mode.
-TEST(PrintingText, ByPrintfIsByToChars) {
+// The replacement of libc++'s std::to_chars for long doubles, in every rounding mode.
+TEST(PrintingText, ByPrintfEqualsToChars) {
     if (errbound::detail::to_chars_is_wrong<long double>) GTEST_SKIP();
     if (!errbound::detail::is_ieee_format<long double>) GTEST_SKIP() << "a pair of doubles";
     using errbound::detail::decimal, errbound::detail::printf_decimal;
@@ -205,7 +205,7 @@ TEST(PrintingText, ByPrintfIsByToChars) {
         EXPECT_EQ(printf_decimal(x), decimal(x));
 }
 
-TEST(PrintingText, LeavesTheStreamAsItIs) {
+TEST(PrintingText, KeepsTheStreamsFormat) {
     std::ostringstream to;
     to << std::setprecision(2) << std::setw(8) << tracked<double>(3.25) << ' ' << 0.125 << ' '
        << tracked<errbound::float16, errbound::residual>(2);
@@ -213,7 +213,7 @@ TEST(PrintingText, LeavesTheStreamAsItIs) {
 }
 
 #if defined(__cpp_lib_format)
-TEST(PrintingByFormat, IsThatOfStreams) {
+TEST(PrintingByFormat, EqualsThatOfStreams) {
     using number = errbound::tracked<double>;
     const number x = number::within(0.3, 1e-5);
     EXPECT_EQ(std::format("{}", x), errbound::certain_digits(x));

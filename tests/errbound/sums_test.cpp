@@ -1,6 +1,6 @@
-// Errors where nothing is known are infinite, under every rule; bounds of long sums grow no faster
-// than the classical running error bound. Prints a table of the sums; ERRBOUND_TEST_SCALE=100 has
-// ten million terms.
+// Undefined results have infinite errors under every rule. Bounds of long sums grow no faster than
+// the classical running error bound. Prints a table of the sums; ERRBOUND_TEST_SCALE=100 has ten
+// million terms.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -22,7 +22,7 @@ namespace {
 using errbound::number_traits;
 using errbound::tracked;
 
-/// Numbers that are exact, or known to within an error, of sizes from 0 to infinity, and NaN.
+/// Numbers with and without errors, from 0 to infinity, and NaN.
 template <class Number>
 std::vector<Number> numbers_of_all_sizes() {
     using T = typename Number::value_type;
@@ -40,7 +40,7 @@ std::vector<Number> numbers_of_all_sizes() {
     return all;
 }
 
-/// Never NaN; infinite if the value is no number.
+/// The error is never NaN, and is infinite if the value is not finite.
 template <class Number>
 void expect_an_error(const Number& x, const char* what) {
     using traits = number_traits<typename Number::value_type>;
@@ -104,7 +104,7 @@ void expect_errors_of_functions() {
     }
 }
 
-TEST(Errors, AreInfiniteWhereNothingIsKnownUnderEveryRule) {
+TEST(Errors, OfUndefinedResultsAreInfiniteUnderEveryRule) {
     errbound::for_each_rule(errbound::all_rules(), []<class Rule>() {
         expect_errors_of_operations<double, Rule>();
         expect_errors_of_operations<float, Rule>();
@@ -113,7 +113,7 @@ TEST(Errors, AreInfiniteWhereNothingIsKnownUnderEveryRule) {
     });
 }
 
-TEST(Errors, RefuseWhatIsNotKnownHoweverTheyAreCompared) {
+TEST(Errors, OfUndefinedResultsExceedAnyTolerance) {
     const tracked<double> powered = exp(tracked<double>(710)), root = sqrt(tracked<double>(-1));
     for (const auto& x : {powered, powered - powered, root}) {
         EXPECT_TRUE(x.error() > 1e-6);
@@ -124,7 +124,7 @@ TEST(Errors, RefuseWhatIsNotKnownHoweverTheyAreCompared) {
 
 enum class signs { all_positive, alternating, random };
 
-/// Sums of n terms ±0.1: calls term(positive).
+/// Calls term(positive) for each of n terms ±0.1.
 template <class Term>
 void for_each_term(signs how, std::int64_t n, const Term& term) {
     std::uint64_t state = 1;
@@ -134,7 +134,7 @@ void for_each_term(signs how, std::int64_t n, const Term& term) {
     }
 }
 
-/// Bound of the sum by the rule.
+/// The rule's bound of the sum.
 template <class T, class Rule>
 double bound_of_sum(signs how, std::int64_t n) {
     using number = tracked<T, Rule>;
@@ -144,7 +144,7 @@ double bound_of_sum(signs how, std::int64_t n) {
     return static_cast<double>(sum.error());
 }
 
-/// |error| of the plain sum, and Higham's running bound, u Σ|partial sums|, in double.
+/// The error of the plain sum, and Higham's running bound, u Σ|partial sums|, in double.
 template <class T>
 std::pair<double, double> error_and_running_bound(signs how, std::int64_t n) {
     const T term = static_cast<T>(0.1);
@@ -194,7 +194,7 @@ TEST(LongSums, GrowNoFasterThanTheRunningErrorBound) {
     expect_bounds_of_sums<double>("double", support::scaled(100'000));
 }
 
-TEST(LongSums, OfFloatsThatLoseAllDigitsStayFinite) {
+TEST(LongSums, OfFloatsThatLoseAllDigits) {
     // 0.1 is less than half a last place of 2^21: the sum stays there, and each term is lost.
     using number = tracked<float>;
     number sum(0x1p21F);

@@ -1,5 +1,5 @@
-// The tracked scalar against rationals: every rule, number type and rounding direction; bounds from
-// both sides; exact zero, underflow, overflow, NaN.
+// The tracked scalar against rationals, by every rule, number type and rounding direction: bounds
+// that hold and are tight, exact zeros, underflow, overflow and NaN.
 #include <gtest/gtest.h>
 
 #include <cfenv>
@@ -8,8 +8,7 @@
 #include <errbound/errbound.hpp>
 #include <errbound/explain/explain.hpp>
 #include <errbound/multiprecision.hpp>
-#include <errbound/rules/affine.hpp>
-#include <errbound/rules/relative.hpp>
+#include <errbound/validation/rule_list.hpp>
 #include <limits>
 #include <random>
 #include <string>
@@ -31,8 +30,8 @@ void run_programs(int programs, std::uint64_t seed) {
     const auto draw = [](std::mt19937_64& random) { return special_value<T>(random); };
     support::random_programs<T, Rule, decltype(draw)>(seed, draw).run(programs);
 }
-/// In directed rounding overflow may end at the largest finite number, unnoticed (rules/tight.hpp):
-/// numbers stay smaller.
+/// In directed rounding, overflow may end at the largest finite number (rules/tight.hpp). Numbers
+/// stay smaller.
 template <class Rule>
 void run_directed_programs(int programs, std::uint64_t seed) {
     const double most = std::sqrt(std::numeric_limits<double>::max());
@@ -70,7 +69,7 @@ TEST(Tracked, BoundsHoldInEveryRoundingDirection) {
     }
 }
 
-/// ab + c of exact numbers at the ends of what a and b may be.
+/// Checks ab + c at the ends of the ranges of a and b.
 template <class Rule>
 void check_fused(double a, double of_a, double b, double of_b, double c) {
     using number = tracked<double, Rule>;
@@ -85,8 +84,8 @@ void check_fused(double a, double of_a, double b, double of_b, double c) {
 }
 
 TEST(Tracked, FusedProductsThatUnderflowHoldInEveryRoundingDirection) {
-    // Rounded down, the result lost an η, each product of the bound one, and σa(|b| + σb) a part
-    // of one before: more than the 3η that were added once.
+    // In downward rounding the result lost an η, each product of the bound one, and σa(|b| + σb)
+    // lost a part of an earlier one: more than the 3η that the bound had.
     const double a = 0x1.fffffe2956eccp-496, of_a = 0x1.fbf7f923257e1p-500;
     const double b = 0x1.000000f3acfffp-527, of_b = 0x1.fffffffffffffp-580;
     const double c = -0x1.0000000858757p-1022;
@@ -98,7 +97,7 @@ TEST(Tracked, FusedProductsThatUnderflowHoldInEveryRoundingDirection) {
         ASSERT_EQ(std::fesetround(direction), 0);
         check_fused<errbound::tight>(a, of_a, b, of_b, c);
         for (int i = 0; i < programs / 4; ++i) {
-            // a·σb of about η, σa·b of up to 2^50 η, and c that leaves little of ab.
+            // a·σb is about η, σa·b is up to 2^50 η, and c nearly cancels ab.
             const double x = std::ldexp(between_1_and_2(), -496 - static_cast<int>(random() % 3));
             const double y = std::ldexp(between_1_and_2(), -527);
             const double of_x =
@@ -112,7 +111,8 @@ TEST(Tracked, FusedProductsThatUnderflowHoldInEveryRoundingDirection) {
     }
 }
 
-TEST(Tracked, SafeWithinAHugeErrorTookItForASmallOneInSomeDirections) {
+// Huge errors became small in some rounding directions.
+TEST(Tracked, SafeWithinAHugeErrorIsUncertain) {
     for (const int direction : {FE_UPWARD, FE_DOWNWARD, FE_TOWARDZERO, FE_TONEAREST}) {
         ASSERT_EQ(std::fesetround(direction), 0);
         const auto huge = tracked<double, errbound::safe>::within(0x1p1000, 0x1p1019);
@@ -147,7 +147,7 @@ void check_straight_lines(std::uint64_t seed) {
         from_product[i] = number(x[i] * y[i]) - number(z[i]);
         sum[i] = number(x[i]) * number(y[i]) * number(z[i]) + number(x[i]);
     }
-    // Values alone: where no bound uses the product too, a compiler is most free.
+    // Only values: if no bound uses the product too, the compiler has the most freedom.
     std::vector<T> value(count), value_from_product(count);
     for (std::size_t i = 0; i < count; ++i)
         value[i] = (number(x[i]) * number(y[i]) - number(z[i])).value();
@@ -167,12 +167,12 @@ void check_straight_lines(std::uint64_t seed) {
     }
 }
 
-TYPED_TEST(TrackedBy, ProductsAreRoundedByThemselves) {
+TYPED_TEST(TrackedBy, ProductsAreRoundedSeparately) {
     check_straight_lines<double, TypeParam>(11);
     check_straight_lines<float, TypeParam>(12);
 }
 
-// From the other side: a bound of one operation on exact, normal numbers is at most 1.01·ε|v|.
+// A bound of one operation on exact, normal numbers is at most 1.01·ε|v|.
 TEST(Tracked, BoundsOfOneOperationAreTight) {
     std::mt19937_64 random(9);
     for (int k = 0; k < 10000; ++k) {
@@ -184,20 +184,20 @@ TEST(Tracked, BoundsOfOneOperationAreTight) {
     }
 }
 
-TEST(Tracked, ExactZeroIsNeitherPositiveNorUncertain) {
+TEST(Tracked, ExactZeroHasTheSignZero) {
     const tracked<double> x = 0.1, zero = x * tracked<double>(0);
     EXPECT_EQ(sign_of(tracked<double>()), sign_type::zero);
     EXPECT_EQ(sign_of(zero), sign_type::zero);
     EXPECT_EQ(sign_of(tracked<double>(3) - tracked<double>(3)), sign_type::zero);
     EXPECT_EQ(sign_of(tracked<double, errbound::safe>(0) * tracked<double, errbound::safe>(0.1)),
               sign_type::zero);
-    // Zero by value only: uncertain.
+    // Only the value is zero.
     EXPECT_EQ(sign_of((x + x) + x - tracked<double>(0.1 + 0.1 + 0.1)), sign_type::uncertain);
     // A value that equals its bound may belong to zero.
     EXPECT_EQ(sign_of(tracked<double>::within(1.0, 1.0)), sign_type::uncertain);
 }
 
-/// Of every size, subnormal and next to overflow among them, by every power of two that matters.
+/// Scales numbers of every size, from subnormal to nearly infinite, by powers of two.
 template <class T>
 void check_steps() {
     constexpr int most = std::numeric_limits<T>::max_exponent;
@@ -215,7 +215,7 @@ void check_steps() {
         ASSERT_EQ(errbound::detail::scaled_by_steps(T(1.5), e), std::ldexp(T(1.5), e));
 }
 
-TEST(Tracked, ScalingInConstantExpressionsIsRoundedOnce) {
+TEST(Tracked, ScalingInConstantExpressionsRoundsOnce) {
     check_steps<float>();
     check_steps<double>();
     static_assert(errbound::number_traits<double>::scale(1.5, -1075) == 0x1p-1074);
@@ -232,7 +232,7 @@ void check_range() {
                             number(-huge) - number(huge), number(infinity), number(-infinity), nan,
                             number(0) * number(infinity), scale(number(huge), 1)})
         EXPECT_EQ(sign_of(x), sign_type::uncertain) << Rule::name << " " << x.value();
-    // Underflow to zero and to the smallest number is not a sign where a bound is promised.
+    // If a bound is promised, underflow to zero or to the smallest number has no sign.
     if constexpr (!std::same_as<Rule, errbound::none>) {
         EXPECT_EQ(sign_of(number(1e-200) * number(1e-200)), sign_type::uncertain);
         EXPECT_EQ(sign_of(number(1e-162) * number(3e-162)), sign_type::uncertain);
@@ -240,18 +240,13 @@ void check_range() {
     }
 }
 
-TEST(Tracked, OverflowAndUnderflowEndUncertain) {
-    check_range<errbound::tight>();
-    check_range<errbound::safe>();
-    check_range<errbound::sharp>();
-    check_range<errbound::interval>();
-    check_range<errbound::residual>();
-    check_range<errbound::affine>();
-    check_range<errbound::relative>();
-    check_range<errbound::none>();
+TEST(Tracked, OverflowAndUnderflowAreUncertain) {
+    using namespace errbound;
+    for_each_rule(rule_types<tight, safe, sharp, interval, residual, affine, relative, none>(),
+                  []<class Rule>() { check_range<Rule>(); });
 }
 
-TEST(Tracked, SafeKnowsNothingBeyondTheOperationsThatItCounts) {
+TEST(Tracked, SafeHasInfiniteErrorsAfterTooManyOperations) {
     tracked<double, errbound::safe> x = 1.0;
     for (int i = 0; i < 29; ++i) x *= x;
     EXPECT_TRUE(std::isfinite(x.error()));
@@ -260,16 +255,16 @@ TEST(Tracked, SafeKnowsNothingBeyondTheOperationsThatItCounts) {
     const tracked<double, errbound::safe> c = 0.1;
     EXPECT_EQ(sign_of(x * (c - c)), sign_type::uncertain);
     EXPECT_EQ(sign_of(x), sign_type::uncertain);
-    // As many as 1/ε, and one more.
+    // The limit of operations is 1/ε.
     using single = tracked<float, errbound::safe>;
     EXPECT_TRUE(std::isfinite(single::from_bound(1, {1, 1 << 23}).error()));
     EXPECT_TRUE(std::isinf(single::from_bound(1, {1, (1 << 23) + 1}).error()));
 }
 
-TEST(Tracked, ARuleMayKnowMoreThanItsError) {
+TEST(Tracked, SomeRulesDetermineMoreSignsThanTheirErrorsDo) {
     using errbound::interval;
     using errbound::residual;
-    // Less than the error, but the correction is known to second order.
+    // The value is less than the error, but the correction is known to second order.
     const tracked<double, residual> a = 0.1, b = 0.3;
     const auto x = (a + a) + a - b;
     EXPECT_LE(std::abs(x.value()), 2 * x.error());
@@ -287,11 +282,11 @@ TEST(Tracked, ARuleMayKnowMoreThanItsError) {
     EXPECT_EQ(sign_of(three * eighth * tracked<double, interval>(8) - three), sign_type::zero);
 }
 
-// Near underflow the remainder of a division is not known: then the quotient's own rounding error
-// is inherited with the divisor's, which matters where that is as large as the divisor.
+// Near underflow the remainder of a division is unknown. The quotient's rounding error then counts
+// with the divisor's error, which matters if that is as large as the divisor.
 TEST(Tracked, ResidualCountsAnUnknownRemainderWithTheDivisorsError) {
     using number = tracked<double, errbound::residual>;
-    // The value of large + y − large is y rounded to 2^-1000, half of which the correction may be.
+    // The value of large + y − large is y rounded to 2^-1000; the correction may be half of it.
     const auto sum = [](double y, double z) {
         const double large = 0x1p-948;
         return sample<number>{(number(large) + number(y)) - number(large) + number(z),
@@ -308,14 +303,14 @@ TEST(Tracked, ResidualCountsAnUnknownRemainderWithTheDivisorsError) {
     }
 }
 
-TEST(Tracked, DivisionByWhatMayBeZeroIsUnknown) {
+TEST(Tracked, QuotientsAreUncertainIfTheDivisorMayBeZero) {
     const auto b = tracked<double>::within(1e-3, 1e-3);
     EXPECT_EQ(sign_of(tracked<double>(1) / b), sign_type::uncertain);
     EXPECT_EQ(sign_of(tracked<double>(1) / tracked<double>(0)), sign_type::uncertain);
     EXPECT_EQ(sign_of(tracked<double>(0) / tracked<double>(3)), sign_type::zero);
 }
 
-TEST(Tracked, RulesAndTypesLiveSideBySideAndInConstantExpressions) {
+TEST(Tracked, WorksInConstantExpressions) {
     constexpr tracked<double> a = 3, b = 0.25;
     static_assert(sign_of(a * b - a) == sign_type::negative);
     static_assert(compare(a, b) == sign_type::positive);
@@ -324,7 +319,7 @@ TEST(Tracked, RulesAndTypesLiveSideBySideAndInConstantExpressions) {
     static_assert(sizeof(tracked<double, errbound::none>) == sizeof(double));
 }
 
-TEST(Tracked, WhatCannotBeExactIsNotTakenForIt) {
+TEST(Tracked, InexactConversionsAreNotExact) {
     // 2^24 + 1 is no float: the difference is not certainly zero.
     EXPECT_EQ(sign_of(tracked<float>(16777217) - tracked<float>(16777216)), sign_type::uncertain);
     EXPECT_EQ(sign_of(tracked<double>(16777217) - tracked<double>(16777216)), sign_type::positive);

@@ -1,5 +1,5 @@
-// Number types wider than double under the rules that they can have, against rationals: random
-// programs of which the numbers are ordinary, about to underflow or about to overflow.
+// Number types wider than double under the rules that support them, compared with rationals in
+// random programs.
 #include <gtest/gtest.h>
 
 #include <boost/multiprecision/cpp_bin_float.hpp>
@@ -22,8 +22,8 @@ namespace multiprecision = boost::multiprecision;
 using errbound::number_traits;
 using errbound::sign_type;
 using errbound::tracked;
-/// Numbers of few bits or of all. Those of one program are ordinary, about to underflow or about to
-/// overflow; `Reach` > 0 limits the exponents.
+/// Numbers with few bits or all bits. The numbers of one program are ordinary, about to underflow
+/// or about to overflow; `Reach` > 0 limits the exponents.
 template <class T, int Reach>
 class edge_numbers {
     using traits = number_traits<T>;
@@ -72,8 +72,8 @@ TEST(WideNumbers, Binary128UnderEveryRule) {
     check_rules<float128, 0, tight, sharp, safe, interval, residual, affine, relative>(300);
 }
 
-// Of double's bits and exponents, so that underflow is met as it is of double, but without
-// subnormal numbers; of more bits; and of exponents too long for rationals.
+// A type with double's bits and exponents underflows as often as double, but has no subnormal
+// numbers. The others have more bits, or exponents that are too long for rationals.
 TEST(WideNumbers, BoostsBinaryFloatsUnderTight) {
     using errbound::tight;
     using multiprecision::et_off;
@@ -91,7 +91,7 @@ TEST(WideNumbers, BoostsMpfrUnderTight) {
         200, errbound::tight>(1000);
 }
 
-/// Sums that underflow: what is lost is counted, and x − x is still certainly zero.
+/// Sums that underflow have the lost part as an error, and x − x is certainly zero.
 template <class T>
 void check_underflow() {
     using number = tracked<T>;
@@ -116,7 +116,7 @@ TEST(WideNumbers, SumsUnderflowWithoutSubnormalNumbers) {
     check_underflow<multiprecision::mpfr_float_50>();
 }
 
-/// `less`: what exponents are counted less than the standard says.
+/// `less`: the difference between the standard's exponents and the type's.
 template <class T>
 void check_facts(int less = 0) {
     using traits = number_traits<T>;
@@ -132,7 +132,7 @@ void check_facts(int less = 0) {
     EXPECT_TRUE(T(traits::scale(traits::underflow_unit(), -1)) == 0);
     EXPECT_TRUE(traits::scale(T(traits::scale(T(3), 100)), -100) == 3);
 }
-TEST(WideNumbers, FactsAreTheTypes) {
+TEST(WideNumbers, TraitsAgreeWithTheTypes) {
     check_facts<support::long_double>();
     check_facts<errbound::float128>();
     check_facts<multiprecision::cpp_bin_float_double>(1);
@@ -159,7 +159,7 @@ TEST(WideNumbers, Binary128ScalesWithOneRounding) {
     }
 }
 
-TEST(WideNumbers, AreConvertedWithWhatThatLoses) {
+TEST(WideNumbers, ConversionsHaveErrors) {
     using errbound::float128;
     const auto third = tracked<float128>(1) / tracked<float128>(3);
     const auto y = errbound::convert<double>(third);

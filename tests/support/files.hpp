@@ -52,6 +52,12 @@ inline bool link(const std::filesystem::path& to, const std::filesystem::path& l
     return !error;
 }
 
+/// The number of files in a folder.
+inline std::ptrdiff_t files_in(const std::filesystem::path& folder) {
+    return std::distance(std::filesystem::directory_iterator(folder),
+                         std::filesystem::directory_iterator{});
+}
+
 inline std::string repeated(const std::string& text, int times) {
     std::string result;
     for (int i = 0; i < times; ++i) result += text;

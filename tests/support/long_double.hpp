@@ -10,4 +10,12 @@ namespace support {
 using long_double =
     std::conditional_t<errbound::detail::is_ieee_format<long double>, long double, double>;
 
+/// True if std::fma compiles for T. On Windows it does not for long doubles.
+template <class T>
+#ifdef __MINGW32__
+inline constexpr bool fuses = sizeof(T) <= sizeof(double);
+#else
+inline constexpr bool fuses = true;
+#endif
+
 }  // namespace support

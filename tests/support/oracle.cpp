@@ -189,28 +189,4 @@ bool collides(const ccd::vertex_vertex_curves& query, shortcuts use, const inter
     });
 }
 
-bool collides(const ccd::vertex_face<double>& query, shortcuts use, const interval& when) {
-    const lines motion{std::array{query.v, query.f0, query.f1, query.f2}};
-    const auto [v, f0, f1, f2] = motion.curves();
-    return collides(ccd::vertex_face_curves{v, f0, f1, f2}, use, when);
-}
-
-bool collides(const ccd::edge_edge<double>& query, shortcuts use, const interval& when) {
-    const lines motion{std::array{query.a0, query.a1, query.b0, query.b1}};
-    const auto [a0, a1, b0, b1] = motion.curves();
-    return collides(ccd::edge_edge_curves{a0, a1, b0, b1}, use, when);
-}
-
-bool collides(const ccd::vertex_edge<double>& query, shortcuts use, const interval& when) {
-    const lines motion{std::array{query.v, query.e0, query.e1}};
-    const auto [v, e0, e1] = motion.curves();
-    return collides(ccd::vertex_edge_curves{v, e0, e1}, use, when);
-}
-
-bool collides(const ccd::vertex_vertex<double>& query, shortcuts use, const interval& when) {
-    const lines motion{std::array{query.v, query.w}};
-    const auto [v, w] = motion.curves();
-    return collides(ccd::vertex_vertex_curves{v, w}, use, when);
-}
-
 }  // namespace oracle

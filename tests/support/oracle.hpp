@@ -2,8 +2,11 @@
 // library, and tests compare the library with it.
 #pragma once
 
+#include <array>
 #include <ccd/curves.hpp>
 #include <ccd/query.hpp>
+#include <cstddef>
+#include <tuple>
 
 namespace oracle {
 
@@ -22,43 +25,46 @@ struct interval {
 };
 
 /// True if the two closed features share a point at some t in the interval. Precondition:
-/// coordinates are finite.
-bool collides(const ccd::vertex_face<double>& query, shortcuts use = shortcuts::on,
-              const interval& when = {});
-bool collides(const ccd::edge_edge<double>& query, shortcuts use = shortcuts::on,
-              const interval& when = {});
-bool collides(const ccd::vertex_edge<double>& query, shortcuts use = shortcuts::on,
-              const interval& when = {});
-bool collides(const ccd::vertex_vertex<double>& query, shortcuts use = shortcuts::on,
-              const interval& when = {});
+/// coordinates are finite, and each curve has at least one control point.
+bool collides(const ccd::vertex_face_curves&, shortcuts = shortcuts::on, const interval& = {});
+bool collides(const ccd::edge_edge_curves&, shortcuts = shortcuts::on, const interval& = {});
+bool collides(const ccd::vertex_edge_curves&, shortcuts = shortcuts::on, const interval& = {});
+bool collides(const ccd::vertex_vertex_curves&, shortcuts = shortcuts::on, const interval& = {});
 
 /// True if the Euclidean distance of the two closed features is at most d1 + d2 at some t in the
 /// interval. The sum is exact. Precondition: d1 and d2 are finite and >= 0.
-bool within(const ccd::vertex_face<double>& query, double d1, double d2,
-            shortcuts use = shortcuts::on, const interval& when = {});
-bool within(const ccd::edge_edge<double>& query, double d1, double d2,
-            shortcuts use = shortcuts::on, const interval& when = {});
-bool within(const ccd::vertex_edge<double>& query, double d1, double d2,
-            shortcuts use = shortcuts::on, const interval& when = {});
-bool within(const ccd::vertex_vertex<double>& query, double d1, double d2,
-            shortcuts use = shortcuts::on, const interval& when = {});
+bool within(const ccd::vertex_face_curves&, double d1, double d2, shortcuts = shortcuts::on,
+            const interval& = {});
+bool within(const ccd::edge_edge_curves&, double d1, double d2, shortcuts = shortcuts::on,
+            const interval& = {});
+bool within(const ccd::vertex_edge_curves&, double d1, double d2, shortcuts = shortcuts::on,
+            const interval& = {});
+bool within(const ccd::vertex_vertex_curves&, double d1, double d2, shortcuts = shortcuts::on,
+            const interval& = {});
 
-/// The same functions for motion along curves with at least one control point each.
-bool collides(const ccd::vertex_face_curves& query, shortcuts use = shortcuts::on,
-              const interval& when = {});
-bool collides(const ccd::edge_edge_curves& query, shortcuts use = shortcuts::on,
-              const interval& when = {});
-bool collides(const ccd::vertex_edge_curves& query, shortcuts use = shortcuts::on,
-              const interval& when = {});
-bool collides(const ccd::vertex_vertex_curves& query, shortcuts use = shortcuts::on,
-              const interval& when = {});
-bool within(const ccd::vertex_face_curves& query, double d1, double d2,
-            shortcuts use = shortcuts::on, const interval& when = {});
-bool within(const ccd::edge_edge_curves& query, double d1, double d2, shortcuts use = shortcuts::on,
-            const interval& when = {});
-bool within(const ccd::vertex_edge_curves& query, double d1, double d2,
-            shortcuts use = shortcuts::on, const interval& when = {});
-bool within(const ccd::vertex_vertex_curves& query, double d1, double d2,
-            shortcuts use = shortcuts::on, const interval& when = {});
+/// Calls f with the linear motion of the query's points as curves.
+template <class Query, class F>
+bool along_lines(const Query& query, const F& f) {
+    using curves = std::tuple<ccd::vertex_face_curves, ccd::edge_edge_curves,
+                              ccd::vertex_edge_curves, ccd::vertex_vertex_curves>;
+    constexpr auto kind = static_cast<std::size_t>(ccd::kind_of<Query>);
+    return ccd::detail::with_members(query, [&](const auto&... p) {
+        const std::array ends{std::array{p.t0, p.t1}...};
+        return std::apply(
+            [&](const auto&... c) { return f(std::tuple_element_t<kind, curves>{c...}); }, ends);
+    });
+}
+
+/// The same functions for queries with linear motion.
+template <class Query>
+bool collides(const Query& query, shortcuts use = shortcuts::on, const interval& when = {}) {
+    return along_lines(query, [&](const auto& curves) { return collides(curves, use, when); });
+}
+template <class Query>
+bool within(const Query& query, double d1, double d2, shortcuts use = shortcuts::on,
+            const interval& when = {}) {
+    return along_lines(query,
+                       [&](const auto& curves) { return within(curves, d1, d2, use, when); });
+}
 
 }  // namespace oracle

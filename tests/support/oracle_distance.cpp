@@ -175,32 +175,4 @@ bool within(const ccd::vertex_vertex_curves& query, double d1, double d2, shortc
                          [](const auto& p) { return std::array<vector, 1>{p[1] - p[0]}; });
 }
 
-bool within(const ccd::vertex_face<double>& query, double d1, double d2, shortcuts use,
-            const interval& when) {
-    const lines motion{std::array{query.v, query.f0, query.f1, query.f2}};
-    const auto [v, f0, f1, f2] = motion.curves();
-    return within(ccd::vertex_face_curves{v, f0, f1, f2}, d1, d2, use, when);
-}
-
-bool within(const ccd::edge_edge<double>& query, double d1, double d2, shortcuts use,
-            const interval& when) {
-    const lines motion{std::array{query.a0, query.a1, query.b0, query.b1}};
-    const auto [a0, a1, b0, b1] = motion.curves();
-    return within(ccd::edge_edge_curves{a0, a1, b0, b1}, d1, d2, use, when);
-}
-
-bool within(const ccd::vertex_edge<double>& query, double d1, double d2, shortcuts use,
-            const interval& when) {
-    const lines motion{std::array{query.v, query.e0, query.e1}};
-    const auto [v, e0, e1] = motion.curves();
-    return within(ccd::vertex_edge_curves{v, e0, e1}, d1, d2, use, when);
-}
-
-bool within(const ccd::vertex_vertex<double>& query, double d1, double d2, shortcuts use,
-            const interval& when) {
-    const lines motion{std::array{query.v, query.w}};
-    const auto [v, w] = motion.curves();
-    return within(ccd::vertex_vertex_curves{v, w}, d1, d2, use, when);
-}
-
 }  // namespace oracle

@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "tests/support/long_double.hpp"
 #include "tests/support/special_values.hpp"
 
 namespace support {
@@ -124,7 +125,7 @@ class random_programs {
                 return one{scale(-a.number, e), -a.exact * power_of(2, e)};
             }
             case 5:
-                if constexpr (errbound::has_subnormals<T> && fuses) {
+                if constexpr (errbound::has_subnormals<T> && fuses<T>) {
                     const one& c = random_() % 2 ? a : b;
                     return one{fma(a.number, b.number, -c.number), a.exact * b.exact - c.exact};
                 }
@@ -140,12 +141,6 @@ class random_programs {
         return std::nullopt;
     }
 
-    // On Windows, fused products of long doubles do not compile.
-#ifdef __MINGW32__
-    static constexpr bool fuses = sizeof(T) <= sizeof(double);
-#else
-    static constexpr bool fuses = true;
-#endif
     std::mt19937_64 random_;
     Draw draw_;
     std::uint64_t seed_;

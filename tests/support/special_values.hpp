@@ -43,6 +43,13 @@ rational exactly(const T& x) {
     }
 }
 
+/// True if x and y are equal, with the same sign, or both NaN.
+template <class T>
+bool same_bits(const T& x, const T& y) {
+    const auto is_negative = [](const T& z) { return std::signbit(static_cast<double>(z)); };
+    return x == y ? is_negative(x) == is_negative(y) : x != x && y != y;
+}
+
 /// Values that tend to reveal errors: zeros, powers of two and their neighbours, subnormals, huge
 /// numbers, and mantissas with few bits (many exact results) or all bits. In small formats, any
 /// code, including infinities and NaN.

@@ -18,25 +18,6 @@ namespace oracle::detail {
 inline constexpr std::array axes{&ccd::point<double>::x, &ccd::point<double>::y,
                                  &ccd::point<double>::z};
 
-/// Linear motion as curves that refer to this object.
-template <std::size_t count>
-class lines {
-  public:
-    explicit lines(const std::array<ccd::moving_point<double>, count>& points) {
-        for (std::size_t i = 0; i < count; ++i) {
-            ends_[i] = {points[i].t0, points[i].t1};
-            curves_[i] = ends_[i];
-        }
-    }
-    lines(const lines&) = delete;
-    lines& operator=(const lines&) = delete;
-    const std::array<ccd::curve, count>& curves() const { return curves_; }
-
-  private:
-    std::array<std::array<ccd::point<double>, 2>, count> ends_;
-    std::array<ccd::curve, count> curves_;
-};
-
 /// The largest exponent for which all control points' coordinates on an axis are whole multiples of
 /// its power of two.
 inline int unit_of(std::span<const ccd::curve> points, std::size_t axis) {

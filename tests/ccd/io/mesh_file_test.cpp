@@ -1,8 +1,8 @@
-// The readers of meshes: binary files, whole files, shares, topology. Texts: spellings_test.cpp.
+// The readers of meshes: binary files, whole files, shares, topology. fuzz_spellings tests all
+// formats and types of numbers; spellings_test.cpp tests texts.
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <array>
 #include <bit>
 #include <ccd/io/mesh_file.hpp>
 #include <cmath>
@@ -14,6 +14,7 @@
 #include <string>
 #include <vector>
 
+#include "tests/ccd/io/fuzz/spellings.hpp"
 #include "tests/ccd/io/meshes.hpp"
 #include "tests/support/files.hpp"
 
@@ -28,67 +29,14 @@ using test_meshes::obj_of;
 using test_meshes::same_mesh;
 namespace fs = std::filesystem;
 
-constexpr std::array formats{"ascii", "binary_little_endian", "binary_big_endian"};
-
-/// All coordinates are floats.
 mesh some_mesh() {
-    return {{{0, 0.5, -0.0},
-             {static_cast<double>(0.1F), 1, 0x1p-149},
-             {-3, static_cast<double>(std::numeric_limits<float>::max()), 7},
-             {1e10, 2, 3}},
+    return {{{0, 0.5, -0.0}, {0.1, 1, 0x1p-149}, {-3, 0x1.fffffep127, 7}, {1e10, 2, 3}},
             {{0, 1, 2}, {3, 2, 1}},
             {{3, 0}}};
 }
 
-const mesh triangle{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}}};
-
-/// The text of a PLY file, with names of the types for coordinates and indices.
-template <class Coordinate, class Index>
-std::string ply(const mesh& m, const std::string& format, const std::string& coordinate,
-                const std::string& index, const std::string& list = "vertex_indices") {
-    std::string text =
-        "ply\nformat " + format + " 1.0\nelement vertex " + std::to_string(m.vertices.size()) +
-        "\nproperty " + coordinate + " x\nproperty " + coordinate + " y\nproperty " + coordinate +
-        " z\nelement face " + std::to_string(m.faces.size()) + "\nproperty list uchar " + index +
-        " " + list + "\nelement edge " + std::to_string(m.edges.size()) + "\nproperty " + index +
-        " vertex1\nproperty " + index + " vertex2\nend_header\n";
-    const auto add = [&](auto value) {
-        if (format == "ascii") {
-            text += test_meshes::shortest(value) + ' ';
-            return;
-        }
-        auto raw = std::bit_cast<std::array<char, sizeof value>>(value);
-        if ((format == "binary_big_endian") != (std::endian::native == std::endian::big))
-            std::ranges::reverse(raw);
-        text.append(raw.data(), raw.size());
-    };
-    const auto end = [&] { text += format == "ascii" ? "\n" : ""; };
-    for (const point<double>& p : m.vertices) {
-        for (const double x : {p.x, p.y, p.z}) add(static_cast<Coordinate>(x));
-        end();
-    }
-    for (const face& f : m.faces) {
-        add(std::uint8_t{3});
-        for (const vertex_index i : f) add(static_cast<Index>(i));
-        end();
-    }
-    for (const edge& e : m.edges) {
-        for (const vertex_index i : e) add(static_cast<Index>(i));
-        end();
-    }
-    return text;
-}
-
-std::string double_ply(const mesh& m, const std::string& format) {
-    return ply<double, std::int32_t>(m, format, "double", "int");
-}
-
-/// PLY with all the line ends of its header exchanged.
-std::string with_header_ends(const std::string& text, const std::string& end) {
-    const std::size_t body = text.find("end_header\n") + 11;
-    std::string header;
-    for (const char c : text.substr(0, body)) header += c == '\n' ? end : std::string(1, c);
-    return header + text.substr(body);
+std::size_t header_size(const std::string& text) {
+    return text.find("end_header\n") + 11;
 }
 
 void expect_ply(const std::string& text, const mesh& expected) {
@@ -99,36 +47,19 @@ std::string ply_error(const std::string& text) {
     return message_of([&] { parse_mesh_ply(text, "m.ply"); });
 }
 
-TEST(Ply, EveryFormGivesTheSameMeshBitForBit) {
-    const mesh m = some_mesh();
-    for (const std::string format : formats) {
-        expect_ply(ply<float, std::int32_t>(m, format, "float", "int"), m);
-        expect_ply(ply<double, std::uint32_t>(m, format, "double", "uint"), m);
-        expect_ply(ply<double, std::int8_t>(m, format, "float64", "char", "vertex_index"), m);
-        expect_ply(ply<float, std::uint16_t>(m, format, "float32", "ushort"), m);
-        mesh doubles = m;
-        doubles.vertices[0] = {0.1, 0x1p-1074, 0x1.fffffffffffffp1023};
-        expect_ply(double_ply(doubles, format), doubles);
-    }
+// The first bytes of x, LF, LF, CR and LF, are not part of the header.
+TEST(Ply, BodiesThatBeginWithLineEnds) {
+    mesh m = some_mesh();
+    m.vertices[0].x = std::bit_cast<double>(0x0a0d0a0a0a0d0a0aU);
+    const std::string text = ply_of(m);
+    const std::size_t header = header_size(text);
+    for (const char* end : {"\n", "\r\n", "\r"})
+        expect_ply(test_meshes::with_line_ends(text.substr(0, header), end) + text.substr(header),
+                   m);
 }
 
-TEST(Ply, HeadersWithMarksCarriageReturnsAndComments) {
-    // 0x0a0d0a0a: the first bytes of x are LF and CR, which are not part of the header.
-    mesh line_end = triangle;
-    line_end.vertices[0].x = std::bit_cast<float>(0x0a0d0a0aU);
-    for (const char* end : {"\n", "\r\n", "\r"}) {
-        for (const char* format : formats) {
-            std::string text = double_ply(some_mesh(), format);
-            text.insert(text.find("element"), "comment element vertex 7\nobj_info \xff\n");
-            expect_ply("\xef\xbb\xbf" + with_header_ends(text, end), some_mesh());
-        }
-        const auto text = ply<float, std::int32_t>(line_end, "binary_big_endian", "float", "int");
-        expect_ply(with_header_ends(text, end), line_end);
-    }
-}
-
-/// Faces and edges of any vertices, repeated ones too; or none of them.
-TEST(Meshes, WrittenAsReadBack) {
+/// Faces and edges of any vertices, also repeated ones, or without any.
+TEST(Meshes, AreReadBackAsWritten) {
     std::mt19937_64 random(12);
     for (int i = 0; i < 500; ++i) {
         mesh m;
@@ -150,8 +81,8 @@ TEST(Meshes, WrittenAsReadBack) {
 }
 
 TEST(Ply, BadBinary) {
-    const std::string good = double_ply(some_mesh(), "binary_little_endian");
-    const std::size_t header = good.find("end_header\n") + 11;
+    const std::string good = ply_of(some_mesh());
+    const std::size_t header = header_size(good);
     const std::string truncated =
         "file ends here; expected more data (truncated, or a wrong count)";
     EXPECT_EQ(ply_error(good.substr(0, header + 30)), "m.ply: vertex 1: " + truncated);
@@ -161,11 +92,10 @@ TEST(Ply, BadBinary) {
               "m.ply: number of bytes after the last element is 1; expected 0");
     mesh m = some_mesh();
     m.vertices[2].y = std::numeric_limits<double>::infinity();
-    EXPECT_EQ(ply_error(ply<float, std::int32_t>(m, "binary_big_endian", "float", "int")),
+    EXPECT_EQ(ply_error(ply_of(m)),
               "m.ply: vertex 2: y is an infinity; expected a finite number");
     m.vertices[2].y = std::nan("");
-    EXPECT_EQ(ply_error(double_ply(m, "binary_big_endian")),
-              "m.ply: vertex 2: y is NaN; expected a finite number");
+    EXPECT_EQ(ply_error(ply_of(m)), "m.ply: vertex 2: y is NaN; expected a finite number");
     // A list that claims 4 GiB.
     std::string list = good.substr(0, header) + "\xff\xff\xff\xff";
     list.insert(list.find("element"), "element a 1\nproperty list uint double b\n");
@@ -192,7 +122,7 @@ TEST(Meshes, Topology) {
 
 TEST(Meshes, Files) {
     const temporary_directory directory;
-    const std::string text = double_ply(some_mesh(), "ascii");
+    const std::string text = ply_of(some_mesh());
     write(directory.path / "m.PLY", text);
     EXPECT_TRUE(same_mesh(read_mesh(directory.path / "m.PLY"), some_mesh()));
     write(directory.path / "m.stl", text);
@@ -214,10 +144,10 @@ mesh larger_mesh() {
     return m;
 }
 
-/// Shares, put together, are the file.
+/// Checks that the shares of a file together are the mesh.
 void expect_shared(const fs::path& path, const std::string& text, const mesh& whole) {
     write(path, text);
-    for (std::size_t shares = 1; shares < 30; ++shares) {
+    for (const std::size_t shares : {1, 2, 3, 5, 9, 29}) {
         mesh together;
         for (std::size_t i = 0; i < shares; ++i) {
             const mesh_share share = read_mesh_share(path, i, shares);
@@ -225,24 +155,31 @@ void expect_shared(const fs::path& path, const std::string& text, const mesh& wh
             EXPECT_EQ(share.faces.first, together.faces.size());
             EXPECT_EQ(share.edges.first, together.edges.size());
             EXPECT_EQ(share.vertices.all, whole.vertices.size());
-            const auto append = [&](auto& all, const auto& more) {
-                EXPECT_LE(more.size(), (whole.vertices.size() + shares - 1) / shares);
+            const auto append = [&](auto& all, const auto& more, const auto& expected) {
+                EXPECT_LE(more.size(), (expected.size() + shares - 1) / shares);
                 all.insert(all.end(), more.begin(), more.end());
             };
-            append(together.vertices, share.elements.vertices);
-            append(together.faces, share.elements.faces);
-            append(together.edges, share.elements.edges);
+            append(together.vertices, share.elements.vertices, whole.vertices);
+            append(together.faces, share.elements.faces, whole.faces);
+            append(together.edges, share.elements.edges, whole.edges);
         }
         EXPECT_TRUE(same_mesh(together, whole)) << text;
     }
 }
 
-TEST(Shares, MakeTheWholeOfEveryForm) {
+TEST(Shares, TogetherAreTheWholeOfEverySpelling) {
     const temporary_directory directory;
-    const mesh m = larger_mesh();
     const fs::path path = directory.path / "m.ply";
-    for (const char* format : formats) expect_shared(path, double_ply(m, format), m);
-    expect_shared(directory.path / "m.obj", obj_of(m), m);
+    expect_shared(path, ply_of(larger_mesh()), larger_mesh());
+    std::minstd_rand random(1);
+    for (int i = 0; i < 100; ++i) {
+        std::vector<std::uint8_t> bytes(300);
+        for (std::uint8_t& b : bytes) b = static_cast<std::uint8_t>(random() >> 8);
+        const auto [in_ply, ply] = fuzz::spelled_ply(bytes);
+        const auto [in_obj, obj] = fuzz::spelled_obj(bytes);
+        expect_shared(path, ply, in_ply);
+        expect_shared(directory.path / "m.obj", obj, in_obj);
+    }
     // Other elements and properties are skipped.
     expect_shared(path,
                   "ply\r\nformat ascii 1.0\r\nobj_info none\r\nelement face 1\r\n"
@@ -254,7 +191,7 @@ TEST(Shares, MakeTheWholeOfEveryForm) {
                   {{{-7, 0.1, 0.5}, {1, 0, 0}, {2, 0, 0}}, {{2, 1, 0}}, {}});
 }
 
-TEST(Shares, SomeShareReportsABadFile) {
+TEST(Shares, OneShareReportsABadFile) {
     const temporary_directory directory;
     const fs::path path = directory.path / "m.ply";
     const auto first_error = [&](const std::string& text) {
@@ -265,7 +202,7 @@ TEST(Shares, SomeShareReportsABadFile) {
         }
         return std::string("no error");
     };
-    const std::string good = double_ply(larger_mesh(), "binary_little_endian");
+    const std::string good = ply_of(larger_mesh());
     EXPECT_EQ(first_error(good), "no error");
     EXPECT_EQ(first_error(""), "file is empty; expected a PLY mesh");
     for (std::size_t size = 1; size < good.size(); size += 7)
@@ -278,8 +215,7 @@ TEST(Shares, SomeShareReportsABadFile) {
               "triangulate splits polygons)");
     mesh beyond = larger_mesh();
     beyond.faces[20][1] = 23;
-    EXPECT_EQ(first_error(double_ply(beyond, "ascii")),
-              "face 20: vertex index is 23; expected less than 23");
+    EXPECT_EQ(first_error(ply_of(beyond)), "face 20: vertex index is 23; expected less than 23");
     EXPECT_THROW(read_mesh_share(path, 3, 3), std::invalid_argument);
     if (fs::exists("/dev/null")) {  // not on Windows
         const std::string error = message_of([&] { read_mesh_share("/dev/null", 0, 3); });

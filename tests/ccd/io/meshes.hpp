@@ -1,4 +1,4 @@
-// Comparison of meshes bit for bit, and OBJ text for them.
+// Comparison of meshes bit for bit, and texts of meshes.
 #pragma once
 
 #include <algorithm>
@@ -9,6 +9,7 @@
 #include <cmath>
 #include <cstdint>
 #include <string>
+#include <vector>
 
 namespace test_meshes {
 
@@ -42,6 +43,23 @@ template <class Number>
 std::string shortest(Number x) {
     std::array<char, 32> digits;
     return {digits.data(), std::to_chars(digits.begin(), digits.end(), x).ptr};
+}
+
+/// The texts between '|'.
+inline std::vector<std::string> texts(const std::string& all) {
+    std::vector<std::string> found;
+    for (std::size_t begin = 0, end = 0; end != all.npos; begin = end + 1) {
+        end = all.find('|', begin);
+        found.push_back(all.substr(begin, end - begin));
+    }
+    return found;
+}
+
+/// The text with other ends of its lines.
+inline std::string with_line_ends(const std::string& text, const std::string& end) {
+    std::string result;
+    for (const char c : text) result += c == '\n' ? end : std::string(1, c);
+    return result;
 }
 
 inline std::string obj_of(const ccd::mesh& m) {

@@ -1,9 +1,8 @@
-// The readers of stored queries: the points that rows are, ranges of files, messages for bad input.
+// The readers of stored queries: points from rows, ranges of files, messages for bad input.
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <ccd/io/query_file.hpp>
-#include <ccd/methods/transform.hpp>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -11,6 +10,7 @@
 #include <vector>
 
 #include "ccd/io/query_ranges.hpp"
+#include "tests/ccd/io/content.hpp"
 #include "tests/support/files.hpp"
 
 namespace {
@@ -21,9 +21,10 @@ using test_files::message_of;
 using test_files::repeated;
 using test_files::temporary_directory;
 using test_files::write;
+using test_queries::content;
 namespace fs = std::filesystem;
 
-/// A text or a file, and part of the message that refuses it.
+/// A text or a file, and a part of the message for it.
 using bad_case = std::pair<std::string, std::string>;
 
 void expect_message(const std::string& found, const std::string& part, const std::string& of) {
@@ -41,7 +42,7 @@ const std::vector<vertex_face<double>>& vertex_faces(const query_file& file) {
 TEST(Queries, RowsBecomePoints) {
     std::string text;
     for (int row = 0; row < 8; ++row) text += std::to_string(row) + ",2,1,1,0,1\n";
-    const query_file vf = queries(text);
+    const query_file vf = queries(text), ee = parse_queries(text, "q", kind::edge_edge, false);
     EXPECT_EQ(vf.kind(), kind::vertex_face);
     ASSERT_EQ(vf.size(), 1U);
     EXPECT_FALSE(vf.truth.has_value());
@@ -50,8 +51,6 @@ TEST(Queries, RowsBecomePoints) {
     EXPECT_EQ(q.f0, (moving_point<double>{{0.5, 1, 0}, {2.5, 1, 0}}));
     EXPECT_EQ(q.f1, (moving_point<double>{{1, 1, 0}, {3, 1, 0}}));
     EXPECT_EQ(q.f2, (moving_point<double>{{1.5, 1, 0}, {3.5, 1, 0}}));
-
-    const query_file ee = parse_queries(text, "q", kind::edge_edge, false);
     const auto& edges = std::get<std::vector<edge_edge<double>>>(ee.queries);
     ASSERT_EQ(edges.size(), 1U);
     EXPECT_EQ(edges[0].a1, q.f0);
@@ -85,7 +84,6 @@ TEST(Queries, BadInput) {
          "q.csv:12: number of rows of the query from line 9 on is 4; expected 8 (truncated)"},
         {good + "1,1,1.5,1,1,1\n", "q.csv:2: numerator of y is '1.5'; expected an integer"},
         {"1,1,1,1,1,x\n", "q.csv:1: denominator of z is 'x'; expected an integer"},
-        {"nan,1,1,1,1,1\n", "q.csv:1: numerator of x is 'nan'; expected an integer"},
         {"1,1,1,,1,1\n", "q.csv:1: denominator of y is ''; expected an integer"},
         {repeated(good, 7) + "1,1,1,0,1,1\n",
          "q.csv:8: y is '1'/'0'; expected a nonzero denominator"},
@@ -98,7 +96,6 @@ TEST(Queries, BadInput) {
          "...'/'1', which has too many digits; expected at most 4096"},
         {"0x" + repeated("1", 9999) + ",1,1\n", "which has too many digits; expected at most 4096"},
         {"0,NaN,0\n", "q.csv:1: y is 'NaN'; expected a finite number"},
-        {"0,0,-inf\n", "q.csv:1: z is '-inf'; expected a finite number"},
         {"0,0,1e999\n", "q.csv:1: z is '1e999', which overflows; expected a finite number"},
         {"0,0,0x1p-2000\n",
          "q.csv:1: z is '0x1p-2000', which no double equals; expected an exact double (or "
@@ -177,38 +174,22 @@ TEST(Queries, Truth) {
         expect_message(message_of([&] { parse_truth(text, "t.json"); }), part, text.substr(0, 20));
 }
 
-/// The numbers and the truth of queries, put together.
-struct content {
-    std::vector<double> numbers;
-    std::vector<bool> truth;
-
-    void add(const query_file& file) {
-        for (const auto& query : vertex_faces(file))
-            for (const auto& p : points_of(query))
-                for (const auto& x : {p.t0, p.t1}) numbers.insert(numbers.end(), {x.x, x.y, x.z});
-        if (file.truth) truth.insert(truth.end(), file.truth->begin(), file.truth->end());
-    }
-    bool operator==(const content&) const = default;
-};
-
-/// Ranges, of range_reader and of read_queries, are together the whole file.
+/// Checks that the ranges of range_reader and of read_queries together are the whole file.
 void expect_ranges(const fs::path& file, std::size_t size) {
     const query_file whole = read_queries(file, std::nullopt, false);
     const query_index index = index_queries(file, size);
     EXPECT_EQ(index.ranges.size(), (whole.size() + size - 1) / size);
     range_reader reader(file, std::nullopt, false, index);
-    content expected, by_reader, by_file;
-    expected.add(whole);
+    content by_reader, by_file;
     for (std::size_t i = 0; i < index.ranges.size(); ++i) {
         const query_file part = reader.read(i);
-        const query_file same = read_queries(file, std::nullopt, false, {i * size, size});
         EXPECT_EQ(part.size(), std::min(size, whole.size() - i * size));
         EXPECT_EQ(part.truth.has_value(), whole.truth.has_value());
         by_reader.add(part);
-        by_file.add(same);
+        by_file.add(read_queries(file, std::nullopt, false, {i * size, size}));
     }
-    EXPECT_EQ(by_reader, expected);
-    EXPECT_EQ(by_file, expected);
+    EXPECT_EQ(by_reader, content(whole));
+    EXPECT_EQ(by_file, content(whole));
     EXPECT_EQ(message_of([&] { read_queries(file, std::nullopt, false, {whole.size()}); }),
               file.string() + ": number of queries is " + std::to_string(whole.size()) +
                   "; expected more than the first " + std::to_string(whole.size()) +
@@ -222,7 +203,7 @@ std::string rows(std::size_t queries, const std::string& end, const std::string&
     return text;
 }
 
-TEST(QueryRanges, AreTheFile) {
+TEST(QueryRanges, TogetherAreTheFile) {
     const temporary_directory directory;
     const fs::path file = directory.path / "queries" / "vf.csv";
     for (const std::string end : {"\n", "\r\n", "\r"})
@@ -239,7 +220,7 @@ TEST(QueryRanges, AreTheFile) {
     for (const std::size_t size : {1, 2, 5}) expect_ranges(file, size);
 }
 
-TEST(QueryRanges, ErrorsNameTheFilesLines) {
+TEST(QueryRanges, ErrorsHaveLinesOfTheFile) {
     const temporary_directory directory;
     const fs::path file = directory.path / "q" / "vf.csv";
     const auto message = [&](std::size_t range) {

@@ -1,5 +1,5 @@
-// More than 200 spellings of OBJ and PLY: the mesh of each, or the message that refuses it. Every
-// mesh is written as PLY and read again.
+// Spellings of OBJ and PLY: the mesh of each, or the message that refuses it. Every mesh is written
+// as PLY and read again. (Spellings of numbers: text_test.cpp.)
 #include <gtest/gtest.h>
 
 #include <array>
@@ -15,6 +15,8 @@ namespace {
 using namespace ccd;
 using namespace ccd::io;
 using namespace std::string_view_literals;
+using test_meshes::texts;
+using test_meshes::with_line_ends;
 
 /// A text, and its meaning: vertices, then faces and edges by index; or "!" and part of a message.
 struct spelling {
@@ -57,58 +59,26 @@ const auto split_obj = [](const std::string& text) {
     return parse_mesh_obj(text, "m.obj", {.triangulate = true});
 };
 
-/// One vertex.
+/// Spellings of the vertex (1, 2, 3).
+const auto of_a_vertex = texts(
+    "v 1 2 3|v 1 2 3\n|v 1 2 3\r|v 1 2 3\r\n|v\t1\t2\t3|  v   1 2  3  |v 1. 2.0 03|\n\nv 1 2 3\n\n"
+    "|v 1e0 2E+0 30e-1|v 0x1p0 0X2 0x1.8p1|v 1 2 3 1|v 1 2 3 1.0|v 1 2 3 .5 .25 1|v 1 2 3 255 0 0"
+    "|v 1 2 3 .5 .25 1 1|v 1 2 3 .5 .25 1 0|v 1 2 3 # red|v 1 2 3 #red|v 1 2 3\t#|#\nv 1 2 3"
+    "|# v 4 5 6\nv 1 2 3|# C:\\\nv 1 2 3|v 1 2 3 # C:\\\n# C:\\meshes\\|#\x01\xff\nv 1 2 3"
+    "|v 1 \\\n2 \\\r\n 3|v 1 2 \\\n3 # all \\\n# of it|\\\nv 1 2 3|  \n\t\nv 1 2 3"
+    "|\xef\xbb\xbfv 1 2 3|v 1 2 3\x1a|v 1 2 3\n\x1a|v 1 2 3\r\n\x1a\x1a\r\n"
+    "|o a#b\ng a # b\nusemtl a#1\nv 1 2 3|vt 0 0\nvn 0 0 1\nvp 0\ns off\nmtllib a.mtl\nv 1 2 3");
+
+/// Other vertices, and files that are refused.
 constexpr spelling of_vertices[]{
-    {"v 1 2 3", "v 1 2 3"},
-    {"v 1 2 3\n", "v 1 2 3"},
-    {"v 1 2 3\r", "v 1 2 3"},
-    {"v 1 2 3\r\n", "v 1 2 3"},
-    {"v\t1\t2\t3", "v 1 2 3"},
-    {"  v   1 2  3  ", "v 1 2 3"},
     {"v +1 -2 +.5", "v 1 -2 0.5"},
-    {"v 1. 2.0 03", "v 1 2 3"},
-    {"v 1e0 2E+0 30e-1", "v 1 2 3"},
-    {"v 0x1p0 0X2 0x1.8p1", "v 1 2 3"},
     {"v -0 0 -0.0", "v -0 0 -0"},
     {"v 0.1 1e-310 4.9e-324", "v 0.1 1e-310 5e-324"},
     {"v 1.7976931348623157e308 1e-999 0", "v 1.7976931348623157e+308 0 0"},
     {"v 0.1000000000000000055511151231257827 0 0", "v 0.1 0 0"},
-    {"v 1 2 3 1", "v 1 2 3"},
-    {"v 1 2 3 1.0", "v 1 2 3"},
-    {"v 1 2 3 .5 .25 1", "v 1 2 3"},
-    {"v 1 2 3 255 0 0", "v 1 2 3"},
-    {"v 1 2 3 .5 .25 1 1", "v 1 2 3"},
-    {"v 1 2 3 .5 .25 1 0", "v 1 2 3"},
-    {"v 1 2 3 # red", "v 1 2 3"},
-    {"v 1 2 3 #red", "v 1 2 3"},
-    {"v 1 2 3\t#", "v 1 2 3"},
-    {"# v 4 5 6\nv 1 2 3", "v 1 2 3"},
-    {"#\nv 1 2 3", "v 1 2 3"},
-    {"# C:\\\nv 1 2 3", "v 1 2 3"},
-    {"v 1 2 3 # C:\\\n# C:\\meshes\\", "v 1 2 3"},
-    {"#\x01\xff\nv 1 2 3", "v 1 2 3"},
-    {"v 1 \\\n2 \\\r\n 3", "v 1 2 3"},
-    {"v 1 2 \\\n3 # all \\\n# of it", "v 1 2 3"},
-    {"\\\nv 1 2 3", "v 1 2 3"},
-    {"\n\n  \n\t\nv 1 2 3\n\n", "v 1 2 3"},
-    {"\xef\xbb\xbfv 1 2 3", "v 1 2 3"},
-    {"v 1 2 3\x1a", "v 1 2 3"},
-    {"v 1 2 3\n\x1a", "v 1 2 3"},
-    {"v 1 2 3\r\n\x1a\x1a\r\n", "v 1 2 3"},
-    {"o a#b\ng a # b\nusemtl a#1\nv 1 2 3", "v 1 2 3"},
-    {"vt 0 0\nvn 0 0 1\nvp 0\ns off\nmtllib a.mtl\nv 1 2 3", "v 1 2 3"},
     {"v 1 2 3\nv 1 2 3", "v 1 2 3 v 1 2 3"},
-    {"v -1.#IND 0 0", "!m.obj:1: value is '-1.#IND'; expected a finite number"},
-    {"v 0 1.#INF 0", "!m.obj:1: value is '1.#INF'; expected a finite number"},
-    {"v 0 0 +1.#QNAN0", "!value is '+1.#QNAN0'; expected a finite number"},
-    {"v 0 0 1.#SNAN", "!value is '1.#SNAN'; expected a finite number"},
-    {"v 0 0 1.#J", "!value is '1.#J'; expected a finite number"},
-    {"v 0 0 -nan(ind)", "!value is '-nan(ind)'; expected a finite number"},
-    {"v 0 0 nan(snan)", "!value is 'nan(snan)'; expected a finite number"},
     {"v 0 nan 0", "!value is 'nan'; expected a finite number"},
-    {"v NaN 0 0", "!value is 'NaN'; expected a finite number"},
     {"v 0 -inf 0", "!value is '-inf'; expected a finite number"},
-    {"v 0 Infinity 0", "!value is 'Infinity'; expected a finite number"},
     {"v 0 0 1e999", "!value is '1e999', which overflows; expected a finite number"},
     {"v 0 0 0x1p1024", "!value is '0x1p1024', which overflows"},
     {"v 1 2 3#red", "!value is '3#red'; expected a number"},
@@ -121,15 +91,11 @@ constexpr spelling of_vertices[]{
     {"v 1 2 3 0 0 nan", "!value is 'nan'; expected a finite number"},
     {"v 1,5 2 3", "!value is '1,5'; expected a number"},
     {"v 1 2 3f", "!value is '3f'; expected a number"},
-    {"v 1 2 1e", "!value is '1e'; expected a number"},
-    {"v 1 2 0x", "!value is '0x'; expected a number"},
-    {"v 1 2 --3", "!value is '--3'; expected a number"},
     {"v 1 2 \\\n3\\\n4", "!backslash may split a word"},
     {"v 1 2 3 \\", "!last line ends with a backslash"},
     {"v 1 2 3\n\x1av 1 2 3", "!line is '\\x1av 1 2 3'; expected no control"},
     {"v 1 2 3\x1a\nv 1 2 3", "!line is 'v 1 2 3\\x1a'; expected no control"},
     {"v 1 2 3\f", "!expected no control characters"},
-    {"V 1 2 3", "!keyword is 'V'"},
     {"v#1 2 3", "!keyword is 'v#1'"},
     {"o nothing\n", "!m.obj: number of vertices is 0; expected lines 'v x y z'"},
     {"", "!m.obj: file is empty"},
@@ -138,62 +104,42 @@ constexpr spelling of_vertices[]{
     {"\xfe\xffv", "!encoding is UTF-16 or UTF-32"},
     {"v 1 2 3\n\xef\xbb\xbfv 1 2 3",
      "!m.obj:2: keyword is '\\xef\\xbb\\xbfv'; expected v, f, l or another of OBJ's"},
-    {"\x7f"
-     "ELF\1\2",
-     "!m.obj:1: line is '\\x7fELF\\x01\\x02'; expected no control characters"},
     {"v\0 \0\x30\0\n\0"sv, "!m.obj:1: line is 'v\\x00 \\x000\\x00'; expected no control"},
     {"v 1 2 \\\n3\nv 0 1 \\\nx", "!m.obj:3: value is 'x'; expected a number"},
+    {"v 0 0 -1.#IND", "!m.obj:1: value is '-1.#IND'; expected a finite number"},
+    {"\177ELF\1\2", "!m.obj:1: line is '\\x7fELF\\x01\\x02'; expected no control characters"},
 };
 
-/// Elements of five vertices.
+/// Spellings of the triangle of the first three vertices, of five.
+const auto of_a_face = texts(
+    "f 1 2 3|f\t1  2\t3 |f +1 +2 03|f -5 -4 -3|f 1/1 2/2 3/3|f 1/1/1 2/2/2 3/3/3|f 1//1 2//2 3//3"
+    "|f 1/1/ 2/2/ 3/3/|f 1/ 2/ 3/|f 1// 2// 3//|f 1 2/ 3/7/|f 1/-1/-1 2/9 3//99|fo 1 2 3|f 1 2 "
+    "3\x1a"
+    "|f 1 2 \\\n3|f 1 2 3 # 4|f \\\n\\\n1 2 \\\n3 # last\ng a \\\nf 1 2 4");
+
+/// Other elements of five vertices.
 constexpr spelling of_elements[]{
     {"", ""},
-    {"f 1 2 3", "f 0 1 2"},
-    {"f\t1  2\t3 ", "f 0 1 2"},
     {"f 3 1 2", "f 2 0 1"},
-    {"f +1 +2 03", "f 0 1 2"},
-    {"f -5 -4 -3", "f 0 1 2"},
     {"f 1 -1 3", "f 0 4 2"},
-    {"f 1/1 2/2 3/3", "f 0 1 2"},
-    {"f 1/1/1 2/2/2 3/3/3", "f 0 1 2"},
-    {"f 1//1 2//2 3//3", "f 0 1 2"},
-    {"f 1/1/ 2/2/ 3/3/", "f 0 1 2"},
-    {"f 1/ 2/ 3/", "f 0 1 2"},
-    {"f 1// 2// 3//", "f 0 1 2"},
-    {"f 1 2/ 3/7/", "f 0 1 2"},
-    {"f 1/-1/-1 2/9 3//99", "f 0 1 2"},
-    {"f 4 4 5", "f 3 3 4"},
-    {"f 4 5 4", "f 3 4 3"},
-    {"f 5 4 4", "f 4 3 3"},
-    {"f 4 4 4", "f 3 3 3"},
+    {"f 4 4 5\nf 4 5 4\nf 5 4 4\nf 4 4 4", "f 3 3 4 f 3 4 3 f 4 3 3 f 3 3 3"},
     {"f 1 2 3\nf 1 2 3\nf 3 2 1", "f 0 1 2 f 0 1 2 f 2 1 0"},
-    {"fo 1 2 3", "f 0 1 2"},
-    {"f 1 2 \\\n3", "f 0 1 2"},
-    {"f 1 2 3 # 4", "f 0 1 2"},
     {"f 1 2 3 #4 \\\nf 1 2 4", "f 0 1 2 f 0 1 3"},
-    {"f \\\n\\\n1 2 \\\n3 # last\ng a \\\nf 1 2 4", "f 0 1 2"},
-    {"l 1 2", "e 0 1"},
+    {"f 1 2 3\ng a\no b\ns 1\nf 1 2 4", "f 0 1 2 f 0 1 3"},
     {"l 2 1", "e 1 0"},
     {"l 1 2 3 1", "e 0 1 e 1 2 e 2 0"},
-    {"l 1/1 2/2", "e 0 1"},
-    {"l 1/ 2/", "e 0 1"},
-    {"l 1 1", "e 0 0"},
-    {"l 1 1 2", "e 0 0 e 0 1"},
+    {"l 1/1 2/2\nl 1/ 2/", "e 0 1 e 0 1"},
+    {"l 1 1\nl 1 1 2", "e 0 0 e 0 0 e 0 1"},
     {"l -1 -2", "e 4 3"},
-    {"l 1 2\nl 1 2", "e 0 1 e 0 1"},
     {"f 1 2 3\nl 4 5", "f 0 1 2 e 3 4"},
     {"l 4 5\nf 1 2 3", "f 0 1 2 e 3 4"},
-    {"p 1", "e 0 0"},
     {"p 1 3 5", "e 0 0 e 2 2 e 4 4"},
     {"p -1", "e 4 4"},
     {"p 1/ 1", "e 0 0"},
     {"f 1 2 3\np 1 2 4", "f 0 1 2 e 3 3"},
     {"p 4 1\nf 1 2 3", "f 0 1 2 e 3 3"},
     {"l 1 2\np 2", "e 0 1"},
-    {"f 1 2 3\ng a\no b\ns 1\nf 1 2 4", "f 0 1 2 f 0 1 3"},
-    {"f 1 2 3\x1a", "f 0 1 2"},
     {"f 1 2", "!m.obj:6: number of vertices of a face is 2; expected 3"},
-    {"f", "!number of vertices of a face is 0; expected 3"},
     {"f # 1 2 3", "!number of vertices of a face is 0"},
     {"f 1 2 3 4", "!number of vertices of a face is 4; expected 3 (the option triangulate"},
     {"f 1 2 3 4 5", "!number of vertices of a face is 5; expected 3"},
@@ -203,17 +149,8 @@ constexpr spelling of_elements[]{
     {"f 1 2 -6", "!vertex index is -6"},
     {"f 1 2 4294967296", "!vertex index is 4294967296"},
     {"f 1 2 99999999999999999999", "!vertex is '99999999999999999999'"},
-    {"f 1 2 3.0", "!vertex is '3.0'; expected v,"},
-    {"f 1 2 x", "!vertex is 'x'; expected v,"},
-    {"f 1 2 /3", "!vertex is '/3'; expected v,"},
-    {"f 1 2 //", "!vertex is '//'; expected v,"},
-    {"f 1/0 2 3", "!vertex is '1/0'; expected v,"},
-    {"f 1//0 2 3", "!vertex is '1//0'; expected v,"},
-    {"f 1/x 2 3", "!vertex is '1/x'; expected v,"},
     {"f 1/1/1/1 2 3", "!vertex is '1/1/1/1'; expected at most v/vt/vn"},
     {"f 1/// 2 3", "!vertex is '1///'; expected at most v/vt/vn"},
-    {"f ++1 2 3", "!vertex is '++1'; expected v,"},
-    {"f 1,2,3", "!vertex is '1,2,3'; expected v,"},
     // "f 1 2 34" or "f 1 2 3 4", a comment of one line or of two: readers differ.
     {"f 1 2 3\\\n4", "!m.obj:6: backslash may split a word; expected a blank"},
     {"f 1 2 \\ \n3\n", "!m.obj:6: vertex is '"},
@@ -227,15 +164,13 @@ constexpr spelling of_elements[]{
     {"surf 0 1 0 1 1 2 3 4", "!keyword is 'surf', which a mesh cannot hold"},
 };
 
-/// Elements of five vertices, polygons split.
+/// Elements of five vertices, with polygons split.
 constexpr spelling of_polygons[]{
     {"f 1 2 3", "f 0 1 2"},
-    {"f 1 2 3 4", "f 0 1 2 f 0 2 3"},
     {"f 2 3 4 1", "f 1 2 3 f 1 3 0"},
     {"f 1 2 3 4 5", "f 0 1 2 f 0 2 3 f 0 3 4"},
     {"f 1/1/ 2/2/ 3/3/ 4/4/", "f 0 1 2 f 0 2 3"},
     {"f -5 -4 -3 -2", "f 0 1 2 f 0 2 3"},
-    {"f 1 2 2 3", "f 0 1 1 f 0 1 2"},
     {"f 1 2 1 2 1", "f 0 1 0 f 0 0 1 f 0 1 0"},
     {"f 1 2 3\nf 1 2 3 4\nl 4 5", "f 0 1 2 f 0 1 2 f 0 2 3 e 3 4"},
     {"f 1 2", "!number of vertices of a face is 2; expected 3"},
@@ -246,9 +181,16 @@ const std::string five = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nv 5 5 5\n";
 const std::string described_five = "v 0 0 0 v 1 0 0 v 0 1 0 v 0 0 1 v 5 5 5";
 
 TEST(Spellings, Obj) {
+    const auto expect = [](const std::string& text, const std::string& meaning) {
+        expect_meaning(obj, five + text, meaning, described_five);
+    };
+    for (const auto& text : of_a_vertex) expect_meaning(obj, text, "v 1 2 3");
     for (const auto& [text, meaning] : of_vertices) expect_meaning(obj, std::string(text), meaning);
-    for (const auto& [text, meaning] : of_elements)
-        expect_meaning(obj, five + std::string(text), meaning, described_five);
+    for (const auto& text : of_a_face) expect(text, "f 0 1 2");
+    for (const auto& [text, meaning] : of_elements) expect(std::string(text), meaning);
+    for (const std::string word : {"3.0", "x", "/3", "//", "1/0", "1//0", "1/x", "++1", "1,2,3"})
+        for (const char* element : {"f 1 2 ", "l 1 ", "p "})
+            expect(element + word, "!found '" + word + "', expected v,");
     for (const auto& [text, meaning] : of_polygons)
         expect_meaning(split_obj, five + std::string(text), meaning, described_five);
 }
@@ -268,12 +210,6 @@ TEST(Spellings, ObjKeywords) {
         expect(line, "");
 }
 
-std::string with_line_ends(const std::string& text, const std::string& end) {
-    std::string result;
-    for (const char c : text) result += c == '\n' ? end : std::string(1, c);
-    return result;
-}
-
 TEST(Spellings, LineEnds) {
     for (const char* end : {"\r", "\r\n", "\r\r\n", "\n\r"})
         for (const char* first : {"# all of it\n", "o one\n"})
@@ -287,28 +223,22 @@ constexpr std::string_view ply_vertices =
     "ply\nformat ascii 1.0\nelement vertex 3\nproperty double x\nproperty double y\n"
     "property double z\n";
 
-/// What follows the header's lines above; '@' stands for the three vertices' lines.
+/// The text after the header's lines above; '@' stands for the three vertices' lines.
 constexpr spelling of_ply[]{
     {"end_header\n@", ""},
-    {"end_header\n@\n\n", ""},
     {"end_header\n@\x1a", ""},
     {"end_header\n@\n\x1a\r\n", ""},
-    {"element face 0\nend_header\n@", ""},
     {"element face 0\nproperty list uchar int vertex_indices\nend_header\n@", ""},
-    {"element edge 0\nend_header\n@", ""},
     {"element face 0\nelement edge 0\nend_header\n@", ""},
     {"comment C:\\\nobj_info # \x01\nend_header\n@", ""},
-    {"element face 1\nproperty list uchar int vertex_indices\nend_header\n@3 0 1 2", "f 0 1 2"},
     {"element face 1\nproperty list uint8 uint32 vertex_index\nend_header\n@3 0 1 2\n", "f 0 1 2"},
     {"element face 1\nproperty list int char vertex_index\nend_header\n@+3 0 01 2.0\n", "f 0 1 2"},
-    {"element face 1\nproperty list uchar int vertex_indices\nend_header\n@3 1 1 2", "f 1 1 2"},
     {"element face 1\nproperty list uchar int vertex_indices\nend_header\n@3 2 2 2", "f 2 2 2"},
     {"element face 2\nproperty list uchar int vertex_indices\nend_header\n@3 0 1 2\n3 0 1 2",
      "f 0 1 2 f 0 1 2"},
     {"element face 1\nproperty uchar red\nproperty list uchar int vertex_indices\n"
      "end_header\n@7 3 0 1 2",
      "f 0 1 2"},
-    {"element edge 1\nproperty int vertex1\nproperty int vertex2\nend_header\n@0 1", "e 0 1"},
     {"element edge 1\nproperty uchar vertex2\nproperty uint vertex1\nend_header\n@0 1", "e 1 0"},
     {"element edge 1\nproperty int vertex1\nproperty int vertex2\nend_header\n@1 1", "e 1 1"},
     {"element face 1\nproperty list uchar int vertex_indices\nelement edge 1\n"
@@ -329,10 +259,7 @@ struct bad_edit {
 
 constexpr bad_edit bad_edits[]{
     {"ply\n", "\xff\xfep", "m.ply: encoding is UTF-16 or UTF-32; expected ASCII or UTF-8"},
-    {"ply\n",
-     "\x7f"
-     "ELF\n",
-     "m.ply:1: line is '\\x7fELF'; expected 'ply'"},
+    {"ply\n", "\177ELF\n", "m.ply:1: line is '\\x7fELF'; expected 'ply'"},
     // The header.
     {"end_header\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n", "",
      "m.ply:9: file ends in the header; expected end_header"},
@@ -342,9 +269,7 @@ constexpr bad_edit bad_edits[]{
     {"ascii", "utf8", "line is 'format utf8 1.0'; expected format ascii, binary_little"},
     {"1.0", "2.0", "expected version 1.0"},
     {"end_header", "# no comment\nend_header", "line is '# no comment'; expected format, ele"},
-    {"face", "fa\rce", "m.ply:7: line is 'element fa\\x0dce"},
     {"face", "fa\vce", "m.ply:7: line is 'element fa\\x0bce"},
-    {"face", "fa\x7f", "m.ply:7: line is 'element fa\\x7f"},
     {"vertex 3", "vertices 3", "m.ply: number of elements 'vertex' is 0; expected 1"},
     {"element face", "element vertex", "m.ply:7: element 'vertex' is given twice"},
     {"double y", "double x", "m.ply:5: property 'x' is given twice"},
@@ -381,8 +306,6 @@ constexpr bad_edit bad_edits[]{
     // Coordinates.
     {"0 0 0", "0 nan 0", "m.ply:10: value is 'nan'; expected a finite number"},
     {"0 0 0", "0 0 -1.#IND", "m.ply:10: value is '-1.#IND'; expected a finite number"},
-    {"0 0 0", "0 nan(ind) 0", "value is 'nan(ind)'; expected a finite number"},
-    {"0 0 0", "0 inf 0", "value is 'inf'; expected a finite number"},
     {"0 0 0", "0 1e999 0", "value is '1e999', which overflows; expected a finite number"},
     {"0 0 0", "0 zero 0", "m.ply:10: value is 'zero'; expected a number"},
     {"0 0 0", "0 0", "m.ply:10: line has too few values; expected one for each property"},
@@ -414,10 +337,6 @@ constexpr spelling of_ply_polygons[]{
     {"4 0 1 2 3", "!triangle 1: vertex index is 3; expected less than 3"},
     {"2 0 1", "!number of vertices of a face is 2"},
 };
-
-static_assert(std::size(of_vertices) + std::size(of_elements) + std::size(of_polygons) +
-                  std::size(of_ply) + std::size(bad_edits) + std::size(of_ply_polygons) >=
-              200);
 
 std::string edited(std::string text, std::string_view from, std::string_view to) {
     return text.replace(text.find(from), from.size(), to);

@@ -1,4 +1,4 @@
-// Stores of queries: they return the same bits; damaged and hostile ones are refused or harmless.
+// Stores of queries return the same bits; damaged and hostile ones are refused or harmless.
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 
@@ -7,7 +7,6 @@
 #include <ccd/io/query_store.hpp>
 #include <cmath>
 #include <cstdint>
-#include <cstring>
 #include <errbound/support/error.hpp>
 #include <filesystem>
 #include <functional>
@@ -20,6 +19,7 @@
 #include "ccd/io/query_ranges.hpp"
 #include "ccd/io/store/hdf5.hpp"
 #include "errbound/support/output_file.hpp"
+#include "tests/ccd/io/content.hpp"
 #include "tests/support/files.hpp"
 
 namespace {
@@ -31,32 +31,9 @@ using hdf5::handle;
 using test_files::message_of;
 using test_files::temporary_directory;
 using test_files::write;
+using test_queries::content;
 
-/// Queries as bits, and truth.
-struct content {
-    std::vector<std::uint64_t> bits;
-    std::vector<bool> truth;
-
-    void add(const query_file& file) {
-        std::visit(
-            [this](const auto& all) {
-                const std::size_t size = bits.size();
-                bits.resize(size + 24 * all.size());
-                std::memcpy(bits.data() + size, all.data(), 24 * 8 * all.size());
-            },
-            file.queries);
-        if (file.truth) truth.insert(truth.end(), file.truth->begin(), file.truth->end());
-    }
-    bool operator==(const content&) const = default;
-};
-
-content content_of(const query_file& file) {
-    content all;
-    all.add(file);
-    return all;
-}
-
-/// Any finite doubles. Points are shared, as in a mesh, or all different.
+/// Queries of any finite doubles. Points are shared, as in a mesh, or all different.
 template <class Query>
 query_file random_queries(std::size_t n, bool shared, bool with_truth, unsigned seed) {
     std::mt19937_64 random(seed);
@@ -103,7 +80,7 @@ TEST(Store, KeepsEveryBit) {
         const query_file again = read_packed(bytes);
         EXPECT_EQ(again.kind(), file.kind());
         EXPECT_EQ(again.truth.has_value(), file.truth.has_value());
-        EXPECT_EQ(content_of(again), content_of(file));
+        EXPECT_EQ(content(again), content(file));
     };
     for (const unsigned n : {1, 2, 1000, 65536, 65537, 140000})
         for (const bool shared : {true, false}) {
@@ -112,8 +89,8 @@ TEST(Store, KeepsEveryBit) {
         }
 }
 
-TEST(Store, IsTheSameHoweverQueriesCome) {
-    // The first chunk's indices would fit in 16 bits, those of the second do not.
+TEST(Store, DoesNotDependOnHowQueriesAreAdded) {
+    // The first chunk's indices fit 16 bits, the second chunk's do not.
     const query_file few_points = random_queries<edge_edge<double>>(70000, true, true, 5);
     const query_file many_points = random_queries<edge_edge<double>>(65536, false, true, 6);
     const auto whole = make_query_packer(kind::edge_edge, true);
@@ -134,10 +111,10 @@ TEST(Store, IsTheSameHoweverQueriesCome) {
     EXPECT_EQ(parts->size(), expected.truth.size());
     const std::string bytes = read_whole(whole->finish());
     EXPECT_EQ(read_whole(parts->finish()), bytes);
-    EXPECT_EQ(content_of(read_packed(bytes)), expected);
+    EXPECT_EQ(content(read_packed(bytes)), expected);
 }
 
-TEST(Store, LeavesNothingBehind) {
+TEST(Store, RemovesItsFile) {
     auto packer = make_query_packer(kind::edge_edge, false);
     packer->add(random_queries<edge_edge<double>>(10, true, false, 1));
     const std::filesystem::path made = packer->finish();
@@ -157,13 +134,13 @@ TEST(Store, IsReadInRanges) {
         range_reader reader(path, std::nullopt, false, index);
         content all;
         for (std::size_t i = 0; i < index.ranges.size(); ++i) all.add(reader.read(i));
-        EXPECT_EQ(all, content_of(file));
+        EXPECT_EQ(all, content(file));
     }
     content all;
     for (const file_range range :
          {file_range{0, 65000}, file_range{65000, 1000}, file_range{66000}})
         all.add(read_queries(path, kind::edge_edge, false, range));
-    EXPECT_EQ(all, content_of(file));
+    EXPECT_EQ(all, content(file));
     const auto as_faces = [&] { read_queries(path, kind::vertex_face, false); };
     EXPECT_EQ(message_of(as_faces),
               path.string() + ": kind of queries is edge_edge; expected vertex_face");
@@ -187,7 +164,7 @@ TEST(Store, DamageIsReportedOrHarmless) {
             const std::string bytes = packed(file);
             const auto expect_no_harm = [&](const std::string& damaged, std::size_t at) {
                 const std::string message = message_of(
-                    [&] { EXPECT_EQ(content_of(read_packed(damaged)), content_of(file)) << at; });
+                    [&] { EXPECT_EQ(content(read_packed(damaged)), content(file)) << at; });
                 EXPECT_TRUE(message == "no error" || message.starts_with("s.h5")) << message;
             };
             const std::size_t stride = std::max<std::size_t>(1, bytes.size() / 1000);
@@ -212,7 +189,7 @@ void require(herr_t status) {
 
 constexpr hsize_t queries_in_it = 3, points_in_it = 4;
 
-/// A dataset that holds `data`, if there are any, in one chunk unless `chunk` or `layout` differs.
+/// A dataset that holds `data`, if any, in one chunk unless `chunk` or `layout` differs.
 struct forged_set {
     const char* name;
     hid_t stored;
@@ -222,7 +199,7 @@ struct forged_set {
     std::function<void(hid_t)> layout{};
 };
 
-/// Writes a dataset in place of the one of this name.
+/// Replaces the dataset of this name.
 forge replace(const forged_set& set) {
     return [set](hid_t file) {
         require(H5Ldelete(file, set.name, H5P_DEFAULT));
@@ -245,7 +222,7 @@ forge replace(const forged_set& set) {
     };
 }
 
-/// Exchanges a number of a dataset of `numbers`.
+/// Changes one number of a dataset of `numbers` numbers.
 forge set_number(const char* name, std::size_t numbers, std::size_t at, double value) {
     return [=](hid_t file) {
         const handle set(H5Dopen2(file, name, H5P_DEFAULT), H5Dclose, name);
@@ -274,7 +251,7 @@ class ForgedStore : public testing::Test {
         good_ = packed(file);
     }
 
-    /// Expects that the message for a forged store has this in it.
+    /// Expects that the message for a forged store contains `part`.
     void expect(const std::string& part, const forge& change) {
         const auto path = folder_.path / "forged.h5";
         write(path, good_);
@@ -293,7 +270,7 @@ class ForgedStore : public testing::Test {
 
 const std::vector<double> ones(24, 1.0), zeros(12, 0.0);
 
-TEST_F(ForgedStore, TypesShapesAndNumbersAreThoseOfTheFormat) {
+TEST_F(ForgedStore, WithOtherTypesShapesOrNumbersIsRefused) {
     expect("no error", replace({"points", H5T_IEEE_F64LE, {points_in_it, 6}, ones}));
     for (const hid_t type : {H5T_IEEE_F64BE, H5T_IEEE_F32LE, H5T_STD_I64LE})
         expect("dataset points: type of numbers is another one; expected float64",
@@ -329,8 +306,8 @@ TEST_F(ForgedStore, TypesShapesAndNumbersAreThoseOfTheFormat) {
     });
 }
 
-/// No other file is opened: a pipe without a writer would block for ever.
-TEST_F(ForgedStore, DatasetsAreInTheFileItself) {
+/// No other file is opened: opening a pipe without a writer would block for ever.
+TEST_F(ForgedStore, WithDatasetsInOtherFilesIsRefused) {
     const auto pipe = folder_.path / "pipe", good = folder_.path / "good.h5",
                raw = folder_.path / "raw";
     ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
@@ -363,8 +340,8 @@ TEST_F(ForgedStore, DatasetsAreInTheFileItself) {
     }
 }
 
-// 40 rows of 6 in a chunk of 2^20 x 100 numbers: the file has 831 KB, and a read took 838 MB.
-TEST_F(ForgedStore, DataFitInMemory) {
+// 40 rows of 6 in a chunk of 2^20 x 100 numbers: the file had 831 KB, and a read took 838 MB.
+TEST_F(ForgedStore, ThatWouldExhaustMemoryIsRefused) {
     const hid_t number = H5T_IEEE_F64LE, byte = H5T_STD_U8LE;
     const std::vector<std::pair<std::string, forged_set>> cases{
         {"dataset points: size of chunks is 1048576 x 100 numbers; expected at most 64 MiB each",

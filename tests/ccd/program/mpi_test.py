@@ -6,7 +6,7 @@ import pathlib
 import subprocess
 import unittest
 
-from program_test import AFTER, BEFORE, FACES, SOURCE, ProgramTest, ply
+from program_test import AFTER, BEFORE, FACES, SOURCE, ProgramTest, obj, ply
 
 SCENES = pathlib.Path(os.environ["ERRBOUND_SHARED_DATA"]) / "scenes"
 RANKS = (1, 2, 3, 5)
@@ -43,12 +43,8 @@ class DistributedStep(ProgramTest):
                              sum(expected["candidates"].values()))
 
     def test_made_mesh_in_every_form(self):
-        frames = [self.write(name, ply(vertices, FACES))
-                  for name, vertices in (("a.ply", BEFORE), ("b.ply", AFTER))]
-        self.expect_same(*frames)
-        obj = lambda vertices: "".join("v {} {} {}\n".format(*v) for v in vertices) + "".join(
-            "f {} {} {}\n".format(*(i + 1 for i in f)) for f in FACES)
-        self.expect_same(self.write("a.obj", obj(BEFORE)), self.write("b.obj", obj(AFTER)))
+        self.expect_same(*self.triangles())
+        self.expect_same(self.write("a.obj", obj(BEFORE, FACES)), self.write("b.obj", obj(AFTER, FACES)))
 
     def test_bundled_scene(self):
         self.expect_same(*sorted((SOURCE / "examples/scenes/cloth-over-ball").glob("*.ply")))

@@ -8,16 +8,12 @@ import subprocess
 import time
 import unittest
 
-from program_test import AFTER, BEFORE, FACES, HIT, MISS, PROGRAM, SOURCE, ProgramTest, ply
+from program_test import BEFORE, FACES, HIT, MISS, PROGRAM, SOURCE, ProgramTest, obj, ply
 
 SCENE = [str(SOURCE / f"examples/scenes/cloth-over-ball/frame{i}.ply") for i in (0, 1)]
 IS_ROOT = os.geteuid() == 0
 FATAL = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP, signal.SIGKILL)
 
-
-def obj(vertices):
-    return "".join("v %r %r %r\n" % v for v in vertices) + \
-        "".join("f %d %d %d\n" % tuple(i + 1 for i in f) for f in FACES)
 
 
 def limit(which, size):
@@ -27,7 +23,7 @@ def limit(which, size):
 class Outputs(ProgramTest):
     def setUp(self):
         super().setUp()
-        self.frames = [self.write("0.ply", ply(BEFORE, FACES)), self.write("1.ply", ply(AFTER, FACES))]
+        self.frames = self.triangles()
         self.good("step", *self.frames, "--pairs", self.directory / "expected")
         self.expected = (self.directory / "expected").read_text()
         self.before = self.files()
@@ -71,7 +67,7 @@ class Streams(Outputs):
                           self.bad_usage("step", *self.frames, "--pairs", "-", "--json", second))
 
     def test_frames_from_pipes_were_refused_for_their_extension(self):
-        for text in (ply(BEFORE, FACES), obj(BEFORE), "\ufeff" + obj(BEFORE)):
+        for text in (ply(BEFORE, FACES), obj(BEFORE, FACES), "\ufeff" + obj(BEFORE, FACES)):
             for name in ("-", "/dev/stdin"):
                 done = self.run_with("step", name, self.frames[1], "--pairs", "-", input=text)
                 self.assertEqual((done.returncode, done.stdout), (0, self.expected), done.stderr)

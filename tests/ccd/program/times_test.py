@@ -5,7 +5,7 @@ import os
 import pathlib
 import unittest
 
-from program_test import AFTER, BASE, BEFORE, FACES, HIT, MISS, SOURCE, ProgramTest, ply, with_truth
+from program_test import BASE, BEFORE, FACES, HIT, MISS, SOURCE, ProgramTest, ply, with_truth
 
 SCENES = pathlib.Path(os.environ["ERRBOUND_SHARED_DATA"]) / "scenes"
 TOUCHING = HIT.replace("1,4,1,4,1,1", "1,4,1,4,0,1")
@@ -69,7 +69,7 @@ class QueryTimes(ProgramTest):
 class StepTest(ProgramTest):
     def setUp(self):
         super().setUp()
-        self.frames = [self.write("0.ply", ply(BEFORE, FACES)), self.write("1.ply", ply(AFTER, FACES))]
+        self.frames = self.triangles()
 
     def step(self, *arguments):
         pairs, times, out = (self.directory / name for name in ("pairs", "times", "json"))

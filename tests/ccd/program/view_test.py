@@ -7,36 +7,11 @@ import struct
 import unittest
 import xml.etree.ElementTree as xml
 
-from program_test import AFTER, BEFORE, FACES, SOURCE, ProgramTest, ply
+from program_test import AFTER, BEFORE, FACES, SOURCE, ProgramTest, obj
 
 SCENE = [SOURCE / f"examples/scenes/cloth-over-ball/frame{i}.ply" for i in (0, 1)]
 KINDS = {"vf": ("vertex_face", 4), "ee": ("edge_edge", 4), "ve": ("vertex_edge", 3), "vv": ("vertex_vertex", 2)}
 CODES = {"Float64": "d", "Int64": "q", "UInt32": "I", "Int8": "b"}
-
-# A rod above a point that falls past it, next to a face, and a point that meets the first.
-ROD = """ply
-format ascii 1.0
-element vertex 7
-property double x
-property double y
-property double z
-element face 1
-property list uchar int vertex_indices
-element edge 1
-property int vertex1
-property int vertex2
-end_header
-5 0 0
-6 0 0
-5 1 0
-0 0 0
-1 0 0
-0.5 0 {}
-0.5 0 {}
-3 0 1 2
-3 4
-"""
-
 
 def rows(numbers, columns):
     return [tuple(numbers[i:i + columns]) for i in range(0, len(numbers), columns)]
@@ -99,10 +74,10 @@ class Views(ProgramTest):
         return out, times.read_text().split()
 
     def rods(self):
-        return [self.write("rod0.ply", ROD.format(1, 2)), self.write("rod1.ply", ROD.format(-1, -4))]
-
-    def triangles(self):
-        return [self.write("0.ply", ply(BEFORE, FACES)), self.write("1.ply", ply(AFTER, FACES))]
+        """A rod above a point that falls past it, next to a face, and a point that meets the first."""
+        corners = [(5, 0, 0), (6, 0, 0), (5, 1, 0), (0, 0, 0), (1, 0, 0)]
+        return [self.write(f"rod{i}.obj", obj(corners + [(0.5, 0, z) for z in heights], [(0, 1, 2)], "l 4 5\n"))
+                for i, heights in enumerate(((1, 2), (-1, -4)))]
 
 
 class Pages(Views):

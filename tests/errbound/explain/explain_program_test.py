@@ -1,4 +1,4 @@
-# Tests of `errbound explain` as a user runs it, on what an example writes: tables, pictures, exit statuses,
+# Tests of `errbound explain` as a user runs it, on the file of an example: tables, pictures, exit statuses,
 # messages. The programs' paths are in the environment variables ERRBOUND_PROGRAM and ERRBOUND_EXAMPLE.
 import json
 import os
@@ -16,14 +16,14 @@ SVG = "{http://www.w3.org/2000/svg}"
 
 
 def without_noise(line):
-    """A table's line; of less than one percent only which source it is: where compilers fuse products into
-    sums, the least amounts differ."""
+    """Returns a line of a table without the amount and the share if the share is below one percent: the
+    smallest amounts differ if the compiler fuses products into sums."""
     share = re.search(r" (\d+\.\d) %  (.*)", line)
     return share[2] if share and float(share[1]) < 1 else line
 
 
 def bars(picture):
-    """Of a percent or more. A compiler cache may give sources' paths from the build folder on."""
+    """Returns the titles of bars of at least one percent. A compiler cache may shorten sources' paths."""
     titles = [re.sub(r"\([^():]*/(?=examples/)", "(", title.text)
               for title in ElementTree.parse(picture).iter(SVG + "title")]
     return [title for title in titles if float(re.search(r": (\d+\.\d) %", title)[1]) >= 1]

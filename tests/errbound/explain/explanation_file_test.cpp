@@ -1,5 +1,4 @@
-// Files of explanations that are read, or refused with the place, what was found and what was
-// expected; and flame graphs of any of them.
+// Files of explanations, messages for bad ones, and flame graphs.
 #include "errbound/program/explanation_file.hpp"
 
 #include <gtest/gtest.h>
@@ -7,7 +6,6 @@
 #include <cmath>
 #include <limits>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "errbound/program/flame_graph.hpp"
@@ -35,7 +33,7 @@ std::vector<explanation> some() {
             {"unknown", "tight", 1, infinity, {{{{"s", "f", 0}}, "/", infinity, 0}}}};
 }
 
-TEST(ExplanationFile, IsReadAsItWasWritten) {
+TEST(ExplanationFile, IsReadBackAsWritten) {
     const std::string text = json_of(some());
     const std::vector<explanation> read = parse_explanations(text, "file");
     EXPECT_EQ(json_of(read), text);
@@ -43,15 +41,17 @@ TEST(ExplanationFile, IsReadAsItWasWritten) {
     EXPECT_EQ(read[0].contributions[0].scopes[1].line, 14U);
     EXPECT_TRUE(std::isinf(read[2].error));
     EXPECT_TRUE(parse_explanations(json_of(std::vector<explanation>()), "file").empty());
-    const explanation zero{"zero", "tight", -0.0, 0, {}};
-    EXPECT_TRUE(std::signbit(parse_explanations(json_of({zero}), "file")[0].value));
-    const explanation large{"large", "tight", -infinity, infinity, {}};
-    EXPECT_EQ(parse_explanations(json_of({large}), "file")[0].value, -infinity);
-    const explanation none{"none", "tight", std::nan(""), infinity, {}};
-    EXPECT_TRUE(std::isnan(parse_explanations(json_of({none}), "file")[0].value));
+    const auto again = [](double value) {
+        return parse_explanations(json_of({explanation{"one", "tight", value, infinity, {}}}),
+                                  "file")[0]
+            .value;
+    };
+    EXPECT_TRUE(std::signbit(again(-0.0)));
+    EXPECT_EQ(again(-infinity), -infinity);
+    EXPECT_TRUE(std::isnan(again(std::nan(""))));
 }
 
-/// The file with one text in place of another.
+/// The message for the file with one text replaced by another.
 std::string message_with(const std::string& from, const std::string& to) {
     std::string text = json_of(some());
     const std::size_t at = text.find(from);
@@ -60,39 +60,38 @@ std::string message_with(const std::string& from, const std::string& to) {
     return message_of([&] { parse_explanations(text, "f.json"); });
 }
 
-TEST(ExplanationFile, IsRefusedWithPlaceFoundAndExpected) {
-    EXPECT_EQ(
-        message_of([] { parse_explanations("{\"a\": ", "f.json"); }),
-        "f.json: text at byte 7 is not JSON; expected output of errbound::write_explanations");
+TEST(ExplanationFile, MessagesHavePositionFoundAndExpected) {
+    EXPECT_EQ(message_of([] { parse_explanations("{\"a\": ", "f.json"); }),
+              "f.json: text at byte 7 is not JSON; expected output of errbound::write_explanations");
     EXPECT_EQ(message_of([] { parse_explanations("[]", "f.json"); }),
               "f.json: content is []; expected an object");
-    EXPECT_EQ(message_with("errbound explanation", "other"),
-              "f.json: format is \"other\"; expected \"errbound explanation\"");
-    EXPECT_EQ(message_with("\"version\": 1", "\"version\": 2"), "f.json: version is 2; expected 1");
-    EXPECT_EQ(message_with("\"error\": 0.004", "\"error\": -0.004"),
-              "f.json: results[0].error is -0.004; expected a number that is not negative, or "
-              "null");
-    EXPECT_EQ(message_with("\"value\": 0.1", "\"value\": \"0.1\""),
-              "f.json: results[0].value is \"0.1\"; expected a number, \"inf\", \"-inf\" "
-              "or null");
-    EXPECT_EQ(message_with("\"value\": 0.1", "\"value\": 1e999"),
-              "f.json: a number is out of range; expected numbers of double");
-    EXPECT_EQ(message_with("\"line\": 14", "\"line\": -1"),
-              "f.json: results[0].contributions[0].scopes[1].line is -1; expected a line's "
-              "number");
-    EXPECT_EQ(message_with("\"amount\": 0.001", "\"amunt\": 0.001"),
-              "f.json: results[0].contributions[1].amount is missing; expected a value");
-    EXPECT_EQ(message_with("\"operation\": \"/\"", "\"operation\": [1]"),
-              "f.json: results[2].contributions[0].operation is an array; expected a string");
-    EXPECT_EQ(
-        message_with("\"name\": \"area\"", "\"name\": {\"a\": \"" + std::string(99, 'x') + "\"}"),
-        "f.json: results[0].name is an object; expected a string");
-    EXPECT_EQ(message_with("\"contributions\": []", "\"contributions\": {}"),
-              "f.json: results[1].contributions is {}; expected an array");
+    const auto expect = [](const std::string& from, const std::string& to,
+                           const std::string& message) {
+        EXPECT_EQ(message_with(from, to), "f.json: " + message);
+    };
+    expect("errbound explanation", "other",
+           "format is \"other\"; expected \"errbound explanation\"");
+    expect("\"version\": 1", "\"version\": 2", "version is 2; expected 1");
+    expect("\"error\": 0.004", "\"error\": -0.004",
+           "results[0].error is -0.004; expected a number that is not negative, or null");
+    expect("\"value\": 0.1", "\"value\": \"0.1\"",
+           "results[0].value is \"0.1\"; expected a number, \"inf\", \"-inf\" or null");
+    expect("\"value\": 0.1", "\"value\": 1e999",
+           "a number is out of range; expected numbers of double");
+    expect("\"line\": 14", "\"line\": -1",
+           "results[0].contributions[0].scopes[1].line is -1; expected a line's number");
+    expect("\"amount\": 0.001", "\"amunt\": 0.001",
+           "results[0].contributions[1].amount is missing; expected a value");
+    expect("\"operation\": \"/\"", "\"operation\": [1]",
+           "results[2].contributions[0].operation is an array; expected a string");
+    expect("\"name\": \"area\"", "\"name\": {\"a\": \"" + std::string(99, 'x') + "\"}",
+           "results[0].name is an object; expected a string");
+    expect("\"contributions\": []", "\"contributions\": {}",
+           "results[1].contributions is {}; expected an array");
     EXPECT_NE(message_with("area", "\xff").find("text at byte"), std::string::npos);
 }
 
-TEST(ExplanationFile, MayBeNestedAsDeepAsItLikes) {
+TEST(ExplanationFile, OfAnyDepth) {
     constexpr std::size_t depth = 200'000;
     const std::string inner = std::string(depth, '[') + std::string(depth, ']');
     EXPECT_EQ(message_with("\"errbound explanation\"", inner),
@@ -123,12 +122,12 @@ TEST(FlameGraph, HasABarForEachScopeAndOperation) {
           "<title>nothing: 100.0 %, 0.00e+00</title>", "<title>/: 100.0 %, unknown</title>",
           ">nothing = 1 ± 0, by residual: no error<", ">area = 0.1 ± 4.0e-03, by tight<"})
         EXPECT_NE(svg.find(tip), std::string::npos) << tip;
-    // The sum's bar is three quarters of the root's 980 pixels, and beside it is the input's.
+    // The sum's bar has three quarters of the root's 980 pixels; the input's bar is next to it.
     EXPECT_NE(svg.find("width=\"735.0\""), std::string::npos);
     EXPECT_NE(svg.find("x=\"745.0\""), std::string::npos);
 }
 
-TEST(FlameGraph, OfManySourcesAndDeepScopesIsDrawn) {
+TEST(FlameGraph, OfManySourcesAndDeepScopes) {
     explanation e{"deep", "tight", 1, 1, {}};
     for (int i = 0; i < 50'000; ++i)
         e.contributions.push_back(
@@ -145,7 +144,7 @@ TEST(FlameGraph, HasSharesOfAmountsWhoseSumOverflows) {
     EXPECT_NE(flame_graphs({e}).find("<title>+: 50.0 %, 1.00e+308</title>"), std::string::npos);
 }
 
-TEST(FlameGraph, HasNoCharactersThatXmlHasNot) {
+TEST(FlameGraph, HasOnlyCharactersOfXml) {
     explanation e{std::string("a\x01\xff\xef\xbf\xbf") + "b\xc3\xa4", "tight", 1, 1, {}};
     const std::string svg = flame_graphs({e});
     EXPECT_NE(svg.find(">a???b\xc3\xa4<"), std::string::npos);

@@ -1,7 +1,6 @@
-// What is printed and written of explanations.
+// Tables and files of explanations.
 #include <gtest/gtest.h>
 
-#include <cmath>
 #include <errbound/explain/explain.hpp>
 #include <filesystem>
 #include <fstream>
@@ -17,6 +16,7 @@ namespace {
 using errbound::contribution;
 using errbound::explanation;
 using errbound::json_of;
+using test_files::files_in;
 using test_files::message_of;
 using test_files::temporary_directory;
 
@@ -32,21 +32,17 @@ explanation some() {
              {{}, "the rest", 1e-4, 0}}};
 }
 
+const std::string lines[] = {"  3.00e-03  75.0 %  +          outer > inner (b.cpp:14)\n",
+                             "  9.00e-04  22.5 %  input\n", "  1.00e-04   2.5 %  the rest\n"};
+
 TEST(Table, HasALineForEachSource) {
-    EXPECT_EQ(text_of(some()),
-              "area = 2.5 ± 4.0e-03, by tight\n"
-              "    amount   share  operation  scope\n"
-              "  3.00e-03  75.0 %  +          outer > inner (b.cpp:14)\n"
-              "  9.00e-04  22.5 %  input\n"
-              "  1.00e-04   2.5 %  the rest\n");
-    EXPECT_EQ(text_of(some(), 1),
-              "area = 2.5 ± 4.0e-03, by tight\n"
-              "    amount   share  operation  scope\n"
-              "  3.00e-03  75.0 %  +          outer > inner (b.cpp:14)\n"
-              "  and 2 more\n");
+    const std::string head =
+        "area = 2.5 ± 4.0e-03, by tight\n    amount   share  operation  scope\n";
+    EXPECT_EQ(text_of(some()), head + lines[0] + lines[1] + lines[2]);
+    EXPECT_EQ(text_of(some(), 1), head + lines[0] + "  and 2 more\n");
 }
 
-TEST(Table, TellsTerminalsNothing) {
+TEST(Table, HasNoControlCharacters) {
     explanation e = some();
     e.name = "\x1b[2J\xff\xc2\x9b";
     e.contributions[0].scopes[1].name = "in\nner\x7f";
@@ -55,13 +51,13 @@ TEST(Table, TellsTerminalsNothing) {
               "?[2J?? = 2.5 ± 4.0e-03, by tight\n"
               "    amount   share  operation  scope\n"
               "  3.00e-03  75.0 %  +          outer > in?ner? (b.cpp:14)\n"
-              "  9.00e-04  22.5 %  \xc3\xa4\xe2\x88\x9a\n"
-              "  1.00e-04   2.5 %  the rest\n");
+              "  9.00e-04  22.5 %  \xc3\xa4\xe2\x88\x9a\n" +
+                  lines[2]);
     e.contributions[0].operation = "\xc3\xa4\xe2\x88\x9a";
     EXPECT_NE(text_of(e).find("75.0 %  \xc3\xa4\xe2\x88\x9a         outer"), std::string::npos);
 }
 
-TEST(Table, SaysWhatCancels) {
+TEST(Table, ShowsCancellation) {
     explanation e = some();
     e.contributions[0].known = -3e-3;
     e.contributions[1].known = 9e-4;
@@ -75,7 +71,7 @@ TEST(Table, SaysWhatCancels) {
               "  together 4.00e-03, of which all but 2.20e-03 cancels\n");
 }
 
-TEST(Table, SaysWhereNothingIsKnownOrNothingIsWrong) {
+TEST(Table, OfInfiniteAndZeroErrors) {
     explanation e = some();
     e.error = e.contributions[0].amount = infinity;
     EXPECT_EQ(text_of(e, 1),
@@ -88,7 +84,7 @@ TEST(Table, SaysWhereNothingIsKnownOrNothingIsWrong) {
     EXPECT_EQ(text_of(e), "area = 2.5 ± 0, by tight\n  no error\n");
 }
 
-TEST(Shares, AreOfTheSumOrOfWhatIsUnknown) {
+TEST(Shares, AreOfTheSumOrOfTheInfiniteAmounts) {
     explanation e = some();
     const std::vector<double> of_sum = shares_of(e);
     ASSERT_EQ(of_sum.size(), 3U);
@@ -101,7 +97,7 @@ TEST(Shares, AreOfTheSumOrOfWhatIsUnknown) {
     EXPECT_EQ(shares_of(e), std::vector<double>({0, 0, 0}));
 }
 
-TEST(Json, KeepsNumbersAndNames) {
+TEST(Json, HasNumbersAndNames) {
     explanation e = some();
     e.contributions.pop_back();
     e.name = "a\"b\\c\n\xc3\xa4\xff\xed\xa0\x80";
@@ -131,33 +127,30 @@ TEST(Json, KeepsNumbersAndNames) {
         "{\n  \"format\": \"errbound explanation\",\n  \"version\": 1,\n  \"results\": []\n}\n");
 }
 
-TEST(File, IsWrittenWholeOrNotAtAll) {
+namespace fs = std::filesystem;
+
+std::string text_in(const fs::path& file) {
+    std::ostringstream read;
+    read << std::ifstream(file).rdbuf();
+    return read.str();
+}
+
+TEST(File, IsWholeOrNotWritten) {
     const temporary_directory directory;
     const auto file = directory.path / "out.json";
     errbound::write_explanations(file, {some()});
     errbound::write_explanations(file, {some(), some()});
-    std::ostringstream read;
-    read << std::ifstream(file).rdbuf();
-    EXPECT_EQ(read.str(), json_of({some(), some()}));
-    const auto missing = directory.path / "no" / "out.json";
-    EXPECT_NE(message_of([&] {
-                  errbound::write_explanations(missing, {some()});
-              }).find("out.json: cannot be written"),
-              std::string::npos);
-    EXPECT_NE(message_of([&] {
-                  errbound::write_explanations(directory.path, {some()});
-              }).find("cannot be written"),
-              std::string::npos);
-    EXPECT_NE(message_of([] {
-                  errbound::write_explanations("/dev/full", {some()});
-              }).find("/dev/full: cannot be written"),
-              std::string::npos);
-    namespace fs = std::filesystem;
-    EXPECT_EQ(std::distance(fs::directory_iterator(directory.path), fs::directory_iterator{}), 1);
+    EXPECT_EQ(text_in(file), json_of({some(), some()}));
+    for (const fs::path& bad :
+         {directory.path / "no" / "out.json", directory.path, fs::path("/dev/full")})
+        EXPECT_NE(message_of([&] {
+                      errbound::write_explanations(bad, {some()});
+                  }).find(bad.string() + ": cannot be written"),
+                  std::string::npos);
+    EXPECT_EQ(files_in(directory.path), 1);
 }
 
 TEST(File, KeepsLinksAndPermissions) {
-    namespace fs = std::filesystem;
     const temporary_directory directory;
     const auto file = directory.path / "out.json", link = directory.path / "link.json";
     test_files::write(file, "before");
@@ -167,10 +160,8 @@ TEST(File, KeepsLinksAndPermissions) {
     errbound::write_explanations(link, {some()});
     EXPECT_TRUE(fs::is_symlink(link));
     EXPECT_EQ(fs::status(file).permissions(), own);
-    std::ostringstream read;
-    read << std::ifstream(file).rdbuf();
-    EXPECT_EQ(read.str(), json_of({some()}));
-    EXPECT_EQ(std::distance(fs::directory_iterator(directory.path), fs::directory_iterator{}), 2);
+    EXPECT_EQ(text_in(file), json_of({some()}));
+    EXPECT_EQ(files_in(directory.path), 2);
 }
 
 }  // namespace

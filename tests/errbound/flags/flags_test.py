@@ -1,9 +1,9 @@
-"""What compilers' flags do to the library's promises is what docs/guarantees.md says.
+"""The effects of compilers' flags on the library's promises are those listed in docs/guarantees.md.
 
 usage: flags_test.py SOURCE_FOLDER
 
-Compiles numbers.cpp under the flags of each row of the page's table, by each of its compilers that
-is here, and runs it. It is refused, or the flag is found when it runs, or all numbers are right.
+Compiles numbers.cpp under the flags of each row of the page's table, with each installed compiler, and
+runs it. Either the flag is refused, or it is found at run time, or all numbers are right.
 """
 import concurrent.futures
 import pathlib
@@ -18,7 +18,7 @@ HERE = ROOT / "tests/errbound/flags"
 
 
 def table():
-    """(where, flags, what the page says by compiler) of each row."""
+    """Yields the place of the flags, the flags, and the cell of each compiler, for each row."""
     compilers = []
     for line in (ROOT / "docs/guarantees.md").read_text().splitlines():
         cells = [cell.strip() for cell in line.strip("|").split("|")]
@@ -32,7 +32,7 @@ def table():
 
 
 def outcome(compiler, where, flags, folder):
-    """A cell of the table."""
+    """Returns the text that the cell of the table must have."""
     common = [compiler, "-std=c++20", "-O3", "-fPIC", f"-I{ROOT / 'include'}"]
     for unit in "numbers", "other_unit":
         its = flags if where == "" or (where, unit) == (", another unit", "other_unit") else []
@@ -61,13 +61,13 @@ def outcome(compiler, where, flags, folder):
 
 
 def compilers_of(name):
-    """Those of a column of the table that are here."""
+    """Returns the installed compilers of a column."""
     names = {"clang": ["clang++", *(f"clang++-{version}" for version in range(15, 20))]}.get(name, [name])
     return [found for found in names if shutil.which(found)]
 
 
 def said_of(compiler, cell):
-    """What a cell says of that version of its compiler."""
+    """Returns the cell's outcome for this version of the compiler."""
     before, other, how, version = re.fullmatch(r"(\w+)(?:, (\w+) (by|from) (\d+)(?: on)?)?", cell).groups()
     if other is None:
         return before

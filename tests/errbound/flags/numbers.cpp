@@ -1,5 +1,5 @@
-// Compiled under one flag after the other by flags_test.py: says whether the environment is sound,
-// and compares what the library promises with whole numbers of 128 bits.
+// flags_test.py compiles this with each flag. It prints whether the environment is sound, and
+// compares the library's results with integers of 128 bits.
 #include <array>
 #include <cstdint>
 #include <cstdio>

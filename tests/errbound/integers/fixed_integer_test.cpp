@@ -1,10 +1,8 @@
-// Integers of fixed width against GMP's, modulo their width; and long integers.
+// Integers of fixed width compared with GMP's, modulo their width; and long integers.
 #include <gtest/gtest.h>
 
 #include <array>
-#include <boost/multiprecision/gmp.hpp>
 #include <cmath>
-#include <compare>
 #include <cstdint>
 #include <errbound/bernstein.hpp>
 #include <errbound/integers/common_exponent.hpp>
@@ -16,18 +14,32 @@
 #include <utility>
 #include <vector>
 
+#include "tests/support/special_values.hpp"
+
 namespace {
 
 using errbound::sign_of;
 using errbound::integers::fixed_integer;
-using integer =
-    boost::multiprecision::number<boost::multiprecision::gmp_int, boost::multiprecision::et_off>;
+using integer = whole_number;
 
+template <class Number>
+integer big(const Number& x, int words) {
+    integer sum = 0;
+    for (int i = words - 1; i >= 0; --i) sum = (sum << 64) + integer(x[i]);
+    return x.negative() ? integer(sum - (integer(1) << (64 * words))) : sum;
+}
 template <int Words>
 integer big(const fixed_integer<Words>& x) {
-    integer sum = 0;
-    for (int i = Words - 1; i >= 0; --i) sum = (sum << 64) + integer(x[i]);
-    return x.negative() ? integer(sum - (integer(1) << (64 * Words))) : sum;
+    return big(x, Words);
+}
+template <int Words>
+integer big(const errbound::integers::long_integer<Words>& x) {
+    return big(x, x.size());
+}
+/// 0, all ones, or a random number of any length.
+std::uint64_t any_word(std::mt19937_64& random) {
+    const auto pick = random() % 4;
+    return pick == 0 ? 0 : pick == 1 ? ~std::uint64_t{0} : random() >> random() % 64;
 }
 
 /// x modulo 2^(64·Words), in the range of a two's complement number.
@@ -39,8 +51,7 @@ integer wrapped(const integer& x) {
     return r >= modulus / 2 ? integer(r - modulus) : r;
 }
 
-/// Extremes, then random numbers of every length: words that are all zeros or all ones are as
-/// likely as others.
+/// Extreme numbers, then numbers of random words.
 template <int Words>
 std::vector<fixed_integer<Words>> samples(std::mt19937_64& random) {
     using number = fixed_integer<Words>;
@@ -49,10 +60,7 @@ std::vector<fixed_integer<Words>> samples(std::mt19937_64& random) {
     all.insert(all.end(), {least, least + 1, least - 1, number::shifted(1, 64 * Words - 2)});
     for (int k = 0; k < 40; ++k) {
         std::array<std::uint64_t, Words> w;
-        for (auto& word : w) {
-            const auto pick = random() % 4;
-            word = pick == 0 ? 0 : pick == 1 ? ~std::uint64_t{0} : random() >> random() % 64;
-        }
+        for (auto& word : w) word = any_word(random);
         all.push_back(number::from_words(w));
     }
     return all;
@@ -116,14 +124,11 @@ void check_all(std::mt19937_64& random, std::integer_sequence<int, Widths...>) {
 }
 
 #ifdef __SIZEOF_INT128__
-TEST(TwoWords, AreTheCompilersNumbersOf128Bits) {
+TEST(TwoWords, AgreeWithTheCompilersIntegersOf128Bits) {
     using errbound::integers::words::two_words;
     __extension__ using wide = unsigned __int128;
     std::mt19937_64 random(5);
-    const auto word = [&random]() -> std::uint64_t {
-        const auto pick = random() % 4;
-        return pick == 0 ? 0 : pick == 1 ? ~std::uint64_t{0} : random() >> random() % 64;
-    };
+    const auto word = [&random] { return any_word(random); };
     const auto same = [](const two_words& x, wide y) {
         return static_cast<std::uint64_t>(x) == static_cast<std::uint64_t>(y) &&
                static_cast<std::uint64_t>(x >> 64) == static_cast<std::uint64_t>(y >> 64);
@@ -142,7 +147,7 @@ TEST(TwoWords, AreTheCompilersNumbersOf128Bits) {
 }
 #endif
 
-TEST(FixedInteger, OperationsAreThoseOfIntegersModuloTheWidth) {
+TEST(FixedInteger, OperationsAgreeWithGmpModuloTheWidth) {
     std::mt19937_64 random(1);
     check_all(random, std::make_integer_sequence<int, 13>());
     // The widths of roots of a query's forms at 1 and 2 words (ccd/exact/interior_contact.hpp).
@@ -153,7 +158,7 @@ TEST(FixedInteger, OperationsAreThoseOfIntegersModuloTheWidth) {
     check_one_width<28>(random);
 }
 
-TEST(FixedInteger, ConstantsAreEvaluatedByTheCompiler) {
+TEST(FixedInteger, AreConstantExpressions) {
     constexpr fixed_integer<2> a = fixed_integer<2>::shifted(3, 100), b = -5;
     static_assert(sign_of(a * b) == errbound::sign_type::negative);
     static_assert((a + b) - a == b);
@@ -187,7 +192,7 @@ TEST(FixedInteger, PolynomialsGrowByTheirFactorsWidths) {
     }
 }
 
-/// A double's worth of bits anywhere, or sums of up to three.
+/// The bits of a double at any position, or sums of up to three.
 errbound::integers::long_integer<20> any_long(std::mt19937_64& random) {
     using number = errbound::integers::long_integer<20>;
     const auto one = [&] {
@@ -205,12 +210,6 @@ errbound::integers::long_integer<20> any_long(std::mt19937_64& random) {
         default:
             return number::sum(number::sum(first, second), third);
     }
-}
-template <int Words>
-integer big(const errbound::integers::long_integer<Words>& x) {
-    integer sum = 0;
-    for (int i = x.size() - 1; i >= 0; --i) sum = (sum << 64) + integer(x[i]);
-    return x.negative() ? integer(sum - (integer(1) << (64 * x.size()))) : sum;
 }
 
 /// Coordinates of up to 127 bits: two words, or the compiler's integers of 128.

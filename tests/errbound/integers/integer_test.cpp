@@ -1,9 +1,8 @@
-// errbound::integer against GMP's integers: on random numbers, on those of zeros and ones that
-// carries run through, and on quotients whose digits are guessed too large, which random numbers
-// meet once in 2^64.
+// errbound::integer against GMP's integers: on random numbers, and on numbers of zeros and ones
+// that carries run through. Quotients whose digits are guessed too large are made: random numbers
+// meet them once in 2^64.
 #include <gtest/gtest.h>
 
-#include <boost/multiprecision/gmp.hpp>
 #include <cmath>
 #include <cstdint>
 #include <errbound/integers/integer.hpp>
@@ -16,12 +15,13 @@
 #include <utility>
 #include <vector>
 
+#include "tests/support/special_values.hpp"
+
 namespace {
 
 using errbound::integer;
 using word = std::uint64_t;
-using truth =
-    boost::multiprecision::number<boost::multiprecision::gmp_int, boost::multiprecision::et_off>;
+using truth = whole_number;
 
 truth big(const integer& x) {
     return x < 0 ? truth(-truth("0x" + to_string(-x, 16))) : truth("0x" + to_string(x, 16));
@@ -69,7 +69,7 @@ class source {
     std::mt19937_64 random_;
 };
 
-/// The number is what it should be, and kept as the same number made otherwise is.
+/// True if x has the expected value and the same representation as that number made otherwise.
 ::testing::AssertionResult is(const integer& x, const truth& expected) {
     if (big(x) == expected && x == own(expected)) return ::testing::AssertionSuccess();
     return ::testing::AssertionFailure() << x << " instead of " << expected.str();
@@ -101,7 +101,7 @@ void check_operators(const truth& x, const truth& y) {
     ASSERT_EQ(lsb(b), static_cast<int>(lsb(abs(y))));
 }
 
-/// Results in the place of an operand, and of a number that has memory already.
+/// Results that replace an operand, or a number that has memory already.
 void check_in_place(const truth& x, const truth& y) {
     const integer a = own(x), b = own(y);
     const auto changed = [](integer x, const auto& change) {
@@ -130,7 +130,7 @@ void check_in_place(const truth& x, const truth& y) {
     integer from = a, to = b;
     to = std::move(from);
     ASSERT_TRUE(is(to, x));
-    ASSERT_TRUE(is(from, 0));  // NOLINT(bugprone-use-after-move): it is promised
+    ASSERT_TRUE(is(from, 0));  // NOLINT(bugprone-use-after-move): the type promises it
     std::swap(from, to);
     ASSERT_TRUE(is(from, x));
 }
@@ -153,7 +153,7 @@ void check_shifts(const truth& x, int n) {
     ASSERT_TRUE(is(b, down)) << n;
 }
 
-TEST(Integer, OperationsAreThoseOfNumbers) {
+TEST(Integer, OperationsAgreeWithGmp) {
     source random(1);
     for (int k = 0; k < 6000 && !HasFatalFailure(); ++k) {
         const truth x = random.any(), y = random.below(16) == 0 ? x : random.any();
@@ -163,7 +163,7 @@ TEST(Integer, OperationsAreThoseOfNumbers) {
     }
 }
 
-TEST(Integer, SmallNumbersOfEveryPair) {
+TEST(Integer, EveryPairOfSmallNumbers) {
     std::vector<truth> all;
     for (const int power :
          {0, 1, 31, 32, 52, 53, 62, 63, 64, 65, 127, 128, 129, 191, 192, 255, 256})
@@ -179,8 +179,8 @@ TEST(Integer, SmallNumbersOfEveryPair) {
         for (int n = 0; n < 260; ++n) check_shifts(x, n);
 }
 
-/// Products of every pair of sizes around those where the algorithm changes, of numbers with and
-/// without runs of zeros.
+/// Products of all sizes around those where the algorithm changes, of numbers with and without runs
+/// of zeros.
 TEST(Integer, LongProducts) {
     source random(2);
     const int k = errbound::integers::words::karatsuba_words;
@@ -210,8 +210,8 @@ TEST(Integer, ThousandsOfWords) {
     }
 }
 
-/// a/d where the first two words of d go into a exactly q times, so that d, which is larger than
-/// they say, goes into it once less.
+/// a/d, where the first two words of d go into a exactly q times. The rest of d makes the quotient
+/// one less.
 TEST(Integer, QuotientsOfDigitsGuessedTooLarge) {
     source random(4);
     int tried = 0;
@@ -224,7 +224,7 @@ TEST(Integer, QuotientsOfDigitsGuessedTooLarge) {
         const truth q = truth(random.any_word()) + 1;
         const truth a = ((q * first) << 64 * more) + (random.below(2) == 0 ? 0 : random.any_word());
         tried += a / d == q - 1;
-        // As a later digit of a longer quotient, too, and shifted.
+        // The same as a later digit of a longer quotient, and shifted.
         const int shift = random.below(64);
         const truth longer = ((d * random.any_word()) << 64) + a;
         ASSERT_TRUE(is(own(a) / own(d), a / d));
@@ -255,7 +255,7 @@ TEST(Integer, QuotientsOfTwoAndThreeWords) {
         ASSERT_EQ(truth(v), (base * base - 1) / high - base);
         const truth d = truth(high) * base + low;
         const words::two_word_divisor divisor(high, low);
-        // Below d: anything, or something next to it.
+        // Any dividend below d, or one next to d.
         const word a2 = random.below(3) == 0 ? high : random.any_word() % high;
         const word a1 = a2 < high    ? random.any_word()
                         : low == 0   ? 0
@@ -322,7 +322,7 @@ TEST(Integer, BuiltInIntegers) {
     EXPECT_FALSE(static_cast<bool>(integer(0)));
 }
 
-/// Its distance from x is at most half an ulp, and half of one only if it is even.
+/// The distance of the double from x is at most half an ulp; if it is half, the double is even.
 void check_nearest(const truth& x) {
     const double d = static_cast<double>(own(x));
     ASSERT_TRUE(std::isfinite(d));
@@ -383,7 +383,7 @@ TEST(Integer, Text) {
     EXPECT_THROW(integer::from_string("2", 2), std::invalid_argument);
 }
 
-TEST(Integer, BeyondAnySizeThereIsNoMemory) {
+TEST(Integer, ShiftsThatNeedTooMuchMemoryThrow) {
     integer x = (integer(1) << 100U) - 1, before = x;
     EXPECT_THROW(x <<= 0x7fffffffU, std::bad_alloc);
     EXPECT_THROW(x <<= UINT64_MAX, std::bad_alloc);

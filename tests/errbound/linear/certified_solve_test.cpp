@@ -1,4 +1,4 @@
-// certified_solve against exact rationals, and against solutions that are known by construction.
+// certified_solve compared with exact rationals, and with solutions that are known by construction.
 #include <gtest/gtest.h>
 
 #include <Eigen/LU>
@@ -30,7 +30,7 @@ using rational_systems::table;
 constexpr double u = 0x1p-53;
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-/// If the answer is certified, it must be right.
+/// Checks that a certified answer is right.
 template <class A, class B>
 solve_status check(const A& a, const B& b) {
     const auto x = certified_solve(a, b);
@@ -75,7 +75,7 @@ TEST(CertifiedSolve, HoldsOnEveryFamily) {
     }
 }
 
-TEST(CertifiedSolve, FixedSizesAreSolvedLikewise) {
+TEST(CertifiedSolve, HoldsAtFixedSizes) {
     matrix_families::generator make(2);
     for (const family f : matrix_families::all)
         for (int k = 0; k < support::scaled(20); ++k) {
@@ -96,7 +96,7 @@ TEST(CertifiedSolve, ErrorsAreNearHalfAUnitInTheLastPlace) {
 
 /// The inverse of Hilbert's matrix is whole, and so is the matrix times the least common multiple
 /// of 1 to 2n - 1.
-TEST(CertifiedSolve, HilbertsMatricesUntilTheyAreTooNearASingularOne) {
+TEST(CertifiedSolve, RefusesHilbertMatricesNearSingularOnes) {
     int last = 0;
     for (int n = 1; n <= 20; ++n) {
         double multiple = 1;
@@ -112,7 +112,7 @@ TEST(CertifiedSolve, HilbertsMatricesUntilTheyAreTooNearASingularOne) {
     EXPECT_LT(last, 14);
 }
 
-/// 3a·x = ay has the solution y/3, and is exact for whole numbers.
+/// Solves 3a·x = ay, whose solution is y/3; the system is exact for integers.
 void expect_thirds(const Eigen::MatrixXd& a, const Eigen::MatrixXd& y, bool must_be_certified) {
     const auto x = certified_solve(3 * a, a * y);
     EXPECT_TRUE(x.certified() || !must_be_certified) << a.rows();
@@ -125,18 +125,8 @@ void expect_thirds(const Eigen::MatrixXd& a, const Eigen::MatrixXd& y, bool must
 }
 
 #if LDBL_MANT_DIG == 113 || (defined(__SIZEOF_FLOAT128__) && defined(__GLIBC__))
-/// The number as a sum of three doubles, which hold its 113 bits.
-rational rational_of(errbound::float128 x) {
-    rational sum = 0;
-    for (int i = 0; i < 3; ++i) {
-        const double part = static_cast<double>(x);
-        sum += rational(part);
-        x -= part;
-    }
-    return sum;
-}
-/// Refused in double precision; the LU decomposition of numbers tracked in binary128 gives every
-/// entry to `most` of its size.
+/// certified_solve refuses the system. The LU decomposition of numbers tracked in binary128 solves
+/// it, with errors of at most `most` of each entry.
 void expect_solved_in_binary128(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b, double most) {
     using number = errbound::tracked<errbound::float128, errbound::residual>;
     EXPECT_EQ(errbound::certified_solve(a, b).status, solve_status::nearly_singular);
@@ -144,12 +134,12 @@ void expect_solved_in_binary128(const Eigen::MatrixXd& a, const Eigen::MatrixXd&
     const auto exact = rational_systems::solve(a, b);
     ASSERT_TRUE(exact);
     for (Eigen::Index i = 0; i < a.rows(); ++i) {
-        const rational truth = (*exact)(i, 0), off = rational_of(x(i, 0).value()) - truth;
-        EXPECT_LE(abs(off), rational_of(x(i, 0).error())) << i;
-        EXPECT_LE(rational_of(x(i, 0).error()), rational(most) * abs(truth)) << i;
+        const rational truth = (*exact)(i, 0), error = exactly(x(i, 0).error());
+        EXPECT_LE(abs(rational(exactly(x(i, 0).value()) - truth)), error) << i;
+        EXPECT_LE(error, rational(most) * abs(truth)) << i;
     }
 }
-TEST(CertifiedSolve, WhatIsRefusedTheLUDecompositionInBinary128Solves) {
+TEST(CertifiedSolve, RefusesSystemsThatBinary128Solves) {
     Eigen::MatrixXd hilbert(12, 12);
     for (Eigen::Index i = 0; i < 12; ++i)
         for (Eigen::Index j = 0; j < 12; ++j) hilbert(i, j) = 1 / double(i + j + 1);
@@ -179,7 +169,7 @@ TEST(CertifiedSolve, LargerSystemsWithKnownSolutions) {
     }
 }
 
-TEST(CertifiedSolve, RefusesWithItsReason) {
+TEST(CertifiedSolve, ReportsTheReasonOfARefusal) {
     const double nan = std::numeric_limits<double>::quiet_NaN();
     const Eigen::MatrixXd identity = Eigen::MatrixXd::Identity(3, 3);
     const Eigen::VectorXd ones = Eigen::VectorXd::Ones(3);
@@ -212,7 +202,7 @@ TEST(CertifiedSolve, EdgesOfTheRange) {
         }
 }
 
-/// The greatest share of a bound that an error takes: of I − RA, of a residual, and of a solution.
+/// The greatest ratio of an error to its bound: of I − RA, of a residual, and of a solution.
 double share(const Eigen::MatrixXd& given, const Eigen::VectorXd& y) {
     namespace linear = errbound::linear;
     const Eigen::Index n = given.rows();
@@ -249,7 +239,7 @@ double share(const Eigen::MatrixXd& given, const Eigen::VectorXd& y) {
     return double(greatest);
 }
 
-/// Another number: a neighbour, another scale or sign, or one from elsewhere.
+/// A neighbour of x, another scale or sign, or another number.
 double mutated(double x, double other, matrix_families::generator& make) {
     switch (make.whole(0, 6)) {
         case 0:
@@ -270,7 +260,7 @@ double mutated(double x, double other, matrix_families::generator& make) {
     }
 }
 
-TEST(CertifiedSolve, NoBoundIsBrokenByClimbingTowardsIt) {
+TEST(CertifiedSolve, BoundsHoldInASearchForTheGreatestErrors) {
     matrix_families::generator make(5);
     double greatest = 0;
     for (int start = 0; start < support::scaled(28); ++start) {

@@ -1,4 +1,4 @@
-// What decompositions of tracked matrices say they know, against exact rationals.
+// Decompositions of tracked matrices, compared with exact rationals.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -39,7 +39,7 @@ bool holds(const Number& x, const rational& exact) {
     return rational_systems::holds(x.value(), x.error(), exact);
 }
 
-/// How many entries are known. All of them must be so rightly.
+/// Checks all entries. Returns the number of those with a finite error.
 template <class Matrix>
 int known(const Matrix& x, const table& exact, const char* what) {
     int count = 0;
@@ -51,7 +51,8 @@ int known(const Matrix& x, const table& exact, const char* what) {
     return count;
 }
 
-/// LU decomposition, determinant and inverse, likewise.
+/// Checks LU decomposition, determinant and inverse. Returns the number of entries of the solution
+/// with a finite error.
 template <int N, class Rule>
 int check_lu(const exact_system& s) {
     using number = tracked<double, Rule>;
@@ -72,7 +73,7 @@ int check_lu(const exact_system& s) {
     return known(vector(lu.solve(b)), s.solution, "LU");
 }
 
-/// QR decomposition: how many entries of the solution are known, all of them rightly.
+/// Checks QR decomposition. Returns the number of entries of the solution with a finite error.
 template <int N, class Rule>
 int check_qr(const exact_system& s) {
     using number = tracked<double, Rule>;

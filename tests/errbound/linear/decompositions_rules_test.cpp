@@ -15,7 +15,7 @@ class DecompositionsBy : public testing::Test {};
 using Rules = testing::Types<errbound::sharp, errbound::interval, errbound::residual>;
 TYPED_TEST_SUITE(DecompositionsBy, Rules);
 
-TYPED_TEST(DecompositionsBy, KnowOnlyWhatIsSo) {
+TYPED_TEST(DecompositionsBy, Hold) {
     matrix_families::generator make(1);
     int unknowns = 0, all = 0;
     for (const auto f : matrix_families::all) {

@@ -15,13 +15,13 @@ namespace {
 using namespace decomposition_check;
 using matrix_families::family;
 
-/// Whether exact elimination of 30 unknowns takes well under a second.
+/// True if exact elimination of 30 unknowns takes well under a second.
 bool quick_in_rationals(family f) {
     return f == family::uniform || f == family::small_integers || f == family::unimodular ||
            f == family::nearly_dependent || f == family::tridiagonal;
 }
 
-TEST(Decompositions, KnowOnlyWhatIsSoAtFixedSizes) {
+TEST(Decompositions, HoldAtFixedSizes) {
     matrix_families::generator make(1);
     for (const family f : matrix_families::all) {
         SCOPED_TRACE(matrix_families::names[int(f)]);
@@ -33,7 +33,7 @@ TEST(Decompositions, KnowOnlyWhatIsSoAtFixedSizes) {
     }
 }
 
-TEST(Decompositions, KnowOnlyWhatIsSoAtAnySize) {
+TEST(Decompositions, HoldAtAnySize) {
     matrix_families::generator make(2);
     int unknowns = 0, by_lu = 0, by_qr = 0;
     for (const family f : matrix_families::all) {
@@ -51,8 +51,8 @@ TEST(Decompositions, KnowOnlyWhatIsSoAtAnySize) {
     EXPECT_GT(3 * by_qr, unknowns);
 }
 
-/// Pivots that are exactly zero, that may be zero, and that are not numbers.
-TEST(Decompositions, DivideByNothingThatMayBeZero) {
+/// Pivots that are zero, that may be zero, and that are not numbers.
+TEST(Decompositions, WithPivotsThatMayBeZero) {
     using number = tracked<double>;
     Eigen::MatrixX<number> a(2, 2);
     const Eigen::VectorX<number> b = Eigen::VectorX<number>::Ones(2);
@@ -79,7 +79,7 @@ void check_cholesky(const exact_system& s, bool definite, int& proved) {
     known(Eigen::VectorX<number>(llt.solve(s.b.template cast<number>())), s.solution, "LLT");
 }
 
-/// By leading minors.
+/// Tests the signs of the leading minors.
 bool positive_definite(const Eigen::MatrixXd& a) {
     for (Eigen::Index n = 1; n <= a.rows(); ++n) {
         table none(n, 0);
@@ -107,7 +107,7 @@ TEST(Decompositions, CholeskyProvesThatMatricesArePositiveDefinite) {
     EXPECT_GT(10 * proved, tried);
 }
 
-TEST(Decompositions, FactorsAreThoseOfExactReflections) {
+TEST(Decompositions, HouseholderFactors) {
     using number = tracked<double>;
     Eigen::MatrixX<number> a(2, 2);
     a << 3.0, 1.0, 4.0, 2.0;  // R = (-5, -2.2; 0, -0.4)
@@ -124,7 +124,7 @@ TEST(Decompositions, FactorsAreThoseOfExactReflections) {
     EXPECT_LT(tiny.error(), 0x1p-1040);
 }
 
-TEST(ByValue, OrdersForChoicesThatMayBeWrong) {
+TEST(ByValue, SortsNumbersWhoseOrderIsUncertain) {
     using number = tracked<double>;
     const double nan = std::numeric_limits<double>::quiet_NaN();
     std::vector<number> numbers{nan, number::within(2, 5), 3, nan, number::within(1, 9)};

@@ -1,10 +1,10 @@
-// Matrices to solve systems with: random, structured, ill-conditioned, singular, badly scaled.
+// Matrices of linear systems: random, structured, ill-conditioned, singular, badly scaled.
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <cmath>
 #include <cstdint>
-#include <iterator>
 #include <random>
 
 namespace matrix_families {
@@ -25,25 +25,16 @@ enum class family : std::uint8_t {
     vandermonde,
     zero,
 };
-inline constexpr family all[] = {family::uniform,
-                                 family::small_integers,
-                                 family::hilbert,
-                                 family::unimodular,
-                                 family::nearly_dependent,
-                                 family::dependent,
-                                 family::scaled_rows_and_columns,
-                                 family::any_scales,
-                                 family::subnormal,
-                                 family::triangular,
-                                 family::tridiagonal,
-                                 family::toeplitz,
-                                 family::vandermonde,
-                                 family::zero};
-inline constexpr const char* names[] = {
+inline constexpr std::array names{
     "uniform",     "small integers", "Hilbert",     "unimodular", "nearly dependent",
     "dependent",   "scaled",         "any scales",  "subnormal",  "triangular",
     "tridiagonal", "Toeplitz",       "Vandermonde", "zero"};
-static_assert(std::size(names) == std::size(all));
+inline constexpr auto all = [] {
+    std::array<family, names.size()> each{};
+    for (std::size_t i = 0; i < each.size(); ++i) each[i] = family(i);
+    return each;
+}();
+static_assert(all.back() == family::zero);
 
 class generator {
   public:
@@ -62,7 +53,7 @@ class generator {
     Eigen::MatrixXd whole_numbers(Eigen::Index n, Eigen::Index m, int most) {
         return Eigen::MatrixXd::NullaryExpr(n, m, [&] { return double(whole(-most, most)); });
     }
-    /// Of determinant 1, and with a condition number that grows with n and with `most`.
+    /// A matrix of determinant 1, whose condition number grows with n and with `most`.
     Eigen::MatrixXd unimodular(Eigen::Index n, int most) {
         Eigen::MatrixXd lower = Eigen::MatrixXd::Identity(n, n), upper = lower;
         for (Eigen::Index i = 1; i < n; ++i) {

@@ -1,17 +1,17 @@
-// Linear systems in exact rationals: what solutions, inverses and determinants are held against.
+// Linear systems in exact rationals.
 #pragma once
 
 #include <Eigen/Core>
-#include <boost/multiprecision/gmp.hpp>
 #include <cmath>
 #include <optional>
 #include <utility>
 #include <vector>
 
+#include "tests/support/special_values.hpp"
+
 namespace rational_systems {
 
-using rational = boost::multiprecision::number<boost::multiprecision::gmp_rational,
-                                               boost::multiprecision::et_off>;
+using ::rational;
 using Eigen::Index;
 
 struct table {
@@ -29,8 +29,8 @@ struct table {
     }
 };
 
-/// Solves in place of b by Gauss's and Jordan's elimination and returns a's determinant; b is
-/// undefined where that is zero.
+/// Replaces b with the solution, by Gauss-Jordan elimination, and returns a's determinant. If that
+/// is zero, b is undefined.
 inline rational eliminate(table a, table& b) {
     rational determinant = 1;
     for (Index k = 0; k < a.rows; ++k) {
@@ -55,14 +55,14 @@ inline rational eliminate(table a, table& b) {
     return determinant;
 }
 
-/// The solution of ax = b; none if a is singular. Precondition: all is finite.
+/// The solution of ax = b, or nothing if a is singular. Precondition: all numbers are finite.
 inline std::optional<table> solve(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) {
     table x(b);
     if (eliminate(table(a), x) == 0) return std::nullopt;
     return x;
 }
 
-/// |value − exact| <= error; an error that is not finite says nothing.
+/// True if |value − exact| <= error, or if either is not finite.
 inline bool holds(double value, double error, const rational& exact) {
     if (!std::isfinite(error) || !std::isfinite(value)) return true;
     return abs(rational(value) - exact) <= rational(error);

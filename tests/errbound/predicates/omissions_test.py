@@ -1,8 +1,8 @@
-"""The compiler finds what is left out of the predicates that branch: a check of an uncertain sign.
+"""The compiler finds omitted checks of uncertain signs in the predicates that branch.
 
 usage: omissions_test.py SOURCE_FOLDER COMPILER
 
-Leaves out every check, and of those of several signs each sign, one at a time, and compiles.
+Omits each check, and each sign of the checks of several signs, one at a time, and compiles.
 """
 import pathlib
 import re
@@ -15,7 +15,7 @@ PREDICATES = {"segments_intersect": "segments_intersect3d", "segment_triangle": 
 
 
 def omissions(line, before):
-    """What becomes of a line and the one before it, each way."""
+    """Yields each mutation of a line and the line before it."""
     signs = re.findall(r"!certain\(\w+\)", line)
     loop = re.search(r"\{(.*)\}", before)
     if len(signs) > 1:

@@ -1,4 +1,4 @@
-// Predicates in batches: the signs of one by one.
+// Batches of predicates have the signs of single calls.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -49,7 +49,7 @@ class Batches : public testing::Test {};
 using number_types = testing::Types<float, double>;
 TYPED_TEST_SUITE(Batches, number_types);
 
-TYPED_TEST(Batches, AreOneByOne) {
+TYPED_TEST(Batches, EqualSingleCalls) {
     using T = TypeParam;
     compare_batch<T, 2>(errbound::orient2d, surface::flat, std::make_index_sequence<3>());
     compare_batch<T, 3>(errbound::orient3d, surface::flat, std::make_index_sequence<4>());
@@ -70,7 +70,7 @@ TEST(Batch, OfOnePointAgainstMany) {
                             : i == 50 ? sign_type::zero
                                       : sign_type::negative);
 }
-/// Points that are computed when they are asked for.
+/// Points that are computed when they are read.
 struct scaled_points {
     std::vector<std::array<double, 2>> points;
     double factor;
@@ -79,8 +79,8 @@ struct scaled_points {
     }
 };
 TEST(Batch, OfComputedPoints) {
-    // The factor's products are rounded before their differences, by kernels with fused
-    // multiply-add too: points that coincide when rounded do.
+    // Kernels with fused multiply-add also round the factor's products before they subtract: points
+    // that coincide when rounded do so in the batch.
     predicate_inputs::generator random(3);
     scaled_points a{{}, 1 + 0x1.3p-20};
     std::vector<std::array<double, 2>> b, c;

@@ -1,11 +1,10 @@
-// What tests of predicates share: each against an oracle, every stage alone and all together.
+// Compares predicates with oracles, each stage alone and all together.
 #pragma once
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <array>
-#include <boost/multiprecision/gmp.hpp>
 #include <cstddef>
 #include <cstdint>
 #include <errbound/multiprecision.hpp>
@@ -15,24 +14,23 @@
 
 #include "tests/errbound/predicates/predicate_list.hpp"
 #include "tests/support/scaled.hpp"
+#include "tests/support/special_values.hpp"
 
 namespace predicate_check {
 
 using errbound::predicate_stage;
 using errbound::sign_type;
 using predicate_inputs::surface;
-using rational = boost::multiprecision::number<boost::multiprecision::gmp_rational,
-                                               boost::multiprecision::et_off>;
 
 using point2 = std::array<double, 2>;
 using point3 = std::array<double, 3>;
 
-/// With fewer some stages have none.
+/// With fewer inputs, some stages decide none.
 inline int inputs_per_family() {
     return std::max(support::scaled(4000), 400);
 }
 
-/// The same expression over rationals, all by itself.
+/// Evaluates the same expression over rationals, without filters.
 struct rational_options : errbound::predicate_options {
     using exact_type = rational;
 };

@@ -1,4 +1,4 @@
-// Inputs of predicates: as they come, nearly degenerate, exactly degenerate, and of every size.
+// Inputs of predicates: random, nearly degenerate, exactly degenerate, and of every size.
 #pragma once
 
 #include <algorithm>
@@ -17,19 +17,19 @@
 
 namespace predicate_inputs {
 
-/// What makes points degenerate.
+/// The surface that makes points degenerate.
 enum class surface : std::uint8_t {
     flat,        ///< they lie on a line or plane
     round,       ///< on a circle or sphere
-    weighted,    ///< the same, with a last coordinate that is a weight
-    centred,     ///< the same, but the first is the centre
+    weighted,    ///< as round, with a last coordinate that is a weight
+    centred,     ///< as round, except that the first is the centre
     concurrent,  ///< on lines, or a line and planes, that meet in one point
 };
 
 template <class T, std::size_t Dimension, std::size_t Count>
 using points = std::array<std::array<T, Dimension>, Count>;
 
-/// As hexadecimal floats.
+/// The coordinates as hexadecimal floats.
 template <class T, std::size_t D, std::size_t N>
 std::string text_of(const points<T, D, N>& p) {
     std::string text;
@@ -69,7 +69,7 @@ points<T, D, N> any_uniform(generator& random, surface) {
     return p;
 }
 
-/// Each point in turn is drawn until it is unlike all before it.
+/// Draws each point until it differs from all before it.
 template <class Points, class Draw>
 void fill_distinct(Points& p, const Draw& draw) {
     for (auto q = p.begin(); q != p.end(); ++q) do
@@ -77,12 +77,12 @@ void fill_distinct(Points& p, const Draw& draw) {
         while (std::find(p.begin(), q, *q) != q);
 }
 
-/// Flat and concurrent points: multiples of steps, added to an origin. `times` gives as many
-/// factors as there can be steps.
+/// Flat and concurrent points: an origin and multiples of steps. `times` returns as many factors as
+/// there can be steps.
 template <class T, std::size_t D, std::size_t N, class Step, class Times>
 points<T, D, N> on_flats(surface s, const std::array<T, D>& origin, const Step& step,
                          const Times& times) {
-    // In groups that span a flat each: a line and, if it comes out even, planes, else lines.
+    // Each group of points spans a line or, if the number of points permits, a plane.
     constexpr std::size_t plane = D < 3 ? 1 : D - 1;
     const std::size_t later = (N - 2) % D == 0 ? plane : 1;
     std::array<std::array<T, D>, D> steps;
@@ -103,15 +103,15 @@ points<T, D, N> on_flats(surface s, const std::array<T, D>& origin, const Step& 
     return p;
 }
 
-/// The last coordinates become a multiple of another: equally high over the paraboloid, but for a
-/// plane.
+/// The last coordinates become a multiple of another: up to a plane, their height over the
+/// paraboloid is constant.
 template <class T, std::size_t D, std::size_t N>
 void add_weights(generator& random, points<T, D, N>& p) {
     const auto axis = static_cast<std::size_t>(between(random, 0, int(D) - 2));
     const int factor = between(random, 0, 3);
     for (auto& point : p) point[D - 1] = std::ldexp(point[axis], factor);
 }
-/// Of how many coordinates the round points are.
+/// The number of coordinates that are not weights.
 template <std::size_t D>
 std::size_t space(surface s) {
     return s == surface::weighted ? D - 1 : D;
@@ -120,7 +120,7 @@ constexpr bool is_flat(surface s) {
     return s == surface::flat || s == surface::concurrent;
 }
 
-/// On the surface in [−1, 1], rounded and jittered by up to two units in the last place.
+/// Points on the surface in [−1, 1], rounded and jittered by up to two units in the last place.
 template <std::floating_point T, std::size_t D, std::size_t N>
 points<T, D, N> near(generator& random, surface s) {
     const auto vector = [&](T most) {
@@ -156,7 +156,7 @@ points<T, D, N> near(generator& random, surface s) {
     return p;
 }
 
-/// Small integers, different points, exactly zero.
+/// Different points with small integers as coordinates, for which the predicate is exactly zero.
 template <std::floating_point T, std::size_t D, std::size_t N>
 points<T, D, N> grid(generator& random, surface s) {
     const auto vector = [&](int low, int high) {
@@ -191,7 +191,7 @@ points<T, D, N> grid(generator& random, surface s) {
     return p;
 }
 
-/// Different points, exactly zero, with coordinate differences that do not fit the number type.
+/// The same with coordinate differences that do not fit the number type.
 template <std::floating_point T, std::size_t D, std::size_t N>
 points<T, D, N> deep(generator& random, surface s) {
     constexpr int digits = std::numeric_limits<T>::digits;
@@ -275,7 +275,7 @@ points<T, D, N> any_timed(generator& random, surface s) {
             return deep<T, D, N>(random, s);
     }
 }
-/// These times a power of two from all that there are.
+/// A timed family times any power of two.
 template <std::floating_point T, std::size_t D, std::size_t N>
 points<T, D, N> scaled(generator& random, surface s) {
     points<T, D, N> p = any_timed<T, D, N>(random, s);
@@ -285,7 +285,7 @@ points<T, D, N> scaled(generator& random, surface s) {
         for (T& x : point) x = std::ldexp(x, e);
     return p;
 }
-/// These where products of some coordinates begin to underflow or to overflow.
+/// A timed family where products of some coordinates begin to underflow or to overflow.
 template <std::floating_point T, std::size_t D, std::size_t N>
 points<T, D, N> in_windows(generator& random, surface s) {
     points<T, D, N> p = any_timed<T, D, N>(random, s);
@@ -300,7 +300,7 @@ points<T, D, N> in_windows(generator& random, surface s) {
     return p;
 }
 
-/// Points of one of the families, each coordinate times a power of two of its own or its axis's.
+/// Points of one of the families, each axis times a power of two, and in half also one coordinate.
 template <std::floating_point T, std::size_t D, std::size_t N>
 points<T, D, N> stretched(generator& random, surface s) {
     points<T, D, N> p = random() % 2 == 0 ? near<T, D, N>(random, s) : deep<T, D, N>(random, s);

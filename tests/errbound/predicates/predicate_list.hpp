@@ -1,4 +1,4 @@
-// All predicates of errbound/predicates.hpp, each with its oracle and what makes it degenerate.
+// All predicates of errbound/predicates.hpp, each with its oracle and its degenerate surfaces.
 #pragma once
 
 #include <algorithm>
@@ -22,65 +22,49 @@ struct entry {
     Predicate predicate;
     Oracle oracle;
     std::array<surface, 2> surfaces;
-    /// Shewchuk's A-filter's, in units of u, where there is one (static_filter.hpp names the
-    /// source).
+    /// The constant of Shewchuk's A-filter in units of u, or 0 (source: static_filter.hpp).
     int constant_of_shewchuk = 0;
 };
-template <std::size_t Dimension, std::size_t Count, class Predicate, class Oracle>
-constexpr entry<Dimension, Count, Predicate, Oracle> make_entry(std::string_view name,
-                                                                Predicate predicate, Oracle oracle,
-                                                                std::array<surface, 2> surfaces,
-                                                                int constant_of_shewchuk = 0) {
+template <std::size_t D, std::size_t N, class Predicate, class Oracle>
+constexpr entry<D, N, Predicate, Oracle> make_entry(std::string_view name, Predicate predicate,
+                                                    Oracle oracle, std::array<surface, 2> surfaces,
+                                                    int constant_of_shewchuk = 0) {
     return {name, predicate, oracle, surfaces, constant_of_shewchuk};
 }
+constexpr int sign(int s) {
+    return s;
+}
+/// Oracles take points in a common unit. Some also take 1 in that unit.
+#define ERRBOUND_ENTRY(D, N, NAME, ORACLE, ...)                 \
+    make_entry<D, N>(                                           \
+        #NAME, errbound::NAME,                                  \
+        [](const auto& p, [[maybe_unused]] const auto& one) {   \
+            if constexpr (requires { oracle::ORACLE(p, one); }) \
+                return sign(oracle::ORACLE(p, one));            \
+            else                                                \
+                return sign(oracle::ORACLE(p));                 \
+        },                                                      \
+        __VA_ARGS__)
 
 using enum surface;
 namespace oracle = predicate_oracle;
 
-/// Oracles take points in a common unit, and 1 in that unit.
 inline constexpr std::tuple all{
-    make_entry<2, 3>(
-        "orient2d", errbound::orient2d,
-        [](const auto& p, const auto&) { return sign(oracle::orient2d(p)); }, {flat, flat}, 3),
-    make_entry<3, 4>(
-        "orient3d", errbound::orient3d,
-        [](const auto& p, const auto&) { return sign(oracle::orient3d(p)); }, {flat, flat}, 7),
-    make_entry<2, 4>(
-        "incircle", errbound::incircle,
-        [](const auto& p, const auto&) { return sign(oracle::incircle(p)); }, {round, round}, 10),
-    make_entry<3, 5>(
-        "insphere", errbound::insphere,
-        [](const auto& p, const auto&) { return sign(oracle::insphere(p)); }, {round, round}, 16),
-    make_entry<3, 4>(
-        "power_incircle", errbound::power_incircle,
-        [](const auto& p, const auto& one) { return sign(oracle::power_incircle(p, one)); },
-        {weighted, weighted}),
-    make_entry<4, 5>(
-        "power_insphere", errbound::power_insphere,
-        [](const auto& p, const auto& one) { return sign(oracle::power_insphere(p, one)); },
-        {weighted, weighted}),
-    make_entry<2, 3>("compare_distances2d", errbound::compare_distances2d,
-                     [](const auto& p, const auto&) { return sign(oracle::compare_distances(p)); },
-                     {centred, centred}),
-    make_entry<3, 3>("compare_distances3d", errbound::compare_distances3d,
-                     [](const auto& p, const auto&) { return sign(oracle::compare_distances(p)); },
-                     {centred, centred}),
-    make_entry<3, 4>("segments_intersect3d", errbound::segments_intersect3d,
-                     [](const auto& p, const auto&) { return oracle::segments_intersect3d(p); },
-                     {flat, concurrent}),
-    make_entry<3, 5>(
-        "segment_intersects_triangle", errbound::segment_intersects_triangle,
-        [](const auto& p, const auto&) { return oracle::segment_intersects_triangle(p); },
-        {flat, concurrent}),
-    make_entry<2, 6>("orient2d_line_line", errbound::orient2d_line_line,
-                     [](const auto& p, const auto&) { return oracle::orient2d_line_line(p); },
-                     {concurrent, concurrent}),
-    make_entry<3, 8>("orient3d_line_plane", errbound::orient3d_line_plane,
-                     [](const auto& p, const auto&) { return oracle::orient3d_line_plane(p); },
-                     {concurrent, concurrent}),
-    make_entry<2, 8>("compare_x_line_line", errbound::compare_x_line_line,
-                     [](const auto& p, const auto&) { return oracle::compare_x_line_line(p); },
-                     {concurrent, concurrent})};
+    ERRBOUND_ENTRY(2, 3, orient2d, orient2d, {flat, flat}, 3),
+    ERRBOUND_ENTRY(3, 4, orient3d, orient3d, {flat, flat}, 7),
+    ERRBOUND_ENTRY(2, 4, incircle, incircle, {round, round}, 10),
+    ERRBOUND_ENTRY(3, 5, insphere, insphere, {round, round}, 16),
+    ERRBOUND_ENTRY(3, 4, power_incircle, power_incircle, {weighted, weighted}),
+    ERRBOUND_ENTRY(4, 5, power_insphere, power_insphere, {weighted, weighted}),
+    ERRBOUND_ENTRY(2, 3, compare_distances2d, compare_distances, {centred, centred}),
+    ERRBOUND_ENTRY(3, 3, compare_distances3d, compare_distances, {centred, centred}),
+    ERRBOUND_ENTRY(3, 4, segments_intersect3d, segments_intersect3d, {flat, concurrent}),
+    ERRBOUND_ENTRY(3, 5, segment_intersects_triangle, segment_intersects_triangle,
+                   {flat, concurrent}),
+    ERRBOUND_ENTRY(2, 6, orient2d_line_line, orient2d_line_line, {concurrent, concurrent}),
+    ERRBOUND_ENTRY(3, 8, orient3d_line_plane, orient3d_line_plane, {concurrent, concurrent}),
+    ERRBOUND_ENTRY(2, 8, compare_x_line_line, compare_x_line_line, {concurrent, concurrent})};
+#undef ERRBOUND_ENTRY
 
 /// The unit in which an entry's oracle takes these points.
 template <class Entry, class Points>

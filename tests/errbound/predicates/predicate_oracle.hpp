@@ -1,5 +1,5 @@
-// What the predicates of errbound/predicates.hpp are, in whole numbers and by other formulas than
-// theirs: determinants of homogeneous coordinates, meeting points by their parameters.
+// The predicates of errbound/predicates.hpp in integers, by other formulas: determinants of
+// homogeneous coordinates, and parameters of intersection points.
 #pragma once
 
 #include <algorithm>
@@ -10,7 +10,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <errbound/sign.hpp>
-#include <span>
 
 #include "tests/support/big_integer.hpp"
 
@@ -22,15 +21,17 @@ using point2 = point<2>;
 using point3 = point<3>;
 
 /// The exponent of the last bit of any coordinate; 0 if all are zero.
-inline int common_unit(std::span<const double> coordinates) {
+template <class T, std::size_t D, std::size_t N>
+int common_unit(const std::array<std::array<T, D>, N>& p) {
     int unit = INT_MAX;
-    for (const double x : coordinates) {
-        if (x == 0) continue;
-        int exponent;
-        const double fraction = std::frexp(x, &exponent);
-        const auto digits = static_cast<std::uint64_t>(std::ldexp(std::abs(fraction), 53));
-        unit = std::min(unit, exponent - 53 + std::countr_zero(digits));
-    }
+    for (const auto& q : p)
+        for (const T x : q) {
+            if (x == 0) continue;
+            int exponent;
+            const double fraction = std::frexp(double(x), &exponent);
+            const auto digits = static_cast<std::uint64_t>(std::ldexp(std::abs(fraction), 53));
+            unit = std::min(unit, exponent - 53 + std::countr_zero(digits));
+        }
     return unit == INT_MAX ? 0 : unit;
 }
 
@@ -41,12 +42,6 @@ std::array<point<D>, N> scaled_points(const std::array<std::array<T, D>, N>& p, 
     for (std::size_t i = 0; i < N; ++i)
         for (std::size_t k = 0; k < D; ++k) scaled[i][k] = big_integer(p[i][k], unit);
     return scaled;
-}
-template <class T, std::size_t D, std::size_t N>
-int common_unit(const std::array<std::array<T, D>, N>& p) {
-    std::array<double, D * N> all;
-    for (std::size_t i = 0; i < D * N; ++i) all[i] = p[i / D][i % D];
-    return common_unit(std::span<const double>(all));
 }
 
 inline big_integer dot(const point3& a, const point3& b) {
@@ -62,7 +57,7 @@ inline point3 homogeneous(const point2& a) {
     return {a[0], a[1], 1};
 }
 
-/// The determinant of rows (x, y, z, w), by the minors of two columns.
+/// The determinant of the rows (x, y, z, w), by the minors of two columns.
 inline big_integer determinant(const point<4>& a, const point<4>& b, const point<4>& c,
                                const point<4>& d) {
     const auto left = [](const auto& p, const auto& q) { return p[0] * q[1] - p[1] * q[0]; };
@@ -79,13 +74,13 @@ inline big_integer orient3d(const std::array<point3, 4>& p) {
     return determinant(row(0), row(1), row(2), row(3));
 }
 
-/// Points in the plane at these heights.
+/// The determinant of points in the plane at these heights.
 inline big_integer lifted_area(const std::array<point2, 4>& p,
                                const std::array<big_integer, 4>& height) {
     const auto row = [&](std::size_t i) { return point<4>{p[i][0], p[i][1], height[i], 1}; };
     return determinant(row(0), row(1), row(2), row(3));
 }
-/// Points in space: by the column of heights, the fourth of five.
+/// The same for points in space, by the column of heights, the fourth of five.
 inline big_integer lifted_volume(const std::array<point3, 5>& p,
                                  const std::array<big_integer, 5>& height) {
     big_integer sum;
@@ -108,7 +103,7 @@ inline big_integer insphere(const std::array<point3, 5>& p) {
     for (std::size_t i = 0; i < 5; ++i) height[i] = dot(p[i], p[i]);
     return lifted_volume(p, height);
 }
-/// `one` is 1 in the points' units: weights are of the second degree.
+/// `one` is 1 in the points' unit; weights have the degree 2.
 inline big_integer power_incircle(const std::array<point3, 4>& p, const big_integer& one) {
     std::array<point2, 4> flat;
     std::array<big_integer, 4> height;
@@ -154,7 +149,7 @@ inline int segments_intersect3d(const std::array<point3, 4>& p) {
     const point3 along = is_zero(u) ? v : u;
     if (!is_zero(cross(w, along))) return -1;
     if (is_zero(along)) return is_zero(w) ? 0 : -1;
-    // Where they are on the common line.
+    // Positions on the common line.
     const big_integer b = dot(u, along), c = dot(w, along), d = c + dot(v, along);
     const big_integer low = b < 0 ? b : 0, high = b < 0 ? 0 : b;
     const bool below = c < low && d < low, above = high < c && high < d;
@@ -166,7 +161,7 @@ inline int segment_intersects_triangle(const std::array<point3, 5>& x) {
     const point3 &p = x[0], &q = x[1], &a = x[2], &b = x[3], &c = x[4];
     const point3 ab = difference(b, a), ac = difference(c, a), n = cross(ab, ac);
     if (is_zero(n)) {
-        // The longest of its edges is what the triangle is.
+        // The triangle is its longest edge.
         const point3 bc = difference(c, b);
         const big_integer l_ab = dot(ab, ab), l_ac = dot(ac, ac), l_bc = dot(bc, bc);
         const bool is_ab = !(l_ab < l_ac) && !(l_ab < l_bc), is_ac = !(l_ac < l_bc);
@@ -190,7 +185,7 @@ inline int segment_intersects_triangle(const std::array<point3, 5>& x) {
         return least;
     }
     if (sign(above_p) != 0) return -1;
-    // In the plane: what each edge leaves of t, from `low` to `high`, both fractions.
+    // In the plane, each edge shortens the interval of t from `low` to `high`, both fractions.
     std::array<big_integer, 2> low{0, 1}, high{1, 1};
     for (std::size_t k = 0; k < 3; ++k) {
         if (sign(at_p[k]) < 0 && sign(at_q[k]) < 0) return -1;

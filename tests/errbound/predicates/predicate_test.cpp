@@ -1,5 +1,5 @@
-// The machinery of predicates, on orient2d, orient3d, incircle and insphere: signs against
-// determinants in whole numbers, on inputs of all kinds and sizes; constants; what points can be.
+// The stages of predicates, on orient2d, orient3d, incircle and insphere: signs compared with
+// determinants in integers, on inputs of all kinds and sizes; constants; types of points.
 #include <array>
 #include <cstddef>
 #include <errbound/predicates.hpp>
@@ -55,7 +55,7 @@ static_assert(errbound::orient2d.counts.roundings == 3 &&
               errbound::orient3d.counts.roundings == 7 &&
               errbound::incircle.counts.roundings == 10 &&
               errbound::insphere.counts.roundings == 15);
-// As the theorems of their static filters have them.
+// The numbers in the theorems of their static filters.
 static_assert(errbound::power_incircle.counts.roundings == 11 &&
               errbound::power_insphere.counts.roundings == 16 &&
               errbound::compare_distances2d.counts.roundings == 4 &&
@@ -72,8 +72,8 @@ static_assert(errbound::orient2d(point2{0, 0}, point2{0.1, 0.3}, point2{0x1p-90,
 static_assert(errbound::orient2d(point2{0, 0}, point2{1, 0x1p-1074}, point2{0x1p1000, 0x1p-74}) ==
               sign_type::zero);
 
-/// No value of a semi-static filter is further from the exact one than its bound and the last
-/// rounding. (Those of static ones: tests/soak.)
+/// Checks that no value of a semi-static filter differs from the exact one by more than its bound
+/// and the last rounding. (Static filters: tests/soak.)
 template <class T, std::size_t D, std::size_t N, class Predicate>
 void attack(const Predicate&, surface s) {
     predicate_inputs::generator random(11);
@@ -84,9 +84,9 @@ void attack(const Predicate&, surface s) {
             const auto x =
                 std::apply([](const auto&... q) { return Predicate::estimate(q...); }, p);
             if (!std::isfinite(x.value) || !std::isfinite(x.bound)) continue;
-            auto exact = p;  // the determinant by the same expression: its value, not its sign
+            // The determinant by the same expression, because its value counts.
             const rational right = std::apply(
-                [](const auto&... q) { return Predicate::template value<rational>(q...); }, exact);
+                [](const auto&... q) { return Predicate::template value<rational>(q...); }, p);
             const rational error = abs(rational(rational(x.value) - right));
             const rational last =
                 abs(rational(x.value)) * rational(errbound::number_traits<T>::unit_roundoff());
@@ -97,10 +97,10 @@ void attack(const Predicate&, surface s) {
                     worst,
                     rational((error - last) / rational(x.bound)).template convert_to<double>());
         }
-    EXPECT_GT(worst, 1e-4);  // the bound is no more than it needs to be by many orders of magnitude
+    EXPECT_GT(worst, 1e-4);  // the bound is not too large by many orders of magnitude
     std::printf("used up at most %.3f of the bound\n", worst);
 }
-/// Of degree 6, with whole constants, and coordinates that stand for themselves.
+/// A predicate of degree 6 with integer constants.
 constexpr auto sextic =
     errbound::predicate<errbound::points<2, 2>>([](const auto& a, const auto& b) {
         const auto x = a[0] - b[0], y = a[1] - b[1];
@@ -111,7 +111,7 @@ static_assert(!errbound::incircle.has_semi_static_filter &&
               !errbound::segment_intersects_triangle.has_semi_static_filter &&
               !errbound::power_insphere.has_semi_static_filter);
 
-/// Of a mass that T has not the bits for, and with a constant 0.
+/// The masses of these are 0, or have too many bits for T.
 template <int Factor>
 constexpr auto heavy = errbound::predicate<errbound::points<2>>([](const auto& a) {
     return (Factor * (a[0] * a[0])) * (Factor * (a[0] * a[0])) * a[1] +
@@ -119,7 +119,7 @@ constexpr auto heavy = errbound::predicate<errbound::points<2>>([](const auto& a
 });
 static_assert(heavy<0>.has_semi_static_filter);
 
-TYPED_TEST(Predicates, SemiStaticFiltersTrustNoMassThatIsNotExact) {
+TYPED_TEST(Predicates, SemiStaticFiltersNeedExactMasses) {
     const std::array<TypeParam, 2> p{2, 3};
     EXPECT_FALSE(std::isinf(heavy<100>.template estimate<>(p).bound));
     EXPECT_TRUE(std::isinf(heavy<1 << 30>.template estimate<>(p).bound));
@@ -144,7 +144,7 @@ class with_functions {
     double x_, y_;
 };
 
-TEST(Points, AreWhatUsersHave) {
+TEST(Points, OfAnyType) {
     const double a[2] = {0, 0}, b[2] = {1, 0}, c[2] = {0, 1};
     const std::vector<double> v{0, 1};
     EXPECT_EQ(errbound::orient2d(a, b, c), sign_type::positive);
@@ -155,7 +155,7 @@ TEST(Points, AreWhatUsersHave) {
               sign_type::positive);
 }
 
-TEST(Points, ThatAreNotFinite) {
+TEST(Points, ThatAreNotFiniteAreUncertain) {
     for (const double bad :
          {std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity(),
           std::numeric_limits<double>::quiet_NaN()})
@@ -173,7 +173,7 @@ TEST(Points, ThatAreNotFinite) {
         }
 }
 
-// Plain numbers, whole constants, terms of different degree.
+// Plain numbers, integer constants, terms of different degree.
 constexpr auto discriminant = errbound::predicate<errbound::points<0, 0, 0>>(
     [](const auto& a, const auto& b, const auto& c) { return b * b - 4 * (a * c); });
 constexpr auto above_parabola = errbound::predicate<errbound::points<2>>(
@@ -184,8 +184,8 @@ static_assert(above_parabola(point2{0x1p600, 0x1p1000}) == sign_type::negative);
 static_assert(above_parabola(point2{0x1p-600, -1}) == sign_type::negative);
 static_assert(above_parabola(point2{-0x1p-1074, -1}) == sign_type::positive);
 
-// Ways to pass on what is uncertain that the compiler must not refuse: an answer that holds
-// whatever the uncertain sign is, at once or later; products of signs; asking a number again.
+// Ways to pass on an uncertain sign that the compiler must accept: an answer that does not depend
+// on it, at once or later; products of signs; a second evaluation.
 constexpr auto in_box =
     errbound::predicate<errbound::points<2, 2, 2>>([](const auto& p, const auto& a, const auto& b) {
         sign_type inside = sign_type::positive;
@@ -210,14 +210,14 @@ static_assert(in_box(point2{3, 1}, point2{0, 0}, point2{2, 1}) == sign_type::neg
 static_assert(lexicographic(point2{1, 1}, point2{1, 2}) == sign_type::negative);
 static_assert(by_product(2.0, 1.0) == sign_type::positive);
 
-/// It asks for signs of several degrees, and the longest number is not of the highest.
+/// It evaluates signs of several degrees, and the longest number does not have the highest.
 constexpr auto cubic_if_real =
     errbound::predicate<errbound::points<0, 0, 0>>([](const auto& a, const auto& b, const auto& c) {
         const sign_type s = sign_of(b * b - 4 * a * c);
         if (s != sign_type::positive) return s;
         return sign_of(a * a * a - b * b * c);
     });
-/// No coordinates are short enough for two words.
+/// The constants leave no coordinates that fit two words.
 constexpr auto with_many_constants = errbound::predicate<errbound::points<0, 0, 0, 0>>(
     [](const auto& a, const auto& b, const auto& c, const auto& d) {
         return (2 * (2 * (2 * (2 * (2 * a))))) * (b * c * d) - a * b * c * d;
@@ -257,15 +257,15 @@ TYPED_TEST(Predicates, OfAnyDegree) {
     }
 }
 
-// Multiples of the largest int were taken for zero where the expression is checked.
-TEST(Predicates, OfTheLargestConstants) {
+// The check of an expression took multiples of the largest int for zero.
+TEST(Predicates, WithTheLargestConstants) {
     const auto order = errbound::predicate<errbound::points<0, 0>>(
         [](const auto& a, const auto& b) { return 2147483647 * a - 2147483647 * b; });
     EXPECT_EQ(order(1.0, 0.0), sign_type::positive);
     EXPECT_EQ(order(-0x1p1000, 0x1p-1000), sign_type::negative);
 }
 
-/// More sequences of signs than are counted, and what is not is longer.
+/// It has more sequences of signs than are counted, and the last number is longer.
 constexpr auto behind_many_signs =
     errbound::predicate<errbound::points<3, 3>>([](const auto& a, const auto& b) {
         using errbound::sign_of;
@@ -290,7 +290,7 @@ TEST(Predicates, WithBranchesThatAreNotCounted) {
 struct tracked_options : errbound::predicate_options {
     using tracked_rule = errbound::tight;
 };
-TEST(Options, NameABoundRule) {
+TEST(Options, SelectABoundRule) {
     const auto orient = errbound::predicate<errbound::points<2, 2, 2>, tracked_options>(
         [](const auto& a, const auto& b, const auto& c) { return errbound::forms::area(a, b, c); });
     const auto report = compare<double, 2, 3>(orient, over_rationals(orient), surface::flat);

@@ -1,5 +1,5 @@
-// The predicates of errbound/predicates.hpp: against their oracles, on inputs of all kinds and
-// sizes, and against what is known of simple figures.
+// The predicates of errbound/predicates.hpp, compared with their oracles on inputs of all kinds and
+// sizes, and with simple figures.
 #include <array>
 #include <cmath>
 #include <cstddef>
@@ -19,9 +19,9 @@ class Predicates : public testing::Test {};
 using number_types = testing::Types<float, double>;
 TYPED_TEST_SUITE(Predicates, number_types);
 
-TYPED_TEST(Predicates, AreWhatTheirOraclesSay) {
+TYPED_TEST(Predicates, AgreeWithTheirOracles) {
     const auto run = [](const auto& entry) {
-        if (entry.constant_of_shewchuk != 0) return;  // those of predicate_test
+        if (entry.constant_of_shewchuk != 0) return;  // predicate_test has these
         const auto [first, second] = entry.surfaces;
         compare_entry<TypeParam>(entry, first);
         if (second != first) compare_entry<TypeParam>(entry, second);
@@ -29,7 +29,7 @@ TYPED_TEST(Predicates, AreWhatTheirOraclesSay) {
     std::apply([&](const auto&... entry) { (run(entry), ...); }, predicate_list::all);
 }
 
-TEST(Signs, AreThoseOfThePicture) {
+TEST(Signs, OfSimpleFigures) {
     using enum sign_type;
     EXPECT_EQ(errbound::orient2d(point2{0, 0}, point2{1, 0}, point2{0.5, 1}), positive);
     const point3 a{0, 0, 0}, b{1, 0, 0}, c{0, 1, 0}, above{0, 0, 1}, below{0, 0, -1};
@@ -53,7 +53,7 @@ TEST(Signs, AreThoseOfThePicture) {
     EXPECT_EQ(errbound::compare_distances3d(a, above, b), zero);
 }
 
-/// Weighted points, some alike, of which half are small whole numbers.
+/// Weighted points. Half have small integers as coordinates; some are equal.
 template <std::size_t Size>
 std::array<double, Size> weighted(std::size_t dimension, std::mt19937_64& random) {
     std::array<double, Size> x{};
@@ -64,25 +64,24 @@ std::array<double, Size> weighted(std::size_t dimension, std::mt19937_64& random
                                               : static_cast<double>(random() >> 11) * 0x1p-52 - 1;
     return x;
 }
-// Of degree 2 are the weights: with them the plane is scaled, and no sign changes; nor is it
-// slower.
-TEST(WeightedPoints, FarFromOneAreDecidedAsThoseNearIt) {
+// Weights have the degree 2: scaling them with the plane changes no sign, and is not slower.
+TEST(WeightedPoints, OfAnyScaleAreDecidedByTheSameStages) {
     std::mt19937_64 random(5);
     errbound::predicate_report near, far;
     const int count = support::scaled(4000);
     for (int k = 0; k < count; ++k) {
         const int s = static_cast<int>(random() % 900) - 450;
-        const auto ask = [&]<std::size_t Size>(std::array<double, Size> x, std::size_t dimension,
-                                               const auto& predicate) {
+        const auto check = [&]<std::size_t Size>(std::array<double, Size> x, std::size_t dimension,
+                                                 const auto& predicate) {
             const sign_type expected = predicate(near, x);
             for (std::size_t i = 0; i < Size; ++i)
                 x[i] = std::ldexp(x[i], i % dimension == dimension - 1 ? 2 * s : s);
             EXPECT_EQ(predicate(far, x), expected) << s;
         };
-        ask(weighted<12>(3, random), 3, [](auto& report, const auto& x) {
+        check(weighted<12>(3, random), 3, [](auto& report, const auto& x) {
             return errbound::power_incircle(report, &x[0], &x[3], &x[6], &x[9]);
         });
-        ask(weighted<20>(4, random), 4, [](auto& report, const auto& x) {
+        check(weighted<20>(4, random), 4, [](auto& report, const auto& x) {
             return errbound::power_insphere(report, &x[0], &x[4], &x[8], &x[12], &x[16]);
         });
     }
@@ -92,24 +91,20 @@ TEST(WeightedPoints, FarFromOneAreDecidedAsThoseNearIt) {
     EXPECT_EQ(far[long_integers], 0U);  // near 1 they fit two words
 }
 
+// The symmetries, and the degenerate cases that the families of inputs rarely have.
 TEST(Signs, OfSegments) {
     using enum sign_type;
     const auto at = [](const point3& a, const point3& b, const point3& c, const point3& d) {
         const sign_type s = errbound::segments_intersect3d(a, b, c, d);
         EXPECT_EQ(errbound::segments_intersect3d(d, c, a, b), s);
-        EXPECT_EQ(errbound::segments_intersect3d(b, a, c, d), s);
         return s;
     };
     EXPECT_EQ(at({-1, 0, 1}, {1, 0, 1}, {0, -1, 1}, {0, 1, 1}), positive);
     EXPECT_EQ(at({-1, 0, 1}, {1, 0, 1}, {0, -1, 2}, {0, 1, 2}), negative);
-    EXPECT_EQ(at({-1, 0, 1}, {1, 0, 1}, {0, 0, 1}, {0, 1, 1}), zero);  // a T
-    EXPECT_EQ(at({-1, 0, 1}, {1, 0, 1}, {2, -1, 1}, {2, 1, 1}), negative);
+    EXPECT_EQ(at({-1, 0, 1}, {1, 0, 1}, {0, 0, 1}, {0, 1, 1}), zero);      // a T
     EXPECT_EQ(at({-1, 0, 1}, {1, 0, 1}, {2, 0, 1}, {2, 1, 1}), negative);  // end on the line
     EXPECT_EQ(at({0, 0, 0}, {2, 2, 2}, {1, 1, 1}, {3, 3, 3}), zero);       // overlap
-    EXPECT_EQ(at({0, 0, 0}, {2, 2, 2}, {2, 2, 2}, {3, 3, 3}), zero);
-    EXPECT_EQ(at({0, 0, 0}, {1, 1, 1}, {2, 2, 2}, {3, 3, 3}), negative);
-    EXPECT_EQ(at({1, 2, 3}, {1, 2, 3}, {1, 2, 3}, {1, 2, 3}), zero);  // points
-    EXPECT_EQ(at({1, 1, 1}, {1, 1, 1}, {0, 0, 0}, {2, 2, 2}), zero);
+    EXPECT_EQ(at({1, 1, 1}, {1, 1, 1}, {0, 0, 0}, {2, 2, 2}), zero);       // a point
     EXPECT_EQ(at({1, 1, 2}, {1, 1, 2}, {0, 0, 0}, {2, 2, 2}), negative);
 }
 
@@ -118,44 +113,34 @@ TEST(Signs, OfSegmentAndTriangle) {
     const auto at = [](const point3& p, const point3& q, const point3& c = {0, 4, 0}) {
         const point3 a{0, 0, 0}, b{4, 0, 0};
         const sign_type s = errbound::segment_intersects_triangle(p, q, a, b, c);
-        EXPECT_EQ(errbound::segment_intersects_triangle(q, p, c, b, a), s);
-        EXPECT_EQ(errbound::segment_intersects_triangle(p, q, b, c, a), s);
+        EXPECT_EQ(errbound::segment_intersects_triangle(q, p, b, c, a), s);
         return s;
     };
     EXPECT_EQ(at({1, 1, -1}, {1, 1, 1}), positive);
     EXPECT_EQ(at({3, 3, -1}, {3, 3, 1}), negative);
-    EXPECT_EQ(at({1, 1, 1}, {1, 1, 2}), negative);
-    EXPECT_EQ(at({1, 1, 0}, {1, 1, 2}), zero);    // an end inside
     EXPECT_EQ(at({2, 2, -1}, {2, 2, 1}), zero);   // an edge
-    EXPECT_EQ(at({4, 0, -1}, {4, 0, 1}), zero);   // a corner
     EXPECT_EQ(at({1, 1, 0}, {1.5, 1, 0}), zero);  // in the plane, inside
-    EXPECT_EQ(at({-1, 1, 0}, {9, 1, 0}), zero);
     EXPECT_EQ(at({5, 5, 0}, {9, 1, 0}), negative);
     EXPECT_EQ(at({1, -1, 0}, {1, 1, 0}, {8, 0, 0}), zero);  // the triangle is a segment
     EXPECT_EQ(at({1, -1, 1}, {1, 1, 1}, {8, 0, 0}), negative);
     EXPECT_EQ(at({1, 1, 0}, {1, 1, 0}), zero);  // the segment is a point
-    EXPECT_EQ(at({1, 1, 1}, {1, 1, 1}), negative);
 }
 
 TEST(Signs, OfImplicitPoints) {
     using enum sign_type;
-    const point2 a{0, 0}, b{3, 3}, c{0, 2}, d{2, 0};  // they meet at (1, 1)
-    const auto side = [&](const point2& q, const point2& r) {
-        const sign_type s = errbound::orient2d_line_line(a, b, c, d, q, r);
-        EXPECT_EQ(errbound::orient2d_line_line(a, b, d, c, q, r), s);
-        EXPECT_EQ(errbound::orient2d(point2{1, 1}, q, r), s);
-        return s;
-    };
-    EXPECT_EQ(side({5, 1}, {5, 2}), positive);
-    EXPECT_EQ(side({5, 1}, {9, 1}), zero);
-    EXPECT_EQ(side({5, 1}, {5, 0}), negative);
+    const point2 a{0, 0}, b{3, 3}, c{0, 2}, d{2, 0};  // the lines meet at (1, 1)
+    for (const double y : {2, 1, 0}) {
+        const point2 q{5, 1}, r{y == 1 ? 9.0 : 5.0, y};
+        EXPECT_EQ(errbound::orient2d_line_line(a, b, c, d, q, r),
+                  errbound::orient2d(point2{1, 1}, q, r));
+    }
     EXPECT_EQ(errbound::orient2d_line_line(a, b, point2{1, 0}, point2{2, 1}, c, d), zero);
     EXPECT_EQ(errbound::compare_x_line_line(a, b, c, d, a, b, c, point2{4, 0}), negative);
     EXPECT_EQ(errbound::compare_x_line_line(a, b, c, d, point2{1, 5}, point2{1, 7}, c, b), zero);
     const point3 p{1, 1, -3}, q{1, 1, 9}, r{0, 0, 2}, s{1, 0, 2}, t{0, 1, 2};  // at (1, 1, 2)
     for (const point3& u : {point3{0, 0, 0}, point3{0, 0, 3}, point3{0, 0, 2}})
-        EXPECT_EQ(errbound::orient3d_line_plane(p, q, r, s, t, point3{1, 0, 2}, point3{0, 1, 2}, u),
-                  errbound::orient3d(point3{1, 1, 2}, point3{1, 0, 2}, point3{0, 1, 2}, u));
+        EXPECT_EQ(errbound::orient3d_line_plane(p, q, r, s, t, s, t, u),
+                  errbound::orient3d(point3{1, 1, 2}, s, t, u));
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
-// Roots near each other, polynomials of high degree, and limits: what root isolation once recursed
-// on until the stack was used up, or took minutes for.
+// Roots near each other, polynomials of high degree, and limits. For some of these, root isolation
+// used up the stack or took minutes.
 #include <gtest/gtest.h>
 #include <pthread.h>
 
@@ -29,7 +29,7 @@ using point = dyadic<integer>;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-/// Runs it in a thread with a stack of 256 KB.
+/// Runs `job` in a thread with a stack of 256 KB.
 void with_small_stack(std::function<void()> job) {
     pthread_attr_t attributes;
     pthread_attr_init(&attributes);
@@ -93,29 +93,33 @@ TEST(CloseRoots, SparsePolynomialsOfHighDegree) {
     }
 }
 
-// On a part of the line it once took time as the degree's cube.
-TEST(CloseRoots, OneSignChangeOnAPartOfTheLine) {
+// On an interval, the time was cubic in the degree.
+TEST(CloseRoots, OneSignChangeOnAnInterval) {
     std::vector<double> c(20001);
     c[0] = -2;
     c[20000] = 1;
-    const polynomial<double> p(c);
-    EXPECT_EQ(count_roots<integer>(p, 0.5, 1.5), 1U);
-    EXPECT_EQ(count_roots<integer>(p, -1.5, 1.5), 2U);
-    EXPECT_EQ(count_roots<integer>(p, 1, 1 + 0x1p-10), 1U);
-    EXPECT_EQ(count_roots<integer>(p, 1 + 0x1p-10, 2), 0U);
-    EXPECT_EQ(count_roots<integer>(p, -2, 1), 1U);
-    EXPECT_EQ(count_roots<integer>(polynomial<double>{-1, 0, 0, 1}, 0.5, 1), 1U);
-    EXPECT_EQ(count_roots<integer>(polynomial<double>{-1, 0, 0, 1}, 1, 3), 1U);
+    const auto expect = [&](double low, double high, std::size_t roots) {
+        EXPECT_EQ(count_roots<integer>(polynomial<double>(c), low, high), roots)
+            << low << ' ' << high;
+    };
+    expect(0.5, 1.5, 1);
+    expect(-1.5, 1.5, 2);
+    expect(1, 1 + 0x1p-10, 1);
+    expect(1 + 0x1p-10, 2, 0);
+    expect(-2, 1, 1);
+    c = {-1, 0, 0, 1};
+    expect(0.5, 1, 1);
+    expect(1, 3, 1);
 }
 
-/// Roots (start + k)/(3·2^bits) for the k named, near each other and to no dyadic number.
+/// A polynomial with the roots (start + k)/(3·2^bits), near each other and not dyadic.
 form cluster(const integer& start, unsigned bits, const std::vector<int>& steps) {
     form p{1};
     for (const int k : steps) p = generator::product(p, form{-(start + k), integer(3) << bits});
     return p;
 }
 
-// Clusters in clusters, with other roots and pairs that are not real beside them.
+// Clusters within clusters, and pairs of complex roots next to them.
 TEST(CloseRoots, Clusters) {
     std::mt19937_64 random(3);
     for (int round = 0; round < support::scaled(60); ++round) {
@@ -167,7 +171,7 @@ TEST(CloseRoots, AroundAMultipleRoot) {
     }
 }
 
-// Certain signs of rows cut to few bits are the true ones; what is called rootless is.
+// Certain signs of rows that are cut to few bits are right, and no interval with roots is rootless.
 TEST(LocalForm, CertainSignsAreRight) {
     generator make(7);
     std::mt19937_64 random(8);
@@ -211,18 +215,18 @@ TEST(LocalForm, CertainSignsAreRight) {
             from = from + size * point(integer(start), -depth);
         }
     }
-    // Neither by chance.
+    // Both occur often.
     EXPECT_GT(certain_signs, uncertain_signs / 4);
     EXPECT_GT(uncertain_signs, certain_signs / 100);
     EXPECT_GT(rootless, support::scaled(600) / 20);
 }
 
-TEST(RootLimits, GiveUpAtOnceOrChangeNothing) {
+TEST(RootLimits, StopHardProblemsEarly) {
     const polynomial<double> hard(polynomial_families::close_pair(45, 0x1p510));
     EXPECT_FALSE(count_roots<integer>(hard, 0, 1, {.operations = 100'000}));
     EXPECT_FALSE(isolate_roots<integer>(hard, 0, 1, {.bytes = 10'000}));
     EXPECT_EQ(count_roots<integer>(hard, 0, 1, {.operations = 10'000'000'000}), 2U);
-    // x^100000 − 3x^49999 + 1 has two positive roots, which no rule on its coefficients parts.
+    // x^100000 − 3x^49999 + 1 has two positive roots, which no rule on its coefficients separates.
     std::vector<double> c(100001);
     c[0] = 1;
     c[49999] = -3;
@@ -235,7 +239,7 @@ TEST(RootLimits, GiveUpAtOnceOrChangeNothing) {
     c[1'000'000] = 1;
     EXPECT_EQ(count_roots<integer>(polynomial<double>(c), 0, 10, {.operations = 1'000'000'000}),
               1U);
-    // What the filter decides costs no integers.
+    // The filter decides these without integers.
     EXPECT_EQ(count_roots<integer>(polynomial<double>{-2, 0, 1}, 0, 2, {.operations = 0}), 1U);
     auto roots = isolate_roots<integer>(polynomial<double>{-2, 0, 1}, 0, 2, {.operations = 0});
     ASSERT_TRUE(roots);
@@ -243,7 +247,7 @@ TEST(RootLimits, GiveUpAtOnceOrChangeNothing) {
     EXPECT_EQ(roots->size(), 1U);
 }
 
-TEST(RootLimits, AnyLimitGivesTheAnswerOrNone) {
+TEST(RootLimits, NeverChangeTheAnswer) {
     generator make(9);
     for (int k = 0; k < 200; ++k) {
         const auto s = make.make(polynomial_families::family::clustered, 3 + k % 10);
@@ -257,13 +261,11 @@ TEST(RootLimits, AnyLimitGivesTheAnswerOrNone) {
     }
 }
 
-// It went on for ever where assertions were off.
-TEST(Refine, ToNoWidthIsRefused) {
+// Refinement did not end in builds without assertions.
+TEST(Refine, ToInvalidWidthsThrows) {
     auto roots = isolate_roots<integer>(polynomial<double>{-2, 0, 1}, 0, 2);
-    EXPECT_THROW(roots.refine(0, 0.0), std::invalid_argument);
-    EXPECT_THROW(roots.refine(0, -1.0), std::invalid_argument);
-    EXPECT_THROW(roots.refine(0, std::nan("")), std::invalid_argument);
-    EXPECT_THROW(roots.refine(0, infinity), std::invalid_argument);
+    for (const double width : {0.0, -1.0, std::nan(""), infinity})
+        EXPECT_THROW(roots.refine(0, width), std::invalid_argument);
     EXPECT_THROW(roots.refine(0, point()), std::invalid_argument);
 }
 

@@ -24,7 +24,7 @@ class flint_polynomial {
     flint_polynomial& operator=(const flint_polynomial&) = delete;
     ~flint_polynomial() { fmpz_poly_clear(p_); }
 
-    /// On the whole line: FLINT asks for a polynomial without multiple roots.
+    /// On the whole line. (FLINT requires a polynomial without multiple roots.)
     std::size_t distinct_real_roots() const {
         fmpz_poly_t f;
         fmpz_poly_init(f);
@@ -50,7 +50,7 @@ class flint_polynomial {
         return count + static_cast<std::size_t>(positive);
     }
 
-    /// With another polynomial, not zero, on the whole line.
+    /// The number of roots that it shares with another polynomial, not zero, on the whole line.
     std::size_t distinct_roots_in_common(
         const std::vector<polynomial_families::integer>& coefficients) const {
         const flint_polynomial other(coefficients);

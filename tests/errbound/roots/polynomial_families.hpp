@@ -1,4 +1,4 @@
-// Polynomials that are hard on root isolation, by family: for tests and benchmarks.
+// Families of polynomials that are hard for root isolation, for tests and benchmarks.
 #pragma once
 
 #include <array>
@@ -19,7 +19,7 @@ namespace polynomial_families {
 using integer =
     boost::multiprecision::number<boost::multiprecision::gmp_int, boost::multiprecision::et_off>;
 
-/// Coefficients ascend. `whole` is a positive multiple of the doubles, where there are any.
+/// Coefficients ascend. `whole` is a positive multiple of `doubles`, which may be empty.
 struct sample {
     std::vector<integer> whole;
     std::vector<double> doubles = {};
@@ -87,7 +87,7 @@ class generator {
         return std::ldexp(uniform(), static_cast<int>(random_() % 2098) - 1074);
     }
 
-    /// Of this degree >= 1, but for `multiple`, whose degree is at most that or 2.
+    /// A sample of this degree >= 1; for `multiple`, of at most this degree or 2.
     sample make(family f, int degree) {
         const auto n = static_cast<std::size_t>(degree);
         switch (f) {
@@ -107,10 +107,9 @@ class generator {
                 return wilkinson(degree);
             case family::chebyshev:
                 return chebyshev(degree);
-            case family::mignotte:
+            default:
                 return mignotte(n);
         }
-        return {};
     }
 
     template <class C>

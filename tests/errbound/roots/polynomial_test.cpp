@@ -1,10 +1,8 @@
-// Bernstein forms and real roots against identities; BSC over tracked scalars against exact
-// answers.
+// Bernstein forms and real roots, compared with identities; BSC over tracked scalars, compared with
+// exact answers.
 #include <gtest/gtest.h>
 
 #include <array>
-#include <boost/multiprecision/gmp.hpp>
-#include <cmath>
 #include <cstdint>
 #include <errbound/bsc.hpp>
 #include <errbound/multiprecision.hpp>
@@ -12,14 +10,13 @@
 #include <random>
 #include <vector>
 
+#include "tests/support/special_values.hpp"
+
 namespace {
 
 using namespace errbound;
 using namespace errbound::roots;
-using integer =
-    boost::multiprecision::number<boost::multiprecision::gmp_int, boost::multiprecision::et_off>;
-using rational = boost::multiprecision::number<boost::multiprecision::gmp_rational,
-                                               boost::multiprecision::et_off>;
+using integer = whole_number;
 
 int small(std::mt19937_64& random, int bound) {
     return static_cast<int>(random() % static_cast<unsigned>(2 * bound + 1)) - bound;
@@ -62,13 +59,11 @@ TEST(Bernstein, OperationsKeepTheIdentitiesThatDefineThem) {
     EXPECT_EQ(value_at(p, rational(1) / 3), 2);  // control values on a line: that line
 }
 
-// Known roots with multiplicities: (1 + m)-fold factors (d·t − n), and t and 1 − t at the ends.
+// Four factors d·t − n with known roots, some of them equal.
 TEST(RealRoots, CountsAndSignsAgreeWithKnownRoots) {
     std::mt19937_64 random(2);
     for (int k = 0; k < 500; ++k) {
         std::vector<rational> roots;
-        bernstein<integer, 4> p{{1, 4, 6, 4, 1}};  // the constant 1
-        bernstein<integer, 0> unit{{1}};
         std::array<bernstein<integer, 1>, 4> factors;
         for (auto& f : factors) {
             const int d = 1 + static_cast<int>(random() % 6), n = small(random, 8);
@@ -78,7 +73,7 @@ TEST(RealRoots, CountsAndSignsAgreeWithKnownRoots) {
                 roots.push_back(r);
         }
         std::sort(roots.begin(), roots.end());
-        p = factors[0] * factors[1] * factors[2] * factors[3];
+        const bernstein<integer, 4> p = factors[0] * factors[1] * factors[2] * factors[3];
         const auto inner = without_end_roots(p);
         real_roots<integer> found(inner);
         ASSERT_EQ(found.size(), roots.size());
@@ -94,7 +89,7 @@ TEST(RealRoots, CountsAndSignsAgreeWithKnownRoots) {
     }
 }
 
-/// Is there t in [0, 1] with y = 0 and all g > 0 (strict) or g >= 0?
+/// True if y = 0 and all g > 0 (strict) or g >= 0 for a t in [0, 1].
 template <std::size_t M>
 bool exists(const bernstein<integer, 3>& y, const std::array<bernstein<integer, 4>, M>& g,
             bool strict) {
@@ -120,13 +115,13 @@ struct tally {
     int yes = 0, no = 0, maybe = 0;
 };
 
-struct question {
+struct query {
     bernstein<integer, 3> y;
     std::array<bernstein<integer, 4>, 2> g;
 };
 
-question random_question(std::mt19937_64& random, const std::array<int, 4>& y_bounds, int g_bound) {
-    question q;
+query random_query(std::mt19937_64& random, const std::array<int, 4>& y_bounds, int g_bound) {
+    query q;
     for (int i = 0; i <= 3; ++i) q.y[i] = small(random, y_bounds[static_cast<std::size_t>(i)]);
     for (auto& form : q.g)
         for (int i = 0; i <= 4; ++i) form[i] = small(random, g_bound);
@@ -137,10 +132,10 @@ bool is_zero(const bernstein<integer, 3>& y) {
     return y[0] == 0 && y[1] == 0 && y[2] == 0 && y[3] == 0;
 }
 
-/// BSC over Scalar never contradicts the exact answer on integer forms times `factor`.
+/// Compares BSC over Scalar with the exact answer on integer forms times `factor`.
 template <class Scalar>
-tally check_bsc(std::uint64_t seed, int queries, const std::array<int, 4>& y_bounds, int g_bound,
-                typename Scalar::value_type factor) {
+void check_bsc(tally& counts, std::uint64_t seed, int queries, const std::array<int, 4>& y_bounds,
+               int g_bound, typename Scalar::value_type factor) {
     using T = typename Scalar::value_type;
     const auto tracked_form = [factor]<int N>(const bernstein<integer, N>& p) {
         bernstein<Scalar, N> r;
@@ -148,9 +143,8 @@ tally check_bsc(std::uint64_t seed, int queries, const std::array<int, 4>& y_bou
         return r;
     };
     std::mt19937_64 random(seed);
-    tally counts;
     for (int k = 0; k < queries; ++k) {
-        const auto [y, g] = random_question(random, y_bounds, g_bound);
+        const auto [y, g] = random_query(random, y_bounds, g_bound);
         if (is_zero(y)) continue;
         const std::array g_tracked{tracked_form(g[0]), tracked_form(g[1])};
         const existence found = root_with_nonnegative(tracked_form(y), [&] { return g_tracked; });
@@ -164,11 +158,10 @@ tally check_bsc(std::uint64_t seed, int queries, const std::array<int, 4>& y_bou
             ++counts.maybe;
         }
     }
-    return counts;
 }
 
-// Small coefficients are full of zeros, double roots and roots at ends; coefficients far apart give
-// inflections and extrema near the ends.
+// Small coefficients have many zeros, double roots and roots at ends; coefficients of different
+// size have inflections and extrema near the ends.
 constexpr std::array<std::array<int, 4>, 5> bounds_of_y{
     {{2, 4, 4, 2}, {9, 30, 30, 9}, {1, 1000, 1000, 1}, {1000, 3, 1000, 3}, {100, 100, 100, 1}}};
 
@@ -176,34 +169,28 @@ TEST(Bsc, NeverContradictsTheExactAnswer) {
     tally all;
     for (std::size_t i = 0; i < bounds_of_y.size(); ++i)
         for (const int g_bound : {2, 100}) {
-            const auto add = [&all](const tally& t) {
-                all.yes += t.yes;
-                all.no += t.no;
-                all.maybe += t.maybe;
-            };
-            add(check_bsc<tracked<double, tight>>(10 + i, 3000, bounds_of_y[i], g_bound, 1));
-            add(check_bsc<tracked<double, tight>>(20 + i, 1000, bounds_of_y[i], g_bound, 0x1p-900));
-            add(check_bsc<tracked<double, tight>>(30 + i, 1000, bounds_of_y[i], g_bound, 0x1p+900));
-            add(check_bsc<tracked<double, safe>>(40 + i, 2000, bounds_of_y[i], g_bound, 1));
-            add(check_bsc<tracked<float, tight>>(50 + i, 2000, bounds_of_y[i], g_bound, 1.0F));
+            const auto& y = bounds_of_y[i];
+            check_bsc<tracked<double, tight>>(all, 10 + i, 3000, y, g_bound, 1);
+            check_bsc<tracked<double, tight>>(all, 20 + i, 1000, y, g_bound, 0x1p-900);
+            check_bsc<tracked<double, tight>>(all, 30 + i, 1000, y, g_bound, 0x1p+900);
+            check_bsc<tracked<double, safe>>(all, 40 + i, 2000, y, g_bound, 1);
+            check_bsc<tracked<float, tight>>(all, 50 + i, 2000, y, g_bound, 1.0F);
         }
-    // The answer is of use: most are certain, and both certain answers occur.
+    // Most answers are certain, and both certain answers occur.
     EXPECT_GT(all.yes, 1000);
     EXPECT_GT(all.no, 10000);
     EXPECT_LT(all.maybe, all.yes + all.no);
-    RecordProperty("certain", all.yes + all.no);
-    RecordProperty("uncertain", all.maybe);
 }
 
-// Over exact numbers only two things are left open: a root at which some G is exactly zero and none
-// negative, and Y ≡ 0.
-TEST(Bsc, DecidesExactNumbersButForZeros) {
+// With exact numbers only two cases are undecided: Y ≡ 0, and a root at which some G is exactly
+// zero and none is negative.
+TEST(Bsc, DecidesExactNumbersExceptZeros) {
     int yes = 0, no = 0, open = 0;
     for (const auto& y_bounds : bounds_of_y)
         for (const int g_bound : {2, 100}) {
             std::mt19937_64 random(60);
             for (int k = 0; k < 3000; ++k) {
-                const auto [y, g] = random_question(random, y_bounds, g_bound);
+                const auto [y, g] = random_query(random, y_bounds, g_bound);
                 const existence found = root_with_nonnegative(y, [&g = g] { return g; });
                 if (is_zero(y)) {
                     EXPECT_TRUE(found == existence::no || found == existence::maybe_root);
@@ -222,32 +209,29 @@ TEST(Bsc, DecidesExactNumbersButForZeros) {
     EXPECT_GT(open, 100);
 }
 
-// On well-separated data BSC must decide: an answer of "maybe" everywhere would pass the test
-// above.
-TEST(Bsc, DecidesSimpleQuestions) {
+// BSC decides well-separated data.
+TEST(Bsc, DecidesSimpleQueries) {
     using S = tracked<double>;
-    const auto ask = [](const bernstein<S, 3>& y, const bernstein<S, 4>& g) {
+    const auto decide = [](const bernstein<S, 3>& y, const bernstein<S, 4>& g) {
         return root_with_nonnegative(y, [&] { return std::array<bernstein<S, 4>, 1>{g}; });
     };
     const bernstein<S, 4> one{{S(1), S(4), S(6), S(4), S(1)}};
     // Y = (9t − 4)(4t − 1)(4t − 3): three roots and an inflection between them.
     const bernstein<S, 1> a{{S(-4), S(5)}}, b{{S(-1), S(3)}}, c{{S(-3), S(1)}};
     const auto three_roots = a * b * c;
-    EXPECT_EQ(ask(three_roots, one), existence::yes);
-    EXPECT_EQ(ask(three_roots, -one), existence::no);
-    // Positive on (0.3, 0.7) only, not at 1/4 or 3/4: the middle root is found all the same.
+    EXPECT_EQ(decide(three_roots, one), existence::yes);
+    EXPECT_EQ(decide(three_roots, -one), existence::no);
+    // G is positive only on (0.3, 0.7), which has the middle root.
     const bernstein<S, 1> low{{S(-3), S(7)}}, high{{S(7), S(-3)}};
-    const auto window = low * high;
-    const auto window4 = elevated(elevated(window));
-    EXPECT_EQ(ask(three_roots, window4), existence::yes);
-    // Positive on (0.26, 0.4) only: between the roots.
+    EXPECT_EQ(decide(three_roots, elevated(elevated(low * high))), existence::yes);
+    // G is positive only on (0.26, 0.4), between the roots.
     const bernstein<S, 1> from{{S(-26), S(74)}}, to{{S(40), S(-60)}};
-    EXPECT_EQ(ask(three_roots, elevated(elevated(from * to))), existence::no);
+    EXPECT_EQ(decide(three_roots, elevated(elevated(from * to))), existence::no);
     // Two roots around a minimum, and a minimum above zero.
-    EXPECT_EQ(ask(elevated(b * c), one), existence::yes);
-    EXPECT_EQ(ask(elevated(bernstein<S, 2>{{S(1.1), S(-1.8), S(1.1)}}), one), existence::no);
+    EXPECT_EQ(decide(elevated(b * c), one), existence::yes);
+    EXPECT_EQ(decide(elevated(bernstein<S, 2>{{S(1.1), S(-1.8), S(1.1)}}), one), existence::no);
     // A double root is never excluded.
-    EXPECT_NE(ask(elevated(a * a), one), existence::no);
+    EXPECT_NE(decide(elevated(a * a), one), existence::no);
 }
 
 }  // namespace

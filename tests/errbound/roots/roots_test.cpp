@@ -1,4 +1,4 @@
-// Roots and signs of polynomials of any degree, against Sturm chains in integers.
+// Roots and signs of polynomials of any degree, compared with Sturm chains in integers.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -14,6 +14,7 @@
 #include "tests/errbound/roots/polynomial_families.hpp"
 #include "tests/errbound/roots/tarski.hpp"
 #include "tests/support/scaled.hpp"
+#include "tests/support/special_values.hpp"
 
 namespace {
 
@@ -24,15 +25,11 @@ using polynomial_families::family;
 using polynomial_families::generator;
 using polynomial_families::integer;
 using polynomial_families::sample;
-using rational = boost::multiprecision::number<boost::multiprecision::gmp_rational,
-                                               boost::multiprecision::et_off>;
 using form = std::vector<integer>;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-int polynomials() {
-    return support::scaled(120);
-}
+const int polynomials = support::scaled(120);
 
 std::string text(const sample& s) {
     std::string all;
@@ -45,13 +42,13 @@ real_roots<Integer> isolate(const sample& s, double a, double b) {
     if (!s.doubles.empty()) return isolate_roots<Integer>(polynomial<double>(s.doubles), a, b);
     return isolate_roots(polynomial<Integer>(polynomial_families::in<Integer>(s.whole)), a, b);
 }
-/// Counted in the library's own integers.
+/// Counts in the library's own integers.
 std::size_t count(const sample& s, double a, double b) {
     if (!s.doubles.empty()) return count_roots(polynomial<double>(s.doubles), a, b);
     return count_roots(polynomial(polynomial_families::in<errbound::integer>(s.whole)), a, b);
 }
 
-/// All that `roots` promises, against the truth; [a, b] is finite.
+/// Checks everything that `roots` promises; [a, b] is finite.
 void expect_isolated(const real_roots<integer>& roots, const sample& s, const tarski& sturm) {
     const form slope = derivative(s.whole);
     for (std::size_t k = 0; k < roots.size(); ++k) {
@@ -61,7 +58,7 @@ void expect_isolated(const real_roots<integer>& roots, const sample& s, const ta
         }
         form f = s.whole;
         for (int m = 0; m < root.multiplicity; ++m) {
-            // A root of f, f', ... as often as its multiplicity says.
+            // A root of multiplicity m is a root of the first m of f, f', ...
             f = m == 0 ? f : common_factor(f, derivative(f));
             if (root.is_point())
                 ASSERT_EQ(sign_at(f, root.low), sign_type::zero) << text(s);
@@ -83,7 +80,7 @@ class Families : public testing::TestWithParam<family> {};
 TEST_P(Families, CountsAndIntervalsAgreeWithSturm) {
     generator make(1 + static_cast<unsigned>(GetParam()));
     int decided = 0;
-    for (int k = 0; k < polynomials(); ++k) {
+    for (int k = 0; k < polynomials; ++k) {
         const sample s = make.make(GetParam(), degree_of_sample(GetParam(), k, 30));
         const tarski sturm(s.whole, {1});
         const auto whole = isolate(s, -infinity, infinity);
@@ -107,7 +104,7 @@ TEST_P(Families, CountsAndIntervalsAgreeWithSturm) {
 
 TEST_P(Families, RefinedIntervalsHoldTheirRoots) {
     generator make(100 + static_cast<unsigned>(GetParam()));
-    for (int k = 0; k < polynomials() / 4; ++k) {
+    for (int k = 0; k < polynomials / 4; ++k) {
         const sample s = make.make(GetParam(), degree_of_sample(GetParam(), k, 30));
         auto roots = isolate(s, -4, 4);
         const auto width = dyadic<integer>::power_of_two(-20 * (1 + k % 10));
@@ -120,15 +117,12 @@ TEST_P(Families, RefinedIntervalsHoldTheirRoots) {
 
 TEST_P(Families, SignsAtRootsAgreeWithTarskisQuery) {
     generator make(200 + static_cast<unsigned>(GetParam()));
-    for (int k = 0; k < polynomials() / 4; ++k) {
+    for (int k = 0; k < polynomials / 4; ++k) {
         const sample s = make.make(GetParam(), degree_of_sample(GetParam(), k, 16));
         sample g = make.make(polynomial_families::all[static_cast<std::size_t>(k) % 9], 1 + k % 5);
-        // A common factor now and then.
+        // Some have a common factor.
         if (k % 3 == 0) g = {generator::product(g.whole, s.whole)};
-        if (k % 3 == 1) {
-            form f = derivative(s.whole);
-            if (!f.empty()) g = {f};
-        }
+        if (const form f = derivative(s.whole); k % 3 == 1 && !f.empty()) g = {f};
         auto roots = isolate(s, -infinity, infinity);
         auto own = isolate<errbound::integer>(s, -infinity, infinity);
         const polynomial own_g(polynomial_families::in<errbound::integer>(g.whole));
@@ -169,7 +163,7 @@ occurring_signs signs_by_samples(const sample& s, const real_roots<integer>& roo
 
 TEST_P(Families, SignsOnIntervals) {
     generator make(300 + static_cast<unsigned>(GetParam()));
-    for (int k = 0; k < polynomials(); ++k) {
+    for (int k = 0; k < polynomials; ++k) {
         const sample s = make.make(GetParam(), degree_of_sample(GetParam(), k, 12));
         const double a = make.small(6), b = a + std::abs(make.small(3));
         const auto found = s.doubles.empty()
@@ -185,7 +179,7 @@ INSTANTIATE_TEST_SUITE_P(Roots, Families, testing::ValuesIn(polynomial_families:
                              return polynomial_families::names[static_cast<int>(info.param)];
                          });
 
-// Given roots: f and the g share some of them.
+// The roots of f and the g are known; some are common.
 TEST(Roots, RootWhereNonnegative) {
     generator make(7);
     int yes = 0, no = 0;
@@ -201,7 +195,7 @@ TEST(Roots, RootWhereNonnegative) {
             f = generator::product(f, factor);
             roots.push_back(root);
         }
-        if (k % 7 == 0) f = {};  // every point is a root: ask at those of the g and between them
+        if (k % 7 == 0) f = {};  // every point is a root; test those of the g and between them
         std::vector<polynomial<integer>> g;
         std::vector<rational> critical;
         for (int i = k % 4; i > 0; --i) {
@@ -277,7 +271,7 @@ TEST(Roots, BeyondTheRangeOfDouble) {
               dyadic<integer>::from(number_traits<double>::underflow_unit()));
 }
 
-TEST(Roots, MultiplicitiesAndRootsAtEnds) {
+TEST(Roots, Multiplicities) {
     // (x − 1)³ x² (x² − 2)
     const polynomial<integer> p(generator::product(form{0, 0, -1, 3, -3, 1}, form{2, 0, -1}));
     const auto roots = isolate_roots(p, 0, 1.5);
@@ -293,22 +287,7 @@ TEST(Roots, MultiplicitiesAndRootsAtEnds) {
     EXPECT_EQ(common[1].multiplicity, 1);
 }
 
-TEST(Roots, RationalCoefficientsAndOtherIntegers) {
-    using boost::multiprecision::cpp_int;
-    using boost::multiprecision::cpp_rational;
-    // (x − 1/3)(x − 2/7)
-    const polynomial<cpp_rational> p{cpp_rational(2, 21), cpp_rational(-13, 21), cpp_rational(1)};
-    EXPECT_EQ(count_roots(p, 0, 1), 2U);
-    EXPECT_EQ(count_roots(p, 0, 0.3), 1U);
-    auto roots = isolate_roots<cpp_int>(polynomial<float>{-0.25F, 0, 1}, -1, 1);
-    ASSERT_EQ(roots.size(), 2U);
-    EXPECT_EQ(roots.sign_at(polynomial<cpp_rational>{cpp_rational(-1, 2), cpp_rational(1)}, 1),
-              sign_type::zero);
-    EXPECT_EQ(roots.sign_at(polynomial<cpp_rational>{cpp_rational(-1, 3), cpp_rational(1)}, 1),
-              sign_type::positive);
-}
-
-// Ends and coefficients that are easily mistaken: points, both zeros, subnormal and huge numbers.
+// Hostile ends and coefficients: points, both zeros, subnormal and huge numbers.
 TEST(Roots, PointsAsIntervals) {
     const polynomial<double> p{0.0, -0.75, 1.0};  // 0 and 3/4
     for (const double x : {0.0, -0.0, 0.75}) EXPECT_EQ(count_roots<integer>(p, x, x), 1U) << x;
@@ -323,79 +302,37 @@ TEST(Roots, PointsAsIntervals) {
     EXPECT_EQ(sign_on<integer>(p, 0.5, 0.5), (occurring_signs{true, false, false}));
     EXPECT_TRUE(root_where_nonnegative<integer>(p, {polynomial{-0.75, 1.0}}, 0.75, 0.75));
     EXPECT_FALSE(root_where_nonnegative<integer>(p, {polynomial{-0.75, 1.0}}, -0.0, 0.0));
-    // At a point that is a multiple root, of a multiple of its polynomial by the largest double.
+    // A point that is a double root of largest·(1 − x/2)².
     const double most = std::numeric_limits<double>::max();
-    const polynomial<double> square{most, -2 * (most / 2), most / 4};  // largest·(1 − x/2)²
+    const polynomial<double> square{most, -2 * (most / 2), most / 4};
     const auto double_root = isolate_roots<integer>(square, 2, 2);
     ASSERT_EQ(double_root.size(), 1U);
     EXPECT_EQ(double_root[0].multiplicity, 2);
 }
 
+// Small integers times a power of two have the same roots. (Families test mixed exponents: `wide`.)
 TEST(Roots, SubnormalAndHugeCoefficients) {
     generator make(11);
     const double least = number_traits<double>::underflow_unit();
     for (int k = 0; k < 400; ++k) {
-        // Small integer coefficients times a power of two have the same roots.
-        std::vector<double> c;
-        form whole;
-        for (int i = 0; i <= 1 + k % 7; ++i) {
-            const int n = make.small(9);
-            c.push_back(n);
-            whole.emplace_back(n);
-        }
-        if (c.back() == 0) c.back() = 1, whole.back() = 1;
-        const std::size_t truth = count_roots(polynomial<integer>(whole), -infinity, infinity);
-        ASSERT_EQ(truth, tarski(whole, {1}).everywhere());
+        std::vector<double> c(static_cast<std::size_t>(2 + k % 7));
+        for (double& x : c) x = make.small(9);
+        const sample s = generator::of_doubles(c);
+        const std::size_t truth = tarski(s.whole, {1}).everywhere();
         for (const double factor : {least, 2 * least, 0x1p-1000, 0x1p+1000, 0x1p+1020}) {
-            std::vector<double> scaled = c;
+            std::vector<double> scaled = s.doubles;
             for (double& x : scaled) x *= factor;
             ASSERT_EQ(count_roots<integer>(polynomial<double>(scaled), -infinity, infinity), truth)
                 << factor;
         }
-        // With huge and subnormal coefficients side by side, roots go to 0 or infinity.
-        std::vector<double> mixed = c;
-        for (std::size_t i = 0; i < mixed.size(); ++i) mixed[i] *= i % 2 == 0 ? 0x1p+1015 : least;
-        const sample s = generator::of_doubles(mixed);
-        ASSERT_EQ(count_roots<integer>(polynomial<double>(s.doubles), -infinity, infinity),
-                  tarski(s.whole, {1}).everywhere())
-            << text(s);
     }
 }
 
-// Ends of intervals at roots of all multiplicities, where filter and Descartes' rule see nothing.
-TEST(Roots, EndsAtRoots) {
-    generator make(12);
-    for (int k = 0; k < 1500; ++k) {
-        form p{1};
-        std::vector<int> roots;  // times 4
-        for (int i = 1 + k % 5; i > 0; --i) {
-            roots.push_back(make.small(12));
-            for (int m = 1 + std::abs(make.small(2)); m > 0; --m)
-                p = generator::product(p, form{integer(-roots.back()), integer(4)});
-        }
-        std::sort(roots.begin(), roots.end());
-        roots.erase(std::unique(roots.begin(), roots.end()), roots.end());
-        const auto pick = [&] {
-            return roots[static_cast<std::size_t>(std::abs(make.small(100))) % roots.size()];
-        };
-        const int x = pick(), y = pick(), low = std::min(x, y), high = std::max(x, y);
-        const auto inside =
-            std::count_if(roots.begin(), roots.end(), [&](int r) { return low <= r && r <= high; });
-        const polynomial<integer> f(p);
-        ASSERT_EQ(count_roots(f, low / 4.0, high / 4.0), inside) << text({p});
-        const auto found = isolate_roots(f, low / 4.0, infinity);
-        ASSERT_EQ(found.size(),
-                  std::count_if(roots.begin(), roots.end(), [&](int r) { return low <= r; }))
-            << text({p});
-        ASSERT_TRUE(found[0].is_point());
-    }
-}
-
-// Degrees on both sides of root_filter::max_degree.
+// Degrees below and above root_filter::max_degree.
 TEST_P(Families, DegreesUpTo60) {
     if (GetParam() == family::wide) GTEST_SKIP() << "thousands of bits";
     generator make(400 + static_cast<unsigned>(GetParam()));
-    for (int degree = 31; degree <= 60; degree += polynomials() < 120 ? 29 : 5) {
+    for (int degree = 31; degree <= 60; degree += polynomials < 120 ? 29 : 5) {
         const sample s = make.make(GetParam(), degree);
         const tarski sturm(s.whole, {1});
         ASSERT_EQ(count(s, -infinity, infinity), sturm.everywhere()) << text(s);
@@ -405,7 +342,7 @@ TEST_P(Families, DegreesUpTo60) {
     }
 }
 
-// p < 0 on [1, 2], with the signs − − + − of its control values there: the first is 2^−1200 of the
+// p < 0 on [1, 2]. Its control values have the signs − − + −, and the first is 2^−1200 of the
 // others, which is 0 in doubles.
 TEST(Roots, EndWithAValueTooSmallForADouble) {
     const integer size = integer(1) << 1200U;
@@ -418,14 +355,9 @@ TEST(Roots, EndWithAValueTooSmallForADouble) {
     EXPECT_TRUE(found.empty());
 }
 
-TEST(Roots, PolynomialOfDoublesAndInts) {
-    const polynomial p{1, -2.5, 1};
-    static_assert(std::is_same_v<decltype(p), const polynomial<double>>);
-    EXPECT_EQ(count_roots<integer>(p, 0, 1), 1U);
-}
-
-// One library's polynomial at the roots of another's.
+// Polynomials of one library at the roots of another's, and with coefficients of several types.
 TEST(Roots, MixedNumberTypes) {
+    static_assert(std::is_same_v<decltype(polynomial{1, -2.5, 1}), polynomial<double>>);
     using boost::multiprecision::cpp_int;
     using boost::multiprecision::cpp_rational;
     using boost::multiprecision::mpq_rational;
@@ -455,6 +387,10 @@ TEST(Roots, MixedNumberTypes) {
                                -infinity, infinity));
     expect_signs(isolate_roots(polynomial<mpq_rational>{-2, 0, 1}, -infinity, infinity));
     expect_signs(isolate_roots<mpz_int>(polynomial<cpp_int>{-2, 0, 1}, -infinity, infinity));
+    // (x − 1/3)(x − 2/7)
+    EXPECT_EQ(count_roots(polynomial<cpp_rational>{cpp_rational(2, 21), cpp_rational(-13, 21), 1},
+                          0, 0.3),
+              1U);
 }
 
 TEST(Roots, PreconditionsAreAsserted) {
@@ -475,23 +411,17 @@ TEST(Roots, PreconditionsAreAsserted) {
 #endif
 }
 
-// Of more than root_filter::max_degree: integers alone.
-TEST(Roots, HighDegrees) {
+// Only integers decide if the degree is above root_filter::max_degree.
+TEST(Roots, SignsAtRootsOfHighDegree) {
     form p{1};
     for (int k = 1; k <= 60; ++k) p = generator::product(p, form{-k, 1});
-    const polynomial<integer> wilkinson(p);
-    EXPECT_EQ(count_roots(wilkinson, -infinity, infinity), 60U);
-    EXPECT_EQ(count_roots(wilkinson, 100, infinity), 0U);
-    EXPECT_EQ(count_roots(wilkinson, -infinity, -100), 0U);
-    EXPECT_EQ(count_roots(wilkinson, -infinity, 1), 1U);
-    EXPECT_EQ(count_roots(wilkinson, 30.5, 40), 10U);
-    auto roots = isolate_roots(wilkinson, 59, infinity);
+    auto roots = isolate_roots(polynomial<integer>(p), 59, infinity);
     ASSERT_EQ(roots.size(), 2U);
     EXPECT_EQ(roots.sign_at(polynomial<integer>{-60, 1}, 1), sign_type::zero);
     EXPECT_EQ(roots.sign_at(polynomial<integer>{-60, 1}, 0), sign_type::negative);
 }
 
-// What tracked coefficients leave open is said to be open; the rest is right for each polynomial
+// A count is empty if the coefficients do not determine it, and else right for each polynomial
 // within them.
 TEST(Roots, TrackedCoefficientsThatAreZero) {
     using number = tracked<double>;

@@ -1,5 +1,4 @@
-// Signs of a polynomial at the roots of another by signed remainders in integers: what tests hold
-// the library's answers against.
+// Signs of a polynomial at the roots of another, by signed remainders in integers.
 #pragma once
 
 #include <algorithm>
@@ -10,10 +9,10 @@
 
 #include "tests/errbound/roots/polynomial_families.hpp"
 
-/// The truth: Tarski's query, by the sign variations of the signed remainders of p and p'·g, all
-/// divided by the last of them. From low to high they lose as many as g's signs at the distinct
-/// roots of p in (low, high] add up to, if neither end is a root or g is 1. (Basu, Pollack, Roy,
-/// Algorithms in Real Algebraic Geometry, Theorem 2.61; g = 1: Sturm.)
+/// Tarski's query, by the sign variations of the signed remainders of p and p'·g, divided by the
+/// last of them. Let neither low nor high be a root of p, or let g be 1. Then the variations at low
+/// minus those at high are the sum of g's signs at the distinct roots of p in (low, high]. (Basu,
+/// Pollack, Roy, Algorithms in Real Algebraic Geometry, Theorem 2.61; g = 1: Sturm.)
 class tarski {
   public:
     using integer = polynomial_families::integer;

@@ -1,5 +1,5 @@
-// The rule `affine`: what came of one source cancels, whatever the limit on terms, and programs
-// that share inputs stay within their bounds at every corner of what the inputs may be.
+// The rule `affine`: errors of one source cancel, whatever the limit on terms. Programs that share
+// inputs stay within their bounds at every corner of the ranges of the inputs.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -44,7 +44,7 @@ TYPED_TEST(Affine, ADifferenceOfANumberAndItselfIsZero) {
     }
 }
 
-TYPED_TEST(Affine, WhatIsUnknownStaysUnknown) {
+TYPED_TEST(Affine, InfiniteErrorsDoNotCancel) {
     using number = tracked<double, TypeParam>;
     const double infinity = std::numeric_limits<double>::infinity();
     const number unknown = number::within(1, infinity), huge(0x1p1023), x = number::within(2, 1);
@@ -55,8 +55,8 @@ TYPED_TEST(Affine, WhatIsUnknownStaysUnknown) {
     EXPECT_EQ(sign_of(unknown * number(0)), sign_type::zero);
 }
 
-/// A program over inputs that share sources, run on tracked numbers and, corner by corner, on the
-/// rationals that they may stand for.
+/// Programs whose numbers share sources, on tracked numbers and on the rationals at the corners of
+/// their ranges.
 template <class Rule>
 class shared_programs {
     using number = tracked<double, Rule>;
@@ -93,7 +93,7 @@ class shared_programs {
                                          ((corner >> i & 1) != 0 ? 1 : -1) * exactly(error));
         }
     }
-    /// Of two of the latest values; nothing where that would divide by zero.
+    /// Combines two of the latest values, except for divisions by zero.
     void grow() {
         const std::size_t n = numbers_.size();
         const std::size_t i = random_() % n, j = random_() % 2 ? n - 1 : random_() % n;
@@ -130,29 +130,29 @@ class shared_programs {
     std::vector<std::vector<rational>> exact_;  // by corner
 };
 
-TYPED_TEST(Affine, BoundsHoldWhereSourcesAreShared) {
+TYPED_TEST(Affine, BoundsHoldIfSourcesAreShared) {
     shared_programs<TypeParam>(1).run(support::scaled(1500));
 }
 
-TEST(AffineTerms, OfAnInputCancelInWhatItMade) {
+TEST(AffineTerms, OfAnInputCancel) {
     using number = tracked<double, affine>;
     const number x = number::within(3, 0.5), y = number::within(0.25, 0x1p-20);
     const number twice = (x + y) - (x - y);
     EXPECT_EQ(twice.value(), 0.5);
     EXPECT_GE(twice.error(), 0x1p-19);
     EXPECT_LE(twice.error(), 1.001 * 0x1p-19);
-    // A square of which half is known: 1 − (1 − x)(1 + x) = x².
+    // 1 − (1 − x)(1 + x) = x².
     const number square = number(1) - (number(1) - x) * (number(1) + x);
     EXPECT_GE(square.error(), 3 + 0.25);
     EXPECT_LE(square.error(), 1.001 * (3 + 0.25));
-    // Roundings too: of x/3·3 − x nothing is left of x's error.
+    // Rounding errors remain: x/3·3 − x has none of x's error.
     const number third = x / number(3) * number(3) - x;
     EXPECT_LE(third.error(), 0x1p-50);
     EXPECT_GT(third.error(), 0);
     EXPECT_EQ((number(1) / number(3) * number(0)).error(), 0);
 }
 
-TEST(AffineTerms, AreNoneOfExactOperations) {
+TEST(AffineTerms, OfExactOperationsDoNotExist) {
     using number = tracked<double, affine>;
     const number x = number(3) * number(0.125) + number(1e15) - number(0.5) / number(4);
     EXPECT_EQ(x.error(), 0);
@@ -164,18 +164,18 @@ TEST(AffineTerms, AreNoneOfExactOperations) {
     EXPECT_LE(y.error(), 0x1p-54);
 }
 
-TEST(AffineTerms, AreAsManyAsTheLimitAndTheLargestKeepTheirSource) {
+TEST(AffineTerms, ThatExceedTheLimitAreMergedExceptTheLargest) {
     using number = tracked<double, affine_of<4>>;
     const number x = number::within(1, 1e-3);
     number sum = x;
     for (int i = 0; i < 100; ++i) sum += number::within(0.1, 1e-9);
     EXPECT_EQ(sum.bound().count, 4U);
-    // x was not among those that lost theirs.
+    // x kept its source.
     EXPECT_LE((sum - x).error(), 1.01e-7);
     EXPECT_GE((sum - x).error(), 1e-7);
 }
 
-TEST(AffineTerms, OfOtherThreadsAreOthers) {
+TEST(AffineTerms, OfThreadsDiffer) {
     using number = tracked<double, affine>;
     std::vector<number> made(8);
     std::vector<std::thread> threads;
@@ -194,7 +194,7 @@ TEST(AffineTerms, OfOtherThreadsAreOthers) {
         EXPECT_LT(sum.bound().terms[i - 1].source, sum.bound().terms[i].source);
 }
 
-TEST(AffineTerms, AreNotToldApartInConstantExpressions) {
+TEST(AffineTerms, HaveNoSourceInConstantExpressions) {
     using number = tracked<double, affine>;
     constexpr number x = number::within(1, 0.25);
     constexpr number none = x - x, positive = x * x + number(0.1);
@@ -202,7 +202,7 @@ TEST(AffineTerms, AreNotToldApartInConstantExpressions) {
     static_assert(sign_of(positive) == sign_type::positive);
     EXPECT_GE(none.error(), 0.5);
     EXPECT_LE(none.error(), 0.51);
-    // What is made of such at run time is a source.
+    // Their errors have a source in numbers that are computed at run time.
     const number y = positive + number(1);
     EXPECT_EQ(sign_of(y - y), sign_type::zero);
     EXPECT_GE((y - positive).error(), 0.5);

@@ -1,4 +1,4 @@
-// The rule `relative`: counts of factors, and what becomes of them where signs are unlike.
+// The rule `relative`: counts of factors, also in sums of unlike signs.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -7,7 +7,6 @@
 #include <errbound/rules/relative.hpp>
 #include <errbound/small_floats.hpp>
 #include <errbound/tracked.hpp>
-#include <limits>
 #include <random>
 
 #include "tests/support/scaled.hpp"
@@ -31,13 +30,13 @@ void expect_count(const number& x, const rational& exact, double count) {
     EXPECT_EQ(sign_of(x), errbound::sign_of(exact));
 }
 
-TEST(Relative, AProductOfManyFactorsIsOffByAsManyRoundings) {
+TEST(Relative, ProductsHaveACountForEachRounding) {
     std::mt19937_64 random(1);
     const int count = std::min(support::scaled(10000), 10000);
     number product = between_half_and_2(random);
     rational exact = exactly(product.value());
     for (int i = 1; i < count; ++i) {
-        // Neither over- nor underflow.
+        // The product does not overflow or underflow.
         double x = between_half_and_2(random);
         if ((product.value() > 1) == (x > 1)) x = 1 / x;
         product *= number(x);
@@ -48,7 +47,7 @@ TEST(Relative, AProductOfManyFactorsIsOffByAsManyRoundings) {
     expect_count(product, exact, count - 1);
 }
 
-TEST(Relative, ASumOfOneSignIsOffByItsDepth) {
+TEST(Relative, SumsOfOneSignCountTheirDepth) {
     std::mt19937_64 random(2);
     const int count = support::scaled(10000);
     number sum = -between_half_and_2(random);
@@ -62,25 +61,25 @@ TEST(Relative, ASumOfOneSignIsOffByItsDepth) {
     EXPECT_EQ(sign_of(sum), sign_type::negative);
 }
 
-TEST(Relative, ExactOperationsCountNothing) {
+TEST(Relative, ExactOperationsHaveTheCountZero) {
     EXPECT_EQ((number(3) * number(0.125) + number(5) / number(4)).bound().factors, 0);
     EXPECT_EQ(scale(number(0.1), -4).bound().factors, 0);
     EXPECT_EQ((number(0.1) + number(0.2)).bound().factors, 1);
     EXPECT_EQ((number(0.1) * number(0.2) / number(0.3)).bound().factors, 2);
     EXPECT_EQ((number(1e300) - number(1e300)).error(), 0);
     EXPECT_EQ(sign_of(number(0.1) - number(0.1)), sign_type::zero);
-    // By Sterbenz: unlike signs, of exact numbers.
+    // Sterbenz's lemma: this difference of exact numbers is exact.
     EXPECT_EQ((number(0.3) - number(0.2)).bound().factors, 0);
 }
 
-TEST(Relative, UnlikeSignsLoseWhatCancels) {
+TEST(Relative, CancellationMakesCountsLarger) {
     const number x = number(1) + number(0.1) * number(0.1);  // 2 factors
     const number left = x - number(1);
     EXPECT_EQ(sign_of(left), sign_type::positive);
     EXPECT_GE(left.error(), 2 * 0x1p-53);
     EXPECT_LE(left.error(), 1.02 * (2 * 0x1p-53 * 1.01));
     EXPECT_NEAR(left.bound().factors, 202, 3);
-    // All of it: nothing is known, not of x − x either.
+    // If all digits cancel, the error is infinite, also for x − x.
     EXPECT_EQ(sign_of(x - x), sign_type::uncertain);
     EXPECT_EQ(sign_of(x - number(1.01)), sign_type::uncertain);
     EXPECT_FALSE(std::isfinite((x - x).error()));
@@ -88,7 +87,7 @@ TEST(Relative, UnlikeSignsLoseWhatCancels) {
     EXPECT_EQ(sign_of(number(1) / (x - x)), sign_type::uncertain);
 }
 
-TEST(Relative, WhatUnderflowsIsUnknown) {
+TEST(Relative, UnderflowIsUncertain) {
     EXPECT_EQ(sign_of(number(1e-160) * number(1e-160)), sign_type::uncertain);
     EXPECT_EQ(sign_of(number(1e-300) / number(1e10)), sign_type::uncertain);
     EXPECT_EQ(sign_of(scale(number(1.5), -1075)), sign_type::uncertain);
@@ -109,8 +108,8 @@ TEST(Relative, InputsMayBeRelativelyUncertain) {
     EXPECT_EQ(sign_of(number::within(0, 1e-9)), sign_type::uncertain);
 }
 
-/// In types whose own whole numbers end early, counts go on.
-TEST(Relative, CountsAreNotThoseOfASmallType) {
+/// Counts exceed the integers of a small type.
+TEST(Relative, CountsOfSmallTypesAreDoubles) {
     using half = tracked<errbound::float16, relative>;
     half x = errbound::float16(1.0009765625), product = errbound::float16(1);
     for (int i = 0; i < 5000; ++i) {
@@ -121,17 +120,17 @@ TEST(Relative, CountsAreNotThoseOfASmallType) {
     EXPECT_EQ(sign_of(product), sign_type::uncertain);  // beyond e^(7/4)
 }
 
-// k·w was rounded to a subnormal number, which loses up to half the smallest one: a sixth of this.
-TEST(Relative, SubnormalCountsStandForAsMuch) {
+// k·w was rounded to a subnormal number, which loses up to half of the smallest one: a sixth here.
+TEST(Relative, SubnormalCounts) {
     const double value = std::ldexp(1.0, 1000), count = std::ldexp(1.2, -1020);
     EXPECT_GE(relative::error<double>(value, {count}), std::ldexp(1.2, -1020 - 53 + 1000));
 }
 
-TEST(Relative, IsConstant) {
+TEST(Relative, WorksInConstantExpressions) {
     constexpr number x = 0.1, y = x * x / number(3) - number(7);
     static_assert(sign_of(y) == sign_type::negative);
     static_assert(sizeof(number) == 2 * sizeof(double));
-    // Without a sign bit that is cleared: −0 as a size once made a negative count.
+    // The sign bit of a size was not cleared: −0 made a negative count.
     constexpr number near_zero = number::within(-0.0, 1);
     static_assert(sign_of(near_zero) == sign_type::uncertain);
     static_assert(sign_of(near_zero + number(0)) == sign_type::uncertain);

@@ -1,11 +1,9 @@
-// The rule `stochastic`: that it promises nothing, that its samples are neighbours and right on
-// average, and how often its estimates reach the true error.
+// The rule `stochastic` promises no bound. Its samples are neighbours of the result and right on
+// average, and its estimates usually reach the error.
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <boost/multiprecision/cpp_bin_float.hpp>
 #include <cmath>
-#include <cstdint>
 #include <errbound/functions.hpp>
 #include <errbound/rules/stochastic.hpp>
 #include <errbound/small_floats.hpp>
@@ -30,7 +28,7 @@ static_assert(errbound::meaning_of_error<stochastic> == errbound::error_meaning:
 static_assert(!errbound::promises_bound<errbound::none>);
 static_assert(errbound::promises_bound<errbound::tight>);
 
-TEST(Stochastic, ValuesArePlainArithmetics) {
+TEST(Stochastic, HasTheValuesOfPlainArithmetic) {
     const number a = 0.1, b = 0.3, c = 0.7;
     EXPECT_EQ((a * a - b * c / a + sqrt(b)).value(), 0.1 * 0.1 - 0.3 * 0.7 / 0.1 + std::sqrt(0.3));
 }
@@ -44,19 +42,20 @@ TEST(Stochastic, ExactOperationsDoNotScatter) {
     EXPECT_GT(x.error(), 0);
 }
 
-TEST(Stochastic, TheSameOperationRoundsAlike) {
+TEST(Stochastic, EqualOperationsHaveEqualSamples) {
     const number a = 0.1, b = 0.3;
     for (const number& zero :
          {a * b - b * a, (a + b) - (b + a), (a - b) + (b - a), (-a) * b + a * b, a / b + a / -b}) {
         EXPECT_EQ(sign_of(zero), sign_type::zero);
         EXPECT_EQ(zero.error(), 0);
     }
-    // And again in another run of the same.
+    // So do repeated runs.
     const auto run = [&] { return (a * b + a / b).bound().samples; };
     EXPECT_EQ(run(), run());
 }
 
-/// Of one operation the samples are the two neighbours of the exact result, their mean that result.
+/// The samples of one operation are the neighbours of the exact result, and their mean is that
+/// result.
 template <class Operation>
 void expect_right_on_average(const Operation& operation) {
     using eight = tracked<double, stochastic_of<8>>;
@@ -76,7 +75,8 @@ void expect_right_on_average(const Operation& operation) {
             sum += off;
         }
     }
-    // Deviations are of mean 0 and at most 1/4 in variance: six times that of the mean.
+    // Deviations have the mean 0 and a variance of at most 1/4; the limit is six standard
+    // deviations.
     EXPECT_LE(std::abs(sum) / (8 * count), 6 * 0.5 / std::sqrt(8.0 * count));
 }
 
@@ -102,7 +102,7 @@ TEST(Stochastic, EstimatesAreOfTheErrorsSize) {
         enough += sum.error() >= off;
         far += sum.error() > 1000 * off;
     }
-    // 95 % by design, which rests on normal distributions; a share that says it is not nonsense.
+    // The share is 95 % by design for normal distributions; the limits only exclude nonsense.
     EXPECT_GE(enough, 0.8 * count);
     EXPECT_LE(far, 0.2 * count);
     // Cancellation is seen.
@@ -120,7 +120,7 @@ TEST(Stochastic, InputsAreSpread) {
     EXPECT_FALSE(std::isfinite(number::within(1, -1).error()));
 }
 
-TEST(Stochastic, WhatIsNotFiniteIsUnknown) {
+TEST(Stochastic, ResultsThatAreNotFiniteAreUncertain) {
     const number huge(std::numeric_limits<double>::max());
     for (const number& x :
          {huge + huge, huge * huge, huge * huge - huge * huge,
@@ -130,7 +130,7 @@ TEST(Stochastic, WhatIsNotFiniteIsUnknown) {
     }
 }
 
-TEST(Stochastic, SeedsAreOtherChances) {
+TEST(Stochastic, DependsOnTheSeed) {
     using other = tracked<double, stochastic_of<3, 1>>;
     int differ = 0;
     for (int i = 1; i <= 20; ++i)
@@ -139,10 +139,10 @@ TEST(Stochastic, SeedsAreOtherChances) {
     EXPECT_GT(differ, 5);
 }
 
-TEST(Stochastic, TakesOtherTypesOfNumbers) {
+TEST(Stochastic, OfOtherTypes) {
     const auto check = []<class T>(T) {
         using small = tracked<T, stochastic>;
-        // With all digits of T: of doubles' the products would be exact in binary128.
+        // These have all digits of T. Products of doubles would be exact in binary128.
         const small tenth(T(T(1) / T(10))), most(T(T(7) / T(10)));
         small sum(T(0));
         for (int i = 0; i < 30; ++i) sum += tenth * most;

@@ -1,5 +1,5 @@
-// Each output file is whole or untouched; scratch files go away; decimals are read;
-// doubles are written as exact text.
+// Output files are whole or untouched; scratch files are removed; decimals are read; doubles are
+// written as exact text.
 #include <gtest/gtest.h>
 
 #include <bit>
@@ -25,6 +25,7 @@
 namespace {
 
 using namespace errbound::support;
+using test_files::files_in;
 using test_files::message_of;
 using test_files::temporary_directory;
 using test_files::write;
@@ -35,12 +36,8 @@ void expect_refusal(const Call& call, const std::string& part_of_message) {
     const std::string message = message_of(call);
     EXPECT_NE(message.find(part_of_message), std::string::npos) << message;
 }
-/// Number of files in the folder.
-std::ptrdiff_t files_in(const fs::path& folder) {
-    return std::distance(fs::directory_iterator(folder), fs::directory_iterator{});
-}
 
-TEST(Output, WholeOrNotAtAll) {
+TEST(Output, IsWholeOrNotWritten) {
     const temporary_directory directory;
     const fs::path file = directory.path / "out";
     write_whole(file, "one");
@@ -52,7 +49,7 @@ TEST(Output, WholeOrNotAtAll) {
     EXPECT_EQ(files_in(directory.path), 1);
 }
 
-TEST(Output, StopsAtTheFirstThatFails) {
+TEST(Output, StopsAtTheFirstFailure) {
     const temporary_directory directory;
     const fs::path first = directory.path / "first", last = directory.path / "last";
     write_whole(last, "as it was");
@@ -81,7 +78,7 @@ TEST(Output, NamesOfAnyAlphabet) {
     }
 }
 
-TEST(Output, IsRefusedBeforeThereIsAnythingToWrite) {
+TEST(Output, ToBadPathsIsRefusedEarly) {
     const temporary_directory directory;
     const auto expect_refused = [](const fs::path& path, const std::string& part_of_message) {
         expect_refusal([&] { require_writable(path); }, part_of_message);
@@ -92,7 +89,7 @@ TEST(Output, IsRefusedBeforeThereIsAnythingToWrite) {
         EXPECT_NO_THROW(require_writable(good)) << good;
     expect_refused(directory.path, "is a directory");
     expect_refused(directory.path / "no" / "out", "No such file");
-#ifndef _WIN32  // where that is known only when the file is made
+#ifndef _WIN32  // Windows reports this only when the file is made
     const std::string too_long = std::generic_category().message(ENAMETOOLONG);
     expect_refused(directory.path / std::string(300, 'n'), "cannot be written (" + too_long);
 #endif
@@ -100,7 +97,7 @@ TEST(Output, IsRefusedBeforeThereIsAnythingToWrite) {
     EXPECT_EQ(read_whole(directory.path / "file"), "one");
 }
 
-TEST(Output, LinksAndDevicesStayWhatTheyAre) {
+TEST(Output, KeepsLinksAndDevices) {
     const temporary_directory directory;
     const fs::path file = directory.path / "out", link = directory.path / "link";
     write_whole(file, "one");
@@ -124,7 +121,7 @@ TEST(Table, PrintsControlCharactersAsNumbers) {
               "file    n\na\\x0db  1\n");
 }
 
-TEST(Scratch, GivesBackWhatWasAppendedAndGoesAway) {
+TEST(Scratch, IsReadBackAndRemoved) {
     fs::path path;
     {
         scratch_file file, other;
@@ -148,7 +145,7 @@ TEST(Scratch, GivesBackWhatWasAppendedAndGoesAway) {
     EXPECT_FALSE(fs::exists(path));
 }
 
-#ifndef _WIN32  // which has a folder whatever the environment
+#ifndef _WIN32  // Windows always has a folder
 TEST(Scratch, NeedsAFolder) {
     const temporary_directory directory;
     const char* const before = std::getenv("TMPDIR");
@@ -170,7 +167,7 @@ void expect_decimal(std::string_view text, T value) {
     EXPECT_EQ(std::signbit(read.value), std::signbit(value)) << text;
 }
 
-TEST(Decimal, IsTheNearest) {
+TEST(Decimal, IsTheNearestNumber) {
     expect_decimal("0.1", 0.1);
     expect_decimal("-2.5e-3", -2.5e-3);
     expect_decimal(".5", 0.5);
@@ -191,7 +188,7 @@ TEST(Decimal, IsTheNearest) {
     EXPECT_TRUE(std::isnan(parse_decimal<double>("nan").value));
 }
 
-TEST(Decimal, IsRefused) {
+TEST(Decimal, OtherTextsAreRefused) {
     for (const char* text :
          {"", "-", ".", "+1", "--1", "1 ", " 1", "1e", "1e+", "e5", "1.5.", "0x1", "1,5", "x"})
         EXPECT_EQ(parse_decimal<double>(text).status, decimal_status::malformed) << text;
@@ -200,7 +197,7 @@ TEST(Decimal, IsRefused) {
     EXPECT_EQ(parse_decimal<float>("3.5e38").status, decimal_status::overflow);
 }
 
-TEST(Hexadecimal, IsOneTextOnEverySystem) {
+TEST(Hexadecimal, IsTheSameOnEverySystem) {
     EXPECT_EQ(hexadecimal(1), "0x1p+0");
     EXPECT_EQ(hexadecimal(-0.1), "-0x1.999999999999ap-4");
     EXPECT_EQ(hexadecimal(0x1p52 + 1), "0x1.0000000000001p+52");

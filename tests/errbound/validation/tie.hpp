@@ -1,7 +1,6 @@
-// The C++ code is what the proofs are about: in every case of a tiny format, and in a selection of
-// cases of larger ones, it gives the results that proofs/tie.txt tells by their hash. That table is
-// written by proofs/tie.ml, a program of the proofs' own definitions; what is enumerated here, and
-// in which order, is what is enumerated there.
+// Compares the C++ code with the proofs' definitions, in every case of a tiny format and in a
+// selection of cases of larger ones. proofs/tie.ml, a program of those definitions, writes the
+// hashes of the results to proofs/tie.txt. It enumerates the same cases in the same order.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -31,13 +30,13 @@ using errbound::number_traits;
 using errbound::rule_operand;
 using errbound::validation::tiny_float;
 
-/// With few terms, so that results have to be shortened.
+/// So few terms that results must be shortened.
 using affine = errbound::affine_of<3>;
 using tied_rules =
     errbound::rule_types<errbound::tight, errbound::sharp, errbound::safe, errbound::interval,
                          errbound::residual, errbound::relative, affine>;
 
-/// The rule's name in the table, where `affine` has one for every limit on terms.
+/// The rule's name in the table, which has one name for every limit on the terms of `affine`.
 template <class Rule>
 std::string table_name() {
     const std::string name = Rule::name;
@@ -52,7 +51,7 @@ struct given_error : errbound::derived_rule<given_error, errbound::tight> {
     }
 };
 
-/// All cases of an operation where there are at most so many, else so many drawn ones.
+/// All cases of an operation if there are at most `exhaustive`; otherwise `samples` random ones.
 struct selection {
     std::uint64_t exhaustive, samples;
     std::uint64_t of(std::uint64_t total) const {
@@ -60,8 +59,8 @@ struct selection {
     }
 };
 
-// What is enumerated of a format: values, those not negative for bounds; what is selected of what
-// has more cases, and how many lists of numbers; and how results are put: zeros alike, NaN alike.
+// A format has values, bounds (the values that are not negative), the selections of cases, and the
+// number of lists of numbers. `put` hashes all zeros, and all NaN, as one.
 
 template <class T>
 struct format;
@@ -144,7 +143,7 @@ struct format<F> {
     using word = std::conditional_t<one_word, std::uint32_t, std::uint64_t>;
 };
 
-/// One operation: its number of cases, and what puts the results of one.
+/// One operation: its number of cases, and a function that hashes the results of one.
 struct operation {
     std::string name;
     std::uint64_t total;
@@ -178,7 +177,7 @@ struct operand_state {
     rule_operand<T, Rule> as_operand() const { return {value, bound}; }
 };
 
-/// `exact`: exact operands, if a selection of all states has few; else empty.
+/// `exact` holds exact operands if a selection of all states would have few of them.
 template <class T, class Rule>
 struct state_lists {
     using bound_type = typename Rule::template bound<T>;
@@ -186,7 +185,7 @@ struct state_lists {
     std::vector<state> all, exact;
 };
 
-/// Rules whose bound is an error.
+/// For rules whose bound is an error.
 template <class T, class Rule>
 struct states : state_lists<T, Rule> {
     explicit states(const format<T>& f) {
@@ -217,7 +216,7 @@ struct states<T, errbound::safe> : state_lists<T, errbound::safe> {
 
 template <class T>
 struct states<T, errbound::interval> : state_lists<T, errbound::interval> {
-    /// Unknown numbers; lower <= upper and a value that is one of them.
+    /// Numbers with infinite errors; intervals whose value is one of the ends.
     explicit states(const format<T>& f) {
         for (const T& v : f.values) this->exact.push_back({v, {v, v}});
         const T infinity = number_traits<T>::infinity();
@@ -272,7 +271,7 @@ struct states<T, errbound::relative> : state_lists<T, errbound::relative> {
     const auto& with_errors() const { return this->all; }
 };
 
-/// Numbers with up to Limit terms, of few sources, so that they have some in common; some of these
+/// Numbers with up to Limit terms, of few sources, so that they have some in common. Some sources
 /// come after all new ones.
 template <class T, std::size_t Limit>
 struct states<T, errbound::affine_of<Limit>> : state_lists<T, errbound::affine_of<Limit>> {
@@ -290,7 +289,7 @@ struct states<T, errbound::affine_of<Limit>> : state_lists<T, errbound::affine_o
             this->all.push_back({value, bound_of(f, value, numbers)});
         }
     }
-    /// Distinguishes new sources from others, but not from each other.
+    /// Hashes all new sources as one.
     static void put(hash& h, const bound_type& b) {
         format<T>::put(h, b.radius);
         format<T>::put(h, b.rest);
@@ -396,7 +395,7 @@ std::vector<operation> operations_of(const format<T>& f, const states<T, Rule>& 
     return all;
 }
 
-/// The operations that belong to no rule.
+/// Operations that belong to no rule.
 template <class T>
 std::vector<operation> other_operations(const format<T>& f) {
     using F = format<T>;

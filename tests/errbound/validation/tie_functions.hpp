@@ -1,4 +1,4 @@
-// Functions of tracked numbers, by every rule, against the proofs' table: tie.hpp.
+// Functions of tracked numbers, by every rule, compared with the proofs' table: tie.hpp.
 #pragma once
 
 #include <algorithm>
@@ -16,13 +16,13 @@ namespace tie {
 
 using errbound::tracked;
 
-/// The tracked number with this value and bound, which no constructor takes.
+/// The tracked number with this value and bound; no constructor makes it.
 template <class T, class Rule>
 tracked<T, Rule> restored(const operand_state<T, Rule>& state) {
     return std::bit_cast<tracked<T, Rule>>(state);
 }
 
-/// At most ten thousand of them, evenly: the cases of three can be numbered.
+/// At most ten thousand evenly spread states, so that 64 bits number the triples.
 template <class State>
 std::vector<State> spread(const std::vector<State>& all) {
     const std::size_t most = std::min<std::size_t>(all.size(), 10007);
@@ -38,8 +38,8 @@ inline const std::vector<int> powers = [] {
     return all;
 }();
 
-/// Draws numbers of a kind: any; exact ones; or exact and others, small and known well, so that not
-/// all that is made of them is infinite.
+/// Draws numbers of a kind: any, exact, or small numbers with small errors and exact ones. The last
+/// keep results finite.
 template <class T, class Rule>
 class number_draws {
     using number = tracked<T, Rule>;
@@ -54,7 +54,7 @@ class number_draws {
         for (const T& v : f.values)
             if (is_small(v)) exact_.push_back(number(v));
     }
-    /// The i-th list of pairs: one in four is that before it with its first number negated.
+    /// The i-th list of pairs. One in four is the pair before it with its first number negated.
     std::pair<std::vector<number>, std::vector<number>> pairs(std::uint64_t i) const {
         sequence numbers(i + 1);
         const std::uint64_t kind = numbers.draw(4), count = numbers.draw(20);
@@ -67,7 +67,7 @@ class number_draws {
         }
         return drawn;
     }
-    /// A polynomial's coefficients, and where.
+    /// A polynomial's coefficients and argument.
     std::pair<std::vector<number>, number> polynomial(std::uint64_t i) const {
         sequence numbers(i + 1);
         const std::uint64_t kind = numbers.draw(4), count = numbers.draw(7);
@@ -89,7 +89,7 @@ class number_draws {
     std::vector<number> any_, small_, exact_;
 };
 
-/// The functions of a rule's states. `some_`: those for functions of three numbers.
+/// The functions of a rule's states; functions of three numbers take `some_`.
 template <class T, class Rule>
 class functions_of {
     using number = tracked<T, Rule>;

@@ -1,5 +1,5 @@
-// The rules and functions by them in float and double, and integers of words, against the proofs'
-// table: tie.hpp.
+// Rules and functions in float and double, and integers of words, compared with the proofs' table:
+// tie.hpp.
 #include <gtest/gtest.h>
 
 #include "tests/errbound/validation/tie_functions.hpp"

@@ -1,4 +1,4 @@
-// The rules and functions by them in every case of tiny formats against the proofs' table: tie.hpp.
+// Rules and functions in every case of tiny formats, compared with the proofs' table: tie.hpp.
 #include <gtest/gtest.h>
 
 #include <errbound/validation/tiny_float.hpp>

@@ -1,5 +1,5 @@
-// Integers of one to four words, whose words are often all zeros or all ones, and what operations
-// make of them, against the proofs' table.
+// Operations on integers of one to four words, whose words are often all zeros or all ones,
+// compared with the proofs' table.
 #pragma once
 
 #include <array>
@@ -82,7 +82,7 @@ class word_cases {
             run(h, (*values)[i / values->size()], (*values)[i % values->size()]);
         });
     }
-    /// Of every number of bits up to `most`.
+    /// Adds the cases of each value with each number of bits up to `most`.
     template <class Case>
     void of_bits(const std::string& name, int most, Case run) {
         const auto counts = static_cast<std::uint64_t>(most) + 1;
@@ -90,7 +90,7 @@ class word_cases {
             run(h, (*values)[i / counts], static_cast<int>(i % counts));
         });
     }
-    /// `each`: cases of each value.
+    /// `each` is the number of cases of each value.
     template <class Case>
     void add(const std::string& name, std::uint64_t each, Case put_case) {
         lines_.push_back({"fixed_integer<" + std::to_string(Words) + "> " + name,

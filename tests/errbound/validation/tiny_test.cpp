@@ -1,5 +1,5 @@
-// Number formats of 6 to 8 bits: they are what they should be, every rule passes in every case of
-// them, and rules that are broken on purpose are caught.
+// Number formats of 6 to 8 bits. Every rule passes in every case of them, and rules that are broken
+// on purpose fail.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -15,7 +15,8 @@ namespace validation = errbound::validation;
 using validation::rule;
 using validation::tiny_float;
 
-// Of 5 bits of exponent and 3 of precision: E5M2, whose numbers are a half's with a short fraction.
+// E5M2, with 5 bits of exponent and 3 of precision, has the numbers of a half with a short
+// fraction.
 TEST(TinyFloat, IsAFormatAsIeee754DefinesIt) {
     using tiny = tiny_float<3, 5>;
     using traits = errbound::number_traits<tiny>;
@@ -26,7 +27,7 @@ TEST(TinyFloat, IsAFormatAsIeee754DefinesIt) {
     EXPECT_EQ(double(traits::epsilon()), 0.25);
     EXPECT_EQ(double(traits::infinity()), std::numeric_limits<double>::infinity());
     EXPECT_EQ(double(tiny(1) + tiny(0.125)), 1);       // a tie, to even
-    EXPECT_EQ(double(tiny(1.25) + tiny(0.125)), 1.5);  // likewise
+    EXPECT_EQ(double(tiny(1.25) + tiny(0.125)), 1.5);  // a tie, to even
     EXPECT_EQ(double(tiny(0x1p-8) * tiny(0x1.8p-8)), 0x1p-15);
     EXPECT_EQ(double(tiny(0x1p-8) * tiny(0x1p-9)), 0);
     EXPECT_EQ(double(tiny(57344) + tiny(4096)), std::numeric_limits<double>::infinity());
@@ -43,8 +44,7 @@ TEST(TinyFloat, IsAFormatAsIeee754DefinesIt) {
     EXPECT_EQ(double(tiny(1) + traits::underflow_unit()), 1);
 }
 
-// Against double, which every sum, product and quotient of these numbers fits or is rounded to
-// innocuously: a second rounding to 3 bits is harmless from 53.
+// Compares with double. A second rounding to 3 bits is harmless after one to 53.
 TEST(TinyFloat, OperationsRoundOnceToNearest) {
     using tiny = tiny_float<4, 3>;
     const validation::tiny_rounding<tiny> nearest(MPFR_RNDN);
@@ -60,7 +60,7 @@ TEST(TinyFloat, OperationsRoundOnceToNearest) {
         }
 }
 
-TEST(Tiny, EveryRuleKeepsItsPromises) {
+TEST(Tiny, EveryRuleHolds) {
     validation_test::expect_all_kept(validation::validate_tiny(validation::rules(), 0));
 }
 

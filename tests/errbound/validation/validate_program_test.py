@@ -113,7 +113,7 @@ class Validate(unittest.TestCase):
             self.assertIn(f["at"], text)
         self.assertEqual(text, self.good(*common, "--threads", 3))
         self.assertNotEqual(text, self.good(*common, "--seed", 2))
-        # What they are not: rounded correctly to one bit more.
+        # They are not correctly rounded to one bit more.
         done = self.run_program("validate", *common, "--units", "0.25")
         self.assertEqual(done.returncode, 1)
         self.assertRegex(done.stdout, r"\n[1-9][0-9]+ violations\n$")

@@ -1,5 +1,5 @@
 // Validation by MPFR of random expressions and queries: every rule passes, and rules that are
-// broken on purpose are caught.
+// broken on purpose fail.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -8,7 +8,6 @@
 #include <cstdint>
 #include <errbound/validation/boost_numbers.hpp>
 #include <errbound/validation/validation.hpp>
-#include <limits>
 #include <optional>
 #include <random>
 #include <span>
@@ -36,13 +35,13 @@ std::uint64_t expression_count() {
     return support::scaled(20000u);
 }
 
-TEST(Validate, EveryRuleKeepsItsPromisesInRandomExpressions) {
+TEST(Validate, EveryRuleHoldsInRandomExpressions) {
     const validation::expression_options options{.expressions = expression_count(), .seed = 7};
     const validation::report r = validation::validate_expressions(validation::rules(), options);
     expect_all_kept(r);
     EXPECT_EQ(r.counts.size(), 2 * validation::rules().size());
     for (const auto& c : r.counts) EXPECT_GE(c.cases, options.expressions) << c.rule;
-    // Long ones, for the reference's precision.
+    // Long expressions need more precision of the reference.
     expect_all_kept(validation::validate_expressions(
         validation::rules(),
         {.expressions = expression_count() / 10, .seed = 8, .operations = 48}));
@@ -53,8 +52,8 @@ std::size_t served(validation::number_type type) {
         validation::rules(), [type](const rule& r) { return r.supports(type); }));
 }
 
-/// All rules that serve them keep their promises in these formats. `open`: how many values of a
-/// million the reference may leave so.
+/// Checks that all rules hold in these formats. `open`: the number of values in a million that the
+/// reference may leave undetermined.
 void expect_kept(const validation::expression_options& options, std::uint64_t open) {
     const validation::report r = validation::validate_expressions(validation::rules(), options);
     EXPECT_EQ(r.violation_count(), 0U) << all_violations(r);
@@ -68,7 +67,7 @@ void expect_kept(const validation::expression_options& options, std::uint64_t op
     }
 }
 
-TEST(Validate, EveryRuleKeepsItsPromisesInSmallFormats) {
+TEST(Validate, EveryRuleHoldsInSmallFormats) {
     using enum validation::number_type;
     const validation::expression_options options{
         .expressions = expression_count() / 2,
@@ -84,7 +83,7 @@ TEST(Validate, EveryRuleKeepsItsPromisesInSmallFormats) {
         << caught.violations.front().code;
 }
 
-TEST(Validate, EveryRuleKeepsItsPromisesInWideFormats) {
+TEST(Validate, EveryRuleHoldsInWideFormats) {
     validation::expression_options options{.expressions = expression_count() / 4, .seed = 10};
     options.numbers.clear();
     for (const auto& number : validation::number_types)
@@ -99,12 +98,12 @@ TEST(Validate, EveryRuleKeepsItsPromisesInWideFormats) {
     const validation::report caught = validation::validate_expressions(broken, options);
     EXPECT_EQ(caught.counts.size(), options.numbers.size());
     for (const auto& c : caught.counts) EXPECT_GT(c.violations, 0U) << c.number;
-    // The smallest that shows it: two inputs and a sum or difference, or a number with itself.
+    // The smallest violation has two inputs and a sum or difference, or a number with itself.
     for (const auto& v : caught.violations)
         EXPECT_LE(std::ranges::count(v.code, '\n'), 5) << v.number << "\n" << v.code;
 }
 
-/// What a T is taken to is what it was, and what MPFR makes of that.
+/// Checks that a T is converted exactly, and that MPFR agrees.
 template <class T, class Set>
 void check_exact_values(std::uint64_t seed, const Set& set) {
     using traits = errbound::number_traits<T>;
@@ -128,7 +127,7 @@ void check_exact_values(std::uint64_t seed, const Set& set) {
         std::isnan(validation::exactly(T(traits::infinity() - traits::infinity())).leading));
 }
 
-TEST(Validate, NumbersOfEveryFormatAreTakenExactly) {
+TEST(Validate, NumbersOfEveryFormatAreConvertedExactly) {
     check_exact_values<double>(1, [](mpfr_ptr to, double x) { mpfr_set_d(to, x, MPFR_RNDN); });
     check_exact_values<support::long_double>(
         2, [](mpfr_ptr to, long double x) { mpfr_set_ld(to, x, MPFR_RNDN); });
@@ -137,8 +136,8 @@ TEST(Validate, NumbersOfEveryFormatAreTakenExactly) {
         3, [](mpfr_ptr to, const number& x) { mpfr_set(to, x.backend().data(), MPFR_RNDN); });
 }
 
-TEST(Validate, WhatIsMadeSmallerStaysFinite) {
-    // A number of the largest exponents times another of its bits would overflow.
+TEST(Validate, MinimisedNumbersStayFinite) {
+    // The product of numbers with the largest exponents would overflow.
     using number = support::long_double;
     constexpr int most = errbound::number_traits<number>::max_exponent - 1;
     validation::expression e;
@@ -161,8 +160,9 @@ TEST(Validate, WhatIsMadeSmallerStaysFinite) {
     EXPECT_GT(tried, 2U);
 }
 
-TEST(Validate, ErrorsAreOfEachRulesOwnValues) {
-    // Expression 8,531,125 has π of a rule that knows a zero's sign not, and −π of `none`.
+TEST(Validate, ErrorsAreThoseOfTheRulesValues) {
+    // In expression 8,531,125, a rule that ignores the sign of zero has the value π, and `none` has
+    // −π.
     const rule rules[] = {validation::rule_of<errbound::none>(),
                           validation::rule_of<errbound::tight>()};
     const validation::expression_options options{.expressions = 10'000'000,
@@ -173,7 +173,7 @@ TEST(Validate, ErrorsAreOfEachRulesOwnValues) {
     EXPECT_EQ(r.counts.front().cases, 33'334U);
 }
 
-/// The rule's violations in random expressions, of which there must be some, each made small.
+/// The rule's violations in random expressions, each minimised. There must be some.
 std::vector<validation::violation> caught_in_expressions(const rule& broken) {
     const validation::report r =
         validation::validate_expressions(std::span(&broken, 1), {.expressions = 2000, .seed = 1});
@@ -182,7 +182,7 @@ std::vector<validation::violation> caught_in_expressions(const rule& broken) {
     return r.violations;
 }
 
-TEST(Validate, ThePrintedRuleWithoutAnUnderflowTermIsCaught) {
+TEST(Validate, RulesWithoutAnUnderflowTermFail) {
     constexpr rule broken = validation::rule_of<as_printed>();
     bool by_underflow = false;
     for (const validation::violation& v : caught_in_expressions(broken)) {
@@ -194,14 +194,14 @@ TEST(Validate, ThePrintedRuleWithoutAnUnderflowTermIsCaught) {
     EXPECT_TRUE(by_underflow);
 }
 
-TEST(Validate, ARuleWithTooSmallAFactorIsCaught) {
+TEST(Validate, RulesWithTooSmallAFactorFail) {
     constexpr rule broken = validation::rule_of<too_small>();
     for (const validation::violation& v : caught_in_expressions(broken))
         EXPECT_LE(std::count(v.code.begin(), v.code.end(), '\n'), 5) << v.what << "\n" << v.code;
 }
 
-TEST(Validate, FunctionsAreAsFarOffAsIsAssumed) {
-    // Not fewer under sanitizers: the largest errors must be met.
+TEST(Validate, FunctionsHaveTheAssumedErrors) {
+    // Sanitizers do not reduce this number: the largest errors must occur.
     validation::function_options options{.samples = 3000, .seed = 5};
     for (const auto& f : validation::named_functions) options.functions.push_back(f.function);
     const validation::report r = validation::examine(validation::evidence_of_functions(options), 0);
@@ -212,7 +212,7 @@ TEST(Validate, FunctionsAreAsFarOffAsIsAssumed) {
         EXPECT_LE(f.largest, f.assumed) << f.function << " of " << f.number << " " << f.at;
         EXPECT_GE(f.largest, 0.45) << f.function << " " << f.number;
     }
-    // What is held to less is caught.
+    // A smaller assumption is refuted.
     options.units = 0.4;
     const validation::report caught =
         validation::examine(validation::evidence_of_functions(options), 0);
@@ -220,14 +220,14 @@ TEST(Validate, FunctionsAreAsFarOffAsIsAssumed) {
     EXPECT_GT(caught.violation_count(), r.violation_count());
 }
 
-TEST(Validate, EveryFloatIsTried) {
+TEST(Validate, TriesEveryFloat) {
     validation::function_options options{
         .functions = {errbound::elementary_function::sin},
         .every_float = true,
         .numbers = {errbound::validation::number_type::float_type}};
     const validation::evidence what = validation::evidence_of_functions(options);
     ASSERT_GT(what.chunks, 100U);
-    // The last 2^23 − 1 are NaN, of which nothing is asked, nor of the infinity before them.
+    // The last 2^23 − 1 floats are NaN, after infinity. They are not tried.
     const validation::report last = what.report_of(what.chunks - 1);
     ASSERT_EQ(last.functions.size(), 1U);
     EXPECT_EQ(last.functions.front().function, "sin");
@@ -237,9 +237,9 @@ TEST(Validate, EveryFloatIsTried) {
     EXPECT_EQ(validation::evidence_of_functions(options).chunks, 0U);
 }
 
-TEST(Validate, TheLargestErrorOfAllFloatsIsFound) {
-    // Where the GNU C library's sinf is off most. Of what is off by more than half a unit, MPFR is
-    // asked in any case if no more is assumed; else only of what may be the largest of all floats.
+TEST(Validate, FindsTheLargestErrorOfAllFloats) {
+    // The float at which the GNU C library's sinf has its largest error. If the assumption is half
+    // a unit, MPFR checks all errors above half a unit; else only those that may be the largest.
     constexpr auto most = std::bit_cast<std::uint32_t>(0x1.0c05ccp-1F);
     validation::function_options options{
         .functions = {errbound::elementary_function::sin},
@@ -260,7 +260,7 @@ TEST(Validate, TheLargestErrorOfAllFloatsIsFound) {
     EXPECT_EQ(as_assumed.at, all.at);
 }
 
-TEST(Validate, ChunksAreTheWhole) {
+TEST(Validate, ChunksTogetherAreTheWhole) {
     const rule rules[] = {validation::rule_of<errbound::tight>(), validation::rule_of<as_printed>(),
                           validation::rule_of<too_small>()};
     const validation::expression_options options{.expressions = 6000, .seed = 4};
@@ -292,7 +292,7 @@ TEST(Validate, ChunksAreTheWhole) {
     }
 }
 
-TEST(Validate, AFailedChunkIsTold) {
+TEST(Validate, ExceptionsOfChunksArePropagated) {
     validation::evidence what{.chunks = 100,
                               .report_of = [](std::uint64_t c) -> validation::report {
                                   if (c == 7) throw std::runtime_error("seven");

@@ -1,5 +1,4 @@
-// What the tests of validation share: rules that are broken on purpose, and what to expect of a
-// report.
+// Rules that are broken on purpose, and checks of reports.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -65,7 +64,7 @@ struct too_small : errbound::derived_rule<too_small, errbound::tight> {
     }
 };
 
-/// The same, for numbers without subnormal ones, too.
+/// The same, also for types without subnormal numbers.
 struct too_small_for_sums : errbound::derived_rule<too_small_for_sums, too_small> {
     static constexpr const char* name = "too_small_for_sums";
     static constexpr bool holds_without_subnormals = true;
@@ -78,8 +77,8 @@ inline std::string all_violations(const validation::report& r) {
     return text;
 }
 
-/// How many values the reference may leave open. None; of `affine` some: it is certain of zeros
-/// where what cancels is of the same source, which the reference knows of single values alone.
+/// The number of values that the reference may leave undetermined. `affine` is certain of zeros if
+/// errors of one source cancel, but the reference only compares single values.
 inline std::uint64_t allowed_undetermined(const validation::rule_counts& c) {
     return c.rule == "affine" ? c.values / 1000 : 0;
 }

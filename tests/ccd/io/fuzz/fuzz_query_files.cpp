@@ -1,15 +1,16 @@
 // Fuzzes the readers of stored queries and of truth: any bytes are queries or a file_error, never a
 // crash; queries survive being written as hexadecimal floats, truth as JSON.
+#include <bit>
 #include <ccd/io/query_file.hpp>
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
-#include <cstring>
 #include <errbound/support/error.hpp>
 #include <optional>
 #include <string>
 #include <string_view>
-#include <vector>
+
+#include "tests/ccd/io/content.hpp"
 
 namespace {
 
@@ -29,26 +30,17 @@ void require(bool holds) {
     if (!holds) std::abort();
 }
 
-/// 24 numbers a query: x, y, z at t = 0 and at t = 1 of each point.
-std::vector<double> numbers_of(const query_file& file) {
-    return std::visit(
-        [](const auto& all) {
-            std::vector<double> numbers(24 * all.size());
-            if (!all.empty()) std::memcpy(numbers.data(), all.data(), 8 * numbers.size());
-            return numbers;
-        },
-        file.queries);
-}
-
 std::string hexadecimal_rows(const query_file& file) {
     std::string text;
-    const std::vector<double> numbers = numbers_of(file);
+    const test_queries::content content(file);
     for (std::size_t row = 0; row < 8 * file.size(); ++row) {
         const std::size_t query = row / 8, time = row / 4 % 2, point = row % 4;
-        const double* const x = &numbers[24 * query + 6 * point + 3 * time];
-        char line[128];
-        std::snprintf(line, sizeof line, "%a,%a,%a", x[0], x[1], x[2]);
-        text += line;
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            const std::uint64_t bits = content.bits[24 * query + 6 * point + 3 * time + axis];
+            char number[40];
+            std::snprintf(number, sizeof number, ",%a", std::bit_cast<double>(bits));
+            text += number + (axis == 0);
+        }
         if (file.truth) text += (*file.truth)[query] ? ",1" : ",0";
         text += '\n';
     }
@@ -56,9 +48,7 @@ std::string hexadecimal_rows(const query_file& file) {
 }
 
 void require_same(const query_file& a, const query_file& b) {
-    const std::vector<double> x = numbers_of(a), y = numbers_of(b);
-    require(a.truth == b.truth && x.size() == y.size() &&
-            (x.empty() || std::memcmp(x.data(), y.data(), 8 * x.size()) == 0));
+    require(a.truth == b.truth && test_queries::content(a) == test_queries::content(b));
 }
 
 void fuzz_queries(std::string_view text) {

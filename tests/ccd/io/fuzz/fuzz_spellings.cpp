@@ -1,5 +1,5 @@
-// Fuzzes the mesh readers by structure: the bytes choose a mesh and one of the many legal spellings
-// of OBJ or PLY for it, and the reader must return that mesh, bit for bit.
+// Fuzzes the mesh readers by structure. The bytes choose a mesh and a legal spelling of OBJ or PLY
+// for it, and the reader must return that mesh, bit for bit.
 #include <ccd/io/mesh_file.hpp>
 #include <cstdlib>
 

@@ -1,4 +1,4 @@
-// Small meshes and the many legal spellings of OBJ and PLY for them, chosen by bytes.
+// Small meshes and many legal spellings of OBJ and PLY for them, chosen by bytes.
 #include "tests/ccd/io/fuzz/spellings.hpp"
 
 #include <algorithm>
@@ -6,8 +6,9 @@
 #include <bit>
 #include <charconv>
 #include <cmath>
-#include <cstdlib>
 #include <cstring>
+
+#include "tests/ccd/io/meshes.hpp"
 
 namespace ccd::fuzz {
 namespace {
@@ -153,9 +154,7 @@ class ply_writer {
         add_faces();
         add_edges();
         if (vertices_last) add_vertices();
-        std::string text;
-        for (const char c : header_ + "end_header\n") text += c == '\n' ? end : std::string(1, c);
-        return text + body_;
+        return test_meshes::with_line_ends(header_ + "end_header\n", end) + body_;
     }
 
   private:
@@ -201,14 +200,21 @@ class ply_writer {
     }
 
     void add_faces() {
-        const std::string type = choose_.one_of({"ushort", "int", "uint32"});
+        const std::string type =
+            choose_.one_of({"ushort", "int", "uint32", "char", "uint", "int16", "uint16"});
+        const std::string count = choose_.one_of({"uchar", "int8", "int"});
         header_ += "element face " + std::to_string(mesh_.faces.size()) + "\nproperty list " +
-                   choose_.one_of({"uchar", "int8"}) + " " + type + " " +
-                   choose_.one_of({"vertex_indices", "vertex_index"}) + "\n";
+                   count + " " + type + " " + choose_.one_of({"vertex_indices", "vertex_index"}) +
+                   "\n";
         for (const auto& f : mesh_.faces) {
-            add(std::uint8_t{3});
+            if (count == "int")
+                add(std::int32_t{3});
+            else
+                add(std::uint8_t{3});
             for (const vertex_index i : f) {
-                if (type == "ushort")
+                if (type == "char")
+                    add(static_cast<std::int8_t>(i));
+                else if (type == "ushort" || type.ends_with("16"))
                     add(static_cast<std::uint16_t>(i));
                 else
                     add(i);

@@ -1,4 +1,4 @@
-// Small meshes and the many legal spellings of OBJ and PLY for them, chosen by bytes.
+// Small meshes and many legal spellings of OBJ and PLY for them, chosen by bytes.
 #pragma once
 
 #include <ccd/mesh.hpp>

@@ -1,5 +1,5 @@
-// Fuzzes a reader of meshes and its peer: they agree, or a listed difference explains why they do
-// not. A source file of each fuzzer includes this.
+// Fuzzes a reader of meshes and its peer: they agree, or a listed difference explains why not. The
+// source file of each fuzzer includes this.
 #pragma once
 
 #include <algorithm>
@@ -24,7 +24,7 @@ inline constexpr std::array<std::string_view, 24> numbers{
 /// Exchanges, deletes, doubles or respells a few lines, words or numbers of a text.
 class token_mutator {
   public:
-    token_mutator(std::string text, unsigned seed, const std::vector<std::string_view>& words)
+    token_mutator(std::string text, unsigned seed, const std::vector<std::string>& words)
         : text_(std::move(text)), random_(seed), words_(words) {}
 
     std::string mutated() {
@@ -105,7 +105,7 @@ class token_mutator {
 
     std::string text_;
     std::minstd_rand random_;
-    const std::vector<std::string_view>& words_;
+    const std::vector<std::string>& words_;
 };
 
 /// Changes the text, or another legal text, by lines and words.

@@ -9,16 +9,12 @@
 #include <cstdlib>
 #include <sstream>
 #include <utility>
-#include <vector>
 
-#include "ccd/io/text.hpp"
 #include "tests/ccd/io/meshes.hpp"
 #include "tests/ccd/io/peers/peer.hpp"
 
 namespace ccd::peers {
 namespace {
-
-using words = std::vector<std::string>;
 
 /// The position of a line's comment: a '#' that begins a word.
 std::size_t comment_start(std::string_view line) {
@@ -28,17 +24,12 @@ std::size_t comment_start(std::string_view line) {
     return at;
 }
 
-using predicate = std::function<bool(std::string_view text)>;
-
 /// True if a line's words, without its comment, satisfy the condition.
 template <class Condition>
 predicate some_line(const Condition& holds) {
     return [holds](std::string_view text) {
         while (std::optional<std::string_view> line = io::take_line(text)) {
-            std::string_view rest = line->substr(0, comment_start(*line));
-            words of_line;
-            for (auto word = io::take_word(rest); !word.empty(); word = io::take_word(rest))
-                of_line.emplace_back(word);
+            const words of_line = words_of(line->substr(0, comment_start(*line)));
             if (!of_line.empty() && holds(of_line)) return true;
         }
         return false;
@@ -128,73 +119,49 @@ bool loses_edges(std::string_view text) {
     })(text);
 }
 
-constexpr outcome refused = outcome::we_refuse, read = outcome::peer_differs;
-
 const std::vector<difference> differences{
-    {refused,
-     "absent coordinates are 0, numbers after the colour are skipped",
-     some_line([](const words& line) {
-         const std::size_t count = line.size() - 1;
-         return line[0] == "v" && (count < 3 || count == 5 || count > 7);
-     }),
-     {"v 0 0 0", "v 0 0"}},
-    {refused,
-     "a word that is no number is 0, or the number that it begins with",
-     some_word("v", [](const std::string& word) { return !is_decimal(word); }),
-     {"v 0 0 0", "v 0 0 zero"}},
-    {refused,
-     "numbers beyond the doubles are 0 for their exponent, or not looked at",
-     some_word("v", overflows),
-     {"v 0 0 0", "v 0 0 1e9999999999"}},
-    {refused,
-     "a vertex's weight is skipped",
-     some_line([](const words& line) {
-         return line[0] == "v" && line.size() == 5 && std::strtod(line[4].c_str(), nullptr) != 1;
-     }),
-     {"v 0 0 0", "v 0 0 0 2"}},
-    {refused,
-     "an index is the integer that a word begins with",
-     some_word("flp", is_no_corner),
-     {"f 1 2 3", "f 1 2 3.5"}},
-    {refused,
-     "f, l and p without indices are skipped",
-     some_line([](const words& line) {
-         return line.size() == 1 && (line[0] == "f" || line[0] == "l" || line[0] == "p");
-     }),
-     {"f 1 2 3", "f 1 2 3\nf"}},
-    {refused,
-     "keywords that it does not know are skipped, curves and misspelt ones too",
-     some_line(has_unknown_keyword),
-     {"f 1 2 3", "f 1 2 3\nface 1 2 3"}},
-    {refused,
-     "control characters are as others, and NUL ends a line",
-     has_control,
-     {"f 1 2 3", "f 1 2 3\no \x01"}},
-    {refused,
-     "a backslash at the end of a line does not join it to the next",
-     ends_in_backslash,
-     {"f 1 2 3", "f 1 2 3\no a\\"}},
-    {refused,
-     "edges of a group without faces are lost if another group begins",
-     loses_edges,
-     {"f 1 2 3", "l 1 9\ng next\nf 1 2 3"}},
-    {read,
-     "the lowest bits of indices of textures and normals may not be 0, nor these be absent after "
-     "a slash",
-     some_word("flp",
-               [](const std::string& word) {
-                   const auto parts = corner(word);
-                   return parts && (is_zero((*parts)[1]) || is_zero((*parts)[2]));
-               }),
-     {"f 1 2 3", "f 1/4294967296 2 3"}},
-    {read,
-     "edges of a group without faces are lost if another group begins",
-     loses_edges,
-     {"f 1 2 3", "l 1 2\ng next\nf 1 2 3"}},
-    {read,
-     "sums of digits and powers of 5 overflow for numbers that do not",
-     some_word("v", is_extreme),
-     {"v 0 0 0", "v 0 0 0e999"}},
+    we_refuse("reads absent coordinates as 0, skips numbers after the colour",
+              some_line([](const words& line) {
+                  const std::size_t count = line.size() - 1;
+                  return line[0] == "v" && (count < 3 || count == 5 || count > 7);
+              }),
+              {"v 0 0 0", "v 0 0"}),
+    we_refuse("reads a word as the number that it begins with, or as 0",
+              some_word("v", [](const std::string& word) { return !is_decimal(word); }),
+              {"v 0 0 0", "v 0 0 zero"}),
+    we_refuse("reads numbers that overflow as 0, or skips them", some_word("v", overflows),
+              {"v 0 0 0", "v 0 0 1e9999999999"}),
+    we_refuse("skips a vertex's weight", some_line([](const words& line) {
+                  return line[0] == "v" && line.size() == 5 &&
+                         std::strtod(line[4].c_str(), nullptr) != 1;
+              }),
+              {"v 0 0 0", "v 0 0 0 2"}),
+    we_refuse("reads an index as the integer that a word begins with",
+              some_word("flp", is_no_corner), {"f 1 2 3", "f 1 2 3.5"}),
+    we_refuse("skips f, l and p without indices", some_line([](const words& line) {
+                  return line.size() == 1 && (line[0] == "f" || line[0] == "l" || line[0] == "p");
+              }),
+              {"f 1 2 3", "f 1 2 3\nf"}),
+    we_refuse("skips unknown keywords, also curves and misspelt ones",
+              some_line(has_unknown_keyword), {"f 1 2 3", "f 1 2 3\nface 1 2 3"}),
+    we_refuse("reads control characters as others; NUL ends a line", has_control,
+              {"f 1 2 3", "f 1 2 3\no \x01"}),
+    we_refuse("does not join a line with a backslash to the next", ends_in_backslash,
+              {"f 1 2 3", "f 1 2 3\no a\\"}),
+    we_refuse("loses edges of a group without faces if another group begins", loses_edges,
+              {"f 1 2 3", "l 1 9\ng next\nf 1 2 3"}),
+    peer_differs("refuses texture and normal indices whose low 32 bits are 0, or that are absent "
+                 "after a slash",
+                 some_word("flp",
+                           [](const std::string& word) {
+                               const auto parts = corner(word);
+                               return parts && (is_zero((*parts)[1]) || is_zero((*parts)[2]));
+                           }),
+                 {"f 1 2 3", "f 1/4294967296 2 3"}),
+    peer_differs("loses edges of a group without faces if another group begins", loses_edges,
+                 {"f 1 2 3", "l 1 2\ng next\nf 1 2 3"}),
+    peer_differs("overflows in sums of digits and powers of 5", some_word("v", is_extreme),
+                 {"v 0 0 0", "v 0 0 0e999"}),
 };
 
 std::string without_comment(const std::string& line) {
@@ -220,22 +187,22 @@ auto on_lines(std::string (*rewritten)(const std::string&)) {
 }
 
 const std::vector<rewriting> rewritings{
-    {"a byte order mark makes the first keyword an unknown one",
+    {"does not know a byte order mark",
      without_byte_order_mark,
      {"v 0 0 0", "\xef\xbb\xbfv 0 0 0"}},
-    {"a comment must be a line of its own",
+    {"reads comments only on separate lines",
      on_lines(without_comment),
      {"f 1 2 3", "f 1 2 3 # all"}},
-    {"a backslash at the end of a line does not join it to the next",
+    {"does not join a line with a backslash to the next",
      [](std::string_view text) { return with_lines_joined(std::string(text)); },
      {"f 1 2 3", "f 1 2 \\\n3"}},
-    {"after l and two blanks it reads the first index twice",
+    {"reads the first index after l and two blanks twice",
      on_lines(with_one_blank_after_l),
      {"f 1 2 3", "l  1 2"}},
-    {"of a hexadecimal number it reads the 0 before the x",
+    {"reads only the 0 before the x of a hexadecimal number",
      with_decimals,
      {"v 0 0 0", "v 0 0 0x1p0"}},
-    {"fo, an old word for f, is skipped",
+    {"skips fo, an old word for f",
      [](std::string_view text) {
          return exchange_words(text,
                                [](const std::string& word) { return word == "fo" ? "f" : word; });
@@ -243,7 +210,7 @@ const std::vector<rewriting> rewritings{
      {"f 1 2 3", "f 1 2 3\nfo 2 1 3"}},
 };
 
-/// The mesh that tinyobjloader reads, if that is a mesh of triangles and edges.
+/// The mesh that tinyobjloader reads, if it consists of triangles and edges.
 std::optional<mesh> read_by_tinyobjloader(std::string_view text) {
     tinyobj::attrib_t attributes;
     std::vector<tinyobj::shape_t> shapes;
@@ -285,7 +252,7 @@ std::optional<mesh> read_by_tinyobjloader(std::string_view text) {
     return m;
 }
 
-/// True if tinyobjloader, which adds up digits in doubles, may have read `x` as `peers`.
+/// True if tinyobjloader may have read `x` as `peers`: it sums up digits in doubles.
 bool is_near(double x, double peers, std::size_t digits) {
     const double roundings = 2 * static_cast<double>(digits) + 8;
     return std::signbit(x) == std::signbit(peers) &&
@@ -307,7 +274,7 @@ bool same(const mesh& ours, const mesh& peers, std::string_view text) {
 }
 
 outcome compare(std::string_view text, std::string_view given) {
-    // Tags of subdivision surfaces make tinyobjloader reserve what they claim to hold.
+    // tinyobjloader reserves the memory that tags of subdivision surfaces claim to need.
     if (some_line([](const words& line) { return line[0] == "t"; })(given)) return outcome::same;
     const std::optional<mesh> ours = read_by(io::parse_mesh_obj, text);
     const std::optional<mesh> peers = read_by_tinyobjloader(given);
@@ -323,9 +290,9 @@ const peer& the_peer() {
         "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\nf -3/1/1 -2//1 -1/1\nl 1 2 3\nv 1 0.1 1e-5\n",
         rewritings,
         differences,
-        {"v",   "f",        "l",    "p",     "vn",    "vt",       "g a",     "o b",
-         "s 1", "usemtl m", "fo",   "V",     "curv",  "mtllib m", "vp",      "#",
-         "# c", "1/1",      "2//2", "3/3/3", "-1/-1", "1/0",      "f 1 2 3", "l 1 2"},
+        test_meshes::texts(
+            "v|f|l|p|vn|vt|g a|o b|s 1|usemtl m|fo|V|curv|mtllib m|vp|#|# c|1/1|2//2|3/3/3"
+            "|-1/-1|1/0|f 1 2 3|l 1 2"),
         fuzz::spelled_obj};
     return tinyobjloader;
 }

@@ -12,12 +12,24 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
+#include "ccd/io/text.hpp"
 #include "tests/ccd/io/fuzz/spellings.hpp"
 #include "tests/ccd/io/meshes.hpp"
 
 namespace ccd::peers {
+
+using words = std::vector<std::string>;
+using predicate = std::function<bool(std::string_view text)>;
+
+inline words words_of(std::string_view line) {
+    words found;
+    for (std::string_view word = io::take_word(line); !word.empty(); word = io::take_word(line))
+        found.emplace_back(word);
+    return found;
+}
 
 enum class outcome {
     same,          ///< the same mesh, or both refuse
@@ -30,15 +42,21 @@ struct edit {
     std::string from, to;
 };
 
-/// A reason for readers to differ on a text.
+/// A reason for the readers to differ on a text: a property of the peer.
 struct difference {
     outcome when;
     const char* reason;
-    std::function<bool(std::string_view text)> holds;
+    predicate holds;
     edit example;  ///< on which they differ for this reason only
 };
+inline difference we_refuse(const char* reason, predicate holds, edit example) {
+    return {outcome::we_refuse, reason, std::move(holds), std::move(example)};
+}
+inline difference peer_differs(const char* reason, predicate holds, edit example) {
+    return {outcome::peer_differs, reason, std::move(holds), std::move(example)};
+}
 
-/// Rewrites what a peer does not know of a format in words that it knows.
+/// Rewrites parts of a format that the peer cannot read as parts that it reads.
 struct rewriting {
     const char* reason;
     std::function<std::string(std::string_view text)> rewritten;
@@ -52,7 +70,7 @@ struct peer {
     std::string plain;  ///< a text on which they agree
     std::vector<rewriting> rewritings;
     std::vector<difference> differences;
-    std::vector<std::string_view> words;  ///< of the format, for mutations
+    peers::words words;  ///< of the format, for mutations
     fuzz::spelling (*spelled)(std::span<const std::uint8_t>);
 
     std::string text_of(const edit& example) const {

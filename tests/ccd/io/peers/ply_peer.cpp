@@ -12,21 +12,11 @@
 #include <sstream>
 #include <vector>
 
-#include "ccd/io/text.hpp"
 #include "tests/ccd/io/meshes.hpp"
 #include "tests/ccd/io/peers/peer.hpp"
 
 namespace ccd::peers {
 namespace {
-
-using words = std::vector<std::string>;
-
-words words_of(std::string_view line) {
-    words found;
-    for (std::string_view word = io::take_word(line); !word.empty(); word = io::take_word(line))
-        found.emplace_back(word);
-    return found;
-}
 
 struct type {
     std::string_view name, other_name;
@@ -178,8 +168,6 @@ bool show_values(const outline& o, const Show& show) {
     return true;
 }
 
-using predicate = std::function<bool(std::string_view text)>;
-
 /// True if a value of an ascii body satisfies the condition.
 template <class Condition>
 predicate some_value(const Condition& holds) {
@@ -236,110 +224,89 @@ const std::string plain =
     "property float z\nelement face 1\nproperty list uchar int vertex_indices\n" +
     body;
 
-constexpr outcome refused = outcome::we_refuse, read = outcome::peer_differs;
-
 const std::vector<difference> differences{
-    {refused,
-     "header lines that it does not know, versions and words too many are skipped",
-     some<&outline::lines>(is_odd_header_line),
-     {"ascii 1.0", "ascii 2.0"}},
-    {refused,
-     "elements, properties and lines of ply or format may come twice",
-     has_doubled_name,
-     {"element vertex", "format ascii 1.0\nelement vertex"}},
-    {refused,
-     "properties of unknown types have no values",
-     [](std::string_view text) { return outline(text).has_odd_type; },
-     {"float z\n", "float z\nproperty half w\n"}},
-    {refused,
-     "elements without properties are counted through",
-     some<&outline::elements>([](const element& e) { return e.count > 0 && e.properties.empty(); }),
-     {"element face", "element nothing 5\nelement face"}},
-    {refused,
-     "vertices and faces are elements as vertex and face",
-     some<&outline::elements>(has_plural_name),
-     {"element vertex", "element vertices"}},
-    {refused,
-     "absent coordinates are 0",
-     some<&outline::elements>([](const element& e) {
-         return e.name == "vertex" && !(e.has("x") && e.has("y") && e.has("z"));
-     }),
-     {"float z", "float w"}},
-    {refused,
-     "of two lists of indices one is read",
-     some<&outline::elements>([](const element& e) {
-         return e.name == "face" && std::ranges::count_if(e.properties, is_index_list) > 1;
-     }),
-     {body,
-      "property list uchar int vertex_index\nend_header\n"
-      "0 0 0\n1 0 0\n0 1 0\n3 0 1 2 3 0 1 2\n"}},
-    {refused,
-     "edges, strips and other elements are skipped with the indices in them",
-     some<&outline::elements>([](const element& e) {
-         return e.count > 0 && e.name != "vertex" && e.name != "face" &&
-                (e.name == "edge" || std::ranges::any_of(e.properties, is_index));
-     }),
-     {body, "element edge 1\nproperty int vertex1\nproperty int vertex2\n" + body + "7 7\n"}},
-    {refused,
-     "an element may take several lines, or share one",
-     [](std::string_view text) {
-         const outline o(text);
-         return o.is_ascii && !show_values(o, [](const auto&...) {});
-     },
-     {"0 0 0\n1 0 0", "0 0 0 1 0 0"}},
-    {refused,
-     "integers beyond their type are taken modulo its size",
-     some_value([](const value& v) { return v.declared.whole && is_integer(v.word) && !v.fits(); }),
-     {"3 0 1 2", "259 0 1 2"}},
-    {refused,
-     "carriage returns, vertical tabs and form feeds are blanks",
-     [](std::string_view text) { return text.find_first_of("\r\v\f") != text.npos; },
-     {"0 0 0\n", "0 0 0\v\n"}},
-    {refused,
-     "names may have control characters in them",
-     some<&outline::lines>([](const words& line) {
-         return !line.empty() && line[0] != "comment" && line[0] != "obj_info" &&
-                std::ranges::any_of(line, [](const std::string& word) {
-                    return std::ranges::any_of(word, io::is_control);
-                });
-     }),
-     {"end_header", "element ed\x05 0\nend_header"}},
-    {read,
-     "the second line must be that of the format",
-     [](std::string_view text) {
-         const outline o(text);
-         return o.lines.size() > 1 && !o.lines[1].empty() && o.lines[1][0] != "format";
-     },
-     {"ply\n", "ply\ncomment first\n"}},
-    {read,
-     "faces must have a list of indices of type int or uint, even if there are no faces",
-     some<&outline::elements>([](const element& e) {
-         const auto list = std::ranges::find_if(e.properties, is_index_list);
-         return e.name == "face" && (list == e.properties.end() ||
-                                     (list->value->name != "int" && list->value->name != "uint"));
-     }),
-     {"uchar int", "uchar short"}},
-    {read,
-     "coordinates must be floats or doubles",
-     some<&outline::elements>([](const element& e) {
-         return e.name == "vertex" && std::ranges::any_of(e.properties, [](const property& p) {
-                    return is_coordinate(p) && p.value->whole;
-                });
-     }),
-     {"float x", "short x"}},
-    {read,
-     "skipped values must be of their types too",
-     some_value([](const value& v) { return !v.is_used() && !v.fits(); }),
-     {body, "property int w\nend_header\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2 none\n"}},
-    {read,
-     "integers may not be spelled with a point or an exponent",
-     some_value(
-         [](const value& v) { return v.is_used() && v.declared.whole && !is_integer(v.word); }),
-     {"3 0 1 2", "3 0 1 2.0"}},
-    {read,
-     "vertices and faces are elements as vertex and face",
-     some<&outline::elements>(has_plural_name),
-     {body, "element vertices 1\nproperty float x\n" + body + "0\n"}},
+    we_refuse("skips unknown header lines and versions, and extra words",
+              some<&outline::lines>(is_odd_header_line), {"ascii 1.0", "ascii 2.0"}),
+    we_refuse("permits repeated elements, properties and lines of ply or format", has_doubled_name,
+              {"element vertex", "format ascii 1.0\nelement vertex"}),
+    we_refuse("reads no values of properties of unknown types",
+              [](std::string_view text) { return outline(text).has_odd_type; },
+              {"float z\n", "float z\nproperty half w\n"}),
+    we_refuse("permits elements without properties", some<&outline::elements>([](const element& e) {
+                  return e.count > 0 && e.properties.empty();
+              }),
+              {"element face", "element nothing 5\nelement face"}),
+    we_refuse("permits the names vertices and faces for vertex and face",
+              some<&outline::elements>(has_plural_name), {"element vertex", "element vertices"}),
+    we_refuse("reads absent coordinates as 0", some<&outline::elements>([](const element& e) {
+                  return e.name == "vertex" && !(e.has("x") && e.has("y") && e.has("z"));
+              }),
+              {"float z", "float w"}),
+    we_refuse("reads one of two lists of indices", some<&outline::elements>([](const element& e) {
+                  return e.name == "face" && std::ranges::count_if(e.properties, is_index_list) > 1;
+              }),
+              {body,
+               "property list uchar int vertex_index\nend_header\n"
+               "0 0 0\n1 0 0\n0 1 0\n3 0 1 2 3 0 1 2\n"}),
+    we_refuse(
+        "skips edges, strips and other elements with their indices",
+        some<&outline::elements>([](const element& e) {
+            return e.count > 0 && e.name != "vertex" && e.name != "face" &&
+                   (e.name == "edge" || std::ranges::any_of(e.properties, is_index));
+        }),
+        {body, "element edge 1\nproperty int vertex1\nproperty int vertex2\n" + body + "7 7\n"}),
+    we_refuse("permits an element on several lines, and several on one",
+              [](std::string_view text) {
+                  const outline o(text);
+                  return o.is_ascii && !show_values(o, [](const auto&...) {});
+              },
+              {"0 0 0\n1 0 0", "0 0 0 1 0 0"}),
+    we_refuse("reads integers that overflow modulo the size of their type",
+              some_value([](const value& v) {
+                  return v.declared.whole && is_integer(v.word) && !v.fits();
+              }),
+              {"3 0 1 2", "259 0 1 2"}),
+    we_refuse("reads carriage returns, vertical tabs and form feeds as blanks",
+              [](std::string_view text) { return text.find_first_of("\r\v\f") != text.npos; },
+              {"0 0 0\n", "0 0 0\v\n"}),
+    we_refuse("permits control characters in names", some<&outline::lines>([](const words& line) {
+                  return !line.empty() && line[0] != "comment" && line[0] != "obj_info" &&
+                         std::ranges::any_of(line, [](const std::string& word) {
+                             return std::ranges::any_of(word, io::is_control);
+                         });
+              }),
+              {"end_header", "element ed\x05 0\nend_header"}),
+    peer_differs("requires the format in the second line",
+                 [](std::string_view text) {
+                     const outline o(text);
+                     return o.lines.size() > 1 && !o.lines[1].empty() && o.lines[1][0] != "format";
+                 },
+                 {"ply\n", "ply\ncomment first\n"}),
+    peer_differs("requires a list of indices of type int or uint, even without faces",
+                 some<&outline::elements>([](const element& e) {
+                     const auto list = std::ranges::find_if(e.properties, is_index_list);
+                     return e.name == "face" &&
+                            (list == e.properties.end() ||
+                             (list->value->name != "int" && list->value->name != "uint"));
+                 }),
+                 {"uchar int", "uchar short"}),
+    peer_differs(
+        "requires floats or doubles as coordinates", some<&outline::elements>([](const element& e) {
+            return e.name == "vertex" && std::ranges::any_of(e.properties, [](const property& p) {
+                       return is_coordinate(p) && p.value->whole;
+                   });
+        }),
+        {"float x", "short x"}),
+    peer_differs("requires that skipped values have their types",
+                 some_value([](const value& v) { return !v.is_used() && !v.fits(); }),
+                 {body, "property int w\nend_header\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2 none\n"}),
+    peer_differs("refuses integers with a point or an exponent", some_value([](const value& v) {
+                     return v.is_used() && v.declared.whole && !is_integer(v.word);
+                 }),
+                 {"3 0 1 2", "3 0 1 2.0"}),
+    peer_differs("permits the names vertices and faces for vertex and face",
+                 some<&outline::elements>(has_plural_name),
+                 {body, "element vertices 1\nproperty float x\n" + body + "0\n"}),
 };
 
 /// The text with line feeds in place of carriage returns without line feeds in the header.
@@ -356,23 +323,23 @@ std::string with_line_feeds(std::string_view text) {
 }
 
 const std::vector<rewriting> rewritings{
-    {"a byte order mark is no part of ply", without_byte_order_mark, {"ply", "\xef\xbb\xbfply"}},
-    {"a carriage return without line feed ends no line",
+    {"does not know a byte order mark", without_byte_order_mark, {"ply", "\xef\xbb\xbfply"}},
+    {"reads no carriage return without line feed as the end of a line",
      with_line_feeds,
      {plain,
       "ply\rformat ascii 1.0\relement vertex 3\rproperty float x\rproperty float y\r"
       "property float z\relement face 1\rproperty list uchar int vertex_indices\r"
       "end_header\r0 0 0\r1 0 0\r0 1 0\r3 0 1 2\r"}},
-    {"of a hexadecimal number it reads the 0 before the x",
+    {"reads only the 0 before the x of a hexadecimal number",
      [](std::string_view text) {
          return outline(text).is_ascii ? with_decimals(text) : std::string(text);
      },
      {"0 0 0", "0 0 0x1p-3"}},
 };
 
-/// True for a text that crashes or exhausts CGAL: a property of no element (its second line is the
-/// format's, whatever it holds), many elements without bytes, lists as long as they claim to be, or
-/// of a random length after a value that is not of its type.
+/// True for a text that may crash or exhaust CGAL: one with a property of no element, many elements
+/// without bytes, or long lists. (CGAL takes any second line for the format. After a value of another
+/// type, the length of a list is random.)
 bool harms_cgal(std::string_view text, bool is_read_by_us) {
     const outline o(text);
     const bool mistakes_line = o.lines.size() > 1 && !o.lines[1].empty() &&
@@ -389,7 +356,7 @@ bool harms_cgal(std::string_view text, bool is_read_by_us) {
            });
 }
 
-/// The mesh that CGAL reads, if that is a mesh of triangles to the end of the text.
+/// The mesh that CGAL reads, if it consists of triangles and the whole text was read.
 std::optional<mesh> read_by_cgal(std::string_view text) {
     CGAL::set_error_handler([](const char*, const char*, const char*, int, const char*) {});
     std::vector<CGAL::Simple_cartesian<double>::Point_3> points;
@@ -431,35 +398,16 @@ outcome compare(std::string_view text, std::string_view given) {
 }  // namespace
 
 const peer& the_peer() {
-    static const peer cgal{compare,
-                           plain,
-                           rewritings,
-                           differences,
-                           {"ply",
-                            "format",
-                            "ascii",
-                            "binary_little_endian",
-                            "binary_big_endian",
-                            "1.0",
-                            "element",
-                            "vertex",
-                            "face",
-                            "edge",
-                            "list",
-                            "char",
-                            "uint8",
-                            "short",
-                            "ushort",
-                            "int32",
-                            "uint",
-                            "float",
-                            "double",
-                            "x",
-                            "property",
-                            "vertex_index",
-                            "property uchar red",
-                            "end_header"},
-                           fuzz::spelled_ply};
+    static const peer cgal{
+        compare,
+        plain,
+        rewritings,
+        differences,
+        test_meshes::texts(
+            "ply|format|ascii|binary_little_endian|binary_big_endian|1.0|element|vertex|face|edge"
+            "|list|char|uint8|short|ushort|int32|uint|float|double|x|property"
+            "|vertex_index|property uchar red|end_header"),
+        fuzz::spelled_ply};
     return cgal;
 }
 

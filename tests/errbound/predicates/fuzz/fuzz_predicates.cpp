@@ -1,6 +1,5 @@
 // Predicates of errbound/predicates.hpp: as a whole, every stage alone, and in batches, against
 // their oracles.
-#include <array>
 #include <errbound/predicate_batch.hpp>
 #include <string>
 #include <tuple>

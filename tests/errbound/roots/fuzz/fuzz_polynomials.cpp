@@ -1,6 +1,5 @@
 // Polynomials of doubles and of integers: roots counted, isolated and refined, and signs at them,
 // against FLINT and Tarski's query.
-#include <algorithm>
 #include <errbound/polynomial.hpp>
 #include <limits>
 #include <string>
