@@ -1,13 +1,14 @@
-"""Builds the site of documents into out/docs and checks it: what `./run docs` runs.
+"""Builds the site of documents in out/docs and checks it, for `./run docs`.
 
-Pages by MkDocs, the C++ reference from the headers' comments by Doxygen, the Python reference from the
-package's docstrings by pdoc. These three, because each takes what is written here as it is: pages as they
-are read in the repository, `///` comments, docstrings in Markdown. (Sphinx wants docstrings in a markup of
-its own, and Breathe for Doxygen's names, of which it does not parse all templates.)
+MkDocs makes the pages, Doxygen the C++ reference from the headers' comments, pdoc the Python reference from the
+docstrings. All three take their input as it is written here. Sphinx would need docstrings in its own markup, and
+Breathe, which reads Doxygen's names for it, does not parse all templates.
 
-Run it by a Python that has MkDocs Material, pdoc and the package errbound; Doxygen has to be on PATH. Errors
-are: any warning of these, a dead link, a page that a browser would have to fetch a part of, a list that is
-none, and a name that pages use and the reference does not have or says nothing of.
+Run it with a Python that has MkDocs Material, pdoc and the package errbound; Doxygen must be on PATH. These are errors:
+* a warning of these tools,
+* a dead link, or a page that makes a browser fetch something,
+* a list that is shown as plain text,
+* a name in a page that the reference lacks or does not describe.
 """
 import importlib.util
 import os
@@ -67,46 +68,46 @@ def stage(folder):
 
 
 def is_described(entry):
-    """Whether Doxygen's XML has words about a name."""
+    """True if Doxygen's XML describes a name."""
     texts = [part for kind in ("briefdescription", "detaileddescription") for part in entry.findall(kind)]
     return any("".join(text.itertext()).strip() for text in texts)
 
 
 def cpp_reference(folder):
-    """Into folder/cpp. Returns of each name whether the reference says something of it."""
+    """Writes folder/cpp. Returns a dictionary: for each name, whether the reference describes it."""
     hidden = " ".join(f"{name} {name}::* *::{name} *::{name}::*" for name in INTERNAL)
     run("doxygen", ["doxygen", "-"], input=f"@INCLUDE = {HERE}/Doxyfile\nEXCLUDE_SYMBOLS = {hidden}\n"
         f"OUTPUT_DIRECTORY = {folder}\nXML_OUTPUT = {OUT}/xml\n")
-    said = {}
+    described = {}
     for file in (OUT / "xml").glob("*.xml"):
         for entry in ElementTree.parse(file).getroot().iter():
             if (entry.tag not in ("compounddef", "memberdef") or entry.get("prot") == "private"
                     or entry.get("kind") in ("file", "dir", "page", "friend")):
                 continue
             name = entry.findtext("compoundname") or entry.findtext("qualifiedname")
-            said[name] = said.get(name, False) or is_described(entry)
-            said |= {f"{name}::{value.findtext('name')}": is_described(value) for value in entry.findall("enumvalue")}
-    return said
+            described[name] = described.get(name, False) or is_described(entry)
+            described |= {f"{name}::{value.findtext('name')}": is_described(value) for value in entry.findall("enumvalue")}
+    return described
 
 
-def unknown_names(pages, said):
-    """Names of C++ that pages use and the reference lacks, or says nothing of."""
+def unknown_names(pages, described):
+    """Yields an error for each C++ name in a page that the reference lacks or does not describe."""
     hidden = re.compile(rf"(\w+::)*({'|'.join(INTERNAL)})(::|$)")
     # CMake's targets have the form of names.
     targets = {target for folder in ("errbound", "ccd") for file in (ROOT / folder).rglob("CMakeLists.txt")
                for target in re.findall(r"add_library\((errbound::\w+) ALIAS", file.read_text())}
     for page in pages:
-        if page.name == "CHANGELOG.md":  # has what was, too
+        if page.name == "CHANGELOG.md":  # names removed parts, too
             continue
         for name in re.findall(r"`((?:ccd|errbound)::\w+(?:::\w+)*)", page.read_text()):
-            if name in targets or hidden.match(name) or said.get(name):
+            if name in targets or hidden.match(name) or described.get(name):
                 continue
             yield (f"{page.relative_to(ROOT)}: {name}: " +
-                   ("the C++ reference says nothing of it" if name in said else "not in the C++ reference"))
+                   ("the C++ reference does not describe it" if name in described else "not in the C++ reference"))
 
 
 def public_members(namespace):
-    """Of a module or class of pdoc's, and of those inside."""
+    """Yields the public members of a pdoc module or class, and of those inside it."""
     inside = [*namespace.own_members, *(namespace.submodules if namespace.kind == "module" else [])]
     for member in inside:
         if not member.name.startswith("_"):
@@ -116,8 +117,8 @@ def public_members(namespace):
 
 
 def python_reference(folder):
-    """Into folder/python. Returns of each class and function whether it has a docstring: a class its
-    own, a method that of the class it comes from will do."""
+    """Writes folder/python. Returns a dictionary: for each class and function, whether it has a docstring. A class
+    needs its own; a method may inherit that of its base class."""
     modules = ["errbound"]
     for module, needed, how in (("errbound.ipctk", "ipctk", "ERRBOUND_VIEWERS=1 ./run python"),
                                 ("errbound.mpi", "errbound._mpi", "./run python where MPI is")):
@@ -147,9 +148,9 @@ def main():
     found = links.check(SITE)
     (OUT / "external_links.txt").write_text("".join(f"{url}\n" for url in found.external))
     errors = [*unknown_names(pages, of_cpp), *found.errors]
-    errors += [f"{name}: no docstring" for name, said in of_python.items() if not said]
+    errors += [f"{name}: no docstring" for name, described in of_python.items() if not described]
     print(f"{SITE.relative_to(ROOT)}/index.html: {len(pages)} pages of text, {found.pages} of the site; {found.links} "
-          f"links, {len(found.external)} others not followed (external_links.txt); something is said of "
+          f"links, {len(found.external)} others not followed (external_links.txt); something is described of "
           f"{sum(of_cpp.values())} of {len(of_cpp)} names of C++, {sum(of_python.values())} of {len(of_python)} of "
           f"Python; {len(errors)} errors")
     if errors:

@@ -1,5 +1,5 @@
-"""Checks a folder of web pages: every link leads to a page and a place on it that are there, nothing is
-fetched from elsewhere, and no list has stayed plain text.
+"""Checks a folder of web pages: every link leads to an existing page and place, nothing is fetched from elsewhere, and
+no list is shown as plain text.
 """
 import html.parser
 import re

@@ -1,10 +1,10 @@
-"""Checks how comments, docstrings and pages are written, in the rooms that are listed as done.
+"""Checks how comments, docstrings and pages are written, in all tracked files.
 
 usage: prose_test.py SOURCE_FOLDER [--statistics] [PATH...]
 
-Without paths it checks ROOMS and fails if a rule is broken. --statistics prints the counts for all tracked files
-instead. A sentence must not open with a word that makes it a fragment, contain a word of the list, or have more than
-MOST_WORDS words. A header must not open with more than MOST_LINES lines of comment.
+It fails if a rule is broken. --statistics only prints counts. A sentence must not open with a word that makes it a
+fragment, contain a word of the list, or have more than MOST_WORDS words. A header must not open with more than
+MOST_LINES lines of comment.
 """
 import ast
 import io
@@ -16,14 +16,6 @@ from pathlib import Path
 
 MOST_WORDS = 25
 MOST_LINES = 12
-ROOMS = ["README.md", "CONTRIBUTING.md", "CHANGELOG.md", "docs/*.md",
-         *(f"{room}/{files}" for room in (
-             "ccd", "cmake", "errbound", "examples", "include", "packaging", "proofs", "python", "tests/bench",
-             "tests/ccd/adapters", "tests/ccd/io", "tests/errbound", "tests/ccd/batch", "tests/ccd/contact", "tests/ccd/exact", "tests/ccd/lab",
-             "tests/ccd/methods", "tests/ccd/mpi", "tests/ccd/program", "tests/ccd/step", "tests/everywhere",
-             "tests/faults", "tests/fuzz", "tests/install", "tests/must_not_compile", "tests/project", "tests/proofs",
-             "tests/simulation", "tests/soak", "tests/support")
-           for files in ("*", "**/*"))]  # "*" of git matches in subfolders, too
 OPENINGS = re.compile(r"(Of|That|Those|What|Whether|By|As)\b(?! (is|are|was) )")
 WORDS = re.compile(
     r"\b(but for|so many|likewise|held against|told apart|left open|whoever|nobody|as it comes|as long as it takes|"
@@ -119,7 +111,7 @@ def files(root, patterns):
 def main():
     root, arguments = Path(sys.argv[1]), sys.argv[2:]
     statistics = "--statistics" in arguments
-    patterns = [a for a in arguments if a != "--statistics"] or ([] if statistics else ROOMS)
+    patterns = [a for a in arguments if a != "--statistics"]
     counts = {}
     for path in files(root, patterns):
         for rule, sentence in broken(path, (root / path).read_text(errors="replace")):
