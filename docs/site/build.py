@@ -150,7 +150,7 @@ def main():
     errors = [*unknown_names(pages, of_cpp), *found.errors]
     errors += [f"{name}: no docstring" for name, described in of_python.items() if not described]
     print(f"{SITE.relative_to(ROOT)}/index.html: {len(pages)} pages of text, {found.pages} of the site; {found.links} "
-          f"links, {len(found.external)} others not followed (external_links.txt); something is described of "
+          f"links, {len(found.external)} others not followed (external_links.txt); the references describe "
           f"{sum(of_cpp.values())} of {len(of_cpp)} names of C++, {sum(of_python.values())} of {len(of_python)} of "
           f"Python; {len(errors)} errors")
     if errors:
