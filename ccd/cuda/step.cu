@@ -155,10 +155,10 @@ class stored_queries {
     stored_queries(std::span<const Query> queries, cuda::stream stream)
         : launcher_(stream), queries_(queries) {}
 
-    /// Calls ask(first, positions, candidates, answers, scratch) for every block, with decided
+    /// Calls use(first, positions, candidates, answers, scratch) for every block, with decided
     /// `answers`, until a call returns an error.
-    template <class Ask>
-    status decide(const batch_options& options, const Ask& ask) {
+    template <class Use>
+    status decide(const batch_options& options, const Use& use) {
         constexpr std::size_t block = std::size_t(1) << 20;
         for (std::size_t first = 0; first < queries_.size(); first += block) {
             const auto part = queries_.subspan(first, std::min(block, queries_.size() - first));
@@ -169,7 +169,7 @@ class stored_queries {
             outcome* const answers = answers_.data();
             if (status s = decide_batch(at, all, answers, memory, options); !s) return s;
             if (status s = finish(at, all, answers, memory, options); !s) return s;
-            if (status s = ask(first, at, all, answers, memory); !s) return s;
+            if (status s = use(first, at, all, answers, memory); !s) return s;
         }
         return launcher_.result();
     }
@@ -229,8 +229,8 @@ status times_of_stored(std::span<const Query> queries, std::span<first_time> tim
     detail::device_launcher::buffer<first_time> found;
     std::vector<vertex_index> numbers;
     std::vector<first_time> found_on_host;
-    const auto find_times = [&](std::size_t first, const positions& at, const auto& all,
-                                const outcome* answers, const scratch& memory) -> status {
+    const auto times_of_block = [&](std::size_t first, const positions& at, const auto& all,
+                                    const outcome* answers, const scratch& memory) -> status {
         colliding.select(launcher, detail::may_collide_at{answers}, all.count);
         found.resize(launcher, colliding.size());
         if (!launcher.ok()) return launcher.result();
@@ -246,7 +246,7 @@ status times_of_stored(std::span<const Query> queries, std::span<first_time> tim
             times[first + numbers[k]] = found_on_host[k];
         return launcher.result();
     };
-    return stored.decide({.stream = options.stream}, ask);
+    return stored.decide({.stream = options.stream}, times_of_block);
 }
 
 }  // namespace
