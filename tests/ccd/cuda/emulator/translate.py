@@ -17,7 +17,7 @@ from instructions import CPP, Writer
 from ptx import Module, Unsupported
 
 FLAGS = ["-std=c++20", "-ffp-contract=off", "-fno-strict-aliasing", "-fPIC", "-fvisibility=hidden"]
-LARGE = 200_000  # characters of a C++ file; the compilation of functions twice as large takes longer than their runs
+LARGE = 200_000  # characters of a C++ file
 MEETINGS = {"shfl", "vote", "activemask", "bar"}
 ENDS = {"bra", "ret", "exit", "trap"}
 
@@ -233,7 +233,7 @@ def files(module, name, exists):
 
 def compile_file(compiler, cpp, text):
     pathlib.Path(cpp).write_text(text)
-    level = "-O0" if len(text) > 2 * LARGE else "-O1"
+    level = os.environ.get("PTXEMU_LEVEL", "-O0")
     subprocess.run([*compiler, level, *FLAGS, "-I", os.path.dirname(os.path.abspath(__file__)), "-c", "-o", cpp + ".o",
                     cpp], check=True)
     return cpp + ".o"
