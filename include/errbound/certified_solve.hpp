@@ -52,8 +52,9 @@ struct certified_solution {
     solve_status status;  ///< `certified`, or the reason
     matrix values;        ///< NaN unless certified
     matrix errors;        ///< |values − exact solution| <= errors; infinite unless certified
-    /// A certified β < 1 with |I − RA|v <= βv for some R and v > 0: A is nonsingular. Infinite if
-    /// none was found. At 1e-3, condition numbers a thousand times larger would still pass.
+    /// A certified β < 1 with |I − RA|v <= βv for some R and v > 0; it proves that the matrix is
+    /// nonsingular. Infinite if none was found. At 1e-3, a condition number with three more digits
+    /// would pass.
     double contraction;
 
     bool certified() const { return status == solve_status::certified; }
@@ -138,11 +139,10 @@ certified_solution<Rows, Columns> refused(solve_status status, Index rows, Index
 /// Errors are near half a unit in the last place, and larger for condition numbers near the limit,
 /// about 2^53/√n. Matrices beyond it are refused. Scaling of rows and columns does not count.
 ///
-/// Cost: LU decomposition and two products of n×n matrices, 6.7 to 11.4 times a plain solve as
-/// measured (docs/measured.md); a few matrix-vector products in doubled precision per column of b.
-/// Memory: six n×n matrices, on the
-/// heap only if n is Eigen::Dynamic. Throws std::bad_alloc. Sources: linear/checked_inverse.hpp,
-/// linear/residual.hpp.
+/// Cost: LU decomposition and two products of n×n matrices, measured as 6.7 to 11.4 times a plain
+/// solve; a few matrix-vector products in doubled precision per column of b. Memory: six n×n
+/// matrices, on the heap only if n is Eigen::Dynamic. Throws std::bad_alloc. Sources:
+/// linear/checked_inverse.hpp, linear/residual.hpp.
 template <class MatrixType, class RightHandSide>
 auto certified_solve(const Eigen::MatrixBase<MatrixType>& a,
                      const Eigen::MatrixBase<RightHandSide>& b) {

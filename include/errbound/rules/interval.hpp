@@ -4,7 +4,7 @@
 // The exact and the computed value lie in [lower, upper]. Ends are finite, except for [−∞, ∞],
 // which stands for any overflow or NaN. Notation: docs/notation.md. The ends of sums, and of
 // products and quotients of points (lower = upper), are rounded correctly, by the sign of the exact
-// error. Exact results stay points. Other products and quotients take one step outwards.
+// error; exact results stay points. Other products and quotients take one step outwards.
 #pragma once
 
 #include <errbound/error_free.hpp>

@@ -209,8 +209,8 @@ struct rule_check {
 //   error_is                                error_meaning::estimate or nothing
 //   claimed_rate                            the claimed probability: an estimate covers the error
 
-/// True if Rule has the members in the table above. Bounds hold only if they are proved;
-/// errbound/validation tests them.
+/// True if Rule is a bound rule for T, with the members in the table above. Soundness (bounds that
+/// hold) needs a proof; errbound/validation tests it.
 template <class Rule, class T = double>
 concept bound_rule = detail::rule_has_bound<Rule, T> && detail::rule_has_name<Rule, T> &&
     detail::rule_has_exact<Rule, T> && detail::rule_has_within<Rule, T> &&

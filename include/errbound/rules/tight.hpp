@@ -49,9 +49,9 @@ struct tight {
         return b.error;
     }
 
-    /// |v − (a + b)| <= |v|ε/(1 − ε) + σa + σb. With less than 40 bits, σa and σb are not inflated
-    /// in long sums (detail/sum_of_bounds.hpp). Source: Theorem 1, Add. Proof: proofs/IeeeRules.v,
-    /// tight_add_known; in any direction, proofs/Tight.v, tight_add_sound.
+    /// |v − (a + b)| <= |v|ε/(1 − ε) + σa + σb. In types of fewer than 40 bits, long sums do not
+    /// inflate σa and σb (detail/sum_of_bounds.hpp). Source: Theorem 1, Add. Proof:
+    /// proofs/IeeeRules.v, tight_add_known; in any direction, proofs/Tight.v, tight_add_sound.
     template <class T>
     static constexpr bound<T> add(const T& v, rule_operand<T, tight> a, rule_operand<T, tight> b) {
         using traits = number_traits<T>;
