@@ -28,7 +28,7 @@ struct contribution {
     std::string operation;
     /// Part of the error's bound, at least 0; infinite if the error became infinite here.
     double amount = 0;
-    /// Signed part of true value − value; 0 by rules without signs.
+    /// Signed part of exact value − value; 0 by rules without signs.
     double known = 0;
 };
 
