@@ -5,8 +5,8 @@
 #include <errbound/tracked.hpp>
 
 // errbound/rules/rule.hpp lists the members of a rule. This rule keeps its bound in units of the
-// unit roundoff u, |value − true value| <= u·units: a sum or product rounded to v adds |v| units to
-// those inherited. Proof sketch of the rest: every count of units is multiplied by 1 + 8ε, which
+// unit roundoff u: |value − exact value| <= u·units. A sum or product rounded to v adds |v| units
+// to those inherited. Proof sketch of the rest: every count of units is multiplied by 1 + 8ε, which
 // covers its at most seven roundings; products add 4η/u for underflow.
 struct running {
     static constexpr const char* name = "running";

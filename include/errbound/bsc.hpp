@@ -1,12 +1,13 @@
 // Bernstein sign classification (BSC), over any scalar that has + − × and a sign. Start at
 // root_with_nonnegative.
 //
-// Derived anew after Tang, Tong, Wang, Manocha (2014) and TightCCD (Wang, Tang, Manocha, Tong 2015,
-// Section 5). Differences: uncertain end signs are followed in every possible world (on_convex); an
-// inflection is split off exactly (without_halving); reductions divide by nothing (reduced).
+// Derived anew after Tang, Tong, Wang, Manocha 2014 (TTWM14) and TightCCD (Wang, Tang, Manocha,
+// Tong 2015, Section 5). Differences: an uncertain sign of Y at an end is followed as either sign
+// (on_convex). Y is split exactly at its inflection (without_halving). `reduced` does not divide.
 //
-// Notation: forms in (s, t) with s + t = 1 as in bernstein.hpp; cubic Y = (y0, y1, y2, y3) scaled,
-// quartics G_i; D = Y' (a quadratic form); a root is INNER if 0 < t < 1.
+// Notation: forms in (s, t), s + t = 1, as in bernstein.hpp; Y is the cubic (y0, y1, y2, y3), G_i
+// are quartics, D = Y' is quadratic, l is linear with the root t_l. Inner means 0 < t < 1; strict
+// signs are not zero.
 #pragma once
 
 #include <array>
@@ -19,7 +20,7 @@
 
 namespace errbound {
 
-/// Answer to an existence question. `maybe_*` names the sign that stayed uncertain.
+/// Does a root exist? maybe_root: signs of Y do not decide; maybe_inside: signs of a G_i do not.
 enum class existence : std::uint8_t { no, yes, maybe_root, maybe_inside };
 
 namespace bsc {
@@ -47,7 +48,7 @@ class conjunction {
 
     constexpr void require_nonnegative(sign_type s) {
         if (s == sign_type::negative) excluded_ = true;
-        // An exact zero satisfies G >= 0, but all G vanish with the normal: no certain yes.
+        // G = 0 satisfies G >= 0, but proves nothing: where the normal N is zero, all G are zero.
         if (s != sign_type::positive) all_positive_ = false;
     }
     constexpr bool excluded() const { return excluded_; }
@@ -63,8 +64,8 @@ class conjunction {
     bool all_positive_ = true;
 };
 
-/// The root (s, t) = (|L1|, |L0|)/(|L0| + |L1|) of a linear form, up to a positive factor: no
-/// division. Precondition: L0 and L1 have opposite strict signs.
+/// The root of a linear form L, (s, t) = (|L1|, |L0|), up to the factor 1/(|L0| + |L1|), which
+/// would need a division. Precondition: L0 and L1 have opposite strict signs.
 template <class S>
 struct linear_root {
     S s, t;
@@ -90,9 +91,9 @@ struct linear_signs {
     }
 };
 
-/// Sign determination I (TTWM14): the sign of the linear form l at the only inner root of Y, where
-/// Y changes from the strict sign `before` to its opposite. If Y(t_l) has the sign `before`, the
-/// root lies right of t_l. Proof: proofs/BscSigns.v, sign_determination_1.
+/// Sign determination I (TTWM14): the sign of l at the only inner root of Y, where Y changes from
+/// the strict sign `before` to its opposite. If Y(t_l) has the sign `before`, the root is right of
+/// t_l. Proof: proofs/BscSigns.v, sign_determination_1.
 template <class S>
 constexpr sign_type sign_at_crossing(const cubic<S>& y, sign_type before,
                                      const bernstein<S, 1>& l) {
@@ -105,10 +106,10 @@ constexpr sign_type sign_at_crossing(const cubic<S>& y, sign_type before,
     return at_r == before ? ends.at1 : ends.at0;
 }
 
-/// Sign determination II (TTWM14): the signs of the linear form l at the two inner roots t0 <= t1
-/// of a CONVEX Y that is positive at both ends; d = Y'. If Y(t_l) < 0, t0 < t_l < t1. Otherwise t_l
-/// lies outside, left of the extremum if d(t_l) < 0, right of it if d(t_l) > 0; if Y(t_l)'s sign is
-/// uncertain, that decides one root. Proof: proofs/BscSigns.v, sign_determination_2.
+/// Sign determination II (TTWM14): the signs of l at the two inner roots t0 <= t1 of a CONVEX Y > 0
+/// at both ends; d = Y'. If Y(t_l) < 0, t0 < t_l < t1. If Y(t_l) > 0, d(t_l) < 0 means t_l < t0,
+/// and d(t_l) > 0 means t_l > t1. If only the sign of d(t_l) is certain, it decides the sign at t1
+/// or t0. Proof: proofs/BscSigns.v, sign_determination_2.
 template <class S>
 constexpr sign_pair signs_at_pair(const cubic<S>& y, const bernstein<S, 2>& d,
                                   const bernstein<S, 1>& l) {
@@ -132,9 +133,9 @@ constexpr sign_pair signs_at_pair(const cubic<S>& y, const bernstein<S, 2>& d,
     }
 }
 
-/// The quadratic J with y0·y3·G = s·t·J modulo Y: cancel s⁴ by y0·G − g0·s·Y = t·E, then t³ of the
-/// cubic E by y3·E − e3·Y = s·J. At an inner root of Y, sign G = sign(y0·y3)·sign J. If an end
-/// value is zero but assumed strict, J vanishes at the root. Proof: proofs/BscSigns.v, reduction.
+/// The quadratic J: y0·y3·G = s·t·J + (a form)·Y. y0·G − g0·s·Y = t·E cancels s⁴; y3·E − e3·Y = s·J
+/// cancels t³. At inner roots of Y, sign G = sign(y0·y3)·sign J. If y0 or y3 is zero but followed
+/// as strict, J = 0 there. Proof: proofs/BscSigns.v, reduction.
 template <class S>
 constexpr bernstein<S, 2> reduced(const cubic<S>& y, const bernstein<S, 4>& g) {
     const std::array<S, 4> e{y[0] * g[1] - g[0] * y[1], y[0] * g[2] - g[0] * y[2],
@@ -158,8 +159,8 @@ struct decomposition {
     }
 };
 
-/// sign J from M and R, or J at M's root if M vanishes (Proof: proofs/Published.v,
-/// decomposition_zero).
+/// The sign of J at a root of Y, from those of M and R. If M is zero too, the sign of J at M's root
+/// (Proof: proofs/Published.v, decomposition_zero).
 template <class S>
 constexpr sign_type combined(sign_type m, sign_type r, const bernstein<S, 1>& m_form,
                              const bernstein<S, 2>& j) {
@@ -169,7 +170,7 @@ constexpr sign_type combined(sign_type m, sign_type r, const bernstein<S, 1>& m_
     return sign_of(value_at(j, root.s, root.t));
 }
 
-/// The sign of the quartic g at the only inner root of Y; see the linear form above.
+/// The sign of the quartic g at the only inner root of Y; `before`: as for a linear form.
 template <class S>
 constexpr sign_type sign_at_crossing(const cubic<S>& y, sign_type before,
                                      const bernstein<S, 4>& g) {
@@ -183,7 +184,7 @@ constexpr sign_type sign_at_crossing(const cubic<S>& y, sign_type before,
                      parts.m, j);
 }
 
-/// The signs of the quartic g at the two inner roots of Y; see the linear form above.
+/// The signs of the quartic g at the two inner roots of a convex Y, as for a linear form.
 template <class S>
 constexpr sign_pair signs_at_pair(const cubic<S>& y, const bernstein<S, 2>& d,
                                   const bernstein<S, 4>& g) {
@@ -197,9 +198,10 @@ constexpr sign_pair signs_at_pair(const cubic<S>& y, const bernstein<S, 2>& d,
     return {combined(m[0], r[0], parts.m, j), combined(m[1], r[1], parts.m, j)};
 }
 
-/// The sign of Y at its only inner extremum t_ex, for convex Y (assumes d0 < 0 < d2). Euler: Y =
-/// A + t·D/3 = B − s·D/3, A and B quadratic. Cancelling s² of A by D leaves d0·Y(t_ex) = t·M(t_ex),
-/// t² of B d2·Y(t_ex) = s·M'(t_ex), M and M' linear. Proof: proofs/BscSigns.v, root_finding.
+/// The sign of Y at its only inner extremum t_ex, for convex Y (assumes d0 < 0 < d2). Euler's
+/// identity gives Y = A + t·D/3 = B − s·D/3, A and B quadratic. D(t_ex) = 0, so d0·A − y0·D = t·P
+/// gives d0·Y = t·P there, and d2·B − y3·D = s·Q gives d2·Y = s·Q; P and Q are linear. Proof:
+/// proofs/BscSigns.v, root_finding.
 template <class S>
 constexpr sign_type sign_at_extremum(const cubic<S>& y, const bernstein<S, 2>& d) {
     // The sign of l at t_ex: d increases, so d(t_l) < 0 puts t_ex right of t_l.
@@ -229,7 +231,7 @@ constexpr sign_type sign_at_extremum(const cubic<S>& y, const bernstein<S, 2>& d
         {d[2] * y[1] - three * (y[3] * d[0]), two * (d[2] * y[2]) - three * (y[3] * d[1])}});
 }
 
-/// A root of Y exactly at an end, if Y can vanish there.
+/// The answer for a root of Y exactly at an end.
 template <class S, std::size_t M>
 constexpr existence at_end(sign_type y_end, const quartics<S, M>& g, int coefficient) {
     if (!possibly_zero(y_end)) return existence::no;
@@ -254,7 +256,7 @@ template <class S, std::size_t M>
                                               bool ends_are_certain, const quartics<S, M>& g) {
     const sign_type d0 = sign_of(d[0]), d2 = sign_of(d[2]);
     if (certainly_nonnegative(d0) || certainly_nonpositive(d2)) return existence::no;  // monotone
-    // Uncertain d0 or d2: either Y is monotone without a root, or d0 < 0 < d2 may be assumed.
+    // If d0 or d2 is uncertain, Y is monotone and has no root, or d0 < 0 < d2, as assumed here.
     const sign_type lowest = sign_at_extremum(y, d);
     if (lowest == sign_type::positive) return existence::no;
     const bool roots_are_certain =
@@ -278,16 +280,16 @@ constexpr existence on_increasing(const cubic<S>& y, const quartics<S, M>& g) {
     return found;
 }
 
-/// Y convex and not constant on [0, 1]. Follows each combination of strict signs that the ends may
-/// have; "no" requires a no in all of them. (The paper sets an uncertain sign to one value.)
+/// Y convex and not constant on [0, 1]. Every strict sign that Y may have at an end is followed;
+/// the answer is "no" if all answers are. (The paper sets an uncertain sign to one value.)
 template <class S, std::size_t M>
 [[gnu::noinline]] constexpr existence on_convex(const cubic<S>& y, const bernstein<S, 2>& d,
                                                 const quartics<S, M>& g) {
     const sign_type y0 = sign_of(y[0]), y3 = sign_of(y[3]);
     const bool ends_are_certain = certain(y0) && certain(y3);
     existence found = either(at_end(y0, g, 0), at_end(y3, g, 4));
-    // If Y(0) is exactly zero, Y is t times a quadratic. The quadratic times s + t has the same
-    // inner roots, not the one at 0: one if Y falls at 0, otherwise none. Mirrored for Y(1).
+    // If Y(0) is exactly zero, Y = t·q, q quadratic. The cubic (s + t)·q has only the inner roots
+    // of Y: one if Y falls at 0 and Y(1) > 0, otherwise none. Y(1) = 0 is the mirror image.
     if (y0 == sign_type::zero) {
         const sign_type slope = sign_of(y[1]);
         if (possibly_negative(slope) && possibly_positive(y3))
@@ -327,7 +329,7 @@ struct part {
     quartics<S, M> g;
 };
 
-/// The answer if the sign of Y'' is irrelevant. d = Y'.
+/// The answer if the sign of Y'' is irrelevant, otherwise nothing. d = Y'.
 template <class S, std::size_t M>
 constexpr std::optional<existence> without_curvature(const part<S, M>& p,
                                                      const bernstein<S, 2>& d) {
@@ -364,9 +366,9 @@ constexpr std::pair<part<S, M>, part<S, M>> divided(const part<S, M>& p, const P
     return parts;
 }
 
-/// The answer on the interval, split at its exact inflection if it has one; nothing if the sign of
-/// Y'' is uncertain and matters. After a rounded split, end signs would lose roots (Proof:
-/// proofs/Published.v, inflection_loses_roots).
+/// The answer on the interval, split at the exact inflection if it has one; nothing if it depends
+/// on an uncertain sign of Y''. After a rounded split, an inflection may remain near an end, and
+/// signs at ends miss roots (Proof: proofs/Published.v, inflection_loses_roots).
 template <class S, std::size_t M>
 [[gnu::noinline]] constexpr std::optional<existence> without_halving(const part<S, M>& p) {
     const bernstein<S, 2> d = derivative(p.y);
@@ -422,10 +424,10 @@ template <class S, std::size_t M>
 /// Is there t in [0, 1] with y(t) = 0 and every g_i(t) >= 0? `make_g()` returns the g_i as a
 /// std::array; it is called only if y may have a root.
 ///
-/// `no` is certain, and `yes` is certain with every g_i > 0, if the scalar's signs are. For Y ≡ 0
-/// the answer is `no` or `maybe_root`. Proof: proofs/Bsc.v, bsc_no, bsc_yes. Without uncertain
-/// signs, `maybe_root` stands for Y ≡ 0, and `maybe_inside` a root with every g_i >= 0, one of them
-/// zero, and none with all positive. Proof: proofs/BscExact.v, bsc_exact_root, bsc_exact_inside.
+/// If the scalar's certain signs are right, so is `no`, and `yes` proves a root with every g_i > 0.
+/// Proof: proofs/Bsc.v, bsc_no, bsc_yes. Y ≡ 0 gives `no` or `maybe_root`. If no sign is uncertain,
+/// `maybe_root` means Y ≡ 0. `maybe_inside` then means that a root has every g_i >= 0, one of them
+/// zero, and no root has all positive. Proof: proofs/BscExact.v, bsc_exact_root, bsc_exact_inside.
 /// Cost: some hundred operations of S in common cases, at most a few thousand.
 template <class S, class MakeConstraints>
 constexpr existence root_with_nonnegative(const bernstein<S, 3>& y, const MakeConstraints& make_g) {

@@ -83,7 +83,7 @@ template <class T, class Rule>
 tracked<T, Rule> sin(const tracked<T, Rule>& x) {
     return detail::function_of<elementary_function::sin>(x);
 }
-/// Same as sin, except inexact at 0.
+/// Same as sin. cos of an exact 0 is exactly 1.
 template <class T, class Rule>
 tracked<T, Rule> cos(const tracked<T, Rule>& x) {
     return detail::function_of<elementary_function::cos>(x);
@@ -139,15 +139,15 @@ tracked<T, Rule> atanh(const tracked<T, Rule>& x) {
     return detail::function_of<elementary_function::atanh>(x);
 }
 
-/// The cube root, also of negative numbers. Exact if x is and the system returns its root.
+/// The cube root, also of negative numbers. Exact if x and the system's result are.
 template <class T, class Rule>
 tracked<T, Rule> cbrt(const tracked<T, Rule>& x) {
     return detail::function_of<elementary_function::cbrt>(x);
 }
 
-/// x^y by the C library, if x is certainly positive or y is an exact whole number (positive if x
-/// may be zero). Otherwise infinite error, except for an exact 0 x and a certainly positive y. x^0
-/// and 1^y are exactly 1, x^1 is x. Products: pow(x, int).
+/// x^y by the C library. The error is infinite unless x is certainly positive or y is an exact
+/// whole number (positive if x may be zero). However, an exact 0 to a certainly positive power is
+/// 0. x^0 and 1^y are exactly 1, and x^1 is x. pow(x, int) multiplies by the rule.
 template <class T, class Rule>
 tracked<T, Rule> pow(const tracked<T, Rule>& x, const tracked<T, Rule>& y) {
     if constexpr (!std::is_same_v<T, detail::function_type<T>>) {
@@ -172,8 +172,8 @@ tracked<T, Rule> pow(const Number& x, const tracked<T, Rule>& y) {
 }
 
 /// The angle of the point (x, y) in [−π, π]; π if y is exactly 0 and x < 0. Infinite error if the
-/// point may be the origin. If the point may be on either side of the negative x axis, the bound
-/// covers that range. Exact if y is exactly 0 and x > 0.
+/// point may be the origin. If it may lie on both sides of the negative x axis, the bound includes
+/// all of [−π, π]. Exact if y is exactly 0 and x is certainly positive.
 template <class T, class Rule>
 tracked<T, Rule> atan2(const tracked<T, Rule>& y, const tracked<T, Rule>& x) {
     if constexpr (!std::is_same_v<T, detail::function_type<T>>) {

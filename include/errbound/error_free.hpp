@@ -1,7 +1,7 @@
 // Error-free transformations: an operation's rounded result and its exact rounding error.
 //
-// For binary formats with gradual underflow, rounded to nearest. p is the precision, η the smallest
-// positive number, u = 2^-p, ulp(x) the unit in the last place of x (at least η).
+// They need a binary format with gradual underflow and rounding to nearest. Notation (p, u, η, ulp,
+// the circled operations): docs/notation.md.
 #pragma once
 
 #include <errbound/detail/power_of_two.hpp>
@@ -19,8 +19,8 @@ struct with_error {
 
 namespace detail {
 
-/// At least the error of a result rounded to nearest to v, underflow included: u|v| + η, rounded.
-/// u|v| is exact or underflows; if it is exact and absorbs η, v does not underflow.
+/// u|v| + η, rounded: at least the error of any result rounded to nearest to v. u|v| is exact or
+/// underflows. If the sum rounds to u|v|, v is too large for underflow, and u|v| suffices.
 template <class T>
 constexpr T half_ulp(const T& v) {
     using traits = number_traits<T>;
@@ -65,11 +65,11 @@ inline constexpr bool has_fast_fma<float> = true;
 /// Dekker's product needs 2 <= s <= p − 2 with s = ⌈p/2⌉.
 inline constexpr int least_precision_for_split = 4;
 
-/// x = value + error exactly; with s = ⌈p/2⌉, value has at most p − s bits, error at most s − 1 and
-/// a sign, so products of parts are exact. Precondition: p >= least_precision_for_split, and (2^s +
-/// 1)x does not overflow (|x| < 2^996 for double, 2^115 for float); otherwise infinite or NaN.
-/// Cost: 4 operations. Source: Veltkamp; Dekker 1971; Boldo 2006 (Pitfalls of a full floating-point
-/// proof). Proof, with at most s bits in the error: proofs/ErrorFree.v, split_exact.
+/// x = value + error exactly. With s = ⌈p/2⌉, value has at most p − s bits and error at most s − 1,
+/// so products of such parts are exact. Precondition: p >= least_precision_for_split, and (2^s +
+/// 1)x does not overflow (|x| < 2^996 for double, 2^115 for float). On overflow the parts are
+/// infinite or NaN. Cost: 4 operations. Source: Veltkamp; Dekker 1971; Boldo 2006 (Pitfalls of a
+/// full floating-point proof). Proof, of s bits in the error: proofs/ErrorFree.v, split_exact.
 template <class T>
 constexpr with_error<T> split(const T& x) {
     constexpr int s = (number_traits<T>::digits + 1) / 2;
@@ -101,15 +101,15 @@ constexpr with_error<T> two_product(const T& a, const T& b) {
     return {v, middle + detail::rounded_product(a_low, b_low)};
 }
 
-/// True if two_product(a, b)'s result is known to be exact: |a|, |b| <= largest()/2^(s+2), s =
-/// ⌈p/2⌉ (2^995 for double, 2^114 for float); and an operand is zero, or 2^(2p)·η <= |value| <=
-/// largest()/4 (from 2^-968 for double, 2^-101 for float). The limits are the same with and without
-/// FMA.
+/// True if two_product(a, b)'s result is known to be exact. This needs |a|, |b| <=
+/// largest()/2^(s+2) with s = ⌈p/2⌉ (2^995 for double, 2^114 for float). Also, an operand is zero,
+/// or 2^(2p)·η <= |value| <= largest()/4 (from 2^-968 for double, 2^-101 for float). The limits are
+/// the same with and without FMA.
 ///
 /// Derivation: the error and Dekker's intermediate results are multiples of ulp(a)·ulp(b), which
-/// must be at least η; |a| < 2^p·ulp(a) and |ab| >= |value|/(1 + u). Products in split() are below
-/// 2^(s+1)·|x|, higher parts at most 1.25|x|: no overflow. Proof: proofs/IeeeInterval.v,
-/// product_known.
+/// must be at least η. It is, since |a| < 2^p·ulp(a), |b| < 2^p·ulp(b) and |ab| >= |value|/(1 + u).
+/// No overflow: products in split() are below 2^(s+1)·|x|, value parts at most 1.25|x|. Proof:
+/// proofs/IeeeInterval.v, product_known.
 template <class T>
 constexpr bool product_error_is_exact(const T& a, const T& b, const with_error<T>& product) {
     using traits = number_traits<T>;
@@ -131,11 +131,11 @@ struct division_remainder {
     bool exact;  ///< otherwise value is unreliable, infinite or NaN
 };
 
-/// If two_product(q, b) = (v, e) is exact, v is between a/2 and 2a and a − v is exact (Sterbenz).
-/// (a − v) − e is a multiple of ulp(q)·ulp(b) >= η and at most |b|·ulp(q)/2, so exact. Cost: a
-/// two_product and 2 operations. Source: Pichat 1976; Bohlender, Walter, Kornerup, Matula 1991.
-/// Proof: proofs/ErrorFree.v, remainder_of_division_exact; with overflow, proofs/IeeeInterval.v,
-/// remainder_known.
+/// Computes a − q·b for q = a ⊘ b; exact if two_product(q, b) = (v, e) is. Then v is between a/2
+/// and 2a, so a − v is exact (Sterbenz). (a − v) − e is a multiple of ulp(q)·ulp(b) >= η and at
+/// most |b|·ulp(q)/2, so it is exact too. Cost: a two_product and 2 operations. Source: Pichat
+/// 1976; Bohlender, Walter, Kornerup, Matula 1991. Proof: proofs/ErrorFree.v,
+/// remainder_of_division_exact; with overflow, proofs/IeeeInterval.v, remainder_known.
 template <class T>
 constexpr division_remainder<T> remainder_of_division(const T& a, const T& b, const T& q) {
     using traits = number_traits<T>;
@@ -145,9 +145,9 @@ constexpr division_remainder<T> remainder_of_division(const T& a, const T& b, co
     return {(a - product.value) - product.error, exact};
 }
 
-/// The remainder x − v² of a rounded root v = √x, x >= 0 finite. If two_product(v, v) is exact and
-/// v ≠ 0: |√x − v| <= ulp(v)/2, so x − v² is a multiple of ulp(v)², at most v·ulp(v) in size. Cost
-/// and source: as remainder_of_division. Proof: proofs/IeeeSlopes.v, remainder_of_root_known.
+/// Computes x − v² for v = fl(√x), x >= 0 finite; exact if v ≠ 0 and two_product(v, v) is. |√x − v|
+/// <= ulp(v)/2, so x − v² is a multiple of ulp(v)² and at most v·ulp(v) in size. Cost and source:
+/// see remainder_of_division. Proof: proofs/IeeeSlopes.v, remainder_of_root_known.
 template <class T>
 constexpr division_remainder<T> remainder_of_root(const T& x, const T& v) {
     return remainder_of_division(x, v, v);

@@ -1,8 +1,8 @@
 // The bound of a sum: its rounding error and the operands' bounds. Internal; for the rules.
 //
-// A factor for the roundings of a bound also multiplies the inherited bound: n times in a sum of n
-// terms. If that is below 2^k times the own error, 2^k = 2^-10/ε, 1 + 8ε adds at most 2^-7 of the
-// own error. Beyond, bounds are added upwards. Types of 40 bits or more use only the factor.
+// The factor 1 + 8ε for a bound's roundings also enlarges the operands' bounds: n times in a sum of
+// n terms. If they are below 2^k times the sum's own error, 2^k = 2^-10/ε, it adds at most 2^-7 of
+// that error. Otherwise bounds are added upwards. Types of 40 bits or more use only the factor.
 #pragma once
 
 #include <algorithm>
@@ -12,8 +12,9 @@
 
 namespace errbound::detail {
 
-/// At least x + y, for x, y >= 0, in any rounding direction; x + y if T has it. With x >= y, fl(x +
-/// y) − x is exact. Proof: proofs/Upper.v, sum_above_sound, sum_above_exact, sum_above_least.
+/// At least x + y, for x, y >= 0, in any rounding direction; exactly x + y if T holds it. For x >=
+/// y, fl(x + y) − x is exact. Proof: proofs/Upper.v, sum_above_sound, sum_above_exact,
+/// sum_above_least.
 template <class T>
 constexpr T sum_above(const T& x, const T& y) {
     const T sum = x + y;

@@ -28,7 +28,7 @@ struct contribution {
     std::string operation;
     /// Part of the error's bound, at least 0; infinite if the error became infinite here.
     double amount = 0;
-    /// Signed part of true value − value; 0 by rules without signs.
+    /// Signed part of exact value − value; 0 by rules without signs.
     double known = 0;
 };
 
@@ -264,8 +264,8 @@ inline std::string text_of(const explanation& e, std::size_t lines = 20) {
     for (const contribution& c : e.contributions) sum += c.amount;
     if (shown < shares.size()) text += "  and " + std::to_string(shares.size() - shown) + " more\n";
     if (std::isfinite(sum) && sum > 1.01 * e.error)
-        text += "  together " + detail::scientific(sum) + ", of which all but " +
-                detail::scientific(e.error) + " cancels\n";
+        text += "  the amounts add up to " + detail::scientific(sum) +
+                "; errors cancel to at most " + detail::scientific(e.error) + "\n";
     return text;
 }
 

@@ -1,6 +1,6 @@
 // A number's error by its sources, stored by the rule `explained` (explained.hpp).
 //
-// An entry is one source's part: `known`, a signed part of true value − value, and `unknown` >= 0,
+// An entry is one source's part: `known`, a signed part of exact value − value, and `unknown` >= 0,
 // a bound of the rest. With c the rule's correction and e its bound, Σ (|known| + unknown) >= e
 // despite rounding, and Σ known = c up to rounding. Infinite entries explain an infinite e.
 #pragma once

@@ -1,12 +1,12 @@
 // An approximate inverse R of a matrix A, with certified bounds of I − RA: they prove that A is
-// regular and turn residuals into error bounds. Theorem: let |I − RA|v <= βv for some v > 0 and
-// β < 1. Then A and R are regular. For any ỹ the solution y of Ay = b has, entry by entry:
+// nonsingular and turn residuals into error bounds. Theorem: let |I − RA|v <= βv for some v > 0 and
+// β < 1. Then A and R are nonsingular. For any ỹ the solution y of Ay = b has, entry by entry:
 //
 //   |y − ỹ| <= z + w·max_i(z_i/v_i)/(1 − β),   z >= |R(b − Aỹ)|, w >= |I − RA|v.
 //
-// For E = I − RA, ρ(|E|) <= β < 1, so RA = I − E is regular; y − ỹ = (I − E)^-1 R(b − Aỹ), and |(I
-// − E)^-1|z <= Σ |E|^k z <= z + |E|Σ|E|^k z <= z + |E|v·ζ/(1 − β) with z <= ζv. Sources: Rump 2010
-// (Acta Numerica 19), Sections 10.4 to 10.6; Oishi, Rump 2002 (Numer. Math. 90): rounding to
+// For E = I − RA, ρ(|E|) <= β < 1, so RA = I − E is nonsingular; y − ỹ = (I − E)^-1 R(b − Aỹ), and
+// |(I − E)^-1|z <= Σ |E|^k z <= z + |E|Σ|E|^k z <= z + |E|v·ζ/(1 − β) with z <= ζv. Sources: Rump
+// 2010 (Acta Numerica 19), Sections 10.4 to 10.6; Oishi, Rump 2002 (Numer. Math. 90): rounding to
 // nearest only; Rump 2013 (J. Comput. Appl. Math. 242): v.
 #pragma once
 
@@ -27,7 +27,7 @@ class checked_inverse {
         if (inverse_.allFinite() && defect_.allFinite()) choose_weights();
     }
 
-    /// True if A is certainly regular; the other members require it.
+    /// True if A is certainly nonsingular; the other members require it.
     bool regular() const { return contraction_ < 1; }
     double contraction() const { return contraction_; }
     const square<N>& matrix() const { return a_; }

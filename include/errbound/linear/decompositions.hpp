@@ -4,7 +4,7 @@
 // Soundness for any pivots: if no exact pivot is zero, all numbers are exact elimination's, rounded
 // and tracked. If a pivot may be zero, quotients by it have infinite errors. Finite results do not
 // depend on it or multiply it by an exact zero. They hold for a slightly moved pivot and, by
-// continuity, for the matrix, if it is regular.
+// continuity, for the matrix, if it is nonsingular.
 #pragma once
 
 #include <Eigen/Cholesky>

@@ -1,13 +1,14 @@
-// Bound rule `affine`: affine arithmetic. The error is a sum of terms, one for each source: an
-// inexact input, or an operation that rounded. Equal sources cancel: x − x is exactly 0, and (x +
-// y) − (x − y) does not depend on x. Rounding must be to nearest.
+// Bound rule `affine`: affine arithmetic. The error is a sum of terms, one for each source of
+// error: an inexact input, or an operation that rounded. Equal sources cancel: x − x is exactly 0,
+// and the error of (x + y) − (x − y) does not depend on that of x. Rounding must be to nearest.
 //
-// Notation: v the computed value, true value = v + Σ cᵢεᵢ + ρ, |εᵢ| <= 1, one εᵢ per source, |ρ| <=
-// rest. The rest is 0 except in constant expressions and device code, which count no sources.
-// Sources are distinct across a program's threads; recreate another process's numbers by `within`.
-// sqrt and fma keep sources; other functions start new ones. The source counter is global.
+// Notation: docs/notation.md. The exact value is v + Σ cᵢεᵢ + ρ: v computed, one noise symbol |εᵢ|
+// <= 1 per source, |ρ| <= rest. The rest is 0 except in constant expressions and device code, which
+// count no sources. One global counter numbers the sources of all threads of a program. Enter
+// numbers of another process by `within`. sqrt and fma keep sources; other functions start new
+// ones.
 //
-// Sources: Comba, Stolfi 1993; de Figueiredo, Stolfi 2004 (Numerical Algorithms 37). Proof, of
+// References: Comba, Stolfi 1993; de Figueiredo, Stolfi 2004 (Numerical Algorithms 37). Proof, of
 // whole computations: proofs/IeeeAffineFunctions.v, computed_known, gives_known.
 #pragma once
 
@@ -42,11 +43,11 @@ inline constexpr std::array<char, 32> affine_name = [] {
 /// Affine arithmetic with at most Limit terms of 16 bytes each, used or not. Cost: linear in the
 /// number of terms, plus Limit writes.
 ///
-/// An operation combines terms to first order, source by source. One new term takes everything
-/// else: the rounding error (exact, or at most u|v| + η/2), roundings of coefficients, second-order
-/// terms and the operands' rests. Exact operations on exact numbers add none. Above the limit, the
-/// smallest terms join the new one; x − x stays 0. If value or radius overflows or is NaN, there
-/// are no terms and the rest is infinite.
+/// An operation combines the operands' terms source by source, to first order. One new term takes
+/// the other errors: the rounding error (exact, or at most u|v| + η/2), roundings of coefficients,
+/// second-order terms and the operands' rests. If these are zero, there is no new term. Above the
+/// limit, the smallest terms join the new one; x − x stays 0. If value or radius is not finite,
+/// there are no terms, and radius and rest are infinite.
 template <std::size_t Limit>
 struct affine_of {
     static_assert(Limit >= 1, "errbound: affine arithmetic needs at least one term");
@@ -59,7 +60,7 @@ struct affine_of {
         std::uint64_t source;
         T coefficient;
     };
-    /// Terms by ascending source; `radius` is at least |value − true value|.
+    /// Terms by ascending source; `radius` is at least |value − exact value|.
     template <class T>
     struct bound {
         T radius, rest;
@@ -88,7 +89,7 @@ struct affine_of {
     static constexpr T error(const T&, const bound<T>& b) {
         return b.radius;
     }
-    /// True at the limit: a root, a frequent divisor, then is one source and displaces no others.
+    /// True at the limit. A root, often a divisor, then gets one term, and displaces no others.
     template <class T>
     static constexpr bool is_crowded(const bound<T>& b) {
         return b.count == Limit;
@@ -101,7 +102,8 @@ struct affine_of {
         return r;
     }
 
-    /// a + b = v + δ + Σ (aᵢ + bᵢ)εᵢ. Proof: proofs/IeeeAffine.v, affine_add_known.
+    /// a + b = v + δ + Σ (aᵢ + bᵢ)εᵢ + rests, aᵢ and bᵢ the coefficients, δ the rounding error.
+    /// Proof: proofs/IeeeAffine.v, affine_add_known.
     template <class T>
     static constexpr bound<T> add(const T& v, operand<T> a, operand<T> b) {
         return sum<false, T>(v, a, b);
@@ -111,8 +113,8 @@ struct affine_of {
     static constexpr bound<T> subtract(const T& v, operand<T> a, operand<T> b) {
         return sum<true, T>(v, a, b);
     }
-    /// ab = v + δ + Σ (â·bᵢ + aᵢ·b̂)εᵢ, plus at most |â|·rest_b + rest_a·|b̂| and the product of
-    /// the radii. Proof: proofs/IeeeAffine.v, affine_multiply_known.
+    /// ab = v + δ + Σ (â·bᵢ + aᵢ·b̂)εᵢ, within |â|·rest_b + rest_a·|b̂| + radius_a·radius_b. Proof:
+    /// proofs/IeeeAffine.v, affine_multiply_known.
     template <class T>
     static constexpr bound<T> multiply(const T& v, operand<T> a, operand<T> b) {
         using traits = number_traits<T>;
@@ -135,17 +137,17 @@ struct affine_of {
         r.add_left(upper_product<T>(a.bound.radius, b.bound.radius));
         return r.finished(v);
     }
-    /// Let q = v with the remainder r, and N = r + Σ (aᵢ − q·bᵢ)εᵢ ± (rest_a + |q|·rest_b). Then
-    /// a/b − q = N/b.
-    /// N/b − N/b̂ = N/b̂·(b̂ − b)/b is at most |N/b̂|·radius_b/(|b̂| − radius_b).
-    /// If r is unknown, r/b̂, the error of q, is at most u|v| + η/2. Infinite if b may be zero.
-    /// Proof: proofs/IeeeAffine.v, affine_divide_known.
+    /// Let q = v, r = â − q·b̂ and N = r + Σ (aᵢ − q·bᵢ)εᵢ ± (rest_a + |q|·rest_b). Then a/b − q =
+    /// N/b, and N/b − N/b̂ = N/b̂·(b̂ − b)/b is at most |N/b̂|·radius_b/(|b̂| − radius_b). If r is
+    /// not known exactly, r/b̂, the rounding error of q, is at most u|v| + η/2. Infinite if b may
+    /// be zero. Proof: proofs/IeeeAffine.v, affine_divide_known.
     template <class T>
     static constexpr bound<T> divide(const T& v, operand<T> a, operand<T> b) {
         using traits = number_traits<T>;
         const T size = traits::abs(b.value);
-        const T distance = detail::rounded_product(T(size - b.bound.radius),
-                                                   T(1 - traits::epsilon()));  // of b from zero
+        // At most the distance of b from zero.
+        const T distance =
+            detail::rounded_product(T(size - b.bound.radius), T(1 - traits::epsilon()));
         if (!(distance > 0)) return unknown<T>();
         if (is_zero(a)) return exact<T>(v);
         const division_remainder<T> division = remainder_of_division<T>(a.value, b.value, v);
@@ -201,9 +203,9 @@ struct affine_of {
         return a.value == 0 && a.bound.radius == 0;
     }
 
-    /// At least x + y, for x, y >= 0. With s = fl(x + y) normal, s(1 + ε) is at least its
-    /// successor; a subnormal s is exact. Products and quotients are similar, plus η for underflow;
-    /// and fl(x − y)(1 − ε), rounded, is at most x − y > 0.
+    /// At least x + y, for x, y >= 0. Let s = fl(x + y). If s is normal, fl(s(1 + ε)) is at least
+    /// the number after s. If s is subnormal, it is exact. upper_product and upper_quotient add η
+    /// for underflow.
     template <class T>
     static constexpr T upper_sum(const T& x, const T& y) {
         if (x == 0) return y;

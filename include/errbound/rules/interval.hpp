@@ -1,10 +1,10 @@
 // Bound rule `interval`: interval arithmetic, rounded outwards without touching the rounding mode,
 // which must be to nearest.
 //
-// The true and the computed value lie in [lower, upper]. Ends are finite, except for [−∞, ∞], which
-// stands for any overflow or NaN. Notation: p the precision, u = 2^-p, η the smallest positive
-// number. Sums, and products and quotients of points, use the exact error's sign: ends are rounded
-// correctly, exact results stay points. Other products and quotients always take one step outwards.
+// The exact and the computed value lie in [lower, upper]. Ends are finite, except for [−∞, ∞],
+// which stands for any overflow or NaN. Notation: docs/notation.md. The ends of sums, and of
+// products and quotients of points (lower = upper), are rounded correctly, by the sign of the exact
+// error; exact results stay points. Other products and quotients take one step outwards.
 #pragma once
 
 #include <errbound/error_free.hpp>
@@ -70,8 +70,8 @@ struct interval {
                                        rule_operand<T, interval> b) {
         return sum<T>(v, a.bound, negate<T>(b.bound));
     }
-    /// Both ends are among the four products of ends. A product 0·∞ stands for 0, which is then
-    /// another of the four, so NaN may be ignored. Proof: proofs/IeeeInterval.v,
+    /// Both ends are among the four products of ends. A product 0·∞ = NaN occurs only if an operand
+    /// is [−∞, ∞], and the result then is [−∞, ∞]. Proof: proofs/IeeeInterval.v,
     /// interval_multiply_known.
     template <class T>
     static constexpr bound<T> multiply(const T& v, rule_operand<T, interval> a,
@@ -100,8 +100,8 @@ struct interval {
         return hull<T>(v, a.bound.lower / b.bound.lower, a.bound.lower / b.bound.upper,
                        a.bound.upper / b.bound.lower, a.bound.upper / b.bound.upper);
     }
-    /// The roots of both ends, rounded outwards, by exact remainders if known. Proof:
-    /// proofs/IeeeSlopes.v, interval_square_root_known.
+    /// The roots of both ends. Each takes a step outwards unless its exact remainder shows that it
+    /// is rounded outwards, or exact. Proof: proofs/IeeeSlopes.v, interval_square_root_known.
     template <class T>
     static constexpr bound<T> square_root(const T& v, rule_operand<T, interval> a) {
         using traits = number_traits<T>;
@@ -112,8 +112,8 @@ struct interval {
         return checked<T>(v, of_lower.exact && of_lower.value >= 0 ? lower : below<T>(lower),
                           of_upper.exact && of_upper.value <= 0 ? upper : above<T>(upper));
     }
-    /// Both ends are among the four products of ends with the end of c, each rounded once. Proof:
-    /// proofs/IeeeSlopes.v, interval_fused_known.
+    /// The least and the greatest fma of ends, one step outwards: four products of ends, plus the
+    /// lower or the upper end of c. Proof: proofs/IeeeSlopes.v, interval_fused_known.
     template <class T>
     static constexpr bound<T> fused(const T& v, rule_operand<T, interval> a,
                                     rule_operand<T, interval> b, rule_operand<T, interval> c) {
@@ -172,10 +172,11 @@ struct interval {
         return b.lower == 0 && b.upper == 0;
     }
 
-    /// e > ulp(c)/2, so c ⊖ e is at most c's predecessor and c ⊕ e at least its successor. After
-    /// Rump, Zimmermann, Boldo, Melquiond 2009 (BIT 49), with 1.25 for 1 + 2u, which suits three
-    /// bits and formats whose range ends near u. u|c| >= ulp(c)/2, also rounded, if ulp(c)/2 is
-    /// representable; 1.25 times it is exact from 4η on; below, η exceeds the roundings' loss.
+    /// A step e > ulp(c)/2, so c ⊖ e is at most the number before c, and c ⊕ e at least the one
+    /// after. The rounded u|c| is at least x = ulp(c)/2 if x is a number. 1.25x is exact from x =
+    /// 4η on; below, the added η exceeds the loss of the roundings. Source: Rump, Zimmermann,
+    /// Boldo, Melquiond 2009 (BIT 49). 1.25 replaces their 1 + 2u, for p = 3 and for formats
+    /// with η near u.
     template <class T>
     static constexpr T step(const T& c) {
         using traits = number_traits<T>;
@@ -191,7 +192,7 @@ struct interval {
         return c + step(c);
     }
 
-    /// The interval from v to its neighbour towards the exact v + error; v if exact.
+    /// [v, v] if error = 0; otherwise v and a step from it towards the exact v + error.
     template <class T>
     static constexpr bound<T> nearest(const T& v, const T& error) {
         return checked<T>(v, error < 0 ? below<T>(v) : v, error > 0 ? above<T>(v) : v);

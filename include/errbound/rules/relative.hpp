@@ -1,13 +1,14 @@
 // Bound rule `relative`: counts factors 1 + δ, as error analyses on paper do. Made for products,
 // quotients and sums of numbers of one sign; rounding must be to nearest.
 //
-// Notation: v the computed value, x the true one, u = 2^-p, ε = 2u. The bound is k: v = x·Π(1 +
-// δᵢ)^±1 over k factors, |δᵢ| <= u (Higham 2002, Lemma 3.1; Stewart's counter). So v and x have one
-// sign, and |ln(v/x)| <= kw, w = −ln(1 − u); k need not be whole. Exact numbers have k = 0. The
-// error is about k·u|v|, as with Higham's γ_k = ku/(1 − ku).
+// Notation: docs/notation.md; v is the computed value, x the exact one. The bound is a count k: v =
+// x·Π(1 + δᵢ)^±1 over k factors, |δᵢ| <= u (Higham 2002, Lemma 3.1; Stewart's counter). So v and x
+// have the same sign, and |ln(v/x)| <= kw, w = −ln(1 − u); k need not be whole. Exact numbers have
+// k = 0. The error is about k·u|v|, as with Higham's γ_k.
 //
-// Infinite error: underflow of anything but a sum, overflow, cancellation down to the error, 0
-// unless exact, and kw from 7/4 on. x − x of an inexact x is not known to be 0.
+// The error is infinite after an overflow, an underflow except in sums, or a cancellation as large
+// as the error. It is also infinite for an inexact number of value 0, and if kw >= 7/4. x − x of an
+// inexact x is not known to be 0.
 #pragma once
 
 #include <errbound/error_free.hpp>
@@ -30,7 +31,7 @@ struct relative {
     static constexpr bound<T> exact(const T& value) {
         return {number_traits<T>::is_finite(value) ? 0 : unknown};
     }
-    /// Infinite unless error < |value|: a relative rule cannot represent a small number. Proof:
+    /// Infinite unless error < |value|: a relative bound cannot contain 0. Proof:
     /// proofs/IeeeRelative.v, relative_within_known.
     template <class T>
     static constexpr bound<T> within(const T& value, const T& error) {
@@ -45,7 +46,7 @@ struct relative {
     static constexpr T error(const T& value, const bound<T>& b) {
         using traits = number_traits<T>;
         if (b.factors == 0) return T(0);
-        // A subnormal loses more than a factor.
+        // A subnormal product is off by more than the factor covers.
         const double l = upper<double>(b.factors * of_one_factor<T>()) +
                          std::numeric_limits<double>::denorm_min();
         if (!(l < 1.75)) return traits::infinity();
@@ -85,8 +86,8 @@ struct relative {
             product_error_is_exact<T>(a.value, b.value, product) && product.error == 0;
         return rounded_to<T>(v, count_sum(a.bound.factors, b.bound.factors), is_exact);
     }
-    /// k = ka + kb, plus one unless exact. Infinite if b may be zero: its value is, or it has no
-    /// bound. Proof: proofs/IeeeRelative.v, relative_divide_known.
+    /// k = ka + kb, plus one unless exact. Infinite if b may be zero: if its value is 0 or its
+    /// count infinite. Proof: proofs/IeeeRelative.v, relative_divide_known.
     template <class T>
     static constexpr bound<T> divide(const T& v, rule_operand<T, relative> a,
                                      rule_operand<T, relative> b) {
@@ -103,10 +104,10 @@ struct relative {
                              e >= 0 || number_traits<T>::scale(v, -e) == a.value);
     }
 
-    /// Σ aᵢbᵢ by absolute errors, made relative at the end: the errors of the products, by their
-    /// counts, and of the partial sums, by two_sum. If less, the count of single operations.
-    /// Partial sums may cancel if the last does not. For n terms of one size and sign about n/2
-    /// factors are counted, not n. Proof: proofs/IeeeRelative.v, relative_dot_known.
+    /// Σ aᵢbᵢ by absolute errors, or by the counts of single operations if that gives less. The
+    /// errors of products (from their counts) and of partial sums (by two_sum) are made relative at
+    /// the end, so partial sums may cancel. For n terms of one size and sign k is about n/2, not n.
+    /// Proof: proofs/IeeeRelative.v, relative_dot_known.
     template <class T>
     class dot_bound {
       public:
@@ -148,7 +149,7 @@ struct relative {
         const double u = static_cast<double>(number_traits<T>::unit_roundoff());
         return u * (1 - u / 2) / (1 - u) * (1 + 8 * epsilon);
     }
-    // Rounded up by a factor 1 + ε, to the successor, unless exact.
+    // j + k, rounded up unless exact.
     static constexpr double count_sum(double j, double k) {
         const with_error<double> sum = two_sum<double>(j, k);
         return sum.error > 0 ? upper<double>(sum.value) : sum.value;
@@ -180,7 +181,8 @@ struct relative {
         if (traits::abs(v) >= traits::smallest_normal()) return {count_sum(k, 1)};
         return {unknown};
     }
-    // One sign: k = max(ka, kb), as the sum lies between. Unlike signs: (Ea + Eb)/|â + b̂|.
+    // Operands of one sign: k = max(ka, kb), since their ratios v/x enclose that of the sum.
+    // Unlike signs: from the relative error (Ea + Eb)/|â + b̂|.
     template <class T>
     static constexpr bound<T> sum(const T& v, const T& a, const bound<T>& of_a, const T& b,
                                   const bound<T>& of_b) {

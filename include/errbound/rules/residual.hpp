@@ -1,10 +1,10 @@
 // Bound rule `residual`: carries each rounding error itself, to first order, by error_free.hpp.
 // Only the second-order remainder is bounded. Rounding must be to nearest.
 //
-// Notation: v the computed value, c the correction, ρ the remainder, |v + c − true value| <= ρ; u =
-// 2^-p, η the smallest positive number, δ an operation's exact error. Exact numbers have c = ρ = 0.
-// Sums keep ρ = 0 while c holds their error exactly; v + c = 0 with ρ = 0 is a certain zero. For a
-// value that is not finite, neither is c or ρ, so no sign is certain.
+// Notation: docs/notation.md; v is the computed value, c the correction and ρ its bound, the member
+// `remainder`: |v + c − exact value| <= ρ. va, ca, ρa are those of a. δ is an operation's rounding
+// error. Exact numbers have c = ρ = 0. Sums keep ρ = 0 while c holds their error exactly. v + c = 0
+// with ρ = 0 is a certain zero. If v is not finite, c or ρ is not, so no sign is certain.
 //
 // Sources: Ogita, Rump, Oishi 2005 (Accurate sum and dot product); Langlois 2001 (Automatic linear
 // correction of rounding errors).
@@ -37,7 +37,7 @@ struct residual {
     static constexpr bound<T> within(const T& value, const T& error) {
         return {T(0), error >= 0 ? error + (value - value) : number_traits<T>::infinity()};
     }
-    /// The bound of a number that is exactly 0. Proof: proofs/IeeeResidual.v,
+    /// Bounds a number whose exact value is 0. Proof: proofs/IeeeResidual.v,
     /// residual_displacement_known.
     template <class T>
     static constexpr bound<T> displacement(const T& value) {
@@ -54,8 +54,9 @@ struct residual {
     static constexpr T correction(const T&, const bound<T>& b) {
         return b.correction;
     }
-    /// v + c is known to ρ, of second order. With s = v ⊕ c, |v + c| >= |s|(1 − u), and (1 + 8ε)(1
-    /// − u)/(1 + u) > 1; a subnormal s is exact. Proof: proofs/IeeeResidual.v, residual_sign_known.
+    /// The exact value is within ρ of v + c, and ρ is of second order. For s = v ⊕ c, |v + c| >=
+    /// |s|(1 − u), and (1 + 8ε)(1 − u)/(1 + u) > 1; a subnormal s is exact. Proof:
+    /// proofs/IeeeResidual.v, residual_sign_known.
     template <class T>
     static constexpr sign_type sign(const T& value, const bound<T>& b) {
         using traits = number_traits<T>;
@@ -84,7 +85,7 @@ struct residual {
                                        rule_operand<T, residual> b) {
         return sum<T>(v, a.value, a.bound, T(-b.value), negate<T>(b.bound));
     }
-    /// ab = v + δ + (va·cb + ca·vb) + ca·cb; the remainders add (|va| + |ca|)ρb + (|vb| + |cb| +
+    /// ab = v + δ + (va·cb + ca·vb) + ca·cb; ρa and ρb add (|va| + |ca|)ρb + (|vb| + |cb| +
     /// ρb)ρa. If δ is not known exactly, it counts as 0, and ρ includes u|v| + η/2. Proof:
     /// proofs/IeeeResidual.v, residual_multiply_known.
     template <class T>
@@ -111,10 +112,10 @@ struct residual {
         return {correction,
                 inflated<T>(remainder + roundings<T>(x, y, inherited, correction) + unknown)};
     }
-    /// With q = v and the remainder r: a/b − q = N/b, N = r + ca − q·cb ± (ρa + |q|ρb), and N/b −
+    /// Let q = v, r = va − q·vb and N = r + ca − q·cb ± (ρa + |q|ρb). Then a/b − q = N/b, and N/b −
     /// N/vb = N/vb·(vb − b)/b. So c = N/vb, and ρ is at most (|N/vb|(|cb| + ρb) + ρa + |q|ρb +
-    /// roundings)/(|vb| − |cb| − ρb). If r is unknown, c omits it; the omitted r/vb is the error of
-    /// q. Infinite if b may be zero. Proof: proofs/IeeeResidual.v, residual_divide_known.
+    /// roundings)/(|vb| − |cb| − ρb). If r is not known exactly, c omits it: r/vb is the rounding
+    /// error of q. Infinite if b may be zero. Proof: proofs/IeeeResidual.v, residual_divide_known.
     template <class T>
     static constexpr bound<T> divide(const T& v, rule_operand<T, residual> a,
                                      rule_operand<T, residual> b) {

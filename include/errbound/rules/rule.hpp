@@ -27,8 +27,8 @@ struct rule_operand {
 };
 
 enum class error_meaning : std::uint8_t {
-    bound,     ///< |value − true value| is no more; a certain sign is the true one
-    estimate,  ///< about |value − true value|; signs follow it and may be wrong
+    bound,     ///< at least |value − exact value|; certain signs are right
+    estimate,  ///< about |value − exact value|; signs follow it and may be wrong
     nothing,   ///< always zero: signs are guesses
 };
 
@@ -40,7 +40,7 @@ inline constexpr error_meaning meaning_of_error = [] {
         return error_meaning::bound;
 }();
 
-/// The probability that a rule claims for its estimates; 0 for none, or for certified bounds.
+/// The probability with which the rule claims that an estimate covers the error; 0 if none.
 template <class Rule>
 inline constexpr double claimed_rate = [] {
     if constexpr (requires { Rule::claimed_rate; })
@@ -49,7 +49,7 @@ inline constexpr double claimed_rate = [] {
         return 0.0;
 }();
 
-/// True if the errors of the rule are bounds, not estimates or nothing.
+/// True if the errors of the rule are bounds, neither estimates nor always zero.
 template <class Rule>
 inline constexpr bool promises_bound = meaning_of_error<Rule> == error_meaning::bound;
 
@@ -182,35 +182,35 @@ struct rule_check {
 //   template <class T> struct bound         the state stored with a value, of any size
 //   exact(value)                            the bound of an exact number
 //   within(value, error)                    the bound of a number within error of value
-//   error(value, bound)                     at least |value − true value|; infinity or NaN if none
+//   error(value, bound)                     at least |value − exact value|; infinity or NaN if none
 //   add, subtract, multiply(result, a, b)   the bound of the rounded result of a ∘ b
 //   divide(result, a, b)                    as above; omit it if the rule has no division
 //   scale(result, a, e)                     the bound of result = a·2^e, rounded once
 // Optional, with defaults:
 //   negate(bound)                           the bound of −value; default: the same bound
-//   sign(value, bound)                      the certain sign; default: from value and error.
-//                                           Uncertain if either is not finite; zero only if exact
-//   correction(value, bound)                estimates true value − value, within error; default: 0
+//   sign(value, bound)                      the certain sign; default: from value and error,
+//                                           uncertain if either is not finite, zero if both are 0
+//   correction(value, bound)                estimates exact value − value, within error; default: 0
 //   square_root(result, a)                  the bound of the rounded √a, unknown if a may be
 //                                           negative; default: from the error of a
 //   fused(result, a, b, c)                  the bound of ab + c, rounded once; default: from errors
 //   keeps_first_order                       true if errors keep signs or sources: √a and ab + c
 //                                           then use the rule's operations, including divide
-//   is_crowded(bound)                       for such a rule: true if √a should be one source
-//   displacement(value)                     the bound of a number of that value that is exactly 0:
-//                                           then 8- and 16-bit numbers have float bounds
+//   is_crowded(bound)                       for such a rule: true if √a should start one new source
+//   displacement(value)                     the bound of a number whose exact value is 0; with it,
+//                                           numbers of 8 and 16 bits have bounds in float
 //   template <class T> class dot_bound      bounds s = 0, s += ab, ...: a call of
 //                                           add_product(ab, s before, s after, a, b) per step,
 //                                           then finished(s), which returns bound<T>
 //   minimal_precision                       the bits of T that the proof needs
 //   has_division                            false if `divide` exists only for its message
 //   holds_in_directed_rounding              true if the proof holds in any rounding direction
-//   holds_without_subnormals                true if sums may underflow (no gradual underflow)
+//   holds_without_subnormals                true if the rule also holds without subnormal numbers
 //   error_is                                error_meaning::estimate or nothing
-//   claimed_rate                            the probability that an estimate claims to hold
+//   claimed_rate                            the claimed probability: an estimate covers the error
 
-/// True if Rule is a bound rule for T, with the members in the table above. Soundness needs a
-/// proof; see also errbound/validation.
+/// True if Rule is a bound rule for T, with the members in the table above. Soundness (bounds that
+/// hold) needs a proof; errbound/validation tests it.
 template <class Rule, class T = double>
 concept bound_rule = detail::rule_has_bound<Rule, T> && detail::rule_has_name<Rule, T> &&
     detail::rule_has_exact<Rule, T> && detail::rule_has_within<Rule, T> &&

@@ -1,11 +1,11 @@
 // Bound rule `sharp`: TightBound with the unit roundoff u in place of ε = 2u, for rounding to
 // nearest only. Its bounds are half of `tight`'s.
 //
-// Notation: η the smallest positive number, v the computed result, σ a bound. An operation is off
-// by at most max(u|v|, η/2), a sum by at most u|v| (Higham 2002, Theorem 2.3). Half an ulp of an
-// inexact sum is at least η, so u|v| rounds to no less. A product's value and the three products in
-// its bound may each lose η/2: 2η is added. Exact zeros and overflow: as for `tight`; no overflow
-// goes unnoticed.
+// Notation: docs/notation.md; v is the computed result, σ a bound. An operation is off by at most
+// max(u|v|, η/2), a sum by at most u|v| (Higham 2002, Theorem 2.3). If a sum is inexact, ulp(v)/2
+// is a number, so the rounded u|v| is at least ulp(v)/2. A product and three products in its bound
+// may each lose η/2, so 2η is added. Exact zeros and overflow are treated as in `tight`; no
+// overflow goes unnoticed.
 #pragma once
 
 #include <errbound/detail/rounded.hpp>
@@ -19,7 +19,7 @@ struct sharp {
     static constexpr const char* name = "sharp";
     static constexpr int minimal_precision = 3;
 
-    /// |value − true value| <= error.
+    /// |value − exact value| <= error.
     template <class T>
     struct bound {
         T error;
@@ -35,7 +35,7 @@ struct sharp {
     static constexpr bound<T> within(const T& value, const T& error) {
         return {error >= 0 ? error + (value - value) : number_traits<T>::infinity()};
     }
-    /// The bound of a number that is exactly 0. Proof: proofs/IeeeRules.v, tight_within_known.
+    /// Bounds a number whose exact value is 0. Proof: proofs/IeeeRules.v, tight_within_known.
     template <class T>
     static constexpr bound<T> displacement(const T& value) {
         return within<T>(value, number_traits<T>::abs(value));
@@ -84,15 +84,15 @@ struct sharp {
         if (!(distance > 0)) return {traits::infinity()};
         if (is_zero(a)) return {rounding(v)};
         // |â/b̂| <= |v|(1 + u) + η/2. If b is not exact, η covers underflow in the numerator before
-        // the division enlarges it. Up to eight roundings, (1 + u)^8 <= (1 + 8u)².
+        // the division enlarges it. The factors cover eight roundings: (1 + u)^8 <= (1 + 8u)².
         const T quotient = inflated<T>(traits::abs(v) + traits::underflow_unit());
         const T lost = b.bound.error > 0 ? traits::underflow_unit() : T(0);
         const T inherited =
             (a.bound.error + (detail::rounded_product(quotient, b.bound.error) + lost)) / distance;
         return {inflated<T>((rounding(v) + 2 * traits::underflow_unit()) + inflated<T>(inherited))};
     }
-    /// Off by at most η/2 each if value or bound underflow. Proof: proofs/IeeeRules.v,
-    /// sharp_scale_known.
+    /// Exact unless value or bound underflow; each is then off by at most η/2. Proof:
+    /// proofs/IeeeRules.v, sharp_scale_known.
     template <class T>
     static constexpr bound<T> scale(const T& v, rule_operand<T, sharp> a, int e) {
         using traits = number_traits<T>;
@@ -102,15 +102,16 @@ struct sharp {
         return {lossless ? scaled + (v - v) : inflated<T>(scaled + traits::underflow_unit())};
     }
 
-    /// Σ aᵢbᵢ, a running error bound. A product p is off by at most u|p| + η/2; a partial sum s' =
-    /// fl(s + p) by at most u|s'|, |p| and |s|, since s and p are candidates for s'. The arguments'
-    /// errors add Σ |â|σb + σa(|b̂| + σb).
+    /// Σ aᵢbᵢ, with a running error bound. A product p is off by at most u|p| + η/2. The partial
+    /// sum s' = fl(s + p) is off by at most u|s'|, |p| and |s|, since s' is nearest and s and p are
+    /// numbers. The arguments' errors add Σ |â|σb + σa(|b̂| + σb).
     ///
-    /// One factor covers the roundings of m terms' bounds: m in Σ (u|p| + min(u|s'|, |p|, |s|)),
-    /// m + 2 in an argument's share, four more. With j = m + 6, (1 + u)^j <= 1 + ju + (ju)² <= 1 +
-    /// (⌈j/2⌉ + 1)ε if j²ε <= 4. Underflow takes at most η/2 each in m products, m of u|p|, two in
-    /// an uncertain share, and the last. Source: Higham 2002, Section 3.3; Jeannerod, Rump 2013
-    /// (SIAM J. Matrix Anal. Appl. 34). Proof: proofs/IeeeDotProduct.v, sharp_dot_known.
+    /// One factor covers the roundings in the bound of m terms: at most m for each u|p| or
+    /// min(u|s'|, |p|, |s|), m + 2 for one of the arguments' errors, and four at the end. With j =
+    /// m + 6, (1 + u)^j <= 1 + ju + (ju)² <= 1 + (⌈j/2⌉ + 1)ε if j²ε <= 4. Underflow loses at most
+    /// η/2 for each p and each u|p|, twice for each term of inexact arguments, and once at the end.
+    /// Source: Higham 2002, Section 3.3; Jeannerod, Rump 2013 (SIAM J. Matrix Anal. Appl. 34).
+    /// Proof: proofs/IeeeDotProduct.v, sharp_dot_known.
     template <class T>
     class dot_bound : detail::running_bound<T, dot_bound<T>, number_traits<T>::digits + 1> {
         static constexpr bool serves = dot_bound::pays;

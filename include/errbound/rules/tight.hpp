@@ -1,12 +1,12 @@
 // Bound rule `tight`: TightBound (Theorem 1 of the TightCCD paper), with its gaps closed.
 //
-// Notation: u the unit roundoff, ε = 2u, η the smallest positive number, v the computed result, σ a
-// bound. Beyond the printed rule: bounds are inflated for their own roundings; products add 4η for
-// underflow (value and three products in the bound), sums none, as |v|ε is at least the last place
-// of an inexact sum. A product with an exact zero is exact. Overflow and NaN give infinite or NaN
-// bounds and no certain sign; under directed rounding only, overflow to the largest finite number
-// goes unnoticed. Without underflow the bound exceeds that of `safe` by little, if at all:
-// proofs/ComputedComparison.v, tight_at_most_safe_computed.
+// Notation: docs/notation.md; v is the computed result, σ a bound. Beyond the printed rule, bounds
+// are inflated for their own roundings. Products add 4η for underflow, of the value and of three
+// products in the bound. Sums add none, as |v|ε is at least the last place of an inexact sum. A
+// product with an exact zero is exact. Overflow and NaN give infinite or NaN bounds and no certain
+// sign. Only under directed rounding, overflow to the largest finite number goes unnoticed. Without
+// underflow the bound exceeds that of `safe` at most slightly: proofs/ComputedComparison.v,
+// tight_at_most_safe_computed.
 #pragma once
 
 #include <errbound/detail/rounded.hpp>
@@ -18,11 +18,11 @@ namespace errbound {
 
 struct tight {
     static constexpr const char* name = "tight";
-    /// Except for unnoticed overflow.
+    /// Overflow to the largest finite number goes unnoticed.
     static constexpr bool holds_in_directed_rounding = true;
     static constexpr bool holds_without_subnormals = true;
 
-    /// |value − true value| <= error.
+    /// |value − exact value| <= error.
     template <class T>
     struct bound {
         T error;
@@ -38,7 +38,7 @@ struct tight {
     static constexpr bound<T> within(const T& value, const T& error) {
         return {error >= 0 ? error + (value - value) : number_traits<T>::infinity()};
     }
-    /// The bound of a number that is exactly 0. Proof: proofs/IeeeRules.v, tight_within_known.
+    /// Bounds a number whose exact value is 0. Proof: proofs/IeeeRules.v, tight_within_known.
     template <class T>
     static constexpr bound<T> displacement(const T& value) {
         return within<T>(value, number_traits<T>::abs(value));
@@ -49,13 +49,13 @@ struct tight {
         return b.error;
     }
 
-    /// |v − (a + b)| <= |v|ε/(1 − ε) + σa + σb. Source: Theorem 1, Add. In long sums of short
-    /// formats the factor does not multiply σa and σb (detail/sum_of_bounds.hpp). Proof:
+    /// |v − (a + b)| <= |v|ε/(1 − ε) + σa + σb. In types of fewer than 40 bits, long sums do not
+    /// inflate σa and σb (detail/sum_of_bounds.hpp). Source: Theorem 1, Add. Proof:
     /// proofs/IeeeRules.v, tight_add_known; in any direction, proofs/Tight.v, tight_add_sound.
     template <class T>
     static constexpr bound<T> add(const T& v, rule_operand<T, tight> a, rule_operand<T, tight> b) {
         using traits = number_traits<T>;
-        // |v|ε and the sum may each lose the smallest normal number, unless x − x.
+        // |v|ε and the sum may underflow, each by less than η; x − x is exact.
         if constexpr (!has_subnormals<T>)
             if (v != 0 || traits::abs(a.value) != traits::abs(b.value))
                 return {inflated<T>(rounding(v) + (a.bound.error + b.bound.error) +
@@ -84,10 +84,10 @@ struct tight {
             detail::rounded_product(a.bound.error, T(traits::abs(b.value) + b.bound.error));
         return {inflated<T>(rounding(v) + inherited + 4 * traits::underflow_unit())};
     }
-    /// If |b̂| > σb: |v − a/b| <= |v|ε/(1 − ε) + (σa + |â/b̂|σb)/(|b̂| − σb), the printed rule with
-    /// its numerator multiplied out: σa(|b̂| − σb) + (|â| + σa)σb = σa|b̂| + |â|σb. Otherwise
-    /// infinite. Source: Theorem 1, Divide. Proof: proofs/IeeeRules.v, tight_divide_known; in any
-    /// direction, proofs/Tight.v, tight_divide_sound.
+    /// |v − a/b| <= |v|ε/(1 − ε) + (σa + |â/b̂|σb)/(|b̂| − σb) if |b̂| > σb, otherwise infinite.
+    /// This is the printed rule, because σa(|b̂| − σb) + (|â| + σa)σb = σa|b̂| + |â|σb. Source:
+    /// Theorem 1, Divide. Proof: proofs/IeeeRules.v, tight_divide_known; in any direction,
+    /// proofs/Tight.v, tight_divide_sound.
     template <class T>
     static constexpr bound<T> divide(const T& v, rule_operand<T, tight> a,
                                      rule_operand<T, tight> b) {
@@ -117,16 +117,16 @@ struct tight {
         return {lossless ? scaled + (v - v) : inflated<T>(scaled + 2 * traits::underflow_unit())};
     }
 
-    /// Σ aᵢbᵢ, a running error bound: with products pᵢ and partial sums sᵢ as computed, the sum is
-    /// off by at most Σ (|pᵢ| + |sᵢ|)·ε/(1 − ε), without s₁ = p₁, and η per product. The arguments'
+    /// Σ aᵢbᵢ, with a running error bound. For computed products pᵢ and partial sums sᵢ, roundings
+    /// add at most Σ (|pᵢ| + |sᵢ|)·ε/(1 − ε), without s₁ = p₁, and η per product. The arguments'
     /// errors add Σ |â|σb + σa(|b̂| + σb).
     ///
-    /// One factor covers the roundings of m terms' bounds: m in the sum of rounding(p) and
-    /// rounding(s), m + 2 in an argument's share, four more. With j = m + 6, 1 + (j + 1)ε >= 1/(1 −
-    /// jε) >= (1 − ε)^−j if j²ε <= 1/2. Underflow takes less than η each in m products, two in an
-    /// uncertain share, and the last. Source: Higham 2002, Section 3.3 (running error analysis).
-    /// Proof: proofs/IeeeDotProduct.v, tight_dot_known; in any direction, proofs/DotProduct.v,
-    /// tight_dot_sound.
+    /// One factor covers the roundings in the bound of m terms: at most m for each summand |pᵢ|ε or
+    /// |sᵢ|ε, m + 2 for one of the arguments' errors, and four at the end. With j = m + 6, 1 + (j +
+    /// 1)ε >= 1/(1 − jε) >= (1 − ε)^−j if j²ε <= 1/2. Underflow loses less than η for each product,
+    /// twice for each term of inexact arguments, and once at the end. Source: Higham 2002, Section
+    /// 3.3 (running error analysis). Proof: proofs/IeeeDotProduct.v, tight_dot_known; in any
+    /// direction, proofs/DotProduct.v, tight_dot_sound.
     template <class T>
     class dot_bound : detail::running_bound<T, dot_bound<T>,
                                             has_subnormals<T> ? number_traits<T>::digits - 2 : 0> {
@@ -152,15 +152,15 @@ struct tight {
     };
 
   private:
-    /// ε/(1 − ε) to within ε³; the factor 1 + 8ε covers the rest.
+    /// |v|ε(1 + ε), which is |v|ε/(1 − ε) less some |v|ε³; the factor 1 + 8ε covers the rest.
     template <class T>
     static constexpr T rounding(const T& v) {
         using traits = number_traits<T>;
         return detail::rounded_product(traits::abs(v),
                                        T(traits::epsilon() * (1 + traits::epsilon())));
     }
-    // Six roundings in any direction: (1 + 8ε)(1 − ε)^6 > 1 from 5 bits on (3 to nearest). For
-    // fewer, errbound/validation/tiny_check.hpp checks case by case.
+    // Covers six roundings in any direction: (1 + 8ε)(1 − ε)^6 > 1 for p >= 5 (p >= 3 to nearest).
+    // For smaller p, errbound/validation/tiny_check.hpp tests every case.
     template <class T>
     static constexpr T inflated(const T& bound) {
         return detail::rounded_product(bound, T(1 + 8 * number_traits<T>::epsilon()));

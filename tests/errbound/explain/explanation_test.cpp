@@ -68,7 +68,7 @@ TEST(Table, ShowsCancellation) {
               "  3.00e-03  -3.00e-03  75.0 %  +          outer > inner (b.cpp:14)\n"
               "  9.00e-04  +9.00e-04  22.5 %  input\n"
               "  and 1 more\n"
-              "  together 4.00e-03, of which all but 2.20e-03 cancels\n");
+              "  the amounts add up to 4.00e-03; errors cancel to at most 2.20e-03\n");
 }
 
 TEST(Table, OfInfiniteAndZeroErrors) {
