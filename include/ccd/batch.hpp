@@ -1,4 +1,4 @@
-// Decides many queries at once, over SIMD packs and threads:
+// Decides a batch of queries, by SIMD kernels and threads:
 //
 //     const auto [answers, stages] = ccd::decide_batch(positions, pairs);  // pairs of vertices
 //     const auto [answers, stages] = ccd::decide_batch(queries);           // queries by value
