@@ -83,7 +83,7 @@ struct first_contact {
     /// points is the contact point; so is that of the second's.
     std::array<double, 4> weights{};
     double weight_error =
-        std::numeric_limits<double>::infinity();  ///< of each; infinite in slivers
+        std::numeric_limits<double>::infinity();  ///< of each; may be infinite in slivers
     point<double> normal{};  ///< of unit length, from the second feature towards the first
     double normal_error = std::numeric_limits<double>::infinity();  ///< length of the error
     normal_source normal_from = normal_source::none;

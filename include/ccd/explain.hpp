@@ -27,10 +27,10 @@ inline constexpr std::array<stage_info, stage_count> exact_stages{{
      "double, or float in batches, with a margin"},
     {stage::coplanarity, "coplanarity",
      "do the four coefficients of Y have the same sign, so that the points are never coplanar?",
-     "double, one error bound a query"},
+     "double, one error bound per query"},
     {stage::inside, "inside",
      "are all five coefficients of some G_i negative, so that no contact is possible?",
-     "double, one error bound a query"},
+     "double, one error bound per query"},
     {stage::subdivision, "subdivision",
      "on shorter and shorter intervals: do the last two tests exclude contact, or does Y change "
      "its sign while all G_i are positive?",
