@@ -22,7 +22,7 @@ struct advance_options {
     /// with a contact between them are joined. Empty: all vertices are one group. For one group per
     /// body use connected_parts (ccd/mesh.hpp); for one per vertex, different indices.
     std::span<const int> groups = {};
-    pair_distances distances = {};            ///< pairs stay farther apart; 0: no contact
+    pair_distances distances = {};            ///< to keep; 0: only contact is avoided
     int threads = 0;                          ///< at most; 0: one per core
     std::optional<instruction_set> set = {};  ///< by default the strongest
     stop_query stop = {};                     ///< ends the call by throwing ccd::stopped
@@ -45,8 +45,8 @@ struct advance_result {
 };
 
 /// Returns the longest step from positions.before towards positions.after that was found to be
-/// free. No pair is in contact (or within its distance) in it, except those in the result's two
-/// lists. A group with a contact on the way stops just before its first contact, or slightly
+/// free. In this step no pair is in contact (or within its distance), except those in the result's
+/// two lists. A group with a contact on the way stops just before its first contact, or slightly
 /// earlier if rounding causes a contact there.
 ///
 /// A group's fraction is at least 0.99 of the time of its first contact; of joined groups, the
@@ -54,8 +54,8 @@ struct advance_result {
 /// the last place does not free them. Gaps of a few such units cause this.
 ///
 /// Throws as mesh_steps::run, and std::invalid_argument if the numbers of groups and vertices
-/// differ. Cost: one such step if the whole way is free, else usually two. A few more, at most 80,
-/// if groups with different fractions meet, or if rounding causes contacts.
+/// differ. Cost: one such step if the whole way is free, else usually two. There are a few more, at
+/// most 80, if groups with different fractions meet or rounding causes contacts.
 advance_result advance(mesh_steps& steps, const vertex_rows& positions,
                        const advance_options& options = {});
 /// Two frames of one mesh. Throws std::invalid_argument also if they differ in faces, edges or
