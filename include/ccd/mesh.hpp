@@ -42,8 +42,8 @@ std::vector<face> unique_faces(std::span<const face> faces);
 std::vector<vertex_index> unused_vertices(std::span<const face> faces, std::span<const edge> edges,
                                           std::size_t vertices);
 
-/// Returns for each vertex the index of its connected part of the mesh. Parts are in the order of
-/// their first vertices. Precondition: indices are in range.
+/// Returns for each vertex the index of its connected part of the mesh: its body, if bodies share
+/// no vertex. Parts are in the order of their first vertices. Precondition: indices are in range.
 std::vector<int> connected_parts(std::span<const face> faces, std::span<const edge> edges,
                                  std::size_t vertices);
 
