@@ -22,11 +22,11 @@ double step_size(const ipc::NarrowPhaseCCD& narrow_phase, const Eigen::Vector3d&
 int main() {
     const ccd::adapters::exact_narrow_phase exact;                 // steps may end in contact
     const ccd::adapters::exact_narrow_phase with_a_gap(0.8);       // keeps a fifth of each distance
-    const ccd::adapters::exact_narrow_phase small_gap(0.8, 1e-4);  // keeps at most 1e-4 of it
+    const ccd::adapters::exact_narrow_phase small_gap(0.8, 1e-4);  // a fifth, but at most 1e-4
 
     const Eigen::Vector3d before(0.25, 0.25, 1), after(0.25, 0.25, -1);
     std::printf("until they touch: %g\n", step_size(exact, before, after, 0));
     std::printf("until they are 0.5 apart: %g\n", step_size(exact, before, after, 0.5));
     std::printf("with a fifth of the distance left: %g\n", step_size(with_a_gap, before, after, 0));
-    std::printf("with 1e-4 of it left: %g\n", step_size(small_gap, before, after, 0));
+    std::printf("with 1e-4 left: %g\n", step_size(small_gap, before, after, 0));
 }

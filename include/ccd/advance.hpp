@@ -2,9 +2,9 @@
 //
 //     const ccd::advance_result r = ccd::advance(before, after);  // r.positions are free
 //
-// A time of contact does not suffice: moving to x0 + α (x1 − x0) rounds, and the rounding may cause
-// the contact that α avoids. Here positions are rounded first. `exact` then certifies that the
-// straight way from the positions before to the returned ones has no contact.
+// The time of the first contact does not suffice: x0 + α (x1 − x0) is rounded, which may cause the
+// contact that α avoids. Here positions are rounded first. `exact` then certifies that the straight
+// way from the positions before to the returned ones has no contact.
 #pragma once
 
 #include <ccd/contact.hpp>
@@ -19,10 +19,10 @@ namespace ccd {
 
 struct advance_options {
     /// The group of each vertex. Vertices of one group move by one fraction of their ways. Groups
-    /// with a contact between them are joined into one island. Empty: all vertices are one group.
-    /// (Bodies: connected_parts of ccd/mesh.hpp. Single vertices: a different index for each.)
+    /// with a contact between them are joined. Empty: all vertices are one group. For one group per
+    /// body use connected_parts (ccd/mesh.hpp); for one per vertex, different indices.
     std::span<const int> groups = {};
-    pair_distances distances = {};            ///< to keep; by default only contact is avoided
+    pair_distances distances = {};            ///< to keep; 0: only contact is avoided
     int threads = 0;                          ///< at most; 0: one per core
     std::optional<instruction_set> set = {};  ///< by default the strongest
     stop_query stop = {};                     ///< ends the call by throwing ccd::stopped
@@ -45,17 +45,17 @@ struct advance_result {
 };
 
 /// Returns the longest step from positions.before towards positions.after that was found to be
-/// free: it has no pair in contact (or within its distance) except those of the result's two lists.
-/// If a group has a contact on the way, it stops just before its first contact, or slightly earlier
-/// if rounding causes a contact there.
+/// free. In this step no pair is in contact (or within its distance), except those in the result's
+/// two lists. A group with a contact on the way stops just before its first contact, or slightly
+/// earlier if rounding causes a contact there.
 ///
-/// A group's fraction is at least 0.99 of its first contact's time, or of that of a group it was
-/// joined with. It is less, at worst 0, only if no free positions were found within 1024 units in
-/// the last place. Gaps of a few such units cause this.
+/// A group's fraction is at least 0.99 of the time of its first contact; of joined groups, the
+/// least time counts. It is less, at worst 0, only if moving vertices back by up to 1024 units in
+/// the last place does not free them. Gaps of a few such units cause this.
 ///
 /// Throws as mesh_steps::run, and std::invalid_argument if the numbers of groups and vertices
-/// differ. Cost: two such steps; one if all is free; a few more, at most 80, if groups meet by
-/// different fractions or by rounding.
+/// differ. Cost: one such step if the whole way is free, else usually two. There are a few more, at
+/// most 80, if groups with different fractions meet or rounding causes contacts.
 advance_result advance(mesh_steps& steps, const vertex_rows& positions,
                        const advance_options& options = {});
 /// Two frames of one mesh. Throws std::invalid_argument also if they differ in faces, edges or

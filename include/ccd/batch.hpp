@@ -1,13 +1,13 @@
-// Decides many queries at once, over SIMD packs and threads:
+// Decides a batch of queries, by SIMD kernels and threads:
 //
 //     const auto [answers, stages] = ccd::decide_batch(positions, pairs);  // pairs of vertices
 //     const auto [answers, stages] = ccd::decide_batch(queries);           // queries by value
 //
 // answers[i] is the outcome of decide_exact(query i), for every instruction set and number of
 // threads. The instruction set is chosen at run time. Throws std::invalid_argument if an index is
-// out of range, positions are null or the instruction set is not one of instruction_sets().
-// Cost: ./run bench. Memory: some 300 KB of stack a thread, and 32 bytes a vertex if the number of
-// queries exceeds half that of the vertices.
+// out of range, positions are null or the instruction set is not one of instruction_sets(). Cost:
+// ./run bench. Memory: some 300 KB of stack for each thread. Batches of more queries than half the
+// vertices also need 32 bytes for each vertex.
 #pragma once
 
 #include <ccd/execution.hpp>

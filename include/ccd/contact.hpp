@@ -5,11 +5,11 @@
 //     ccd::first_time d = ccd::time_within(query, {1e-3, 0});   // first time within a distance
 //     auto times = ccd::first_times(positions, pairs);          // many queries, over threads
 //
-// Closed semantics, as ccd/exact.hpp: planar motion, touching without crossing, parallel edges and
-// degenerate triangles all have one right answer. Coordinates that are not finite give `uncertain`.
-// Calls for one query do not allocate or throw, except in their last stage (ccd/reference.hpp).
-// Batches throw std::invalid_argument for bad input; answers do not depend on instruction sets or
-// threads.
+// Features include their borders, and touching counts, as in ccd/exact.hpp. So planar motion,
+// touching without crossing, parallel edges and degenerate triangles all have one right answer.
+// Coordinates that are not finite give `uncertain`. Calls for one query do not allocate or throw,
+// except in their last stage (ccd/reference.hpp). Batches throw std::invalid_argument for bad
+// input; answers do not depend on instruction sets or threads.
 #pragma once
 
 #include <algorithm>
@@ -43,12 +43,13 @@ verdict decide_within(const Query& query, separation d);
 template <any_query Query>
 first_time time_within(const Query& query, separation d, double t_max = 1);
 
-/// The features that meet, in terms of the points of a query.
+/// The features of a query that meet.
 struct meeting_features {
-    /// vertex_vertex, vertex_edge, or the query's own kind: inside both features.
+    /// vertex_vertex, vertex_edge, or the kind of the query if both of its features meet inside.
     ccd::kind kind = ccd::kind::vertex_vertex;
-    /// Indices into points_of(query), as many as `kind` has, in its order. If a vertex meets an
-    /// edge, the vertex comes first, whichever feature of the query it belongs to.
+    /// Indices into points_of(query): as many as `kind` has points, in the order of `kind`. If a
+    /// vertex meets an edge, the vertex comes first, even if it belongs to the query's second
+    /// feature.
     std::array<std::uint8_t, 4> points{};
 
     friend constexpr bool operator==(const meeting_features&, const meeting_features&) = default;
@@ -58,19 +59,19 @@ struct meeting_features {
 enum class normal_source : std::uint8_t {
     /// (f1 − f0) × (f2 − f0), or (a1 − a0) × (b1 − b0), at the contact.
     cross_product,
-    /// The direction from the second feature's nearest point to the first's, in the limit just
-    /// before the contact: opposite to the relative velocity without its part along the edge that
-    /// meets.
+    /// The direction from the second feature's nearest point to the first's, in the limit before
+    /// the contact. It is the reversed relative velocity, without its component along an edge that
+    /// a vertex meets.
     nearest_points,
-    /// Opposite to the relative velocity, which is along the edge that meets.
+    /// The reversed relative velocity, which is along the edge that a vertex meets.
     relative_velocity,
     /// There is no normal: (0, 0, 0).
     none,
 };
 
-/// The data of a first contact. The features are exact; weights, normal and velocity are doubles
-/// with a certified error each, and hold wherever in its bracket the time is. Without a contact,
-/// `time` gives the reason; weights are 0 and errors infinite.
+/// The data of a first contact. The features are exact. Weights, normal and velocity each have a
+/// certified error, for every time in the bracket. Without a contact, `time` gives the reason;
+/// weights are 0 and errors infinite.
 ///
 /// The first feature of a query is its vertex v or its edge a; the second is its face, edge or
 /// vertex w. Points are numbered as in points_of (v f0 f1 f2; a0 a1 b0 b1; v e0 e1; v w).
@@ -78,20 +79,21 @@ struct first_contact {
     first_time time;
     meeting_features features;
     /// One weight in [0, 1] for each point. Weights of a feature add up to 1 within one rounding,
-    /// and are 0 for points that are not among `features`. The contact is at the weighted sum of
-    /// the first feature's points, and of the second's.
+    /// and are 0 for points that are not among `features`. The weighted sum of the first feature's
+    /// points is the contact point; so is that of the second's.
     std::array<double, 4> weights{};
     double weight_error =
-        std::numeric_limits<double>::infinity();  ///< of each; infinite in slivers
+        std::numeric_limits<double>::infinity();  ///< of each; may be infinite in slivers
     point<double> normal{};  ///< of unit length, from the second feature towards the first
-    double normal_error = std::numeric_limits<double>::infinity();  ///< as a vector's length
+    double normal_error = std::numeric_limits<double>::infinity();  ///< length of the error
     normal_source normal_from = normal_source::none;
     /// True if the normal points to the side on which the first feature was just before the
-    /// contact. False at the start, and for motion in a plane that the features do not leave: then
-    /// the order of the points gives the direction of a cross product.
+    /// contact. False at the start, in slivers (triangles that are nearly segments), and for some
+    /// motions in a plane. A cross product then has the direction that the order of the points
+    /// gives.
     bool sided = false;
-    /// The velocity, along the normal, of the first feature's contact point relative to the
-    /// second's, in units of length a step. Negative if the features approach; if `sided`, it is
+    /// The component along the normal of the first feature's velocity relative to the second's, at
+    /// the contact point, in lengths per step. Negative if the features approach. If `sided`, it is
     /// <= 0 within its error.
     double normal_velocity = 0;
     double normal_velocity_error = std::numeric_limits<double>::infinity();
@@ -99,17 +101,19 @@ struct first_contact {
     friend constexpr bool operator==(const first_contact&, const first_contact&) = default;
 };
 
-/// Returns the data of the contact at `time`, which is time_of_impact(query). If the features
-/// certainly do not touch then, as at a time within a distance, the result is as without a contact.
+/// Returns the data of the contact at `time`, the result of time_of_impact(query). If the features
+/// certainly do not touch at `time`, as at a time of time_within, the result is as without a
+/// contact.
 ///
-/// If several pairs of features meet, the smallest is named: vertex/vertex before vertex/edge
-/// before the inside, and the first of equal ones. The normal is the cross product at the start, or
-/// if it has a certain side. Otherwise it is the first with a known direction of `nearest_points`,
-/// the cross product without a side, and `relative_velocity`.
+/// If several features meet, the result has the smallest: two vertices, else a vertex and an edge,
+/// else the query's features. The normal is the cross product if its direction and side are
+/// certain. It is also the cross product, not sided, if features meet inside at the start or in a
+/// sliver. Otherwise it is the first of these with a certain direction: `nearest_points`, the cross
+/// product without a side, `relative_velocity`.
 ///
-/// Cost: 700 to 1,000 ns on the bundled scene (./run bench --sections contacts). May run the
-/// reference (ccd/reference.hpp) if the features meet at the border, or if the velocity along the
-/// cross product has no certain sign.
+/// Cost: 700 to 1,000 ns on the bundled scene (./run bench --sections contacts). May use unbounded
+/// integers (ccd/reference.hpp) if features meet at a border, or if the sign of the velocity along
+/// the cross product is not certain.
 template <any_query Query>
 first_contact contact_at(const Query& query, const first_time& time);
 
@@ -119,10 +123,10 @@ first_contact find_first_contact(const Query& query, double t_max = 1) {
     return contact_at(query, time_of_impact(query, t_max));
 }
 
-/// The distance within which two elements count as in contact: `all`, the same for all pairs; or a
-/// `thickness` for each vertex. An element is as thick as the thickest of its vertices. The
-/// distance of a pair is the exact sum of the thicknesses of its two elements. The default is 0,
-/// that is contact. Finite and >= 0, in the unit of the coordinates. Not owned.
+/// The distance within which a pair is reported: `all`, the same for all pairs; or a `thickness`
+/// for each vertex. An element's thickness is the largest of its vertices. The distance of a pair
+/// is the exact sum of the thicknesses of its two elements. The default, 0, means contact. Values
+/// are finite and >= 0, in the unit of the coordinates. Not owned.
 struct pair_distances {
     double all = 0;
     std::span<const double> thickness = {};
@@ -130,14 +134,15 @@ struct pair_distances {
     /// True if there is no distance, only contact.
     bool is_contact() const { return all == 0 && thickness.empty(); }
 
-    /// At least the distance of every pair.
+    /// An upper bound on the distances of all pairs.
     double max_distance() const {
         double most = all;
         for (const double t : thickness) most = (std::max)(most, 2 * t);
         return most;
     }
 
-    /// The distance of a pair. Precondition: its vertices have a thickness if any vertex has.
+    /// The distance of a pair. Precondition: if `thickness` is not empty, it has the pair's
+    /// vertices.
     template <any_pair Pair>
     separation of(const Pair& pair) const {
         if (thickness.empty()) return {all, 0};
@@ -147,7 +152,7 @@ struct pair_distances {
         return {thickness_of(both.first(first)), thickness_of(both.subspan(first))};
     }
 
-    /// The thickness of an element. Precondition: each vertex has one.
+    /// The thickness of an element. Precondition: `thickness` has its vertices.
     double thickness_of(std::span<const vertex_index> vertices) const {
         double most = 0;
         for (const vertex_index v : vertices) most = (std::max)(most, thickness[v]);
@@ -174,8 +179,8 @@ struct timed_contact {
 /// The earliest of many first times.
 struct earliest_time {
     /// The least time by `low`, then by `high`, without those at the start; `separate` if there is
-    /// none. `uncertain` if any query has a coordinate that is not finite; then `queries` lists
-    /// those queries, and nothing else is reported.
+    /// none. `uncertain` if any query has a coordinate that is not finite. Then `queries` lists
+    /// these queries, and nothing else is reported.
     first_time time;
     std::vector<std::size_t> queries;   ///< with that time, ascending
     std::vector<std::size_t> at_start;  ///< in contact at t = 0, ascending
@@ -209,8 +214,9 @@ std::vector<first_contact> contacts_of_items(const batch_input<Item>& queries,
 
 }  // namespace detail
 
-/// decide_within for many queries. Throws as timed_contacts. Cost: for pairs less than twice that
-/// of decide_batch, if distances are far below the edges' lengths and few pairs come within them.
+/// Calls decide_within for many queries. Throws as timed_contacts. Cost, for pairs: less than twice
+/// that of decide_batch, if distances are far below the edge lengths and few pairs come within
+/// their distance.
 template <pair_range Pairs>
 std::vector<outcome> decide_within_batch(const vertex_rows& positions, const Pairs& pairs,
                                          const time_options& options = {}) {
@@ -226,10 +232,9 @@ std::vector<outcome> decide_within_batch(const Queries& queries, const time_opti
 ///
 /// Throws std::invalid_argument as decide_batch, and if t_max is not finite or a distance is
 /// negative or not finite. Also throws if `all` and `thickness` are both given, the numbers of
-/// thicknesses and vertices differ, or queries by value have a thickness.
-/// Cost: that of decide_batch or decide_within_batch,
-/// plus some 0.15 to 0.5 µs for each vertex/face or edge/edge contact; for other kinds and with
-/// distances that of time_of_impact or time_within.
+/// thicknesses and vertices differ, or queries by value have a thickness. Cost: that of
+/// decide_batch or decide_within_batch, plus the times. A vertex/face or edge/edge contact adds
+/// some 0.15 to 0.5 µs. Other kinds add a time_of_impact, and distances a time_within.
 template <pair_range Pairs>
 std::vector<timed_contact> timed_contacts(const vertex_rows& positions, const Pairs& pairs,
                                           const time_options& options = {}) {
@@ -241,8 +246,8 @@ std::vector<timed_contact> timed_contacts(const Queries& queries,
     return detail::timed(queries, options).contacts();
 }
 
-/// Returns one time for each query. If few of many queries collide, writing 24 bytes for each
-/// takes longer than timed_contacts.
+/// Returns one time for each query. If few of many queries collide, timed_contacts is faster, since
+/// it does not write 24 bytes for each query.
 template <pair_range Pairs>
 std::vector<first_time> first_times(const vertex_rows& positions, const Pairs& pairs,
                                     const time_options& options = {}) {

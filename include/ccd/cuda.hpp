@@ -3,10 +3,10 @@
 //     const auto found = ccd::cuda::step(before, after);                    // host to host
 //     ccd::cuda::decide_batch(positions, candidates, answers, scratch);     // device memory
 //
-// The host's functions compiled for the device, with the same answers. Available if the library was
-// built with nvcc (target errbound::ccd_cuda); this header needs none of CUDA's. Unless documented,
-// functions do not allocate, wait or change the current device, and pointers are to memory of the
-// current device. Calls are safe from several threads on different streams and scratch memory.
+// The device runs the host's functions, with the same answers. Needs a library built with nvcc
+// (target errbound::ccd_cuda), but no header of CUDA. Unless documented, functions do not allocate,
+// wait or change the current device, and pointers are to memory of that device. Several threads may
+// call at once, with different streams and scratch memory.
 #pragma once
 
 #include <array>
@@ -27,7 +27,7 @@ struct CUstream_st;  // CUDA's; cudaStream_t points to one
 
 namespace ccd::cuda {
 
-/// A cudaStream_t; null is the default stream.
+/// A cudaStream_t: a queue of work that a device runs in order. Null is the default stream.
 using stream = CUstream_st*;
 
 /// An error message of CUDA or of this library; empty if there is no error.
@@ -39,10 +39,11 @@ struct [[nodiscard]] status {
 /// Returns an error if there is no device.
 status device_status();
 
-/// The number type that a method tries first. `float32` keeps every promise for any input:
-/// coordinates are relative to one of the query's points, with the error of the conversion as their
-/// bound. Doubles, on the device, decide the queries that floats do not decide. (Positions
-/// in floats are not converted. The method `float` promises nothing, and stays in floats.)
+/// The number type that a method tries first. `float32` keeps the method's promise for any input.
+/// Coordinates are taken relative to one of the query's points, and the error of their conversion
+/// is part of their bound. Queries that floats do not decide are decided in doubles, on the device.
+/// (Positions in floats are not converted. The method `float` promises nothing, and stays in
+/// floats.)
 enum class precision : std::uint8_t { float64, float32 };
 
 /// The methods that run on the device: float, safe, tight, safeccd, safeccd-tight and exact.
@@ -78,8 +79,8 @@ struct positions {
           vertices(count) {}
 };
 
-/// Candidates: rows or columns of vertex indices, or pairs of elements. Precondition: indices are
-/// in range, which the device does not check.
+/// Candidates, the pairs to decide: rows or columns of vertex indices, or pairs of elements.
+/// Precondition: indices are in range, which the device does not check.
 template <class Pair>
 struct candidates {
     /// The second element of a pair: a face or an edge.
@@ -92,7 +93,7 @@ struct candidates {
     std::size_t count = 0;
     const vertex_index* numbers = nullptr;  ///< the indices of the selected ones; null: all
 
-    /// Rows of vertex indices. Precondition: aligned to 16 bytes, as CUDA's memory is.
+    /// Rows of vertex indices. Precondition: aligned to 16 bytes, as memory from cudaMalloc is.
     static constexpr candidates rows(const Pair* rows, std::size_t count) {
         return {rows, {}, nullptr, count};
     }
@@ -121,8 +122,9 @@ struct scratch {
     void* data = nullptr;
     std::size_t bytes = 0;
 };
-/// Returns the size that `decide_batch`, `select_colliding` and `find_times` need: 12.1 bytes a
-/// candidate, 32 a vertex and 4 MiB. Its address must be a multiple of 256, as CUDA's are.
+/// Returns the bytes that `decide_batch`, `select_colliding` and `find_times` need: 12.1 for each
+/// candidate, 32 for each vertex, and 4 MiB. Their address must be a multiple of 256, as those of
+/// cudaMalloc are.
 std::size_t scratch_bytes(std::size_t vertices, std::size_t candidates);
 
 struct batch_options {
@@ -134,9 +136,9 @@ struct batch_options {
 /// Decides candidate i into answers[i], as decide() of ccd/method.hpp. Only queues work on the
 /// stream. At most 2^32 − 2 candidates.
 ///
-/// After `exact`, `uncertain` marks candidates with coordinates that are not finite, and the few
-/// that integers of fixed width do not decide; finish() decides these. Do not change the scratch
-/// memory before.
+/// After `exact`, `uncertain` marks candidates with coordinates that are not finite. It also marks
+/// the few that integers of one and two words (of 64 bits) do not decide; finish() decides these.
+/// Do not change the scratch memory before finish().
 status decide_batch(const positions& positions, const candidates<vertex_face_pair>& candidates,
                     outcome* answers, scratch memory, const batch_options& options = {});
 status decide_batch(const positions& positions, const candidates<edge_edge_pair>& candidates,
@@ -146,15 +148,15 @@ status decide_batch(const positions& positions, const candidates<edge_edge_pair>
 struct stage_counts {
     std::uint32_t axes = 0, coplanarity = 0, inside = 0, subdivision = 0;
     std::uint32_t integers_one_word = 0, integers_two_words = 0;
-    std::uint32_t left_open = 0;  ///< decided by finish()
+    std::uint32_t left_open = 0;  ///< undecided until finish()
 };
 /// The result of finish().
 struct [[nodiscard]] finished : status {
     stage_counts stages;
 };
 
-/// Decides the candidates that decide_batch left undecided, on all threads of the host, and writes
-/// the answers. Waits for the stream. Throws only std::bad_alloc.
+/// Decides the undecided candidates of decide_batch on all threads of the host, and writes their
+/// answers. Waits for the stream. Throws only std::bad_alloc.
 finished finish(const positions& positions, const candidates<vertex_face_pair>& candidates,
                 outcome* answers, scratch memory, const batch_options& options);
 finished finish(const positions& positions, const candidates<edge_edge_pair>& candidates,
@@ -172,32 +174,32 @@ struct time_options {
     cuda::stream stream = nullptr;
 };
 
-/// Finds the first time of candidate i into times[i], as time_of_impact() of ccd/contact.hpp. Pass
-/// the colliding candidates, candidates.listed(...) after select_colliding(); the others cost more
-/// than their decision. Only queues work on the stream. Scratch memory as above.
+/// Writes the first time of candidate i to times[i], as time_of_impact() of ccd/contact.hpp. Pass
+/// only colliding candidates: candidates.listed(...) after select_colliding(). For others, a time
+/// costs more than a decision. Only queues work on the stream. Scratch memory: as for decide_batch.
 ///
-/// finish_times() finds the times that integers of fixed width do not: of roots that nearly
-/// coincide, below 2^-70, or with coordinates that differ too much. Do not change the scratch
-/// memory before.
+/// finish_times() finds the times for which integers of two words do not suffice: of roots that
+/// nearly coincide, below 2^-70, or with coordinates that differ too much. Do not change the
+/// scratch memory before finish_times().
 status find_times(const positions& positions, const candidates<vertex_face_pair>& candidates,
                   first_time* times, scratch memory, const time_options& options = {});
 status find_times(const positions& positions, const candidates<edge_edge_pair>& candidates,
                   first_time* times, scratch memory, const time_options& options = {});
 
-/// The number of candidates that entered each stage of find_times: refinement of roots that
-/// floating point found, or the search in integers only.
+/// The number of candidates that entered each stage of find_times. In `roots`, floating point finds
+/// the interval of the contact and integers its root. In `integers`, integers find both.
 struct time_stage_counts {
     std::uint32_t roots_one_word = 0, integers_one_word = 0;
     std::uint32_t roots_two_words = 0, integers_two_words = 0;
-    std::uint32_t left_open = 0;  ///< found by finish_times()
+    std::uint32_t left_open = 0;  ///< undecided until finish_times()
 };
 /// The result of finish_times().
 struct [[nodiscard]] finished_times : status {
     time_stage_counts stages;
 };
 
-/// Finds the times that find_times left undecided, on all threads of the host, and writes them.
-/// Waits for the stream. Throws only std::bad_alloc.
+/// Finds the undecided times of find_times on all threads of the host, and writes them. Waits for
+/// the stream. Throws only std::bad_alloc.
 finished_times finish_times(const positions& positions,
                             const candidates<vertex_face_pair>& candidates, first_time* times,
                             scratch memory, const time_options& options = {});
@@ -215,7 +217,7 @@ using times_span_of_kind = std::span<const first_time>;
 using pair_spans = by_kind<detail::span_of_kind>;
 using time_spans = by_kind<detail::times_span_of_kind>;
 
-/// Options of a step; from initial_contact on as ccd::step_options.
+/// Options of a step. initial_contact and the members after it are as in ccd::step_options.
 struct mesh_step_options {
     ccd::method method = method::exact;
     ccd::cuda::precision precision = precision::float64;
@@ -226,7 +228,7 @@ struct mesh_step_options {
     double t_max = 1;
 };
 
-/// Steps of one mesh on the device: keeps its faces, edges and memory from step to step.
+/// Steps of one mesh on the device. Keeps its faces, edges and memory from step to step.
 class mesh_steps {
   public:
     /// Vertex/face and edge/edge pairs, in an unspecified order that is always the same; or an
@@ -235,25 +237,25 @@ class mesh_steps {
         pair_spans pairs;
         pair_counts candidates;
         std::size_t finished_on_host = 0;  ///< candidates and times that the device left undecided
-        pair_spans touching_at_start;      ///< by `exact` whatever the method
+        pair_spans touching_at_start;      ///< decided by `exact` for every method
         time_spans times;                  ///< of `pairs`
-        /// The earliest of the pairs that do not touch at the start. Without `times`, threads share
-        /// the least time found so far and skip later ones.
+        /// The earliest time of the pairs that do not touch at the start. Without the option
+        /// `times`, threads share the least time found so far, and skip pairs with later ones.
         first_time first_contact;
     };
 
-    /// Faces in host memory, with indices below `vertices` (else std::invalid_argument). Allocates
-    /// and copies on first use, on the stream given then.
+    /// Takes faces in host memory. Throws std::invalid_argument if an index is not below
+    /// `vertices`. The first run() copies them to the device, on its stream.
     mesh_steps(std::span<const face> faces, std::size_t vertices);
     ~mesh_steps();
     mesh_steps(mesh_steps&&) noexcept;
     mesh_steps& operator=(mesh_steps&&) noexcept;
 
-    /// Returns the pairs that options.method cannot certify as separate, with a contact in
-    /// [0, t_max], as ccd::step(). The result is complete on return, belongs to this object and is
-    /// valid until the next call. Errors: a coordinate that is not finite; times by a method other
-    /// than `exact`. Waits for the stream at times; allocates if its memory does not suffice. All
-    /// calls must be on one device.
+    /// Returns the pairs that ccd::step() reports: those that options.method does not certify as
+    /// separate in [0, t_max]. The result is complete on return, belongs to this object and is
+    /// valid until the next call. Errors: a coordinate that is not finite; first_contact, times or
+    /// t_max < 1 with a method other than `exact`. Waits for the stream, and allocates if its
+    /// memory does not suffice. All calls must be on one device.
     result run(const positions& positions, const mesh_step_options& options = {});
 
   private:
@@ -265,21 +267,22 @@ class mesh_steps {
 struct [[nodiscard]] step_result : status, ccd::step_result {};
 
 /// ccd::step() on the device: copies both frames there and the pairs back. Throws as ccd::step().
-/// Errors: a mesh with edges in addition to the faces' or with more than one vertex on no face;
-/// distances; a filter. (The device has only vertex/face and edge/edge pairs.) Uses the options
-/// that mesh_step_options has; narrow_phase_seconds includes both phases and the times.
+/// Devices have only vertex/face and edge/edge pairs. It is therefore an error if the mesh has
+/// edges in addition to those of faces, or more than one vertex on no edge. Distances and filters
+/// are errors, too. Uses the options that mesh_step_options has; narrow_phase_seconds includes the
+/// search and the times.
 step_result step(const mesh& before, const mesh& after, const step_options& options = {},
                  precision precision = precision::float64);
 
-/// ccd::decide_batch from and to host memory, by any of device_methods(). Throws
-/// std::invalid_argument if the two lengths differ.
+/// Decides queries in host memory on the device, by any of device_methods(), as ccd::decide_batch.
+/// Throws std::invalid_argument if the two lengths differ.
 status decide(std::span<const vertex_face<double>> queries, std::span<outcome> answers,
               const batch_options& options);
 status decide(std::span<const edge_edge<double>> queries, std::span<outcome> answers,
               const batch_options& options);
 
-/// ccd::first_times from and to host memory. Throws std::invalid_argument if the two lengths
-/// differ.
+/// Finds the first times of queries in host memory on the device, as ccd::first_times. Throws
+/// std::invalid_argument if the two lengths differ.
 status first_times(std::span<const vertex_face<double>> queries, std::span<first_time> times,
                    const time_options& options = {});
 status first_times(std::span<const edge_edge<double>> queries, std::span<first_time> times,

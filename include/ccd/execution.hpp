@@ -27,12 +27,12 @@ struct stopped : std::runtime_error {
     stopped() : std::runtime_error("ccd: stopped by the caller") {}
 };
 
-/// A callback that is polled periodically, from several threads at once; one of them is the calling
-/// thread, so that a host can check for signals there. Return true to end the call by `stopped`. An
-/// exception from the callback ends the call, too. Empty: never polled.
+/// A callback that is polled periodically. Return true to end the call by the exception `stopped`;
+/// an exception from the callback ends the call, too. Several threads poll it at once, among them
+/// the calling thread, where a host can check for signals. Empty: never polled.
 ///
-/// Batches poll every few thousand queries, or for each contact's time. Steps poll for each block
-/// of candidates and periodically in a search, but not while elements and pairs are sorted.
+/// Batches poll every few thousand queries, and with distances for each time. Steps poll for each
+/// block of candidates and periodically in the search, but not while they sort elements and pairs.
 using stop_query = std::function<bool()>;
 
 namespace detail {

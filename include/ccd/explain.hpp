@@ -8,7 +8,7 @@
 
 namespace ccd {
 
-/// In the order in which a query passes them, until an answer is certain.
+/// The stages in the order in which a query passes them, until an answer is certain.
 enum class stage : std::uint8_t { axes, coplanarity, inside, subdivision, integers, unbounded };
 inline constexpr std::size_t stage_count = 6;
 
@@ -17,25 +17,29 @@ struct stage_info {
     std::string_view name, question, arithmetic;
 };
 
-/// The stages in their order, for the symbols of ccd/methods/forms.hpp; coefficients are those of
-/// Bernstein forms. A single query tests the axes x, y, z first, and the others after Y.
+/// A description of each stage, in order. ccd/methods/forms.hpp defines Y and the G_i; coefficients
+/// are those of Bernstein forms. A single query tests the axes x, y, z first, and the others after
+/// Y.
 inline constexpr std::array<stage_info, stage_count> exact_stages{{
     {stage::axes, "axes",
-     "does x, y, z, x ± y, y ± z or z ± x separate the features the same way at both ends?",
+     "does x, y, z, x ± y, y ± z or z ± x separate the features, in the same order at both "
+     "ends?",
      "double, or float in batches, with a margin"},
     {stage::coplanarity, "coplanarity",
-     "have the four coefficients of Y one sign, so that the points are never coplanar?",
-     "double, one error bound a query"},
+     "do the four coefficients of Y have the same sign, so that the points are never coplanar?",
+     "double, one error bound per query"},
     {stage::inside, "inside",
-     "are the five coefficients of some G_i negative, so that no contact is ever inside?",
-     "double, one error bound a query"},
+     "are all five coefficients of some G_i negative, so that no contact is possible?",
+     "double, one error bound per query"},
     {stage::subdivision, "subdivision",
-     "on ever smaller parts of the step, the same; or does Y change its sign, all G_i positive?",
+     "on shorter and shorter intervals: do the last two tests exclude contact, or does Y change "
+     "its sign while all G_i are positive?",
      "double, the same bounds, up to 12 halvings"},
     {stage::integers, "integers",
-     "which signs have the G_i at the roots of Y, and does a vertex touch an edge?",
-     "integers of bounded width, one unit an axis"},
-    {stage::unbounded, "unbounded", "the same, with roots isolated by Descartes' rule of signs?",
+     "are all G_i positive at a root of Y, or does a vertex touch an edge?",
+     "integers of bounded width, with a unit for each axis"},
+    {stage::unbounded, "unbounded",
+     "is there a contact, with roots isolated by Descartes' rule of signs?",
      "integers of unbounded width"},
 }};
 

@@ -20,8 +20,9 @@ using edge = std::array<vertex_index, 2>;  ///< vertex indices; ascending if the
 /// One frame: triangles, edges that bound no triangle (rods, hair, springs), and points.
 ///
 /// `edges` are edges in addition to those of the faces, in any order. An edge of a face, a repeated
-/// edge and an edge from a vertex to itself add nothing. Every vertex on no edge is a point (a
-/// particle), including vertices of no element: see pair_filter::skip_unused.
+/// edge and an edge from a vertex to itself add no edge. A vertex on no edge, neither one of
+/// `edges` nor one of a face, is a point. Unused vertices are points too: see
+/// pair_filter::skip_unused.
 struct mesh {
     std::vector<point<double>> vertices;
     std::vector<face> faces;
@@ -33,15 +34,15 @@ struct mesh {
 /// vertex. Memory: 36 bytes a face, 12 an edge and 8 a vertex.
 std::vector<edge> unique_edges(std::span<const face> faces, std::span<const edge> edges = {});
 
-/// Returns the faces in their order, without those whose three vertices an earlier face has. Cost
-/// and memory: as unique_edges.
+/// Returns the faces in their order, without those that have the same three vertices as an earlier
+/// face. Cost and memory: as unique_edges.
 std::vector<face> unique_faces(std::span<const face> faces);
 
 /// Returns the vertices of no face and no edge, ascending. Precondition: indices are in range.
 std::vector<vertex_index> unused_vertices(std::span<const face> faces, std::span<const edge> edges,
                                           std::size_t vertices);
 
-/// Returns for each vertex the index of its connected part of the mesh: the body, if bodies share
+/// Returns for each vertex the index of its connected part of the mesh: its body, if bodies share
 /// no vertex. Parts are in the order of their first vertices. Precondition: indices are in range.
 std::vector<int> connected_parts(std::span<const face> faces, std::span<const edge> edges,
                                  std::size_t vertices);

@@ -3,12 +3,12 @@
 //     const ccd::step_result found = ccd::step(before, after);  // two frames of a ccd::mesh
 //     for (const auto& [v, f0, f1, f2] : found.pairs.vertex_face) ...
 //
-// Many steps of one mesh: mesh_steps. A pair is two elements without a common vertex: vertex/face,
-// edge/edge and, where the mesh has rods or points, vertex/edge and vertex/vertex. These kinds
-// contain the first contact of any two elements (docs/collision-detection.md, Steps). Elements that
-// intersect at t = 0 are reported only once a boundary moves through the other element, so start
-// from a state free of intersections. Results are the same for every number of threads.
-// Throws std::invalid_argument for bad input.
+// For many steps of one mesh, use mesh_steps. A pair is two elements without a common vertex:
+// vertex/face, edge/edge and, in meshes with rods or points, vertex/edge and vertex/vertex. When
+// two elements first touch, a pair of these kinds touches (docs/collision-detection.md, Steps).
+// Elements that intersect at t = 0 are reported only once a boundary moves through the other
+// element, so start from a state free of intersections. Results are the same for every number of
+// threads. Throws std::invalid_argument for bad input.
 #pragma once
 
 #include <array>
@@ -43,7 +43,7 @@ struct space_region {
 
 /// The pairs that a step tests: those with a vertex of one element that may collide with a vertex
 /// of the other. Two vertices may collide unless one of these members excludes it; an empty member
-/// excludes nothing. Not owned; `groups` and `pinned` have one entry a vertex.
+/// excludes nothing. Not owned; `groups` and `pinned` have one entry for each vertex.
 struct pair_filter {
     enum class group_rule : std::uint8_t {
         between_groups,  ///< two vertices of one group may not collide
@@ -55,15 +55,15 @@ struct pair_filter {
     std::function<bool(vertex_index, vertex_index)> can_collide = {};
     std::span<const int> groups = {};  ///< the group of each vertex: its body, its layer, ...
     group_rule rule = group_rule::between_groups;
-    /// Not 0: the vertex does not move, or moves as prescribed. Two such vertices may not collide,
-    /// so pairs with only pinned vertices are skipped.
+    /// Not 0: the vertex is at rest, or its motion is prescribed. Two such vertices may not
+    /// collide, so pairs with only pinned vertices are skipped.
     std::span<const std::uint8_t> pinned = {};
     /// Keeps a pair if the lower corner of the intersection of its swept boxes (widened by the
     /// distance, if any) lies in this region. Regions that tile space therefore partition the
-    /// pairs; a region needs only the elements whose boxes meet it.
+    /// pairs. A step in a region needs only the elements whose boxes meet it.
     std::optional<space_region> region = {};
-    /// Skips the vertices of no face and no edge (unused_vertices); by default they are points. A
-    /// face or an edge that repeats its vertex keeps it a point.
+    /// Skips the vertices of no face and no edge (unused_vertices), which are points by default. To
+    /// keep vertex v as a point, add the edge {v, v}.
     bool skip_unused = false;
 };
 
@@ -72,10 +72,10 @@ struct step_options {
     int threads = 0;                          ///< at most; 0: one per core
     std::optional<instruction_set> set = {};  ///< for `exact`; by default the strongest
     bool count_candidates = false;            ///< fill step_result::candidates
-    bool explain = false;          ///< also fill step_result::stages (method `exact` only)
+    bool explain = false;          ///< fill candidates, and for `exact` step_result::stages
     bool initial_contact = false;  ///< fill step_result::touching_at_start
     bool first_contact = false;    ///< fill step_result::first_contact, and touching_at_start
-    bool times = false;            ///< fill step_result::times, and both of these
+    bool times = false;            ///< fill times, first_contact and touching_at_start
     double t_max = 1;              ///< report only pairs with a contact in [0, t_max]
     /// Report pairs that come within a distance, instead of pairs in contact. Then times and
     /// touching_at_start refer to that distance.
@@ -118,11 +118,10 @@ using time_lists = by_kind<detail::times_of_kind>;
 using candidate_visitor = by_kind<detail::block_visitor>;
 
 struct step_result {
-    /// Pairs whose swept boxes touch and that the filter keeps, with
-    /// step_options::count_candidates.
+    /// The number of candidates (see mesh_steps), with count_candidates or explain.
     std::optional<pair_counts> candidates;
     pair_lists pairs;  ///< the reported pairs, vertices of faces ascending
-    /// The pairs that touch at t = 0, by `exact` whatever the method, with initial_contact.
+    /// The pairs that touch at t = 0, with initial_contact; decided by `exact` for every method.
     pair_lists touching_at_start;
     time_lists times;                 ///< of `pairs`, with step_options::times
     first_time first_contact;         ///< the earliest not at t = 0, with first_contact
@@ -136,8 +135,8 @@ struct step_result {
     stage_report stages;  ///< of `exact` for vertex/face and edge/edge pairs, with explain
 };
 
-/// Returns the pairs of one step: mesh_steps(faces, edges, positions.vertices).run(positions,
-/// options), and throws as these.
+/// Returns the pairs of one step, and throws, as mesh_steps(faces, edges,
+/// positions.vertices).run(positions, options).
 step_result step(std::span<const face> faces, std::span<const edge> edges,
                  const vertex_rows& positions, const step_options& options = {});
 /// Two frames of one mesh. Throws std::invalid_argument also if they differ in faces, edges or
@@ -147,20 +146,22 @@ step_result step(const mesh& before, const mesh& after, const step_options& opti
 /// Steps of one mesh: keeps its unique faces and edges, their orders and its memory from step to
 /// step. One call at a time. Results do not depend on earlier steps.
 ///
-/// Candidates are the pairs whose swept boxes (closed, exact doubles, widened outwards by the
-/// pair's distance) touch and that the filter keeps. Trees over the boxes find them, and blocks of
-/// them are decided at once, never stored as a whole. Unless candidates are counted, `exact`
-/// discards axis-separated pairs during the tree traversal.
+/// An element's swept box is the least box along the axes that contains it at every t. Candidates
+/// are the pairs that the filter keeps and whose closed boxes touch, in exact doubles, widened
+/// outwards by the pair's distance. Trees over the boxes find them; blocks are decided at once, and
+/// not all are stored. For contact without count_candidates and explain, `exact` discards pairs
+/// that an axis separates in the trees.
 ///
-/// A face that repeats a vertex is the segment or point that it is, and is paired as any other
-/// face. Faces with the same three vertices count once, as do edges: a pair is reported once.
+/// A face that repeats a vertex counts as a segment or point, and is paired as any other face.
+/// Faces with the same three vertices count once, as do equal edges, so a pair is reported once.
 /// Vertex/edge and vertex/vertex pairs are decided by `exact` with every method.
 ///
-/// Cost: that of the search, and of decide_exact for each candidate. All pairs are candidates if
-/// all elements are at one place: n unused vertices at the origin make n²/2 pairs, unless
-/// pair_filter::skip_unused skips them. Memory, kept between steps: about ten times that of the two
-/// frames. About three times if candidates are counted or another method decides; four times if
-/// floats do not separate the boxes of elements that are far from the origin.
+/// Cost: the search, and decide_exact for each candidate. Elements at one position are all
+/// candidates: n unused vertices at the origin make n²/2 pairs, unless skip_unused skips them.
+/// Memory, kept between steps, in addition to two `mesh` frames and the result: up to nine times
+/// these frames. Up to three times if every candidate is decided: with count_candidates, explain or
+/// another method. About four times with distances, or if elements are so small and far from the
+/// origin that floats cannot separate their boxes.
 class mesh_steps {
   public:
     /// Throws std::invalid_argument if an index is not below `vertices`.
@@ -175,17 +176,17 @@ class mesh_steps {
     mesh_steps(mesh_steps&&) noexcept;
     mesh_steps& operator=(mesh_steps&&) noexcept;
 
-    /// Returns the pairs of one step that options.method cannot certify as separate.
+    /// Returns the pairs of one step that options.method does not certify as separate.
     ///
-    /// Throws std::invalid_argument if positions or a filter's entries are not as many as vertices,
-    /// a coordinate is not finite, or distances are not valid. Throws if z is not 0 in the plane,
-    /// the method is not in methods(), or the instruction set not in instruction_sets(). Also
-    /// throws if a method other than `exact` has times, t_max < 1 or distances.
+    /// Throws std::invalid_argument if there is not one position, group or pinned flag per vertex,
+    /// a coordinate is not finite, or distances are not valid. Also throws if z is not 0 in the
+    /// plane, the method is not in methods(), or the instruction set is not in instruction_sets().
+    /// Also throws if a method other than `exact` has times, first_contact, t_max < 1 or distances.
     step_result run(const vertex_rows& positions, const step_options& options = {});
 
-    /// Returns all candidates of a step, the vertices of faces in the mesh's order, for custom
-    /// narrow phases. Uses `threads`, `stop`, `filter` and `distances` of the options. Memory: up
-    /// to 33 bytes a candidate. Throws as run(), but ignores the instruction set.
+    /// Returns all candidates of a step, for custom narrow phases; vertices of faces keep the
+    /// mesh's order. Uses `threads`, `stop`, `filter` and `distances` of the options. Memory: up to
+    /// 33 bytes a candidate. Throws as run(), but ignores the instruction set.
     pair_lists candidates(const vertex_rows& positions, const step_options& options = {});
 
     /// Visits the candidates in blocks, in no particular order, and returns their numbers. The

@@ -280,7 +280,7 @@ class Steps:
     """Steps of one mesh. Keeps faces, edges, their order and its memory from step to step.
 
     faces: (m, 3); edges: (k, 2), in addition to those of faces; vertices: their number. Vertices without edges are
-    points. A call from a second thread throws RuntimeError. Memory: about ten times that of the two frames.
+    points. A call from a second thread throws RuntimeError. Memory: up to nine times that of two meshes.
     """
 
     def __init__(self, faces: ArrayLike, edges: ArrayLike = (), *, vertices: int) -> None:
