@@ -8,8 +8,8 @@
 //
 // This holds in any rounding direction, with or without FMA. Sums do not underflow. If inputs have
 // separate bounds M_x, M_y, ..., M^k is the largest product of these that a term of a sum has.
-// Proof: proofs/ErrorCount.v, count_sound, for nonzero whole constants and counts far below 1/η
-// (count_height).
+// Proof: proofs/ErrorCount.v, count_sound. Constants are nonzero whole numbers there, and counts
+// are far below 1/η (count_height).
 #pragma once
 
 #include <concepts>
