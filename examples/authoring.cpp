@@ -259,8 +259,8 @@ int main() {
                 in_cylinder.counts.roundings, by_lagrange.counts.roundings,
                 by_square.counts.roundings, in_capsule.counts.roundings);
 
-    std::printf("%% decided by%22s %6s %6s %6s %6s %6s %6s\n", "filter", "track", "double", "short",
-                "word", "2words", "long");
+    std::printf("%% decided by%29s %6s %6s %6s %6s %6s %6s %6s\n", "semi", "filter", "track",
+                "double", "short", "word", "2words", "long");
     constexpr int inputs = 500;
     int wrong = test("cylinder", in_cylinder, cylinder_sign, inputs);
     wrong += test("lagrange", by_lagrange, cylinder_sign, inputs);
@@ -269,7 +269,7 @@ int main() {
     wrong += test("cylinder, rationals", cylinder_rationals, cylinder_sign, inputs);
     wrong += test("capsule", in_capsule, capsule_sign, inputs);
 
-    std::printf("\nns%46s %8s %8s\n", "plain", "single", "batch");
+    std::printf("\nns%41s %8s %8s\n", "plain", "single", "batch");
     time("cylinder", in_cylinder, cylinder);
     time("lagrange", by_lagrange, lagrange);
     time("cylinder, tight", cylinder_tight, cylinder);

@@ -11,7 +11,7 @@ namespace errbound {
 /// std::ldexp and std::frexp for constant expressions, where some compilers' do not work.
 namespace detail {
 
-/// In steps, of which at most one rounds: the last that does not give 0.
+/// x·2^e in steps. At most one step rounds to a nonzero number, as any further step gives 0.
 template <class T>
 constexpr T scaled_by_steps(const T& x, int e) {
     constexpr int most = std::numeric_limits<T>::max_exponent, step = most - most / 8;
@@ -57,11 +57,11 @@ struct number_traits {
                       std::numeric_limits<T>::round_style == std::round_to_nearest,
                   "errbound: numbers must be binary, of fixed precision, and rounded to nearest");
 
-    /// Largest relative error of one rounding in any direction, the paper's ε = 2u.
+    /// Largest relative error of one rounding in any direction: ε = 2u.
     static constexpr T epsilon() { return std::numeric_limits<T>::epsilon(); }
     /// Largest relative error of one rounding to nearest: u = ε/2.
     static constexpr T unit_roundoff() { return epsilon() / 2; }
-    /// Smallest positive number: an operation that underflows is off by less than this.
+    /// Smallest positive number η: an operation that underflows is off by less than this.
     static constexpr T underflow_unit() {
         // Boost.Multiprecision's denorm_min is 0 if there are no subnormal numbers.
         if constexpr (has_subnormals)
@@ -90,7 +90,7 @@ struct number_traits {
     static constexpr int digits = std::numeric_limits<T>::digits;
 
     static constexpr T abs(const T& x) {
-        // One instruction, unlike the comparison, which keeps the sign of zeros.
+        // fabs is one instruction. The comparison takes more, as it keeps the sign of a zero.
         if constexpr (std::is_floating_point_v<T>)
             if (!std::is_constant_evaluated()) return std::fabs(x);
         return x < 0 ? -x : x;
@@ -153,7 +153,8 @@ inline constexpr bool has_infinity = [] {
 
 namespace detail {
 
-/// The type that computes T's operations, which then round once more: computed_in, or T.
+/// The type in which T's operations are computed before they are rounded to T: T, unless its
+/// number_traits has a type computed_in.
 template <class T>
 struct type_that_computes {
     using type = T;

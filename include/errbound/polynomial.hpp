@@ -5,10 +5,10 @@
 //   roots.refine(0, 1e-30);                             // roots[0].low < √2 < roots[0].high
 //   roots.sign_at(errbound::polynomial{-1.5, 1.0}, 0);  // of x − 1.5 at √2: negative
 //
-// Preconditions (asserted): finite coefficients, and a <= b, doubles, not NaN and not both the same
-// infinity. Intervals are closed. Throws only std::bad_alloc, after which roots found before are
-// valid; refine also std::invalid_argument. GMP's integers end the program instead. Cost, bounded
-// by degree and coefficient size: docs/polynomials.md.
+// Intervals [a, b] are closed. Preconditions (asserted): coefficients are finite, a <= b, and a and
+// b are not the same infinity. Calls throw only std::bad_alloc, after which roots found before stay
+// valid; refine also throws std::invalid_argument. With GMP's integers, lack of memory ends the
+// program. Degree and coefficient size bound the cost: docs/polynomials.md.
 #pragma once
 
 #include <algorithm>
@@ -31,7 +31,8 @@ namespace errbound {
 
 namespace roots {
 
-/// The exact integer type: the named one, the type of exact coefficients, or the library's own.
+/// The exact integer type: Named unless it is void, otherwise that of exact coefficients (of the
+/// numerators of rationals), otherwise errbound::integer.
 template <class Named, class C>
 struct integer_for {
     static_assert(exact_number<Named>,
@@ -70,15 +71,15 @@ auto unless_given_up(const Find& find) -> std::optional<decltype(find())> {
 /// The distinct roots of p in [a, b], a <= b, in disjoint intervals, with multiplicities.
 ///
 /// Coefficients: double, float, built-in integers, unbounded integers or rationals
-/// (errbound::integer, Boost.Multiprecision). Floating point decides first, then integers:
-/// errbound::integer, the coefficients' own type, or a named one, as in count_roots<mpz_int>(p, a,
-/// b).
+/// (errbound::integer, Boost.Multiprecision). roots::staged prepares p for two stages: floating
+/// point, then integers. These are errbound::integer, the coefficients' own type, or a named one,
+/// as in count_roots<mpz_int>(p, a, b).
 template <class Integer = void, class C>
 auto isolate_roots(const polynomial<C>& p, double a, double b) {
     using exact = roots::integer_for_t<Integer, C>;
     return real_roots<exact>(roots::staged<exact>(p), a, b);
 }
-/// Same as above, or nothing if the work would exceed the limits.
+/// Same as above; empty if the work would exceed the limits.
 template <class Integer = void, class C>
 auto isolate_roots(const polynomial<C>& p, double a, double b, const root_limits& limits) {
     using exact = roots::integer_for_t<Integer, C>;
@@ -127,15 +128,15 @@ template <class Integer = void, class C>
 std::size_t count_roots(const polynomial<C>& p, double a, double b) {
     return roots::count_within<Integer>(p, a, b, {});
 }
-/// Same as above, or nothing if the work would exceed the limits.
+/// Same as above; empty if the work would exceed the limits.
 template <class Integer = void, class C>
 std::optional<std::size_t> count_roots(const polynomial<C>& p, double a, double b,
                                        const root_limits& limits) {
     return roots::unless_given_up([&] { return roots::count_within<Integer>(p, a, b, limits); });
 }
 
-/// The count, if floating point proves it equal for all polynomials within the coefficients'
-/// bounds; otherwise nothing. For rules that store only the absolute error: tight and sharp.
+/// The count, if floating point proves that all polynomials within the coefficients' bounds have
+/// it; otherwise empty. For rules that store only the absolute error: tight and sharp.
 template <class Rule>
 std::optional<std::size_t> count_roots(const polynomial<tracked<double, Rule>>& p, double a,
                                        double b) {
@@ -160,7 +161,7 @@ std::optional<std::size_t> count_roots(const polynomial<tracked<double, Rule>>& 
     return filter.parts().size() + zero;
 }
 
-/// The greatest common divisor, primitive over the integers.
+/// The greatest common divisor, with integer coefficients that have no common factor.
 template <class Integer = void, class C>
 auto common_factor(const polynomial<C>& p, const polynomial<C>& q) {
     using exact = roots::integer_for_t<Integer, C>;
@@ -207,7 +208,7 @@ existence by_bsc(const staged_polynomial<Integer>& f,
     });
 }
 
-/// BSC for one to four g, if the degrees allow.
+/// Bernstein sign classification (BSC), for one to four g if the degrees allow.
 template <class Integer>
 existence by_bsc(const staged_polynomial<Integer>& f,
                  const std::vector<staged_polynomial<Integer>>& g, double a, double b) {
@@ -230,8 +231,8 @@ existence by_bsc(const staged_polynomial<Integer>& f,
 
 }  // namespace roots
 
-/// Is there t in [a, b], a <= b, with f(t) = 0 and every g_i(t) >= 0? BSC (errbound/bsc.hpp) tries
-/// first: cubic f, one to four quartic g_i, a finite interval.
+/// True if some t in [a, b], a <= b, has f(t) = 0 and every g_i(t) >= 0. If f is cubic, one to four
+/// g_i are quartic (or lower) and the interval is finite, BSC (errbound/bsc.hpp) runs first.
 template <class Integer = void, class C>
 bool root_where_nonnegative(const polynomial<C>& f, const std::vector<polynomial<C>>& g, double a,
                             double b) {

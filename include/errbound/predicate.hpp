@@ -6,8 +6,8 @@
 //       });
 //   errbound::sign_type s = orient2d(p, q, r);  // arrays, spans, Eigen vectors, structs of x, y, z
 //
-// Never wrong, overflow and underflow included; `uncertain` only if a coordinate that matters is
-// not finite. Needs rounding to nearest and gradual underflow (errbound/environment.hpp). No
+// The sign is never wrong, overflow and underflow included. It is `uncertain` only if a coordinate
+// is not finite. Needs rounding to nearest and gradual underflow (errbound/environment.hpp). No
 // exceptions, no global state, no allocation. See predicate() for rules, stages and cost.
 #pragma once
 
@@ -26,7 +26,7 @@
 
 namespace errbound {
 
-/// A predicate's arguments: points of these dimensions. 0 is a plain number.
+/// A predicate's arguments: points of these dimensions. Dimension 0 is a plain number.
 template <int... Dimensions>
 struct points {
     static_assert(sizeof...(Dimensions) > 0 && ((Dimensions >= 0) && ...),
@@ -43,19 +43,20 @@ struct points {
     }
 };
 
-/// The defaults; derive to change some.
+/// The defaults; derive from them to change some.
 struct predicate_options {
-    /// Bound rule of the tracked stage; void for no such stage.
+    /// Bound rule of the tracked stage, which computes with tracked numbers; void: no such stage.
     using tracked_rule = void;
     /// Exact number type of the last stage, constructible from double; void: long_integer. For
     /// Boost.Multiprecision's types see predicate_type::value.
     using exact_type = void;
     /// True if terms of different degree are never added, so scaling by powers of two keeps signs.
-    /// Detected, unless there are too many branches. A false claim does not compile.
+    /// Needed only if the expression has too many branches for the compiler to detect this. A false
+    /// claim does not compile.
     static constexpr bool homogeneous = false;
-    /// The coordinates' degrees in the shape's order, if some are not 1: {1, 1, 2, 1, 1, 2} for
-    /// points<3, 3>, each x, y and a squared radius. Terms of different total degree must never be
-    /// added; a false claim does not compile. Allows scaling coordinates far from 1.
+    /// One degree per coordinate in the shape's order, if some are not 1. Example: points<3, 3> of
+    /// x, y and a squared radius have {1, 1, 2, 1, 1, 2}. Terms of different total degree must not
+    /// be added; a false claim does not compile. Coordinates far from 1 are then scaled.
     static constexpr std::array<int, 0> degrees{};
 };
 
@@ -97,18 +98,20 @@ class predicate_type {
     using shape = Shape;
     using options = Options;
 
-    /// Counts of the expression, for coordinates of one word.
+    /// Counts of the expression; its bits are those for coordinates of 61 bits (one 64-bit word).
     static constexpr filters::expression_counts counts = stages::counts;
-    /// The static filter's constant: the sign is certain if |value| exceeds it times the sum of the
-    /// terms' sizes. For an expression that branches, the largest of all.
+    /// The static filter's constant. A sign is certain if |value| exceeds the constant times the
+    /// size, which is the value with every term positive (filters/static_filter.hpp). If the
+    /// expression evaluates several signs, this is the largest of their constants.
     template <class T>
     static constexpr T static_constant = filters::filter_constant<T>(counts.roundings);
-    /// True for expressions of high enough degree to gain from a semi-static filter.
+    /// True from degree 5 on, unless the expression branches or adds terms of different degree.
+    /// A semi-static filter's bound needs only the largest coordinate difference, not the size.
     static constexpr bool has_semi_static_filter = stages::has_semi_static_filter;
     /// Largest coordinate width for which every result fits in `bits` bits.
     static constexpr int coordinate_bits(int bits) { return stages::coordinate_bits(bits); }
 
-    /// The sign. Points: anything that coordinate_of accepts, with float or double coordinates.
+    /// Returns the sign. Points: any type that coordinate_of accepts, with float or double numbers.
     template <class... Points>
     [[gnu::flatten]] constexpr sign_type operator()(const Points&... p) const {
         // Overflow is not allowed in constant expressions.
@@ -130,8 +133,9 @@ class predicate_type {
         }
         return stages::template decide<number_of<Points...>>(stages::listed(p...), &report);
     }
-    /// The first filter's estimate, or the sign_type of an expression that branches. Stored:
-    /// coordinates are read from memory, so nothing can be fused with their differences.
+    /// The first filter's value and bound, or the sign_type of an expression that branches. Stored
+    /// is true if coordinates are read from memory. If they are computed, each is rounded first, so
+    /// that no product in one is fused with a difference.
     template <bool Stored = false, class... Points>
     static constexpr auto estimate(const Points&... p) {
         using T = number_of<Points...>;
@@ -148,14 +152,14 @@ class predicate_type {
                 return filters::sign_estimate<T>{x.value, x.bound()};
         }
     }
-    /// The static filter's value and bound, or the sign_type of an expression that branches.
+    /// The static filter's result, with value and bound(); a sign_type if the expression branches.
     template <bool Stored = false, class... Points>
     static constexpr auto filtered(const Points&... p) {
         using scalars = filters::filtered_scalars<number_of<Points...>, Stored, Points...>;
         return filters::evaluate<Shape>(F(), scalars{{p...}});
     }
-    /// The expression over a custom number type, constructible from a coordinate.
-    /// Boost.Multiprecision's types need et_off: expression templates do not outlive a statement.
+    /// The expression's value in a custom number type, constructible from a coordinate. Types of
+    /// Boost.Multiprecision need et_off: expression templates would refer to destroyed temporaries.
     template <class Number, class... Points>
     static constexpr auto value(const Points&... p) {
         const auto make = [](const auto& x) { return Number(x); };
@@ -164,6 +168,7 @@ class predicate_type {
             F(), filters::listed_scalars<Shape, typename stages::coordinate_list, decltype(make)>{
                      list, make});
     }
+    /// The sign by this stage only; `uncertain` if the stage does not decide.
     template <class... Points>
     constexpr sign_type by(predicate_stage stage, const Points&... p) const {
         using enum predicate_stage;
@@ -207,22 +212,25 @@ class predicate_type {
     }
 };
 
-/// The predicate of an expression: a program of +, − and × on coordinates and whole constants.
-/// Every result has its own type, so variables are `auto` and never reassigned. It may branch on
-/// sign_of(x); then it must return `uncertain` at once, and it returns a sign_type.
+/// The predicate of an expression: a function of +, − and × on coordinates and int constants.
+/// Every result has its own type, so variables are `auto` and never reassigned. An expression that
+/// branches on sign_of(x) returns a sign_type. It must return `uncertain` rather than branch on an
+/// uncertain sign.
 ///
-/// The stages (`predicate_stage`), until one is certain:
-/// - semi_static_filter, for many terms: floating point, bounded by the largest coordinate
+/// The stages (`predicate_stage`) run in this order until one is certain:
+/// - semi_static_filter, from degree 5 on: floating point, with a bound from the largest coordinate
 ///   difference;
 /// - static_filter: floating point, with a bound whose constant is counted at compile time;
 /// - tracked: errbound::tracked under the options' rule, if any;
-/// - integers: exact, coordinates on a common exponent. The number types are doubles or 128-bit
-///   words that hold all results; then integers for coordinates of one word or of two (not if the
-///   expression branches); then those for the full exponent range (or the options' exact type).
+/// - exact stages, on coordinates as integers times one power of two. exact_doubles and
+///   short_integers hold results of 53 and 127 bits; word_integers and two_word_integers hold
+///   coordinates of 61 and 124 bits; long_integers (or the options' exact type) hold any. An
+///   expression that branches skips two_word_integers.
 ///
-/// Contraction is allowed. Usable in constant expressions and in device code (compiled, not yet
-/// run). Cost: filters 1 to 2 times the plain expression, integers about ten times; full range up
-/// to 30 µs for degree 5 and, optimised, 64 KiB of stack for degree 32.
+/// Contraction to FMA is allowed. Predicates work in constant expressions and in device code
+/// (compiled, not yet run). Filters cost 1 to 2 times the plain expression, integers about ten
+/// times; long_integers take up to 30 µs at degree 5. Optimised code needs at most 64 KiB of stack
+/// up to degree 32.
 template <class Shape, class Options = predicate_options, class F>
 constexpr predicate_type<Shape, F, Options> predicate(F) {
     return {};

@@ -1,13 +1,13 @@
-// Predicates on many inputs: the first filter runs on as many inputs at a time as the processor has
-// lanes.
+// Predicates on many inputs. The first filter runs on several inputs at a time, one in each SIMD
+// lane.
 //
 //   std::vector<std::array<double, 2>> a, b, c;
 //   std::vector<errbound::sign_type> signs(a.size());
 //   errbound::batch_signs(errbound::orient2d, signs, a, b, c);
 //
-// The signs equal those of single calls, on every instruction set. No intrinsics: compilers
-// vectorise the loops (-O2 of clang, -O3 of GCC). They are compiled for each x86 instruction set;
-// the processor's is chosen at run time.
+// The signs equal those of single calls, on every instruction set. The compiler vectorises the
+// loops (clang from -O2, GCC from -O3). On x86-64 they are compiled also for AVX2 and AVX-512, and
+// the best that the processor has are chosen at run time.
 #pragma once
 
 #include <array>
@@ -37,7 +37,7 @@ struct coordinate_arrays {
         return p;
     }
 };
-/// One point for every input.
+/// The same point for all inputs.
 template <class Point>
 struct every {
     Point point;
@@ -58,7 +58,7 @@ constexpr decltype(auto) input_of(const Range& range, std::size_t i) {
     else
         return range.begin()[static_cast<std::ptrdiff_t>(i)];
 }
-/// True if the range has `count` inputs, or has no size to test.
+/// True if the range has at least `count` points, or has no size to test.
 template <class Range>
 constexpr bool has_inputs(const Range& range, std::size_t count) {
     if constexpr (requires { range.size(); })
@@ -76,8 +76,8 @@ inline constexpr bool has_stored_coordinates =
 template <class T, std::size_t N>
 inline constexpr bool has_stored_coordinates<std::array<T, N>> = true;
 
-/// Holds coordinates that a range computes, or that no pointer leads to. Storing rounds them:
-/// kernels could otherwise fuse their products with differences.
+/// A copy of coordinates that are computed, or not stored in one contiguous array. Storing rounds
+/// them. Otherwise kernels could fuse a product in a coordinate with a difference.
 template <class T, int Dimension, class Range>
 class computed_block {
     static constexpr std::size_t rows = Dimension == 0 ? 1 : Dimension;
@@ -127,7 +127,8 @@ auto blocks_of(const coordinate_arrays<U, N>& arrays) {
     return stored_arrays_block<U, N>{arrays};
 }
 
-/// Signs of block_size inputs by the first filter; true if all are certain. Lanes have one width.
+/// Sets block_size signs by the first filter; returns true if all are certain. The codes have type
+/// T, so all lanes have one width.
 template <class Predicate, class... Ranges>
 [[gnu::always_inline]] inline bool filter_block(sign_type* signs, const Ranges&... p) {
     using T = decltype(Predicate::estimate(p[0]...).value);
@@ -137,7 +138,7 @@ template <class Predicate, class... Ranges>
         const T size = number_traits<T>::abs(x.value);
         const T code = x.value > 0 ? T(2) : T(0);
         const T decided = size > x.bound ? code : T(3);
-        // Kernels may fuse multiply-adds, so they must test this (static_filter.hpp).
+        // Kernels may fuse multiply-adds, so that only the value overflows (static_filter.hpp).
         codes[i] = size <= number_traits<T>::largest() ? decided : T(3);
     }
     unsigned all = 0;
@@ -204,10 +205,11 @@ void batch_over(const Predicate& predicate, std::span<sign_type> signs, std::ind
 
 }  // namespace detail
 
-/// Sets signs[i] to the predicate's sign of point i of each range, by index or iterators (a
-/// matrix's columns: m.colwise()). Precondition: at least signs.size() points each. Contiguous
-/// arrays and coordinate_arrays are read in place; others are copied, 64 points at a time.
-/// Expressions that branch are evaluated one by one. No allocation.
+/// Sets signs[i] to the predicate's sign of the points with index i, one of each range. For the
+/// columns of a matrix pass m.colwise(). Precondition: each range has at least signs.size() points.
+/// coordinate_arrays and contiguous ranges of numbers or arrays are read in place. Other ranges,
+/// such as structs or Eigen's vectors, are copied, 64 points at a time. Expressions that branch are
+/// evaluated one by one. No allocation.
 template <class Predicate, class... Ranges>
 void batch_signs(const Predicate& predicate, std::span<sign_type> signs, const Ranges&... p) {
     assert((detail::has_inputs(p, signs.size()) && ...) &&

@@ -6,7 +6,7 @@
 //          a---b              d is below (away from the reader) if a, b, c are as in the picture.
 //
 // Signs are Shewchuk's (1997); CGAL's orientation of four points is the opposite of orient3d. Worst
-// known cost (./run bench --worst), for coordinates of 1e-3 to 1e3 and of all magnitudes: orient2d
+// known cost (./run bench --worst) for coordinates of 1e-3 to 1e3, then of all magnitudes: orient2d
 // 0.1 and 1 µs, orient3d and incircle 0.2 and 10 µs, insphere 1 and 30 µs; others in
 // docs/measured.md. No allocation; insphere takes 40 KiB of stack.
 #pragma once
@@ -41,8 +41,8 @@ constexpr auto squared_distance3d(const auto& a, const auto& b) {
     return x * x + y * y + z * z;
 }
 
-/// The determinant of a − d, b − d and c − d with heights as last column: x² + y² (a paraboloid),
-/// passed through height(point, x² + y²).
+/// The determinant with a row (x, y, height) for each of a − d, b − d and c − d. Points are lifted
+/// to a paraboloid: height(point, x² + y²) returns x² + y², or less for a weighted point.
 constexpr auto lifted_area(const auto& a, const auto& b, const auto& c, const auto& d,
                            const auto& height) {
     const auto ax = a[0] - d[0], ay = a[1] - d[1];
@@ -52,7 +52,7 @@ constexpr auto lifted_area(const auto& a, const auto& b, const auto& c, const au
            height(b, bx * bx + by * by) * (cx * ay - ax * cy) +
            height(c, cx * cx + cy * cy) * (ax * by - bx * ay);
 }
-/// Like lifted_area, of a − e, b − e, c − e and d − e.
+/// Like lifted_area, with a row (x, y, z, height) for each of a − e, b − e, c − e and d − e.
 constexpr auto lifted_volume(const auto& a, const auto& b, const auto& c, const auto& d,
                              const auto& e, const auto& height) {
     const auto ax = a[0] - e[0], ay = a[1] - e[1], az = a[2] - e[2];
@@ -70,7 +70,7 @@ constexpr auto lifted_volume(const auto& a, const auto& b, const auto& c, const 
 }
 inline constexpr auto unweighted = [](const auto&, const auto& squared) { return squared; };
 
-/// A point given by its parents: anchor + (x, y[, z])/w.
+/// An implicit point: a point computed from others, its parents, as anchor + (x, y[, z])/w.
 template <class Anchor, class X, class W>
 struct implicit_point2d {
     const Anchor& anchor;
@@ -109,7 +109,7 @@ constexpr sign_type segments_intersect(const auto& a, const auto& b, const auto&
     const sign_type coplanar = sign_of(volume(a, b, c, d));
     if (!certain(coplanar)) return coplanar;
     if (coplanar != sign_type::zero) return sign_type::negative;
-    // Project along an axis not parallel to the plane; for a parallel one all areas are zero.
+    // Project along an axis. If it is parallel to the plane, all areas are zero: take the next one.
     for (int axis = 0; axis < 3; ++axis) {
         const int i = (axis + 1) % 3, j = (axis + 2) % 3;
         const sign_type abc = sign_of(area(a, b, c, i, j)), abd = sign_of(area(a, b, d, i, j));
@@ -182,23 +182,23 @@ inline constexpr auto orient3d =
         return forms::volume(a, b, c, d);
     });
 
-/// Positive if d is inside the circle through a, b, c, which turn left; zero on it; negated if they
-/// turn right. Proof of its static filter: proofs/Predicates.v, incircle_sign_certain.
+/// If a, b, c turn left: positive if d is inside the circle through them, zero on it. If they turn
+/// right: the opposite. Proof of its static filter: proofs/Predicates.v, incircle_sign_certain.
 inline constexpr auto incircle =
     predicate<points<2, 2, 2, 2>>([](const auto& a, const auto& b, const auto& c, const auto& d) {
         return forms::lifted_area(a, b, c, d, forms::unweighted);
     });
 
-/// Positive if e is inside the sphere through a, b, c, d with positive orient3d; zero on it;
-/// negated if orient3d is negative. Proof of its filters: proofs/Predicates.v,
+/// If orient3d(a, b, c, d) is positive: positive if e is inside the sphere through them, zero on
+/// it. If it is negative: the opposite. Proof of its filters: proofs/Predicates.v,
 /// insphere_sign_certain, insphere_semi_static_certain.
 inline constexpr auto insphere = predicate<points<3, 3, 3, 3, 3>>(
     [](const auto& a, const auto& b, const auto& c, const auto& d, const auto& e) {
         return forms::lifted_volume(a, b, c, d, e, forms::unweighted);
     });
 
-/// For Count weighted points of that dimension: each one's last coordinate is a square. Proof:
-/// proofs/Predicates.v, power_incircle_scales, power_insphere_scales.
+/// Options for Count weighted points. The last of a point's `Dimension` coordinates is a squared
+/// radius, of degree 2. Proof: proofs/Predicates.v, power_incircle_scales, power_insphere_scales.
 template <std::size_t Count, std::size_t Dimension>
 struct weighted_options : predicate_options {
     static constexpr std::array<int, Count* Dimension> degrees = [] {
@@ -208,9 +208,9 @@ struct weighted_options : predicate_options {
     }();
 };
 
-/// incircle for weighted points x, y, w: circles of squared radius w. Positive if the power
-/// distance of d to the circle orthogonal to a, b and c is negative, for a, b, c that turn left.
-/// Proof of its static filter: proofs/Predicates.v, power_incircle_sign_certain.
+/// incircle for weighted points x, y, w: circles of squared radius w. If a, b, c turn left:
+/// positive if d has a negative power distance to the circle that is orthogonal to all three. Proof
+/// of its static filter: proofs/Predicates.v, power_incircle_sign_certain.
 inline constexpr auto power_incircle = predicate<points<3, 3, 3, 3>, weighted_options<4, 3>>(
     [](const auto& a, const auto& b, const auto& c, const auto& d) {
         return forms::lifted_area(a, b, c, d, [&d](const auto& p, const auto& squared) {
@@ -238,27 +238,28 @@ inline constexpr auto compare_distances3d =
         return forms::squared_distance3d(p, a) - forms::squared_distance3d(p, b);
     });
 
-/// For expressions with too many branches to analyse at compile time.
+/// Options for homogeneous expressions with too many branches to analyse at compile time.
 struct homogeneous_options : predicate_options {
     static constexpr bool homogeneous = true;
 };
 
-/// Closed segments ab and cd. Positive: they cross in one point inside both; zero: they touch
-/// otherwise, or overlap; negative: disjoint. A degenerate segment counts as a point.
+/// For closed segments ab and cd: positive if they cross in one point inside both, zero if they
+/// touch otherwise or overlap, negative if disjoint. A degenerate segment counts as a point.
 inline constexpr auto segments_intersect3d = predicate<points<3, 3, 3, 3>, homogeneous_options>(
     [](const auto& a, const auto& b, const auto& c, const auto& d) {
         return forms::segments_intersect(a, b, c, d);
     });
 
-/// Closed segment pq and triangle abc. Positive: they cross in one point inside both; zero: they
-/// touch otherwise, or overlap; negative: disjoint. Degenerate ones count as segments or points.
+/// For a closed segment pq and triangle abc: positive if they cross in one point inside both, zero
+/// if they touch otherwise or overlap, negative if disjoint. Degenerate ones count as segments or
+/// points.
 inline constexpr auto segment_intersects_triangle =
     predicate<points<3, 3, 3, 3, 3>, homogeneous_options>(
         [](const auto& p, const auto& q, const auto& a, const auto& b, const auto& c) {
             return forms::segment_triangle(p, q, a, b, c);
         });
 
-/// orient2d of the intersection of lines ab and cd, q and r; zero if the lines are parallel. Proof:
+/// orient2d(p, q, r) for p, the intersection of lines ab and cd; zero if they are parallel. Proof:
 /// proofs/ImplicitPoints.v, orient2d_line_line_right, orient2d_line_line_sign_certain.
 inline constexpr auto orient2d_line_line = predicate<points<2, 2, 2, 2, 2, 2>>(
     [](const auto& a, const auto& b, const auto& c, const auto& d, const auto& q, const auto& r) {
@@ -267,7 +268,7 @@ inline constexpr auto orient2d_line_line = predicate<points<2, 2, 2, 2, 2, 2>>(
         return sign_of(x * (q[1] - r[1]) - y * (q[0] - r[0])) * sign_of(p.w);
     });
 
-/// orient3d of the intersection of line ab and plane pqr, s, t and u; zero if they are parallel.
+/// orient3d(i, s, t, u) for i, where line ab meets plane pqr; zero if they are parallel.
 /// Proof: proofs/ImplicitPoints.v, orient3d_line_plane_right, orient3d_line_plane_sign_certain.
 inline constexpr auto orient3d_line_plane = predicate<points<3, 3, 3, 3, 3, 3, 3, 3>>(
     [](const auto& a, const auto& b, const auto& p, const auto& q, const auto& r, const auto& s,
@@ -282,9 +283,9 @@ inline constexpr auto orient3d_line_plane = predicate<points<3, 3, 3, 3, 3, 3, 3
                sign_of(i.w);
     });
 
-/// Compares, by x, the intersections of lines ab and cd, and ef and gh; zero if either does not
-/// exist. Proof: proofs/ImplicitPoints.v, compare_x_line_line_right,
-/// compare_x_line_line_sign_certain.
+/// Compares the x coordinates of p, the intersection of lines ab and cd, and q, that of ef and gh:
+/// positive if p's is larger, zero if p or q does not exist. Proof: proofs/ImplicitPoints.v,
+/// compare_x_line_line_right, compare_x_line_line_sign_certain.
 inline constexpr auto compare_x_line_line = predicate<points<2, 2, 2, 2, 2, 2, 2, 2>>(
     [](const auto& a, const auto& b, const auto& c, const auto& d, const auto& e, const auto& f,
        const auto& g, const auto& h) {

@@ -9,11 +9,11 @@
 
 namespace errbound {
 
-/// The sign of a number known up to a bound. `uncertain` is no sign and converts to none.
+/// The sign of a number known up to a bound. `uncertain` is not a sign and never converts to one.
 enum class sign_type : std::uint8_t { negative, zero, positive, uncertain };
 
-/// Signs have no order: compare by ==, or call certainly_nonnegative(s) and its neighbours. Only
-/// constant expressions may compare: generic code tests by `<` if an enumeration is signed.
+/// Signs have no order: < does not compile at run time. Use == or certainly_nonnegative(s) and its
+/// neighbours. Generic code needs < in constant expressions to detect if an enumeration is signed.
 consteval bool operator<(sign_type s, sign_type t) {
     return static_cast<int>(s) < static_cast<int>(t);
 }

@@ -56,8 +56,9 @@ constexpr bool is_exactly(const T& v, Number value) {
     }
 }
 
-/// The type in which Rule keeps bounds of T's numbers. With a `displacement`, it is the type that
-/// computes T's operations: bounds of 8 or 11 bits would grow with each of their own roundings.
+/// The type in which Rule stores bounds of T's numbers. For 8- and 16-bit T it is the type that
+/// computes T's operations, float, if the rule has a `displacement` (see rounded_from). Bounds of
+/// at most 11 bits would grow with each of their own roundings.
 template <class T, class Rule>
 struct type_of_bounds {
     using type = T;
@@ -115,14 +116,13 @@ class tracked {
 
     /// The result of plain arithmetic.
     constexpr const T& value() const { return value_; }
-    /// An upper bound of |value() − exact value|; infinite if there is none (NaN in a format
-    /// without infinities), otherwise never NaN. `x.error() <= tolerance` and its opposite are
-    /// safe.
+    /// An upper bound of |value() − exact value|. If there is none, it is infinite (NaN in a format
+    /// without infinities), so `x.error() <= tolerance` is false. In all other cases it is not NaN.
     constexpr T error() const {
         const wide e = own_error();
         if constexpr (widens) {
             const T nearest(e);
-            if (wide(nearest) < e)  // ε·nearest or η is at least its last place
+            if (wide(nearest) < e)  // ε·nearest + η is at least a unit in its last place
                 return nearest +
                        (nearest * number_traits<T>::epsilon() + number_traits<T>::underflow_unit());
             return e == e ? nearest : number_traits<T>::infinity();
@@ -186,8 +186,8 @@ class tracked {
             return {v, Rule::template scale<T>(v, x.as_operand(), power)};
     }
 
-    /// The certain sign, by the rule's own `sign` if it has one. Strict: a value equal to its bound
-    /// may belong to zero. Proof of the default: proofs/IeeeRules.v, sign_of_known.
+    /// The certain sign, by the rule's own `sign` if it has one. If |value| equals the error, the
+    /// number may be zero. Proof of the default: proofs/IeeeRules.v, sign_of_known.
     friend constexpr sign_type sign_of(const tracked& x) {
         const wide v(x.value_);
         if constexpr (detail::rule_has_sign<Rule, wide>) return Rule::sign(v, x.bound_);
@@ -196,7 +196,7 @@ class tracked {
         if (v < -e) return sign_type::negative;
         return v == 0 && e == 0 ? sign_type::zero : sign_type::uncertain;
     }
-    /// The certain sign of a − b. There is no operator<, which would have to guess; see by_value.
+    /// The certain sign of a − b. Operator < is deleted, as it would have to guess; see by_value.
     friend constexpr sign_type compare(const tracked& a, const tracked& b) {
         return sign_of(a - b);
     }
@@ -213,8 +213,9 @@ class tracked {
     constexpr tracked<wide, Rule> widened() const requires widens {
         return tracked<wide, Rule>::from_bound(wide(value_), bound_);
     }
-    /// The same exact number as x, with the value v. With d = v − x̂ and a number D of value d that
-    /// is exactly 0, x + D has the value v. If d is not exact, the error is infinite.
+    /// The same exact number as x, with value v: the sum of x and a displacement D. D has the value
+    /// d = v − x.value(), but its exact number is 0. If d is rounded, so that the sum's value is
+    /// not v, the error is infinite.
     static constexpr tracked rounded_from(const T& v,
                                           const tracked<wide, Rule>& x) requires widens {
         const wide d = wide(v) - x.value();
@@ -243,8 +244,8 @@ class tracked {
     [[no_unique_address]] bound_type bound_;
 };
 
-/// No ==, which would have to guess. sign_of(x) == sign_type::zero: x is certainly zero; x.value()
-/// == 0 compares the value. (errbound/eigen.hpp defines == of two tracked numbers.)
+/// Deleted, as == would have to guess. Test sign_of(x) == sign_type::zero (certainly zero) or
+/// x.value() == 0. (errbound/eigen.hpp defines == of two tracked numbers.)
 template <class T, class Rule, class Number>
 detail::use_sign_of_or_compare operator==(const tracked<T, Rule>&, const Number&) = delete;
 

@@ -1,10 +1,10 @@
-// The scalar of semi-static filters: only an expression's value, with a bound from the largest
-// coordinate difference in it. For many terms, whose sizes (errbound/filters/static_filter.hpp)
-// would cost more than that maximum. Decides somewhat less.
+// The scalar of semi-static filters. It computes an expression's value and the largest coordinate
+// difference, from which the error bound follows. For many terms that costs less than the size of
+// static filters (errbound/filters/static_filter.hpp), but the bound is larger.
 //
-// If 2m·M^d is finite, no number of the expression has overflowed. A NaN coordinate makes the value
-// NaN. Proof: proofs/SemiStatic.v, semi_static_overflow_uncertain. Source of the kind: Devillers,
-// Pion 2003, Efficient exact geometric predicates for Delaunay triangulations.
+// If the bound is finite, no number of the expression has overflowed. A NaN coordinate makes the
+// value NaN. Proof: proofs/SemiStatic.v, semi_static_overflow_uncertain. Source of the method:
+// Devillers, Pion 2003, Efficient exact geometric predicates for Delaunay triangulations.
 #pragma once
 
 #include <concepts>
@@ -13,17 +13,16 @@
 
 namespace errbound::filters {
 
-/// An intermediate result; users write `auto`. The mass m and the allowances a are compile-time
-/// values.
-///
-/// Notation of static_filter.hpp: size S, k roundings, allowance τ. Let all terms have degree d,
-/// and let M be the largest |d̂| of coordinate differences and |x| of plain coordinates. Then:
+/// An intermediate result; users write `auto`. The size S, the number k of roundings, and τ, which
+/// covers underflow in one product, are defined in static_filter.hpp. All terms have degree d. M is
+/// the largest magnitude of plain coordinates and of computed coordinate differences. Then:
 ///
 ///     S <= m·M^d + a·τ·(1 + M^d)
 ///
-/// m is the expression's value with all terms positive and all differences 1. The allowance a
-/// counts products: 0 at first, a_x + a_y for sums, 2(m_x·a_y + m_y·a_x) + 2 for products. Proof,
-/// without contraction: proofs/SemiStatic.v, mass_covers_size.
+/// `mass` m is the size if all coordinates and differences are 1 and τ is 0. `allowances` a bounds
+/// how often τ counts: 0 for coordinates, a_x + a_y for x ± y, 2(m_x·a_y + m_y·a_x) + 2 for x·y.
+/// Both depend only on the expression, so compilers compute them. Proof, without contraction:
+/// proofs/SemiStatic.v, mass_covers_size.
 template <std::floating_point T, int Roundings, int Degree>
 struct semi_static {
     static_assert(Roundings < 1000 && Degree < 1000,
@@ -38,11 +37,12 @@ struct semi_static {
 
     constexpr semi_static operator-() const { return {-value, mass, allowances}; }
 
-    /// The sign is uncertain if |value| <= bound(M). constant(k)/2·(2m·M^d + 2a·τ), where k − 1
-    /// suffices for signs; the spare u covers the O(u²) roundings of m, M^d and the bound, and
-    /// a·τ·M^d. The second a·τ covers underflow in M^d, as τ >= 2^49·η. Below 2^p = 1/u, m and a
-    /// are exact; otherwise, and for a constant 0, infinite. Proof: proofs/SemiStatic.v,
-    /// semi_static_bound_covers, semi_static_sign_certain.
+    /// The bound constant(k)·(m·M^d + a·τ); the sign is uncertain if |value| <= bound(M). For signs
+    /// constant(k − 1) suffices. The spare u covers a·τ·M^d and the relative errors, of order u²,
+    /// of M^d and of the bound. S needs only (a − 3/4)·τ; the rest covers underflow of M^d, as
+    /// τ >= 2^49·η. Below 2^p = 1/u, m and a are exact. Otherwise, and if a factor is the constant
+    /// 0, the bound is infinite. Proof: proofs/SemiStatic.v, semi_static_bound_covers,
+    /// semi_static_sign_certain.
     constexpr T bound(T largest) const {
         constexpr T most = 1 / number_traits<T>::unit_roundoff();
         const bool trusted = mass < most && allowances < most;

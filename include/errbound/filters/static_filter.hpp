@@ -1,14 +1,13 @@
-// The scalar of static filters: an expression's value, a bound on its size and, in its type, the
-// number of roundings. It compiles to the expression, its size, and one comparison with a constant.
+// The scalar of static filters: an expression's value and size and, in its type, the number of
+// roundings. A sign is certain if |value| exceeds a constant times the size.
 //
-// Notation: u the unit roundoff, η the smallest positive number, m the smallest normal one;
-// rounding is to nearest. S is the size of a number x computed as x̂: the expression with every
-// term positive, where each product adds `allowance`, τ = 4m/u. After k roundings (counted by
-// `filtered`) |x̂ − x| <= ((1 + u)^k − 1)·S.
-//
-// The counts k − 1 of orient2d, orient3d and incircle are those of Shewchuk's A-filters: 3, 7 and
-// 10; insphere has 15 instead of 16. Source: Shewchuk 1997, Adaptive Precision Floating-Point
-// Arithmetic. Proof, without contraction: proofs/StaticFilter.v, filter_error.
+// Notation: u the unit roundoff, η the smallest positive number; rounding is to nearest. A number x
+// is computed as x̂. Its size S is the expression with all terms positive: magnitudes of coordinates
+// and of their differences, + for −, and τ = 4·smallest_normal/u added to each product. After k
+// roundings (counted by `filtered`) |x̂ − x| <= ((1 + u)^k − 1)·S. Proof, without contraction:
+// proofs/StaticFilter.v, filter_error. The counts k − 1 of orient2d, orient3d and incircle are 3, 7
+// and 10, as in the A-filters (the floating-point stage) of Shewchuk 1997, Adaptive Precision
+// Floating-Point Arithmetic; insphere has 15 instead of 16.
 #pragma once
 
 #include <concepts>
@@ -19,13 +18,14 @@
 
 namespace errbound::filters {
 
-/// The error bound of k roundings, in units of the computed size Ŝ. At most 2k + 2 roundings of Ŝ
-/// each keep at least 1 − u; the spare half of τ covers underflow. Then:
+/// constant(k) = ku(1 + (4k + 8)u), so that constant(k)·Ŝ bounds the error after k roundings. Ŝ is
+/// the computed size. At most 2k + 2 roundings each reduce it by a factor of at least 1 − u; half
+/// of τ is spare and covers underflow. Then:
 ///
-///     |x̂ − x| <= ku(1 + ku)·(1 + (2k + 5)u)·Ŝ < constant(k)·Ŝ,   constant(k) = ku(1 + (4k + 8)u)
+///     |x̂ − x| <= ku(1 + ku)·(1 + (2k + 5)u)·Ŝ < constant(k)·Ŝ
 ///
-/// The slack, at least 3u, covers rounding the constant, the bound and x̂. Since uτ > m, the bound
-/// does not underflow.
+/// The relative slack of at least 3u covers rounding the constant, the bound and x̂. Since uτ is a
+/// normal number, the bound does not underflow.
 template <std::floating_point T>
 constexpr T filter_constant(int k) {
     constexpr T u = number_traits<T>::unit_roundoff();
@@ -34,14 +34,16 @@ constexpr T filter_constant(int k) {
 
 /// An intermediate result; users write `auto`. Roundings: k. Products: how often τ is still to be
 /// added to the size. Plain: size = |value|. Induction for the error bound:
-/// - a coordinate: k = 0. A difference d of two: |d̂ − d| <= u|d̂|, size |d̂| as computed, k = 1.
-/// - x ± y: k = max(k_x, k_y) + 1, S = S_x + S_y; the rounded sum is at most (1 + u)^max·S.
-/// - x·y: k = k_x + k_y + 1, S = S_x·S_y + τ. The computed factors' product is off by ((1 + u)^(k_x
-///   + k_y) − 1)·S_x·S_y; rounding adds u times it, underflow at most η/2 < uτ/2.
+/// - a coordinate: k = 0, S is its magnitude. A difference d of two: k = 1, S = |d̂| as computed,
+///   and |d̂ − d| <= u|d̂|.
+/// - x ± y: k = max(k_x, k_y) + 1, S = S_x + S_y. Before rounding, the computed sum is at most
+///   (1 + u)^max(k_x, k_y)·S in magnitude.
+/// - x·y: k = k_x + k_y + 1, S = S_x·S_y + τ. |x̂·ŷ − x·y| <= ((1 + u)^(k_x + k_y) − 1)·S_x·S_y.
+///   Rounding adds at most u·|x̂·ŷ|, underflow at most η/2 < uτ/2.
 ///
-/// Rounding is monotone, so Ŝ >= |x̂|: everything made of an infinity or NaN has an infinite or NaN
-/// size, and no sign is certain. Proof: proofs/StaticFilter.v, overflow_uncertain. With contraction
-/// a value can overflow where its size does not, so values are tested.
+/// Rounding is monotone, so Ŝ >= |x̂|. If an operand is infinite or NaN, so is the size, and no sign
+/// is certain. Proof: proofs/StaticFilter.v, overflow_uncertain. With contraction a value can
+/// overflow where its size does not, so sign_of also tests the value.
 template <std::floating_point T, int Roundings, int Products, bool Plain>
 struct filtered {
     static_assert(Roundings < 1000, "errbound: the constant holds for fewer than 1000 roundings");
@@ -53,13 +55,13 @@ struct filtered {
         4 * number_traits<T>::smallest_normal() / number_traits<T>::unit_roundoff();
 
     T value;
-    T size;  ///< less Products times τ
+    T size;  ///< without Products·τ
 
     constexpr T full_size() const { return Products == 0 ? size : size + T(Products) * allowance; }
     constexpr filtered operator-() const { return {-value, size}; }
 
     /// The sign is uncertain if |value| <= bound() or the value is not finite. The last rounding
-    /// keeps signs: k − 1 suffices. Proof: proofs/StaticFilter.v, filter_bound.
+    /// keeps signs, so constant(k − 1) suffices. Proof: proofs/StaticFilter.v, filter_bound.
     constexpr T bound() const {
         if constexpr (Roundings <= 1) return T(0);
         return filter_constant<T>(Roundings - 1) *
@@ -69,8 +71,8 @@ struct filtered {
     friend constexpr sign_type sign_of(const filtered& x) {
         const T magnitude = number_traits<T>::abs(x.value);
         bool decided = magnitude > x.bound();
-        if constexpr (detail::may_contract ||
-                      Roundings <= 1)  // then the bound is not infinite either
+        // After at most one rounding the bound is 0, which an infinite value exceeds.
+        if constexpr (detail::may_contract || Roundings <= 1)
             decided = decided && number_traits<T>::is_finite(x.value);
         if (decided) [[likely]]
             return x.value > 0 ? sign_type::positive : sign_type::negative;
@@ -80,7 +82,7 @@ struct filtered {
     }
 };
 
-/// A coordinate; differences of two are bounded better than by both sizes.
+/// A coordinate. The size of a difference of two is its magnitude, not the sum of both sizes.
 template <std::floating_point T>
 struct filtered_coordinate {
     using value_type = T;

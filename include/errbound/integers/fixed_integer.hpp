@@ -73,8 +73,8 @@ constexpr word sign_word(word w) {
     return carry;
 }
 
-/// r = a·b, of m + n words. The unsigned product is a·b, plus 2^(64m)·b if a < 0, plus 2^(64n)·a if
-/// b < 0, modulo the result's width. Proof: proofs/Words.v, product_exact.
+/// r = a·b, of m + n words. Multiplies unsigned numbers, which adds 2^(64m)·b if a < 0 and
+/// 2^(64n)·a if b < 0, then subtracts these. Proof: proofs/Words.v, product_exact.
 [[gnu::always_inline]] constexpr void multiply(word* r, const word* a, int m, const word* b,
                                                int n) {
     for (int j = 0; j < n; ++j) r[j] = 0;
@@ -200,7 +200,7 @@ class fixed_integer {
         return 0;
     }
 
-    /// ⌊x/2^shift⌋ modulo the result's width, shift >= 0. Proof: proofs/WordBits.v, from_bit_exact.
+    /// ⌊x/2^shift⌋ modulo 2^(64·Result), shift >= 0. Proof: proofs/WordBits.v, from_bit_exact.
     template <int Result>
     constexpr fixed_integer<Result> from_bit(int shift) const {
         const word beyond = words::sign_word(words_[Words - 1]);
