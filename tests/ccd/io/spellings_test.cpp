@@ -190,7 +190,7 @@ TEST(Spellings, Obj) {
     for (const auto& [text, meaning] : of_elements) expect(std::string(text), meaning);
     for (const std::string word : {"3.0", "x", "/3", "//", "1/0", "1//0", "1/x", "++1", "1,2,3"})
         for (const char* element : {"f 1 2 ", "l 1 ", "p "})
-            expect(element + word, "!found '" + word + "', expected v,");
+            expect(element + word, "!vertex is '" + word + "'; expected v,");
     for (const auto& [text, meaning] : of_polygons)
         expect_meaning(split_obj, five + std::string(text), meaning, described_five);
 }
