@@ -24,8 +24,8 @@ pthread_self realpath sched_yield shmdt sigaction stat sysconf unlink waitpid wr
 BSD = ["flock", "getloadavg"]
 # Functions of glibc that are used only if they exist (include/errbound/validation/expression.hpp).
 GLIBC = ["fmaf128", "sqrtf128"]
-# Functions that the compiler (sincos for sin and cos) and the C++ library use.
-INTERNAL = re.compile(r"__\w+|sincos[fl]?|syscall")
+# Functions that the compiler (sincos for sin and cos) and the C++ library (timed waits, where glibc has it) use.
+INTERNAL = re.compile(r"__\w+|sincos[fl]?|syscall|pthread_cond_clockwait")
 MATHEMATICS = {f"{name}{suffix}" for name in C for suffix in "fl"}
 
 parser = argparse.ArgumentParser()
