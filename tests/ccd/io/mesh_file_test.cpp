@@ -92,8 +92,7 @@ TEST(Ply, BadBinary) {
               "m.ply: number of bytes after the last element is 1; expected 0");
     mesh m = some_mesh();
     m.vertices[2].y = std::numeric_limits<double>::infinity();
-    EXPECT_EQ(ply_error(ply_of(m)),
-              "m.ply: vertex 2: y is an infinity; expected a finite number");
+    EXPECT_EQ(ply_error(ply_of(m)), "m.ply: vertex 2: y is an infinity; expected a finite number");
     m.vertices[2].y = std::nan("");
     EXPECT_EQ(ply_error(ply_of(m)), "m.ply: vertex 2: y is NaN; expected a finite number");
     // A list that claims 4 GiB.

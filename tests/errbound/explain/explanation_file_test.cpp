@@ -61,8 +61,9 @@ std::string message_with(const std::string& from, const std::string& to) {
 }
 
 TEST(ExplanationFile, MessagesHavePositionFoundAndExpected) {
-    EXPECT_EQ(message_of([] { parse_explanations("{\"a\": ", "f.json"); }),
-              "f.json: text at byte 7 is not JSON; expected output of errbound::write_explanations");
+    EXPECT_EQ(
+        message_of([] { parse_explanations("{\"a\": ", "f.json"); }),
+        "f.json: text at byte 7 is not JSON; expected output of errbound::write_explanations");
     EXPECT_EQ(message_of([] { parse_explanations("[]", "f.json"); }),
               "f.json: content is []; expected an object");
     const auto expect = [](const std::string& from, const std::string& to,

@@ -68,7 +68,8 @@ void* module::load(const std::string& name) {
     }
     void* const library = dlopen(object.c_str(), RTLD_NOW | RTLD_LOCAL);
     if (library == nullptr) stop("%s", dlerror());
-    for (auto* v = static_cast<const variable*>(dlsym(library, ("variables_" + hash(name)).c_str()));
+    for (auto* v =
+             static_cast<const variable*>(dlsym(library, ("variables_" + hash(name)).c_str()));
          v->name != nullptr; ++v) {
         u64& address = variables_[v->name];
         if (address == 0) {

@@ -338,8 +338,8 @@ const std::vector<rewriting> rewritings{
 };
 
 /// True for a text that may crash or exhaust CGAL: one with a property of no element, many elements
-/// without bytes, or long lists. (CGAL takes any second line for the format. After a value of another
-/// type, the length of a list is random.)
+/// without bytes, or long lists. (CGAL takes any second line for the format. After a value of
+/// another type, the length of a list is random.)
 bool harms_cgal(std::string_view text, bool is_read_by_us) {
     const outline o(text);
     const bool mistakes_line = o.lines.size() > 1 && !o.lines[1].empty() &&
