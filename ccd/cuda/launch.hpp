@@ -17,7 +17,7 @@ struct queue {
     std::uint32_t* items;
     std::uint32_t* size;
 
-    /// Any thread may push. Device compilers combine the additions of a warp.
+    /// Any thread may push.
     constexpr void push(std::uint32_t item) const {
 #ifdef __CUDA_ARCH__
         items[atomicAdd(size, 1u)] = item;
