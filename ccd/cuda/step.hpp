@@ -1,9 +1,10 @@
-// A step of a mesh on the device: candidates by a tree of boxes, decided in blocks. Internal.
+// A step of a mesh on the device: candidates by trees of boxes, decided in blocks. Internal.
 //
-// The tree is that of ccd/step/box_tree.hpp without its packs: boxes sorted along a Morton curve,
-// with eight per node, so that nodes have no pointers and a search has no stack. Each element
-// counts its candidates, a prefix sum numbers them, and blocks of candidates are written and
-// decided. Results do not depend on the order of threads, and no block can overflow.
+// Boxes are sorted along a Morton curve, with 32 per node, so that nodes have no pointers. A warp
+// searches a tree with the packet of 32 elements of one node, and queues the pairs of elements
+// whose rounded boxes touch. A second stage makes candidates of these pairs. A search that fills
+// the queue is repeated in smaller parts. Pairs that collide are sorted, so results do not depend
+// on the order of threads.
 #pragma once
 
 #include <algorithm>
@@ -12,6 +13,7 @@
 #include <ccd/mesh.hpp>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <utility>
 
@@ -23,30 +25,40 @@
 
 namespace ccd::cuda::detail {
 
+/// Sixteen bytes: a corner of a box, and the element in it.
+struct alignas(16) box_corner {
+    float at[3];
+    std::uint32_t element;
+};
+
 /// A closed box of rounded coordinates (ccd/batch/rounded_axes.hpp).
 /// Proof: proofs/RoundedAxes.v, swept_rounded_first, swept_face_separate, swept_edges_separate,
 /// swept_boxes_touch.
 struct rounded_box {
-    float low[3], high[3];
+    box_corner low, high;
 
+    static constexpr rounded_box nowhere() {
+        constexpr float infinity = std::numeric_limits<float>::infinity();
+        return {{{infinity, infinity, infinity}, 0}, {{-infinity, -infinity, -infinity}, 0}};
+    }
     constexpr void widen(const rounded_box& b) {
         for (std::size_t k = 0; k < 3; ++k) {
-            low[k] = std::min(low[k], b.low[k]);
-            high[k] = std::max(high[k], b.high[k]);
+            low.at[k] = std::min(low.at[k], b.low.at[k]);
+            high.at[k] = std::max(high.at[k], b.high.at[k]);
         }
     }
     /// Boxes that touch in exact arithmetic touch when rounded.
     constexpr bool touches(const rounded_box& b) const {
         bool touching = true;
         for (std::size_t k = 0; k < 3; ++k)
-            touching = touching && low[k] <= b.high[k] && high[k] >= b.low[k];
+            touching &= (low.at[k] <= b.high.at[k]) & (high.at[k] >= b.low.at[k]);
         return touching;
     }
     /// If true, the boxes touch in exact arithmetic.
     constexpr bool overlaps(const rounded_box& b) const {
         bool overlapping = true;
         for (std::size_t k = 0; k < 3; ++k)
-            overlapping = overlapping && low[k] < b.high[k] && high[k] > b.low[k];
+            overlapping &= (low.at[k] < b.high.at[k]) & (high.at[k] > b.low.at[k]);
         return overlapping;
     }
 };
@@ -66,15 +78,15 @@ struct elements {
 };
 
 template <std::size_t N>
-constexpr rounded_box swept_box(const rounded_position* rows,
-                                const std::array<vertex_index, N>& vertices) {
-    const auto of_row = [](const rounded_position& r) {
-        return rounded_box{{r.x, r.y, r.z}, {r.x, r.y, r.z}};
-    };
-    rounded_box b = of_row(load_aligned(rows + 2 * std::size_t(vertices[0])));
-    for (std::size_t i = 0; i < N; ++i)
-        for (std::size_t end = 0; end < 2; ++end)
-            b.widen(of_row(load_aligned(rows + 2 * std::size_t(vertices[i]) + end)));
+constexpr rounded_box swept_box(const rounded_position* rows, const elements<N>& all,
+                                std::uint32_t element) {
+    rounded_box b = rounded_box::nowhere();
+    for (const vertex_index v : all[element])
+        for (std::size_t end = 0; end < 2; ++end) {
+            const rounded_position r = load_aligned(rows + 2 * std::size_t(v) + end);
+            b.widen({{{r.x, r.y, r.z}, 0}, {{r.x, r.y, r.z}, 0}});
+        }
+    b.low.element = element;
     return b;
 }
 
@@ -99,53 +111,31 @@ constexpr bool exactly_touch(const positions& at, const std::array<vertex_index,
     return true;
 }
 
-/// Boxes of sorted elements, level by level: box i of a level is around boxes 8i to 8i + 7 of the
-/// level below it.
+/// Boxes of sorted elements, level by level: box i of a level is around boxes 32i to 32i + 31 of
+/// the level below it. There are at least two levels, unless there is no element.
 struct box_levels {
-    static constexpr std::size_t children = 8, max_levels = 12;
-    static constexpr unsigned child_bits = 3;
+    static constexpr std::uint32_t children = warp::lanes, child_bits = 5, max_levels = 8;
 
     const rounded_box* boxes = nullptr;
-    const std::uint32_t* order = nullptr;  ///< leaf i holds element order[i]
-    std::size_t levels = 0;
+    std::uint32_t levels = 0;
     std::size_t start[max_levels] = {}, count[max_levels] = {};
+    std::size_t size = 0;  ///< of all levels, each in whole nodes
 
     constexpr box_levels() = default;
     explicit constexpr box_levels(std::size_t leaves) {
-        std::size_t at = 0;
-        for (std::size_t n = leaves; n > 0; n = n > 1 ? (n + children - 1) / children : 0) {
-            start[levels] = at;
+        for (std::size_t n = leaves; n > 0; n = levels == 1 || n > 1 ? nodes(n) : 0) {
+            start[levels] = size;
             count[levels++] = n;
-            at += n;
+            size += children * nodes(n);
         }
     }
-    constexpr std::size_t size() const {
-        return levels == 0 ? 0 : start[levels - 1] + count[levels - 1];
-    }
+    static constexpr std::size_t nodes(std::size_t n) { return (n + children - 1) / children; }
+    constexpr std::size_t leaves() const { return count[0]; }
+    constexpr std::size_t packets() const { return count[1]; }
 
-    /// Calls visit(i) for every leaf i >= first whose box touches b, in ascending order.
-    template <class Visit>
-    constexpr void find(const rounded_box& b, std::size_t first, const Visit& visit) const {
-        if (levels == 0) return;
-        std::size_t level = levels - 1, i = 0;
-        for (;;) {
-            const bool in_reach = (i + 1) << (child_bits * level) > first;
-            if (in_reach && boxes[start[level] + i].touches(b)) {
-                if (level > 0) {
-                    --level;
-                    i *= children;
-                    continue;
-                }
-                visit(static_cast<std::uint32_t>(i));
-            }
-            ++i;
-            // The last child of a node is followed by the next node.
-            while (level + 1 < levels && (i % children == 0 || i == count[level])) {
-                i = (i + children - 1) / children;
-                ++level;
-            }
-            if (i == count[level]) return;
-        }
+    constexpr rounded_box box(std::uint32_t level, std::size_t i) const {
+        const rounded_box* const b = boxes + start[level] + i;
+        return {load_aligned(&b->low), load_aligned(&b->high)};
     }
 };
 
@@ -156,11 +146,11 @@ struct curve_key {
     std::uint32_t *keys, *order;
 
     constexpr void operator()(std::uint32_t i) const {
-        const rounded_box b = swept_box(rows, all[i]);
+        const rounded_box b = swept_box(rows, all, i);
         std::uint32_t key = 0;
         for (std::size_t k = 0; k < 3; ++k) {
             // Coordinates are within about [−1, 1]; NaN counts as 0.
-            const float place = (0.5f * b.low[k] + 0.5f * b.high[k] + 1.0f) * 512.0f;
+            const float place = (0.5f * b.low.at[k] + 0.5f * b.high.at[k] + 1.0f) * 512.0f;
             const auto cell = place >= 1023.0f ? 1023U
                               : place > 0.0f   ? static_cast<std::uint32_t>(place)
                                                : 0U;
@@ -178,7 +168,9 @@ struct make_leaf {
     const std::uint32_t* order;
     rounded_box* boxes;
 
-    constexpr void operator()(std::uint32_t i) const { boxes[i] = swept_box(rows, all[order[i]]); }
+    constexpr void operator()(std::uint32_t i) const {
+        boxes[i] = i < all.count ? swept_box(rows, all, order[i]) : rounded_box::nowhere();
+    }
 };
 struct make_node {
     const rounded_box* below;
@@ -186,93 +178,143 @@ struct make_node {
     rounded_box* level;
 
     constexpr void operator()(std::uint32_t i) const {
-        const std::size_t first = box_levels::children * i;
-        rounded_box b = below[first];
-        for (std::size_t k = 1; k < box_levels::children && first + k < count; ++k)
+        const std::size_t first = box_levels::children * std::size_t(i);
+        rounded_box b = rounded_box::nowhere();
+        for (std::size_t k = 0; k < box_levels::children && first + k < count; ++k)
             b.widen(below[first + k]);
         level[i] = b;
     }
 };
 
-/// Calls visit with the candidate of two elements, if it is one. `certain`: the boxes certainly
-/// touch.
-template <std::size_t A, std::size_t B, class Visit>
-constexpr void visit_candidate(const positions& at, const std::array<vertex_index, A>& a,
-                               const std::array<vertex_index, B>& b, bool certain,
-                               const Visit& visit) {
-    if (!ccd::detail::share_vertex(a, b) && (certain || exactly_touch(at, a, b)))
-        visit(ccd::detail::candidate_of(a, b));
-}
+struct leaf_pair {
+    std::uint32_t first, second;
+};
+struct search_counters {
+    std::uint64_t touching;  ///< pairs of leaves, also those beyond the queue's capacity
+    std::uint32_t candidates;
+};
 
-/// Calls visit(candidate) for all candidates of the vertices in the tree with face i.
-struct face_search {
-    using indices = vertex_face_pair;
-    positions at;
-    const rounded_position* rows;
-    box_levels tree;
-    elements<3> searching;
-    const std::uint32_t* order;  ///< the order of searching faces, with neighbours together
+/// The packets of a tree and the leaves of another one that a launch compares.
+struct search_part {
+    std::size_t packet, packets, leaf, leaves;
 
-    template <class Visit>
-    constexpr void operator()(std::uint32_t i, const Visit& visit) const {
-        const face f = searching[order[i]];
-        const rounded_box b = swept_box(rows, f);
-        tree.find(b, 0, [&](std::uint32_t leaf) {
-            const std::array<vertex_index, 1> v{tree.order[leaf]};
-            visit_candidate(at, v, f, tree.boxes[leaf].overlaps(b), visit);
-        });
+    constexpr void halve() {
+        std::size_t& n = packets > 1 ? packets : leaves;
+        n = (n + 1) / 2;
+    }
+    /// Continues after this part. If `may_grow`, the next part may have twice as many packets.
+    constexpr void advance(std::size_t all_leaves, bool may_grow) {
+        leaf += leaves;
+        if (leaf < all_leaves) return;
+        packet += packets;
+        leaf = 0;
+        leaves = all_leaves;
+        if (may_grow) packets *= 2;
     }
 };
 
-/// Calls visit(candidate) for all candidates of leaf i with later ones.
-struct edge_search {
-    using indices = edge_edge_pair;
-    positions at;
-    box_levels tree;
-    elements<2> searching;
-
-    template <class Visit>
-    constexpr void operator()(std::uint32_t i, const Visit& visit) const {
-        const edge mine = searching[tree.order[i]];
-        const rounded_box b = tree.boxes[i];
-        tree.find(b, std::size_t(i) + 1, [&](std::uint32_t leaf) {
-            const edge other = searching[tree.order[leaf]];
-            visit_candidate(at, mine, other, tree.boxes[leaf].overlaps(b), visit);
-        });
-    }
-};
-
-template <class Search>
-struct count_candidates {
-    Search search;
-    std::uint32_t* counts;
+/// Queues the pairs of a leaf of a packet and a leaf of `tree` whose boxes touch. If the trees are
+/// one, the second leaf is later than the first. Once the queue is full, it is incomplete.
+struct packet_search {
+    box_levels searching, tree;
+    bool one_tree;
+    leaf_pair* touching = nullptr;
+    std::size_t capacity = 0;
+    search_counters* counters = nullptr;
+    search_part part{};
 
     constexpr void operator()(std::uint32_t i) const {
-        std::uint32_t n = 0;
-        search(i, [&](const auto&) { ++n; });
-        counts[i] = n;
+        const auto packet = static_cast<std::uint32_t>(part.packet + i);
+        const std::uint32_t first_own = packet * warp::lanes;
+        const std::size_t begin = std::max<std::size_t>(part.leaf, one_tree ? first_own : 0),
+                          end = std::min(part.leaf + part.leaves, tree.leaves());
+        if (begin >= end) return;
+        warp::per_lane<rounded_box> own;
+        warp::each([&](std::uint32_t lane) { own[lane] = searching.box(0, first_own + lane); });
+        const rounded_box around = searching.box(1, packet);
+
+        std::uint32_t waiting[box_levels::max_levels] = {};  // children to visit
+        const std::uint32_t top = tree.levels - 2;
+        std::uint32_t level = top, node = 0;
+        for (;;) {
+            const std::uint32_t shift = box_levels::child_bits * level,
+                                first = static_cast<std::uint32_t>(begin >> shift),
+                                last = static_cast<std::uint32_t>((end - 1) >> shift);
+            std::uint32_t mask = warp::ballot([&](std::uint32_t lane) -> bool {
+                const std::uint32_t child = node * box_levels::children + lane;
+                return (child - first <= last - first) & tree.box(level, child).touches(around);
+            });
+            if (level == 0) {
+                if (mask != 0 && !queue_pairs(packet, node, mask, own)) return;
+                mask = 0;
+            }
+            while (mask == 0) {
+                if (++level > top) return;
+                node /= box_levels::children;
+                mask = waiting[level];
+            }
+            waiting[level] = mask & (mask - 1);
+            node = node * box_levels::children + warp::lowest(mask);
+            --level;
+        }
+    }
+
+  private:
+    /// Compares the leaves of a node that are in `mask` with the own ones. False if the queue is
+    /// full.
+    constexpr bool queue_pairs(std::uint32_t packet, std::uint32_t node, std::uint32_t mask,
+                               warp::per_lane<rounded_box>& own) const {
+        const std::uint32_t first_leaf = node * box_levels::children;
+        warp::per_lane<std::uint32_t> found;  // leaves of the node
+        for (; mask != 0; mask &= mask - 1) {
+            const rounded_box b = tree.box(0, first_leaf + warp::lowest(mask));
+            const std::uint32_t bit = mask & (~mask + 1);
+            warp::each([&](std::uint32_t lane) { found[lane] |= own[lane].touches(b) ? bit : 0; });
+        }
+        if (one_tree && node == packet)
+            warp::each([&](std::uint32_t lane) { found[lane] &= ~std::uint32_t(1) << lane; });
+        if (warp::ballot([&](std::uint32_t lane) { return found[lane] != 0; }) == 0) return true;
+        warp::per_lane<std::uint64_t> places;
+        if (warp::append(&counters->touching, found, places) > capacity) return false;
+        warp::each([&](std::uint32_t lane) {
+            leaf_pair* to = touching + places[lane];
+            for (std::uint32_t rest = found[lane]; rest != 0; rest &= rest - 1)
+                *to++ = {packet * warp::lanes + lane, first_leaf + warp::lowest(rest)};
+        });
+        return true;
     }
 };
-struct count_of {
-    const std::uint32_t* counts;
-    constexpr std::uint64_t operator()(std::uint32_t i) const { return counts[i]; }
-};
 
-template <class Search>
-struct write_candidates {
-    Search search;
-    const std::uint64_t* numbers;  ///< number of each search's first candidate, and the total
-    std::uint64_t first;
-    std::size_t count;
-    typename Search::indices* to;
+/// Makes candidates of pairs that share no vertex and whose exact swept boxes touch.
+template <std::size_t A, std::size_t B, class Pair>
+struct candidate_filter {
+    positions at;
+    packet_search search;
+    elements<A> searching;
+    elements<B> others;
+    queue_of<Pair> candidates{};
 
     constexpr void operator()(std::uint32_t i) const {
-        if (numbers[i] >= first + count || numbers[i + 1] <= first) return;
-        std::uint64_t number = numbers[i];
-        search(i, [&](const auto& candidate) {
-            if (number >= first && number < first + count) to[number - first] = candidate;
-            ++number;
-        });
+        const leaf_pair pair = search.touching[i];
+        const rounded_box box = search.searching.box(0, pair.first),
+                          other_box = search.tree.box(0, pair.second);
+        const auto a = searching[box.low.element];
+        const auto b = others[other_box.low.element];
+        if (!ccd::detail::share_vertex(b, a) &&
+            (box.overlaps(other_box) || exactly_touch(at, b, a)))
+            candidates.push(ccd::detail::candidate_of(b, a));
+    }
+};
+
+/// Sorting by the vertices of rows, from the last column to the first, orders the rows.
+struct column_key {
+    const std::array<vertex_index, 4>* rows;
+    std::size_t column;
+    std::uint32_t *keys, *order;
+
+    constexpr void operator()(std::uint32_t i) const {
+        if (column == 3) order[i] = i;
+        keys[i] = rows[order[i]][column];
     }
 };
 
@@ -288,9 +330,11 @@ class step_memory {
     template <class T>
     using buffer = typename Launcher::template buffer<T>;
 
-    /// The maximum number of candidates that are decided at once.
+    /// The maximum number of pairs that are searched and decided at once. At least 32, those of a
+    /// packet and a leaf.
     static constexpr std::size_t default_block = std::size_t(1) << 22;
-    explicit step_memory(std::size_t block = default_block) : block_(block) {}
+    explicit step_memory(std::size_t block = default_block)
+        : block_(std::max<std::size_t>(block, warp::lanes)) {}
 
     /// Precondition: faces and edges are in host memory, with indices in range.
     void set_mesh(Launcher& launcher, std::size_t vertices, std::span<const face> faces,
@@ -302,9 +346,9 @@ class step_memory {
         launcher.write(edges_.data(), edges.size(), edges.data());
     }
 
-    /// Finds the pairs, in vertex_face() and edge_edge(). `decide(candidates, answers, scene,
-    /// rows)` queues the decision of a block, with positions rounded to `rows`, and returns the
-    /// number of candidates decided on the host.
+    /// Finds the pairs, in vertex_face() and edge_edge(), and sorts them by their vertices.
+    /// `decide(candidates, answers, scene, rows)` queues the decision of a block, with positions
+    /// rounded to `rows`, and returns the number of candidates decided on the host.
     template <class Decide>
     found_pairs run(Launcher& launcher, const positions& at, const Decide& decide) {
         found_pairs found;
@@ -319,21 +363,17 @@ class step_memory {
         const elements<1> vertices{nullptr, vertices_};
         const elements<3> faces{faces_.data(), faces_.size()};
         const elements<2> edges{edges_.data(), edges_.size()};
-        {
-            const box_levels tree = make_tree(launcher, vertices, tree_, order_);
-            sort_along_curve(launcher, faces, search_order_);
-            const face_search search{at, rows_.data(), tree, faces, search_order_.data()};
-            found.vertex_face_candidates =
-                run_search(launcher, search, faces.count, decide, vertex_face_, found.vertex_face,
-                           found.finished_on_host);
-        }
-        {
-            const box_levels tree = make_tree(launcher, edges, tree_, order_);
-            const edge_search search{at, tree, edges};
-            found.edge_edge_candidates =
-                run_search(launcher, search, edges.count, decide, edge_edge_, found.edge_edge,
-                           found.finished_on_host);
-        }
+        const box_levels of_vertices = make_tree(launcher, vertices, tree_);
+        run_search(
+            launcher,
+            candidate_filter<3, 1, vertex_face_pair>{
+                at, {make_tree(launcher, faces, other_tree_), of_vertices, false}, faces, vertices},
+            decide, vertex_face_, found.vertex_face, found.vertex_face_candidates, found);
+        const box_levels of_edges = make_tree(launcher, edges, tree_);
+        run_search(
+            launcher,
+            candidate_filter<2, 2, edge_edge_pair>{at, {of_edges, of_edges, true}, edges, edges},
+            decide, edge_edge_, found.edge_edge, found.edge_edge_candidates, found);
         launcher.wait();
         return found;
     }
@@ -343,23 +383,16 @@ class step_memory {
 
   private:
     template <std::size_t N>
-    void sort_along_curve(Launcher& launcher, const elements<N>& all,
-                          buffer<std::uint32_t>& order) {
+    box_levels make_tree(Launcher& launcher, const elements<N>& all, buffer<rounded_box>& boxes) {
         keys_.resize(launcher, all.count);
-        order.resize(launcher, all.count);
-        launcher.for_each(all.count, curve_key<N>{all, rows_.data(), keys_.data(), order.data()});
-        launcher.sort(keys_.data(), order.data(), all.count);
-    }
-
-    template <std::size_t N>
-    box_levels make_tree(Launcher& launcher, const elements<N>& all, buffer<rounded_box>& boxes,
-                         buffer<std::uint32_t>& order) {
-        sort_along_curve(launcher, all, order);
+        order_.resize(launcher, all.count);
+        launcher.for_each(all.count, curve_key<N>{all, rows_.data(), keys_.data(), order_.data()});
+        launcher.sort(keys_.data(), order_.data(), all.count);
         box_levels tree(all.count);
-        boxes.resize(launcher, tree.size());
+        boxes.resize(launcher, tree.size);
         tree.boxes = boxes.data();
-        tree.order = order.data();
-        launcher.for_each(all.count, make_leaf<N>{all, rows_.data(), order.data(), boxes.data()});
+        launcher.for_each(box_levels::children * tree.packets(),
+                          make_leaf<N>{all, rows_.data(), order_.data(), boxes.data()});
         for (std::size_t level = 1; level < tree.levels; ++level)
             launcher.for_each(tree.count[level],
                               make_node{boxes.data() + tree.start[level - 1], tree.count[level - 1],
@@ -367,35 +400,62 @@ class step_memory {
         return tree;
     }
 
-    template <class Search, class Decide, class Pair>
-    std::size_t run_search(Launcher& launcher, const Search& search, std::size_t searches,
-                           const Decide& decide, buffer<Pair>& pairs, std::size_t& pair_count,
-                           std::size_t& finished_on_host) {
-        counts_.resize(launcher, searches);
-        numbers_.resize(launcher, searches + 1);
-        launcher.for_each(searches, count_candidates<Search>{search, counts_.data()});
-        launcher.exclusive_scan(count_of{counts_.data()}, numbers_.data(), searches);
-        std::uint64_t total = 0;
-        launcher.read(numbers_.data() + searches, 1, &total);
-
-        const auto at_once = static_cast<std::size_t>(std::min<std::uint64_t>(total, block_));
-        block_rows_.resize(launcher, at_once);
-        auto* const rows = reinterpret_cast<Pair*>(block_rows_.data());
-        answers_.resize(launcher, at_once);
-        pair_count = 0;
-        pairs.resize(launcher, 0);
-        for (std::uint64_t first = 0; first < total && launcher.ok(); first += at_once) {
-            const auto count =
-                static_cast<std::size_t>(std::min<std::uint64_t>(at_once, total - first));
-            launcher.for_each(
-                searches, write_candidates<Search>{search, numbers_.data(), first, count, rows});
-            finished_on_host += decide(candidates<Pair>::rows(rows, count), answers_.data(),
-                                       scene_.data(), rows_.data());
+    /// Counts candidates and collects pairs, part after part. No part has more than block_ pairs.
+    template <std::size_t A, std::size_t B, class Pair, class Decide>
+    void run_search(Launcher& launcher, candidate_filter<A, B, Pair> filter, const Decide& decide,
+                    buffer<Pair>& pairs, std::size_t& pair_count, std::size_t& candidates,
+                    found_pairs& found) {
+        packet_search& search = filter.search;
+        const std::size_t packets = search.searching.packets(), leaves = search.tree.leaves();
+        search.capacity = std::min(block_, warp::lanes * packets * leaves);
+        touching_.resize(launcher, search.capacity);
+        search.touching = touching_.data();
+        counters_.resize(launcher, 1);
+        search.counters = counters_.data();
+        colliding_.resize(launcher, 0);
+        search_part& part = search.part = {0, packets, 0, leaves};
+        while (leaves > 0 && part.packet < packets && launcher.ok()) {
+            launcher.set(search.counters, search_counters{});
+            launcher.for_each_packet(std::min(part.packets, packets - part.packet), search);
+            search_counters counted{};
+            launcher.read(search.counters, 1, &counted);
+            if (counted.touching > search.capacity) {
+                part.halve();
+                continue;
+            }
+            const auto touching = static_cast<std::size_t>(counted.touching);
+            block_rows_.resize(launcher, touching);
+            auto* const rows = reinterpret_cast<Pair*>(block_rows_.data());
+            filter.candidates = {rows, &search.counters->candidates};
+            launcher.for_each(touching, filter);
+            launcher.read(search.counters, 1, &counted);
+            const std::size_t count = counted.candidates;
+            answers_.resize(launcher, count);
+            if (count > 0)
+                found.finished_on_host += decide(cuda::candidates<Pair>::rows(rows, count),
+                                                 answers_.data(), scene_.data(), rows_.data());
             selection_.select(launcher, may_collide_at{answers_.data()}, count);
-            selection_.copy(launcher, rows, pairs, pair_count);
+            selection_.copy(launcher, block_rows_.data(), colliding_, pair_count);
             pair_count += selection_.size();
+            candidates += count;
+            part.advance(leaves, touching <= search.capacity / 2);
         }
-        return static_cast<std::size_t>(total);
+        sort_pairs(launcher, pairs, pair_count);
+    }
+
+    /// Sorts the rows of colliding_ into `pairs`.
+    template <class Pair>
+    void sort_pairs(Launcher& launcher, buffer<Pair>& pairs, std::size_t count) {
+        keys_.resize(launcher, count);
+        order_.resize(launcher, count);
+        pairs.resize(launcher, count);
+        for (const std::size_t column : {3, 2, 1, 0}) {
+            launcher.for_each(count,
+                              column_key{colliding_.data(), column, keys_.data(), order_.data()});
+            launcher.sort(keys_.data(), order_.data(), count);
+        }
+        launcher.for_each(count, copy_rows<Pair>{reinterpret_cast<const Pair*>(colliding_.data()),
+                                                 order_.data(), pairs.data()});
     }
 
     std::size_t block_;
@@ -404,10 +464,11 @@ class step_memory {
     buffer<edge> edges_;
     buffer<scene_extent> scene_;
     buffer<rounded_position> rows_;
-    buffer<rounded_box> tree_;
-    buffer<std::uint32_t> keys_, order_, search_order_, counts_;
-    buffer<std::uint64_t> numbers_;
-    buffer<std::array<vertex_index, 4>> block_rows_;
+    buffer<rounded_box> tree_, other_tree_;
+    buffer<std::uint32_t> keys_, order_;
+    buffer<leaf_pair> touching_;
+    buffer<search_counters> counters_;
+    buffer<std::array<vertex_index, 4>> block_rows_, colliding_;
     buffer<outcome> answers_;
     selection<Launcher> selection_;
     buffer<vertex_face_pair> vertex_face_;

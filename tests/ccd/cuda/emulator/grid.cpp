@@ -27,10 +27,11 @@ class work_table {
     ~work_table() {
         if (setting("PTXEMU_COUNT") == 0) return;
         for (const auto& [name, w] : kernels_)
-            std::fprintf(stderr, "%llu launches, %llu warp instructions, SIMT efficiency %.2f: %s\n",
-                        static_cast<unsigned long long>(w.launches),
-                        static_cast<unsigned long long>(w.of_warps),
-                        double(w.of_lanes) / (32 * double(w.of_warps)), name.c_str());
+            std::fprintf(stderr,
+                         "%llu launches, %llu warp instructions, SIMT efficiency %.2f: %s\n",
+                         static_cast<unsigned long long>(w.launches),
+                         static_cast<unsigned long long>(w.of_warps),
+                         double(w.of_lanes) / (32 * double(w.of_warps)), name.c_str());
     }
 
   private:

@@ -68,8 +68,9 @@ found search(Launcher& launcher, const ccd::mesh& before, const ccd::mesh& after
 
 template <class Pair>
 bool same(const std::vector<Pair>& a, const std::vector<Pair>& b) {
-    return std::ranges::equal(a, b, {}, [](const Pair& p) { return vertices_of(p); },
-                              [](const Pair& p) { return vertices_of(p); });
+    return std::ranges::equal(
+        a, b, {}, [](const Pair& p) { return vertices_of(p); },
+        [](const Pair& p) { return vertices_of(p); });
 }
 
 bool all_right = true;
