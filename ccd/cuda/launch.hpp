@@ -58,13 +58,19 @@ class warp {
         return static_cast<std::uint32_t>(std::countr_zero(mask));
 #endif
     }
+    static constexpr std::uint32_t count(std::uint32_t mask) {
+#ifdef __CUDA_ARCH__
+        return static_cast<std::uint32_t>(__popc(mask));
+#else
+        return static_cast<std::uint32_t>(std::popcount(mask));
+#endif
+    }
     /// Adds the numbers of bits that are set in all lanes' masks to *size. A lane's place becomes
     /// the old *size, plus the numbers of lower lanes. Returns the sum, the end of all places.
     static constexpr std::uint64_t append(std::uint64_t* size, per_lane<std::uint32_t>& masks,
                                           per_lane<std::uint64_t>& places) {
 #ifdef __CUDA_ARCH__
-        const std::uint32_t lane = first_lane();
-        const auto own = static_cast<std::uint32_t>(__popc(masks[lane]));
+        const std::uint32_t lane = first_lane(), own = count(masks[lane]);
         std::uint32_t sum = own;
         for (std::uint32_t distance = 1; distance < lanes; distance *= 2) {
             const std::uint32_t before = __shfl_up_sync(~0u, sum, distance);
@@ -80,7 +86,7 @@ class warp {
 #else
         each([&](std::uint32_t k) {
             places[k] = *size;
-            *size += static_cast<std::uint64_t>(std::popcount(masks[k]));
+            *size += count(masks[k]);
         });
         return *size;
 #endif

@@ -427,10 +427,10 @@ struct random_tree : ccd::cuda::detail::box_levels {
 
 TEST(device_search, finds_every_pair_of_leaves_that_touch_once) {
     std::mt19937 random(9);
-    for (const std::uint32_t m : {1U, 31U, 33U, 100U})
-        for (const std::uint32_t n : {1U, 32U, 33U, 1024U, 1025U, 2000U}) {
+    for (const std::uint32_t m : {1U, 33U, 100U})
+        for (const std::uint32_t n : {1U, 32U, 33U, 1025U}) {
             const random_tree mine(random, m), tree(random, n);
-            for (const auto* searching : {&static_cast<const random_tree&>(mine), &tree}) {
+            for (const auto* searching : {&mine, &tree}) {
                 const bool one_tree = searching == &tree;
                 std::vector<leaves> expected;
                 for (std::uint32_t i = 0; i < searching->leaves(); ++i)
