@@ -408,7 +408,7 @@ struct random_tree : ccd::cuda::detail::box_levels {
     std::vector<ccd::cuda::detail::rounded_box> memory;
 
     random_tree(std::mt19937& random, std::uint32_t leaves) : box_levels(leaves) {
-        // What follows the last box of a level must not be used.
+        // The search must not use boxes after the last one of a level.
         memory.assign(size, {{{-9, -9, -9}, 0}, {{9, 9, 9}, 0}});
         boxes = memory.data();
         for (std::uint32_t i = 0; i < nodes(leaves) * children; ++i) {

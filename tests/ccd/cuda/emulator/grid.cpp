@@ -17,7 +17,7 @@ void* resolve_in_module(lane& l, const char* function) {
     return static_cast<module*>(const_cast<void*>(l.block->module))->find_function(function);
 }
 
-/// What all launches of a kernel executed. Instructions of functions that it calls do not count.
+/// The work of all launches of a kernel, without that of the functions that it calls.
 struct work {
     u64 launches = 0, of_warps = 0, of_lanes = 0;
 };
