@@ -64,7 +64,7 @@ OTHERS = ["include/errbound/elementary.hpp", "include/errbound/functions/angle_r
           "ccd/step/box_tree.hpp", "ccd/step/search_kernels.cpp", "ccd/step/swept_boxes.hpp",
           "include/ccd/methods/bsc.hpp", "ccd/methods/bsc_exact.cpp", "ccd/exact/finite.hpp", "ccd/contact/curves.cpp",
           "ccd/contact/first_times.cpp", "ccd/contact/data/contact_data.cpp", "ccd/cuda/exact_stages.hpp",
-          "ccd/cuda/step.hpp"]
+          "ccd/cuda/packet_search.hpp"]
 
 
 def functions(path):

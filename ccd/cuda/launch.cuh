@@ -28,6 +28,13 @@ __global__ void __launch_bounds__(block_threads) run_for_each(const Body body, s
     if (i < n) body(static_cast<std::uint32_t>(i));
 }
 
+template <class Body>
+__global__ void __launch_bounds__(block_threads)
+    run_for_each_packet(const Body body, std::size_t n) {
+    const std::size_t i = (std::size_t(blockIdx.x) * blockDim.x + threadIdx.x) / warp::lanes;
+    if (i < n) body(static_cast<std::uint32_t>(i));
+}
+
 /// The resident blocks process the items in a loop, since only the device has their number.
 template <class Body>
 __global__ void __launch_bounds__(block_threads) run_for_each_queued(const Body body, queue items) {
@@ -97,9 +104,11 @@ class device_launcher {
 
     template <class Body>
     void for_each(std::size_t n, const Body& body) {
-        if (!ok() || n == 0) return;
-        const auto blocks = static_cast<unsigned>((n + block_threads - 1) / block_threads);
-        launch(run_for_each<Body>, blocks, block_threads, body, n);
+        for_each_thread(n, run_for_each<Body>, body, n);
+    }
+    template <class Body>
+    void for_each_packet(std::size_t n, const Body& body) {
+        for_each_thread(warp::lanes * n, run_for_each_packet<Body>, body, n);
     }
     template <class Body>
     void for_each_queued(const queue& items, const Body& body) {
@@ -172,6 +181,12 @@ class device_launcher {
     }
 
   private:
+    template <class Body>
+    void for_each_thread(std::size_t threads, void (*kernel)(Body, std::size_t), const Body& body,
+                         std::size_t n) {
+        const auto blocks = static_cast<unsigned>((threads + block_threads - 1) / block_threads);
+        if (n > 0) launch(kernel, blocks, block_threads, body, n);
+    }
     template <class... Parameters, class... Arguments>
     void launch(void (*kernel)(Parameters...), unsigned blocks, unsigned threads,
                 const Arguments&... arguments) {

@@ -6,6 +6,7 @@
 #pragma once
 
 #include <algorithm>
+#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <utility>
@@ -13,12 +14,103 @@
 
 namespace ccd::cuda::detail {
 
-struct queue {
-    std::uint32_t* items;
+/// The 32 lanes of a warp. On the host, loops over the lanes take their place. All lanes call each
+/// function together.
+class warp {
+  public:
+    static constexpr std::uint32_t lanes = 32;
+#ifdef __CUDA_ARCH__
+    static constexpr std::uint32_t lanes_here = 1;  ///< lanes that this thread runs
+#else
+    static constexpr std::uint32_t lanes_here = lanes;
+#endif
+
+    /// Calls f(lane) for each lane.
+    template <class F>
+    static constexpr void each(const F& f) {
+        for (std::uint32_t i = 0; i < lanes_here; ++i) f(first_lane() + i);
+    }
+    /// Bit k of the result is f(k).
+    template <class F>
+    static constexpr std::uint32_t ballot(const F& f) {
+#ifdef __CUDA_ARCH__
+        return __ballot_sync(~0u, f(first_lane()));
+#else
+        std::uint32_t bits = 0;
+        each([&](std::uint32_t k) { bits |= std::uint32_t{f(k)} << k; });
+        return bits;
+#endif
+    }
+    /// A value of each lane, which only the lane itself uses.
+    template <class T>
+    class per_lane {
+      public:
+        constexpr T& operator[](std::uint32_t lane) { return values_[lane % lanes_here]; }
+
+      private:
+        T values_[lanes_here]{};
+    };
+    /// The number of the lowest bit that is set. Precondition: mask != 0.
+    static constexpr std::uint32_t lowest(std::uint32_t mask) {
+#ifdef __CUDA_ARCH__
+        return static_cast<std::uint32_t>(__clz(static_cast<int>(__brev(mask))));
+#else
+        return static_cast<std::uint32_t>(std::countr_zero(mask));
+#endif
+    }
+    static constexpr std::uint32_t count(std::uint32_t mask) {
+#ifdef __CUDA_ARCH__
+        return static_cast<std::uint32_t>(__popc(mask));
+#else
+        return static_cast<std::uint32_t>(std::popcount(mask));
+#endif
+    }
+    /// Adds the numbers of bits that are set in all lanes' masks to *size. A lane's place becomes
+    /// the old *size, plus the numbers of lower lanes. Returns the sum, the end of all places.
+    static constexpr std::uint64_t append(std::uint64_t* size, per_lane<std::uint32_t>& masks,
+                                          per_lane<std::uint64_t>& places) {
+#ifdef __CUDA_ARCH__
+        const std::uint32_t lane = first_lane(), own = count(masks[lane]);
+        std::uint32_t sum = own;
+        for (std::uint32_t distance = 1; distance < lanes; distance *= 2) {
+            const std::uint32_t before = __shfl_up_sync(~0u, sum, distance);
+            sum += lane >= distance ? before : 0;
+        }
+        unsigned long long end = 0;
+        if (lane == lanes - 1)
+            end = sum + atomicAdd(reinterpret_cast<unsigned long long*>(size),
+                                  static_cast<unsigned long long>(sum));
+        end = __shfl_sync(~0u, end, lanes - 1);
+        places[lane] = end - (__shfl_sync(~0u, sum, lanes - 1) - sum) - own;
+        return end;
+#else
+        each([&](std::uint32_t k) {
+            places[k] = *size;
+            *size += count(masks[k]);
+        });
+        return *size;
+#endif
+    }
+
+    /// The lane of this thread; 0 on the host.
+    static constexpr std::uint32_t first_lane() {
+#ifdef __CUDA_ARCH__
+        std::uint32_t lane;
+        asm("mov.u32 %0, %%laneid;" : "=r"(lane));
+        return lane;
+#else
+        return 0;
+#endif
+    }
+};
+
+template <class T>
+struct queue_of {
+    T* items;
     std::uint32_t* size;
 
     /// Any thread may push.
-    constexpr void push(std::uint32_t item) const {
+    constexpr void push(const T& item) const {
 #ifdef __CUDA_ARCH__
         items[atomicAdd(size, 1u)] = item;
 #else
@@ -26,6 +118,7 @@ struct queue {
 #endif
     }
 };
+using queue = queue_of<std::uint32_t>;
 
 /// A time that all threads share and that only decreases.
 class shared_time {
@@ -83,6 +176,7 @@ class arena {
 /// * buffer<T>: memory for bodies, with data(), size(), extend(launcher, n) and
 ///   resize(launcher, n), which may drop contents
 /// * for_each(n, body): body(i) for all i < n, in any order
+/// * for_each_packet(n, body): body(i) for all i < n, in any order, each by the lanes of a warp
 /// * for_each_queued(queue, body): body(item) for all items in the queue
 /// * set(p, value): *p = value, in the order of the other work
 /// * reduce(n, of, combine, start, r): *r = combination of all of(i) and `start`
@@ -113,6 +207,10 @@ class host_launcher {
         // Bodies must not depend on the order: the second half comes first.
         for (std::size_t i = n / 2; i < n; ++i) body(static_cast<std::uint32_t>(i));
         for (std::size_t i = 0; i < n / 2; ++i) body(static_cast<std::uint32_t>(i));
+    }
+    template <class Body>
+    void for_each_packet(std::size_t n, const Body& body) const {
+        for_each(n, body);
     }
     template <class Body>
     void for_each_queued(const queue& items, const Body& body) const {

@@ -18,6 +18,7 @@
 #include <limits>
 #include <random>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 #include "ccd/cuda/exact_stages.hpp"
@@ -376,33 +377,75 @@ TEST(device_select, lists_what_may_collide_and_never_drops_one_silently) {
     EXPECT_EQ(count, 0u);
 }
 
-TEST(device_tree, finds_every_leaf_that_touches_once) {
-    std::mt19937 random(9);
-    const auto unit = [&] { return static_cast<float>(random() % 1000) / 500 - 1; };
-    for (const std::size_t leaves : {0U, 1U, 2U, 7U, 8U, 9U, 63U, 64U, 65U, 512U, 513U, 1000U}) {
-        ccd::cuda::detail::box_levels tree(leaves);
-        std::vector<ccd::cuda::detail::rounded_box> boxes(tree.size() + 1);
-        for (std::size_t i = 0; i < leaves; ++i)
-            for (std::size_t k = 0; k < 3; ++k) {
-                const float x = unit();
-                boxes[i].low[k] = x;
-                boxes[i].high[k] = x + 0.3f;
-            }
-        tree.boxes = boxes.data();
-        for (std::size_t level = 1; level < tree.levels; ++level)
-            for (std::size_t i = 0; i < tree.count[level]; ++i)
-                ccd::cuda::detail::make_node{
-                    &boxes[tree.start[level - 1]], tree.count[level - 1],
-                    &boxes[tree.start[level]]}(static_cast<std::uint32_t>(i));
-        for (std::size_t first = 0; first <= leaves; first += 1 + leaves / 5) {
-            const ccd::cuda::detail::rounded_box b{{-0.1f, -0.2f, 0.1f}, {0.2f, 0.3f, 0.4f}};
-            std::vector<std::uint32_t> found, expected;
-            tree.find(b, first, [&](std::uint32_t i) { found.push_back(i); });
-            for (std::size_t i = first; i < leaves; ++i)
-                if (boxes[i].touches(b)) expected.push_back(static_cast<std::uint32_t>(i));
-            EXPECT_EQ(found, expected) << leaves << " leaves from " << first;
+using leaves = std::pair<std::uint32_t, std::uint32_t>;
+
+/// Runs all parts of a search, and returns the pairs that it queues.
+std::vector<leaves> search_in_parts(ccd::cuda::detail::packet_search search, std::size_t packets,
+                                    ccd::cuda::detail::search_part part) {
+    host_launcher launcher;
+    ccd::cuda::detail::search_counters counters{};
+    std::vector<ccd::cuda::detail::leaf_pair> touching(search.capacity);
+    std::vector<leaves> found;
+    search.touching = touching.data();
+    search.counters = &counters;
+    while (part.packet < packets) {
+        search.part = part;
+        counters = {};
+        launcher.for_each_packet(std::min(part.packets, packets - part.packet), search);
+        if (counters.touching > search.capacity) {
+            part.halve();
+            continue;
         }
+        for (std::size_t i = 0; i < counters.touching; ++i)
+            found.emplace_back(touching[i].first, touching[i].second);
+        part.advance(search.tree.leaves(), true);
     }
+    std::ranges::sort(found);
+    return found;
+}
+
+struct random_tree : ccd::cuda::detail::box_levels {
+    std::vector<ccd::cuda::detail::rounded_box> memory;
+
+    random_tree(std::mt19937& random, std::uint32_t leaves) : box_levels(leaves) {
+        // The search must not use boxes after the last one of a level.
+        memory.assign(size, {{{-9, -9, -9}, 0}, {{9, 9, 9}, 0}});
+        boxes = memory.data();
+        for (std::uint32_t i = 0; i < nodes(leaves) * children; ++i) {
+            auto& b = memory[i] = ccd::cuda::detail::rounded_box::nowhere();
+            for (std::size_t k = 0; k < 3 && i < leaves; ++k) {
+                b.low.at[k] = static_cast<float>(random() % 1000) / 500 - 1;
+                b.high.at[k] = b.low.at[k] + 0.3f;
+            }
+        }
+        for (std::size_t level = 1; level < levels; ++level)
+            for (std::uint32_t i = 0; i < count[level]; ++i)
+                ccd::cuda::detail::make_node{&memory[start[level - 1]], count[level - 1],
+                                             &memory[start[level]]}(i);
+    }
+};
+
+TEST(device_search, finds_every_pair_of_leaves_that_touch_once) {
+    std::mt19937 random(9);
+    for (const std::uint32_t m : {1U, 33U, 100U})
+        for (const std::uint32_t n : {1U, 32U, 33U, 1025U}) {
+            const random_tree mine(random, m), tree(random, n);
+            for (const auto* searching : {&mine, &tree}) {
+                const bool one_tree = searching == &tree;
+                std::vector<leaves> expected;
+                for (std::uint32_t i = 0; i < searching->leaves(); ++i)
+                    for (std::uint32_t j = one_tree ? i + 1 : 0; j < n; ++j)
+                        if (searching->memory[i].touches(tree.memory[j]))
+                            expected.emplace_back(i, j);
+                const std::size_t packets = searching->packets();
+                for (const std::size_t capacity : {32U, 1000U, 4096 * n})
+                    EXPECT_EQ(
+                        search_in_parts({*searching, tree, one_tree, nullptr, capacity, nullptr},
+                                        packets, {0, packets, 0, n}),
+                        expected)
+                        << m << " and " << n << " leaves, capacity " << capacity;
+            }
+        }
 }
 
 void expect_step_as_on_host(const ccd::mesh& before, const ccd::mesh& after, std::size_t block) {
@@ -418,7 +461,7 @@ TEST(device_step, finds_the_pairs_of_a_scene) {
     const ccd::mesh after = ccd::io::read_mesh(scene / "frame1.ply");
     EXPECT_FALSE(ccd::step(before, after).pairs.vertex_face.empty());
     expect_step_as_on_host(before, after, cuda_on_host::default_block);
-    expect_step_as_on_host(before, after, 1000);  // blocks that end within an element's candidates
+    expect_step_as_on_host(before, after, 1000);
 }
 
 TEST(device_step, finds_the_pairs_of_soups_on_a_grid) {
@@ -439,6 +482,62 @@ TEST(device_step, finds_the_pairs_of_soups_on_a_grid) {
         for (ccd::mesh* m : {&before, &after})
             for (std::size_t i = 0; i < 50; ++i) m->vertices[i].x += 1e12;
         expect_step_as_on_host(before, after, 1 << 20);
+    }
+}
+
+/// `faces` faces of three vertices each, all of which touch each other.
+ccd::mesh heap_of(std::size_t faces) {
+    std::mt19937_64 random(faces);
+    const auto coordinate = [&random] { return static_cast<double>(random() % 9); };
+    ccd::mesh m;
+    for (ccd::vertex_index v = 0; v < 3 * faces; v += 3) {
+        m.vertices.insert(m.vertices.end(),
+                          {{0, 0, coordinate()}, {9, coordinate(), 9}, {coordinate(), 9, 0}});
+        m.faces.push_back({v, v + 1, v + 2});
+    }
+    return m;
+}
+
+// The numbers of faces and edges around those of packets; blocks that hold a part of a packet's
+// pairs, or a part of those of a packet and a leaf's neighbours.
+TEST(device_step, finds_the_pairs_of_heaps_of_every_size) {
+    for (const std::size_t faces : {1U, 10U, 11U, 32U, 33U, 65U}) {
+        const ccd::mesh before = heap_of(faces);
+        ccd::mesh after = before;
+        for (auto& p : after.vertices) p = {p.y, p.z, p.x};
+        for (const std::size_t block :
+             {std::size_t(7), std::size_t(1000), cuda_on_host::default_block})
+            expect_step_as_on_host(before, after, block);
+    }
+}
+
+// In smaller blocks, candidates come in another order.
+TEST(device_step, gives_pairs_in_order) {
+    const ccd::mesh before = heap_of(50);
+    ccd::mesh after = before;
+    for (auto& p : after.vertices) p = {p.y, p.z, p.x};
+    host_launcher launcher;
+    const auto all = [&]<class Pair>(const candidates<Pair>& block, outcome* answers,
+                                     ccd::cuda::detail::scene_extent*,
+                                     ccd::cuda::detail::rounded_position*) -> std::size_t {
+        std::fill_n(answers, block.count, outcome::collides);
+        return 0;
+    };
+    for (const std::size_t block :
+         {std::size_t(32), std::size_t(1000), cuda_on_host::default_block}) {
+        ccd::cuda::detail::step_memory<host_launcher> memory(block);
+        memory.set_mesh(launcher, before.vertices.size(), before.faces,
+                        ccd::unique_edges(before.faces));
+        const auto found = memory.run(launcher, positions_of({before, after}), all);
+        const auto expect_in_order = [](const auto* pairs, std::size_t count,
+                                        std::size_t expected) {
+            EXPECT_EQ(count, expected);
+            EXPECT_GT(count, 100U);
+            EXPECT_TRUE(std::is_sorted(pairs, pairs + count));
+        };
+        expect_in_order(memory.vertex_face().data(), found.vertex_face,
+                        found.vertex_face_candidates);
+        expect_in_order(memory.edge_edge().data(), found.edge_edge, found.edge_edge_candidates);
     }
 }
 

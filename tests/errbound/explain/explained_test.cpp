@@ -36,13 +36,11 @@ using errbound::tracked;
 constexpr double rounded = 20 * std::numeric_limits<double>::epsilon();
 
 /// The elementary functions of one number that are defined at 0.6.
-#define ELEMENTARY_FUNCTIONS(DO)                                                             \
-    DO(exp)                                                                                  \
-    DO(exp2)                                                                                 \
-    DO(expm1)                                                                                \
-    DO(log)                                                                                  \
-    DO(log2) DO(log10) DO(log1p) DO(sin) DO(cos) DO(tan) DO(asin) DO(acos) DO(atan) DO(sinh) \
-        DO(cosh) DO(tanh) DO(asinh) DO(atanh) DO(cbrt)
+// clang-format off
+#define ELEMENTARY_FUNCTIONS(DO) \
+    DO(exp) DO(exp2) DO(expm1) DO(log) DO(log2) DO(log10) DO(log1p) DO(sin) DO(cos) DO(tan) \
+    DO(asin) DO(acos) DO(atan) DO(sinh) DO(cosh) DO(tanh) DO(asinh) DO(atanh) DO(cbrt)
+// clang-format on
 
 const char* const scope_names[] = {"first", "second", "third", "fourth"};
 

@@ -2,6 +2,7 @@
 // the smallest block index advance, so that lanes that diverged meet again where the compiler
 // expects it.
 #include <algorithm>
+#include <cstdio>
 #include <numeric>
 #include <random>
 
@@ -16,10 +17,33 @@ void* resolve_in_module(lane& l, const char* function) {
     return static_cast<module*>(const_cast<void*>(l.block->module))->find_function(function);
 }
 
+/// The work of all launches of a kernel, without that of the functions that it calls.
+struct work {
+    u64 launches = 0, of_warps = 0, of_lanes = 0;
+};
+class work_table {
+  public:
+    work& of(const launch& l) { return kernels_[l.code->name]; }
+    ~work_table() {
+        if (setting("PTXEMU_COUNT") == 0) return;
+        for (const auto& [name, w] : kernels_)
+            std::fprintf(stderr,
+                         "%llu launches, %llu warp instructions, SIMT efficiency %.2f: %s\n",
+                         static_cast<unsigned long long>(w.launches),
+                         static_cast<unsigned long long>(w.of_warps),
+                         double(w.of_lanes) / (32 * double(w.of_warps)), name.c_str());
+    }
+
+  private:
+    std::map<std::string, work> kernels_;
+};
+work_table executed;
+
 class block_runner {
   public:
     explicit block_runner(launch& l)
         : code_(*l.code),
+          work_(executed.of(l)),
           threads_(l.block[0] * l.block[1] * l.block[2]),
           warps_((threads_ + 31) / 32),
           registers_(warps_.size() * 32 * code_.register_bytes / 16 + 4),
@@ -34,6 +58,7 @@ class block_runner {
         block_.memory = &memory().map();
         block_.module = l.of;
         block_.resolve = resolve_in_module;
+        ++work_.launches;
     }
 
     void run(u32 x, u32 y, u32 z) {
@@ -109,11 +134,17 @@ class block_runner {
         }
     }
 
+    void run_lanes(warp& w, const block& b, u32 lanes) {
+        b.run(w, lanes);
+        work_.of_warps += lanes != 0 ? b.instructions : 0;
+        work_.of_lanes += b.instructions * u64(std::popcount(lanes));
+    }
+
     /// Runs the block for the present lanes, unless one of them must wait.
     bool advance(warp& w, const block& b, u32 here, u32 running) {
         if (b.kind == block_kind::barrier) return false;
         if (b.kind != block_kind::warp) {
-            b.run(w, here);
+            run_lanes(w, b, here);
             return true;
         }
         bool advanced = false;
@@ -128,7 +159,7 @@ class block_runner {
                 if ((b.key(w, other) & w.existing) != mask)
                     fail(w.lanes[i], "lanes meet with different masks", mask, 0, b.line);
             });
-            b.run(w, mask & running);
+            run_lanes(w, b, mask & running);
             advanced = true;
         });
         return advanced;
@@ -149,10 +180,11 @@ class block_runner {
         if (b.test != nullptr)
             for (warp& w : warps_)
                 for_lanes(lanes_at(w, at), [&](u32 i) { block_.any_true |= b.test(w, i) != 0; });
-        for (warp& w : warps_) b.run(w, lanes_at(w, at));
+        for (warp& w : warps_) run_lanes(w, b, lanes_at(w, at));
     }
 
     const kernel& code_;
+    work& work_;
     u32 threads_;
     thread_block block_{};
     std::vector<warp> warps_;

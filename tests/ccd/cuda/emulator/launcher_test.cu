@@ -1,6 +1,7 @@
-// Compares device_launcher, CUB included, with the host: loops, queues, scans, reductions, sorting,
-// memory.
+// Compares device_launcher, CUB included, with the host: loops, queues, warps, scans, reductions,
+// sorting, memory.
 #include <algorithm>
+#include <bit>
 #include <cstdio>
 #include <random>
 #include <vector>
@@ -29,6 +30,22 @@ struct push_next_of_odd {
     queue q;
     constexpr void operator()(u32 i) const {
         if (i & 1) q.push(i + 1);
+    }
+};
+/// Lane k of packet p has the bits of p + k, and writes its number once for each bit.
+struct append_bits {
+    u32 *ballots, *to;
+    u64* size;
+    constexpr void operator()(u32 packet) const {
+        warp::per_lane<u32> masks;
+        warp::per_lane<u64> places;
+        warp::each([&](u32 lane) { masks[lane] = packet + lane; });
+        ballots[packet] = warp::ballot([&](u32 lane) { return masks[lane] % 3 == 0; });
+        warp::append(size, masks, places);
+        warp::each([&](u32 lane) {
+            for (u32 k = 0; k < warp::count(masks[lane]); ++k)
+                to[places[lane] + k] = packet * warp::lanes + lane;
+        });
     }
 };
 struct lower {
@@ -86,6 +103,27 @@ void loops_and_queues(std::size_t n) {
     expect(found_second == expected_second, "for_each_queued", n);
 }
 
+void packets(std::size_t n) {
+    std::vector<u32> expected_ballots(n), expected;
+    for (u32 i = 0; i < n * warp::lanes; ++i) {
+        const u32 mask = i / warp::lanes + i % warp::lanes;
+        expected_ballots[i / warp::lanes] |= u32{mask % 3 == 0} << i % warp::lanes;
+        expected.insert(expected.end(), std::popcount(mask), i);
+    }
+    buffer<u32> ballots, items;
+    buffer<u64> size;
+    ballots.resize(launcher, n), items.resize(launcher, expected.size());
+    copy(size, std::vector<u64>{0});
+    launcher.for_each_packet(n, append_bits{ballots.data(), items.data(), size.data()});
+    auto found = read(items.data(), expected.size());
+    const auto end = std::ranges::adjacent_find(
+        found, [](u32 a, u32 b) { return a / warp::lanes == b / warp::lanes && a > b; });
+    expect(end == found.end(), "order of lanes", n);
+    std::ranges::sort(found);
+    expect(found == expected && read(size.data(), 1)[0] == expected.size(), "append", n);
+    expect(read(ballots.data(), n) == expected_ballots, "ballot", n);
+}
+
 void scans_and_reductions(std::size_t n) {
     std::vector<u64> values(n), sums(n + 1);
     for (u64& v : values) v = random_bits() >> 31;  // sums exceed 2^32
@@ -135,6 +173,7 @@ int main() {
         scans_and_reductions(n);
         for (const u64 different_keys : {u64(1), u64(3), u64(1) << 32}) sorting(n, different_keys);
         least_time(n);
+        packets(n / 30);
     }
     if (!launcher.ok()) std::printf("%s\n", launcher.result().error.c_str()), all_right = false;
     std::printf("%s\n", all_right ? "the launcher agrees with the host" : "FAILED");

@@ -71,6 +71,7 @@ struct block {
     block_kind kind;
     u32 (*key)(warp&, u32 lane);   ///< the mask of lanes or the barrier's number
     u32 (*test)(warp&, u32 lane);  ///< the predicate of a barrier that reduces
+    u32 instructions;
     int line;
     const char* text;
 };

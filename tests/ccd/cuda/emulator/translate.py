@@ -71,7 +71,8 @@ class Kernel:
                 kind, key, test = self.meeting(index, block[0])
             else:
                 self.plain(index, block)
-            table.append(f'{{block{index}, block_kind::{kind}, {key}, {test}, {block[0].line}, "{block[0].text}"}},')
+            table.append(f'{{block{index}, block_kind::{kind}, {key}, {test}, {len(block)}, {block[0].line}, '
+                         f'"{block[0].text}"}},')
         function, writer = self.writer.function, self.writer
         parameters = ", ".join(f"{{{writer.parameters[v.name]}, {v.bytes}}}" for v in function.parameters)
         return [*self.lines, "const block blocks[] = {", *table, "};",
