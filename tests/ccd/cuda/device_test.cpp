@@ -37,6 +37,9 @@ class on_device : public testing::Test {
 };
 
 template <class Pair>
+constexpr auto name_of = ccd::kind_traits<ccd::kind_of<Pair>>::short_name;
+
+template <class Pair>
 batch<Pair> difficult() {
     return cuda_sets::of_families<Pair>(support::scaled(2000u), 21);
 }
@@ -49,7 +52,9 @@ void expect_same(const batch<Pair>& set, ccd::method m, precision p,
     ASSERT_TRUE(s) << s.error;
     std::size_t differ = 0;
     for (std::size_t i = 0; i < set.size(); ++i) differ += found[i] != expected[i];
-    EXPECT_EQ(differ, 0u) << info(m).name << " of " << set.size() << " queries";
+    std::cout << name_of<Pair> << ' ' << info(m).name << (p == precision::float32 ? " float32" : "")
+              << ": " << differ << " of " << set.size() << " differ\n";
+    EXPECT_EQ(differ, 0u);
 }
 
 template <class Pair>
@@ -64,7 +69,6 @@ void expect_all_methods_same(const batch<Pair>& set) {
         expect_same(set, m, precision::float64, cuda_on_host::decide_by<Method, double>(at, all));
         expect_same(set, m, precision::float32, cuda_on_host::decide_by<Method, float>(at, all));
     });
-    std::cout << set.size() << " queries by every method\n";
 }
 
 TEST_F(on_device, decides_difficult_queries_as_the_host_does) {
@@ -88,7 +92,9 @@ void expect_same_times(const batch<Pair>& set) {
         const auto expected = ccd::first_times(set.queries, {.t_max = t_max});
         std::size_t differ = 0;
         for (std::size_t i = 0; i < set.size(); ++i) differ += found[i] != expected[i];
-        EXPECT_EQ(differ, 0u) << "until " << t_max << " of " << set.size() << " queries";
+        std::cout << name_of<Pair> << " times until " << t_max << ": " << differ << " of "
+                  << set.size() << " differ\n";
+        EXPECT_EQ(differ, 0u);
     }
 }
 
@@ -116,6 +122,10 @@ void expect_same_step(const ccd::mesh& before, const ccd::mesh& after,
     EXPECT_EQ(found.times, expected.times);
     EXPECT_EQ(found.touching_at_start, expected.touching_at_start);
     EXPECT_EQ(found.first_contact, expected.first_contact);
+    std::cout << before.faces.size() << " faces, " << info(options.method).name << ": "
+              << expected.candidates->vertex_face + expected.candidates->edge_edge
+              << " candidates, "
+              << expected.pairs.vertex_face.size() + expected.pairs.edge_edge.size() << " pairs\n";
 }
 
 TEST_F(on_device, finds_the_pairs_and_times_of_a_step) {
