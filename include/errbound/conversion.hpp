@@ -1,11 +1,8 @@
-// Converts tracked numbers to another number type, with the conversion's loss in their bounds.
-//
+// Converts tracked numbers to another number type. The bound includes the conversion's error.
 //   const errbound::tracked<double> x = ...;
-//   errbound::convert<float>(x);                        // same rule
+//   errbound::convert<float>(x);                                // same rule
 //   errbound::convert<errbound::bfloat16, errbound::sharp>(x);  // another rule
-//
-// The bound |value() − x| <= error() is passed on by `within`. A number that the new type holds
-// exactly keeps its value and bound.
+// Uses only |value() − x| <= error(). A number that the new type holds keeps its value and bound.
 #pragma once
 
 #include <bit>
@@ -39,8 +36,8 @@ constexpr auto type_of_both() {
 template <class From, class To>
 using wider_of = decltype(type_of_both<From, To>());
 
-/// x, or the neighbouring double whose last bit is 1 if x is no double. Rounding that to nearest
-/// with fewer than 52 bits rounds x (Boldo, Melquiond 2008).
+/// x, or the neighbouring double whose last bit is 1 if x is no double. Rounding this double to
+/// nearest, to fewer than 52 bits, rounds x (Boldo, Melquiond 2008).
 template <class Wide>
 constexpr double rounded_to_odd(const Wide& x) {
     const auto nearest = static_cast<double>(x);
@@ -73,9 +70,8 @@ constexpr To rounded_up(const Wide& x) {
 
 }  // namespace detail
 
-/// x in the number type To, rounded once to nearest. The error is infinite if that overflows.
-///
-/// With v = fl(x̂): |v − x| <= |v − x̂| + e. v − x̂ is exact in a type that holds both, as a
+/// x in the number type To, rounded once to nearest. The error is infinite if that overflows. With
+/// v = fl(x̂): |v − x| <= |v − x̂| + e. v − x̂ is exact in a type that holds both, because it is a
 /// multiple of x̂'s last place no larger than x̂. The sum is rounded once there, (1 + 2ε)(1 − ε) >=
 /// 1 for ε <= 1/2, and up to To.
 template <class To, class NewRule = void, class From, class Rule>

@@ -8,10 +8,10 @@
 
 namespace errbound {
 
-/// std::ldexp and std::frexp for constant expressions, where some compilers' do not work.
+/// std::ldexp and std::frexp, in constant expressions, where some compilers' do not work.
 namespace detail {
 
-/// x·2^e in steps. At most one step rounds to a nonzero number, as any further step gives 0.
+/// At most one step rounds to a nonzero number, as any further step gives 0.
 template <class T>
 constexpr T scaled_by_steps(const T& x, int e) {
     constexpr int most = std::numeric_limits<T>::max_exponent, step = most - most / 8;
@@ -34,7 +34,6 @@ constexpr int exponent_by_steps(const T& x) {
     return e;
 }
 
-/// True if fma of this type is an instruction, not a call of the C library.
 template <class T>
 inline constexpr bool fma_is_instruction =
 #if defined(__FP_FAST_FMA) || defined(__FMA__) || defined(__AVX512F__) || defined(__CUDA_ARCH__)
@@ -57,11 +56,11 @@ struct number_traits {
                       std::numeric_limits<T>::round_style == std::round_to_nearest,
                   "errbound: numbers must be binary, of fixed precision, and rounded to nearest");
 
-    /// Largest relative error of one rounding in any direction: ε = 2u.
+    /// ε = 2u, the largest relative error of one rounding in any direction.
     static constexpr T epsilon() { return std::numeric_limits<T>::epsilon(); }
-    /// Largest relative error of one rounding to nearest: u = ε/2.
+    /// u, the largest relative error of one rounding to nearest.
     static constexpr T unit_roundoff() { return epsilon() / 2; }
-    /// Smallest positive number η: an operation that underflows is off by less than this.
+    /// η, the smallest positive number. An operation that underflows is off by less than this.
     static constexpr T underflow_unit() {
         // Boost.Multiprecision's denorm_min is 0 if there are no subnormal numbers.
         if constexpr (has_subnormals)
@@ -75,22 +74,21 @@ struct number_traits {
     static constexpr T infinity() { return std::numeric_limits<T>::infinity(); }
     static constexpr bool has_infinity = std::numeric_limits<T>::has_infinity;
     static constexpr int max_exponent = std::numeric_limits<T>::max_exponent;
-    /// 2^(min_exponent − 1) is the smallest normal number; 2^max_exponent is just too large. (The
-    /// limits of Boost's cpp_bin_float are one less for both.)
+    /// 2^(min_exponent − 1) is the smallest normal number, 2^max_exponent just too large. (Both
+    /// limits of Boost's cpp_bin_float are one less.)
     static constexpr int min_exponent = std::numeric_limits<T>::min_exponent;
-    /// True if there are subnormal numbers. If not, any operation that underflows, even a sum, is
-    /// off by less than the smallest normal number, which is then the underflow unit.
+    /// If false, η is the smallest normal number, and even sums may underflow.
     static constexpr bool has_subnormals = [] {
         if constexpr (std::is_floating_point_v<T>)
             return true;
         else
             return std::numeric_limits<T>::has_denorm == std::denorm_present;
     }();
-    /// The precision p: bits of a normal number's significand, ε = 2^(1−p).
+    /// The precision p in bits.
     static constexpr int digits = std::numeric_limits<T>::digits;
 
     static constexpr T abs(const T& x) {
-        // fabs is one instruction. The comparison takes more, as it keeps the sign of a zero.
+        // One instruction. The comparison takes more, as it keeps the sign of a zero.
         if constexpr (std::is_floating_point_v<T>)
             if (!std::is_constant_evaluated()) return std::fabs(x);
         return x < 0 ? -x : x;
@@ -141,8 +139,7 @@ struct number_traits {
     }
 };
 
-/// True if T has infinities, or if its custom number_traits does not define has_infinity. A type
-/// without infinities overflows to NaN, and its `max` passes NaN on.
+/// True if T has infinities (the default). Otherwise overflow gives NaN, and `max` passes NaN on.
 template <class T>
 inline constexpr bool has_infinity = [] {
     if constexpr (requires { number_traits<T>::has_infinity; })
@@ -153,8 +150,7 @@ inline constexpr bool has_infinity = [] {
 
 namespace detail {
 
-/// The type in which T's operations are computed before they are rounded to T: T, unless its
-/// number_traits has a type computed_in.
+/// The type in which T's operations are computed before they are rounded to T; T by default.
 template <class T>
 struct type_that_computes {
     using type = T;
@@ -169,7 +165,7 @@ struct type_that_computes<T> {
 
 }  // namespace detail
 
-/// True if T has subnormal numbers, or if its custom number_traits does not define has_subnormals.
+/// True if T has subnormal numbers (the default).
 template <class T>
 inline constexpr bool has_subnormals = [] {
     if constexpr (requires { number_traits<T>::has_subnormals; })

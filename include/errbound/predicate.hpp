@@ -1,13 +1,12 @@
 // Predicates: an expression, written once, whose sign is right on every finite input.
-//
 //   inline constexpr auto orient2d = errbound::predicate<errbound::points<2, 2, 2>>(
 //       [](const auto& a, const auto& b, const auto& c) {
 //           return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
 //       });
 //   errbound::sign_type s = orient2d(p, q, r);  // arrays, spans, Eigen vectors, structs of x, y, z
 //
-// The sign is never wrong, overflow and underflow included. It is `uncertain` only if a coordinate
-// is not finite. Needs rounding to nearest and gradual underflow (errbound/environment.hpp). No
+// The sign is never wrong, overflow and underflow included, and `uncertain` only if a coordinate is
+// not finite. Needs rounding to nearest and gradual underflow (errbound/environment.hpp). No
 // exceptions, no global state, no allocation. See predicate() for rules, stages and cost.
 #pragma once
 
@@ -43,20 +42,19 @@ struct points {
     }
 };
 
-/// The defaults; derive from them to change some.
+/// The defaults. Derive from them to change some.
 struct predicate_options {
-    /// Bound rule of the tracked stage, which computes with tracked numbers; void: no such stage.
+    /// Bound rule of the tracked stage; void: no such stage.
     using tracked_rule = void;
-    /// Exact number type of the last stage, constructible from double; void: long_integer. For
-    /// Boost.Multiprecision's types see predicate_type::value.
+    /// Exact number type of the last stage, constructible from double; void: long_integer.
     using exact_type = void;
     /// True if terms of different degree are never added, so scaling by powers of two keeps signs.
-    /// Needed only if the expression has too many branches for the compiler to detect this. A false
-    /// claim does not compile.
+    /// Needed only if the expression has too many branches to detect this. False claims do not
+    /// compile.
     static constexpr bool homogeneous = false;
-    /// One degree per coordinate in the shape's order, if some are not 1. Example: points<3, 3> of
-    /// x, y and a squared radius have {1, 1, 2, 1, 1, 2}. Terms of different total degree must not
-    /// be added; a false claim does not compile. Coordinates far from 1 are then scaled.
+    /// One degree per coordinate in the shape's order, if some are not 1, such as {1, 1, 2, 1, 1,
+    /// 2} for points<3, 3> of x, y and a squared radius. Terms of different total degree must not
+    /// be added; false claims do not compile. Coordinates far from 1 are then scaled.
     static constexpr std::array<int, 0> degrees{};
 };
 
@@ -98,11 +96,11 @@ class predicate_type {
     using shape = Shape;
     using options = Options;
 
-    /// Counts of the expression; its bits are those for coordinates of 61 bits (one 64-bit word).
+    /// The expression's counts, its bits for coordinates of 61 bits (one 64-bit word).
     static constexpr filters::expression_counts counts = stages::counts;
-    /// The static filter's constant. A sign is certain if |value| exceeds the constant times the
-    /// size, which is the value with every term positive (filters/static_filter.hpp). If the
-    /// expression evaluates several signs, this is the largest of their constants.
+    /// The static filter's constant, the largest if the expression evaluates several signs. A sign
+    /// is certain if |value| exceeds the constant times the size, the value with every term
+    /// positive.
     template <class T>
     static constexpr T static_constant = filters::filter_constant<T>(counts.roundings);
     /// True from degree 5 on, unless the expression branches or adds terms of different degree.
@@ -111,7 +109,7 @@ class predicate_type {
     /// Largest coordinate width for which every result fits in `bits` bits.
     static constexpr int coordinate_bits(int bits) { return stages::coordinate_bits(bits); }
 
-    /// Returns the sign. Points: any type that coordinate_of accepts, with float or double numbers.
+    /// Points: any type that coordinate_of accepts, with float or double numbers.
     template <class... Points>
     [[gnu::flatten]] constexpr sign_type operator()(const Points&... p) const {
         // Overflow is not allowed in constant expressions.
@@ -133,9 +131,8 @@ class predicate_type {
         }
         return stages::template decide<number_of<Points...>>(stages::listed(p...), &report);
     }
-    /// The first filter's value and bound, or the sign_type of an expression that branches. Stored
-    /// is true if coordinates are read from memory. If they are computed, each is rounded first, so
-    /// that no product in one is fused with a difference.
+    /// The first filter's value and bound, or the sign_type of an expression that branches. Stored:
+    /// coordinates are read from memory. Others are rounded first, lest a product in one be fused.
     template <bool Stored = false, class... Points>
     static constexpr auto estimate(const Points&... p) {
         using T = number_of<Points...>;
@@ -152,14 +149,14 @@ class predicate_type {
                 return filters::sign_estimate<T>{x.value, x.bound()};
         }
     }
-    /// The static filter's result, with value and bound(); a sign_type if the expression branches.
+    /// The static filter's value and bound(), or the sign_type of an expression that branches.
     template <bool Stored = false, class... Points>
     static constexpr auto filtered(const Points&... p) {
         using scalars = filters::filtered_scalars<number_of<Points...>, Stored, Points...>;
         return filters::evaluate<Shape>(F(), scalars{{p...}});
     }
-    /// The expression's value in a custom number type, constructible from a coordinate. Types of
-    /// Boost.Multiprecision need et_off: expression templates would refer to destroyed temporaries.
+    /// The expression's value in a custom number type, constructible from a coordinate. Boost's
+    /// types need et_off: expression templates would refer to destroyed temporaries.
     template <class Number, class... Points>
     static constexpr auto value(const Points&... p) {
         const auto make = [](const auto& x) { return Number(x); };
@@ -168,7 +165,7 @@ class predicate_type {
             F(), filters::listed_scalars<Shape, typename stages::coordinate_list, decltype(make)>{
                      list, make});
     }
-    /// The sign by this stage only; `uncertain` if the stage does not decide.
+    /// The sign by this stage only; `uncertain` if it does not decide.
     template <class... Points>
     constexpr sign_type by(predicate_stage stage, const Points&... p) const {
         using enum predicate_stage;
@@ -212,14 +209,13 @@ class predicate_type {
     }
 };
 
-/// The predicate of an expression: a function of +, − and × on coordinates and int constants.
-/// Every result has its own type, so variables are `auto` and never reassigned. An expression that
-/// branches on sign_of(x) returns a sign_type. It must return `uncertain` rather than branch on an
+/// The predicate of an expression: a function of +, − and × on coordinates and int constants. Every
+/// result has its own type, so variables are `auto` and never reassigned. An expression that
+/// branches on sign_of(x) returns a sign_type, and returns `uncertain` rather than branch on an
 /// uncertain sign.
 ///
 /// The stages (`predicate_stage`) run in this order until one is certain:
-/// - semi_static_filter, from degree 5 on: floating point, with a bound from the largest coordinate
-///   difference;
+/// - semi_static_filter, from degree 5 on: the bound needs only the largest coordinate difference;
 /// - static_filter: floating point, with a bound whose constant is counted at compile time;
 /// - tracked: errbound::tracked under the options' rule, if any;
 /// - exact stages, on coordinates as integers times one power of two. exact_doubles and

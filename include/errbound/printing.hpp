@@ -1,13 +1,12 @@
 // Prints tracked numbers as decimals: certain digits, or value and radius.
-//
 //   std::cout << x;                         // 0.300000000000000
 //   std::cout << errbound::with_radius(x);  // 0.30000000000000004 ± 6.7e-17
 //   std::format("{:>20}", x);               // if the standard library has it
 //
 // A decimal printed by `<<` is within one unit of its last digit of the exact number, so trailing
-// zeros count: 0.30 is more precise than 0.3. With no certain digit it is a zero, 0.00 or 0e+05, of
-// the possible size. Exact numbers print as the shortest decimal that reads back; infinite errors
-// print "unknown". Width and alignment apply, as for a string; stream precision does not.
+// zeros count. With no certain digit it is a zero, 0.00 or 0e+05, of the possible size. Exact
+// numbers print as the shortest decimal that reads back; infinite errors print "unknown". Width and
+// alignment apply, as for a string; stream precision does not.
 #pragma once
 
 #include <array>
@@ -39,7 +38,7 @@ inline constexpr bool is_small_float<small_float<P, E, HasInfinity>> = true;
 
 }  // namespace detail
 
-/// float, double, long double, and small_float. Convert other types first (errbound::convert).
+/// Convert other types first (errbound::convert).
 template <class T>
 concept printable_number = std::same_as<T, float> || std::same_as<T, double> ||
     std::same_as<T, long double> || detail::is_small_float<T>;
@@ -59,7 +58,7 @@ template <class>
 inline constexpr bool to_chars_is_wrong = false;
 #endif
 
-/// std::to_chars, which rounds exactly. `how`: format and precision; otherwise shortest.
+/// std::to_chars, which rounds exactly. `how`: format and precision; default: shortest.
 template <std::floating_point T, class... How>
 std::string decimal(T x, How... how) {
     if (std::isnan(x)) return "nan";  // the sign of NaN depends on the processor
@@ -84,7 +83,7 @@ inline std::string with_exponent(std::string_view digits, int exponent) {
            std::to_string(size);
 }
 
-/// With 10^(k−1) <= 2·error < 10^k, rounding to 10^k adds at most half a unit, the error another.
+/// Let 10^(k−1) <= 2·error < 10^k. Rounding to 10^k adds at most half a unit, the error another.
 template <std::floating_point T>
 std::string certain_digits(T value, T error) {
     if (!std::isfinite(value) || !std::isfinite(error)) return "unknown";
@@ -105,7 +104,7 @@ std::string certain_digits(T value, T error) {
     }
     if (leading >= k) {
         const std::string rounded = decimal(value, std::chars_format::scientific, leading - k);
-        // Still below 10^leading: `size` had been rounded up to it.
+        // Below 10^leading: `size` had been rounded up to it.
         if (decimal_exponent(rounded) >= leading) return rounded;
         return decimal(value, std::chars_format::scientific, leading - k - 1);
     }
@@ -117,8 +116,8 @@ std::string certain_digits(T value, T error) {
     return with_exponent("0", mantissa < half ? k : k + 1);
 }
 
-/// Two digits that read back as at least x > 0: at least the shortest decimal of x, since reading
-/// is monotone. (std::from_chars lacks floating point in libc++ before 20.)
+/// Two digits that read back as at least x > 0: at least its shortest decimal, since reading is
+/// monotone. (std::from_chars lacks floating point in libc++ before 20.)
 template <std::floating_point T>
 std::string decimal_not_below(T x) {
     const std::string text = decimal(x, std::chars_format::scientific, 1);
@@ -163,7 +162,7 @@ std::ostream& operator<<(std::ostream& to, const tracked<T, Rule>& x) {
 }
 
 /// value ± radius: the shortest decimal that reads back as the value, and two digits that read back
-/// as at least the error (or `unknown`). tracked::within of both encloses the exact number.
+/// as at least the error. tracked::within of both encloses the exact number.
 template <printable_number T, class Rule>
 std::string with_radius(const tracked<T, Rule>& x) {
     using printed = detail::printed_type<T>;

@@ -9,11 +9,11 @@
 
 namespace errbound {
 
-/// The sign of a number known up to a bound. `uncertain` is not a sign and never converts to one.
+/// The sign of a number known up to a bound.
 enum class sign_type : std::uint8_t { negative, zero, positive, uncertain };
 
-/// Signs have no order: < does not compile at run time. Use == or certainly_nonnegative(s) and its
-/// neighbours. Generic code needs < in constant expressions to detect if an enumeration is signed.
+/// Signs have no order: compare by == or functions such as certainly_nonnegative. Generic code
+/// needs < in constant expressions to detect if an enumeration is signed.
 consteval bool operator<(sign_type s, sign_type t) {
     return static_cast<int>(s) < static_cast<int>(t);
 }
@@ -46,29 +46,27 @@ constexpr bool possibly_zero(sign_type s) {
     return s == sign_type::zero || s == sign_type::uncertain;
 }
 
-/// The sign of −x.
 constexpr sign_type operator-(sign_type s) {
     if (s == sign_type::negative) return sign_type::positive;
     if (s == sign_type::positive) return sign_type::negative;
     return s;
 }
 
-/// The sign of x·y. A certain zero makes the product zero for any other factor.
+/// A certain zero makes the product zero for any other factor.
 constexpr sign_type operator*(sign_type a, sign_type b) {
     if (a == sign_type::zero || b == sign_type::zero) return sign_type::zero;
     if (!certain(a) || !certain(b)) return sign_type::uncertain;
     return a == b ? sign_type::positive : sign_type::negative;
 }
 
-/// True for types whose operations + − × are exact (integers and rationals of any size).
-/// Boost.Multiprecision's: errbound/multiprecision.hpp.
+/// True for integers and rationals of any size. Boost.Multiprecision's:
+/// errbound/multiprecision.hpp.
 template <class T>
 inline constexpr bool is_exact_number = false;
 
 template <class T>
 concept exact_number = is_exact_number<T>;
 
-/// The sign of an exact number: never uncertain.
 template <exact_number T>
 constexpr sign_type sign_of(const T& x) {
     if (x > 0) return sign_type::positive;

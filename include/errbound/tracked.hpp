@@ -1,12 +1,11 @@
 // The tracked scalar: a value and a certified bound on its rounding error.
-//
 //   using number = errbound::tracked<double>;            // rule `tight`
 //   number x = 0.1, y = number::within(0.2, 1e-12);      // exact; known to within 1e-12
 //   sign_of(x * y - x);                                  // never a guess
 //
 // In a sound environment (environment.hpp), the result x of exact arithmetic lies within x.error()
-// of x.value(). This holds for every rule that promises a bound (promises_bound in rules/rule.hpp).
-// A literal is the double nearest to it: 0.1 above is that double, not a tenth. No exceptions, no
+// of x.value(). This holds under every rule for which promises_bound (rules/rule.hpp) is true. A
+// literal is the double nearest to it: 0.1 above is that double, not a tenth. No exceptions, no
 // allocation, no global state, no virtual calls.
 #pragma once
 
@@ -56,9 +55,9 @@ constexpr bool is_exactly(const T& v, Number value) {
     }
 }
 
-/// The type in which Rule stores bounds of T's numbers. For 8- and 16-bit T it is the type that
-/// computes T's operations, float, if the rule has a `displacement` (see rounded_from). Bounds of
-/// at most 11 bits would grow with each of their own roundings.
+/// The type in which Rule stores bounds of T's numbers. For 8- and 16-bit T it is float if the rule
+/// has a `displacement` (see rounded_from). Bounds of at most 11 bits would grow with each
+/// rounding.
 template <class T, class Rule>
 struct type_of_bounds {
     using type = T;
@@ -77,7 +76,7 @@ struct use_sign_of_or_compare {};
 
 }  // namespace detail
 
-/// T: any type with a number_traits. Rule: how bounds propagate (errbound/rules/rule.hpp).
+/// T: any type with a number_traits. Rule: errbound/rules/rule.hpp.
 template <class T = double, class Rule = tight>
 class tracked {
     static_assert(!std::is_integral_v<T> && std::is_same_v<T, std::remove_cvref_t<T>>,
@@ -96,12 +95,11 @@ class tracked {
     using bound_type =
         typename Rule::template bound<typename detail::type_of_bounds<T, Rule>::type>;
 
-    /// Exactly zero.
     constexpr tracked() : tracked(T(0)) {}
-    /// Exactly `value`. Implicit, so that generic code may mix numbers and tracked numbers.
+    /// Exactly `value`. Implicit, for generic code.
     constexpr tracked(const T& value) : tracked(exactly(detail::rounded(value))) {}
-    /// Converts a number of another type, such as the literal 2. Exact if T holds it (every int in
-    /// double, up to 2^24 in float); otherwise the error bounds the conversion's rounding.
+    /// Exact if T holds the number (every int in double, up to 2^24 in float); otherwise the error
+    /// bounds the conversion's rounding.
     template <detail::number_other_than<T> Number>
     constexpr tracked(Number value) : tracked(from_other(value)) {}
     /// A number known to lie within `error` of `value`. The error is infinite unless error >= 0.
@@ -116,8 +114,8 @@ class tracked {
 
     /// The result of plain arithmetic.
     constexpr const T& value() const { return value_; }
-    /// An upper bound of |value() − exact value|. If there is none, it is infinite (NaN in a format
-    /// without infinities), so `x.error() <= tolerance` is false. In all other cases it is not NaN.
+    /// An upper bound of |value() − exact value|, or infinity (NaN in a format without infinities),
+    /// so `x.error() <= tolerance` is then false.
     constexpr T error() const {
         const wide e = own_error();
         if constexpr (widens) {
@@ -130,7 +128,7 @@ class tracked {
             return e == e ? e : number_traits<T>::infinity();
         }
     }
-    /// The rule's own state, for studying bounds.
+    /// The rule's state, for studying bounds.
     constexpr const bound_type& bound() const { return bound_; }
 
     friend constexpr tracked operator+(const tracked& a, const tracked& b) {
@@ -186,8 +184,8 @@ class tracked {
             return {v, Rule::template scale<T>(v, x.as_operand(), power)};
     }
 
-    /// The certain sign, by the rule's own `sign` if it has one. If |value| equals the error, the
-    /// number may be zero. Proof of the default: proofs/IeeeRules.v, sign_of_known.
+    /// The certain sign, by the rule's own `sign` if it has one. Proof of the default:
+    /// proofs/IeeeRules.v, sign_of_known.
     friend constexpr sign_type sign_of(const tracked& x) {
         const wide v(x.value_);
         if constexpr (detail::rule_has_sign<Rule, wide>) return Rule::sign(v, x.bound_);
@@ -196,11 +194,10 @@ class tracked {
         if (v < -e) return sign_type::negative;
         return v == 0 && e == 0 ? sign_type::zero : sign_type::uncertain;
     }
-    /// The certain sign of a − b. Operator < is deleted, as it would have to guess; see by_value.
+    /// The sign of a − b. Operator < is deleted, as it would have to guess; see by_value.
     friend constexpr sign_type compare(const tracked& a, const tracked& b) {
         return sign_of(a - b);
     }
-    /// The compiler's message names the functions to use.
     friend detail::use_compare_or_by_value operator<=>(const tracked&, const tracked&) = delete;
 
   private:
@@ -208,14 +205,12 @@ class tracked {
     using wide = typename detail::type_of_bounds<T, Rule>::type;
 
     static constexpr tracked exactly(const T& value) { return {value, Rule::exact(wide(value))}; }
-    /// May be NaN.
     constexpr wide own_error() const { return Rule::error(wide(value_), bound_); }
     constexpr tracked<wide, Rule> widened() const requires widens {
         return tracked<wide, Rule>::from_bound(wide(value_), bound_);
     }
-    /// The same exact number as x, with value v: the sum of x and a displacement D. D has the value
-    /// d = v − x.value(), but its exact number is 0. If d is rounded, so that the sum's value is
-    /// not v, the error is infinite.
+    /// The number x, with value v: the sum of x and a displacement, of value d = v − x.value() and
+    /// exact number 0. If d is rounded, so that the sum's value is not v, the error is infinite.
     static constexpr tracked rounded_from(const T& v,
                                           const tracked<wide, Rule>& x) requires widens {
         const wide d = wide(v) - x.value();
@@ -250,7 +245,7 @@ template <class T, class Rule, class Number>
 detail::use_sign_of_or_compare operator==(const tracked<T, Rule>&, const Number&) = delete;
 
 /// Orders tracked numbers by value, NaN last. For pivoting, sorting and other choices that may be
-/// wrong without harm: std::sort(begin, end, errbound::by_value{}).
+/// wrong without harm.
 struct by_value {
     template <class T, class Rule>
     constexpr bool operator()(const tracked<T, Rule>& a, const tracked<T, Rule>& b) const {
@@ -258,8 +253,8 @@ struct by_value {
     }
 };
 
-/// True if generic code may treat the type as a tracked number: it has value_type, value(), sign_of
-/// and scale. Specialise for a type that wraps one.
+/// True if the type has value_type, value(), sign_of and scale. Specialise for a type that wraps
+/// one.
 template <class>
 inline constexpr bool is_tracked = false;
 template <class T, class Rule>

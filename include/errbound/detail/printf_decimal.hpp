@@ -14,7 +14,7 @@
 
 namespace errbound::detail {
 
-/// Sets rounding to nearest, which printf and strtold obey.
+/// Printf and strtold obey the rounding direction.
 class to_nearest {
   public:
     to_nearest() { std::fesetround(FE_TONEAREST); }

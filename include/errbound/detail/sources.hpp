@@ -1,4 +1,4 @@
-// Numbers for sources of errors, for bound rules that keep terms by source.
+// Numbers for sources of errors.
 #pragma once
 
 #include <atomic>
@@ -7,7 +7,6 @@
 
 namespace errbound::detail {
 
-/// A source without a number.
 inline constexpr std::uint64_t no_source = 0;
 
 #if !defined(__CUDA_ARCH__)
@@ -29,8 +28,8 @@ next_source() {
 }
 #endif
 
-/// A new source; no_source in constant expressions and device code. Call it within an argument: the
-/// initialiser of a const integer counts as a constant expression.
+/// no_source in constant expressions and device code. Call it within an argument: the initialiser
+/// of a const integer counts as a constant expression.
 constexpr std::uint64_t fresh_source() {
 #if !defined(__CUDA_ARCH__)
     if (!std::is_constant_evaluated()) return next_source();

@@ -1,5 +1,5 @@
-// Counts an expression's operations at compile time. An expression that branches on signs runs once
-// for each sequence of signs, up to a limit; the counts are maxima.
+// Counts an expression's operations at compile time: the maxima of runs, one for each sequence of
+// signs, up to a limit.
 #pragma once
 
 #include <array>
@@ -21,10 +21,9 @@ struct expression_counts {
     bool complete = true;  ///< all branches were seen
 };
 
-/// Not constexpr, so an expression that calls it does not compile.
+/// Not constexpr: an expression that calls it does not compile.
 inline void too_many_signs() {}
 
-/// One run: the signs evaluated, and the answers given.
 struct counting_run {
     static constexpr int max_signs = 256;
 
@@ -55,7 +54,7 @@ class expression_count {
   public:
     constexpr explicit expression_count(counting_run& run, int degree = 1)
         : run_(&run), bits_(run.coordinate_bits), degree_(degree) {}
-    /// A whole number. No other type: 0.5 would become 0.
+    /// Only int: 0.5 would become 0.
     template <class X>
     requires std::is_arithmetic_v<X>
     constexpr expression_count(X) : bits_(32) {
@@ -85,7 +84,7 @@ class expression_count {
         return {x.run_ != nullptr ? x.run_ : y.run_, x.bits_ + y.bits_, x.degree_ + y.degree_,
                 x.roundings_ + y.roundings_ + 1};
     }
-    // Not available in expressions; each message names the replacement.
+    // Not available in expressions. Each message names the replacement.
     template <class X>
     friend constexpr expression_count operator/(const expression_count& x, const X&) {
         static_assert(!sizeof(X),
@@ -150,7 +149,6 @@ class expression_count {
     constexpr expression_count(counting_run* run, int bits, int degree, int roundings)
         : run_(run), bits_(bits), degree_(degree), roundings_(roundings) {}
     static constexpr int larger(int a, int b) { return a < b ? b : a; }
-    /// The bits, raised to a higher degree of `other`.
     constexpr int raised(const expression_count& other) const {
         return other.degree_ > degree_
                    ? bits_ + (other.degree_ - degree_) * other.run_->coordinate_bits
@@ -169,10 +167,10 @@ struct expression_findings {
 
 /// Enough for any expression that evaluates five signs.
 inline constexpr int most_counting_runs = 250;
-/// For expressions declared homogeneous, which branch too much: only the bits are needed.
+/// For expressions declared homogeneous, of which only the bits are needed.
 inline constexpr int few_counting_runs = 28;
 
-/// `run(counting_run&)` runs the expression on such coordinates and returns its answer's sign.
+/// `run(counting_run&)` runs the expression and returns its answer's sign.
 template <class Run>
 constexpr expression_findings count_expression(int coordinate_bits, int max_runs, const Run& run) {
     counting_run state;

@@ -10,13 +10,12 @@
 
 namespace errbound {
 
-/// ⌊log2 |x|⌋. Precondition: x is not zero.
 template <exact_number Integer>
 int floor_log2(const Integer& x) {
     return static_cast<int>(x < 0 ? msb(Integer(-x)) : msb(x));
 }
 
-/// x·2^shift, truncated. (By magnitudes: Boost 1.74 loses the sign of some negative numbers.)
+/// x·2^shift, truncated. (Boost 1.74 loses the sign of some negative numbers.)
 template <exact_number Integer>
 Integer shifted(const Integer& x, int shift) {
     if (shift >= 0) return Integer(x << static_cast<unsigned>(shift));
@@ -28,8 +27,7 @@ Integer shifted(const Integer& x, int shift) {
 template <exact_number Integer>
 double nearby_double(const Integer& n, int e) {
     if (n == 0) return 0;
-    // The dropped part is below an ulp.
-    Integer head = abs(n);
+    Integer head = abs(n);  // the dropped part is below an ulp
     const int excess = floor_log2(head) - 62;
     if (excess > 0) head >>= static_cast<unsigned>(excess);
     const double x = std::ldexp(static_cast<double>(static_cast<std::int64_t>(head)),
@@ -54,7 +52,7 @@ class dyadic {
     }
     dyadic(const dyadic&) = default;
     dyadic(dyadic&&) = default;
-    /// Copies first: if memory runs out, Boost's integers lose their value.
+    /// If memory runs out, Boost's integers lose their value: copy first.
     dyadic& operator=(const dyadic& other) { return *this = dyadic(other); }
     dyadic& operator=(dyadic&&) = default;
     ~dyadic() = default;
@@ -73,7 +71,6 @@ class dyadic {
     const Integer& numerator() const { return numerator_; }
     int exponent() const { return exponent_; }
     bool is_zero() const { return numerator_ == 0; }
-    /// Within one ulp; infinite beyond double's range.
     double to_double() const { return nearby_double(numerator_, exponent_); }
 
     friend dyadic operator+(const dyadic& a, const dyadic& b) {
@@ -99,7 +96,7 @@ class dyadic {
     }
     friend sign_type sign_of(const dyadic& x) { return sign_of(x.numerator_); }
     friend dyadic magnitude(const dyadic& x) { return x.numerator_ < 0 ? -x : x; }
-    /// ⌊log2 |x|⌋. Precondition: x is not zero. Proof: proofs/Dyadic.v, dyadic_floor_log2.
+    /// Precondition: x is not zero. Proof: proofs/Dyadic.v, dyadic_floor_log2.
     friend int floor_log2(const dyadic& x) { return floor_log2(x.numerator_) + x.exponent_; }
 
     /// x/2^unit. Precondition: unit <= exponent(). Proof: proofs/Dyadic.v, dyadic_in_units.

@@ -1,5 +1,4 @@
-// An integer of any size, errbound::integer. Included by errbound/polynomial.hpp.
-//
+// An integer of any size, errbound::integer.
 //   errbound::integer x = 5;
 //   x = (x << 100) + 1;  // built-in integers convert implicitly
 //   const auto y = errbound::integer::from_string("-12345678901234567890");
@@ -39,7 +38,7 @@ namespace errbound {
 
 namespace integers {
 
-/// At most 64 bits. (With some compiler options std::integral includes wider types.)
+/// With some compiler options std::integral includes wider types.
 template <class T>
 concept built_in_integer = std::integral<T> && sizeof(T) <= sizeof(words::word);
 
@@ -49,7 +48,7 @@ constexpr bool is_negative(T x) {
     return false;
 }
 
-/// Scratch words, on the stack if few.
+/// On the stack if few.
 class scratch_words {
     static constexpr int few = 64;
 
@@ -65,7 +64,7 @@ class scratch_words {
 
 }  // namespace integers
 
-/// An integer of any size. Cost, limits and exceptions: head of errbound/integers/integer.hpp.
+/// See the head of errbound/integers/integer.hpp.
 class integer {
     using word = integers::words::word;
     using double_word = integers::words::double_word;
@@ -124,8 +123,7 @@ class integer {
         else
             return static_cast<T>(size_ < 0 ? 0 - low_word() : low_word());
     }
-    /// The nearest, ties to even; infinite beyond the largest.
-    explicit operator double() const;
+    explicit operator double() const;  ///< the nearest, ties to even; infinite beyond the largest
 
     friend integer operator+(const integer& a, const integer& b) {
         integer r;
@@ -205,9 +203,8 @@ class integer {
         assign_shifted_right(*this, shift(n));
         return *this;
     }
-    /// x·2^e, e >= 0.
     friend integer scale(const integer& x, int e) { return x << e; }
-    /// ⌊log2 |x|⌋, the highest bit's position; lsb: the lowest bit's. Precondition: x is not zero.
+    /// Position of the highest bit; lsb: of the lowest. Precondition: x is not zero.
     friend int msb(const integer& x) {
         assert(x.size_ != 0);
         return 64 * x.size() - 1 - detail::countl_zero(x.data()[x.size() - 1]);
@@ -268,7 +265,6 @@ class integer {
     word* data() noexcept { return capacity_ > inline_words ? many_ : few_; }
     const word* data() const noexcept { return capacity_ > inline_words ? many_ : few_; }
     int size() const noexcept { return size_ < 0 ? -size_ : size_; }
-    /// The magnitude's lowest word; 0 for zero.
     word low_word() const noexcept { return size_ == 0 ? 0 : data()[0]; }
 
     static word* new_words(int n) {
@@ -280,7 +276,7 @@ class integer {
         const int capacity = (std::max)(n, capacity_ + capacity_ / 2);
         return {new_words(capacity), capacity};
     }
-    /// Takes the words written there, without leading zeros.
+    /// Leading zeros are removed.
     void keep(const room& from, int size, bool negative) noexcept {
         if (from.words != data()) adopt(from);
         size = integers::words::trimmed(from.words, size);
@@ -291,7 +287,7 @@ class integer {
         many_ = from.words;
         capacity_ = from.capacity;
     }
-    /// Word by word: loading pairs of words just stored one by one stalls.
+    /// A pair of words just stored one by one stalls a load.
     static void copy_few(const word* from, int n, word* to) noexcept {
         if (n > 0) to[0] = from[0];
         if (n > 1) to[1] = from[1];
@@ -348,7 +344,6 @@ class integer {
     void assign_larger(const integer& a, const integer& b, bool negative) {
         const integer &longer = a.size() < b.size() ? b : a, &shorter = a.size() < b.size() ? a : b;
         const int m = longer.size(), n = shorter.size();
-        // True if the sum may need another word.
         const bool carries = longer.data()[m - 1] >= ~(n == m ? shorter.data()[m - 1] : word(0));
         const room to = room_for(m + carries);
         const word carry = integers::words::add(to.words, longer.data(), m, shorter.data(), n);
@@ -450,7 +445,7 @@ class integer {
             keep(to, n, negative);
         }
     }
-    /// Copies of a and b, shifted so that b's first bit is set. Precondition: 2 <= b's size <= a's.
+    /// Shifted so that b's first bit is set. Precondition: 2 <= b's size <= a's.
     class long_division {
       public:
         long_division(const integer& a, const integer& b)
@@ -467,7 +462,6 @@ class integer {
         void divide(const Store& store) {
             integers::words::divide_long(a_, m_, b_, n_, store);
         }
-        /// Call after the division; n words.
         void take_remainder(word* to) const { integers::words::shift_right(to, a_, n_, shift_); }
 
       private:
@@ -499,8 +493,7 @@ class integer {
             return;
         }
         const int whole = static_cast<int>(n / 64), bits = static_cast<int>(n % 64);
-        // ⌊−a/2^n⌋ = −⌈a/2^n⌉
-        const bool up = negative && static_cast<std::uint64_t>(lsb(x)) < n;
+        const bool up = negative && static_cast<std::uint64_t>(lsb(x)) < n;  // ⌊−a/2^n⌋ = −⌈a/2^n⌉
         const int size = m - whole;
         const room to = room_for(size + up);
         integers::words::shift_right(to.words, x.data() + whole, size, bits);
@@ -569,7 +562,7 @@ inline integer::operator double() const {
         const auto x = static_cast<double>(low_word());
         return size_ < 0 ? -x : x;
     }
-    // The first 64 bits; the last is set if any later bit is: they round to the same double.
+    // The first 64 bits, the last set if any later bit is, round to the same double.
     const int whole = excess / 64, bits = excess % 64;
     const word* const w = data();
     word head = w[whole] >> bits;
@@ -581,7 +574,6 @@ inline integer::operator double() const {
 
 namespace integers {
 
-/// The largest power of the base in a word, and its exponent.
 struct power_in_word {
     words::word power = 1;
     int digits = 0;
@@ -600,7 +592,7 @@ inline std::string integer::text(int base) const {
     const integers::power_in_word piece(base);
     std::string reversed;
     for (integer rest = *this; rest.size_ != 0;) {
-        // The remainder first: the quotient overwrites the number.
+        // The quotient overwrites the number.
         word digits = integer(rest % integer(piece.power)).low_word();
         rest /= integer(piece.power);
         for (int i = 0; i < piece.digits && (digits != 0 || rest.size_ != 0); ++i) {
@@ -660,7 +652,7 @@ class std::numeric_limits<errbound::integer> {
                           has_denorm_loss = false;
     static constexpr float_denorm_style has_denorm = denorm_absent;
     static constexpr float_round_style round_style = round_toward_zero;
-    /// Unbounded: there is no largest number, and digits has no meaning.
+    /// Unbounded: digits, min and max have no meaning.
     static constexpr int radix = 2, digits = 0, digits10 = 0, max_digits10 = 0, min_exponent = 0,
                          min_exponent10 = 0, max_exponent = 0, max_exponent10 = 0;
     static integer(min)() { return 0; }

@@ -1,5 +1,5 @@
-// Exact integers of run-time length up to a compile-time capacity: no allocation. Products skip
-// words that are all zero or all ones, frequent in numbers made of doubles far apart in size.
+// Exact integers of run-time length up to a compile-time capacity, without allocation. Products
+// skip words that are all zero or all ones, frequent in numbers made of doubles far apart in size.
 #pragma once
 
 #include <array>
@@ -34,8 +34,7 @@ constexpr int count_filled(const word* x, int n) {
     return count;
 }
 
-/// r −= a·b for n words; returns the borrow from the words beyond. Proof, as part of the product:
-/// proofs/SparseProduct.v, sparse_product_exact.
+/// r −= a·b for n words; returns the borrow. Proof: proofs/SparseProduct.v, sparse_product_exact.
 [[gnu::always_inline]] constexpr word subtract_multiple(word* r, word a, const word* b, int n) {
     word carry = 0;
     for (int j = 0; j < n; ++j) {
@@ -47,13 +46,13 @@ constexpr int count_filled(const word* x, int n) {
     return carry;
 }
 
-/// r = a·b in two's complement, of m, n and m + n words, by the signed words of a. Precondition: b
-/// is not zero. Proof: proofs/SparseProduct.v, sparse_product_exact.
+/// r = a·b in two's complement, of m, n and m + n words. Precondition: b is not zero. Proof:
+/// proofs/SparseProduct.v, sparse_product_exact.
 [[gnu::noinline]] constexpr void multiply_sparse(word* r, const word* a, int m, const word* b,
                                                  int n) {
     int low = 0;
     while (b[low] == 0) ++low;
-    // Words before `end` hold the sum so far, modulo a power of 2^64; later ones are `beyond`.
+    // Words before `end` hold the sum, modulo a power of 2^64; later ones are `beyond`.
     int end = low;
     word beyond = 0;
     for (int i = 0; i < low; ++i) r[i] = 0;
@@ -75,11 +74,9 @@ constexpr int count_filled(const word* x, int n) {
     }
 }
 
-/// r = a·b, trimmed, of m and n words; r has m + n. Proof: proofs/SparseProduct.v,
-/// any_product_exact.
+/// r = a·b of m + n words, trimmed. Proof: proofs/SparseProduct.v, any_product_exact.
 [[gnu::noinline]] constexpr void multiply_any(word* r, const word* a, int m, const word* b, int n) {
-    // Worthwhile only if most words are skipped.
-    constexpr int worth = 4;
+    constexpr int worth = 4;  // worthwhile only if most words are skipped
     const auto is_sparse = [](const word* x, int size) {
         return worth * count_filled(x, size) < size;
     };
@@ -100,8 +97,7 @@ constexpr int trimmed_size(const word* x, int n) {
     while (n > 1 && x[n - 1] == sign_word(x[n - 2])) --n;
     return n;
 }
-/// r = a ± b by steps with a carry, in two's complement, up to `capacity` words; returns the
-/// trimmed size. Not inlined: one copy for all capacities.
+/// r = a ± b, of up to `capacity` words; returns the trimmed size. One copy for all capacities.
 template <word (*Step)(word, word, unsigned char&)>
 [[gnu::noinline]] constexpr int combine(word* r, int capacity, const word* a, int m, const word* b,
                                         int n) {
@@ -117,7 +113,7 @@ template <word (*Step)(word, word, unsigned char&)>
 
 }  // namespace words
 
-/// A two's complement number of at most Words words. Sums and products must fit.
+/// Sums and products must fit.
 template <int Words>
 class long_integer {
     using word = words::word;
@@ -200,14 +196,13 @@ class long_integer {
     /// The least n with −2^n <= x < 2^n. Proof: proofs/WordBits.v, long_bit_length_exact.
     constexpr int bit_length() const {
         const word invert = words::sign_word((*this)[size_ - 1]);
-        // The number is trimmed, so at most the last word repeats the sign.
+        // Trimmed: at most the last word repeats the sign.
         const int last = size_ > 1 && (*this)[size_ - 1] == invert ? size_ - 2 : size_ - 1;
         return 64 * last + detail::bit_width((*this)[last] ^ invert);
     }
     /// ⌊x/2^shift⌋ modulo 2^64, shift >= 0. Proof, of one word: proofs/WordBits.v, from_bit_exact.
     constexpr std::int64_t word_from_bit(int shift) const {
         const int whole = shift / 64, bits = shift % 64;
-        // Two shifts: a single one by 64, for bits = 0, is undefined.
         return static_cast<std::int64_t>(or_sign(whole) >> bits | or_sign(whole + 1)
                                                                       << 1 << (63 - bits));
     }
@@ -258,7 +253,6 @@ constexpr long_integer<A + B> operator*(const long_integer<A>& a, const long_int
     return long_integer<A + B>::product(a, b);
 }
 
-/// x·2^e, e >= 0.
 template <int Words>
 constexpr long_integer<Words> scale(const long_integer<Words>& x, int e) {
     return x << e;

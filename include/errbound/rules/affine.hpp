@@ -2,12 +2,10 @@
 // error: an inexact input, or an operation that rounded. Equal sources cancel: x − x is exactly 0,
 // and the error of (x + y) − (x − y) does not depend on that of x. Rounding must be to nearest.
 //
-// Notation: docs/notation.md. The exact value is v + Σ cᵢεᵢ + ρ: v computed, one noise symbol |εᵢ|
-// <= 1 per source, |ρ| <= rest. The rest is 0 except in constant expressions and device code, which
-// count no sources. One global counter numbers the sources of all threads of a program. Enter
-// numbers of another process by `within`. sqrt and fma keep sources; other functions start new
-// ones.
-//
+// Notation: docs/notation.md. The exact value is v + Σ cᵢεᵢ + ρ: v computed, a noise symbol |εᵢ| <=
+// 1 per source, |ρ| <= rest. The rest is 0 except in constant expressions and device code, which
+// count no sources. One counter numbers the sources of all threads of a program; enter numbers of
+// another process by `within`. sqrt and fma keep sources; other functions start new ones.
 // References: Comba, Stolfi 1993; de Figueiredo, Stolfi 2004 (Numerical Algorithms 37). Proof, of
 // whole computations: proofs/IeeeAffineFunctions.v, computed_known, gives_known.
 #pragma once
@@ -41,17 +39,14 @@ inline constexpr std::array<char, 32> affine_name = [] {
 }  // namespace detail
 
 /// Affine arithmetic with at most Limit terms of 16 bytes each, used or not. Cost: linear in the
-/// number of terms, plus Limit writes.
-///
-/// An operation combines the operands' terms source by source, to first order. One new term takes
-/// the other errors: the rounding error (exact, or at most u|v| + η/2), roundings of coefficients,
-/// second-order terms and the operands' rests. If these are zero, there is no new term. Above the
-/// limit, the smallest terms join the new one; x − x stays 0. If value or radius is not finite,
+/// number of terms, plus Limit writes. An operation combines the operands' terms source by source,
+/// to first order. One new term takes the other errors, if any: the rounding error (exact, or at
+/// most u|v| + η/2), roundings of coefficients, second-order terms and the operands' rests. Above
+/// the limit, the smallest terms join the new one; x − x stays 0. If value or radius is not finite,
 /// there are no terms, and radius and rest are infinite.
 template <std::size_t Limit>
 struct affine_of {
     static_assert(Limit >= 1, "errbound: affine arithmetic needs at least one term");
-    /// "affine" for `affine`, else "affine<Limit>".
     static constexpr const char* name = detail::affine_name<Limit>.data();
     static constexpr bool keeps_first_order = true;
 
@@ -76,7 +71,7 @@ struct affine_of {
         const T nothing = value - value;  // NaN if the value is not finite
         return {nothing, nothing, 0, {}};
     }
-    /// One term, of a new source. Proof: proofs/IeeeAffine.v, affine_within_known.
+    /// A term of a new source. Proof: proofs/IeeeAffine.v, affine_within_known.
     template <class T>
     static constexpr bound<T> within(const T& value, const T& error) {
         if (!(error >= 0)) return unknown<T>();
@@ -89,7 +84,7 @@ struct affine_of {
     static constexpr T error(const T&, const bound<T>& b) {
         return b.radius;
     }
-    /// True at the limit. A root, often a divisor, then gets one term, and displaces no others.
+    /// True at the limit: a root, often a divisor, then gets one term, and displaces no others.
     template <class T>
     static constexpr bool is_crowded(const bound<T>& b) {
         return b.count == Limit;
@@ -145,7 +140,6 @@ struct affine_of {
     static constexpr bound<T> divide(const T& v, operand<T> a, operand<T> b) {
         using traits = number_traits<T>;
         const T size = traits::abs(b.value);
-        // At most the distance of b from zero.
         const T distance =
             detail::rounded_product(T(size - b.bound.radius), T(1 - traits::epsilon()));
         if (!(distance > 0)) return unknown<T>();
@@ -153,7 +147,7 @@ struct affine_of {
         const division_remainder<T> division = remainder_of_division<T>(a.value, b.value, v);
         builder<T> r;
         if (!division.exact) r.add_left(detail::half_ulp<T>(v));
-        // The part of N outside its terms.
+        // The amount of N outside its terms.
         T left = upper_sum<T>(upper_product<T>(traits::abs(v), b.bound.rest), a.bound.rest);
         if (division.exact) left = upper_sum<T>(left, traits::abs(division.value));
         for_each_source(a.bound, b.bound, [&](std::uint64_t source, const T& of_a, const T& of_b) {
@@ -171,8 +165,8 @@ struct affine_of {
             r.add_left(upper_quotient<T>(upper_product<T>(quotient, b.bound.radius), distance));
         return r.finished(v);
     }
-    /// Exact unless it underflows; then value, coefficients and rest are each off by at most η/2.
-    /// Proof: proofs/IeeeAffine.v, affine_scale_known.
+    /// If it underflows, value, coefficients and rest are each off by at most η/2. Proof:
+    /// proofs/IeeeAffine.v, affine_scale_known.
     template <class T>
     static constexpr bound<T> scale(const T& v, operand<T> a, int e) {
         using traits = number_traits<T>;
@@ -203,16 +197,15 @@ struct affine_of {
         return a.value == 0 && a.bound.radius == 0;
     }
 
-    /// At least x + y, for x, y >= 0. Let s = fl(x + y). If s is normal, fl(s(1 + ε)) is at least
-    /// the number after s. If s is subnormal, it is exact. upper_product and upper_quotient add η
-    /// for underflow.
+    /// At least x + y, for x, y >= 0. If s = fl(x + y) is normal, fl(s(1 + ε)) is at least the
+    /// number after s. If s is subnormal, it is exact. upper_product and upper_quotient add η for
+    /// underflow.
     template <class T>
     static constexpr T upper_sum(const T& x, const T& y) {
         if (x == 0) return y;
         if (y == 0) return x;
         return detail::rounded_product(T(x + y), T(1 + number_traits<T>::epsilon()));
     }
-    /// At least x·y, for x, y >= 0.
     template <class T>
     static constexpr T upper_product(const T& x, const T& y) {
         using traits = number_traits<T>;
@@ -220,7 +213,6 @@ struct affine_of {
         return detail::rounded_product(detail::rounded_product(x, y), T(1 + traits::epsilon())) +
                traits::underflow_unit();
     }
-    /// At least x/y, for x >= 0, y > 0.
     template <class T>
     static constexpr T upper_quotient(const T& x, const T& y) {
         using traits = number_traits<T>;
@@ -228,14 +220,13 @@ struct affine_of {
         return detail::rounded_product(T(x / y), T(1 + traits::epsilon())) +
                traits::underflow_unit();
     }
-    /// Builds a result from its terms, by ascending source, and the amount left over.
+    /// A result's terms, by ascending source, and the amount left over.
     template <class T>
     class builder {
       public:
         constexpr void add(std::uint64_t source, const T& coefficient) {
             if (coefficient != 0) terms_[count_++] = {source, coefficient};
         }
-        /// An amount >= 0 outside the terms.
         constexpr void add_left(const T& amount) { left_ = upper_sum<T>(left_, amount); }
         constexpr const T& left() const { return left_; }
         constexpr T radius() const {
@@ -257,7 +248,7 @@ struct affine_of {
         }
 
       private:
-        /// Moves the smallest terms into the amount left over, to make room for its term.
+        /// Moves the smallest terms into the amount left over, which needs a term.
         constexpr void shorten() {
             using traits = number_traits<T>;
             while (count_ >= Limit) {
@@ -269,7 +260,7 @@ struct affine_of {
                 for (--count_; least < count_; ++least) terms_[least] = terms_[least + 1];
             }
         }
-        /// Makes the amount left over a term, usually the last. Without a source, returns it as the
+        /// Makes the amount left over a term, usually the last. Without a source, returns it as
         /// rest.
         constexpr T as_term_of(std::uint64_t source) {
             if (source == detail::no_source) return left_;
@@ -284,7 +275,7 @@ struct affine_of {
         std::array<term<T>, 2 * Limit + 1> terms_{};
     };
 
-    /// Calls f(source, a's coefficient, b's coefficient) for each source of either, ascending.
+    /// Calls f(source, coefficient in a, coefficient in b) for each source, ascending.
     template <class T, class F>
     static constexpr void for_each_source(const bound<T>& a, const bound<T>& b, const F& f) {
         std::size_t i = 0, j = 0;

@@ -5,7 +5,6 @@
 // `remainder`: |v + c − exact value| <= ρ. va, ca, ρa are those of a. δ is an operation's rounding
 // error. Exact numbers have c = ρ = 0. Sums keep ρ = 0 while c holds their error exactly. v + c = 0
 // with ρ = 0 is a certain zero. If v is not finite, c or ρ is not, so no sign is certain.
-//
 // Sources: Ogita, Rump, Oishi 2005 (Accurate sum and dot product); Langlois 2001 (Automatic linear
 // correction of rounding errors).
 #pragma once
@@ -37,8 +36,7 @@ struct residual {
     static constexpr bound<T> within(const T& value, const T& error) {
         return {T(0), error >= 0 ? error + (value - value) : number_traits<T>::infinity()};
     }
-    /// Bounds a number whose exact value is 0. Proof: proofs/IeeeResidual.v,
-    /// residual_displacement_known.
+    /// The exact value is 0. Proof: proofs/IeeeResidual.v, residual_displacement_known.
     template <class T>
     static constexpr bound<T> displacement(const T& value) {
         return {-value, value - value};
@@ -54,9 +52,8 @@ struct residual {
     static constexpr T correction(const T&, const bound<T>& b) {
         return b.correction;
     }
-    /// The exact value is within ρ of v + c, and ρ is of second order. For s = v ⊕ c, |v + c| >=
-    /// |s|(1 − u), and (1 + 8ε)(1 − u)/(1 + u) > 1; a subnormal s is exact. Proof:
-    /// proofs/IeeeResidual.v, residual_sign_known.
+    /// The exact value is within ρ of v + c. For s = v ⊕ c, |v + c| >= |s|(1 − u), and (1 + 8ε)(1 −
+    /// u)/(1 + u) > 1; a subnormal s is exact. Proof: proofs/IeeeResidual.v, residual_sign_known.
     template <class T>
     static constexpr sign_type sign(const T& value, const bound<T>& b) {
         using traits = number_traits<T>;
@@ -114,8 +111,8 @@ struct residual {
     }
     /// Let q = v, r = va − q·vb and N = r + ca − q·cb ± (ρa + |q|ρb). Then a/b − q = N/b, and N/b −
     /// N/vb = N/vb·(vb − b)/b. So c = N/vb, and ρ is at most (|N/vb|(|cb| + ρb) + ρa + |q|ρb +
-    /// roundings)/(|vb| − |cb| − ρb). If r is not known exactly, c omits it: r/vb is the rounding
-    /// error of q. Infinite if b may be zero. Proof: proofs/IeeeResidual.v, residual_divide_known.
+    /// roundings)/(|vb| − |cb| − ρb). If r is not known exactly, c omits r/vb, the rounding error
+    /// of q. Infinite if b may be zero. Proof: proofs/IeeeResidual.v, residual_divide_known.
     template <class T>
     static constexpr bound<T> divide(const T& v, rule_operand<T, residual> a,
                                      rule_operand<T, residual> b) {
@@ -144,8 +141,8 @@ struct residual {
         return {correction,
                 inflated<T>(inflated<T>(left) / distance + detail::half_ulp<T>(correction) + lost)};
     }
-    /// Exact unless it underflows; then value, correction and remainder are each off by at most
-    /// η/2. Proof: proofs/IeeeResidual.v, residual_scale_known.
+    /// If it underflows, value, correction and remainder are each off by at most η/2. Proof:
+    /// proofs/IeeeResidual.v, residual_scale_known.
     template <class T>
     static constexpr bound<T> scale(const T& v, rule_operand<T, residual> a, int e) {
         using traits = number_traits<T>;
@@ -173,8 +170,8 @@ struct residual {
         return {correction.value, remainder + (v - v)};
     }
 
-    /// Bounds the roundings of products x and y and of two sums: u times each result, and 4η for
-    /// the underflows of these and four other products.
+    /// The roundings of products x and y and of two sums: u times each result, and 4η for the
+    /// underflows of these and four other products.
     template <class T>
     static constexpr T roundings(const T& x, const T& y, const T& first, const T& second) {
         using traits = number_traits<T>;

@@ -1,5 +1,4 @@
 // Bound rules: how a certified bound passes through operations.
-//
 //   struct my_rule {
 //       static constexpr const char* name = "my_rule";
 //       template <class T> struct bound { T error; };
@@ -7,9 +6,8 @@
 //   };
 //   using number = errbound::tracked<double, my_rule>;
 //
-// A missing member does not compile, and the message names it. rules/tight.hpp fits on a page;
-// another example is examples/own_rule.cpp. To change one operation of a rule, derive from it
-// (rules/derived.hpp).
+// If a member is missing, the compiler names it. rules/tight.hpp fits on a page; another example is
+// examples/own_rule.cpp. To change one operation of a rule, derive from it (rules/derived.hpp).
 #pragma once
 
 #include <concepts>
@@ -19,7 +17,7 @@
 
 namespace errbound {
 
-/// An operand's value and its bound by the same rule. Valid only during the rule's call.
+/// Valid only during the rule's call.
 template <class T, class Rule>
 struct rule_operand {
     const T& value;
@@ -40,7 +38,7 @@ inline constexpr error_meaning meaning_of_error = [] {
         return error_meaning::bound;
 }();
 
-/// The probability with which the rule claims that an estimate covers the error; 0 if none.
+/// The probability with which an estimate is claimed to cover the error; 0 if none.
 template <class Rule>
 inline constexpr double claimed_rate = [] {
     if constexpr (requires { Rule::claimed_rate; })
@@ -49,7 +47,6 @@ inline constexpr double claimed_rate = [] {
         return 0.0;
 }();
 
-/// True if the errors of the rule are bounds, neither estimates nor always zero.
 template <class Rule>
 inline constexpr bool promises_bound = meaning_of_error<Rule> == error_meaning::bound;
 
@@ -149,7 +146,6 @@ inline constexpr bool holds_without_subnormals = [] {
         return false;
 }();
 
-/// Names the member that a bound rule lacks.
 template <class Rule, class T>
 struct rule_check {
     static_assert(rule_has_bound<Rule, T>,
@@ -177,7 +173,6 @@ struct rule_check {
 
 // A rule may use + − × ÷ of T (no a += b), negation, comparisons, construction from int,
 // number_traits<T>. All members are static:
-//
 //   name                                    for tables and messages
 //   template <class T> struct bound         the state stored with a value, of any size
 //   exact(value)                            the bound of an exact number
@@ -188,29 +183,24 @@ struct rule_check {
 //   scale(result, a, e)                     the bound of result = a·2^e, rounded once
 // Optional, with defaults:
 //   negate(bound)                           the bound of −value; default: the same bound
-//   sign(value, bound)                      the certain sign; default: from value and error,
-//                                           uncertain if either is not finite, zero if both are 0
+//   sign(value, bound)                      the certain sign; default: from value and error
 //   correction(value, bound)                estimates exact value − value, within error; default: 0
-//   square_root(result, a)                  the bound of the rounded √a, unknown if a may be
-//                                           negative; default: from the error of a
-//   fused(result, a, b, c)                  the bound of ab + c, rounded once; default: from errors
-//   keeps_first_order                       true if errors keep signs or sources: √a and ab + c
-//                                           then use the rule's operations, including divide
+//   square_root(result, a)                  of the rounded √a, unknown if a may be negative
+//   fused(result, a, b, c)                  of ab + c, rounded once. Defaults: from errors
+//   keeps_first_order                       √a and ab + c use the rule's operations, with divide
 //   is_crowded(bound)                       for such a rule: true if √a should start one new source
-//   displacement(value)                     the bound of a number whose exact value is 0; with it,
-//                                           numbers of 8 and 16 bits have bounds in float
-//   template <class T> class dot_bound      bounds s = 0, s += ab, ...: a call of
-//                                           add_product(ab, s before, s after, a, b) per step,
-//                                           then finished(s), which returns bound<T>
+//   displacement(value)                     of a number whose exact value is 0; with it, numbers of
+//                                           8 and 16 bits have bounds in float
+//   template <class T> class dot_bound      bounds s = 0, s += ab, ... by add_product(ab, s before,
+//                                           s after, a, b) for each, then finished(s)
 //   minimal_precision                       the bits of T that the proof needs
 //   has_division                            false if `divide` exists only for its message
 //   holds_in_directed_rounding              true if the proof holds in any rounding direction
 //   holds_without_subnormals                true if the rule also holds without subnormal numbers
-//   error_is                                error_meaning::estimate or nothing
-//   claimed_rate                            the claimed probability: an estimate covers the error
+//   error_is, claimed_rate                  error_meaning::estimate or nothing; its probability
 
-/// True if Rule is a bound rule for T, with the members in the table above. Soundness (bounds that
-/// hold) needs a proof; errbound/validation tests it.
+/// True if Rule has the members in the table above. Soundness (bounds that hold) needs a proof;
+/// errbound/validation tests it.
 template <class Rule, class T = double>
 concept bound_rule = detail::rule_has_bound<Rule, T> && detail::rule_has_name<Rule, T> &&
     detail::rule_has_exact<Rule, T> && detail::rule_has_within<Rule, T> &&

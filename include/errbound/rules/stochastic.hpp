@@ -1,10 +1,9 @@
 // Bound rule `stochastic`: stochastic arithmetic, which estimates errors and promises nothing. A
 // number carries samples, computed with every operation randomly rounded up or down; their scatter
-// estimates the rounding error. For comparison with bounds, and where bounds are too wide.
-//
-// error_is is error_meaning::estimate: signs follow the estimate and may be wrong, so no predicate
-// takes this rule. It misses truncation errors and branches that samples do not take. `errbound
-// validate` measures how often estimates are too small.
+// estimates the rounding error. For comparison with bounds, and where bounds are too wide. Signs
+// follow the estimate and may be wrong, so no predicate takes this rule. It misses truncation
+// errors and branches that samples do not take. `errbound validate` measures how often estimates
+// are too small.
 #pragma once
 
 #include <array>
@@ -18,12 +17,10 @@
 namespace errbound {
 
 /// Stochastic arithmetic with 2 to 8 samples. Cost: an error-free operation and a hash per sample.
-///
 /// A sample's operation is rounded to a neighbour of the exact result, the nearer one more often,
 /// right on average (Croci, Fasi, Higham, Mary, Mikaitis 2022; Parker's Monte Carlo arithmetic,
 /// 1997). The random bits are a hash of the operands, the sample's index and Seed. So results are
-/// reproducible, and equal operations round equally, as in the modelled arithmetic: a + b and b + a
-/// agree, and b − a is −(a − b), as in Verrou's _det modes.
+/// reproducible, a + b and b + a agree, and b − a is −(a − b), as in Verrou's _det modes.
 template <std::size_t Samples, std::uint64_t Seed = 0>
 struct stochastic_of {
     static_assert(Samples >= 2 && Samples <= 8, "errbound: stochastic takes 2 to 8 samples");
@@ -42,7 +39,7 @@ struct stochastic_of {
     static constexpr bound<T> exact(const T& value) {
         return by_sample<T>([&](std::size_t) { return value; });
     }
-    /// Spread evenly over value ± error; equal arguments give equal samples.
+    /// Spread evenly over value ± error. Equal arguments give equal samples.
     template <class T>
     static constexpr bound<T> within(const T& value, const T& error) {
         return by_sample<T>([&](std::size_t k) {
@@ -51,9 +48,8 @@ struct stochastic_of {
             return T(value + detail::rounded_product(error, static_cast<T>(share)));
         });
     }
-    /// An estimate; infinite if a sample is not finite. CESTAC's (Vignes 1993), |m| + τs/√N: the
-    /// mean deviation m from the value, the standard deviation s, Student's τ for 95 %. (CESTAC
-    /// returns the mean instead of the value.) 0 if samples do not scatter.
+    /// CESTAC's estimate (Vignes 1993), |m| + τs/√N: the mean deviation m from the value, the
+    /// standard deviation s, Student's τ for 95 %. (CESTAC returns the mean instead of the value.)
     template <class T>
     static constexpr T error(const T& value, const bound<T>& b) {
         using traits = number_traits<T>;
@@ -151,7 +147,7 @@ struct stochastic_of {
         return detail::rounded_product(T(traits::abs(v) * traits::unit_roundoff()), T(1.25)) +
                traits::underflow_unit();
     }
-    /// v + error, rounded to v or its neighbour on that side.
+    /// Rounds v + error to v or its neighbour.
     template <class T>
     static constexpr T at_random(const T& v, const T& error, std::uint64_t random) {
         if (error == 0 || !number_traits<T>::is_finite(error)) return v;
@@ -159,7 +155,7 @@ struct stochastic_of {
         const T share = error / (neighbour - v);
         return share > static_cast<T>(chance(random)) ? neighbour : v;
     }
-    /// v or, half the time, a neighbour; for errors unknown near underflow.
+    /// v or, half the time, a neighbour: errors near underflow are unknown.
     template <class T>
     static constexpr T disturbed(const T& v, std::uint64_t random) {
         const T off = random >> 63 == 0 ? T(0) : step<T>(v);
@@ -170,7 +166,6 @@ struct stochastic_of {
     static constexpr double chance(std::uint64_t random) {
         return static_cast<double>(random >> 11) * 0x1p-53;
     }
-    /// Distinguishes operations on equal operands.
     enum operation : std::uint64_t {
         of_sum = 0,
         of_product = 8,
@@ -197,7 +192,7 @@ struct stochastic_of {
         }
         return h;
     }
-    /// The last step of SplitMix64 (Steele, Lea, Flood 2014), a bijection.
+    /// The last step of SplitMix64 (Steele, Lea, Flood 2014).
     static constexpr std::uint64_t mixed(std::uint64_t z) {
         z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9U;
         z = (z ^ (z >> 27)) * 0x94d049bb133111ebU;

@@ -4,8 +4,8 @@
 // are inflated for their own roundings. Products add 4η for underflow, of the value and of three
 // products in the bound. Sums add none, as |v|ε is at least the last place of an inexact sum. A
 // product with an exact zero is exact. Overflow and NaN give infinite or NaN bounds and no certain
-// sign. Only under directed rounding, overflow to the largest finite number goes unnoticed. Without
-// underflow the bound exceeds that of `safe` at most slightly: proofs/ComputedComparison.v,
+// sign, except that under directed rounding overflow to the largest finite number goes unnoticed.
+// Without underflow the bound exceeds that of `safe` at most slightly: proofs/ComputedComparison.v,
 // tight_at_most_safe_computed.
 #pragma once
 
@@ -18,11 +18,9 @@ namespace errbound {
 
 struct tight {
     static constexpr const char* name = "tight";
-    /// Overflow to the largest finite number goes unnoticed.
     static constexpr bool holds_in_directed_rounding = true;
     static constexpr bool holds_without_subnormals = true;
 
-    /// |value − exact value| <= error.
     template <class T>
     struct bound {
         T error;
@@ -38,20 +36,20 @@ struct tight {
     static constexpr bound<T> within(const T& value, const T& error) {
         return {error >= 0 ? error + (value - value) : number_traits<T>::infinity()};
     }
-    /// Bounds a number whose exact value is 0. Proof: proofs/IeeeRules.v, tight_within_known.
+    /// The exact value is 0. Proof: proofs/IeeeRules.v, tight_within_known.
     template <class T>
     static constexpr bound<T> displacement(const T& value) {
         return within<T>(value, number_traits<T>::abs(value));
     }
-    /// Proof of the resulting sign: proofs/IeeeRules.v, sign_of_known.
+    /// Proof of the sign: proofs/IeeeRules.v, sign_of_known.
     template <class T>
     static constexpr T error(const T&, const bound<T>& b) {
         return b.error;
     }
 
     /// |v − (a + b)| <= |v|ε/(1 − ε) + σa + σb. In types of fewer than 40 bits, long sums do not
-    /// inflate σa and σb (detail/sum_of_bounds.hpp). Source: Theorem 1, Add. Proof:
-    /// proofs/IeeeRules.v, tight_add_known; in any direction, proofs/Tight.v, tight_add_sound.
+    /// inflate σa and σb (detail/sum_of_bounds.hpp). Proof: proofs/IeeeRules.v, tight_add_known; in
+    /// any direction, proofs/Tight.v, tight_add_sound.
     template <class T>
     static constexpr bound<T> add(const T& v, rule_operand<T, tight> a, rule_operand<T, tight> b) {
         using traits = number_traits<T>;
@@ -64,16 +62,15 @@ struct tight {
         return {detail::sum_of_bounds<T>(inflated<T>(own + (a.bound.error + b.bound.error)), own,
                                          a.bound.error, b.bound.error)};
     }
-    /// Source: Theorem 1, Subtract. Proof: proofs/IeeeRules.v, tight_subtract_known; in any
-    /// direction, proofs/Tight.v, tight_subtract_sound.
+    /// Proof: proofs/IeeeRules.v, tight_subtract_known; in any direction, proofs/Tight.v,
+    /// tight_subtract_sound.
     template <class T>
     static constexpr bound<T> subtract(const T& v, rule_operand<T, tight> a,
                                        rule_operand<T, tight> b) {
         return add(v, a, b);
     }
-    /// |v − ab| <= |v|ε/(1 − ε) + |â|σb + σa|b̂| + σaσb. Source: Theorem 1, Multiply. Proof:
-    /// proofs/IeeeRules.v, tight_multiply_known; in any direction, proofs/Tight.v,
-    /// tight_multiply_sound.
+    /// |v − ab| <= |v|ε/(1 − ε) + |â|σb + σa|b̂| + σaσb. Proof: proofs/IeeeRules.v,
+    /// tight_multiply_known; in any direction, proofs/Tight.v, tight_multiply_sound.
     template <class T>
     static constexpr bound<T> multiply(const T& v, rule_operand<T, tight> a,
                                        rule_operand<T, tight> b) {
@@ -84,10 +81,10 @@ struct tight {
             detail::rounded_product(a.bound.error, T(traits::abs(b.value) + b.bound.error));
         return {inflated<T>(rounding(v) + inherited + 4 * traits::underflow_unit())};
     }
-    /// |v − a/b| <= |v|ε/(1 − ε) + (σa + |â/b̂|σb)/(|b̂| − σb) if |b̂| > σb, otherwise infinite.
-    /// This is the printed rule, because σa(|b̂| − σb) + (|â| + σa)σb = σa|b̂| + |â|σb. Source:
-    /// Theorem 1, Divide. Proof: proofs/IeeeRules.v, tight_divide_known; in any direction,
-    /// proofs/Tight.v, tight_divide_sound.
+    /// |v − a/b| <= |v|ε/(1 − ε) + (σa + |â/b̂|σb)/(|b̂| − σb) if |b̂| > σb, otherwise infinite:
+    /// the printed rule, as σa(|b̂| − σb) + (|â| + σa)σb = σa|b̂| + |â|σb. Proof:
+    /// proofs/IeeeRules.v, tight_divide_known; in any direction, proofs/Tight.v,
+    /// tight_divide_sound.
     template <class T>
     static constexpr bound<T> divide(const T& v, rule_operand<T, tight> a,
                                      rule_operand<T, tight> b) {
@@ -95,19 +92,18 @@ struct tight {
         const T distance = traits::abs(b.value) - b.bound.error;  // of b from zero
         if (!(distance > 0)) return {traits::infinity()};
         if constexpr (!has_subnormals<T>)
-            // The subtraction may have underflowed.
             if (!(distance > traits::underflow_unit())) return {traits::infinity()};
         if (is_zero(a)) return {rounding(v)};
-        // |â/b̂| may have been rounded down, so it is inflated separately. If b is not exact, 4η
-        // covers underflow in the numerator before the division enlarges it.
+        // |â/b̂| may have been rounded down, so it is inflated separately. 4η covers underflow in
+        // the numerator before the division enlarges it.
         const T quotient = inflated<T>(traits::abs(v) + traits::underflow_unit());
         const T lost = b.bound.error > 0 ? 4 * traits::underflow_unit() : T(0);
         const T inherited =
             (a.bound.error + detail::rounded_product(quotient, b.bound.error) + lost) / distance;
         return {inflated<T>(rounding(v) + inflated<T>(inherited) + 4 * traits::underflow_unit())};
     }
-    /// Exact unless it underflows; then value and bound are each off by less than η. Proof:
-    /// proofs/IeeeRules.v, tight_scale_known; in any direction, proofs/Tight.v, tight_scale_sound.
+    /// If it underflows, value and bound are each off by less than η. Proof: proofs/IeeeRules.v,
+    /// tight_scale_known; in any direction, proofs/Tight.v, tight_scale_sound.
     template <class T>
     static constexpr bound<T> scale(const T& v, rule_operand<T, tight> a, int e) {
         using traits = number_traits<T>;
@@ -117,16 +113,15 @@ struct tight {
         return {lossless ? scaled + (v - v) : inflated<T>(scaled + 2 * traits::underflow_unit())};
     }
 
-    /// Σ aᵢbᵢ, with a running error bound. For computed products pᵢ and partial sums sᵢ, roundings
-    /// add at most Σ (|pᵢ| + |sᵢ|)·ε/(1 − ε), without s₁ = p₁, and η per product. The arguments'
-    /// errors add Σ |â|σb + σa(|b̂| + σb).
+    /// Σ aᵢbᵢ, with a running error bound (Higham 2002, Section 3.3). For computed products pᵢ and
+    /// partial sums sᵢ, roundings add at most Σ (|pᵢ| + |sᵢ|)·ε/(1 − ε), without s₁ = p₁, and η per
+    /// product. The arguments' errors add Σ |â|σb + σa(|b̂| + σb).
     ///
     /// One factor covers the roundings in the bound of m terms: at most m for each summand |pᵢ|ε or
-    /// |sᵢ|ε, m + 2 for one of the arguments' errors, and four at the end. With j = m + 6, 1 + (j +
-    /// 1)ε >= 1/(1 − jε) >= (1 − ε)^−j if j²ε <= 1/2. Underflow loses less than η for each product,
-    /// twice for each term of inexact arguments, and once at the end. Source: Higham 2002, Section
-    /// 3.3 (running error analysis). Proof: proofs/IeeeDotProduct.v, tight_dot_known; in any
-    /// direction, proofs/DotProduct.v, tight_dot_sound.
+    /// |sᵢ|ε, m + 2 for an argument's error, and four at the end. With j = m + 6, 1 + (j + 1)ε >=
+    /// 1/(1 − jε) >= (1 − ε)^−j if j²ε <= 1/2. Underflow loses less than η for each product, twice
+    /// for each term of inexact arguments, and once at the end. Proof: proofs/IeeeDotProduct.v,
+    /// tight_dot_known; in any direction, proofs/DotProduct.v, tight_dot_sound.
     template <class T>
     class dot_bound : detail::running_bound<T, dot_bound<T>,
                                             has_subnormals<T> ? number_traits<T>::digits - 2 : 0> {
