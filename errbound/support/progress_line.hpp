@@ -10,7 +10,7 @@
 
 namespace errbound::support {
 
-/// A bar on a terminal's standard error, after the first second; removed at the end.
+/// A bar on standard error after the first second, removed at the end.
 class progress_line {
   public:
     progress_line() = default;
@@ -18,12 +18,11 @@ class progress_line {
     progress_line& operator=(const progress_line&) = delete;
     ~progress_line() { clear(); }
 
-    /// `done` of `total` > 0 parts are done; `what` is running.
+    /// `what` is running, the part after the `done` ones.
     void show(std::size_t done, std::size_t total, const std::string& what) {
         draw(static_cast<double>(done) / static_cast<double>(total),
              std::to_string(done) + '/' + std::to_string(total) + ' ' + what);
     }
-    /// `share`, from 0 to 1, is done; `what` is running.
     void show(double share, const std::string& what) {
         draw(share, std::to_string(static_cast<int>(100 * share)) + " % " + what);
     }

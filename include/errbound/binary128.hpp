@@ -18,8 +18,7 @@ using float128 = long double;
 
 namespace errbound {
 
-/// 113 bits of precision, in software on most processors.
-using float128 = __float128;
+using float128 = __float128;  ///< 113 bits of precision, in software on most processors
 
 template <>
 struct number_traits<float128> {

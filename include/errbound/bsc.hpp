@@ -147,8 +147,7 @@ struct decomposition {
     constexpr decomposition(const cubic<S>& y, const bernstein<S, 2>& j)
         : m(normalized(bernstein<S, 1>{{y[0] * j[2], y[3] * j[0]}})) {
         const S jj = j[0] * j[2];
-        // The identity needs m before normalisation.
-        const S m0 = y[0] * j[2], m1 = y[3] * j[0];
+        const S m0 = y[0] * j[2], m1 = y[3] * j[0];  // the identity needs m before normalisation
         r = normalized(bernstein<S, 1>{
             {jj * y[1] - m0 * j[1] - m1 * j[0], jj * y[2] - m0 * j[2] - m1 * j[1]}});
     }

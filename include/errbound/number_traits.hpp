@@ -84,8 +84,7 @@ struct number_traits {
         else
             return std::numeric_limits<T>::has_denorm == std::denorm_present;
     }();
-    /// The precision p in bits.
-    static constexpr int digits = std::numeric_limits<T>::digits;
+    static constexpr int digits = std::numeric_limits<T>::digits;  ///< the precision p in bits
 
     static constexpr T abs(const T& x) {
         // One instruction. The comparison takes more, as it keeps the sign of a zero.

@@ -142,8 +142,7 @@ std::optional<std::size_t> count_roots(const polynomial<tracked<double, Rule>>& 
                   "errbound: count_roots needs a rule that stores only the absolute error, as "
                   "tight and sharp do: convert by within(x.value(), x.error())");
     assert(roots::is_interval(a, b));
-    // The filter needs roots other than 0.
-    std::span others(p.coefficients());
+    std::span others(p.coefficients());  // the filter needs roots other than 0
     while (!others.empty() && others[0].value() == 0 && others[0].error() == 0)
         others = others.subspan(1);
     if (others.empty()) return infinitely_many;

@@ -44,8 +44,7 @@ struct points {
 
 /// The defaults. Derive from them to change some.
 struct predicate_options {
-    /// Bound rule of the tracked stage; void: no such stage.
-    using tracked_rule = void;
+    using tracked_rule = void;  ///< bound rule of the tracked stage; void: no such stage
     /// Exact number type of the last stage, constructible from double; void: long_integer.
     using exact_type = void;
     /// True if terms of different degree are never added, so scaling by powers of two keeps signs.

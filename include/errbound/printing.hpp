@@ -88,8 +88,7 @@ template <std::floating_point T>
 std::string certain_digits(T value, T error) {
     if (!std::isfinite(value) || !std::isfinite(error)) return "unknown";
     if (error == 0) return decimal(value == 0 ? T(0) : value);
-    // 18 digits may round up to the next power of ten, never below one.
-    constexpr int digits = 17;
+    constexpr int digits = 17;  // 18 digits may round up to the next power of ten, never below one
     const bool doubles = error <= (std::numeric_limits<T>::max)() / 2;
     const T scaled = doubles ? 2 * error : error;
     const int k = decimal_exponent(decimal(scaled, std::chars_format::scientific, digits)) +

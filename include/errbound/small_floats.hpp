@@ -42,8 +42,7 @@ class small_float {
     static constexpr int least_exponent = 2 - (1 << (ExponentBits - 1));
     static constexpr int largest_code =
         HasInfinity ? (((1 << ExponentBits) - 1) << (Precision - 1)) - 1 : codes / 2 - 2;
-    /// Infinity, or NaN without infinities.
-    static constexpr int overflow_code = largest_code + 1;
+    static constexpr int overflow_code = largest_code + 1;  ///< infinity, or NaN without infinities
     static constexpr int nan_code = codes / 2 - 1;
 
     constexpr small_float() = default;
@@ -179,8 +178,7 @@ using float8_e4m3 = small_float<4, 4, false>;  ///< no infinities; at most 448
 template <int P, int E, bool HasInfinity>
 struct number_traits<small_float<P, E, HasInfinity>> {
     using number = small_float<P, E, HasInfinity>;
-    /// Rules that can keep bounds in floats do so (tracked.hpp).
-    using computed_in = float;
+    using computed_in = float;  ///< rules that can keep bounds in floats do so (tracked.hpp)
     static constexpr int digits = P;
     static constexpr bool has_infinity = HasInfinity;
     static constexpr int max_exponent = (1 << (E - 1)) + (HasInfinity ? 0 : 1);

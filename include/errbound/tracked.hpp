@@ -70,8 +70,7 @@ struct type_of_bounds<T, Rule> {
 template <class T, class Rule>
 inline constexpr bool bounds_are_wider = !std::is_same_v<typename type_of_bounds<T, Rule>::type, T>;
 
-// Their names appear in the compiler's message.
-struct use_compare_or_by_value;
+struct use_compare_or_by_value;  // their names appear in the compiler's message
 struct use_sign_of_or_compare {};
 
 }  // namespace detail

@@ -1,13 +1,12 @@
 // A rule over a rule: records where the error of a tracked number comes from.
-//
 //   using number = errbound::tracked<double, errbound::explained<errbound::tight>>;
 //   ... a computation, in scopes (scope.hpp) ...
 //   std::cout << text_of(errbound::explain(x));        // a table (explanation.hpp)
 //
-// Values, bounds and signs are those of the wrapped rule, bit for bit. The explained error is the
-// rule's bound, overestimation included. Numbers allocate; operations throw std::bad_alloc. Not for
-// device code or SIMD packs. Cost: linear in the operands' sources, a tenth of a microsecond with
-// few and one with 32 (docs/measured.md); 24 bytes per source (T double).
+// Values, bounds and signs are those of the wrapped rule, bit for bit. Numbers allocate; operations
+// throw std::bad_alloc. Not for device code or SIMD packs. Cost: linear in the operands' sources, a
+// tenth of a microsecond with few and one with 32 (docs/measured.md); 24 bytes per source (T
+// double).
 #pragma once
 
 #include <array>
@@ -150,12 +149,11 @@ struct explained {
         return closed<T>(detail::operations::scaled, v, result, own, std::move(contributions));
     }
 
-    /// For functions: x under the wrapped rule.
     template <class T>
     static tracked<T, Rule> unwrapped(const tracked<T, explained>& x) {
         return tracked<T, Rule>::from_bound(x.value(), x.bound().of_rule);
     }
-    /// The wrapped rule's x, with contributions that add up to its error.
+    /// The contributions must add up to the error of x.
     template <class T>
     static tracked<T, explained> wrapped(const tracked<T, Rule>& x, ledger<T> contributions) {
         return tracked<T, explained>::from_bound(x.value(), {x.bound(), std::move(contributions)});

@@ -1,8 +1,7 @@
-// A number's error by its sources, stored by the rule `explained` (explained.hpp).
-//
-// An entry is one source's part: `known`, a signed part of exact value − value, and `unknown` >= 0,
-// a bound of the rest. With c the rule's correction and e its bound, Σ (|known| + unknown) >= e
-// despite rounding, and Σ known = c up to rounding. Infinite entries explain an infinite e.
+// A number's error by its sources, stored by the rule `explained` (explained.hpp). An entry is one
+// source's part: `known`, a signed part of exact value − value, and `unknown` >= 0, a bound of the
+// rest. With c the rule's correction and e its bound, Σ (|known| + unknown) >= e despite rounding,
+// and Σ known = c up to rounding. Infinite entries explain an infinite e.
 #pragma once
 
 #include <algorithm>
@@ -42,7 +41,6 @@ class ledger {
 
     const std::vector<entry>& entries() const { return entries_; }
 
-    /// Adds another ledger's entries, each multiplied by `times`.
     template <class Times>
     void carry(const ledger& other, const Times& times) {
         if (other.entries_.empty()) return;
@@ -61,7 +59,7 @@ class ledger {
         all.insert(all.end(), mine, entries_.end());
         entries_.swap(all);
     }
-    /// Adds another ledger's entries by size, without sign, scaled to the sum `total`.
+    /// Adds another ledger's entries by size, scaled to the sum `total`.
     template <class B>
     void carry_sizes(const ledger<B>& other, const A& total) {
         B sizes(0);
@@ -70,7 +68,6 @@ class ledger {
         for (const ledger_entry<B>& o : other.entries())
             book({o.from, A(0), A(static_cast<A>(o.size() / sizes) * total)});
     }
-    /// Adds the infinite entries of a number without a bound.
     template <class B>
     void carry_unknown(const ledger<B>& other) {
         for (const ledger_entry<B>& o : other.entries())
@@ -99,7 +96,7 @@ class ledger {
         }
         const A off = traits::abs(c - known);
         const A wanted = (traits::max)(A(0), e - traits::abs(c)) + off;
-        // Quotients first: the sums may exceed the wanted amount by more than a number's range.
+        // Quotients first: the sums may overflow.
         if (wanted > unknown && sizes > 0) {
             const A missing = wanted - unknown;
             for (entry& x : entries_) x.unknown += x.size() / sizes * missing;
@@ -111,7 +108,7 @@ class ledger {
         cover(e);
         std::erase_if(entries_, [](const entry& x) { return x.size() == 0; });
     }
-    /// Merges the smallest entries until at most `limit` >= 1 are left.
+    /// Merges the smallest entries. Precondition: limit >= 1.
     void limit(std::size_t limit) {
         while (entries_.size() > limit) {
             entry& rest = at(the_rest);  // the last of all

@@ -1,5 +1,4 @@
 // Scopes: names for parts of a program, to distinguish errors (explained.hpp).
-//
 //   {
 //       const errbound::scope s("mean");   // until the end of the block
 //       mean = sum / n;
@@ -8,7 +7,7 @@
 // Scopes nest in the order of entry, across calls, on each thread. A scope is a local variable: it
 // must end before those around it, on its thread (not in a coroutine that resumes elsewhere). Name,
 // file, line and outer scopes identify it; recursion into itself is the same scope. Operations of
-// one kind in a scope are one source of error; for finer sources use smaller scopes.
+// one kind in a scope are one source of error.
 #pragma once
 
 #include <algorithm>
@@ -36,7 +35,7 @@ struct place {
 
 namespace detail {
 
-/// A source of error: a scope and a kind of operation, as indices in all_sources.
+/// A scope and a kind of operation, as indices in all_sources.
 struct source {
     std::uint32_t scope = 0, operation = 0;
 
@@ -50,10 +49,9 @@ struct operations {
         "input", "+", "-", "*", "/", "scale", "rounding to the type"};
 };
 
-/// Sources too small to be kept.
 inline constexpr source the_rest{static_cast<std::uint32_t>(-1), 0};
 
-/// The scopes and operations of all threads, kept for good: numbers may outlive their scopes.
+/// The scopes and operations of all threads. Kept for good: numbers may outlive their scopes.
 class all_sources {
   public:
     static all_sources& instance() {
@@ -61,7 +59,7 @@ class all_sources {
         return all;
     }
 
-    /// The scope at that place in scope `parent`; `parent` if there are too many.
+    /// `parent` if there are too many scopes.
     std::uint32_t scope_in(std::uint32_t parent, std::string_view name, std::string_view file,
                            std::uint_least32_t line) {
         const std::lock_guard lock(mutex_);
@@ -87,7 +85,7 @@ class all_sources {
         return made;
     }
 
-    /// The scopes around a source, the outermost first.
+    /// The outermost first.
     std::vector<place> scopes_of(const source& s) const {
         const std::lock_guard lock(mutex_);
         std::vector<place> path;
@@ -119,7 +117,7 @@ class all_sources {
     std::map<std::string_view, std::uint32_t> numbers_;  // of functions
 };
 
-/// The calling thread's scope; 0: none.
+/// 0: none.
 inline std::uint32_t& current_scope() {
     thread_local std::uint32_t current = 0;
     return current;
@@ -127,12 +125,12 @@ inline std::uint32_t& current_scope() {
 
 }  // namespace detail
 
-/// A named part of the program, until the end of the block. Cost: a look-up under a lock shared by
-/// all threads; tens of nanoseconds without contention. A program has at most 100,000 scopes (each
-/// run-time name is one); further ones count as the scope around. Throws std::bad_alloc.
+/// A named part of the program. Cost: a look-up under a lock shared by all threads; tens of
+/// nanoseconds without contention. A program has at most 100,000 scopes (each run-time name is
+/// one); further ones count as the scope around. Throws std::bad_alloc.
 class scope {
   public:
-    /// File and line of the caller (clang 14 lacks std::source_location).
+    /// clang 14 lacks std::source_location.
     [[nodiscard]] explicit scope(std::string_view name, std::string_view file = __builtin_FILE(),
                                  std::uint_least32_t line = __builtin_LINE())
         : outer_(detail::current_scope()) {

@@ -93,8 +93,8 @@ class predicate_stages {
                   "analyse");
 
     static constexpr bool mixed = !Options::homogeneous && (counts.mixed || !counts.complete);
-    /// 1 is one more coordinate.
-    static constexpr std::size_t listed_size = Shape::size + mixed;
+    static constexpr std::size_t listed_size =
+        Shape::size + mixed;  ///< mixed: 1 is a coordinate, too
     using coordinate_list = std::array<double, listed_size>;
 
     template <class... Points>

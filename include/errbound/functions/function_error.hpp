@@ -1,5 +1,4 @@
-// Assumed errors of the C library's elementary functions, one number for each function and type.
-// Bounds of errbound/elementary.hpp rest on them; users may replace them.
+// Assumed errors of the C library's elementary functions. Users may replace them.
 #pragma once
 
 #include <errbound/number_traits.hpp>
@@ -34,7 +33,6 @@ enum class elementary_function {
 
 namespace detail {
 
-/// True if function_error's comment covers this C library (is_wide: types wider than double).
 /// MinGW-w64's sine of 10^22 is 0.46, not −0.85; musl on ARM computes long doubles in double.
 constexpr bool has_documented_errors([[maybe_unused]] bool is_wide) {
 #if defined(_WIN32)
@@ -46,7 +44,7 @@ constexpr bool has_documented_errors([[maybe_unused]] bool is_wide) {
 #endif
 }
 
-/// In the order of the enumeration: at least the errors in function_error's comment; 0: unknown.
+/// In the order of the enumeration; 0: unknown.
 constexpr double documented_error(elementary_function f, bool is_wide) {
     if (!has_documented_errors(is_wide)) return 0;
     constexpr double narrow[] = {1, 1, 2, 1, 2, 3, 2, 1, 1, 2, 1, 1, 1, 3, 3, 3, 3, 3, 3, 5, 1, 2};
@@ -59,22 +57,21 @@ constexpr bool is_function_of_angle(elementary_function f) {
     return f == sin || f == cos || f == tan;
 }
 
-/// Larger angles are reduced by angle_reduction.hpp, not by the C library.
+/// angle_reduction.hpp reduces larger angles.
 inline constexpr double least_reduced_angle = 0x1p20;
 
 }  // namespace detail
 
 /// The assumption for arguments of type T in the domain of F: a finite result v is within this many
-/// units in the last place of the exact result f. For subnormal f the unit is η. Rounding
-/// is to nearest. Between 0.5 and 1024. For sin, cos and tan only below 2^20: glibc reduces larger
-/// doubles with an absolute error, and cos(0x1.69eab0985179bp+246) is off by 136,921 units.
+/// units in the last place of the exact result f. For subnormal f the unit is η. Rounding is to
+/// nearest. Between 0.5 and 1024. For sin, cos and tan only below 2^20: glibc reduces larger
+/// doubles with an absolute error.
 ///
 /// The defaults are upper bounds of the errors in two sources: the GNU C library's manual ("Known
 /// Maximum Errors in Math Functions", x86-64); Gladman, Innocente, Mather and Zimmermann (Accuracy
 /// of Mathematical Functions ...), with float and double of other libraries. `errbound validate
 /// --functions all` tests them. Windows, and long double of other libraries, have none and need a
 /// specialisation before the first use:
-///
 ///   template <>
 ///   inline constexpr double errbound::function_error<errbound::elementary_function::exp, double> =
 ///       0.52;

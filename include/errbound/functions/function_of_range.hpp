@@ -1,8 +1,7 @@
-// Bounds of an elementary function over all numbers within e of x̂. Internal.
-//
-// Notation: x̂ and e an argument's value and error, v the computed result, f the function, η the
-// smallest positive number, u = ε/2 the unit roundoff. A computed bound keeps at least (1 − u)^13
-// of itself; enlarged() pays, (1 + 16u)(1 − u)^13 > 1. Underflow is counted separately.
+// Bounds of an elementary function over all numbers within e of x̂. Notation: docs/notation.md; x̂
+// and e an argument's value and error, v the computed result, f the function. A computed bound
+// keeps at least (1 − u)^13 of itself; enlarged() pays, (1 + 16u)(1 − u)^13 > 1. Underflow is
+// counted separately.
 #pragma once
 
 #include <cmath>
@@ -18,7 +17,7 @@ namespace errbound {
 
 namespace detail {
 
-/// The type that evaluates functions of T: T, or float for 8- and 16-bit types.
+/// T, or float for 8- and 16-bit types.
 template <class T>
 struct type_of_functions {
     using type = T;
@@ -66,8 +65,7 @@ auto system_function(const T&... x) {
 
 /// At least |v − f|, before enlarged(). With k units: the last place of f is at most ε|f| + η, and
 /// |f| <= (|v| + kη)/(1 − kε), so |v − f| <= kε|v|/(1 − kε) + kη + k²εη/(1 − kε); and 1/(1 − kε) <
-/// 1 + 2kε, k²ε < 1/8. Another 2kε >= u covers rounding k to T, another η for the product's
-/// underflow.
+/// 1 + 2kε, k²ε < 1/8. Another 2kε >= u covers rounding k to T, another η the product's underflow.
 template <elementary_function F, class T>
 T error_of_function(const T& v) {
     using traits = number_traits<T>;
@@ -82,13 +80,13 @@ T error_of_function(const T& v) {
            T(static_cast<int>(k) + 2) * traits::underflow_unit();
 }
 
-/// A value, and at least its distance from the exact one; infinite or NaN if there is no bound.
+/// The error is infinite or NaN if there is no bound.
 template <class T>
 struct bounded {
     T value, error;
 };
 
-/// A function's value at a T, before enlarged().
+/// The error still needs enlarged().
 template <elementary_function F, class T>
 bounded<T> evaluated(const T& x) {
     const T v = system_function<F>(x);
@@ -124,8 +122,8 @@ bool is_cube_root(const T& v, const T& x) {
            product_error_is_exact(square.value, v, cube) && cube.error == 0 && cube.value == x;
 }
 
-/// True if v is the exact result for an exact x. Other rational results exist only for logarithms
-/// of powers of ten (theorems of Lindemann, and of Gelfond and Schneider).
+/// Other rational results for an exact x exist only for logarithms of powers of ten (theorems of
+/// Lindemann, and of Gelfond and Schneider).
 template <elementary_function F, class T>
 bool is_exact_result(const T& x, const T& v) {
     using enum elementary_function;
@@ -187,7 +185,7 @@ T natural_distance(const T& x) {
     return size > 1 ? size : T(1);
 }
 
-/// x̂ ± distance, rounded away from x̂; never beyond the end of a closed domain.
+/// x̂ ± distance, rounded away from x̂; within a closed domain.
 template <elementary_function F, class T>
 T moved(const T& x, const T& distance, bool up) {
     using enum elementary_function;
@@ -201,12 +199,11 @@ T moved(const T& x, const T& distance, bool up) {
     return p;
 }
 
-/// At least |v − f(x)| for x within e > 0 of x̂, all in the domain.
-///
-/// |f(x) − f(x̂)| is at most the integral of |f'| over the e beyond x̂ on the steeper side. To a p
-/// there, at a distance d >= e, the mean of |f'| is no less, so the change is at most (e/d)·|f(p) −
-/// f(x̂)|. d = √ε natural distances gives the derivative to about √ε. If |f'| grows towards zero, p
-/// passes zero only if x can be zero, with d = e: the integral is still the largest of that length.
+/// At least |v − f(x)| for x within e > 0 of x̂, all in the domain. |f(x) − f(x̂)| is at most the
+/// integral of |f'| over the e beyond x̂ on the steeper side. To a p there, at a distance d >= e,
+/// the mean of |f'| is no less, so the change is at most (e/d)·|f(p) − f(x̂)|. d = √ε natural
+/// distances gives the derivative to about √ε. If |f'| grows towards zero, p passes zero only if x
+/// can be zero, with d = e: the integral is still the largest of that length.
 template <elementary_function F, class T>
 T error_by_slope(const T& x, const T& e, const T& v) {
     using traits = number_traits<T>;
@@ -232,8 +229,8 @@ T error_by_slope(const T& x, const T& e, const T& v) {
     return own + (rounded_product(share, difference) + traits::underflow_unit());
 }
 
-/// At least |f(x) − f(x̂)| for f = sin or cos; `slope` is the other function at x̂. With d = x −
-/// x̂, |2 sin(d/2) cos(x̂ + d/2)| <= e·min(1, |cos x̂| + e/2), and the same for cos.
+/// At least |f(x) − f(x̂)| for f = sin or cos; `slope` is the other at x̂. With d = x − x̂, |2
+/// sin(d/2) cos(x̂ + d/2)| <= e·min(1, |cos x̂| + e/2), and the same for cos.
 template <class T>
 T change_of_wave(const bounded<T>& slope, const T& e) {
     using traits = number_traits<T>;
@@ -259,7 +256,7 @@ T change_of_tangent(const bounded<T>& tangent, const T& e) {
 }
 
 /// f(h + l + d) for |d| <= r.error, h = r.high, l = r.low, from f(h) and f'(h), with |f'| <= 3 and
-/// |f''| <= 6: f(h) + l·f'(h) is off by at most 3l² + 3|d|. The error is enlarged.
+/// |f''| <= 6: f(h) + l·f'(h) is off by at most 3l² + 3|d|. Error enlarged, as of the next three.
 template <class T>
 bounded<T> moved_by_low_part(const reduced_angle<T>& r, const bounded<T>& at_high,
                              const bounded<T>& slope) {
@@ -272,7 +269,7 @@ bounded<T> moved_by_low_part(const reduced_angle<T>& r, const bounded<T>& at_hig
     return {sum.value, enlarged<T>(at_high.error + (traits::abs(sum.error) + error))};
 }
 
-/// −1/y, error enlarged: |1/(ŷ + d) − 1/ŷ| <= e/(|ŷ|(|ŷ| − e)), |d| <= e. Infinite if y may be 0.
+/// −1/y: |1/(ŷ + d) − 1/ŷ| <= e/(|ŷ|(|ŷ| − e)), |d| <= e. Infinite if y may be 0.
 template <class T>
 bounded<T> negative_reciprocal(const bounded<T>& y) {
     using traits = number_traits<T>;
@@ -282,7 +279,6 @@ bounded<T> negative_reciprocal(const bounded<T>& y) {
     return {v, enlarged<T>(y.error / divisor + (half_ulp(v) + traits::underflow_unit()))};
 }
 
-/// The tangent of a reduced angle, error enlarged.
 template <class T>
 bounded<T> tangent_of(const reduced_angle<T>& r) {
     const bounded<T> at_high = evaluated<elementary_function::tan>(r.high);
@@ -299,7 +295,7 @@ bounded<T> negated(const bounded<T>& x) {
     return {T(-x.value), x.error};
 }
 
-/// The sine of r + quadrants·π/2 and its derivative, errors enlarged.
+/// The sine of r + quadrants·π/2 and its derivative.
 template <class T>
 void sine_of(const reduced_angle<T>& r, int quadrants, bounded<T>& sine, bounded<T>& derivative) {
     using enum elementary_function;
@@ -310,7 +306,7 @@ void sine_of(const reduced_angle<T>& r, int quadrants, bounded<T>& sine, bounded
     if (quadrants % 4 >= 2) sine = negated(sine), derivative = negated(derivative);
 }
 
-/// At least |v − f(x)|, x within e > 0 of x̂, f = sin, cos or tan; `at` is the computed f(x̂).
+/// At least |v − f(x)|, x within e > 0 of x̂; `at` is the computed f(x̂).
 template <elementary_function F, class T>
 T error_of_angle_function(const bounded<T>& at, const bounded<T>& derivative, const T& e) {
     if constexpr (F == elementary_function::tan) {
@@ -323,7 +319,7 @@ T error_of_angle_function(const bounded<T>& at, const bounded<T>& derivative, co
     }
 }
 
-/// F over numbers within e of x̂, |x̂| >= least_reduced_angle, by functions of angles up to π/4.
+/// Uses functions of angles up to π/4. Precondition: |x̂| >= least_reduced_angle.
 template <elementary_function F, class T>
 [[gnu::noinline]] bounded<T> function_of_large_angles(T x, T e) {
     using enum elementary_function;
@@ -398,8 +394,7 @@ T error_of_power_at_zero(const T& size, const T& e, const T& n, const T& v) {
 
 /// At least |atan2(y, x) − atan2(ŷ, x̂)| if the path crosses no cut. An angle is at most its
 /// tangent, (x̂·dy − ŷ·dx)/(x̂² + ŷ² + x̂·dx + ŷ·dy); infinite if that fails. In units of the
-/// larger of |x̂| and |ŷ|. Underflow of at most four scalings and products in each sum loses less
-/// than η each.
+/// larger of |x̂| and |ŷ|. At most four scalings and products in each sum lose less than η each.
 template <class T>
 T change_of_angle(const T& y, const T& of_y, const T& x, const T& of_x) {
     using traits = number_traits<T>;
@@ -416,13 +411,11 @@ T change_of_angle(const T& y, const T& of_y, const T& x, const T& of_x) {
     return enlarged<T>(across) / least + lost;
 }
 
-/// x^y over numbers within e_x of x̂ and e_y of ŷ.
 template <class T>
 bounded<T> power_of_ranges(const T& x, const T& of_x, const T& y, const T& of_y) {
     using traits = number_traits<T>;
     const T v = system_function<elementary_function::pow>(x, y);
     const bounded<T> unknown{v, traits::infinity()};
-    // A value that is not finite has an infinite error.
     if (!traits::is_finite(of_x) || !traits::is_finite(of_y)) return unknown;
     if (of_y == 0 && y == 0) return {T(1), T(0)};
     const bool is_whole = of_y == 0 && std::trunc(y) == y;
@@ -437,7 +430,6 @@ bounded<T> power_of_ranges(const T& x, const T& of_x, const T& y, const T& of_y)
     return {v, enlarged<T>(error_of_power_at_zero(size, of_x, y, v))};
 }
 
-/// The angle of (x, y) in [−π, π] over numbers within e_y of ŷ and e_x of x̂.
 template <class T>
 bounded<T> angle_of_ranges(const T& y, const T& of_y, const T& x, const T& of_x) {
     using traits = number_traits<T>;

@@ -376,7 +376,7 @@ template <class T>
 class exact_decimal {
     using format = binary_format<T>;
     static constexpr int places = 1 - format::least;  ///< binary places of the smallest midpoint
-    /// Of j·2^-places for j < 2^(digits + 1).
+    /// The number of digits of j·2^-places for j < 2^(digits + 1).
     static constexpr int most_digits =
         places - (places - format::digits - 1) * 30102LL / 100000 + 2;
     static constexpr int most_power = most_digits + places * 30103LL / 100000 + 8;

@@ -171,8 +171,7 @@ class fixed_integer {
     /// Proof: proofs/Words.v, compare_exact.
     friend constexpr std::strong_ordering operator<=>(const fixed_integer& a,
                                                       const fixed_integer& b) {
-        // Unsigned, with inverted sign bits.
-        constexpr word sign_bit = word(1) << 63;
+        constexpr word sign_bit = word(1) << 63;  // inverted, to compare as unsigned numbers
         for (int i = Words - 1; i >= 0; --i) {
             const word invert = i == Words - 1 ? sign_bit : 0;
             if (a[i] != b[i]) return (a[i] ^ invert) <=> (b[i] ^ invert);

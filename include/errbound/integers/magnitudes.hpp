@@ -213,8 +213,7 @@ constexpr word divide_by_word(const word* a, int n, word d, const Store& store) 
 class two_word_divisor {
   public:
     constexpr two_word_divisor(word high, word low) : high_(high), low_(low) {
-        // The reciprocal of the higher word, reduced.
-        v_ = reciprocal(high);
+        v_ = reciprocal(high);  // of the higher word; reduced below
         word p = high * v_ + low;
         if (p < low) {
             --v_;

@@ -9,13 +9,13 @@
 
 namespace errbound::roots {
 
-/// The number of x; 0 for both zeros. Precondition: x is not NaN.
+/// 0 for both zeros. Precondition: x is not NaN.
 constexpr std::int64_t order_of(double x) {
     const auto size =
         static_cast<std::int64_t>(std::bit_cast<std::uint64_t>(x) & 0x7fff'ffff'ffff'ffffU);
     return x < 0 ? -size : size;
 }
-/// The double with that number; its zero is positive.
+/// Its zero is positive.
 constexpr double double_of_order(std::int64_t number) {
     const double size =
         std::bit_cast<double>(static_cast<std::uint64_t>(number < 0 ? -number : number));
@@ -35,7 +35,6 @@ std::int64_t order_at_or_below(const dyadic<Integer>& x) {
     while (!is_above(number + 1)) ++number;
     return number;
 }
-/// The number of the least double >= x.
 template <exact_number Integer>
 std::int64_t order_at_or_above(const dyadic<Integer>& x) {
     return -order_at_or_below(-x);

@@ -1,8 +1,6 @@
 // Approximate roots of quadratics and cubics in plain floating point, which callers must guard.
-//
 // Power basis: coefficient i of a bernstein<S, N> belongs to t^i, the form of
-// errbound/bernstein.hpp at s = 1. Products are the same convolutions, and value_at(p, S(1), t) is
-// the value at t.
+// errbound/bernstein.hpp at s = 1, and value_at(p, S(1), t) is the value at t.
 #pragma once
 
 #include <array>
@@ -40,7 +38,7 @@ constexpr std::array<T, 3> quadratic_roots(T c0, T c1, T c2) {
     return {q / c2, c0 / q, -c1 / (2 * c2)};
 }
 
-/// The first `count` of `at`, ascending: 0, the computed roots of f' in (0, 1), 1.
+/// The first `count` of `at`: 0, the computed roots of f' in (0, 1), 1.
 template <class T>
 struct piece_ends {
     std::array<T, 4> at{};
@@ -61,8 +59,9 @@ constexpr piece_ends<T> monotone_pieces(const bernstein<T, 3>& f) {
     return ends;
 }
 
-/// A point of [low, high] near a root of p, whose end values have opposite signs. A Newton step
-/// that leaves the bracket, or is not half the last one, becomes a halving: 2·digits steps suffice.
+/// A point of [low, high] near a root of p. Precondition: end values have opposite signs. A Newton
+/// step that leaves the bracket, or is not half the last one, becomes a halving: 2·digits steps
+/// suffice.
 template <class T, int N>
 constexpr T guarded_newton(const bernstein<T, N>& p, T low, T high) {
     const bernstein<T, N - 1> slope = power_derivative(p);

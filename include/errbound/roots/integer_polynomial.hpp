@@ -1,9 +1,6 @@
-// Polynomials with integer coefficients, of run-time degree: values, Bernstein coefficients,
-// division, common factors.
-//
-// Coefficients ascend in the power basis; the last one is not zero; empty is identically zero.
-// Integer is an exact type with + − × / % << >>, comparison, and abs(), gcd(), msb() and lsb()
-// found by argument-dependent lookup (as Boost.Multiprecision's).
+// Polynomials with integer coefficients, of run-time degree. Coefficients ascend in the power
+// basis; the last one is not zero; empty is identically zero. Integer is an exact type with + − × /
+// % << >>, comparison, and abs(), gcd(), msb() and lsb() found by argument-dependent lookup.
 #pragma once
 
 #include <algorithm>
@@ -24,7 +21,7 @@ namespace errbound::roots {
 template <exact_number Integer>
 using integer_form = std::vector<Integer>;
 
-/// −1, 0 or 1, for counts of sign changes.
+/// −1, 0 or 1.
 template <exact_number Integer>
 int sign(const Integer& x) {
     return x == 0 ? 0 : x > 0 ? 1 : -1;
@@ -35,7 +32,7 @@ void trim(integer_form<Integer>& p) {
     while (!p.empty() && p.back() == 0) p.pop_back();
 }
 
-/// Divides p by the (positive) greatest common divisor of its coefficients.
+/// Divides p by the greatest common divisor of its coefficients.
 template <class Integer>
 void make_primitive(integer_form<Integer>& p) {
     Integer content = 0;
@@ -99,7 +96,7 @@ template <class Integer>
 dyadic<Integer> value_at(const integer_form<Integer>& p, const dyadic<Integer>& x,
                          work_meter& meter) {
     if (p.empty()) return {};
-    // Horner's rule for the integer p(m·2^e)·2^(−e·n), or for p if e >= 0; skips runs of zeros.
+    // Horner's rule for p(m·2^e)·2^(−e·n), or for p if e >= 0; skips runs of zeros.
     const int e = (std::min)(x.exponent(), 0);
     const Integer m = x.in_units(e);
     Integer sum = p.back();
@@ -128,7 +125,7 @@ dyadic<Integer> value_at(const integer_form<Integer>& p, const dyadic<Integer>& 
     return value_at(p, x, unlimited);
 }
 
-/// The value at x within 2^-bits of it, or exactly. Long exact values come last.
+/// Within 2^-bits of the value at x, or exact. Long exact values come last.
 template <class Integer>
 nearby_value<Integer> value_within(const integer_form<Integer>& p, const dyadic<Integer>& x,
                                    int bits, work_meter& meter) {
@@ -166,15 +163,15 @@ std::vector<Number> inverse_binomials(std::size_t n) {
     return binomials;
 }
 
-/// A positive multiple of p's control values (Bernstein coefficients) on [low, high], all integers.
-/// Proof: proofs/ControlValues.v, control_values_on_right.
+/// A positive multiple of p's control values on [low, high], all integers. Proof:
+/// proofs/ControlValues.v, control_values_on_right.
 template <class Integer>
 integer_form<Integer> control_values_on(integer_form<Integer> p, const dyadic<Integer>& low,
                                         const dyadic<Integer>& high, work_meter& meter) {
     const std::size_t n = p.size() - 1;
     const dyadic<Integer> width = high - low;
     const int e = (std::min)(low.is_zero() ? width.exponent() : low.exponent(), width.exponent());
-    // x = 2^e·(start + length·u) with u in [0, 1]: first a multiple of p(2^e·y).
+    // x = 2^e·(start + length·u), u in [0, 1]: first a multiple of p(2^e·y).
     const Integer start = low.in_units(e), length = width.in_units(e);
     for (std::size_t i = 0; i <= n; ++i) {
         const std::size_t power = e >= 0 ? i : n - i;
@@ -228,7 +225,7 @@ std::uint64_t residue(const Integer& x, const prime_field& field) {
     return static_cast<std::uint64_t>(rest < 0 ? rest + p : rest);
 }
 
-/// The coefficients' residues divided by R, which are a multiple of p in Montgomery's form.
+/// Residues divided by R: a multiple of p in Montgomery's form.
 template <class Integer>
 std::vector<std::uint64_t> residues(const integer_form<Integer>& p, const prime_field& field) {
     std::vector<std::uint64_t> r;
@@ -237,12 +234,11 @@ std::vector<std::uint64_t> residues(const integer_form<Integer>& p, const prime_
     return r;
 }
 
-/// The residue of the value at x, times 2^(−e·n) for e < 0, where 2^e is the highest power dividing
-/// x. If nonzero, the value is not zero. Proof: proofs/PrimeField.v, value_modulo_right.
+/// The residue of the value at x, times 2^(−e·n) for e < 0, where x has the exponent e. If nonzero,
+/// the value is not zero. Proof: proofs/PrimeField.v, value_modulo_right.
 template <class Integer>
 std::uint64_t value_at(const std::vector<std::uint64_t>& residues, const prime_field& field,
                        const dyadic<Integer>& x) {
-    // Horner's rule for p(m·2^e)·2^(−e·n), or for p if e >= 0.
     const int e = x.exponent();
     const std::uint64_t two = field.add(field.one(), field.one());
     const std::uint64_t power = field.power(two, static_cast<std::uint64_t>(e < 0 ? -e : e));
@@ -255,7 +251,7 @@ std::uint64_t value_at(const std::vector<std::uint64_t>& residues, const prime_f
     return sum;
 }
 
-/// A polynomial modulo a product of primes (Chinese remainders), by its least coefficients.
+/// A polynomial modulo a product of primes (Chinese remainders).
 template <class Integer>
 struct remainders {
     integer_form<Integer> p;
@@ -274,7 +270,7 @@ struct remainders {
         }
         modulus = next;
     }
-    /// True if the modulus is probably large enough: all coefficients are far below it.
+    /// Probably true if the modulus is large enough: all coefficients are far below it.
     bool decided() const {
         const Integer bound = modulus >> 12U;
         return std::all_of(p.begin(), p.end(),
@@ -293,12 +289,11 @@ bool surely_squarefree(const integer_form<Integer>& p, work_meter& meter) {
            common_factor(field, std::move(image), std::move(slope), meter).size() == 1;
 }
 
-/// The greatest common divisor, primitive; empty only if both are identically zero.
-///
-/// Uses images modulo primes (W. S. Brown, On Euclid's algorithm and the computation of polynomial
-/// greatest common divisors, JACM 18, 1971). Their degree is at least the divisor's, so one prime
-/// detects coprime polynomials. A divisor combined from several primes is verified by division.
-/// Proof: proofs/CommonFactor.v, common_factor_right, common_factor_divides.
+/// The greatest common divisor, primitive; empty only if both are identically zero. Uses images
+/// modulo primes (W. S. Brown, On Euclid's algorithm and the computation of polynomial greatest
+/// common divisors, JACM 18, 1971). Their degree is at least the divisor's, so one prime detects
+/// coprime polynomials. Division verifies a divisor combined from several primes. Proof:
+/// proofs/CommonFactor.v, common_factor_right, common_factor_divides.
 template <exact_number Integer>
 integer_form<Integer> common_factor(integer_form<Integer> a, integer_form<Integer> b,
                                     work_meter& meter) {
@@ -318,7 +313,7 @@ integer_form<Integer> common_factor(integer_form<Integer> a, integer_form<Intege
         if (image.size() == 1) return {Integer(1)};
         if (!found.p.empty() && image.size() > found.p.size()) continue;
         if (image.size() < found.p.size()) found = {};
-        // Its last coefficient becomes `lead`, a multiple of the divisor's.
+        // Makes `lead` the last coefficient, a multiple of the divisor's.
         const std::uint64_t factor =
             field.multiply(residue(lead, field), field.inverse(image.back()));
         for (auto& c : image) c = field.multiply(c, factor);
@@ -340,8 +335,7 @@ integer_form<Integer> common_factor(integer_form<Integer> a, integer_form<Intege
 /// Square-free polynomials f_1, f_2, ..., each dividing the one before: a root of multiplicity m of
 /// p is a root of exactly f_1 to f_m. At most `most`. Precondition: p is not constant. Cost without
 /// multiple roots: Euclid's algorithm modulo one prime. Proof: proofs/CommonFactor.v,
-/// chain_multiplicities, cofactors_rootless; that the first has all roots of p:
-/// proofs/RootIsolation.v, squarefree_part_roots.
+/// chain_multiplicities, cofactors_rootless; proofs/RootIsolation.v, squarefree_part_roots.
 template <exact_number Integer>
 std::vector<integer_form<Integer>> squarefree_chain(integer_form<Integer> p, std::size_t most,
                                                     work_meter& meter) {

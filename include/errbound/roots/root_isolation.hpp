@@ -1,6 +1,6 @@
 // Real roots of integer polynomials, exactly: isolation, refinement, signs of other polynomials
-// there. The exact stage of errbound/roots/real_roots.hpp. Allocates; time and memory are bounded
-// by degree and coefficient size. Bounded stack: no recursion.
+// there. The exact stage of real_roots.hpp. Allocates; degree and coefficient size bound time and
+// memory. Bounded stack: no recursion.
 #pragma once
 
 #include <algorithm>
@@ -34,7 +34,7 @@ int positive_root_exponent(const integer_form<Integer>& p) {
     return exponent;
 }
 
-/// The roots of one polynomial p with p(0) ≠ 0, and signs there.
+/// Precondition: p(0) ≠ 0.
 template <exact_number Integer>
 class root_isolation {
   public:
@@ -43,7 +43,7 @@ class root_isolation {
     using interval = isolating_interval<Integer>;
     using end = typename descartes_search<Integer>::end;
 
-    /// Multiplicities are reported up to this.
+    /// Multiplicities are reported up to this one.
     root_isolation(const form& p, std::size_t multiplicities, work_meter& meter)
         : chain_(squarefree_chain(p, multiplicities, meter)) {
         if (chain_.empty()) chain_.push_back({Integer(1)});
@@ -58,7 +58,7 @@ class root_isolation {
     point upper_bound() const { return unlikely_root<Integer>(right_.upper); }
     point lower_bound() const { return -unlikely_root<Integer>(left_.upper); }
 
-    /// Strictly between 0 and the positive, or negative, roots.
+    /// Between 0 and the positive, or negative, roots.
     point least_positive() const { return unlikely_root<Integer>(right_.lower - 1); }
     point greatest_negative() const { return -unlikely_root<Integer>(left_.lower - 1); }
 
@@ -83,12 +83,10 @@ class root_isolation {
             roots[k].multiplicity = multiplicity(roots[k], meter);
     }
 
-    /// Narrows the root's interval to at most half of it.
     void refine(interval& root, work_meter& meter) const {
         refine(root, scale(root.high - root.low, -1), meter);
     }
-    /// Narrows it to this width. Quadratic interval refinement (J. Abbott 2006): success doubles
-    /// bits.
+    /// Quadratic interval refinement (J. Abbott 2006): success doubles the bits.
     void refine(interval& root, const point& width, work_meter& meter) const {
         for (int bits = 1; width < root.high - root.low;)
             bits = keep_part(root, bits, meter) ? 2 * bits : (std::max)(1, bits / 2);
@@ -103,8 +101,8 @@ class root_isolation {
             (s == sign_at(squarefree(), root.low, meter) ? root.low : root.high) = x;
     }
 
-    /// The sign of g at the root; refines it. A common factor decides zero, equal signs of g's
-    /// control values any other sign. Proof: proofs/RootIsolation.v, sign_at_root_right.
+    /// Refines the root. A common factor decides zero, equal signs of g's control values any other
+    /// sign. Proof: proofs/RootIsolation.v, sign_at_root_right.
     sign_type sign_at_root(const form& g, interval& root, work_meter& meter) const {
         if (g.empty()) return sign_type::zero;
         form common;
@@ -123,7 +121,7 @@ class root_isolation {
 
   private:
     /// A square-free polynomial; bounds 2^lower < x < 2^upper of its positive roots x, upper <
-    /// lower if none; its coefficients' sign changes, 1 only for a single root (Descartes). Proof:
+    /// lower if none; its sign changes, 1 only for a single root (Descartes). Proof:
     /// proofs/ControlValues.v, half_line_right.
     struct half_line {
         form p;
@@ -180,7 +178,6 @@ class root_isolation {
         const point width = root.high - root.low, start = root.low;
         const auto place = [&](const Integer& k) { return start + width * point(k, -bits); };
         const sign_type before = at_low.sign();
-        // The sign at an end decides on which side of it the root is.
         const point left = place(part), right = place(Integer(part + 1));
         if (root.low < left) {
             const sign_type s = sign_at(f, left, meter);
@@ -209,7 +206,7 @@ class root_isolation {
         return {x, sign_at(squarefree(), x, meter) == sign_type::zero};
     }
 
-    /// The roots strictly between low and high, 0 <= low < high.
+    /// Strictly between low and high, 0 <= low < high.
     static void inside(const half_line& line, end low, end high, std::vector<interval>& roots,
                        work_meter& meter) {
         if (line.upper < line.lower) return;
@@ -222,8 +219,7 @@ class root_isolation {
         if (line.variations > 1) {
             descartes_search<Integer>(line.p, meter).find(low, high, roots);
         } else if (line.variations == 1 && !low.is_root && !high.is_root) {
-            // A sign change proves that it holds the root. Proof: proofs/RootIsolation.v,
-            // isolate_right.
+            // A sign change proves a root. Proof: proofs/RootIsolation.v, isolate_right.
             if (all || sign_at(line.p, low.at, meter) != sign_at(line.p, high.at, meter))
                 roots.push_back({low.at, high.at});
         }

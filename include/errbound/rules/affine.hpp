@@ -307,7 +307,6 @@ struct affine_of {
     }
 };
 
-/// At most 16 terms.
-using affine = affine_of<detail::usual_affine_limit>;
+using affine = affine_of<detail::usual_affine_limit>;  ///< at most 16 terms
 
 }  // namespace errbound

@@ -200,7 +200,6 @@ struct stochastic_of {
     }
 };
 
-/// Three samples, as CADNA uses.
-using stochastic = stochastic_of<3>;
+using stochastic = stochastic_of<3>;  ///< three samples, as CADNA uses
 
 }  // namespace errbound
