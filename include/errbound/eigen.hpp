@@ -16,8 +16,7 @@
 
 namespace errbound {
 
-/// True if a and b are certainly equal. Eigen's kernels skip zero factors; no other header defines
-/// it.
+/// True if a and b are certainly equal. Only for Eigen's kernels, which skip zero factors.
 template <class T, class Rule>
 constexpr bool operator==(const tracked<T, Rule>& a, const tracked<T, Rule>& b) {
     return compare(a, b) == sign_type::zero;

@@ -4,9 +4,9 @@
 //   exp(-x * x);            // found by its argument: no errbound:: is needed
 //
 // Values are the C library's; its errors are an assumption (function_error). Unless the argument is
-// certainly in the domain, and not at a pole, the error is infinite. It is 0 for exact arguments 0
-// and 1 if the result is rational, exp2 of whole numbers and log2 of powers of two. Any rule, in
-// rounding to nearest, on the host only: no constant expressions, no device code.
+// certainly in the domain, and not at a pole, the error is infinite. It is 0 for an exact argument
+// 0 or 1 with a rational result, for exp2 of whole numbers and for log2 of powers of two. Any rule,
+// in rounding to nearest, on the host only: no constant expressions, no device code.
 #pragma once
 
 #include <complex>

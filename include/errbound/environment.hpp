@@ -45,8 +45,8 @@ constexpr bool is_ieee_format = [] {
 }  // namespace detail
 
 /// The calling thread's floating-point environment and the compiler's treatment of the calling
-/// unit. Tested at run time: compilers do not reveal every flag, and some set flush-to-zero at
-/// start-up. Covers float, double and long double (not its subnormals, and not a pair of doubles).
+/// unit. Tested at run time: compilers do not reveal every flag, and some flags set flush-to-zero
+/// at start-up. Covers float, double and long double (no subnormals, no pair of doubles).
 struct environment_report {
     bool gradual_underflow;  ///< subnormals are neither flushed nor read as zero
     bool as_written;         ///< sums in the written order, with the type's bits, no more

@@ -167,8 +167,8 @@ constexpr bool isnan(const tracked<T, Rule>& x) {
     return x.value() != x.value();
 }
 
-/// The operand with the lesser value. If the order is uncertain, the larger error: |min(a, b) −
-/// min(c, d)| <= max(|a − c|, |b − d|). Proof: proofs/IeeeFunctions.v, min_known.
+/// The operand with the lesser value. If the order is uncertain, it has the larger error, as
+/// |min(a, b) − min(c, d)| <= max(|a − c|, |b − d|). Proof: proofs/IeeeFunctions.v, min_known.
 template <class T, class Rule>
 constexpr tracked<T, Rule>(min)(const tracked<T, Rule>& a, const tracked<T, Rule>& b) {
     return b.value() < a.value() ? detail::lesser_or_either(b, a) : detail::lesser_or_either(a, b);
@@ -229,9 +229,9 @@ constexpr tracked<T, Rule> fused_by_slope(const tracked<T, Rule>& a, const track
 }  // namespace detail
 
 /// ab + c, rounded once by number_traits<T>::fma. Uses the rule's own `fused` (`interval`), or
-/// derivatives if the rule keeps errors to first order (`residual`, `affine`), otherwise the
-/// errors. Proof: proofs/IeeeSlopes.v, slope_fma_known, interval_fma_known; proofs/IeeeFunctions.v,
-/// fma_known.
+/// derivatives if the rule keeps errors to first order (`residual`, `affine`), otherwise the errors
+/// of a, b and c. Proof: proofs/IeeeSlopes.v, slope_fma_known, interval_fma_known;
+/// proofs/IeeeFunctions.v, fma_known.
 template <class T, class Rule>
 constexpr tracked<T, Rule> fma(const tracked<T, Rule>& a, const tracked<T, Rule>& b,
                                const tracked<T, Rule>& c) {

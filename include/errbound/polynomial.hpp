@@ -30,8 +30,8 @@ namespace errbound {
 
 namespace roots {
 
-/// Named unless it is void, otherwise the type of exact coefficients (of the numerators of
-/// rationals), otherwise errbound::integer.
+/// The exact integer type: Named unless it is void, otherwise that of exact coefficients (of the
+/// numerators of rationals), otherwise errbound::integer.
 template <class Named, class C>
 struct integer_for {
     static_assert(exact_number<Named>,
@@ -158,7 +158,7 @@ std::optional<std::size_t> count_roots(const polynomial<tracked<double, Rule>>& 
     return filter.parts().size() + zero;
 }
 
-/// With integer coefficients that have no common factor.
+/// The greatest common divisor, with integer coefficients that have no common factor.
 template <class Integer = void, class C>
 auto common_factor(const polynomial<C>& p, const polynomial<C>& q) {
     using exact = roots::integer_for_t<Integer, C>;

@@ -131,7 +131,7 @@ class predicate_type {
         return stages::template decide<number_of<Points...>>(stages::listed(p...), &report);
     }
     /// The first filter's value and bound, or the sign_type of an expression that branches. Stored:
-    /// coordinates are read from memory. Others are rounded first, lest a product in one be fused.
+    /// coordinates are read from memory. Others are rounded first, so no product in one is fused.
     template <bool Stored = false, class... Points>
     static constexpr auto estimate(const Points&... p) {
         using T = number_of<Points...>;

@@ -4,7 +4,7 @@
 //   errbound::batch_signs(errbound::orient2d, signs, a, b, c);
 //
 // The signs equal those of single calls. The compiler vectorises the loops (clang from -O2, GCC
-// from -O3), on x86-64 also for AVX2 and AVX-512. The best that the processor has run.
+// from -O3), on x86-64 also for AVX2 and AVX-512. The processor is tested at run time.
 #pragma once
 
 #include <array>
@@ -123,8 +123,8 @@ auto blocks_of(const coordinate_arrays<U, N>& arrays) {
     return stored_arrays_block<U, N>{arrays};
 }
 
-/// Sets block_size signs by the first filter; returns true if all are certain. T codes give all
-/// lanes one width.
+/// Sets block_size signs by the first filter; returns true if all are certain. The codes have the
+/// type T, so that all lanes have one width.
 template <class Predicate, class... Ranges>
 [[gnu::always_inline]] inline bool filter_block(sign_type* signs, const Ranges&... p) {
     using T = decltype(Predicate::estimate(p[0]...).value);

@@ -9,7 +9,7 @@
 
 namespace errbound {
 
-/// The sign of a number known up to a bound.
+/// The sign of a number known up to a bound. `uncertain` is not a sign and never converts to one.
 enum class sign_type : std::uint8_t { negative, zero, positive, uncertain };
 
 /// Signs have no order: compare by == or functions such as certainly_nonnegative. Generic code

@@ -5,8 +5,8 @@
 //   errbound::tracked<errbound::bfloat16> y(...);   // with a bound
 //
 // Conversions from float and double, and operations, round once, to nearest even. E4M3 has no
-// infinities: above 448 it has one NaN (no saturation: a bound would not notice it). Source: OCP
-// 8-bit Floating Point Specification (OFP8), 1.0, 2023.
+// infinities: results above 448 are NaN (no saturation, which a bound would not notice). Source:
+// OCP 8-bit Floating Point Specification (OFP8), 1.0, 2023.
 #pragma once
 
 #include <bit>

@@ -113,8 +113,8 @@ class tracked {
 
     /// The result of plain arithmetic.
     constexpr const T& value() const { return value_; }
-    /// An upper bound of |value() − exact value|, or infinity (NaN in a format without infinities),
-    /// so `x.error() <= tolerance` is then false.
+    /// At least |value() − exact value|. Without a bound it is infinite (NaN in a format without
+    /// infinities), so `x.error() <= tolerance` is false.
     constexpr T error() const {
         const wide e = own_error();
         if constexpr (widens) {
@@ -208,8 +208,8 @@ class tracked {
     constexpr tracked<wide, Rule> widened() const requires widens {
         return tracked<wide, Rule>::from_bound(wide(value_), bound_);
     }
-    /// The number x, with value v: the sum of x and a displacement, of value d = v − x.value() and
-    /// exact number 0. If d is rounded, so that the sum's value is not v, the error is infinite.
+    /// The exact number of x with the value v: the sum of x and a displacement, which has the value
+    /// d = v − x.value() and the exact number 0. Infinite error if the sum's value is not v.
     static constexpr tracked rounded_from(const T& v,
                                           const tracked<wide, Rule>& x) requires widens {
         const wide d = wide(v) - x.value();

@@ -14,7 +14,7 @@
 
 namespace errbound::detail {
 
-/// Printf and strtold obey the rounding direction.
+/// Sets rounding to nearest, which printf and strtold obey.
 class to_nearest {
   public:
     to_nearest() { std::fesetround(FE_TONEAREST); }

@@ -185,12 +185,13 @@ struct rule_check {
 //   negate(bound)                           the bound of −value; default: the same bound
 //   sign(value, bound)                      the certain sign; default: from value and error
 //   correction(value, bound)                estimates exact value − value, within error; default: 0
-//   square_root(result, a)                  of the rounded √a, unknown if a may be negative
-//   fused(result, a, b, c)                  of ab + c, rounded once. Defaults: from errors
-//   keeps_first_order                       √a and ab + c use the rule's operations, with divide
+//   square_root(result, a)                  the bound of the rounded √a, unknown if a may be
+//                                           negative; default: from the error of a
+//   fused(result, a, b, c)                  the bound of ab + c, rounded once; default: from errors
+//   keeps_first_order                       true if √a and ab + c use the rule's operations, divide
 //   is_crowded(bound)                       for such a rule: true if √a should start one new source
-//   displacement(value)                     of a number whose exact value is 0; with it, numbers of
-//                                           8 and 16 bits have bounds in float
+//   displacement(value)                     the bound of a number whose exact value is 0; with it,
+//                                           numbers of 8 and 16 bits have bounds in float
 //   template <class T> class dot_bound      bounds s = 0, s += ab, ... by add_product(ab, s before,
 //                                           s after, a, b) for each, then finished(s)
 //   minimal_precision                       the bits of T that the proof needs
