@@ -45,7 +45,7 @@ class command {
     CLI::App& line_;
 };
 
-/// Throws usage_error if there is no command.
+/// Parses the line and runs its command. Throws usage_error if there is none.
 inline int run_command(CLI::App& app, int argc, char** argv,
                        std::span<const std::unique_ptr<command>> commands, bool prints = true) {
     app.require_subcommand(0, 1);  // CLI11 then reports an unknown command by name

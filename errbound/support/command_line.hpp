@@ -19,7 +19,7 @@
 
 namespace errbound::support {
 
-/// CLI11 accepts the command line, but it makes no sense.
+/// A command line that CLI11 accepts but that makes no sense.
 struct usage_error : std::runtime_error {
     using std::runtime_error::runtime_error;
 };
@@ -41,7 +41,7 @@ auto all_named(const std::string& option, const std::string& list, const Named& 
     return result;
 }
 
-/// For "expected one of ...".
+/// Comma-separated names, for "expected one of ...".
 template <class Entries, class Name>
 std::string listed(const Entries& entries, const Name& name) {
     std::string list;
@@ -70,7 +70,7 @@ inline void require_one_standard_input(const std::string& option,
         throw usage_error(option + ": standard input is given twice; expected at most once");
 }
 
-/// For CLI11, which would convert other texts: an error message unless it is an integer of 64 bits.
+/// For CLI11: an error message unless the text is an integer of 64 bits, which CLI11 would convert.
 inline std::string checked_seed(const std::string& text) {
     std::uint64_t seed = 0;
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), seed);

@@ -13,8 +13,8 @@ struct decimal {
     decimal_status status;
 };
 
-/// The nearest to a whole text that std::from_chars accepts: optional minus, digits, optional point
-/// and exponent; infinity and NaN. Underflow is rounded.
+/// The nearest float or double to a whole text that std::from_chars accepts: optional minus,
+/// digits, optional point and exponent; infinity and NaN. Underflow is rounded.
 template <class T>
 decimal<T> parse_decimal(std::string_view text);
 

@@ -1,4 +1,4 @@
-// Doubles as exact text. The C libraries' printfs differ, at least for subnormals.
+// Doubles as exact text, equal for all C libraries, whose printf's differ, at least for subnormals.
 #pragma once
 
 #include <bit>
@@ -8,8 +8,8 @@
 
 namespace errbound::support {
 
-/// C's hexadecimal literals with one digit before the point, 0 for subnormals: -0x1.8p+1,
-/// 0x0.8p-1022, 0x0p+0; inf and nan.
+/// C's hexadecimal literals with one digit before the point, 0 for subnormals, and no trailing
+/// zeros: -0x1.8p+1, 0x0.8p-1022, 0x0p+0; inf and nan.
 inline std::string hexadecimal(double x) {
     const std::string sign = std::signbit(x) ? "-" : "";
     if (!std::isfinite(x)) return sign + (std::isnan(x) ? "nan" : "inf");

@@ -17,9 +17,9 @@
 
 namespace errbound::support {
 
-/// Computes blocks first, ..., end − 1 on threads (0: one per core). The order of merging does not
-/// depend on their number. Ends early, between blocks, when `stop` is not 0, after an exception, or
-/// when it is destroyed.
+/// Computes blocks first, ..., end − 1 on threads (0: one per core) and merges their results in
+/// this order, so what is merged does not depend on the number of threads. Ends early, between
+/// blocks, when `stop` is not 0, after an exception, or when it is destroyed.
 template <class Result>
 class ordered_blocks {
   public:
@@ -58,7 +58,7 @@ class ordered_blocks {
         const std::scoped_lock lock(mutex_);
         return read(merged_);
     }
-    /// Precondition: finished.
+    /// Rethrows the exception of a block, if any. Precondition: finished.
     void rethrow_failure() {
         const std::scoped_lock lock(mutex_);
         if (failure_) std::rethrow_exception(failure_);

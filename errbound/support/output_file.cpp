@@ -95,7 +95,7 @@ void replace_file(const std::string& target, const output& out) {
     }
 }
 
-/// The real name, also of a new file; nothing for a pipe or a device. Throws file_error.
+/// The file's real name, also of a new file; nothing for a pipe or a device. Throws file_error.
 std::optional<std::string> file_behind(const fs::path& path) {
     const auto refuse = [&path](const char* fault) {
         throw file_error("'" + path.string() + "' " + fault + "; expected a file to write");

@@ -18,7 +18,7 @@ class progress_line {
     progress_line& operator=(const progress_line&) = delete;
     ~progress_line() { clear(); }
 
-    /// `what` is running, the part after the `done` ones.
+    /// `done` of `total` > 0 parts are done; `what` is running.
     void show(std::size_t done, std::size_t total, const std::string& what) {
         draw(static_cast<double>(done) / static_cast<double>(total),
              std::to_string(done) + '/' + std::to_string(total) + ' ' + what);

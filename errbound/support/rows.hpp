@@ -13,8 +13,8 @@ namespace errbound::support {
 using row = nlohmann::ordered_json;  ///< an object: column -> value
 using rows = std::vector<row>;
 
-/// Three significant digits, or more of a whole number below 1e9, x >= 0: 1,234,567, 12.3,
-/// 1.23e-20.
+/// Three significant digits, or more of a whole number below 1e9: 1,234,567, 12.3, 0.012, 1.23e-20.
+/// Precondition: x >= 0.
 std::string digits(double x);
 
 /// Texts as they are, whole numbers grouped, others by digits(), "yes" and "no"; a dash for null
@@ -24,17 +24,17 @@ table cells_of(const rows& all, const std::vector<std::string>& heading,
 
 std::vector<std::string> columns_of(const rows& all);  ///< in order of first appearance
 
-/// Headings are the columns' names with spaces for underscores. The first columns are aligned left
-/// if the first row has texts there. Empty without rows.
+/// A text table of all columns, whose headings are their names with spaces for underscores. The
+/// first columns are aligned left if the first row has texts there. Empty without rows.
 std::string text_of(const rows& all);
 
-/// The first row is the heading, the first `left` columns are words.
+/// A Markdown table; the first row is the heading, the first `left` columns are words.
 std::string markdown_of(const table& cells, std::size_t left);
 
 /// Missing values stay empty. Texts with a comma or a quotation mark are quoted.
 std::string csv_of(const std::vector<std::string>& columns, const rows& all);
 
-/// A text in the value need not be UTF-8. An indent of -1 writes one line.
+/// The value as JSON; a text in it need not be UTF-8. An indent of -1 writes one line.
 std::string json_of(const row& value, int indent);
 
 }  // namespace errbound::support

@@ -20,7 +20,7 @@ class scratch_file {
     const std::filesystem::path& path() const { return path_; }
 
     void append(std::string_view bytes);  ///< throws file_error (a full disk)
-    /// Throws file_error if there are fewer bytes.
+    /// Reads exactly `size` bytes from `offset`. Throws file_error if there are fewer.
     void read(std::uint64_t offset, std::size_t size, void* to) const;
 
   private:

@@ -7,12 +7,11 @@
 
 namespace errbound::support {
 
-/// While it lives, the first SIGINT or SIGTERM sets a number; the next ends the program. Ignored
-/// signals stay ignored. At most one object at a time.
+/// While it lives, the first SIGINT or SIGTERM sets a number and prints a line to standard error;
+/// the next ends the program. Ignored signals stay ignored. At most one object at a time.
 class awaited_signals {
   public:
-    /// `line`, if not empty, is printed to standard error at once: the sender may not wait for
-    /// long.
+    /// `line`, if not empty, is printed at once, as the sender may not wait for long.
     explicit awaited_signals(const std::string& line = {});
     ~awaited_signals();
     awaited_signals(const awaited_signals&) = delete;

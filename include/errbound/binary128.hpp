@@ -56,7 +56,7 @@ struct number_traits<float128> {
     }
 
   private:
-    /// 32-bit processors have no 128-bit integers.
+    /// Two words, as 32-bit processors have no 128-bit integers.
     struct words {
         std::uint64_t low, high;
     };

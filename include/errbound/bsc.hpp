@@ -164,7 +164,7 @@ constexpr sign_type combined(sign_type m, sign_type r, const bernstein<S, 1>& m_
     return sign_of(value_at(j, root.s, root.t));
 }
 
-/// The sign of the quartic g at the only inner root of Y. `before`: as above.
+/// The sign of the quartic g at the only inner root of Y; `before`: as for a linear form.
 template <class S>
 constexpr sign_type sign_at_crossing(const cubic<S>& y, sign_type before,
                                      const bernstein<S, 4>& g) {
@@ -262,7 +262,7 @@ template <class S, std::size_t M>
     return either(all[0].result(), all[1].result());
 }
 
-/// Y strictly increasing on (0, 1).
+/// Y strictly increasing on (0, 1): at most one root, at an end or inner.
 template <class S, std::size_t M>
 constexpr existence on_increasing(const cubic<S>& y, const quartics<S, M>& g) {
     const sign_type y0 = sign_of(y[0]), y3 = sign_of(y[3]);
@@ -272,8 +272,8 @@ constexpr existence on_increasing(const cubic<S>& y, const quartics<S, M>& g) {
     return found;
 }
 
-/// Y convex and not constant. Follows every strict sign that Y may have at an end. (The paper sets
-/// an uncertain sign to one value.)
+/// Y convex and not constant on [0, 1]. Every strict sign that Y may have at an end is followed;
+/// the answer is "no" if all answers are. (The paper sets an uncertain sign to one value.)
 template <class S, std::size_t M>
 [[gnu::noinline]] constexpr existence on_convex(const cubic<S>& y, const bernstein<S, 2>& d,
                                                 const quartics<S, M>& g) {

@@ -36,8 +36,8 @@ constexpr auto type_of_both() {
 template <class From, class To>
 using wider_of = decltype(type_of_both<From, To>());
 
-/// x, or the neighbouring double whose last bit is 1 if x is no double. Rounding this double to
-/// nearest, to fewer than 52 bits, rounds x (Boldo, Melquiond 2008).
+/// x, or the neighbouring double whose last bit is 1 if x is no double. Rounding that to nearest
+/// with fewer than 52 bits rounds x (Boldo, Melquiond 2008).
 template <class Wide>
 constexpr double rounded_to_odd(const Wide& x) {
     const auto nearest = static_cast<double>(x);

@@ -43,7 +43,7 @@ constexpr Number from_decimal(std::string_view text) {
 
 namespace literals {
 
-/// 0.1_tracked is a tenth, at compile time. 0x10 and the octal 010 do not compile.
+/// 0.1_tracked is a tenth. Evaluated at compile time; 0x10 and the octal 010 do not compile.
 consteval tracked<double> operator""_tracked(const char* text) {
     const std::string_view decimal(text);
     const bool octal = decimal.size() > 1 && decimal[0] == '0' &&

@@ -120,7 +120,7 @@ tracked<T, Rule> atanh(const tracked<T, Rule>& x) {
     return detail::function_of<elementary_function::atanh>(x);
 }
 
-/// Also of negative numbers. Exact if x and the C library's result are.
+/// The cube root, also of negative numbers. Exact if x and the C library's result are.
 template <class T, class Rule>
 tracked<T, Rule> cbrt(const tracked<T, Rule>& x) {
     return detail::function_of<elementary_function::cbrt>(x);
@@ -176,13 +176,13 @@ tracked<T, Rule> atan2(const Number& y, const tracked<T, Rule>& x) {
 
 // Complex numbers: write `abs(z)`; std::abs(z) does not compile. + − × ÷, `norm` and `conj` work.
 
-/// |z|, without overflow or underflow on the way.
+/// |z|: hypot of the parts, without overflow or underflow on the way.
 template <class T, class Rule>
 tracked<T, Rule> abs(const std::complex<tracked<T, Rule>>& z) {
     return hypot(z.real(), z.imag());
 }
 
-/// The angle of z in [−π, π], as by atan2.
+/// The angle of z in [−π, π]. Infinite error if z may be 0. See atan2 for numbers near the cut.
 template <class T, class Rule>
 tracked<T, Rule> arg(const std::complex<tracked<T, Rule>>& z) {
     return atan2(z.imag(), z.real());

@@ -71,7 +71,7 @@ static T unknown(T x) {
     volatile T v = x;
     return v;
 }
-/// Also tests the compiler's constant folding.
+/// Tests the processor and the compiler's constant folding.
 template <class T>
 static bool has_gradual_underflow() {
     using limits = std::numeric_limits<T>;

@@ -1,7 +1,7 @@
-// All of errbound that needs only the standard library. Include separately: printing.hpp (streams);
-// explain/explain.hpp (sources of an error); binary128.hpp and multiprecision.hpp; the rules
-// affine.hpp, relative.hpp, stochastic.hpp and derived.hpp in rules/; eigen.hpp and
-// certified_solve.hpp (Eigen); validation/ (MPFR).
+// Numbers, predicates and roots: all of errbound that needs only the standard library. Include
+// separately: printing.hpp (streams); explain/explain.hpp (sources of an error); binary128.hpp and
+// multiprecision.hpp; the rules affine.hpp, relative.hpp, stochastic.hpp and derived.hpp in rules/;
+// eigen.hpp and certified_solve.hpp (Eigen); validation/ (MPFR).
 #pragma once
 
 #include <errbound/bernstein.hpp>

@@ -62,9 +62,9 @@ inline constexpr int least_precision_for_split = 4;
 
 /// x = value + error exactly. With s = ⌈p/2⌉, value has at most p − s bits and error at most s − 1,
 /// so products of such parts are exact. Precondition: p >= least_precision_for_split, and (2^s +
-/// 1)x does not overflow (|x| < 2^996 for double, 2^115 for float). Cost: 4 operations. Source:
-/// Veltkamp; Dekker 1971; Boldo 2006 (Pitfalls of a full floating-point proof). Proof, of s bits in
-/// the error: proofs/ErrorFree.v, split_exact.
+/// 1)x does not overflow (|x| < 2^996 for double, 2^115 for float). On overflow the parts are
+/// infinite or NaN. Cost: 4 operations. Source: Veltkamp; Dekker 1971; Boldo 2006 (Pitfalls of a
+/// full floating-point proof). Proof, of s bits in the error: proofs/ErrorFree.v, split_exact.
 template <class T>
 constexpr with_error<T> split(const T& x) {
     constexpr int s = (number_traits<T>::digits + 1) / 2;
@@ -139,8 +139,8 @@ constexpr division_remainder<T> remainder_of_division(const T& a, const T& b, co
 }
 
 /// Computes x − v² for v = fl(√x), x >= 0 finite; exact if v ≠ 0 and two_product(v, v) is. |√x − v|
-/// <= ulp(v)/2, so x − v² is a multiple of ulp(v)² and at most v·ulp(v) in size. Proof:
-/// proofs/IeeeSlopes.v, remainder_of_root_known.
+/// <= ulp(v)/2, so x − v² is a multiple of ulp(v)² and at most v·ulp(v) in size. Cost and source:
+/// see remainder_of_division. Proof: proofs/IeeeSlopes.v, remainder_of_root_known.
 template <class T>
 constexpr division_remainder<T> remainder_of_root(const T& x, const T& v) {
     return remainder_of_division(x, v, v);

@@ -118,10 +118,10 @@ constexpr tracked<T, Rule> root_by_slope(const tracked<T, Rule>& x, const tracke
 
 }  // namespace detail
 
-/// √x. Exact if x is and its root is a T. Uses the rule's own square_root (`interval`), or the
-/// slope 1/(2v) if the rule keeps errors to first order (`residual`, `affine`), otherwise
-/// x.error(). Proof: proofs/IeeeSlopes.v, slope_sqrt_known, interval_sqrt_known;
-/// proofs/IeeeFunctions.v, sqrt_known.
+/// √x. Infinite error if x may be negative. Exact if x is and its root is a T. Uses the rule's own
+/// square_root (`interval`), or the slope 1/(2v) if the rule keeps errors to first order
+/// (`residual`, `affine`), otherwise x.error(). Proof: proofs/IeeeSlopes.v, slope_sqrt_known,
+/// interval_sqrt_known; proofs/IeeeFunctions.v, sqrt_known.
 template <class T, class Rule>
 constexpr tracked<T, Rule> sqrt(const tracked<T, Rule>& x) {
     static_assert(has_subnormals<T>, "errbound: sqrt needs a number type with subnormal numbers");
@@ -151,7 +151,7 @@ constexpr tracked<T, Rule> abs(const tracked<T, Rule>& x) {
     return tracked<T, Rule>::within(number_traits<T>::abs(x.value()), x.error());
 }
 
-/// Proof: proofs/IeeeFunctions.v, abs_known.
+/// abs by C's name. Proof: proofs/IeeeFunctions.v, abs_known.
 template <class T, class Rule>
 constexpr tracked<T, Rule> fabs(const tracked<T, Rule>& x) {
     return abs(x);
@@ -173,7 +173,7 @@ template <class T, class Rule>
 constexpr tracked<T, Rule>(min)(const tracked<T, Rule>& a, const tracked<T, Rule>& b) {
     return b.value() < a.value() ? detail::lesser_or_either(b, a) : detail::lesser_or_either(a, b);
 }
-/// Proof: proofs/IeeeFunctions.v, max_known.
+/// Like min, for the greater value. Proof: proofs/IeeeFunctions.v, max_known.
 template <class T, class Rule>
 constexpr tracked<T, Rule>(max)(const tracked<T, Rule>& a, const tracked<T, Rule>& b) {
     return a.value() < b.value() ? -detail::lesser_or_either(-b, -a)
@@ -183,9 +183,9 @@ constexpr tracked<T, Rule>(max)(const tracked<T, Rule>& a, const tracked<T, Rule
 namespace detail {
 
 /// ab + c by errors σ, v its rounded value: |v − (ab + c)| <= |v|ε/(1 − ε) + η + |â|σb + σa(|b̂| +
-/// σb) + σc. Each product may lose η by underflow. The third η covers rounding |b̂| + σb if σa(|b̂|
-/// + σb) is so small that the factor 1 + 8ε is lost. Up to six roundings. Proof:
-/// proofs/IeeeFunctions.v, fma_known; in any direction, proofs/Functions.v, fma_sound.
+/// σb) + σc. Each product may lose η by underflow. The third η covers rounding |b̂| + σb if
+/// σa(|b̂| + σb) is so small that the factor 1 + 8ε is lost. The longest path has six roundings.
+/// Proof: proofs/IeeeFunctions.v, fma_known; in any direction, proofs/Functions.v, fma_sound.
 template <class T, class Rule>
 constexpr tracked<T, Rule> fused_by_error(const T& v, const tracked<T, Rule>& a,
                                           const tracked<T, Rule>& b, const tracked<T, Rule>& c) {
@@ -198,9 +198,9 @@ constexpr tracked<T, Rule> fused_by_error(const T& v, const tracked<T, Rule>& a,
 }
 
 /// ab + c = v + (âb̂ + ĉ − v) + (a(b − b̂) + (a − â)b̂) + (c − ĉ) by the rule's operations; v is
-/// the value of `sum`. With âb̂ = p + e and p + ĉ = s + f exactly, v's error is (s − v) + f + e.
-/// Returns `sum` if e or f is unknown. Proof: proofs/IeeeSlopes.v, fma_by_slope_known; of `affine`,
-/// affine_slope_fma_gives.
+/// the value of `sum`, which stands for ab + c. With âb̂ = p + e and p + ĉ = s + f exactly, v's
+/// error is (s − v) + f + e. Returns `sum` if e or f is unknown. Proof: proofs/IeeeSlopes.v,
+/// fma_by_slope_known; of `affine`, affine_slope_fma_gives.
 template <class T, class Rule>
 constexpr tracked<T, Rule> fused_by_slope(const tracked<T, Rule>& a, const tracked<T, Rule>& b,
                                           const tracked<T, Rule>& c, const tracked<T, Rule>& sum) {
@@ -228,10 +228,10 @@ constexpr tracked<T, Rule> fused_by_slope(const tracked<T, Rule>& a, const track
 
 }  // namespace detail
 
-/// ab + c, rounded once by number_traits<T>::fma. Uses the rule's own `fused` (`interval`), or
-/// derivatives if the rule keeps errors to first order (`residual`, `affine`), otherwise the errors
-/// of a, b and c. Proof: proofs/IeeeSlopes.v, slope_fma_known, interval_fma_known;
-/// proofs/IeeeFunctions.v, fma_known.
+/// ab + c, rounded once by number_traits<T>::fma; does not compile if that rounds twice. Uses the
+/// rule's own `fused` (`interval`), or derivatives if the rule keeps errors to first order
+/// (`residual`, `affine`), otherwise the errors of a, b and c. Proof: proofs/IeeeSlopes.v,
+/// slope_fma_known, interval_fma_known; proofs/IeeeFunctions.v, fma_known.
 template <class T, class Rule>
 constexpr tracked<T, Rule> fma(const tracked<T, Rule>& a, const tracked<T, Rule>& b,
                                const tracked<T, Rule>& c) {
@@ -365,7 +365,7 @@ concept plain_tracked = requires {
 
 }  // namespace detail
 
-/// A range of tracked numbers with index and size, such as std::vector or an Eigen vector.
+/// A range of tracked numbers with index and size: an array, std::vector, std::span, Eigen vector.
 template <class Range>
 concept tracked_numbers = requires(const Range& range) {
     std::begin(range)[0];

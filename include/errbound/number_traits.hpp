@@ -8,10 +8,10 @@
 
 namespace errbound {
 
-/// std::ldexp and std::frexp, in constant expressions, where some compilers' do not work.
+/// std::ldexp and std::frexp for constant expressions, where some compilers' do not work.
 namespace detail {
 
-/// At most one step rounds to a nonzero number, as any further step gives 0.
+/// x·2^e in steps. At most one step rounds to a nonzero number, as any further step gives 0.
 template <class T>
 constexpr T scaled_by_steps(const T& x, int e) {
     constexpr int most = std::numeric_limits<T>::max_exponent, step = most - most / 8;
@@ -56,9 +56,9 @@ struct number_traits {
                       std::numeric_limits<T>::round_style == std::round_to_nearest,
                   "errbound: numbers must be binary, of fixed precision, and rounded to nearest");
 
-    /// ε = 2u, the largest relative error of one rounding in any direction.
+    /// Largest relative error of one rounding in any direction: ε = 2u.
     static constexpr T epsilon() { return std::numeric_limits<T>::epsilon(); }
-    /// u, the largest relative error of one rounding to nearest.
+    /// Largest relative error of one rounding to nearest: u = ε/2.
     static constexpr T unit_roundoff() { return epsilon() / 2; }
     /// η, the smallest positive number. An operation that underflows is off by less than this.
     static constexpr T underflow_unit() {
@@ -87,7 +87,7 @@ struct number_traits {
     static constexpr int digits = std::numeric_limits<T>::digits;  ///< the precision p in bits
 
     static constexpr T abs(const T& x) {
-        // One instruction. The comparison takes more, as it keeps the sign of a zero.
+        // fabs is one instruction. The comparison takes more, as it keeps the sign of a zero.
         if constexpr (std::is_floating_point_v<T>)
             if (!std::is_constant_evaluated()) return std::fabs(x);
         return x < 0 ? -x : x;
@@ -164,7 +164,7 @@ struct type_that_computes<T> {
 
 }  // namespace detail
 
-/// True if T has subnormal numbers (the default).
+/// True if T has subnormal numbers, or if its custom number_traits does not define has_subnormals.
 template <class T>
 inline constexpr bool has_subnormals = [] {
     if constexpr (requires { number_traits<T>::has_subnormals; })

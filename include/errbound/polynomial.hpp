@@ -126,7 +126,7 @@ template <class Integer = void, class C>
 std::size_t count_roots(const polynomial<C>& p, double a, double b) {
     return roots::count_within<Integer>(p, a, b, {});
 }
-/// Empty if the work would exceed the limits.
+/// Same as above; empty if the work would exceed the limits.
 template <class Integer = void, class C>
 std::optional<std::size_t> count_roots(const polynomial<C>& p, double a, double b,
                                        const root_limits& limits) {
@@ -205,7 +205,7 @@ existence by_bsc(const staged_polynomial<Integer>& f,
     });
 }
 
-/// Bernstein sign classification (BSC), if the degrees allow.
+/// Bernstein sign classification (BSC), for one to four g if the degrees allow.
 template <class Integer>
 existence by_bsc(const staged_polynomial<Integer>& f,
                  const std::vector<staged_polynomial<Integer>>& g, double a, double b) {

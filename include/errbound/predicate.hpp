@@ -48,12 +48,12 @@ struct predicate_options {
     /// Exact number type of the last stage, constructible from double; void: long_integer.
     using exact_type = void;
     /// True if terms of different degree are never added, so scaling by powers of two keeps signs.
-    /// Needed only if the expression has too many branches to detect this. False claims do not
-    /// compile.
+    /// Needed only if the expression has too many branches for the compiler to detect this. A false
+    /// claim does not compile.
     static constexpr bool homogeneous = false;
-    /// One degree per coordinate in the shape's order, if some are not 1, such as {1, 1, 2, 1, 1,
-    /// 2} for points<3, 3> of x, y and a squared radius. Terms of different total degree must not
-    /// be added; false claims do not compile. Coordinates far from 1 are then scaled.
+    /// One degree per coordinate in the shape's order, if some are not 1. Example: points<3, 3> of
+    /// x, y and a squared radius have {1, 1, 2, 1, 1, 2}. Terms of different total degree must not
+    /// be added; a false claim does not compile. Coordinates far from 1 are then scaled.
     static constexpr std::array<int, 0> degrees{};
 };
 
@@ -95,11 +95,11 @@ class predicate_type {
     using shape = Shape;
     using options = Options;
 
-    /// The expression's counts, its bits for coordinates of 61 bits (one 64-bit word).
+    /// Counts of the expression; its bits are those for coordinates of 61 bits (one 64-bit word).
     static constexpr filters::expression_counts counts = stages::counts;
-    /// The static filter's constant, the largest if the expression evaluates several signs. A sign
-    /// is certain if |value| exceeds the constant times the size, the value with every term
-    /// positive.
+    /// The static filter's constant. A sign is certain if |value| exceeds the constant times the
+    /// size, which is the value with every term positive (filters/static_filter.hpp). If the
+    /// expression evaluates several signs, this is the largest of their constants.
     template <class T>
     static constexpr T static_constant = filters::filter_constant<T>(counts.roundings);
     /// True from degree 5 on, unless the expression branches or adds terms of different degree.
@@ -108,7 +108,7 @@ class predicate_type {
     /// Largest coordinate width for which every result fits in `bits` bits.
     static constexpr int coordinate_bits(int bits) { return stages::coordinate_bits(bits); }
 
-    /// Points: any type that coordinate_of accepts, with float or double numbers.
+    /// Returns the sign. Points: any type that coordinate_of accepts, with float or double numbers.
     template <class... Points>
     [[gnu::flatten]] constexpr sign_type operator()(const Points&... p) const {
         // Overflow is not allowed in constant expressions.
@@ -154,8 +154,8 @@ class predicate_type {
         using scalars = filters::filtered_scalars<number_of<Points...>, Stored, Points...>;
         return filters::evaluate<Shape>(F(), scalars{{p...}});
     }
-    /// The expression's value in a custom number type, constructible from a coordinate. Boost's
-    /// types need et_off: expression templates would refer to destroyed temporaries.
+    /// The expression's value in a custom number type, constructible from a coordinate. Types of
+    /// Boost.Multiprecision need et_off: expression templates would refer to destroyed temporaries.
     template <class Number, class... Points>
     static constexpr auto value(const Points&... p) {
         const auto make = [](const auto& x) { return Number(x); };
@@ -164,7 +164,7 @@ class predicate_type {
             F(), filters::listed_scalars<Shape, typename stages::coordinate_list, decltype(make)>{
                      list, make});
     }
-    /// The sign by this stage only; `uncertain` if it does not decide.
+    /// The sign by this stage only; `uncertain` if the stage does not decide.
     template <class... Points>
     constexpr sign_type by(predicate_stage stage, const Points&... p) const {
         using enum predicate_stage;

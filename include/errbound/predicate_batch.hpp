@@ -73,7 +73,7 @@ template <class T, std::size_t N>
 inline constexpr bool has_stored_coordinates<std::array<T, N>> = true;
 
 /// A copy of coordinates that are computed, or not stored in one contiguous array. Storing rounds
-/// them; otherwise kernels could fuse a product in a coordinate with a difference.
+/// them. Otherwise kernels could fuse a product in a coordinate with a difference.
 template <class T, int Dimension, class Range>
 class computed_block {
     static constexpr std::size_t rows = Dimension == 0 ? 1 : Dimension;

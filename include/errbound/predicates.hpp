@@ -17,7 +17,7 @@
 
 namespace errbound {
 
-/// For custom expressions.
+/// Building blocks for custom expressions.
 namespace forms {
 
 /// Twice the area of the triangle a, b, c in the plane of axes i and j.
@@ -40,8 +40,8 @@ constexpr auto squared_distance3d(const auto& a, const auto& b) {
     return x * x + y * y + z * z;
 }
 
-/// The determinant with a row (x, y, height) for each of a − d, b − d and c − d. height(point, x² +
-/// y²) returns x² + y² (the lifting to a paraboloid), or less for a weighted point.
+/// The determinant with a row (x, y, height) for each of a − d, b − d and c − d. Points are lifted
+/// to a paraboloid: height(point, x² + y²) returns x² + y², or less for a weighted point.
 constexpr auto lifted_area(const auto& a, const auto& b, const auto& c, const auto& d,
                            const auto& height) {
     const auto ax = a[0] - d[0], ay = a[1] - d[1];
@@ -86,14 +86,14 @@ template <class Anchor, class X, class W>
 implicit_point2d(const Anchor&, X, X, W) -> implicit_point2d<Anchor, X, W>;
 template <class Anchor, class X, class W>
 implicit_point3d(const Anchor&, X, X, X, W) -> implicit_point3d<Anchor, X, W>;
-/// The intersection of the lines ab and cd; w = 0 if they are parallel or equal.
+/// The intersection of the lines ab and cd; w = 0 if there is none or infinitely many.
 constexpr auto line_line(const auto& a, const auto& b, const auto& c, const auto& d) {
     const auto x = b[0] - a[0], y = b[1] - a[1];
     const auto u = d[0] - c[0], v = d[1] - c[1];
     const auto along = (c[0] - a[0]) * v - (c[1] - a[1]) * u;
     return implicit_point2d{a, x * along, y * along, x * v - y * u};
 }
-/// The intersection of line ab and plane pqr; w = 0 if they are parallel.
+/// The intersection of line ab and plane pqr; w = 0 if there is none or infinitely many.
 constexpr auto line_plane(const auto& a, const auto& b, const auto& p, const auto& q,
                           const auto& r) {
     const auto x = b[0] - a[0], y = b[1] - a[1], z = b[2] - a[2];
@@ -167,8 +167,8 @@ constexpr sign_type segment_triangle(const auto& p, const auto& q, const auto& a
 
 }  // namespace forms
 
-/// Positive if a, b, c turn left; zero if collinear. Proof: proofs/Predicates.v,
-/// orient2d_sign_certain.
+/// Positive if a, b, c turn left; zero if collinear. Proof of its static filter:
+/// proofs/Predicates.v, orient2d_sign_certain.
 inline constexpr auto orient2d = predicate<points<2, 2, 2>>(
     [](const auto& a, const auto& b, const auto& c) { return forms::area(a, b, c); });
 
@@ -179,22 +179,22 @@ inline constexpr auto orient3d =
     });
 
 /// If a, b, c turn left: positive if d is inside the circle through them, zero on it. If they turn
-/// right: the opposite. Proof: proofs/Predicates.v, incircle_sign_certain.
+/// right: the opposite. Proof of its static filter: proofs/Predicates.v, incircle_sign_certain.
 inline constexpr auto incircle =
     predicate<points<2, 2, 2, 2>>([](const auto& a, const auto& b, const auto& c, const auto& d) {
         return forms::lifted_area(a, b, c, d, forms::unweighted);
     });
 
-/// If orient3d(a, b, c, d) is positive: positive if e is inside the sphere through them. If it is
-/// negative: the opposite. Proof: proofs/Predicates.v, insphere_sign_certain,
-/// insphere_semi_static_certain.
+/// If orient3d(a, b, c, d) is positive: positive if e is inside the sphere through them, zero on
+/// it. If it is negative: the opposite. Proof of its filters: proofs/Predicates.v,
+/// insphere_sign_certain, insphere_semi_static_certain.
 inline constexpr auto insphere = predicate<points<3, 3, 3, 3, 3>>(
     [](const auto& a, const auto& b, const auto& c, const auto& d, const auto& e) {
         return forms::lifted_volume(a, b, c, d, e, forms::unweighted);
     });
 
-/// Options for weighted points, whose last coordinate is a squared radius, of degree 2. Proof:
-/// proofs/Predicates.v, power_incircle_scales, power_insphere_scales.
+/// Options for Count weighted points. The last of a point's `Dimension` coordinates is a squared
+/// radius, of degree 2. Proof: proofs/Predicates.v, power_incircle_scales, power_insphere_scales.
 template <std::size_t Count, std::size_t Dimension>
 struct weighted_options : predicate_options {
     static constexpr std::array<int, Count* Dimension> degrees = [] {
@@ -204,9 +204,9 @@ struct weighted_options : predicate_options {
     }();
 };
 
-/// incircle for circles x, y, w of squared radius w. If a, b, c turn left: positive if d has a
-/// negative power distance to the circle that is orthogonal to all three. Proof:
-/// proofs/Predicates.v, power_incircle_sign_certain.
+/// incircle for weighted points x, y, w: circles of squared radius w. If a, b, c turn left:
+/// positive if d has a negative power distance to the circle that is orthogonal to all three. Proof
+/// of its static filter: proofs/Predicates.v, power_incircle_sign_certain.
 inline constexpr auto power_incircle = predicate<points<3, 3, 3, 3>, weighted_options<4, 3>>(
     [](const auto& a, const auto& b, const auto& c, const auto& d) {
         return forms::lifted_area(a, b, c, d, [&d](const auto& p, const auto& squared) {
@@ -214,8 +214,8 @@ inline constexpr auto power_incircle = predicate<points<3, 3, 3, 3>, weighted_op
         });
     });
 
-/// insphere for spheres x, y, z, w of squared radius w. Proof: proofs/Predicates.v,
-/// power_insphere_sign_certain.
+/// insphere for weighted points x, y, z, w: spheres of squared radius w. Proof of its static
+/// filter: proofs/Predicates.v, power_insphere_sign_certain.
 inline constexpr auto power_insphere = predicate<points<4, 4, 4, 4, 4>, weighted_options<5, 4>>(
     [](const auto& a, const auto& b, const auto& c, const auto& d, const auto& e) {
         return forms::lifted_volume(a, b, c, d, e, [&e](const auto& p, const auto& squared) {
@@ -223,8 +223,8 @@ inline constexpr auto power_insphere = predicate<points<4, 4, 4, 4, 4>, weighted
         });
     });
 
-/// Negative if p is nearer to a than to b. Proof: proofs/Predicates.v,
-/// compare_distances2d_sign_certain, compare_distances3d_sign_certain.
+/// Negative if p is nearer to a than to b, zero if equally far. Proof of its static filter:
+/// proofs/Predicates.v, compare_distances2d_sign_certain, compare_distances3d_sign_certain.
 inline constexpr auto compare_distances2d =
     predicate<points<2, 2, 2>>([](const auto& p, const auto& a, const auto& b) {
         return forms::squared_distance2d(p, a) - forms::squared_distance2d(p, b);
@@ -234,7 +234,7 @@ inline constexpr auto compare_distances3d =
         return forms::squared_distance3d(p, a) - forms::squared_distance3d(p, b);
     });
 
-/// For expressions with too many branches to analyse at compile time.
+/// Options for homogeneous expressions with too many branches to analyse at compile time.
 struct homogeneous_options : predicate_options {
     static constexpr bool homogeneous = true;
 };

@@ -38,7 +38,7 @@ inline constexpr bool is_small_float<small_float<P, E, HasInfinity>> = true;
 
 }  // namespace detail
 
-/// Convert other types first (errbound::convert).
+/// float, double, long double, and small_float. Convert other types first (errbound::convert).
 template <class T>
 concept printable_number = std::same_as<T, float> || std::same_as<T, double> ||
     std::same_as<T, long double> || detail::is_small_float<T>;
@@ -103,7 +103,7 @@ std::string certain_digits(T value, T error) {
     }
     if (leading >= k) {
         const std::string rounded = decimal(value, std::chars_format::scientific, leading - k);
-        // Below 10^leading: `size` had been rounded up to it.
+        // Still below 10^leading: `size` had been rounded up to it.
         if (decimal_exponent(rounded) >= leading) return rounded;
         return decimal(value, std::chars_format::scientific, leading - k - 1);
     }
@@ -161,7 +161,7 @@ std::ostream& operator<<(std::ostream& to, const tracked<T, Rule>& x) {
 }
 
 /// value ± radius: the shortest decimal that reads back as the value, and two digits that read back
-/// as at least the error. tracked::within of both encloses the exact number.
+/// as at least the error (or `unknown`). tracked::within of both encloses the exact number.
 template <printable_number T, class Rule>
 std::string with_radius(const tracked<T, Rule>& x) {
     using printed = detail::printed_type<T>;

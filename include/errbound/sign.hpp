@@ -52,15 +52,15 @@ constexpr sign_type operator-(sign_type s) {
     return s;
 }
 
-/// A certain zero makes the product zero for any other factor.
+/// The sign of x·y. A certain zero makes the product zero for any other factor.
 constexpr sign_type operator*(sign_type a, sign_type b) {
     if (a == sign_type::zero || b == sign_type::zero) return sign_type::zero;
     if (!certain(a) || !certain(b)) return sign_type::uncertain;
     return a == b ? sign_type::positive : sign_type::negative;
 }
 
-/// True for integers and rationals of any size. Boost.Multiprecision's:
-/// errbound/multiprecision.hpp.
+/// True for types whose operations + − × are exact (integers and rationals of any size).
+/// Boost.Multiprecision's: errbound/multiprecision.hpp.
 template <class T>
 inline constexpr bool is_exact_number = false;
 

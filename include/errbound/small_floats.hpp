@@ -46,14 +46,14 @@ class small_float {
     static constexpr int nan_code = codes / 2 - 1;
 
     constexpr small_float() = default;
-    /// The nearest; overflow_code above the largest number.
+    /// The nearest; above the largest number, infinity or NaN (overflow_code).
     template <std::floating_point Source>
     requires(sizeof(Source) <= sizeof(double)) constexpr explicit small_float(Source value)
         : code_(nearest_code(value)) {}
     template <int OtherPrecision, int OtherBits, bool OtherInfinity>
     constexpr explicit small_float(small_float<OtherPrecision, OtherBits, OtherInfinity> value)
         : small_float(static_cast<float>(value)) {}
-    /// Implicit, for constants.
+    /// Implicit, for constants; the nearest, as above.
     template <std::integral Source>
     constexpr small_float(Source value) : small_float(as_double(value)) {}
     static constexpr small_float from_code(int code) {
@@ -62,7 +62,7 @@ class small_float {
         return x;
     }
     constexpr int code() const { return code_; }
-    /// Exact for floating-point types; others as from float.
+    /// Exact for floating-point types; otherwise converts as float does.
     template <class Target>
     requires std::is_arithmetic_v<Target>
     constexpr explicit operator Target() const { return static_cast<Target>(as_float()); }
@@ -112,7 +112,7 @@ class small_float {
             return unit * static_cast<double>(size);
         }
     }
-    /// ⌊m/2^shift⌋, ties to even; 1 <= shift.
+    /// ⌊m/2^shift⌉, ties to even; 1 <= shift.
     template <class Bits>
     static constexpr Bits shifted(Bits m, int shift) {
         return (m + (Bits{1} << (shift - 1)) - 1 + ((m >> shift) & 1)) >> shift;
@@ -194,7 +194,7 @@ struct number_traits<small_float<P, E, HasInfinity>> {
     static constexpr number abs(const number& x) {
         return number::from_code(x.code() & (number::codes / 2 - 1));
     }
-    /// NaN stands for overflow and is passed on.
+    /// Without infinities, NaN stands for overflow and is passed on.
     static constexpr number(max)(const number& x, const number& y) {
         if constexpr (!HasInfinity)
             if (y != y) return y;

@@ -55,9 +55,9 @@ constexpr bool is_exactly(const T& v, Number value) {
     }
 }
 
-/// The type in which Rule stores bounds of T's numbers. For 8- and 16-bit T it is float if the rule
-/// has a `displacement` (see rounded_from). Bounds of at most 11 bits would grow with each
-/// rounding.
+/// The type in which Rule stores bounds of T's numbers. For 8- and 16-bit T it is the type that
+/// computes T's operations, float, if the rule has a `displacement` (see rounded_from). Bounds of
+/// at most 11 bits would grow with each of their own roundings.
 template <class T, class Rule>
 struct type_of_bounds {
     using type = T;
@@ -75,7 +75,7 @@ struct use_sign_of_or_compare {};
 
 }  // namespace detail
 
-/// T: any type with a number_traits. Rule: errbound/rules/rule.hpp.
+/// T: any type with a number_traits. Rule: how bounds propagate (errbound/rules/rule.hpp).
 template <class T = double, class Rule = tight>
 class tracked {
     static_assert(!std::is_integral_v<T> && std::is_same_v<T, std::remove_cvref_t<T>>,
@@ -95,10 +95,10 @@ class tracked {
         typename Rule::template bound<typename detail::type_of_bounds<T, Rule>::type>;
 
     constexpr tracked() : tracked(T(0)) {}
-    /// Exactly `value`. Implicit, for generic code.
+    /// Exactly `value`. Implicit, so that generic code may mix numbers and tracked numbers.
     constexpr tracked(const T& value) : tracked(exactly(detail::rounded(value))) {}
-    /// Exact if T holds the number (every int in double, up to 2^24 in float); otherwise the error
-    /// bounds the conversion's rounding.
+    /// Converts a number of another type, such as the literal 2. Exact if T holds it (every int in
+    /// double, up to 2^24 in float); otherwise the error bounds the conversion's rounding.
     template <detail::number_other_than<T> Number>
     constexpr tracked(Number value) : tracked(from_other(value)) {}
     /// A number known to lie within `error` of `value`. The error is infinite unless error >= 0.
@@ -113,8 +113,8 @@ class tracked {
 
     /// The result of plain arithmetic.
     constexpr const T& value() const { return value_; }
-    /// At least |value() − exact value|. Without a bound it is infinite (NaN in a format without
-    /// infinities), so `x.error() <= tolerance` is false.
+    /// An upper bound of |value() − exact value|. If there is none, it is infinite (NaN in a format
+    /// without infinities), so `x.error() <= tolerance` is false. In all other cases it is not NaN.
     constexpr T error() const {
         const wide e = own_error();
         if constexpr (widens) {
@@ -127,7 +127,7 @@ class tracked {
             return e == e ? e : number_traits<T>::infinity();
         }
     }
-    /// The rule's state, for studying bounds.
+    /// The rule's own state, for studying bounds.
     constexpr const bound_type& bound() const { return bound_; }
 
     friend constexpr tracked operator+(const tracked& a, const tracked& b) {
@@ -183,8 +183,8 @@ class tracked {
             return {v, Rule::template scale<T>(v, x.as_operand(), power)};
     }
 
-    /// The certain sign, by the rule's own `sign` if it has one. Proof of the default:
-    /// proofs/IeeeRules.v, sign_of_known.
+    /// The certain sign, by the rule's own `sign` if it has one. If |value| equals the error, the
+    /// number may be zero. Proof of the default: proofs/IeeeRules.v, sign_of_known.
     friend constexpr sign_type sign_of(const tracked& x) {
         const wide v(x.value_);
         if constexpr (detail::rule_has_sign<Rule, wide>) return Rule::sign(v, x.bound_);
@@ -244,7 +244,7 @@ template <class T, class Rule, class Number>
 detail::use_sign_of_or_compare operator==(const tracked<T, Rule>&, const Number&) = delete;
 
 /// Orders tracked numbers by value, NaN last. For pivoting, sorting and other choices that may be
-/// wrong without harm.
+/// wrong without harm: std::sort(begin, end, errbound::by_value{}).
 struct by_value {
     template <class T, class Rule>
     constexpr bool operator()(const tracked<T, Rule>& a, const tracked<T, Rule>& b) const {
@@ -252,8 +252,8 @@ struct by_value {
     }
 };
 
-/// True if the type has value_type, value(), sign_of and scale. Specialise for a type that wraps
-/// one.
+/// True if generic code may treat the type as a tracked number: it has value_type, value(), sign_of
+/// and scale. Specialise for a type that wraps one.
 template <class>
 inline constexpr bool is_tracked = false;
 template <class T, class Rule>

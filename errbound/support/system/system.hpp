@@ -21,7 +21,7 @@ double memory_bytes();
 double load();
 std::filesystem::path program_file();  ///< empty if unknown
 int process_number();
-/// Returns the exit status; 127 if the program cannot run.
+/// Runs a program with one argument. Returns its exit status; 127 if it cannot run.
 int run(const char* program, const std::string& argument);
 
 /// Separators in a path; true if devices have names as /dev/stdin.
@@ -31,7 +31,7 @@ extern const bool has_device_files;
 /// never return if memory runs out.)
 std::string native_name(const std::filesystem::path& path);
 std::string real_name(const std::string& name);  ///< without links; empty if there is no such file
-/// Precondition: absolute names without links.
+/// True if two absolute names without links are the same for the system.
 bool are_one_name(const std::string& a, const std::string& b);
 bool exists(const std::string& name);
 bool may_write(const std::string& file);

@@ -1,5 +1,5 @@
-// Bit counts for host and CUDA devices. In constexpr functions, nvcc silently calls address 0 for
-// those of <bit>; tests/ccd/cuda/null_calls.py searches for such calls.
+// Bit counts for the host and CUDA devices. In constexpr functions, nvcc silently calls address 0
+// for those of <bit>; tests/ccd/cuda/null_calls.py searches for such calls.
 #pragma once
 
 #include <bit>

@@ -1,4 +1,4 @@
-// Powers of two, also in constant expressions.
+// Powers of two as doubles, also in constant expressions.
 #pragma once
 
 #include <bit>

@@ -1,4 +1,4 @@
-// Running error bounds of dot products, for the rules `tight` and `sharp`.
+// Running error bounds of dot products, for the rules `tight` and `sharp`. Internal.
 #pragma once
 
 #include <errbound/detail/rounded.hpp>
@@ -13,8 +13,8 @@ constexpr int terms_at_once(int bits) {
     return m;
 }
 
-/// Sums each term's own roundings and its arguments' errors, closed every terms_at_once(Bits)
-/// terms. Derived, the rule's dot_bound, defines, with a proof:
+/// Sums each term's own roundings and its arguments' errors, Σ |â|σb + σa(|b̂| + σb), closed every
+/// terms_at_once(Bits) terms. Derived, the rule's dot_bound, defines, with a proof:
 ///   factor_units(terms): the factor that covers these sums' roundings, less 1, in ε;
 ///   underflows(terms, uncertain): the number of η lost; `uncertain` terms have inexact arguments.
 template <class T, class Derived, int Bits>

@@ -1,4 +1,4 @@
-// Numbers for sources of errors.
+// Numbers for sources of errors, for bound rules that keep terms by source.
 #pragma once
 
 #include <atomic>
@@ -28,8 +28,8 @@ next_source() {
 }
 #endif
 
-/// no_source in constant expressions and device code. Call it within an argument: the initialiser
-/// of a const integer counts as a constant expression.
+/// A new source; no_source in constant expressions and device code. Call it within an argument: the
+/// initialiser of a const integer counts as a constant expression.
 constexpr std::uint64_t fresh_source() {
 #if !defined(__CUDA_ARCH__)
     if (!std::is_constant_evaluated()) return next_source();

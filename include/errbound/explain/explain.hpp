@@ -21,7 +21,7 @@
 
 namespace errbound {
 
-/// The error of x, called `name`, by its sources. Cost: a look-up for each source.
+/// The error of x, called `name`, by its sources, as doubles. Cost: a look-up for each source.
 template <class T, class Rule, std::size_t Limit>
 explanation explain(const tracked<T, explained<Rule, Limit>>& x, std::string name = "result") {
     explanation e{std::move(name),

@@ -153,7 +153,7 @@ struct explained {
     static tracked<T, Rule> unwrapped(const tracked<T, explained>& x) {
         return tracked<T, Rule>::from_bound(x.value(), x.bound().of_rule);
     }
-    /// The contributions must add up to the error of x.
+    /// The wrapped rule's x, with contributions that add up to its error.
     template <class T>
     static tracked<T, explained> wrapped(const tracked<T, Rule>& x, ledger<T> contributions) {
         return tracked<T, explained>::from_bound(x.value(), {x.bound(), std::move(contributions)});

@@ -1,4 +1,4 @@
-// A number's error by sources, as values, table and JSON (docs/how-wrong.md).
+// A number's error by sources: values, table, JSON for `errbound explain` (docs/how-wrong.md).
 #pragma once
 
 #include <algorithm>
@@ -79,7 +79,7 @@ inline std::string printable(std::string_view text) {
     }
     return shown;
 }
-/// One for each UTF-8 character.
+/// Columns of a UTF-8 text, one per character.
 inline std::size_t columns_of(std::string_view text) {
     return static_cast<std::size_t>(std::count_if(text.begin(), text.end(), [](char c) {
         return (static_cast<unsigned char>(c) & 0xc0) != 0x80;
@@ -217,7 +217,7 @@ inline void write_file(const std::filesystem::path& path, std::string_view text)
 
 }  // namespace detail
 
-/// From 0 to 1, of the error. Infinite contributions share equally.
+/// Each contribution's share of the error, from 0 to 1. Infinite contributions share equally.
 inline std::vector<double> shares_of(const explanation& e) {
     double largest = 0, unknown = 0;
     for (const contribution& c : e.contributions) {
@@ -238,7 +238,7 @@ inline std::vector<double> shares_of(const explanation& e) {
     return shares;
 }
 
-/// A table: the result, and at most `lines` sources.
+/// A table: the result, and a line for each source, at most `lines`.
 inline std::string text_of(const explanation& e, std::size_t lines = 20) {
     std::string text = detail::heading_of(e) + '\n';
     if (e.contributions.empty()) return text + "  no error\n";

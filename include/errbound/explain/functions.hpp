@@ -233,7 +233,7 @@ detail::number_of<C> horner(const C& c, const std::type_identity_t<detail::numbe
                         std::move(contributions));
 }
 
-/// A new rule must be `explained`, too; otherwise contributions end.
+/// convert of conversion.hpp. A new rule must be `explained`, too; otherwise contributions end.
 template <class To, class NewRule = void, class From, class Rule, std::size_t Limit>
 requires(std::is_void_v<NewRule> ||
          is_explained<NewRule>) auto convert(const tracked<From, explained<Rule, Limit>>& x) {

@@ -59,7 +59,7 @@ class ledger {
         all.insert(all.end(), mine, entries_.end());
         entries_.swap(all);
     }
-    /// Adds another ledger's entries by size, scaled to the sum `total`.
+    /// Adds another ledger's entries by size, without sign, scaled to the sum `total`.
     template <class B>
     void carry_sizes(const ledger<B>& other, const A& total) {
         B sizes(0);
@@ -96,7 +96,7 @@ class ledger {
         }
         const A off = traits::abs(c - known);
         const A wanted = (traits::max)(A(0), e - traits::abs(c)) + off;
-        // Quotients first: the sums may overflow.
+        // Quotients first: the sums may exceed the wanted amount by more than a number's range.
         if (wanted > unknown && sizes > 0) {
             const A missing = wanted - unknown;
             for (entry& x : entries_) x.unknown += x.size() / sizes * missing;
@@ -108,7 +108,7 @@ class ledger {
         cover(e);
         std::erase_if(entries_, [](const entry& x) { return x.size() == 0; });
     }
-    /// Merges the smallest entries. Precondition: limit >= 1.
+    /// Merges the smallest entries until at most `limit` >= 1 are left.
     void limit(std::size_t limit) {
         while (entries_.size() > limit) {
             entry& rest = at(the_rest);  // the last of all

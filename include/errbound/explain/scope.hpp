@@ -35,7 +35,7 @@ struct place {
 
 namespace detail {
 
-/// A scope and a kind of operation, as indices in all_sources.
+/// A source of error: a scope and a kind of operation, as indices in all_sources.
 struct source {
     std::uint32_t scope = 0, operation = 0;
 
@@ -59,7 +59,7 @@ class all_sources {
         return all;
     }
 
-    /// `parent` if there are too many scopes.
+    /// The scope at that place in scope `parent`; `parent` if there are too many.
     std::uint32_t scope_in(std::uint32_t parent, std::string_view name, std::string_view file,
                            std::uint_least32_t line) {
         const std::lock_guard lock(mutex_);
@@ -85,7 +85,7 @@ class all_sources {
         return made;
     }
 
-    /// The outermost first.
+    /// The scopes around a source, the outermost first.
     std::vector<place> scopes_of(const source& s) const {
         const std::lock_guard lock(mutex_);
         std::vector<place> path;
@@ -117,7 +117,7 @@ class all_sources {
     std::map<std::string_view, std::uint32_t> numbers_;  // of functions
 };
 
-/// 0: none.
+/// The calling thread's scope; 0: none.
 inline std::uint32_t& current_scope() {
     thread_local std::uint32_t current = 0;
     return current;
@@ -125,12 +125,12 @@ inline std::uint32_t& current_scope() {
 
 }  // namespace detail
 
-/// A named part of the program. Cost: a look-up under a lock shared by all threads; tens of
-/// nanoseconds without contention. A program has at most 100,000 scopes (each run-time name is
-/// one); further ones count as the scope around. Throws std::bad_alloc.
+/// A named part of the program, until the end of the block. Cost: a look-up under a lock shared by
+/// all threads; tens of nanoseconds without contention. A program has at most 100,000 scopes (each
+/// run-time name is one); further ones count as the scope around. Throws std::bad_alloc.
 class scope {
   public:
-    /// clang 14 lacks std::source_location.
+    /// File and line of the caller (clang 14 lacks std::source_location).
     [[nodiscard]] explicit scope(std::string_view name, std::string_view file = __builtin_FILE(),
                                  std::uint_least32_t line = __builtin_LINE())
         : outer_(detail::current_scope()) {

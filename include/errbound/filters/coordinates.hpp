@@ -20,7 +20,7 @@ concept matrix_point = requires(const Point& p) {
     static_cast<int>(Point::MaxSizeAtCompileTime);
     p.rows() + p.cols();
 };
-/// Coordinate i of a row or a column; a matrix of dynamic size may be either.
+/// Coordinate i of a row or a column. A matrix of dynamic size may be either.
 template <matrix_point Matrix>
 constexpr auto element_of(const Matrix& m, int i) {
     constexpr int rows = Matrix::RowsAtCompileTime, columns = Matrix::ColsAtCompileTime;
@@ -72,8 +72,8 @@ inline constexpr bool is_sized_span = false;
 template <class T, std::size_t Size>
 inline constexpr bool is_sized_span<std::span<T, Size>> = Size != std::dynamic_extent;
 
-/// Number of coordinates of a point type; 0 if unknown. x and y without z, as members or functions,
-/// are two; a type with a third under another name needs p[i].
+/// Number of coordinates of a point type; 0 if the type does not fix it. x and y without z, as
+/// members or functions, are two; a type with a third under another name needs p[i].
 template <class Point>
 constexpr std::size_t max_dimension() {
     constexpr auto has = [](auto test) {

@@ -54,7 +54,7 @@ struct basic_error_count {
                 rounded(a.magnitude * b.underflow + a.underflow * b.magnitude +
                         (a.error * b.underflow + a.underflow * b.error) * (2 * epsilon) + 2)};
     }
-    /// So that one constant covers several results.
+    /// The larger of each count, so that one constant covers several results.
     friend constexpr basic_error_count worst(const basic_error_count& a,
                                              const basic_error_count& b) {
         const auto larger = [](T x, T y) { return x < y ? y : x; };
@@ -63,7 +63,7 @@ struct basic_error_count {
     }
 
   private:
-    /// Covers rounding count and magnitude: at most ten factors of at most 1 + ε.
+    /// Covers rounding the count and the counted magnitude: at most ten factors of at most 1 + ε.
     static constexpr T rounded(T count) { return count * (1 + 16 * number_traits<T>::epsilon()); }
 };
 using error_count = basic_error_count<double>;

@@ -17,7 +17,7 @@
 
 namespace errbound::filters {
 
-/// SplitMix64 (Steele, Lea, Flood 2014).
+/// Pseudorandom bits. Source: Steele, Lea, Flood 2014 (SplitMix64).
 constexpr std::uint64_t hashed(std::uint64_t x) {
     x += 0x9e3779b97f4a7c15;
     x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9;
@@ -28,9 +28,9 @@ constexpr std::uint64_t hashed(std::uint64_t x) {
 inline constexpr std::size_t suppositions = 64;
 
 /// Signs of numbers, in the order of evaluation. In every other supposition the first are zero, as
-/// such cases branch deepest. Others are hashes: look-ups are slow in constant evaluation.
+/// such cases branch deepest. Others are hashes: no look-up, as constant evaluation is slow.
 struct supposed_signs {
-    /// No int is a multiple of it, and products of residues fit.
+    /// Beyond any int, so no constant of an expression is a multiple. Products of residues fit.
     static constexpr std::uint64_t prime = (std::uint64_t{1} << 32) - 5;
 
     std::uint64_t supposition;
@@ -42,7 +42,7 @@ struct supposed_signs {
     std::array<std::uint64_t, 16> zeros{};  ///< the numbers supposed to be zero
     std::size_t zero_count = 0;
 
-    /// Opposite numbers have opposite signs.
+    /// The sign of a residue. Opposite numbers have opposite signs.
     constexpr sign_type sign(std::uint64_t residue) {
         if (residue == 0) return sign_type::zero;
         if (evaluated++ == counting_run::max_signs) too_many_signs();
@@ -66,7 +66,7 @@ struct supposed_signs {
     }
 };
 
-/// An aggregate: in constant evaluation constructors cost as much as operations.
+/// A residue. An aggregate: in constant evaluation constructors cost as much as operations.
 struct supposed_number {
     static constexpr std::uint64_t prime = supposed_signs::prime;
 
@@ -112,7 +112,7 @@ struct supposed_number {
 
 enum class expression_fault : std::uint8_t { none, asks_nothing, gives_up, acts_on_uncertain };
 
-/// `run(supposed_signs&)` returns the answer's sign.
+/// The fault that one supposition shows, if any. `run(supposed_signs&)` returns the answer's sign.
 template <class Run>
 constexpr expression_fault find_fault(std::uint64_t supposition, const Run& run) {
     supposed_signs signs{supposition};

@@ -54,7 +54,7 @@ class expression_count {
   public:
     constexpr explicit expression_count(counting_run& run, int degree = 1)
         : run_(&run), bits_(run.coordinate_bits), degree_(degree) {}
-    /// Only int: 0.5 would become 0.
+    /// A whole number. No other type: 0.5 would become 0.
     template <class X>
     requires std::is_arithmetic_v<X>
     constexpr expression_count(X) : bits_(32) {
@@ -84,7 +84,7 @@ class expression_count {
         return {x.run_ != nullptr ? x.run_ : y.run_, x.bits_ + y.bits_, x.degree_ + y.degree_,
                 x.roundings_ + y.roundings_ + 1};
     }
-    // Not available in expressions. Each message names the replacement.
+    // Not available in expressions; each message names the replacement.
     template <class X>
     friend constexpr expression_count operator/(const expression_count& x, const X&) {
         static_assert(!sizeof(X),
@@ -167,10 +167,10 @@ struct expression_findings {
 
 /// Enough for any expression that evaluates five signs.
 inline constexpr int most_counting_runs = 250;
-/// For expressions declared homogeneous, of which only the bits are needed.
+/// For expressions declared homogeneous, which branch too much: only the bits are needed.
 inline constexpr int few_counting_runs = 28;
 
-/// `run(counting_run&)` runs the expression and returns its answer's sign.
+/// `run(counting_run&)` runs the expression on such coordinates and returns its answer's sign.
 template <class Run>
 constexpr expression_findings count_expression(int coordinate_bits, int max_runs, const Run& run) {
     counting_run state;

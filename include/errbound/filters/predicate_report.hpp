@@ -7,7 +7,7 @@
 
 namespace errbound {
 
-/// In order of execution.
+/// In order of execution, which ends at the first certain stage.
 enum class predicate_stage : std::uint8_t {
     semi_static_filter,
     static_filter,

@@ -72,7 +72,7 @@ struct semi_static_scalars {
         return semi_static_point<T, Stored, type>{std::get<Argument>(points), largest};
     }
 };
-/// A point of listed coordinates. `make` returns a scalar or a reference.
+/// A point of listed coordinates. `make` turns each into a scalar, possibly a reference.
 template <class Coordinate, class Make>
 struct listed_point {
     const Coordinate* first;
@@ -89,7 +89,7 @@ struct listed_scalars {
                                                              make};
     }
 };
-/// `degrees`, if not null, has one entry per coordinate.
+/// A point for counting; `degrees`, if not null, has one entry per coordinate.
 struct counted_point {
     counting_run& run;
     int dimension;
@@ -188,7 +188,7 @@ constexpr expression_findings findings_of(int coordinate_bits, int max_runs,
     });
 }
 
-/// A separate constant for each supposition, as compilers limit each one's length.
+/// The fault that one supposition shows; a separate constant, as compilers limit each one's length.
 template <class Shape, class F, std::size_t Supposition>
 inline constexpr expression_fault fault_by = find_fault(Supposition, [](supposed_signs& signs) {
     return conclude(evaluate<Shape>(F(), supposed_scalars<Shape>{signs}));

@@ -93,8 +93,7 @@ class predicate_stages {
                   "analyse");
 
     static constexpr bool mixed = !Options::homogeneous && (counts.mixed || !counts.complete);
-    static constexpr std::size_t listed_size =
-        Shape::size + mixed;  ///< mixed: 1 is a coordinate, too
+    static constexpr std::size_t listed_size = Shape::size + mixed;  ///< with 1 if mixed
     using coordinate_list = std::array<double, listed_size>;
 
     template <class... Points>
@@ -113,7 +112,7 @@ class predicate_stages {
         return list;
     }
 
-    /// Counts the deciding stage in the report, if any.
+    /// The sign by the first certain stage; counts it in the report, if any.
     template <class T>
     [[gnu::noinline]] static constexpr sign_type decide(const coordinate_list& list,
                                                         predicate_report* report) {
@@ -252,7 +251,7 @@ class predicate_stages {
     static constexpr sign_type by_words(const integers::word_coordinates<listed_size>& words) {
         return by_values<word_bits>(words, 0);
     }
-    /// Inlined: passing the values costs as much as a small expression.
+    /// Inlined: passing the values would cost as much as a small expression.
     template <int Bits>
     [[gnu::always_inline]] static constexpr sign_type by_values(
         const integers::word_coordinates<listed_size>& words, int shift) {
@@ -264,10 +263,10 @@ class predicate_stages {
     }
 
     static constexpr int short_bits = coordinate_bits(127);
-    /// Products of coordinate differences end just before a word's end.
+    /// Products of two-word coordinates' differences end just before a word's end.
     static constexpr int two_word_bits = 124;
-    /// Above degree 3, operations are calls: inlined they take a second to compile. Expressions
-    /// that branch skip this stage for that reason.
+    /// Above degree 3, operations on two or more words are calls: inlined they take a second to
+    /// compile. Expressions that branch skip this stage for that reason.
     using two_word_level = integers::integer_level<integers::integer_kind::words, two_word_bits,
                                                    mixed, (counts.degree > 3)>;
     [[gnu::noinline]] static constexpr sign_type by_two_words(const coordinate_list& list) {

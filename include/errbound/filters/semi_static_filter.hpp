@@ -128,7 +128,7 @@ template <semi_static_operand X, semi_static_operand Y>
 constexpr auto operator*(const X& x, const Y& y) {
     return semi_static_product(as_semi_static(x), as_semi_static(y));
 }
-/// Sums with constants are of mixed degree, not for this filter.
+/// The product with a whole number. (Sums with one are of mixed degree, not for this filter.)
 template <semi_static_operand X>
 constexpr auto operator*(const X& x, std::same_as<int> auto c) {
     using T = typename X::value_type;

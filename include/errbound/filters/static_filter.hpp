@@ -110,7 +110,7 @@ inline constexpr bool is_filtered<filtered_coordinate<T>> = true;
 template <class X>
 concept filtered_operand = is_filtered<X>;
 
-/// Conversion to float may round c.
+/// A whole number; an int may be rounded on conversion to float.
 template <std::floating_point T>
 constexpr auto filtered_constant(int c) {
     const T v = static_cast<T>(c);

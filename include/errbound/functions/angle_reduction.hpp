@@ -91,7 +91,7 @@ inline constexpr std::array<std::uint64_t, 6> half_pi{
 };
 // clang-format on
 
-/// 64 digits of 2/π from weight 2^-(first + 1) on, first >= −192.
+/// 64 digits of 2/π from weight 2^-(first + 1) on, first >= −192. Digits before the point are 0.
 constexpr std::uint64_t two_over_pi_from(int first) {
     const auto word = [](int i) { return i < 0 ? 0 : two_over_pi[static_cast<std::size_t>(i)]; };
     const int i = (first + 192) / 64 - 3, bits = (first + 192) % 64;

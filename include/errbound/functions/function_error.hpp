@@ -44,7 +44,7 @@ constexpr bool has_documented_errors([[maybe_unused]] bool is_wide) {
 #endif
 }
 
-/// In the order of the enumeration; 0: unknown.
+/// In the order of the enumeration: at least the errors in function_error's comment; 0: unknown.
 constexpr double documented_error(elementary_function f, bool is_wide) {
     if (!has_documented_errors(is_wide)) return 0;
     constexpr double narrow[] = {1, 1, 2, 1, 2, 3, 2, 1, 1, 2, 1, 1, 1, 3, 3, 3, 3, 3, 3, 5, 1, 2};
@@ -57,7 +57,7 @@ constexpr bool is_function_of_angle(elementary_function f) {
     return f == sin || f == cos || f == tan;
 }
 
-/// angle_reduction.hpp reduces larger angles.
+/// Larger angles are reduced by angle_reduction.hpp, not by the C library.
 inline constexpr double least_reduced_angle = 0x1p20;
 
 }  // namespace detail
@@ -72,6 +72,7 @@ inline constexpr double least_reduced_angle = 0x1p20;
 /// of Mathematical Functions ...), with float and double of other libraries. `errbound validate
 /// --functions all` tests them. Windows, and long double of other libraries, have none and need a
 /// specialisation before the first use:
+///
 ///   template <>
 ///   inline constexpr double errbound::function_error<errbound::elementary_function::exp, double> =
 ///       0.52;

@@ -17,7 +17,7 @@ namespace errbound {
 
 namespace detail {
 
-/// T, or float for 8- and 16-bit types.
+/// The type that evaluates functions of T: T, or float for 8- and 16-bit types.
 template <class T>
 struct type_of_functions {
     using type = T;
@@ -80,13 +80,13 @@ T error_of_function(const T& v) {
            T(static_cast<int>(k) + 2) * traits::underflow_unit();
 }
 
-/// The error is infinite or NaN if there is no bound.
+/// A value, and at least its distance from the exact one; infinite or NaN if there is no bound.
 template <class T>
 struct bounded {
     T value, error;
 };
 
-/// The error still needs enlarged().
+/// A function's value at a T, before enlarged().
 template <elementary_function F, class T>
 bounded<T> evaluated(const T& x) {
     const T v = system_function<F>(x);
@@ -122,8 +122,8 @@ bool is_cube_root(const T& v, const T& x) {
            product_error_is_exact(square.value, v, cube) && cube.error == 0 && cube.value == x;
 }
 
-/// Other rational results for an exact x exist only for logarithms of powers of ten (theorems of
-/// Lindemann, and of Gelfond and Schneider).
+/// True if v is the exact result for an exact x. Other rational results exist only for logarithms
+/// of powers of ten (theorems of Lindemann, and of Gelfond and Schneider).
 template <elementary_function F, class T>
 bool is_exact_result(const T& x, const T& v) {
     using enum elementary_function;
@@ -185,7 +185,7 @@ T natural_distance(const T& x) {
     return size > 1 ? size : T(1);
 }
 
-/// x̂ ± distance, rounded away from x̂; within a closed domain.
+/// x̂ ± distance, rounded away from x̂; never beyond the end of a closed domain.
 template <elementary_function F, class T>
 T moved(const T& x, const T& distance, bool up) {
     using enum elementary_function;
@@ -229,8 +229,8 @@ T error_by_slope(const T& x, const T& e, const T& v) {
     return own + (rounded_product(share, difference) + traits::underflow_unit());
 }
 
-/// At least |f(x) − f(x̂)| for f = sin or cos; `slope` is the other at x̂. With d = x − x̂, |2
-/// sin(d/2) cos(x̂ + d/2)| <= e·min(1, |cos x̂| + e/2), and the same for cos.
+/// At least |f(x) − f(x̂)| for f = sin or cos; `slope` is the other function at x̂. With d = x −
+/// x̂, |2 sin(d/2) cos(x̂ + d/2)| <= e·min(1, |cos x̂| + e/2), and the same for cos.
 template <class T>
 T change_of_wave(const bounded<T>& slope, const T& e) {
     using traits = number_traits<T>;
@@ -306,7 +306,7 @@ void sine_of(const reduced_angle<T>& r, int quadrants, bounded<T>& sine, bounded
     if (quadrants % 4 >= 2) sine = negated(sine), derivative = negated(derivative);
 }
 
-/// At least |v − f(x)|, x within e > 0 of x̂; `at` is the computed f(x̂).
+/// At least |v − f(x)|, x within e > 0 of x̂, f = sin, cos or tan; `at` is the computed f(x̂).
 template <elementary_function F, class T>
 T error_of_angle_function(const bounded<T>& at, const bounded<T>& derivative, const T& e) {
     if constexpr (F == elementary_function::tan) {
@@ -319,7 +319,7 @@ T error_of_angle_function(const bounded<T>& at, const bounded<T>& derivative, co
     }
 }
 
-/// Uses functions of angles up to π/4. Precondition: |x̂| >= least_reduced_angle.
+/// F over numbers within e of x̂, |x̂| >= least_reduced_angle, by functions of angles up to π/4.
 template <elementary_function F, class T>
 [[gnu::noinline]] bounded<T> function_of_large_angles(T x, T e) {
     using enum elementary_function;

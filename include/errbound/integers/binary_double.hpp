@@ -23,7 +23,7 @@ struct binary_double {
         exponent = static_cast<int>(field) + (field == 0) - 1075;
         negative = bits >> 63 != 0;
     }
-    /// n of x = n·2^last_bit(). Precondition: x is not zero.
+    /// The odd part n of x = n·2^last_bit(). Precondition: x is not zero.
     constexpr std::int64_t odd_part() const {
         const auto odd = static_cast<std::int64_t>(magnitude >> detail::countr_zero(magnitude));
         return negative ? -odd : odd;
@@ -33,7 +33,7 @@ struct binary_double {
         return magnitude == 0 ? (std::numeric_limits<int>::max)()
                               : exponent + detail::countr_zero(magnitude);
     }
-    /// One above the highest bit set; for 0 below all others.
+    /// One above the position of the highest bit set; for 0 below all others.
     constexpr int end_bit() const { return exponent + detail::bit_width(magnitude); }
 };
 

@@ -1,4 +1,4 @@
-// Coordinates as integers with one common exponent.
+// Coordinates as integers with one common exponent, and their widths.
 #pragma once
 
 #include <algorithm>
@@ -14,7 +14,7 @@
 
 namespace errbound::integers {
 
-/// The largest magnitude, as bits of a double. Infinities and NaN exceed all others.
+/// The largest magnitude, as bits of a double; infinities and NaN exceed all others.
 template <std::size_t N>
 constexpr std::uint64_t largest_size(const std::array<double, N>& coordinates) {
     std::uint64_t largest = 0;
@@ -35,8 +35,8 @@ struct short_coordinates {
     int unit;
     bool fit = false;
 
-    /// `largest` is largest_size(coordinates), finite. Adding 3·2^51 units rounds x to whole units.
-    /// Proof: proofs/Widths.v, short_coordinates_exact.
+    /// `largest` is largest_size(coordinates), finite. Adding 3·2^51 units rounds x to whole units;
+    /// only multiples survive. Proof: proofs/Widths.v, short_coordinates_exact.
     constexpr short_coordinates(const std::array<double, N>& coordinates, std::uint64_t largest) {
         const auto field = static_cast<int>(largest >> 52);
         unit = field - 1022 - Bits;
@@ -106,7 +106,7 @@ struct common_unit {
         bits = end - last;
     }
 
-    /// Precondition: the level is wide enough. Proof: proofs/Widths.v, converted_exact.
+    /// x as a number of the level, which is wide enough. Proof: proofs/Widths.v, converted_exact.
     template <class Level>
     constexpr sized_integer<Level, Level::coordinate_bits, 1> converted(double x) const {
         using storage = typename sized_integer<Level, Level::coordinate_bits, 1>::storage;

@@ -38,7 +38,7 @@ class decimal_text {
             ++i;
             const bool minus = sign(text, i);
             well_formed = is_digit(text, i);
-            // Saturates beyond any text's length, so that digits cannot compensate.
+            // Saturates beyond any text's length, so that no digits compensate.
             constexpr std::int64_t most = std::int64_t{1} << 58;
             std::int64_t e = 0;
             for (; is_digit(text, i); ++i) e = e < most / 10 ? 10 * e + (text[i] - '0') : most;
@@ -52,7 +52,7 @@ class decimal_text {
     constexpr bool is_zero() const { return digits_ == 0; }
     /// n with 10^(n-1) <= |x| < 10^n. Precondition: x is not zero.
     constexpr std::int64_t magnitude() const { return digits_ + exponent_; }
-    /// At most leading_digits digits, as an integer.
+    /// The first digits, at most 38, as an integer.
     constexpr word_pair leading() const {
         const auto more = static_cast<int>(std::min<std::int64_t>(digits_, leading_digits)) - 19;
         if (more <= 0) return {0, first_};
@@ -68,7 +68,7 @@ class decimal_text {
     constexpr bool leading_is_all() const { return !has_rest_; }
     constexpr std::int64_t digits() const { return digits_; }
     constexpr std::int64_t exponent() const { return exponent_; }
-    /// Calls visit(digit) for `count` digits; true if a later one is not zero.
+    /// Calls visit(digit) for the first `count` digits; true if a later one is not zero.
     template <class Visit>
     constexpr bool for_digits(std::int64_t count, const Visit& visit) const {
         for (const char c : significant_) {
@@ -157,7 +157,7 @@ constexpr int width_of(word_pair x) {
     return static_cast<int>(x.high != 0 ? 64 + std::bit_width(x.high) : std::bit_width(x.low));
 }
 
-/// x·2^exponent with the error of x. Precondition: x is not zero.
+/// x·2^exponent with x's error. Precondition: x is not zero.
 constexpr leading_bits normalized(word_pair x, int exponent, word error) {
     const int shift = 128 - width_of(x);
     return {shifted_up(x, shift), exponent - shift, error == 0 ? 0 : error << shift};
@@ -269,7 +269,7 @@ struct binary_format {
         const word_pair to_next = difference_of(shifted_up({0, 1}, drop), rest);
         rounded_decimal r{sum_of(units, up ? 1 : 0), unit, up ? to_next : rest, x.exponent, true};
         if (x.error == 0) return r;
-        // Both ends of [m, m + error] must be far from the number, and on one side of half.
+        // Both ends of [m, m + error] must be far from the number and on one side of half.
         const word_pair to_half = up ? difference_of(rest, half) : difference_of(half, rest);
         const word_pair least_distance = up ? difference_of(r.distance, {0, x.error}) : r.distance;
         r.certain = x.error < (word{1} << 40) && is_far(to_half, x.error) &&
@@ -458,14 +458,14 @@ class exact_decimal {
     }
 };
 
-/// The error is the decimal's distance, rounded up. Not `finite` if it rounds to no finite T.
+/// A number and the decimal's distance, rounded up; not `finite` if it rounds to no finite T.
 template <class T>
 struct nearest_number {
     T value{}, error{};
     bool finite = false;
 };
 
-/// Precondition: the decimal is well-formed.
+/// The number of T nearest to a well-formed decimal.
 template <class T>
 constexpr nearest_number<T> nearest_decimal(const decimal_text& text) {
     using format = binary_format<T>;

@@ -1,4 +1,4 @@
-// 128-bit unsigned integers: the compiler's, or a class (32-bit processors).
+// 128-bit unsigned integers: the compiler's, or a class where it has none (32-bit processors).
 #pragma once
 
 #include <bit>
@@ -46,7 +46,7 @@ class two_words {
   private:
     constexpr two_words(word low, word high) : low_(low), high_(high) {}
 
-    /// No intermediate sum exceeds a word.
+    /// Multiplies half words; no intermediate sum exceeds a word.
     static constexpr two_words product_of(word a, word b) {
         constexpr word half = 0xffffffff;
         const word low = (a & half) * (b & half);

@@ -15,7 +15,7 @@ int floor_log2(const Integer& x) {
     return static_cast<int>(x < 0 ? msb(Integer(-x)) : msb(x));
 }
 
-/// x·2^shift, truncated. (Boost 1.74 loses the sign of some negative numbers.)
+/// x·2^shift, truncated. (By magnitudes: Boost 1.74 loses the sign of some negative numbers.)
 template <exact_number Integer>
 Integer shifted(const Integer& x, int shift) {
     if (shift >= 0) return Integer(x << static_cast<unsigned>(shift));
@@ -52,7 +52,7 @@ class dyadic {
     }
     dyadic(const dyadic&) = default;
     dyadic(dyadic&&) = default;
-    /// If memory runs out, Boost's integers lose their value: copy first.
+    /// Copies first: if memory runs out, Boost's integers lose their value.
     dyadic& operator=(const dyadic& other) { return *this = dyadic(other); }
     dyadic& operator=(dyadic&&) = default;
     ~dyadic() = default;
@@ -96,7 +96,7 @@ class dyadic {
     }
     friend sign_type sign_of(const dyadic& x) { return sign_of(x.numerator_); }
     friend dyadic magnitude(const dyadic& x) { return x.numerator_ < 0 ? -x : x; }
-    /// Precondition: x is not zero. Proof: proofs/Dyadic.v, dyadic_floor_log2.
+    /// ⌊log2 |x|⌋. Precondition: x is not zero. Proof: proofs/Dyadic.v, dyadic_floor_log2.
     friend int floor_log2(const dyadic& x) { return floor_log2(x.numerator_) + x.exponent_; }
 
     /// x/2^unit. Precondition: unit <= exponent(). Proof: proofs/Dyadic.v, dyadic_in_units.

@@ -71,8 +71,8 @@ constexpr word sign_word(word w) {
     return carry;
 }
 
-/// r = a·b, of m + n words. The product of unsigned numbers has 2^(64m)·b more if a < 0 and
-/// 2^(64n)·a more if b < 0. Proof: proofs/Words.v, product_exact.
+/// r = a·b, of m + n words. Multiplies unsigned numbers, which adds 2^(64m)·b if a < 0 and
+/// 2^(64n)·a if b < 0, then subtracts these. Proof: proofs/Words.v, product_exact.
 [[gnu::always_inline]] constexpr void multiply(word* r, const word* a, int m, const word* b,
                                                int n) {
     for (int j = 0; j < n; ++j) r[j] = 0;
@@ -95,7 +95,7 @@ constexpr word sign_word(word w) {
 #endif
 }
 
-/// Compiled once for all sizes.
+/// multiply, compiled once for all sizes.
 [[gnu::noinline]] constexpr void multiply_long(word* r, const word* a, int m, const word* b,
                                                int n) {
     multiply(r, a, m, b, n);
@@ -215,7 +215,7 @@ class fixed_integer {
     constexpr std::int64_t word_from_bit(int shift) const { return from_bit<1>(shift).low_word(); }
     constexpr std::int64_t low_word() const { return static_cast<std::int64_t>(words_[0]); }
 
-    /// Small products are unrolled in place; large ones are rare and share code.
+    /// The exact product. Small ones are unrolled in place; large ones are rare and share code.
     template <int B>
     [[gnu::always_inline]] constexpr fixed_integer<Words + B> times(
         const fixed_integer<B>& b) const {

@@ -38,7 +38,7 @@ namespace errbound {
 
 namespace integers {
 
-/// With some compiler options std::integral includes wider types.
+/// At most 64 bits. (With some compiler options std::integral includes wider types.)
 template <class T>
 concept built_in_integer = std::integral<T> && sizeof(T) <= sizeof(words::word);
 
@@ -48,7 +48,7 @@ constexpr bool is_negative(T x) {
     return false;
 }
 
-/// On the stack if few.
+/// Scratch words, on the stack if few.
 class scratch_words {
     static constexpr int few = 64;
 
@@ -64,7 +64,7 @@ class scratch_words {
 
 }  // namespace integers
 
-/// See the head of errbound/integers/integer.hpp.
+/// An integer of any size. Cost, limits and exceptions: head of errbound/integers/integer.hpp.
 class integer {
     using word = integers::words::word;
     using double_word = integers::words::double_word;
@@ -204,7 +204,7 @@ class integer {
         return *this;
     }
     friend integer scale(const integer& x, int e) { return x << e; }
-    /// Position of the highest bit; lsb: of the lowest. Precondition: x is not zero.
+    /// ⌊log2 |x|⌋, the highest bit's position; lsb: the lowest bit's. Precondition: x is not zero.
     friend int msb(const integer& x) {
         assert(x.size_ != 0);
         return 64 * x.size() - 1 - detail::countl_zero(x.data()[x.size() - 1]);
@@ -276,7 +276,7 @@ class integer {
         const int capacity = (std::max)(n, capacity_ + capacity_ / 2);
         return {new_words(capacity), capacity};
     }
-    /// Leading zeros are removed.
+    /// Takes the words written there, without leading zeros.
     void keep(const room& from, int size, bool negative) noexcept {
         if (from.words != data()) adopt(from);
         size = integers::words::trimmed(from.words, size);
@@ -287,7 +287,7 @@ class integer {
         many_ = from.words;
         capacity_ = from.capacity;
     }
-    /// A pair of words just stored one by one stalls a load.
+    /// Word by word: loading pairs of words just stored one by one stalls.
     static void copy_few(const word* from, int n, word* to) noexcept {
         if (n > 0) to[0] = from[0];
         if (n > 1) to[1] = from[1];
@@ -445,7 +445,7 @@ class integer {
             keep(to, n, negative);
         }
     }
-    /// Shifted so that b's first bit is set. Precondition: 2 <= b's size <= a's.
+    /// Copies of a and b, shifted so that b's first bit is set. Precondition: 2 <= b's size <= a's.
     class long_division {
       public:
         long_division(const integer& a, const integer& b)
@@ -562,7 +562,7 @@ inline integer::operator double() const {
         const auto x = static_cast<double>(low_word());
         return size_ < 0 ? -x : x;
     }
-    // The first 64 bits, the last set if any later bit is, round to the same double.
+    // The first 64 bits; the last is set if any later bit is: they round to the same double.
     const int whole = excess / 64, bits = excess % 64;
     const word* const w = data();
     word head = w[whole] >> bits;
@@ -592,7 +592,7 @@ inline std::string integer::text(int base) const {
     const integers::power_in_word piece(base);
     std::string reversed;
     for (integer rest = *this; rest.size_ != 0;) {
-        // The quotient overwrites the number.
+        // The remainder first: the quotient overwrites the number.
         word digits = integer(rest % integer(piece.power)).low_word();
         rest /= integer(piece.power);
         for (int i = 0; i < piece.digits && (digits != 0 || rest.size_ != 0); ++i) {
@@ -652,7 +652,7 @@ class std::numeric_limits<errbound::integer> {
                           has_denorm_loss = false;
     static constexpr float_denorm_style has_denorm = denorm_absent;
     static constexpr float_round_style round_style = round_toward_zero;
-    /// Unbounded: digits, min and max have no meaning.
+    /// Unbounded: there is no largest number, and digits has no meaning.
     static constexpr int radix = 2, digits = 0, digits10 = 0, max_digits10 = 0, min_exponent = 0,
                          min_exponent10 = 0, max_exponent = 0, max_exponent10 = 0;
     static integer(min)() { return 0; }

@@ -1,5 +1,5 @@
-// Exact integers of run-time length up to a compile-time capacity, without allocation. Products
-// skip words that are all zero or all ones, frequent in numbers made of doubles far apart in size.
+// Exact integers of run-time length up to a compile-time capacity: no allocation. Products skip
+// words that are all zero or all ones, frequent in numbers made of doubles far apart in size.
 #pragma once
 
 #include <array>
@@ -46,13 +46,13 @@ constexpr int count_filled(const word* x, int n) {
     return carry;
 }
 
-/// r = a·b in two's complement, of m, n and m + n words. Precondition: b is not zero. Proof:
-/// proofs/SparseProduct.v, sparse_product_exact.
+/// r = a·b in two's complement, of m, n and m + n words, by the signed words of a. Precondition: b
+/// is not zero. Proof: proofs/SparseProduct.v, sparse_product_exact.
 [[gnu::noinline]] constexpr void multiply_sparse(word* r, const word* a, int m, const word* b,
                                                  int n) {
     int low = 0;
     while (b[low] == 0) ++low;
-    // Words before `end` hold the sum, modulo a power of 2^64; later ones are `beyond`.
+    // Words before `end` hold the sum so far, modulo a power of 2^64; later ones are `beyond`.
     int end = low;
     word beyond = 0;
     for (int i = 0; i < low; ++i) r[i] = 0;
@@ -113,7 +113,7 @@ template <word (*Step)(word, word, unsigned char&)>
 
 }  // namespace words
 
-/// Sums and products must fit.
+/// A two's complement number of at most Words words. Sums and products must fit.
 template <int Words>
 class long_integer {
     using word = words::word;
@@ -196,7 +196,7 @@ class long_integer {
     /// The least n with −2^n <= x < 2^n. Proof: proofs/WordBits.v, long_bit_length_exact.
     constexpr int bit_length() const {
         const word invert = words::sign_word((*this)[size_ - 1]);
-        // Trimmed: at most the last word repeats the sign.
+        // The number is trimmed, so at most the last word repeats the sign.
         const int last = size_ > 1 && (*this)[size_ - 1] == invert ? size_ - 2 : size_ - 1;
         return 64 * last + detail::bit_width((*this)[last] ^ invert);
     }

@@ -1,6 +1,6 @@
 // Natural numbers of any length, as words in memory, least significant first. Sizes are in words,
-// at least 1 unless stated. Results may have leading zeros, and must not overlap operands unless
-// stated.
+// at least 1 unless stated. Results have the stated size and may have leading zeros; unless stated,
+// they must not overlap operands.
 #pragma once
 
 #include <algorithm>
@@ -13,7 +13,7 @@
 
 namespace errbound::integers::words {
 
-/// Possibly 0.
+/// The size without leading zeros, possibly 0.
 constexpr int trimmed(const word* a, int n) {
     while (n > 0 && a[n - 1] == 0) --n;
     return n;
@@ -79,8 +79,8 @@ constexpr void multiply_rows(word* r, const word* a, int m, const word* b, int n
 
 inline constexpr int karatsuba_words = 32;  ///< from here on three half products beat four
 
-/// For a shorter factor of n words. multiply_by_halves needs 2n + 3, multiply_natural 2n for pieces
-/// and 2n for the remainder: 12n + 9·log2(n) suffice.
+/// Scratch words for a shorter factor of n words. multiply_by_halves needs 2n + 3, multiply_natural
+/// 2n for pieces and 2n for the remainder: 12n + 9·log2(n) suffice.
 constexpr int product_scratch(int n) {
     return n < karatsuba_words ? 0 : 16 * n;
 }
@@ -330,7 +330,7 @@ constexpr word_pair odd_part(word_pair x) {
     return {x.high >> zeros, x.low >> zeros | x.high << 1 << (63 - zeros)};
 }
 
-/// J. Stein 1967. Precondition: a and b are odd.
+/// Takes differences and halves. (J. Stein 1967.) Precondition: a and b are odd.
 constexpr word_pair odd_common_divisor(word_pair a, word_pair b) {
     while ((a.high | b.high) != 0) {
         if (a == b) return a;

@@ -19,7 +19,7 @@ namespace errbound::integers {
 enum class integer_kind : std::uint8_t { floating, words, any_length };
 
 /// Coordinates are below 2^CoordinateBits in size. Mixed: terms of different degree may be added.
-/// Called: wide operations are calls.
+/// Called: operations wider than the compiler's integers are calls.
 template <integer_kind Kind, int CoordinateBits, bool Mixed, bool Called = false>
 struct integer_level {
     static constexpr integer_kind kind = Kind;

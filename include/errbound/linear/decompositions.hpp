@@ -12,7 +12,7 @@
 
 namespace errbound::linear {
 
-/// Zero only for an exact zero: elimination skips columns scored 0.
+/// The size of a pivot's value; zero only for an exact zero, as elimination skips columns scored 0.
 template <class T, class Rule>
 T pivot_score(const tracked<T, Rule>& x) {
     using scalar_traits = number_traits<T>;
@@ -28,7 +28,7 @@ struct reflection {
 };
 
 /// Overwrites x's entries, except the first, with `essential`; H = I if these are certainly zero.
-/// Scales against overflow. Source: Golub and Van Loan 2013, Algorithm 5.1.1.
+/// Scales against overflow and underflow. Source: Golub and Van Loan 2013, Algorithm 5.1.1.
 template <class Vector>
 reflection<typename Vector::Scalar> reflect_in_place(Vector x) {
     using number = typename Vector::Scalar;
@@ -50,8 +50,8 @@ reflection<typename Vector::Scalar> reflect_in_place(Vector x) {
     return {tau, scale(beta, e)};
 }
 
-/// a = LL' in place; the upper triangle is kept. True if all pivots are certainly positive: the
-/// matrix of the lower triangle is then positive definite.
+/// a = LL' in place, by columns; the upper triangle is kept. True if all pivots are certainly
+/// positive: the lower triangle's symmetric matrix is then positive definite.
 template <class Matrix>
 bool cholesky_in_place(Matrix a) {
     using number = typename Matrix::Scalar;

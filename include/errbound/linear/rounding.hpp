@@ -33,7 +33,7 @@ inline double underflow_margin() {
     return traits::smallest_normal();
 }
 
-/// |m|v for v >= 0. Upper bound: enlarged(·, n + 1) plus n underflows, n = m.cols().
+/// |m|v for v >= 0. Its upper bound is enlarged(·, n + 1) plus n underflows, n = m.cols().
 template <class Matrix, class Vector>
 Vector absolute_product(const Matrix& m, const Vector& v) {
     Vector sum = Vector::Zero(m.rows());

@@ -16,7 +16,7 @@ using exponents = Eigen::Matrix<int, N, 1>;
 
 inline constexpr int exponent_of_zero = (std::numeric_limits<int>::min)() / 8;  ///< sums fit an int
 
-/// e with 2^(e−1) <= |x| < 2^e, x finite.
+/// e with 2^(e−1) <= |x| < 2^e. Precondition: x is finite.
 inline int exponent_of(double x) {
     return x == 0 ? exponent_of_zero : traits::exponent(x);
 }

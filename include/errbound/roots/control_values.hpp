@@ -9,7 +9,7 @@
 
 namespace errbound::roots {
 
-/// A polynomial's control values b_0..b_N, times multiple(N).
+/// The control values b_0..b_N of a polynomial of degree N, times multiple(N).
 template <class S, int N>
 struct control_values {
     std::array<S, std::size_t{N + 1}> b;
@@ -40,7 +40,7 @@ constexpr control_values<S, N> control_values_of(const bernstein<S, N>& p) {
     return c;
 }
 
-/// Unrolled: loops load pairs just stored one by one, which stalls.
+/// Midpoints of neighbours. Unrolled: loops load pairs just stored one by one, which stalls.
 template <class S, std::size_t... I>
 constexpr std::array<S, sizeof...(I)> midpoints(const std::array<S, sizeof...(I) + 1>& row,
                                                 std::index_sequence<I...>) {

@@ -24,7 +24,7 @@
 
 namespace errbound {
 
-/// low = high is the root, or the only root in [low, high] is strictly inside.
+/// One root: low = high is the root, or it is the only one in [low, high] and strictly inside.
 template <exact_number Integer>
 struct isolating_interval {
     dyadic<Integer> low, high;
@@ -37,7 +37,7 @@ struct isolating_interval {
 
 namespace errbound::roots {
 
-/// In [2^exponent, 2^(exponent + 1)); halving from there rarely meets simple roots.
+/// A point in [2^exponent, 2^(exponent + 1)); halving from there rarely meets simple roots.
 template <class Integer>
 dyadic<Integer> unlikely_root(int exponent) {
     return {Integer(45), exponent - 5};
@@ -66,7 +66,7 @@ class descartes_search {
     using point = dyadic<Integer>;
     using interval = isolating_interval<Integer>;
 
-    /// The square-free p and the meter must outlive this.
+    /// p, square-free, and the meter must outlive this.
     descartes_search(const form& p, work_meter& meter) : p_(p), meter_(meter) {}
 
     struct end {
@@ -75,7 +75,7 @@ class descartes_search {
     };
 
     /// Appends the roots strictly between low and high, ascending. Precondition: 0 < low < high.
-    /// Proof: proofs/RootIsolation.v, on_part_right.
+    /// Bounded stack. Proof: proofs/RootIsolation.v, on_part_right.
     void find(const end& low, const end& high, std::vector<interval>& roots) {
         add({low.at, high.at, low.is_root, high.is_root});
         while (!parts_.empty()) {
@@ -113,7 +113,7 @@ class descartes_search {
         if (p.variations > 0) parts_.push_back(std::move(p));
     }
 
-    /// Skips ends known to be zero. Nothing if an end is uncertain.
+    /// Sign changes of a row without ends known to be zero; nothing if an end is uncertain.
     template <class Sign>
     static std::optional<int> variations(const part& p, std::size_t size, const Sign& sign) {
         const std::size_t first = p.root_at_low ? 1 : 0,
@@ -169,7 +169,7 @@ class descartes_search {
     static int bits_of_ends(const part& p) {
         return (std::max)(floor_log2(p.low.numerator()), floor_log2(p.high.numerator())) + 1;
     }
-    /// Exact Bernstein coefficients are then hardly longer than a row.
+    /// True if exact Bernstein coefficients are hardly longer than a row.
     bool exact_row_is_cheap(const part& p) const {
         return p_.size() <= 40 && static_cast<int>(p_.size()) * bits_of_ends(p) <= 2048;
     }
@@ -183,7 +183,7 @@ class descartes_search {
         charge(local_form<Integer>::precision(p_.size(), p.low, width, p.bits));
         p.local.emplace(p_, p.low, width, p.bits, &meter_);
     }
-    /// For a row of numbers of this many bits: products of their size, and sums.
+    /// Charges a row of numbers with this many bits: products of their size, and sums.
     void charge(std::int64_t bits) {
         const std::uint64_t n = p_.size(), words = static_cast<std::uint64_t>(bits) / 64 + 1;
         meter_.hold(8 * n * (4 * words + 8 * (parts_.size() + 1)));
@@ -219,12 +219,12 @@ class descartes_search {
         }
     }
     static point half(const part& p) { return middle(p.low, p.high); }
-    /// Tried after 32, 64, ... lone halvings, and after a success.
+    /// True if all roots may be in one place: after 32, 64, ... lone halvings, and after a success.
     static bool near_each_other(const part& p) {
         const auto n = static_cast<unsigned>(p.lone_halvings);
         return p.speed > slowest || (n >= lone && std::has_single_bit(n));
     }
-    /// Counts the sign changes of both new parts.
+    /// Replaces a part by two, counting the sign changes of both.
     void split(part whole, point x, part left = {}, part right = {}) {
         const bool root_between = !right.low_end_is_certain() && is_root(x);
         left.low = std::move(whole.low);
@@ -243,7 +243,7 @@ class descartes_search {
             left.lone_halvings = right.lone_halvings = whole.lone_halvings + 1;
         else
             left.speed = right.speed = slowest;
-        // The last one is processed first.
+        // The last part is processed first.
         if (right.variations > 0) parts_.push_back(std::move(right));
         if (root_between) parts_.push_back({x, x});
         if (left.variations > 0) parts_.push_back(std::move(left));

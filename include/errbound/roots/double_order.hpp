@@ -9,13 +9,13 @@
 
 namespace errbound::roots {
 
-/// 0 for both zeros. Precondition: x is not NaN.
+/// The number of x; 0 for both zeros. Precondition: x is not NaN.
 constexpr std::int64_t order_of(double x) {
     const auto size =
         static_cast<std::int64_t>(std::bit_cast<std::uint64_t>(x) & 0x7fff'ffff'ffff'ffffU);
     return x < 0 ? -size : size;
 }
-/// Its zero is positive.
+/// The double with that number; its zero is positive.
 constexpr double double_of_order(std::int64_t number) {
     const double size =
         std::bit_cast<double>(static_cast<std::uint64_t>(number < 0 ? -number : number));

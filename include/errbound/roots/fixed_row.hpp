@@ -1,5 +1,5 @@
-// Bernstein coefficients truncated to a fixed number of words. root_isolation.hpp halves them
-// instead of integers that grow by the degree with every halving.
+// Bernstein coefficients truncated to a fixed number of words. errbound/roots/root_isolation.hpp
+// halves them instead of integers that grow by the degree with every halving.
 #pragma once
 
 #include <algorithm>
@@ -25,7 +25,7 @@ class fixed_row {
         int bits = 0;
         for (const Integer& c : b)
             if (c != 0) bits = (std::max)(bits, floor_log2(c) + 1);
-        // Room for the sign and a sum of two.
+        // Leaves room for the sign and a sum of two.
         const int excess = bits - (integers::fixed_integer<Words>::width - 3);
         const Integer word = Integer(1) << 64U;
         b_.reserve(b.size());
@@ -67,9 +67,9 @@ class fixed_row {
         return values;
     }
 
-    /// De Casteljau. A midpoint inherits at most the error of its ends; rounding adds half a
-    /// unit in each of the degree's steps. Proof: proofs/ControlValues.v, row_halves_right;
-    /// proofs/FixedRow.v, row_stays.
+    /// The two halves, by de Casteljau. A midpoint inherits at most the error of its ends; rounding
+    /// adds half a unit in each of the degree's steps. Proof: proofs/ControlValues.v,
+    /// row_halves_right; proofs/FixedRow.v, row_stays.
     std::pair<fixed_row, fixed_row> halves() && {
         const std::size_t n = b_.size() - 1;
         fixed_row left;

@@ -38,7 +38,7 @@ constexpr std::array<T, 3> quadratic_roots(T c0, T c1, T c2) {
     return {q / c2, c0 / q, -c1 / (2 * c2)};
 }
 
-/// The first `count` of `at`: 0, the computed roots of f' in (0, 1), 1.
+/// The first `count` of `at`, ascending: 0, the computed roots of f' in (0, 1), 1.
 template <class T>
 struct piece_ends {
     std::array<T, 4> at{};

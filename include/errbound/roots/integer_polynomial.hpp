@@ -21,7 +21,7 @@ namespace errbound::roots {
 template <exact_number Integer>
 using integer_form = std::vector<Integer>;
 
-/// −1, 0 or 1.
+/// −1, 0 or 1, for counts of sign changes.
 template <exact_number Integer>
 int sign(const Integer& x) {
     return x == 0 ? 0 : x > 0 ? 1 : -1;
@@ -32,7 +32,7 @@ void trim(integer_form<Integer>& p) {
     while (!p.empty() && p.back() == 0) p.pop_back();
 }
 
-/// Divides p by the greatest common divisor of its coefficients.
+/// Divides p by the (positive) greatest common divisor of its coefficients.
 template <class Integer>
 void make_primitive(integer_form<Integer>& p) {
     Integer content = 0;
@@ -96,7 +96,7 @@ template <class Integer>
 dyadic<Integer> value_at(const integer_form<Integer>& p, const dyadic<Integer>& x,
                          work_meter& meter) {
     if (p.empty()) return {};
-    // Horner's rule for p(m·2^e)·2^(−e·n), or for p if e >= 0; skips runs of zeros.
+    // Horner's rule for the integer p(m·2^e)·2^(−e·n), or for p if e >= 0; skips runs of zeros.
     const int e = (std::min)(x.exponent(), 0);
     const Integer m = x.in_units(e);
     Integer sum = p.back();
@@ -125,7 +125,7 @@ dyadic<Integer> value_at(const integer_form<Integer>& p, const dyadic<Integer>& 
     return value_at(p, x, unlimited);
 }
 
-/// Within 2^-bits of the value at x, or exact. Long exact values come last.
+/// The value at x within 2^-bits of it, or exactly. Long exact values come last.
 template <class Integer>
 nearby_value<Integer> value_within(const integer_form<Integer>& p, const dyadic<Integer>& x,
                                    int bits, work_meter& meter) {
@@ -163,15 +163,15 @@ std::vector<Number> inverse_binomials(std::size_t n) {
     return binomials;
 }
 
-/// A positive multiple of p's control values on [low, high], all integers. Proof:
-/// proofs/ControlValues.v, control_values_on_right.
+/// A positive multiple of p's control values (Bernstein coefficients) on [low, high], all integers.
+/// Proof: proofs/ControlValues.v, control_values_on_right.
 template <class Integer>
 integer_form<Integer> control_values_on(integer_form<Integer> p, const dyadic<Integer>& low,
                                         const dyadic<Integer>& high, work_meter& meter) {
     const std::size_t n = p.size() - 1;
     const dyadic<Integer> width = high - low;
     const int e = (std::min)(low.is_zero() ? width.exponent() : low.exponent(), width.exponent());
-    // x = 2^e·(start + length·u), u in [0, 1]: first a multiple of p(2^e·y).
+    // x = 2^e·(start + length·u) with u in [0, 1]: first a multiple of p(2^e·y).
     const Integer start = low.in_units(e), length = width.in_units(e);
     for (std::size_t i = 0; i <= n; ++i) {
         const std::size_t power = e >= 0 ? i : n - i;
@@ -225,7 +225,7 @@ std::uint64_t residue(const Integer& x, const prime_field& field) {
     return static_cast<std::uint64_t>(rest < 0 ? rest + p : rest);
 }
 
-/// Residues divided by R: a multiple of p in Montgomery's form.
+/// The coefficients' residues divided by R, which are a multiple of p in Montgomery's form.
 template <class Integer>
 std::vector<std::uint64_t> residues(const integer_form<Integer>& p, const prime_field& field) {
     std::vector<std::uint64_t> r;
@@ -251,7 +251,7 @@ std::uint64_t value_at(const std::vector<std::uint64_t>& residues, const prime_f
     return sum;
 }
 
-/// A polynomial modulo a product of primes (Chinese remainders).
+/// A polynomial modulo a product of primes (Chinese remainders), by its least coefficients.
 template <class Integer>
 struct remainders {
     integer_form<Integer> p;
@@ -270,7 +270,7 @@ struct remainders {
         }
         modulus = next;
     }
-    /// Probably true if the modulus is large enough: all coefficients are far below it.
+    /// True if the modulus is probably large enough: all coefficients are far below it.
     bool decided() const {
         const Integer bound = modulus >> 12U;
         return std::all_of(p.begin(), p.end(),
@@ -313,7 +313,7 @@ integer_form<Integer> common_factor(integer_form<Integer> a, integer_form<Intege
         if (image.size() == 1) return {Integer(1)};
         if (!found.p.empty() && image.size() > found.p.size()) continue;
         if (image.size() < found.p.size()) found = {};
-        // Makes `lead` the last coefficient, a multiple of the divisor's.
+        // Its last coefficient becomes `lead`, a multiple of the divisor's.
         const std::uint64_t factor =
             field.multiply(residue(lead, field), field.inverse(image.back()));
         for (auto& c : image) c = field.multiply(c, factor);

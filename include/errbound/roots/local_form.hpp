@@ -1,5 +1,5 @@
 // A polynomial on an interval: truncated Taylor coefficients, and signs of its Bernstein
-// coefficients. Few coefficients matter on short intervals.
+// coefficients. Few coefficients matter on short intervals, so deeper ones cost less.
 #pragma once
 
 #include <algorithm>
@@ -27,7 +27,7 @@ struct cut_number {
     }
 };
 
-/// Each value is within `error` of the exact one.
+/// Numbers, each within `error` of the exact one.
 template <class Integer>
 struct approximate_row {
     integer_form<Integer> values;
@@ -62,7 +62,7 @@ class local_form {
         error_ = Integer(4) << static_cast<unsigned>(lost);
     }
 
-    /// Bits of the largest numbers in the constructor.
+    /// Bits of the largest numbers in this constructor.
     static std::int64_t precision(std::size_t size, const point& low, const point& width,
                                   int bits) {
         return bits + error_bits(size, ratio_exponent(low, width));
@@ -95,16 +95,16 @@ class local_form {
     }
 
     /// The Bernstein coefficients times C(n, i), up to a positive factor, from the a_j truncated to
-    /// this many bits of the largest. The i-th is within error·C(n + 1, i), as it has C(n − j, i −
-    /// j) of the error of a_j. Proof: proofs/LocalForm.v, cut_right.
+    /// this many bits of the largest. The i-th is within its margin, error·C(n + 1, i), as it has
+    /// C(n − j, i − j) of the error of a_j. Proof: proofs/LocalForm.v, cut_right.
     approximate_row<Integer> scaled_coefficients(int bits) const {
         int excess = 0;
         for (const Integer& a : a_) excess = (std::max)(excess, bits_of(a) - bits);
         return {scaled_coefficients(static_cast<std::size_t>(degree_), excess),
                 excess > 0 ? Integer(shifted(error_, -excess) + 2) : error_};
     }
-    /// Up to a positive factor. Proof: proofs/LocalForm.v, coefficients_right,
-    /// row_signs_of_coefficients.
+    /// The Bernstein coefficients, up to a positive factor. Proof: proofs/LocalForm.v,
+    /// coefficients_right, row_signs_of_coefficients.
     approximate_row<Integer> coefficients(int bits) const {
         auto row = scaled_coefficients(bits);
         Integer binomial = 1;
@@ -132,7 +132,7 @@ class local_form {
     }
 
     /// True if all values on [0, 1] certainly exceed the error, by the Bernstein coefficients of
-    /// the stored terms. Proof: proofs/LocalForm.v, surely_rootless_right.
+    /// the stored terms. Cheap if few are stored. Proof: proofs/LocalForm.v, surely_rootless_right.
     bool surely_rootless() const {
         const form h = scaled_coefficients(a_.size() - 1, 0);
         Integer margin = error_ * Integer(degree_ + 1);
@@ -153,7 +153,7 @@ class local_form {
 
     int degree() const { return degree_; }
     int bits() const { return bits_; }
-    /// Terms larger at one end then cost less than half of the requested bits.
+    /// True if terms larger at one end cost less than half of the requested bits.
     bool ends_are_alike() const { return bits_of(error_) < bits_ / 2; }
     /// Proof: proofs/LocalForm.v, low_end_right, high_end_right.
     bool low_end_is_certain() const { return abs(a_[0]) > error_; }

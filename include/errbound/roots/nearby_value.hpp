@@ -13,8 +13,8 @@
 
 namespace errbound::roots {
 
-/// |x − value·2^exponent| <= error·2^exponent. Proof: proofs/NearbyValue.v, near_exact,
-/// near_product, near_sum, near_shifted, near_cut, near_widened, near_sign.
+/// A number x with |x − value·2^exponent| <= error·2^exponent. Proof: proofs/NearbyValue.v,
+/// near_exact, near_product, near_sum, near_shifted, near_cut, near_widened, near_sign.
 template <exact_number Integer>
 struct nearby_value {
     Integer value = 0, error = 0;
@@ -26,7 +26,7 @@ struct nearby_value {
     sign_type sign() const { return is_within(0) ? sign_of(value) : sign_type::uncertain; }
     std::int64_t log2() const { return floor_log2(value) + exponent; }
 
-    /// Drops bits beyond the leading ones of value or error; adds a unit of error for each.
+    /// Drops bits beyond the leading ones of the value or error; adds a unit of error for each.
     void cut(int bits) {
         const int excess =
             (std::max)(value == 0 ? 0 : floor_log2(value), error == 0 ? 0 : floor_log2(error)) -
@@ -53,7 +53,7 @@ nearby_value<Integer> sum(nearby_value<Integer> a, nearby_value<Integer> b, int 
     if (a.value == 0 && a.error == 0) return b;
     if (b.value == 0 && b.error == 0) return a;
     if (a.exponent < b.exponent) std::swap(a, b);
-    // Shift a, of the higher exponent, up if there is room.
+    // Shift a, of the higher exponent, up as far as there is room.
     const int size =
         (std::max)(a.value == 0 ? 0 : floor_log2(a.value), a.error == 0 ? 0 : floor_log2(a.error));
     const std::int64_t distance = a.exponent - b.exponent,
@@ -109,7 +109,7 @@ nearby_value<Integer> value_near(const std::vector<Integer>& p, const dyadic<Int
     return result;
 }
 
-/// Approximate: those of its numerator in Horner's rule.
+/// Approximate bits of p(x): its numerator's in Horner's rule.
 template <exact_number Integer>
 std::int64_t bits_of_value(const std::vector<Integer>& p, const dyadic<Integer>& x) {
     if (x.is_zero()) return 0;

@@ -1,4 +1,4 @@
-// Polynomials of users, and their form for the two stages of real_roots.hpp.
+// Polynomials of users, and their form for the two stages of errbound/roots/real_roots.hpp.
 #pragma once
 
 #include <algorithm>
@@ -47,13 +47,13 @@ namespace errbound::roots {
 
 using floating_coefficient = tracked<double, tight>;
 
-/// Exact, without zeros at the end.
+/// The exact doubles, without zeros at the end.
 inline std::vector<floating_coefficient> floating_coefficients(const std::vector<double>& p) {
     std::vector<floating_coefficient> c(p.begin(), p.end());
     while (!c.empty() && c.back().value() == 0) c.pop_back();
     return c;
 }
-/// For p, or a positive multiple in range, within bounds. Zeros are exact.
+/// The coefficients of p, or of a positive multiple in range, within bounds. Zeros are exact.
 template <exact_number Integer>
 std::vector<floating_coefficient> floating_coefficients(const integer_form<Integer>& p) {
     constexpr double epsilon = number_traits<double>::epsilon();
@@ -69,7 +69,7 @@ std::vector<floating_coefficient> floating_coefficients(const integer_form<Integ
         if (p[i] == 0) {
             c.emplace_back(0.0);
         } else if (in_range) {
-            // Other types' conversions may be off by some units in the last place.
+            // Conversions of other types may be off by some units in the last place.
             const double x = static_cast<double>(p[i]), size_of_x = std::abs(x);
             c.push_back(size_of_x < 0x1p52
                             ? floating_coefficient(x)
@@ -83,7 +83,7 @@ std::vector<floating_coefficient> floating_coefficients(const integer_form<Integ
     return c;
 }
 
-/// The multiplicity of the root 0.
+/// Number of leading coefficients that are exactly zero: the multiplicity of the root 0.
 inline std::size_t leading_zeros(const std::vector<floating_coefficient>& c) {
     const auto first = std::find_if(c.begin(), c.end(), [](const floating_coefficient& x) {
         return x.value() != 0 || x.error() != 0;
@@ -97,7 +97,7 @@ class staged_polynomial {
     using number = floating_coefficient;
 
     staged_polynomial() = default;
-    /// From finite doubles. Integers are computed on demand.
+    /// From finite doubles, which are exact; integers are computed on demand.
     explicit staged_polynomial(const std::vector<double>& coefficients)
         : floating_(floating_coefficients(coefficients)) {}
     explicit staged_polynomial(integer_form<Integer> p)
@@ -136,7 +136,7 @@ class staged_polynomial {
     integer_form<Integer> exact_;
 };
 
-/// A positive multiple of p if coefficients are rational.
+/// p for both stages; a positive multiple if coefficients are rational.
 template <class Integer, class C>
 staged_polynomial<Integer> staged(const polynomial<C>& p) {
     const std::vector<C>& c = p.coefficients();

@@ -1,6 +1,6 @@
-// Arithmetic and common divisors of polynomials modulo a prime of 62 bits, in Montgomery's form: a
-// residue a is stored as a·R modulo p, R = 2^64. (P. L. Montgomery, Modular multiplication without
-// trial division, Math. Comp. 44, 1985.)
+// Arithmetic and greatest common divisors of polynomials modulo a prime of 62 bits. Montgomery's
+// form: a residue a is stored as a·R modulo p, R = 2^64. (P. L. Montgomery, Modular multiplication
+// without trial division, Math. Comp. 44, 1985.)
 #pragma once
 
 #include <algorithm>
@@ -62,7 +62,7 @@ class prime_field {
         }
         return result;
     }
-    /// Precondition: a is not 0.
+    /// 1/a. Precondition: a is not 0.
     constexpr word inverse(word a) const { return power(a, p_ - 2); }
 
   private:
@@ -101,7 +101,7 @@ constexpr std::uint64_t prime_before(std::uint64_t p) {
     while (!is_prime(p));
     return p;
 }
-/// The k-th largest below 2^62.
+/// The k-th largest prime below 2^62.
 constexpr std::uint64_t large_prime(std::size_t k) {
     if (k < large_primes.size()) return large_primes[k];
     std::uint64_t p = large_primes.back();
@@ -122,8 +122,8 @@ inline std::vector<std::uint64_t> derivative(const prime_field& field,
     return d;
 }
 
-/// A nonzero multiple of the greatest common divisor modulo p, in the power basis. Precondition:
-/// last coefficients are not 0. Proof: proofs/CommonFactor.v, images_in_ideal.
+/// A nonzero multiple of the greatest common divisor modulo p, in the power basis and Montgomery's
+/// form. Precondition: last coefficients are not 0. Proof: proofs/CommonFactor.v, images_in_ideal.
 inline std::vector<std::uint64_t> common_factor(const prime_field& field,
                                                 std::vector<std::uint64_t> a,
                                                 std::vector<std::uint64_t> b, work_meter& meter) {

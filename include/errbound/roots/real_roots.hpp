@@ -23,9 +23,9 @@
 
 namespace errbound::roots {
 
-/// p without its roots at t = 0 and t = 1, in power-basis coefficients in x = t/s, which maps (0,
-/// 1) to (0, ∞); empty if p is identically zero. Proof: proofs/UnboundedIntegers.v,
-/// without_end_roots_value.
+/// The form Σ h_i s^(n−i) t^i of p without its roots at t = 0 and t = 1; empty if p is identically
+/// zero. Its coefficients are power-basis coefficients in x = t/s, which maps (0, 1) to (0, ∞).
+/// Proof: proofs/UnboundedIntegers.v, without_end_roots_value.
 template <exact_number Integer, int N>
 integer_form<Integer> without_end_roots(const bernstein<Integer, N>& p) {
     std::size_t first = 0, last = N + 1;
@@ -45,7 +45,7 @@ inline bool is_interval(double a, double b) {
 
 namespace errbound {
 
-/// For the zero polynomial.
+/// The number of roots of the zero polynomial.
 inline constexpr std::size_t infinitely_many = (std::numeric_limits<std::size_t>::max)();
 
 struct occurring_signs {
@@ -68,16 +68,16 @@ class real_roots {
     using point = dyadic<Integer>;
     using number = typename roots::staged_polynomial<Integer>::number;
 
-    /// The roots of p in (0, ∞), by integers. First and last coefficients must not be zero. Proof:
-    /// proofs/RootFinder.v, found_roots_right.
+    /// The roots of p in (0, ∞), by integers. Precondition: first and last coefficients are not
+    /// zero. Proof: proofs/RootFinder.v, found_roots_right.
     explicit real_roots(const roots::integer_form<Integer>& p) : p_(p) {
         const point zero;
         isolate(zero, exact().upper_bound());
     }
 
-    /// The roots in [a, b], a <= b, possibly infinite. Throws roots::gave_up beyond the limits of
-    /// this constructor. `stop` persists: later calls that it ends throw roots::gave_up and leave
-    /// the object valid.
+    /// The roots in [a, b], a <= b, possibly infinite. Throws roots::gave_up beyond the limits,
+    /// which apply to this constructor. `stop` persists: later calls that it ends throw
+    /// roots::gave_up and leave the object valid.
     real_roots(roots::staged_polynomial<Integer> p, double a, double b,
                const root_limits& limits = {})
         : p_(std::move(p)), meter_(limits) {
@@ -96,8 +96,8 @@ class real_roots {
         if (a <= 0 && 0 <= b) add_zero();
         meter_.lift();
     }
-    /// Precondition: a < b, p is not zero, and root_filter found `parts` for the roots other than 0
-    /// and left some undecided. Throws roots::gave_up.
+    /// Counts roots for a < b and p not zero, after root_filter found `parts` for the roots other
+    /// than 0 and left some undecided. Throws roots::gave_up.
     static std::size_t count(roots::staged_polynomial<Integer> p, double a, double b,
                              const std::vector<roots::filtered_part>& parts,
                              const root_limits& limits = {}) {
@@ -110,7 +110,7 @@ class real_roots {
         return roots.size() + (zeros > 0 && a <= 0 && 0 <= b);
     }
 
-    /// True if the polynomial is identically zero. Then no root is listed.
+    /// True if the polynomial is identically zero: every point is a root, and none is listed.
     bool everywhere() const { return everywhere_; }
     std::size_t size() const { return intervals_.size(); }
     const interval& operator[](std::size_t k) const {
@@ -155,8 +155,8 @@ class real_roots {
         }
     }
 
-    /// The nearest double, ties to even; infinite from half a last place above the largest on,
-    /// never −0. Narrows the interval.
+    /// Root k rounded to the nearest double, ties to even; infinite from half a last place above
+    /// the largest on, never −0. Narrows its interval.
     double nearest_double(std::size_t k) {
         const auto [low, high] = neighbouring_doubles(k);
         if (low == high) return low;
@@ -199,7 +199,7 @@ class real_roots {
         return exact().sign_at_root(g, intervals_[k], meter_);
     }
 
-    /// Precondition: [a, b] is the interval given to the constructor.
+    /// The signs of the polynomial on [a, b], the interval given to the constructor.
     occurring_signs signs_on(double a, double b) {
         occurring_signs signs;
         if (everywhere_ || size() > 0) signs.zero = true;
@@ -229,7 +229,7 @@ class real_roots {
         for (std::size_t i = 0; i < parts.size(); ++i) add(parts, i);
         decided_by_filter_ = !exact_;
     }
-    /// Adds part i; if undecided, with adjacent undecided parts.
+    /// The filter's part i; if undecided, together with adjacent undecided parts.
     void add(const std::vector<roots::filtered_part>& parts, std::size_t& i) {
         const roots::filtered_part& part = parts[i];
         if (part.has_one_root) {
@@ -245,7 +245,7 @@ class real_roots {
         }
         isolate(low, high);
     }
-    /// Ascending; root bounds replace infinite ends, if they leave anything.
+    /// Both ends, ascending; root bounds replace infinite ends, if they leave anything.
     std::pair<point, point> ends(const roots::filtered_part& part) {
         const auto end = [this](double x, double other) {
             if (std::isfinite(x)) return point::from(x);
@@ -265,7 +265,7 @@ class real_roots {
         return from < to ? std::pair{from, to} : std::pair{to, from};
     }
 
-    /// No other interval may contain the root at 0.
+    /// Inserts the root at 0, if any; no other interval may contain it.
     void add_zero() {
         if (zeros_ == 0) return;
         const point zero;
@@ -289,7 +289,7 @@ class real_roots {
         for (std::size_t i = 1; i < c.size(); ++i) {
             const double size = std::abs(c[i].value()) + c[i].error();
             if (size == 0) continue;
-            // Below 2^(ilogb + 2), however these were rounded.
+            // Below 2^(ilogb + 2), however these two were rounded.
             const int quotient = std::ilogb(first) - 1 - (std::ilogb(size) + 2);
             const int degree = static_cast<int>(i);
             const int root =
@@ -298,7 +298,7 @@ class real_roots {
         }
         return std::ldexp(1.0, exponent);
     }
-    /// Around a double; exact if it is the root.
+    /// The root, enclosed around a double; exact if it is a double.
     static number enclosure(const interval& root) {
         using traits = number_traits<double>;
         const double low = root.low.to_double(), high = root.high.to_double();
@@ -311,7 +311,7 @@ class real_roots {
         return sign_of(roots::value_at(p_.floating(), x));
     }
 
-    /// At most a quarter ulp at the interval's larger end.
+    /// At most a quarter of the distance of doubles near the interval's larger end.
     static point quarter_ulp(const interval& root) {
         using limits = std::numeric_limits<double>;
         const int exponent = floor_log2((std::max)(magnitude(root.low), magnitude(root.high)));
@@ -319,7 +319,7 @@ class real_roots {
                                    1);
     }
 
-    /// To about double's precision, without integers. False on failure.
+    /// Narrows a root's interval to about double's precision, without integers. False on failure.
     bool narrow(interval& root) {
         if (root.is_point() || root.multiplicity % 2 == 0) return false;
         const sign_type before = floating_sign_at(enclosure({root.low, root.low}));

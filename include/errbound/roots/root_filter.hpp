@@ -47,7 +47,7 @@ inline std::optional<double> exact_place(const filtered_part& part, double u) {
     return exact ? std::optional(x.value) : std::nullopt;
 }
 
-/// In the caller's arrays.
+/// Control values with errors, in the caller's arrays.
 template <absolute_rule Rule>
 struct tracked_row {
     double* value;
@@ -71,8 +71,8 @@ struct tracked_row {
             v[j] = sum;
         }
     }
-    /// Factors are powers of two <= 1. Underflow changes value and error by less than the smallest
-    /// number each; the last factor covers two roundings.
+    /// this[j] *= factor[j] for first <= j <= last, powers of two <= 1. Underflow changes value and
+    /// error by less than the smallest number each; the last factor covers two roundings.
     void shrink(const double* factor, std::size_t first, std::size_t last) const {
         constexpr double lost = 2 * number_traits<double>::underflow_unit();
         for (std::size_t j = first; j <= last; ++j) {
@@ -119,7 +119,7 @@ class root_filter {
         if (size == 1) return;
         double largest = 0;
         for (const number& c : coefficients) largest = (std::max)(largest, std::abs(c.value()));
-        // Leaves room for powers, binomials and sums, at both ends of the range.
+        // Leaves room for powers, binomials and sums, and above the smallest numbers.
         int e = number_traits<double>::exponent(largest);
         if (std::abs(e) < number_traits<double>::max_exponent / 2) e = 0;
         c_ = {first_.data(), size};
@@ -146,7 +146,7 @@ class root_filter {
         return s == sign_type::positive || s == sign_type::negative;
     }
 
-    /// For c_ on [low, high], 0 <= low < high.
+    /// The parts of [low, high], 0 <= low < high, for c_.
     void on_half_line(double low, double high) {
         sign_type last = sign_of(c_[0]);
         bool all_strict = is_strict(last);
@@ -174,7 +174,7 @@ class root_filter {
     }
 
     /// A bound of Kioustelidis (see positive_root_exponent), not a power of two, so that ends are
-    /// rarely roots. 0 without positive root, infinite without bound in range.
+    /// rarely roots that people choose. 0 without positive root, infinite without bound in range.
     double root_bound() const {
         const std::size_t n = c_.size() - 1;
         const auto largest = [](const number& c) {
@@ -239,7 +239,7 @@ class root_filter {
         return {&rows_[2 * k * size], &rows_[(2 * k + 1) * size]};
     }
 
-    /// De Casteljau without the powers of two; `whole` becomes the right half.
+    /// De Casteljau's scheme without the powers of two; `whole` becomes the right half.
     static void take_left_half(const tracked_row<Rule>& whole, const tracked_row<Rule>& left,
                                std::size_t n) {
         for (std::size_t i = 0; i <= n; ++i) {
@@ -297,9 +297,9 @@ class root_filter {
         }
     }
 
-    /// Like descartes_search::divided_as_pair, in doubles. If the extremum's sign differs from
-    /// `outside`, that of both ends, each side has one root; if it is uncertain, the part is
-    /// undecided. Tried after 4, 8, 16, ... halvings.
+    /// Two close roots would need many halvings to separate. With at most two left, tries the
+    /// extremum in doubles. If its sign differs from `outside`, that of both ends, each side has
+    /// one root; if it is uncertain, the part is undecided. Tried after 4, 8, 16, ... halvings.
     bool add_pair(double from, double to, int outside) {
         const int halvings = -std::ilogb(to - from);
         if (halvings < 4 || !std::has_single_bit(static_cast<unsigned>(halvings))) return false;

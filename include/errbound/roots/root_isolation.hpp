@@ -34,7 +34,7 @@ int positive_root_exponent(const integer_form<Integer>& p) {
     return exponent;
 }
 
-/// Precondition: p(0) ≠ 0.
+/// The roots of one polynomial p with p(0) ≠ 0, and signs there.
 template <exact_number Integer>
 class root_isolation {
   public:
@@ -43,7 +43,7 @@ class root_isolation {
     using interval = isolating_interval<Integer>;
     using end = typename descartes_search<Integer>::end;
 
-    /// Multiplicities are reported up to this one.
+    /// Multiplicities are reported up to this.
     root_isolation(const form& p, std::size_t multiplicities, work_meter& meter)
         : chain_(squarefree_chain(p, multiplicities, meter)) {
         if (chain_.empty()) chain_.push_back({Integer(1)});
@@ -58,7 +58,7 @@ class root_isolation {
     point upper_bound() const { return unlikely_root<Integer>(right_.upper); }
     point lower_bound() const { return -unlikely_root<Integer>(left_.upper); }
 
-    /// Between 0 and the positive, or negative, roots.
+    /// Strictly between 0 and the positive, or negative, roots.
     point least_positive() const { return unlikely_root<Integer>(right_.lower - 1); }
     point greatest_negative() const { return -unlikely_root<Integer>(left_.lower - 1); }
 
@@ -101,8 +101,8 @@ class root_isolation {
             (s == sign_at(squarefree(), root.low, meter) ? root.low : root.high) = x;
     }
 
-    /// Refines the root. A common factor decides zero, equal signs of g's control values any other
-    /// sign. Proof: proofs/RootIsolation.v, sign_at_root_right.
+    /// The sign of g at the root; refines it. A common factor decides zero, equal signs of g's
+    /// control values any other sign. Proof: proofs/RootIsolation.v, sign_at_root_right.
     sign_type sign_at_root(const form& g, interval& root, work_meter& meter) const {
         if (g.empty()) return sign_type::zero;
         form common;
@@ -121,7 +121,7 @@ class root_isolation {
 
   private:
     /// A square-free polynomial; bounds 2^lower < x < 2^upper of its positive roots x, upper <
-    /// lower if none; its sign changes, 1 only for a single root (Descartes). Proof:
+    /// lower if none; its coefficients' sign changes, 1 only for a single root (Descartes). Proof:
     /// proofs/ControlValues.v, half_line_right.
     struct half_line {
         form p;
@@ -206,7 +206,7 @@ class root_isolation {
         return {x, sign_at(squarefree(), x, meter) == sign_type::zero};
     }
 
-    /// Strictly between low and high, 0 <= low < high.
+    /// The roots strictly between low and high, 0 <= low < high.
     static void inside(const half_line& line, end low, end high, std::vector<interval>& roots,
                        work_meter& meter) {
         if (line.upper < line.lower) return;

@@ -71,7 +71,7 @@ struct affine_of {
         const T nothing = value - value;  // NaN if the value is not finite
         return {nothing, nothing, 0, {}};
     }
-    /// A term of a new source. Proof: proofs/IeeeAffine.v, affine_within_known.
+    /// One term, of a new source. Proof: proofs/IeeeAffine.v, affine_within_known.
     template <class T>
     static constexpr bound<T> within(const T& value, const T& error) {
         if (!(error >= 0)) return unknown<T>();
@@ -84,7 +84,7 @@ struct affine_of {
     static constexpr T error(const T&, const bound<T>& b) {
         return b.radius;
     }
-    /// True at the limit: a root, often a divisor, then gets one term, and displaces no others.
+    /// True at the limit. A root, often a divisor, then gets one term, and displaces no others.
     template <class T>
     static constexpr bool is_crowded(const bound<T>& b) {
         return b.count == Limit;
@@ -147,7 +147,7 @@ struct affine_of {
         const division_remainder<T> division = remainder_of_division<T>(a.value, b.value, v);
         builder<T> r;
         if (!division.exact) r.add_left(detail::half_ulp<T>(v));
-        // The amount of N outside its terms.
+        // The part of N outside its terms.
         T left = upper_sum<T>(upper_product<T>(traits::abs(v), b.bound.rest), a.bound.rest);
         if (division.exact) left = upper_sum<T>(left, traits::abs(division.value));
         for_each_source(a.bound, b.bound, [&](std::uint64_t source, const T& of_a, const T& of_b) {
@@ -197,9 +197,9 @@ struct affine_of {
         return a.value == 0 && a.bound.radius == 0;
     }
 
-    /// At least x + y, for x, y >= 0. If s = fl(x + y) is normal, fl(s(1 + ε)) is at least the
-    /// number after s. If s is subnormal, it is exact. upper_product and upper_quotient add η for
-    /// underflow.
+    /// At least x + y, for x, y >= 0. Let s = fl(x + y). If s is normal, fl(s(1 + ε)) is at least
+    /// the number after s. If s is subnormal, it is exact. upper_product and upper_quotient add η
+    /// for underflow.
     template <class T>
     static constexpr T upper_sum(const T& x, const T& y) {
         if (x == 0) return y;
@@ -220,7 +220,7 @@ struct affine_of {
         return detail::rounded_product(T(x / y), T(1 + traits::epsilon())) +
                traits::underflow_unit();
     }
-    /// A result's terms, by ascending source, and the amount left over.
+    /// Builds a result from its terms, by ascending source, and the amount left over.
     template <class T>
     class builder {
       public:
@@ -248,7 +248,7 @@ struct affine_of {
         }
 
       private:
-        /// Moves the smallest terms into the amount left over, which needs a term.
+        /// Moves the smallest terms into the amount left over, to make room for its term.
         constexpr void shorten() {
             using traits = number_traits<T>;
             while (count_ >= Limit) {
@@ -260,7 +260,7 @@ struct affine_of {
                 for (--count_; least < count_; ++least) terms_[least] = terms_[least + 1];
             }
         }
-        /// Makes the amount left over a term, usually the last. Without a source, returns it as
+        /// Makes the amount left over a term, usually the last. Without a source, returns it as the
         /// rest.
         constexpr T as_term_of(std::uint64_t source) {
             if (source == detail::no_source) return left_;
@@ -275,7 +275,7 @@ struct affine_of {
         std::array<term<T>, 2 * Limit + 1> terms_{};
     };
 
-    /// Calls f(source, coefficient in a, coefficient in b) for each source, ascending.
+    /// Calls f(source, a's coefficient, b's coefficient) for each source of either, ascending.
     template <class T, class F>
     static constexpr void for_each_source(const bound<T>& a, const bound<T>& b, const F& f) {
         std::size_t i = 0, j = 0;

@@ -99,7 +99,7 @@ struct interval {
                        a.bound.upper / b.bound.lower, a.bound.upper / b.bound.upper);
     }
     /// The roots of both ends. Each takes a step outwards unless its exact remainder shows that it
-    /// is exact or rounded outwards. Proof: proofs/IeeeSlopes.v, interval_square_root_known.
+    /// is rounded outwards, or exact. Proof: proofs/IeeeSlopes.v, interval_square_root_known.
     template <class T>
     static constexpr bound<T> square_root(const T& v, rule_operand<T, interval> a) {
         using traits = number_traits<T>;
@@ -110,8 +110,8 @@ struct interval {
         return checked<T>(v, of_lower.exact && of_lower.value >= 0 ? lower : below<T>(lower),
                           of_upper.exact && of_upper.value <= 0 ? upper : above<T>(upper));
     }
-    /// Four products of ends, plus the lower or the upper end of c: the least and the greatest, one
-    /// step outwards. Proof: proofs/IeeeSlopes.v, interval_fused_known.
+    /// The least and the greatest fma of ends, one step outwards: four products of ends, plus the
+    /// lower or the upper end of c. Proof: proofs/IeeeSlopes.v, interval_fused_known.
     template <class T>
     static constexpr bound<T> fused(const T& v, rule_operand<T, interval> a,
                                     rule_operand<T, interval> b, rule_operand<T, interval> c) {
@@ -188,7 +188,7 @@ struct interval {
         return c + step(c);
     }
 
-    /// [v, v] if error = 0; otherwise from v a step towards the exact v + error.
+    /// [v, v] if error = 0; otherwise v and a step from it towards the exact v + error.
     template <class T>
     static constexpr bound<T> nearest(const T& v, const T& error) {
         return checked<T>(v, error < 0 ? below<T>(v) : v, error > 0 ? above<T>(v) : v);

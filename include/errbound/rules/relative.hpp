@@ -101,7 +101,7 @@ struct relative {
                              e >= 0 || number_traits<T>::scale(v, -e) == a.value);
     }
 
-    /// Σ aᵢbᵢ by absolute errors, or by the counts of single operations if they are less. The
+    /// Σ aᵢbᵢ by absolute errors, or by the counts of single operations if that gives less. The
     /// errors of products (from their counts) and of partial sums (by two_sum) are made relative at
     /// the end, so partial sums may cancel. For n terms of one size and sign k is about n/2, not n.
     /// Proof: proofs/IeeeRelative.v, relative_dot_known.
@@ -152,7 +152,7 @@ struct relative {
     }
     /// The number of factors in a relative error r = error/size < 1. −ln(1 − r) <= r(6 − 5r)/(2(1 −
     /// r)(3 − r)), divided by u <= w. (With x = 1/(1 − r): ln x <= (x − 1)(x + 5)/(4x + 2), equal
-    /// at 1; the difference has the derivative (x − 1)³/(x(2x + 1)²).)
+    /// at 1, and the difference has the derivative (x − 1)³/(x(2x + 1)²).)
     template <class T>
     static constexpr double factors_of(const T& error, const T& size) {
         using traits = number_traits<T>;
@@ -177,7 +177,7 @@ struct relative {
         return {unknown};
     }
     // Operands of one sign: k = max(ka, kb), since their ratios v/x enclose that of the sum.
-    // Others: from the relative error (Ea + Eb)/|â + b̂|.
+    // Unlike signs: from the relative error (Ea + Eb)/|â + b̂|.
     template <class T>
     static constexpr bound<T> sum(const T& v, const T& a, const bound<T>& of_a, const T& b,
                                   const bound<T>& of_b) {

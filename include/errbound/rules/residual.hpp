@@ -111,8 +111,8 @@ struct residual {
     }
     /// Let q = v, r = va − q·vb and N = r + ca − q·cb ± (ρa + |q|ρb). Then a/b − q = N/b, and N/b −
     /// N/vb = N/vb·(vb − b)/b. So c = N/vb, and ρ is at most (|N/vb|(|cb| + ρb) + ρa + |q|ρb +
-    /// roundings)/(|vb| − |cb| − ρb). If r is not known exactly, c omits r/vb, the rounding error
-    /// of q. Infinite if b may be zero. Proof: proofs/IeeeResidual.v, residual_divide_known.
+    /// roundings)/(|vb| − |cb| − ρb). If r is not known exactly, c omits it: r/vb is the rounding
+    /// error of q. Infinite if b may be zero. Proof: proofs/IeeeResidual.v, residual_divide_known.
     template <class T>
     static constexpr bound<T> divide(const T& v, rule_operand<T, residual> a,
                                      rule_operand<T, residual> b) {
@@ -141,8 +141,8 @@ struct residual {
         return {correction,
                 inflated<T>(inflated<T>(left) / distance + detail::half_ulp<T>(correction) + lost)};
     }
-    /// If it underflows, value, correction and remainder are each off by at most η/2. Proof:
-    /// proofs/IeeeResidual.v, residual_scale_known.
+    /// Exact unless it underflows; then value, correction and remainder are each off by at most
+    /// η/2. Proof: proofs/IeeeResidual.v, residual_scale_known.
     template <class T>
     static constexpr bound<T> scale(const T& v, rule_operand<T, residual> a, int e) {
         using traits = number_traits<T>;
@@ -170,8 +170,8 @@ struct residual {
         return {correction.value, remainder + (v - v)};
     }
 
-    /// The roundings of products x and y and of two sums: u times each result, and 4η for the
-    /// underflows of these and four other products.
+    /// Bounds the roundings of products x and y and of two sums: u times each result, and 4η for
+    /// the underflows of these and four other products.
     template <class T>
     static constexpr T roundings(const T& x, const T& y, const T& first, const T& second) {
         using traits = number_traits<T>;

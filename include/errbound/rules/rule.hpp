@@ -17,7 +17,7 @@
 
 namespace errbound {
 
-/// Valid only during the rule's call.
+/// An operand's value and its bound by the same rule. Valid only during the rule's call.
 template <class T, class Rule>
 struct rule_operand {
     const T& value;
@@ -38,7 +38,7 @@ inline constexpr error_meaning meaning_of_error = [] {
         return error_meaning::bound;
 }();
 
-/// The probability with which an estimate is claimed to cover the error; 0 if none.
+/// The probability with which the rule claims that an estimate covers the error; 0 if none.
 template <class Rule>
 inline constexpr double claimed_rate = [] {
     if constexpr (requires { Rule::claimed_rate; })
@@ -200,8 +200,8 @@ struct rule_check {
 //   holds_without_subnormals                true if the rule also holds without subnormal numbers
 //   error_is, claimed_rate                  error_meaning::estimate or nothing; its probability
 
-/// True if Rule has the members in the table above. Soundness (bounds that hold) needs a proof;
-/// errbound/validation tests it.
+/// True if Rule is a bound rule for T, with the members in the table above. Soundness (bounds that
+/// hold) needs a proof; errbound/validation tests it.
 template <class Rule, class T = double>
 concept bound_rule = detail::rule_has_bound<Rule, T> && detail::rule_has_name<Rule, T> &&
     detail::rule_has_exact<Rule, T> && detail::rule_has_within<Rule, T> &&

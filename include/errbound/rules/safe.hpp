@@ -65,9 +65,9 @@ struct safe {
                                        rule_operand<T, safe> b) {
         return add(v, a, b);
     }
-    /// B = Ba·Bb, at least the smallest normal number m, k = ka + kb + 1. The 1 covers rounding by
-    /// ε, or for underflow by η = mε <= Bε. Proof: proofs/IeeeSafe.v, safe_multiply_known; in any
-    /// direction, proofs/Safe.v, safe_multiply_sound.
+    /// B = Ba·Bb, at least the smallest normal number m, k = ka + kb + 1. The 1 in k covers
+    /// rounding by ε, or for underflow by η = mε <= Bε. Proof: proofs/IeeeSafe.v,
+    /// safe_multiply_known; in any direction, proofs/Safe.v, safe_multiply_sound.
     template <class T>
     static constexpr bound<T> multiply(const T&, rule_operand<T, safe> a, rule_operand<T, safe> b) {
         using traits = number_traits<T>;

@@ -1,11 +1,11 @@
-// Bound rule `sharp`: `tight` with the unit roundoff u in place of ε = 2u, for rounding to nearest
-// only. Its bounds are half of `tight`'s.
+// Bound rule `sharp`: TightBound with the unit roundoff u in place of ε = 2u, for rounding to
+// nearest only. Its bounds are half of `tight`'s.
 //
 // Notation: docs/notation.md; v is the computed result, σ a bound. An operation is off by at most
 // max(u|v|, η/2), a sum by at most u|v| (Higham 2002, Theorem 2.3). If a sum is inexact, ulp(v)/2
 // is a number, so the rounded u|v| is at least ulp(v)/2. A product and three products in its bound
-// may each lose η/2, so 2η is added. Exact zeros and overflow: as in `tight`, but no overflow goes
-// unnoticed.
+// may each lose η/2, so 2η is added. Exact zeros and overflow are treated as in `tight`; no
+// overflow goes unnoticed.
 #pragma once
 
 #include <errbound/detail/rounded.hpp>
@@ -34,19 +34,19 @@ struct sharp {
     static constexpr bound<T> within(const T& value, const T& error) {
         return {error >= 0 ? error + (value - value) : number_traits<T>::infinity()};
     }
-    /// The exact value is 0. Proof: proofs/IeeeRules.v, tight_within_known.
+    /// Bounds a number whose exact value is 0. Proof: proofs/IeeeRules.v, tight_within_known.
     template <class T>
     static constexpr bound<T> displacement(const T& value) {
         return within<T>(value, number_traits<T>::abs(value));
     }
-    /// Proof of the sign: proofs/IeeeRules.v, sign_of_known.
+    /// Proof of the resulting sign: proofs/IeeeRules.v, sign_of_known.
     template <class T>
     static constexpr T error(const T&, const bound<T>& b) {
         return b.error;
     }
 
-    /// |v − (a + b)| <= u|v| + σa + σb. Three roundings: (1 + u)³ <= 1 + 4u for u <= 1/8. Proof:
-    /// proofs/IeeeRules.v, sharp_add_known.
+    /// |v − (a + b)| <= u|v| + σa + σb. The bound has three roundings, (1 + u)³ <= 1 + 4u = 1 + 2ε
+    /// for u <= 1/8; 1 + ε is too small. Proof: proofs/IeeeRules.v, sharp_add_known.
     template <class T>
     static constexpr bound<T> add(const T& v, rule_operand<T, sharp> a, rule_operand<T, sharp> b) {
         using traits = number_traits<T>;
@@ -73,8 +73,8 @@ struct sharp {
             detail::rounded_product(a.bound.error, T(traits::abs(b.value) + b.bound.error));
         return {inflated<T>((rounding(v) + 2 * traits::underflow_unit()) + inherited)};
     }
-    /// |v − a/b| <= u|v| + η/2 + (σa + |â/b̂|σb)/(|b̂| − σb) as in `tight`, if |b̂| > σb. Proof:
-    /// proofs/IeeeRules.v, sharp_divide_known.
+    /// If |b̂| > σb: |v − a/b| <= u|v| + η/2 + (σa + |â/b̂|σb)/(|b̂| − σb), as in `tight`;
+    /// otherwise infinite. Proof: proofs/IeeeRules.v, sharp_divide_known.
     template <class T>
     static constexpr bound<T> divide(const T& v, rule_operand<T, sharp> a,
                                      rule_operand<T, sharp> b) {
@@ -82,8 +82,8 @@ struct sharp {
         const T distance = traits::abs(b.value) - b.bound.error;  // of b from zero
         if (!(distance > 0)) return {traits::infinity()};
         if (is_zero(a)) return {rounding(v)};
-        // |â/b̂| <= |v|(1 + u) + η/2. η covers underflow in the numerator before the division
-        // enlarges it. The factors cover eight roundings: (1 + u)^8 <= (1 + 8u)².
+        // |â/b̂| <= |v|(1 + u) + η/2. If b is not exact, η covers underflow in the numerator before
+        // the division enlarges it. The factors cover eight roundings: (1 + u)^8 <= (1 + 8u)².
         const T quotient = inflated<T>(traits::abs(v) + traits::underflow_unit());
         const T lost = b.bound.error > 0 ? traits::underflow_unit() : T(0);
         const T inherited =

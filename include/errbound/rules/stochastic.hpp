@@ -39,7 +39,7 @@ struct stochastic_of {
     static constexpr bound<T> exact(const T& value) {
         return by_sample<T>([&](std::size_t) { return value; });
     }
-    /// Spread evenly over value ± error. Equal arguments give equal samples.
+    /// Spread evenly over value ± error; equal arguments give equal samples.
     template <class T>
     static constexpr bound<T> within(const T& value, const T& error) {
         return by_sample<T>([&](std::size_t k) {
@@ -147,7 +147,7 @@ struct stochastic_of {
         return detail::rounded_product(T(traits::abs(v) * traits::unit_roundoff()), T(1.25)) +
                traits::underflow_unit();
     }
-    /// Rounds v + error to v or its neighbour.
+    /// v + error, rounded to v or its neighbour on that side.
     template <class T>
     static constexpr T at_random(const T& v, const T& error, std::uint64_t random) {
         if (error == 0 || !number_traits<T>::is_finite(error)) return v;
@@ -155,7 +155,7 @@ struct stochastic_of {
         const T share = error / (neighbour - v);
         return share > static_cast<T>(chance(random)) ? neighbour : v;
     }
-    /// v or, half the time, a neighbour: errors near underflow are unknown.
+    /// v or, half the time, a neighbour; for errors unknown near underflow.
     template <class T>
     static constexpr T disturbed(const T& v, std::uint64_t random) {
         const T off = random >> 63 == 0 ? T(0) : step<T>(v);
@@ -192,7 +192,7 @@ struct stochastic_of {
         }
         return h;
     }
-    /// The last step of SplitMix64 (Steele, Lea, Flood 2014).
+    /// The last step of SplitMix64 (Steele, Lea, Flood 2014), a bijection.
     static constexpr std::uint64_t mixed(std::uint64_t z) {
         z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9U;
         z = (z ^ (z >> 27)) * 0x94d049bb133111ebU;

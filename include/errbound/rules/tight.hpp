@@ -4,8 +4,8 @@
 // are inflated for their own roundings. Products add 4η for underflow, of the value and of three
 // products in the bound. Sums add none, as |v|ε is at least the last place of an inexact sum. A
 // product with an exact zero is exact. Overflow and NaN give infinite or NaN bounds and no certain
-// sign, except that under directed rounding overflow to the largest finite number goes unnoticed.
-// Without underflow the bound exceeds that of `safe` at most slightly: proofs/ComputedComparison.v,
+// sign. Only under directed rounding, overflow to the largest finite number goes unnoticed. Without
+// underflow the bound exceeds that of `safe` at most slightly: proofs/ComputedComparison.v,
 // tight_at_most_safe_computed.
 #pragma once
 
@@ -36,20 +36,20 @@ struct tight {
     static constexpr bound<T> within(const T& value, const T& error) {
         return {error >= 0 ? error + (value - value) : number_traits<T>::infinity()};
     }
-    /// The exact value is 0. Proof: proofs/IeeeRules.v, tight_within_known.
+    /// Bounds a number whose exact value is 0. Proof: proofs/IeeeRules.v, tight_within_known.
     template <class T>
     static constexpr bound<T> displacement(const T& value) {
         return within<T>(value, number_traits<T>::abs(value));
     }
-    /// Proof of the sign: proofs/IeeeRules.v, sign_of_known.
+    /// Proof of the resulting sign: proofs/IeeeRules.v, sign_of_known.
     template <class T>
     static constexpr T error(const T&, const bound<T>& b) {
         return b.error;
     }
 
     /// |v − (a + b)| <= |v|ε/(1 − ε) + σa + σb. In types of fewer than 40 bits, long sums do not
-    /// inflate σa and σb (detail/sum_of_bounds.hpp). Proof: proofs/IeeeRules.v, tight_add_known; in
-    /// any direction, proofs/Tight.v, tight_add_sound.
+    /// inflate σa and σb (detail/sum_of_bounds.hpp). Source: Theorem 1, Add. Proof:
+    /// proofs/IeeeRules.v, tight_add_known; in any direction, proofs/Tight.v, tight_add_sound.
     template <class T>
     static constexpr bound<T> add(const T& v, rule_operand<T, tight> a, rule_operand<T, tight> b) {
         using traits = number_traits<T>;
@@ -62,8 +62,8 @@ struct tight {
         return {detail::sum_of_bounds<T>(inflated<T>(own + (a.bound.error + b.bound.error)), own,
                                          a.bound.error, b.bound.error)};
     }
-    /// Proof: proofs/IeeeRules.v, tight_subtract_known; in any direction, proofs/Tight.v,
-    /// tight_subtract_sound.
+    /// Source: Theorem 1, Subtract. Proof: proofs/IeeeRules.v, tight_subtract_known; in any
+    /// direction, proofs/Tight.v, tight_subtract_sound.
     template <class T>
     static constexpr bound<T> subtract(const T& v, rule_operand<T, tight> a,
                                        rule_operand<T, tight> b) {
@@ -81,10 +81,10 @@ struct tight {
             detail::rounded_product(a.bound.error, T(traits::abs(b.value) + b.bound.error));
         return {inflated<T>(rounding(v) + inherited + 4 * traits::underflow_unit())};
     }
-    /// |v − a/b| <= |v|ε/(1 − ε) + (σa + |â/b̂|σb)/(|b̂| − σb) if |b̂| > σb, otherwise infinite:
-    /// the printed rule, as σa(|b̂| − σb) + (|â| + σa)σb = σa|b̂| + |â|σb. Proof:
-    /// proofs/IeeeRules.v, tight_divide_known; in any direction, proofs/Tight.v,
-    /// tight_divide_sound.
+    /// |v − a/b| <= |v|ε/(1 − ε) + (σa + |â/b̂|σb)/(|b̂| − σb) if |b̂| > σb, otherwise infinite.
+    /// This is the printed rule, because σa(|b̂| − σb) + (|â| + σa)σb = σa|b̂| + |â|σb. Source:
+    /// Theorem 1, Divide. Proof: proofs/IeeeRules.v, tight_divide_known; in any direction,
+    /// proofs/Tight.v, tight_divide_sound.
     template <class T>
     static constexpr bound<T> divide(const T& v, rule_operand<T, tight> a,
                                      rule_operand<T, tight> b) {
@@ -94,8 +94,8 @@ struct tight {
         if constexpr (!has_subnormals<T>)
             if (!(distance > traits::underflow_unit())) return {traits::infinity()};
         if (is_zero(a)) return {rounding(v)};
-        // |â/b̂| may have been rounded down, so it is inflated separately. 4η covers underflow in
-        // the numerator before the division enlarges it.
+        // |â/b̂| may have been rounded down, so it is inflated separately. If b is not exact, 4η
+        // covers underflow in the numerator before the division enlarges it.
         const T quotient = inflated<T>(traits::abs(v) + traits::underflow_unit());
         const T lost = b.bound.error > 0 ? 4 * traits::underflow_unit() : T(0);
         const T inherited =
