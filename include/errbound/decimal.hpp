@@ -22,11 +22,11 @@ void tracked_is_for_decimal_literals();
 }  // namespace detail
 
 /// The decimal number as Number: tracked float, double, long double, binary128 or small_float. Text
-/// is as in C++, [-]123.25e-2, of any length, with decimal digits only. Any rounding direction
-/// gives the same result, but if the rule needs rounding to nearest, the error is infinite in other
-/// directions (at run time). Cost: about that of strtod.
-/// The error is infinite if the text is no decimal or rounds to no finite number. A decimal below
-/// half of the smallest number is 0 with that number as its error.
+/// is as in C++, [-]123.25e-2, of any length, with decimal digits only. The error is infinite if
+/// the text is no decimal or rounds to no finite number. A decimal below half of the smallest
+/// number is 0 with that number as its error. The result does not depend on the rounding direction.
+/// However, if the rule needs rounding to nearest, other directions give an infinite error at run
+/// time. Cost: about that of strtod.
 template <class Number>
 constexpr Number from_decimal(std::string_view text) {
     using T = typename Number::value_type;

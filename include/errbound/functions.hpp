@@ -265,11 +265,11 @@ constexpr tracked<T, Rule> midpoint(const tracked<T, Rule>& a, const tracked<T, 
     return half + scale(b, -1);
 }
 
-/// a + t(b − a); a if t is exactly 0, b if it is exactly 1. With v = fl(t̂·fl(b̂ − â) + â) and
-/// errors σ: (1 − t)a + tb − (1 − t̂)â − t̂b̂ = (1 − t)(a − â) + t(b − b̂) + (t − t̂)(b̂ − â), so
-/// σa counts |1 − t| times, not 1 + |t|. Two partial sums have up to six roundings each; seven
-/// products may lose η each. Proof: proofs/IeeeCompound.v, lerp_known; in any direction,
-/// proofs/Functions.v, lerp_sound.
+/// a + t(b − a); a if t is exactly 0, b if it is exactly 1. Infinite error if b − a overflows. With
+/// v = fl(t̂·fl(b̂ − â) + â) and errors σ: (1 − t)a + tb − (1 − t̂)â − t̂b̂ = (1 − t)(a − â) +
+/// t(b − b̂) + (t − t̂)(b̂ − â), so σa counts |1 − t| times, not 1 + |t|. Two partial sums have up
+/// to six roundings each; seven products may lose η each. Proof: proofs/IeeeCompound.v, lerp_known;
+/// in any direction, proofs/Functions.v, lerp_sound.
 template <class T, class Rule>
 constexpr tracked<T, Rule> lerp(const tracked<T, Rule>& a, const tracked<T, Rule>& b,
                                 const tracked<T, Rule>& t) {

@@ -149,7 +149,7 @@ inline constexpr bool has_infinity = [] {
 
 namespace detail {
 
-/// The type in which T's operations are computed before they are rounded to T; T by default.
+/// The type in which T's operations are computed before rounding to T: its computed_in, or T.
 template <class T>
 struct type_that_computes {
     using type = T;

@@ -45,7 +45,8 @@ struct points {
 /// The defaults. Derive from them to change some.
 struct predicate_options {
     using tracked_rule = void;  ///< bound rule of the tracked stage; void: no such stage
-    /// Exact number type of the last stage, constructible from double; void: long_integer.
+    /// Exact number type of the last stage, constructible from double; void: long_integer. For
+    /// Boost.Multiprecision's types see predicate_type::value.
     using exact_type = void;
     /// True if terms of different degree are never added, so scaling by powers of two keeps signs.
     /// Needed only if the expression has too many branches for the compiler to detect this. A false

@@ -24,6 +24,7 @@ namespace forms {
 constexpr auto area(const auto& a, const auto& b, const auto& c, int i = 0, int j = 1) {
     return (a[i] - c[i]) * (b[j] - c[j]) - (a[j] - c[j]) * (b[i] - c[i]);
 }
+/// Six times the volume of the tetrahedron a, b, c, d.
 constexpr auto volume(const auto& a, const auto& b, const auto& c, const auto& d) {
     const auto ax = a[0] - d[0], ay = a[1] - d[1], az = a[2] - d[2];
     const auto bx = b[0] - d[0], by = b[1] - d[1], bz = b[2] - d[2];
@@ -246,7 +247,8 @@ inline constexpr auto segments_intersect3d = predicate<points<3, 3, 3, 3>, homog
         return forms::segments_intersect(a, b, c, d);
     });
 
-/// The same for a closed segment pq and triangle abc. Degenerate ones count as segments or points.
+/// Like segments_intersect3d, for a closed segment pq and triangle abc. Degenerate ones count as
+/// segments or points.
 inline constexpr auto segment_intersects_triangle =
     predicate<points<3, 3, 3, 3, 3>, homogeneous_options>(
         [](const auto& p, const auto& q, const auto& a, const auto& b, const auto& c) {

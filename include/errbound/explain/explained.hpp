@@ -3,10 +3,10 @@
 //   ... a computation, in scopes (scope.hpp) ...
 //   std::cout << text_of(errbound::explain(x));        // a table (explanation.hpp)
 //
-// Values, bounds and signs are those of the wrapped rule, bit for bit. Numbers allocate; operations
-// throw std::bad_alloc. Not for device code or SIMD packs. Cost: linear in the operands' sources, a
-// tenth of a microsecond with few and one with 32 (docs/measured.md); 24 bytes per source (T
-// double).
+// Values, bounds and signs are those of the wrapped rule, bit for bit. The explained error is the
+// rule's bound, overestimation included. Numbers allocate; operations throw std::bad_alloc. Not for
+// device code or SIMD packs. Cost: linear in the operands' sources, a tenth of a microsecond with
+// few and one with 32 (docs/measured.md); 24 bytes per source (T double).
 #pragma once
 
 #include <array>

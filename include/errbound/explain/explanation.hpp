@@ -26,7 +26,7 @@ struct contribution {
     /// "+", "-", "*", "/", "scale", "input" (a number within an error), a function's name, or "the
     /// rest": sources too small to be kept.
     std::string operation;
-    double amount = 0;  ///< of the error's bound; infinite if the error became infinite here
+    double amount = 0;  ///< part of the error's bound; infinite if the error became infinite here
     double known = 0;   ///< signed part of exact value − value; 0 by rules without signs
 };
 
@@ -35,8 +35,8 @@ struct explanation {
     std::string rule;  ///< the rule that bounds its error
     double value = 0;
     double error = 0;  ///< infinite if there is no bound
-    /// The largest first. Amounts exceed the error by roundings (a few 2^-53 of it per source), or
-    /// where signed parts cancel.
+    /// The largest first. Amounts add up to at least the error. The sum is larger by roundings (a
+    /// few 2^-53 of it per source), or where signed parts cancel.
     std::vector<contribution> contributions;
 };
 

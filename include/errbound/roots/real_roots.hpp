@@ -172,6 +172,7 @@ class real_roots {
         return is_below ? low : high;
     }
 
+    /// Root k with a floating-point error bound.
     number enclosure(std::size_t k) {
         assert(k < size());
         narrow(intervals_[k]);

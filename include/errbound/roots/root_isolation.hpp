@@ -86,7 +86,7 @@ class root_isolation {
     void refine(interval& root, work_meter& meter) const {
         refine(root, scale(root.high - root.low, -1), meter);
     }
-    /// Quadratic interval refinement (J. Abbott 2006): success doubles the bits.
+    /// Narrows it to this width by quadratic interval refinement (J. Abbott 2006).
     void refine(interval& root, const point& width, work_meter& meter) const {
         for (int bits = 1; width < root.high - root.low;)
             bits = keep_part(root, bits, meter) ? 2 * bits : (std::max)(1, bits / 2);

@@ -183,22 +183,26 @@ struct rule_check {
 //   scale(result, a, e)                     the bound of result = a·2^e, rounded once
 // Optional, with defaults:
 //   negate(bound)                           the bound of −value; default: the same bound
-//   sign(value, bound)                      the certain sign; default: from value and error
+//   sign(value, bound)                      the certain sign; default: from value and error,
+//                                           uncertain if either is not finite, zero if both are 0
 //   correction(value, bound)                estimates exact value − value, within error; default: 0
 //   square_root(result, a)                  the bound of the rounded √a, unknown if a may be
 //                                           negative; default: from the error of a
 //   fused(result, a, b, c)                  the bound of ab + c, rounded once; default: from errors
-//   keeps_first_order                       true if √a and ab + c use the rule's operations, divide
+//   keeps_first_order                       true if errors keep signs or sources: √a and ab + c
+//                                           then use the rule's operations, including divide
 //   is_crowded(bound)                       for such a rule: true if √a should start one new source
 //   displacement(value)                     the bound of a number whose exact value is 0; with it,
 //                                           numbers of 8 and 16 bits have bounds in float
-//   template <class T> class dot_bound      bounds s = 0, s += ab, ... by add_product(ab, s before,
-//                                           s after, a, b) for each, then finished(s)
+//   template <class T> class dot_bound      bounds s = 0, s += ab, ...: a call of
+//                                           add_product(ab, s before, s after, a, b) per step,
+//                                           then finished(s), which returns bound<T>
 //   minimal_precision                       the bits of T that the proof needs
 //   has_division                            false if `divide` exists only for its message
 //   holds_in_directed_rounding              true if the proof holds in any rounding direction
 //   holds_without_subnormals                true if the rule also holds without subnormal numbers
-//   error_is, claimed_rate                  error_meaning::estimate or nothing; its probability
+//   error_is                                error_meaning::estimate or nothing
+//   claimed_rate                            the claimed probability: an estimate covers the error
 
 /// True if Rule is a bound rule for T, with the members in the table above. Soundness (bounds that
 /// hold) needs a proof; errbound/validation tests it.
