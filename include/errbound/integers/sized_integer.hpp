@@ -2,6 +2,7 @@
 // overflow, no allocation. A number stands for value·2^(unit·degree); all coordinates are multiples
 // of 2^unit. Factors of 1 = 2^−unit units raise lower degrees, if unit <= 0 and 1 is no wider than
 // coordinates.
+#pragma once
 
 #include <array>
 #include <bit>
