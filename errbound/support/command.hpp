@@ -10,11 +10,11 @@
 
 namespace errbound::support {
 
-/// Bad usage is 2 (run_program).
+/// run_program returns 2 for bad usage.
 enum exit_status { done = 0, bad_input = 1, broken_promise = 1, stopped = 3 };
 
-/// Parses the line and returns body(). Prints --help and --version, unless `prints` is false, and
-/// returns 0. Throws usage_error.
+/// Returns body(), or 0 after printing --help or --version, unless `prints` is false. Throws
+/// usage_error.
 template <class Body>
 int parse_and_run(CLI::App& app, int argc, char** argv, const Body& body, bool prints = true) {
     app.allow_windows_style_options(false);  // a path may begin with a slash
@@ -28,7 +28,6 @@ int parse_and_run(CLI::App& app, int argc, char** argv, const Body& body, bool p
     return body();
 }
 
-/// A command of a program.
 class command {
   public:
     command(CLI::App& program, const std::string& name, const std::string& description)
@@ -39,8 +38,7 @@ class command {
 
     bool was_given() const { return line_.parsed(); }
 
-    /// Prints to standard output and writes files. Throws usage_error (contradictory options),
-    /// file_error, or a device's error.
+    /// Throws usage_error (contradictory options), file_error, or a device's error.
     virtual exit_status run() = 0;
 
   protected:

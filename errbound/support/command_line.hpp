@@ -1,5 +1,4 @@
-// Shared by the programs' command lines, beyond CLI11: lists of names, standard streams, and
-// outputs that overwrite no input.
+// Command lines beyond CLI11: lists of names, standard streams, outputs that overwrite no input.
 #pragma once
 
 #include <algorithm>
@@ -25,7 +24,7 @@ struct usage_error : std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
-/// named(name) for each name of an option's list N[,N...]. Throws usage_error for a repeated name.
+/// named(name) for each name of a list N[,N...]. Throws usage_error for a repeated name.
 template <class Named>
 auto all_named(const std::string& option, const std::string& list, const Named& named) {
     std::vector<decltype(named(list))> result;
@@ -51,8 +50,7 @@ std::string listed(const Entries& entries, const Name& name) {
     return list;
 }
 
-/// The entry with that name, a reference into `entries`. Throws usage_error with the option's name
-/// and `remark` at the end.
+/// A reference into `entries`. Throws usage_error with the option's name, and `remark` at the end.
 template <class Entries, class Name>
 const auto& entry_named(const std::string& option, const std::string& wanted,
                         const Entries& entries, const Name& name, const std::string& remark = "") {
@@ -66,7 +64,6 @@ inline std::string input_named(const std::string& name) {
     return name == "-" ? "/dev/stdin" : name;
 }
 
-/// Throws usage_error if standard input is among the inputs twice.
 inline void require_one_standard_input(const std::string& option,
                                        const std::vector<std::filesystem::path>& inputs) {
     if (std::ranges::count(inputs, std::filesystem::path(input_named("-"))) > 1)
@@ -89,7 +86,6 @@ inline std::ostream& stream_for_people(
     return std::cout;
 }
 
-/// True if two names are of one file, existing or not.
 inline bool are_of_one_file(const std::filesystem::path& a, const std::filesystem::path& b) {
     std::error_code ignored;
     if (std::filesystem::equivalent(a, b, ignored)) return true;

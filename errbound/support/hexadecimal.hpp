@@ -17,7 +17,6 @@ inline std::string hexadecimal(double x) {
     const auto bits = std::bit_cast<std::uint64_t>(x);
     const int biased = static_cast<int>(bits >> fraction_bits & 0x7ff);
     std::string digits;
-    // Digits leave at the fraction's upper end.
     for (std::uint64_t rest = bits << (64 - fraction_bits); rest != 0; rest <<= 4)
         digits += "0123456789abcdef"[rest >> 60];
     int exponent = biased - bias;

@@ -16,8 +16,7 @@ class joined_threads {
         for (std::thread& t : threads_) t.join();
     }
 
-    /// Starts a thread that calls `work`. Throws std::system_error if the system has no more
-    /// threads.
+    /// Starts a thread that calls `work`. Throws std::system_error if there are no more threads.
     template <class Work>
     void start(Work work) {
         threads_.emplace_back(std::move(work));

@@ -23,8 +23,8 @@ namespace errbound::support {
 template <class Result>
 class ordered_blocks {
   public:
-    /// `compute` is called by several threads at once, `merge` by one at a time. Throws
-    /// std::system_error if the system has no more threads.
+    /// Several threads call `compute`, one at a time calls `merge`. Throws std::system_error if the
+    /// system has no more threads.
     ordered_blocks(std::uint64_t first, std::uint64_t end, unsigned threads,
                    std::function<Result(std::uint64_t)> compute, std::function<void(Result)> merge,
                    const std::atomic<int>& stop)
@@ -44,7 +44,6 @@ class ordered_blocks {
             throw;
         }
     }
-    /// Waits for the blocks in progress.
     ~ordered_blocks() { ending_ = true; }
     ordered_blocks(const ordered_blocks&) = delete;
     ordered_blocks& operator=(const ordered_blocks&) = delete;
@@ -53,7 +52,7 @@ class ordered_blocks {
         std::unique_lock lock(mutex_);
         return finished_.wait_for(lock, time, [&] { return working_ == 0; });
     }
-    /// read(number of merged blocks), while nothing is merged.
+    /// Calls read(number of merged blocks) while nothing is merged.
     template <class Read>
     auto between_merges(const Read& read) {
         const std::scoped_lock lock(mutex_);

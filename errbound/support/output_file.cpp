@@ -17,17 +17,15 @@ namespace errbound::support {
 namespace fs = std::filesystem;
 namespace {
 
-/// The reason of the last system error, to end a message.
+/// To end a message.
 std::string reason() {
     return errno != 0 ? std::string(" (") + std::strerror(errno) + ")" : std::string();
 }
 
-/// Includes the separator; empty if there is no folder.
 std::string folder_of(const std::string& name) {
     return name.substr(0, name.find_last_of(system::separators) + 1);
 }
 
-/// True for standard input where it has no file.
 bool is_standard_input(const fs::path& path) {
     return !system::has_device_files && path == "/dev/stdin";
 }
@@ -68,7 +66,6 @@ void write_and_close(int descriptor, const output& out) {
         throw file_error(shown.string() + ": writing failed" + reason());
 }
 
-/// Opens a new file next to the target; sets `name`.
 int create_beside(const std::string& target, std::string& name) {
     static std::atomic<unsigned> count = 0;
     const std::string beside =
@@ -81,7 +78,6 @@ int create_beside(const std::string& target, std::string& name) {
     return descriptor;
 }
 
-/// Writes a temporary file next to the target and renames it.
 void replace_file(const std::string& target, const output& out) {
     const bool replaces = system::exists(target);
     if (replaces && !system::may_write(target))

@@ -15,19 +15,16 @@ struct output {
     std::filesystem::path from{};  ///< a file to copy instead, unless empty
 };
 
-/// The descriptor of a path: `-` and /dev/stdout are 1, /dev/stderr 2, /dev/fd/N and
-/// /proc/self/fd/N are N.
+/// `-` and /dev/stdout are 1, /dev/stderr 2, /dev/fd/N and /proc/self/fd/N are N.
 std::optional<int> descriptor_of(const std::filesystem::path& path);
 
-/// Throws file_error if write_whole would fail, as far as known: missing folders or rights, invalid
-/// names.
+/// Throws file_error if write_whole would fail for missing folders or rights, or an invalid name.
 void require_writable(const std::filesystem::path& path);
 
-/// Writes the outputs in order and stops at the first failure. Each file is whole or untouched: its
-/// bytes go to a temporary file next to it, which is then renamed. A killed process can leave
-/// `.errbound-PID-N.tmp`. Replaced files keep permissions and symbolic links. Pipes, devices and
-/// open descriptors are written directly. Throws file_error (full disk, file size limit, missing
-/// rights).
+/// Writes the outputs in order and stops at the first failure. Each file is whole or untouched: a
+/// temporary file next to it is renamed. A killed process can leave `.errbound-PID-N.tmp`. Replaced
+/// files keep permissions and symbolic links. Pipes, devices and open descriptors are written
+/// directly. Throws file_error (full disk, file size limit, missing rights).
 void write_whole(const std::vector<output>& outputs);
 void write_whole(const std::filesystem::path& path, std::string_view text);
 

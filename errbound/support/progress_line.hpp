@@ -10,7 +10,7 @@
 
 namespace errbound::support {
 
-/// A bar on a terminal's standard error, after the first second; removed at the end.
+/// A bar on standard error after the first second, removed at the end.
 class progress_line {
   public:
     progress_line() = default;
@@ -23,7 +23,6 @@ class progress_line {
         draw(static_cast<double>(done) / static_cast<double>(total),
              std::to_string(done) + '/' + std::to_string(total) + ' ' + what);
     }
-    /// `share`, from 0 to 1, is done; `what` is running.
     void show(double share, const std::string& what) {
         draw(share, std::to_string(static_cast<int>(100 * share)) + " % " + what);
     }

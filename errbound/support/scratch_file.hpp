@@ -9,7 +9,7 @@
 
 namespace errbound::support {
 
-/// A new file in std::filesystem::temp_directory_path(), removed with this object.
+/// A new file in the system's temporary folder, removed with this object.
 class scratch_file {
   public:
     scratch_file();
@@ -19,8 +19,7 @@ class scratch_file {
 
     const std::filesystem::path& path() const { return path_; }
 
-    /// Throws file_error (a full disk).
-    void append(std::string_view bytes);
+    void append(std::string_view bytes);  ///< throws file_error (a full disk)
     /// Reads exactly `size` bytes from `offset`. Throws file_error if there are fewer.
     void read(std::uint64_t offset, std::size_t size, void* to) const;
 

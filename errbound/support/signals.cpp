@@ -11,12 +11,10 @@ namespace errbound::support {
 namespace {
 
 constexpr std::array signals{SIGINT, SIGTERM};
-// int: on RISC-V atomic bytes are not always lock-free before g++ 13.
-std::atomic<int> caught = 0;
+std::atomic<int> caught = 0;  // int: on RISC-V atomic bytes are not always lock-free before g++ 13
 static_assert(std::atomic<int>::is_always_lock_free, "set by a signal handler");
 
-// A handler must not allocate.
-std::array<char, 4096> line_to_print;
+std::array<char, 4096> line_to_print;  // a handler must not allocate
 std::size_t line_length = 0;
 
 void catch_signal(int signal) {

@@ -17,8 +17,7 @@ class awaited_signals {
     awaited_signals(const awaited_signals&) = delete;
     awaited_signals& operator=(const awaited_signals&) = delete;
 
-    /// The signal that arrived, or 0.
-    const std::atomic<int>& arrived() const;
+    const std::atomic<int>& arrived() const;  ///< the signal that arrived, or 0
 
   private:
     std::array<void (*)(int), 2> before_;

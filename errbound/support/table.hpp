@@ -9,18 +9,14 @@
 
 namespace errbound::support {
 
-/// The first row is the heading; all rows have equal length.
-using table = std::vector<std::vector<std::string>>;
+using table = std::vector<std::vector<std::string>>;  ///< the first row is the heading
 
-/// Replaces control characters, except those in `kept`, by \xNN. (File names may contain escape
-/// sequences of terminals.)
+/// Replaces control characters, except those in `kept`, by \xNN: file names may contain escapes.
 std::string printable(std::string_view text, std::string_view kept = {});
 
-/// A line per row: the first `left` columns aligned left, the others right. Cells are made
-/// printable.
+/// The first `left` columns are aligned left, the others right. Cells are made printable.
 std::string text_of(const table& rows, std::size_t left);
 
-/// 1234567 as "1,234,567".
-std::string grouped(std::uint64_t n);
+std::string grouped(std::uint64_t n);  ///< 1234567 as "1,234,567"
 
 }  // namespace errbound::support

@@ -1,9 +1,7 @@
-// Polynomials on [0, 1] in Bernstein form, of compile-time degree, over any scalar with + − ×.
-//
-// A polynomial p of degree N is stored by its SCALED Bernstein coefficients h_i:
-//     p(s, t) = Σ h_i s^(N−i) t^i,   p(t) = p(1 − t, t),   h_i = C(N, i)·b_i
-// The control values b_i have the same signs: the hull property holds. No operation divides. The
-// h_i are the power-basis coefficients in x = t/s, which maps [0, 1] to [0, ∞]. Proof:
+// Polynomials on [0, 1] in Bernstein form, of compile-time degree, over any scalar with + − ×. A
+// polynomial of degree N stores SCALED coefficients h_i, so that no operation divides:
+//     p(s, t) = Σ h_i s^(N−i) t^i,   p(t) = p(1 − t, t),   h_i = C(N, i)·b_i,   b_i: control values
+// The h_i are also the power-basis coefficients in x = t/s, which maps [0, 1] to [0, ∞]. Proof:
 // proofs/Bernstein.v, form_ends, power_basis, hull_bounds.
 #pragma once
 
@@ -127,8 +125,7 @@ constexpr bernstein<S, N> reversed(const bernstein<S, N>& p) {
     return r;
 }
 
-/// p on [0, w/(v + w)], times (v + w)^N, for v, w > 0. On the rest use
-/// reversed(left_part(reversed(p), w, v)). Proof: proofs/Bernstein.v, left_part_form.
+/// p on [0, w/(v + w)], times (v + w)^N, for v, w > 0. Proof: proofs/Bernstein.v, left_part_form.
 template <class S, int N>
 constexpr bernstein<S, N> left_part(const bernstein<S, N>& p, const S& v, const S& w) {
     const S whole = v + w;
@@ -144,15 +141,13 @@ constexpr bernstein<S, N> left_part(const bernstein<S, N>& p, const S& v, const 
     return r;
 }
 
-/// p on [0, w/(v + w)] and on the rest, both times (v + w)^N > 0.
 template <class S, int N>
 constexpr std::pair<bernstein<S, N>, bernstein<S, N>> split(const bernstein<S, N>& p, const S& v,
                                                             const S& w) {
     return {left_part(p, v, w), reversed(left_part(reversed(p), w, v))};
 }
 
-/// p on [0, 1/2], times 2^N, by additions and exact doublings. On [1/2, 1] use
-/// reversed(left_half(reversed(p))). Proof: proofs/Bernstein.v, left_half_form.
+/// p on [0, 1/2], times 2^N; all products are exact. Proof: proofs/Bernstein.v, left_half_form.
 template <class S, int N>
 constexpr bernstein<S, N> left_half(const bernstein<S, N>& p) {
     bernstein<S, N> r;
@@ -165,13 +160,12 @@ constexpr bernstein<S, N> left_half(const bernstein<S, N>& p) {
     return r;
 }
 
-/// p on [0, 1/2] and [1/2, 1], times 2^N.
 template <class S, int N>
 constexpr std::pair<bernstein<S, N>, bernstein<S, N>> halves(const bernstein<S, N>& p) {
     return {left_half(p), reversed(left_half(reversed(p)))};
 }
 
-/// Scales a tracked form by a power of two, so that products of many forms stay in range.
+/// Scales a tracked form by a power of two, so that products of up to eight forms stay in range.
 template <class S, int N>
 constexpr bernstein<S, N> normalized(const bernstein<S, N>& p) {
     if constexpr (is_tracked<S>) {
@@ -179,7 +173,6 @@ constexpr bernstein<S, N> normalized(const bernstein<S, N>& p) {
         using traits = number_traits<T>;
         T largest = traits::abs(p[0].value());
         for (int i = 1; i <= N; ++i) largest = (traits::max)(largest, traits::abs(p[i].value()));
-        // Products of up to eight forms stay in range.
         constexpr int room = traits::max_exponent / 16;
         if (!(largest > 0) || !traits::is_finite(largest)) return p;
         const int e = traits::exponent(largest);
@@ -192,8 +185,8 @@ constexpr bernstein<S, N> normalized(const bernstein<S, N>& p) {
     }
 }
 
-/// The sign on (0, 1): certain if no coefficient has the other sign and one is not zero; zero if
-/// all are zero. Proof: proofs/Bernstein.v, sign_inside_right.
+/// The sign on (0, 1): certain if the signs of all coefficients are certain and no two are
+/// opposite. Proof: proofs/Bernstein.v, sign_inside_right.
 template <class S, int N>
 constexpr sign_type sign_inside(const bernstein<S, N>& p) {
     sign_type all = sign_type::zero;
@@ -207,8 +200,8 @@ constexpr sign_type sign_inside(const bernstein<S, N>& p) {
     return all;
 }
 
-/// The sign on [0, 1]: certain if all coefficients have it strictly; zero if all are zero. Proof:
-/// proofs/Bernstein.v, sign_throughout_right.
+/// The sign on [0, 1]: certain if all coefficients have it. Proof: proofs/Bernstein.v,
+/// sign_throughout_right.
 template <class S, int N>
 constexpr sign_type sign_throughout(const bernstein<S, N>& p) {
     const sign_type first = sign_of(p[0]);

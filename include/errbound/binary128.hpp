@@ -1,6 +1,5 @@
-// binary128 as errbound::float128: __float128 of GCC and clang on x86, long double on AArch64.
-// Elsewhere this header is empty. Needs sqrtf128 and fmaf128, which round once (glibc 2.26).
-//
+// IEEE 754 binary128 as errbound::float128: __float128 of GCC and clang on x86, long double on
+// AArch64, elsewhere nothing. Needs sqrtf128 and fmaf128, which round once (glibc 2.26).
 //   errbound::tracked<errbound::float128> x = 0.1;   // the double, exactly
 #pragma once
 
@@ -12,7 +11,6 @@
 #if LDBL_MANT_DIG == 113
 
 namespace errbound {
-/// IEEE 754 binary128: 113 bits of precision, in software on most processors.
 using float128 = long double;
 }  // namespace errbound
 
@@ -20,8 +18,7 @@ using float128 = long double;
 
 namespace errbound {
 
-/// IEEE 754 binary128: 113 bits of precision, in software on most processors.
-using float128 = __float128;
+using float128 = __float128;  ///< 113 bits of precision, in software on most processors
 
 template <>
 struct number_traits<float128> {
@@ -42,7 +39,7 @@ struct number_traits<float128> {
     static float128 fma(const float128& a, const float128& b, const float128& c) {
         return __builtin_fmaf128(a, b, c);
     }
-    /// In steps, of which at most one rounds: the last that does not give 0.
+    /// Multiplies in steps. Only the last step that does not give 0 may round.
     static constexpr float128 scale(const float128& x, int e) {
         constexpr int step = 11000, reach = 4 * step;
         int rest = e < -reach ? -reach : e > reach ? reach : e;
@@ -71,7 +68,6 @@ struct number_traits<float128> {
         const auto [low, high] = std::bit_cast<words>(x);
         return {low, high & ~(std::uint64_t{1} << 63)};
     }
-    /// 2^e, for normal numbers.
     static constexpr float128 power_of_two(int e) {
         return of({0, static_cast<std::uint64_t>(e + max_exponent - 1) << fraction_bits_of_high});
     }

@@ -1,13 +1,11 @@
 // Bernstein sign classification (BSC), over any scalar that has + − × and a sign. Start at
-// root_with_nonnegative.
+// root_with_nonnegative. Symbols: docs/notation.md.
 //
 // Derived anew after Tang, Tong, Wang, Manocha 2014 (TTWM14) and TightCCD (Wang, Tang, Manocha,
 // Tong 2015, Section 5). Differences: an uncertain sign of Y at an end is followed as either sign
 // (on_convex). Y is split exactly at its inflection (without_halving). `reduced` does not divide.
-//
-// Notation: forms in (s, t), s + t = 1, as in bernstein.hpp; Y is the cubic (y0, y1, y2, y3), G_i
-// are quartics, D = Y' is quadratic, l is linear with the root t_l. Inner means 0 < t < 1; strict
-// signs are not zero.
+// Forms are in (s, t), s + t = 1: Y = (y0, y1, y2, y3), D = Y', l is linear with the root t_l.
+// Inner means 0 < t < 1. A strict sign is not zero.
 #pragma once
 
 #include <array>
@@ -25,16 +23,14 @@ enum class existence : std::uint8_t { no, yes, maybe_root, maybe_inside };
 
 namespace bsc {
 
-/// Halvings of an interval with uncertain curvature sign before the answer is "maybe".
-inline constexpr int max_halvings = 6;
+inline constexpr int max_halvings = 6;  ///< of an interval with uncertain curvature sign
 
 template <class S>
 using cubic = bernstein<S, 3>;
 template <class S, std::size_t M>
 using quartics = std::array<bernstein<S, 4>, M>;
 
-/// Signs at the two inner roots of Y around its extremum, in order of t.
-using sign_pair = std::array<sign_type, 2>;
+using sign_pair = std::array<sign_type, 2>;  ///< at the two inner roots of Y, in order of t
 
 constexpr existence either(existence a, existence b) {
     if (a == existence::yes || b == existence::yes) return existence::yes;
@@ -107,9 +103,9 @@ constexpr sign_type sign_at_crossing(const cubic<S>& y, sign_type before,
 }
 
 /// Sign determination II (TTWM14): the signs of l at the two inner roots t0 <= t1 of a CONVEX Y > 0
-/// at both ends; d = Y'. If Y(t_l) < 0, t0 < t_l < t1. If Y(t_l) > 0, d(t_l) < 0 means t_l < t0,
-/// and d(t_l) > 0 means t_l > t1. If only the sign of d(t_l) is certain, it decides the sign at t1
-/// or t0. Proof: proofs/BscSigns.v, sign_determination_2.
+/// at both ends; d = Y'. If Y(t_l) < 0, t0 < t_l < t1. If Y(t_l) > 0, t_l < t0 if d(t_l) < 0 and
+/// t_l > t1 if d(t_l) > 0. If only d(t_l) has a certain sign, it gives the sign at t1 or t0. Proof:
+/// proofs/BscSigns.v, sign_determination_2.
 template <class S>
 constexpr sign_pair signs_at_pair(const cubic<S>& y, const bernstein<S, 2>& d,
                                   const bernstein<S, 1>& l) {
@@ -126,7 +122,6 @@ constexpr sign_pair signs_at_pair(const cubic<S>& y, const bernstein<S, 2>& d,
         case sign_type::positive:
             return {ends.at0, at_r == sign_type::positive ? ends.at0 : nearer};
         default:
-            // A double root, where l vanishes.
             if (slope == sign_type::zero && at_r == sign_type::zero)
                 return {sign_type::zero, sign_type::zero};
             return {sign_type::uncertain, sign_type::uncertain};
@@ -152,8 +147,7 @@ struct decomposition {
     constexpr decomposition(const cubic<S>& y, const bernstein<S, 2>& j)
         : m(normalized(bernstein<S, 1>{{y[0] * j[2], y[3] * j[0]}})) {
         const S jj = j[0] * j[2];
-        // The identity needs m before normalisation.
-        const S m0 = y[0] * j[2], m1 = y[3] * j[0];
+        const S m0 = y[0] * j[2], m1 = y[3] * j[0];  // the identity needs m before normalisation
         r = normalized(bernstein<S, 1>{
             {jj * y[1] - m0 * j[1] - m1 * j[0], jj * y[2] - m0 * j[2] - m1 * j[1]}});
     }
@@ -184,7 +178,6 @@ constexpr sign_type sign_at_crossing(const cubic<S>& y, sign_type before,
                      parts.m, j);
 }
 
-/// The signs of the quartic g at the two inner roots of a convex Y, as for a linear form.
 template <class S>
 constexpr sign_pair signs_at_pair(const cubic<S>& y, const bernstein<S, 2>& d,
                                   const bernstein<S, 4>& g) {
@@ -231,7 +224,6 @@ constexpr sign_type sign_at_extremum(const cubic<S>& y, const bernstein<S, 2>& d
         {d[2] * y[1] - three * (y[3] * d[0]), two * (d[2] * y[2]) - three * (y[3] * d[1])}});
 }
 
-/// The answer for a root of Y exactly at an end.
 template <class S, std::size_t M>
 constexpr existence at_end(sign_type y_end, const quartics<S, M>& g, int coefficient) {
     if (!possibly_zero(y_end)) return existence::no;
@@ -322,7 +314,6 @@ constexpr bool excluded_by_hull(const cubic<S>& y, const quartics<S, M>& g) {
     return false;
 }
 
-/// Y and all G_i on an interval of the step.
 template <class S, std::size_t M>
 struct part {
     cubic<S> y;
@@ -426,9 +417,9 @@ template <class S, std::size_t M>
 ///
 /// If the scalar's certain signs are right, so is `no`, and `yes` proves a root with every g_i > 0.
 /// Proof: proofs/Bsc.v, bsc_no, bsc_yes. Y ≡ 0 gives `no` or `maybe_root`. If no sign is uncertain,
-/// `maybe_root` means Y ≡ 0. `maybe_inside` then means that a root has every g_i >= 0, one of them
-/// zero, and no root has all positive. Proof: proofs/BscExact.v, bsc_exact_root, bsc_exact_inside.
-/// Cost: some hundred operations of S in common cases, at most a few thousand.
+/// `maybe_root` means Y ≡ 0, and `maybe_inside` that no root has every g_i > 0, but one has every
+/// g_i >= 0. Proof: proofs/BscExact.v, bsc_exact_root, bsc_exact_inside. Cost: some hundred
+/// operations of S in common cases, at most a few thousand.
 template <class S, class MakeConstraints>
 constexpr existence root_with_nonnegative(const bernstein<S, 3>& y, const MakeConstraints& make_g) {
     const bsc::cubic<S> cubic = normalized(y);
@@ -438,7 +429,6 @@ constexpr existence root_with_nonnegative(const bernstein<S, 3>& y, const MakeCo
     bsc::part<S, std::tuple_size_v<std::remove_cvref_t<decltype(g)>>> whole;
     whole.y = cubic;
     for (std::size_t i = 0; i < g.size(); ++i) whole.g[i] = normalized(g[i]);
-    // Separate, since few queries need the memory of halving.
     const auto found = bsc::without_halving(whole);
     return found ? *found : bsc::by_halving(whole);
 }

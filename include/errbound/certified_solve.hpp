@@ -1,14 +1,13 @@
-// Linear systems in double precision with a certified error bound for every entry (optional header;
-// needs Eigen 3).
+// Linear systems in double precision with a certified error of every entry (needs Eigen 3).
 //
 //   const auto x = errbound::certified_solve(a, b);      // a: n×n; b: n×m, one system a column
 //   if (x.certified()) use(x.values, x.errors);          // |values − exact solution| <= errors
-//   else std::puts(errbound::reason(x.status));          // say, that a is nearly singular
+//   else std::puts(errbound::reason(x.status));          // for example, that a is nearly singular
 //
 // Entries of a and b are exact doubles. If the result is `certified`, a is nonsingular and every
 // entry of the exact solution lies within its error. Rounding must be to nearest (environment.hpp).
-// Products are Eigen's. Bounds hold for every order of summation, vectorised, fused or threaded,
-// but not for Strassen's products.
+// Bounds hold for every order of Eigen's sums, vectorised, fused or threaded, but not for
+// Strassen's products.
 #pragma once
 
 #include <Eigen/Core>
@@ -44,7 +43,6 @@ constexpr const char* reason(solve_status status) {
     return "";
 }
 
-/// Rows, Columns: the size of the solution; Eigen::Dynamic if known only at run time.
 template <int Rows, int Columns>
 struct certified_solution {
     using matrix = Eigen::Matrix<double, Rows, Columns>;  ///< a column for each right-hand side
@@ -52,8 +50,8 @@ struct certified_solution {
     solve_status status;  ///< `certified`, or the reason
     matrix values;        ///< NaN unless certified
     matrix errors;        ///< |values − exact solution| <= errors; infinite unless certified
-    /// A certified β < 1 with |I − RA|v <= βv for some R and v > 0; it proves that the matrix is
-    /// nonsingular. Infinite if none was found. At 1e-3, a condition number with three more digits
+    /// A certified β < 1 with |I − RA|v <= βv for some R and v > 0, which proves that A is
+    /// nonsingular; infinite if none was found. At 1e-3, three more digits of condition number
     /// would pass.
     double contraction;
 
@@ -78,8 +76,8 @@ vector<N> error_from_residual(const checked_inverse<N>& inverse, const enclosed_
     return inverse.error_from(z);
 }
 
-/// Refines ỹ by residuals in twice the precision while that helps. Then encloses y around ỹ + d, d
-/// the last correction, and rounds ỹ + d.
+/// Refines ỹ by residuals in twice the precision while that helps. Encloses y around ỹ + d, where d
+/// is the last correction, and rounds ỹ + d.
 template <int N>
 enclosed_vector<N> solve_column(const checked_inverse<N>& inverse, const vector<N>& b) {
     constexpr int enough = 20;
@@ -117,7 +115,6 @@ inline with_error<double> scaled_back(double value, double error, int e) {
     return {v, exact ? bound : enlarged(bound + 2 * traits::underflow_unit(), 1)};
 }
 
-/// True if these sizes are equal, as far as known at compile time.
 template <int Rows, int Columns, int OfRight>
 inline constexpr bool may_be_equal =
     (Rows == Columns || Rows == Eigen::Dynamic || Columns == Eigen::Dynamic) &&
@@ -136,12 +133,11 @@ certified_solution<Rows, Columns> refused(solve_status status, Index rows, Index
 
 /// Returns the solution x of ax = b with certified errors, or the reason for having none.
 ///
-/// Errors are near half a unit in the last place, and larger for condition numbers near the limit,
-/// about 2^53/√n. Matrices beyond it are refused. Scaling of rows and columns does not count.
-///
-/// Cost: LU decomposition and two products of n×n matrices, measured as 6.7 to 11.4 times a plain
-/// solve; a few matrix-vector products in doubled precision per column of b. Memory: six n×n
-/// matrices, on the heap only if n is Eigen::Dynamic. Throws std::bad_alloc. Sources:
+/// Errors are near half a unit in the last place, larger near the limit of the condition number,
+/// about 2^53/√n. Beyond it, the result is nearly_singular. Scaling of rows and columns does not
+/// count. Cost: an LU decomposition and two products of n×n matrices, measured as 6.7 to 11.4 times
+/// a plain solve; a few matrix-vector products in doubled precision per column of b. Memory: six
+/// n×n matrices, on the heap only if n is Eigen::Dynamic. Throws std::bad_alloc. Sources:
 /// linear/checked_inverse.hpp, linear/residual.hpp.
 template <class MatrixType, class RightHandSide>
 auto certified_solve(const Eigen::MatrixBase<MatrixType>& a,

@@ -1,11 +1,8 @@
-// Converts tracked numbers to another number type, with the conversion's loss in their bounds.
-//
+// Converts tracked numbers to another number type. The bound includes the conversion's error.
 //   const errbound::tracked<double> x = ...;
-//   errbound::convert<float>(x);                        // same rule
+//   errbound::convert<float>(x);                                // same rule
 //   errbound::convert<errbound::bfloat16, errbound::sharp>(x);  // another rule
-//
-// The bound |value() − x| <= error() is passed on by `within`. A number that the new type holds
-// exactly keeps its value and bound.
+// Uses only |value() − x| <= error(). A number that the new type holds keeps its value and bound.
 #pragma once
 
 #include <bit>
@@ -73,9 +70,8 @@ constexpr To rounded_up(const Wide& x) {
 
 }  // namespace detail
 
-/// x in the number type To, rounded once to nearest. The error is infinite if that overflows.
-///
-/// With v = fl(x̂): |v − x| <= |v − x̂| + e. v − x̂ is exact in a type that holds both, as a
+/// x in the number type To, rounded once to nearest. The error is infinite if that overflows. With
+/// v = fl(x̂): |v − x| <= |v − x̂| + e. v − x̂ is exact in a type that holds both, because it is a
 /// multiple of x̂'s last place no larger than x̂. The sum is rounded once there, (1 + 2ε)(1 − ε) >=
 /// 1 for ε <= 1/2, and up to To.
 template <class To, class NewRule = void, class From, class Rule>

@@ -1,12 +1,10 @@
 // Decimals as tracked numbers: 0.1 as a tenth, not as the double nearest to it.
-//
 //   using namespace errbound::literals;
 //   const auto tenth = 0.1_tracked;                             // tracked<double>, off by 2^-57.5
 //   errbound::from_decimal<errbound::tracked<float>>("6.02e23");
 //
 // The value is the nearest number of the type, ties to even. The error is its distance from the
-// decimal, rounded up: 0 if the type holds the decimal, otherwise at most half a unit in the last
-// place.
+// decimal, rounded up: 0 if the type holds the decimal.
 #pragma once
 
 #include <errbound/environment.hpp>
@@ -24,12 +22,11 @@ void tracked_is_for_decimal_literals();
 }  // namespace detail
 
 /// The decimal number as Number: tracked float, double, long double, binary128 or small_float. Text
-/// is as in C++, [-]123.25e-2, of any length, with decimal digits only.
-///
-/// The error is infinite if the text is no decimal or rounds to no finite number. A decimal below
-/// half of the smallest number is 0 with that number as its error. The result does not depend on
-/// the rounding direction. If the rule needs rounding to nearest and the direction is another, the
-/// error is infinite at run time. Cost: about that of strtod.
+/// is as in C++, [-]123.25e-2, of any length, with decimal digits only. The error is infinite if
+/// the text is no decimal or rounds to no finite number. A decimal below half of the smallest
+/// number is 0 with that number as its error. The result does not depend on the rounding direction.
+/// However, if the rule needs rounding to nearest, other directions give an infinite error at run
+/// time. Cost: about that of strtod.
 template <class Number>
 constexpr Number from_decimal(std::string_view text) {
     using T = typename Number::value_type;
@@ -44,7 +41,6 @@ constexpr Number from_decimal(std::string_view text) {
     return Number::within(nearest.value, nearest.error);
 }
 
-/// Suffixes: using namespace errbound::literals.
 namespace literals {
 
 /// 0.1_tracked is a tenth. Evaluated at compile time; 0x10 and the octal 010 do not compile.

@@ -1,14 +1,12 @@
-// Tracked scalars in Eigen matrices and vectors (optional header; needs Eigen 3.4).
+// Tracked scalars in Eigen's matrices and vectors (needs Eigen 3.4).
 //
 //   Eigen::Matrix<errbound::tracked<double>, 3, 3> m;
 //   auto d = m.col(0).cross(m.col(1)).dot(m.col(2));   // d.error() bounds its rounding error
 //   auto x = m.partialPivLu().solve(b);                // a bound for every entry
 //
-// Products (also with plain T, 2.0 * m), sums, dot, cross, determinant(), inverse(), PartialPivLU,
-// LLT and HouseholderQR work for any size, under every rule with division. For a regular matrix all
-// results are within their bounds. Regularity is not tested: check sign_of(m.determinant()), or
-// LLT's info(), Success only if certainly positive definite. Entries without a bound have infinite
-// or NaN errors.
+// docs/linear-algebra.md lists the operations that compile. If a matrix is nonsingular, all results
+// are within their bounds, which may be infinite or NaN. Nonsingularity is not tested: check
+// sign_of(m.determinant()). LLT's info() is Success only if m is certainly positive definite.
 #pragma once
 
 #include <Eigen/Core>
@@ -18,8 +16,7 @@
 
 namespace errbound {
 
-/// True if a and b are certainly equal. Only this header defines it, for Eigen's kernels, which
-/// skip zero factors. Numbers that are "not equal" may be equal.
+/// True if a and b are certainly equal. Only for Eigen's kernels, which skip zero factors.
 template <class T, class Rule>
 constexpr bool operator==(const tracked<T, Rule>& a, const tracked<T, Rule>& b) {
     return compare(a, b) == sign_type::zero;
@@ -27,8 +24,8 @@ constexpr bool operator==(const tracked<T, Rule>& a, const tracked<T, Rule>& b) 
 
 }  // namespace errbound
 
-// A wrong pivot (by_value) costs tightness, never soundness. FullPivLU, ColPivHouseholderQR, LDLT,
-// isInvertible, eigenvalues and SVD do not compile: they would guess ranks or signs.
+// A wrong pivot (by_value) costs tightness, never soundness. Decompositions that would guess ranks
+// or signs do not compile.
 namespace Eigen {
 
 template <class T, class Rule>
@@ -56,7 +53,6 @@ struct NumTraits<errbound::tracked<T, Rule>> : GenericNumTraits<errbound::tracke
     static int digits10() { return NumTraits<T>::digits10(); }
 };
 
-/// T is exact, so T and tracked numbers over T mix.
 template <class T, class Rule, class BinaryOp>
 struct ScalarBinaryOpTraits<errbound::tracked<T, Rule>, T, BinaryOp> {
     using ReturnType = errbound::tracked<T, Rule>;
@@ -68,13 +64,11 @@ struct ScalarBinaryOpTraits<T, errbound::tracked<T, Rule>, BinaryOp> {
 
 namespace internal {
 
-/// True if one factor holds tracked numbers and the other one plain numbers.
 template <class Left, class Right>
 concept mixed_tracked_product = errbound::is_tracked<typename Left::Scalar>
 != errbound::is_tracked<typename Right::Scalar>;
 
-/// Computes products of dynamic size entry by entry, as those of fixed size. Eigen's blocked
-/// kernels would convert one scalar to the other.
+/// Computes products of dynamic size entry by entry: Eigen's blocked kernels would convert scalars.
 template <class Left, class Right>
 requires mixed_tracked_product<Left, Right>
 struct generic_product_impl<Left, Right, DenseShape, DenseShape, GemmProduct>

@@ -1,13 +1,12 @@
 // Elementary functions of tracked numbers: exp, exp2, expm1, log, log2, log10, log1p, sin, cos,
 // tan, asin, acos, atan, sinh, cosh, tanh, asinh, acosh, atanh, cbrt, pow with any exponent, atan2.
-//
 //   errbound::tracked<double> x = ...;
 //   exp(-x * x);            // found by its argument: no errbound:: is needed
 //
-// Values are the C library's; its errors are an assumption (function_error). The effect of the
-// argument's error is derived in functions/function_of_range.hpp. If the argument may lie outside
-// the domain or at a pole, the error is infinite. Under any rule, in rounding to nearest, on the
-// host only: no constant expressions, no device code.
+// Values are the C library's; its errors are an assumption (function_error). Unless the argument is
+// certainly in the domain, and not at a pole, the error is infinite. It is 0 for an exact argument
+// 0 or 1 with a rational result, for exp2 of whole numbers and for log2 of powers of two. Any rule,
+// in rounding to nearest, on the host only: no constant expressions, no device code.
 #pragma once
 
 #include <complex>
@@ -22,7 +21,6 @@ namespace errbound {
 
 namespace detail {
 
-/// A plain number that converts to the tracked type, within its conversion's error.
 template <class Number, class T, class Rule>
 concept plain_number_for =
     !is_tracked<Number> && std::constructible_from<tracked<T, Rule>, const Number&>;
@@ -39,78 +37,64 @@ tracked<T, Rule> function_of(const tracked<T, Rule>& x) {
 
 }  // namespace detail
 
-// For an exact x, the error is only that of the C library's function.
-
-/// e^x; exact for an exact 0.
 template <class T, class Rule>
 tracked<T, Rule> exp(const tracked<T, Rule>& x) {
     return detail::function_of<elementary_function::exp>(x);
 }
-/// 2^x; exact for exact whole numbers.
 template <class T, class Rule>
 tracked<T, Rule> exp2(const tracked<T, Rule>& x) {
     return detail::function_of<elementary_function::exp2>(x);
 }
-/// e^x − 1; exact for an exact 0.
 template <class T, class Rule>
 tracked<T, Rule> expm1(const tracked<T, Rule>& x) {
     return detail::function_of<elementary_function::expm1>(x);
 }
 
-/// The natural logarithm. Infinite error unless x is certainly positive. Exact for an exact 1.
 template <class T, class Rule>
 tracked<T, Rule> log(const tracked<T, Rule>& x) {
     return detail::function_of<elementary_function::log>(x);
 }
-/// Base 2, domain as log. Exact for exact powers of two.
 template <class T, class Rule>
 tracked<T, Rule> log2(const tracked<T, Rule>& x) {
     return detail::function_of<elementary_function::log2>(x);
 }
-/// Base 10, domain as log. Exact for an exact 1.
 template <class T, class Rule>
 tracked<T, Rule> log10(const tracked<T, Rule>& x) {
     return detail::function_of<elementary_function::log10>(x);
 }
-/// log(1 + x). Infinite error unless x is certainly greater than −1. Exact for an exact 0.
 template <class T, class Rule>
 tracked<T, Rule> log1p(const tracked<T, Rule>& x) {
     return detail::function_of<elementary_function::log1p>(x);
 }
 
-/// x in radians, of any size. Exact for an exact 0. The error is at most about 1 + |value|.
+/// x in radians, of any size. The error is at most about 1 + |value|.
 template <class T, class Rule>
 tracked<T, Rule> sin(const tracked<T, Rule>& x) {
     return detail::function_of<elementary_function::sin>(x);
 }
-/// Same as sin. cos of an exact 0 is exactly 1.
 template <class T, class Rule>
 tracked<T, Rule> cos(const tracked<T, Rule>& x) {
     return detail::function_of<elementary_function::cos>(x);
 }
-/// Infinite error if x may be at a pole, or its error is above 1.5. Exact for an exact 0.
+/// Infinite error also if the error of x is above 1.5.
 template <class T, class Rule>
 tracked<T, Rule> tan(const tracked<T, Rule>& x) {
     return detail::function_of<elementary_function::tan>(x);
 }
 
-/// In [−π/2, π/2]. Infinite error unless x is certainly in [−1, 1]. Exact for an exact 0.
 template <class T, class Rule>
 tracked<T, Rule> asin(const tracked<T, Rule>& x) {
     return detail::function_of<elementary_function::asin>(x);
 }
-/// In [0, π]. Infinite error unless x is certainly in [−1, 1]. Exact for an exact 1.
 template <class T, class Rule>
 tracked<T, Rule> acos(const tracked<T, Rule>& x) {
     return detail::function_of<elementary_function::acos>(x);
 }
-/// In [−π/2, π/2]; exact for an exact 0.
 template <class T, class Rule>
 tracked<T, Rule> atan(const tracked<T, Rule>& x) {
     return detail::function_of<elementary_function::atan>(x);
 }
 
-/// Exact for an exact 0, as are cosh and tanh.
 template <class T, class Rule>
 tracked<T, Rule> sinh(const tracked<T, Rule>& x) {
     return detail::function_of<elementary_function::sinh>(x);
@@ -123,31 +107,28 @@ template <class T, class Rule>
 tracked<T, Rule> tanh(const tracked<T, Rule>& x) {
     return detail::function_of<elementary_function::tanh>(x);
 }
-/// Exact for an exact 0.
 template <class T, class Rule>
 tracked<T, Rule> asinh(const tracked<T, Rule>& x) {
     return detail::function_of<elementary_function::asinh>(x);
 }
-/// Not negative. Infinite error unless x is certainly 1 or more. Exact for an exact 1.
 template <class T, class Rule>
 tracked<T, Rule> acosh(const tracked<T, Rule>& x) {
     return detail::function_of<elementary_function::acosh>(x);
 }
-/// Infinite error unless x is certainly between −1 and 1. Exact for an exact 0.
 template <class T, class Rule>
 tracked<T, Rule> atanh(const tracked<T, Rule>& x) {
     return detail::function_of<elementary_function::atanh>(x);
 }
 
-/// The cube root, also of negative numbers. Exact if x and the system's result are.
+/// The cube root, also of negative numbers. Exact if x and the C library's result are.
 template <class T, class Rule>
 tracked<T, Rule> cbrt(const tracked<T, Rule>& x) {
     return detail::function_of<elementary_function::cbrt>(x);
 }
 
-/// x^y by the C library. The error is infinite unless x is certainly positive or y is an exact
-/// whole number (positive if x may be zero). However, an exact 0 to a certainly positive power is
-/// 0. x^0 and 1^y are exactly 1, and x^1 is x. pow(x, int) multiplies by the rule.
+/// x^y. The error is infinite unless x is certainly positive, or y is an exact whole number
+/// (positive if x may be zero). However, an exact 0 to a certainly positive power is 0, x^0 and 1^y
+/// are exactly 1, and x^1 is x. pow(x, int) multiplies by the rule.
 template <class T, class Rule>
 tracked<T, Rule> pow(const tracked<T, Rule>& x, const tracked<T, Rule>& y) {
     if constexpr (!std::is_same_v<T, detail::function_type<T>>) {
@@ -171,9 +152,9 @@ tracked<T, Rule> pow(const Number& x, const tracked<T, Rule>& y) {
     return pow(tracked<T, Rule>(x), y);
 }
 
-/// The angle of the point (x, y) in [−π, π]; π if y is exactly 0 and x < 0. Infinite error if the
-/// point may be the origin. If it may lie on both sides of the negative x axis, the bound includes
-/// all of [−π, π]. Exact if y is exactly 0 and x is certainly positive.
+/// The angle of the point (x, y) in [−π, π]; π if y is exactly 0 and x < 0. The error is infinite
+/// if the point may be the origin. The bound covers [−π, π] if the point may be on both sides of
+/// the negative x axis. Exact if y is exactly 0 and x is certainly positive.
 template <class T, class Rule>
 tracked<T, Rule> atan2(const tracked<T, Rule>& y, const tracked<T, Rule>& x) {
     if constexpr (!std::is_same_v<T, detail::function_type<T>>) {
@@ -193,8 +174,7 @@ tracked<T, Rule> atan2(const Number& y, const tracked<T, Rule>& x) {
     return atan2(tracked<T, Rule>(y), x);
 }
 
-// Complex numbers of tracked parts: write `abs(z)`, in generic code after `using std::abs;`.
-// std::abs(z) does not compile. + − × ÷, `norm` and `conj` are std::complex's.
+// Complex numbers: write `abs(z)`; std::abs(z) does not compile. + − × ÷, `norm` and `conj` work.
 
 /// |z|: hypot of the parts, without overflow or underflow on the way.
 template <class T, class Rule>

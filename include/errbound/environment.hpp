@@ -1,10 +1,9 @@
-// Requirements on the compiler and the floating-point environment, checked where possible.
-//
+// Checks the compiler and the floating-point environment. Compiler flags: docs/guarantees.md.
 // Needed: IEEE 754 binary formats with gradual underflow, operations rounded once to the format, no
 // value-changing optimisation. `tight` and `safe` hold in any rounding direction; `sharp`,
 // `interval`, `residual`, error-free transformations and predicates need rounding to nearest.
 // Contraction to fused multiply-add does not affect tracked numbers (rounded.hpp). Other code
-// differs between machines without -ffp-contract=off. Compiler flags: docs/guarantees.md.
+// differs between machines without -ffp-contract=off.
 #pragma once
 
 #include <cfloat>
@@ -47,8 +46,7 @@ constexpr bool is_ieee_format = [] {
 
 /// The calling thread's floating-point environment and the compiler's treatment of the calling
 /// unit. Tested at run time: compilers do not reveal every flag, and some flags set flush-to-zero
-/// at start-up. Covers float, double and long double (not its subnormals), unless that is two
-/// doubles.
+/// at start-up. Covers float, double and long double (no subnormals, no pair of doubles).
 struct environment_report {
     bool gradual_underflow;  ///< subnormals are neither flushed nor read as zero
     bool as_written;         ///< sums in the written order, with the type's bits, no more
@@ -57,18 +55,17 @@ struct environment_report {
     bool special_values;     ///< infinity and NaN are distinguished from numbers
     bool nearest_even;       ///< default rounding direction
 
-    /// The bounds of `tight` and `safe` hold, in any rounding direction.
+    /// True if the bounds of `tight` and `safe` hold.
     constexpr bool sound_in_any_direction() const {
         return gradual_underflow && as_written && all_bits && own_quotients && special_values;
     }
-    /// The library's every guarantee holds.
+    /// True if every guarantee of the library holds.
     constexpr bool sound() const { return sound_in_any_direction() && nearest_even; }
 };
 
-/// Static in each unit: an inline function's single copy might come from a unit with other flags.
+/// Static: the single copy of an inline function might come from a unit with other flags.
 namespace detail {
 
-/// x, hidden from the optimiser and stored in its own type.
 template <class T>
 static T unknown(T x) {
     volatile T v = x;
@@ -83,7 +80,6 @@ static bool has_gradual_underflow() {
     return unknown(subnormal + subnormal) == (limits::min)() && unknown(limits::denorm_min()) > 0 &&
            unknown(factors[0] * factors[1]) > 0;
 }
-/// Compares sums with the same sums stored after each operation.
 template <class T>
 static bool computes_as_written() {
     constexpr T epsilon = std::numeric_limits<T>::epsilon();
@@ -93,8 +89,7 @@ static bool computes_as_written() {
     bool same = unknown(sum - x) == stored_y &&
                 unknown((x - (sum - y_in_sum)) + (y - y_in_sum)) ==
                     unknown(unknown(x - unknown(stored - stored_y)) + unknown(y - stored_y));
-    // This loop may be vectorised.
-    T terms[64];
+    T terms[64];  // the loop over them may be vectorised
     for (T& term : terms) term = y;
     terms[0] = x;
     T in_order = 0, total = 0;
@@ -107,7 +102,7 @@ static bool has_all_bits() {
     constexpr T epsilon = std::numeric_limits<T>::epsilon();
     return unknown(unknown(T(1)) + unknown(epsilon)) - 1 == epsilon;
 }
-/// Whole quotients; through 1/41 or 1/49 they are not whole, in double or float.
+/// Products with reciprocals of 41 or 49 would not be whole, in double or float.
 template <class T>
 static bool divides_once() {
     const auto whole = [](T divisor, const auto& quotient) {
@@ -139,8 +134,8 @@ static bool rounds_to_nearest() {
 
 }  // namespace detail
 
-/// Reports on the calling thread and unit. To be sure, assert .sound() once in each unit compiled
-/// with its own flags. Cost: some microseconds.
+/// Reports on the calling thread and unit: assert .sound() once in each unit compiled with its own
+/// flags. Cost: some microseconds.
 static inline environment_report floating_point_environment() {
     using namespace detail;
     const auto of_all = [](const auto& check) {

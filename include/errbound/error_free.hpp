@@ -1,7 +1,5 @@
-// Error-free transformations: an operation's rounded result and its exact rounding error.
-//
-// They need a binary format with gradual underflow and rounding to nearest. Notation (p, u, η, ulp,
-// the circled operations): docs/notation.md.
+// Error-free transformations: an operation's rounded result and its exact rounding error. Requires
+// a binary format with gradual underflow and rounding to nearest. Notation: docs/notation.md.
 #pragma once
 
 #include <errbound/detail/power_of_two.hpp>
@@ -11,7 +9,6 @@
 
 namespace errbound {
 
-/// The exact result is value + error.
 template <class T>
 struct with_error {
     T value, error;
@@ -20,7 +17,7 @@ struct with_error {
 namespace detail {
 
 /// u|v| + η, rounded: at least the error of any result rounded to nearest to v. u|v| is exact or
-/// underflows. If the sum rounds to u|v|, v is too large for underflow, and u|v| suffices.
+/// underflows. If adding η changes nothing, v is too large for underflow, and u|v| suffices.
 template <class T>
 constexpr T half_ulp(const T& v) {
     using traits = number_traits<T>;
@@ -30,9 +27,8 @@ constexpr T half_ulp(const T& v) {
 }  // namespace detail
 
 /// a + b = value + error exactly, value = a ⊕ b. Precondition: no overflow, even of intermediate
-/// results; otherwise value or error is infinite or NaN. Underflow is harmless. Cost: 6 operations.
-/// Source: Knuth, TAOCP 2, 4.2.2, Theorem B; any precision >= 2. Proof: proofs/ErrorFree.v,
-/// two_sum_exact.
+/// results; otherwise value or error is infinite or NaN. Cost: 6 operations. Source: Knuth, TAOCP
+/// 2, 4.2.2, Theorem B; any precision >= 2. Proof: proofs/ErrorFree.v, two_sum_exact.
 template <class T>
 constexpr with_error<T> two_sum(const T& a, const T& b) {
     const T x = detail::rounded(a), y = detail::rounded(b);
@@ -62,7 +58,6 @@ template <>
 inline constexpr bool has_fast_fma<float> = true;
 #endif
 
-/// Dekker's product needs 2 <= s <= p − 2 with s = ⌈p/2⌉.
 inline constexpr int least_precision_for_split = 4;
 
 /// x = value + error exactly. With s = ⌈p/2⌉, value has at most p − s bits and error at most s − 1,
@@ -101,14 +96,12 @@ constexpr with_error<T> two_product(const T& a, const T& b) {
     return {v, middle + detail::rounded_product(a_low, b_low)};
 }
 
-/// True if two_product(a, b)'s result is known to be exact. This needs |a|, |b| <=
-/// largest()/2^(s+2) with s = ⌈p/2⌉ (2^995 for double, 2^114 for float). Also, an operand is zero,
-/// or 2^(2p)·η <= |value| <= largest()/4 (from 2^-968 for double, 2^-101 for float). The limits are
-/// the same with and without FMA.
-///
-/// Derivation: the error and Dekker's intermediate results are multiples of ulp(a)·ulp(b), which
-/// must be at least η. It is, since |a| < 2^p·ulp(a), |b| < 2^p·ulp(b) and |ab| >= |value|/(1 + u).
-/// No overflow: products in split() are below 2^(s+1)·|x|, value parts at most 1.25|x|. Proof:
+/// True if two_product(a, b)'s result is known to be exact, with or without FMA. Requires |a|, |b|
+/// <= largest()/2^(s+2) with s = ⌈p/2⌉ (2^995 for double, 2^114 for float). Also, an operand is
+/// zero, or 2^(2p)·η <= |value| <= largest()/4 (from 2^-968 for double, 2^-101 for float).
+/// Derivation: the error and Dekker's intermediate results are multiples of ulp(a)·ulp(b), which is
+/// at least η, since |a| < 2^p·ulp(a), |b| < 2^p·ulp(b) and |ab| >= |value|/(1 + u). No overflow:
+/// products in split() are below 2^(s+1)·|x|, value parts at most 1.25|x|. Proof:
 /// proofs/IeeeInterval.v, product_known.
 template <class T>
 constexpr bool product_error_is_exact(const T& a, const T& b, const with_error<T>& product) {

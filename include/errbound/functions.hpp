@@ -1,13 +1,11 @@
 // Functions of tracked numbers: sqrt, fma, abs, min, max, midpoint, lerp, hypot, copysign, pow with
 // whole exponents, dot and horner.
-//
 //   errbound::tracked<double> x = ...;
 //   sqrt(x * x + y * y);            // found by its argument: no errbound:: is needed
 //
-// They use |value() − x| <= error(), which every rule gives, and return tracked::within. If an
-// argument may lie outside the domain, the result's error is infinite. Derivations hold in any
-// rounding direction, ε = 2u: a rounded result keeps at least 1 − ε of a bound, less η if it
-// underflows.
+// They use only |value() − x| <= error(), which every rule gives. If an argument may lie outside
+// the domain, the result's error is infinite. Derivations hold in any rounding direction, ε = 2u: a
+// rounded result keeps at least 1 − ε of a bound, less η if it underflows.
 #pragma once
 
 #include <cassert>
@@ -36,7 +34,6 @@ constexpr T enlarged(const T& bound) {
     return rounded_product(bound, T(1 + 8 * number_traits<T>::epsilon()));
 }
 
-/// At least the error of a result that is rounded to v.
 template <class T>
 constexpr T rounding_of(const T& v) {
     using traits = number_traits<T>;
@@ -44,7 +41,7 @@ constexpr T rounding_of(const T& v) {
            traits::underflow_unit();
 }
 
-/// True if the rule bounds quotients, rather than only naming the reason for having none.
+/// True if the rule bounds quotients. (`divide` may exist only for its message.)
 template <class Rule, class T>
 inline constexpr bool rule_divides = [] {
     if constexpr (requires { Rule::has_division; })
@@ -53,14 +50,13 @@ inline constexpr bool rule_divides = [] {
         return rule_has_divide<Rule, T>;
 }();
 
-/// Infinite, or NaN in formats without infinities, if either error is NaN.
 template <class T, class Rule>
 constexpr T larger_error(const tracked<T, Rule>& a, const tracked<T, Rule>& b) {
     const T x = a.error(), y = b.error();
     return x <= y ? y : y <= x ? x : number_traits<T>::infinity();
 }
 
-/// a if it is certainly not greater than b; otherwise a's value with the larger error.
+/// a if it is certainly at most b; otherwise a's value with the larger error.
 template <class T, class Rule>
 constexpr tracked<T, Rule> lesser_or_either(const tracked<T, Rule>& a, const tracked<T, Rule>& b) {
     const sign_type order = compare(a, b);
@@ -166,14 +162,13 @@ template <class T, class Rule>
 constexpr bool isfinite(const tracked<T, Rule>& x) {
     return number_traits<T>::is_finite(x.value()) && number_traits<T>::is_finite(x.error());
 }
-/// True if the value is NaN.
 template <class T, class Rule>
 constexpr bool isnan(const tracked<T, Rule>& x) {
     return x.value() != x.value();
 }
 
-/// The operand with the lesser value. If the order is uncertain, the error is the larger of the
-/// two: |min(a, b) − min(c, d)| <= max(|a − c|, |b − d|). Proof: proofs/IeeeFunctions.v, min_known.
+/// The operand with the lesser value. If the order is uncertain, it has the larger error, as
+/// |min(a, b) − min(c, d)| <= max(|a − c|, |b − d|). Proof: proofs/IeeeFunctions.v, min_known.
 template <class T, class Rule>
 constexpr tracked<T, Rule>(min)(const tracked<T, Rule>& a, const tracked<T, Rule>& b) {
     return b.value() < a.value() ? detail::lesser_or_either(b, a) : detail::lesser_or_either(a, b);
@@ -270,9 +265,8 @@ constexpr tracked<T, Rule> midpoint(const tracked<T, Rule>& a, const tracked<T, 
     return half + scale(b, -1);
 }
 
-/// a + t(b − a); a if t is exactly 0, b if it is exactly 1. Infinite error if b − a overflows.
-///
-/// With v = fl(t̂·fl(b̂ − â) + â) and errors σ: (1 − t)a + tb − (1 − t̂)â − t̂b̂ = (1 − t)(a − â) +
+/// a + t(b − a); a if t is exactly 0, b if it is exactly 1. Infinite error if b − a overflows. With
+/// v = fl(t̂·fl(b̂ − â) + â) and errors σ: (1 − t)a + tb − (1 − t̂)â − t̂b̂ = (1 − t)(a − â) +
 /// t(b − b̂) + (t − t̂)(b̂ − â), so σa counts |1 − t| times, not 1 + |t|. Two partial sums have up
 /// to six roundings each; seven products may lose η each. Proof: proofs/IeeeCompound.v, lerp_known;
 /// in any direction, proofs/Functions.v, lerp_sound.
@@ -298,11 +292,10 @@ constexpr tracked<T, Rule> lerp(const tracked<T, Rule>& a, const tracked<T, Rule
                                (from_ends + T(from_t + 8 * traits::underflow_unit()))));
 }
 
-/// √(x² + y²), without intermediate overflow or underflow, for at least 8 bits of precision.
-///
-/// Its change is at most its arguments'. With the larger one scaled to at least 1/2, four roundings
-/// and underflow below 3η of the sum are relatively 2ε + ε² + 7η, of the result (ε <= 2^-7) less
-/// than 3ε + 8η. Proof, to nearest: proofs/IeeeCompound.v, hypot_known.
+/// √(x² + y²), without intermediate overflow or underflow. It changes by at most its arguments'
+/// changes. With the larger one scaled to at least 1/2, four roundings and underflow below 3η of
+/// the sum are relatively 2ε + ε² + 7η, of the result (ε <= 2^-7) less than 3ε + 8η. Proof, to
+/// nearest: proofs/IeeeCompound.v, hypot_known.
 template <class T, class Rule>
 constexpr tracked<T, Rule> hypot(const tracked<T, Rule>& x, const tracked<T, Rule>& y) {
     using traits = number_traits<T>;
@@ -312,7 +305,6 @@ constexpr tracked<T, Rule> hypot(const tracked<T, Rule>& x, const tracked<T, Rul
                   "subnormal numbers");
     const T larger = (traits::max)(traits::abs(x.value()), traits::abs(y.value()));
     const T inherited = x.error() + y.error();
-    // A value that is not finite has an infinite error.
     if (!traits::is_finite(inherited)) return number::within(larger, traits::infinity());
     if (larger == 0) return number::within(T(0), detail::enlarged<T>(inherited));
     const int e = traits::exponent(larger);
@@ -339,7 +331,7 @@ constexpr tracked<T, Rule> copysign(const tracked<T, Rule>& x, const tracked<T, 
     return tracked<T, Rule>::within(v, detail::enlarged<T>(2 * size.value() + size.error()));
 }
 
-/// x^n by repeated squaring; x^0 is 1. For n < 0 1/x^|n|, with infinite error for a rule without
+/// x^n by repeated squaring; x^0 is 1. The error of 1/x^|n| is infinite if the rule has no
 /// division. Other exponents: errbound/elementary.hpp. Proof: proofs/IeeeCompound.v, pow_known.
 template <class T, class Rule, std::same_as<int> Int>
 constexpr tracked<T, Rule> pow(const tracked<T, Rule>& x, Int n) {
@@ -444,12 +436,13 @@ constexpr tracked<T, Rule> horner_of(std::size_t count, const C& c, const tracke
 /// a₀b₀ + a₁b₁ + ...; 0 if empty. The value is that of s = 0, s = s + aᵢbᵢ in order, each operation
 /// rounded. Precondition (asserted): a and b have equal size.
 ///
-/// The bound is the rule's dot_bound (`relative`; `tight` and `sharp`, from 8 and 5 bits of
-/// precision on: the running error bound), which costs less and exceeds that of the operations by a
-/// last place or two at most. Otherwise that of the operations: for `residual` the compensated dot
-/// product (Ogita, Rump, Oishi 2005). The worst case for exact arguments is about nuΣ|aᵢbᵢ|. Proof:
-/// proofs/IeeeDotProduct.v, tight_dot_known, sharp_dot_known; proofs/IeeeRelative.v,
-/// relative_dot_known; of operations one by one, proofs/IeeeCompound.v, dot_known.
+/// The bound is the rule's dot_bound (`relative`; `tight` and `sharp` from 8 and 5 bits of
+/// precision on: the running error bound). It costs less and exceeds that of the single operations
+/// by at most a last place or two. Other rules use single operations, for `residual` the
+/// compensated dot product (Ogita, Rump, Oishi 2005). The worst case for exact arguments is about
+/// nuΣ|aᵢbᵢ|. Proof: proofs/IeeeDotProduct.v, tight_dot_known, sharp_dot_known;
+/// proofs/IeeeRelative.v, relative_dot_known; of operations one by one, proofs/IeeeCompound.v,
+/// dot_known.
 template <tracked_numbers A, tracked_numbers B>
 requires std::same_as<detail::number_of<A>, detail::number_of<B>>
 constexpr detail::number_of<A> dot(const A& a, const B& b) {
@@ -461,15 +454,13 @@ constexpr detail::number_of<A> dot(const A& a, const B& b) {
         [&](std::size_t i) -> decltype(auto) { return detail::number_at(b, i); });
 }
 
-/// c₀ + c₁x + c₂x² + ...; 0 if empty. The value is that of Horner's rule, s = cₙ, s = s·x + cᵢ,
-/// each operation rounded.
+/// c₀ + c₁x + c₂x² + ...; 0 if empty. The value is that of Horner's rule, each operation rounded.
 ///
-/// The bound is that of these operations. If x is not exact, it is that of p(x̂) + q(x)(x − x̂) if
-/// that is less; x̂ = x.value(), and q's coefficients are the partial results at x̂ (synthetic
-/// division). So x's error counts p'(x̂) times, plus second order in |x − x̂|², not once per
-/// occurrence. Cost: three times that of the operations if x is not exact. Proof:
-/// proofs/IeeeCompound.v, horner_known; of `tight` in any direction, proofs/Compound.v,
-/// tight_horner_sound.
+/// The bound is that of these operations, or that of p(x̂) + q(x)(x − x̂) if it is less; x̂ =
+/// x.value(), and q's coefficients are the partial results at x̂ (synthetic division). So x's error
+/// counts p'(x̂) times, plus second order in |x − x̂|², not once per occurrence. Cost: three times
+/// that of the operations if x is not exact. Proof: proofs/IeeeCompound.v, horner_known; of `tight`
+/// in any direction, proofs/Compound.v, tight_horner_sound.
 template <tracked_numbers C>
 constexpr detail::number_of<C> horner(const C& c,
                                       const std::type_identity_t<detail::number_of<C>>& x) {

@@ -34,7 +34,6 @@ constexpr int exponent_by_steps(const T& x) {
     return e;
 }
 
-/// True if fma of this type is an instruction, not a call of the C library.
 template <class T>
 inline constexpr bool fma_is_instruction =
 #if defined(__FP_FAST_FMA) || defined(__FMA__) || defined(__AVX512F__) || defined(__CUDA_ARCH__)
@@ -61,7 +60,7 @@ struct number_traits {
     static constexpr T epsilon() { return std::numeric_limits<T>::epsilon(); }
     /// Largest relative error of one rounding to nearest: u = ε/2.
     static constexpr T unit_roundoff() { return epsilon() / 2; }
-    /// Smallest positive number η: an operation that underflows is off by less than this.
+    /// η, the smallest positive number. An operation that underflows is off by less than this.
     static constexpr T underflow_unit() {
         // Boost.Multiprecision's denorm_min is 0 if there are no subnormal numbers.
         if constexpr (has_subnormals)
@@ -75,19 +74,17 @@ struct number_traits {
     static constexpr T infinity() { return std::numeric_limits<T>::infinity(); }
     static constexpr bool has_infinity = std::numeric_limits<T>::has_infinity;
     static constexpr int max_exponent = std::numeric_limits<T>::max_exponent;
-    /// 2^(min_exponent − 1) is the smallest normal number; 2^max_exponent is just too large. (The
-    /// limits of Boost's cpp_bin_float are one less for both.)
+    /// 2^(min_exponent − 1) is the smallest normal number, 2^max_exponent just too large. (Both
+    /// limits of Boost's cpp_bin_float are one less.)
     static constexpr int min_exponent = std::numeric_limits<T>::min_exponent;
-    /// True if there are subnormal numbers. If not, any operation that underflows, even a sum, is
-    /// off by less than the smallest normal number, which is then the underflow unit.
+    /// If false, η is the smallest normal number, and even sums may underflow.
     static constexpr bool has_subnormals = [] {
         if constexpr (std::is_floating_point_v<T>)
             return true;
         else
             return std::numeric_limits<T>::has_denorm == std::denorm_present;
     }();
-    /// The precision p: bits of a normal number's significand, ε = 2^(1−p).
-    static constexpr int digits = std::numeric_limits<T>::digits;
+    static constexpr int digits = std::numeric_limits<T>::digits;  ///< the precision p in bits
 
     static constexpr T abs(const T& x) {
         // fabs is one instruction. The comparison takes more, as it keeps the sign of a zero.
@@ -141,8 +138,7 @@ struct number_traits {
     }
 };
 
-/// True if T has infinities, or if its custom number_traits does not define has_infinity. A type
-/// without infinities overflows to NaN, and its `max` passes NaN on.
+/// True if T has infinities (the default). Otherwise overflow gives NaN, and `max` passes NaN on.
 template <class T>
 inline constexpr bool has_infinity = [] {
     if constexpr (requires { number_traits<T>::has_infinity; })
@@ -153,8 +149,7 @@ inline constexpr bool has_infinity = [] {
 
 namespace detail {
 
-/// The type in which T's operations are computed before they are rounded to T: T, unless its
-/// number_traits has a type computed_in.
+/// The type in which T's operations are computed before rounding to T: its computed_in, or T.
 template <class T>
 struct type_that_computes {
     using type = T;

@@ -1,14 +1,13 @@
 // Real roots and signs of polynomials of any degree, always exact.
-//
 //   const errbound::polynomial p{-2.0, 0.0, 1.0};       // x² − 2: coefficients ascend
 //   auto roots = errbound::isolate_roots(p, 0, 10);
 //   roots.refine(0, 1e-30);                             // roots[0].low < √2 < roots[0].high
 //   roots.sign_at(errbound::polynomial{-1.5, 1.0}, 0);  // of x − 1.5 at √2: negative
 //
-// Intervals [a, b] are closed. Preconditions (asserted): coefficients are finite, a <= b, and a and
-// b are not the same infinity. Calls throw only std::bad_alloc, after which roots found before stay
-// valid; refine also throws std::invalid_argument. With GMP's integers, lack of memory ends the
-// program. Degree and coefficient size bound the cost: docs/polynomials.md.
+// Preconditions (asserted): coefficients are finite, a <= b in [a, b], and a and b are not the same
+// infinity. Calls throw only std::bad_alloc, after which roots found before stay valid; refine also
+// throws std::invalid_argument. With GMP's integers, lack of memory ends the program. Cost:
+// docs/polynomials.md.
 #pragma once
 
 #include <algorithm>
@@ -68,12 +67,11 @@ auto unless_given_up(const Find& find) -> std::optional<decltype(find())> {
 
 }  // namespace roots
 
-/// The distinct roots of p in [a, b], a <= b, in disjoint intervals, with multiplicities.
-///
-/// Coefficients: double, float, built-in integers, unbounded integers or rationals
-/// (errbound::integer, Boost.Multiprecision). roots::staged prepares p for two stages: floating
-/// point, then integers. These are errbound::integer, the coefficients' own type, or a named one,
-/// as in count_roots<mpz_int>(p, a, b).
+/// The distinct roots of p in [a, b], in disjoint intervals, with multiplicities. Coefficients are
+/// double, float, built-in integers, unbounded integers or rationals (errbound::integer,
+/// Boost.Multiprecision). roots::staged prepares p for two stages: floating point, then integers.
+/// These are errbound::integer, the coefficients' own type, or Integer, as in
+/// count_roots<mpz_int>(p, a, b).
 template <class Integer = void, class C>
 auto isolate_roots(const polynomial<C>& p, double a, double b) {
     using exact = roots::integer_for_t<Integer, C>;
@@ -87,8 +85,8 @@ auto isolate_roots(const polynomial<C>& p, double a, double b, const root_limits
         [&] { return real_roots<exact>(roots::staged<exact>(p), a, b, limits); });
 }
 
-/// The distinct real roots of p, ascending, each rounded to the nearest double; two may round to
-/// the same one. Precondition (asserted): p is not identically zero.
+/// The distinct real roots of p, ascending, each rounded to the nearest double, so two may be
+/// equal. Precondition (asserted): p is not identically zero.
 template <class Integer = void, class C>
 std::vector<double> rounded_roots(const polynomial<C>& p) {
     constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -123,7 +121,7 @@ std::size_t count_within(const polynomial<C>& p, double a, double b, const root_
 
 }  // namespace roots
 
-/// The number of distinct roots of p in [a, b], a <= b; `infinitely_many` if p is identically zero.
+/// The number of distinct roots of p in [a, b]; `infinitely_many` if p is identically zero.
 template <class Integer = void, class C>
 std::size_t count_roots(const polynomial<C>& p, double a, double b) {
     return roots::count_within<Integer>(p, a, b, {});
@@ -135,8 +133,8 @@ std::optional<std::size_t> count_roots(const polynomial<C>& p, double a, double 
     return roots::unless_given_up([&] { return roots::count_within<Integer>(p, a, b, limits); });
 }
 
-/// The count, if floating point proves that all polynomials within the coefficients' bounds have
-/// it; otherwise empty. For rules that store only the absolute error: tight and sharp.
+/// The count if floating point proves it for all polynomials within the coefficients' bounds,
+/// otherwise empty. The rule must store only the absolute error, as tight and sharp do.
 template <class Rule>
 std::optional<std::size_t> count_roots(const polynomial<tracked<double, Rule>>& p, double a,
                                        double b) {
@@ -144,8 +142,7 @@ std::optional<std::size_t> count_roots(const polynomial<tracked<double, Rule>>& 
                   "errbound: count_roots needs a rule that stores only the absolute error, as "
                   "tight and sharp do: convert by within(x.value(), x.error())");
     assert(roots::is_interval(a, b));
-    // The filter needs roots other than 0.
-    std::span others(p.coefficients());
+    std::span others(p.coefficients());  // the filter needs roots other than 0
     while (!others.empty() && others[0].value() == 0 && others[0].error() == 0)
         others = others.subspan(1);
     if (others.empty()) return infinitely_many;
@@ -169,13 +166,13 @@ auto common_factor(const polynomial<C>& p, const polynomial<C>& q) {
         roots::common_factor(roots::staged<exact>(p).exact(), roots::staged<exact>(q).exact()));
 }
 
-/// The common roots of p and q in [a, b], a <= b, with the lower multiplicity.
+/// The common roots of p and q in [a, b], with the lower multiplicity.
 template <class Integer = void, class C>
 auto common_roots(const polynomial<C>& p, const polynomial<C>& q, double a, double b) {
     return isolate_roots(common_factor<Integer>(p, q), a, b);
 }
 
-/// The signs of p on [a, b], a <= b.
+/// The signs that p takes on [a, b].
 template <class Integer = void, class C>
 occurring_signs sign_on(const polynomial<C>& p, double a, double b) {
     using exact = roots::integer_for_t<Integer, C>;
@@ -231,8 +228,8 @@ existence by_bsc(const staged_polynomial<Integer>& f,
 
 }  // namespace roots
 
-/// True if some t in [a, b], a <= b, has f(t) = 0 and every g_i(t) >= 0. If f is cubic, one to four
-/// g_i are quartic (or lower) and the interval is finite, BSC (errbound/bsc.hpp) runs first.
+/// True if some t in [a, b] has f(t) = 0 and every g_i(t) >= 0. If f is cubic, one to four g_i are
+/// quartic (or lower) and the interval is finite, BSC (errbound/bsc.hpp) runs first.
 template <class Integer = void, class C>
 bool root_where_nonnegative(const polynomial<C>& f, const std::vector<polynomial<C>>& g, double a,
                             double b) {

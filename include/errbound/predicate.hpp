@@ -1,13 +1,12 @@
 // Predicates: an expression, written once, whose sign is right on every finite input.
-//
 //   inline constexpr auto orient2d = errbound::predicate<errbound::points<2, 2, 2>>(
 //       [](const auto& a, const auto& b, const auto& c) {
 //           return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
 //       });
 //   errbound::sign_type s = orient2d(p, q, r);  // arrays, spans, Eigen vectors, structs of x, y, z
 //
-// The sign is never wrong, overflow and underflow included. It is `uncertain` only if a coordinate
-// is not finite. Needs rounding to nearest and gradual underflow (errbound/environment.hpp). No
+// The sign is never wrong, overflow and underflow included, and `uncertain` only if a coordinate is
+// not finite. Needs rounding to nearest and gradual underflow (errbound/environment.hpp). No
 // exceptions, no global state, no allocation. See predicate() for rules, stages and cost.
 #pragma once
 
@@ -43,10 +42,9 @@ struct points {
     }
 };
 
-/// The defaults; derive from them to change some.
+/// The defaults. Derive from them to change some.
 struct predicate_options {
-    /// Bound rule of the tracked stage, which computes with tracked numbers; void: no such stage.
-    using tracked_rule = void;
+    using tracked_rule = void;  ///< bound rule of the tracked stage; void: no such stage
     /// Exact number type of the last stage, constructible from double; void: long_integer. For
     /// Boost.Multiprecision's types see predicate_type::value.
     using exact_type = void;
@@ -133,9 +131,8 @@ class predicate_type {
         }
         return stages::template decide<number_of<Points...>>(stages::listed(p...), &report);
     }
-    /// The first filter's value and bound, or the sign_type of an expression that branches. Stored
-    /// is true if coordinates are read from memory. If they are computed, each is rounded first, so
-    /// that no product in one is fused with a difference.
+    /// The first filter's value and bound, or the sign_type of an expression that branches. Stored:
+    /// coordinates are read from memory. Others are rounded first, so no product in one is fused.
     template <bool Stored = false, class... Points>
     static constexpr auto estimate(const Points&... p) {
         using T = number_of<Points...>;
@@ -152,7 +149,7 @@ class predicate_type {
                 return filters::sign_estimate<T>{x.value, x.bound()};
         }
     }
-    /// The static filter's result, with value and bound(); a sign_type if the expression branches.
+    /// The static filter's value and bound(), or the sign_type of an expression that branches.
     template <bool Stored = false, class... Points>
     static constexpr auto filtered(const Points&... p) {
         using scalars = filters::filtered_scalars<number_of<Points...>, Stored, Points...>;
@@ -212,14 +209,13 @@ class predicate_type {
     }
 };
 
-/// The predicate of an expression: a function of +, − and × on coordinates and int constants.
-/// Every result has its own type, so variables are `auto` and never reassigned. An expression that
-/// branches on sign_of(x) returns a sign_type. It must return `uncertain` rather than branch on an
+/// The predicate of an expression: a function of +, − and × on coordinates and int constants. Every
+/// result has its own type, so variables are `auto` and never reassigned. An expression that
+/// branches on sign_of(x) returns a sign_type, and returns `uncertain` rather than branch on an
 /// uncertain sign.
 ///
 /// The stages (`predicate_stage`) run in this order until one is certain:
-/// - semi_static_filter, from degree 5 on: floating point, with a bound from the largest coordinate
-///   difference;
+/// - semi_static_filter, from degree 5 on: the bound needs only the largest coordinate difference;
 /// - static_filter: floating point, with a bound whose constant is counted at compile time;
 /// - tracked: errbound::tracked under the options' rule, if any;
 /// - exact stages, on coordinates as integers times one power of two. exact_doubles and

@@ -1,13 +1,10 @@
-// Predicates on many inputs. The first filter runs on several inputs at a time, one in each SIMD
-// lane.
-//
+// Predicates on many inputs. The first filter runs on several inputs at a time by SIMD.
 //   std::vector<std::array<double, 2>> a, b, c;
 //   std::vector<errbound::sign_type> signs(a.size());
 //   errbound::batch_signs(errbound::orient2d, signs, a, b, c);
 //
-// The signs equal those of single calls, on every instruction set. The compiler vectorises the
-// loops (clang from -O2, GCC from -O3). On x86-64 they are compiled also for AVX2 and AVX-512, and
-// the best that the processor has are chosen at run time.
+// The signs equal those of single calls. The compiler vectorises the loops (clang from -O2, GCC
+// from -O3), on x86-64 also for AVX2 and AVX-512. The processor is tested at run time.
 #pragma once
 
 #include <array>
@@ -69,7 +66,6 @@ constexpr bool has_inputs(const Range& range, std::size_t count) {
         return true;
 }
 
-/// True if coordinates are read from memory, not computed by coordinate_of.
 template <class Point>
 inline constexpr bool has_stored_coordinates =
     std::is_arithmetic_v<Point> || std::is_array_v<Point>;
@@ -127,8 +123,8 @@ auto blocks_of(const coordinate_arrays<U, N>& arrays) {
     return stored_arrays_block<U, N>{arrays};
 }
 
-/// Sets block_size signs by the first filter; returns true if all are certain. The codes have type
-/// T, so all lanes have one width.
+/// Sets block_size signs by the first filter; returns true if all are certain. The codes have the
+/// type T, so that all lanes have one width.
 template <class Predicate, class... Ranges>
 [[gnu::always_inline]] inline bool filter_block(sign_type* signs, const Ranges&... p) {
     using T = decltype(Predicate::estimate(p[0]...).value);
@@ -207,9 +203,8 @@ void batch_over(const Predicate& predicate, std::span<sign_type> signs, std::ind
 
 /// Sets signs[i] to the predicate's sign of the points with index i, one of each range. For the
 /// columns of a matrix pass m.colwise(). Precondition: each range has at least signs.size() points.
-/// coordinate_arrays and contiguous ranges of numbers or arrays are read in place. Other ranges,
-/// such as structs or Eigen's vectors, are copied, 64 points at a time. Expressions that branch are
-/// evaluated one by one. No allocation.
+/// coordinate_arrays and contiguous ranges of numbers or arrays are read in place, others copied,
+/// 64 points at a time. Expressions that branch are evaluated one by one. No allocation.
 template <class Predicate, class... Ranges>
 void batch_signs(const Predicate& predicate, std::span<sign_type> signs, const Ranges&... p) {
     assert((detail::has_inputs(p, signs.size()) && ...) &&

@@ -119,7 +119,6 @@ constexpr sign_type segments_intersect(const auto& a, const auto& b, const auto&
         if (abc == sign_type::zero && abd == sign_type::zero && cda == sign_type::zero &&
             cdb == sign_type::zero)
             continue;
-        // Positive if the other segment's ends are on different sides.
         const sign_type of_ab = -(abc * abd), of_cd = -(cda * cdb);
         if (of_ab == sign_type::negative || of_cd == sign_type::negative)
             return sign_type::negative;
@@ -141,7 +140,6 @@ constexpr sign_type segment_triangle(const auto& p, const auto& q, const auto& a
     if (!certain(side_p) || !certain(side_q)) return sign_type::uncertain;
     if (side_p != sign_type::zero || side_q != sign_type::zero) {
         if (side_p == side_q) return sign_type::negative;
-        // The line meets the plane in one point, inside the segment.
         const sign_type ab = sign_of(volume(p, q, a, b)), bc = sign_of(volume(p, q, b, c)),
                         ca = sign_of(volume(p, q, c, a));
         const sign_type first = ab * bc, second = bc * ca, third = ca * ab;
@@ -175,8 +173,7 @@ constexpr sign_type segment_triangle(const auto& p, const auto& q, const auto& a
 inline constexpr auto orient2d = predicate<points<2, 2, 2>>(
     [](const auto& a, const auto& b, const auto& c) { return forms::area(a, b, c); });
 
-/// Positive if a, b, c turn right seen from d; zero if coplanar. Proof of its static filter:
-/// proofs/Predicates.v, orient3d_sign_certain.
+/// Positive if a, b, c turn right seen from d. Proof: proofs/Predicates.v, orient3d_sign_certain.
 inline constexpr auto orient3d =
     predicate<points<3, 3, 3, 3>>([](const auto& a, const auto& b, const auto& c, const auto& d) {
         return forms::volume(a, b, c, d);
@@ -250,9 +247,8 @@ inline constexpr auto segments_intersect3d = predicate<points<3, 3, 3, 3>, homog
         return forms::segments_intersect(a, b, c, d);
     });
 
-/// For a closed segment pq and triangle abc: positive if they cross in one point inside both, zero
-/// if they touch otherwise or overlap, negative if disjoint. Degenerate ones count as segments or
-/// points.
+/// Like segments_intersect3d, for a closed segment pq and triangle abc. Degenerate ones count as
+/// segments or points.
 inline constexpr auto segment_intersects_triangle =
     predicate<points<3, 3, 3, 3, 3>, homogeneous_options>(
         [](const auto& p, const auto& q, const auto& a, const auto& b, const auto& c) {

@@ -1,13 +1,12 @@
 // Prints tracked numbers as decimals: certain digits, or value and radius.
-//
 //   std::cout << x;                         // 0.300000000000000
 //   std::cout << errbound::with_radius(x);  // 0.30000000000000004 ± 6.7e-17
 //   std::format("{:>20}", x);               // if the standard library has it
 //
 // A decimal printed by `<<` is within one unit of its last digit of the exact number, so trailing
-// zeros count: 0.30 is more precise than 0.3. With no certain digit it is a zero, 0.00 or 0e+05, of
-// the possible size. Exact numbers print as the shortest decimal that reads back; infinite errors
-// print "unknown". Width and alignment apply, as for a string; stream precision does not.
+// zeros count. With no certain digit it is a zero, 0.00 or 0e+05, of the possible size. Exact
+// numbers print as the shortest decimal that reads back; infinite errors print "unknown". Width and
+// alignment apply, as for a string; stream precision does not.
 #pragma once
 
 #include <array>
@@ -59,7 +58,7 @@ template <class>
 inline constexpr bool to_chars_is_wrong = false;
 #endif
 
-/// std::to_chars, which rounds exactly. `how`: format and precision; otherwise shortest.
+/// std::to_chars, which rounds exactly. `how`: format and precision; default: shortest.
 template <std::floating_point T, class... How>
 std::string decimal(T x, How... how) {
     if (std::isnan(x)) return "nan";  // the sign of NaN depends on the processor
@@ -84,13 +83,12 @@ inline std::string with_exponent(std::string_view digits, int exponent) {
            std::to_string(size);
 }
 
-/// With 10^(k−1) <= 2·error < 10^k, rounding to 10^k adds at most half a unit, the error another.
+/// Let 10^(k−1) <= 2·error < 10^k. Rounding to 10^k adds at most half a unit, the error another.
 template <std::floating_point T>
 std::string certain_digits(T value, T error) {
     if (!std::isfinite(value) || !std::isfinite(error)) return "unknown";
     if (error == 0) return decimal(value == 0 ? T(0) : value);
-    // 18 digits may round up to the next power of ten, never below one.
-    constexpr int digits = 17;
+    constexpr int digits = 17;  // 18 digits may round up to the next power of ten, never below one
     const bool doubles = error <= (std::numeric_limits<T>::max)() / 2;
     const T scaled = doubles ? 2 * error : error;
     const int k = decimal_exponent(decimal(scaled, std::chars_format::scientific, digits)) +
@@ -117,8 +115,8 @@ std::string certain_digits(T value, T error) {
     return with_exponent("0", mantissa < half ? k : k + 1);
 }
 
-/// Two digits that read back as at least x > 0: at least the shortest decimal of x, since reading
-/// is monotone. (std::from_chars lacks floating point in libc++ before 20.)
+/// Two digits that read back as at least x > 0: at least its shortest decimal, since reading is
+/// monotone. (std::from_chars lacks floating point in libc++ before 20.)
 template <std::floating_point T>
 std::string decimal_not_below(T x) {
     const std::string text = decimal(x, std::chars_format::scientific, 1);

@@ -12,8 +12,8 @@ namespace errbound {
 /// The sign of a number known up to a bound. `uncertain` is not a sign and never converts to one.
 enum class sign_type : std::uint8_t { negative, zero, positive, uncertain };
 
-/// Signs have no order: < does not compile at run time. Use == or certainly_nonnegative(s) and its
-/// neighbours. Generic code needs < in constant expressions to detect if an enumeration is signed.
+/// Signs have no order: compare by == or functions such as certainly_nonnegative. Generic code
+/// needs < in constant expressions to detect if an enumeration is signed.
 consteval bool operator<(sign_type s, sign_type t) {
     return static_cast<int>(s) < static_cast<int>(t);
 }
@@ -46,7 +46,6 @@ constexpr bool possibly_zero(sign_type s) {
     return s == sign_type::zero || s == sign_type::uncertain;
 }
 
-/// The sign of −x.
 constexpr sign_type operator-(sign_type s) {
     if (s == sign_type::negative) return sign_type::positive;
     if (s == sign_type::positive) return sign_type::negative;
@@ -68,7 +67,6 @@ inline constexpr bool is_exact_number = false;
 template <class T>
 concept exact_number = is_exact_number<T>;
 
-/// The sign of an exact number: never uncertain.
 template <exact_number T>
 constexpr sign_type sign_of(const T& x) {
     if (x > 0) return sign_type::positive;

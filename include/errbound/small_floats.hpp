@@ -1,13 +1,12 @@
 // Number formats of 8 and 16 bits: binary16, bfloat16, and the Open Compute Project's E5M2 and
 // E4M3. Storage types with arithmetic, also in constant expressions and device code.
-//
 //   errbound::float16 x(0.1);                       // the nearest one: 0.1 is rounded once
 //   const float wide(x * x);                        // exact
 //   errbound::tracked<errbound::bfloat16> y(...);   // with a bound
 //
 // Conversions from float and double, and operations, round once, to nearest even. E4M3 has no
-// infinities: numbers up to 448 and one NaN, which larger results give (no saturation: a bound
-// would not notice it). Source: OCP 8-bit Floating Point Specification (OFP8), 1.0, 2023.
+// infinities: results above 448 are NaN (no saturation, which a bound would not notice). Source:
+// OCP 8-bit Floating Point Specification (OFP8), 1.0, 2023.
 #pragma once
 
 #include <bit>
@@ -23,9 +22,8 @@
 
 namespace errbound {
 
-/// A format with these bits of precision and exponent, in IEEE 754 layout with gradual underflow:
-/// sign bit, exponent, Precision − 1 bits of fraction. Without infinities, the all-ones code is
-/// NaN, and the other codes of the largest exponent are numbers.
+/// IEEE 754 layout with gradual underflow. Without infinities, the all-ones code is NaN, and the
+/// other codes of the largest exponent are numbers.
 template <int Precision, int ExponentBits, bool HasInfinity = true>
 class small_float {
     static_assert(Precision + ExponentBits == 8 || Precision + ExponentBits == 16,
@@ -42,11 +40,9 @@ class small_float {
 
     /// 2^least_exponent is the smallest normal number.
     static constexpr int least_exponent = 2 - (1 << (ExponentBits - 1));
-    /// Codes without sign are ordered as the numbers are.
     static constexpr int largest_code =
         HasInfinity ? (((1 << ExponentBits) - 1) << (Precision - 1)) - 1 : codes / 2 - 2;
-    /// Result of overflow: infinity, or NaN without infinities.
-    static constexpr int overflow_code = largest_code + 1;
+    static constexpr int overflow_code = largest_code + 1;  ///< infinity, or NaN without infinities
     static constexpr int nan_code = codes / 2 - 1;
 
     constexpr small_float() = default;
@@ -101,7 +97,7 @@ class small_float {
     }
 
   private:
-    /// The integer, or one of 46 to 53 bits that rounds equally (the last bit is sticky).
+    /// The integer, or one of 46 to 53 bits that rounds equally, because its last bit is sticky.
     template <class Source>
     static constexpr double as_double(Source value) {
         constexpr int digits = std::numeric_limits<double>::digits;
@@ -135,7 +131,7 @@ class small_float {
         const int sign = static_cast<int>(all >> top) << (bits - 1);
         if (size > (bits_of_source{2 * bias + 1} << fraction))
             return static_cast<code_type>(sign | nan_code);
-        // The source's subnormals round to 0, except for bfloat16, whose exponent range is float's.
+        // The source's subnormals round to 0, except for bfloat16, which has float's exponents.
         const int below = least_exponent + bias - static_cast<int>(size >> fraction);
         bits_of_source units = 0;
         if (below <= 0 || least_exponent == 1 - bias)
@@ -182,8 +178,7 @@ using float8_e4m3 = small_float<4, 4, false>;  ///< no infinities; at most 448
 template <int P, int E, bool HasInfinity>
 struct number_traits<small_float<P, E, HasInfinity>> {
     using number = small_float<P, E, HasInfinity>;
-    /// Rules that can keep bounds in floats do so (tracked.hpp).
-    using computed_in = float;
+    using computed_in = float;  ///< rules that can keep bounds in floats do so (tracked.hpp)
     static constexpr int digits = P;
     static constexpr bool has_infinity = HasInfinity;
     static constexpr int max_exponent = (1 << (E - 1)) + (HasInfinity ? 0 : 1);
@@ -194,7 +189,6 @@ struct number_traits<small_float<P, E, HasInfinity>> {
     static constexpr number underflow_unit() { return number::from_code(1); }
     static constexpr number smallest_normal() { return number::from_code(1 << (P - 1)); }
     static constexpr number largest() { return number::from_code(number::largest_code); }
-    /// NaN without infinities; it also stands for "no bound".
     static constexpr number infinity() { return number::from_code(number::overflow_code); }
 
     static constexpr number abs(const number& x) {
@@ -212,8 +206,8 @@ struct number_traits<small_float<P, E, HasInfinity>> {
     static constexpr number sqrt(const number& x) {
         return number(std::sqrt(static_cast<float>(x)));
     }
-    /// The product is exact in double; the sum is rounded to odd there, so rounding again to fewer
-    /// than 52 bits is harmless (Boldo, Melquiond 2008, Emulation of FMA).
+    /// The product is exact in double. The sum is rounded to odd there, so that rounding it again
+    /// is harmless (Boldo, Melquiond 2008, Emulation of FMA).
     static constexpr number fma(const number& a, const number& b, const number& c) {
         const double product = static_cast<double>(a) * static_cast<double>(b);
         const auto [sum, error] = two_sum(product, static_cast<double>(c));

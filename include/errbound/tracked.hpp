@@ -1,12 +1,11 @@
 // The tracked scalar: a value and a certified bound on its rounding error.
-//
 //   using number = errbound::tracked<double>;            // rule `tight`
 //   number x = 0.1, y = number::within(0.2, 1e-12);      // exact; known to within 1e-12
 //   sign_of(x * y - x);                                  // never a guess
 //
 // In a sound environment (environment.hpp), the result x of exact arithmetic lies within x.error()
-// of x.value(). This holds for every rule that promises a bound (promises_bound in rules/rule.hpp).
-// A literal is the double nearest to it: 0.1 above is that double, not a tenth. No exceptions, no
+// of x.value(). This holds under every rule for which promises_bound (rules/rule.hpp) is true. A
+// literal is the double nearest to it: 0.1 above is that double, not a tenth. No exceptions, no
 // allocation, no global state, no virtual calls.
 #pragma once
 
@@ -71,8 +70,7 @@ struct type_of_bounds<T, Rule> {
 template <class T, class Rule>
 inline constexpr bool bounds_are_wider = !std::is_same_v<typename type_of_bounds<T, Rule>::type, T>;
 
-// Their names appear in the compiler's message.
-struct use_compare_or_by_value;
+struct use_compare_or_by_value;  // their names appear in the compiler's message
 struct use_sign_of_or_compare {};
 
 }  // namespace detail
@@ -96,7 +94,6 @@ class tracked {
     using bound_type =
         typename Rule::template bound<typename detail::type_of_bounds<T, Rule>::type>;
 
-    /// Exactly zero.
     constexpr tracked() : tracked(T(0)) {}
     /// Exactly `value`. Implicit, so that generic code may mix numbers and tracked numbers.
     constexpr tracked(const T& value) : tracked(exactly(detail::rounded(value))) {}
@@ -196,11 +193,10 @@ class tracked {
         if (v < -e) return sign_type::negative;
         return v == 0 && e == 0 ? sign_type::zero : sign_type::uncertain;
     }
-    /// The certain sign of a − b. Operator < is deleted, as it would have to guess; see by_value.
+    /// The sign of a − b. Operator < is deleted, as it would have to guess; see by_value.
     friend constexpr sign_type compare(const tracked& a, const tracked& b) {
         return sign_of(a - b);
     }
-    /// The compiler's message names the functions to use.
     friend detail::use_compare_or_by_value operator<=>(const tracked&, const tracked&) = delete;
 
   private:
@@ -208,14 +204,12 @@ class tracked {
     using wide = typename detail::type_of_bounds<T, Rule>::type;
 
     static constexpr tracked exactly(const T& value) { return {value, Rule::exact(wide(value))}; }
-    /// May be NaN.
     constexpr wide own_error() const { return Rule::error(wide(value_), bound_); }
     constexpr tracked<wide, Rule> widened() const requires widens {
         return tracked<wide, Rule>::from_bound(wide(value_), bound_);
     }
-    /// The same exact number as x, with value v: the sum of x and a displacement D. D has the value
-    /// d = v − x.value(), but its exact number is 0. If d is rounded, so that the sum's value is
-    /// not v, the error is infinite.
+    /// The exact number of x with the value v: the sum of x and a displacement, which has the value
+    /// d = v − x.value() and the exact number 0. Infinite error if the sum's value is not v.
     static constexpr tracked rounded_from(const T& v,
                                           const tracked<wide, Rule>& x) requires widens {
         const wide d = wide(v) - x.value();

@@ -1,5 +1,4 @@
-// Operating system calls for programs and files: posix.cpp and windows.cpp. Failures leave the
-// reason in errno.
+// Operating system calls: posix.cpp and windows.cpp. Failures leave the reason in errno.
 #pragma once
 
 #include <cstddef>
@@ -14,15 +13,13 @@ namespace errbound::support::system {
 /// grows the main thread's stack. Throws std::bad_alloc.
 void start_program();
 
-/// True for a terminal that supports ANSI control sequences.
-bool is_terminal(int descriptor);
+bool is_terminal(int descriptor);  ///< one that supports ANSI control sequences
 
 std::size_t peak_memory_bytes();
-/// The machine's memory, and the average number of runnable threads over a minute (0 if unknown).
+/// The machine's memory, and the runnable threads, averaged over a minute (0 if unknown).
 double memory_bytes();
 double load();
-/// The program's file; empty if unknown.
-std::filesystem::path program_file();
+std::filesystem::path program_file();  ///< empty if unknown
 int process_number();
 /// Runs a program with one argument. Returns its exit status; 127 if it cannot run.
 int run(const char* program, const std::string& argument);
@@ -30,30 +27,26 @@ int run(const char* program, const std::string& argument);
 /// Separators in a path; true if devices have names as /dev/stdin.
 extern const std::string_view separators;
 extern const bool has_device_files;
-/// The system's bytes, or UTF-8 if it has none; also for the names below. (Strings, since libstdc++
-/// 12's paths never return if memory runs out.)
+/// The system's bytes, or UTF-8 if it has none; also for the names below. (libstdc++ 12's paths
+/// never return if memory runs out.)
 std::string native_name(const std::filesystem::path& path);
-/// Resolves links; empty if there is no such file.
-std::string real_name(const std::string& name);
+std::string real_name(const std::string& name);  ///< without links; empty if there is no such file
 /// True if two absolute names without links are the same for the system.
 bool are_one_name(const std::string& a, const std::string& b);
 bool exists(const std::string& name);
 bool may_write(const std::string& file);
 bool may_write_in(const std::string& folder);
-/// Renames, and replaces `to`.
-bool replace(const std::string& from, const std::string& to);
+bool replace(const std::string& from, const std::string& to);  ///< renames
 bool remove(const std::string& file);
 
-/// Return descriptors, or -1. The file must not exist; the user's mask sets its rights.
+/// Return descriptors, or -1. The user's mask sets the rights of the file, which must not exist.
 int create(const std::string& file);
 int open_to_write(const std::string& file);
-/// A new file to write and read; replaces the name's last six letters.
-int create_named(std::string& pattern);
+int create_named(std::string& pattern);  ///< replaces the name's last six letters
 int close(int descriptor);
 /// Bytes written or read, or -1.
 std::ptrdiff_t write(int descriptor, const char* from, std::size_t size);
 std::ptrdiff_t read_at(int descriptor, std::uint64_t offset, char* to, std::size_t size);
-/// Sets the file's rights to those of another.
 void copy_rights(int descriptor, const std::string& other);
 
 /// A descriptor that locks the folder against other processes until it is closed. -1 with

@@ -165,7 +165,6 @@ std::ptrdiff_t read_at(int descriptor, std::uint64_t offset, char* to, std::size
 }
 void copy_rights(int, const std::string&) {}
 
-// An exclusive file, deleted with its descriptor.
 int lock(const std::string& folder) {
     const HANDLE file = CreateFileW(wide(folder + "\\.lock").c_str(), GENERIC_WRITE, 0, nullptr,
                                     OPEN_ALWAYS, FILE_FLAG_DELETE_ON_CLOSE, nullptr);

@@ -8,7 +8,7 @@
 
 namespace errbound::detail {
 
-/// Number of leading zero bits; all of T's bits for x == 0.
+/// All of T's bits for x == 0, as in <bit>.
 template <class T>
 constexpr int countl_zero(T x) {
 #ifdef __CUDA_ARCH__
@@ -23,7 +23,6 @@ constexpr int countl_zero(T x) {
 #endif
 }
 
-/// Number of trailing zero bits; all of T's bits for x == 0.
 template <class T>
 constexpr int countr_zero(T x) {
 #ifdef __CUDA_ARCH__
@@ -35,7 +34,6 @@ constexpr int countr_zero(T x) {
 #endif
 }
 
-/// 1 + floor(log2 x), and 0 for x == 0.
 template <class T>
 constexpr int bit_width(T x) {
     return std::numeric_limits<T>::digits - countl_zero(x);

@@ -7,10 +7,9 @@
 namespace errbound::detail {
 
 /// x, which the compiler must not fuse into a sum (-ffp-contract=fast, GCC's default, fuses across
-/// statements). No operation; without fused multiply-add (x86-64 by default) nothing at all.
-/// Elsewhere an empty asm statement, which prevents vectorising; g++ 12 drops
-/// __builtin_assoc_barrier. Class types are returned unchanged: build SIMD packs with
-/// -ffp-contract=off.
+/// statements). Costs nothing if there is no fused multiply-add (x86-64 by default). Elsewhere it
+/// is an empty asm statement, which prevents vectorising; g++ 12 drops __builtin_assoc_barrier.
+/// Class types are returned unchanged: build SIMD packs with -ffp-contract=off.
 template <class T>
 constexpr T rounded(const T& x) {
     return x;
@@ -58,7 +57,6 @@ constexpr __float128 rounded(const __float128& x) {
 #endif
 #endif
 
-/// a·b, rounded separately.
 template <class T>
 constexpr T rounded_product(const T& a, const T& b) {
 #if defined(__CUDA_ARCH__)

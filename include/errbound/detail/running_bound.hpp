@@ -22,7 +22,6 @@ class running_bound {
     static constexpr int most = terms_at_once(Bits);
 
   protected:
-    /// True if a factor covers any term.
     static constexpr bool pays = most > 0;
 
     template <class Operand>

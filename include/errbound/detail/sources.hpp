@@ -7,7 +7,6 @@
 
 namespace errbound::detail {
 
-/// A source without a number.
 inline constexpr std::uint64_t no_source = 0;
 
 #if !defined(__CUDA_ARCH__)

@@ -1,8 +1,7 @@
-// The bound of a sum: its rounding error and the operands' bounds. Internal; for the rules.
-//
-// The factor 1 + 8ε for a bound's roundings also enlarges the operands' bounds: n times in a sum of
-// n terms. If they are below 2^k times the sum's own error, 2^k = 2^-10/ε, it adds at most 2^-7 of
-// that error. Otherwise bounds are added upwards. Types of 40 bits or more use only the factor.
+// The bound of a sum: its rounding error and the operands' bounds. The factor 1 + 8ε for a bound's
+// roundings also enlarges the operands' bounds: n times in a sum of n terms. If these are below 2^k
+// times the sum's own error, 2^k = 2^-10/ε, the factor adds at most 2^-7 of that error. Otherwise
+// bounds are added upwards. Types of 40 bits or more use only the factor.
 #pragma once
 
 #include <algorithm>

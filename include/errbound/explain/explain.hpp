@@ -1,5 +1,4 @@
 // Where the error of a result comes from. Includes everything needed; tutorial: docs/how-wrong.md.
-//
 //   using number = errbound::tracked<double, errbound::explained<>>;
 //   number mean(std::span<const number> x) {
 //       const errbound::scope s("mean");

@@ -1,5 +1,4 @@
 // A rule over a rule: records where the error of a tracked number comes from.
-//
 //   using number = errbound::tracked<double, errbound::explained<errbound::tight>>;
 //   ... a computation, in scopes (scope.hpp) ...
 //   std::cout << text_of(errbound::explain(x));        // a table (explanation.hpp)
@@ -150,7 +149,6 @@ struct explained {
         return closed<T>(detail::operations::scaled, v, result, own, std::move(contributions));
     }
 
-    /// For functions: x under the wrapped rule.
     template <class T>
     static tracked<T, Rule> unwrapped(const tracked<T, explained>& x) {
         return tracked<T, Rule>::from_bound(x.value(), x.bound().of_rule);

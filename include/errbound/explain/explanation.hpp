@@ -23,13 +23,11 @@ namespace errbound {
 
 struct contribution {
     std::vector<place> scopes;  ///< around it, the outermost first
-    /// "+", "-", "*", "/", "scale", "input" (a number within an error) or a function's name. "the
-    /// rest", in no scope: sources too small to be kept.
+    /// "+", "-", "*", "/", "scale", "input" (a number within an error), a function's name, or "the
+    /// rest": sources too small to be kept.
     std::string operation;
-    /// Part of the error's bound, at least 0; infinite if the error became infinite here.
-    double amount = 0;
-    /// Signed part of exact value − value; 0 by rules without signs.
-    double known = 0;
+    double amount = 0;  ///< part of the error's bound; infinite if the error became infinite here
+    double known = 0;   ///< signed part of exact value − value; 0 by rules without signs
 };
 
 struct explanation {
@@ -37,14 +35,13 @@ struct explanation {
     std::string rule;  ///< the rule that bounds its error
     double value = 0;
     double error = 0;  ///< infinite if there is no bound
-    /// The largest first. Amounts add up to at least the error. They exceed it by roundings (a few
-    /// 2^-53 of it per source), or where signed parts cancel.
+    /// The largest first. Amounts add up to at least the error. The sum is larger by roundings (a
+    /// few 2^-53 of it per source), or where signed parts cancel.
     std::vector<contribution> contributions;
 };
 
 namespace detail {
 
-/// Bytes of the UTF-8 character at the start of the text; 0 if there is none.
 inline std::size_t character_length(std::string_view text) {
     const auto byte = [&](std::size_t i) {
         return i < text.size() ? static_cast<unsigned char>(text[i]) : 0U;
@@ -115,7 +112,7 @@ inline std::string json_number(double x) {
     return std::isfinite(x) ? decimal(x) : "null";
 }
 
-/// Same as json_number, with strings for infinities.
+/// Like json_number, with strings for infinities.
 inline std::string json_value(double x) {
     if (std::isinf(x)) return x > 0 ? "\"inf\"" : "\"-inf\"";
     return json_number(x);

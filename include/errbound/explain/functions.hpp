@@ -1,5 +1,4 @@
 // Functions of explained numbers; contributions of the arguments are kept.
-//
 //   sqrt(x);                                           // as for any tracked number
 //   errbound::as_one_operation("norm", f, x, y, z);    // a custom function as one source
 //
@@ -34,7 +33,6 @@ auto known_correction(const tracked<T, Rule>& x) {
     else
         return T(0);
 }
-/// True if x and y have equal values, errors and corrections.
 template <class T, class Rule>
 bool are_equal(const tracked<T, Rule>& x, const tracked<T, Rule>& y) {
     return x.value() == y.value() && x.error() == y.error() &&
@@ -82,8 +80,8 @@ tracked<T, explained<Rule, Limit>> booked_function(
 }  // namespace detail
 
 /// f(x, others...) as one operation with that name; f takes and returns numbers of the wrapped
-/// rule. A result equal to an argument, or to its negative, keeps that one's contributions. Names
-/// are stored for the program's lifetime. Cost: two calls of f plus one per argument.
+/// rule. A result equal to ± an argument keeps that one's contributions. Names are stored for the
+/// program's lifetime. Cost: two calls of f plus one per argument.
 template <class T, class Rule, std::size_t Limit, class F,
           std::same_as<tracked<T, explained<Rule, Limit>>>... Others>
 tracked<T, explained<Rule, Limit>> as_one_operation(std::string_view name, const F& f,
@@ -161,14 +159,12 @@ template <class Range>
 concept explained_numbers =
     tracked_numbers<Range> && is_explained<typename number_of<Range>::rule_type>;
 
-/// Numbers of a range under the wrapped rule, by index.
 template <class Range>
 auto unwrapped_numbers(const Range& range) {
     return [&range](std::size_t i) {
         return number_of<Range>::rule_type::unwrapped(number_at(range, i));
     };
 }
-/// The same numbers without errors.
 template <class Range>
 auto exact_numbers(const Range& range) {
     using number = number_of<Range>;
@@ -237,7 +233,7 @@ detail::number_of<C> horner(const C& c, const std::type_identity_t<detail::numbe
                         std::move(contributions));
 }
 
-/// convert of conversion.hpp; a new rule is `explained`, too (otherwise contributions end).
+/// convert of conversion.hpp. A new rule must be `explained`, too; otherwise contributions end.
 template <class To, class NewRule = void, class From, class Rule, std::size_t Limit>
 requires(std::is_void_v<NewRule> ||
          is_explained<NewRule>) auto convert(const tracked<From, explained<Rule, Limit>>& x) {

@@ -1,8 +1,7 @@
-// A number's error by its sources, stored by the rule `explained` (explained.hpp).
-//
-// An entry is one source's part: `known`, a signed part of exact value − value, and `unknown` >= 0,
-// a bound of the rest. With c the rule's correction and e its bound, Σ (|known| + unknown) >= e
-// despite rounding, and Σ known = c up to rounding. Infinite entries explain an infinite e.
+// A number's error by its sources, stored by the rule `explained` (explained.hpp). An entry is one
+// source's part: `known`, a signed part of exact value − value, and `unknown` >= 0, a bound of the
+// rest. With c the rule's correction and e its bound, Σ (|known| + unknown) >= e despite rounding,
+// and Σ known = c up to rounding. Infinite entries explain an infinite e.
 #pragma once
 
 #include <algorithm>
@@ -42,7 +41,6 @@ class ledger {
 
     const std::vector<entry>& entries() const { return entries_; }
 
-    /// Adds another ledger's entries, each multiplied by `times`.
     template <class Times>
     void carry(const ledger& other, const Times& times) {
         if (other.entries_.empty()) return;
@@ -70,7 +68,6 @@ class ledger {
         for (const ledger_entry<B>& o : other.entries())
             book({o.from, A(0), A(static_cast<A>(o.size() / sizes) * total)});
     }
-    /// Adds the infinite entries of a number without a bound.
     template <class B>
     void carry_unknown(const ledger<B>& other) {
         for (const ledger_entry<B>& o : other.entries())

@@ -1,5 +1,4 @@
 // Scopes: names for parts of a program, to distinguish errors (explained.hpp).
-//
 //   {
 //       const errbound::scope s("mean");   // until the end of the block
 //       mean = sum / n;
@@ -8,7 +7,7 @@
 // Scopes nest in the order of entry, across calls, on each thread. A scope is a local variable: it
 // must end before those around it, on its thread (not in a coroutine that resumes elsewhere). Name,
 // file, line and outer scopes identify it; recursion into itself is the same scope. Operations of
-// one kind in a scope are one source of error; for finer sources use smaller scopes.
+// one kind in a scope are one source of error.
 #pragma once
 
 #include <algorithm>
@@ -50,10 +49,9 @@ struct operations {
         "input", "+", "-", "*", "/", "scale", "rounding to the type"};
 };
 
-/// Sources too small to be kept.
 inline constexpr source the_rest{static_cast<std::uint32_t>(-1), 0};
 
-/// The scopes and operations of all threads, kept for good: numbers may outlive their scopes.
+/// The scopes and operations of all threads. Kept for good: numbers may outlive their scopes.
 class all_sources {
   public:
     static all_sources& instance() {

@@ -1,11 +1,10 @@
-// The error-counting scalar. It runs an algorithm once on bounds instead of numbers, and so derives
-// a static filter's constant from the code that the filter will run.
+// The error-counting scalar runs an algorithm once on bounds instead of numbers. So it derives a
+// static filter's constant from the code that the filter will run.
 //
-// Notation: ε the largest relative error of one rounding in any direction, η the smallest positive
-// number, M a bound on the inputs' magnitudes. A number x of degree k is computed as x̂. Then:
+// Notation: docs/notation.md; M bounds the inputs' magnitudes. A number x of degree k is computed
+// as x̂:
 //     |x̂| <= magnitude·M^k + underflow·η·max(1, M)^(k−1),
 //     |x̂ − x| <= error·ε·M^k + underflow·η·max(1, M)^(k−1)
-//
 // This holds in any rounding direction, with or without FMA. Sums do not underflow. If inputs have
 // separate bounds M_x, M_y, ..., M^k is the largest product of these that a term of a sum has.
 // Proof: proofs/ErrorCount.v, count_sound. Constants are nonzero whole numbers there, and counts
@@ -17,7 +16,6 @@
 
 namespace errbound::filters {
 
-/// Counts in T, the floating-point type of the numbers.
 template <std::floating_point T>
 struct basic_error_count {
     T magnitude = 0;
@@ -26,11 +24,9 @@ struct basic_error_count {
 
     constexpr basic_error_count() = default;
     constexpr basic_error_count(T m, T e, T u) : magnitude(m), error(e), underflow(u) {}
-    /// A constant that T holds exactly.
     constexpr basic_error_count(double constant)
         : magnitude(static_cast<T>(constant < 0 ? -constant : constant)) {}
 
-    /// An exact input of magnitude at most M.
     static constexpr basic_error_count exact() { return {1, 0, 0}; }
     /// The rounded difference of exact numbers; M bounds the computed differences.
     static constexpr basic_error_count difference() { return {1, 1, 0}; }
@@ -53,7 +49,7 @@ struct basic_error_count {
         return {m,
                 rounded(a.magnitude * b.error + a.error * b.magnitude +
                         a.error * b.error * epsilon + m),
-                // The third term is doubled, as â may exceed its magnitude by its underflow. The 2
+                // The third term is doubled: â may exceed its magnitude by its underflow. The 2
                 // covers η for the rounding, and products of two underflows.
                 rounded(a.magnitude * b.underflow + a.underflow * b.magnitude +
                         (a.error * b.underflow + a.underflow * b.error) * (2 * epsilon) + 2)};

@@ -1,8 +1,7 @@
-// Checks at compile time that an expression returns `uncertain` where it must.
-//
-// The expression runs on supposed signs, one for each number whose sign it evaluates. Then it runs
-// again for each of these with that sign uncertain: the answer must be the same, or uncertain. A
-// correct expression passes for every supposition, even one that no points realise.
+// Checks at compile time that an expression returns `uncertain` where it must. The expression runs
+// on supposed signs, one for each number whose sign it evaluates. It runs again for each of these,
+// with that sign uncertain: the answer must be the same, or uncertain. Correct expressions pass for
+// every supposition, even one that no points realise.
 //
 // Numbers are identified by their values modulo a prime, at hashed coordinates. Equal polynomials
 // have equal values, others with probability degree/2^31.

@@ -1,5 +1,5 @@
-// Counts an expression's operations at compile time. An expression that branches on signs runs once
-// for each sequence of signs, up to a limit; the counts are maxima.
+// Counts an expression's operations at compile time: the maxima of runs, one for each sequence of
+// signs, up to a limit.
 #pragma once
 
 #include <array>
@@ -21,10 +21,9 @@ struct expression_counts {
     bool complete = true;  ///< all branches were seen
 };
 
-/// Not constexpr, so an expression that calls it does not compile.
+/// Not constexpr: an expression that calls it does not compile.
 inline void too_many_signs() {}
 
-/// One run: the signs evaluated, and the answers given.
 struct counting_run {
     static constexpr int max_signs = 256;
 
@@ -150,7 +149,6 @@ class expression_count {
     constexpr expression_count(counting_run* run, int bits, int degree, int roundings)
         : run_(run), bits_(bits), degree_(degree), roundings_(roundings) {}
     static constexpr int larger(int a, int b) { return a < b ? b : a; }
-    /// The bits, raised to a higher degree of `other`.
     constexpr int raised(const expression_count& other) const {
         return other.degree_ > degree_
                    ? bits_ + (other.degree_ - degree_) * other.run_->coordinate_bits

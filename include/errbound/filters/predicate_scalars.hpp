@@ -18,8 +18,8 @@
 
 namespace errbound::filters {
 
-/// Argument `Argument` of an expression: a point, or a scalar for dimension 0. Point types do not
-/// depend on their position, so a helper function is compiled once per scalar.
+/// An expression's argument: a point, or a scalar for dimension 0. Point types do not depend on
+/// their position, so a helper function is compiled once per scalar.
 template <class Shape, std::size_t Argument, class Scalars>
 constexpr decltype(auto) view(const Scalars& scalars) {
     if constexpr (Shape::dimensions[Argument] == 0)
@@ -28,8 +28,8 @@ constexpr decltype(auto) view(const Scalars& scalars) {
         return scalars.template point<Argument>();
 }
 
-/// Coordinate i, for a filter. All stages must use the same number: a product in a computed
-/// coordinate must not be fused into the difference that uses it.
+/// Coordinate i, for a filter. A product in a computed coordinate must not be fused into a
+/// difference, so that all stages use the same number.
 template <class T, bool Stored, class Point>
 constexpr T unfused_coordinate(const Point& p, int i) {
     const T x = coordinate_of(p, i);
@@ -131,7 +131,6 @@ struct supposed_scalars {
     }
 };
 
-/// A value whose sign is certain if its size exceeds the bound.
 template <class T>
 struct sign_estimate {
     T value, bound;
@@ -174,12 +173,11 @@ inline constexpr bool takes_points = []<std::size_t... I>(std::index_sequence<I.
 (std::make_index_sequence<Shape::count>());
 template <class Shape, class F, class Scalars>
 using result_over = decltype(evaluate<Shape>(F(), std::declval<const Scalars&>()));
-/// True if the expression branches: then it returns a sign.
+/// Expressions that branch return a sign.
 template <class Shape, class F>
 inline constexpr bool branches =
     std::is_same_v<result_over<Shape, F, counted_scalars<Shape>>, sign_type>;
 
-/// The expression's counts for such coordinates, from at most `max_runs` runs.
 template <class Shape, class F>
 constexpr expression_findings findings_of(int coordinate_bits, int max_runs,
                                           const int* degrees = nullptr) {

@@ -1,5 +1,5 @@
-// The stages of a predicate after its first filter. Separate from predicate_type, so that an unused
-// predicate costs nothing: its expression is analysed when the first of these is compiled.
+// The stages of a predicate after its first filter. Separate from predicate_type, so that unused
+// predicates cost nothing: the expression is analysed when the first of these is compiled.
 #pragma once
 
 #include <algorithm>
@@ -32,7 +32,6 @@ class predicate_stages {
                   "sign_of(x), which can be uncertain");
 
   public:
-    /// Width of coordinates that fit one word.
     static constexpr int word_bits = integers::word_coordinates<1>::max_bits;
 
   private:
@@ -64,8 +63,7 @@ class predicate_stages {
     static constexpr expression_counts counts = findings.counts;
     static constexpr bool has_semi_static_filter =
         !counts.mixed && counts.degree >= 5 && !branches<Shape, F>;
-    /// Largest coordinate width for which every result fits in `bits` bits; 0 if results may be
-    /// missing. Proof: proofs/Widths.v, coordinate_bits_enough.
+    /// 0 if results may be missing. Proof: proofs/Widths.v, coordinate_bits_enough.
     static constexpr int coordinate_bits(int bits) {
         if (!counts.complete) return 0;
         int least = word_bits;
@@ -95,8 +93,7 @@ class predicate_stages {
                   "analyse");
 
     static constexpr bool mixed = !Options::homogeneous && (counts.mixed || !counts.complete);
-    /// If terms of different degree are added, 1 is one more coordinate.
-    static constexpr std::size_t listed_size = Shape::size + mixed;
+    static constexpr std::size_t listed_size = Shape::size + mixed;  ///< with 1 if mixed
     using coordinate_list = std::array<double, listed_size>;
 
     template <class... Points>
@@ -172,7 +169,6 @@ class predicate_stages {
     }
 
   private:
-    /// Uses the first integers that hold the coordinates.
     template <class Counted>
     static constexpr sign_type decide_with_integers(const coordinate_list& list,
                                                     std::uint64_t largest, const Counted& counted) {
@@ -196,7 +192,7 @@ class predicate_stages {
         }
         return counted(by_any(list), long_integers);
     }
-    /// The coordinates times 2^(−s·degree), the largest near 1: each number of degree d scales by
+    /// The coordinates times 2^(−s·degree), the largest near 1. A number of degree d scales by
     /// 2^(−s·d), so signs stay. Unchanged if near 1 already, or if scaling is inexact.
     static constexpr coordinate_list near_one(const coordinate_list& list) {
         using traits = number_traits<double>;
@@ -247,7 +243,6 @@ class predicate_stages {
         return sign_over<Shape>(F(), c.value, [&](double v) { return scalar{v, c.unit}; });
     }
 
-    /// Coordinates that are short in the largest common unit.
     static constexpr sign_type by_short(const integers::word_coordinates<listed_size>& words) {
         if (words.least_bits() > short_bits) return sign_type::uncertain;
         if constexpr (short_bits == word_bits) return by_words(words);

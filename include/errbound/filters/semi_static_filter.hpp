@@ -1,10 +1,9 @@
 // The scalar of semi-static filters. It computes an expression's value and the largest coordinate
 // difference, from which the error bound follows. For many terms that costs less than the size of
-// static filters (errbound/filters/static_filter.hpp), but the bound is larger.
-//
-// If the bound is finite, no number of the expression has overflowed. A NaN coordinate makes the
-// value NaN. Proof: proofs/SemiStatic.v, semi_static_overflow_uncertain. Source of the method:
-// Devillers, Pion 2003, Efficient exact geometric predicates for Delaunay triangulations.
+// static filters (static_filter.hpp), but the bound is larger. If the bound is finite, no number of
+// the expression has overflowed. A NaN coordinate makes the value NaN. Proof: proofs/SemiStatic.v,
+// semi_static_overflow_uncertain. Source of the method: Devillers, Pion 2003, Efficient exact
+// geometric predicates for Delaunay triangulations.
 #pragma once
 
 #include <concepts>
@@ -13,11 +12,10 @@
 
 namespace errbound::filters {
 
-/// An intermediate result; users write `auto`. The size S, the number k of roundings, and τ, which
-/// covers underflow in one product, are defined in static_filter.hpp. All terms have degree d. M is
-/// the largest magnitude of plain coordinates and of computed coordinate differences. Then:
-///
-///     S <= m·M^d + a·τ·(1 + M^d)
+/// An intermediate result. The size S, the number k of roundings, and τ, which covers underflow in
+/// one product, are defined in static_filter.hpp. All terms have degree d. M is the largest
+/// magnitude of plain coordinates and of computed coordinate differences. Then
+/// S <= m·M^d + a·τ·(1 + M^d).
 ///
 /// `mass` m is the size if all coordinates and differences are 1 and τ is 0. `allowances` a bounds
 /// how often τ counts: 0 for coordinates, a_x + a_y for x ± y, 2(m_x·a_y + m_y·a_x) + 2 for x·y.
@@ -39,9 +37,9 @@ struct semi_static {
 
     /// The bound constant(k)·(m·M^d + a·τ); the sign is uncertain if |value| <= bound(M). For signs
     /// constant(k − 1) suffices. The spare u covers a·τ·M^d and the relative errors, of order u²,
-    /// of M^d and of the bound. S needs only (a − 3/4)·τ; the rest covers underflow of M^d, as
-    /// τ >= 2^49·η. Below 2^p = 1/u, m and a are exact. Otherwise, and if a factor is the constant
-    /// 0, the bound is infinite. Proof: proofs/SemiStatic.v, semi_static_bound_covers,
+    /// of M^d and of the bound. S needs only (a − 3/4)·τ; the rest covers underflow of M^d, as τ >=
+    /// 2^49·η. Below 2^p = 1/u, m and a are exact. Otherwise, and if a factor is the constant 0,
+    /// the bound is infinite. Proof: proofs/SemiStatic.v, semi_static_bound_covers,
     /// semi_static_sign_certain.
     constexpr T bound(T largest) const {
         constexpr T most = 1 / number_traits<T>::unit_roundoff();
@@ -64,7 +62,6 @@ struct semi_static {
     }
 };
 
-/// A coordinate; `largest` accumulates M.
 template <std::floating_point T>
 struct semi_static_coordinate {
     using value_type = T;

@@ -1,13 +1,12 @@
 // The scalar of static filters: an expression's value and size and, in its type, the number of
 // roundings. A sign is certain if |value| exceeds a constant times the size.
 //
-// Notation: u the unit roundoff, η the smallest positive number; rounding is to nearest. A number x
-// is computed as x̂. Its size S is the expression with all terms positive: magnitudes of coordinates
-// and of their differences, + for −, and τ = 4·smallest_normal/u added to each product. After k
-// roundings (counted by `filtered`) |x̂ − x| <= ((1 + u)^k − 1)·S. Proof, without contraction:
-// proofs/StaticFilter.v, filter_error. The counts k − 1 of orient2d, orient3d and incircle are 3, 7
-// and 10, as in the A-filters (the floating-point stage) of Shewchuk 1997, Adaptive Precision
-// Floating-Point Arithmetic; insphere has 15 instead of 16.
+// Notation: docs/notation.md; rounding is to nearest. A number x is computed as x̂. Its size S is
+// the expression with all terms positive: magnitudes of coordinates and of their differences, + for
+// −, and τ = 4·smallest_normal/u added to each product. After k roundings (counted by `filtered`)
+// |x̂ − x| <= ((1 + u)^k − 1)·S. Proof, without contraction: proofs/StaticFilter.v, filter_error.
+// The counts k − 1 of orient2d, orient3d and incircle are 3, 7 and 10, as in the A-filters of
+// Shewchuk 1997, Adaptive Precision Floating-Point Arithmetic; insphere has 15 instead of 16.
 #pragma once
 
 #include <concepts>
@@ -18,31 +17,28 @@
 
 namespace errbound::filters {
 
-/// constant(k) = ku(1 + (4k + 8)u), so that constant(k)·Ŝ bounds the error after k roundings. Ŝ is
-/// the computed size. At most 2k + 2 roundings each reduce it by a factor of at least 1 − u; half
-/// of τ is spare and covers underflow. Then:
-///
-///     |x̂ − x| <= ku(1 + ku)·(1 + (2k + 5)u)·Ŝ < constant(k)·Ŝ
-///
-/// The relative slack of at least 3u covers rounding the constant, the bound and x̂. Since uτ is a
-/// normal number, the bound does not underflow.
+/// constant(k) = ku(1 + (4k + 8)u), so that constant(k)·Ŝ bounds the error after k roundings; Ŝ is
+/// the computed size. At most 2k + 2 roundings reduce it by a factor of at least 1 − u each; half
+/// of τ is spare and covers underflow. So |x̂ − x| <= ku(1 + ku)·(1 + (2k + 5)u)·Ŝ < constant(k)·Ŝ.
+/// The slack of at least 3u covers rounding the constant, the bound and x̂. Since uτ is a normal
+/// number, the bound does not underflow.
 template <std::floating_point T>
 constexpr T filter_constant(int k) {
     constexpr T u = number_traits<T>::unit_roundoff();
     return T(k) * u * (1 + T(4 * k + 8) * u);
 }
 
-/// An intermediate result; users write `auto`. Roundings: k. Products: how often τ is still to be
-/// added to the size. Plain: size = |value|. Induction for the error bound:
+/// An intermediate result. Roundings: k. Products: how often τ is still to be added to the size.
+/// Plain: size = |value|. Induction for the error bound:
 /// - a coordinate: k = 0, S is its magnitude. A difference d of two: k = 1, S = |d̂| as computed,
 ///   and |d̂ − d| <= u|d̂|.
-/// - x ± y: k = max(k_x, k_y) + 1, S = S_x + S_y. Before rounding, the computed sum is at most
-///   (1 + u)^max(k_x, k_y)·S in magnitude.
+/// - x ± y: k = max(k_x, k_y) + 1, S = S_x + S_y. Before rounding, the computed sum is at most (1 +
+///   u)^max(k_x, k_y)·S in magnitude.
 /// - x·y: k = k_x + k_y + 1, S = S_x·S_y + τ. |x̂·ŷ − x·y| <= ((1 + u)^(k_x + k_y) − 1)·S_x·S_y.
 ///   Rounding adds at most u·|x̂·ŷ|, underflow at most η/2 < uτ/2.
 ///
-/// Rounding is monotone, so Ŝ >= |x̂|. If an operand is infinite or NaN, so is the size, and no sign
-/// is certain. Proof: proofs/StaticFilter.v, overflow_uncertain. With contraction a value can
+/// Rounding is monotone, so Ŝ >= |x̂|. If an operand is infinite or NaN, so is the size, and no
+/// sign is certain. Proof: proofs/StaticFilter.v, overflow_uncertain. With contraction a value can
 /// overflow where its size does not, so sign_of also tests the value.
 template <std::floating_point T, int Roundings, int Products, bool Plain>
 struct filtered {
@@ -50,9 +46,8 @@ struct filtered {
     using value_type = T;
     static constexpr int roundings = Roundings, products = Products;
     static constexpr bool plain = Plain;
-    /// τ
     static constexpr T allowance =
-        4 * number_traits<T>::smallest_normal() / number_traits<T>::unit_roundoff();
+        4 * number_traits<T>::smallest_normal() / number_traits<T>::unit_roundoff();  ///< τ
 
     T value;
     T size;  ///< without Products·τ
@@ -82,7 +77,7 @@ struct filtered {
     }
 };
 
-/// A coordinate. The size of a difference of two is its magnitude, not the sum of both sizes.
+/// The size of a difference of two coordinates is its magnitude, not the sum of both sizes.
 template <std::floating_point T>
 struct filtered_coordinate {
     using value_type = T;

@@ -1,10 +1,8 @@
-// Reduction of large angles, x = n·π/2 + r, with a certified error of r: for sin, cos and tan of
-// float, double and long double. Internal.
-//
-// x is m·2^e with an integer m of p bits. Digits of 2/π that give whole turns are skipped. m times
-// the next W words is the number of quarter turns modulo 4; its fraction times π/2 is r. The
-// remaining digits change r by less than 2^(p+4−64W), which the error includes: 2^-135 for double,
-// where no |r| is below 2^-62. Source: Payne and Hanek 1983.
+// Reduction of large angles, x = n·π/2 + r, with a certified error of r, for sin, cos and tan. x is
+// m·2^e with an integer m of p bits. Digits of 2/π that give whole turns are skipped. m times the
+// next W words is the number of quarter turns modulo 4; its fraction times π/2 is r. The remaining
+// digits change r by less than 2^(p+4−64W), which the error includes: 2^-135 for double, where no
+// |r| is below 2^-62. Source: Payne and Hanek 1983.
 //
 // Cost: W² + O(W) products of words; W = 2 for float, 3 for double, 4 or 6 for long double.
 #pragma once
@@ -87,7 +85,6 @@ inline constexpr std::array<std::uint64_t, 261> two_over_pi{
     0x825c326b5b2746ed, 0x34007700d255f4fc, 0x4d59018071e0e13f, 0x89b295f364a8f1ae,
     0xa74b38fc4ceab2bb,
 };
-/// ⌊π/2·2^(64·6−2)⌋, in the same order.
 inline constexpr std::array<std::uint64_t, 6> half_pi{
     0x6487ed5110b4611a, 0x62633145c06e0e68, 0x948127044533e63a,
     0x0105df531d89cd91, 0x28a5043cc71a026e, 0xf7ca8cd9e69d218d,
@@ -101,7 +98,7 @@ constexpr std::uint64_t two_over_pi_from(int first) {
     return bits == 0 ? word(i) : word(i) << bits | word(i + 1) >> (64 - bits);
 }
 
-/// The angle quadrant·π/2 + r modulo 2π, |r − (high + low)| <= error. |high + low| <= π/4, and
+/// The angle quadrant·π/2 + r modulo 2π, |r − (high + low)| <= error, |high + low| <= π/4, and
 /// |low| is less than a unit in the last place of high.
 template <class T>
 struct reduced_angle {
@@ -116,7 +113,7 @@ class angle_reduction {
     static constexpr int digits = traits::digits;
     static_assert(digits <= 113 && traits::max_exponent <= 16384,
                   "errbound: the digits of 2/pi suffice only for float, double and long double");
-    /// r is at least about 2^-(p + 16), so this leaves an error of about 2^-(2p + 14).
+    /// |r| is at least about 2^-(p + 16), so the error is about 2^-(2p + 14).
     static constexpr int count = (3 * digits + 30 + 63) / 64;
     static constexpr int unit = 2 - 64 * count;  ///< fractions count 2^unit of a quarter turn
     using words = std::array<word, std::size_t{count}>;
@@ -128,7 +125,6 @@ class angle_reduction {
         const int e = traits::exponent(x) - digits;
         words turns = quarter_turns(traits::scale(x, -e), e);
         word& top = turns.back();
-        // Rounds to the nearest quarter turn, leaving at most half of one.
         constexpr word half = word(1) << 61;
         top += half;
         const int quadrant = static_cast<int>(top >> 62);
@@ -154,8 +150,7 @@ class angle_reduction {
         return product;
     }
 
-    /// The angle with remainder f·π/2, or −f·π/2. The error is that of f, 2^(p + unit)·π/2, of π/2,
-    /// 2^unit/2, and the digits below low.
+    /// The error is that of f, 2^(p + unit)·π/2, of π/2, 2^unit/2, and the digits below low.
     static reduced_angle<T> angle_of(const fraction& f, int quadrant, bool is_negative) {
         words factor{};
         for (std::size_t i = 0; i < factor.size(); ++i) factor[factor.size() - 1 - i] = half_pi[i];

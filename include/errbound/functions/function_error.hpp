@@ -1,5 +1,4 @@
-// Assumed errors of the C library's elementary functions, one number for each function and type.
-// Bounds of errbound/elementary.hpp rest on them; users may replace them.
+// Assumed errors of the C library's elementary functions. Users may replace them.
 #pragma once
 
 #include <errbound/number_traits.hpp>
@@ -34,7 +33,6 @@ enum class elementary_function {
 
 namespace detail {
 
-/// True if function_error's comment covers this C library (is_wide: types wider than double).
 /// MinGW-w64's sine of 10^22 is 0.46, not −0.85; musl on ARM computes long doubles in double.
 constexpr bool has_documented_errors([[maybe_unused]] bool is_wide) {
 #if defined(_WIN32)
@@ -65,9 +63,9 @@ inline constexpr double least_reduced_angle = 0x1p20;
 }  // namespace detail
 
 /// The assumption for arguments of type T in the domain of F: a finite result v is within this many
-/// units in the last place of the exact result f. For subnormal f the unit is η. Rounding
-/// is to nearest. Between 0.5 and 1024. For sin, cos and tan only below 2^20: glibc reduces larger
-/// doubles with an absolute error, and cos(0x1.69eab0985179bp+246) is off by 136,921 units.
+/// units in the last place of the exact result f. For subnormal f the unit is η. Rounding is to
+/// nearest. Between 0.5 and 1024. For sin, cos and tan only below 2^20: glibc reduces larger
+/// doubles with an absolute error.
 ///
 /// The defaults are upper bounds of the errors in two sources: the GNU C library's manual ("Known
 /// Maximum Errors in Math Functions", x86-64); Gladman, Innocente, Mather and Zimmermann (Accuracy

@@ -1,8 +1,7 @@
-// Bounds of an elementary function over all numbers within e of x̂. Internal.
-//
-// Notation: x̂ and e an argument's value and error, v the computed result, f the function, η the
-// smallest positive number, u = ε/2 the unit roundoff. A computed bound keeps at least (1 − u)^13
-// of itself; enlarged() pays, (1 + 16u)(1 − u)^13 > 1. Underflow is counted separately.
+// Bounds of an elementary function over all numbers within e of x̂. Notation: docs/notation.md; x̂
+// and e an argument's value and error, v the computed result, f the function. A computed bound
+// keeps at least (1 − u)^13 of itself; enlarged() pays, (1 + 16u)(1 − u)^13 > 1. Underflow is
+// counted separately.
 #pragma once
 
 #include <cmath>
@@ -66,8 +65,7 @@ auto system_function(const T&... x) {
 
 /// At least |v − f|, before enlarged(). With k units: the last place of f is at most ε|f| + η, and
 /// |f| <= (|v| + kη)/(1 − kε), so |v − f| <= kε|v|/(1 − kε) + kη + k²εη/(1 − kε); and 1/(1 − kε) <
-/// 1 + 2kε, k²ε < 1/8. Another 2kε >= u covers rounding k to T, another η for the product's
-/// underflow.
+/// 1 + 2kε, k²ε < 1/8. Another 2kε >= u covers rounding k to T, another η the product's underflow.
 template <elementary_function F, class T>
 T error_of_function(const T& v) {
     using traits = number_traits<T>;
@@ -201,12 +199,11 @@ T moved(const T& x, const T& distance, bool up) {
     return p;
 }
 
-/// At least |v − f(x)| for x within e > 0 of x̂, all in the domain.
-///
-/// |f(x) − f(x̂)| is at most the integral of |f'| over the e beyond x̂ on the steeper side. To a p
-/// there, at a distance d >= e, the mean of |f'| is no less, so the change is at most (e/d)·|f(p) −
-/// f(x̂)|. d = √ε natural distances gives the derivative to about √ε. If |f'| grows towards zero, p
-/// passes zero only if x can be zero, with d = e: the integral is still the largest of that length.
+/// At least |v − f(x)| for x within e > 0 of x̂, all in the domain. |f(x) − f(x̂)| is at most the
+/// integral of |f'| over the e beyond x̂ on the steeper side. To a p there, at a distance d >= e,
+/// the mean of |f'| is no less, so the change is at most (e/d)·|f(p) − f(x̂)|. d = √ε natural
+/// distances gives the derivative to about √ε. If |f'| grows towards zero, p passes zero only if x
+/// can be zero, with d = e: the integral is still the largest of that length.
 template <elementary_function F, class T>
 T error_by_slope(const T& x, const T& e, const T& v) {
     using traits = number_traits<T>;
@@ -259,7 +256,7 @@ T change_of_tangent(const bounded<T>& tangent, const T& e) {
 }
 
 /// f(h + l + d) for |d| <= r.error, h = r.high, l = r.low, from f(h) and f'(h), with |f'| <= 3 and
-/// |f''| <= 6: f(h) + l·f'(h) is off by at most 3l² + 3|d|. The error is enlarged.
+/// |f''| <= 6: f(h) + l·f'(h) is off by at most 3l² + 3|d|. Error enlarged, as of the next three.
 template <class T>
 bounded<T> moved_by_low_part(const reduced_angle<T>& r, const bounded<T>& at_high,
                              const bounded<T>& slope) {
@@ -272,7 +269,7 @@ bounded<T> moved_by_low_part(const reduced_angle<T>& r, const bounded<T>& at_hig
     return {sum.value, enlarged<T>(at_high.error + (traits::abs(sum.error) + error))};
 }
 
-/// −1/y, error enlarged: |1/(ŷ + d) − 1/ŷ| <= e/(|ŷ|(|ŷ| − e)), |d| <= e. Infinite if y may be 0.
+/// −1/y: |1/(ŷ + d) − 1/ŷ| <= e/(|ŷ|(|ŷ| − e)), |d| <= e. Infinite if y may be 0.
 template <class T>
 bounded<T> negative_reciprocal(const bounded<T>& y) {
     using traits = number_traits<T>;
@@ -282,7 +279,6 @@ bounded<T> negative_reciprocal(const bounded<T>& y) {
     return {v, enlarged<T>(y.error / divisor + (half_ulp(v) + traits::underflow_unit()))};
 }
 
-/// The tangent of a reduced angle, error enlarged.
 template <class T>
 bounded<T> tangent_of(const reduced_angle<T>& r) {
     const bounded<T> at_high = evaluated<elementary_function::tan>(r.high);
@@ -299,7 +295,7 @@ bounded<T> negated(const bounded<T>& x) {
     return {T(-x.value), x.error};
 }
 
-/// The sine of r + quadrants·π/2 and its derivative, errors enlarged.
+/// The sine of r + quadrants·π/2 and its derivative.
 template <class T>
 void sine_of(const reduced_angle<T>& r, int quadrants, bounded<T>& sine, bounded<T>& derivative) {
     using enum elementary_function;
@@ -398,8 +394,7 @@ T error_of_power_at_zero(const T& size, const T& e, const T& n, const T& v) {
 
 /// At least |atan2(y, x) − atan2(ŷ, x̂)| if the path crosses no cut. An angle is at most its
 /// tangent, (x̂·dy − ŷ·dx)/(x̂² + ŷ² + x̂·dx + ŷ·dy); infinite if that fails. In units of the
-/// larger of |x̂| and |ŷ|. Underflow of at most four scalings and products in each sum loses less
-/// than η each.
+/// larger of |x̂| and |ŷ|. At most four scalings and products in each sum lose less than η each.
 template <class T>
 T change_of_angle(const T& y, const T& of_y, const T& x, const T& of_x) {
     using traits = number_traits<T>;
@@ -416,13 +411,11 @@ T change_of_angle(const T& y, const T& of_y, const T& x, const T& of_x) {
     return enlarged<T>(across) / least + lost;
 }
 
-/// x^y over numbers within e_x of x̂ and e_y of ŷ.
 template <class T>
 bounded<T> power_of_ranges(const T& x, const T& of_x, const T& y, const T& of_y) {
     using traits = number_traits<T>;
     const T v = system_function<elementary_function::pow>(x, y);
     const bounded<T> unknown{v, traits::infinity()};
-    // A value that is not finite has an infinite error.
     if (!traits::is_finite(of_x) || !traits::is_finite(of_y)) return unknown;
     if (of_y == 0 && y == 0) return {T(1), T(0)};
     const bool is_whole = of_y == 0 && std::trunc(y) == y;
@@ -437,7 +430,6 @@ bounded<T> power_of_ranges(const T& x, const T& of_x, const T& y, const T& of_y)
     return {v, enlarged<T>(error_of_power_at_zero(size, of_x, y, v))};
 }
 
-/// The angle of (x, y) in [−π, π] over numbers within e_y of ŷ and e_x of x̂.
 template <class T>
 bounded<T> angle_of_ranges(const T& y, const T& of_y, const T& x, const T& of_x) {
     using traits = number_traits<T>;

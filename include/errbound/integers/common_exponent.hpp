@@ -52,11 +52,9 @@ struct short_coordinates {
     }
 };
 
-/// Coordinates that fit one word: x = value·2^unit.
 template <std::size_t N>
 struct word_coordinates {
-    /// Coordinates are below 2^61 units: products of their differences, and the sums that
-    /// predicates need, end at a word's end or just before.
+    /// Products of differences, and the sums that predicates need, end at a word's end or before.
     static constexpr int max_bits = 61;
 
     std::array<std::int64_t, N> value;
@@ -64,8 +62,7 @@ struct word_coordinates {
     bool fit;
 
     /// `largest` is largest_size(coordinates), finite, so coordinates are below 2^(field − 1022).
-    /// It fits if i·2^unit = x, which is not rounded. Proof: proofs/Widths.v,
-    /// word_coordinates_exact.
+    /// Proof: proofs/Widths.v, word_coordinates_exact.
     constexpr word_coordinates(const std::array<double, N>& coordinates, std::uint64_t largest) {
         const auto field = static_cast<int>(largest >> 52);
         unit = field - 1022 - max_bits;
@@ -84,7 +81,6 @@ struct word_coordinates {
         least_bits_ = any == 0 ? 0 : max_bits - detail::countr_zero(any);
     }
 
-    /// Bits of the values in the largest common unit.
     constexpr int least_bits() const { return least_bits_; }
 
   private:
@@ -127,7 +123,6 @@ struct common_unit {
     }
 };
 
-/// All finite doubles are multiples of 2^-1074 and below 2^1024.
-inline constexpr int full_range_bits = 1024 + 1074;
+inline constexpr int full_range_bits = 1024 + 1074;  ///< all doubles are multiples of 2^-1074
 
 }  // namespace errbound::integers

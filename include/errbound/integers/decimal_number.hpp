@@ -1,5 +1,4 @@
 // The number of a binary format nearest to a decimal, and its distance rounded up.
-//
 //   constexpr auto x = errbound::integers::nearest_decimal<double>(decimal_text("0.1"));
 //   x.value;  // 0.1
 //   x.error;  // |0.1 - x.value|, rounded up to a double
@@ -29,8 +28,7 @@ using words::word_pair;
 /// [+-]d...[.d...][(e|E)[+-]d...] as ±digits·10^exponent. Skips a literal's digit separators.
 class decimal_text {
   public:
-    /// Two words hold this many.
-    static constexpr int leading_digits = 38;
+    static constexpr int leading_digits = 38;  ///< two words hold this many
 
     constexpr explicit decimal_text(std::string_view text) {
         std::size_t i = 0;
@@ -64,15 +62,11 @@ class decimal_text {
         const word high = words::multiply_by_word(&low, &first_, 1, power, next_);
         return {high, low};
     }
-    /// Power of ten of the last digit of leading().
     constexpr std::int64_t leading_exponent() const {
         return exponent_ + std::max<std::int64_t>(digits_ - leading_digits, 0);
     }
-    /// False if a later digit is not zero.
     constexpr bool leading_is_all() const { return !has_rest_; }
-    /// Number of digits from the first nonzero one.
     constexpr std::int64_t digits() const { return digits_; }
-    /// Power of ten of the last digit.
     constexpr std::int64_t exponent() const { return exponent_; }
     /// Calls visit(digit) for the first `count` digits; true if a later one is not zero.
     template <class Visit>
@@ -96,10 +90,8 @@ class decimal_text {
     static constexpr bool is_digit(std::string_view text, std::size_t i) {
         return i < text.size() && text[i] >= '0' && text[i] <= '9';
     }
-    /// False if there is no digit.
     constexpr bool read_digits(std::string_view text, std::size_t& i) {
-        // Local variables stay in registers.
-        std::size_t at = i, first = i;
+        std::size_t at = i, first = i;  // local variables stay in registers
         std::int64_t all = 0, count = 0, before_point = -1;
         word value = 0;
         for (; at < text.size(); ++at) {
@@ -150,12 +142,10 @@ constexpr word_pair shifted_up(word_pair x, int n) {
     if (n >= 64) return {n >= 128 ? 0 : x.low << (n - 64), 0};
     return {x.high << n | x.low >> 1 >> (63 - n), x.low << n};
 }
-/// ⌊x/2^n⌋, 0 <= n <= 128.
 constexpr word_pair shifted_down(word_pair x, int n) {
     if (n >= 64) return {0, n >= 128 ? 0 : x.high >> (n - 64)};
     return {x.high >> n, x.low >> n | x.high << 1 << (63 - n)};
 }
-/// x + y modulo 2^128.
 constexpr word_pair sum_of(word_pair x, word y) {
     const word low = x.low + y;
     return {x.high + (low < y ? 1 : 0), low};
@@ -172,8 +162,8 @@ constexpr leading_bits normalized(word_pair x, int exponent, word error) {
     const int shift = 128 - width_of(x);
     return {shifted_up(x, shift), exponent - shift, error == 0 ? 0 : error << shift};
 }
-/// (a + s)(b + t) exceeds ab by at most 2^128·(s + t) + st; the truncated part is below a unit; a
-/// shift by a bit doubles the former. Exact if nothing is truncated.
+/// (a + s)(b + t) exceeds ab by at most 2^128·(s + t) + st, twice that after a shift by a bit. The
+/// truncated part is below a unit.
 constexpr leading_bits operator*(const leading_bits& a, const leading_bits& b) {
     const std::array<word, 2> x{a.m.low, a.m.high}, y{b.m.low, b.m.high};
     std::array<word, 4> r{};
@@ -201,7 +191,6 @@ struct squares_of_five {
     }
 };
 inline constexpr squares_of_five squares;
-/// 5^n, 0 <= n <= 27.
 inline constexpr auto small_powers_of_five = [] {
     std::array<word, 28> powers{1};
     for (std::size_t i = 1; i < powers.size(); ++i) powers[i] = 5 * powers[i - 1];
@@ -214,7 +203,6 @@ constexpr leading_bits leading_bits_of(const decimal_text& text) {
     int e = static_cast<int>(text.leading_exponent());
     const int binary = e;
     const word error = text.leading_is_all() ? 0 : 1;
-    // Detects dyadic numbers.
     if (e < 0 && -e < static_cast<int>(small_powers_of_five.size()) && digits.high == 0) {
         const word power = small_powers_of_five[static_cast<std::size_t>(-e)];
         if (digits.low % power == 0) {
@@ -238,7 +226,7 @@ struct rounded_decimal {
     bool certain;
 };
 
-/// Numbers of T are multiples of 2^unit_of(x), x the position above the first bit.
+/// Numbers of T up to 2^end are multiples of 2^unit_of(end).
 template <class T>
 struct binary_format {
     using traits = number_traits<T>;
@@ -262,7 +250,6 @@ struct binary_format {
             return traits::scale(x, unit);
         }
     }
-    /// x·2^exponent rounded up; finite.
     static constexpr T rounded_up(word_pair x, int exponent) {
         if (width_of(x) == 0) return T(0);
         const int unit = unit_of(exponent + width_of(x)), drop = unit - exponent;
@@ -297,7 +284,6 @@ struct binary_format {
     }
 };
 
-/// A natural number large enough for exact decimals of T's midpoints.
 template <std::size_t Capacity>
 class exact_natural {
   public:
@@ -385,7 +371,7 @@ class exact_natural {
     std::array<word, Capacity> words_{};
 };
 
-/// Exact, from as many digits as a midpoint of T can have, and one digit for the others.
+/// Exact, from as many digits as a midpoint of T can have; one digit stands for the others.
 template <class T>
 class exact_decimal {
     using format = binary_format<T>;
@@ -420,7 +406,7 @@ class exact_decimal {
             up = rest > half || (rest == half && (leading.error != 0 || units.low % 2 == 1));
             units = sum_of(units, up ? 1 : 0);
         }
-        // Use the farther end: the appended digit 1 stands for 0 to 10.
+        // The appended digit 1 stands for 0 to 10: use the farther end.
         if (truncated && up) x = x.distance(one());
         if (truncated && !up) x.add(9);
         return with_distance(x, divisor, e, units, unit);
@@ -432,7 +418,6 @@ class exact_decimal {
         x.push(1);
         return x;
     }
-    /// True if a last digit stands for others.
     static constexpr bool read(const decimal_text& text, natural& x, int& exponent) {
         word chunk = 0, power = 1;
         const auto flush = [&] {
@@ -453,8 +438,8 @@ class exact_decimal {
         --exponent;
         return true;
     }
-    /// |x/divisor·2^e − units·2^unit| = |x·2^(e − m) − units·divisor·2^(unit − m)|/divisor·2^m, m
-    /// the lesser of e and unit.
+    /// Let m = min(e, unit). |x/divisor·2^e − units·2^unit| = |x·2^(e − m) − units·divisor·2^(unit
+    /// − m)|/divisor·2^m.
     static constexpr rounded_decimal with_distance(natural x, const natural& divisor, int e,
                                                    word_pair units, int unit) {
         const int least = (std::min)(e, unit);

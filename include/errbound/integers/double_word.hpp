@@ -33,7 +33,7 @@ class two_words {
     constexpr two_words& operator+=(two_words b) { return *this = *this + b; }
     /// Only for shifts by 64.
     friend constexpr two_words operator>>(two_words a, int) { return {a.high_, 0}; }
-    /// Precondition: 0 < p < 2^63. Bit by bit.
+    /// Bit by bit. Precondition: 0 < p < 2^63.
     friend constexpr two_words operator%(two_words a, word p) {
         word rest = a.high_ % p;
         for (int bit = 63; bit >= 0; --bit) {
@@ -62,8 +62,7 @@ class two_words {
 #ifdef __SIZEOF_INT128__
 __extension__ using double_word = unsigned __int128;
 __extension__ using signed_double_word = __int128;
-/// Width of the compiler's widest integer.
-inline constexpr int native_bits = 128;
+inline constexpr int native_bits = 128;  ///< width of the compiler's widest integer
 #else
 using double_word = two_words;
 inline constexpr int native_bits = 64;

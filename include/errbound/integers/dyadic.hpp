@@ -10,7 +10,6 @@
 
 namespace errbound {
 
-/// ⌊log2 |x|⌋. Precondition: x is not zero.
 template <exact_number Integer>
 int floor_log2(const Integer& x) {
     return static_cast<int>(x < 0 ? msb(Integer(-x)) : msb(x));
@@ -28,8 +27,7 @@ Integer shifted(const Integer& x, int shift) {
 template <exact_number Integer>
 double nearby_double(const Integer& n, int e) {
     if (n == 0) return 0;
-    // The dropped part is below an ulp.
-    Integer head = abs(n);
+    Integer head = abs(n);  // the dropped part is below an ulp
     const int excess = floor_log2(head) - 62;
     if (excess > 0) head >>= static_cast<unsigned>(excess);
     const double x = std::ldexp(static_cast<double>(static_cast<std::int64_t>(head)),
@@ -73,7 +71,6 @@ class dyadic {
     const Integer& numerator() const { return numerator_; }
     int exponent() const { return exponent_; }
     bool is_zero() const { return numerator_ == 0; }
-    /// Within one ulp; infinite beyond double's range.
     double to_double() const { return nearby_double(numerator_, exponent_); }
 
     friend dyadic operator+(const dyadic& a, const dyadic& b) {

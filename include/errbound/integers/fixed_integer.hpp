@@ -1,9 +1,8 @@
 // Exact integers of compile-time width: no allocation, no branches on size, usable in device code.
-//
 // fixed_integer<Words> is a two's complement number of 64·Words bits. A product has the words of
 // both factors and is exact. Sums, differences and shifts keep their width and wrap around: a
 // result that fits is right. Callers bound the results. Cost: A·B word multiplications for a
-// product of A and B words, an addition with carry per word for a sum.
+// product of A and B words.
 #pragma once
 
 #include <array>
@@ -53,7 +52,6 @@ constexpr word subtract_with_borrow(word a, word b, unsigned char& borrow) {
 }
 #undef ERRBOUND_X86_CARRY
 
-/// All ones for a negative word, otherwise 0.
 constexpr word sign_word(word w) {
     return static_cast<word>(static_cast<std::int64_t>(w) >> 63);
 }
@@ -86,7 +84,6 @@ constexpr word sign_word(word w) {
     for (int i = 0; i < m; ++i) r[n + i] = subtract_with_borrow(r[n + i], a[i] & if_b, borrow);
 }
 
-/// multiply for one word each.
 [[gnu::always_inline]] constexpr void multiply_one(word* r, word a, word b) {
 #ifdef __SIZEOF_INT128__
     const auto product =
@@ -174,8 +171,7 @@ class fixed_integer {
     /// Proof: proofs/Words.v, compare_exact.
     friend constexpr std::strong_ordering operator<=>(const fixed_integer& a,
                                                       const fixed_integer& b) {
-        // With inverted sign bits, compare as unsigned numbers.
-        constexpr word sign_bit = word(1) << 63;
+        constexpr word sign_bit = word(1) << 63;  // inverted, to compare as unsigned numbers
         for (int i = Words - 1; i >= 0; --i) {
             const word invert = i == Words - 1 ? sign_bit : 0;
             if (a[i] != b[i]) return (a[i] ^ invert) <=> (b[i] ^ invert);
@@ -216,7 +212,6 @@ class fixed_integer {
         }
         return r;
     }
-    /// ⌊x/2^shift⌋ modulo 2^64.
     constexpr std::int64_t word_from_bit(int shift) const { return from_bit<1>(shift).low_word(); }
     constexpr std::int64_t low_word() const { return static_cast<std::int64_t>(words_[0]); }
 
@@ -244,7 +239,6 @@ class fixed_integer {
     constexpr word& at(int i) { return words_[static_cast<std::size_t>(i)]; }
     static constexpr word& at(fixed_integer& x, int i) { return x.at(i); }
 
-    /// A call, for medium sizes.
     template <std::size_t A, std::size_t B>
     [[gnu::noinline]] static constexpr void multiply(std::array<word, A + B>& r,
                                                      const std::array<word, A>& a,
@@ -261,7 +255,6 @@ template <int A, int B>
     return a.times(b);
 }
 
-/// x·2^e, 0 <= e < 64.
 template <int Words>
 constexpr fixed_integer<Words> scale(const fixed_integer<Words>& x, int e) {
     return x << e;

@@ -1,5 +1,4 @@
-// An integer of any size, errbound::integer. Included by errbound/polynomial.hpp.
-//
+// An integer of any size, errbound::integer.
 //   errbound::integer x = 5;
 //   x = (x << 100) + 1;  // built-in integers convert implicitly
 //   const auto y = errbound::integer::from_string("-12345678901234567890");
@@ -124,8 +123,7 @@ class integer {
         else
             return static_cast<T>(size_ < 0 ? 0 - low_word() : low_word());
     }
-    /// The nearest, ties to even; infinite beyond the largest.
-    explicit operator double() const;
+    explicit operator double() const;  ///< the nearest, ties to even; infinite beyond the largest
 
     friend integer operator+(const integer& a, const integer& b) {
         integer r;
@@ -205,7 +203,6 @@ class integer {
         assign_shifted_right(*this, shift(n));
         return *this;
     }
-    /// x·2^e, e >= 0.
     friend integer scale(const integer& x, int e) { return x << e; }
     /// ⌊log2 |x|⌋, the highest bit's position; lsb: the lowest bit's. Precondition: x is not zero.
     friend int msb(const integer& x) {
@@ -268,7 +265,6 @@ class integer {
     word* data() noexcept { return capacity_ > inline_words ? many_ : few_; }
     const word* data() const noexcept { return capacity_ > inline_words ? many_ : few_; }
     int size() const noexcept { return size_ < 0 ? -size_ : size_; }
-    /// The magnitude's lowest word; 0 for zero.
     word low_word() const noexcept { return size_ == 0 ? 0 : data()[0]; }
 
     static word* new_words(int n) {
@@ -348,7 +344,6 @@ class integer {
     void assign_larger(const integer& a, const integer& b, bool negative) {
         const integer &longer = a.size() < b.size() ? b : a, &shorter = a.size() < b.size() ? a : b;
         const int m = longer.size(), n = shorter.size();
-        // True if the sum may need another word.
         const bool carries = longer.data()[m - 1] >= ~(n == m ? shorter.data()[m - 1] : word(0));
         const room to = room_for(m + carries);
         const word carry = integers::words::add(to.words, longer.data(), m, shorter.data(), n);
@@ -467,7 +462,6 @@ class integer {
         void divide(const Store& store) {
             integers::words::divide_long(a_, m_, b_, n_, store);
         }
-        /// Call after the division; n words.
         void take_remainder(word* to) const { integers::words::shift_right(to, a_, n_, shift_); }
 
       private:
@@ -499,8 +493,7 @@ class integer {
             return;
         }
         const int whole = static_cast<int>(n / 64), bits = static_cast<int>(n % 64);
-        // ⌊−a/2^n⌋ = −⌈a/2^n⌉
-        const bool up = negative && static_cast<std::uint64_t>(lsb(x)) < n;
+        const bool up = negative && static_cast<std::uint64_t>(lsb(x)) < n;  // ⌊−a/2^n⌋ = −⌈a/2^n⌉
         const int size = m - whole;
         const room to = room_for(size + up);
         integers::words::shift_right(to.words, x.data() + whole, size, bits);
@@ -581,7 +574,6 @@ inline integer::operator double() const {
 
 namespace integers {
 
-/// The largest power of the base in a word, and its exponent.
 struct power_in_word {
     words::word power = 1;
     int digits = 0;

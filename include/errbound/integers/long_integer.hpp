@@ -34,8 +34,7 @@ constexpr int count_filled(const word* x, int n) {
     return count;
 }
 
-/// r −= a·b for n words; returns the borrow from the words beyond. Proof, as part of the product:
-/// proofs/SparseProduct.v, sparse_product_exact.
+/// r −= a·b for n words; returns the borrow. Proof: proofs/SparseProduct.v, sparse_product_exact.
 [[gnu::always_inline]] constexpr word subtract_multiple(word* r, word a, const word* b, int n) {
     word carry = 0;
     for (int j = 0; j < n; ++j) {
@@ -75,11 +74,9 @@ constexpr int count_filled(const word* x, int n) {
     }
 }
 
-/// r = a·b, trimmed, of m and n words; r has m + n. Proof: proofs/SparseProduct.v,
-/// any_product_exact.
+/// r = a·b of m + n words, trimmed. Proof: proofs/SparseProduct.v, any_product_exact.
 [[gnu::noinline]] constexpr void multiply_any(word* r, const word* a, int m, const word* b, int n) {
-    // Worthwhile only if most words are skipped.
-    constexpr int worth = 4;
+    constexpr int worth = 4;  // worthwhile only if most words are skipped
     const auto is_sparse = [](const word* x, int size) {
         return worth * count_filled(x, size) < size;
     };
@@ -100,8 +97,7 @@ constexpr int trimmed_size(const word* x, int n) {
     while (n > 1 && x[n - 1] == sign_word(x[n - 2])) --n;
     return n;
 }
-/// r = a ± b by steps with a carry, in two's complement, up to `capacity` words; returns the
-/// trimmed size. Not inlined: one copy for all capacities.
+/// r = a ± b, of up to `capacity` words; returns the trimmed size. One copy for all capacities.
 template <word (*Step)(word, word, unsigned char&)>
 [[gnu::noinline]] constexpr int combine(word* r, int capacity, const word* a, int m, const word* b,
                                         int n) {
@@ -207,7 +203,6 @@ class long_integer {
     /// ⌊x/2^shift⌋ modulo 2^64, shift >= 0. Proof, of one word: proofs/WordBits.v, from_bit_exact.
     constexpr std::int64_t word_from_bit(int shift) const {
         const int whole = shift / 64, bits = shift % 64;
-        // Two shifts: a single one by 64, for bits = 0, is undefined.
         return static_cast<std::int64_t>(or_sign(whole) >> bits | or_sign(whole + 1)
                                                                       << 1 << (63 - bits));
     }
@@ -258,7 +253,6 @@ constexpr long_integer<A + B> operator*(const long_integer<A>& a, const long_int
     return long_integer<A + B>::product(a, b);
 }
 
-/// x·2^e, e >= 0.
 template <int Words>
 constexpr long_integer<Words> scale(const long_integer<Words>& x, int e) {
     return x << e;

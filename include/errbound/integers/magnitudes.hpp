@@ -19,7 +19,6 @@ constexpr int trimmed(const word* a, int n) {
     return n;
 }
 
-/// Compares numbers of equal size, possibly 0.
 constexpr std::strong_ordering compare(const word* a, const word* b, int n) {
     while (n > 0 && a[n - 1] == b[n - 1]) --n;
     return n == 0 ? std::strong_ordering::equal : a[n - 1] <=> b[n - 1];
@@ -78,8 +77,7 @@ constexpr void multiply_rows(word* r, const word* a, int m, const word* b, int n
     for (int i = 1; i < m; ++i) r[n + i] = a[i] == 0 ? 0 : add_multiple(r + i, a[i], b, n);
 }
 
-/// From this size on Karatsuba's three half products beat four.
-inline constexpr int karatsuba_words = 32;
+inline constexpr int karatsuba_words = 32;  ///< from here on three half products beat four
 
 /// Scratch words for a shorter factor of n words. multiply_by_halves needs 2n + 3, multiply_natural
 /// 2n for pieces and 2n for the remainder: 12n + 9·log2(n) suffice.
@@ -101,12 +99,11 @@ constexpr bool subtract_size(word* r, const word* a, int m, const word* b, int n
     return negative;
 }
 
-/// r = a·b of 2n words, n >= 2, by halves a = a1·W + a0, b = b1·W + b0: a0·b1 + a1·b0 = a0·b0 +
-/// a1·b1 − (a0 − a1)(b0 − b1). (A. Karatsuba, Yu. Ofman 1962.)
+/// r = a·b of 2n words, n >= 2, by halves a = a1·W + a0, b = b1·W + b0 (A. Karatsuba, Yu. Ofman
+/// 1962): a0·b1 + a1·b0 = a0·b0 + a1·b1 − (a0 − a1)(b0 − b1).
 constexpr void multiply_by_halves(word* r, const word* a, const word* b, int n, word* scratch) {
     const int low = (n + 1) / 2, high = n - low;
     word *const cross = scratch, *const sum = cross + 2 * low, *const rest = sum + 2 * low + 1;
-    // Store the differences where later products go.
     const bool a_negative = subtract_size(r, a, low, a + low, high),
                b_negative = subtract_size(r + low, b, low, b + low, high);
     multiply_natural(cross, r, low, r + low, low, rest);
@@ -134,7 +131,7 @@ constexpr void multiply_by_pieces(word* r, const word* a, int m, const word* b, 
 }
 
 /// r = a·b of m + n words, n <= m, with product_scratch(n) words of scratch. Skips zeros at both
-/// ends of the factors, frequent in numbers made of doubles far apart in size.
+/// ends of the factors (see long_integer.hpp).
 constexpr void multiply_natural(word* r, const word* a, int m, const word* b, int n,
                                 word* scratch) {
     if (n < karatsuba_words) {
@@ -165,7 +162,7 @@ constexpr void multiply_natural(word* r, const word* a, int m, const word* b, in
 
 // Quotients: N. Möller, T. Granlund, Improved division by invariant integers, IEEE TC 60, 2011.
 
-/// ⌊(2^128 − 1)/d⌋ − 2^64 for d >= 2^63: two 32-bit digits by Knuth's algorithm D.
+/// ⌊(2^128 − 1)/d⌋ − 2^64 for d >= 2^63, by Knuth's algorithm D on 32-bit digits.
 constexpr word reciprocal(word d) {
     constexpr word half = 0xffffffff;
     const word high_half = d >> 32, low_half = d & half;
@@ -178,8 +175,7 @@ constexpr word reciprocal(word d) {
         }
         return q;
     };
-    // 2^128 − 1 − 2^64·d has the words ~d and ~0.
-    const word high = digit(~d);
+    const word high = digit(~d);  // 2^128 − 1 − 2^64·d has the words ~d and ~0
     return high << 32 | digit((~d << 32 | half) - high * d);
 }
 
@@ -217,8 +213,7 @@ constexpr word divide_by_word(const word* a, int n, word d, const Store& store) 
 class two_word_divisor {
   public:
     constexpr two_word_divisor(word high, word low) : high_(high), low_(low) {
-        // For 2^192 − 1 by both words: the higher word's reciprocal, reduced.
-        v_ = reciprocal(high);
+        v_ = reciprocal(high);  // of the higher word; reduced below
         word p = high * v_ + low;
         if (p < low) {
             --v_;
@@ -273,7 +268,7 @@ constexpr void divide_long(word* a, int m, const word* d, int n, const Store& st
     const two_word_divisor divisor(d[n - 1], d[n - 2]);
     for (int i = m - n; i >= 0; --i) {
         word* const part = a + i;
-        // The two-word quotient is the digit or, very rarely, one more.
+        // The quotient of three words is the digit or, very rarely, one more.
         word q = divisor.quotient(part[n], part[n - 1], part[n - 2]);
         if (subtract_multiple(part, q, d, n) > part[n]) {
             --q;
@@ -305,7 +300,6 @@ constexpr euclid_steps common_steps(word a, word b) {
     return sure;
 }
 
-/// Applies the steps to numbers of n words.
 constexpr void apply(const euclid_steps& m, word* a, word* b, int n) {
     word c00 = 0, c01 = 0, c10 = 0, c11 = 0;
     unsigned char borrow_a = 0, borrow_b = 0;
@@ -330,7 +324,6 @@ struct word_pair {
     friend constexpr auto operator<=>(const word_pair&, const word_pair&) = default;
 };
 
-/// Precondition: x is not zero.
 constexpr word_pair odd_part(word_pair x) {
     if (x.low == 0) x = {0, x.high};
     const int zeros = detail::countr_zero(x.low);

@@ -1,7 +1,7 @@
 // Exact integers whose types carry their largest width and so grow through an expression: no
 // overflow, no allocation. A number stands for value·2^(unit·degree); all coordinates are multiples
-// of 2^unit. Lower degrees are raised by factors of 1 = 2^−unit units, which requires unit <= 0 and
-// 1 to be as narrow as coordinates.
+// of 2^unit. Factors of 1 = 2^−unit units raise lower degrees, if unit <= 0 and 1 is no wider than
+// coordinates.
 #pragma once
 
 #include <array>
@@ -60,7 +60,6 @@ template <int Words>
 constexpr const fixed_integer<Words>& as_fixed(const fixed_integer<Words>& x) {
     return x;
 }
-/// x, which fits, in fewer words.
 template <int Words, int Wider>
 constexpr fixed_integer<Words> narrowed(const fixed_integer<Wider>& x) {
     std::array<words::word, std::size_t{Words}> low;
@@ -117,7 +116,7 @@ template <class Storage, class X, class Y>
 [[gnu::noinline]] constexpr Storage long_product(const X& x, const Y& y) {
     return Storage::product(x, y);
 }
-/// Calls: inlined they would be most of a long expression's code, which few inputs reach.
+/// Not inlined: they would be most of a long expression's code, which few inputs reach.
 template <class Storage, class X, class Y>
 [[gnu::noinline]] constexpr Storage called_product(const X& x, const Y& y) {
     return narrowed<Storage::width / 64>(x * y);
@@ -155,7 +154,6 @@ constexpr Storage shifted_word(words::word magnitude, int n) {
         return static_cast<Storage>(static_cast<Storage>(magnitude) << n);
 }
 
-/// x raised to Degree by factors of 1 = 2^−unit units.
 template <int Degree, class X>
 [[gnu::always_inline]] constexpr decltype(auto) raised(const X& x) {
     using level = typename X::level;

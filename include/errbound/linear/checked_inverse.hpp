@@ -1,9 +1,7 @@
-// An approximate inverse R of a matrix A, with certified bounds of I − RA: they prove that A is
-// nonsingular and turn residuals into error bounds. Theorem: let |I − RA|v <= βv for some v > 0 and
-// β < 1. Then A and R are nonsingular. For any ỹ the solution y of Ay = b has, entry by entry:
-//
+// An approximate inverse R of a matrix A, with certified bounds of I − RA. Theorem: let |I − RA|v
+// <= βv for some v > 0 and β < 1. Then A and R are nonsingular. For any ỹ the solution y of Ay = b
+// has, entry by entry:
 //   |y − ỹ| <= z + w·max_i(z_i/v_i)/(1 − β),   z >= |R(b − Aỹ)|, w >= |I − RA|v.
-//
 // For E = I − RA, ρ(|E|) <= β < 1, so RA = I − E is nonsingular; y − ỹ = (I − E)^-1 R(b − Aỹ), and
 // |(I − E)^-1|z <= Σ |E|^k z <= z + |E|Σ|E|^k z <= z + |E|v·ζ/(1 − β) with z <= ζv. Sources: Rump
 // 2010 (Acta Numerica 19), Sections 10.4 to 10.6; Oishi, Rump 2002 (Numer. Math. 90): rounding to
@@ -27,14 +25,14 @@ class checked_inverse {
         if (inverse_.allFinite() && defect_.allFinite()) choose_weights();
     }
 
-    /// True if A is certainly nonsingular; the other members require it.
+    /// True if A is certainly nonsingular. The other members require it.
     bool regular() const { return contraction_ < 1; }
     double contraction() const { return contraction_; }
     const square<N>& matrix() const { return a_; }
     const square<N>& approximation() const { return inverse_; }
 
-    /// An upper bound of |I − RA|v, v >= 0. |I − RA| <= |I − fl(RA)| + γ_h|R||A| + nη, h the
-    /// roundings in a block and the sum of blocks; entries off by η/2 add |R|(η/2).
+    /// At least |I − RA|v, v >= 0. |I − RA| <= |I − fl(RA)| + γ_h|R||A| + nη, h the roundings in a
+    /// block and the sum of blocks; entries off by η/2 add |R|(η/2).
     vector<N> defect_times(const vector<N>& v) const {
         const Index n = a_.rows();
         const double lost = relative_loss((std::min)(n, block) + n / block + 3);
@@ -50,8 +48,8 @@ class checked_inverse {
         return bound;
     }
 
-    /// An upper bound of |y − ỹ| from z >= |R(b − Aỹ)|: by the theorem, then |y − ỹ| <= z + |I −
-    /// RA||y − ỹ| for entries of different sizes. Infinite or NaN on overflow.
+    /// At least |y − ỹ|, from z >= |R(b − Aỹ)|: by the theorem, then |y − ỹ| <= z + |I − RA||y − ỹ|
+    /// for entries of different sizes. Infinite or NaN on overflow.
     vector<N> error_from(const vector<N>& z) const {
         const Index n = a_.rows();
         double ratio = 0;
@@ -71,10 +69,9 @@ class checked_inverse {
     }
 
   private:
-    /// Inner block size of RA; rounding errors grow with it and with the number of blocks.
+    /// Rounding errors grow with the size and the number of the blocks of RA.
     static constexpr Index block = 256;
 
-    /// RA; each block's product is complete before it is added.
     square<N> product_in_blocks() const {
         const Index n = a_.rows(), first = (std::min)(block, n);
         square<N> sum(n, n);
@@ -89,7 +86,7 @@ class checked_inverse {
         return sum;
     }
 
-    /// Starts with v = 1; if β is not well below one, iterates v = |I − RA|v, which tends to the
+    /// Starts with v = 1. If β is not well below one, iterates v = |I − RA|v, which tends to the
     /// vector with the least β (Perron, Frobenius).
     void choose_weights() {
         const Index n = a_.rows();

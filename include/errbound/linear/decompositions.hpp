@@ -1,10 +1,7 @@
-// Eigen's decompositions for tracked scalars: pivot choice, and Cholesky's and Householder's
-// methods, which skip only certain zeros.
-//
-// Soundness for any pivots: if no exact pivot is zero, all numbers are exact elimination's, rounded
-// and tracked. If a pivot may be zero, quotients by it have infinite errors. Finite results do not
-// depend on it or multiply it by an exact zero. They hold for a slightly moved pivot and, by
-// continuity, for the matrix, if it is nonsingular.
+// Eigen's decompositions for tracked scalars. Soundness for any pivots: if no exact pivot is zero,
+// all numbers are exact elimination's, rounded and tracked. If a pivot may be zero, quotients by it
+// have infinite errors. Finite results do not depend on it or multiply it by an exact zero. They
+// hold for a slightly moved pivot and, by continuity, for the matrix, if it is nonsingular.
 #pragma once
 
 #include <Eigen/Cholesky>

@@ -1,12 +1,8 @@
-// Rounding errors of sums of products in any order, for bounds of matrix products.
-//
-// u = 2^-53, η the smallest positive number, µ the smallest normal one. In Eigen's kernels each
-// product passes through at most h roundings, fused or not. Then (Higham 2002, Section 3.1, for any
-// order)
-//
-//   |computed − Σ x_i y_i| <= γ_h Σ |x_i y_i| + kη,  γ_h = hu/(1 − hu),  k the number of products:
-//
-// sums do not underflow, a product's underflow is at most η/2, and later growth at most 1 + γ_h <
+// Rounding errors of sums of products in any order, for bounds of matrix products. µ is the
+// smallest normal number. In Eigen's kernels each product passes through at most h roundings, fused
+// or not. Then (Higham 2002, Section 3.1, for any order)
+//   |computed − Σ x_i y_i| <= γ_h Σ |x_i y_i| + kη,  γ_h = hu/(1 − hu),  k the number of products.
+// Sums do not underflow, a product's underflow is at most η/2, and later growth at most 1 + γ_h <
 // 2. For a dot product of length n, h = n.
 #pragma once
 
@@ -45,7 +41,6 @@ Vector absolute_product(const Matrix& m, const Vector& v) {
     return sum;
 }
 
-/// x·2^e, rounded once.
 inline double times_power_of_two(double x, int e) {
     if (e < -1022 || e > 1023) return traits::scale(x, e);
     return x * std::bit_cast<double>(static_cast<std::uint64_t>(e + 1023) << 52);

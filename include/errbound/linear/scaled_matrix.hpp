@@ -14,8 +14,7 @@ using vector = Eigen::Matrix<double, N, 1>;
 template <int N>
 using exponents = Eigen::Matrix<int, N, 1>;
 
-/// Below any number's exponent; sums of a few still fit an int.
-inline constexpr int exponent_of_zero = (std::numeric_limits<int>::min)() / 8;
+inline constexpr int exponent_of_zero = (std::numeric_limits<int>::min)() / 8;  ///< sums fit an int
 
 /// e with 2^(e−1) <= |x| < 2^e. Precondition: x is finite.
 inline int exponent_of(double x) {

@@ -173,7 +173,7 @@ class descartes_search {
     bool exact_row_is_cheap(const part& p) const {
         return p_.size() <= 40 && static_cast<int>(p_.size()) * bits_of_ends(p) <= 2048;
     }
-    /// True if the coefficients' sizes differ too much to count: assumes 3 sign changes.
+    /// True if the coefficients' sizes differ too much to count. Then 3 sign changes are assumed.
     bool varies_too_much(const part& p) const {
         return floor_log2(p.high) > floor_log2(p.low) + 1 &&
                local_form<Integer>::precision(p_.size(), p.low, p.high - p.low, 0) > most_lost_bits;
@@ -315,11 +315,10 @@ class descartes_search {
         return true;
     }
 
-    /// Two close roots, real or complex, would need many halvings to separate. With at most two
-    /// left, splits at the extremum between them, by Newton's method with growing precision.
-    /// Complex roots lie outside both circles with the sides as diameters, so no sign change
-    /// remains. Tried after 0, 8, 16, 32, ... halvings. Proof: proofs/SignVariations.v,
-    /// two_variations_two_roots.
+    /// Two close roots, real or complex, would need many halvings. With at most two left, splits at
+    /// the extremum between them, by Newton's method with growing precision. Complex roots lie
+    /// outside both circles with the sides as diameters, so no sign change remains. Tried after 0,
+    /// 8, 16, 32, ... halvings. Proof: proofs/SignVariations.v, two_variations_two_roots.
     bool divided_as_pair(part& whole) {
         if (whole.has_root_at_end() || whole.halvings % 8 != 0 ||
             (whole.halvings & (whole.halvings - 1)) != 0)
@@ -355,7 +354,7 @@ class descartes_search {
         return true;
     }
 
-    /// Tests modulo a prime first, which few values are multiples of.
+    /// Tests modulo a prime first: few values are multiples of it.
     bool is_root(const point& x) {
         if (residues_.empty()) residues_ = residues(p_, field_);
         return value_at(residues_, field_, x) == 0 && sign_at(p_, x, meter_) == sign_type::zero;

@@ -35,7 +35,6 @@ std::int64_t order_at_or_below(const dyadic<Integer>& x) {
     while (!is_above(number + 1)) ++number;
     return number;
 }
-/// The number of the least double >= x.
 template <exact_number Integer>
 std::int64_t order_at_or_above(const dyadic<Integer>& x) {
     return -order_at_or_below(-x);

@@ -1,8 +1,6 @@
 // Approximate roots of quadratics and cubics in plain floating point, which callers must guard.
-//
 // Power basis: coefficient i of a bernstein<S, N> belongs to t^i, the form of
-// errbound/bernstein.hpp at s = 1. Products are the same convolutions, and value_at(p, S(1), t) is
-// the value at t.
+// errbound/bernstein.hpp at s = 1, and value_at(p, S(1), t) is the value at t.
 #pragma once
 
 #include <array>
@@ -61,8 +59,9 @@ constexpr piece_ends<T> monotone_pieces(const bernstein<T, 3>& f) {
     return ends;
 }
 
-/// A point of [low, high] near a root of p, whose end values have opposite signs. A Newton step
-/// that leaves the bracket, or is not half the last one, becomes a halving: 2·digits steps suffice.
+/// A point of [low, high] near a root of p. Precondition: end values have opposite signs. A Newton
+/// step that leaves the bracket, or is not half the last one, becomes a halving: 2·digits steps
+/// suffice.
 template <class T, int N>
 constexpr T guarded_newton(const bernstein<T, N>& p, T low, T high) {
     const bernstein<T, N - 1> slope = power_derivative(p);

@@ -1,9 +1,6 @@
-// Polynomials with integer coefficients, of run-time degree: values, Bernstein coefficients,
-// division, common factors.
-//
-// Coefficients ascend in the power basis; the last one is not zero; empty is identically zero.
-// Integer is an exact type with + − × / % << >>, comparison, and abs(), gcd(), msb() and lsb()
-// found by argument-dependent lookup (as Boost.Multiprecision's).
+// Polynomials with integer coefficients, of run-time degree. Coefficients ascend in the power
+// basis; the last one is not zero; empty is identically zero. Integer is an exact type with + − × /
+// % << >>, comparison, and abs(), gcd(), msb() and lsb() found by argument-dependent lookup.
 #pragma once
 
 #include <algorithm>
@@ -237,12 +234,11 @@ std::vector<std::uint64_t> residues(const integer_form<Integer>& p, const prime_
     return r;
 }
 
-/// The residue of the value at x, times 2^(−e·n) for e < 0, where 2^e is the highest power dividing
-/// x. If nonzero, the value is not zero. Proof: proofs/PrimeField.v, value_modulo_right.
+/// The residue of the value at x, times 2^(−e·n) for e < 0, where x has the exponent e. If nonzero,
+/// the value is not zero. Proof: proofs/PrimeField.v, value_modulo_right.
 template <class Integer>
 std::uint64_t value_at(const std::vector<std::uint64_t>& residues, const prime_field& field,
                        const dyadic<Integer>& x) {
-    // Horner's rule for p(m·2^e)·2^(−e·n), or for p if e >= 0.
     const int e = x.exponent();
     const std::uint64_t two = field.add(field.one(), field.one());
     const std::uint64_t power = field.power(two, static_cast<std::uint64_t>(e < 0 ? -e : e));
@@ -293,12 +289,11 @@ bool surely_squarefree(const integer_form<Integer>& p, work_meter& meter) {
            common_factor(field, std::move(image), std::move(slope), meter).size() == 1;
 }
 
-/// The greatest common divisor, primitive; empty only if both are identically zero.
-///
-/// Uses images modulo primes (W. S. Brown, On Euclid's algorithm and the computation of polynomial
-/// greatest common divisors, JACM 18, 1971). Their degree is at least the divisor's, so one prime
-/// detects coprime polynomials. A divisor combined from several primes is verified by division.
-/// Proof: proofs/CommonFactor.v, common_factor_right, common_factor_divides.
+/// The greatest common divisor, primitive; empty only if both are identically zero. Uses images
+/// modulo primes (W. S. Brown, On Euclid's algorithm and the computation of polynomial greatest
+/// common divisors, JACM 18, 1971). Their degree is at least the divisor's, so one prime detects
+/// coprime polynomials. Division verifies a divisor combined from several primes. Proof:
+/// proofs/CommonFactor.v, common_factor_right, common_factor_divides.
 template <exact_number Integer>
 integer_form<Integer> common_factor(integer_form<Integer> a, integer_form<Integer> b,
                                     work_meter& meter) {
@@ -340,8 +335,7 @@ integer_form<Integer> common_factor(integer_form<Integer> a, integer_form<Intege
 /// Square-free polynomials f_1, f_2, ..., each dividing the one before: a root of multiplicity m of
 /// p is a root of exactly f_1 to f_m. At most `most`. Precondition: p is not constant. Cost without
 /// multiple roots: Euclid's algorithm modulo one prime. Proof: proofs/CommonFactor.v,
-/// chain_multiplicities, cofactors_rootless; that the first has all roots of p:
-/// proofs/RootIsolation.v, squarefree_part_roots.
+/// chain_multiplicities, cofactors_rootless; proofs/RootIsolation.v, squarefree_part_roots.
 template <exact_number Integer>
 std::vector<integer_form<Integer>> squarefree_chain(integer_form<Integer> p, std::size_t most,
                                                     work_meter& meter) {

@@ -19,7 +19,6 @@ struct cut_number {
     Integer mantissa;
     int exponent = 0;
 
-    /// Precondition: the number is not zero.
     void cut(int bits) {
         const int excess = floor_log2(mantissa) + 1 - bits;
         if (excess <= 0) return;
@@ -44,7 +43,6 @@ class local_form {
     using point = dyadic<Integer>;
 
     /// The error is about 2^(−bits) of p's largest term at `low`. Precondition: 0 < low, 0 < width.
-    ///
     /// Cost: degree multiplications of numbers of `bits` bits, and degree additions per coefficient
     /// kept. `meter` is polled for each row of these, also in later calls, and must outlive this.
     /// Proof: proofs/TaylorCoefficients.v, taylor_right.
@@ -90,8 +88,7 @@ class local_form {
             power *= length;
             a[j] = shifted(Integer(a[j] * power), -depth * static_cast<int>(j));
         }
-        // An error e in a_i adds at most e to each new one: from + length <= 2^depth. So do
-        // truncations.
+        // An error e in a_i adds at most e to each, as from + length <= 2^depth. So do truncations.
         result.error_ = error_ * Integer(degree_ + 1) + Integer(a.size() * a.size());
         result.drop_small_terms();
         return result;

@@ -24,7 +24,6 @@ struct nearby_value {
         return error == 0 || Integer(error << static_cast<unsigned>(bits)) < Integer(abs(value));
     }
     sign_type sign() const { return is_within(0) ? sign_of(value) : sign_type::uncertain; }
-    /// ⌊log2 |value·2^exponent|⌋. Precondition: the value is not zero.
     std::int64_t log2() const { return floor_log2(value) + exponent; }
 
     /// Drops bits beyond the leading ones of the value or error; adds a unit of error for each.

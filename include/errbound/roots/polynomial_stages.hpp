@@ -59,8 +59,7 @@ std::vector<floating_coefficient> floating_coefficients(const integer_form<Integ
     constexpr double epsilon = number_traits<double>::epsilon();
     std::size_t size = p.size();
     while (size > 0 && p[size - 1] == 0) --size;
-    // Test first: some types throw on overflowing conversions, as Boost 1.83 does.
-    int unit = 0;
+    int unit = 0;  // test first: some types throw on overflowing conversions, as Boost 1.83 does
     for (std::size_t i = 0; i < size; ++i)
         if (p[i] != 0) unit = (std::max)(unit, floor_log2(p[i]));
     const bool in_range = unit < 500;
@@ -92,7 +91,6 @@ inline std::size_t leading_zeros(const std::vector<floating_coefficient>& c) {
     return static_cast<std::size_t>(first - c.begin());
 }
 
-/// A polynomial for both stages: exact, and in floating point with error bounds.
 template <exact_number Integer>
 class staged_polynomial {
   public:

@@ -14,8 +14,7 @@
 
 namespace errbound::roots {
 
-/// Cost of a product modulo a prime, in operations.
-inline constexpr std::uint64_t operations_of_product = 4;
+inline constexpr std::uint64_t operations_of_product = 4;  ///< modulo a prime
 
 class prime_field {
   public:
@@ -32,8 +31,7 @@ class prime_field {
         square_ = static_cast<word>(double_word(one_) * one_ % p);
     }
 
-    // Proof that exactly zero is stored as zero: proofs/PrimeField.v, nonzero_form; of sums,
-    // differences and conversions: field_add, field_subtract, field_forms.
+    // Proof: proofs/PrimeField.v, nonzero_form, field_add, field_subtract, field_forms.
     constexpr word modulus() const { return p_; }
     constexpr word one() const { return one_; }
     constexpr word add(word a, word b) const { return a + b >= p_ ? a + b - p_ : a + b; }

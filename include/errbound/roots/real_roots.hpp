@@ -179,7 +179,7 @@ class real_roots {
         return enclosure(intervals_[k]);
     }
 
-    /// The exact sign of g at root k.
+    /// The exact sign of g at root k. sign_at_root uses integers only.
     sign_type sign_at(roots::staged_polynomial<Integer>& g, std::size_t k) {
         assert(k < size());
         interval& root = intervals_[k];
@@ -196,7 +196,6 @@ class real_roots {
         return sign_at(p, k);
     }
 
-    /// The exact sign of g at root k, by integers only.
     sign_type sign_at_root(const roots::integer_form<Integer>& g, std::size_t k) {
         return exact().sign_at_root(g, intervals_[k], meter_);
     }

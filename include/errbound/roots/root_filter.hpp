@@ -1,7 +1,6 @@
 // Real roots of polynomials in floating point, by Descartes' rule on tracked Bernstein
-// coefficients: certain roots and undecided intervals. The first stage of
-// errbound/roots/real_roots.hpp. Each coefficient has an absolute error bound. Values and bounds
-// are separate arrays, so that halving, by additions only, is vectorised.
+// coefficients: certain roots and undecided intervals. The first stage of real_roots.hpp. Values
+// and bounds are separate arrays, so that halving, by additions only, is vectorised.
 #pragma once
 
 #include <algorithm>
@@ -33,8 +32,7 @@ concept absolute_rule = bound_rule<Rule> && requires(typename Rule::template bou
 struct filtered_part {
     double at0, at1;
     double from, to;
-    /// Exactly one root, simple and strictly inside, none at the ends. Otherwise undecided.
-    bool has_one_root;
+    bool has_one_root;  ///< simple and strictly inside, none at the ends; otherwise undecided
 };
 
 /// The part's x at u, if it is certainly a double.
@@ -225,7 +223,7 @@ class root_filter {
         }
         for (std::size_t i = 1; i <= n; ++i) first.add_previous(i, n);
         if (at0_ == 0) return;
-        // So far on [0, at1]; the right part by de Casteljau.
+        // On [0, at1] so far; the right part by de Casteljau.
         for (std::size_t i = 0; i <= n; ++i) b[i] = number::within(first.value[i], first.error[i]);
         const number right = number(at0_) / high, left = (high - number(at0_)) / high;
         for (std::size_t i = 0; i < n; ++i)

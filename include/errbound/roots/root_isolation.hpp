@@ -1,6 +1,6 @@
 // Real roots of integer polynomials, exactly: isolation, refinement, signs of other polynomials
-// there. The exact stage of errbound/roots/real_roots.hpp. Allocates; time and memory are bounded
-// by degree and coefficient size. Bounded stack: no recursion.
+// there. The exact stage of real_roots.hpp. Allocates; degree and coefficient size bound time and
+// memory. Bounded stack: no recursion.
 #pragma once
 
 #include <algorithm>
@@ -83,12 +83,10 @@ class root_isolation {
             roots[k].multiplicity = multiplicity(roots[k], meter);
     }
 
-    /// Narrows the root's interval to at most half of it.
     void refine(interval& root, work_meter& meter) const {
         refine(root, scale(root.high - root.low, -1), meter);
     }
-    /// Narrows it to this width. Quadratic interval refinement (J. Abbott 2006): success doubles
-    /// bits.
+    /// Narrows it to this width by quadratic interval refinement (J. Abbott 2006).
     void refine(interval& root, const point& width, work_meter& meter) const {
         for (int bits = 1; width < root.high - root.low;)
             bits = keep_part(root, bits, meter) ? 2 * bits : (std::max)(1, bits / 2);
@@ -180,7 +178,6 @@ class root_isolation {
         const point width = root.high - root.low, start = root.low;
         const auto place = [&](const Integer& k) { return start + width * point(k, -bits); };
         const sign_type before = at_low.sign();
-        // The sign at an end decides on which side of it the root is.
         const point left = place(part), right = place(Integer(part + 1));
         if (root.low < left) {
             const sign_type s = sign_at(f, left, meter);
@@ -222,8 +219,7 @@ class root_isolation {
         if (line.variations > 1) {
             descartes_search<Integer>(line.p, meter).find(low, high, roots);
         } else if (line.variations == 1 && !low.is_root && !high.is_root) {
-            // A sign change proves that it holds the root. Proof: proofs/RootIsolation.v,
-            // isolate_right.
+            // A sign change proves a root. Proof: proofs/RootIsolation.v, isolate_right.
             if (all || sign_at(line.p, low.at, meter) != sign_at(line.p, high.at, meter))
                 roots.push_back({low.at, high.at});
         }

@@ -5,14 +5,12 @@
 
 namespace errbound::roots {
 
-/// The signs of a row other than zero: the number of changes, the first and the last.
 template <class S>
 struct sign_changes {
     int count;
     S first, last;  ///< zero if there are none
 };
 
-/// The changes among sign(0), ..., sign(count − 1).
 template <class S, class Sign>
 constexpr sign_changes<S> sign_changes_of(std::size_t count, S zero, const Sign& sign) {
     sign_changes<S> row{0, zero, zero};

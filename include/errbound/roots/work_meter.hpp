@@ -8,12 +8,10 @@
 
 namespace errbound {
 
-/// The limits of a call before it gives up.
 struct root_limits {
     static constexpr std::uint64_t none = (std::numeric_limits<std::uint64_t>::max)();
 
-    /// Operations on 64-bit words, about a nanosecond each, estimated as if no coefficient were
-    /// zero.
+    /// Operations on 64-bit words, about a nanosecond each, as if no coefficient were zero.
     std::uint64_t operations = none;
     /// Estimated bytes of the rows held at a time, without p and its copies.
     std::uint64_t bytes = none;

@@ -2,12 +2,10 @@
 // error: an inexact input, or an operation that rounded. Equal sources cancel: x − x is exactly 0,
 // and the error of (x + y) − (x − y) does not depend on that of x. Rounding must be to nearest.
 //
-// Notation: docs/notation.md. The exact value is v + Σ cᵢεᵢ + ρ: v computed, one noise symbol |εᵢ|
-// <= 1 per source, |ρ| <= rest. The rest is 0 except in constant expressions and device code, which
-// count no sources. One global counter numbers the sources of all threads of a program. Enter
-// numbers of another process by `within`. sqrt and fma keep sources; other functions start new
-// ones.
-//
+// Notation: docs/notation.md. The exact value is v + Σ cᵢεᵢ + ρ: v computed, a noise symbol |εᵢ| <=
+// 1 per source, |ρ| <= rest. The rest is 0 except in constant expressions and device code, which
+// count no sources. One counter numbers the sources of all threads of a program; enter numbers of
+// another process by `within`. sqrt and fma keep sources; other functions start new ones.
 // References: Comba, Stolfi 1993; de Figueiredo, Stolfi 2004 (Numerical Algorithms 37). Proof, of
 // whole computations: proofs/IeeeAffineFunctions.v, computed_known, gives_known.
 #pragma once
@@ -41,17 +39,14 @@ inline constexpr std::array<char, 32> affine_name = [] {
 }  // namespace detail
 
 /// Affine arithmetic with at most Limit terms of 16 bytes each, used or not. Cost: linear in the
-/// number of terms, plus Limit writes.
-///
-/// An operation combines the operands' terms source by source, to first order. One new term takes
-/// the other errors: the rounding error (exact, or at most u|v| + η/2), roundings of coefficients,
-/// second-order terms and the operands' rests. If these are zero, there is no new term. Above the
-/// limit, the smallest terms join the new one; x − x stays 0. If value or radius is not finite,
+/// number of terms, plus Limit writes. An operation combines the operands' terms source by source,
+/// to first order. One new term takes the other errors, if any: the rounding error (exact, or at
+/// most u|v| + η/2), roundings of coefficients, second-order terms and the operands' rests. Above
+/// the limit, the smallest terms join the new one; x − x stays 0. If value or radius is not finite,
 /// there are no terms, and radius and rest are infinite.
 template <std::size_t Limit>
 struct affine_of {
     static_assert(Limit >= 1, "errbound: affine arithmetic needs at least one term");
-    /// "affine" for `affine`, else "affine<Limit>".
     static constexpr const char* name = detail::affine_name<Limit>.data();
     static constexpr bool keeps_first_order = true;
 
@@ -145,7 +140,6 @@ struct affine_of {
     static constexpr bound<T> divide(const T& v, operand<T> a, operand<T> b) {
         using traits = number_traits<T>;
         const T size = traits::abs(b.value);
-        // At most the distance of b from zero.
         const T distance =
             detail::rounded_product(T(size - b.bound.radius), T(1 - traits::epsilon()));
         if (!(distance > 0)) return unknown<T>();
@@ -171,8 +165,8 @@ struct affine_of {
             r.add_left(upper_quotient<T>(upper_product<T>(quotient, b.bound.radius), distance));
         return r.finished(v);
     }
-    /// Exact unless it underflows; then value, coefficients and rest are each off by at most η/2.
-    /// Proof: proofs/IeeeAffine.v, affine_scale_known.
+    /// If it underflows, value, coefficients and rest are each off by at most η/2. Proof:
+    /// proofs/IeeeAffine.v, affine_scale_known.
     template <class T>
     static constexpr bound<T> scale(const T& v, operand<T> a, int e) {
         using traits = number_traits<T>;
@@ -212,7 +206,6 @@ struct affine_of {
         if (y == 0) return x;
         return detail::rounded_product(T(x + y), T(1 + number_traits<T>::epsilon()));
     }
-    /// At least x·y, for x, y >= 0.
     template <class T>
     static constexpr T upper_product(const T& x, const T& y) {
         using traits = number_traits<T>;
@@ -220,7 +213,6 @@ struct affine_of {
         return detail::rounded_product(detail::rounded_product(x, y), T(1 + traits::epsilon())) +
                traits::underflow_unit();
     }
-    /// At least x/y, for x >= 0, y > 0.
     template <class T>
     static constexpr T upper_quotient(const T& x, const T& y) {
         using traits = number_traits<T>;
@@ -235,7 +227,6 @@ struct affine_of {
         constexpr void add(std::uint64_t source, const T& coefficient) {
             if (coefficient != 0) terms_[count_++] = {source, coefficient};
         }
-        /// An amount >= 0 outside the terms.
         constexpr void add_left(const T& amount) { left_ = upper_sum<T>(left_, amount); }
         constexpr const T& left() const { return left_; }
         constexpr T radius() const {
@@ -316,7 +307,6 @@ struct affine_of {
     }
 };
 
-/// At most 16 terms.
-using affine = affine_of<detail::usual_affine_limit>;
+using affine = affine_of<detail::usual_affine_limit>;  ///< at most 16 terms
 
 }  // namespace errbound

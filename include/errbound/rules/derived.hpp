@@ -1,5 +1,4 @@
 // Derives a bound rule from another, to change one operation.
-//
 //   struct mine : errbound::derived_rule<mine, errbound::tight> {
 //       static constexpr const char* name = "mine";
 //       template <class T>
@@ -13,12 +12,11 @@
 namespace errbound {
 
 /// Same as Rule in state, operations and constants, except dot_bound: dot products apply Self's
-/// operations one by one. Members of Self hide Rule's. Rule's operations call each other (its
-/// `subtract` its `add`), not Self's. A changed operation voids Rule's promise: set error_is, or
-/// prove and validate the change.
+/// operations one by one. Rule's operations call each other (its `subtract` its `add`), not Self's.
+/// A changed operation voids Rule's promise: set error_is, or prove and validate the change.
 template <class Self, class Rule>
 struct derived_rule : Rule {
-    /// Rule's proof does not cover Self, which may redefine these.
+    /// Rule's proof does not cover Self. Self may redefine these.
     static constexpr bool holds_in_directed_rounding = false, holds_without_subnormals = false;
 
     template <class T>
@@ -60,7 +58,6 @@ struct derived_rule : Rule {
         return Rule::template fused<T>(v, original<T>(a), original<T>(b), original<T>(c));
     }
 
-    /// Converts Self's operand to Rule's.
     template <class T>
     static constexpr rule_operand<T, Rule> original(rule_operand<T, Self> a) {
         return {a.value, a.bound};

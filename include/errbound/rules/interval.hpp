@@ -1,10 +1,9 @@
 // Bound rule `interval`: interval arithmetic, rounded outwards without touching the rounding mode,
-// which must be to nearest.
-//
-// The exact and the computed value lie in [lower, upper]. Ends are finite, except for [−∞, ∞],
-// which stands for any overflow or NaN. Notation: docs/notation.md. The ends of sums, and of
-// products and quotients of points (lower = upper), are rounded correctly, by the sign of the exact
-// error; exact results stay points. Other products and quotients take one step outwards.
+// which must be to nearest. The exact and the computed value lie in [lower, upper]. Ends are
+// finite, except for [−∞, ∞], which stands for any overflow or NaN. Notation: docs/notation.md. The
+// ends of sums, and of products and quotients of points (lower = upper), are rounded correctly, by
+// the sign of the exact error; exact results stay points. Other products and quotients take one
+// step outwards.
 #pragma once
 
 #include <errbound/error_free.hpp>
@@ -70,9 +69,8 @@ struct interval {
                                        rule_operand<T, interval> b) {
         return sum<T>(v, a.bound, negate<T>(b.bound));
     }
-    /// Both ends are among the four products of ends. A product 0·∞ = NaN occurs only if an operand
-    /// is [−∞, ∞], and the result then is [−∞, ∞]. Proof: proofs/IeeeInterval.v,
-    /// interval_multiply_known.
+    /// Both ends are among the four products of ends. If an operand is [−∞, ∞], so is the result,
+    /// also for a product 0·∞ = NaN. Proof: proofs/IeeeInterval.v, interval_multiply_known.
     template <class T>
     static constexpr bound<T> multiply(const T& v, rule_operand<T, interval> a,
                                        rule_operand<T, interval> b) {
@@ -158,7 +156,6 @@ struct interval {
     template <class T>
     static constexpr bound<T> checked(const T& value, const T& lower, const T& upper) {
         const T infinity = number_traits<T>::infinity();
-        // Without infinities, overflow is NaN.
         const bool finite = !has_infinity<T> || (-infinity < lower && upper < infinity);
         if (finite && lower <= value && value <= upper) return {lower, upper};
         return unknown<T>();
@@ -174,9 +171,8 @@ struct interval {
 
     /// A step e > ulp(c)/2, so c ⊖ e is at most the number before c, and c ⊕ e at least the one
     /// after. The rounded u|c| is at least x = ulp(c)/2 if x is a number. 1.25x is exact from x =
-    /// 4η on; below, the added η exceeds the loss of the roundings. Source: Rump, Zimmermann,
-    /// Boldo, Melquiond 2009 (BIT 49). 1.25 replaces their 1 + 2u, for p = 3 and for formats
-    /// with η near u.
+    /// 4η on; below, the added η exceeds the loss. Source: Rump, Zimmermann, Boldo, Melquiond 2009
+    /// (BIT 49). 1.25 replaces their 1 + 2u, for p = 3 and for formats with η near u.
     template <class T>
     static constexpr T step(const T& c) {
         using traits = number_traits<T>;

@@ -6,7 +6,6 @@
 namespace errbound {
 
 /// Treats every finite result as exact: signs are guesses (proofs/IeeeRules.v, none_guesses).
-/// A result that is not finite is uncertain.
 struct none {
     static constexpr const char* name = "none";
     static constexpr error_meaning error_is = error_meaning::nothing;

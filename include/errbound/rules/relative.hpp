@@ -4,11 +4,9 @@
 // Notation: docs/notation.md; v is the computed value, x the exact one. The bound is a count k: v =
 // x·Π(1 + δᵢ)^±1 over k factors, |δᵢ| <= u (Higham 2002, Lemma 3.1; Stewart's counter). So v and x
 // have the same sign, and |ln(v/x)| <= kw, w = −ln(1 − u); k need not be whole. Exact numbers have
-// k = 0. The error is about k·u|v|, as with Higham's γ_k.
-//
-// The error is infinite after an overflow, an underflow except in sums, or a cancellation as large
-// as the error. It is also infinite for an inexact number of value 0, and if kw >= 7/4. x − x of an
-// inexact x is not known to be 0.
+// k = 0. The error is about k·u|v|. It is infinite after an overflow, an underflow except in sums,
+// or a cancellation as large as the error. It is also infinite for an inexact number of value 0
+// (such as x − x of an inexact x), and if kw >= 7/4.
 #pragma once
 
 #include <errbound/error_free.hpp>
@@ -31,8 +29,7 @@ struct relative {
     static constexpr bound<T> exact(const T& value) {
         return {number_traits<T>::is_finite(value) ? 0 : unknown};
     }
-    /// Infinite unless error < |value|: a relative bound cannot contain 0. Proof:
-    /// proofs/IeeeRelative.v, relative_within_known.
+    /// Infinite unless error < |value|. Proof: proofs/IeeeRelative.v, relative_within_known.
     template <class T>
     static constexpr bound<T> within(const T& value, const T& error) {
         using traits = number_traits<T>;
@@ -86,8 +83,8 @@ struct relative {
             product_error_is_exact<T>(a.value, b.value, product) && product.error == 0;
         return rounded_to<T>(v, count_sum(a.bound.factors, b.bound.factors), is_exact);
     }
-    /// k = ka + kb, plus one unless exact. Infinite if b may be zero: if its value is 0 or its
-    /// count infinite. Proof: proofs/IeeeRelative.v, relative_divide_known.
+    /// k = ka + kb, plus one unless exact. Infinite if b has value 0 or an infinite count. Proof:
+    /// proofs/IeeeRelative.v, relative_divide_known.
     template <class T>
     static constexpr bound<T> divide(const T& v, rule_operand<T, relative> a,
                                      rule_operand<T, relative> b) {
@@ -149,7 +146,6 @@ struct relative {
         const double u = static_cast<double>(number_traits<T>::unit_roundoff());
         return u * (1 - u / 2) / (1 - u) * (1 + 8 * epsilon);
     }
-    // j + k, rounded up unless exact.
     static constexpr double count_sum(double j, double k) {
         const with_error<double> sum = two_sum<double>(j, k);
         return sum.error > 0 ? upper<double>(sum.value) : sum.value;
@@ -172,7 +168,6 @@ struct relative {
                (1 + 8 * epsilon);
     }
 
-    /// Adds a factor for rounding to v, unless exact.
     template <class T>
     static constexpr bound<T> rounded_to(const T& v, double k, bool is_exact) {
         using traits = number_traits<T>;

@@ -5,7 +5,6 @@
 // `remainder`: |v + c − exact value| <= ρ. va, ca, ρa are those of a. δ is an operation's rounding
 // error. Exact numbers have c = ρ = 0. Sums keep ρ = 0 while c holds their error exactly. v + c = 0
 // with ρ = 0 is a certain zero. If v is not finite, c or ρ is not, so no sign is certain.
-//
 // Sources: Ogita, Rump, Oishi 2005 (Accurate sum and dot product); Langlois 2001 (Automatic linear
 // correction of rounding errors).
 #pragma once
@@ -37,8 +36,7 @@ struct residual {
     static constexpr bound<T> within(const T& value, const T& error) {
         return {T(0), error >= 0 ? error + (value - value) : number_traits<T>::infinity()};
     }
-    /// Bounds a number whose exact value is 0. Proof: proofs/IeeeResidual.v,
-    /// residual_displacement_known.
+    /// The exact value is 0. Proof: proofs/IeeeResidual.v, residual_displacement_known.
     template <class T>
     static constexpr bound<T> displacement(const T& value) {
         return {-value, value - value};
@@ -54,9 +52,8 @@ struct residual {
     static constexpr T correction(const T&, const bound<T>& b) {
         return b.correction;
     }
-    /// The exact value is within ρ of v + c, and ρ is of second order. For s = v ⊕ c, |v + c| >=
-    /// |s|(1 − u), and (1 + 8ε)(1 − u)/(1 + u) > 1; a subnormal s is exact. Proof:
-    /// proofs/IeeeResidual.v, residual_sign_known.
+    /// The exact value is within ρ of v + c. For s = v ⊕ c, |v + c| >= |s|(1 − u), and (1 + 8ε)(1 −
+    /// u)/(1 + u) > 1; a subnormal s is exact. Proof: proofs/IeeeResidual.v, residual_sign_known.
     template <class T>
     static constexpr sign_type sign(const T& value, const bound<T>& b) {
         using traits = number_traits<T>;

@@ -1,5 +1,4 @@
 // Bound rules: how a certified bound passes through operations.
-//
 //   struct my_rule {
 //       static constexpr const char* name = "my_rule";
 //       template <class T> struct bound { T error; };
@@ -7,9 +6,8 @@
 //   };
 //   using number = errbound::tracked<double, my_rule>;
 //
-// A missing member does not compile, and the message names it. rules/tight.hpp fits on a page;
-// another example is examples/own_rule.cpp. To change one operation of a rule, derive from it
-// (rules/derived.hpp).
+// If a member is missing, the compiler names it. rules/tight.hpp fits on a page; another example is
+// examples/own_rule.cpp. To change one operation of a rule, derive from it (rules/derived.hpp).
 #pragma once
 
 #include <concepts>
@@ -49,7 +47,6 @@ inline constexpr double claimed_rate = [] {
         return 0.0;
 }();
 
-/// True if the errors of the rule are bounds, neither estimates nor always zero.
 template <class Rule>
 inline constexpr bool promises_bound = meaning_of_error<Rule> == error_meaning::bound;
 
@@ -149,7 +146,6 @@ inline constexpr bool holds_without_subnormals = [] {
         return false;
 }();
 
-/// Names the member that a bound rule lacks.
 template <class Rule, class T>
 struct rule_check {
     static_assert(rule_has_bound<Rule, T>,
@@ -177,7 +173,6 @@ struct rule_check {
 
 // A rule may use + − × ÷ of T (no a += b), negation, comparisons, construction from int,
 // number_traits<T>. All members are static:
-//
 //   name                                    for tables and messages
 //   template <class T> struct bound         the state stored with a value, of any size
 //   exact(value)                            the bound of an exact number

@@ -1,6 +1,5 @@
-// Bound rule `safe`: SafeBound (Wang 2014; Section 4.2 of the TightCCD paper), its gaps closed.
-//
-// The bound is (B, k): |f| <= B and |f̂ − f| <= B[(1 + ε)^k − 1]. Beyond the printed rule, B is
+// Bound rule `safe`: SafeBound (Wang 2014; Section 4.2 of the TightCCD paper), its gaps closed. The
+// bound is (B, k): |f| <= B and |f̂ − f| <= B[(1 + ε)^k − 1]. Beyond the printed rule, B is
 // inflated for its own rounding, underflow is covered, and a product with an exact zero is an exact
 // zero. Overflow makes B infinite and the value infinite or NaN, so no sign is certain. No
 // division: (B, k) has no lower bound of |f|.
@@ -13,10 +12,8 @@ namespace errbound {
 
 struct safe {
     static constexpr const char* name = "safe";
-    /// Except for overflow.
-    static constexpr bool holds_in_directed_rounding = true;
-    /// `divide` only names the reason.
-    static constexpr bool has_division = false;
+    static constexpr bool holds_in_directed_rounding = true;  ///< except for overflow
+    static constexpr bool has_division = false;               ///< `divide` only names the reason
 
     template <class T>
     struct bound {
@@ -35,14 +32,13 @@ struct safe {
         using traits = number_traits<T>;
         if (error == 0) return exact(value);
         if (!(error > 0)) return {traits::infinity(), 1};
-        // Larger errors make error/ε overflow; in some directions to the largest number, too small.
+        // error/ε may overflow; in some directions to the largest number, which is too small.
         const bool overflows = error > traits::largest() * traits::epsilon();
         const T least = overflows ? traits::infinity() : error / traits::epsilon();
         return {enlarged<T>((traits::max)(traits::abs(value) + error, least)), 1};
     }
-    /// B[(1 + ε)^k − 1] <= B·kε(1 + kε), since e^x − 1 <= x + x² for x <= 1; infinite beyond.
-    /// Proof: proofs/IeeeSafe.v, safe_error_known; in any direction, proofs/Safe.v,
-    /// safe_error_sound.
+    /// B[(1 + ε)^k − 1] <= B·kε(1 + kε), since e^x − 1 <= x + x² for x <= 1. Proof:
+    /// proofs/IeeeSafe.v, safe_error_known; in any direction, proofs/Safe.v, safe_error_sound.
     template <class T>
     static constexpr T error(const T& value, const bound<T>& b) {
         using traits = number_traits<T>;
@@ -101,11 +97,9 @@ struct safe {
     }
 
   private:
-    /// The largest k, for an infinite error. Two of it fit an int.
-    static constexpr int too_many = 1 << 29;
+    static constexpr int too_many = 1 << 29;  ///< for an infinite error; twice it fits an int
     static constexpr int counted(int k) { return k < too_many - 1 ? k + 1 : too_many; }
 
-    // At least the exact Ba + Bb or Ba·Bb, in any rounding direction.
     template <class T>
     static constexpr T enlarged(const T& x) {
         return detail::rounded_product(x, T(1 + 4 * number_traits<T>::epsilon()));

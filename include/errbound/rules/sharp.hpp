@@ -19,7 +19,6 @@ struct sharp {
     static constexpr const char* name = "sharp";
     static constexpr int minimal_precision = 3;
 
-    /// |value − exact value| <= error.
     template <class T>
     struct bound {
         T error;
@@ -91,8 +90,8 @@ struct sharp {
             (a.bound.error + (detail::rounded_product(quotient, b.bound.error) + lost)) / distance;
         return {inflated<T>((rounding(v) + 2 * traits::underflow_unit()) + inflated<T>(inherited))};
     }
-    /// Exact unless value or bound underflow; each is then off by at most η/2. Proof:
-    /// proofs/IeeeRules.v, sharp_scale_known.
+    /// If it underflows, value and bound are each off by at most η/2. Proof: proofs/IeeeRules.v,
+    /// sharp_scale_known.
     template <class T>
     static constexpr bound<T> scale(const T& v, rule_operand<T, sharp> a, int e) {
         using traits = number_traits<T>;
@@ -102,15 +101,13 @@ struct sharp {
         return {lossless ? scaled + (v - v) : inflated<T>(scaled + traits::underflow_unit())};
     }
 
-    /// Σ aᵢbᵢ, with a running error bound. A product p is off by at most u|p| + η/2. The partial
-    /// sum s' = fl(s + p) is off by at most u|s'|, |p| and |s|, since s' is nearest and s and p are
-    /// numbers. The arguments' errors add Σ |â|σb + σa(|b̂| + σb).
-    ///
-    /// One factor covers the roundings in the bound of m terms: at most m for each u|p| or
-    /// min(u|s'|, |p|, |s|), m + 2 for one of the arguments' errors, and four at the end. With j =
-    /// m + 6, (1 + u)^j <= 1 + ju + (ju)² <= 1 + (⌈j/2⌉ + 1)ε if j²ε <= 4. Underflow loses at most
-    /// η/2 for each p and each u|p|, twice for each term of inexact arguments, and once at the end.
-    /// Source: Higham 2002, Section 3.3; Jeannerod, Rump 2013 (SIAM J. Matrix Anal. Appl. 34).
+    /// Σ aᵢbᵢ, with a running error bound, as in `tight`. A product p is off by at most u|p| + η/2.
+    /// The partial sum s' = fl(s + p) is off by at most u|s'|, |p| and |s|, since s' is nearest and
+    /// s and p are numbers. One factor covers the roundings in the bound of m terms: at most m for
+    /// each u|p| or min(u|s'|, |p|, |s|), m + 2 for an argument's error, and four at the end. With
+    /// j = m + 6, (1 + u)^j <= 1 + ju + (ju)² <= 1 + (⌈j/2⌉ + 1)ε if j²ε <= 4. Underflow loses at
+    /// most η/2 for each p and each u|p|, twice for each term of inexact arguments, and once at the
+    /// end. Source: Higham 2002, Section 3.3; Jeannerod, Rump 2013 (SIAM J. Matrix Anal. Appl. 34).
     /// Proof: proofs/IeeeDotProduct.v, sharp_dot_known.
     template <class T>
     class dot_bound : detail::running_bound<T, dot_bound<T>, number_traits<T>::digits + 1> {

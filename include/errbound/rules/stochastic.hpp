@@ -1,10 +1,9 @@
 // Bound rule `stochastic`: stochastic arithmetic, which estimates errors and promises nothing. A
 // number carries samples, computed with every operation randomly rounded up or down; their scatter
-// estimates the rounding error. For comparison with bounds, and where bounds are too wide.
-//
-// error_is is error_meaning::estimate: signs follow the estimate and may be wrong, so no predicate
-// takes this rule. It misses truncation errors and branches that samples do not take. `errbound
-// validate` measures how often estimates are too small.
+// estimates the rounding error. For comparison with bounds, and where bounds are too wide. Signs
+// follow the estimate and may be wrong, so no predicate takes this rule. It misses truncation
+// errors and branches that samples do not take. `errbound validate` measures how often estimates
+// are too small.
 #pragma once
 
 #include <array>
@@ -18,12 +17,10 @@
 namespace errbound {
 
 /// Stochastic arithmetic with 2 to 8 samples. Cost: an error-free operation and a hash per sample.
-///
 /// A sample's operation is rounded to a neighbour of the exact result, the nearer one more often,
 /// right on average (Croci, Fasi, Higham, Mary, Mikaitis 2022; Parker's Monte Carlo arithmetic,
 /// 1997). The random bits are a hash of the operands, the sample's index and Seed. So results are
-/// reproducible, and equal operations round equally, as in the modelled arithmetic: a + b and b + a
-/// agree, and b − a is −(a − b), as in Verrou's _det modes.
+/// reproducible, a + b and b + a agree, and b − a is −(a − b), as in Verrou's _det modes.
 template <std::size_t Samples, std::uint64_t Seed = 0>
 struct stochastic_of {
     static_assert(Samples >= 2 && Samples <= 8, "errbound: stochastic takes 2 to 8 samples");
@@ -51,9 +48,8 @@ struct stochastic_of {
             return T(value + detail::rounded_product(error, static_cast<T>(share)));
         });
     }
-    /// An estimate; infinite if a sample is not finite. CESTAC's (Vignes 1993), |m| + τs/√N: the
-    /// mean deviation m from the value, the standard deviation s, Student's τ for 95 %. (CESTAC
-    /// returns the mean instead of the value.) 0 if samples do not scatter.
+    /// CESTAC's estimate (Vignes 1993), |m| + τs/√N: the mean deviation m from the value, the
+    /// standard deviation s, Student's τ for 95 %. (CESTAC returns the mean instead of the value.)
     template <class T>
     static constexpr T error(const T& value, const bound<T>& b) {
         using traits = number_traits<T>;
@@ -170,7 +166,6 @@ struct stochastic_of {
     static constexpr double chance(std::uint64_t random) {
         return static_cast<double>(random >> 11) * 0x1p-53;
     }
-    /// Distinguishes operations on equal operands.
     enum operation : std::uint64_t {
         of_sum = 0,
         of_product = 8,
@@ -205,7 +200,6 @@ struct stochastic_of {
     }
 };
 
-/// Three samples, as CADNA uses.
-using stochastic = stochastic_of<3>;
+using stochastic = stochastic_of<3>;  ///< three samples, as CADNA uses
 
 }  // namespace errbound

@@ -18,11 +18,9 @@ namespace errbound {
 
 struct tight {
     static constexpr const char* name = "tight";
-    /// Overflow to the largest finite number goes unnoticed.
     static constexpr bool holds_in_directed_rounding = true;
     static constexpr bool holds_without_subnormals = true;
 
-    /// |value − exact value| <= error.
     template <class T>
     struct bound {
         T error;
@@ -71,9 +69,8 @@ struct tight {
                                        rule_operand<T, tight> b) {
         return add(v, a, b);
     }
-    /// |v − ab| <= |v|ε/(1 − ε) + |â|σb + σa|b̂| + σaσb. Source: Theorem 1, Multiply. Proof:
-    /// proofs/IeeeRules.v, tight_multiply_known; in any direction, proofs/Tight.v,
-    /// tight_multiply_sound.
+    /// |v − ab| <= |v|ε/(1 − ε) + |â|σb + σa|b̂| + σaσb. Proof: proofs/IeeeRules.v,
+    /// tight_multiply_known; in any direction, proofs/Tight.v, tight_multiply_sound.
     template <class T>
     static constexpr bound<T> multiply(const T& v, rule_operand<T, tight> a,
                                        rule_operand<T, tight> b) {
@@ -95,7 +92,6 @@ struct tight {
         const T distance = traits::abs(b.value) - b.bound.error;  // of b from zero
         if (!(distance > 0)) return {traits::infinity()};
         if constexpr (!has_subnormals<T>)
-            // The subtraction may have underflowed.
             if (!(distance > traits::underflow_unit())) return {traits::infinity()};
         if (is_zero(a)) return {rounding(v)};
         // |â/b̂| may have been rounded down, so it is inflated separately. If b is not exact, 4η
@@ -106,8 +102,8 @@ struct tight {
             (a.bound.error + detail::rounded_product(quotient, b.bound.error) + lost) / distance;
         return {inflated<T>(rounding(v) + inflated<T>(inherited) + 4 * traits::underflow_unit())};
     }
-    /// Exact unless it underflows; then value and bound are each off by less than η. Proof:
-    /// proofs/IeeeRules.v, tight_scale_known; in any direction, proofs/Tight.v, tight_scale_sound.
+    /// If it underflows, value and bound are each off by less than η. Proof: proofs/IeeeRules.v,
+    /// tight_scale_known; in any direction, proofs/Tight.v, tight_scale_sound.
     template <class T>
     static constexpr bound<T> scale(const T& v, rule_operand<T, tight> a, int e) {
         using traits = number_traits<T>;
@@ -117,16 +113,15 @@ struct tight {
         return {lossless ? scaled + (v - v) : inflated<T>(scaled + 2 * traits::underflow_unit())};
     }
 
-    /// Σ aᵢbᵢ, with a running error bound. For computed products pᵢ and partial sums sᵢ, roundings
-    /// add at most Σ (|pᵢ| + |sᵢ|)·ε/(1 − ε), without s₁ = p₁, and η per product. The arguments'
-    /// errors add Σ |â|σb + σa(|b̂| + σb).
+    /// Σ aᵢbᵢ, with a running error bound (Higham 2002, Section 3.3). For computed products pᵢ and
+    /// partial sums sᵢ, roundings add at most Σ (|pᵢ| + |sᵢ|)·ε/(1 − ε), without s₁ = p₁, and η per
+    /// product. The arguments' errors add Σ |â|σb + σa(|b̂| + σb).
     ///
     /// One factor covers the roundings in the bound of m terms: at most m for each summand |pᵢ|ε or
-    /// |sᵢ|ε, m + 2 for one of the arguments' errors, and four at the end. With j = m + 6, 1 + (j +
-    /// 1)ε >= 1/(1 − jε) >= (1 − ε)^−j if j²ε <= 1/2. Underflow loses less than η for each product,
-    /// twice for each term of inexact arguments, and once at the end. Source: Higham 2002, Section
-    /// 3.3 (running error analysis). Proof: proofs/IeeeDotProduct.v, tight_dot_known; in any
-    /// direction, proofs/DotProduct.v, tight_dot_sound.
+    /// |sᵢ|ε, m + 2 for an argument's error, and four at the end. With j = m + 6, 1 + (j + 1)ε >=
+    /// 1/(1 − jε) >= (1 − ε)^−j if j²ε <= 1/2. Underflow loses less than η for each product, twice
+    /// for each term of inexact arguments, and once at the end. Proof: proofs/IeeeDotProduct.v,
+    /// tight_dot_known; in any direction, proofs/DotProduct.v, tight_dot_sound.
     template <class T>
     class dot_bound : detail::running_bound<T, dot_bound<T>,
                                             has_subnormals<T> ? number_traits<T>::digits - 2 : 0> {

@@ -6,7 +6,6 @@
 namespace errbound::support {
 
 /// Bad input or output. what() has file, line or element, the value and the expected condition.
-/// The program prints it and exits with status 1.
 struct file_error : std::runtime_error {
     using std::runtime_error::runtime_error;
 };
