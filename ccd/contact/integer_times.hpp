@@ -8,13 +8,12 @@
 
 namespace ccd::detail {
 
-/// Returns `uncertain` for queries that ccd/exact/integers.hpp leaves undecided, for roots that it
-/// need not distinguish from others, and for times below 2^-70. Precondition: coordinates are
-/// finite. No allocation, no exceptions.
+/// `uncertain` for queries that ccd/exact/integers.hpp leaves undecided, roots that it need not
+/// distinguish from others, and times below 2^-70. Precondition: coordinates are finite. No
+/// allocation, no exceptions.
 template <any_query Query>
 found_time first_contact_in_integers(const Query& query);
 
-/// The same if floating point has found the interval of the first contact.
 template <cubic_query Query>
 found_time root_in_integers(const Query& query, const static_filter::contact_interval& part);
 
