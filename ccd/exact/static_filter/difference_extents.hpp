@@ -1,7 +1,7 @@
 // The size of a query's differences, and the error bounds of its forms that follow from it.
 //
-// One template serves one query (S = double) and a pack of queries (S a SIMD batch, masks instead
-// of bools). Each lane computes bit for bit the scalar result.
+// S is double for one query or a pack for several (with masks instead of bools). Each lane computes
+// bit for bit the scalar result.
 #pragma once
 
 #include <algorithm>
@@ -12,7 +12,7 @@
 
 namespace ccd::static_filter {
 
-/// The number type whose roundings S makes: double for a pack of doubles.
+/// The number type of S: double for a pack of doubles.
 template <class S>
 struct real_of {
     using type = double;
@@ -22,18 +22,17 @@ struct real_of<float> {
     using type = float;
 };
 
-/// The type of a comparison of two S: bool, or a SIMD mask.
+/// A bool, or a SIMD mask.
 template <class S>
 using mask = decltype(S() < S());
 
 /// m_x, m_y, m_z: by axis, the largest magnitude of differences from one of the query's points.
-/// Precondition: finite coordinates. (Differences that overflow are infinite. NaN results only from
-/// infinite coordinates, and the maximum may skip it.)
+/// Precondition: finite coordinates. (The maximum may skip the NaN of infinite ones.)
 template <class S>
 struct difference_extents {
     using real = typename real_of<S>::type;
     S x, y, z;
-    /// False if a difference is too large for the error bounds.
+    /// False if a difference is too large.
     mask<S> usable;
 
     explicit constexpr difference_extents(const coplanarity_forms<S>& f) {
@@ -49,9 +48,8 @@ struct difference_extents {
         usable = max(max(x, y), z) <= S(largest_difference<real>);
     }
 
-    /// Bounds |ĥ − h| of the control values of Y, or of every G_i. Proved for double.
-    /// Proof: proofs/CcdFilter.v, error_of_y_sound, error_of_vertex_face_sound,
-    /// error_of_edge_edge_sound.
+    /// Bounds |ĥ − h| of the control values of Y, or of every G_i. Proved for double. Proof:
+    /// proofs/CcdFilter.v, error_of_y_sound, error_of_vertex_face_sound, error_of_edge_edge_sound.
     template <template <class> class Forms>
     constexpr S error_of_y() const {
         return x * y * z * S(y_constants<Forms, real>.relative) +
