@@ -10,7 +10,7 @@
 namespace ccd::io::ply {
 namespace {
 
-/// Largest number of elements, and of an element's properties. Names are compared pairwise.
+/// Limits elements, and properties of each: names are compared pairwise.
 constexpr std::size_t max_names = 1000;
 
 std::optional<std::uint64_t> parse_count(std::string_view token) {
@@ -64,8 +64,7 @@ class header_parser {
     header_parser(std::string_view& text, const std::string& name) : text_(text), name_(name) {}
 
     header parse() {
-        // If CR alone ends the first line, it ends all: a LF after the last one belongs to a binary
-        // body.
+        // If CR alone ends the first line, it ends all: a final LF belongs to a binary body.
         const std::size_t first_end = text_.find_first_of("\r\n");
         if (first_end != std::string_view::npos && !text_.substr(first_end).starts_with("\r\n"))
             line_end_ = text_[first_end];

@@ -24,7 +24,7 @@ constexpr number fail(number_status status) {
 
 constexpr std::string_view blanks = " \t";
 
-/// Takes an optional sign off the front; true for a minus.
+/// True for a minus.
 bool take_sign(std::string_view& token) {
     const bool negative = token.starts_with('-');
     if (negative || token.starts_with('+')) token.remove_prefix(1);
@@ -56,7 +56,6 @@ number nearest_quotient(const cpp_int& n, const cpp_int& d, bool round) {
     return {value, number_status::ok};
 }
 
-/// A decimal integer's digits, without sign and leading zeros, and its value if it is small.
 struct integer {
     bool negative = false;
     std::string_view digits;

@@ -32,7 +32,7 @@ std::string bytes_of_rows(const Rows& rows) {
     return bytes;
 }
 
-/// Appends an array, which the page's script finds by `id`.
+/// The page's script finds it by `id`.
 void append_array(std::string& text, std::string_view id, std::string bytes) {
     text += "<script type=\"text/plain\" id=\"array-";
     text += id;
@@ -50,7 +50,6 @@ std::string bytes_of_parts(const step_view& step) {
     return bytes;
 }
 
-/// Weights and normal, in floats, of each pair with a time.
 template <kind K>
 std::string bytes_of_contacts(const step_view& step) {
     std::string bytes;
