@@ -38,7 +38,6 @@ struct report_options {
     }
 };
 
-/// Called at times with the finished share of a part.
 using progress = std::function<void(double)>;
 
 /// A unit of measurement, kept in a file so that a stopped report continues.
@@ -53,9 +52,9 @@ struct part {
 
 /// The file of a part of that name.
 std::filesystem::path path_of_part(const std::filesystem::path& folder, const std::string& name);
-/// The part's rows, if the folder has its file, undamaged and with the same dependencies.
+/// If the folder has its file, undamaged and with the same dependencies.
 std::optional<rows> stored_part(const std::filesystem::path& folder, const part& p);
-/// Writes the part, whole or not at all. Throws errbound::support::file_error.
+/// All or nothing. Throws errbound::support::file_error.
 void store_part(const std::filesystem::path& folder, const part& p, const rows& measured);
 
 struct picture {
@@ -75,14 +74,14 @@ struct report_summary {
     std::vector<std::string> failures;  ///< broken promises and contradictions, a sentence each
 };
 
-/// A row per method over the rows of methods.csv that `counts` selects, in order of appearance:
-/// method, the sums of queries, colliding, false_positives, false_negatives, uncertain, and ns, the
-/// mean over all queries.
+/// A row per method over the selected rows of methods.csv, in order of appearance: method, the sums
+/// of queries, colliding, false_positives, false_negatives, uncertain, and ns, the mean over all
+/// queries.
 rows totals(const rows& methods, const std::function<bool(const row&)>& counts);
 
 /// Measures the parts that the folder lacks; writes the CSV files, plot.py, its pictures, and
 /// report.md. `show` gets the finished share and the next step; `print` gets lines for a person.
-/// Throws errbound::support::file_error: no data, a folder that cannot be read or written.
+/// Throws errbound::support::file_error without data, or if a folder cannot be read or written.
 report_summary make_report(const report_options& settings,
                            const std::function<void(double, const std::string&)>& show,
                            const std::function<void(const std::string&)>& print);
