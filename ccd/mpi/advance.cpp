@@ -1,8 +1,9 @@
-// Advances of a mesh on many ranks. Each rank holds the elements near its region of space. All know
-// the motion of every group, because all join, shorten and take back by the same list of pairs.
+// Advances of a mesh on many ranks, each of which holds the elements near its region of space. All
+// ranks have the motion of every group, because all join, shorten and take back by the same list of
+// pairs.
 //
-// Elements stay on the ranks of the whole step: boxes of a shorter way, and intersections of two
-// such boxes, are inside those of the whole step.
+// Elements stay on the ranks of the whole step, since boxes of a shorter way are inside those of
+// the whole.
 #include <algorithm>
 #include <ccd/mpi.hpp>
 #include <chrono>
@@ -20,7 +21,7 @@
 namespace ccd::mpi {
 namespace {
 
-/// A rank's vertices by index: first those that it holds, then others that it has received.
+/// A rank's own vertices, then others that it has received.
 class known_vertices {
   public:
     known_vertices(const detail::local_mesh& local, bool islands)
@@ -61,7 +62,6 @@ class known_vertices {
     std::vector<int> islands_of_others_;
 };
 
-/// The exchange of ccd::detail::advancing with the ranks that have the rest of the mesh.
 class other_ranks {
   public:
     other_ranks(detail::exchanger& ranks, known_vertices& vertices)
