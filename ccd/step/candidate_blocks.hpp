@@ -1,4 +1,3 @@
-// Passes candidates from the search to their consumer in blocks.
 #pragma once
 
 #include <tbb/enumerable_thread_specific.h>
@@ -38,10 +37,9 @@ bool may_collide(const pair_filter& filter, const Pair& pair) {
     return false;
 }
 
-/// Applies a filter to pairs, with the boxes that their elements sweep.
+/// Applies a filter to pairs. Keeps references.
 class pair_test {
   public:
-    /// Keeps references to both.
     pair_test(const pair_filter& filter, const swept_boxes& boxes)
         : filter_(filter), boxes_(boxes) {}
 
@@ -81,7 +79,6 @@ class candidate_blocks {
         block(const visitor& visit, const pair_test* filter, const stop_query& stop)
             : visit_(&visit), filter_(filter), stop_(&stop) {}
 
-        /// Adds the candidate if `is_one` is true.
         void add(const Pair& c, bool is_one) {
             candidates_[size_] = c;  // unconditionally: a branch would often be mispredicted
             size_ += is_one;
@@ -113,13 +110,13 @@ class candidate_blocks {
     candidate_blocks(const visitor& visit, const pair_test* filter, const stop_query& stop)
         : stop_(stop), blocks_([&visit, filter, &stop] { return block(visit, filter, stop); }) {}
 
-    /// Throws ccd::stopped if `stop` requests it, as flush() does.
+    /// Throws ccd::stopped, as flush() does.
     block& local() {
         stop_if_requested(stop_);
         return blocks_.local();
     }
 
-    /// Flushes all blocks. Returns the number of candidates.
+    /// Returns the number of candidates.
     std::size_t finish() {
         tbb::parallel_for_each(blocks_, [](block& b) { b.flush(); });
         return std::transform_reduce(blocks_.begin(), blocks_.end(), std::size_t(0), std::plus<>(),

@@ -25,7 +25,7 @@ constexpr std::size_t lesser(std::size_t a, std::size_t b) {
 }
 constexpr float infinity = std::numeric_limits<float>::infinity();
 
-/// Coordinates of the vertices of a pack's elements: by vertex, end of the step, axis.
+/// Coordinates of a pack's elements: by vertex, end of the step, axis.
 template <std::size_t N>
 struct corner_columns {
     alignas(64) float at[N][2][3][size];
@@ -48,7 +48,7 @@ struct corner_columns {
     }
 };
 
-/// Sets one axis' columns at one end of the step. values(v) are those of vertex v.
+/// values(v) are those of vertex v.
 template <std::size_t N, class Values>
 void set_extent(extents_pack& packed, std::size_t axis, std::size_t end, std::size_t lane,
                 float margin, const Values& values) {
@@ -129,7 +129,6 @@ void fill_nodes(const extents* below, std::size_t count, std::size_t first, std:
     }
 }
 
-/// The extents to compare a pack with: a hull, or those of one member of another pack.
 struct hull_reader {
     const extents& of;
     float operator()(std::size_t column) const { return of.of[column]; }
@@ -140,8 +139,8 @@ struct member_reader {
     float operator()(std::size_t column) const { return pack.at[column][member]; }
 };
 
-/// Returns the lanes of a pack that no axis separates from other extents. Coordinate axes separate
-/// most, so the others are tested only if lanes remain.
+/// The lanes that no axis separates from `other`. Coordinate axes separate most, so the others are
+/// tested only if lanes remain.
 template <class Extents>
 lanes touching(const extents_pack& packed, const Extents& other) {
     constexpr std::size_t parts = size / float_width;
@@ -173,7 +172,7 @@ lanes touching(const extents_pack& packed, const Extents& other) {
 
 typedef vertex_index index_quad __attribute__((vector_size(16)));
 
-/// Returns the lanes of a leaf's elements that share a vertex with element i of another leaf.
+/// The lanes that share a vertex with element i of another leaf.
 template <std::size_t N, std::size_t M>
 lanes sharing(const leaf_vertices& leaf, const leaf_vertices& other, std::uint32_t i) {
     index_quad found{}, bits = {1, 2, 4, 8};
@@ -190,7 +189,6 @@ lanes sharing(const leaf_vertices& leaf, const leaf_vertices& other, std::uint32
     return found[0] | found[1] | found[2] | found[3];
 }
 
-/// A buffer of pairs for the visitor.
 struct found_pairs {
     static constexpr std::size_t room = 512;
 
@@ -200,7 +198,7 @@ struct found_pairs {
     element_pair pairs[room];
 
     found_pairs(void* to, search_kernels::visitor by) : context(to), visit(by) {}
-    /// Makes room for the pairs of one comparison.
+    /// For one comparison.
     void make_room() {
         if (count + size > room) flush();
     }
@@ -213,8 +211,8 @@ struct found_pairs {
     }
 };
 
-/// Finds pairs of leaf p of `a`, with elements of N vertices, and leaf q of `b`, of M vertices. In
-/// one tree, the element of `b` is the later one.
+/// Elements of `a` have N vertices, those of `b` have M. In one tree, the element of `b` is the
+/// later one.
 template <std::size_t N, std::size_t M>
 void pairs_of_leaves(const extents_levels& a, std::size_t p, const extents_levels& b, std::size_t q,
                      found_pairs& found) {

@@ -15,13 +15,13 @@ namespace ccd::detail {
 
 class vertex_groups {
   public:
-    /// Each vertex is a separate group, which moves the whole way.
+    /// Separate groups that move the whole way.
     explicit vertex_groups(std::size_t vertices)
         : parent_(vertices), groups_(vertices), retreats_(vertices) {
         std::iota(parent_.begin(), parent_.end(), vertex_index(0));
     }
 
-    /// Adds a vertex as a group that moves the whole way; to the single group after join_all().
+    /// A group that moves the whole way; after join_all(), joins it to the single group.
     vertex_index add() {
         const auto v = static_cast<vertex_index>(parent_.size());
         parent_.push_back(v);
@@ -32,7 +32,6 @@ class vertex_groups {
     }
 
     std::size_t vertices() const { return parent_.size(); }
-    /// The vertex that represents the group.
     vertex_index root_of(vertex_index v) {
         while (parent_[v] != v) v = parent_[v] = parent_[parent_[v]];
         return v;
@@ -43,7 +42,7 @@ class vertex_groups {
         g.fraction = std::min(g.fraction, fraction);
     }
 
-    /// Joins both groups. The new group moves by the lesser fraction.
+    /// The new group moves by the lesser fraction.
     void join(vertex_index v, vertex_index w) {
         v = root_of(v);
         w = root_of(w);
@@ -57,7 +56,6 @@ class vertex_groups {
             all.shortened = more.shortened;
         }
     }
-    /// Joins v with the other vertices of this name.
     void join_named(int name, vertex_index v) {
         join(first_named_.try_emplace(name, v).first->second, v);
     }
@@ -66,7 +64,6 @@ class vertex_groups {
         for (vertex_index v = 1; v < parent_.size(); ++v) join(0, v);
     }
 
-    /// The number of last places by which a vertex is moved back from its fraction's position.
     int last_places_back(vertex_index v) const {
         return retreats_[v] == 0 ? 0 : 1 << (retreats_[v] - 1);
     }
@@ -106,7 +103,6 @@ class vertex_groups {
 
     group& group_of(vertex_index v) { return groups_[root_of(v)]; }
 
-    /// Returns true if the groups of some pair moved by different fractions.
     template <class Pair>
     bool join_different(const std::vector<Pair>& pairs) {
         bool any = false;
@@ -121,8 +117,8 @@ class vertex_groups {
         return any;
     }
 
-    /// Shortens by 2^-50 at first, then by more up to 2^-8, which leaves more than 0.99 after
-    /// `close` times; then to a half, a quarter and so on, and at last to 0.
+    /// Shortens by 2^-50 at first, then by up to 2^-8, which leaves more than 0.99 after `close`
+    /// times; then to a half, a quarter and so on, and at last to 0.
     static void shorten(group& g) {
         const int times = g.shortened++;
         if (times < close)

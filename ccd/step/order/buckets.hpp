@@ -1,5 +1,4 @@
-// Sorts items that have vertices: into parts by one vertex, then into buckets, then each short
-// bucket.
+// Sorts items into parts by one vertex, then into buckets, then each short bucket.
 #pragma once
 
 #include <tbb/enumerable_thread_specific.h>
@@ -19,8 +18,7 @@
 
 namespace ccd::detail {
 
-/// The number of shares of `count` items, at least one, such that each thread of the arena has
-/// work.
+/// At least one; each thread of the arena has work.
 inline std::size_t shares_of(std::size_t count) {
     constexpr std::size_t least = 4096;
     const auto threads = static_cast<std::size_t>(tbb::this_task_arena::max_concurrency());
@@ -30,7 +28,7 @@ constexpr std::size_t begin_of_share(std::size_t share, std::size_t shares, std:
     return count / shares * share + std::min(share, count % shares);
 }
 
-/// Destinations of the items of each share: items with one digit are adjacent, in order of shares.
+/// Items with one digit are adjacent, in order of shares.
 class share_places {
   public:
     share_places(std::size_t shares, std::size_t digits)
@@ -39,7 +37,7 @@ class share_places {
     void clear() { std::ranges::fill(next_, 0); }
     /// The counts, later the destinations, of a share by digit.
     std::size_t* of(std::size_t share) { return &next_[share * digits_]; }
-    /// Replaces counts by the destinations of the first items. Returns the total count.
+    /// Replaces counts by destinations. Returns the total count.
     std::size_t from_counts() {
         std::size_t before = 0;
         for (std::size_t d = 0; d < digits_; ++d)
@@ -53,13 +51,12 @@ class share_places {
     std::vector<std::size_t> next_;
 };
 
-/// Calls act(i) for all i < count, each as a separate task.
 template <class Act>
 void for_each_task(std::size_t count, const Act& act) {
     tbb::parallel_for(std::size_t(0), count, act, tbb::simple_partitioner());
 }
 
-/// Sorts a part's items into buckets by their vertices, which are from `first` to `last`.
+/// Bucket sort by vertices from `first` to `last`.
 template <class Item, class VertexOf>
 class part_sorter {
   public:
@@ -88,10 +85,9 @@ class part_sorter {
 };
 
 /// Sorts items that come in shares, at least one. for_each(share, visit) calls visit(item) for all
-/// items of a share; it is called twice for each share, from several threads at once.
-/// Preconditions: vertex_of(item) is at most `last`, and does not decrease in the order by <. Cost:
-/// O(count) if few items share a vertex, on all threads of the arena. Shares do not affect the
-/// result.
+/// items of a share, twice for each share, from several threads at once. Preconditions:
+/// vertex_of(item) is at most `last`, and does not decrease in the order by <. Cost: O(count) if
+/// few items share a vertex. Shares do not affect the result.
 template <class Item, class ForEach, class VertexOf>
 std::vector<Item> sorted_by_vertex(std::size_t shares, vertex_index last, const ForEach& for_each,
                                    const VertexOf& vertex_of) {
