@@ -19,7 +19,7 @@ namespace ccd {
 struct advance_options {
     /// The group of each vertex; empty: one group. Vertices of a group move by the same fraction of
     /// their ways. Groups with a contact between them are joined. For one group per body, pass
-    /// connected_parts (ccd/mesh.hpp).
+    /// connected_parts (ccd/mesh.hpp); for one per vertex, different indices.
     std::span<const int> groups = {};
     pair_distances distances = {};            ///< to keep; 0: only contact is avoided
     int threads = 0;                          ///< at most; 0: one per core
@@ -35,7 +35,8 @@ struct advance_result {
     std::vector<point<double>> positions;
     double fraction = 1;            ///< the least of `fractions`
     std::vector<double> fractions;  ///< of each vertex
-    /// The earliest contact (or time within the distance) of pairs not in touching_at_start.
+    /// The earliest contact (or distance) on the whole way, without the pairs of touching_at_start;
+    /// `separate` if there is none.
     first_time first_contact;
     pair_lists touching_at_start;  ///< skipped: no step of these pairs is free
     pair_lists near_at_start;      ///< within their distance at t = 0: only contact is avoided

@@ -58,8 +58,9 @@ struct meeting_features {
 enum class normal_source : std::uint8_t {
     /// (f1 − f0) × (f2 − f0), or (a1 − a0) × (b1 − b0), at the contact.
     cross_product,
-    /// The direction between the features' nearest points in the limit before the contact: the
-    /// reversed relative velocity, without its component along an edge that a vertex meets.
+    /// The direction from the second feature's nearest point to the first's, in the limit before
+    /// the contact: the reversed relative velocity, without its component along an edge that a
+    /// vertex meets.
     nearest_points,
     /// The reversed relative velocity, which is along the edge that a vertex meets.
     relative_velocity,
@@ -175,8 +176,8 @@ struct timed_contact {
 /// The earliest of many first times.
 struct earliest_time {
     /// The least time by `low`, then by `high`, without those at the start; `separate` if there is
-    /// none. If a coordinate of a query is not finite, it is `uncertain`, and `queries` lists all
-    /// such queries instead.
+    /// none. `uncertain` if a query has a coordinate that is not finite. Then `queries` lists these
+    /// queries, and nothing else is reported.
     first_time time;
     std::vector<std::size_t> queries;   ///< with that time, ascending
     std::vector<std::size_t> at_start;  ///< in contact at t = 0, ascending

@@ -1,10 +1,10 @@
 // Motion along curves: points that move by polynomials in t of any degree.
 //
-// The calls of ccd/exact.hpp and ccd/contact.hpp, as exact, for points in Bernstein form (Bézier
-// curves in time). Degrees may differ from point to point. A power basis converts to this form;
-// knot insertion converts a B-spline to Bézier pieces. Floating point under tracked bounds decides
-// clearly separate queries, unbounded integers the others (ccd/reference.hpp). Allocates; throws
-// only std::bad_alloc.
+// The calls of ccd/exact.hpp and ccd/contact.hpp, equally exact, for points in Bernstein form
+// (Bézier curves in time). Degrees may differ from point to point. A power basis converts to this
+// form; knot insertion converts a B-spline to Bézier pieces. Floating point under tracked bounds
+// decides clearly separate queries, unbounded integers the others (ccd/reference.hpp). Allocates;
+// throws only std::bad_alloc.
 #pragma once
 
 #include <algorithm>

@@ -1,4 +1,5 @@
-// The four kinds of query, with the types and names of each: kind_traits, kind_of and concepts.
+// The four kinds of query, with the types and names of each. Generic code uses kind_traits, kind_of
+// and the concepts below. Do not map kinds to types or to names anywhere else.
 #pragma once
 
 #include <array>

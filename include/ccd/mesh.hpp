@@ -67,7 +67,7 @@ struct vertex_rows {
     constexpr vertex_rows() = default;
     constexpr vertex_rows(const double* at_start, const double* at_end, std::size_t count)
         : before(at_start), after(at_end), vertices(count) {}
-    /// Throws std::invalid_argument if the lengths (also of the frames below) differ.
+    /// Throws std::invalid_argument if the lengths differ, as the next constructor.
     vertex_rows(std::span<const point<double>> at_start, std::span<const point<double>> at_end)
         : before(reinterpret_cast<const double*>(at_start.data())),
           after(reinterpret_cast<const double*>(at_end.data())),

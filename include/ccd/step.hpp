@@ -41,9 +41,9 @@ struct space_region {
     }
 };
 
-/// The pairs that a step tests: those with a vertex of each element that may collide with each
-/// other. Members that are not empty exclude vertex pairs. Not owned; `groups` and `pinned` have
-/// one entry for each vertex.
+/// The pairs that a step tests: those with a vertex of one element that may collide with a vertex
+/// of the other. Two vertices may collide unless a member excludes it; empty members exclude
+/// nothing. Not owned; `groups` and `pinned` have one entry for each vertex.
 struct pair_filter {
     enum class group_rule : std::uint8_t {
         between_groups,  ///< two vertices of one group may not collide
@@ -180,7 +180,7 @@ class mesh_steps {
 
     /// Returns all candidates of a step, for custom narrow phases; vertices of faces keep the
     /// mesh's order. Uses `threads`, `stop`, `filter` and `distances` of the options. Memory: up to
-    /// 33 bytes a candidate. Throws as run().
+    /// 33 bytes a candidate. Throws as run(), but ignores the instruction set.
     pair_lists candidates(const vertex_rows& positions, const step_options& options = {});
 
     /// Visits the candidates, unordered, and returns their numbers. The visitor must not wait for

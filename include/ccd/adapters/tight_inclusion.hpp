@@ -74,9 +74,9 @@ bool answer(const Query& query, double ms, double t_max, bool no_zero_toi, T& to
 /// certifies the same as there. Pairs up to 1.74 times as far apart along an axis are reported; for
 /// a Euclidean distance call ccd::time_within. `toi` is infinite if the answer is false.
 ///
-/// err, max_itr and ccd_method are ignored, since nothing is rounded; output_tolerance is set to
-/// tolerance. With no_zero_toi, a pair within ms at the start is tested for contact only. Then
-/// `toi` is 0 only if it touches at the start, or before the least positive Scalar.
+/// err, tolerance, max_itr and ccd_method are ignored, since nothing is rounded; output_tolerance
+/// is set to tolerance. With no_zero_toi, a pair within ms at the start is tested for contact only.
+/// Then `toi` is 0 only if it touches at the start, or before the least positive Scalar.
 template <class T>
 requires std::same_as<T, double> || std::same_as<T, float>
 bool vertexFaceCCD(

@@ -13,7 +13,8 @@ namespace ccd::io {
 
 struct mesh_options {
     /// Splits a face with more than three corners into the triangles (c0, c1, c2), (c0, c2, c3),
-    /// ..., independently of positions. Otherwise such a face is an error.
+    /// ... The split ignores positions, so two frames of one mesh get the same triangles. Otherwise
+    /// such a face is an error.
     bool triangulate = false;
 };
 

@@ -40,8 +40,8 @@ std::optional<ccd::kind> kind_from_path(const std::filesystem::path& path);
 query_file parse_queries(std::string_view text, const std::string& name, ccd::kind kind,
                          bool round);
 
-/// Same, for text or the bytes of a store (ccd/io/query_store.hpp), whose kind `kind` must not
-/// contradict.
+/// Same as parse_queries, for text or for the bytes of a store (ccd/io/query_store.hpp). `kind`
+/// must not contradict the kind of a store.
 query_file parse_stored_queries(std::string_view bytes, const std::string& name,
                                 std::optional<ccd::kind> kind, bool round);
 

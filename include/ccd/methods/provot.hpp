@@ -63,7 +63,7 @@ constexpr bool inside(const edge_edge_forms<T, 0>&, const weights<T>& w) {
 
 }  // namespace provot
 
-/// Decides a query, without any guarantee. No allocation, never throws.
+/// Decides a vertex_face or edge_edge query, without any guarantee. No allocation, never throws.
 template <class T, template <class> class Query>
 verdict decide_provot(const Query<T>& query) {
     using traits = errbound::number_traits<T>;

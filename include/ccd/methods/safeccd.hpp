@@ -230,9 +230,9 @@ constexpr verdict decide_safeccd_of(const Query<errbound::tracked<T, Rule>>& que
     return safeccd::solver<T, Rule, Query>(query).decide();
 }
 
-/// Decides a query. `separate` and `collides` are certain if signs under Rule are. `collides` means
-/// that f changes its sign within a window in which all inside forms are positive. Cost: bounded,
-/// no allocation, never throws; some microseconds with proximity tests.
+/// Decides a vertex_face or edge_edge query. `separate` and `collides` are certain if signs under
+/// Rule are. `collides` means that f changes its sign within a window in which all inside forms are
+/// positive. Cost: bounded, no allocation, never throws; some microseconds with proximity tests.
 template <class Rule, class T, template <class> class Query>
 constexpr verdict decide_safeccd(const Query<T>& query) {
     const auto [scaled, finite] = tracked_query<Rule>(query);

@@ -163,9 +163,9 @@ inline void print(const compared_file& file) {
 }  // namespace detail
 
 /// A main program that compares the rules on files of queries and prints a row for each file, rule
-/// and number type. Kind and truth: as compare on a file. With `--out FOLDER` before the files it
-/// also calls write_comparison. Returns 0, 2 without files, or 1 after bad input or wrong certain
-/// answers under a rule with a true bound.
+/// and number type. The path gives their kind; `exact` gives the truth if a file has none. With
+/// `--out FOLDER` before the files it also calls write_comparison. Returns 0, 2 without files, or 1
+/// after bad input or wrong certain answers under a rule with a true bound.
 template <class... Rules>
 int rules_main(int argc, const char* const* argv) {
     const bool writes = argc > 2 && std::string_view(argv[1]) == "--out";
