@@ -33,9 +33,9 @@ struct distance_request {
     rounded_axes::least_gaps gaps = {};
 };
 
-/// Decide `count` queries in floating point; `uncertain` in answers[i] leaves the query to exact
-/// arithmetic. Precondition: coordinates of `positions` are finite. Queries by value that are not
-/// finite are `uncertain`. `report` may be null. No allocation; some 300 KB of stack.
+/// Functions that decide `count` queries in floating point; `uncertain` in answers[i] leaves the
+/// query to exact arithmetic. Precondition: coordinates of `positions` are finite. Queries by value
+/// that are not finite are `uncertain`. `report` may be null. No allocation; some 300 KB of stack.
 template <kind K>
 struct kernels_of_kind {
     using pair = typename kind_traits<K>::pair;

@@ -44,6 +44,7 @@ class batch_worker {
     }
 
     /// Decides which pairs come within `distances`, none of which exceeds `max_distance`.
+    /// Preconditions: as decide.
     template <any_pair Pair>
     void decide_within(const batch_positions& positions, std::span<const Pair> queries,
                        const pair_distances& distances, double max_distance, outcome* answers) {

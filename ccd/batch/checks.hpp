@@ -14,7 +14,7 @@
 
 namespace ccd::detail {
 
-/// `first` is the index of the first pair.
+/// Throws if an index is >= `vertices`. `first` is the index of the first pair.
 template <class Pair>
 void check_indices(const char* caller, std::span<const Pair> pairs, std::size_t first,
                    std::size_t vertices) {

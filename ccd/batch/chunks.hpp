@@ -67,7 +67,7 @@ bool has_finite_vertices(const vertex_rows& rows, const Pair& pair) {
     });
 }
 
-/// Calls decide(first, count) for each run of finite queries.
+/// Calls decide(first, count) for each run of finite queries; the others are uncertain.
 template <class IsFinite, class Decide>
 void decide_finite(std::size_t count, outcome* answers, bool all_are_finite,
                    const IsFinite& is_finite, const Decide& decide) {

@@ -24,8 +24,8 @@ inline bool is_due(stage_pause& pause) {
     return false;
 }
 
-/// Axes cost about as much as the next stage: a stage that decides fewer than a quarter of several
-/// successive blocks pauses.
+/// Axes cost about as much as the next stage. If they decide fewer than a quarter of several blocks
+/// in a row, the next blocks skip them.
 inline void update_pause(stage_pause& pause, std::size_t decided, std::size_t of) {
     constexpr std::size_t patience = 4, length = 124;
     pause.poor_blocks = 4 * decided < of ? pause.poor_blocks + 1 : 0;

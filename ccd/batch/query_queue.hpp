@@ -33,7 +33,7 @@ struct query_queue {
     void put(std::size_t c, const pack& values, lanes some, std::size_t offset = 0) {
         compress(values, some, &column[c][size + offset]);
     }
-    /// Adds these lanes of `of` as ids, after put() has written the numbers.
+    /// Makes queries of the written numbers, with these lanes of `of` as ids.
     void push_ids(const std::uint32_t* of, lanes some) {
         for_each_lane(some, [&](std::uint32_t lane) { ids[size++] = of[lane]; });
     }

@@ -59,8 +59,8 @@ struct rounded_columns {
     }
 };
 
-/// Decides the separated queries from `first` on, and writes the others to `open`. Returns their
-/// number.
+/// Decides the queries from `first` on that an axis separates. Writes the others to `open` and
+/// returns their number.
 template <class Pair>
 [[gnu::flatten]] std::size_t test_rounded_axes(const float* rounded, const Pair* queries,
                                                std::size_t first, std::size_t count,
