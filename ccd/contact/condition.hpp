@@ -30,8 +30,8 @@ struct side_conditions {
     std::vector<R> nonnegative, not_all_zero;
 };
 
-/// Holds if all of `vanishing` are 0, no `nonnegative` is negative, and some `not_all_zero` is not
-/// 0 unless there are none. `sides` computes the latter two on demand.
+/// Holds if all of `vanishing` are 0, none of `nonnegative` is negative, and some `not_all_zero`,
+/// if there are any, is not 0. `sides` computes the latter two on demand.
 template <class R>
 struct condition {
     std::vector<R> vanishing;
@@ -53,7 +53,7 @@ struct root_test {
     std::function<outcome(const errbound::tracked<double>&)> holds_at;
     std::function<exact_conditions()> conditions;
 };
-/// The same if conditions hold at roots of y only. y must not be identically zero.
+/// The same for conditions that hold at roots of y only. y must not be identically zero.
 first_time first_time_at_roots(const time_polynomial& y, const root_test& test, double t_max);
 
 }  // namespace ccd::detail

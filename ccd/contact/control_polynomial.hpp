@@ -9,7 +9,7 @@
 
 namespace ccd::detail {
 
-/// Without coefficients it is identically zero.
+/// Σ h_i s^(n−i) t^i at s = 1 − t. Without coefficients h it is identically zero.
 template <class S>
 class control_polynomial {
   public:
@@ -46,7 +46,7 @@ class control_polynomial {
     }
 
   private:
-    /// Multiplies by powers of s + t.
+    /// Elevates the degree by multiplication with powers of s + t.
     std::vector<S> elevated_to(std::size_t size) const {
         if (h_.empty()) return std::vector<S>(size, S(0));
         std::vector<S> h = h_;

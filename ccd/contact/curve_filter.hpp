@@ -18,12 +18,12 @@ namespace ccd::detail {
 template <kind K>
 bool certainly_separate(std::span<const curve> points);
 
-/// Returns which conditions of distance <= d may hold in [0, 1], in the order of
+/// Returns which conditions of distance <= d, d > 0, may hold in [0, 1], in the order of
 /// visit_distance_conditions.
 template <kind K>
 std::vector<bool> possible_conditions(std::span<const curve> points, separation d);
 
-/// Decides if features touch at a time t, given by an enclosure, at which Y = 0.
+/// Decides if a VF or EE query touches at a time t at which Y = 0, given by an enclosure.
 template <kind K>
 outcome touches_at_root(std::span<const curve> points, const errbound::tracked<double>& t);
 

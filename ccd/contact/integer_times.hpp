@@ -8,9 +8,9 @@
 
 namespace ccd::detail {
 
-/// `uncertain` for queries that ccd/exact/integers.hpp leaves undecided, roots that it need not
-/// distinguish from others, and times below 2^-70. Precondition: coordinates are finite. No
-/// allocation, no exceptions.
+/// Returns `uncertain` for queries that ccd/exact/integers.hpp leaves undecided, for roots that it
+/// need not distinguish from others, and for times below 2^-70. Precondition: coordinates are
+/// finite. No allocation, no exceptions.
 template <any_query Query>
 found_time first_contact_in_integers(const Query& query);
 

@@ -1,7 +1,7 @@
 // The first contact inside a face or inside both edges, in integers of fixed width.
 //
-// Visits the roots of Y as ccd/exact/interior_contact.hpp does, up to the first time at which a
-// vertex/edge contact may exist. So the precondition of interior_contact.hpp holds.
+// Visits the roots of Y in their order, as ccd/exact/interior_contact.hpp does, up to the first
+// time at which a vertex/edge contact may exist. So the precondition of interior_contact.hpp holds.
 #pragma once
 
 #include <ccd/methods/forms.hpp>
@@ -26,14 +26,14 @@ class interior_time : interior_contact<Words, Forms, Effort> {
     using typename base::sign_type;
 
   public:
-    /// No vertex/edge contact is earlier than `end`.
+    /// y = forms.y(). No vertex/edge contact is earlier than `end`.
     constexpr interior_time(const Forms<errbound::integers::fixed_integer<Words>, 1>& forms,
                             const cubic_form<3 * Words>& y, const integer_units& units,
                             const time_bracket& end, effort_constant<Effort> = {})
         : base(forms, y, units), search_(y), first_(end) {}
 
-    /// Returns the first time with Y = 0 and all G_i > 0 that is earlier than `end`. If Y ≡ 0,
-    /// considers t = 0 and 1 only. Proof: proofs/InteriorTime.v, interior_time_right.
+    /// Returns the first time with Y = 0 and all G_i > 0 if its bracket is earlier than `end`. If Y
+    /// ≡ 0, considers t = 0 and 1 only. Proof: proofs/InteriorTime.v, interior_time_right.
     constexpr found_time find() {
         if (y_[0] == 0) consider(time_bracket{0, 0}, [this] { return at_end(0); });
         if (y_[3] == 0) consider(time_bracket{1, 1}, [this] { return at_end(1); });

@@ -38,13 +38,13 @@ inline double part_of(double s, double t) {
     return s > 0 ? (s < t ? s / t : 1) : 0;
 }
 
-/// The point about nearest to the origin on the segment p + s·e, 0 <= s <= 1.
+/// Approximates the point nearest to the origin on the segment p + s·e, 0 <= s <= 1.
 inline vector from_segment(const vector& p, const vector& e) {
     return p + part_of(-dot(p, e), dot(e, e)) * e;
 }
 
-/// A vector between points of the features, exact except for rounding, that are about nearest. x
-/// holds the points in the order of points_of.
+/// Returns a vector from a point of the first feature to one of the second that are about nearest:
+/// exact for these two points, except for rounding. x holds the points in the order of points_of.
 inline vector nearest(const std::array<vector, 2>& x) {
     return x[1] - x[0];
 }
@@ -145,8 +145,8 @@ class features {
     static constexpr double largest_distance = 0x1p300;  ///< in units of size_
     static constexpr double tiny = 0x1p-500;  ///< above the root of what products lose to underflow
 
-    /// True if two points are certainly nearer than d at an estimated time. There `between` =
-    /// nearest_at(t) is shortest if its rate of change is that at t, or one such step later.
+    /// True if two points are certainly nearer than d at an estimated time. There, `between`, which
+    /// is nearest_at(t), is shortest if its rate of change is that at t, or one such step later.
     bool comes_near(double t, vector between, double low, double high) const {
         for (double step = (high - low) / 64; step > (high - low) / 1e6; step /= 1024) {
             const vector change = (1 / step) * (nearest_at(t + step) - between);
@@ -158,9 +158,9 @@ class features {
         return false;
     }
 
-    /// Off by at most 40ε·size_ in length. Positions are off by 2ε of a coordinate's largest size
-    /// m, differences by 5ε, multiples by up to 1 of these by 6ε. All sums of vectors of at most 2m
-    /// to 6m add 23ε. The 24ε of below_ include the root's own rounding.
+    /// The error is at most 40ε·size_ in length. Positions are off by 2ε of a coordinate's largest
+    /// size m, differences by 5ε, multiples by up to 1 of these by 6ε. All sums of vectors of at
+    /// most 2m to 6m add 23ε. The 24ε of below_ include the root's own rounding.
     vector nearest_at(double t) const {
         std::array<vector, count> x;
         for (std::size_t i = 0; i < count; ++i) x[i] = (1 - t) * start_[i] + t * end_[i];

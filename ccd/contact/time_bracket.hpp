@@ -151,7 +151,7 @@ constexpr std::optional<time_bracket> bracket_of_linear_root(
 /// differ, or the discriminant is positive and the middle coefficient has the other sign.
 enum class quadratic_root { only, first, second };
 
-/// The roots t/(s + t) of f0 s² + f1 st + f2 t², about, the lesser first.
+/// Estimates of the roots t/(s + t) of f0 s² + f1 st + f2 t², the lesser first.
 constexpr std::array<double, 2> estimated_roots(const std::array<double, 3>& f) {
     const double root = std::sqrt(std::max(0.0, f[1] * f[1] - 4 * f[0] * f[2]));
     // x = t/s. q is a sum of two numbers of one sign.

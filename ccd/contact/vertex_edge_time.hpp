@@ -18,7 +18,7 @@
 
 namespace ccd::detail {
 
-/// The first time if it `collides`; `uncertain` if fixed widths cannot determine it.
+/// The first time, if `outcome` is `collides`; `uncertain` if fixed widths cannot determine it.
 struct found_time {
     ccd::outcome outcome = ccd::outcome::separate;
     time_bracket time{};

@@ -60,8 +60,9 @@ void set_normal(const direction& along, normal_source source, bool sided, first_
 }
 
 /// The sign with which N points to the side of the first feature before the contact, if there was a
-/// side. Y = N·P is 0 at the contact, where its derivative is N times the velocity of P's end. If
-/// the derivative has a certain sign, Y had the opposite sign before.
+/// side. `velocity` is relative to the second feature. Y = N·P is 0 at the contact, where its
+/// derivative is N times the velocity of P's end. If the derivative has a certain sign, Y had the
+/// opposite sign before.
 template <class Query>
 std::optional<int> side_of(const Query& query, const first_time& time, const enclosed_vector& n,
                            const enclosed_vector& velocity) {
@@ -94,8 +95,8 @@ bool set_cross_product(const Query& query, const enclosed_vector& n,
     return true;
 }
 
-/// Sets the normal against the velocity without its component along the edge that meets. Else uses
-/// `cross_product` if it has a direction, else the whole velocity.
+/// Sets the normal against the velocity without its component along the edge that meets. If that
+/// has no direction, uses `cross_product` if it has one, else the whole velocity.
 void set_substitute_normal(const contact_state& state, const enclosed_vector& velocity,
                            const enclosed_vector* cross_product, first_contact& into) {
     const auto set = [&](const enclosed_vector& p, normal_source source, bool sided) {

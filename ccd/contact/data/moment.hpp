@@ -1,7 +1,7 @@
 // The points of a query at a time given by a bracket: enclosures of differences and velocities.
 // Internal.
 //
-// Plain bounds would be some ten times as wide as the bracket's; `residual` is not.
+// Uses the rule `residual`, because plain bounds would be some ten times as wide as the bracket's.
 #pragma once
 
 #include <algorithm>
@@ -79,7 +79,7 @@ inline int excess_exponent(double size, int moderate) {
     return std::abs(e) > moderate ? e : 0;
 }
 
-/// All points are scaled by one power of two.
+/// The points of one query at such a time, all scaled by one power of two.
 class contact_moment {
   public:
     template <class Query>

@@ -21,8 +21,8 @@ struct estimate {
     double value, error;
 };
 
-/// The double nearest to the middle, to second order. (Roundings: u|value| of the sum, four of the
-/// bound.)
+/// The double nearest to the middle of an enclosure, to second order. (Roundings: u|value| of the
+/// sum, and four of the bound.)
 inline estimate nearest(const enclosure& x) {
     using traits = errbound::number_traits<double>;
     const auto [correction, remainder] = x.bound();
@@ -45,10 +45,10 @@ inline bool is_known(const direction& d) {
     return d.error < 1;
 }
 
-/// Returns p/|p|; nothing if p's middle is zero or not finite. p/|p| and q/|q| are at most |p −
-/// q|/m apart, where m is the lesser length. (Dunkl and Williams 1964 has twice the mean of the
-/// lengths for m.) The length is off by less than 3u of it, so the quotients are off by 4u. Scaling
-/// to sizes near 1 prevents underflow.
+/// Returns p/|p|; nothing if p's middle is zero or not finite. For vectors p and q, p/|p| and q/|q|
+/// are at most |p − q|/m apart, where m is the lesser length. (Dunkl and Williams 1964 has twice
+/// the mean of the lengths for m.) The length is off by less than 3u of it, so the quotients are
+/// off by 4u. Scaling to sizes near 1 prevents underflow.
 inline std::optional<direction> direction_of(const enclosed_vector& p) {
     using traits = errbound::number_traits<double>;
     const int e = excess_exponent(size(p), 0);
@@ -66,8 +66,8 @@ inline std::optional<direction> direction_of(const enclosed_vector& p) {
     return direction{{a.value / length, b.value / length, c.value / length}, error};
 }
 
-/// The sign of f just before or after t/(s + t), that of the first nonzero derivative there; zero
-/// if f ≡ 0.
+/// The sign of f just before or just after t/(s + t); zero if f ≡ 0. If f is zero there, its first
+/// nonzero derivative determines the sign.
 template <int N>
 errbound::sign_type sign_beside(const errbound::bernstein<integer, N>& f, const integer& s,
                                 const integer& t, bool before) {
