@@ -1,4 +1,4 @@
-// Decides queries with too close roots of Y, or a too small G_i at one, for
+// Decides queries for which roots of Y are too close together, or a G_i at one is too small, for
 // ccd/exact/interior_contact.hpp. Same precondition: no vertex/edge contact.
 //
 // Y is kept on a subinterval of [0, 1] by its exact coefficients there. Floating point estimates
@@ -50,8 +50,8 @@ inline std::optional<root_pair> estimated_pair(const std::array<double, 4>& h) {
     return root_pair{t, std::sqrt((std::fabs(value) + 0x1p-48 * largest) / bend)};
 }
 
-/// No root t/s of a cubic with sign changes is >= 2^e for the result e (Kioustelidis 1986;
-/// errbound/roots/root_isolation.hpp derives it).
+/// Returns e such that no root t/s of a cubic with sign changes is >= 2^e (Kioustelidis 1986;
+/// derived in errbound/roots/root_isolation.hpp).
 template <class Integer>
 int root_exponent(const errbound::bernstein<Integer, 3>& y) {
     using errbound::sign_type;
@@ -68,8 +68,8 @@ int root_exponent(const errbound::bernstein<Integer, 3>& y) {
     return exponent;
 }
 
-/// Forms have integers of at most `coordinate_words` words. Precondition: differences are below
-/// 2^(64·coordinate_words − 3).
+/// Decides one query by forms over integers of at most `coordinate_words` words. Precondition:
+/// differences are below 2^(64·coordinate_words − 3).
 template <template <class, int> class Forms>
 class close_contact {
     template <int W>
@@ -203,7 +203,7 @@ class close_contact {
     bool any_root(const inner_sign_changes& roots) const {
         return roots.opposite || (three_real_roots_ && roots.count > 0);
     }
-    /// True if the part has one root, which is simple, except for a double root.
+    /// True if the part has exactly one root that is not a double root, and that root is simple.
     bool is_single(const inner_sign_changes& roots) const {
         return roots.opposite && (roots.count == 1 || !three_real_roots_);
     }
@@ -267,8 +267,8 @@ class close_contact {
         return inside_from(middle, p.unit_bits + 1, {}) == outcome::collides;
     }
 
-    /// N = 0 at the only root, which is no contact. Proof: proofs/InteriorContact.v,
-    /// normal_vanishes_right.
+    /// True if N = 0 at the part's only root, which is then no contact. Proof:
+    /// proofs/InteriorContact.v, normal_vanishes_right.
     bool normal_vanishes(const part& p) const {
         if (!is_single(p.roots) || !(distinct_ || p.roots.count == 1)) return false;
         const auto end = place_number(1, p.unit_bits, false);

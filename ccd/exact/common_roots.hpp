@@ -21,7 +21,7 @@ using linear_form = errbound::bernstein<errbound::integers::fixed_integer<Words>
 template <int Words>
 using quadratic_form = errbound::bernstein<errbound::integers::fixed_integer<Words>, 2>;
 
-/// f where (s², st, t²) = m.
+/// The value of f where (s², st, t²) = m.
 template <class A, class B>
 constexpr auto value_at_squares(const errbound::bernstein<A, 2>& f,
                                 const errbound::bernstein<B, 2>& m) {

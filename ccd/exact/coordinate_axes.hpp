@@ -69,7 +69,7 @@ six_numbers greatest_of(const double* points) {
         return max(six_numbers(points), greatest_of<Count - 1>(points + 6));
 }
 
-/// separated_by_coordinates of ccd/exact/features.hpp, for finite coordinates.
+/// Same as separated_by_coordinates (ccd/exact/features.hpp), for finite coordinates.
 template <kind K>
 bool packs_separated_by_coordinates(const double* p) {
     constexpr std::size_t first = kind_traits<K>::first_vertices;
@@ -80,7 +80,8 @@ bool packs_separated_by_coordinates(const double* p) {
     return (((p_above & p_above >> 3) | (q_above & q_above >> 3)) & 7) != 0;
 }
 
-/// x - x is 0, or NaN if x is not finite. Prefetches numbers `Ahead` queries further on.
+/// True if all numbers are finite: x - x is 0, or NaN if x is not finite. Prefetches the numbers
+/// that lie `Ahead` queries further on.
 template <std::size_t Ahead = 0>
 bool are_finite(const double* numbers, std::size_t count) {
     constexpr std::size_t line = 8, packs = 24 / width;

@@ -89,7 +89,8 @@ constexpr double estimated_root(const std::array<double, 4>& h) {
         const double next = inside ? newton : (low + high) / 2;
         const double moved = std::fabs(next - t);
         t = next;
-        // The error is about the square of a Newton step, and at least a last place.
+        // The remaining error is about the square of a Newton step. A further step from the last
+        // place would not improve t.
         if (moved <= (inside ? converged : precision)) break;
     }
     return t;
@@ -129,8 +130,8 @@ struct root_bracket {
     }
 };
 
-/// Precondition: opposite signs at the ends. Proof that the numerator is at most 2^bits:
-/// proofs/Places.v, estimated_place_bits.
+/// Precondition: the part has opposite signs at its ends. Proof that the numerator is at most
+/// 2^bits: proofs/Places.v, estimated_place_bits.
 template <int Words>
 constexpr dyadic_point<1> estimated_place(const cubic_part<Words>& part) {
     const int bits = std::min(part.level + 48, 62), to_bits = bits - part.level;
@@ -138,9 +139,9 @@ constexpr dyadic_point<1> estimated_place(const cubic_part<Words>& part) {
     return {(part.index << to_bits) + static_cast<std::int64_t>(place), bits};
 }
 
-/// A bracket around `place` of the root; nothing if the root is too far away. Preconditions: `part`
-/// has opposite signs at its ends, and place.numerator at most 64·T − 2 bits. Proof, for any place:
-/// proofs/CubicRoots.v, bracket_near_right.
+/// Returns a bracket around `place` for the root of `part`; nothing if the root is too far away.
+/// Preconditions: `part` has opposite signs at its ends, and place.numerator at most 64·T − 2 bits.
+/// Proof, for any place: proofs/CubicRoots.v, bracket_near_right.
 template <int Words, int T>
 constexpr std::optional<root_bracket<Words, T>> bracket_near(const cubic_form<Words>& y,
                                                              const cubic_part<Words>& part,

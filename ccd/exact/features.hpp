@@ -48,8 +48,8 @@ constexpr bool separated_by_coordinates(const Query& query) {
     return apart;
 }
 
-/// W = 0 at some t if w0 and w1 are antiparallel, or one is zero. Proof: proofs/Contact.v,
-/// vertex_vertex_contact; proofs/AxisUnits.v, vertices_contact_right.
+/// True if the linear W from w0 to w1 is 0 at some t: w0 and w1 are antiparallel, or one is zero.
+/// Proof: proofs/Contact.v, vertex_vertex_contact; proofs/AxisUnits.v, vertices_contact_right.
 template <class S>
 constexpr bool vertices_touch(const vertex_vertex<S>& query) {
     const auto w = difference(query.v, query.w);

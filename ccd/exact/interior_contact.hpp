@@ -1,8 +1,8 @@
 // Contact inside a face or inside both edges, in integers of fixed width.
 //
-// Precondition: the query has no vertex/edge contact in the step. Then contact holds exactly if Y =
-// 0 and all G_i > 0 at some t in [0, 1]. (The G_i, or pairs of them, add up to |N|² >= 0, so strict
-// signs imply N ≠ 0. A contact with some G_i = 0 or N = 0 is a vertex/edge contact.)
+// Precondition: the query has no vertex/edge contact in the step. Then there is contact exactly if
+// Y = 0 and all G_i > 0 at some t in [0, 1]. (The G_i, or pairs of them, add up to |N|² >= 0, so
+// strict signs imply N ≠ 0. A contact with some G_i = 0 or N = 0 is a vertex/edge contact.)
 //
 // G_i are evaluated at roots of Y only, exactly at rational ones, else by refined brackets. A query
 // is `uncertain` if some G_i is too small for the last bracket, or two roots are too close;
@@ -39,7 +39,7 @@ using effort_constant = std::integral_constant<effort, E>;
 template <int Words, template <class, int> class Forms, effort Effort = effort::whole>
 class interior_contact {
   public:
-    /// Differences of coordinates are below 2^units.x.bits, and so on per axis.
+    /// y = forms.y(). Differences of coordinates are below 2^units.x.bits, and so on per axis.
     constexpr interior_contact(const Forms<errbound::integers::fixed_integer<Words>, 1>& forms,
                                const cubic_form<3 * Words>& y, const integer_units& units,
                                effort_constant<Effort> = {})

@@ -119,7 +119,7 @@ struct lane_orders {
 constexpr lane_orders orders;
 #endif
 
-/// May write up to a pack's width.
+/// Writes the lanes of the set one after the other. May write up to a pack's width.
 inline void compress(const pack& values, lanes some, double* to) {
 #if defined __AVX512F__
     _mm512_storeu_pd(to, _mm512_maskz_compress_pd(static_cast<__mmask8>(some), values));

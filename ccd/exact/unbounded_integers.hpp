@@ -26,8 +26,8 @@ Query<integer> to_integers(const Query<double>& query) {
     });
 }
 
-/// True if W × E = 0 and W·(W − E) <= 0 at some t in [0, 1]: ccd/exact/reference.cpp. The times are
-/// the roots of the three quadratics' common factor. Proof: proofs/UnboundedIntegers.v,
+/// True if W × E = 0 and W·(W − E) <= 0 at some t in [0, 1] (see ccd/exact/reference.cpp). The
+/// times are the roots of the three quadratics' common factor. Proof: proofs/UnboundedIntegers.v,
 /// integer_contact_right.
 inline bool vertex_touches_edge(const vertex_edge<integer>& query) {
     const auto e = difference(query.e1, query.e0);

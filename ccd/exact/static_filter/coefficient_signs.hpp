@@ -43,8 +43,8 @@ constexpr mask<S> changes_sign(const errbound::roots::control_values<S, N>& c, c
     return (starts_above & ends_below) | (starts_below & ends_above);
 }
 
-/// True if also one inner value certainly has the sign of the end next to it: there is one root.
-/// Proof: proofs/ContactPart.v, changes_sign_once_right.
+/// True if, in addition, one inner value certainly has the sign of the end next to it. Then signs
+/// change once, so there is one root. Proof: proofs/ContactPart.v, changes_sign_once_right.
 template <class S>
 constexpr mask<S> changes_sign_once(const errbound::roots::control_values<S, 3>& c,
                                     const S& error) {
@@ -53,7 +53,7 @@ constexpr mask<S> changes_sign_once(const errbound::roots::control_values<S, 3>&
     return falls | rises;
 }
 
-/// No sign is certain, also in every subinterval.
+/// True if no control value has a certain sign, which also holds for every subinterval.
 template <class S, int N>
 constexpr mask<S> within_error(const errbound::roots::control_values<S, N>& c, const S& error) {
     return size_of(c) <= error;

@@ -27,12 +27,13 @@ template <class S>
 using mask = decltype(S() < S());
 
 /// m_x, m_y, m_z: by axis, the largest magnitude of differences from one of the query's points.
-/// Precondition: finite coordinates. (The maximum may skip the NaN of infinite ones.)
+/// Precondition: finite coordinates. (Differences that overflow are infinite. NaN results only from
+/// infinite coordinates, and the maximum may skip it.)
 template <class S>
 struct difference_extents {
     using real = typename real_of<S>::type;
     S x, y, z;
-    /// False if a difference is too large.
+    /// False if a difference is too large for the error bounds.
     mask<S> usable;
 
     explicit constexpr difference_extents(const coplanarity_forms<S>& f) {

@@ -40,9 +40,10 @@ constexpr S longest(const edge_edge_forms<S>& f) {
 
 }  // namespace detail
 
-/// Margins that are added to the errors of the control values over the step. The sums exclude the
-/// step or an interval of it: |N| is at most its longest control vector, and a length is at most
-/// that at one end. Proof: proofs/DistanceMargins.v, margins_face_apart, margins_edges_apart.
+/// Margins for the distance d that are added to the errors of the control values over the step. The
+/// sums exclude the step or an interval of it: |N| is at most its longest control vector, and a
+/// length is at most that at one end. Proof: proofs/DistanceMargins.v, margins_face_apart,
+/// margins_edges_apart.
 ///
 /// Errors: N's control vectors are off by less than 2^-48 of the extents' products (6ε of each
 /// term's size); the factor 1 + 2^-40 covers the rest. Squares of an N below 2^-516 may underflow.

@@ -10,11 +10,11 @@
 
 namespace ccd::static_filter {
 
-/// For first contacts. For the remaining queries, most of which touch at a border, integers cost
-/// less than more halvings.
+/// Halvings for first contacts. Further halvings cost more than integers for the queries that
+/// remain, most of which touch at a border.
 inline constexpr std::size_t halvings_for_times = 6;
 
-/// An interval of the step with contact, without contact before `low`.
+/// The interval of the step in which contact was found. There is no contact before `low`.
 struct contact_interval {
     double low = 0, high = 1;
     errbound::roots::control_values<double, 3> y{};  ///< computed control values of Y there
