@@ -1,4 +1,4 @@
-// OBJ. The available libraries do not round coordinates correctly.
+// The OBJ reader. The available libraries do not round coordinates correctly.
 #include <algorithm>
 #include <array>
 #include <ccd/io/mesh_file.hpp>
@@ -65,7 +65,7 @@ class obj_parser {
   private:
     [[noreturn]] void fail(const std::string& what) const { fail_at(lines_.name(), line_, what); }
 
-    /// The next line, joined with the lines that backslashes add.
+    /// The next line without its comment, joined with the lines that backslashes add.
     std::optional<std::string_view> next_line() {
         line_ = lines_.line() + 1;
         const std::optional<std::string_view> first = next_piece();

@@ -1,4 +1,4 @@
-// PLY. The libraries of distributions convert coordinates to float.
+// The reader and writer of PLY. The libraries of distributions convert coordinates to float.
 #include <algorithm>
 #include <bit>
 #include <ccd/io/mesh_file.hpp>
@@ -92,7 +92,7 @@ class body_reader {
                 fail(kind + " " + std::to_string(first + i) + ": " + *fault);
     }
 
-    /// Bounded by the bytes that are there, whatever the header claims: at least one per property.
+    /// Reserves no more than the file's bytes can hold: each element has at least one per property.
     void reserve(const element& e, std::uint64_t count) {
         const std::size_t limit =
             values_.remaining() / std::max<std::size_t>(e.properties.size(), 1);

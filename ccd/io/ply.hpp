@@ -63,7 +63,7 @@ struct header {
 /// Takes the header, with end_header, off the text. Throws errbound::support::file_error.
 header parse_header(std::string_view& text, const std::string& name);
 
-/// Doubles hold all values of the other types.
+/// Values from a binary body. A double holds every value of the other types exactly.
 class binary_values {
   public:
     binary_values(std::string_view text, const std::string& name, std::endian order)
@@ -133,7 +133,7 @@ class binary_values {
     std::uint64_t index_ = 0;
 };
 
-/// A line per element. The functions are those of binary_values.
+/// Values from an ascii body: a line per element. The functions are those of binary_values.
 class ascii_values {
   public:
     ascii_values(std::string_view text, const std::string& name, std::size_t lines)

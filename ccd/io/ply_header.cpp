@@ -10,7 +10,7 @@
 namespace ccd::io::ply {
 namespace {
 
-/// Limits elements, and properties of each: names are compared pairwise.
+/// Largest number of elements, and of an element's properties. Names are compared pairwise.
 constexpr std::size_t max_names = 1000;
 
 std::optional<std::uint64_t> parse_count(std::string_view token) {

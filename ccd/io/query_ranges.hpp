@@ -36,8 +36,8 @@ class truth_file {
   public:
     explicit truth_file(const std::filesystem::path& queries);
 
-    /// Adds the truth to queries from `first` on. Throws errbound::support::file_error unless the
-    /// numbers match.
+    /// Adds the truth to queries from `first` on; if `is_last`, the truth must end with them.
+    /// Throws errbound::support::file_error unless the numbers match.
     void add_to(query_file& queries, std::uint64_t first, bool is_last) const;
 
   private:
@@ -69,7 +69,7 @@ class range_reader {
 query_file parse_rows(std::string_view text, const std::string& name, ccd::kind kind, bool round,
                       std::uint64_t rows, std::uint64_t columns);
 
-/// The kind of read_queries. Throws errbound::support::file_error.
+/// The kind that read_queries uses. Throws errbound::support::file_error.
 ccd::kind kind_of_file(const std::filesystem::path& path, std::optional<ccd::kind> kind);
 
 }  // namespace ccd::io

@@ -24,7 +24,7 @@ constexpr number fail(number_status status) {
 
 constexpr std::string_view blanks = " \t";
 
-/// True for a minus.
+/// Takes an optional sign off the front; true for a minus.
 bool take_sign(std::string_view& token) {
     const bool negative = token.starts_with('-');
     if (negative || token.starts_with('+')) token.remove_prefix(1);

@@ -8,7 +8,7 @@
 
 namespace ccd::io {
 
-/// In quotes; printable ASCII only, at most 40 characters of it.
+/// `found` in quotes for a message: printable ASCII only, at most 40 characters of it.
 std::string excerpt(std::string_view found);
 
 /// Removes a UTF-8 byte order mark. Throws errbound::support::file_error if the mark is that of
@@ -18,7 +18,7 @@ std::string_view without_byte_order_mark(std::string_view text, const std::strin
 /// Removes the end mark of DOS, Ctrl-Z, and the blanks around it.
 std::string_view without_end_mark(std::string_view text);
 
-/// Tab counts as none.
+/// True if c is a control character other than tab.
 constexpr bool is_control(char c) {
     return (static_cast<unsigned char>(c) < ' ' && c != '\t') || c == 0x7f;
 }
@@ -41,7 +41,7 @@ class line_reader {
     line_reader(std::string_view text, const std::string& name, std::size_t lines = 0)
         : text_(text), name_(name), line_(lines) {}
 
-    /// Nothing at the end, which counts as a line.
+    /// The next line, or nothing at the end, which counts as a line.
     std::optional<std::string_view> next() {
         ++line_;
         return take_line(text_);
@@ -76,14 +76,14 @@ struct number {
     number_status status = number_status::ok;
 };
 
-/// "NAME is FOUND; expected ..." for a status other than ok. `found` is an excerpt.
+/// The message "NAME is FOUND; expected ..." for a status other than ok. `found` is an excerpt.
 std::string describe(number_status status, const std::string& name, const std::string& found);
 
 /// The double nearest to a decimal number, or the one equal to a hexadecimal float ("0x1.8p3"). A
 /// hexadecimal float that no double equals is inexact unless `round`. Independent of the locale.
 number parse_double(std::string_view token, bool round);
 
-/// Same without rounding, for a float, which is then widened.
+/// Same as parse_double without rounding, for a float, which is then widened.
 number parse_float(std::string_view token);
 
 /// The double equal to numerator/denominator, two decimal integers of any size. If no double equals

@@ -1,5 +1,5 @@
-// Checks bound the memory and time that a damaged or hostile file can take; HDF5's own checksums
-// find damage.
+// The reader of stores. Checks bound the memory and time that a damaged or hostile file can take;
+// HDF5's own checksums find damage.
 #include "ccd/io/store/store_reader.hpp"
 
 #include <algorithm>

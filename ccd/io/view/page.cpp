@@ -32,7 +32,7 @@ std::string bytes_of_rows(const Rows& rows) {
     return bytes;
 }
 
-/// The page's script finds it by `id`.
+/// Appends an array, which the page's script finds by `id`.
 void append_array(std::string& text, std::string_view id, std::string bytes) {
     text += "<script type=\"text/plain\" id=\"array-";
     text += id;

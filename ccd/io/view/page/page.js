@@ -13,7 +13,7 @@ function bytes(id) {
   return found.buffer;
 }
 
-/// Pairs are one after the other, by kind. `times` is empty if they are unknown.
+/// All pairs are one after the other, by kind. `times` is empty if they are unknown.
 function readStep() {
   const step = {before: new Float64Array(bytes("before")), after: new Float64Array(bytes("after")),
     faces: new Uint32Array(bytes("faces")), edges: new Uint32Array(bytes("edges")), parts: new Uint8Array(bytes("parts"))};
