@@ -127,7 +127,7 @@ class numbered_elements {
     const std::vector<face>& faces_;
 };
 
-/// Adds the files' contents.
+/// Compares stored truth, if any, with that of `exact`. Adds the files' contents.
 template <class Query>
 void compare_stored(const fs::path& frame, const numbered_elements& elements,
                     queries_with_truth<Query>& known, std::string& contents) {

@@ -35,7 +35,7 @@ struct found_data {
 ///
 /// Stored queries are CSV files whose path names their kind; those of one folder, and of its
 /// folders edge-edge, vertex-face, ee and vf, are one data set. A folder with exactly two meshes
-/// (PLY or OBJ) is a scene; the shorter, then lesser name is its first frame. Throws
+/// (PLY or OBJ) is a scene; the one with the shorter, then lesser name is its first frame. Throws
 /// errbound::support::file_error if a folder is missing.
 found_data find_data(const std::vector<std::filesystem::path>& folders);
 
@@ -49,7 +49,7 @@ struct queries_with_truth {
     std::size_t contradictions = 0;
 };
 
-/// Queries refer to the frames, so it cannot be copied or moved.
+/// A loaded data set. Its queries refer to its frames, so it cannot be copied or moved.
 struct data_set {
     std::string name;
     std::string fingerprint;  ///< of its files' contents
@@ -83,7 +83,7 @@ loaded_data load(const data_source& source, int threads);
 /// last place; small integers, most of them degenerate.
 std::vector<loaded_data> made_data(int threads);
 
-/// `each` queries of each value of the knob, fewer where it is thinned.
+/// Makes `each` queries for each value of the knob, fewer where the family is thinned.
 loaded_data data_of(const family& from, std::size_t each, int threads);
 
 }  // namespace ccd::lab

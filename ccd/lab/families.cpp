@@ -24,7 +24,7 @@ using local_points = std::array<ends, 4>;
 /// One unit in the last place of numbers from 4 to 8.
 constexpr double unit = 0x1p-50;
 
-/// The last is always `high`.
+/// low, low + step, ... up to high, which is always the last.
 std::vector<double> range(int low, int high, int step) {
     std::vector<double> values;
     for (int v = low; v < high; v += step) values.push_back(v);
@@ -46,7 +46,7 @@ double power_of_two(double knob) {
     return knob == exact_zero ? 0 : std::ldexp(1, static_cast<int>(knob));
 }
 
-/// For exact zero, an exponent that scales every double to zero.
+/// The knob as an exponent; for exact zero one that scales every double to zero.
 int exponent_of(double knob) {
     return knob == exact_zero ? -3000 : static_cast<int>(knob);
 }
@@ -224,8 +224,8 @@ points of_resting_gap(source& random, kind which, double knob) {
     return relabelled(random, which, placed(random, p));
 }
 
-/// From the gap to nothing, a unit less or more, or half way: from above, or within the plane of
-/// the other feature.
+/// From the gap to nothing, to one unit less or more than that, or half way (a single unit stays):
+/// from above, or within the plane of the other feature.
 points of_approached_gap(source& random, kind which, double knob) {
     const double gap = power_of_two(knob);
     const double l = length(random), h = length(random);
@@ -289,7 +289,7 @@ points passing_thin(source& random, kind which, const std::array<double, 2>& hei
     return relabelled(random, which, placed(random, p, 1));
 }
 
-/// Half are exact, half in general position, as near as rounding allows.
+/// Half are exact; half are in general position, as near to it as rounding allows.
 points of_sliver(source& random, kind which, double knob) {
     const double height = power_of_two(knob);
     if (random.one_in(2)) return passing_thin(random, which, {height, height});
@@ -349,7 +349,8 @@ double units_of(double knob) {
                      : std::copysign(std::ldexp(unit, static_cast<int>(std::abs(knob)) - 1), knob);
 }
 
-/// Moves away from units_of(knob) beyond the other feature's plane: contact if that is >= 0.
+/// Starts units_of(knob) beyond the other feature's plane, and moves away from it: there is contact
+/// exactly if that is 0 or more.
 points of_touch_at_start(source& random, kind which, double knob) {
     const double start = -units_of(knob);
     const double l = length(random), h = length(random), rise = length(random);

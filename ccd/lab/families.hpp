@@ -1,4 +1,4 @@
-// The families of `ccd stress`: stiff, degenerate and badly scaled queries, swept by a knob.
+// The families of `ccd stress`: stiff, degenerate and badly scaled queries, each with a knob.
 #pragma once
 
 #include <cstdint>
@@ -11,7 +11,7 @@
 
 namespace ccd::lab {
 
-/// Exactly zero, for logarithmic knobs.
+/// The value of a logarithmic knob that stands for exactly zero.
 inline constexpr double exact_zero = -std::numeric_limits<double>::infinity();
 
 struct family {
@@ -29,7 +29,7 @@ struct family {
 
 std::span<const family> families();
 
-/// The same on every machine, and made without the others.
+/// Makes query `index`, the same on every machine, without making the others.
 points make(const family& f, double knob, kind which, std::uint64_t seed, std::uint64_t index);
 
 }  // namespace ccd::lab

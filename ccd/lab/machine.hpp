@@ -14,7 +14,7 @@ row this_machine();
 /// The fingerprint of the program's file, "0" if it cannot be read.
 std::string program_fingerprint();
 
-/// "unknown" if there was none.
+/// The source's commit when the build was configured; "unknown" if there was none.
 std::string configured_commit();
 
 }  // namespace ccd::lab

@@ -40,7 +40,7 @@ class source {
     std::mt19937_64 bits_;
 };
 
-/// Makes one query again without the others.
+/// The source of one query, so that it can be made again without the others.
 inline source source_of(std::string_view family, std::initializer_list<std::uint64_t> words) {
     std::uint64_t hash = 0xcbf29ce484222325;  // FNV-1a
     const auto stir = [&hash](std::uint64_t word) { hash = (hash ^ word) * 0x100000001b3; };

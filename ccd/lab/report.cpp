@@ -33,7 +33,7 @@ std::string now() {
     return text;
 }
 
-/// In the order of measurement. Refers to the list and the data.
+/// The parts of a report, in the order of measurement. Keeps references to the list and the data.
 class part_list {
   public:
     explicit part_list(const report_options& settings, const row& machine)

@@ -52,9 +52,9 @@ struct part {
 
 /// The file of a part of that name.
 std::filesystem::path path_of_part(const std::filesystem::path& folder, const std::string& name);
-/// If the folder has its file, undamaged and with the same dependencies.
+/// The part's rows, if the folder has its file, undamaged and with the same dependencies.
 std::optional<rows> stored_part(const std::filesystem::path& folder, const part& p);
-/// All or nothing. Throws errbound::support::file_error.
+/// Writes the part, whole or not at all. Throws errbound::support::file_error.
 void store_part(const std::filesystem::path& folder, const part& p, const rows& measured);
 
 struct picture {
@@ -74,9 +74,9 @@ struct report_summary {
     std::vector<std::string> failures;  ///< broken promises and contradictions, a sentence each
 };
 
-/// A row per method over the selected rows of methods.csv, in order of appearance: method, the sums
-/// of queries, colliding, false_positives, false_negatives, uncertain, and ns, the mean over all
-/// queries.
+/// A row per method over the rows of methods.csv that `counts` selects, in order of appearance:
+/// method, the sums of queries, colliding, false_positives, false_negatives, uncertain, and ns, the
+/// mean over all queries.
 rows totals(const rows& methods, const std::function<bool(const row&)>& counts);
 
 /// Measures the parts that the folder lacks; writes the CSV files, plot.py, its pictures, and

@@ -1,4 +1,4 @@
-// report.md.
+// The text of report.md.
 #include <cmath>
 
 #include "ccd/lab/report.hpp"
@@ -118,7 +118,7 @@ std::string per_data_set(const report_summary& report) {
     return text;
 }
 
-/// Prefixes <= or >= if it is clamped.
+/// A quantile of log10 as a number, with <= or >= if it is clamped.
 std::string tightness_of(const row& r, const std::string& quantile) {
     if (!r.contains(quantile)) return "-";
     const double log10 = r[quantile];
