@@ -1,9 +1,8 @@
-// Advances of a mesh on many ranks, each of which holds the elements near its region of space. All
-// ranks have the motion of every group, because all join, shorten and take back by the same list of
-// pairs.
+// Advances of a mesh on many ranks. Each rank holds the elements near its region of space. All have
+// the motion of every group, because all join, shorten and take back by the same list of pairs.
 //
-// Elements stay on the ranks of the whole step, since boxes of a shorter way are inside those of
-// the whole.
+// Elements stay on the ranks of the whole step: boxes of a shorter way are inside those of the
+// whole.
 #include <algorithm>
 #include <ccd/mpi.hpp>
 #include <chrono>
@@ -21,7 +20,7 @@
 namespace ccd::mpi {
 namespace {
 
-/// A rank's own vertices, then others that it has received.
+/// A rank's vertices by index: first those that it holds, then others that it has received.
 class known_vertices {
   public:
     known_vertices(const detail::local_mesh& local, bool islands)

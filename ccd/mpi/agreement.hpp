@@ -27,8 +27,8 @@ inline failure failure_of(const std::exception& error) {
     throw std::runtime_error(message);
 }
 
-/// If check() throws on some ranks, throws the exception of the first on all, with its message:
-/// std::invalid_argument, ccd::stopped, std::bad_alloc, or else std::runtime_error.
+/// Calls check(). If it throws on some ranks, throws the exception of the first on all, with its
+/// message: std::invalid_argument, ccd::stopped, std::bad_alloc, or else std::runtime_error.
 template <class Check>
 void agree(MPI_Comm comm, const Check& check) {
     int rank = 0;

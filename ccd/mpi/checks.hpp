@@ -1,5 +1,5 @@
-// check_... throw std::invalid_argument on all ranks if one of them fails; the message names
-// `caller`.
+// Checks the input of ranks. check_... throw std::invalid_argument on all ranks if one of them
+// fails; the message names `caller`.
 #pragma once
 
 #include <ccd/advance.hpp>
@@ -28,8 +28,8 @@ struct vertex_lists {
           islands(moving_as_one) {}
 };
 
-/// All ranks with vertices must have the same lists, with an entry for each vertex, and a filter
-/// that can be sent.
+/// All ranks with vertices must have the same lists, with an entry for each vertex. The filter must
+/// be one that can be sent.
 void check_mesh(exchanger& ranks, const mesh_part& mesh, const pair_filter& filter,
                 const vertex_lists& lists, const std::string& caller);
 

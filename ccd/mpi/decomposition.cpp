@@ -6,7 +6,7 @@
 namespace ccd::mpi::detail {
 namespace {
 
-/// Enough to weigh each box, at most 50 MB up to 10,000 ranks.
+/// The samples of all ranks weigh each box, and take at most 50 MB up to 10,000 ranks.
 std::size_t samples_wanted(std::size_t ranks) {
     const std::size_t most = std::max<std::size_t>(1 << 19, 64 * ranks);
     return std::max<std::size_t>(4096, std::min(256 * ranks, most));
@@ -23,7 +23,7 @@ bool touch(const swept_box& a, const swept_box& b) {
     return true;
 }
 
-/// The samples before the result have about this share of the work. Linear time; 0 without samples.
+/// Samples before the result have about this share of the work; 0 without samples. Linear time.
 template <class Sample, class Place>
 double weighted_quantile(std::span<Sample> samples, const Place& place, double share) {
     if (samples.empty()) return 0;
@@ -110,7 +110,7 @@ std::size_t decomposition::cut(std::size_t first, std::size_t count, std::span<s
     const auto axis = static_cast<std::size_t>(std::ranges::max_element(spreads) - spreads.begin());
     const auto place = [axis](const sample& s) { return s.box.low[axis]; };
     const std::size_t below = count / 2;
-    // Clamped for the case without samples: both halves stay in the part.
+    // Without samples the quantile is arbitrary. Clamp it, so that both halves stay in the part.
     const double at = std::clamp(
         weighted_quantile(samples, place, static_cast<double>(below) / static_cast<double>(count)),
         part.low[axis], part.high[axis]);

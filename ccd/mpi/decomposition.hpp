@@ -17,7 +17,7 @@ using swept_box = ccd::detail::box<double>;
 /// Boxes that tile space, one for each rank; the same on all ranks. Some may be empty.
 class decomposition {
   public:
-    /// `boxes` are those that elements sweep. Collective. Time: at most a million tests of boxes a
+    /// Samples `boxes`, which elements sweep. Collective. Time: at most a million tests of boxes a
     /// rank, plus the cuts of the samples, once for each bit of the number of ranks. There are 256
     /// samples a rank, at least 4096, at most 2^19 or 64 a rank.
     decomposition(exchanger& ranks, std::span<const swept_box> boxes);

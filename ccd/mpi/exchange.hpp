@@ -116,7 +116,7 @@ class exchanger {
         return result;
     }
 
-    /// The earliest of all ranks; `own` if there is none.
+    /// The time of the earliest contact of all ranks; `own` if there is none.
     first_time earliest(const first_time& own) {
         first_time earliest = own;
         for (const first_time& time : gather(std::vector{own}).items) {

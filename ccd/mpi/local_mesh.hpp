@@ -16,7 +16,8 @@
 
 namespace ccd::mpi::detail {
 
-/// Faces, edges and single vertices (without an element), and their swept boxes.
+/// The faces, edges and single vertices (those without an element) of a part, with their swept
+/// boxes.
 class given_elements {
   public:
     given_elements(const mesh_part& mesh, const pair_distances& distances, bool skip_unused);
@@ -32,7 +33,8 @@ class given_elements {
 
 class local_mesh {
   public:
-    /// Collective. Throws std::invalid_argument on all ranks if copies of a vertex differ.
+    /// Sends elements. Collective. Throws std::invalid_argument on all ranks if copies of a vertex
+    /// differ.
     local_mesh(exchanger& ranks, const mesh_part& mesh, const given_elements& given,
                const decomposition& parts, const vertex_lists& of_vertices);
 
@@ -59,7 +61,7 @@ class local_mesh {
     };
     using sent_face = std::array<vertex_number, 3>;
     using sent_edge = std::array<vertex_number, 2>;
-    /// Indices of the elements to send to each rank.
+    /// Indices into the given lists of the elements to send to each rank.
     struct routes {
         std::vector<std::vector<vertex_index>> vertices, faces, edges;
     };
