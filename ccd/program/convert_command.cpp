@@ -196,7 +196,7 @@ class convert final : public command {
         return true;
     }
 
-    /// Reads ranges. Returns nothing if a signal stopped it.
+    /// Reads a file in ranges. Returns nothing if a signal stopped it.
     template <class Take>
     std::optional<read_file> for_each_range(const std::filesystem::path& file, std::string name,
                                             std::optional<kind> kind, bool round,

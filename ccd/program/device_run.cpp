@@ -50,7 +50,7 @@ std::vector<method> methods_on_device() {
     return {};
 }
 
-// Never reached: require_device() throws.
+// Never reached, since require_device() throws before.
 template <class Query>
 void decide_on_device(std::span<const Query>, std::span<outcome>, method, cuda::precision) {
     require_device();

@@ -77,7 +77,7 @@ class stress_run final : public command {
     methods_option methods_{line_};
 };
 
-/// Next to an installed program, else in the source tree.
+/// The scenes are next to an installed program, else in the source tree.
 fs::path bundled_scenes() {
     std::error_code error;
     const fs::path installed =

@@ -38,7 +38,7 @@ class device_options {
 /// Throws usage_error unless the method runs on devices.
 void require_on_device(ccd::method m);
 
-/// Decimals are rounded to nearest; hexadecimal floats must equal a double.
+/// A number: a decimal is rounded to nearest; a hexadecimal float must equal a double.
 class number_option {
   public:
     number_option(CLI::App& line, const std::string& name, const std::string& description);
@@ -54,7 +54,7 @@ class number_option {
 class unused_vertices_option {
   public:
     explicit unused_vertices_option(CLI::App& line);
-    /// The default is points if the file has no other element.
+    /// True if they are skipped. The default is points if the file has no other element.
     bool skips(std::size_t unused, std::size_t vertices) const;
 
   private:

@@ -1,4 +1,4 @@
-// One line per pair: vf,v,f0,f1,f2 and so on, with `times` if not null.
+// Pairs as lines of text: vf,v,f0,f1,f2 and so on, with times if `times` is not null.
 #pragma once
 
 #include <array>

@@ -28,11 +28,11 @@ struct time_request {
     double t_max = 1;
     std::optional<double> distance = {};
 
-    /// The files' truth is about contact in the whole step.
+    /// The truth in files is about contact in the whole step.
     bool ignores_truth() const { return t_max < 1 || distance; }
 };
 
-/// Repeats until `seconds` have passed. The time is that of the fastest pass.
+/// Decides repeatedly until `seconds` have passed. The time is that of the fastest pass.
 query_result decide_queries(const io::query_file& queries, const std::string& file,
                             ccd::method method, const device_choice& device,
                             const time_request& request, double seconds);

@@ -92,7 +92,7 @@ struct possible_pairs {
     double vertex_face, edge_edge;
 };
 
-/// In doubles, which do not overflow.
+/// Counts all pairs of distinct elements in doubles, which do not overflow.
 possible_pairs pairs_of_mesh(const step_request& request, const mesh& mesh) {
     const std::size_t skipped = request.skip_unused ? request.unused : 0;
     const auto vertices = static_cast<double>(mesh.vertices.size() - skipped),

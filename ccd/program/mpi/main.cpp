@@ -31,8 +31,8 @@ int run_command_line(int argc, char** argv, int rank) {
     return errbound::support::run_command(app, argc, argv, commands, rank == 0);
 }
 
-/// Waits for all ranks. Errors are thrown on all ranks, unless a rank fails alone (no memory,
-/// another command line). The others then wait for it without end. In that case the result is false
+/// Waits for all ranks. An error of one rank is thrown on all, unless that rank fails alone (no
+/// memory, another command line). The others then wait for it without end, and the result is false
 /// after some seconds.
 bool all_meet(MPI_Comm all, bool failed) {
     MPI_Request request{};

@@ -10,7 +10,7 @@
 
 namespace ccd::program {
 
-/// A rank's elements; numbers are the indices of vertices in the files.
+/// A rank's elements. `numbers` are the indices of vertices in the files.
 struct shared_frames {
     std::vector<mpi::vertex_number> numbers;
     std::vector<point<double>> before, after;

@@ -1,4 +1,4 @@
-// Each rank reads a share of the files; rank 0 writes all pairs.
+// `ccd_mpi step`: each rank reads a share of the files; rank 0 writes all pairs.
 #include "ccd/program/mpi/step_command.hpp"
 
 #include <algorithm>
