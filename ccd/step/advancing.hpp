@@ -1,5 +1,5 @@
-// Advances: a step is shortened until it is free. One template serves a mesh in one process and one
-// on many ranks, which exchange their contacts (`Others`).
+// Advances: a step is tested and shortened until it is free. One template serves a mesh in one
+// process and one on many ranks, which exchange their contacts (`Others`).
 #pragma once
 
 #include <algorithm>
@@ -17,7 +17,7 @@
 
 namespace ccd::detail {
 
-/// There is certainly no contact up to and at the result.
+/// The largest double such that there is certainly no contact up to and at it.
 inline double last_before(const first_time& time) {
     return time.low < time.high ? time.low : std::nextafter(time.low, 0.0);
 }
@@ -61,7 +61,7 @@ struct no_others {
 };
 
 /// Others must have the members of no_others: found_by_all returns the same pairs in the same order
-/// on all processes; if `what` throws on one, call throws on all. In `groups`, vertices of other
+/// on all processes. If `what` throws on one, call throws on all. In `groups`, vertices of other
 /// processes follow those of `way`.
 template <class Others>
 class advancing {
@@ -76,7 +76,7 @@ class advancing {
           groups_(groups),
           others_(others) {}
 
-    /// result.fraction is not set. The lists are those of all processes.
+    /// Returns all except result.fraction, which stays 1. The lists are those of all processes.
     advance_result run() {
         evaluate_whole_way();
         // Each round joins groups, takes vertices back or shortens a way. After rounds_by_group all
@@ -98,7 +98,7 @@ class advancing {
     template <kind K>
     void find_near_contacts();
 
-    /// Returns false if all move the whole way.
+    /// Sets positions from the groups' fractions. Returns false if all move the whole way.
     bool set_positions();
     vertex_rows way_to_result() const {
         return {way_.before, reinterpret_cast<const double*>(result_.positions.data()),

@@ -88,7 +88,7 @@ class box_pack {
         });
     }
 
-    /// Without common ends.
+    /// Returns the boxes that touch b without a common end.
     pack_mask overlapping(const box<Real>& b) const {
         return mask_of([&](std::size_t part) {
             lanes found = lanes{} - 1;
@@ -105,7 +105,7 @@ class box_pack {
     typedef Real reals __attribute__((vector_size(vector_bytes)));
     typedef lane lanes __attribute__((vector_size(vector_bytes)));
 
-    /// Collects lanes that are -1 rather than 0 as bits.
+    /// Collects the lanes of lanes_of(0), lanes_of(1), ... that are -1 rather than 0 as bits.
     template <class LanesOf>
     static pack_mask mask_of(const LanesOf& lanes_of) {
         lanes bits, found{};
@@ -150,7 +150,8 @@ class box_tree {
     /// Leaf p holds boxes 8 p to 8 p + 7.
     std::span<const pack> leaves() const { return {packs_.data(), level_start_[1]}; }
 
-    /// The sum along the axes; 0 for one leaf. A good order keeps it small.
+    /// The leaves' lengths along the axes; 0 if there is only one leaf. A good order keeps them
+    /// small.
     double length_of_leaves() const {
         double sum = 0;
         if (levels_ < 2) return sum;
@@ -162,7 +163,7 @@ class box_tree {
         return sum;
     }
 
-    /// Visits every leaf p >= first with members that touch b.
+    /// Calls visit(p, members) for every leaf p >= first with members that touch b.
     template <class Visit>
     void find(const box<Real>& b, std::size_t first, const Visit& visit) const {
         if (packs_.empty()) return;

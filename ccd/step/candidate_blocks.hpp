@@ -37,7 +37,7 @@ bool may_collide(const pair_filter& filter, const Pair& pair) {
     return false;
 }
 
-/// Applies a filter to pairs. Keeps references.
+/// Applies a filter to pairs, with the boxes that their elements sweep. Keeps references to both.
 class pair_test {
   public:
     pair_test(const pair_filter& filter, const swept_boxes& boxes)
@@ -110,13 +110,13 @@ class candidate_blocks {
     candidate_blocks(const visitor& visit, const pair_test* filter, const stop_query& stop)
         : stop_(stop), blocks_([&visit, filter, &stop] { return block(visit, filter, stop); }) {}
 
-    /// Throws ccd::stopped, as flush() does.
+    /// Throws ccd::stopped if `stop` requests it, as flush() does.
     block& local() {
         stop_if_requested(stop_);
         return blocks_.local();
     }
 
-    /// Returns the number of candidates.
+    /// Flushes all blocks. Returns the number of candidates.
     std::size_t finish() {
         tbb::parallel_for_each(blocks_, [](block& b) { b.flush(); });
         return std::transform_reduce(blocks_.begin(), blocks_.end(), std::size_t(0), std::plus<>(),

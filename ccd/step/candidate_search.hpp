@@ -45,9 +45,9 @@ class ordered_elements {
     std::optional<double> least_of_boxes_, least_of_extents_;
 };
 
-/// Keeps its working memory: about 40 bytes a face or 44 an edge, whichever is more, 18 a vertex,
-/// and 32 KB a thread. Elements and vertices take twice as much if floats do not suffice, and 187,
-/// 191 and 183 bytes for close pairs.
+/// The search in one mesh. Keeps its working memory: about 40 bytes a face or 44 an edge, whichever
+/// is more, 18 a vertex, and 32 KB a thread. Elements and vertices take twice as much if floats do
+/// not suffice, and 187, 191 and 183 bytes for close pairs.
 class candidate_search {
   public:
     /// Precondition: indices are in range.
@@ -64,7 +64,7 @@ class candidate_search {
     /// floats, if that was tested. The latter is only for contact.
     enum class wanted : bool { candidates, close_pairs };
 
-    /// Visits each pair once if its kind has a visitor. Returns their numbers. Preconditions:
+    /// Visits each pair once if its kind has a visitor. Returns the number of pairs. Preconditions:
     /// positions are finite and distances valid.
     pair_counts find(const batch_positions& positions, const step_options& options,
                      const candidate_visitor& visitor, wanted pairs = wanted::candidates);
@@ -87,7 +87,7 @@ class candidate_search {
         extents_tree first, second;
     };
 
-    /// Sorts by the order of the vertices, with cells that suit the sample.
+    /// Sorts elements by the order of the vertices, with cells that suit the sample.
     template <class Real, std::size_t N>
     auto sorting(const swept_boxes& boxes, const ordered_elements<N>& sample);
     template <kind K, class First, class Second>

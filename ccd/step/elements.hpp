@@ -1,4 +1,4 @@
-// Elements and pairs for the searches on the host and on devices.
+// Elements and pairs, for the searches for candidates on hosts and devices.
 #pragma once
 
 #include <algorithm>
@@ -19,11 +19,11 @@ constexpr bool share_vertex(const std::array<vertex_index, A>& a,
     return shared;
 }
 
-/// Vertices keep the mesh's order.
+/// The vertices of a face keep the mesh's order.
 constexpr vertex_face_pair candidate_of(const std::array<vertex_index, 1>& v, const face& f) {
     return {v[0], f[0], f[1], f[2]};
 }
-/// For ascending edges; the one with the lesser first vertex comes first.
+/// Precondition: edges ascend. The one with the lesser first vertex comes first.
 constexpr edge_edge_pair candidate_of(const edge& a, const edge& b) {
     const bool in_order = a[0] < b[0];
     const edge &x = in_order ? a : b, &y = in_order ? b : a;
@@ -38,7 +38,8 @@ constexpr vertex_vertex_pair candidate_of(const std::array<vertex_index, 1>& v,
     return {v[0] < w[0] ? v[0] : w[0], v[0] < w[0] ? w[0] : v[0]};
 }
 
-/// The reported order: the vertices of a face ascend. (All else is in order already.)
+/// Returns a candidate in the reported order: the vertices of a face ascend. (All else is in order
+/// already.)
 template <class Pair>
 constexpr Pair canonical(const Pair& pair) {
     if constexpr (kind_of<Pair> == kind::vertex_face) {
@@ -50,7 +51,7 @@ constexpr Pair canonical(const Pair& pair) {
     }
 }
 
-/// Spreads ten (below: 21) bits with two zeros before each, for a key on a Morton curve.
+/// Spreads ten bits, or 21 bits below, with two zeros before each, for a key on a Morton curve.
 constexpr std::uint32_t spread_bits(std::uint32_t x) {
     x = (x | (x << 16)) & 0x030000FF;
     x = (x | (x << 8)) & 0x0300F00F;

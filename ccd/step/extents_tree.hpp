@@ -18,8 +18,9 @@ namespace ccd::detail {
 
 class extents_tree {
   public:
-    /// Precondition: there are elements, with rows in `rounded` (rounded_positions::data()). Cost:
-    /// O(count), on all threads of the arena. Memory, reused: 175 bytes an element.
+    /// Builds the tree over `elements`, at least one, whose vertices have rows in `rounded`
+    /// (rounded_positions::data()). Cost: O(count), on all threads of the arena. Memory, reused:
+    /// 175 bytes an element.
     template <std::size_t N>
     void build(const search_kernels& kernels, const float* rounded,
                std::span<const std::array<vertex_index, N>> elements) {
@@ -42,7 +43,8 @@ class extents_tree {
     const extents_levels& levels() const { return levels_; }
     std::size_t leaves() const { return sizes_[0]; }
 
-    /// The sum along the coordinate axes at both ends of the step. A good order keeps it small.
+    /// The leaves' lengths along the coordinate axes at both ends of the step. A good order keeps
+    /// them small.
     double length_of_leaves() const {
         double sum = 0;
         for (std::size_t leaf = 0; leaf < leaves(); ++leaf) {

@@ -48,7 +48,7 @@ struct corner_columns {
     }
 };
 
-/// values(v) are those of vertex v.
+/// Sets one axis' columns at one end of the step. values(v) are those of vertex v.
 template <std::size_t N, class Values>
 void set_extent(extents_pack& packed, std::size_t axis, std::size_t end, std::size_t lane,
                 float margin, const Values& values) {
@@ -172,7 +172,7 @@ lanes touching(const extents_pack& packed, const Extents& other) {
 
 typedef vertex_index index_quad __attribute__((vector_size(16)));
 
-/// The lanes that share a vertex with element i of another leaf.
+/// The lanes of `leaf` that share a vertex with element i of `other`.
 template <std::size_t N, std::size_t M>
 lanes sharing(const leaf_vertices& leaf, const leaf_vertices& other, std::uint32_t i) {
     index_quad found{}, bits = {1, 2, 4, 8};
@@ -198,7 +198,7 @@ struct found_pairs {
     element_pair pairs[room];
 
     found_pairs(void* to, search_kernels::visitor by) : context(to), visit(by) {}
-    /// For one comparison.
+    /// Makes room for the pairs of one comparison.
     void make_room() {
         if (count + size > room) flush();
     }
@@ -211,8 +211,8 @@ struct found_pairs {
     }
 };
 
-/// Elements of `a` have N vertices, those of `b` have M. In one tree, the element of `b` is the
-/// later one.
+/// Finds pairs of leaf p of `a`, with elements of N vertices, and leaf q of `b`, of M vertices. In
+/// one tree, the element of `b` is the later one.
 template <std::size_t N, std::size_t M>
 void pairs_of_leaves(const extents_levels& a, std::size_t p, const extents_levels& b, std::size_t q,
                      found_pairs& found) {

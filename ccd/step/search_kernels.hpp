@@ -1,4 +1,5 @@
-// Builds and searches trees of extents. Internal; compiled as ccd/batch/batch_kernels.hpp.
+// Builds and searches trees of extents. Internal; compiled by the rules of
+// ccd/batch/batch_kernels.hpp.
 #pragma once
 
 #include <ccd/batch.hpp>
@@ -24,8 +25,9 @@ struct search_kernels {
     void (*fill_nodes)(const extents* below, std::size_t count, std::size_t first, std::size_t end,
                        extents_pack* packs, extents* hulls);
 
-    /// Finds pairs without a common vertex that no axis separates: of an element in leaves first <=
-    /// p < end of `a` and one of `b`. If both are edges of one tree, the later one is second.
+    /// Finds pairs, without a common vertex, that no axis separates. They have an element in the
+    /// leaves first <= p < end of `a` and one of `b`. If both are edges of one tree, the later one
+    /// is second.
     using find_pairs = void (*)(const extents_levels& a, const extents_levels& b, std::size_t first,
                                 std::size_t end, void* context, visitor visit);
     find_pairs of_vertices_and_faces, of_two_edges;

@@ -23,7 +23,7 @@ namespace {
 template <kind K>
 using phase = detail::narrow_phase<K>;
 
-/// Leaves out first times and contacts at the start.
+/// Runs a step, except first times and contacts at the start.
 step_result run_step(detail::candidate_search& search, const vertex_rows& positions,
                      const step_options& options) {
     detail::stopwatch watch;
@@ -72,7 +72,7 @@ bool is_earlier(const first_time& a, const first_time& b) {
     return std::tuple(a.low, a.high) < std::tuple(b.low, b.high);
 }
 
-/// Times each reported pair; drops pairs whose time is after t_max.
+/// Computes the time of each reported pair. Drops pairs whose time is after t_max.
 template <kind K>
 void find_times(const vertex_rows& positions, const time_options& options, bool keep_times,
                 step_result& result) {

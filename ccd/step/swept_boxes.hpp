@@ -27,10 +27,11 @@ class swept_boxes {
 
     /// The swept box of 1, 2 or 3 vertices. In doubles it is exact. If pairs have a distance, it is
     /// widened by the element's share, rounded outwards: boxes of elements that come within their
-    /// distance touch. Floats, not for distances, give the box of rounded positions. Rounding is
-    /// monotone, so boxes that touch still do. Rounded boxes that touch without a common end also
-    /// touch exactly; if they have a common end, use touch(). Proof: proofs/RoundedAxes.v,
-    /// swept_rounded_first, swept_face_separate, swept_edges_separate, swept_boxes_touch.
+    /// distance touch. Floats, which are not for distances, give the box of rounded positions.
+    /// Rounding is monotone, so boxes that touch still do. Rounded boxes that touch without a
+    /// common end also touch exactly; if they have a common end, use touch(). Proof:
+    /// proofs/RoundedAxes.v, swept_rounded_first, swept_face_separate, swept_edges_separate,
+    /// swept_boxes_touch.
     template <class Real, std::size_t N>
     box<Real> swept_box(const std::array<vertex_index, N>& element) const {
         box<Real> all;
@@ -49,7 +50,7 @@ class swept_boxes {
         return all;
     }
 
-    /// Exact, for closed boxes.
+    /// True if the closed exact boxes that two elements sweep touch.
     template <std::size_t A, std::size_t B>
     bool touch(const std::array<vertex_index, A>& a, const std::array<vertex_index, B>& b) const {
         const box<double> x = swept_box<double>(a), y = swept_box<double>(b);
@@ -58,9 +59,9 @@ class swept_boxes {
         return true;
     }
 
-    /// True if floats do not suffice: they do not widen outwards; or in a sample, rounding gives
-    /// more than one box in sixteen zero length on an axis. The latter happens for small parts that
-    /// are very far apart.
+    /// True if floats do not suffice: boxes have to be widened, which floats do not round outwards;
+    /// or in a sample, more than one box in sixteen has zero length on an axis only after rounding.
+    /// The latter happens for small parts that are very far apart.
     template <std::size_t N>
     bool need_doubles(std::span<const std::array<vertex_index, N>> elements) const {
         if (!distances_.is_contact()) return true;

@@ -15,13 +15,13 @@ namespace ccd::detail {
 
 class vertex_groups {
   public:
-    /// Separate groups that move the whole way.
+    /// Each vertex is a separate group, which moves the whole way.
     explicit vertex_groups(std::size_t vertices)
         : parent_(vertices), groups_(vertices), retreats_(vertices) {
         std::iota(parent_.begin(), parent_.end(), vertex_index(0));
     }
 
-    /// A group that moves the whole way; after join_all(), joins it to the single group.
+    /// Adds a vertex as a group that moves the whole way; to the single group after join_all().
     vertex_index add() {
         const auto v = static_cast<vertex_index>(parent_.size());
         parent_.push_back(v);
@@ -42,7 +42,7 @@ class vertex_groups {
         g.fraction = std::min(g.fraction, fraction);
     }
 
-    /// The new group moves by the lesser fraction.
+    /// Joins both groups. The new group moves by the lesser fraction.
     void join(vertex_index v, vertex_index w) {
         v = root_of(v);
         w = root_of(w);
@@ -117,8 +117,8 @@ class vertex_groups {
         return any;
     }
 
-    /// Shortens by 2^-50 at first, then by up to 2^-8, which leaves more than 0.99 after `close`
-    /// times; then to a half, a quarter and so on, and at last to 0.
+    /// Shortens by 2^-50 at first, then by more up to 2^-8, which leaves more than 0.99 after
+    /// `close` times; then to a half, a quarter and so on, and at last to 0.
     static void shorten(group& g) {
         const int times = g.shortened++;
         if (times < close)

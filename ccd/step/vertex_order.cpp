@@ -17,7 +17,7 @@
 namespace ccd::detail {
 namespace {
 
-/// The class of a box, then its place in an order, then the item.
+/// A key: the class of a box in the highest bits, then its place in an order, then the item.
 using order_key = std::uint64_t;
 
 struct key_layout {
@@ -44,7 +44,7 @@ struct curve_layout : key_layout {
     unsigned axis_bits;
 
     /// Uses four times the cells along each axis that a surface of this many items needs, at least
-    /// 1,024: few items share a cell.
+    /// 1,024, so that few items share a cell.
     explicit curve_layout(std::size_t items)
         : key_layout(items, 64), axis_bits(std::clamp(item_bits / 2 + 2, 10U, place_bits / 3)) {
         place_bits = 3 * axis_bits;
@@ -100,7 +100,7 @@ std::array<unit_axis, 3> axes_of(const box<double>& b) {
             unit_axis(b.low[2], b.high[2])};
 }
 
-/// Relative to the axis' length. May be infinite.
+/// A box's length on axis k, relative to the axis' length. May be infinite.
 template <class Box>
 double length(const std::array<unit_axis, 3>& axes, const Box& b, std::size_t k) {
     return 0.5 * (axes[k](b.high[k]) - axes[k](b.low[k]));
@@ -198,8 +198,8 @@ void for_each_run(std::span<order_key> keys, const key_layout& layout, const Vis
 }
 
 /// The cells of a curve through the middles of boxes. They have the proportions of the sample's
-/// boxes with middles in this range: an axis on which boxes are long distinguishes few of them.
-/// Boxes without length get cubes.
+/// boxes with middles in this range, because an axis on which boxes are long distinguishes few of
+/// them. Boxes without length get cubes.
 template <class BoxOf>
 class curve_grid {
   public:
@@ -228,7 +228,7 @@ class curve_grid {
     bool is_one_point() const { return middles_.low == middles_.high; }
     const std::array<unit_axis, 3>& axes() const { return axes_; }
 
-    /// The item's cell becomes the place, below its class unless `one_class`.
+    /// Returns the key with its item's cell as place, below its class unless `one_class`.
     order_key place(order_key key, bool one_class) const {
         const std::size_t item = layout_.item_of(key);
         const auto b = box_of_(item);
@@ -267,15 +267,11 @@ class curve_grid {
     std::array<double, 3> half_cells_{};  // half the number of cells along each axis
 };
 
-/// Sorts the keys along a Hilbert curve through the middles of their items' boxes, so that leaves
-/// gather neighbours. Returns the axes of the middles. Unless `one_class`, boxes that are long
-/// compared with the whole come last: a class, with a separate curve, for each axis on which they
-/// are longest. Otherwise one long box would make a leaf of everything. Items that share a cell are
-/// sorted again by finer cells.
-///
-/// Unless `one_class`, boxes that are long compared with the whole come last: one class for each
-/// axis on which they are longest, each along a separate curve. Otherwise one long box would make a
-/// leaf of everything. Items that share a cell are sorted again by finer cells.
+/// Sorts the keys along a Hilbert curve through the middles of their items' boxes, so that each
+/// leaf gathers neighbours. Returns the axes of the middles. Unless `one_class`, boxes that are
+/// long compared with the whole come last: one class for each axis on which they are longest, each
+/// along a separate curve. Otherwise one long box would make a leaf of everything. Items that share
+/// a cell are sorted again by finer cells.
 template <class BoxOf>
 std::array<unit_axis, 3> sort_along_curve(std::span<order_key> keys, const curve_layout& layout,
                                           const BoxOf& box_of, std::span<const box<double>> sample,

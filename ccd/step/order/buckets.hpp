@@ -18,7 +18,7 @@
 
 namespace ccd::detail {
 
-/// At least one; each thread of the arena has work.
+/// The number of shares, at least one, such that each thread of the arena has work.
 inline std::size_t shares_of(std::size_t count) {
     constexpr std::size_t least = 4096;
     const auto threads = static_cast<std::size_t>(tbb::this_task_arena::max_concurrency());
@@ -28,7 +28,7 @@ constexpr std::size_t begin_of_share(std::size_t share, std::size_t shares, std:
     return count / shares * share + std::min(share, count % shares);
 }
 
-/// Items with one digit are adjacent, in order of shares.
+/// Destinations of the items of each share: items with one digit are adjacent, in order of shares.
 class share_places {
   public:
     share_places(std::size_t shares, std::size_t digits)
@@ -37,7 +37,7 @@ class share_places {
     void clear() { std::ranges::fill(next_, 0); }
     /// The counts, later the destinations, of a share by digit.
     std::size_t* of(std::size_t share) { return &next_[share * digits_]; }
-    /// Replaces counts by destinations. Returns the total count.
+    /// Replaces counts by the destinations of the first items. Returns the total count.
     std::size_t from_counts() {
         std::size_t before = 0;
         for (std::size_t d = 0; d < digits_; ++d)
@@ -56,7 +56,7 @@ void for_each_task(std::size_t count, const Act& act) {
     tbb::parallel_for(std::size_t(0), count, act, tbb::simple_partitioner());
 }
 
-/// Bucket sort by vertices from `first` to `last`.
+/// Sorts a part's items into buckets by their vertices, which are from `first` to `last`.
 template <class Item, class VertexOf>
 class part_sorter {
   public:

@@ -56,7 +56,7 @@ class hilbert_states {
 
 inline constexpr hilbert_states states_of_hilbert;
 
-/// Digits of `morton`, the position along Morton's curve, are octants.
+/// Digits of `morton`, the position along Morton's curve, are octants: `axis_bits` bits an axis.
 constexpr std::uint64_t hilbert_position(std::uint64_t morton, unsigned axis_bits) {
     std::uint64_t along = 0;
     unsigned state = 0;
