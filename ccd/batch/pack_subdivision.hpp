@@ -63,7 +63,7 @@ class pack_subdivision {
     }
 
   private:
-    /// Returns the parts to be halved.
+    /// Tests the parts of one pack. Returns those to be halved.
     lanes test(std::size_t depth, std::size_t at, std::size_t count, const decisions& decided,
                std::size_t& collide) {
         const part_queue& parts = parts_[depth % 2];

@@ -74,7 +74,7 @@ struct difference_queue : query_queue<18, 2 * block> {
     }
 };
 
-/// An answer is `uncertain` until a stage decides.
+/// The stages' answers and counts. An answer is `uncertain` until a stage decides.
 struct decisions {
     outcome* answers;
     stage_report* report;
