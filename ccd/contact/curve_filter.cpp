@@ -79,7 +79,7 @@ paths<K, polynomial> relative_paths(std::span<const curve> points) {
     return paths_of<K, polynomial>(points, [&](const curve& p) { return path_of(p, origin); });
 }
 
-/// Relative to `origin`, by de Casteljau's algorithm.
+/// The point at t relative to `origin`, by de Casteljau's algorithm.
 path<number> position(const curve& points, const point<double>& origin, const number& t) {
     const auto along = [&](double origin_there, double point<double>::*axis) {
         std::vector<number> h;

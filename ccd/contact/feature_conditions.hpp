@@ -119,14 +119,14 @@ condition<R> contact_condition(const vertex_edge_paths<R>& q) {
                 return side_conditions<R>{list(dot(q.v - q.e0, q.e1 - q.v)), {}};
             }};
 }
-/// Conditions on the weights.
+/// Conditions on the weights, where planes or lines meet or are at the distance.
 template <class Forms>
 auto inside_conditions(const Forms& forms) {
     const auto inside = list(forms.inside());
     return side_conditions<typename decltype(inside)::value_type>{inside, list(forms.n)};
 }
 
-/// For VF and EE at times at which Y = 0.
+/// Returns the conditions of contact; for VF and EE, at times at which Y = 0.
 template <kind K, class R>
 std::vector<condition<R>> contact_conditions(const paths<K, R>& q) {
     if constexpr (K == kind::vertex_vertex || K == kind::vertex_edge) {

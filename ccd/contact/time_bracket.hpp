@@ -85,7 +85,7 @@ class root_search {
         return time_bracket{double_of_order(a), double_of_order(b)};
     }
 
-    /// Nothing if fixed widths do not suffice.
+    /// The sign at a double in [0, 1]; nothing if fixed widths do not suffice.
     constexpr std::optional<errbound::sign_type> sign_at(double t) const {
         const auto value = value_at(t);
         if (!value) return {};

@@ -17,7 +17,7 @@ namespace {
 using errbound::sign_type;
 using traits = errbound::number_traits<double>;
 
-/// NaN becomes 0.
+/// Clamps to [0, most]; NaN becomes 0.
 double clamped(double weight, double most) {
     return weight > 0 ? std::min(weight, most) : 0;
 }
@@ -124,8 +124,8 @@ void set_normal_velocity(const enclosed_vector& velocity, int exponent, first_co
     into.normal_velocity_error = std::isfinite(value) && error >= 0 ? error : traits::infinity();
 }
 
-/// In a contact all weights are in [0, 1], those of a feature add up to 1, and both points are
-/// equal.
+/// True if contact is impossible. In a contact all weights are in [0, 1], those of a feature add up
+/// to 1, and both points are equal.
 bool certainly_apart(const contact_state& state) {
     const auto is_negative = [](const enclosure& w) { return sign_of(w) == sign_type::negative; };
     return std::ranges::any_of(state.weights, is_negative) ||
