@@ -11,7 +11,7 @@ namespace ccd::detail {
 /// Integer is a fixed_integer or long_integer, whose preconditions on widths apply.
 template <class Integer>
 struct bounded_integer {
-    /// Stays below exact/2 after a few operations.
+    /// Low enough to stay below exact/2 after a few operations.
     static constexpr int exact = -(1 << 20);
 
     Integer value;

@@ -21,7 +21,7 @@ namespace ccd::detail {
 template <int Words>
 using cubic_form = errbound::bernstein<errbound::integers::fixed_integer<Words>, 3>;
 
-/// Precondition: 3x fits.
+/// Returns 3x. Precondition: it fits.
 template <class Integer>
 constexpr Integer thrice(const Integer& x) {
     return (x << 1) + x;

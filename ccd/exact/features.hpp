@@ -13,7 +13,7 @@
 
 namespace ccd::detail {
 
-/// Rows are x, y, z at the start, then at the end.
+/// The extents of some points: x, y, z at the start, then at the end.
 struct ends_extents {
     std::array<double, 6> least, most;
 

@@ -144,7 +144,7 @@ class interior_contact {
         return found;
     }
 
-    /// Nothing if the part has to be halved.
+    /// Decides a part; nothing if it has to be halved.
     constexpr std::optional<outcome> without_halving(const part& whole) const {
         if (!any_root(whole.roots)) return outcome::separate;
         if (whole.roots.opposite && (whole.roots.count == 1 || !three_real_roots_)) {

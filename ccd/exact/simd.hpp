@@ -36,7 +36,7 @@ using pack = pack_of<double>;
 using pack_mask = mask_of<double>;
 constexpr std::size_t width = pack::size;
 
-/// Bit i is lane i.
+/// A set of lanes: bit i is lane i.
 using lanes = std::uint32_t;
 
 inline std::size_t count_of(lanes some) {

@@ -43,7 +43,7 @@ inline bool vertex_touches_edge(const vertex_edge<integer>& query) {
     if (on_line_at(0) && beyond.h[0] <= 0) return true;
     if (on_line_at(2) && beyond.h[2] <= 0) return true;
 
-    // Empty if the motion is collinear throughout.
+    // The common factor of the three, empty if the motion is collinear throughout.
     errbound::roots::integer_form<integer> on_line;
     for (const auto* f : {&off_line.x, &off_line.y, &off_line.z})
         on_line = errbound::roots::common_factor(on_line, errbound::roots::without_end_roots(*f));

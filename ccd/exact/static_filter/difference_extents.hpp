@@ -22,7 +22,7 @@ struct real_of<float> {
     using type = float;
 };
 
-/// A bool, or a SIMD mask.
+/// The type of a comparison: bool, or a SIMD mask.
 template <class S>
 using mask = decltype(S() < S());
 

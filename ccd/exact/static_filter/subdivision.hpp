@@ -21,7 +21,7 @@ struct contact_interval {
     bool one_root = false;                           ///< Y certainly has exactly one root there
 };
 
-/// A stack, the earliest interval last.
+/// A stack of the intervals to visit, the earliest last.
 template <std::size_t Constraints>
 struct waiting_parts {
     struct part {
