@@ -20,7 +20,7 @@
 
 namespace ccd::io::ply {
 
-/// Only the type of the alternative has a meaning.
+/// A type of values. The alternative is the type; its value has no meaning.
 using scalar = std::variant<std::int8_t, std::uint8_t, std::int16_t, std::uint16_t, std::int32_t,
                             std::uint32_t, float, double>;
 

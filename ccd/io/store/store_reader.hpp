@@ -10,7 +10,7 @@
 
 namespace ccd::io {
 
-/// Each chunk of queries has its own points.
+/// Number of queries of a chunk. Each chunk has its own points.
 inline constexpr std::uint64_t queries_of_a_chunk = 65536;
 
 constexpr bool is_store(std::string_view first_bytes) {
