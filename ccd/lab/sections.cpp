@@ -109,7 +109,7 @@ struct brackets {
     }
 };
 
-/// Decisions, and first times, one by one.
+/// Passes of decisions, and of first times, one query at a time.
 template <class Query>
 std::vector<std::function<void()>> single_passes(const std::vector<Query>& queries) {
     return {[&queries] {
@@ -120,7 +120,7 @@ std::vector<std::function<void()>> single_passes(const std::vector<Query>& queri
             }};
 }
 
-/// Drawn evenly if there are more than `most`.
+/// Queries with a contact, drawn evenly if there are more than `most`.
 template <class Query>
 std::vector<Query> with_contact(const query_set<Query>& queries,
                                 const std::vector<std::size_t>& which, std::size_t most) {
