@@ -32,7 +32,7 @@ constexpr edge_edge_pair candidate_of(const edge& a, const edge& b) {
 constexpr vertex_edge_pair candidate_of(const std::array<vertex_index, 1>& v, const edge& e) {
     return {v[0], e[0], e[1]};
 }
-/// The lesser comes first.
+/// The lesser vertex comes first.
 constexpr vertex_vertex_pair candidate_of(const std::array<vertex_index, 1>& v,
                                           const std::array<vertex_index, 1>& w) {
     return {v[0] < w[0] ? v[0] : w[0], v[0] < w[0] ? w[0] : v[0]};
