@@ -1,8 +1,7 @@
 // The SIMD pipeline: see ccd/batch/batch_kernels.hpp for the rules of this file.
 //
-// Each stage compacts the queries that it cannot decide into the input of the next, so that every
-// stage works on full packs. Buffers hold some hundred queries: about 200 KB in all, which stay in
-// the second-level cache.
+// Each stage compacts its undecided queries into the input of the next, so that every stage works
+// on full packs. Buffers take about 200 KB, which stay in the second-level cache.
 #include "ccd/batch/batch_kernels.hpp"
 
 #include <cstdint>
@@ -17,19 +16,19 @@
 namespace ccd::detail::ERRBOUND_INSTRUCTION_SET {
 namespace {
 
-/// The stages of ccd/exact/stages.cpp in their order, except that all axes come first. For rounded
-/// positions test_rounded_axes tests them, for stored queries test_stored_coordinates tests the
-/// coordinate axes, before the queries come here.
+/// The stages of ccd/exact/stages.cpp in their order, except that all axes come first.
+/// test_rounded_axes (rounded positions) and test_stored_coordinates (stored queries) have tested
+/// axes before.
 template <kind K>
 class pipeline {
   public:
-    /// For features within that distance; 0 means contact. Otherwise axes must have been tested.
+    /// Distance 0 means contact; for others, axes must have been tested.
     explicit pipeline(const decisions& decided, axes_left axes, double distance = 0)
         : decided_(decided), axes_(axes), distance_(distance) {}
 
-    /// Adds queries. `read(id, at)` writes the 24 coordinates of one to at[0], at[stride],
-    /// at[2·stride], ... of coordinate_columns: by point, end of the step, axis. If `pause` is
-    /// null, axes have been tested.
+    /// `read(id, at)` writes the 24 coordinates of a query to at[0], at[stride], ... of
+    /// coordinate_columns: by point, end of the step, axis. If `pause` is null, axes have been
+    /// tested.
     template <class Read>
     void process(const std::uint32_t* ids, std::size_t count, const Read& read,
                  stage_pause* pause) {
@@ -42,7 +41,6 @@ class pipeline {
         }
     }
 
-    /// Decides the queries that still wait.
     void finish() { run_stages(1); }
 
   private:
@@ -69,7 +67,6 @@ class pipeline {
     pack_subdivision<K> subdivision_;
 };
 
-/// Reads coordinates for pipeline::process.
 template <kind K>
 auto reader_of(const batch_positions& positions, const typename kind_traits<K>::pair* queries) {
     return [&positions, queries](std::size_t id, double* at) {

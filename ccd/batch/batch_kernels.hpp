@@ -1,8 +1,8 @@
 // The floating-point stages of `exact` over SIMD packs, compiled once per instruction set.
 //
-// Internal. ccd/batch/batch_kernels.cpp is compiled several times, with different flags and values
-// of ERRBOUND_INSTRUCTION_SET, the namespace of its results. Its includes must not define functions
-// that another file could share, so that no code for a newer machine runs on an older one.
+// Internal. batch_kernels.cpp is compiled several times, with different flags and values of
+// ERRBOUND_INSTRUCTION_SET, the namespace of its results. Its includes must not define functions
+// that another file could share: no code for a newer machine may run on an older one.
 // tests/ccd/batch/instruction_sets_test.sh checks its symbols.
 #pragma once
 
@@ -15,26 +15,25 @@
 
 namespace ccd::detail {
 
-/// The state of a stage in a stream of queries: it pauses while it decides too few of them.
+/// A stage pauses while it decides too few queries of a stream.
 struct stage_pause {
     std::size_t poor_blocks = 0;     ///< successive blocks of which it decided too few
     std::size_t blocks_to_pass = 0;  ///< before it runs again
 };
 
-/// Axes are tested in floats if there are rounded positions; otherwise, or if they decide too few
-/// queries, in doubles.
+/// Axes are tested in doubles if there are no rounded positions or floats decide too few queries.
 struct axes_pauses {
     stage_pause in_floats, in_doubles;
 };
 
-/// The distance within which features count as in contact, and the gaps in floats that exceed it.
-/// The default 0 is contact; `collides` is certain contact only then.
+/// The distance that counts as contact, and the gaps in floats that exceed it. `collides` is
+/// certain only for the default, contact.
 struct distance_request {
     double distance = 0;
     rounded_axes::least_gaps gaps = {};
 };
 
-/// Functions that decide `count` queries in floating point: `uncertain` in answers[i] leaves the
+/// Functions that decide `count` queries in floating point; `uncertain` in answers[i] leaves the
 /// query to exact arithmetic. Precondition: coordinates of `positions` are finite. Queries by value
 /// that are not finite are `uncertain`. `report` may be null. No allocation; some 300 KB of stack.
 template <kind K>
@@ -47,8 +46,8 @@ struct kernels_of_kind {
                     stage_report* report);
     void (*stored)(const query* queries, std::size_t count, outcome* answers, axes_pauses& pauses,
                    stage_report* report);
-    /// The first times of colliding queries: between the adjacent doubles low[i] and high[i], or
-    /// NaN if undecided.
+    /// First times of colliding queries, between adjacent doubles low[i], high[i]; NaN if
+    /// undecided.
     void (*indexed_times)(const batch_positions& positions, const pair* queries, std::size_t count,
                           double* low, double* high);
     void (*stored_times)(const query* queries, std::size_t count, double* low, double* high);
@@ -66,7 +65,7 @@ struct batch_kernels {
     }
 };
 
-// avx2 and avx512 exist only if the build has ERRBOUND_HAVE_X86_KERNELS.
+// avx2 and avx512 need ERRBOUND_HAVE_X86_KERNELS.
 namespace baseline {
 extern const batch_kernels kernels;
 }

@@ -1,4 +1,4 @@
-// One thread's state in a batch or a step: it decides blocks of queries. Internal.
+// A thread's state in a batch or step, which decides blocks of queries. Internal.
 #pragma once
 
 #include <algorithm>
@@ -15,16 +15,14 @@
 
 namespace ccd::detail {
 
-/// Returns `set`, by default the strongest. Throws std::invalid_argument if it is not one of
+/// Returns `set`, by default the strongest. Throws std::invalid_argument if it is not in
 /// instruction_sets().
 instruction_set runnable(std::optional<instruction_set> set);
 
-/// The kernels for runnable(set).
 const batch_kernels& kernels_for(std::optional<instruction_set> set);
 
 class batch_worker {
   public:
-    /// `counted`: fill report().
     batch_worker(const batch_kernels& kernels, bool counted)
         : kernels_(&kernels), counted_(counted) {}
 
@@ -45,8 +43,8 @@ class batch_worker {
             queries.size(), [&](std::size_t i) { return queries[i]; }, answers);
     }
 
-    /// Decides which pairs come within `distances`. Preconditions: as decide; no pair's distance
-    /// exceeds `max_distance`.
+    /// Decides which pairs come within `distances`, none of which exceeds `max_distance`.
+    /// Preconditions: as decide.
     template <any_pair Pair>
     void decide_within(const batch_positions& positions, std::span<const Pair> queries,
                        const pair_distances& distances, double max_distance, outcome* answers) {
@@ -65,7 +63,6 @@ class batch_worker {
                                  .outcome;
     }
 
-    /// Finds the first times in [0, 1] of queries that collide. Preconditions: as decide.
     template <any_pair Pair>
     void find_times(const batch_positions& positions, std::span<const Pair> queries,
                     first_time* times) const {
@@ -101,7 +98,6 @@ class batch_worker {
     }
     stage_report* counts() { return counted_ ? &report_ : nullptr; }
 
-    /// Decides what the kernels left uncertain by the exact stages, unless it is not finite.
     template <class QueryAt>
     void decide_uncertain(std::size_t count, const QueryAt& query_at, outcome* answers) {
         for (std::size_t i = 0; i < count; ++i) {
@@ -111,8 +107,8 @@ class batch_worker {
         }
     }
 
-    /// Works in blocks. find(kernels, first, count, low, high) calls the kernels of a cubic kind,
-    /// and time_of_impact finds the times that they leave undecided.
+    /// find(kernels, first, count, low, high) calls the kernels for a block of a cubic kind, and
+    /// time_of_impact finds the times that they leave undecided.
     template <kind K, class QueryAt, class Find>
     void find_times_by(std::size_t count, const QueryAt& query_at, const Find& find,
                        first_time* times) const {

@@ -14,7 +14,7 @@
 
 namespace ccd::detail {
 
-/// Throws if a pair has an index >= `vertices`. `first` is the index of the first pair.
+/// Throws if an index is >= `vertices`. `first` is the index of the first pair.
 template <class Pair>
 void check_indices(const char* caller, std::span<const Pair> pairs, std::size_t first,
                    std::size_t vertices) {
@@ -48,8 +48,6 @@ inline void check_t_max(const char* caller, double t_max) {
                                     "; expected a finite number");
 }
 
-/// Throws if a distance is negative or not finite, or if both kinds of distances are given. Also
-/// throws if the number of thicknesses is not 0 or `vertices`.
 inline void check_distances(const char* caller, const pair_distances& distances,
                             std::size_t vertices) {
     const auto check = [caller](double distance, const std::string& of) {

@@ -1,4 +1,4 @@
-// Batches of queries, by value or as pairs, and their chunks, which threads decide. Internal.
+// Batches of queries, by value or as pairs, in chunks that threads decide. Internal.
 #pragma once
 
 #include <tbb/blocked_range.h>
@@ -25,12 +25,11 @@
 
 namespace ccd::detail {
 
-/// The largest number of queries that a thread takes at once. The call's cost is then negligible,
-/// and the queries fit in the second-level cache.
+/// The most queries that a thread takes at once: they fit in the second-level cache, and the call's
+/// cost is negligible.
 constexpr std::size_t chunk_size = 4096;
 
-/// Calls decide(worker, first, count) for chunks of at most `size` queries. Returns the stages'
-/// report. Throws ccd::stopped if options.stop returns true.
+/// Calls decide(worker, first, count) for chunks of at most `size` queries.
 template <class Decide>
 stage_report for_each_chunk(std::size_t count, std::size_t size, const batch_options& options,
                             const Decide& decide) {
@@ -98,7 +97,7 @@ Query without_motion(const Query& query) {
     return std::bit_cast<Query>(points);
 }
 
-/// Pairs. Throws std::invalid_argument, also from decide, with request::caller in the message.
+/// Throws std::invalid_argument, also from decide, with request::caller in the message.
 template <class Pair>
 class pair_batch {
   public:
@@ -193,7 +192,6 @@ class query_batch {
     bool at_start_;
 };
 
-/// The batch of an input. (Class template deduction alone cannot choose the class.)
 template <class Item>
 auto batch_of(const batch_input<Item>& input, const request& test) {
     if constexpr (any_pair<Item>)
@@ -202,7 +200,6 @@ auto batch_of(const batch_input<Item>& input, const request& test) {
         return query_batch<Item>(input.items, test);
 }
 
-/// Throws std::invalid_argument if there is not one answer for each query.
 template <class Batch>
 stage_report decide_chunks(const Batch& batch, std::span<outcome> answers,
                            const batch_options& options, const request& test) {

@@ -1,6 +1,4 @@
 // The stages of `exact` over the whole step, for packs of doubles. Internal.
-//
-// Each decides some queries and pushes the others to the queue of the next.
 #pragma once
 
 #include <ccd/explain.hpp>
@@ -20,7 +18,6 @@
 namespace ccd::detail::ERRBOUND_INSTRUCTION_SET {
 namespace {
 
-/// Returns whether a stage runs now; counts down its pause.
 inline bool is_due(stage_pause& pause) {
     if (pause.blocks_to_pass == 0) return true;
     --pause.blocks_to_pass;
@@ -35,12 +32,11 @@ inline void update_pause(stage_pause& pause, std::size_t decided, std::size_t of
     if (pause.poor_blocks >= patience) pause = {0, length};
 }
 
-/// The coordinates of a block of queries, in columns: by point, end of the step, axis.
+/// A block of queries, in columns by point, end of the step, axis.
 struct coordinate_columns {
     static constexpr std::size_t stride = block + 8;
     alignas(64) double at[24][stride];
 
-    /// Fills the last pack.
     void pad(std::size_t size) {
         for (std::size_t i = size; i % width != 0; ++i)
             for (auto& column : at) column[i] = 0;
@@ -60,10 +56,9 @@ struct coordinate_columns {
     }
 };
 
-/// The axes that have not been tested.
 enum class axes_left { all, diagonals };
 
-/// Tests these axes. If `pause` is null or the stage pauses, decides nothing.
+/// Decides nothing if `pause` is null or the stage pauses.
 template <kind K>
 [[gnu::flatten]] void test_axes(axes_left axes, const coordinate_columns& coordinates,
                                 const std::uint32_t* ids, std::size_t size, stage_pause* pause,
@@ -95,7 +90,6 @@ template <kind K>
     }
 }
 
-/// Tests the coefficients of Y.
 template <kind K>
 [[gnu::flatten]] void test_coplanarity(difference_queue<K>& waiting, double distance,
                                        const decisions& decided, difference_queue<K>& open) {
@@ -116,7 +110,7 @@ template <kind K>
     });
 }
 
-/// Tests the coefficients of the G_i. Queries with too large differences stay uncertain.
+/// Queries with too large differences stay uncertain.
 template <kind K>
 [[gnu::flatten]] void test_inside(difference_queue<K>& waiting, double distance,
                                   const decisions& decided, pack_subdivision<K>& open) {

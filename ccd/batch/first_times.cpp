@@ -1,4 +1,3 @@
-// First times of many queries: decided as batches are, then timed if there is a contact.
 #include <tbb/enumerable_thread_specific.h>
 
 #include <algorithm>
@@ -29,7 +28,6 @@ batch_options batch_options_of(const time_options& options) {
     return {.threads = options.threads, .set = options.set, .stop = options.stop};
 }
 
-/// The queries of a batch, with their distances.
 template <class Item>
 class timed_queries {
   public:
@@ -47,7 +45,6 @@ class timed_queries {
         return {distances().all, 0};
     }
     auto batch() const { return batch_of(input_, test()); }
-    /// Contact, or a distance within `distances`, in [0, 1].
     std::vector<outcome> decisions() const {
         std::vector<outcome> answers(size());
         if (any_pair<Item> || distances().is_contact())
@@ -70,8 +67,8 @@ class timed_queries {
     const time_options& options_;
 };
 
-/// Returns the queries that are not separate in [0, 1], without times; answers[0] is that of query
-/// `first`. Most are separate, so eight answers are skipped at once.
+/// Returns the queries that are not separate, without times; answers[0] is that of query `first`.
+/// Most are separate, so eight answers are skipped at once.
 std::vector<timed_contact> possible_contacts(std::span<const outcome> answers,
                                              std::size_t first = 0) {
     constexpr std::array<outcome, 8> word{};
@@ -88,7 +85,7 @@ std::vector<timed_contact> possible_contacts(std::span<const outcome> answers,
     return possible;
 }
 
-/// Times contacts in blocks that stay in the first-level cache. Uncertain ones stay uncertain.
+/// Works in blocks that stay in the first-level cache.
 template <class Batch>
 void find_times(const batch_worker& worker, const Batch& batch, std::span<timed_contact> some) {
     using item = std::remove_cvref_t<decltype(batch.item(0))>;
@@ -104,7 +101,6 @@ void find_times(const batch_worker& worker, const Batch& batch, std::span<timed_
     }
 }
 
-/// Keeps the contacts in [0, t_max].
 void erase_later(std::vector<timed_contact>& contacts, double t_max) {
     std::erase_if(contacts, [t_max](const timed_contact& c) {
         return c.time.outcome == outcome::separate ||
@@ -112,7 +108,7 @@ void erase_later(std::vector<timed_contact>& contacts, double t_max) {
     });
 }
 
-/// Every thread has several chunks: if all queries collide, a chunk takes milliseconds.
+/// Every thread has several chunks: one takes milliseconds if all queries collide.
 std::size_t timed_chunk_size(std::size_t queries, int threads) {
     const auto all = static_cast<std::size_t>(threads_of(threads));
     return std::clamp<std::size_t>(queries / (8 * all), 256, chunk_size);
@@ -166,7 +162,6 @@ auto order_of(const first_time& time) {
     return std::tuple(time.low, time.high);
 }
 
-/// The earliest of one thread's queries, and those that start in contact.
 class earliest_of_thread {
   public:
     void add(const first_time& time, std::size_t query) {
@@ -197,7 +192,6 @@ class earliest_of_thread {
     earliest_time found_;
 };
 
-/// Returns the uncertain queries, if there are any.
 std::optional<earliest_time> only_uncertain(const std::vector<timed_contact>& contacts) {
     std::vector<std::size_t> uncertain;
     for (const auto& [query, time] : contacts)
@@ -214,12 +208,10 @@ earliest_time earliest_of_times(const std::vector<timed_contact>& contacts) {
     return std::move(all).sorted();
 }
 
-/// True if there is certainly no contact in [0, t_max]. Decides on that interval, whose end
-/// positions are rounded.
-///
-/// std::lerp is off by at most 2^-50 M + 2^-1072 in every rounding direction, where M is the
-/// largest coordinate. Coordinates of the rounded motion are off by as much, and distances of two
-/// points by at most four times as much. That is half of the margin.
+/// True if there is certainly no contact in [0, t_max], by a decision on that interval. std::lerp
+/// is off by at most 2^-50 M + 2^-1072 in every rounding direction, where M is the largest
+/// coordinate. Coordinates of the rounded motion are off by as much, and distances of two points by
+/// at most four times as much: half of the margin.
 template <class Query>
 bool is_certainly_later(const Query& query, separation d, double t_max) {
     constexpr std::size_t count = sizeof(Query) / sizeof(moving_point<double>);

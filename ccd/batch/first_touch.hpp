@@ -1,5 +1,5 @@
-// Memory whose pages are first written by the thread that fills them. The system clears a page at
-// the first write, which takes as long as much of a step.
+// Memory whose pages are first written by the thread that fills them: at the first write the system
+// clears the page, which takes as long as much of a step.
 #pragma once
 
 #include <memory>
@@ -9,7 +9,6 @@
 
 namespace ccd::detail {
 
-/// Does not initialise elements without a value.
 template <class T>
 struct first_touch_allocator : std::allocator<T> {
     static_assert(std::is_trivially_copyable_v<T>);
@@ -25,7 +24,7 @@ struct first_touch_allocator : std::allocator<T> {
     }
 };
 
-/// A vector whose elements have to be set after resize().
+/// A vector whose resize() leaves new elements uninitialised.
 template <class T>
 using first_touch_vector = std::vector<T, first_touch_allocator<T>>;
 

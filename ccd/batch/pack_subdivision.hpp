@@ -1,5 +1,5 @@
-// The last floating-point stage of `exact` over packs: ccd/exact/static_filter/subdivision.hpp with
-// the parts of all queries halved together, level by level. Internal.
+// ccd/exact/static_filter/subdivision.hpp over packs: halves the parts of all queries level by
+// level. Internal.
 #pragma once
 
 #include <array>
@@ -38,7 +38,6 @@ class pack_subdivision {
         parts_[0].push_ids(ids, some);
     }
 
-    /// Decides the pushed queries, or leaves them uncertain.
     [[gnu::flatten]] void run(const decisions& decided) {
         stage_timer timer(decided.report, stage::subdivision);
         const std::size_t entered = parts_[0].size;
@@ -100,7 +99,6 @@ class pack_subdivision {
         return left & ~hopeless;
     }
 
-    /// Puts the halves of these parts of a pack into the other queue.
     void halve(std::size_t depth, std::size_t at, lanes some) {
         if (some == 0) return;
         const part_queue& parts = parts_[depth % 2];

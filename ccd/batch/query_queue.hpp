@@ -1,6 +1,4 @@
-// Queues of queries between the stages of the batch kernels. Internal.
-//
-// One column per number (structure of arrays), so that the next stage works on full packs.
+// Queues of queries between the stages of the batch kernels, as structures of arrays. Internal.
 #pragma once
 
 #include <ccd/kind.hpp>
@@ -21,7 +19,6 @@ constexpr std::size_t lesser(std::size_t a, std::size_t b) {
     return a < b ? a : b;
 }
 
-/// `Columns` numbers for each query, and its id.
 template <std::size_t Columns, std::size_t Capacity>
 struct query_queue {
     static constexpr std::size_t capacity = Capacity;
@@ -33,7 +30,6 @@ struct query_queue {
 
     pack load(std::size_t c, std::size_t at) const { return pack::load_unaligned(&column[c][at]); }
 
-    /// Writes some lanes of one column after the first size + offset numbers.
     void put(std::size_t c, const pack& values, lanes some, std::size_t offset = 0) {
         compress(values, some, &column[c][size + offset]);
     }
@@ -54,8 +50,8 @@ struct query_queue {
     }
 };
 
-/// Queries by the differences b, c, p of their forms, at both ends of the step. A stage pushes at
-/// most a block, and runs when less than a block waits in the next queue.
+/// Queries by b, c, p at both ends of the step. A stage pushes at most a block, and runs when less
+/// than a block waits in the next queue.
 template <kind K>
 struct difference_queue : query_queue<18, 2 * block> {
     using forms = linear_forms<K, pack>;
@@ -78,7 +74,7 @@ struct difference_queue : query_queue<18, 2 * block> {
     }
 };
 
-/// Destinations of the stages' answers and counts. An answer is `uncertain` until a stage decides.
+/// The stages' answers and counts. An answer is `uncertain` until a stage decides.
 struct decisions {
     outcome* answers;
     stage_report* report;

@@ -1,9 +1,7 @@
-// Separating axes in single precision: positions are rounded once for all queries, then compared by
-// sums and differences of coordinates. Internal; host, SIMD and device code share it.
+// Separating axes in single precision. Internal; host, SIMD and device code share it.
 //
-// One translation per axis and one scale map all coordinates to about [−1, 1], rounded to float:
-// X̃ = fl((x − c)·s). Each operation is monotone, so X̃ < Ỹ proves x < y. For errors of sums of two
-// coordinates see `margin`.
+// A translation per axis and one scale map coordinates to about [−1, 1] in float: X̃ = fl((x −
+// c)·s). Each operation is monotone, so X̃ < Ỹ proves x < y. `margin` covers the errors of sums.
 // Proof: proofs/RoundedAxes.v, rounded_monotone, rounded_face_separate, rounded_edges_separate.
 #pragma once
 
@@ -16,19 +14,18 @@
 
 namespace ccd::detail::rounded_axes {
 
-/// If two projections x ± y, computed in float, differ by more than this, they have that order in
-/// exact arithmetic. In units of ε = 2^-23, for sizes up to 1.01: a coordinate is off by at most
-/// 1.01ε, a sum by 2.02ε of its coordinates and 2.02ε of its own, hence 4.04ε. A difference of two
-/// sums is off by 8.08ε and 4.04ε of its own, less than 13ε in all.
+/// If two projections x ± y, computed in float, differ by more than this, their order is exact. In
+/// units of ε = 2^-23, for sizes up to 1.01: a coordinate is off by at most 1.01ε, a sum by 2.02ε
+/// of its coordinates and 2.02ε of its own, hence 4.04ε. A difference of two sums is off by 8.08ε
+/// and 4.04ε of its own, less than 13ε in all.
 inline constexpr float margin = 13 * std::numeric_limits<float>::epsilon();
 
-/// The least computed gaps between projections, along a coordinate axis and across two. The default
-/// proves separation; larger ones prove a distance.
+/// The least computed gaps along a coordinate axis and across two. The default proves separation.
 struct least_gaps {
     float along = 0, across = margin;
 };
-/// The gaps for a distance in units of the floats, rounded up by more than all rounding errors. The
-/// axis x ± y has length √2. Errors of single coordinates are less than those of sums.
+/// Gaps that prove a distance, in units of the floats, rounded up by more than all rounding errors.
+/// The axis x ± y has length √2. Errors of single coordinates are less than those of sums.
 constexpr least_gaps gaps_beyond(double distance) {
     return {static_cast<float>(1.000001 * distance + 1.01 * double(margin)),
             static_cast<float>(1.414215 * distance + 1.01 * double(margin))};
@@ -48,14 +45,13 @@ struct extent {
     }
 };
 
-/// Maps coordinates to floats.
 class frame {
   public:
     frame() = default;
     explicit constexpr frame(const extent& e) {
         // Halved before the addition, so that nothing overflows. The radius is measured from the
         // rounded middle, which may be far from the centre of a scene of a few ulps. The scale is
-        // at most 2^1000, so that it is finite; smaller scenes are hardly separated here.
+        // at most 2^1000, so that it is finite.
         double radius = 0;
         for (std::size_t k = 0; k < 3; ++k) {
             middle_[k] = e.low[k] / 2 + e.high[k] / 2;
@@ -73,7 +69,6 @@ class frame {
     double middle_[3], scale_;
 };
 
-/// The gap by which an axis separates the features at one end of the step, if it does.
 template <class S>
 struct gap {
     S above, below;
@@ -93,9 +88,8 @@ constexpr S separated_by(const S (&start)[4], const S (&end)[4]) {
     return max(min(g0.above, g1.above), min(g0.below, g1.below));
 }
 
-/// True if an axis certainly separates the features throughout the step by these gaps: x, y, z,
-/// x ± y, y ± z or z ± x. Equivalent of static_filter::separated_by_axes in single precision.
-/// x[axis][end of the step][point] has points in the order of the indices; S is float or a pack.
+/// Same as static_filter::separated_by_axes, in single precision, with these gaps. x[axis][end of
+/// the step][point] has points in the order of the indices; S is float or a pack.
 template <class Pair, class S>
 constexpr static_filter::mask<S> separated(const S (&x)[3][2][4], const least_gaps& least = {}) {
     using std::max;

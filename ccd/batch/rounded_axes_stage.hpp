@@ -1,4 +1,4 @@
-// The stage `axes` over packs of floats: positions rounded once for all queries. Internal.
+// The stage `axes` over packs of floats. Internal.
 #pragma once
 
 #include <ccd/kind.hpp>
@@ -13,7 +13,6 @@
 namespace ccd::detail::ERRBOUND_INSTRUCTION_SET {
 namespace {
 
-/// The number of queries that the stage tests together.
 constexpr std::size_t rounded_block = 256;
 
 using float_pack = pack_of<float>;
@@ -24,7 +23,7 @@ static_assert(rounded_block % float_width == 0 && float_width % 4 == 0);
 struct rounded_columns {
     alignas(64) float at[24][rounded_block + 16];
 
-    /// Fills four lanes of the columns of point p from the rows of four vertices.
+    /// Fills four lanes of point p from the rows of four vertices.
     void fill(std::size_t p, std::size_t lane, const float* const (&rows)[4]) {
         for (std::size_t end = 0; end < 2; ++end) {
             const row_quads quads(rows, end);
@@ -34,7 +33,7 @@ struct rounded_columns {
         }
     }
 
-    /// Reads the rows of the queries' vertices. Lanes beyond the last query repeat it.
+    /// Lanes beyond the last query repeat it.
     template <class Pair>
     void fill(const float* rounded, const Pair* queries, std::size_t count) {
         for (std::size_t lane = 0; lane < count; lane += 4)
@@ -48,7 +47,6 @@ struct rounded_columns {
             }
     }
 
-    /// Returns the queries from `lane` on whose features an axis certainly separates by these gaps.
     template <class Pair>
     lanes separated(std::size_t lane, const rounded_axes::least_gaps& least) const {
         float_pack coordinates[3][2][4];
@@ -61,8 +59,8 @@ struct rounded_columns {
     }
 };
 
-/// Decides the queries from `first` on that an axis certainly separates by these gaps, and writes
-/// the others to `open`. Returns the number of the others.
+/// Decides the queries from `first` on that an axis separates. Writes the others to `open` and
+/// returns their number.
 template <class Pair>
 [[gnu::flatten]] std::size_t test_rounded_axes(const float* rounded, const Pair* queries,
                                                std::size_t first, std::size_t count,

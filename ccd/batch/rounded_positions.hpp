@@ -31,7 +31,6 @@ class rounded_positions {
     }
 
     const float* data() const { return floats_.data(); }
-    /// Floats per unit of the coordinates.
     double scale() const { return scale_; }
 
   private:

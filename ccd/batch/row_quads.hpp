@@ -1,4 +1,3 @@
-// Rows of rounded positions, transposed four at a time. Internal; for kernels.
 #pragma once
 
 #include <cstddef>
@@ -11,7 +10,6 @@ namespace {
 
 typedef float float_quad __attribute__((vector_size(16)));
 
-/// Selects numbers from the eight of a and b by their indices.
 template <int... Places>
 float_quad chosen(const float_quad& a, const float_quad& b) {
 #if defined __clang__ || __GNUC__ >= 12
@@ -22,7 +20,7 @@ float_quad chosen(const float_quad& a, const float_quad& b) {
 #endif
 }
 
-/// The coordinates of four rows of rounded_positions at one end of the step, axis by axis.
+/// Four rows of rounded_positions at one end of the step, axis by axis.
 struct row_quads {
     float_quad axis[3];
 

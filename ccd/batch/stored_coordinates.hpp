@@ -1,5 +1,4 @@
-// The first stage for stored queries: the coordinate axes, read directly from memory. Internal; for
-// kernels.
+// The first stage for stored queries: the coordinate axes, read from memory. Internal.
 #pragma once
 
 #include <ccd/kind.hpp>
@@ -16,8 +15,8 @@ namespace {
 /// The number of queries that the stage tests together: 48 KB.
 constexpr std::size_t stored_block = 256;
 
-/// Decides the queries from `first` on that a coordinate axis separates, and writes the others, if
-/// finite, to `open`. Returns the number of the others.
+/// Decides the queries from `first` on that an axis separates. Writes the others, if finite, to
+/// `open` and returns their number.
 template <kind K>
 [[gnu::flatten]] std::size_t test_stored_coordinates(
     const typename kind_traits<K>::template query<double>* queries, std::size_t first,

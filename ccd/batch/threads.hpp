@@ -24,17 +24,15 @@ inline int threads_of(int threads) {
     return threads > 0 ? std::min(threads, cores) : cores;
 }
 
-/// On MinGW-w64, keeps oneTBB's threads until the program ends. Otherwise oneTBB ends them with the
-/// last thread that has used it, which can deadlock. A std::thread holds a lock of MinGW's while
-/// destructors of its thread_local objects take the loader's lock. A native thread that ends takes
-/// these locks in the other order.
+/// On MinGW-w64, keeps oneTBB's threads until the program ends, since ending them earlier can
+/// deadlock. A std::thread holds a lock of MinGW's while destructors of its thread_local objects
+/// take the loader's lock; a native thread that ends takes these locks in the other order.
 inline void keep_workers() {
 #ifdef __MINGW32__
     static const tbb::task_scheduler_handle kept{tbb::attach{}};
 #endif
 }
 
-/// Runs `work` with at most threads_of(threads) threads in parallel loops. Returns that number.
 template <class Work>
 int on_threads(int threads, const Work& work) {
     keep_workers();
@@ -53,7 +51,6 @@ void for_each_part(std::size_t count, int threads, const Visit& visit) {
                           [&](const auto& range) { visit(range.begin(), range.end()); });
     });
 }
-/// Calls visit(i) for each i < count in the same way.
 template <class Visit>
 void for_each_index(std::size_t count, int threads, const Visit& visit) {
     for_each_part(count, threads, [&](std::size_t begin, std::size_t end) {

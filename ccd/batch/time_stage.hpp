@@ -3,7 +3,7 @@
 // Every contact is at a root of Y. If Y certainly has exactly one root, that is the time. If it has
 // two, contact is at the first if all G_i are certainly positive there. It is at the second if one
 // is certainly negative there. Signs on two parts of the step determine the number of roots.
-// Newton's method finds the adjacent doubles around a root. Signs of Y there, in twice double's
+// Newton's method finds the adjacent doubles around a root; signs of Y there, in twice double's
 // precision with an error bound, prove them.
 #pragma once
 
@@ -32,9 +32,8 @@ constexpr int neighbours_tried = 3;
 template <int N>
 using pack_values = errbound::roots::control_values<pack, N>;
 
-/// The value and the slope at t of the polynomial with these control values (de Casteljau). The
-/// value's error exceeds that of the control values by 16ε of the largest.
-/// Proof: proofs/TimeStage.v, value_near.
+/// Value and slope at t, by de Casteljau. The value's error exceeds that of the control values by
+/// 16ε of the largest. Proof: proofs/TimeStage.v, value_near.
 template <int N>
 struct value_and_slope {
     pack value, slope;
@@ -48,8 +47,7 @@ struct value_and_slope {
 };
 
 /// The parts of a cubic before and after t, with a further error of 32ε of its largest control
-/// value.
-/// Proof: proofs/TimeStage.v, lerp_near, parts_at.
+/// value. Proof: proofs/TimeStage.v, lerp_near, parts_at.
 struct parts_of_cubic {
     pack_values<3> before, after;
 
@@ -61,7 +59,7 @@ struct parts_of_cubic {
     }
 };
 
-/// Times as brackets of adjacent doubles, in the lanes that are `known`.
+/// Brackets of adjacent doubles, in the lanes that are `known`.
 struct pack_times {
     pack low, high;
     pack_mask known;
@@ -71,7 +69,6 @@ struct pack_times {
 template <kind K>
 class twofold_y {
   public:
-    /// Reads coordinates in the layout of coordinate_columns.
     twofold_y(const coordinate_columns& x, std::size_t first,
               const static_filter::difference_extents<pack>& m) {
         const auto f = forms_at(x, first);
@@ -122,16 +119,15 @@ class twofold_y {
     pack_mask usable_;
 };
 
-/// A part of the step where Y certainly has exactly one root. Before it, Y has the sign `before`.
+/// A part of the step with certainly one root of Y, whose sign is `before` before it.
 struct pack_parts {
     pack from, to, before;
 };
 
-/// A root of Y, whose control values over the step are y, and its slope there.
+/// A root of Y, whose control values are y, and its slope there.
 struct pack_roots {
     pack t, slope;
 
-    /// Newton's method in floating point in the lanes that are `wanted`.
     pack_roots(const pack_values<3>& y, const pack_parts& part, const pack_mask& wanted) {
         const pack at_from = value_and_slope<3>(y, part.from).value;
         const pack at_to = value_and_slope<3>(y, part.to).value;
@@ -153,8 +149,7 @@ struct pack_roots {
     }
 };
 
-/// Brackets a part's root between adjacent doubles, from an estimate.
-/// Proof: proofs/TimeStage.v, bracket_around.
+/// Brackets a root from its estimate. Proof: proofs/TimeStage.v, bracket_around.
 template <kind K>
 pack_times bracket_of_root(const twofold_y<K>& exact, const pack_roots& root,
                            const pack_parts& part, const pack_mask& wanted) {
@@ -185,13 +180,13 @@ pack_times bracket_of_root(const twofold_y<K>& exact, const pack_roots& root,
 
 /// True if at the first root of Y, near t, all G_i are certainly positive (`inside`) or one is
 /// certainly negative (`outside`). Certain signs of Y bracket the root. Within the bracket, no G_i
-/// changes by more than 8 times its largest control value times the bracket's width.
-/// Proof: proofs/TimeStage.v, root_reached, quartic_slope.
+/// changes by more than 8 times its largest control value times the width. Proof:
+/// proofs/TimeStage.v, root_reached, quartic_slope.
 template <kind K>
 struct signs_at_root {
     pack_mask inside = pack_mask(true), outside = pack_mask(false);
 
-    /// y_error bounds the error of Y's value at any time. Y has the sign `before` before that root.
+    /// y_error bounds the error of Y at any time. Y has the sign `before` before that root.
     signs_at_root(const static_filter::whole_step<pack, forms_of_kind<K>::template type>& whole,
                   const pack& y_error, const pack& t, const pack& before) {
         constexpr double reach = 0x1p-28;
@@ -212,7 +207,6 @@ struct signs_at_root {
     }
 };
 
-/// The times of a pack of queries that collide.
 /// Proof: proofs/TimeStage.v, only_root_first, first_of_two, second_of_two.
 template <kind K>
 class time_stage {
@@ -279,13 +273,12 @@ class time_stage {
         return bracket_of_root(exact, root, part, certain);
     }
 
-    /// Returns the extremum of y on the other side, where `sign` is the sign of y at 0. Any value
-    /// if there is none.
+    /// The extremum of y on the other side, where `sign` is the sign of y at 0; any value if none.
     static pack turning_point(const pack_values<3>& y, const pack& sign) {
         const pack d0 = y[1] - y[0], d1 = y[2] - y[1], d2 = y[3] - y[2];
         const pack root = sign * sqrt(max(d1 * d1 - d0 * d2, pack(0.0)));
-        // (d0 − d1 ± root)/(d0 − 2d1 + d2). The product of the two numerators is
-        // d0·(d0 − 2d1 + d2). Use the one without cancellation.
+        // (d0 − d1 ± root)/(d0 − 2d1 + d2), whose numerators have the product d0·(d0 − 2d1 + d2).
+        // Use the one without cancellation.
         const pack q = (d0 - d1) + root, other = (d0 - d1) - root;
         return select(abs(q) >= abs(other), q / ((d0 - d1) - (d1 - d2)), d0 / other);
     }

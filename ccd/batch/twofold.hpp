@@ -1,8 +1,8 @@
 // Packs of numbers of twice double's precision: unevaluated sums of two doubles. Internal.
 //
-// Let A and B bound the operands' sizes, and u = 2^-53. A sum is off by at most 5u²(A + B) and a
-// product by 13u²AB, without overflow. These are Dekker's short forms (1971), whose errors are
-// relative to the operands. Underflow: proofs/Twofold.v, sum_near, product_near, product_rounded,
+// With operands of sizes A and B and u = 2^-53, a sum is off by at most 5u²(A + B) and a product by
+// 13u²AB, without overflow. These are Dekker's short forms (1971), whose errors are relative to the
+// operands. Underflow: proofs/Twofold.v, sum_near, product_near, product_rounded,
 // product_rounded_fma.
 #pragma once
 
@@ -16,7 +16,6 @@ namespace {
 struct twofold {
     pack value, error;
 
-    /// Normalises: the error gets below the value's last place.
     static twofold normal(const pack& value, const pack& error) {
         const auto sum = errbound::fast_two_sum(value, error);
         return {sum.value, sum.error};

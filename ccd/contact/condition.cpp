@@ -21,7 +21,7 @@ std::vector<staged_polynomial> staged(const std::vector<time_polynomial>& polyno
     return r;
 }
 
-/// A condition and the stages of its polynomials. Keeps a reference to `c`.
+/// Keeps a reference to `c`.
 class staged_condition {
   public:
     explicit staged_condition(const condition<time_polynomial>& c)

@@ -1,15 +1,14 @@
 // Conditions on times, and the first time in [0, 1] at which one of them holds. Internal.
 //
-// The set of times at which one of a list of conditions holds must be closed, as those of contacts
-// and of distances <= d are. (That of one condition need not be.) So there is a first time t*, if
-// any. If t* > 0, let a condition hold there:
+// The times at which some condition of a list holds must be a closed set, as those of contacts and
+// of distances <= d are. (The set of one condition need not be closed.) So there is a first time
+// t*, if any. If t* > 0, let a condition hold there:
 //  * If its `vanishing` are not all identically zero, t* is a root of their common factor.
 //  * Otherwise t* is a root of some `nonnegative`: polynomials that are not zero at t* keep their
 //    sign near it, and just before t* some `nonnegative` was negative.
 //  * For `also_below`, see there.
-// A condition without `vanishing` is tested at t = 0 only: where it begins to hold later, another
-// condition holds too.
-// Proof: proofs/FirstConditions.v, first_is_candidate, candidate_holds.
+// A condition without `vanishing` is tested at t = 0 only: if it begins to hold later, another
+// condition holds too. Proof: proofs/FirstConditions.v, first_is_candidate, candidate_holds.
 #pragma once
 
 #include <ccd/methods/forms.hpp>
@@ -22,41 +21,39 @@
 
 namespace ccd::detail {
 
-/// A point, or a difference of points, in motion: coordinates in a ring R of polynomials in t.
+/// The motion of a point or difference, over a ring R of polynomials in t.
 template <class R>
 using path = vector_form<R, 0>;
 
-/// Sign conditions where a condition's `vanishing` are 0.
 template <class R>
 struct side_conditions {
     std::vector<R> nonnegative, not_all_zero;
 };
 
-/// Holds if all of `vanishing` are 0, none of `nonnegative` is negative, and some `not_all_zero` is
-/// not 0, if there are any. `sides` computes the latter two on demand.
+/// Holds if all of `vanishing` are 0, none of `nonnegative` is negative, and some `not_all_zero`,
+/// if there are any, is not 0. `sides` computes the latter two on demand.
 template <class R>
 struct condition {
     std::vector<R> vanishing;
     std::function<side_conditions<R>()> sides;
-    /// It also holds where Z, its only `vanishing`, is negative. Z <= 0 means distance <= d. The
+    /// It also holds where Z, its only `vanishing`, is negative: Z <= 0 means distance <= d. The
     /// distance is continuous in t, so Z = 0 where it first holds. Proof: proofs/Separation.v,
     /// vertices_first_within, vertex_edge_first_within, face_first_within, edges_first_within.
     bool also_below = false;
 };
 using exact_conditions = std::vector<condition<time_polynomial>>;
 
-/// Returns the first time in [0, min(t_max, 1)] at which a condition holds. Precondition: t_max >=
-/// 0.
+/// The first time in [0, min(t_max, 1)] at which a condition holds. Precondition: t_max >= 0.
 /// Proof: proofs/CandidateTimes.v, first_time_of_right, code_comparison.
 first_time first_time_of(const exact_conditions& conditions, double t_max);
 
-/// The test at a root of y. `holds_at` decides in floating point from an enclosure of the root; it
-/// may be empty. `conditions` computes the conditions if that is uncertain.
+/// `holds_at`, if not empty, decides in floating point from an enclosure of a root of y; if it is
+/// uncertain, the `conditions` decide.
 struct root_test {
     std::function<outcome(const errbound::tracked<double>&)> holds_at;
     std::function<exact_conditions()> conditions;
 };
-/// Returns the same if every condition holds at roots of y only. y must not be identically zero.
+/// The same for conditions that hold at roots of y only. y must not be identically zero.
 first_time first_time_at_roots(const time_polynomial& y, const root_test& test, double t_max);
 
 }  // namespace ccd::detail

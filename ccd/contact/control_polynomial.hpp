@@ -1,5 +1,4 @@
-// Polynomials on [0, 1] in Bernstein form, as in errbound/bernstein.hpp but of run-time degree.
-// They form a ring, so conditions can be computed over them. Internal.
+// The ring of polynomials on [0, 1] as in errbound/bernstein.hpp, but of run-time degree. Internal.
 #pragma once
 
 #include <algorithm>
@@ -10,15 +9,14 @@
 
 namespace ccd::detail {
 
-/// Σ h_i s^(n−i) t^i at s = 1 − t. Without coefficients it is identically zero.
+/// Σ h_i s^(n−i) t^i at s = 1 − t. Without coefficients h it is identically zero.
 template <class S>
 class control_polynomial {
   public:
     control_polynomial() = default;
-    /// h holds scaled coefficients.
     explicit control_polynomial(std::vector<S> h) : h_(std::move(h)) {}
 
-    /// Returns the common sign of all coefficients, which the polynomial has on [0, 1].
+    /// The common sign of all coefficients, which the polynomial has on [0, 1].
     errbound::sign_type sign_throughout() const {
         if (h_.empty()) return errbound::sign_type::zero;
         const auto first = sign_of(h_[0]);

@@ -18,8 +18,7 @@ using errbound::sign_type;
 using number = errbound::tracked<double>;
 using polynomial = control_polynomial<number>;
 
-/// True if all control points of p are above all of q by more than `distance`. Rounding is
-/// monotone: if the rounded difference exceeds a double, so does the difference.
+/// Rounding is monotone: if the rounded difference exceeds a double, so does the difference.
 bool above(std::span<const curve> p, std::span<const curve> q, double point<double>::*axis,
            double distance) {
     double low = std::numeric_limits<double>::infinity(), high = -low;
@@ -39,8 +38,7 @@ bool boxes_are_separate(std::span<const curve> points, double distance) {
     return false;
 }
 
-/// Coordinates relative to `origin`. They are scaled by binomials, which are exact doubles up to
-/// this degree.
+/// Binomials up to this degree are exact doubles.
 constexpr std::size_t max_degree = 50;
 polynomial coordinate(const curve& points, double origin, double point<double>::*axis) {
     const std::size_t degree = points.size() - 1;
@@ -58,7 +56,6 @@ path<polynomial> path_of(const curve& points, const point<double>& origin) {
             {{coordinate(points, origin.z, &point<double>::z)}}};
 }
 
-/// True if the condition holds nowhere in [0, 1].
 bool is_excluded(const condition<polynomial>& c) {
     const auto excludes = [&](const polynomial& p) {
         const sign_type s = p.sign_throughout();
@@ -82,7 +79,7 @@ paths<K, polynomial> relative_paths(std::span<const curve> points) {
     return paths_of<K, polynomial>(points, [&](const curve& p) { return path_of(p, origin); });
 }
 
-/// The point relative to `origin` at t, by de Casteljau's algorithm.
+/// The point at t relative to `origin`, by de Casteljau's algorithm.
 path<number> position(const curve& points, const point<double>& origin, const number& t) {
     const auto along = [&](double origin_there, double point<double>::*axis) {
         std::vector<number> h;

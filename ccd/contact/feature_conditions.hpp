@@ -1,6 +1,6 @@
-// The conditions of contact and of distance for each kind of query, over any ring R of polynomials
-// in t. Internal. The head of ccd/exact/reference.cpp lists those of contact. The conditions of
-// distance are Z <= 0 between features of each dimension whose nearest points are inside both.
+// The conditions of contact (listed in ccd/exact/reference.cpp) and of distance for each kind of
+// query, over any ring R of polynomials in t. Internal. The conditions of distance are Z <= 0
+// between features of each dimension whose nearest points are inside both.
 //
 // The least distance of two features is attained inside both, on an edge or at a vertex; if N = 0,
 // or an edge has no length, in a lower dimension. So the union is complete. Each condition implies
@@ -38,7 +38,6 @@ struct paths<kind::vertex_vertex, R> {
     path<R> v, w;
 };
 
-/// Applies `path_of` to each of the query's points, in the order of points_of.
 template <kind K, class R, class PathOf>
 paths<K, R> paths_of(std::span<const curve> points, const PathOf& path_of) {
     constexpr std::size_t count = kind_traits<K>::first_vertices + kind_traits<K>::second_vertices;
@@ -88,7 +87,6 @@ auto forms_of(const edge_edge_paths<R>& q) {
     return edge_edge_forms<R, 0>(q.a1 - q.a0, q.b1 - q.b0, q.b0 - q.a0);
 }
 
-/// The vertex/edge pairs at the border of both features.
 template <class R>
 std::array<vertex_edge_paths<R>, 3> edges_of(const vertex_face_paths<R>& q) {
     return {{{q.v, q.f0, q.f1}, {q.v, q.f1, q.f2}, {q.v, q.f2, q.f0}}};
@@ -121,14 +119,14 @@ condition<R> contact_condition(const vertex_edge_paths<R>& q) {
                 return side_conditions<R>{list(dot(q.v - q.e0, q.e1 - q.v)), {}};
             }};
 }
-/// Conditions on the weights, where the features' planes or lines meet or are at the distance.
+/// Conditions on the weights, where planes or lines meet or are at the distance.
 template <class Forms>
 auto inside_conditions(const Forms& forms) {
     const auto inside = list(forms.inside());
     return side_conditions<typename decltype(inside)::value_type>{inside, list(forms.n)};
 }
 
-/// Conditions of VF and EE at times at which Y = 0.
+/// Returns the conditions of contact; for VF and EE, at times at which Y = 0.
 template <kind K, class R>
 std::vector<condition<R>> contact_conditions(const paths<K, R>& q) {
     if constexpr (K == kind::vertex_vertex || K == kind::vertex_edge) {
@@ -165,10 +163,9 @@ condition<R> distance_condition_inside(const Forms& forms, const R& squared) {
             true};
 }
 
-/// Calls visit(make) for every condition of distance² <= D, all axes in one unit. make() returns
-/// the condition.
-/// Proof: proofs/Distance.v, vertex_edge_within, face_within_union, edges_within_union; of first
-/// times, proofs/FirstConditions.v, vertex_edge_near_candidate, face_near_candidate,
+/// Calls visit(make) for every condition of distance² <= D, all axes in one unit; make() returns
+/// it. Proof: proofs/Distance.v, vertex_edge_within, face_within_union, edges_within_union; of
+/// first times, proofs/FirstConditions.v, vertex_edge_near_candidate, face_near_candidate,
 /// edges_near_candidate.
 template <kind K, class R, class Visit>
 void visit_distance_conditions(const paths<K, R>& q, const R& squared, const Visit& visit) {

@@ -68,7 +68,6 @@ first_time first_at_distance(std::span<const curve> points, separation d, double
     return first_time_of(conditions, t_max);
 }
 
-/// True if all numbers are finite, every curve has a control point, and d is a distance.
 bool is_valid_query(std::span<const curve> points, separation d, double t_max) {
     const auto is_finite = [](const point<double>& p) {
         return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);

@@ -1,7 +1,5 @@
-// First times of contact and of distance in unbounded integers, for points that move along
-// polynomials in t of any degree. Internal.
-//
-// Allocates. The degrees and the spread of the coordinates' exponents bound time and memory.
+// First times along polynomials in t of any degree, in unbounded integers. Allocates. The degrees
+// and the spread of the coordinates' exponents bound time and memory. Internal.
 #pragma once
 
 #include <array>
@@ -15,20 +13,18 @@
 
 namespace ccd::detail {
 
-/// True if d is a distance: finite and not negative.
+/// True if both parts are finite and not negative.
 bool is_distance(separation d);
 
-/// `floating_point_first` filters with error bounds (ccd/contact/curve_filter.hpp). Both have the
-/// same results.
+/// `floating_point_first` filters by ccd/contact/curve_filter.hpp; results are the same.
 enum class arithmetic { integers, floating_point_first };
 
-/// Returns the first time in [0, t_max] at which the features of a query of this kind come within
-/// d, or touch if d = 0: see ccd/contact.hpp. `points` are in the order of points_of.
+/// Same as time_within, or as time_of_impact if d = 0 (ccd/contact.hpp). `points` are in the order
+/// of points_of.
 template <kind K>
 first_time first_within_of(std::span<const curve> points, separation d, double t_max,
                            arithmetic by);
 
-/// The query's points as curves of degree 1.
 template <class Query>
 struct query_curves {
     static constexpr kind query_kind = kind_constant<Query>::value;

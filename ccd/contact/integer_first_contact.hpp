@@ -1,5 +1,5 @@
-// The first contact of one query in integers of a fixed width, on the host or a device. Internal;
-// see ccd/contact/integer_times.hpp for its guarantees.
+// The first contact of a query in integers of a fixed width, for hosts and devices. Internal;
+// ccd/contact/integer_times.hpp has its guarantees.
 //
 // The first contact of a face or two edges is the earliest of those at their borders and of those
 // inside. Every contact has Y = 0. If Y ≡ 0, contact inside that does not begin at t = 0 begins at
@@ -58,17 +58,16 @@ constexpr found_time first_contact_converted(
     return first_vertex_vertex_contact(query);
 }
 
-/// Computes in integers of Words words; `uncertain` is rare. Preconditions: units =
-/// integer_units(query), with at most extent_limit(Words) bits (ccd/exact/integer_decision.hpp).
+/// `uncertain` is rare. Preconditions: units = integer_units(query), with at most
+/// extent_limit(Words) bits (ccd/exact/integer_decision.hpp).
 template <int Words, effort Effort = effort::whole, template <class> class Query>
 constexpr found_time first_contact_in_words(const Query<double>& query,
                                             const integer_units& units) {
     return first_contact_converted<Words, Effort>(units.converted<Words>(query), query, units);
 }
 
-/// The same if floating point has found the interval of the first contact, in which Y has exactly
-/// one root.
-/// Proof: proofs/ContactPart.v, face_part_bracket, edges_part_bracket.
+/// The same if floating point has found the interval of the first contact, with exactly one root of
+/// Y. Proof: proofs/ContactPart.v, face_part_bracket, edges_part_bracket.
 template <int Words, template <class> class Query>
 constexpr found_time root_in_words(const Query<double>& query, const integer_units& units,
                                    const static_filter::contact_interval& part) {

@@ -14,7 +14,6 @@ namespace ccd::detail {
 template <any_query Query>
 found_time first_contact_in_integers(const Query& query);
 
-/// The same if floating point has found the interval of the first contact.
 template <cubic_query Query>
 found_time root_in_integers(const Query& query, const static_filter::contact_interval& part);
 

@@ -1,8 +1,7 @@
 // The first contact inside a face or inside both edges, in integers of fixed width.
 //
-// Visits the roots of Y in their order, as ccd/exact/interior_contact.hpp does to decide.
-// Vertex/edge contacts may exist from a known time on. Contact inside is searched before that time
-// only, so the precondition of interior_contact.hpp holds.
+// Visits the roots of Y in their order, as ccd/exact/interior_contact.hpp does, up to the first
+// time at which a vertex/edge contact may exist. So the precondition of interior_contact.hpp holds.
 #pragma once
 
 #include <ccd/methods/forms.hpp>
@@ -33,8 +32,8 @@ class interior_time : interior_contact<Words, Forms, Effort> {
                             const time_bracket& end, effort_constant<Effort> = {})
         : base(forms, y, units), search_(y), first_(end) {}
 
-    /// Returns the first time with Y = 0 and all G_i > 0, if its bracket is earlier than `end`. If
-    /// Y ≡ 0, considers t = 0 and 1 only. Proof: proofs/InteriorTime.v, interior_time_right.
+    /// Returns the first time with Y = 0 and all G_i > 0 if its bracket is earlier than `end`. If Y
+    /// ≡ 0, considers t = 0 and 1 only. Proof: proofs/InteriorTime.v, interior_time_right.
     constexpr found_time find() {
         if (y_[0] == 0) consider(time_bracket{0, 0}, [this] { return at_end(0); });
         if (y_[3] == 0) consider(time_bracket{1, 1}, [this] { return at_end(1); });
@@ -56,8 +55,8 @@ class interior_time : interior_contact<Words, Forms, Effort> {
   private:
     using base::forms_, base::y_;
 
-    /// Considers a root of Y. `contact` is called only if the root is earlier than the first
-    /// contact so far. Proof: proofs/IntegerTimes.v, considered_right.
+    /// Calls `contact` only if the root of Y is earlier than the first contact so far. Proof:
+    /// proofs/IntegerTimes.v, considered_right.
     template <class Contact>
     constexpr void consider(const std::optional<time_bracket>& root, const Contact& contact) {
         if (root && !(*root < first_)) return;
@@ -77,8 +76,8 @@ class interior_time : interior_contact<Words, Forms, Effort> {
     }
     constexpr outcome at_end(int end) const { return strict(forms_at_end(forms_, end)); }
 
-    /// The stack of parts has the earliest last, as in interior_contact::by_halving.
-    /// Proof: proofs/InteriorTime.v, in_parts_right, in_parts_ends.
+    /// A stack, as interior_contact::by_halving. Proof: proofs/InteriorTime.v, in_parts_right,
+    /// in_parts_ends.
     constexpr void in_parts(const inner_sign_changes& roots) {
         std::array<part, 3> waiting;
         std::size_t count = 0;
@@ -114,10 +113,10 @@ class interior_time : interior_contact<Words, Forms, Effort> {
         return strict(forms_at(forms_, end - t, t));
     }
 
-    /// Considers the part's root if it is certainly the only one. Returns false if there is none or
-    /// there may be others. Next to a double root, the weights may be those at the double root.
-    /// Proof: proofs/InteriorTime.v, asked_root; that the weights are of a root inside the part:
-    /// proofs/InteriorContact.v, near_here.
+    /// Considers the part's root if it is certainly the only one, else returns false. Next to a
+    /// double root, the weights may be those at the double root. Proof: proofs/InteriorTime.v,
+    /// asked_root; that the weights are of a root inside the part: proofs/InteriorContact.v,
+    /// near_here.
     constexpr bool root_of(const part& whole) {
         const bool others = this->three_real_roots_ || !this->distinct_;
         if (!whole.roots.opposite || (whole.roots.count > 1 && others)) return false;

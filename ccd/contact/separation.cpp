@@ -17,9 +17,8 @@ namespace {
 
 using moving_points = std::span<const moving_point<double>>;
 
-/// True if all of p are above all of q, by more than `distance`, at both ends of the step and
-/// therefore throughout. Rounding is monotone: if the rounded difference exceeds a double, so does
-/// the difference.
+/// True if p is above q by more than `distance` at both ends of the step, and therefore throughout.
+/// Rounding is monotone: if the rounded difference exceeds a double, so does the difference.
 bool above(moving_points p, moving_points q, double point<double>::*axis, double distance) {
     return std::all_of(p.begin(), p.end(), [&](const moving_point<double>& x) {
         return std::all_of(q.begin(), q.end(), [&](const moving_point<double>& y) {
@@ -28,7 +27,6 @@ bool above(moving_points p, moving_points q, double point<double>::*axis, double
     });
 }
 
-/// True if a coordinate axis separates the features by more than d throughout.
 /// Proof: proofs/Separation.v, coordinates_apart, vertices_apart, vertex_edge_apart, face_apart,
 /// edges_apart.
 template <class Query>

@@ -43,9 +43,8 @@ inline vector from_segment(const vector& p, const vector& e) {
     return p + part_of(-dot(p, e), dot(e, e)) * e;
 }
 
-/// Returns a vector from a point of the first feature to one of the second that are about nearest.
-/// x holds the points in the order of points_of. Except for rounding, the result is the exact
-/// vector between two points of the features.
+/// Returns a vector from a point of the first feature to one of the second that are about nearest:
+/// exact for these two points, except for rounding. x holds the points in the order of points_of.
 inline vector nearest(const std::array<vector, 2>& x) {
     return x[1] - x[0];
 }
@@ -116,7 +115,7 @@ class features {
         below_ = sum * (1 - 24 * epsilon) - 40 * epsilon * size_ - tiny;
     }
 
-    /// Returns whether they certainly come within d (`collides`) or certainly do not (`separate`).
+    /// `collides` if they certainly come within d, `separate` if they certainly do not.
     outcome decide() const {
         if (!(above_ < largest_distance)) return outcome::uncertain;
         struct part {
@@ -146,7 +145,7 @@ class features {
     static constexpr double largest_distance = 0x1p300;  ///< in units of size_
     static constexpr double tiny = 0x1p-500;  ///< above the root of what products lose to underflow
 
-    /// True if two points are certainly nearer than d at an estimated time: where `between`, which
+    /// True if two points are certainly nearer than d at an estimated time. There, `between`, which
     /// is nearest_at(t), is shortest if its rate of change is that at t, or one such step later.
     bool comes_near(double t, vector between, double low, double high) const {
         for (double step = (high - low) / 64; step > (high - low) / 1e6; step /= 1024) {
@@ -171,12 +170,11 @@ class features {
             return nearest(x);
     }
 
-    /// True if the axis, of about unit length, separates the features by more than d in the same
-    /// order at t = low and t = high. A projection is off by 2.1ε·size_, between the ends of the
-    /// step by 3.1ε·size_, a difference of two by 7.3ε·size_. The axis is longer than 1 by at most
-    /// 4ε.
-    /// Proof: proofs/SeparationFilter.v, projection_near, separated_right, separated_part,
-    /// axis_length, distance_rounded, size_rounded.
+    /// True if the axis, longer than 1 by at most 4ε, separates the features by more than d in the
+    /// same order at `low` and `high`. A projection is off by 2.1ε·size_, between the ends of the
+    /// step by 3.1ε·size_, a difference of two by 7.3ε·size_. Proof: proofs/SeparationFilter.v,
+    /// projection_near, separated_right, separated_part, axis_length, distance_rounded,
+    /// size_rounded.
     bool separated(const vector& axis, double low, double high) const {
         const auto gap = [&](double t) {
             const auto at = [&](std::size_t i) {

@@ -1,8 +1,8 @@
 // Brackets a root of a polynomial between adjacent doubles by its exact signs at doubles. Internal.
 //
-// The polynomial has coefficients of fixed width and one sign change in a given interval. The
-// estimate of the root affects only the number of signs that are evaluated: two or three if it is
-// good, else some dozens, at most 100. All algorithms find the same bracket.
+// The polynomial has coefficients of fixed width and one sign change in a given interval. A good
+// estimate of the root costs two or three signs, a bad one some dozens, at most 100; the bracket is
+// the same.
 #pragma once
 
 #include <algorithm>
@@ -22,23 +22,22 @@
 
 namespace ccd::detail {
 
-/// A time: a double if low == high, else a time between the adjacent doubles low and high. The
-/// lesser of two different brackets, by low and then by high, has the earlier time.
-/// Proof: proofs/TimeBrackets.v, lesser_bracket, least_bracket, bracket_of_first.
+/// A double if low == high, else a time between the adjacent doubles. The lesser of two different
+/// brackets, by low and then by high, has the earlier time. Proof: proofs/TimeBrackets.v,
+/// lesser_bracket, least_bracket, bracket_of_first.
 struct time_bracket {
     double low = 0, high = 0;
     friend constexpr auto operator<=>(const time_bracket&, const time_bracket&) = default;
 };
 
-/// Returns x·2^exponent, except for a few units in the last place.
+/// x·2^exponent, up to a few units in the last place.
 template <int Words>
 constexpr double approximated(const errbound::integers::fixed_integer<Words>& x, int exponent) {
     const int cut = std::max(0, x.bit_length() - 63);
     return std::ldexp(static_cast<double>(x.template from_bit<1>(cut).low_word()), cut + exponent);
 }
 
-/// A polynomial of degree N on [0, 1] with coefficients h_i of `Words` words
-/// (errbound/bernstein.hpp). No h_i may be the least number of that width.
+/// Coefficients are scaled (errbound/bernstein.hpp). None may be the least number of its width.
 template <int Words, int N>
 class root_search {
   public:
@@ -50,14 +49,14 @@ class root_search {
         slope_ = derivative(floating_);
     }
 
-    /// Returns the coefficients in floating point, scaled by one power of two.
+    /// The coefficients, rounded and scaled by one power of two.
     constexpr const std::array<double, N + 1>& floating() const { return floating_.h; }
 
     /// Returns the only root in (low, high), where the polynomial changes its sign; or another of
     /// its roots there that is a double. `before` is the sign just above low. Returns nothing if
-    /// the root is too near to 0 for fixed widths. Evaluates at most 100 signs.
-    /// Proof: proofs/TimeBrackets.v, search_right; of the loop and the number of signs,
-    /// proofs/TimeSearch.v, between_searches, search_ends, double_numbers.
+    /// the root is too near to 0 for fixed widths. Proof: proofs/TimeBrackets.v, search_right; of
+    /// the loop and the number of signs, proofs/TimeSearch.v, between_searches, search_ends,
+    /// double_numbers.
     constexpr std::optional<time_bracket> between(double low, double high,
                                                   errbound::sign_type before,
                                                   double estimate) const {
@@ -86,7 +85,7 @@ class root_search {
         return time_bracket{double_of_order(a), double_of_order(b)};
     }
 
-    /// Returns the sign at a double in [0, 1]; nothing if fixed widths do not suffice.
+    /// The sign at a double in [0, 1]; nothing if fixed widths do not suffice.
     constexpr std::optional<errbound::sign_type> sign_at(double t) const {
         const auto value = value_at(t);
         if (!value) return {};
@@ -103,7 +102,7 @@ class root_search {
         double size;  ///< approximates the value, in units of the floating-point coefficients
     };
 
-    /// For roots near 0, where the estimate lost all digits; otherwise returns the middle.
+    /// For roots near 0, where the estimate lost all digits.
     constexpr double estimate_from_start(double low, double high) const {
         const double step = floating_[0] / -slope_[0];
         return low == 0 && step > 0 && step < high ? step : low + (high - low) / 2;
@@ -117,8 +116,7 @@ class root_search {
         if (bits <= 126) return value_in_words<2>(d.magnitude >> zeros, bits);
         return {};
     }
-    /// Evaluates at numerator/2^bits, with s + t = 2^bits. Proof of the widths:
-    /// proofs/TimeSearch.v, search_widths.
+    /// The value at numerator/2^bits. Proof of the widths: proofs/TimeSearch.v, search_widths.
     template <int T>
     constexpr value_type value_in_words(std::uint64_t numerator, int bits) const {
         using number = errbound::integers::fixed_integer<T>;
@@ -137,8 +135,8 @@ class root_search {
     errbound::bernstein<double, N - 1> slope_;
 };
 
-/// Brackets the root of p0·s + p1·t. Precondition: the coefficients have opposite signs, or exactly
-/// one is zero. Proof: proofs/TimeBrackets.v, linear_bracket_right.
+/// Precondition: p has coefficients of opposite signs, or exactly one zero. Proof:
+/// proofs/TimeBrackets.v, linear_bracket_right.
 template <int Words>
 constexpr std::optional<time_bracket> bracket_of_linear_root(
     const errbound::bernstein<errbound::integers::fixed_integer<Words>, 1>& p) {
@@ -149,9 +147,8 @@ constexpr std::optional<time_bracket> bracket_of_linear_root(
     return search.between(0, 1, sign_of(p[0]), start / (start - end));
 }
 
-/// A simple root of a quadratic in (0, 1): the only one, or the first or second of two. The end
-/// coefficients are not zero. Either their signs differ, or the discriminant is positive and the
-/// middle coefficient has the other sign.
+/// A simple root in (0, 1) of a quadratic whose end coefficients are not zero. Either their signs
+/// differ, or the discriminant is positive and the middle coefficient has the other sign.
 enum class quadratic_root { only, first, second };
 
 /// Estimates of the roots t/(s + t) of f0 s² + f1 st + f2 t², the lesser first.

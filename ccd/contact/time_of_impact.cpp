@@ -10,7 +10,6 @@
 namespace ccd {
 namespace {
 
-/// Floating point separates, or finds the interval of the first contact. Integers compute its time.
 template <class Query>
 detail::found_time found_before_reference(const Query& query) {
     if constexpr (cubic_query<Query>) {

@@ -16,13 +16,11 @@
 
 namespace ccd::detail {
 
-/// Σ c_i t^i with a nonzero last coefficient. A ring, so ccd/methods/forms.hpp accepts it as
-/// scalar.
+/// Σ c_i t^i with a nonzero last coefficient: a ring, as ccd/methods/forms.hpp requires of scalars.
 class time_polynomial {
   public:
     using form = errbound::roots::integer_form<integer>;
 
-    /// Creates the zero polynomial.
     time_polynomial() = default;
     explicit time_polynomial(form ascending) : c_(std::move(ascending)) {
         errbound::roots::trim(c_);
@@ -69,7 +67,7 @@ struct axis_exponents {
     int x, y, z;
 };
 
-/// Returns the greatest such exponent of one axis; any if all its coordinates are zero.
+/// The greatest such exponent; any if all coordinates are zero.
 inline int whole_exponent(std::span<const curve> points, double point<double>::*axis) {
     int last = std::numeric_limits<int>::max();
     for (const curve& p : points)

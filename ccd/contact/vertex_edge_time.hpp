@@ -1,7 +1,7 @@
 // The first contact of a vertex with an edge, and of two vertices, in integers of fixed width.
 //
-// Algebra and widths are those of ccd/exact/vertex_edge_contact.hpp. A contact begins at t = 0, at
-// a rational time, or at the root of a quadratic. Here the times are visited in their order.
+// Algebra and widths: ccd/exact/vertex_edge_contact.hpp. A contact begins at t = 0, at a rational
+// time, or at the root of a quadratic. These times are visited in their order.
 #pragma once
 
 #include <array>
@@ -32,9 +32,8 @@ struct found_time {
 };
 
 /// Returns the first root of f in (0, 1) where b <= 0. Precondition: f's coefficients have both
-/// signs, and contact requires f = 0.
-/// Proof: proofs/VertexEdgeTime.v, first_root_right; of the widths, proofs/TimeSearch.v,
-/// first_root_widths.
+/// signs, and contact requires f = 0. Proof: proofs/VertexEdgeTime.v, first_root_right; of the
+/// widths, proofs/TimeSearch.v, first_root_widths.
 template <int Words>
 constexpr found_time first_root_nonpositive(const quadratic_form<Words>& f,
                                             const quadratic_form<Words>& b) {
@@ -87,8 +86,8 @@ constexpr found_time first_root_nonpositive(const quadratic_form<Words>& f,
                                                            : outcome::separate;
 }
 
-/// Returns the first time at which the vertex touches the edge. Same widths as vertex_touches_edge.
-/// Proof: proofs/VertexEdgeTime.v, first_contact_right, first_bracket_right.
+/// Same widths as vertex_touches_edge. Proof: proofs/VertexEdgeTime.v, first_contact_right,
+/// first_bracket_right.
 template <int Words>
 constexpr found_time first_vertex_edge_contact(
     const vertex_edge<errbound::integers::fixed_integer<Words>>& query) {
@@ -139,7 +138,6 @@ constexpr found_time first_vertex_edge_contact(
     return inside.outcome == outcome::separate ? at_end() : inside;
 }
 
-/// Returns the first time at which the two vertices coincide: W(t) = 0 for the linear W.
 /// Proof: proofs/VertexEdgeTime.v, vertices_time_right.
 template <int Words>
 constexpr found_time first_vertex_vertex_contact(

@@ -1,8 +1,7 @@
-// Converts coordinates to integers. Each axis has its own unit, a power of two.
-//
-// Units scale all equations of a contact by positive factors, so contact does not depend on them.
-// Integers stay short if one axis is much smaller than the others.
-// Proof: proofs/AxisUnits.v, face_units, edges_units, vertex_edge_units.
+// Converts coordinates to integers, with a power of two as unit for each axis: integers stay short
+// if one axis is much smaller than the others. Units scale all equations of a contact by positive
+// factors, so contact does not depend on them. Proof: proofs/AxisUnits.v, face_units, edges_units,
+// vertex_edge_units.
 #pragma once
 
 #include <algorithm>
@@ -13,7 +12,6 @@
 
 namespace ccd::detail {
 
-/// The unit of one axis, and the number of units by which coordinates differ.
 struct axis_extent {
     int unit = 0;  ///< 2^unit divides every coordinate
     int bits = 0;  ///< coordinates at one end of the step differ by less than 2^bits units
@@ -33,8 +31,8 @@ struct axis_extent {
             low1 = std::min(low1, x1), high1 = std::max(high1, x1);
         }
         // Rounding is monotone, so an exact difference is below the same powers of two as the
-        // rounded one. If it overflows, it is below 2^1025, and the infinity's end_bit() is 1025.
-        // Proof: proofs/IntegerUnits.v, extent_bits_enough.
+        // rounded one. If it overflows, it is below 2^1025, and end_bit() is 1025. Proof:
+        // proofs/IntegerUnits.v, extent_bits_enough.
         const errbound::integers::binary_double extent(std::max(high0 - low0, high1 - low1));
         if (last == std::numeric_limits<int>::max()) return;  // all are zero
         unit = last;
@@ -42,7 +40,6 @@ struct axis_extent {
     }
 };
 
-/// The units of a query's three axes.
 struct integer_units {
     axis_extent x, y, z;
 
@@ -50,10 +47,10 @@ struct integer_units {
     explicit constexpr integer_units(const Query& query) : integer_units(points_of(query), 0) {}
 
     constexpr bool finite() const { return x.finite && y.finite && z.finite; }
-    /// Coordinates of one axis at one end of the step differ by less than 2^bits() units.
+    /// Coordinates of an axis at one end of the step differ by less than 2^bits() units.
     constexpr int bits() const { return std::max({x.bits, y.bits, z.bits}); }
 
-    /// Returns the query with every coordinate x replaced by convert(x, unit), that is x/2^unit.
+    /// Replaces every coordinate x by convert(x, unit), that is x/2^unit.
     template <class Query, class Convert>
     constexpr auto converted(const Query& query, const Convert& convert) const {
         return transformed_points(query, [&](const point<double>& p) {

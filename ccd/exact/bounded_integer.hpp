@@ -6,9 +6,9 @@
 
 namespace ccd::detail {
 
-/// The real number is less than 2^error_bits away from `value`, or equal to it if error_bits is
-/// below exact/2. Bounds are powers of two, rounded up: each operation costs at most about one bit
-/// of precision. Integer is a fixed_integer or long_integer, whose preconditions on widths apply.
+/// The real number is less than 2^error_bits away from `value`, or equal to it if error_bits <
+/// exact/2. Bounds are powers of two, rounded up: each operation costs about one bit of precision.
+/// Integer is a fixed_integer or long_integer, whose preconditions on widths apply.
 template <class Integer>
 struct bounded_integer {
     /// Low enough to stay below exact/2 after a few operations.

@@ -1,13 +1,13 @@
-// Contact inside a face or both edges for roots of Y that lie too close together, or a G_i too
-// small at one, for ccd/exact/interior_contact.hpp. Same precondition: no vertex/edge contact.
+// Decides queries for which roots of Y are too close together, or a G_i at one is too small, for
+// ccd/exact/interior_contact.hpp. Same precondition: no vertex/edge contact.
 //
 // Y is kept on a subinterval of [0, 1] by its exact coefficients there. Floating point estimates
-// its root, or the extremum between two roots, and exact coefficients on a narrow part around it
-// prove the estimate: a step gains some 40 bits, or 20 around two roots. Exponents of coefficients
-// show roots near an end of the part. If nothing works, the part is halved. G_i are bounded on the
-// part again each time that its position has half as many bits more.
+// its root, or the extremum between two roots. Exact coefficients on a narrow part around it prove
+// the estimate: a step gains some 40 bits, or 20 around two roots. Exponents of coefficients show
+// roots near an end. If nothing works, the part is halved. G_i are bounded again each time that the
+// position has half as many bits more.
 //
-// `uncertain`: a position needs more than `max_bits` bits.
+// A query is `uncertain` if a position needs more than `max_bits` bits.
 #pragma once
 
 #include <algorithm>
@@ -29,8 +29,8 @@
 
 namespace ccd::detail {
 
-/// The extremum of a cubic inside (0, 1) and the distance of its two roots on either side,
-/// estimated. Coefficients are scaled. Nothing if the slopes at the ends do not show an extremum.
+/// The estimated extremum of a cubic inside (0, 1) and the distance of the two roots around it.
+/// Coefficients are scaled. Nothing if the slopes at the ends do not show an extremum.
 struct root_pair {
     double middle, radius;
 };
@@ -50,8 +50,8 @@ inline std::optional<root_pair> estimated_pair(const std::array<double, 4>& h) {
     return root_pair{t, std::sqrt((std::fabs(value) + 0x1p-48 * largest) / bend)};
 }
 
-/// Returns e such that no root t/s of a cubic with sign changes is >= 2^e, by the bound of
-/// Kioustelidis (1986), which errbound/roots/root_isolation.hpp derives.
+/// Returns e such that no root t/s of a cubic with sign changes is >= 2^e (Kioustelidis 1986;
+/// derived in errbound/roots/root_isolation.hpp).
 template <class Integer>
 int root_exponent(const errbound::bernstein<Integer, 3>& y) {
     using errbound::sign_type;
@@ -68,8 +68,8 @@ int root_exponent(const errbound::bernstein<Integer, 3>& y) {
     return exponent;
 }
 
-/// Decides one query. Forms is vertex_face_forms or edge_edge_forms over integers of at most
-/// `coordinate_words` words. Precondition: differences are below 2^(64·coordinate_words − 3).
+/// Decides one query by forms over integers of at most `coordinate_words` words. Precondition:
+/// differences are below 2^(64·coordinate_words − 3).
 template <template <class, int> class Forms>
 class close_contact {
     template <int W>
@@ -88,8 +88,8 @@ class close_contact {
         three_real_roots_ = discriminant == sign_type::positive;
     }
 
-    /// Returns whether Y = 0 and all G_i > 0 at some t in (0, 1) that is no multiple root of Y.
-    /// Proof: proofs/CloseContact.v, close_contact_right, close_contact_ends.
+    /// Tests if Y = 0 and all G_i > 0 at some t in (0, 1) that is no multiple root of Y. Proof:
+    /// proofs/CloseContact.v, close_contact_right, close_contact_ends.
     outcome decide() const { return by_narrowing(whole_step()); }
 
   protected:
@@ -97,19 +97,19 @@ class close_contact {
     static constexpr int y_words = 3 * (coordinate_words + place_words) + 4;
     /// Bits by which an estimate narrows a part around a root, and around an extremum.
     static constexpr int root_bits = 40, pair_bits = 22;
-    /// The most bits by which one step narrows, which an std::int64_t holds.
+    /// The most bits by which one step narrows, in an std::int64_t.
     static constexpr int most_at_once = 60;
     /// Coefficients of at most this size can be narrowed once more. Proof: proofs/CloseContact.v,
     /// close_widths, narrowed_fits.
     static constexpr int most_y_bits = 64 * y_words - 3 * most_at_once - 8;
-    /// G_i are first tested at this position, because interior_contact tested them before.
+    /// interior_contact has tested G_i before this position.
     static constexpr int first_tested_bits = 40;
 
     using place_number = number<place_words>;
     using cubic = errbound::bernstein<number<y_words>, 3>;
 
-    /// The interval from low/2^unit_bits, 2^width_bits units wide. y holds Y's coefficients there,
-    /// times a power of two.
+    /// The interval from low/2^unit_bits, 2^width_bits units wide, and Y there, times a power of
+    /// two.
     struct part {
         cubic y;
         inner_sign_changes roots;
@@ -125,8 +125,8 @@ class close_contact {
                                [](const auto& h) { return h.bit_length() <= most_y_bits; });
         }
 
-        /// Returns the part between a/2^n and (a + 2^w)/2^n of this one's width. Horner's rule
-        /// gives the power coefficients of y there. Proof: proofs/CloseContact.v, sub_part_right.
+        /// The part between a/2^n and (a + 2^w)/2^n of this one's width, by Horner's rule. Proof:
+        /// proofs/CloseContact.v, sub_part_right.
         part sub_part(int n, std::int64_t a, int w) const {
             using big = number<y_words>;
             const big thrice = y[0] + y[0] + y[0];
@@ -151,7 +151,7 @@ class close_contact {
             r.test_from = test_from;
             return r;
         }
-        /// Returns the part of two units around `place`, with units of 2^-n of this one's width.
+        /// The part of two units around `place`, with units of 2^-n of this one's width.
         part around(double place, int n) const {
             const std::int64_t whole = std::int64_t(1) << n;
             const auto middle = static_cast<std::int64_t>(std::ldexp(place, n) + 0.5);
@@ -166,7 +166,6 @@ class close_contact {
         return whole;
     }
 
-    /// Decides on a part.
     /// Proof: proofs/CloseContact.v, by_narrowing_right, three_close_parts_wait.
     outcome by_narrowing(const part& whole) const {
         std::array<std::optional<part>, 3> waiting;  // the earliest last
@@ -209,8 +208,8 @@ class close_contact {
         return roots.opposite && (roots.count == 1 || !three_real_roots_);
     }
 
-    /// Returns a part with the same roots (except a double root), if estimates show one.
-    /// Proof, for any estimates: proofs/CloseContact.v, opposite_inside, as_many_changes.
+    /// A part with the same roots (except a double root), if estimates show one. Proof, for any
+    /// estimates: proofs/CloseContact.v, opposite_inside, as_many_changes.
     std::optional<part> narrowed(const part& whole) const {
         const auto h = approximated(whole.y.h);
         if (is_single(whole.roots)) {
@@ -242,10 +241,9 @@ class close_contact {
         return {};
     }
 
-    /// Returns the signs of all G_i from low/2^bits to less than (low + 2^width_bits)/2^bits, or at
-    /// low/2^bits without a width: `collides` if all are positive, `separate` if one is negative,
-    /// else `uncertain`.
-    /// Proof: proofs/CloseContact.v, inside_from_right.
+    /// The signs of all G_i from low/2^bits to less than (low + 2^width_bits)/2^bits, or at
+    /// low/2^bits without a width, as decided_by_weights. Proof: proofs/CloseContact.v,
+    /// inside_from_right.
     outcome inside_from(const place_number& low, int bits, std::optional<int> width_bits) const {
         using known = bounded_integer<number<coordinate_words + place_words>>;
         const auto s = place_number(1, bits, false) - low;
@@ -269,8 +267,8 @@ class close_contact {
         return inside_from(middle, p.unit_bits + 1, {}) == outcome::collides;
     }
 
-    /// True if N = 0 at the part's only root, which is then no contact.
-    /// Proof: proofs/InteriorContact.v, normal_vanishes_right.
+    /// True if N = 0 at the part's only root, which is then no contact. Proof:
+    /// proofs/InteriorContact.v, normal_vanishes_right.
     bool normal_vanishes(const part& p) const {
         if (!is_single(p.roots) || !(distinct_ || p.roots.count == 1)) return false;
         const auto end = place_number(1, p.unit_bits, false);
@@ -297,8 +295,7 @@ class close_contact {
     bool three_real_roots_;  ///< Y may have a pair of roots between equal signs
 };
 
-/// Decides queries that decide_in_words leaves uncertain, which have no vertex/edge contact.
-/// Proof: proofs/CloseContact.v, decided_inside.
+/// For queries that decide_in_words leaves uncertain. Proof: proofs/CloseContact.v, decided_inside.
 template <int Words, template <class, int> class Forms>
 outcome decide_close(const Forms<errbound::integers::fixed_integer<Words>, 1>& f) {
     using contact = close_contact<Forms>;

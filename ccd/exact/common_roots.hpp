@@ -1,8 +1,8 @@
 // The common roots of three quadratics inside (0, 1), exactly, in integers.
 //
-// Two quadratics that are not proportional have at most one common root, and it is rational.
-// There (s², st, t²) is parallel to the cross product m of their coefficient vectors. A vector m
-// has that form exactly if m1² = m0·m2.
+// Two quadratics that are not proportional have at most one common root, and it is rational. There
+// (s², st, t²) is parallel to the cross product m of their coefficient vectors. A vector m has that
+// form exactly if m1² = m0·m2.
 //
 // Widths, for quadratics of 2W words that are products of two differences (|f0|, |f2| <= 2D²,
 // |f1| <= 4D², D = 2^(64W − 3)): m in 4W words (16D⁴), m1² in 8W, f·m in 6W (96D⁶).
@@ -21,7 +21,7 @@ using linear_form = errbound::bernstein<errbound::integers::fixed_integer<Words>
 template <int Words>
 using quadratic_form = errbound::bernstein<errbound::integers::fixed_integer<Words>, 2>;
 
-/// Evaluates f at the point whose (s², st, t²) is m.
+/// The value of f where (s², st, t²) = m.
 template <class A, class B>
 constexpr auto value_at_squares(const errbound::bernstein<A, 2>& f,
                                 const errbound::bernstein<B, 2>& m) {
@@ -43,7 +43,7 @@ struct common_roots {
     squares_type squares{};
     const quadratic_type* quadratic = nullptr;
 
-    /// Stores a pointer into f. Cost: comparisons, and if no f has one sign, some ten products.
+    /// Stores a pointer into f. Cost: some ten products unless an f has one sign.
     explicit constexpr common_roots(const std::array<errbound::bernstein<Integer, 2>, 3>& f) {
         using errbound::sign_of;
         using errbound::sign_type;

@@ -1,4 +1,4 @@
-// Separation of one query by the coordinate axes, with packs, read directly from memory. Internal.
+// Separation of a query by the coordinate axes, with packs, read from memory. Internal.
 #pragma once
 
 #include <ccd/kind.hpp>
@@ -10,7 +10,7 @@
 namespace ccd::detail::ERRBOUND_INSTRUCTION_SET {
 namespace {
 
-/// The coordinates of a moving point: x y z at the start, then x y z at the end of the step.
+/// A moving point: x y z at the start, then x y z at the end of the step.
 class six_numbers {
   public:
     explicit six_numbers(const double* at) {
@@ -54,7 +54,6 @@ class six_numbers {
     pack part_[parts];
 };
 
-/// The least and the greatest coordinates of `Count` points.
 template <std::size_t Count>
 six_numbers least_of(const double* points) {
     if constexpr (Count == 1)
@@ -70,8 +69,7 @@ six_numbers greatest_of(const double* points) {
         return max(six_numbers(points), greatest_of<Count - 1>(points + 6));
 }
 
-/// True if a coordinate axis separates the features of a query with finite coordinates. Equals
-/// separated_by_coordinates of ccd/exact/features.hpp, computed with packs.
+/// Same as separated_by_coordinates (ccd/exact/features.hpp), for finite coordinates.
 template <kind K>
 bool packs_separated_by_coordinates(const double* p) {
     constexpr std::size_t first = kind_traits<K>::first_vertices;
@@ -82,8 +80,8 @@ bool packs_separated_by_coordinates(const double* p) {
     return (((p_above & p_above >> 3) | (q_above & q_above >> 3)) & 7) != 0;
 }
 
-/// True if all numbers of the queries are finite: x - x is 0, or NaN if x is not finite. Prefetches
-/// the numbers that lie `Ahead` queries further on.
+/// True if all numbers are finite: x - x is 0, or NaN if x is not finite. Prefetches the numbers
+/// that lie `Ahead` queries further on.
 template <std::size_t Ahead = 0>
 bool are_finite(const double* numbers, std::size_t count) {
     constexpr std::size_t line = 8, packs = 24 / width;

@@ -1,7 +1,7 @@
 // Counts and brackets the roots in (0, 1) of a cubic with coefficients of fixed width.
 //
-// Floating point estimates a root, and exact signs of the cubic at both ends of a bracket prove it.
-// Each bracket predicts the next one, with some 40 more bits.
+// Floating point estimates a root; exact signs at both ends of a bracket prove it. Each bracket
+// predicts the next one, with some 40 more bits.
 #pragma once
 
 #include <algorithm>
@@ -27,8 +27,8 @@ constexpr Integer thrice(const Integer& x) {
     return (x << 1) + x;
 }
 
-/// The sign changes of a cubic's coefficients, which bound the number of its roots in (0, 1).
-/// Proof: proofs/CubicRoots.v, no_changes, one_change, odd_changes.
+/// The sign changes of a cubic's coefficients bound the number of its roots in (0, 1). Proof:
+/// proofs/CubicRoots.v, no_changes, one_change, odd_changes.
 struct inner_sign_changes {
     int count = 0;          ///< number of changes; without changes no root, with one change one
     bool opposite = false;  ///< count is odd: the cubic has opposite signs just inside the ends
@@ -45,11 +45,11 @@ struct inner_sign_changes {
     }
 };
 
-/// Returns the Hessian of a cubic form, a quadratic form. A double root of y is a double root of
-/// it; it is zero if y has a triple root. 4·h0·h2 − h1² is 3 times the discriminant: positive for
-/// three distinct real roots t/s (infinity included), negative for one and a complex pair.
-/// If |y_i| <= 18D³ <= 2^(64·Words − 4.8), it fits in 2·Words words (at most 648D⁶).
-/// Proof: proofs/CubicRoots.v, any_change, one_real_root, double_root_place, triple_root_place.
+/// The Hessian of a cubic form, a quadratic form. A double root of y is a double root of it; it is
+/// zero if y has a triple root. 4·h0·h2 − h1² is 3 times the discriminant: positive for three
+/// distinct real roots t/s (infinity included), negative for one and a complex pair. If |y_i| <=
+/// 18D³ <= 2^(64·Words − 4.8), it fits in 2·Words words (at most 648D⁶). Proof:
+/// proofs/CubicRoots.v, any_change, one_real_root, double_root_place, triple_root_place.
 template <class Integer>
 constexpr auto hessian(const errbound::bernstein<Integer, 3>& y) {
     return errbound::bernstein<decltype(y[0] * y[0]), 2>{{y[1] * y[1] - thrice(y[0] * y[2]),
@@ -57,7 +57,7 @@ constexpr auto hessian(const errbound::bernstein<Integer, 3>& y) {
                                                           y[2] * y[2] - thrice(y[1] * y[3])}};
 }
 
-/// Converts to floating point, all scaled by the same power of two.
+/// Rounds all numbers, scaled by one power of two.
 template <class Integer, std::size_t N>
 constexpr std::array<double, N> approximated(const std::array<Integer, N>& x) {
     int bits = 0;
@@ -68,9 +68,9 @@ constexpr std::array<double, N> approximated(const std::array<Integer, N>& x) {
     return r;
 }
 
-/// Estimates a root in [0, 1] of a cubic with scaled Bernstein coefficients h. Precondition: the
-/// end coefficients have opposite signs or are zero. Newton's method, with bisection if a step
-/// leaves the known interval. Proof that it lies in [0, 1]: proofs/Places.v, estimated_root_inside.
+/// Estimates a root in [0, 1] from scaled Bernstein coefficients h, by Newton's method and
+/// bisection. Precondition: the end coefficients have opposite signs or are zero. Proof that it
+/// lies in [0, 1]: proofs/Places.v, estimated_root_inside.
 constexpr double estimated_root(const std::array<double, 4>& h) {
     constexpr double precision = 0x1p-52, converged = 0x1p-30;
     constexpr int max_steps = 60;
@@ -96,8 +96,8 @@ constexpr double estimated_root(const std::array<double, 4>& h) {
     return t;
 }
 
-/// A cubic on [index, index + 1]/2^level: its coefficients there, times a power of two. Each
-/// halving multiplies them by 8; the two spare words suffice for `max_halvings`.
+/// A cubic on [index, index + 1]/2^level, times a power of two. Each halving multiplies its
+/// coefficients by 8; the two spare words suffice for `max_halvings`.
 template <int Words>
 struct cubic_part {
     static constexpr int max_halvings = 40;
@@ -108,15 +108,14 @@ struct cubic_part {
     int level;
 };
 
-/// The point numerator/2^bits.
 template <int T>
 struct dyadic_point {
     errbound::integers::fixed_integer<T> numerator;
     int bits;
 };
 
-/// A root of a cubic between low/2^bits and high/2^bits. y_low and y_high are the cubic's values
-/// there, times 2^(3·bits). If low = high, it is the root itself.
+/// A root between low/2^bits and high/2^bits, or equal to both. y_low and y_high are the cubic's
+/// values there, times 2^(3·bits).
 template <int Words, int T>
 struct root_bracket {
     errbound::integers::fixed_integer<T> low, high;
@@ -131,8 +130,8 @@ struct root_bracket {
     }
 };
 
-/// Estimates the root of a cubic_part whose ends have opposite signs.
-/// Proof that its numerator is at most 2^bits: proofs/Places.v, estimated_place_bits.
+/// Precondition: the part has opposite signs at its ends. Proof that the numerator is at most
+/// 2^bits: proofs/Places.v, estimated_place_bits.
 template <int Words>
 constexpr dyadic_point<1> estimated_place(const cubic_part<Words>& part) {
     const int bits = std::min(part.level + 48, 62), to_bits = bits - part.level;
@@ -175,9 +174,8 @@ constexpr std::optional<root_bracket<Words, T>> bracket_near(const cubic_form<Wo
     return {};
 }
 
-/// Estimates the root to as many more bits as doubles can: the root of the cubic with the
-/// bracket's end values and slopes, which is y itself.
-/// Proof of the bits: proofs/Places.v, refined_place_bits.
+/// Estimates the root from the bracket's end values and slopes, to as many more bits as doubles
+/// can. Proof of the bits: proofs/Places.v, refined_place_bits.
 template <int Words, int T>
 constexpr dyadic_point<T + 1> refined_place(const cubic_form<Words>& y,
                                             const root_bracket<Words, T>& bracket) {

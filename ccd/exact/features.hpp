@@ -1,5 +1,4 @@
-// Tests shared by the exact decisions: separation by coordinate axes, vertex/vertex contact, and
-// signs of a contact's weights.
+// Tests that the exact decisions share.
 #pragma once
 
 #include <array>
@@ -14,7 +13,7 @@
 
 namespace ccd::detail {
 
-/// The extents of some points of a query. Rows are x, y, z at the start, then at the end.
+/// The extents of some points: x, y, z at the start, then at the end.
 struct ends_extents {
     std::array<double, 6> least, most;
 
@@ -28,10 +27,10 @@ struct ends_extents {
     }
 };
 
-/// True if a coordinate axis separates the features in the same order at t = 0 and t = 1. Motion is
-/// linear, so it then separates them throughout. Precondition: finite coordinates. Branch-free,
-/// because the separating axis is unpredictable. Proof: proofs/Decisions.v, face_separated,
-/// edges_separated; proofs/AxisUnits.v, separated_right.
+/// True if a coordinate axis separates the features in the same order at t = 0 and t = 1, and so
+/// throughout linear motion. Precondition: finite coordinates. Branch-free, because the separating
+/// axis is unpredictable. Proof: proofs/Decisions.v, face_separated, edges_separated;
+/// proofs/AxisUnits.v, separated_right.
 template <class Query>
 constexpr bool separated_by_coordinates(const Query& query) {
     using traits = kind_traits<kind_constant<Query>::value>;
@@ -60,8 +59,7 @@ constexpr bool vertices_touch(const vertex_vertex<S>& query) {
     return c.x[0] == 0 && c.y[0] == 0 && c.z[0] == 0 && dot(w0, w1)[0] <= 0;
 }
 
-/// The signs of the constant forms G_i: `collides` if all are positive, `separate` if one is
-/// negative, else `uncertain`.
+/// `collides` if all G_i are positive, `separate` if one is negative, else `uncertain`.
 template <class Forms>
 constexpr outcome decided_by_weights(const Forms& forms) {
     using errbound::sign_of;

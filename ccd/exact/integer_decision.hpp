@@ -1,5 +1,5 @@
-// Decides one query in integers of a fixed width, on the host or a device. Internal; see
-// ccd/exact/integers.hpp for its guarantees.
+// Decides a query in integers of a fixed width, on hosts and devices. Internal;
+// ccd/exact/integers.hpp has its guarantees.
 #pragma once
 
 #include <ccd/methods/forms.hpp>
@@ -14,17 +14,16 @@
 
 namespace ccd::detail {
 
-/// The largest integer_units::bits for which all forms fit in Words words. The widths are in
-/// ccd/exact/vertex_edge_contact.hpp and ccd/exact/interior_contact.hpp.
-/// Proof, for 1, 2 and 4 words: proofs/FixedWidths.v, vertex_edge_widths, vertex_vertex_widths,
-/// interior_widths, halving_widths, bracket_widths, cut_widths.
+/// The largest integer_units::bits for which all forms fit in Words words (widths:
+/// ccd/exact/vertex_edge_contact.hpp, ccd/exact/interior_contact.hpp). Proof, for 1, 2 and 4 words:
+/// proofs/FixedWidths.v, vertex_edge_widths, vertex_vertex_widths, interior_widths, halving_widths,
+/// bracket_widths, cut_widths.
 constexpr int extent_limit(int words) {
     return 64 * words - 3;
 }
 
-/// Decides VF and EE queries by the union in the head of ccd/exact/reference.cpp. Vertex/edge
-/// contacts come first. Every contact has Y = 0. Proof: proofs/InteriorContact.v,
-/// face_decision_right, edges_decision_right.
+/// Decides by the union in the head of ccd/exact/reference.cpp, vertex/edge contacts first. Every
+/// contact has Y = 0. Proof: proofs/InteriorContact.v, face_decision_right, edges_decision_right.
 template <int Words, effort Effort = effort::whole, template <class> class Query>
 constexpr outcome decide_converted(const Query<errbound::integers::fixed_integer<Words>>& query,
                                    const Query<double>& original, const integer_units& units) {
@@ -53,8 +52,8 @@ constexpr outcome decide_converted(
     return vertices_touch(query) ? outcome::collides : outcome::separate;
 }
 
-/// Decides in integers of Words words; `uncertain` is rare. Preconditions: units =
-/// integer_units(query), with at most extent_limit(Words) bits.
+/// `uncertain` is rare. Preconditions: units = integer_units(query), with at most
+/// extent_limit(Words) bits.
 template <int Words, effort Effort = effort::whole, template <class> class Query>
 constexpr outcome decide_in_words(const Query<double>& query, const integer_units& units) {
     return decide_converted<Words, Effort>(units.converted<Words>(query), query, units);

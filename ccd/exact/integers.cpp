@@ -8,7 +8,6 @@
 namespace ccd::detail {
 namespace {
 
-/// Decides in integers of Words words, then with decide_close.
 /// Proof: proofs/CloseContact.v, face_to_the_end_right, edges_to_the_end_right.
 template <int Words, class Query>
 outcome decide_to_the_end(const Query& query, const integer_units& units) {

@@ -1,14 +1,13 @@
 // Contact inside a face or inside both edges, in integers of fixed width.
 //
-// Precondition: the query has no vertex/edge contact in the step. Then contact holds exactly if
+// Precondition: the query has no vertex/edge contact in the step. Then there is contact exactly if
 // Y = 0 and all G_i > 0 at some t in [0, 1]. (The G_i, or pairs of them, add up to |N|² >= 0, so
 // strict signs imply N ≠ 0. A contact with some G_i = 0 or N = 0 is a vertex/edge contact.)
 //
-// G_i are evaluated at roots of Y only, exactly at rational ones, else by refined brackets.
-// `uncertain`: some G_i is too small for the last bracket, or two roots are too close together;
-// ccd/exact/close_contact.hpp decides such queries.
-// Proof: proofs/Contact.v, face_inside, edges_inside, face_coplanar, edges_coplanar; of the code,
-// proofs/InteriorContact.v, interior_contact_right.
+// G_i are evaluated at roots of Y only, exactly at rational ones, else by refined brackets. A query
+// is `uncertain` if some G_i is too small for the last bracket, or two roots are too close;
+// ccd/exact/close_contact.hpp decides it. Proof: proofs/Contact.v, face_inside, edges_inside,
+// face_coplanar, edges_coplanar; of the code, proofs/InteriorContact.v, interior_contact_right.
 #pragma once
 
 #include <algorithm>
@@ -31,13 +30,12 @@
 namespace ccd::detail {
 
 /// Device code leaves rare cases to the host, since they would be most of its integer code:
-/// brackets of roots whose ends have more than two words, and contact at multiple roots.
+/// brackets whose ends have more than two words, and contact at multiple roots.
 enum class effort { whole, limited };
 template <effort E>
 using effort_constant = std::integral_constant<effort, E>;
 
-/// Decides one query. Forms is vertex_face_forms or edge_edge_forms over integers of Words words.
-/// Precondition: differences are below 2^(64·Words − 3).
+/// Forms are over integers of Words words. Precondition: differences are below 2^(64·Words − 3).
 template <int Words, template <class, int> class Forms, effort Effort = effort::whole>
 class interior_contact {
   public:
@@ -47,10 +45,9 @@ class interior_contact {
                                effort_constant<Effort> = {})
         : forms_(forms), y_(y), units_(units) {}
 
-    /// Returns whether Y = 0 and all G_i > 0 at some t in [0, 1]; if Y ≡ 0, at t = 0 or 1. With
-    /// Y ≡ 0, contact inside that does not hold at t = 0 begins at a border, as a vertex/edge
-    /// contact, which the precondition excludes.
-    /// Proof: proofs/InteriorContact.v, interior_contact_right, interior_contact_ends.
+    /// Tests if Y = 0 and all G_i > 0 at some t in [0, 1]; if Y ≡ 0, at t = 0 or 1, since a later
+    /// contact inside begins at a border. Proof: proofs/InteriorContact.v, interior_contact_right,
+    /// interior_contact_ends.
     constexpr outcome decide() {
         if (y_[0] == 0 && all_positive(forms_at_end(forms_, 0))) return outcome::collides;
         if (y_[3] == 0 && all_positive(forms_at_end(forms_, 1))) return outcome::collides;
@@ -70,7 +67,7 @@ class interior_contact {
     }
 
   protected:
-    /// The ends of the first bracket have one word as numerator, later ones one more each.
+    /// The numerators of the first bracket have one word, later ones one more each.
     static constexpr int max_end_words = Effort == effort::whole ? 4 : 2;
 
     template <int W>
@@ -105,8 +102,7 @@ class interior_contact {
         return {};
     }
 
-    /// Evaluates G at a multiple root of Y inside; `uncertain` if there may be other roots. G has
-    /// 28W words there (2^47·D^28).
+    /// `uncertain` if Y may have other roots. G has 28W words here (2^47·D^28).
     constexpr outcome at_multiple_root() {
         const auto root = multiple_root();
         if (root && all_positive(forms_at(forms_, (*root)[1], -(*root)[0])))
@@ -116,15 +112,15 @@ class interior_contact {
 
     /// True if the part has roots other than a double root. An odd number of sign changes proves
     /// one. If Y has three real roots, any change does, since Descartes' count is then exact.
-    /// Otherwise an even number comes from a complex pair or the double root.
-    /// Proof: proofs/CubicRoots.v, odd_changes, any_change, one_real_root.
+    /// Otherwise an even number comes from a complex pair or the double root. Proof:
+    /// proofs/CubicRoots.v, odd_changes, any_change, one_real_root.
     constexpr bool any_root(const inner_sign_changes& roots) const {
         return roots.opposite || (three_real_roots_ && roots.count > 0);
     }
 
-    /// Isolates roots by halving. The stack has the earliest part last. Halves have no more sign
-    /// changes together than the whole, so at most three parts with roots wait.
-    /// Proof: proofs/InteriorContact.v, by_halving_right, three_parts_wait.
+    /// Halves have no more sign changes together than the whole, so at most three parts with roots
+    /// wait, the earliest last. Proof: proofs/InteriorContact.v, by_halving_right,
+    /// three_parts_wait.
     constexpr outcome by_halving(const part& whole) const {
         std::array<part, 3> waiting;
         std::size_t count = 0;
@@ -167,8 +163,8 @@ class interior_contact {
         return {};
     }
 
-    /// Decides by a bracket near `place` of the part's only root (except a double root); nothing
-    /// if no bracket holds the root. Proof: proofs/InteriorContact.v, near_right.
+    /// Decides by a bracket near `place` of the part's only root (except a double root); nothing if
+    /// no bracket holds the root. Proof: proofs/InteriorContact.v, near_right.
     template <int T>
     constexpr std::optional<outcome> near(const part& whole, const dyadic_point<T>& place) const {
         const auto bracket = bracket_near(y_, whole, place);
@@ -189,9 +185,9 @@ class interior_contact {
             return near(whole, refined_place(y_, *bracket)).value_or(outcome::uncertain);
     }
 
-    /// True if N = 0 inside the bracket, at a root of Y without contact. It is the bracket's only
-    /// root if Y has no multiple root. Every G_i is then 0, so that no refined bracket decides.
-    /// Proof: proofs/InteriorContact.v, normal_vanishes_right.
+    /// True if N = 0 inside the bracket, at a root of Y without contact: the only one if Y has no
+    /// multiple root. Every G_i is then 0, so that no refined bracket decides. Proof:
+    /// proofs/InteriorContact.v, normal_vanishes_right.
     template <int T>
     constexpr bool normal_vanishes(const root_bracket<3 * Words, T>& bracket) const {
         const auto end = number<T>::shifted(1, bracket.bits);
@@ -210,11 +206,10 @@ class interior_contact {
                sign_type::negative;
     }
 
-    /// Returns the signs of all G_i between t = low/2^bits and (low + width)/2^bits, width <
-    /// 2^width_bits: `collides` if all are positive, `separate` if one is negative, else
-    /// `uncertain`. Differences at low, times 2^bits, are cut to T words with one unit for each
-    /// axis. This keeps the signs of G_i at roots of Y.
-    /// Proof: proofs/InteriorContact.v, throughout_right.
+    /// The signs of all G_i between t = low/2^bits and (low + width)/2^bits, width < 2^width_bits,
+    /// as decided_by_weights. Differences at low, times 2^bits, are cut to T words with one unit
+    /// for each axis. This keeps the signs of G_i at roots of Y. Proof: proofs/InteriorContact.v,
+    /// throughout_right.
     template <int T>
     constexpr outcome throughout(const number<T>& low, int bits, int width_bits) const {
         using known = bounded_integer<number<T>>;

@@ -6,8 +6,8 @@
 //
 // A contact with N ≠ 0 satisfies the first. If N = 0, the triangle is a segment that its edges
 // cover, or the two edges are parallel and one has an end on the other. If Y ≡ 0, the first case is
-// tested at t = 0 and 1 only, since a later contact inside begins at an edge or an end.
-// Proof: proofs/Contact.v, vertex_face_union, edge_edge_union, vertex_edge_contact, face_coplanar,
+// tested at t = 0 and 1 only, since a later contact inside begins at an edge or an end. Proof:
+// proofs/Contact.v, vertex_face_union, edge_edge_union, vertex_edge_contact, face_coplanar,
 // edges_coplanar; of the code, proofs/Reference.v, reference_face, reference_edges,
 // reference_vertex_edge, reference_vertex_vertex.
 #include <ccd/methods/forms.hpp>
@@ -26,7 +26,6 @@ namespace {
 using errbound::sign_type;
 using form = errbound::roots::integer_form<integer>;
 
-/// True if Y = 0, N ≠ 0 and all G_i >= 0 at some t in [0, 1].
 template <template <class> class Query>
 bool regular_contact(const Query<integer>& query) {
     const auto forms = forms_of(query);

@@ -46,7 +46,6 @@ inline lanes first_lanes(std::size_t count) {
     return (lanes(1) << count) - 1;
 }
 
-/// Calls visit(lane) for each lane of the set, in ascending order.
 template <class Visit>
 inline void for_each_lane(lanes some, const Visit& visit) {
     for (; some != 0; some &= some - 1) visit(static_cast<std::uint32_t>(__builtin_ctz(some)));
@@ -77,7 +76,7 @@ lanes lanes_of(const mask_of<T>& m) {
 }
 
 #ifndef ERRBOUND_VECTOR_PACKS
-/// Reinterprets the bits. xsimd 8 takes the pack's type as argument, later versions the numbers'.
+/// xsimd 8 takes the pack's type as argument, later versions the numbers'.
 template <class To, class From>
 To with_bits_of(const From& x) {
     if constexpr (requires {
@@ -89,7 +88,7 @@ To with_bits_of(const From& x) {
 }
 #endif
 
-/// Returns the double after t > 0 where `after` is set, else the one before it.
+/// The double after t > 0 where `after` is set, else the one before it.
 inline pack neighbour(const pack& t, const pack_mask& after) {
 #ifdef ERRBOUND_VECTOR_PACKS
     return select(after, pack::of_bits(bits_of(t) + 1), pack::of_bits(bits_of(t) - 1));
@@ -102,7 +101,7 @@ inline pack neighbour(const pack& t, const pack_mask& after) {
 }
 
 #if defined __AVX2__ && !defined __AVX512F__
-/// For each set of four lanes, the order that moves its lanes to the front (as halves of doubles).
+/// For each set of four lanes, the order that moves them to the front (as halves of doubles).
 struct lane_orders {
     alignas(32) std::int32_t halves[16][8];
 

@@ -1,4 +1,3 @@
-// The order of the stages of `exact` for one query. exact_stages (ccd/explain.hpp) describes each.
 #include "ccd/exact/stages.hpp"
 
 #include <ccd/methods/forms.hpp>

@@ -16,8 +16,7 @@ namespace ccd::detail {
 
 using errbound::integer;
 
-/// Converts a query of finite coordinates to integers: each axis is scaled by its own power of two.
-/// Proof: proofs/UnboundedIntegers.v, to_integers_right.
+/// Precondition: finite coordinates. Proof: proofs/UnboundedIntegers.v, to_integers_right.
 template <template <class> class Query>
 Query<integer> to_integers(const Query<double>& query) {
     return integer_units(query).converted(query, [](double x, int unit) {
@@ -27,10 +26,9 @@ Query<integer> to_integers(const Query<double>& query) {
     });
 }
 
-/// True if W × E = 0 and W·(W − E) <= 0 at some t in [0, 1], with W = v − e0, E = e1 − e0. (On the
-/// line, v lies between e0 and e1 exactly if W and W − E do not point the same way; for E = 0 this
-/// means W = 0.) The times are the roots of the three quadratics' common factor.
-/// Proof: proofs/UnboundedIntegers.v, integer_contact_right.
+/// True if W × E = 0 and W·(W − E) <= 0 at some t in [0, 1] (see ccd/exact/reference.cpp). The
+/// times are the roots of the three quadratics' common factor. Proof: proofs/UnboundedIntegers.v,
+/// integer_contact_right.
 inline bool vertex_touches_edge(const vertex_edge<integer>& query) {
     const auto e = difference(query.e1, query.e0);
     const auto w = difference(query.v, query.e0);
@@ -45,7 +43,7 @@ inline bool vertex_touches_edge(const vertex_edge<integer>& query) {
     if (on_line_at(0) && beyond.h[0] <= 0) return true;
     if (on_line_at(2) && beyond.h[2] <= 0) return true;
 
-    // The common factor of the three. It is empty if the motion is collinear throughout.
+    // The common factor of the three, empty if the motion is collinear throughout.
     errbound::roots::integer_form<integer> on_line;
     for (const auto* f : {&off_line.x, &off_line.y, &off_line.z})
         on_line = errbound::roots::common_factor(on_line, errbound::roots::without_end_roots(*f));
@@ -62,9 +60,8 @@ inline bool vertex_touches_edge(const vertex_edge<integer>& query) {
     return false;
 }
 
-/// True if a vertex meets an edge: the vertex of a VF query one of the face's edges, or an end of
-/// an edge of an EE query the other edge. `original` is the query before its conversion.
-/// Proof: proofs/UnboundedIntegers.v, face_border_right, edges_border_right.
+/// `original` is the query before its conversion. Proof: proofs/UnboundedIntegers.v,
+/// face_border_right, edges_border_right.
 template <template <class> class Query>
 bool touches_at_border(const Query<integer>& query, const Query<double>& original) {
     const auto edges = vertex_edge_queries(query);

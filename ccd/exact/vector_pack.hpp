@@ -1,6 +1,6 @@
-// Packs for processors without xsimd packs, made of the compiler's vectors of sixteen bytes, with
-// the part of xsimd's interface that is used here. Internal; included by ccd/exact/simd.hpp only.
-// See ccd/batch/batch_kernels.hpp for the rules of headers that kernels include.
+// Packs for processors without xsimd packs: the compiler's vectors of sixteen bytes, with xsimd's
+// interface. Internal; included by ccd/exact/simd.hpp only, and under the rules of
+// ccd/batch/batch_kernels.hpp.
 #pragma once
 
 #include <cmath>
@@ -39,7 +39,6 @@ struct vector_mask {
     vector_mask operator!() const { return vector_mask(vector(~data)); }
     vector_mask operator~() const { return !*this; }
 
-    /// Bit i of the result is lane i.
     std::uint32_t bits() const {
         std::uint32_t b = 0;
         for (std::size_t i = 0; i < size; ++i) b |= static_cast<std::uint32_t>(data[i] & 1) << i;

@@ -2,8 +2,8 @@
 //
 // Let E = e1 − e0, W = v − e0, X = v − e1. Contact at t means that all three quadratics of W × E
 // are 0 and that the quadratic W·X is <= 0. If the three have a rational root in common, W·X is
-// evaluated there. If all are proportional to some f, W·X modulo f is a linear form times s. Its
-// sign at the roots of f follows from the sign of f at the root of the linear form.
+// evaluated there. If all are proportional to some f, W·X modulo f is a linear form l times s. The
+// sign of l at the roots of f follows from the sign of f at the root of l.
 //
 // Widths, for coordinates of W words with differences below D = 2^(64W − 3): f in 2W words (|f0|,
 // |f2| <= 2D², |f1| <= 4D²). b = W·X takes 2W words (3D², 6D²), and 6W at a rational root (144D⁶).
@@ -64,10 +64,9 @@ constexpr bool nonpositive_at_a_root(const quadratic_form<Words>& f,
     return nonpositive(sign_of(roots_are_later ? l[1] : l[0]));
 }
 
-/// True if the vertex touches the edge. Precondition: differences of coordinates at one end of the
-/// step are below 2^(64·Words − 3). Cost: some 40 products of words, and up to a few hundred if all
-/// three components of W × E have a root in [0, 1].
-/// Proof: proofs/VertexEdge.v, contact_right.
+/// Precondition: differences of coordinates at one end of the step are below 2^(64·Words − 3).
+/// Cost: some 40 products of words, and up to a few hundred if all three components of W × E have a
+/// root in [0, 1]. Proof: proofs/VertexEdge.v, contact_right.
 template <int Words>
 constexpr bool vertex_touches_edge(
     const vertex_edge<errbound::integers::fixed_integer<Words>>& query) {
@@ -104,8 +103,8 @@ constexpr bool vertex_touches_edge(
         case kind::everywhere:
             break;
     }
-    // The motion is collinear throughout. b is positive at both ends here, so it has a value <= 0
-    // inside exactly if it has real roots t/s > 0.
+    // Collinear throughout. b is positive at both ends here, so it has a value <= 0 inside exactly
+    // if it has real roots t/s > 0.
     return b[1] < 0 && b[1] * b[1] >= (b[0] * b[2]) << 2;
 }
 

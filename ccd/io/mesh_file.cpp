@@ -1,4 +1,3 @@
-// Files of either format, and the topology that two frames of a mesh must share.
 #include <algorithm>
 #include <boost/interprocess/file_mapping.hpp>
 #include <boost/interprocess/mapped_region.hpp>
@@ -39,7 +38,6 @@ namespace {
 
 enum class format { ply, obj };
 
-/// The format that the extension names; for pipes and without extension, that of the text.
 format format_of(const std::filesystem::path& path, std::string_view text) {
     std::string extension = path.extension().string();
     for (char& c : extension)
@@ -54,7 +52,6 @@ format format_of(const std::filesystem::path& path, std::string_view text) {
                      "; expected .ply or .obj");
 }
 
-/// Cuts a share out of a whole frame.
 mesh_share share_of(const mesh& frame, share_of_file share) {
     const auto cut = [share](const auto& all) {
         const auto at = [&](std::uint64_t i) {
@@ -107,7 +104,6 @@ mesh_share read_mesh_share(const std::filesystem::path& path, std::size_t share,
 
 namespace {
 
-/// The part of a frame, or of a share of one, that two frames must share.
 struct topology {
     const std::string& name;
     const mesh& elements;

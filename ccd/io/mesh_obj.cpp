@@ -1,5 +1,4 @@
-// The OBJ reader. A reader of our own, because the libraries at hand do not round coordinates
-// correctly.
+// The OBJ reader. The available libraries do not round coordinates correctly.
 #include <algorithm>
 #include <array>
 #include <ccd/io/mesh_file.hpp>
@@ -19,8 +18,7 @@ namespace {
 
 using errbound::support::file_error;
 
-/// Keywords without vertices, faces or edges: names, materials, rendering, attributes of vertices,
-/// parts of free-form geometry.
+/// Names, materials, rendering, attributes of vertices, parts of free-form geometry.
 constexpr std::array<std::string_view, 32> skipped_keywords{
     "vt",        "vn",     "vp",     "g",      "s",      "mg",     "o",     "bevel",
     "c_interp",  "lod",    "usemtl", "mtllib", "usemap", "maplib", "ctech", "d_interp",
@@ -86,8 +84,7 @@ class obj_parser {
         return joined_;
     }
 
-    /// A line of the file without its comment, which starts at a '#' that begins a word. Any other
-    /// '#' is a part of its word: 1.#INF, usemtl a#b.
+    /// A line without its comment, which starts at a '#' that begins a word (unlike 1.#INF).
     std::optional<std::string_view> next_piece() {
         const std::optional<std::string_view> whole = lines_.next();
         if (!whole) return whole;
@@ -168,7 +165,6 @@ class obj_parser {
         }
     }
 
-    /// Adds an edge for each point that no element has yet.
     void add_points() {
         if (points_.empty()) return;
         std::vector<bool> is_unused(result_.vertices.size());
@@ -195,8 +191,7 @@ class obj_parser {
         return error == std::errc{} && stop == end;
     }
 
-    /// The vertex index of v, v/vt, v//vn or v/vt/vn, from 0. If vt and vn are absent, slashes may
-    /// stay: v/, v//, v/vt/.
+    /// If vt and vn are absent, slashes may stay: v/, v//, v/vt/.
     vertex_index corner(std::string_view word) const {
         std::array<std::int64_t, 3> indices{};
         std::string_view rest = word;

@@ -1,5 +1,4 @@
-// The reader and the writer of PLY. A reader of our own, because the PLY libraries of distributions
-// convert coordinates to float.
+// The reader and writer of PLY. The libraries of distributions convert coordinates to float.
 #include <algorithm>
 #include <bit>
 #include <ccd/io/mesh_file.hpp>
@@ -93,8 +92,7 @@ class body_reader {
                 fail(kind + " " + std::to_string(first + i) + ": " + *fault);
     }
 
-    /// Reserves no more than the bytes that are there can hold, whatever the header claims. Every
-    /// element takes at least one byte per property.
+    /// Reserves no more than the file's bytes can hold: each element has at least one per property.
     void reserve(const element& e, std::uint64_t count) {
         const std::size_t limit =
             values_.remaining() / std::max<std::size_t>(e.properties.size(), 1);
@@ -118,8 +116,8 @@ class body_reader {
         }
     }
 
-    /// The bytes of each element in a binary file, if all have the same number. Every face is taken
-    /// for a triangle: the share that has the first other face reads that face, and fails.
+    /// The bytes of an element, if all have the same number. Assumes that faces are triangles: the
+    /// share with the first other face reads that face, and fails.
     static std::optional<std::size_t> bytes_of_each(const element& e) {
         std::size_t bytes = 0;
         for (const property& p : e.properties) {

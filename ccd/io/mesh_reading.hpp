@@ -1,4 +1,4 @@
-// Shared by the readers of OBJ and PLY: checks of elements, and shares of a file.
+// For the readers of OBJ and PLY: checks of elements, and shares of a file.
 #pragma once
 
 #include <ccd/io/mesh_file.hpp>
@@ -14,13 +14,12 @@ namespace ccd::io {
 
 std::string text_of(std::span<const vertex_index> element);
 
-/// The end of a message if an element has an index that is not below `vertices`.
+/// The end of a message if an index is not below `vertices`, or a face has too few or many corners.
 std::optional<std::string> fault_of(std::span<const vertex_index> element, std::size_t vertices);
 
-/// The end of a message if a face with that many corners cannot be read.
 std::optional<std::string> fault_of_corners(std::uint64_t corners, const mesh_options& options);
 
-/// A share of a file. The sizes of two shares differ by at most one element.
+/// The sizes of two shares differ by at most one element.
 struct share_of_file {
     std::uint64_t share = 0, shares = 1;
 
@@ -34,8 +33,7 @@ struct share_of_file {
     }
 };
 
-/// Reads a share of a PLY file. Elements of other shares are skipped: in ascii line by line, else
-/// at once. Only a whole file can be triangulated.
+/// Skips other shares: in ascii line by line, else at once. Only a whole file can be triangulated.
 mesh_share parse_share_ply(std::string_view text, const std::string& name, share_of_file share,
                            const mesh_options& options = {});
 

@@ -1,4 +1,3 @@
-// The header of a PLY file, and the values of its body, one after the other.
 #pragma once
 
 #include <algorithm>
@@ -32,8 +31,8 @@ inline std::size_t bytes_of(scalar type) {
     return std::visit([](auto t) { return sizeof t; }, type);
 }
 
-/// The part of a mesh that a property holds. `misplaced` vertex indices are those of an element,
-/// such as tristrips, whose faces or edges would be lost.
+/// `misplaced`: vertex indices of an element, such as tristrips, whose faces or edges would be
+/// lost.
 enum class role { none, x, y, z, corners, vertex1, vertex2, misplaced };
 
 struct property {
@@ -61,8 +60,7 @@ struct header {
     std::size_t lines = 0;
 };
 
-/// Takes the header, to the line after end_header, off the front of the text. Throws
-/// errbound::support::file_error.
+/// Takes the header, with end_header, off the text. Throws errbound::support::file_error.
 header parse_header(std::string_view& text, const std::string& name);
 
 /// Values from a binary body. A double holds every value of the other types exactly.
@@ -71,7 +69,7 @@ class binary_values {
     binary_values(std::string_view text, const std::string& name, std::endian order)
         : text_(text), name_(name), swap_(order != std::endian::native) {}
 
-    /// Begins an element, whose name is not copied.
+    /// Does not copy the name.
     void begin(const std::string& element_name, std::uint64_t index) {
         element_ = &element_name;
         index_ = index;
@@ -84,7 +82,7 @@ class binary_values {
 
     void skip(scalar type, std::uint64_t count) { skip_elements(bytes_of(type), count); }
 
-    /// Skips `count` elements of that many bytes each, from the one that has begun.
+    /// Skips `count` elements of `bytes` bytes each.
     bool skip_elements(std::size_t bytes, std::uint64_t count) {
         if (bytes == 0) return true;
         if (count > text_.size() / bytes) fail_truncated();
@@ -92,7 +90,7 @@ class binary_values {
         return true;
     }
 
-    /// Skips the properties of the element that has begun: `each` skips one after the other.
+    /// Skips the other properties of the element; each() skips one.
     template <class Each>
     void skip_rest(const Each& each) {
         each();
@@ -108,7 +106,6 @@ class binary_values {
 
     std::size_t remaining() const { return text_.size(); }
 
-    /// Throws a message with the file and the element.
     [[noreturn]] void fail(const std::string& what) const {
         throw errbound::support::file_error(name_ + ": " + *element_ + " " +
                                             std::to_string(index_) + ": " + what);
@@ -167,7 +164,6 @@ class ascii_values {
         for (; count > 0; --count) next_word();
     }
 
-    /// Lines have no fixed size.
     bool skip_elements(std::size_t, std::uint64_t) { return false; }
 
     /// The line is the element.

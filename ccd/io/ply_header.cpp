@@ -64,8 +64,7 @@ class header_parser {
     header_parser(std::string_view& text, const std::string& name) : text_(text), name_(name) {}
 
     header parse() {
-        // If CR alone ends the first line, it ends all: a LF after the last one belongs to a binary
-        // body.
+        // If CR alone ends the first line, it ends all: a final LF belongs to a binary body.
         const std::size_t first_end = text_.find_first_of("\r\n");
         if (first_end != std::string_view::npos && !text_.substr(first_end).starts_with("\r\n"))
             line_end_ = text_[first_end];

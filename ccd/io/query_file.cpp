@@ -1,4 +1,3 @@
-// Stored queries from CSV, truth from JSON.
 #include <array>
 #include <ccd/io/query_file.hpp>
 #include <cctype>
@@ -25,7 +24,7 @@ constexpr const char* row_forms =
     "6 integers (numerator, denominator of x, y, z) or 3 decimal or hexadecimal floats, then "
     "optionally truth (0 or 1)";
 
-/// The columns of a line. `count` goes on past the last column that is stored.
+/// `count` includes columns that are not stored.
 struct columns {
     std::array<std::string_view, max_columns> values;
     std::size_t count = 0;
@@ -45,7 +44,7 @@ columns split(std::string_view line) {
 
 class query_parser {
   public:
-    /// `text` follows `rows` other rows of `columns` columns, if there are such rows.
+    /// `text` follows `rows` other rows of `columns` columns.
     query_parser(std::string_view text, const std::string& name, ccd::kind kind, bool round,
                  std::size_t rows = 0, std::size_t columns = 0)
         : lines_(content(text, name, rows), name, rows),
@@ -157,8 +156,8 @@ class query_parser {
     std::size_t row_ = 0;  ///< within the query
 };
 
-/// Collects booleans during the parse. The destructor of a parsed document would allocate memory,
-/// and end the program if there is none.
+/// Collects booleans during the parse. A parsed document's destructor would allocate memory, and
+/// end the program if there is none.
 class truth_reader final : public nlohmann::json_sax<nlohmann::json> {
   public:
     explicit truth_reader(const std::string& name) : name_(name) {}

@@ -28,8 +28,7 @@ struct query_index {
     std::uint64_t columns = 0;        ///< of the first row; of a store: 0
 };
 
-/// Finds the ranges of `queries_of_a_range` queries by line ends only. Throws
-/// errbound::support::file_error unless the file can be read in parts.
+/// Finds line ends only. Throws errbound::support::file_error unless the file can be read in parts.
 query_index index_queries(const std::filesystem::path& path, std::size_t queries_of_a_range);
 
 /// The truth that may lie next to a file of queries (read_queries).
@@ -37,8 +36,8 @@ class truth_file {
   public:
     explicit truth_file(const std::filesystem::path& queries);
 
-    /// Adds the truth to queries without truth, which are those from `first` on, to the end of the
-    /// file if they are the last. Throws errbound::support::file_error unless the numbers match.
+    /// Adds the truth to queries from `first` on; if `is_last`, the truth must end with them.
+    /// Throws errbound::support::file_error unless the numbers match.
     void add_to(query_file& queries, std::uint64_t first, bool is_last) const;
 
   private:
@@ -52,8 +51,7 @@ class range_reader {
     range_reader(std::filesystem::path path, std::optional<ccd::kind> kind, bool round,
                  query_index index);
 
-    /// The queries of a range, with their truth, as read_queries returns them. Throws as
-    /// read_queries, with the file's line numbers.
+    /// Returns and throws as read_queries, with the file's line numbers.
     query_file read(std::size_t range);
 
   private:
@@ -71,8 +69,7 @@ class range_reader {
 query_file parse_rows(std::string_view text, const std::string& name, ccd::kind kind, bool round,
                       std::uint64_t rows, std::uint64_t columns);
 
-/// The kind of a file's queries: that of a store, which `kind` must not contradict, else `kind`,
-/// else the one in the path. Throws errbound::support::file_error.
+/// The kind that read_queries uses. Throws errbound::support::file_error.
 ccd::kind kind_of_file(const std::filesystem::path& path, std::optional<ccd::kind> kind);
 
 }  // namespace ccd::io

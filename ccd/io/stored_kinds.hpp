@@ -6,7 +6,6 @@
 
 namespace ccd {
 
-/// Same as visit_kind, for a stored kind.
 template <class Visit>
 constexpr decltype(auto) visit_stored_kind(kind k, Visit&& visit) {
     return k == kind::edge_edge ? visit.template operator()<kind::edge_edge>()
@@ -27,7 +26,6 @@ struct by_stored_kind {
     const auto& of() const {
         return member<K>(*this);
     }
-    /// Calls visit(of<K>()) for each kind, in the order of stored_kinds.
     template <class Visit>
     void for_each(Visit&& visit) {
         visit(vertex_face);

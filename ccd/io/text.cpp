@@ -56,7 +56,6 @@ number nearest_quotient(const cpp_int& n, const cpp_int& d, bool round) {
     return {value, number_status::ok};
 }
 
-/// A decimal integer's digits, without sign and leading zeros, and its value if it is small.
 struct integer {
     bool negative = false;
     std::string_view digits;

@@ -1,4 +1,4 @@
-// The reader of text files: lines and words, exact numbers, and messages with file and line.
+// Reads text files: lines and words, exact numbers, and messages with file and line.
 #pragma once
 
 #include <cstddef>
@@ -11,12 +11,11 @@ namespace ccd::io {
 /// `found` in quotes for a message: printable ASCII only, at most 40 characters of it.
 std::string excerpt(std::string_view found);
 
-/// Returns the text of a file without a UTF-8 byte order mark. Throws
-/// errbound::support::file_error, with `name` in its message, if the mark is that of UTF-16 or
-/// UTF-32.
+/// Removes a UTF-8 byte order mark. Throws errbound::support::file_error if the mark is that of
+/// UTF-16 or UTF-32.
 std::string_view without_byte_order_mark(std::string_view text, const std::string& name);
 
-/// `text` without the end mark of DOS, Ctrl-Z, and the blanks around it.
+/// Removes the end mark of DOS, Ctrl-Z, and the blanks around it.
 std::string_view without_end_mark(std::string_view text);
 
 /// True if c is a control character other than tab.
@@ -24,20 +23,18 @@ constexpr bool is_control(char c) {
     return (static_cast<unsigned char>(c) < ' ' && c != '\t') || c == 0x7f;
 }
 
-/// `text` without blanks (space, tab) at either end.
+/// Removes blanks (space, tab) at both ends.
 std::string_view trimmed(std::string_view text);
 
-/// Takes the next line, without its line end (LF, CRLF or CR), off the front of `text`. Nothing if
-/// `text` is empty.
+/// Takes the next line off the front, without its line end (LF, CRLF or CR). Nothing at the end.
 std::optional<std::string_view> take_line(std::string_view& text);
 
-/// Takes the next run of characters that are not blanks off the front of `line`; empty at the end.
+/// Takes the next run of characters that are not blanks off the front; empty at the end.
 std::string_view take_word(std::string_view& line);
 
 /// Throws errbound::support::file_error: "NAME:LINE: what".
 [[noreturn]] void fail_at(const std::string& name, std::size_t line, const std::string& what);
 
-/// The lines of a text, counted for messages.
 class line_reader {
   public:
     /// `name` is not copied. `lines` is the number of the file's lines before the text.
@@ -70,8 +67,8 @@ enum class number_status {
     too_long,          ///< more digits than longest_number
 };
 
-/// A rational or hexadecimal number with more digits is refused, which bounds the time for a token.
-/// No double needs more than 1100 in any form.
+/// Bounds the digits of a rational or hexadecimal number, and so the time for it. No double needs
+/// more than 1100.
 inline constexpr std::size_t longest_number = 4096;
 
 struct number {
@@ -79,8 +76,7 @@ struct number {
     number_status status = number_status::ok;
 };
 
-/// The message "NAME is FOUND; expected ..." for a status other than ok. `found` is an excerpt of
-/// the number.
+/// The message "NAME is FOUND; expected ..." for a status other than ok. `found` is an excerpt.
 std::string describe(number_status status, const std::string& name, const std::string& found);
 
 /// The double nearest to a decimal number, or the one equal to a hexadecimal float ("0x1.8p3"). A

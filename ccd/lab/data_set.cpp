@@ -28,7 +28,6 @@ bool is_mesh(const fs::path& path) {
     return path.extension() == ".ply" || path.extension() == ".obj";
 }
 
-/// True if the folder is named after a kind: the one above has the data set's name.
 bool is_kind_of_content(const fs::path& folder) {
     return find_kind(folder.filename().string()).has_value();
 }
@@ -75,7 +74,6 @@ void decide_truth(data_set& data, int threads) {
     data.queries.for_each([threads](auto& known) { decide_by_exact(known, threads); });
 }
 
-/// The one file of ../boxes next to a scene's frames whose name has this ending, if there is one.
 std::optional<fs::path> stored_pairs(const fs::path& frame, const std::string& ending) {
     const fs::path folder = frame.parent_path().parent_path() / "boxes";
     std::optional<fs::path> found;
@@ -100,8 +98,7 @@ std::vector<std::array<std::size_t, 2>> read_pairs(const fs::path& path) {
     }
 }
 
-/// The elements of a mesh by index: vertices first, then edges in the order of their greater, then
-/// lesser vertex, then faces.
+/// Vertices first, then edges in the order of their greater, then lesser vertex, then faces.
 class numbered_elements {
   public:
     explicit numbered_elements(const mesh& m)
@@ -109,7 +106,7 @@ class numbered_elements {
         std::ranges::sort(edges_, {}, [](const edge& e) { return std::tuple(e[1], e[0]); });
     }
 
-    /// The pair of two elements, nothing if an index is out of range.
+    /// Nothing if an index is out of range.
     template <class Pair>
     std::optional<Pair> pair(std::size_t i, std::size_t j) const {
         if constexpr (kind_of<Pair> == kind::vertex_face) {
@@ -130,8 +127,7 @@ class numbered_elements {
     const std::vector<face>& faces_;
 };
 
-/// Compares the truth that is stored next to a scene, if any, with that of `exact`. Adds the files'
-/// contents.
+/// Compares stored truth, if any, with that of `exact`. Adds the files' contents.
 template <class Query>
 void compare_stored(const fs::path& frame, const numbered_elements& elements,
                     queries_with_truth<Query>& known, std::string& contents) {
@@ -218,7 +214,6 @@ void load_queries(const data_source& source, int threads, data_set& into, std::s
     });
 }
 
-/// `count` queries of each kind, query i by make(i, kind).
 template <class Make>
 loaded_data generated(std::string_view name, std::string_view origin, std::size_t count,
                       int threads, const Make& make) {

@@ -83,7 +83,7 @@ loaded_data load(const data_source& source, int threads);
 /// last place; small integers, most of them degenerate.
 std::vector<loaded_data> made_data(int threads);
 
-/// Queries of a family: `each` of each value of its knob, fewer where it is thinned.
+/// Makes `each` queries for each value of the knob, fewer where the family is thinned.
 loaded_data data_of(const family& from, std::size_t each, int threads);
 
 }  // namespace ccd::lab

@@ -1,4 +1,3 @@
-// The families, by group: generators of queries, then the table.
 #include "ccd/lab/families.hpp"
 
 #include <algorithm>
@@ -18,10 +17,8 @@ using namespace generators;
 
 // ---- Knobs, and exact building ----
 //
-// These queries are built without rounding, so that their contacts are where they should be: local
-// coordinates are multiples of `unit`, or tiny numbers on a separate axis.
+// Contacts must be exact. So local coordinates are multiples of `unit`, or tiny on a separate axis.
 
-/// A position at each end of the step of each point, on separate axes.
 using local_points = std::array<ends, 4>;
 
 /// One unit in the last place of numbers from 4 to 8.
@@ -69,11 +66,10 @@ double length(source& random) {
     return 0.5 + std::ldexp(static_cast<double>(random.bits() >> 17), -48);
 }
 
-/// The local points in space. The map is exact, so contacts stay where they are: axes are sheared
-/// by whole numbers, all points are moved by one translation per end, axes are permuted. Nothing
-/// rounds if local coordinates are multiples of `unit` and a point's three sum to at most 6: with a
-/// translation of at most 2 they stay within 8. Axis `fine` (3: none) may hold other numbers: it is
-/// neither sheared nor moved, nor added to another.
+/// An exact map, so contacts stay: shears axes by whole numbers, moves all points by one
+/// translation per end, and permutes axes. Nothing rounds if local coordinates are multiples of
+/// `unit` and a point's three sum to at most 6: with a translation of at most 2 they stay within 8.
+/// Axis `fine` (3: none) may hold other numbers: it is only permuted.
 points placed(source& random, const local_points& local, std::size_t fine = 3) {
     matrix shear{};
     for (std::size_t i = 0; i < 3; ++i) {
@@ -124,7 +120,6 @@ void set_triangle(local_points& p, double l, double c, double h) {
     }
 }
 
-/// A query that small changes turn from contact to none.
 points near_decision(source& random, kind which) {
     const int exponent = -random.between(36, 56);
     switch (random.between(0, 6)) {
@@ -145,7 +140,6 @@ points near_decision(source& random, kind which) {
     }
 }
 
-/// Weights of a contact: anywhere, or close to a border.
 position any_weights(source& random, std::size_t corners) {
     return random.one_in(2) ? border_weights(random, corners) : weights(random, corners);
 }
@@ -268,9 +262,9 @@ double border_weight(source& random) {
     return std::ldexp(random.one_in(2) ? 1 : -1, exponent);
 }
 
-/// A vertex that passes a triangle of the given heights over its base, or an edge that passes one
-/// of the given lengths. The position has constant weights w (of the height) and u. Heights are on
-/// a separate axis, so that even the tiniest are exact.
+/// A vertex passes a triangle of the given heights over its base, or an edge passes one of the
+/// given lengths. The weights w (of the height) and u are constant. Heights are on a separate axis,
+/// so that even the tiniest are exact.
 points passing_thin(source& random, kind which, const std::array<double, 2>& height) {
     const double l = random.between(4, 8) / 8.0, c = random.between(0, 8) / 8.0;
     // At most one of the weights is off a border, so that their product is exact.
@@ -295,7 +289,7 @@ points passing_thin(source& random, kind which, const std::array<double, 2>& hei
     return relabelled(random, which, placed(random, p, 1));
 }
 
-/// Half are exact, half are in general position: then as near to it as rounding allows.
+/// Half are exact; half are in general position, as near to it as rounding allows.
 points of_sliver(source& random, kind which, double knob) {
     const double height = power_of_two(knob);
     if (random.one_in(2)) return passing_thin(random, which, {height, height});
@@ -416,11 +410,10 @@ points of_touch_at_border(source& random, kind which, double knob) {
 /// (three), for r = t − eighth/8.
 ///
 /// The features span the directions B = (1, 0, r) and C = (0, 1, 0) or, for three, (r, 1, 0), so
-/// that N = B × C is (−r, 0, 1) or (−r, r², 1); the vector P between them is (−r, 0, η) or
-/// (0, r, −s²·r), and N·P is that function. At r = 0, P vanishes for η = 0, and the extent
-/// of the features about it determines the position of the contact in both. Half the queries are in
-/// general position: the numbers are then multiples of `unit`, and separations below 2^-24 become
-/// exactly multiple roots.
+/// that N = B × C is (−r, 0, 1) or (−r, r², 1). The vector P between them is (−r, 0, η) or (0, r,
+/// −s²·r), and N·P is that function. At r = 0, P vanishes for η = 0, and the extent of the features
+/// about it determines the position of the contact. Half the queries are in general position, as
+/// multiples of `unit`: separations below 2^-24 become exactly multiple roots.
 template <int roots>
 points of_roots(source& random, kind which, double knob) {
     const double separation = power_of_two(knob);
@@ -461,8 +454,8 @@ points of_roots(source& random, kind which, double knob) {
     return relabelled(random, which, placed(random, p, general ? 3 : 2));
 }
 
-/// A thin layer, like a stiff one: relative positions on one axis, and all relative motion, are
-/// 2^knob of the common motion; in contact, or missing it by a fraction of the relative motion.
+/// A thin layer: relative positions on one axis, and all relative motion, are 2^knob of the common
+/// motion; in contact, or missing it by a fraction of the relative motion.
 points of_stiffness(source& random, kind which, double knob) {
     const auto exponent = static_cast<int>(knob);
     std::array<position, 4> at = positions(random);

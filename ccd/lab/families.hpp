@@ -1,5 +1,4 @@
-// The families of `ccd stress`: stiff, degenerate and badly scaled queries, each with a knob that
-// is swept over its whole range.
+// The families of `ccd stress`: stiff, degenerate and badly scaled queries, each with a knob.
 #pragma once
 
 #include <cstdint>
@@ -20,7 +19,7 @@ struct family {
     std::string_view description;  ///< one sentence
     std::string_view knob_name;    ///< meaning of the numbers; no comma, for CSV
     std::vector<double> knobs;  ///< ascending: whole numbers, and exact_zero where it makes sense
-    /// Makes queries on both sides of the decision, if the knob leaves any on both.
+    /// Makes queries on both sides of the decision if possible.
     points (*make)(source& random, kind which, double knob);
     /// One query in this many suffices, where the truth costs up to tenths of a second.
     unsigned (*thinning)(double knob) = [](double) { return 1u; };
@@ -30,8 +29,7 @@ struct family {
 
 std::span<const family> families();
 
-/// Query `index` of a family at one value of its knob: the same on every machine, and made without
-/// the others.
+/// Makes query `index`, the same on every machine, without making the others.
 points make(const family& f, double knob, kind which, std::uint64_t seed, std::uint64_t index);
 
 }  // namespace ccd::lab

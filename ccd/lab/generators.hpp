@@ -1,5 +1,5 @@
-// Generators of random queries: of every scale, rounding and regularity; degenerate; in contact or
-// near one; with chosen roots.
+// Random queries: of every scale, rounding and regularity; degenerate; near contact; with chosen
+// roots.
 #pragma once
 
 #include <array>
@@ -19,14 +19,13 @@ namespace ccd::lab::generators {
 
 using position = std::array<double, 3>;  // also a displacement
 
-// A position at the start and one at the end of the step.
 using ends = std::array<position, 2>;
 
 inline moving_point<double> moving(const ends& e) {
     return {{e[0][0], e[0][1], e[0][2]}, {e[1][0], e[1][1], e[1][2]}};
 }
 
-// make(point, end, axis) for all 24 numbers, in one fixed order.
+// Calls make(point, end, axis) for all 24 numbers, in a fixed order.
 template <class Make>
 points fill(Make make) {
     points out;
@@ -40,7 +39,7 @@ points fill(Make make) {
     return out;
 }
 
-// The result of change(value, point, end, axis) for all 24 numbers.
+// Calls change(value, point, end, axis) for all 24 numbers.
 template <class Change>
 points map(const points& p, Change change) {
     return fill([&](std::size_t i, std::size_t end, std::size_t axis) {
@@ -75,8 +74,8 @@ inline points scale_point(source& random, const points& p, int exponent) {
     });
 }
 
-// Moves x by at most `max_units` units in its last place; moves a zero by units of 2^-53, since its
-// neighbours would add a second scale (the families of mixed scales do that).
+// Moves x by up to `max_units` units in its last place; zero by units of 2^-53, since its
+// neighbours would add a second scale.
 inline double jitter(source& random, double x, int max_units) {
     const int units = random.between(-max_units, max_units);
     if (x == 0) return std::ldexp(units, -53);
@@ -94,7 +93,6 @@ inline points uniform(source& random) {
     return fill([&](auto...) { return random.symmetric(); });
 }
 
-// All points and motions are within 2^-10.
 inline points clustered(source& random) {
     const position centre{random.symmetric(), random.symmetric(), random.symmetric()};
     return fill([&](std::size_t, std::size_t, std::size_t axis) {
@@ -106,8 +104,7 @@ inline points grid(source& random, int half) {
     return fill([&](auto...) { return random.between(-half, half); });
 }
 
-// Every point makes a quarter turn about one axis, one way or the other, as spinning bodies do. The
-// cubics have extrema and an inflection inside.
+// Quarter turns about one axis, either way. The cubics have extrema and an inflection inside.
 inline points rotating(source& random) {
     points p = uniform(random);
     for (auto& m : p) {
@@ -143,12 +140,10 @@ inline points mixed_scales(source& random, int range) {
     });
 }
 
-// Coordinates like those of files and programs in single precision.
 inline points rounded_to_float(const points& p) {
     return map(p, [](double x, auto...) { return static_cast<float>(x); });
 }
 
-// Coordinates like those of text with three digits after the point.
 inline points rounded_to_digits(const points& p) {
     return map(p, [](double x, auto...) { return std::round(1000 * x) / 1000; });
 }
@@ -164,7 +159,6 @@ inline points few_values(source& random) {
 
 // ---- Degenerate queries, exactly or nearly ----
 
-// Half of the points, at random, do not move.
 inline points part_frozen(source& random, points p) {
     for (auto& m : p) {
         if (random.one_in(2)) m.t1 = m.t0;
@@ -191,7 +185,7 @@ inline points on_line(source& random, const points& p) {
     });
 }
 
-// Identical points: at one end or at both, one point takes another's place.
+// One point takes another's place, at one end or both.
 inline points merged(source& random, points p) {
     const auto from = static_cast<std::size_t>(random.between(0, 3));
     const auto to = static_cast<std::size_t>(random.between(0, 3));
@@ -206,8 +200,8 @@ inline point<double> along(const point<double>& a, const point<double>& b, const
     return {a.x + k * (c.x - b.x), a.y + k * (c.y - b.y), a.z + k * (c.z - b.z)};
 }
 
-// Moves the fourth point: the edges are parallel, or the triangle is a segment, throughout the step
-// or only at its start or its end.
+// Moves the fourth point: edges are parallel, or the triangle is a segment, at the start, the end
+// or both.
 inline points parallel(source& random, kind which, points p) {
     const int k = random.between(-2, 2);
     const int when = random.between(0, 2);
@@ -218,7 +212,7 @@ inline points parallel(source& random, kind which, points p) {
     return p;
 }
 
-// Nearly planar motion: on one axis all coordinates are at most 2^exponent.
+// On one axis all coordinates are at most 2^exponent.
 inline points nearly_in_plane(source& random, const points& p, int exponent) {
     const auto flat = static_cast<std::size_t>(random.between(0, 2));
     return map(p, [&](double x, std::size_t, std::size_t, std::size_t axis) {
@@ -256,16 +250,15 @@ inline position weights(source& random, std::size_t corners) {
     return w;
 }
 
-// Four positions, drawn before those that a contact moves.
 inline std::array<position, 4> positions(source& random) {
     std::array<position, 4> at;
     for (auto& p : at) p = {random.symmetric(), random.symmetric(), random.symmetric()};
     return at;
 }
 
-// A contact at one instant, as near as rounding allows: the first feature of `at` (EE: the second)
-// is moved there, then each point gets its own velocity, times `speed`.
-// pick(random, corners) gives the weights of the point of contact.
+// A contact at one instant, as near as rounding allows: moves the first feature of `at` (EE: the
+// second) there, then gives each point a velocity, times `speed`. pick(random, corners) draws the
+// weights.
 template <class Pick>
 points contact_at(source& random, kind which, double speed, std::array<position, 4> at, Pick pick) {
     if (which == kind::edge_edge) {
@@ -306,7 +299,7 @@ inline points far_from_origin(source& random, kind which, int exponent) {
                });
 }
 
-// Weights of a point of contact within 2^-30 to 2^-58 of a border, inside or outside.
+// Weights within 2^-30 to 2^-58 of a border, inside or outside.
 inline position border_weights(source& random, std::size_t corners) {
     const int exponent = -random.between(30, 58);
     const double beyond = std::ldexp(random.one_in(2) ? 1 : -1, exponent);
@@ -387,13 +380,13 @@ struct fraction {
     int numerator = 0, denominator = 1;
 };
 
-// Contacts at chosen roots of the coplanarity function, multiplicities included. They are exact.
+// Exact contacts at chosen roots of Y, multiplicities included.
 //
 // The columns of M(t) = U T(t) V are the query's three differences. T is upper triangular, and its
-// diagonal vanishes at the chosen roots r0, r1 and r2, which are the roots of det M. At r0 the
-// first unit vector is in T's kernel. With V = n A^-1, where A has the first column (x, y, n),
-// (x, y, n) is in the kernel of M. So x/n and y/n are the weights of the contact. All numbers are
-// small integers, so nothing rounds.
+// diagonal vanishes at the chosen roots r0, r1 and r2 of det M. At r0 the first unit vector is in
+// T's kernel. With V = n A^-1, where A has the first column (x, y, n), (x, y, n) is in the kernel
+// of M. So x/n and y/n are the weights of the contact. All numbers are small integers, so nothing
+// rounds.
 inline points chosen_roots(source& random, kind which, const std::array<fraction, 3>& roots) {
     const bool face = which == kind::vertex_face;
     const int n = random.between(1, 4);
@@ -456,8 +449,8 @@ inline std::array<fraction, 3> root_triple(source& random, int multiplicity) {
 
 // ---- Neighbouring elements of two curved sheets ----
 
-// Neighbouring elements of two curved sheets of one grid, as in a folded cloth. The sheets drift
-// and bend, and one moves towards or through the other. At times both elements are of one sheet.
+// Two curved sheets of one grid, as in a folded cloth, drift and bend, and one moves towards or
+// through the other. At times both elements are of one sheet.
 inline points sheets(source& random, kind which) {
     constexpr double cell = 0.0625;
     const int exponent = -random.between(4, 12);

@@ -1,4 +1,3 @@
-// The points of a query, their random numbers, and their conversion to queries and rows of files.
 #pragma once
 
 #include <array>
@@ -18,7 +17,7 @@
 
 namespace ccd::lab {
 
-/// Four points in the order of the query's members; shorter kinds use the first three or two.
+/// In the order of the query's members; shorter kinds use the first three or two.
 using points = std::array<moving_point<double>, 4>;
 
 /// Random numbers by integer arithmetic only: std distributions differ between libraries.
@@ -50,8 +49,8 @@ inline source source_of(std::string_view family, std::initializer_list<std::uint
     return source(hash);
 }
 
-/// Eight rows in the order of the benchmark's files, exact as hexadecimal floats: all points at
-/// t = 0, then all at t = 1. `last_column` ends each row.
+/// Eight rows as in the benchmark's files, in hexadecimal floats: all points at t = 0, then all at
+/// t = 1. `last_column` ends each row.
 inline std::string csv(const points& p, std::string_view last_column = {}) {
     std::string rows;
     const auto row = [&](const point<double>& at) {
@@ -64,7 +63,6 @@ inline std::string csv(const points& p, std::string_view last_column = {}) {
     return rows;
 }
 
-/// The query of the first of the points.
 template <class Query>
 Query as_query(const points& p) {
     using traits = kind_traits<kind_of<Query>>;
@@ -74,7 +72,6 @@ Query as_query(const points& p) {
     (std::make_index_sequence<traits::first_vertices + traits::second_vertices>());
 }
 
-/// visit(query) of the points as a query of that kind.
 template <class Visit>
 decltype(auto) visit_query(kind which, const points& p, Visit&& visit) {
     return visit_kind(which, [&]<kind K>() -> decltype(auto) {

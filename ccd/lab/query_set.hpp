@@ -14,8 +14,8 @@
 
 namespace ccd::lab {
 
-/// Queries of one kind, in the order in which they are decided. Either `by_index` into `rows`,
-/// which are not owned, or `stored`.
+/// Queries in the order in which they are decided: `by_index` into `rows`, which are not owned, or
+/// `stored`.
 template <class Query>
 struct query_set {
     ccd::vertex_rows rows;
@@ -26,7 +26,6 @@ struct query_set {
     Query operator[](std::size_t i) const {
         return by_index.empty() ? stored[i] : ccd::query_of(rows, by_index[i]);
     }
-    /// Queries from `first` on, as many as there are answers.
     stage_report decide_batch(std::size_t first, std::span<ccd::outcome> answers,
                               const ccd::batch_options& options) const {
         return by_index.empty()
@@ -35,7 +34,6 @@ struct query_set {
                    : ccd::decide_batch(rows, std::span(by_index).subspan(first, answers.size()),
                                        answers, options);
     }
-    /// The colliding queries, with their first times.
     std::vector<timed_contact> timed_contacts(const time_options& options) const {
         return by_index.empty() ? ccd::timed_contacts(stored, options)
                                 : ccd::timed_contacts(rows, by_index, options);

@@ -33,8 +33,7 @@ std::string now() {
     return text;
 }
 
-/// The parts of a report, in the order in which they are measured. They refer to the list and to
-/// the data, which must stay where they are.
+/// The parts of a report, in the order of measurement. Keeps references to the list and the data.
 class part_list {
   public:
     explicit part_list(const report_options& settings, const row& machine)
@@ -152,7 +151,6 @@ class part_list {
                  [this, &data, which](const progress&) { return take_bounds(data, which, size_); });
     }
 
-    /// Over all values of the family's knob: a row for each kind.
     rows contacts_of(const family& f, const progress& show) const {
         const loaded_data data = data_of(f, size_.stress_queries, settings_.threads);
         rows all;
@@ -261,7 +259,6 @@ std::vector<loaded_data> collect_data(report_summary& report, const show_progres
     return all;
 }
 
-/// Adds the data set's queries and truth, and a failure if stored truth contradicts `exact`.
 void describe(const data_set& data, report_summary& report) {
     std::size_t contradictions = 0, stored = 0;
     data.queries.for_each([&]<class Query>(const queries_with_truth<Query>& known) {
@@ -293,7 +290,6 @@ std::string text(const row& r, const char* column) {
     return r[column].is_string() ? r[column].get<std::string>() : r[column].dump();
 }
 
-/// Adds false answers of methods that promise none.
 void add_broken_methods(report_summary& report) {
     for (const row& r : report.tables["methods"]) {
         const subject promised = subject_named(text(r, "method"));
@@ -357,7 +353,6 @@ const std::vector<picture> possible_pictures{
     {"stress-ns.png", "Time per query on stiff and extreme queries."},
 };
 
-/// Writes plot.py and runs it. Missing pictures are reported.
 void draw_pictures(report_summary& report, const print_line& print) {
     const fs::path& folder = report.settings.out;
     for (const picture& p : possible_pictures) {  // of earlier data

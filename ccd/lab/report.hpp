@@ -38,7 +38,6 @@ struct report_options {
     }
 };
 
-/// Called at times with the finished share of a part.
 using progress = std::function<void(double)>;
 
 /// A unit of measurement, kept in a file so that a stopped report continues.
@@ -82,7 +81,7 @@ rows totals(const rows& methods, const std::function<bool(const row&)>& counts);
 
 /// Measures the parts that the folder lacks; writes the CSV files, plot.py, its pictures, and
 /// report.md. `show` gets the finished share and the next step; `print` gets lines for a person.
-/// Throws errbound::support::file_error: no data, a folder that cannot be read or written.
+/// Throws errbound::support::file_error without data, or if a folder cannot be read or written.
 report_summary make_report(const report_options& settings,
                            const std::function<void(double, const std::string&)>& show,
                            const std::function<void(const std::string&)>& print);

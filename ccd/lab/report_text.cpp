@@ -1,4 +1,4 @@
-// report.md: the report as a person reads it.
+// The text of report.md.
 #include <cmath>
 
 #include "ccd/lab/report.hpp"
@@ -24,7 +24,7 @@ const rows& table_of(const report_summary& report, const std::string& section) {
     return found == report.tables.end() ? none : found->second;
 }
 
-/// The columns of the rows under headings; the first `left` are words.
+/// The first `left` columns are words.
 std::string table(const rows& of, const strings& heading, const strings& columns,
                   std::size_t left) {
     return markdown_of(cells_of(of, heading, columns), left);
@@ -51,7 +51,6 @@ std::string failures(const report_summary& report) {
     return text + "\n";
 }
 
-/// The methods over the queries that `counts` selects, under a heading.
 std::string methods_on(const report_summary& report, const std::string& heading,
                        const std::function<bool(const row&)>& counts) {
     rows all = totals(table_of(report, "methods"), counts);
@@ -154,7 +153,6 @@ std::string tightness(const report_summary& report) {
            table(lines, columns, columns, 2);
 }
 
-/// Tables of the times of `exact`: brackets, then costs.
 std::string first_contacts(const report_summary& report) {
     rows all = table_of(report, "contacts");
     if (all.empty()) return "";

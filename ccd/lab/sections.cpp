@@ -32,15 +32,13 @@ double ns_per(std::size_t count, double seconds) {
 
 constexpr std::array variable_names{"Y(0)", "Y(1)", "Y'(0)", "Y'(1)", "Y''(0)", "Y''(1)"};
 
-/// Bounds of one variable over the queries; the relative ones where the query has a k that is not
-/// zero.
+/// Relative ones are of queries whose k are not all zero.
 struct bound_sample {
     std::vector<double> absolute, relative;
 };
 using bound_samples = std::array<bound_sample, variable_names.size()>;
 
-/// Adds the query's bounds, as decide_bsc has them (ccd/methods/bsc.hpp), and relative to the
-/// largest |k|, the control values of Y.
+/// The bounds of decide_bsc, and relative to the largest |k|, the control values of Y.
 template <class Rule, class Query>
 void add_bounds(const Query& query, bound_samples& samples) {
     const auto [scaled, finite] = tracked_query<Rule>(query);
@@ -60,7 +58,7 @@ void add_bounds(const Query& query, bound_samples& samples) {
     }
 }
 
-/// q0, q1, q25, ... of the numbers, which it sorts.
+/// Sorts the numbers.
 void add_quantiles(std::vector<double>& numbers, const std::string& prefix, row& into) {
     std::ranges::sort(numbers);
     for (const int percent : {0, 1, 25, 50, 75, 99, 100}) {
@@ -111,7 +109,7 @@ struct brackets {
     }
 };
 
-/// ns per query of yes or no, and of the first time with it, one by one.
+/// Passes of decisions, and of first times, one query at a time.
 template <class Query>
 std::vector<std::function<void()>> single_passes(const std::vector<Query>& queries) {
     return {[&queries] {
@@ -122,7 +120,7 @@ std::vector<std::function<void()>> single_passes(const std::vector<Query>& queri
             }};
 }
 
-/// Queries with a contact, drawn evenly where there are more than `most`.
+/// Queries with a contact, drawn evenly if there are more than `most`.
 template <class Query>
 std::vector<Query> with_contact(const query_set<Query>& queries,
                                 const std::vector<std::size_t>& which, std::size_t most) {

@@ -11,7 +11,7 @@
 
 namespace ccd::lab {
 
-/// How many queries are measured; they are drawn evenly where there are more.
+/// The numbers of queries, which are drawn evenly if there are more.
 struct sample_sizes {
     std::size_t speed;           ///< for ns per query
     std::size_t times;           ///< timed one by one
@@ -27,7 +27,6 @@ constexpr sample_sizes sizes(bool quick) {
                  : sample_sizes{200'000, 100'000, 200'000, 7, 400, 0.02, 500'000, 200};
 }
 
-/// A method's answers to all queries, compared with their truth: one row.
 rows count_errors(const data_set& data, kind which, std::string_view method, int threads,
                   const progress& show);
 
@@ -39,19 +38,18 @@ rows race_methods(const data_set& data, kind which, const std::vector<std::strin
 rows time_queries(const data_set& data, kind which, const std::vector<std::string>& methods,
                   const sample_sizes& size, const progress& show);
 
-/// Bounds of Y, Y' and Y'' at t = 0 and 1 under every rule, as in BSC: a row for each rule and
-/// variable.
+/// Bounds of Y, Y' and Y'' at t = 0 and 1, as in BSC: a row for each rule and variable.
 rows take_bounds(const data_set& data, kind which, const sample_sizes& size);
 
-/// First contacts by `exact`: widths of brackets, and costs compared with yes or no, on one thread,
-/// in batches and one by one: a row, none without queries. An invalid bracket, or one that
-/// contradicts yes or no, is reported in the column `broken`.
+/// First contacts by `exact`: widths of brackets, and costs compared with decisions, on one thread,
+/// in batches and one by one. The column `broken` reports an invalid bracket, or one that
+/// contradicts the decision.
 rows find_contacts(const data_set& data, kind which, const sample_sizes& size, int threads,
                    const progress& show);
 
-/// Bounds over true errors by MPFR, in random expressions and on queries of all data sets: rows by
-/// rule, number type and quantity, quantiles of log10 of the ratio. A broken promise is reported in
-/// the column `broken`. Only in a build with MPFR.
+/// Bounds over true errors by MPFR, in random expressions and on queries: rows by rule, number type
+/// and quantity, quantiles of log10 of the ratio. The column `broken` reports a broken promise.
+/// Only in a build with MPFR.
 rows measure_expressions(const sample_sizes& size, int threads, const progress& show);
 rows measure_tightness(const std::vector<const data_set*>& data, const sample_sizes& size,
                        int threads, const progress& show);

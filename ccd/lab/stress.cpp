@@ -27,7 +27,6 @@ namespace fs = std::filesystem;
 
 // ---- The run ----
 
-/// The queries of a cell and their truth.
 template <class Query>
 struct queries_of_cell {
     std::vector<Query> queries;
@@ -44,7 +43,6 @@ struct queries_of_cell {
     }
 };
 
-/// Seconds of the fastest pass, of at least three unless they take long: one may be disturbed.
 template <class Pass>
 double fastest_of(const Pass& pass, double least_total) {
     double fastest = std::numeric_limits<double>::infinity(), elapsed = 0;
@@ -109,7 +107,6 @@ std::string knob_of(const cell& c) {
     return formatted("%g", c.knob);
 }
 
-/// The cells of one method and family, summed over knob and kind.
 struct summary {
     cell sum;
     const cell* worst = nullptr;
@@ -147,7 +144,6 @@ struct summary {
     }
 };
 
-/// A row per family and subject.
 table summary_of(const std::vector<cell>& cells, const plan& what) {
     table lines{{"family", "method", "queries", "collisions", "FP", "FN", "uncertain", "wrong",
                  "ns/query", "worst at knob"}};
@@ -172,7 +168,6 @@ constexpr std::string_view legend =
     "collision.\n"
     "wrong: `collides` or `separate` against the truth, or for coordinates that are not finite.\n";
 
-/// The promises, with the methods that make them.
 std::string promises_of(const plan& what) {
     const auto without = [&what](bool subject::*may) {
         std::string list;
@@ -185,7 +180,6 @@ std::string promises_of(const plan& what) {
            "; no answer from NaN or infinity by all";
 }
 
-/// The first broken promise of each method and family.
 std::vector<const cell*> broken_of(const std::vector<cell>& cells) {
     std::vector<const cell*> first;
     for (const cell& c : cells) {

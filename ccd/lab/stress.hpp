@@ -22,11 +22,9 @@
 
 namespace ccd::lab {
 
-/// Decides queries[i] into verdicts[i].
 template <class Query>
 using decider = std::function<void(std::span<const Query>, std::span<verdict>)>;
 
-/// A method as the run sees it: its promises, and a function that decides.
 struct subject {
     std::string name;
     bool may_lose_collisions = false;
@@ -37,10 +35,10 @@ struct subject {
 /// The name of `exact` in batches, as a separate method.
 inline constexpr std::string_view batch_name = "exact, batch";
 
-/// The method of ccd::methods() with that name, or `exact` in batches. Precondition: there is one.
+/// Precondition: `name` is batch_name or that of a method.
 subject subject_named(std::string_view name);
 
-/// The first query of a cell with which a method broke its promise: make(...) makes it again.
+/// The first query with which a method broke its promise; make(...) makes it again.
 struct broken_promise {
     std::string what;  ///< a clause: "it lost a collision"
     std::uint64_t index = 0;
@@ -68,41 +66,37 @@ struct plan {
     std::uint64_t seed = 1;
     std::size_t queries = 0;  ///< of a cell; fewer where the family is thinned, and at least one
     int threads = 0;          ///< for the truth; 0: one per core
-    /// A subject's time on a cell is that of its fastest pass. Passes take at least this long in
-    /// total, and there are at least three, unless three take ten times as long.
+    /// The time is that of the fastest pass. Passes take at least this long in total, and there are
+    /// at least three, unless three take ten times as long.
     double seconds = 0;
 };
 
-/// Called with the number of finished cells (methods not counted), of all cells, and the next
-/// family.
+/// `done` and `all` count cells, each for all methods.
 using stress_progress = std::function<void(std::size_t done, std::size_t all, const family& next)>;
 
 /// All cells, by family, knob, kind and subject. The truth is computed on several threads; methods
-/// are timed on the calling one while nothing else runs. Deterministic except for times.
+/// are timed on the calling one. Deterministic except for times.
 std::vector<cell> run(const plan& what, const stress_progress& show);
 
-/// Returns the promise of `who` that `answer` breaks, if any. `truth` is uncertain if coordinates
-/// are not finite. Promises: no lost and no false collisions, as in the method's description. If it
-/// promises one of these, `collides` and `separate` are certain; if both, it decides. Coordinates
-/// that are not finite give `uncertain` with cause `range`.
+/// Returns the promise that `answer` breaks, if any. `truth` is uncertain if coordinates are not
+/// finite; then answers must be `uncertain` with cause `range`. If a method promises no lost or no
+/// false collisions, `collides` and `separate` are certain; if both, it decides.
 std::optional<std::string_view> broken_by(const subject& who, verdict answer, outcome truth);
 
-/// The columns of stress.csv.
 extern const std::vector<std::string> stress_columns;
 
-/// The cell under these columns, with `wrong_certain` and `from_not_finite`; and, if a promise is
-/// broken, `broken` (how) and `query` (its index). A knob of exactly zero is the text "-inf".
+/// The cell, with `wrong_certain` and `from_not_finite`; and, if a promise is broken, `broken`
+/// (how) and `query` (its index). A knob of exactly zero is "-inf".
 row row_of(const cell& c, const plan& what);
 
-/// The outputs of a run, next to its text.
 struct stress_outputs {
     std::optional<std::filesystem::path> folder;  ///< for stress.csv
     std::optional<std::filesystem::path> json;
 };
 
-/// Runs the plan and writes its cells. Makes the folder before the run. Returns true if all
-/// promises were kept. Otherwise the text names the broken ones, and the folder, or the current
-/// one, has a query for each. Throws errbound::support::file_error.
+/// Makes the folder, runs the plan and writes its cells. Returns true if all promises were kept.
+/// Otherwise the text names the broken ones, and the folder, or the current one, has a query for
+/// each. Throws errbound::support::file_error.
 bool run_and_write(const plan& what, const stress_outputs& to, std::ostream& text);
 
 }  // namespace ccd::lab

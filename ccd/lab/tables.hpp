@@ -14,7 +14,7 @@ namespace ccd::lab {
 
 using errbound::support::row, errbound::support::rows;
 
-/// A method's answers compared with the truth. Uncertain counts as a collision.
+/// Compares answers with the truth. Uncertain counts as a collision.
 struct tally {
     std::size_t queries = 0, colliding = 0;  ///< by the truth
     std::size_t collisions = 0, uncertain = 0, false_positives = 0, false_negatives = 0;
@@ -23,14 +23,13 @@ struct tally {
     tally& operator+=(const tally& more);
 };
 
-/// The smallest of the sorted numbers that are no less than a share `p` of all (nearest rank). NaN
-/// if there are none.
+/// The nearest-rank quantile; NaN if there are no numbers.
 double quantile(std::span<const double> sorted, double p);
 
 /// 64-bit FNV-1a, as 16 hexadecimal digits: it detects accidental changes, not malicious ones.
 std::string fingerprint_of(std::string_view bytes);
 
-/// Makes the folder. Throws errbound::support::file_error if it cannot be written to.
+/// Throws errbound::support::file_error if it cannot be written to.
 void make_folder(const std::filesystem::path& folder);
 
 }  // namespace ccd::lab

@@ -13,7 +13,6 @@ inline double seconds_since(clock::time_point start) {
     return std::chrono::duration<double>(clock::now() - start).count();
 }
 
-/// Makes the compiler compute `value`.
 template <class T>
 void keep(const T& value) {
     asm volatile("" : : "g"(&value) : "memory");
@@ -31,7 +30,7 @@ std::vector<timing> race(
     const std::vector<std::function<void()>>& passes, int repeats,
     const std::function<void(double)>& show = [](double) {});
 
-/// The least difference of two readings of the clock, one right after the other, in seconds.
+/// The least difference of two successive readings of the clock, in seconds.
 double clock_overhead();
 
 }  // namespace ccd::lab

@@ -1,6 +1,6 @@
-// `bsc-exact`: the BSC template over intervals, then over integers. Contacts of vertices and edges
-// decide the queries that remain. Derivation: proofs/README.md, "bsc-exact".
-// Proof: proofs/BscExact.v, bsc_exact_face, bsc_exact_edges.
+// BSC over intervals, then over integers. Contacts of vertices and edges decide the queries that
+// remain. Derivation: proofs/README.md, "bsc-exact". Proof: proofs/BscExact.v, bsc_exact_face,
+// bsc_exact_edges.
 #include <algorithm>
 #include <ccd/methods/bsc.hpp>
 #include <ccd/methods/bsc_exact.hpp>

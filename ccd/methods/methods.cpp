@@ -1,4 +1,3 @@
-// The table of methods and the dispatch by method.
 #include <algorithm>
 #include <ccd/exact.hpp>
 #include <ccd/method.hpp>

@@ -1,6 +1,5 @@
-// `root-parity`: the parity of a ray's crossings with the image of the domain's boundary, first
-// over intervals, which end at an uncertain sign, then over integers. proofs/README.md, "Root
-// parity", derives the map, the patches' triangles and the ray that is never degenerate.
+// The parity of a ray's crossings with the image of the domain's boundary: first over intervals, up
+// to an uncertain sign, then over integers. Derivation: proofs/README.md, "Root parity".
 #include <algorithm>
 #include <array>
 #include <ccd/methods/forms.hpp>
@@ -21,8 +20,7 @@ using errbound::sign_type;
 template <std::size_t Corners>
 using corner_indices = std::array<std::size_t, Corners>;
 
-/// F at the corners of the domain, and the faces of its boundary. Patch i is that of
-/// vertex_edge_queries()[i].
+/// F at the corners of the domain, and its boundary. Patch i is that of vertex_edge_queries()[i].
 template <class S>
 struct boundary_image {
     std::array<vector_form<S, 0>, 8> corners;
@@ -64,7 +62,6 @@ boundary_image<S> image_of(const edge_edge<S>& q) {
     return image;
 }
 
-/// The crossings of the ray with a part of the boundary's image.
 enum class crossing { none, odd, at_origin, uncertain };
 
 constexpr crossing combined(crossing a, crossing b) {
@@ -73,18 +70,16 @@ constexpr crossing combined(crossing a, crossing b) {
                                                                 : crossing::none;
 }
 
-/// True if a coordinate of all corners has this strict sign, which all points that they span share.
 template <class Corners, class Axis>
 bool all_have(sign_type sign, const Corners& corners, const Axis& axis) {
     return std::ranges::all_of(corners,
                                [&](const auto* c) { return sign_of(((*c).*axis)[0]) == sign; });
 }
 
-/// A part of the image: pointers to its corners.
 template <class S, std::size_t Corners>
 using part_corners = std::array<const vector_form<S, 0>*, Corners>;
 
-/// True if the ray certainly misses the corners' convex hull, by the signs of coordinates.
+/// True if the ray certainly misses the corners' convex hull.
 template <class S, std::size_t Corners>
 bool ray_misses(const part_corners<S, Corners>& c) {
     using vector = vector_form<S, 0>;
@@ -95,8 +90,8 @@ bool ray_misses(const part_corners<S, Corners>& c) {
            all_have(sign_type::positive, c, &vector::z);
 }
 
-/// Returns the sign of the rise in z from p to q. Returns zero unless the projection of this side
-/// passes the ray's origin on the side +y.
+/// The sign of the rise in z from p to q; zero unless the projection of this side passes the ray's
+/// origin on the side +y.
 template <class S>
 sign_type rise_beside_origin(const vector_form<S, 0>& p, const vector_form<S, 0>& q) {
     const sign_type at_p = sign_of(p.z[0]), at_q = sign_of(q.z[0]);
@@ -108,7 +103,7 @@ sign_type rise_beside_origin(const vector_form<S, 0>& p, const vector_form<S, 0>
     return turn == -rise ? sign_type::zero : rise;
 }
 
-/// Tests the ray against the triangle, whose det(p, q, r) has the sign `determinant`.
+/// det(p, q, r) has the sign `determinant`.
 template <class S>
 crossing at_triangle(const part_corners<S, 3>& c, sign_type determinant) {
     if (ray_misses<S>(c)) return crossing::none;
@@ -126,9 +121,8 @@ crossing at_triangle(const part_corners<S, 3>& c, sign_type determinant) {
     return determinant == normal_x ? crossing::odd : crossing::none;
 }
 
-/// Tests a triangle of the image. The origin lies in it if it lies in its plane and the corners'
-/// cross products do not point opposite ways. (Sides that are sides of patches are left to the
-/// patches, as are triangles without area.)
+/// The origin is in the triangle if it is in its plane and the corners' cross products do not point
+/// opposite ways. (Patches test sides that they share, and triangles without area.)
 template <class S>
 crossing at_face(const part_corners<S, 3>& c) {
     if (ray_misses<S>(c)) return crossing::none;
@@ -146,7 +140,7 @@ crossing at_face(const part_corners<S, 3>& c) {
     return holds_origin ? crossing::at_origin : crossing::none;
 }
 
-/// Tests a patch. If its plane contains the origin, `flat_contact()` tests whether the patch does.
+/// If the patch's plane contains the origin, `flat_contact()` tests if the patch does.
 template <class S, class FlatContact>
 crossing at_patch(const part_corners<S, 4>& c, const FlatContact& flat_contact) {
     if (ray_misses<S>(c)) return crossing::none;
@@ -173,7 +167,7 @@ crossing at_patch(const part_corners<S, 4>& c, const FlatContact& flat_contact) 
                                   at_triangle<S>({c[0], c[2], c[3]}, -signs[1]));
 }
 
-/// Tests the whole boundary's image. flat_contact(i) is that of patch i.
+/// flat_contact(i) is that of patch i.
 template <class S, class FlatContact>
 crossing at_boundary(const boundary_image<S>& image, const FlatContact& flat_contact) {
     const auto corners_of = [&image]<std::size_t Corners>(const corner_indices<Corners>& indices) {

@@ -1,8 +1,8 @@
-// Advances of a mesh on many ranks. Each rank holds the elements near its region of space. All know
+// Advances of a mesh on many ranks. Each rank holds the elements near its region of space. All have
 // the motion of every group, because all join, shorten and take back by the same list of pairs.
 //
-// Elements stay on the ranks of the whole step: boxes of a shorter way, and intersections of two
-// such boxes, are inside those of the whole step.
+// Elements stay on the ranks of the whole step: boxes of a shorter way are inside those of the
+// whole.
 #include <algorithm>
 #include <ccd/mpi.hpp>
 #include <chrono>
@@ -61,7 +61,6 @@ class known_vertices {
     std::vector<int> islands_of_others_;
 };
 
-/// The exchange of ccd::detail::advancing with the ranks that have the rest of the mesh.
 class other_ranks {
   public:
     other_ranks(detail::exchanger& ranks, known_vertices& vertices)

@@ -1,4 +1,3 @@
-// Throws the error of one rank on all.
 #pragma once
 
 #include <mpi.h>
@@ -11,7 +10,7 @@
 
 namespace ccd::mpi::detail {
 
-/// Causes that end a call. If ranks differ, the lesser one takes precedence.
+/// If ranks differ, the lesser cause takes precedence.
 enum class failure : int { refused, stopped, out_of_memory, other, none };
 
 inline failure failure_of(const std::exception& error) {
@@ -28,9 +27,8 @@ inline failure failure_of(const std::exception& error) {
     throw std::runtime_error(message);
 }
 
-/// Calls check() on every rank. If it throws on some, throws the exception of the first of these
-/// ranks on all, with its message: std::invalid_argument, ccd::stopped, std::bad_alloc, or else
-/// std::runtime_error.
+/// Calls check(). If it throws on some ranks, throws the exception of the first on all, with its
+/// message: std::invalid_argument, ccd::stopped, std::bad_alloc, or else std::runtime_error.
 template <class Check>
 void agree(MPI_Comm comm, const Check& check) {
     int rank = 0;

@@ -1,4 +1,3 @@
-// Checks the input of ranks.
 #include "ccd/mpi/checks.hpp"
 
 #include <algorithm>
@@ -12,7 +11,6 @@
 namespace ccd::mpi::detail {
 namespace {
 
-/// Compares numbers that must be the same on all ranks.
 template <std::size_t N>
 void check_same(exchanger& ranks, const std::array<double, N>& options, const std::string& caller) {
     const auto all = ranks.gather(std::vector{options}).items;
@@ -32,7 +30,6 @@ void check_lengths(const vertex_lists& lists, std::size_t vertices, const std::s
                                         ", one entry for each number");
 }
 
-/// Checks that all ranks with vertices have the same lists.
 void check_given_alike(exchanger& ranks, const vertex_lists& lists, std::size_t vertices,
                        const std::string& caller) {
     const std::array given{!lists.groups.empty(), !lists.pinned.empty(), !lists.thickness.empty(),

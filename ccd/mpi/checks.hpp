@@ -28,12 +28,12 @@ struct vertex_lists {
           islands(moving_as_one) {}
 };
 
-/// Checks a rank's part of a mesh and its lists: all ranks with vertices have the same ones, with
-/// an entry for each vertex. Also checks that the filter can be sent.
+/// All ranks with vertices must have the same lists, with an entry for each vertex. The filter must
+/// be one that can be sent.
 void check_mesh(exchanger& ranks, const mesh_part& mesh, const pair_filter& filter,
                 const vertex_lists& lists, const std::string& caller);
 
-/// Checks that all ranks have the same options.
+/// All ranks must have the same options.
 void check_options(exchanger& ranks, const step_options& options, placement pairs,
                    std::size_t vertices, const std::string& caller);
 void check_options(exchanger& ranks, const advance_options& options, std::size_t vertices,

@@ -1,4 +1,3 @@
-// Samples elements, estimates their work and cuts space.
 #include "ccd/mpi/decomposition.hpp"
 
 #include <algorithm>
@@ -7,13 +6,12 @@
 namespace ccd::mpi::detail {
 namespace {
 
-/// The number of samples of all ranks: enough to weigh each box, at most 50 MB up to 10,000 ranks.
+/// The samples of all ranks weigh each box, and take at most 50 MB up to 10,000 ranks.
 std::size_t samples_wanted(std::size_t ranks) {
     const std::size_t most = std::max<std::size_t>(1 << 19, 64 * ranks);
     return std::max<std::size_t>(4096, std::min(256 * ranks, most));
 }
 
-/// The number of samples that each sample is compared with.
 constexpr std::size_t compared_samples = 4096;
 
 /// The work of a candidate relative to that of an element.
@@ -25,8 +23,7 @@ bool touch(const swept_box& a, const swept_box& b) {
     return true;
 }
 
-/// Returns the place such that the samples before it have about this share of the work; 0 without
-/// samples. Linear time.
+/// Samples before the result have about this share of the work; 0 without samples. Linear time.
 template <class Sample, class Place>
 double weighted_quantile(std::span<Sample> samples, const Place& place, double share) {
     if (samples.empty()) return 0;
@@ -95,7 +92,6 @@ std::vector<decomposition::sample> decomposition::weighted_samples(
     return std::move(all.items);
 }
 
-/// Returns the node's index.
 std::size_t decomposition::cut(std::size_t first, std::size_t count, std::span<sample> samples,
                                const space_region& part) {
     const std::size_t i = nodes_.size();

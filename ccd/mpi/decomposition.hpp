@@ -17,9 +17,9 @@ using swept_box = ccd::detail::box<double>;
 /// Boxes that tile space, one for each rank; the same on all ranks. Some may be empty.
 class decomposition {
   public:
-    /// Samples each rank's boxes, which elements sweep. Collective. Time: at most a million tests
-    /// of boxes a rank, plus the cuts of the samples, once for each bit of the number of ranks.
-    /// There are 256 samples a rank, at least 4096, at most 2^19 or 64 a rank.
+    /// Samples `boxes`, which elements sweep. Collective. Time: at most a million tests of boxes a
+    /// rank, plus the cuts of the samples, once for each bit of the number of ranks. There are 256
+    /// samples a rank, at least 4096, at most 2^19 or 64 a rank.
     decomposition(exchanger& ranks, std::span<const swept_box> boxes);
 
     const space_region& part(std::size_t rank) const { return parts_[rank]; }
@@ -36,7 +36,7 @@ class decomposition {
         double elements;  ///< the number of elements that it represents
         double work = 0;
     };
-    /// A cut of ranks [first, first + count): below `at` on the axis are the first half.
+    /// A cut of ranks [first, first + count): the first half is below `at` on the axis.
     struct node {
         std::size_t first, count;
         std::size_t axis = 0;

@@ -1,4 +1,3 @@
-// Exchanges lists of plain items between all ranks.
 #pragma once
 
 #include <mpi.h>
@@ -68,7 +67,6 @@ class exchanger {
         detail::agree(comm_, check);
     }
 
-    /// Sends lists[r] to rank r.
     template <class T>
     received<T> all_to_all(const std::vector<std::vector<T>>& lists) {
         std::vector<int> to(size()), from(size());
@@ -100,7 +98,6 @@ class exchanger {
         return result;
     }
 
-    /// Sends every rank's list to all.
     template <class T>
     received<T> gather(const std::vector<T>& list) {
         std::vector<int> counts(size());
@@ -119,7 +116,7 @@ class exchanger {
         return result;
     }
 
-    /// Returns the time of the earliest contact of all ranks; `own` if there is none.
+    /// The time of the earliest contact of all ranks; `own` if there is none.
     first_time earliest(const first_time& own) {
         first_time earliest = own;
         for (const first_time& time : gather(std::vector{own}).items) {

@@ -1,4 +1,3 @@
-// Sends elements to the ranks whose regions they meet, and builds the mesh there.
 #include "ccd/mpi/local_mesh.hpp"
 
 #include <algorithm>
@@ -23,7 +22,6 @@ std::vector<std::vector<Item>> picked(std::span<const Item> items,
     return lists;
 }
 
-/// Returns the source rank of each item.
 template <class Item>
 std::vector<std::size_t> sources(const received<Item>& sent) {
     std::vector<std::size_t> ranks(sent.items.size());

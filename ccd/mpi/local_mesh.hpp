@@ -1,4 +1,4 @@
-// The part of a mesh that a rank is given, and the mesh that it holds: all that meets its region.
+// The part of a mesh that a rank is given, and the mesh that meets its region.
 #pragma once
 
 #include <array>
@@ -16,8 +16,8 @@
 
 namespace ccd::mpi::detail {
 
-/// The faces, edges and single vertices (those without an element) of a part of a mesh, and their
-/// swept boxes.
+/// The faces, edges and single vertices (those without an element) of a part, with their swept
+/// boxes.
 class given_elements {
   public:
     given_elements(const mesh_part& mesh, const pair_distances& distances, bool skip_unused);
@@ -33,8 +33,8 @@ class given_elements {
 
 class local_mesh {
   public:
-    /// Sends elements and the entries of vertex lists. Collective. Throws std::invalid_argument on
-    /// all ranks if copies of a vertex differ.
+    /// Sends elements. Collective. Throws std::invalid_argument on all ranks if copies of a vertex
+    /// differ.
     local_mesh(exchanger& ranks, const mesh_part& mesh, const given_elements& given,
                const decomposition& parts, const vertex_lists& of_vertices);
 
@@ -44,11 +44,9 @@ class local_mesh {
     std::size_t vertices() const { return numbers_.size(); }
     std::optional<vertex_index> find(vertex_number number) const;
     vertex_rows way() const { return {before_, after_}; }
-    /// The vertex's island; 0 if none were given.
     int island(vertex_index v) const { return islands_.empty() ? 0 : islands_[v]; }
 
     mesh_steps steps() const { return {faces_, edges_, numbers_.size()}; }
-    /// A filter for the pairs that begin in that region and pass the given filter.
     pair_filter filter(const space_region& part, const pair_filter& given) const;
     pair_distances distances(const pair_distances& given) const { return {given.all, thickness_}; }
 

@@ -1,4 +1,3 @@
-// One step of a mesh on many ranks.
 #include <algorithm>
 #include <ccd/mpi.hpp>
 #include <chrono>

@@ -1,4 +1,3 @@
-// The program's commands.
 #pragma once
 
 #include <memory>

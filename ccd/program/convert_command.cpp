@@ -38,7 +38,6 @@ struct read_file {
     double seconds = 0;
 };
 
-/// The number of queries, and a checksum of their bits and truth, in order.
 class query_content {
   public:
     void add(const io::query_file& queries) {
@@ -197,7 +196,7 @@ class convert final : public command {
         return true;
     }
 
-    /// Reads a file in ranges; `name` is for messages. Returns nothing if a signal stopped it.
+    /// Reads a file in ranges. Returns nothing if a signal stopped it.
     template <class Take>
     std::optional<read_file> for_each_range(const std::filesystem::path& file, std::string name,
                                             std::optional<kind> kind, bool round,

@@ -25,7 +25,7 @@ void require_device();
 
 std::vector<method> methods_on_device();
 
-/// Same as the functions of ccd::cuda, for the stored kinds. Throw device_error.
+/// The functions of ccd::cuda for the stored kinds. They throw device_error.
 template <class Query>
 void decide_on_device(std::span<const Query> queries, std::span<outcome> answers, method m,
                       cuda::precision precision);

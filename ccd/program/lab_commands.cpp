@@ -1,5 +1,3 @@
-// `ccd stress`: every method on stiff and extreme queries, compared with the exact answer; `ccd
-// report`: error against run time, into a folder.
 #include <algorithm>
 #include <filesystem>
 #include <iostream>
@@ -79,7 +77,7 @@ class stress_run final : public command {
     methods_option methods_{line_};
 };
 
-/// The bundled scenes: next to an installed program, else in the source tree.
+/// The scenes are next to an installed program, else in the source tree.
 fs::path bundled_scenes() {
     std::error_code error;
     const fs::path installed =

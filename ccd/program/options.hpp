@@ -38,13 +38,12 @@ class device_options {
 /// Throws usage_error unless the method runs on devices.
 void require_on_device(ccd::method m);
 
-/// An option with a number: the double nearest to a decimal, or equal to a hexadecimal float.
+/// A number: a decimal is rounded to nearest; a hexadecimal float must equal a double.
 class number_option {
   public:
     number_option(CLI::App& line, const std::string& name, const std::string& description);
     bool was_given() const { return option_->count() > 0; }
-    /// Returns `otherwise` if the option is not given. Throws usage_error unless the value is in
-    /// [0, max]; max is 1 or the largest double.
+    /// `max` is 1 or the largest double. Throws usage_error unless the value is in [0, max].
     double value(double otherwise, double max) const;
 
   private:
@@ -52,7 +51,6 @@ class number_option {
     CLI::Option* option_;
 };
 
-/// --unused-vertices: the treatment of vertices without faces and edges.
 class unused_vertices_option {
   public:
     explicit unused_vertices_option(CLI::App& line);
@@ -68,7 +66,6 @@ std::string text_of_unused(std::size_t unused, std::size_t vertices, bool skippe
 /// Returns `low,high` as hexadecimal floats, or `-` if there is no contact.
 std::string text_of_time(const first_time& time);
 
-/// Files of stored queries: FILE..., --kind, --round.
 struct query_files {
     std::vector<std::filesystem::path> paths;
     std::string kind;

@@ -1,4 +1,4 @@
-// Pairs as lines of text: vf,v,f0,f1,f2 and so on, optionally with times.
+// Pairs as lines of text: vf,v,f0,f1,f2 and so on, with times if `times` is not null.
 #pragma once
 
 #include <array>
@@ -16,7 +16,6 @@ const std::array<Number, N>& vertices_of(const std::array<Number, N>& numbers) {
     return numbers;
 }
 
-/// Returns one line per pair. `pairs`: lists by kind; `times`: one per pair, or null.
 template <class Lists>
 std::string lines_of_pairs(const Lists& pairs, const time_lists* times = nullptr) {
     std::string lines;

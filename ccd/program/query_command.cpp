@@ -1,4 +1,3 @@
-// `ccd query`: decides stored queries with chosen methods, compares with the truth, takes times.
 #include <CLI/CLI.hpp>
 #include <cstdint>
 #include <filesystem>

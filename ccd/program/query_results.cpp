@@ -52,7 +52,6 @@ void answer_on_device(const std::vector<Query>& queries, const device_choice& de
         decide_on_device<Query>(queries, outcomes, m, device.precision);
 }
 
-/// Decides all queries repeatedly until `seconds` have passed. Stores the time of the fastest pass.
 template <class Query>
 std::vector<outcome> decide_all(const std::vector<Query>& queries, const device_choice& device,
                                 const time_request& request, double seconds, query_result& out) {

@@ -1,4 +1,3 @@
-// The results of `ccd query`: a row of its table for each file and method.
 #pragma once
 
 #include <ccd/io/query_file.hpp>
@@ -29,12 +28,11 @@ struct time_request {
     double t_max = 1;
     std::optional<double> distance = {};
 
-    /// True if the files' truth, which is about contact in the whole step, does not apply.
+    /// The truth in files is about contact in the whole step.
     bool ignores_truth() const { return t_max < 1 || distance; }
 };
 
-/// Decides all queries, repeatedly until `seconds` have passed. The time is that of the fastest
-/// pass.
+/// Decides repeatedly until `seconds` have passed. The time is that of the fastest pass.
 query_result decide_queries(const io::query_file& queries, const std::string& file,
                             ccd::method method, const device_choice& device,
                             const time_request& request, double seconds);

@@ -1,4 +1,3 @@
-// `ccd step`: finds the colliding pairs of one step of a mesh.
 #include <algorithm>
 #include <ccd/advance.hpp>
 #include <ccd/io/mesh_file.hpp>
@@ -93,7 +92,7 @@ struct possible_pairs {
     double vertex_face, edge_edge;
 };
 
-/// Counts all pairs of distinct elements of a mesh, in doubles, which do not overflow.
+/// Counts all pairs of distinct elements in doubles, which do not overflow.
 possible_pairs pairs_of_mesh(const step_request& request, const mesh& mesh) {
     const std::size_t skipped = request.skip_unused ? request.unused : 0;
     const auto vertices = static_cast<double>(mesh.vertices.size() - skipped),

@@ -1,4 +1,3 @@
-// `ccd validate`: every bound rule in the forms and BSC of stored queries, compared with MPFR.
 #include <ccd/io/query_file.hpp>
 #include <filesystem>
 #include <span>

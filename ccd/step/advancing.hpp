@@ -1,5 +1,5 @@
-// Advances: a step to the positions is tested and shortened until it is free. One template serves a
-// mesh in one process and one on many ranks, which exchange their contacts (`Others`).
+// Advances: a step is tested and shortened until it is free. One template serves a mesh in one
+// process and one on many ranks, which exchange their contacts (`Others`).
 #pragma once
 
 #include <algorithm>
@@ -22,8 +22,8 @@ inline double last_before(const first_time& time) {
     return time.low < time.high ? time.low : std::nextafter(time.low, 0.0);
 }
 
-/// Returns the position at a fraction of the way, moved back towards `before` by a number of last
-/// places. Fractions 0 and 1 give the ends bit for bit: std::lerp can turn -0.0 into +0.0.
+/// The position at a fraction of the way, moved back by a number of last places. Fractions 0 and 1
+/// give the ends bit for bit: std::lerp can turn -0.0 into +0.0.
 inline point<double> between(const moving_point<double>& way, double fraction,
                              int last_places_back) {
     const auto on_axis = [=](double before, double after) {
@@ -60,13 +60,13 @@ struct no_others {
     bool all(bool holds) { return holds; }
 };
 
-/// One advance. Others must have the members of no_others: found_by_all returns the same pairs in
-/// the same order on all processes. If `what` throws on one, call throws on all. In `groups`,
-/// vertices of other processes follow those of `way`.
+/// Others must have the members of no_others: found_by_all returns the same pairs in the same order
+/// on all processes. If `what` throws on one, call throws on all. In `groups`, vertices of other
+/// processes follow those of `way`.
 template <class Others>
 class advancing {
   public:
-    /// `groups` must be new. With `islands` it has groups; otherwise all vertices are one group.
+    /// `groups` must be new; without `islands`, all vertices are one group.
     advancing(mesh_steps& steps, const vertex_rows& way, const advance_options& options,
               bool islands, vertex_groups& groups, Others& others)
         : steps_(steps),
@@ -76,11 +76,11 @@ class advancing {
           groups_(groups),
           others_(others) {}
 
-    /// Returns all except result.fraction, which is 1. The lists are those of all processes.
+    /// Returns all except result.fraction, which stays 1. The lists are those of all processes.
     advance_result run() {
         evaluate_whole_way();
         // Each round joins groups, takes vertices back or shortens a way. After rounds_by_group all
-        // become one group, and vertex_groups bounds how often its way is shortened.
+        // become one group, whose way vertex_groups shortens a bounded number of times.
         constexpr int rounds_by_group = 60;
         for (int round = 0; set_positions(); ++round) {
             may_retreat_ = round < rounds_by_group;
@@ -91,7 +91,7 @@ class advancing {
     }
 
   private:
-    /// Evaluates the whole way: finds the pairs to skip, pairs with a contact, and fractions.
+    /// Finds the pairs to skip, pairs with a contact, and fractions.
     void evaluate_whole_way();
     template <class Pair>
     void hold(const timed_pair<Pair>& contact);
@@ -105,11 +105,10 @@ class advancing {
                 way_.vertices};
     }
 
-    /// Separates pairs in contact on the way to the result's positions: known ones, or any. Returns
-    /// true if there were any.
+    /// Separate pairs in contact on the way to the result's positions: known ones, any, or those
+    /// that any process found. Return true if there were any.
     bool separate_known();
     bool separate_others();
-    /// Separates the pairs that any process found. Returns true if there were any.
     template <class Pair>
     bool separate(const std::vector<Pair>& found);
 
@@ -158,7 +157,6 @@ class advancing {
     advance_result result_;
 };
 
-/// Joins a pair's vertices, and limits their way to just before its contact.
 template <class Others>
 template <class Pair>
 void advancing<Others>::hold(const timed_pair<Pair>& contact) {

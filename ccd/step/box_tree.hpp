@@ -1,8 +1,8 @@
 // A tree over boxes, eight to a node, that finds all boxes touching a given one.
 //
-// The boxes are ordered so that neighbours are near each other. Eight consecutive boxes form a
-// leaf, eight consecutive leaves a node, and so on up to one root. Nodes need no pointers, and
-// straight loops over floats compare one box with a whole node.
+// Boxes come in an order that keeps neighbours together. Eight consecutive boxes form a leaf, eight
+// consecutive leaves a node, and so on up to one root. Nodes need no pointers, and straight loops
+// compare one box with a whole node.
 #pragma once
 
 #include <tbb/blocked_range.h>
@@ -35,9 +35,8 @@ void for_each_bit(Mask mask, const Visit& visit) {
     for (; mask != 0; mask &= mask - 1) visit(static_cast<std::size_t>(std::countr_zero(mask)));
 }
 
-/// Up to eight boxes in columns; unused ones touch nothing.
-///
-/// Uses vector types of GCC and clang, because not all inlined plain loops were vectorised.
+/// Up to eight boxes in columns; unused ones touch nothing. Uses vector types of GCC and clang,
+/// because not all plain loops were vectorised.
 template <class Real>
 class box_pack {
   public:
@@ -80,7 +79,6 @@ class box_pack {
         return all;
     }
 
-    /// Returns the boxes that touch b.
     pack_mask touching(const box<Real>& b) const {
         return mask_of([&](std::size_t part) {
             lanes found = lanes{} - 1;
@@ -127,9 +125,8 @@ class box_tree {
   public:
     using pack = box_pack<Real>;
 
-    /// Builds the tree over the boxes box_of(0), ..., box_of(count - 1), in its own memory if that
-    /// suffices. Cost: O(count), on all threads of the arena. Memory: 27.5 bytes a box for floats,
-    /// 55 for doubles.
+    /// Builds the tree over box_of(0), ..., box_of(count - 1). Cost: O(count), on all threads of
+    /// the arena. Memory, reused: 27.5 bytes a box for floats, 55 for doubles.
     template <class BoxOf>
     void build(std::size_t count, const BoxOf& box_of) {
         levels_ = 0;
@@ -153,8 +150,8 @@ class box_tree {
     /// Leaf p holds boxes 8 p to 8 p + 7.
     std::span<const pack> leaves() const { return {packs_.data(), level_start_[1]}; }
 
-    /// The sum of the leaves' lengths along the axes, 0 if there is only one leaf. A good order
-    /// keeps it small.
+    /// The leaves' lengths along the axes; 0 if there is only one leaf. A good order keeps them
+    /// small.
     double length_of_leaves() const {
         double sum = 0;
         if (levels_ < 2) return sum;
@@ -217,8 +214,8 @@ class box_tree {
 };
 
 /// Calls visit(local, i, j, certain) for all pairs of box i of `a` and box j of `b` that touch. If
-/// both are one tree, visits each pair of two boxes once. `certain`: they have no common end. Calls
-/// come from several threads at once; `local` is local_of() of the calling thread.
+/// both are one tree, visits each pair once. `certain`: they have no common end. Calls come from
+/// several threads at once; `local` is local_of() of the calling thread.
 template <class Real, class LocalOf, class Visit>
 void for_each_touching(const box_tree<Real>& a, const box_tree<Real>& b, const LocalOf& local_of,
                        const Visit& visit) {

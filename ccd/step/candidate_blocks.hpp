@@ -1,4 +1,3 @@
-// Passes candidates from the search to their consumer in blocks.
 #pragma once
 
 #include <tbb/enumerable_thread_specific.h>
@@ -38,10 +37,9 @@ bool may_collide(const pair_filter& filter, const Pair& pair) {
     return false;
 }
 
-/// Applies a filter to pairs, with the boxes that their elements sweep.
+/// Applies a filter to pairs, with the boxes that their elements sweep. Keeps references to both.
 class pair_test {
   public:
-    /// Keeps references to both.
     pair_test(const pair_filter& filter, const swept_boxes& boxes)
         : filter_(filter), boxes_(boxes) {}
 
@@ -81,7 +79,6 @@ class candidate_blocks {
         block(const visitor& visit, const pair_test* filter, const stop_query& stop)
             : visit_(&visit), filter_(filter), stop_(&stop) {}
 
-        /// Adds the candidate if `is_one` is true.
         void add(const Pair& c, bool is_one) {
             candidates_[size_] = c;  // unconditionally: a branch would often be mispredicted
             size_ += is_one;

@@ -30,7 +30,7 @@ std::vector<std::array<vertex_index, 1>> vertices_on_no_edge(const std::vector<e
     return points;
 }
 
-/// Returns the unique ones of `edges` that are not among `face_edges`.
+/// The unique ones of `edges` that are not among `face_edges`.
 std::vector<edge> edges_of_no_face(std::span<const edge> edges,
                                    const std::vector<edge>& face_edges) {
     std::vector<edge> rods;

@@ -19,8 +19,8 @@ namespace ccd::detail {
 
 class pair_test;
 
-/// Elements of N vertices in an order that gathers neighbours. The order is kept from step to step
-/// while it is good.
+/// Elements of N vertices. Their order gathers neighbours, and is kept from step to step while it
+/// is good.
 template <std::size_t N>
 class ordered_elements {
   public:
@@ -34,7 +34,7 @@ class ordered_elements {
     const std::array<vertex_index, N>& operator[](std::size_t i) const { return elements_[i]; }
     operator std::span<const std::array<vertex_index, N>>() const { return elements_; }
 
-    /// Builds `tree` by build(), after sort(elements) if their order is not good.
+    /// Calls sort(elements) before build() if their order is not good.
     template <class Real, class Tree, class Sort, class Build>
     void build_tree(const Tree& tree, const Sort& sort, const Build& build);
 
@@ -45,27 +45,27 @@ class ordered_elements {
     std::optional<double> least_of_boxes_, least_of_extents_;
 };
 
-/// The search in one mesh, for many steps. Keeps its working memory: about 40 bytes a face or 44 an
-/// edge, whichever is more, 18 a vertex, and 32 KB a thread. Elements and vertices take twice as
-/// much if floats do not suffice, and 187, 191 and 183 bytes for close pairs.
+/// The search in one mesh. Keeps its working memory: about 40 bytes a face or 44 an edge, whichever
+/// is more, 18 a vertex, and 32 KB a thread. Elements and vertices take twice as much if floats do
+/// not suffice, and 187, 191 and 183 bytes for close pairs.
 class candidate_search {
   public:
     /// Precondition: indices are in range.
     candidate_search(std::span<const face> faces, std::span<const edge> edges,
                      std::size_t vertices);
 
-    /// In the plane, pairs are each vertex with each edge, and each two points.
+    /// Pairs are each vertex with each edge, and each two points.
     static candidate_search in_plane(std::span<const edge> edges, std::size_t vertices);
 
     std::size_t vertices() const { return vertex_count_; }
     bool is_in_plane() const { return in_plane_; }
 
-    /// The pairs to visit: all candidates, or without the vertex/face and edge/edge pairs that an
-    /// axis separates in floats, if that was tested. The latter is only for contact, not distances.
+    /// All candidates, or without the vertex/face and edge/edge pairs that an axis separates in
+    /// floats, if that was tested. The latter is only for contact.
     enum class wanted : bool { candidates, close_pairs };
 
-    /// Visits each pair once if its kind has a visitor: see candidate_visitor. Returns the number
-    /// of pairs. Preconditions: positions are finite and distances valid.
+    /// Visits each pair once if its kind has a visitor. Returns the number of pairs. Preconditions:
+    /// positions are finite and distances valid.
     pair_counts find(const batch_positions& positions, const step_options& options,
                      const candidate_visitor& visitor, wanted pairs = wanted::candidates);
 
@@ -87,8 +87,7 @@ class candidate_search {
         extents_tree first, second;
     };
 
-    /// Sorts elements by the order of the vertices, with cells that suit the elements of the
-    /// sample.
+    /// Sorts elements by the order of the vertices, with cells that suit the sample.
     template <class Real, std::size_t N>
     auto sorting(const swept_boxes& boxes, const ordered_elements<N>& sample);
     template <kind K, class First, class Second>
@@ -99,7 +98,6 @@ class candidate_search {
     template <kind K, class First, class Second>
     std::size_t find_close(const search_request& request, First& first, Second& second);
 
-    /// Removes the unused vertices from the search, or adds them again.
     void skip_unused(bool skip);
 
     std::size_t vertex_count_;

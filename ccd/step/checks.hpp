@@ -1,4 +1,4 @@
-// Checks the input of steps on the host and on devices. check_... throw std::invalid_argument.
+// Checks the input of steps on hosts and devices. check_... throw std::invalid_argument.
 #pragma once
 
 #include <ccd/mesh.hpp>
@@ -10,11 +10,9 @@
 
 namespace ccd::detail {
 
-/// Checks that two frames are of one mesh.
 void check_frames(const mesh& before, const mesh& after);
 
-/// Checks that all indices are below `vertices`, and that indices can represent all elements.
-/// Messages name `caller`.
+/// Indices must be below `vertices` and able to represent all elements. Messages name `caller`.
 void check_elements(std::span<const face> faces, std::span<const edge> edges, std::size_t vertices,
                     const std::string& caller);
 
@@ -26,10 +24,8 @@ void check_positions(const vertex_rows& positions, std::size_t vertices,
 /// True if the options need times or distances, which only `exact` computes.
 bool needs_times_or_distances(const step_options& options);
 
-/// Checks that z is 0 everywhere.
 void check_plane(const vertex_rows& positions);
 
-/// Checks the method, its capabilities and the lengths of per-vertex lists.
 void check_options(const step_options& options, std::size_t vertices);
 
 /// True if a mesh has vertex/face and edge/edge pairs only: no edges except those of its faces, and

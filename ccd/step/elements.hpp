@@ -1,4 +1,4 @@
-// Elements and pairs of a mesh, for the searches for candidates on the host and on devices.
+// Elements and pairs, for the searches for candidates on hosts and devices.
 #pragma once
 
 #include <algorithm>
@@ -19,12 +19,11 @@ constexpr bool share_vertex(const std::array<vertex_index, A>& a,
     return shared;
 }
 
-/// Returns the candidate of a vertex and a face, whose vertices keep the mesh's order.
+/// The vertices of a face keep the mesh's order.
 constexpr vertex_face_pair candidate_of(const std::array<vertex_index, 1>& v, const face& f) {
     return {v[0], f[0], f[1], f[2]};
 }
-/// Returns the candidate of two ascending edges without a common vertex. The edge with the lesser
-/// first vertex comes first.
+/// Precondition: edges ascend. The one with the lesser first vertex comes first.
 constexpr edge_edge_pair candidate_of(const edge& a, const edge& b) {
     const bool in_order = a[0] < b[0];
     const edge &x = in_order ? a : b, &y = in_order ? b : a;
@@ -33,7 +32,7 @@ constexpr edge_edge_pair candidate_of(const edge& a, const edge& b) {
 constexpr vertex_edge_pair candidate_of(const std::array<vertex_index, 1>& v, const edge& e) {
     return {v[0], e[0], e[1]};
 }
-/// Returns the candidate of two points, the lesser first.
+/// The lesser vertex comes first.
 constexpr vertex_vertex_pair candidate_of(const std::array<vertex_index, 1>& v,
                                           const std::array<vertex_index, 1>& w) {
     return {v[0] < w[0] ? v[0] : w[0], v[0] < w[0] ? w[0] : v[0]};
@@ -52,14 +51,13 @@ constexpr Pair canonical(const Pair& pair) {
     }
 }
 
-/// Spreads ten bits with two zeros before each, for a key on a Morton curve.
+/// Spreads ten bits, or 21 bits below, with two zeros before each, for a key on a Morton curve.
 constexpr std::uint32_t spread_bits(std::uint32_t x) {
     x = (x | (x << 16)) & 0x030000FF;
     x = (x | (x << 8)) & 0x0300F00F;
     x = (x | (x << 4)) & 0x030C30C3;
     return (x | (x << 2)) & 0x09249249;
 }
-/// Spreads 21 bits.
 constexpr std::uint64_t spread_bits(std::uint64_t x) {
     x = (x | (x << 32)) & 0x001F00000000FFFF;
     x = (x | (x << 16)) & 0x001F0000FF0000FF;

@@ -2,11 +2,11 @@
 // kernels of all instruction sets share it.
 //
 // An axis that separates two elements, or groups of elements, in the same order at both ends does
-// so throughout, since motion is linear. So a tree of such packs finds the pairs that no axis
-// separates without a list of candidates.
+// so throughout. So a tree of such packs finds the pairs that no axis separates without a list of
+// candidates.
 //
 // Axes: x, y, z, x ± y, y ± z, z ± x of coordinates rounded to float (ccd/batch/rounded_axes.hpp).
-// Along x, y and z rounding keeps the order. Sums and differences are off by 4.04ε, ε = 2^-23. A
+// Along x, y and z rounding keeps the order. Sums and differences are off by 4.04ε, ε = 2^-23; a
 // margin of 7ε outwards, which loses 2.04ε to rounding, makes extents contain the exact ones.
 // Proof: proofs/Extents.v, coordinate_extents_hold, diagonal_extents_hold, group_extents_hold,
 // apart_face_separate, apart_edges_separate.
@@ -27,20 +27,19 @@ struct extents {
     float of[columns];
 };
 
-/// The extents of sixteen elements or groups in columns.
 struct extents_pack {
     static constexpr std::size_t size = 16;
 
     alignas(64) float at[extents::columns][size];
 };
 
-/// The vertices of a leaf's elements in columns. Elements with fewer vertices leave rows unset.
+/// One column for each element of a leaf. Elements with fewer vertices leave rows unset.
 struct leaf_vertices {
     alignas(64) vertex_index at[3][extents_pack::size];
 };
 
-/// A tree, for kernels. Pack p of level 0 is a leaf with elements 16 p to 16 p + 15. Pack p of the
-/// level above holds packs 16 p to 16 p + 15 of this one, and so on up to one root.
+/// Pack p of level 0 is a leaf with elements 16 p to 16 p + 15. Pack p of the level above holds
+/// packs 16 p to 16 p + 15 of this one, and so on up to one root.
 struct extents_levels {
     static constexpr std::size_t most = 8;  ///< 16^8 is the number of indices
 
@@ -53,7 +52,6 @@ struct extents_levels {
     const leaf_vertices* vertices = nullptr;  ///< of the leaves
 };
 
-/// Positions of elements in a tree.
 struct element_pair {
     unsigned first, second;
 };

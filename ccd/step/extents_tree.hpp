@@ -18,9 +18,9 @@ namespace ccd::detail {
 
 class extents_tree {
   public:
-    /// Builds the tree over `elements`, at least one, in its own memory if that suffices. Their
-    /// vertices have rows in `rounded` (rounded_positions::data()). Cost: O(count), on all threads
-    /// of the arena. Memory: 175 bytes an element.
+    /// Builds the tree over `elements`, at least one, whose vertices have rows in `rounded`
+    /// (rounded_positions::data()). Cost: O(count), on all threads of the arena. Memory, reused:
+    /// 175 bytes an element.
     template <std::size_t N>
     void build(const search_kernels& kernels, const float* rounded,
                std::span<const std::array<vertex_index, N>> elements) {
@@ -43,8 +43,8 @@ class extents_tree {
     const extents_levels& levels() const { return levels_; }
     std::size_t leaves() const { return sizes_[0]; }
 
-    /// The sum of the leaves' lengths along the coordinate axes at both ends of the step. A good
-    /// order keeps it small.
+    /// The leaves' lengths along the coordinate axes at both ends of the step. A good order keeps
+    /// them small.
     double length_of_leaves() const {
         double sum = 0;
         for (std::size_t leaf = 0; leaf < leaves(); ++leaf) {
@@ -74,7 +74,6 @@ class extents_tree {
             levels_.at[level] = {&packs_[starts_[level]], &hulls_[starts_[level]]};
     }
 
-    /// Calls fill(first, end, packs, hulls) for intervals of a level.
     template <class Fill>
     void for_packs(std::size_t level, const Fill& fill) {
         tbb::parallel_for(tbb::blocked_range<std::size_t>(0, sizes_[level], 64),

@@ -21,7 +21,6 @@ vertex_index largest(std::span<const std::array<vertex_index, N>> elements) {
     return last;
 }
 
-/// Packs two indices into one number, which is fast to compare.
 constexpr std::uint64_t packed(vertex_index upper, vertex_index lower) {
     return std::uint64_t(upper) << 32 | lower;
 }

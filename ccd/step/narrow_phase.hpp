@@ -1,4 +1,4 @@
-// The narrow phase of a step: decides blocks of candidates and keeps the pairs that may collide.
+// Decides blocks of candidates and keeps the pairs that may collide.
 #pragma once
 
 #include <tbb/enumerable_thread_specific.h>
@@ -26,7 +26,6 @@ struct pair_list_of_thread {
 template <kind K>
 using lists_of_threads = tbb::enumerable_thread_specific<pair_list_of_thread<K>>;
 
-/// Returns the pairs of all threads' lists, sorted. Releases the lists.
 template <class Pair, class Parts>
 std::vector<Pair> take_sorted(Parts& parts) {
     const auto vertex_of = [](const Pair& pair) { return vertices_of(pair)[0]; };
@@ -82,7 +81,6 @@ class narrow_phase {
         local.seconds += watch.lap();
     }
 
-    /// The stages of `exact`, if they were counted.
     stage_report report() const {
         stage_report sum;
         for (const part& p : parts_) sum += p.worker.report();

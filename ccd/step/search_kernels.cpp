@@ -25,7 +25,7 @@ constexpr std::size_t lesser(std::size_t a, std::size_t b) {
 }
 constexpr float infinity = std::numeric_limits<float>::infinity();
 
-/// Coordinates of the vertices of a pack's elements: by vertex, end of the step, axis.
+/// Coordinates of a pack's elements: by vertex, end of the step, axis.
 template <std::size_t N>
 struct corner_columns {
     alignas(64) float at[N][2][3][size];
@@ -129,7 +129,6 @@ void fill_nodes(const extents* below, std::size_t count, std::size_t first, std:
     }
 }
 
-/// The extents to compare a pack with: a hull, or those of one member of another pack.
 struct hull_reader {
     const extents& of;
     float operator()(std::size_t column) const { return of.of[column]; }
@@ -140,8 +139,8 @@ struct member_reader {
     float operator()(std::size_t column) const { return pack.at[column][member]; }
 };
 
-/// Returns the lanes of a pack that no axis separates from other extents. Coordinate axes separate
-/// most, so the others are tested only if lanes remain.
+/// The lanes that no axis separates from `other`. Coordinate axes separate most, so the others are
+/// tested only if lanes remain.
 template <class Extents>
 lanes touching(const extents_pack& packed, const Extents& other) {
     constexpr std::size_t parts = size / float_width;
@@ -173,7 +172,7 @@ lanes touching(const extents_pack& packed, const Extents& other) {
 
 typedef vertex_index index_quad __attribute__((vector_size(16)));
 
-/// Returns the lanes of a leaf's elements that share a vertex with element i of another leaf.
+/// The lanes of `leaf` that share a vertex with element i of `other`.
 template <std::size_t N, std::size_t M>
 lanes sharing(const leaf_vertices& leaf, const leaf_vertices& other, std::uint32_t i) {
     index_quad found{}, bits = {1, 2, 4, 8};
@@ -190,7 +189,6 @@ lanes sharing(const leaf_vertices& leaf, const leaf_vertices& other, std::uint32
     return found[0] | found[1] | found[2] | found[3];
 }
 
-/// A buffer of pairs for the visitor.
 struct found_pairs {
     static constexpr std::size_t room = 512;
 

@@ -1,5 +1,5 @@
-// Kernels that build and search trees of extents, compiled once per instruction set: see
-// ccd/batch/batch_kernels.hpp for the rules of such files. Internal.
+// Builds and searches trees of extents. Internal; compiled by the rules of
+// ccd/batch/batch_kernels.hpp.
 #pragma once
 
 #include <ccd/batch.hpp>
@@ -12,30 +12,27 @@
 namespace ccd::detail {
 
 struct search_kernels {
-    /// Called with pairs when they are found.
     using visitor = void (*)(void* context, const element_pair* pairs, std::size_t count);
 
-    /// Sets leaves p, first <= p < end, and their hulls, for elements of one, two and three
-    /// vertices. `rounded` is rounded_positions::data(); `count` is the number of elements.
+    /// Sets leaves p, first <= p < end, and their hulls. `rounded` is rounded_positions::data();
+    /// `count` is the number of elements.
     using fill_leaves = void (*)(const float* rounded, const vertex_index* elements,
                                  std::size_t count, std::size_t first, std::size_t end,
                                  extents_pack* leaves, extents* hulls, leaf_vertices* vertices);
     fill_leaves of_vertices, of_edges, of_faces;
 
-    /// Sets packs p, first <= p < end, of the level over the `count` packs of these hulls, and
-    /// their hulls.
+    /// Sets packs p, first <= p < end, of the level over these hulls.
     void (*fill_nodes)(const extents* below, std::size_t count, std::size_t first, std::size_t end,
                        extents_pack* packs, extents* hulls);
 
-    /// Finds pairs without a common vertex that no axis separates, of an element in the leaves
-    /// first <= p < end of `a` and one of `b`: vertices and faces, or edges of one tree, the later
-    /// second.
+    /// Finds pairs, without a common vertex, that no axis separates. They have an element in the
+    /// leaves first <= p < end of `a` and one of `b`. If both are edges of one tree, the later one
+    /// is second.
     using find_pairs = void (*)(const extents_levels& a, const extents_levels& b, std::size_t first,
                                 std::size_t end, void* context, visitor visit);
     find_pairs of_vertices_and_faces, of_two_edges;
 };
 
-/// Returns the kernels for runnable(set).
 const search_kernels& search_kernels_for(std::optional<instruction_set> set);
 
 namespace baseline {

@@ -1,4 +1,3 @@
-// Steps of a mesh: the search passes blocks of candidates to the narrow phase.
 #include <tbb/enumerable_thread_specific.h>
 
 #include <algorithm>
@@ -24,7 +23,7 @@ namespace {
 template <kind K>
 using phase = detail::narrow_phase<K>;
 
-/// Runs a step on the threads of the arena, except first times and contacts at the start.
+/// Runs a step, except first times and contacts at the start.
 step_result run_step(detail::candidate_search& search, const vertex_rows& positions,
                      const step_options& options) {
     detail::stopwatch watch;
@@ -61,7 +60,6 @@ step_result run_step(detail::candidate_search& search, const vertex_rows& positi
     return result;
 }
 
-/// Returns the items with is_wanted(i).
 template <class Item, class IsWanted>
 std::vector<Item> selected(const std::vector<Item>& items, const IsWanted& is_wanted) {
     std::vector<Item> wanted;
@@ -74,8 +72,7 @@ bool is_earlier(const first_time& a, const first_time& b) {
     return std::tuple(a.low, a.high) < std::tuple(b.low, b.high);
 }
 
-/// Computes the time of each reported pair; from these, contacts at the start and the first
-/// contact. Drops pairs whose time is after t_max.
+/// Computes the time of each reported pair. Drops pairs whose time is after t_max.
 template <kind K>
 void find_times(const vertex_rows& positions, const time_options& options, bool keep_times,
                 step_result& result) {
@@ -93,7 +90,6 @@ void find_times(const vertex_rows& positions, const time_options& options, bool 
     if (keep_times) result.times.of<K>() = std::move(times);
 }
 
-/// Computes only the first contact and the contacts at the start.
 template <kind K>
 void find_first(const vertex_rows& positions, time_options options, step_result& result) {
     const auto& pairs = result.pairs.of<K>();
@@ -123,7 +119,6 @@ void find_touching_at_start(const vertex_rows& positions, time_options options,
         selected(pairs, [&](std::size_t i) { return answers[i] == outcome::collides; });
 }
 
-/// Computes the times that the options need for the reported pairs.
 void find_pair_times(const vertex_rows& positions, const step_options& options,
                      step_result& result) {
     const time_options timing{options.t_max, options.distances, options.threads, options.set,

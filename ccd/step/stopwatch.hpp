@@ -5,7 +5,7 @@
 
 namespace ccd::detail {
 
-/// Measures seconds since construction or the last lap.
+/// Seconds since construction or the last lap.
 class stopwatch {
   public:
     double lap() {

@@ -1,4 +1,4 @@
-// The two frames of a step for the search for candidates: swept boxes, exact and rounded.
+// Swept boxes, exact and rounded, for the search for candidates.
 #pragma once
 
 #include <algorithm>
@@ -15,25 +15,22 @@
 
 namespace ccd::detail {
 
-/// The stride of a sample of about a thousand out of `count`.
 constexpr std::size_t sampling_stride(std::size_t count) {
     return 1 + count / 1024;
 }
 
 class swept_boxes {
   public:
-    /// Keeps references to both. Preconditions: positions are finite, distances valid.
+    /// Keeps references. Preconditions: positions are finite, distances valid.
     swept_boxes(const batch_positions& positions, const pair_distances& distances)
         : positions_(positions), distances_(distances) {}
 
-    /// Returns the box that an element of 1, 2 or 3 vertices sweeps.
-    ///
-    /// In doubles it is exact. If pairs have a distance, it is widened by the element's share,
-    /// rounded outwards: boxes of elements that come within their distance touch. Floats, not to be
-    /// used with distances, give the box of rounded positions. Rounding is monotone, so boxes that
-    /// touch still do, and rounded boxes that touch without a common end also touch exactly. If
-    /// they have a common end, use touch().
-    /// Proof: proofs/RoundedAxes.v, swept_rounded_first, swept_face_separate, swept_edges_separate,
+    /// The swept box of 1, 2 or 3 vertices. In doubles it is exact. If pairs have a distance, it is
+    /// widened by the element's share, rounded outwards: boxes of elements that come within their
+    /// distance touch. Floats, which are not for distances, give the box of rounded positions.
+    /// Rounding is monotone, so boxes that touch still do. Rounded boxes that touch without a
+    /// common end also touch exactly; if they have a common end, use touch(). Proof:
+    /// proofs/RoundedAxes.v, swept_rounded_first, swept_face_separate, swept_edges_separate,
     /// swept_boxes_touch.
     template <class Real, std::size_t N>
     box<Real> swept_box(const std::array<vertex_index, N>& element) const {
@@ -82,14 +79,12 @@ class swept_boxes {
     }
 
   private:
-    /// The element's share of its pairs' distance, or more.
     template <std::size_t N>
     double part_of_distance(const std::array<vertex_index, N>& element) const {
         if (!distances_.thickness.empty()) return distances_.thickness_of(element);
         return above(distances_.all / 2);
     }
-    /// At least any real number that was rounded to x in any rounding direction, and at most the
-    /// largest double.
+    /// At least any real number that rounds to x in some direction, and at most the largest double.
     static double above(double x) {
         constexpr double most = std::numeric_limits<double>::max();
         return std::min(std::nextafter(x, std::numeric_limits<double>::infinity()), most);

@@ -32,7 +32,6 @@ class vertex_groups {
     }
 
     std::size_t vertices() const { return parent_.size(); }
-    /// The vertex that represents the group.
     vertex_index root_of(vertex_index v) {
         while (parent_[v] != v) v = parent_[v] = parent_[parent_[v]];
         return v;
@@ -57,7 +56,6 @@ class vertex_groups {
             all.shortened = more.shortened;
         }
     }
-    /// Joins v with the other vertices of this name.
     void join_named(int name, vertex_index v) {
         join(first_named_.try_emplace(name, v).first->second, v);
     }
@@ -66,7 +64,6 @@ class vertex_groups {
         for (vertex_index v = 1; v < parent_.size(); ++v) join(0, v);
     }
 
-    /// The number of last places by which a vertex is moved back from its fraction's position.
     int last_places_back(vertex_index v) const {
         return retreats_[v] == 0 ? 0 : 1 << (retreats_[v] - 1);
     }
@@ -106,7 +103,6 @@ class vertex_groups {
 
     group& group_of(vertex_index v) { return groups_[root_of(v)]; }
 
-    /// Returns true if the groups of some pair moved by different fractions.
     template <class Pair>
     bool join_different(const std::vector<Pair>& pairs) {
         bool any = false;

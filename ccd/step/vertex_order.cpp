@@ -1,4 +1,3 @@
-// Orders vertices along Hilbert's curve, and elements by their vertices.
 #include "ccd/step/vertex_order.hpp"
 
 #include <tbb/blocked_range.h>
@@ -25,7 +24,7 @@ struct key_layout {
     static constexpr unsigned class_bits = 2;
     unsigned item_bits, place_bits;
 
-    /// For at least one item, with places of `bits` bits, or fewer if there is no room.
+    /// Precondition: items > 0. Places get fewer than `bits` bits if there is no room.
     key_layout(std::size_t items, unsigned bits)
         : item_bits(static_cast<unsigned>(std::bit_width(items - 1))),
           place_bits(std::min(bits, 64 - class_bits - item_bits)) {}
@@ -41,7 +40,6 @@ struct key_layout {
     }
 };
 
-/// Keys whose places are cells along a curve.
 struct curve_layout : key_layout {
     unsigned axis_bits;
 
@@ -102,13 +100,13 @@ std::array<unit_axis, 3> axes_of(const box<double>& b) {
             unit_axis(b.low[2], b.high[2])};
 }
 
-/// Half of a box's length on axis k, relative to half the axis' length. May be infinite.
+/// A box's length on axis k, relative to the axis' length. May be infinite.
 template <class Box>
 double length(const std::array<unit_axis, 3>& axes, const Box& b, std::size_t k) {
     return 0.5 * (axes[k](b.high[k]) - axes[k](b.low[k]));
 }
 
-/// 0, or 1 + the axis on which a box is longest, if it is long compared with the whole.
+/// 1 + the axis on which a box is longest, if it is long compared with the whole; else 0.
 template <class Box>
 std::uint64_t class_of(const std::array<unit_axis, 3>& axes, const Box& b) {
     double longest = 1.0 / 16;
@@ -121,7 +119,6 @@ std::uint64_t class_of(const std::array<unit_axis, 3>& axes, const Box& b) {
     return found;
 }
 
-/// Samples about a thousand of `count` boxes.
 template <class BoxAt>
 std::vector<box<double>> sample_of(std::size_t count, const BoxAt& box_at) {
     std::vector<box<double>> sample;
@@ -132,7 +129,7 @@ std::vector<box<double>> sample_of(std::size_t count, const BoxAt& box_at) {
     return sample;
 }
 
-/// Radix sort, one share of the keys for each thread. Faster than sorts by comparison.
+/// Radix sort, faster than sorts by comparison.
 void sort_keys(std::span<order_key> keys, const key_layout& layout) {
     constexpr std::size_t few = 4096;
     constexpr unsigned most_digit_bits = 11;  // counts stay in the first-level cache
@@ -190,7 +187,7 @@ struct key_classes {
     }
 };
 
-/// Calls visit(run) for all runs of keys in the same place.
+/// Visits all runs of keys in the same place.
 template <class Visit>
 void for_each_run(std::span<order_key> keys, const key_layout& layout, const Visit& visit) {
     for (std::size_t begin = 0, end = 0; begin < keys.size(); begin = end) {
@@ -200,14 +197,12 @@ void for_each_run(std::span<order_key> keys, const key_layout& layout, const Vis
     }
 }
 
-/// The cells of a curve through the middles of boxes.
-///
-/// Cells have the proportions of the sample's boxes with middles in this range, because an axis on
-/// which boxes are long distinguishes few of them. Boxes without length get cubes.
+/// The cells of a curve through the middles of boxes. They have the proportions of the sample's
+/// boxes with middles in this range, because an axis on which boxes are long distinguishes few of
+/// them. Boxes without length get cubes.
 template <class BoxOf>
 class curve_grid {
   public:
-    /// Precondition: `keys` is not empty.
     curve_grid(std::span<const order_key> keys, const curve_layout& layout, const BoxOf& box_of,
                std::span<const box<double>> sample)
         : box_of_(box_of),
@@ -273,11 +268,10 @@ class curve_grid {
 };
 
 /// Sorts the keys along a Hilbert curve through the middles of their items' boxes, so that each
-/// leaf gathers boxes that are near each other. Returns the axes of the middles.
-///
-/// Unless `one_class`, boxes that are long compared with the whole come last: one class for each
-/// axis on which they are longest, each along a separate curve. Otherwise one long box would make a
-/// leaf of everything. Items that share a cell are sorted again by finer cells.
+/// leaf gathers neighbours. Returns the axes of the middles. Unless `one_class`, boxes that are
+/// long compared with the whole come last: one class for each axis on which they are longest, each
+/// along a separate curve. Otherwise one long box would make a leaf of everything. Items that share
+/// a cell are sorted again by finer cells.
 template <class BoxOf>
 std::array<unit_axis, 3> sort_along_curve(std::span<order_key> keys, const curve_layout& layout,
                                           const BoxOf& box_of, std::span<const box<double>> sample,

@@ -10,7 +10,7 @@
 
 namespace ccd::detail {
 
-/// Maps an interval of finite numbers to about [-1, 1]. Monotone, but not strictly.
+/// Maps a finite interval to about [-1, 1]. Monotone, but not strictly.
 class unit_axis {
   public:
     unit_axis() = default;
@@ -21,23 +21,21 @@ class unit_axis {
     double middle_ = 0, scale_ = 1;
 };
 
-/// Orders a mesh's vertices along a Hilbert curve through the middles of their swept boxes.
-/// Elements follow their first vertex on it, so that neighbours are near each other.
+/// Orders vertices along a Hilbert curve through the middles of their swept boxes, and elements by
+/// their first vertex on it.
 class vertex_order {
   public:
-    /// Orders all `vertices`, unless that was done since forget(). Cells of the curve suit the
-    /// lengths of `elements`, a sample of those to order. Cost: O(n log n), plus one more sort of
-    /// the rest for each three orders of magnitude of very uneven spreads. Memory: 16 bytes a
-    /// vertex, of which it keeps 4.
+    /// Orders all `vertices`, unless that was done since forget(). Cells suit the lengths of
+    /// `elements`, a sample. Cost: O(n log n), plus one more sort of the rest for each three orders
+    /// of magnitude of very uneven spreads. Memory: 16 bytes a vertex, of which it keeps 4.
     template <class Real, std::size_t N>
     void find(const swept_boxes& boxes, std::size_t vertices,
               std::span<const std::array<vertex_index, N>> elements);
-    /// To be called after vertices have moved.
+    /// Call after vertices have moved.
     void forget() { known_ = known::nothing; }
 
-    /// Sorts elements by their vertices. Elements that are long compared with the whole come last,
-    /// each class along a separate curve. Cost: O(n). Memory: 16 bytes an element and a copy of the
-    /// elements.
+    /// Sorts elements. Elements that are long compared with the whole come last, each class along a
+    /// separate curve. Cost: O(n). Memory: 16 bytes an element and a copy of the elements.
     template <class Real, std::size_t N>
     void sort(std::vector<std::array<vertex_index, N>>& elements, const swept_boxes& boxes) const;
 

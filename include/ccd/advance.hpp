@@ -2,9 +2,8 @@
 //
 //     const ccd::advance_result r = ccd::advance(before, after);  // r.positions are free
 //
-// The time of the first contact does not suffice: x0 + α (x1 − x0) is rounded, which may cause the
-// contact that α avoids. Here positions are rounded first. `exact` then certifies that the straight
-// way from the positions before to the returned ones has no contact.
+// Rounding x0 + α (x1 − x0) may cause the contact that α avoids. So positions are rounded first,
+// and `exact` certifies that the straight way from `before` to them has no contact.
 #pragma once
 
 #include <ccd/contact.hpp>
@@ -18,9 +17,9 @@
 namespace ccd {
 
 struct advance_options {
-    /// The group of each vertex. Vertices of one group move by one fraction of their ways. Groups
-    /// with a contact between them are joined. Empty: all vertices are one group. For one group per
-    /// body use connected_parts (ccd/mesh.hpp); for one per vertex, different indices.
+    /// The group of each vertex; empty: one group. Vertices of a group move by the same fraction of
+    /// their ways. Groups with a contact between them are joined. For one group per body, pass
+    /// connected_parts (ccd/mesh.hpp); for one per vertex, different indices.
     std::span<const int> groups = {};
     pair_distances distances = {};            ///< to keep; 0: only contact is avoided
     int threads = 0;                          ///< at most; 0: one per core
@@ -30,10 +29,9 @@ struct advance_options {
 };
 
 struct advance_result {
-    /// std::lerp(before, after, fractions[v]) for each vertex v and coordinate: x0 + α (x1 − x0) in
-    /// doubles, or (1 − α) x0 + α x1 if x0 and x1 differ in sign. For α = 0 and 1 it is `before`
-    /// and `after`, bit for bit. If rounding brings the vertex into contact, it is moved back
-    /// towards `before` by up to 1024 units in the last place.
+    /// std::lerp(before, after, fractions[v]) for each coordinate of vertex v; for fractions 0 and
+    /// 1 `before` and `after`, bit for bit. A vertex that rounding brings into contact is moved
+    /// back towards `before` by up to 1024 units in the last place.
     std::vector<point<double>> positions;
     double fraction = 1;            ///< the least of `fractions`
     std::vector<double> fractions;  ///< of each vertex
@@ -45,17 +43,16 @@ struct advance_result {
 };
 
 /// Returns the longest step from positions.before towards positions.after that was found to be
-/// free. In this step no pair is in contact (or within its distance), except those in the result's
-/// two lists. A group with a contact on the way stops just before its first contact, or slightly
-/// earlier if rounding causes a contact there.
+/// free: no pair is in contact (or within its distance), except those in the result's two lists. A
+/// group with a contact on the way stops just before it.
 ///
-/// A group's fraction is at least 0.99 of the time of its first contact; of joined groups, the
-/// least time counts. It is less, at worst 0, only if moving vertices back by up to 1024 units in
-/// the last place does not free them. Gaps of a few such units cause this.
+/// A group's fraction is at least 0.99 of the time of its first contact, or of the least time among
+/// joined groups. It is less, at worst 0, only if moving vertices back by up to 1024 units in the
+/// last place does not free them. Gaps of a few such units cause this.
 ///
 /// Throws as mesh_steps::run, and std::invalid_argument if the numbers of groups and vertices
-/// differ. Cost: one such step if the whole way is free, else usually two. There are a few more, at
-/// most 80, if groups with different fractions meet or rounding causes contacts.
+/// differ. Cost: one such step if the whole way is free, else usually two. It is more, at most 80,
+/// if groups with different fractions meet or rounding causes contacts.
 advance_result advance(mesh_steps& steps, const vertex_rows& positions,
                        const advance_options& options = {});
 /// Two frames of one mesh. Throws std::invalid_argument also if they differ in faces, edges or

@@ -4,10 +4,10 @@
 //     const auto [answers, stages] = ccd::decide_batch(queries);           // queries by value
 //
 // answers[i] is the outcome of decide_exact(query i), for every instruction set and number of
-// threads. The instruction set is chosen at run time. Throws std::invalid_argument if an index is
-// out of range, positions are null or the instruction set is not one of instruction_sets(). Cost:
-// ./run bench. Memory: some 300 KB of stack for each thread. Batches of more queries than half the
-// vertices also need 32 bytes for each vertex.
+// threads. Throws std::invalid_argument if an index is out of range, positions are null or the
+// instruction set is not in instruction_sets(). Cost: ./run bench. Memory: some 300 KB of stack for
+// each thread, and 32 bytes for each vertex if there are more than half as many queries as
+// vertices.
 #pragma once
 
 #include <ccd/execution.hpp>
@@ -39,7 +39,6 @@ batch_result decide_batch(const Queries& queries, const batch_options& options =
 
 namespace detail {
 
-/// Throws std::invalid_argument if the two lengths differ.
 template <class Item>
 stage_report decide_items(const batch_input<Item>& queries, std::span<outcome> answers,
                           const batch_options& options, bool at_start);

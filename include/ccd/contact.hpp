@@ -5,11 +5,11 @@
 //     ccd::first_time d = ccd::time_within(query, {1e-3, 0});   // first time within a distance
 //     auto times = ccd::first_times(positions, pairs);          // many queries, over threads
 //
-// Features include their borders, and touching counts, as in ccd/exact.hpp. So planar motion,
-// touching without crossing, parallel edges and degenerate triangles all have one right answer.
-// Coordinates that are not finite give `uncertain`. Calls for one query do not allocate or throw,
-// except in their last stage (ccd/reference.hpp). Batches throw std::invalid_argument for bad
-// input; answers do not depend on instruction sets or threads.
+// Semantics are those of ccd/exact.hpp: planar motion, touching without crossing, parallel edges
+// and degenerate triangles all have one right answer. Coordinates that are not finite give
+// `uncertain`. Calls for one query do not allocate or throw, except in their last stage
+// (ccd/reference.hpp). Batches throw std::invalid_argument for bad input; answers do not depend on
+// instruction sets or threads.
 #pragma once
 
 #include <algorithm>
@@ -28,14 +28,14 @@
 
 namespace ccd {
 
-/// Returns the first time in [0, t_max] at which the features touch; t_max > 1 means 1. There is
-/// none if t_max < 0. The time is 0, a rational number, or a root of a quadratic or a cubic.
+/// Returns the first time in [0, min(t_max, 1)] at which the features touch: 0, a rational number,
+/// or a root of a quadratic or a cubic. There is none if t_max < 0.
 template <any_query Query>
 first_time time_of_impact(const Query& query, double t_max = 1);
 
-/// Returns `collides` if the Euclidean distance of the features is <= d at some t in [0, 1].
-/// d = 0 means contact. `uncertain`, with cause `range`, only if a coordinate or a part of d is not
-/// finite, or a part of d is negative.
+/// Returns `collides` if the Euclidean distance of the features is <= d at some t in [0, 1]; d = 0
+/// means contact. Returns `uncertain`, with cause `range`, only if a coordinate or a part of d is
+/// not finite, or a part of d is negative.
 template <any_query Query>
 verdict decide_within(const Query& query, separation d);
 
@@ -47,9 +47,8 @@ first_time time_within(const Query& query, separation d, double t_max = 1);
 struct meeting_features {
     /// vertex_vertex, vertex_edge, or the kind of the query if both of its features meet inside.
     ccd::kind kind = ccd::kind::vertex_vertex;
-    /// Indices into points_of(query): as many as `kind` has points, in the order of `kind`. If a
-    /// vertex meets an edge, the vertex comes first, even if it belongs to the query's second
-    /// feature.
+    /// Indices into points_of(query), one for each point of `kind`. If a vertex meets an edge, the
+    /// vertex comes first, even if it belongs to the query's second feature.
     std::array<std::uint8_t, 4> points{};
 
     friend constexpr bool operator==(const meeting_features&, const meeting_features&) = default;
@@ -60,8 +59,8 @@ enum class normal_source : std::uint8_t {
     /// (f1 − f0) × (f2 − f0), or (a1 − a0) × (b1 − b0), at the contact.
     cross_product,
     /// The direction from the second feature's nearest point to the first's, in the limit before
-    /// the contact. It is the reversed relative velocity, without its component along an edge that
-    /// a vertex meets.
+    /// the contact: the reversed relative velocity, without its component along an edge that a
+    /// vertex meets.
     nearest_points,
     /// The reversed relative velocity, which is along the edge that a vertex meets.
     relative_velocity,
@@ -73,14 +72,14 @@ enum class normal_source : std::uint8_t {
 /// certified error, for every time in the bracket. Without a contact, `time` gives the reason;
 /// weights are 0 and errors infinite.
 ///
-/// The first feature of a query is its vertex v or its edge a; the second is its face, edge or
-/// vertex w. Points are numbered as in points_of (v f0 f1 f2; a0 a1 b0 b1; v e0 e1; v w).
+/// A query's first feature is its vertex v or edge a, the second its face, edge or vertex w. Points
+/// are numbered as in points_of (v f0 f1 f2; a0 a1 b0 b1; v e0 e1; v w).
 struct first_contact {
     first_time time;
     meeting_features features;
-    /// One weight in [0, 1] for each point. Weights of a feature add up to 1 within one rounding,
-    /// and are 0 for points that are not among `features`. The weighted sum of the first feature's
-    /// points is the contact point; so is that of the second's.
+    /// One weight in [0, 1] for each point, 0 for points not among `features`. Each feature's
+    /// weights add up to 1 within one rounding. The weighted sum of its points is the contact
+    /// point.
     std::array<double, 4> weights{};
     double weight_error =
         std::numeric_limits<double>::infinity();  ///< of each; may be infinite in slivers
@@ -89,12 +88,12 @@ struct first_contact {
     normal_source normal_from = normal_source::none;
     /// True if the normal points to the side on which the first feature was just before the
     /// contact. False at the start, in slivers (triangles that are nearly segments), and for some
-    /// motions in a plane. A cross product then has the direction that the order of the points
-    /// gives.
+    /// motions in a plane. Then the order of the points determines the direction of a cross
+    /// product.
     bool sided = false;
-    /// The component along the normal of the first feature's velocity relative to the second's, at
-    /// the contact point, in lengths per step. Negative if the features approach. If `sided`, it is
-    /// <= 0 within its error.
+    /// The component along the normal of the first feature's velocity relative to the second's at
+    /// the contact point, in lengths per step. Negative if they approach; <= 0 within its error if
+    /// `sided`.
     double normal_velocity = 0;
     double normal_velocity_error = std::numeric_limits<double>::infinity();
 
@@ -102,8 +101,7 @@ struct first_contact {
 };
 
 /// Returns the data of the contact at `time`, the result of time_of_impact(query). If the features
-/// certainly do not touch at `time`, as at a time of time_within, the result is as without a
-/// contact.
+/// certainly do not touch at `time`, the result is as without a contact.
 ///
 /// If several features meet, the result has the smallest: two vertices, else a vertex and an edge,
 /// else the query's features. The normal is the cross product if its direction and side are
@@ -123,10 +121,10 @@ first_contact find_first_contact(const Query& query, double t_max = 1) {
     return contact_at(query, time_of_impact(query, t_max));
 }
 
-/// The distance within which a pair is reported: `all`, the same for all pairs; or a `thickness`
-/// for each vertex. An element's thickness is the largest of its vertices. The distance of a pair
-/// is the exact sum of the thicknesses of its two elements. The default, 0, means contact. Values
-/// are finite and >= 0, in the unit of the coordinates. Not owned.
+/// The distance within which a pair is reported: `all` for every pair, or the exact sum of the
+/// thicknesses of its elements. An element's thickness is the largest `thickness` of its vertices.
+/// The default, 0, means contact. Values are finite and >= 0, in the unit of the coordinates. Not
+/// owned.
 struct pair_distances {
     double all = 0;
     std::span<const double> thickness = {};
@@ -141,7 +139,7 @@ struct pair_distances {
         return most;
     }
 
-    /// The distance of a pair. Precondition: if `thickness` is not empty, it has the pair's
+    /// The distance of a pair. Precondition: a `thickness` that is not empty has the pair's
     /// vertices.
     template <any_pair Pair>
     separation of(const Pair& pair) const {
@@ -168,7 +166,6 @@ struct time_options {
     stop_query stop = {};                     ///< ends the call by throwing ccd::stopped
 };
 
-/// The first time of query number `query` of a batch.
 struct timed_contact {
     std::size_t query;
     first_time time;
@@ -179,8 +176,8 @@ struct timed_contact {
 /// The earliest of many first times.
 struct earliest_time {
     /// The least time by `low`, then by `high`, without those at the start; `separate` if there is
-    /// none. `uncertain` if any query has a coordinate that is not finite. Then `queries` lists
-    /// these queries, and nothing else is reported.
+    /// none. `uncertain` if a query has a coordinate that is not finite. Then `queries` lists these
+    /// queries, and nothing else is reported.
     first_time time;
     std::vector<std::size_t> queries;   ///< with that time, ascending
     std::vector<std::size_t> at_start;  ///< in contact at t = 0, ascending
@@ -227,14 +224,14 @@ std::vector<outcome> decide_within_batch(const Queries& queries, const time_opti
     return detail::timed(queries, options).decisions();
 }
 
-/// Returns the queries that collide in [0, t_max], ascending, with their first times, and those
-/// that are `uncertain` because a coordinate is not finite. All others are separate.
+/// Returns the queries that collide in [0, t_max], with their first times, and those that are
+/// `uncertain` because a coordinate is not finite; ascending. All others are separate.
 ///
 /// Throws std::invalid_argument as decide_batch, and if t_max is not finite or a distance is
 /// negative or not finite. Also throws if `all` and `thickness` are both given, the numbers of
 /// thicknesses and vertices differ, or queries by value have a thickness. Cost: that of
-/// decide_batch or decide_within_batch, plus the times. A vertex/face or edge/edge contact adds
-/// some 0.15 to 0.5 µs. Other kinds add a time_of_impact, and distances a time_within.
+/// decide_batch or decide_within_batch, plus the times: some 0.15 to 0.5 µs for a vertex/face or
+/// edge/edge contact, a time_of_impact for other kinds, a time_within with distances.
 template <pair_range Pairs>
 std::vector<timed_contact> timed_contacts(const vertex_rows& positions, const Pairs& pairs,
                                           const time_options& options = {}) {
@@ -246,8 +243,8 @@ std::vector<timed_contact> timed_contacts(const Queries& queries,
     return detail::timed(queries, options).contacts();
 }
 
-/// Returns one time for each query. If few of many queries collide, timed_contacts is faster, since
-/// it does not write 24 bytes for each query.
+/// Returns one time for each query. If few queries collide, timed_contacts is faster, since
+/// first_times writes 24 bytes for each query.
 template <pair_range Pairs>
 std::vector<first_time> first_times(const vertex_rows& positions, const Pairs& pairs,
                                     const time_options& options = {}) {
@@ -258,8 +255,8 @@ std::vector<first_time> first_times(const Queries& queries, const time_options& 
     return detail::timed(queries, options).times();
 }
 
-/// Returns the earliest time and its queries. With distances, this is cheaper than all times: once
-/// a time is known, only earlier ones are computed.
+/// Returns the earliest time and its queries. With distances, this is cheaper than all times: only
+/// times before the least one found are computed.
 template <pair_range Pairs>
 earliest_time earliest(const vertex_rows& positions, const Pairs& pairs,
                        const time_options& options = {}) {

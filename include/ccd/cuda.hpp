@@ -5,8 +5,8 @@
 //
 // The device runs the host's functions, with the same answers. Needs a library built with nvcc
 // (target errbound::ccd_cuda), but no header of CUDA. Unless documented, functions do not allocate,
-// wait or change the current device, and pointers are to memory of that device. Several threads may
-// call at once, with different streams and scratch memory.
+// wait or change the current device, and pointers are to its memory. Several threads may call at
+// once, with different streams and scratch memory.
 #pragma once
 
 #include <array>
@@ -39,11 +39,10 @@ struct [[nodiscard]] status {
 /// Returns an error if there is no device.
 status device_status();
 
-/// The number type that a method tries first. `float32` keeps the method's promise for any input.
-/// Coordinates are taken relative to one of the query's points, and the error of their conversion
-/// is part of their bound. Queries that floats do not decide are decided in doubles, on the device.
-/// (Positions in floats are not converted. The method `float` promises nothing, and stays in
-/// floats.)
+/// The number type that a method tries first. `float32` keeps the method's promise for any input:
+/// coordinates are taken relative to one of the query's points, and their bounds include the error
+/// of the conversion. Doubles, on the device, decide the queries that floats do not. (Positions in
+/// floats are not converted. The method `float` promises nothing, and stays in floats.)
 enum class precision : std::uint8_t { float64, float32 };
 
 /// The methods that run on the device: float, safe, tight, safeccd, safeccd-tight and exact.
@@ -136,9 +135,9 @@ struct batch_options {
 /// Decides candidate i into answers[i], as decide() of ccd/method.hpp. Only queues work on the
 /// stream. At most 2^32 − 2 candidates.
 ///
-/// After `exact`, `uncertain` marks candidates with coordinates that are not finite. It also marks
-/// the few that integers of one and two words (of 64 bits) do not decide; finish() decides these.
-/// Do not change the scratch memory before finish().
+/// After `exact`, `uncertain` marks candidates with coordinates that are not finite, and the few
+/// that integers of one and two words (of 64 bits) do not decide; finish() decides the latter. Do
+/// not change the scratch memory before finish().
 status decide_batch(const positions& positions, const candidates<vertex_face_pair>& candidates,
                     outcome* answers, scratch memory, const batch_options& options = {});
 status decide_batch(const positions& positions, const candidates<edge_edge_pair>& candidates,
@@ -162,9 +161,9 @@ finished finish(const positions& positions, const candidates<vertex_face_pair>& 
 finished finish(const positions& positions, const candidates<edge_edge_pair>& candidates,
                 outcome* answers, scratch memory, const batch_options& options);
 
-/// Writes the indices of the answers other than `separate`, ascending, to found[0], ...,
-/// found[room − 1] and their number to *count. If it exceeds `room`, call again with more room.
-/// Only queues work. Overwrites the scratch memory of decide_batch, so call finish() first.
+/// Writes the indices of the answers other than `separate`, ascending, to the `room` places of
+/// `found`, and their number to *count; if it exceeds `room`, call again with more room. Only
+/// queues work. Overwrites the scratch memory of decide_batch, so call finish() first.
 status select_colliding(const outcome* answers, std::size_t answer_count, vertex_index* found,
                         std::size_t room, vertex_index* count, scratch memory,
                         stream stream = nullptr);
@@ -174,13 +173,14 @@ struct time_options {
     cuda::stream stream = nullptr;
 };
 
-/// Writes the first time of candidate i to times[i], as time_of_impact() of ccd/contact.hpp. Pass
-/// only colliding candidates: candidates.listed(...) after select_colliding(). For others, a time
-/// costs more than a decision. Only queues work on the stream. Scratch memory: as for decide_batch.
+/// Writes the first time of candidate i to times[i], as time_of_impact() of ccd/contact.hpp. Only
+/// queues work on the stream. Pass only colliding candidates: candidates.listed(...) after
+/// select_colliding(). For others, a time costs more than a decision. Scratch memory: as for
+/// decide_batch.
 ///
-/// finish_times() finds the times for which integers of two words do not suffice: of roots that
-/// nearly coincide, below 2^-70, or with coordinates that differ too much. Do not change the
-/// scratch memory before finish_times().
+/// finish_times() finds the times for which integers of two words do not suffice: roots that nearly
+/// coincide or are below 2^-70, or coordinates that differ too much. Do not change the scratch
+/// memory before finish_times().
 status find_times(const positions& positions, const candidates<vertex_face_pair>& candidates,
                   first_time* times, scratch memory, const time_options& options = {});
 status find_times(const positions& positions, const candidates<edge_edge_pair>& candidates,
@@ -198,8 +198,7 @@ struct [[nodiscard]] finished_times : status {
     time_stage_counts stages;
 };
 
-/// Finds the undecided times of find_times on all threads of the host, and writes them. Waits for
-/// the stream. Throws only std::bad_alloc.
+/// Finds the undecided times of find_times, and otherwise works as finish().
 finished_times finish_times(const positions& positions,
                             const candidates<vertex_face_pair>& candidates, first_time* times,
                             scratch memory, const time_options& options = {});
@@ -217,7 +216,7 @@ using times_span_of_kind = std::span<const first_time>;
 using pair_spans = by_kind<detail::span_of_kind>;
 using time_spans = by_kind<detail::times_span_of_kind>;
 
-/// Options of a step. initial_contact and the members after it are as in ccd::step_options.
+/// The members from initial_contact on are as in ccd::step_options.
 struct mesh_step_options {
     ccd::method method = method::exact;
     ccd::cuda::precision precision = precision::float64;
@@ -231,16 +230,15 @@ struct mesh_step_options {
 /// Steps of one mesh on the device. Keeps its faces, edges and memory from step to step.
 class mesh_steps {
   public:
-    /// Vertex/face and edge/edge pairs, in an unspecified order that is always the same; or an
-    /// error.
+    /// Vertex/face and edge/edge pairs, in an unspecified but reproducible order; or an error.
     struct [[nodiscard]] result : status {
         pair_spans pairs;
         pair_counts candidates;
         std::size_t finished_on_host = 0;  ///< candidates and times that the device left undecided
         pair_spans touching_at_start;      ///< decided by `exact` for every method
         time_spans times;                  ///< of `pairs`
-        /// The earliest time of the pairs that do not touch at the start. Without the option
-        /// `times`, threads share the least time found so far, and skip pairs with later ones.
+        /// The earliest time of pairs that do not touch at the start. Unless `times` is set,
+        /// threads skip pairs whose times are later than the least time found so far.
         first_time first_contact;
     };
 
@@ -251,11 +249,11 @@ class mesh_steps {
     mesh_steps(mesh_steps&&) noexcept;
     mesh_steps& operator=(mesh_steps&&) noexcept;
 
-    /// Returns the pairs that ccd::step() reports: those that options.method does not certify as
-    /// separate in [0, t_max]. The result is complete on return, belongs to this object and is
-    /// valid until the next call. Errors: a coordinate that is not finite; first_contact, times or
-    /// t_max < 1 with a method other than `exact`. Waits for the stream, and allocates if its
-    /// memory does not suffice. All calls must be on one device.
+    /// Returns the pairs that options.method does not certify as separate in [0, t_max], as
+    /// ccd::step(). The result belongs to this object and is valid until the next call. Waits for
+    /// the stream, and allocates if its memory does not suffice. All calls must be on one device.
+    /// Errors: a coordinate that is not finite; first_contact, times or t_max < 1 with a method
+    /// other than `exact`.
     result run(const positions& positions, const mesh_step_options& options = {});
 
   private:
@@ -267,10 +265,10 @@ class mesh_steps {
 struct [[nodiscard]] step_result : status, ccd::step_result {};
 
 /// ccd::step() on the device: copies both frames there and the pairs back. Throws as ccd::step().
-/// Devices have only vertex/face and edge/edge pairs. It is therefore an error if the mesh has
-/// edges in addition to those of faces, or more than one vertex on no edge. Distances and filters
-/// are errors, too. Uses the options that mesh_step_options has; narrow_phase_seconds includes the
-/// search and the times.
+/// Devices have only vertex/face and edge/edge pairs, without distances and filters. It is
+/// therefore an error if the mesh has edges other than those of faces, or more than one vertex on
+/// no edge. Uses the options that mesh_step_options has; narrow_phase_seconds includes the search
+/// and the times.
 step_result step(const mesh& before, const mesh& after, const step_options& options = {},
                  precision precision = precision::float64);
 
@@ -281,8 +279,7 @@ status decide(std::span<const vertex_face<double>> queries, std::span<outcome> a
 status decide(std::span<const edge_edge<double>> queries, std::span<outcome> answers,
               const batch_options& options);
 
-/// Finds the first times of queries in host memory on the device, as ccd::first_times. Throws
-/// std::invalid_argument if the two lengths differ.
+/// Finds their first times, as ccd::first_times. Throws as decide.
 status first_times(std::span<const vertex_face<double>> queries, std::span<first_time> times,
                    const time_options& options = {});
 status first_times(std::span<const edge_edge<double>> queries, std::span<first_time> times,

@@ -1,10 +1,10 @@
 // Motion along curves: points that move by polynomials in t of any degree.
 //
-// The calls of ccd/exact.hpp and ccd/contact.hpp, with the same meaning and as exact, for points in
-// Bernstein form (Bézier curves in time). Degrees may differ from point to point. A power basis
-// converts to this form, and knot insertion converts a B-spline to Bézier pieces.
-// Floating point under tracked bounds decides clearly separate queries, unbounded integers decide
-// the others (ccd/reference.hpp). Allocates; throws only std::bad_alloc.
+// The calls of ccd/exact.hpp and ccd/contact.hpp, equally exact, for points in Bernstein form
+// (Bézier curves in time). Degrees may differ from point to point. A power basis converts to this
+// form; knot insertion converts a B-spline to Bézier pieces. Floating point under tracked bounds
+// decides clearly separate queries, unbounded integers the others (ccd/reference.hpp). Allocates;
+// throws only std::bad_alloc.
 #pragma once
 
 #include <algorithm>
@@ -61,8 +61,7 @@ concept curve_query = std::same_as<T, vertex_face_curves> || std::same_as<T, edg
 template <curve_query Query>
 verdict decide_exact(const Query& query);
 
-/// Same as in ccd/contact.hpp. For curves of degree m the first time of
-/// contact is algebraic, of degree at most 3m.
+/// Same as in ccd/contact.hpp. For curves of degree m the first time has algebraic degree <= 3m.
 template <curve_query Query>
 first_time time_of_impact(const Query& query, double t_max = 1);
 template <curve_query Query>

@@ -2,13 +2,12 @@
 //
 //     if (ccd::decide_exact(query).outcome == ccd::outcome::collides) ...
 //
-// Closed semantics: a query collides if the two closed features share a point at some t in [0, 1].
-// A degenerate triangle or edge is the segment or point that it is. `uncertain`, with cause
-// `range`, only if a coordinate is not finite. Requires a sound environment
-// (errbound/environment.hpp): no flush-to-zero.
-// Cost (./run bench --worst): tens to hundreds of nanoseconds. At worst some 50 µs for coordinates
-// of 1e-3 to 1e3, and a tenth of a second for all magnitudes. Allocates only in its last stage
-// (ccd/reference.hpp).
+// A query collides if its two closed features share a point at some t in [0, 1]: borders and
+// touching count. A degenerate triangle or edge is the segment or point that it is. A query is
+// `uncertain`, with cause `range`, only if a coordinate is not finite. Requires a sound environment
+// (errbound/environment.hpp): no flush-to-zero. Allocates only in its last stage
+// (ccd/reference.hpp). Cost (./run bench --worst): tens to hundreds of nanoseconds; at worst some
+// 50 µs for coordinates of 1e-3 to 1e3, and a tenth of a second for all magnitudes.
 #pragma once
 
 #include <ccd/explain.hpp>
@@ -19,8 +18,8 @@
 namespace ccd {
 
 /// Runs the stages of ccd/explain.hpp until one decides; vertex/edge and vertex/vertex queries
-/// start with `integers`. `integers` decides every query whose coordinates differ by less than
-/// 2^253 units in their last place, on each axis and at each end of the step.
+/// start with `integers`. `integers` decides a query if its coordinates differ by less than 2^253
+/// units in their last place. (This holds for each axis and each end of the step.)
 ///
 /// Adds the counts and times of the stages to `report` if it is not null: some 50 ns a stage.
 template <any_query Query>

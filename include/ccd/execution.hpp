@@ -27,12 +27,12 @@ struct stopped : std::runtime_error {
     stopped() : std::runtime_error("ccd: stopped by the caller") {}
 };
 
-/// A callback that is polled periodically. Return true to end the call by the exception `stopped`;
-/// an exception from the callback ends the call, too. Several threads poll it at once, among them
-/// the calling thread, where a host can check for signals. Empty: never polled.
+/// A callback that is polled periodically, by several threads at once, among them the calling
+/// thread, where a host can check for signals. Return true to end the call by the exception
+/// `stopped`; an exception from the callback ends it, too. Empty: never polled.
 ///
 /// Batches poll every few thousand queries, and with distances for each time. Steps poll for each
-/// block of candidates and periodically in the search, but not while they sort elements and pairs.
+/// block of candidates and during the search, but not while they sort elements and pairs.
 using stop_query = std::function<bool()>;
 
 namespace detail {

@@ -17,9 +17,8 @@ struct stage_info {
     std::string_view name, question, arithmetic;
 };
 
-/// A description of each stage, in order. ccd/methods/forms.hpp defines Y and the G_i; coefficients
-/// are those of Bernstein forms. A single query tests the axes x, y, z first, and the others after
-/// Y.
+/// The stages in order; Y and the G_i have Bernstein coefficients (ccd/methods/forms.hpp). A single
+/// query tests the axes x, y, z first, and the others after Y.
 inline constexpr std::array<stage_info, stage_count> exact_stages{{
     {stage::axes, "axes",
      "does x, y, z, x ± y, y ± z or z ± x separate the features, in the same order at both "

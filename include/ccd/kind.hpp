@@ -1,7 +1,5 @@
-// The four kinds of query, with the types and names of each.
-//
-// Generic code uses kind_traits, kind_of and the concepts below. Do not map kinds to types or to
-// names anywhere else.
+// The four kinds of query, with the types and names of each. Generic code uses kind_traits, kind_of
+// and the concepts below. Do not map kinds to types or to names anywhere else.
 #pragma once
 
 #include <array>
@@ -43,8 +41,7 @@ struct vertex_vertex_pair {
 
 enum class kind : std::uint8_t { vertex_face, edge_edge, vertex_edge, vertex_vertex };
 
-/// Holds the types `query<T>` and `pair` of a kind, the number of vertices of its two features, and
-/// its names in files, options and tables.
+/// The types `query<T>` and `pair` of a kind, its features' numbers of vertices, and its names.
 template <kind K>
 struct kind_traits;
 template <>
@@ -191,23 +188,21 @@ constexpr bool is_cubic(kind k) {
     return k == kind::vertex_face || k == kind::edge_edge;
 }
 
-/// A query in doubles: vertex_face, edge_edge, vertex_edge or vertex_vertex.
+/// A query in doubles.
 template <class T>
 concept any_query = detail::has_kind<T> && std::same_as<T, query_of_pair<T>>;
 /// The same for vertex_face and edge_edge only.
 template <class T>
 concept cubic_query = any_query<T> && is_cubic(kind_of<T>);
 
-/// A pair of one of the four kinds.
 template <class T>
 concept any_pair = detail::has_kind<T> && std::same_as<T, pair_of_query<T>>;
 template <class T>
 concept cubic_pair = any_pair<T> && is_cubic(kind_of<T>);
 
-/// A span, vector or other contiguous range of queries in doubles, all of one kind.
+/// A span, vector or other contiguous range of queries in doubles, or of pairs, all of one kind.
 template <class R>
 concept query_range = any_query<detail::item_of<R>>;
-/// A span, vector or other contiguous range of pairs of one kind.
 template <class R>
 concept pair_range = any_pair<detail::item_of<R>>;
 
@@ -232,15 +227,14 @@ constexpr decltype(auto) visit_kind(kind k, Visit&& visit) {
     }
 }
 
-/// The kind's name in files, options and tables: "vf", "ee", "ve", "vv".
+/// The kind's names: "vf" in files, options and tables; "vertex-face" in paths of query files;
+/// "vertex_face" in JSON.
 constexpr std::string_view short_name(kind k) {
     return visit_kind(k, [&]<kind K>() { return kind_traits<K>::short_name; });
 }
-/// The kind's name in paths of query files: "vertex-face".
 constexpr std::string_view path_name(kind k) {
     return visit_kind(k, [&]<kind K>() { return kind_traits<K>::path_name; });
 }
-/// The kind's name in JSON: "vertex_face".
 constexpr std::string_view name(kind k) {
     return visit_kind(k, [&]<kind K>() { return kind_traits<K>::name; });
 }

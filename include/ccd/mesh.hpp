@@ -19,19 +19,18 @@ using edge = std::array<vertex_index, 2>;  ///< vertex indices; ascending if the
 
 /// One frame: triangles, edges that bound no triangle (rods, hair, springs), and points.
 ///
-/// `edges` are edges in addition to those of the faces, in any order. An edge of a face, a repeated
-/// edge and an edge from a vertex to itself add no edge. A vertex on no edge, neither one of
-/// `edges` nor one of a face, is a point. Unused vertices are points too: see
-/// pair_filter::skip_unused.
+/// `edges` may repeat edges, and contain edges of faces or from a vertex to itself: these add no
+/// edge. A vertex on no edge, neither one of `edges` nor one of a face, is a point. So are unused
+/// vertices: see pair_filter::skip_unused.
 struct mesh {
     std::vector<point<double>> vertices;
     std::vector<face> faces;
     std::vector<edge> edges = {};
 };
 
-/// Returns the unique edges of `faces` and `edges`, each ascending, sorted. A vertex repeated
-/// within a face or an edge makes no edge. Cost: O(faces + edges) unless very many of them share a
-/// vertex. Memory: 36 bytes a face, 12 an edge and 8 a vertex.
+/// Returns the unique edges of `faces` and `edges`, each ascending, sorted, without edges from a
+/// vertex to itself. Cost: O(faces + edges) unless very many of them share a vertex. Memory: 36
+/// bytes a face, 12 an edge and 8 a vertex.
 std::vector<edge> unique_edges(std::span<const face> faces, std::span<const edge> edges = {});
 
 /// Returns the faces in their order, without those that have the same three vertices as an earlier
@@ -42,8 +41,8 @@ std::vector<face> unique_faces(std::span<const face> faces);
 std::vector<vertex_index> unused_vertices(std::span<const face> faces, std::span<const edge> edges,
                                           std::size_t vertices);
 
-/// Returns for each vertex the index of its connected part of the mesh: its body, if bodies share
-/// no vertex. Parts are in the order of their first vertices. Precondition: indices are in range.
+/// Returns for each vertex the index of its connected part (body). Parts are numbered in the order
+/// of their first vertices. Precondition: indices are in range.
 std::vector<int> connected_parts(std::span<const face> faces, std::span<const edge> edges,
                                  std::size_t vertices);
 
@@ -58,8 +57,7 @@ concept dense_matrix = requires(const M& m) {
     { M::IsRowMajor } -> std::convertible_to<bool>;
 };
 
-/// Positions of the same vertices at t = 0 and t = 1: `vertices` contiguous rows x y z each. Not
-/// owned.
+/// Rows x y z of the same vertices at t = 0 and t = 1, each contiguous. Not owned.
 struct vertex_rows {
     static_assert(sizeof(point<double>) == 3 * sizeof(double));
     const double* before = nullptr;
@@ -69,18 +67,16 @@ struct vertex_rows {
     constexpr vertex_rows() = default;
     constexpr vertex_rows(const double* at_start, const double* at_end, std::size_t count)
         : before(at_start), after(at_end), vertices(count) {}
-    /// Throws std::invalid_argument if the two lengths differ.
+    /// Throws std::invalid_argument if the lengths differ, as the next constructor.
     vertex_rows(std::span<const point<double>> at_start, std::span<const point<double>> at_end)
         : before(reinterpret_cast<const double*>(at_start.data())),
           after(reinterpret_cast<const double*>(at_end.data())),
           vertices(common_size(at_start.size(), at_end.size())) {}
-    /// Two frames of one mesh.
     vertex_rows(const mesh& at_start, const mesh& at_end)
         : vertex_rows(std::span<const point<double>>(at_start.vertices),
                       std::span<const point<double>>(at_end.vertices)) {}
-    /// Eigen matrices of doubles, n by 3 and row-major, which is not Eigen's default: declare them
-    /// Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor>, or copy others into such. Throws
-    /// std::invalid_argument if the number of columns is not three, if there are gaps between rows,
+    /// Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor>: row-major is not Eigen's default.
+    /// Throws std::invalid_argument if there are not three columns, if there are gaps between rows,
     /// or if the numbers of rows differ.
     template <dense_matrix M>
     vertex_rows(const M& at_start, const M& at_end)
@@ -138,7 +134,7 @@ query_of_pair<Pair> query_of(const vertex_rows& rows, const Pair& pair) {
 
 namespace detail {
 
-/// The input of a batch: queries by value, or pairs of vertices of `positions`.
+/// Queries by value, or pairs of vertices of `positions`.
 template <class Item>
 struct batch_input {
     std::span<const Item> items;

@@ -2,9 +2,9 @@
 //
 //     ccd::verdict v = ccd::decide(ccd::method::tight, query);
 //
-// Coordinates must be finite: otherwise `uncertain` with cause `range`. Callable from any thread.
-// Allocates only in `exact` (seldom), `bsc-exact` and `root-parity`, for unbounded integers, and
-// throws only std::bad_alloc there.
+// Coordinates that are not finite give `uncertain` with cause `range`. Thread-safe. Allocates only
+// for unbounded integers, in `exact` (seldom), `bsc-exact` and `root-parity`, and throws only
+// std::bad_alloc there.
 #pragma once
 
 #include <ccd/kind.hpp>
@@ -49,10 +49,10 @@ std::optional<method> find_method(std::string_view name);
 /// Returns the entry of methods(); for any other value an entry named "unknown", with no promise.
 method_info info(method m);
 
-/// Decides by any method; a value that is not among methods() leaves the query `uncertain`.
-/// Programs that need only `exact` call decide_exact of ccd/exact.hpp, which links no other method.
-/// Worst cost known (./run bench --worst): some 20 µs in floating point; by integers a third of a
-/// millisecond if coordinates are of 1e-3 to 1e3, a tenth of a second if of all magnitudes.
+/// Decides by any method; the query is `uncertain` if `m` is not among methods(). Programs that
+/// need only `exact` call decide_exact (ccd/exact.hpp), which links no other method. Worst cost
+/// known (./run bench --worst): some 20 µs in floating point. Integers cost a third of a
+/// millisecond for coordinates of 1e-3 to 1e3, and a tenth of a second for all magnitudes.
 template <cubic_query Query>
 verdict decide(method m, const Query& query);
 

@@ -29,8 +29,8 @@ namespace ccd::mpi {
 /// The number of a vertex in the whole mesh; numbers may have gaps.
 using vertex_number = std::uint64_t;
 
-/// One rank's part of the mesh. A vertex may be on many ranks, with the same positions. A face or
-/// an edge may be on many ranks and counts once.
+/// One rank's part of the mesh. Several ranks may have a vertex, with the same positions, or a face
+/// or an edge, which counts once.
 struct mesh_part {
     std::span<const vertex_number> numbers;  ///< of this rank's vertices, each once
     vertex_rows positions;                   ///< of these vertices
@@ -76,8 +76,8 @@ struct step_result {
 /// mesh.numbers. can_collide and region must be empty. options.threads applies to each rank.
 ///
 /// Throws std::invalid_argument on all ranks if on one of them ccd::mesh_steps would throw it or a
-/// number occurs twice. Also throws if a vertex has other positions (groups, flags, thicknesses)
-/// than on another rank, or if a box has more than 2^32 − 1 vertices.
+/// number occurs twice. Also throws if ranks have different positions (groups, flags, thicknesses)
+/// of a vertex, or if a box has more than 2^32 − 1 vertices.
 ///
 /// Memory of a rank: 56 bytes a vertex and 24 a face that it sends and receives, and that of
 /// ccd::mesh_steps for the elements that meet its box. Samples take 64 bytes each, for 4,096 or 64
@@ -95,8 +95,8 @@ struct advance_result {
 };
 
 /// Returns the result of ccd::advance for the whole mesh, bit for bit, if numbers order vertices as
-/// indices do there, with the options of ccd::advance. Groups (the options' and the filter's) are
-/// those of mesh.numbers, with the same index on every rank. can_collide and region must be empty.
+/// indices do there. Groups (the options' and the filter's) are those of mesh.numbers, with the
+/// same index on every rank. can_collide and region must be empty.
 ///
 /// Throws as ccd::mpi::step, and ccd::stopped on all ranks if options.stop returns true on one.
 ///

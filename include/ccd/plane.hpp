@@ -1,10 +1,8 @@
 // Queries in the plane: a vertex and an edge, or two vertices, with positions x, y.
 //
-// The calls of ccd/exact.hpp and ccd/contact.hpp at z = 0, with the same guarantees: features of
-// the plane share a point, or have a distance, in space exactly if they do in the plane. A contact
-// of two edges begins at an end of one of them, unless they cross at t = 0. So the kinds
-// vertex/edge and vertex/vertex suffice. Cost: as in space; the third axis adds a few products with
-// 0.
+// The calls of ccd/exact.hpp and ccd/contact.hpp at z = 0, with the same guarantees and almost the
+// same cost. A contact of two edges begins at an end of one of them, unless they cross at t = 0. So
+// the kinds vertex/edge and vertex/vertex suffice.
 #pragma once
 
 #include <ccd/contact.hpp>
@@ -12,16 +10,14 @@
 #include <ccd/query.hpp>
 #include <ccd/verdict.hpp>
 
-/// Queries of two dimensions, by the calls of namespace ccd.
 namespace ccd::plane {
 
-/// A position.
 struct point {
     double x = 0, y = 0;
     friend bool operator==(const point&, const point&) = default;
 };
 
-/// A point that moves linearly over the step: x(t) = (1 − t)·t0 + t·t1 for t in [0, 1].
+/// Linear motion, as ccd::moving_point.
 struct moving_point {
     point t0, t1;
     friend bool operator==(const moving_point&, const moving_point&) = default;
@@ -32,12 +28,10 @@ struct vertex_edge {
     moving_point v, e0, e1;
 };
 
-/// Two vertices.
 struct vertex_vertex {
     moving_point v, w;
 };
 
-/// The query in space, at z = 0.
 constexpr ccd::moving_point<double> in_space(const moving_point& p) {
     return {{p.t0.x, p.t0.y, 0}, {p.t1.x, p.t1.y, 0}};
 }
@@ -48,7 +42,6 @@ constexpr ccd::vertex_vertex<double> in_space(const vertex_vertex& q) {
     return {in_space(q.v), in_space(q.w)};
 }
 
-/// A query in the plane.
 template <class T>
 concept any_query = std::same_as<T, vertex_edge> || std::same_as<T, vertex_vertex>;
 

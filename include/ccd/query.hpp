@@ -37,7 +37,6 @@ struct vertex_edge {
     moving_point<T> v, e0, e1;
 };
 
-/// Two vertices.
 template <class T = double>
 struct vertex_vertex {
     moving_point<T> v, w;

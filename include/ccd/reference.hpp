@@ -1,11 +1,10 @@
 // The reference: decisions and first times in unbounded integers.
 //
-// Slow and simple, so that every faster call can be compared with it; also the last stage of
-// `exact`. Nothing is rounded: each axis has a power of two as its unit (all axes the same one if a
-// distance is given). Time and memory grow with the spread of the coordinates' exponents (about 100
-// bits in ordinary scenes, at most 2,100). Allocates; throws only std::bad_alloc.
-// `uncertain`, with cause `range`, only if a coordinate is not finite. Requires a sound environment
-// (errbound/environment.hpp): no flush-to-zero.
+// Slow and simple: the oracle of all faster calls, and the last stage of `exact`. Nothing is
+// rounded: each axis has a power of two as its unit (one unit for all axes if a distance is given).
+// Time and memory grow with the spread of the coordinates' exponents (about 100 bits in ordinary
+// scenes, at most 2,100). Allocates; throws only std::bad_alloc. Results and requirements are those
+// of ccd/exact.hpp.
 #pragma once
 
 #include <ccd/kind.hpp>

@@ -5,10 +5,10 @@
 //
 // For many steps of one mesh, use mesh_steps. A pair is two elements without a common vertex:
 // vertex/face, edge/edge and, in meshes with rods or points, vertex/edge and vertex/vertex. When
-// two elements first touch, a pair of these kinds touches (docs/collision-detection.md, Steps).
-// Elements that intersect at t = 0 are reported only once a boundary moves through the other
-// element, so start from a state free of intersections. Results are the same for every number of
-// threads. Throws std::invalid_argument for bad input.
+// two elements first touch, such a pair touches (docs/collision-detection.md, Steps). Start from a
+// state free of intersections: elements that intersect at t = 0 are reported only once a boundary
+// moves through the other element. Results do not depend on the number of threads. Throws
+// std::invalid_argument for bad input.
 #pragma once
 
 #include <array>
@@ -42,28 +42,27 @@ struct space_region {
 };
 
 /// The pairs that a step tests: those with a vertex of one element that may collide with a vertex
-/// of the other. Two vertices may collide unless one of these members excludes it; an empty member
-/// excludes nothing. Not owned; `groups` and `pinned` have one entry for each vertex.
+/// of the other. Two vertices may collide unless a member excludes it; empty members exclude
+/// nothing. Not owned; `groups` and `pinned` have one entry for each vertex.
 struct pair_filter {
     enum class group_rule : std::uint8_t {
         between_groups,  ///< two vertices of one group may not collide
         within_groups,   ///< two vertices of different groups may not collide
     };
 
-    /// True if two vertices may collide. Called from several threads at once. An exception ends
-    /// the call and leaves the mesh_steps object as before.
+    /// True if two vertices may collide. Called from several threads at once. An exception ends the
+    /// call and leaves the mesh_steps object as before.
     std::function<bool(vertex_index, vertex_index)> can_collide = {};
     std::span<const int> groups = {};  ///< the group of each vertex: its body, its layer, ...
     group_rule rule = group_rule::between_groups;
     /// Not 0: the vertex is at rest, or its motion is prescribed. Two such vertices may not
-    /// collide, so pairs with only pinned vertices are skipped.
+    /// collide.
     std::span<const std::uint8_t> pinned = {};
     /// Keeps a pair if the lower corner of the intersection of its swept boxes (widened by the
-    /// distance, if any) lies in this region. Regions that tile space therefore partition the
-    /// pairs. A step in a region needs only the elements whose boxes meet it.
+    /// distance) lies in this region: regions that tile space partition the pairs. A step in a
+    /// region needs only the elements whose boxes meet it.
     std::optional<space_region> region = {};
-    /// Skips the vertices of no face and no edge (unused_vertices), which are points by default. To
-    /// keep vertex v as a point, add the edge {v, v}.
+    /// Skips unused_vertices, which are points by default. To keep vertex v, add the edge {v, v}.
     bool skip_unused = false;
 };
 
@@ -77,8 +76,8 @@ struct step_options {
     bool first_contact = false;    ///< fill step_result::first_contact, and touching_at_start
     bool times = false;            ///< fill times, first_contact and touching_at_start
     double t_max = 1;              ///< report only pairs with a contact in [0, t_max]
-    /// Report pairs that come within a distance, instead of pairs in contact. Then times and
-    /// touching_at_start refer to that distance.
+    /// Report pairs within a distance instead of pairs in contact, also in times and
+    /// touching_at_start.
     pair_distances distances = {};
     stop_query stop = {};  ///< ends the call by throwing ccd::stopped
     pair_filter filter = {};
@@ -95,7 +94,6 @@ template <kind K>
 using block_visitor = std::function<void(std::span<const pair_of_kind<K>>)>;
 }  // namespace detail
 
-/// The number of pairs of each kind: `vertex_face`, `edge_edge`, `vertex_edge`, `vertex_vertex`.
 using pair_counts = by_kind<detail::count_of_kind>;
 
 /// Lists of pairs, each sorted. A vertex_face_pair is {v, f0, f1, f2}. An edge_edge_pair is
@@ -103,14 +101,12 @@ using pair_counts = by_kind<detail::count_of_kind>;
 /// {v, e0, e1} with the edge ascending, a vertex_vertex_pair {v, w} with v < w.
 using pair_lists = by_kind<detail::list_of_kind>;
 
-/// Returns the number of pairs of all kinds.
 inline std::size_t number_of(const pair_lists& pairs) {
     std::size_t number = 0;
     for_each_kind([&]<kind K>() { number += pairs.of<K>().size(); });
     return number;
 }
 
-/// The first times of pair_lists, in their order.
 using time_lists = by_kind<detail::times_of_kind>;
 
 /// Callbacks for blocks of up to 2048 pairs, called from several threads at once; they must not
@@ -118,10 +114,10 @@ using time_lists = by_kind<detail::times_of_kind>;
 using candidate_visitor = by_kind<detail::block_visitor>;
 
 struct step_result {
-    /// The number of candidates (see mesh_steps), with count_candidates or explain.
+    /// With count_candidates or explain; mesh_steps defines candidates.
     std::optional<pair_counts> candidates;
     pair_lists pairs;  ///< the reported pairs, vertices of faces ascending
-    /// The pairs that touch at t = 0, with initial_contact; decided by `exact` for every method.
+    /// With initial_contact: the pairs that touch at t = 0, by `exact` with every method.
     pair_lists touching_at_start;
     time_lists times;                 ///< of `pairs`, with step_options::times
     first_time first_contact;         ///< the earliest not at t = 0, with first_contact
@@ -135,12 +131,11 @@ struct step_result {
     stage_report stages;  ///< of `exact` for vertex/face and edge/edge pairs, with explain
 };
 
-/// Returns the pairs of one step, and throws, as mesh_steps(faces, edges,
-/// positions.vertices).run(positions, options).
+/// Same as mesh_steps(faces, edges, positions.vertices).run(positions, options). For two frames of
+/// one mesh, throws std::invalid_argument also if they differ in faces, edges or number of
+/// vertices.
 step_result step(std::span<const face> faces, std::span<const edge> edges,
                  const vertex_rows& positions, const step_options& options = {});
-/// Two frames of one mesh. Throws std::invalid_argument also if they differ in faces, edges or
-/// number of vertices.
 step_result step(const mesh& before, const mesh& after, const step_options& options = {});
 
 /// Steps of one mesh: keeps its unique faces and edges, their orders and its memory from step to
@@ -148,28 +143,27 @@ step_result step(const mesh& before, const mesh& after, const step_options& opti
 ///
 /// An element's swept box is the least box along the axes that contains it at every t. Candidates
 /// are the pairs that the filter keeps and whose closed boxes touch, in exact doubles, widened
-/// outwards by the pair's distance. Trees over the boxes find them; blocks are decided at once, and
-/// not all are stored. For contact without count_candidates and explain, `exact` discards pairs
-/// that an axis separates in the trees.
+/// outwards by the pair's distance. Trees over the boxes find candidates, which are decided in
+/// blocks and not all stored. For contact without count_candidates and explain, `exact` already
+/// discards pairs that an axis separates in the trees.
 ///
 /// A face that repeats a vertex counts as a segment or point, and is paired as any other face.
-/// Faces with the same three vertices count once, as do equal edges, so a pair is reported once.
-/// Vertex/edge and vertex/vertex pairs are decided by `exact` with every method.
+/// Faces with the same vertices count once, as do equal edges. All methods decide vertex/edge and
+/// vertex/vertex pairs by `exact`.
 ///
 /// Cost: the search, and decide_exact for each candidate. Elements at one position are all
 /// candidates: n unused vertices at the origin make n²/2 pairs, unless skip_unused skips them.
 /// Memory, kept between steps, in addition to two `mesh` frames and the result: up to nine times
-/// these frames. Up to three times if every candidate is decided: with count_candidates, explain or
-/// another method. About four times with distances, or if elements are so small and far from the
-/// origin that floats cannot separate their boxes.
+/// these frames. With count_candidates, explain or a method other than `exact`, it is up to three
+/// times these frames. With distances, or far from the origin, where floats cannot separate boxes,
+/// it is about four times.
 class mesh_steps {
   public:
     /// Throws std::invalid_argument if an index is not below `vertices`.
     mesh_steps(std::span<const face> faces, std::span<const edge> edges, std::size_t vertices);
     explicit mesh_steps(const mesh& mesh);
-    /// Steps in the plane, of edges and points: positions must have z = 0. Pairs are vertex/edge
-    /// (every vertex, every edge) and vertex/vertex (every two points). Throws
-    /// std::invalid_argument if an index is not below `vertices`.
+    /// Steps in the plane: positions must have z = 0. Pairs are vertex/edge (every vertex, every
+    /// edge) and vertex/vertex (every two points). Throws as the constructor.
     static mesh_steps in_plane(std::span<const edge> edges, std::size_t vertices);
     ~mesh_steps();
     /// A moved-from object may only be destroyed or assigned to.
@@ -180,8 +174,8 @@ class mesh_steps {
     ///
     /// Throws std::invalid_argument if there is not one position, group or pinned flag per vertex,
     /// a coordinate is not finite, or distances are not valid. Also throws if z is not 0 in the
-    /// plane, the method is not in methods(), or the instruction set is not in instruction_sets().
-    /// Also throws if a method other than `exact` has times, first_contact, t_max < 1 or distances.
+    /// plane, or the method or instruction set does not exist. Also throws if a method other than
+    /// `exact` has times, first_contact, t_max < 1 or distances.
     step_result run(const vertex_rows& positions, const step_options& options = {});
 
     /// Returns all candidates of a step, for custom narrow phases; vertices of faces keep the
@@ -189,8 +183,8 @@ class mesh_steps {
     /// 33 bytes a candidate. Throws as run(), but ignores the instruction set.
     pair_lists candidates(const vertex_rows& positions, const step_options& options = {});
 
-    /// Visits the candidates in blocks, in no particular order, and returns their numbers. The
-    /// visitor must not wait for other tasks of oneTBB.
+    /// Visits the candidates, unordered, and returns their numbers. The visitor must not wait for
+    /// other tasks of oneTBB.
     pair_counts for_each_candidate(const vertex_rows& positions, const candidate_visitor& visitor,
                                    const step_options& options = {});
 
@@ -200,7 +194,7 @@ class mesh_steps {
     std::unique_ptr<state> state_;
 };
 
-/// Returns the candidates of one step, as mesh_steps::candidates.
+/// Same as mesh_steps::candidates.
 pair_lists candidates(std::span<const face> faces, std::span<const edge> edges,
                       const vertex_rows& positions, const step_options& options = {});
 pair_lists candidates(const mesh& before, const mesh& after, const step_options& options = {});

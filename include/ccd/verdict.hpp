@@ -36,7 +36,7 @@ constexpr std::string_view name(cause c) {
     return i < names.size() ? names[i] : "unknown";
 }
 
-/// `cause` is `none` exactly if `outcome` is certain. The default is undecided.
+/// `cause` is `none` exactly if `outcome` is certain.
 struct verdict {
     ccd::outcome outcome = ccd::outcome::uncertain;
     ccd::cause cause = ccd::cause::undecided;
@@ -49,17 +49,15 @@ constexpr bool may_collide(verdict v) {
     return v.outcome != outcome::separate;
 }
 
-/// The first time in [0, t_max] at which the features touch, or come within a distance.
+/// The first time in [0, t_max] of contact, or within a distance.
 struct first_time {
-    /// `collides`: there is a first time. `separate`: there is none. `uncertain`: a coordinate,
-    /// a distance or t_max is not finite.
+    /// `separate`: there is none. `uncertain`: a coordinate, a distance or t_max is not finite.
     ccd::outcome outcome = ccd::outcome::uncertain;
-    /// If low == high, the first time itself; else the two adjacent doubles around it. The
-    /// features touch nowhere in [0, low), and not at `low` if low < high.
+    /// The first time if low == high; else the adjacent doubles around it. There is no contact in
+    /// [0, low), nor at `low` if low < high.
     double low = 0, high = 0;
 
-    /// True if the features touch at t = 0. (A time below the least double above 0 has low = 0
-    /// and high > 0.)
+    /// True if the features touch at t = 0. (Times below the least positive double have high > 0.)
     constexpr bool at_start() const { return outcome == ccd::outcome::collides && high == 0; }
 
     friend constexpr bool operator==(const first_time&, const first_time&) = default;

@@ -22,11 +22,10 @@ double clamped(double weight, double most) {
     return weight > 0 ? std::min(weight, most) : 0;
 }
 
-/// Sets the weights of the points of one feature. Each except the first is cut to the rest of 1;
-/// the first gets the remainder. True weights are in [0, 1] and add up to 1, so a cut adds no
-/// error. The error of the first is at most the sum of the others'. Two differences up to 1 are off
-/// by ε/4 each; the bound includes three roundings of this sum.
-/// Proof: proofs/ContactWeights.v, weights_right.
+/// Sets the weights of one feature. Each except the first is cut to the rest of 1; the first gets
+/// the remainder. True weights are in [0, 1] and add up to 1, so a cut adds no error. The error of
+/// the first is at most the sum of the others'. Two differences up to 1 are off by ε/4 each; the
+/// bound includes three roundings of this sum. Proof: proofs/ContactWeights.v, weights_right.
 void set_weights(const contact_state& state, const point_numbers& points, std::size_t first,
                  std::size_t count, first_contact& into) {
     double left = 1, error = 0;
@@ -60,10 +59,10 @@ void set_normal(const direction& along, normal_source source, bool sided, first_
     into.sided = sided;
 }
 
-/// Returns the sign with which the cross product N points to the side of the first feature before
-/// the contact; nothing if there was no side. `velocity` is that of the first feature relative to
-/// the second. Y = N·P is 0 at the contact, where its derivative is N times the velocity of P's
-/// end. If the derivative has a certain sign, Y had the opposite sign before.
+/// The sign with which N points to the side of the first feature before the contact, if there was a
+/// side. `velocity` is relative to the second feature. Y = N·P is 0 at the contact, where its
+/// derivative is N times the velocity of P's end. If the derivative has a certain sign, Y had the
+/// opposite sign before.
 template <class Query>
 std::optional<int> side_of(const Query& query, const first_time& time, const enclosed_vector& n,
                            const enclosed_vector& velocity) {
@@ -77,7 +76,7 @@ std::optional<int> side_of(const Query& query, const first_time& time, const enc
     return (side == sign_type::positive) == towards_first ? 1 : -1;
 }
 
-/// Sets the cross product as the normal, if its side is known or the start determines none.
+/// Sets the cross product as normal, if its side is known or the start determines none.
 template <class Query>
 bool set_cross_product(const Query& query, const enclosed_vector& n,
                        const enclosed_vector& velocity, first_contact& into) {
@@ -96,8 +95,8 @@ bool set_cross_product(const Query& query, const enclosed_vector& n,
     return true;
 }
 
-/// Sets a normal against the velocity without its component along the edge that meets. If that has
-/// no direction, uses `cross_product` if it has one, else the whole velocity.
+/// Sets the normal against the velocity without its component along the edge that meets. If that
+/// has no direction, uses `cross_product` if it has one, else the whole velocity.
 void set_substitute_normal(const contact_state& state, const enclosed_vector& velocity,
                            const enclosed_vector* cross_product, first_contact& into) {
     const auto set = [&](const enclosed_vector& p, normal_source source, bool sided) {
@@ -125,8 +124,8 @@ void set_normal_velocity(const enclosed_vector& velocity, int exponent, first_co
     into.normal_velocity_error = std::isfinite(value) && error >= 0 ? error : traits::infinity();
 }
 
-/// True if the features certainly do not touch at that time. In a contact all weights are in
-/// [0, 1], those of a feature add up to 1, and both points are equal.
+/// True if contact is impossible. In a contact all weights are in [0, 1], those of a feature add up
+/// to 1, and both points are equal.
 bool certainly_apart(const contact_state& state) {
     const auto is_negative = [](const enclosure& w) { return sign_of(w) == sign_type::negative; };
     return std::ranges::any_of(state.weights, is_negative) ||

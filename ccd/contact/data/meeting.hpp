@@ -16,7 +16,6 @@
 
 namespace ccd::detail {
 
-/// The query's features themselves, which meet inside.
 template <kind K>
 constexpr meeting_features whole_query() {
     meeting_features all{K, {}};
@@ -26,15 +25,12 @@ constexpr meeting_features whole_query() {
     return all;
 }
 
-/// A smaller pair of features within a query: the indices of its points, and of the point whose
-/// weight is 0 if the pair meets.
+/// The points of a smaller pair of features, and the point whose weight is 0 if the pair meets.
 struct smaller_pair {
     point_numbers points;
     std::uint8_t without;
 };
 
-/// Lists the vertex/edge pairs of a face or two edges, or a vertex/edge query's vertex/vertex
-/// pairs.
 template <kind K>
 constexpr auto smaller_pairs() {
     if constexpr (K == kind::vertex_face)
@@ -58,7 +54,7 @@ bool meet_at(const Points& points, const first_time& time, const point_numbers& 
     return !separated_by_coordinates(query) && time_of_impact(query, time.high) == time;
 }
 
-/// `weights` are enclosures for contact inside both features. If the features meet inside, weights
+/// `weights` enclose those of contact inside both features. If the features meet inside, weights
 /// are unique, and a smaller pair that meets has a weight of 0. Otherwise (N = 0, or an edge
 /// without length) no enclosure has a certain sign. A smaller pair's first contact is not before
 /// the query's, so it is later if it has another bracket.

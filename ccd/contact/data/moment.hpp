@@ -1,5 +1,5 @@
-// The points of a query at a time given by a bracket: enclosures of differences, weights and
-// relative velocity. Internal.
+// The points of a query at a time given by a bracket: enclosures of differences and velocities.
+// Internal.
 //
 // Uses the rule `residual`, because plain bounds would be some ten times as wide as the bracket's.
 #pragma once
@@ -23,7 +23,6 @@ namespace ccd::detail {
 
 using enclosure = errbound::tracked<double, errbound::residual>;
 using enclosed_vector = vector_form<enclosure, 0>;
-/// Indices of points of a query.
 using point_numbers = std::array<std::uint8_t, 4>;
 
 inline enclosed_vector operator+(const enclosed_vector& p, const enclosed_vector& q) {
@@ -47,13 +46,11 @@ inline double size(const enclosed_vector& p) {
     for (const enclosure& x : components(p)) largest = std::max(largest, std::abs(x.value()));
     return largest;
 }
-/// Returns p·2^e.
 inline enclosed_vector scaled(const enclosed_vector& p, int e) {
     if (e == 0) return p;
     return {{{scale(p.x[0], e)}}, {{scale(p.y[0], e)}}, {{scale(p.z[0], e)}}};
 }
 
-/// An enclosure of all times of the bracket.
 inline enclosure enclosed_time(const first_time& time) {
     const double width = time.high - time.low, half = width / 2;
     return enclosure(time.low) + enclosure::within(half, width - half);  // half may underflow
@@ -95,10 +92,10 @@ class contact_moment {
             points_[i] = {enclosed(points[i].t0), enclosed(points[i].t1)};
     }
 
-    /// Positions and velocities are the query's, divided by 2^exponent().
+    /// Positions and velocities are divided by 2^exponent().
     int exponent() const { return exponent_; }
 
-    /// Subtracts points first, because differences are small and exact, then interpolates in time.
+    /// Subtracts first, because differences are small and exact, then interpolates in time.
     relative_motion relative(std::size_t point, std::size_t to) const {
         const auto way = difference(points_[point], points_[to]);
         const enclosed_vector start = coefficient(way, 0);
@@ -106,7 +103,6 @@ class contact_moment {
         return {start + t_ * velocity, velocity};
     }
 
-    /// Approximates the square of the distance of two points.
     double squared_distance(std::size_t point, std::size_t to) const {
         const double t = t_.value();
         const auto square = [t](const enclosure& p0, const enclosure& p1, const enclosure& q0,

@@ -21,8 +21,8 @@ struct estimate {
     double value, error;
 };
 
-/// Returns the double nearest to the middle of an enclosure, to second order. (Roundings: u|value|
-/// of the sum, and four of the bound.)
+/// The double nearest to the middle of an enclosure, to second order. (Roundings: u|value| of the
+/// sum, and four of the bound.)
 inline estimate nearest(const enclosure& x) {
     using traits = errbound::number_traits<double>;
     const auto [correction, remainder] = x.bound();
@@ -40,7 +40,7 @@ struct direction {
 inline direction operator-(const direction& d) {
     return {{-d.unit.x, -d.unit.y, -d.unit.z}, d.error};
 }
-/// True if the error leaves a half-space of directions: the side of some plane is certain.
+/// True if the side of some plane is certain.
 inline bool is_known(const direction& d) {
     return d.error < 1;
 }
@@ -66,8 +66,8 @@ inline std::optional<direction> direction_of(const enclosed_vector& p) {
     return direction{{a.value / length, b.value / length, c.value / length}, error};
 }
 
-/// Returns the sign of f just before or just after t/(s + t); zero if f is zero throughout. If f is
-/// zero there, its first nonzero derivative determines the sign.
+/// The sign of f just before or just after t/(s + t); zero if f ≡ 0. If f is zero there, its first
+/// nonzero derivative determines the sign.
 template <int N>
 errbound::sign_type sign_beside(const errbound::bernstein<integer, N>& f, const integer& s,
                                 const integer& t, bool before) {
@@ -81,8 +81,8 @@ errbound::sign_type sign_beside(const errbound::bernstein<integer, N>& f, const 
     }
 }
 
-/// Returns the sign of Y before the contact: at `low`, if that is not the contact's time. Zero if
-/// the motion is planar. Exact, in unbounded integers; allocates.
+/// The sign of Y before the contact: at `low`, if that is not the contact's time. Zero if the
+/// motion is planar. Exact, in unbounded integers; allocates.
 template <class Query>
 errbound::sign_type side_before(const Query& query, const first_time& time) {
     const auto low = errbound::dyadic<integer>::from(time.low);

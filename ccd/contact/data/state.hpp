@@ -1,6 +1,5 @@
-// Weights, relative velocity and the normal's vector for features that meet inside both. Internal.
-//
-// Weights: G_i/N·N for a face and for edges that cross, W·E/E·E for a vertex on an edge.
+// Weights (G_i/N·N, or W·E/E·E on an edge), velocity and normal of features that meet inside.
+// Internal.
 #pragma once
 
 #include <array>
@@ -12,16 +11,14 @@
 
 namespace ccd::detail {
 
-/// The state at the contact. Weights are in the order of the kind's points.
+/// Weights are in the order of the kind's points.
 struct contact_state {
     std::array<enclosure, 4> weights;
     relative_motion motion;  ///< of the contact point of the first feature relative to the second's
-    /// N of a face or of edges that cross, or the edge of a vertex/edge pair. Scaled by some power
-    /// of two.
+    /// N, or the edge of a vertex/edge pair, scaled by some power of two.
     enclosed_vector across;
 };
 
-/// Forms of moderate size: all differences are scaled by one power of two.
 template <template <class, int> class Forms>
 Forms<enclosure, 0> moderate_forms(const relative_motion& b, const relative_motion& c,
                                    const relative_motion& p) {
@@ -29,8 +26,8 @@ Forms<enclosure, 0> moderate_forms(const relative_motion& b, const relative_moti
     return {scaled(b.position, -e), scaled(c.position, -e), scaled(p.position, -e)};
 }
 
-/// The points of a face, 1 to 3, rotated so that the longest edge is that of the last two. The
-/// cross product of the two other edges has the smallest error, above all if two points are close.
+/// The points of a face, rotated so that the longest edge is that of the last two. The cross
+/// product of the other edges has the smallest error, above all if two points are close.
 inline std::array<std::size_t, 3> with_longest_edge_last(const contact_moment& at,
                                                          const point_numbers& i) {
     const double opposite[] = {at.squared_distance(i[2], i[3]), at.squared_distance(i[3], i[1]),

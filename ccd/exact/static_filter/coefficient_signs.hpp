@@ -25,7 +25,6 @@ constexpr mask<S> below(const errbound::roots::control_values<S, N>& c, const S&
     return greatest < -error;
 }
 
-/// The largest magnitude of a control value.
 template <class S, int N>
 constexpr S size_of(const errbound::roots::control_values<S, N>& c) {
     using std::abs, std::max;
@@ -34,7 +33,7 @@ constexpr S size_of(const errbound::roots::control_values<S, N>& c) {
     return size;
 }
 
-/// True if the end values certainly differ in sign, which proves a root.
+/// True if the end values certainly differ in sign: there is a root.
 template <class S, int N>
 constexpr mask<S> changes_sign(const errbound::roots::control_values<S, N>& c, const S& error) {
     const S& start = c[0];
@@ -44,9 +43,8 @@ constexpr mask<S> changes_sign(const errbound::roots::control_values<S, N>& c, c
     return (starts_above & ends_below) | (starts_below & ends_above);
 }
 
-/// True if the end values certainly differ in sign, and one inner value certainly has the sign of
-/// the end next to it. Then signs change once, whatever the uncertain ones are: there is one root.
-/// Proof: proofs/ContactPart.v, changes_sign_once_right.
+/// True if, in addition, one inner value certainly has the sign of the end next to it. Then signs
+/// change once, so there is one root. Proof: proofs/ContactPart.v, changes_sign_once_right.
 template <class S>
 constexpr mask<S> changes_sign_once(const errbound::roots::control_values<S, 3>& c,
                                     const S& error) {

@@ -13,22 +13,20 @@
 
 namespace ccd::static_filter {
 
-/// The maximum number of halvings of the subdivision.
 inline constexpr std::size_t max_depth = 12;
 
-/// From this depth on, a part where Y is within its error goes to exact arithmetic. (Before it,
+/// From this depth on, a part where Y is within its error goes to exact arithmetic. (Before,
 /// halving may still show that some G_i is negative everywhere.)
 inline constexpr std::size_t patient_depth = 3;
 
 /// Larger differences go to later stages, so that forms of degree 4 stay far from overflow. (Floats
-/// hold differences in units of a scene's size.)
+/// are in units of a scene's size.)
 template <class Real>
 inline constexpr Real largest_difference = 0x1p200;
 template <>
 inline constexpr float largest_difference<float> = 4;
 
-/// Constants of a form: |ĥ − h| <= relative·unit + absolute for its control values times
-/// multiple(N). `halvings` is the error that halvings add.
+/// |ĥ − h| <= relative·unit + absolute for a form's control values times multiple(N).
 template <class Real>
 struct constants {
     Real relative;  ///< times the unit
@@ -52,8 +50,8 @@ constexpr basic_error_count<Real> worst_of(const control_values<basic_error_coun
 }
 
 /// The error that max_depth halvings add to control values of size at most 1. Each level takes the
-/// worst error of the previous one for all values, so it holds for either half.
-/// Proof: proofs/FilterStages.v, halving_error_enough.
+/// previous one's worst error for all values, so it holds for either half. Proof:
+/// proofs/FilterStages.v, halving_error_enough.
 template <int N>
 constexpr double halving_error() {
     control_values<error_count, N> c;
@@ -75,8 +73,7 @@ inline constexpr double negligible = 0x1p-1000;
 template <>
 inline constexpr double negligible<float> = 0x1p-140;
 
-/// Assumes underflow in all forms of at most degree `degree`, with factors of at most
-/// largest_difference.
+/// Assumes underflow in all forms up to `degree`, with factors up to largest_difference.
 template <class Real, int N>
 constexpr constants<Real> constants_of(basic_error_count<Real> c, int degree) {
     using traits = errbound::number_traits<Real>;
@@ -88,8 +85,8 @@ constexpr constants<Real> constants_of(basic_error_count<Real> c, int degree) {
             Real(slack * halving_error<N>() * epsilon)};
 }
 
-/// A difference of doubles rounded to Real. Floats may underflow there.
-/// Proof: proofs/RoundedAxes.v, converted_difference_near.
+/// A difference of doubles, rounded to Real. Floats may underflow. Proof: proofs/RoundedAxes.v,
+/// converted_difference_near.
 template <class Real>
 constexpr vector_form<basic_error_count<Real>, 1> any_difference() {
     auto d = basic_error_count<Real>::difference();

@@ -1,7 +1,7 @@
 // The size of a query's differences, and the error bounds of its forms that follow from it.
 //
-// One template serves one query (S = double) and a pack of queries (S a SIMD batch, masks instead
-// of bools). Each lane computes bit for bit the scalar result.
+// S is double for one query or a pack for several (with masks instead of bools). Each lane computes
+// bit for bit the scalar result.
 #pragma once
 
 #include <algorithm>
@@ -12,7 +12,7 @@
 
 namespace ccd::static_filter {
 
-/// The number type whose roundings S makes: double for a pack of doubles.
+/// The number type of S: double for a pack of doubles.
 template <class S>
 struct real_of {
     using type = double;
@@ -22,7 +22,7 @@ struct real_of<float> {
     using type = float;
 };
 
-/// The type of a comparison of two S: bool, or a SIMD mask.
+/// The type of a comparison: bool, or a SIMD mask.
 template <class S>
 using mask = decltype(S() < S());
 
@@ -49,9 +49,8 @@ struct difference_extents {
         usable = max(max(x, y), z) <= S(largest_difference<real>);
     }
 
-    /// Bounds |ĥ − h| of the control values of Y, or of every G_i. Proved for double.
-    /// Proof: proofs/CcdFilter.v, error_of_y_sound, error_of_vertex_face_sound,
-    /// error_of_edge_edge_sound.
+    /// Bounds |ĥ − h| of the control values of Y, or of every G_i. Proved for double. Proof:
+    /// proofs/CcdFilter.v, error_of_y_sound, error_of_vertex_face_sound, error_of_edge_edge_sound.
     template <template <class> class Forms>
     constexpr S error_of_y() const {
         return x * y * z * S(y_constants<Forms, real>.relative) +

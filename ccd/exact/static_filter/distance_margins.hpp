@@ -3,10 +3,9 @@
 // |Y|/|N| is the distance of the vertex from the face's plane, or of the two edges' lines. If some
 // G_i < 0, |G_i|/(|N|·L) is also a distance, where L is the length of an edge: of the projected
 // vertex from the line of the face's edge i, or of one projected edge from the other's line.
-// Projection does not increase distances. So the features are farther apart than d if
-// |Y| > d·|N|, or if a negative G_i has |G_i| > d·|N|·L.
-// Proof: proofs/DistanceMargins.v, plane_face_apart, plane_edges_apart, outside_face_apart,
-// outside_edges_apart.
+// Projection does not increase distances. So |Y| > d·|N|, or a negative G_i with |G_i| > d·|N|·L,
+// proves a distance above d. Proof: proofs/DistanceMargins.v, plane_face_apart, plane_edges_apart,
+// outside_face_apart, outside_edges_apart.
 #pragma once
 
 #include <algorithm>
@@ -29,7 +28,6 @@ constexpr S longer(const S& length, const vector_form<S, 1>& v) {
         squared = max(squared, S(v.x[end] * v.x[end] + v.y[end] * v.y[end] + v.z[end] * v.z[end]));
     return max(length, S(sqrt(squared)));
 }
-/// The largest L: the length of a face's longest edge, or of the longer of two edges.
 template <class S>
 constexpr S longest(const vertex_face_forms<S>& f) {
     const vector_form<S, 1> third{f.c.x - f.b.x, f.c.y - f.b.y, f.c.z - f.b.z};
@@ -42,10 +40,10 @@ constexpr S longest(const edge_edge_forms<S>& f) {
 
 }  // namespace detail
 
-/// Returns margins for the distance d, which are added to the errors of the control values over the
-/// step. The sums exclude the step or an interval of it: |N| is at most its longest control vector,
-/// and a length is at most that at one end.
-/// Proof: proofs/DistanceMargins.v, margins_face_apart, margins_edges_apart.
+/// Margins for the distance d that are added to the errors of the control values over the step. The
+/// sums exclude the step or an interval of it: |N| is at most its longest control vector, and a
+/// length is at most that at one end. Proof: proofs/DistanceMargins.v, margins_face_apart,
+/// margins_edges_apart.
 ///
 /// Errors: N's control vectors are off by less than 2^-48 of the extents' products (6ε of each
 /// term's size); the factor 1 + 2^-40 covers the rest. Squares of an N below 2^-516 may underflow.

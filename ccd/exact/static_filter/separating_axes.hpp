@@ -1,4 +1,4 @@
-// Separation of the two features of a query by a fixed axis throughout the step.
+// Separation of a query's features by fixed axes.
 #pragma once
 
 #include <algorithm>
@@ -13,7 +13,6 @@ namespace ccd::static_filter {
 
 namespace detail {
 
-/// True if the projections separate the features in the same order at both ends of the step.
 /// `project` takes a difference and an end; its error is at most margin/2.
 template <class S, class Project>
 constexpr mask<S> separated_along(const vertex_face_forms<S>& f, const S& margin,
@@ -86,10 +85,9 @@ constexpr mask<S> separated_by_diagonals(const Forms& f, const difference_extent
     return xy | yz | zx;
 }
 
-/// True if one of nine fixed axes separates the features in the same order at both ends of the
-/// step: x, y, z, x ± y, y ± z, z ± x. Motion is linear, so it then separates them throughout.
-/// Proof: proofs/Decisions.v, face_separated, edges_separated. Proof of the margin:
-/// proofs/SeparatingAxis.v, separated_face_separate, separated_edges_separate.
+/// True if x, y, z, x ± y, y ± z or z ± x separates the features in the same order at both ends of
+/// the step: so it does throughout. Proof: proofs/Decisions.v, face_separated, edges_separated.
+/// Proof of the margin: proofs/SeparatingAxis.v, separated_face_separate, separated_edges_separate.
 ///
 /// Margins: the error of a difference is at most ε·m, of a sum of two axes 2ε(1 + ε)(m_x + m_y), of
 /// two compared projections twice that. An edge's far end is a rounded sum of two projections,

@@ -10,12 +10,11 @@
 
 namespace ccd::static_filter {
 
-/// The number of halvings for first contacts. Integers cost less than further halvings for the
-/// queries that remain, most of which touch at a border.
+/// Halvings for first contacts. Further halvings cost more than integers for the queries that
+/// remain, most of which touch at a border.
 inline constexpr std::size_t halvings_for_times = 6;
 
-/// The interval [low, high] of the step in which contact was found. There is certainly no contact
-/// before `low`.
+/// The interval of the step in which contact was found. There is no contact before `low`.
 struct contact_interval {
     double low = 0, high = 1;
     errbound::roots::control_values<double, 3> y{};  ///< computed control values of Y there
@@ -35,10 +34,9 @@ struct waiting_parts {
     std::size_t size = 0;
 };
 
-/// `separate` and `collides` are certain. `uncertain` means that further halving would not help, or
-/// that `deepest` <= max_depth halvings did not decide. On `collides`, sets `*found` if `found` is
-/// not null.
-/// Proof: proofs/Subdivision.v, subdivision_separate, subdivision_collides; of `found`,
+/// `separate` and `collides` are certain. Returns `uncertain` if further halving would not help, or
+/// if `deepest` <= max_depth halvings did not decide. Sets `*found` if the query `collides`. Proof:
+/// proofs/Subdivision.v, subdivision_separate, subdivision_collides; of `found`,
 /// proofs/ContactPart.v, part_found, first_part_right, first_root_in_part.
 template <template <class> class Forms>
 constexpr outcome subdivide(const whole_step<double, Forms>& whole,

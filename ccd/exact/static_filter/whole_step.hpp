@@ -20,7 +20,7 @@ struct part_forms {
     std::array<errbound::roots::control_values<S, 4>, Constraints> g;
 };
 
-/// The error bounds of all control values after at most max_depth halvings.
+/// Bounds for all control values after at most max_depth halvings.
 template <class S>
 struct form_errors {
     S y, g;
@@ -50,7 +50,6 @@ struct whole_step {
                   g_error + largest * S(g_constants<Forms, real>.halvings)};
     }
 
-    /// True if some G_i is certainly negative throughout.
     constexpr mask<S> outside() const {
         mask<S> found = below(forms.g[0], errors.g);
         for (std::size_t i = 1; i < constraints; ++i) found = found | below(forms.g[i], errors.g);

@@ -7,13 +7,12 @@
 
 namespace ccd::io {
 
-/// The columns of methods.csv.
 extern const std::vector<std::string> method_columns;
 
 /// Exit statuses of draw_pictures other than 0.
 inline constexpr int no_matplotlib = 3, no_python = 127;
 
-/// Writes plot.py into the folder and runs it there. Returns its exit status. Throws
+/// Writes plot.py into the folder and runs it. Returns its exit status. Throws
 /// errbound::support::file_error.
 int draw_pictures(const std::filesystem::path& folder);
 

@@ -11,8 +11,7 @@
 
 namespace ccd::io::hdf5 {
 
-/// Locks the library, which is not safe for threads, and keeps it from printing its errors. The
-/// destructor restores the process's setting.
+/// Locks the library, which is not thread-safe, and keeps it from printing its errors.
 class quiet_use {
   public:
     quiet_use() : lock_(mutex()) {
@@ -54,8 +53,7 @@ inline std::string reason() {
     return cause.substr(0, cause.find('\n'));
 }
 
-/// Returns the status of a call, and throws file_error if it is negative. `where` begins the
-/// message: "FILE: dataset points".
+/// Throws file_error if `status` is negative. `where` begins the message: "FILE: dataset points".
 template <class Status>
 Status checked(Status status, const std::string& where) {
     if (status < 0)
@@ -80,7 +78,7 @@ class handle {
         const quiet_use use;
         close_(id_);
     }
-    /// Closes it now, and throws file_error if data cannot be written.
+    /// Closes it now. Throws file_error if data cannot be written.
     void close(const std::string& where) {
         checked(close_(std::exchange(id_, H5I_INVALID_HID)), where);
     }

@@ -45,7 +45,7 @@ struct row_format {
     bool compressed;
 };
 
-/// A dataset of rows of numbers, to which rows are added. `given` is the numbers' type in memory.
+/// A dataset to which rows are added. `given` is the numbers' type in memory.
 class growing_rows {
   public:
     growing_rows(hid_t file, const char* name, hid_t stored, hid_t given, const row_format& format)
@@ -102,8 +102,8 @@ void write_text(hid_t file, const char* name, std::string_view text) {
     write_attribute(file, name, type, type, text.data());
 }
 
-/// Collects a chunk at a time. The width of all point indices is known only at the end, so until
-/// then their rows are in a separate file.
+/// Collects a chunk at a time. The width of point indices is known only at the end; until then
+/// their rows are in a separate file.
 class packer final : public query_packer {
   public:
     packer(ccd::kind kind, bool with_truth)
@@ -185,7 +185,6 @@ class packer final : public query_packer {
         indices_.clear();
     }
 
-    /// The chunks of a store of one chunk are no larger than it.
     void begin(bool is_last) {
         const auto rows_of_a_chunk = [is_last](hsize_t rows, hsize_t most) {
             return is_last ? std::min(rows, most) : most;

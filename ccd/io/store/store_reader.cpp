@@ -24,8 +24,7 @@ using hdf5::handle;
 
 using moving = std::array<double, 6>;
 
-/// Opens a dataset of the file itself. A link may lead to any file, or to a pipe that blocks, so it
-/// is refused before it is followed.
+/// Refuses links, which may lead to any file, or to a pipe that blocks.
 handle opened_set(hid_t file, const char* name, const std::string& where) {
     H5L_info_t link;
     checked(H5Lget_info(file, name, &link, H5P_DEFAULT), where);
@@ -34,7 +33,6 @@ handle opened_set(hid_t file, const char* name, const std::string& where) {
     return {H5Dopen2(file, name, H5P_DEFAULT), H5Dclose, where};
 }
 
-/// The stored types of a dataset's numbers, and their names for messages.
 struct number_types {
     std::initializer_list<hid_t> stored;
     const char* names;
@@ -66,7 +64,6 @@ class rows_on_disk {
 
     std::uint64_t rows() const { return rows_; }
 
-    /// Rows [begin, end), as numbers of a type of the processor.
     template <class Row>
     std::vector<Row> read(hid_t number, std::uint64_t begin, std::uint64_t end) const {
         std::vector<Row> all(end - begin);

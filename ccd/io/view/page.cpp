@@ -50,7 +50,6 @@ std::string bytes_of_parts(const step_view& step) {
     return bytes;
 }
 
-/// Weights and normal, in floats, of each pair with a time.
 template <kind K>
 std::string bytes_of_contacts(const step_view& step) {
     std::string bytes;

@@ -11,12 +11,11 @@
 
 namespace ccd::io {
 
-/// The files of a view: NAME.html or `-` is a page; NAME.vtp is the frame before; NAME.pvd is a
-/// series of NAME-0.vtp and NAME-1.vtp, which come first. Throws std::invalid_argument if the name
-/// ends otherwise.
+/// NAME.html or `-` is a page; NAME.vtp is the frame before; NAME.pvd is a series of NAME-0.vtp and
+/// NAME-1.vtp, which come first. Throws std::invalid_argument for other names.
 std::vector<std::filesystem::path> view_paths(const std::filesystem::path& path);
 
-/// The files of view_paths, with their content. Throws as view_paths and page_of.
+/// Throws as view_paths and page_of.
 std::vector<errbound::support::output> view_files(const std::filesystem::path& path,
                                                   const step_view& step);
 
@@ -25,12 +24,10 @@ namespace detail {
 /// Appends bytes in base64, padded.
 void append_base64(std::string& text, std::string bytes);
 
-/// Throws std::invalid_argument unless all indices are in range, and there are no times or one for
-/// each pair.
+/// Throws std::invalid_argument as page_of.
 void require_view(const step_view& step);
 
-/// Throws std::invalid_argument if a name has control characters: XML cannot hold them, and readers
-/// replace line ends by blanks.
+/// Refuses control characters: XML cannot hold them, and readers replace line ends by blanks.
 void require_xml_name(std::string_view name);
 
 }  // namespace detail

@@ -16,7 +16,7 @@ void note(shadow_session& session, std::string_view quantity, const shadowed<Rul
     session.note(quantity, x.claimed(), x.exact(), errbound::meaning_of_error<Rule>);
 }
 
-/// The form's value at the inner root of l, if any, where BSC evaluates it.
+/// At the inner root of l, if any, where BSC evaluates the form.
 template <class S, int N>
 void note_at_root(shadow_session& session, std::string_view quantity, const bernstein<S, N>& form,
                   const bernstein<S, 1>& l) {

@@ -1,4 +1,3 @@
-// Stored queries in shadowed arithmetic, every rule.
 #include "ccd/lab/validation/query_validation.hpp"
 
 #include <algorithm>

@@ -15,7 +15,6 @@ namespace ccd::lab {
 template <class Query>
 using query_checker = void (*)(const Query&, shadow_session&);
 
-/// A bound rule as validation of queries sees it.
 struct query_rule {
     std::string_view name;
     errbound::error_meaning error_is = errbound::error_meaning::nothing;

@@ -11,7 +11,6 @@ namespace {
 
 namespace validation = errbound::validation;
 
-/// A row for each distribution; broken promises are in the column `broken`.
 rows rows_of(const validation::report& found) {
     rows result;
     for (const validation::tightness& t : found.distributions) {

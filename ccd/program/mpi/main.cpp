@@ -31,9 +31,9 @@ int run_command_line(int argc, char** argv, int rank) {
     return errbound::support::run_command(app, argc, argv, commands, rank == 0);
 }
 
-/// Waits for all ranks. An error that one rank throws is thrown on all ranks, unless the rank fails
-/// alone (no memory, another command line). The others then wait for it without end. In that case
-/// the result is false after some seconds.
+/// Waits for all ranks. An error of one rank is thrown on all, unless that rank fails alone (no
+/// memory, another command line). The others then wait for it without end, and the result is false
+/// after some seconds.
 bool all_meet(MPI_Comm all, bool failed) {
     MPI_Request request{};
     MPI_Ibarrier(all, &request);
@@ -47,7 +47,7 @@ bool all_meet(MPI_Comm all, bool failed) {
     }
 }
 
-/// Runs the command. The lowest failing rank rethrows its error; the others return its status.
+/// The lowest failing rank rethrows its error; the others return its status.
 int run_on_rank(MPI_Comm all, int argc, char** argv, bool& met) {
     int rank = 0, size = 1;
     MPI_Comm_rank(all, &rank);

@@ -42,7 +42,7 @@ file_mark mark_of(const std::filesystem::path& path) {
     return mark;
 }
 
-/// Throws if the file differs from that of rank 0: machines may have different files with one name.
+/// Throws if the file differs from rank 0's: machines may have different files with one name.
 void require_same_file(mpi::detail::exchanger& ranks, const std::filesystem::path& path) {
     const file_mark own = mark_of(path);
     const file_mark first = ranks.gather(std::vector{own}).items.front();

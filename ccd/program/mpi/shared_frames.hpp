@@ -10,7 +10,7 @@
 
 namespace ccd::program {
 
-/// A rank's elements of a mesh. Vertices have their indices in the files as numbers.
+/// A rank's elements. `numbers` are the indices of vertices in the files.
 struct shared_frames {
     std::vector<mpi::vertex_number> numbers;
     std::vector<point<double>> before, after;
@@ -21,7 +21,6 @@ struct shared_frames {
     mpi::mesh_part part() const { return {numbers, {before, after}, faces, edges}; }
 };
 
-/// Reads an equal share of elements on each rank, and exchanges positions of their vertices.
 /// Collective. Errors of read_mesh_share and require_same_topology are thrown on all ranks.
 shared_frames read_shared_frames(mpi::detail::exchanger& ranks, const std::filesystem::path& before,
                                  const std::filesystem::path& after);

@@ -1,5 +1,4 @@
-// `ccd_mpi step`: one step of a mesh. Each rank reads a share of the files; rank 0 writes all
-// pairs.
+// `ccd_mpi step`: each rank reads a share of the files; rank 0 writes all pairs.
 #include "ccd/program/mpi/step_command.hpp"
 
 #include <algorithm>

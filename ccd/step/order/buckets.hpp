@@ -1,5 +1,4 @@
-// Sorts items that have vertices: into parts by one vertex, then into buckets, then each short
-// bucket.
+// Sorts items into parts by one vertex, then into buckets, then each short bucket.
 #pragma once
 
 #include <tbb/enumerable_thread_specific.h>
@@ -19,8 +18,7 @@
 
 namespace ccd::detail {
 
-/// The number of shares of `count` items, at least one, such that each thread of the arena has
-/// work.
+/// The number of shares, at least one, such that each thread of the arena has work.
 inline std::size_t shares_of(std::size_t count) {
     constexpr std::size_t least = 4096;
     const auto threads = static_cast<std::size_t>(tbb::this_task_arena::max_concurrency());
@@ -53,7 +51,6 @@ class share_places {
     std::vector<std::size_t> next_;
 };
 
-/// Calls act(i) for all i < count, each as a separate task.
 template <class Act>
 void for_each_task(std::size_t count, const Act& act) {
     tbb::parallel_for(std::size_t(0), count, act, tbb::simple_partitioner());
@@ -88,10 +85,9 @@ class part_sorter {
 };
 
 /// Sorts items that come in shares, at least one. for_each(share, visit) calls visit(item) for all
-/// items of a share; it is called twice for each share, from several threads at once.
-/// Preconditions: vertex_of(item) is at most `last`, and does not decrease in the order by <. Cost:
-/// O(count) if few items share a vertex, on all threads of the arena. Shares do not affect the
-/// result.
+/// items of a share, twice for each share, from several threads at once. Preconditions:
+/// vertex_of(item) is at most `last`, and does not decrease in the order by <. Cost: O(count) if
+/// few items share a vertex. Shares do not affect the result.
 template <class Item, class ForEach, class VertexOf>
 std::vector<Item> sorted_by_vertex(std::size_t shares, vertex_index last, const ForEach& for_each,
                                    const VertexOf& vertex_of) {

@@ -1,8 +1,8 @@
 // Hilbert's curve through the cells of a cube. Neighbours along it are neighbours in space.
 //
 // In each cube the curve visits the octants in the order of Gray's code. The order depends on the
-// corner where the curve enters and on the axis along which it leaves, the state of the cube. A
-// cube passes a state to each octant (Hamilton and Rau-Chaplin, "Compact Hilbert indices", 2008).
+// cube's state: the corner where the curve enters and the axis along which it leaves. A cube passes
+// a state to each octant (Hamilton and Rau-Chaplin, "Compact Hilbert indices", 2008).
 #pragma once
 
 #include <array>
@@ -56,8 +56,7 @@ class hilbert_states {
 
 inline constexpr hilbert_states states_of_hilbert;
 
-/// Returns the position along Hilbert's curve of the cell at `morton` along Morton's curve. The
-/// digits of `morton` are octants, with `axis_bits` bits an axis.
+/// Digits of `morton`, the position along Morton's curve, are octants: `axis_bits` bits an axis.
 constexpr std::uint64_t hilbert_position(std::uint64_t morton, unsigned axis_bits) {
     std::uint64_t along = 0;
     unsigned state = 0;

@@ -14,12 +14,11 @@ namespace ccd::adapters::detail {
 
 /// True if the features certainly stay more than d apart in [0, t_max], for 0 <= t_max <= 1.
 ///
-/// Tests the motion to the rounded positions at t_max. With coordinates of at most M,
-/// x0 + t_max (x1 - x0) is off by at most 6u M + 2^-1074 after three roundings by u = 2^-53, fused
-/// or not: a difference of at most 2M, its product, a sum of at most M. At earlier times, points
-/// are off by a fraction of that. A distance is therefore off by less than 2 sqrt(3) times that,
-/// for which twice 2^-48 M + 2^-1072 is added to d. Values that overflow are not finite, and then
-/// nothing is certain.
+/// Tests the motion to the rounded positions at t_max. With coordinates of at most M and u = 2^-53,
+/// the rounded x0 + t_max·(x1 - x0) is off by at most 6u M + 2^-1074, fused or not. It rounds a
+/// difference of at most 2M, its product, and a sum of at most M. Points at earlier times are off
+/// by a fraction of that, and distances by less than 2 sqrt(3) times that. So twice 2^-48 M +
+/// 2^-1072 is added to d. Values that overflow are not finite, and then nothing is certain.
 template <class Query>
 bool stays_apart(const Query& query, separation d, double t_max) {
     double largest = 0;
@@ -36,7 +35,6 @@ bool stays_apart(const Query& query, separation d, double t_max) {
     return decide_within(cut_short, d).outcome == outcome::separate;
 }
 
-/// time_within.
 template <class Query>
 first_time first_within(const Query& query, separation d, double t_max) {
     const bool is_distance = d.first > 0 || d.second > 0;

@@ -5,9 +5,9 @@
 //   ipc::compute_collision_free_stepsize(mesh, before, after, min_distance, nullptr, exact);
 //
 // Decisions are exact, without tolerance or limit of iterations, and thread-safe. Coordinates,
-// min_distance >= 0 and tmax must be finite; otherwise the answer is true with `toi` 0.
-// Cost: time_of_impact (ccd/contact.hpp); with a distance or a gap time_within, but far less if the
-// features are not that near by tmax.
+// min_distance >= 0 and tmax must be finite; otherwise the answer is true with `toi` 0. Cost: that
+// of time_of_impact (ccd/contact.hpp). With a distance or a gap it is that of time_within, but far
+// less if the features are not that near by tmax.
 #pragma once
 
 #include <cassert>
@@ -21,7 +21,7 @@ namespace ccd::adapters {
 
 namespace detail {
 
-/// The interface with the member conservative_rescaling, which early versions of it do not have.
+/// Adds the member conservative_rescaling, which early versions of the interface lack.
 template <class Interface>
 struct rescaled : Interface {
     double conservative_rescaling = 1;
@@ -50,11 +50,11 @@ Position first_parameter(bool (Interface::*)(Position, Rest...) const);
 ///   double above 0.
 /// * `toi` is infinite if the answer is false.
 ///
-/// A step of that length may end in contact. A barrier needs a gap: give a conservative_rescaling
-/// below 1. The distance tested is then the sum of min_distance and a gap: the fraction
-/// 1 - conservative_rescaling of the distance above min_distance at the start, at most max_gap.
-/// The gap remains at every time up to `toi`, and all features that get nearer are reported. If
-/// rounding leaves nothing of the gap, min_distance is tested, and the time is multiplied by
+/// A step of that length may end in contact. For a gap, as barriers need, set a
+/// conservative_rescaling below 1. The distance tested is then min_distance plus a gap: the
+/// fraction 1 - conservative_rescaling of the distance above min_distance at the start, at most
+/// max_gap. The gap remains at every time up to `toi`, and all features that get nearer are
+/// reported. If the gap rounds to nothing, min_distance is tested, and the time is multiplied by
 /// conservative_rescaling; `toi` is 0 in no other cases. Degenerate triangles and edges are the
 /// segments and points that they are.
 class exact_narrow_phase : public detail::rescaled<ipc::NarrowPhaseCCD> {
@@ -66,8 +66,8 @@ class exact_narrow_phase : public detail::rescaled<ipc::NarrowPhaseCCD> {
     /// The largest gap that is kept for conservative_rescaling, > 0.
     double max_gap;
 
-    /// `rescaling`, in (0, 1], is the public member conservative_rescaling, which the toolkit reads
-    /// as well.
+    /// `rescaling`, in (0, 1], is the public member conservative_rescaling, which the toolkit
+    /// reads.
     explicit exact_narrow_phase(double rescaling = 1,
                                 double largest_gap = std::numeric_limits<double>::infinity())
         : max_gap(largest_gap) {

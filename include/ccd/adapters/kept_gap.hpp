@@ -1,5 +1,4 @@
-// One query of a narrow phase that keeps a part of each gap: exact_narrow_phase
-// (ccd/adapters/ipc_toolkit.hpp) and the Python package share it.
+// A narrow phase that keeps a part of each gap, for ipc_toolkit.hpp and the Python package.
 #pragma once
 
 #include <algorithm>
@@ -30,7 +29,6 @@ inline narrow_answer narrow_answer_of(outcome found, double time) {
     return {true, time};
 }
 
-/// The answer for rescaling < 1.
 template <class Query>
 narrow_answer answer_with_gap(const Query& query, const kept_gap& kept, double min_distance,
                               double tmax) {
@@ -49,8 +47,8 @@ narrow_answer answer_with_gap(const Query& query, const kept_gap& kept, double m
     return narrow_answer_of(late ? outcome::separate : found.outcome, time);
 }
 
-/// The answer of exact_narrow_phase: whether, and when first, the features come within min_distance
-/// and the kept gap of each other, for t in [0, min(tmax, 1)].
+/// Finds if, and when first, the features come within min_distance and the kept gap of each other,
+/// for t in [0, min(tmax, 1)].
 template <class Query>
 narrow_answer answer(const Query& query, const kept_gap& kept, double min_distance, double tmax) {
     if (kept.rescaling < 1) return answer_with_gap(query, kept, min_distance, tmax);

@@ -1,12 +1,11 @@
-// Conversion of positions of other libraries.
+// Converts positions of other libraries.
 #pragma once
 
 #include <ccd/query.hpp>
 
 namespace ccd::adapters::detail {
 
-/// A position from a vector with [] and size(). Two coordinates give a point with z = 0, with the
-/// contacts and distances of the plane (ccd/plane.hpp). Floats are exact doubles.
+/// Converts a vector with [] and size(). Two coordinates give a point with z = 0 (ccd/plane.hpp).
 template <class Vector>
 point<double> position(const Vector& p) {
     return {p[0], p[1], p.size() > 2 ? p[2] : 0};

@@ -3,12 +3,11 @@
 //
 //     namespace ticcd = ccd::adapters::tight_inclusion;
 //
-// instead of its header leaves calls as they are, with doubles or floats. An answer `false`
-// certifies that the features stay free, or farther apart than ms on some axis; `toi` is not after
-// the first time of an answer `true` (vertexFaceCCD has the details). Coordinates, ms >= 0 and
-// t_max must be finite; otherwise the answer is `true` with `toi` 0. Callable from many threads.
-// Cost: that of time_of_impact (ccd/contact.hpp); with ms > 0 that of time_within, or less if
-// t_max < 1.
+// replaces its header; calls, with doubles or floats, need no change. An answer `false` certifies
+// that the features stay free, or farther apart than ms on some axis; `toi` is not after the first
+// time of an answer `true` (see vertexFaceCCD). Coordinates, ms >= 0 and t_max must be finite;
+// otherwise the answer is `true` with `toi` 0. Thread-safe. Cost: that of time_of_impact
+// (ccd/contact.hpp); with ms > 0 that of time_within, or less if t_max < 1.
 #pragma once
 
 #include <Eigen/Core>
@@ -35,7 +34,7 @@ inline constexpr Scalar DEFAULT_CCD_DISTANCE_TOL = 1e-6;
 
 namespace detail {
 
-/// Argument types that are not deduced: only `toi` determines T, other arguments convert.
+/// Only `toi` determines T; arguments of these types convert.
 template <class T>
 using scalar = std::type_identity_t<T>;
 template <class T>
@@ -69,18 +68,15 @@ bool answer(const Query& query, double ms, double t_max, bool no_zero_toi, T& to
 
 /// Vertex v and triangle f0 f1 f2, whose positions move linearly from t0 to t1.
 ///
-/// ms = 0: true exactly if they touch in [0, t_max]. `toi` is the last number of type Scalar that
-/// is not after the first contact.
-/// ms > 0: true exactly if their Euclidean distance reaches sqrt(3) ms, the half diagonal of the
-/// box. It is rounded up by less than two units in the last place. This ball contains the box of
-/// Tight-Inclusion, so `false` certifies the same as there. Pairs up to 1.74 times as far apart
-/// along an axis are reported. For a Euclidean distance call ccd::time_within.
-/// `toi` is infinite if the answer is false.
+/// ms = 0: true exactly if they touch in [0, t_max]. `toi` is the last Scalar not after the first
+/// contact. ms > 0: true exactly if their Euclidean distance reaches sqrt(3) ms, rounded up by less
+/// than two units in the last place. This ball contains the box of Tight-Inclusion, so `false`
+/// certifies the same as there. Pairs up to 1.74 times as far apart along an axis are reported; for
+/// a Euclidean distance call ccd::time_within. `toi` is infinite if the answer is false.
 ///
-/// err, tolerance, max_itr and ccd_method are ignored, since nothing is rounded. output_tolerance
-/// is set to tolerance, as after a complete search. With no_zero_toi, a pair within ms at the start
-/// is tested for contact only. Then `toi` is 0 only if it touches at the start, or before the least
-/// positive Scalar.
+/// err, tolerance, max_itr and ccd_method are ignored, since nothing is rounded; output_tolerance
+/// is set to tolerance. With no_zero_toi, a pair within ms at the start is tested for contact only.
+/// Then `toi` is 0 only if it touches at the start, or before the least positive Scalar.
 template <class T>
 requires std::same_as<T, double> || std::same_as<T, float>
 bool vertexFaceCCD(

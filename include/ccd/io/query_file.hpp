@@ -1,6 +1,5 @@
-// Readers of stored queries (target errbound::ccd_io): the public CCD benchmark's CSV form, decimal
-// and hexadecimal-float rows, and truth next to a file. Lines end in LF, CRLF or CR; a byte order
-// mark of UTF-8 is skipped, UTF-16 refused.
+// Reads stored queries (target errbound::ccd_io): the public CCD benchmark's CSV form, decimal and
+// hexadecimal-float rows, and truth next to a file. Lines and encodings: as ccd/io/mesh_file.hpp.
 #pragma once
 
 #include <ccd/kind.hpp>
@@ -17,7 +16,6 @@
 
 namespace ccd::io {
 
-/// Queries of one kind in file order.
 struct query_file {
     /// An alternative for each of stored_kinds, in that order.
     std::variant<std::vector<vertex_face<double>>, std::vector<edge_edge<double>>> queries;
@@ -29,17 +27,16 @@ struct query_file {
     }
 };
 
-/// The values of the option --kind: "vf", "ee".
 std::vector<std::string> kind_names();
 
 /// The kind that a path names, if any: the name without extension ends in `vf` or `ee`, with no
 /// letter before, or else a folder is named `vertex-face`, `edge-edge`, `vf` or `ee`.
 std::optional<ccd::kind> kind_from_path(const std::filesystem::path& path);
 
-/// Reads queries of a stored kind from text. `name` is used in messages.
-/// With `round`, a rational that no double equals is rounded to nearest instead of refused.
-/// Throws errbound::support::file_error if rows have another form, a number is not finite or equals
-/// no double, or the last query is truncated.
+/// Reads queries of a stored kind from text; `name` is used in messages. With `round`, a rational
+/// that no double equals is rounded to nearest instead of refused. Throws
+/// errbound::support::file_error if rows have another form, a number is not finite or equals no
+/// double, or the last query is truncated.
 query_file parse_queries(std::string_view text, const std::string& name, ccd::kind kind,
                          bool round);
 
@@ -48,21 +45,20 @@ query_file parse_queries(std::string_view text, const std::string& name, ccd::ki
 query_file parse_stored_queries(std::string_view bytes, const std::string& name,
                                 std::optional<ccd::kind> kind, bool round);
 
-/// A range of a file's queries: at most `count`, from query `first` on.
+/// At most `count` queries of a file, from query `first` on.
 struct file_range {
     std::uint64_t first = 0;
     std::uint64_t count = (std::numeric_limits<std::uint64_t>::max)();
 };
 
-/// Reads a file, and truth from its column or from `../mma_bool/NAME_mma_bool.json` next to it. The
-/// kind is `kind` if given, else the one in the path. A store (ccd/io/query_store.hpp) holds its
-/// own kind and truth. Returns the queries in `range`; text is read and checked in full. Throws
+/// Reads a file, and truth from its column or from `../mma_bool/NAME_mma_bool.json` next to it.
+/// Without `kind`, the path names the kind. A store (ccd/io/query_store.hpp) holds its own kind and
+/// truth. Returns the queries in `range`; text is read and checked in full. Throws
 /// errbound::support::file_error for bad content, or if no query is in the range.
 query_file read_queries(const std::filesystem::path& path, std::optional<ccd::kind> kind,
                         bool round, file_range range = {});
 
-/// Reads a JSON array of booleans. `name` is used in messages. Throws
-/// errbound::support::file_error.
+/// Reads a JSON array of booleans. Throws errbound::support::file_error.
 std::vector<bool> parse_truth(std::string_view text, const std::string& name);
 
 }  // namespace ccd::io

@@ -1,5 +1,5 @@
-// Writer of stores of queries (target errbound::ccd_io): HDF5 files, chunked and checksummed, which
-// read_queries (ccd/io/query_file.hpp) reads as it reads CSV. Their layout: docs/program.md.
+// Writes stores of queries (target errbound::ccd_io): HDF5 files, chunked and checksummed, that
+// read_queries (ccd/io/query_file.hpp) reads. Layout: docs/program.md.
 #pragma once
 
 #include <ccd/io/query_file.hpp>
@@ -12,8 +12,8 @@ namespace ccd::io {
 /// True if this was built with HDF5. Otherwise stores are neither written nor read.
 bool has_query_stores();
 
-/// Writes a store of any number of queries to a file in std::filesystem::temp_directory_path(). Up
-/// to 16 bytes a query more are in use there until it is finished. Memory: some 30 megabytes.
+/// Writes a store of any number of queries to a file in std::filesystem::temp_directory_path(),
+/// with up to 16 further bytes a query until it is finished. Memory: some 30 megabytes.
 class query_packer {
   public:
     virtual ~query_packer() = default;
@@ -30,8 +30,8 @@ class query_packer {
     virtual const std::filesystem::path& finish() = 0;
 };
 
-/// Begins a store of queries of one kind, all with truth or all without. Throws std::runtime_error
-/// if this was built without HDF5.
+/// Begins a store of one kind, all with truth or all without. Throws std::runtime_error without
+/// HDF5.
 std::unique_ptr<query_packer> make_query_packer(ccd::kind kind, bool with_truth);
 
 }  // namespace ccd::io

@@ -12,7 +12,6 @@
 
 namespace ccd::io {
 
-/// The content of a view. Not owned.
 struct step_view {
     vertex_rows positions;
     std::span<const face> faces;
@@ -21,17 +20,15 @@ struct step_view {
     const time_lists& times;  ///< of the pairs, or empty if unknown
 };
 
-/// Returns a page of HTML that fetches nothing. It shows the mesh and its pairs at every time of
-/// the step, to turn, move and zoom with mouse, fingers or keys. A list has each pair's time,
-/// weights and normal, and the pair as a query in numbers that read back exactly. Needs a browser
-/// with WebGL 2.
+/// Returns a page of HTML that fetches nothing and needs WebGL 2. It shows the mesh and its pairs
+/// at every time of the step, to turn, move and zoom with mouse, fingers or keys. A list has each
+/// pair's time, weights and normal, and the pair as a query in numbers that read back exactly.
 ///
-/// Size: 65 bytes a vertex and 16 a face, and 22 a pair, or 80 with times. Cost: a contact's data
-/// for each pair with a time. Throws std::invalid_argument if an index is out of range, or if there
-/// are times but not one a pair.
+/// Size: 65 bytes a vertex and 16 a face, and 22 a pair, or 80 with times. Cost: contact_at for
+/// each pair with a time. Throws std::invalid_argument if an index is out of range, or if there are
+/// times but not one a pair.
 std::string page_of(const step_view& step);
 
-/// One of the two frames.
 enum class frame : std::uint8_t { before, after };
 
 /// Returns one frame as VTK's XML PolyData, binary, with coordinates bit for bit. Cells are points
@@ -39,22 +36,21 @@ enum class frame : std::uint8_t { before, after };
 /// kind in the order of `pairs`: the first contact point, or the middle of the pair's vertices if
 /// the contact is unknown.
 ///
-/// Arrays of points: `displacement` from t = 0 to 1; `normal` of contacts (ccd/contact.hpp),
-/// else 0. Arrays of cells: `pairs`, the number of pairs of the cell, its edges and its vertices;
-/// `toi`, the lowest `low` of these pairs, or NaN; `pair`, the index of a pair's own cell, or -1;
-/// `kind`, the number of its ccd::kind, or -1. The field TimeValue is the frame's time, 0 or 1.
-///
-/// Cost: a contact's data for each pair with a time. Throws as page_of.
+/// Arrays of points: `displacement` from t = 0 to 1; `normal` of contacts (ccd/contact.hpp), else
+/// 0. Arrays of cells: `pairs`, the number of pairs of the cell, its edges and its vertices; `toi`,
+/// the lowest `low` of these pairs, or NaN; `pair`, the index of a pair's own cell, or -1; `kind`,
+/// the number of its ccd::kind, or -1. The field TimeValue is the frame's time, 0 or 1. Cost and
+/// exceptions: as page_of.
 std::string vtp_of(const step_view& step, frame shown);
 
-/// An entry of a series: a file's time, and its path from the series' folder.
+/// A file of a series: its time, and its path from the series' folder.
 struct series_entry {
     double time = 0;
     std::string file;
 };
 
-/// Returns a series of files as ParaView's PVD. Throws std::invalid_argument if a time is not
-/// finite or a name has a control character, which XML cannot hold.
+/// Returns a series as ParaView's PVD. Throws std::invalid_argument if a time is not finite or a
+/// name has a control character, which XML cannot hold.
 std::string pvd_of(std::span<const series_entry> series);
 
 }  // namespace ccd::io

@@ -5,8 +5,8 @@
 //   decide_bsc<tight>   `tight`: TightCCD; `separate` and `collides` are certain
 //   decide_bsc<sharp>, <interval>, <residual>   the methods with these names: as above
 //
-// Sources: Wang, Tang, Manocha, Tong 2015 (TightCCD), Sections 3 to 5; errbound/bsc.hpp has
-// the differences from the printed branches, with reasons.
+// Source: Wang, Tang, Manocha, Tong 2015 (TightCCD), Sections 3 to 5; errbound/bsc.hpp lists the
+// differences from the printed branches, with reasons.
 #pragma once
 
 #include <ccd/methods/forms.hpp>
@@ -16,14 +16,14 @@
 
 namespace ccd {
 
-/// True if the signs of Y's coefficients show that the points are never coplanar. This first test
-/// of decide_bsc_of decides most queries.
+/// True if the signs of Y's coefficients show that the points are never coplanar, as they do for
+/// most queries.
 template <class Scalar, template <class> class Query>
 constexpr bool never_coplanar(const Query<Scalar>& query) {
     return certainly_rootless(normalized(forms_of(query).y()));
 }
 
-/// Decides a vertex_face or edge_edge query over tracked numbers near 1 in size (or 0).
+/// Decides a query over tracked numbers near 1 in size (or 0).
 template <class Scalar, template <class> class Query>
 constexpr verdict decide_bsc_of(const Query<Scalar>& query) {
     const auto forms = forms_of(query);
@@ -42,8 +42,7 @@ constexpr verdict decide_bsc_of(const Query<Scalar>& query) {
 /// Decides a vertex_face or edge_edge query. `separate` and `collides` are certain if signs under
 /// Rule are. `collides` means that all weights are strictly positive at some root of Y, so the
 /// normal does not vanish there. Cost: at most a few thousand operations, no allocation, never
-/// throws.
-/// Proof: proofs/Decisions.v, bsc_face_separate, bsc_face_collides, bsc_edges_separate,
+/// throws. Proof: proofs/Decisions.v, bsc_face_separate, bsc_face_collides, bsc_edges_separate,
 /// bsc_edges_collide; with each rule: proofs/TrackedBsc.v, tracked_face_separate,
 /// tracked_face_collides, tracked_edges_separate, tracked_edges_collide.
 template <class Rule, class T, template <class> class Query>

@@ -1,9 +1,9 @@
 // The polynomials of a query, over any scalar: coplanarity cubic Y and inside quartics G_i.
 //
-// In the notation of the TightCCD paper, Section 3: a VF contact has a t in [0, 1] with Y(t) = N·P
-// = 0 and the three barycentric weights times |N|² >= 0. An EE contact has the two edge parameters
-// times |N|² within [0, |N|²]. If the normal N vanishes, the conditions can hold without contact.
-// All forms are in scaled Bernstein coefficients (errbound/bernstein.hpp).
+// A VF contact has a t in [0, 1] with Y(t) = N·P = 0 and the three barycentric weights times |N|²
+// >= 0 (TightCCD, Section 3). An EE contact has the two edge parameters times |N|² within [0,
+// |N|²]. If the normal N vanishes, the conditions can hold without contact. All forms are in scaled
+// Bernstein coefficients (docs/notation.md).
 #pragma once
 
 #include <array>
@@ -15,7 +15,7 @@
 
 namespace ccd {
 
-/// A vector whose components are polynomials of degree N in t.
+/// A vector of polynomials of degree N in t.
 template <class S, int N>
 struct vector_form {
     errbound::bernstein<S, N> x, y, z;
@@ -41,8 +41,7 @@ constexpr auto dot(const vector_form<S, A>& p, const vector_form<T, B>& q) {
     return p.x * q.x + p.y * q.y + p.z * q.z;
 }
 
-/// Evaluates p at (s, t) by value_at, as a form of degree 0. Coefficient 0 is p's value at t = 0,
-/// and coefficient N at t = 1.
+/// p at (s, t), as a form of degree 0; coefficients 0 and N are the values at t = 0 and 1.
 template <class S, int N, class T>
 constexpr auto value_at(const vector_form<S, N>& p, const T& s, const T& t) {
     using value = decltype(value_at(p.x, s, t));
@@ -54,9 +53,9 @@ constexpr vector_form<S, 0> coefficient(const vector_form<S, N>& p, int i) {
     return {{{p.x[i]}}, {{p.y[i]}}, {{p.z[i]}}};
 }
 
-/// Coplanarity and inside forms of a query: b, c, p as in the paper, n = b × c. They are linear in
-/// t; with degree 0 they are the values at one time. Over integers of W words, n has coefficients
-/// of 2W words, y of 3W and the others of 4W; products of other scalars keep their type.
+/// b, c, p and n = b × c of docs/notation.md, linear in t; with Degree 0 the values at one time.
+/// Over integers of W words, n has coefficients of 2W words, y of 3W and the others of 4W; products
+/// of other scalars keep their type.
 template <class S, int Degree = 1>
 struct coplanarity_forms {
     using product = decltype(std::declval<S>() * std::declval<S>());
@@ -69,7 +68,6 @@ struct coplanarity_forms {
 
     /// Y = det(b, c, p), a cubic. Proof: proofs/Decisions.v, forms_y.
     constexpr auto y() const { return dot(n, p); }
-    /// |N|², a quartic.
     constexpr auto normal_squared() const { return dot(n, n); }
 };
 
@@ -80,8 +78,7 @@ struct vertex_face_forms : coplanarity_forms<S, Degree> {
     constexpr explicit vertex_face_forms(const vertex_face<S>& q)
         : coplanarity_forms<S>(difference(q.f1, q.f0), difference(q.f2, q.f0),
                                difference(q.v, q.f0)) {}
-    /// The barycentric weights of f2, f1 and f0, times |N|².
-    /// Proof: proofs/Decisions.v, forms_weights.
+    /// The barycentric weights of f2, f1, f0, times |N|². Proof: proofs/Decisions.v, forms_weights.
     constexpr auto inside() const {
         const auto w2 = dot(cross(this->b, this->p), this->n);
         const auto w1 = dot(cross(this->p, this->c), this->n);
@@ -106,20 +103,17 @@ struct edge_edge_forms : coplanarity_forms<S, Degree> {
     }
 };
 
-/// Evaluates the forms at (s, t) by value_at.
 template <template <class, int> class Forms, class S, class T>
 constexpr auto forms_at(const Forms<S, 1>& f, const T& s, const T& t) {
     const auto b = value_at(f.b, s, t);
     return Forms<std::remove_cvref_t<decltype(b.x[0])>, 0>(b, value_at(f.c, s, t),
                                                            value_at(f.p, s, t));
 }
-/// The forms' values at t = 0 or t = 1.
 template <template <class, int> class Forms, class S>
 constexpr Forms<S, 0> forms_at_end(const Forms<S, 1>& f, int end) {
     return {coefficient(f.b, end), coefficient(f.c, end), coefficient(f.p, end)};
 }
 
-/// The forms of queries, for code that is generic in the kind.
 template <class S>
 using linear_vertex_face_forms = vertex_face_forms<S>;
 template <class S>
@@ -142,11 +136,9 @@ struct forms_of_kind<kind::edge_edge> {
 
 }  // namespace detail
 
-/// The forms of a kind that has them.
 template <kind K, class S>
 using linear_forms = typename detail::forms_of_kind<K>::template type<S>;
 
-/// The forms of a vertex_face or edge_edge query.
 template <template <class> class Query, class S>
 requires(is_cubic(kind_of<Query<S>>)) constexpr auto forms_of(const Query<S>& q) {
     return linear_forms<kind_of<Query<S>>, S>(q);

@@ -1,4 +1,4 @@
-// The least distance of a moving point from the origin during the step, with bounds.
+// Bounds the least distance of a moving point from the origin during the step.
 #pragma once
 
 #include <ccd/methods/forms.hpp>
@@ -7,7 +7,6 @@
 
 namespace ccd::safeccd {
 
-/// Bounds on the least distance from the origin during the step.
 template <class T>
 struct distance_bounds {
     T low, high;

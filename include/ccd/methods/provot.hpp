@@ -3,10 +3,10 @@
 //
 // Computes the cubic in powers of t from differences to one vertex, and its roots in [0, 1] in
 // number type T, without error bounds. At each root it compares barycentric weights (VF) or edge
-// parameters (EE) from the normal equations, without tolerance. So rounding loses and invents
-// collisions. Collisions of degenerate features are lost, because the test fails if the normal
-// vanishes and there is no vertex/edge test. So are those of coplanar motion, except at t = 0 and t
-// = 1. Coordinates are not scaled: tiny ones underflow. Overflow gives `uncertain` with cause
+// parameters (EE) from the normal equations, without tolerance. Rounding therefore loses and
+// invents collisions. Contacts of degenerate features are lost, since the test fails if the normal
+// vanishes and there is no vertex/edge test. Contacts of coplanar motion are lost, except at t = 0
+// and t = 1. Coordinates are not scaled: tiny ones underflow. Overflow gives `uncertain` with cause
 // `range`.
 #pragma once
 
@@ -20,8 +20,8 @@
 namespace ccd {
 namespace provot {
 
-/// x(0) and x(1) − x(0): the same motion in powers of t. Products of forms are plain convolutions,
-/// so they work for powers too.
+/// The motion as x(0) and x(1) − x(0). Products of forms are convolutions, so they work for powers
+/// too.
 template <class T>
 constexpr vector_form<T, 1> in_powers(const vector_form<T, 1>& v) {
     return {{{v.x[0], v.x[1] - v.x[0]}}, {{v.y[0], v.y[1] - v.y[0]}}, {{v.z[0], v.z[1] - v.z[0]}}};
@@ -44,7 +44,6 @@ struct weights {
         of_b = cc * bp - bc * cp;
         of_c = bb * cp - bc * bp;
     }
-    /// True if no value has overflowed.
     constexpr bool finite() const {
         using traits = errbound::number_traits<T>;
         return traits::is_finite(of_b) && traits::is_finite(of_c) && traits::is_finite(whole);

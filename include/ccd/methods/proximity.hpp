@@ -1,7 +1,7 @@
 // Proximity of a moving vertex and a moving edge: certainly never within reach, or uncertain.
 //
 // The vertex/edge and vertex/vertex tests of SafeCCD (Wang 2014), with thresholds for any reach.
-// proofs/README.md, "Proximity of a vertex and an edge", derives them.
+// Derivation: proofs/README.md, "Proximity of a vertex and an edge".
 #pragma once
 
 #include <array>
@@ -14,8 +14,7 @@
 
 namespace ccd::safeccd {
 
-/// A linear or quadratic polynomial in power form, in plain numbers, with a bound on the errors of
-/// its values on [0, 1].
+/// A polynomial in power form, with a bound on the errors of its values on [0, 1].
 template <class T, int N>
 struct plain_form {
     errbound::bernstein<T, N> p;
@@ -50,7 +49,6 @@ class line_proximity {
                              T reach, T off_line)
         : line_proximity(e, w, cross(e, w), reach, off_line) {}
 
-    /// False if no threshold holds.
     constexpr bool usable() const { return traits::is_finite(tau_); }
 
     /// D: if no candidate touches, the vertex is within reach only if it is this near to an end.
@@ -61,7 +59,6 @@ class line_proximity {
                reach;
     }
 
-    /// True if the vertex may touch at one of the candidate times.
     constexpr bool touches() const {
         if (touches_at(T(0)) || touches_at(T(1))) return true;
         for (const quadratic& f : q_)
@@ -126,9 +123,8 @@ class line_proximity {
     T lambda_squared_ = 0;   ///< the foot is tested for edges of at least this length
 };
 
-/// False only if the vertex is never within `reach` of the edge. `e` goes from the edge's first end
-/// to its second; `w0` and `w1` from each end to the vertex; all in power form. `off_line` raises
-/// τ.
+/// False only if the vertex is never within `reach` of the edge. Power forms: `e` goes from the
+/// edge's first end to its second, `w0` and `w1` from each end to the vertex. `off_line` raises τ.
 template <class Scalar, class T = typename Scalar::value_type>
 constexpr bool proximity(const vector_form<Scalar, 1>& e, const vector_form<Scalar, 1>& w0,
                          const vector_form<Scalar, 1>& w1, T reach, T off_line) {

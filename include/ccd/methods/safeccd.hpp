@@ -36,7 +36,6 @@ constexpr sign_type sign_within(const Scalar& x, T drift) {
     return x.value() < -e ? sign_type::negative : sign_type::uncertain;
 }
 
-/// A bound on |x|.
 template <class Scalar>
 constexpr auto upper_magnitude(const Scalar& x) {
     return number_traits<typename Scalar::value_type>::abs(x.value()) + x.error();
@@ -101,10 +100,10 @@ class solver {
     }
 
     /// How far f may move against `direction` on [p, q]: the length times a bound on how far f'
-    /// times direction falls below zero. Takes the better of two bounds on the least f'. One is
-    /// that of its Bernstein coefficients on [p, q], certified one by one. The other is the least
-    /// value of the computed f', at an end or at its vertex, minus errors: those of coefficients,
-    /// of evaluation and of the vertex (second order). The true f' may have its vertex anywhere.
+    /// times direction falls below zero. Takes the better of two bounds on the least f'. One is the
+    /// least of its Bernstein coefficients on [p, q], each certified. The other is the least
+    /// computed f', at an end or at its vertex, minus errors: those of coefficients, of evaluation
+    /// and of the vertex (second order). The true f' may have its vertex anywhere.
     constexpr T slack_of(const errbound::bernstein<scalar, 2>& slope, T vertex, T direction, T p,
                          T q) const {
         const auto low_end = [&](const scalar& x) { return direction * x.value() - x.error(); };
@@ -196,7 +195,6 @@ class solver {
         return {outcome::separate, cause::none};
     }
 
-    /// The longer of b and c at one time, in the largest coordinate.
     template <class Forms>
     static constexpr T longest_edge(const Forms& now) {
         T longest = 0;
@@ -226,7 +224,7 @@ class solver {
 
 }  // namespace safeccd
 
-/// Decides a vertex_face or edge_edge query over tracked numbers near 1 in size (or 0).
+/// Decides a query over tracked numbers near 1 in size (or 0).
 template <class Rule, class T, template <class> class Query>
 constexpr verdict decide_safeccd_of(const Query<errbound::tracked<T, Rule>>& query) {
     return safeccd::solver<T, Rule, Query>(query).decide();

@@ -33,7 +33,6 @@ struct tolerances {
     template <class Query>
     explicit constexpr tolerances(const Query&) {}
 
-    /// False if the tolerances do not hold for this query.
     static constexpr bool usable = true;
     /// |f| up to this plus its certified error counts as a root.
     static constexpr T root = 0;
@@ -45,7 +44,6 @@ struct tolerances {
     /// Added to the threshold of |E × W| for touching an edge's line.
     static constexpr T off_line = 0;
 
-    /// a − b at the start of the step, or of a point's two positions: its displacement.
     static constexpr scalar difference(const scalar& a, const scalar& b) { return a - b; }
     static constexpr scalar displacement(const scalar& a, const scalar& b) { return a - b; }
 
@@ -64,9 +62,8 @@ struct tolerances {
     static constexpr T known_length(T length) { return length; }
 };
 
-/// The thresholds below which nothing is certain, from one bound B on all coordinate differences
-/// during the step and the bound V on displacements. Wang 2014 with e = ε + 2σ/B, if coordinates
-/// are known to within σ.
+/// These thresholds, from one bound B on all coordinate differences during the step and the bound V
+/// on displacements: Wang 2014 with e = ε + 2σ/B, if coordinates are known to within σ.
 template <class T>
 struct tolerances<T, errbound::safe> {
     using scalar = errbound::tracked<T, errbound::safe>;
@@ -95,8 +92,8 @@ struct tolerances<T, errbound::safe> {
             first = false;
         }
         const T extent = (std::max)({high.x - low.x, high.y - low.y, high.z - low.z});
-        // One part in a million covers the roundings here. It also covers coordinates that
-        // underflowed when the query was scaled, unless all differences are of their size.
+        // One part in a million covers the roundings here, and coordinates that underflowed when
+        // the query was scaled, unless all differences are of their size.
         constexpr T enlarged = 1 + T(0x1p-20);
         v_ = (displacement + 2 * sigma_) * enlarged;
         b_ = (extent + 2 * displacement + 6 * sigma_) * enlarged;

@@ -1,8 +1,8 @@
 // Queries in double precision, decided in single precision if that suffices.
 //
 // Coordinates are relative to one of the query's points and rounded to float, with the rounding
-// error as each number's bound. A float method therefore keeps its promise for double input. The
-// loss is small compared with the query, at any distance from the origin.
+// error as each number's bound. A float method therefore keeps its promise for double input, at any
+// distance from the origin.
 #pragma once
 
 #include <algorithm>
@@ -53,8 +53,7 @@ constexpr std::pair<Query<errbound::tracked<float, Rule>>, bool> single_precisio
     return {transformed(moved, converted), finite};
 }
 
-/// BSC in floats for a query in doubles, with decide_bsc's results. `uncertain` if floats do not
-/// decide.
+/// The methods in floats for queries in doubles; `uncertain` if floats do not decide.
 template <class Rule, template <class> class Query>
 constexpr verdict decide_bsc_in_single_precision(const Query<double>& query) {
     const auto [converted, finite] = single_precision_query<Rule>(query);
@@ -62,7 +61,6 @@ constexpr verdict decide_bsc_in_single_precision(const Query<double>& query) {
     return decide_bsc_of(converted);
 }
 
-/// SafeCCD in floats for a query in doubles.
 template <class Rule, template <class> class Query>
 constexpr verdict decide_safeccd_in_single_precision(const Query<double>& query) {
     const auto [converted, finite] = single_precision_query<Rule>(query);

@@ -1,4 +1,3 @@
-// A query over tracked numbers, scaled to coordinates near 1.
 #pragma once
 
 #include <ccd/methods/transform.hpp>
@@ -10,8 +9,7 @@ namespace ccd {
 
 /// Returns the query over tracked numbers, times the power of two that brings its largest
 /// coordinate near 1. If a coordinate underflows when scaled, its bound contains the loss. `second`
-/// is false if a coordinate is not finite. Scalar is the tracked number type, or a type with
-/// errbound::is_tracked.
+/// is false if a coordinate is not finite. Scalar is a type with errbound::is_tracked.
 template <class Rule, class T, template <class> class Query,
           class Scalar = errbound::tracked<T, Rule>>
 constexpr std::pair<Query<Scalar>, bool> tracked_query(const Query<T>& query) {

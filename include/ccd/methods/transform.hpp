@@ -1,5 +1,5 @@
-// The points of a query as an array, conversion of every position or coordinate, and the
-// vertex/edge queries that bound a query.
+// The points of a query as an array, maps of positions, and the vertex/edge queries that bound a
+// query.
 #pragma once
 
 #include <array>
@@ -14,7 +14,7 @@ constexpr auto points_of(const Query& q) {
     return detail::with_members(q, [](const auto&... p) { return std::array{p...}; });
 }
 
-/// The query with `f` applied to the motion of every point.
+/// The query with `f` applied to every motion, position or coordinate.
 template <detail::has_kind Query, class F>
 constexpr auto transformed_motions(const Query& q, const F& f) {
     return detail::with_members(q, [&f](const auto& first, const auto&... others) {
@@ -23,7 +23,6 @@ constexpr auto transformed_motions(const Query& q, const F& f) {
     });
 }
 
-/// The query with `f` applied to every position.
 template <class Query, class F>
 constexpr auto transformed_points(const Query& q, const F& f) {
     return transformed_motions(q, [&f](const auto& p) {
@@ -31,7 +30,6 @@ constexpr auto transformed_points(const Query& q, const F& f) {
     });
 }
 
-/// The query with `f` applied to every coordinate.
 template <class Query, class F>
 constexpr auto transformed(const Query& q, const F& f) {
     return transformed_points(q, [&f](const auto& p) {
@@ -39,7 +37,6 @@ constexpr auto transformed(const Query& q, const F& f) {
     });
 }
 
-/// Calls `f` with each coordinate of the query.
 template <class Query, class F>
 constexpr void for_each_coordinate(const Query& q, const F& f) {
     const auto at_position = [&f](const auto& x) {

@@ -7,8 +7,8 @@
 //   }
 //   ./mine --out out/mine vertex-face/*.csv     # --out: also as CSV, JSON and a picture
 //
-// The method is BSC (ccd/methods/bsc.hpp), whose scalar is a tracked number under the rule: only
-// the rules differ. Needs the targets errbound::ccd and, for rules_main, errbound::ccd_io.
+// The method is BSC (ccd/methods/bsc.hpp), whose scalar is a number tracked under the rule. Needs
+// the targets errbound::ccd and, for rules_main, errbound::ccd_io.
 #pragma once
 
 #include <algorithm>
@@ -67,7 +67,6 @@ void decide_all(std::span<const Query> queries, std::span<outcome> answers) {
             answers[i] = decide_bsc<Rule>(queries[i]).outcome;
 }
 
-/// The runs in each number type.
 template <class Rule, class Query>
 void add_runs(std::vector<rule_run<Query>>& runs, std::size_t queries) {
     const bool promises = errbound::promises_bound<Rule>;
@@ -91,10 +90,10 @@ inline void count(rule_row& row, outcome said, bool truth) {
 
 }  // namespace detail
 
-/// Decides the queries, vertex_face<double> or edge_edge<double>, under each rule in double and in
-/// float. Floats have the error of their conversion as bound. truth[i] is true if query i collides.
-/// Rules alternate, `passes` >= 1 times, so that a slower machine affects all of them. Allocates an
-/// answer for each query, rule and number type.
+/// Decides the queries under each rule in double and in float, where the error of the conversion is
+/// the inputs' bound. truth[i] is true if query i collides. Rules alternate, `passes` >= 1 times,
+/// so that a slower machine affects all of them. Allocates an answer for each query, rule and
+/// number type.
 template <class... Rules, class Query>
 std::vector<rule_row> compare_rules(const std::vector<Query>& queries,
                                     const std::vector<bool>& truth, int passes = 5) {
@@ -121,7 +120,6 @@ std::vector<rule_row> compare_rules(const std::vector<Query>& queries,
     return rows;
 }
 
-/// The rows of a file of queries.
 struct compared_file {
     std::string name;
     ccd::kind kind{};
@@ -129,16 +127,16 @@ struct compared_file {
     std::vector<rule_row> rows;
 };
 
-/// Writes methods.csv, with the columns of `ccd report`, methods.json and plot.py into the folder,
-/// which is made, and runs plot.py: it draws pareto-queries.png and .svg, errors against run time.
+/// Makes the folder, writes methods.csv (with the columns of `ccd report`), methods.json and
+/// plot.py, and runs plot.py, which draws pareto-queries.png and .svg: errors against run time.
 /// Returns false if there are no pictures: no Python, or one without matplotlib. Throws
 /// errbound::support::file_error. Needs the target errbound::ccd_io.
 bool write_comparison(const std::filesystem::path& folder, const std::vector<compared_file>& files);
 
 namespace detail {
 
-/// Reads a file of queries and compares the rules. `exact` gives the truth if the file has none.
-/// Throws errbound::support::file_error.
+/// Compares the rules on a file. `exact` gives the truth if the file has none. Throws
+/// errbound::support::file_error.
 template <class... Rules>
 compared_file compare_on_file(const std::string& path) {
     const io::query_file file = io::read_queries(path, std::nullopt, false);
@@ -164,10 +162,10 @@ inline void print(const compared_file& file) {
 
 }  // namespace detail
 
-/// A main program that compares the rules on stored queries, in files of `ccd query`. The path
-/// gives their kind; `exact` gives the truth if a file has none. Prints a row for each file, rule
-/// and number type. With `--out FOLDER` before the files it also calls write_comparison. Returns 0,
-/// 2 without files, or 1 after bad input or wrong certain answers under a rule with a true bound.
+/// A main program that compares the rules on files of queries and prints a row for each file, rule
+/// and number type. The path gives their kind; `exact` gives the truth if a file has none. With
+/// `--out FOLDER` before the files it also calls write_comparison. Returns 0, 2 without files, or 1
+/// after bad input or wrong certain answers under a rule with a true bound.
 template <class... Rules>
 int rules_main(int argc, const char* const* argv) {
     const bool writes = argc > 2 && std::string_view(argv[1]) == "--out";

@@ -1,5 +1,5 @@
-// The camera, which turns about a target with one axis up. In its units the mesh is within -1 and 1
-// along each axis.
+// The camera turns about a target with one axis up. In its units the mesh is in [-1, 1] on each
+// axis.
 "use strict";
 
 const LENS = Math.tan(Math.PI / 12);  // half the visible height at distance 1

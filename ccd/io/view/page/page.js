@@ -1,4 +1,3 @@
-// The page: its arrays, the list of pairs, and the actions of mouse, fingers and keys.
 const NAMES = ["vertex_face", "edge_edge", "vertex_edge", "vertex_vertex"];
 const SHORT = ["vf", "ee", "ve", "vv"], WORDS = ["vertex", "edge", "face"];
 const FIRST = [1, 2, 1, 1], POINTS = [4, 4, 3, 2];  // vertices of the first element, of both
@@ -14,8 +13,7 @@ function bytes(id) {
   return found.buffer;
 }
 
-/// The step: positions in doubles, all pairs one after the other, by kind. `times` is empty if they
-/// are unknown.
+/// All pairs are one after the other, by kind. `times` is empty if they are unknown.
 function readStep() {
   const step = {before: new Float64Array(bytes("before")), after: new Float64Array(bytes("after")),
     faces: new Uint32Array(bytes("faces")), edges: new Uint32Array(bytes("edges")), parts: new Uint8Array(bytes("parts"))};
@@ -56,7 +54,6 @@ function sceneOf(step) {
   return scene;
 }
 
-/// Vertices on no face and no edge.
 function pointsOf(step) {
   const used = new Uint8Array(step.before.length / 3);
   for (const list of [step.faces, step.edges]) list.forEach(v => used[v] = 1);
