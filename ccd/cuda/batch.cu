@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "ccd/cuda/batch.cuh"
+#include "ccd/cuda/cub.cuh"
 #include "ccd/cuda/device_methods.cuh"
 #include "ccd/cuda/method_stages.hpp"
 #include "ccd/cuda/pairs.hpp"

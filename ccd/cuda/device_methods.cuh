@@ -3,11 +3,13 @@
 
 #include <ccd/cuda.hpp>
 
-#include "ccd/cuda/exact_stages.hpp"
 #include "ccd/cuda/launch.cuh"
-#include "ccd/cuda/time_stages.hpp"
 
 namespace ccd::cuda::detail {
+
+struct exact_memory;
+struct time_memory;
+struct times_request;
 
 /// Queues one method, except `exact`, for pairs of one kind.
 template <class Pair>

@@ -1,5 +1,6 @@
 // `exact` for the device, compiled once for each kind (ERRBOUND_PAIR).
 #include "ccd/cuda/device_methods.cuh"
+#include "ccd/cuda/exact_stages.hpp"
 
 namespace ccd::cuda::detail {
 

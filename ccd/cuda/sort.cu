@@ -1,6 +1,6 @@
 #include <cub/device/device_radix_sort.cuh>
 
-#include "ccd/cuda/launch.cuh"
+#include "ccd/cuda/cub.cuh"
 
 namespace ccd::cuda::detail {
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "ccd/cuda/batch.cuh"
+#include "ccd/cuda/cub.cuh"
 #include "ccd/cuda/device_methods.cuh"
 #include "ccd/cuda/pairs.hpp"
 #include "ccd/cuda/step_times.hpp"

@@ -6,7 +6,7 @@
 #include <random>
 #include <vector>
 
-#include "ccd/cuda/launch.cuh"
+#include "ccd/cuda/cub.cuh"
 
 namespace {
 

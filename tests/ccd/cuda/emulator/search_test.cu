@@ -5,7 +5,7 @@
 #include <random>
 #include <vector>
 
-#include "ccd/cuda/launch.cuh"
+#include "ccd/cuda/cub.cuh"
 #include "ccd/cuda/step.hpp"
 
 namespace {
