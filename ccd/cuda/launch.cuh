@@ -198,8 +198,7 @@ class device_launcher {
         check(cudaLaunchKernelEx(&configuration, kernel, arguments...));
     }
 
-    /// Calls a CUB function twice: for the size of its memory, then with memory from `temporary`,
-    /// or from a buffer if there is none.
+    /// Calls a CUB function twice: for the size of its memory, then with that memory.
     template <class Call>
     void with_temporary(const Call& call) {
         if (!ok()) return;

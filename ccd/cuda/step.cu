@@ -25,7 +25,7 @@ struct mesh_steps::state {
 
     std::string fault_of(const positions& at, const mesh_step_options& options) const;
 
-    /// Returns memory for a layout. Do not use it after an error.
+    /// Do not use the memory after an error.
     template <class Memory, class... Sizes>
     Memory memory_of(Sizes... sizes) {
         detail::arena needed;
@@ -35,7 +35,7 @@ struct mesh_steps::state {
         return Memory(given, sizes...);
     }
 
-    /// The callback of step_memory::run.
+    /// Callbacks: decide() of step_memory::run, find() of timed_pairs::find_times.
     template <class Pair>
     std::size_t decide(const positions& at, const mesh_step_options& options,
                        const candidates<Pair>& block, outcome* answers, detail::scene_extent* scene,
@@ -51,7 +51,6 @@ struct mesh_steps::state {
         detail::queue_exact(launcher, at, block, answers, all, options.precision);
         return detail::finish_exact(launcher, at, block, answers, all).left;
     }
-    /// The callback of timed_pairs::find_times.
     template <class Pair>
     std::size_t find(const positions& at, const candidates<Pair>& pairs, first_time* times,
                      const detail::times_request& request) {

@@ -1,8 +1,8 @@
 // First times on the device: the stages of ccd/contact/time_of_impact.cpp as kernel bodies.
 //
 // Floating point finds the interval of the first contact, and integers of fixed width isolate the
-// root of Y in it. If floating point is uncertain, integers do both. Candidates that do not collide
-// are also decided. Queues are as in ccd/cuda/exact_stages.hpp. Internal.
+// root of Y in it. If floating point is uncertain, integers do both. Queues are as in
+// ccd/cuda/exact_stages.hpp. Internal.
 #pragma once
 
 #include <ccd/cuda.hpp>

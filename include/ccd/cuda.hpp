@@ -27,7 +27,7 @@ struct CUstream_st;  // CUDA's; cudaStream_t points to one
 
 namespace ccd::cuda {
 
-/// A cudaStream_t: a queue of work that a device runs in order. Null is the default stream.
+/// A cudaStream_t. Null is the default stream.
 using stream = CUstream_st*;
 
 /// An error message of CUDA or of this library; empty if there is no error.
@@ -39,11 +39,9 @@ struct [[nodiscard]] status {
 /// Returns an error if there is no device.
 status device_status();
 
-/// The number type that a method tries first. `float32` keeps the method's promise for any input.
-/// Coordinates are taken relative to one of the query's points, and the error of their conversion
-/// is part of their bound. Queries that floats do not decide are decided in doubles, on the device.
-/// (Positions in floats are not converted. The method `float` promises nothing, and stays in
-/// floats.)
+/// The number type that a method tries first. `float32` keeps the method's promise for any input
+/// (docs/cuda.md#guarantees): doubles decide the queries that floats do not decide. Exception: the
+/// method `float` stays in floats.
 enum class precision : std::uint8_t { float64, float32 };
 
 /// The methods that run on the device: float, safe, tight, safeccd, safeccd-tight and exact.
@@ -117,7 +115,7 @@ struct candidates {
     }
 };
 
-/// Device memory that a call may write to.
+/// Device memory for temporaries.
 struct scratch {
     void* data = nullptr;
     std::size_t bytes = 0;
@@ -150,13 +148,12 @@ struct stage_counts {
     std::uint32_t integers_one_word = 0, integers_two_words = 0;
     std::uint32_t left_open = 0;  ///< undecided until finish()
 };
-/// The result of finish().
 struct [[nodiscard]] finished : status {
     stage_counts stages;
 };
 
-/// Decides the undecided candidates of decide_batch on all threads of the host, and writes their
-/// answers. Waits for the stream. Throws only std::bad_alloc.
+/// Decides the undecided candidates of decide_batch on all threads of the host. Waits for the
+/// stream. Throws only std::bad_alloc.
 finished finish(const positions& positions, const candidates<vertex_face_pair>& candidates,
                 outcome* answers, scratch memory, const batch_options& options);
 finished finish(const positions& positions, const candidates<edge_edge_pair>& candidates,
@@ -193,13 +190,11 @@ struct time_stage_counts {
     std::uint32_t roots_two_words = 0, integers_two_words = 0;
     std::uint32_t left_open = 0;  ///< undecided until finish_times()
 };
-/// The result of finish_times().
 struct [[nodiscard]] finished_times : status {
     time_stage_counts stages;
 };
 
-/// Finds the undecided times of find_times on all threads of the host, and writes them. Waits for
-/// the stream. Throws only std::bad_alloc.
+/// Same as finish(), for find_times.
 finished_times finish_times(const positions& positions,
                             const candidates<vertex_face_pair>& candidates, first_time* times,
                             scratch memory, const time_options& options = {});
@@ -213,7 +208,7 @@ using span_of_kind = std::span<const pair_of_kind<K>>;
 template <kind K>
 using times_span_of_kind = std::span<const first_time>;
 }  // namespace detail
-/// Lists of pairs in device memory, as ccd::pair_lists on the host, and their times.
+/// ccd::pair_lists in device memory.
 using pair_spans = by_kind<detail::span_of_kind>;
 using time_spans = by_kind<detail::times_span_of_kind>;
 
@@ -228,11 +223,10 @@ struct mesh_step_options {
     double t_max = 1;
 };
 
-/// Steps of one mesh on the device. Keeps its faces, edges and memory from step to step.
+/// Keeps a mesh's faces, edges and memory on the device from step to step.
 class mesh_steps {
   public:
-    /// Vertex/face and edge/edge pairs, in an unspecified order that is always the same; or an
-    /// error.
+    /// Pairs in an unspecified order that is always the same; or an error.
     struct [[nodiscard]] result : status {
         pair_spans pairs;
         pair_counts candidates;
@@ -263,7 +257,6 @@ class mesh_steps {
     std::unique_ptr<state> state_;
 };
 
-/// A step's result, or an error.
 struct [[nodiscard]] step_result : status, ccd::step_result {};
 
 /// ccd::step() on the device: copies both frames there and the pairs back. Throws as ccd::step().
@@ -274,15 +267,14 @@ struct [[nodiscard]] step_result : status, ccd::step_result {};
 step_result step(const mesh& before, const mesh& after, const step_options& options = {},
                  precision precision = precision::float64);
 
-/// Decides queries in host memory on the device, by any of device_methods(), as ccd::decide_batch.
-/// Throws std::invalid_argument if the two lengths differ.
+/// Same as ccd::decide_batch, on the device, for queries in host memory. Throws
+/// std::invalid_argument if the two lengths differ.
 status decide(std::span<const vertex_face<double>> queries, std::span<outcome> answers,
               const batch_options& options);
 status decide(std::span<const edge_edge<double>> queries, std::span<outcome> answers,
               const batch_options& options);
 
-/// Finds the first times of queries in host memory on the device, as ccd::first_times. Throws
-/// std::invalid_argument if the two lengths differ.
+/// Same as ccd::first_times, on the device, for queries in host memory. Throws as decide().
 status first_times(std::span<const vertex_face<double>> queries, std::span<first_time> times,
                    const time_options& options = {});
 status first_times(std::span<const edge_edge<double>> queries, std::span<first_time> times,
