@@ -177,8 +177,7 @@ class arena {
 /// * reduce(n, of, combine, start, r): *r = combination of all of(i) and `start`
 /// * exclusive_scan(in, out, n): out[i] = in(0) + ... + in(i − 1), for i <= n
 /// * sort(keys, values, n): by ascending keys, stable
-/// * read(p, n, to), write(p, n, from): waits and copies to and from the host's memory
-/// * wait(): until all work is done
+/// * wait(), read(p, n, to), write(p, n, from): wait for all work, then copy to or from the host
 /// * ok(): false after an error; then no more work is done
 class host_launcher {
   public:

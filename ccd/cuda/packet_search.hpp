@@ -112,8 +112,8 @@ constexpr bool exactly_touch(const positions& at, const std::array<vertex_index,
     return true;
 }
 
-/// Boxes of sorted elements, level by level: box i of a level is around boxes 32i to 32i + 31 of
-/// the level below it. There are at least two levels, unless there is no element.
+/// Boxes of sorted elements, level by level: box i of a level is around boxes 32i to 32i + 31
+/// below it. There are no levels without elements; otherwise at least two.
 struct box_levels {
     static constexpr std::uint32_t children = warp::lanes, child_bits = 5, max_levels = 8;
 

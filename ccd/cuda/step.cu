@@ -154,8 +154,8 @@ class stored_queries {
     stored_queries(std::span<const Query> queries, cuda::stream stream)
         : launcher_(stream), queries_(queries) {}
 
-    /// Calls use(first, positions, candidates, answers, scratch) for every block, with decided
-    /// `answers`, until a call returns an error.
+    /// Calls use(first, positions, candidates, answers, scratch) for every decided block, until it
+    /// returns an error.
     template <class Use>
     status decide(const batch_options& options, const Use& use) {
         constexpr std::size_t block = std::size_t(1) << 20;

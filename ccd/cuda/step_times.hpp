@@ -60,7 +60,7 @@ constexpr bool needs_any_time(const mesh_step_options& options) {
     return options.initial_contact || needs_first_contact(options);
 }
 
-/// The result if there is no first contact; uncertain if it is not computed.
+/// Uncertain if the options do not require a first contact.
 constexpr first_time no_contact(const mesh_step_options& options) {
     return {needs_first_contact(options) ? outcome::separate : outcome::uncertain};
 }

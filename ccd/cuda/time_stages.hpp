@@ -53,8 +53,8 @@ struct time_stage {
     }
 };
 
-/// Candidates for which floating point finds an interval with one root of Y. Integers of Words
-/// words isolate the root. Candidates that need more words go to `wider`.
+/// If floating point finds an interval with one root of Y, integers of Words words isolate it.
+/// Candidates that need more words go to `wider`.
 template <class Pair, int Words>
 struct root_stage : time_stage<Pair> {
     queue wider;

@@ -120,9 +120,8 @@ struct scratch {
     void* data = nullptr;
     std::size_t bytes = 0;
 };
-/// Returns the bytes that `decide_batch`, `select_colliding` and `find_times` need: 12.1 for each
-/// candidate, 32 for each vertex, and 4 MiB. Their address must be a multiple of 256, as those of
-/// cudaMalloc are.
+/// Returns the bytes that calls need: 12.1 for each candidate, 32 for each vertex, and 4 MiB. Their
+/// address must be a multiple of 256, as those of cudaMalloc are.
 std::size_t scratch_bytes(std::size_t vertices, std::size_t candidates);
 
 struct batch_options {
@@ -184,7 +183,7 @@ status find_times(const positions& positions, const candidates<edge_edge_pair>& 
                   first_time* times, scratch memory, const time_options& options = {});
 
 /// The number of candidates that entered each stage of find_times. In `roots`, floating point finds
-/// the interval of the contact and integers its root. In `integers`, integers find both.
+/// the interval of the root; in `integers`, integers do.
 struct time_stage_counts {
     std::uint32_t roots_one_word = 0, integers_one_word = 0;
     std::uint32_t roots_two_words = 0, integers_two_words = 0;
@@ -226,7 +225,7 @@ struct mesh_step_options {
 /// Keeps a mesh's faces, edges and memory on the device from step to step.
 class mesh_steps {
   public:
-    /// Pairs in an unspecified order that is always the same; or an error.
+    /// The order of pairs is unspecified, but always the same.
     struct [[nodiscard]] result : status {
         pair_spans pairs;
         pair_counts candidates;
@@ -234,7 +233,7 @@ class mesh_steps {
         pair_spans touching_at_start;      ///< decided by `exact` for every method
         time_spans times;                  ///< of `pairs`
         /// The earliest time of the pairs that do not touch at the start. Without the option
-        /// `times`, threads share the least time found so far, and skip pairs with later ones.
+        /// `times`, pairs with later times than the least found so far are skipped.
         first_time first_contact;
     };
 
