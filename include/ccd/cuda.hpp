@@ -27,7 +27,7 @@ struct CUstream_st;  // CUDA's; cudaStream_t points to one
 
 namespace ccd::cuda {
 
-/// A cudaStream_t. Null is the default stream.
+/// A cudaStream_t: a queue of work that a device runs in order. Null is the default stream.
 using stream = CUstream_st*;
 
 /// An error message of CUDA or of this library; empty if there is no error.
@@ -39,9 +39,11 @@ struct [[nodiscard]] status {
 /// Returns an error if there is no device.
 status device_status();
 
-/// The number type that a method tries first. `float32` keeps the method's promise for any input
-/// (docs/cuda.md#guarantees): doubles decide the queries that floats do not decide. Exception: the
-/// method `float` stays in floats.
+/// The number type that a method tries first. `float32` keeps the method's promise for any input.
+/// Coordinates are taken relative to one of the query's points, and the error of their conversion
+/// is part of their bound. Queries that floats do not decide are decided in doubles, on the device.
+/// (Positions in floats are not converted. The method `float` promises nothing, and stays in
+/// floats.)
 enum class precision : std::uint8_t { float64, float32 };
 
 /// The methods that run on the device: float, safe, tight, safeccd, safeccd-tight and exact.
@@ -115,13 +117,14 @@ struct candidates {
     }
 };
 
-/// Device memory for temporaries.
+/// Device memory that a call may write to.
 struct scratch {
     void* data = nullptr;
     std::size_t bytes = 0;
 };
-/// Returns the bytes that calls need: 12.1 for each candidate, 32 for each vertex, and 4 MiB. Their
-/// address must be a multiple of 256, as those of cudaMalloc are.
+/// Returns the bytes that `decide_batch`, `select_colliding` and `find_times` need: 12.1 for each
+/// candidate, 32 for each vertex, and 4 MiB. Their address must be a multiple of 256, as those of
+/// cudaMalloc are.
 std::size_t scratch_bytes(std::size_t vertices, std::size_t candidates);
 
 struct batch_options {
@@ -147,12 +150,13 @@ struct stage_counts {
     std::uint32_t integers_one_word = 0, integers_two_words = 0;
     std::uint32_t left_open = 0;  ///< undecided until finish()
 };
+/// The result of finish().
 struct [[nodiscard]] finished : status {
     stage_counts stages;
 };
 
-/// Decides the undecided candidates of decide_batch on all threads of the host. Waits for the
-/// stream. Throws only std::bad_alloc.
+/// Decides the undecided candidates of decide_batch on all threads of the host, and writes their
+/// answers. Waits for the stream. Throws only std::bad_alloc.
 finished finish(const positions& positions, const candidates<vertex_face_pair>& candidates,
                 outcome* answers, scratch memory, const batch_options& options);
 finished finish(const positions& positions, const candidates<edge_edge_pair>& candidates,
@@ -183,17 +187,19 @@ status find_times(const positions& positions, const candidates<edge_edge_pair>& 
                   first_time* times, scratch memory, const time_options& options = {});
 
 /// The number of candidates that entered each stage of find_times. In `roots`, floating point finds
-/// the interval of the root; in `integers`, integers do.
+/// the interval of the contact and integers its root. In `integers`, integers find both.
 struct time_stage_counts {
     std::uint32_t roots_one_word = 0, integers_one_word = 0;
     std::uint32_t roots_two_words = 0, integers_two_words = 0;
     std::uint32_t left_open = 0;  ///< undecided until finish_times()
 };
+/// The result of finish_times().
 struct [[nodiscard]] finished_times : status {
     time_stage_counts stages;
 };
 
-/// Same as finish(), for find_times.
+/// Finds the undecided times of find_times on all threads of the host, and writes them. Waits for
+/// the stream. Throws only std::bad_alloc.
 finished_times finish_times(const positions& positions,
                             const candidates<vertex_face_pair>& candidates, first_time* times,
                             scratch memory, const time_options& options = {});
@@ -207,7 +213,7 @@ using span_of_kind = std::span<const pair_of_kind<K>>;
 template <kind K>
 using times_span_of_kind = std::span<const first_time>;
 }  // namespace detail
-/// ccd::pair_lists in device memory.
+/// Lists of pairs in device memory, as ccd::pair_lists on the host, and their times.
 using pair_spans = by_kind<detail::span_of_kind>;
 using time_spans = by_kind<detail::times_span_of_kind>;
 
@@ -222,10 +228,11 @@ struct mesh_step_options {
     double t_max = 1;
 };
 
-/// Keeps a mesh's faces, edges and memory on the device from step to step.
+/// Steps of one mesh on the device. Keeps its faces, edges and memory from step to step.
 class mesh_steps {
   public:
-    /// The order of pairs is unspecified, but always the same.
+    /// Vertex/face and edge/edge pairs, in an unspecified order that is always the same; or an
+    /// error.
     struct [[nodiscard]] result : status {
         pair_spans pairs;
         pair_counts candidates;
@@ -233,7 +240,7 @@ class mesh_steps {
         pair_spans touching_at_start;      ///< decided by `exact` for every method
         time_spans times;                  ///< of `pairs`
         /// The earliest time of the pairs that do not touch at the start. Without the option
-        /// `times`, pairs with later times than the least found so far are skipped.
+        /// `times`, threads share the least time found so far, and skip pairs with later ones.
         first_time first_contact;
     };
 
@@ -256,6 +263,7 @@ class mesh_steps {
     std::unique_ptr<state> state_;
 };
 
+/// A step's result, or an error.
 struct [[nodiscard]] step_result : status, ccd::step_result {};
 
 /// ccd::step() on the device: copies both frames there and the pairs back. Throws as ccd::step().
@@ -266,14 +274,15 @@ struct [[nodiscard]] step_result : status, ccd::step_result {};
 step_result step(const mesh& before, const mesh& after, const step_options& options = {},
                  precision precision = precision::float64);
 
-/// Same as ccd::decide_batch, on the device, for queries in host memory. Throws
-/// std::invalid_argument if the two lengths differ.
+/// Decides queries in host memory on the device, by any of device_methods(), as ccd::decide_batch.
+/// Throws std::invalid_argument if the two lengths differ.
 status decide(std::span<const vertex_face<double>> queries, std::span<outcome> answers,
               const batch_options& options);
 status decide(std::span<const edge_edge<double>> queries, std::span<outcome> answers,
               const batch_options& options);
 
-/// Same as ccd::first_times, on the device, for queries in host memory. Throws as decide().
+/// Finds the first times of queries in host memory on the device, as ccd::first_times. Throws
+/// std::invalid_argument if the two lengths differ.
 status first_times(std::span<const vertex_face<double>> queries, std::span<first_time> times,
                    const time_options& options = {});
 status first_times(std::span<const edge_edge<double>> queries, std::span<first_time> times,
