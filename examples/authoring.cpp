@@ -1,5 +1,4 @@
-// The predicate of docs/authoring-predicates.md: true if a point is in a capsule, within a distance
-// r of a segment ab. From the formula to tests and timings.
+// The predicate of docs/authoring-predicates.md (a point in a capsule), its tests and timings.
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -23,7 +22,7 @@ using rational = boost::multiprecision::number<boost::multiprecision::cpp_ration
                                                boost::multiprecision::et_off>;
 using point = std::array<double, 3>;
 
-// The formula is positive if p is nearer than r to the line ab.
+// Positive if p is nearer than r to the line ab.
 constexpr auto cylinder = [](const auto& a, const auto& b, const auto& p, const auto& r) {
     const auto dx = b[0] - a[0], dy = b[1] - a[1], dz = b[2] - a[2];
     const auto qx = p[0] - a[0], qy = p[1] - a[1], qz = p[2] - a[2];
@@ -32,7 +31,6 @@ constexpr auto cylinder = [](const auto& a, const auto& b, const auto& p, const 
 };
 constexpr auto in_cylinder = errbound::predicate<errbound::points<3, 3, 3, 0>>(cylinder);
 
-// These constants are derived by the compiler.
 static_assert(in_cylinder.counts.roundings == 11);
 static_assert(in_cylinder.static_constant<double> < 1.0001 * 11 * 0x1p-53);
 static_assert(in_cylinder.counts.degree == 4 && !in_cylinder.counts.mixed);
@@ -67,7 +65,7 @@ constexpr auto by_square_of_degree_2 =
 static_assert(by_square_of_degree_2(std::array{0., 0., 0.}, std::array{1., 0., 0.},
                                     std::array{0., 1., 0.}, 1.0) == sign_type::zero);
 
-// The capsule. p is before a, beyond b, or between them.
+// p is before a, beyond b, or between them.
 constexpr auto capsule = [](const auto& a, const auto& b, const auto& p, const auto& r) {
     using errbound::forms::squared_distance3d;
     const sign_type past_a = sign_of(along(a, b, a, p)), past_b = sign_of(along(a, b, b, p));
@@ -79,7 +77,6 @@ constexpr auto capsule = [](const auto& a, const auto& b, const auto& p, const a
 constexpr auto in_capsule = errbound::predicate<errbound::points<3, 3, 3, 0>>(capsule);
 static_assert(in_capsule.counts.complete && !in_capsule.counts.mixed);
 
-// Options.
 struct with_tight : errbound::predicate_options {
     using tracked_rule = errbound::tight;
 };
@@ -92,8 +89,6 @@ constexpr auto lagrange_tight =
     errbound::predicate<errbound::points<3, 3, 3, 0>, with_tight>(lagrange);
 constexpr auto cylinder_rationals =
     errbound::predicate<errbound::points<3, 3, 3, 0>, with_rationals>(cylinder);
-
-// Tests with rationals, which do not use the expression.
 
 struct input {
     point a, b, p;
@@ -187,8 +182,7 @@ sign_type cylinder_sign(const input& x) {
     return sign_of(in_cylinder.value<rational>(x.a, x.b, x.p, x.r));
 }
 
-/// Counts wrong signs, of the predicate and of each stage. Prints the share that each stage
-/// decided.
+/// Returns the number of wrong signs, of all stages. Prints the share that each stage decided.
 template <class Predicate, class Exact>
 int test(const char* name, const Predicate& predicate, const Exact& exact, int inputs) {
     int wrong = 0;
@@ -245,10 +239,8 @@ void time(const char* name, const Predicate& predicate, const Formula& formula) 
         const double single = nanoseconds(n, [&] {
             for (std::size_t i = 0; i < n; ++i) signs[i] = predicate(a[i], b[i], p[i], r[i]);
         });
-        const double batch = nanoseconds(n, [&] {
-            // One contiguous point per sign.
-            errbound::batch_signs(predicate, std::span(batched), a, b, p, r);
-        });
+        const double batch = nanoseconds(
+            n, [&] { errbound::batch_signs(predicate, std::span(batched), a, b, p, r); });
         std::printf("%-20s %-13s %8.1f %8.1f %8.1f%s\n", name, f.name, plain, single, batch,
                     signs == batched ? "" : " and the batch differs");
     }

@@ -27,7 +27,7 @@ int main() {
     ccd::mesh_steps steps(now);
     for (int iteration = 1; iteration <= 30; ++iteration) {
         const double gap = now.vertices[3].z;
-        // Pairs within d_hat have a barrier. A step without motion finds them.
+        // A step without motion finds the pairs that have a barrier.
         const ccd::pair_lists near = steps.run({now, now}, {.distances = {d_hat}}).pairs;
 
         ccd::mesh goal = now;

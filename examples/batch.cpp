@@ -5,7 +5,6 @@
 #include <vector>
 
 int main() {
-    // Positions are rows x y z, here in a vector; data() of a row-major Eigen matrix also works.
     // Vertex 3 falls through the triangle 0 1 2, vertex 4 stops exactly on its edge 0 1, vertex 5
     // stops short of it.
     const std::vector<double> before{0,    0,    0, 1,   0, 0, 0,    1,    0,  //
@@ -19,7 +18,6 @@ int main() {
         {.v = 4, .f0 = 0, .f1 = 1, .f2 = 2},
         {.v = 5, .f0 = 0, .f1 = 1, .f2 = 2},
     };
-    // Uses all cores. `explain` counts the decisions of each stage.
     const auto [answers, stages] = ccd::decide_batch(positions, candidates, {.explain = true});
     // Contact at t = 0 can be distinguished from a later impact.
     const auto at_start = ccd::touches_at_start_batch(positions, candidates).answers;

@@ -1,5 +1,5 @@
-// A first contact and its response: a vertex bounces off a face that gives way. Then one of two
-// beads falls on an edge in the plane; a single query and a list of pairs give the same time.
+// A vertex bounces off a face that gives way. In the plane, a bead falls on an edge; a query and a
+// list of pairs give the same time.
 #include <array>
 #include <ccd/contact.hpp>
 #include <ccd/plane.hpp>
@@ -40,7 +40,6 @@ int main() {
     std::printf("along the normal the vertex gains %g, the face's points %g %g %g\n", change[0],
                 change[1], change[2], change[3]);
 
-    // In the plane, points of meshes and batches have z = 0.
     const ccd::plane::vertex_edge falling{{{0, 1}, {0, -1}}, {{-1, 0}, {-1, 0}}, {{1, 0}, {1, 0}}};
     const ccd::first_time touch = time_of_impact(falling);
     const std::vector<ccd::point<double>> before{{0, 1, 0}, {5, 1, 0}, {-1, 0, 0}, {1, 0, 0}};

@@ -1,6 +1,5 @@
-// Points that move on polynomial curves: the centre of a ball under gravity, of degree 2, and a
-// face with a vertex that moves on a cubic. Then a spline of two pieces, and the cost of such
-// queries.
+// Motion along curves: a ball under gravity (degree 2) and a face with a vertex on a cubic. Then a
+// spline of two pieces, and the cost of such queries.
 #include <array>
 #include <ccd/curves.hpp>
 #include <chrono>
@@ -49,7 +48,7 @@ int main() {
     const ccd::first_time near = ccd::time_within(query, {0.25, 0.125});  // two radii
     std::printf("within 0.375 from t = %.17g\n", near.low);
 
-    // A spline has pieces between knots. Here the ball waits for a second.
+    // A spline of two pieces: the ball waits for a second before it falls.
     const control_points rest{ball.front()};
     const std::vector<ccd::spline_piece<ccd::vertex_face_curves>> pieces{{0, 1, {rest, f0, f1, f2}},
                                                                          {1, 3, query}};

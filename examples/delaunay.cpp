@@ -1,6 +1,5 @@
 // Delaunay triangulations of nearly degenerate points, by one algorithm with errbound's predicates
-// and with the same expressions in plain double, which break it. Unbounded integers check the
-// results. Fails unless all of errbound's are valid and none of plain double's.
+// and with plain doubles. Checked by integers: the former must all be valid, the latter all wrong.
 #include <algorithm>
 #include <array>
 #include <boost/multiprecision/cpp_int.hpp>
@@ -34,11 +33,10 @@ struct plain_signs {
     }
 };
 
-/// Corners of a triangle, counterclockwise.
 constexpr std::array<std::size_t, 3> after{1, 2, 0}, before{2, 0, 1};
 
-/// Neighbour i is opposite to vertex i. A triangle with a vertex at infinity is beyond each edge of
-/// the convex hull, so that all edges have two sides.
+/// Neighbour i is opposite to vertex i. Beyond each edge of the hull is a triangle with a vertex at
+/// infinity, so that all edges have two sides.
 struct triangle {
     std::array<std::size_t, 3> vertex, neighbour;
 
@@ -52,8 +50,8 @@ struct triangle {
     }
 };
 
-/// Incremental algorithm (Bowyer 1981, Watson 1981). A walk locates each point. Triangles whose
-/// circles contain it are replaced by triangles that join it to their border.
+/// Incremental algorithm (Bowyer 1981, Watson 1981). Triangles whose circles contain a point are
+/// replaced by triangles that join it to their border.
 template <class Signs>
 class triangulation {
   public:
@@ -103,8 +101,7 @@ class triangulation {
         throw std::runtime_error("a walk does not end");
     }
 
-    /// True if p is inside the triangle's circle; at infinity the circle is a half-plane with the
-    /// inside of the edge.
+    /// True if p is inside the triangle's circle; at infinity, a half-plane with the open edge.
     bool encloses(const triangle& t, std::size_t p) const {
         const auto& v = t.vertex;
         const std::size_t ghost = t.corner_of(infinity);
@@ -212,8 +209,7 @@ class examination {
         const auto &p = exact_[a], &q = exact_[b], &r = exact_[c];
         return (q[0] - p[0]) * (r[1] - p[1]) - (q[1] - p[1]) * (r[0] - p[0]);
     }
-    /// Returns the sum of the areas seen from d, each times the squared distance of the third
-    /// corner.
+    /// Positive if d is inside the circle of t, which turns left.
     integer lifted(const triangle& t, std::size_t d) const {
         integer sum = 0;
         for (std::size_t i = 0; i < 3; ++i) {
@@ -242,7 +238,7 @@ class examination {
         }
     }
 
-    /// Checks that the hull is closed, has no right turn, and runs around once: one lowest vertex.
+    /// The hull must be closed, have no right turn, and run around once: have one lowest vertex.
     void see_hull() {
         const std::size_t border = triangles_.size() - inner_;
         std::vector<std::size_t> hull;

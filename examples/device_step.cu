@@ -1,7 +1,5 @@
-// A mesh whose vertices and colliding pairs stay on the device.
-//
-// A square cloth falls onto another, and each step finds the colliding pairs. Exit status 77 if
-// there is no device.
+// A square cloth falls onto another; vertices and colliding pairs stay on the device. Exit status
+// 77 if there is no device.
 #include <ccd/cuda.hpp>
 #include <cstdio>
 #include <utility>
@@ -65,8 +63,7 @@ int main() {
             std::fprintf(stderr, "%s\n", found.error.c_str());
             return 1;
         }
-        // found.pairs.vertex_face and found.pairs.edge_edge are lists in device memory, for the
-        // next kernel.
+        // found.pairs has lists in device memory, for the next kernel.
         std::printf("step %d: %zu vertex/face and %zu edge/edge pairs of %zu candidates\n", step,
                     found.pairs.vertex_face.size(), found.pairs.edge_edge.size(),
                     found.candidates.vertex_face + found.candidates.edge_edge);

@@ -1,5 +1,4 @@
-// Predicates on existing points, without copies: Eigen's vectors, maps and blocks, and custom
-// structs, one by one and in batches.
+// Predicates on points of other types, without copies: Eigen's and custom structs.
 #include <Eigen/Core>
 #include <array>
 #include <cstddef>

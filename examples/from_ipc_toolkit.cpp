@@ -1,13 +1,11 @@
-// A caller of ipc-toolkit's narrow phase, implemented by `exact`: the step size of a vertex that
-// falls towards a triangle. The tests build it with a copy of the interface; with ipc-toolkit on
-// the include path it builds without changes.
+// ipc-toolkit's narrow phase by `exact`: the step size of a vertex that falls towards a triangle.
+// Tests build it with a copy of the interface.
 #include <ccd/adapters/ipc_toolkit.hpp>  // includes your <ipc/ccd/narrow_phase_ccd.hpp>
 #include <cstdio>
 
 namespace {
 
-/// Returns the collision-free fraction of the step, with the calls of the toolkit's
-/// compute_collision_free_stepsize.
+/// Calls the narrow phase as the toolkit's compute_collision_free_stepsize does.
 double step_size(const ipc::NarrowPhaseCCD& narrow_phase, const Eigen::Vector3d& before,
                  const Eigen::Vector3d& after, double min_distance) {
     const Eigen::Vector3d t0(0, 0, 0), t1(1, 0, 0), t2(0, 1, 0);

@@ -1,6 +1,5 @@
 // Convex hulls in space of nearly degenerate points, by one algorithm with errbound's orientation
-// and with the same expression in plain double, which breaks it. Integers check the results. Fails
-// unless all of errbound's are valid and none of plain double's.
+// and with plain doubles. Checked by integers: the former must all be valid, the latter all wrong.
 #include <algorithm>
 #include <array>
 #include <boost/multiprecision/cpp_int.hpp>
@@ -35,9 +34,8 @@ std::vector<edge> sorted_edges(const std::vector<face>& faces) {
 }
 
 /// Incremental algorithm: faces that see a point are replaced by faces that join it to their
-/// border. Facets with more than three points are split into coplanar faces. Empty if all points
-/// are coplanar. Throws std::runtime_error if signs contradict each other. Cost: points times
-/// faces.
+/// border. Empty if all points are coplanar. Throws std::runtime_error if signs contradict each
+/// other. Cost: points times faces.
 template <class Orient3d>
 std::vector<face> convex_hull(const std::vector<point>& points, const Orient3d& orient3d) {
     const auto orient = [&](const face& f, std::size_t p) {
@@ -65,7 +63,7 @@ std::vector<face> convex_hull(const std::vector<point>& points, const Orient3d& 
     return faces;
 }
 
-// The check. Coordinates of the points below are multiples of 2^-70, less than 2^10.
+// Coordinates of the points below are multiples of 2^-70, less than 2^10.
 
 using integer = boost::multiprecision::int512_t;
 using vector = std::array<integer, 3>;
@@ -178,8 +176,7 @@ std::vector<point> cylinder(generator&) {
         }
     return points;
 }
-/// Points on a plane, a cluster of adjacent doubles around another point of it, and two more
-/// points.
+/// Points on a plane, a cluster of adjacent doubles around one of it, and two more points.
 std::vector<point> plane_and_cluster(generator& random) {
     std::vector<point> points{{0, 0, 1}, {1, 0, 0}};
     for (int i = 0; i < 10; ++i)

@@ -37,7 +37,7 @@ std::vector<int> zones_of(const std::vector<impact>& impacts, std::size_t vertic
 }  // namespace
 
 int main() {
-    // Two beads fall on a face, a third one on another face. A fourth one misses.
+    // Two beads fall on a face, a third on another face, and a fourth misses.
     const ccd::mesh before{{{0, 0, 0},
                             {1, 0, 0},
                             {0, 1, 0},

@@ -1,5 +1,4 @@
-// A line search of a minimiser without contacts: three beads are attracted to the other side of a
-// fence, and come as near as they can.
+// A line search without contacts: three beads are attracted to the other side of a fence.
 #include <ccd/advance.hpp>
 #include <cstddef>
 #include <cstdio>

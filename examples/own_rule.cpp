@@ -1,6 +1,5 @@
-// A custom bound rule: Wilkinson's running error analysis (Higham, Accuracy and Stability of
-// Numerical Algorithms, 2nd ed. 2002, Section 3.3), valid for rounding to nearest. Prints its bound
-// next to those of other rules.
+// A custom bound rule for rounding to nearest: Wilkinson's running error analysis (Higham, Accuracy
+// and Stability of Numerical Algorithms, 2nd ed. 2002, Section 3.3), next to other rules.
 #include <cstdio>
 #include <errbound/tracked.hpp>
 
@@ -64,7 +63,6 @@ struct running {
     }
 };
 
-// Generic code works with the new rule.
 template <class Rule>
 void show() {
     using number = errbound::tracked<double, Rule>;

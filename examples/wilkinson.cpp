@@ -1,6 +1,5 @@
-// Exact real roots of Wilkinson's polynomial, which floating point gets wrong:
-// (x − 1)(x − 2)···(x − 20) with the coefficient −210 of x^19 reduced by 2^-23. Ten of the twenty
-// roots are then complex. (J. H. Wilkinson, The perfidious polynomial, 1984.)
+// Exact real roots of (x − 1)(x − 2)···(x − 20) with the coefficient −210 of x^19 reduced by 2^-23,
+// so that ten roots are complex. (J. H. Wilkinson, The perfidious polynomial, 1984.)
 #include <cstddef>
 #include <cstdio>
 #include <errbound/polynomial.hpp>
@@ -10,8 +9,7 @@
 
 using errbound::integer;
 
-// The obvious attempt: counts sign changes on [0, 25] in steps of 1e-5, by Horner's rule in double.
-// Near roots the signs are those of rounding errors.
+// Sign changes on [0, 25] in steps of 1e-5, by Horner's rule. Near roots, rounding errors decide.
 int sign_changes_in_double(const std::vector<integer>& p) {
     std::vector<double> c;
     for (const integer& x : p) c.push_back(static_cast<double>(x));

@@ -117,7 +117,6 @@ status decide_any(const positions& at, const candidates<Pair>& candidates, outco
     return launcher.result();
 }
 
-/// Fails if the scratch memory does not belong to these candidates.
 void check_left(device_launcher& launcher, std::size_t left, std::size_t candidates,
                 const std::string& left_by) {
     if (launcher.ok() && left > candidates)

@@ -7,10 +7,9 @@
 
 namespace ccd::cuda::detail {
 
-/// Returns an error unless devices run the method; empty otherwise.
+/// These return a message, or an empty text if there is no fault.
 std::string fault_of_method(method m);
 
-/// Returns an error unless t_max is finite; empty otherwise.
 std::string fault_of_t_max(double t_max);
 
 bool has_coordinates(const positions& at);

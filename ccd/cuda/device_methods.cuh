@@ -1,4 +1,4 @@
-// The methods compiled for the device, each in a separate object file. Internal.
+// The methods on the device, compiled once each (ccd/cuda/method.cu). Internal.
 #pragma once
 
 #include <ccd/cuda.hpp>
@@ -22,11 +22,10 @@ struct device_method {
     functions float64, float32;
 };
 
-// Defined by ccd/cuda/method.cu, compiled once for each.
 extern const device_method device_float, device_safe, device_tight, device_safeccd,
     device_safeccd_tight;
 
-/// run_exact_stages, compiled in ccd/cuda/exact.cu.
+/// run_exact_stages and run_time_stages.
 void queue_exact(device_launcher& launcher, const positions& at,
                  const candidates<vertex_face_pair>& candidates, outcome* answers,
                  const exact_memory& memory, precision p);
@@ -34,7 +33,6 @@ void queue_exact(device_launcher& launcher, const positions& at,
                  const candidates<edge_edge_pair>& candidates, outcome* answers,
                  const exact_memory& memory, precision p);
 
-/// run_time_stages, compiled in ccd/cuda/times.cu.
 void queue_times(device_launcher& launcher, const positions& at,
                  const candidates<vertex_face_pair>& candidates, first_time* times,
                  const time_memory& memory, const times_request& request);

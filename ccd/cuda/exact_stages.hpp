@@ -1,9 +1,8 @@
 // `exact` on the device: its stages as kernel bodies, and their order. Internal.
 //
 // Each stage reads indices of candidates from a queue, writes certain answers and pushes the other
-// candidates to the next queue. So the threads of a warp do equal work. An answer is
-// `uncertain` until a stage decides it. The first stage reads floats; later ones read the few
-// undecided candidates again, which is cheaper than storing their differences.
+// candidates to the next queue. So the threads of a warp do equal work. Reading undecided
+// candidates again is cheaper than storing their differences.
 #pragma once
 
 #include <ccd/batch.hpp>
@@ -45,8 +44,7 @@ struct exact_stage {
     }
 };
 
-/// Tests all candidates on nine axes at once, in floats. No stage tests candidates with coordinates
-/// that are not finite.
+/// All candidates on nine axes, in floats. Candidates that are not finite go to no other stage.
 template <class Pair>
 struct axes_stage : exact_stage<Pair> {
     const scene_extent* scene;
@@ -87,9 +85,8 @@ struct coefficient_stage : exact_stage<Pair> {
     const scene_extent* scene;
 
   protected:
-    /// The query's forms. Differences are rounded once in doubles, and then to Real. Each has an
-    /// error of at most ε, as in error_count::difference(), and η if it underflows.
-    ///
+    /// The query's forms. Differences are rounded in doubles, then to Real, with an error of at
+    /// most ε in all, as in error_count::difference(), and η if it underflows.
     /// Proof: proofs/RoundedAxes.v, converted_difference_near.
     constexpr forms<Real> forms_of_query(const query_of_pair<Pair, double>& query) const {
         if constexpr (std::is_same_v<Real, double>) {
@@ -193,7 +190,6 @@ struct exact_memory {
     exact_memory(arena& from, std::size_t vertices, std::size_t candidates)
         : exact_memory{from, from.take<scene_extent>(1), from.take<rounded_position>(2 * vertices),
                        candidates} {}
-    /// For positions that are rounded already.
     exact_memory(arena& from, scene_extent* scene_, rounded_position* rows_, std::size_t candidates)
         : counters(from.take<exact_counters>(1)),
           scene(scene_),
@@ -208,9 +204,8 @@ struct exact_memory {
     }
 };
 
-/// Queues all stages in the order of ccd/exact/stages.cpp (axes, coplanarity, inside, subdivision),
-/// then integers. Tests of coefficients use `p`. The host decides the rest (ccd/cuda/pairs.hpp).
-/// Precondition: positions are rounded.
+/// Queues all stages, in the order of ccd/exact/stages.cpp. Tests of coefficients use `p`. The host
+/// decides the rest (ccd/cuda/pairs.hpp). Precondition: positions are rounded.
 template <class Launcher, class Pair>
 void run_exact_stages(Launcher& launcher, const positions& at, const candidates<Pair>& candidates,
                       outcome* answers, const exact_memory& memory, precision p) {

@@ -1,8 +1,7 @@
 // Runs kernel bodies: by loops on the host here, by kernels in ccd/cuda/launch.cuh.
 //
-// A body is a small copyable object; body(i) does the work for item i. Functions are constexpr:
-// nvcc compiles them for the device (--expt-relaxed-constexpr), and tests run the same code on the
-// host.
+// A body is a small copyable object; body(i) does the work for item i. nvcc compiles constexpr
+// functions for the device (--expt-relaxed-constexpr), and tests run them on the host.
 #pragma once
 
 #include <algorithm>
@@ -14,8 +13,7 @@
 
 namespace ccd::cuda::detail {
 
-/// The 32 lanes of a warp. On the host, loops over the lanes take their place. All lanes call each
-/// function together.
+/// The 32 lanes of a warp; on the host, loops over them. All lanes call each function together.
 class warp {
   public:
     static constexpr std::uint32_t lanes = 32;
@@ -41,7 +39,7 @@ class warp {
         return bits;
 #endif
     }
-    /// A value of each lane, which only the lane itself uses.
+    /// A value of each lane, for the lane itself.
     template <class T>
     class per_lane {
       public:
@@ -50,7 +48,7 @@ class warp {
       private:
         T values_[lanes_here]{};
     };
-    /// The number of the lowest bit that is set. Precondition: mask != 0.
+    /// Precondition: mask != 0.
     static constexpr std::uint32_t lowest(std::uint32_t mask) {
 #ifdef __CUDA_ARCH__
         return static_cast<std::uint32_t>(__clz(static_cast<int>(__brev(mask))));
@@ -65,8 +63,8 @@ class warp {
         return static_cast<std::uint32_t>(std::popcount(mask));
 #endif
     }
-    /// Adds the numbers of bits that are set in all lanes' masks to *size. A lane's place becomes
-    /// the old *size, plus the numbers of lower lanes. Returns the sum, the end of all places.
+    /// Reserves places in a queue of *size items: one for each bit of the lanes' masks. Sets each
+    /// lane's first place, and returns the new *size.
     static constexpr std::uint64_t append(std::uint64_t* size, per_lane<std::uint32_t>& masks,
                                           per_lane<std::uint64_t>& places) {
 #ifdef __CUDA_ARCH__
@@ -92,7 +90,6 @@ class warp {
 #endif
     }
 
-    /// The lane of this thread; 0 on the host.
     static constexpr std::uint32_t first_lane() {
 #ifdef __CUDA_ARCH__
         std::uint32_t lane;
@@ -109,7 +106,6 @@ struct queue_of {
     T* items;
     std::uint32_t* size;
 
-    /// Any thread may push.
     constexpr void push(const T& item) const {
 #ifdef __CUDA_ARCH__
         items[atomicAdd(size, 1u)] = item;
@@ -170,8 +166,7 @@ class arena {
     std::size_t bytes_ = 0, used_ = 0;
 };
 
-/// Runs bodies on the host, sequentially, in another order than that of the items. All launchers
-/// have:
+/// Runs bodies on the host, sequentially. All launchers have:
 ///
 /// * buffer<T>: memory for bodies, with data(), size(), extend(launcher, n) and
 ///   resize(launcher, n), which may drop contents
@@ -182,8 +177,7 @@ class arena {
 /// * reduce(n, of, combine, start, r): *r = combination of all of(i) and `start`
 /// * exclusive_scan(in, out, n): out[i] = in(0) + ... + in(i − 1), for i <= n
 /// * sort(keys, values, n): by ascending keys, stable
-/// * read(p, n, to), write(p, n, from): waits and copies between memory for bodies and the host's
-/// * wait(): until all work is done
+/// * wait(), read(p, n, to), write(p, n, from): wait for all work, then copy to or from the host
 /// * ok(): false after an error; then no more work is done
 class host_launcher {
   public:

@@ -1,5 +1,4 @@
-// A float method for the device, compiled once per method. ERRBOUND_METHOD is the variable's name
-// (device_tight), ERRBOUND_METHOD_TYPE the type of the method (bsc_method<errbound::tight>).
+// Compiled once per method: ERRBOUND_METHOD is device_tight, and its type bsc_method<...>, say.
 #include "ccd/cuda/device_methods.cuh"
 #include "ccd/cuda/method_stages.hpp"
 

@@ -1,8 +1,7 @@
 // The float methods on the device: their stages as kernel bodies, and their order. Internal.
 //
-// With float32, floats run first, and doubles decide uncertain candidates. BSC tests the
-// coefficients of Y in a separate stage: they decide most candidates with a fraction of the cost
-// and registers.
+// With float32, floats run first, and doubles decide uncertain candidates. In BSC, a separate stage
+// for Y's coefficients decides most candidates with a fraction of the cost and registers.
 #pragma once
 
 #include <ccd/cuda.hpp>
@@ -77,8 +76,7 @@ struct never_coplanar_stage : method_stage<Pair> {
     }
 };
 
-/// Stores the method's answer in T. Uncertain candidates are also pushed to the queue, if there is
-/// one.
+/// Stores the method's answer in T. Pushes uncertain candidates to the queue, if there is one.
 template <class Method, class T, class Pair>
 struct decision_stage : method_stage<Pair> {
     constexpr void operator()(std::uint32_t i) const {

@@ -1,9 +1,9 @@
 // Pairs of elements of a mesh whose boxes touch, and the candidates among them. Internal.
 //
 // Boxes are sorted along a Morton curve, with 32 per node, so that nodes have no pointers. A warp
-// searches a tree with a packet: the 32 elements of one node. It queues the pairs of elements
-// whose rounded boxes touch. A second stage, with full warps, makes candidates of these pairs. A
-// search that fills the queue is repeated in smaller parts.
+// searches a tree with a packet, the 32 elements of one node: each lane tests one child, and a
+// ballot selects the children to visit. It queues the pairs whose rounded boxes touch; full warps
+// then make candidates of these. A search that fills the queue is repeated in smaller parts.
 #pragma once
 
 #include <algorithm>
@@ -22,7 +22,7 @@
 
 namespace ccd::cuda::detail {
 
-/// Sixteen bytes: a corner of a box, and the element in it.
+/// A corner of a box, and the element in it.
 struct alignas(16) box_corner {
     float at[3];
     std::uint32_t element;
@@ -91,7 +91,7 @@ constexpr rounded_box swept_box(const rounded_position* rows, const elements<N>&
     return b;
 }
 
-/// True if the closed exact swept boxes of two elements touch.
+/// For the exact, closed swept boxes of two elements.
 template <std::size_t A, std::size_t B>
 constexpr bool exactly_touch(const positions& at, const std::array<vertex_index, A>& a,
                              const std::array<vertex_index, B>& b) {
@@ -112,8 +112,8 @@ constexpr bool exactly_touch(const positions& at, const std::array<vertex_index,
     return true;
 }
 
-/// Boxes of sorted elements, level by level: box i of a level is around boxes 32i to 32i + 31 of
-/// the level below it. There are at least two levels, unless there is no element.
+/// Boxes of sorted elements, level by level: box i of a level is around boxes 32i to 32i + 31
+/// below it. There are no levels without elements; otherwise at least two.
 struct box_levels {
     static constexpr std::uint32_t children = warp::lanes, child_bits = 5, max_levels = 8;
 
@@ -202,7 +202,7 @@ struct search_part {
         std::size_t& n = packets > 1 ? packets : leaves;
         n = (n + 1) / 2;
     }
-    /// Continues after this part. If `may_grow`, the next part may have twice as many packets.
+    /// Continues after this part. If `may_grow`, the next one may have twice as many packets.
     constexpr void advance(std::size_t all_leaves, bool may_grow) {
         leaf += leaves;
         if (leaf < all_leaves) return;
@@ -213,8 +213,8 @@ struct search_part {
     }
 };
 
-/// Queues the pairs of a leaf of a packet and a leaf of `tree` whose boxes touch. If the trees are
-/// one, the second leaf is later than the first. Once the queue is full, it is incomplete.
+/// Queues the pairs of a packet's leaf and a leaf of `tree` whose boxes touch. If the trees are
+/// one, the second leaf is later than the first. A full queue is incomplete.
 struct packet_search {
     box_levels searching, tree;
     bool one_tree;
@@ -258,8 +258,7 @@ struct packet_search {
     }
 
   private:
-    /// Queues the pairs of own leaves and leaves of a node, those in `mask`. False if the queue is
-    /// full.
+    /// Queues the pairs of own leaves and a node's leaves in `mask`. False if the queue is full.
     constexpr bool queue_pairs(std::uint32_t packet, std::uint32_t node, std::uint32_t mask) const {
         const std::uint32_t first_own = packet * warp::lanes, first_leaf = node * warp::lanes;
         const rounded_box *const own = searching.boxes + first_own, *const leaves =

@@ -38,8 +38,8 @@ struct scatter_answers {
     constexpr void operator()(std::uint32_t k) const { answers[numbers[k]] = found[k]; }
 };
 
-/// Decides the `count` candidates in memory.left by solve(queries) on the host, and waits until the
-/// answers are written. Precondition: the stages no longer use `memory`.
+/// Decides the candidates in memory.left by solve(queries) on the host, and waits until the answers
+/// are written. Precondition: the stages no longer use `memory`.
 template <class Launcher, class Pair, class Answer, class Memory, class Solve>
 void finish_left(Launcher& launcher, const positions& at, const candidates<Pair>& candidates,
                  Answer* answers, const Memory& memory, std::size_t left, const Solve& solve) {
@@ -64,9 +64,8 @@ void finish_left(Launcher& launcher, const positions& at, const candidates<Pair>
     if (left > 0) launcher.wait();
 }
 
-/// Decides the undecided candidates of run_exact_stages on the host, with all its threads, and
-/// waits until the answers are written. Returns the counters. If more are left than there are
-/// candidates, the memory belongs to others, and the function does nothing.
+/// Decides the undecided candidates of run_exact_stages on all threads of the host. Returns the
+/// counters. Does nothing if more are left than there are candidates: the memory is not theirs.
 template <class Launcher, class Pair>
 exact_counters finish_exact(Launcher& launcher, const positions& at,
                             const candidates<Pair>& candidates, outcome* answers,

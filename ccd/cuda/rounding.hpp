@@ -17,7 +17,7 @@ struct alignas(16) rounded_position {
     float x, y, z, unused;
 };
 
-/// The box around all positions, and a flag: all coordinates are finite.
+/// The box around all positions; `finite` if all are.
 struct scene_extent {
     ccd::detail::rounded_axes::extent box;
     bool finite;
@@ -28,8 +28,7 @@ struct scene_extent {
         double half_extent = 0;
         for (std::size_t k = 0; k < 3; ++k)
             half_extent = traits::max(half_extent, box.high[k] / 2 - box.low[k] / 2);
-        // Bounded so that it is neither zero nor infinite. At the bounds, floats decide few
-        // candidates.
+        // Neither zero nor infinite. At the bounds, floats decide few candidates.
         const int e =
             half_extent > 0 && traits::is_finite(half_extent) ? traits::exponent(half_extent) : 0;
         return traits::scale(1.0, -std::clamp(e, -1000, 1000));

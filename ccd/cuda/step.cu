@@ -26,7 +26,7 @@ struct mesh_steps::state {
 
     std::string fault_of(const positions& at, const mesh_step_options& options) const;
 
-    /// Returns memory for a layout. Do not use it after an error.
+    /// Do not use the memory after an error.
     template <class Memory, class... Sizes>
     Memory memory_of(Sizes... sizes) {
         detail::arena needed;
@@ -36,7 +36,7 @@ struct mesh_steps::state {
         return Memory(given, sizes...);
     }
 
-    /// The callback of step_memory::run.
+    /// Callbacks: decide() of step_memory::run, find() of timed_pairs::find_times.
     template <class Pair>
     std::size_t decide(const positions& at, const mesh_step_options& options,
                        const candidates<Pair>& block, outcome* answers, detail::scene_extent* scene,
@@ -52,7 +52,6 @@ struct mesh_steps::state {
         detail::queue_exact(launcher, at, block, answers, all, options.precision);
         return detail::finish_exact(launcher, at, block, answers, all).left;
     }
-    /// The callback of timed_pairs::find_times.
     template <class Pair>
     std::size_t find(const positions& at, const candidates<Pair>& pairs, first_time* times,
                      const detail::times_request& request) {
@@ -156,8 +155,8 @@ class stored_queries {
     stored_queries(std::span<const Query> queries, cuda::stream stream)
         : launcher_(stream), queries_(queries) {}
 
-    /// Calls use(first, positions, candidates, answers, scratch) for every block, with decided
-    /// `answers`, until a call returns an error.
+    /// Calls use(first, positions, candidates, answers, scratch) for every decided block, until it
+    /// returns an error.
     template <class Use>
     status decide(const batch_options& options, const Use& use) {
         constexpr std::size_t block = std::size_t(1) << 20;

@@ -1,8 +1,5 @@
-// A step of a mesh on the device: pairs of elements whose boxes touch (ccd/cuda/packet_search.hpp),
-// the candidates among them, and their decision, block after block. Internal.
-//
-// Candidates come in any order, but pairs that collide are sorted. Results therefore do not depend
-// on the order of threads.
+// A step of a mesh on the device: candidates (ccd/cuda/packet_search.hpp) and their decision, block
+// after block. Colliding pairs are sorted, so the order of threads does not matter. Internal.
 #pragma once
 
 #include <algorithm>
@@ -44,8 +41,7 @@ class step_memory {
     template <class T>
     using buffer = typename Launcher::template buffer<T>;
 
-    /// The maximum number of pairs that are searched and decided at once. At least 32, those of a
-    /// packet and a leaf.
+    /// The maximum number of pairs in a block; at least 32, those of a packet and a leaf.
     static constexpr std::size_t default_block = std::size_t(1) << 22;
     explicit step_memory(std::size_t block = default_block)
         : block_(std::max<std::size_t>(block, warp::lanes)) {}
@@ -114,7 +110,7 @@ class step_memory {
         return tree;
     }
 
-    /// Counts candidates and collects pairs, part after part. No part has more than block_ pairs.
+    /// Works part after part; no part has more than block_ pairs.
     template <std::size_t A, std::size_t B, class Pair, class Decide>
     void run_search(Launcher& launcher, candidate_filter<A, B, Pair> filter, const Decide& decide,
                     buffer<Pair>& pairs, std::size_t& pair_count, std::size_t& candidates,

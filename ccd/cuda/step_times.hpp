@@ -1,5 +1,4 @@
-// Times of a step's pairs: first times, the earliest of these, and pairs that touch at the start.
-// Internal.
+// First times of a step's pairs, the earliest, and pairs that touch at the start. Internal.
 #pragma once
 
 #include <algorithm>
@@ -23,7 +22,6 @@
 
 namespace ccd::cuda::detail {
 
-/// Predicates for selection: there is a time; it is at the start.
 struct is_in_time {
     const first_time* times;
     constexpr bool operator()(std::uint32_t i) const {
@@ -52,7 +50,6 @@ struct earlier_time {
     }
 };
 
-/// True if the options require all times, the earliest time, or any time.
 constexpr bool needs_all_times(const mesh_step_options& options) {
     return options.times || options.t_max < 1;
 }
@@ -63,7 +60,7 @@ constexpr bool needs_any_time(const mesh_step_options& options) {
     return options.initial_contact || needs_first_contact(options);
 }
 
-/// The result if there is no first contact; uncertain if it is not computed.
+/// Uncertain if the options do not require a first contact.
 constexpr first_time no_contact(const mesh_step_options& options) {
     return {needs_first_contact(options) ? outcome::separate : outcome::uncertain};
 }
@@ -81,9 +78,8 @@ class timed_pairs {
     template <class T>
     using buffer = typename Launcher::template buffer<T>;
 
-    /// Computes the times of pairs. `find(candidates, times, request)` queues first times and
-    /// returns the number found on the host, which find_times also returns. `first` is the earliest
-    /// time found so far.
+    /// `find(candidates, times, request)` queues first times and returns the number found on the
+    /// host, as find_times does. `first` is the earliest time found so far.
     template <class Find>
     std::size_t find_times(Launcher& launcher, std::span<const Pair> pairs,
                            const mesh_step_options& options, first_time& first, const Find& find) {

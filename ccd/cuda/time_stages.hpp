@@ -1,8 +1,8 @@
 // First times on the device: the stages of ccd/contact/time_of_impact.cpp as kernel bodies.
 //
 // Floating point finds the interval of the first contact, and integers of fixed width isolate the
-// root of Y in it. If floating point is uncertain, integers do both. Candidates that do not collide
-// are also decided. Queues are as in ccd/cuda/exact_stages.hpp. Internal.
+// root of Y in it. If floating point is uncertain, integers do both. Queues are as in
+// ccd/cuda/exact_stages.hpp. Internal.
 #pragma once
 
 #include <ccd/cuda.hpp>
@@ -53,8 +53,8 @@ struct time_stage {
     }
 };
 
-/// Candidates for which floating point finds an interval with one root of Y. Integers of Words
-/// words isolate the root. Candidates that need more words go to `wider`.
+/// If floating point finds an interval with one root of Y, integers of Words words isolate it.
+/// Candidates that need more words go to `wider`.
 template <class Pair, int Words>
 struct root_stage : time_stage<Pair> {
     queue wider;

@@ -15,7 +15,6 @@ namespace {
 
 using support::csv_of, support::row, support::rows, support::text_of;
 
-/// The result of one part.
 struct found_part {
     std::string name;
     report found;
@@ -50,7 +49,7 @@ row row_of(const function_errors& f) {
             {"violations", f.violations}};
 }
 
-/// Rates are those of estimates with a claimed rate; `clamped` names the clamped quantiles.
+/// The column `clamped` names the clamped quantiles.
 row row_of(const tightness& t) {
     const bool has_rates = t.claimed > 0 && t.log10.ratios() + t.log10.exact() > 0;
     row r = {{"rule", t.rule},
@@ -71,7 +70,7 @@ row row_of(const tightness& t) {
     return r;
 }
 
-/// A row for each entry of the parts' reports; `named`: the part comes first.
+/// A row for each entry of the parts' reports. If `named`, the first column is the part.
 template <class Entry>
 rows rows_of(const std::vector<found_part>& parts, std::vector<Entry> report::*entries,
              bool named = true) {
@@ -90,14 +89,12 @@ std::string formatted(const char* pattern, double x) {
     return text;
 }
 
-/// Marked if clamped.
 std::string text_of_quantile(const distribution& log10, double share) {
     if (log10.ratios() == 0) return "-";
     const double value = log10.quantile(share);
     return (!log10.is_clamped(share) ? "" : value < 0 ? "<=" : ">=") + formatted("%.2f", value);
 }
 
-/// Rates in per cent, quantiles marked.
 std::string text_of_tightness(const std::vector<found_part>& parts) {
     rows all;
     for (const found_part& p : parts)
@@ -112,8 +109,8 @@ std::string text_of_tightness(const std::vector<found_part>& parts) {
     return text_of(all);
 }
 
-/// A line per rule over all parts and number types: counts, and quantiles of log10 of the measure
-/// (bound/error, estimate/error) over all quantities.
+/// A row per rule over all parts, number types and quantities: counts and quantiles of log10 of the
+/// measure.
 std::string text_of_rules(const std::vector<found_part>& parts) {
     std::vector<std::pair<std::string, distribution>> rules;
     rows all;
@@ -144,7 +141,7 @@ std::string text_of_rules(const std::vector<found_part>& parts) {
     return text_of(all);
 }
 
-/// Errors with three decimals, rounded up: reliable bounds.
+/// Errors are rounded up, so that they stay bounds.
 std::string text_of_functions(const std::vector<found_part>& parts) {
     rows all = rows_of(parts, &report::functions, false);
     for (row& r : all)

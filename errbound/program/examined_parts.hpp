@@ -1,5 +1,4 @@
-// Evidence examined part by part, and the findings as tables, JSON and CSV: `errbound validate` and
-// `ccd validate`.
+// The findings of `errbound validate` and `ccd validate`, as tables, JSON and CSV.
 #pragma once
 
 #include <errbound/validation/validation.hpp>
@@ -21,7 +20,6 @@ struct part {
 struct result_files {
     std::optional<std::filesystem::path> json, csv, functions_csv;
 
-    /// Adds --json and --csv.
     void add_options(CLI::App& line);
     std::vector<std::optional<std::filesystem::path>> all() const {
         return {json, csv, functions_csv};

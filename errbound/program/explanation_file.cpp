@@ -1,4 +1,3 @@
-// Files of explanations: JSON, with every value checked before use.
 #include "errbound/program/explanation_file.hpp"
 
 #include <cstdint>
@@ -16,7 +15,7 @@ using support::file_error;
 constexpr const char* format = "errbound explanation";
 constexpr int version = 1;
 
-/// A value and its position, for messages: results[0].error
+/// A JSON value, and its position for messages: results[0].error
 class element {
   public:
     element(const json& value, std::string file, std::string path)

@@ -8,8 +8,7 @@
 
 namespace errbound::explaining {
 
-/// The results in a file's text; `name` is for messages. Throws errbound::support::file_error with
-/// the position.
+/// Returns a file's results; `name` is for messages. Throws errbound::support::file_error.
 std::vector<explanation> parse_explanations(std::string_view text, const std::string& name);
 
 }  // namespace errbound::explaining

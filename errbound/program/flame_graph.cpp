@@ -1,4 +1,4 @@
-// Explanations as flame graphs: sorted paths of scopes, with common beginnings on one bar.
+// Paths of scopes are sorted, and their common beginnings share a bar.
 #include "errbound/program/flame_graph.hpp"
 
 #include <algorithm>
@@ -23,13 +23,12 @@ struct frame {
     friend auto operator<=>(const frame&, const frame&) = default;
 };
 
-/// A source: its bars, from the lowest.
+/// The bars of one source, from the lowest to the highest.
 struct pile {
     std::vector<frame> frames;
     double share = 0, amount = 0;
 };
 
-/// From left to right.
 std::vector<pile> piles_of(const explanation& e) {
     std::vector<pile> piles;
     const std::vector<double> shares = shares_of(e);
@@ -48,7 +47,7 @@ std::vector<pile> piles_of(const explanation& e) {
     return piles;
 }
 
-/// XML text from UTF-8 without control characters; two more that XML forbids become '?'.
+/// Precondition: UTF-8 without control characters. Two more that XML forbids become '?'.
 std::string escaped(std::string_view text) {
     std::string result;
     for (; !text.empty(); text.remove_prefix(detail::character_length(text))) {

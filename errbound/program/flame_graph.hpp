@@ -1,4 +1,3 @@
-// Explanations as flame graphs.
 #pragma once
 
 #include <errbound/explain/explanation.hpp>
@@ -7,9 +6,8 @@
 
 namespace errbound::explaining {
 
-/// An SVG picture, one graph below the other. The bottom bar is a result's whole error; scopes
-/// stand on it and operations on scopes, each as wide as its part of the error. Tooltips show place
-/// and amount. Bars thinner than a fifth of a pixel are omitted.
+/// Returns an SVG picture of one flame graph per result, with places and amounts as tooltips
+/// (docs/how-wrong.md). Omits bars thinner than a fifth of a pixel.
 std::string flame_graphs(const std::vector<explanation>& results);
 
 }  // namespace errbound::explaining

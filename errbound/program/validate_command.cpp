@@ -29,16 +29,15 @@ class validate final : public support::command {
   private:
     void add_expressions();
     void add_functions();
-    /// Checks the parsed line. Throws errbound::support::usage_error.
+    /// These throw errbound::support::usage_error; the second if an option has no effect.
     validate_arguments checked() const;
-    /// Throws usage_error if an option has no effect.
     void require_use_of_options(const validate_arguments& all) const;
 
     validate_arguments arguments_;
     std::string rules_, numbers_, functions_;
 };
 
-/// Same as for function_error.
+/// The largest error that function_error allows.
 constexpr double most_units = 1024;
 
 rule rule_named(const std::string& name) {
@@ -53,7 +52,6 @@ std::string names_of_numbers() {
         names += (names.empty() ? "" : ", ") + std::string(one.name);
     return names;
 }
-/// Each number type needs a rule.
 void require_rules_of_numbers(const validate_arguments& all) {
     for (const number_type number : all.options.numbers)
         if (std::ranges::none_of(all.rules, [&](const rule& r) { return r.supports(number); }))

@@ -4,10 +4,10 @@
 namespace errbound::validation {
 namespace {
 
-/// Most bits before the point of arguments of sin, cos and tan: MPFR needs as many of π.
+/// For arguments of sin, cos and tan: MPFR needs as many bits of π.
 constexpr mpfr_exp_t largest_exponent_of_angles = 20000;
 
-/// Results beyond 2^±this are unknown or nearly zero, as in every format with functions.
+/// Beyond 2^±this, results are unknown or nearly zero, as in every format with functions.
 constexpr mpfr_exp_t largest_exponent_of_results = 1 << 15;
 
 bool is_wave(elementary_function f) {
@@ -29,7 +29,7 @@ struct ends {
     }
 };
 
-/// The hull of numbers, each rounded outwards.
+/// Encloses numbers, each rounded outwards.
 class hull {
   public:
     explicit hull(mpfr_prec_t precision) : lower_(precision), upper_(precision), one_(precision) {}
@@ -44,7 +44,6 @@ class hull {
             mpfr_set(upper_.get(), one_.get(), MPFR_RNDU);
         empty_ = false;
     }
-    /// For a function of two arguments.
     void add_corners(elementary_function f, const ends& a, const ends& b) {
         for (const mpfr_srcptr first : {a.lower.get(), a.upper.get()})
             for (const mpfr_srcptr second : {b.lower.get(), b.upper.get()})
@@ -60,8 +59,8 @@ class hull {
     bool empty_ = true;
 };
 
-/// True if there may be a pole of the tangent between two ends: less than a period apart, the
-/// tangent falls from one to the other exactly then (in 64 bits).
+/// True if the tangent may have a pole between the ends. Within a period, it has one exactly if it
+/// falls from one end to the other (in 64 bits).
 bool has_pole(const ends& x) {
     MPFR_DECL_INIT(width, 64);
     mpfr_sub(width, x.upper.get(), x.lower.get(), MPFR_RNDU);
@@ -72,8 +71,7 @@ bool has_pole(const ends& x) {
     return mpfr_lessequal_p(left.get(), right.get()) == 0;
 }
 
-/// True if x^y is monotone in x and in y: for x > 0, for x < 0 with a whole exponent, and across
-/// zero with a positive one.
+/// True if x^y is monotone in x and in y: for x > 0, and for whole y if x < 0 or y > 0.
 bool has_monotone_power(const ends& x, const ball& y) {
     const bool is_whole = y.is_exact() && mpfr_integer_p(y.middle()) != 0;
     return mpfr_sgn(x.lower.get()) > 0 ||

@@ -1,4 +1,3 @@
-// Runs the chunks of evidence on several threads and merges them in order.
 #include "errbound/validation/chunks.hpp"
 
 #include <algorithm>
@@ -12,7 +11,7 @@
 namespace errbound::validation {
 namespace {
 
-/// Frees MPFR's cache of the thread at the end, also after an exception.
+/// Frees the thread's MPFR cache at the end.
 struct freed_mpfr_cache {
     freed_mpfr_cache() = default;
     freed_mpfr_cache(const freed_mpfr_cache&) = delete;

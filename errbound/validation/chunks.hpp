@@ -17,7 +17,6 @@ class chunks {
     constexpr std::uint64_t count() const {
         return std::max<std::uint64_t>(rounded_up(cases_, size_), 1);
     }
-    /// Cases [begin, end).
     struct range {
         std::uint64_t begin, end;
     };
@@ -33,7 +32,7 @@ class chunks {
     std::uint64_t cases_, size_;
 };
 
-/// The same evidence, with MPFR set up on the calling thread and its cache freed.
+/// Sets up MPFR on the calling thread, and frees its cache afterwards.
 evidence with_mpfr(evidence what);
 
 }  // namespace errbound::validation

@@ -16,7 +16,6 @@ std::size_t bin_of(double log10_ratio) {
 
 }  // namespace
 
-/// Makes room for bins from first_bin on.
 void distribution::make_room(std::size_t first_bin, std::size_t bins) {
     auto& b = counts_.bins;
     if (b.empty()) counts_.first_bin = first_bin;

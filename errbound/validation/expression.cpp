@@ -13,7 +13,6 @@
 namespace errbound::validation {
 namespace {
 
-/// Sizes of an expression's inputs.
 enum class operand_scale {
     ordinary,           ///< between 2^-5 and 2^5
     underflowing,       ///< subnormals, and numbers with subnormal products
@@ -87,7 +86,7 @@ class input_maker {
         const maker size = making::abs(x);
         return random_.one_in(2) ? maker(-size) : size;
     }
-    /// x rounded to T, at most the largest number.
+    /// Rounds to T, at most to the largest number.
     static maker rounded(const maker& x) {
         const maker largest = maker{traits::largest()};
         return maker{static_cast<T>(x < -largest ? maker(-largest) : x > largest ? largest : x)};
@@ -206,14 +205,14 @@ expression random_expression(std::uint64_t seed, std::uint64_t index, number_typ
 
 namespace {
 
-/// Values that are ±2^k times others. A rule such as `affine` may know that two such cancel, which
-/// the enclosure of a rounded quotient or root never shows.
+/// Finds values that are ±2^k times others. Two such can cancel under `affine`; the enclosure of a
+/// rounded quotient or root does not show this.
 class multiples {
   public:
     multiples() {
         for (std::size_t n = 0; n < known_.size(); ++n) known_[n].of = n;
     }
-    /// Call after the operation has set value n; sets n to zero if the values cancel.
+    /// Records value n, already computed. Sets it to zero if the operands cancel.
     void note(const expression_operation& o, std::size_t n, ball* values) {
         const multiple left = known_[o.left], right = known_[o.right];
         switch (o.kind) {
@@ -292,7 +291,6 @@ void set_interpolated(ball& result, const ball& left, const ball& right, const b
     difference.set_difference(right, left);
     result.set_fused(third, difference, left);
 }
-/// Undefined for n < 0 and x = 0.
 void set_power(ball& result, const ball& x, int n) {
     ball one(mpfr_get_prec(result.middle())), power(one);
     one.set(1);
@@ -308,7 +306,6 @@ void set_power(ball& result, const ball& x, int n) {
         result = power;
 }
 
-/// Operations made of others.
 void set_compound(ball& result, const expression_operation& o, const ball* values) {
     const ball &left = values[o.left], &right = values[o.right], &third = values[o.third];
     switch (o.kind) {

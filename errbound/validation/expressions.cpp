@@ -11,12 +11,11 @@
 namespace errbound::validation {
 namespace {
 
-/// The first suffices for most expressions; the third holds every sum of doubles, the last of long
-/// doubles and binary128.
+/// The third holds every sum of doubles, the last every sum of long doubles and binary128.
 constexpr std::array<mpfr_prec_t, 5> precisions{192, 768, 3072, 12288, 49152};
-/// Errors indistinguishable from zero raise the precision up to this one; promises up to the last.
+/// Errors are distinguished from zero up to this precision; promises use higher ones, too.
 constexpr mpfr_prec_t precision_for_errors = 3072;
-/// Beyond, only sums and products are evaluated: others are exact in none.
+/// At higher precisions, only sums and products are evaluated: others are exact in none.
 constexpr mpfr_prec_t precision_for_functions = 12288;
 constexpr std::uint64_t least_chunk = 1000;
 
@@ -35,8 +34,8 @@ class reference {
         validation::evaluate(e, values_.data());
         measure(e, computed, nullptr);
     }
-    /// Deviations of these claims, after others of the same expression, if any. Values mostly agree
-    /// for all rules, but zeros may have other signs, which atan2 turns into π and −π.
+    /// Computes deviations, except for values equal to those of `before` (another rule's claims).
+    /// Rules mostly have equal values, but atan2 turns zeros of different signs into π and −π.
     void measure(const expression& e, const claim* computed, const claim* before) {
         for (std::size_t n = 0; n < e.size(); ++n) {
             const bool known = before && before[n].value == computed[n].value;
@@ -50,7 +49,7 @@ class reference {
     const ball& value(std::size_t n) const { return values_[n]; }
     const deviation& off(std::size_t n) const { return off_[n]; }
 
-    /// False if an operand has no exact value: then the result is not checked.
+    /// If false, an operand has no exact value, and the result is not checked.
     bool operands_defined(const expression& e, std::size_t n) const {
         if (n < e.input_count) return true;
         const expression_operation& o = e.operations[n - e.input_count];
@@ -178,7 +177,7 @@ struct study {
     std::vector<rule> rules;
     expression_options options;
 
-    /// Indices that contain n expressions for rules without division, which skip every fourth.
+    /// For rules without division, which skip every fourth index.
     static std::uint64_t indices(std::uint64_t n) { return n + (n + 2) / 3; }
     std::uint64_t first() const { return indices(options.first); }
     chunks expressions() const {

@@ -62,7 +62,7 @@ void add_ratio(distribution& to, error_meaning meaning, const claim& c, const ba
     } else if (off.is_negligible()) {
         to.add_exact();
     } else if (meaning == error_meaning::bound) {
-        // A bound that holds is no less than the error, but logarithms are rounded.
+        // Negative only by the rounding of logarithms.
         to.add(std::max(0.0, log10_of(c.error) - off.log10()));
     } else if (claims) {
         to.add(c.error.leading > 0 ? log10_of(c.error) - off.log10() : distribution::least_log);

@@ -21,7 +21,6 @@ namespace {
 constexpr std::uint64_t least_chunk = 10000;
 constexpr std::uint64_t float_count = std::uint64_t{1} << 32;
 
-/// A function, a type and its arguments.
 struct job {
     elementary_function function{};
     number_type number{};
@@ -77,7 +76,7 @@ template <elementary_function F, class T>
 class comparison {
     using traits = number_traits<T>;
     static constexpr bool has_two = has_two_arguments(F);
-    // 40 bits more than T: an error is known to 2^-39 units.
+    // Errors are known to 2^-39 units.
     static constexpr mpfr_prec_t precision = traits::digits + 40;
     static constexpr double slack = 0x1p-39;
 
@@ -112,7 +111,7 @@ class comparison {
         set(second_, y);
         if constexpr (has_two) {
             if (!has_value(F, first_.get(), second_.get())) return;
-            // The library's own result for a signed zero.
+            // Tracked zeros have no sign, so the results differ.
             if (F == elementary_function::atan2 && x == 0 && std::signbit(x)) return;
             mpfr_of_two(F, exact_.get(), first_.get(), second_.get(), MPFR_RNDZ);
         } else {
@@ -129,15 +128,14 @@ class comparison {
         found.at = has_two ? text_of(x) + ", " + text_of(y) : text_of(x);
     }
 
-    /// Another float's error, found elsewhere: smaller errors are not the largest.
+    /// States an error of another float; add() skips smaller ones.
     void is_met_elsewhere(double units) { met_elsewhere_ = units; }
 
     function_errors found;
 
   private:
-    /// An upper bound of units_off(v) by the function of doubles, w = f within 2^-20 units in the
-    /// last place of a float: 512 of its own, a hundred times its assumed error. NaN if not finite.
-    /// About 20 times as fast, for trying all floats.
+    /// Returns an upper bound of units_off(v), or NaN. w is the double function's value, f within
+    /// 2^-20 units in the last place of a float (512 of its own). About 20 times as fast.
     static double most_units_off(float v, double w) {
         constexpr double slack_of_w = 0x1p-20;
         constexpr int least = -149, digits = 24;
@@ -146,8 +144,7 @@ class comparison {
         const int last = w == 0 ? least : std::max(exponent - digits, least);
         return std::ldexp(std::abs(v - w), -last) + slack_of_w;
     }
-    /// |v − f| in units in the last place of f, rounded up. exact_ is rounded towards zero and so
-    /// has f's exponent.
+    /// |v − f| in units in the last place of f, rounded up. exact_ has f's exponent.
     double units_off(T v) {
         set(off_, v);
         mpfr_sub(off_.get(), off_.get(), exact_.get(), MPFR_RNDU);
@@ -170,7 +167,6 @@ class comparison {
     double met_elsewhere_ = 0;
 };
 
-/// Hard arguments for some function, and others.
 template <class T>
 class argument_maker {
     using limits = std::numeric_limits<T>;
@@ -260,8 +256,7 @@ class argument_maker {
     std::vector<T> hard_;
 };
 
-/// The largest error among some 65,000 floats of the whole line. Chunks then call MPFR only above
-/// it, not for thousands of neighbouring floats along which the error grows.
+/// The largest error among some 65,000 floats. Chunks then call MPFR only for larger errors.
 template <elementary_function F>
 double largest_of_some(const function_options& options) {
     constexpr std::uint64_t step = 65537;

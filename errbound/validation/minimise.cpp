@@ -1,4 +1,4 @@
-// Minimises an expression with a violation: greedily, by a measure that only falls.
+// Minimises greedily, by a measure that only falls.
 #include "errbound/validation/minimise.hpp"
 
 #include <cmath>
@@ -9,7 +9,6 @@
 namespace errbound::validation {
 namespace {
 
-/// The expression of `root` only.
 expression cut(const expression& e, std::size_t root) {
     std::array<bool, expression::max_values> used{};
     used[root] = true;
@@ -58,7 +57,7 @@ double size_of(const exact_value& x) {
     return size;
 }
 
-/// Operations of which left·right is a part.
+/// Operations that contain left·right.
 bool is_compound(operation_kind kind) {
     return kind == operation_kind::dot || kind == operation_kind::horner ||
            kind == operation_kind::interpolate;
@@ -101,7 +100,7 @@ std::vector<double> simpler_numbers(double x) {
     return r;
 }
 
-/// For a number beyond doubles also its leading part, and one with a smaller exponent.
+/// Beyond doubles also the leading part, and a smaller exponent.
 std::vector<exact_value> simpler_numbers(const exact_value& x) {
     std::vector<exact_value> r;
     for (const double leading : simpler_numbers(x.leading)) {
@@ -119,7 +118,6 @@ std::vector<exact_value> simpler_numbers(const exact_value& x) {
     return r;
 }
 
-/// Makes the operation's value an input.
 std::optional<expression> with_input(const expression& e, std::size_t n,
                                      const expression_input& in) {
     expression r = cut(e, e.size() - 1);

@@ -1,4 +1,4 @@
-// Minimises an expression that shows a violation. Internal.
+// Smaller expressions with a violation. Internal.
 #pragma once
 
 #include <errbound/validation/expression.hpp>

@@ -39,7 +39,7 @@ void claim_checker::check(const tiny_claim& r, const exact_range& exact, const t
             add(r, "certain about what has no finite value", how);
         return;
     }
-    // Exact, or infinite.
+    // Sums are exact or infinite.
     if (!std::isnan(r.error) &&
         !(r.value - r.error <= exact.low && exact.high <= r.value + r.error))
         add(r, "the bound is too small", how);
@@ -48,8 +48,7 @@ void claim_checker::check(const tiny_claim& r, const exact_range& exact, const t
 
 namespace {
 
-/// The exact sign of xy − z, for x and y of so few bits that xy neither overflows nor underflows; x
-/// may be infinite.
+/// The exact sign of xy − z. Precondition: xy does not overflow or underflow; x may be infinite.
 int compare_product(double x, double y, double z) {
     const double product = x * y;
     if (product != z) return product < z ? -1 : 1;

@@ -68,8 +68,7 @@ std::uint8_t tiny_code(double value, int precision, int exponent_bits) {
     if (std::isinf(size)) {
         code = infinity;
     } else if (size > 0) {
-        // In units of the last place, rounded; 2·fractions of them correctly carry into the
-        // exponent.
+        // Units in the last place; 2·fractions of them carry into the exponent.
         const int e = std::max(std::ilogb(size), least);
         const double units = std::nearbyint(std::ldexp(size, precision - 1 - e));
         code = static_cast<int>(std::min<double>((e - least) * fractions + units, infinity));

@@ -12,7 +12,7 @@
 
 using number = errbound::tracked<double, errbound::explained<errbound::tight>>;
 
-// A vertex that falls through a triangle, all of them away from the origin.
+// A vertex falls through a triangle, `away` from the origin.
 ccd::vertex_face<number> query(double away) {
     const errbound::scope s("rounded to float");
     const auto rounded = [](double x) { return number::within(x, std::abs(x) * 0x1p-24); };

@@ -1,5 +1,4 @@
-// Heron's formula on a needle: the sum before the subtractions causes the error, not these. Kahan's
-// order of operations avoids it.
+// Heron's formula on a needle: the sum causes the error, not the subtractions. Kahan's order helps.
 //
 // usage: heron [FILE]; FILE is written for `errbound explain`.
 #include <cstdio>
@@ -18,8 +17,7 @@ S heron(const S& a, const S& b, const S& c) {
     return sqrt(half * (half - a) * (half - b) * (half - c));
 }
 
-// Precondition: a >= b >= c. Source: Kahan 1986, Miscalculating area and angles of a needle-like
-// triangle.
+// Precondition: a >= b >= c. Source: Kahan 1986, Miscalculating Area ... of a Needle-like Triangle.
 template <class S>
 S kahan(const S& a, const S& b, const S& c) {
     const errbound::scope s("Kahan");

@@ -1,5 +1,4 @@
-// Errors of forces and positions in an orbit around the sun by the leapfrog method, with two
-// origins of coordinates.
+// Errors of forces and positions in an orbit, by the leapfrog method, for two origins.
 //
 // usage: ode_step [FILE]; FILE is written for `errbound explain`.
 #include <cstdio>

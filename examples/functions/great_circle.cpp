@@ -11,7 +11,7 @@ inline constexpr double errbound::function_error<errbound::elementary_function::
 using number = errbound::tracked<double>;
 using namespace errbound::literals;
 
-/// Latitude and longitude in degrees.
+/// In degrees.
 struct place {
     number latitude, longitude;
 };

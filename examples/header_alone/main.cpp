@@ -32,7 +32,6 @@ sign_type side_of(const std::vector<point>& polygon, const point& p) {
 }
 
 int main() {
-    // A point on the border, and the adjacent doubles inside and outside.
     const std::vector<point> square{{0.1, 0.1}, {0.7, 0.1}, {0.7, 0.7}, {0.1, 0.7}};
     const std::vector<point> triangle{{0, 0}, {3, 1}, {0, 1}};
     const double third = 1.0 / 3;  // rounded down

@@ -35,7 +35,7 @@ struct strips {
 
   private:
     void add(std::size_t layer, std::size_t row, std::size_t column) {
-        // The vertex's number in the whole mesh, equal on all ranks that have it.
+        // The vertex's number in the whole mesh.
         numbers.push_back((layer * (width + 1) + row) * (width + 1) + column);
         const double x = static_cast<double>(column), y = static_cast<double>(row),
                      z = 2 * static_cast<double>(layer), bump = 0.4 * std::sin(3 * x + y + z);

@@ -1,4 +1,4 @@
-// One query of exact, with the numbers of its stages (docs/collision-detection.md).
+// The query of docs/collision-detection.md#a-query-and-its-proof.
 #include <ccd/exact.hpp>
 #include <ccd/explain.hpp>
 #include <ccd/methods/forms.hpp>

@@ -1,5 +1,5 @@
-// An experiment with dot products in single precision, compared with double: the ratio of bounds to
-// errors, and how often an estimate is too small. It includes a custom rule.
+// An experiment: the ratio of bounds to errors in dot products, also by a custom rule that
+// estimates.
 #include <algorithm>
 #include <cmath>
 #include <cstddef>

@@ -1,5 +1,4 @@
-// The collision handler in a custom simulation: falling particles with edges and faces between
-// them, with the simplest possible solver.
+// The collision handler with a custom solver, of falling particles (docs/simulation.md).
 #include <cstddef>
 #include <cstdio>
 #include <vector>

@@ -56,7 +56,7 @@ def timed(*arguments):
 def row(scene):
     frames = sorted(scene.glob("*.ply")) or sorted((scene / "frames").glob("*.ply"))
     if len(frames) != 2:
-        sys.exit(f"{scene}: found {len(frames)} frames, expected two")
+        sys.exit(f"{scene}: number of frames is {len(frames)}; expected 2")
     first, second = (io.read_mesh(path) for path in frames)
     before, after, faces = first.vertices, second.vertices, first.faces.astype(np.int32)
     cells = [scene.name]

@@ -185,7 +185,7 @@ _stages = stages
 
 
 class SearchOptions(TypedDict, total=False):
-    """The pairs that are tested.
+    """Options of all calls: the pairs to test, the distance, and threads.
 
     threads: maximum number; 0, the default: one per core.
     distance: finds pairs that come within it, instead of pairs that touch.

@@ -147,7 +147,7 @@ def _read_store(name: str, kind: StoredKind | None) -> Queries:
 
 
 def _chunk(file: dict[str, Any], c: int) -> NDArray[Any]:
-    """Return a chunk's points by query."""
+    """Returns a chunk's points by query."""
     begin, end = map(int, file["first_point"][c:c + 2])
     return np.asarray(file["points"][begin:end][file["queries"][65536 * c:65536 * (c + 1)]])
 
@@ -203,7 +203,7 @@ def _checked_result(result: StepResult, vertices: int) -> tuple[dict[Kind, Indic
 
 
 def write_view(path: str | os.PathLike[str], before: Mesh, after: Mesh, result: StepResult) -> None:
-    """Writes a step for a viewer, with times if result has them. The name's extension selects the format.
+    """Writes a step for a viewer, with times if result has them. The file's extension selects the format.
 
     NAME.html: a self-contained page for a browser. For ParaView: NAME.vtp, the frame before with displacements, or
     NAME.pvd, both frames in NAME-0.vtp and NAME-1.vtp. Their arrays are described in docs/program.md.

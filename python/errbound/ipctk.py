@@ -419,10 +419,9 @@ def _theirs(function: Any, mesh: Any, before: ArrayLike, after: ArrayLike, min_d
 
 def is_step_collision_free(mesh: Any, vertices_t0: ArrayLike, vertices_t1: ArrayLike, min_distance: float = 0.0,
                            broad_phase: Any = None, narrow_phase_ccd: Any = None) -> bool:
-    """True if the linear motion from vertices_t0 to vertices_t1 has no contact. There is no tolerance and no false
-    positive.
+    """True if the linear motion from vertices_t0 to vertices_t1 is free of contact, decided exactly.
 
-    No two elements touch or come within min_distance, and no vertex touches a plane of the mesh.
+    No two elements touch or come within min_distance, nor a vertex and a plane of the mesh.
 
     broad_phase: one of the toolkit's; then only its candidates are tested, instead of all pairs.
     narrow_phase_ccd: ExactNarrowPhase() by default; with another type, calls the toolkit's function with BroadPhase().

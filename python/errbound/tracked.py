@@ -23,7 +23,7 @@ from . import _native
 from ._arrays import as_array, is_real, nearest_double, option
 
 UNCERTAIN = 2
-"""The sign of a number that may be zero and is not certainly zero."""
+"""The sign of a number whose sign is not certain."""
 
 
 class Array:

@@ -25,7 +25,7 @@ std::span<const Item> items_of(const Array& array) {
             array.size() * sizeof(*array.data()) / sizeof(Item)};
 }
 
-/// A vector that arrays refer to. It lives as long as the last of them.
+/// A vector that lives as long as the arrays that refer to it.
 template <class Item>
 class shared_items {
   public:

@@ -1,5 +1,4 @@
-// The extension module errbound._mpi: steps and advances of distributed meshes. It is a separate
-// module so that errbound._native does not require MPI.
+// The extension module errbound._mpi, separate so that errbound._native does not require MPI.
 #include <nanobind/nanobind.h>
 #include <nanobind/stl/string.h>
 

@@ -27,8 +27,7 @@ std::span<const std::array<double, Dimension>> points_of(const points_array& arr
     return items_of<std::array<double, Dimension>>(array);
 }
 
-/// Binds a predicate as a function of a list of arrays. Signs are -1, 0, 1, and 2 for a coordinate
-/// that is not finite.
+/// Binds a function of a list of arrays. Signs are -1, 0, 1; 2 for coordinates that are not finite.
 template <class Predicate, std::size_t... I>
 void bind(nb::module_& m, const char* name, const Predicate& predicate, std::index_sequence<I...>) {
     m.def(name, [predicate](const nb::list& arrays) {

@@ -22,8 +22,7 @@ using group_numbers = input<std::int32_t, -1>;
 using flags = input<std::uint8_t, -1>;
 using numbered = input<std::uint64_t, -1>;
 
-/// Converts a callback's result, a bool or NumPy's. None is an error: a return statement is
-/// missing.
+/// Converts a callback's result, a bool or NumPy's. None, of a missing return, is an error.
 inline bool truth_of(const nb::object& result) {
     if (result.is_none())
         throw nb::type_error("result of can_collide is None; expected True or False");

@@ -38,7 +38,7 @@ def fuzzers(build, names):
     known = sorted(set(re.findall(r"^(?:\.\.\. )?(fuzz_\w+)(?::|$)", listed, re.MULTILINE)))
     chosen = [name for name in known if not names or any(part in name for part in names)]
     if not chosen:
-        sys.exit(f"run: found no fuzzer named {' '.join(names)}, expected one of {', '.join(known)}")
+        sys.exit(f"run: fuzzer is {' '.join(names)}; expected one of {', '.join(known)}")
     return chosen
 
 

@@ -124,8 +124,8 @@ state begin(const part& of, const command_line& given) {
     if (!given.resume) {
         if (fs::exists(path))
             throw std::runtime_error(path.string() +
-                                     ": found a run's state; go on with --resume, "
-                                     "or forget it with --anew");
+                                     " is the state of a run; expected --resume, to continue "
+                                     "it, or --anew, to forget it");
         return {.seed = given.seed.value_or(1), .first = given.first.value_or(0)};
     }
     state s;
@@ -137,9 +137,8 @@ state begin(const part& of, const command_line& given) {
     }
     const auto require_same = [&](const char* name, std::uint64_t found, auto expected) {
         if (expected && found != *expected)
-            throw std::runtime_error(path.string() + ": found " + name + " " +
-                                     std::to_string(found) + ", expected the " + name + " given, " +
-                                     std::to_string(*expected));
+            throw std::runtime_error(path.string() + ": " + name + " is " + std::to_string(found) +
+                                     "; expected the given one, " + std::to_string(*expected));
     };
     require_same("seed", s.seed, given.seed);
     require_same("first", s.first, given.first);

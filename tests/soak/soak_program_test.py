@@ -99,12 +99,12 @@ class StopAndResume(unittest.TestCase):
             command + ["--resume", "--seed", "2"], capture_output=True, text=True
         )
         self.assertEqual(other_seed.returncode, 1)
-        self.assertIn("found seed 1, expected the seed given, 2", other_seed.stderr)
+        self.assertIn("seed is 1; expected the given one, 2", other_seed.stderr)
         other_range = subprocess.run(
             command + ["--resume", "--first", "5"], capture_output=True, text=True
         )
         self.assertEqual(other_range.returncode, 1)
-        self.assertIn("found first 0, expected the first given, 5", other_range.stderr)
+        self.assertIn("first is 0; expected the given one, 5", other_range.stderr)
 
     def test_bad_usage(self):
         for options in (["many"], [1, "--unknown"]):

@@ -1,4 +1,3 @@
-// Positions: one row of x y z per vertex, in doubles.
 #pragma once
 
 #include <Eigen/Core>
@@ -8,7 +7,7 @@ namespace simulation {
 
 using ccd::vertex_index;
 using vec3 = Eigen::Vector3d;
-/// n rows, contiguous, as ccd::vertex_rows takes them.
+/// Rows x y z, contiguous, as ccd::vertex_rows takes them.
 using rows = Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor>;
 
 }  // namespace simulation

@@ -130,8 +130,7 @@ rows projective_solver::inertial(const rows& x, const rows& v, const rows& drive
     return there;
 }
 
-/// Solves for a change of x, not for x. Forces of stiff terms are small differences, which would be
-/// lost next to the positions.
+/// Solves for a change of x: next to positions, small differences in stiff terms would be lost.
 rows projective_solver::relaxed(const rows& x, const rows&) const {
     const double per_square = 1 / (options_.time_step * options_.time_step);
     Eigen::MatrixX3d right = forces_ * wanted_changes(x);

@@ -1,7 +1,6 @@
 // Implicit Euler by projective dynamics, with one constant matrix that is factorised once per run.
 // Source: Bouaziz, Martin, Liu, Kavan, Pauly: Projective Dynamics: Fusing Constraint Projections
-// for Fast Simulation, 2014. Stable for every time step and stiffness. Stiffer terms need more
-// iterations to reach their stiffness.
+// for Fast Simulation, 2014. Always stable; stiff terms need more iterations to be as stiff.
 #pragma once
 
 #include <Eigen/SparseCholesky>
@@ -32,7 +31,7 @@ class projective_solver : public compliance {
     rows propose(const rows& x, const rows& v, const rows& driven);
     rows relaxed(const rows& x, const rows& proposed) const override;
 
-    /// Uses the same matrix: terms yield as springs in their current directions.
+    /// Terms yield as springs in their current directions.
     rows displacements(const rows& forces) const override;
     double of(std::size_t v) const override { return per_force_[v]; }
 

@@ -14,7 +14,7 @@ struct selected_entries {
     std::vector<double> below;
     Eigen::VectorXd diagonal;
 
-    /// Returns the entry in row i and column j. Precondition: it is in the pattern, or i = j.
+    /// Precondition: the entry is in the pattern, or i = j.
     double at(Eigen::Index i, Eigen::Index j) const {
         if (i == j) return diagonal[i];
         const auto [column, row] = std::minmax(i, j);

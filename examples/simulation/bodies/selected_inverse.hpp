@@ -1,4 +1,3 @@
-// The diagonal of a sparse matrix's inverse, computed from its factors.
 #pragma once
 
 #include <Eigen/SparseCholesky>

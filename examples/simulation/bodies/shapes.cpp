@@ -95,8 +95,7 @@ surface_shape capsule(int refinements, double radius, const vec3& from, const ve
 
 namespace {
 
-/// Returns the five tetrahedra of a cell. The three bits of a corner's index are its coordinates. A
-/// mirrored cell has mirrored corners.
+/// Adds five tetrahedra. The three bits of a corner's index are its coordinates in the cell.
 void add_cell(const std::array<vertex_index, 8>& c, bool mirrored,
               std::vector<std::array<vertex_index, 4>>& tetrahedra) {
     constexpr std::array<std::array<std::size_t, 4>, 5> parts{

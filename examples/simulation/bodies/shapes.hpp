@@ -30,8 +30,7 @@ surface_shape sphere(int refinements, double radius, const vec3& centre);
 surface_shape capsule(int refinements, double radius, const vec3& from, const vec3& to);
 /// A surface of revolution about z, from a curve of (radius, z). It is open at its ends.
 surface_shape revolved(const std::vector<std::array<double, 2>>& profile, int segments);
-/// A block of cells with keep(i, j, k). Each has five tetrahedra, mirrored alternately so that they
-/// fit.
+/// The cells with keep(i, j, k), of five tetrahedra each, mirrored alternately so that they fit.
 solid_shape block(const std::array<int, 3>& cells, const vec3& from, const vec3& to,
                   const std::function<bool(int, int, int)>& keep = {});
 surface_shape spike(int sides, double radius, const vec3& base, const vec3& apex);

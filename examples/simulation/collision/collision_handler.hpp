@@ -1,14 +1,11 @@
-// Collision response for your simulation: changes positions that a solver proposes to positions
-// that are reached without collision, by a chosen method.
+// Collision response: changes the positions that a solver proposes to positions that are reached
+// without collision, by a chosen method (docs/simulation.md).
 //
 //   simulation::collision_handler handler(faces, edges, masses, bodies, time_step, options);
 //   rows next = solver's proposal;
 //   const simulation::response_report report = handler.resolve(positions, next, solver);
 //
-// The solver implements compliance; particle_compliance is the simplest one. The method tests the
-// step (ccd::mesh_steps) after each response: impulses with friction (contacts.hpp), then rigid
-// zones of the pairs still reported (zones.hpp), at last ccd::advance, which the report states.
-// Contact points and normals come from nearest points in plain doubles, for all methods.
+// The solver implements compliance; particle_compliance is the simplest one.
 #pragma once
 
 #include <ccd/advance.hpp>
@@ -62,10 +59,9 @@ using forces_of_pairs = std::map<std::array<vertex_index, 4>, vec3>;
 
 class collision_handler {
   public:
-    /// Vertices have masses (0: driven, not moved by responses) and bodies (if necessary, each body
-    /// advances by a separate fraction). Throws std::invalid_argument unless each vertex has a body
-    /// and a finite mass, and time step and options are valid; also the exceptions of
-    /// ccd::mesh_steps.
+    /// A vertex of mass 0 is driven. If the last resort is ccd::advance, each body moves by one
+    /// fraction. Throws std::invalid_argument unless each vertex has a body and a finite mass, and
+    /// time step and options are valid; also the exceptions of ccd::mesh_steps.
     collision_handler(const std::vector<ccd::face>& faces, const std::vector<ccd::edge>& edges,
                       const std::vector<double>& masses, std::vector<int> bodies, double time_step,
                       const collision_options& options);
@@ -76,8 +72,7 @@ class collision_handler {
     /// a coordinate is not finite or the number of rows differs from that of vertices.
     response_report resolve(const rows& before, rows& after, const compliance& bodies);
 
-    /// The contact forces of the last step, where the next step starts its search. With positions
-    /// and velocities they are the state of a run.
+    /// The last contact forces, which start the next search: part of a run's state.
     const forces_of_pairs& last_forces() const { return last_forces_; }
     void restore(forces_of_pairs forces) { last_forces_ = std::move(forces); }
 

@@ -29,8 +29,7 @@ rows forces_on_vertices(const std::vector<contact>& contacts, const by_contact& 
     return f;
 }
 
-/// Returns an upper bound of the relative displacement of the features by a unit force of this
-/// contact only. The points of a feature may move together.
+/// Bounds the relative displacement of the features by a unit force of this contact only.
 double compliance_at(const contact& c, const compliance& bodies) {
     double first = 0, second = 0;
     for (std::size_t i = 0; i < 4; ++i)

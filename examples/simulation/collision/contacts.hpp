@@ -19,16 +19,14 @@ struct contact {
     vec3 force = vec3::Zero();  ///< on the first feature, in newtons
 };
 
-/// The displacements of bodies by forces in a step. Your solver implements it.
+/// The displacements of bodies by forces in a step; implemented by solvers.
 class compliance {
   public:
     virtual ~compliance() = default;
-    /// Returns positions without contact forces, improved from positions x closer to the result:
-    /// the next iterate of an implicit solver. If forces act linearly, as on particles, returns
-    /// `proposed`.
+    /// Returns the solver's next iterate from x, without contact forces. If forces act linearly, as
+    /// on particles, returns `proposed`.
     virtual rows relaxed(const rows& x, const rows& proposed) const = 0;
-    /// Returns displacements by forces, one row per vertex; 0 for driven vertices. Linear,
-    /// symmetric.
+    /// Returns one row per vertex; 0 for driven vertices. Linear and symmetric.
     virtual rows displacements(const rows& forces) const = 0;
     /// Returns the displacement of v by a unit force on v only, along it; 0 for driven vertices.
     virtual double of(std::size_t v) const = 0;

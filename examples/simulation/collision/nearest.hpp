@@ -1,5 +1,4 @@
-// The nearest points of two features and of two moving features, in plain doubles, for the
-// response. They do not decide collisions.
+// Nearest points of two (moving) features in plain doubles. They do not decide collisions.
 #pragma once
 
 #include <array>

@@ -1,7 +1,6 @@
-// Neighbours of vertices and edges, to test that a nearest point of a feature is also a nearest
-// point of the surface. Without this test, a point above a triangle would also touch the next
-// triangle, at their common edge and with an oblique normal. On a flat floor, bodies would not
-// slide past edges.
+// Tests if a nearest point of a feature is also a nearest point of the surface. Without this test,
+// a point above a triangle would also touch the next one, with an oblique normal at their common
+// edge. Bodies would not slide past edges of a flat floor.
 #pragma once
 
 #include <ccd/mesh.hpp>
@@ -18,10 +17,9 @@ class neighbours {
     neighbours(const std::vector<ccd::face>& faces, const std::vector<ccd::edge>& edges,
                std::size_t vertices);
 
-    /// True if no direction along the surface from `on` leads towards `from`, a point of `other`.
-    /// `on` is inside a feature with one vertex, two (an edge) or three (a face). In a fold,
-    /// directions towards vertices next to `other` are ignored, since features that share vertices
-    /// are no pairs.
+    /// True if no direction along the surface from `on`, a point of `feature`, leads towards
+    /// `from`, a point of `other`. Ignores directions towards vertices next to `other`, as in a
+    /// fold, since features that share vertices are no pairs.
     bool nearest_of_surface(std::span<const vertex_index> feature, const vec3& on, const vec3& from,
                             std::span<const vertex_index> other, const rows& positions) const;
 

@@ -1,4 +1,3 @@
-// A series of frames for ParaView, with the contacts of the step that the solver proposed.
 #pragma once
 
 #include <filesystem>

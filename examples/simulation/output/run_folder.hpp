@@ -29,8 +29,8 @@ class folder_lock {
 
 class run_folder {
   public:
-    /// Makes the folder, or continues the run in it. Throws file_error if it has another run
-    /// (`description` differs), another process uses it, or it cannot be read.
+    /// Makes the folder, or continues its run. Throws file_error if `description` differs, another
+    /// process uses the folder, or it cannot be read.
     run_folder(std::filesystem::path folder, const std::string& description);
 
     /// Restores the last stored frame, if there is one. Throws file_error if the state is damaged,

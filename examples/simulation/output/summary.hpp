@@ -1,4 +1,3 @@
-// A short summary of a run, from its table of frames.
 #pragma once
 
 #include <filesystem>

@@ -1,4 +1,3 @@
-// The scenes, with bodies, motions of driven vertices, and numbers of frames.
 #pragma once
 
 #include <functional>
@@ -30,7 +29,7 @@ struct scene_maker {
     std::function<scene(int resolution)> make;
 };
 
-/// All scenes, in the order in which tables show them.
+/// In the order of tables.
 std::span<const scene_maker> scenes();
 
 scene funnel(int layers, int resolution);

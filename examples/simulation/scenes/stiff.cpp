@@ -1,5 +1,5 @@
-// Stacks of blocks exactly at rest, with parallel faces a thickness apart. Every other block is 1e8
-// times as stiff as its neighbours. A sheet lies on one of the stacks.
+// Stacks of blocks exactly at rest, a thickness apart. Every other block is 1e8 times as stiff. A
+// sheet lies on one of the stacks.
 // Resolution: cells along a side of a block.
 #include "examples/simulation/bodies/shapes.hpp"
 #include "examples/simulation/scenes/scene.hpp"
