@@ -44,7 +44,7 @@ int main() {
                     c.time.low, c.normal.x, c.normal.y, c.normal.z);
     }
 
-    // The free step: exactly, the step from x to these positions has no contact.
+    // The free step: the step from x to these positions certainly has no contact.
     const ccd::advance_result free = ccd::advance(steps, step, {});
     std::printf("free for %.3f of the step\n", free.fraction);
     return pairs.size() == 3 && free.fraction > 0.24 ? 0 : 1;

@@ -112,6 +112,7 @@ constexpr auto value_at(const bernstein<S, N>& p, const T& s, const T& t) {
         return detail::value_from_term<1>(p, s, t, p[0], t);
 }
 
+/// p(t) for t in [0, 1].
 template <class S, int N>
 constexpr S value_at(const bernstein<S, N>& p, const S& t) {
     return value_at(p, S(S(1) - t), t);
@@ -141,6 +142,7 @@ constexpr bernstein<S, N> left_part(const bernstein<S, N>& p, const S& v, const 
     return r;
 }
 
+/// Both parts of p, split at w/(v + w), each times (v + w)^N.
 template <class S, int N>
 constexpr std::pair<bernstein<S, N>, bernstein<S, N>> split(const bernstein<S, N>& p, const S& v,
                                                             const S& w) {
@@ -160,6 +162,7 @@ constexpr bernstein<S, N> left_half(const bernstein<S, N>& p) {
     return r;
 }
 
+/// Both halves of p, each times 2^N.
 template <class S, int N>
 constexpr std::pair<bernstein<S, N>, bernstein<S, N>> halves(const bernstein<S, N>& p) {
     return {left_half(p), reversed(left_half(reversed(p)))};

@@ -64,7 +64,8 @@ inline constexpr int least_precision_for_split = 4;
 /// so products of such parts are exact. Precondition: p >= least_precision_for_split, and (2^s +
 /// 1)x does not overflow (|x| < 2^996 for double, 2^115 for float). On overflow the parts are
 /// infinite or NaN. Cost: 4 operations. Source: Veltkamp; Dekker 1971; Boldo 2006 (Pitfalls of a
-/// full floating-point proof). Proof, of s bits in the error: proofs/ErrorFree.v, split_exact.
+/// full floating-point proof). Proof, with the weaker claim of at most s bits in the error:
+/// proofs/ErrorFree.v, split_exact.
 template <class T>
 constexpr with_error<T> split(const T& x) {
     constexpr int s = (number_traits<T>::digits + 1) / 2;
@@ -96,13 +97,13 @@ constexpr with_error<T> two_product(const T& a, const T& b) {
     return {v, middle + detail::rounded_product(a_low, b_low)};
 }
 
-/// True if two_product(a, b)'s result is known to be exact, with or without FMA. Requires |a|, |b|
-/// <= largest()/2^(s+2) with s = ⌈p/2⌉ (2^995 for double, 2^114 for float). Also, an operand is
-/// zero, or 2^(2p)·η <= |value| <= largest()/4 (from 2^-968 for double, 2^-101 for float).
-/// Derivation: the error and Dekker's intermediate results are multiples of ulp(a)·ulp(b), which is
-/// at least η, since |a| < 2^p·ulp(a), |b| < 2^p·ulp(b) and |ab| >= |value|/(1 + u). No overflow:
-/// products in split() are below 2^(s+1)·|x|, value parts at most 1.25|x|. Proof:
-/// proofs/IeeeInterval.v, product_known.
+/// True if two_product(a, b)'s result is known to be exact, with or without FMA. Value and error
+/// must be finite, and |a|, |b| <= largest()/2^(s+2) with s = ⌈p/2⌉ (2^995 for double, 2^114 for
+/// float). An operand must be zero, or 2^(2p)·η <= |value| <= largest()/4 (from 2^-968 for double,
+/// 2^-101 for float). Without FMA also p >= least_precision_for_split. Derivation: the error and
+/// Dekker's intermediate results are multiples of ulp(a)·ulp(b), which is at least η, since |a| <
+/// 2^p·ulp(a), |b| < 2^p·ulp(b) and |ab| >= |value|/(1 + u). No overflow: products in split() are
+/// below 2^(s+1)·|x|, value parts at most 1.25|x|. Proof: proofs/IeeeInterval.v, product_known.
 template <class T>
 constexpr bool product_error_is_exact(const T& a, const T& b, const with_error<T>& product) {
     using traits = number_traits<T>;

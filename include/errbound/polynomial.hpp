@@ -5,8 +5,9 @@
 //   roots.sign_at(errbound::polynomial{-1.5, 1.0}, 0);  // of x − 1.5 at √2: negative
 //
 // Preconditions (asserted): coefficients are finite, a <= b in [a, b], and a and b are not the same
-// infinity. Calls throw only std::bad_alloc, after which roots found before stay valid; refine also
-// throws std::invalid_argument. With GMP's integers, lack of memory ends the program. Cost:
+// infinity. Calls throw only std::bad_alloc, after which roots found before stay valid. refine also
+// throws std::invalid_argument. Calls of roots made with limits also throw roots::gave_up if
+// `.stop` returns true. With GMP's integers, lack of memory ends the program. Cost:
 // docs/polynomials.md.
 #pragma once
 
@@ -69,15 +70,15 @@ auto unless_given_up(const Find& find) -> std::optional<decltype(find())> {
 
 /// The distinct roots of p in [a, b], in disjoint intervals, with multiplicities. Coefficients are
 /// double, float, built-in integers, unbounded integers or rationals (errbound::integer,
-/// Boost.Multiprecision). roots::staged prepares p for two stages: floating point, then integers.
-/// These are errbound::integer, the coefficients' own type, or Integer, as in
-/// count_roots<mpz_int>(p, a, b).
+/// Boost.Multiprecision). Integers have the type Integer, if named as in count_roots<mpz_int>(p, a,
+/// b). Otherwise they have the coefficients' own type if it is unbounded, or else
+/// errbound::integer.
 template <class Integer = void, class C>
 auto isolate_roots(const polynomial<C>& p, double a, double b) {
     using exact = roots::integer_for_t<Integer, C>;
     return real_roots<exact>(roots::staged<exact>(p), a, b);
 }
-/// Same as above; empty if the work would exceed the limits.
+/// Same as above; empty if the work would exceed the limits or `limits.stop` returns true.
 template <class Integer = void, class C>
 auto isolate_roots(const polynomial<C>& p, double a, double b, const root_limits& limits) {
     using exact = roots::integer_for_t<Integer, C>;
@@ -126,7 +127,7 @@ template <class Integer = void, class C>
 std::size_t count_roots(const polynomial<C>& p, double a, double b) {
     return roots::count_within<Integer>(p, a, b, {});
 }
-/// Same as above; empty if the work would exceed the limits.
+/// Same as above; empty if the work would exceed the limits or `limits.stop` returns true.
 template <class Integer = void, class C>
 std::optional<std::size_t> count_roots(const polynomial<C>& p, double a, double b,
                                        const root_limits& limits) {
@@ -228,8 +229,9 @@ existence by_bsc(const staged_polynomial<Integer>& f,
 
 }  // namespace roots
 
-/// True if some t in [a, b] has f(t) = 0 and every g_i(t) >= 0. If f is cubic, one to four g_i are
-/// quartic (or lower) and the interval is finite, BSC (errbound/bsc.hpp) runs first.
+/// True if some t in [a, b] has f(t) = 0 and every g_i(t) >= 0. BSC (errbound/bsc.hpp) runs first
+/// if f has degree at most 3, there are one to four g_i of degree at most 4, and the interval is
+/// finite.
 template <class Integer = void, class C>
 bool root_where_nonnegative(const polynomial<C>& f, const std::vector<polynomial<C>>& g, double a,
                             double b) {

@@ -48,13 +48,13 @@ struct predicate_options {
     /// Exact number type of the last stage, constructible from double; void: long_integer. For
     /// Boost.Multiprecision's types see predicate_type::value.
     using exact_type = void;
-    /// True if terms of different degree are never added, so scaling by powers of two keeps signs.
-    /// Needed only if the expression has too many branches for the compiler to detect this. A false
-    /// claim does not compile.
+    /// True if terms of different degree are never added, so scaling by powers of two keeps signs;
+    /// otherwise the predicate does not compile. Needed only if the expression has too many
+    /// branches for the compiler to detect this.
     static constexpr bool homogeneous = false;
-    /// One degree per coordinate in the shape's order, if some are not 1. Example: points<3, 3> of
-    /// x, y and a squared radius have {1, 1, 2, 1, 1, 2}. Terms of different total degree must not
-    /// be added; a false claim does not compile. Coordinates far from 1 are then scaled.
+    /// One degree >= 1 per coordinate in the shape's order, if not all are 1. Example: points<3, 3>
+    /// of x, y and a squared radius have {1, 1, 2, 1, 1, 2}. If terms of different total degree are
+    /// added, the predicate does not compile. Coordinates far from 1 are then scaled.
     static constexpr std::array<int, 0> degrees{};
 };
 
@@ -96,17 +96,19 @@ class predicate_type {
     using shape = Shape;
     using options = Options;
 
-    /// Counts of the expression; its bits are those for coordinates of 61 bits (one 64-bit word).
+    /// Counts of the expression. `bits` assumes coordinates of 61 bits, the most for word_integers.
     static constexpr filters::expression_counts counts = stages::counts;
-    /// The static filter's constant. A sign is certain if |value| exceeds the constant times the
-    /// size, which is the value with every term positive (filters/static_filter.hpp). If the
-    /// expression evaluates several signs, this is the largest of their constants.
+    /// The static filter's constant, if counts.complete. A sign is certain if |value| exceeds the
+    /// constant times the size, which is the value with every term positive
+    /// (filters/static_filter.hpp). If the expression evaluates several signs, this is the largest
+    /// of their constants.
     template <class T>
     static constexpr T static_constant = filters::filter_constant<T>(counts.roundings);
     /// True from degree 5 on, unless the expression branches or adds terms of different degree.
     /// A semi-static filter's bound needs only the largest coordinate difference, not the size.
     static constexpr bool has_semi_static_filter = stages::has_semi_static_filter;
-    /// Largest coordinate width for which every result fits in `bits` bits.
+    /// Largest coordinate width, at most 61, for which every result fits in `bits` bits; below 1 if
+    /// there is none or counts.complete is false.
     static constexpr int coordinate_bits(int bits) { return stages::coordinate_bits(bits); }
 
     /// Returns the sign. Points: any type that coordinate_of accepts, with float or double numbers.
@@ -120,7 +122,8 @@ class predicate_type {
         }
         return stages::template decide<number_of<Points...>>(stages::listed(p...), nullptr);
     }
-    /// Same as above, and counts the deciding stage in the report.
+    /// Same as above, and counts the deciding stage in the report, or `undecided` if a coordinate
+    /// is not finite.
     template <class... Points>
     constexpr sign_type operator()(predicate_report& report, const Points&... p) const {
         using enum predicate_stage;
@@ -131,8 +134,9 @@ class predicate_type {
         }
         return stages::template decide<number_of<Points...>>(stages::listed(p...), &report);
     }
-    /// The first filter's value and bound, or the sign_type of an expression that branches. Stored:
-    /// coordinates are read from memory. Others are rounded first, so no product in one is fused.
+    /// The first filter's value and bound, or the sign_type of an expression that branches. Pass
+    /// Stored = true only if coordinates are values in memory. Otherwise each is rounded first: if
+    /// it is computed, a product in it must not be fused into a difference.
     template <bool Stored = false, class... Points>
     static constexpr auto estimate(const Points&... p) {
         using T = number_of<Points...>;
@@ -165,7 +169,9 @@ class predicate_type {
             F(), filters::listed_scalars<Shape, typename stages::coordinate_list, decltype(make)>{
                      list, make});
     }
-    /// The sign by this stage only; `uncertain` if the stage does not decide.
+    /// The sign by this stage only; `uncertain` if the stage does not decide. Without a
+    /// tracked_rule, `tracked` uses `tight`. two_word_integers also decides expressions that
+    /// branch.
     template <class... Points>
     constexpr sign_type by(predicate_stage stage, const Points&... p) const {
         using enum predicate_stage;
@@ -215,7 +221,7 @@ class predicate_type {
 /// uncertain sign.
 ///
 /// The stages (`predicate_stage`) run in this order until one is certain:
-/// - semi_static_filter, from degree 5 on: the bound needs only the largest coordinate difference;
+/// - semi_static_filter, from degree 5 on (see has_semi_static_filter);
 /// - static_filter: floating point, with a bound whose constant is counted at compile time;
 /// - tracked: errbound::tracked under the options' rule, if any;
 /// - exact stages, on coordinates as integers times one power of two. exact_doubles and
@@ -224,7 +230,7 @@ class predicate_type {
 ///   expression that branches skips two_word_integers.
 ///
 /// Contraction to FMA is allowed. Predicates work in constant expressions and in device code
-/// (compiled, not yet run). Filters cost 1 to 2 times the plain expression, integers about ten
+/// (compiled, not yet run). Filters cost 1 to 3 times the plain expression, integers about ten
 /// times; long_integers take up to 30 µs at degree 5. Optimised code needs at most 64 KiB of stack
 /// up to degree 32.
 template <class Shape, class Options = predicate_options, class F>

@@ -2,8 +2,8 @@
 // reader):
 //
 //            c                orient2d(a, b, c) > 0: a, b, c turn left, counterclockwise.
-//           / \               orient3d(a, b, c, d) > 0: seen from d, a, b, c turn right, clockwise;
-//          a---b              d is below (away from the reader) if a, b, c are as in the picture.
+//           / \               orient3d(a, b, c, d) > 0: seen from d, a, b, c turn right, clockwise.
+//          a---b              With a, b, c as in the picture, d is below (away from the reader).
 //
 // Signs are Shewchuk's (1997); CGAL's orientation of four points is the opposite of orient3d. Worst
 // known cost (./run bench --worst) for coordinates of 1e-3 to 1e3, then of all magnitudes: orient2d
@@ -20,11 +20,11 @@ namespace errbound {
 /// Building blocks for custom expressions.
 namespace forms {
 
-/// Twice the area of the triangle a, b, c in the plane of axes i and j.
+/// Twice the area of the triangle a, b, c in the plane of axes i and j, signed as orient2d.
 constexpr auto area(const auto& a, const auto& b, const auto& c, int i = 0, int j = 1) {
     return (a[i] - c[i]) * (b[j] - c[j]) - (a[j] - c[j]) * (b[i] - c[i]);
 }
-/// Six times the volume of the tetrahedron a, b, c, d.
+/// Six times the volume of the tetrahedron a, b, c, d, signed as orient3d.
 constexpr auto volume(const auto& a, const auto& b, const auto& c, const auto& d) {
     const auto ax = a[0] - d[0], ay = a[1] - d[1], az = a[2] - d[2];
     const auto bx = b[0] - d[0], by = b[1] - d[1], bz = b[2] - d[2];
@@ -41,8 +41,8 @@ constexpr auto squared_distance3d(const auto& a, const auto& b) {
     return x * x + y * y + z * z;
 }
 
-/// The determinant with a row (x, y, height) for each of a − d, b − d and c − d. Points are lifted
-/// to a paraboloid: height(point, x² + y²) returns x² + y², or less for a weighted point.
+/// The determinant with a row (x, y, height) for each of a − d, b − d and c − d. The height is
+/// height(a, x² + y²) for a's row: x² + y² for plain points, x² + y² − (w_a − w_d) for weights w.
 constexpr auto lifted_area(const auto& a, const auto& b, const auto& c, const auto& d,
                            const auto& height) {
     const auto ax = a[0] - d[0], ay = a[1] - d[1];
@@ -173,22 +173,24 @@ constexpr sign_type segment_triangle(const auto& p, const auto& q, const auto& a
 inline constexpr auto orient2d = predicate<points<2, 2, 2>>(
     [](const auto& a, const auto& b, const auto& c) { return forms::area(a, b, c); });
 
-/// Positive if a, b, c turn right seen from d. Proof: proofs/Predicates.v, orient3d_sign_certain.
+/// Positive if a, b, c turn right seen from d; zero if all four are coplanar. Proof:
+/// proofs/Predicates.v, orient3d_sign_certain.
 inline constexpr auto orient3d =
     predicate<points<3, 3, 3, 3>>([](const auto& a, const auto& b, const auto& c, const auto& d) {
         return forms::volume(a, b, c, d);
     });
 
-/// If a, b, c turn left: positive if d is inside the circle through them, zero on it. If they turn
-/// right: the opposite. Proof of its static filter: proofs/Predicates.v, incircle_sign_certain.
+/// If a, b, c turn left: positive if d is inside the circle through them. If they turn right: the
+/// opposite. Zero if all four are on one circle or line. Proof of its static filter:
+/// proofs/Predicates.v, incircle_sign_certain.
 inline constexpr auto incircle =
     predicate<points<2, 2, 2, 2>>([](const auto& a, const auto& b, const auto& c, const auto& d) {
         return forms::lifted_area(a, b, c, d, forms::unweighted);
     });
 
-/// If orient3d(a, b, c, d) is positive: positive if e is inside the sphere through them, zero on
-/// it. If it is negative: the opposite. Proof of its filters: proofs/Predicates.v,
-/// insphere_sign_certain, insphere_semi_static_certain.
+/// If orient3d(a, b, c, d) is positive: positive if e is inside the sphere through them. If it is
+/// negative: the opposite. Zero if all five are on one sphere or plane. Proof of its filters:
+/// proofs/Predicates.v, insphere_sign_certain, insphere_semi_static_certain.
 inline constexpr auto insphere = predicate<points<3, 3, 3, 3, 3>>(
     [](const auto& a, const auto& b, const auto& c, const auto& d, const auto& e) {
         return forms::lifted_volume(a, b, c, d, e, forms::unweighted);

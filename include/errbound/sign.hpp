@@ -12,8 +12,9 @@ namespace errbound {
 /// The sign of a number known up to a bound. `uncertain` is not a sign and never converts to one.
 enum class sign_type : std::uint8_t { negative, zero, positive, uncertain };
 
-/// Signs have no order: compare by == or functions such as certainly_nonnegative. Generic code
-/// needs < in constant expressions to detect if an enumeration is signed.
+/// Signs have no order: compare by == or functions such as certainly_nonnegative. So < does not
+/// compile at run time. Generic code uses it in constant expressions, to detect if an enumeration
+/// is signed.
 consteval bool operator<(sign_type s, sign_type t) {
     return static_cast<int>(s) < static_cast<int>(t);
 }

@@ -183,8 +183,9 @@ class tracked {
             return {v, Rule::template scale<T>(v, x.as_operand(), power)};
     }
 
-    /// The certain sign, by the rule's own `sign` if it has one. If |value| equals the error, the
-    /// number may be zero. Proof of the default: proofs/IeeeRules.v, sign_of_known.
+    /// The certain sign, by the rule's own `sign` if it has one. `uncertain` if the bound allows
+    /// more than one sign, also if |value| equals a nonzero error. Proof of the default:
+    /// proofs/IeeeRules.v, sign_of_known.
     friend constexpr sign_type sign_of(const tracked& x) {
         const wide v(x.value_);
         if constexpr (detail::rule_has_sign<Rule, wide>) return Rule::sign(v, x.bound_);
@@ -261,7 +262,7 @@ inline constexpr bool is_tracked<tracked<T, Rule>> = true;
 
 }  // namespace errbound
 
-/// Same as numeric_limits<T>. All constants have zero error.
+/// Same as numeric_limits<T>, except that is_iec559 is false. All constants have zero error.
 template <class T, class Rule>
 struct std::numeric_limits<errbound::tracked<T, Rule>> : std::numeric_limits<T> {
   private:

@@ -13,7 +13,7 @@ namespace errbound::filters {
 
 struct expression_counts {
     int roundings = 0;  ///< those that affect a sign: errbound/filters/static_filter.hpp
-    /// Bits of the longest number of each degree whose sign is evaluated; 0 if none.
+    /// bits[d]: the bits of the longest number of degree d whose sign is evaluated; 0 if none.
     static constexpr int max_degree = 63;
     std::array<int, max_degree + 1> bits{};
     int degree = 0;        ///< highest degree of these numbers

@@ -55,8 +55,9 @@ struct filtered {
     constexpr T full_size() const { return Products == 0 ? size : size + T(Products) * allowance; }
     constexpr filtered operator-() const { return {-value, size}; }
 
-    /// The sign is uncertain if |value| <= bound() or the value is not finite. The last rounding
-    /// keeps signs, so constant(k − 1) suffices. Proof: proofs/StaticFilter.v, filter_bound.
+    /// The sign is uncertain if the value is not finite or |value| <= bound(), except for an exact
+    /// zero. The last rounding keeps signs, so constant(k − 1) suffices. Proof:
+    /// proofs/StaticFilter.v, filter_bound.
     constexpr T bound() const {
         if constexpr (Roundings <= 1) return T(0);
         return filter_constant<T>(Roundings - 1) *

@@ -1,6 +1,8 @@
 // Polynomials with integer coefficients, of run-time degree. Coefficients ascend in the power
-// basis; the last one is not zero; empty is identically zero. Integer is an exact type with + − × /
-// % << >>, comparison, and abs(), gcd(), msb() and lsb() found by argument-dependent lookup.
+// basis; the last one is not zero; empty is identically zero. Integer is an exact type
+// (is_exact_number<Integer> and numeric_limits<Integer>::is_integer are true). It has + − × / % <<
+// >>, comparison, conversions from and to 64-bit integers, and abs(), gcd(), msb() and lsb() found
+// by argument-dependent lookup.
 #pragma once
 
 #include <algorithm>

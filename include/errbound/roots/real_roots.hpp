@@ -155,8 +155,8 @@ class real_roots {
         }
     }
 
-    /// Root k rounded to the nearest double, ties to even; infinite from half a last place above
-    /// the largest on, never −0. Narrows its interval.
+    /// Root k rounded to the nearest double, ties to even; infinite if |root| is at least half a
+    /// unit in the last place beyond the largest double; never −0. Narrows its interval.
     double nearest_double(std::size_t k) {
         const auto [low, high] = neighbouring_doubles(k);
         if (low == high) return low;
