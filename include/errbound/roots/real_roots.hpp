@@ -60,7 +60,7 @@ struct occurring_signs {
 };
 
 /// The distinct roots of a polynomial on an interval, ascending. Calls narrow the roots' intervals,
-/// so no two threads may use an object at once.
+/// so two threads must not use the same object at once.
 template <exact_number Integer>
 class real_roots {
   public:
