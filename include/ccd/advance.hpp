@@ -18,8 +18,8 @@ namespace ccd {
 
 struct advance_options {
     /// The group of each vertex; empty: one group. Vertices of a group move by the same fraction of
-    /// their ways. Groups with a contact between them are joined. For one group per body, pass
-    /// connected_parts (ccd/mesh.hpp); for one per vertex, different indices.
+    /// their ways. Groups with a contact between them, also at the start, are joined. For one group
+    /// per body, pass connected_parts (ccd/mesh.hpp); for one per vertex, different indices.
     std::span<const int> groups = {};
     pair_distances distances = {};            ///< to keep; 0: only contact is avoided
     int threads = 0;                          ///< at most; 0: one per core

@@ -69,8 +69,8 @@ enum class normal_source : std::uint8_t {
 };
 
 /// The data of a first contact. The features are exact. Weights, normal and velocity each have a
-/// certified error, for every time in the bracket. Without a contact, `time` gives the reason;
-/// weights are 0 and errors infinite.
+/// certified error, for every time in the bracket. Without a contact at `time`, all weights are 0
+/// (test this) and errors infinite.
 ///
 /// A query's first feature is its vertex v or edge a, the second its face, edge or vertex w. Points
 /// are numbered as in points_of (v f0 f1 f2; a0 a1 b0 b1; v e0 e1; v w).
@@ -101,7 +101,7 @@ struct first_contact {
 };
 
 /// Returns the data of the contact at `time`, the result of time_of_impact(query). If the features
-/// certainly do not touch at `time`, the result is as without a contact.
+/// certainly do not touch at `time`, the result keeps `time`, but all weights are 0.
 ///
 /// If several features meet, the result has the smallest: two vertices, else a vertex and an edge,
 /// else the query's features. The normal is the cross product if its direction and side are

@@ -4,9 +4,9 @@
 //     ccd::cuda::decide_batch(positions, candidates, answers, scratch);     // device memory
 //
 // The device runs the host's functions, with the same answers. Needs a library built with nvcc
-// (target errbound::ccd_cuda), but no header of CUDA. Unless documented, functions do not allocate,
-// wait or change the current device, and pointers are to its memory. Several threads may call at
-// once, with different streams and scratch memory.
+// (target errbound::ccd_cuda), but no header of CUDA. Unless stated otherwise, functions neither
+// allocate, nor wait, nor change the current device, and pointers point to the current device's
+// memory. Several threads may call at once, with different streams and scratch memory.
 #pragma once
 
 #include <array>
@@ -212,7 +212,7 @@ using span_of_kind = std::span<const pair_of_kind<K>>;
 template <kind K>
 using times_span_of_kind = std::span<const first_time>;
 }  // namespace detail
-/// Lists of pairs in device memory, as ccd::pair_lists on the host, and their times.
+/// Lists of pairs in device memory, and their times.
 using pair_spans = by_kind<detail::span_of_kind>;
 using time_spans = by_kind<detail::times_span_of_kind>;
 
@@ -230,7 +230,8 @@ struct mesh_step_options {
 /// Steps of one mesh on the device. Keeps its faces, edges and memory from step to step.
 class mesh_steps {
   public:
-    /// Vertex/face and edge/edge pairs, in an unspecified but reproducible order; or an error.
+    /// Vertex/face and edge/edge pairs, sorted by their vertices, or an error. Unlike in
+    /// ccd::pair_lists, vertices of faces keep the mesh's order.
     struct [[nodiscard]] result : status {
         pair_spans pairs;
         pair_counts candidates;
@@ -243,7 +244,8 @@ class mesh_steps {
     };
 
     /// Takes faces in host memory. Throws std::invalid_argument if an index is not below
-    /// `vertices`. The first run() copies them to the device, on its stream.
+    /// `vertices`. The first run() copies them to the device, on its stream. Vertices on no edge
+    /// form no vertex/vertex pairs here.
     mesh_steps(std::span<const face> faces, std::size_t vertices);
     ~mesh_steps();
     mesh_steps(mesh_steps&&) noexcept;

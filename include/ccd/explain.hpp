@@ -21,8 +21,8 @@ struct stage_info {
 /// query tests the axes x, y, z first, and the others after Y.
 inline constexpr std::array<stage_info, stage_count> exact_stages{{
     {stage::axes, "axes",
-     "does x, y, z, x ± y, y ± z or z ± x separate the features, in the same order at both "
-     "ends?",
+     "is one feature entirely below the other along x, y, z, x ± y, y ± z or z ± x, the same one "
+     "at both ends?",
      "double, or float in batches, with a margin"},
     {stage::coplanarity, "coplanarity",
      "do the four coefficients of Y have the same sign, so that the points are never coplanar?",

@@ -20,8 +20,8 @@ using edge = std::array<vertex_index, 2>;  ///< vertex indices; ascending if the
 /// One frame: triangles, edges that bound no triangle (rods, hair, springs), and points.
 ///
 /// `edges` may repeat edges, and contain edges of faces or from a vertex to itself: these add no
-/// edge. A vertex on no edge, neither one of `edges` nor one of a face, is a point. So are unused
-/// vertices: see pair_filter::skip_unused.
+/// edge. A vertex that is not an end of an edge between two different vertices is a point. So are
+/// unused vertices: see pair_filter::skip_unused.
 struct mesh {
     std::vector<point<double>> vertices;
     std::vector<face> faces;
@@ -37,7 +37,8 @@ std::vector<edge> unique_edges(std::span<const face> faces, std::span<const edge
 /// face. Cost and memory: as unique_edges.
 std::vector<face> unique_faces(std::span<const face> faces);
 
-/// Returns the vertices of no face and no edge, ascending. Precondition: indices are in range.
+/// Returns the vertices of no face and no edge, ascending; an edge {v, v} counts as a use of v.
+/// Precondition: indices are in range.
 std::vector<vertex_index> unused_vertices(std::span<const face> faces, std::span<const edge> edges,
                                           std::size_t vertices);
 

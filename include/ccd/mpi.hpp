@@ -80,8 +80,9 @@ struct step_result {
 /// of a vertex, or if a box has more than 2^32 − 1 vertices.
 ///
 /// Memory of a rank: 56 bytes a vertex and 24 a face that it sends and receives, and that of
-/// ccd::mesh_steps for the elements that meet its box. Samples take 64 bytes each, for 4,096 or 64
-/// a rank. Messages: to and from every rank that has elements of its box.
+/// ccd::mesh_steps for the elements that meet its box. Samples take 64 bytes each. There are up to
+/// 256 a rank in all, but at least 4,096 and at most the larger of 2^19 and 64 a rank. Messages: to
+/// and from every rank that has elements of its box.
 step_result step(MPI_Comm comm, const mesh_part& mesh, const step_options& options = {},
                  placement pairs = placement::owners);
 

@@ -117,17 +117,21 @@ struct step_result {
     /// With count_candidates or explain; mesh_steps defines candidates.
     std::optional<pair_counts> candidates;
     pair_lists pairs;  ///< the reported pairs, vertices of faces ascending
-    /// With initial_contact: the pairs that touch at t = 0, by `exact` with every method.
+    /// The members of `pairs` that touch at t = 0 (with distances: are within their distance), by
+    /// `exact` for every method; a pair that the method loses is missing. Filled with
+    /// initial_contact, first_contact, times or t_max < 1.
     pair_lists touching_at_start;
-    time_lists times;                 ///< of `pairs`, with step_options::times
-    first_time first_contact;         ///< the earliest not at t = 0, with first_contact
+    time_lists times;  ///< of `pairs`, with step_options::times
+    /// The earliest not at t = 0; `separate` if there is none. Stays `uncertain` without
+    /// first_contact, times and t_max < 1.
+    first_time first_contact;
     double prepare_seconds = 0;       ///< input checks, the mesh's edges
     double broad_phase_seconds = 0;   ///< the search for candidates, without the narrow phase
     double narrow_phase_seconds = 0;  ///< the sum over threads, divided by their number
     double sort_seconds = 0;          ///< sorting the reported pairs
     double contact_seconds = 0;       ///< first times, and pairs that touch at t = 0
     double total_seconds = 0;
-    int threads = 0;      ///< used at most
+    int threads = 0;      ///< the most threads that the call could use
     stage_report stages;  ///< of `exact` for vertex/face and edge/edge pairs, with explain
 };
 
@@ -138,14 +142,16 @@ step_result step(std::span<const face> faces, std::span<const edge> edges,
                  const vertex_rows& positions, const step_options& options = {});
 step_result step(const mesh& before, const mesh& after, const step_options& options = {});
 
-/// Steps of one mesh: keeps its unique faces and edges, their orders and its memory from step to
-/// step. One call at a time. Results do not depend on earlier steps.
+/// Steps of one mesh. Keeps from step to step: the unique faces and edges, the order in which the
+/// search sorted them, and allocated memory. One call at a time. Results do not depend on earlier
+/// steps.
 ///
 /// An element's swept box is the least box along the axes that contains it at every t. Candidates
-/// are the pairs that the filter keeps and whose closed boxes touch, in exact doubles, widened
-/// outwards by the pair's distance. Trees over the boxes find candidates, which are decided in
-/// blocks and not all stored. For contact without count_candidates and explain, `exact` already
-/// discards pairs that an axis separates in the trees.
+/// are the pairs that the filter keeps and whose swept boxes touch, borders included. Boxes are
+/// compared in doubles, without error; with distances they are first widened by each element's
+/// share, rounded outwards. Trees over the boxes find candidates, which are decided in blocks and
+/// not all stored. Without distances, count_candidates and explain, `exact` discards most
+/// candidates, those that an axis separates, during the search of the trees.
 ///
 /// A face that repeats a vertex counts as a segment or point, and is paired as any other face.
 /// Faces with the same vertices count once, as do equal edges. All methods decide vertex/edge and
@@ -155,11 +161,12 @@ step_result step(const mesh& before, const mesh& after, const step_options& opti
 /// candidates: n unused vertices at the origin make n²/2 pairs, unless skip_unused skips them.
 /// Memory, kept between steps, in addition to two `mesh` frames and the result: up to nine times
 /// these frames. With count_candidates, explain or a method other than `exact`, it is up to three
-/// times these frames. With distances, or far from the origin, where floats cannot separate boxes,
-/// it is about four times.
+/// times these frames. With distances, or so far from the origin that floats cannot separate boxes,
+/// boxes are in doubles.
 class mesh_steps {
   public:
-    /// Throws std::invalid_argument if an index is not below `vertices`.
+    /// Throws std::invalid_argument if an index is not below `vertices`, or for 2^32 or more
+    /// vertices, faces or edges.
     mesh_steps(std::span<const face> faces, std::span<const edge> edges, std::size_t vertices);
     explicit mesh_steps(const mesh& mesh);
     /// Steps in the plane: positions must have z = 0. Pairs are vertex/edge (every vertex, every
@@ -172,10 +179,11 @@ class mesh_steps {
 
     /// Returns the pairs of one step that options.method does not certify as separate.
     ///
-    /// Throws std::invalid_argument if there is not one position, group or pinned flag per vertex,
-    /// a coordinate is not finite, or distances are not valid. Also throws if z is not 0 in the
-    /// plane, or the method or instruction set does not exist. Also throws if a method other than
-    /// `exact` has times, first_contact, t_max < 1 or distances.
+    /// Throws std::invalid_argument if positions are null, there is not one position, group or
+    /// pinned flag per vertex, or a coordinate is not finite. Also throws if t_max is not finite,
+    /// distances are not valid, or z is not 0 in the plane. Also throws if the method, group rule
+    /// or instruction set does not exist. Also throws if a method other than `exact` has times,
+    /// first_contact, t_max < 1 or distances.
     step_result run(const vertex_rows& positions, const step_options& options = {});
 
     /// Returns all candidates of a step, for custom narrow phases; vertices of faces keep the

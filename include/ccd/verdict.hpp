@@ -8,9 +8,11 @@
 
 namespace ccd {
 
+/// `separate` is certain if the method never loses a collision; `collides`, if it is not `float` or
+/// `provot` (ccd/method.hpp).
 enum class outcome : std::uint8_t {
-    separate,   ///< certainly no contact in the closed step
-    collides,   ///< certainly a contact
+    separate,   ///< no contact in the closed step
+    collides,   ///< a contact
     uncertain,  ///< not decided by the method's arithmetic; conservative callers count a contact
 };
 
@@ -51,7 +53,8 @@ constexpr bool may_collide(verdict v) {
 
 /// The first time in [0, t_max] of contact, or within a distance.
 struct first_time {
-    /// `separate`: there is none. `uncertain`: a coordinate, a distance or t_max is not finite.
+    /// `separate`: there is none. `uncertain`: a coordinate, t_max or a part of the distance is not
+    /// finite; a part of it is negative; or a curve has no control point.
     ccd::outcome outcome = ccd::outcome::uncertain;
     /// The first time if low == high; else the adjacent doubles around it. There is no contact in
     /// [0, low), nor at `low` if low < high.
