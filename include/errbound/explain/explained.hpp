@@ -21,8 +21,8 @@ namespace errbound {
 
 /// Rule: the wrapped rule. Limit: sources per number; the smallest beyond it become "the rest".
 ///
-/// A source is a scope and a kind of operation. An operation carries the operands' contributions
-/// times the derivative (1, the other factor, 1/b and v/b for v = a/b, 2^e), and books its own: the
+/// A source is a scope and a kind of operation. A result has the operands' contributions times
+/// the derivative (1, the other factor, 1/b and v/b for v = a/b, 2^e), and the operation's own: the
 /// rule's bound for exact operands. The rest of the bound is distributed in proportion. So
 /// contributions add up to at least error(). With a `correction`, signed parts are carried too and
 /// may cancel: they add up to the correction, and their sizes to error() or more.
