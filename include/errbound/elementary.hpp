@@ -5,8 +5,9 @@
 //
 // Values are the C library's; its errors are an assumption (function_error). Unless the argument is
 // certainly in the domain, and not at a pole, the error is infinite. It is 0 for an exact argument
-// 0 or 1 with a rational result, for exp2 of whole numbers and for log2 of powers of two. Any rule,
-// in rounding to nearest, on the host only: no constant expressions, no device code.
+// 0 or 1 with a rational result, exp2 of whole numbers, log2 of powers of two and exact results of
+// cbrt. (Exact cases of pow and atan2: see there.) Any rule, in rounding to nearest, on the host
+// only: no constant expressions, no device code.
 #pragma once
 
 #include <complex>

@@ -11,7 +11,7 @@ namespace errbound {
 /// std::ldexp and std::frexp for constant expressions, where some compilers' do not work.
 namespace detail {
 
-/// x·2^e in steps. At most one step rounds to a nonzero number, as any further step gives 0.
+/// x·2^e in steps. At most one step rounds, unless the result is 0.
 template <class T>
 constexpr T scaled_by_steps(const T& x, int e) {
     constexpr int most = std::numeric_limits<T>::max_exponent, step = most - most / 8;
@@ -74,8 +74,8 @@ struct number_traits {
     static constexpr T infinity() { return std::numeric_limits<T>::infinity(); }
     static constexpr bool has_infinity = std::numeric_limits<T>::has_infinity;
     static constexpr int max_exponent = std::numeric_limits<T>::max_exponent;
-    /// 2^(min_exponent − 1) is the smallest normal number, 2^max_exponent just too large. (Both
-    /// limits of Boost's cpp_bin_float are one less.)
+    /// 2^(min_exponent − 1) is the smallest normal number, 2^max_exponent the first power of two
+    /// above the largest number. (Both exponents of Boost's cpp_bin_float are one less.)
     static constexpr int min_exponent = std::numeric_limits<T>::min_exponent;
     /// If false, η is the smallest normal number, and even sums may underflow.
     static constexpr bool has_subnormals = [] {
@@ -114,7 +114,7 @@ struct number_traits {
         else
             return __builtin_fma(a, b, c);
 #else
-        // If a product underflows, musl's fma loses its sign when it adds zero.
+        // If ab underflows, musl's fma(a, b, 0) returns a zero of the wrong sign.
         if constexpr (!detail::fma_is_instruction<T>)
             if (c == 0 && a != 0 && b != 0) return a * b;
         return std::fma(a, b, c);
@@ -138,7 +138,8 @@ struct number_traits {
     }
 };
 
-/// True if T has infinities (the default). Otherwise overflow gives NaN, and `max` passes NaN on.
+/// True if T has infinities, or if its custom number_traits does not define has_infinity.
+/// Otherwise overflow gives NaN, and the custom `max` must return NaN if x or y is NaN.
 template <class T>
 inline constexpr bool has_infinity = [] {
     if constexpr (requires { number_traits<T>::has_infinity; })

@@ -113,8 +113,9 @@ class tracked {
 
     /// The result of plain arithmetic.
     constexpr const T& value() const { return value_; }
-    /// An upper bound of |value() − exact value|. If there is none, it is infinite (NaN in a format
-    /// without infinities), so `x.error() <= tolerance` is false. In all other cases it is not NaN.
+    /// An upper bound of |value() − exact value|, if promises_bound<Rule>. If there is none, it is
+    /// infinite (NaN in a format without infinities), so `x.error() <= tolerance` is false. In all
+    /// other cases it is not NaN.
     constexpr T error() const {
         const wide e = own_error();
         if constexpr (widens) {
@@ -183,9 +184,9 @@ class tracked {
             return {v, Rule::template scale<T>(v, x.as_operand(), power)};
     }
 
-    /// The certain sign, by the rule's own `sign` if it has one. `uncertain` if the bound allows
-    /// more than one sign, also if |value| equals a nonzero error. Proof of the default:
-    /// proofs/IeeeRules.v, sign_of_known.
+    /// The certain sign, if promises_bound<Rule>, by the rule's own `sign` if it has one.
+    /// `uncertain` if the bound allows more than one sign, also if |value| equals a nonzero error.
+    /// Proof of the default: proofs/IeeeRules.v, sign_of_known.
     friend constexpr sign_type sign_of(const tracked& x) {
         const wide v(x.value_);
         if constexpr (detail::rule_has_sign<Rule, wide>) return Rule::sign(v, x.bound_);
@@ -209,8 +210,8 @@ class tracked {
     constexpr tracked<wide, Rule> widened() const requires widens {
         return tracked<wide, Rule>::from_bound(wide(value_), bound_);
     }
-    /// The exact number of x with the value v: the sum of x and a displacement, which has the value
-    /// d = v − x.value() and the exact number 0. Infinite error if the sum's value is not v.
+    /// Replaces x's value by v; the exact number stays. Adds to x a number with the value d = v −
+    /// x.value() whose exact number is 0. Infinite error if the sum's value is not v.
     static constexpr tracked rounded_from(const T& v,
                                           const tracked<wide, Rule>& x) requires widens {
         const wide d = wide(v) - x.value();
@@ -262,7 +263,7 @@ inline constexpr bool is_tracked<tracked<T, Rule>> = true;
 
 }  // namespace errbound
 
-/// Same as numeric_limits<T>, except that is_iec559 is false. All constants have zero error.
+/// Same as numeric_limits<T>, except is_iec559. Finite constants have zero error, others infinite.
 template <class T, class Rule>
 struct std::numeric_limits<errbound::tracked<T, Rule>> : std::numeric_limits<T> {
   private:

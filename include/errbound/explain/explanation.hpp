@@ -22,9 +22,9 @@
 namespace errbound {
 
 struct contribution {
-    std::vector<place> scopes;  ///< around it, the outermost first
-    /// "+", "-", "*", "/", "scale", "input" (a number within an error), a function's name, or "the
-    /// rest": sources too small to be kept.
+    std::vector<place> scopes;  ///< in which the operation ran, the outermost first
+    /// "+", "-", "*", "/", "scale", "input" (a number within an error), "rounding to the type" (8
+    /// and 16 bits), a function's name, or "the rest": sources too small to be kept.
     std::string operation;
     double amount = 0;  ///< part of the error's bound; infinite if the error became infinite here
     double known = 0;   ///< signed part of exact value − value; 0 by rules without signs

@@ -126,8 +126,9 @@ inline std::uint32_t& current_scope() {
 }  // namespace detail
 
 /// A named part of the program, until the end of the block. Cost: a look-up under a lock shared by
-/// all threads; tens of nanoseconds without contention. A program has at most 100,000 scopes (each
-/// run-time name is one); further ones count as the scope around. Throws std::bad_alloc.
+/// all threads; tens of nanoseconds without contention. At most 100,000 scopes are kept; names made
+/// at run time each need one. Beyond that, an operation counts for the enclosing scope. Throws
+/// std::bad_alloc.
 class scope {
   public:
     /// File and line of the caller (clang 14 lacks std::source_location).

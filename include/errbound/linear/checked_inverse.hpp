@@ -4,8 +4,8 @@
 //   |y − ỹ| <= z + w·max_i(z_i/v_i)/(1 − β),   z >= |R(b − Aỹ)|, w >= |I − RA|v.
 // For E = I − RA, ρ(|E|) <= β < 1, so RA = I − E is nonsingular; y − ỹ = (I − E)^-1 R(b − Aỹ), and
 // |(I − E)^-1|z <= Σ |E|^k z <= z + |E|Σ|E|^k z <= z + |E|v·ζ/(1 − β) with z <= ζv. Sources: Rump
-// 2010 (Acta Numerica 19), Sections 10.4 to 10.6; Oishi, Rump 2002 (Numer. Math. 90): rounding to
-// nearest only; Rump 2013 (J. Comput. Appl. Math. 242): v.
+// 2010 (Acta Numerica 19), Sections 10.4 to 10.6; Oishi, Rump 2002 (Numer. Math. 90), for bounds
+// that need only rounding to nearest; Rump 2013 (J. Comput. Appl. Math. 242), for the choice of v.
 #pragma once
 
 #include <Eigen/LU>
@@ -14,7 +14,8 @@
 
 namespace errbound::linear {
 
-/// R for the entries A of a scaled matrix, and for all matrices within η/2 of them.
+/// R and its bounds hold for the entries A of a scaled matrix, and for every matrix whose entries
+/// differ from these by at most η/2.
 template <int N>
 class checked_inverse {
   public:
@@ -25,8 +26,9 @@ class checked_inverse {
         if (inverse_.allFinite() && defect_.allFinite()) choose_weights();
     }
 
-    /// True if A is certainly nonsingular. The other members require it.
+    /// True if A is certainly nonsingular. All other members except contraction() require it.
     bool regular() const { return contraction_ < 1; }
+    /// The least β found for the theorem; infinite if none was found.
     double contraction() const { return contraction_; }
     const square<N>& matrix() const { return a_; }
     const square<N>& approximation() const { return inverse_; }
@@ -48,8 +50,9 @@ class checked_inverse {
         return bound;
     }
 
-    /// At least |y − ỹ|, from z >= |R(b − Aỹ)|: by the theorem, then |y − ỹ| <= z + |I − RA||y − ỹ|
-    /// for entries of different sizes. Infinite or NaN on overflow.
+    /// At least |y − ỹ|, from z >= |R(b − Aỹ)|. The theorem gives a first bound. Inserted on the
+    /// right of |y − ỹ| <= z + |I − RA||y − ỹ|, it gives a second, and each entry is the smaller
+    /// one. Infinite or NaN on overflow.
     vector<N> error_from(const vector<N>& z) const {
         const Index n = a_.rows();
         double ratio = 0;

@@ -1,9 +1,9 @@
 // Bound rule `interval`: interval arithmetic, rounded outwards without touching the rounding mode,
 // which must be to nearest. The exact and the computed value lie in [lower, upper]. Ends are
-// finite, except for [−∞, ∞], which stands for any overflow or NaN. Notation: docs/notation.md. The
-// ends of sums, and of products and quotients of points (lower = upper), are rounded correctly, by
-// the sign of the exact error; exact results stay points. Other products and quotients take one
-// step outwards.
+// finite, except for [−∞, ∞] (NaN in a format without infinities), which stands for any overflow or
+// NaN. Notation: docs/notation.md. The ends of sums, and of products and quotients of points (lower
+// = upper), are rounded correctly, by the sign of the exact error; exact results stay points. Near
+// underflow, ends may lie further out. Other products and quotients take one step outwards.
 #pragma once
 
 #include <errbound/error_free.hpp>
@@ -170,9 +170,10 @@ struct interval {
     }
 
     /// A step e > ulp(c)/2, so c ⊖ e is at most the number before c, and c ⊕ e at least the one
-    /// after. The rounded u|c| is at least x = ulp(c)/2 if x is a number. 1.25x is exact from x =
-    /// 4η on; below, the added η exceeds the loss. Source: Rump, Zimmermann, Boldo, Melquiond 2009
-    /// (BIT 49). 1.25 replaces their 1 + 2u, for p = 3 and for formats with η near u.
+    /// after. The rounded u|c| is at least x = ulp(c)/2 if x is representable. If x >= 4η, 1.25x is
+    /// exact; for smaller x its rounding loses less than the added η. Source: Rump, Zimmermann,
+    /// Boldo, Melquiond 2009 (BIT 49). 1.25 replaces their 1 + 2u, for p = 3 and for formats with η
+    /// near u.
     template <class T>
     static constexpr T step(const T& c) {
         using traits = number_traits<T>;

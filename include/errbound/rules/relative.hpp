@@ -5,8 +5,8 @@
 // x·Π(1 + δᵢ)^±1 over k factors, |δᵢ| <= u (Higham 2002, Lemma 3.1; Stewart's counter). So v and x
 // have the same sign, and |ln(v/x)| <= kw, w = −ln(1 − u); k need not be whole. Exact numbers have
 // k = 0. The error is about k·u|v|. It is infinite after an overflow, an underflow except in sums,
-// or a cancellation as large as the error. It is also infinite for an inexact number of value 0
-// (such as x − x of an inexact x), and if kw >= 7/4.
+// or a cancellation that leaves a result no larger than its error. It is also infinite for an
+// inexact number of value 0 (such as x − x of an inexact x), and if kw >= 7/4.
 #pragma once
 
 #include <errbound/error_free.hpp>
@@ -159,7 +159,7 @@ struct relative {
         if (!(size > 0)) return unknown;  // 0 may be −0
         const T share = upper<T>(T(error / size)) + traits::underflow_unit();
         if (!(share < T(1))) return unknown;
-        // Not less for types wider than double, and still below 1.
+        // r >= share even if T is wider than double.
         const double r =
             upper<double>(static_cast<double>(share)) + std::numeric_limits<double>::denorm_min();
         if (!(r < 1)) return unknown;

@@ -111,8 +111,9 @@ struct residual {
     }
     /// Let q = v, r = va − q·vb and N = r + ca − q·cb ± (ρa + |q|ρb). Then a/b − q = N/b, and N/b −
     /// N/vb = N/vb·(vb − b)/b. So c = N/vb, and ρ is at most (|N/vb|(|cb| + ρb) + ρa + |q|ρb +
-    /// roundings)/(|vb| − |cb| − ρb). If r is not known exactly, c omits it: r/vb is the rounding
-    /// error of q. Infinite if b may be zero. Proof: proofs/IeeeResidual.v, residual_divide_known.
+    /// roundings)/(|vb| − |cb| − ρb). If r is not known exactly, c omits it, and ρ includes u|v| +
+    /// η instead: r/vb is the rounding error of q. Infinite if b may be zero. Proof:
+    /// proofs/IeeeResidual.v, residual_divide_known.
     template <class T>
     static constexpr bound<T> divide(const T& v, rule_operand<T, residual> a,
                                      rule_operand<T, residual> b) {

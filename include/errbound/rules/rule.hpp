@@ -177,15 +177,17 @@ struct rule_check {
 //   template <class T> struct bound         the state stored with a value, of any size
 //   exact(value)                            the bound of an exact number
 //   within(value, error)                    the bound of a number within error of value
-//   error(value, bound)                     at least |value − exact value|; infinity or NaN if none
+//   error(value, bound)                     at least |value − exact value|; infinity or NaN if
+//                                           unbounded, or if value is not finite.
 //   add, subtract, multiply(result, a, b)   the bound of the rounded result of a ∘ b
 //   divide(result, a, b)                    as above; omit it if the rule has no division
 //   scale(result, a, e)                     the bound of result = a·2^e, rounded once
 // Optional, with defaults:
 //   negate(bound)                           the bound of −value; default: the same bound
-//   sign(value, bound)                      the certain sign; default: from value and error,
-//                                           uncertain if either is not finite, zero if both are 0
-//   correction(value, bound)                estimates exact value − value, within error; default: 0
+//   sign(value, bound)                      the certain sign; default: that of value if |value| >
+//                                           error, zero if both are 0, otherwise uncertain.
+//   correction(value, bound)                the known signed part of exact value − value, at most
+//                                           error(value, bound) in size; default: 0
 //   square_root(result, a)                  the bound of the rounded √a, unknown if a may be
 //                                           negative; default: from the error of a
 //   fused(result, a, b, c)                  the bound of ab + c, rounded once; default: from errors
@@ -202,7 +204,7 @@ struct rule_check {
 //   holds_in_directed_rounding              true if the proof holds in any rounding direction
 //   holds_without_subnormals                true if the rule also holds without subnormal numbers
 //   error_is                                error_meaning::estimate or nothing
-//   claimed_rate                            the claimed probability: an estimate covers the error
+//   claimed_rate                            the claimed probability that estimates cover the error
 
 /// True if Rule is a bound rule for T, with the members in the table above. Soundness (bounds that
 /// hold) needs a proof; errbound/validation tests it.

@@ -1,5 +1,5 @@
 // Bound rule `sharp`: TightBound with the unit roundoff u in place of ε = 2u, for rounding to
-// nearest only. Its bounds are half of `tight`'s.
+// nearest only. Its bounds are down to half of `tight`'s.
 //
 // Notation: docs/notation.md; v is the computed result, σ a bound. An operation is off by at most
 // max(u|v|, η/2), a sum by at most u|v| (Higham 2002, Theorem 2.3). If a sum is inexact, ulp(v)/2

@@ -1,12 +1,12 @@
 // Bound rule `tight`: TightBound (Theorem 1 of the TightCCD paper), with its gaps closed.
 //
 // Notation: docs/notation.md; v is the computed result, σ a bound. Beyond the printed rule, bounds
-// are inflated for their own roundings. Products add 4η for underflow, of the value and of three
-// products in the bound. Sums add none, as |v|ε is at least the last place of an inexact sum. A
-// product with an exact zero is exact. Overflow and NaN give infinite or NaN bounds and no certain
-// sign. Only under directed rounding, overflow to the largest finite number goes unnoticed. Without
-// underflow the bound exceeds that of `safe` at most slightly: proofs/ComputedComparison.v,
-// tight_at_most_safe_computed.
+// are inflated for their own roundings. Products add 4η: one for an underflow of the value, three
+// for products in the bound. Sums add none: an inexact sum v is so large that |v|ε is at least its
+// unit in the last place. A product with an exact zero is exact. Overflow and NaN give infinite or
+// NaN bounds and no certain sign. Only under directed rounding, overflow to the largest finite
+// number goes unnoticed. Without underflow the bound exceeds that of `safe` at most slightly:
+// proofs/ComputedComparison.v, tight_at_most_safe_computed.
 #pragma once
 
 #include <errbound/detail/rounded.hpp>
@@ -114,8 +114,8 @@ struct tight {
     }
 
     /// Σ aᵢbᵢ, with a running error bound (Higham 2002, Section 3.3). For computed products pᵢ and
-    /// partial sums sᵢ, roundings add at most Σ (|pᵢ| + |sᵢ|)·ε/(1 − ε), without s₁ = p₁, and η per
-    /// product. The arguments' errors add Σ |â|σb + σa(|b̂| + σb).
+    /// partial sums sᵢ, roundings add at most Σ (|pᵢ| + |sᵢ|)·ε/(1 − ε), not counting s₁, which
+    /// equals p₁, and η per product. The arguments' errors add Σ |â|σb + σa(|b̂| + σb).
     ///
     /// One factor covers the roundings in the bound of m terms: at most m for each summand |pᵢ|ε or
     /// |sᵢ|ε, m + 2 for an argument's error, and four at the end. With j = m + 6, 1 + (j + 1)ε >=
