@@ -13,6 +13,7 @@
 #include <filesystem>
 #include <limits>
 #include <set>
+#include <string>
 #include <tuple>
 #include <vector>
 
@@ -307,7 +308,9 @@ INSTANTIATE_TEST_SUITE_P(
                     scene{"cloth-ball", "cloth_ball92.ply", "cloth_ball93.ply", 1655541, 5197332,
                           19032, 94822}),
     [](const auto& info) {
-        return std::array{"ClothOverBall", "ClothFunnel", "ClothBall"}[info.index];
+        std::string name = info.param.name;
+        std::ranges::replace(name, '-', '_');
+        return name;
     });
 
 }  // namespace
