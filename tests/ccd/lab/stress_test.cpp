@@ -247,7 +247,7 @@ TEST(stress_run, no_promise_is_broken) {
 class stress_output : public testing::Test {
   protected:
     const test_files::temporary_directory directory;
-    const fs::path folder = directory.path;
+    const fs::path folder = directory.path / "made";
     std::ostringstream printed;
 };
 
@@ -280,8 +280,8 @@ TEST_F(stress_output, prints_and_stores_queries_that_break_a_promise) {
 }
 
 TEST_F(stress_output, a_folder_that_cannot_be_made_is_refused_at_once) {
-    errbound::support::write_whole(folder / "file", "");
-    EXPECT_THROW(run_and_write(plan_of({"touch-end"}, {}), {folder / "file", {}}, printed),
+    errbound::support::write_whole(directory.path / "file", "");
+    EXPECT_THROW(run_and_write(plan_of({"touch-end"}, {}), {directory.path / "file", {}}, printed),
                  errbound::support::file_error);
     EXPECT_EQ(printed.str(), "");
 }
