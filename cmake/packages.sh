@@ -3,8 +3,7 @@
 
 build_packages=(g++ cmake ninja-build libboost-dev libgmp-dev libhdf5-dev libmpfr-dev libcli11-dev
     nlohmann-json3-dev libtbb-dev libxsimd-dev)
-test_packages=(libgtest-dev librapidcheck-dev libeigen3-dev libflint-dev python3 libopenmpi-dev
-    openmpi-bin pkg-config)
+test_packages=(libgtest-dev libeigen3-dev libflint-dev python3 libopenmpi-dev openmpi-bin pkg-config)
 python_packages=(python3 python3-dev python3-venv)
 
 # Packages of the distribution belong to its Python, which may not be the first on PATH.

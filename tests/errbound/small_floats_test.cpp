@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdint>
 #include <errbound/small_floats.hpp>
@@ -13,7 +12,6 @@
 #include <limits>
 #include <random>
 #include <type_traits>
-#include <vector>
 
 #include "tests/support/scaled.hpp"
 #include "tests/support/special_values.hpp"

@@ -5,7 +5,6 @@
 #include <errbound/predicates.hpp>
 #include <limits>
 #include <span>
-#include <string>
 #include <utility>
 #include <vector>
 

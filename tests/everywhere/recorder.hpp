@@ -7,7 +7,6 @@
 #include <ccd/verdict.hpp>
 #include <cmath>
 #include <concepts>
-#include <cstddef>
 #include <cstdint>
 #include <limits>
 #include <string>

@@ -2,9 +2,7 @@
 #include <ccd/advance.hpp>
 #include <ccd/mesh.hpp>
 #include <ccd/step.hpp>
-#include <cmath>
 #include <string>
-#include <utility>
 
 #include "tests/everywhere/sections.hpp"
 

@@ -5,7 +5,6 @@
 #ifdef CASE_another_namespace
 // coordinate_of is not in the namespace of the point's type, so argument-dependent lookup does not
 // find it.
-
 namespace survey {
 struct station {
     double easting, northing;
@@ -14,21 +13,16 @@ struct station {
 constexpr double coordinate_of(const survey::station& s, int i) {
     return i == 0 ? s.easting : s.northing;
 }
-
-int main() {
-    const survey::station s{};
-    return errbound::orient2d(s, s, s) == errbound::sign_type::zero;
-}
+const survey::station s{};
+const auto sign = errbound::orient2d(s, s, s);
 #endif
 
 #ifdef CASE_matrix
 // A point is a matrix with several rows and columns.
 #include <Eigen/Core>
 
-int main() {
-    const Eigen::Matrix2d m = Eigen::Matrix2d::Zero();
-    return errbound::orient2d(m, m, m) == errbound::sign_type::zero;
-}
+const Eigen::Matrix2d m = Eigen::Matrix2d::Zero();
+const auto sign = errbound::orient2d(m, m, m);
 #endif
 
 #ifdef CASE_matrix_as_range
@@ -36,35 +30,27 @@ int main() {
 #include <Eigen/Core>
 #include <errbound/predicate_batch.hpp>
 
-int main() {
-    const Eigen::Matrix2Xd m(2, 8);
-    errbound::sign_type signs[8];
-    errbound::batch_signs(errbound::orient2d, signs, m, m, m);
+void find_signs(const Eigen::Matrix2Xd& m, errbound::sign_type* signs) {
+    errbound::batch_signs(errbound::orient2d, std::span(signs, 8), m, m, m);
 }
 #endif
 
 #ifdef CASE_too_short
 // Points have two coordinates instead of three.
-
 struct point {
     double x, y;
 };
-
-int main() {
-    const point p{};
-    return errbound::orient3d(p, p, p, p) == errbound::sign_type::zero;
-}
+const point p{};
+const auto sign = errbound::orient3d(p, p, p, p);
 #endif
 
 #ifdef CASE_too_short_span
 // A span of two numbers is passed as a point of three.
 #include <span>
 
-int main() {
-    const double x[2]{};
-    const std::span<const double, 2> p(x);
-    return errbound::orient3d(p, p, p, p) == errbound::sign_type::zero;
-}
+const double x[2]{};
+const std::span<const double, 2> p(x);
+const auto sign = errbound::orient3d(p, p, p, p);
 #endif
 
 #ifdef CASE_too_short_vector
@@ -72,8 +58,6 @@ int main() {
 // three.
 #include <Eigen/Core>
 
-int main() {
-    const Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 2, 1> v;
-    return errbound::orient3d(v, v, v, v) == errbound::sign_type::zero;
-}
+const Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 2, 1> v;
+const auto sign = errbound::orient3d(v, v, v, v);
 #endif

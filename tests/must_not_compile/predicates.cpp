@@ -1,145 +1,289 @@
-// Definitions and calls of predicates that must be rejected. Each case is compiled separately, with
-// its name defined.
+// Definitions and calls of predicates that must be rejected: their operations, answers and options.
+// Each case is compiled separately, with its name defined.
 #include <errbound/predicates.hpp>
+#include <errbound/rules/stochastic.hpp>
+
+using errbound::points;
+using errbound::sign_type;
+
+template <class Shape = points<0, 0>, class Options = errbound::predicate_options, class Function,
+          class... Points>
+int call(const Function& function, const Points&... at) {
+    return errbound::predicate<Shape, Options>(function)(at...) == sign_type::zero;
+}
+
+const double p[2]{};
+
+// ---- Operations ----
+
+#ifdef CASE_argument_types
+// The expression takes doubles, but stages use other scalars.
+const int result = call([](double x, double y) { return x - y; }, 1.0, 2.0);
+#endif
+
+#ifdef CASE_arguments
+// The expression has two arguments, the shape three points.
+const int result =
+    call<points<0, 0, 0>>([](const auto& x, const auto& y) { return x - y; }, 1.0, 2.0, 3.0);
+#endif
+
+#ifdef CASE_assignment
+// A sum is assigned: every result has its own type.
+const int result = call(
+    [](const auto& x, const auto& y) {
+        auto sum = x * x;
+        sum += y * y;
+        return sum;
+    },
+    1.0, 2.0);
+#endif
+
+#ifdef CASE_comparison
+// Numbers are compared by operator< instead of by the sign of their difference.
+const int result =
+    call([](const auto& x, const auto& y) { return x < y ? sign_of(x) : sign_of(y); }, 1.0, 2.0);
+#endif
+
+#ifdef CASE_condition
+// A number is used as a condition.
+const int result =
+    call([](const auto& x, const auto& y) { return x - y ? sign_of(x) : sign_of(y); }, 1.0, 2.0);
+#endif
+
+#ifdef CASE_conversion
+// A number is converted to int.
+const int result =
+    call([](const auto& x, const auto& y) { return y - static_cast<int>(x); }, 1.0, 2.0);
+#endif
+
+#ifdef CASE_coordinate
+// The expression uses a third coordinate of points with two.
+const int result =
+    call<points<2, 2>>([](const auto& a, const auto& b) { return b[2] - a[2]; }, p, p);
+#endif
+
+#ifdef CASE_degree
+// x to the 64th power.
+const int result = call<points<0>>(
+    [](const auto& x) {
+        const auto x4 = x * x * x * x, x16 = x4 * x4 * x4 * x4;
+        return x16 * x16 * x16 * x16 - 1;
+    },
+    1.0);
+#endif
+
+#ifdef CASE_division
+// Predicates have no division.
+const int result = call<points<2, 2>>(
+    [](const auto& a, const auto& b) { return (b[1] - a[1]) / (b[0] - a[0]); }, p, p);
+#endif
+
+#ifdef CASE_equality
+// Numbers are compared by operator==.
+const int result = call(
+    [](const auto& x, const auto& y) { return x == y ? sign_type::zero : sign_of(x); }, 1.0, 2.0);
+#endif
+
+#ifdef CASE_fraction
+// The factor 0.5 is not a whole number; as an int it would be 0.
+const int result = call([](const auto& x, const auto& y) { return 0.5 * x - y; }, 1.0, 2.0);
+#endif
+
+#ifdef CASE_size
+// The constant has type std::size_t.
+const int result =
+    call([](const auto& x, const auto& y) { return std::size_t(2) * x - y; }, 1.0, 2.0);
+#endif
+
+// ---- Answers ----
+
+#ifdef CASE_asks_nothing
+// The answer does not use the points.
+const int result = call(
+    [](const auto& x, const auto& y) {
+        (void)(x - y);
+        return sign_type::positive;
+    },
+    1.0, 2.0);
+#endif
+
+#ifdef CASE_cancels
+// Both products are equal: the difference is zero for all points.
+const int result = call<points<2, 2>>(
+    [](const auto& a, const auto& b) { return a[0] * b[1] - b[1] * a[0]; }, p, p);
+#endif
+
+#ifdef CASE_endless
+// The loop evaluates the sign until it is certain.
+const int result = call(
+    [](const auto& x, const auto& y) {
+        sign_type s = sign_of(x - y);
+        while (!certain(s)) s = sign_of(x - y);
+        return s;
+    },
+    1.0, 2.0);
+#endif
+
+#ifdef CASE_gives_up
+// The degenerate case is reported as uncertain.
+const int result = call(
+    [](const auto& x, const auto& y) {
+        const sign_type s = sign_of(x - y);
+        return s == sign_type::zero ? sign_type::uncertain : s;
+    },
+    1.0, 2.0);
+#endif
+
+#ifdef CASE_number_after_signs
+// The expression returns a number after it has branched on a sign, so it cannot return `uncertain`.
+const int result = call(
+    [](const auto& x, const auto& y) {
+        const auto d = x - y;
+        return sign_of(x) == sign_type::positive ? d : -d;
+    },
+    1.0, 2.0);
+#endif
+
+#ifdef CASE_one_answer
+// The answer is the same for all signs.
+const int result = call(
+    [](const auto& x, const auto& y) {
+        const sign_type s = sign_of(x - y);
+        if (!certain(s)) return s;
+        return s == sign_type::positive ? sign_type::negative : sign_type::negative;
+    },
+    1.0, 2.0);
+#endif
+
+#ifdef CASE_ordered_signs
+// operator< on signs orders `uncertain` last.
+const int result = call(
+    [](const auto& x, const auto& y) {
+        if (sign_of(x - y) > sign_type::zero) return sign_of(x);
+        return sign_type::negative;
+    },
+    1.0, 2.0);
+#endif
+
+#ifdef CASE_possibly
+// The answer is positive although the sign may be uncertain.
+const int result = call(
+    [](const auto& x, const auto& y) {
+        return possibly_positive(sign_of(x - y)) ? sign_type::positive : sign_type::negative;
+    },
+    1.0, 2.0);
+#endif
+
+#ifdef CASE_returns_bool
+// An answer of type bool cannot be `uncertain`.
+const int result = call(
+    [](const auto& x, const auto& y) { return sign_of(x - y) == sign_type::positive; }, 1.0, 2.0);
+#endif
+
+#ifdef CASE_returns_int
+// An answer of type int cannot be `uncertain`.
+const int result = call(
+    [](const auto& x, const auto& y) { return sign_of(x - y) == sign_type::positive ? 1 : -1; },
+    1.0, 2.0);
+#endif
+
+#ifdef CASE_returns_void
+// The lambda has no return statement.
+const int result = call([](const auto& x, const auto& y) { (void)sign_of(x - y); }, 1.0, 2.0);
+#endif
+
+#if defined(CASE_without_certain) || defined(CASE_without_certain_of_a_multiple)
+// The code branches on an uncertain sign: the line with certain is missing.
+#ifdef CASE_without_certain
+constexpr int factor = 1;
+#else
+constexpr int factor = 2147483647;
+#endif
+const int result = call<points<0, 0, 0>>(
+    [](const auto& x, const auto& y, const auto& z) {
+        const sign_type s = sign_of(factor * (x * y - z * z));
+        return s == sign_type::positive ? sign_of(x - z) : sign_of(z - y);
+    },
+    1.0, 2.0, 3.0);
+#endif
+
+// ---- Shapes and options ----
+
+constexpr auto difference = [](const auto& x, const auto& y) { return x - y; };
+constexpr auto mixed = [](const auto& x, const auto& y) { return x * x - y; };
 
 #ifdef CASE_captures
 // The lambda captures a value: every stage needs it as an argument.
-
-int main() {
-    const int factor = 3;
-    const auto scaled = errbound::predicate<errbound::points<0, 0>>(
-        [&factor](const auto& x, const auto& y) { return factor * x - y; });
-    return scaled(1.0, 2.0) == errbound::sign_type::zero;
+int call_with(int factor) {
+    return call([&factor](const auto& x, const auto& y) { return factor * x - y; }, 1.0, 2.0);
 }
 #endif
 
 #ifdef CASE_degrees
 // x² − y is declared to have degree 1 in both. With degree 2 in y it would compile.
-
 struct options : errbound::predicate_options {
     static constexpr std::array<int, 2> degrees{1, 1};
 };
-
-constexpr auto difference = errbound::predicate<errbound::points<0, 0>, options>(
-    [](const auto& x, const auto& y) { return x * x - y; });
-
-int main() {
-    return difference(1.0, 2.0) == errbound::sign_type::zero;
-}
+const int result = call<points<0, 0>, options>(mixed, 1.0, 2.0);
 #endif
 
 #ifdef CASE_exact_type
 // The last stage's type has no sign_of.
-
 struct options : errbound::predicate_options {
     using exact_type = long double;
 };
-
-constexpr auto difference = errbound::predicate<errbound::points<0, 0>, options>(
-    [](const auto& x, const auto& y) { return x - y; });
-
-int main() {
-    return difference(1.0, 2.0) == errbound::sign_type::zero;
-}
+const int result = call<points<0, 0>, options>(difference, 1.0, 2.0);
 #endif
 
 #ifdef CASE_fewer_points
 // The predicate takes three points, the call has two.
-
-int main() {
-    const double p[2]{};
-    return errbound::orient2d(p, p) == errbound::sign_type::zero;
-}
+const auto result = errbound::orient2d(p, p);
 #endif
 
 #ifdef CASE_homogeneous
 // Terms have degrees 1 and 2, but the expression is declared homogeneous.
-
 struct options : errbound::predicate_options {
     static constexpr bool homogeneous = true;
 };
-
-constexpr auto difference = errbound::predicate<errbound::points<0, 0>, options>(
-    [](const auto& x, const auto& y) { return x * x - y; });
-
-int main() {
-    return difference(1.0, 2.0) == errbound::sign_type::zero;
-}
+const int result = call<points<0, 0>, options>(mixed, 1.0, 2.0);
 #endif
 
 #ifdef CASE_negative_dimension
 // A shape has a negative number of coordinates.
-
-constexpr auto difference = errbound::predicate<errbound::points<-2, 0>>(
-    [](const auto& x, const auto& y) { return x - y; });
-
-int main() {
-    return difference(1.0, 2.0) == errbound::sign_type::zero;
-}
+const int result = call<points<-2, 0>>(difference, 1.0, 2.0);
 #endif
 
 #ifdef CASE_options
 // The options are not derived from the defaults.
-
 struct options {
     using tracked_rule = errbound::tight;
 };
-
-constexpr auto difference = errbound::predicate<errbound::points<0, 0>, options>(
-    [](const auto& x, const auto& y) { return x - y; });
-
-int main() {
-    return difference(1.0, 2.0) == errbound::sign_type::zero;
-}
+const int result = call<points<0, 0>, options>(difference, 1.0, 2.0);
 #endif
 
 #ifdef CASE_rule_without_promise
 // The tracked stage has a rule that only estimates errors.
-#include <errbound/rules/stochastic.hpp>
-
 struct options : errbound::predicate_options {
     using tracked_rule = errbound::stochastic;
 };
-
-constexpr auto difference = errbound::predicate<errbound::points<0, 0>, options>(
-    [](const auto& x, const auto& y) { return x - y; });
-
-int main() {
-    return difference(1.0, 2.0) == errbound::sign_type::zero;
-}
+const int result = call<points<0, 0>, options>(difference, 1.0, 2.0);
 #endif
 
 #ifdef CASE_shape
 // The first template argument is not a shape.
-
-constexpr auto difference =
-    errbound::predicate<int>([](const auto& x, const auto& y) { return x - y; });
-
-int main() {
-    return difference(1.0, 2.0) == errbound::sign_type::zero;
-}
+const int result = call<int>(difference, 1.0, 2.0);
 #endif
 
 #ifdef CASE_tracked_rule
 // The tracked stage has a type that is not a bound rule.
-
 struct options : errbound::predicate_options {
     using tracked_rule = double;
 };
-
-constexpr auto difference = errbound::predicate<errbound::points<0, 0>, options>(
-    [](const auto& x, const auto& y) { return x - y; });
-
-int main() {
-    return difference(1.0, 2.0) == errbound::sign_type::zero;
-}
+const int result = call<points<0, 0>, options>(difference, 1.0, 2.0);
 #endif
 
 #ifdef CASE_whole_coordinates
 // Coordinates have type int.
-
-int main() {
-    const int p[2]{};
-    return errbound::orient2d(p, p, p) == errbound::sign_type::zero;
-}
+const int whole[2]{};
+const auto result = errbound::orient2d(whole, whole, whole);
 #endif

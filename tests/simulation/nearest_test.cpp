@@ -42,36 +42,19 @@ void expect_distance(const Query& query, const nearest_points& found, const poin
     }
 }
 
-TEST(Nearest, RandomVertexFace) {
+TEST(Nearest, OfRandomFeatures) {
     std::mt19937_64 random(1);
     for (int k = 0; k < 3000; ++k) {
         const points x = random_points(random);
-        const auto found = simulation::nearest_vertex_face(x);
-        EXPECT_NEAR(found.weights[1] + found.weights[2] + found.weights[3], -1, 1e-12);
-        expect_distance(
-            ccd::vertex_face<double>{at_rest(x[0]), at_rest(x[1]), at_rest(x[2]), at_rest(x[3])},
-            found, x);
-    }
-}
-
-TEST(Nearest, RandomEdges) {
-    std::mt19937_64 random(2);
-    for (int k = 0; k < 3000; ++k) {
-        const points x = random_points(random);
-        const auto found = simulation::nearest_edges(x);
-        EXPECT_NEAR(found.weights[0] + found.weights[1], 1, 1e-12);
-        expect_distance(
-            ccd::edge_edge<double>{at_rest(x[0]), at_rest(x[1]), at_rest(x[2]), at_rest(x[3])},
-            found, x);
-    }
-}
-
-TEST(Nearest, RandomVertexEdge) {
-    std::mt19937_64 random(3);
-    for (int k = 0; k < 3000; ++k) {
-        const points x = random_points(random);
-        expect_distance(ccd::vertex_edge<double>{at_rest(x[0]), at_rest(x[1]), at_rest(x[2])},
-                        simulation::nearest_vertex_edge(x), x);
+        const auto a = at_rest(x[0]), b = at_rest(x[1]), c = at_rest(x[2]), d = at_rest(x[3]);
+        const auto vertex_face = simulation::nearest_vertex_face(x);
+        EXPECT_NEAR(vertex_face.weights[1] + vertex_face.weights[2] + vertex_face.weights[3], -1,
+                    1e-12);
+        expect_distance(ccd::vertex_face<double>{a, b, c, d}, vertex_face, x);
+        const auto edges = simulation::nearest_edges(x);
+        EXPECT_NEAR(edges.weights[0] + edges.weights[1], 1, 1e-12);
+        expect_distance(ccd::edge_edge<double>{a, b, c, d}, edges, x);
+        expect_distance(ccd::vertex_edge<double>{a, b, c}, simulation::nearest_vertex_edge(x), x);
     }
 }
 

@@ -6,7 +6,6 @@
 #include <ccd/contact.hpp>
 #include <cmath>
 #include <cstddef>
-#include <cstdint>
 #include <limits>
 #include <string_view>
 #include <vector>

@@ -35,11 +35,12 @@ inline void write(const std::filesystem::path& path, const std::string& text) {
     std::ofstream(path, std::ios::binary) << text;
 }
 
-/// The message of the file_error that `call` throws.
-inline std::string message_of(const std::function<void()>& call) {
+/// The message of the error that `call` throws.
+template <class Error = errbound::support::file_error>
+std::string message_of(const std::function<void()>& call) {
     try {
         call();
-    } catch (const errbound::support::file_error& error) {
+    } catch (const Error& error) {
         return error.what();
     }
     return "no error";

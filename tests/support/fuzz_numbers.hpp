@@ -2,7 +2,6 @@
 // degenerate input is frequent.
 #pragma once
 
-#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>

@@ -4,7 +4,6 @@
 
 #include <array>
 #include <boost/multiprecision/gmp.hpp>
-#include <cstddef>
 #include <cstdint>
 #include <limits>
 #include <span>

@@ -1,4 +1,5 @@
-// Checks the answers of adapters by the oracle, without brackets of the library.
+// Answers of adapters: two queries made by hand, and checks by the oracle, without brackets of the
+// library.
 #pragma once
 
 #include <algorithm>
@@ -7,6 +8,7 @@
 #include <ccd/methods/transform.hpp>
 #include <cmath>
 #include <limits>
+#include <ostream>
 #include <string>
 
 #include "tests/support/distance_families.hpp"
@@ -14,6 +16,31 @@
 #include "tests/support/query_families.hpp"
 
 namespace support {
+
+inline constexpr double infinity = std::numeric_limits<double>::infinity();
+
+template <class T>
+struct answer {
+    bool collides;
+    T toi;
+    friend bool operator==(const answer&, const answer&) = default;
+    friend std::ostream& operator<<(std::ostream& out, const answer& a) {
+        return out << (a.collides ? "true, " : "false, ") << a.toi;
+    }
+};
+inline constexpr answer<double> never{false, infinity};
+inline answer<double> at(double t) {
+    return {true, t};
+}
+
+inline ccd::moving_point<double> still(const ccd::point<double>& p) {
+    return {p, p};
+}
+// The vertex moves from 1 above a face to 3 below; one edge crosses another in the same way.
+inline const ccd::vertex_face<double> onto_face{
+    {{0.25, 0.25, 1}, {0.25, 0.25, -3}}, still({0, 0, 0}), still({1, 0, 0}), still({0, 1, 0})};
+inline const ccd::edge_edge<double> across{
+    {{0, -1, 1}, {0, -1, -3}}, {{0, 1, 1}, {0, 1, -3}}, still({-1, 0, 0}), still({1, 0, 0})};
 
 /// A useful distance for tests of the query: 0, or about its distance at some time.
 template <class Query>

@@ -23,71 +23,44 @@ namespace {
 using ccd::adapters::exact_narrow_phase;
 using query_families::points;
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double least = std::numeric_limits<double>::denorm_min();
 
-struct answer {
-    bool collides;
-    double toi;
-    friend bool operator==(const answer&, const answer&) = default;
-};
-std::ostream& operator<<(std::ostream& out, const answer& a) {
-    return out << (a.collides ? "true, " : "false, ") << a.toi;
-}
-constexpr answer never{false, infinity};
-answer at(double t) {
-    return {true, t};
-}
+using support::across, support::at, support::infinity, support::never, support::onto_face,
+    support::still;
+using answer = support::answer<double>;
 
-ipc::VectorMax3d in(int dimensions, const ccd::point<double>& p) {
-    return Eigen::Vector3d(p.x, p.y, p.z).head(dimensions);
-}
-Eigen::Vector3d in_space(const ccd::point<double>& p) {
-    return {p.x, p.y, p.z};
-}
-
-answer ask(const ipc::NarrowPhaseCCD& ccd, const ccd::vertex_vertex<double>& q, double d = 0,
-           double tmax = 1, int dimensions = 3) {
-    const auto p = [&](const auto& x) { return in(dimensions, x); };
+/// Positions in space, or in the plane, which only points and edges have.
+template <class Query>
+answer ask(const ipc::NarrowPhaseCCD& ccd, const Query& query, double d = 0, double tmax = 1,
+           int dimensions = 3) {
+    const auto points = ccd::points_of(query);
+    const auto in_space = [](const ccd::point<double>& p) {
+        return Eigen::Vector3d(p.x, p.y, p.z);
+    };
     answer a{};
-    a.collides = ccd.point_point_ccd(p(q.v.t0), p(q.w.t0), p(q.v.t1), p(q.w.t1), a.toi, d, tmax);
-    return a;
-}
-answer ask(const ipc::NarrowPhaseCCD& ccd, const ccd::vertex_edge<double>& q, double d = 0,
-           double tmax = 1, int dimensions = 3) {
-    const auto p = [&](const auto& x) { return in(dimensions, x); };
-    answer a{};
-    a.collides = ccd.point_edge_ccd(p(q.v.t0), p(q.e0.t0), p(q.e1.t0), p(q.v.t1), p(q.e0.t1),
-                                    p(q.e1.t1), a.toi, d, tmax);
-    return a;
-}
-answer ask(const ipc::NarrowPhaseCCD& ccd, const ccd::vertex_face<double>& q, double d = 0,
-           double tmax = 1) {
-    const auto p = in_space;
-    answer a{};
-    a.collides = ccd.point_triangle_ccd(p(q.v.t0), p(q.f0.t0), p(q.f1.t0), p(q.f2.t0), p(q.v.t1),
-                                        p(q.f0.t1), p(q.f1.t1), p(q.f2.t1), a.toi, d, tmax);
-    return a;
-}
-answer ask(const ipc::NarrowPhaseCCD& ccd, const ccd::edge_edge<double>& q, double d = 0,
-           double tmax = 1) {
-    const auto p = in_space;
-    answer a{};
-    a.collides = ccd.edge_edge_ccd(p(q.a0.t0), p(q.a1.t0), p(q.b0.t0), p(q.b1.t0), p(q.a0.t1),
-                                   p(q.a1.t1), p(q.b0.t1), p(q.b1.t1), a.toi, d, tmax);
+    const auto call = [&](auto function, auto... i) {
+        return (ccd.*function)(in_space(points[i].t0)..., in_space(points[i].t1)..., a.toi, d,
+                               tmax);
+    };
+    const auto call_in = [&](auto function, auto... i) {
+        const auto in = [&](const auto& p) {
+            return ipc::VectorMax3d(in_space(p).head(dimensions));
+        };
+        return (ccd.*function)(in(points[i].t0)..., in(points[i].t1)..., a.toi, d, tmax);
+    };
+    using phase = ipc::NarrowPhaseCCD;
+    constexpr ccd::kind kind = ccd::kind_of<Query>;
+    if constexpr (kind == ccd::kind::vertex_vertex)
+        a.collides = call_in(&phase::point_point_ccd, 0u, 1u);
+    else if constexpr (kind == ccd::kind::vertex_edge)
+        a.collides = call_in(&phase::point_edge_ccd, 0u, 1u, 2u);
+    else if constexpr (kind == ccd::kind::vertex_face)
+        a.collides = call(&phase::point_triangle_ccd, 0u, 1u, 2u, 3u);
+    else
+        a.collides = call(&phase::edge_edge_ccd, 0u, 1u, 2u, 3u);
     return a;
 }
 
-ccd::moving_point<double> still(const ccd::point<double>& p) {
-    return {p, p};
-}
-
-// The vertex moves from 1 above a face to 3 below; one edge crosses another in the same way.
-constexpr ccd::moving_point<double> falling{{0.25, 0.25, 1}, {0.25, 0.25, -3}};
-const ccd::vertex_face<double> onto_face{falling, still({0, 0, 0}), still({1, 0, 0}),
-                                         still({0, 1, 0})};
-const ccd::edge_edge<double> across{
-    {{0, -1, 1}, {0, -1, -3}}, {{0, 1, 1}, {0, 1, -3}}, still({-1, 0, 0}), still({1, 0, 0})};
 const ccd::vertex_vertex<double> meeting{{{0, 0, 0}, {6, 8, 0}}, still({3, 4, 0})};
 const ccd::vertex_edge<double> onto_edge{
     {{0.5, 1, 0}, {0.5, -3, 0}}, still({0, 0, 0}), still({1, 0, 0})};

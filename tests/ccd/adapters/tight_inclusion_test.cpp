@@ -21,29 +21,14 @@
 namespace {
 
 namespace adapter = ccd::adapters::tight_inclusion;
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
+using support::across, support::answer, support::at, support::infinity, support::never;
+using support::onto_face, support::still;
 
 // Each call has the original's type, except for the type of the method.
 [[maybe_unused]] ticcd::call<double, adapter::CCDRootFindingMethod>* const calls_in_double[] = {
     adapter::vertexFaceCCD, adapter::edgeEdgeCCD};
 [[maybe_unused]] ticcd::call<float, adapter::CCDRootFindingMethod>* const calls_in_float[] = {
     adapter::vertexFaceCCD, adapter::edgeEdgeCCD};
-
-template <class T>
-struct answer {
-    bool collides;
-    T toi;
-    friend bool operator==(const answer&, const answer&) = default;
-};
-template <class T>
-std::ostream& operator<<(std::ostream& out, const answer<T>& a) {
-    return out << (a.collides ? "true, " : "false, ") << a.toi;
-}
-constexpr answer<double> never{false, infinity};
-answer<double> at(double t) {
-    return {true, t};
-}
 
 template <class T>
 Eigen::Matrix<T, 3, 1> as_vector(const ccd::point<double>& p) {
@@ -68,14 +53,6 @@ answer<T> ask(const Query& query, T ms = 0, T t_max = 1, bool no_zero_toi = fals
     EXPECT_EQ(output_tolerance, tolerance);
     return {collides, toi};
 }
-
-ccd::moving_point<double> still(const ccd::point<double>& p) {
-    return {p, p};
-}
-const ccd::vertex_face<double> onto_face{
-    {{0.25, 0.25, 1}, {0.25, 0.25, -3}}, still({0, 0, 0}), still({1, 0, 0}), still({0, 1, 0})};
-const ccd::edge_edge<double> across{
-    {{0, -1, 1}, {0, -1, -3}}, {{0, 1, 1}, {0, 1, -3}}, still({-1, 0, 0}), still({1, 0, 0})};
 
 TEST(calls, find_first_contacts) {
     EXPECT_EQ(ask(onto_face), at(0.25));

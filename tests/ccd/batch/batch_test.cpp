@@ -4,37 +4,22 @@
 #include <ccd/batch.hpp>
 #include <ccd/exact.hpp>
 #include <limits>
-#include <random>
 #include <stdexcept>
-#include <tuple>
 #include <vector>
+
+#include "tests/ccd/batch/random_batches.hpp"
 
 namespace {
 
 using ccd::outcome;
-using ccd::vertex_index;
+using random_batches::random_pairs;
 
-/// Vertices on a small grid, so that contacts are frequent; two are not finite.
+/// Vertices on a small grid; two are not finite.
 std::vector<ccd::point<double>> grid(std::uint64_t seed) {
-    std::mt19937_64 random(seed);
-    const auto coordinate = [&random] { return static_cast<double>(random() % 4); };
-    std::vector<ccd::point<double>> points(60);
-    for (auto& p : points) p = {coordinate(), coordinate(), coordinate()};
+    auto points = random_batches::grid(seed);
     points[7].y = std::numeric_limits<double>::infinity();
     points[11].x = std::numeric_limits<double>::quiet_NaN();
     return points;
-}
-
-template <class Pair>
-std::vector<Pair> random_pairs(std::size_t count) {
-    std::mt19937_64 random(count);
-    std::vector<Pair> pairs(count);
-    for (Pair& pair : pairs) {
-        auto vertices = vertices_of(pair);
-        for (vertex_index& v : vertices) v = static_cast<vertex_index>(random() % 60);
-        std::apply([&pair](auto... v) { pair = {v...}; }, vertices);
-    }
-    return pairs;
 }
 
 template <class Pair>

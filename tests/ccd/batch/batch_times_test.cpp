@@ -1,43 +1,26 @@
-// First times of batches of every kind compared with single queries; the earliest of many.
+// First times and contacts of batches of every kind compared with single queries; the earliest of
+// many.
 #include <gtest/gtest.h>
 
 #include <ccd/contact.hpp>
 #include <cmath>
 #include <limits>
-#include <random>
 #include <stdexcept>
-#include <string>
 #include <tuple>
 #include <vector>
+
+#include "tests/ccd/batch/random_batches.hpp"
+#include "tests/support/files.hpp"
 
 namespace {
 
 using ccd::first_time;
 using ccd::outcome;
-using ccd::vertex_index;
+using random_batches::grid;
+using random_batches::random_pairs;
+using random_batches::vertices;
 
-constexpr vertex_index vertices = 60;
-
-/// Vertices on a small grid, so that contacts, ties and contacts at the start are frequent.
-std::vector<ccd::point<double>> grid(std::uint64_t seed) {
-    std::mt19937_64 random(seed);
-    const auto coordinate = [&random] { return static_cast<double>(random() % 6); };
-    std::vector<ccd::point<double>> points(vertices);
-    for (auto& p : points) p = {coordinate(), coordinate(), coordinate()};
-    return points;
-}
-
-template <class Pair>
-std::vector<Pair> random_pairs(std::size_t count) {
-    std::mt19937_64 random(count);
-    std::vector<Pair> pairs(count);
-    for (Pair& pair : pairs) {
-        auto of_pair = vertices_of(pair);
-        for (vertex_index& v : of_pair) v = static_cast<vertex_index>(random() % vertices);
-        std::apply([&pair](auto... v) { pair = {v...}; }, of_pair);
-    }
-    return pairs;
-}
+constexpr auto& refusal = test_files::message_of<std::invalid_argument>;
 
 std::vector<double> thicknesses() {
     std::vector<double> all(vertices);
@@ -123,15 +106,6 @@ TYPED_TEST(FirstTimes, OfStoredQueriesAreTheSame) {
     }
 }
 
-TEST(FirstTimesOf, EveryInstructionSetAreTheSame) {
-    const auto before = grid(5), after = grid(6);
-    const ccd::vertex_rows rows(before, after);
-    const auto pairs = random_pairs<ccd::edge_edge_pair>(500);
-    const auto expected = ccd::first_times(rows, pairs);
-    for (const ccd::instruction_set set : ccd::instruction_sets())
-        EXPECT_EQ(ccd::first_times(rows, pairs, {.set = set}), expected);
-}
-
 TEST(FirstTimesOf, CoordinatesThatAreNotFiniteAreUncertain) {
     auto before = grid(7), after = grid(8);
     after[3].y = std::numeric_limits<double>::quiet_NaN();
@@ -188,16 +162,6 @@ TEST(FirstTimesOf, ThicknessesAreAddedExactly) {
     EXPECT_TRUE(touches(std::nextafter(1.0, 0.0), 0x1p-53));
 }
 
-template <class Call>
-std::string refusal(const Call& call) {
-    try {
-        call();
-    } catch (const std::invalid_argument& error) {
-        return error.what();
-    }
-    return "nothing refused";
-}
-
 TEST(FirstTimesOf, RefuseWhatIsNoQuestion) {
     const auto before = grid(9);
     const ccd::vertex_rows rows(before, before);
@@ -210,7 +174,7 @@ TEST(FirstTimesOf, RefuseWhatIsNoQuestion) {
     const std::vector<ccd::vertex_vertex<double>> stored{query_of(rows, pairs[0])};
     const auto no_set = static_cast<ccd::instruction_set>(77);
     EXPECT_NE(refusal([&] { ccd::first_times(stored, {.distances = {1}, .set = no_set}); }),
-              "nothing refused");
+              "no error");
     EXPECT_EQ(refused({.distances = {-1}}),
               "ccd::first_times: distance is -1; expected a finite number >= 0");
     const std::vector<double> few(3), wrong(vertices, std::numeric_limits<double>::infinity());
@@ -224,6 +188,39 @@ TEST(FirstTimesOf, RefuseWhatIsNoQuestion) {
               "ccd::first_times: vertex index of query 0 is 60; expected less than 60");
     EXPECT_EQ(refusal([&] { ccd::earliest(ccd::vertex_rows(nullptr, nullptr, 9), pairs); }),
               "ccd::first_times: pointer to positions is null; expected positions");
+}
+
+// ---- Contact data ----
+
+TYPED_TEST(FirstTimes, HaveTheContactsOfOneByOne) {
+    const auto before = grid(1), after = grid(2);
+    const ccd::vertex_rows rows(before, after);
+    const auto pairs = random_pairs<TypeParam>(500);
+    std::vector<ccd::query_of_pair<TypeParam>> queries;
+    std::vector<ccd::first_contact> expected;
+    for (const TypeParam& pair : pairs) {
+        queries.push_back(query_of(rows, pair));
+        expected.push_back(ccd::find_first_contact(queries.back()));
+    }
+    const auto times = ccd::first_times(rows, pairs);
+    for (const int threads : {0, 1, 2}) {
+        EXPECT_EQ(ccd::first_contacts(rows, pairs, times, threads), expected);
+        EXPECT_EQ(ccd::first_contacts(queries, times, threads), expected);
+    }
+    EXPECT_GT(contacts_of(times).size(), 5U);
+}
+
+TEST(FirstContacts, RefuseTimesOfOtherQueries) {
+    const auto still = grid(1);
+    const auto message = [&](const std::vector<ccd::edge_edge_pair>& pairs) {
+        return refusal([&] {
+            ccd::first_contacts({still, still}, pairs, std::vector<first_time>(1));
+        });
+    };
+    EXPECT_EQ(message({{0, 1, 2, 3}, {4, 5, 6, 7}}),
+              "ccd::first_contacts: number of times is 1; expected 2, one for each query");
+    EXPECT_EQ(message({{0, 1, 2, 60}}),
+              "ccd::first_contacts: vertex index of query 0 is 60; expected less than 60");
 }
 
 }  // namespace

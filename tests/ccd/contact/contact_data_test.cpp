@@ -17,10 +17,6 @@ using ccd::normal_source;
 using ccd::outcome;
 using namespace by_hand;
 
-/// A vertex over the resting triangle (0,0,0), (1,0,0), (0,1,0).
-vertex_face over_triangle(point v0, point v1) {
-    return {from_to(v0, v1), still({0, 0, 0}), still({1, 0, 0}), still({0, 1, 0})};
-}
 /// Edge a from (-1, 0, 0) to (1, 0, 0), at rest, and an edge b.
 edge_edge on_x_axis(moving b0, moving b1) {
     return {still({-1, 0, 0}), still({1, 0, 0}), b0, b1};

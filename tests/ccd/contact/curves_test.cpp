@@ -8,28 +8,25 @@
 #include <ccd/reference.hpp>
 #include <cmath>
 #include <cstddef>
-#include <limits>
 #include <random>
 #include <string>
 #include <vector>
 
+#include "tests/ccd/contact/by_hand.hpp"
 #include "tests/support/first_time_faults.hpp"
 #include "tests/support/query_families.hpp"
 #include "tests/support/scaled.hpp"
 
 namespace {
 
+using by_hand::at;
+using by_hand::infinity;
+using by_hand::never;
+using by_hand::point;
 using ccd::first_time;
 using ccd::outcome;
 using ccd::separation;
-using point = ccd::point<double>;
 using control = std::vector<point>;
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr first_time never{outcome::separate, 0, 0};
-first_time at(double t) {
-    return {outcome::collides, t, t};
-}
 
 const control f0{{0, 0, 0}}, f1{{1, 0, 0}}, f2{{0, 1, 0}};
 first_time over_triangle(const control& v, double t_max = 1) {
@@ -117,20 +114,6 @@ auto curves_of(const std::array<control, 4>& p) {
     else
         return ccd::vertex_vertex_curves{p[0], p[1]};
 }
-template <ccd::kind K>
-auto query_of(const std::array<control, 4>& p) {
-    const auto motion = [&](std::size_t i) {
-        return ccd::moving_point<double>{p[i].front(), p[i].back()};
-    };
-    if constexpr (K == ccd::kind::vertex_face)
-        return ccd::vertex_face<double>{motion(0), motion(1), motion(2), motion(3)};
-    else if constexpr (K == ccd::kind::edge_edge)
-        return ccd::edge_edge<double>{motion(0), motion(1), motion(2), motion(3)};
-    else if constexpr (K == ccd::kind::vertex_edge)
-        return ccd::vertex_edge<double>{motion(0), motion(1), motion(2)};
-    else
-        return ccd::vertex_vertex<double>{motion(0), motion(1)};
-}
 
 std::string text(const std::array<control, 4>& points) {
     std::string all;
@@ -148,18 +131,16 @@ class random_motion {
   public:
     explicit random_motion(unsigned seed) : random_(seed) {}
 
-    control curve(std::size_t points) {
-        control c(points);
-        for (point& p : c) p = {coordinate(), coordinate(), flat_ ? 0 : coordinate()};
-        return c;
-    }
     /// Curves with 1 to `most` control points each.
     std::array<control, 4> of_up_to(std::size_t most) {
         size_ = 1 + static_cast<int>(random_() % 6);
         on_grid_ = random_() % 4 != 0;
         flat_ = random_() % 4 == 0;
         std::array<control, 4> points;
-        for (control& c : points) c = curve(1 + random_() % most);
+        for (control& c : points) {
+            c.resize(1 + random_() % most);
+            for (point& p : c) p = {coordinate(), coordinate(), flat_ ? 0 : coordinate()};
+        }
         return points;
     }
     unsigned number() { return static_cast<unsigned>(random_()); }
@@ -201,51 +182,6 @@ TEST(random_curves, come_near_first_at_the_time_of_the_oracle) {
         EXPECT_EQ(support::fault_of(query, d, found), "") << text(points);
         EXPECT_EQ(ccd::decide_within(query, d).outcome, found.outcome);
     });
-}
-
-/// Two control points are a line, with the result of time_of_impact.
-TEST(random_curves, of_degree_1_are_lines) {
-    random_motion random(5);
-    for (int i = 0; i < support::scaled(300); ++i) {
-        std::array<control, 4> points = random.of_up_to(1);
-        for (control& p : points) p.push_back(random.curve(1)[0]);
-        ccd::for_each_kind([&]<ccd::kind K>() {
-            const auto lines = query_of<K>(points);
-            EXPECT_EQ(ccd::time_of_impact(curves_of<K>(points)), ccd::time_of_impact(lines))
-                << text(points);
-            EXPECT_EQ(ccd::time_within(curves_of<K>(points), {0.5}), ccd::time_within(lines, {0.5}))
-                << text(points);
-        });
-    }
-}
-/// The same motion with one more control point: c_i = (i·c_(i−1) + (n − i)·c_i)/n, in multiples of
-/// 60.
-TEST(random_curves, of_raised_degree_are_the_same) {
-    random_motion random(7);
-    for (int i = 0; i < support::scaled(300); ++i) {
-        std::array<control, 4> points = random.of_up_to(3), raised = points;
-        for (std::size_t k = 0; k < points.size(); ++k) {
-            for (point& c : points[k])
-                c = {60 * std::round(4 * c.x), 60 * std::round(4 * c.y), 60 * std::round(4 * c.z)};
-            control& r = raised[k] = points[k];
-            const auto n = static_cast<double>(r.size());
-            r.push_back(r.back());
-            for (std::size_t j = points[k].size() - 1; j > 0; --j) {
-                const auto w = static_cast<double>(j);
-                const auto mean = [&](double a, double b) { return (w * a + (n - w) * b) / n; };
-                const point &a = points[k][j - 1], &b = points[k][j];
-                r[j] = {mean(a.x, b.x), mean(a.y, b.y), mean(a.z, b.z)};
-            }
-        }
-        ccd::for_each_kind([&]<ccd::kind K>() {
-            EXPECT_EQ(ccd::time_of_impact(curves_of<K>(points)),
-                      ccd::time_of_impact(curves_of<K>(raised)))
-                << text(points);
-            EXPECT_EQ(ccd::time_within(curves_of<K>(points), {30}),
-                      ccd::time_within(curves_of<K>(raised), {30}))
-                << text(points);
-        });
-    }
 }
 
 }  // namespace

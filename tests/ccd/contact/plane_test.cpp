@@ -3,22 +3,21 @@
 
 #include <ccd/plane.hpp>
 #include <cmath>
-#include <limits>
 #include <random>
 
+#include "tests/ccd/contact/by_hand.hpp"
 #include "tests/support/first_time_faults.hpp"
 #include "tests/support/scaled.hpp"
 
 namespace {
 
 namespace plane = ccd::plane;
+using by_hand::at;
+using by_hand::infinity;
+using by_hand::never;
 using ccd::first_time;
 using ccd::outcome;
 
-constexpr first_time never{outcome::separate, 0, 0};
-first_time at(double t) {
-    return {outcome::collides, t, t};
-}
 plane::moving_point still(plane::point p) {
     return {p, p};
 }
@@ -51,7 +50,6 @@ TEST(plane_queries, of_two_vertices) {
     EXPECT_EQ(plane::time_of_impact(plane::vertex_vertex{still({1, 2}), still({1, 3})}), never);
 }
 TEST(plane_queries, of_what_is_not_finite) {
-    const double infinity = std::numeric_limits<double>::infinity();
     EXPECT_EQ(plane::time_of_impact(plane::vertex_vertex{still({0, infinity}), still({1, 2})}),
               first_time{});
 }

@@ -28,18 +28,6 @@ first_time within(const Query& query, separation d, double t_max = 1) {
     return found;
 }
 
-first_time at(double t) {
-    return {outcome::collides, t, t};
-}
-first_time between(double low, double high) {
-    return {outcome::collides, low, high};
-}
-constexpr first_time never{outcome::separate, 0, 0};
-
-vertex_face over_triangle(point v0, point v1) {
-    return {from_to(v0, v1), still({0, 0, 0}), still({1, 0, 0}), still({0, 1, 0})};
-}
-
 TEST(separation, above_a_face) {
     const auto query = over_triangle({0.25, 0.25, 1}, {0.25, 0.25, 0.5});
     EXPECT_EQ(within(query, {0.75}), at(0.5));
@@ -114,7 +102,7 @@ TEST(separation, whose_sphere_is_touched_at_once) {
 TEST(separation, at_a_time_that_is_no_double) {
     // |2 − 3t| = 1 first holds at t = 1/3.
     const vertex_vertex query{from_to({2, 0, 0}, {-1, 0, 0}), still({0, 0, 0})};
-    EXPECT_EQ(within(query, {1}), between(1.0 / 3, std::nextafter(1.0 / 3, 1)));
+    EXPECT_EQ(within(query, {1}), at_a_third);
 }
 TEST(separation, after_a_time_below_the_least_double) {
     const vertex_vertex query{from_to({1 + 0x1p-52, 0, 0}, {-0x1p+1023, 0, 0}), still({0, 0, 0})};

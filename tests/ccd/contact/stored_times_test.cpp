@@ -1,44 +1,33 @@
 // First times of stored queries, and of all colliding pairs of stored scenes, compared with the
-// oracle. Such data has many contacts at the start, ties, and contacts without crossing.
-//
-// Data are in the folder ERRBOUND_SHARED_DATA of the environment, else of the build; one scene is
-// in the repository.
+// oracle and with stored times. Such data has many contacts at the start, ties, and contacts
+// without crossing. One scene is in the repository.
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <boost/multiprecision/cpp_int.hpp>
 #include <ccd/io/mesh_file.hpp>
 #include <ccd/io/query_file.hpp>
 #include <ccd/methods/transform.hpp>
 #include <ccd/step.hpp>
 #include <cstddef>
-#include <cstdint>
-#include <cstdlib>
 #include <filesystem>
+#include <fstream>
 #include <iostream>
+#include <map>
 #include <optional>
 #include <string>
 #include <variant>
-#include <vector>
 
 #include "tests/support/distance_families.hpp"
 #include "tests/support/first_time_faults.hpp"
+#include "tests/support/stored_data.hpp"
 
 namespace {
 
 namespace fs = std::filesystem;
-
-fs::path data_folder() {
-    if (const char* folder = std::getenv("ERRBOUND_SHARED_DATA")) return folder;
-    return ERRBOUND_SHARED_DATA;
-}
-
-std::vector<fs::path> files_in(const fs::path& folder, const std::string& extension) {
-    std::vector<fs::path> paths;
-    for (const auto& entry : fs::recursive_directory_iterator(folder))
-        if (entry.path().extension() == extension) paths.push_back(entry.path());
-    std::ranges::sort(paths);
-    return paths;
-}
+using rational = boost::multiprecision::cpp_rational;
+using stored_data::files_in;
+using whole = boost::multiprecision::cpp_int;
 
 /// Compares contact, and a random distance.
 template <class Query>
@@ -54,10 +43,8 @@ void expect_right_times(const Query& query, std::size_t index) {
 }
 
 TEST(stored, queries) {
-    const fs::path data = data_folder();
-    if (!fs::is_directory(data))
-        GTEST_SKIP() << "No stored queries at \"" << data.string()
-                     << "\": set ERRBOUND_SHARED_DATA to the folder that holds them.";
+    const fs::path data = stored_data::folder();
+    if (!fs::is_directory(data)) GTEST_SKIP() << stored_data::missing;
     std::size_t count = 0;
     for (const fs::path& path : files_in(data, ".csv")) {
         SCOPED_TRACE(path.string());
@@ -99,10 +86,8 @@ TEST(stored, scene_of_the_repository) {
 }
 
 TEST(stored, scenes) {
-    const fs::path scenes = data_folder() / "scenes";
-    if (!fs::is_directory(scenes))
-        GTEST_SKIP() << "No stored scenes at \"" << scenes.string()
-                     << "\": set ERRBOUND_SHARED_DATA to the folder that holds them.";
+    const fs::path scenes = stored_data::folder() / "scenes";
+    if (!fs::is_directory(scenes)) GTEST_SKIP() << stored_data::missing;
     for (const auto& entry : fs::directory_iterator(scenes)) {
         if (!entry.is_directory()) continue;
         const auto frames = files_in(entry.path(), ".ply");
@@ -110,5 +95,66 @@ TEST(stored, scenes) {
         expect_right_scene(frames[0], frames[1]);
     }
 }
+
+// The stored first contacts of cloth-funnel, which were computed symbolically, must be in their
+// brackets.
+
+/// A line with a query's index and a decimal fraction, truncated or rounded after its last digit.
+struct decimal {
+    rational value, last_digit;
+};
+std::map<std::size_t, decimal> read_times(const fs::path& path) {
+    std::ifstream file(path);
+    std::map<std::size_t, decimal> times;
+    for (std::string line; std::getline(file, line);) {
+        const auto comma = line.find(','), dot = line.find('.');
+        const std::string digits = dot == std::string::npos ? "" : line.substr(dot + 1);
+        const whole unit = pow(whole(10), static_cast<unsigned>(digits.size()));
+        const std::string before =
+            line.substr(comma + 1, dot == std::string::npos ? dot : dot - comma - 1);
+        // GMP would read a number with a leading zero as octal.
+        const auto number = [](const std::string& s) {
+            whole n = 0;
+            for (const char c : s) n = n * 10 + (c - '0');
+            return n;
+        };
+        times[std::stoul(line.substr(0, comma))] = {
+            rational(number(before) * unit + number(digits), unit), rational(1, unit)};
+    }
+    return times;
+}
+
+struct stored_set {
+    const char *queries, *times;
+};
+
+class stored_first_contacts : public testing::TestWithParam<stored_set> {};
+
+TEST_P(stored_first_contacts, lie_in_their_brackets) {
+    const fs::path data = stored_data::folder(), times_path = data / "toi" / GetParam().times;
+    if (!fs::exists(times_path)) GTEST_SKIP() << stored_data::missing;
+    const auto times = read_times(times_path);
+    const auto file = ccd::io::read_queries(
+        data / "scenes" / "cloth-funnel" / "queries" / GetParam().queries, std::nullopt, false);
+    std::visit(
+        [&](const auto& queries) {
+            for (std::size_t i = 0; i < queries.size(); ++i) {
+                const ccd::first_time found = ccd::time_of_impact(queries[i]);
+                const auto truth = times.find(i);
+                if (truth == times.end()) continue;
+                const auto& [t, last_digit] = truth->second;
+                ASSERT_EQ(found.outcome, ccd::outcome::collides) << "query " << i;
+                EXPECT_LE(rational(found.low), t + last_digit) << "query " << i;
+                EXPECT_GE(rational(found.high), t - last_digit) << "query " << i;
+            }
+        },
+        file.queries);
+    std::cout << times.size() << " stored times, " << file.size() << " queries\n";
+}
+
+INSTANTIATE_TEST_SUITE_P(cloth_funnel, stored_first_contacts,
+                         testing::Values(stored_set{"227vf.csv", "cloth-funnel-227vf.txt"},
+                                         stored_set{"227ee.csv", "cloth-funnel-227ee.txt"}),
+                         [](const auto& set) { return std::string(set.param.queries, 5); });
 
 }  // namespace

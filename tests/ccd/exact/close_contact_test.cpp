@@ -8,7 +8,6 @@
 #include <ccd/explain.hpp>
 #include <ccd/reference.hpp>
 #include <cmath>
-#include <cstdint>
 #include <random>
 
 #include "ccd/exact/axis_units.hpp"
@@ -52,12 +51,16 @@ outcome in_words(const Query& query, const integer_units& units) {
 }
 
 template <class Query>
-void roots_that_brackets_do_not_part() {
+class CloseContact : public testing::Test {};
+using queries = testing::Types<ccd::vertex_face<double>, ccd::edge_edge<double>>;
+TYPED_TEST_SUITE(CloseContact, queries);
+
+TYPED_TEST(CloseContact, OfRootsThatBracketsDoNotPartIsDecided) {
     std::mt19937_64 random(7);
     int decided = 0, collided = 0;
     while (decided < 300) {
-        const auto query =
-            std::bit_cast<Query>(nearly_coincident(random, 20 + static_cast<int>(random() % 80)));
+        const auto query = std::bit_cast<TypeParam>(
+            nearly_coincident(random, 20 + static_cast<int>(random() % 80)));
         const integer_units units(query);
         if (units.bits() > extent_limit(2) || in_words(query, units) != outcome::uncertain)
             continue;
@@ -68,20 +71,13 @@ void roots_that_brackets_do_not_part() {
     }
     EXPECT_GT(collided, 10);
 }
-TEST(CloseContact, OfAVertexWithAFaceIsDecided) {
-    roots_that_brackets_do_not_part<ccd::vertex_face<double>>();
-}
-TEST(CloseContact, OfTwoEdgesIsDecided) {
-    roots_that_brackets_do_not_part<ccd::edge_edge<double>>();
-}
 
-template <class Query>
-void scales_far_apart() {
+TYPED_TEST(CloseContact, OfScalesFarApartIsDecided) {
     std::mt19937_64 random(8);
     int decided = 0, collided = 0;
     while (decided < 3000) {
-        const auto query =
-            std::bit_cast<Query>(nearly_coincident(random, 100 + static_cast<int>(random() % 150)));
+        const auto query = std::bit_cast<TypeParam>(
+            nearly_coincident(random, 100 + static_cast<int>(random() % 150)));
         const int bits = integer_units(query).bits();
         if (bits <= extent_limit(2) || bits > extent_limit(4)) continue;
         const outcome right = decide_reference(query).outcome;
@@ -91,16 +87,10 @@ void scales_far_apart() {
     }
     EXPECT_GT(collided, 100);
 }
-TEST(ScalesFarApart, OfAVertexAndAFaceAreDecided) {
-    scales_far_apart<ccd::vertex_face<double>>();
-}
-TEST(ScalesFarApart, OfTwoEdgesAreDecided) {
-    scales_far_apart<ccd::edge_edge<double>>();
-}
 
 /// Once the slowest known query with coordinates of 1e-3 to 1e3: the reference took 0.2
 /// milliseconds to separate two roots 2^-58 apart.
-TEST(CloseContact, RootsThatHillClimbingOnTimeBroughtTogetherNeedNoReference) {
+TEST(CloseRoots, ThatHillClimbingOnTimeBroughtTogetherNeedNoReference) {
     const numbers x{
         0x1.b91d6dea62386p-3,  -0x1.86dcd9b9da7p-9,   0x1.4fe353fc3d0e8p-2,  -0x1.a819fc0a5fe23p-2,
         -0x1.c0f8185a51a41p-1, -0x1.54be7b3eb6de4p-1, 0x1.49a3e9194b04bp-4,  -0x1.f1e771217d89p-3,

@@ -14,7 +14,6 @@
 #include <errbound/polynomial.hpp>
 #include <random>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "ccd/exact/features.hpp"
@@ -120,18 +119,13 @@ tally compare(int places, unsigned seed) {
 
 class Grids : public testing::TestWithParam<int> {};
 
-TEST_P(Grids, VertexFaceAgreesWithExact) {
-    const tally found = compare<ccd::vertex_face>(GetParam(), 1);
-    EXPECT_GT(found.yes, 20);
-    EXPECT_GT(found.no, 20);
-    EXPECT_LT(found.possible, 150);
-}
-
-TEST_P(Grids, EdgeEdgeAgreesWithExact) {
-    const tally found = compare<ccd::edge_edge>(GetParam(), 2);
-    EXPECT_GT(found.yes, 20);
-    EXPECT_GT(found.no, 20);
-    EXPECT_LT(found.possible, 150);
+TEST_P(Grids, AgreeWithExact) {
+    for (const tally& found :
+         {compare<ccd::vertex_face>(GetParam(), 1), compare<ccd::edge_edge>(GetParam(), 2)}) {
+        EXPECT_GT(found.yes, 20);
+        EXPECT_GT(found.no, 20);
+        EXPECT_LT(found.possible, 150);
+    }
 }
 
 INSTANTIATE_TEST_SUITE_P(Polynomials, Grids, testing::Values(3, 5, 9, 1 << 20),

@@ -1,10 +1,10 @@
-// The stages of `exact`, separately and together, with every instruction set. A certain answer is
-// never wrong, and all answers agree.
+// The stages of `exact` and batches with every instruction set. A certain answer is never wrong,
+// and all answers agree. property_test has single queries, and the stages in integers.
 #include "ccd/exact/stages.hpp"
 
 #include <gtest/gtest.h>
 
-#include <array>
+#include <algorithm>
 #include <ccd/batch.hpp>
 #include <ccd/exact.hpp>
 #include <ccd/methods/transform.hpp>
@@ -26,7 +26,6 @@
 namespace {
 
 using query_families::families;
-using query_families::kind;
 
 std::uint64_t queries_per_family() {
     return support::scaled(200u);
@@ -39,14 +38,15 @@ struct test_set {
     std::vector<std::string> names;
 };
 
-template <class Query, class As>
-test_set<Query> make_set(kind which, const As& as) {
+template <class Query>
+test_set<Query> make_set() {
     test_set<Query> set;
     for (const auto& family : families)
         // Thinned twice, since each of these queries is decided many times.
         for (std::uint64_t i = 0; i * family.thinning * family.thinning < queries_per_family();
              ++i) {
-            const Query query = as(query_families::make(family, which, 7, i));
+            const auto query = query_families::as_query<Query>(
+                query_families::make(family, ccd::kind_of<Query>, 7, i));
             set.queries.push_back(query);
             set.truth.push_back(ccd::decide_reference(query).outcome);
             set.names.push_back(std::string(family.name) + ", index " + std::to_string(i));
@@ -55,13 +55,11 @@ test_set<Query> make_set(kind which, const As& as) {
 }
 
 const test_set<ccd::vertex_face<double>>& vertex_face_set() {
-    static const auto set = make_set<ccd::vertex_face<double>>(
-        kind::vertex_face, query_families::as_query<ccd::vertex_face<double>>);
+    static const auto set = make_set<ccd::vertex_face<double>>();
     return set;
 }
 const test_set<ccd::edge_edge<double>>& edge_edge_set() {
-    static const auto set = make_set<ccd::edge_edge<double>>(
-        kind::edge_edge, query_families::as_query<ccd::edge_edge<double>>);
+    static const auto set = make_set<ccd::edge_edge<double>>();
     return set;
 }
 
@@ -85,48 +83,36 @@ std::size_t expect_never_wrong(const test_set<Query>& set, const Decide& decide)
     return certain;
 }
 
-template <template <class> class Forms>
-struct float_stages {
-    template <class Query>
-    static ccd::outcome axes(const Query& query) {
-        const Forms<double> forms(query);
-        const ccd::static_filter::difference_extents<double> extents(forms);
-        return extents.usable && ccd::static_filter::separated_by_axes<double>(forms, extents)
-                   ? ccd::outcome::separate
-                   : ccd::outcome::uncertain;
-    }
-    template <class Query>
-    static ccd::outcome coplanarity(const Query& query) {
-        const Forms<double> forms(query);
-        const ccd::static_filter::difference_extents<double> extents(forms);
-        const auto y = errbound::roots::control_values_of(forms.y());
-        const double error = extents.template error_of_y<Forms>();
-        return extents.usable &&
-                       (ccd::static_filter::above(y, error) || ccd::static_filter::below(y, error))
-                   ? ccd::outcome::separate
-                   : ccd::outcome::uncertain;
-    }
-    template <class Query>
-    static ccd::outcome inside(const Query& query) {
-        const Forms<double> forms(query);
-        const ccd::static_filter::difference_extents<double> extents(forms);
-        const ccd::static_filter::whole_step<double, Forms> whole(forms, extents);
-        return extents.usable && whole.outside() ? ccd::outcome::separate : ccd::outcome::uncertain;
-    }
-};
-
+/// Expects each test of the whole step to be right if it holds, and all of floating point.
 template <template <class> class Forms, class Query>
 void expect_float_stages_never_wrong(const test_set<Query>& set) {
-    using stages = float_stages<Forms>;
-    EXPECT_GT(expect_never_wrong(set, [](const Query& q) { return stages::axes(q); }), 0u);
-    EXPECT_GT(expect_never_wrong(set, [](const Query& q) { return stages::coplanarity(q); }), 0u);
-    EXPECT_GT(expect_never_wrong(set, [](const Query& q) { return stages::inside(q); }), 0u);
-    EXPECT_GT(
-        expect_never_wrong(set,
-                           [](const Query& q) {
-                               return ccd::detail::decide_in_floating_point(q, nullptr).outcome;
-                           }),
-        0u);
+    namespace filter = ccd::static_filter;
+    const auto expect = [&](const auto& separates) {
+        EXPECT_GT(expect_never_wrong(set,
+                                     [&](const Query& query) {
+                                         const Forms<double> forms(query);
+                                         const filter::difference_extents<double> extents(forms);
+                                         return extents.usable && separates(forms, extents)
+                                                    ? ccd::outcome::separate
+                                                    : ccd::outcome::uncertain;
+                                     }),
+                  0u);
+    };
+    expect([](const auto& forms, const auto& extents) {
+        return filter::separated_by_axes<double>(forms, extents);
+    });
+    expect([](const auto& forms, const auto& extents) {
+        const auto y = errbound::roots::control_values_of(forms.y());
+        const double error = extents.template error_of_y<Forms>();
+        return filter::above(y, error) || filter::below(y, error);
+    });
+    expect([](const auto& forms, const auto& extents) {
+        return filter::whole_step<double, Forms>(forms, extents).outside();
+    });
+    const auto by_all = [](const Query& q) {
+        return ccd::detail::decide_in_floating_point(q, nullptr).outcome;
+    };
+    EXPECT_GT(expect_never_wrong(set, by_all), 0u);
 }
 
 TEST(stages, floating_point_is_never_wrong_where_it_is_certain) {
@@ -134,35 +120,26 @@ TEST(stages, floating_point_is_never_wrong_where_it_is_certain) {
     expect_float_stages_never_wrong<ccd::linear_edge_edge_forms>(edge_edge_set());
 }
 
-TEST(stages, integers_are_never_wrong_where_they_are_certain) {
+TEST(reports, account_for_every_query) {
     for_both_kinds([](const auto& set) {
-        const auto certain = expect_never_wrong(
-            set, [](const auto& q) { return ccd::detail::decide_in_integers(q).outcome; });
-        EXPECT_GT(certain, set.queries.size() / 4);
-    });
-}
-
-TEST(decide_exact, agrees_with_the_reference) {
-    for_both_kinds([](const auto& set) {
-        EXPECT_EQ(expect_never_wrong(set, [](const auto& q) { return decide_exact(q).outcome; }),
-                  set.queries.size());
-    });
-}
-
-TEST(decide_exact, report_accounts_for_every_query) {
-    for_both_kinds([](const auto& set) {
+        const auto expect_all = [&](const ccd::stage_report& report, const auto& answers) {
+            std::size_t decided = 0, collides = 0;
+            for (const auto& entry : report.stages) {
+                decided += entry.separate + entry.collides;
+                collides += entry.collides;
+                EXPECT_TRUE(entry.seconds > 0 || entry.entered == 0);
+            }
+            EXPECT_EQ(decided, set.queries.size());
+            EXPECT_EQ(collides, std::ranges::count(answers, ccd::outcome::collides));
+        };
         ccd::stage_report report;
-        std::size_t collisions = 0;
-        for (const auto& q : set.queries)
-            collisions += decide_exact(q, &report).outcome == ccd::outcome::collides;
-        std::size_t decided = 0, collides = 0;
-        for (const auto& entry : report.stages) {
-            decided += entry.separate + entry.collides;
-            collides += entry.collides;
-            EXPECT_TRUE(entry.seconds > 0 || entry.entered == 0);
+        std::vector<ccd::outcome> answers;
+        for (const auto& q : set.queries) answers.push_back(decide_exact(q, &report).outcome);
+        expect_all(report, answers);
+        for (const ccd::instruction_set isa : ccd::instruction_sets()) {
+            const auto batch = ccd::decide_batch(set.queries, {.set = isa, .explain = true});
+            expect_all(batch.stages, batch.answers);
         }
-        EXPECT_EQ(decided, set.queries.size());
-        EXPECT_EQ(collides, collisions);
     });
 }
 
@@ -185,22 +162,6 @@ TEST(stages, features_that_a_coordinate_separates_need_no_unbounded_integers_at_
     EXPECT_EQ(entered_last(), 1);
 }
 
-TEST(batch, agrees_with_the_reference_on_every_instruction_set_and_thread_count) {
-    for_both_kinds([](const auto& set) {
-        for (const ccd::instruction_set isa : ccd::instruction_sets())
-            for (const int threads : {1, 3}) {
-                std::vector<ccd::outcome> answers(set.queries.size());
-                const ccd::stage_report report = ccd::decide_batch(
-                    set.queries, answers, {.threads = threads, .set = isa, .explain = true});
-                std::size_t i = 0;
-                expect_never_wrong(set, [&](const auto&) { return answers[i++]; });
-                std::size_t decided = 0;
-                for (const auto& entry : report.stages) decided += entry.separate + entry.collides;
-                EXPECT_EQ(decided, set.queries.size()) << ccd::name(isa);
-            }
-    });
-}
-
 /// Consecutive queries as rows of a vertex array.
 template <class Query>
 struct rows_of_queries {
@@ -215,32 +176,6 @@ struct rows_of_queries {
     }
     ccd::vertex_rows rows() const { return {before.data(), after.data(), before.size() / 3}; }
 };
-
-TEST(batch, indices_give_the_same_answers_as_stored_queries) {
-    for_both_kinds([](const auto& set) {
-        using query_type = typename std::decay_t<decltype(set.queries)>::value_type;
-        using indices_type =
-            std::conditional_t<std::is_same_v<query_type, ccd::vertex_face<double>>,
-                               ccd::vertex_face_pair, ccd::edge_edge_pair>;
-        const rows_of_queries<query_type> positions(set.queries);
-        // Few queries per vertex; then many, so that positions are rounded for axes in floats.
-        for (const std::size_t times : {std::size_t(1), std::size_t(5)}) {
-            std::vector<indices_type> indices;
-            std::vector<ccd::outcome> truth;
-            for (std::size_t k = 0; k < times; ++k) {
-                for (ccd::vertex_index i = 0; i < 4 * set.queries.size(); i += 4)
-                    indices.push_back({i, i + 1, i + 2, i + 3});
-                truth.insert(truth.end(), set.truth.begin(), set.truth.end());
-            }
-            for (const ccd::instruction_set isa : ccd::instruction_sets()) {
-                std::vector<ccd::outcome> answers(indices.size());
-                ccd::decide_batch(positions.rows(), std::span<const indices_type>(indices),
-                                  std::span(answers), {.set = isa});
-                EXPECT_EQ(answers, truth) << ccd::name(isa);
-            }
-        }
-    });
-}
 
 TEST(batch, every_length_up_to_several_packs) {
     const auto& set = edge_edge_set();

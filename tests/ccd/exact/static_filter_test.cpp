@@ -20,7 +20,6 @@ using rational = boost::multiprecision::number<boost::multiprecision::gmp_ration
                                                boost::multiprecision::et_off>;
 namespace filter = ccd::static_filter;
 using query_families::families;
-using query_families::kind;
 
 template <int N>
 double largest_error(const errbound::roots::control_values<double, N>& computed,
@@ -78,14 +77,16 @@ void compare(const Query<double>& query, std::mt19937_64& random, const std::str
     }
 }
 
-template <template <class> class Forms, class As>
-void compare_all(kind which, const As& as) {
+template <template <class> class Forms, class Query>
+void compare_all() {
     std::mt19937_64 random(5);
     usage worst;
     for (const auto& family : families)
         for (std::uint64_t i = 0; i < 60; ++i)
-            compare<Forms>(as(query_families::make(family, which, 11, i)), random,
-                           std::string(family.name) + ", index " + std::to_string(i), worst);
+            compare<Forms>(query_families::as_query<Query>(
+                               query_families::make(family, ccd::kind_of<Query>, 11, i)),
+                           random, std::string(family.name) + ", index " + std::to_string(i),
+                           worst);
     // The bounds are sound, and not so large that they are useless.
     for (const double used : {worst.y, worst.g, worst.y_parts, worst.g_parts}) {
         EXPECT_GT(used, 0.002);
@@ -96,13 +97,11 @@ void compare_all(kind which, const As& as) {
 }
 
 TEST(bounds, hold_for_vertex_face) {
-    compare_all<ccd::linear_vertex_face_forms>(kind::vertex_face,
-                                               query_families::as_query<ccd::vertex_face<double>>);
+    compare_all<ccd::linear_vertex_face_forms, ccd::vertex_face<double>>();
 }
 
 TEST(bounds, hold_for_edge_edge) {
-    compare_all<ccd::linear_edge_edge_forms>(kind::edge_edge,
-                                             query_families::as_query<ccd::edge_edge<double>>);
+    compare_all<ccd::linear_edge_edge_forms, ccd::edge_edge<double>>();
 }
 
 /// Any sequence of halvings, of values that are all as large as allowed, with random signs.

@@ -2,7 +2,6 @@
 // formats and types of numbers; spellings_test.cpp tests texts.
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <bit>
 #include <ccd/io/mesh_file.hpp>
 #include <cmath>

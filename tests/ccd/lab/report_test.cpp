@@ -3,16 +3,16 @@
 #include "ccd/lab/report.hpp"
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 
+#include <array>
 #include <errbound/support/error.hpp>
 #include <filesystem>
-#include <limits>
 #include <string>
 #include <vector>
 
 #include "ccd/lab/sections.hpp"
 #include "errbound/support/output_file.hpp"
+#include "tests/support/files.hpp"
 
 namespace {
 
@@ -24,17 +24,15 @@ using lab::rows;
 
 class Report : public testing::Test {
   protected:
-    Report() { fs::create_directories(folder_); }
-    ~Report() override { fs::remove_all(folder_); }
-
     fs::path write(const fs::path& name, const std::string& text) const {
-        fs::create_directories((folder_ / name).parent_path());
-        errbound::support::write_whole(folder_ / name, text);
+        test_files::write(folder_ / name, text);
         return folder_ / name;
     }
+    /// The first data set below the folder.
+    lab::loaded_data load() const { return lab::load(lab::find_data({folder_}).sources.at(0), 1); }
 
-    const fs::path folder_ =
-        fs::temp_directory_path() / ("report_test." + std::to_string(getpid()));
+    const test_files::temporary_directory directory_;
+    const fs::path folder_ = directory_.path;
 };
 
 TEST_F(Report, QuantilesAreOfTheNumbers) {
@@ -91,10 +89,11 @@ constexpr const char* miss =
     "0.25,0.25,1\n0,0,0\n1,0,0\n0,1,0\n0.25,0.25,0.5\n0,0,0\n1,0,0\n0,1,0\n";
 
 // A triangle, and another that falls from `z`, through it if that is negative.
-std::string frame(double z) {
+using corners = std::array<const char*, 3>;
+std::string frame(double z, const corners& falling = {"0.2 0.2 ", "0.4 0.2 ", "0.2 0.4 "}) {
     std::string text;
     for (const char* corner : {"0 0 ", "1 0 ", "0 1 "}) text += std::string("v ") + corner + "0\n";
-    for (const char* corner : {"0.2 0.2 ", "0.4 0.2 ", "0.2 0.4 "})
+    for (const char* corner : falling)
         text += std::string("v ") + corner + std::to_string(z) + '\n';
     return text + "f 1 2 3\nf 4 5 6\n";
 }
@@ -130,7 +129,7 @@ TEST_F(Report, TruthIsTheFilesElseExact) {
         with_truth += lines.substr(at, lines.find('\n', at) - at) + ",1\n";
     write("a/vf/1.csv", lines);
     write("a/vf/2.csv", with_truth);
-    const auto data = lab::load(lab::find_data({folder_}).sources.at(0), 1);
+    const auto data = load();
     const auto& known = data->queries.vertex_face;
     EXPECT_EQ(known.collides, (std::vector<unsigned char>{1, 0, 1, 1}));
     EXPECT_EQ(known.colliding, 3U);
@@ -149,7 +148,6 @@ TEST_F(Report, TruthIsTheFilesElseExact) {
 TEST_F(Report, SceneTruthIsComparedWithWhatIsStored) {
     write("s/frames/0.obj", frame(1));
     write("s/frames/1.obj", frame(-1));
-    const auto load = [this] { return lab::load(lab::find_data({folder_}).sources.at(0), 1); };
     // Vertices 3, 4 and 5 fall through face 0, whose index follows those of 6 vertices and 6 edges.
     write("s/boxes/0vf.json", "[[3,12],[4,12],[5,12],[0,13]]");
     write("s/mma_bool/0vf_mma_bool.json", "[true,true,true,false]");
@@ -172,22 +170,15 @@ TEST_F(Report, SceneTruthIsComparedWithWhatIsStored) {
     EXPECT_THROW(load(), errbound::support::file_error);
 }
 
-// A triangle, and another that falls through it across two of its edges.
-std::string crossing_frame(double z) {
-    std::string text;
-    for (const char* corner : {"0 0 ", "1 0 ", "0 1 "}) text += std::string("v ") + corner + "0\n";
-    for (const char* corner : {"0.4 -0.5 ", "0.4 0.3 ", "2 -0.4 "})
-        text += std::string("v ") + corner + std::to_string(z) + '\n';
-    return text + "f 1 2 3\nf 4 5 6\n";
-}
-
 TEST_F(Report, StoredPairsOfEdgesAreInAnyOrder) {
-    write("s/frames/0.obj", crossing_frame(1));
-    write("s/frames/1.obj", crossing_frame(-1));
+    // Falls across two edges of the other triangle.
+    const corners crossing{"0.4 -0.5 ", "0.4 0.3 ", "2 -0.4 "};
+    write("s/frames/0.obj", frame(1, crossing));
+    write("s/frames/1.obj", frame(-1, crossing));
     // Edges follow 6 vertices: 01 02 12 34 35 45.
     write("s/boxes/0ee.json", "[[9,6],[8,11],[10,7]]");
     write("s/mma_bool/0ee_mma_bool.json", "[true,true,false]");
-    const auto data = lab::load(lab::find_data({folder_}).sources.at(0), 1);
+    const auto data = load();
     EXPECT_EQ(data->queries.edge_edge.colliding, 2U);
     EXPECT_EQ(data->queries.edge_edge.stored_truths, 3U);
     EXPECT_EQ(data->queries.edge_edge.contradictions, 0U);
@@ -199,7 +190,7 @@ TEST_F(Report, FirstContactsAreInBracketsOfTwoNeighbours) {
     third.replace(third.find("-1"), 2, "-2");
     start.replace(start.find(",1"), 2, ",0");
     write("vf/1.csv", std::string(hit) + third + miss + start + hit);
-    const auto data = lab::load(lab::find_data({folder_}).sources.at(0), 1);
+    const auto data = load();
     const rows all =
         lab::find_contacts(*data, kind::vertex_face, lab::sizes(true), 1, [](double) {});
     ASSERT_EQ(all.size(), 1U);
@@ -234,7 +225,7 @@ TEST_F(Report, FirstContactsOfStressAreOfBothKinds) {
 
 TEST_F(Report, BoundsOfEveryRuleCoverTheSixVariables) {
     write("vf/1.csv", std::string(hit) + miss);
-    const auto data = lab::load(lab::find_data({folder_}).sources.at(0), 1);
+    const auto data = load();
     const rows bounds = lab::take_bounds(*data, kind::vertex_face, lab::sizes(true));
     ASSERT_FALSE(bounds.empty());
     EXPECT_EQ(bounds.size() % 6, 0U);

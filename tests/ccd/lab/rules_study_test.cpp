@@ -8,7 +8,6 @@
 #include <ccd/study/rules.hpp>
 #include <cstddef>
 #include <errbound/rules/derived.hpp>
-#include <iterator>
 #include <random>
 #include <string>
 #include <vector>

@@ -2,7 +2,6 @@
 #include "ccd/lab/stress.hpp"
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <bit>
@@ -22,6 +21,7 @@
 #include <vector>
 
 #include "errbound/support/output_file.hpp"
+#include "tests/support/files.hpp"
 
 namespace {
 
@@ -246,10 +246,8 @@ TEST(stress_run, no_promise_is_broken) {
 
 class stress_output : public testing::Test {
   protected:
-    ~stress_output() override { fs::remove_all(folder); }
-
-    const fs::path folder =
-        fs::temp_directory_path() / ("errbound_stress_test." + std::to_string(getpid()));
+    const test_files::temporary_directory directory;
+    const fs::path folder = directory.path / "made";
     std::ostringstream printed;
 };
 
@@ -282,9 +280,8 @@ TEST_F(stress_output, prints_and_stores_queries_that_break_a_promise) {
 }
 
 TEST_F(stress_output, a_folder_that_cannot_be_made_is_refused_at_once) {
-    fs::create_directories(folder);
-    errbound::support::write_whole(folder / "file", "");
-    EXPECT_THROW(run_and_write(plan_of({"touch-end"}, {}), {folder / "file", {}}, printed),
+    errbound::support::write_whole(directory.path / "file", "");
+    EXPECT_THROW(run_and_write(plan_of({"touch-end"}, {}), {directory.path / "file", {}}, printed),
                  errbound::support::file_error);
     EXPECT_EQ(printed.str(), "");
 }

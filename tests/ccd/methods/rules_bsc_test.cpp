@@ -24,24 +24,18 @@ TYPED_TEST_SUITE(BscBy, rules);
 TYPED_TEST(BscBy, CertainAnswersAreRight) {
     constexpr std::uint64_t queries_per_family = 20;
     std::size_t certain = 0, queries = 0;
-    const auto check = [&](const auto& query, const auto& family, std::uint64_t index) {
-        ++queries;
-        const outcome answer = ccd::decide_bsc<TypeParam>(query).outcome;
-        if (answer == outcome::uncertain) return;
-        ++certain;
-        EXPECT_EQ(answer, ccd::decide_reference(query).outcome) << family.name << " " << index;
-    };
-    for (const auto& family : query_families::families) {
-        for (std::uint64_t i = 0; i < queries_per_family / family.thinning; ++i) {
-            using query_families::kind;
-            check(query_families::as_query<ccd::vertex_face<double>>(
-                      make(family, kind::vertex_face, 1, i)),
-                  family, i);
-            check(query_families::as_query<ccd::edge_edge<double>>(
-                      make(family, kind::edge_edge, 1, i)),
-                  family, i);
-        }
-    }
+    for (const auto& family : query_families::families)
+        for (const ccd::kind which : ccd::stored_kinds)
+            for (std::uint64_t i = 0; i < queries_per_family / family.thinning; ++i)
+                query_families::visit_stored_query(
+                    which, make(family, which, 1, i), [&](const auto& query) {
+                        ++queries;
+                        const outcome answer = ccd::decide_bsc<TypeParam>(query).outcome;
+                        if (answer == outcome::uncertain) return;
+                        ++certain;
+                        EXPECT_EQ(answer, ccd::decide_reference(query).outcome)
+                            << family.name << " " << i;
+                    });
     EXPECT_GT(certain, queries / 5) << TypeParam::name;
 }
 

@@ -10,7 +10,6 @@
 #include <ccd/reference.hpp>
 #include <cmath>
 #include <cstdint>
-#include <string>
 
 #include "tests/support/query_families.hpp"
 

@@ -1,6 +1,5 @@
 // Advances of distributed meshes compared bit for bit with ccd::advance of the whole mesh, with
 // every placing. mpirun runs it on several ranks; every rank makes the same meshes.
-#include <algorithm>
 #include <ccd/advance.hpp>
 #include <ccd/mpi.hpp>
 #include <random>

@@ -1,8 +1,6 @@
 // Steps to the positions of an advance are free: for stored scenes, and for meshes of the stiff and
-// extreme queries of `ccd stress`, some with contacts a last place apart.
-//
-// Data are in the folder ERRBOUND_SHARED_DATA of the environment, else of the build; one scene is
-// in the repository.
+// extreme queries of `ccd stress`, some with contacts a last place apart. One scene is in the
+// repository.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -10,7 +8,6 @@
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
-#include <cstdlib>
 #include <filesystem>
 #include <iterator>
 #include <numeric>
@@ -22,6 +19,7 @@
 #include "tests/ccd/step/expect_advances.hpp"
 #include "tests/ccd/step/query_meshes.hpp"
 #include "tests/support/scaled.hpp"
+#include "tests/support/stored_data.hpp"
 
 namespace {
 
@@ -79,17 +77,11 @@ TEST(AdvanceOfScenes, OfTheRepository) {
 }
 
 TEST(AdvanceOfScenes, Stored) {
-    const char* folder = std::getenv("ERRBOUND_SHARED_DATA");
-    const fs::path scenes = fs::path(folder ? folder : ERRBOUND_SHARED_DATA) / "scenes";
-    if (!fs::is_directory(scenes))
-        GTEST_SKIP() << "No stored scenes at \"" << scenes.string()
-                     << "\": set ERRBOUND_SHARED_DATA to the folder that holds them.";
+    const fs::path scenes = stored_data::folder() / "scenes";
+    if (!fs::is_directory(scenes)) GTEST_SKIP() << stored_data::missing;
     for (const auto& entry : fs::directory_iterator(scenes)) {
         if (!entry.is_directory()) continue;
-        std::vector<fs::path> frames;
-        for (const auto& file : fs::directory_iterator(entry.path() / "frames"))
-            if (file.path().extension() == ".ply") frames.push_back(file.path());
-        std::ranges::sort(frames);
+        const auto frames = stored_data::files_in(entry.path(), ".ply");
         ASSERT_EQ(frames.size(), 2u) << entry.path();
         advance_scene(frames[0], frames[1]);
     }

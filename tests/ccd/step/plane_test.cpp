@@ -1,12 +1,10 @@
 // Steps of edges and points in the plane.
 #include <gtest/gtest.h>
 
-#include <ccd/advance.hpp>
 #include <random>
 #include <stdexcept>
-#include <tuple>
 
-#include "tests/ccd/step/expect_advances.hpp"
+#include "tests/ccd/step/expect_steps.hpp"
 
 namespace {
 
@@ -67,16 +65,6 @@ TEST(PlaneStep, FirstContactIsThatInSpace) {
         contacts += in_plane.first_contact.outcome == outcome::collides;
     }
     EXPECT_GT(contacts, 10U);
-}
-
-TEST(PlaneStep, AdvancesFree) {
-    for (std::uint64_t seed = 1; seed <= 20; ++seed) {
-        const auto [before, after] = edges_and_points(seed, true);
-        ccd::mesh_steps steps = steps_of(before);
-        const auto result = ccd::advance(steps, {before, after});
-        brute_force::expect_none_but_told(steps, before, result);
-        EXPECT_TRUE(brute_force::goes_far(result));
-    }
 }
 
 TEST(PlaneStep, RefusesWhatIsNotInThePlane) {

@@ -7,28 +7,23 @@
 #include <string>
 
 #include "tests/ccd/step/expect_steps.hpp"
+#include "tests/support/files.hpp"
 
 namespace {
 
 using brute_force::random_soup;
 
-template <class Call>
-std::string refusal(const Call& call) {
-    try {
-        call();
-    } catch (const std::invalid_argument& error) {
-        return error.what();
-    }
-    return "nothing refused";
-}
+const auto frames = random_soup(1, 10, 5);
+const ccd::mesh &before = frames.first, &after = frames.second;
+
+constexpr auto& refusal = test_files::message_of<std::invalid_argument>;
+
 std::string refusal_of(const ccd::mesh& before, const ccd::mesh& after,
                        const ccd::step_options& options = {}) {
     return refusal([&] { ccd::step(before, after, options); });
 }
 
 TEST(StepRefuses, FramesThatDoNotBelongTogether) {
-    const auto frames = random_soup(1, 10, 5);
-    const ccd::mesh &before = frames.first, &after = frames.second;
     ccd::mesh other = after;
     other.faces.pop_back();
     EXPECT_EQ(refusal_of(before, other),
@@ -57,8 +52,6 @@ TEST(StepRefuses, FramesThatDoNotBelongTogether) {
 }
 
 TEST(StepRefuses, CoordinatesThatAreNotFinite) {
-    const auto frames = random_soup(1, 10, 5);
-    const ccd::mesh &before = frames.first, &after = frames.second;
     ccd::mesh other = after;
     other.vertices[3].y = -std::numeric_limits<double>::infinity();
     EXPECT_EQ(refusal_of(before, other),
@@ -70,10 +63,9 @@ TEST(StepRefuses, CoordinatesThatAreNotFinite) {
 }
 
 TEST(StepRefuses, IndicesOutOfRange) {
-    auto frames = random_soup(1, 10, 5);
-    ccd::mesh &before = frames.first, &after = frames.second;
-    before.faces[2][1] = after.faces[2][1] = 10;
-    EXPECT_EQ(refusal_of(before, after),
+    ccd::mesh wrong = before;
+    wrong.faces[2][1] = 10;
+    EXPECT_EQ(refusal_of(wrong, wrong),
               "ccd::mesh_steps: vertex index of face 2 is 10; expected less than 10");
     const ccd::mesh rods{{{0, 0, 0}}, {}, {{0, 0}, {0, 1}}};
     EXPECT_EQ(refusal_of(rods, rods),
@@ -81,8 +73,6 @@ TEST(StepRefuses, IndicesOutOfRange) {
 }
 
 TEST(StepRefuses, OptionsThatAreNone) {
-    const auto frames = random_soup(1, 10, 5);
-    const ccd::mesh &before = frames.first, &after = frames.second;
     EXPECT_EQ(refusal_of(before, after, {.method = ccd::method(77)}),
               "ccd::step: method is 77; expected one of ccd::methods()");
     EXPECT_THROW(ccd::step({}, {}, {.set = ccd::instruction_set(7)}), std::invalid_argument);

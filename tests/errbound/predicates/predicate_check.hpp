@@ -9,7 +9,6 @@
 #include <cstdint>
 #include <errbound/multiprecision.hpp>
 #include <errbound/predicate.hpp>
-#include <string>
 #include <tuple>
 
 #include "tests/errbound/predicates/predicate_list.hpp"

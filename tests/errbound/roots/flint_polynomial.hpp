@@ -50,15 +50,6 @@ class flint_polynomial {
         return count + static_cast<std::size_t>(positive);
     }
 
-    /// The number of roots that it shares with another polynomial, not zero, on the whole line.
-    std::size_t distinct_roots_in_common(
-        const std::vector<polynomial_families::integer>& coefficients) const {
-        const flint_polynomial other(coefficients);
-        flint_polynomial common({});
-        fmpz_poly_gcd(common.p_, p_, other.p_);
-        return common.distinct_real_roots();
-    }
-
     /// f = p without its factors' multiplicities.
     void squarefree(fmpz_poly_t f) const {
         fmpz_poly_t slope, common;

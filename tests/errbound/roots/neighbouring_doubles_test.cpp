@@ -5,7 +5,6 @@
 #include <boost/multiprecision/cpp_int.hpp>
 #include <cmath>
 #include <cstddef>
-#include <cstdint>
 #include <errbound/multiprecision.hpp>
 #include <errbound/polynomial.hpp>
 #include <errbound/roots/double_order.hpp>
