@@ -113,15 +113,15 @@ nb::object capsule_of(nb::handle_t<owned_memory> owner, std::size_t offset,
 using frame = std::array<address, 4>;
 
 /// The device, stream, method and positions of a call.
-struct request {
+struct device_request {
     int device;
     ccd::cuda::stream stream;
     ccd::method method;
     ccd::cuda::precision precision;
     ccd::cuda::positions at;
 
-    request(int on, address queue, const std::string& name, bool float32, const frame& before,
-            const frame& after, bool in_floats, std::size_t vertices)
+    device_request(int on, address queue, const std::string& name, bool float32,
+                   const frame& before, const frame& after, bool in_floats, std::size_t vertices)
         : device(on), stream(reinterpret_cast<ccd::cuda::stream>(queue)), method(method_of(name)) {
         precision = float32 ? ccd::cuda::precision::float32 : ccd::cuda::precision::float64;
         const auto frame_of = [](const frame& f) -> ccd::cuda::positions::frame {
@@ -140,7 +140,7 @@ struct decided {
     memory outcomes, room;
     ccd::cuda::scratch scratch;
 
-    decided(const request& of, address data, std::size_t count, bool in_columns)
+    decided(const device_request& of, address data, std::size_t count, bool in_columns)
         : outcomes(count), room(ccd::cuda::scratch_bytes(of.at.vertices, count)) {
         const auto* const a = reinterpret_cast<const ccd::vertex_index*>(data);
         all = in_columns ? all.of_columns(a, a + count, a + 2 * count, a + 3 * count, count)
@@ -155,14 +155,14 @@ struct decided {
 };
 
 template <class Pair>
-nb::object decide(const request& of, address data, std::size_t count, bool in_columns) {
+nb::object decide(const device_request& of, address data, std::size_t count, bool in_columns) {
     return owned(on_device(
         of.device, [&] { return std::move(decided<Pair>(of, data, count, in_columns).outcomes); }));
 }
 
 /// Returns the indices of the queries that may collide, and their times.
 template <class Pair>
-nb::tuple first_times(const request& of, address data, std::size_t count, bool in_columns,
+nb::tuple first_times(const device_request& of, address data, std::size_t count, bool in_columns,
                       double t_max) {
     auto [queries, times] = on_device(of.device, [&] {
         const decided<Pair> found(of, data, count, in_columns);
@@ -185,17 +185,18 @@ nb::tuple first_times(const request& of, address data, std::size_t count, bool i
     return nb::make_tuple(owned(std::move(queries)), owned(std::move(times)));
 }
 
-class steps {
+/// ccd::cuda::mesh_steps. nanobind needs names that differ from those in other extensions.
+class device_steps {
   public:
-    steps(const input<std::uint32_t, -1, 3>& faces, std::size_t vertices)
+    device_steps(const input<std::uint32_t, -1, 3>& faces, std::size_t vertices)
         : steps_(std::in_place, items_of<ccd::face>(faces), vertices) {}
-    ~steps() {
+    ~device_steps() {
         on_device(device_, [&] { steps_.reset(); });
     }
 
     /// Returns two counts of candidates, the first contact, and a list of the pairs, those that
     /// touch at the start, and the times. Each has vertex/face and edge/edge.
-    nb::tuple run(const request& of, bool initial_contact, bool first_contact, bool times,
+    nb::tuple run(const device_request& of, bool initial_contact, bool first_contact, bool times,
                   double t_max) {
         const std::unique_lock held(mutex_, std::try_to_lock);
         if (!held)
@@ -251,13 +252,13 @@ int device_of(address p) {
     return is_device ? found.device : -1;
 }
 
-void wait(int device, address stream) {
+void wait_for(int device, address stream) {
     on_device(device,
               [&] { check(cudaStreamSynchronize(reinterpret_cast<ccd::cuda::stream>(stream))); });
 }
 
 using host_bytes = nb::ndarray<std::uint8_t, nb::shape<-1>, nb::c_contig, nb::device::cpu>;
-void read(int device, address p, const host_bytes& to) {
+void copy_to_host(int device, address p, const host_bytes& to) {
     on_device(device, [&] {
         const auto* const from = reinterpret_cast<const void*>(p);
         if (p != 0) check(cudaMemcpy(to.data(), from, to.size(), cudaMemcpyDeviceToHost));
@@ -277,19 +278,19 @@ NB_MODULE(_cuda, m) {
     nb::class_<imported>(m, "Imported")
         .def(nb::init<nb::ndarray<nb::ro>>())
         .def("description", &imported::description);
-    nb::class_<request>(m, "Request")
+    nb::class_<device_request>(m, "Request")
         .def(nb::init<int, address, const std::string&, bool, const frame&, const frame&, bool,
                       std::size_t>());
-    nb::class_<steps>(m, "Steps")
+    nb::class_<device_steps>(m, "Steps")
         .def(nb::init<const input<std::uint32_t, -1, 3>&, std::size_t>())
-        .def("run", &steps::run);
+        .def("run", &device_steps::run);
     m.def("decide_vertex_face", decide<ccd::vertex_face_pair>);
     m.def("decide_edge_edge", decide<ccd::edge_edge_pair>);
     m.def("first_times_vertex_face", first_times<ccd::vertex_face_pair>);
     m.def("first_times_edge_edge", first_times<ccd::edge_edge_pair>);
     m.def("capsule_of", capsule_of);
     m.def("device_of", device_of);
-    m.def("wait", wait);
-    m.def("read", read);
+    m.def("wait", wait_for);
+    m.def("read", copy_to_host);
     m.def("fault", [] { return ccd::cuda::device_status().error; });
 }
