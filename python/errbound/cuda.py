@@ -50,15 +50,15 @@ def _require_device() -> None:
         raise RuntimeError(f"errbound is built without CUDA ({_missing}); expected a build where nvcc is, by "
                            "python/package.sh --cuda in the source tree, or by pip install --no-binary errbound "
                            "--config-settings cmake.define.ERRBOUND_WITH_CUDA=ON errbound")
-    if not available():
-        raise RuntimeError(f"{_cuda.fault()}; expected a CUDA device")
+    if fault := _cuda.fault():
+        raise RuntimeError(f"{fault}; expected a CUDA device")
 
 
 class Array:
     """An array in device memory, which it owns. Readers need no stream, since it is complete.
 
     cupy.asarray(x), torch.from_dlpack(x) and numba.cuda.as_cuda_array(x) do not copy it. Its memory is freed with the
-    last reader. That waits for the device, so queued work may use it.
+    last reader. Freeing waits for the device, so queued work may use it.
     """
 
     def __init__(self, memory: Any, dtype: str, columns: tuple[int, ...] = (), offset: int = 0, row: int = 0) -> None:
@@ -92,6 +92,8 @@ class Array:
 
     def numpy(self) -> NDArray[Any]:
         """Returns a copy on the host."""
+        if not len(self):
+            return np.empty(self.shape, self.dtype)
         host = np.empty(self._memory.bytes, np.uint8)
         _cuda.read(self._memory.device, self._memory.address, host)
         return np.ndarray(self.shape, self.dtype, host, self._offset, self._strides)
@@ -301,7 +303,8 @@ class Steps:
                 raise ValueError(f"strides of faces are {given.strides} items; expected (3, 1)")
             faces = np.empty(given.shape, given.dtype)
             _cuda.read(given.device or 0, given.address, faces.reshape(-1).view(np.uint8))
-        self._steps = _cuda.Steps(checked_indices("faces", faces, 3, self.vertices), self.vertices)
+        in_order = np.sort(checked_indices("faces", faces, 3, self.vertices))  # as in pairs on the host
+        self._steps = _cuda.Steps(in_order, self.vertices)
         self._device: int | None = None
 
     def run(self, before: Any, after: Any, *, method: MethodName = "exact", precision: Precision = "float64",

@@ -163,10 +163,10 @@ def read(array):
     address, _ = interface["data"]
     dtype = np.dtype(interface["typestr"])
     assert interface["version"] == 3 and interface["stream"] is None and interface["shape"] == array.shape
-    size = (len(array) - 1) * interface["strides"][0] + interface["strides"][-1] * np.prod(array.shape[1:], dtype=int)
-    host = np.zeros(max(size, 0) + 8, np.uint8)
+    size = (len(array) - 1) * interface["strides"][0] + dtype.itemsize * np.prod(array.shape[1:], dtype=int)
+    host = np.zeros(max(size, 0), np.uint8)
     if len(array):
-        runtime.copy(host.ctypes.data, address, max(size, dtype.itemsize), TO_HOST)
+        runtime.copy(host.ctypes.data, address, size, TO_HOST)
         runtime.wait()
     capsule = array.__dlpack__(stream=7, max_version=(1, 0), dl_device=array.__dlpack_device__(), copy=False)
     made = ManagedTensor.from_address(pointer_of(capsule, b"dltensor"))
