@@ -329,6 +329,7 @@ class StreamsAndLifetime(unittest.TestCase):
             np.testing.assert_array_equal(self.decide(arrays, stream=stream).numpy(), self.expected)
             if make is WithCapsule:
                 self.assertEqual([x.asked for x in arrays], [stream or 1] * 3)
+            del arrays  # before the next copies are queued: cudaFree waits for all streams
 
     def test_objects_of_streams(self):
         stream = runtime.new_stream()
