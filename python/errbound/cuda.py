@@ -213,7 +213,7 @@ class _Input:
             raise ValueError(f"strides of {self.name} are {steps} bytes; expected multiples of {dtype.itemsize}")
         self.strides = tuple(step // dtype.itemsize for step in steps)
         self.address = found["data"][0] or 0
-        self.device = _cuda.device_of(self.address) if self.address else None
+        self.device = _cuda.device_of(self.address) if self.address and 0 not in self.shape else None
         if self.device == -1:
             raise ValueError(f"address of {self.name} is {self.address:#x}; expected one in device memory")
         if producer not in (None, stream or 1) and self.device is not None:
@@ -290,8 +290,8 @@ def first_time(queries: Any, kind: Kind, *, positions: tuple[Any, Any], t_max: f
 class Steps:
     """Steps of one mesh on one device. Keeps its faces and its memory from step to step.
 
-    faces: (m, 3), integers on the host or on a device; vertices: their number. All edges are those of faces. At most
-    one vertex may be on no face. A call from a second thread throws RuntimeError.
+    faces: (m, 3), integers on the host or on a device; vertices: their number. All edges are those of faces. Throws:
+    ValueError if more than one vertex is on no edge. A call from a second thread throws RuntimeError.
     """
 
     def __init__(self, faces: Any, *, vertices: int) -> None:
@@ -304,6 +304,10 @@ class Steps:
             faces = np.empty(given.shape, given.dtype)
             _cuda.read(given.device or 0, given.address, faces.reshape(-1).view(np.uint8))
         in_order = np.sort(checked_indices("faces", faces, 3, self.vertices))  # as in pairs on the host
+        points = self.vertices - len(np.unique(in_order[in_order[:, 0] != in_order[:, 2]]))
+        if points > 1:
+            raise ValueError(f"number of vertices on no edge is {points}; expected at most 1, since pairs of "
+                             "such vertices are not found")
         self._steps = _cuda.Steps(in_order, self.vertices)
         self._device: int | None = None
 
