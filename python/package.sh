@@ -46,6 +46,7 @@ make_package_or_skip() { make_package || skip 'the package index of pip cannot b
 
 test_emulated() {
     command -v nvcc >/dev/null || skip 'no nvcc'
+    need "${test_packages[@]}"
     make_environment
     pip install nanobind numpy || skip 'the package index of pip cannot be reached'
     cmake --preset release -B "$out/emulated" -DERRBOUND_CUDA_CODES=compute_75 -DERRBOUND_EMULATE_CUDA=ON \
