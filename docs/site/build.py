@@ -119,7 +119,7 @@ def public_members(namespace):
 def python_reference(folder):
     """Writes folder/python. Returns a dictionary: for each class and function, whether it has a docstring. A class
     needs its own; a method may inherit that of its base class."""
-    modules = ["errbound"]
+    modules = ["errbound", "errbound.cuda"]
     for module, needed, how in (("errbound.ipctk", "ipctk", "ERRBOUND_VIEWERS=1 ./run python"),
                                 ("errbound.mpi", "errbound._mpi", "./run python where MPI is")):
         if importlib.util.find_spec(needed):

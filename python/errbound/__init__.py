@@ -1,7 +1,7 @@
 """Exact continuous collision detection, predicates, roots, and numbers with certified error bounds.
 
 Modules: ccd, predicates, roots, tracked, io (mesh, query and view files); show displays a step.
-Import errbound.ipctk (needs ipctk) and errbound.mpi (needs mpi4py) explicitly.
+Import errbound.ipctk (needs ipctk), errbound.mpi (needs mpi4py) and errbound.cuda (needs a CUDA device) explicitly.
 
 Arrays may have any memory order. Numbers are float64, float32, or integers that doubles represent exactly.
 Arrays are copied unless they are C-contiguous float64, or C-contiguous int32 or uint32 for indices.

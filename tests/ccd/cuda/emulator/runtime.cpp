@@ -224,6 +224,13 @@ cudaError_t cudaSetDevice(int device) {
     return run_call(__func__, cudaErrorInitializationError,
                     [&] { return device == 0 ? cudaSuccess : cudaErrorInvalidDevice; });
 }
+cudaError_t cudaPointerGetAttributes(cudaPointerAttributes* attributes, const void* p) {
+    return run_call(__func__, cudaErrorInvalidValue, [&] {
+        *attributes = {};
+        if (memory().content(p, 1) != nullptr) attributes->type = cudaMemoryTypeDevice;
+        return cudaSuccess;
+    });
+}
 cudaError_t cudaDeviceGetAttribute(int* value, cudaDeviceAttr name, int) {
     return run_call(__func__, cudaErrorInvalidValue, [&] { return attribute(*value, name); });
 }
