@@ -142,9 +142,8 @@ step_result step(std::span<const face> faces, std::span<const edge> edges,
                  const vertex_rows& positions, const step_options& options = {});
 step_result step(const mesh& before, const mesh& after, const step_options& options = {});
 
-/// Steps of one mesh. Keeps from step to step: the unique faces and edges, the order in which the
-/// search sorted them, and allocated memory. One call at a time. Results do not depend on earlier
-/// steps.
+/// Steps of one mesh. Keeps the unique faces and edges, their order in the search, and allocated
+/// memory from step to step. One call at a time. Results do not depend on earlier steps.
 ///
 /// An element's swept box is the least box along the axes that contains it at every t. Candidates
 /// are the pairs that the filter keeps and whose swept boxes touch, borders included. Boxes are
