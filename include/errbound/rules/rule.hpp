@@ -194,8 +194,7 @@ struct rule_check {
 //   fused(result, a, b, c)                  the bound of ab + c, rounded once; default: from errors
 //   keeps_first_order                       true if errors keep signs or sources: √a and ab + c
 //                                           then use the rule's operations, including divide
-//   is_crowded(bound)                       for such a rule: true at its limit of terms; √a then
-//                                           starts one new source.
+//   is_crowded(bound)                       for such a rule: true at its limit; √a is one source.
 //   displacement(value)                     the bound of a number whose exact value is 0; with it,
 //                                           numbers of 8 and 16 bits have bounds in float
 //   template <class T> class dot_bound      bounds s = 0, s += ab, ...: a call of

@@ -117,12 +117,11 @@ struct tight {
     /// partial sums sᵢ, roundings add at most Σ (|pᵢ| + |sᵢ|)·ε/(1 − ε), not counting s₁, which
     /// equals p₁, and η per product. The arguments' errors add Σ |â|σb + σa(|b̂| + σb).
     ///
-    /// One factor covers the roundings in the bound of m terms. |pᵢ|ε or |sᵢ|ε passes through at
-    /// most m roundings, an argument's error through m + 2, and each through four more at the end:
-    /// at most j = m + 6, and 1 + (j + 1)ε >= 1/(1 − jε) >= (1 − ε)^−j if j²ε <= 1/2. Underflow
-    /// loses less than η for each product, twice for each term of inexact arguments, and once at
-    /// the end. Proof: proofs/IeeeDotProduct.v, tight_dot_known; in any direction,
-    /// proofs/DotProduct.v, tight_dot_sound.
+    /// One factor covers the roundings in the bound of m terms: at most m for |pᵢ|ε or |sᵢ|ε, m + 2
+    /// for an argument's error, and for each four more at the end. With j = m + 6, 1 + (j + 1)ε >=
+    /// 1/(1 − jε) >= (1 − ε)^−j if j²ε <= 1/2. Underflow loses less than η for each product, twice
+    /// for each term of inexact arguments, and once at the end. Proof: proofs/IeeeDotProduct.v,
+    /// tight_dot_known; in any direction, proofs/DotProduct.v, tight_dot_sound.
     template <class T>
     class dot_bound : detail::running_bound<T, dot_bound<T>,
                                             has_subnormals<T> ? number_traits<T>::digits - 2 : 0> {
