@@ -2,8 +2,7 @@
 //
 //     const ccd::advance_result r = ccd::advance(before, after);  // r.positions are free
 //
-// Rounding x0 + α (x1 − x0) may cause the contact that α avoids. So positions are rounded first,
-// and `exact` certifies that the straight way from `before` to them has no contact.
+// `exact` certifies that the straight way from `before` to the rounded positions has no contact.
 #pragma once
 
 #include <ccd/contact.hpp>

@@ -254,8 +254,8 @@ class mesh_steps {
     /// Returns the pairs that options.method does not certify as separate in [0, t_max], as
     /// ccd::step(). The result belongs to this object and is valid until the next call. Waits for
     /// the stream, and allocates if its memory does not suffice. All calls must be on one device.
-    /// Errors: a coordinate that is not finite; first_contact, times or t_max < 1 with a method
-    /// other than `exact`.
+    /// Errors: a coordinate that is not finite; a method that is not in device_methods();
+    /// first_contact, times or t_max < 1 with a method other than `exact`.
     result run(const positions& positions, const mesh_step_options& options = {});
 
   private:
@@ -268,9 +268,9 @@ struct [[nodiscard]] step_result : status, ccd::step_result {};
 
 /// ccd::step() on the device: copies both frames there and the pairs back. Throws as ccd::step().
 /// Devices have only vertex/face and edge/edge pairs, without distances and filters. It is
-/// therefore an error if the mesh has edges other than those of faces, or more than one vertex on
-/// no edge. Uses the options that mesh_step_options has; narrow_phase_seconds includes the search
-/// and the times.
+/// therefore an error if mesh.edges is not empty, or if more than one vertex is on no face's edge.
+/// Uses the options that mesh_step_options has; narrow_phase_seconds includes the search and the
+/// times.
 step_result step(const mesh& before, const mesh& after, const step_options& options = {},
                  precision precision = precision::float64);
 

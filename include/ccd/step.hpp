@@ -122,8 +122,8 @@ struct step_result {
     /// initial_contact, first_contact, times or t_max < 1.
     pair_lists touching_at_start;
     time_lists times;  ///< of `pairs`, with step_options::times
-    /// The earliest not at t = 0; `separate` if there is none. Stays `uncertain` without
-    /// first_contact, times and t_max < 1.
+    /// The earliest not at t = 0; `separate` if there is none. Filled with first_contact, times or
+    /// t_max < 1; otherwise `uncertain`.
     first_time first_contact;
     double prepare_seconds = 0;       ///< input checks, the mesh's edges
     double broad_phase_seconds = 0;   ///< the search for candidates, without the narrow phase
@@ -142,9 +142,8 @@ step_result step(std::span<const face> faces, std::span<const edge> edges,
                  const vertex_rows& positions, const step_options& options = {});
 step_result step(const mesh& before, const mesh& after, const step_options& options = {});
 
-/// Steps of one mesh. Keeps from step to step: the unique faces and edges, the order in which the
-/// search sorted them, and allocated memory. One call at a time. Results do not depend on earlier
-/// steps.
+/// Steps of one mesh. Keeps the unique faces and edges, their order in the search, and allocated
+/// memory from step to step. One call at a time. Results do not depend on earlier steps.
 ///
 /// An element's swept box is the least box along the axes that contains it at every t. Candidates
 /// are the pairs that the filter keeps and whose swept boxes touch, borders included. Boxes are
@@ -161,8 +160,8 @@ step_result step(const mesh& before, const mesh& after, const step_options& opti
 /// candidates: n unused vertices at the origin make n²/2 pairs, unless skip_unused skips them.
 /// Memory, kept between steps, in addition to two `mesh` frames and the result: up to nine times
 /// these frames. With count_candidates, explain or a method other than `exact`, it is up to three
-/// times these frames. With distances, or so far from the origin that floats cannot separate boxes,
-/// boxes are in doubles.
+/// times these frames. Boxes are in doubles instead of floats if distances are given. This is also
+/// so for a mesh so far from the origin that floats cannot separate its boxes.
 class mesh_steps {
   public:
     /// Throws std::invalid_argument if an index is not below `vertices`, or for 2^32 or more

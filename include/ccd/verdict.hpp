@@ -8,8 +8,8 @@
 
 namespace ccd {
 
-/// `separate` is certain if the method never loses a collision; `collides`, if it is not `float` or
-/// `provot` (ccd/method.hpp).
+/// `separate` is certain if the method never loses a collision. `collides` is certain for every
+/// method except `float` and `provot` (ccd/method.hpp).
 enum class outcome : std::uint8_t {
     separate,   ///< no contact in the closed step
     collides,   ///< a contact

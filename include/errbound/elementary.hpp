@@ -3,11 +3,11 @@
 //   errbound::tracked<double> x = ...;
 //   exp(-x * x);            // found by its argument: no errbound:: is needed
 //
-// Values are the C library's; its errors are an assumption (function_error). Unless the argument is
-// certainly in the domain, and not at a pole, the error is infinite. It is 0 for an exact argument
-// 0 or 1 with a rational result, exp2 of whole numbers, log2 of powers of two and exact results of
-// cbrt. (Exact cases of pow and atan2: see there.) Any rule, in rounding to nearest, on the host
-// only: no constant expressions, no device code.
+// Values are the C library's; its errors are an assumption (function_error). The error is infinite
+// if the argument may be outside of the domain or at a pole, or if its error is infinite. It is 0
+// for an exact argument 0 or 1 with a rational result, exp2 of whole numbers, log2 of powers of two
+// and exact results of cbrt. (Exact cases of pow and atan2: see there.) Any rule, in rounding to
+// nearest, on the host only: no constant expressions, no device code.
 #pragma once
 
 #include <complex>
@@ -68,7 +68,7 @@ tracked<T, Rule> log1p(const tracked<T, Rule>& x) {
     return detail::function_of<elementary_function::log1p>(x);
 }
 
-/// x in radians, of any size. The error is at most about 1 + |value|.
+/// x in radians, of any size. The error is at most about 1 + |value| if that of x is finite.
 template <class T, class Rule>
 tracked<T, Rule> sin(const tracked<T, Rule>& x) {
     return detail::function_of<elementary_function::sin>(x);
@@ -128,8 +128,8 @@ tracked<T, Rule> cbrt(const tracked<T, Rule>& x) {
 }
 
 /// x^y. The error is infinite unless x is certainly positive, or y is an exact whole number
-/// (positive if x may be zero). However, an exact 0 to a certainly positive power is 0, x^0 and 1^y
-/// are exactly 1, and x^1 is x. pow(x, int) multiplies by the rule.
+/// (positive if x may be zero). However, x^1 is x and, if both errors are finite, x^0 and 1^y are
+/// exactly 1 and an exact 0 to a certainly positive power is 0. pow(x, int) multiplies by the rule.
 template <class T, class Rule>
 tracked<T, Rule> pow(const tracked<T, Rule>& x, const tracked<T, Rule>& y) {
     if constexpr (!std::is_same_v<T, detail::function_type<T>>) {

@@ -44,7 +44,7 @@ inline constexpr bool fma_is_instruction =
 
 }  // namespace detail
 
-/// Specialise for a custom type (a SIMD pack). Types with a std::numeric_limits need nothing.
+/// Specialise for a type without std::numeric_limits (a SIMD pack): the members your calls use.
 template <class T>
 struct number_traits {
     static_assert(std::numeric_limits<T>::is_specialized && !std::numeric_limits<T>::is_integer,

@@ -48,9 +48,9 @@ struct predicate_options {
     /// Exact number type of the last stage, constructible from double; void: long_integer. For
     /// Boost.Multiprecision's types see predicate_type::value.
     using exact_type = void;
-    /// True if terms of different degree are never added, so scaling by powers of two keeps signs;
-    /// otherwise the predicate does not compile. Needed only if the expression has too many
-    /// branches for the compiler to detect this.
+    /// Set true only if terms of different degree are never added (scaling by powers of two then
+    /// keeps signs); a predicate that does add them does not compile with it. Needed only if the
+    /// expression has too many branches for the compiler to detect this.
     static constexpr bool homogeneous = false;
     /// One degree >= 1 per coordinate in the shape's order, if not all are 1. Example: points<3, 3>
     /// of x, y and a squared radius have {1, 1, 2, 1, 1, 2}. If terms of different total degree are
@@ -134,9 +134,9 @@ class predicate_type {
         }
         return stages::template decide<number_of<Points...>>(stages::listed(p...), &report);
     }
-    /// The first filter's value and bound, or the sign_type of an expression that branches. Pass
-    /// Stored = true only if coordinates are values in memory. Otherwise each is rounded first: if
-    /// it is computed, a product in it must not be fused into a difference.
+    /// The first filter's value and bound, or the sign_type of an expression that branches. With
+    /// Stored = false each coordinate is rounded first: no product in a computed coordinate is then
+    /// fused into a difference. Pass true only if all coordinates are values in memory.
     template <bool Stored = false, class... Points>
     static constexpr auto estimate(const Points&... p) {
         using T = number_of<Points...>;
@@ -217,8 +217,8 @@ class predicate_type {
 
 /// The predicate of an expression: a function of +, − and × on coordinates and int constants. Every
 /// result has its own type, so variables are `auto` and never reassigned. An expression that
-/// branches on sign_of(x) returns a sign_type, and returns `uncertain` rather than branch on an
-/// uncertain sign.
+/// branches on sign_of(x) returns a sign_type, and `uncertain` rather than branch on an uncertain
+/// sign. Every expression that returns a sign_type counts as one that branches.
 ///
 /// The stages (`predicate_stage`) run in this order until one is certain:
 /// - semi_static_filter, from degree 5 on (see has_semi_static_filter);

@@ -70,7 +70,8 @@ constexpr auto lifted_volume(const auto& a, const auto& b, const auto& c, const 
 }
 inline constexpr auto unweighted = [](const auto&, const auto& squared) { return squared; };
 
-/// An implicit point: a point computed from others, its parents, as anchor + (x, y[, z])/w.
+/// An implicit point: a point computed from others, its parents, as anchor + (x, y[, z])/w. w may
+/// be negative: multiply a sign by sign_of(w) for each odd power of w in the expression.
 template <class Anchor, class X, class W>
 struct implicit_point2d {
     const Anchor& anchor;
@@ -208,8 +209,8 @@ struct weighted_options : predicate_options {
 };
 
 /// incircle for weighted points x, y, w: circles of squared radius w. If a, b, c turn left:
-/// positive if d has a negative power distance to the circle that is orthogonal to all three. Proof
-/// of its static filter: proofs/Predicates.v, power_incircle_sign_certain.
+/// positive if |d − z|² − w_d < R² for the circle (z, R) that is orthogonal to all three; R² may be
+/// negative. Proof of its static filter: proofs/Predicates.v, power_incircle_sign_certain.
 inline constexpr auto power_incircle = predicate<points<3, 3, 3, 3>, weighted_options<4, 3>>(
     [](const auto& a, const auto& b, const auto& c, const auto& d) {
         return forms::lifted_area(a, b, c, d, [&d](const auto& p, const auto& squared) {

@@ -83,7 +83,7 @@ struct residual {
         return sum<T>(v, a.value, a.bound, T(-b.value), negate<T>(b.bound));
     }
     /// ab = v + δ + (va·cb + ca·vb) + ca·cb; ρa and ρb add (|va| + |ca|)ρb + (|vb| + |cb| +
-    /// ρb)ρa. If δ is not known exactly, it counts as 0, and ρ includes u|v| + η/2. Proof:
+    /// ρb)ρa. If δ is not known exactly, it counts as 0, and ρ includes u|v| + η. Proof:
     /// proofs/IeeeResidual.v, residual_multiply_known.
     template <class T>
     static constexpr bound<T> multiply(const T& v, rule_operand<T, residual> a,
@@ -109,11 +109,11 @@ struct residual {
         return {correction,
                 inflated<T>(remainder + roundings<T>(x, y, inherited, correction) + unknown)};
     }
-    /// Let q = v, r = va − q·vb and N = r + ca − q·cb ± (ρa + |q|ρb). Then a/b − q = N/b, and N/b −
-    /// N/vb = N/vb·(vb − b)/b. So c = N/vb, and ρ is at most (|N/vb|(|cb| + ρb) + ρa + |q|ρb +
-    /// roundings)/(|vb| − |cb| − ρb). If r is not known exactly, c omits it, and ρ includes u|v| +
-    /// η instead: r/vb is the rounding error of q. Infinite if b may be zero. Proof:
-    /// proofs/IeeeResidual.v, residual_divide_known.
+    /// Let q = v, r = va − q·vb and N = r + ca − q·cb. Then a/b − q = (N + d)/b with |d| <= ρa +
+    /// |q|ρb, and N/b − N/vb = N/vb·(vb − b)/b. So c = N/vb, and ρ is at most (|N/vb|(|cb| + ρb) +
+    /// ρa + |q|ρb + roundings)/(|vb| − |cb| − ρb). If r is not known exactly, c omits it, and ρ
+    /// includes u|v| + η instead: r/vb is the rounding error of q. Infinite if b may be zero.
+    /// Proof: proofs/IeeeResidual.v, residual_divide_known.
     template <class T>
     static constexpr bound<T> divide(const T& v, rule_operand<T, residual> a,
                                      rule_operand<T, residual> b) {

@@ -27,7 +27,7 @@ struct rule_operand {
 enum class error_meaning : std::uint8_t {
     bound,     ///< at least |value − exact value|; certain signs are right
     estimate,  ///< about |value − exact value|; signs follow it and may be wrong
-    nothing,   ///< always zero: signs are guesses
+    nothing,   ///< zero for every finite value: signs are guesses
 };
 
 template <class Rule>
@@ -172,7 +172,8 @@ struct rule_check {
 }  // namespace detail
 
 // A rule may use + − × ÷ of T (no a += b), negation, comparisons, construction from int,
-// number_traits<T>. All members are static:
+// number_traits<T>. All members are static. Functions other than negate and sign are templates over
+// T, called as Rule::add<T>(result, a, b); operands are rule_operand<T, Rule>, constexpr is usual:
 //   name                                    for tables and messages
 //   template <class T> struct bound         the state stored with a value, of any size
 //   exact(value)                            the bound of an exact number
@@ -193,7 +194,7 @@ struct rule_check {
 //   fused(result, a, b, c)                  the bound of ab + c, rounded once; default: from errors
 //   keeps_first_order                       true if errors keep signs or sources: √a and ab + c
 //                                           then use the rule's operations, including divide
-//   is_crowded(bound)                       for such a rule: true if √a should start one new source
+//   is_crowded(bound)                       for such a rule: true at its limit; √a is one source.
 //   displacement(value)                     the bound of a number whose exact value is 0; with it,
 //                                           numbers of 8 and 16 bits have bounds in float
 //   template <class T> class dot_bound      bounds s = 0, s += ab, ...: a call of

@@ -102,13 +102,13 @@ struct sharp {
     }
 
     /// Σ aᵢbᵢ, with a running error bound, as in `tight`. A product p is off by at most u|p| + η/2.
-    /// The partial sum s' = fl(s + p) is off by at most u|s'|, |p| and |s|, since s' is nearest and
-    /// s and p are numbers. One factor covers the roundings in the bound of m terms: at most m for
-    /// each u|p| or min(u|s'|, |p|, |s|), m + 2 for an argument's error, and four at the end. With
-    /// j = m + 6, (1 + u)^j <= 1 + ju + (ju)² <= 1 + (⌈j/2⌉ + 1)ε if j²ε <= 4. Underflow loses at
-    /// most η/2 for each p and each u|p|, twice for each term of inexact arguments, and once at the
-    /// end. Source: Higham 2002, Section 3.3; Jeannerod, Rump 2013 (SIAM J. Matrix Anal. Appl. 34).
-    /// Proof: proofs/IeeeDotProduct.v, sharp_dot_known.
+    /// The partial sum s' = fl(s + p) is off by at most min(u|s'|, |p|, |s|): it is nearest to s +
+    /// p, and the numbers s and p are |p| and |s| away from s + p. One factor covers the roundings
+    /// of the bound, j = m + 6 for m terms as in `tight`: (1 + u)^j <= 1 + ju + (ju)² <= 1 +
+    /// (⌈j/2⌉ + 1)ε if j²ε <= 4. Underflow loses at most η/2 for each p and each u|p|, twice for
+    /// each term of inexact arguments, and once at the end. Source: Higham 2002, Section 3.3;
+    /// Jeannerod, Rump 2013 (SIAM J. Matrix Anal. Appl. 34). Proof: proofs/IeeeDotProduct.v,
+    /// sharp_dot_known.
     template <class T>
     class dot_bound : detail::running_bound<T, dot_bound<T>, number_traits<T>::digits + 1> {
         static constexpr bool serves = dot_bound::pays;

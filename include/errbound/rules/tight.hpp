@@ -117,8 +117,8 @@ struct tight {
     /// partial sums sᵢ, roundings add at most Σ (|pᵢ| + |sᵢ|)·ε/(1 − ε), not counting s₁, which
     /// equals p₁, and η per product. The arguments' errors add Σ |â|σb + σa(|b̂| + σb).
     ///
-    /// One factor covers the roundings in the bound of m terms: at most m for each summand |pᵢ|ε or
-    /// |sᵢ|ε, m + 2 for an argument's error, and four at the end. With j = m + 6, 1 + (j + 1)ε >=
+    /// One factor covers the roundings in the bound of m terms: at most m for |pᵢ|ε or |sᵢ|ε, m + 2
+    /// for an argument's error, and for each four more at the end. With j = m + 6, 1 + (j + 1)ε >=
     /// 1/(1 − jε) >= (1 − ε)^−j if j²ε <= 1/2. Underflow loses less than η for each product, twice
     /// for each term of inexact arguments, and once at the end. Proof: proofs/IeeeDotProduct.v,
     /// tight_dot_known; in any direction, proofs/DotProduct.v, tight_dot_sound.
