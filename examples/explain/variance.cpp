@@ -1,4 +1,5 @@
-// The sources of a variance's error, by two formulas (docs/how-wrong.md).
+// The sources of the error of a variance, in the naive and the compensated formula
+// (docs/how-wrong.md).
 //
 // usage: variance [FILE]; FILE is written for `errbound explain`.
 #include <cstdio>
@@ -23,7 +24,8 @@ S naive_variance(const std::vector<S>& x) {
     return (squares - sum * sum / n) / (n - 1);
 }
 
-// Chan, Golub, LeVeque: squares of deviations, corrected for the error of the mean.
+// The formula of Chan, Golub and LeVeque: squares of deviations, corrected for the error of the
+// mean.
 template <class S>
 S compensated_variance(const std::vector<S>& x) {
     const errbound::scope s("compensated");

@@ -55,7 +55,7 @@ class Explain(unittest.TestCase):
             self.assertIn(table.strip(), self.printed)
             self.assertTrue(table.startswith(result["name"] + " = "))
             self.assertEqual(len(table.strip().splitlines()), 2 + len(result["contributions"])
-                             + ("together" in table))
+                             + ("add up to" in table))
         with open(self.file) as text:
             self.assertEqual(self.good("-", stdin=text), self.good(self.file))
 
