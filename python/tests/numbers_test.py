@@ -169,7 +169,7 @@ def test_tracked_bounds_hold(rule, dtype):
 
 @pytest.mark.parametrize("dtype", [np.float32, np.float64])
 @pytest.mark.parametrize("rule", ["safe", "tight", "sharp", "interval", "residual"])
-def test_tracked_functions(rule, dtype):
+def test_fma_roots_and_extremes(rule, dtype):
     x, y, z = RANDOM.standard_normal((3, 4, 25)).astype(dtype)
     a, b, c = (tracked.array(v, rule=rule) for v in (x, y, z))
     fused, least, most = tracked.fma(a, b, c), tracked.minimum(a * b, c), tracked.maximum(z, a * b)
