@@ -10,6 +10,7 @@
 #include <ccd/query.hpp>
 #include <ccd/verdict.hpp>
 
+/// Queries of two dimensions, by the calls of namespace ccd.
 namespace ccd::plane {
 
 struct point {

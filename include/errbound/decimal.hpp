@@ -41,6 +41,7 @@ constexpr Number from_decimal(std::string_view text) {
     return Number::within(nearest.value, nearest.error);
 }
 
+/// Suffixes: using namespace errbound::literals.
 namespace literals {
 
 /// 0.1_tracked is a tenth. Evaluated at compile time; 0x10 and the octal 010 do not compile.

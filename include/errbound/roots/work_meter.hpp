@@ -8,6 +8,7 @@
 
 namespace errbound {
 
+/// The limits of a call before it gives up.
 struct root_limits {
     static constexpr std::uint64_t none = (std::numeric_limits<std::uint64_t>::max)();
 

@@ -47,6 +47,7 @@ inline constexpr double claimed_rate = [] {
         return 0.0;
 }();
 
+/// True if the errors of the rule are bounds, neither estimates nor always zero.
 template <class Rule>
 inline constexpr bool promises_bound = meaning_of_error<Rule> == error_meaning::bound;
 
