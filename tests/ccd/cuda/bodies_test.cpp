@@ -156,9 +156,9 @@ void expect_as_on_host(const batch<Pair>& set, ccd::method m) {
     constexpr bool promises = !std::is_same_v<typename Method::rule, errbound::none>;
     const auto at = set.positions();
     const auto all = set.candidates();
-    std::size_t asked_in_doubles = 0, uncertain = 0;
+    std::size_t decided_in_doubles = 0, uncertain = 0;
     const auto in_doubles = decide_by<Method, double>(at, all);
-    const auto in_floats = decide_by<Method, float>(at, all, &asked_in_doubles);
+    const auto in_floats = decide_by<Method, float>(at, all, &decided_in_doubles);
     for (std::size_t i = 0; i < set.size(); ++i) {
         SCOPED_TRACE(i);
         ASSERT_EQ(in_doubles[i], ccd::decide(m, set.queries[i]).outcome);
@@ -173,7 +173,7 @@ void expect_as_on_host(const batch<Pair>& set, ccd::method m) {
             ASSERT_EQ(floats_say, ccd::decide_exact(set.queries[i]).outcome);
         }
     }
-    EXPECT_EQ(asked_in_doubles, uncertain);
+    EXPECT_EQ(decided_in_doubles, uncertain);
     EXPECT_LT(uncertain, set.size());
 }
 
@@ -319,8 +319,8 @@ TYPED_TEST(device_bodies, float_methods_take_positions_in_floats_as_they_are) {
     const std::vector<float> before = narrowed(set.before), after = narrowed(set.after);
     const positions at(coordinates<float>::rows(before.data()),
                        coordinates<float>::rows(after.data()), set.before.size());
-    std::size_t asked_in_doubles = 0, uncertain = 0;
-    const auto found = decide_by<tight, float>(at, set.candidates(), &asked_in_doubles);
+    std::size_t decided_in_doubles = 0, uncertain = 0;
+    const auto found = decide_by<tight, float>(at, set.candidates(), &decided_in_doubles);
     for (std::size_t i = 0; i < set.size(); ++i) {
         const auto& query = set.queries[i];
         const outcome floats_say =
@@ -329,7 +329,7 @@ TYPED_TEST(device_bodies, float_methods_take_positions_in_floats_as_they_are) {
         uncertain += open;
         ASSERT_EQ(found[i], open ? ccd::decide(ccd::method::tight, query).outcome : floats_say);
     }
-    EXPECT_EQ(asked_in_doubles, uncertain);
+    EXPECT_EQ(decided_in_doubles, uncertain);
 }
 
 #if defined(__SSE2__)
