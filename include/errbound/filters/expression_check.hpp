@@ -25,10 +25,12 @@ constexpr std::uint64_t hashed(std::uint64_t x) {
     return x ^ (x >> 31);
 }
 
+/// At least the number of signs per uncertain one: see find_fault.
 inline constexpr std::size_t suppositions = 64;
+static_assert((counting_run::max_signs + 5) / 6 <= suppositions);
 
-/// Signs of numbers, in the order of evaluation. In every other supposition the first are zero, as
-/// such cases branch deepest. Others are hashes: no look-up, as constant evaluation is slow.
+/// The signs of one run. In odd suppositions the first 0 to 15 different numbers are zero, since
+/// degenerate cases branch deepest. All other signs are hashes of the number and the supposition.
 struct supposed_signs {
     /// Beyond any int, so no constant of an expression is a multiple. Products of residues fit.
     static constexpr std::uint64_t prime = (std::uint64_t{1} << 32) - 5;
@@ -119,10 +121,12 @@ constexpr expression_fault find_fault(std::uint64_t supposition, const Run& run)
     const sign_type answer = run(signs);
     if (signs.size == 0) return expression_fault::asks_nothing;
     if (!certain(answer)) return expression_fault::gives_up;
-    // With many signs, each is tested in some supposition.
+    // Makes every stride-th sign uncertain, at most six. `first` takes each value below 64 once, so
+    // each sign is uncertain in some supposition, if all evaluate the same signs. Even suppositions
+    // have the values below 32; odd ones, with zeros, have the others.
     const std::size_t stride = (signs.size + 5) / 6;
-    for (auto k = static_cast<std::size_t>(hashed(supposition) % stride); k < signs.size;
-         k += stride) {
+    const std::uint64_t first = supposition % 2 * 32 + supposition / 2 % 16 * 2 + supposition / 32;
+    for (auto k = static_cast<std::size_t>(first % stride); k < signs.size; k += stride) {
         signs.unknown = signs.numbers[k];
         signs.evaluated = 0;
         const sign_type other = run(signs);
