@@ -113,7 +113,8 @@ constexpr bool exactly_touch(const positions& at, const std::array<vertex_index,
 }
 
 /// Boxes of sorted elements, level by level: box i of a level is around boxes 32i to 32i + 31
-/// below it. There are no levels without elements; otherwise at least two.
+/// below it. Without elements there is no level; otherwise there are at least two, since a packet
+/// of the search is a box of level 1.
 struct box_levels {
     static constexpr std::uint32_t children = warp::lanes, child_bits = 5, max_levels = 8;
 

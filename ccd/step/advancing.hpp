@@ -105,10 +105,12 @@ class advancing {
                 way_.vertices};
     }
 
-    /// Separate pairs in contact on the way to the result's positions: known ones, any, or those
-    /// that any process found. Return true if there were any.
+    /// Separates the known pairs that are in contact on the way to the result's positions. Returns
+    /// true if there were any.
     bool separate_known();
+    /// The same for all pairs of the mesh, which then become known.
     bool separate_others();
+    /// Separates `found` and the pairs that other processes found.
     template <class Pair>
     bool separate(const std::vector<Pair>& found);
 

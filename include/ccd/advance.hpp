@@ -47,7 +47,9 @@ struct advance_result {
 ///
 /// A group's fraction is at least 0.99 of the time of its first contact, or of the least time among
 /// joined groups. It is less, at worst 0, only if moving vertices back by up to 1024 units in the
-/// last place does not free them. Gaps of a few such units cause this.
+/// last place does not free them. Gaps of a few such units cause this. Each round of the search
+/// joins groups, shortens ways or moves vertices back. If 60 rounds do not suffice, all groups are
+/// joined, and vertices are no longer moved back.
 ///
 /// Throws as mesh_steps::run, and std::invalid_argument if the numbers of groups and vertices
 /// differ. Cost: one such step if the whole way is free, else usually two. It is more, at most 80,

@@ -118,12 +118,12 @@ struct step_result {
     std::optional<pair_counts> candidates;
     pair_lists pairs;  ///< the reported pairs, vertices of faces ascending
     /// The members of `pairs` that touch at t = 0 (with distances: are within their distance), by
-    /// `exact` for every method; a pair that the method loses is missing. Filled with
-    /// initial_contact, first_contact, times or t_max < 1.
+    /// `exact` for every method; a pair that the method loses is missing. Filled only if
+    /// initial_contact, first_contact, times or t_max < 1 is given.
     pair_lists touching_at_start;
     time_lists times;  ///< of `pairs`, with step_options::times
-    /// The earliest not at t = 0; `separate` if there is none. Filled with first_contact, times or
-    /// t_max < 1; otherwise `uncertain`.
+    /// The earliest not at t = 0; `separate` if there is none. `uncertain` unless first_contact,
+    /// times or t_max < 1 is given.
     first_time first_contact;
     double prepare_seconds = 0;       ///< input checks, the mesh's edges
     double broad_phase_seconds = 0;   ///< the search for candidates, without the narrow phase
@@ -146,11 +146,12 @@ step_result step(const mesh& before, const mesh& after, const step_options& opti
 /// memory from step to step. One call at a time. Results do not depend on earlier steps.
 ///
 /// An element's swept box is the least box along the axes that contains it at every t. Candidates
-/// are the pairs that the filter keeps and whose swept boxes touch, borders included. Boxes are
-/// compared in doubles, without error; with distances they are first widened by each element's
-/// share, rounded outwards. Trees over the boxes find candidates, which are decided in blocks and
-/// not all stored. Without distances, count_candidates and explain, `exact` discards most
-/// candidates, those that an axis separates, during the search of the trees.
+/// are the pairs that the filter keeps and whose swept boxes touch, borders included. With
+/// distances, boxes are first widened by each element's share, rounded outwards. Trees over the
+/// boxes, rounded to floats, find pairs, which are then compared in doubles, without error.
+/// Candidates are decided in blocks and not all stored. Without distances, count_candidates and
+/// explain, `exact` discards most candidates, those that an axis separates, during the search of
+/// the trees.
 ///
 /// A face that repeats a vertex counts as a segment or point, and is paired as any other face.
 /// Faces with the same vertices count once, as do equal edges. All methods decide vertex/edge and
@@ -160,8 +161,8 @@ step_result step(const mesh& before, const mesh& after, const step_options& opti
 /// candidates: n unused vertices at the origin make n²/2 pairs, unless skip_unused skips them.
 /// Memory, kept between steps, in addition to two `mesh` frames and the result: up to nine times
 /// these frames. With count_candidates, explain or a method other than `exact`, it is up to three
-/// times these frames. Boxes are in doubles instead of floats if distances are given. This is also
-/// so for a mesh so far from the origin that floats cannot separate its boxes.
+/// times these frames. Trees hold doubles instead of floats with distances, and for a mesh so far
+/// from the origin that floats cannot separate its boxes.
 class mesh_steps {
   public:
     /// Throws std::invalid_argument if an index is not below `vertices`, or for 2^32 or more

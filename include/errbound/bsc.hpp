@@ -1,11 +1,11 @@
 // Bernstein sign classification (BSC), over any scalar that has + − × and a sign. Start at
 // root_with_nonnegative. Symbols: docs/notation.md.
 //
-// Derived anew after Tang, Tong, Wang, Manocha 2014 (TTWM14) and TightCCD (Wang, Tang, Manocha,
-// Tong 2015, Section 5). Differences: an uncertain sign of Y at an end is followed as either sign
-// (on_convex). Y is split exactly at its inflection (without_halving). `reduced` does not divide.
-// Forms are in (s, t), s + t = 1: Y = (y0, y1, y2, y3), D = Y', l is linear with the root t_l.
-// Inner means 0 < t < 1. A strict sign is not zero.
+// Derived anew after Tang, Tong, Wang, Manocha 2014 (TTWM14) and TightCCD (Wang, Tang, Tong,
+// Manocha 2015, Section 5). Differences: an uncertain sign of Y at an end is followed as either
+// sign (on_convex). Y is split exactly at its inflection (without_halving). `reduced` does not
+// divide. Forms are in (s, t), s + t = 1: Y = (y0, y1, y2, y3), D = Y', l is linear with the root
+// t_l. Inner means 0 < t < 1. A strict sign is not zero.
 #pragma once
 
 #include <array>

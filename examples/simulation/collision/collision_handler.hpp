@@ -43,7 +43,7 @@ struct collision_options {
 struct response_report {
     int iterations = 0;                     ///< tests of the step by the method
     std::size_t near_at_start = 0;          ///< pairs nearer than the thickness
-    double least_distance = 0;              ///< of these, in metres; undefined if there are none
+    double least_distance = 0;              ///< of these, in metres; `thickness` if there are none
     std::size_t contacts = 0;               ///< pairs reported by the first test
     std::size_t reported = 0;               ///< pairs reported by all tests
     std::size_t uncertain = 0;              ///< of these, pairs that the method cannot decide

@@ -36,11 +36,11 @@ struct semi_static {
     constexpr semi_static operator-() const { return {-value, mass, allowances}; }
 
     /// The bound constant(k)·(m·M^d + a·τ); the sign is uncertain if |value| <= bound(M). For signs
-    /// constant(k − 1) suffices. The spare u covers a·τ·M^d and the relative errors, of order u²,
-    /// of M^d and of the bound. S needs only (a − 3/4)·τ; the rest covers underflow of M^d, as τ >=
-    /// 2^49·η. Below 2^p = 1/u, m and a are exact. Otherwise, and if a factor is the constant 0,
-    /// the bound is infinite. Proof: proofs/SemiStatic.v, semi_static_bound_covers,
-    /// semi_static_sign_certain.
+    /// constant(k − 1) would suffice, which is less by about u. This u covers a·τ·M^d and the
+    /// relative errors, of order u², of M^d and of the bound. S contains only (a − 3/4)·τ. The
+    /// other 3/4·τ covers underflow of M^d, since τ >= 2^49·η. Below 2^p = 1/u, m and a are exact;
+    /// otherwise the bound is infinite. It is also infinite if a factor is the constant 0. Proof:
+    /// proofs/SemiStatic.v, semi_static_bound_covers, semi_static_sign_certain.
     constexpr T bound(T largest) const {
         constexpr T most = 1 / number_traits<T>::unit_roundoff();
         const bool trusted = mass < most && allowances < most;

@@ -113,7 +113,8 @@ class descartes_search {
         if (p.variations > 0) parts_.push_back(std::move(p));
     }
 
-    /// Sign changes of a row without ends known to be zero; nothing if an end is uncertain.
+    /// Returns a bound on the sign changes of a row. Skips an end coefficient that is zero because
+    /// of a root there. Returns nothing if the sign of the first or last other one is uncertain.
     template <class Sign>
     static std::optional<int> variations(const part& p, std::size_t size, const Sign& sign) {
         const std::size_t first = p.root_at_low ? 1 : 0,
@@ -129,8 +130,8 @@ class descartes_search {
     static std::optional<int> variations_of_row(const part& p) {
         return variations(p, p.row->size(), [&](std::size_t i) { return p.row->sign(i); });
     }
-    /// Counts from the part's coefficients, from exact ones if short, or from as many bits as give
-    /// certain signs at the ends; stores these in the part.
+    /// Sets p.variations from Bernstein coefficients, which p keeps for halving. They are exact if
+    /// short; otherwise they have enough bits for certain signs at both ends.
     void count_variations(part& p) {
         std::optional<int> found;
         if (p.row) {
@@ -183,7 +184,8 @@ class descartes_search {
         charge(local_form<Integer>::precision(p_.size(), p.low, width, p.bits));
         p.local.emplace(p_, p.low, width, p.bits, &meter_);
     }
-    /// Charges a row of numbers with this many bits: products of their size, and sums.
+    /// Adds the cost of a row of n numbers with this many bits to the meter: its memory, n products
+    /// and n² sums.
     void charge(std::int64_t bits) {
         const std::uint64_t n = p_.size(), words = static_cast<std::uint64_t>(bits) / 64 + 1;
         meter_.hold(8 * n * (4 * words + 8 * (parts_.size() + 1)));
