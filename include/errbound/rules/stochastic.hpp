@@ -17,10 +17,10 @@
 namespace errbound {
 
 /// Stochastic arithmetic with 2 to 8 samples. Cost: an error-free operation and a hash per sample.
-/// A sample's operation is rounded to a neighbour of the exact result, at random with the exact
-/// result as the mean (Croci, Fasi, Higham, Mary, Mikaitis 2022; Parker's Monte Carlo arithmetic,
-/// 1997). The random bits are a hash of the operands, the sample's index and Seed. So results are
-/// reproducible, a + b and b + a agree, and b − a is −(a − b), as in Verrou's _det modes.
+/// A sample's operation is rounded to a neighbour of the exact result, at random and without bias
+/// (Croci, Fasi, Higham, Mary, Mikaitis 2022; Parker's Monte Carlo arithmetic, 1997). The random
+/// bits are a hash of the operands, the sample's index and Seed. So results are reproducible, a + b
+/// and b + a agree, and b − a is −(a − b), as in Verrou's _det modes.
 template <std::size_t Samples, std::uint64_t Seed = 0>
 struct stochastic_of {
     static_assert(Samples >= 2 && Samples <= 8, "errbound: stochastic takes 2 to 8 samples");
