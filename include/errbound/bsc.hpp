@@ -412,14 +412,14 @@ template <class S, std::size_t M>
 
 }  // namespace bsc
 
-/// Is there t in [0, 1] with y(t) = 0 and every g_i(t) >= 0? `make_g()` returns the g_i as a
+/// Decides if some t in [0, 1] has y(t) = 0 and every g_i(t) >= 0. `make_g()` returns the g_i as a
 /// std::array; it is called only if y may have a root.
 ///
 /// If the scalar's certain signs are right, so is `no`, and `yes` proves a root with every g_i > 0.
 /// Proof: proofs/Bsc.v, bsc_no, bsc_yes. Y ≡ 0 gives `no` or `maybe_root`. If no sign is uncertain,
-/// `maybe_root` means Y ≡ 0, and `maybe_inside` that no root has every g_i > 0, but one has every
-/// g_i >= 0. Proof: proofs/BscExact.v, bsc_exact_root, bsc_exact_inside. Cost: some hundred
-/// operations of S in common cases, at most a few thousand.
+/// `maybe_root` means Y ≡ 0, and `maybe_inside` means that some root has every g_i >= 0 but none
+/// has every g_i > 0. Proof: proofs/BscExact.v, bsc_exact_root, bsc_exact_inside. Cost: some
+/// hundred operations of S in common cases, at most a few thousand.
 template <class S, class MakeConstraints>
 constexpr existence root_with_nonnegative(const bernstein<S, 3>& y, const MakeConstraints& make_g) {
     const bsc::cubic<S> cubic = normalized(y);

@@ -399,7 +399,7 @@ T error_of_power_at_zero(const T& size, const T& e, const T& n, const T& v) {
 }
 
 /// At least |atan2(y, x) − atan2(ŷ, x̂)| if no (x, y) is across the cut from (x̂, ŷ). The angle
-/// between both points is at most its tangent, (x̂·dy − ŷ·dx)/(x̂² + ŷ² + x̂·dx + ŷ·dy), with dx =
+/// between both vectors is at most its tangent, (x̂·dy − ŷ·dx)/(x̂² + ŷ² + x̂·dx + ŷ·dy), with dx =
 /// x − x̂ and dy = y − ŷ. Infinite if the denominator may not be positive. A power of two scales
 /// all numbers, so that the larger of |x̂| and |ŷ| is from 1/2 to 1. At most four scalings and
 /// products in each sum lose less than η each.
