@@ -15,8 +15,8 @@ namespace ccd::static_filter {
 
 inline constexpr std::size_t max_depth = 12;
 
-/// From this depth on, a part where Y is within its error goes to exact arithmetic. (Before,
-/// halving may still show that some G_i is negative everywhere.)
+/// From this depth on, a part where Y is within its error goes to exact arithmetic. (At smaller
+/// depths, halving may still show that some G_i is negative everywhere.)
 inline constexpr std::size_t patient_depth = 3;
 
 /// Larger differences go to later stages, so that forms of degree 4 stay far from overflow. (Floats
@@ -26,7 +26,8 @@ inline constexpr Real largest_difference = 0x1p200;
 template <>
 inline constexpr float largest_difference<float> = 4;
 
-/// |ĥ − h| <= relative·unit + absolute for a form's control values times multiple(N).
+/// |ĥ − h| <= relative·unit + absolute, where h is a control value of a form of degree n, times
+/// multiple(n) (errbound/roots/control_values.hpp). The head of this file defines the unit.
 template <class Real>
 struct constants {
     Real relative;  ///< times the unit

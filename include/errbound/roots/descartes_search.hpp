@@ -4,8 +4,8 @@
 // Bernstein coefficients without sign change exclude a root inside an interval; one change proves
 // exactly one; other intervals are split. This ends by the two-circle theorem (Krandick, Mehlhorn
 // 2006). If halving keeps all roots in one half, Newton's method for a multiple root locates the
-// cluster. An interval around it is kept if Descartes' rule excludes other roots; the next one is
-// narrowed twice as fast (Sagraloff, Mehlhorn, J. Symb. Comp. 73, 2016).
+// cluster. If Descartes' rule excludes roots outside an interval around it, that interval is kept.
+// The next narrowing squares its factor (Sagraloff, Mehlhorn, J. Symb. Comp. 73, 2016).
 #pragma once
 
 #include <algorithm>
@@ -43,7 +43,8 @@ dyadic<Integer> unlikely_root(int exponent) {
     return {Integer(45), exponent - 5};
 }
 
-/// A zero in (0, 1) of the derivative of control values b, by Newton's method; outside on failure.
+/// A zero in (0, 1) of the derivative of the polynomial with control values b, by Newton's method.
+/// On failure the result is outside (0, 1).
 inline double extremum(const std::vector<double>& b) {
     const std::size_t n = b.size() - 1;
     std::vector<double> slopes(n);
@@ -94,7 +95,7 @@ class descartes_search {
         bool root_at_low = false, root_at_high = false;
         int variations = 3;  ///< as max_sign_variations counts
         int halvings = 0;
-        int lone_halvings = 0;  ///< latest ones that left all roots in this part
+        int lone_halvings = 0;  ///< the latest halvings, which left all roots in this part
         int speed = slowest;    ///< log2 of the factor by which Newton's method narrows it
         int bits = row_bits;    ///< requested of the local form
         std::optional<fixed_row<4>> row = {};
@@ -221,7 +222,8 @@ class descartes_search {
         }
     }
     static point half(const part& p) { return middle(p.low, p.high); }
-    /// True if all roots may be in one place: after 32, 64, ... lone halvings, and after a success.
+    /// True if all roots may be close together: after 32, 64, ... lone halvings, and after
+    /// narrowed() succeeded.
     static bool near_each_other(const part& p) {
         const auto n = static_cast<unsigned>(p.lone_halvings);
         return p.speed > slowest || (n >= lone && std::has_single_bit(n));
@@ -256,7 +258,7 @@ class descartes_search {
         Integer from;
         int roots;
     };
-    /// Uses f/f' at both ends, about (x − position)/roots there.
+    /// Uses f/f' at both ends x, about (x − position)/roots.
     static std::optional<place> place_of_roots(const local_form<Integer>& local, int depth) {
         const auto cut = [&](Integer& a, Integer& b) {
             const Integer size = (std::max)(Integer(abs(a)), Integer(abs(b)));
@@ -317,10 +319,11 @@ class descartes_search {
         return true;
     }
 
-    /// Two close roots, real or complex, would need many halvings. With at most two left, splits at
-    /// the extremum between them, by Newton's method with growing precision. Complex roots lie
-    /// outside both circles with the sides as diameters, so no sign change remains. Tried after 0,
-    /// 8, 16, 32, ... halvings. Proof: proofs/SignVariations.v, two_variations_two_roots.
+    /// Splits a part with two sign changes at its extremum, since halving separates two close roots
+    /// slowly. Newton's method with growing precision finds the extremum. Real roots are then on
+    /// both sides. Two complex roots are outside both circles that have a side as diameter, so
+    /// neither side has a sign change. Tried after 0, 8, 16, 32, ... halvings. Proof:
+    /// proofs/SignVariations.v, two_variations_two_roots.
     bool divided_as_pair(part& whole) {
         if (whole.has_root_at_end() || whole.halvings % 8 != 0 ||
             (whole.halvings & (whole.halvings - 1)) != 0)
@@ -356,7 +359,7 @@ class descartes_search {
         return true;
     }
 
-    /// Tests modulo a prime first: few values are multiples of it.
+    /// Tests modulo a prime first, since few nonzero values are multiples of the prime.
     bool is_root(const point& x) {
         if (residues_.empty()) residues_ = residues(p_, field_);
         return value_at(residues_, field_, x) == 0 && sign_at(p_, x, meter_) == sign_type::zero;
