@@ -209,9 +209,9 @@ class interior_contact {
                sign_type::negative;
     }
 
-    /// The signs of all G_i between t = low/2^bits and (low + width)/2^bits, width < 2^width_bits,
-    /// as decided_by_weights. Differences at low, times 2^bits, are cut to T words with one unit
-    /// for each axis. This keeps the signs of G_i at roots of Y. Proof: proofs/InteriorContact.v,
+    /// Returns decided_by_weights for all t from low/2^bits to (low + width)/2^bits, width <
+    /// 2^width_bits. Differences at low, times 2^bits, are cut to T words with one unit for each
+    /// axis. This keeps the signs of G_i at roots of Y. Proof: proofs/InteriorContact.v,
     /// throughout_right.
     template <int T>
     constexpr outcome throughout(const number<T>& low, int bits, int width_bits) const {

@@ -74,7 +74,8 @@ inline constexpr double negligible = 0x1p-1000;
 template <>
 inline constexpr double negligible<float> = 0x1p-140;
 
-/// Assumes underflow in all forms up to `degree`, with factors up to largest_difference.
+/// Returns the constants of a form of this degree from its counted errors. Underflow may be
+/// multiplied by degree − 1 differences of up to largest_difference (error_count.hpp).
 template <class Real, int N>
 constexpr constants<Real> constants_of(basic_error_count<Real> c, int degree) {
     using traits = errbound::number_traits<Real>;

@@ -26,12 +26,12 @@ namespace simulation {
 
 struct collision_options {
     ccd::method method = ccd::method::exact;
-    double thickness = 1e-3;  ///< in metres: nearer pairs are pushed apart
+    double thickness = 1e-3;  ///< in metres: nearer pairs are pushed apart; contacts from 2·this
     double friction = 0.3;    ///< Coulomb's coefficient
     double push = 0.1;        ///< share of the missing thickness that is restored per step
     int impulse_rounds = 12;
-    int finishing_rounds = 10;   ///< the last of these, with a response of particles
-    int finishing_sweeps = 100;  ///< of this response
+    int finishing_rounds = 10;   ///< last impulse rounds, which also move vertices as particles
+    int finishing_sweeps = 100;  ///< Gauss-Seidel, over the contacts in each of these
     double tolerance = 0.01;     ///< of contacts, in thicknesses
     int iterations = 8;          ///< of contact forces, after each relaxation of the bodies
     int relaxations = 9;         ///< in the first round; a third of it in others

@@ -1,7 +1,7 @@
 // Checks at compile time that an expression returns `uncertain` where it must. The expression runs
-// on supposed signs, one for each number whose sign it evaluates. It runs again for each of these,
-// with that sign uncertain: the answer must be the same, or uncertain. Correct expressions pass for
-// every supposition, even one that no points realise.
+// on *suppositions*, which are signs of all numbers whose signs it evaluates. With each, it runs
+// again for at most six of these numbers, with that sign uncertain: the answer must be the same, or
+// uncertain. Correct expressions pass for every supposition, even one that no points realise.
 //
 // Numbers are identified by their values modulo a prime, at hashed coordinates. Equal polynomials
 // have equal values, others with probability degree/2^31.
@@ -25,7 +25,7 @@ constexpr std::uint64_t hashed(std::uint64_t x) {
     return x ^ (x >> 31);
 }
 
-/// At least the number of signs per uncertain one: see find_fault.
+/// The number of suppositions of an expression that branches; at least find_fault's largest stride.
 inline constexpr std::size_t suppositions = 64;
 static_assert((counting_run::max_signs + 5) / 6 <= suppositions);
 

@@ -318,7 +318,7 @@ T error_of_angle_function(const bounded<T>& at, const bounded<T>& derivative, co
         return enlarged<T>(at.error + change_of_tangent<T>(at, e));
     } else {
         const T error = at.error + change_of_wave<T>(derivative, e);
-        // At most the distance of v from the other end of the range.
+        // f(x) is in [−1, 1], so |v − f(x)| is at most this.
         const T range = 1 + number_traits<T>::abs(at.value);
         return enlarged<T>(error < range ? error : range);
     }

@@ -37,7 +37,8 @@ struct isolating_interval {
 
 namespace errbound::roots {
 
-/// A point in [2^exponent, 2^(exponent + 1)); halving from there rarely meets simple roots.
+/// Returns 45/32·2^exponent. Unlike powers of two, it is rarely a root in practice, and neither are
+/// the points that halving makes from it.
 template <class Integer>
 dyadic<Integer> unlikely_root(int exponent) {
     return {Integer(45), exponent - 5};
@@ -115,7 +116,8 @@ class descartes_search {
     }
 
     /// Returns a bound on the sign changes of a row. Skips an end coefficient that is zero because
-    /// of a root there. Returns nothing if the sign of the first or last other one is uncertain.
+    /// of a root there. Returns nothing if the first or last coefficient of the rest has an
+    /// uncertain sign.
     template <class Sign>
     static std::optional<int> variations(const part& p, std::size_t size, const Sign& sign) {
         const std::size_t first = p.root_at_low ? 1 : 0,
@@ -171,7 +173,7 @@ class descartes_search {
     static int bits_of_ends(const part& p) {
         return (std::max)(floor_log2(p.low.numerator()), floor_log2(p.high.numerator())) + 1;
     }
-    /// True if exact Bernstein coefficients are hardly longer than a row.
+    /// True if conversion to exact Bernstein coefficients adds at most about 2048 bits.
     bool exact_row_is_cheap(const part& p) const {
         return p_.size() <= 40 && static_cast<int>(p_.size()) * bits_of_ends(p) <= 2048;
     }
@@ -370,7 +372,7 @@ class descartes_search {
     const prime_field field_{large_prime(0)};
     std::vector<std::uint64_t> residues_;
     form slope_ = {}, curvature_ = {};
-    std::vector<part> parts_;  ///< ascending; processed from the last
+    std::vector<part> parts_;  ///< descending; processed from the last, the leftmost
 };
 
 }  // namespace errbound::roots

@@ -95,7 +95,7 @@ struct tracked_row {
     }
 };
 
-/// Cost: at most max_halvings halvings of degree² additions each; few for separated roots.
+/// Cost: at most max_halvings halvings of degree²/2 additions each; few for separated roots.
 template <absolute_rule Rule>
 class root_filter {
   public:
@@ -104,7 +104,8 @@ class root_filter {
     /// Up to this n, binomials and their products with n are exact in double.
     static constexpr std::size_t max_degree = 50;
     static constexpr int max_halvings = 200;
-    /// Ends of parts at least half as wide, relative to their distance from at0, are doubles.
+    /// A part [from, to] is halved if its width is at least this times `to`. Ends then have at most
+    /// 48 bits, so they are doubles.
     static constexpr double narrowest = 0x1p-46;
     static constexpr std::size_t max_rows = 64;
 

@@ -43,7 +43,7 @@ inline constexpr std::array<char, 32> affine_name = [] {
 /// operands' terms source by source, to first order. One new term takes the other errors, if any:
 /// the rounding error (exact, or at most u|v| + η/2), roundings of coefficients, second-order terms
 /// and the operands' rests. Above the limit, the smallest terms join the new one; x − x stays 0. If
-/// value or radius is not finite, there are no terms, and radius and rest are infinite.
+/// value or radius is not finite, there are no terms, and radius and rest are infinite or NaN.
 template <std::size_t Limit>
 struct affine_of {
     static_assert(Limit >= 1, "errbound: affine arithmetic needs at least one term");

@@ -117,11 +117,11 @@ struct tight {
     /// |pᵢ|ε/(1 − ε) + η for each computed product pᵢ, and |sᵢ|ε/(1 − ε) for each computed partial
     /// sum sᵢ except s₁ = p₁. The arguments' errors add Σ |â|σb + σa(|b̂| + σb).
     ///
-    /// One factor covers the roundings in the bound of m terms. The sum rounds |pᵢ|ε and |sᵢ|ε at
-    /// most m times, an argument's error m + 2 times. The end rounds each four times more. With j =
-    /// m + 6, 1 + (j + 1)ε >= 1/(1 − jε) >= (1 − ε)^−j if j²ε <= 1/2. Underflow loses less than η
-    /// per product, 2η per term with inexact arguments, and η at the end. Proof:
-    /// proofs/IeeeDotProduct.v, tight_dot_known; in any direction, proofs/DotProduct.v,
+    /// One factor covers the roundings of this bound for m terms. Summation rounds each |pᵢ|ε and
+    /// |sᵢ|ε at most m + 1 times, each argument's error at most m + 2 times. At most four more
+    /// roundings follow. With j = m + 6, 1 + (j + 1)ε >= 1/(1 − jε) >= (1 − ε)^−j if j²ε <= 1/2.
+    /// Underflow loses less than η per product, 2η per term with inexact arguments, and η at the
+    /// end. Proof: proofs/IeeeDotProduct.v, tight_dot_known; in any direction, proofs/DotProduct.v,
     /// tight_dot_sound.
     template <class T>
     class dot_bound : detail::running_bound<T, dot_bound<T>,
