@@ -26,9 +26,10 @@ namespace simulation {
 
 struct collision_options {
     ccd::method method = ccd::method::exact;
-    double thickness = 1e-3;  ///< in metres: nearer pairs are pushed apart; contacts from 2·this
-    double friction = 0.3;    ///< Coulomb's coefficient
-    double push = 0.1;        ///< share of the missing thickness that is restored per step
+    /// In metres. Pairs within this are pushed apart; pairs within twice this may be contacts.
+    double thickness = 1e-3;
+    double friction = 0.3;  ///< Coulomb's coefficient
+    double push = 0.1;      ///< share of the missing thickness that is restored per step
     int impulse_rounds = 12;
     int finishing_rounds = 10;   ///< last impulse rounds, which also move vertices as particles
     int finishing_sweeps = 100;  ///< Gauss-Seidel, over the contacts in each of these
