@@ -1,4 +1,5 @@
-// Uses the C++ library, or fast_float if it lacks floating point (libc++ before 20).
+// Uses the C++ library, or fast_float if that library cannot convert floating point (libc++ before
+// 20).
 #include "errbound/support/decimal.hpp"
 
 #include <charconv>
