@@ -31,7 +31,7 @@ struct side_conditions {
 };
 
 /// Holds if all of `vanishing` are 0, none of `nonnegative` is negative, and some `not_all_zero`,
-/// if there are any, is not 0. `sides` computes the latter two on demand.
+/// if there are any, is not 0. `sides` computes `nonnegative` and `not_all_zero` on demand.
 template <class R>
 struct condition {
     std::vector<R> vanishing;

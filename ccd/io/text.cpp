@@ -49,7 +49,7 @@ number nearest_quotient(const cpp_int& n, const cpp_int& d, bool round) {
         const cpp_int twice = r << 1;
         if (twice > scaled_d || (twice == scaled_d && bit_test(q, 0))) ++q;
     }
-    // q ≤ 2^53, so both the conversion and ldexp are exact, or the latter overflows.
+    // q ≤ 2^53, so the conversion is exact, and ldexp is exact or overflows.
     const double value =
         std::ldexp(static_cast<double>(q.convert_to<std::uint64_t>()), static_cast<int>(lsb));
     if (std::isinf(value)) return fail(number_status::overflow);

@@ -422,7 +422,7 @@ points of_roots(source& random, kind which, double knob) {
     const int eighth = random.between(1, 7);
     const bool general = random.one_in(2);
     const auto rounded = [general](double x) { return general ? unit * std::round(x / unit) : x; };
-    // Contact inside, on the border, or beyond it by 2^-40.
+    // The contact is inside, on the border, or outside by 2^-40.
     const auto weight = [&random] {
         const int pick = random.between(0, 5);
         return pick == 0 ? 0 : pick == 1 ? -0x1p-40 : random.between(1, 3) / 8.0;
