@@ -1,8 +1,9 @@
-// Advances of a mesh on many ranks. Each rank holds the elements near its region of space. All have
-// the motion of every group, because all join, shorten and take back by the same list of pairs.
+// Advances of a mesh on many ranks. Each rank holds the elements near its region of space. All
+// ranks have the motion of every group, because they join, shorten and take back by the same list
+// of pairs.
 //
-// Elements stay on the ranks of the whole step: boxes of a shorter way are inside those of the
-// whole.
+// Elements stay on the ranks of the whole step, because boxes swept by shorter motions are inside
+// those of the whole step.
 #include <algorithm>
 #include <ccd/mpi.hpp>
 #include <chrono>
@@ -66,7 +67,7 @@ class other_ranks {
     other_ranks(detail::exchanger& ranks, known_vertices& vertices)
         : ranks_(ranks), vertices_(vertices) {}
 
-    /// Returns pairs in the order of numbers.
+    /// Returns the pairs of all ranks in the order of their vertices' numbers.
     template <class Pair>
     std::vector<ccd::detail::timed_pair<Pair>> found_by_all(
         const std::vector<ccd::detail::timed_pair<Pair>>& own) {

@@ -33,8 +33,8 @@ class given_elements {
 
 class local_mesh {
   public:
-    /// Sends elements. Collective. Throws std::invalid_argument on all ranks if copies of a vertex
-    /// differ.
+    /// Sends elements to the ranks whose regions their boxes meet. Collective. Throws
+    /// std::invalid_argument on all ranks if copies of a vertex differ.
     local_mesh(exchanger& ranks, const mesh_part& mesh, const given_elements& given,
                const decomposition& parts, const vertex_lists& of_vertices);
 

@@ -44,7 +44,7 @@ struct step_request {
         return {.method = method,
                 .threads = threads,
                 .set = set,
-                .count_candidates = method != ccd::method::exact,  // others test all of them anyway
+                .count_candidates = method != ccd::method::exact,  // others test every candidate
                 .explain = explain,
                 .first_contact = times || advance,
                 .times = times,

@@ -41,7 +41,7 @@ void append_array(std::string& text, std::string_view id, std::string bytes) {
     text += "</script>\n";
 }
 
-/// The index of each vertex's body, modulo the number of the page's colours.
+/// The index of each vertex's connected part of the mesh, modulo the number of the page's colours.
 std::string bytes_of_parts(const step_view& step) {
     constexpr int colours = 6;
     std::string bytes;

@@ -42,12 +42,13 @@ Position first_parameter(bool (Interface::*)(Position, Rest...) const);
 ///
 /// With conservative_rescaling 1, the default:
 ///
-/// * An answer is true exactly if the features come within min_distance of each other, or touch if
-///   it is 0, at some time in [0, tmax]. Distances are Euclidean and closed: min_distance counts.
-/// * `toi` is never after the first such time, and less than a last place before it: `low` of
+/// * An answer is true if and only if the features come within min_distance at some time in [0,
+///   tmax]. A min_distance of 0 means contact. Distances are Euclidean and closed: min_distance
+///   counts.
+/// * `toi` is never after the first such time, and less than one ulp before it: `low` of
 ///   ccd/contact.hpp. If the first time is a double, `toi` is that double.
-/// * `toi` is 0 if they are within min_distance at the start, or come within it before the least
-///   double above 0.
+/// * `toi` is 0 if the features are within min_distance at the start, or come within it before the
+///   least double above 0.
 /// * `toi` is infinite if the answer is false.
 ///
 /// A step of that length may end in contact. For a gap, as barriers need, set a

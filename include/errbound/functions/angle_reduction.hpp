@@ -1,8 +1,8 @@
 // Reduction of large angles, x = n·π/2 + r, with a certified error of r, for sin, cos and tan. x is
-// m·2^e with an integer m of p bits. Digits of 2/π that give whole turns are skipped. m times the
-// next W words is the number of quarter turns modulo 4; its fraction times π/2 is r. The remaining
-// digits change r by less than 2^(p+4−64W), which the error includes. For double this is 2^-135,
-// and no |r| is below 2^-62. Source: Payne and Hanek 1983.
+// m·2^e with an integer m of p bits. Binary digits of 2/π that give whole turns are skipped. m
+// times the next W words is the number of quarter turns modulo 4; its fraction times π/2 is r. The
+// remaining digits change r by less than 2^(p+4−64W), which the error includes. For double this is
+// 2^-135, and no |r| is below 2^-62. Source: Payne and Hanek 1983.
 //
 // Cost: W² + O(W) products of words; W = 2 for float, 3 for double, 4 or 6 for long double.
 #pragma once
@@ -91,7 +91,8 @@ inline constexpr std::array<std::uint64_t, 6> half_pi{
 };
 // clang-format on
 
-/// 64 digits of 2/π from weight 2^-(first + 1) on, first >= −192. Digits before the point are 0.
+/// 64 binary digits of 2/π from weight 2^-(first + 1) on, first >= −192. Digits before the point
+/// are 0.
 constexpr std::uint64_t two_over_pi_from(int first) {
     const auto word = [](int i) { return i < 0 ? 0 : two_over_pi[static_cast<std::size_t>(i)]; };
     const int i = (first + 192) / 64 - 3, bits = (first + 192) % 64;

@@ -174,7 +174,7 @@ constexpr steeper_side steeper() {
     }
 }
 
-/// Scale of the argument over which f' changes much.
+/// The distance of arguments over which f' changes much.
 template <elementary_function F, class T>
 T natural_distance(const T& x) {
     using enum elementary_function;
@@ -259,8 +259,8 @@ T change_of_tangent(const bounded<T>& tangent, const T& e) {
 }
 
 /// f(h + l + d) for |d| <= r.error, h = r.high, l = r.low, from f(h) and f'(h), with |f'| <= 3 and
-/// |f''| <= 6: f(h) + l·f'(h) is off by at most 3l² + 3|d|. The error is already enlarged(), as in
-/// the functions that use this.
+/// |f''| <= 6: f(h) + l·f'(h) has an error of at most 3l² + 3|d|. The error is already enlarged(),
+/// as in the functions that use this.
 template <class T>
 bounded<T> moved_by_low_part(const reduced_angle<T>& r, const bounded<T>& at_high,
                              const bounded<T>& slope) {
@@ -273,8 +273,8 @@ bounded<T> moved_by_low_part(const reduced_angle<T>& r, const bounded<T>& at_hig
     return {sum.value, enlarged<T>(at_high.error + (traits::abs(sum.error) + error))};
 }
 
-/// −1/y for y within e of ŷ: |1/(ŷ + d) − 1/ŷ| <= e/(|ŷ|(|ŷ| − e)) for |d| <= e. Infinite error if
-/// y may be 0; otherwise it is already enlarged().
+/// −1/y for y within e of ŷ: |1/(ŷ + d) − 1/ŷ| <= e/(|ŷ|(|ŷ| − e)) for |d| <= e. The error is
+/// infinite if y may be 0, otherwise already enlarged().
 template <class T>
 bounded<T> negative_reciprocal(const bounded<T>& y) {
     using traits = number_traits<T>;
@@ -288,7 +288,7 @@ template <class T>
 bounded<T> tangent_of(const reduced_angle<T>& r) {
     const bounded<T> at_high = evaluated<elementary_function::tan>(r.high);
     const T t = at_high.value;
-    // |t| < 1.01, so two roundings are off by less than 2ε.
+    // |t| < 1.01, so two roundings add an error of less than 2ε.
     const bounded<T> slope{T(1 + rounded_product(t, t)),
                            T(3 * (at_high.error + number_traits<T>::epsilon()))};
     const bounded<T> result = moved_by_low_part(r, at_high, slope);

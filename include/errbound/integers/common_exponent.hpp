@@ -54,7 +54,8 @@ struct short_coordinates {
 
 template <std::size_t N>
 struct word_coordinates {
-    /// Products of differences, and the sums that predicates need, end at a word's end or before.
+    /// With 61 bits, products of n differences, and the sums of them that predicates need, fit in n
+    /// words.
     static constexpr int max_bits = 61;
 
     std::array<std::int64_t, N> value;

@@ -68,7 +68,7 @@ class decimal_text {
     constexpr bool leading_is_all() const { return !has_rest_; }
     constexpr std::int64_t digits() const { return digits_; }
     constexpr std::int64_t exponent() const { return exponent_; }
-    /// Calls visit(digit) for the first `count` digits; true if a later one is not zero.
+    /// Calls visit(digit) for the first `count` digits. Returns true if a later digit is not zero.
     template <class Visit>
     constexpr bool for_digits(std::int64_t count, const Visit& visit) const {
         for (const char c : significant_) {
@@ -343,7 +343,8 @@ class exact_natural {
         r.trim();
         return r;
     }
-    /// The first bits of x/y, with error 1 if others follow. Precondition: neither is zero.
+    /// The first 128 bits of x/y, with error 1 if nonzero bits follow. Precondition: neither is
+    /// zero.
     constexpr leading_bits quotient(exact_natural y) const {
         exact_natural x = *this;
         const int y_shift = (y.size_ < 2 ? 64 : 0) + (std::max)(0, x.width() - y.width() - 128);
@@ -459,7 +460,8 @@ class exact_decimal {
     }
 };
 
-/// A number and the decimal's distance, rounded up; not `finite` if it rounds to no finite T.
+/// A number and its distance from the decimal, rounded up. `finite` is false if the decimal rounds
+/// to no finite T.
 template <class T>
 struct nearest_number {
     T value{}, error{};

@@ -27,7 +27,7 @@ Integer shifted(const Integer& x, int shift) {
 template <exact_number Integer>
 double nearby_double(const Integer& n, int e) {
     if (n == 0) return 0;
-    Integer head = abs(n);  // the dropped part is below an ulp
+    Integer head = abs(n);  // the dropped bits are below an ulp
     const int excess = floor_log2(head) - 62;
     if (excess > 0) head >>= static_cast<unsigned>(excess);
     const double x = std::ldexp(static_cast<double>(static_cast<std::int64_t>(head)),

@@ -16,8 +16,8 @@ namespace words {
 
 /// A two's complement number as a sum of signed words times powers of 2^64: visit(index, magnitude,
 /// negative) for the nonzero ones, ascending. A word before an all-ones word, and the last word of
-/// a negative number, counts as negative and passes on a carry: w = 2^64 − (2^64 − w). Partial sums
-/// are negative exactly if their last word is. Proof: proofs/Words.v, signed_words_exact.
+/// a negative number, counts as negative and passes on a carry: w = 2^64 − (2^64 − w). A partial
+/// sum is negative if and only if its last word is. Proof: proofs/Words.v, signed_words_exact.
 template <class Visit>
 constexpr void for_signed_words(const word* x, int n, const Visit& visit) {
     word carry = 0;
@@ -75,9 +75,9 @@ constexpr int count_filled(const word* x, int n) {
     }
 }
 
-/// r = a·b of m + n words, trimmed. Proof: proofs/SparseProduct.v, any_product_exact.
+/// r = a·b of m + n words, not trimmed. Proof: proofs/SparseProduct.v, any_product_exact.
 [[gnu::noinline]] constexpr void multiply_any(word* r, const word* a, int m, const word* b, int n) {
-    constexpr int worth = 4;  // skipping pays only if most words are skipped
+    constexpr int worth = 4;  // pays only if most words are skipped
     const auto is_sparse = [](const word* x, int size) {
         return worth * count_filled(x, size) < size;
     };

@@ -87,7 +87,7 @@ constexpr int product_scratch(int n) {
 
 constexpr void multiply_natural(word* r, const word* a, int m, const word* b, int n, word* scratch);
 
-/// r = |a − b|, of m and n words, m − 1 <= n <= m; true if negative.
+/// r = |a − b|, of m and n words, m − 1 <= n <= m; returns true if a < b.
 constexpr bool subtract_size(word* r, const word* a, int m, const word* b, int n) {
     const bool negative = (n == m || a[m - 1] == 0) && compare(a, b, n) < 0;
     if (negative) {
@@ -196,7 +196,7 @@ constexpr word divide_two_words(word& rest, word low, word d, word v) {
     return q;
 }
 
-/// Divides a by d, not zero: store(i, word) for i = n − 1, ..., 0; returns the remainder.
+/// Divides a by d, not zero: calls store(i, word) for i = n − 1, ..., 0; returns the remainder.
 template <class Store>
 constexpr word divide_by_word(const word* a, int n, word d, const Store& store) {
     const int shift = detail::countl_zero(d);
@@ -232,7 +232,8 @@ class two_word_divisor {
         }
     }
 
-    /// The quotient of three words, below 2^64. Precondition: the first two <= the divisor.
+    /// The quotient of three words, or 2^64 − 1 if it is larger. Precondition: the first two words
+    /// are at most the divisor.
     constexpr word quotient(word a2, word a1, word a0) const {
         if (a2 == high_ && a1 == low_) return ~word(0);
         const auto estimate = double_word(v_) * a2;
@@ -262,7 +263,8 @@ class two_word_divisor {
 };
 
 /// Divides a, of m + 1 words whose last n are below d, by d, n >= 2 words with its first bit set:
-/// store(i, word) from the last; a becomes the remainder. (Knuth, TAOCP 4.3.1, algorithm D.)
+/// calls store(i, word) from the last word on; a becomes the remainder. (Knuth, TAOCP 4.3.1,
+/// algorithm D.)
 template <class Store>
 constexpr void divide_long(word* a, int m, const word* d, int n, const Store& store) {
     const two_word_divisor divisor(d[n - 1], d[n - 2]);

@@ -24,9 +24,9 @@ requires(N >= 1) constexpr bernstein<S, N - 1> power_derivative(const bernstein<
 /// The two roots of c0 + c1·t + c2·t², unordered, then its vertex, which also replaces complex
 /// roots. Roots that do not exist are infinite or NaN. Both roots are exact for one quadratic whose
 /// coefficients differ by at most 16·ε·m, where m is the largest of |c0|, |c1|, |c2|. Proof: the
-/// discriminant is off by at most δ = 4ε(c1² + 4|c0·c2|); before division, q² + c1·q + c0·c2 = δ/4.
-/// The roots' sum is off by |δ/(4·c2·q)|; |q| is at least |c1|/2, and at least √|c0·c2| if that is
-/// larger and the roots are real.
+/// discriminant has an error of at most δ = 4ε(c1² + 4|c0·c2|); before division, q² + c1·q + c0·c2
+/// = δ/4. The roots' sum has an error of |δ/(4·c2·q)|; |q| is at least |c1|/2, and at least
+/// √|c0·c2| if that is larger and the roots are real.
 template <class T>
 constexpr std::array<T, 3> quadratic_roots(T c0, T c1, T c2) {
     using traits = number_traits<T>;

@@ -1,5 +1,6 @@
 // Values of polynomials with error bounds, for signs at points where exact values have millions of
-// bits. Cost: a product of numbers of `bits` bits per nonzero coefficient and gap.
+// bits. Cost: a product of numbers of `bits` bits per nonzero coefficient, and one per gap between
+// these.
 #pragma once
 
 #include <algorithm>

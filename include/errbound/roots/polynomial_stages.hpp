@@ -70,7 +70,7 @@ std::vector<floating_coefficient> floating_coefficients(const integer_form<Integ
         if (p[i] == 0) {
             c.emplace_back(0.0);
         } else if (in_range) {
-            // Conversions of other types may be off by some units in the last place.
+            // Conversions of other types may have errors of some units in the last place.
             const double x = static_cast<double>(p[i]), size_of_x = std::abs(x);
             c.push_back(size_of_x < 0x1p52
                             ? floating_coefficient(x)

@@ -247,8 +247,8 @@ class real_roots {
         }
         isolate(low, high);
     }
-    /// Both ends, ascending. A root bound replaces an infinite end, or the other end does if the
-    /// bound is beyond it.
+    /// Both ends, ascending. A root bound replaces an infinite end. If the bound is beyond the
+    /// finite end, that end replaces it.
     std::pair<point, point> ends(const roots::filtered_part& part) {
         const auto end = [this](double x, double other) {
             if (std::isfinite(x)) return point::from(x);
@@ -293,7 +293,8 @@ class real_roots {
         for (std::size_t i = 1; i < c.size(); ++i) {
             const double size = std::abs(c[i].value()) + c[i].error();
             if (size == 0) continue;
-            // However both were rounded, exactly first >= 2^(ilogb − 1) and size < 2^(ilogb + 2).
+            // In every rounding direction, the exact `first` is at least 2^(ilogb(first) − 1), and
+            // the exact `size` below 2^(ilogb(size) + 2).
             const int quotient = std::ilogb(first) - 1 - (std::ilogb(size) + 2);
             const int degree = static_cast<int>(i);
             const int root =

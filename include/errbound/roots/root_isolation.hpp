@@ -58,7 +58,7 @@ class root_isolation {
     point upper_bound() const { return unlikely_root<Integer>(right_.upper); }
     point lower_bound() const { return -unlikely_root<Integer>(left_.upper); }
 
-    /// Strictly between 0 and all positive roots, and between all negative roots and 0.
+    /// Points strictly between 0 and all positive roots, and between all negative roots and 0.
     point least_positive() const { return unlikely_root<Integer>(right_.lower - 1); }
     point greatest_negative() const { return -unlikely_root<Integer>(left_.lower - 1); }
 
@@ -101,8 +101,9 @@ class root_isolation {
             (s == sign_at(squarefree(), root.low, meter) ? root.low : root.high) = x;
     }
 
-    /// The sign of g at the root; refines it. A common factor decides zero, equal signs of g's
-    /// control values any other sign. Proof: proofs/RootIsolation.v, sign_at_root_right.
+    /// The sign of g at the root, whose interval it refines. A common factor decides zero, equal
+    /// signs of g's control values any other sign. Proof: proofs/RootIsolation.v,
+    /// sign_at_root_right.
     sign_type sign_at_root(const form& g, interval& root, work_meter& meter) const {
         if (g.empty()) return sign_type::zero;
         form common;

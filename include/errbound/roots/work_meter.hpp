@@ -12,7 +12,8 @@ namespace errbound {
 struct root_limits {
     static constexpr std::uint64_t none = (std::numeric_limits<std::uint64_t>::max)();
 
-    /// Operations on 64-bit words, about a nanosecond each; zero coefficients count as any others.
+    /// Operations on 64-bit words, about a nanosecond each; zero coefficients count like all
+    /// others.
     std::uint64_t operations = none;
     /// Estimated bytes of the rows held at a time, without p and its copies.
     std::uint64_t bytes = none;
