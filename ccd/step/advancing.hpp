@@ -8,11 +8,13 @@
 #include <cstddef>
 #include <functional>
 #include <iterator>
+#include <limits>
 #include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "ccd/step/swept_boxes.hpp"
 #include "ccd/step/vertex_groups.hpp"
 
 namespace ccd::detail {
@@ -93,6 +95,8 @@ class advancing {
   private:
     /// Finds the pairs to skip, pairs with a contact, and fractions.
     void evaluate_whole_way();
+    /// The step until a time by which there is a contact, or the whole one.
+    step_result step_to_first_contact(step_options options);
     template <class Pair>
     void hold(const timed_pair<Pair>& contact);
     template <kind K>
@@ -187,13 +191,48 @@ void advancing<Others>::find_near_contacts() {
     }
 }
 
+/// A time until which three in four vertices move by no more than their spacing, by a sample, so
+/// that few pairs of elements come near. Infinite if these do not move.
+inline double time_of_short_way(const vertex_rows& way) {
+    rounded_axes::extent box = rounded_axes::extent::nothing();
+    std::vector<double> lengths;
+    for (std::size_t v = 0; v < way.vertices; v += sampling_stride(way.vertices)) {
+        const double *x = way.before + 3 * v, *y = way.after + 3 * v;
+        for (std::size_t k = 0; k < 3; ++k) box.widen(k, x[k]);
+        lengths.push_back(std::hypot(y[0] - x[0], y[1] - x[1], y[2] - x[2]));
+    }
+    const auto most = lengths.begin() + static_cast<std::ptrdiff_t>(3 * lengths.size() / 4);
+    std::ranges::nth_element(lengths, most);
+    const double size =
+        std::hypot(box.high[0] - box.low[0], box.high[1] - box.low[1], box.high[2] - box.low[2]);
+    const double time = size / std::sqrt(static_cast<double>(way.vertices)) / *most;
+    return time > 0 ? time : std::numeric_limits<double>::infinity();
+}
+
+/// Short searches are cheap, and the first contact is usually early if vertices move by many times
+/// their spacing: a diverged line search.
+template <class Others>
+step_result advancing<Others>::step_to_first_contact(step_options options) {
+    double growth = 4;
+    constexpr int slow_rounds = 6;  // then faster: a way may be 1e300 times too long
+    const double start = way_.vertices == 0 ? 1 : time_of_short_way(way_);
+    options.t_max = others_.earliest({outcome::collides, start, start}).low;
+    for (int round = 0; options.t_max < 1 / growth; ++round, options.t_max *= growth) {
+        if (round > slow_rounds) growth *= growth;
+        step_result found = step(way_, options);
+        if (others_.earliest(found.first_contact).outcome == outcome::collides) return found;
+    }
+    options.t_max = 1;
+    return step(way_, options);
+}
+
 template <class Others>
 void advancing<Others>::evaluate_whole_way() {
     step_options options = base_options();
     const bool contact = options_.distances.is_contact();
     options.first_contact = true;
     options.times = islands_;
-    const step_result whole = step(way_, options);
+    const step_result whole = islands_ ? step(way_, options) : step_to_first_contact(options);
     result_.first_contact = others_.earliest(whole.first_contact);
     if (result_.first_contact.outcome == outcome::collides && !islands_)
         groups_.limit(0, last_before(result_.first_contact));
@@ -203,8 +242,11 @@ void advancing<Others>::evaluate_whole_way() {
         at_start_.of<K>() = found_by_all(whole.touching_at_start.of<K>());
         if (contact) result_.touching_at_start.of<K>() = at_start_.of<K>();
         std::ranges::sort(at_start_.of<K>());
-        known_.of<K>() = without(pairs, at_start_.of<K>());
-        if (islands_) {
+        if (!islands_) {
+            if (whole.first_contact == result_.first_contact)
+                known_.of<K>() = whole.first_pairs.of<K>();
+        } else {
+            known_.of<K>() = without(pairs, at_start_.of<K>());
             std::vector<timed_pair<pair_of_kind<K>>> timed;
             for (std::size_t i = 0; i < pairs.size(); ++i) timed.push_back({pairs[i], times[i]});
             for (const auto& pair : others_.found_by_all(std::move(timed))) hold(pair);

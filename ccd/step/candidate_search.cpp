@@ -42,12 +42,14 @@ std::vector<edge> edges_of_no_face(std::span<const edge> edges,
 
 template <std::size_t N>
 template <class Real, class Tree, class Sort, class Build>
-void ordered_elements<N>::build_tree(const Tree& tree, const Sort& sort, const Build& build) {
+void ordered_elements<N>::build_tree(const Tree& tree, bool whole_way, const Sort& sort,
+                                     const Build& build) {
     constexpr bool by_doubles = std::is_same_v<Real, double>;
     constexpr double worth_sorting = 1.25;  // sort if leaves are this much longer than their least
     auto& least = std::is_same_v<Tree, extents_tree> ? least_of_extents_ : least_of_boxes_;
     if (ordered_ && by_doubles_ == by_doubles) {
         build();
+        if (!whole_way) return;
         const double length = tree.length_of_leaves();
         if (length <= worth_sorting * least.value_or(length)) {
             least = std::min(length, least.value_or(length));
@@ -57,7 +59,7 @@ void ordered_elements<N>::build_tree(const Tree& tree, const Sort& sort, const B
     sort(elements_);
     build();
     least_of_boxes_ = least_of_extents_ = std::nullopt;
-    least = tree.length_of_leaves();
+    if (whole_way) least = tree.length_of_leaves();
     ordered_ = true;
     by_doubles_ = by_doubles;
 }
@@ -121,10 +123,12 @@ std::size_t candidate_search::find_by(tree_pair<Real>& trees, const search_reque
                                       First& first, Second& second) {
     constexpr bool within_one = std::is_same_v<First, Second>;
     const auto build = [&](box_tree<Real>& tree, auto& elements) {
-        elements.template build_tree<Real>(tree, sorting<Real>(request.boxes, second), [&] {
-            tree.build(elements.size(),
-                       [&](std::size_t i) { return request.boxes.swept_box<Real>(elements[i]); });
-        });
+        elements.template build_tree<Real>(
+            tree, request.whole_way, sorting<Real>(request.boxes, second), [&] {
+                tree.build(elements.size(), [&](std::size_t i) {
+                    return request.boxes.swept_box<Real>(elements[i]);
+                });
+            });
     };
     build(trees.second, second);
     if constexpr (!within_one) build(trees.first, first);
@@ -147,9 +151,9 @@ std::size_t candidate_search::find_close(const search_request& request, First& f
     constexpr bool within_one = std::is_same_v<First, Second>;
     const auto build = [&](extents_tree& tree, auto& elements) {
         constexpr std::size_t n = std::remove_cvref_t<decltype(elements)>::vertices;
-        elements.template build_tree<float>(tree, sorting<float>(request.boxes, second), [&] {
-            tree.build<n>(*request.close, request.rounded, elements);
-        });
+        elements.template build_tree<float>(
+            tree, request.whole_way, sorting<float>(request.boxes, second),
+            [&] { tree.build<n>(*request.close, request.rounded, request.margin, elements); });
     };
     extents_tree& b = of_extents_.second;
     extents_tree& a = within_one ? b : of_extents_.first;
@@ -182,24 +186,30 @@ template <kind K, class First, class Second>
 std::size_t candidate_search::find_kind(const search_request& request, First& first,
                                         Second& second) {
     if (!request.visitor.of<K>() || first.size() == 0 || second.size() == 0) return 0;
-    if (request.boxes.need_doubles<Second::vertices>(second))
-        return find_by<K>(in_doubles_, request, first, second);
-    if constexpr (is_cubic(K))
-        if (request.close != nullptr) return find_close<K>(request, first, second);
-    return find_by<K>(in_floats_, request, first, second);
+    if (!request.boxes.need_doubles<Second::vertices>(second)) {
+        if constexpr (is_cubic(K))
+            if (request.close != nullptr) return find_close<K>(request, first, second);
+        if (!request.boxes.need_widening()) return find_by<K>(in_floats_, request, first, second);
+    }
+    return find_by<K>(in_doubles_, request, first, second);
 }
 
 pair_counts candidate_search::find(const batch_positions& positions, const step_options& options,
-                                   const candidate_visitor& visitor, wanted pairs) {
-    const swept_boxes boxes(positions, options.distances);
-    const pair_test test(options.filter, boxes);
-    const search_request request{
-        boxes,
-        lets_all_through(options.filter) ? nullptr : &test,
-        visitor,
-        options.stop,
-        positions.rounded,
-        pairs == wanted::close_pairs ? &search_kernels_for(options.set) : nullptr};
+                                   const candidate_visitor& visitor,
+                                   const wanted_candidates& wanted) {
+    std::optional<short_way> until;
+    if (wanted.t_max < 1) until.emplace(positions.exact, std::max(wanted.t_max, 0.0));
+    const swept_boxes whole(positions, options.distances),
+        boxes = until ? swept_boxes(until->positions(), options.distances, until->error()) : whole;
+    const pair_test test(options.filter, whole);
+    const search_request request{boxes,
+                                 !until,
+                                 lets_all_through(options.filter) ? nullptr : &test,
+                                 visitor,
+                                 options.stop,
+                                 until ? until->positions().rounded : positions.rounded,
+                                 until ? until->margin() : 0,
+                                 wanted.close ? &search_kernels_for(options.set) : nullptr};
     skip_unused(options.filter.skip_unused);
     order_.forget();
     pair_counts counts;

@@ -35,14 +35,24 @@ class ordered_elements {
     operator std::span<const std::array<vertex_index, N>>() const { return elements_; }
 
     /// Calls sort(elements) before build() if their order is not good.
+    /// Trees of a short way tell nothing about the order for a whole one.
     template <class Real, class Tree, class Sort, class Build>
-    void build_tree(const Tree& tree, const Sort& sort, const Build& build);
+    void build_tree(const Tree& tree, bool whole_way, const Sort& sort, const Build& build);
 
   private:
     std::vector<std::array<vertex_index, N>> elements_;
     bool ordered_ = false, by_doubles_ = false;
     /// The least length of a tree's leaves since the last sort.
     std::optional<double> least_of_boxes_, least_of_extents_;
+};
+
+/// The candidates to find; by default all.
+struct wanted_candidates {
+    /// Only for contact: without the vertex/face and edge/edge pairs that an axis separates in
+    /// floats, if that was tested.
+    bool close = false;
+    /// Without pairs that do not meet until this time, if that was tested.
+    double t_max = 1;
 };
 
 /// The search in one mesh. Keeps its working memory: about 40 bytes a face or 44 an edge, whichever
@@ -60,14 +70,10 @@ class candidate_search {
     std::size_t vertices() const { return vertex_count_; }
     bool is_in_plane() const { return in_plane_; }
 
-    /// All candidates, or without the vertex/face and edge/edge pairs that an axis separates in
-    /// floats, if that was tested. The latter is only for contact.
-    enum class wanted : bool { candidates, close_pairs };
-
     /// Visits each pair once if its kind has a visitor. Returns the number of pairs. Preconditions:
     /// positions are finite and distances valid.
     pair_counts find(const batch_positions& positions, const step_options& options,
-                     const candidate_visitor& visitor, wanted pairs = wanted::candidates);
+                     const candidate_visitor& visitor, const wanted_candidates& wanted = {});
 
   private:
     template <class Real>
@@ -76,10 +82,12 @@ class candidate_search {
     };
     struct search_request {
         const swept_boxes& boxes;
+        bool whole_way;
         const pair_test* filter;  // null: all pairs pass
         const candidate_visitor& visitor;
         const stop_query& stop;
         const float* rounded;
+        float margin;                 // of `rounded`
         const search_kernels* close;  // null: all candidates
     };
 

@@ -90,9 +90,10 @@ inline void set_nowhere(extents_pack& packed, std::size_t from) {
 }
 
 template <std::size_t N>
-void fill_leaves(const float* rounded, const vertex_index* elements, std::size_t count,
-                 std::size_t first, std::size_t end_leaf, extents_pack* leaves, extents* hulls,
-                 leaf_vertices* vertices) {
+void fill_leaves(const float* rounded, float margin, const vertex_index* elements,
+                 std::size_t count, std::size_t first, std::size_t end_leaf, extents_pack* leaves,
+                 extents* hulls, leaf_vertices* vertices) {
+    const float margin_across = extents::margin + 2 * margin;
     for (std::size_t p = first; p < end_leaf; ++p) {
         const corner_columns<N> corners(rounded, elements, size * p, count);
         for (std::size_t end = 0; end < 2; ++end)
@@ -104,10 +105,10 @@ void fill_leaves(const float* rounded, const vertex_index* elements, std::size_t
                     const auto y = [&](std::size_t v) {
                         return float_pack::load_aligned(&corners.at[v][end][(k + 1) % 3][lane]);
                     };
-                    set_extent<N>(leaves[p], k, end, lane, 0, x);
-                    set_extent<N>(leaves[p], 3 + 2 * k, end, lane, extents::margin,
+                    set_extent<N>(leaves[p], k, end, lane, margin, x);
+                    set_extent<N>(leaves[p], 3 + 2 * k, end, lane, margin_across,
                                   [&](std::size_t v) { return x(v) + y(v); });
-                    set_extent<N>(leaves[p], 4 + 2 * k, end, lane, extents::margin,
+                    set_extent<N>(leaves[p], 4 + 2 * k, end, lane, margin_across,
                                   [&](std::size_t v) { return x(v) - y(v); });
                 }
         if (count < size * (p + 1)) set_nowhere(leaves[p], count - size * p);

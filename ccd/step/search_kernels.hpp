@@ -14,9 +14,10 @@ namespace ccd::detail {
 struct search_kernels {
     using visitor = void (*)(void* context, const element_pair* pairs, std::size_t count);
 
-    /// Sets leaves p, first <= p < end, and their hulls. `rounded` is rounded_positions::data();
-    /// `count` is the number of elements.
-    using fill_leaves = void (*)(const float* rounded, const vertex_index* elements,
+    /// Sets leaves p, first <= p < end, and their hulls. `rounded` is rounded_positions::data(), of
+    /// coordinates that are off by less than `margin` (see short_way); `count` is the number of
+    /// elements.
+    using fill_leaves = void (*)(const float* rounded, float margin, const vertex_index* elements,
                                  std::size_t count, std::size_t first, std::size_t end,
                                  extents_pack* leaves, extents* hulls, leaf_vertices* vertices);
     fill_leaves of_vertices, of_edges, of_faces;

@@ -41,12 +41,11 @@ step_result run_step(detail::candidate_search& search, const vertex_rows& positi
             phases.of<K>().decide(block);
         };
     });
-    using wanted = detail::candidate_search::wanted;
     const bool counted = options.count_candidates || options.explain;
-    const bool close_pairs_suffice =
-        !counted && options.method == method::exact && options.distances.is_contact();
-    const pair_counts counts = search.find(
-        at, options, visitor, close_pairs_suffice ? wanted::close_pairs : wanted::candidates);
+    detail::wanted_candidates wanted;
+    if (!counted && options.method == method::exact)
+        wanted = {.close = options.distances.is_contact(), .t_max = options.t_max};
+    const pair_counts counts = search.find(at, options, visitor, wanted);
     if (counted) result.candidates = counts;
     for_each_kind([&]<kind K>() { result.narrow_phase_seconds += phases.of<K>().seconds(); });
     result.narrow_phase_seconds /= tbb::this_task_arena::max_concurrency();
@@ -68,8 +67,17 @@ std::vector<Item> selected(const std::vector<Item>& items, const IsWanted& is_wa
     return wanted;
 }
 
-bool is_earlier(const first_time& a, const first_time& b) {
-    return std::tuple(a.low, a.high) < std::tuple(b.low, b.high);
+/// Adds pairs that first touch at this time, if none touches before.
+template <kind K>
+void add_first(const first_time& time, std::span<const pair_of_kind<K>> pairs,
+               step_result& result) {
+    first_time& first = result.first_contact;
+    const bool any = first.outcome == outcome::collides;
+    if (any && std::tuple(first.low, first.high) < std::tuple(time.low, time.high)) return;
+    if (!any || first != time) result.first_pairs = {};
+    first = time;
+    auto& all = result.first_pairs.of<K>();
+    all.insert(all.end(), pairs.begin(), pairs.end());
 }
 
 /// Computes the time of each reported pair. Drops pairs whose time is after t_max.
@@ -83,21 +91,18 @@ void find_times(const vertex_rows& positions, const time_options& options, bool 
     times = selected(times, in_time);
     result.touching_at_start.of<K>() =
         selected(pairs, [&](std::size_t i) { return times[i].at_start(); });
-    for (const first_time& time : times)
-        if (!time.at_start() && (result.first_contact.outcome != outcome::collides ||
-                                 is_earlier(time, result.first_contact)))
-            result.first_contact = time;
+    for (std::size_t i = 0; i < times.size(); ++i)
+        if (!times[i].at_start()) add_first<K>(times[i], {&pairs[i], 1}, result);
     if (keep_times) result.times.of<K>() = std::move(times);
 }
 
 template <kind K>
 void find_first(const vertex_rows& positions, time_options options, step_result& result) {
     const auto& pairs = result.pairs.of<K>();
-    const bool any = result.first_contact.outcome == outcome::collides;
-    if (any) options.t_max = result.first_contact.high;
+    if (result.first_contact.outcome == outcome::collides)
+        options.t_max = result.first_contact.high;
     const earliest_time found = earliest(positions, pairs, options);
-    if (!found.queries.empty() && (!any || is_earlier(found.time, result.first_contact)))
-        result.first_contact = found.time;
+    for (const std::size_t i : found.queries) add_first<K>(found.time, {&pairs[i], 1}, result);
     for (const std::size_t i : found.at_start) result.touching_at_start.of<K>().push_back(pairs[i]);
 }
 

@@ -125,6 +125,7 @@ struct step_result {
     /// The earliest not at t = 0; `separate` if there is none. Filled with first_contact, times or
     /// t_max < 1; otherwise `uncertain`.
     first_time first_contact;
+    pair_lists first_pairs;           ///< the members of `pairs` with that time
     double prepare_seconds = 0;       ///< input checks, the mesh's edges
     double broad_phase_seconds = 0;   ///< the search for candidates, without the narrow phase
     double narrow_phase_seconds = 0;  ///< the sum over threads, divided by their number
