@@ -25,6 +25,7 @@ struct advance_options {
     std::optional<instruction_set> set = {};  ///< by default the strongest
     stop_query stop = {};                     ///< ends the call by throwing ccd::stopped
     pair_filter filter = {};                  ///< the pairs to test
+    bool check_start = true;                  ///< fill advance_result::intersections_at_start
 };
 
 struct advance_result {
@@ -39,6 +40,9 @@ struct advance_result {
     first_time first_contact;
     pair_lists touching_at_start;  ///< skipped: no step of these pairs is free
     pair_lists near_at_start;      ///< within their distance at t = 0: only contact is avoided
+    /// Elements that intersect at t = 0, as step_result::intersections_at_start. They are not
+    /// separated, and may move on through each other: the result is free only if there are none.
+    std::vector<intersection> intersections_at_start;
 };
 
 /// Returns the longest step from positions.before towards positions.after that was found to be
