@@ -193,7 +193,9 @@ void advancing<Others>::evaluate_whole_way() {
     const bool contact = options_.distances.is_contact();
     options.first_contact = true;
     options.times = islands_;
-    const step_result whole = step(way_, options);
+    options.check_start = options_.check_start;
+    step_result whole = step(way_, options);
+    result_.intersections_at_start = std::move(whole.intersections_at_start);
     result_.first_contact = others_.earliest(whole.first_contact);
     if (result_.first_contact.outcome == outcome::collides && !islands_)
         groups_.limit(0, last_before(result_.first_contact));

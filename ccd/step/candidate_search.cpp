@@ -102,8 +102,10 @@ candidate_search candidate_search::in_plane(std::span<const edge> edges, std::si
 }
 
 candidate_search candidate_search::at_start(std::span<const face> faces,
-                                            std::span<const edge> edges, std::size_t vertices) {
+                                            std::span<const edge> edges, std::size_t vertices,
+                                            bool in_plane) {
     candidate_search search({}, {}, 0);
+    search.in_plane_ = in_plane;
     search.vertex_count_ = vertices;
     search.unused_ = unused_vertices(faces, edges, vertices);
     search.faces_ = ordered_elements(unique_faces(faces));
@@ -238,12 +240,19 @@ std::size_t candidate_search::find_kind(const search_request& request, First& fi
     return find_by<K>(in_floats_, request, first, second);
 }
 
-void candidate_search::find_resting(const search_request& request, const resting_visitor& visit) {
+void candidate_search::find_at_start(const batch_positions& positions, const step_options& options,
+                                     const resting_visitor& visit, trees from) {
+    skip_unused(options.filter.skip_unused);
+    if (from == trees::new_ones) {
+        order_.forget();
+        in_second_ = nullptr;
+    }
     ordered_elements<3>& elements = resting_.size() > 0 ? resting_ : faces_;
     if (elements.size() == 0) return;
-    batch_positions at = request.positions;
+    batch_positions at = positions;
     at.exact.after = at.exact.before;
     const pair_distances contact;
+    const search_kernels& kernels = search_kernels_for(options.set);
     const swept_boxes boxes(at, contact);
     if (boxes.need_doubles<3>(elements)) {
         struct block {
@@ -252,7 +261,7 @@ void candidate_search::find_resting(const search_request& request, const resting
         };
         tbb::enumerable_thread_specific<block> blocks;
         const auto flush = [&](block& b) {
-            stop_if_requested(request.stop);
+            stop_if_requested(options.stop);
             visit(elements, {b.pairs.data(), b.count});
             b.count = 0;
         };
@@ -274,7 +283,7 @@ void candidate_search::find_resting(const search_request& request, const resting
     extents_tree& tree = of_extents_.second;
     if (in_second_ != &elements)
         elements.build_tree<float>(tree, sorting<float>(boxes, elements),
-                                   [&] { tree.build<3>(request.kernels, at.rounded, elements); });
+                                   [&] { tree.build<3>(kernels, at.rounded, elements); });
     in_second_ = &elements;
     struct context {
         const resting_visitor& visit;
@@ -285,32 +294,15 @@ void candidate_search::find_resting(const search_request& request, const resting
         visit(elements, {pairs, count});
     };
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, tree.leaves(), 8), [&](const auto& range) {
-        stop_if_requested(request.stop);
+        stop_if_requested(options.stop);
         context to{visit, elements};
-        request.kernels.of_two_faces_at_start(tree.levels(), tree.levels(), range.begin(),
-                                              range.end(), &to, pass);
+        kernels.of_two_faces_at_start(tree.levels(), tree.levels(), range.begin(), range.end(), &to,
+                                      pass);
     });
 }
 
-void candidate_search::find_at_start(const batch_positions& positions, const step_options& options,
-                                     const resting_visitor& visit) {
-    const swept_boxes boxes(positions, options.distances);
-    skip_unused(options.filter.skip_unused);
-    order_.forget();
-    in_second_ = nullptr;
-    find_resting({boxes,
-                  nullptr,
-                  {},
-                  options.stop,
-                  positions,
-                  search_kernels_for(options.set),
-                  wanted::close_pairs},
-                 visit);
-}
-
 pair_counts candidate_search::find(const batch_positions& positions, const step_options& options,
-                                   const candidate_visitor& visitor, wanted pairs,
-                                   const resting_visitor& at_start) {
+                                   const candidate_visitor& visitor, wanted pairs) {
     const swept_boxes boxes(positions, options.distances);
     const pair_test test(options.filter, boxes);
     const search_kernels& kernels = search_kernels_for(options.set);
@@ -327,7 +319,6 @@ pair_counts candidate_search::find(const batch_positions& positions, const step_
     } else {
         counts.edge_edge = find_kind<kind::edge_edge>(request, edges_, edges_);
         counts.vertex_face = find_kind<kind::vertex_face>(request, vertices_, faces_);
-        if (at_start) find_resting(request, at_start);
         counts.vertex_edge = find_kind<kind::vertex_edge>(request, points_, rods_);
     }
     counts.vertex_vertex = find_kind<kind::vertex_vertex>(request, points_, points_);

@@ -64,7 +64,7 @@ class candidate_search {
 
     /// Only for find_at_start(), with less memory and time for its preparation.
     static candidate_search at_start(std::span<const face> faces, std::span<const edge> edges,
-                                     std::size_t vertices);
+                                     std::size_t vertices, bool in_plane = false);
 
     std::size_t vertices() const { return vertex_count_; }
     bool is_in_plane() const { return in_plane_; }
@@ -73,19 +73,22 @@ class candidate_search {
     /// floats, if that was tested. The latter is only for contact.
     enum class wanted : bool { candidates, close_pairs };
 
-    /// Visits each pair once if its kind has a visitor. Returns the number of pairs. With
-    /// `at_start` it also does the work of find_at_start, with the trees of the step if they
-    /// suffice. Preconditions: positions are finite and distances valid.
+    /// Visits each pair once if its kind has a visitor. Returns the number of pairs. Preconditions:
+    /// positions are finite and distances valid.
     pair_counts find(const batch_positions& positions, const step_options& options,
-                     const candidate_visitor& visitor, wanted pairs = wanted::candidates,
-                     const resting_visitor& at_start = {});
+                     const candidate_visitor& visitor, wanted pairs = wanted::candidates);
+
+    /// The trees that find_at_start may use.
+    enum class trees : bool { new_ones, of_last_find };
 
     /// Visits each pair of resting_elements() without a common vertex once, unless an axis
-    /// separates the two at t = 0. Ignores positions at t = 1, which must be those at t = 0, and
-    /// the filter except skip_unused.
+    /// separates the two at t = 0. Does not apply the filter except skip_unused. `of_last_find` is
+    /// only for the positions and options of the last find(); otherwise positions at t = 1 must be
+    /// those at t = 0.
     void find_at_start(const batch_positions& positions, const step_options& options,
-                       const resting_visitor& visit);
+                       const resting_visitor& visit, trees from = trees::new_ones);
 
+    void skip_unused(bool skip);
     /// Faces, edges of no face and vertices of neither, in any order. Edges {v, w, w} and vertices
     /// {v, v, v} repeat their last vertex, degenerate faces {v, v, w} the first.
     std::span<const face> resting_elements() const {
@@ -126,10 +129,8 @@ class candidate_search {
     std::size_t find_close(const search_request& request, First& first, Second& second);
 
     void set_resting();
-    void find_resting(const search_request& request, const resting_visitor& visit);
     template <std::size_t N>
     void skip_in(ordered_elements<N>& set, bool skip);
-    void skip_unused(bool skip);
 
     std::size_t vertex_count_;
     std::vector<vertex_index> unused_;

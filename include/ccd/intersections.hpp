@@ -105,6 +105,10 @@ class intersection_counts {
     void add(intersection_kind k, errbound::relation r, std::size_t n = 1) {
         counts_[at(k, r)] += n;
     }
+    intersection_counts& operator+=(const intersection_counts& other) {
+        for (std::size_t i = 0; i < counts_.size(); ++i) counts_[i] += other.counts_[i];
+        return *this;
+    }
     friend bool operator==(const intersection_counts&, const intersection_counts&) = default;
 
   private:
