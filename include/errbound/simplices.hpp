@@ -22,6 +22,7 @@
 #include <errbound/relation.hpp>
 #include <errbound/tracked.hpp>
 #include <limits>
+#include <type_traits>
 #include <utility>
 
 namespace errbound {
@@ -45,6 +46,24 @@ struct simplex {
     constexpr void add(const point<D>& p) { vertices[static_cast<std::size_t>(size++)] = p; }
 };
 
+template <std::size_t D>
+constexpr simplex<D> simplex_of(const point<D>* p, int size) {
+    simplex<D> s;
+    for (int i = 0; i < size; ++i) s.add(p[i]);
+    return s;
+}
+template <std::size_t D, std::size_t K>
+constexpr simplex<D> simplex_of(const std::array<point<D>, K>& p) {
+    return simplex_of(p.data(), int{K});
+}
+template <std::floating_point T, std::size_t D, std::size_t K>
+constexpr std::array<point<D>, K> as_doubles(const std::array<std::array<T, D>, K>& p) {
+    std::array<point<D>, K> doubles{};
+    for (std::size_t i = 0; i < K; ++i)
+        for (std::size_t k = 0; k < D; ++k) doubles[i][k] = static_cast<double>(p[i][k]);
+    return doubles;
+}
+
 /// The intersection of two simplices: its dimension, −1 if it is empty, and if their relative
 /// interiors meet.
 struct intersection {
@@ -56,11 +75,37 @@ struct intersection {
 constexpr int as_int(sign_type s) {
     return s == sign_type::positive ? 1 : s == sign_type::negative ? -1 : 0;
 }
+/// True if some coordinate is the same for all points, or two points are equal: their determinant
+/// is zero. Cheaper than exact arithmetic, and frequent.
+template <class... Points>
+constexpr bool clearly_degenerate(const Points&... p) {
+    const std::array list{&p...};
+    for (std::size_t k = 0; k < list[0]->size(); ++k)
+        if (std::all_of(list.begin(), list.end(), [&](auto q) { return (*q)[k] == (*list[0])[k]; }))
+            return true;
+    for (auto q = list.begin(); q != list.end(); ++q)
+        for (auto r = list.begin(); r != q; ++r)
+            if (**q == **r) return true;
+    return false;
+}
+template <class Predicate, class... Points>
+constexpr int sign_after_filter(const Predicate& predicate, const Points&... p) {
+    return clearly_degenerate(p...) ? 0 : as_int(predicate(p...));
+}
+template <class Predicate, class... Points>
+constexpr int quick_sign(const Predicate& predicate, const Points&... p) {
+    if (!std::is_constant_evaluated()) {
+        const sign_type s = filters::conclude(predicate.filtered(p...));
+        if (certain(s)) [[likely]]
+            return as_int(s);
+    }
+    return sign_after_filter(predicate, p...);
+}
 constexpr int sign2d(const point<2>& a, const point<2>& b, const point<2>& c) {
-    return as_int(orient2d(a, b, c));
+    return quick_sign(orient2d, a, b, c);
 }
 constexpr int sign3d(const point<3>& a, const point<3>& b, const point<3>& c, const point<3>& d) {
-    return as_int(orient3d(a, b, c, d));
+    return quick_sign(orient3d, a, b, c, d);
 }
 
 /// The coordinates except `axis`, in cyclic order.
@@ -92,9 +137,22 @@ constexpr extent<D> extent_of(const simplex<D>& s) {
 constexpr bool are_collinear(const point<2>& a, const point<2>& b, const point<2>& c) {
     return sign2d(a, b, c) == 0;
 }
+/// The axis along which a triangle's projection is largest, up to rounding.
+constexpr int likely_axis(const point<3>& a, const point<3>& b, const point<3>& c) {
+    if (std::is_constant_evaluated()) return 0;
+    int axis = 0;
+    double largest = 0;
+    for (int k = 0; k < 3; ++k) {
+        const point<2> p = projected(a, k), q = projected(b, k), r = projected(c, k);
+        const double area = std::abs((q[0] - p[0]) * (r[1] - p[1]) - (q[1] - p[1]) * (r[0] - p[0]));
+        if (area > largest) largest = area, axis = k;
+    }
+    return axis;
+}
 constexpr bool are_collinear(const point<3>& a, const point<3>& b, const point<3>& c) {
-    for (int axis = 0; axis < 3; ++axis)
-        if (!are_collinear(projected(a, axis), projected(b, axis), projected(c, axis)))
+    const int first = likely_axis(a, b, c);
+    for (int k = first; k < first + 3; ++k)
+        if (!are_collinear(projected(a, k % 3), projected(b, k % 3), projected(c, k % 3)))
             return false;
     return true;
 }
@@ -169,8 +227,9 @@ constexpr intersection meet_flat(const simplex<2>& a, const simplex<2>& b) {
     return span_plane(a, b) ? meet_in_plane(a, b) : meet_on_line(a, b);
 }
 constexpr intersection meet_flat(const simplex<3>& a, const simplex<3>& b) {
-    for (int axis = 0; axis < 3; ++axis) {
-        const simplex<2> flat_a = projected(a, axis), flat_b = projected(b, axis);
+    const int first = a.size == 3 ? likely_axis(a[0], a[1], a[2]) : 0;
+    for (int k = first; k < first + 3; ++k) {
+        const simplex<2> flat_a = projected(a, k % 3), flat_b = projected(b, k % 3);
         if (span_plane(flat_a, flat_b)) return meet_in_plane(flat_a, flat_b);
     }
     return meet_on_line(a, b);
@@ -178,10 +237,24 @@ constexpr intersection meet_flat(const simplex<3>& a, const simplex<3>& b) {
 
 /// The sides of a triangle's plane on which another's vertices lie.
 using sides = std::array<int, 3>;
-constexpr sides sides_of(const simplex<3>& plane, const simplex<3>& s, int first = 0) {
+/// The filter computes the normal once. It has as many roundings as that of orient3d.
+constexpr sides sides_of(const point<3>* plane, const point<3>* s, int size, int first = 0) {
     sides found{};
-    for (int i = first; i < s.size; ++i)
-        found[static_cast<std::size_t>(i)] = sign3d(plane[0], plane[1], plane[2], s[i]);
+    const point<3>&a = plane[0], &b = plane[1], &c = plane[2];
+    const auto minus = [](const point<3>& p, const point<3>& q, std::size_t k) {
+        return filters::filtered_coordinate<double>{p[k]} -
+               filters::filtered_coordinate<double>{q[k]};
+    };
+    const auto bx = minus(b, a, 0), by = minus(b, a, 1), bz = minus(b, a, 2);
+    const auto cx = minus(c, a, 0), cy = minus(c, a, 1), cz = minus(c, a, 2);
+    const auto x = by * cz - bz * cy, y = bz * cx - bx * cz, z = bx * cy - by * cx;
+    for (int i = first; i < size; ++i) {
+        sign_type side = sign_type::uncertain;
+        if (!std::is_constant_evaluated())
+            side = sign_of(x * minus(a, s[i], 0) + y * minus(a, s[i], 1) + z * minus(a, s[i], 2));
+        found[static_cast<std::size_t>(i)] =
+            certain(side) ? as_int(side) : sign_after_filter(orient3d, a, b, c, s[i]);
+    }
     return found;
 }
 constexpr bool all_zero(const sides& s) {
@@ -232,7 +305,7 @@ struct section {
 /// Two triangles in different planes, both with a section by the other's plane. Both sections are
 /// on the line in which the planes meet; b's goes from its high to its low end in a's direction.
 struct two_sections {
-    const simplex<3>&a, &b;
+    const point<3>*a, *b;
     int common;  ///< the number of first vertices that a and b share
     section of_a, of_b;
 
@@ -255,7 +328,7 @@ struct two_sections {
 };
 
 /// A segment and a triangle. The segment's ends are on these sides of its plane, not both zero.
-constexpr intersection meet_edge(const simplex<3>& edge, const simplex<3>& face, int side_of_first,
+constexpr intersection meet_edge(const point<3>* edge, const point<3>* face, int side_of_first,
                                  int side_of_last) {
     if (side_of_first == side_of_last) return {-1, false};
     bool left = false, right = false, on_edge = false;
@@ -267,19 +340,21 @@ constexpr intersection meet_edge(const simplex<3>& edge, const simplex<3>& face,
     return {0, !on_edge && side_of_first * side_of_last < 0};
 }
 
-/// Precondition: a and b are their hulls.
-constexpr intersection meet(const simplex<2>& a, const simplex<2>& b) {
+/// Preconditions: a and b are their hulls; b is in a's plane if `flat` and a is a triangle.
+constexpr intersection meet(const simplex<2>& a, const simplex<2>& b, bool) {
     return meet_flat(a, b);
 }
-constexpr intersection meet(const simplex<3>& a, const simplex<3>& b) {
-    if (a.size < b.size) return meet(b, a);
+constexpr intersection meet(const simplex<3>& a, const simplex<3>& b, bool flat) {
+    const point<3>*p = a.vertices.data(), *q = b.vertices.data();
+    if (a.size == 3 && flat) return meet_flat(a, b);
+    if (a.size < b.size) return meet(b, a, false);
     if (a.size == 3) {
-        const sides of_b = sides_of(a, b);
+        const sides of_b = sides_of(p, q, b.size);
         if (on_one_side(of_b, b.size)) return {-1, false};
         if (!all_zero(of_b))
             return b.size == 2
-                       ? meet_edge(b, a, of_b[0], of_b[1])
-                       : two_sections{a, b, 0, section(sides_of(b, a)), section(of_b)}.meet();
+                       ? meet_edge(q, p, of_b[0], of_b[1])
+                       : two_sections{p, q, 0, section(sides_of(q, p, 3)), section(of_b)}.meet();
     }
     if (a.size == 2 && b.size == 2 && sign3d(a[0], a[1], b[0], b[1]) != 0) return {-1, false};
     return meet_flat(a, b);
@@ -305,50 +380,43 @@ constexpr relation relation_from(const intersection& x, const simplex<D>& a, con
     return a.size + b.size - 2 - x.dimension == int{D} ? relation::crossing : relation::touching;
 }
 
-/// All cases, without filters for the frequent ones.
+/// All cases. b is in a's plane if `flat` and a is not degenerate.
 template <std::size_t D>
 [[gnu::noinline]] constexpr relation any_relation(const simplex<D>& a, const simplex<D>& b,
-                                                  int common) {
+                                                  int common, bool flat = false) {
     simplex<D> shared;
     for (int i = 0; i < common; ++i) shared.add(a[i]);
     const simplex<D> hull_a = hull_of(a), hull_b = hull_of(b);
-    return relation_from(meet(hull_a, hull_b), hull_a, hull_b, shared);
+    return relation_from(meet(hull_a, hull_b, flat), hull_a, hull_b, shared);
+}
+[[gnu::noinline]] constexpr relation any_relation(const point<3>* a, int size, const point<3>* b,
+                                                  int size_of_b, int common, bool flat) {
+    return any_relation(simplex_of(a, size), simplex_of(b, size_of_b), common, flat);
 }
 
-constexpr relation relation_of_faces(const simplex<3>& a, const simplex<3>& b, int common) {
-    if (common == 2) {
-        if (sign3d(a[0], a[1], a[2], b[2]) != 0) return relation::disjoint;
-        return any_relation(a, b, common);
-    }
-    const sides of_b = sides_of(a, b, common);
+constexpr relation relation_of_faces(const point<3>* a, const point<3>* b, int common) {
+    if (common == 2)
+        return sign3d(a[0], a[1], a[2], b[2]) != 0 ? relation::disjoint
+                                                   : any_relation(a, 3, b, 3, common, true);
+    const sides of_b = sides_of(a, b, 3, common);
     if (on_one_side(of_b, 3, common)) return relation::disjoint;
-    const sides of_a = sides_of(b, a, common);
+    if (all_zero(of_b)) return any_relation(a, 3, b, 3, common, true);
+    const sides of_a = sides_of(b, a, 3, common);
     if (on_one_side(of_a, 3, common)) return relation::disjoint;
-    if (all_zero(of_a) || all_zero(of_b)) return any_relation(a, b, common);
+    if (all_zero(of_a)) return any_relation(b, 3, a, 3, common, true);
     const intersection x = two_sections{a, b, common, section(of_a), section(of_b)}.meet();
     if (x.dimension < 0 || (common > 0 && x.dimension == 0)) return relation::disjoint;
     return x.of_interiors ? relation::crossing : relation::touching;
 }
-constexpr relation relation_of_edge_and_face(const simplex<3>& edge, const simplex<3>& face,
+constexpr relation relation_of_edge_and_face(const point<3>* edge, const point<3>* face,
                                              int common) {
-    const sides s = sides_of(face, edge, common);
+    const sides s = sides_of(face, edge, 2, common);
     if (on_one_side(s, 2, common)) return relation::disjoint;
-    if (s[0] == 0 && s[1] == 0) return any_relation(edge, face, common);
+    if (s[0] == 0 && s[1] == 0) return any_relation(face, 3, edge, 2, common, true);
     const intersection x = meet_edge(edge, face, s[0], s[1]);
     return x.dimension < 0  ? relation::disjoint
            : x.of_interiors ? relation::crossing
                             : relation::touching;
-}
-
-template <std::floating_point T, std::size_t D, std::size_t K>
-constexpr simplex<D> simplex_of(const std::array<std::array<T, D>, K>& p) {
-    simplex<D> s;
-    for (const auto& from : p) {
-        point<D> to{};
-        for (std::size_t i = 0; i < D; ++i) to[i] = static_cast<double>(from[i]);
-        s.add(to);
-    }
-    return s;
 }
 
 /// The offset from line[0] at which a line meets a plane, or in the plane another line, as
@@ -425,11 +493,11 @@ inline located_point<3> located(const simplex<3>& edge_of, const section& s,
 inline std::array<located_point<3>, 2> common_segment_of(const simplex<3>& a, const simplex<3>& b) {
     if (a.size < b.size) return common_segment_of(b, a);
     if (b.size < 3) {
-        const located_point<3> p =
-            b.size == 1 ? located_point<3>{b[0], 0} : located<3>({b[0], b[1]}, a.vertices);
+        const located_point<3> p = located<3>({b[0], b[1]}, a.vertices);
         return {p, p};
     }
-    const two_sections s{a, b, 0, section(sides_of(b, a)), section(sides_of(a, b))};
+    const point<3>*p = a.vertices.data(), *q = b.vertices.data();
+    const two_sections s{p, q, 0, section(sides_of(q, p, 3)), section(sides_of(p, q, 3))};
     const auto of_a = [&](const crossing_edge& edge) { return located(a, s.of_a, edge, b); };
     const auto of_b = [&](const crossing_edge& edge) { return located(b, s.of_b, edge, a); };
     return {s.order(s.of_a.low, s.of_b.high) >= 0 ? of_a(s.of_a.low) : of_b(s.of_b.high),
@@ -461,16 +529,18 @@ constexpr relation relation_of(const std::array<std::array<T, D>, K>& a,
     assert(
         common < K && common < L && std::equal(a.begin(), a.begin() + common, b.begin()) &&
         "errbound: the first `common` vertices of both simplices are equal, and both have others");
-    const simplices::simplex<D> x = simplices::simplex_of(a), y = simplices::simplex_of(b);
     const int shared = static_cast<int>(common);
-    if constexpr (D == 3 && K == 3 && L == 3)
-        return simplices::relation_of_faces(x, y, shared);
-    else if constexpr (D == 3 && K == 2 && L == 3)
-        return simplices::relation_of_edge_and_face(x, y, shared);
-    else if constexpr (D == 3 && K == 3 && L == 2)
-        return simplices::relation_of_edge_and_face(y, x, shared);
-    else
-        return simplices::any_relation(x, y, shared);
+    if constexpr (!std::is_same_v<T, double>) {
+        return relation_of(simplices::as_doubles(a), simplices::as_doubles(b), common);
+    } else if constexpr (D == 3 && K == 3 && L == 3) {
+        return simplices::relation_of_faces(a.data(), b.data(), shared);
+    } else if constexpr (D == 3 && K == 2 && L == 3) {
+        return simplices::relation_of_edge_and_face(a.data(), b.data(), shared);
+    } else if constexpr (D == 3 && K == 3 && L == 2) {
+        return simplices::relation_of_edge_and_face(b.data(), a.data(), shared);
+    } else {
+        return simplices::any_relation(simplices::simplex_of(a), simplices::simplex_of(b), shared);
+    }
 }
 
 /// The ends of the segment that two crossing simplices have in common, in lexicographic order; the
@@ -483,8 +553,10 @@ std::array<located_point<D>, 2> common_segment(const std::array<std::array<T, D>
                                                const std::array<std::array<T, D>, L>& b) {
     static_assert(D == 3 || (D == 2 && K == 2 && L == 2),
                   "errbound: common_segment takes edges of the plane, or elements of space");
-    auto ends = simplices::common_segment_of(simplices::hull_of(simplices::simplex_of(a)),
-                                             simplices::hull_of(simplices::simplex_of(b)));
+    const auto hull = [](const auto& s) {
+        return simplices::hull_of(simplices::simplex_of(simplices::as_doubles(s)));
+    };
+    auto ends = simplices::common_segment_of(hull(a), hull(b));
     if (ends[1].position < ends[0].position) std::swap(ends[0], ends[1]);
     return ends;
 }
