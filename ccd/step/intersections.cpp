@@ -27,8 +27,10 @@ template <std::size_t K, std::size_t D>
 std::array<std::array<double, D>, K> points_of(const vertex_rows& positions,
                                                const simplex_vertices& s) {
     std::array<std::array<double, D>, K> points;
-    for (std::size_t i = 0; i < K; ++i)
-        std::copy_n(positions.before + 3 * std::size_t(s.vertices[i]), D, points[i].begin());
+    for (std::size_t i = 0; i < K; ++i) {
+        const double* row = positions.before + 3 * std::size_t(s.vertices[i]);
+        for (std::size_t k = 0; k < D; ++k) points[i][k] = row[k];
+    }
     return points;
 }
 
@@ -201,6 +203,7 @@ void intersection_finder::decide_adjacent(const vertex_fans& fans) {
         auto operator<=>(const use&) const = default;
     };
     std::vector<use> uses;
+    if (std::ranges::find(is_open, 1) == is_open.end()) return;
     for (std::size_t i = 0; i < elements.size(); ++i)
         for_each_vertex(elements[i], [&](vertex_index v) {
             if (is_open[v] != 0) uses.push_back({v, static_cast<vertex_index>(i)});
@@ -285,7 +288,6 @@ intersection_result find_intersections(candidate_search& search, std::optional<v
         std::optional<vertex_fans> of_its_elements;
         return find_intersections(of_merged, of_its_elements, positions, without);
     }
-    if (!fans) fans.emplace(search.resting_elements(), positions.vertices);
     intersection_finder finder(search, positions, options);
     const step_options searching{
         .set = options.set, .stop = options.stop, .filter = options.filter};
@@ -301,6 +303,7 @@ intersection_result find_intersections(candidate_search& search, std::optional<v
             const rounded_positions rounded(at_rest);
             search.find_at_start({at_rest, rounded}, searching, decide);
         }
+        if (!fans) fans.emplace(search.resting_elements(), positions.vertices);
         finder.decide_adjacent(*fans);
     } catch (const intersection_finder::found_first&) {
         return finder.take();

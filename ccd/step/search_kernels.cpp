@@ -176,23 +176,21 @@ lanes touching(const extents_pack& packed, const Extents& other) {
     return found;
 }
 
-typedef vertex_index index_quad __attribute__((vector_size(16)));
+typedef vertex_index index_pack __attribute__((vector_size(4 * size)));
 
 /// The lanes of `leaf` that share a vertex with element i of `other`.
 template <std::size_t N, std::size_t M>
 lanes sharing(const leaf_vertices& leaf, const leaf_vertices& other, std::uint32_t i) {
-    index_quad found{}, bits = {1, 2, 4, 8};
-    for (std::size_t lane = 0; lane < size; lane += 4, bits <<= 4) {
-        index_quad same{};
-        for (std::size_t w = 0; w < M; ++w) {
-            index_quad vertices;
-            __builtin_memcpy(&vertices, &leaf.at[w][lane], sizeof(vertices));
-            for (std::size_t v = 0; v < N; ++v)
-                same |= index_quad(vertices == index_quad{} + other.at[v][i]);
-        }
-        found |= same & bits;
+    index_pack same{};
+    for (std::size_t w = 0; w < M; ++w) {
+        index_pack vertices;
+        __builtin_memcpy(&vertices, leaf.at[w], sizeof(vertices));
+        for (std::size_t v = 0; v < N; ++v)
+            same |= index_pack(vertices == index_pack{} + other.at[v][i]);
     }
-    return found[0] | found[1] | found[2] | found[3];
+    lanes found = 0;
+    for (std::size_t lane = 0; lane < size; ++lane) found |= same[lane] & (lanes(1) << lane);
+    return found;
 }
 
 struct found_pairs {
