@@ -119,6 +119,8 @@ class advancing {
     step_result step(const vertex_rows& way, const step_options& options) {
         step_result found;
         others_.call([&] { found = steps_.run(way, options); });
+        if (options.check_start)
+            result_.intersections_at_start = std::move(found.intersections_at_start);
         return found;
     }
     template <class Pair>
@@ -221,6 +223,7 @@ step_result advancing<Others>::step_to_first_contact(step_options options) {
         if (round > slow_rounds) growth *= growth;
         step_result found = step(way_, options);
         if (others_.earliest(found.first_contact).outcome == outcome::collides) return found;
+        options.check_start = false;
     }
     options.t_max = 1;
     return step(way_, options);
@@ -232,6 +235,7 @@ void advancing<Others>::evaluate_whole_way() {
     const bool contact = options_.distances.is_contact();
     options.first_contact = true;
     options.times = islands_;
+    options.check_start = options_.check_start;
     const step_result whole = islands_ ? step(way_, options) : step_to_first_contact(options);
     result_.first_contact = others_.earliest(whole.first_contact);
     if (result_.first_contact.outcome == outcome::collides && !islands_)

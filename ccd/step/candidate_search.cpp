@@ -5,6 +5,7 @@
 #include <iterator>
 #include <type_traits>
 #include <utility>
+#include <vector>
 
 #include "ccd/batch/batch_worker.hpp"
 #include "ccd/step/candidate_blocks.hpp"
@@ -30,12 +31,18 @@ std::vector<std::array<vertex_index, 1>> vertices_on_no_edge(const std::vector<e
     return points;
 }
 
+/// Precondition: both are sorted.
+template <class Item>
+std::vector<Item> without(const std::vector<Item>& items, const std::vector<Item>& others) {
+    std::vector<Item> rest;
+    std::ranges::set_difference(items, others, std::back_inserter(rest));
+    return rest;
+}
+
 /// The unique ones of `edges` that are not among `face_edges`.
 std::vector<edge> edges_of_no_face(std::span<const edge> edges,
                                    const std::vector<edge>& face_edges) {
-    std::vector<edge> rods;
-    std::ranges::set_difference(unique_edges({}, edges), face_edges, std::back_inserter(rods));
-    return rods;
+    return without(unique_edges({}, edges), face_edges);
 }
 
 }  // namespace
@@ -87,6 +94,7 @@ candidate_search::candidate_search(std::span<const face> faces, std::span<const 
     points_ = ordered_elements(vertices_on_no_edge(all, vertices));
     if (!edges.empty()) rods_ = ordered_elements(edges_of_no_face(edges, unique_edges(faces)));
     edges_ = ordered_elements(std::move(all));
+    set_resting();
 }
 
 candidate_search candidate_search::in_plane(std::span<const edge> edges, std::size_t vertices) {
@@ -95,19 +103,61 @@ candidate_search candidate_search::in_plane(std::span<const edge> edges, std::si
     return search;
 }
 
+candidate_search candidate_search::at_start(std::span<const face> faces,
+                                            std::span<const edge> edges, std::size_t vertices,
+                                            bool in_plane) {
+    candidate_search search({}, {}, 0);
+    search.in_plane_ = in_plane;
+    search.vertex_count_ = vertices;
+    search.unused_ = unused_vertices(faces, edges, vertices);
+    search.faces_ = ordered_elements(unique_faces(faces));
+    if (!edges.empty())
+        search.rods_ = ordered_elements(edges_of_no_face(edges, unique_edges(faces)));
+    search.set_resting();
+    return search;
+}
+
+void candidate_search::set_resting() {
+    const std::span<const face> faces = faces_;
+    const std::span<const edge> rods = rods_;
+    std::vector<vertex_index> points = unused_vertices(faces, rods, vertex_count_);
+    if (skips_unused_) points = without(points, unused_);
+    std::vector<face> all;
+    if (!rods.empty() || !points.empty()) all.assign(faces.begin(), faces.end());
+    for (face& f : all)
+        while (!is_triangle(f) && f[0] != f[1]) std::ranges::rotate(f, f.begin() + 1);
+    for (const edge& e : rods) all.push_back({e[0], e[1], e[1]});
+    for (const vertex_index v : points) all.push_back({v, v, v});
+    resting_ = ordered_elements(std::move(all));
+    resting_points_ = std::move(points);
+}
+
+bool candidate_search::is_point(const face& element) const {
+    return element[0] == element[2] && element[0] == element[1] &&
+           std::ranges::binary_search(resting_points_, element[0]);
+}
+bool candidate_search::is_rod(const face& element) const {
+    return resting_.size() > 0 && element[0] != element[1] && element[1] == element[2];
+}
+
+template <std::size_t N>
+void candidate_search::skip_in(ordered_elements<N>& set, bool skip) {
+    const std::span<const std::array<vertex_index, N>> old = set;
+    std::vector<std::array<vertex_index, N>> all(old.begin(), old.end());
+    if (skip)
+        std::erase_if(all,
+                      [&](const auto& e) { return std::ranges::binary_search(unused_, e[0]); });
+    else
+        for (const vertex_index v : unused_) std::ranges::fill(all.emplace_back(), v);
+    set = ordered_elements(std::move(all));
+}
+
 void candidate_search::skip_unused(bool skip) {
     if (skip == skips_unused_ || unused_.empty()) return;
     skips_unused_ = skip;
-    for (ordered_elements<1>* set : {&vertices_, &points_}) {
-        const std::span<const std::array<vertex_index, 1>> old = *set;
-        std::vector<std::array<vertex_index, 1>> all(old.begin(), old.end());
-        if (skip)
-            std::erase_if(all,
-                          [&](const auto& v) { return std::ranges::binary_search(unused_, v[0]); });
-        else
-            for (const vertex_index v : unused_) all.push_back({v});
-        *set = ordered_elements(std::move(all));
-    }
+    skip_in(vertices_, skip);
+    skip_in(points_, skip);
+    set_resting();
 }
 
 template <class Real, std::size_t N>
@@ -124,7 +174,7 @@ std::size_t candidate_search::find_by(tree_pair<Real>& trees, const search_reque
     constexpr bool within_one = std::is_same_v<First, Second>;
     const auto build = [&](box_tree<Real>& tree, auto& elements) {
         elements.template build_tree<Real>(
-            tree, request.whole_way, sorting<Real>(request.boxes, second), [&] {
+            tree, request.wanted.t_max == 1, sorting<Real>(request.boxes, second), [&] {
                 tree.build(elements.size(), [&](std::size_t i) {
                     return request.boxes.swept_box<Real>(elements[i]);
                 });
@@ -152,12 +202,13 @@ std::size_t candidate_search::find_close(const search_request& request, First& f
     const auto build = [&](extents_tree& tree, auto& elements) {
         constexpr std::size_t n = std::remove_cvref_t<decltype(elements)>::vertices;
         elements.template build_tree<float>(
-            tree, request.whole_way, sorting<float>(request.boxes, second),
-            [&] { tree.build<n>(*request.close, request.rounded, request.margin, elements); });
+            tree, request.wanted.t_max == 1, sorting<float>(request.boxes, second),
+            [&] { tree.build<n>(request.kernels, request.rounded, request.margin, elements); });
     };
     extents_tree& b = of_extents_.second;
     extents_tree& a = within_one ? b : of_extents_.first;
     build(b, second);
+    in_second_ = &second;
     if constexpr (!within_one) build(a, first);
 
     candidate_blocks<pair_of_kind<K>> blocks(request.visitor.of<K>(), request.filter, request.stop);
@@ -176,8 +227,8 @@ std::size_t candidate_search::find_close(const search_request& request, First& f
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, a.leaves(), 8),
                       [&](const tbb::blocked_range<std::size_t>& range) {
                           context to{first, second, blocks.local()};
-                          (request.close->*find)(a.levels(), b.levels(), range.begin(), range.end(),
-                                                 &to, add);
+                          (request.kernels.*find)(a.levels(), b.levels(), range.begin(),
+                                                  range.end(), &to, add);
                       });
     return blocks.finish();
 }
@@ -188,10 +239,71 @@ std::size_t candidate_search::find_kind(const search_request& request, First& fi
     if (!request.visitor.of<K>() || first.size() == 0 || second.size() == 0) return 0;
     if (!request.boxes.need_doubles<Second::vertices>(second)) {
         if constexpr (is_cubic(K))
-            if (request.close != nullptr) return find_close<K>(request, first, second);
+            if (request.wanted.close) return find_close<K>(request, first, second);
         if (!request.boxes.need_widening()) return find_by<K>(in_floats_, request, first, second);
     }
     return find_by<K>(in_doubles_, request, first, second);
+}
+
+void candidate_search::find_at_start(const batch_positions& positions, const step_options& options,
+                                     const resting_visitor& visit, trees from) {
+    skip_unused(options.filter.skip_unused);
+    if (from == trees::new_ones) {
+        order_.forget();
+        in_second_ = nullptr;
+    }
+    ordered_elements<3>& elements = resting_.size() > 0 ? resting_ : faces_;
+    if (elements.size() == 0) return;
+    batch_positions at = positions;
+    at.exact.after = at.exact.before;
+    const pair_distances contact;
+    const search_kernels& kernels = search_kernels_for(options.set);
+    const swept_boxes boxes(at, contact);
+    if (boxes.need_doubles<3>(elements)) {
+        struct block {
+            std::size_t count = 0;
+            std::array<element_pair, 512> pairs;
+        };
+        tbb::enumerable_thread_specific<block> blocks;
+        const auto flush = [&](block& b) {
+            stop_if_requested(options.stop);
+            visit(elements, {b.pairs.data(), b.count});
+            b.count = 0;
+        };
+        box_tree<double>& tree = in_doubles_.second;
+        elements.build_tree<double>(tree, true, sorting<double>(boxes, elements), [&] {
+            tree.build(elements.size(),
+                       [&](std::size_t i) { return boxes.swept_box<double>(elements[i]); });
+        });
+        for_each_touching(
+            tree, tree, [&]() -> auto& { return blocks.local(); },
+            [&](block& b, std::size_t i, std::size_t j, bool) {
+                if (share_vertex(elements[i], elements[j])) return;
+                b.pairs[b.count++] = {static_cast<unsigned>(i), static_cast<unsigned>(j)};
+                if (b.count == b.pairs.size()) flush(b);
+            });
+        tbb::parallel_for_each(blocks, flush);
+        return;
+    }
+    extents_tree& tree = of_extents_.second;
+    if (in_second_ != &elements)
+        elements.build_tree<float>(tree, true, sorting<float>(boxes, elements),
+                                   [&] { tree.build<3>(kernels, at.rounded, 0, elements); });
+    in_second_ = &elements;
+    struct context {
+        const resting_visitor& visit;
+        std::span<const face> elements;
+    };
+    constexpr auto pass = [](void* to, const element_pair* pairs, std::size_t count) {
+        const auto& [visit, elements] = *static_cast<context*>(to);
+        visit(elements, {pairs, count});
+    };
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, tree.leaves(), 8), [&](const auto& range) {
+        stop_if_requested(options.stop);
+        context to{visit, elements};
+        kernels.of_two_faces_at_start(tree.levels(), tree.levels(), range.begin(), range.end(), &to,
+                                      pass);
+    });
 }
 
 pair_counts candidate_search::find(const batch_positions& positions, const step_options& options,
@@ -203,15 +315,16 @@ pair_counts candidate_search::find(const batch_positions& positions, const step_
         boxes = until ? swept_boxes(until->positions(), options.distances, until->error()) : whole;
     const pair_test test(options.filter, whole);
     const search_request request{boxes,
-                                 !until,
                                  lets_all_through(options.filter) ? nullptr : &test,
                                  visitor,
                                  options.stop,
                                  until ? until->positions().rounded : positions.rounded,
                                  until ? until->margin() : 0,
-                                 wanted.close ? &search_kernels_for(options.set) : nullptr};
+                                 search_kernels_for(options.set),
+                                 wanted};
     skip_unused(options.filter.skip_unused);
     order_.forget();
+    in_second_ = nullptr;
     pair_counts counts;
     if (in_plane_) {
         counts.vertex_edge = find_kind<kind::vertex_edge>(request, vertices_, edges_);

@@ -5,6 +5,7 @@
 #include <ccd/mesh.hpp>
 #include <ccd/step.hpp>
 #include <cstddef>
+#include <functional>
 #include <optional>
 #include <span>
 #include <utility>
@@ -55,6 +56,10 @@ struct wanted_candidates {
     double t_max = 1;
 };
 
+/// Called with blocks of pairs of these elements, from several threads at once.
+using resting_visitor =
+    std::function<void(std::span<const face> elements, std::span<const element_pair> pairs)>;
+
 /// The search in one mesh. Keeps its working memory: about 40 bytes a face or 44 an edge, whichever
 /// is more, 18 a vertex, and 32 KB a thread. Elements and vertices take twice as much if floats do
 /// not suffice, and 187, 191 and 183 bytes for close pairs.
@@ -67,6 +72,10 @@ class candidate_search {
     /// Pairs are each vertex with each edge, and each two points.
     static candidate_search in_plane(std::span<const edge> edges, std::size_t vertices);
 
+    /// Only for find_at_start(), with less memory and time for its preparation.
+    static candidate_search at_start(std::span<const face> faces, std::span<const edge> edges,
+                                     std::size_t vertices, bool in_plane = false);
+
     std::size_t vertices() const { return vertex_count_; }
     bool is_in_plane() const { return in_plane_; }
 
@@ -75,6 +84,26 @@ class candidate_search {
     pair_counts find(const batch_positions& positions, const step_options& options,
                      const candidate_visitor& visitor, const wanted_candidates& wanted = {});
 
+    /// The trees that find_at_start may use.
+    enum class trees : bool { new_ones, of_last_find };
+
+    /// Visits each pair of resting_elements() without a common vertex once, unless an axis
+    /// separates the two at t = 0. Does not apply the filter except skip_unused. `of_last_find` is
+    /// only for the positions and options of the last find(); otherwise positions at t = 1 must be
+    /// those at t = 0.
+    void find_at_start(const batch_positions& positions, const step_options& options,
+                       const resting_visitor& visit, trees from = trees::new_ones);
+
+    void skip_unused(bool skip);
+    /// Faces, edges of no face and vertices of neither, in any order. Edges {v, w, w} and vertices
+    /// {v, v, v} repeat their last vertex, degenerate faces {v, v, w} the first.
+    std::span<const face> resting_elements() const {
+        return resting_.size() > 0 ? resting_ : faces_;
+    }
+    /// True for one of them if it is a vertex of no face and no edge.
+    bool is_point(const face& element) const;
+    bool is_rod(const face& element) const;
+
   private:
     template <class Real>
     struct tree_pair {
@@ -82,13 +111,13 @@ class candidate_search {
     };
     struct search_request {
         const swept_boxes& boxes;
-        bool whole_way;
         const pair_test* filter;  // null: all pairs pass
         const candidate_visitor& visitor;
         const stop_query& stop;
         const float* rounded;
-        float margin;                 // of `rounded`
-        const search_kernels* close;  // null: all candidates
+        float margin;  // of `rounded`
+        const search_kernels& kernels;
+        const wanted_candidates& wanted;
     };
 
     struct extents_trees {
@@ -106,7 +135,9 @@ class candidate_search {
     template <kind K, class First, class Second>
     std::size_t find_close(const search_request& request, First& first, Second& second);
 
-    void skip_unused(bool skip);
+    void set_resting();
+    template <std::size_t N>
+    void skip_in(ordered_elements<N>& set, bool skip);
 
     std::size_t vertex_count_;
     std::vector<vertex_index> unused_;
@@ -115,9 +146,12 @@ class candidate_search {
     ordered_elements<1> vertices_, points_;
     ordered_elements<2> edges_, rods_;
     ordered_elements<3> faces_;
+    ordered_elements<3> resting_;  ///< empty if there are faces only
+    std::vector<vertex_index> resting_points_;
     tree_pair<float> in_floats_;
     tree_pair<double> in_doubles_;
     extents_trees of_extents_;
+    const void* in_second_ = nullptr;  ///< the elements of of_extents_.second
     bool in_plane_ = false;
 };
 

@@ -21,6 +21,10 @@ void check_elements(std::span<const face> faces, std::span<const edge> edges, st
 void check_positions(const vertex_rows& positions, std::size_t vertices,
                      std::span<const std::uint64_t> numbers = {});
 
+/// The same for ccd::intersections, which reads positions.before only.
+void check_at_rest(const vertex_rows& positions, std::size_t vertices, const pair_filter& filter,
+                   bool in_plane = false);
+
 /// True if the options need times or distances, which only `exact` computes.
 bool needs_times_or_distances(const step_options& options);
 

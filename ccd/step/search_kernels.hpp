@@ -27,11 +27,11 @@ struct search_kernels {
                        extents_pack* packs, extents* hulls);
 
     /// Finds pairs, without a common vertex, that no axis separates. They have an element in the
-    /// leaves first <= p < end of `a` and one of `b`. If both are edges of one tree, the later one
-    /// is second.
+    /// leaves first <= p < end of `a` and one of `b`. If both are elements of one tree, the later
+    /// one is second. For `of_two_faces_at_start`, the axis need not separate them at t = 1.
     using find_pairs = void (*)(const extents_levels& a, const extents_levels& b, std::size_t first,
                                 std::size_t end, void* context, visitor visit);
-    find_pairs of_vertices_and_faces, of_two_edges;
+    find_pairs of_vertices_and_faces, of_two_edges, of_two_faces_at_start;
 };
 
 const search_kernels& search_kernels_for(std::optional<instruction_set> set);

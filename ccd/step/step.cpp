@@ -14,6 +14,7 @@
 #include "ccd/batch/threads.hpp"
 #include "ccd/step/candidate_search.hpp"
 #include "ccd/step/checks.hpp"
+#include "ccd/step/intersection_finder.hpp"
 #include "ccd/step/narrow_phase.hpp"
 #include "ccd/step/stopwatch.hpp"
 
@@ -24,8 +25,8 @@ template <kind K>
 using phase = detail::narrow_phase<K>;
 
 /// Runs a step, except first times and contacts at the start.
-step_result run_step(detail::candidate_search& search, const vertex_rows& positions,
-                     const step_options& options) {
+step_result run_step(detail::candidate_search& search, std::optional<detail::vertex_fans>& fans,
+                     const vertex_rows& positions, const step_options& options) {
     detail::stopwatch watch;
     step_result result;
     const detail::rounded_positions rounded(positions);
@@ -56,6 +57,14 @@ step_result run_step(detail::candidate_search& search, const vertex_rows& positi
         result.stages += phases.of<K>().report();
     });
     result.sort_seconds = watch.lap();
+
+    if (options.check_start) {
+        const intersection_options at_start{
+            .segments = false, .set = options.set, .stop = options.stop, .filter = options.filter};
+        result.intersections_at_start =
+            detail::find_intersections(search, fans, positions, at_start, &at).pairs;
+        result.start_seconds = watch.lap();
+    }
     return result;
 }
 
@@ -144,6 +153,7 @@ void find_pair_times(const vertex_rows& positions, const step_options& options,
 
 struct mesh_steps::state {
     detail::candidate_search search;
+    std::optional<detail::vertex_fans> fans = {};
 
     void check(const vertex_rows& positions, const step_options& options) const {
         detail::check_positions(positions, search.vertices());
@@ -174,14 +184,28 @@ step_result mesh_steps::run(const vertex_rows& positions, const step_options& op
     state_->check(positions, options);
     const double check_seconds = watch.lap();
     step_result result;
-    const int threads = detail::on_threads(
-        options.threads, [&] { result = run_step(state_->search, positions, options); });
+    const int threads = detail::on_threads(options.threads, [&] {
+        result = run_step(state_->search, state_->fans, positions, options);
+    });
     result.threads = threads;
     result.prepare_seconds += check_seconds;
     watch.lap();
     find_pair_times(positions, options, result);
     result.contact_seconds = watch.lap();
     result.total_seconds = total.lap();
+    return result;
+}
+
+intersection_result mesh_steps::intersections(const vertex_rows& positions,
+                                              const intersection_options& options) {
+    detail::stopwatch watch;
+    auto& search = state_->search;
+    detail::check_at_rest(positions, search.vertices(), options.filter, search.is_in_plane());
+    intersection_result result;
+    detail::on_threads(options.threads, [&] {
+        result = detail::find_intersections(search, state_->fans, positions, options);
+    });
+    result.seconds = watch.lap();
     return result;
 }
 

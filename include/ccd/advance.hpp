@@ -3,6 +3,7 @@
 //     const ccd::advance_result r = ccd::advance(before, after);  // r.positions are free
 //
 // `exact` certifies that the straight way from `before` to the rounded positions has no contact.
+// Precondition: `before` is free of intersections (ccd/intersections.hpp), which check_start tests.
 #pragma once
 
 #include <ccd/contact.hpp>
@@ -25,6 +26,7 @@ struct advance_options {
     std::optional<instruction_set> set = {};  ///< by default the strongest
     stop_query stop = {};                     ///< ends the call by throwing ccd::stopped
     pair_filter filter = {};                  ///< the pairs to test
+    bool check_start = false;                 ///< fill advance_result::intersections_at_start
 };
 
 struct advance_result {
@@ -39,6 +41,9 @@ struct advance_result {
     first_time first_contact;
     pair_lists touching_at_start;  ///< skipped: no step of these pairs is free
     pair_lists near_at_start;      ///< within their distance at t = 0: only contact is avoided
+    /// Elements that intersect at t = 0, as step_result::intersections_at_start, with check_start.
+    /// They may move on through each other: only a start without them has a free result.
+    std::vector<intersection> intersections_at_start;
 };
 
 /// Returns the longest step from positions.before towards positions.after that was found to be

@@ -15,5 +15,6 @@
 #include <errbound/predicate_batch.hpp>
 #include <errbound/predicates.hpp>
 #include <errbound/roots/real_roots.hpp>
+#include <errbound/simplices.hpp>
 #include <errbound/small_floats.hpp>
 #include <errbound/tracked.hpp>

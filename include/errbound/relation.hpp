@@ -1,0 +1,34 @@
+// The relations of points, edges and triangles: see errbound/simplices.hpp.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+namespace errbound {
+
+/// How two closed simplices meet.
+enum class relation : std::uint8_t {
+    /// They share no point outside their common simplex.
+    disjoint,
+    /// They share such a point, but arbitrarily small motions separate them. Every pair that shares
+    /// a point and is neither overlapping nor crossing: a vertex on a face, an edge within a face's
+    /// plane, two equal points.
+    touching,
+    /// Their relative interiors meet, and both span the same line or plane: coplanar faces that
+    /// share an area, collinear edges that share a length.
+    overlapping,
+    /// Their relative interiors meet, and together they span the space: an edge passes through the
+    /// interior of a face and leaves on both sides, or in the plane two edges cross. Sufficiently
+    /// small motions do not separate them.
+    crossing,
+};
+
+/// A point known up to rounding.
+template <std::size_t D>
+struct located_point {
+    std::array<double, D> position;
+    double error;  ///< bounds the error of each coordinate
+};
+
+}  // namespace errbound
