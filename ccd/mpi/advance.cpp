@@ -147,6 +147,7 @@ advance_result advance(MPI_Comm comm, const mesh_part& mesh, const advance_optio
     advance_result result;
     result.first_contact = found.first_contact;
     for_each_kind([&]<kind K>() {
+        result.first_pairs.of<K>() = numbered<K>(found.first_pairs.of<K>(), vertices);
         result.touching_at_start.of<K>() = numbered<K>(found.touching_at_start.of<K>(), vertices);
         result.near_at_start.of<K>() = numbered<K>(found.near_at_start.of<K>(), vertices);
     });

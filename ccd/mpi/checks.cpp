@@ -88,13 +88,14 @@ void check_options(exchanger& ranks, const step_options& options, placement pair
 void check_options(exchanger& ranks, const advance_options& options, std::size_t vertices,
                    const std::string& caller) {
     ranks.agree([&] {
+        ccd::detail::check_conservative(options.conservative);
         ccd::detail::check_options(
             {.set = options.set, .distances = options.distances, .filter = options.filter},
             vertices);
     });
     check_same(ranks,
                std::array{options.distances.all, static_cast<double>(options.filter.rule),
-                          double(options.filter.skip_unused)},
+                          double(options.filter.skip_unused), options.conservative},
                caller);
 }
 

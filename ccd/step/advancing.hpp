@@ -14,6 +14,7 @@
 #include <utility>
 #include <vector>
 
+#include "ccd/step/elements.hpp"
 #include "ccd/step/swept_boxes.hpp"
 #include "ccd/step/vertex_groups.hpp"
 
@@ -62,6 +63,45 @@ struct no_others {
     bool all(bool holds) { return holds; }
 };
 
+/// A time until which three in four vertices move by no more than their spacing, by a sample, so
+/// that few pairs of elements come near. Infinite if these do not move.
+inline double time_of_short_way(const vertex_rows& way) {
+    rounded_axes::extent box = rounded_axes::extent::nothing();
+    std::vector<double> lengths;
+    for (std::size_t v = 0; v < way.vertices; v += sampling_stride(way.vertices)) {
+        const double *x = way.before + 3 * v, *y = way.after + 3 * v;
+        for (std::size_t k = 0; k < 3; ++k) box.widen(k, x[k]);
+        lengths.push_back(std::hypot(y[0] - x[0], y[1] - x[1], y[2] - x[2]));
+    }
+    const auto most = lengths.begin() + static_cast<std::ptrdiff_t>(3 * lengths.size() / 4);
+    std::ranges::nth_element(lengths, most);
+    const double size =
+        std::hypot(box.high[0] - box.low[0], box.high[1] - box.low[1], box.high[2] - box.low[2]);
+    const double time = size / std::sqrt(static_cast<double>(way.vertices)) / *most;
+    return time > 0 ? time : std::numeric_limits<double>::infinity();
+}
+
+/// Calls step(options) with t_max = 1, or before with less, until there is a contact. Short
+/// searches are cheap, and the first contact is usually early if vertices move by many times their
+/// spacing: a diverged line search.
+template <class Others, class Step>
+step_result step_to_first_contact(const vertex_rows& way, step_options options, Others& others,
+                                  const Step& step) {
+    options.first_contact = true;
+    double growth = 4;
+    constexpr int slow_rounds = 6;  // then faster: a way may be 1e300 times too long
+    const double start = way.vertices == 0 ? 1 : time_of_short_way(way);
+    options.t_max = others.earliest({outcome::collides, start, start}).low;
+    for (int round = 0; options.t_max < 1 / growth; ++round, options.t_max *= growth) {
+        if (round > slow_rounds) growth *= growth;
+        step_result found = step(options);
+        if (others.earliest(found.first_contact).outcome == outcome::collides) return found;
+        options.check_start = false;
+    }
+    options.t_max = 1;
+    return step(options);
+}
+
 /// Others must have the members of no_others: found_by_all returns the same pairs in the same order
 /// on all processes. If `what` throws on one, call throws on all. In `groups`, vertices of other
 /// processes follow those of `way`.
@@ -80,7 +120,9 @@ class advancing {
 
     /// Returns all except result.fraction, which stays 1. The lists are those of all processes.
     advance_result run() {
+        result_.first_contact = {outcome::separate};
         evaluate_whole_way();
+        for_each_kind([&]<kind K>() { std::ranges::sort(result_.first_pairs.template of<K>()); });
         // Each round joins groups, takes vertices back or shortens a way. After rounds_by_group all
         // become one group, whose way vertex_groups shortens a bounded number of times.
         constexpr int rounds_by_group = 60;
@@ -95,8 +137,6 @@ class advancing {
   private:
     /// Finds the pairs to skip, pairs with a contact, and fractions.
     void evaluate_whole_way();
-    /// The step until a time by which there is a contact, or the whole one.
-    step_result step_to_first_contact(step_options options);
     template <class Pair>
     void hold(const timed_pair<Pair>& contact);
     template <kind K>
@@ -170,11 +210,8 @@ void advancing<Others>::hold(const timed_pair<Pair>& contact) {
     for (const vertex_index v : vertices) groups_.join(vertices[0], v);
     const first_time& time = contact.time;
     if (time.outcome != outcome::collides || time.at_start()) return;
-    groups_.limit(vertices[0], last_before(time));
-    first_time& first = result_.first_contact;
-    if (first.outcome != outcome::collides ||
-        std::pair(time.low, time.high) < std::pair(first.low, first.high))
-        first = time;
+    groups_.limit(vertices[0], options_.conservative * last_before(time));
+    add_first(time, contact.pair, result_);
 }
 
 /// Finds contacts of pairs that are within their distance at the start.
@@ -193,42 +230,6 @@ void advancing<Others>::find_near_contacts() {
     }
 }
 
-/// A time until which three in four vertices move by no more than their spacing, by a sample, so
-/// that few pairs of elements come near. Infinite if these do not move.
-inline double time_of_short_way(const vertex_rows& way) {
-    rounded_axes::extent box = rounded_axes::extent::nothing();
-    std::vector<double> lengths;
-    for (std::size_t v = 0; v < way.vertices; v += sampling_stride(way.vertices)) {
-        const double *x = way.before + 3 * v, *y = way.after + 3 * v;
-        for (std::size_t k = 0; k < 3; ++k) box.widen(k, x[k]);
-        lengths.push_back(std::hypot(y[0] - x[0], y[1] - x[1], y[2] - x[2]));
-    }
-    const auto most = lengths.begin() + static_cast<std::ptrdiff_t>(3 * lengths.size() / 4);
-    std::ranges::nth_element(lengths, most);
-    const double size =
-        std::hypot(box.high[0] - box.low[0], box.high[1] - box.low[1], box.high[2] - box.low[2]);
-    const double time = size / std::sqrt(static_cast<double>(way.vertices)) / *most;
-    return time > 0 ? time : std::numeric_limits<double>::infinity();
-}
-
-/// Short searches are cheap, and the first contact is usually early if vertices move by many times
-/// their spacing: a diverged line search.
-template <class Others>
-step_result advancing<Others>::step_to_first_contact(step_options options) {
-    double growth = 4;
-    constexpr int slow_rounds = 6;  // then faster: a way may be 1e300 times too long
-    const double start = way_.vertices == 0 ? 1 : time_of_short_way(way_);
-    options.t_max = others_.earliest({outcome::collides, start, start}).low;
-    for (int round = 0; options.t_max < 1 / growth; ++round, options.t_max *= growth) {
-        if (round > slow_rounds) growth *= growth;
-        step_result found = step(way_, options);
-        if (others_.earliest(found.first_contact).outcome == outcome::collides) return found;
-        options.check_start = false;
-    }
-    options.t_max = 1;
-    return step(way_, options);
-}
-
 template <class Others>
 void advancing<Others>::evaluate_whole_way() {
     step_options options = base_options();
@@ -236,25 +237,25 @@ void advancing<Others>::evaluate_whole_way() {
     options.first_contact = true;
     options.times = islands_;
     options.check_start = options_.check_start;
-    const step_result whole = islands_ ? step(way_, options) : step_to_first_contact(options);
-    result_.first_contact = others_.earliest(whole.first_contact);
-    if (result_.first_contact.outcome == outcome::collides && !islands_)
-        groups_.limit(0, last_before(result_.first_contact));
+    const auto step_way = [&](const step_options& o) { return step(way_, o); };
+    const step_result whole =
+        islands_ ? step(way_, options) : step_to_first_contact(way_, options, others_, step_way);
+    const first_time first = others_.earliest(whole.first_contact);
     for_each_kind([&]<kind K>() {
         const auto& pairs = whole.pairs.of<K>();
         const auto& times = whole.times.of<K>();
         at_start_.of<K>() = found_by_all(whole.touching_at_start.of<K>());
         if (contact) result_.touching_at_start.of<K>() = at_start_.of<K>();
         std::ranges::sort(at_start_.of<K>());
-        if (!islands_) {
-            if (whole.first_contact == result_.first_contact)
-                known_.of<K>() = whole.first_pairs.of<K>();
-        } else {
+        std::vector<timed_pair<pair_of_kind<K>>> timed;
+        if (islands_) {
             known_.of<K>() = without(pairs, at_start_.of<K>());
-            std::vector<timed_pair<pair_of_kind<K>>> timed;
             for (std::size_t i = 0; i < pairs.size(); ++i) timed.push_back({pairs[i], times[i]});
-            for (const auto& pair : others_.found_by_all(std::move(timed))) hold(pair);
+        } else if (whole.first_contact == first) {
+            known_.of<K>() = whole.first_pairs.of<K>();
+            for (const auto& pair : known_.of<K>()) timed.push_back({pair, first});
         }
+        for (const auto& pair : others_.found_by_all(std::move(timed))) hold(pair);
         if (!contact) {
             known_near_.of<K>() = whole.touching_at_start.of<K>();
             find_near_contacts<K>();

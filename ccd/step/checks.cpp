@@ -123,6 +123,12 @@ bool needs_times_or_distances(const step_options& options) {
            !options.distances.is_contact();
 }
 
+void check_conservative(double share) {
+    if (!(0 < share && share <= 1))
+        throw std::invalid_argument("ccd::advance: conservative is " + std::to_string(share) +
+                                    "; expected a number in (0, 1]");
+}
+
 void check_plane(const vertex_rows& positions) {
     for (vertex_index v = 0; v < positions.vertices; ++v) {
         const auto [before, after] = positions[v];

@@ -76,19 +76,6 @@ std::vector<Item> selected(const std::vector<Item>& items, const IsWanted& is_wa
     return wanted;
 }
 
-/// Adds pairs that first touch at this time, if none touches before.
-template <kind K>
-void add_first(const first_time& time, std::span<const pair_of_kind<K>> pairs,
-               step_result& result) {
-    first_time& first = result.first_contact;
-    const bool any = first.outcome == outcome::collides;
-    if (any && std::tuple(first.low, first.high) < std::tuple(time.low, time.high)) return;
-    if (!any || first != time) result.first_pairs = {};
-    first = time;
-    auto& all = result.first_pairs.of<K>();
-    all.insert(all.end(), pairs.begin(), pairs.end());
-}
-
 /// Computes the time of each reported pair. Drops pairs whose time is after t_max.
 template <kind K>
 void find_times(const vertex_rows& positions, const time_options& options, bool keep_times,
@@ -101,7 +88,7 @@ void find_times(const vertex_rows& positions, const time_options& options, bool 
     result.touching_at_start.of<K>() =
         selected(pairs, [&](std::size_t i) { return times[i].at_start(); });
     for (std::size_t i = 0; i < times.size(); ++i)
-        if (!times[i].at_start()) add_first<K>(times[i], {&pairs[i], 1}, result);
+        if (!times[i].at_start()) detail::add_first(times[i], pairs[i], result);
     if (keep_times) result.times.of<K>() = std::move(times);
 }
 
@@ -111,7 +98,7 @@ void find_first(const vertex_rows& positions, time_options options, step_result&
     if (result.first_contact.outcome == outcome::collides)
         options.t_max = result.first_contact.high;
     const earliest_time found = earliest(positions, pairs, options);
-    for (const std::size_t i : found.queries) add_first<K>(found.time, {&pairs[i], 1}, result);
+    for (const std::size_t i : found.queries) detail::add_first(found.time, pairs[i], result);
     for (const std::size_t i : found.at_start) result.touching_at_start.of<K>().push_back(pairs[i]);
 }
 

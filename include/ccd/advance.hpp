@@ -1,6 +1,7 @@
 // Steps that are certainly free of contact: how far a mesh may move, and to which positions.
 //
 //     const ccd::advance_result r = ccd::advance(before, after);  // r.positions are free
+//     const ccd::free_step_result s = ccd::free_step(steps, {x, p});  // x + s.alpha * p is free
 //
 // `exact` certifies that the straight way from `before` to the rounded positions has no contact.
 // Precondition: `before` is free of intersections (ccd/intersections.hpp), which check_start tests.
@@ -27,6 +28,9 @@ struct advance_options {
     stop_query stop = {};                     ///< ends the call by throwing ccd::stopped
     pair_filter filter = {};                  ///< the pairs to test
     bool check_start = false;                 ///< fill advance_result::intersections_at_start
+    /// The share of the way to the first contact (or distance) that is used: in (0, 1]. With 1, a
+    /// step ends next to the contact. Barrier methods need a gap there; 0.8 is usual.
+    double conservative = 1;
 };
 
 struct advance_result {
@@ -39,6 +43,7 @@ struct advance_result {
     /// The earliest contact (or distance) on the whole way, without the pairs of touching_at_start;
     /// `separate` if there is none.
     first_time first_contact;
+    pair_lists first_pairs;        ///< the pairs with that time: they limit the step
     pair_lists touching_at_start;  ///< skipped: no step of these pairs is free
     pair_lists near_at_start;      ///< within their distance at t = 0: only contact is avoided
     /// Elements that intersect at t = 0, as step_result::intersections_at_start, with check_start.
@@ -62,5 +67,31 @@ advance_result advance(mesh_steps& steps, const vertex_rows& positions,
 /// Two frames of one mesh. Throws std::invalid_argument also if they differ in faces, edges or
 /// number of vertices.
 advance_result advance(const mesh& before, const mesh& after, const advance_options& options = {});
+
+/// A free step of a line search: x + alpha * p, as the caller computes it.
+struct free_step_result {
+    /// In [0, 1]. The ways from x to these two positions are both free, for each coordinate: with
+    /// the product and the sum rounded, and fused, std::fma(alpha, p, x).
+    double alpha = 1;
+    std::vector<point<double>> positions;  ///< x + alpha * p, with two roundings
+    /// The earliest contact (or distance) on the way from x to x + p (rounded), without the pairs
+    /// of touching_at_start; `separate` if there is none.
+    first_time first_contact;
+    pair_lists first_pairs;        ///< the pairs with that time
+    pair_lists touching_at_start;  ///< skipped
+    pair_lists near_at_start;      ///< within their distance at t = 0: only contact is avoided
+    std::vector<intersection> intersections_at_start;  ///< with check_start
+};
+
+/// Returns the longest free step along a direction that was found: `directed.before` are positions
+/// x, `directed.after` the displacements p. Line searches move to x + alpha * p: rounding differs
+/// from advance_result::positions, so a fraction of `advance` does not certify them.
+///
+/// alpha is within a few ulps of `conservative` times the first contact's time, less only if
+/// rounding causes contacts. Groups must be empty. If x + p overflows, shorter ways are tested.
+///
+/// Throws as advance. Cost: as advance; one more step if fused positions differ.
+free_step_result free_step(mesh_steps& steps, const vertex_rows& directed,
+                           const advance_options& options = {});
 
 }  // namespace ccd

@@ -91,7 +91,8 @@ struct advance_result {
     double fraction = 1;                   ///< the least of the whole mesh, the same on all ranks
     std::vector<double> fractions;         ///< of mesh.numbers
     first_time first_contact;              ///< of the whole step, the same on all ranks
-    pair_lists touching_at_start, near_at_start;  ///< of the whole mesh, sorted, on all ranks
+    /// Of the whole mesh, sorted, on all ranks.
+    pair_lists first_pairs, touching_at_start, near_at_start;
     rank_work work;
 };
 

@@ -5,7 +5,11 @@
 #include <array>
 #include <ccd/advance.hpp>
 #include <cmath>
+#include <limits>
 #include <numeric>
+#include <random>
+#include <span>
+#include <vector>
 
 #include "ccd/step/advancing.hpp"
 #include "tests/ccd/step/expect_advances.hpp"
@@ -172,6 +176,120 @@ TEST(AdvanceKeepingADistance, NearPairsDoNotTouch) {
     EXPECT_EQ(result.touching_at_start, ccd::pair_lists());
     EXPECT_GE(result.fraction, 0.99 * 0.5);
     EXPECT_LT(result.fraction, 0.5);
+}
+
+TEST(Advance, NamesThePairsThatLimitIt) {
+    const auto bodies = four_bodies();
+    for (const bool by_parts : {false, true}) {
+        const auto parts =
+            ccd::connected_parts(bodies.first.faces, {}, bodies.first.vertices.size());
+        const auto result = ccd::advance(
+            bodies.first, bodies.second,
+            {.groups = by_parts ? std::span<const int>(parts) : std::span<const int>()});
+        const auto whole = ccd::step(bodies.first, bodies.second, {.first_contact = true});
+        EXPECT_EQ(result.first_contact, whole.first_contact);
+        EXPECT_EQ(result.first_pairs, whole.first_pairs);
+        EXPECT_GT(number_of(result.first_pairs), 0U);
+    }
+}
+
+TEST(Advance, KeepsAGapIfConservative) {
+    const ccd::mesh before{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0.1, 0.1, 1}}, {{0, 1, 2}}};
+    ccd::mesh after = before;
+    after.vertices[3].z = -1;
+    const auto result = expect_free({before, after}, {.conservative = 0.75});
+    EXPECT_EQ(result.first_contact.low, 0.5);
+    EXPECT_EQ(result.fraction, 0.75 * std::nextafter(0.5, 0));
+    for (const double bad : {0.0, -1.0, 1.5, std::nan("")})
+        EXPECT_THROW(ccd::advance(before, after, {.conservative = bad}), std::invalid_argument);
+}
+
+/// Both forms of x + alpha * p.
+std::array<ccd::mesh, 2> moved(const ccd::mesh& x, const ccd::mesh& p, double alpha) {
+    std::array<ccd::mesh, 2> ends{x, x};
+    for (std::size_t v = 0; v < x.vertices.size(); ++v)
+        for (double ccd::point<double>::*k :
+             {&ccd::point<double>::x, &ccd::point<double>::y, &ccd::point<double>::z}) {
+            volatile double product = alpha * (p.vertices[v].*k);
+            ends[0].vertices[v].*k = x.vertices[v].*k + product;
+            ends[1].vertices[v].*k = std::fma(alpha, p.vertices[v].*k, x.vertices[v].*k);
+        }
+    return ends;
+}
+
+ccd::free_step_result expect_free_line(const ccd::mesh& x, const ccd::mesh& p,
+                                       const ccd::advance_options& options = {}) {
+    ccd::mesh_steps steps(x);
+    const auto result = ccd::free_step(steps, {x, p}, options);
+    const auto ends = moved(x, p, result.alpha);
+    EXPECT_EQ(result.positions, ends[0].vertices);
+    for (const ccd::mesh& end : ends) {
+        const ccd::advance_result as_advance{.positions = end.vertices,
+                                             .touching_at_start = result.touching_at_start,
+                                             .near_at_start = result.near_at_start};
+        brute_force::expect_none_but_told(steps, x, as_advance, options.distances);
+    }
+    return result;
+}
+
+ccd::mesh displacements(const two_frames& at) {
+    ccd::mesh p = at.second;
+    for (std::size_t v = 0; v < p.vertices.size(); ++v) {
+        const auto &x = at.first.vertices[v], &y = at.second.vertices[v];
+        p.vertices[v] = {y.x / 2 - x.x / 2, y.y / 2 - x.y / 2, y.z / 2 - x.z / 2};
+    }
+    return p;
+}
+
+TEST(FreeStep, IsFreeForBothFormsAtEveryScale) {
+    const auto expect_all = [](const two_frames& at, const char* what) {
+        SCOPED_TRACE(what);
+        const ccd::mesh p = displacements(at);
+        const auto result = expect_free_line(at.first, p);
+        const double first =
+            result.first_contact.outcome == outcome::collides ? result.first_contact.low : 1;
+        EXPECT_LE(result.alpha, first);
+        EXPECT_EQ(first<1, number_of(result.first_pairs)> 0);
+        const auto with_gap = expect_free_line(at.first, p, {.conservative = 0.8});
+        EXPECT_LE(with_gap.alpha, std::max(0.8 * first, first == 1 ? 1.0 : 0.0));
+        expect_free_line(at.first, p, {.distances = {0.0625}});
+        return result.alpha >= 0.99 * first;
+    };
+    int far = 0;
+    constexpr int scenes = 24;
+    for (std::uint64_t seed = 1; seed <= scenes; ++seed) {
+        EXPECT_TRUE(expect_all(random_mixture(seed), "mixture")) << seed;
+        auto soup = random_soup(seed, 30, 15);  // of small integers
+        std::mt19937_64 random(seed);
+        for (ccd::mesh* frame : {&soup.first, &soup.second})
+            for (auto& q : frame->vertices) q = q + nasty_shapes::in_cube(random, 0.5);
+        far += expect_all(soup, "soup");
+    }
+    EXPECT_GE(far, scenes - 1);
+    for (const auto& shape : nasty_shapes::shapes)
+        expect_all(nasty_shapes::triangles(shape, 7), shape.name);
+}
+
+TEST(FreeStep, RefusesGroupsAndDisplacementsThatAreNotFinite) {
+    const auto at = random_mixture(1);
+    ccd::mesh p = displacements(at);
+    ccd::mesh_steps steps(at.first);
+    const std::vector<int> groups(p.vertices.size());
+    EXPECT_THROW(ccd::free_step(steps, {at.first, p}, {.groups = groups}), std::invalid_argument);
+    p.vertices[2].y = std::numeric_limits<double>::infinity();
+    EXPECT_THROW(ccd::free_step(steps, {at.first, p}), std::invalid_argument);
+}
+
+TEST(FreeStep, MayOverflow) {
+    constexpr double most = std::numeric_limits<double>::max();
+    const ccd::mesh x{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0.1, 0.1, 1}, {most, 0, 0}}, {{0, 1, 2}}};
+    ccd::mesh p = x;
+    for (auto& q : p.vertices) q = {0, 0, 0};
+    p.vertices[3] = {0, 0, -most};
+    p.vertices[4] = {most, 0, 0};
+    const auto result = expect_free_line(x, p);
+    EXPECT_LT(result.alpha, 1 / most);
+    EXPECT_GT(result.alpha, 0);
 }
 
 }  // namespace
