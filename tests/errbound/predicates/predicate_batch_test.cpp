@@ -6,7 +6,7 @@
 #include <deque>
 #include <errbound/predicate_batch.hpp>
 #include <errbound/predicates.hpp>
-#include <errbound/simplices.hpp>
+#include <errbound/simplices/predicates.hpp>
 #include <utility>
 #include <vector>
 

@@ -1,12 +1,12 @@
-// All predicates of errbound/predicates.hpp and errbound/simplices.hpp, each with its oracle and
-// its degenerate surfaces.
+// All predicates of errbound/predicates.hpp and errbound/simplices/predicates.hpp, each with its
+// oracle and its degenerate surfaces.
 #pragma once
 
 #include <algorithm>
 #include <array>
 #include <cstddef>
 #include <errbound/predicates.hpp>
-#include <errbound/simplices.hpp>
+#include <errbound/simplices/predicates.hpp>
 #include <string_view>
 #include <tuple>
 

@@ -1,10 +1,10 @@
-// The predicates of errbound/predicates.hpp and errbound/simplices.hpp, compared with their oracles
-// on inputs of all kinds and sizes, and with simple figures.
+// The predicates of errbound/predicates.hpp and errbound/simplices/predicates.hpp, compared with
+// their oracles on inputs of all kinds and sizes, and with simple figures.
 #include <array>
 #include <cmath>
 #include <cstddef>
 #include <errbound/predicates.hpp>
-#include <errbound/simplices.hpp>
+#include <errbound/simplices/predicates.hpp>
 #include <random>
 #include <tuple>
 

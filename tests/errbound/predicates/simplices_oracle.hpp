@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
-#include <errbound/simplices.hpp>
+#include <errbound/simplices/relation.hpp>
 #include <vector>
 
 #include "tests/support/big_integer.hpp"
