@@ -70,14 +70,14 @@ located_point<D> located(const std::array<point<D>, 2>& line, const std::array<p
     for (const point<D>& p : line)
         for (const double x : p) largest = (std::max)(largest, std::abs(x));
     const meeting_point<tracked<double>, D> fast(line, flat);
-    bool small = true;
+    bool is_accurate = true;
     for (std::size_t i = 0; i < D; ++i) {
         const auto x = line[0][i] + fast.offset[i] / fast.divisor;
-        small = small && x.error() <= 0x1p-44 * largest;
+        is_accurate = is_accurate && x.error() <= 0x1p-44 * largest;
         found.position[i] = x.value();
         found.error = (std::max)(found.error, x.error());
     }
-    if (small) return found;
+    if (is_accurate) return found;
     using number = dyadic<integer>;
     const meeting_point<number, D> exact(line, flat);
     found.error = 0;

@@ -214,6 +214,17 @@ counts check_grid() {
     return found;
 }
 
+// Relations are constant expressions.
+constexpr element<double, 3, 3> base{{{0, 0, 0}, {4, 0, 0}, {0, 4, 0}}};
+static_assert(errbound::relation_of(base,
+                                    element<double, 3, 3>{{{1, 1, -1}, {1, 1, 1}, {3, 3, 1}}}) ==
+              relation::crossing);
+static_assert(errbound::relation_of(base, element<double, 3, 2>{{{0, 0, 0}, {1, 1, 0}}}, 1) ==
+              relation::touching);
+static_assert(
+    errbound::relation_of(base, element<double, 3, 3>{{{0, 0, 0}, {4, 0, 0}, {1e200, -1e200, 0}}},
+                          2) == relation::disjoint);
+
 TEST(Grid, OfThePlane) {
     check_grid<2, 1, 1>();
     check_grid<2, 2, 1>();
