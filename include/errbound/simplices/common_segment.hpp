@@ -85,7 +85,7 @@ located_point<D> located(const std::array<point<D>, 2>& line, const std::array<p
         const number numerator = number::from(line[0][i]) * exact.divisor + exact.offset[i];
         double& x = found.position[i] = 0;
         if (numerator.is_zero()) continue;
-        // The quotient is truncated after 64 bits, then within one ulp; two if subnormal.
+        // The quotient has 64 bits. Its conversion is off by at most one ulp, or two if subnormal.
         x = quotient(numerator, exact.divisor, 64).to_double();
         found.error = (std::max)(
             found.error, 0x1p-50 * std::abs(x) + 4 * std::numeric_limits<double>::denorm_min());

@@ -84,8 +84,8 @@ struct intersection {
 constexpr int as_int(sign_type s) {
     return s == sign_type::positive ? 1 : s == sign_type::negative ? -1 : 0;
 }
-/// True if some coordinate is the same for all points, or two points are equal: their determinant
-/// is zero. Cheaper than exact arithmetic, and frequent.
+/// True if a coordinate is the same for all points, or two points are equal: then the determinant
+/// is zero. This test is cheaper than exact arithmetic.
 template <class... Points>
 constexpr bool clearly_degenerate(const Points&... p) {
     const std::array list{&p...};
@@ -166,7 +166,7 @@ constexpr bool are_collinear(const point<3>& a, const point<3>& b, const point<3
     return true;
 }
 
-/// The same set without vertices that its others span.
+/// Returns the same set without the vertices that the others span.
 template <std::size_t D>
 constexpr simplex<D> hull_of(const simplex<D>& s) {
     const auto [low, high] = extent_of(s);
@@ -244,9 +244,10 @@ constexpr intersection meet_flat(const simplex<3>& a, const simplex<3>& b) {
     return meet_on_line(a, b);
 }
 
-/// The sides of a triangle's plane on which another's vertices lie.
+/// The sides of a triangle's plane on which vertices lie, as signs of orient3d.
 using sides = std::array<int, 3>;
-/// The filter computes the normal once. It has as many roundings as that of orient3d.
+/// Computes the sides of the vertices from `first` on. The filter computes the normal once; it has
+/// as many roundings as the filter of orient3d.
 constexpr sides sides_of(const point<3>* plane, const point<3>* s, int size, int first = 0) {
     sides found{};
     const point<3>&a = plane[0], &b = plane[1], &c = plane[2];
@@ -278,7 +279,8 @@ constexpr bool on_one_side(const sides& s, int size, int first = 0) {
     return true;
 }
 
-/// The edge from the side >= 0 to the side <= 0 of a plane, not both 0. It meets the plane once.
+/// An edge from a vertex with a side >= 0 to one with a side <= 0; not both are 0. It meets the
+/// plane once.
 struct crossing_edge {
     int from, to;
 };
@@ -390,7 +392,8 @@ constexpr relation relation_from(const intersection& x, const simplex<D>& a, con
     return a.size + b.size - 2 - x.dimension == int{D} ? relation::crossing : relation::touching;
 }
 
-/// All cases. b is in a's plane if `flat` and a is not degenerate.
+/// Decides all cases, by the hulls. If `flat` is true and a is a proper triangle, b is in its
+/// plane.
 template <std::size_t D>
 [[gnu::noinline]] constexpr relation any_relation(const simplex<D>& a, const simplex<D>& b,
                                                   int common, bool flat = false) {
@@ -454,7 +457,8 @@ constexpr relation relation_with_face(const point<3>* a, int size, const point<3
 
 /// The relation of two simplices of 1 to 3 vertices: vertices, edges and triangles in the plane
 /// (D = 2) or in space (D = 3). The first `common` vertices of both are the same: points of the
-/// simplex that they span do not count. Independent of the order of the others and of a and b.
+/// simplex that they span do not count. The result does not depend on the order of the others, nor
+/// on that of a and b.
 ///
 /// In space, an edge within the plane of a face touches the face, even if it passes through the
 /// face's interior. In the plane, a face crosses an edge or a vertex that meets its interior.
