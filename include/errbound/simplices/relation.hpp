@@ -290,7 +290,6 @@ struct crossing_edge {
 struct section {
     sides side;
     crossing_edge low{}, high{};
-    bool is_point;      ///< a vertex
     bool has_interior;  ///< meets the triangle's interior
 
     constexpr explicit section(const sides& s) : side(s) {
@@ -300,8 +299,7 @@ struct section {
         int one = 0, its_side = 0;
         for (int i = 0; i < 3; ++i)
             if (at(i) != 0 && at(i + 1) != at(i) && at(i + 2) != at(i)) one = i, its_side = at(i);
-        is_point = its_side == 0;
-        if (is_point) {
+        if (its_side == 0) {  // only a vertex is in the plane
             one = at(0) == 0 ? 0 : at(1) == 0 ? 1 : 2;
             its_side = -at(one + 1);
         }
@@ -328,13 +326,13 @@ struct two_sections {
             if (i < common && (i == y.from || i == y.to)) return 0;
         return -sign3d(a[x.from], a[x.to], b[y.from], b[y.to]);
     }
-    constexpr intersection meet() const {
+    constexpr relation relation_of_triangles() const {
         const int after = order(of_a.high, of_b.high);
-        if (after < 0) return {-1, false};
+        if (after < 0) return relation::disjoint;
         const int before = order(of_a.low, of_b.low);
-        if (before > 0) return {-1, false};
-        if (after == 0 || before == 0 || of_a.is_point || of_b.is_point) return {0, false};
-        return {1, of_a.has_interior && of_b.has_interior};
+        if (before > 0) return relation::disjoint;
+        if (after == 0 || before == 0) return common > 0 ? relation::disjoint : relation::touching;
+        return of_a.has_interior && of_b.has_interior ? relation::crossing : relation::touching;
     }
 };
 
@@ -352,21 +350,19 @@ constexpr intersection meet_edge(const point<3>* edge, const point<3>* face, int
     return {0, !on_edge && side_of_first * side_of_last < 0};
 }
 
-/// Preconditions: a and b are their hulls; b is in a's plane if `flat` and a is a triangle.
+/// Preconditions: a and b are their hulls. If `flat` is true and a is a triangle, b is in its
+/// plane. Two triangles are in one plane, and `flat` is true.
 constexpr intersection meet(const simplex<2>& a, const simplex<2>& b, bool) {
     return meet_flat(a, b);
 }
 constexpr intersection meet(const simplex<3>& a, const simplex<3>& b, bool flat) {
-    const point<3>*p = a.vertices.data(), *q = b.vertices.data();
     if (a.size == 3 && flat) return meet_flat(a, b);
     if (a.size < b.size) return meet(b, a, false);
     if (a.size == 3) {
-        const sides of_b = sides_of(p, q, b.size);
+        const point<3>*face = a.vertices.data(), *edge = b.vertices.data();
+        const sides of_b = sides_of(face, edge, b.size);
         if (on_one_side(of_b, b.size)) return {-1, false};
-        if (!all_zero(of_b))
-            return b.size == 2
-                       ? meet_edge(q, p, of_b[0], of_b[1])
-                       : two_sections{p, q, 0, section(sides_of(q, p, 3)), section(of_b)}.meet();
+        if (!all_zero(of_b)) return meet_edge(edge, face, of_b[0], of_b[1]);
     }
     if (a.size == 2 && b.size == 2 && sign3d(a[0], a[1], b[0], b[1]) != 0) return {-1, false};
     return meet_flat(a, b);
@@ -437,9 +433,7 @@ constexpr relation relation_of_faces(const point<3>* a, const point<3>* b, int c
     const sides of_a = sides_of(b, a, 3, common);
     if (on_one_side(of_a, 3, common)) return relation::disjoint;
     if (all_zero(of_a)) return any_relation(b, 3, a, 3, common, true);
-    const intersection x = two_sections{a, b, common, section(of_a), section(of_b)}.meet();
-    if (x.dimension < 0 || (common > 0 && x.dimension == 0)) return relation::disjoint;
-    return x.of_interiors ? relation::crossing : relation::touching;
+    return two_sections{a, b, common, section(of_a), section(of_b)}.relation_of_triangles();
 }
 /// A vertex or an edge, and a face.
 constexpr relation relation_with_face(const point<3>* a, int size, const point<3>* face,

@@ -55,7 +55,7 @@ template <class T, std::size_t D, std::size_t K, std::size_t L>
 void check_common_segment(const element<T, D, K>& a, const element<T, D, L>& b, int unit,
                           const std::vector<simplices_oracle::fraction_point<D>>& corners) {
     const auto ends = errbound::common_segment(a, b);
-    EXPECT_FALSE(ends[1].position < ends[0].position);
+    ASSERT_FALSE(ends[1].position < ends[0].position);
     double largest = 0;
     for (const auto& p : a)
         for (const T x : p) largest = std::max(largest, std::abs(double(x)));
@@ -78,11 +78,11 @@ void check_common_segment(const element<T, D, K>& a, const element<T, D, L>& b, 
     for (const auto& corner : corners) {
         found[0] = found[0] || is_at(ends[0], corner);
         found[1] = found[1] || is_at(ends[1], corner);
-        EXPECT_TRUE(is_at(ends[0], corner) || is_at(ends[1], corner)) << text_of(a, b);
+        ASSERT_TRUE(is_at(ends[0], corner) || is_at(ends[1], corner)) << text_of(a, b);
     }
-    EXPECT_TRUE(found[0] && found[1]) << text_of(a, b);
+    ASSERT_TRUE(found[0] && found[1]) << text_of(a, b);
     for (const auto& end : ends)
-        EXPECT_LE(end.error, 0x1p-44 * largest + 0x1p-1070) << text_of(a, b);
+        ASSERT_LE(end.error, 0x1p-44 * largest + 0x1p-1070) << text_of(a, b);
 }
 
 /// Counts of relations found.
