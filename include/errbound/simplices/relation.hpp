@@ -169,13 +169,11 @@ constexpr bool are_collinear(const point<3>& a, const point<3>& b, const point<3
 /// Returns the same set without the vertices that the others span.
 template <std::size_t D>
 constexpr simplex<D> hull_of(const simplex<D>& s) {
+    if (s.size == 3 && !are_collinear(s[0], s[1], s[2])) return s;
     const auto [low, high] = extent_of(s);
     simplex<D> hull;
     hull.add(low);
-    if (low == high) return hull;
-    for (const point<D>& p : s)
-        if (p != low && p != high && !are_collinear(low, high, p)) return s;
-    hull.add(high);
+    if (low != high) hull.add(high);
     return hull;
 }
 
@@ -222,6 +220,7 @@ constexpr intersection meet_in_plane(const simplex<2>& a, const simplex<2>& b) {
     return found;
 }
 constexpr bool span_plane(const simplex<2>& a, const simplex<2>& b) {
+    if (a.size == 3 && !are_collinear(a[0], a[1], a[2])) return true;
     const extent<2> of_a = extent_of(a), of_b = extent_of(b);
     const point<2>& low = (std::min)(of_a.low, of_b.low);
     const point<2>& high = (std::max)(of_a.high, of_b.high);
