@@ -46,12 +46,22 @@ enum class intersection_kind : std::uint8_t {
     vertex_edge,
     vertex_vertex,
 };
-inline constexpr std::size_t intersection_kinds = 6;
+inline constexpr std::array intersection_kinds{
+    intersection_kind::face_face, intersection_kind::edge_face,   intersection_kind::vertex_face,
+    intersection_kind::edge_edge, intersection_kind::vertex_edge, intersection_kind::vertex_vertex};
+/// The relations of elements that intersect.
+inline constexpr std::array intersection_relations{
+    errbound::relation::touching, errbound::relation::overlapping, errbound::relation::crossing};
 
-/// "ff", "ef", "vf", "ee", "ve", "vv".
-std::string_view short_name(intersection_kind k);
-/// "face_face" and so on.
-std::string_view name(intersection_kind k);
+constexpr std::string_view short_name(intersection_kind k) {
+    constexpr std::string_view names[] = {"ff", "ef", "vf", "ee", "ve", "vv"};
+    return names[static_cast<std::size_t>(k)];
+}
+constexpr std::string_view name(intersection_kind k) {
+    constexpr std::string_view names[] = {"face_face", "edge_face",   "vertex_face",
+                                          "edge_edge", "vertex_edge", "vertex_vertex"};
+    return names[static_cast<std::size_t>(k)];
+}
 
 struct intersection {
     mesh_element a, b;  ///< a has fewer vertices; if both have the same number, a is the lesser
@@ -97,9 +107,14 @@ struct intersection_options {
 class intersection_counts {
   public:
     std::size_t of(intersection_kind k, errbound::relation r) const { return counts_[at(k, r)]; }
+    std::size_t of(errbound::relation r) const {
+        std::size_t sum = 0;
+        for (const intersection_kind k : intersection_kinds) sum += of(k, r);
+        return sum;
+    }
     std::size_t total() const {
         std::size_t sum = 0;
-        for (const std::size_t n : counts_) sum += n;
+        for (const errbound::relation r : intersection_relations) sum += of(r);
         return sum;
     }
     void add(intersection_kind k, errbound::relation r, std::size_t n = 1) {
@@ -116,7 +131,7 @@ class intersection_counts {
     static constexpr std::size_t at(intersection_kind k, errbound::relation r) {
         return relations * static_cast<std::size_t>(k) + static_cast<std::size_t>(r);
     }
-    std::array<std::size_t, relations * intersection_kinds> counts_{};
+    std::array<std::size_t, relations * intersection_kinds.size()> counts_{};
 };
 
 struct intersection_result {
