@@ -63,6 +63,14 @@ constexpr std::string_view name(intersection_kind k) {
     return names[static_cast<std::size_t>(k)];
 }
 
+/// The kind of elements of a and b vertices, a <= b.
+constexpr intersection_kind kind_of_sizes(std::size_t a, std::size_t b) {
+    using enum intersection_kind;
+    if (a == 3) return face_face;
+    if (a == 2) return b == 3 ? edge_face : edge_edge;
+    return b == 3 ? vertex_face : b == 2 ? vertex_edge : vertex_vertex;
+}
+
 struct intersection {
     mesh_element a, b;  ///< a has fewer vertices; if both have the same number, a is the lesser
     errbound::relation relation = errbound::relation::disjoint;
@@ -70,12 +78,7 @@ struct intersection {
     /// set; both ends are equal if it is a point.
     std::optional<std::array<errbound::located_point<3>, 2>> segment = {};
 
-    intersection_kind kind() const {
-        constexpr std::array kinds{intersection_kind::vertex_vertex, intersection_kind::vertex_edge,
-                                   intersection_kind::vertex_face,   intersection_kind::edge_edge,
-                                   intersection_kind::edge_face,     intersection_kind::face_face};
-        return kinds[a.size == 1 ? b.size - 1u : a.size == 2 ? b.size + 1u : 5u];
-    }
+    intersection_kind kind() const { return kind_of_sizes(a.size, b.size); }
 };
 
 /// An edge, of a face or of none, and a face, without a common vertex. Both ascend.
