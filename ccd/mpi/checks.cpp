@@ -79,8 +79,9 @@ void check_options(exchanger& ranks, const step_options& options, placement pair
     check_same(ranks,
                std::array{static_cast<double>(options.method), double(options.count_candidates),
                           double(options.explain), double(options.initial_contact),
-                          double(options.first_contact), double(options.times), options.t_max,
-                          options.distances.all, static_cast<double>(options.filter.rule),
+                          double(options.first_contact), double(options.times),
+                          double(options.check_start), options.t_max, options.distances.all,
+                          static_cast<double>(options.filter.rule),
                           double(options.filter.skip_unused), static_cast<double>(pairs)},
                caller);
 }
@@ -95,7 +96,8 @@ void check_options(exchanger& ranks, const advance_options& options, std::size_t
     });
     check_same(ranks,
                std::array{options.distances.all, static_cast<double>(options.filter.rule),
-                          double(options.filter.skip_unused), options.conservative},
+                          double(options.filter.skip_unused), options.conservative,
+                          double(options.check_start)},
                caller);
 }
 

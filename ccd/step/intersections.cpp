@@ -313,14 +313,6 @@ intersection_result find_intersections(candidate_search& search, std::optional<v
 
 }  // namespace detail
 
-namespace {
-
-const char* const short_names[] = {"ff", "ef", "vf", "ee", "ve", "vv"};
-const char* const names[] = {"face_face", "edge_face",   "vertex_face",
-                             "edge_edge", "vertex_edge", "vertex_vertex"};
-
-}  // namespace
-
 intersection_result intersections(std::span<const face> faces, std::span<const edge> edges,
                                   std::span<const point<double>> positions,
                                   const intersection_options& options) {
@@ -345,13 +337,6 @@ bool is_free_of_intersections(const mesh& mesh, intersection_options options) {
     options.wanted = intersection_options::amount::first;
     options.segments = options.edge_faces = false;
     return intersections(mesh, options).is_free();
-}
-
-std::string_view short_name(intersection_kind k) {
-    return short_names[static_cast<std::size_t>(k)];
-}
-std::string_view name(intersection_kind k) {
-    return names[static_cast<std::size_t>(k)];
 }
 
 }  // namespace ccd

@@ -46,12 +46,30 @@ enum class intersection_kind : std::uint8_t {
     vertex_edge,
     vertex_vertex,
 };
-inline constexpr std::size_t intersection_kinds = 6;
+inline constexpr std::array intersection_kinds{
+    intersection_kind::face_face, intersection_kind::edge_face,   intersection_kind::vertex_face,
+    intersection_kind::edge_edge, intersection_kind::vertex_edge, intersection_kind::vertex_vertex};
+/// The relations of elements that intersect.
+inline constexpr std::array intersection_relations{
+    errbound::relation::touching, errbound::relation::overlapping, errbound::relation::crossing};
 
-/// "ff", "ef", "vf", "ee", "ve", "vv".
-std::string_view short_name(intersection_kind k);
-/// "face_face" and so on.
-std::string_view name(intersection_kind k);
+constexpr std::string_view short_name(intersection_kind k) {
+    constexpr std::string_view names[] = {"ff", "ef", "vf", "ee", "ve", "vv"};
+    return names[static_cast<std::size_t>(k)];
+}
+constexpr std::string_view name(intersection_kind k) {
+    constexpr std::string_view names[] = {"face_face", "edge_face",   "vertex_face",
+                                          "edge_edge", "vertex_edge", "vertex_vertex"};
+    return names[static_cast<std::size_t>(k)];
+}
+
+/// The kind of elements of a and b vertices, a <= b.
+constexpr intersection_kind kind_of_sizes(std::size_t a, std::size_t b) {
+    using enum intersection_kind;
+    if (a == 3) return face_face;
+    if (a == 2) return b == 3 ? edge_face : edge_edge;
+    return b == 3 ? vertex_face : b == 2 ? vertex_edge : vertex_vertex;
+}
 
 struct intersection {
     mesh_element a, b;  ///< a has fewer vertices; if both have the same number, a is the lesser
@@ -60,12 +78,7 @@ struct intersection {
     /// set; both ends are equal if it is a point.
     std::optional<std::array<errbound::located_point<3>, 2>> segment = {};
 
-    intersection_kind kind() const {
-        constexpr std::array kinds{intersection_kind::vertex_vertex, intersection_kind::vertex_edge,
-                                   intersection_kind::vertex_face,   intersection_kind::edge_edge,
-                                   intersection_kind::edge_face,     intersection_kind::face_face};
-        return kinds[a.size == 1 ? b.size - 1u : a.size == 2 ? b.size + 1u : 5u];
-    }
+    intersection_kind kind() const { return kind_of_sizes(a.size, b.size); }
 };
 
 /// An edge, of a face or of none, and a face, without a common vertex. Both ascend.
@@ -97,9 +110,14 @@ struct intersection_options {
 class intersection_counts {
   public:
     std::size_t of(intersection_kind k, errbound::relation r) const { return counts_[at(k, r)]; }
+    std::size_t of(errbound::relation r) const {
+        std::size_t sum = 0;
+        for (const intersection_kind k : intersection_kinds) sum += of(k, r);
+        return sum;
+    }
     std::size_t total() const {
         std::size_t sum = 0;
-        for (const std::size_t n : counts_) sum += n;
+        for (const errbound::relation r : intersection_relations) sum += of(r);
         return sum;
     }
     void add(intersection_kind k, errbound::relation r, std::size_t n = 1) {
@@ -116,7 +134,7 @@ class intersection_counts {
     static constexpr std::size_t at(intersection_kind k, errbound::relation r) {
         return relations * static_cast<std::size_t>(k) + static_cast<std::size_t>(r);
     }
-    std::array<std::size_t, relations * intersection_kinds> counts_{};
+    std::array<std::size_t, relations * intersection_kinds.size()> counts_{};
 };
 
 struct intersection_result {

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <string_view>
 
 namespace errbound {
 
@@ -23,6 +24,11 @@ enum class relation : std::uint8_t {
     /// small motions do not separate them.
     crossing,
 };
+
+constexpr std::string_view name(relation r) {
+    constexpr std::string_view names[] = {"disjoint", "touching", "overlapping", "crossing"};
+    return names[static_cast<std::size_t>(r)];
+}
 
 /// A point known up to rounding.
 template <std::size_t D>

@@ -23,6 +23,7 @@ nb::dict result_of(ccd::step_result&& result, const step_request& request) {
     seconds["narrow_phase"] = result.narrow_phase_seconds;
     seconds["sort"] = result.sort_seconds;
     seconds["contact"] = result.contact_seconds;
+    seconds["start"] = result.start_seconds;
     seconds["total"] = result.total_seconds;
     found["candidates"] = counts_of(std::move(result.candidates));
     found["pairs"] = pairs_of(std::move(result.pairs));
@@ -34,6 +35,9 @@ nb::dict result_of(ccd::step_result&& result, const step_request& request) {
     found["first_contact"] = time_of(result.first_contact);
     found["seconds"] = seconds;
     found["threads"] = result.threads;
+    found["intersections_at_start"] = nb::none();
+    if (request.check_start)
+        found["intersections_at_start"] = intersections_of(result.intersections_at_start);
     found["stages"] = request.stages ? nb::object(stages_of(result.stages)) : nb::none();
     return found;
 }
@@ -83,6 +87,22 @@ class steps {
         found["first_contact"] = time_of(result.first_contact);
         found["touching_at_start"] = pairs_of(std::move(result.touching_at_start));
         found["near_at_start"] = pairs_of(std::move(result.near_at_start));
+        found["intersections_at_start"] = nb::none();
+        if (request.check_start)
+            found["intersections_at_start"] = intersections_of(result.intersections_at_start);
+        return found;
+    }
+    nb::dict intersections(const positions& at, const step_request& request) {
+        ccd::intersection_options options = request.intersection_options();
+        ccd::intersection_result result = alone([&](const ccd::stop_query& stop) {
+            options.stop = stop;
+            return steps_.intersections({at.data(), nullptr, at.shape(0)}, options);
+        });
+        nb::dict found = intersections_of(result.pairs);
+        found["edge_faces"] = nb::none();
+        if (request.edge_faces)
+            found["edge_faces"] = rows_of<ccd::vertex_index>(std::move(result.edge_faces));
+        found["seconds"] = result.seconds;
         return found;
     }
 
@@ -105,6 +125,11 @@ void bind_steps(nb::module_& m) {
         .def_rw("times", &step_request::times)
         .def_rw("between_groups", &step_request::between_groups)
         .def_rw("skip_unused", &step_request::skip_unused)
+        .def_rw("check_start", &step_request::check_start)
+        .def_rw("segments", &step_request::segments)
+        .def_rw("edge_faces", &step_request::edge_faces)
+        .def_rw("merge_equal_positions", &step_request::merge_equal_positions)
+        .def_rw("first_only", &step_request::first_only)
         .def_rw("t_max", &step_request::t_max)
         .def_rw("distance", &step_request::distance)
         .def_rw("thickness", &step_request::thickness, nb::arg("value").none())
@@ -125,7 +150,8 @@ void bind_steps(nb::module_& m) {
         .def("run", &steps::run, nb::arg("before"), nb::arg("after"), nb::arg("request"))
         .def("candidates", &steps::candidates, nb::arg("before"), nb::arg("after"),
              nb::arg("request"))
-        .def("advance", &steps::advance, nb::arg("before"), nb::arg("after"), nb::arg("request"));
+        .def("advance", &steps::advance, nb::arg("before"), nb::arg("after"), nb::arg("request"))
+        .def("intersections", &steps::intersections, nb::arg("positions"), nb::arg("request"));
 }
 
 }  // namespace errbound::python
