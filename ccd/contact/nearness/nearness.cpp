@@ -1,10 +1,14 @@
+#include "ccd/contact/nearness/nearness.hpp"
+
 #include <array>
-#include <bit>
 #include <ccd/kind.hpp>
+#include <ccd/mesh.hpp>
 #include <ccd/methods/transform.hpp>
 #include <ccd/nearness.hpp>
 #include <cstddef>
 #include <errbound/integers/dyadic.hpp>
+#include <tuple>
+#include <type_traits>
 
 #include "ccd/contact/nearness/in_doubles.hpp"
 #include "ccd/contact/nearness/in_integers.hpp"
@@ -19,16 +23,20 @@ namespace {
 template <class Query>
 constexpr std::size_t points_in = sizeof(Query) / sizeof(moving_point<double>);
 
+using motion = moving_point<double>;
+
+nearness_filter::vector position(const double* row) {
+    return {row[0], row[1], row[2]};
+}
+nearness_filter::vector position(const point<double>& p) {
+    return {p.x, p.y, p.z};
+}
 template <class Query>
-nearness_filter::resting_points<points_in<Query>> points_at(
-    const Query& query, point<double> moving_point<double>::*end) {
-    nearness_filter::resting_points<points_in<Query>> at;
-    const auto points = points_of(query);
-    for (std::size_t i = 0; i < at.at.size(); ++i) {
-        const point<double>& p = points[i].*end;
-        at.at[i] = {p.x, p.y, p.z};
-    }
-    return at;
+nearness_filter::resting_points<points_in<Query>> points_at(const Query& query,
+                                                            point<double> motion::*end) {
+    return with_members(query, [end](const auto&... p) {
+        return nearness_filter::resting_points<points_in<Query>>{{position(p.*end)...}};
+    });
 }
 
 /// `position_of` maps an integer motion to a position in units of 2^unit.
@@ -47,7 +55,7 @@ constexpr auto start_of = [](const auto& p) {
 
 /// Precondition: coordinates are finite.
 template <class Query>
-nearness nearness_at_start(const Query& query) {
+nearness exactly_at_start(const Query& query) {
     const auto units = integer_units(query).with_common_unit();
     const auto converted = [&](const auto& q) {
         return nearness_of_integers(q, units.x.unit, start_of);
@@ -59,7 +67,7 @@ nearness nearness_at_start(const Query& query) {
 
 /// The positions s·t0 + n·t1 in units of 2^(unit + e), if t = n·2^e and s = 2^-e − n.
 template <class Query>
-nearness nearness_between(const Query& query, double t) {
+nearness exactly_between(const Query& query, double t) {
     const auto units = integer_units(query).with_common_unit();
     const auto time = errbound::dyadic<integer>::from(t);
     const integer &n = time.numerator(), s = (integer(1) << -time.exponent()) - n;
@@ -74,13 +82,29 @@ nearness nearness_between(const Query& query, double t) {
 }
 
 }  // namespace
+
+template <any_pair Pair>
+nearness nearness_at_start(const double* positions, const Pair& pair) {
+    const auto points = with_members(pair, [positions](auto... v) {
+        return nearness_filter::resting_points<sizeof...(v)>{
+            {position(positions + 3 * std::size_t(v))...}};
+    });
+    nearness found;
+    if (nearness_filter::find<kind_of<Pair>>(points, found)) return found;
+    return nearness_of(query_of(vertex_rows(positions, positions, 0), pair));
+}
+
+template nearness nearness_at_start(const double*, const vertex_face_pair&);
+template nearness nearness_at_start(const double*, const edge_edge_pair&);
+template nearness nearness_at_start(const double*, const vertex_edge_pair&);
+template nearness nearness_at_start(const double*, const vertex_vertex_pair&);
+
 }  // namespace detail
 
 template <any_query Query>
 nearness nearness_of(const Query& query, double t) {
     using namespace detail;
     constexpr kind K = kind_of<Query>;
-    using motion = moving_point<double>;
     if (!(t >= 0 && t <= 1)) return {};
     nearness found;
     if (t == 0 || t == 1) {
@@ -89,12 +113,12 @@ nearness nearness_of(const Query& query, double t) {
         const Query resting = transformed_motions(query, [end](const motion& p) {
             return motion{p.*end, p.*end};
         });
-        return is_finite(resting) ? nearness_at_start(resting) : nearness();
+        return is_finite(resting) ? exactly_at_start(resting) : nearness();
     }
     const nearness_filter::moving_points<points_in<Query>> points{points_at(query, &motion::t0),
                                                                   points_at(query, &motion::t1), t};
     if (nearness_filter::find<K>(points, found)) return found;
-    return is_finite(query) ? nearness_between(query, t) : nearness();
+    return is_finite(query) ? exactly_between(query, t) : nearness();
 }
 
 template nearness nearness_of(const vertex_face<double>&, double);
