@@ -1,6 +1,7 @@
 #include <tbb/enumerable_thread_specific.h>
 
 #include <algorithm>
+#include <array>
 #include <ccd/contact.hpp>
 #include <ccd/nearness.hpp>
 #include <ccd/step.hpp>
@@ -9,17 +10,16 @@
 #include <limits>
 #include <span>
 #include <tuple>
-#include <vector>
+#include <utility>
 
+#include "ccd/batch/nearness_kernels.hpp"
 #include "ccd/batch/threads.hpp"
 #include "ccd/contact/nearness/nearness.hpp"
 #include "ccd/step/elements.hpp"
-#include "ccd/step/order/buckets.hpp"
+#include "ccd/step/narrow_phase.hpp"
 
 namespace ccd {
 namespace {
-
-using detail::nearness_at_start;
 
 vertex_rows at_rest(const vertex_rows& positions) {
     return {positions.before, positions.before, positions.vertices};
@@ -34,82 +34,53 @@ step_options options_of(const near_options& options, const pair_distances& withi
     return search;
 }
 
-/// Calls visit(pair, data) for each candidate, from several threads at once.
+/// A distance and its error.
+struct estimate {
+    double distance, error;
+};
+
+/// Calls visit(pair, estimate) for each candidate in its reported form, from several threads at
+/// once.
 template <class Visit>
-void for_each_candidate(mesh_steps& mesh, const vertex_rows& positions,
-                        const pair_distances& within, const near_options& options,
-                        const Visit& visit) {
+void for_each_candidate(mesh_steps& mesh, const vertex_rows& rows, const pair_distances& within,
+                        const near_options& options, const Visit& visit) {
+    const detail::nearness_kernels& kernels = detail::nearness_kernels_for(options.set);
     candidate_visitor visitor;
     for_each_kind([&]<kind K>() {
-        visitor.of<K>() = [&](std::span<const pair_of_kind<K>> block) {
-            for (const auto& candidate : block) {
-                const auto pair = detail::canonical(candidate);
-                visit(pair, nearness_at_start(positions.before, pair));
+        visitor.of<K>() = [&](std::span<const pair_of_kind<K>> candidates) {
+            detail::nearness_columns columns;
+            std::array<pair_of_kind<K>, columns.capacity> pairs;
+            for (; !candidates.empty();) {
+                const std::size_t count = std::min(pairs.size(), candidates.size());
+                std::ranges::transform(candidates.first(count), pairs.begin(),
+                                       detail::canonical<pair_of_kind<K>>);
+                candidates = candidates.subspan(count);
+                kernels.of<K>().distances(rows.before, pairs.data(), count, columns);
+                for (std::size_t i = 0; i < count; ++i) {
+                    const auto row = detail::row_of(columns, i);
+                    if (row[0] >= 0) {
+                        visit(pairs[i], estimate{row[6], row[7]});
+                    } else {
+                        const nearness data = nearness_of(query_of(rows, pairs[i]));
+                        visit(pairs[i], estimate{data.distance, data.distance_error});
+                    }
+                }
             }
         };
     });
-    mesh.for_each_candidate(positions, visitor, options_of(options, within));
+    mesh.for_each_candidate(rows, visitor, options_of(options, within));
 }
 
 /// True if the exact distance is at most d. The sum in doubles is off by half an ulp, and so is
 /// each bound of the distance.
 template <class Pair>
-bool is_within(const vertex_rows& rows, const Pair& pair, const nearness& data,
+bool is_within(const vertex_rows& rows, const Pair& pair, const estimate& found,
                const separation& d) {
     constexpr double ulps = 4 * std::numeric_limits<double>::epsilon();
-    const double sum = d.first + d.second, distance = data.distance;
-    if (sum == 0) return data.touches();
-    if (distance + data.distance_error < sum * (1 - ulps)) return true;
-    if (distance - data.distance_error > sum * (1 + ulps)) return false;
+    const double sum = d.first + d.second;
+    if (found.distance + found.error < sum * (1 - ulps)) return true;
+    if (found.distance - found.error > sum * (1 + ulps)) return false;
     return decide_within(query_of(rows, pair), d).outcome == outcome::collides;
-}
-
-template <kind K>
-struct found_pairs {
-    std::vector<pair_of_kind<K>> pairs;
-    std::vector<nearness> data;
-};
-template <kind K>
-using found_by_threads = tbb::enumerable_thread_specific<found_pairs<K>>;
-
-template <class Pair>
-struct pair_with_data {
-    Pair pair;
-    const nearness* data;
-
-    friend auto operator<=>(const pair_with_data& a, const pair_with_data& b) {
-        return a.pair <=> b.pair;
-    }
-    friend bool operator==(const pair_with_data& a, const pair_with_data& b) {
-        return a.pair == b.pair;
-    }
-};
-
-template <kind K>
-void take_sorted(const found_by_threads<K>& found, near_lists& into) {
-    using item = pair_with_data<pair_of_kind<K>>;
-    std::vector<const found_pairs<K>*> shares;
-    vertex_index last = 0;
-    for (const auto& share : found) {
-        shares.push_back(&share);
-        for (const auto& pair : share.pairs) last = std::max(last, vertices_of(pair)[0]);
-    }
-    if (shares.empty()) return;
-    const std::vector<item> items = detail::sorted_by_vertex<item>(
-        shares.size(), last,
-        [&](std::size_t share, const auto& visit) {
-            const auto& [pairs, data] = *shares[share];
-            for (std::size_t i = 0; i < pairs.size(); ++i) visit(item{pairs[i], &data[i]});
-        },
-        [](const item& x) { return vertices_of(x.pair)[0]; });
-    auto& pairs = into.pairs.of<K>();
-    auto& data = into.data.of<K>();
-    pairs.reserve(items.size());
-    data.reserve(items.size());
-    for (const item& x : items) {
-        pairs.push_back(x.pair);
-        data.push_back(*x.data);
-    }
 }
 
 /// The largest extent of the positions along an axis, at most the largest double.
@@ -126,47 +97,69 @@ double extent_of(const vertex_rows& rows) {
     return std::min(most, std::numeric_limits<double>::max());
 }
 
-/// True if a pair was found.
-bool is_found(const least_distance_result& found) {
-    return found.vertices[0] != found.vertices[1];
-}
-bool is_before(const least_distance_result& a, const least_distance_result& b) {
-    return !is_found(b) || (is_found(a) && std::tuple(a.data.distance, a.kind, a.vertices) <
-                                               std::tuple(b.data.distance, b.kind, b.vertices));
-}
+/// The nearest of some pairs, and bounds of the least distance.
+struct nearest_pair {
+    double low = nearness::unknown, high = nearness::unknown;
+    double distance = nearness::unknown;
+    kind of = kind::vertex_face;
+    std::array<vertex_index, 4> vertices{};
 
-void keep_least(const least_distance_result& one, least_distance_result& least) {
-    const double low = std::min(one.low, least.low);
-    if (is_before(one, least)) least = one;
-    least.low = low;
-}
+    nearest_pair() = default;
+    /// One pair; bounds are rounded outwards.
+    template <class Pair>
+    nearest_pair(const Pair& pair, const estimate& found)
+        : distance(found.distance), of(kind_of<Pair>) {
+        constexpr double ulp = std::numeric_limits<double>::epsilon();
+        if (std::isfinite(found.error)) {
+            low = std::max(distance - found.error, 0.0) * (1 - ulp);
+            high = (distance + found.error) * (1 + ulp);
+        } else {
+            low = std::numeric_limits<double>::max();
+        }
+        std::ranges::copy(vertices_of(pair), vertices.begin());
+    }
 
-/// The bounds of one pair's distance, rounded outwards.
-template <class Pair>
-least_distance_result of_pair(const Pair& pair, const nearness& data) {
-    constexpr double ulp = std::numeric_limits<double>::epsilon();
-    least_distance_result one{.kind = kind_of<Pair>, .vertices = {}, .data = data};
-    const double error = data.distance_error;
-    const bool known = std::isfinite(error);
-    one.low = known ? std::max(data.distance - error, 0.0) * (1 - ulp)
-                    : std::numeric_limits<double>::max();
-    one.high = known ? (data.distance + error) * (1 + ulp) : nearness::unknown;
-    std::ranges::copy(vertices_of(pair), one.vertices.begin());
-    return one;
-}
+    bool exists() const { return vertices[0] != vertices[1]; }
+    void add(const nearest_pair& other) {
+        const double least = std::min(low, other.low);
+        if (other.exists() && (!exists() || std::tuple(other.distance, other.of, other.vertices) <
+                                                std::tuple(distance, of, vertices)))
+            *this = other;
+        low = least;
+    }
+};
 
-/// The least distance of the pairs whose boxes, widened for `within`, touch.
-least_distance_result least_of_candidates(mesh_steps& mesh, const vertex_rows& positions,
-                                          double within, const near_options& options) {
-    tbb::enumerable_thread_specific<least_distance_result> of_threads;
-    for_each_candidate(mesh, positions, {.all = within}, options,
-                       [&](const auto& pair, const nearness& data) {
-                           least_distance_result& local = of_threads.local();
-                           keep_least(of_pair(pair, data), local);
+/// The nearest of the pairs whose boxes, widened for `within`, touch.
+nearest_pair nearest_candidate(mesh_steps& mesh, const vertex_rows& rows, double within,
+                               const near_options& options) {
+    tbb::enumerable_thread_specific<nearest_pair> of_threads;
+    for_each_candidate(mesh, rows, {.all = within}, options,
+                       [&](const auto& pair, const estimate& found) {
+                           nearest_pair& local = of_threads.local();
+                           if (!(found.distance - found.error > local.distance))
+                               local.add({pair, found});
                        });
-    least_distance_result least;
-    for (const auto& one : of_threads) keep_least(one, least);
-    return least;
+    nearest_pair nearest;
+    for (const nearest_pair& one : of_threads) nearest.add(one);
+    return nearest;
+}
+
+/// The nearest pair of the mesh, by searches within growing distances.
+nearest_pair nearest_of_all(mesh_steps& mesh, const vertex_rows& rows,
+                            const near_options& options) {
+    constexpr double largest = std::numeric_limits<double>::max();
+    double within = 0;  // in most meshes, pairs whose boxes touch give an upper bound
+    for (;;) {
+        const nearest_pair found = nearest_candidate(mesh, rows, within, options);
+        if (found.high <= within || within == largest) return found;
+        if (found.exists()) {
+            within = std::min(found.high, largest);
+        } else {
+            const double extent = extent_of(rows);
+            if (!(within < extent)) return found;
+            within = std::min(within == 0 ? extent * 0x1p-48 : 16 * within, largest);
+        }
+    }
 }
 
 }  // namespace
@@ -174,19 +167,23 @@ least_distance_result least_of_candidates(mesh_steps& mesh, const vertex_rows& p
 near_lists near_pairs(mesh_steps& mesh, const vertex_rows& positions, const pair_distances& within,
                       const near_options& options) {
     const vertex_rows rows = at_rest(positions);
-    by_kind<found_by_threads> found;
+    by_kind<detail::lists_of_threads> found;
     for_each_candidate(mesh, rows, within, options,
-                       [&]<class Pair>(const Pair& pair, const nearness& data) {
-                           if (!is_within(rows, pair, data, within.of(pair))) return;
-                           auto& local = found.of<kind_of<Pair>>().local();
-                           local.pairs.push_back(pair);
-                           local.data.push_back(data);
+                       [&]<class Pair>(const Pair& pair, const estimate& distance) {
+                           if (is_within(rows, pair, distance, within.of(pair)))
+                               found.of<kind_of<Pair>>().local().pairs.push_back(pair);
                        });
-    near_lists sorted;
+    near_lists near;
     detail::on_threads(options.threads, [&] {
-        for_each_kind([&]<kind K>() { take_sorted<K>(found.of<K>(), sorted); });
+        for_each_kind([&]<kind K>() {
+            near.pairs.of<K>() = detail::take_sorted<pair_of_kind<K>>(found.of<K>());
+        });
     });
-    return sorted;
+    const nearness_options of_data{
+        .threads = options.threads, .set = options.set, .stop = options.stop};
+    for_each_kind(
+        [&]<kind K>() { near.data.of<K>() = nearnesses(rows, near.pairs.of<K>(), of_data); });
+    return near;
 }
 near_lists near_pairs(const mesh& mesh, const pair_distances& within, const near_options& options) {
     mesh_steps steps(mesh);
@@ -195,20 +192,19 @@ near_lists near_pairs(const mesh& mesh, const pair_distances& within, const near
 
 least_distance_result least_distance(mesh_steps& mesh, const vertex_rows& positions,
                                      const near_options& options) {
-    constexpr double largest = std::numeric_limits<double>::max();
     const vertex_rows rows = at_rest(positions);
-    double within = 0;  // pairs whose boxes touch give an upper bound in most meshes
-    for (;;) {
-        const least_distance_result found = least_of_candidates(mesh, rows, within, options);
-        if (found.high <= within || within == largest) return found;
-        if (is_found(found)) {
-            within = std::min(found.high, largest);
-        } else {
-            const double extent = extent_of(rows);
-            if (!(within < extent)) return found;
-            within = std::min(within == 0 ? extent * 0x1p-48 : 16 * within, largest);
+    const nearest_pair nearest = nearest_of_all(mesh, rows, options);
+    least_distance_result result{nearest.low, nearest.high, nearest.of, nearest.vertices, {}};
+    if (!nearest.exists()) return result;
+    visit_kind(nearest.of, [&]<kind K>() {
+        const auto& v = nearest.vertices;
+        const pair_of_kind<K> pair = [&]<std::size_t... I>(std::index_sequence<I...>) {
+            return pair_of_kind<K>{v[I]...};
         }
-    }
+        (std::make_index_sequence<sizeof(pair_of_kind<K>) / sizeof(vertex_index)>());
+        result.data = nearness_of(query_of(rows, pair));
+    });
+    return result;
 }
 least_distance_result least_distance(const mesh& mesh, const near_options& options) {
     mesh_steps steps(mesh);

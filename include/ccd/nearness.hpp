@@ -7,8 +7,9 @@
 //     auto [low, high, least] = ccd::least_distance(mesh);          // the nearest pair of a mesh
 //
 // The features are exact for all finite coordinates, also for parallel edges and degenerate
-// triangles. All numbers have certified errors. Results do not depend on threads. Calls for one
-// query do not throw, and rarely allocate. Other calls throw std::invalid_argument for bad input.
+// triangles. All numbers have certified errors. Results do not depend on instruction sets or
+// threads. Calls for one query do not throw, and rarely allocate. Other calls throw
+// std::invalid_argument for bad input.
 #pragma once
 
 #include <array>
@@ -18,6 +19,7 @@
 #include <ccd/query.hpp>
 #include <ccd/step.hpp>
 #include <limits>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -66,9 +68,10 @@ template <any_query Query>
 nearness nearness_of(const Query& query, double t = 0);
 
 struct nearness_options {
-    double t = 0;          ///< in [0, 1]
-    int threads = 0;       ///< at most; 0: one per core
-    stop_query stop = {};  ///< ends the call by throwing ccd::stopped
+    double t = 0;                             ///< in [0, 1]
+    int threads = 0;                          ///< at most; 0: one per core
+    std::optional<instruction_set> set = {};  ///< for pairs at t = 0; by default the strongest
+    stop_query stop = {};                     ///< ends the call by throwing ccd::stopped
 };
 
 namespace detail {
@@ -121,8 +124,9 @@ struct near_lists {
 };
 
 struct near_options {
-    int threads = 0;       ///< at most; 0: one per core
-    stop_query stop = {};  ///< ends the call by throwing ccd::stopped
+    int threads = 0;                          ///< at most; 0: one per core
+    std::optional<instruction_set> set = {};  ///< by default the strongest
+    stop_query stop = {};                     ///< ends the call by throwing ccd::stopped
     pair_filter filter = {};
 };
 

@@ -1,13 +1,15 @@
-// Nearness in doubles, with static bounds on the errors. Internal.
+// Nearness in doubles, or packs of doubles, with static bounds on the errors. Internal; compiled by
+// the rules of ccd/batch/batch_kernels.hpp.
 //
 // Evaluates the conditions of ccd/contact/nearness/in_integers.hpp. If those of some features hold
-// with certain signs and without equality, these features are unique.
+// with certain signs and without equality, these features are unique. Without branches: all
+// conditions are evaluated, then the vectors of the features are selected.
 //
 // Bounds: u = 2^-53. Each difference of points is a vector v^ with |v^ - v| <= u·size, and |v|,
 // |v^| <= size, of sizes V, W, ... . Then, to first order in u:
 //  * dot(v, w) is off by VW (2u + 3u), from both vectors and three roundings in a row.
 //  * cross(v, w) is off by VW (2u + 2u).
-//  * dot of two cross products with sizes G and H is off by GH (8u + 3u); dot(cross, v) by
+//  * dot of two cross products of sizes G, H is off by GH (8u + 3u), dot(cross, v) by
 //    HV (4u + u + 3u).
 // Second-order terms, and roundings of the bounds themselves, are in the constants' last digits.
 // Underflow adds less than `tiny`: sizes are below 2^150, and each operation adds at most 2^-1075.
@@ -15,249 +17,329 @@
 // them.
 #pragma once
 
-#include <array>
 #include <ccd/kind.hpp>
-#include <ccd/nearness.hpp>
 #include <cmath>
 #include <cstddef>
-#include <cstdint>
+#include <type_traits>
+#include <utility>
 
-#include "ccd/contact/data/meeting.hpp"
-#include "ccd/contact/nearness/weights.hpp"
+#include "ccd/exact/simd.hpp"
 
-namespace ccd::detail::nearness_filter {
+namespace ccd::detail::ERRBOUND_INSTRUCTION_SET {
+namespace {
+
+namespace nearness_filter {
 
 constexpr double u = 0x1p-53, tiny = 0x1p-700, largest_size = 0x1p150, least_divisor = 0x1p-600;
-/// Errors of results, relative to lengths. Larger ones are left to the integers.
+/// Larger errors are left to the integers: of lengths relative to them, of weights, of the normal.
 constexpr double largest_error = 0x1p-26;
 
-struct vector {
-    double x, y, z;
+inline double select(bool condition, double a, double b) {
+    return condition ? a : b;
+}
+inline double abs(double x) {
+    return std::abs(x);
+}
+inline double sqrt(double x) {
+    return std::sqrt(x);
+}
 
-    friend vector operator+(const vector& v, const vector& w) {
-        return {v.x + w.x, v.y + w.y, v.z + w.z};
-    }
-    friend vector operator-(const vector& v, const vector& w) {
-        return {v.x - w.x, v.y - w.y, v.z - w.z};
-    }
-    friend vector operator*(double f, const vector& v) { return {f * v.x, f * v.y, f * v.z}; }
-    friend double dot(const vector& v, const vector& w) {
-        return v.x * w.x + v.y * w.y + v.z * w.z;
-    }
-    friend vector cross(const vector& v, const vector& w) {
-        return {v.y * w.z - v.z * w.y, v.z * w.x - v.x * w.z, v.x * w.y - v.y * w.x};
-    }
-    friend double sum_of_sizes(const vector& v) {
-        return std::abs(v.x) + std::abs(v.y) + std::abs(v.z);
-    }
+template <class R>
+using mask_of_number = std::remove_cvref_t<decltype(std::declval<R>() < std::declval<R>())>;
+
+template <class R>
+struct vector {
+    R x, y, z;
 };
+template <class R>
+vector<R> operator+(const vector<R>& v, const vector<R>& w) {
+    return {v.x + w.x, v.y + w.y, v.z + w.z};
+}
+template <class R>
+vector<R> operator-(const vector<R>& v, const vector<R>& w) {
+    return {v.x - w.x, v.y - w.y, v.z - w.z};
+}
+template <class R>
+vector<R> operator*(const R& f, const vector<R>& v) {
+    return {f * v.x, f * v.y, f * v.z};
+}
+template <class R>
+R dot(const vector<R>& v, const vector<R>& w) {
+    return v.x * w.x + v.y * w.y + v.z * w.z;
+}
+template <class R>
+vector<R> cross(const vector<R>& v, const vector<R>& w) {
+    return {v.y * w.z - v.z * w.y, v.z * w.x - v.x * w.z, v.x * w.y - v.y * w.x};
+}
+template <class Mask, class R>
+vector<R> select(const Mask& m, const vector<R>& v, const vector<R>& w) {
+    return {select(m, v.x, w.x), select(m, v.y, w.y), select(m, v.z, w.z)};
+}
 
 /// A difference of two points.
-struct sized_vector : vector {
-    double size;
+template <class R>
+struct difference {
+    vector<R> v;
+    R size;
 
-    sized_vector operator-() const { return {{-x, -y, -z}, size}; }
+    difference operator-() const { return {{-v.x, -v.y, -v.z}, size}; }
 };
+template <class Mask, class R>
+difference<R> select(const Mask& m, const difference<R>& d, const difference<R>& e) {
+    return {select(m, d.v, e.v), select(m, d.size, e.size)};
+}
 
 /// A number at most `error` away from the exact one.
+template <class R>
 struct bounded {
-    double value, error;
+    R value, error;
 
-    bool is_positive() const { return value > error; }
-    bool is_negative() const { return value < -error; }
+    auto is_positive() const { return value > error; }
+    auto is_negative() const { return value < -error; }
     bounded operator-() const { return {-value, error}; }
     friend bounded operator-(const bounded& a, const bounded& b) {
         return {a.value - b.value, a.error + b.error};
     }
 };
-inline bounded projection(const sized_vector& v, const sized_vector& w) {
-    return {dot(v, w), 5.1 * u * (v.size * w.size) + tiny};
+template <class R>
+bounded<R> projection(const difference<R>& d, const difference<R>& e) {
+    return {dot(d.v, e.v), R(5.1 * u) * (d.size * e.size) + R(tiny)};
 }
 
-/// The points of a query at one end of the step.
-template <std::size_t N>
+/// Points at rest.
+template <class R, std::size_t N>
 struct resting_points {
-    std::array<vector, N> at;
+    vector<R> at[N];
 
-    sized_vector difference(std::size_t i, std::size_t j) const {
-        const vector d = at[i] - at[j];
-        return {d, sum_of_sizes(d)};
+    difference<R> operator()(std::size_t i, std::size_t j) const {
+        const vector<R> d = at[i] - at[j];
+        return {d, abs(d.x) + abs(d.y) + abs(d.z)};
     }
 };
 
-/// The points at t, from differences at both ends, D0 and D1: D0 + t·(D1 - D0) is off by 5u of the
-/// sum of their sizes: 2u from both, u each from D1 - D0 (of both), the product and the sum.
-template <std::size_t N>
+/// Points at t, from differences at both ends, D0 and D1: D0 + t·(D1 - D0) is off by 5u of the sum
+/// of their sizes: 2u from both, u each from D1 - D0, the product and the sum.
+template <class R, std::size_t N>
 struct moving_points {
-    resting_points<N> start, end;
-    double t;
+    resting_points<R, N> start, end;
+    R t;
 
-    sized_vector difference(std::size_t i, std::size_t j) const {
-        const sized_vector d0 = start.difference(i, j), d1 = end.difference(i, j);
-        return {d0 + t * (d1 - d0), 5.1 * (d0.size + d1.size)};
+    difference<R> operator()(std::size_t i, std::size_t j) const {
+        const difference<R> d0 = start(i, j), d1 = end(i, j);
+        return {d0.v + t * (d1.v - d0.v), R(5.1) * (d0.size + d1.size)};
     }
 };
 
-/// Writes data, or returns false if they are not certain or not accurate.
-class writer {
-  public:
-    explicit writer(nearness& into) : into_(into) {}
-
-    bool vertices(std::uint8_t p, std::uint8_t q, const sized_vector& w) const {
-        const double square = dot(w, w);
-        if (!set_distance(square, std::sqrt(square), u * w.size)) return false;
-        into_.features = {kind::vertex_vertex, {p, q}};
-        into_.weights = {};
-        into_.weights[p] = into_.weights[q] = 1;
-        into_.weight_error = 0;
-        return set_normal(w, into_.distance, u * w.size, 1);
-    }
-
-    /// A vertex and an edge; w is from the edge's first end to the vertex, `along` = w·e > 0 and
-    /// less than e·e. With k = E/|e|, the weight s = w·e/e·e is off by (5uWE + 5us·EE)/e·e + u.
-    /// Since s|e| <= |w| <= W, r = w − s·e is off by less than uW (1 + (5k + 5k² + 1) + k + 1 + 1)
-    /// <= 16 u W k².
-    bool edge(const point_numbers& points, const sized_vector& w, const sized_vector& e,
-              const bounded& along, int side) const {
-        const double ee = dot(e, e), excess = e.size * e.size / ee;
-        if (!(ee > least_divisor) || !(excess < 0x1p20)) return false;
-        const double weight = along.value / ee;
-        const vector r = w - weight * e;
-        const double square = dot(r, r), error = 16 * u * (w.size * excess);
-        if (!set_distance(square, std::sqrt(square), error)) return false;
-        into_.features = {kind::vertex_edge, points};
-        into_.weights = {};
-        set_weights<kind::vertex_edge>(
-            points, [&](std::size_t) { return weight; }, into_);
-        into_.weight_error = 5.1 * u * (e.size * (w.size + e.size)) / ee + 2 * u;
-        return into_.weight_error < largest_error && set_normal(r, into_.distance, error, side);
-    }
-
-    /// Inside both features: n and n·n, with the size h of n; y = n·p; the weights times n·n. A
-    /// weight is off by (its error + that of n·n)/n·n + u, the distance |y|/|n| by (y's error +
-    /// 4u·h·distance)/|n| + 4u·distance.
-    template <kind K>
-    bool inside(const vector& n, const bounded& n2, double h, const bounded& y,
-                const std::array<bounded, 4>& weights) const {
-        if (!(n2.value > least_divisor) || !(y.is_positive() || y.is_negative())) return false;
-        const double length = std::sqrt(n2.value), distance = std::abs(y.value) / length;
-        const double off = 4.1 * u * h, error = 1.01 * (y.error + distance * off) / length;
-        if (!set_distance(distance * distance, distance, error)) return false;
-        into_.features = whole_query<K>();
-        set_weights<K>(
-            into_.features.points, [&](std::size_t i) { return weights[i].value / n2.value; },
-            into_);
-        double sum = 0;
-        for (const bounded& w : weights) sum += w.error;
-        into_.weight_error = 1.01 * (sum + 2 * n2.error) / n2.value + 5 * u;
-        const bool towards_p = y.is_positive() == (K == kind::vertex_face);
-        return into_.weight_error < largest_error && set_normal(n, length, off, towards_p ? 1 : -1);
-    }
-
-  private:
-    /// The error of a length before its last roundings, at most 4u of it.
-    bool set_distance(double square, double distance, double error) const {
-        if (!(square > least_divisor) || !(error < largest_error * distance)) return false;
-        into_.squared_distance = square;
-        into_.squared_distance_error = 2.1 * distance * error + 10 * u * square;
-        into_.distance = distance;
-        into_.distance_error = error + 4 * u * distance;
-        return true;
-    }
-    /// For vectors p and q, p/|p| and q/|q| are at most |p − q|/m apart, where m is the lesser
-    /// length; see direction_of in ccd/contact/data/normal.hpp.
-    bool set_normal(const vector& n, double length, double error, int side) const {
-        into_.normal = {side * n.x / length, side * n.y / length, side * n.z / length};
-        into_.normal_error = 1.01 * error / length + 4 * u;
-        return into_.normal_error < largest_error;
-    }
-
-    nearness& into_;
+/// The features of a query are numbered: its pairs of vertices, its pairs of a vertex and an edge,
+/// all in the order of ccd::nearness, then the query itself.
+template <class R>
+struct values {
+    R region;         ///< the number, or -1 if features or numbers are not certain
+    R first, second;  ///< weights: of an edge's second end; of f1 and f2, or of a1 and b1
+    R weight_error, square, square_error, distance, distance_error;
+    vector<R> normal;
+    R normal_error;
 };
 
-/// N = b × c and the products of ccd/methods/forms.hpp with their bounds.
+/// The vector between nearest points at the border is w + s·f, with s = along/f·f on an edge and 0
+/// at a vertex.
+template <class R>
+struct border {
+    R region;
+    mask_of_number<R> is_vertex, is_edge;
+    difference<R> w, f;
+    R along;
+};
+
+/// Nearest points inside both features: N and N·N; h = the size of N; Y, negative if the first
+/// feature is on the other side of N; weights times N·N.
+template <class R>
+struct interior {
+    mask_of_number<R> holds;
+    R region;
+    vector<R> n;
+    bounded<R> n2, y, first, second;
+    R h;
+};
+
+/// On an edge, with k = F/|f|: the weight s is off by (5uWF + 5us·FF)/f·f + 2u. Since s|f| <= |w|
+/// <= W, the vector is off by less than uW (1 + (5k + 5k² + 2) + k + 1 + 1) <= 17uWk². Inside:
+/// weights are off by (their error + that of N·N)/N·N + 2u; the distance |Y|/|N| by (Y's error +
+/// 4uh·distance)/|N|. A length from its square, a quotient by a reciprocal: 2.5u + 2u. For vectors
+/// p and q, p/|p| and q/|q| are at most |p − q|/m apart, where m is the lesser length; see
+/// direction_of in ccd/contact/data/normal.hpp.
+template <class R>
+values<R> finished(const border<R>& b, const interior<R>& i, const mask_of_number<R>& in_range) {
+    using mask = mask_of_number<R>;
+    const R zero(0.0), one(1.0);
+    const R divisor = select(i.holds, i.n2.value, dot(b.f.v, b.f.v)), reciprocal = one / divisor;
+    const R excess = b.f.size * b.f.size * reciprocal;
+    const R weight = select(b.is_edge, b.along * reciprocal, zero);
+    const vector<R> direction = select(i.holds, i.n, b.w.v + weight * b.f.v);
+    const R length_squared = dot(direction, direction), length = sqrt(length_squared),
+            per_length = one / length;
+    const R off = select(i.holds, R(4.1 * u) * i.h,
+                         R(u) * (b.w.size * select(b.is_edge, R(17.0) * excess, R(1.01))));
+
+    values<R> r;
+    r.distance = select(i.holds, abs(i.y.value) * per_length, length);
+    r.square = select(i.holds, r.distance * r.distance, length_squared);
+    const R error = select(i.holds, R(1.01) * ((i.y.error + r.distance * off) * per_length), off);
+    r.distance_error = error + R(5 * u) * r.distance;
+    r.square_error = R(2.1) * (r.distance * error) + R(12 * u) * r.square;
+
+    r.first = select(i.holds, i.first.value * reciprocal, weight);
+    r.second = i.second.value * reciprocal;
+    const R of_weights = select(i.holds, i.first.error + i.second.error + R(2.0) * i.n2.error,
+                                R(5.1 * u) * (b.f.size * (b.w.size + b.f.size)));
+    r.weight_error = select(b.is_vertex, zero, R(1.01) * (of_weights * reciprocal) + R(7 * u));
+
+    r.normal = select(i.holds & (i.y.value < zero), -per_length, per_length) * direction;
+    r.normal_error = R(1.01) * (off * per_length) + R(5 * u);
+
+    const mask certain =
+        in_range & (r.square > R(least_divisor)) & (error < R(largest_error) * r.distance) &
+        (r.normal_error < R(largest_error)) & (r.weight_error < R(largest_error)) &
+        (b.is_vertex | ((divisor > R(least_divisor)) & ((i.holds & (abs(i.y.value) > i.y.error)) |
+                                                        (b.is_edge & (excess < R(0x1p20))))));
+    r.region = select(certain, select(i.holds, i.region, b.region), R(-1.0));
+    return r;
+}
+
+/// N = b × c and products of ccd/methods/forms.hpp.
+template <class R>
 struct bounded_forms {
-    sized_vector b, c, p;
-    vector n = cross(b, c);
-    double h = b.size * c.size;
-    bounded n2{dot(n, n), error_of(h)};
+    difference<R> b, c, p;
+    vector<R> n = cross(b.v, c.v);
+    R h = b.size * c.size;
+    bounded<R> n2{dot(n, n), error_of(h)};
 
-    bounded y() const { return {dot(n, p), 8.2 * u * (h * p.size) + tiny}; }
-    bounded weight(const sized_vector& v, const sized_vector& w) const {
-        return {dot(cross(v, w), n), error_of(v.size * w.size)};
+    bounded<R> y() const { return {dot(n, p.v), R(8.2 * u) * (h * p.size) + R(tiny)}; }
+    bounded<R> weight(const difference<R>& v, const difference<R>& w) const {
+        return {dot(cross(v.v, w.v), n), error_of(v.size * w.size)};
     }
+    auto in_range() const { return b.size + c.size + p.size < R(largest_size); }
 
   private:
     /// Sums of up to three such terms are rounded twice more.
-    double error_of(double size) const { return 13.2 * u * (size * h) + tiny; }
+    R error_of(const R& size) const { return R(13.2 * u) * (size * h) + R(tiny); }
 };
 
-template <kind K, class Points>
-bool find(const Points& x, nearness& into) {
-    const writer write(into);
-    const auto d = [&](std::size_t i, std::size_t j) { return x.difference(i, j); };
-    if constexpr (K == kind::vertex_vertex) {
-        const auto w = d(0, 1);
-        return w.size < largest_size && write.vertices(0, 1, w);
-    } else if constexpr (K == kind::vertex_edge) {
-        const auto w = d(0, 1), e = d(2, 1), q = d(0, 2);
-        if (!(w.size + e.size < largest_size)) return false;
-        const bounded from_first = projection(w, e), from_second = -projection(q, e);
-        if (from_first.is_negative()) return write.vertices(0, 1, w);
-        if (from_second.is_negative()) return write.vertices(0, 2, q);
-        return from_first.is_positive() && from_second.is_positive() &&
-               write.edge({0, 1, 2}, w, e, from_first, 1);
-    } else if constexpr (K == kind::vertex_face) {
-        const bounded_forms f{d(2, 1), d(3, 1), d(0, 1)};
-        const auto &b = f.b, &c = f.c, &p = f.p;
-        if (!(b.size + c.size + p.size < largest_size)) return false;
-        const bounded w2 = f.weight(b, p), w1 = f.weight(p, c), w0 = f.n2 - w1 - w2;
-        if (w0.is_positive() && w1.is_positive() && w2.is_positive())
-            return write.template inside<K>(f.n, f.n2, f.h, f.y(), {bounded{}, bounded{}, w1, w2});
-        // Named by the corner from which, then the corner to which they go.
-        const auto e = d(3, 2), q = d(0, 2), r = d(0, 3);
-        const bounded s01 = projection(p, b), s02 = projection(p, c), s10 = -projection(q, b),
-                      s12 = projection(q, e), s20 = -projection(r, c), s21 = -projection(r, e);
-        if (s01.is_negative() && s02.is_negative()) return write.vertices(0, 1, p);
-        if (s10.is_negative() && s12.is_negative()) return write.vertices(0, 2, q);
-        if (s20.is_negative() && s21.is_negative()) return write.vertices(0, 3, r);
-        if (w2.is_negative() && s01.is_positive() && s10.is_positive())
-            return write.edge({0, 1, 2}, p, b, s01, 1);
-        if (w0.is_negative() && s12.is_positive() && s21.is_positive())
-            return write.edge({0, 2, 3}, q, e, s12, 1);
-        return w1.is_negative() && s20.is_positive() && s02.is_positive() &&
-               write.edge({0, 3, 1}, r, -c, s20, 1);
+/// Selects in turn: set(mask, value) replaces the value where the mask holds.
+template <class Mask, class T>
+void set(T& value, const Mask& where, const T& other) {
+    value = select(where, other, value);
+}
+
+template <class R, class D>
+values<R> face_values(const D& d) {
+    using mask = mask_of_number<R>;
+    const bounded_forms<R> form{d(2, 1), d(3, 1), d(0, 1)};
+    const auto &b = form.b, &c = form.c, &p = form.p;
+    const auto w2 = form.weight(b, p), w1 = form.weight(p, c), w0 = form.n2 - w1 - w2;
+    const mask inside = w0.is_positive() & w1.is_positive() & w2.is_positive();
+    // Named by the corners from which, and to which they go.
+    const auto e = d(3, 2), q = d(0, 2), r = d(0, 3);
+    const auto s01 = projection(p, b), s02 = projection(p, c), s10 = -projection(q, b),
+               s12 = projection(q, e), s20 = -projection(r, c), s21 = -projection(r, e);
+    const mask f1 = s10.is_negative() & s12.is_negative(),
+               f2 = s20.is_negative() & s21.is_negative(),
+               f0 = s01.is_negative() & s02.is_negative();
+    const mask f01 = w2.is_negative() & s01.is_positive() & s10.is_positive(),
+               f12 = w0.is_negative() & s12.is_positive() & s21.is_positive(),
+               f20 = w1.is_negative() & s20.is_positive() & s02.is_positive();
+    border<R> at{R(0.0), mask(f0 | f1 | f2), mask(f01 | f12 | f20), p, -b, s01.value};
+    const mask from_f1 = f1 | f12, from_f2 = f2 | f20;
+    set(at.w, from_f1, q);
+    set(at.w, from_f2, r);
+    set(at.f, from_f1, -e);
+    set(at.f, from_f2, c);
+    set(at.along, from_f1, s12.value);
+    set(at.along, from_f2, s20.value);
+    set(at.region, from_f1, R(1.0));
+    set(at.region, from_f2, R(2.0));
+    set(at.region, at.is_edge, at.region + R(3.0));
+    return finished(at, interior<R>{inside, R(6.0), form.n, form.n2, form.y(), w1, w2, form.h},
+                    mask(form.in_range()));
+}
+
+template <class R, class D>
+values<R> edges_values(const D& d) {
+    using mask = mask_of_number<R>;
+    const bounded_forms<R> form{d(1, 0), d(3, 2), d(2, 0)};
+    const auto &a = form.b, &b = form.c, &p = form.p;
+    const auto a1 = form.weight(p, b), b1 = form.weight(p, a), a0 = form.n2 - a1, b0 = form.n2 - b1;
+    const mask inside = a0.is_positive() & a1.is_positive() & b0.is_positive() & b1.is_positive();
+    // wij is from b_j to a_i. Of b_j on edge a from a_i: aij; of a_i on edge b from b_j: bij.
+    const auto w00 = -p, w01 = d(0, 3), w10 = d(1, 2), w11 = d(1, 3);
+    const auto a00 = -projection(w00, a), a01 = -projection(w01, a), a10 = projection(w10, a),
+               a11 = projection(w11, a), b00 = projection(w00, b), b01 = -projection(w01, b),
+               b10 = projection(w10, b), b11 = -projection(w11, b);
+    const mask c00 = a00.is_negative() & b00.is_negative(),
+               c01 = a01.is_negative() & b01.is_negative(),
+               c10 = a10.is_negative() & b10.is_negative(),
+               c11 = a11.is_negative() & b11.is_negative();
+    const mask a0_b = a1.is_negative() & b00.is_positive() & b01.is_positive(),
+               a1_b = a0.is_negative() & b10.is_positive() & b11.is_positive(),
+               b0_a = b1.is_negative() & a00.is_positive() & a10.is_positive(),
+               b1_a = b0.is_negative() & a01.is_positive() & a11.is_positive();
+    border<R> at{R(0.0),   mask(c00 | c01 | c10 | c11), mask(a0_b | a1_b | b0_a | b1_a), w00, -b,
+                 b00.value};
+    const mask from_01 = c01 | b1_a, from_10 = c10 | a1_b, on_a = b0_a | b1_a;
+    set(at.w, from_01, w01);
+    set(at.w, from_10, w10);
+    set(at.w, c11, w11);
+    set(at.f, on_a, a);
+    set(at.along, a1_b, b10.value);
+    set(at.along, b0_a, a00.value);
+    set(at.along, b1_a, a01.value);
+    set(at.region, c01, R(1.0));
+    set(at.region, c10, R(2.0));
+    set(at.region, c11, R(3.0));
+    set(at.region, a0_b, R(4.0));
+    set(at.region, a1_b, R(5.0));
+    set(at.region, b0_a, R(6.0));
+    set(at.region, b1_a, R(7.0));
+    return finished(at, interior<R>{inside, R(8.0), form.n, form.n2, -form.y(), a1, b1, form.h},
+                    mask(form.in_range()));
+}
+
+/// The nearest features of kind K. d(i, j) is the difference of its points i and j.
+template <kind K, class R, class D>
+values<R> values_of(const D& d) {
+    if constexpr (K == kind::vertex_face) {
+        return face_values<R>(d);
+    } else if constexpr (K == kind::edge_edge) {
+        return edges_values<R>(d);
     } else {
-        const bounded_forms f{d(1, 0), d(3, 2), d(2, 0)};
-        const auto &a = f.b, &b = f.c, &p = f.p;
-        if (!(a.size + b.size + p.size < largest_size)) return false;
-        const bounded a1 = f.weight(p, b), b1 = f.weight(p, a), a0 = f.n2 - a1, b0 = f.n2 - b1;
-        if (a0.is_positive() && a1.is_positive() && b0.is_positive() && b1.is_positive())
-            return write.template inside<K>(f.n, f.n2, f.h, f.y(), {bounded{}, a1, bounded{}, b1});
-        // w[i][j]: from b_j to a_i; on_a[i][j]: of b_j on edge a, from a_i; on_b as well.
-        const std::array w{std::array{-p, d(0, 3)}, std::array{d(1, 2), d(1, 3)}};
-        bounded on_a[2][2], on_b[2][2];
-        for (std::uint8_t i = 0; i < 2; ++i)
-            for (std::uint8_t j = 0; j < 2; ++j) {
-                const bounded along_a = projection(w[i][j], a), along_b = projection(w[i][j], b);
-                on_a[i][j] = i == 0 ? -along_a : along_a;
-                on_b[i][j] = j == 0 ? along_b : -along_b;
-            }
-        for (std::uint8_t i = 0; i < 2; ++i)
-            for (std::uint8_t j = 0; j < 2; ++j)
-                if (on_a[i][j].is_negative() && on_b[i][j].is_negative())
-                    return write.vertices(i, static_cast<std::uint8_t>(2 + j), w[i][j]);
-        for (std::uint8_t i = 0; i < 2; ++i) {
-            if ((i == 0 ? a1 : a0).is_negative() && on_b[i][0].is_positive() &&
-                on_b[i][1].is_positive())
-                return write.edge({i, 2, 3}, w[i][0], b, on_b[i][0], 1);
-            if ((i == 0 ? b1 : b0).is_negative() && on_a[0][i].is_positive() &&
-                on_a[1][i].is_positive())
-                return write.edge({static_cast<std::uint8_t>(2 + i), 0, 1}, -w[0][i], a, on_a[0][i],
-                                  -1);
+        using mask = mask_of_number<R>;
+        const difference<R> w = d(0, 1);
+        const mask in_range = w.size < R(largest_size);
+        const mask never(false);
+        const interior<R> none{never,
+                               w.size,
+                               w.v,
+                               {w.size, w.size},
+                               {w.size, w.size},
+                               {w.size, w.size},
+                               {w.size, w.size},
+                               w.size};
+        if constexpr (K == kind::vertex_vertex) {
+            return finished(border<R>{R(0.0), !never, never, w, w, w.size}, none, in_range);
+        } else {
+            const auto e = d(2, 1), q = d(0, 2);
+            const auto s0 = projection(w, e), s1 = -projection(q, e);
+            const mask to_e0 = s0.is_negative(), to_e1 = s1.is_negative(),
+                       to_edge = s0.is_positive() & s1.is_positive();
+            border<R> at{R(0.0), mask(to_e0 | to_e1), to_edge, w, -e, s0.value};
+            set(at.w, to_e1, q);
+            set(at.region, to_e1, R(1.0));
+            set(at.region, to_edge, R(2.0));
+            return finished(at, none, mask(in_range & (e.size < R(largest_size))));
         }
-        return false;
     }
 }
 
-}  // namespace ccd::detail::nearness_filter
+}  // namespace nearness_filter
+}  // namespace
+}  // namespace ccd::detail::ERRBOUND_INSTRUCTION_SET

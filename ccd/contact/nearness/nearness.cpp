@@ -2,16 +2,18 @@
 
 #include <array>
 #include <ccd/kind.hpp>
-#include <ccd/mesh.hpp>
 #include <ccd/methods/transform.hpp>
 #include <ccd/nearness.hpp>
 #include <cstddef>
+#include <cstdint>
 #include <errbound/integers/dyadic.hpp>
+#include <optional>
 #include <tuple>
 #include <type_traits>
 
 #include "ccd/contact/nearness/in_doubles.hpp"
 #include "ccd/contact/nearness/in_integers.hpp"
+#include "ccd/contact/nearness/weights.hpp"
 #include "ccd/exact/axis_units.hpp"
 #include "ccd/exact/finite.hpp"
 #include "ccd/exact/integer_decision.hpp"
@@ -25,18 +27,43 @@ constexpr std::size_t points_in = sizeof(Query) / sizeof(moving_point<double>);
 
 using motion = moving_point<double>;
 
-nearness_filter::vector position(const double* row) {
-    return {row[0], row[1], row[2]};
-}
-nearness_filter::vector position(const point<double>& p) {
-    return {p.x, p.y, p.z};
-}
+namespace filter = baseline::nearness_filter;
+
 template <class Query>
-nearness_filter::resting_points<points_in<Query>> points_at(const Query& query,
-                                                            point<double> motion::*end) {
+filter::resting_points<double, points_in<Query>> points_at(const Query& query,
+                                                           point<double> motion::*end) {
     return with_members(query, [end](const auto&... p) {
-        return nearness_filter::resting_points<points_in<Query>>{{position(p.*end)...}};
+        return filter::resting_points<double, points_in<Query>>{
+            {filter::vector<double>{(p.*end).x, (p.*end).y, (p.*end).z}...}};
     });
+}
+
+/// The data, if they are certain in floating point.
+template <kind K, class Points>
+std::optional<nearness> filtered(const Points& points) {
+    const auto v = filter::values_of<K, double>(points);
+    if (v.region < 0) return std::nullopt;
+    return nearness_of_row<K>({v.region, v.first, v.second, v.weight_error, v.square,
+                               v.square_error, v.distance, v.distance_error, v.normal.x, v.normal.y,
+                               v.normal.z, v.normal_error});
+}
+
+/// Features by the numbers of nearness_filter::values.
+template <kind K>
+constexpr auto numbered_features() {
+    constexpr std::uint8_t first = kind_traits<K>::first_vertices,
+                           second = kind_traits<K>::second_vertices;
+    constexpr std::size_t edges = is_cubic(K) ? smaller_pairs<K>().size() : 0;
+    constexpr bool whole = K != kind::vertex_vertex;
+    std::array<meeting_features, first * second + edges + whole> all;
+    std::size_t n = 0;
+    for (std::uint8_t i = 0; i < first; ++i)
+        for (std::uint8_t j = first; j < first + second; ++j)
+            all[n++] = {kind::vertex_vertex, {i, j}};
+    if constexpr (is_cubic(K))
+        for (const auto& pair : smaller_pairs<K>()) all[n++] = {kind::vertex_edge, pair.points};
+    if (whole) all[n] = whole_query<K>();
+    return all;
 }
 
 /// `position_of` maps an integer motion to a position in units of 2^unit.
@@ -83,21 +110,34 @@ nearness exactly_between(const Query& query, double t) {
 
 }  // namespace
 
-template <any_pair Pair>
-nearness nearness_at_start(const double* positions, const Pair& pair) {
-    const auto points = with_members(pair, [positions](auto... v) {
-        return nearness_filter::resting_points<sizeof...(v)>{
-            {position(positions + 3 * std::size_t(v))...}};
-    });
-    nearness found;
-    if (nearness_filter::find<kind_of<Pair>>(points, found)) return found;
-    return nearness_of(query_of(vertex_rows(positions, positions, 0), pair));
+template <kind K>
+nearness nearness_of_row(const nearness_row& row) {
+    static constexpr auto numbered = numbered_features<K>();
+    nearness r;
+    r.features = numbered[static_cast<std::size_t>(row[0])];
+    const auto& i = r.features.points;
+    if (r.features.kind == kind::vertex_vertex)
+        r.weights[i[0]] = r.weights[i[1]] = 1;
+    else if (r.features.kind == kind::vertex_edge)
+        set_weights<kind::vertex_edge>(
+            i, [&](std::size_t) { return row[1]; }, r);
+    else
+        set_weights<K>(
+            i, [&](std::size_t k) { return k == 3 ? row[2] : row[1]; }, r);
+    r.weight_error = row[3];
+    r.squared_distance = row[4];
+    r.squared_distance_error = row[5];
+    r.distance = row[6];
+    r.distance_error = row[7];
+    r.normal = {row[8], row[9], row[10]};
+    r.normal_error = row[11];
+    return r;
 }
 
-template nearness nearness_at_start(const double*, const vertex_face_pair&);
-template nearness nearness_at_start(const double*, const edge_edge_pair&);
-template nearness nearness_at_start(const double*, const vertex_edge_pair&);
-template nearness nearness_at_start(const double*, const vertex_vertex_pair&);
+template nearness nearness_of_row<kind::vertex_face>(const nearness_row&);
+template nearness nearness_of_row<kind::edge_edge>(const nearness_row&);
+template nearness nearness_of_row<kind::vertex_edge>(const nearness_row&);
+template nearness nearness_of_row<kind::vertex_vertex>(const nearness_row&);
 
 }  // namespace detail
 
@@ -106,18 +146,17 @@ nearness nearness_of(const Query& query, double t) {
     using namespace detail;
     constexpr kind K = kind_of<Query>;
     if (!(t >= 0 && t <= 1)) return {};
-    nearness found;
     if (t == 0 || t == 1) {
         const auto end = t == 0 ? &motion::t0 : &motion::t1;
-        if (nearness_filter::find<K>(points_at(query, end), found)) return found;
+        if (const auto found = filtered<K>(points_at(query, end))) return *found;
         const Query resting = transformed_motions(query, [end](const motion& p) {
             return motion{p.*end, p.*end};
         });
         return is_finite(resting) ? exactly_at_start(resting) : nearness();
     }
-    const nearness_filter::moving_points<points_in<Query>> points{points_at(query, &motion::t0),
-                                                                  points_at(query, &motion::t1), t};
-    if (nearness_filter::find<K>(points, found)) return found;
+    const filter::moving_points<double, points_in<Query>> points{points_at(query, &motion::t0),
+                                                                 points_at(query, &motion::t1), t};
+    if (const auto found = filtered<K>(points)) return *found;
     return is_finite(query) ? exactly_between(query, t) : nearness();
 }
 
