@@ -9,8 +9,8 @@
 
 namespace ccd::detail {
 
-/// Columns of nearness_filter::values: region, two weights, weight error, square, its error,
-/// distance, its error, normal, its error.
+/// A column for each number of nearness_filter::values: region, two weights, weight error, square,
+/// its error, distance, its error, normal, its error.
 struct nearness_columns {
     static constexpr std::size_t capacity = 64, columns = 12;
     alignas(64) double at[columns][capacity];

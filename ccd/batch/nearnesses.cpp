@@ -37,7 +37,8 @@ void find_at_start(const nearness_kernels& kernels, const vertex_rows& rows,
         const auto block = pairs.subspan(first, std::min(columns.capacity, pairs.size() - first));
         kernels.of<K>().data(rows.before, block.data(), block.size(), columns);
         for (std::size_t i = 0; i < block.size(); ++i) {
-            const nearness_row row = row_of(columns, i);
+            nearness_row row;
+            for (std::size_t c = 0; c < row.size(); ++c) row[c] = columns.at[c][i];
             found[first + i] =
                 row[0] >= 0 ? nearness_of_row<K>(row) : nearness_of(query_of(rows, block[i]));
         }

@@ -14,7 +14,6 @@
 
 #include "ccd/batch/nearness_kernels.hpp"
 #include "ccd/batch/threads.hpp"
-#include "ccd/contact/nearness/nearness.hpp"
 #include "ccd/step/elements.hpp"
 #include "ccd/step/narrow_phase.hpp"
 
@@ -57,9 +56,8 @@ void for_each_candidate(mesh_steps& mesh, const vertex_rows& rows, const pair_di
                 candidates = candidates.subspan(count);
                 kernels.of<K>().distances(rows.before, pairs.data(), count, columns);
                 for (std::size_t i = 0; i < count; ++i) {
-                    const auto row = detail::row_of(columns, i);
-                    if (row[0] >= 0) {
-                        visit(pairs[i], estimate{row[6], row[7]});
+                    if (columns.at[0][i] >= 0) {
+                        visit(pairs[i], estimate{columns.at[6][i], columns.at[7][i]});
                     } else {
                         const nearness data = nearness_of(query_of(rows, pairs[i]));
                         visit(pairs[i], estimate{data.distance, data.distance_error});

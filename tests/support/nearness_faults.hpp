@@ -83,7 +83,7 @@ struct feet {
     bool exist = false;
     std::array<whole, 4> weights{};  ///< times `divisor`
     whole divisor = 1;
-    whole square;      ///< of the distance, times `divisor`
+    whole square = 0;  ///< of the distance, times `divisor`
     vector between{};  ///< from the second towards the first, times a positive number
 
     bool is_nearer(const feet& other) const {

@@ -5,8 +5,8 @@
 // with certain signs and without equality, these features are unique. Without branches: all
 // conditions are evaluated, then the vectors of the features are selected.
 //
-// Bounds: u = 2^-53. Each difference of points is a vector v^ with |v^ - v| <= u·size, and |v|,
-// |v^| <= size, of sizes V, W, ... . Then, to first order in u:
+// Bounds: let u = 2^-53, or more if points move. Each difference of points is a vector v^ with
+// |v^ - v| <= u·size, and |v|, |v^| <= size, of sizes V, W, ... . Then, to first order in u:
 //  * dot(v, w) is off by VW (2u + 3u), from both vectors and three roundings in a row.
 //  * cross(v, w) is off by VW (2u + 2u).
 //  * dot of two cross products of sizes G, H is off by GH (8u + 3u), dot(cross, v) by
@@ -30,7 +30,7 @@ namespace {
 
 namespace nearness_filter {
 
-constexpr double u = 0x1p-53, tiny = 0x1p-700, largest_size = 0x1p150, least_divisor = 0x1p-600;
+constexpr double tiny = 0x1p-700, largest_size = 0x1p150, least_divisor = 0x1p-600;
 /// Larger errors are left to the integers: of lengths relative to them, of weights, of the normal.
 constexpr double largest_error = 0x1p-26;
 
@@ -102,8 +102,8 @@ struct bounded {
     }
 };
 template <class R>
-bounded<R> projection(const difference<R>& d, const difference<R>& e) {
-    return {dot(d.v, e.v), R(5.1 * u) * (d.size * e.size) + R(tiny)};
+bounded<R> projection(const difference<R>& d, const difference<R>& e, const R& u) {
+    return {dot(d.v, e.v), R(5.1) * u * (d.size * e.size) + R(tiny)};
 }
 
 /// Points at rest.
@@ -111,22 +111,32 @@ template <class R, std::size_t N>
 struct resting_points {
     vector<R> at[N];
 
+    R unit() const { return R(0x1p-53); }
     difference<R> operator()(std::size_t i, std::size_t j) const {
         const vector<R> d = at[i] - at[j];
         return {d, abs(d.x) + abs(d.y) + abs(d.z)};
     }
 };
 
-/// Points at t, from differences at both ends, D0 and D1: D0 + t·(D1 - D0) is off by 5u of the sum
-/// of their sizes: 2u from both, u each from D1 - D0, the product and the sum.
-template <class R, std::size_t N>
+/// Points at t, from differences at both ends, D0 and D1: D0 + t·(D1 - D0) is off by 5·2^-53 of the
+/// sum of their sizes: 2 from both, 1 each from D1 - D0, the product and the sum.
+template <std::size_t N>
 struct moving_points {
-    resting_points<R, N> start, end;
-    R t;
+    resting_points<double, N> start, end;
+    double t;
 
-    difference<R> operator()(std::size_t i, std::size_t j) const {
-        const difference<R> d0 = start(i, j), d1 = end(i, j);
-        return {d0.v + t * (d1.v - d0.v), R(5.1) * (d0.size + d1.size)};
+    double unit() const {
+        double most = 1;
+        for (std::size_t i = 1; i < N; ++i)
+            for (std::size_t j = 0; j < i; ++j) {
+                const double ends = start(i, j).size + end(i, j).size;
+                if (ends > 0) most = std::fmax(most, 5.1 * ends / (*this)(i, j).size);
+            }
+        return 0x1p-53 * (most < 0x1p20 ? most : HUGE_VAL);
+    }
+    difference<double> operator()(std::size_t i, std::size_t j) const {
+        const vector<double> d0 = start(i, j).v, d = d0 + t * (end(i, j).v - d0);
+        return {d, abs(d.x) + abs(d.y) + abs(d.z)};
     }
 };
 
@@ -169,7 +179,8 @@ struct interior {
 /// p and q, p/|p| and q/|q| are at most |p − q|/m apart, where m is the lesser length; see
 /// direction_of in ccd/contact/data/normal.hpp.
 template <class R>
-values<R> finished(const border<R>& b, const interior<R>& i, const mask_of_number<R>& in_range) {
+values<R> finished(const border<R>& b, const interior<R>& i, const mask_of_number<R>& in_range,
+                   const R& u) {
     using mask = mask_of_number<R>;
     const R zero(0.0), one(1.0);
     const R divisor = select(i.holds, i.n2.value, dot(b.f.v, b.f.v)), reciprocal = one / divisor;
@@ -178,24 +189,24 @@ values<R> finished(const border<R>& b, const interior<R>& i, const mask_of_numbe
     const vector<R> direction = select(i.holds, i.n, b.w.v + weight * b.f.v);
     const R length_squared = dot(direction, direction), length = sqrt(length_squared),
             per_length = one / length;
-    const R off = select(i.holds, R(4.1 * u) * i.h,
-                         R(u) * (b.w.size * select(b.is_edge, R(17.0) * excess, R(1.01))));
+    const R off = select(i.holds, R(4.1) * u * i.h,
+                         u * (b.w.size * select(b.is_edge, R(17.0) * excess, R(1.01))));
 
     values<R> r;
     r.distance = select(i.holds, abs(i.y.value) * per_length, length);
     r.square = select(i.holds, r.distance * r.distance, length_squared);
     const R error = select(i.holds, R(1.01) * ((i.y.error + r.distance * off) * per_length), off);
-    r.distance_error = error + R(5 * u) * r.distance;
-    r.square_error = R(2.1) * (r.distance * error) + R(12 * u) * r.square;
+    r.distance_error = error + R(5.0) * u * r.distance;
+    r.square_error = R(2.1) * (r.distance * error) + R(12.0) * u * r.square;
 
     r.first = select(i.holds, i.first.value * reciprocal, weight);
     r.second = i.second.value * reciprocal;
     const R of_weights = select(i.holds, i.first.error + i.second.error + R(2.0) * i.n2.error,
-                                R(5.1 * u) * (b.f.size * (b.w.size + b.f.size)));
-    r.weight_error = select(b.is_vertex, zero, R(1.01) * (of_weights * reciprocal) + R(7 * u));
+                                R(5.1) * u * (b.f.size * (b.w.size + b.f.size)));
+    r.weight_error = select(b.is_vertex, zero, R(1.01) * (of_weights * reciprocal) + R(7.0) * u);
 
     r.normal = select(i.holds & (i.y.value < zero), -per_length, per_length) * direction;
-    r.normal_error = R(1.01) * (off * per_length) + R(5 * u);
+    r.normal_error = R(1.01) * (off * per_length) + R(5.0) * u;
 
     const mask certain =
         in_range & (r.square > R(least_divisor)) & (error < R(largest_error) * r.distance) &
@@ -210,11 +221,12 @@ values<R> finished(const border<R>& b, const interior<R>& i, const mask_of_numbe
 template <class R>
 struct bounded_forms {
     difference<R> b, c, p;
+    R u;
     vector<R> n = cross(b.v, c.v);
     R h = b.size * c.size;
     bounded<R> n2{dot(n, n), error_of(h)};
 
-    bounded<R> y() const { return {dot(n, p.v), R(8.2 * u) * (h * p.size) + R(tiny)}; }
+    bounded<R> y() const { return {dot(n, p.v), R(8.2) * u * (h * p.size) + R(tiny)}; }
     bounded<R> weight(const difference<R>& v, const difference<R>& w) const {
         return {dot(cross(v.v, w.v), n), error_of(v.size * w.size)};
     }
@@ -222,7 +234,7 @@ struct bounded_forms {
 
   private:
     /// Sums of up to three such terms are rounded twice more.
-    R error_of(const R& size) const { return R(13.2 * u) * (size * h) + R(tiny); }
+    R error_of(const R& size) const { return R(13.2) * u * (size * h) + R(tiny); }
 };
 
 /// Selects in turn: set(mask, value) replaces the value where the mask holds.
@@ -234,14 +246,15 @@ void set(T& value, const Mask& where, const T& other) {
 template <class R, class D>
 values<R> face_values(const D& d) {
     using mask = mask_of_number<R>;
-    const bounded_forms<R> form{d(2, 1), d(3, 1), d(0, 1)};
+    const R u = d.unit();
+    const bounded_forms<R> form{d(2, 1), d(3, 1), d(0, 1), u};
     const auto &b = form.b, &c = form.c, &p = form.p;
     const auto w2 = form.weight(b, p), w1 = form.weight(p, c), w0 = form.n2 - w1 - w2;
     const mask inside = w0.is_positive() & w1.is_positive() & w2.is_positive();
     // Named by the corners from which, and to which they go.
     const auto e = d(3, 2), q = d(0, 2), r = d(0, 3);
-    const auto s01 = projection(p, b), s02 = projection(p, c), s10 = -projection(q, b),
-               s12 = projection(q, e), s20 = -projection(r, c), s21 = -projection(r, e);
+    const auto s01 = projection(p, b, u), s02 = projection(p, c, u), s10 = -projection(q, b, u),
+               s12 = projection(q, e, u), s20 = -projection(r, c, u), s21 = -projection(r, e, u);
     const mask f1 = s10.is_negative() & s12.is_negative(),
                f2 = s20.is_negative() & s21.is_negative(),
                f0 = s01.is_negative() & s02.is_negative();
@@ -260,21 +273,23 @@ values<R> face_values(const D& d) {
     set(at.region, from_f2, R(2.0));
     set(at.region, at.is_edge, at.region + R(3.0));
     return finished(at, interior<R>{inside, R(6.0), form.n, form.n2, form.y(), w1, w2, form.h},
-                    mask(form.in_range()));
+                    mask(form.in_range()), u);
 }
 
 template <class R, class D>
 values<R> edges_values(const D& d) {
     using mask = mask_of_number<R>;
-    const bounded_forms<R> form{d(1, 0), d(3, 2), d(2, 0)};
+    const R u = d.unit();
+    const bounded_forms<R> form{d(1, 0), d(3, 2), d(2, 0), u};
     const auto &a = form.b, &b = form.c, &p = form.p;
     const auto a1 = form.weight(p, b), b1 = form.weight(p, a), a0 = form.n2 - a1, b0 = form.n2 - b1;
     const mask inside = a0.is_positive() & a1.is_positive() & b0.is_positive() & b1.is_positive();
     // wij is from b_j to a_i. Of b_j on edge a from a_i: aij; of a_i on edge b from b_j: bij.
     const auto w00 = -p, w01 = d(0, 3), w10 = d(1, 2), w11 = d(1, 3);
-    const auto a00 = -projection(w00, a), a01 = -projection(w01, a), a10 = projection(w10, a),
-               a11 = projection(w11, a), b00 = projection(w00, b), b01 = -projection(w01, b),
-               b10 = projection(w10, b), b11 = -projection(w11, b);
+    const auto a00 = -projection(w00, a, u), a01 = -projection(w01, a, u),
+               a10 = projection(w10, a, u), a11 = projection(w11, a, u),
+               b00 = projection(w00, b, u), b01 = -projection(w01, b, u),
+               b10 = projection(w10, b, u), b11 = -projection(w11, b, u);
     const mask c00 = a00.is_negative() & b00.is_negative(),
                c01 = a01.is_negative() & b01.is_negative(),
                c10 = a10.is_negative() & b10.is_negative(),
@@ -301,7 +316,7 @@ values<R> edges_values(const D& d) {
     set(at.region, b0_a, R(6.0));
     set(at.region, b1_a, R(7.0));
     return finished(at, interior<R>{inside, R(8.0), form.n, form.n2, -form.y(), a1, b1, form.h},
-                    mask(form.in_range()));
+                    mask(form.in_range()), u);
 }
 
 /// The nearest features of kind K. d(i, j) is the difference of its points i and j.
@@ -313,6 +328,7 @@ values<R> values_of(const D& d) {
         return edges_values<R>(d);
     } else {
         using mask = mask_of_number<R>;
+        const R u = d.unit();
         const difference<R> w = d(0, 1);
         const mask in_range = w.size < R(largest_size);
         const mask never(false);
@@ -325,17 +341,17 @@ values<R> values_of(const D& d) {
                                {w.size, w.size},
                                w.size};
         if constexpr (K == kind::vertex_vertex) {
-            return finished(border<R>{R(0.0), !never, never, w, w, w.size}, none, in_range);
+            return finished(border<R>{R(0.0), !never, never, w, w, w.size}, none, in_range, u);
         } else {
             const auto e = d(2, 1), q = d(0, 2);
-            const auto s0 = projection(w, e), s1 = -projection(q, e);
+            const auto s0 = projection(w, e, u), s1 = -projection(q, e, u);
             const mask to_e0 = s0.is_negative(), to_e1 = s1.is_negative(),
                        to_edge = s0.is_positive() & s1.is_positive();
             border<R> at{R(0.0), mask(to_e0 | to_e1), to_edge, w, -e, s0.value};
             set(at.w, to_e1, q);
             set(at.region, to_e1, R(1.0));
             set(at.region, to_edge, R(2.0));
-            return finished(at, none, mask(in_range & (e.size < R(largest_size))));
+            return finished(at, none, mask(in_range & (e.size < R(largest_size))), u);
         }
     }
 }

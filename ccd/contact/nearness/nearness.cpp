@@ -154,8 +154,8 @@ nearness nearness_of(const Query& query, double t) {
         });
         return is_finite(resting) ? exactly_at_start(resting) : nearness();
     }
-    const filter::moving_points<double, points_in<Query>> points{points_at(query, &motion::t0),
-                                                                 points_at(query, &motion::t1), t};
+    const filter::moving_points<points_in<Query>> points{points_at(query, &motion::t0),
+                                                         points_at(query, &motion::t1), t};
     if (const auto found = filtered<K>(points)) return *found;
     return is_finite(query) ? exactly_between(query, t) : nearness();
 }
