@@ -192,8 +192,8 @@ least_distance_result least_distance(mesh_steps& mesh, const vertex_rows& positi
                                      const near_options& options) {
     const vertex_rows rows = at_rest(positions);
     const nearest_pair nearest = nearest_of_all(mesh, rows, options);
+    if (!(nearest.high < nearness::unknown)) return {};
     least_distance_result result{nearest.low, nearest.high, nearest.of, nearest.vertices, {}};
-    if (!nearest.exists()) return result;
     visit_kind(nearest.of, [&]<kind K>() {
         const auto& v = nearest.vertices;
         const pair_of_kind<K> pair = [&]<std::size_t... I>(std::index_sequence<I...>) {

@@ -4,11 +4,11 @@
 //     ccd::nearness n = ccd::nearness_of(query, time.low);          // at any time of the step
 //     auto data = ccd::nearnesses(positions, pairs);                // many queries, over threads
 //     auto near = ccd::near_pairs(mesh, {.all = 1e-3});             // all pairs of a mesh at rest
-//     auto [low, high, least] = ccd::least_distance(mesh);          // the nearest pair of a mesh
+//     double gap = ccd::least_distance(mesh).low;                   // and its nearest pair
 //
 // The features are exact for all finite coordinates, also for parallel edges and degenerate
 // triangles. All numbers have certified errors. Results do not depend on instruction sets or
-// threads. Calls for one query do not throw, and rarely allocate. Other calls throw
+// threads. Calls for one query do not throw, and rarely allocate. Others throw
 // std::invalid_argument for bad input.
 #pragma once
 
@@ -61,9 +61,9 @@ struct nearness {
 /// Errors are at most 2^-24: of weights and normal, and of distances relative to their values,
 /// except for distances that overflow or are subnormal and for the normal of features that touch.
 ///
-/// Cost: some 40 to 80 ns; 0.2 to 0.3 µs for degenerate positions; microseconds if coordinates span
-/// more than 125 bits, or if the time is inside the step and floating point does not suffice. Only
-/// the latter two allocate.
+/// Cost: some 30 to 90 ns; 0.2 to 0.3 µs for degenerate positions; microseconds, with allocations,
+/// if coordinates span more than 125 bits, or if the time is inside the step and floating point
+/// does not suffice.
 template <any_query Query>
 nearness nearness_of(const Query& query, double t = 0);
 
@@ -139,12 +139,12 @@ near_lists near_pairs(mesh_steps& mesh, const vertex_rows& positions, const pair
 near_lists near_pairs(const mesh& mesh, const pair_distances& within,
                       const near_options& options = {});
 
-/// The least distance of the pairs of a mesh.
+/// The least distance of the pairs of a mesh. Bounds are infinite, and there are no data, if there
+/// is no pair or all distances overflow.
 struct least_distance_result {
-    double low = nearness::unknown, high = nearness::unknown;  ///< bounds; infinite without pairs
-    /// A pair whose distance is within the bounds, and its data. Of several, it is the first with
-    /// the least nearness::distance. Vertices are in the order of its kind; without pairs, the data
-    /// are empty.
+    double low = nearness::unknown, high = nearness::unknown;  ///< bounds
+    /// A pair whose distance is within the bounds, and its data. Of several, it is the first by
+    /// nearness::distance, kind and vertices, which are in the order of its kind.
     ccd::kind kind = ccd::kind::vertex_face;
     std::array<vertex_index, 4> vertices{};
     nearness data;
@@ -152,8 +152,9 @@ struct least_distance_result {
     friend bool operator==(const least_distance_result&, const least_distance_result&) = default;
 };
 
-/// Returns the least distance of the pairs of the mesh at t = 0. Searches within growing distances,
-/// from a fraction of an edge, until it finds a pair. Throws as near_pairs.
+/// Returns the least distance of the pairs of the mesh at t = 0. Throws as near_pairs. Cost: mostly
+/// that of two searches: pairs whose boxes touch give an upper bound, and all pairs within it the
+/// least distance.
 least_distance_result least_distance(mesh_steps& mesh, const vertex_rows& positions,
                                      const near_options& options = {});
 least_distance_result least_distance(const mesh& mesh, const near_options& options = {});
