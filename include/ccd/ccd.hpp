@@ -21,6 +21,7 @@
 #include <ccd/methods/single_precision.hpp>
 #include <ccd/methods/tracked_query.hpp>
 #include <ccd/methods/transform.hpp>
+#include <ccd/nearness.hpp>
 #include <ccd/pair_filter.hpp>
 #include <ccd/plane.hpp>
 #include <ccd/query.hpp>
