@@ -2,8 +2,11 @@
 // process and one on many ranks, which exchange their contacts (`Others`).
 #pragma once
 
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
 #include <ccd/advance.hpp>
+#include <ccd/nearness.hpp>
 #include <cmath>
 #include <cstddef>
 #include <functional>
@@ -14,6 +17,7 @@
 #include <utility>
 #include <vector>
 
+#include "ccd/batch/threads.hpp"
 #include "ccd/step/elements.hpp"
 #include "ccd/step/swept_boxes.hpp"
 #include "ccd/step/vertex_groups.hpp"
@@ -102,6 +106,58 @@ step_result step_to_first_contact(const vertex_rows& way, step_options options, 
     return step(options);
 }
 
+/// A pair near at the start, and the distance that it keeps; 0: it may not touch.
+template <class Pair>
+struct near_pair {
+    Pair pair;
+    separation keeps;
+};
+template <kind K>
+using near_list = std::vector<near_pair<pair_of_kind<K>>>;
+
+/// Pairs that are near at the start (advance_options::keep), with their times on the way.
+template <class Pair>
+struct near_times {
+    std::vector<near_pair<Pair>> pairs;
+    std::vector<first_time> times;  ///< at_start() if they touch at the start
+
+    near_times(const vertex_rows& way, const std::vector<Pair>& all,
+               const advance_options& options) {
+        pairs.resize(all.size());
+        times.resize(all.size());
+        on_threads(options.threads, [&] {
+            tbb::parallel_for(std::size_t(0), all.size(), [&](std::size_t i) {
+                stop_if_requested(options.stop);
+                const auto query = query_of(way, all[i]);
+                pairs[i] = {all[i], {}};
+                if (options.keep > 0) {
+                    const nearness at_start = nearness_of(query);
+                    if (!at_start.touches())
+                        pairs[i].keeps.first = options.keep * at_start.distance;
+                }
+                times[i] = time_within(query, pairs[i].keeps);
+                if (times[i].at_start() && pairs[i].keeps.first > 0)
+                    times[i] = time_within(query, pairs[i].keeps = {});
+            });
+        });
+    }
+};
+
+/// Distances within which pairs are near at the start; `scaled` holds thicknesses.
+inline pair_distances near_distances(const advance_options& options, std::vector<double>& scaled) {
+    pair_distances near = options.distances;
+    if (options.keep == 0) return near;
+    constexpr double wider = 1 + 0x1p-10;
+    const auto widen = [](double& d) {
+        d = std::min(wider * d, std::numeric_limits<double>::max());
+    };
+    widen(near.all);
+    scaled.assign(near.thickness.begin(), near.thickness.end());
+    std::ranges::for_each(scaled, widen);
+    near.thickness = scaled;
+    return near;
+}
+
 /// Others must have the members of no_others: found_by_all returns the same pairs in the same order
 /// on all processes. If `what` throws on one, call throws on all. In `groups`, vertices of other
 /// processes follow those of `way`.
@@ -118,11 +174,14 @@ class advancing {
           groups_(groups),
           others_(others) {}
 
+    /// Returns the first contact and all lists of the result, those of all processes.
+    advance_result first_contact() {
+        evaluate_whole_way();
+        return std::move(result_);
+    }
     /// Returns all except result.fraction, which stays 1. The lists are those of all processes.
     advance_result run() {
-        result_.first_contact = {outcome::separate};
         evaluate_whole_way();
-        for_each_kind([&]<kind K>() { std::ranges::sort(result_.first_pairs.template of<K>()); });
         // Each round joins groups, takes vertices back or shortens a way. After rounds_by_group all
         // become one group, whose way vertex_groups shortens a bounded number of times.
         constexpr int rounds_by_group = 60;
@@ -140,7 +199,7 @@ class advancing {
     template <class Pair>
     void hold(const timed_pair<Pair>& contact);
     template <kind K>
-    void find_near_contacts();
+    void find_near_contacts(const std::vector<pair_of_kind<K>>& near);
 
     /// Sets positions from the groups' fractions. Returns false if all move the whole way.
     bool set_positions();
@@ -198,7 +257,8 @@ class advancing {
     vertex_groups& groups_;
     Others& others_;
     pair_lists at_start_;            ///< of all processes
-    pair_lists known_, known_near_;  ///< of this process
+    pair_lists known_;               ///< of this process
+    by_kind<near_list> known_near_;  ///< of this process
     bool may_retreat_ = true;
     advance_result result_;
 };
@@ -214,14 +274,19 @@ void advancing<Others>::hold(const timed_pair<Pair>& contact) {
     add_first(time, contact.pair, result_);
 }
 
-/// Finds contacts of pairs that are within their distance at the start.
+/// Finds times of pairs that are near at the start.
 template <class Others>
 template <kind K>
-void advancing<Others>::find_near_contacts() {
-    const auto contacts = timed(way_, known_near_.of<K>(), {});
-    known_near_.of<K>().clear();
-    for (const auto& contact : contacts)
-        if (!contact.time.at_start()) known_near_.of<K>().push_back(contact.pair);
+void advancing<Others>::find_near_contacts(const std::vector<pair_of_kind<K>>& near) {
+    using pair = pair_of_kind<K>;
+    std::vector<timed_pair<pair>> contacts;
+    others_.call([&] {
+        const near_times<pair> found(way_, near, options_);
+        for (std::size_t i = 0; i < near.size(); ++i) {
+            contacts.push_back({near[i], found.times[i]});
+            if (!found.times[i].at_start()) known_near_.of<K>().push_back(found.pairs[i]);
+        }
+    });
     for (const auto& contact : others_.found_by_all(contacts)) {
         (contact.time.at_start() ? result_.touching_at_start : result_.near_at_start)
             .template of<K>()
@@ -232,34 +297,45 @@ void advancing<Others>::find_near_contacts() {
 
 template <class Others>
 void advancing<Others>::evaluate_whole_way() {
+    result_.first_contact = {outcome::separate};
     step_options options = base_options();
     const bool contact = options_.distances.is_contact();
+    const bool keeps = !contact && options_.keep > 0;
+    std::vector<double> scaled;
+    pair_lists near;
+    if (keeps) {
+        step_options resting = options;
+        resting.distances = near_distances(options_, scaled);
+        resting.t_max = 0;
+        near = step(way_, resting).touching_at_start;
+    }
     options.first_contact = true;
-    options.times = islands_;
+    options.times = islands_ || keeps;
     options.check_start = options_.check_start;
     const auto step_way = [&](const step_options& o) { return step(way_, o); };
     const step_result whole =
-        islands_ ? step(way_, options) : step_to_first_contact(way_, options, others_, step_way);
+        options.times ? step_way(options) : step_to_first_contact(way_, options, others_, step_way);
     const first_time first = others_.earliest(whole.first_contact);
     for_each_kind([&]<kind K>() {
         const auto& pairs = whole.pairs.of<K>();
         const auto& times = whole.times.of<K>();
-        at_start_.of<K>() = found_by_all(whole.touching_at_start.of<K>());
+        if (!keeps) near.of<K>() = whole.touching_at_start.of<K>();
+        at_start_.of<K>() = found_by_all(near.of<K>());
         if (contact) result_.touching_at_start.of<K>() = at_start_.of<K>();
         std::ranges::sort(at_start_.of<K>());
         std::vector<timed_pair<pair_of_kind<K>>> timed;
-        if (islands_) {
+        if (options.times) {
             known_.of<K>() = without(pairs, at_start_.of<K>());
-            for (std::size_t i = 0; i < pairs.size(); ++i) timed.push_back({pairs[i], times[i]});
+            for (std::size_t i = 0; i < pairs.size(); ++i)
+                if (!keeps || std::ranges::binary_search(known_.of<K>(), pairs[i]))
+                    timed.push_back({pairs[i], times[i]});
         } else if (whole.first_contact == first) {
             known_.of<K>() = whole.first_pairs.of<K>();
             for (const auto& pair : known_.of<K>()) timed.push_back({pair, first});
         }
         for (const auto& pair : others_.found_by_all(std::move(timed))) hold(pair);
-        if (!contact) {
-            known_near_.of<K>() = whole.touching_at_start.of<K>();
-            find_near_contacts<K>();
-        }
+        if (!contact) find_near_contacts<K>(near.of<K>());
+        std::ranges::sort(result_.first_pairs.template of<K>());
     });
 }
 
@@ -288,14 +364,15 @@ template <class Others>
 bool advancing<Others>::separate_known() {
     bool any = false;
     for_each_kind([&]<kind K>() {
-        const auto separate_of = [&](const auto& pairs, const pair_distances& distances) {
-            std::vector<pair_of_kind<K>> found;
-            for (const auto& [pair, time] : timed(way_to_result(), pairs, distances))
-                if (time.outcome == outcome::collides) found.push_back(pair);
-            any |= separate(found);
-        };
-        separate_of(known_.of<K>(), options_.distances);
-        separate_of(known_near_.of<K>(), {});
+        std::vector<pair_of_kind<K>> found;
+        for (const auto& [pair, time] : timed(way_to_result(), known_.of<K>(), options_.distances))
+            if (time.outcome == outcome::collides) found.push_back(pair);
+        any |= separate(found);
+        found.clear();
+        for (const auto& [pair, keeps] : known_near_.of<K>())
+            if (decide_within(query_of(way_to_result(), pair), keeps).outcome == outcome::collides)
+                found.push_back(pair);
+        any |= separate(found);
     });
     return any;
 }

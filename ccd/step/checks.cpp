@@ -123,10 +123,13 @@ bool needs_times_or_distances(const step_options& options) {
            !options.distances.is_contact();
 }
 
-void check_conservative(double share) {
-    if (!(0 < share && share <= 1))
-        throw std::invalid_argument("ccd::advance: conservative is " + std::to_string(share) +
-                                    "; expected a number in (0, 1]");
+void check_shares(double conservative, double keep) {
+    if (!(0 < conservative && conservative <= 1))
+        throw std::invalid_argument("ccd::advance: conservative is " +
+                                    std::to_string(conservative) + "; expected a number in (0, 1]");
+    if (!(0 <= keep && keep < 1))
+        throw std::invalid_argument("ccd::advance: keep is " + std::to_string(keep) +
+                                    "; expected a number in [0, 1)");
 }
 
 void check_plane(const vertex_rows& positions) {

@@ -31,7 +31,7 @@ bool needs_times_or_distances(const step_options& options);
 void check_plane(const vertex_rows& positions);
 
 void check_options(const step_options& options, std::size_t vertices);
-void check_conservative(double share);
+void check_shares(double conservative, double keep);
 
 /// True if a mesh has vertex/face and edge/edge pairs only: no edges except those of its faces, and
 /// at most one point. Precondition: indices are in range.

@@ -119,7 +119,7 @@ struct advance_result {
 
 /// Returns the result of ccd::advance for the whole mesh, bit for bit, if numbers order vertices as
 /// indices do there. Groups (the options' and the filter's) are those of mesh.numbers, with the
-/// same index on every rank. can_collide and region must be empty.
+/// same index on every rank. can_collide and region must be empty, each_vertex false.
 ///
 /// Throws as ccd::mpi::step, and ccd::stopped on all ranks if options.stop returns true on one.
 ///
