@@ -1,12 +1,10 @@
-#include "ccd/step/vertex_fans.hpp"
+#include "ccd/step/fans/vertex_fans.hpp"
 
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <errbound/predicates.hpp>
-
-#include "ccd/step/elements.hpp"
 
 namespace ccd::detail {
 
