@@ -4,7 +4,8 @@
 
 #include <algorithm>
 #include <ccd/step.hpp>
-#include <errbound/simplices.hpp>
+#include <errbound/simplices/common_segment.hpp>
+#include <errbound/simplices/relation.hpp>
 #include <limits>
 #include <numeric>
 #include <optional>

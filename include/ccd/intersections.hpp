@@ -20,7 +20,7 @@
 #include <compare>
 #include <cstddef>
 #include <cstdint>
-#include <errbound/relation.hpp>
+#include <errbound/simplices/types.hpp>
 #include <optional>
 #include <span>
 #include <string_view>

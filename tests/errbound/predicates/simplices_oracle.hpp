@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
-#include <errbound/simplices.hpp>
+#include <errbound/simplices/relation.hpp>
 #include <vector>
 
 #include "tests/support/big_integer.hpp"
@@ -16,7 +16,7 @@ template <std::size_t D>
 using points = std::vector<std::array<big_integer, D>>;
 
 /// Linear equations in integers: the sum of row[i]·x_i is the row's last entry. Each row is solved
-/// for one variable, which no other row has.
+/// for one variable, which no other row has; that variable's coefficient is the same in all rows.
 class equations {
   public:
     using row = std::vector<big_integer>;
@@ -24,14 +24,25 @@ class equations {
     explicit equations(std::size_t variables) : variables_(variables) {}
 
     /// Adds an equation. Returns false if there is no solution.
-    bool add(row r) {
-        for (std::size_t k = 0; k < rows_.size(); ++k) eliminate(r, k);
+    bool add(const row& added) {
+        row r(added.size());
+        for (std::size_t i = 0; i < r.size(); ++i) {
+            if (sign(added[i]) != 0) r[i] = added[i] * pivot_;
+            for (std::size_t k = 0; k < rows_.size(); ++k)
+                if (sign(added[solved_[k]]) != 0 && sign(rows_[k][i]) != 0)
+                    r[i] = r[i] - added[solved_[k]] * rows_[k][i];
+        }
         for (std::size_t i = 0; i < variables_; ++i) {
             if (sign(r[i]) == 0) continue;
+            // All entries are determinants, so the divisions are exact (Bareiss 1968).
+            for (row& other : rows_) {
+                const big_integer factor = other[i];
+                for (std::size_t j = 0; j < r.size(); ++j)
+                    other[j] = exact_quotient(other[j] * r[i] - factor * r[j], pivot_);
+            }
+            pivot_ = r[i];
             rows_.push_back(std::move(r));
             solved_.push_back(i);
-            for (std::size_t k = 0; k + 1 < rows_.size(); ++k)
-                eliminate(rows_[k], rows_.size() - 1);
             return true;
         }
         return sign(r.back()) == 0;
@@ -39,43 +50,25 @@ class equations {
     bool add_zero(std::size_t variable) {
         row r(variables_ + 1);
         r[variable] = 1;
-        return add(std::move(r));
+        return add(r);
     }
     std::size_t rank() const { return rows_.size(); }
-    /// The solution as numerators over a common divisor, if it is unique and not negative.
+    /// The unique solution as numerators over a positive divisor, if none is negative.
     bool solution(row& x, big_integer& divisor) const {
-        divisor = 1;
-        for (std::size_t k = 0; k < rows_.size(); ++k) {
-            const int s = sign(rows_[k][solved_[k]]) * sign(rows_[k].back());
-            if (s < 0) return false;
-            if (s > 0) divisor = divisor * abs(rows_[k][solved_[k]]);
-        }
         x.assign(variables_, big_integer());
+        divisor = abs(pivot_);
         for (std::size_t k = 0; k < rows_.size(); ++k) {
-            if (sign(rows_[k].back()) == 0) continue;
-            big_integer others = abs(rows_[k].back());
-            for (std::size_t l = 0; l < rows_.size(); ++l)
-                if (l != k && sign(rows_[l].back()) != 0)
-                    others = others * abs(rows_[l][solved_[l]]);
-            x[solved_[k]] = others;
+            if (sign(rows_[k].back()) * sign(pivot_) < 0) return false;
+            x[solved_[k]] = abs(rows_[k].back());
         }
         return true;
     }
 
   private:
-    void eliminate(row& r, std::size_t k) const {
-        const row& by = rows_[k];
-        const big_integer factor = r[solved_[k]], pivot = by[solved_[k]];
-        if (sign(factor) == 0) return;
-        for (std::size_t i = 0; i < r.size(); ++i) {
-            if (sign(r[i]) != 0) r[i] = r[i] * pivot;
-            if (sign(by[i]) != 0) r[i] = r[i] - by[i] * factor;
-        }
-    }
-
     std::size_t variables_;
     std::vector<row> rows_;
     std::vector<std::size_t> solved_;
+    big_integer pivot_ = 1;
 };
 
 template <std::size_t D>
@@ -84,7 +77,7 @@ std::size_t rank_of(const points<D>& directions) {
     for (const auto& d : directions) {
         equations::row r(D + 1);
         std::copy(d.begin(), d.end(), r.begin());
-        e.add(std::move(r));
+        e.add(r);
     }
     return e.rank();
 }
@@ -106,7 +99,7 @@ class meeting {
             equations::row r(variables + 1);
             std::fill(&r[first], &r[last], big_integer(1));
             r.back() = 1;
-            e.add(std::move(r));
+            e.add(r);
         };
         unit(0, a.size());
         unit(a.size(), variables);
@@ -114,7 +107,7 @@ class meeting {
             equations::row r(variables + 1);
             for (std::size_t i = 0; i < a.size(); ++i) r[i] = a[i][k];
             for (std::size_t j = 0; j < b.size(); ++j) r[a.size() + j] = big_integer() - b[j][k];
-            if (!e.add(std::move(r))) return;
+            if (!e.add(r)) return;
         }
         find_corners(e, 0);
     }
@@ -192,3 +185,13 @@ class meeting {
 };
 
 }  // namespace simplices_oracle
+
+namespace predicate_oracle {
+
+inline int triangle_intersects_triangle(const std::array<std::array<big_integer, 3>, 6>& p) {
+    const simplices_oracle::points<3> a(p.begin(), p.begin() + 3), b(p.begin() + 3, p.end());
+    const errbound::relation r = simplices_oracle::meeting<3>(a, b).relation({});
+    return r == errbound::relation::crossing ? 1 : r == errbound::relation::disjoint ? -1 : 0;
+}
+
+}  // namespace predicate_oracle
