@@ -53,6 +53,7 @@ class vertex_fans {
         vertex_index from, to;
     };
 
+    static bool are_closed(std::span<corner> corners, std::span<vertex_index> ring);
     static around kind_of_corners(std::span<corner> corners, std::span<vertex_index> ring);
     bool is_flat_fan(vertex_index v, const double* positions) const;
 
