@@ -144,7 +144,7 @@ std::string json_of(const step_request& request, const mesh& before, const step_
     if (request.unused > 0)
         document["unused_vertices"] = {{"count", request.unused}, {"skipped", request.skip_unused}};
     add_contacts(request, found, document);
-    if (request.check_start)
+    if (!result.intersections_at_start.empty())
         for (const errbound::relation r : intersection_relations)
             document["intersections_at_start"][std::string(name(r))] = number_at_start(result, r);
     if (request.explain) {

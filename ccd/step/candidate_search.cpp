@@ -257,35 +257,11 @@ void candidate_search::find_at_start(const batch_positions& positions, const ste
     batch_positions at = positions;
     at.exact.after = at.exact.before;
     const pair_distances contact;
-    const search_kernels& kernels = search_kernels_for(options.set);
     const swept_boxes boxes(at, contact);
-    if (boxes.need_doubles<3>(elements)) {
-        struct block {
-            std::size_t count = 0;
-            std::array<element_pair, 512> pairs;
-        };
-        tbb::enumerable_thread_specific<block> blocks;
-        const auto flush = [&](block& b) {
-            stop_if_requested(options.stop);
-            visit(elements, {b.pairs.data(), b.count});
-            b.count = 0;
-        };
-        box_tree<double>& tree = in_doubles_.second;
-        elements.build_tree<double>(tree, true, sorting<double>(boxes, elements), [&] {
-            tree.build(elements.size(),
-                       [&](std::size_t i) { return boxes.swept_box<double>(elements[i]); });
-        });
-        for_each_touching(
-            tree, tree, [&]() -> auto& { return blocks.local(); },
-            [&](block& b, std::size_t i, std::size_t j, bool) {
-                if (share_vertex(elements[i], elements[j])) return;
-                b.pairs[b.count++] = {static_cast<unsigned>(i), static_cast<unsigned>(j)};
-                if (b.count == b.pairs.size()) flush(b);
-            });
-        tbb::parallel_for_each(blocks, flush);
-        return;
-    }
+    if (boxes.need_doubles<3>(elements))
+        return find_resting_by_boxes(boxes, elements, options, visit);
     extents_tree& tree = of_extents_.second;
+    const search_kernels& kernels = search_kernels_for(options.set);
     if (in_second_ != &elements)
         elements.build_tree<float>(tree, true, sorting<float>(boxes, elements),
                                    [&] { tree.build<3>(kernels, at.rounded, 0, elements); });
@@ -304,6 +280,35 @@ void candidate_search::find_at_start(const batch_positions& positions, const ste
         kernels.of_two_faces_at_start(tree.levels(), tree.levels(), range.begin(), range.end(), &to,
                                       pass);
     });
+}
+
+void candidate_search::find_resting_by_boxes(const swept_boxes& boxes,
+                                             ordered_elements<3>& elements,
+                                             const step_options& options,
+                                             const resting_visitor& visit) {
+    struct block {
+        std::size_t count = 0;
+        std::array<element_pair, 512> pairs;
+    };
+    tbb::enumerable_thread_specific<block> blocks;
+    const auto flush = [&](block& b) {
+        stop_if_requested(options.stop);
+        visit(elements, {b.pairs.data(), b.count});
+        b.count = 0;
+    };
+    box_tree<double>& tree = in_doubles_.second;
+    elements.build_tree<double>(tree, true, sorting<double>(boxes, elements), [&] {
+        tree.build(elements.size(),
+                   [&](std::size_t i) { return boxes.swept_box<double>(elements[i]); });
+    });
+    for_each_touching(
+        tree, tree, [&]() -> auto& { return blocks.local(); },
+        [&](block& b, std::size_t i, std::size_t j, bool) {
+            if (share_vertex(elements[i], elements[j])) return;
+            b.pairs[b.count++] = {static_cast<unsigned>(i), static_cast<unsigned>(j)};
+            if (b.count == b.pairs.size()) flush(b);
+        });
+    tbb::parallel_for_each(blocks, flush);
 }
 
 pair_counts candidate_search::find(const batch_positions& positions, const step_options& options,

@@ -13,6 +13,7 @@
 
 #include "ccd/step/box_tree.hpp"
 #include "ccd/step/extents_tree.hpp"
+#include "ccd/step/fans/vertex_fans.hpp"
 #include "ccd/step/swept_boxes.hpp"
 #include "ccd/step/vertex_order.hpp"
 
@@ -136,6 +137,8 @@ class candidate_search {
     std::size_t find_close(const search_request& request, First& first, Second& second);
 
     void set_resting();
+    void find_resting_by_boxes(const swept_boxes& boxes, ordered_elements<3>& elements,
+                               const step_options& options, const resting_visitor& visit);
     template <std::size_t N>
     void skip_in(ordered_elements<N>& set, bool skip);
 
@@ -154,5 +157,13 @@ class candidate_search {
     const void* in_second_ = nullptr;  ///< the elements of of_extents_.second
     bool in_plane_ = false;
 };
+
+/// Finds intersections at positions.before, in the arena of the caller. Sets `fans` if it is empty;
+/// keep it for the next call. `of_step` has the positions of the last search.find(), if its trees
+/// are to be used.
+intersection_result find_intersections(candidate_search& search, std::optional<vertex_fans>& fans,
+                                       const vertex_rows& positions,
+                                       const intersection_options& options,
+                                       const batch_positions* of_step = nullptr);
 
 }  // namespace ccd::detail

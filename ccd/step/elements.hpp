@@ -21,18 +21,6 @@ constexpr bool share_vertex(const std::array<vertex_index, A>& a,
     return shared;
 }
 
-/// Three vertices stand for a triangle, an edge or a single vertex, which repeat a vertex.
-constexpr bool is_triangle(const face& f) {
-    return f[0] != f[1] && f[1] != f[2] && f[2] != f[0];
-}
-/// Calls visit(v) for each of its vertices, once.
-template <class Visit>
-constexpr void for_each_vertex(const face& f, const Visit& visit) {
-    visit(f[0]);
-    if (f[1] != f[0]) visit(f[1]);
-    if (f[2] != f[0] && f[2] != f[1]) visit(f[2]);
-}
-
 /// The vertices of a face keep the mesh's order.
 constexpr vertex_face_pair candidate_of(const std::array<vertex_index, 1>& v, const face& f) {
     return {v[0], f[0], f[1], f[2]};

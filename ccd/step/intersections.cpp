@@ -1,9 +1,11 @@
 #include <tbb/blocked_range.h>
+#include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <ccd/step.hpp>
-#include <errbound/simplices.hpp>
+#include <errbound/simplices/common_segment.hpp>
+#include <errbound/simplices/relation.hpp>
 #include <limits>
 #include <numeric>
 #include <optional>
@@ -12,9 +14,10 @@
 
 #include "ccd/batch/threads.hpp"
 #include "ccd/step/candidate_blocks.hpp"
+#include "ccd/step/candidate_search.hpp"
 #include "ccd/step/checks.hpp"
 #include "ccd/step/elements.hpp"
-#include "ccd/step/intersection_finder.hpp"
+#include "ccd/step/fans/vertex_fans.hpp"
 #include "ccd/step/stopwatch.hpp"
 
 namespace ccd {
@@ -22,6 +25,54 @@ namespace detail {
 namespace {
 
 using errbound::relation;
+
+/// The vertices of an element, each once.
+struct simplex_vertices {
+    std::array<vertex_index, 3> vertices;
+    std::size_t size = 0;
+
+    explicit simplex_vertices(const face& element);
+    const vertex_index* begin() const { return vertices.data(); }
+    const vertex_index* end() const { return vertices.data() + size; }
+};
+
+/// One search for intersections. Keeps references.
+class intersection_finder {
+  public:
+    /// Reads positions.before only.
+    intersection_finder(const candidate_search& search, const vertex_rows& positions,
+                        const intersection_options& options);
+
+    /// Decides pairs without a common vertex. Thread-safe. Throws found_first if one pair suffices.
+    void decide(std::span<const face> elements, std::span<const element_pair> pairs);
+    /// Decides pairs with common vertices. Throws as decide.
+    void decide_adjacent(const vertex_fans& fans);
+
+    /// Precondition: no call of others is running.
+    intersection_result take();
+
+    /// Ends the search.
+    struct found_first {};
+
+  private:
+    struct found_by_thread {
+        std::vector<intersection> pairs;
+        intersection_counts counts;
+        std::vector<edge_face_pair> edge_faces;
+    };
+
+    bool may_meet(const simplex_vertices& a, const simplex_vertices& b) const;
+    void decide(found_by_thread& found, const face& a, const face& b);
+    void find_edges_in_faces(found_by_thread& found, const face& edges_of, const face& f) const;
+    void report(found_by_thread& found, const face& a, const face& b, relation r) const;
+    mesh_element element_of(const face& element) const;
+
+    const candidate_search& search_;
+    vertex_rows positions_;
+    const intersection_options& options_;
+    bool all_pass_;
+    tbb::enumerable_thread_specific<found_by_thread> found_;
+};
 
 template <std::size_t K, std::size_t D>
 std::array<std::array<double, D>, K> points_of(const vertex_rows& positions,
@@ -97,8 +148,6 @@ std::array<errbound::located_point<3>, 2> segment_of(const vertex_rows& position
     };
     return {lifted(p), lifted(q)};
 }
-
-}  // namespace
 
 simplex_vertices::simplex_vertices(const face& element) {
     for_each_vertex(element, [this](vertex_index v) { vertices[size++] = v; });
@@ -243,8 +292,6 @@ intersection_result intersection_finder::take() {
     all.edge_faces.erase(repeated.begin(), repeated.end());
     return all;
 }
-
-namespace {
 
 /// The search in the mesh in which the first vertex of each position replaces the others.
 candidate_search merged(const candidate_search& search, const vertex_rows& positions) {

@@ -14,7 +14,6 @@
 #include "ccd/batch/threads.hpp"
 #include "ccd/step/candidate_search.hpp"
 #include "ccd/step/checks.hpp"
-#include "ccd/step/intersection_finder.hpp"
 #include "ccd/step/narrow_phase.hpp"
 #include "ccd/step/stopwatch.hpp"
 

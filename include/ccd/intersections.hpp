@@ -20,7 +20,7 @@
 #include <compare>
 #include <cstddef>
 #include <cstdint>
-#include <errbound/relation.hpp>
+#include <errbound/simplices/types.hpp>
 #include <optional>
 #include <span>
 #include <string_view>
@@ -154,9 +154,9 @@ struct intersection_result {
 /// vertices are all vertices of the other are no pair. The filter's region refers to the boxes of
 /// the elements.
 ///
-/// Throws std::invalid_argument if an index is not below the number of vertices, for 2^32 or more
-/// vertices, faces or edges, or if a coordinate is not finite. Also throws if there is not one
-/// group or flag per vertex, or if the group rule or instruction set does not exist.
+/// Throws std::invalid_argument if an index is not below the number of vertices, or for 2^32 or
+/// more vertices, faces or edges. Also throws if a coordinate is not finite, or there is not one
+/// group or flag per vertex. Also throws if the group rule or instruction set does not exist.
 ///
 /// Cost: trees over the elements, and their search. Faces around a vertex are tested together, in
 /// linear time, if they form a closed fan that projects along a coordinate axis without overlap;

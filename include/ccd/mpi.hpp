@@ -49,7 +49,7 @@ using numbered_list = std::vector<numbered_pair<K>>;
 }
 using pair_lists = by_kind<detail::numbered_list>;
 
-/// As ccd::mesh_element and ccd::intersection, with numbers of vertices.
+/// Same as ccd::mesh_element and ccd::intersection, with numbers of vertices.
 struct numbered_element {
     std::uint8_t size = 0;
     std::array<vertex_number, 3> numbers{};
@@ -86,7 +86,7 @@ struct step_result {
     first_time first_contact;               ///< of the whole step, the same on all ranks
     std::optional<pair_counts> candidates;  ///< of the whole step
     std::optional<pair_counts> decided;     ///< by this rank
-    /// Those of this rank, sorted, with check_start.
+    /// This rank's share, sorted, with check_start.
     std::vector<numbered_intersection> intersections_at_start;
     rank_work work;
 };

@@ -41,7 +41,7 @@ struct step_request {
     int threads = 0;
     bool count_candidates = false, stages = false, initial_contact = false, first_contact = false,
          times = false, between_groups = true, skip_unused = false, check_start = false;
-    // Of intersections.
+    // Options of intersections:
     bool segments = true, edge_faces = false, merge_equal_positions = false, first_only = false;
     double t_max = 1, distance = 0;
     std::optional<numbers> thickness;

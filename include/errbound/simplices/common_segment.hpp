@@ -15,18 +15,12 @@
 #include <errbound/integers/dyadic.hpp>
 #include <errbound/integers/integer.hpp>
 #include <errbound/simplices/relation.hpp>
+#include <errbound/simplices/types.hpp>
 #include <errbound/tracked.hpp>
 #include <limits>
 #include <utility>
 
 namespace errbound {
-
-/// A point known up to rounding.
-template <std::size_t D>
-struct located_point {
-    std::array<double, D> position;
-    double error;  ///< bounds the error of each coordinate
-};
 
 namespace simplices {
 

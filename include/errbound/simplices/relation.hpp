@@ -17,25 +17,10 @@
 #include <cstddef>
 #include <cstdint>
 #include <errbound/predicates.hpp>
+#include <errbound/simplices/types.hpp>
 #include <type_traits>
 
 namespace errbound {
-
-/// How two closed simplices meet.
-enum class relation : std::uint8_t {
-    /// They share no point outside their common simplex.
-    disjoint,
-    /// They share such a point, but neither overlap nor cross: a vertex is on a face, an edge is in
-    /// a face's plane, or two points are equal. Arbitrarily small motions separate them.
-    touching,
-    /// Their relative interiors meet, and both span the same line or plane: coplanar faces that
-    /// share an area, collinear edges that share a length.
-    overlapping,
-    /// Their relative interiors meet, and together they span the space: an edge passes through the
-    /// interior of a face and leaves on both sides, or two edges cross in the plane. Sufficiently
-    /// small motions do not separate them.
-    crossing,
-};
 
 namespace simplices {
 

@@ -67,7 +67,7 @@ void compare_start(const scene& s, const std::string& name, const ccd::mpi::mesh
     MPI_Allreduce(&found, &all, 1, MPI_UNSIGNED_LONG_LONG, MPI_SUM, MPI_COMM_WORLD);
     expect(all == expected.intersections_at_start.size(), name + "intersections at owners differ");
     expect(by_owners.counts.total() == all, name + "numbers of intersections differ");
-    if (s.name.starts_with("soup")) expect(all > 0, name + "no intersections");
+    if (s.name == "soup of 600") expect(all > 0, name + "no intersections");
 }
 
 void compare(const scene& s, const step_case& test, const std::string& placed, const placing& place,

@@ -10,7 +10,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <errbound/simplices.hpp>
+#include <errbound/simplices/relation.hpp>
 #include <filesystem>
 #include <limits>
 #include <map>

@@ -2,9 +2,9 @@
 // them intersect.
 //
 // Claim: let faces (v, w_0, w_1), (v, w_1, w_2), ..., (v, w_n-1, w_n) have different w_i, or only
-// w_0 = w_n (a closed fan). If their projections along an axis all have areas of one sign, and turn
-// around v by at most 2π if the fan is closed, by less if it is open, two of the faces share only
-// their common vertices and edges.
+// w_0 = w_n (a closed fan). Let their projections along an axis have areas of one sign, and turn
+// around v by 2π at most, by less if the fan is open. Then two of the faces share only their common
+// vertices and edges.
 // Proof: angles of the projections at v are less than π and follow each other. So the projected
 // cones do not overlap, and two of them share v, or v and the ray through one w_i. A ray through
 // another w_j, too, would lie in four cones, two of which overlap. The projection is injective on
@@ -20,6 +20,18 @@
 #include <vector>
 
 namespace ccd::detail {
+
+/// Three vertices stand for a triangle, an edge or a single vertex, which repeat a vertex.
+constexpr bool is_triangle(const face& f) {
+    return f[0] != f[1] && f[1] != f[2] && f[2] != f[0];
+}
+/// Calls visit(v) for each of its vertices, once.
+template <class Visit>
+constexpr void for_each_vertex(const face& f, const Visit& visit) {
+    visit(f[0]);
+    if (f[1] != f[0]) visit(f[1]);
+    if (f[2] != f[0] && f[2] != f[1]) visit(f[2]);
+}
 
 /// Memory: 12 bytes a face and 13 a vertex.
 class vertex_fans {
@@ -41,6 +53,7 @@ class vertex_fans {
         vertex_index from, to;
     };
 
+    static bool are_closed(std::span<corner> corners, std::span<vertex_index> ring);
     static around kind_of_corners(std::span<corner> corners, std::span<vertex_index> ring);
     bool is_flat_fan(vertex_index v, const double* positions) const;
 

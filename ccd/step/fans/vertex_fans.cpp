@@ -1,12 +1,11 @@
-#include "ccd/step/vertex_fans.hpp"
+#include "ccd/step/fans/vertex_fans.hpp"
 
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <errbound/predicates.hpp>
-
-#include "ccd/step/elements.hpp"
+#include <utility>
 
 namespace ccd::detail {
 
@@ -35,8 +34,28 @@ vertex_fans::vertex_fans(std::span<const face> elements, std::size_t vertices)
     });
 }
 
+/// The frequent case: few corners that form a closed fan.
+bool vertex_fans::are_closed(std::span<corner> corners, std::span<vertex_index> ring) {
+    constexpr std::size_t few = 16;
+    if (corners.size() > few) return false;
+    vertex_index at = corners[0].from;
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+        std::size_t next = i;
+        while (next < corners.size() && corners[next].from != at) ++next;
+        if (next == corners.size()) return false;
+        for (std::size_t j = 0; j < i; ++j)
+            if (ring[j] == at) return false;
+        std::swap(corners[i], corners[next]);
+        ring[i] = at;
+        at = corners[i].to;
+    }
+    ring.back() = at;
+    return at == ring.front();
+}
+
 vertex_fans::around vertex_fans::kind_of_corners(std::span<corner> corners,
                                                  std::span<vertex_index> ring) {
+    if (are_closed(corners, ring)) return around::closed_fan;
     std::ranges::sort(corners, {}, &corner::from);
     if (std::ranges::adjacent_find(corners, {}, &corner::from) != corners.end())
         return around::others;

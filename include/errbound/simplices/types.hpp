@@ -1,4 +1,4 @@
-// The relations of points, edges and triangles: see errbound/simplices.hpp.
+// The results of errbound/simplices/relation.hpp and errbound/simplices/common_segment.hpp.
 #pragma once
 
 #include <array>
@@ -12,15 +12,14 @@ namespace errbound {
 enum class relation : std::uint8_t {
     /// They share no point outside their common simplex.
     disjoint,
-    /// They share such a point, but arbitrarily small motions separate them. Every pair that shares
-    /// a point and is neither overlapping nor crossing: a vertex on a face, an edge within a face's
-    /// plane, two equal points.
+    /// They share such a point, but neither overlap nor cross: a vertex is on a face, an edge is in
+    /// a face's plane, or two points are equal. Arbitrarily small motions separate them.
     touching,
     /// Their relative interiors meet, and both span the same line or plane: coplanar faces that
     /// share an area, collinear edges that share a length.
     overlapping,
     /// Their relative interiors meet, and together they span the space: an edge passes through the
-    /// interior of a face and leaves on both sides, or in the plane two edges cross. Sufficiently
+    /// interior of a face and leaves on both sides, or two edges cross in the plane. Sufficiently
     /// small motions do not separate them.
     crossing,
 };
