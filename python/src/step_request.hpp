@@ -4,6 +4,7 @@
 #include <nanobind/nanobind.h>
 
 #include <ccd/advance.hpp>
+#include <ccd/nearness.hpp>
 #include <ccd/step.hpp>
 #include <cstdint>
 #include <optional>
@@ -74,6 +75,7 @@ struct step_request {
                 .distances = distances(),
                 .filter = filter()};
     }
+    ccd::near_options near_options() const { return {.threads = threads, .filter = filter()}; }
     ccd::advance_options advance_options() const {
         ccd::advance_options options{
             .distances = distances(), .threads = threads, .filter = filter()};
