@@ -113,7 +113,7 @@ class nearness_in_integers {
     /// Vertices p, q attain the distance if each is nearest to the other in its feature. Otherwise,
     /// a vertex p and an edge qr do under two conditions. The foot x of p is inside the edge, and
     /// the remaining point s is not nearer: (s − x)·(p − x) <= 0. Let E = r − q, S = s − q, W = p −
-    /// q. That product is (E × S)·(E × W)/E·E, the weight of s times N·N/E·E. For two edges, S is
+    /// q. The product is (E × S)·(E × W)/E·E, the weight of s times N·N/E·E. For two edges, S is
     /// from the other end s of p's edge to p.
     template <class IsOutside>
     meeting_features features(const IsOutside& is_outside) const {
