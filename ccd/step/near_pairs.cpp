@@ -12,7 +12,7 @@
 #include <tuple>
 #include <utility>
 
-#include "ccd/batch/nearness_kernels.hpp"
+#include "ccd/batch/nearness/kernels.hpp"
 #include "ccd/batch/threads.hpp"
 #include "ccd/step/elements.hpp"
 #include "ccd/step/narrow_phase.hpp"

@@ -29,9 +29,9 @@ namespace ccd {
 /// first_contact.
 ///
 /// The features are the smallest between which the distance is attained: two vertices, else a
-/// vertex and an edge, else the query's features. Of several, they are the first in this order:
-/// v and f0, f1, f2, then v and f0f1, f1f2, f2f0; or a0 and b0, b1, a1 and b0, b1, then a0 and b,
-/// a1 and b, b0 and a, b1 and a.
+/// vertex and an edge, else the query's features. If several are of that size, the first counts, in
+/// this order: v with f0, f1, f2, then with f0f1, f1f2, f2f0. For edges: a0 with b0, b1, then a1
+/// with b0, b1, then a0 and a1 with edge b, b0 and b1 with edge a.
 struct nearness {
     static constexpr double unknown = std::numeric_limits<double>::infinity();
 
@@ -58,8 +58,9 @@ struct nearness {
 /// Returns the data at t, for the exact positions (1 − t)·t0 + t·t1. At t = 0 it does not read t1,
 /// at t = 1 not t0. There are no data if a coordinate is not finite or t is not in [0, 1].
 ///
-/// Errors are at most 2^-24: of weights and normal, and of distances relative to their values,
-/// except for distances that overflow or are subnormal and for the normal of features that touch.
+/// The errors of weights and normal are at most 2^-24, those of distances at most 2^-24 of their
+/// values. Exceptions are distances that overflow or are subnormal, and the normal of features that
+/// touch.
 ///
 /// Cost: some 30 to 90 ns; 0.2 to 0.3 µs for degenerate positions; microseconds, with allocations,
 /// if coordinates span more than 125 bits, or if the time is inside the step and floating point
@@ -143,8 +144,8 @@ near_lists near_pairs(const mesh& mesh, const pair_distances& within,
 /// is no pair or all distances overflow.
 struct least_distance_result {
     double low = nearness::unknown, high = nearness::unknown;  ///< bounds
-    /// A pair whose distance is within the bounds, and its data. Of several, it is the first by
-    /// nearness::distance, kind and vertices, which are in the order of its kind.
+    /// A pair whose distance is within the bounds, and its data. It is the first by
+    /// nearness::distance, kind and vertices. Vertices are in the order of its kind.
     ccd::kind kind = ccd::kind::vertex_face;
     std::array<vertex_index, 4> vertices{};
     nearness data;

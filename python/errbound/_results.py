@@ -143,6 +143,38 @@ class FirstContacts(FirstTimes):
 
 
 @dataclass(frozen=True, eq=False, repr=False)
+class Nearness:
+    """Nearest features of k queries and their points (docs/collision-detection.md#nearest-points-and-distances).
+
+    features: uint8 (k,), values of Features. points: uint8 (k, p), the indices of the points of these features, then 0.
+    weights: (k, p), whose sums of the points are the nearest points. normal: (k, 3), a unit vector from the second
+    feature to the first; 0 with an infinite error if they touch. Each number is off by at most its error.
+    """
+    features: Codes
+    points: Codes
+    weights: Doubles
+    weight_error: Doubles
+    squared_distance: Doubles
+    squared_distance_error: Doubles
+    distance: Doubles
+    distance_error: Doubles
+    normal: Doubles
+    normal_error: Doubles
+
+    def __len__(self) -> int:
+        return len(self.features)
+
+    def __repr__(self) -> str:
+        least = f", the least distance is {self.distance.min():.6g}" if len(self) else ""
+        return f"<ccd.Nearness of {len(self)} queries{least}>"
+
+    @property
+    def touches(self) -> Flags:
+        """True for features whose distance is exactly 0, (k,)."""
+        return np.asarray((self.distance == 0) & (self.distance_error == 0))
+
+
+@dataclass(frozen=True, eq=False, repr=False)
 class Pairs:
     """Pairs by kind, as sorted rows of uint32 vertex indices.
 
@@ -228,6 +260,32 @@ def intersections_of(found: Any) -> Intersections:
 
 def at_start(found: Any) -> Intersections | None:
     return None if found is None else intersections_of(found)
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class NearPairs:
+    """The pairs of a mesh at rest within a distance. data: by kind, in the order of pairs."""
+    pairs: Pairs
+    data: dict[str, Nearness]
+
+    def __len__(self) -> int:
+        return len(self.pairs)
+
+    def __repr__(self) -> str:
+        return f"<ccd.NearPairs, {_listed(self.pairs)}>"
+
+
+@dataclass(frozen=True, eq=False)
+class LeastDistance:
+    """Bounds of the least distance of the pairs of a mesh at rest, and a nearest pair with its data.
+
+    Without pairs, the bounds are infinite, and kind, vertices and data are None.
+    """
+    low: float
+    high: float
+    kind: Kind | None
+    vertices: tuple[int, ...] | None
+    data: Nearness | None
 
 
 @dataclass(frozen=True, eq=False, repr=False)

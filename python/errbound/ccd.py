@@ -22,8 +22,9 @@ from ._arrays import (Doubles, Indices, as_array, check_finite, check_range, che
                       doubles, end_time, frames, frames_of, group_option, indices, option, pinned_option, restated,
                       thickness_option)
 from ._results import (AdvanceResult, Decisions, Features, FirstContacts, FirstTimes, Intersections,
-                       IntersectionsOfKind, Kind, Method, MethodName, NormalSource, Outcome, Pairs, Relation, Stage,
-                       StepResult, TimedStepResult, at_start, intersections_of, stages)
+                       IntersectionsOfKind, Kind, LeastDistance, Method, MethodName, NearPairs, Nearness, NormalSource,
+                       Outcome, Pairs, Relation, Stage, StepResult, TimedStepResult, at_start, intersections_of,
+                       stages)
 
 if TYPE_CHECKING:
     if sys.version_info >= (3, 11):
@@ -32,10 +33,11 @@ if TYPE_CHECKING:
         from typing_extensions import Unpack
 
 __all__ = ["AdvanceOptions", "AdvanceResult", "Decisions", "Features", "FilterOptions", "FirstContacts", "FirstTimes",
-           "IntersectionOptions", "Intersections", "IntersectionsOfKind", "Kind", "Method", "MethodName",
-           "NormalSource", "Outcome", "Pairs", "Relation", "RunOptions", "SearchOptions", "Stage", "StepResult", "Steps",
-           "TimedStepResult", "UntimedOptions", "advance", "candidates", "decide", "first_contact", "first_time",
-           "instruction_sets", "intersections", "is_free", "methods", "step", "touches_at_start"]
+           "IntersectionOptions", "Intersections", "IntersectionsOfKind", "Kind", "LeastDistance", "Method",
+           "MethodName", "NearPairs", "Nearness", "NormalSource", "Outcome", "Pairs", "Relation", "RunOptions",
+           "SearchOptions", "Stage", "StepResult", "Steps", "TimedStepResult", "UntimedOptions", "advance",
+           "candidates", "decide", "first_contact", "first_time", "instruction_sets", "intersections", "is_free",
+           "least_distance", "methods", "near_pairs", "nearness", "step", "touches_at_start"]
 
 POINTS: dict[Kind, int] = {"vertex_face": 4, "edge_edge": 4, "vertex_edge": 3, "vertex_vertex": 2}
 
@@ -175,6 +177,37 @@ def first_contact(queries: ArrayLike, kind: Kind, *, positions: Positions | None
     for name in "points", "weights":
         found[name] = found[name][:, :POINTS[kind]]
     return FirstContacts(**found)
+
+
+def nearness(queries: ArrayLike, kind: Kind, *, positions: Positions | ArrayLike | None = None,
+             t: ArrayLike = 0, threads: int = 0) -> Nearness:
+    """Computes nearest features and points, distances and normals at t in [0, 1], which may be one number per query.
+
+    For positions at rest, pass positions=x, (m, 3), or queries (n, k, 3). Throws: as decide.
+    """
+    threads = option("threads", threads, int)
+    if positions is None:
+        given = as_array("queries", queries)
+        if given.ndim == 3 and given.shape[1] == POINTS.get(kind):
+            queries = np.concatenate((given, given), 1)
+    elif np.ndim(positions) == 2:
+        positions = positions, positions
+    checked = _Queries(queries, kind, positions)
+    at = doubles("t", np.ravel(t), (None,))
+    if not ((at >= 0) & (at <= 1)).all():
+        raise ValueError(f"t is {at[np.argmin((at >= 0) & (at <= 1))]}; expected a number in [0, 1]")
+    one = np.ndim(t) == 0
+    found = checked.call(lambda q: q.nearness(at[0] if one else 0, None if one else at, threads))
+    missing = ~found["weights"].any(axis=1)
+    if missing.any():
+        checked.refuse_coordinates(int(np.argmax(missing)))
+    return _nearness(found, kind)
+
+
+def _nearness(found: dict[str, Any], kind: Kind) -> Nearness:
+    for name in "points", "weights":
+        found[name] = found[name][:, :POINTS[kind]]
+    return Nearness(**found)
 
 
 def _require_certain_times(checked: _Queries, found: dict[str, Any]) -> None:
@@ -369,6 +402,22 @@ class Steps:
         found = self._call(self._steps.candidates, before, after, _OF_SEARCH, options)
         return Pairs(**found)
 
+    def near_pairs(self, positions: ArrayLike, **options: Unpack[SearchOptions]) -> NearPairs:
+        """Finds the pairs at rest within a distance or thickness (SearchOptions), 0 by default, with their data."""
+        found = self._call(lambda at, _, request: self._steps.near_pairs(at, request), positions, positions, _OF_SEARCH,
+                           options)
+        return NearPairs(Pairs(**found["pairs"]), {kind: _nearness(found["data"][kind], kind) for kind in POINTS})
+
+    def least_distance(self, positions: ArrayLike, **options: Unpack[SearchOptions]) -> LeastDistance:
+        """Computes the least distance of the pairs at rest. Options: SearchOptions, but distances are ignored."""
+        found = self._call(lambda at, _, request: self._steps.least_distance(at, request), positions, positions,
+                           _OF_SEARCH, options)
+        kind: Kind = found["kind"]
+        if not found["high"] < float("inf"):
+            return LeastDistance(found["low"], found["high"], None, None, None)
+        vertices = tuple(found["vertices"][0, :POINTS[kind]].tolist())
+        return LeastDistance(found["low"], found["high"], kind, vertices, _nearness(found["data"], kind))
+
     def advance(self, before: ArrayLike, after: ArrayLike, **options: Unpack[AdvanceOptions]) -> AdvanceResult:
         """Computes the longest step found to be free from before towards after, to rounded positions.
 
@@ -436,6 +485,18 @@ def candidates(before: ArrayLike, after: ArrayLike, faces: ArrayLike, edges: Arr
                **options: Unpack[SearchOptions]) -> Pairs:
     """Same as Steps.candidates, for one step."""
     return _steps_of(before, faces, edges).candidates(before, after, **options)
+
+
+def near_pairs(positions: ArrayLike, faces: ArrayLike, edges: ArrayLike = (),
+               **options: Unpack[SearchOptions]) -> NearPairs:
+    """Same as Steps.near_pairs, for one frame: the pairs at rest within a distance, with their data."""
+    return _steps_of(positions, faces, edges).near_pairs(positions, **options)
+
+
+def least_distance(positions: ArrayLike, faces: ArrayLike, edges: ArrayLike = (),
+                   **options: Unpack[SearchOptions]) -> LeastDistance:
+    """Same as Steps.least_distance, for one frame."""
+    return _steps_of(positions, faces, edges).least_distance(positions, **options)
 
 
 def advance(before: ArrayLike, after: ArrayLike, faces: ArrayLike, edges: ArrayLike = (),

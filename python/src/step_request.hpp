@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <ccd/advance.hpp>
+#include <ccd/nearness.hpp>
 #include <ccd/step.hpp>
 #include <cstdint>
 #include <limits>
@@ -81,6 +82,7 @@ struct step_request {
                 .distances = distances(),
                 .filter = filter()};
     }
+    ccd::near_options near_options() const { return {.threads = threads, .filter = filter()}; }
     ccd::advance_options advance_options() const {
         ccd::advance_options options{.distances = distances(),
                                      .threads = threads,

@@ -2,11 +2,13 @@
 #include <nanobind/stl/string.h>
 
 #include <ccd/advance.hpp>
+#include <ccd/nearness.hpp>
 #include <ccd/step.hpp>
 #include <cstdint>
 #include <mutex>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "bindings.hpp"
 #include "interruptible.hpp"
@@ -106,6 +108,33 @@ class steps {
         return found;
     }
 
+    nb::dict near_pairs(const positions& at, const step_request& request) {
+        ccd::near_options options = request.near_options();
+        ccd::near_lists near = alone([&](const ccd::stop_query& stop) {
+            options.stop = stop;
+            return ccd::near_pairs(steps_, rows(at, at), request.distances(), options);
+        });
+        nb::dict found;
+        found["pairs"] = pairs_of(std::move(near.pairs));
+        found["data"] = of_each_kind(std::move(near.data),
+                                     [](auto&& data) { return nearness_of(std::move(data)); });
+        return found;
+    }
+    nb::dict least_distance(const positions& at, const step_request& request) {
+        ccd::near_options options = request.near_options();
+        const ccd::least_distance_result least = alone([&](const ccd::stop_query& stop) {
+            options.stop = stop;
+            return ccd::least_distance(steps_, rows(at, at), options);
+        });
+        nb::dict found;
+        found["low"] = least.low;
+        found["high"] = least.high;
+        found["kind"] = std::string(ccd::name(least.kind));
+        found["vertices"] = rows_of<ccd::vertex_index>(std::vector{least.vertices});
+        found["data"] = nearness_of(std::vector{least.data});
+        return found;
+    }
+
   private:
     ccd::mesh_steps steps_;
     std::mutex mutex_;
@@ -151,7 +180,9 @@ void bind_steps(nb::module_& m) {
         .def("candidates", &steps::candidates, nb::arg("before"), nb::arg("after"),
              nb::arg("request"))
         .def("advance", &steps::advance, nb::arg("before"), nb::arg("after"), nb::arg("request"))
-        .def("intersections", &steps::intersections, nb::arg("positions"), nb::arg("request"));
+        .def("intersections", &steps::intersections, nb::arg("positions"), nb::arg("request"))
+        .def("near_pairs", &steps::near_pairs, nb::arg("positions"), nb::arg("request"))
+        .def("least_distance", &steps::least_distance, nb::arg("positions"), nb::arg("request"));
 }
 
 }  // namespace errbound::python

@@ -175,74 +175,100 @@ feet nearest(const std::vector<vector>& at) {
     return best;
 }
 
-/// Returns the faults of nearness_of(query, t) = found; "" if there are none.
+/// Checks nearness_of(query, t) = found, and collects the faults.
+template <class Query>
+class check {
+    static constexpr std::size_t first = ccd::kind_traits<ccd::kind_of<Query>>::first_vertices;
+    static constexpr double most = 0x1p-24;  ///< the largest error
+
+  public:
+    check(const Query& query, double t, const ccd::nearness& found)
+        : found_(found), at_(query, t), exact_(nearest<ccd::kind_of<Query>>(at_.at)) {
+        if (found.features != exact_.features) fault("not the nearest features");
+        check_weights();
+        const rational square = rational(exact_.square) /
+                                rational(exact_.divisor * at_.factor * at_.factor) *
+                                power(2 * at_.unit);
+        check_square(square);
+        check_distance(square);
+        if (found.touches() != (exact_.square == 0)) fault("touches wrongly");
+        if (exact_.square != 0)
+            check_normal();
+        else if (found.normal != ccd::point<double>{} || std::isfinite(found.normal_error))
+            fault("a normal without distance");
+    }
+    const std::string& faults() const { return faults_; }
+
+  private:
+    void fault(const std::string& text) { faults_ += text + "; "; }
+
+    void check_weights() {
+        std::array<double, 2> sums{};
+        for (std::size_t i = 0; i < 4; ++i) {
+            const double w = found_.weights[i];
+            if (!(w >= 0 && w <= 1)) fault("a weight out of [0, 1]");
+            sums[i >= first] += w;
+            const rational off = rational(w) * exact_.divisor - exact_.weights[i];
+            if (abs(off) > rational(found_.weight_error) * exact_.divisor) fault("weight off");
+        }
+        for (const double sum : sums)
+            if (std::abs(sum - 1) > 0x1p-52) fault("weights that do not add up to 1");
+        if (!(found_.weight_error <= most)) fault("weight error too large");
+    }
+
+    static bool is_accurate(double value, double error) {
+        return error <= most * value || (value < 0x1p-1000 && error <= 0x1p-1024);
+    }
+    void check_square(const rational& square) {
+        const double value = found_.squared_distance, error = found_.squared_distance_error;
+        if (!std::isfinite(value)) {
+            if (std::isfinite(error) || square < power(1023)) fault("no overflow");
+            return;
+        }
+        if (abs(rational(value) - square) > rational(error)) fault("squared distance off");
+        if (!is_accurate(value, error)) fault("error of the squared distance too large");
+    }
+    void check_distance(const rational& square) {
+        const double value = found_.distance, error = found_.distance_error;
+        if (!std::isfinite(value)) {
+            if (std::isfinite(error) || square < power(2046)) fault("no overflow");
+            return;
+        }
+        const rational least = rational(value) - rational(error),
+                       largest = rational(value) + rational(error);
+        if ((least > 0 && least * least > square) || largest * largest < square)
+            fault("distance off");
+        if (!is_accurate(value, error)) fault("error of the distance too large");
+    }
+    void check_normal() {
+        whole largest = 0;
+        for (const whole& x : exact_.between) largest = std::max(largest, whole(abs(x)));
+        const auto in_largest = [&](std::size_t k) {
+            return real(rational(exact_.between[k]) / rational(largest));
+        };
+        const std::array q{in_largest(0), in_largest(1), in_largest(2)};
+        const real length = sqrt(q[0] * q[0] + q[1] * q[1] + q[2] * q[2]);
+        const auto off = [&](double n, std::size_t k) {
+            const real difference = real(n) - q[k] / length;
+            return real(difference * difference);
+        };
+        const auto& [x, y, z] = found_.normal;
+        if (off(x, 0) + off(y, 1) + off(z, 2) >
+            real(found_.normal_error) * real(found_.normal_error))
+            fault("normal off");
+        if (!(found_.normal_error <= most)) fault("error of the normal too large");
+    }
+
+    const ccd::nearness& found_;
+    positions at_;
+    feet exact_;
+    std::string faults_;
+};
+
+/// Returns the faults; "" if there are none.
 template <class Query>
 std::string faults_of(const Query& query, double t, const ccd::nearness& found) {
-    constexpr std::size_t first = ccd::kind_traits<ccd::kind_of<Query>>::first_vertices;
-    const positions p(query, t);
-    const feet f = nearest<ccd::kind_of<Query>>(p.at);
-    std::string faults;
-    const auto fault = [&](const std::string& text) { faults += text + "; "; };
-    if (found.features != f.features) fault("not the nearest features");
-
-    std::array<double, 2> sums{};
-    for (std::size_t i = 0; i < 4; ++i) {
-        if (!(found.weights[i] >= 0 && found.weights[i] <= 1)) fault("a weight out of [0, 1]");
-        sums[i >= first] += found.weights[i];
-        const rational off = rational(found.weights[i]) * f.divisor - f.weights[i];
-        if (abs(off) > rational(found.weight_error) * f.divisor) fault("weight off");
-    }
-    for (const double sum : sums)
-        if (std::abs(sum - 1) > 0x1p-52) fault("weights that do not add up to 1");
-    constexpr double most = 0x1p-24;
-    if (!(found.weight_error <= most)) fault("weight error too large");
-
-    const rational exact =
-        rational(f.square) / rational(f.divisor * p.factor * p.factor) * power(2 * p.unit);
-    const auto is_accurate = [&](double value, double error) {
-        return error <= most * value || (value < 0x1p-1000 && error <= 0x1p-1024);
-    };
-    if (std::isfinite(found.squared_distance)) {
-        if (abs(rational(found.squared_distance) - exact) > rational(found.squared_distance_error))
-            fault("squared distance off");
-        if (!is_accurate(found.squared_distance, found.squared_distance_error))
-            fault("error of the squared distance too large");
-    } else if (std::isfinite(found.squared_distance_error) || exact < power(1023)) {
-        fault("no overflow");
-    }
-    if (std::isfinite(found.distance)) {
-        const rational d(found.distance), error(found.distance_error), least = d - error,
-                                                                       largest = d + error;
-        if ((least > 0 && least * least > exact) || largest * largest < exact)
-            fault("distance off");
-        if (!is_accurate(found.distance, found.distance_error))
-            fault("error of the distance too large");
-    } else if (std::isfinite(found.distance_error) || exact < power(2046)) {
-        fault("no overflow");
-    }
-
-    if (found.touches() != (f.square == 0)) fault("touches wrongly");
-    if (f.square == 0) {
-        if (found.normal != ccd::point<double>{} || std::isfinite(found.normal_error))
-            fault("a normal without distance");
-        return faults;
-    }
-    whole largest = 0;
-    for (const whole& x : f.between) largest = std::max(largest, whole(abs(x)));
-    const auto in_largest = [&](std::size_t k) {
-        return real(rational(f.between[k]) / rational(largest));
-    };
-    const std::array q{in_largest(0), in_largest(1), in_largest(2)};
-    const real length = sqrt(q[0] * q[0] + q[1] * q[1] + q[2] * q[2]);
-    const auto off = [&](double n, std::size_t k) {
-        const real difference = real(n) - q[k] / length;
-        return real(difference * difference);
-    };
-    if (off(found.normal.x, 0) + off(found.normal.y, 1) + off(found.normal.z, 2) >
-        real(found.normal_error) * real(found.normal_error))
-        fault("normal off");
-    if (!(found.normal_error <= most)) fault("error of the normal too large");
-    return faults;
+    return check(query, t, found).faults();
 }
 
 }  // namespace support::nearness_data

@@ -2,19 +2,8 @@
 // the rules of ccd/batch/batch_kernels.hpp.
 //
 // Evaluates the conditions of ccd/contact/nearness/in_integers.hpp. If those of some features hold
-// with certain signs and without equality, these features are unique. Without branches: all
+// with certain signs and without equality, these features are unique. There are no branches: all
 // conditions are evaluated, then the vectors of the features are selected.
-//
-// Bounds: let u = 2^-53, or more if points move. Each difference of points is a vector v^ with
-// |v^ - v| <= u·size, and |v|, |v^| <= size, of sizes V, W, ... . Then, to first order in u:
-//  * dot(v, w) is off by VW (2u + 3u), from both vectors and three roundings in a row.
-//  * cross(v, w) is off by VW (2u + 2u).
-//  * dot of two cross products of sizes G, H is off by GH (8u + 3u), dot(cross, v) by
-//    HV (4u + u + 3u).
-// Second-order terms, and roundings of the bounds themselves, are in the constants' last digits.
-// Underflow adds less than `tiny`: sizes are below 2^150, and each operation adds at most 2^-1075.
-// Divisors, and squares of lengths, are above 2^-600, so their own underflow is below 2^-170 of
-// them.
 #pragma once
 
 #include <ccd/kind.hpp>
@@ -28,6 +17,16 @@
 namespace ccd::detail::ERRBOUND_INSTRUCTION_SET {
 namespace {
 
+/// Bounds: let u = 2^-53, or more if points move. Each difference of points is a vector v^ with
+/// |v^ - v| <= u·size, and |v|, |v^| <= size, of sizes V, W, ... . Then, to first order in u:
+///  * dot(v, w) is off by VW (2u + 3u), from both vectors and three roundings in a row.
+///  * cross(v, w) is off by VW (2u + 2u).
+///  * dot of two cross products of sizes G, H is off by GH (8u + 3u), dot(cross, v) by
+///    HV (4u + u + 3u).
+///
+/// Second-order terms, and roundings of the bounds, are in the constants' last digits. Underflow
+/// adds less than `tiny`: sizes are below 2^150, and each operation adds at most 2^-1075. Divisors,
+/// and squares of lengths, are above 2^-600, so their own underflow is below 2^-170 of them.
 namespace nearness_filter {
 
 constexpr double tiny = 0x1p-700, largest_size = 0x1p150, least_divisor = 0x1p-600;
@@ -284,7 +283,7 @@ values<R> edges_values(const D& d) {
     const auto &a = form.b, &b = form.c, &p = form.p;
     const auto a1 = form.weight(p, b), b1 = form.weight(p, a), a0 = form.n2 - a1, b0 = form.n2 - b1;
     const mask inside = a0.is_positive() & a1.is_positive() & b0.is_positive() & b1.is_positive();
-    // wij is from b_j to a_i. Of b_j on edge a from a_i: aij; of a_i on edge b from b_j: bij.
+    // wij: from b_j to a_i. aij: position of b_j on edge a from a_i. bij: of a_i on b from b_j.
     const auto w00 = -p, w01 = d(0, 3), w10 = d(1, 2), w11 = d(1, 3);
     const auto a00 = -projection(w00, a, u), a01 = -projection(w01, a, u),
                a10 = projection(w10, a, u), a11 = projection(w11, a, u),

@@ -1,15 +1,9 @@
 // Nearness in exact integers. Internal.
 //
 // A point x of a convex set is nearest to the origin if and only if (c − x)·x >= 0 for its corners
-// c. For the set of differences of the features' points, with along(p, q, r) = (p − q)·(r − q):
-//  * Vertices p, q attain the distance if and only if along(q, p, r) <= 0 for every other r of p's
-//    feature, and along(p, q, r) <= 0 for every other r of q's.
-//  * If no two vertices do, a vertex p and an edge qr do if and only if along(p, q, r) > 0,
-//    along(p, r, q) > 0 and the weight of the remaining point s is <= 0. For the foot x of p on the
-//    edge, (s − x)·(p − x) is (E × S)·(E × W)/E·E with E = r − q, S = s − q, W = p − q, and the
-//    weight is minus that product. For two edges, S is from the other edge's end to p.
-//  * Otherwise the nearest points are inside both features. Then N ≠ 0: if N = 0, all weights times
-//    N·N are 0, and an edge or a vertex attains the distance.
+// c. Here the set consists of the differences of the features' points. nearest_features tests this
+// for vertices, then edges. Nearest points are else inside both features, and N ≠ 0: if N = 0, all
+// weights times N·N are 0, so that an edge or a vertex has passed.
 #pragma once
 
 #include <algorithm>
@@ -105,6 +99,7 @@ class nearness_in_integers {
         const vector &p = points_[i], &q = points_[j];
         return {p.x - q.x, p.y - q.y, p.z - q.z};
     }
+    /// (p − q)·(r − q)
     auto along(std::size_t p, std::size_t q, std::size_t r) const {
         return dot(difference(p, q), difference(r, q))[0];
     }
@@ -115,6 +110,11 @@ class nearness_in_integers {
             if (r != q && along(p, q, r) > 0) return false;
         return true;
     }
+    /// Vertices p, q attain the distance if each is nearest to the other in its feature. Otherwise,
+    /// a vertex p and an edge qr do under two conditions. The foot x of p is inside the edge, and
+    /// the remaining point s is not nearer: (s − x)·(p − x) <= 0. Let E = r − q, S = s − q, W = p −
+    /// q. The product is (E × S)·(E × W)/E·E, the weight of s times N·N/E·E. For two edges, S is
+    /// from the other end s of p's edge to p.
     template <class IsOutside>
     meeting_features features(const IsOutside& is_outside) const {
         for (std::uint8_t p = 0; p < first; ++p)
@@ -135,7 +135,7 @@ class nearness_in_integers {
         else
             return edge_edge_forms<S, 0>(difference(1, 0), difference(3, 2), difference(2, 0));
     }
-    /// Of each point, times N·N. The vertex's is not used.
+    /// The weight of each point, times N·N. A vertex's is not used.
     template <class Forms>
     static auto weights_of(const Forms& forms) {
         const auto g = forms.inside();

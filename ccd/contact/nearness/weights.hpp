@@ -9,8 +9,7 @@
 namespace ccd::detail {
 
 /// Sets the weights of features of kind K. Each feature's first point gets the rest of 1, the
-/// others weight(i) >= 0, cut to the rest. Proof that a cut adds no error: proofs/ContactWeights.v,
-/// weights_right.
+/// others weight(i) >= 0, cut to the rest. A cut adds no error, since the true weights add up to 1.
 template <kind K, class Weight>
 void set_weights(const point_numbers& points, const Weight& weight, nearness& into) {
     constexpr std::size_t first = kind_traits<K>::first_vertices;

@@ -1,5 +1,5 @@
 // Kernels for nearness: see ccd/batch/batch_kernels.hpp for the rules of this file.
-#include "ccd/batch/nearness_kernels.hpp"
+#include "ccd/batch/nearness/kernels.hpp"
 
 #include "ccd/contact/nearness/in_doubles.hpp"
 

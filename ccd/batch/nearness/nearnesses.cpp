@@ -6,7 +6,7 @@
 
 #include "ccd/batch/batch_worker.hpp"
 #include "ccd/batch/checks.hpp"
-#include "ccd/batch/nearness_kernels.hpp"
+#include "ccd/batch/nearness/kernels.hpp"
 #include "ccd/batch/threads.hpp"
 #include "ccd/contact/nearness/nearness.hpp"
 
