@@ -294,6 +294,7 @@ class StepResult:
 
     times: by kind, dictionaries of low and high, float64 (k,), as in FirstTimes, in the order of pairs.
     first_contact (options first_contact, times): (low, high) of the earliest pair that does not touch at t = 0.
+    first_pairs: the pairs with that time.
     touching_at_start (options initial_contact, first_contact, times): pairs that touch at t = 0.
     candidates: counts by kind. seconds: by phase.
     intersections_at_start (option check_start): the mesh's intersections at t = 0, without segments.
@@ -302,6 +303,7 @@ class StepResult:
     touching_at_start: Pairs
     times: Times | None
     first_contact: tuple[float, float] | None
+    first_pairs: Pairs
     candidates: dict[str, int] | None
     seconds: dict[str, float]
     threads: int
@@ -324,13 +326,15 @@ class AdvanceResult:
     """The positions up to which the step is certainly free of contact, except for the listed pairs.
 
     positions: float64, with the shape of before. fractions: (n,), the fraction of its path that each vertex moves;
-    fraction: the least. first_contact: (low, high) of the earliest contact in the whole step, or None.
+    fraction: the least. first_contact: (low, high) of the earliest contact in the whole step, or None; first_pairs: the
+    pairs with that time, which limit the step. near_at_start: near at t = 0, only the option keep holds for them.
     intersections_at_start (option check_start): elements that intersect at t = 0; they may move on through each other.
     """
     positions: Doubles
     fraction: float
     fractions: Doubles
     first_contact: tuple[float, float] | None
+    first_pairs: Pairs
     touching_at_start: Pairs
     near_at_start: Pairs
     intersections_at_start: Intersections | None = None

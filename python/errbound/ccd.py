@@ -36,8 +36,8 @@ __all__ = ["AdvanceOptions", "AdvanceResult", "Decisions", "Features", "FilterOp
            "IntersectionOptions", "Intersections", "IntersectionsOfKind", "Kind", "LeastDistance", "Method",
            "MethodName", "NearPairs", "Nearness", "NormalSource", "Outcome", "Pairs", "Relation", "RunOptions",
            "SearchOptions", "Stage", "StepResult", "Steps", "TimedStepResult", "UntimedOptions", "advance",
-           "candidates", "decide", "first_contact", "first_time", "instruction_sets", "intersections", "is_free",
-           "least_distance", "methods", "near_pairs", "nearness", "step", "touches_at_start"]
+           "candidates", "decide", "first_contact", "first_time", "free_step", "instruction_sets", "intersections",
+           "is_free", "least_distance", "methods", "near_pairs", "nearness", "step", "touches_at_start"]
 
 POINTS: dict[Kind, int] = {"vertex_face": 4, "edge_edge": 4, "vertex_edge": 3, "vertex_vertex": 2}
 
@@ -292,9 +292,15 @@ class AdvanceOptions(SearchOptions, total=False):
 
     islands: integers (n,): the vertices of an island share one fraction, and so do islands that meet. The default is
     one island with all vertices. Islands skip no pairs; groups do.
+    each_vertex: limits each vertex by planes between the elements that meet, at least as far as its island goes.
+    conservative: the share of the way to the first contact that is used, in (0, 1]; 0.8 leaves a gap for barriers.
+    keep: pairs that start within 1.001 times their distance keep this share, in [0, 1), of their distance at the start.
     check_start: fills intersections_at_start.
     """
     islands: ArrayLike | None
+    each_vertex: bool
+    conservative: float
+    keep: float
     check_start: bool
 
 
@@ -304,7 +310,10 @@ _OF_SEARCH = {**_OF_FILTER, "distance": float, "thickness": np.ndarray}
 _OF_INTERSECTIONS = {**_OF_FILTER, "segments": bool, "edge_faces": bool, "merge_equal_positions": bool}
 _OF_RUN = {**_OF_SEARCH, "method": str, "times": bool, "first_contact": bool, "initial_contact": bool,
            "t_max": float, "stages": bool, "count_candidates": bool, "check_start": bool}
-_OF_ADVANCE = {**_OF_SEARCH, "islands": np.ndarray, "check_start": bool}
+_OF_ADVANCE = {**_OF_SEARCH, "islands": np.ndarray, "each_vertex": bool, "conservative": float, "keep": float,
+               "check_start": bool}
+
+_OF_FREE_STEP = {name: kind for name, kind in _OF_ADVANCE.items() if name not in ("islands", "each_vertex")}
 
 
 def _checked_option(name: str, value: Any, kind: Any, vertices: int) -> Any:
@@ -391,7 +400,7 @@ class Steps:
         Throws: ValueError with frame and row of a coordinate that is not finite.
         """
         found = self._call(self._steps.run, before, after, _OF_RUN, options)
-        for name in "pairs", "touching_at_start":
+        for name in "pairs", "first_pairs", "touching_at_start":
             found[name] = Pairs(**found[name])
         found["stages"] = _stages(found["stages"])
         found["intersections_at_start"] = at_start(found["intersections_at_start"])
@@ -424,8 +433,17 @@ class Steps:
         Options: AdvanceOptions, SearchOptions. Pairs skipped by groups, pinned or can_collide may pass through
         each other.
         """
-        found = self._call(self._steps.advance, before, after, _OF_ADVANCE, options)
-        for name in "touching_at_start", "near_at_start":
+        return self._free(self._call(self._steps.advance, before, after, _OF_ADVANCE, options))
+
+    def free_step(self, x: ArrayLike, p: ArrayLike, **options: Unpack[AdvanceOptions]) -> AdvanceResult:
+        """Computes alpha, the result's fraction, such that x + alpha * p is free, as NumPy rounds it, and fused.
+
+        Options: AdvanceOptions except islands and each_vertex, SearchOptions. With barriers, use conservative=0.8.
+        """
+        return self._free(self._call(self._steps.free_step, x, p, _OF_FREE_STEP, options))
+
+    def _free(self, found: Any) -> AdvanceResult:
+        for name in "first_pairs", "touching_at_start", "near_at_start":
             found[name] = Pairs(**found[name])
         found["intersections_at_start"] = at_start(found["intersections_at_start"])
         if self._columns == 2:
@@ -507,6 +525,15 @@ def advance(before: ArrayLike, after: ArrayLike, faces: ArrayLike, edges: ArrayL
     pairs skipped by groups, between_groups, pinned, skip_unused or can_collide may pass through each other).
     """
     return _steps_of(before, faces, edges).advance(before, after, **options)
+
+
+def free_step(x: ArrayLike, p: ArrayLike, faces: ArrayLike, edges: ArrayLike = (),
+              **options: Unpack[AdvanceOptions]) -> AdvanceResult:
+    """Same as Steps.free_step, for one step: alpha, the result's fraction, such that x + alpha * p is free.
+
+    Options: AdvanceOptions (conservative, keep, check_start) and SearchOptions (threads, distance, thickness).
+    """
+    return _steps_of(x, faces, edges).free_step(x, p, **options)
 
 
 def intersections(positions: ArrayLike, faces: ArrayLike, edges: ArrayLike = (),

@@ -41,10 +41,11 @@ struct step_request {
     std::string method = "exact";
     int threads = 0;
     bool count_candidates = false, stages = false, initial_contact = false, first_contact = false,
-         times = false, between_groups = true, skip_unused = false, check_start = false;
+         times = false, between_groups = true, skip_unused = false, check_start = false,
+         each_vertex = false;
     // Options of intersections:
     bool segments = true, edge_faces = false, merge_equal_positions = false, first_only = false;
-    double t_max = 1, distance = 0;
+    double t_max = 1, distance = 0, keep = 0, conservative = 1;
     std::optional<numbers> thickness;
     std::optional<group_numbers> groups, islands;
     std::optional<flags> pinned;
@@ -84,10 +85,13 @@ struct step_request {
     }
     ccd::near_options near_options() const { return {.threads = threads, .filter = filter()}; }
     ccd::advance_options advance_options() const {
-        ccd::advance_options options{.distances = distances(),
+        ccd::advance_options options{.each_vertex = each_vertex,
+                                     .distances = distances(),
+                                     .keep = keep,
                                      .threads = threads,
                                      .filter = filter(),
-                                     .check_start = check_start};
+                                     .check_start = check_start,
+                                     .conservative = conservative};
         if (islands) options.groups = items_of<int>(*islands);
         return options;
     }

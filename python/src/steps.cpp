@@ -35,6 +35,7 @@ nb::dict result_of(ccd::step_result&& result, const step_request& request) {
         found["times"] = of_each_kind(std::move(result.times),
                                       [](auto&& times) { return times_of(std::move(times)); });
     found["first_contact"] = time_of(result.first_contact);
+    found["first_pairs"] = pairs_of(std::move(result.first_pairs));
     found["seconds"] = seconds;
     found["threads"] = result.threads;
     found["intersections_at_start"] = nb::none();
@@ -45,6 +46,26 @@ nb::dict result_of(ccd::step_result&& result, const step_request& request) {
 }
 
 class steps {
+    template <class Call>
+    nb::dict free_result(const step_request& request, const Call& call) {
+        ccd::advance_options options = request.advance_options();
+        ccd::advance_result result = alone([&](const ccd::stop_query& stop) {
+            options.stop = stop;
+            return call(options);
+        });
+        nb::dict found;
+        found["positions"] = rows_of<double>(std::move(result.positions));
+        found["fraction"] = result.fraction;
+        found["fractions"] = numbers_of<double>(std::move(result.fractions));
+        found["first_contact"] = time_of(result.first_contact);
+        found["first_pairs"] = pairs_of(std::move(result.first_pairs));
+        found["touching_at_start"] = pairs_of(std::move(result.touching_at_start));
+        found["near_at_start"] = pairs_of(std::move(result.near_at_start));
+        found["intersections_at_start"] = nb::none();
+        if (request.check_start)
+            found["intersections_at_start"] = intersections_of(result.intersections_at_start);
+        return found;
+    }
     /// Throws if a call is running: a callback that waited for its own call would deadlock.
     template <class Call>
     auto alone(const Call& call) {
@@ -77,22 +98,14 @@ class steps {
         }));
     }
     nb::dict advance(const positions& before, const positions& after, const step_request& request) {
-        ccd::advance_options options = request.advance_options();
-        ccd::advance_result result = alone([&](const ccd::stop_query& stop) {
-            options.stop = stop;
+        return free_result(request, [&](const ccd::advance_options& options) {
             return ccd::advance(steps_, rows(before, after), options);
         });
-        nb::dict found;
-        found["positions"] = rows_of<double>(std::move(result.positions));
-        found["fraction"] = result.fraction;
-        found["fractions"] = numbers_of<double>(std::move(result.fractions));
-        found["first_contact"] = time_of(result.first_contact);
-        found["touching_at_start"] = pairs_of(std::move(result.touching_at_start));
-        found["near_at_start"] = pairs_of(std::move(result.near_at_start));
-        found["intersections_at_start"] = nb::none();
-        if (request.check_start)
-            found["intersections_at_start"] = intersections_of(result.intersections_at_start);
-        return found;
+    }
+    nb::dict free_step(const positions& x, const positions& p, const step_request& request) {
+        return free_result(request, [&](const ccd::advance_options& options) {
+            return ccd::free_step(steps_, rows(x, p), options);
+        });
     }
     nb::dict intersections(const positions& at, const step_request& request) {
         ccd::intersection_options options = request.intersection_options();
@@ -155,6 +168,9 @@ void bind_steps(nb::module_& m) {
         .def_rw("between_groups", &step_request::between_groups)
         .def_rw("skip_unused", &step_request::skip_unused)
         .def_rw("check_start", &step_request::check_start)
+        .def_rw("each_vertex", &step_request::each_vertex)
+        .def_rw("keep", &step_request::keep)
+        .def_rw("conservative", &step_request::conservative)
         .def_rw("segments", &step_request::segments)
         .def_rw("edge_faces", &step_request::edge_faces)
         .def_rw("merge_equal_positions", &step_request::merge_equal_positions)
@@ -180,6 +196,7 @@ void bind_steps(nb::module_& m) {
         .def("candidates", &steps::candidates, nb::arg("before"), nb::arg("after"),
              nb::arg("request"))
         .def("advance", &steps::advance, nb::arg("before"), nb::arg("after"), nb::arg("request"))
+        .def("free_step", &steps::free_step, nb::arg("x"), nb::arg("p"), nb::arg("request"))
         .def("intersections", &steps::intersections, nb::arg("positions"), nb::arg("request"))
         .def("near_pairs", &steps::near_pairs, nb::arg("positions"), nb::arg("request"))
         .def("least_distance", &steps::least_distance, nb::arg("positions"), nb::arg("request"));
