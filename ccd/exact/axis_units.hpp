@@ -50,6 +50,17 @@ struct integer_units {
     /// Coordinates of an axis at one end of the step differ by less than 2^bits() units.
     constexpr int bits() const { return std::max({x.bits, y.bits, z.bits}); }
 
+    /// Returns these with one unit for all axes, as distances need.
+    constexpr integer_units with_common_unit() const {
+        integer_units common = *this;
+        const int unit = std::min({x.unit, y.unit, z.unit});
+        for (axis_extent* axis : {&common.x, &common.y, &common.z}) {
+            if (axis->bits > 0) axis->bits += axis->unit - unit;
+            axis->unit = unit;
+        }
+        return common;
+    }
+
     /// Replaces every coordinate x by convert(x, unit), that is x/2^unit.
     template <class Query, class Convert>
     constexpr auto converted(const Query& query, const Convert& convert) const {

@@ -18,12 +18,16 @@ using errbound::integer;
 
 /// Precondition: finite coordinates. Proof: proofs/UnboundedIntegers.v, to_integers_right.
 template <template <class> class Query>
-Query<integer> to_integers(const Query<double>& query) {
-    return integer_units(query).converted(query, [](double x, int unit) {
+Query<integer> to_integers(const Query<double>& query, const integer_units& units) {
+    return units.converted(query, [](double x, int unit) {
         if (x == 0) return integer(0);
         const errbound::integers::binary_double d(x);
         return integer(d.odd_part()) << (d.last_bit() - unit);
     });
+}
+template <template <class> class Query>
+Query<integer> to_integers(const Query<double>& query) {
+    return to_integers(query, integer_units(query));
 }
 
 /// True if W × E = 0 and W·(W − E) <= 0 at some t in [0, 1] (see ccd/exact/reference.cpp). The

@@ -14,6 +14,7 @@
 #include "ccd/mpi/checks.hpp"
 #include "ccd/mpi/decomposition.hpp"
 #include "ccd/mpi/exchange.hpp"
+#include "ccd/mpi/intersections.hpp"
 #include "ccd/mpi/local_mesh.hpp"
 #include "ccd/step/advancing.hpp"
 #include "ccd/step/vertex_groups.hpp"
@@ -148,9 +149,13 @@ advance_result advance(MPI_Comm comm, const mesh_part& mesh, const advance_optio
     advance_result result;
     result.first_contact = found.first_contact;
     for_each_kind([&]<kind K>() {
+        result.first_pairs.of<K>() = numbered<K>(found.first_pairs.of<K>(), vertices);
         result.touching_at_start.of<K>() = numbered<K>(found.touching_at_start.of<K>(), vertices);
         result.near_at_start.of<K>() = numbered<K>(found.near_at_start.of<K>(), vertices);
     });
+    if (options.check_start)
+        result.intersections_at_start =
+            detail::of_all_ranks(ranks, local, found.intersections_at_start);
     for (vertex_index i = 0; i < own.size(); ++i) {
         const double f = vertices.groups().fraction(own[i]);
         result.fractions.push_back(f);

@@ -1,12 +1,13 @@
 // Queries in the plane: a vertex and an edge, or two vertices, with positions x, y.
 //
-// The calls of ccd/exact.hpp and ccd/contact.hpp at z = 0, with the same guarantees and almost the
-// same cost. A contact of two edges begins at an end of one of them, unless they cross at t = 0. So
-// the kinds vertex/edge and vertex/vertex suffice.
+// The calls of ccd/exact.hpp, ccd/contact.hpp and ccd/nearness.hpp at z = 0, with the same
+// guarantees and almost the same cost. A contact of two edges begins at an end of one of them,
+// unless they cross at t = 0. So the kinds vertex/edge and vertex/vertex suffice.
 #pragma once
 
 #include <ccd/contact.hpp>
 #include <ccd/exact.hpp>
+#include <ccd/nearness.hpp>
 #include <ccd/query.hpp>
 #include <ccd/verdict.hpp>
 
@@ -72,6 +73,12 @@ verdict decide_within(const Query& query, separation d) {
 template <any_query Query>
 first_time time_within(const Query& query, separation d, double t_max = 1) {
     return ccd::time_within(in_space(query), d, t_max);
+}
+
+/// Same as in ccd/nearness.hpp. The normal lies in the plane.
+template <any_query Query>
+nearness nearness_of(const Query& query, double t = 0) {
+    return ccd::nearness_of(in_space(query), t);
 }
 
 }  // namespace ccd::plane

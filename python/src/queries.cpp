@@ -7,6 +7,7 @@
 #include <ccd/batch.hpp>
 #include <ccd/contact.hpp>
 #include <ccd/method.hpp>
+#include <ccd/nearness.hpp>
 #include <cstdint>
 #include <limits>
 #include <optional>
@@ -192,6 +193,22 @@ nb::dict first_contacts(const query_input& all, double t_max, int threads) {
     return found;
 }
 
+/// At one time, or at a time for each query.
+nb::dict nearness(const query_input& all, double t, const std::optional<numbers>& times,
+                  int threads) {
+    std::vector<ccd::first_time> at;
+    if (times)
+        for (const double time : items_of<double>(*times))
+            at.push_back({ccd::outcome::collides, time, time});
+    return nearness_of(without_gil([&](const ccd::stop_query& stop) {
+        const ccd::nearness_options options{.t = t, .threads = threads, .stop = stop};
+        return all.visit([&](const auto&... queries) {
+            return times ? ccd::nearnesses(queries..., at, options)
+                         : ccd::nearnesses(queries..., options);
+        });
+    }));
+}
+
 bool is_counted(const nb::object& counts, std::size_t query) {
     if (counts.is_none()) return true;
     const nb::gil_scoped_acquire held;
@@ -253,6 +270,7 @@ void bind_queries(nb::module_& m) {
         .def("first_times", first_times, nb::arg("t_max"), nb::arg("distance"),
              nb::arg("thickness").none(), nb::arg("threads"))
         .def("first_contacts", first_contacts, nb::arg("t_max"), nb::arg("threads"))
+        .def("nearness", nearness, nb::arg("t"), nb::arg("times").none(), nb::arg("threads"))
         .def("least_time", least_time, nb::arg("min_distance"), nb::arg("rescaling"),
              nb::arg("max_gap"), nb::arg("t_max"), nb::arg("counts").none());
     m.def("methods", methods);

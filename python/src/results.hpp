@@ -7,8 +7,11 @@
 #include <ccd/contact.hpp>
 #include <ccd/explain.hpp>
 #include <ccd/method.hpp>
+#include <ccd/nearness.hpp>
+#include <cstdint>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "arrays.hpp"
@@ -35,6 +38,23 @@ inline nb::dict times_of(std::vector<ccd::first_time>&& times) {
     nb::dict found;
     found["low"] = shared.column(shared.first().low);
     found["high"] = shared.column(shared.first().high);
+    return found;
+}
+
+inline nb::dict nearness_of(std::vector<ccd::nearness>&& data) {
+    const shared_items<ccd::nearness> shared(std::move(data));
+    const ccd::nearness& n = shared.first();
+    nb::dict found;
+    found["features"] = shared.column(reinterpret_cast<const std::uint8_t&>(n.features.kind));
+    found["points"] = shared.columns(n.features.points.data(), 4);
+    found["weights"] = shared.columns(n.weights.data(), 4);
+    found["weight_error"] = shared.column(n.weight_error);
+    found["squared_distance"] = shared.column(n.squared_distance);
+    found["squared_distance_error"] = shared.column(n.squared_distance_error);
+    found["distance"] = shared.column(n.distance);
+    found["distance_error"] = shared.column(n.distance_error);
+    found["normal"] = shared.columns(&n.normal.x, 3);
+    found["normal_error"] = shared.column(n.normal_error);
     return found;
 }
 

@@ -81,6 +81,63 @@ def test_weights_are_as_wide_as_the_pairs(kind, points):
     assert (found.weights[0][:, None] * at).shape == (points, 3)
 
 
+def test_nearness_by_hand():
+    at_start = ccd.nearness(FALLING, "vertex_face")
+    assert at_start.features.tolist() == [ccd.Features.VERTEX_FACE]
+    assert at_start.points.tolist() == [[0, 1, 2, 3]]
+    np.testing.assert_allclose(at_start.weights, [[1, .5, .25, .25]], atol=at_start.weight_error[0])
+    for found, distance, up in ((at_start, 1, 1), (ccd.nearness(FALLING[:, :4], "vertex_face"), 1, 1),
+                                (ccd.nearness(FALLING, "vertex_face", t=0.25), .5, 1),
+                                (ccd.nearness(FALLING, "vertex_face", t=[1]), 1, -1)):
+        np.testing.assert_allclose(found.distance, distance, rtol=0, atol=found.distance_error[0])
+        np.testing.assert_allclose(found.squared_distance, distance**2, rtol=0, atol=found.squared_distance_error[0])
+        np.testing.assert_allclose(found.normal, [[0, 0, up]], atol=found.normal_error[0])
+        assert found.distance_error[0] < 1e-14 and not found.touches[0]
+    touching = ccd.nearness(FALLING, "vertex_face", t=0.5)
+    assert touching.touches.tolist() == [True] and touching.normal_error[0] == np.inf
+
+
+@pytest.mark.parametrize("kind, points", ccd.POINTS.items())
+def test_nearness_variants_agree(kind, points):
+    queries = random_queries(500, points)
+    (before, after), pairs = as_pairs(queries)
+    expected = ccd.nearness(queries, kind)
+    assert expected.weights.shape == expected.points.shape == pairs.shape
+    np.testing.assert_array_equal(expected.touches, ccd.touches_at_start(queries, kind).collides)
+    times = RANDOM.random(len(queries))
+    for found, same in ((ccd.nearness(pairs, kind, positions=before), expected),
+                        (ccd.nearness(pairs, kind, positions=(before, after), threads=1), expected),
+                        (ccd.nearness(pairs, kind, positions=after), ccd.nearness(queries, kind, t=1)),
+                        (ccd.nearness(pairs, kind, positions=(before, after), t=times),
+                         ccd.nearness(queries, kind, t=times))):
+        for name, values in vars(found).items():
+            np.testing.assert_array_equal(values, getattr(same, name), name)
+
+
+def test_near_pairs_and_least_distance():
+    faces = np.arange(60).reshape(-1, 3)
+    x = RANDOM.integers(0, 9, (60, 3)).astype(float)
+    near = ccd.near_pairs(x, faces, distance=1.5)
+    expected = ccd.step(x, x, faces, distance=1.5).pairs
+    least = ccd.least_distance(x, faces)
+    assert len(near) == len(expected) > 0
+    for kind in ccd.POINTS:
+        pairs = getattr(near.pairs, kind)
+        np.testing.assert_array_equal(pairs, getattr(expected, kind))
+        found, data = ccd.nearness(pairs, kind, positions=x), near.data[kind]
+        for name, values in vars(found).items():
+            np.testing.assert_array_equal(values, getattr(data, name), name)
+        assert (data.distance + data.distance_error >= least.low).all()
+    assert least.low <= least.data.distance[0] <= least.high
+    of_pair = ccd.nearness([least.vertices], least.kind, positions=x)
+    assert of_pair.distance[0] == least.data.distance[0]
+    none = ccd.least_distance([[0, 0, 0], [1, 0, 0], [0, 1, 0]], [[0, 1, 2]])
+    assert none.low == none.high == np.inf and none.kind is None and none.data is None
+    flat = ccd.Steps.in_plane([[0, 1]], vertices=3)
+    assert flat.least_distance([[0, 0], [2, 0], [1, 3]]).data.features.tolist() == [ccd.Features.VERTEX_EDGE]
+    assert len(flat.near_pairs([[0, 0], [2, 0], [1, 3]], distance=3)) == 1
+
+
 def test_names_of_types_are_those_of_the_library():
     assert sorted(get_args(ccd.MethodName)) == sorted(m.name for m in ccd.methods())
     assert list(get_args(ccd.Kind)) == list(ccd.POINTS)
@@ -134,6 +191,10 @@ def with_nan():
      "method is 'best'; expected one of float"),
     (lambda: ccd.decide(FALLING, "vertex_face", distance=-1), ValueError, "-1"),
     (lambda: ccd.first_time(FALLING, "vertex_face", t_max=np.inf), ValueError, "t_max"),
+    (lambda: ccd.nearness(with_nan(), "vertex_face", t=1), ValueError, "row 2 of queries is .*nan"),
+    (lambda: ccd.nearness(FALLING, "vertex_face", t=2), ValueError, r"t is 2.0; expected a number in \[0, 1\]"),
+    (lambda: ccd.nearness(FALLING, "vertex_face", t=[0, 1]), ValueError, "number of times is 2; expected 1"),
+    (lambda: ccd.near_pairs([[0, 0, np.nan]], []), ValueError, "nan"),
 ])
 def test_errors_name_the_argument(call, error, message):
     with pytest.raises(error, match=message):

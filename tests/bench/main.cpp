@@ -54,7 +54,7 @@ int main(int argc, char** argv) {
     bench.line.add_option("--scene", only, "Only scenes whose name holds this");
     bench.line
         .add_option("--sections", o.sections,
-                    "Only these: methods, stages, contacts, steps, growth, curves")
+                    "Only these: methods, stages, contacts, steps, growth, nearness, curves")
         ->delimiter(',')
         ->check(CLI::IsMember(
             std::vector<std::string>(std::begin(section_names), std::end(section_names))));
@@ -72,6 +72,7 @@ int main(int argc, char** argv) {
         }
         if (!any)
             throw std::runtime_error("--scene is '" + only + "'; expected part of one of:" + names);
+        if (wants(o, "nearness") && only.empty()) nearness(o, out);
         if (wants(o, "curves") && only.empty()) curves(o, out);
     });
 }

@@ -69,8 +69,8 @@ class collision_handler {
 
     /// Moves `after`; driven vertices only if it has not converged. Pairs of driven vertices only
     /// are skipped and may pass through each other. Precondition: `before` has no contact, and
-    /// surfaces do not intersect there, since no step detects that. Throws std::invalid_argument if
-    /// a coordinate is not finite or the number of rows differs from that of vertices.
+    /// surfaces do not intersect there (ccd/intersections.hpp). Throws std::invalid_argument if a
+    /// coordinate is not finite or the number of rows differs from that of vertices.
     response_report resolve(const rows& before, rows& after, const compliance& bodies);
 
     /// The last contact forces, which start the next search: part of a run's state.
