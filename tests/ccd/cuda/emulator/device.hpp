@@ -9,6 +9,13 @@
 
 namespace ptx {
 
+/// For each byte, whether it was written; for each granule of 2^granule bytes, its last accesses.
+struct shadow {
+    char* written;
+    struct granule_accesses* accesses;
+    u32 granule;
+};
+
 /// Allocations at addresses that the host cannot read. Their contents are elsewhere. No address is
 /// used twice.
 class device_memory {
@@ -19,16 +26,29 @@ class device_memory {
     bool contains(const void* p) const;
     /// The content of `bytes` bytes at p, or null if not all of them are in one allocation.
     char* content(const void* p, u64 bytes) const;
-    const memory_map& map() const { return map_; }
+    /// Marks bytes of a content as written.
+    void write(const char* content, u64 bytes) const;
+    /// False if some of the bytes of a content were never written.
+    bool is_written(const char* content, u64 bytes) const;
+    /// Checks an access of a thread, and returns its content.
+    char* access(lane& l, u64 address, u32 bytes, u32 access, int line) const;
 
   private:
     void set_valid(u64 offset, u64 bytes, bool valid);
 
-    memory_map map_{};
+    u64 begin_, end_;
+    char* content_;
+    u16* valid_;
+    shadow shadow_;
     std::map<u64, u64> allocations_;
     u64 next_ = 4096;
 };
 device_memory& memory();
+
+/// Increases when a grid or a block begins and when threads meet. Returns the time before.
+u32 advance_time();
+/// Sets the functions of a block that check accesses, and its shared memory, all of it unwritten.
+void set_memory(thread_block& b, u32 shared_bytes);
 
 /// The byte that fresh memory, registers and stacks are filled with (PTXEMU_FILL).
 int fill_byte();

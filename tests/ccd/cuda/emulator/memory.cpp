@@ -1,6 +1,7 @@
 #include <sys/mman.h>
 
 #include <algorithm>
+#include <array>
 #include <cstdarg>
 #include <cstdio>
 #include <cstdlib>
@@ -8,66 +9,197 @@
 #include "tests/ccd/cuda/emulator/device.hpp"
 
 namespace ptx {
+
+/// The last accesses of each kind, at index `access / 2 % 4`. `by` is a thread of a block, plus a
+/// flag if other lanes, warps or blocks have made accesses that are not ordered before that one.
+struct granule_accesses {
+    struct last {
+        u32 time, by;
+    };
+    std::array<last, 4> of;
+};
+
 namespace {
 
+constexpr u64 valid_granule = 256, most_shared = 48 * 1024;
+constexpr u32 of_lanes = 1 << 16, of_warps = 1 << 17, of_blocks = 1 << 18;
+u32 now = 1;
+
 template <class T>
-T* reserve(u64 bytes, int access) {
+T* reserve(u64 bytes, int access = PROT_READ | PROT_WRITE) {
     void* const p =
         mmap(nullptr, bytes, access, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
     if (p == MAP_FAILED) stop("address space is exhausted");
     return static_cast<T*>(p);
 }
 
+/// True if an earlier access is not ordered before the one that thread l now makes. Those up to
+/// `since` are: of earlier grids, or to the shared memory of an earlier block.
+bool is_unordered(const granule_accesses::last& a, const lane& l, u32 since) {
+    if (a.time <= since) return false;
+    if (a.time <= l.block->started || (a.by & of_blocks) != 0) return true;
+    if (a.time <= l.block->met) return false;
+    if ((a.by & of_warps) != 0 || (a.by ^ l.thread) / 32 % 32 != 0) return true;
+    if ((a.by & of_lanes) != 0) return a.time > *std::max_element(l.known, l.known + 32);
+    return a.by != l.thread && a.time > l.known[a.by % 32];
+}
+
+void note_access(granule_accesses::last& a, const lane& l, u32 since) {
+    u32 by = l.thread;
+    if (is_unordered(a, l, since))
+        by |= (a.by & ~1023u) | (a.time <= l.block->started   ? of_blocks
+                                 : (a.by ^ by) / 32 % 32 != 0 ? of_warps
+                                                              : of_lanes);
+    a = {now, by};
+}
+
+[[noreturn]] void report_race(const granule_accesses::last& a, const lane& l, u64 address,
+                              u32 bytes, int line) {
+    static char text[80];
+    if (a.time <= l.block->started || (a.by & of_blocks) != 0)
+        fail(l, "race with another block", address, bytes, line);
+    std::snprintf(text, sizeof text, "race with thread %u of the block", a.by % 1024);
+    fail(l, text, address, bytes, line);
+}
+
+/// Checks an access to shared or global memory, and stores that it was made.
+void check(const lane& l, const shadow& s, u64 offset, u64 address, u32 bytes, u32 access,
+           u32 since, int line) {
+    if ((access & reads) != 0 && std::memchr(s.written + offset, 0, bytes) != nullptr)
+        fail(l, "read of memory that was never written", address, bytes, line);
+    if ((access & writes) != 0) std::memset(s.written + offset, 1, bytes);
+    // The kinds are: read, write, strong read, strong write. Bits are the kinds that a kind races
+    // with.
+    constexpr u32 conflicts[] = {0b1010, 0b1111, 0b0010, 0b0011};
+    const u32 kind = access / 2 % 4;
+    if (bytes >> s.granule == 0) return;
+    for (u64 i = offset >> s.granule; i < (offset + bytes) >> s.granule; ++i) {
+        auto& last = s.accesses[i].of;
+        for (u32 k = 0; k < 4; ++k)
+            if ((conflicts[kind] >> k & 1) != 0 && is_unordered(last[k], l, since))
+                report_race(last[k], l, address, bytes, line);
+        note_access(last[kind], l, since);
+    }
+}
+
+char* local_at(lane& l, u64 address, u32 bytes, u32, int line) {
+    if (address % bytes != 0) fail(l, "misaligned local address", address, bytes, line);
+    if (address < l.stack || address + bytes > l.stack_end)
+        fail(l, "illegal local address", address, bytes, line);
+    return reinterpret_cast<char*>(address);
+}
+char* global_at(lane& l, u64 address, u32 bytes, u32 access, int line) {
+    return memory().access(l, address, bytes, access, line);
+}
+const shadow& shadow_of_shared() {
+    static const shadow all{reserve<char>(most_shared),
+                            reserve<granule_accesses>(most_shared * sizeof(granule_accesses)), 0};
+    return all;
+}
+char* shared_at(lane& l, u64 address, u32 bytes, u32 access, int line) {
+    if (address % bytes != 0) fail(l, "misaligned shared address", address, bytes, line);
+    if (address + bytes > l.block->shared_bytes || address + bytes < address)
+        fail(l, "illegal shared address", address, bytes, line);
+    check(l, shadow_of_shared(), address, address, bytes, access, l.block->started, line);
+    return l.block->shared + address;
+}
+char* generic_at(lane& l, u64 address, u32 bytes, u32 access, int line) {
+    const u64 in_shared = address - reinterpret_cast<u64>(l.block->shared);
+    if (in_shared < l.block->shared_bytes) return shared_at(l, in_shared, bytes, access, line);
+    if (address >= l.stack && address < l.stack_end)
+        return local_at(l, address, bytes, access, line);
+    return global_at(l, address, bytes, access, line);
+}
+
 }  // namespace
 
 device_memory::device_memory() {
     constexpr u64 bytes = u64(1) << 36;
-    map_.begin = reinterpret_cast<u64>(reserve<char>(bytes, PROT_NONE));
-    map_.end = map_.begin + bytes;
-    map_.content = reserve<char>(bytes, PROT_READ | PROT_WRITE);
-    map_.valid = reserve<u16>(bytes / memory_map::granule * sizeof(u16), PROT_READ | PROT_WRITE);
+    begin_ = reinterpret_cast<u64>(reserve<char>(bytes, PROT_NONE));
+    end_ = begin_ + bytes;
+    content_ = reserve<char>(bytes);
+    valid_ = reserve<u16>(bytes / valid_granule * sizeof(u16));
+    shadow_ = {reserve<char>(bytes),
+               reserve<granule_accesses>(bytes / 4 * sizeof(granule_accesses)), 2};
 }
 
 void device_memory::set_valid(u64 offset, u64 bytes, bool valid) {
-    for (u64 done = 0; done < bytes; done += memory_map::granule)
-        map_.valid[(offset + done) / memory_map::granule] =
-            valid ? static_cast<u16>(std::min(memory_map::granule, bytes - done)) : u16(0);
+    for (u64 done = 0; done < bytes; done += valid_granule)
+        valid_[(offset + done) / valid_granule] =
+            valid ? static_cast<u16>(std::min(valid_granule, bytes - done)) : u16(0);
 }
 
 void* device_memory::allocate(u64 bytes) {
     const u64 offset = next_;
     next_ += (bytes + 8191) / 4096 * 4096;  // a page between allocations catches overruns
-    if (next_ > map_.end - map_.begin) stop("device addresses are exhausted");
+    if (next_ > end_ - begin_) stop("device addresses are exhausted");
     set_valid(offset, bytes, true);
-    std::memset(map_.content + offset, fill_byte(), bytes);
+    std::memset(content_ + offset, fill_byte(), bytes);
     allocations_[offset] = bytes;
-    return reinterpret_cast<void*>(map_.begin + offset);
+    return reinterpret_cast<void*>(begin_ + offset);
 }
 
 bool device_memory::free(void* p) {
-    const auto found = allocations_.find(reinterpret_cast<u64>(p) - map_.begin);
+    const auto found = allocations_.find(reinterpret_cast<u64>(p) - begin_);
     if (found == allocations_.end()) return false;
     set_valid(found->first, found->second, false);
-    madvise(map_.content + found->first, found->second, MADV_DONTNEED);
+    madvise(content_ + found->first, found->second, MADV_DONTNEED);
+    madvise(shadow_.written + found->first, found->second, MADV_DONTNEED);
+    madvise(shadow_.accesses + found->first / 4, (found->second + 3) / 4 * sizeof(granule_accesses),
+            MADV_DONTNEED);
     allocations_.erase(found);
     return true;
 }
 
 bool device_memory::contains(const void* p) const {
-    return reinterpret_cast<u64>(p) >= map_.begin && reinterpret_cast<u64>(p) < map_.end;
+    return reinterpret_cast<u64>(p) >= begin_ && reinterpret_cast<u64>(p) < end_;
 }
 
 char* device_memory::content(const void* p, u64 bytes) const {
-    const u64 offset = reinterpret_cast<u64>(p) - map_.begin;
+    const u64 offset = reinterpret_cast<u64>(p) - begin_;
     const auto after = allocations_.upper_bound(offset);
     if (after == allocations_.begin()) return nullptr;
     const auto& [start, size] = *std::prev(after);
-    return offset + bytes <= start + size ? map_.content + offset : nullptr;
+    return offset + bytes <= start + size ? content_ + offset : nullptr;
+}
+
+void device_memory::write(const char* content, u64 bytes) const {
+    std::memset(shadow_.written + (content - content_), 1, bytes);
+}
+
+bool device_memory::is_written(const char* content, u64 bytes) const {
+    return std::memchr(shadow_.written + (content - content_), 0, bytes) == nullptr;
+}
+
+char* device_memory::access(lane& l, u64 address, u32 bytes, u32 access, int line) const {
+    if (address % bytes != 0) fail(l, "misaligned global address", address, bytes, line);
+    const u64 offset = address - begin_;
+    if (address < begin_ || address >= end_ ||
+        offset % valid_granule + bytes > valid_[offset / valid_granule])
+        fail(l, "illegal global address", address, bytes, line);
+    if ((access & is_volatile) != 0) access |= strong;
+    check(l, shadow_, offset, address, bytes, access, l.block->launched, line);
+    return content_ + offset;
 }
 
 device_memory& memory() {
     static device_memory& all = *new device_memory;  // destructors of static objects free memory
     return all;
+}
+
+u32 advance_time() {
+    if (now == std::numeric_limits<u32>::max()) stop("the clock is exhausted");
+    return now++;
+}
+
+void set_memory(thread_block& b, u32 shared_bytes) {
+    static char* const shared = reserve<char>(most_shared);
+    b.shared = shared;
+    b.shared_bytes = shared_bytes;
+    b.global_at = global_at, b.shared_at = shared_at, b.local_at = local_at;
+    b.generic_at = generic_at;
+    std::memset(shared, fill_byte(), shared_bytes);
+    std::memset(shadow_of_shared().written, 0, shared_bytes);
 }
 
 int fill_byte() {

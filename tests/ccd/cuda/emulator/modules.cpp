@@ -76,6 +76,7 @@ void* module::load(const std::string& name) {
             void* const p = memory().allocate(v->bytes);
             char* const content = memory().content(p, v->bytes);
             std::memset(content, 0, v->bytes);
+            memory().write(content, v->bytes);
             if (v->initial != nullptr) std::memcpy(content, v->initial, v->bytes);
             address = reinterpret_cast<u64>(p);
         }

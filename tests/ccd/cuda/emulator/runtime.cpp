@@ -140,7 +140,10 @@ cudaError_t enqueue_copy(void* to, const void* from, std::size_t bytes, cudaMemc
         const char* const source = place_of(from, bytes, from_device);
         if (target == nullptr || source == nullptr)
             return fault_found("copy of memory that is not allocated");
+        if (from_device && !memory().is_written(source, bytes))
+            return fault_found("copy of memory that was never written");
         std::memmove(target, source, bytes);
+        if (to_device) memory().write(target, bytes);
         return cudaSuccess;
     });
 }
@@ -280,6 +283,7 @@ cudaError_t cudaMemsetAsync(void* to, int byte, std::size_t bytes, cudaStream_t 
             char* const content = memory().content(to, bytes);
             if (content == nullptr) return fault_found("setting of memory that is not allocated");
             std::memset(content, byte, bytes);
+            memory().write(content, bytes);
             return cudaSuccess;
         });
     });
