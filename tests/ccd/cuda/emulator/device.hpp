@@ -24,14 +24,11 @@ class device_memory {
     void* allocate(u64 bytes);
     bool free(void* p);  ///< false if p is not an allocation
     bool contains(const void* p) const;
-    /// The content of `bytes` bytes at p, or null if not all of them are in one allocation.
-    char* content(const void* p, u64 bytes) const;
-    /// Marks bytes of a content as written.
-    void write(const char* content, u64 bytes) const;
-    /// False if some of the bytes of a content were never written.
-    bool is_written(const char* content, u64 bytes) const;
+    /// The content of `bytes` bytes at p, which the host writes or reads. Null if not all of them
+    /// are in one allocation, or if it reads bytes that were never written.
+    char* content(const void* p, u64 bytes, u32 access) const;
     /// Checks an access of a thread, and returns its content.
-    char* access(lane& l, u64 address, u32 bytes, u32 access, int line) const;
+    static char* access(lane& l, u64 address, u32 bytes, u32 access, int line);
 
   private:
     void set_valid(u64 offset, u64 bytes, bool valid);
@@ -50,7 +47,7 @@ u32 advance_time();
 /// Sets the functions of a block that check accesses, and its shared memory, all of it unwritten.
 void set_memory(thread_block& b, u32 shared_bytes);
 
-/// The byte that fresh memory, registers and stacks are filled with (PTXEMU_FILL).
+/// The byte that fresh registers and stacks are filled with (PTXEMU_FILL).
 int fill_byte();
 /// Returns a number from the environment, 0 if it is not set.
 long setting(const char* name);

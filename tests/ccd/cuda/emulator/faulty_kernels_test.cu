@@ -21,33 +21,25 @@ std::vector<test_case>& cases() {
     static std::vector<test_case> all;
     return all;
 }
-template <class Case>
-__global__ void run(int* p) {
-    __shared__ __align__(8) int s[128];
-    Case::run(p, s, int(threadIdx.x), int(blockIdx.x));
-}
 
+// clang-format off
 // REJECTED(blocks, threads, code) and VALID: thread t of block b runs the code with the memory p
 // and 128 elements s of shared memory.
 #define REJECTED(...) NUMBERED_CASE(__COUNTER__, true, __VA_ARGS__)
 #define VALID(...) NUMBERED_CASE(__COUNTER__, false, __VA_ARGS__)
 #define NUMBERED_CASE(...) EXPANDED_CASE(__VA_ARGS__)
-#define EXPANDED_CASE(n, rejected, blocks, threads, ...)                                        \
-    struct case##n{static __device__ void run([[maybe_unused]] int* p, [[maybe_unused]] int* s, \
-                                              [[maybe_unused]] int t,                           \
-                                              [[maybe_unused]] int b){__VA_ARGS__;              \
-    }                                                                                           \
-    static void launch() {                                                                      \
-        ::run<case##n><<<blocks, threads>>>(memory);                                            \
-    }                                                                                           \
-    }                                                                                           \
-    ;                                                                                           \
-    const bool listed##n = (cases().push_back({#__VA_ARGS__, rejected, case##n::launch}), true)
-#define BYTES(pointer) reinterpret_cast<signed char*>(pointer)
+#define EXPANDED_CASE(n, rejected, blocks, threads, ...)                                \
+    __global__ void case##n([[maybe_unused]] int* p) {                                  \
+        [[maybe_unused]] __shared__ __align__(8) int s[128];                            \
+        [[maybe_unused]] const int t = int(threadIdx.x), b = int(blockIdx.x);           \
+        __VA_ARGS__;                                                                    \
+    }                                                                                   \
+    const bool listed##n = (cases().push_back({#__VA_ARGS__, rejected,                  \
+                            [] { case##n<<<blocks, threads>>>(memory); }}), true)
+#define BYTES(pointer) reinterpret_cast<volatile signed char*>(pointer)
 #define WIDE(pointer) reinterpret_cast<long long*>(pointer)
 #define VOLATILE(pointer) static_cast<volatile int*>(pointer)
 
-// clang-format off
 // Addresses.
 VALID(1, 1, p[15] = 1);
 REJECTED(1, 1, p[2 * written] = 1);
@@ -82,7 +74,7 @@ REJECTED(1, 32, s[t] = t; p[t] = __any_sync(~0u, t == 3) + s[t ^ 1]);
 REJECTED(1, 32, s[t] = t; __syncwarp(); p[t] = s[t ^ 1]; s[t] = 0);
 REJECTED(1, 32, s[t] = t; __syncwarp(t < 16 ? 0xffff : 0xffff0000); p[t] = s[t ^ 16]);
 REJECTED(1, 32, s[t] = t; __syncwarp(); for (int d = 16; d > 0; d /= 2) if (t < d) VOLATILE(s)[t] = VOLATILE(s)[t] + VOLATILE(s)[t + d]);
-REJECTED(1, 32, volatile signed char* bytes = BYTES(s); bytes[t / 2] = 1);
+REJECTED(1, 32, BYTES(s)[t / 2] = 1);
 REJECTED(1, 32, s[t] = t; if (t < 16) WIDE(p)[t] = WIDE(s)[t]);
 VALID(1, 32, s[t] = t; __syncwarp(); p[t] = s[t ^ 1]; __syncwarp(); s[t] = 0);
 VALID(1, 32, s[t] = t; __syncwarp(t < 16 ? 0xffff : 0xffff0000); p[t] = s[t ^ 1]);
@@ -92,7 +84,6 @@ VALID(1, 32, s[t] = t; __syncwarp(); if (t < 16) WIDE(p)[t] = WIDE(s)[t]);
 VALID(1, 32, p[t] = __popc(__ballot_sync(~0u, t % 3 == 0)) + __shfl_sync(~0u, t, 7) + __all_sync(~0u, t < 32));
 VALID(1, 3, s[t] = t; if (t < 2) __syncwarp(3); if (t != 1) __syncwarp(5); if (t == 0) p[0] = s[1] + s[2]);
 VALID(1, 3, if (t == 0) s[0] = 1; __syncwarp(7); if (t != 0) p[t] = s[0]; if (t < 2) __syncwarp(3); if (t != 1) __syncwarp(5); if (t == 0) VOLATILE(s)[0] = 2);
-REJECTED(1, 3, if (t == 0) s[0] = 1; __syncwarp(7); if (t != 0) p[t] = s[0]; if (t < 2) __syncwarp(3); if (t == 0) VOLATILE(s)[0] = 2);
 
 // Races between warps.
 REJECTED(1, 64, s[t] = t; p[t] = s[t ^ 32]);

@@ -10,8 +10,8 @@
 
 namespace ptx {
 
-/// The last accesses of each kind, at index `access / 2 % 4`. `by` is a thread of a block, plus a
-/// flag if other lanes, warps or blocks have made accesses that are not ordered before that one.
+/// The last read, write, strong read and strong write, at index `access / 2 % 4`. `by` is a thread
+/// of a block, plus a flag if accesses of other lanes, warps or blocks are not ordered before it.
 struct granule_accesses {
     struct last {
         u32 time, by;
@@ -33,8 +33,15 @@ T* reserve(u64 bytes, int access = PROT_READ | PROT_WRITE) {
     return static_cast<T*>(p);
 }
 
-/// True if an earlier access is not ordered before the one that thread l now makes. Those up to
-/// `since` are: of earlier grids, or to the shared memory of an earlier block.
+/// Marks bytes as written, or returns false if bytes to read were never written.
+bool check_written(const shadow& s, u64 offset, u64 bytes, u32 access) {
+    if ((access & reads) != 0 && std::memchr(s.written + offset, 0, bytes) != nullptr) return false;
+    if ((access & writes) != 0) std::memset(s.written + offset, 1, bytes);
+    return true;
+}
+
+/// True if an earlier access is not ordered before the next one of l. Accesses up to the time
+/// `since` are: those of earlier grids, or to the shared memory of an earlier block.
 bool is_unordered(const granule_accesses::last& a, const lane& l, u32 since) {
     if (a.time <= since) return false;
     if (a.time <= l.block->started || (a.by & of_blocks) != 0) return true;
@@ -44,41 +51,28 @@ bool is_unordered(const granule_accesses::last& a, const lane& l, u32 since) {
     return a.by != l.thread && a.time > l.known[a.by % 32];
 }
 
-void note_access(granule_accesses::last& a, const lane& l, u32 since) {
-    u32 by = l.thread;
-    if (is_unordered(a, l, since))
-        by |= (a.by & ~1023u) | (a.time <= l.block->started   ? of_blocks
-                                 : (a.by ^ by) / 32 % 32 != 0 ? of_warps
-                                                              : of_lanes);
-    a = {now, by};
-}
-
-[[noreturn]] void report_race(const granule_accesses::last& a, const lane& l, u64 address,
-                              u32 bytes, int line) {
-    static char text[80];
-    if (a.time <= l.block->started || (a.by & of_blocks) != 0)
-        fail(l, "race with another block", address, bytes, line);
-    std::snprintf(text, sizeof text, "race with thread %u of the block", a.by % 1024);
-    fail(l, text, address, bytes, line);
-}
-
 /// Checks an access to shared or global memory, and stores that it was made.
 void check(const lane& l, const shadow& s, u64 offset, u64 address, u32 bytes, u32 access,
            u32 since, int line) {
-    if ((access & reads) != 0 && std::memchr(s.written + offset, 0, bytes) != nullptr)
+    if (!check_written(s, offset, bytes, access))
         fail(l, "read of memory that was never written", address, bytes, line);
-    if ((access & writes) != 0) std::memset(s.written + offset, 1, bytes);
-    // The kinds are: read, write, strong read, strong write. Bits are the kinds that a kind races
-    // with.
-    constexpr u32 conflicts[] = {0b1010, 0b1111, 0b0010, 0b0011};
+    if (bytes >> s.granule == 0) return;  // byte b and byte b + 1 may be of different threads
+    constexpr u32 races[] = {0b1010, 0b1111, 0b0010, 0b0011};  // bits are kinds
     const u32 kind = access / 2 % 4;
-    if (bytes >> s.granule == 0) return;
     for (u64 i = offset >> s.granule; i < (offset + bytes) >> s.granule; ++i) {
         auto& last = s.accesses[i].of;
-        for (u32 k = 0; k < 4; ++k)
-            if ((conflicts[kind] >> k & 1) != 0 && is_unordered(last[k], l, since))
-                report_race(last[k], l, address, bytes, line);
-        note_access(last[kind], l, since);
+        for (u32 k = 0; k < 4; ++k) {
+            if ((races[kind] >> k & 1) == 0 || !is_unordered(last[k], l, since)) continue;
+            const bool other = last[k].time <= l.block->started || (last[k].by & of_blocks) != 0;
+            fail(l, other ? "race with another block" : "race with another thread of the block",
+                 address, bytes, line);
+        }
+        u32 by = l.thread;
+        if (const auto [time, of] = last[kind]; is_unordered(last[kind], l, since))
+            by |= (of & ~1023u) | (time <= l.block->started   ? of_blocks
+                                   : (of ^ by) / 32 % 32 != 0 ? of_warps
+                                                              : of_lanes);
+        last[kind] = {now, by};
     }
 }
 
@@ -87,9 +81,6 @@ char* local_at(lane& l, u64 address, u32 bytes, u32, int line) {
     if (address < l.stack || address + bytes > l.stack_end)
         fail(l, "illegal local address", address, bytes, line);
     return reinterpret_cast<char*>(address);
-}
-char* global_at(lane& l, u64 address, u32 bytes, u32 access, int line) {
-    return memory().access(l, address, bytes, access, line);
 }
 const shadow& shadow_of_shared() {
     static const shadow all{reserve<char>(most_shared),
@@ -108,7 +99,7 @@ char* generic_at(lane& l, u64 address, u32 bytes, u32 access, int line) {
     if (in_shared < l.block->shared_bytes) return shared_at(l, in_shared, bytes, access, line);
     if (address >= l.stack && address < l.stack_end)
         return local_at(l, address, bytes, access, line);
-    return global_at(l, address, bytes, access, line);
+    return device_memory::access(l, address, bytes, access, line);
 }
 
 }  // namespace
@@ -134,7 +125,6 @@ void* device_memory::allocate(u64 bytes) {
     next_ += (bytes + 8191) / 4096 * 4096;  // a page between allocations catches overruns
     if (next_ > end_ - begin_) stop("device addresses are exhausted");
     set_valid(offset, bytes, true);
-    std::memset(content_ + offset, fill_byte(), bytes);
     allocations_[offset] = bytes;
     return reinterpret_cast<void*>(begin_ + offset);
 }
@@ -155,31 +145,26 @@ bool device_memory::contains(const void* p) const {
     return reinterpret_cast<u64>(p) >= begin_ && reinterpret_cast<u64>(p) < end_;
 }
 
-char* device_memory::content(const void* p, u64 bytes) const {
+char* device_memory::content(const void* p, u64 bytes, u32 access) const {
     const u64 offset = reinterpret_cast<u64>(p) - begin_;
     const auto after = allocations_.upper_bound(offset);
     if (after == allocations_.begin()) return nullptr;
     const auto& [start, size] = *std::prev(after);
-    return offset + bytes <= start + size ? content_ + offset : nullptr;
+    if (offset + bytes > start + size || !check_written(shadow_, offset, bytes, access))
+        return nullptr;
+    return content_ + offset;
 }
 
-void device_memory::write(const char* content, u64 bytes) const {
-    std::memset(shadow_.written + (content - content_), 1, bytes);
-}
-
-bool device_memory::is_written(const char* content, u64 bytes) const {
-    return std::memchr(shadow_.written + (content - content_), 0, bytes) == nullptr;
-}
-
-char* device_memory::access(lane& l, u64 address, u32 bytes, u32 access, int line) const {
+char* device_memory::access(lane& l, u64 address, u32 bytes, u32 access, int line) {
+    const device_memory& m = memory();
     if (address % bytes != 0) fail(l, "misaligned global address", address, bytes, line);
-    const u64 offset = address - begin_;
-    if (address < begin_ || address >= end_ ||
-        offset % valid_granule + bytes > valid_[offset / valid_granule])
+    const u64 offset = address - m.begin_;
+    if (address < m.begin_ || address >= m.end_ ||
+        offset % valid_granule + bytes > m.valid_[offset / valid_granule])
         fail(l, "illegal global address", address, bytes, line);
     if ((access & is_volatile) != 0) access |= strong;
-    check(l, shadow_, offset, address, bytes, access, l.block->launched, line);
-    return content_ + offset;
+    check(l, m.shadow_, offset, address, bytes, access, l.block->launched, line);
+    return m.content_ + offset;
 }
 
 device_memory& memory() {
@@ -196,9 +181,8 @@ void set_memory(thread_block& b, u32 shared_bytes) {
     static char* const shared = reserve<char>(most_shared);
     b.shared = shared;
     b.shared_bytes = shared_bytes;
-    b.global_at = global_at, b.shared_at = shared_at, b.local_at = local_at;
+    b.global_at = device_memory::access, b.shared_at = shared_at, b.local_at = local_at;
     b.generic_at = generic_at;
-    std::memset(shared, fill_byte(), shared_bytes);
     std::memset(shadow_of_shared().written, 0, shared_bytes);
 }
 

@@ -24,13 +24,13 @@ using f64 = double;
 struct lane;
 using resolver = void* (*)(lane&, const char* function);
 
-/// What an access does, as a sum. Strong accesses do not race with each other. Atomic ones are
-/// strong, and volatile ones of global memory.
+/// Bits of the kind of an access. Strong accesses do not race with each other: atomic and relaxed
+/// ones, and volatile ones of global memory.
 enum access : u32 { reads = 1, writes = 2, strong = 4, is_volatile = 8 };
-/// Checks an access and returns its address on the host.
+/// Checks an access to a state space, and returns its address on the host.
 using checked = char* (*)(lane&, u64 address, u32 bytes, u32 access, int line);
 
-/// `shared_at` and so on check the accesses to a state space. Times are those of memory.cpp.
+/// A block of threads. Times are those of advance_time() in device.hpp.
 struct thread_block {
     u32 ntid[3], nctaid[3], ctaid[3];
     char* shared;
@@ -48,7 +48,7 @@ struct thread_block {
 struct lane {
     int next;
     u32 id, tid[3], thread;
-    u32 known[32];  ///< the accesses of each other lane that are ordered before the next one
+    u32 known[32];  ///< of each other lane, the time of the last access that is ordered before
     u64 frame, stack, stack_end, stack_limit;
     thread_block* block;
 };
