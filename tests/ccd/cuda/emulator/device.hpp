@@ -9,10 +9,11 @@
 
 namespace ptx {
 
-/// For each byte, whether it was written; for each granule of 2^granule bytes, its last accesses.
+/// For each byte, whether it is memory and was written. For each granule of 2^granule bytes, its
+/// last read, write, strong read and strong write.
 struct shadow {
-    char* written;
-    struct granule_accesses* accesses;
+    char* bytes;
+    struct last_access* accesses;
     u32 granule;
 };
 
@@ -25,17 +26,14 @@ class device_memory {
     bool free(void* p);  ///< false if p is not an allocation
     bool contains(const void* p) const;
     /// The content of `bytes` bytes at p, which the host writes or reads. Null if not all of them
-    /// are in one allocation, or if it reads bytes that were never written.
+    /// are in one allocation, or if no byte of a word of 8 bytes to read was ever written.
     char* content(const void* p, u64 bytes, u32 access) const;
     /// Checks an access of a thread, and returns its content.
     static char* access(lane& l, u64 address, u32 bytes, u32 access, int line);
 
   private:
-    void set_valid(u64 offset, u64 bytes, bool valid);
-
     u64 begin_, end_;
     char* content_;
-    u16* valid_;
     shadow shadow_;
     std::map<u64, u64> allocations_;
     u64 next_ = 4096;

@@ -69,6 +69,8 @@ VALID(1, 32, if (t < 20) s[t] = t; __syncthreads(); if (t < 20) p[t] = s[19 - t]
 // Races between lanes of a warp.
 REJECTED(1, 32, s[t] = t; p[t] = s[t ^ 1]);
 REJECTED(1, 32, VOLATILE(s)[0] = t);
+REJECTED(1, 32, if (t == 0) s[0] = 1; __syncwarp(); p[t] = s[0]; if (t == 31) VOLATILE(s)[0] = 2);
+REJECTED(1, 32, if (t == 0) s[0] = 1; __syncwarp(); p[t] = s[0]; if (t == 31) __syncwarp(1u << 31), VOLATILE(s)[0] = 2);
 REJECTED(1, 32, s[t] = t; p[t] = __shfl_sync(~0u, t, 0) + s[t ^ 1]);
 REJECTED(1, 32, s[t] = t; p[t] = __any_sync(~0u, t == 3) + s[t ^ 1]);
 REJECTED(1, 32, s[t] = t; __syncwarp(); p[t] = s[t ^ 1]; s[t] = 0);
@@ -93,8 +95,12 @@ REJECTED(1, 64, if (t % 32 == 0) VOLATILE(s)[0] = t);
 REJECTED(1, 64, s[t] = t; __syncthreads(); for (int d = 32; d > 0; d /= 2) if (t < d) s[t] += s[t + d]);
 REJECTED(1, 64, for (int i = 0; i < 4; ++i) { s[t] = i; __syncthreads(); p[t] += s[t ^ 32]; });
 REJECTED(1, 64, if (t == 0) s[0] = 0; atomicAdd(s, t));
-REJECTED(1, 64, if (t == 0) s[0] = 0; __syncthreads(); atomicAdd(s, t); p[t] = *VOLATILE(s));
-REJECTED(1, 64, if (t == 0) s[0] = 0; __syncthreads(); if (t == 0) p[0] = *VOLATILE(s); else atomicAdd(s, t));
+REJECTED(1, 64, if (t == 0) s[0] = 0; __syncthreads(); if (t < 32) atomicAdd(s, t); else p[t] = s[0]);
+REJECTED(1, 64, if (t == 0) s[0] = 0; __syncthreads(); if (t < 32) p[t] = s[0]; else atomicAdd(s, t));
+REJECTED(1, 64, if (t == 0) s[0] = 0; __syncthreads(); if (t < 32) atomicAdd(s, t); else if (t == 32) VOLATILE(s)[0] = 0);
+REJECTED(1, 64, if (t == 0) s[0] = 0; __syncthreads(); if (t % 32 == 0) p[t] = s[0]; if (t == 32) VOLATILE(s)[0] = 1);
+REJECTED(1, 64, if (t < 32) p[t + 1] = *VOLATILE(p); else if (t == 32) p[0] = 1);
+REJECTED(1, 64, if (t == 0) p[0] = 1; else if (t >= 32) p[t] = *VOLATILE(p));
 REJECTED(1, 64, p[t] = t; p[64 + t] = p[t ^ 32]);
 REJECTED(1, 64, p[0] = t);
 VALID(1, 64, s[t] = t; __syncthreads(); for (int d = 32; d > 0; d /= 2) { if (t < d) s[t] += s[t + d]; __syncthreads(); });
@@ -106,15 +112,17 @@ VALID(1, 64, if (t < 32) { s[t] = t; __syncwarp(); p[t] = s[t ^ 1]; });
 
 // Races between blocks.
 REJECTED(2, 1, p[0] = b);
-REJECTED(2, 1, p[b] = 1; p[b + 2] = *VOLATILE(p + 1 - b); );
+REJECTED(2, 1, p[b] = 1; p[b + 2] = *VOLATILE(p + 1 - b));
 REJECTED(2, 1, if (b == 0) p[1] = p[0]; else p[0] = 1);
-REJECTED(3, 1, if (b == 1) p[0] = 1; else p[1 + b] = p[0]);
+REJECTED(2, 1, p[1 + b] = p[0]; if (b == 1) p[0] = 1);
+REJECTED(2, 1, p[1 + b] = p[0]; __syncthreads(); p[3 + b] = p[0]; if (b == 1) p[0] = 1);
 REJECTED(2, 1, atomicAdd(p, 1); p[1 + b] = p[0]);
 REJECTED(2, 1, atomicAdd(p, 1); __syncthreads(); if (b == 0) p[0] = 0);
 VALID(2, 32, p[b * 32 + t] = p[127] + 1);
 VALID(2, 64, p[b * 64 + t] = t; __syncthreads(); p[b * 64 + t] += 1);
 VALID(4, 64, atomicAdd(p, t));
-VALID(4, 64, BYTES(p)[b * 64 + t] = 1);
+VALID(4, 64, reinterpret_cast<char*>(p)[b * 64 + t] = 1);
+VALID(2, 32, s[t] = t; __syncwarp(); p[32 * b + t] = s[t ^ 1]);
 VALID(4, 64, if (t == 5) *VOLATILE(p) = 1);
 
 // Barriers and masks.

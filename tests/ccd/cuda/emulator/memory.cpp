@@ -1,7 +1,6 @@
 #include <sys/mman.h>
 
 #include <algorithm>
-#include <array>
 #include <cstdarg>
 #include <cstdio>
 #include <cstdlib>
@@ -10,18 +9,16 @@
 
 namespace ptx {
 
-/// The last read, write, strong read and strong write, at index `access / 2 % 4`. `by` is a thread
-/// of a block, plus a flag if accesses of other lanes, warps or blocks are not ordered before it.
-struct granule_accesses {
-    struct last {
-        u32 time, by;
-    };
-    std::array<last, 4> of;
+/// A thread of a block, plus a flag if accesses of other lanes, warps or blocks are not ordered
+/// before its own.
+struct last_access {
+    u32 time, by;
 };
 
 namespace {
 
-constexpr u64 valid_granule = 256, most_shared = 48 * 1024;
+constexpr u64 most_shared = 48 * 1024;
+constexpr char unwritten = 1, written = 2;  // bytes of a shadow; 0 is no memory
 constexpr u32 of_lanes = 1 << 16, of_warps = 1 << 17, of_blocks = 1 << 18;
 u32 now = 1;
 
@@ -33,16 +30,9 @@ T* reserve(u64 bytes, int access = PROT_READ | PROT_WRITE) {
     return static_cast<T*>(p);
 }
 
-/// Marks bytes as written, or returns false if bytes to read were never written.
-bool check_written(const shadow& s, u64 offset, u64 bytes, u32 access) {
-    if ((access & reads) != 0 && std::memchr(s.written + offset, 0, bytes) != nullptr) return false;
-    if ((access & writes) != 0) std::memset(s.written + offset, 1, bytes);
-    return true;
-}
-
 /// True if an earlier access is not ordered before the next one of l. Accesses up to the time
 /// `since` are: those of earlier grids, or to the shared memory of an earlier block.
-bool is_unordered(const granule_accesses::last& a, const lane& l, u32 since) {
+bool is_unordered(const last_access& a, const lane& l, u32 since) {
     if (a.time <= since) return false;
     if (a.time <= l.block->started || (a.by & of_blocks) != 0) return true;
     if (a.time <= l.block->met) return false;
@@ -54,13 +44,14 @@ bool is_unordered(const granule_accesses::last& a, const lane& l, u32 since) {
 /// Checks an access to shared or global memory, and stores that it was made.
 void check(const lane& l, const shadow& s, u64 offset, u64 address, u32 bytes, u32 access,
            u32 since, int line) {
-    if (!check_written(s, offset, bytes, access))
+    if ((access & reads) != 0 && std::memchr(s.bytes + offset, unwritten, bytes) != nullptr)
         fail(l, "read of memory that was never written", address, bytes, line);
+    if ((access & writes) != 0) std::memset(s.bytes + offset, written, bytes);
     if (bytes >> s.granule == 0) return;  // byte b and byte b + 1 may be of different threads
     constexpr u32 races[] = {0b1010, 0b1111, 0b0010, 0b0011};  // bits are kinds
     const u32 kind = access / 2 % 4;
     for (u64 i = offset >> s.granule; i < (offset + bytes) >> s.granule; ++i) {
-        auto& last = s.accesses[i].of;
+        last_access* const last = s.accesses + 4 * i;
         for (u32 k = 0; k < 4; ++k) {
             if ((races[kind] >> k & 1) == 0 || !is_unordered(last[k], l, since)) continue;
             const bool other = last[k].time <= l.block->started || (last[k].by & of_blocks) != 0;
@@ -84,7 +75,7 @@ char* local_at(lane& l, u64 address, u32 bytes, u32, int line) {
 }
 const shadow& shadow_of_shared() {
     static const shadow all{reserve<char>(most_shared),
-                            reserve<granule_accesses>(most_shared * sizeof(granule_accesses)), 0};
+                            reserve<last_access>(4 * most_shared * sizeof(last_access)), 0};
     return all;
 }
 char* shared_at(lane& l, u64 address, u32 bytes, u32 access, int line) {
@@ -109,22 +100,14 @@ device_memory::device_memory() {
     begin_ = reinterpret_cast<u64>(reserve<char>(bytes, PROT_NONE));
     end_ = begin_ + bytes;
     content_ = reserve<char>(bytes);
-    valid_ = reserve<u16>(bytes / valid_granule * sizeof(u16));
-    shadow_ = {reserve<char>(bytes),
-               reserve<granule_accesses>(bytes / 4 * sizeof(granule_accesses)), 2};
-}
-
-void device_memory::set_valid(u64 offset, u64 bytes, bool valid) {
-    for (u64 done = 0; done < bytes; done += valid_granule)
-        valid_[(offset + done) / valid_granule] =
-            valid ? static_cast<u16>(std::min(valid_granule, bytes - done)) : u16(0);
+    shadow_ = {reserve<char>(bytes), reserve<last_access>(bytes * sizeof(last_access)), 2};
 }
 
 void* device_memory::allocate(u64 bytes) {
     const u64 offset = next_;
     next_ += (bytes + 8191) / 4096 * 4096;  // a page between allocations catches overruns
     if (next_ > end_ - begin_) stop("device addresses are exhausted");
-    set_valid(offset, bytes, true);
+    std::memset(shadow_.bytes + offset, unwritten, bytes);
     allocations_[offset] = bytes;
     return reinterpret_cast<void*>(begin_ + offset);
 }
@@ -132,10 +115,9 @@ void* device_memory::allocate(u64 bytes) {
 bool device_memory::free(void* p) {
     const auto found = allocations_.find(reinterpret_cast<u64>(p) - begin_);
     if (found == allocations_.end()) return false;
-    set_valid(found->first, found->second, false);
     madvise(content_ + found->first, found->second, MADV_DONTNEED);
-    madvise(shadow_.written + found->first, found->second, MADV_DONTNEED);
-    madvise(shadow_.accesses + found->first / 4, (found->second + 3) / 4 * sizeof(granule_accesses),
+    madvise(shadow_.bytes + found->first, found->second, MADV_DONTNEED);
+    madvise(shadow_.accesses + found->first, (found->second + 3) / 4 * 4 * sizeof(last_access),
             MADV_DONTNEED);
     allocations_.erase(found);
     return true;
@@ -150,8 +132,10 @@ char* device_memory::content(const void* p, u64 bytes, u32 access) const {
     const auto after = allocations_.upper_bound(offset);
     if (after == allocations_.begin()) return nullptr;
     const auto& [start, size] = *std::prev(after);
-    if (offset + bytes > start + size || !check_written(shadow_, offset, bytes, access))
-        return nullptr;
+    if (offset + bytes > start + size) return nullptr;
+    if ((access & writes) != 0) std::memset(shadow_.bytes + offset, written, bytes);
+    for (u64 word = offset / 8 * 8; word < offset + bytes && (access & reads) != 0; word += 8)
+        if (std::memchr(shadow_.bytes + word, written, 8) == nullptr) return nullptr;
     return content_ + offset;
 }
 
@@ -160,7 +144,7 @@ char* device_memory::access(lane& l, u64 address, u32 bytes, u32 access, int lin
     if (address % bytes != 0) fail(l, "misaligned global address", address, bytes, line);
     const u64 offset = address - m.begin_;
     if (address < m.begin_ || address >= m.end_ ||
-        offset % valid_granule + bytes > m.valid_[offset / valid_granule])
+        std::memchr(m.shadow_.bytes + offset, 0, bytes) != nullptr)
         fail(l, "illegal global address", address, bytes, line);
     if ((access & is_volatile) != 0) access |= strong;
     check(l, m.shadow_, offset, address, bytes, access, l.block->launched, line);
@@ -183,7 +167,7 @@ void set_memory(thread_block& b, u32 shared_bytes) {
     b.shared_bytes = shared_bytes;
     b.global_at = device_memory::access, b.shared_at = shared_at, b.local_at = local_at;
     b.generic_at = generic_at;
-    std::memset(shadow_of_shared().written, 0, shared_bytes);
+    std::memset(shadow_of_shared().bytes, unwritten, shared_bytes);
 }
 
 int fill_byte() {
