@@ -26,7 +26,7 @@ class device_memory {
     bool free(void* p);  ///< false if p is not an allocation
     bool contains(const void* p) const;
     /// The content of `bytes` bytes at p, which the host writes or reads. Null if not all of them
-    /// are in one allocation, or if no byte of a word of 8 bytes to read was ever written.
+    /// are in one allocation, or if it reads bytes that were never written.
     char* content(const void* p, u64 bytes, u32 access) const;
     /// Checks an access of a thread, and returns its content.
     static char* access(lane& l, u64 address, u32 bytes, u32 access, int line);

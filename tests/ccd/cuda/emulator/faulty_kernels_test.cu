@@ -56,6 +56,8 @@ REJECTED(1, 2048, if (t == 0) p[0] = 1);
 REJECTED(1, 1, p[0] = p[written]);
 REJECTED(1, 1, atomicAdd(p + written, 1));
 REJECTED(1, 1, *BYTES(p + written) = 1; p[0] = *VOLATILE(p + written));
+REJECTED(1, 1, BYTES(p + written)[1] = 1; *WIDE(p) = *WIDE(p + written));
+VALID(1, 1, BYTES(p + written)[0] = 1; *WIDE(p) = *WIDE(p + written));
 REJECTED(2, 1, if (b == 1) p[0] = p[written]; else p[written + 1] = 1);
 VALID(1, 1, p[written] = 1; p[0] = *VOLATILE(p + written));
 VALID(2, 1, BYTES(p + written)[b] = 1);

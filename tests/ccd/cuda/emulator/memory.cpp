@@ -41,10 +41,19 @@ bool is_unordered(const last_access& a, const lane& l, u32 since) {
     return a.by != l.thread && a.time > l.known[a.by % 32];
 }
 
+/// True if bytes were written. In global memory, a word of 8 bytes was if its first byte was, since
+/// copies of structures read their padding.
+bool was_written(const shadow& s, u64 offset, u64 bytes) {
+    const u64 step = s.granule == 0 || bytes < 8 ? 1 : 8;
+    for (u64 i = offset; i < offset + bytes; i = i / step * step + step)
+        if (s.bytes[i] == unwritten) return false;
+    return true;
+}
+
 /// Checks an access to shared or global memory, and stores that it was made.
 void check(const lane& l, const shadow& s, u64 offset, u64 address, u32 bytes, u32 access,
            u32 since, int line) {
-    if ((access & reads) != 0 && std::memchr(s.bytes + offset, unwritten, bytes) != nullptr)
+    if ((access & reads) != 0 && !was_written(s, offset, bytes))
         fail(l, "read of memory that was never written", address, bytes, line);
     if ((access & writes) != 0) std::memset(s.bytes + offset, written, bytes);
     if (bytes >> s.granule == 0) return;  // byte b and byte b + 1 may be of different threads
@@ -134,8 +143,7 @@ char* device_memory::content(const void* p, u64 bytes, u32 access) const {
     const auto& [start, size] = *std::prev(after);
     if (offset + bytes > start + size) return nullptr;
     if ((access & writes) != 0) std::memset(shadow_.bytes + offset, written, bytes);
-    for (u64 word = offset / 8 * 8; word < offset + bytes && (access & reads) != 0; word += 8)
-        if (std::memchr(shadow_.bytes + word, written, 8) == nullptr) return nullptr;
+    if ((access & reads) != 0 && !was_written(shadow_, offset, bytes)) return nullptr;
     return content_ + offset;
 }
 
