@@ -60,7 +60,7 @@ VALID(1, 1, p[written] = 1; p[0] = *VOLATILE(p + written));
 REJECTED(1, 32, p[t] = s[t]);
 REJECTED(1, 32, atomicAdd(s, t));
 REJECTED(1, 32, if (t < 31) s[t] = t; __syncthreads(); p[t] = s[31 - t]);
-REJECTED(1, 32, s[2 * t] = t; __syncwarp(); *WIDE(p) = WIDE(s)[31]);
+REJECTED(1, 32, s[2 * t] = t; __syncwarp(); WIDE(p)[t] = WIDE(s)[t]);
 REJECTED(2, 1, if (b == 0) s[0] = 1; __syncthreads(); p[b] = *VOLATILE(s));
 VALID(1, 32, if (t < 20) s[t] = t; __syncthreads(); if (t < 20) p[t] = s[19 - t]);
 
@@ -77,6 +77,7 @@ REJECTED(1, 32, s[t] = t; __syncwarp(); for (int d = 16; d > 0; d /= 2) if (t < 
 REJECTED(1, 32, BYTES(s)[t / 2] = 1);
 REJECTED(1, 32, s[t] = t; if (t < 16) WIDE(p)[t] = WIDE(s)[t]);
 VALID(1, 32, s[t] = t; __syncwarp(); p[t] = s[t ^ 1]; __syncwarp(); s[t] = 0);
+VALID(1, 32, if (t == 0) s[0] = 1; __syncwarp(); p[t] = s[0]; __syncwarp(); if (t == 31) VOLATILE(s)[0] = 2);
 VALID(1, 32, s[t] = t; __syncwarp(t < 16 ? 0xffff : 0xffff0000); p[t] = s[t ^ 1]);
 VALID(1, 32, s[t] = t; for (int d = 16; d > 0; d /= 2) { __syncwarp(); if (t < d) s[t] += s[t + d]; });
 VALID(1, 32, BYTES(s)[t] = 1; __syncwarp(); p[t] = BYTES(s)[t ^ 1]);
@@ -84,6 +85,7 @@ VALID(1, 32, s[t] = t; __syncwarp(); if (t < 16) WIDE(p)[t] = WIDE(s)[t]);
 VALID(1, 32, p[t] = __popc(__ballot_sync(~0u, t % 3 == 0)) + __shfl_sync(~0u, t, 7) + __all_sync(~0u, t < 32));
 VALID(1, 3, s[t] = t; if (t < 2) __syncwarp(3); if (t != 1) __syncwarp(5); if (t == 0) p[0] = s[1] + s[2]);
 VALID(1, 3, if (t == 0) s[0] = 1; __syncwarp(7); if (t != 0) p[t] = s[0]; if (t < 2) __syncwarp(3); if (t != 1) __syncwarp(5); if (t == 0) VOLATILE(s)[0] = 2);
+REJECTED(1, 3, if (t == 0) s[0] = 1; __syncwarp(7); if (t != 0) p[t] = s[0]; if (t < 2) __syncwarp(3); if (t == 0) VOLATILE(s)[0] = 2);
 
 // Races between warps.
 REJECTED(1, 64, s[t] = t; p[t] = s[t ^ 32]);
@@ -96,7 +98,7 @@ REJECTED(1, 64, if (t == 0) s[0] = 0; atomicAdd(s, t));
 REJECTED(1, 64, if (t == 0) s[0] = 0; __syncthreads(); if (t < 32) atomicAdd(s, t); else p[t] = s[0]);
 REJECTED(1, 64, if (t == 0) s[0] = 0; __syncthreads(); if (t < 32) p[t] = s[0]; else atomicAdd(s, t));
 REJECTED(1, 64, if (t == 0) s[0] = 0; __syncthreads(); if (t < 32) atomicAdd(s, t); else if (t == 32) VOLATILE(s)[0] = 0);
-REJECTED(1, 64, if (t == 0) s[0] = 0; __syncthreads(); if (t % 32 == 0) p[t] = s[0]; if (t == 32) VOLATILE(s)[0] = 1);
+REJECTED(1, 64, if (t == 0) s[0] = 0; __syncthreads(); if (t % 32 == 0) p[t] = s[0]; __syncwarp(); if (t == 33) VOLATILE(s)[0] = 1);
 REJECTED(1, 64, if (t < 32) p[t + 1] = *VOLATILE(p); else if (t == 32) p[0] = 1);
 REJECTED(1, 64, if (t == 0) p[0] = 1; else if (t >= 32) p[t] = *VOLATILE(p));
 REJECTED(1, 64, p[t] = t; p[64 + t] = p[t ^ 32]);
@@ -113,7 +115,7 @@ REJECTED(2, 1, p[0] = b);
 REJECTED(2, 1, p[b] = 1; p[b + 2] = *VOLATILE(p + 1 - b));
 REJECTED(2, 1, if (b == 0) p[1] = p[0]; else p[0] = 1);
 REJECTED(2, 1, p[1 + b] = p[0]; if (b == 1) p[0] = 1);
-REJECTED(2, 1, p[1 + b] = p[0]; __syncthreads(); p[3 + b] = p[0]; if (b == 1) p[0] = 1);
+REJECTED(2, 1, p[1 + b] = p[0]; __syncthreads(); p[3 + b] = p[0]; __syncthreads(); if (b == 1) p[0] = 1);
 REJECTED(2, 1, atomicAdd(p, 1); p[1 + b] = p[0]);
 REJECTED(2, 1, atomicAdd(p, 1); __syncthreads(); if (b == 0) p[0] = 0);
 VALID(2, 32, p[b * 32 + t] = p[127] + 1);

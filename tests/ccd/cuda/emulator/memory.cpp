@@ -37,8 +37,8 @@ bool is_unordered(const last_access& a, const lane& l, u32 since) {
     if (a.time <= l.block->started || (a.by & of_blocks) != 0) return true;
     if (a.time <= l.block->met) return false;
     if ((a.by & of_warps) != 0 || (a.by ^ l.thread) / 32 % 32 != 0) return true;
-    if ((a.by & of_lanes) != 0) return a.time > *std::max_element(l.known, l.known + 32);
-    return a.by != l.thread && a.time > l.known[a.by % 32];
+    if (a.by % 32 != l.id) return a.time > l.known[a.by % 32];
+    return (a.by & of_lanes) != 0 && a.time > *std::max_element(l.known, l.known + 32);
 }
 
 /// True if bytes were written. In global memory, a word of 8 bytes was if its first byte was, since
@@ -56,9 +56,9 @@ void check(const lane& l, const shadow& s, u64 offset, u64 address, u32 bytes, u
     if ((access & reads) != 0 && !was_written(s, offset, bytes))
         fail(l, "read of memory that was never written", address, bytes, line);
     if ((access & writes) != 0) std::memset(s.bytes + offset, written, bytes);
-    if (bytes >> s.granule == 0) return;  // byte b and byte b + 1 may be of different threads
     constexpr u32 races[] = {0b1010, 0b1111, 0b0010, 0b0011};  // bits are kinds
     const u32 kind = access / 2 % 4;
+    // Of a granule, only accesses to its last byte count.
     for (u64 i = offset >> s.granule; i < (offset + bytes) >> s.granule; ++i) {
         last_access* const last = s.accesses + 4 * i;
         for (u32 k = 0; k < 4; ++k) {
