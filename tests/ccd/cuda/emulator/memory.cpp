@@ -58,7 +58,7 @@ void check(const lane& l, const shadow& s, u64 offset, u64 address, u32 bytes, u
     if ((access & writes) != 0) std::memset(s.bytes + offset, written, bytes);
     constexpr u32 races[] = {0b1010, 0b1111, 0b0010, 0b0011};  // bits are kinds
     const u32 kind = access / 2 % 4;
-    // Of a granule, only accesses to its last byte count.
+    // Only accesses to the last byte of a granule count.
     for (u64 i = offset >> s.granule; i < (offset + bytes) >> s.granule; ++i) {
         last_access* const last = s.accesses + 4 * i;
         for (u32 k = 0; k < 4; ++k) {
