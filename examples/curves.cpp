@@ -48,7 +48,7 @@ int main() {
     const ccd::first_time near = ccd::time_within(query, {0.25, 0.125});  // two radii
     std::printf("within 0.375 from t = %.17g\n", near.low);
 
-    // A spline of two pieces: the ball waits for a second before it falls.
+    // A spline of two pieces: the ball waits for a second before it is thrown.
     const control_points rest{ball.front()};
     const std::vector<ccd::spline_piece<ccd::vertex_face_curves>> pieces{{0, 1, {rest, f0, f1, f2}},
                                                                          {1, 3, query}};

@@ -22,13 +22,13 @@ namespace {
 template <kind K>
 class pipeline {
   public:
-    /// Distance 0 means contact; for others, axes must have been tested.
+    /// Distance 0 means contact. Precondition: for other distances, axes have been tested.
     explicit pipeline(const decisions& decided, axes_left axes, double distance = 0)
         : decided_(decided), axes_(axes), distance_(distance) {}
 
     /// `read(id, at)` writes the 24 coordinates of a query to at[0], at[stride], ... of
-    /// coordinate_columns: by point, end of the step, axis. If `pause` is null, axes have been
-    /// tested.
+    /// coordinate_columns, ordered by point, start or end of the step, axis. If `pause` is null,
+    /// axes have been tested.
     template <class Read>
     void process(const std::uint32_t* ids, std::size_t count, const Read& read,
                  stage_pause* pause) {
@@ -44,8 +44,8 @@ class pipeline {
     void finish() { run_stages(1); }
 
   private:
-    /// Runs the last stage for which at least `enough` queries wait, until there is none. So each
-    /// stage has room for the output of its predecessor.
+    /// Runs the last stage for which at least `enough` queries wait, until no stage has as many.
+    /// Each stage therefore has room for the output of its predecessor.
     void run_stages(std::size_t enough) {
         for (;;) {
             if (subdivision_.size() >= enough)

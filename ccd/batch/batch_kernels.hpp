@@ -17,8 +17,8 @@ namespace ccd::detail {
 
 /// A stage pauses while it decides too few queries of a stream.
 struct stage_pause {
-    std::size_t poor_blocks = 0;     ///< successive blocks of which it decided too few
-    std::size_t blocks_to_pass = 0;  ///< before it runs again
+    std::size_t poor_blocks = 0;     ///< successive blocks with too few decisions
+    std::size_t blocks_to_pass = 0;  ///< blocks to skip before it runs again
 };
 
 /// Axes are tested in doubles if there are no rounded positions or floats decide too few queries.
@@ -26,8 +26,8 @@ struct axes_pauses {
     stage_pause in_floats, in_doubles;
 };
 
-/// The distance that counts as contact, and the gaps in floats that exceed it. `collides` is
-/// certain only for the default, contact.
+/// The distance that counts as contact, and the gaps in floats that prove a larger one. `collides`
+/// is certain only for the default distance 0.
 struct distance_request {
     double distance = 0;
     rounded_axes::least_gaps gaps = {};
@@ -46,7 +46,7 @@ struct kernels_of_kind {
                     stage_report* report);
     void (*stored)(const query* queries, std::size_t count, outcome* answers, axes_pauses& pauses,
                    stage_report* report);
-    /// First times of colliding queries, between adjacent doubles low[i], high[i]; NaN if
+    /// Compute the brackets low[i], high[i] of the first times of colliding queries; NaN if
     /// undecided.
     void (*indexed_times)(const batch_positions& positions, const pair* queries, std::size_t count,
                           double* low, double* high);

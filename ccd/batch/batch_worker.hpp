@@ -1,4 +1,5 @@
-// A thread's state in a batch or step, which decides blocks of queries. Internal.
+// The state of one thread of a batch or step, with functions that decide blocks of queries.
+// Internal.
 #pragma once
 
 #include <algorithm>
@@ -26,7 +27,7 @@ class batch_worker {
     batch_worker(const batch_kernels& kernels, bool counted)
         : kernels_(&kernels), counted_(counted) {}
 
-    /// Decides by `exact`. Precondition: coordinates are finite and indices in range. Queries by
+    /// Decides with `exact`. Precondition: coordinates are finite and indices in range. Queries by
     /// value that are not finite are `uncertain`.
     template <cubic_pair Pair>
     void decide(const batch_positions& positions, std::span<const Pair> queries, outcome* answers) {
@@ -43,8 +44,8 @@ class batch_worker {
             queries.size(), [&](std::size_t i) { return queries[i]; }, answers);
     }
 
-    /// Decides which pairs come within `distances`, none of which exceeds `max_distance`.
-    /// Preconditions: as decide.
+    /// Decides which pairs come within `distances`, none of which exceeds `max_distance`. Same
+    /// preconditions as decide.
     template <any_pair Pair>
     void decide_within(const batch_positions& positions, std::span<const Pair> queries,
                        const pair_distances& distances, double max_distance, outcome* answers) {

@@ -25,8 +25,8 @@
 
 namespace ccd::detail {
 
-/// The most queries that a thread takes at once: they fit in the second-level cache, and the call's
-/// cost is negligible.
+/// The most queries of a chunk. They fit in the second-level cache, and the cost of a call per
+/// chunk is negligible.
 constexpr std::size_t chunk_size = 4096;
 
 /// Calls decide(worker, first, count) for chunks of at most `size` queries.
@@ -67,7 +67,7 @@ bool has_finite_vertices(const vertex_rows& rows, const Pair& pair) {
     });
 }
 
-/// Calls decide(first, count) for each run of finite queries; the others are uncertain.
+/// Calls decide(first, count) for each run of finite queries; other queries become `uncertain`.
 template <class IsFinite, class Decide>
 void decide_finite(std::size_t count, outcome* answers, bool all_are_finite,
                    const IsFinite& is_finite, const Decide& decide) {
@@ -85,8 +85,8 @@ void decide_finite(std::size_t count, outcome* answers, bool all_are_finite,
 /// The test to run, and the caller's name for error messages.
 struct request {
     const char* caller = "ccd::decide_batch";
-    bool at_start = false;                   ///< contact at t = 0
-    const pair_distances* within = nullptr;  ///< a distance instead of contact
+    bool at_start = false;                   ///< test contact at t = 0 only
+    const pair_distances* within = nullptr;  ///< test a distance instead of contact
 };
 
 template <class Query>
@@ -106,7 +106,7 @@ class pair_batch {
         if (test.at_start) rows_.after = rows_.before;
         check_pointers(test.caller, rows_);
         if (test.within) max_distance_ = test.within->max_distance();
-        // Rounding a vertex costs some 5 ns and saves some 10 ns a query.
+        // Rounding costs some 5 ns a vertex and saves some 10 ns a query.
         const bool many = cubic_pair<Pair> && 2 * pairs.size() > rows_.vertices;
         all_are_finite_ = many && all_finite(rows_.before, 3 * rows_.vertices) &&
                           all_finite(rows_.after, 3 * rows_.vertices);

@@ -24,15 +24,15 @@ inline bool is_due(stage_pause& pause) {
     return false;
 }
 
-/// Axes cost about as much as the next stage. If they decide fewer than a quarter of several blocks
-/// in a row, the next blocks skip them.
+/// Axes cost about as much as the next stage. If they decide fewer than a quarter of the queries in
+/// each of several successive blocks, the next blocks skip them.
 inline void update_pause(stage_pause& pause, std::size_t decided, std::size_t of) {
     constexpr std::size_t patience = 4, length = 124;
     pause.poor_blocks = 4 * decided < of ? pause.poor_blocks + 1 : 0;
     if (pause.poor_blocks >= patience) pause = {0, length};
 }
 
-/// A block of queries, in columns by point, end of the step, axis.
+/// A block of queries, in columns ordered by point, start or end of the step, axis.
 struct coordinate_columns {
     static constexpr std::size_t stride = block + 8;
     alignas(64) double at[24][stride];
@@ -110,7 +110,7 @@ template <kind K>
     });
 }
 
-/// Queries with too large differences stay uncertain.
+/// Queries whose differences are too large for the error bounds stay uncertain.
 template <kind K>
 [[gnu::flatten]] void test_inside(difference_queue<K>& waiting, double distance,
                                   const decisions& decided, pack_subdivision<K>& open) {

@@ -67,7 +67,7 @@ class timed_queries {
     const time_options& options_;
 };
 
-/// Returns the queries that are not separate, without times; answers[0] is that of query `first`.
+/// Returns the queries that are not separate, without times; answers[0] belongs to query `first`.
 /// Most are separate, so eight answers are skipped at once.
 std::vector<timed_contact> possible_contacts(std::span<const outcome> answers,
                                              std::size_t first = 0) {
@@ -85,7 +85,7 @@ std::vector<timed_contact> possible_contacts(std::span<const outcome> answers,
     return possible;
 }
 
-/// Works in blocks that stay in the first-level cache.
+/// Works in blocks that fit in the first-level cache.
 template <class Batch>
 void find_times(const batch_worker& worker, const Batch& batch, std::span<timed_contact> some) {
     using item = std::remove_cvref_t<decltype(batch.item(0))>;
@@ -108,13 +108,13 @@ void erase_later(std::vector<timed_contact>& contacts, double t_max) {
     });
 }
 
-/// Every thread has several chunks: one takes milliseconds if all queries collide.
+/// Every thread gets several chunks, because a chunk takes milliseconds if all its queries collide.
 std::size_t timed_chunk_size(std::size_t queries, int threads) {
     const auto all = static_cast<std::size_t>(threads_of(threads));
     return std::clamp<std::size_t>(queries / (8 * all), 256, chunk_size);
 }
 
-/// Times each chunk while its decisions are in the caches.
+/// Computes the times of each chunk while its decisions are in the caches.
 template <class Batch>
 std::vector<timed_contact> contacts_of_chunks(const Batch& batch, const time_options& options) {
     const std::size_t size = timed_chunk_size(batch.size(), options.threads);
@@ -208,10 +208,10 @@ earliest_time earliest_of_times(const std::vector<timed_contact>& contacts) {
     return std::move(all).sorted();
 }
 
-/// True if there is certainly no contact in [0, t_max], by a decision on that interval. std::lerp
-/// is off by at most 2^-50 M + 2^-1072 in every rounding direction, where M is the largest
-/// coordinate. Coordinates of the rounded motion are off by as much, and distances of two points by
-/// at most four times as much: half of the margin.
+/// True if a decision on [0, t_max] excludes contact there. With M the largest size of a
+/// coordinate, std::lerp has an error of at most 2^-50·M + 2^-1072 in every rounding direction.
+/// Coordinates of the rounded motion have no larger error. The distance of two points has less than
+/// four times that error, which the margin exceeds.
 template <class Query>
 bool is_certainly_later(const Query& query, separation d, double t_max) {
     constexpr std::size_t count = sizeof(Query) / sizeof(moving_point<double>);

@@ -1,5 +1,5 @@
-// Memory whose pages are first written by the thread that fills them: at the first write the system
-// clears the page, which takes as long as much of a step.
+// Memory whose pages are first written by the threads that fill them. The system clears a page at
+// the first write, which takes a large share of a step's time.
 #pragma once
 
 #include <memory>

@@ -1,5 +1,5 @@
-// ccd/exact/static_filter/subdivision.hpp over packs: halves the parts of all queries level by
-// level. Internal.
+// Subdivision (ccd/exact/static_filter/subdivision.hpp) over packs. Parts are intervals of a
+// query's step; those of all queries are halved level by level. Internal.
 #pragma once
 
 #include <array>

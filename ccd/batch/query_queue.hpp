@@ -11,7 +11,7 @@
 namespace ccd::detail::ERRBOUND_INSTRUCTION_SET {
 namespace {
 
-/// A stage runs when a block of queries waits for it.
+/// A stage runs when at least this number of queries waits for it.
 constexpr std::size_t block = 64;
 static_assert(block % width == 0);
 
@@ -33,13 +33,14 @@ struct query_queue {
     void put(std::size_t c, const pack& values, lanes some, std::size_t offset = 0) {
         compress(values, some, &column[c][size + offset]);
     }
-    /// Makes queries of the written numbers, with these lanes of `of` as ids.
+    /// Completes the queries whose numbers `put` has written: the lanes `some` of `of` are their
+    /// ids.
     void push_ids(const std::uint32_t* of, lanes some) {
         for_each_lane(some, [&](std::uint32_t lane) { ids[size++] = of[lane]; });
     }
 
-    /// Takes up to `limit` queries from the end, in packs: visit(at, count). The last pack's other
-    /// lanes hold zeros and must not be used.
+    /// Removes up to `limit` queries from the end and calls visit(at, count) for packs of them. In
+    /// the last pack, lanes from `count` on hold zeros and must not be used.
     template <class Visit>
     void pop_packs(std::size_t limit, const Visit& visit) {
         for (std::size_t i = size; i % width != 0; ++i)
@@ -50,8 +51,8 @@ struct query_queue {
     }
 };
 
-/// Queries by b, c, p at both ends of the step. A stage pushes at most a block, and runs when less
-/// than a block waits in the next queue.
+/// Queries stored as b, c, p at both ends of the step. A stage pushes at most a block, and runs
+/// only if less than a block waits in the next queue.
 template <kind K>
 struct difference_queue : query_queue<18, 2 * block> {
     using forms = linear_forms<K, pack>;

@@ -14,18 +14,20 @@
 
 namespace ccd::detail::rounded_axes {
 
-/// If two projections x ± y, computed in float, differ by more than this, their order is exact. In
-/// units of ε = 2^-23, for sizes up to 1.01: a coordinate is off by at most 1.01ε, a sum by 2.02ε
-/// of its coordinates and 2.02ε of its own, hence 4.04ε. A difference of two sums is off by 8.08ε
-/// and 4.04ε of its own, less than 13ε in all.
+/// If two projections x ± y, computed in float, differ by more than this, their order is exact.
+/// With ε = 2^-23 and sizes up to 1.01, a coordinate has an error of at most 1.01ε. A sum has 2.02ε
+/// from its coordinates and 2.02ε from its own rounding, hence 4.04ε. A difference of two sums has
+/// 8.08ε from them and 4.04ε from its own rounding, less than 13ε in all.
 inline constexpr float margin = 13 * std::numeric_limits<float>::epsilon();
 
-/// The least computed gaps along a coordinate axis and across two. The default proves separation.
+/// Bounds that a computed gap must exceed: `along` a coordinate axis, and `across` two, on x ± y.
+/// The default proves separation.
 struct least_gaps {
     float along = 0, across = margin;
 };
-/// Gaps that prove a distance, in units of the floats, rounded up by more than all rounding errors.
-/// The axis x ± y has length √2. Errors of single coordinates are less than those of sums.
+/// Gaps that prove more than `distance`, which is in units of the floats. They are rounded up by
+/// more than all rounding errors. The axis x ± y has length √2. Errors of single coordinates are
+/// less than those of sums.
 constexpr least_gaps gaps_beyond(double distance) {
     return {static_cast<float>(1.000001 * distance + 1.01 * double(margin)),
             static_cast<float>(1.414215 * distance + 1.01 * double(margin))};
@@ -49,9 +51,9 @@ class frame {
   public:
     frame() = default;
     explicit constexpr frame(const extent& e) {
-        // Halved before the addition, so that nothing overflows. The radius is measured from the
-        // rounded middle, which may be far from the centre of a scene of a few ulps. The scale is
-        // at most 2^1000, so that it is finite.
+        // Coordinates are halved before the addition, so that nothing overflows. The radius is
+        // measured from the rounded middle, which may be far from the centre of a scene of a few
+        // ulps. The scale is at most 2^1000, so that it is finite.
         double radius = 0;
         for (std::size_t k = 0; k < 3; ++k) {
             middle_[k] = e.low[k] / 2 + e.high[k] / 2;
@@ -88,8 +90,8 @@ constexpr S separated_by(const S (&start)[4], const S (&end)[4]) {
     return max(min(g0.above, g1.above), min(g0.below, g1.below));
 }
 
-/// Same as static_filter::separated_by_axes, in single precision, with these gaps. x[axis][end of
-/// the step][point] has points in the order of the indices; S is float or a pack.
+/// Same as static_filter::separated_by_axes, in single precision, with the gaps `least`.
+/// x[axis][end of the step][point] has points in the order of the indices; S is float or a pack.
 template <class Pair, class S>
 constexpr static_filter::mask<S> separated(const S (&x)[3][2][4], const least_gaps& least = {}) {
     using std::max;

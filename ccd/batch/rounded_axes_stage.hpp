@@ -19,7 +19,7 @@ using float_pack = pack_of<float>;
 constexpr std::size_t float_width = float_pack::size;
 static_assert(rounded_block % float_width == 0 && float_width % 4 == 0);
 
-/// Columns of rounded coordinates: by point, end of the step, axis.
+/// Columns of rounded coordinates, ordered by point, start or end of the step, axis.
 struct rounded_columns {
     alignas(64) float at[24][rounded_block + 16];
 

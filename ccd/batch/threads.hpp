@@ -41,7 +41,7 @@ int on_threads(int threads, const Work& work) {
     return arena.max_concurrency();
 }
 
-/// Calls visit(begin, end) for intervals of 0 to `count`, on at most `threads` threads.
+/// Calls visit(begin, end) for intervals that partition [0, count), on at most `threads` threads.
 template <class Visit>
 void for_each_part(std::size_t count, int threads, const Visit& visit) {
     constexpr std::size_t few = 64;

@@ -1,10 +1,10 @@
-// First times of colliding queries, over packs: the brackets of most. Internal.
+// Brackets the first times of most colliding queries, over packs. Internal.
 //
-// Every contact is at a root of Y. If Y certainly has exactly one root, that is the time. If it has
-// two, contact is at the first if all G_i are certainly positive there. It is at the second if one
-// is certainly negative there. Signs on two parts of the step determine the number of roots.
-// Newton's method finds the adjacent doubles around a root; signs of Y there, in twice double's
-// precision with an error bound, prove them.
+// Every contact is at a root of Y. If Y certainly has exactly one root, that root is the time. If Y
+// has two, the signs of the G_i at the first root decide. The time is the first root if all G_i are
+// certainly positive there, the second if one is certainly negative there. Signs on two parts of
+// the step determine the number of roots. Newton's method finds the adjacent doubles around a root;
+// signs of Y there, in twice double's precision with an error bound, prove them.
 #pragma once
 
 #include <ccd/kind.hpp>
@@ -33,7 +33,7 @@ template <int N>
 using pack_values = errbound::roots::control_values<pack, N>;
 
 /// Value and slope at t, by de Casteljau. The value's error exceeds that of the control values by
-/// 16ε of the largest. Proof: proofs/TimeStage.v, value_near.
+/// at most 16ε times the largest control value. Proof: proofs/TimeStage.v, value_near.
 template <int N>
 struct value_and_slope {
     pack value, slope;
@@ -46,8 +46,8 @@ struct value_and_slope {
     }
 };
 
-/// The parts of a cubic before and after t, with a further error of 32ε of its largest control
-/// value. Proof: proofs/TimeStage.v, lerp_near, parts_at.
+/// The parts of a cubic before and after t, with a further error of at most 32ε times its largest
+/// control value. Proof: proofs/TimeStage.v, lerp_near, parts_at.
 struct parts_of_cubic {
     pack_values<3> before, after;
 
@@ -78,9 +78,9 @@ class twofold_y {
                 start_[i] = (*axis)[0];
                 change_[i++] = (*axis)[1] - (*axis)[0];
             }
-        // A difference at t is off by 51u² of its largest size, a product of two by 116u² of
-        // theirs. N is off by 243u², and Y by 1166u² < 2^-95, of the extents' product. Proof:
-        // proofs/Twofold.v, y_near, time_stage_sign, error_enough.
+        // Relative to the products of the extents, a difference at t has an error of at most 51u²,
+        // a product of two 116u². N has 243u², and Y 1166u² < 2^-95. Proof: proofs/Twofold.v,
+        // y_near, time_stage_sign, error_enough.
         error_ = m.x * m.y * m.z * pack(0x1p-94);
         const pack least(0x1p-150), most(0x1p150);  // prevents underflow
         usable_ = m.usable & (min(min(m.x, m.y), m.z) > least) & (max(max(m.x, m.y), m.z) < most);
@@ -119,12 +119,14 @@ class twofold_y {
     pack_mask usable_;
 };
 
-/// A part of the step with certainly one root of Y, whose sign is `before` before it.
+/// An interval of the step with certainly one root of Y. `before` is the sign of Y before that
+/// root.
 struct pack_parts {
     pack from, to, before;
 };
 
-/// A root of Y, whose control values are y, and its slope there.
+/// An estimate of the root of Y in an interval, from the control values y, and the slope of Y near
+/// it.
 struct pack_roots {
     pack t, slope;
 
@@ -153,7 +155,7 @@ struct pack_roots {
 template <kind K>
 pack_times bracket_of_root(const twofold_y<K>& exact, const pack_roots& root,
                            const pack_parts& part, const pack_mask& wanted) {
-    // Control values are 3 times those of Y.
+    // The control values behind root.slope are 3 times those of Y.
     constexpr double scale = errbound::roots::multiple(3);
     pack t = root.t - pack(scale) * exact.at(root.t) / root.slope;
     t = min(max(t, part.from), part.to);
@@ -186,7 +188,7 @@ template <kind K>
 struct signs_at_root {
     pack_mask inside = pack_mask(true), outside = pack_mask(false);
 
-    /// y_error bounds the error of Y at any time. Y has the sign `before` before that root.
+    /// y_error bounds the error of Y at any time. Y has the sign `before` before its first root.
     signs_at_root(const static_filter::whole_step<pack, forms_of_kind<K>::template type>& whole,
                   const pack& y_error, const pack& t, const pack& before) {
         constexpr double reach = 0x1p-28;
@@ -273,12 +275,13 @@ class time_stage {
         return bracket_of_root(exact, root, part, certain);
     }
 
-    /// The extremum of y on the other side, where `sign` is the sign of y at 0; any value if none.
+    /// The time of the extremum at which y has the sign −`sign`, where `sign` is that of y at 0;
+    /// any value if there is none.
     static pack turning_point(const pack_values<3>& y, const pack& sign) {
         const pack d0 = y[1] - y[0], d1 = y[2] - y[1], d2 = y[3] - y[2];
         const pack root = sign * sqrt(max(d1 * d1 - d0 * d2, pack(0.0)));
-        // (d0 − d1 ± root)/(d0 − 2d1 + d2), whose numerators have the product d0·(d0 − 2d1 + d2).
-        // Use the one without cancellation.
+        // It is one of (d0 − d1 ± root)/(d0 − 2d1 + d2). The two numerators have the product d0·(d0
+        // − 2d1 + d2), so that the one without cancellation suffices.
         const pack q = (d0 - d1) + root, other = (d0 - d1) - root;
         return select(abs(q) >= abs(other), q / ((d0 - d1) - (d1 - d2)), d0 / other);
     }

@@ -1,9 +1,9 @@
 // Packs of numbers of twice double's precision: unevaluated sums of two doubles. Internal.
 //
-// With operands of sizes A and B and u = 2^-53, a sum is off by at most 5u²(A + B) and a product by
-// 13u²AB, without overflow. These are Dekker's short forms (1971), whose errors are relative to the
-// operands. Underflow: proofs/Twofold.v, sum_near, product_near, product_rounded,
-// product_rounded_fma.
+// Let operands have sizes of at most A and B, and u = 2^-53. Without overflow, a sum has an error
+// of at most 5u²(A + B), a product 13u²AB. These are Dekker's short forms (1971), whose errors are
+// relative to the operands. Proof, with underflow: proofs/Twofold.v, sum_near, product_near,
+// product_rounded, product_rounded_fma.
 #pragma once
 
 #include <errbound/error_free.hpp>

@@ -67,7 +67,7 @@ bool holds_at_start(staged_condition& c) {
     });
 }
 
-/// Polynomials of which one has the condition's first time as a root, if it is not 0.
+/// Returns polynomials, one of which has the condition's first time, if not 0, as a root.
 std::vector<staged_polynomial> candidates(staged_condition& c) {
     if (c.vanishing.empty()) return {};
     const auto is_zero = [](const staged_polynomial& p) { return p.is_zero(); };
@@ -99,7 +99,7 @@ first_time first_time_of(const exact_conditions& conditions, double t_max) {
             roots_in_time roots(std::move(p), 0, end);
             for (std::size_t k = 0; k < roots.size(); ++k) {
                 if (!sides_hold(c, [&](auto& side) { return roots.sign_at(side, k); })) continue;
-                // For another root in the same bracket, the order of the two is irrelevant.
+                // If another root lies in the same bracket, the order of the two is irrelevant.
                 const first_time found = at_root(roots, k);
                 if (first.outcome == outcome::separate || found.low < first.low ||
                     found.high < first.high)

@@ -1,12 +1,12 @@
 // Conditions on times, and the first time in [0, 1] at which one of them holds. Internal.
 //
-// The times at which some condition of a list holds must be a closed set, as those of contacts and
-// of distances <= d are. (The set of one condition need not be closed.) So there is a first time
-// t*, if any. If t* > 0, let a condition hold there:
+// The times at which some condition of a list holds must be a closed set, like the times of contact
+// and those of distances <= d. (The set of one condition need not be closed.) So there is a first
+// time t*, if any. If t* > 0, let a condition hold there:
 //  * If its `vanishing` are not all identically zero, t* is a root of their common factor.
 //  * Otherwise t* is a root of some `nonnegative`: polynomials that are not zero at t* keep their
 //    sign near it, and just before t* some `nonnegative` was negative.
-//  * For `also_below`, see there.
+//  * The case of `also_below` is argued there.
 // A condition without `vanishing` is tested at t = 0 only: if it begins to hold later, another
 // condition holds too. Proof: proofs/FirstConditions.v, first_is_candidate, candidate_holds.
 #pragma once
@@ -31,14 +31,15 @@ struct side_conditions {
 };
 
 /// Holds if all of `vanishing` are 0, none of `nonnegative` is negative, and some `not_all_zero`,
-/// if there are any, is not 0. `sides` computes the latter two on demand.
+/// if there are any, is not 0. `sides` computes `nonnegative` and `not_all_zero` on demand.
 template <class R>
 struct condition {
     std::vector<R> vanishing;
     std::function<side_conditions<R>()> sides;
-    /// It also holds where Z, its only `vanishing`, is negative: Z <= 0 means distance <= d. The
-    /// distance is continuous in t, so Z = 0 where it first holds. Proof: proofs/Separation.v,
-    /// vertices_first_within, vertex_edge_first_within, face_first_within, edges_first_within.
+    /// True if the condition also holds where Z, its only `vanishing`, is negative: Z <= 0 means
+    /// distance <= d. The distance is continuous in t, so Z = 0 where it first holds. Proof:
+    /// proofs/Separation.v, vertices_first_within, vertex_edge_first_within, face_first_within,
+    /// edges_first_within.
     bool also_below = false;
 };
 using exact_conditions = std::vector<condition<time_polynomial>>;
@@ -53,7 +54,8 @@ struct root_test {
     std::function<outcome(const errbound::tracked<double>&)> holds_at;
     std::function<exact_conditions()> conditions;
 };
-/// The same for conditions that hold at roots of y only. y must not be identically zero.
+/// Same as first_time_of, for conditions that hold at roots of y only. Precondition: y is not
+/// identically zero.
 first_time first_time_at_roots(const time_polynomial& y, const root_test& test, double t_max);
 
 }  // namespace ccd::detail

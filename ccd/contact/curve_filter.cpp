@@ -18,7 +18,8 @@ using errbound::sign_type;
 using number = errbound::tracked<double>;
 using polynomial = control_polynomial<number>;
 
-/// Rounding is monotone: if the rounded difference exceeds a double, so does the difference.
+/// True if p is certainly above q by more than `distance`. Rounding is monotone: if the rounded
+/// difference exceeds a double, so does the difference.
 bool above(std::span<const curve> p, std::span<const curve> q, double point<double>::*axis,
            double distance) {
     double low = std::numeric_limits<double>::infinity(), high = -low;

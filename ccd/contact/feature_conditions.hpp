@@ -4,7 +4,7 @@
 //
 // The least distance of two features is attained inside both, on an edge or at a vertex; if N = 0,
 // or an edge has no length, in a lower dimension. So the union is complete. Each condition implies
-// that some two points of the features are that near, so the union is not too large.
+// that some two points of the features are within that distance, so the union is not too large.
 #pragma once
 
 #include <array>
@@ -119,7 +119,7 @@ condition<R> contact_condition(const vertex_edge_paths<R>& q) {
                 return side_conditions<R>{list(dot(q.v - q.e0, q.e1 - q.v)), {}};
             }};
 }
-/// Conditions on the weights, where planes or lines meet or are at the distance.
+/// Returns the conditions on the weights, to add where planes or lines meet or are at the distance.
 template <class Forms>
 auto inside_conditions(const Forms& forms) {
     const auto inside = list(forms.inside());
@@ -144,7 +144,7 @@ condition<R> distance_condition(const vertex_vertex_paths<R>& q, const R& square
     const path<R> w = q.v - q.w;
     return {{dot(w, w)[0] - squared}, [] { return side_conditions<R>{}; }, true};
 }
-/// |E × W|² − D E·E on an edge with length, with the nearest point between its ends.
+/// Z = |E × W|² − D E·E, where the edge has a length and its nearest point is between its ends.
 template <class R>
 condition<R> distance_condition(const vertex_edge_paths<R>& q, const R& squared) {
     const path<R> w = q.v - q.e0, e = q.e1 - q.e0, moment = cross(e, w);
@@ -154,7 +154,7 @@ condition<R> distance_condition(const vertex_edge_paths<R>& q, const R& squared)
             },
             true};
 }
-/// (N·P)² − D N·N
+/// Z = (N·P)² − D N·N
 template <class Forms, class R>
 condition<R> distance_condition_inside(const Forms& forms, const R& squared) {
     const R y = forms.y()[0];
@@ -163,10 +163,10 @@ condition<R> distance_condition_inside(const Forms& forms, const R& squared) {
             true};
 }
 
-/// Calls visit(make) for every condition of distance² <= D, all axes in one unit; make() returns
-/// it. Proof: proofs/Distance.v, vertex_edge_within, face_within_union, edges_within_union; of
-/// first times, proofs/FirstConditions.v, vertex_edge_near_candidate, face_near_candidate,
-/// edges_near_candidate.
+/// Calls visit(make) for every condition of distance² <= D; make() returns the condition. All axes
+/// have one unit. Proof: proofs/Distance.v, vertex_edge_within, face_within_union,
+/// edges_within_union; of first times, proofs/FirstConditions.v, vertex_edge_near_candidate,
+/// face_near_candidate, edges_near_candidate.
 template <kind K, class R, class Visit>
 void visit_distance_conditions(const paths<K, R>& q, const R& squared, const Visit& visit) {
     if constexpr (K != kind::vertex_vertex)

@@ -13,10 +13,11 @@
 
 namespace ccd::detail {
 
-/// True if both parts are finite and not negative.
+/// True if both doubles of d are finite and not negative.
 bool is_distance(separation d);
 
-/// `floating_point_first` filters by ccd/contact/curve_filter.hpp; results are the same.
+/// `floating_point_first` first runs the filters of ccd/contact/curve_filter.hpp; results are the
+/// same.
 enum class arithmetic { integers, floating_point_first };
 
 /// Same as time_within, or as time_of_impact if d = 0 (ccd/contact.hpp). `points` are in the order

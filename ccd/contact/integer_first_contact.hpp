@@ -66,8 +66,9 @@ constexpr found_time first_contact_in_words(const Query<double>& query,
     return first_contact_converted<Words, Effort>(units.converted<Words>(query), query, units);
 }
 
-/// The same if floating point has found the interval of the first contact, with exactly one root of
-/// Y. Proof: proofs/ContactPart.v, face_part_bracket, edges_part_bracket.
+/// Same as first_contact_in_words, if floating point has found the interval `part` of the first
+/// contact, with exactly one root of Y. Proof: proofs/ContactPart.v, face_part_bracket,
+/// edges_part_bracket.
 template <int Words, template <class> class Query>
 constexpr found_time root_in_words(const Query<double>& query, const integer_units& units,
                                    const static_filter::contact_interval& part) {

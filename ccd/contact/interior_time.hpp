@@ -76,8 +76,8 @@ class interior_time : interior_contact<Words, Forms, Effort> {
     }
     constexpr outcome at_end(int end) const { return strict(forms_at_end(forms_, end)); }
 
-    /// A stack, as interior_contact::by_halving. Proof: proofs/InteriorTime.v, in_parts_right,
-    /// in_parts_ends.
+    /// Halves parts on a stack, like interior_contact::by_halving. Proof: proofs/InteriorTime.v,
+    /// in_parts_right, in_parts_ends.
     constexpr void in_parts(const inner_sign_changes& roots) {
         std::array<part, 3> waiting;
         std::size_t count = 0;
@@ -114,9 +114,9 @@ class interior_time : interior_contact<Words, Forms, Effort> {
     }
 
     /// Considers the part's root if it is certainly the only one, else returns false. Next to a
-    /// double root, the weights may be those at the double root. Proof: proofs/InteriorTime.v,
-    /// asked_root; that the weights are of a root inside the part: proofs/InteriorContact.v,
-    /// near_here.
+    /// double root, the weights may be taken at the double root. Proof: proofs/InteriorTime.v,
+    /// asked_root. Proof that the root of these weights is inside the part:
+    /// proofs/InteriorContact.v, near_here.
     constexpr bool root_of(const part& whole) {
         const bool others = this->three_real_roots_ || !this->distinct_;
         if (!whole.roots.opposite || (whole.roots.count > 1 && others)) return false;

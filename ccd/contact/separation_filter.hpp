@@ -43,8 +43,8 @@ inline vector from_segment(const vector& p, const vector& e) {
     return p + part_of(-dot(p, e), dot(e, e)) * e;
 }
 
-/// Returns a vector from a point of the first feature to one of the second that are about nearest:
-/// exact for these two points, except for rounding. x holds the points in the order of points_of.
+/// Returns the difference of two points: one of the second feature and one of the first, about the
+/// nearest to each other. It is exact except for rounding. x is in the order of points_of.
 inline vector nearest(const std::array<vector, 2>& x) {
     return x[1] - x[0];
 }
@@ -143,10 +143,11 @@ class features {
   private:
     static constexpr int max_depth = 10;
     static constexpr double largest_distance = 0x1p300;  ///< in units of size_
-    static constexpr double tiny = 0x1p-500;  ///< above the root of what products lose to underflow
+    static constexpr double tiny = 0x1p-500;  ///< above the square root of a product's underflow
 
-    /// True if two points are certainly nearer than d at an estimated time. There, `between`, which
-    /// is nearest_at(t), is shortest if its rate of change is that at t, or one such step later.
+    /// True if two points are certainly nearer than d at one of two estimated times. Each moves t
+    /// to where `between` would be shortest if it changed linearly. Precondition: between is
+    /// nearest_at(t).
     bool comes_near(double t, vector between, double low, double high) const {
         for (double step = (high - low) / 64; step > (high - low) / 1e6; step /= 1024) {
             const vector change = (1 / step) * (nearest_at(t + step) - between);
@@ -158,9 +159,10 @@ class features {
         return false;
     }
 
-    /// The error is at most 40ε·size_ in length. Positions are off by 2ε of a coordinate's largest
-    /// size m, differences by 5ε, multiples by up to 1 of these by 6ε. All sums of vectors of at
-    /// most 2m to 6m add 23ε. The 24ε of below_ include the root's own rounding.
+    /// The error is at most 40ε·size_ in length. Let m be a coordinate's largest size. Positions
+    /// are off by 2εm, their differences by 5εm, and these times a number in [0, 1] by 6εm. So
+    /// `nearest` is off by at most 30εm, for the edge from p + b along c − b. The factor 1 − 24ε of
+    /// below_ covers the rounding of the distance.
     vector nearest_at(double t) const {
         std::array<vector, count> x;
         for (std::size_t i = 0; i < count; ++i) x[i] = (1 - t) * start_[i] + t * end_[i];

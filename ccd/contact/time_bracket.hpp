@@ -22,15 +22,15 @@
 
 namespace ccd::detail {
 
-/// A double if low == high, else a time between the adjacent doubles. The lesser of two different
-/// brackets, by low and then by high, has the earlier time. Proof: proofs/TimeBrackets.v,
-/// lesser_bracket, least_bracket, bracket_of_first.
+/// Holds a time: a double if low == high, else a time between two adjacent doubles. The lesser of
+/// two different brackets, by low and then by high, has the earlier time. Proof:
+/// proofs/TimeBrackets.v, lesser_bracket, least_bracket, bracket_of_first.
 struct time_bracket {
     double low = 0, high = 0;
     friend constexpr auto operator<=>(const time_bracket&, const time_bracket&) = default;
 };
 
-/// x·2^exponent, up to a few units in the last place.
+/// Returns x·2^exponent, up to a few units in the last place.
 template <int Words>
 constexpr double approximated(const errbound::integers::fixed_integer<Words>& x, int exponent) {
     const int cut = std::max(0, x.bit_length() - 63);
@@ -72,7 +72,7 @@ class root_search {
             if (value->sign == errbound::sign_type::zero) return time_bracket{t, t};
             const bool earlier = value->sign == before;
             (earlier ? a : b) = x;
-            // A Newton step, as long as it stays inside the interval.
+            // A Newton step, if it stays inside the interval.
             const double next = t - value->size / errbound::value_at(slope_, t);
             if (corrections++ < max_corrections && next > double_of_order(a) &&
                 next < double_of_order(b)) {
@@ -94,15 +94,15 @@ class root_search {
 
   private:
     static constexpr int max_corrections = 3;
-    static constexpr std::int64_t farthest_step = std::int64_t{1}
-                                                  << 60;  ///< a power of 4, of 2^62 doubles
+    /// A power of 4; [0, 1] has almost 2^62 doubles.
+    static constexpr std::int64_t farthest_step = std::int64_t{1} << 60;
 
     struct value_type {
         errbound::sign_type sign;
         double size;  ///< approximates the value, in units of the floating-point coefficients
     };
 
-    /// For roots near 0, where the estimate lost all digits.
+    /// Returns an estimate for roots near 0, where the given one has lost all digits.
     constexpr double estimate_from_start(double low, double high) const {
         const double step = floating_[0] / -slope_[0];
         return low == 0 && step > 0 && step < high ? step : low + (high - low) / 2;
@@ -174,7 +174,7 @@ constexpr std::optional<time_bracket> bracket_of_quadratic_root(
         const double estimate = estimates[0] > 0 ? estimates[0] : estimates[1];
         return search.between(0, 1, first, estimate);
     }
-    // f has an extremum between the two roots, where its slope is zero.
+    // Between the two roots, f has an extremum, where its slope is zero.
     const errbound::bernstein<errbound::integers::fixed_integer<Words>, 1> slope{
         {f[1] - (f[0] << 1), (f[2] << 1) - f[1]}};
     const auto extreme = bracket_of_linear_root(slope);

@@ -18,7 +18,8 @@
 
 namespace ccd::detail {
 
-/// The first time, if `outcome` is `collides`; `uncertain` if fixed widths cannot determine it.
+/// `time` is the first time if `outcome` is `collides`. `uncertain`: fixed widths cannot determine
+/// it.
 struct found_time {
     ccd::outcome outcome = ccd::outcome::separate;
     time_bracket time{};

@@ -14,7 +14,7 @@ std::string fault_of_t_max(double t_max);
 
 bool has_coordinates(const positions& at);
 
-/// Queues options.method, except `exact`. `memory` is for a method_memory.
+/// Queues the stages of options.method, except `exact`. `memory` must suffice for a method_memory.
 template <class Pair>
 void queue_float_method(device_launcher& launcher, const positions& at,
                         const candidates<Pair>& candidates, outcome* answers, arena memory,

@@ -11,7 +11,7 @@ struct exact_memory;
 struct time_memory;
 struct times_request;
 
-/// Queues one method, except `exact`, for pairs of one kind.
+/// Queues the stages of one method, except `exact`, for pairs of one kind.
 template <class Pair>
 struct queue_function {
     void (*queue)(device_launcher& launcher, const positions& at,
@@ -25,7 +25,7 @@ struct device_method {
 extern const device_method device_float, device_safe, device_tight, device_safeccd,
     device_safeccd_tight;
 
-/// run_exact_stages and run_time_stages.
+/// These call run_exact_stages and run_time_stages.
 void queue_exact(device_launcher& launcher, const positions& at,
                  const candidates<vertex_face_pair>& candidates, outcome* answers,
                  const exact_memory& memory, precision p);

@@ -44,7 +44,8 @@ struct exact_stage {
     }
 };
 
-/// All candidates on nine axes, in floats. Candidates that are not finite go to no other stage.
+/// Tests all candidates on nine axes, in floats. Candidates that are not finite go to no other
+/// stage.
 template <class Pair>
 struct axes_stage : exact_stage<Pair> {
     const scene_extent* scene;
@@ -76,7 +77,8 @@ struct axes_stage : exact_stage<Pair> {
     }
 };
 
-/// The base of the tests of coefficients. In floats, differences are in units of the scene's size.
+/// The base of the stages that test coefficients. In floats, differences are scaled by
+/// scene->power_of_two().
 template <class Pair, class Real>
 struct coefficient_stage : exact_stage<Pair> {
     template <class S>
@@ -85,9 +87,9 @@ struct coefficient_stage : exact_stage<Pair> {
     const scene_extent* scene;
 
   protected:
-    /// The query's forms. Differences are rounded in doubles, then to Real, with an error of at
-    /// most ε in all, as in error_count::difference(), and η if it underflows.
-    /// Proof: proofs/RoundedAxes.v, converted_difference_near.
+    /// The query's forms. Differences are rounded in doubles, then to Real, with a relative error
+    /// of at most Real's ε in all, as in error_count::difference(), and η if they underflow. Proof:
+    /// proofs/RoundedAxes.v, converted_difference_near.
     constexpr forms<Real> forms_of_query(const query_of_pair<Pair, double>& query) const {
         if constexpr (std::is_same_v<Real, double>) {
             return forms<double>(query);
@@ -136,7 +138,7 @@ struct inside_stage : coefficient_stage<Pair, Real> {
     }
 };
 
-/// Y and G_i on ever smaller intervals of the step.
+/// Evaluates Y and the G_i on ever smaller intervals of the step.
 template <class Pair>
 struct subdivision_stage : exact_stage<Pair> {
     using base = exact_stage<Pair>;
@@ -156,7 +158,8 @@ struct subdivision_stage : exact_stage<Pair> {
     }
 };
 
-/// Integers of Words words. Candidates that need more words go to `open`, uncertain ones to `left`.
+/// Decides in integers of Words words. Candidates that need more words go to `open`, uncertain ones
+/// to `left`.
 template <class Pair, int Words>
 struct integer_stage : exact_stage<Pair> {
     queue left;
@@ -198,7 +201,8 @@ struct exact_memory {
           second(from.take<std::uint32_t>(queue_items(candidates))),
           left(from.take<std::uint32_t>(candidates)) {}
 
-    /// The capacity of the first two queues: at least one query (ccd/cuda/pairs.hpp).
+    /// The capacity of the first two queues. Each has room for at least one query, for finish_left
+    /// (ccd/cuda/pairs.hpp).
     static constexpr std::size_t queue_items(std::size_t candidates) {
         return candidates < 64 ? 64 : candidates;
     }

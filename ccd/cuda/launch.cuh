@@ -30,7 +30,7 @@ __global__ void __launch_bounds__(block_threads)
     if (i < n) body(static_cast<std::uint32_t>(i));
 }
 
-/// The resident blocks process the items in a loop, since only the device has their number.
+/// The resident blocks process the items in a loop, since the host has not read their number.
 template <class Body>
 __global__ void __launch_bounds__(block_threads) run_for_each_queued(const Body body, queue items) {
     const std::size_t n = *items.size;

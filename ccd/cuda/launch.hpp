@@ -13,7 +13,8 @@
 
 namespace ccd::cuda::detail {
 
-/// The 32 lanes of a warp; on the host, loops over them. All lanes call each function together.
+/// The 32 lanes of a warp; on the host, each function loops over them. All lanes call a function
+/// together.
 class warp {
   public:
     static constexpr std::uint32_t lanes = 32;
@@ -39,7 +40,7 @@ class warp {
         return bits;
 #endif
     }
-    /// A value of each lane, for the lane itself.
+    /// One value per lane, which only that lane accesses.
     template <class T>
     class per_lane {
       public:
@@ -63,8 +64,8 @@ class warp {
         return static_cast<std::uint32_t>(std::popcount(mask));
 #endif
     }
-    /// Reserves places in a queue of *size items: one for each bit of the lanes' masks. Sets each
-    /// lane's first place, and returns the new *size.
+    /// Reserves entries in a queue of *size items: one for each bit of the lanes' masks. Sets the
+    /// index of each lane's first entry, and returns the new *size.
     static constexpr std::uint64_t append(std::uint64_t* size, per_lane<std::uint32_t>& masks,
                                           per_lane<std::uint64_t>& places) {
 #ifdef __CUDA_ARCH__

@@ -61,7 +61,7 @@ struct method_stage {
     queue open;
 };
 
-/// Decides `separate` by Y's coefficients in T. Others stay undecided.
+/// Answers `separate` if Y's coefficients in T prove it. Other candidates stay undecided.
 template <class Method, class T, class Pair>
 struct never_coplanar_stage : method_stage<Pair> {
     constexpr void operator()(std::uint32_t i) const {

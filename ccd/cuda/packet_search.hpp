@@ -3,7 +3,8 @@
 // Boxes are sorted along a Morton curve, with 32 per node, so that nodes have no pointers. A warp
 // searches a tree with a packet, the 32 elements of one node: each lane tests one child, and a
 // ballot selects the children to visit. It queues the pairs whose rounded boxes touch; full warps
-// then make candidates of these. A search that fills the queue is repeated in smaller parts.
+// then test which of these are candidates. A search that fills the queue is repeated in smaller
+// parts.
 #pragma once
 
 #include <algorithm>
@@ -91,7 +92,7 @@ constexpr rounded_box swept_box(const rounded_position* rows, const elements<N>&
     return b;
 }
 
-/// For the exact, closed swept boxes of two elements.
+/// True if the exact, closed swept boxes of two elements touch.
 template <std::size_t A, std::size_t B>
 constexpr bool exactly_touch(const positions& at, const std::array<vertex_index, A>& a,
                              const std::array<vertex_index, B>& b) {
@@ -113,14 +114,15 @@ constexpr bool exactly_touch(const positions& at, const std::array<vertex_index,
 }
 
 /// Boxes of sorted elements, level by level: box i of a level is around boxes 32i to 32i + 31
-/// below it. There are no levels without elements; otherwise at least two.
+/// below it. Without elements there is no level; otherwise there are at least two, since a packet
+/// of the search is a box of level 1.
 struct box_levels {
     static constexpr std::uint32_t children = warp::lanes, child_bits = 5, max_levels = 8;
 
     const rounded_box* boxes = nullptr;
     std::uint32_t levels = 0;
     std::size_t start[max_levels] = {}, count[max_levels] = {};
-    std::size_t size = 0;  ///< of all levels, each in whole nodes
+    std::size_t size = 0;  ///< boxes of all levels, each level in whole nodes
 
     constexpr box_levels() = default;
     explicit constexpr box_levels(std::size_t leaves) {
@@ -194,7 +196,7 @@ struct search_counters {
     std::uint32_t candidates;
 };
 
-/// The packets of a tree and the leaves of another one that a launch compares.
+/// The packets of one tree, and the leaves of the same or another tree, that a launch compares.
 struct search_part {
     std::size_t packet, packets, leaf, leaves;
 
@@ -213,8 +215,8 @@ struct search_part {
     }
 };
 
-/// Queues the pairs of a packet's leaf and a leaf of `tree` whose boxes touch. If the trees are
-/// one, the second leaf is later than the first. A full queue is incomplete.
+/// Queues the pairs of a packet's leaf and a leaf of `tree` whose boxes touch. If the trees are the
+/// same, the second leaf is later than the first. If the queue overflows, pairs are missing.
 struct packet_search {
     box_levels searching, tree;
     bool one_tree;
@@ -266,11 +268,12 @@ struct packet_search {
         const rounded_box around = tree.box(1, node);
         const std::uint32_t own_mask =
             warp::ballot([&](std::uint32_t lane) { return load_box(own + lane).touches(around); });
-        // Each lane compares its leaf of one side with all of the other side, which has fewer.
+        // Each lane has a leaf of the side with more leaves, and compares it with all leaves of the
+        // other side.
         const bool swapped = warp::count(own_mask) < warp::count(mask);
         const std::uint32_t lanes_mask = swapped ? mask : own_mask;
         warp::per_lane<rounded_box> box;
-        warp::per_lane<std::uint32_t> found;  // bits of the other side
+        warp::per_lane<std::uint32_t> found;  // bits of the other side's leaves
         warp::each(
             [&](std::uint32_t lane) { box[lane] = load_box((swapped ? leaves : own) + lane); });
         for (std::uint32_t rest = swapped ? own_mask : mask; rest != 0; rest &= rest - 1) {
@@ -298,7 +301,7 @@ struct packet_search {
     }
 };
 
-/// Makes candidates of pairs that share no vertex and whose exact swept boxes touch.
+/// Turns a pair into a candidate if it shares no vertex and its exact swept boxes touch.
 template <std::size_t A, std::size_t B, class Pair>
 struct candidate_filter {
     positions at;

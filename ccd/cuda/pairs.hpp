@@ -65,7 +65,8 @@ void finish_left(Launcher& launcher, const positions& at, const candidates<Pair>
 }
 
 /// Decides the undecided candidates of run_exact_stages on all threads of the host. Returns the
-/// counters. Does nothing if more are left than there are candidates: the memory is not theirs.
+/// counters. Does nothing if the counters have more than all candidates left: then `memory` is not
+/// that of their stages.
 template <class Launcher, class Pair>
 exact_counters finish_exact(Launcher& launcher, const positions& at,
                             const candidates<Pair>& candidates, outcome* answers,

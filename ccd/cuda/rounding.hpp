@@ -12,17 +12,17 @@
 
 namespace ccd::cuda::detail {
 
-/// Four floats of a vertex: x y z at one end of the step, and padding.
+/// Four floats of a vertex: x y z at the start or the end of the step, and padding.
 struct alignas(16) rounded_position {
     float x, y, z, unused;
 };
 
-/// The box around all positions; `finite` if all are.
+/// The box around all positions. `finite` is true if all coordinates are.
 struct scene_extent {
     ccd::detail::rounded_axes::extent box;
     bool finite;
 
-    /// A power of two. Differences of coordinates, times it, are at most 4 in size.
+    /// Returns a power of two. Its products with differences of coordinates are at most 4 in size.
     constexpr double power_of_two() const {
         using traits = errbound::number_traits<double>;
         double half_extent = 0;

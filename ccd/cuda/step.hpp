@@ -17,7 +17,8 @@
 
 namespace ccd::cuda::detail {
 
-/// Sorting by the vertices of rows, from the last column to the first, orders the rows.
+/// Sets the keys to sort rows of vertices by one column. Stable sorts by each column, from the last
+/// to the first, order the rows.
 struct column_key {
     const std::array<vertex_index, 4>* rows;
     std::size_t column;
@@ -110,7 +111,7 @@ class step_memory {
         return tree;
     }
 
-    /// Works part after part; no part has more than block_ pairs.
+    /// Searches one part after the other; no part has more than block_ pairs.
     template <std::size_t A, std::size_t B, class Pair, class Decide>
     void run_search(Launcher& launcher, candidate_filter<A, B, Pair> filter, const Decide& decide,
                     buffer<Pair>& pairs, std::size_t& pair_count, std::size_t& candidates,

@@ -60,15 +60,16 @@ constexpr bool needs_any_time(const mesh_step_options& options) {
     return options.initial_contact || needs_first_contact(options);
 }
 
-/// Uncertain if the options do not require a first contact.
+/// The first contact of a step without pairs: `separate`, or `uncertain` if the options do not
+/// require it.
 constexpr first_time no_contact(const mesh_step_options& options) {
     return {needs_first_contact(options) ? outcome::separate : outcome::uncertain};
 }
 
 template <class Pair>
 struct pairs_and_times {
-    std::span<const Pair> pairs;        ///< in contact until t_max
-    std::span<const first_time> times;  ///< of these, with option `times`
+    std::span<const Pair> pairs;        ///< with a contact in [0, t_max]
+    std::span<const first_time> times;  ///< of these pairs, with option `times`
     std::span<const Pair> touching_at_start;
 };
 

@@ -22,7 +22,7 @@ namespace ccd::cuda::detail {
 
 struct times_request {
     double t_max;
-    bool earliest;  ///< only those at the start, and the least of the others
+    bool earliest;  ///< find only times at the start, and the earliest of the others
 };
 
 template <class Pair>

@@ -1,7 +1,7 @@
-// Converts coordinates to integers, with a power of two as unit for each axis: integers stay short
-// if one axis is much smaller than the others. Units scale all equations of a contact by positive
-// factors, so contact does not depend on them. Proof: proofs/AxisUnits.v, face_units, edges_units,
-// vertex_edge_units.
+// Converts coordinates to integers, with a power of two as unit for each axis. So integers need few
+// bits even if one axis is much smaller than the others. Units scale all equations of a contact by
+// positive factors, so contact does not depend on them. Proof: proofs/AxisUnits.v, face_units,
+// edges_units, vertex_edge_units.
 #pragma once
 
 #include <algorithm>
@@ -30,11 +30,11 @@ struct axis_extent {
             low0 = std::min(low0, x0), high0 = std::max(high0, x0);
             low1 = std::min(low1, x1), high1 = std::max(high1, x1);
         }
-        // Rounding is monotone, so an exact difference is below the same powers of two as the
+        // Rounding is monotone, so an exact difference is below every power of two that exceeds the
         // rounded one. If it overflows, it is below 2^1025, and end_bit() is 1025. Proof:
         // proofs/IntegerUnits.v, extent_bits_enough.
         const errbound::integers::binary_double extent(std::max(high0 - low0, high1 - low1));
-        if (last == std::numeric_limits<int>::max()) return;  // all are zero
+        if (last == std::numeric_limits<int>::max()) return;  // all coordinates are zero
         unit = last;
         bits = std::max(0, extent.end_bit() - unit);
     }

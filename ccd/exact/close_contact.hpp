@@ -4,8 +4,8 @@
 // Y is kept on a subinterval of [0, 1] by its exact coefficients there. Floating point estimates
 // its root, or the extremum between two roots. Exact coefficients on a narrow part around it prove
 // the estimate: a step gains some 40 bits, or 20 around two roots. Exponents of coefficients show
-// roots near an end. If nothing works, the part is halved. G_i are bounded again each time that the
-// position has half as many bits more.
+// roots near an end. If nothing works, the part is halved. The signs of the G_i are tested again
+// each time that the number of bits of the position has grown by half.
 //
 // A query is `uncertain` if a position needs more than `max_bits` bits.
 #pragma once
@@ -29,13 +29,15 @@
 
 namespace ccd::detail {
 
-/// The estimated extremum of a cubic inside (0, 1) and the distance of the two roots around it.
-/// Coefficients are scaled. Nothing if the slopes at the ends do not show an extremum.
+/// Estimates: an extremum of a cubic inside (0, 1), and the distance of two roots from it.
 struct root_pair {
     double middle, radius;
 };
+/// Returns nothing unless the slopes of h0·s³ + h1·s²t + h2·st² + h3·t³ at the ends have opposite
+/// signs.
 inline std::optional<root_pair> estimated_pair(const std::array<double, 4>& h) {
-    // The derivative is d0·s² + d1·st + d2·t². Its root t/s comes from the larger of two terms.
+    // The derivative is d0·s² + d1·st + d2·t². Both terms of q have the same sign, so its positive
+    // root t/s is not a difference of close numbers.
     const double d0 = h[1] - 3 * h[0], d1 = 2 * (h[2] - h[1]), d2 = 3 * h[3] - h[2];
     if (!(d0 * d2 < 0)) return {};
     const double q = -(d1 + std::copysign(std::sqrt(d1 * d1 - 4 * d0 * d2), d1)) / 2;
@@ -102,7 +104,7 @@ class close_contact {
     /// Coefficients of at most this size can be narrowed once more. Proof: proofs/CloseContact.v,
     /// close_widths, narrowed_fits.
     static constexpr int most_y_bits = 64 * y_words - 3 * most_at_once - 8;
-    /// interior_contact has tested G_i before this position.
+    /// The G_i are tested on parts of width 2^-40 or less; interior_contact has tested wider ones.
     static constexpr int first_tested_bits = 40;
 
     using place_number = number<place_words>;
@@ -241,8 +243,8 @@ class close_contact {
         return {};
     }
 
-    /// The signs of all G_i from low/2^bits to less than (low + 2^width_bits)/2^bits, or at
-    /// low/2^bits without a width, as decided_by_weights. Proof: proofs/CloseContact.v,
+    /// Returns decided_by_weights for all t from low/2^bits to less than (low +
+    /// 2^width_bits)/2^bits; without a width, at low/2^bits. Proof: proofs/CloseContact.v,
     /// inside_from_right.
     outcome inside_from(const place_number& low, int bits, std::optional<int> width_bits) const {
         using known = bounded_integer<number<coordinate_words + place_words>>;

@@ -2,7 +2,7 @@
 //
 // Two quadratics that are not proportional have at most one common root, and it is rational. There
 // (s², st, t²) is parallel to the cross product m of their coefficient vectors. A vector m has that
-// form exactly if m1² = m0·m2.
+// form if and only if m1² = m0·m2.
 //
 // Widths, for quadratics of 2W words that are products of two differences (|f0|, |f2| <= 2D²,
 // |f1| <= 4D², D = 2^(64W − 3)): m in 4W words (16D⁴), m1² in 8W, f·m in 6W (96D⁶).

@@ -45,8 +45,8 @@ struct inner_sign_changes {
     }
 };
 
-/// The Hessian of a cubic form, a quadratic form. A double root of y is a double root of it; it is
-/// zero if y has a triple root. 4·h0·h2 − h1² is 3 times the discriminant: positive for three
+/// The Hessian of a cubic form y, a quadratic form h. A double root of y is a double root of h; h
+/// is zero if y has a triple root. 4·h0·h2 − h1² is 3 times the discriminant: positive for three
 /// distinct real roots t/s (infinity included), negative for one and a complex pair. If |y_i| <=
 /// 18D³ <= 2^(64·Words − 4.8), it fits in 2·Words words (at most 648D⁶). Proof:
 /// proofs/CubicRoots.v, any_change, one_real_root, double_root_place, triple_root_place.
@@ -96,8 +96,8 @@ constexpr double estimated_root(const std::array<double, 4>& h) {
     return t;
 }
 
-/// A cubic on [index, index + 1]/2^level, times a power of two. Each halving multiplies its
-/// coefficients by 8; the two spare words suffice for `max_halvings`.
+/// A cubic on the interval [index, index + 1]/2^level of the step, times a power of two. Each
+/// halving multiplies its coefficients by 8; the two spare words suffice for `max_halvings`.
 template <int Words>
 struct cubic_part {
     static constexpr int max_halvings = 40;

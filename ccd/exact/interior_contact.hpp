@@ -35,7 +35,8 @@ enum class effort { whole, limited };
 template <effort E>
 using effort_constant = std::integral_constant<effort, E>;
 
-/// Forms are over integers of Words words. Precondition: differences are below 2^(64·Words − 3).
+/// Forms are over integers of W = Words words. Precondition: coordinate differences are below
+/// D = 2^(64W − 3).
 template <int Words, template <class, int> class Forms, effort Effort = effort::whole>
 class interior_contact {
   public:
@@ -82,8 +83,9 @@ class interior_contact {
     }
 
     /// Returns the multiple root of Y inside (0, 1) as the root of c0·s + c1·t with c0 <= 0 < c1,
-    /// and sets the flags for other roots. The Hessian's discriminant has 12W words (2^20.2·D^12).
-    /// Proof: proofs/CubicRoots.v, one_real_root, double_root_place, triple_root_place.
+    /// and sets the flags for other roots. The Hessian's discriminant is at most 2^20.2·D^12, so it
+    /// fits in 12W words. Proof: proofs/CubicRoots.v, one_real_root, double_root_place,
+    /// triple_root_place.
     constexpr std::optional<errbound::bernstein<number<6 * Words>, 1>> multiple_root() {
         const auto h = hessian(y_);
         const auto discriminant = sign_of(((h[0] * h[2]) << 2) - h[1] * h[1]);
@@ -102,7 +104,8 @@ class interior_contact {
         return {};
     }
 
-    /// `uncertain` if Y may have other roots. G has 28W words here (2^47·D^28).
+    /// Returns `uncertain` if Y may have other roots. The G_i are at most 2^47·D^28, so they fit in
+    /// 28W words.
     constexpr outcome at_multiple_root() {
         const auto root = multiple_root();
         if (root && all_positive(forms_at(forms_, (*root)[1], -(*root)[0])))
@@ -206,9 +209,9 @@ class interior_contact {
                sign_type::negative;
     }
 
-    /// The signs of all G_i between t = low/2^bits and (low + width)/2^bits, width < 2^width_bits,
-    /// as decided_by_weights. Differences at low, times 2^bits, are cut to T words with one unit
-    /// for each axis. This keeps the signs of G_i at roots of Y. Proof: proofs/InteriorContact.v,
+    /// Returns decided_by_weights for all t from low/2^bits to (low + width)/2^bits, width <
+    /// 2^width_bits. Differences at low, times 2^bits, are cut to T words with one unit for each
+    /// axis. This keeps the signs of G_i at roots of Y. Proof: proofs/InteriorContact.v,
     /// throughout_right.
     template <int T>
     constexpr outcome throughout(const number<T>& low, int bits, int width_bits) const {

@@ -1,4 +1,5 @@
-// The reference decisions. A query collides exactly if one of these holds (algebra in brackets):
+// The reference decisions. A query collides if and only if one of these holds (algebra in
+// brackets):
 //  * VF, EE: Y = 0, N ≠ 0 and all G_i >= 0 at some t in [0, 1]    [roots of the cubic Y]
 //  * one of three (VF) or four (EE) vertex/edge contacts
 //  * VE: W × E = 0 and W·(W − E) <= 0 at some t [roots of a common factor], with W = v − e0,

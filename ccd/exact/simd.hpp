@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <xsimd/xsimd.hpp>
 
-#ifndef ERRBOUND_INSTRUCTION_SET  // what is compiled but once
+#ifndef ERRBOUND_INSTRUCTION_SET  // for files that are compiled only once
 #define ERRBOUND_INSTRUCTION_SET baseline
 #endif
 
@@ -101,7 +101,8 @@ inline pack neighbour(const pack& t, const pack_mask& after) {
 }
 
 #if defined __AVX2__ && !defined __AVX512F__
-/// For each set of four lanes, the order that moves them to the front (as halves of doubles).
+/// For each subset of four lanes, the order that moves its lanes to the front (as halves of
+/// doubles).
 struct lane_orders {
     alignas(32) std::int32_t halves[16][8];
 

@@ -52,7 +52,8 @@ inline bool vertex_touches_edge(const vertex_edge<integer>& query) {
     for (const auto* f : {&off_line.x, &off_line.y, &off_line.z})
         on_line = errbound::roots::common_factor(on_line, errbound::roots::without_end_roots(*f));
     if (on_line.empty()) {
-        // Both ends are positive here, so a value <= 0 inside needs real roots with t/s > 0.
+        // W·(W − E) is positive at both ends here, so a value <= 0 inside needs real roots with t/s
+        // > 0.
         return beyond.h[1] < 0 && beyond.h[1] * beyond.h[1] >= 4 * beyond.h[0] * beyond.h[2];
     }
     if (on_line.size() < 2) return false;

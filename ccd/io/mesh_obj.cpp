@@ -227,7 +227,7 @@ class obj_parser {
     std::vector<vertex_index> corners_;  ///< of the last element
     std::vector<std::array<vertex_index, 1>> points_;
     std::vector<std::size_t> face_lines_, edge_lines_, point_lines_;
-    std::size_t line_ = 0;  ///< the first of those joined
+    std::size_t line_ = 0;  ///< the first of the joined lines
 };
 
 }  // namespace

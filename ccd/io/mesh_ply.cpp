@@ -116,8 +116,8 @@ class body_reader {
         }
     }
 
-    /// The bytes of an element, if all have the same number. Assumes that faces are triangles: the
-    /// share with the first other face reads that face, and fails.
+    /// The bytes of an element, if every element has the same number of bytes. Assumes that faces
+    /// are triangles: the share that holds the first other face fails when it reads that face.
     static std::optional<std::size_t> bytes_of_each(const element& e) {
         std::size_t bytes = 0;
         for (const property& p : e.properties) {

@@ -20,7 +20,7 @@
 
 namespace ccd::io::ply {
 
-/// A type of values. The alternative is the type; its value has no meaning.
+/// A type of property values. The variant's alternative is the type; its value has no meaning.
 using scalar = std::variant<std::int8_t, std::uint8_t, std::int16_t, std::uint16_t, std::int32_t,
                             std::uint32_t, float, double>;
 
@@ -90,7 +90,7 @@ class binary_values {
         return true;
     }
 
-    /// Skips the other properties of the element; each() skips one.
+    /// Skips an element: each() skips all its properties.
     template <class Each>
     void skip_rest(const Each& each) {
         each();
@@ -166,7 +166,7 @@ class ascii_values {
 
     bool skip_elements(std::size_t, std::uint64_t) { return false; }
 
-    /// The line is the element.
+    /// Has nothing to skip, because the line holds the whole element.
     template <class Each>
     void skip_rest(const Each&) {}
 

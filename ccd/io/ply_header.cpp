@@ -76,7 +76,7 @@ class header_parser {
             const std::string_view keyword = take_word(rest_);
             if (keyword == "end_header") break;
             if (keyword == "comment" || keyword == "obj_info") continue;
-            // Some readers would end a line there, or a word.
+            // Some readers would end a line or a word at a control character.
             if (std::ranges::any_of(line_, is_control)) fail_expecting("no control characters");
             if (keyword == "format") {
                 if (has_format) fail("number of format lines is 2; expected 1");

@@ -305,7 +305,7 @@ query_file read_queries(const fs::path& path, std::optional<ccd::kind> kind, boo
                              ", which are skipped");
         return range.first + std::min(range.count, size - range.first);
     };
-    if (is_store_file(path)) {  // of which only the range is read
+    if (is_store_file(path)) {  // only the range is read
         const auto store = open_store(path);
         kind_in(*store, path.string(), kind);
         return store->read(range.first, end_in(store->size()));

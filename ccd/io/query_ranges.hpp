@@ -20,7 +20,7 @@ inline constexpr std::size_t rows_per_query = 8;
 /// Rows of whole queries, except the last range of a truncated CSV file.
 struct query_range {
     std::uint64_t begin = 0, end = 0;  ///< bytes; of a store: queries
-    std::uint64_t rows = 0;            ///< before it
+    std::uint64_t rows = 0;            ///< before the range
 };
 
 struct query_index {
@@ -37,7 +37,7 @@ class truth_file {
     explicit truth_file(const std::filesystem::path& queries);
 
     /// Adds the truth to queries from `first` on; if `is_last`, the truth must end with them.
-    /// Throws errbound::support::file_error unless the numbers match.
+    /// Throws errbound::support::file_error unless the numbers of queries and truths match.
     void add_to(query_file& queries, std::uint64_t first, bool is_last) const;
 
   private:
@@ -51,7 +51,7 @@ class range_reader {
     range_reader(std::filesystem::path path, std::optional<ccd::kind> kind, bool round,
                  query_index index);
 
-    /// Returns and throws as read_queries, with the file's line numbers.
+    /// Same as read_queries, with line numbers of the whole file.
     query_file read(std::size_t range);
 
   private:

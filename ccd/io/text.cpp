@@ -24,7 +24,7 @@ constexpr number fail(number_status status) {
 
 constexpr std::string_view blanks = " \t";
 
-/// Takes an optional sign off the front; true for a minus.
+/// Takes an optional sign off the front. Returns true for a minus.
 bool take_sign(std::string_view& token) {
     const bool negative = token.starts_with('-');
     if (negative || token.starts_with('+')) token.remove_prefix(1);
@@ -33,7 +33,7 @@ bool take_sign(std::string_view& token) {
 
 /// The double equal to n/d (n, d > 0), or with `round` the nearest one.
 number nearest_quotient(const cpp_int& n, const cpp_int& d, bool round) {
-    // e = floor(log2(n/d)), first up to one too large.
+    // e = floor(log2(n/d)); the first value may be one too large.
     long e = static_cast<long>(msb(n)) - static_cast<long>(msb(d));
     if (e >= 0 ? n < (d << static_cast<unsigned>(e)) : (n << static_cast<unsigned>(-e)) < d) --e;
     if (e > 1023) return fail(number_status::overflow);
@@ -49,7 +49,7 @@ number nearest_quotient(const cpp_int& n, const cpp_int& d, bool round) {
         const cpp_int twice = r << 1;
         if (twice > scaled_d || (twice == scaled_d && bit_test(q, 0))) ++q;
     }
-    // q ≤ 2^53, so both the conversion and ldexp are exact, or the latter overflows.
+    // q ≤ 2^53, so the conversion is exact, and ldexp is exact or overflows.
     const double value =
         std::ldexp(static_cast<double>(q.convert_to<std::uint64_t>()), static_cast<int>(lsb));
     if (std::isinf(value)) return fail(number_status::overflow);
@@ -114,7 +114,7 @@ number parse_hexadecimal(std::string_view token, bool round) {
 template <class T>
 number parse_decimal(std::string_view token) {
     using errbound::support::decimal_status;
-    // parse_decimal would take a second minus.
+    // parse_decimal would accept a second minus.
     if (token.starts_with('-')) return fail(number_status::malformed);
     const auto [value, status] = errbound::support::parse_decimal<T>(token);
     if (status == decimal_status::malformed) return fail(number_status::malformed);

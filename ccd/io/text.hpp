@@ -26,10 +26,12 @@ constexpr bool is_control(char c) {
 /// Removes blanks (space, tab) at both ends.
 std::string_view trimmed(std::string_view text);
 
-/// Takes the next line off the front, without its line end (LF, CRLF or CR). Nothing at the end.
+/// Takes the next line off the front, without its line end (LF, CRLF or CR). Returns nothing at the
+/// end of the text.
 std::optional<std::string_view> take_line(std::string_view& text);
 
-/// Takes the next run of characters that are not blanks off the front; empty at the end.
+/// Takes the next run of characters that are not blanks off the front. Returns an empty word at the
+/// end.
 std::string_view take_word(std::string_view& line);
 
 /// Throws errbound::support::file_error: "NAME:LINE: what".
@@ -67,8 +69,8 @@ enum class number_status {
     too_long,          ///< more digits than longest_number
 };
 
-/// Bounds the digits of a rational or hexadecimal number, and so the time for it. No double needs
-/// more than 1100.
+/// The most digits of a rational or hexadecimal number, which bounds the time to read it. No double
+/// needs more than 1100 digits.
 inline constexpr std::size_t longest_number = 4096;
 
 struct number {

@@ -42,7 +42,7 @@ std::string name_of_scene(const fs::path& folder) {
     return (folder.filename() == "frames" ? folder.parent_path() : folder).filename().string();
 }
 
-/// Adds the source, under its folder's whole path if another one has its name.
+/// Adds the source. Its name becomes the folder's whole path if another source has the same name.
 void add(data_source source, const fs::path& folder, found_data& found) {
     const auto same = [&source](const data_source& other) { return other.name == source.name; };
     if (std::ranges::any_of(found.sources, same)) source.name = folder.generic_string();
@@ -127,7 +127,7 @@ class numbered_elements {
     const std::vector<face>& faces_;
 };
 
-/// Compares stored truth, if any, with that of `exact`. Adds the files' contents.
+/// Compares stored truth, if any, with that of `exact`. Appends the files' bytes to `contents`.
 template <class Query>
 void compare_stored(const fs::path& frame, const numbered_elements& elements,
                     queries_with_truth<Query>& known, std::string& contents) {
@@ -158,7 +158,7 @@ void compare_stored(const fs::path& frame, const numbered_elements& elements,
         known.contradictions += expected != (known.collides[i] != 0);
         if (entry != stored.end()) stored.erase(entry);
     }
-    // Pairs that are no candidates cannot collide: their swept boxes are apart.
+    // Stored pairs that are no candidates cannot collide: their swept boxes are apart.
     known.contradictions += static_cast<std::size_t>(
         std::ranges::count_if(stored, [](const auto& left) { return left.second; }));
 }
@@ -220,7 +220,7 @@ loaded_data generated(std::string_view name, std::string_view origin, std::size_
     auto data = std::make_unique<data_set>();
     data->name = name;
     data->origin = origin;
-    data->fingerprint = fingerprint_of(name);  // the program's own covers the rest
+    data->fingerprint = fingerprint_of(name);  // the program's fingerprint covers the generator
     data->queries.for_each([&]<class Query>(queries_with_truth<Query>& into) {
         for (std::uint64_t i = 0; i < count; ++i)
             into.queries.stored.push_back(as_query<Query>(make(i, kind_of<Query>)));

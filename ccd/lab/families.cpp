@@ -46,22 +46,22 @@ double power_of_two(double knob) {
     return knob == exact_zero ? 0 : std::ldexp(1, static_cast<int>(knob));
 }
 
-/// The knob as an exponent; for exact zero one that scales every double to zero.
+/// The knob as an exponent; for exact_zero, an exponent that scales every double to zero.
 int exponent_of(double knob) {
     return knob == exact_zero ? -3000 : static_cast<int>(knob);
 }
 
-/// [0, 1), a multiple of 4 units.
+/// Draws a number in [0, 1), a multiple of 4 units.
 double lattice(source& random) {
     return std::ldexp(static_cast<double>(random.bits() >> 16), -48);
 }
 
-/// [0, 1), a multiple of 64 units.
+/// Draws a number in [0, 1), a multiple of 64 units.
 double coarse(source& random) {
     return std::ldexp(static_cast<double>(random.bits() >> 20), -44);
 }
 
-/// [1/2, 1), a multiple of 4 units.
+/// Draws a number in [1/2, 1), a multiple of 4 units.
 double length(source& random) {
     return 0.5 + std::ldexp(static_cast<double>(random.bits() >> 17), -48);
 }
@@ -94,7 +94,7 @@ points placed(source& random, const local_points& local, std::size_t fine = 3) {
     });
 }
 
-/// Corners rotated, or edges and their ends exchanged: the same contact.
+/// Rotates the corners, or exchanges the edges and their ends. Contacts stay the same.
 points relabelled(source& random, kind which, points p) {
     if (which == kind::vertex_face) {
         std::rotate(p.begin() + 1, p.begin() + 1 + random.between(0, 2), p.end());
@@ -111,7 +111,7 @@ points reversed_in_time(points p) {
     return p;
 }
 
-/// Triangle (0, 0), (l, 0), (c, h) in the plane z = 0, the same at both ends.
+/// Sets the triangle (0, 0), (l, 0), (c, h) in the plane z = 0, the same at both ends of the step.
 void set_triangle(local_points& p, double l, double c, double h) {
     p[1] = {};
     for (std::size_t end = 0; end < 2; ++end) {
@@ -165,7 +165,8 @@ points of_axis_scale(source& random, kind which, double knob) {
                });
 }
 
-/// Half in contact, as near as rounding allows; half of small whole numbers, with exact ties.
+/// Half of the queries are in contact, as nearly as rounding allows. Half have small whole numbers,
+/// with exact ties.
 points of_point_scale(source& random, kind which, double knob) {
     const auto exponent = static_cast<int>(knob);
     const auto scaled = static_cast<std::size_t>(random.between(0, 3));
@@ -198,8 +199,8 @@ points of_displacement(source& random, kind which, double knob) {
     return random.one_in(2) ? p : shifted(random, which, p, exponent - random.between(0, 30));
 }
 
-/// At rest except for a common motion: above the middle of the other feature by the gap, or in its
-/// plane and outside or inside its border by the gap.
+/// Features at rest except for a common motion. One is above the middle of the other by the gap, or
+/// in its plane and outside or inside its border by the gap.
 points of_resting_gap(source& random, kind which, double knob) {
     const double gap = power_of_two(knob);
     const double l = length(random), h = length(random);
@@ -224,8 +225,8 @@ points of_resting_gap(source& random, kind which, double knob) {
     return relabelled(random, which, placed(random, p));
 }
 
-/// From the gap to nothing, to one unit less or more than that, or half way (a single unit stays):
-/// from above, or within the plane of the other feature.
+/// The gap shrinks to 0, to plus or minus one unit, or to its half (a gap of one unit stays). The
+/// motion is from above, or within the plane of the other feature.
 points of_approached_gap(source& random, kind which, double knob) {
     const double gap = power_of_two(knob);
     const double l = length(random), h = length(random);
@@ -262,9 +263,9 @@ double border_weight(source& random) {
     return std::ldexp(random.one_in(2) ? 1 : -1, exponent);
 }
 
-/// A vertex passes a triangle of the given heights over its base, or an edge passes one of the
-/// given lengths. The weights w (of the height) and u are constant. Heights are on a separate axis,
-/// so that even the tiniest are exact.
+/// A vertex passes a triangle with the given heights over its base, at the start and the end of the
+/// step; or an edge passes an edge of these lengths. The weights w (of the height) and u are
+/// constant. Heights are on a separate axis, so that even the tiniest are exact.
 points passing_thin(source& random, kind which, const std::array<double, 2>& height) {
     const double l = random.between(4, 8) / 8.0, c = random.between(0, 8) / 8.0;
     // At most one of the weights is off a border, so that their product is exact.
@@ -289,7 +290,8 @@ points passing_thin(source& random, kind which, const std::array<double, 2>& hei
     return relabelled(random, which, placed(random, p, 1));
 }
 
-/// Half are exact; half are in general position, as near to it as rounding allows.
+/// Half of the slivers are exact. Half are in general position, with a height as near to the knob's
+/// as rounding allows.
 points of_sliver(source& random, kind which, double knob) {
     const double height = power_of_two(knob);
     if (random.one_in(2)) return passing_thin(random, which, {height, height});
@@ -333,7 +335,7 @@ points of_angle(source& random, kind which, double knob) {
     return relabelled(random, which, placed(random, p, 1));
 }
 
-/// Half about a plane through the origin, where even the smallest noise is kept.
+/// Half of the queries are near a plane through the origin, where even the smallest noise is kept.
 points of_coplanar(source& random, kind which, double knob) {
     const points p = random.one_in(3) ? uniform(random) : near_decision(random, which);
     const auto flat = static_cast<std::size_t>(random.between(0, 2));
@@ -349,8 +351,8 @@ double units_of(double knob) {
                      : std::copysign(std::ldexp(unit, static_cast<int>(std::abs(knob)) - 1), knob);
 }
 
-/// Starts units_of(knob) beyond the other feature's plane, and moves away from it: there is contact
-/// exactly if that is 0 or more.
+/// Starts units_of(knob) below the other feature's plane, and moves upwards: there is contact if
+/// and only if units_of(knob) >= 0.
 points of_touch_at_start(source& random, kind which, double knob) {
     const double start = -units_of(knob);
     const double l = length(random), h = length(random), rise = length(random);
@@ -420,7 +422,7 @@ points of_roots(source& random, kind which, double knob) {
     const int eighth = random.between(1, 7);
     const bool general = random.one_in(2);
     const auto rounded = [general](double x) { return general ? unit * std::round(x / unit) : x; };
-    // Contact inside, on the border, or beyond it by 2^-40.
+    // The contact is inside, on the border, or outside by 2^-40.
     const auto weight = [&random] {
         const int pick = random.between(0, 5);
         return pick == 0 ? 0 : pick == 1 ? -0x1p-40 : random.between(1, 3) / 8.0;

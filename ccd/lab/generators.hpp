@@ -185,7 +185,7 @@ inline points on_line(source& random, const points& p) {
     });
 }
 
-// One point takes another's place, at one end or both.
+// One point takes the position of another, at the start, the end or both.
 inline points merged(source& random, points p) {
     const auto from = static_cast<std::size_t>(random.between(0, 3));
     const auto to = static_cast<std::size_t>(random.between(0, 3));
@@ -257,8 +257,8 @@ inline std::array<position, 4> positions(source& random) {
 }
 
 // A contact at one instant, as near as rounding allows: moves the first feature of `at` (EE: the
-// second) there, then gives each point a velocity, times `speed`. pick(random, corners) draws the
-// weights.
+// second) to the other one, then gives each point a random velocity, times `speed`. pick(random,
+// corners) draws the weights.
 template <class Pick>
 points contact_at(source& random, kind which, double speed, std::array<position, 4> at, Pick pick) {
     if (which == kind::edge_edge) {
@@ -337,8 +337,8 @@ inline points resting(source& random, kind which) {
     return drifting(random, near_contact(random, which, 0));
 }
 
-// A contact of edges that are parallel except for 2^exponent, or of a triangle as flat: only at the
-// contact, or throughout if motion is as small.
+// A contact of edges that are parallel up to 2^exponent, or with a triangle that is as flat. They
+// are so at the contact only, or throughout if the motion is as small.
 inline points sliver(source& random, kind which, int exponent) {
     std::array<position, 4> at = positions(random);
     const bool face = which == kind::vertex_face;

@@ -17,7 +17,7 @@
 
 namespace ccd::lab {
 
-/// In the order of the query's members; shorter kinds use the first three or two.
+/// Points in the order of the query's members; kinds with fewer points use the first three or two.
 using points = std::array<moving_point<double>, 4>;
 
 /// Random numbers by integer arithmetic only: std distributions differ between libraries.

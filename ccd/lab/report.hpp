@@ -20,7 +20,7 @@ struct section {
     std::string name;
     std::vector<std::string> columns;
 };
-/// methods, times, contacts, bounds, tightness, stress.
+/// Returns the sections methods, times, contacts, bounds, tightness and stress.
 const std::vector<section>& sections();
 
 struct report_options {

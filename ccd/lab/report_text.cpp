@@ -127,7 +127,8 @@ std::string tightness_of(const row& r, const std::string& quantile) {
     return (is_clamped ? log10 < 0 ? "<=" : ">=" : "") + digits(std::pow(10, log10));
 }
 
-/// Bound over true error, the median and 99 %, in double: a line per quantity, a column per rule.
+/// The ratio of bound to true error, its median and 99 % quantile, in double: a line per quantity,
+/// a column per rule.
 std::string tightness(const report_summary& report) {
     rows lines;
     strings columns{"part", "quantity"};

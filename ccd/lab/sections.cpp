@@ -32,13 +32,13 @@ double ns_per(std::size_t count, double seconds) {
 
 constexpr std::array variable_names{"Y(0)", "Y(1)", "Y'(0)", "Y'(1)", "Y''(0)", "Y''(1)"};
 
-/// Relative ones are of queries whose k are not all zero.
+/// Bounds of one variable. `relative` omits queries whose control values of Y are all zero.
 struct bound_sample {
     std::vector<double> absolute, relative;
 };
 using bound_samples = std::array<bound_sample, variable_names.size()>;
 
-/// The bounds of decide_bsc, and relative to the largest |k|, the control values of Y.
+/// Adds the bounds of decide_bsc, absolute and relative to the largest control value of Y.
 template <class Rule, class Query>
 void add_bounds(const Query& query, bound_samples& samples) {
     const auto [scaled, finite] = tracked_query<Rule>(query);
@@ -58,7 +58,7 @@ void add_bounds(const Query& query, bound_samples& samples) {
     }
 }
 
-/// Sorts the numbers.
+/// Adds quantiles of the numbers, and sorts these.
 void add_quantiles(std::vector<double>& numbers, const std::string& prefix, row& into) {
     std::ranges::sort(numbers);
     for (const int percent : {0, 1, 25, 50, 75, 99, 100}) {
@@ -73,7 +73,7 @@ void add_quantiles(std::vector<double>& numbers, const std::string& prefix, row&
 struct brackets {
     std::size_t at_start = 0, one_double = 0, neighbours = 0;
     std::vector<double> widths = {};            ///< of neighbours, in t; sorted
-    std::vector<std::size_t> of_contacts = {};  ///< the queries that have one
+    std::vector<std::size_t> of_contacts = {};  ///< the queries with a contact
     std::string broken = {};
 
     template <class Query>
@@ -109,7 +109,7 @@ struct brackets {
     }
 };
 
-/// Passes of decisions, and of first times, one query at a time.
+/// Returns a pass of decisions and a pass of first times, one query at a time.
 template <class Query>
 std::vector<std::function<void()>> single_passes(const std::vector<Query>& queries) {
     return {[&queries] {

@@ -47,9 +47,9 @@ rows take_bounds(const data_set& data, kind which, const sample_sizes& size);
 rows find_contacts(const data_set& data, kind which, const sample_sizes& size, int threads,
                    const progress& show);
 
-/// Bounds over true errors by MPFR, in random expressions and on queries: rows by rule, number type
-/// and quantity, quantiles of log10 of the ratio. The column `broken` reports a broken promise.
-/// Only in a build with MPFR.
+/// Ratios of bounds to true errors, by MPFR, in random expressions and on queries: rows by rule,
+/// number type and quantity, with quantiles of the ratio's log10. The column `broken` reports a
+/// broken promise. Only in a build with MPFR.
 rows measure_expressions(const sample_sizes& size, int threads, const progress& show);
 rows measure_tightness(const std::vector<const data_set*>& data, const sample_sizes& size,
                        int threads, const progress& show);

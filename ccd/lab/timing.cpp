@@ -8,14 +8,15 @@ namespace ccd::lab {
 std::vector<timing> race(const std::vector<std::function<void()>>& passes, int repeats,
                          const std::function<void(double)>& show) {
     constexpr double least_seconds = 2e-3;
-    std::vector<int> runs;  // of each pass per measurement
+    std::vector<int> runs;  // repetitions of each pass per measurement
     for (const auto& pass : passes) {
         const auto seconds_of_one = [&pass] {
             const clock::time_point start = clock::now();
             pass();
             return seconds_since(start);
         };
-        // The first meets cold caches and new pages; where that is nothing, it counts too.
+        // The first pass meets cold caches and new pages. It counts only if it is so long that
+        // these are negligible.
         double one = seconds_of_one();
         if (one < 10 * least_seconds) one = seconds_of_one();
         runs.push_back(1 + static_cast<int>(least_seconds / std::max(one, 1e-7)));

@@ -20,7 +20,9 @@ using errbound::sign_type;
 template <std::size_t Corners>
 using corner_indices = std::array<std::size_t, Corners>;
 
-/// F at the corners of the domain, and its boundary. Patch i is that of vertex_edge_queries()[i].
+/// F maps t and the parameters of a point of each feature to the difference of the points. Holds F
+/// at the corners of its domain, and the boundary's image. Patch i belongs to
+/// vertex_edge_queries()[i].
 template <class S>
 struct boundary_image {
     std::array<vector_form<S, 0>, 8> corners;
@@ -43,7 +45,7 @@ boundary_image<S> image_of(const vertex_face<S>& q) {
     }
     return image;
 }
-/// Corner i + 2j is of end i of edge a and end j of edge b; four more are at t = 1.
+/// Corner i + 2j belongs to end i of edge a and end j of edge b at t = 0; four more are at t = 1.
 template <class S>
 boundary_image<S> image_of(const edge_edge<S>& q) {
     static constexpr corner_indices<3> triangles[] = {{0, 1, 3}, {0, 3, 2}, {4, 5, 7}, {4, 7, 6}};
@@ -90,8 +92,8 @@ bool ray_misses(const part_corners<S, Corners>& c) {
            all_have(sign_type::positive, c, &vector::z);
 }
 
-/// The sign of the rise in z from p to q; zero unless the projection of this side passes the ray's
-/// origin on the side +y.
+/// The sign of q.z − p.z, if the side from p to q, projected along x, passes the ray's origin on
+/// the side +y; else zero.
 template <class S>
 sign_type rise_beside_origin(const vector_form<S, 0>& p, const vector_form<S, 0>& q) {
     const sign_type at_p = sign_of(p.z[0]), at_q = sign_of(q.z[0]);
@@ -103,7 +105,7 @@ sign_type rise_beside_origin(const vector_form<S, 0>& p, const vector_form<S, 0>
     return turn == -rise ? sign_type::zero : rise;
 }
 
-/// det(p, q, r) has the sign `determinant`.
+/// `determinant` is the sign of the determinant of the three corners.
 template <class S>
 crossing at_triangle(const part_corners<S, 3>& c, sign_type determinant) {
     if (ray_misses<S>(c)) return crossing::none;
@@ -167,7 +169,7 @@ crossing at_patch(const part_corners<S, 4>& c, const FlatContact& flat_contact) 
                                   at_triangle<S>({c[0], c[2], c[3]}, -signs[1]));
 }
 
-/// flat_contact(i) is that of patch i.
+/// flat_contact(i) is the test for patch i.
 template <class S, class FlatContact>
 crossing at_boundary(const boundary_image<S>& image, const FlatContact& flat_contact) {
     const auto corners_of = [&image]<std::size_t Corners>(const corner_indices<Corners>& indices) {

@@ -1,8 +1,9 @@
-// Advances of a mesh on many ranks. Each rank holds the elements near its region of space. All have
-// the motion of every group, because all join, shorten and take back by the same list of pairs.
+// Advances of a mesh on many ranks. Each rank holds the elements near its region of space. All
+// ranks have the motion of every group, because they join, shorten and take back by the same list
+// of pairs.
 //
-// Elements stay on the ranks of the whole step: boxes of a shorter way are inside those of the
-// whole.
+// Elements stay on the ranks of the whole step, because boxes swept by shorter motions are inside
+// those of the whole step.
 #include <algorithm>
 #include <ccd/mpi.hpp>
 #include <chrono>
@@ -13,6 +14,7 @@
 #include "ccd/mpi/checks.hpp"
 #include "ccd/mpi/decomposition.hpp"
 #include "ccd/mpi/exchange.hpp"
+#include "ccd/mpi/intersections.hpp"
 #include "ccd/mpi/local_mesh.hpp"
 #include "ccd/step/advancing.hpp"
 #include "ccd/step/vertex_groups.hpp"
@@ -66,7 +68,7 @@ class other_ranks {
     other_ranks(detail::exchanger& ranks, known_vertices& vertices)
         : ranks_(ranks), vertices_(vertices) {}
 
-    /// Returns pairs in the order of numbers.
+    /// Returns the pairs of all ranks in the order of their vertices' numbers.
     template <class Pair>
     std::vector<ccd::detail::timed_pair<Pair>> found_by_all(
         const std::vector<ccd::detail::timed_pair<Pair>>& own) {
@@ -147,9 +149,13 @@ advance_result advance(MPI_Comm comm, const mesh_part& mesh, const advance_optio
     advance_result result;
     result.first_contact = found.first_contact;
     for_each_kind([&]<kind K>() {
+        result.first_pairs.of<K>() = numbered<K>(found.first_pairs.of<K>(), vertices);
         result.touching_at_start.of<K>() = numbered<K>(found.touching_at_start.of<K>(), vertices);
         result.near_at_start.of<K>() = numbered<K>(found.near_at_start.of<K>(), vertices);
     });
+    if (options.check_start)
+        result.intersections_at_start =
+            detail::of_all_ranks(ranks, local, found.intersections_at_start);
     for (vertex_index i = 0; i < own.size(); ++i) {
         const double f = vertices.groups().fraction(own[i]);
         result.fractions.push_back(f);

@@ -10,7 +10,7 @@
 
 namespace ccd::mpi::detail {
 
-/// If ranks differ, the lesser cause takes precedence.
+/// If ranks fail for different reasons, the first of this list takes precedence.
 enum class failure : int { refused, stopped, out_of_memory, other, none };
 
 inline failure failure_of(const std::exception& error) {
@@ -27,8 +27,9 @@ inline failure failure_of(const std::exception& error) {
     throw std::runtime_error(message);
 }
 
-/// Calls check(). If it throws on some ranks, throws the exception of the first on all, with its
-/// message: std::invalid_argument, ccd::stopped, std::bad_alloc, or else std::runtime_error.
+/// Calls check(). If it throws on some ranks, all ranks throw the exception that takes precedence,
+/// with its message: std::invalid_argument, ccd::stopped, std::bad_alloc, or else
+/// std::runtime_error.
 template <class Check>
 void agree(MPI_Comm comm, const Check& check) {
     int rank = 0;

@@ -79,8 +79,9 @@ void check_options(exchanger& ranks, const step_options& options, placement pair
     check_same(ranks,
                std::array{static_cast<double>(options.method), double(options.count_candidates),
                           double(options.explain), double(options.initial_contact),
-                          double(options.first_contact), double(options.times), options.t_max,
-                          options.distances.all, static_cast<double>(options.filter.rule),
+                          double(options.first_contact), double(options.times),
+                          double(options.check_start), options.t_max, options.distances.all,
+                          static_cast<double>(options.filter.rule),
                           double(options.filter.skip_unused), static_cast<double>(pairs)},
                caller);
 }
@@ -88,13 +89,17 @@ void check_options(exchanger& ranks, const step_options& options, placement pair
 void check_options(exchanger& ranks, const advance_options& options, std::size_t vertices,
                    const std::string& caller) {
     ranks.agree([&] {
+        ccd::detail::check_shares(options.conservative, options.keep);
+        if (options.each_vertex)
+            throw std::invalid_argument(caller + ": each_vertex is true; expected false");
         ccd::detail::check_options(
             {.set = options.set, .distances = options.distances, .filter = options.filter},
             vertices);
     });
     check_same(ranks,
                std::array{options.distances.all, static_cast<double>(options.filter.rule),
-                          double(options.filter.skip_unused)},
+                          double(options.filter.skip_unused), options.conservative, options.keep,
+                          double(options.check_start)},
                caller);
 }
 

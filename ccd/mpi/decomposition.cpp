@@ -6,7 +6,8 @@
 namespace ccd::mpi::detail {
 namespace {
 
-/// The samples of all ranks weigh each box, and take at most 50 MB up to 10,000 ranks.
+/// The number of samples of all ranks. Every rank holds all of them: at most 50 MB for up to 10,000
+/// ranks.
 std::size_t samples_wanted(std::size_t ranks) {
     const std::size_t most = std::max<std::size_t>(1 << 19, 64 * ranks);
     return std::max<std::size_t>(4096, std::min(256 * ranks, most));
@@ -23,7 +24,8 @@ bool touch(const swept_box& a, const swept_box& b) {
     return true;
 }
 
-/// Samples before the result have about this share of the work; 0 without samples. Linear time.
+/// Returns a position so that samples before it have about this share of the work; 0 without
+/// samples. Linear time.
 template <class Sample, class Place>
 double weighted_quantile(std::span<Sample> samples, const Place& place, double share) {
     if (samples.empty()) return 0;
@@ -61,7 +63,7 @@ decomposition::decomposition(exchanger& ranks, std::span<const swept_box> boxes)
     cut(0, ranks.size(), samples, {});
 }
 
-/// A pair begins near the smaller of its boxes, so its work counts for that one.
+/// A pair begins near the smaller of its boxes, so that box counts its work.
 std::vector<decomposition::sample> decomposition::weighted_samples(
     exchanger& ranks, std::span<const swept_box> boxes) {
     std::size_t elements = 0;
@@ -83,7 +85,7 @@ std::vector<decomposition::sample> decomposition::weighted_samples(
             if (size(s.box) <= size(other.box) && touch(s.box, other.box))
                 candidates += static_cast<double>(step) * other.elements;
         }
-        // The sample itself may be among them.
+        // `candidates` may include the sample itself.
         work.push_back(s.elements *
                        (1 + work_of_candidate * std::max(0.0, candidates - s.elements)));
     }

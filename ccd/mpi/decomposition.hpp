@@ -17,9 +17,10 @@ using swept_box = ccd::detail::box<double>;
 /// Boxes that tile space, one for each rank; the same on all ranks. Some may be empty.
 class decomposition {
   public:
-    /// Samples `boxes`, which elements sweep. Collective. Time: at most a million tests of boxes a
-    /// rank, plus the cuts of the samples, once for each bit of the number of ranks. There are 256
-    /// samples a rank, at least 4096, at most 2^19 or 64 a rank.
+    /// Samples `boxes`, which elements sweep. Collective. Time: each of a rank's samples is tested
+    /// against fewer than 8192 others. The samples are then cut once for each bit of the number of
+    /// ranks. Their total number is 256 a rank, but at least 4096 and at most the larger of 2^19
+    /// and 64 a rank.
     decomposition(exchanger& ranks, std::span<const swept_box> boxes);
 
     const space_region& part(std::size_t rank) const { return parts_[rank]; }

@@ -187,7 +187,8 @@ std::vector<std::size_t> local_mesh::owners(const std::vector<Pair>& pairs) cons
         for (std::size_t i = 0; i < pairs.size(); ++i)
             owners[i] = owner_of_vertex_[vertices_of(pairs[i])[0]];
     } else {
-        // The first edges, and the lowest rank that has each as an edge or a side of a face.
+        // The first edge of each pair, and the lowest rank that has it as an edge or a side of a
+        // face.
         std::vector<std::pair<edge, std::size_t>> first;
         for (const Pair& p : pairs) first.push_back({{p.a0, p.a1}, ~std::size_t(0)});
         std::ranges::sort(first);

@@ -33,8 +33,8 @@ class given_elements {
 
 class local_mesh {
   public:
-    /// Sends elements. Collective. Throws std::invalid_argument on all ranks if copies of a vertex
-    /// differ.
+    /// Sends elements to the ranks whose regions their boxes meet. Collective. Throws
+    /// std::invalid_argument on all ranks if copies of a vertex differ.
     local_mesh(exchanger& ranks, const mesh_part& mesh, const given_elements& given,
                const decomposition& parts, const vertex_lists& of_vertices);
 
@@ -50,6 +50,8 @@ class local_mesh {
     pair_filter filter(const space_region& part, const pair_filter& given) const;
     pair_distances distances(const pair_distances& given) const { return {given.all, thickness_}; }
 
+    /// The lowest rank that has the vertex.
+    std::size_t owner(vertex_index v) const { return owner_of_vertex_[v]; }
     /// For each pair, the lowest rank that has the first element.
     template <class Pair>
     std::vector<std::size_t> owners(const std::vector<Pair>& pairs) const;

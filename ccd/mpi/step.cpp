@@ -7,6 +7,7 @@
 #include "ccd/mpi/checks.hpp"
 #include "ccd/mpi/decomposition.hpp"
 #include "ccd/mpi/exchange.hpp"
+#include "ccd/mpi/intersections.hpp"
 #include "ccd/mpi/local_mesh.hpp"
 
 namespace ccd::mpi {
@@ -77,6 +78,9 @@ step_result step(MPI_Comm comm, const mesh_part& mesh, const step_options& optio
     ranks.agree([&] { found = local.steps().run(local.way(), own); });
     step_result result;
     for_each_kind([&]<kind K>() { return_pairs<K>(ranks, local, found, where, result); });
+    if (options.check_start)
+        result.intersections_at_start =
+            detail::placed(ranks, local, found.intersections_at_start, where);
     if (options.times || options.first_contact || options.t_max < 1)
         result.first_contact = ranks.earliest(found.first_contact);
     result.decided = found.candidates;

@@ -1,5 +1,6 @@
 // The program `ccd`. Exit status: 0 done; 1 bad input, a missing or failed CUDA device, or a broken
-// guarantee (`ccd stress`, `ccd report`, `ccd validate`); 2 bad usage.
+// guarantee (`ccd stress`, `ccd report`, `ccd validate`); 2 bad usage; 3 intersections (`ccd
+// check`).
 #include <CLI/CLI.hpp>
 #include <string>
 
@@ -14,11 +15,12 @@ int run_command_line(int argc, char** argv) {
     CLI::App app{
         "Exact continuous collision detection.\n"
         "Exit status: 0 done, 1 bad input, 2 bad usage; stress, report and validate also return 1 "
-        "if a\nmethod or rule breaks its guarantee.",
+        "if a\nmethod or rule breaks its guarantee; check returns 3 if a mesh intersects itself.",
         "ccd"};
     app.set_version_flag("--version", std::string("ccd ") + ERRBOUND_VERSION);
     const std::unique_ptr<command> commands[] = {query_command(app),    step_command(app),
-                                                 stress_command(app),   report_command(app),
+                                                 check_command(app),    stress_command(app),
+                                                 report_command(app),
 #ifdef ERRBOUND_HAVE_MPFR
                                                  validate_command(app),
 #endif

@@ -54,7 +54,8 @@ class number_option {
 class unused_vertices_option {
   public:
     explicit unused_vertices_option(CLI::App& line);
-    /// True if they are skipped. The default is points if the file has no other element.
+    /// True if unused vertices are skipped. The default keeps them as points if the file has no
+    /// other element.
     bool skips(std::size_t unused, std::size_t vertices) const;
 
   private:

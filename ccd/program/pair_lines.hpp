@@ -1,10 +1,11 @@
-// Pairs as lines of text: vf,v,f0,f1,f2 and so on, with times if `times` is not null.
+// Pairs as lines of text: vf,v,f0,f1,f2 and so on.
 #pragma once
 
 #include <array>
 #include <ccd/kind.hpp>
 #include <ccd/step.hpp>
 #include <cstddef>
+#include <span>
 #include <string>
 
 #include "ccd/program/options.hpp"
@@ -16,6 +17,7 @@ const std::array<Number, N>& vertices_of(const std::array<Number, N>& numbers) {
     return numbers;
 }
 
+/// With times if `times` is not null.
 template <class Lists>
 std::string lines_of_pairs(const Lists& pairs, const time_lists* times = nullptr) {
     std::string lines;
@@ -28,6 +30,28 @@ std::string lines_of_pairs(const Lists& pairs, const time_lists* times = nullptr
             lines += '\n';
         }
     });
+    return lines;
+}
+
+inline std::string lines_of_intersections(std::span<const intersection> pairs) {
+    std::string lines;
+    for (const intersection& pair : pairs) {
+        lines += short_name(pair.kind());
+        for (const mesh_element& element : {pair.a, pair.b})
+            for (const vertex_index v : element.vertices()) lines += ',' + std::to_string(v);
+        lines += ',' + std::string(name(pair.relation)) + '\n';
+    }
+    return lines;
+}
+
+inline std::string lines_of_edge_faces(std::span<const edge_face_pair> pairs) {
+    std::string lines;
+    for (const auto& [e, f] : pairs) {
+        lines += "ef";
+        for (const vertex_index v : {e[0], e[1], f[0], f[1], f[2]})
+            lines += ',' + std::to_string(v);
+        lines += '\n';
+    }
     return lines;
 }
 

@@ -3,7 +3,6 @@
 #include <ccd/io/mesh_file.hpp>
 #include <ccd/step.hpp>
 #include <chrono>
-#include <cstdio>
 #include <iostream>
 #include <limits>
 #include <nlohmann/json.hpp>
@@ -22,6 +21,7 @@ namespace ccd::program {
 namespace {
 
 using errbound::support::entry_named;
+using errbound::support::fixed;
 using errbound::support::table;
 using errbound::support::text_of;
 using errbound::support::usage_error;
@@ -33,7 +33,7 @@ struct step_request {
     device_choice device;
     int threads = 0;
     std::optional<instruction_set> set;
-    bool explain = false;
+    bool explain = false, check_start = true;
     bool times = false, advance = false;
     double distance = 0, t_max = 1;
     io::mesh_options reading;
@@ -44,10 +44,11 @@ struct step_request {
         return {.method = method,
                 .threads = threads,
                 .set = set,
-                .count_candidates = method != ccd::method::exact,  // others test all of them anyway
+                .count_candidates = method != ccd::method::exact,  // others test every candidate
                 .explain = explain,
                 .first_contact = times || advance,
                 .times = times,
+                .check_start = check_start,
                 .t_max = t_max,
                 .distances = {distance},
                 .filter = {.skip_unused = skip_unused}};
@@ -70,6 +71,24 @@ bool is_shown(const step_result& result) {
 
 const first_time& first_contact_of(const step_outcome& found) {
     return found.advance ? found.advance->first_contact : found.result.first_contact;
+}
+
+std::size_t number_at_start(const step_result& result, errbound::relation relation) {
+    return static_cast<std::size_t>(
+        std::ranges::count(result.intersections_at_start, relation, &intersection::relation));
+}
+
+std::string text_of_start(const step_request& request, const step_result& result) {
+    if (!request.check_start) return "";
+    const std::size_t all = result.intersections_at_start.size();
+    if (all == 0) return "\nFRAME0 is free of intersections\n";
+    std::string parts;
+    for (const errbound::relation r : intersection_relations)
+        if (const std::size_t n = number_at_start(result, r); n > 0)
+            parts += (parts.empty() ? "" : ", ") + std::to_string(n) + ' ' + std::string(name(r));
+    return "\nFRAME0 has " + std::to_string(all) +
+           (all == 1 ? " intersection (" : " intersections (") + parts +
+           "); ccd check --pairs lists them\n";
 }
 
 std::uint64_t undecided(const stage_report::entry& entry) {
@@ -112,6 +131,7 @@ std::string json_of(const step_request& request, const mesh& before, const step_
                                          {"broad", result.broad_phase_seconds},
                                          {"narrow", result.narrow_phase_seconds},
                                          {"sort", result.sort_seconds},
+                                         {"start", result.start_seconds},
                                          {"total", result.total_seconds}}},
                                        {"threads", result.threads},
                                        {"peak_memory_bytes", found.memory}};
@@ -124,6 +144,9 @@ std::string json_of(const step_request& request, const mesh& before, const step_
     if (request.unused > 0)
         document["unused_vertices"] = {{"count", request.unused}, {"skipped", request.skip_unused}};
     add_contacts(request, found, document);
+    if (!result.intersections_at_start.empty())
+        for (const errbound::relation r : intersection_relations)
+            document["intersections_at_start"][std::string(name(r))] = number_at_start(result, r);
     if (request.explain) {
         const auto [vertex_face, edge_edge] = pairs_of_mesh(request, before);
         document["pairs_of_mesh"] = {{name(kind::vertex_face), vertex_face},
@@ -141,12 +164,6 @@ std::string json_of(const step_request& request, const mesh& before, const step_
         }
     }
     return document.dump(2) + '\n';
-}
-
-std::string fixed(double value, const char* format) {
-    char text[64];
-    std::snprintf(text, sizeof text, format, value);
-    return text;
 }
 
 std::string text_of_boxes(const step_request& request, const mesh& before,
@@ -228,6 +245,7 @@ std::string text_of_step(const step_request& request, const mesh& before,
          fixed(1e3 * result.sort_seconds, "%.1f ms"), std::to_string(result.threads),
          fixed(static_cast<double>(found.memory) / (1 << 20), "%.1f MiB")}};
     return text_of(pairs, 1) + '\n' + text_of(costs, 0) + text_of_contacts(request, found) +
+           text_of_start(request, result) +
            (request.explain
                 ? '\n' + text_of_boxes(request, before, result) + '\n' + text_of_stages(result)
                 : "");
@@ -254,6 +272,8 @@ class step final : public command {
         line_.add_flag("--explain", request_.explain,
                        "Print decided and skipped queries and cost of each stage of exact; counts "
                        "candidates");
+        line_.add_flag("!--no-check-start", request_.check_start,
+                       "Do not look for elements that intersect in FRAME0");
         line_.add_option("--json", json_, "Write counts and seconds as JSON; -: standard output")
             ->type_name("OUT");
         line_.add_flag("--triangulate", request_.reading.triangulate,
@@ -272,8 +292,7 @@ class step final : public command {
             std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
         report_unused(before);
 
-        found.result = request_.device.cuda ? step_on_device(before, after, request_.options(),
-                                                             request_.device.precision)
+        found.result = request_.device.cuda ? device_step(before, after)
                                             : ccd::step(before, after, request_.options());
         if (advance_)
             found.advance = ccd::advance(before, after,
@@ -290,6 +309,17 @@ class step final : public command {
   private:
     std::ostream& stream_for_people() const {
         return errbound::support::stream_for_people({pairs_, toi_, advance_, json_, view_});
+    }
+
+    /// Looks for intersections at the start on the host.
+    step_result device_step(const mesh& before, const mesh& after) const {
+        step_options options = request_.options();
+        options.check_start = false;
+        step_result result = step_on_device(before, after, options, request_.device.precision);
+        if (request_.check_start)
+            result.intersections_at_start =
+                intersections(before, {.segments = false, .filter = options.filter}).pairs;
+        return result;
     }
 
     /// Prints before the step, since coincident points may need much time and memory.
@@ -356,7 +386,8 @@ class step final : public command {
         if (view_)
             for (auto& file :
                  io::view_files(*view_, {vertex_rows(before, after), before.faces, before.edges,
-                                         found.result.pairs, found.result.times}))
+                                         found.result.pairs, found.result.times,
+                                         found.result.intersections_at_start}))
                 outputs.push_back(std::move(file));
         write_whole(outputs);
     }

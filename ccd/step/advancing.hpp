@@ -2,17 +2,24 @@
 // process and one on many ranks, which exchange their contacts (`Others`).
 #pragma once
 
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
 #include <ccd/advance.hpp>
+#include <ccd/nearness.hpp>
 #include <cmath>
 #include <cstddef>
 #include <functional>
 #include <iterator>
+#include <limits>
 #include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "ccd/batch/threads.hpp"
+#include "ccd/step/elements.hpp"
+#include "ccd/step/swept_boxes.hpp"
 #include "ccd/step/vertex_groups.hpp"
 
 namespace ccd::detail {
@@ -60,6 +67,97 @@ struct no_others {
     bool all(bool holds) { return holds; }
 };
 
+/// A time until which three in four vertices move by no more than their spacing, by a sample, so
+/// that few pairs of elements come near. Infinite if these do not move.
+inline double time_of_short_way(const vertex_rows& way) {
+    rounded_axes::extent box = rounded_axes::extent::nothing();
+    std::vector<double> lengths;
+    for (std::size_t v = 0; v < way.vertices; v += sampling_stride(way.vertices)) {
+        const double *x = way.before + 3 * v, *y = way.after + 3 * v;
+        for (std::size_t k = 0; k < 3; ++k) box.widen(k, x[k]);
+        lengths.push_back(std::hypot(y[0] - x[0], y[1] - x[1], y[2] - x[2]));
+    }
+    const auto most = lengths.begin() + static_cast<std::ptrdiff_t>(3 * lengths.size() / 4);
+    std::ranges::nth_element(lengths, most);
+    const double size =
+        std::hypot(box.high[0] - box.low[0], box.high[1] - box.low[1], box.high[2] - box.low[2]);
+    const double time = size / std::sqrt(static_cast<double>(way.vertices)) / *most;
+    return time > 0 ? time : std::numeric_limits<double>::infinity();
+}
+
+/// Calls step(options) with t_max = 1, or before with less, until there is a contact. Short
+/// searches are cheap, and the first contact is usually early if vertices move by many times their
+/// spacing: a diverged line search.
+template <class Others, class Step>
+step_result step_to_first_contact(const vertex_rows& way, step_options options, Others& others,
+                                  const Step& step) {
+    options.first_contact = true;
+    double growth = 4;
+    constexpr int slow_rounds = 6;  // then faster: a way may be 1e300 times too long
+    const double start = way.vertices == 0 ? 1 : time_of_short_way(way);
+    options.t_max = others.earliest({outcome::collides, start, start}).low;
+    for (int round = 0; options.t_max < 1 / growth; ++round, options.t_max *= growth) {
+        if (round > slow_rounds) growth *= growth;
+        step_result found = step(options);
+        if (others.earliest(found.first_contact).outcome == outcome::collides) return found;
+        options.check_start = false;
+    }
+    options.t_max = 1;
+    return step(options);
+}
+
+/// A pair near at the start, and the distance that it keeps; 0: it may not touch.
+template <class Pair>
+struct near_pair {
+    Pair pair;
+    separation keeps;
+};
+template <kind K>
+using near_list = std::vector<near_pair<pair_of_kind<K>>>;
+
+/// Pairs that are near at the start (advance_options::keep), with their times on the way.
+template <class Pair>
+struct near_times {
+    std::vector<near_pair<Pair>> pairs;
+    std::vector<first_time> times;  ///< at_start() if they touch at the start
+
+    near_times(const vertex_rows& way, const std::vector<Pair>& all,
+               const advance_options& options) {
+        pairs.resize(all.size());
+        times.resize(all.size());
+        on_threads(options.threads, [&] {
+            tbb::parallel_for(std::size_t(0), all.size(), [&](std::size_t i) {
+                stop_if_requested(options.stop);
+                const auto query = query_of(way, all[i]);
+                pairs[i] = {all[i], {}};
+                if (options.keep > 0) {
+                    const nearness at_start = nearness_of(query);
+                    if (!at_start.touches())
+                        pairs[i].keeps.first = options.keep * at_start.distance;
+                }
+                times[i] = time_within(query, pairs[i].keeps);
+                if (times[i].at_start() && pairs[i].keeps.first > 0)
+                    times[i] = time_within(query, pairs[i].keeps = {});
+            });
+        });
+    }
+};
+
+/// Distances within which pairs are near at the start; `scaled` holds thicknesses.
+inline pair_distances near_distances(const advance_options& options, std::vector<double>& scaled) {
+    pair_distances near = options.distances;
+    if (options.keep == 0) return near;
+    constexpr double wider = 1 + 0x1p-10;
+    const auto widen = [](double& d) {
+        d = std::min(wider * d, std::numeric_limits<double>::max());
+    };
+    widen(near.all);
+    scaled.assign(near.thickness.begin(), near.thickness.end());
+    std::ranges::for_each(scaled, widen);
+    near.thickness = scaled;
+    return near;
+}
+
 /// Others must have the members of no_others: found_by_all returns the same pairs in the same order
 /// on all processes. If `what` throws on one, call throws on all. In `groups`, vertices of other
 /// processes follow those of `way`.
@@ -76,6 +174,11 @@ class advancing {
           groups_(groups),
           others_(others) {}
 
+    /// Returns the first contact and all lists of the result, those of all processes.
+    advance_result first_contact() {
+        evaluate_whole_way();
+        return std::move(result_);
+    }
     /// Returns all except result.fraction, which stays 1. The lists are those of all processes.
     advance_result run() {
         evaluate_whole_way();
@@ -96,7 +199,7 @@ class advancing {
     template <class Pair>
     void hold(const timed_pair<Pair>& contact);
     template <kind K>
-    void find_near_contacts();
+    void find_near_contacts(const std::vector<pair_of_kind<K>>& near);
 
     /// Sets positions from the groups' fractions. Returns false if all move the whole way.
     bool set_positions();
@@ -105,16 +208,20 @@ class advancing {
                 way_.vertices};
     }
 
-    /// Separate pairs in contact on the way to the result's positions: known ones, any, or those
-    /// that any process found. Return true if there were any.
+    /// Separates the known pairs that are in contact on the way to the result's positions. Returns
+    /// true if there were any.
     bool separate_known();
+    /// The same for all pairs of the mesh, which then become known.
     bool separate_others();
+    /// Separates `found` and the pairs that other processes found.
     template <class Pair>
     bool separate(const std::vector<Pair>& found);
 
     step_result step(const vertex_rows& way, const step_options& options) {
         step_result found;
         others_.call([&] { found = steps_.run(way, options); });
+        if (options.check_start)
+            result_.intersections_at_start = std::move(found.intersections_at_start);
         return found;
     }
     template <class Pair>
@@ -152,7 +259,8 @@ class advancing {
     vertex_groups& groups_;
     Others& others_;
     pair_lists at_start_;            ///< of all processes
-    pair_lists known_, known_near_;  ///< of this process
+    pair_lists known_;               ///< of this process
+    by_kind<near_list> known_near_;  ///< of this process
     bool may_retreat_ = true;
     advance_result result_;
 };
@@ -164,21 +272,23 @@ void advancing<Others>::hold(const timed_pair<Pair>& contact) {
     for (const vertex_index v : vertices) groups_.join(vertices[0], v);
     const first_time& time = contact.time;
     if (time.outcome != outcome::collides || time.at_start()) return;
-    groups_.limit(vertices[0], last_before(time));
-    first_time& first = result_.first_contact;
-    if (first.outcome != outcome::collides ||
-        std::pair(time.low, time.high) < std::pair(first.low, first.high))
-        first = time;
+    groups_.limit(vertices[0], options_.conservative * last_before(time));
+    add_first(time, contact.pair, result_);
 }
 
-/// Finds contacts of pairs that are within their distance at the start.
+/// Finds times of pairs that are near at the start.
 template <class Others>
 template <kind K>
-void advancing<Others>::find_near_contacts() {
-    const auto contacts = timed(way_, known_near_.of<K>(), {});
-    known_near_.of<K>().clear();
-    for (const auto& contact : contacts)
-        if (!contact.time.at_start()) known_near_.of<K>().push_back(contact.pair);
+void advancing<Others>::find_near_contacts(const std::vector<pair_of_kind<K>>& near) {
+    using pair = pair_of_kind<K>;
+    std::vector<timed_pair<pair>> contacts;
+    others_.call([&] {
+        const near_times<pair> found(way_, near, options_);
+        for (std::size_t i = 0; i < near.size(); ++i) {
+            contacts.push_back({near[i], found.times[i]});
+            if (!found.times[i].at_start()) known_near_.of<K>().push_back(found.pairs[i]);
+        }
+    });
     for (const auto& contact : others_.found_by_all(contacts)) {
         (contact.time.at_start() ? result_.touching_at_start : result_.near_at_start)
             .template of<K>()
@@ -189,30 +299,45 @@ void advancing<Others>::find_near_contacts() {
 
 template <class Others>
 void advancing<Others>::evaluate_whole_way() {
+    result_.first_contact = {outcome::separate};
     step_options options = base_options();
     const bool contact = options_.distances.is_contact();
+    const bool keeps = !contact && options_.keep > 0;
+    std::vector<double> scaled;
+    pair_lists near;
+    if (keeps) {
+        step_options resting = options;
+        resting.distances = near_distances(options_, scaled);
+        resting.t_max = 0;
+        near = step(way_, resting).touching_at_start;
+    }
     options.first_contact = true;
-    options.times = islands_;
-    const step_result whole = step(way_, options);
-    result_.first_contact = others_.earliest(whole.first_contact);
-    if (result_.first_contact.outcome == outcome::collides && !islands_)
-        groups_.limit(0, last_before(result_.first_contact));
+    options.times = islands_ || keeps;
+    options.check_start = options_.check_start;
+    const auto step_way = [&](const step_options& o) { return step(way_, o); };
+    const step_result whole =
+        options.times ? step_way(options) : step_to_first_contact(way_, options, others_, step_way);
+    const first_time first = others_.earliest(whole.first_contact);
     for_each_kind([&]<kind K>() {
         const auto& pairs = whole.pairs.of<K>();
         const auto& times = whole.times.of<K>();
-        at_start_.of<K>() = found_by_all(whole.touching_at_start.of<K>());
+        if (!keeps) near.of<K>() = whole.touching_at_start.of<K>();
+        at_start_.of<K>() = found_by_all(near.of<K>());
         if (contact) result_.touching_at_start.of<K>() = at_start_.of<K>();
         std::ranges::sort(at_start_.of<K>());
-        known_.of<K>() = without(pairs, at_start_.of<K>());
-        if (islands_) {
-            std::vector<timed_pair<pair_of_kind<K>>> timed;
-            for (std::size_t i = 0; i < pairs.size(); ++i) timed.push_back({pairs[i], times[i]});
-            for (const auto& pair : others_.found_by_all(std::move(timed))) hold(pair);
+        std::vector<timed_pair<pair_of_kind<K>>> timed;
+        if (options.times) {
+            known_.of<K>() = without(pairs, at_start_.of<K>());
+            for (std::size_t i = 0; i < pairs.size(); ++i)
+                if (!keeps || std::ranges::binary_search(known_.of<K>(), pairs[i]))
+                    timed.push_back({pairs[i], times[i]});
+        } else if (whole.first_contact == first) {
+            known_.of<K>() = whole.first_pairs.of<K>();
+            for (const auto& pair : known_.of<K>()) timed.push_back({pair, first});
         }
-        if (!contact) {
-            known_near_.of<K>() = whole.touching_at_start.of<K>();
-            find_near_contacts<K>();
-        }
+        for (const auto& pair : others_.found_by_all(std::move(timed))) hold(pair);
+        if (!contact) find_near_contacts<K>(near.of<K>());
+        std::ranges::sort(result_.first_pairs.template of<K>());
     });
 }
 
@@ -241,14 +366,15 @@ template <class Others>
 bool advancing<Others>::separate_known() {
     bool any = false;
     for_each_kind([&]<kind K>() {
-        const auto separate_of = [&](const auto& pairs, const pair_distances& distances) {
-            std::vector<pair_of_kind<K>> found;
-            for (const auto& [pair, time] : timed(way_to_result(), pairs, distances))
-                if (time.outcome == outcome::collides) found.push_back(pair);
-            any |= separate(found);
-        };
-        separate_of(known_.of<K>(), options_.distances);
-        separate_of(known_near_.of<K>(), {});
+        std::vector<pair_of_kind<K>> found;
+        for (const auto& [pair, time] : timed(way_to_result(), known_.of<K>(), options_.distances))
+            if (time.outcome == outcome::collides) found.push_back(pair);
+        any |= separate(found);
+        found.clear();
+        for (const auto& [pair, keeps] : known_near_.of<K>())
+            if (decide_within(query_of(way_to_result(), pair), keeps).outcome == outcome::collides)
+                found.push_back(pair);
+        any |= separate(found);
     });
     return any;
 }

@@ -5,6 +5,7 @@
 #include <iterator>
 #include <type_traits>
 #include <utility>
+#include <vector>
 
 #include "ccd/batch/batch_worker.hpp"
 #include "ccd/step/candidate_blocks.hpp"
@@ -30,24 +31,32 @@ std::vector<std::array<vertex_index, 1>> vertices_on_no_edge(const std::vector<e
     return points;
 }
 
+/// Precondition: both are sorted.
+template <class Item>
+std::vector<Item> without(const std::vector<Item>& items, const std::vector<Item>& others) {
+    std::vector<Item> rest;
+    std::ranges::set_difference(items, others, std::back_inserter(rest));
+    return rest;
+}
+
 /// The unique ones of `edges` that are not among `face_edges`.
 std::vector<edge> edges_of_no_face(std::span<const edge> edges,
                                    const std::vector<edge>& face_edges) {
-    std::vector<edge> rods;
-    std::ranges::set_difference(unique_edges({}, edges), face_edges, std::back_inserter(rods));
-    return rods;
+    return without(unique_edges({}, edges), face_edges);
 }
 
 }  // namespace
 
 template <std::size_t N>
 template <class Real, class Tree, class Sort, class Build>
-void ordered_elements<N>::build_tree(const Tree& tree, const Sort& sort, const Build& build) {
+void ordered_elements<N>::build_tree(const Tree& tree, bool whole_way, const Sort& sort,
+                                     const Build& build) {
     constexpr bool by_doubles = std::is_same_v<Real, double>;
     constexpr double worth_sorting = 1.25;  // sort if leaves are this much longer than their least
     auto& least = std::is_same_v<Tree, extents_tree> ? least_of_extents_ : least_of_boxes_;
     if (ordered_ && by_doubles_ == by_doubles) {
         build();
+        if (!whole_way) return;
         const double length = tree.length_of_leaves();
         if (length <= worth_sorting * least.value_or(length)) {
             least = std::min(length, least.value_or(length));
@@ -57,7 +66,7 @@ void ordered_elements<N>::build_tree(const Tree& tree, const Sort& sort, const B
     sort(elements_);
     build();
     least_of_boxes_ = least_of_extents_ = std::nullopt;
-    least = tree.length_of_leaves();
+    if (whole_way) least = tree.length_of_leaves();
     ordered_ = true;
     by_doubles_ = by_doubles;
 }
@@ -85,6 +94,7 @@ candidate_search::candidate_search(std::span<const face> faces, std::span<const 
     points_ = ordered_elements(vertices_on_no_edge(all, vertices));
     if (!edges.empty()) rods_ = ordered_elements(edges_of_no_face(edges, unique_edges(faces)));
     edges_ = ordered_elements(std::move(all));
+    set_resting();
 }
 
 candidate_search candidate_search::in_plane(std::span<const edge> edges, std::size_t vertices) {
@@ -93,19 +103,61 @@ candidate_search candidate_search::in_plane(std::span<const edge> edges, std::si
     return search;
 }
 
+candidate_search candidate_search::at_start(std::span<const face> faces,
+                                            std::span<const edge> edges, std::size_t vertices,
+                                            bool in_plane) {
+    candidate_search search({}, {}, 0);
+    search.in_plane_ = in_plane;
+    search.vertex_count_ = vertices;
+    search.unused_ = unused_vertices(faces, edges, vertices);
+    search.faces_ = ordered_elements(unique_faces(faces));
+    if (!edges.empty())
+        search.rods_ = ordered_elements(edges_of_no_face(edges, unique_edges(faces)));
+    search.set_resting();
+    return search;
+}
+
+void candidate_search::set_resting() {
+    const std::span<const face> faces = faces_;
+    const std::span<const edge> rods = rods_;
+    std::vector<vertex_index> points = unused_vertices(faces, rods, vertex_count_);
+    if (skips_unused_) points = without(points, unused_);
+    std::vector<face> all;
+    if (!rods.empty() || !points.empty()) all.assign(faces.begin(), faces.end());
+    for (face& f : all)
+        while (!is_triangle(f) && f[0] != f[1]) std::ranges::rotate(f, f.begin() + 1);
+    for (const edge& e : rods) all.push_back({e[0], e[1], e[1]});
+    for (const vertex_index v : points) all.push_back({v, v, v});
+    resting_ = ordered_elements(std::move(all));
+    resting_points_ = std::move(points);
+}
+
+bool candidate_search::is_point(const face& element) const {
+    return element[0] == element[2] && element[0] == element[1] &&
+           std::ranges::binary_search(resting_points_, element[0]);
+}
+bool candidate_search::is_rod(const face& element) const {
+    return resting_.size() > 0 && element[0] != element[1] && element[1] == element[2];
+}
+
+template <std::size_t N>
+void candidate_search::skip_in(ordered_elements<N>& set, bool skip) {
+    const std::span<const std::array<vertex_index, N>> old = set;
+    std::vector<std::array<vertex_index, N>> all(old.begin(), old.end());
+    if (skip)
+        std::erase_if(all,
+                      [&](const auto& e) { return std::ranges::binary_search(unused_, e[0]); });
+    else
+        for (const vertex_index v : unused_) std::ranges::fill(all.emplace_back(), v);
+    set = ordered_elements(std::move(all));
+}
+
 void candidate_search::skip_unused(bool skip) {
     if (skip == skips_unused_ || unused_.empty()) return;
     skips_unused_ = skip;
-    for (ordered_elements<1>* set : {&vertices_, &points_}) {
-        const std::span<const std::array<vertex_index, 1>> old = *set;
-        std::vector<std::array<vertex_index, 1>> all(old.begin(), old.end());
-        if (skip)
-            std::erase_if(all,
-                          [&](const auto& v) { return std::ranges::binary_search(unused_, v[0]); });
-        else
-            for (const vertex_index v : unused_) all.push_back({v});
-        *set = ordered_elements(std::move(all));
-    }
+    skip_in(vertices_, skip);
+    skip_in(points_, skip);
+    set_resting();
 }
 
 template <class Real, std::size_t N>
@@ -121,10 +173,12 @@ std::size_t candidate_search::find_by(tree_pair<Real>& trees, const search_reque
                                       First& first, Second& second) {
     constexpr bool within_one = std::is_same_v<First, Second>;
     const auto build = [&](box_tree<Real>& tree, auto& elements) {
-        elements.template build_tree<Real>(tree, sorting<Real>(request.boxes, second), [&] {
-            tree.build(elements.size(),
-                       [&](std::size_t i) { return request.boxes.swept_box<Real>(elements[i]); });
-        });
+        elements.template build_tree<Real>(
+            tree, request.wanted.t_max == 1, sorting<Real>(request.boxes, second), [&] {
+                tree.build(elements.size(), [&](std::size_t i) {
+                    return request.boxes.swept_box<Real>(elements[i]);
+                });
+            });
     };
     build(trees.second, second);
     if constexpr (!within_one) build(trees.first, first);
@@ -147,13 +201,14 @@ std::size_t candidate_search::find_close(const search_request& request, First& f
     constexpr bool within_one = std::is_same_v<First, Second>;
     const auto build = [&](extents_tree& tree, auto& elements) {
         constexpr std::size_t n = std::remove_cvref_t<decltype(elements)>::vertices;
-        elements.template build_tree<float>(tree, sorting<float>(request.boxes, second), [&] {
-            tree.build<n>(*request.close, request.rounded, elements);
-        });
+        elements.template build_tree<float>(
+            tree, request.wanted.t_max == 1, sorting<float>(request.boxes, second),
+            [&] { tree.build<n>(request.kernels, request.rounded, request.margin, elements); });
     };
     extents_tree& b = of_extents_.second;
     extents_tree& a = within_one ? b : of_extents_.first;
     build(b, second);
+    in_second_ = &second;
     if constexpr (!within_one) build(a, first);
 
     candidate_blocks<pair_of_kind<K>> blocks(request.visitor.of<K>(), request.filter, request.stop);
@@ -172,8 +227,8 @@ std::size_t candidate_search::find_close(const search_request& request, First& f
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, a.leaves(), 8),
                       [&](const tbb::blocked_range<std::size_t>& range) {
                           context to{first, second, blocks.local()};
-                          (request.close->*find)(a.levels(), b.levels(), range.begin(), range.end(),
-                                                 &to, add);
+                          (request.kernels.*find)(a.levels(), b.levels(), range.begin(),
+                                                  range.end(), &to, add);
                       });
     return blocks.finish();
 }
@@ -182,26 +237,99 @@ template <kind K, class First, class Second>
 std::size_t candidate_search::find_kind(const search_request& request, First& first,
                                         Second& second) {
     if (!request.visitor.of<K>() || first.size() == 0 || second.size() == 0) return 0;
-    if (request.boxes.need_doubles<Second::vertices>(second))
-        return find_by<K>(in_doubles_, request, first, second);
-    if constexpr (is_cubic(K))
-        if (request.close != nullptr) return find_close<K>(request, first, second);
-    return find_by<K>(in_floats_, request, first, second);
+    if (!request.boxes.need_doubles<Second::vertices>(second)) {
+        if constexpr (is_cubic(K))
+            if (request.wanted.close) return find_close<K>(request, first, second);
+        if (!request.boxes.need_widening()) return find_by<K>(in_floats_, request, first, second);
+    }
+    return find_by<K>(in_doubles_, request, first, second);
+}
+
+void candidate_search::find_at_start(const batch_positions& positions, const step_options& options,
+                                     const resting_visitor& visit, trees from) {
+    skip_unused(options.filter.skip_unused);
+    if (from == trees::new_ones) {
+        order_.forget();
+        in_second_ = nullptr;
+    }
+    ordered_elements<3>& elements = resting_.size() > 0 ? resting_ : faces_;
+    if (elements.size() == 0) return;
+    batch_positions at = positions;
+    at.exact.after = at.exact.before;
+    const pair_distances contact;
+    const swept_boxes boxes(at, contact);
+    if (boxes.need_doubles<3>(elements))
+        return find_resting_by_boxes(boxes, elements, options, visit);
+    extents_tree& tree = of_extents_.second;
+    const search_kernels& kernels = search_kernels_for(options.set);
+    if (in_second_ != &elements)
+        elements.build_tree<float>(tree, true, sorting<float>(boxes, elements),
+                                   [&] { tree.build<3>(kernels, at.rounded, 0, elements); });
+    in_second_ = &elements;
+    struct context {
+        const resting_visitor& visit;
+        std::span<const face> elements;
+    };
+    constexpr auto pass = [](void* to, const element_pair* pairs, std::size_t count) {
+        const auto& [visit, elements] = *static_cast<context*>(to);
+        visit(elements, {pairs, count});
+    };
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, tree.leaves(), 8), [&](const auto& range) {
+        stop_if_requested(options.stop);
+        context to{visit, elements};
+        kernels.of_two_faces_at_start(tree.levels(), tree.levels(), range.begin(), range.end(), &to,
+                                      pass);
+    });
+}
+
+void candidate_search::find_resting_by_boxes(const swept_boxes& boxes,
+                                             ordered_elements<3>& elements,
+                                             const step_options& options,
+                                             const resting_visitor& visit) {
+    struct block {
+        std::size_t count = 0;
+        std::array<element_pair, 512> pairs;
+    };
+    tbb::enumerable_thread_specific<block> blocks;
+    const auto flush = [&](block& b) {
+        stop_if_requested(options.stop);
+        visit(elements, {b.pairs.data(), b.count});
+        b.count = 0;
+    };
+    box_tree<double>& tree = in_doubles_.second;
+    elements.build_tree<double>(tree, true, sorting<double>(boxes, elements), [&] {
+        tree.build(elements.size(),
+                   [&](std::size_t i) { return boxes.swept_box<double>(elements[i]); });
+    });
+    for_each_touching(
+        tree, tree, [&]() -> auto& { return blocks.local(); },
+        [&](block& b, std::size_t i, std::size_t j, bool) {
+            if (share_vertex(elements[i], elements[j])) return;
+            b.pairs[b.count++] = {static_cast<unsigned>(i), static_cast<unsigned>(j)};
+            if (b.count == b.pairs.size()) flush(b);
+        });
+    tbb::parallel_for_each(blocks, flush);
 }
 
 pair_counts candidate_search::find(const batch_positions& positions, const step_options& options,
-                                   const candidate_visitor& visitor, wanted pairs) {
-    const swept_boxes boxes(positions, options.distances);
-    const pair_test test(options.filter, boxes);
-    const search_request request{
-        boxes,
-        lets_all_through(options.filter) ? nullptr : &test,
-        visitor,
-        options.stop,
-        positions.rounded,
-        pairs == wanted::close_pairs ? &search_kernels_for(options.set) : nullptr};
+                                   const candidate_visitor& visitor,
+                                   const wanted_candidates& wanted) {
+    std::optional<short_way> until;
+    if (wanted.t_max < 1) until.emplace(positions.exact, std::max(wanted.t_max, 0.0));
+    const swept_boxes whole(positions, options.distances),
+        boxes = until ? swept_boxes(until->positions(), options.distances, until->error()) : whole;
+    const pair_test test(options.filter, whole);
+    const search_request request{boxes,
+                                 lets_all_through(options.filter) ? nullptr : &test,
+                                 visitor,
+                                 options.stop,
+                                 until ? until->positions().rounded : positions.rounded,
+                                 until ? until->margin() : 0,
+                                 search_kernels_for(options.set),
+                                 wanted};
     skip_unused(options.filter.skip_unused);
     order_.forget();
+    in_second_ = nullptr;
     pair_counts counts;
     if (in_plane_) {
         counts.vertex_edge = find_kind<kind::vertex_edge>(request, vertices_, edges_);

@@ -5,6 +5,7 @@
 #include <ccd/mesh.hpp>
 #include <ccd/step.hpp>
 #include <cstddef>
+#include <functional>
 #include <optional>
 #include <span>
 #include <utility>
@@ -12,6 +13,7 @@
 
 #include "ccd/step/box_tree.hpp"
 #include "ccd/step/extents_tree.hpp"
+#include "ccd/step/fans/vertex_fans.hpp"
 #include "ccd/step/swept_boxes.hpp"
 #include "ccd/step/vertex_order.hpp"
 
@@ -35,8 +37,9 @@ class ordered_elements {
     operator std::span<const std::array<vertex_index, N>>() const { return elements_; }
 
     /// Calls sort(elements) before build() if their order is not good.
+    /// Trees of a short way tell nothing about the order for a whole one.
     template <class Real, class Tree, class Sort, class Build>
-    void build_tree(const Tree& tree, const Sort& sort, const Build& build);
+    void build_tree(const Tree& tree, bool whole_way, const Sort& sort, const Build& build);
 
   private:
     std::vector<std::array<vertex_index, N>> elements_;
@@ -44,6 +47,19 @@ class ordered_elements {
     /// The least length of a tree's leaves since the last sort.
     std::optional<double> least_of_boxes_, least_of_extents_;
 };
+
+/// The candidates to find; by default all.
+struct wanted_candidates {
+    /// Only for contact: without the vertex/face and edge/edge pairs that an axis separates in
+    /// floats, if that was tested.
+    bool close = false;
+    /// Without pairs that do not meet until this time, if that was tested.
+    double t_max = 1;
+};
+
+/// Called with blocks of pairs of these elements, from several threads at once.
+using resting_visitor =
+    std::function<void(std::span<const face> elements, std::span<const element_pair> pairs)>;
 
 /// The search in one mesh. Keeps its working memory: about 40 bytes a face or 44 an edge, whichever
 /// is more, 18 a vertex, and 32 KB a thread. Elements and vertices take twice as much if floats do
@@ -57,17 +73,37 @@ class candidate_search {
     /// Pairs are each vertex with each edge, and each two points.
     static candidate_search in_plane(std::span<const edge> edges, std::size_t vertices);
 
+    /// Only for find_at_start(), with less memory and time for its preparation.
+    static candidate_search at_start(std::span<const face> faces, std::span<const edge> edges,
+                                     std::size_t vertices, bool in_plane = false);
+
     std::size_t vertices() const { return vertex_count_; }
     bool is_in_plane() const { return in_plane_; }
-
-    /// All candidates, or without the vertex/face and edge/edge pairs that an axis separates in
-    /// floats, if that was tested. The latter is only for contact.
-    enum class wanted : bool { candidates, close_pairs };
 
     /// Visits each pair once if its kind has a visitor. Returns the number of pairs. Preconditions:
     /// positions are finite and distances valid.
     pair_counts find(const batch_positions& positions, const step_options& options,
-                     const candidate_visitor& visitor, wanted pairs = wanted::candidates);
+                     const candidate_visitor& visitor, const wanted_candidates& wanted = {});
+
+    /// The trees that find_at_start may use.
+    enum class trees : bool { new_ones, of_last_find };
+
+    /// Visits each pair of resting_elements() without a common vertex once, unless an axis
+    /// separates the two at t = 0. Does not apply the filter except skip_unused. `of_last_find` is
+    /// only for the positions and options of the last find(); otherwise positions at t = 1 must be
+    /// those at t = 0.
+    void find_at_start(const batch_positions& positions, const step_options& options,
+                       const resting_visitor& visit, trees from = trees::new_ones);
+
+    void skip_unused(bool skip);
+    /// Faces, edges of no face and vertices of neither, in any order. Edges {v, w, w} and vertices
+    /// {v, v, v} repeat their last vertex, degenerate faces {v, v, w} the first.
+    std::span<const face> resting_elements() const {
+        return resting_.size() > 0 ? resting_ : faces_;
+    }
+    /// True for one of them if it is a vertex of no face and no edge.
+    bool is_point(const face& element) const;
+    bool is_rod(const face& element) const;
 
   private:
     template <class Real>
@@ -80,7 +116,9 @@ class candidate_search {
         const candidate_visitor& visitor;
         const stop_query& stop;
         const float* rounded;
-        const search_kernels* close;  // null: all candidates
+        float margin;  // of `rounded`
+        const search_kernels& kernels;
+        const wanted_candidates& wanted;
     };
 
     struct extents_trees {
@@ -98,7 +136,11 @@ class candidate_search {
     template <kind K, class First, class Second>
     std::size_t find_close(const search_request& request, First& first, Second& second);
 
-    void skip_unused(bool skip);
+    void set_resting();
+    void find_resting_by_boxes(const swept_boxes& boxes, ordered_elements<3>& elements,
+                               const step_options& options, const resting_visitor& visit);
+    template <std::size_t N>
+    void skip_in(ordered_elements<N>& set, bool skip);
 
     std::size_t vertex_count_;
     std::vector<vertex_index> unused_;
@@ -107,10 +149,21 @@ class candidate_search {
     ordered_elements<1> vertices_, points_;
     ordered_elements<2> edges_, rods_;
     ordered_elements<3> faces_;
+    ordered_elements<3> resting_;  ///< empty if there are faces only
+    std::vector<vertex_index> resting_points_;
     tree_pair<float> in_floats_;
     tree_pair<double> in_doubles_;
     extents_trees of_extents_;
+    const void* in_second_ = nullptr;  ///< the elements of of_extents_.second
     bool in_plane_ = false;
 };
+
+/// Finds intersections at positions.before, in the arena of the caller. Sets `fans` if it is empty;
+/// keep it for the next call. `of_step` has the positions of the last search.find(), if its trees
+/// are to be used.
+intersection_result find_intersections(candidate_search& search, std::optional<vertex_fans>& fans,
+                                       const vertex_rows& positions,
+                                       const intersection_options& options,
+                                       const batch_positions* of_step = nullptr);
 
 }  // namespace ccd::detail

@@ -23,23 +23,34 @@ void check_indices(std::span<const std::array<vertex_index, N>> elements, const 
                                             "; expected less than " + std::to_string(vertices));
 }
 
-void check_finite(const double* frame, std::size_t vertices, const char* time,
-                  std::span<const std::uint64_t> numbers) {
+/// `time` is empty if there is one frame.
+void check_finite(const char* caller, const double* frame, std::size_t vertices, const char* time,
+                  std::span<const std::uint64_t> numbers = {}) {
     if (all_finite(frame, 3 * vertices)) return;
     const double* bad =
         std::find_if_not(frame, frame + 3 * vertices, [](double x) { return std::isfinite(x); });
     const auto at = static_cast<std::size_t>(bad - frame);
-    throw std::invalid_argument("ccd::step: " + std::string(1, "xyz"[at % 3]) + " of vertex " +
-                                std::to_string(numbers.empty() ? at / 3 : numbers[at / 3]) +
-                                " at t = " + time + " is " + std::to_string(*bad) +
-                                "; expected a finite number");
+    throw std::invalid_argument(std::string(caller) + ": " + "xyz"[at % 3] + " of vertex " +
+                                std::to_string(numbers.empty() ? at / 3 : numbers[at / 3]) + time +
+                                " is " + std::to_string(*bad) + "; expected a finite number");
 }
 
-void check_length(const char* of, std::size_t found, std::size_t vertices) {
-    if (found != 0 && found != vertices)
-        throw std::invalid_argument("ccd::step: number of " + std::string(of) + " is " +
-                                    std::to_string(found) + "; expected " +
+void check_length(const std::string& of, std::size_t found, std::size_t vertices) {
+    if (found != vertices)
+        throw std::invalid_argument(of + " is " + std::to_string(found) + "; expected " +
                                     std::to_string(vertices) + ", one for each vertex");
+}
+
+void check_filter(const std::string& caller, const pair_filter& filter, std::size_t vertices) {
+    if (filter.rule != pair_filter::group_rule::between_groups &&
+        filter.rule != pair_filter::group_rule::within_groups)
+        throw std::invalid_argument(caller + ": group rule is " +
+                                    std::to_string(static_cast<int>(filter.rule)) +
+                                    "; expected between_groups or within_groups");
+    if (!filter.groups.empty())
+        check_length(caller + ": number of groups", filter.groups.size(), vertices);
+    if (!filter.pinned.empty())
+        check_length(caller + ": number of pinned flags", filter.pinned.size(), vertices);
 }
 
 std::string text(std::span<const vertex_index> indices) {
@@ -84,20 +95,41 @@ void check_elements(std::span<const face> faces, std::span<const edge> edges, st
 
 void check_positions(const vertex_rows& positions, std::size_t vertices,
                      std::span<const std::uint64_t> numbers) {
-    if (positions.vertices != vertices)
-        throw std::invalid_argument("ccd::step: number of positions is " +
-                                    std::to_string(positions.vertices) + "; expected " +
-                                    std::to_string(vertices) + ", one for each vertex");
+    check_length("ccd::step: number of positions", positions.vertices, vertices);
     if (vertices == 0) return;
     if (positions.before == nullptr || positions.after == nullptr)
         throw std::invalid_argument("ccd::step: pointer to positions is null; expected positions");
-    check_finite(positions.before, vertices, "0", numbers);
-    check_finite(positions.after, vertices, "1", numbers);
+    check_finite("ccd::step", positions.before, vertices, " at t = 0", numbers);
+    check_finite("ccd::step", positions.after, vertices, " at t = 1", numbers);
+}
+
+void check_at_rest(const vertex_rows& positions, std::size_t vertices, const pair_filter& filter,
+                   bool in_plane) {
+    check_length("ccd::intersections: number of positions", positions.vertices, vertices);
+    check_filter("ccd::intersections", filter, vertices);
+    if (vertices == 0) return;
+    if (positions.before == nullptr)
+        throw std::invalid_argument(
+            "ccd::intersections: pointer to positions is null; expected positions");
+    check_finite("ccd::intersections", positions.before, vertices, "");
+    for (std::size_t v = 0; in_plane && v < vertices; ++v)
+        if (positions.before[3 * v + 2] != 0)
+            throw std::invalid_argument("ccd::intersections: z of vertex " + std::to_string(v) +
+                                        " is not 0; expected positions in the plane z = 0");
 }
 
 bool needs_times_or_distances(const step_options& options) {
     return options.times || options.first_contact || options.t_max < 1 ||
            !options.distances.is_contact();
+}
+
+void check_shares(double conservative, double keep) {
+    if (!(0 < conservative && conservative <= 1))
+        throw std::invalid_argument("ccd::advance: conservative is " +
+                                    std::to_string(conservative) + "; expected a number in (0, 1]");
+    if (!(0 <= keep && keep < 1))
+        throw std::invalid_argument("ccd::advance: keep is " + std::to_string(keep) +
+                                    "; expected a number in [0, 1)");
 }
 
 void check_plane(const vertex_rows& positions) {
@@ -114,19 +146,13 @@ void check_options(const step_options& options, std::size_t vertices) {
         throw std::invalid_argument("ccd::step: method is " +
                                     std::to_string(static_cast<int>(options.method)) +
                                     "; expected one of ccd::methods()");
-    if (options.filter.rule != pair_filter::group_rule::between_groups &&
-        options.filter.rule != pair_filter::group_rule::within_groups)
-        throw std::invalid_argument("ccd::step: group rule is " +
-                                    std::to_string(static_cast<int>(options.filter.rule)) +
-                                    "; expected between_groups or within_groups");
     check_t_max("ccd::step", options.t_max);
     check_distances("ccd::step", options.distances, vertices);
     if (needs_times_or_distances(options) && options.method != method::exact)
         throw std::invalid_argument("ccd::step: method is " +
                                     std::string(info(options.method).name) +
                                     "; expected exact, the only one with times and distances");
-    check_length("groups", options.filter.groups.size(), vertices);
-    check_length("pinned flags", options.filter.pinned.size(), vertices);
+    check_filter("ccd::step", options.filter, vertices);
 }
 
 bool has_faces_only(const mesh& mesh) {

@@ -21,12 +21,17 @@ void check_elements(std::span<const face> faces, std::span<const edge> edges, st
 void check_positions(const vertex_rows& positions, std::size_t vertices,
                      std::span<const std::uint64_t> numbers = {});
 
+/// The same for ccd::intersections, which reads positions.before only.
+void check_at_rest(const vertex_rows& positions, std::size_t vertices, const pair_filter& filter,
+                   bool in_plane = false);
+
 /// True if the options need times or distances, which only `exact` computes.
 bool needs_times_or_distances(const step_options& options);
 
 void check_plane(const vertex_rows& positions);
 
 void check_options(const step_options& options, std::size_t vertices);
+void check_shares(double conservative, double keep);
 
 /// True if a mesh has vertex/face and edge/edge pairs only: no edges except those of its faces, and
 /// at most one point. Precondition: indices are in range.

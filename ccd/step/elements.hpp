@@ -5,8 +5,10 @@
 #include <array>
 #include <ccd/kind.hpp>
 #include <ccd/mesh.hpp>
+#include <ccd/verdict.hpp>
 #include <cstddef>
 #include <cstdint>
+#include <utility>
 
 namespace ccd::detail {
 
@@ -64,6 +66,18 @@ constexpr std::uint64_t spread_bits(std::uint64_t x) {
     x = (x | (x << 8)) & 0x100F00F00F00F00F;
     x = (x | (x << 4)) & 0x10C30C30C30C30C3;
     return (x | (x << 2)) & 0x1249249249249249;
+}
+
+/// Adds a pair that first touches at this time to result.first_pairs, unless others touch before.
+template <class Pair, class Result>
+void add_first(const first_time& time, const Pair& pair, Result& result) {
+    first_time& first = result.first_contact;
+    if (first.outcome == outcome::collides) {
+        if (std::pair(first.low, first.high) < std::pair(time.low, time.high)) return;
+        if (first != time) result.first_pairs = {};
+    }
+    first = time;
+    result.first_pairs.template of<kind_of<Pair>>().push_back(pair);
 }
 
 }  // namespace ccd::detail

@@ -90,9 +90,10 @@ inline void set_nowhere(extents_pack& packed, std::size_t from) {
 }
 
 template <std::size_t N>
-void fill_leaves(const float* rounded, const vertex_index* elements, std::size_t count,
-                 std::size_t first, std::size_t end_leaf, extents_pack* leaves, extents* hulls,
-                 leaf_vertices* vertices) {
+void fill_leaves(const float* rounded, float margin, const vertex_index* elements,
+                 std::size_t count, std::size_t first, std::size_t end_leaf, extents_pack* leaves,
+                 extents* hulls, leaf_vertices* vertices) {
+    const float margin_across = extents::margin + 2 * margin;
     for (std::size_t p = first; p < end_leaf; ++p) {
         const corner_columns<N> corners(rounded, elements, size * p, count);
         for (std::size_t end = 0; end < 2; ++end)
@@ -104,10 +105,10 @@ void fill_leaves(const float* rounded, const vertex_index* elements, std::size_t
                     const auto y = [&](std::size_t v) {
                         return float_pack::load_aligned(&corners.at[v][end][(k + 1) % 3][lane]);
                     };
-                    set_extent<N>(leaves[p], k, end, lane, 0, x);
-                    set_extent<N>(leaves[p], 3 + 2 * k, end, lane, extents::margin,
+                    set_extent<N>(leaves[p], k, end, lane, margin, x);
+                    set_extent<N>(leaves[p], 3 + 2 * k, end, lane, margin_across,
                                   [&](std::size_t v) { return x(v) + y(v); });
-                    set_extent<N>(leaves[p], 4 + 2 * k, end, lane, extents::margin,
+                    set_extent<N>(leaves[p], 4 + 2 * k, end, lane, margin_across,
                                   [&](std::size_t v) { return x(v) - y(v); });
                 }
         if (count < size * (p + 1)) set_nowhere(leaves[p], count - size * p);
@@ -139,9 +140,12 @@ struct member_reader {
     float operator()(std::size_t column) const { return pack.at[column][member]; }
 };
 
+/// The times at which an axis must separate elements.
+enum class times : bool { whole_step, start };
+
 /// The lanes that no axis separates from `other`. Coordinate axes separate most, so the others are
 /// tested only if lanes remain.
-template <class Extents>
+template <times At, class Extents>
 lanes touching(const extents_pack& packed, const Extents& other) {
     constexpr std::size_t parts = size / float_width;
     mask_of<float> apart[parts] = {};
@@ -152,8 +156,11 @@ lanes touching(const extents_pack& packed, const Extents& other) {
             const auto column = [&](std::size_t c) {
                 return float_pack::load_aligned(&packed.at[4 * a + c][float_width * part]);
             };
-            apart[part] = apart[part] | ((column(0) > all[2]) & (column(1) > all[3])) |
-                          ((column(2) < all[0]) & (column(3) < all[1]));
+            if constexpr (At == times::start)
+                apart[part] = apart[part] | (column(0) > all[2]) | (column(2) < all[0]);
+            else
+                apart[part] = apart[part] | ((column(0) > all[2]) & (column(1) > all[3])) |
+                              ((column(2) < all[0]) & (column(3) < all[1]));
         }
     };
     const auto all_apart = [&] {
@@ -170,23 +177,21 @@ lanes touching(const extents_pack& packed, const Extents& other) {
     return found;
 }
 
-typedef vertex_index index_quad __attribute__((vector_size(16)));
+typedef vertex_index index_pack __attribute__((vector_size(4 * size)));
 
 /// The lanes of `leaf` that share a vertex with element i of `other`.
 template <std::size_t N, std::size_t M>
 lanes sharing(const leaf_vertices& leaf, const leaf_vertices& other, std::uint32_t i) {
-    index_quad found{}, bits = {1, 2, 4, 8};
-    for (std::size_t lane = 0; lane < size; lane += 4, bits <<= 4) {
-        index_quad same{};
-        for (std::size_t w = 0; w < M; ++w) {
-            index_quad vertices;
-            __builtin_memcpy(&vertices, &leaf.at[w][lane], sizeof(vertices));
-            for (std::size_t v = 0; v < N; ++v)
-                same |= index_quad(vertices == index_quad{} + other.at[v][i]);
-        }
-        found |= same & bits;
+    index_pack same{};
+    for (std::size_t w = 0; w < M; ++w) {
+        index_pack vertices;
+        __builtin_memcpy(&vertices, leaf.at[w], sizeof(vertices));
+        for (std::size_t v = 0; v < N; ++v)
+            same |= index_pack(vertices == index_pack{} + other.at[v][i]);
     }
-    return found[0] | found[1] | found[2] | found[3];
+    lanes found = 0;
+    for (std::size_t lane = 0; lane < size; ++lane) found |= same[lane] & (lanes(1) << lane);
+    return found;
 }
 
 struct found_pairs {
@@ -213,17 +218,17 @@ struct found_pairs {
 
 /// Finds pairs of leaf p of `a`, with elements of N vertices, and leaf q of `b`, of M vertices. In
 /// one tree, the element of `b` is the later one.
-template <std::size_t N, std::size_t M>
+template <std::size_t N, std::size_t M, times At>
 void pairs_of_leaves(const extents_levels& a, std::size_t p, const extents_levels& b, std::size_t q,
                      found_pairs& found) {
     const extents_pack &leaf = a.at[0].packs[p], &other = b.at[0].packs[q];
     const bool is_same = N == M && p == q;
-    const lanes of_other = touching(other, hull_reader{a.at[0].hulls[p]});
+    const lanes of_other = touching<At>(other, hull_reader{a.at[0].hulls[p]});
     if (of_other == 0) return;
-    const lanes of_leaf = touching(leaf, hull_reader{b.at[0].hulls[q]});
+    const lanes of_leaf = touching<At>(leaf, hull_reader{b.at[0].hulls[q]});
     if (count_of(of_leaf) <= count_of(of_other))
         for_each_lane(of_leaf, [&](std::uint32_t i) {
-            lanes some = touching(other, member_reader{leaf, i}) & of_other;
+            lanes some = touching<At>(other, member_reader{leaf, i}) & of_other;
             if (is_same) some &= ~first_lanes(i + 1);
             if (some == 0) return;
             some &= ~sharing<N, M>(b.vertices[q], a.vertices[p], i);
@@ -232,7 +237,7 @@ void pairs_of_leaves(const extents_levels& a, std::size_t p, const extents_level
         });
     else
         for_each_lane(of_other, [&](std::uint32_t j) {
-            lanes some = touching(leaf, member_reader{other, j}) & of_leaf;
+            lanes some = touching<At>(leaf, member_reader{other, j}) & of_leaf;
             if (is_same) some &= first_lanes(j);
             if (some == 0) return;
             some &= ~sharing<M, N>(a.vertices[p], b.vertices[q], j);
@@ -241,7 +246,7 @@ void pairs_of_leaves(const extents_levels& a, std::size_t p, const extents_level
         });
 }
 
-template <std::size_t N, std::size_t M>
+template <std::size_t N, std::size_t M, times At>
 void find_pairs(const extents_levels& a, const extents_levels& b, std::size_t first,
                 std::size_t end, void* context, search_kernels::visitor visit) {
     struct node {
@@ -256,12 +261,12 @@ void find_pairs(const extents_levels& a, const extents_levels& b, std::size_t fi
         while (opened > 0) {
             const node n = open[--opened];
             if (n.level == 0) {
-                pairs_of_leaves<N, M>(a, p, b, n.position, found);
+                pairs_of_leaves<N, M, At>(a, p, b, n.position, found);
                 continue;
             }
             const std::size_t below = n.level - 1;
             const std::size_t least = N == M ? p >> (4 * below) : 0;
-            const lanes some = touching(b.at[n.level].packs[n.position], from);
+            const lanes some = touching<At>(b.at[n.level].packs[n.position], from);
             for_each_lane(some, [&](std::uint32_t i) {
                 const std::size_t child = size * n.position + i;
                 if (child >= least) open[opened++] = {below, child};
@@ -273,7 +278,12 @@ void find_pairs(const extents_levels& a, const extents_levels& b, std::size_t fi
 
 }  // namespace
 
-constinit const search_kernels searching = {fill_leaves<1>, fill_leaves<2>,   fill_leaves<3>,
-                                            fill_nodes,     find_pairs<1, 3>, find_pairs<2, 2>};
+constinit const search_kernels searching = {fill_leaves<1>,
+                                            fill_leaves<2>,
+                                            fill_leaves<3>,
+                                            fill_nodes,
+                                            find_pairs<1, 3, times::whole_step>,
+                                            find_pairs<2, 2, times::whole_step>,
+                                            find_pairs<3, 3, times::start>};
 
 }  // namespace ccd::detail::ERRBOUND_INSTRUCTION_SET

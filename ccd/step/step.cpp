@@ -24,8 +24,8 @@ template <kind K>
 using phase = detail::narrow_phase<K>;
 
 /// Runs a step, except first times and contacts at the start.
-step_result run_step(detail::candidate_search& search, const vertex_rows& positions,
-                     const step_options& options) {
+step_result run_step(detail::candidate_search& search, std::optional<detail::vertex_fans>& fans,
+                     const vertex_rows& positions, const step_options& options) {
     detail::stopwatch watch;
     step_result result;
     const detail::rounded_positions rounded(positions);
@@ -41,12 +41,11 @@ step_result run_step(detail::candidate_search& search, const vertex_rows& positi
             phases.of<K>().decide(block);
         };
     });
-    using wanted = detail::candidate_search::wanted;
     const bool counted = options.count_candidates || options.explain;
-    const bool close_pairs_suffice =
-        !counted && options.method == method::exact && options.distances.is_contact();
-    const pair_counts counts = search.find(
-        at, options, visitor, close_pairs_suffice ? wanted::close_pairs : wanted::candidates);
+    detail::wanted_candidates wanted;
+    if (!counted && options.method == method::exact)
+        wanted = {.close = options.distances.is_contact(), .t_max = options.t_max};
+    const pair_counts counts = search.find(at, options, visitor, wanted);
     if (counted) result.candidates = counts;
     for_each_kind([&]<kind K>() { result.narrow_phase_seconds += phases.of<K>().seconds(); });
     result.narrow_phase_seconds /= tbb::this_task_arena::max_concurrency();
@@ -57,6 +56,14 @@ step_result run_step(detail::candidate_search& search, const vertex_rows& positi
         result.stages += phases.of<K>().report();
     });
     result.sort_seconds = watch.lap();
+
+    if (options.check_start) {
+        const intersection_options at_start{
+            .segments = false, .set = options.set, .stop = options.stop, .filter = options.filter};
+        result.intersections_at_start =
+            detail::find_intersections(search, fans, positions, at_start, &at).pairs;
+        result.start_seconds = watch.lap();
+    }
     return result;
 }
 
@@ -66,10 +73,6 @@ std::vector<Item> selected(const std::vector<Item>& items, const IsWanted& is_wa
     for (std::size_t i = 0; i < items.size(); ++i)
         if (is_wanted(i)) wanted.push_back(items[i]);
     return wanted;
-}
-
-bool is_earlier(const first_time& a, const first_time& b) {
-    return std::tuple(a.low, a.high) < std::tuple(b.low, b.high);
 }
 
 /// Computes the time of each reported pair. Drops pairs whose time is after t_max.
@@ -83,21 +86,18 @@ void find_times(const vertex_rows& positions, const time_options& options, bool 
     times = selected(times, in_time);
     result.touching_at_start.of<K>() =
         selected(pairs, [&](std::size_t i) { return times[i].at_start(); });
-    for (const first_time& time : times)
-        if (!time.at_start() && (result.first_contact.outcome != outcome::collides ||
-                                 is_earlier(time, result.first_contact)))
-            result.first_contact = time;
+    for (std::size_t i = 0; i < times.size(); ++i)
+        if (!times[i].at_start()) detail::add_first(times[i], pairs[i], result);
     if (keep_times) result.times.of<K>() = std::move(times);
 }
 
 template <kind K>
 void find_first(const vertex_rows& positions, time_options options, step_result& result) {
     const auto& pairs = result.pairs.of<K>();
-    const bool any = result.first_contact.outcome == outcome::collides;
-    if (any) options.t_max = result.first_contact.high;
+    if (result.first_contact.outcome == outcome::collides)
+        options.t_max = result.first_contact.high;
     const earliest_time found = earliest(positions, pairs, options);
-    if (!found.queries.empty() && (!any || is_earlier(found.time, result.first_contact)))
-        result.first_contact = found.time;
+    for (const std::size_t i : found.queries) detail::add_first(found.time, pairs[i], result);
     for (const std::size_t i : found.at_start) result.touching_at_start.of<K>().push_back(pairs[i]);
 }
 
@@ -139,6 +139,7 @@ void find_pair_times(const vertex_rows& positions, const step_options& options,
 
 struct mesh_steps::state {
     detail::candidate_search search;
+    std::optional<detail::vertex_fans> fans = {};
 
     void check(const vertex_rows& positions, const step_options& options) const {
         detail::check_positions(positions, search.vertices());
@@ -169,14 +170,28 @@ step_result mesh_steps::run(const vertex_rows& positions, const step_options& op
     state_->check(positions, options);
     const double check_seconds = watch.lap();
     step_result result;
-    const int threads = detail::on_threads(
-        options.threads, [&] { result = run_step(state_->search, positions, options); });
+    const int threads = detail::on_threads(options.threads, [&] {
+        result = run_step(state_->search, state_->fans, positions, options);
+    });
     result.threads = threads;
     result.prepare_seconds += check_seconds;
     watch.lap();
     find_pair_times(positions, options, result);
     result.contact_seconds = watch.lap();
     result.total_seconds = total.lap();
+    return result;
+}
+
+intersection_result mesh_steps::intersections(const vertex_rows& positions,
+                                              const intersection_options& options) {
+    detail::stopwatch watch;
+    auto& search = state_->search;
+    detail::check_at_rest(positions, search.vertices(), options.filter, search.is_in_plane());
+    intersection_result result;
+    detail::on_threads(options.threads, [&] {
+        result = detail::find_intersections(search, state_->fans, positions, options);
+    });
+    result.seconds = watch.lap();
     return result;
 }
 

@@ -9,6 +9,7 @@
 #include <limits>
 #include <span>
 #include <type_traits>
+#include <vector>
 
 #include "ccd/batch/rounded_positions.hpp"
 #include "ccd/step/box_tree.hpp"
@@ -19,18 +20,68 @@ constexpr std::size_t sampling_stride(std::size_t count) {
     return 1 + count / 1024;
 }
 
+/// The motion until a time t < 1, with rounded ends.
+class short_way {
+  public:
+    /// Preconditions: positions are finite, 0 <= t < 1.
+    short_way(const vertex_rows& way, double t)
+        : way_(way),
+          after_(after(way, t, error_)),
+          ends_{way.before, after_.data(), way.vertices},
+          rounded_(ends_) {}
+
+    short_way(const short_way&) = delete;  // it has pointers to itself
+    short_way& operator=(const short_way&) = delete;
+
+    batch_positions positions() const { return {ends_, rounded_}; }
+    /// The largest error of a coordinate at the end.
+    double error() const { return error_; }
+    /// A bound δ on these errors, in units of the rounded positions, for sizes up to 1.01 of these.
+    /// With ε = 2^-23, a rounded coordinate is off by 1.01ε, or 4.04ε for a sum of two of them,
+    /// and the subtraction of w = 1.0001δ + 4ε by (1.01 + w)ε, or (2.02 + 7ε + 2w)ε of 7ε + 2w. So
+    /// the exact coordinate is at least the rounded one less w, and their sum less 7ε + 2w.
+    float margin() const {
+        if (error_ == 0) return 0;
+        return static_cast<float>(1.0001 * error_ * rounded_.scale() +
+                                  4 * std::numeric_limits<float>::epsilon());
+    }
+
+  private:
+    /// (1 − t)·x + t·y has four roundings, each of at most u of |(1 − t)·x| + |t·y|, or 2^-1075.
+    static std::vector<double> after(const vertex_rows& way, double t, double& error) {
+        std::vector<double> ends(way.before, way.before + 3 * way.vertices);
+        error = 0;
+        if (t == 0) return ends;
+        double half_size = 0;
+        for (std::size_t i = 0; i < ends.size(); ++i) {
+            const double x = way.before[i], y = way.after[i], a = (1 - t) * x, b = t * y;
+            ends[i] = std::clamp(a + b, std::min(x, y), std::max(x, y));
+            half_size = std::max(half_size, std::abs(a) / 2 + std::abs(b) / 2);
+        }
+        error = 0x1p-50 * half_size + 0x1p-1072;
+        return ends;
+    }
+
+    vertex_rows way_;
+    double error_ = 0;
+    std::vector<double> after_;
+    vertex_rows ends_;
+    rounded_positions rounded_;
+};
+
 class swept_boxes {
   public:
-    /// Keeps references. Preconditions: positions are finite, distances valid.
-    swept_boxes(const batch_positions& positions, const pair_distances& distances)
-        : positions_(positions), distances_(distances) {}
+    /// Coordinates at the end are off by at most `error`. Keeps a reference to `distances`.
+    /// Preconditions: positions are finite, distances valid.
+    swept_boxes(const batch_positions& positions, const pair_distances& distances, double error = 0)
+        : positions_(positions), distances_(distances), error_(error) {}
 
     /// The swept box of 1, 2 or 3 vertices. In doubles it is exact. If pairs have a distance, it is
     /// widened by the element's share, rounded outwards: boxes of elements that come within their
-    /// distance touch. Floats, which are not for distances, give the box of rounded positions.
-    /// Rounding is monotone, so boxes that touch still do. Rounded boxes that touch without a
-    /// common end also touch exactly; if they have a common end, use touch(). Proof:
-    /// proofs/RoundedAxes.v, swept_rounded_first, swept_face_separate, swept_edges_separate,
+    /// distance touch. It is widened by the error, too. Floats, which are for neither, give the box
+    /// of rounded positions. Rounding is monotone, so boxes that touch still do. Rounded boxes that
+    /// touch without a common end also touch exactly; if they have a common end, use touch().
+    /// Proof: proofs/RoundedAxes.v, swept_rounded_first, swept_face_separate, swept_edges_separate,
     /// swept_boxes_touch.
     template <class Real, std::size_t N>
     box<Real> swept_box(const std::array<vertex_index, N>& element) const {
@@ -45,8 +96,10 @@ class swept_boxes {
                     all.high[k] = std::max(all.high[k], x[k]);
                 }
             }
-        if constexpr (std::is_same_v<Real, double>)
+        if constexpr (std::is_same_v<Real, double>) {
             if (!distances_.is_contact()) widen(all, part_of_distance(element));
+            if (error_ > 0) widen(all, error_);
+        }
         return all;
     }
 
@@ -59,9 +112,12 @@ class swept_boxes {
         return true;
     }
 
-    /// True if floats do not suffice: boxes have to be widened, which floats do not round outwards;
-    /// or in a sample, more than one box in sixteen has zero length on an axis only after rounding.
-    /// The latter happens for small parts that are very far apart.
+    /// True if boxes in floats do not suffice: they have to be widened, which floats do not round
+    /// outwards.
+    bool need_widening() const { return !distances_.is_contact() || error_ > 0; }
+    /// True if floats do not suffice for rounded positions: there are distances; or in a sample,
+    /// more than one box in sixteen has zero length on an axis only after rounding. The latter
+    /// happens for small parts that are very far apart.
     template <std::size_t N>
     bool need_doubles(std::span<const std::array<vertex_index, N>> elements) const {
         if (!distances_.is_contact()) return true;
@@ -107,6 +163,7 @@ class swept_boxes {
 
     batch_positions positions_;
     const pair_distances& distances_;
+    double error_;
 };
 
 }  // namespace ccd::detail

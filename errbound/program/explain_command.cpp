@@ -15,7 +15,7 @@
 namespace errbound::explaining {
 namespace {
 
-/// Printable: a file may contain any name.
+/// The name made printable, because a file may contain any name.
 std::string shown_name(const explanation& result) {
     return detail::printable(result.name);
 }

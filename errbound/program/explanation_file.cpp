@@ -43,7 +43,7 @@ class element {
         if (!value_.is_string()) refuse("a string");
         return value_.get<std::string>();
     }
-    /// `otherwise` for null.
+    /// Returns the number; `otherwise` for null.
     double number(double otherwise) const {
         if (value_.is_null()) return otherwise;
         if (!value_.is_number()) refuse("a number or null");
@@ -57,7 +57,7 @@ class element {
         if (!value_.is_null() && !value_.is_number()) refuse("a number, \"inf\", \"-inf\" or null");
         return number(std::numeric_limits<double>::quiet_NaN());
     }
-    /// At least 0; null is infinite.
+    /// Returns a number >= 0; null is infinite.
     double amount() const {
         const double x = number(std::numeric_limits<double>::infinity());
         if (!(x >= 0)) refuse("a number that is not negative, or null");

@@ -47,7 +47,8 @@ std::vector<pile> piles_of(const explanation& e) {
     return piles;
 }
 
-/// Precondition: UTF-8 without control characters. Two more that XML forbids become '?'.
+/// Precondition: UTF-8 without control characters. Two other characters that XML forbids become
+/// '?'.
 std::string escaped(std::string_view text) {
     std::string result;
     for (; !text.empty(); text.remove_prefix(detail::character_length(text))) {

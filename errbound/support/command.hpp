@@ -11,7 +11,7 @@
 namespace errbound::support {
 
 /// run_program returns 2 for bad usage.
-enum exit_status { done = 0, bad_input = 1, broken_promise = 1, stopped = 3 };
+enum exit_status { done = 0, bad_input = 1, broken_promise = 1, stopped = 3, check_failed = 3 };
 
 /// Returns body(), or 0 after printing --help or --version, unless `prints` is false. Throws
 /// usage_error.

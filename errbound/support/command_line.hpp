@@ -24,7 +24,7 @@ struct usage_error : std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
-/// named(name) for each name of a list N[,N...]. Throws usage_error for a repeated name.
+/// Returns named(name) for each name of a list N[,N...]. Throws usage_error for a repeated name.
 template <class Named>
 auto all_named(const std::string& option, const std::string& list, const Named& named) {
     std::vector<decltype(named(list))> result;
@@ -70,7 +70,8 @@ inline void require_one_standard_input(const std::string& option,
         throw usage_error(option + ": standard input is given twice; expected at most once");
 }
 
-/// For CLI11: an error message unless the text is an integer of 64 bits, which CLI11 would convert.
+/// Returns an error message for CLI11 unless the text is an unsigned integer of 64 bits. (CLI11
+/// itself would convert other numbers.)
 inline std::string checked_seed(const std::string& text) {
     std::uint64_t seed = 0;
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), seed);

@@ -1,4 +1,5 @@
-// Uses the C++ library, or fast_float if it lacks floating point (libc++ before 20).
+// Uses the C++ library, or fast_float if that library cannot convert floating point (libc++ before
+// 20).
 #include "errbound/support/decimal.hpp"
 
 #include <charconv>
@@ -24,8 +25,8 @@ decimal<T> parse_decimal(std::string_view text) {
     const auto [rest, ec] = from_chars(text.data(), end, value);
     if (ec == std::errc::invalid_argument || rest != end) return {0, decimal_status::malformed};
     if (ec == std::errc::result_out_of_range) {
-        // Too large or too small. For the latter, the stream gives the nearest value; libc++ also
-        // fails.
+        // The number is too large or too small. If it is too small, the stream gives the nearest
+        // value; libc++ also fails.
         std::istringstream stream{std::string(text)};
         stream.imbue(std::locale::classic());
         stream.exceptions(std::ios::badbit);  // running out of memory is no overflow

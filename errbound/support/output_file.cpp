@@ -17,7 +17,7 @@ namespace errbound::support {
 namespace fs = std::filesystem;
 namespace {
 
-/// To end a message.
+/// The end of a message: the last failure's reason, if known.
 std::string reason() {
     return errno != 0 ? std::string(" (") + std::strerror(errno) + ")" : std::string();
 }
@@ -30,7 +30,7 @@ bool is_standard_input(const fs::path& path) {
     return !system::has_device_files && path == "/dev/stdin";
 }
 
-/// Block by block: a pipe has no size.
+/// Reads block by block, because a pipe has no size.
 template <class Take>
 void for_each_block(const fs::path& path, const Take& take) {
     errno = 0;

@@ -1,6 +1,7 @@
 #include "errbound/support/table.hpp"
 
 #include <algorithm>
+#include <cstdio>
 
 namespace errbound::support {
 
@@ -49,6 +50,12 @@ std::string text_of(const table& given, std::size_t left) {
         result += line + '\n';
     }
     return result;
+}
+
+std::string fixed(double value, const char* format) {
+    char text[64];
+    std::snprintf(text, sizeof text, format, value);
+    return text;
 }
 
 std::string grouped(std::uint64_t n) {

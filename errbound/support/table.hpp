@@ -19,4 +19,7 @@ std::string text_of(const table& rows, std::size_t left);
 
 std::string grouped(std::uint64_t n);  ///< 1234567 as "1,234,567"
 
+/// The value in a format of printf.
+std::string fixed(double value, const char* format);
+
 }  // namespace errbound::support

@@ -4,7 +4,7 @@
 namespace errbound::validation {
 namespace {
 
-/// For arguments of sin, cos and tan: MPFR needs as many bits of π.
+/// For arguments of sin, cos and tan: MPFR needs as many bits of π as the exponent.
 constexpr mpfr_exp_t largest_exponent_of_angles = 20000;
 
 /// Beyond 2^±this, results are unknown or nearly zero, as in every format with functions.
@@ -59,8 +59,8 @@ class hull {
     bool empty_ = true;
 };
 
-/// True if the tangent may have a pole between the ends. Within a period, it has one exactly if it
-/// falls from one end to the other (in 64 bits).
+/// True if the tangent may have a pole between the ends. Within a period, it has one if and only if
+/// it falls from one end to the other (in 64 bits).
 bool has_pole(const ends& x) {
     MPFR_DECL_INIT(width, 64);
     mpfr_sub(width, x.upper.get(), x.lower.get(), MPFR_RNDU);

@@ -11,11 +11,13 @@
 namespace errbound::validation {
 namespace {
 
-/// The third holds every sum of doubles, the last every sum of long doubles and binary128.
+/// The third precision holds every sum of doubles, the last every sum of long doubles and
+/// binary128.
 constexpr std::array<mpfr_prec_t, 5> precisions{192, 768, 3072, 12288, 49152};
 /// Errors are distinguished from zero up to this precision; promises use higher ones, too.
 constexpr mpfr_prec_t precision_for_errors = 3072;
-/// At higher precisions, only sums and products are evaluated: others are exact in none.
+/// At higher precisions, only sums and products are evaluated: other operations are exact in no
+/// precision.
 constexpr mpfr_prec_t precision_for_functions = 12288;
 constexpr std::uint64_t least_chunk = 1000;
 
@@ -56,7 +58,7 @@ class reference {
         return values_[o.left].is_defined() && (!o.has_right() || values_[o.right].is_defined()) &&
                (!o.has_third() || values_[o.third].is_defined());
     }
-    /// True if every error's size is known, or it is zero.
+    /// True if every error is zero or has a known size.
     bool has_all_errors(const expression& e, const claim* computed) const {
         for (std::size_t n = e.input_count; n < e.size(); ++n)
             if (computed[n].value.is_finite() && values_[n].is_defined() && !off_[n].is_zero() &&
@@ -177,7 +179,8 @@ struct study {
     std::vector<rule> rules;
     expression_options options;
 
-    /// For rules without division, which skip every fourth index.
+    /// The number of indices that hold n expressions for rules without division, which skip every
+    /// fourth index.
     static std::uint64_t indices(std::uint64_t n) { return n + (n + 2) / 3; }
     std::uint64_t first() const { return indices(options.first); }
     chunks expressions() const {

@@ -128,14 +128,15 @@ class comparison {
         found.at = has_two ? text_of(x) + ", " + text_of(y) : text_of(x);
     }
 
-    /// States an error of another float; add() skips smaller ones.
+    /// Sets an error met at another float; add() skips smaller errors.
     void is_met_elsewhere(double units) { met_elsewhere_ = units; }
 
     function_errors found;
 
   private:
-    /// Returns an upper bound of units_off(v), or NaN. w is the double function's value, f within
-    /// 2^-20 units in the last place of a float (512 of its own). About 20 times as fast.
+    /// Returns an upper bound of units_off(v), or NaN. w is the double function's value. It is
+    /// within 2^-20 units in the last place of a float (512 of double's) of f. About 20 times as
+    /// fast as units_off.
     static double most_units_off(float v, double w) {
         constexpr double slack_of_w = 0x1p-20;
         constexpr int least = -149, digits = 24;
@@ -188,7 +189,7 @@ class argument_maker {
                                              : near(half_pi * std::floor(std::exp2(uniform(30))));
             case 3:  // near numbers of few digits, ends of domains among them
                 return near(signed_by(std::ldexp(T(random_.below(9)), random_.between(-3, 1))));
-            case 4:  // near those
+            case 4:  // near ±1
                 return signed_by(1 + signed_by(std::exp2(-uniform(traits::digits))));
             case 5:  // where results pass powers of two
                 return near(static_cast<T>(random_.between(least, most) * unit_of_exponent()));

@@ -12,8 +12,8 @@ namespace errbound::validation {
 
 /// Positive angles m·2^unit below 2^(exponent + 1), unit = exponent + 1 − p, for T of precision p.
 /// m is a denominator q_k of the continued fraction of 2^unit·2/π, 2q_k, or one of these plus
-/// q_(k−1): no integer below q_(k+1) has a product nearer to an integer than q_k. From 2^(p−8) on.
-/// Precondition: exponent >= 0. Cost: about 100 µs for double.
+/// q_(k−1): no integer below q_(k+1) has a product nearer to an integer than q_k. Only q_k >=
+/// 2^(p−8) are used. Precondition: exponent >= 0. Cost: about 100 µs for double.
 template <class T>
 std::vector<T> hard_angles(int exponent) {
     constexpr int p = number_traits<T>::digits;

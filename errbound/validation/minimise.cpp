@@ -34,7 +34,7 @@ expression cut(const expression& e, std::size_t root) {
     return r;
 }
 
-/// Exponents closer to 0; a few hundred steps lead there.
+/// Returns exponents nearer to 0; a few hundred steps lead to 0.
 std::vector<int> nearer_exponents(int e) {
     std::vector<int> r{0, e / 2, e - e / 16, e - e / 256};
     if (std::abs(e) < 4096) r.push_back(e + (e > 0 ? -1 : 1));
@@ -67,7 +67,7 @@ bool has_exponent(operation_kind kind) {
     return kind == operation_kind::scale || kind == operation_kind::power;
 }
 
-/// Falls with every accepted step: operations first, then inputs, then their digits.
+/// A measure that falls with every accepted step: operations first, then inputs, then their digits.
 double size_of(const expression& e) {
     double size =
         1e6 * static_cast<double>(e.operation_count) + 1e4 * static_cast<double>(e.input_count);
@@ -100,7 +100,7 @@ std::vector<double> simpler_numbers(double x) {
     return r;
 }
 
-/// Beyond doubles also the leading part, and a smaller exponent.
+/// For numbers beyond doubles, also returns the leading part, and a smaller exponent.
 std::vector<exact_value> simpler_numbers(const exact_value& x) {
     std::vector<exact_value> r;
     for (const double leading : simpler_numbers(x.leading)) {

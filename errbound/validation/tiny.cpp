@@ -39,7 +39,7 @@ void claim_checker::check(const tiny_claim& r, const exact_range& exact, const t
             add(r, "certain about what has no finite value", how);
         return;
     }
-    // Sums are exact or infinite.
+    // These sums of doubles are exact or infinite.
     if (!std::isnan(r.error) &&
         !(r.value - r.error <= exact.low && exact.high <= r.value + r.error))
         add(r, "the bound is too small", how);

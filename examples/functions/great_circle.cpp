@@ -39,7 +39,7 @@ int main() {
     const place tower{48.85837_tracked, 2.29448_tracked};
     const place places[] = {{40.6892_tracked, -74.0445_tracked},   // in New York
                             {48.85297_tracked, 2.34993_tracked},   // across the town
-                            {48.85838_tracked, 2.29449_tracked}};  // a few metres away
+                            {48.85838_tracked, 2.29449_tracked}};  // 1.3 m away
     for (const place& other : places)
         std::cout << "by cosine " << metres * by_cosine(tower, other) << " m, by haversine "
                   << metres * by_haversine(tower, other) << " m\n";

@@ -10,7 +10,7 @@
 #include <vector>
 
 // An estimate for independent errors of mean zero: it adds squares, where `sharp` adds sizes
-// (Higham, Mary 2019). Each error is at most √3 standard deviations.
+// (Higham, Mary 2019). For errors uniform within their bounds, it is √3 standard deviations.
 struct probable : errbound::derived_rule<probable, errbound::sharp> {
     static constexpr const char* name = "probable";
     static constexpr errbound::error_meaning error_is = errbound::error_meaning::estimate;

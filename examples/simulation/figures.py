@@ -6,7 +6,7 @@ runs. Then writes and prints report.md:
    in response, frames without convergence, pairs that passed through each other;
  * as its Figure 11: queries, time and false positives of each method on the proposed steps, by `ccd step`.
 
-Wang, Tang, Manocha, Tong: TightCCD: Efficient and Robust Continuous Collision Detection using Tight
+Wang, Tang, Tong, Manocha: TightCCD: Efficient and Robust Continuous Collision Detection using Tight
 Error Bounds, 2015.
 """
 import argparse

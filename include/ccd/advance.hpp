@@ -1,8 +1,10 @@
 // Steps that are certainly free of contact: how far a mesh may move, and to which positions.
 //
 //     const ccd::advance_result r = ccd::advance(before, after);  // r.positions are free
+//     const double alpha = ccd::free_step(steps, {x, p}).fraction;  // x + alpha * p is free
 //
 // `exact` certifies that the straight way from `before` to the rounded positions has no contact.
+// Precondition: `before` is free of intersections (ccd/intersections.hpp), which check_start tests.
 #pragma once
 
 #include <ccd/contact.hpp>
@@ -20,11 +22,23 @@ struct advance_options {
     /// their ways. Groups with a contact between them, also at the start, are joined. For one group
     /// per body, pass connected_parts (ccd/mesh.hpp); for one per vertex, different indices.
     std::span<const int> groups = {};
-    pair_distances distances = {};            ///< to keep; 0: only contact is avoided
+    /// Each vertex goes at least as far as with its group (without groups: as with a group of its
+    /// own), and further up to planes between the elements of each pair in contact, as in
+    /// divide-and-truncate methods: motion along a contact is not limited.
+    bool each_vertex = false;
+    pair_distances distances = {};  ///< to keep; 0: only contact is avoided
+    /// Pairs that start within their distance, or nearer than 1 + 2^-10 times it, may come nearer,
+    /// but not below this share of their distance at the start: in [0, 1). 0: they only may not
+    /// touch. With 0.1, pairs that rest at their distance can slide on.
+    double keep = 0;
     int threads = 0;                          ///< at most; 0: one per core
     std::optional<instruction_set> set = {};  ///< by default the strongest
     stop_query stop = {};                     ///< ends the call by throwing ccd::stopped
     pair_filter filter = {};                  ///< the pairs to test
+    bool check_start = false;                 ///< fill advance_result::intersections_at_start
+    /// The share of the way to the first contact (or distance) that is used: in (0, 1]. With 1, a
+    /// step ends next to the contact. Barrier methods need a gap there; 0.8 is usual.
+    double conservative = 1;
 };
 
 struct advance_result {
@@ -37,8 +51,12 @@ struct advance_result {
     /// The earliest contact (or distance) on the whole way, without the pairs of touching_at_start;
     /// `separate` if there is none.
     first_time first_contact;
+    pair_lists first_pairs;        ///< the pairs with that time: they limit the step
     pair_lists touching_at_start;  ///< skipped: no step of these pairs is free
-    pair_lists near_at_start;      ///< within their distance at t = 0: only contact is avoided
+    pair_lists near_at_start;      ///< near at t = 0: only `keep` holds for them
+    /// Elements that intersect at t = 0, as step_result::intersections_at_start, with check_start.
+    /// They may move on through each other: only a start without them has a free result.
+    std::vector<intersection> intersections_at_start;
 };
 
 /// Returns the longest step from positions.before towards positions.after that was found to be
@@ -47,7 +65,9 @@ struct advance_result {
 ///
 /// A group's fraction is at least 0.99 of the time of its first contact, or of the least time among
 /// joined groups. It is less, at worst 0, only if moving vertices back by up to 1024 units in the
-/// last place does not free them. Gaps of a few such units cause this.
+/// last place does not free them. Gaps of a few such units cause this. Each round of the search
+/// joins groups, shortens ways or moves vertices back. If 60 rounds do not suffice, all groups are
+/// joined, and vertices are no longer moved back.
 ///
 /// Throws as mesh_steps::run, and std::invalid_argument if the numbers of groups and vertices
 /// differ. Cost: one such step if the whole way is free, else usually two. It is more, at most 80,
@@ -57,5 +77,20 @@ advance_result advance(mesh_steps& steps, const vertex_rows& positions,
 /// Two frames of one mesh. Throws std::invalid_argument also if they differ in faces, edges or
 /// number of vertices.
 advance_result advance(const mesh& before, const mesh& after, const advance_options& options = {});
+
+/// Returns the longest free step along a direction that was found: `directed.before` are positions
+/// x, `directed.after` the displacements p. Line searches move to x + alpha * p, which rounds
+/// otherwise than advance_result::positions, so a fraction of `advance` does not certify it.
+///
+/// The result's fraction is alpha, and its positions are x + alpha * p. The ways from x to these
+/// are free in both forms: product and sum rounded, and fused, std::fma(alpha, p, x), for each
+/// coordinate. first_contact is on the way from x to x + p, or to a half of p, a quarter, ... if
+/// that overflows. alpha is within a few ulps of `conservative` times the time of that contact,
+/// less only if rounding causes contacts.
+///
+/// Throws as advance, and std::invalid_argument if there are groups or a displacement is not
+/// finite. Cost: as advance; one more step if fused positions differ.
+advance_result free_step(mesh_steps& steps, const vertex_rows& directed,
+                         const advance_options& options = {});
 
 }  // namespace ccd

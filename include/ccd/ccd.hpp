@@ -8,6 +8,7 @@
 #include <ccd/exact.hpp>
 #include <ccd/execution.hpp>
 #include <ccd/explain.hpp>
+#include <ccd/intersections.hpp>
 #include <ccd/kind.hpp>
 #include <ccd/mesh.hpp>
 #include <ccd/method.hpp>
@@ -21,6 +22,7 @@
 #include <ccd/methods/tracked_query.hpp>
 #include <ccd/methods/transform.hpp>
 #include <ccd/nearness.hpp>
+#include <ccd/pair_filter.hpp>
 #include <ccd/plane.hpp>
 #include <ccd/query.hpp>
 #include <ccd/reference.hpp>

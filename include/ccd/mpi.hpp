@@ -16,6 +16,7 @@
 
 #include <array>
 #include <ccd/advance.hpp>
+#include <ccd/intersections.hpp>
 #include <ccd/kind.hpp>
 #include <ccd/mesh.hpp>
 #include <ccd/step.hpp>
@@ -48,6 +49,22 @@ using numbered_list = std::vector<numbered_pair<K>>;
 }
 using pair_lists = by_kind<detail::numbered_list>;
 
+/// Same as ccd::mesh_element and ccd::intersection, with numbers of vertices.
+struct numbered_element {
+    std::uint8_t size = 0;
+    std::array<vertex_number, 3> numbers{};
+
+    std::span<const vertex_number> vertices() const { return {numbers.data(), size}; }
+    friend auto operator<=>(const numbered_element&, const numbered_element&) = default;
+};
+struct numbered_intersection {
+    numbered_element a, b;
+    errbound::relation relation = errbound::relation::disjoint;
+    std::optional<std::array<errbound::located_point<3>, 2>> segment = {};
+
+    intersection_kind kind() const { return kind_of_sizes(a.size, b.size); }
+};
+
 /// The rank that receives a pair.
 enum class placement : std::uint8_t {
     owners,  ///< the lowest rank that has the pair's first element
@@ -69,6 +86,8 @@ struct step_result {
     first_time first_contact;               ///< of the whole step, the same on all ranks
     std::optional<pair_counts> candidates;  ///< of the whole step
     std::optional<pair_counts> decided;     ///< by this rank
+    /// This rank's share, sorted, with check_start.
+    std::vector<numbered_intersection> intersections_at_start;
     rank_work work;
 };
 
@@ -91,18 +110,35 @@ struct advance_result {
     double fraction = 1;                   ///< the least of the whole mesh, the same on all ranks
     std::vector<double> fractions;         ///< of mesh.numbers
     first_time first_contact;              ///< of the whole step, the same on all ranks
-    pair_lists touching_at_start, near_at_start;  ///< of the whole mesh, sorted, on all ranks
+    /// Of the whole mesh, sorted, on all ranks.
+    pair_lists first_pairs, touching_at_start, near_at_start;
+    /// Of the whole mesh, sorted, on all ranks, with check_start.
+    std::vector<numbered_intersection> intersections_at_start;
     rank_work work;
 };
 
 /// Returns the result of ccd::advance for the whole mesh, bit for bit, if numbers order vertices as
 /// indices do there. Groups (the options' and the filter's) are those of mesh.numbers, with the
-/// same index on every rank. can_collide and region must be empty.
+/// same index on every rank. can_collide and region must be empty, each_vertex false.
 ///
 /// Throws as ccd::mpi::step, and ccd::stopped on all ranks if options.stop returns true on one.
 ///
 /// Memory: that of a step, and on every rank some pairs of the whole mesh: those that touch or are
 /// near at the start, those that meet by rounding, and with groups all that meet.
 advance_result advance(MPI_Comm comm, const mesh_part& mesh, const advance_options& options = {});
+
+struct intersection_result {
+    std::vector<numbered_intersection> pairs;  ///< those of this rank, sorted
+    intersection_counts counts;                ///< of the whole mesh, the same on all ranks
+    rank_work work;
+};
+
+/// Returns the result of ccd::intersections for the whole mesh at positions.before;
+/// positions.after may be null. A pair is on the lowest rank that has its first vertex, or on rank
+/// 0. options.wanted must be `all` or `count`; edge_faces and merge_equal_positions must be false.
+/// Throws as ccd::mpi::step.
+intersection_result intersections(MPI_Comm comm, const mesh_part& mesh,
+                                  const intersection_options& options = {},
+                                  placement pairs = placement::owners);
 
 }  // namespace ccd::mpi

@@ -5,66 +5,28 @@
 //
 // For many steps of one mesh, use mesh_steps. A pair is two elements without a common vertex:
 // vertex/face, edge/edge and, in meshes with rods or points, vertex/edge and vertex/vertex. When
-// two elements first touch, such a pair touches (docs/collision-detection.md, Steps). Start from a
-// state free of intersections: elements that intersect at t = 0 are reported only once a boundary
-// moves through the other element. Results do not depend on the number of threads. Throws
-// std::invalid_argument for bad input.
+// two elements first touch, such a pair touches (docs/collision-detection.md, Steps). Elements that
+// intersect at t = 0 are among the pairs only if a boundary moves through the other element;
+// step_options::check_start reports all of them. Results do not depend on the number of threads.
+// Throws std::invalid_argument for bad input.
 #pragma once
 
-#include <array>
 #include <ccd/batch.hpp>
 #include <ccd/contact.hpp>
+#include <ccd/intersections.hpp>
 #include <ccd/kind.hpp>
 #include <ccd/mesh.hpp>
 #include <ccd/method.hpp>
+#include <ccd/pair_filter.hpp>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
-#include <limits>
 #include <memory>
 #include <optional>
 #include <span>
 #include <vector>
 
 namespace ccd {
-
-/// An axis-aligned box, closed below and open above; by default all of space.
-struct space_region {
-    static constexpr double everywhere = std::numeric_limits<double>::infinity();
-    std::array<double, 3> low{-everywhere, -everywhere, -everywhere};
-    std::array<double, 3> high{everywhere, everywhere, everywhere};
-
-    bool has(const std::array<double, 3>& x) const {
-        for (std::size_t k = 0; k < 3; ++k)
-            if (!(low[k] <= x[k] && x[k] < high[k])) return false;
-        return true;
-    }
-};
-
-/// The pairs that a step tests: those with a vertex of one element that may collide with a vertex
-/// of the other. Two vertices may collide unless a member excludes it; empty members exclude
-/// nothing. Not owned; `groups` and `pinned` have one entry for each vertex.
-struct pair_filter {
-    enum class group_rule : std::uint8_t {
-        between_groups,  ///< two vertices of one group may not collide
-        within_groups,   ///< two vertices of different groups may not collide
-    };
-
-    /// True if two vertices may collide. Called from several threads at once. An exception ends the
-    /// call and leaves the mesh_steps object as before.
-    std::function<bool(vertex_index, vertex_index)> can_collide = {};
-    std::span<const int> groups = {};  ///< the group of each vertex: its body, its layer, ...
-    group_rule rule = group_rule::between_groups;
-    /// Not 0: the vertex is at rest, or its motion is prescribed. Two such vertices may not
-    /// collide.
-    std::span<const std::uint8_t> pinned = {};
-    /// Keeps a pair if the lower corner of the intersection of its swept boxes (widened by the
-    /// distance) lies in this region: regions that tile space partition the pairs. A step in a
-    /// region needs only the elements whose boxes meet it.
-    std::optional<space_region> region = {};
-    /// Skips unused_vertices, which are points by default. To keep vertex v, add the edge {v, v}.
-    bool skip_unused = false;
-};
 
 struct step_options {
     ccd::method method = ccd::method::exact;
@@ -75,6 +37,7 @@ struct step_options {
     bool initial_contact = false;  ///< fill step_result::touching_at_start
     bool first_contact = false;    ///< fill step_result::first_contact, and touching_at_start
     bool times = false;            ///< fill times, first_contact and touching_at_start
+    bool check_start = false;      ///< fill step_result::intersections_at_start
     double t_max = 1;              ///< report only pairs with a contact in [0, t_max]
     /// Report pairs within a distance instead of pairs in contact, also in times and
     /// touching_at_start.
@@ -118,18 +81,23 @@ struct step_result {
     std::optional<pair_counts> candidates;
     pair_lists pairs;  ///< the reported pairs, vertices of faces ascending
     /// The members of `pairs` that touch at t = 0 (with distances: are within their distance), by
-    /// `exact` for every method; a pair that the method loses is missing. Filled with
-    /// initial_contact, first_contact, times or t_max < 1.
+    /// `exact` for every method; a pair that the method loses is missing. Filled only if
+    /// initial_contact, first_contact, times or t_max < 1 is given.
     pair_lists touching_at_start;
     time_lists times;  ///< of `pairs`, with step_options::times
-    /// The earliest not at t = 0; `separate` if there is none. Filled with first_contact, times or
-    /// t_max < 1; otherwise `uncertain`.
+    /// The earliest not at t = 0; `separate` if there is none. `uncertain` unless first_contact,
+    /// times or t_max < 1 is given.
     first_time first_contact;
+    pair_lists first_pairs;  ///< the members of `pairs` with that time
+    /// The mesh's intersections at t = 0, without segments, as mesh_steps::intersections reports
+    /// them, with check_start.
+    std::vector<intersection> intersections_at_start;
     double prepare_seconds = 0;       ///< input checks, the mesh's edges
     double broad_phase_seconds = 0;   ///< the search for candidates, without the narrow phase
     double narrow_phase_seconds = 0;  ///< the sum over threads, divided by their number
     double sort_seconds = 0;          ///< sorting the reported pairs
     double contact_seconds = 0;       ///< first times, and pairs that touch at t = 0
+    double start_seconds = 0;         ///< intersections at t = 0
     double total_seconds = 0;
     int threads = 0;      ///< the most threads that the call could use
     stage_report stages;  ///< of `exact` for vertex/face and edge/edge pairs, with explain
@@ -146,11 +114,12 @@ step_result step(const mesh& before, const mesh& after, const step_options& opti
 /// memory from step to step. One call at a time. Results do not depend on earlier steps.
 ///
 /// An element's swept box is the least box along the axes that contains it at every t. Candidates
-/// are the pairs that the filter keeps and whose swept boxes touch, borders included. Boxes are
-/// compared in doubles, without error; with distances they are first widened by each element's
-/// share, rounded outwards. Trees over the boxes find candidates, which are decided in blocks and
-/// not all stored. Without distances, count_candidates and explain, `exact` discards most
-/// candidates, those that an axis separates, during the search of the trees.
+/// are the pairs that the filter keeps and whose swept boxes touch, borders included. With
+/// distances, boxes are first widened by each element's share, rounded outwards. Trees over the
+/// boxes, rounded to floats, find pairs, which are then compared in doubles, without error.
+/// Candidates are decided in blocks and not all stored. Without distances, count_candidates and
+/// explain, `exact` discards most candidates, those that an axis separates, during the search of
+/// the trees.
 ///
 /// A face that repeats a vertex counts as a segment or point, and is paired as any other face.
 /// Faces with the same vertices count once, as do equal edges. All methods decide vertex/edge and
@@ -160,8 +129,8 @@ step_result step(const mesh& before, const mesh& after, const step_options& opti
 /// candidates: n unused vertices at the origin make n²/2 pairs, unless skip_unused skips them.
 /// Memory, kept between steps, in addition to two `mesh` frames and the result: up to nine times
 /// these frames. With count_candidates, explain or a method other than `exact`, it is up to three
-/// times these frames. Boxes are in doubles instead of floats if distances are given. This is also
-/// so for a mesh so far from the origin that floats cannot separate its boxes.
+/// times these frames. Trees hold doubles instead of floats with distances, and for a mesh so far
+/// from the origin that floats cannot separate its boxes.
 class mesh_steps {
   public:
     /// Throws std::invalid_argument if an index is not below `vertices`, or for 2^32 or more
@@ -194,6 +163,11 @@ class mesh_steps {
     /// other tasks of oneTBB.
     pair_counts for_each_candidate(const vertex_rows& positions, const candidate_visitor& visitor,
                                    const step_options& options = {});
+
+    /// Same as ccd::intersections for the mesh of these steps at positions.before; positions.after
+    /// may be null. In the plane, pairs are of edges and points.
+    intersection_result intersections(const vertex_rows& positions,
+                                      const intersection_options& options = {});
 
   private:
     struct state;

@@ -1,11 +1,11 @@
 // Bernstein sign classification (BSC), over any scalar that has + − × and a sign. Start at
 // root_with_nonnegative. Symbols: docs/notation.md.
 //
-// Derived anew after Tang, Tong, Wang, Manocha 2014 (TTWM14) and TightCCD (Wang, Tang, Manocha,
-// Tong 2015, Section 5). Differences: an uncertain sign of Y at an end is followed as either sign
-// (on_convex). Y is split exactly at its inflection (without_halving). `reduced` does not divide.
-// Forms are in (s, t), s + t = 1: Y = (y0, y1, y2, y3), D = Y', l is linear with the root t_l.
-// Inner means 0 < t < 1. A strict sign is not zero.
+// Derived anew after Tang, Tong, Wang, Manocha 2014 (TTWM14) and TightCCD (Wang, Tang, Tong,
+// Manocha 2015, Section 5). Differences: an uncertain sign of Y at an end is followed as either
+// sign (on_convex). Y is split exactly at its inflection (without_halving). `reduced` does not
+// divide. Forms are in (s, t), s + t = 1: Y = (y0, y1, y2, y3), D = Y', l is linear with the root
+// t_l. Inner means 0 < t < 1. A strict sign is not zero.
 #pragma once
 
 #include <array>
@@ -18,7 +18,7 @@
 
 namespace errbound {
 
-/// Does a root exist? maybe_root: signs of Y do not decide; maybe_inside: signs of a G_i do not.
+/// The existence of a root. maybe_root: uncertain because of Y; maybe_inside: because of a G_i.
 enum class existence : std::uint8_t { no, yes, maybe_root, maybe_inside };
 
 namespace bsc {
@@ -129,8 +129,8 @@ constexpr sign_pair signs_at_pair(const cubic<S>& y, const bernstein<S, 2>& d,
 }
 
 /// The quadratic J: y0·y3·G = s·t·J + (a form)·Y. y0·G − g0·s·Y = t·E cancels s⁴; y3·E − e3·Y = s·J
-/// cancels t³. At inner roots of Y, sign G = sign(y0·y3)·sign J. If y0 or y3 is zero but followed
-/// as strict, J = 0 there. Proof: proofs/BscSigns.v, reduction.
+/// cancels t³. At inner roots of Y, sign G = sign(y0·y3)·sign J. If y0 or y3 is zero but its
+/// uncertain sign is followed as strict, J = 0 at these roots. Proof: proofs/BscSigns.v, reduction.
 template <class S>
 constexpr bernstein<S, 2> reduced(const cubic<S>& y, const bernstein<S, 4>& g) {
     const std::array<S, 4> e{y[0] * g[1] - g[0] * y[1], y[0] * g[2] - g[0] * y[2],
@@ -153,8 +153,8 @@ struct decomposition {
     }
 };
 
-/// The sign of J at a root of Y, from those of M and R. If M is zero too, the sign of J at M's root
-/// (Proof: proofs/Published.v, decomposition_zero).
+/// The sign of J at a root of Y, from the signs m and r of M and R there. If M is zero, returns the
+/// sign of J at the root of M (Proof: proofs/Published.v, decomposition_zero).
 template <class S>
 constexpr sign_type combined(sign_type m, sign_type r, const bernstein<S, 1>& m_form,
                              const bernstein<S, 2>& j) {
@@ -164,7 +164,7 @@ constexpr sign_type combined(sign_type m, sign_type r, const bernstein<S, 1>& m_
     return sign_of(value_at(j, root.s, root.t));
 }
 
-/// The sign of the quartic g at the only inner root of Y; `before`: as for a linear form.
+/// The sign of the quartic g at the only inner root of Y; `before` as for a linear form.
 template <class S>
 constexpr sign_type sign_at_crossing(const cubic<S>& y, sign_type before,
                                      const bernstein<S, 4>& g) {
@@ -320,7 +320,7 @@ struct part {
     quartics<S, M> g;
 };
 
-/// The answer if the sign of Y'' is irrelevant, otherwise nothing. d = Y'.
+/// The answer if it does not depend on the sign of Y'', otherwise nothing. d = Y'.
 template <class S, std::size_t M>
 constexpr std::optional<existence> without_curvature(const part<S, M>& p,
                                                      const bernstein<S, 2>& d) {
@@ -412,14 +412,14 @@ template <class S, std::size_t M>
 
 }  // namespace bsc
 
-/// Is there t in [0, 1] with y(t) = 0 and every g_i(t) >= 0? `make_g()` returns the g_i as a
+/// Decides if some t in [0, 1] has y(t) = 0 and every g_i(t) >= 0. `make_g()` returns the g_i as a
 /// std::array; it is called only if y may have a root.
 ///
 /// If the scalar's certain signs are right, so is `no`, and `yes` proves a root with every g_i > 0.
 /// Proof: proofs/Bsc.v, bsc_no, bsc_yes. Y ≡ 0 gives `no` or `maybe_root`. If no sign is uncertain,
-/// `maybe_root` means Y ≡ 0, and `maybe_inside` that no root has every g_i > 0, but one has every
-/// g_i >= 0. Proof: proofs/BscExact.v, bsc_exact_root, bsc_exact_inside. Cost: some hundred
-/// operations of S in common cases, at most a few thousand.
+/// `maybe_root` means Y ≡ 0, and `maybe_inside` means that some root has every g_i >= 0 but none
+/// has every g_i > 0. Proof: proofs/BscExact.v, bsc_exact_root, bsc_exact_inside. Cost: some
+/// hundred operations of S in common cases, at most a few thousand.
 template <class S, class MakeConstraints>
 constexpr existence root_with_nonnegative(const bernstein<S, 3>& y, const MakeConstraints& make_g) {
     const bsc::cubic<S> cubic = normalized(y);

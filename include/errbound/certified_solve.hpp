@@ -51,8 +51,8 @@ struct certified_solution {
     matrix values;        ///< NaN unless certified
     matrix errors;        ///< |values − exact solution| <= errors; infinite unless certified
     /// A certified β < 1 with |I − RA|v <= βv for some R and v > 0, which proves that A is
-    /// nonsingular; infinite if none was found. At 1e-3, three more digits of condition number
-    /// would pass.
+    /// nonsingular; infinite if none was found. If it is 1e-3, a condition number up to a thousand
+    /// times larger would pass.
     double contraction;
 
     bool certified() const { return status == solve_status::certified; }
@@ -60,7 +60,7 @@ struct certified_solution {
 
 namespace linear {
 
-/// An upper bound of |y − ỹ|, Ay = b, from an enclosure r of b − Aỹ. `step`, the computed
+/// An upper bound of |y − ỹ| with Ay = b, from an enclosure r of b − Aỹ. `step`, the computed
 /// R·r.value, is off by at most γ_n|R||r| + nη (linear/rounding.hpp); r.error adds |R|·r.error.
 template <int N>
 vector<N> error_from_residual(const checked_inverse<N>& inverse, const enclosed_vector<N>& r,
@@ -76,8 +76,8 @@ vector<N> error_from_residual(const checked_inverse<N>& inverse, const enclosed_
     return inverse.error_from(z);
 }
 
-/// Refines ỹ by residuals in twice the precision while that helps. Encloses y around ỹ + d, where d
-/// is the last correction, and rounds ỹ + d.
+/// Refines ỹ by residuals in twice the precision while corrections halve. Encloses y around ỹ + d,
+/// with the last correction d, and rounds ỹ + d.
 template <int N>
 enclosed_vector<N> solve_column(const checked_inverse<N>& inverse, const vector<N>& b) {
     constexpr int enough = 20;
@@ -131,14 +131,14 @@ certified_solution<Rows, Columns> refused(solve_status status, Index rows, Index
 
 }  // namespace linear
 
-/// Returns the solution x of ax = b with certified errors, or the reason for having none.
+/// Returns the solution x of ax = b with certified errors, or the reason why there is none.
 ///
 /// Errors are near half a unit in the last place, larger near the limit of the condition number,
 /// about 2^53/√n. Beyond it, the result is nearly_singular. Scaling of rows and columns does not
-/// count. Cost: an LU decomposition and two products of n×n matrices, measured as 6.7 to 11.4 times
-/// a plain solve; a few matrix-vector products in doubled precision per column of b. Memory: six
-/// n×n matrices, on the heap only if n is Eigen::Dynamic. Throws std::bad_alloc. Sources:
-/// linear/checked_inverse.hpp, linear/residual.hpp.
+/// change this limit. Cost: an LU decomposition and two products of n×n matrices, measured as 6.7
+/// to 11.4 times a plain solve; a few matrix-vector products in doubled precision per column of b.
+/// Memory: six n×n matrices, on the heap only if n is Eigen::Dynamic. Throws std::bad_alloc.
+/// Sources: linear/checked_inverse.hpp, linear/residual.hpp.
 template <class MatrixType, class RightHandSide>
 auto certified_solve(const Eigen::MatrixBase<MatrixType>& a,
                      const Eigen::MatrixBase<RightHandSide>& b) {
@@ -170,7 +170,7 @@ auto certified_solve(const Eigen::MatrixBase<MatrixType>& a,
              answer::matrix::Zero(a.rows(), b.cols()), inverse.contraction()};
     for (Eigen::Index k = 0; k < b.cols(); ++k) {
         const linear::scaled_vector<N> right(sides.col(k), scaled.row);
-        if (right.is_zero()) continue;  // so is the solution
+        if (right.is_zero()) continue;  // the solution is zero too
         const linear::enclosed_vector<N> y = linear::solve_column<N>(inverse, right.entries);
         for (Eigen::Index i = 0; i < a.rows(); ++i) {
             const with_error<double> entry =

@@ -34,7 +34,7 @@ struct NumTraits<errbound::tracked<T, Rule>> : GenericNumTraits<errbound::tracke
     using Real = Scalar;
     using NonInteger = Scalar;
     using Nested = Scalar;
-    using Literal = Scalar;  // other plain types carry their conversion's error
+    using Literal = Scalar;  // literals convert, with the error of the conversion
     enum {
         IsComplex = 0,
         IsInteger = 0,

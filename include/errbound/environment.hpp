@@ -1,9 +1,10 @@
 // Checks the compiler and the floating-point environment. Compiler flags: docs/guarantees.md.
 // Needed: IEEE 754 binary formats with gradual underflow, operations rounded once to the format, no
-// value-changing optimisation. `tight` and `safe` hold in any rounding direction; `sharp`,
-// `interval`, `residual`, error-free transformations and predicates need rounding to nearest.
-// Contraction to fused multiply-add does not affect tracked numbers (rounded.hpp). Other code
-// differs between machines without -ffp-contract=off.
+// value-changing optimisation. The rules `tight` and `safe`, and the methods of ccd with these
+// names, hold in any rounding direction. The other rules and methods, predicates, error-free
+// transformations and certified_solve need rounding to nearest. Contraction to fused multiply-add
+// does not affect tracked numbers (rounded.hpp). Other code differs between machines without
+// -ffp-contract=off.
 #pragma once
 
 #include <cfloat>

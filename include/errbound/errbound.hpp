@@ -15,5 +15,8 @@
 #include <errbound/predicate_batch.hpp>
 #include <errbound/predicates.hpp>
 #include <errbound/roots/real_roots.hpp>
+#include <errbound/simplices/common_segment.hpp>
+#include <errbound/simplices/predicates.hpp>
+#include <errbound/simplices/relation.hpp>
 #include <errbound/small_floats.hpp>
 #include <errbound/tracked.hpp>

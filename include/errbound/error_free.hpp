@@ -125,11 +125,12 @@ struct division_remainder {
     bool exact;  ///< otherwise value is unreliable, infinite or NaN
 };
 
-/// Computes a − q·b for q = a ⊘ b; exact if two_product(q, b) = (v, e) is. Then v is between a/2
-/// and 2a, so a − v is exact (Sterbenz). (a − v) − e is a multiple of ulp(q)·ulp(b) >= η and at
-/// most |b|·ulp(q)/2, so it is exact too. Cost: a two_product and 2 operations. Source: Pichat
-/// 1976; Bohlender, Walter, Kornerup, Matula 1991. Proof: proofs/ErrorFree.v,
-/// remainder_of_division_exact; with overflow, proofs/IeeeInterval.v, remainder_known.
+/// Computes a − q·b for q = a ⊘ b. Exact if a = 0, or if q ≠ 0 and two_product(q, b) = (v, e) is.
+/// In the latter case v is between a/2 and 2a, so a − v is exact (Sterbenz). (a − v) − e is a
+/// multiple of ulp(q)·ulp(b) >= η and at most |b|·ulp(q)/2, so it is exact too. Cost: a two_product
+/// and 2 operations. Source: Pichat 1976; Bohlender, Walter, Kornerup, Matula 1991. Proof:
+/// proofs/ErrorFree.v, remainder_of_division_exact; with overflow, proofs/IeeeInterval.v,
+/// remainder_known.
 template <class T>
 constexpr division_remainder<T> remainder_of_division(const T& a, const T& b, const T& q) {
     using traits = number_traits<T>;
@@ -139,9 +140,9 @@ constexpr division_remainder<T> remainder_of_division(const T& a, const T& b, co
     return {(a - product.value) - product.error, exact};
 }
 
-/// Computes x − v² for v = fl(√x), x >= 0 finite; exact if v ≠ 0 and two_product(v, v) is. |√x − v|
-/// <= ulp(v)/2, so x − v² is a multiple of ulp(v)² and at most v·ulp(v) in size. Cost and source:
-/// see remainder_of_division. Proof: proofs/IeeeSlopes.v, remainder_of_root_known.
+/// Computes x − v² for v = fl(√x), x >= 0 finite. Exact if x = 0, or if two_product(v, v) is. |√x −
+/// v| <= ulp(v)/2, so x − v² is a multiple of ulp(v)² and at most v·ulp(v) in size. Cost and
+/// source: see remainder_of_division. Proof: proofs/IeeeSlopes.v, remainder_of_root_known.
 template <class T>
 constexpr division_remainder<T> remainder_of_root(const T& x, const T& v) {
     return remainder_of_division(x, v, v);

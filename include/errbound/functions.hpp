@@ -3,9 +3,10 @@
 //   errbound::tracked<double> x = ...;
 //   sqrt(x * x + y * y);            // found by its argument: no errbound:: is needed
 //
-// They use only |value() − x| <= error(), which every rule gives. If an argument may lie outside
-// the domain, the result's error is infinite. Derivations hold in any rounding direction, ε = 2u: a
-// rounded result keeps at least 1 − ε of a bound, less η if it underflows.
+// Unless stated otherwise they use only |value() − x| <= error(), which every rule gives. If an
+// argument may lie outside the domain, the result's error is infinite. Derivations hold in any
+// rounding direction, with ε = 2u. One rounding reduces a bound by a factor of at least 1 − ε, and
+// by less than η if it underflows.
 #pragma once
 
 #include <cassert>
@@ -41,7 +42,7 @@ constexpr T rounding_of(const T& v) {
            traits::underflow_unit();
 }
 
-/// True if the rule bounds quotients. (`divide` may exist only for its message.)
+/// True if the rule bounds quotients. (`divide` may exist only to stop compilation with a reason.)
 template <class Rule, class T>
 inline constexpr bool rule_divides = [] {
     if constexpr (requires { Rule::has_division; })
@@ -89,7 +90,8 @@ constexpr tracked<T, Rule> root_by_error(const tracked<T, Rule>& x) {
                           enlarged<T>(e / divisor + T(rounding_of(v) + traits::underflow_unit())));
 }
 
-/// `by_slope` if it has the same value and an error at most an eighth larger; otherwise `by_error`.
+/// `by_slope` if it has the value of `by_error` and an error at most an eighth larger; otherwise
+/// `by_error`.
 template <class T, class Rule>
 constexpr tracked<T, Rule> closer(const tracked<T, Rule>& by_error,
                                   const tracked<T, Rule>& by_slope) {
@@ -99,9 +101,9 @@ constexpr tracked<T, Rule> closer(const tracked<T, Rule>& by_error,
     return by_error;
 }
 
-/// √x = v + (x − v²)/(√x + v) by the rule's operations; v is the value of `root`, which stands for
-/// √x. x − v² is the remainder x̂ − v², a T, plus x − x̂. Returns `root` if the remainder is
-/// unknown. Proof: proofs/IeeeSlopes.v, sqrt_by_slope_known; of `affine`, affine_slope_sqrt_gives.
+/// √x = v + (x − v²)/(√x + v) by the rule's operations, with `root` for √x and its value for v. x −
+/// v² is the remainder x̂ − v², a T, plus x − x̂. Returns `root` if the remainder is unknown.
+/// Proof: proofs/IeeeSlopes.v, sqrt_by_slope_known; of `affine`, affine_slope_sqrt_gives.
 template <class T, class Rule>
 constexpr tracked<T, Rule> root_by_slope(const tracked<T, Rule>& x, const tracked<T, Rule>& root) {
     using number = tracked<T, Rule>;
@@ -118,8 +120,8 @@ constexpr tracked<T, Rule> root_by_slope(const tracked<T, Rule>& x, const tracke
 
 }  // namespace detail
 
-/// √x. Infinite error if x may be negative. Exact if x is and its root is a T. Uses the rule's own
-/// square_root (`interval`), or the slope 1/(2v) if the rule keeps errors to first order
+/// √x. Infinite error if x may be negative. Exact if x is exact and its root is a T. Uses the
+/// rule's own square_root (`interval`), or the slope 1/(2v) if the rule keeps errors to first order
 /// (`residual`, `affine`), otherwise x.error(). Proof: proofs/IeeeSlopes.v, slope_sqrt_known,
 /// interval_sqrt_known; proofs/IeeeFunctions.v, sqrt_known.
 template <class T, class Rule>
@@ -167,8 +169,8 @@ constexpr bool isnan(const tracked<T, Rule>& x) {
     return x.value() != x.value();
 }
 
-/// The operand with the lesser value. If the order is uncertain, it has the larger error, as
-/// |min(a, b) − min(c, d)| <= max(|a − c|, |b − d|). Proof: proofs/IeeeFunctions.v, min_known.
+/// The operand with the lesser value. If the order is uncertain, the result has the larger error,
+/// as |min(a, b) − min(c, d)| <= max(|a − c|, |b − d|). Proof: proofs/IeeeFunctions.v, min_known.
 template <class T, class Rule>
 constexpr tracked<T, Rule>(min)(const tracked<T, Rule>& a, const tracked<T, Rule>& b) {
     return b.value() < a.value() ? detail::lesser_or_either(b, a) : detail::lesser_or_either(a, b);
@@ -182,10 +184,11 @@ constexpr tracked<T, Rule>(max)(const tracked<T, Rule>& a, const tracked<T, Rule
 
 namespace detail {
 
-/// ab + c by errors σ, v its rounded value: |v − (ab + c)| <= |v|ε/(1 − ε) + η + |â|σb + σa(|b̂| +
-/// σb) + σc. Each product may lose η by underflow. The third η covers rounding |b̂| + σb if
-/// σa(|b̂| + σb) is so small that the factor 1 + 8ε is lost. The longest path has six roundings.
-/// Proof: proofs/IeeeFunctions.v, fma_known; in any direction, proofs/Functions.v, fma_sound.
+/// ab + c from the operands' errors σ; v is its rounded value: |v − (ab + c)| <= |v|ε/(1 − ε) + η +
+/// |â|σb + σa(|b̂| + σb) + σc. Each product may lose η by underflow. The third η covers rounding
+/// |b̂| + σb if σa(|b̂| + σb) is so small that the factor 1 + 8ε is lost. The longest path has six
+/// roundings. Proof: proofs/IeeeFunctions.v, fma_known; in any direction, proofs/Functions.v,
+/// fma_sound.
 template <class T, class Rule>
 constexpr tracked<T, Rule> fused_by_error(const T& v, const tracked<T, Rule>& a,
                                           const tracked<T, Rule>& b, const tracked<T, Rule>& c) {
@@ -198,7 +201,7 @@ constexpr tracked<T, Rule> fused_by_error(const T& v, const tracked<T, Rule>& a,
 }
 
 /// ab + c = v + (âb̂ + ĉ − v) + (a(b − b̂) + (a − â)b̂) + (c − ĉ) by the rule's operations; v is
-/// the value of `sum`, which stands for ab + c. With âb̂ = p + e and p + ĉ = s + f exactly, v's
+/// the value of `sum`, an enclosure of ab + c. With âb̂ = p + e and p + ĉ = s + f exactly, v's
 /// error is (s − v) + f + e. Returns `sum` if e or f is unknown. Proof: proofs/IeeeSlopes.v,
 /// fma_by_slope_known; of `affine`, affine_slope_fma_gives.
 template <class T, class Rule>
@@ -255,7 +258,7 @@ constexpr tracked<T, Rule> fma(const tracked<T, Rule>& a, const tracked<T, Rule>
     }
 }
 
-/// (a + b)/2; the sum of halves if a + b overflows. Proof: proofs/IeeeCompound.v, midpoint_known.
+/// (a + b)/2, or a/2 + b/2 if a + b overflows. Proof: proofs/IeeeCompound.v, midpoint_known.
 template <class T, class Rule>
 constexpr tracked<T, Rule> midpoint(const tracked<T, Rule>& a, const tracked<T, Rule>& b) {
     const tracked<T, Rule> sum = a + b;
@@ -292,10 +295,10 @@ constexpr tracked<T, Rule> lerp(const tracked<T, Rule>& a, const tracked<T, Rule
                                (from_ends + T(from_t + 8 * traits::underflow_unit()))));
 }
 
-/// √(x² + y²), without intermediate overflow or underflow. It changes by at most its arguments'
-/// changes. With the larger one scaled to at least 1/2, four roundings and underflow below 3η of
-/// the sum are relatively 2ε + ε² + 7η, of the result (ε <= 2^-7) less than 3ε + 8η. Proof, to
-/// nearest: proofs/IeeeCompound.v, hypot_known.
+/// √(x² + y²), without intermediate overflow or underflow. It changes by at most the sum of its
+/// arguments' changes. The larger argument is scaled to at least 1/2. Four roundings, and less than
+/// 3η of underflow in the sum, then cause a relative error of 2ε + ε² + 7η. This is less than 3ε +
+/// 8η of the result (ε <= 2^-7). Proof, to nearest: proofs/IeeeCompound.v, hypot_known.
 template <class T, class Rule>
 constexpr tracked<T, Rule> hypot(const tracked<T, Rule>& x, const tracked<T, Rule>& y) {
     using traits = number_traits<T>;
@@ -421,7 +424,7 @@ constexpr tracked<T, Rule> horner_of(std::size_t count, const C& c, const tracke
             there = there * at + c(i);
             slope = slope * x + there;
         }
-        // The values are result's and near 0; only the sign of a zero could differ.
+        // `change` has the value 0, so by_slope has result's value, except for the sign of a zero.
         const number change = slope * (x - at);
         const number by_slope = (there * at + c(0)) + change;
         const bool loses_sign = certain(sign_of(result)) && !certain(sign_of(by_slope));
@@ -437,10 +440,10 @@ constexpr tracked<T, Rule> horner_of(std::size_t count, const C& c, const tracke
 /// rounded. Precondition (asserted): a and b have equal size.
 ///
 /// The bound is the rule's dot_bound (`relative`; `tight` and `sharp` from 8 and 5 bits of
-/// precision on: the running error bound). It costs less and exceeds that of the single operations
-/// by at most a last place or two. Other rules use single operations, for `residual` the
-/// compensated dot product (Ogita, Rump, Oishi 2005). The worst case for exact arguments is about
-/// nuΣ|aᵢbᵢ|. Proof: proofs/IeeeDotProduct.v, tight_dot_known, sharp_dot_known;
+/// precision on: the running error bound). It costs less than the bounds of single operations and
+/// exceeds them by at most a last place or two. Other rules use single operations, which for
+/// `residual` are the compensated dot product (Ogita, Rump, Oishi 2005). The worst case for exact
+/// arguments is about nuΣ|aᵢbᵢ|. Proof: proofs/IeeeDotProduct.v, tight_dot_known, sharp_dot_known;
 /// proofs/IeeeRelative.v, relative_dot_known; of operations one by one, proofs/IeeeCompound.v,
 /// dot_known.
 template <tracked_numbers A, tracked_numbers B>
@@ -454,13 +457,14 @@ constexpr detail::number_of<A> dot(const A& a, const B& b) {
         [&](std::size_t i) -> decltype(auto) { return detail::number_at(b, i); });
 }
 
-/// c₀ + c₁x + c₂x² + ...; 0 if empty. The value is that of Horner's rule, each operation rounded.
+/// p(x) = c₀ + c₁x + c₂x² + ...; 0 if empty. The value is that of Horner's rule, each operation
+/// rounded.
 ///
 /// The bound is that of these operations, or that of p(x̂) + q(x)(x − x̂) if it is less; x̂ =
-/// x.value(), and q's coefficients are the partial results at x̂ (synthetic division). So x's error
-/// counts p'(x̂) times, plus second order in |x − x̂|², not once per occurrence. Cost: three times
-/// that of the operations if x is not exact. Proof: proofs/IeeeCompound.v, horner_known; of `tight`
-/// in any direction, proofs/Compound.v, tight_horner_sound.
+/// x.value(), and q's coefficients are the partial results at x̂ (synthetic division). So the error
+/// of x counts |p'(x̂)| times, plus a term of order |x − x̂|², instead of once per occurrence.
+/// Cost: three times that of the operations if x is not exact. Proof: proofs/IeeeCompound.v,
+/// horner_known; of `tight` in any direction, proofs/Compound.v, tight_horner_sound.
 template <tracked_numbers C>
 constexpr detail::number_of<C> horner(const C& c,
                                       const std::type_identity_t<detail::number_of<C>>& x) {

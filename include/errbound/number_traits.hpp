@@ -44,7 +44,8 @@ inline constexpr bool fma_is_instruction =
 
 }  // namespace detail
 
-/// Specialise for a type without std::numeric_limits (a SIMD pack): the members your calls use.
+/// For a type without std::numeric_limits (a SIMD pack), specialise the members that your calls
+/// use.
 template <class T>
 struct number_traits {
     static_assert(std::numeric_limits<T>::is_specialized && !std::numeric_limits<T>::is_integer,
@@ -56,9 +57,9 @@ struct number_traits {
                       std::numeric_limits<T>::round_style == std::round_to_nearest,
                   "errbound: numbers must be binary, of fixed precision, and rounded to nearest");
 
-    /// Largest relative error of one rounding in any direction: ε = 2u.
+    /// ε = 2u, a bound of the relative error of one rounding in any direction.
     static constexpr T epsilon() { return std::numeric_limits<T>::epsilon(); }
-    /// Largest relative error of one rounding to nearest: u = ε/2.
+    /// u = ε/2, a bound of the relative error of one rounding to nearest.
     static constexpr T unit_roundoff() { return epsilon() / 2; }
     /// η, the smallest positive number. An operation that underflows is off by less than this.
     static constexpr T underflow_unit() {
@@ -87,7 +88,7 @@ struct number_traits {
     static constexpr int digits = std::numeric_limits<T>::digits;  ///< the precision p in bits
 
     static constexpr T abs(const T& x) {
-        // fabs is one instruction. The comparison takes more, as it keeps the sign of a zero.
+        // fabs is one instruction; the comparison takes more, since −0 stays −0.
         if constexpr (std::is_floating_point_v<T>)
             if (!std::is_constant_evaluated()) return std::fabs(x);
         return x < 0 ? -x : x;

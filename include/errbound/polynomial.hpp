@@ -6,7 +6,7 @@
 //
 // Preconditions (asserted): coefficients are finite, a <= b in [a, b], and a and b are not the same
 // infinity. Calls throw only std::bad_alloc, after which roots found before stay valid. refine also
-// throws std::invalid_argument. Calls of roots made with limits also throw roots::gave_up if
+// throws std::invalid_argument. Members of roots isolated with limits also throw roots::gave_up if
 // `.stop` returns true. With GMP's integers, lack of memory ends the program. Cost:
 // docs/polynomials.md.
 #pragma once
@@ -31,8 +31,8 @@ namespace errbound {
 
 namespace roots {
 
-/// The exact integer type: Named unless it is void, otherwise that of exact coefficients (of the
-/// numerators of rationals), otherwise errbound::integer.
+/// The exact integer type: Named unless it is void, otherwise C if it is an exact_number (for
+/// rationals, the type of numerators), otherwise errbound::integer.
 template <class Named, class C>
 struct integer_for {
     static_assert(exact_number<Named>,
@@ -143,7 +143,7 @@ std::optional<std::size_t> count_roots(const polynomial<tracked<double, Rule>>& 
                   "errbound: count_roots needs a rule that stores only the absolute error, as "
                   "tight and sharp do: convert by within(x.value(), x.error())");
     assert(roots::is_interval(a, b));
-    std::span others(p.coefficients());  // the filter needs roots other than 0
+    std::span others(p.coefficients());  // the filter takes only roots other than 0
     while (!others.empty() && others[0].value() == 0 && others[0].error() == 0)
         others = others.subspan(1);
     if (others.empty()) return infinitely_many;
@@ -253,7 +253,7 @@ bool root_where_nonnegative(const polynomial<C>& f, const std::vector<polynomial
         return holds_at_any(real_roots<exact>(std::move(root_of), a, b));
     }
     // f ≡ 0. The set with all g_i >= 0 is closed. If it is not empty and lacks the point of [a, b]
-    // next to 0, its end towards that point is a root of some g_i.
+    // nearest to 0, its end towards that point is a root of some g_i.
     const double next_to_zero = (std::min)((std::max)(0.0, a), b);
     const roots::staged_polynomial<exact> shifted(std::vector<double>{-next_to_zero, 1.0});
     if (holds_at_any(real_roots<exact>(shifted, next_to_zero, next_to_zero))) return true;

@@ -105,7 +105,7 @@ class predicate_type {
     template <class T>
     static constexpr T static_constant = filters::filter_constant<T>(counts.roundings);
     /// True from degree 5 on, unless the expression branches or adds terms of different degree.
-    /// A semi-static filter's bound needs only the largest coordinate difference, not the size.
+    /// A semi-static filter's bound needs no size, only the largest coordinate or difference.
     static constexpr bool has_semi_static_filter = stages::has_semi_static_filter;
     /// Largest coordinate width, at most 61, for which every result fits in `bits` bits; below 1 if
     /// there is none or counts.complete is false.
@@ -135,8 +135,9 @@ class predicate_type {
         return stages::template decide<number_of<Points...>>(stages::listed(p...), &report);
     }
     /// The first filter's value and bound, or the sign_type of an expression that branches. With
-    /// Stored = false each coordinate is rounded first: no product in a computed coordinate is then
-    /// fused into a difference. Pass true only if all coordinates are values in memory.
+    /// Stored = false, a product that computes a coordinate is not fused (FMA) into a difference of
+    /// the expression. All stages then use the same number. Pass true only if all coordinates are
+    /// values in memory.
     template <bool Stored = false, class... Points>
     static constexpr auto estimate(const Points&... p) {
         using T = number_of<Points...>;

@@ -106,12 +106,15 @@ constexpr auto line_plane(const auto& a, const auto& b, const auto& p, const aut
     return implicit_point3d{a, x * along, y * along, z * along, nx * x + ny * y + nz * z};
 }
 
+template <int Dimension = 3>
 constexpr sign_type segments_intersect(const auto& a, const auto& b, const auto& c, const auto& d) {
-    const sign_type coplanar = sign_of(volume(a, b, c, d));
-    if (!certain(coplanar)) return coplanar;
-    if (coplanar != sign_type::zero) return sign_type::negative;
+    if constexpr (Dimension == 3) {
+        const sign_type coplanar = sign_of(volume(a, b, c, d));
+        if (!certain(coplanar)) return coplanar;
+        if (coplanar != sign_type::zero) return sign_type::negative;
+    }
     // Project along an axis. If it is parallel to the plane, all areas are zero: take the next one.
-    for (int axis = 0; axis < 3; ++axis) {
+    for (int axis = Dimension == 3 ? 0 : 2; axis < 3; ++axis) {
         const int i = (axis + 1) % 3, j = (axis + 2) % 3;
         const sign_type abc = sign_of(area(a, b, c, i, j)), abd = sign_of(area(a, b, d, i, j));
         const sign_type cda = sign_of(area(c, d, a, i, j)), cdb = sign_of(area(c, d, b, i, j));
@@ -126,7 +129,7 @@ constexpr sign_type segments_intersect(const auto& a, const auto& b, const auto&
         return of_ab * of_cd;
     }
     // All on one line: disjoint if disjoint along some axis.
-    for (int i = 0; i < 3; ++i) {
+    for (int i = 0; i < Dimension; ++i) {
         const sign_type ca = sign_of(c[i] - a[i]), cb = sign_of(c[i] - b[i]);
         const sign_type da = sign_of(d[i] - a[i]), db = sign_of(d[i] - b[i]);
         for (const sign_type s : {ca, cb, da, db})
@@ -245,6 +248,10 @@ struct homogeneous_options : predicate_options {
 
 /// For closed segments ab and cd: positive if they cross in one point inside both, zero if they
 /// touch otherwise or overlap, negative if disjoint. A degenerate segment counts as a point.
+inline constexpr auto segments_intersect2d = predicate<points<2, 2, 2, 2>, homogeneous_options>(
+    [](const auto& a, const auto& b, const auto& c, const auto& d) {
+        return forms::segments_intersect<2>(a, b, c, d);
+    });
 inline constexpr auto segments_intersect3d = predicate<points<3, 3, 3, 3>, homogeneous_options>(
     [](const auto& a, const auto& b, const auto& c, const auto& d) {
         return forms::segments_intersect(a, b, c, d);

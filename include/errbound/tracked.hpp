@@ -70,7 +70,7 @@ struct type_of_bounds<T, Rule> {
 template <class T, class Rule>
 inline constexpr bool bounds_are_wider = !std::is_same_v<typename type_of_bounds<T, Rule>::type, T>;
 
-struct use_compare_or_by_value;  // their names appear in the compiler's message
+struct use_compare_or_by_value;  // the name appears in the compiler's message
 struct use_sign_of_or_compare {};
 
 }  // namespace detail
@@ -113,9 +113,9 @@ class tracked {
 
     /// The result of plain arithmetic.
     constexpr const T& value() const { return value_; }
-    /// An upper bound of |value() − exact value|, if promises_bound<Rule>. If there is none, it is
-    /// infinite (NaN in a format without infinities), so `x.error() <= tolerance` is false. In all
-    /// other cases it is not NaN.
+    /// An upper bound of |value() − exact value|, if promises_bound<Rule>. If no bound is known,
+    /// the error is infinite (NaN in a format without infinities), so `x.error() <= tolerance` is
+    /// false. In all other cases it is not NaN.
     constexpr T error() const {
         const wide e = own_error();
         if constexpr (widens) {
@@ -255,7 +255,7 @@ struct by_value {
 };
 
 /// True if generic code may treat the type as a tracked number: it has value_type, value(), sign_of
-/// and scale. Specialise for a type that wraps one.
+/// and scale. Specialise it for a type that wraps a tracked number.
 template <class>
 inline constexpr bool is_tracked = false;
 template <class T, class Rule>

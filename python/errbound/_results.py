@@ -25,6 +25,14 @@ class Outcome(IntEnum):
     UNCERTAIN = 2
 
 
+class Relation(IntEnum):
+    """How two elements at rest meet. CROSSING: small motions do not separate them."""
+    DISJOINT = 0
+    TOUCHING = 1
+    OVERLAPPING = 2
+    CROSSING = 3
+
+
 class Features(IntEnum):
     """The features that meet. VERTEX_FACE and EDGE_EDGE: in the interior of both."""
     VERTEX_FACE = 0
@@ -192,6 +200,69 @@ def _listed(pairs: Any) -> str:
 
 
 @dataclass(frozen=True, eq=False, repr=False)
+class IntersectionsOfKind:
+    """The k intersections of one kind, sorted: uint32 vertices (k, m), both elements ascending, and their relations.
+
+    relation: uint8, values of Relation. segment: (k, 2, 3), the ends of the common segment of crossing pairs, each
+    coordinate with an error of at most error (k, 2); NaN for other pairs, and with segments=False.
+    """
+    vertices: Indices
+    relation: Codes
+    segment: Doubles
+    error: Doubles
+
+    def __len__(self) -> int:
+        return len(self.vertices)
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Intersections:
+    """The pairs of elements of a mesh at rest that intersect, by kind (IntersectionsOfKind).
+
+    Columns of vertices: face_face a0 a1 a2 b0 b1 b2; edge_face e0 e1 f0 f1 f2 (edges of no face); vertex_face
+    v f0 f1 f2 (vertices of no face and edge); edge_edge a0 a1 b0 b1; vertex_edge v e0 e1; vertex_vertex v w.
+    edge_faces: (k, 5), with edge_faces=True: all edges, of faces or not, and faces that share a point and no vertex.
+    """
+    face_face: IntersectionsOfKind
+    edge_face: IntersectionsOfKind
+    vertex_face: IntersectionsOfKind
+    edge_edge: IntersectionsOfKind
+    vertex_edge: IntersectionsOfKind
+    vertex_vertex: IntersectionsOfKind
+    edge_faces: Indices | None = None
+    seconds: float | None = None
+
+    @property
+    def by_kind(self) -> dict[str, IntersectionsOfKind]:
+        return {kind: getattr(self, kind) for kind in INTERSECTION_KINDS}
+
+    def count(self, relation: Relation) -> int:
+        return sum(int(np.count_nonzero(of.relation == relation)) for of in self.by_kind.values())
+
+    def __len__(self) -> int:
+        return sum(map(len, self.by_kind.values()))
+
+    def __repr__(self) -> str:
+        counts = ", ".join(f"{self.count(r)} {r.name.lower()}" for r in Relation if self.count(r))
+        return f"<ccd.Intersections, {len(self)} pairs{': ' if counts else ''}{counts}>"
+
+
+INTERSECTION_KINDS = ("face_face", "edge_face", "vertex_face", "edge_edge", "vertex_edge", "vertex_vertex")
+
+
+def intersections_of(found: Any) -> Intersections:
+    def of_kind(arrays: Any) -> IntersectionsOfKind:
+        return IntersectionsOfKind(**{**arrays, "segment": arrays["segment"].reshape(-1, 2, 3)})
+
+    return Intersections(**{name: of_kind(value) if name in INTERSECTION_KINDS else value
+                            for name, value in found.items()})
+
+
+def at_start(found: Any) -> Intersections | None:
+    return None if found is None else intersections_of(found)
+
+
+@dataclass(frozen=True, eq=False, repr=False)
 class NearPairs:
     """The pairs of a mesh at rest within a distance. data: by kind, in the order of pairs."""
     pairs: Pairs
@@ -223,17 +294,21 @@ class StepResult:
 
     times: by kind, dictionaries of low and high, float64 (k,), as in FirstTimes, in the order of pairs.
     first_contact (options first_contact, times): (low, high) of the earliest pair that does not touch at t = 0.
+    first_pairs: the pairs with that time.
     touching_at_start (options initial_contact, first_contact, times): pairs that touch at t = 0.
     candidates: counts by kind. seconds: by phase.
+    intersections_at_start (option check_start): the mesh's intersections at t = 0, without segments.
     """
     pairs: Pairs
     touching_at_start: Pairs
     times: Times | None
     first_contact: tuple[float, float] | None
+    first_pairs: Pairs
     candidates: dict[str, int] | None
     seconds: dict[str, float]
     threads: int
     stages: list[Stage] | None
+    intersections_at_start: Intersections | None
 
     def __repr__(self) -> str:
         contact = f"; {_first(self.first_contact)}" if self.times is not None or self.first_contact else ""
@@ -251,14 +326,18 @@ class AdvanceResult:
     """The positions up to which the step is certainly free of contact, except for the listed pairs.
 
     positions: float64, with the shape of before. fractions: (n,), the fraction of its path that each vertex moves;
-    fraction: the least. first_contact: (low, high) of the earliest contact in the whole step, or None.
+    fraction: the least. first_contact: (low, high) of the earliest contact in the whole step, or None; first_pairs: the
+    pairs with that time, which limit the step. near_at_start: near at t = 0, only the option keep holds for them.
+    intersections_at_start (option check_start): elements that intersect at t = 0; they may move on through each other.
     """
     positions: Doubles
     fraction: float
     fractions: Doubles
     first_contact: tuple[float, float] | None
+    first_pairs: Pairs
     touching_at_start: Pairs
     near_at_start: Pairs
+    intersections_at_start: Intersections | None = None
 
     def __repr__(self) -> str:
         return (f"<ccd.AdvanceResult of {len(self.positions)} vertices: fraction {self.fraction!r}, "

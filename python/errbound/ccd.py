@@ -21,9 +21,10 @@ from . import _native
 from ._arrays import (Doubles, Indices, as_array, check_finite, check_range, check_shape, checked_indices, distance_option,
                       doubles, end_time, frames, frames_of, group_option, indices, option, pinned_option, restated,
                       thickness_option)
-from ._results import (AdvanceResult, Decisions, Features, FirstContacts, FirstTimes, Kind, LeastDistance, Method,
-                       MethodName, Nearness, NearPairs, NormalSource, Outcome, Pairs, Stage, StepResult,
-                       TimedStepResult, stages)
+from ._results import (AdvanceResult, Decisions, Features, FirstContacts, FirstTimes, Intersections,
+                       IntersectionsOfKind, Kind, LeastDistance, Method, MethodName, NearPairs, Nearness, NormalSource,
+                       Outcome, Pairs, Relation, Stage, StepResult, TimedStepResult, at_start, intersections_of,
+                       stages)
 
 if TYPE_CHECKING:
     if sys.version_info >= (3, 11):
@@ -31,11 +32,12 @@ if TYPE_CHECKING:
     else:
         from typing_extensions import Unpack
 
-__all__ = ["AdvanceOptions", "AdvanceResult", "Decisions", "Features", "FirstContacts", "FirstTimes", "Kind",
-           "LeastDistance", "Method", "MethodName", "NearPairs", "Nearness", "NormalSource", "Outcome", "Pairs",
-           "RunOptions", "SearchOptions", "Stage", "StepResult", "Steps", "TimedStepResult", "UntimedOptions", "advance",
-           "candidates", "decide", "first_contact", "first_time", "instruction_sets", "least_distance", "methods",
-           "near_pairs", "nearness", "step", "touches_at_start"]
+__all__ = ["AdvanceOptions", "AdvanceResult", "Decisions", "Features", "FilterOptions", "FirstContacts", "FirstTimes",
+           "IntersectionOptions", "Intersections", "IntersectionsOfKind", "Kind", "LeastDistance", "Method",
+           "MethodName", "NearPairs", "Nearness", "NormalSource", "Outcome", "Pairs", "Relation", "RunOptions",
+           "SearchOptions", "Stage", "StepResult", "Steps", "TimedStepResult", "UntimedOptions", "advance",
+           "candidates", "decide", "first_contact", "first_time", "free_step", "instruction_sets", "intersections",
+           "is_free", "least_distance", "methods", "near_pairs", "nearness", "step", "touches_at_start"]
 
 POINTS: dict[Kind, int] = {"vertex_face": 4, "edge_edge": 4, "vertex_edge": 3, "vertex_vertex": 2}
 
@@ -217,12 +219,10 @@ def _require_certain_times(checked: _Queries, found: dict[str, Any]) -> None:
 _stages = stages
 
 
-class SearchOptions(TypedDict, total=False):
-    """Options of all calls: the pairs to test, the distance, and threads.
+class FilterOptions(TypedDict, total=False):
+    """Options of all calls: the pairs to test, and threads.
 
     threads: maximum number; 0, the default: one per core.
-    distance: finds pairs that come within it, instead of pairs that touch.
-    thickness: (n,), one per vertex, instead of distance: as decide.
     groups: integers (n,): tests only pairs between different groups.
     between_groups: False: only pairs within a group.
     pinned: flags (n,), one per vertex: skips pairs whose vertices are all pinned.
@@ -231,13 +231,33 @@ class SearchOptions(TypedDict, total=False):
     several threads call it, one at a time.
     """
     threads: int
-    distance: float
-    thickness: ArrayLike | None
     groups: ArrayLike | None
     between_groups: bool
     pinned: ArrayLike | None
     skip_unused: bool
     can_collide: Callable[[int, int], bool] | None
+
+
+class SearchOptions(FilterOptions, total=False):
+    """FilterOptions, and the distance of steps.
+
+    distance: finds pairs that come within it, instead of pairs that touch.
+    thickness: (n,), one per vertex, instead of distance: as decide.
+    """
+    distance: float
+    thickness: ArrayLike | None
+
+
+class IntersectionOptions(FilterOptions, total=False):
+    """FilterOptions, and options of intersections.
+
+    segments: False: skips the common segments of crossing pairs.
+    edge_faces: fills edge_faces of the result.
+    merge_equal_positions: vertices with equal positions count as the first of them.
+    """
+    segments: bool
+    edge_faces: bool
+    merge_equal_positions: bool
 
 
 class UntimedOptions(SearchOptions, total=False):
@@ -248,8 +268,10 @@ class UntimedOptions(SearchOptions, total=False):
     initial_contact: fills touching_at_start, the pairs that touch at t = 0.
     t_max: the step is tested in [0, t_max]; 1 by default.
     stages, count_candidates: fill stages, candidates.
+    check_start: fills intersections_at_start; about half of the time of a step.
     """
     method: MethodName
+    check_start: bool
     first_contact: bool
     initial_contact: bool
     t_max: float
@@ -270,15 +292,28 @@ class AdvanceOptions(SearchOptions, total=False):
 
     islands: integers (n,): the vertices of an island share one fraction, and so do islands that meet. The default is
     one island with all vertices. Islands skip no pairs; groups do.
+    each_vertex: limits each vertex by planes between the elements that meet, at least as far as its island goes.
+    conservative: the share of the way to the first contact that is used, in (0, 1]; 0.8 leaves a gap for barriers.
+    keep: pairs that start within 1.001 times their distance keep this share, in [0, 1), of their distance at the start.
+    check_start: fills intersections_at_start.
     """
     islands: ArrayLike | None
+    each_vertex: bool
+    conservative: float
+    keep: float
+    check_start: bool
 
 
-_OF_SEARCH = {"threads": int, "distance": float, "thickness": np.ndarray, "groups": np.ndarray,
-              "between_groups": bool, "pinned": np.ndarray, "skip_unused": bool, "can_collide": Callable}
+_OF_FILTER = {"threads": int, "groups": np.ndarray, "between_groups": bool, "pinned": np.ndarray, "skip_unused": bool,
+              "can_collide": Callable}
+_OF_SEARCH = {**_OF_FILTER, "distance": float, "thickness": np.ndarray}
+_OF_INTERSECTIONS = {**_OF_FILTER, "segments": bool, "edge_faces": bool, "merge_equal_positions": bool}
 _OF_RUN = {**_OF_SEARCH, "method": str, "times": bool, "first_contact": bool, "initial_contact": bool,
-           "t_max": float, "stages": bool, "count_candidates": bool}
-_OF_ADVANCE = {**_OF_SEARCH, "islands": np.ndarray}
+           "t_max": float, "stages": bool, "count_candidates": bool, "check_start": bool}
+_OF_ADVANCE = {**_OF_SEARCH, "islands": np.ndarray, "each_vertex": bool, "conservative": float, "keep": float,
+               "check_start": bool}
+
+_OF_FREE_STEP = {name: kind for name, kind in _OF_ADVANCE.items() if name not in ("islands", "each_vertex")}
 
 
 def _checked_option(name: str, value: Any, kind: Any, vertices: int) -> Any:
@@ -365,9 +400,10 @@ class Steps:
         Throws: ValueError with frame and row of a coordinate that is not finite.
         """
         found = self._call(self._steps.run, before, after, _OF_RUN, options)
-        for name in "pairs", "touching_at_start":
+        for name in "pairs", "first_pairs", "touching_at_start":
             found[name] = Pairs(**found[name])
         found["stages"] = _stages(found["stages"])
+        found["intersections_at_start"] = at_start(found["intersections_at_start"])
         return StepResult(**found) if found["times"] is None else TimedStepResult(**found)
 
     def candidates(self, before: ArrayLike, after: ArrayLike, **options: Unpack[SearchOptions]) -> Pairs:
@@ -397,12 +433,45 @@ class Steps:
         Options: AdvanceOptions, SearchOptions. Pairs skipped by groups, pinned or can_collide may pass through
         each other.
         """
-        found = self._call(self._steps.advance, before, after, _OF_ADVANCE, options)
-        for name in "touching_at_start", "near_at_start":
+        return self._free(self._call(self._steps.advance, before, after, _OF_ADVANCE, options))
+
+    def free_step(self, x: ArrayLike, p: ArrayLike, **options: Unpack[AdvanceOptions]) -> AdvanceResult:
+        """Computes alpha, the result's fraction, such that x + alpha * p is free, as NumPy rounds it, and fused.
+
+        Options: AdvanceOptions except islands and each_vertex, SearchOptions. With barriers, use conservative=0.8.
+        """
+        return self._free(self._call(self._steps.free_step, x, p, _OF_FREE_STEP, options))
+
+    def _free(self, found: Any) -> AdvanceResult:
+        for name in "first_pairs", "touching_at_start", "near_at_start":
             found[name] = Pairs(**found[name])
+        found["intersections_at_start"] = at_start(found["intersections_at_start"])
         if self._columns == 2:
             found["positions"] = np.ascontiguousarray(found["positions"][:, :2])
         return AdvanceResult(**found)
+
+    def _at_rest(self, positions: ArrayLike, first_only: bool, options: Mapping[str, Any]) -> Intersections:
+        at = doubles("positions", positions, (self.vertices, self._columns))
+        request = _request(self.vertices, _OF_INTERSECTIONS, options)
+        request.first_only = first_only
+        try:
+            return intersections_of(self._steps.intersections(np.pad(at, ((0, 0), (0, 3 - self._columns))), request))
+        except ValueError as error:
+            check_finite("positions", at)
+            raise restated(error) from None
+
+    def intersections(self, positions: ArrayLike, **options: Unpack[IntersectionOptions]) -> Intersections:
+        """Finds the elements that intersect at positions (n, 3), exactly; in the plane edges and points, (n, 2).
+
+        Two elements intersect if they share a point outside the vertices and edges that both have by index.
+        Options: IntersectionOptions, FilterOptions.
+        Throws: ValueError with the row of a position that is not finite.
+        """
+        return self._at_rest(positions, False, options)
+
+    def is_free(self, positions: ArrayLike, **options: Unpack[IntersectionOptions]) -> bool:
+        """True if no two elements intersect. Stops at the first pair."""
+        return len(self._at_rest(positions, True, {**options, "segments": False, "edge_faces": False})) == 0
 
 
 def _steps_of(before: ArrayLike, faces: ArrayLike, edges: ArrayLike) -> Steps:
@@ -456,3 +525,30 @@ def advance(before: ArrayLike, after: ArrayLike, faces: ArrayLike, edges: ArrayL
     pairs skipped by groups, between_groups, pinned, skip_unused or can_collide may pass through each other).
     """
     return _steps_of(before, faces, edges).advance(before, after, **options)
+
+
+def free_step(x: ArrayLike, p: ArrayLike, faces: ArrayLike, edges: ArrayLike = (),
+              **options: Unpack[AdvanceOptions]) -> AdvanceResult:
+    """Same as Steps.free_step, for one step: alpha, the result's fraction, such that x + alpha * p is free.
+
+    Options: AdvanceOptions (conservative, keep, check_start) and SearchOptions (threads, distance, thickness).
+    """
+    return _steps_of(x, faces, edges).free_step(x, p, **options)
+
+
+def intersections(positions: ArrayLike, faces: ArrayLike, edges: ArrayLike = (),
+                  **options: Unpack[IntersectionOptions]) -> Intersections:
+    """Finds the elements of a mesh at rest that intersect, exactly: faces, edges of no face, unused vertices.
+
+    positions: (n, 3); faces: (m, 3); edges: (k, 2). Options: IntersectionOptions (segments, edge_faces,
+    merge_equal_positions) and FilterOptions (threads, groups, between_groups, pinned, skip_unused, can_collide).
+    For many frames of one mesh, use Steps.intersections.
+    """
+    return Steps(faces, edges, vertices=len(doubles("positions", positions, (None, 3)))).intersections(
+        positions, **options)
+
+
+def is_free(positions: ArrayLike, faces: ArrayLike, edges: ArrayLike = (),
+            **options: Unpack[IntersectionOptions]) -> bool:
+    """True if no two elements of a mesh at rest intersect. Options: as intersections. Stops at the first pair."""
+    return Steps(faces, edges, vertices=len(doubles("positions", positions, (None, 3)))).is_free(positions, **options)

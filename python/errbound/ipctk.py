@@ -5,6 +5,7 @@
     broad_phase = errbound.ipctk.BroadPhase()
     ipctk.compute_collision_free_stepsize(mesh, before, after, 0, broad_phase)  # exact broad phase only
     errbound.ipctk.compute_collision_free_stepsize(mesh, before, after)         # every pair, exactly
+    errbound.ipctk.has_intersections(mesh, before)                              # the start, exactly
 """
 from __future__ import annotations
 
@@ -26,7 +27,8 @@ try:
 except ImportError as error:
     raise ImportError("errbound.ipctk needs the package ipctk: pip install ipctk") from error
 
-__all__ = ["BroadPhase", "ExactNarrowPhase", "compute_collision_free_stepsize", "is_step_collision_free"]
+__all__ = ["BroadPhase", "ExactNarrowPhase", "compute_collision_free_stepsize", "has_intersections",
+           "is_step_collision_free"]
 
 _CanCollide = Callable[[int, int], bool]
 _Rows = Mapping[ccd.Kind, Indices]
@@ -450,3 +452,24 @@ def compute_collision_free_stepsize(mesh: Any, vertices_t0: ArrayLike, vertices_
     if not isinstance(narrow, ExactNarrowPhase):
         return float(_theirs(ipctk.compute_collision_free_stepsize, *arguments))
     return _exact_step(*arguments).size()
+
+
+_FIRST_AT_REST = {"face_face": 3, "edge_face": 2, "vertex_face": 1, "edge_edge": 2, "vertex_edge": 1,
+                  "vertex_vertex": 1}
+
+
+def has_intersections(mesh: Any, vertices: ArrayLike) -> bool:
+    """True if elements of the mesh intersect at rest, decided exactly as in ccd.intersections.
+
+    Unlike the toolkit's function, it also tests faces with a common vertex or edge, coplanar faces, and points.
+    Pairs that mesh.can_collide excludes do not count.
+    """
+    shape = int(mesh.num_vertices), int(mesh.dim)
+    positions = doubles("vertices", vertices, (None, None))
+    check_shape("vertices", positions, shape)
+    found = _steps(*shape, mesh.edges, mesh.faces).intersections(positions, segments=False)
+    return any(
+        mesh.can_collide(v, w)
+        for kind, pairs in found.by_kind.items()
+        for row in pairs.vertices.tolist()
+        for v, w in product(row[:_FIRST_AT_REST[kind]], row[_FIRST_AT_REST[kind]:]) if v != w)

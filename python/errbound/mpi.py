@@ -41,7 +41,7 @@ if _mpi.library_version() != MPI.Get_library_version().rstrip("\0"):
 
 Numbers = NDArray[np.uint64]
 _OF_STEP = {name: kind for name, kind in _OF_RUN.items() if name not in ("can_collide", "stages")}
-_OF_FREE_STEP = {name: kind for name, kind in _OF_ADVANCE.items() if name != "can_collide"}
+_OF_FREE_STEP = {name: kind for name, kind in _OF_ADVANCE.items() if name not in ("can_collide", "each_vertex")}
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -88,6 +88,7 @@ class AdvanceResult:
     first_contact: tuple[float, float] | None
     touching_at_start: Pairs
     near_at_start: Pairs
+    first_pairs: Pairs
     work: Work
 
 
@@ -149,9 +150,9 @@ def advance(comm: MPI.Comm, numbers: ArrayLike, before: ArrayLike, after: ArrayL
             edges: ArrayLike = (), **options: Any) -> AdvanceResult:
     """Computes the longest step of the whole mesh found to be free, bit for bit that of errbound.ccd.advance.
 
-    Options: as errbound.ccd.Steps.advance, except can_collide. Island numbers are common to all ranks.
+    Options: as errbound.ccd.Steps.advance, except can_collide and each_vertex. Island numbers are common to all ranks.
     """
     found = _mpi.advance(*_checked(comm, numbers, before, after, faces, edges, _OF_FREE_STEP, options))
-    for name in "touching_at_start", "near_at_start":
+    for name in "first_pairs", "touching_at_start", "near_at_start":
         found[name] = Pairs(**found[name])
     return AdvanceResult(**{**found, "work": Work(**found["work"])})

@@ -78,6 +78,12 @@ def compare_distances3d(p: ArrayLike, a: ArrayLike, b: ArrayLike) -> Signs:
     return _signs("compare_distances3d", 3, p=p, a=a, b=b)
 
 
+def segments_intersect2d(a: ArrayLike, b: ArrayLike, c: ArrayLike, d: ArrayLike) -> Signs:
+    """Returns 1 where closed segments ab and cd cross inside both, 0 if they touch otherwise, -1 apart. Points (n, 2)
+    or (2,)."""
+    return _signs("segments_intersect2d", 2, a=a, b=b, c=c, d=d)
+
+
 def segments_intersect3d(a: ArrayLike, b: ArrayLike, c: ArrayLike, d: ArrayLike) -> Signs:
     """Returns 1 where closed segments ab and cd cross inside both, 0 if they touch otherwise, -1 apart. Points (n, 3)
     or (3,)."""
@@ -88,6 +94,12 @@ def segment_intersects_triangle(p: ArrayLike, q: ArrayLike, a: ArrayLike, b: Arr
                                 c: ArrayLike) -> Signs:
     """Returns 1 where closed segment pq and triangle abc cross inside both, 0 if they touch otherwise, -1 apart."""
     return _signs("segment_intersects_triangle", 3, p=p, q=q, a=a, b=b, c=c)
+
+
+def triangle_intersects_triangle(a: ArrayLike, b: ArrayLike, c: ArrayLike, p: ArrayLike, q: ArrayLike,
+                                 r: ArrayLike) -> Signs:
+    """Returns 1 where closed triangles abc and pqr cross, 0 if they touch or overlap, -1 apart."""
+    return _signs("triangle_intersects_triangle", 3, a=a, b=b, c=c, p=p, q=q, r=r)
 
 
 def orient2d_line_line(a: ArrayLike, b: ArrayLike, c: ArrayLike, d: ArrayLike, q: ArrayLike,

@@ -71,6 +71,7 @@ nb::dict advance(const distributed_mesh& mesh, const step_request& request) {
     found["fraction"] = result.fraction;
     found["fractions"] = numbers_of<double>(std::move(result.fractions));
     found["first_contact"] = time_of(result.first_contact);
+    found["first_pairs"] = pairs_of<ccd::mpi::vertex_number>(std::move(result.first_pairs));
     found["touching_at_start"] =
         pairs_of<ccd::mpi::vertex_number>(std::move(result.touching_at_start));
     found["near_at_start"] = pairs_of<ccd::mpi::vertex_number>(std::move(result.near_at_start));

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <errbound/predicate_batch.hpp>
 #include <errbound/predicates.hpp>
+#include <errbound/simplices/predicates.hpp>
 #include <span>
 #include <stdexcept>
 #include <string>
@@ -64,8 +65,10 @@ void bind_predicates(nb::module_& m) {
     bind(m, "power_insphere", power_insphere);
     bind(m, "compare_distances2d", compare_distances2d);
     bind(m, "compare_distances3d", compare_distances3d);
+    bind(m, "segments_intersect2d", segments_intersect2d);
     bind(m, "segments_intersect3d", segments_intersect3d);
     bind(m, "segment_intersects_triangle", segment_intersects_triangle);
+    bind(m, "triangle_intersects_triangle", triangle_intersects_triangle);
     bind(m, "orient2d_line_line", orient2d_line_line);
     bind(m, "orient3d_line_plane", orient3d_line_plane);
     bind(m, "compare_x_line_line", compare_x_line_line);

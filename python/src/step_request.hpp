@@ -3,14 +3,18 @@
 
 #include <nanobind/nanobind.h>
 
+#include <algorithm>
+#include <array>
 #include <ccd/advance.hpp>
 #include <ccd/nearness.hpp>
 #include <ccd/step.hpp>
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <stdexcept>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "arrays.hpp"
 #include "results.hpp"
@@ -37,8 +41,11 @@ struct step_request {
     std::string method = "exact";
     int threads = 0;
     bool count_candidates = false, stages = false, initial_contact = false, first_contact = false,
-         times = false, between_groups = true, skip_unused = false;
-    double t_max = 1, distance = 0;
+         times = false, between_groups = true, skip_unused = false, check_start = false,
+         each_vertex = false;
+    // Options of intersections:
+    bool segments = true, edge_faces = false, merge_equal_positions = false, first_only = false;
+    double t_max = 1, distance = 0, keep = 0, conservative = 1;
     std::optional<numbers> thickness;
     std::optional<group_numbers> groups, islands;
     std::optional<flags> pinned;
@@ -71,16 +78,31 @@ struct step_request {
                 .initial_contact = initial_contact,
                 .first_contact = first_contact,
                 .times = times,
+                .check_start = check_start,
                 .t_max = t_max,
                 .distances = distances(),
                 .filter = filter()};
     }
     ccd::near_options near_options() const { return {.threads = threads, .filter = filter()}; }
     ccd::advance_options advance_options() const {
-        ccd::advance_options options{
-            .distances = distances(), .threads = threads, .filter = filter()};
+        ccd::advance_options options{.each_vertex = each_vertex,
+                                     .distances = distances(),
+                                     .keep = keep,
+                                     .threads = threads,
+                                     .filter = filter(),
+                                     .check_start = check_start,
+                                     .conservative = conservative};
         if (islands) options.groups = items_of<int>(*islands);
         return options;
+    }
+    ccd::intersection_options intersection_options() const {
+        using amount = ccd::intersection_options::amount;
+        return {.wanted = first_only ? amount::first : amount::all,
+                .segments = segments,
+                .edge_faces = edge_faces,
+                .merge_equal_positions = merge_equal_positions,
+                .threads = threads,
+                .filter = filter()};
     }
 };
 
@@ -106,6 +128,49 @@ nb::dict pairs_of(Lists&& pairs) {
     return of_each_kind(std::move(pairs),
                         [](auto&& list) { return rows_of<Number>(std::move(list)); });
 }
+/// Vertices, relations, segments and their errors of the intersections of one kind.
+template <std::size_t Vertices>
+nb::dict intersections_of_kind(const std::vector<ccd::intersection>& all,
+                               ccd::intersection_kind kind) {
+    std::vector<std::array<ccd::vertex_index, Vertices>> vertices;
+    std::vector<std::uint8_t> relations;
+    std::vector<std::array<double, 6>> segments;
+    std::vector<std::array<double, 2>> errors;
+    for (const ccd::intersection& pair : all) {
+        if (pair.kind() != kind) continue;
+        auto& row = vertices.emplace_back();
+        std::ranges::copy(pair.b.vertices(), std::ranges::copy(pair.a.vertices(), row.begin()).out);
+        relations.push_back(static_cast<std::uint8_t>(pair.relation));
+        constexpr double none = std::numeric_limits<double>::quiet_NaN();
+        auto& segment = segments.emplace_back();
+        for (std::size_t i = 0; i < segment.size(); ++i)
+            segment[i] = pair.segment ? (*pair.segment)[i / 3].position[i % 3] : none;
+        errors.push_back(pair.segment
+                             ? std::array{(*pair.segment)[0].error, (*pair.segment)[1].error}
+                             : std::array{none, none});
+    }
+    nb::dict found;
+    found["vertices"] = rows_of<ccd::vertex_index>(std::move(vertices));
+    found["relation"] = numbers_of<std::uint8_t>(std::move(relations));
+    found["segment"] = rows_of<double>(std::move(segments));
+    found["error"] = rows_of<double>(std::move(errors));
+    return found;
+}
+inline nb::dict intersections_of(const std::vector<ccd::intersection>& all) {
+    nb::dict found;
+    const auto add = [&]<std::size_t Vertices>(ccd::intersection_kind kind) {
+        found[std::string(name(kind)).c_str()] = intersections_of_kind<Vertices>(all, kind);
+    };
+    using enum ccd::intersection_kind;
+    add.template operator()<6>(face_face);
+    add.template operator()<5>(edge_face);
+    add.template operator()<4>(vertex_face);
+    add.template operator()<4>(edge_edge);
+    add.template operator()<3>(vertex_edge);
+    add.template operator()<2>(vertex_vertex);
+    return found;
+}
+
 inline nb::object counts_of(std::optional<ccd::pair_counts>&& counts) {
     if (!counts) return nb::none();
     return of_each_kind(std::move(*counts), [](std::size_t count) { return nb::cast(count); });

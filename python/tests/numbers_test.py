@@ -62,6 +62,13 @@ def test_errors_of_predicates():
     assert predicates.segments_intersect3d([0, 0, 0], [2, 2, 0], [0, 2, 0], [2, 0, 0]) == 1
 
 
+def test_intersections_by_hand():
+    assert predicates.segments_intersect2d([0, 0], [2, 2], [0, 2], [2, 0]) == 1
+    signs = predicates.triangle_intersects_triangle([0, 0, 0], [4, 0, 0], [0, 4, 0], [[1, 1, -1], [1, 1, 0], [1, 1, 1]],
+                                                    [1, 1, 1], [9, 9, 1])
+    assert signs.tolist() == [1, 0, -1]
+
+
 def test_roots_by_hand():
     found = roots.isolate([-2.0, 0.0, 1.0], 0, 10)
     assert len(found) == 1 and found.low[0] < found.high[0] == math.nextafter(found.low[0], 2)

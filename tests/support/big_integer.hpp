@@ -73,6 +73,12 @@ class big_integer {
     }
     /// −1, 0 or 1.
     friend int sign(const big_integer& x) { return mpz_sgn(x.value_); }
+    /// a/b. Precondition: b divides a.
+    friend big_integer exact_quotient(const big_integer& a, const big_integer& b) {
+        big_integer r{unset()};
+        mpz_divexact(r.value_, a.value_, b.value_);
+        return r;
+    }
     /// a/b to about fifty bits. Precondition: b is not zero.
     friend double ratio(const big_integer& a, const big_integer& b) {
         long exponent_a, exponent_b;

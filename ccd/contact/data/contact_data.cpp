@@ -22,10 +22,11 @@ double clamped(double weight, double most) {
     return weight > 0 ? std::min(weight, most) : 0;
 }
 
-/// Sets the weights of one feature. Each except the first is cut to the rest of 1; the first gets
-/// the remainder. True weights are in [0, 1] and add up to 1, so a cut adds no error. The error of
-/// the first is at most the sum of the others'. Two differences up to 1 are off by ε/4 each; the
-/// bound includes three roundings of this sum. Proof: proofs/ContactWeights.v, weights_right.
+/// Sets the weights of one feature. From the last on, each is clamped to what the later ones leave
+/// of 1; the first gets the remainder. True weights are in [0, 1] and add up to 1, so clamping adds
+/// no error. The error of the first is at most the sum of the others' errors. At most two
+/// differences, of size up to 1, add ε/4 each; the bound includes three roundings of this sum.
+/// Proof: proofs/ContactWeights.v, weights_right.
 void set_weights(const contact_state& state, const point_numbers& points, std::size_t first,
                  std::size_t count, first_contact& into) {
     double left = 1, error = 0;
@@ -59,10 +60,10 @@ void set_normal(const direction& along, normal_source source, bool sided, first_
     into.sided = sided;
 }
 
-/// The sign with which N points to the side of the first feature before the contact, if there was a
-/// side. `velocity` is relative to the second feature. Y = N·P is 0 at the contact, where its
-/// derivative is N times the velocity of P's end. If the derivative has a certain sign, Y had the
-/// opposite sign before.
+/// Returns 1 if N points to the side on which the first feature was before the contact, −1 if −N
+/// does, nothing if it had no side. `velocity` is relative to the second feature. Y = N·P is 0 at
+/// the contact, where its derivative is N times the velocity of P's end. If the derivative has a
+/// certain sign, Y had the opposite sign before.
 template <class Query>
 std::optional<int> side_of(const Query& query, const first_time& time, const enclosed_vector& n,
                            const enclosed_vector& velocity) {
@@ -76,7 +77,8 @@ std::optional<int> side_of(const Query& query, const first_time& time, const enc
     return (side == sign_type::positive) == towards_first ? 1 : -1;
 }
 
-/// Sets the cross product as normal, if its side is known or the start determines none.
+/// Sets the cross product as normal if its side is known, or if there is none to know. Returns true
+/// if it did.
 template <class Query>
 bool set_cross_product(const Query& query, const enclosed_vector& n,
                        const enclosed_vector& velocity, first_contact& into) {
@@ -84,7 +86,7 @@ bool set_cross_product(const Query& query, const enclosed_vector& n,
     const auto along = direction_of(n);
     if (!along || !(inside || is_known(*along))) return false;
     const bool start = into.time.at_start();
-    // Contacts inside at the start, and those of slivers, have no side.
+    // Contacts inside at the start have no side, nor do slivers, whose direction is unknown.
     if (inside && (start || !is_known(*along))) {
         set_normal(*along, normal_source::cross_product, false, into);
         return true;
@@ -95,8 +97,9 @@ bool set_cross_product(const Query& query, const enclosed_vector& n,
     return true;
 }
 
-/// Sets the normal against the velocity without its component along the edge that meets. If that
-/// has no direction, uses `cross_product` if it has one, else the whole velocity.
+/// Sets the normal opposite to the velocity without its component along the edge that meets. If
+/// this vector has no known direction, uses `cross_product` if its direction is known, else the
+/// whole velocity.
 void set_substitute_normal(const contact_state& state, const enclosed_vector& velocity,
                            const enclosed_vector* cross_product, first_contact& into) {
     const auto set = [&](const enclosed_vector& p, normal_source source, bool sided) {

@@ -54,10 +54,10 @@ bool meet_at(const Points& points, const first_time& time, const point_numbers& 
     return !separated_by_coordinates(query) && time_of_impact(query, time.high) == time;
 }
 
-/// `weights` enclose those of contact inside both features. If the features meet inside, weights
-/// are unique, and a smaller pair that meets has a weight of 0. Otherwise (N = 0, or an edge
-/// without length) no enclosure has a certain sign. A smaller pair's first contact is not before
-/// the query's, so it is later if it has another bracket.
+/// Returns the features that meet. `weights` enclose the weights of a contact inside both features.
+/// If the features meet inside, weights are unique, and a smaller pair that meets has a weight of
+/// 0. Otherwise (N = 0, or an edge without length) no enclosure has a certain sign. A smaller
+/// pair's first contact is not before the query's, so it is later if it has another bracket.
 template <class Query>
 meeting_features features_at(const Query& query, const first_time& time,
                              const std::array<enclosure, 4>& weights) {

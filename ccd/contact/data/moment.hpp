@@ -1,7 +1,7 @@
 // The points of a query at a time given by a bracket: enclosures of differences and velocities.
 // Internal.
 //
-// Uses the rule `residual`, because plain bounds would be some ten times as wide as the bracket's.
+// Uses the rule `residual`, because plain bounds would be some ten times as wide as the bracket.
 #pragma once
 
 #include <algorithm>
@@ -79,7 +79,7 @@ inline int excess_exponent(double size, int moderate) {
     return std::abs(e) > moderate ? e : 0;
 }
 
-/// The points of one query at such a time, all scaled by one power of two.
+/// The points of one query at a time given by a bracket, all scaled by one power of two.
 class contact_moment {
   public:
     template <class Query>

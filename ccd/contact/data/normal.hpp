@@ -21,8 +21,9 @@ struct estimate {
     double value, error;
 };
 
-/// The double nearest to the middle of an enclosure, to second order. (Roundings: u|value| of the
-/// sum, and four of the bound.)
+/// Returns the double nearest to the middle of an enclosure, up to errors of second order. Its
+/// `error` bounds the distance to the exact number. (The bound includes the rounding u|value| of
+/// the sum and its own four roundings.)
 inline estimate nearest(const enclosure& x) {
     using traits = errbound::number_traits<double>;
     const auto [correction, remainder] = x.bound();
@@ -40,15 +41,15 @@ struct direction {
 inline direction operator-(const direction& d) {
     return {{-d.unit.x, -d.unit.y, -d.unit.z}, d.error};
 }
-/// True if the side of some plane is certain.
+/// True if the exact direction certainly lies on one side of some plane.
 inline bool is_known(const direction& d) {
     return d.error < 1;
 }
 
 /// Returns p/|p|; nothing if p's middle is zero or not finite. For vectors p and q, p/|p| and q/|q|
-/// are at most |p − q|/m apart, where m is the lesser length. (Dunkl and Williams 1964 has twice
-/// the mean of the lengths for m.) The length is off by less than 3u of it, so the quotients are
-/// off by 4u. Scaling to sizes near 1 prevents underflow.
+/// are at most |p − q|/m apart, where m is the lesser length. (Dunkl and Williams 1964 have the
+/// mean of the lengths for m.) The length has a relative error below 3u, so the quotients have one
+/// below 4u. Scaling to sizes near 1 prevents underflow.
 inline std::optional<direction> direction_of(const enclosed_vector& p) {
     using traits = errbound::number_traits<double>;
     const int e = excess_exponent(size(p), 0);

@@ -14,7 +14,7 @@ namespace ccd::detail {
 /// Weights are in the order of the kind's points.
 struct contact_state {
     std::array<enclosure, 4> weights;
-    relative_motion motion;  ///< of the contact point of the first feature relative to the second's
+    relative_motion motion;  ///< of the first feature's contact point relative to the second's
     /// N, or the edge of a vertex/edge pair, scaled by some power of two.
     enclosed_vector across;
 };
@@ -26,8 +26,9 @@ Forms<enclosure, 0> moderate_forms(const relative_motion& b, const relative_moti
     return {scaled(b.position, -e), scaled(c.position, -e), scaled(p.position, -e)};
 }
 
-/// The points of a face, rotated so that the longest edge is that of the last two. The cross
-/// product of the other edges has the smallest error, above all if two points are close.
+/// Returns the points of a face, rotated so that its longest edge is between the last two. The
+/// cross product of the other edges has the smallest error, above all if two points nearly
+/// coincide.
 inline std::array<std::size_t, 3> with_longest_edge_last(const contact_moment& at,
                                                          const point_numbers& i) {
     const double opposite[] = {at.squared_distance(i[2], i[3]), at.squared_distance(i[3], i[1]),

@@ -43,8 +43,9 @@ constexpr mask<S> changes_sign(const errbound::roots::control_values<S, N>& c, c
     return (starts_above & ends_below) | (starts_below & ends_above);
 }
 
-/// True if, in addition, one inner value certainly has the sign of the end next to it. Then signs
-/// change once, so there is one root. Proof: proofs/ContactPart.v, changes_sign_once_right.
+/// True if changes_sign, and one inner value certainly has the sign of the end value next to it.
+/// Then signs change once, so there is one root. Proof: proofs/ContactPart.v,
+/// changes_sign_once_right.
 template <class S>
 constexpr mask<S> changes_sign_once(const errbound::roots::control_values<S, 3>& c,
                                     const S& error) {

@@ -15,8 +15,8 @@ namespace ccd::static_filter {
 
 inline constexpr std::size_t max_depth = 12;
 
-/// From this depth on, a part where Y is within its error goes to exact arithmetic. (Before,
-/// halving may still show that some G_i is negative everywhere.)
+/// From this depth on, a part where Y is within its error goes to exact arithmetic. (At smaller
+/// depths, halving may still show that some G_i is negative everywhere.)
 inline constexpr std::size_t patient_depth = 3;
 
 /// Larger differences go to later stages, so that forms of degree 4 stay far from overflow. (Floats
@@ -26,7 +26,8 @@ inline constexpr Real largest_difference = 0x1p200;
 template <>
 inline constexpr float largest_difference<float> = 4;
 
-/// |ĥ − h| <= relative·unit + absolute for a form's control values times multiple(N).
+/// |ĥ − h| <= relative·unit + absolute, where h is a control value of a form of degree n, times
+/// multiple(n) (errbound/roots/control_values.hpp). The head of this file defines the unit.
 template <class Real>
 struct constants {
     Real relative;  ///< times the unit
@@ -73,7 +74,8 @@ inline constexpr double negligible = 0x1p-1000;
 template <>
 inline constexpr double negligible<float> = 0x1p-140;
 
-/// Assumes underflow in all forms up to `degree`, with factors up to largest_difference.
+/// Returns the constants of a form of this degree from its counted errors. Underflow may be
+/// multiplied by degree − 1 differences of up to largest_difference (error_count.hpp).
 template <class Real, int N>
 constexpr constants<Real> constants_of(basic_error_count<Real> c, int degree) {
     using traits = errbound::number_traits<Real>;

@@ -26,7 +26,7 @@ struct real_of<float> {
 template <class S>
 using mask = decltype(S() < S());
 
-/// m_x, m_y, m_z: by axis, the largest magnitude of differences from one of the query's points.
+/// m_x, m_y, m_z: the largest size of a component of b, c, p at both ends of the step, by axis.
 /// Precondition: finite coordinates. (Differences that overflow are infinite. NaN results only from
 /// infinite coordinates, and the maximum may skip it.)
 template <class S>

@@ -45,11 +45,11 @@ constexpr S longest(const edge_edge_forms<S>& f) {
 /// length is at most that at one end. Proof: proofs/DistanceMargins.v, margins_face_apart,
 /// margins_edges_apart.
 ///
-/// Errors: N's control vectors are off by less than 2^-48 of the extents' products (6ε of each
-/// term's size); the factor 1 + 2^-40 covers the rest. Squares of an N below 2^-516 may underflow.
-/// Then 2^-48 of the products suffices, or these are below 2^-468. In the latter case the product
-/// of all three is below 2^-702, and no value of Y exceeds its error, at least 2^-669. The same
-/// holds for G_i if lengths are below 2^-516.
+/// Errors: N's control vectors have an error of less than 2^-48 times the extents' products (6ε of
+/// each term's size); the factor 1 + 2^-40 covers the rest. Squares of an N below 2^-516 may
+/// underflow. Then 2^-48 of the products suffices, or the products are below 2^-468. If they are,
+/// the product of all three extents is below 2^-702, and no value of Y exceeds its error, at least
+/// 2^-669. The same holds for G_i if lengths are below 2^-516.
 template <class S, class Forms>
 constexpr form_errors<S> distance_margins(const Forms& f, const difference_extents<S>& m,
                                           double d) {

@@ -13,7 +13,8 @@ namespace ccd::static_filter {
 
 namespace detail {
 
-/// `project` takes a difference and an end; its error is at most margin/2.
+/// project(difference, end) projects b, c or p at an end of the step, with an error of at most
+/// margin/4.
 template <class S, class Project>
 constexpr mask<S> separated_along(const vertex_face_forms<S>& f, const S& margin,
                                   const Project& project) {

@@ -78,7 +78,7 @@ class handle {
         const quiet_use use;
         close_(id_);
     }
-    /// Closes it now. Throws file_error if data cannot be written.
+    /// Closes the handle now. Throws file_error if data cannot be written.
     void close(const std::string& where) {
         checked(close_(std::exchange(id_, H5I_INVALID_HID)), where);
     }

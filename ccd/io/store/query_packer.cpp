@@ -1,4 +1,4 @@
-// The writer of stores: each point once in a chunk, each dataset with HDF5's checksums.
+// The writer of stores. A chunk holds each of its points once; every dataset has HDF5's checksums.
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -218,7 +218,7 @@ class packer final : public query_packer {
     std::optional<growing_rows> stored_points_, stored_truth_;
     hsize_t query_chunk_ = 0;  ///< rows of a chunk of queries and truth
     std::uint64_t size_ = 0;
-    std::vector<std::uint64_t> first_point_{0};  ///< of each chunk, and their number
+    std::vector<std::uint64_t> first_point_{0};  ///< of each chunk, then the number of points
     // State of the chunk that is being collected:
     std::vector<point_row> points_;
     std::vector<query_row> queries_;

@@ -45,7 +45,8 @@ class rows_on_disk {
         : where_(store + ": dataset " + name),
           set_(opened_set(file, name, where_)),
           columns_(columns) {
-        // First of all: virtual datasets and external storage lead to other files.
+        // This check comes first, because virtual datasets and external storage lead to other
+        // files.
         const handle how(H5Dget_create_plist(set_), H5Pclose, where_);
         if (H5Pget_layout(how) != H5D_CHUNKED) refuse("layout is not chunked; expected chunks");
         const handle type(H5Dget_type(set_), H5Tclose, where_);
@@ -98,7 +99,7 @@ class rows_on_disk {
         if (bytes * static_cast<double>(chunk[0]) * static_cast<double>(chunk[1]) > 1 << 26)
             refuse("size of chunks is " + std::to_string(chunk[0]) + " x " +
                    std::to_string(chunk[1]) + " numbers; expected at most 64 MiB each");
-        // Deflate makes at most 1032 bytes of one.
+        // Deflate expands a byte to at most 1032 bytes.
         if (rows_ > 1100 * H5Dget_storage_size(set_) / bytes_of_number / columns_)
             refuse("number of rows is " + std::to_string(rows_) +
                    "; expected at most as many as the file can hold");

@@ -17,8 +17,8 @@ constexpr bool is_store(std::string_view first_bytes) {
     return first_bytes.starts_with("\x89HDF\r\n\x1a\n");
 }
 
-/// Keeps HDF5 1.10 from printing complaints at exit after a damaged file. For programs without
-/// other uses of HDF5, before anything else.
+/// Keeps HDF5 1.10 from printing complaints at exit after a damaged file. Programs without other
+/// uses of HDF5 call it before anything else.
 void leave_stores_at_exit();
 
 /// Calls from several threads wait for each other. Throws errbound::support::file_error if the file
@@ -32,7 +32,7 @@ class store_reader {
     virtual query_file read(std::uint64_t begin, std::uint64_t end) const = 0;
 };
 
-/// Throws errbound::support::file_error if that is no store, or if this was built without HDF5.
+/// Throws errbound::support::file_error if the file is not a store, or in a build without HDF5.
 std::unique_ptr<store_reader> open_store(const std::filesystem::path& path);
 std::unique_ptr<store_reader> open_store(std::string_view bytes, const std::string& name);
 

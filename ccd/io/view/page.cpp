@@ -4,6 +4,7 @@
 #include <ccd/contact.hpp>
 #include <ccd/io/step_view.hpp>
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <string_view>
 #include <utility>
@@ -41,7 +42,7 @@ void append_array(std::string& text, std::string_view id, std::string bytes) {
     text += "</script>\n";
 }
 
-/// The index of each vertex's body, modulo the number of the page's colours.
+/// The index of each vertex's connected part of the mesh, modulo the number of the page's colours.
 std::string bytes_of_parts(const step_view& step) {
     constexpr int colours = 6;
     std::string bytes;
@@ -62,6 +63,25 @@ std::string bytes_of_contacts(const step_view& step) {
             append_number(bytes, static_cast<float>(n));
     }
     return bytes;
+}
+
+/// Vertices, relations, and for crossing pairs the ends of the common segment, if known.
+void append_intersections(std::string& text, std::span<const intersection> all,
+                          intersection_kind kind) {
+    std::string vertices, relations, segments;
+    for (const intersection& pair : all) {
+        if (pair.kind() != kind) continue;
+        for (const mesh_element& element : {pair.a, pair.b})
+            for (const vertex_index v : element.vertices()) append_number(vertices, v);
+        relations += static_cast<char>(pair.relation);
+        for (std::size_t i = 0; i < 6; ++i)
+            append_number(segments, pair.segment ? (*pair.segment)[i / 3].position[i % 3]
+                                                 : std::numeric_limits<double>::quiet_NaN());
+    }
+    const std::string id = "start_" + std::string(name(kind));
+    append_array(text, id, std::move(vertices));
+    append_array(text, id + "_relations", std::move(relations));
+    append_array(text, id + "_segments", std::move(segments));
 }
 
 std::string arrays_of(const step_view& step) {
@@ -86,6 +106,8 @@ std::string arrays_of(const step_view& step) {
         append_array(text, id + "_times", std::move(times));
         append_array(text, id + "_contacts", bytes_of_contacts<K>(step));
     });
+    for (const intersection_kind k : intersection_kinds)
+        append_intersections(text, step.intersections, k);
     return text;
 }
 

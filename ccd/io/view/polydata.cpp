@@ -22,7 +22,7 @@ namespace {
 
 using place = std::array<double, 3>;
 
-/// In which pairs a vertex, an edge or a face takes part.
+/// The pairs in which a vertex, an edge or a face takes part.
 class participation {
   public:
     /// The number of pairs, and the earliest time: NaN without pairs or times.
@@ -69,7 +69,7 @@ class participation {
     }
 
   private:
-    /// Ascending, each vertex once, then the last one again.
+    /// The vertices, ascending and each once; the last one fills the rest.
     using vertex_key = std::array<vertex_index, 3>;
 
     static vertex_key key_of(std::span<const vertex_index> vertices) {

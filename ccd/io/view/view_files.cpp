@@ -56,6 +56,10 @@ void require_view(const step_view& step) {
     };
     for (std::size_t i = 0; i < step.faces.size(); ++i) require("faces", i, step.faces[i]);
     for (std::size_t i = 0; i < step.edges.size(); ++i) require("edges", i, step.edges[i]);
+    for (std::size_t i = 0; i < step.intersections.size(); ++i) {
+        require("intersections", i, step.intersections[i].a.vertices());
+        require("intersections", i, step.intersections[i].b.vertices());
+    }
     const bool timed = step.times != time_lists{};
     for_each_kind([&]<kind K>() {
         const auto& pairs = step.pairs.of<K>();

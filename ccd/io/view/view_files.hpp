@@ -12,7 +12,7 @@
 namespace ccd::io {
 
 /// NAME.html or `-` is a page; NAME.vtp is the frame before; NAME.pvd is a series of NAME-0.vtp and
-/// NAME-1.vtp, which come first. Throws std::invalid_argument for other names.
+/// NAME-1.vtp, which precede it in the list. Throws std::invalid_argument for other names.
 std::vector<std::filesystem::path> view_paths(const std::filesystem::path& path);
 
 /// Throws as view_paths and page_of.

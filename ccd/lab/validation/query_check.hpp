@@ -16,7 +16,7 @@ void note(shadow_session& session, std::string_view quantity, const shadowed<Rul
     session.note(quantity, x.claimed(), x.exact(), errbound::meaning_of_error<Rule>);
 }
 
-/// At the inner root of l, if any, where BSC evaluates the form.
+/// Notes the form's value at the root of l in (0, 1), if any, as BSC evaluates it.
 template <class S, int N>
 void note_at_root(shadow_session& session, std::string_view quantity, const bernstein<S, N>& form,
                   const bernstein<S, 1>& l) {
@@ -25,7 +25,8 @@ void note_at_root(shadow_session& session, std::string_view quantity, const bern
     note(session, quantity, value_at(form, root.s, root.t));
 }
 
-/// BSC's reduction of the quartic g: J, then M and R of its decomposition, and Y at their roots.
+/// Notes BSC's reduction of the quartic g: J, then M and R of its decomposition, and Y at their
+/// roots.
 template <class S>
 void note_reduction(shadow_session& session, const bernstein<S, 3>& y, const bernstein<S, 4>& g) {
     for (int i = 0; i <= 4; ++i) note(session, "G", g[i]);
@@ -42,7 +43,7 @@ void note_reduction(shadow_session& session, const bernstein<S, 3>& y, const ber
     note_at_root(session, "Y(t_R)", y, parts.r);
 }
 
-/// Checks every operation, of the quantities and of BSC as in decide_bsc.
+/// Checks every operation of the deciding quantities, and of BSC as in decide_bsc.
 template <class Rule, template <class> class Query>
 void check_query(const Query<double>& query, shadow_session& session) {
     using scalar = shadowed<Rule>;

@@ -1,4 +1,4 @@
-// Bounds over true errors, by MPFR (errbound/validation/validation.hpp).
+// Ratios of bounds to true errors, by MPFR (errbound/validation/validation.hpp).
 #include <errbound/validation/validation.hpp>
 #include <string>
 #include <utility>

@@ -31,9 +31,9 @@ int run_command_line(int argc, char** argv, int rank) {
     return errbound::support::run_command(app, argc, argv, commands, rank == 0);
 }
 
-/// Waits for all ranks. An error of one rank is thrown on all, unless that rank fails alone (no
-/// memory, another command line). The others then wait for it without end, and the result is false
-/// after some seconds.
+/// Waits for all ranks and returns true. Most errors are thrown on all ranks. If a rank fails alone
+/// (no memory, another command line), the others may wait elsewhere without end. The failed rank
+/// then returns false after some seconds.
 bool all_meet(MPI_Comm all, bool failed) {
     MPI_Request request{};
     MPI_Ibarrier(all, &request);

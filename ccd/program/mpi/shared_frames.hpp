@@ -16,7 +16,7 @@ struct shared_frames {
     std::vector<point<double>> before, after;
     std::vector<face> faces;
     std::vector<edge> edges;
-    std::size_t vertices = 0, unused = 0;  ///< of the whole mesh; without faces and edges
+    std::size_t vertices = 0, unused = 0;  ///< of the whole mesh; `unused` have no face or edge
 
     mpi::mesh_part part() const { return {numbers, {before, after}, faces, edges}; }
 };

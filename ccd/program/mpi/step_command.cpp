@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <ccd/mpi.hpp>
 #include <chrono>
-#include <cstdio>
 #include <iostream>
 #include <limits>
 #include <nlohmann/json.hpp>
@@ -23,6 +22,7 @@
 namespace ccd::program {
 namespace {
 
+using errbound::support::fixed;
 using errbound::support::grouped;
 using errbound::support::usage_error;
 
@@ -147,12 +147,6 @@ class distributed_step final : public command {
     static bool is_shown(const mpi::step_result& found) {
         return is_cubic(K) || !found.pairs.of<K>().empty() ||
                (found.candidates && found.candidates->of<K>() > 0);
-    }
-
-    static std::string fixed(double value, const char* format) {
-        char text[64];
-        std::snprintf(text, sizeof text, format, value);
-        return text;
     }
 
     std::string text_of_step(const mpi::step_result& found,

@@ -24,11 +24,11 @@ int process_number();
 /// Runs a program with one argument. Returns its exit status; 127 if it cannot run.
 int run(const char* program, const std::string& argument);
 
-/// Separators in a path; true if devices have names as /dev/stdin.
+/// The separators in a path; and true if devices have names like /dev/stdin.
 extern const std::string_view separators;
 extern const bool has_device_files;
-/// The system's bytes, or UTF-8 if it has none; also for the names below. (libstdc++ 12's paths
-/// never return if memory runs out.)
+/// Returns the name in the system's bytes, or in UTF-8 if its names are not bytes. The functions
+/// below take such names. (libstdc++ 12's paths never return if memory runs out.)
 std::string native_name(const std::filesystem::path& path);
 std::string real_name(const std::string& name);  ///< without links; empty if there is no such file
 /// True if two absolute names without links are the same for the system.

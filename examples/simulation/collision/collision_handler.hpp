@@ -26,12 +26,13 @@ namespace simulation {
 
 struct collision_options {
     ccd::method method = ccd::method::exact;
-    double thickness = 1e-3;  ///< in metres: nearer pairs are pushed apart
-    double friction = 0.3;    ///< Coulomb's coefficient
-    double push = 0.1;        ///< share of the missing thickness that is restored per step
+    /// In metres. Pairs within this are pushed apart; pairs within twice this may be contacts.
+    double thickness = 1e-3;
+    double friction = 0.3;  ///< Coulomb's coefficient
+    double push = 0.1;      ///< share of the missing thickness that is restored per step
     int impulse_rounds = 12;
-    int finishing_rounds = 10;   ///< the last of these, with a response of particles
-    int finishing_sweeps = 100;  ///< of this response
+    int finishing_rounds = 10;   ///< last impulse rounds, which also move vertices as particles
+    int finishing_sweeps = 100;  ///< Gauss-Seidel, over the contacts in each of these
     double tolerance = 0.01;     ///< of contacts, in thicknesses
     int iterations = 8;          ///< of contact forces, after each relaxation of the bodies
     int relaxations = 9;         ///< in the first round; a third of it in others
@@ -43,7 +44,7 @@ struct collision_options {
 struct response_report {
     int iterations = 0;                     ///< tests of the step by the method
     std::size_t near_at_start = 0;          ///< pairs nearer than the thickness
-    double least_distance = 0;              ///< of these, in metres; undefined if there are none
+    double least_distance = 0;              ///< of these, in metres; `thickness` if there are none
     std::size_t contacts = 0;               ///< pairs reported by the first test
     std::size_t reported = 0;               ///< pairs reported by all tests
     std::size_t uncertain = 0;              ///< of these, pairs that the method cannot decide
@@ -68,8 +69,8 @@ class collision_handler {
 
     /// Moves `after`; driven vertices only if it has not converged. Pairs of driven vertices only
     /// are skipped and may pass through each other. Precondition: `before` has no contact, and
-    /// surfaces do not intersect there, since no step detects that. Throws std::invalid_argument if
-    /// a coordinate is not finite or the number of rows differs from that of vertices.
+    /// surfaces do not intersect there (ccd/intersections.hpp). Throws std::invalid_argument if a
+    /// coordinate is not finite or the number of rows differs from that of vertices.
     response_report resolve(const rows& before, rows& after, const compliance& bodies);
 
     /// The last contact forces, which start the next search: part of a run's state.

@@ -1,5 +1,5 @@
 // Sheets of cloth fall into a funnel, and a ball presses them through its neck. Source: the funnel
-// of Wang, Tang, Manocha, Tong: TightCCD, 2015. Resolution: cells along a side of a sheet.
+// of Wang, Tang, Tong, Manocha: TightCCD, 2015. Resolution: cells along a side of a sheet.
 #include <algorithm>
 #include <cmath>
 

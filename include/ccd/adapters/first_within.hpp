@@ -15,10 +15,10 @@ namespace ccd::adapters::detail {
 /// True if the features certainly stay more than d apart in [0, t_max], for 0 <= t_max <= 1.
 ///
 /// Tests the motion to the rounded positions at t_max. With coordinates of at most M and u = 2^-53,
-/// the rounded x0 + t_max·(x1 - x0) is off by at most 6u M + 2^-1074, fused or not. It rounds a
-/// difference of at most 2M, its product, and a sum of at most M. Points at earlier times are off
-/// by a fraction of that, and distances by less than 2 sqrt(3) times that. So twice 2^-48 M +
-/// 2^-1072 is added to d. Values that overflow are not finite, and then nothing is certain.
+/// the rounded x0 + t_max·(x1 - x0) has an error of at most 6u·M + 2^-1074, fused or not. It rounds
+/// a difference of at most 2M, its product, and a sum of at most M. Points at earlier times have a
+/// fraction of that error, and distances less than 2·sqrt(3) times that. So twice 2^-48·M + 2^-1072
+/// is added to d. Values that overflow are not finite, and then nothing is certain.
 template <class Query>
 bool stays_apart(const Query& query, separation d, double t_max) {
     double largest = 0;

@@ -42,21 +42,23 @@ Position first_parameter(bool (Interface::*)(Position, Rest...) const);
 ///
 /// With conservative_rescaling 1, the default:
 ///
-/// * An answer is true exactly if the features come within min_distance of each other, or touch if
-///   it is 0, at some time in [0, tmax]. Distances are Euclidean and closed: min_distance counts.
-/// * `toi` is never after the first such time, and less than a last place before it: `low` of
+/// * An answer is true if and only if the features come within min_distance at some time in [0,
+///   tmax]. A min_distance of 0 means contact. Distances are Euclidean and closed: min_distance
+///   counts.
+/// * `toi` is never after the first such time, and less than one ulp before it: `low` of
 ///   ccd/contact.hpp. If the first time is a double, `toi` is that double.
-/// * `toi` is 0 if they are within min_distance at the start, or come within it before the least
-///   double above 0.
+/// * `toi` is 0 if the features are within min_distance at the start, or come within it before the
+///   least double above 0.
 /// * `toi` is infinite if the answer is false.
 ///
 /// A step of that length may end in contact. For a gap, as barriers need, set a
 /// conservative_rescaling below 1. The distance tested is then min_distance plus a gap: the
 /// fraction 1 - conservative_rescaling of the distance above min_distance at the start, at most
 /// max_gap. The gap remains at every time up to `toi`, and all features that get nearer are
-/// reported. If the gap rounds to nothing, min_distance is tested, and the time is multiplied by
-/// conservative_rescaling; `toi` is 0 in no other cases. Degenerate triangles and edges are the
-/// segments and points that they are.
+/// reported. If no gap is left after rounding, min_distance is tested, and the time is multiplied
+/// by conservative_rescaling. `toi` is 0 only for invalid input, for features within min_distance
+/// at the start, and for times below the least double above 0. Degenerate triangles and edges are
+/// the segments and points that they are.
 class exact_narrow_phase : public detail::rescaled<ipc::NarrowPhaseCCD> {
     using position =
         decltype(detail::first_parameter(&ipc::NarrowPhaseCCD::point_point_ccd));  // 2D or 3D

@@ -39,8 +39,9 @@ inline double start_distance(const vertex_edge<double>& q) {
     return distance(q.v.t0, q.e0.t0, q.e1.t0);
 }
 
-/// The least distance to an edge, or to the foot on the plane if that is inside. (The rounded foot
-/// is a point of the face: a distance along the normal of a sliver might be far too small.)
+/// The vertex's least distance from an edge, or from its foot on the plane if that is inside. (The
+/// rounded foot is a point of the face: a distance along the normal of a sliver might be far too
+/// small.)
 inline double start_distance(const vertex_face<double>& q) {
     const point<double> v = q.v.t0, f[] = {q.f0.t0, q.f1.t0, q.f2.t0};
     const point<double> n = cross(difference(f[1], f[0]), difference(f[2], f[0]));
@@ -57,7 +58,8 @@ inline double start_distance(const vertex_face<double>& q) {
     return (std::min)(least, distance(v, foot, foot));
 }
 
-/// The least distance of an end to the other edge, or of the lines' nearest points if inside.
+/// The least distance of an end from the other edge, or of the lines' nearest points if these are
+/// inside.
 inline double start_distance(const edge_edge<double>& q) {
     const point<double> a0 = q.a0.t0, a1 = q.a1.t0, b0 = q.b0.t0, b1 = q.b1.t0;
     const point<double> a = difference(a1, a0), b = difference(b1, b0), w = difference(b0, a0);

@@ -42,7 +42,8 @@ using vector = std::type_identity_t<Eigen::Matrix<T, 3, 1>>;
 template <class T>
 using array = std::type_identity_t<Eigen::Array<T, 3, 1>>;
 
-/// At least sqrt(3) ms, without overflow: the second part, (sqrt(3) - 1) ms, is rounded up.
+/// A distance of at least sqrt(3) ms, without overflow: its second double, (sqrt(3) - 1) ms, is
+/// rounded up.
 inline separation ball_around_box(double ms) {
     constexpr double sqrt_3_less_1 = 0x1.76cf5d0b09955p-1;  // the least double above it
     return {ms, ms == 0 ? 0 : std::nextafter(sqrt_3_less_1 * ms, 2 * ms)};
@@ -68,15 +69,16 @@ bool answer(const Query& query, double ms, double t_max, bool no_zero_toi, T& to
 
 /// Vertex v and triangle f0 f1 f2, whose positions move linearly from t0 to t1.
 ///
-/// ms = 0: true exactly if they touch in [0, t_max]. `toi` is the last Scalar not after the first
-/// contact. ms > 0: true exactly if their Euclidean distance reaches sqrt(3) ms, rounded up by less
-/// than two units in the last place. This ball contains the box of Tight-Inclusion, so `false`
-/// certifies the same as there. Pairs up to 1.74 times as far apart along an axis are reported; for
-/// a Euclidean distance call ccd::time_within. `toi` is infinite if the answer is false.
+/// ms = 0: true if and only if they touch in [0, t_max]. `toi` is the last T not after the first
+/// contact. ms > 0: true if and only if their Euclidean distance gets down to sqrt(3) ms, rounded
+/// up by less than two units in the last place. The ball of this radius contains the box of
+/// Tight-Inclusion, so `false` certifies the same as there. Pairs up to 1.74 times as far apart
+/// along an axis are reported; for a Euclidean distance call ccd::time_within. `toi` is infinite if
+/// the answer is false.
 ///
 /// err, tolerance, max_itr and ccd_method are ignored, since nothing is rounded; output_tolerance
 /// is set to tolerance. With no_zero_toi, a pair within ms at the start is tested for contact only.
-/// Then `toi` is 0 only if it touches at the start, or before the least positive Scalar.
+/// Then `toi` is 0 only if the pair touches at the start, or before the least positive T.
 template <class T>
 requires std::same_as<T, double> || std::same_as<T, float>
 bool vertexFaceCCD(
@@ -93,7 +95,7 @@ bool vertexFaceCCD(
                           ms, t_max, no_zero_toi, toi);
 }
 
-/// Edge ea0 ea1 and edge eb0 eb1, as vertexFaceCCD.
+/// Same as vertexFaceCCD, for the edges ea0 ea1 and eb0 eb1.
 template <class T>
 requires std::same_as<T, double> || std::same_as<T, float>
 bool edgeEdgeCCD(const detail::vector<T>& ea0_t0, const detail::vector<T>& ea1_t0,

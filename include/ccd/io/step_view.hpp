@@ -17,12 +17,14 @@ struct step_view {
     std::span<const face> faces;
     std::span<const edge> edges;  ///< other than those of faces, as in a mesh
     const pair_lists& pairs;
-    const time_lists& times;  ///< of the pairs, or empty if unknown
+    const time_lists& times;                           ///< of the pairs, or empty if unknown
+    std::span<const intersection> intersections = {};  ///< at the start, for page_of
 };
 
 /// Returns a page of HTML that fetches nothing and needs WebGL 2. It shows the mesh and its pairs
 /// at every time of the step, to turn, move and zoom with mouse, fingers or keys. A list has each
-/// pair's time, weights and normal, and the pair as a query in numbers that read back exactly.
+/// pair's time, weights and normal, and the pair as a query in numbers that read back exactly. It
+/// also has the intersections at the start, with relations and common segments.
 ///
 /// Size: 65 bytes a vertex and 16 a face, and 22 a pair, or 80 with times. Cost: contact_at for
 /// each pair with a time. Throws std::invalid_argument if an index is out of range, or if there are

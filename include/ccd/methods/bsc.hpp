@@ -5,7 +5,7 @@
 //   decide_bsc<tight>   `tight`: TightCCD; `separate` and `collides` are certain
 //   decide_bsc<sharp>, <interval>, <residual>   the methods with these names: as above
 //
-// Source: Wang, Tang, Manocha, Tong 2015 (TightCCD), Sections 3 to 5; errbound/bsc.hpp lists the
+// Source: Wang, Tang, Tong, Manocha 2015 (TightCCD), Sections 3 to 5; errbound/bsc.hpp lists the
 // differences from the printed branches, with reasons.
 #pragma once
 

@@ -2,7 +2,7 @@
 //
 // No false negative and no false positive on any finite input. Cost, requirements and `uncertain`
 // are as for `root-parity` (ccd/methods/root_parity.hpp). Source: Tang, Tong, Wang, Manocha 2014,
-// as evaluated in Wang, Tang, Manocha, Tong 2015 (interval filter and exact arithmetic).
+// as evaluated in Wang, Tang, Tong, Manocha 2015 (interval filter and exact arithmetic).
 #pragma once
 
 #include <ccd/kind.hpp>

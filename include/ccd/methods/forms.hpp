@@ -93,8 +93,8 @@ struct edge_edge_forms : coplanarity_forms<S, Degree> {
     constexpr explicit edge_edge_forms(const edge_edge<S>& q)
         : coplanarity_forms<S>(difference(q.a1, q.a0), difference(q.b1, q.b0),
                                difference(q.b0, q.a0)) {}
-    /// The parameters on edges a and b and their distances from 1, times |N|².
-    /// Proof: proofs/Decisions.v, forms_weights.
+    /// The parameters on edges a and b and 1 minus each, times |N|². Proof: proofs/Decisions.v,
+    /// forms_weights.
     constexpr auto inside() const {
         const auto on_a = dot(cross(this->p, this->c), this->n);
         const auto on_b = dot(cross(this->p, this->b), this->n);

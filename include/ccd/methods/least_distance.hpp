@@ -12,8 +12,8 @@ struct distance_bounds {
     T low, high;
 };
 
-/// |w(t)|₂ is least where w·w' = 0; rounding that time costs a few ε of the sizes. `w` is in power
-/// form.
+/// |w(t)|₂ is least where w·w' = 0; rounding that time adds an error of a few ε times w's size. `w`
+/// is in power form.
 template <class Scalar>
 constexpr auto least_distance(const vector_form<Scalar, 1>& w) {
     using T = typename Scalar::value_type;

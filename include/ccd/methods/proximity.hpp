@@ -1,4 +1,5 @@
-// Proximity of a moving vertex and a moving edge: certainly never within reach, or uncertain.
+// Proximity of a moving vertex and a moving edge: certainly never within a distance `reach`, or
+// uncertain.
 //
 // The vertex/edge and vertex/vertex tests of SafeCCD (Wang 2014), with thresholds for any reach.
 // Derivation: proofs/README.md, "Proximity of a vertex and an edge".
@@ -51,7 +52,8 @@ class line_proximity {
 
     constexpr bool usable() const { return traits::is_finite(tau_); }
 
-    /// D: if no candidate touches, the vertex is within reach only if it is this near to an end.
+    /// D: if no candidate touches, the vertex is within reach only if it is within this distance of
+    /// an end.
     constexpr T end_distance(T reach) const {
         const T line_distance = slope_ + (tau_ > 0 ? tau_ / std::sqrt(lambda_squared_) : T(0));
         return std::sqrt(line_distance * line_distance + lambda_squared_ * T(0.3125)) *
@@ -120,7 +122,7 @@ class line_proximity {
     std::array<linear, 3> edge_, place_;
     T slope_;                ///< 3·reach
     T tau_ = 0, doubt_ = 0;  ///< error bounds of |E × W| and of the foot's comparison
-    T lambda_squared_ = 0;   ///< the foot is tested for edges of at least this length
+    T lambda_squared_ = 0;   ///< the foot is tested for edges of at least this squared length
 };
 
 /// False only if the vertex is never within `reach` of the edge. Power forms: `e` goes from the

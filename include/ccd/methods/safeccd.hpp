@@ -5,7 +5,7 @@
 //
 // proofs/README.md, "SafeCCD", shows that no contact is lost, and lists the differences from the
 // published method. Sources: Wang 2014, Defending continuous collision detection against errors;
-// Wang, Tang, Manocha, Tong 2015, Section 6 (SafeCCD with TightBound).
+// Wang, Tang, Tong, Manocha 2015, Section 6 (SafeCCD with TightBound).
 #pragma once
 
 #include <algorithm>

@@ -20,7 +20,7 @@ namespace ccd {
 /// If its largest coordinate is far from 1, a power of two brings it near 1. `second` is false if a
 /// coordinate is not finite.
 ///
-/// Bounds: d = fl(x − c) is off by at most 2^-53·|d|, and the nearest float f by 2^-24·|d|, or by
+/// Bounds: d = fl(x − c) has an error of at most 2^-53·|d|. The nearest float f adds 2^-24·|d|, or
 /// half of η if it underflows. Together that is less than |f|(2^-24 + 2^-44) + η, even rounded
 /// downwards. If d overflows, f and its bound are infinite.
 template <class Rule, template <class> class Query>

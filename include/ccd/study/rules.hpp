@@ -123,7 +123,7 @@ std::vector<rule_row> compare_rules(const std::vector<Query>& queries,
 struct compared_file {
     std::string name;
     ccd::kind kind{};
-    std::size_t colliding = 0;  ///< of the file's queries, those that collide
+    std::size_t colliding = 0;  ///< number of the file's queries that collide
     std::vector<rule_row> rows;
 };
 

@@ -6,10 +6,11 @@
 
 namespace errbound::detail {
 
-/// x, which the compiler must not fuse into a sum (-ffp-contract=fast, GCC's default, fuses across
-/// statements). Costs nothing if there is no fused multiply-add (x86-64 by default). Elsewhere it
-/// is an empty asm statement, which prevents vectorising; g++ 12 drops __builtin_assoc_barrier.
-/// Class types are returned unchanged: build SIMD packs with -ffp-contract=off.
+/// Returns x, which the compiler then cannot fuse into a sum (-ffp-contract=fast, GCC's default,
+/// fuses across statements). Costs nothing if there is no fused multiply-add (x86-64 by default).
+/// Elsewhere the function is an empty asm statement, which prevents vectorising; g++ 12 drops
+/// __builtin_assoc_barrier. Class types are returned unchanged: build SIMD packs with
+/// -ffp-contract=off.
 template <class T>
 constexpr T rounded(const T& x) {
     return x;

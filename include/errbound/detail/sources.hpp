@@ -10,8 +10,8 @@ namespace errbound::detail {
 inline constexpr std::uint64_t no_source = 0;
 
 #if !defined(__CUDA_ARCH__)
-/// A new number at each call, on any thread, ascending on each. Threads draw blocks. (Libraries
-/// with hidden symbols must share this counter.)
+/// Returns a new number at each call, on any thread. Numbers ascend on each thread, which draws
+/// them in blocks. (Libraries with hidden symbols must share this counter.)
 #if defined(__GNUC__) && !defined(_WIN32)
 [[gnu::visibility("default")]]
 #endif
@@ -28,8 +28,8 @@ next_source() {
 }
 #endif
 
-/// A new source; no_source in constant expressions and device code. Call it within an argument: the
-/// initialiser of a const integer counts as a constant expression.
+/// Returns a new source, or no_source in constant expressions and device code. Call it within an
+/// argument: the initialiser of a const integer counts as a constant expression.
 constexpr std::uint64_t fresh_source() {
 #if !defined(__CUDA_ARCH__)
     if (!std::is_constant_evaluated()) return next_source();

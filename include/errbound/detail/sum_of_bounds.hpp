@@ -11,8 +11,8 @@
 
 namespace errbound::detail {
 
-/// At least x + y, for x, y >= 0, in any rounding direction; exactly x + y if T holds it. For x >=
-/// y, fl(x + y) − x is exact. Proof: proofs/Upper.v, sum_above_sound, sum_above_exact,
+/// At least x + y, for x, y >= 0, in any rounding direction; equal to x + y if T holds that number.
+/// For x >= y, fl(x + y) − x is exact. Proof: proofs/Upper.v, sum_above_sound, sum_above_exact,
 /// sum_above_least.
 template <class T>
 constexpr T sum_above(const T& x, const T& y) {

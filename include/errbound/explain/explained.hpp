@@ -158,7 +158,8 @@ struct explained {
     static tracked<T, explained> wrapped(const tracked<T, Rule>& x, ledger<T> contributions) {
         return tracked<T, explained>::from_bound(x.value(), {x.bound(), std::move(contributions)});
     }
-    /// A function's result with its arguments' contributions. `own`: the result for exact ones.
+    /// A function's result with its arguments' contributions. `own`: the result for exact
+    /// arguments.
     template <class T>
     static tracked<T, explained> closed(std::uint32_t function, const tracked<T, Rule>& result,
                                         const tracked<T, Rule>& own, ledger<T> contributions) {
@@ -169,7 +170,7 @@ struct explained {
     }
 
   private:
-    /// An operation's result with its operands' contributions. `own`: the bound for exact ones.
+    /// An operation's result with its operands' contributions. `own`: the bound for exact operands.
     template <class T>
     static bound<T> closed(std::uint32_t operation, const T& v, const of_rule<T>& result,
                            const of_rule<T>& own, ledger<T> contributions) {

@@ -34,7 +34,7 @@ struct explanation {
     std::string name;  ///< of the result
     std::string rule;  ///< the rule that bounds its error
     double value = 0;  ///< rounded to nearest from a wider type, so value ± error is approximate
-    double error = 0;  ///< as value; infinite if there is no bound
+    double error = 0;  ///< rounded like value; infinite if there is no bound
     /// The largest first. Amounts add up to at least the error. The sum is larger by roundings (a
     /// few 2^-53 of it per source), or where signed parts cancel.
     std::vector<contribution> contributions;

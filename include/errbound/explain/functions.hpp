@@ -2,8 +2,9 @@
 //   sqrt(x);                                           // as for any tracked number
 //   errbound::as_one_operation("norm", f, x, y, z);    // a custom function as one source
 //
-// A function is called again with exact arguments for its own contribution, and with one argument's
-// error each. Functions made of sums and products (midpoint, pow) keep these as sources.
+// A function is called again with exact arguments for its own contribution, and once per argument
+// with only that argument's error. Functions made of sums and products (midpoint, pow) keep these
+// as sources.
 #pragma once
 
 #include <algorithm>
@@ -47,7 +48,8 @@ amount_of<T> beyond(const tracked<T, Rule>& with_error, const tracked<T, Rule>& 
     return more > 0 && number_traits<amount>::is_finite(more) ? more : amount(0);
 }
 
-/// A function under the wrapped rule: for the arguments, exact ones, and one argument's error each.
+/// A function's results under the wrapped rule: for the arguments, for exact arguments, and for
+/// each argument's error without the others.
 template <class T, class Rule, std::size_t Count>
 struct repeated_calls {
     tracked<T, Rule> result, own;

@@ -96,7 +96,7 @@ class ledger {
         }
         const A off = traits::abs(c - known);
         const A wanted = (traits::max)(A(0), e - traits::abs(c)) + off;
-        // Quotients first: the sums may exceed the wanted amount by more than a number's range.
+        // Divides first: the sums may exceed the wanted amount by more than a number's range.
         if (wanted > unknown && sizes > 0) {
             const A missing = wanted - unknown;
             for (entry& x : entries_) x.unknown += x.size() / sizes * missing;

@@ -59,7 +59,8 @@ class all_sources {
         return all;
     }
 
-    /// The scope at that place in scope `parent`; `parent` if there are too many.
+    /// The scope of that name, file and line in scope `parent`; `parent` if there are too many
+    /// scopes.
     std::uint32_t scope_in(std::uint32_t parent, std::string_view name, std::string_view file,
                            std::uint_least32_t line) {
         const std::lock_guard lock(mutex_);

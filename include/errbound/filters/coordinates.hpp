@@ -20,7 +20,7 @@ concept matrix_point = requires(const Point& p) {
     static_cast<int>(Point::MaxSizeAtCompileTime);
     p.rows() + p.cols();
 };
-/// Coordinate i of a row or a column. A matrix of dynamic size may be either.
+/// Coordinate i of a row or a column vector. A matrix of dynamic size may be either.
 template <matrix_point Matrix>
 constexpr auto element_of(const Matrix& m, int i) {
     constexpr int rows = Matrix::RowsAtCompileTime, columns = Matrix::ColsAtCompileTime;
@@ -36,7 +36,7 @@ constexpr auto element_of(const Matrix& m, int i) {
 
 }  // namespace filters
 
-/// Coordinate i of a point, or the number itself. Precondition: i < p.size(), if there is one.
+/// Coordinate i of a point, or the number itself. Precondition: i < p.size(), if p has a size().
 template <class Point>
 constexpr auto coordinate_of(const Point& p, int i) {
     if constexpr (requires { p[i], p.size(); } || filters::matrix_point<Point>)
@@ -72,8 +72,9 @@ inline constexpr bool is_sized_span = false;
 template <class T, std::size_t Size>
 inline constexpr bool is_sized_span<std::span<T, Size>> = Size != std::dynamic_extent;
 
-/// Number of coordinates of a point type; 0 if the type does not fix it. x and y without z, as
-/// members or functions, are two; a type with a third under another name needs p[i].
+/// Number of coordinates of a point type; 0 if the type does not fix it. A type with x and y but no
+/// z, as members or functions, has two; if it has a third coordinate by another name, it needs
+/// p[i].
 template <class Point>
 constexpr std::size_t max_dimension() {
     constexpr auto has = [](auto test) {
@@ -82,7 +83,7 @@ constexpr std::size_t max_dimension() {
     if constexpr (std::is_arithmetic_v<Point>) {
         return 1;
     } else if constexpr (matrix_point<Point>) {
-        constexpr int size = Point::MaxSizeAtCompileTime;  // negative: any
+        constexpr int size = Point::MaxSizeAtCompileTime;  // negative if not fixed
         return size < 0 ? 0 : static_cast<std::size_t>(size);
     } else if constexpr (is_sized_span<Point>) {
         return Point::extent;

@@ -1,14 +1,14 @@
-// The error-counting scalar runs an algorithm once on bounds instead of numbers. So it derives a
-// static filter's constant from the code that the filter will run.
+// A scalar that counts errors. An algorithm runs on it once, with bounds instead of numbers. So a
+// static filter's constant comes from the code that the filter will run.
 //
 // Notation: docs/notation.md; M bounds the inputs' magnitudes. A number x of degree k is computed
 // as x̂:
 //     |x̂| <= magnitude·M^k + underflow·η·max(1, M)^(k−1),
 //     |x̂ − x| <= error·ε·M^k + underflow·η·max(1, M)^(k−1)
 // This holds in any rounding direction, with or without FMA. Sums do not underflow. If inputs have
-// separate bounds M_x, M_y, ..., M^k is the largest product of these that a term of a sum has.
-// Proof: proofs/ErrorCount.v, count_sound. Constants are nonzero whole numbers there, and counts
-// are far below 1/η (count_height).
+// separate bounds M_x, M_y, ..., M^k stands for the largest product of k of them in a term of a
+// sum. Proof: proofs/ErrorCount.v, count_sound. Constants are nonzero whole numbers there, and
+// counts are far below 1/η (count_height).
 #pragma once
 
 #include <concepts>
@@ -49,8 +49,8 @@ struct basic_error_count {
         return {m,
                 rounded(a.magnitude * b.error + a.error * b.magnitude +
                         a.error * b.error * epsilon + m),
-                // The third term is doubled: â may exceed its magnitude by its underflow. The 2
-                // covers η for the rounding, and products of two underflows.
+                // The third term is doubled, since â may exceed its magnitude by its underflow. The
+                // 2 covers η for the rounding, and products of two underflows.
                 rounded(a.magnitude * b.underflow + a.underflow * b.magnitude +
                         (a.error * b.underflow + a.underflow * b.error) * (2 * epsilon) + 2)};
     }

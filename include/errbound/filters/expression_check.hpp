@@ -1,7 +1,7 @@
 // Checks at compile time that an expression returns `uncertain` where it must. The expression runs
-// on supposed signs, one for each number whose sign it evaluates. It runs again for each of these,
-// with that sign uncertain: the answer must be the same, or uncertain. Correct expressions pass for
-// every supposition, even one that no points realise.
+// on *suppositions*, which are signs of all numbers whose signs it evaluates. With each, it runs
+// again for at most six of these numbers, with that sign uncertain: the answer must be the same, or
+// uncertain. Correct expressions pass for every supposition, even one that no points realise.
 //
 // Numbers are identified by their values modulo a prime, at hashed coordinates. Equal polynomials
 // have equal values, others with probability degree/2^31.
@@ -25,10 +25,12 @@ constexpr std::uint64_t hashed(std::uint64_t x) {
     return x ^ (x >> 31);
 }
 
+/// The number of suppositions of an expression that branches; at least find_fault's largest stride.
 inline constexpr std::size_t suppositions = 64;
+static_assert((counting_run::max_signs + 5) / 6 <= suppositions);
 
-/// Signs of numbers, in the order of evaluation. In every other supposition the first are zero, as
-/// such cases branch deepest. Others are hashes: no look-up, as constant evaluation is slow.
+/// The signs of one run. In odd suppositions the first 0 to 15 different numbers are zero, since
+/// degenerate cases branch deepest. All other signs are hashes of the number and the supposition.
 struct supposed_signs {
     /// Beyond any int, so no constant of an expression is a multiple. Products of residues fit.
     static constexpr std::uint64_t prime = (std::uint64_t{1} << 32) - 5;
@@ -119,10 +121,12 @@ constexpr expression_fault find_fault(std::uint64_t supposition, const Run& run)
     const sign_type answer = run(signs);
     if (signs.size == 0) return expression_fault::asks_nothing;
     if (!certain(answer)) return expression_fault::gives_up;
-    // With many signs, each is tested in some supposition.
+    // Makes every stride-th sign uncertain, at most six. `first` takes each value below 64 once, so
+    // each sign is uncertain in some supposition, if all evaluate the same signs. Even suppositions
+    // have the values below 32; odd ones, with zeros, have the others.
     const std::size_t stride = (signs.size + 5) / 6;
-    for (auto k = static_cast<std::size_t>(hashed(supposition) % stride); k < signs.size;
-         k += stride) {
+    const std::uint64_t first = supposition % 2 * 32 + supposition / 2 % 16 * 2 + supposition / 32;
+    for (auto k = static_cast<std::size_t>(first % stride); k < signs.size; k += stride) {
         signs.unknown = signs.numbers[k];
         signs.evaluated = 0;
         const sign_type other = run(signs);

@@ -1,5 +1,5 @@
-// Counts an expression's operations at compile time: the maxima of runs, one for each sequence of
-// signs, up to a limit.
+// Counts an expression's operations at compile time: the maxima of several runs. There is one run
+// for each sequence of signs that the expression may evaluate, up to a limit.
 #pragma once
 
 #include <array>
@@ -12,8 +12,9 @@
 namespace errbound::filters {
 
 struct expression_counts {
-    int roundings = 0;  ///< those that affect a sign: errbound/filters/static_filter.hpp
-    /// bits[d]: the bits of the longest number of degree d whose sign is evaluated; 0 if none.
+    int roundings = 0;  ///< that affect a sign (errbound/filters/static_filter.hpp)
+    /// bits[d]: the bits of the longest number of degree d whose sign is evaluated; 0 if there is
+    /// none.
     static constexpr int max_degree = 63;
     std::array<int, max_degree + 1> bits{};
     int degree = 0;        ///< highest degree of these numbers
@@ -54,7 +55,7 @@ class expression_count {
   public:
     constexpr explicit expression_count(counting_run& run, int degree = 1)
         : run_(&run), bits_(run.coordinate_bits), degree_(degree) {}
-    /// A whole number. No other type: 0.5 would become 0.
+    /// A whole number. Other types do not convert, since 0.5 would become 0.
     template <class X>
     requires std::is_arithmetic_v<X>
     constexpr expression_count(X) : bits_(32) {
@@ -67,7 +68,7 @@ class expression_count {
     friend constexpr expression_count operator+(const expression_count& x,
                                                 const expression_count& y) {
         const auto run = x.run_ != nullptr ? x.run_ : y.run_;
-        // Separate, for fewer statements in the common case: compilers limit them.
+        // A separate case: compilers limit the number of statements, and the common case has fewer.
         if (x.degree_ == y.degree_)
             return {run, (x.bits_ < y.bits_ ? y.bits_ : x.bits_) + 1, x.degree_,
                     (x.roundings_ < y.roundings_ ? y.roundings_ : x.roundings_) + 1};
@@ -162,15 +163,16 @@ class expression_count {
 struct expression_findings {
     expression_counts counts;
     bool lacks_coordinates, number_after_signs;
-    bool has_one_answer = true;  ///< in all runs seen
+    bool has_one_answer = true;  ///< all runs so far gave the same answer
 };
 
 /// Enough for any expression that evaluates five signs.
 inline constexpr int most_counting_runs = 250;
-/// For expressions declared homogeneous, which branch too much: only the bits are needed.
+/// For expressions that branch too much but are declared homogeneous, so that only bits are
+/// counted.
 inline constexpr int few_counting_runs = 28;
 
-/// `run(counting_run&)` runs the expression on such coordinates and returns its answer's sign.
+/// `run(counting_run&)` runs the expression on counting coordinates and returns its answer's sign.
 template <class Run>
 constexpr expression_findings count_expression(int coordinate_bits, int max_runs, const Run& run) {
     counting_run state;

@@ -7,13 +7,13 @@
 
 namespace errbound {
 
-/// In order of execution, which ends at the first certain stage.
+/// In order of execution, which ends at the first stage with a certain sign.
 enum class predicate_stage : std::uint8_t {
     semi_static_filter,
     static_filter,
     tracked,
-    exact_doubles,   ///< coordinates so short that results take at most 53 bits
-    short_integers,  ///< so short that results take at most 127 bits and a sign
+    exact_doubles,   ///< if coordinates are so short that results take at most 53 bits
+    short_integers,  ///< if they are so short that results take at most 127 bits and a sign
     word_integers,
     two_word_integers,  ///< not for expressions that branch
     long_integers,      ///< any finite coordinates; or the options' exact type

@@ -18,8 +18,8 @@
 
 namespace errbound::filters {
 
-/// An expression's argument: a point, or a scalar for dimension 0. Point types do not depend on
-/// their position, so a helper function is compiled once per scalar.
+/// An expression's argument: a point, or a scalar for dimension 0. The type of a point does not
+/// depend on its position among the arguments, so a helper function is compiled once per scalar.
 template <class Shape, std::size_t Argument, class Scalars>
 constexpr decltype(auto) view(const Scalars& scalars) {
     if constexpr (Shape::dimensions[Argument] == 0)
@@ -28,8 +28,8 @@ constexpr decltype(auto) view(const Scalars& scalars) {
         return scalars.template point<Argument>();
 }
 
-/// Coordinate i, for a filter. A product in a computed coordinate must not be fused into a
-/// difference, so that all stages use the same number.
+/// Coordinate i, for a filter. If the coordinate is computed by a product, that must not be fused
+/// into a difference, so that all stages use the same number.
 template <class T, bool Stored, class Point>
 constexpr T unfused_coordinate(const Point& p, int i) {
     const T x = coordinate_of(p, i);
@@ -72,7 +72,8 @@ struct semi_static_scalars {
         return semi_static_point<T, Stored, type>{std::get<Argument>(points), largest};
     }
 };
-/// A point of listed coordinates. `make` turns each into a scalar, possibly a reference.
+/// A point given by its coordinates. `make` turns each coordinate into a scalar, possibly a
+/// reference.
 template <class Coordinate, class Make>
 struct listed_point {
     const Coordinate* first;
@@ -173,7 +174,7 @@ inline constexpr bool takes_points = []<std::size_t... I>(std::index_sequence<I.
 (std::make_index_sequence<Shape::count>());
 template <class Shape, class F, class Scalars>
 using result_over = decltype(evaluate<Shape>(F(), std::declval<const Scalars&>()));
-/// Expressions that branch return a sign.
+/// True if the expression returns a sign, as those that branch do.
 template <class Shape, class F>
 inline constexpr bool branches =
     std::is_same_v<result_over<Shape, F, counted_scalars<Shape>>, sign_type>;
@@ -188,7 +189,8 @@ constexpr expression_findings findings_of(int coordinate_bits, int max_runs,
     });
 }
 
-/// The fault that one supposition shows; a separate constant, as compilers limit each one's length.
+/// The fault that one supposition shows. It is a separate constant, since compilers limit the
+/// length of each constant's evaluation.
 template <class Shape, class F, std::size_t Supposition>
 inline constexpr expression_fault fault_by = find_fault(Supposition, [](supposed_signs& signs) {
     return conclude(evaluate<Shape>(F(), supposed_scalars<Shape>{signs}));

@@ -93,7 +93,7 @@ class predicate_stages {
                   "analyse");
 
     static constexpr bool mixed = !Options::homogeneous && (counts.mixed || !counts.complete);
-    static constexpr std::size_t listed_size = Shape::size + mixed;  ///< with 1 if mixed
+    static constexpr std::size_t listed_size = Shape::size + mixed;  ///< mixed: the last is 1
     using coordinate_list = std::array<double, listed_size>;
 
     template <class... Points>
@@ -263,7 +263,8 @@ class predicate_stages {
     }
 
     static constexpr int short_bits = coordinate_bits(127);
-    /// Products of two-word coordinates' differences end just before a word's end.
+    /// Differences of such coordinates have 125 bits. A product of n of them fits in 2n words of 64
+    /// bits, with 3n bits left for the sign and for sums.
     static constexpr int two_word_bits = 124;
     /// Above degree 3, operations on two or more words are calls: inlined they take a second to
     /// compile. Expressions that branch skip this stage for that reason.

@@ -1,9 +1,9 @@
 // The scalar of semi-static filters. It computes an expression's value and the largest coordinate
-// difference, from which the error bound follows. For many terms that costs less than the size of
-// static filters (static_filter.hpp), but the bound is larger. If the bound is finite, no number of
-// the expression has overflowed. A NaN coordinate makes the value NaN. Proof: proofs/SemiStatic.v,
-// semi_static_overflow_uncertain. Source of the method: Devillers, Pion 2003, Efficient exact
-// geometric predicates for Delaunay triangulations.
+// or coordinate difference, from which the error bound follows. Static filters instead compute the
+// expression with all terms positive (static_filter.hpp): a smaller bound, but with many terms more
+// work. If the bound is finite, no number of the expression has overflowed. A NaN coordinate makes
+// the value NaN. Proof: proofs/SemiStatic.v, semi_static_overflow_uncertain. Source: Devillers,
+// Pion 2003, Efficient exact geometric predicates for Delaunay triangulations.
 #pragma once
 
 #include <concepts>
@@ -36,11 +36,12 @@ struct semi_static {
     constexpr semi_static operator-() const { return {-value, mass, allowances}; }
 
     /// The bound constant(k)·(m·M^d + a·τ); the sign is uncertain if |value| <= bound(M). For signs
-    /// constant(k − 1) suffices. The spare u covers a·τ·M^d and the relative errors, of order u²,
-    /// of M^d and of the bound. S needs only (a − 3/4)·τ; the rest covers underflow of M^d, as τ >=
-    /// 2^49·η. Below 2^p = 1/u, m and a are exact. Otherwise, and if a factor is the constant 0,
-    /// the bound is infinite. Proof: proofs/SemiStatic.v, semi_static_bound_covers,
-    /// semi_static_sign_certain.
+    /// constant(k − 1) suffices, which is less by about u. This difference covers a·τ·M^d, and the
+    /// roundings of M^d and of the bound, of order u²·S. The + 2 in a product's a stands for 2τ, of
+    /// which τ covers its own underflow and τ/4 products of two allowances. The other 3/4·τ covers
+    /// underflow of M^d, since τ >= 2^49·η. Below 2^p = 1/u, m and a are exact; otherwise the bound
+    /// is infinite. It is also infinite if a factor is the constant 0. Proof: proofs/SemiStatic.v,
+    /// mass_covers_size, semi_static_bound_covers, semi_static_sign_certain.
     constexpr T bound(T largest) const {
         constexpr T most = 1 / number_traits<T>::unit_roundoff();
         const bool trusted = mass < most && allowances < most;

@@ -1,4 +1,4 @@
-// The scalar of static filters: an expression's value and size and, in its type, the number of
+// The scalar of static filters holds an expression's value and size; its type has the number of
 // roundings. A sign is certain if |value| exceeds a constant times the size.
 //
 // Notation: docs/notation.md; rounding is to nearest. A number x is computed as x̂. Its size S is
@@ -17,10 +17,10 @@
 
 namespace errbound::filters {
 
-/// constant(k) = ku(1 + (4k + 8)u), so that constant(k)·Ŝ bounds the error after k roundings; Ŝ is
-/// the computed size. At most 2k + 2 roundings reduce it by a factor of at least 1 − u each. Half
-/// of each τ covers underflow in x̂ (below), the other half that in Ŝ. So |x̂ − x| <=
-/// ku(1 + ku)·(1 + (2k + 5)u)·Ŝ < constant(k)·Ŝ. The slack of at least 3u covers rounding the
+/// constant(k) = ku(1 + (4k + 8)u), so that constant(k)·Ŝ bounds the error after k roundings, where
+/// Ŝ is the computed size. At most 2k + 2 roundings reduce Ŝ, by a factor of at least 1 − u each.
+/// Half of each τ covers underflow in x̂ (below), the other half covers underflow in Ŝ. So |x̂ − x|
+/// <= ku(1 + ku)·(1 + (2k + 5)u)·Ŝ < constant(k)·Ŝ. The slack of at least 3u covers rounding the
 /// constant, the bound and x̂. Since uτ is a normal number, the bound does not underflow.
 template <std::floating_point T>
 constexpr T filter_constant(int k) {
@@ -28,8 +28,8 @@ constexpr T filter_constant(int k) {
     return T(k) * u * (1 + T(4 * k + 8) * u);
 }
 
-/// An intermediate result. Roundings: k. Products: how often τ is still to be added to the size.
-/// Plain: size = |value|. Induction for the error bound:
+/// An intermediate result. Roundings is k, Products counts the τ still to be added to the size, and
+/// Plain is true if size = |value|. Induction for the error bound:
 /// - a coordinate: k = 0, S is its magnitude. A difference d of two: k = 1, S = |d̂| as computed,
 ///   and |d̂ − d| <= u|d̂|.
 /// - x ± y: k = max(k_x, k_y) + 1, S = S_x + S_y. Before rounding, the computed sum is at most (1 +
@@ -67,7 +67,8 @@ struct filtered {
     friend constexpr sign_type sign_of(const filtered& x) {
         const T magnitude = number_traits<T>::abs(x.value);
         bool decided = magnitude > x.bound();
-        // After at most one rounding the bound is 0, which an infinite value exceeds.
+        // After at most one rounding the bound is 0, so an infinite value would have a certain
+        // sign.
         if constexpr (detail::may_contract || Roundings <= 1)
             decided = decided && number_traits<T>::is_finite(x.value);
         if (decided) [[likely]]
@@ -78,7 +79,7 @@ struct filtered {
     }
 };
 
-/// The size of a difference of two coordinates is its magnitude, not the sum of both sizes.
+/// A difference of two coordinates has its magnitude as size, not the sum of their sizes.
 template <std::floating_point T>
 struct filtered_coordinate {
     using value_type = T;

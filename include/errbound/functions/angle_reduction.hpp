@@ -1,8 +1,8 @@
 // Reduction of large angles, x = n·π/2 + r, with a certified error of r, for sin, cos and tan. x is
-// m·2^e with an integer m of p bits. Digits of 2/π that give whole turns are skipped. m times the
-// next W words is the number of quarter turns modulo 4; its fraction times π/2 is r. The remaining
-// digits change r by less than 2^(p+4−64W), which the error includes: 2^-135 for double, where no
-// |r| is below 2^-62. Source: Payne and Hanek 1983.
+// m·2^e with an integer m of p bits. Binary digits of 2/π that give whole turns are skipped. m
+// times the next W words is the number of quarter turns modulo 4; its fraction times π/2 is r. The
+// remaining digits change r by less than 2^(p+4−64W), which the error includes. For double this is
+// 2^-135, and no |r| is below 2^-62. Source: Payne and Hanek 1983.
 //
 // Cost: W² + O(W) products of words; W = 2 for float, 3 for double, 4 or 6 for long double.
 #pragma once
@@ -91,14 +91,15 @@ inline constexpr std::array<std::uint64_t, 6> half_pi{
 };
 // clang-format on
 
-/// 64 digits of 2/π from weight 2^-(first + 1) on, first >= −192. Digits before the point are 0.
+/// 64 binary digits of 2/π from weight 2^-(first + 1) on, first >= −192. Digits before the point
+/// are 0.
 constexpr std::uint64_t two_over_pi_from(int first) {
     const auto word = [](int i) { return i < 0 ? 0 : two_over_pi[static_cast<std::size_t>(i)]; };
     const int i = (first + 192) / 64 - 3, bits = (first + 192) % 64;
     return bits == 0 ? word(i) : word(i) << bits | word(i + 1) >> (64 - bits);
 }
 
-/// The angle quadrant·π/2 + r modulo 2π, |r − (high + low)| <= error, |high + low| <= π/4, and
+/// The angle quadrant·π/2 + r modulo 2π, with |r − (high + low)| <= error and |high + low| <= π/4;
 /// |low| is less than a unit in the last place of high.
 template <class T>
 struct reduced_angle {
@@ -134,7 +135,8 @@ class angle_reduction {
     }
 
   private:
-    /// m·2^e·2/π modulo 4, less than 2^(p + unit) too small. Starts at the digit of weight 2^(1−e).
+    /// m·2^e·2/π modulo 4, too small by less than 2^(p + unit). Starts at the digit of weight
+    /// 2^(1−e).
     static words quarter_turns(const T& m, int e) {
         words window{}, product{};
         for (int i = 0; i < count; ++i)
@@ -150,7 +152,8 @@ class angle_reduction {
         return product;
     }
 
-    /// The error is that of f, 2^(p + unit)·π/2, of π/2, 2^unit/2, and the digits below low.
+    /// The error covers that of f, 2^(p + unit)·π/2, that of π/2, 2^unit/2, and the digits below
+    /// low.
     static reduced_angle<T> angle_of(const fraction& f, int quadrant, bool is_negative) {
         words factor{};
         for (std::size_t i = 0; i < factor.size(); ++i) factor[factor.size() - 1 - i] = half_pi[i];

@@ -44,7 +44,7 @@ constexpr bool has_documented_errors([[maybe_unused]] bool is_wide) {
 #endif
 }
 
-/// In the order of the enumeration: at least the errors in function_error's comment; 0: unknown.
+/// The default of function_error for each function, in the order of the enumeration; 0 if unknown.
 constexpr double documented_error(elementary_function f, bool is_wide) {
     if (!has_documented_errors(is_wide)) return 0;
     constexpr double narrow[] = {1, 1, 2, 1, 2, 3, 2, 1, 1, 2, 1, 1, 1, 3, 3, 3, 3, 3, 3, 5, 1, 2};
@@ -64,14 +64,14 @@ inline constexpr double least_reduced_angle = 0x1p20;
 
 /// The assumption for arguments of type T in the domain of F: a finite result v is within this many
 /// units in the last place of the exact result f. For subnormal f the unit is η. Rounding is to
-/// nearest. Between 0.5 and 1024. For sin, cos and tan only below 2^20: glibc reduces larger
-/// doubles with an absolute error.
+/// nearest. The number must be from 0.5 to 1024. For sin, cos and tan it covers only arguments
+/// below 2^20, since glibc reduces larger doubles with an absolute error.
 ///
 /// The defaults are upper bounds of the errors in two sources: the GNU C library's manual ("Known
 /// Maximum Errors in Math Functions", x86-64); Gladman, Innocente, Mather and Zimmermann (Accuracy
 /// of Mathematical Functions ...), with float and double of other libraries. `errbound validate
-/// --functions all` tests them. Windows, and long double of other libraries, have none and need a
-/// specialisation before the first use:
+/// --functions all` tests them. There is no default on Windows, nor for long double of other
+/// libraries: specialise function_error before the first use:
 ///
 ///   template <>
 ///   inline constexpr double errbound::function_error<errbound::elementary_function::exp, double> =

@@ -1,7 +1,7 @@
 // Bounds of an elementary function over all numbers within e of x̂. Notation: docs/notation.md; x̂
-// and e an argument's value and error, v the computed result, f the function. A computed bound
-// keeps at least (1 − u)^13 of itself; enlarged() pays, (1 + 16u)(1 − u)^13 > 1. Underflow is
-// counted separately.
+// and e are an argument's value and error, v is the computed result, f the function. Roundings
+// reduce a computed bound by a factor of at least (1 − u)^13. enlarged() multiplies it by 1 + 16u,
+// which is enough: (1 + 16u)(1 − u)^13 > 1. Underflow is counted separately.
 #pragma once
 
 #include <cmath>
@@ -63,9 +63,10 @@ auto system_function(const T&... x) {
     if constexpr (F == atan2) return std::atan2(x...);
 }
 
-/// At least |v − f|, before enlarged(). With k units: the last place of f is at most ε|f| + η, and
-/// |f| <= (|v| + kη)/(1 − kε), so |v − f| <= kε|v|/(1 − kε) + kη + k²εη/(1 − kε); and 1/(1 − kε) <
-/// 1 + 2kε, k²ε < 1/8. Another 2kε >= u covers rounding k to T, another η the product's underflow.
+/// At least |v − f|, before enlarged(), for an error of k units in the last place of f. Such a unit
+/// is at most ε|f| + η, and |f| <= (|v| + kη)/(1 − kε), so |v − f| <= kε|v|/(1 − kε) + kη + k²εη/(1
+/// − kε). Here 1/(1 − kε) < 1 + 2kε and k²ε < 1/8. Another 2kε >= u covers rounding k to T, another
+/// η the product's underflow.
 template <elementary_function F, class T>
 T error_of_function(const T& v) {
     using traits = number_traits<T>;
@@ -102,7 +103,7 @@ sign_type order_of_sum(const T& a, const T& b, const T& limit) {
     return side > 0 ? sign_type::positive : side < 0 ? sign_type::negative : sign_type::zero;
 }
 
-/// True if every number within e of x̂ is in the domain of F, and no pole.
+/// True if every number within e of x̂ is in the domain of F and none is a pole.
 template <elementary_function F, class T>
 bool is_in_domain(const T& x, const T& e) {
     using enum elementary_function;
@@ -144,7 +145,8 @@ bool is_exact_result(const T& x, const T& v) {
     return x == 0 && v == 0;
 }
 
-/// Where |f'| does not decrease: for greater arguments, lesser ones, away from or towards zero.
+/// The direction in which |f'| does not decrease: to greater or lesser arguments, away from zero or
+/// towards it.
 enum class steeper_side { above, below, outward, inward };
 
 template <elementary_function F>
@@ -172,7 +174,7 @@ constexpr steeper_side steeper() {
     }
 }
 
-/// Scale of the argument over which f' changes much.
+/// The distance of arguments over which f' changes much.
 template <elementary_function F, class T>
 T natural_distance(const T& x) {
     using enum elementary_function;
@@ -200,10 +202,11 @@ T moved(const T& x, const T& distance, bool up) {
 }
 
 /// At least |v − f(x)| for x within e > 0 of x̂, all in the domain. |f(x) − f(x̂)| is at most the
-/// integral of |f'| over the e beyond x̂ on the steeper side. To a p there, at a distance d >= e,
-/// the mean of |f'| is no less, so the change is at most (e/d)·|f(p) − f(x̂)|. d = √ε natural
-/// distances gives the derivative to about √ε. If |f'| grows towards zero, p passes zero only if x
-/// can be zero, with d = e: the integral is still the largest of that length.
+/// integral of |f'| over the interval of length e next to x̂ on the steeper side. For a point p on
+/// that side, at a distance d >= e, the mean of |f'| from x̂ to p is no less. So the change is at
+/// most (e/d)·|f(p) − f(x̂)|. If d is √ε natural distances, this gives the derivative to about √ε.
+/// If |f'| grows towards zero, p passes zero only if x can be zero. Then d = e, and no interval of
+/// length e next to x̂ has a larger integral.
 template <elementary_function F, class T>
 T error_by_slope(const T& x, const T& e, const T& v) {
     using traits = number_traits<T>;
@@ -256,7 +259,8 @@ T change_of_tangent(const bounded<T>& tangent, const T& e) {
 }
 
 /// f(h + l + d) for |d| <= r.error, h = r.high, l = r.low, from f(h) and f'(h), with |f'| <= 3 and
-/// |f''| <= 6: f(h) + l·f'(h) is off by at most 3l² + 3|d|. Error enlarged, as of the next three.
+/// |f''| <= 6: f(h) + l·f'(h) has an error of at most 3l² + 3|d|. The error is already enlarged(),
+/// as in the functions that use this.
 template <class T>
 bounded<T> moved_by_low_part(const reduced_angle<T>& r, const bounded<T>& at_high,
                              const bounded<T>& slope) {
@@ -269,7 +273,8 @@ bounded<T> moved_by_low_part(const reduced_angle<T>& r, const bounded<T>& at_hig
     return {sum.value, enlarged<T>(at_high.error + (traits::abs(sum.error) + error))};
 }
 
-/// −1/y: |1/(ŷ + d) − 1/ŷ| <= e/(|ŷ|(|ŷ| − e)), |d| <= e. Infinite if y may be 0.
+/// −1/y for y within e of ŷ: |1/(ŷ + d) − 1/ŷ| <= e/(|ŷ|(|ŷ| − e)) for |d| <= e. The error is
+/// infinite if y may be 0, otherwise already enlarged().
 template <class T>
 bounded<T> negative_reciprocal(const bounded<T>& y) {
     using traits = number_traits<T>;
@@ -283,7 +288,7 @@ template <class T>
 bounded<T> tangent_of(const reduced_angle<T>& r) {
     const bounded<T> at_high = evaluated<elementary_function::tan>(r.high);
     const T t = at_high.value;
-    // |t| < 1.01, so two roundings are off by less than 2ε.
+    // |t| < 1.01, so two roundings add an error of less than 2ε.
     const bounded<T> slope{T(1 + rounded_product(t, t)),
                            T(3 * (at_high.error + number_traits<T>::epsilon()))};
     const bounded<T> result = moved_by_low_part(r, at_high, slope);
@@ -313,13 +318,14 @@ T error_of_angle_function(const bounded<T>& at, const bounded<T>& derivative, co
         return enlarged<T>(at.error + change_of_tangent<T>(at, e));
     } else {
         const T error = at.error + change_of_wave<T>(derivative, e);
-        // At most the distance of v from the other end of the range.
+        // f(x) is in [−1, 1], so |v − f(x)| is at most this.
         const T range = 1 + number_traits<T>::abs(at.value);
         return enlarged<T>(error < range ? error : range);
     }
 }
 
-/// F over numbers within e of x̂, |x̂| >= least_reduced_angle, by functions of angles up to π/4.
+/// F over numbers within e of x̂, |x̂| >= least_reduced_angle, by the C library's functions of
+/// angles up to π/4.
 template <elementary_function F, class T>
 [[gnu::noinline]] bounded<T> function_of_large_angles(T x, T e) {
     using enum elementary_function;
@@ -392,9 +398,11 @@ T error_of_power_at_zero(const T& size, const T& e, const T& n, const T& v) {
     return own + ((end - number_traits<T>::abs(v)) + (error_of_function<pow>(end) + own));
 }
 
-/// At least |atan2(y, x) − atan2(ŷ, x̂)| if the path crosses no cut. An angle is at most its
-/// tangent, (x̂·dy − ŷ·dx)/(x̂² + ŷ² + x̂·dx + ŷ·dy); infinite if that fails. In units of the
-/// larger of |x̂| and |ŷ|. At most four scalings and products in each sum lose less than η each.
+/// At least |atan2(y, x) − atan2(ŷ, x̂)| if no (x, y) is across the cut from (x̂, ŷ). The angle
+/// between both vectors is at most its tangent, (x̂·dy − ŷ·dx)/(x̂² + ŷ² + x̂·dx + ŷ·dy), with dx =
+/// x − x̂ and dy = y − ŷ. Infinite if the denominator may not be positive. A power of two scales
+/// all numbers, so that the larger of |x̂| and |ŷ| is from 1/2 to 1. At most four scalings and
+/// products in each sum lose less than η each.
 template <class T>
 T change_of_angle(const T& y, const T& of_y, const T& x, const T& of_x) {
     using traits = number_traits<T>;
@@ -439,7 +447,8 @@ bounded<T> angle_of_ranges(const T& y, const T& of_y, const T& x, const T& of_x)
         return {v, traits::infinity()};
     if (y == 0 && of_y == 0 && x > of_x && v == 0) return {v, T(0)};
     const T own = error_of_function<elementary_function::atan2>(v);
-    // Not certainly above or below the cut, where x may be negative. (−0 is below it.)
+    // True if all y are above, or below, the cut along the negative x axis. (atan2 takes −0 as
+    // below it.)
     const bool above = y >= of_y && !std::signbit(y), below = y < -of_y;
     const T range = traits::abs(v) + T(3.14159265358979323846264338327950288L);
     if (!(x > of_x) && !above && !below) return {v, enlarged<T>(range)};

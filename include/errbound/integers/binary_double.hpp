@@ -28,12 +28,12 @@ struct binary_double {
         const auto odd = static_cast<std::int64_t>(magnitude >> detail::countr_zero(magnitude));
         return negative ? -odd : odd;
     }
-    /// Position of the lowest bit set; for 0 above all others.
+    /// Position of the lowest bit set; for 0 above that of all other doubles.
     constexpr int last_bit() const {
         return magnitude == 0 ? (std::numeric_limits<int>::max)()
                               : exponent + detail::countr_zero(magnitude);
     }
-    /// One above the position of the highest bit set; for 0 below all others.
+    /// One above the position of the highest bit set; for 0 below that of all other doubles.
     constexpr int end_bit() const { return exponent + detail::bit_width(magnitude); }
 };
 

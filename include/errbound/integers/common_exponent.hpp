@@ -14,7 +14,7 @@
 
 namespace errbound::integers {
 
-/// The largest magnitude, as bits of a double; infinities and NaN exceed all others.
+/// The largest magnitude, as bits of a double; infinities and NaN exceed all finite numbers.
 template <std::size_t N>
 constexpr std::uint64_t largest_size(const std::array<double, N>& coordinates) {
     std::uint64_t largest = 0;
@@ -54,7 +54,8 @@ struct short_coordinates {
 
 template <std::size_t N>
 struct word_coordinates {
-    /// Products of differences, and the sums that predicates need, end at a word's end or before.
+    /// With 61 bits, products of n differences, and the sums of them that predicates need, fit in n
+    /// words.
     static constexpr int max_bits = 61;
 
     std::array<std::int64_t, N> value;
@@ -106,7 +107,8 @@ struct common_unit {
         bits = end - last;
     }
 
-    /// x as a number of the level, which is wide enough. Proof: proofs/Widths.v, converted_exact.
+    /// x as a number of the level. Precondition: the level is wide enough. Proof: proofs/Widths.v,
+    /// converted_exact.
     template <class Level>
     constexpr sized_integer<Level, Level::coordinate_bits, 1> converted(double x) const {
         using storage = typename sized_integer<Level, Level::coordinate_bits, 1>::storage;

@@ -5,8 +5,8 @@
 //
 // Rounds once, to nearest, ties to even, by integers only: independent of the rounding direction.
 // No allocation, no exceptions. Cost: 38 digits and a power of five of 128 bits almost always
-// suffice; otherwise products as long as midpoints' exact decimals (stack: 2 KiB for double, 24 for
-// binary128).
+// suffice. Otherwise products are as long as the exact decimal of a midpoint of two numbers (stack:
+// 2 KiB for double, 24 for binary128).
 #pragma once
 
 #include <algorithm>
@@ -38,7 +38,7 @@ class decimal_text {
             ++i;
             const bool minus = sign(text, i);
             well_formed = is_digit(text, i);
-            // Saturates beyond any text's length, so that no digits compensate.
+            // Saturates at more than any text's length, so that no number of digits compensates.
             constexpr std::int64_t most = std::int64_t{1} << 58;
             std::int64_t e = 0;
             for (; is_digit(text, i); ++i) e = e < most / 10 ? 10 * e + (text[i] - '0') : most;
@@ -68,7 +68,7 @@ class decimal_text {
     constexpr bool leading_is_all() const { return !has_rest_; }
     constexpr std::int64_t digits() const { return digits_; }
     constexpr std::int64_t exponent() const { return exponent_; }
-    /// Calls visit(digit) for the first `count` digits; true if a later one is not zero.
+    /// Calls visit(digit) for the first `count` digits. Returns true if a later digit is not zero.
     template <class Visit>
     constexpr bool for_digits(std::int64_t count, const Visit& visit) const {
         for (const char c : significant_) {
@@ -157,13 +157,13 @@ constexpr int width_of(word_pair x) {
     return static_cast<int>(x.high != 0 ? 64 + std::bit_width(x.high) : std::bit_width(x.low));
 }
 
-/// x·2^exponent with x's error. Precondition: x is not zero.
+/// x·2^exponent with the error of x. Precondition: x is not zero.
 constexpr leading_bits normalized(word_pair x, int exponent, word error) {
     const int shift = 128 - width_of(x);
     return {shifted_up(x, shift), exponent - shift, error == 0 ? 0 : error << shift};
 }
-/// (a + s)(b + t) exceeds ab by at most 2^128·(s + t) + st, twice that after a shift by a bit. The
-/// truncated part is below a unit.
+/// (a + s)(b + t) exceeds ab by at most 2^128·(s + t) + st, or twice that if it is shifted by a
+/// bit. Truncation loses less than a unit.
 constexpr leading_bits operator*(const leading_bits& a, const leading_bits& b) {
     const std::array<word, 2> x{a.m.low, a.m.high}, y{b.m.low, b.m.high};
     std::array<word, 4> r{};
@@ -237,7 +237,7 @@ struct binary_format {
                   "errbound: decimals need a binary format with subnormal numbers and at most "
                   "113 bits");
 
-    /// units·2^unit, at most `digits` bits or 2^digits; finite.
+    /// units·2^unit. Precondition: units <= 2^digits, and the result is finite.
     static constexpr T number(word_pair units, int unit) {
         if constexpr (std::is_same_v<T, double>) {
             // The first bit adds 1 to the exponent field.
@@ -343,7 +343,8 @@ class exact_natural {
         r.trim();
         return r;
     }
-    /// The first bits of x/y, with error 1 if others follow. Precondition: neither is zero.
+    /// The first 128 bits of x/y, with error 1 if nonzero bits follow. Precondition: neither is
+    /// zero.
     constexpr leading_bits quotient(exact_natural y) const {
         exact_natural x = *this;
         const int y_shift = (y.size_ < 2 ? 64 : 0) + (std::max)(0, x.width() - y.width() - 128);
@@ -371,7 +372,8 @@ class exact_natural {
     std::array<word, Capacity> words_{};
 };
 
-/// Exact, from as many digits as a midpoint of T can have; one digit stands for the others.
+/// Rounds exactly, from as many digits as a midpoint of T can have; one more digit stands for the
+/// rest.
 template <class T>
 class exact_decimal {
     using format = binary_format<T>;
@@ -458,7 +460,8 @@ class exact_decimal {
     }
 };
 
-/// A number and the decimal's distance, rounded up; not `finite` if it rounds to no finite T.
+/// A number and its distance from the decimal, rounded up. `finite` is false if the decimal rounds
+/// to no finite T.
 template <class T>
 struct nearest_number {
     T value{}, error{};
@@ -469,7 +472,7 @@ struct nearest_number {
 template <class T>
 constexpr nearest_number<T> nearest_decimal(const decimal_text& text) {
     using format = binary_format<T>;
-    constexpr auto tens = [](int e) { return e * 30103LL / 100000; };  // about e·log10 2
+    constexpr auto tens = [](int e) { return e * 30103LL / 100000; };  // about e·log10(2)
     const auto signed_number = [&](const T& x) { return text.negative() ? T(-x) : x; };
     if (text.is_zero()) return {signed_number(T(0)), T(0), true};
     if (text.magnitude() > tens(number_traits<T>::max_exponent) + 2) return {};

@@ -1,4 +1,5 @@
-// 128-bit unsigned integers: the compiler's, or a class where it has none (32-bit processors).
+// 128-bit unsigned integers: the compiler's, or a class if the compiler has none (32-bit
+// processors).
 #pragma once
 
 #include <bit>

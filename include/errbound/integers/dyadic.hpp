@@ -23,11 +23,11 @@ Integer shifted(const Integer& x, int shift) {
     return x < 0 ? Integer(-Integer(Integer(-x) >> bits)) : Integer(x >> bits);
 }
 
-/// A double within one ulp of n·2^e; infinite beyond their range.
+/// A double within one ulp of n·2^e; infinite beyond the range of doubles.
 template <exact_number Integer>
 double nearby_double(const Integer& n, int e) {
     if (n == 0) return 0;
-    Integer head = abs(n);  // the dropped part is below an ulp
+    Integer head = abs(n);  // the dropped bits are below an ulp
     const int excess = floor_log2(head) - 62;
     if (excess > 0) head >>= static_cast<unsigned>(excess);
     const double x = std::ldexp(static_cast<double>(static_cast<std::int64_t>(head)),
@@ -109,7 +109,7 @@ class dyadic {
     int exponent_ = 0;
 };
 
-/// a/b to about this many bits. Precondition: neither is zero.
+/// a/b, rounded to about this many bits. Precondition: neither is zero.
 template <exact_number Integer>
 dyadic<Integer> quotient(const dyadic<Integer>& a, const dyadic<Integer>& b, int bits) {
     const int shift = bits + floor_log2(b.numerator()) - floor_log2(a.numerator());

@@ -1,8 +1,8 @@
 // Exact integers of compile-time width: no allocation, no branches on size, usable in device code.
 // fixed_integer<Words> is a two's complement number of 64·Words bits. A product has the words of
-// both factors and is exact. Sums, differences and shifts keep their width and wrap around: a
-// result that fits is right. Callers bound the results. Cost: A·B word multiplications for a
-// product of A and B words.
+// both factors and is exact. Sums, differences and shifts keep their width and wrap around, so
+// callers must ensure that results fit. Cost: A·B word multiplications for a product of A and B
+// words.
 #pragma once
 
 #include <array>
@@ -18,7 +18,8 @@ namespace errbound::integers {
 
 namespace words {
 
-// Clang keeps carries in the flag; GCC needs builtins, which device compilers lack.
+// Clang keeps carries in the carry flag; GCC does so only with builtins, which device compilers
+// lack.
 #if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(__CUDACC__)
 #define ERRBOUND_X86_CARRY
 #endif
@@ -215,7 +216,7 @@ class fixed_integer {
     constexpr std::int64_t word_from_bit(int shift) const { return from_bit<1>(shift).low_word(); }
     constexpr std::int64_t low_word() const { return static_cast<std::int64_t>(words_[0]); }
 
-    /// The exact product. Small ones are unrolled in place; large ones are rare and share code.
+    /// The exact product. Small products are unrolled in place; large ones are rare and share code.
     template <int B>
     [[gnu::always_inline]] constexpr fixed_integer<Words + B> times(
         const fixed_integer<B>& b) const {

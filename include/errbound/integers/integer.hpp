@@ -5,9 +5,9 @@
 //   std::cout << x * y / 7 << ' ' << gcd(x, y) << '\n';
 //
 // Operators as for built-in integers: quotients truncate, x = x/y·y + x % y, and x >> n is ⌊x/2^n⌋.
-// Throws std::bad_alloc without memory or at 2^31 bits, leaving all numbers unchanged.
-// Preconditions (asserted): nonzero divisors, finite doubles, shifts >= 0. Up to 256 bits without
-// allocation. Cost: schoolbook arithmetic, Karatsuba's for long products.
+// Throws std::bad_alloc if memory runs out or at 2^31 bits, and then changes no number.
+// Preconditions (asserted): nonzero divisors, finite doubles, shifts >= 0. Numbers of up to 256
+// bits need no allocation. Cost: schoolbook arithmetic, Karatsuba's for long products.
 #pragma once
 
 #include <algorithm>
@@ -38,7 +38,8 @@ namespace errbound {
 
 namespace integers {
 
-/// At most 64 bits. (With some compiler options std::integral includes wider types.)
+/// A built-in integer of at most 64 bits. (With some compiler options std::integral includes wider
+/// types.)
 template <class T>
 concept built_in_integer = std::integral<T> && sizeof(T) <= sizeof(words::word);
 
@@ -48,7 +49,7 @@ constexpr bool is_negative(T x) {
     return false;
 }
 
-/// Scratch words, on the stack if few.
+/// Scratch words, on the stack if they are few.
 class scratch_words {
     static constexpr int few = 64;
 
@@ -77,7 +78,7 @@ class integer {
         few_[0] = negative ? 0 - static_cast<word>(value) : static_cast<word>(value);
         size_ = negative ? -1 : few_[0] != 0;
     }
-    /// Truncates.
+    /// Truncates towards zero.
     explicit integer(double value) {
         assert(std::isfinite(value));
         const integers::binary_double d(value);
@@ -204,7 +205,8 @@ class integer {
         return *this;
     }
     friend integer scale(const integer& x, int e) { return x << e; }
-    /// ⌊log2 |x|⌋, the highest bit's position; lsb: the lowest bit's. Precondition: x is not zero.
+    /// ⌊log2 |x|⌋, the position of the highest bit set; lsb returns that of the lowest.
+    /// Precondition: x is not zero.
     friend int msb(const integer& x) {
         assert(x.size_ != 0);
         return 64 * x.size() - 1 - detail::countl_zero(x.data()[x.size() - 1]);
@@ -234,7 +236,8 @@ class integer {
         return b == 0 ? a.size_ <=> 0 : a <=> integer(b);
     }
 
-    /// Digits in base 2 to 36 after an optional sign. Otherwise throws std::invalid_argument.
+    /// Reads digits in base 2 to 36 after an optional sign. Throws std::invalid_argument for any
+    /// other text.
     static integer from_string(std::string_view digits, int base = 10);
     friend std::string to_string(const integer& x, int base = 10) { return x.text(base); }
     template <class Traits>
@@ -255,8 +258,8 @@ class integer {
     static constexpr int inline_words = 4;
     static constexpr int max_words = (std::numeric_limits<int>::max)() / 64;
 
-    /// Words for a result: the number's own if they suffice, otherwise new ones. So operands may be
-    /// the number itself, and nothing changes if memory runs out.
+    /// Words for a result: the number's own words if they suffice, otherwise new words. So the
+    /// number itself may be an operand, and nothing changes if memory runs out.
     struct room {
         word* words;
         int capacity;
@@ -276,7 +279,7 @@ class integer {
         const int capacity = (std::max)(n, capacity_ + capacity_ / 2);
         return {new_words(capacity), capacity};
     }
-    /// Takes the words written there, without leading zeros.
+    /// Takes the words written to `from`, without leading zeros.
     void keep(const room& from, int size, bool negative) noexcept {
         if (from.words != data()) adopt(from);
         size = integers::words::trimmed(from.words, size);
@@ -287,7 +290,7 @@ class integer {
         many_ = from.words;
         capacity_ = from.capacity;
     }
-    /// Word by word: loading pairs of words just stored one by one stalls.
+    /// Copies word by word, since loading pairs of words that were just stored singly stalls.
     static void copy_few(const word* from, int n, word* to) noexcept {
         if (n > 0) to[0] = from[0];
         if (n > 1) to[1] = from[1];
@@ -562,7 +565,8 @@ inline integer::operator double() const {
         const auto x = static_cast<double>(low_word());
         return size_ < 0 ? -x : x;
     }
-    // The first 64 bits; the last is set if any later bit is: they round to the same double.
+    // Takes the first 64 bits and sets the last if any later bit is set. They round to the same
+    // double.
     const int whole = excess / 64, bits = excess % 64;
     const word* const w = data();
     word head = w[whole] >> bits;
@@ -592,7 +596,7 @@ inline std::string integer::text(int base) const {
     const integers::power_in_word piece(base);
     std::string reversed;
     for (integer rest = *this; rest.size_ != 0;) {
-        // The remainder first: the quotient overwrites the number.
+        // Computes the remainder first, since the quotient overwrites the number.
         word digits = integer(rest % integer(piece.power)).low_word();
         rest /= integer(piece.power);
         for (int i = 0; i < piece.digits && (digits != 0 || rest.size_ != 0); ++i) {
@@ -652,7 +656,7 @@ class std::numeric_limits<errbound::integer> {
                           has_denorm_loss = false;
     static constexpr float_denorm_style has_denorm = denorm_absent;
     static constexpr float_round_style round_style = round_toward_zero;
-    /// Unbounded: there is no largest number, and digits has no meaning.
+    /// Numbers are unbounded: there is no largest one, and digits has no meaning.
     static constexpr int radix = 2, digits = 0, digits10 = 0, max_digits10 = 0, min_exponent = 0,
                          min_exponent10 = 0, max_exponent = 0, max_exponent10 = 0;
     static integer(min)() { return 0; }

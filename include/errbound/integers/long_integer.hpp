@@ -1,5 +1,6 @@
 // Exact integers of run-time length up to a compile-time capacity: no allocation. Products skip
-// words that are all zero or all ones, frequent in numbers made of doubles far apart in size.
+// words that are all zero or all ones. Such words are frequent in numbers made of doubles far apart
+// in size.
 #pragma once
 
 #include <array>
@@ -14,9 +15,9 @@ namespace errbound::integers {
 namespace words {
 
 /// A two's complement number as a sum of signed words times powers of 2^64: visit(index, magnitude,
-/// negative) for the nonzero ones, ascending. A word before an all-ones word, and the last of a
-/// negative number, counts as negative and passes on a carry: w = 2^64 − (2^64 − w). Partial sums
-/// are negative exactly if their last word is. Proof: proofs/Words.v, signed_words_exact.
+/// negative) for the nonzero ones, ascending. A word before an all-ones word, and the last word of
+/// a negative number, counts as negative and passes on a carry: w = 2^64 − (2^64 − w). A partial
+/// sum is negative if and only if its last word is. Proof: proofs/Words.v, signed_words_exact.
 template <class Visit>
 constexpr void for_signed_words(const word* x, int n, const Visit& visit) {
     word carry = 0;
@@ -67,16 +68,16 @@ constexpr int count_filled(const word* x, int n) {
         beyond = negative ? ~word(0) : 0;
     });
     for (; end < m + n; ++end) r[end] = beyond;
-    // b's words were taken as positive: 2^(64n) too much if b is negative.
+    // The words of b were taken as positive, which is 2^(64n) too much if b is negative.
     if (b[n - 1] >> 63 != 0) {
         unsigned char borrow = 0;
         for (int i = 0; i < m; ++i) r[n + i] = subtract_with_borrow(r[n + i], a[i], borrow);
     }
 }
 
-/// r = a·b of m + n words, trimmed. Proof: proofs/SparseProduct.v, any_product_exact.
+/// r = a·b of m + n words, not trimmed. Proof: proofs/SparseProduct.v, any_product_exact.
 [[gnu::noinline]] constexpr void multiply_any(word* r, const word* a, int m, const word* b, int n) {
-    constexpr int worth = 4;  // worthwhile only if most words are skipped
+    constexpr int worth = 4;  // pays only if most words are skipped
     const auto is_sparse = [](const word* x, int size) {
         return worth * count_filled(x, size) < size;
     };
@@ -97,7 +98,8 @@ constexpr int trimmed_size(const word* x, int n) {
     while (n > 1 && x[n - 1] == sign_word(x[n - 2])) --n;
     return n;
 }
-/// r = a ± b, of up to `capacity` words; returns the trimmed size. One copy for all capacities.
+/// r = a ± b, of up to `capacity` words; returns the trimmed size. Compiled once for all
+/// capacities.
 template <word (*Step)(word, word, unsigned char&)>
 [[gnu::noinline]] constexpr int combine(word* r, int capacity, const word* a, int m, const word* b,
                                         int n) {

@@ -77,17 +77,17 @@ constexpr void multiply_rows(word* r, const word* a, int m, const word* b, int n
     for (int i = 1; i < m; ++i) r[n + i] = a[i] == 0 ? 0 : add_multiple(r + i, a[i], b, n);
 }
 
-inline constexpr int karatsuba_words = 32;  ///< from here on three half products beat four
+inline constexpr int karatsuba_words = 32;  ///< from this size on, Karatsuba's products are faster
 
-/// Scratch words for a shorter factor of n words. multiply_by_halves needs 2n + 3, multiply_natural
-/// 2n for pieces and 2n for the remainder: 12n + 9·log2(n) suffice.
+/// Scratch words for a product whose shorter factor has n words. multiply_by_halves needs 2n + 3,
+/// multiply_natural 2n for pieces and 2n for the remainder; with recursion 12n + 9·log2(n) suffice.
 constexpr int product_scratch(int n) {
     return n < karatsuba_words ? 0 : 16 * n;
 }
 
 constexpr void multiply_natural(word* r, const word* a, int m, const word* b, int n, word* scratch);
 
-/// r = |a − b|, of m and n words, m − 1 <= n <= m; true if negative.
+/// r = |a − b|, of m and n words, m − 1 <= n <= m; returns true if a < b.
 constexpr bool subtract_size(word* r, const word* a, int m, const word* b, int n) {
     const bool negative = (n == m || a[m - 1] == 0) && compare(a, b, n) < 0;
     if (negative) {
@@ -114,7 +114,7 @@ constexpr void multiply_by_halves(word* r, const word* a, const word* b, int n, 
         subtract(sum, sum, 2 * low + 1, cross, 2 * low);
     else
         add(sum, sum, 2 * low + 1, cross, 2 * low);
-    // The sum may have one word too many, a zero.
+    // The sum may have one more word than fits, a zero.
     add(r + low, r + low, 2 * n - low, sum, (std::min)(2 * low + 1, 2 * n - low));
 }
 
@@ -196,7 +196,7 @@ constexpr word divide_two_words(word& rest, word low, word d, word v) {
     return q;
 }
 
-/// Divides a by d, not zero: store(i, word) for i = n − 1, ..., 0; returns the remainder.
+/// Divides a by d, not zero: calls store(i, word) for i = n − 1, ..., 0; returns the remainder.
 template <class Store>
 constexpr word divide_by_word(const word* a, int n, word d, const Store& store) {
     const int shift = detail::countl_zero(d);
@@ -213,7 +213,7 @@ constexpr word divide_by_word(const word* a, int n, word d, const Store& store) 
 class two_word_divisor {
   public:
     constexpr two_word_divisor(word high, word low) : high_(high), low_(low) {
-        v_ = reciprocal(high);  // of the higher word; reduced below
+        v_ = reciprocal(high);  // that of the higher word, reduced below
         word p = high * v_ + low;
         if (p < low) {
             --v_;
@@ -232,7 +232,8 @@ class two_word_divisor {
         }
     }
 
-    /// The quotient of three words, below 2^64. Precondition: the first two <= the divisor.
+    /// The quotient of three words, or 2^64 − 1 if it is larger. Precondition: the first two words
+    /// are at most the divisor.
     constexpr word quotient(word a2, word a1, word a0) const {
         if (a2 == high_ && a1 == low_) return ~word(0);
         const auto estimate = double_word(v_) * a2;
@@ -262,7 +263,8 @@ class two_word_divisor {
 };
 
 /// Divides a, of m + 1 words whose last n are below d, by d, n >= 2 words with its first bit set:
-/// store(i, word) from the last; a becomes the remainder. (Knuth, TAOCP 4.3.1, algorithm D.)
+/// calls store(i, word) from the last word on; a becomes the remainder. (Knuth, TAOCP 4.3.1,
+/// algorithm D.)
 template <class Store>
 constexpr void divide_long(word* a, int m, const word* d, int n, const Store& store) {
     const two_word_divisor divisor(d[n - 1], d[n - 2]);
@@ -282,7 +284,7 @@ constexpr void divide_long(word* a, int m, const word* d, int n, const Store& st
 /// A matrix of determinant ±1: (a, b) becomes (|m00·a − m01·b|, |m10·a − m11·b|).
 struct euclid_steps {
     word m00 = 1, m01 = 0, m10 = 0, m11 = 1;
-    bool even = true;  ///< signs as written; otherwise both differences are negated
+    bool even = true;  ///< the differences have the signs as written; otherwise both are negated
     bool none() const { return m01 == 0; }
 };
 
@@ -330,7 +332,8 @@ constexpr word_pair odd_part(word_pair x) {
     return {x.high >> zeros, x.low >> zeros | x.high << 1 << (63 - zeros)};
 }
 
-/// Takes differences and halves. (J. Stein 1967.) Precondition: a and b are odd.
+/// The greatest common divisor, by differences and halving (J. Stein 1967). Precondition: a and b
+/// are odd.
 constexpr word_pair odd_common_divisor(word_pair a, word_pair b) {
     while ((a.high | b.high) != 0) {
         if (a == b) return a;

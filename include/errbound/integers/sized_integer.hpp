@@ -1,7 +1,7 @@
 // Exact integers whose types carry their largest width and so grow through an expression: no
 // overflow, no allocation. A number stands for value·2^(unit·degree); all coordinates are multiples
-// of 2^unit. Factors of 1 = 2^−unit units raise lower degrees, if unit <= 0 and 1 is no wider than
-// coordinates.
+// of 2^unit. To add terms of different degree, the lower one is multiplied by 1 = 2^−unit units.
+// This needs unit <= 0 and a 1 no wider than coordinates.
 #pragma once
 
 #include <array>
@@ -19,8 +19,8 @@ namespace errbound::integers {
 /// Storage: integers in doubles, in words, or in words of run-time length.
 enum class integer_kind : std::uint8_t { floating, words, any_length };
 
-/// Coordinates are below 2^CoordinateBits in size. Mixed: terms of different degree may be added.
-/// Called: operations wider than the compiler's integers are calls.
+/// Coordinates are below 2^CoordinateBits in size. If Mixed, terms of different degree may be
+/// added. If Called, operations wider than the compiler's integers are calls.
 template <integer_kind Kind, int CoordinateBits, bool Mixed, bool Called = false>
 struct integer_level {
     static constexpr integer_kind kind = Kind;
@@ -67,7 +67,8 @@ constexpr fixed_integer<Words> narrowed(const fixed_integer<Wider>& x) {
     return fixed_integer<Words>::from_words(low);
 }
 
-/// |x| < 2^Bits units of its degree. Proof: proofs/Widths.v, sized_exact, sized_fits.
+/// A number x with |x| < 2^Bits units of its degree. Proof: proofs/Widths.v, sized_exact,
+/// sized_fits.
 template <class Level, int Bits, int Degree>
 struct sized_integer {
     static constexpr int bits = Bits, degree = Degree;
@@ -111,12 +112,13 @@ constexpr sized_integer<Level, 32, 0> sized_constant(int c, int unit) {
 
 // Operators are always inlined: most are a few instructions, and the others call long operations.
 
-/// Not inlined, so that its scratch words are on the stack only during the product.
+/// A product, not inlined so that its scratch words are on the stack only while it runs.
 template <class Storage, class X, class Y>
 [[gnu::noinline]] constexpr Storage long_product(const X& x, const Y& y) {
     return Storage::product(x, y);
 }
-/// Not inlined: they would be most of a long expression's code, which few inputs reach.
+/// This and called_sum are not inlined: they would be most of a long expression's code, which few
+/// inputs reach.
 template <class Storage, class X, class Y>
 [[gnu::noinline]] constexpr Storage called_product(const X& x, const Y& y) {
     return narrowed<Storage::width / 64>(x * y);

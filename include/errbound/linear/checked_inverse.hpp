@@ -34,7 +34,7 @@ class checked_inverse {
     const square<N>& approximation() const { return inverse_; }
 
     /// At least |I − RA|v, v >= 0. |I − RA| <= |I − fl(RA)| + γ_h|R||A| + nη, where h counts an
-    /// entry's roundings. Entries of A that are off by η/2 add |R|(η/2) times a matrix of ones.
+    /// entry's roundings. Errors of η/2 in entries of A add |R|(η/2) times a matrix of ones.
     vector<N> defect_times(const vector<N>& v) const {
         const Index n = a_.rows();
         const double lost = relative_loss((std::min)(n, block) + n / block + 3);

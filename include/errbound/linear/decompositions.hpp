@@ -1,7 +1,8 @@
 // Eigen's decompositions for tracked scalars. Soundness for any pivots: if no exact pivot is zero,
 // all numbers are exact elimination's, rounded and tracked. If a pivot may be zero, quotients by it
-// have infinite errors. Finite results do not depend on it or multiply it by an exact zero. They
-// hold for a slightly moved pivot and, by continuity, for the matrix, if it is nonsingular.
+// have infinite errors. Finite results do not depend on such a quotient, or multiply it by an exact
+// zero. So they hold for a slightly moved pivot and, by continuity, for the matrix, if it is
+// nonsingular.
 #pragma once
 
 #include <Eigen/Cholesky>
@@ -12,7 +13,8 @@
 
 namespace errbound::linear {
 
-/// The size of a pivot's value; zero only for an exact zero, as elimination skips columns scored 0.
+/// The size of a pivot's value; zero only for an exact zero, because elimination skips columns of
+/// score 0.
 template <class T, class Rule>
 T pivot_score(const tracked<T, Rule>& x) {
     using scalar_traits = number_traits<T>;

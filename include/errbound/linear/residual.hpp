@@ -1,4 +1,4 @@
-// Residuals b − Ay as in twice the precision, with certified error bounds.
+// Residuals b − Ay, computed as if in twice the precision, with certified error bounds.
 #pragma once
 
 #include <errbound/error_free.hpp>
@@ -11,11 +11,12 @@ struct enclosed_vector {
     vector<N> value, error;  ///< |value − exact| <= error
 };
 
-/// b − Ay, where entries of A and b may be off by η/2. Infinite or NaN on overflow. Each row's sum
-/// is s + Σ(e + f), e and f the exact errors of products and sums; with underflow a product and its
-/// error are off by at most 5η (Ogita, Rump, Oishi 2005, Section 3). The computed Σ(e + f) is off
-/// by γ_(n+1)Σ(|e| + |f|); the final sum is rounded once. Entries' η/2 add (1 + Σ|y_j|)η/2. Source:
-/// Dot2 of that paper, whose a priori bound is n times larger.
+/// Returns b − Ay, where entries of A and b may have errors of η/2. Infinite or NaN on overflow.
+/// Each row's sum is s + Σ(e + f), with e and f the exact errors of products and sums. With
+/// underflow, a product plus its error differs from the exact product by at most 5η (Ogita, Rump,
+/// Oishi 2005, Section 3). The computed Σ(e + f) has an error of at most γ_(n+1)Σ(|e| + |f|); the
+/// final sum is rounded once. Entries' η/2 add (1 + Σ|y_j|)η/2. Source: Dot2 of that paper, whose a
+/// priori bound is n times larger.
 template <int N>
 enclosed_vector<N> residual(const square<N>& a, const vector<N>& b, const vector<N>& y) {
     const Index n = a.rows();

@@ -21,8 +21,9 @@ inline int exponent_of(double x) {
     return x == 0 ? exponent_of_zero : traits::exponent(x);
 }
 
-/// entries(i, j) = a(i, j)·2^−(row(i) + column(j)): exact, or off by at most η/2 if subnormal. The
-/// largest entry of every row and column is in [1/2, 1), unless a has a zero row or column.
+/// entries(i, j) = a(i, j)·2^−(row(i) + column(j)): exact, or with an error of at most η/2 if
+/// subnormal. The largest entry of every row and column is in [1/2, 1), unless a has a zero row or
+/// column.
 template <int N>
 struct scaled_matrix {
     square<N> entries;

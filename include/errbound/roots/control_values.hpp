@@ -18,7 +18,7 @@ struct control_values {
     constexpr S& operator[](int i) { return b[static_cast<std::size_t>(i)]; }
 };
 
-/// The least common multiple of the binomials C(N, i): no division.
+/// The least common multiple of the binomials C(N, i), so that control values need no division.
 constexpr int multiple(int degree) {
     int m = 1;
     for (int i = 0; i <= degree; ++i) {
@@ -40,7 +40,8 @@ constexpr control_values<S, N> control_values_of(const bernstein<S, N>& p) {
     return c;
 }
 
-/// Midpoints of neighbours. Unrolled: loops load pairs just stored one by one, which stalls.
+/// Midpoints of neighbours. Unrolled, since a loop would stall: it loads as pairs values just
+/// stored singly.
 template <class S, std::size_t... I>
 constexpr std::array<S, sizeof...(I)> midpoints(const std::array<S, sizeof...(I) + 1>& row,
                                                 std::index_sequence<I...>) {
@@ -57,8 +58,8 @@ constexpr void halve(const std::array<S, Left>& row, control_values<S, N>& left,
         halve(midpoints(row, std::make_index_sequence<Left - 1>()), left, right);
 }
 
-/// On [0, 1/2] and [1/2, 1] (de Casteljau). Proof: proofs/Subdivision.v, halves_cubic,
-/// halves_quartic.
+/// The control values on [0, 1/2] and on [1/2, 1] (de Casteljau). Proof: proofs/Subdivision.v,
+/// halves_cubic, halves_quartic.
 template <class S, int N>
 constexpr std::pair<control_values<S, N>, control_values<S, N>> halves(
     const control_values<S, N>& p) {

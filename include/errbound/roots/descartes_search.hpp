@@ -4,8 +4,8 @@
 // Bernstein coefficients without sign change exclude a root inside an interval; one change proves
 // exactly one; other intervals are split. This ends by the two-circle theorem (Krandick, Mehlhorn
 // 2006). If halving keeps all roots in one half, Newton's method for a multiple root locates the
-// cluster. An interval around it is kept if Descartes' rule excludes other roots; the next one is
-// narrowed twice as fast (Sagraloff, Mehlhorn, J. Symb. Comp. 73, 2016).
+// cluster. If Descartes' rule excludes roots outside an interval around it, that interval is kept.
+// The next narrowing squares its factor (Sagraloff, Mehlhorn, J. Symb. Comp. 73, 2016).
 #pragma once
 
 #include <algorithm>
@@ -37,13 +37,15 @@ struct isolating_interval {
 
 namespace errbound::roots {
 
-/// A point in [2^exponent, 2^(exponent + 1)); halving from there rarely meets simple roots.
+/// Returns 45/32·2^exponent. Unlike powers of two, it is rarely a root in practice, and neither are
+/// the points that halving makes from it.
 template <class Integer>
 dyadic<Integer> unlikely_root(int exponent) {
     return {Integer(45), exponent - 5};
 }
 
-/// A zero in (0, 1) of the derivative of control values b, by Newton's method; outside on failure.
+/// A zero in (0, 1) of the derivative of the polynomial with control values b, by Newton's method.
+/// On failure the result is outside (0, 1).
 inline double extremum(const std::vector<double>& b) {
     const std::size_t n = b.size() - 1;
     std::vector<double> slopes(n);
@@ -94,7 +96,7 @@ class descartes_search {
         bool root_at_low = false, root_at_high = false;
         int variations = 3;  ///< as max_sign_variations counts
         int halvings = 0;
-        int lone_halvings = 0;  ///< latest ones that left all roots in this part
+        int lone_halvings = 0;  ///< the latest halvings, which left all roots in this part
         int speed = slowest;    ///< log2 of the factor by which Newton's method narrows it
         int bits = row_bits;    ///< requested of the local form
         std::optional<fixed_row<4>> row = {};
@@ -113,7 +115,9 @@ class descartes_search {
         if (p.variations > 0) parts_.push_back(std::move(p));
     }
 
-    /// Sign changes of a row without ends known to be zero; nothing if an end is uncertain.
+    /// Returns a bound on the sign changes of a row. Skips an end coefficient that is zero because
+    /// of a root there. Returns nothing if the first or last coefficient of the rest has an
+    /// uncertain sign.
     template <class Sign>
     static std::optional<int> variations(const part& p, std::size_t size, const Sign& sign) {
         const std::size_t first = p.root_at_low ? 1 : 0,
@@ -129,8 +133,8 @@ class descartes_search {
     static std::optional<int> variations_of_row(const part& p) {
         return variations(p, p.row->size(), [&](std::size_t i) { return p.row->sign(i); });
     }
-    /// Counts from the part's coefficients, from exact ones if short, or from as many bits as give
-    /// certain signs at the ends; stores these in the part.
+    /// Sets p.variations from Bernstein coefficients, which p keeps for halving. They are exact if
+    /// short; otherwise they have enough bits for certain signs at both ends.
     void count_variations(part& p) {
         std::optional<int> found;
         if (p.row) {
@@ -169,7 +173,7 @@ class descartes_search {
     static int bits_of_ends(const part& p) {
         return (std::max)(floor_log2(p.low.numerator()), floor_log2(p.high.numerator())) + 1;
     }
-    /// True if exact Bernstein coefficients are hardly longer than a row.
+    /// True if conversion to exact Bernstein coefficients adds at most about 2048 bits.
     bool exact_row_is_cheap(const part& p) const {
         return p_.size() <= 40 && static_cast<int>(p_.size()) * bits_of_ends(p) <= 2048;
     }
@@ -183,7 +187,8 @@ class descartes_search {
         charge(local_form<Integer>::precision(p_.size(), p.low, width, p.bits));
         p.local.emplace(p_, p.low, width, p.bits, &meter_);
     }
-    /// Charges a row of numbers with this many bits: products of their size, and sums.
+    /// Adds the cost of a row of n numbers with this many bits to the meter: its memory, n products
+    /// and n² sums.
     void charge(std::int64_t bits) {
         const std::uint64_t n = p_.size(), words = static_cast<std::uint64_t>(bits) / 64 + 1;
         meter_.hold(8 * n * (4 * words + 8 * (parts_.size() + 1)));
@@ -219,7 +224,8 @@ class descartes_search {
         }
     }
     static point half(const part& p) { return middle(p.low, p.high); }
-    /// True if all roots may be in one place: after 32, 64, ... lone halvings, and after a success.
+    /// True if all roots may be close together: after 32, 64, ... lone halvings, and after
+    /// narrowed() succeeded.
     static bool near_each_other(const part& p) {
         const auto n = static_cast<unsigned>(p.lone_halvings);
         return p.speed > slowest || (n >= lone && std::has_single_bit(n));
@@ -254,7 +260,7 @@ class descartes_search {
         Integer from;
         int roots;
     };
-    /// Uses f/f' at both ends, about (x − position)/roots there.
+    /// Uses f/f' at both ends x, about (x − position)/roots.
     static std::optional<place> place_of_roots(const local_form<Integer>& local, int depth) {
         const auto cut = [&](Integer& a, Integer& b) {
             const Integer size = (std::max)(Integer(abs(a)), Integer(abs(b)));
@@ -315,10 +321,11 @@ class descartes_search {
         return true;
     }
 
-    /// Two close roots, real or complex, would need many halvings. With at most two left, splits at
-    /// the extremum between them, by Newton's method with growing precision. Complex roots lie
-    /// outside both circles with the sides as diameters, so no sign change remains. Tried after 0,
-    /// 8, 16, 32, ... halvings. Proof: proofs/SignVariations.v, two_variations_two_roots.
+    /// Splits a part with two sign changes at its extremum, since halving separates two close roots
+    /// slowly. Newton's method with growing precision finds the extremum. Real roots are then on
+    /// both sides. Two complex roots are outside both circles that have a side as diameter, so
+    /// neither side has a sign change. Tried after 0, 8, 16, 32, ... halvings. Proof:
+    /// proofs/SignVariations.v, two_variations_two_roots.
     bool divided_as_pair(part& whole) {
         if (whole.has_root_at_end() || whole.halvings % 8 != 0 ||
             (whole.halvings & (whole.halvings - 1)) != 0)
@@ -354,7 +361,7 @@ class descartes_search {
         return true;
     }
 
-    /// Tests modulo a prime first: few values are multiples of it.
+    /// Tests modulo a prime first, since few nonzero values are multiples of the prime.
     bool is_root(const point& x) {
         if (residues_.empty()) residues_ = residues(p_, field_);
         return value_at(residues_, field_, x) == 0 && sign_at(p_, x, meter_) == sign_type::zero;
@@ -365,7 +372,7 @@ class descartes_search {
     const prime_field field_{large_prime(0)};
     std::vector<std::uint64_t> residues_;
     form slope_ = {}, curvature_ = {};
-    std::vector<part> parts_;  ///< ascending; processed from the last
+    std::vector<part> parts_;  ///< descending; processed from the last, the leftmost
 };
 
 }  // namespace errbound::roots

@@ -15,7 +15,7 @@ constexpr std::int64_t order_of(double x) {
         static_cast<std::int64_t>(std::bit_cast<std::uint64_t>(x) & 0x7fff'ffff'ffff'ffffU);
     return x < 0 ? -size : size;
 }
-/// The double with that number; its zero is positive.
+/// The double with that number; +0 for 0.
 constexpr double double_of_order(std::int64_t number) {
     const double size =
         std::bit_cast<double>(static_cast<std::uint64_t>(number < 0 ? -number : number));

@@ -54,7 +54,7 @@ class fixed_row {
     }
     std::size_t size() const { return b_.size(); }
 
-    /// In the row's unit.
+    /// The values as doubles, in the row's unit.
     std::vector<double> nearby_values() const {
         std::vector<double> values;
         values.reserve(b_.size());

@@ -22,11 +22,11 @@ requires(N >= 1) constexpr bernstein<S, N - 1> power_derivative(const bernstein<
 }
 
 /// The two roots of c0 + c1·t + c2·t², unordered, then its vertex, which also replaces complex
-/// roots. Nonexistent ones are infinite or NaN. With m the largest of |c0|, |c1|, |c2|: each root
-/// is one of a quadratic, the same for both, with coefficients within 16·ε·m. Proof: the
-/// discriminant is off by at most δ = 4ε(c1² + 4|c0·c2|); before division, q² + c1·q + c0·c2 = δ/4.
-/// The roots' sum is off by |δ/(4·c2·q)|; q is at least |c1|/2, and at least √|c0·c2| if that is
-/// larger and they are real.
+/// roots. Roots that do not exist are infinite or NaN. Both roots are exact for one quadratic whose
+/// coefficients differ by at most 16·ε·m, where m is the largest of |c0|, |c1|, |c2|. Proof: the
+/// discriminant has an error of at most δ = 4ε(c1² + 4|c0·c2|); before division, q² + c1·q + c0·c2
+/// = δ/4. The roots' sum has an error of |δ/(4·c2·q)|; |q| is at least |c1|/2, and at least
+/// √|c0·c2| if that is larger and the roots are real.
 template <class T>
 constexpr std::array<T, 3> quadratic_roots(T c0, T c1, T c2) {
     using traits = number_traits<T>;
@@ -60,8 +60,8 @@ constexpr piece_ends<T> monotone_pieces(const bernstein<T, 3>& f) {
 }
 
 /// A point of [low, high] near a root of p. Precondition: end values have opposite signs. A Newton
-/// step that leaves the bracket, or is not half the last one, becomes a halving: 2·digits steps
-/// suffice.
+/// step that leaves the bracket, or is longer than half the last step, becomes a halving: 2·digits
+/// steps suffice.
 template <class T, int N>
 constexpr T guarded_newton(const bernstein<T, N>& p, T low, T high) {
     const bernstein<T, N - 1> slope = power_derivative(p);

@@ -1,5 +1,5 @@
 // Polynomials with integer coefficients, of run-time degree. Coefficients ascend in the power
-// basis; the last one is not zero; empty is identically zero. Integer is an exact type
+// basis; the last one is not zero; no coefficients mean zero. Integer is an exact type
 // (is_exact_number<Integer> and numeric_limits<Integer>::is_integer are true). It has + − × / % <<
 // >>, comparison, conversions from and to 64-bit integers, and abs(), gcd(), msb() and lsb() found
 // by argument-dependent lookup.
@@ -127,7 +127,8 @@ dyadic<Integer> value_at(const integer_form<Integer>& p, const dyadic<Integer>& 
     return value_at(p, x, unlimited);
 }
 
-/// The value at x within 2^-bits of it, or exactly. Long exact values come last.
+/// A number within 2^-bits of the value at x. A long exact value is computed only if approximations
+/// fail.
 template <class Integer>
 nearby_value<Integer> value_within(const integer_form<Integer>& p, const dyadic<Integer>& x,
                                    int bits, work_meter& meter) {
@@ -253,7 +254,8 @@ std::uint64_t value_at(const std::vector<std::uint64_t>& residues, const prime_f
     return sum;
 }
 
-/// A polynomial modulo a product of primes (Chinese remainders), by its least coefficients.
+/// A polynomial modulo a product of primes (Chinese remainders), with coefficients of the least
+/// size.
 template <class Integer>
 struct remainders {
     integer_form<Integer> p;
@@ -315,7 +317,7 @@ integer_form<Integer> common_factor(integer_form<Integer> a, integer_form<Intege
         if (image.size() == 1) return {Integer(1)};
         if (!found.p.empty() && image.size() > found.p.size()) continue;
         if (image.size() < found.p.size()) found = {};
-        // Its last coefficient becomes `lead`, a multiple of the divisor's.
+        // Makes the image's last coefficient `lead`, a multiple of the divisor's last one.
         const std::uint64_t factor =
             field.multiply(residue(lead, field), field.inverse(image.back()));
         for (auto& c : image) c = field.multiply(c, factor);
@@ -335,8 +337,8 @@ integer_form<Integer> common_factor(integer_form<Integer> a, integer_form<Intege
 }
 
 /// Square-free polynomials f_1, f_2, ..., each dividing the one before: a root of multiplicity m of
-/// p is a root of exactly f_1 to f_m. At most `most`. Precondition: p is not constant. Cost without
-/// multiple roots: Euclid's algorithm modulo one prime. Proof: proofs/CommonFactor.v,
+/// p is a root of exactly f_1 to f_m. Returns at most `most`. Precondition: p is not constant. Cost
+/// without multiple roots: Euclid's algorithm modulo one prime. Proof: proofs/CommonFactor.v,
 /// chain_multiplicities, cofactors_rootless; proofs/RootIsolation.v, squarefree_part_roots.
 template <exact_number Integer>
 std::vector<integer_form<Integer>> squarefree_chain(integer_form<Integer> p, std::size_t most,

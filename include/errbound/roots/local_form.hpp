@@ -1,5 +1,5 @@
 // A polynomial on an interval: truncated Taylor coefficients, and signs of its Bernstein
-// coefficients. Few coefficients matter on short intervals, so deeper ones cost less.
+// coefficients. The shorter the interval, the fewer coefficients matter, and the less it costs.
 #pragma once
 
 #include <algorithm>
@@ -62,7 +62,7 @@ class local_form {
         error_ = Integer(4) << static_cast<unsigned>(lost);
     }
 
-    /// Bits of the largest numbers in this constructor.
+    /// Bits of the largest numbers in the constructor.
     static std::int64_t precision(std::size_t size, const point& low, const point& width,
                                   int bits) {
         return bits + error_bits(size, ratio_exponent(low, width));
@@ -88,15 +88,16 @@ class local_form {
             power *= length;
             a[j] = shifted(Integer(a[j] * power), -depth * static_cast<int>(j));
         }
-        // An error e in a_i adds at most e to each, as from + length <= 2^depth. So do truncations.
+        // An error e in a_i adds at most e to each coefficient, since from + length <= 2^depth.
+        // Each truncation adds at most 1.
         result.error_ = error_ * Integer(degree_ + 1) + Integer(a.size() * a.size());
         result.drop_small_terms();
         return result;
     }
 
     /// The Bernstein coefficients times C(n, i), up to a positive factor, from the a_j truncated to
-    /// this many bits of the largest. The i-th is within its margin, error·C(n + 1, i), as it has
-    /// C(n − j, i − j) of the error of a_j. Proof: proofs/LocalForm.v, cut_right.
+    /// this many bits of the largest. The i-th is within its margin, error·C(n + 1, i), since the
+    /// error of a_j counts C(n − j, i − j) times. Proof: proofs/LocalForm.v, cut_right.
     approximate_row<Integer> scaled_coefficients(int bits) const {
         int excess = 0;
         for (const Integer& a : a_) excess = (std::max)(excess, bits_of(a) - bits);
@@ -153,7 +154,8 @@ class local_form {
 
     int degree() const { return degree_; }
     int bits() const { return bits_; }
-    /// True if terms larger at one end cost less than half of the requested bits.
+    /// True if the error takes less than half of the requested bits: terms have similar sizes at
+    /// both ends.
     bool ends_are_alike() const { return bits_of(error_) < bits_ / 2; }
     /// Proof: proofs/LocalForm.v, low_end_right, high_end_right.
     bool low_end_is_certain() const { return abs(a_[0]) > error_; }

@@ -1,5 +1,6 @@
 // Values of polynomials with error bounds, for signs at points where exact values have millions of
-// bits. Cost: a product of numbers of `bits` bits per nonzero coefficient and gap.
+// bits. Cost: a product of numbers of `bits` bits per nonzero coefficient, and one per gap between
+// these.
 #pragma once
 
 #include <algorithm>
@@ -26,7 +27,8 @@ struct nearby_value {
     sign_type sign() const { return is_within(0) ? sign_of(value) : sign_type::uncertain; }
     std::int64_t log2() const { return floor_log2(value) + exponent; }
 
-    /// Drops bits beyond the leading ones of the value or error; adds a unit of error for each.
+    /// Keeps about this many leading bits of the larger of value and error. Each cut adds a unit of
+    /// error.
     void cut(int bits) {
         const int excess =
             (std::max)(value == 0 ? 0 : floor_log2(value), error == 0 ? 0 : floor_log2(error)) -
@@ -66,7 +68,7 @@ nearby_value<Integer> sum(nearby_value<Integer> a, nearby_value<Integer> b, int 
                                             b.error == 0 ? 0 : floor_log2(b.error)) +
                                  1;
         b.drop(static_cast<int>((std::min)(down, all)));
-        b.exponent = a.exponent;  // with fewer bits dropped, only the error is left
+        b.exponent = a.exponent;  // if fewer bits were dropped, only the error is left
     }
     a.value += b.value;
     a.error += b.error;
@@ -109,7 +111,7 @@ nearby_value<Integer> value_near(const std::vector<Integer>& p, const dyadic<Int
     return result;
 }
 
-/// Approximate bits of p(x): its numerator's in Horner's rule.
+/// Approximate bits of the numerator of p(x) in Horner's rule.
 template <exact_number Integer>
 std::int64_t bits_of_value(const std::vector<Integer>& p, const dyadic<Integer>& x) {
     if (x.is_zero()) return 0;

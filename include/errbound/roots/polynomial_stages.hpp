@@ -53,7 +53,8 @@ inline std::vector<floating_coefficient> floating_coefficients(const std::vector
     while (!c.empty() && c.back().value() == 0) c.pop_back();
     return c;
 }
-/// The coefficients of p, or of a positive multiple in range, within bounds. Zeros are exact.
+/// The coefficients of p, or of a positive multiple in double's range, with error bounds. Zeros are
+/// exact.
 template <exact_number Integer>
 std::vector<floating_coefficient> floating_coefficients(const integer_form<Integer>& p) {
     constexpr double epsilon = number_traits<double>::epsilon();
@@ -69,7 +70,7 @@ std::vector<floating_coefficient> floating_coefficients(const integer_form<Integ
         if (p[i] == 0) {
             c.emplace_back(0.0);
         } else if (in_range) {
-            // Conversions of other types may be off by some units in the last place.
+            // Conversions of other types may have errors of some units in the last place.
             const double x = static_cast<double>(p[i]), size_of_x = std::abs(x);
             c.push_back(size_of_x < 0x1p52
                             ? floating_coefficient(x)
@@ -108,7 +109,7 @@ class staged_polynomial {
     bool is_zero() const { return floating_.empty(); }
     std::size_t size() const { return floating_.size(); }
     const std::vector<number>& floating() const { return floating_; }
-    /// A positive multiple.
+    /// A positive multiple with integer coefficients.
     const integer_form<Integer>& exact() {
         if (exact_.empty() && !floating_.empty()) {
             int unit = (std::numeric_limits<int>::max)();
@@ -122,7 +123,7 @@ class staged_polynomial {
         return exact_;
     }
 
-    /// Divides by x as often as possible; returns how often.
+    /// Divides by x as often as possible; returns the number of divisions.
     int divide_by_x() {
         const auto count = static_cast<std::ptrdiff_t>(leading_zeros(floating_));
         if (count == 0) return 0;

@@ -45,7 +45,7 @@ class prime_field {
     }
     /// (a·b − c·d)/R. Proof: proofs/PrimeField.v, field_multiply_and_subtract.
     constexpr word multiply_and_subtract(word a, word b, word c, word d) const {
-        // Below 2p², so the sum is below 2p² + pR and the quotient below 3p/2.
+        // t is below 2p², so t + m·p is below 2p² + pR and r below 3p/2.
         const double_word t = double_word(a) * b + double_word(c) * (p_ - d);
         const word m = static_cast<word>(t) * negative_inverse_;
         const word r = static_cast<word>((t + double_word(m) * p_) >> 64);
@@ -130,7 +130,8 @@ inline std::vector<std::uint64_t> common_factor(const prime_field& field,
     if (a.size() < b.size()) std::swap(a, b);
     while (!b.empty()) {
         if (b.size() == 1) return b;
-        // Each degree takes a division step; a monic divisor keeps other coefficients.
+        // There is a division step for each degree. If b is monic, a step scales no other
+        // coefficients.
         if (a.size() > b.size() + 64) {
             const std::uint64_t inverse = field.inverse(b.back());
             for (std::uint64_t& c : b) c = field.multiply(c, inverse);

@@ -179,7 +179,7 @@ class real_roots {
         return enclosure(intervals_[k]);
     }
 
-    /// The exact sign of g at root k. sign_at_root uses integers only.
+    /// The exact sign of g at root k; sign_at_root computes it by integers only.
     sign_type sign_at(roots::staged_polynomial<Integer>& g, std::size_t k) {
         assert(k < size());
         interval& root = intervals_[k];
@@ -230,7 +230,8 @@ class real_roots {
         for (std::size_t i = 0; i < parts.size(); ++i) add(parts, i);
         decided_by_filter_ = !exact_;
     }
-    /// The filter's part i; if undecided, together with adjacent undecided parts.
+    /// Adds the roots in the filter's part i; if it is undecided, also those in adjacent undecided
+    /// parts.
     void add(const std::vector<roots::filtered_part>& parts, std::size_t& i) {
         const roots::filtered_part& part = parts[i];
         if (part.has_one_root) {
@@ -246,7 +247,8 @@ class real_roots {
         }
         isolate(low, high);
     }
-    /// Both ends, ascending; root bounds replace infinite ends, if they leave anything.
+    /// Both ends, ascending. A root bound replaces an infinite end. If the bound is beyond the
+    /// finite end, that end replaces it.
     std::pair<point, point> ends(const roots::filtered_part& part) {
         const auto end = [this](double x, double other) {
             if (std::isfinite(x)) return point::from(x);
@@ -281,7 +283,8 @@ class real_roots {
         intervals_.insert(next, interval{zero, zero, zeros_});
     }
 
-    /// No root of p_ is in [−t, t]: the sum of |c_i| t^i < |c_0|/2^i for i >= 1 is below |c_0|.
+    /// A t for which p_ has no root in [−t, t]: |c_i| t^i < |c_0|/2^i for i >= 1, so these sum to
+    /// less than |c_0|.
     double rootless_radius() const {
         const std::vector<number>& c = p_.floating();
         const double first = std::abs(c[0].value()) - c[0].error();
@@ -290,7 +293,8 @@ class real_roots {
         for (std::size_t i = 1; i < c.size(); ++i) {
             const double size = std::abs(c[i].value()) + c[i].error();
             if (size == 0) continue;
-            // Below 2^(ilogb + 2), however these two were rounded.
+            // In every rounding direction, the exact `first` is at least 2^(ilogb(first) − 1), and
+            // the exact `size` below 2^(ilogb(size) + 2).
             const int quotient = std::ilogb(first) - 1 - (std::ilogb(size) + 2);
             const int degree = static_cast<int>(i);
             const int root =

@@ -95,7 +95,7 @@ struct tracked_row {
     }
 };
 
-/// Cost: at most max_halvings halvings of degree² additions each; few for separated roots.
+/// Cost: at most max_halvings halvings of degree²/2 additions each; few for separated roots.
 template <absolute_rule Rule>
 class root_filter {
   public:
@@ -104,7 +104,8 @@ class root_filter {
     /// Up to this n, binomials and their products with n are exact in double.
     static constexpr std::size_t max_degree = 50;
     static constexpr int max_halvings = 200;
-    /// Ends of parts at least half as wide, relative to their distance from at0, are doubles.
+    /// A part [from, to] is halved if its width is at least this times `to`. Ends then have at most
+    /// 48 bits, so they are doubles.
     static constexpr double narrowest = 0x1p-46;
     static constexpr std::size_t max_rows = 64;
 
@@ -119,7 +120,7 @@ class root_filter {
         if (size == 1) return;
         double largest = 0;
         for (const number& c : coefficients) largest = (std::max)(largest, std::abs(c.value()));
-        // Leaves room for powers, binomials and sums, and above the smallest numbers.
+        // Scales extreme coefficients, so that powers, binomials and sums stay in range.
         int e = number_traits<double>::exponent(largest);
         if (std::abs(e) < number_traits<double>::max_exponent / 2) e = 0;
         c_ = {first_.data(), size};
@@ -174,7 +175,8 @@ class root_filter {
     }
 
     /// A bound of Kioustelidis (see positive_root_exponent), not a power of two, so that ends are
-    /// rarely roots that people choose. 0 without positive root, infinite without bound in range.
+    /// rarely roots that people choose. 0 if there is no positive root, infinite if the bound is
+    /// out of range.
     double root_bound() const {
         const std::size_t n = c_.size() - 1;
         const auto largest = [](const number& c) {
@@ -223,7 +225,7 @@ class root_filter {
         }
         for (std::size_t i = 1; i <= n; ++i) first.add_previous(i, n);
         if (at0_ == 0) return;
-        // On [0, at1] so far; the right part by de Casteljau.
+        // `first` belongs to [0, at1]; de Casteljau's scheme gives its part [at0, at1].
         for (std::size_t i = 0; i <= n; ++i) b[i] = number::within(first.value[i], first.error[i]);
         const number right = number(at0_) / high, left = (high - number(at0_)) / high;
         for (std::size_t i = 0; i < n; ++i)
@@ -297,9 +299,10 @@ class root_filter {
         }
     }
 
-    /// Two close roots would need many halvings to separate. With at most two left, tries the
-    /// extremum in doubles. If its sign differs from `outside`, that of both ends, each side has
-    /// one root; if it is uncertain, the part is undecided. Tried after 4, 8, 16, ... halvings.
+    /// Halving separates two close roots slowly. If at most two are left, evaluates the polynomial
+    /// at its extremum in doubles. If the sign differs from `outside`, the sign at both ends, each
+    /// side has one root. If the sign is uncertain, the part is undecided. Tried after 4, 8, 16,
+    /// ... halvings.
     bool add_pair(double from, double to, int outside) {
         const int halvings = -std::ilogb(to - from);
         if (halvings < 4 || !std::has_single_bit(static_cast<unsigned>(halvings))) return false;
@@ -318,7 +321,8 @@ class root_filter {
         }
         return true;
     }
-    /// A zero of the derivative, by Newton's method from the middle; NaN on failure. 46 bits long.
+    /// A zero of the derivative, by Newton's method from the middle, rounded to 46 bits; NaN on
+    /// failure.
     double extremum(double from, double to) const {
         const double width = at1_ - at0_;
         double u = from + (to - from) / 2;

@@ -1,5 +1,5 @@
-// Real roots of integer polynomials, exactly: isolation, refinement, signs of other polynomials
-// there. The exact stage of real_roots.hpp. Allocates; degree and coefficient size bound time and
+// Real roots of integer polynomials, exactly: isolation, refinement, signs of other polynomials at
+// roots. The exact stage of real_roots.hpp. Allocates; degree and coefficient size bound time and
 // memory. Bounded stack: no recursion.
 #pragma once
 
@@ -34,7 +34,7 @@ int positive_root_exponent(const integer_form<Integer>& p) {
     return exponent;
 }
 
-/// The roots of one polynomial p with p(0) ≠ 0, and signs there.
+/// The roots of one polynomial p with p(0) ≠ 0, and signs at them.
 template <exact_number Integer>
 class root_isolation {
   public:
@@ -43,7 +43,7 @@ class root_isolation {
     using interval = isolating_interval<Integer>;
     using end = typename descartes_search<Integer>::end;
 
-    /// Multiplicities are reported up to this.
+    /// Reports multiplicities up to `multiplicities`.
     root_isolation(const form& p, std::size_t multiplicities, work_meter& meter)
         : chain_(squarefree_chain(p, multiplicities, meter)) {
         if (chain_.empty()) chain_.push_back({Integer(1)});
@@ -58,7 +58,7 @@ class root_isolation {
     point upper_bound() const { return unlikely_root<Integer>(right_.upper); }
     point lower_bound() const { return -unlikely_root<Integer>(left_.upper); }
 
-    /// Strictly between 0 and the positive, or negative, roots.
+    /// Points strictly between 0 and all positive roots, and between all negative roots and 0.
     point least_positive() const { return unlikely_root<Integer>(right_.lower - 1); }
     point greatest_negative() const { return -unlikely_root<Integer>(left_.lower - 1); }
 
@@ -86,7 +86,7 @@ class root_isolation {
     void refine(interval& root, work_meter& meter) const {
         refine(root, scale(root.high - root.low, -1), meter);
     }
-    /// Narrows it to this width by quadratic interval refinement (J. Abbott 2006).
+    /// Narrows the interval to this width by quadratic interval refinement (J. Abbott 2006).
     void refine(interval& root, const point& width, work_meter& meter) const {
         for (int bits = 1; width < root.high - root.low;)
             bits = keep_part(root, bits, meter) ? 2 * bits : (std::max)(1, bits / 2);
@@ -101,8 +101,9 @@ class root_isolation {
             (s == sign_at(squarefree(), root.low, meter) ? root.low : root.high) = x;
     }
 
-    /// The sign of g at the root; refines it. A common factor decides zero, equal signs of g's
-    /// control values any other sign. Proof: proofs/RootIsolation.v, sign_at_root_right.
+    /// The sign of g at the root, whose interval it refines. A common factor decides zero, equal
+    /// signs of g's control values any other sign. Proof: proofs/RootIsolation.v,
+    /// sign_at_root_right.
     sign_type sign_at_root(const form& g, interval& root, work_meter& meter) const {
         if (g.empty()) return sign_type::zero;
         form common;
@@ -120,9 +121,9 @@ class root_isolation {
     }
 
   private:
-    /// A square-free polynomial; bounds 2^lower < x < 2^upper of its positive roots x, upper <
-    /// lower if none; its coefficients' sign changes, 1 only for a single root (Descartes). Proof:
-    /// proofs/ControlValues.v, half_line_right.
+    /// A square-free polynomial p. Its positive roots x have 2^lower < x < 2^upper; upper < lower
+    /// if there are none. `variations` is the number of sign changes of its coefficients; if 1,
+    /// there is one root (Descartes). Proof: proofs/ControlValues.v, half_line_right.
     struct half_line {
         form p;
         int lower = 1, upper = 0;
@@ -142,7 +143,8 @@ class root_isolation {
     static bool changes_sign(const form& f, const interval& root, work_meter& meter) {
         return sign_at(f, root.low, meter) != sign_at(f, root.high, meter);
     }
-    /// True if f, a divisor of p's, is zero there. Proof: proofs/CommonFactor.v, vanishes_right.
+    /// True if f, a divisor of p, is zero at the root. Proof: proofs/CommonFactor.v,
+    /// vanishes_right.
     static bool vanishes(const form& f, const interval& root, work_meter& meter) {
         if (f.size() < 2) return false;
         if (root.is_point()) return sign_at(f, root.low, meter) == sign_type::zero;
@@ -169,8 +171,9 @@ class root_isolation {
         const Integer a = size(at_low), b = size(at_high);
         return Integer(a << static_cast<unsigned>(bits)) / Integer(a + b);
     }
-    /// Keeps the secant's choice of 2^bits parts if it holds the root; otherwise the root's side of
-    /// it (a half for bits = 1). Proof: proofs/RootIsolation.v, keep_part_right.
+    /// Divides the interval into 2^bits parts. Keeps the secant's choice if it holds the root,
+    /// otherwise the root's side of that part (a half for bits = 1). Proof: proofs/RootIsolation.v,
+    /// keep_part_right.
     bool keep_part(interval& root, int bits, work_meter& meter) const {
         const form& f = squarefree();
         const auto at_low = value_within(f, root.low, bits + 4, meter);

@@ -33,10 +33,10 @@ int sign_variations(std::size_t count, const Sign& sign) {
     return sign_changes_of(count, 0, sign).count;
 }
 
-/// The largest possible count if 0 stands for uncertain; 3 stands for more than 2 and for an
-/// uncertain end. 0 and 1 are exact, as the end signs fix the parity. (Between opposite signs, each
-/// two uncertain ones add two; between equal ones the first already does.) Proof:
-/// proofs/SignVariations.v, max_variations_right.
+/// The largest possible count, where 0 is an uncertain sign. The result 3 stands for more than 2,
+/// or for an uncertain end. 0 and 1 are exact, since the end signs fix the parity. (Between
+/// opposite signs, every two uncertain signs add two changes; between equal signs, one uncertain
+/// sign already adds two.) Proof: proofs/SignVariations.v, max_variations_right.
 template <class Sign>
 int max_sign_variations(std::size_t count, const Sign& sign) {
     int last = sign(0), most = 0, open = 0;

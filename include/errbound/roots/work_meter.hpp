@@ -12,11 +12,12 @@ namespace errbound {
 struct root_limits {
     static constexpr std::uint64_t none = (std::numeric_limits<std::uint64_t>::max)();
 
-    /// Operations on 64-bit words, about a nanosecond each, as if no coefficient were zero.
+    /// Operations on 64-bit words, about a nanosecond each; zero coefficients count like all
+    /// others.
     std::uint64_t operations = none;
     /// Estimated bytes of the rows held at a time, without p and its copies.
     std::uint64_t bytes = none;
-    /// Polled periodically; return true to cancel. Real roots poll it in later calls, too.
+    /// Polled periodically; return true to cancel. The returned real_roots keep it and poll it too.
     std::function<bool()> stop = {};
 };
 

@@ -2,12 +2,12 @@
 // error: an inexact input, or an operation that rounded. Equal sources cancel: x − x is exactly 0,
 // and the error of (x + y) − (x − y) does not depend on that of x. Rounding must be to nearest.
 //
-// Notation: docs/notation.md. The exact value is v + Σ cᵢεᵢ + ρ: v computed, a noise symbol |εᵢ| <=
-// 1 per source, |ρ| <= rest. The rest is 0 except in constant expressions and device code, which
+// Notation: docs/notation.md. The exact value is v + Σ cᵢεᵢ + ρ, with a noise symbol εᵢ per source,
+// |εᵢ| <= 1, and |ρ| <= rest. The rest is 0 except in constant expressions and device code, which
 // count no sources. One counter numbers the sources of all threads of a program; enter numbers of
-// another process by `within`. sqrt and fma keep sources; other functions start new ones.
-// References: Comba, Stolfi 1993; de Figueiredo, Stolfi 2004 (Numerical Algorithms 37). Proof, of
-// whole computations: proofs/IeeeAffineFunctions.v, computed_known, gives_known.
+// another process by `within`. sqrt and fma keep sources; the results of other functions are new
+// sources. References: Comba, Stolfi 1993; de Figueiredo, Stolfi 2004 (Numerical Algorithms 37).
+// Proof, of whole computations: proofs/IeeeAffineFunctions.v, computed_known, gives_known.
 #pragma once
 
 #include <array>
@@ -38,12 +38,12 @@ inline constexpr std::array<char, 32> affine_name = [] {
 
 }  // namespace detail
 
-/// Affine arithmetic with at most Limit terms of 16 bytes each, used or not. Cost: linear in the
-/// number of terms, plus Limit writes. An operation combines the operands' terms source by source,
-/// to first order. One new term takes the other errors, if any: the rounding error (exact, or at
-/// most u|v| + η/2), roundings of coefficients, second-order terms and the operands' rests. Above
-/// the limit, the smallest terms join the new one; x − x stays 0. If value or radius is not finite,
-/// there are no terms, and radius and rest are infinite.
+/// Affine arithmetic with at most Limit terms, stored even if unused: 16 bytes each, 32 for long
+/// double. Cost: linear in the number of terms, plus Limit writes. An operation combines the
+/// operands' terms source by source, to first order. One new term takes the other errors, if any:
+/// the rounding error (exact, or at most u|v| + η/2), roundings of coefficients, second-order terms
+/// and the operands' rests. Above the limit, the smallest terms join the new one; x − x stays 0. If
+/// value or radius is not finite, there are no terms, and radius and rest are infinite or NaN.
 template <std::size_t Limit>
 struct affine_of {
     static_assert(Limit >= 1, "errbound: affine arithmetic needs at least one term");
@@ -84,7 +84,8 @@ struct affine_of {
     static constexpr T error(const T&, const bound<T>& b) {
         return b.radius;
     }
-    /// True at the limit. A root, often a divisor, then gets one term, and displaces no others.
+    /// True if all Limit terms are used. sqrt then returns a number with only one term, so that a
+    /// division by it does not displace the dividend's terms.
     template <class T>
     static constexpr bool is_crowded(const bound<T>& b) {
         return b.count == Limit;
@@ -97,7 +98,7 @@ struct affine_of {
         return r;
     }
 
-    /// a + b = v + δ + Σ (aᵢ + bᵢ)εᵢ + rests, aᵢ and bᵢ the coefficients, δ the rounding error.
+    /// a + b = v + δ + Σ (aᵢ + bᵢ)εᵢ ± rests, with coefficients aᵢ, bᵢ and the rounding error δ.
     /// Proof: proofs/IeeeAffine.v, affine_add_known.
     template <class T>
     static constexpr bound<T> add(const T& v, operand<T> a, operand<T> b) {
@@ -220,7 +221,7 @@ struct affine_of {
         return detail::rounded_product(T(x / y), T(1 + traits::epsilon())) +
                traits::underflow_unit();
     }
-    /// Builds a result from its terms, by ascending source, and the amount left over.
+    /// Builds a bound from its terms, by ascending source, and the amount left over.
     template <class T>
     class builder {
       public:
@@ -260,8 +261,8 @@ struct affine_of {
                 for (--count_; least < count_; ++least) terms_[least] = terms_[least + 1];
             }
         }
-        /// Makes the amount left over a term, usually the last. Without a source, returns it as the
-        /// rest.
+        /// Inserts a term of `source`, usually the last one, for the amount left over, and returns
+        /// 0. If there is no source, returns the amount, which becomes the rest.
         constexpr T as_term_of(std::uint64_t source) {
             if (source == detail::no_source) return left_;
             std::size_t i = count_++;
@@ -275,7 +276,7 @@ struct affine_of {
         std::array<term<T>, 2 * Limit + 1> terms_{};
     };
 
-    /// Calls f(source, a's coefficient, b's coefficient) for each source of either, ascending.
+    /// Calls f(source, a's coefficient, b's coefficient) for each source of a or b, ascending.
     template <class T, class F>
     static constexpr void for_each_source(const bound<T>& a, const bound<T>& b, const F& f) {
         std::size_t i = 0, j = 0;

@@ -12,8 +12,9 @@
 namespace errbound {
 
 /// Same as Rule in state, operations and constants, except dot_bound: dot products apply Self's
-/// operations one by one. Rule's operations call each other (its `subtract` its `add`), not Self's.
-/// A changed operation voids Rule's promise: set error_is, or prove and validate the change.
+/// operations one by one. If an operation of Rule calls another (`subtract` calls `add`), it calls
+/// Rule's, not Self's. A changed operation voids Rule's promise: set error_is, or prove and
+/// validate the change.
 template <class Self, class Rule>
 struct derived_rule : Rule {
     /// Rule's proof does not cover Self. Self may redefine these.

@@ -70,7 +70,7 @@ struct interval {
         return sum<T>(v, a.bound, negate<T>(b.bound));
     }
     /// Both ends are among the four products of ends. If an operand is [−∞, ∞], so is the result,
-    /// also for a product 0·∞ = NaN. Proof: proofs/IeeeInterval.v, interval_multiply_known.
+    /// even if a product 0·∞ is NaN. Proof: proofs/IeeeInterval.v, interval_multiply_known.
     template <class T>
     static constexpr bound<T> multiply(const T& v, rule_operand<T, interval> a,
                                        rule_operand<T, interval> b) {
@@ -98,8 +98,8 @@ struct interval {
         return hull<T>(v, a.bound.lower / b.bound.lower, a.bound.lower / b.bound.upper,
                        a.bound.upper / b.bound.lower, a.bound.upper / b.bound.upper);
     }
-    /// The roots of both ends. Each takes a step outwards unless its exact remainder shows that it
-    /// is rounded outwards, or exact. Proof: proofs/IeeeSlopes.v, interval_square_root_known.
+    /// The roots of both ends. A root takes a step outwards unless its exact remainder shows that
+    /// it is exact or rounded outwards. Proof: proofs/IeeeSlopes.v, interval_square_root_known.
     template <class T>
     static constexpr bound<T> square_root(const T& v, rule_operand<T, interval> a) {
         using traits = number_traits<T>;
@@ -121,7 +121,7 @@ struct interval {
             return unknown<T>();
         const auto least = [](const T& m, const T& n) { return n < m ? n : m; };
         const auto most = [](const T& m, const T& n) { return n > m ? n : m; };
-        bool overflows = false;  // to NaN, which comparisons would skip
+        bool overflows = false;  // a product may overflow to NaN, which comparisons would skip
         const auto corner = [&](const T& x, const T& y, const T& z) {
             const T value = traits::fma(x, y, z);
             if constexpr (!has_infinity<T>) overflows |= !traits::is_finite(value);
@@ -169,9 +169,9 @@ struct interval {
         return b.lower == 0 && b.upper == 0;
     }
 
-    /// A step e > ulp(c)/2, so c ⊖ e is at most the number before c, and c ⊕ e at least the one
-    /// after. The rounded u|c| is at least x = ulp(c)/2 if x is representable. If x >= 4η, 1.25x is
-    /// exact; for smaller x its rounding loses less than the added η. Source: Rump, Zimmermann,
+    /// A step e > ulp(c)/2, so c ⊖ e is at most the number before c, and c ⊕ e at least the number
+    /// after c. The rounded u|c| is at least x = ulp(c)/2 if x is representable. If x >= 4η, 1.25x
+    /// is exact; for smaller x its rounding loses less than the added η. Source: Rump, Zimmermann,
     /// Boldo, Melquiond 2009 (BIT 49). 1.25 replaces their 1 + 2u, for p = 3 and for formats with η
     /// near u.
     template <class T>
@@ -206,7 +206,7 @@ struct interval {
     static constexpr bound<T> hull(const T& v, const T& w, const T& x, const T& y, const T& z) {
         const auto least = [](const T& m, const T& n) { return n < m ? n : m; };
         const auto most = [](const T& m, const T& n) { return n > m ? n : m; };
-        if constexpr (!has_infinity<T>)  // NaN may be an overflow
+        if constexpr (!has_infinity<T>)  // an overflow gives NaN
             if (w != w || x != x || y != y || z != z) return unknown<T>();
         return checked<T>(v, below<T>(least(least(w, x), least(y, z))),
                           above<T>(most(most(w, x), most(y, z))));

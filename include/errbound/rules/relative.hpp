@@ -1,11 +1,11 @@
-// Bound rule `relative`: counts factors 1 + δ, as error analyses on paper do. Made for products,
-// quotients and sums of numbers of one sign; rounding must be to nearest.
+// Bound rule `relative`: counts factors 1 + δ, as error analyses on paper do. It suits products,
+// quotients and sums of numbers of one sign. Rounding must be to nearest.
 //
 // Notation: docs/notation.md; v is the computed value, x the exact one. The bound is a count k: v =
-// x·Π(1 + δᵢ)^±1 over k factors, |δᵢ| <= u (Higham 2002, Lemma 3.1; Stewart's counter). So v and x
-// have the same sign, and |ln(v/x)| <= kw, w = −ln(1 − u); k need not be whole. Exact numbers have
-// k = 0. The error is about k·u|v|. It is infinite after an overflow, an underflow except in sums,
-// or a cancellation that leaves a result no larger than its error. It is also infinite for an
+// x·Π(1 + δᵢ)^±1 with k factors, |δᵢ| <= u (Higham 2002, Lemma 3.1; Stewart's counter). So v and x
+// have the same sign, and |ln(v/x)| <= kw with w = −ln(1 − u); k need not be whole. Exact numbers
+// have k = 0. The error is about k·u|v|. It is infinite after an overflow, an underflow except in
+// sums, or a cancellation that leaves a result no larger than its error. It is also infinite for an
 // inexact number of value 0 (such as x − x of an inexact x), and if kw >= 7/4.
 #pragma once
 
@@ -102,9 +102,9 @@ struct relative {
     }
 
     /// Σ aᵢbᵢ by absolute errors, or by the counts of single operations if that gives less. The
-    /// errors of products (from their counts) and of partial sums (by two_sum) are made relative at
-    /// the end, so partial sums may cancel. For n terms of one size and sign k is about n/2, not n.
-    /// Proof: proofs/IeeeRelative.v, relative_dot_known.
+    /// errors of products (from their counts) and of partial sums (by two_sum) become relative only
+    /// at the end. So the bound can stay finite if partial sums cancel. For n terms of one size and
+    /// sign k is about n/2, not n. Proof: proofs/IeeeRelative.v, relative_dot_known.
     template <class T>
     class dot_bound {
       public:
@@ -140,7 +140,7 @@ struct relative {
         return detail::rounded_product(x, T(1 + number_traits<T>::epsilon()));
     }
 
-    /// At least −ln(1 − u), one factor. 1 + 8ε, 16 times double's u, covers twelve roundings.
+    /// At least −ln(1 − u), for one factor. 1 + 8ε, with double's ε, covers twelve roundings.
     template <class T>
     static constexpr double of_one_factor() {
         const double u = static_cast<double>(number_traits<T>::unit_roundoff());
@@ -150,9 +150,9 @@ struct relative {
         const with_error<double> sum = two_sum<double>(j, k);
         return sum.error > 0 ? upper<double>(sum.value) : sum.value;
     }
-    /// The number of factors in a relative error r = error/size < 1. −ln(1 − r) <= r(6 − 5r)/(2(1 −
-    /// r)(3 − r)), divided by u <= w. (With x = 1/(1 − r): ln x <= (x − 1)(x + 5)/(4x + 2), equal
-    /// at 1, and the difference has the derivative (x − 1)³/(x(2x + 1)²).)
+    /// The number of factors in a relative error r = error/size < 1: at least −ln(1 − r)/w. Uses u
+    /// <= w and −ln(1 − r) <= r(6 − 5r)/(2(1 − r)(3 − r)). (With x = 1/(1 − r): ln x <= (x − 1)(x +
+    /// 5)/(4x + 2), equal at 1, and the difference has the derivative (x − 1)³/(x(2x + 1)²).)
     template <class T>
     static constexpr double factors_of(const T& error, const T& size) {
         using traits = number_traits<T>;
@@ -176,8 +176,9 @@ struct relative {
         if (traits::abs(v) >= traits::smallest_normal()) return {count_sum(k, 1)};
         return {unknown};
     }
-    // Operands of one sign: k = max(ka, kb), since their ratios v/x enclose that of the sum.
-    // Unlike signs: from the relative error (Ea + Eb)/|â + b̂|.
+    // Operands of one sign: k = max(ka, kb), since the sum's ratio v/x lies between theirs. Unlike
+    // signs: k follows from the relative error (Ea + Eb)/|â + b̂|, with the operands' errors Ea and
+    // Eb.
     template <class T>
     static constexpr bound<T> sum(const T& v, const T& a, const bound<T>& of_a, const T& b,
                                   const bound<T>& of_b) {

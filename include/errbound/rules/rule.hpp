@@ -6,8 +6,9 @@
 //   };
 //   using number = errbound::tracked<double, my_rule>;
 //
-// If a member is missing, the compiler names it. rules/tight.hpp fits on a page; another example is
-// examples/own_rule.cpp. To change one operation of a rule, derive from it (rules/derived.hpp).
+// If a member is missing, the compiler names it. Examples are examples/own_rule.cpp, which is
+// short, and rules/tight.hpp. To change one operation of a rule, derive from it
+// (rules/derived.hpp).
 #pragma once
 
 #include <concepts>
@@ -173,8 +174,9 @@ struct rule_check {
 }  // namespace detail
 
 // A rule may use + − × ÷ of T (no a += b), negation, comparisons, construction from int,
-// number_traits<T>. All members are static. Functions other than negate and sign are templates over
-// T, called as Rule::add<T>(result, a, b); operands are rule_operand<T, Rule>, constexpr is usual:
+// number_traits<T>. All members are static. Functions are templates over T, called as
+// Rule::add<T>(result, a, b); for negate, sign and is_crowded, T is deduced. Operands a, b and c
+// are rule_operand<T, Rule>. Functions are usually constexpr.
 //   name                                    for tables and messages
 //   template <class T> struct bound         the state stored with a value, of any size
 //   exact(value)                            the bound of an exact number
@@ -188,21 +190,22 @@ struct rule_check {
 //   negate(bound)                           the bound of −value; default: the same bound
 //   sign(value, bound)                      the certain sign; default: that of value if |value| >
 //                                           error, zero if both are 0, otherwise uncertain.
-//   correction(value, bound)                the known signed part of exact value − value, at most
-//                                           error(value, bound) in size; default: 0
+//   correction(value, bound)                the known part of the difference exact value − value,
+//                                           at most error(value, bound) in size; default: 0
 //   square_root(result, a)                  the bound of the rounded √a, unknown if a may be
 //                                           negative; default: from the error of a
 //   fused(result, a, b, c)                  the bound of ab + c, rounded once; default: from errors
 //   keeps_first_order                       true if errors keep signs or sources: √a and ab + c
 //                                           then use the rule's operations, including divide
-//   is_crowded(bound)                       for such a rule: true at its limit; √a is one source.
+//   is_crowded(bound)                       with keeps_first_order: true if the bound has no room
+//                                           for another source; √a then becomes one new source.
 //   displacement(value)                     the bound of a number whose exact value is 0; with it,
 //                                           numbers of 8 and 16 bits have bounds in float
 //   template <class T> class dot_bound      bounds s = 0, s += ab, ...: a call of
 //                                           add_product(ab, s before, s after, a, b) per step,
 //                                           then finished(s), which returns bound<T>
 //   minimal_precision                       the bits of T that the proof needs
-//   has_division                            false if `divide` exists only for its message
+//   has_division                            false if `divide` only stops compilation, with a reason
 //   holds_in_directed_rounding              true if the proof holds in any rounding direction
 //   holds_without_subnormals                true if the rule also holds without subnormal numbers
 //   error_is                                error_meaning::estimate or nothing

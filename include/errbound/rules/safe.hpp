@@ -1,8 +1,8 @@
 // Bound rule `safe`: SafeBound (Wang 2014; Section 4.2 of the TightCCD paper), its gaps closed. The
-// bound is (B, k): |f| <= B and |f̂ − f| <= B[(1 + ε)^k − 1]. Beyond the printed rule, B is
+// bound is (B, k): |f| <= B and |f̂ − f| <= B[(1 + ε)^k − 1]. Additions to the printed rule: B is
 // inflated for its own rounding, underflow is covered, and a product with an exact zero is an exact
-// zero. Overflow makes B infinite and the value infinite or NaN, so no sign is certain. No
-// division: (B, k) has no lower bound of |f|.
+// zero. Overflow makes B infinite and the value infinite or NaN, so no sign is certain. The rule
+// has no division, since (B, k) gives no lower bound of |f|.
 #pragma once
 
 #include <errbound/detail/rounded.hpp>
@@ -32,7 +32,7 @@ struct safe {
         using traits = number_traits<T>;
         if (error == 0) return exact(value);
         if (!(error > 0)) return {traits::infinity(), 1};
-        // error/ε may overflow; in some directions to the largest number, which is too small.
+        // If error/ε overflows, some rounding directions give the largest number: too small.
         const bool overflows = error > traits::largest() * traits::epsilon();
         const T least = overflows ? traits::infinity() : error / traits::epsilon();
         return {enlarged<T>((traits::max)(traits::abs(value) + error, least)), 1};
@@ -65,8 +65,8 @@ struct safe {
                                        rule_operand<T, safe> b) {
         return add(v, a, b);
     }
-    /// B = Ba·Bb, at least the smallest normal number m, k = ka + kb + 1. The 1 in k covers
-    /// rounding by ε, or for underflow by η = mε <= Bε. Proof: proofs/IeeeSafe.v,
+    /// B = Ba·Bb, at least the smallest normal number m, k = ka + kb + 1. The 1 in k covers a
+    /// rounding error: ε relatively, or η = mε <= Bε on underflow. Proof: proofs/IeeeSafe.v,
     /// safe_multiply_known; in any direction, proofs/Safe.v, safe_multiply_sound.
     template <class T>
     static constexpr bound<T> multiply(const T&, rule_operand<T, safe> a, rule_operand<T, safe> b) {
@@ -97,7 +97,7 @@ struct safe {
     }
 
   private:
-    static constexpr int too_many = 1 << 29;  ///< for an infinite error; twice it fits an int
+    static constexpr int too_many = 1 << 29;  ///< the error is infinite; 2·too_many fits an int
     static constexpr int counted(int k) { return k < too_many - 1 ? k + 1 : too_many; }
 
     template <class T>

@@ -1,11 +1,11 @@
 // Bound rule `sharp`: TightBound with the unit roundoff u in place of ε = 2u, for rounding to
 // nearest only. Its bounds are down to half of `tight`'s.
 //
-// Notation: docs/notation.md; v is the computed result, σ a bound. An operation is off by at most
-// max(u|v|, η/2), a sum by at most u|v| (Higham 2002, Theorem 2.3). If a sum is inexact, ulp(v)/2
-// is a number, so the rounded u|v| is at least ulp(v)/2. A product and three products in its bound
-// may each lose η/2, so 2η is added. Exact zeros and overflow are treated as in `tight`; no
-// overflow goes unnoticed.
+// Notation: docs/notation.md; v is the computed result, σ a bound. The rounding error of an
+// operation is at most max(u|v|, η/2), that of a sum at most u|v| (Higham 2002, Theorem 2.3). If a
+// sum is inexact, ulp(v)/2 is a number, so the rounded u|v| is at least ulp(v)/2. A product and
+// three products in its bound may each lose η/2, so 2η is added. Exact zeros and overflow are
+// treated as in `tight`; no overflow goes unnoticed.
 #pragma once
 
 #include <errbound/detail/rounded.hpp>
@@ -102,11 +102,11 @@ struct sharp {
     }
 
     /// Σ aᵢbᵢ, with a running error bound, as in `tight`. A product p is off by at most u|p| + η/2.
-    /// The partial sum s' = fl(s + p) is off by at most min(u|s'|, |p|, |s|): it is nearest to s +
-    /// p, and the numbers s and p are |p| and |s| away from s + p. One factor covers the roundings
-    /// of the bound, j = m + 6 for m terms as in `tight`: (1 + u)^j <= 1 + ju + (ju)² <= 1 +
-    /// (⌈j/2⌉ + 1)ε if j²ε <= 4. Underflow loses at most η/2 for each p and each u|p|, twice for
-    /// each term of inexact arguments, and once at the end. Source: Higham 2002, Section 3.3;
+    /// The partial sum s' = fl(s + p) is off by at most min(u|s'|, |p|, |s|): s' is the number
+    /// nearest to s + p, and the numbers s and p are |p| and |s| away from s + p. One factor covers
+    /// the roundings of the bound, j = m + 6 for m terms as in `tight`: (1 + u)^j <= 1 + ju + (ju)²
+    /// <= 1 + (⌈j/2⌉ + 1)ε if j²ε <= 4. Underflow loses at most η/2 for each p and each u|p|, η per
+    /// term with inexact arguments, and η/2 at the end. Source: Higham 2002, Section 3.3;
     /// Jeannerod, Rump 2013 (SIAM J. Matrix Anal. Appl. 34). Proof: proofs/IeeeDotProduct.v,
     /// sharp_dot_known.
     template <class T>

@@ -1,9 +1,9 @@
 // Bound rule `stochastic`: stochastic arithmetic, which estimates errors and promises nothing. A
 // number carries samples, computed with every operation randomly rounded up or down; their scatter
-// estimates the rounding error. For comparison with bounds, and where bounds are too wide. Signs
-// follow the estimate and may be wrong, so no predicate takes this rule. It misses truncation
-// errors and branches that samples do not take. `errbound validate` measures how often estimates
-// are too small.
+// estimates the rounding error. Use it to compare with bounds, or if bounds are too wide. Signs
+// follow the estimate and may be wrong, so no predicate takes this rule. The estimate misses
+// truncation errors and branches that samples do not take. `errbound validate` measures how often
+// estimates are too small.
 #pragma once
 
 #include <array>
@@ -17,10 +17,10 @@
 namespace errbound {
 
 /// Stochastic arithmetic with 2 to 8 samples. Cost: an error-free operation and a hash per sample.
-/// A sample's operation is rounded to a neighbour of the exact result, the nearer one more often,
-/// right on average (Croci, Fasi, Higham, Mary, Mikaitis 2022; Parker's Monte Carlo arithmetic,
-/// 1997). The random bits are a hash of the operands, the sample's index and Seed. So results are
-/// reproducible, a + b and b + a agree, and b − a is −(a − b), as in Verrou's _det modes.
+/// A sample's operation is rounded to a neighbour of the exact result, at random and without bias
+/// (Croci, Fasi, Higham, Mary, Mikaitis 2022; Parker's Monte Carlo arithmetic, 1997). The random
+/// bits are a hash of the operands, the sample's index and Seed. So results are reproducible, a + b
+/// and b + a agree, and b − a is −(a − b), as in Verrou's _det modes.
 template <std::size_t Samples, std::uint64_t Seed = 0>
 struct stochastic_of {
     static_assert(Samples >= 2 && Samples <= 8, "errbound: stochastic takes 2 to 8 samples");
@@ -48,8 +48,9 @@ struct stochastic_of {
             return T(value + detail::rounded_product(error, static_cast<T>(share)));
         });
     }
-    /// CESTAC's estimate (Vignes 1993), |m| + τs/√N: the mean deviation m from the value, the
-    /// standard deviation s, Student's τ for 95 %. (CESTAC returns the mean instead of the value.)
+    /// CESTAC's estimate (Vignes 1993), |m| + τs/√N, for N samples: the mean m and standard
+    /// deviation s of their deviations from the value, and Student's τ for 95 %. (CESTAC returns
+    /// the mean instead of the value.)
     template <class T>
     static constexpr T error(const T& value, const bound<T>& b) {
         using traits = number_traits<T>;
@@ -123,7 +124,7 @@ struct stochastic_of {
     }
 
   private:
-    /// Two-sided 95 %, one to seven degrees of freedom.
+    /// Student's τ: two-sided 95 %, one to seven degrees of freedom.
     static constexpr std::array<double, 7> students_t{12.706, 4.303, 3.182, 2.776,
                                                       2.571,  2.447, 2.365};
 
@@ -140,7 +141,7 @@ struct stochastic_of {
         const with_error<T> r = two_sum<T>(a, b);
         return at_random<T>(r.value, r.error, symmetric_hash<T>(a, b, k | of_sum));
     }
-    /// Above half an ulp of v: v ± step rounds to v's neighbour.
+    /// More than half an ulp of v, so that v ± step rounds to v's neighbour.
     template <class T>
     static constexpr T step(const T& v) {
         using traits = number_traits<T>;

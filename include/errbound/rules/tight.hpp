@@ -1,12 +1,12 @@
 // Bound rule `tight`: TightBound (Theorem 1 of the TightCCD paper), with its gaps closed.
 //
-// Notation: docs/notation.md; v is the computed result, σ a bound. Beyond the printed rule, bounds
-// are inflated for their own roundings. Products add 4η: one for an underflow of the value, three
-// for products in the bound. Sums add none: an inexact sum v is so large that |v|ε is at least its
-// unit in the last place. A product with an exact zero is exact. Overflow and NaN give infinite or
-// NaN bounds and no certain sign. Only under directed rounding, overflow to the largest finite
-// number goes unnoticed. Without underflow the bound exceeds that of `safe` at most slightly:
-// proofs/ComputedComparison.v, tight_at_most_safe_computed.
+// Notation: docs/notation.md; v is the computed result, σ a bound. Additions to the printed rule:
+// bounds are inflated for their own roundings. Products add 4η: one η for an underflow of the
+// value, three for products in the bound. Sums add no η: an inexact sum v is so large that |v|ε is
+// at least its unit in the last place. A product with an exact zero is exact. Overflow and NaN give
+// infinite or NaN bounds and no certain sign. Only under directed rounding, overflow to the largest
+// finite number goes unnoticed. Without underflow the bound exceeds that of `safe` at most
+// slightly: proofs/ComputedComparison.v, tight_at_most_safe_computed.
 #pragma once
 
 #include <errbound/detail/rounded.hpp>
@@ -53,7 +53,7 @@ struct tight {
     template <class T>
     static constexpr bound<T> add(const T& v, rule_operand<T, tight> a, rule_operand<T, tight> b) {
         using traits = number_traits<T>;
-        // |v|ε and the sum may underflow, each by less than η; x − x is exact.
+        // |v|ε and the sum v may each lose less than η by underflow; x − x is exact.
         if constexpr (!has_subnormals<T>)
             if (v != 0 || traits::abs(a.value) != traits::abs(b.value))
                 return {inflated<T>(rounding(v) + (a.bound.error + b.bound.error) +
@@ -113,15 +113,16 @@ struct tight {
         return {lossless ? scaled + (v - v) : inflated<T>(scaled + 2 * traits::underflow_unit())};
     }
 
-    /// Σ aᵢbᵢ, with a running error bound (Higham 2002, Section 3.3). For computed products pᵢ and
-    /// partial sums sᵢ, roundings add at most Σ (|pᵢ| + |sᵢ|)·ε/(1 − ε), not counting s₁, which
-    /// equals p₁, and η per product. The arguments' errors add Σ |â|σb + σa(|b̂| + σb).
+    /// Σ aᵢbᵢ, with a running error bound (Higham 2002, Section 3.3). Roundings add at most
+    /// |pᵢ|ε/(1 − ε) + η for each computed product pᵢ, and |sᵢ|ε/(1 − ε) for each computed partial
+    /// sum sᵢ except s₁ = p₁. The arguments' errors add Σ |â|σb + σa(|b̂| + σb).
     ///
-    /// One factor covers the roundings in the bound of m terms: at most m for |pᵢ|ε or |sᵢ|ε, m + 2
-    /// for an argument's error, and for each four more at the end. With j = m + 6, 1 + (j + 1)ε >=
-    /// 1/(1 − jε) >= (1 − ε)^−j if j²ε <= 1/2. Underflow loses less than η for each product, twice
-    /// for each term of inexact arguments, and once at the end. Proof: proofs/IeeeDotProduct.v,
-    /// tight_dot_known; in any direction, proofs/DotProduct.v, tight_dot_sound.
+    /// One factor covers the roundings of this bound for m terms. Summation rounds each |pᵢ|ε and
+    /// |sᵢ|ε at most m + 1 times, each argument's error at most m + 2 times. At most four more
+    /// roundings follow. With j = m + 6, 1 + (j + 1)ε >= 1/(1 − jε) >= (1 − ε)^−j if j²ε <= 1/2.
+    /// Underflow loses less than η per product, 2η per term with inexact arguments, and η at the
+    /// end. Proof: proofs/IeeeDotProduct.v, tight_dot_known; in any direction, proofs/DotProduct.v,
+    /// tight_dot_sound.
     template <class T>
     class dot_bound : detail::running_bound<T, dot_bound<T>,
                                             has_subnormals<T> ? number_traits<T>::digits - 2 : 0> {
@@ -147,7 +148,7 @@ struct tight {
     };
 
   private:
-    /// |v|ε(1 + ε), which is |v|ε/(1 − ε) less some |v|ε³; the factor 1 + 8ε covers the rest.
+    /// |v|ε(1 + ε), less than |v|ε/(1 − ε) by some |v|ε³, which the factor 1 + 8ε covers.
     template <class T>
     static constexpr T rounding(const T& v) {
         using traits = number_traits<T>;

@@ -1,8 +1,8 @@
 // Real numbers enclosed by MPFR: a midpoint and a radius, |x − midpoint| <= radius.
 //
 // Sums and products that fit the precision are exact, with radius 0. A midpoint's rounding adds
-// half a last place to the radius; radii are rounded up. So enclosures hold at every precision. The
-// exponent range must be MPFR's widest (exponents::widest).
+// half a unit in its last place to the radius; radii are rounded up. So enclosures hold at every
+// precision. The exponent range must be MPFR's widest (exponents::widest).
 #pragma once
 
 #include <mpfr.h>
@@ -68,7 +68,7 @@ class mpfr_number {
 
     mpfr_ptr get() { return x_; }
     mpfr_srcptr get() const { return x_; }
-    /// Rounded once, to nearest; exact at exact_bits. Returns mpfr_add's ternary value.
+    /// Sets x, rounded once to nearest; exact at exact_bits. Returns mpfr_add's ternary value.
     int set(const exact_value& x) {
         if (x.is_double()) return mpfr_set_d(x_, x.leading, MPFR_RNDN);
         MPFR_DECL_INIT(sum, exact_bits);
@@ -228,11 +228,11 @@ class ball {
     mpfr_srcptr radius() const { return radius_.get(); }
     bool is_exact() const { return mpfr_zero_p(radius_.get()) != 0; }
     bool is_zero() const { return is_exact() && mpfr_zero_p(middle_.get()) != 0; }
-    /// The precision was too small to separate a divisor from zero.
+    /// True if the precision was too small, such as to separate a divisor from zero.
     bool is_unknown() const { return mpfr_inf_p(radius_.get()) != 0; }
     /// False after a division by exactly zero.
     bool is_defined() const { return mpfr_nan_p(middle_.get()) == 0; }
-    /// The certain sign.
+    /// The sign of all numbers in the ball, or `uncertain`.
     sign_type sign() const {
         if (!is_defined()) return sign_type::uncertain;
         if (mpfr_cmpabs(middle_.get(), radius_.get()) <= 0)
@@ -266,7 +266,7 @@ class ball {
     /// Replaces a midpoint whose exponent is beyond `largest`.
     void confine(mpfr_exp_t largest);
 
-    /// The number that `first` chooses, with its own radius if the choice is certain.
+    /// Sets the number that `first` chooses, with its own radius if the choice is certain.
     void set_one(const ball& a, const ball& b, int (*first)(mpfr_srcptr, mpfr_srcptr)) {
         if (!a.is_defined() || !b.is_defined()) {
             set_undefined();
@@ -285,7 +285,7 @@ class ball {
                  MPFR_RNDU);
     }
 
-    /// Adds half a last place for a rounded midpoint.
+    /// Adds half a unit in the last place for a rounded midpoint.
     void rounded(int off) {
         if (mpfr_regular_p(middle_.get()) == 0) return;
         const mpfr_exp_t e = mpfr_get_exp(middle_.get());

@@ -9,16 +9,16 @@ namespace errbound::validation {
 
 class distribution {
   public:
-    /// Quantiles are within this.
+    /// Quantiles are within this distance of the exact ones.
     static constexpr double resolution = 0.02;
     // Larger ratios share the outermost bins; extremes are kept exactly.
     static constexpr double least_log = -40, max_log = 100;
 
     /// Precondition: log10_ratio is finite.
     void add(double log10_ratio);
-    /// The true error is zero, or too small for the reference.
+    /// Counts a result whose true error is zero, or too small for the reference.
     void add_exact() { ++counts_.exact; }
-    /// The bound is infinite or NaN.
+    /// Counts a result whose bound is infinite or NaN.
     void add_unknown() { ++counts_.unknown; }
     void merge(const distribution& other);
 

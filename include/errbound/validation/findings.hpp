@@ -21,7 +21,7 @@ constexpr bool is_violation(finding f) {
     return f != finding::holds && f != finding::undetermined;
 }
 
-/// Compares; `off` must be the claim's deviation from x wherever both are finite.
+/// Compares a claim with x; `off` must be the claim's deviation from x wherever both are finite.
 inline finding compare(const claim& c, const ball& x, const deviation& off) {
     if (!certain(c.sign) && !c.error.is_finite()) return finding::holds;  // no claim
     if (!c.value.is_finite() || !x.is_defined()) return finding::baseless;
@@ -45,7 +45,7 @@ inline finding compare(const claim& c, const ball& x, const deviation& off) {
 
 /// The measure for a rule: "bound/error", "estimate/error" or "error/value".
 std::string_view measure_of(error_meaning meaning);
-/// Adds the log10 of the measure. `off`: as for compare.
+/// Adds the log10 of the measure. `off` is the same as for compare.
 void add_ratio(distribution& to, error_meaning meaning, const claim& c, const ball& x,
                const deviation& off);
 

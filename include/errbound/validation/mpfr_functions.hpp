@@ -91,7 +91,7 @@ inline bool has_value(elementary_function f, mpfr_srcptr x) {
             return true;
     }
 }
-/// For two arguments; 0^0 is 1.
+/// True if f has a value at two arguments; 0^0 is 1.
 inline bool has_value(elementary_function f, mpfr_srcptr a, mpfr_srcptr b) {
     if (f == elementary_function::atan2) return !mpfr_zero_p(a) || !mpfr_zero_p(b);
     if (mpfr_sgn(a) > 0 || mpfr_zero_p(b)) return true;

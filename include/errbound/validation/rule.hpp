@@ -12,8 +12,8 @@ namespace errbound::validation {
 
 using evaluation = void (*)(const expression&, claim*);
 
-/// Made by rule_of, also for rules outside errbound/validation/rule_list.hpp. Boost's number types:
-/// set_boost_checks (errbound/validation/boost_numbers.hpp).
+/// Made by rule_of, also for rules outside errbound/validation/rule_list.hpp. set_boost_checks
+/// (errbound/validation/boost_numbers.hpp) adds Boost's number types.
 struct rule {
     std::string_view name;
     error_meaning error_is = error_meaning::nothing;

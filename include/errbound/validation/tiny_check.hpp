@@ -143,9 +143,9 @@ class claim_checker {
     void check_quotient(const tiny_claim& r, const exact_range& n, const exact_range& d,
                         const tiny_account& how);
 
-    /// A root over a range, compared squared.
+    /// A root over a range; squares are compared.
     void check_root(const tiny_claim& r, const exact_range& x, const tiny_account& how);
-    /// A result between some of these.
+    /// A fused result over ranges whose extremes are among these values.
     void check_fused(const tiny_claim& r, std::span<const fused_value> ends,
                      const tiny_account& how);
 

@@ -62,7 +62,7 @@ struct function_errors {
     double largest = 0;            ///< rounded up, by less than 2^-30
     std::string at;                ///< argument with the largest error: hexadecimal, as in C++
     double assumed = 0;            ///< function_error, or the options' units
-    std::uint64_t violations = 0;  ///< errors above that
+    std::uint64_t violations = 0;  ///< errors above `assumed`
 };
 
 struct report {
@@ -100,7 +100,8 @@ report examine(const evidence& what, int threads, const progress& show = {});
 struct expression_options {
     std::uint64_t expressions = 10'000'000;  ///< at least this many per rule and number type
     std::uint64_t seed = 1;
-    /// The number of skipped expressions of the seed's sequence. Consecutive ranges partition it.
+    /// The number of skipped expressions of the seed's sequence. Consecutive ranges partition the
+    /// sequence.
     std::uint64_t first = 0;
     int operations = 16;  ///< in one expression, at most; 1 to 48
     int threads = 0;      ///< 0: one per core

@@ -183,6 +183,16 @@ std::vector<ccd::mpi::numbered_pair<K>> numbered(const std::vector<ccd::pair_of_
     return all;
 }
 
+/// Compares intersections, without segments.
+inline bool same_pairs(const std::vector<ccd::mpi::numbered_intersection>& found,
+                       const std::vector<ccd::intersection>& expected) {
+    const auto equal = [](const ccd::mpi::numbered_element& a, const ccd::mesh_element& b) {
+        return std::ranges::equal(a.vertices(), b.vertices(), {}, {}, number_of);
+    };
+    return std::ranges::equal(found, expected, [&](const auto& a, const auto& b) {
+        return equal(a.a, b.a) && equal(a.b, b.b) && a.relation == b.relation;
+    });
+}
 inline bool same(const ccd::first_time& a, const ccd::first_time& b) {
     return a.outcome == b.outcome &&
            (a.outcome != ccd::outcome::collides || (a.low == b.low && a.high == b.high));

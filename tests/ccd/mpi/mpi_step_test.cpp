@@ -43,6 +43,33 @@ struct of_vertices {
     }
 };
 
+/// Intersections at the start, also by their own call.
+void compare_start(const scene& s, const std::string& name, const ccd::mpi::mesh_part& part,
+                   const ccd::step_options& options, const ccd::mpi::step_result& at_root,
+                   const ccd::step_result& expected) {
+    ccd::intersection_options at_rest;
+    at_rest.filter = options.filter;
+    const auto by_root =
+        ccd::mpi::intersections(MPI_COMM_WORLD, part, at_rest, ccd::mpi::placement::root);
+    const auto by_owners = ccd::mpi::intersections(MPI_COMM_WORLD, part, at_rest);
+    if (rank == 0) {
+        expect(same_pairs(at_root.intersections_at_start, expected.intersections_at_start),
+               name + "intersections at the start differ");
+        expect(same_pairs(by_root.pairs, expected.intersections_at_start),
+               name + "intersections differ");
+    } else {
+        expect(by_root.pairs.empty(), name + "intersections that are not at the root");
+    }
+    const std::set<ccd::mpi::vertex_number> here(part.numbers.begin(), part.numbers.end());
+    for (const auto& pair : by_owners.pairs)
+        expect(here.contains(pair.a.numbers[0]), name + "an intersection that is elsewhere");
+    unsigned long long found = by_owners.pairs.size(), all = 0;
+    MPI_Allreduce(&found, &all, 1, MPI_UNSIGNED_LONG_LONG, MPI_SUM, MPI_COMM_WORLD);
+    expect(all == expected.intersections_at_start.size(), name + "intersections at owners differ");
+    expect(by_owners.counts.total() == all, name + "numbers of intersections differ");
+    if (s.name == "soup of 600") expect(all > 0, name + "no intersections");
+}
+
 void compare(const scene& s, const step_case& test, const std::string& placed, const placing& place,
              const ccd::step_result& expected) {
     const std::string name = s.name + ", " + test.name + ", " + placed + ": ";
@@ -73,6 +100,7 @@ void compare(const scene& s, const step_case& test, const std::string& placed, c
         MPI_Allreduce(&found, &all, 1, MPI_UNSIGNED_LONG_LONG, MPI_SUM, MPI_COMM_WORLD);
         expect(all == expected.pairs.of<K>().size(), name + kind + " pairs at owners differ");
     });
+    if (test.options.check_start) compare_start(s, name, own.part(), options, at_root, expected);
     expect(same(at_root.first_contact, expected.first_contact), name + "first contacts differ");
     expect(at_root.candidates == expected.candidates, name + "candidates differ");
 }
@@ -89,6 +117,8 @@ std::vector<step_case> step_cases() {
     all.push_back({"within 0.01", {.times = true, .distances = {.all = 0.01}}});
     all.push_back({"thickness", {.count_candidates = true}, false, false, true});
     all.push_back({"groups", {.count_candidates = true}, true, true, false});
+    all.push_back({"start", {.check_start = true}});
+    all.push_back({"start of groups", {.check_start = true, .distances = {.all = 0.01}}, true});
     return all;
 }
 
@@ -106,7 +136,7 @@ void compare_scene(const scene& s) {
 /// Many small scenes with the same request.
 void compare_few_corners() {
     std::mt19937 random(11);
-    const step_case counted{"candidates", {.count_candidates = true}};
+    const step_case counted{"candidates", {.count_candidates = true, .check_start = true}};
     for (int i = 0; i < (size <= 3 ? 60 : 20); ++i) {
         const scene s = distributed::few_corners(random, 4 + random() % 6, 1 + random() % 80);
         const auto expected = ccd::step(s.before, s.after, counted.options);

@@ -4,8 +4,13 @@
 
 #include <array>
 #include <ccd/advance.hpp>
+#include <ccd/nearness.hpp>
 #include <cmath>
+#include <limits>
 #include <numeric>
+#include <random>
+#include <span>
+#include <vector>
 
 #include "ccd/step/advancing.hpp"
 #include "tests/ccd/step/expect_advances.hpp"
@@ -70,19 +75,7 @@ TEST(Advance, IsFreeInMeshesOfAllKinds) {
 TEST(Advance, IsFreeAtEveryScale) {
     for (const auto& shape : nasty_shapes::shapes) {
         SCOPED_TRACE(shape.name);
-        nasty_shapes::generator random(1);
-        ccd::mesh before, after;
-        for (unsigned patch = 0; patch < 16; ++patch) {
-            const auto v = ccd::vertex_index(before.vertices.size());
-            for (int i = 0; i < 3; ++i) {
-                const auto p = shape.vertex(random, patch);
-                before.vertices.push_back(p.t0);
-                after.vertices.push_back(p.t1);
-            }
-            before.faces.push_back({v, v + 1, v + 2});
-        }
-        after.faces = before.faces;
-        expect_free({before, after});
+        expect_free(nasty_shapes::triangles(shape, 1));
     }
 }
 
@@ -184,6 +177,216 @@ TEST(AdvanceKeepingADistance, NearPairsDoNotTouch) {
     EXPECT_EQ(result.touching_at_start, ccd::pair_lists());
     EXPECT_GE(result.fraction, 0.99 * 0.5);
     EXPECT_LT(result.fraction, 0.5);
+}
+
+TEST(Advance, NamesThePairsThatLimitIt) {
+    const auto bodies = four_bodies();
+    for (const bool by_parts : {false, true}) {
+        const auto parts =
+            ccd::connected_parts(bodies.first.faces, {}, bodies.first.vertices.size());
+        const auto result = ccd::advance(
+            bodies.first, bodies.second,
+            {.groups = by_parts ? std::span<const int>(parts) : std::span<const int>()});
+        const auto whole = ccd::step(bodies.first, bodies.second, {.first_contact = true});
+        EXPECT_EQ(result.first_contact, whole.first_contact);
+        EXPECT_EQ(result.first_pairs, whole.first_pairs);
+        EXPECT_GT(number_of(result.first_pairs), 0U);
+    }
+}
+
+TEST(Advance, KeepsAGapIfConservative) {
+    const ccd::mesh before{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0.1, 0.1, 1}}, {{0, 1, 2}}};
+    ccd::mesh after = before;
+    after.vertices[3].z = -1;
+    const auto result = expect_free({before, after}, {.conservative = 0.75});
+    EXPECT_EQ(result.first_contact.low, 0.5);
+    EXPECT_EQ(result.fraction, 0.75 * std::nextafter(0.5, 0));
+    for (const double bad : {0.0, -1.0, 1.5, std::nan("")})
+        EXPECT_THROW(ccd::advance(before, after, {.conservative = bad}), std::invalid_argument);
+}
+
+/// Both forms of x + alpha * p.
+std::array<ccd::mesh, 2> moved(const ccd::mesh& x, const ccd::mesh& p, double alpha) {
+    std::array<ccd::mesh, 2> ends{x, x};
+    for (std::size_t v = 0; v < x.vertices.size(); ++v)
+        for (double ccd::point<double>::*k :
+             {&ccd::point<double>::x, &ccd::point<double>::y, &ccd::point<double>::z}) {
+            volatile double product = alpha * (p.vertices[v].*k);
+            ends[0].vertices[v].*k = x.vertices[v].*k + product;
+            ends[1].vertices[v].*k = std::fma(alpha, p.vertices[v].*k, x.vertices[v].*k);
+        }
+    return ends;
+}
+
+ccd::advance_result expect_free_line(const ccd::mesh& x, const ccd::mesh& p,
+                                     const ccd::advance_options& options = {}) {
+    ccd::mesh_steps steps(x);
+    const auto result = ccd::free_step(steps, {x, p}, options);
+    const auto ends = moved(x, p, result.fraction);
+    EXPECT_EQ(result.positions, ends[0].vertices);
+    for (const ccd::mesh& end : ends) {
+        ccd::advance_result as_advance = result;
+        as_advance.positions = end.vertices;
+        brute_force::expect_none_but_told(steps, x, as_advance, options.distances);
+    }
+    return result;
+}
+
+ccd::mesh displacements(const two_frames& at) {
+    ccd::mesh p = at.second;
+    for (std::size_t v = 0; v < p.vertices.size(); ++v) {
+        const auto &x = at.first.vertices[v], &y = at.second.vertices[v];
+        p.vertices[v] = {y.x / 2 - x.x / 2, y.y / 2 - x.y / 2, y.z / 2 - x.z / 2};
+    }
+    return p;
+}
+
+TEST(FreeStep, IsFreeForBothFormsAtEveryScale) {
+    const auto expect_all = [](const two_frames& at, const char* what) {
+        SCOPED_TRACE(what);
+        const ccd::mesh p = displacements(at);
+        const auto result = expect_free_line(at.first, p);
+        const double first =
+            result.first_contact.outcome == outcome::collides ? result.first_contact.low : 1;
+        EXPECT_LE(result.fraction, first);
+        EXPECT_EQ(first<1, number_of(result.first_pairs)> 0);
+        const auto with_gap = expect_free_line(at.first, p, {.conservative = 0.8});
+        EXPECT_LE(with_gap.fraction, std::max(0.8 * first, first == 1 ? 1.0 : 0.0));
+        expect_free_line(at.first, p, {.distances = {0.0625}});
+        return result.fraction >= 0.99 * first;
+    };
+    int far = 0;
+    constexpr int scenes = 24;
+    for (std::uint64_t seed = 1; seed <= scenes; ++seed) {
+        EXPECT_TRUE(expect_all(random_mixture(seed), "mixture")) << seed;
+        auto soup = random_soup(seed, 30, 15);  // of small integers
+        std::mt19937_64 random(seed);
+        for (ccd::mesh* frame : {&soup.first, &soup.second})
+            for (auto& q : frame->vertices)
+                q = nasty_shapes::operator+(q, nasty_shapes::in_cube(random, 0.5));
+        far += expect_all(soup, "soup");
+    }
+    EXPECT_GE(far, scenes - 1);
+    for (const auto& shape : nasty_shapes::shapes)
+        expect_all(nasty_shapes::triangles(shape, 7), shape.name);
+}
+
+TEST(FreeStep, RefusesGroupsAndDisplacementsThatAreNotFinite) {
+    const auto at = random_mixture(1);
+    ccd::mesh p = displacements(at);
+    ccd::mesh_steps steps(at.first);
+    const std::vector<int> groups(p.vertices.size());
+    EXPECT_THROW(ccd::free_step(steps, {at.first, p}, {.groups = groups}), std::invalid_argument);
+    p.vertices[2].y = std::numeric_limits<double>::infinity();
+    EXPECT_THROW(ccd::free_step(steps, {at.first, p}), std::invalid_argument);
+}
+
+TEST(FreeStep, MayOverflow) {
+    constexpr double most = std::numeric_limits<double>::max();
+    const ccd::mesh x{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0.1, 0.1, 1}, {most, 0, 0}}, {{0, 1, 2}}};
+    ccd::mesh p = x;
+    for (auto& q : p.vertices) q = {0, 0, 0};
+    p.vertices[3] = {0, 0, -most};
+    p.vertices[4] = {most, 0, 0};
+    const auto result = expect_free_line(x, p);
+    EXPECT_LE(result.fraction, 1 / most);
+    EXPECT_GT(result.fraction, 0);
+}
+
+/// Four vertices fall onto a plate while they slide along it, one of them lower than the others.
+two_frames falling_onto_a_plate() {
+    ccd::mesh before{{{-9, -9, 0}, {9, -9, 0}, {0, 9, 0}, {0, 0, 0.5}, {1, 0, 0.5}, {0, 1, 2}},
+                     {{0, 1, 2}, {3, 4, 5}}};
+    ccd::mesh after = before;
+    for (std::size_t v = 3; v < 6; ++v) after.vertices[v] = {before.vertices[v].x + 1, 0, -0.25};
+    return {before, after};
+}
+
+TEST(AdvanceByVertex, GoesAtLeastAsFarAsByGroups) {
+    const auto expect_all = [](const two_frames& at, const char* what) {
+        SCOPED_TRACE(what);
+        std::vector<int> groups(at.first.vertices.size());
+        std::iota(groups.begin(), groups.end(), 0);
+        const auto by_groups = ccd::advance(at.first, at.second, {.groups = groups});
+        const auto result = expect_free(at, {.each_vertex = true, .threads = 1});
+        for (std::size_t v = 0; v < groups.size(); ++v)
+            EXPECT_GE(result.fractions[v], by_groups.fractions[v]);
+        EXPECT_EQ(result.positions,
+                  ccd::advance(at.first, at.second, {.each_vertex = true, .threads = 3}).positions);
+        expect_free(at, {.each_vertex = true, .distances = {0.0625}, .keep = 0.25});
+        return std::reduce(result.fractions.begin(), result.fractions.end()) -
+               std::reduce(by_groups.fractions.begin(), by_groups.fractions.end());
+    };
+    EXPECT_GT(expect_all(falling_onto_a_plate(), "plate"), 0);
+    double gained = 0;
+    for (std::uint64_t seed = 1; seed <= 12; ++seed)
+        gained += expect_all(random_mixture(seed), "mixture") +
+                  expect_all(random_soup(seed, 60, 20), "soup");
+    EXPECT_GT(gained, 0);
+    for (const auto& shape : nasty_shapes::shapes)
+        expect_all(nasty_shapes::triangles(shape, 9), shape.name);
+}
+
+TEST(AdvanceByVertex, LimitsOnlyVerticesThatComeNear) {
+    const auto [before, after] = falling_onto_a_plate();
+    const auto result = expect_free({before, after}, {.each_vertex = true});
+    EXPECT_GE(result.fractions[3], 0.59);
+    EXPECT_GE(result.fractions[5], 0.79);
+    EXPECT_LT(result.fractions[3], result.fractions[5]);
+}
+
+/// A vertex is pressed onto a plate and slides along it. Without `keep`, it stops at its distance.
+TEST(AdvanceKeepingADistance, SlidesOnAtItsDistance) {
+    for (const double keep : {0.0, 0.1}) {
+        ccd::mesh x{{{-9, -9, 0}, {9, -9, 0}, {0, 9, 0}, {0, 0, 0.5}}, {{0, 1, 2}}};
+        double first_distance = 0.5;
+        std::vector<double> fractions;
+        for (int i = 0; i < 4; ++i) {
+            ccd::mesh goal = x;
+            goal.vertices[3].x += 1;
+            goal.vertices[3].z -= 0.05;
+            const auto result = ccd::advance(x, goal, {.distances = {0.475}, .keep = keep});
+            fractions.push_back(result.fraction);
+            x.vertices = result.positions;
+            const double distance = ccd::least_distance(x).low;
+            EXPECT_GE(distance, std::min(0.475, keep * first_distance));
+            first_distance = distance;
+        }
+        EXPECT_NEAR(fractions[0], 0.5, 0.01);
+        if (keep == 0)
+            EXPECT_LT(fractions[3], 1e-12);
+        else
+            EXPECT_EQ(fractions[3], 1);
+    }
+}
+
+TEST(AdvanceKeepingADistance, NearPairsKeepAShareOfTheirDistance) {
+    for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+        auto at = random_soup(seed, 24, 8);
+        std::mt19937_64 random(seed);
+        for (ccd::mesh* frame : {&at.first, &at.second})
+            for (auto& q : frame->vertices)
+                q = nasty_shapes::operator+(q, nasty_shapes::in_cube(random, 0.5));
+        constexpr double wanted = 2, keep = 0.3;
+        const auto result = expect_free(at, {.distances = {wanted}, .keep = keep});
+        const auto near = ccd::near_pairs(at.first, {wanted});
+        const ccd::vertex_rows moved(result.positions, result.positions);
+        const ccd::vertex_rows rows(at.first, at.second);
+        std::size_t tested = 0;
+        ccd::for_each_kind([&]<ccd::kind K>() {
+            for (const auto& pair : near.pairs.of<K>()) {
+                const auto before = nearness_of(query_of(rows, pair));
+                if (before.touches()) continue;
+                const double after = nearness_of(query_of(moved, pair)).distance;
+                EXPECT_GE(after, keep * before.distance * (1 - 1e-6));
+                ++tested;
+            }
+        });
+        EXPECT_GT(tested, 0U);
+    }
+    const auto at = random_mixture(1);
+    for (const double bad : {-0.1, 1.0, std::nan("")})
+        EXPECT_THROW(ccd::advance(at.first, at.second, {.keep = bad}), std::invalid_argument);
 }
 
 }  // namespace

@@ -1,10 +1,13 @@
 // Meshes that are hard for orders, trees and rounding.
 #pragma once
 
+#include <ccd/mesh.hpp>
 #include <ccd/query.hpp>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <random>
+#include <utility>
 
 namespace nasty_shapes {
 
@@ -106,5 +109,22 @@ inline const shape shapes[] = {
          return ccd::moving_point<double>{in_cube(random, size), in_cube(random, size)};
      }},
 };
+
+/// Both frames of sixteen triangles, one a patch.
+inline std::pair<ccd::mesh, ccd::mesh> triangles(const shape& of, std::uint64_t seed) {
+    generator random(seed);
+    ccd::mesh before, after;
+    for (unsigned patch = 0; patch < 16; ++patch) {
+        const auto v = ccd::vertex_index(before.vertices.size());
+        for (int i = 0; i < 3; ++i) {
+            const auto p = of.vertex(random, patch);
+            before.vertices.push_back(p.t0);
+            after.vertices.push_back(p.t1);
+        }
+        before.faces.push_back({v, v + 1, v + 2});
+    }
+    after.faces = before.faces;
+    return {before, after};
+}
 
 }  // namespace nasty_shapes

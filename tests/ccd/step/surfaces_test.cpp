@@ -150,7 +150,7 @@ TEST(Step, HoldsInEveryRoundingDirection) {
 }
 
 ccd::pair_lists found_by_search(const brute_force::two_frames& at, ccd::instruction_set set,
-                                ccd::detail::candidate_search::wanted wanted) {
+                                const ccd::detail::wanted_candidates& wanted) {
     const ccd::vertex_rows rows(at.first, at.second);
     const ccd::detail::rounded_positions rounded(rows);
     ccd::detail::candidate_search search(at.first.faces, {}, rows.vertices);
@@ -200,11 +200,10 @@ bool separated_by_an_axis(const Query& query) {
 
 // On a grid of floats, the search skips exactly the pairs that one of the nine axes separates.
 TEST(Search, SkipsExactlyThePairsThatAxesSeparate) {
-    using enum ccd::detail::candidate_search::wanted;
     const auto at = random_soup(11, 700, 600);
-    const auto all = found_by_search(at, ccd::instruction_set::baseline, candidates);
+    const auto all = found_by_search(at, ccd::instruction_set::baseline, {});
     for (const ccd::instruction_set set : ccd::instruction_sets()) {
-        const auto close = found_by_search(at, set, close_pairs);
+        const auto close = found_by_search(at, set, {.close = true});
         const auto expect = [&](const auto& all_of_kind, const auto& close_of_kind) {
             std::size_t left_out = 0;
             const ccd::vertex_rows rows(at.first, at.second);

@@ -3,8 +3,10 @@
 
 #include <cmath>
 #include <tuple>
+#include <vector>
 
 #include "tests/ccd/step/expect_steps.hpp"
+#include "tests/ccd/step/nasty_shapes.hpp"
 
 namespace {
 
@@ -75,6 +77,58 @@ TEST(StepTimes, AreNotAfterTheLast) {
     });
     EXPECT_GT(fewer, 0U);
     EXPECT_EQ(ccd::step(at.first, at.second, {.t_max = 0.5}).pairs, part.pairs);
+}
+
+/// The search until t_max finds the pairs of a whole step with a time in [0, t_max], also if t_max
+/// is one of these times or next to one, near or far from the origin, at any scale.
+TEST(StepTimes, UntilAnyTimeAreThoseOfTheWholeStep) {
+    const auto expect_all = [](const two_frames& at, const char* what) {
+        const auto whole = ccd::step(at.first, at.second, {.times = true});
+        std::vector<double> until{-1, 0, 0x1p-1074, 1e-9, 0.1, 0.5, std::nextafter(1.0, 0.0)};
+        ccd::for_each_kind([&]<ccd::kind K>() {
+            const auto& times = whole.times.of<K>();
+            for (std::size_t i = 0; i < times.size(); i += 1 + times.size() / 4)
+                for (const double t : {times[i].low, times[i].high})
+                    until.insert(until.end(), {std::nextafter(t, 0.0), t, std::nextafter(t, 1.0)});
+        });
+        for (const double t_max : until)
+            for (const ccd::instruction_set set : ccd::instruction_sets()) {
+                if (t_max >= 1) continue;
+                const auto part =
+                    ccd::step(at.first, at.second, {.set = set, .times = true, .t_max = t_max});
+                ccd::pair_lists pairs;
+                ccd::time_lists times;
+                const ccd::vertex_rows rows(at.first, at.second);
+                ccd::for_each_kind([&]<ccd::kind K>() {
+                    for (const auto& pair : whole.pairs.of<K>())
+                        if (const auto time = time_of_impact(query_of(rows, pair), t_max);
+                            time.outcome == outcome::collides) {
+                            pairs.of<K>().push_back(pair);
+                            times.of<K>().push_back(time);
+                        }
+                });
+                ASSERT_EQ(part.pairs, pairs) << what << ", t_max " << t_max;
+                ASSERT_EQ(part.times, times) << what << ", t_max " << t_max;
+                ccd::pair_lists first;
+                ccd::for_each_kind([&]<ccd::kind K>() {
+                    for (std::size_t i = 0; i < times.of<K>().size(); ++i)
+                        if (times.of<K>()[i] == part.first_contact)
+                            first.of<K>().push_back(pairs.of<K>()[i]);
+                });
+                ASSERT_EQ(part.first_pairs, first) << what << ", t_max " << t_max;
+            }
+    };
+    for (const double size : {0x1p-1060, 1e-150, 1.0, 1e150, 0x1p1020})
+        for (const double offset : {0.0, 1e3, 1e12}) {
+            auto at = brute_force::random_soup(5, 24, 16);
+            for (ccd::mesh* frame : {&at.first, &at.second})
+                for (auto& p : frame->vertices)
+                    p = {size * (p.x / 16 + offset), size * (p.y / 16), size * (p.z / 16 - offset)};
+            if (std::isfinite(size * offset)) expect_all(at, "soup");
+        }
+    expect_all(random_mixture(5), "mixture");
+    for (const auto& shape : nasty_shapes::shapes)
+        expect_all(nasty_shapes::triangles(shape, 3), shape.name);
 }
 
 TEST(StepTimes, AreAskedForOnlyWhereWanted) {

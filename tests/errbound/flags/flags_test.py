@@ -35,7 +35,7 @@ def outcome(compiler, where, flags, folder):
     """Returns the text that the cell of the table must have."""
     common = [compiler, "-std=c++20", "-O3", "-fPIC", f"-I{ROOT / 'include'}"]
     for unit in "numbers", "other_unit":
-        its = flags if where == "" or (where, unit) == (", another unit", "other_unit") else []
+        its = flags if where == "" or (where, unit) == (", one of two units", "other_unit") else []
         done = subprocess.run([*common, *its, "-c", HERE / f"{unit}.cpp", "-o", folder / f"{unit}.o"],
                               capture_output=True, text=True)
         if "errbound: " in done.stderr:
@@ -53,7 +53,7 @@ def outcome(compiler, where, flags, folder):
     subprocess.run([*common, *link, folder / "numbers.o", other, "-o", folder / "numbers"], check=True)
     ran = subprocess.run([folder / "numbers"], capture_output=True, text=True)
     sound, other, wrong = re.search(r"(\w+), other unit (\w+), (\d+) wrong", ran.stdout).groups()
-    if where == ", another unit":
+    if where == ", one of two units":
         return "found" if (sound, other) == ("sound", "unsound") else f"numbers {sound}, other {other}"
     if sound == "unsound":
         return "found"

@@ -6,6 +6,7 @@
 #include <deque>
 #include <errbound/predicate_batch.hpp>
 #include <errbound/predicates.hpp>
+#include <errbound/simplices/predicates.hpp>
 #include <utility>
 #include <vector>
 
@@ -57,6 +58,8 @@ TYPED_TEST(Batches, EqualSingleCalls) {
     compare_batch<T, 3>(errbound::insphere, surface::round, std::make_index_sequence<5>());
     compare_batch<T, 3>(errbound::segments_intersect3d, surface::flat,
                         std::make_index_sequence<4>());
+    compare_batch<T, 3>(errbound::triangle_intersects_triangle, surface::flat,
+                        std::make_index_sequence<6>());
 }
 
 TEST(Batch, OfOnePointAgainstMany) {

@@ -1,15 +1,18 @@
-// All predicates of errbound/predicates.hpp, each with its oracle and its degenerate surfaces.
+// All predicates of errbound/predicates.hpp and errbound/simplices/predicates.hpp, each with its
+// oracle and its degenerate surfaces.
 #pragma once
 
 #include <algorithm>
 #include <array>
 #include <cstddef>
 #include <errbound/predicates.hpp>
+#include <errbound/simplices/predicates.hpp>
 #include <string_view>
 #include <tuple>
 
 #include "tests/errbound/predicates/predicate_inputs.hpp"
 #include "tests/errbound/predicates/predicate_oracle.hpp"
+#include "tests/errbound/predicates/simplices_oracle.hpp"
 
 namespace predicate_list {
 
@@ -63,7 +66,10 @@ inline constexpr std::tuple all{
                    {flat, concurrent}),
     ERRBOUND_ENTRY(2, 6, orient2d_line_line, orient2d_line_line, {concurrent, concurrent}),
     ERRBOUND_ENTRY(3, 8, orient3d_line_plane, orient3d_line_plane, {concurrent, concurrent}),
-    ERRBOUND_ENTRY(2, 8, compare_x_line_line, compare_x_line_line, {concurrent, concurrent})};
+    ERRBOUND_ENTRY(2, 8, compare_x_line_line, compare_x_line_line, {concurrent, concurrent}),
+    ERRBOUND_ENTRY(2, 4, segments_intersect2d, segments_intersect2d, {flat, concurrent}),
+    ERRBOUND_ENTRY(3, 6, triangle_intersects_triangle, triangle_intersects_triangle,
+                   {flat, concurrent})};
 #undef ERRBOUND_ENTRY
 
 /// The unit in which an entry's oracle takes these points.

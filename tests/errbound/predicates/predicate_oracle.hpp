@@ -156,6 +156,11 @@ inline int segments_intersect3d(const std::array<point3, 4>& p) {
     return below || above ? -1 : 0;
 }
 
+inline int segments_intersect2d(const std::array<point2, 4>& p) {
+    const auto raised = [](const point2& a) { return point3{a[0], a[1], 0}; };
+    return segments_intersect3d({raised(p[0]), raised(p[1]), raised(p[2]), raised(p[3])});
+}
+
 /// p + t(q − p), for t in [0, 1], in the triangle's barycentric coordinates.
 inline int segment_intersects_triangle(const std::array<point3, 5>& x) {
     const point3 &p = x[0], &q = x[1], &a = x[2], &b = x[3], &c = x[4];

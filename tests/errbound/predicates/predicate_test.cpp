@@ -2,8 +2,10 @@
 // determinants in integers, on inputs of all kinds and sizes; constants; types of points.
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <errbound/predicates.hpp>
 #include <limits>
+#include <set>
 #include <span>
 #include <tuple>
 #include <vector>
@@ -285,6 +287,28 @@ constexpr auto behind_many_signs =
 static_assert(!behind_many_signs.counts.complete);
 TEST(Predicates, WithBranchesThatAreNotCounted) {
     compare<double, 3, 2>(behind_many_signs, over_rationals(behind_many_signs), surface::flat);
+}
+
+// Up to 32 numbers per uncertain one, each is also uncertain both without and after zeros.
+TEST(ExpressionCheck, MakesEverySignUncertain) {
+    using namespace errbound::filters;
+    for (std::uint64_t count = 1; count <= counting_run::max_signs; count += 5) {
+        std::set<std::uint64_t> uncertain[2];
+        for (std::uint64_t supposition = 0; supposition < suppositions; ++supposition) {
+            const auto fault = find_fault(supposition, [&](supposed_signs& signs) {
+                for (std::uint64_t number = 1; number <= count; ++number) signs.sign(number);
+                if (signs.unknown != 0) uncertain[supposition % 2].insert(signs.unknown);
+                return sign_type::positive;
+            });
+            EXPECT_EQ(fault, expression_fault::none);
+        }
+        if (count <= 6 * 32) {
+            EXPECT_EQ(uncertain[0].size(), count);
+            EXPECT_EQ(uncertain[1].size(), count);
+        }
+        uncertain[0].merge(uncertain[1]);
+        EXPECT_EQ(uncertain[0].size(), count);
+    }
 }
 
 struct tracked_options : errbound::predicate_options {

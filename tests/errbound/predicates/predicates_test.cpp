@@ -1,9 +1,10 @@
-// The predicates of errbound/predicates.hpp, compared with their oracles on inputs of all kinds and
-// sizes, and with simple figures.
+// The predicates of errbound/predicates.hpp and errbound/simplices/predicates.hpp, compared with
+// their oracles on inputs of all kinds and sizes, and with simple figures.
 #include <array>
 #include <cmath>
 #include <cstddef>
 #include <errbound/predicates.hpp>
+#include <errbound/simplices/predicates.hpp>
 #include <random>
 #include <tuple>
 
@@ -108,6 +109,21 @@ TEST(Signs, OfSegments) {
     EXPECT_EQ(at({1, 1, 2}, {1, 1, 2}, {0, 0, 0}, {2, 2, 2}), negative);
 }
 
+TEST(Signs, OfSegmentsInThePlane) {
+    using enum sign_type;
+    const auto at = [](const point2& a, const point2& b, const point2& c, const point2& d) {
+        const sign_type s = errbound::segments_intersect2d(a, b, c, d);
+        EXPECT_EQ(errbound::segments_intersect2d(d, c, a, b), s);
+        return s;
+    };
+    EXPECT_EQ(at({-1, 0}, {1, 0}, {0, -1}, {0, 1}), positive);
+    EXPECT_EQ(at({-1, 0}, {1, 0}, {0, 0}, {0, 1}), zero);  // a T
+    EXPECT_EQ(at({-1, 0}, {1, 0}, {2, 0}, {2, 1}), negative);
+    EXPECT_EQ(at({0, 0}, {2, 2}, {1, 1}, {3, 3}), zero);  // overlap
+    EXPECT_EQ(at({0, 0}, {2, 2}, {3, 3}, {4, 4}), negative);
+    EXPECT_EQ(at({1, 1}, {1, 1}, {0, 0}, {2, 2}), zero);  // a point
+}
+
 TEST(Signs, OfSegmentAndTriangle) {
     using enum sign_type;
     const auto at = [](const point3& p, const point3& q, const point3& c = {0, 4, 0}) {
@@ -124,6 +140,26 @@ TEST(Signs, OfSegmentAndTriangle) {
     EXPECT_EQ(at({1, -1, 0}, {1, 1, 0}, {8, 0, 0}), zero);  // the triangle is a segment
     EXPECT_EQ(at({1, -1, 1}, {1, 1, 1}, {8, 0, 0}), negative);
     EXPECT_EQ(at({1, 1, 0}, {1, 1, 0}), zero);  // the segment is a point
+}
+
+TEST(Signs, OfTriangles) {
+    using enum sign_type;
+    const auto at = [](const point3& p, const point3& q, const point3& r) {
+        const point3 a{0, 0, 0}, b{4, 0, 0}, c{0, 4, 0};
+        const sign_type s = errbound::triangle_intersects_triangle(a, b, c, p, q, r);
+        EXPECT_EQ(errbound::triangle_intersects_triangle(r, p, q, b, a, c), s);
+        return s;
+    };
+    EXPECT_EQ(at({1, 1, -1}, {1, 1, 1}, {9, 9, 1}), positive);
+    EXPECT_EQ(at({1, 1, 1}, {1, 1, 2}, {9, 9, 1}), negative);
+    EXPECT_EQ(at({1, 1, 0}, {1, 1, 2}, {9, 9, 1}), zero);  // a vertex
+    EXPECT_EQ(at({1, 0, 0}, {1, 1, 0}, {9, 9, 1}), zero);  // an edge
+    EXPECT_EQ(at({-1, 4, 1}, {5, -2, 1}, {2, 1, -2}), positive);
+    EXPECT_EQ(at({1, 1, 0}, {2, 1, 0}, {1, 2, 0}), zero);  // in the plane, inside
+    EXPECT_EQ(at({5, 5, 0}, {9, 1, 0}, {9, 9, 0}), negative);
+    EXPECT_EQ(at({1, 1, 1}, {1, 1, 2}, {1, 1, -1}), positive);  // a segment
+    // Edges meet at both ends of the common segment, but the interiors cross.
+    EXPECT_EQ(at({0, 2, 0}, {2, 0, 2}, {2, 0, -2}), positive);
 }
 
 TEST(Signs, OfImplicitPoints) {

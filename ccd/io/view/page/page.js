@@ -1,6 +1,10 @@
-const NAMES = ["vertex_face", "edge_edge", "vertex_edge", "vertex_vertex"];
-const SHORT = ["vf", "ee", "ve", "vv"], WORDS = ["vertex", "edge", "face"];
-const FIRST = [1, 2, 1, 1], POINTS = [4, 4, 3, 2];  // vertices of the first element, of both
+// Pairs of the step, then intersections at its start.
+const NAMES = ["vertex_face", "edge_edge", "vertex_edge", "vertex_vertex", "start_face_face", "start_edge_face",
+  "start_vertex_face", "start_edge_edge", "start_vertex_edge", "start_vertex_vertex"];
+const SHORT = ["vf", "ee", "ve", "vv", "ff", "ef", "vf", "ee", "ve", "vv"], WORDS = ["vertex", "edge", "face"];
+const FIRST = [1, 2, 1, 1, 3, 2, 1, 2, 1, 1], POINTS = [4, 4, 3, 2, 6, 5, 4, 4, 3, 2];  // of the first element, of both
+const STEP_KINDS = 4;
+const RELATIONS = ["disjoint", "touching", "overlapping", "crossing"];
 const BOXES = ["faces", "wires", "pairs", "through", "cut"];
 const ROW = 22;                                     // pixels, as in the style
 const TALLEST = 8e6;                                // limit of browsers for an element's height
@@ -13,27 +17,36 @@ function bytes(id) {
   return found.buffer;
 }
 
-/// All pairs are one after the other, by kind. `times` is empty if they are unknown.
+/// All pairs are one after the other, by kind. `times` is empty if they are unknown. Intersections have relations.
 function readStep() {
   const step = {before: new Float64Array(bytes("before")), after: new Float64Array(bytes("after")),
     faces: new Uint32Array(bytes("faces")), edges: new Uint32Array(bytes("edges")), parts: new Uint8Array(bytes("parts"))};
   step.kinds = NAMES.map((name, k) => {
-    const vertices = new Uint32Array(bytes(name)), times = new Float64Array(bytes(name + "_times"));
-    return {vertices, times, contacts: new Float32Array(bytes(name + "_contacts")), count: vertices.length / POINTS[k]};
+    const vertices = new Uint32Array(bytes(name)), count = vertices.length / POINTS[k];
+    if (k >= STEP_KINDS)
+      return {vertices, count, times: new Float64Array(2 * count), contacts: new Float32Array(),
+        relations: new Uint8Array(bytes(name + "_relations")), segments: new Float64Array(bytes(name + "_segments"))};
+    return {vertices, count, times: new Float64Array(bytes(name + "_times")),
+      contacts: new Float32Array(bytes(name + "_contacts"))};
   });
+  step.kinds.reduce((first, kind) => (kind.first = first) + kind.count, 0);
   step.count = step.kinds.reduce((sum, kind) => sum + kind.count, 0);
-  step.timed = step.kinds.some(kind => kind.times.length > 0);
+  step.pairs = step.kinds[STEP_KINDS].first;
+  step.moves = step.before.some((c, i) => c !== step.after[i]);
+  step.timed = step.kinds.some((kind, k) => k < STEP_KINDS && kind.times.length > 0);
   return step;
 }
 
-/// Kind and vertices of a pair, and its times, weights and normal if they are known.
+/// Kind and vertices of a pair, and its times, weights and normal if they are known. An intersection has a relation
+/// and a segment, of NaN if it is unknown.
 function pairOf(step, i) {
   let k = 0;
   while (i >= step.kinds[k].count) i -= step.kinds[k++].count;
-  const {vertices, times, contacts} = step.kinds[k], contact = Array.from(contacts.subarray(7 * i, 7 * i + 7));
+  const {vertices, times, contacts, relations, segments} = step.kinds[k], contact = Array.from(contacts.subarray(7 * i, 7 * i + 7));
   const all = Array.from(vertices.subarray(POINTS[k] * i, POINTS[k] * (i + 1)));
   return {kind: k, vertices: all, elements: [all.slice(0, FIRST[k]), all.slice(FIRST[k])],
-    low: times[2 * i], high: times[2 * i + 1], weights: contact.slice(0, POINTS[k]), normal: contact.slice(4)};
+    low: times[2 * i], high: times[2 * i + 1], weights: contact.slice(0, POINTS[k]), normal: contact.slice(4),
+    relation: relations && RELATIONS[relations[i]], segment: segments && Array.from(segments.subarray(6 * i, 6 * i + 6))};
 }
 
 /// The picture's coordinates: floats, relative to the middle of both frames and to their largest extent.
@@ -49,7 +62,7 @@ function sceneOf(step) {
   const scaled = frame => Float32Array.from(frame, (c, i) => (c - middle[i % 3]) / half);
   const scene = {before: scaled(step.before), after: scaled(step.after), faces: step.faces, parts: step.parts,
     rods: step.edges, points: pointsOf(step), marks: marksOf(step, scaled(step.before), scaled(step.after)),
-    struck: elementsOf(step, 0, 3), crossed: elementsOf(step, 1, 2)};
+    struck: elementsOf(step, 0, 3), crossed: elementsOf(step, 1, 2), meeting: edgesAtStart(step)};
   scene.edgeLength = typicalLength(scene);
   return scene;
 }
@@ -64,18 +77,30 @@ function pointsOf(step) {
 function elementsOf(step, k, size) {
   const found = new Map();
   for (let i = 0; i < step.kinds[k].count; ++i)
-    for (const element of pairOf(step, i + (k ? step.kinds[0].count : 0)).elements)
+    for (const element of pairOf(step, i + step.kinds[k].first).elements)
       if (element.length === size) found.set(element.join(), element);
   return Uint32Array.from([...found.values()].flat());
 }
 
-/// A mark for each pair: at its vertex, or in the middle of its two edges.
+/// The edges of all elements that intersect at the start, each once.
+function edgesAtStart(step) {
+  const found = new Map();
+  for (let i = step.pairs; i < step.count; ++i)
+    for (const ends of pairOf(step, i).elements.map(edgesOf))
+      for (let k = 0; k < ends.length; k += 2) {
+        const edge = ends.slice(k, k + 2).sort((v, w) => v - w);
+        found.set(edge.join(), edge);
+      }
+  return Uint32Array.from([...found.values()].flat());
+}
+
+/// A mark for each pair: at its vertex, or in the middle of its two edges or of an intersection's vertices.
 function marksOf(step, before, after) {
   const marks = {before: new Float32Array(3 * step.count), after: new Float32Array(3 * step.count),
     kinds: new Uint8Array(step.count)};
   for (let i = 0; i < step.count; ++i) {
-    const pair = pairOf(step, i), at = pair.kind === 1 ? pair.vertices : pair.elements[0];
-    marks.kinds[i] = pair.kind;
+    const pair = pairOf(step, i), at = pair.kind === 1 || pair.relation ? pair.vertices : pair.elements[0];
+    marks.kinds[i] = Math.min(pair.kind, STEP_KINDS);
     for (let a = 0; a < 3; ++a)
       for (const v of at) {
         marks.before[3 * i + a] += before[3 * v + a] / at.length;
@@ -138,9 +163,10 @@ function rowOf(i, place) {
   row.setAttribute("aria-setsize", order.length);
   row.setAttribute("aria-posinset", place + 1);
   add("number", i);
-  add("kind " + SHORT[pair.kind], SHORT[pair.kind]);
+  add("kind " + (pair.relation ? "start" : SHORT[pair.kind]), SHORT[pair.kind]);
   add("vertices", pair.elements.map(e => e.join(" ")).join(" | "));
-  if (step.timed) add("low", pair.high === 0 ? "at start" : pair.low.toPrecision(6));
+  if (pair.relation) add("low", pair.relation);
+  else if (step.timed) add("low", pair.high === 0 ? "at start" : pair.low.toPrecision(6));
   row.onclick = () => choose(i);
   return row;
 }
@@ -185,6 +211,7 @@ function said(elements) {
 }
 
 function whenOf(pair) {
+  if (pair.relation) return pair.relation[0].toUpperCase() + pair.relation.slice(1) + (step.moves ? " at the start." : ".");
   if (!step.timed) return "The first time was not computed.";
   if (pair.high === 0) return "In contact at the start.";
   return pair.low === pair.high ? `First at t = ${pair.low}.` : `First between t = ${pair.low} and ${pair.high}.`;
@@ -192,6 +219,10 @@ function whenOf(pair) {
 
 /// All weights are 0 if the features only come within a distance.
 function whereOf(pair) {
+  if (pair.relation) {
+    const [from, to] = [pair.segment.slice(0, 3), pair.segment.slice(3)].map(end => `(${end.join(", ")})`);
+    return isNaN(pair.segment[0]) ? "" : from === to ? `They meet in ${from}.` : `They meet from ${from} to ${to}.`;
+  }
   if (!pair.weights.some(w => w > 0)) return "";
   const digits = x => String(Number(x.toPrecision(4)));
   const of = pair.elements.map((e, k) => e.map((v, i) => `${digits(pair.weights[k * FIRST[pair.kind] + i])} of ${v}`));
@@ -200,12 +231,12 @@ function whereOf(pair) {
 
 function queryOf(pair) {
   const row = (frame, v) => Array.from(frame.subarray(3 * v, 3 * v + 3)).join(",");
-  return [step.before, step.after].flatMap(frame => pair.vertices.map(v => row(frame, v))).join("\n") + "\n";
+  return (pair.relation ? [step.before] : [step.before, step.after]).flatMap(frame => pair.vertices.map(v => row(frame, v))).join("\n") + "\n";
 }
 
 /// The time of first contact if it is known, else the time shown; the middle of the vertices and their radius.
 function placeOfPair(pair) {
-  const t = step.timed ? pair.low : time();
+  const t = pair.relation ? 0 : step.timed ? pair.low : time();
   const at = pair.vertices.map(v =>
     [0, 1, 2].map(a => scene.before[3 * v + a] * (1 - t) + scene.after[3 * v + a] * t));
   const middle = [0, 1, 2].map(a => at.reduce((sum, p) => sum + p[a], 0) / at.length);
@@ -220,6 +251,7 @@ function choose(i) {
   element("what").textContent = said(pair.elements);
   element("when").textContent = whenOf(pair);
   element("where").textContent = whereOf(pair);
+  element("form").textContent = pair.relation ? "Its vertices (x,y,z):" : "As a query (x,y,z at t = 0, then at t = 1):";
   element("query").textContent = queryOf(pair);
   const {t, middle, radius} = placeOfPair(pair);
   if (picture) picture.choose(pair.elements, middle, radius);
@@ -327,9 +359,14 @@ function listenToControls() {
 }
 
 function start() {
-  const counted = step.kinds.map((kind, k) => `${kind.count.toLocaleString("en")} ${NAMES[k].replace("_", "/")}`);
-  element("count").textContent = step.count.toLocaleString("en") + (step.count === 1 ? " pair" : " pairs");
-  element("kinds").textContent = counted.filter((_, k) => k < 2 || step.kinds[k].count > 0).join(", ");
+  const numbered = (n, word) => `${n.toLocaleString("en")} ${word}${n === 1 ? "" : "s"}`;
+  const counted = step.kinds.map((kind, k) => k < STEP_KINDS
+    ? `${kind.count.toLocaleString("en")} ${NAMES[k].replace("_", "/")}` : numbered(kind.count, "intersection") + " " + SHORT[k]);
+  const met = step.count - step.pairs;
+  element("count").textContent = [...(step.moves || step.pairs ? [numbered(step.pairs, "pair")] : []),
+    ...(met || !step.moves ? [numbered(met, "intersection") + (step.moves ? " at the start" : "")] : [])].join(", ");
+  element("kinds").textContent = counted.filter((_, k) => step.moves && k < 2 || step.kinds[k].count > 0).join(", ");
+  element("slider").hidden = !step.moves;
   if (step.timed) element("order").add(new Option("by time", "time", true, true), 0);
   try {
     picture = new Picture(element("picture"), scene);

@@ -1,7 +1,7 @@
 // The picture, in WebGL 2: faces, wires and pairs between the two frames, and the chosen pair. The
 // graphics card interpolates the vertices, so a new time costs one number.
 const BODIES = [[.88, .82, .68], [.56, .68, .84], [.70, .82, .66], [.84, .68, .72], [.74, .70, .86], [.78, .78, .78]];
-const KINDS = [[.79, .15, .10], [.04, .31, .77], [.54, .17, .69], [.10, .50, .22]];
+const KINDS = [[.79, .15, .10], [.04, .31, .77], [.54, .17, .69], [.10, .50, .22], [.60, .36, 0]];
 const CHOSEN = [1, .55, 0], WIRE = [.2, .2, .25];
 
 // The position of a vertex at a time, and its projection.
@@ -83,7 +83,7 @@ class Picture {
     this.vertices = this.points(scene.before, scene.after, scene.parts);
     this.marks = this.points(scene.marks.before, scene.marks.after, scene.marks.kinds);
     for (const name of ["faces", "points", "struck"]) this[name] = this.indices(scene[name]);
-    for (const name of ["rods", "crossed"]) this[name] = this.segments(scene[name]);
+    for (const name of ["rods", "crossed", "meeting"]) this[name] = this.segments(scene[name]);
     this.wires = null;  // made at the first use
   }
 
@@ -222,6 +222,7 @@ class Picture {
     const gl = this.gl, bias = 1e-5;
     this.draw(this.vertices, gl.TRIANGLES, this.struck, {colours: [KINDS[0]], opacity: .7 * opacity, shaded: true});
     this.drawLines(this.crossed, KINDS[1], 1.6, opacity, bias);
+    this.drawLines(this.meeting, KINDS[4], 1.6, opacity, bias);
     this.draw(this.marks, gl.POINTS, null, {colours: KINDS, opacity, bias, dots: this.dots(.25, 1.5, 9)});
   }
 
