@@ -18,7 +18,7 @@
 #include <limits>
 
 #include "ccd/contact/data/meeting.hpp"
-#include "ccd/contact/nearness/weights.hpp"
+#include "ccd/contact/nearness/nearness.hpp"
 #include "ccd/exact/unbounded_integers.hpp"
 
 namespace ccd::detail {

@@ -13,7 +13,6 @@
 
 #include "ccd/contact/nearness/in_doubles.hpp"
 #include "ccd/contact/nearness/in_integers.hpp"
-#include "ccd/contact/nearness/weights.hpp"
 #include "ccd/exact/axis_units.hpp"
 #include "ccd/exact/finite.hpp"
 #include "ccd/exact/integer_decision.hpp"

@@ -14,5 +14,5 @@ for object in "$@"; do
         exit 1
     fi
     # The table of kernels must exist, so that an empty listing does not pass.
-    nm --demangle --defined-only --extern-only "$object" | grep -q -E " [DR] ccd::detail::$set::(kernels|searching)$"
+    nm --demangle --defined-only --extern-only "$object" | grep -q -E " [DR] ccd::detail::$set::(kernels|searching|nearest)$"
 done
