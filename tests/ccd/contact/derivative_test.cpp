@@ -10,8 +10,10 @@
 #include <ccd/plane.hpp>
 #include <cmath>
 #include <cstddef>
+#include <random>
 #include <string>
 #include <type_traits>
+#include <vector>
 
 #include "tests/ccd/contact/by_hand.hpp"
 #include "tests/support/query_families.hpp"
@@ -62,7 +64,7 @@ TEST(time_derivatives, of_edges_that_cross) {
 TEST(time_derivatives, at_the_end_of_the_step_are_those_of_longer_motion) {
     const auto found = derivative(over_triangle({0.25, 0.5, 1}, {0.25, 0.5, 0}));
     expect_near(found.by[0], {0, 0, 0}, {0, 0, 1}, found.error);
-    EXPECT_LE(found.error, 1e-15);
+    EXPECT_LE(found.error, 2e-15);
 }
 TEST(time_derivatives, of_a_vertex_and_an_edge_in_the_plane) {
     const ccd::plane::vertex_edge query{
@@ -102,7 +104,7 @@ TEST(time_derivatives, are_undefined_where_the_time_is_not_differentiable) {
                           still({1, 0, 0}), still({0.5, 0x1p-1058, 0})});
     // A vertex and an edge outside the plane z = 1, and two vertices.
     undefined(vertex_edge{from_to({0, 1, 1}, {0, -1, 1}), still({-1, 0, 1}),
-                          from_to({1, 0, 1}, {1, 0, 0})});
+                          from_to({1, 0, 0}, {1, 0, 2})});
     undefined(vertex_vertex{from_to({0, 0, 0}, {2, 0, 0}), still({1, 0, 0})});
     undefined(ccd::plane::vertex_edge{{{-1, 0}, {3, 0}}, {{0, 0}, {0, 0}}, {{1, 0}, {1, 0}}});
     EXPECT_EQ(derivative(over_triangle({2, 2, 1}, {2, 2, -1})), time_derivative{});
@@ -244,20 +246,21 @@ double largest_component(const time_derivative& found) {
 }
 
 struct counts {
-    int defined = 0, multiple = 0, plain = 0, plain_defined = 0;
-    double worst_of_plain = 0;  // relative error
+    int defined = 0, multiple = 0, plain = 0;
+    std::vector<double> plain_errors;  // relative, of defined derivatives of plain queries
 };
 
 template <class Query>
 void check(const Query& query, const std::string& text, counts& count) {
+    constexpr kind k = ccd::kind_of<Query>;
     const auto contact = ccd::find_first_contact(query);
     if (contact.time.outcome != ccd::outcome::collides) return;
     const auto found = derivative_of(query, contact);
-    const bool inside = contact.features.kind == ccd::kind_of<Query> && !contact.time.at_start();
-    const bool multiple = ccd::kind_of<Query> != kind::vertex_vertex && inside &&
-                          has_multiple_root(query, contact.time);
+    const bool inside =
+        k != kind::vertex_vertex && contact.features.kind == k && !contact.time.at_start();
+    const bool multiple = inside && has_multiple_root(query, contact.time);
     count.multiple += multiple;
-    if (!inside || multiple || ccd::kind_of<Query> == kind::vertex_vertex) {
+    if (!inside || multiple) {
         EXPECT_EQ(found, time_derivative{}) << text;
         return;
     }
@@ -266,31 +269,56 @@ void check(const Query& query, const std::string& text, counts& count) {
     if (!found.is_defined()) return;
     ++count.defined;
     EXPECT_EQ(fault_of(query, contact.time, found), "") << text;
-    if (!plain) return;
-    ++count.plain_defined;
-    const double relative = found.error / largest_component(found);
-    count.worst_of_plain = std::max(count.worst_of_plain, relative);
+    if (plain) count.plain_errors.push_back(found.error / largest_component(found));
 }
 
 TEST(time_derivative_families, are_within_their_errors_of_differences) {
     counts count;
     query_families::for_some_queries(
-        support::scaled(40), 29, [&]<class Query>(const Query& query, const std::string& text) {
+        support::scaled(50), 29, [&]<class Query>(const Query& query, const std::string& text) {
             if constexpr (std::is_same_v<Query, vertex_edge>) {
                 const auto in_plane = [](const point& p) { return point{p.x, p.y, 0}; };
                 check(ccd::transformed_points(query, in_plane), text, count);
-                const auto contact = ccd::find_first_contact(query);
-                if (query.v.t0.z != query.v.t1.z || query.v.t0.z != query.e0.t0.z) {
-                    EXPECT_EQ(derivative_of(query, contact), time_derivative{}) << text;
+                const auto& z = query.v.t0.z;
+                if (z != query.v.t1.z || z != query.e0.t0.z || z != query.e1.t1.z) {
+                    EXPECT_EQ(derivative(query), time_derivative{}) << text;
                 }
             } else {
                 check(query, text, count);
             }
         });
     RecordProperty("defined", count.defined);
-    std::printf("%d defined, %d at multiple roots; plain %d, defined %d, worst relative error %g\n",
-                count.defined, count.multiple, count.plain, count.plain_defined,
-                count.worst_of_plain);
+    RecordProperty("multiple_roots", count.multiple);
+    EXPECT_GE(count.defined, support::scaled(2000));
+    EXPECT_GE(static_cast<double>(count.plain_errors.size()), 0.99 * count.plain);
+    ASSERT_GT(count.plain_errors.size(), 0U);
+    std::ranges::sort(count.plain_errors);
+    EXPECT_LT(count.plain_errors[count.plain_errors.size() / 2], 1e-13);
+}
+
+TEST(time_derivative_families, are_undefined_if_edges_touch_without_crossing) {
+    std::mt19937_64 random(31);
+    const auto whole = [&] { return static_cast<double>(static_cast<int>(random() % 15) - 7); };
+    int touching = 0;
+    for (int i = 0; i < support::scaled(1000); ++i) {
+        // Y is a square times the determinant of u, v, w.
+        const point u{whole(), whole(), whole()}, v{whole(), whole(), whole()},
+            w{whole(), whole(), whole()}, origin{whole(), whole(), whole()};
+        const auto at = [&](double x, double y, double z) {
+            return point{origin.x + x * u.x + y * v.x + z * w.x,
+                         origin.y + x * u.y + y * v.y + z * w.y,
+                         origin.z + x * u.z + y * v.z + z * w.z};
+        };
+        const edge_edge query{still(at(-1, 0, 0)), still(at(1, 0, 0)),
+                              from_to(at(0, 0, 1), at(0, -2, -1)),
+                              from_to(at(0, 2, -1), at(0, 0, 1))};
+        const auto contact = ccd::find_first_contact(query);
+        if (contact.features.kind != kind::edge_edge || contact.time.low != 0.5) continue;
+        ++touching;
+        EXPECT_TRUE(has_multiple_root(query, contact.time));
+        EXPECT_EQ(derivative_of(query, contact), time_derivative{});
+    }
+    EXPECT_GE(touching, support::scaled(900));
 }
 
 }  // namespace
