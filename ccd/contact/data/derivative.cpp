@@ -38,34 +38,6 @@ bool may_be_differentiable(const Query& query, const first_contact& contact) {
     return false;
 }
 
-/// Stores derivatives and the largest of their errors.
-class derivative_writer {
-  public:
-    derivative_writer(const first_contact& contact, time_derivative& into)
-        : contact_(contact), into_(into) {
-        into_.error = 0;
-    }
-
-    point<double> vector(const enclosure& factor) {
-        const auto [x, y, z] = contact_.normal;
-        return {component(factor, x), component(factor, y), component(factor, z)};
-    }
-
-  private:
-    double component(const enclosure& factor, double normal) {
-        const enclosure n = enclosure::within(normal, contact_.normal_error);
-        const auto [value, error] = nearest(factor * n);
-        const bool known = std::isfinite(value) && error < number_traits::infinity();
-        into_.error = std::max(into_.error, known ? error : number_traits::infinity());
-        return value;
-    }
-
-    using number_traits = errbound::number_traits<double>;
-
-    const first_contact& contact_;
-    time_derivative& into_;
-};
-
 }  // namespace
 }  // namespace ccd::detail
 
@@ -74,17 +46,29 @@ namespace ccd {
 template <any_query Query>
 time_derivative derivative_of(const Query& query, const first_contact& contact) {
     using namespace detail;
+    constexpr double infinity = errbound::number_traits<double>::infinity();
     time_derivative result;
     if (!may_be_differentiable(query, contact)) return result;
     const enclosure t = enclosed_time(contact.time), s = enclosure(1.0) - t;
     const auto v = enclosure::within(contact.normal_velocity, contact.normal_velocity_error);
-    if (!errbound::certain(sign_of(v))) return result;
-    derivative_writer derivatives(contact, result);
+    result.error = 0;
+    const auto component = [&](const enclosure& factor, double normal) {
+        const enclosure n = enclosure::within(normal, contact.normal_error);
+        const auto [value, error] = nearest(factor * n);
+        const bool known = std::isfinite(value) && error >= 0;
+        result.error = std::max(result.error, known ? error : infinity);
+        return value;
+    };
+    const auto vector = [&](const enclosure& factor) {
+        const auto [x, y, z] = contact.normal;
+        return point<double>{component(factor, x), component(factor, y), component(factor, z)};
+    };
     constexpr std::size_t first = kind_traits<kind_of<Query>>::first_vertices;
     for (std::size_t i = 0; i < points_of(query).size(); ++i) {
+        // The quotient's error is infinite if the root may be multiple.
         const auto weight = enclosure::within(contact.weights[i], contact.weight_error);
         const enclosure factor = (i < first ? -weight : weight) / v;
-        result.by[i] = {derivatives.vector(factor * s), derivatives.vector(factor * t)};
+        result.by[i] = {vector(factor * s), vector(factor * t)};
     }
     return result.is_defined() ? result : time_derivative{};
 }
