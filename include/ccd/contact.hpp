@@ -2,7 +2,6 @@
 //
 //     ccd::first_time t = ccd::time_of_impact(query);           // between adjacent doubles
 //     ccd::first_contact c = ccd::find_first_contact(query);    // features, weights, normal
-//     ccd::time_derivative g = ccd::derivative_of(query, c);    // by the positions of its points
 //     ccd::first_time d = ccd::time_within(query, {1e-3, 0});   // first time within a distance
 //     auto times = ccd::first_times(positions, pairs);          // many queries, over threads
 //
