@@ -146,7 +146,8 @@ struct time_derivative {
 };
 
 /// Returns the derivative of contact.time. Precondition: `contact` is find_first_contact(query), or
-/// contact_at for the query's time of impact.
+/// contact_at for the query's time of impact. Cost: about a third of contact_at. Derivation:
+/// ccd/contact/data/derivative.cpp.
 template <any_query Query>
 time_derivative derivative_of(const Query& query, const first_contact& contact);
 

@@ -44,7 +44,7 @@ def _times_and_gradients(queries: Any, kind: ccd.Kind, t_max: float, undefined: 
 
 @functools.cache
 def _torch_function() -> Any:
-    import torch
+    torch: Any = sys.modules["torch"]
 
     class FirstTimes(torch.autograd.Function):  # type: ignore[misc, unused-ignore]
         @staticmethod
@@ -66,8 +66,7 @@ def _torch_function() -> Any:
 
 @functools.cache
 def _jax_function(kind: ccd.Kind, t_max: float, undefined: float) -> Any:
-    import jax
-    import jax.numpy as jnp
+    jax: Any = sys.modules["jax"]
 
     def forward(queries: Any) -> Any:
         def compute(values: Any) -> Any:
@@ -79,7 +78,7 @@ def _jax_function(kind: ccd.Kind, t_max: float, undefined: float) -> Any:
 
     def backward(gradients: Any, by_times: Any) -> Any:
         by_time = by_times[:, None, None]
-        return (jnp.where(by_time == 0, 0, by_time * gradients),)
+        return (jax.numpy.where(by_time == 0, 0, by_time * gradients),)
 
     times = jax.custom_vjp(lambda queries: forward(queries)[0])
     times.defvjp(forward, backward)

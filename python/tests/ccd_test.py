@@ -69,6 +69,42 @@ def test_contact_by_hand():
     assert within.low.tolist() == within.high.tolist() == [0.25]
 
 
+def test_time_derivatives_by_hand():
+    found = ccd.time_derivatives(FALLING, "vertex_face")
+    assert found.query.tolist() == [0] and found.low.tolist() == [0.5] and found.defined.tolist() == [True]
+    up = np.array([0.25, -0.125, -0.0625, -0.0625])
+    np.testing.assert_allclose(found.derivative, np.multiply.outer([[up, up]], [0, 0, 1]), rtol=0, atol=found.error[0])
+    assert found.error[0] < 1e-15
+    assert len(ccd.time_derivatives(FALLING, "vertex_face", t_max=0.25)) == 0
+
+
+@pytest.mark.parametrize("kind, points", ccd.POINTS.items())
+def test_time_derivatives_are_those_of_times(kind, points):
+    """Compares derivatives with differences of first times, for moderate derivatives."""
+    queries = random_queries(3000, points) + RANDOM.random((3000, 2 * points, 3)) / 4
+    if kind == "vertex_edge":
+        queries[:, :, 2] = 0
+    positions, pairs = as_pairs(queries)
+    found = ccd.time_derivatives(queries, kind)
+    for name, values in vars(ccd.time_derivatives(pairs, kind, positions=positions, threads=1)).items():
+        np.testing.assert_array_equal(values, getattr(found, name), name)
+    assert found.derivative.shape == (len(found), 2, points, 3)
+    assert not found.derivative[~found.defined].any()
+    assert found.defined.any() == (kind != "vertex_vertex")
+    moderate = found.defined & (abs(found.derivative).max(axis=(1, 2, 3)) < 10) & (found.high < 0.999)
+    way, h = RANDOM.standard_normal(queries.shape), 1e-7
+    if kind == "vertex_edge":
+        way[:, :, 2] = 0
+    before, after = (dict(zip(t.query.tolist(), t.low.tolist()))
+                     for t in (ccd.first_time(queries + s * way, kind) for s in (-h, h)))
+    compared = 0
+    for row, derivative in zip(found.query[moderate].tolist(), found.derivative[moderate]):
+        if row in before and row in after:
+            slope = (after[row] - before[row]) / (2 * h)
+            compared += abs(slope - (derivative.ravel() * way[row].ravel()).sum()) < 1e-3
+    assert compared >= 0.99 * np.count_nonzero(moderate)
+
+
 @pytest.mark.parametrize("kind, points", ccd.POINTS.items())
 def test_weights_are_as_wide_as_the_pairs(kind, points):
     """Regression: they had four columns for all kinds and did not broadcast with pairs."""
