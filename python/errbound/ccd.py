@@ -190,9 +190,10 @@ def nearness(queries: ArrayLike, kind: Kind, *, positions: Positions | ArrayLike
         given = as_array("queries", queries)
         if given.ndim == 3 and given.shape[1] == POINTS.get(kind):
             queries = np.concatenate((given, given), 1)
-    elif np.ndim(positions) == 2:
-        positions = positions, positions
-    checked = _Queries(queries, kind, positions)
+    frames_given: Any = positions
+    if positions is not None and np.ndim(frames_given) == 2:
+        frames_given = positions, positions
+    checked = _Queries(queries, kind, frames_given)
     at = doubles("t", np.ravel(t), (None,))
     if not ((at >= 0) & (at <= 1)).all():
         raise ValueError(f"t is {at[np.argmin((at >= 0) & (at <= 1))]}; expected a number in [0, 1]")
