@@ -11,6 +11,7 @@
 #include <errbound/multiprecision.hpp>
 #include <errbound/predicate_batch.hpp>
 #include <errbound/predicates.hpp>
+#include <errbound/simplices/common_segment.hpp>
 #include <random>
 #include <span>
 #include <vector>
@@ -246,7 +247,18 @@ void time(const char* name, const Predicate& predicate, const Formula& formula) 
     }
 }
 
+void print_relation() {
+    using triangle = std::array<std::array<double, 3>, 3>;
+    const triangle a{{{0, 0, 0}, {4, 0, 0}, {0, 4, 0}}}, b{{{1, 1, -1}, {1, 1, 1}, {3, 3, 0.5}}};
+    if (errbound::relation_of(a, b) == errbound::relation::crossing) {
+        const auto [from, to] = errbound::common_segment(a, b);
+        std::printf("from x = %g +- %g to x = %g +- %g\n\n", from.position[0], from.error,
+                    to.position[0], to.error);
+    }
+}
+
 int main() {
+    print_relation();
     std::printf("roundings: cylinder %d, lagrange %d, squared radius %d, capsule %d\n\n",
                 in_cylinder.counts.roundings, by_lagrange.counts.roundings,
                 by_square.counts.roundings, in_capsule.counts.roundings);

@@ -105,7 +105,7 @@ class step_memory {
         launcher.for_each(box_levels::children * tree.packets(),
                           make_leaf<N>{all, rows_.data(), order_.data(), boxes.data()});
         for (std::size_t level = 1; level < tree.levels; ++level)
-            launcher.for_each(tree.count[level],
+            launcher.for_each(box_levels::children * box_levels::nodes(tree.count[level]),
                               make_node{boxes.data() + tree.start[level - 1], tree.count[level - 1],
                                         boxes.data() + tree.start[level]});
         return tree;

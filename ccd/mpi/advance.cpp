@@ -16,7 +16,7 @@
 #include "ccd/mpi/exchange.hpp"
 #include "ccd/mpi/intersections.hpp"
 #include "ccd/mpi/local_mesh.hpp"
-#include "ccd/step/advancing.hpp"
+#include "ccd/step/advance/advancing.hpp"
 #include "ccd/step/vertex_groups.hpp"
 
 namespace ccd::mpi {

@@ -73,24 +73,6 @@ const first_time& first_contact_of(const step_outcome& found) {
     return found.advance ? found.advance->first_contact : found.result.first_contact;
 }
 
-std::size_t number_at_start(const step_result& result, errbound::relation relation) {
-    return static_cast<std::size_t>(
-        std::ranges::count(result.intersections_at_start, relation, &intersection::relation));
-}
-
-std::string text_of_start(const step_request& request, const step_result& result) {
-    if (!request.check_start) return "";
-    const std::size_t all = result.intersections_at_start.size();
-    if (all == 0) return "\nFRAME0 is free of intersections\n";
-    std::string parts;
-    for (const errbound::relation r : intersection_relations)
-        if (const std::size_t n = number_at_start(result, r); n > 0)
-            parts += (parts.empty() ? "" : ", ") + std::to_string(n) + ' ' + std::string(name(r));
-    return "\nFRAME0 has " + std::to_string(all) +
-           (all == 1 ? " intersection (" : " intersections (") + parts +
-           "); ccd check --pairs lists them\n";
-}
-
 std::uint64_t undecided(const stage_report::entry& entry) {
     return entry.entered - entry.separate - entry.collides;
 }
@@ -131,7 +113,6 @@ std::string json_of(const step_request& request, const mesh& before, const step_
                                          {"broad", result.broad_phase_seconds},
                                          {"narrow", result.narrow_phase_seconds},
                                          {"sort", result.sort_seconds},
-                                         {"start", result.start_seconds},
                                          {"total", result.total_seconds}}},
                                        {"threads", result.threads},
                                        {"peak_memory_bytes", found.memory}};
@@ -144,9 +125,7 @@ std::string json_of(const step_request& request, const mesh& before, const step_
     if (request.unused > 0)
         document["unused_vertices"] = {{"count", request.unused}, {"skipped", request.skip_unused}};
     add_contacts(request, found, document);
-    if (!result.intersections_at_start.empty())
-        for (const errbound::relation r : intersection_relations)
-            document["intersections_at_start"][std::string(name(r))] = number_at_start(result, r);
+    add_start(document, result.intersections_at_start);
     if (request.explain) {
         const auto [vertex_face, edge_edge] = pairs_of_mesh(request, before);
         document["pairs_of_mesh"] = {{name(kind::vertex_face), vertex_face},
@@ -245,7 +224,7 @@ std::string text_of_step(const step_request& request, const mesh& before,
          fixed(1e3 * result.sort_seconds, "%.1f ms"), std::to_string(result.threads),
          fixed(static_cast<double>(found.memory) / (1 << 20), "%.1f MiB")}};
     return text_of(pairs, 1) + '\n' + text_of(costs, 0) + text_of_contacts(request, found) +
-           text_of_start(request, result) +
+           (request.check_start ? text_of_start(result.intersections_at_start) : "") +
            (request.explain
                 ? '\n' + text_of_boxes(request, before, result) + '\n' + text_of_stages(result)
                 : "");

@@ -36,10 +36,11 @@ class short_way {
     batch_positions positions() const { return {ends_, rounded_}; }
     /// The largest error of a coordinate at the end.
     double error() const { return error_; }
-    /// A bound δ on these errors, in units of the rounded positions, for sizes up to 1.01 of these.
-    /// With ε = 2^-23, a rounded coordinate is off by 1.01ε, or 4.04ε for a sum of two of them,
-    /// and the subtraction of w = 1.0001δ + 4ε by (1.01 + w)ε, or (2.02 + 7ε + 2w)ε of 7ε + 2w. So
-    /// the exact coordinate is at least the rounded one less w, and their sum less 7ε + 2w.
+    /// The margin w = 1.0001δ + 4ε of extents along coordinate axes, in units of the rounded
+    /// positions: δ is the error in these units, ε = 2^-23. A rounded coordinate has an error of
+    /// 1.01ε, and the subtraction of w one of (1.01 + w)ε. So the exact coordinate is at least the
+    /// rounded one less w. For sums of two coordinates the margin is 7ε + 2w: their error is
+    /// 4.04ε + 2δ, and that of the subtraction (2.02 + 7ε + 2w)ε.
     float margin() const {
         if (error_ == 0) return 0;
         return static_cast<float>(1.0001 * error_ * rounded_.scale() +

@@ -110,9 +110,9 @@ struct advance_result {
     double fraction = 1;                   ///< the least of the whole mesh, the same on all ranks
     std::vector<double> fractions;         ///< of mesh.numbers
     first_time first_contact;              ///< of the whole step, the same on all ranks
-    /// Of the whole mesh, sorted, on all ranks.
+    /// Pairs of the whole mesh, sorted, on all ranks.
     pair_lists first_pairs, touching_at_start, near_at_start;
-    /// Of the whole mesh, sorted, on all ranks, with check_start.
+    /// All of the mesh, sorted, on all ranks, with check_start.
     std::vector<numbered_intersection> intersections_at_start;
     rank_work work;
 };

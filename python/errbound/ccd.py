@@ -240,7 +240,7 @@ class FilterOptions(TypedDict, total=False):
 
 
 class SearchOptions(FilterOptions, total=False):
-    """FilterOptions, and the distance of steps.
+    """FilterOptions (threads, groups, between_groups, pinned, skip_unused, can_collide), and the distance of steps.
 
     distance: finds pairs that come within it, instead of pairs that touch.
     thickness: (n,), one per vertex, instead of distance: as decide.
@@ -250,7 +250,7 @@ class SearchOptions(FilterOptions, total=False):
 
 
 class IntersectionOptions(FilterOptions, total=False):
-    """FilterOptions, and options of intersections.
+    """FilterOptions (threads, groups, between_groups, pinned, skip_unused, can_collide), and:
 
     segments: False: skips the common segments of crossing pairs.
     edge_faces: fills edge_faces of the result.

@@ -303,8 +303,8 @@ struct two_sections {
     int common;  ///< the number of first vertices that a and b share
     section of_a, of_b;
 
-    /// The order along the line of a point of a's section and one of b's. If X and Y are the points
-    /// of edges pq and rs, (p − q) × (r − s) points along the line, so the sign of
+    /// The order along the line of a point of a's section and one of b's. Let X and Y be the points
+    /// of edges pq and rs. (p − q) × (r − s) points along the line, so the sign of
     /// orient3d(p, q, r, s) is that of Y − X.
     constexpr int order(const crossing_edge& x, const crossing_edge& y) const {
         for (const int i : {x.from, x.to})

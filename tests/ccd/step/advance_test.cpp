@@ -12,7 +12,7 @@
 #include <span>
 #include <vector>
 
-#include "ccd/step/advancing.hpp"
+#include "ccd/step/advance/advancing.hpp"
 #include "tests/ccd/step/expect_advances.hpp"
 #include "tests/ccd/step/nasty_shapes.hpp"
 

@@ -79,8 +79,8 @@ TEST(StepTimes, AreNotAfterTheLast) {
     EXPECT_EQ(ccd::step(at.first, at.second, {.t_max = 0.5}).pairs, part.pairs);
 }
 
-/// The search until t_max finds the pairs of a whole step with a time in [0, t_max], also if t_max
-/// is one of these times or next to one, near or far from the origin, at any scale.
+/// The search until t_max finds the pairs of a whole step with a time in [0, t_max], near and far
+/// from the origin, at any scale. t_max may be one of these times, or next to one.
 TEST(StepTimes, UntilAnyTimeAreThoseOfTheWholeStep) {
     const auto expect_all = [](const two_frames& at, const char* what) {
         const auto whole = ccd::step(at.first, at.second, {.times = true});

@@ -9,6 +9,14 @@
 
 namespace ptx {
 
+/// For each byte, whether it is memory and was written. For each granule of 2^granule bytes, its
+/// last read, write, strong read and strong write.
+struct shadow {
+    char* bytes;
+    struct last_access* accesses;
+    u32 granule;
+};
+
 /// Allocations at addresses that the host cannot read. Their contents are elsewhere. No address is
 /// used twice.
 class device_memory {
@@ -17,20 +25,27 @@ class device_memory {
     void* allocate(u64 bytes);
     bool free(void* p);  ///< false if p is not an allocation
     bool contains(const void* p) const;
-    /// The content of `bytes` bytes at p, or null if not all of them are in one allocation.
-    char* content(const void* p, u64 bytes) const;
-    const memory_map& map() const { return map_; }
+    /// The content of `bytes` bytes at p, which the host writes or reads. Null if not all of them
+    /// are in one allocation, or if it reads bytes that were never written.
+    char* content(const void* p, u64 bytes, u32 access) const;
+    /// Checks an access of a thread, and returns its content.
+    static char* access(lane& l, u64 address, u32 bytes, u32 access, int line);
 
   private:
-    void set_valid(u64 offset, u64 bytes, bool valid);
-
-    memory_map map_{};
+    u64 begin_, end_;
+    char* content_;
+    shadow shadow_;
     std::map<u64, u64> allocations_;
     u64 next_ = 4096;
 };
 device_memory& memory();
 
-/// The byte that fresh memory, registers and stacks are filled with (PTXEMU_FILL).
+/// Increases when a grid or a block begins and when threads meet. Returns the time before.
+u32 advance_time();
+/// Sets the functions of a block that check accesses, and its shared memory, all of it unwritten.
+void set_memory(thread_block& b, u32 shared_bytes);
+
+/// The byte that fresh registers and stacks are filled with (PTXEMU_FILL).
 int fill_byte();
 /// Returns a number from the environment, 0 if it is not set.
 long setting(const char* name);

@@ -45,25 +45,24 @@ class block_runner {
         : code_(*l.code),
           work_(executed.of(l)),
           threads_(l.block[0] * l.block[1] * l.block[2]),
+          shared_bytes_(code_.shared_bytes + l.dynamic_shared_bytes),
           warps_((threads_ + 31) / 32),
           registers_(warps_.size() * 32 * code_.register_bytes / 16 + 4),
-          stacks_(std::size_t(threads_) * stack_bytes / 16),
-          shared_((code_.shared_bytes + l.dynamic_shared_bytes) / 16 + 1) {
+          stacks_(std::size_t(threads_) * stack_bytes / 16) {
         std::copy_n(l.block, 3, block_.ntid);
         std::copy_n(l.grid, 3, block_.nctaid);
-        block_.shared = reinterpret_cast<char*>(shared_.data());
-        block_.shared_bytes = code_.shared_bytes + l.dynamic_shared_bytes;
         block_.fill = fill_byte();
         block_.parameters = l.parameters.data();
-        block_.memory = &memory().map();
         block_.module = l.of;
         block_.resolve = resolve_in_module;
+        block_.launched = advance_time();
         ++work_.launches;
     }
 
     void run(u32 x, u32 y, u32 z) {
         block_.ctaid[0] = x, block_.ctaid[1] = y, block_.ctaid[2] = z;
-        std::memset(shared_.data(), fill_byte(), shared_.size() * sizeof shared_[0]);
+        block_.started = block_.met = advance_time();
+        set_memory(block_, shared_bytes_);
         std::memset(registers_.data(), fill_byte(), registers_.size() * sizeof registers_[0]);
         for (u32 i = 0; i < warps_.size() * 32; ++i) start(i);
         for (;;) {
@@ -93,6 +92,7 @@ class block_runner {
         l.next = 0;
         w.existing |= 1u << thread % 32;
         l.id = thread % 32;
+        l.thread = thread;
         l.tid[0] = thread % block_.ntid[0];
         l.tid[1] = thread / block_.ntid[0] % block_.ntid[1];
         l.tid[2] = thread / block_.ntid[0] / block_.ntid[1];
@@ -143,7 +143,7 @@ class block_runner {
     /// Runs the block for the present lanes, unless one of them must wait.
     bool advance(warp& w, const block& b, u32 here, u32 running) {
         if (b.kind == block_kind::barrier) return false;
-        if (b.kind != block_kind::warp) {
+        if (b.kind != block_kind::warp && b.kind != block_kind::sync) {
             run_lanes(w, b, here);
             return true;
         }
@@ -160,22 +160,40 @@ class block_runner {
                     fail(w.lanes[i], "lanes meet with different masks", mask, 0, b.line);
             });
             run_lanes(w, b, mask & running);
+            if (b.kind == block_kind::sync) order(w, mask & running);
             advanced = true;
         });
         return advanced;
     }
 
-    /// All running threads must be at one barrier.
+    /// Orders the accesses of lanes, and all that are ordered before them, before their next ones.
+    static void order(warp& w, u32 lanes) {
+        u32 known[32] = {};
+        for_lanes(lanes, [&](u32 i) {
+            for (u32 k = 0; k < 32; ++k) known[k] = std::max(known[k], w.lanes[i].known[k]);
+        });
+        const u32 time = advance_time();
+        for_lanes(lanes, [&](u32 i) { known[i] = time; });
+        for_lanes(lanes, [&](u32 i) {
+            std::copy_n(known, 32, w.lanes[i].known);
+            w.lanes[i].known[i] = 0;
+        });
+    }
+
+    /// All threads must be at one barrier.
     void pass_barrier() {
         int at = exited;
         for (const warp& w : warps_)
-            for (const lane& l : w.lanes)
-                if (l.next != exited) {
-                    if (at != exited && l.next != at)
-                        fail(l, "threads wait at different barriers", 0, 0, code_.blocks[at].line);
-                    at = l.next;
-                }
+            for (const lane& l : w.lanes) at = std::min(at, l.next);
         const block& b = code_.blocks[at];
+        for (const warp& w : warps_)
+            for_lanes(w.existing & ~lanes_at(w, at), [&](u32 i) {
+                fail(w.lanes[i],
+                     w.lanes[i].next == exited ? "a thread has left before others wait at a barrier"
+                                               : "threads wait at different barriers",
+                     0, 0, b.line);
+            });
+        block_.met = advance_time();
         block_.any_true = false;
         if (b.test != nullptr)
             for (warp& w : warps_)
@@ -185,10 +203,10 @@ class block_runner {
 
     const kernel& code_;
     work& work_;
-    u32 threads_;
+    u32 threads_, shared_bytes_;
     thread_block block_{};
     std::vector<warp> warps_;
-    std::vector<line> registers_, stacks_, shared_;
+    std::vector<line> registers_, stacks_;
 };
 
 /// The order in which blocks run: shuffled with the seed PTXEMU_SHUFFLE, except kernels of CUB,

@@ -11,7 +11,8 @@ for index, axis in enumerate("xyz"):
     SPECIAL[f"%tid.{axis}"] = f"l.tid[{index}]"
     for register in ("ntid", "ctaid", "nctaid"):
         SPECIAL[f"%{register}.{axis}"] = f"l.block->{register}[{index}]"
-SPACES = {"global": "global_at", "local": "local_at", "shared": "shared_at", "param": "param_at", None: "generic_at"}
+SPACES = {"global", "local", "shared", "param"}
+STRONG = {"relaxed": " | strong", "volatile": " | is_volatile"}
 IGNORED = {"membar": {"cta"}, "nanosleep": {"u32"}}  # the threads of a warp advance together, blocks in turn
 
 # name: modifiers other than the type, an expression of the operands, and their types: t is the instruction's, u the
@@ -139,15 +140,18 @@ class Writer:
             return f"{self.register(register)} = {expression};"
         return f"set({self.register(register)}, {CPP[type]}({expression}));"
 
-    def memory(self, instruction, operand, bytes):
-        """The host address of an operand in memory, which is checked."""
-        spaces = [m for m in instruction.modifiers if m in SPACES]
+    def memory(self, instruction, operand, bytes, access):
+        """The host address of an operand in memory, after the checks of its access."""
+        space = next((m for m in instruction.modifiers if m in SPACES), "generic")
         base, offset = re.fullmatch(r"\[\s*([^\]+]+?)\s*(?:\+\s*(-?\w+))?\s*\]", operand).groups()
         address = self.value(base, "u64")
         if self.body.registers.get(base) in ("b32", "u32"):
             address = f"u64({self.value(base, 'u32')})"
-        return (f"{SPACES[spaces[0] if spaces else None]}(l, {address} + {self.value(offset or '0', 'u64')}, "
-                f"{bytes}, {instruction.line})")
+        address += f" + {self.value(offset or '0', 'u64')}"
+        if space == "param":
+            return f"reinterpret_cast<char*>({address})"
+        access += "".join(STRONG.get(m, "") for m in instruction.modifiers)
+        return f"l.block->{space}_at(l, {address}, {bytes}, {access}, {instruction.line})"
 
     def statement(self, instruction):
         """One instruction that neither branches nor waits."""
@@ -243,20 +247,20 @@ class Writer:
         targets = [to] if count == 1 else [part.strip() for part in to[1:-1].split(",")]
         loads = " ".join(self.assign(target, f"load<{CPP[type]}>(at + {k * bytes})", type)
                          for k, target in enumerate(targets))
-        return f"{{ const char* const at = {self.memory(i, address, count * bytes)}; {loads} }}"
+        return f"{{ const char* const at = {self.memory(i, address, count * bytes, 'reads')}; {loads} }}"
 
     def write_st(self, i, address, value):
         count, type, bytes = self.vector(i), i.type(), WIDTHS[i.type()] // 8
         values = [value] if count == 1 else [part.strip() for part in value[1:-1].split(",")]
         stores = " ".join(f"store<{CPP[type]}>(at + {k * bytes}, {self.value(v, type)});"
                           for k, v in enumerate(values))
-        return f"{{ char* const at = {self.memory(i, address, count * bytes)}; {stores} }}"
+        return f"{{ char* const at = {self.memory(i, address, count * bytes, 'writes')}; {stores} }}"
 
     def write_atom(self, i, to, address, value):
         self.only(i, {"global", "shared", *ATOMICS})
         type = i.type()
         operation = ATOMICS[next(m for m in i.modifiers if m in ATOMICS)]
-        return (f"{{ char* const at = {self.memory(i, address, WIDTHS[type] // 8)}; "
+        return (f"{{ char* const at = {self.memory(i, address, WIDTHS[type] // 8, 'reads | writes | strong')}; "
                 f"const {CPP[type]} old = load<{CPP[type]}>(at), x = {self.value(value, type)}; "
                 f"store<{CPP[type]}>(at, {operation}); {self.assign(to, 'old', type)} }}")
 

@@ -40,7 +40,10 @@ struct append_bits {
         warp::per_lane<u32> masks;
         warp::per_lane<u64> places;
         warp::each([&](u32 lane) { masks[lane] = packet + lane; });
-        ballots[packet] = warp::ballot([&](u32 lane) { return masks[lane] % 3 == 0; });
+        const u32 ballot = warp::ballot([&](u32 lane) { return masks[lane] % 3 == 0; });
+        warp::each([&](u32 lane) {
+            if (lane == 0) ballots[packet] = ballot;
+        });
         warp::append(size, masks, places);
         warp::each([&](u32 lane) {
             for (u32 k = 0; k < warp::count(masks[lane]); ++k)

@@ -74,7 +74,7 @@ void* module::load(const std::string& name) {
         u64& address = variables_[v->name];
         if (address == 0) {
             void* const p = memory().allocate(v->bytes);
-            char* const content = memory().content(p, v->bytes);
+            char* const content = memory().content(p, v->bytes, writes);
             std::memset(content, 0, v->bytes);
             if (v->initial != nullptr) std::memcpy(content, v->initial, v->bytes);
             address = reinterpret_cast<u64>(p);

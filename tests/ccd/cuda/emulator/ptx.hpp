@@ -21,25 +21,25 @@ using s64 = std::int64_t;
 using f32 = float;
 using f64 = double;
 
-/// Device memory: addresses begin to end, none of which the host can read.
-struct memory_map {
-    static constexpr u64 granule = 256;
-    u64 begin, end;
-    char* content;
-    u16* valid;
-};
-
 struct lane;
 using resolver = void* (*)(lane&, const char* function);
 
+/// Bits of the kind of an access. Strong accesses do not race with each other: atomic and relaxed
+/// ones, and volatile ones of global memory.
+enum access : u32 { reads = 1, writes = 2, strong = 4, is_volatile = 8 };
+/// Checks an access to a state space, and returns its address on the host.
+using checked = char* (*)(lane&, u64 address, u32 bytes, u32 access, int line);
+
+/// A block of threads. Times are those of advance_time() in device.hpp.
 struct thread_block {
     u32 ntid[3], nctaid[3], ctaid[3];
     char* shared;
     u32 shared_bytes;
     int fill;  ///< the byte that fresh frames hold
     char* parameters;
-    const memory_map* memory;
-    bool any_true;  ///< the result of the barrier's reduction
+    checked global_at, shared_at, local_at, generic_at;
+    u32 launched, started, met;  ///< when the grid began, the block began, its threads met
+    bool any_true;               ///< the result of the barrier's reduction
     const void* module;
     resolver resolve;
 };
@@ -47,7 +47,8 @@ struct thread_block {
 /// A thread. Its stack frames lie in [stack, stack_end); `frame` is the kernel's or function's own.
 struct lane {
     int next;
-    u32 id, tid[3];
+    u32 id, tid[3], thread;
+    u32 known[32];  ///< of each other lane, the time of the last access that is ordered before
     u64 frame, stack, stack_end, stack_limit;
     thread_block* block;
 };
@@ -64,8 +65,8 @@ R& registers_of(warp& w, u32 k) {
 }
 
 /// `plain` and `active` run for the lanes that are there; the others wait for the lanes of a mask
-/// or for all threads.
-enum class block_kind { plain, active, warp, barrier };
+/// or for all threads. `sync` is an operation of `warp` that orders accesses to memory.
+enum class block_kind { plain, active, warp, sync, barrier };
 struct block {
     void (*run)(warp&, u32 lanes);
     block_kind kind;
@@ -118,36 +119,6 @@ void for_lanes(u32 lanes, F f) {
     for (; lanes != 0; lanes &= lanes - 1) f(static_cast<u32>(std::countr_zero(lanes)));
 }
 
-inline char* global_at(lane& l, u64 address, u32 bytes, int line) {
-    const memory_map& m = *l.block->memory;
-    if (address % bytes != 0) fail(l, "misaligned global address", address, bytes, line);
-    const u64 offset = address - m.begin;
-    if (address < m.begin || address >= m.end ||
-        offset % m.granule + bytes > m.valid[offset / m.granule])
-        fail(l, "illegal global address", address, bytes, line);
-    return m.content + offset;
-}
-inline char* local_at(lane& l, u64 address, u32 bytes, int line) {
-    if (address % bytes != 0) fail(l, "misaligned local address", address, bytes, line);
-    if (address < l.stack || address + bytes > l.stack_end)
-        fail(l, "illegal local address", address, bytes, line);
-    return reinterpret_cast<char*>(address);
-}
-inline char* shared_at(lane& l, u64 address, u32 bytes, int line) {
-    if (address % bytes != 0) fail(l, "misaligned shared address", address, bytes, line);
-    if (address + bytes > l.block->shared_bytes || address + bytes < address)
-        fail(l, "illegal shared address", address, bytes, line);
-    return l.block->shared + address;
-}
-inline char* generic_at(lane& l, u64 address, u32 bytes, int line) {
-    const u64 in_shared = address - reinterpret_cast<u64>(l.block->shared);
-    if (in_shared < l.block->shared_bytes) return shared_at(l, in_shared, bytes, line);
-    if (address >= l.stack && address < l.stack_end) return local_at(l, address, bytes, line);
-    return global_at(l, address, bytes, line);
-}
-inline char* param_at(lane&, u64 address, u32, int) {
-    return reinterpret_cast<char*>(address);
-}
 template <class T>
 T load(const char* p) {
     T x;

@@ -120,13 +120,6 @@ cudaError_t enqueue_launch(const void* host_function, dim3 grid, dim3 block, voi
     });
 }
 
-/// Returns the host address of one end of a copy; null if it is not allocated or in the wrong
-/// memory for the direction.
-char* place_of(const void* p, std::size_t bytes, bool on_device) {
-    if (memory().contains(p) != on_device) return nullptr;
-    return on_device ? memory().content(p, bytes) : static_cast<char*>(const_cast<void*>(p));
-}
-
 cudaError_t enqueue_copy(void* to, const void* from, std::size_t bytes, cudaMemcpyKind kind,
                          cudaStream_t stream) {
     if (bytes == 0) return cudaSuccess;
@@ -136,10 +129,10 @@ cudaError_t enqueue_copy(void* to, const void* from, std::size_t bytes, cudaMemc
         to == nullptr || from == nullptr)
         return cudaErrorInvalidValue;
     return enqueue(stream, [=] {
-        char* const target = place_of(to, bytes, to_device);
-        const char* const source = place_of(from, bytes, from_device);
+        const void* const source = from_device ? memory().content(from, bytes, reads) : from;
+        void* const target = to_device ? memory().content(to, bytes, writes) : to;
         if (target == nullptr || source == nullptr)
-            return fault_found("copy of memory that is not allocated");
+            return fault_found("copy of memory that is not allocated or was never written");
         std::memmove(target, source, bytes);
         return cudaSuccess;
     });
@@ -227,7 +220,7 @@ cudaError_t cudaSetDevice(int device) {
 cudaError_t cudaPointerGetAttributes(cudaPointerAttributes* attributes, const void* p) {
     return run_call(__func__, cudaErrorInvalidValue, [&] {
         *attributes = {};
-        if (memory().content(p, 1) != nullptr) attributes->type = cudaMemoryTypeDevice;
+        if (memory().content(p, 1, 0) != nullptr) attributes->type = cudaMemoryTypeDevice;
         return cudaSuccess;
     });
 }
@@ -277,7 +270,7 @@ cudaError_t cudaMemcpy(void* to, const void* from, std::size_t bytes, cudaMemcpy
 cudaError_t cudaMemsetAsync(void* to, int byte, std::size_t bytes, cudaStream_t s) {
     return run_call(__func__, cudaErrorInvalidValue, [&] {
         return enqueue(s, [=] {
-            char* const content = memory().content(to, bytes);
+            char* const content = memory().content(to, bytes, writes);
             if (content == nullptr) return fault_found("setting of memory that is not allocated");
             std::memset(content, byte, bytes);
             return cudaSuccess;

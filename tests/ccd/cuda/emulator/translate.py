@@ -141,7 +141,7 @@ class Kernel:
                 read + assign(to, "x[from[k].lane]", "u32")
                 + (assign(in_range, "from[k].in_range", "pred") if in_range else "")]
         if i.name == "bar" and i.modifiers == ["warp", "sync"]:
-            return "warp", value(operands[0], "u32"), "", []
+            return "sync", value(operands[0], "u32"), "", []
         if i.name == "bar" and i.modifiers == ["sync"] and len(operands) == 1:
             return "barrier", value(operands[0], "u32"), "", []
         if i.name == "bar" and i.modifiers == ["red", "or", "pred"] and len(operands) == 3:

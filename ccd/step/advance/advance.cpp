@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-#include "ccd/step/advancing.hpp"
+#include "ccd/step/advance/advancing.hpp"
 #include "ccd/step/checks.hpp"
 #include "ccd/step/vertex_groups.hpp"
 

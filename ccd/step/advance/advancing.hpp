@@ -67,8 +67,8 @@ struct no_others {
     bool all(bool holds) { return holds; }
 };
 
-/// A time until which three in four vertices move by no more than their spacing, by a sample, so
-/// that few pairs of elements come near. Infinite if these do not move.
+/// A time until which three in four vertices of a sample move by no more than the vertices'
+/// spacing. Few pairs of elements come near until then. Infinite if these vertices do not move.
 inline double time_of_short_way(const vertex_rows& way) {
     rounded_axes::extent box = rounded_axes::extent::nothing();
     std::vector<double> lengths;
