@@ -2,6 +2,7 @@
 //
 //     ccd::first_time t = ccd::time_of_impact(query);           // between adjacent doubles
 //     ccd::first_contact c = ccd::find_first_contact(query);    // features, weights, normal
+//     ccd::time_derivative g = ccd::derivative_of(query, c);    // by the positions of its points
 //     ccd::first_time d = ccd::time_within(query, {1e-3, 0});   // first time within a distance
 //     auto times = ccd::first_times(positions, pairs);          // many queries, over threads
 //
@@ -121,6 +122,35 @@ first_contact find_first_contact(const Query& query, double t_max = 1) {
     return contact_at(query, time_of_impact(query, t_max));
 }
 
+/// The derivative of a first time of contact by the positions of the query's points: by[i].t0 holds
+/// the partial derivatives by point i at t = 0, by[i].t1 those by point i at t = 1, in steps per
+/// length. Points are numbered as in points_of.
+///
+/// The derivative is defined if the features meet inside, after the start, at a simple root (the
+/// normal velocity is not 0). It is undefined, with all of `by` 0, if
+/// - there is no contact, or it is at the start;
+/// - smaller features meet: other features may then be first after any change of positions;
+/// - the root is multiple, or so close to a multiple one that the sign of the normal velocity is
+/// not
+///   certain;
+/// - two vertices meet, or a vertex and an edge outside the plane. Almost every change parts them.
+/// For a vertex and an edge in the plane (all z are equal), motions stay in it: derivatives by z
+/// are 0. At t = 1, the motion counts as continued after the step.
+struct time_derivative {
+    std::array<moving_point<double>, 4> by{};
+    /// A certified bound on the error of each component; infinite if undefined.
+    double error = std::numeric_limits<double>::infinity();
+
+    constexpr bool is_defined() const { return error < std::numeric_limits<double>::infinity(); }
+
+    friend constexpr bool operator==(const time_derivative&, const time_derivative&) = default;
+};
+
+/// Returns the derivative of contact.time. Precondition: `contact` is find_first_contact(query), or
+/// contact_at for the query's time of impact.
+template <any_query Query>
+time_derivative derivative_of(const Query& query, const first_contact& contact);
+
 /// The distance within which a pair is reported: `all` for every pair, or the exact sum of the
 /// thicknesses of its elements. An element's thickness is the largest `thickness` of its vertices.
 /// The default, 0, means contact. Values are finite and >= 0, in the unit of the coordinates. Not
@@ -208,6 +238,10 @@ timed_batch<item_of<Queries>> timed(const Queries& queries, const time_options& 
 template <class Item>
 std::vector<first_contact> contacts_of_items(const batch_input<Item>& queries,
                                              std::span<const first_time> times, int threads);
+template <class Item>
+std::vector<time_derivative> derivatives_of_items(const batch_input<Item>& queries,
+                                                  std::span<const first_contact> contacts,
+                                                  int threads);
 
 }  // namespace detail
 
@@ -279,6 +313,21 @@ template <query_range Queries>
 std::vector<first_contact> first_contacts(const Queries& queries, std::span<const first_time> times,
                                           int threads = 0) {
     return detail::contacts_of_items(detail::input_of(queries), times, threads);
+}
+
+/// Returns derivative_of for each query and its first contact. Threads and exceptions: as
+/// first_contacts.
+template <pair_range Pairs>
+std::vector<time_derivative> time_derivatives(const vertex_rows& positions, const Pairs& pairs,
+                                              std::span<const first_contact> contacts,
+                                              int threads = 0) {
+    return detail::derivatives_of_items(detail::input_of(positions, pairs), contacts, threads);
+}
+template <query_range Queries>
+std::vector<time_derivative> time_derivatives(const Queries& queries,
+                                              std::span<const first_contact> contacts,
+                                              int threads = 0) {
+    return detail::derivatives_of_items(detail::input_of(queries), contacts, threads);
 }
 
 }  // namespace ccd

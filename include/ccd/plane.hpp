@@ -67,6 +67,10 @@ first_contact find_first_contact(const Query& query, double t_max = 1) {
     return ccd::find_first_contact(in_space(query), t_max);
 }
 template <any_query Query>
+time_derivative derivative_of(const Query& query, const first_contact& contact) {
+    return ccd::derivative_of(in_space(query), contact);
+}
+template <any_query Query>
 verdict decide_within(const Query& query, separation d) {
     return ccd::decide_within(in_space(query), d);
 }

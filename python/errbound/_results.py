@@ -143,6 +143,22 @@ class FirstContacts(FirstTimes):
 
 
 @dataclass(frozen=True, eq=False, repr=False)
+class TimeDerivatives(FirstTimes):
+    """First times with their derivatives by positions (docs/collision-detection.md#derivatives), k rows each.
+
+    derivative: (k, 2, p, 3), steps per length, by the positions at t = 0, then at t = 1, of the query's p points; 0 if
+    undefined. error: (k,), bounds the error of every component; infinite if undefined.
+    """
+    derivative: Doubles
+    error: Doubles
+
+    @property
+    def defined(self) -> Flags:
+        """True if the time is certainly differentiable, (k,)."""
+        return np.isfinite(self.error)
+
+
+@dataclass(frozen=True, eq=False, repr=False)
 class Nearness:
     """Nearest features of k queries and their points (docs/collision-detection.md#nearest-points-and-distances).
 

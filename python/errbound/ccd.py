@@ -23,8 +23,8 @@ from ._arrays import (Doubles, Indices, as_array, check_finite, check_range, che
                       thickness_option)
 from ._results import (AdvanceResult, Decisions, Features, FirstContacts, FirstTimes, Intersections,
                        IntersectionsOfKind, Kind, LeastDistance, Method, MethodName, NearPairs, Nearness, NormalSource,
-                       Outcome, Pairs, Relation, Stage, StepResult, TimedStepResult, at_start, intersections_of,
-                       stages)
+                       Outcome, Pairs, Relation, Stage, StepResult, TimeDerivatives, TimedStepResult, at_start,
+                       intersections_of, stages)
 
 if TYPE_CHECKING:
     if sys.version_info >= (3, 11):
@@ -35,9 +35,10 @@ if TYPE_CHECKING:
 __all__ = ["AdvanceOptions", "AdvanceResult", "Decisions", "Features", "FilterOptions", "FirstContacts", "FirstTimes",
            "IntersectionOptions", "Intersections", "IntersectionsOfKind", "Kind", "LeastDistance", "Method",
            "MethodName", "NearPairs", "Nearness", "NormalSource", "Outcome", "Pairs", "Relation", "RunOptions",
-           "SearchOptions", "Stage", "StepResult", "Steps", "TimedStepResult", "UntimedOptions", "advance",
-           "candidates", "decide", "first_contact", "first_time", "free_step", "instruction_sets", "intersections",
-           "is_free", "least_distance", "methods", "near_pairs", "nearness", "step", "touches_at_start"]
+           "SearchOptions", "Stage", "StepResult", "Steps", "TimeDerivatives", "TimedStepResult", "UntimedOptions",
+           "advance", "candidates", "decide", "first_contact", "first_time", "free_step", "instruction_sets",
+           "intersections", "is_free", "least_distance", "methods", "near_pairs", "nearness", "step",
+           "time_derivatives", "touches_at_start"]
 
 POINTS: dict[Kind, int] = {"vertex_face": 4, "edge_edge": 4, "vertex_edge": 3, "vertex_vertex": 2}
 
@@ -177,6 +178,21 @@ def first_contact(queries: ArrayLike, kind: Kind, *, positions: Positions | None
     for name in "points", "weights":
         found[name] = found[name][:, :POINTS[kind]]
     return FirstContacts(**found)
+
+
+def time_derivatives(queries: ArrayLike, kind: Kind, *, positions: Positions | None = None,
+                     t_max: float = 1, threads: int = 0) -> TimeDerivatives:
+    """Computes the first contact in [0, t_max] of each query that touches, and the derivative of its time.
+
+    A derivative is undefined at the start, at the border of a feature and at multiple roots. Vertex/edge queries have
+    derivatives if all z are equal, vertex/vertex queries never. Cost: as first_contact. Throws: as decide.
+    """
+    threads, t_max = option("threads", threads, int), end_time(t_max)
+    checked = _Queries(queries, kind, positions)
+    found = checked.call(lambda q: q.time_derivatives(t_max, threads))
+    _require_certain_times(checked, found)
+    found["derivative"] = found["derivative"].reshape(-1, 4, 2, 3).swapaxes(1, 2)[:, :, :POINTS[kind]]
+    return TimeDerivatives(**found)
 
 
 def nearness(queries: ArrayLike, kind: Kind, *, positions: Positions | ArrayLike | None = None,

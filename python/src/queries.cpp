@@ -148,10 +148,12 @@ nb::dict first_times(const query_input& all, double t_max, double distance,
     return times_among(timed(all, t_max, distance, thickness, threads));
 }
 
-std::vector<ccd::first_contact> contacts_at(const query_input& all,
-                                            const std::vector<ccd::timed_contact>& contacts,
-                                            int threads) {
-    std::vector<ccd::first_contact> found(contacts.size());
+/// Returns compute(times, queries or positions and pairs), one Result for each contact, in parts.
+template <class Result, class Compute>
+std::vector<Result> at_contacts(const query_input& all,
+                                const std::vector<ccd::timed_contact>& contacts,
+                                const Compute& compute) {
+    std::vector<Result> found(contacts.size());
     in_parts(contacts.size(), 65536, [&](std::size_t first, std::size_t count) {
         std::vector<ccd::first_time> times;
         for (std::size_t i = first; i < first + count; ++i) times.push_back(contacts[i].time);
@@ -163,9 +165,9 @@ std::vector<ccd::first_contact> contacts_at(const query_input& all,
         };
         const auto data = all.visit([&](const auto& queries, const auto&... pairs) {
             if constexpr (sizeof...(pairs) == 0)
-                return ccd::first_contacts(chosen(queries), times, threads);
+                return compute(times, chosen(queries));
             else
-                return ccd::first_contacts(queries, chosen(pairs)..., times, threads);
+                return compute(times, queries, chosen(pairs)...);
         });
         std::copy(data.begin(), data.end(), found.begin() + static_cast<std::ptrdiff_t>(first));
     });
@@ -174,7 +176,10 @@ std::vector<ccd::first_contact> contacts_at(const query_input& all,
 
 nb::dict first_contacts(const query_input& all, double t_max, int threads) {
     std::vector<ccd::timed_contact> contacts = timed(all, t_max, 0, std::nullopt, threads);
-    const shared_items shared(contacts_at(all, contacts, threads));
+    const shared_items shared(at_contacts<ccd::first_contact>(
+        all, contacts, [threads](const auto& times, const auto&... queries) {
+            return ccd::first_contacts(queries..., times, threads);
+        }));
     nb::dict found = times_among(std::move(contacts));
     const ccd::first_contact& c = shared.first();
     const auto code = [](const auto& x) -> auto& {
@@ -190,6 +195,21 @@ nb::dict first_contacts(const query_input& all, double t_max, int threads) {
     found["sided"] = shared.column(c.sided);
     found["normal_velocity"] = shared.column(c.normal_velocity);
     found["normal_velocity_error"] = shared.column(c.normal_velocity_error);
+    return found;
+}
+
+nb::dict time_derivatives(const query_input& all, double t_max, int threads) {
+    std::vector<ccd::timed_contact> contacts = timed(all, t_max, 0, std::nullopt, threads);
+    const shared_items shared(at_contacts<ccd::time_derivative>(
+        all, contacts, [threads](const auto& times, const auto&... queries) {
+            const auto data = ccd::first_contacts(queries..., times, threads);
+            return ccd::time_derivatives(queries..., data, threads);
+        }));
+    nb::dict found = times_among(std::move(contacts));
+    const auto& by = shared.first().by;
+    static_assert(sizeof by == 24 * sizeof(double));
+    found["derivative"] = shared.columns(&by[0].t0.x, 24);
+    found["error"] = shared.column(shared.first().error);
     return found;
 }
 
@@ -270,6 +290,7 @@ void bind_queries(nb::module_& m) {
         .def("first_times", first_times, nb::arg("t_max"), nb::arg("distance"),
              nb::arg("thickness").none(), nb::arg("threads"))
         .def("first_contacts", first_contacts, nb::arg("t_max"), nb::arg("threads"))
+        .def("time_derivatives", time_derivatives, nb::arg("t_max"), nb::arg("threads"))
         .def("nearness", nearness, nb::arg("t"), nb::arg("times").none(), nb::arg("threads"))
         .def("least_time", least_time, nb::arg("min_distance"), nb::arg("rescaling"),
              nb::arg("max_gap"), nb::arg("t_max"), nb::arg("counts").none());

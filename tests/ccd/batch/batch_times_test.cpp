@@ -2,6 +2,7 @@
 // many.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <ccd/contact.hpp>
 #include <cmath>
 #include <limits>
@@ -208,6 +209,15 @@ TYPED_TEST(FirstTimes, HaveTheContactsOfOneByOne) {
         EXPECT_EQ(ccd::first_contacts(queries, times, threads), expected);
     }
     EXPECT_GT(contacts_of(times).size(), 5U);
+    std::vector<ccd::time_derivative> derivatives;
+    for (std::size_t i = 0; i < queries.size(); ++i)
+        derivatives.push_back(derivative_of(queries[i], expected[i]));
+    for (const int threads : {0, 1, 2}) {
+        EXPECT_EQ(ccd::time_derivatives(rows, pairs, expected, threads), derivatives);
+        EXPECT_EQ(ccd::time_derivatives(queries, expected, threads), derivatives);
+    }
+    EXPECT_EQ(std::ranges::any_of(derivatives, [](const auto& d) { return d.is_defined(); }),
+              ccd::is_cubic(ccd::kind_of<TypeParam>));
 }
 
 TEST(FirstContacts, RefuseTimesOfOtherQueries) {
@@ -221,6 +231,11 @@ TEST(FirstContacts, RefuseTimesOfOtherQueries) {
               "ccd::first_contacts: number of times is 1; expected 2, one for each query");
     EXPECT_EQ(message({{0, 1, 2, 60}}),
               "ccd::first_contacts: vertex index of query 0 is 60; expected less than 60");
+    EXPECT_EQ(refusal([] {
+                  ccd::time_derivatives(std::vector<ccd::vertex_edge<double>>(2),
+                                        std::vector<ccd::first_contact>(1));
+              }),
+              "ccd::time_derivatives: number of contacts is 1; expected 2, one for each query");
 }
 
 }  // namespace

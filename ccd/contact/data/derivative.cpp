@@ -1,0 +1,97 @@
+// The derivative of a first time, from the data of its contact.
+//
+// Points i with weights w_i (those of the second feature negative) meet at the first time t: the
+// sum of w_i x_i(t) is 0. Let n be the normal, and g the component of this sum along n. If a
+// position changes, the derivatives of weights move the sum along the features, so not along n, and
+// that of n has the factor 0. So dg = n · (sum of w_i dx_i(t)) + v dt, where v is the normal
+// velocity. Since g = 0 at contacts and x_i(t) = (1 − t) x_i(0) + t x_i(1),
+//
+//     dt/dx_i(0) = −w_i (1 − t) n/v,   dt/dx_i(1) = −w_i t n/v.
+#include <algorithm>
+#include <ccd/contact.hpp>
+#include <ccd/kind.hpp>
+#include <ccd/methods/transform.hpp>
+#include <cmath>
+#include <cstddef>
+
+#include "ccd/contact/data/moment.hpp"
+#include "ccd/contact/data/normal.hpp"
+
+namespace ccd::detail {
+namespace {
+
+/// True if the first time is differentiable wherever the normal velocity is not 0. `contact` has
+/// exact features: if they are the query's, all weights are positive and N (or the edge) is not 0,
+/// so after a small change the features meet at the same root.
+template <class Query>
+bool may_be_differentiable(const Query& query, const first_contact& contact) {
+    constexpr kind whole = kind_of<Query>;
+    if (contact.time.outcome != outcome::collides || contact.time.at_start()) return false;
+    if (contact.features.kind != whole) return false;
+    if constexpr (is_cubic(whole)) return contact.normal_from == normal_source::cross_product;
+    if constexpr (whole == kind::vertex_edge) {
+        const double z = query.v.t0.z;
+        bool in_plane = contact.normal_from == normal_source::nearest_points;
+        for (const auto& p : points_of(query)) in_plane = in_plane && p.t0.z == z && p.t1.z == z;
+        return in_plane;
+    }
+    return false;
+}
+
+/// Stores derivatives and the largest of their errors.
+class derivative_writer {
+  public:
+    derivative_writer(const first_contact& contact, time_derivative& into)
+        : contact_(contact), into_(into) {
+        into_.error = 0;
+    }
+
+    point<double> vector(const enclosure& factor) {
+        const auto [x, y, z] = contact_.normal;
+        return {component(factor, x), component(factor, y), component(factor, z)};
+    }
+
+  private:
+    double component(const enclosure& factor, double normal) {
+        const enclosure n = enclosure::within(normal, contact_.normal_error);
+        const auto [value, error] = nearest(factor * n);
+        const bool known = std::isfinite(value) && error < number_traits::infinity();
+        into_.error = std::max(into_.error, known ? error : number_traits::infinity());
+        return value;
+    }
+
+    using number_traits = errbound::number_traits<double>;
+
+    const first_contact& contact_;
+    time_derivative& into_;
+};
+
+}  // namespace
+}  // namespace ccd::detail
+
+namespace ccd {
+
+template <any_query Query>
+time_derivative derivative_of(const Query& query, const first_contact& contact) {
+    using namespace detail;
+    time_derivative result;
+    if (!may_be_differentiable(query, contact)) return result;
+    const enclosure t = enclosed_time(contact.time), s = enclosure(1.0) - t;
+    const auto v = enclosure::within(contact.normal_velocity, contact.normal_velocity_error);
+    if (!errbound::certain(sign_of(v))) return result;
+    derivative_writer derivatives(contact, result);
+    constexpr std::size_t first = kind_traits<kind_of<Query>>::first_vertices;
+    for (std::size_t i = 0; i < points_of(query).size(); ++i) {
+        const auto weight = enclosure::within(contact.weights[i], contact.weight_error);
+        const enclosure factor = (i < first ? -weight : weight) / v;
+        result.by[i] = {derivatives.vector(factor * s), derivatives.vector(factor * t)};
+    }
+    return result.is_defined() ? result : time_derivative{};
+}
+
+template time_derivative derivative_of(const vertex_face<double>&, const first_contact&);
+template time_derivative derivative_of(const edge_edge<double>&, const first_contact&);
+template time_derivative derivative_of(const vertex_edge<double>&, const first_contact&);
+template time_derivative derivative_of(const vertex_vertex<double>&, const first_contact&);
+
+}  // namespace ccd
