@@ -24,6 +24,7 @@
 #include <limits>
 #include <optional>
 #include <span>
+#include <string_view>
 #include <vector>
 
 namespace ccd {
@@ -120,6 +121,25 @@ template <any_query Query>
 first_contact find_first_contact(const Query& query, double t_max = 1) {
     return contact_at(query, time_of_impact(query, t_max));
 }
+
+/// How features move on after their first contact.
+enum class contact_motion : std::uint8_t {
+    unknown,     ///< there is no contact, or it is at the start and the features then part
+    approaches,  ///< each moves to the other side, or their normal velocity is certainly negative
+    touches,     ///< on one side before and after the bracket: they touch without crossing
+    slides,      ///< the motion stays in the plane of the features, or on the line of the edge
+};
+constexpr std::string_view name(contact_motion m) {
+    constexpr std::string_view names[] = {"unknown", "approaches", "touches", "slides"};
+    return names[static_cast<std::size_t>(m)];
+}
+
+/// Returns the motion of the result of contact_at(query, time). Exact: if the normal velocity does
+/// not decide, the signs of Y (docs/notation.md) just before and just after the bracket do. If Y is
+/// zero throughout, those of the distances from the edge that the vertex meets do. Cost: one
+/// comparison if the normal velocity decides, otherwise unbounded integers.
+template <any_query Query>
+contact_motion motion_after(const Query& query, const first_contact& contact);
 
 /// The distance within which a pair is reported: `all` for every pair, or the exact sum of the
 /// thicknesses of its elements. An element's thickness is the largest `thickness` of its vertices.
