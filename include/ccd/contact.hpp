@@ -6,11 +6,10 @@
 //     ccd::first_time d = ccd::time_within(query, {1e-3, 0});   // first time within a distance
 //     auto times = ccd::first_times(positions, pairs);          // many queries, over threads
 //
-// Semantics are those of ccd/exact.hpp: planar motion, touching without crossing, parallel edges
-// and degenerate triangles all have one right answer. Coordinates that are not finite give
-// `uncertain`. Calls for one query do not allocate or throw, except in their last stage
-// (ccd/reference.hpp). Batches throw std::invalid_argument for bad input; answers do not depend on
-// instruction sets or threads.
+// Semantics are those of ccd/exact.hpp, also for planar motion, parallel edges and degenerate
+// triangles. Coordinates that are not finite give `uncertain`. Calls for one query do not allocate
+// or throw, except in their last stage (ccd/reference.hpp). Batches throw std::invalid_argument for
+// bad input; answers do not depend on instruction sets or threads.
 #pragma once
 
 #include <algorithm>
