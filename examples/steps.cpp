@@ -30,8 +30,8 @@ bool has_crossing_pairs(const ccd::mesh& mesh) {
         if (relation != errbound::relation::crossing) continue;
         crosses = true;
         std::printf("%s of vertex %u and %u: common segment from x = %g\n",
-                    short_name(kind_of_sizes(a.size, b.size)).data(), a.indices[0], b.indices[0],
-                    (*segment)[0].position[0]);
+                    ccd::short_name(ccd::kind_of_sizes(a.size, b.size)).data(), a.indices[0],
+                    b.indices[0], (*segment)[0].position[0]);
     }
     return crosses;
 }

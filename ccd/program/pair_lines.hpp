@@ -1,12 +1,15 @@
 // Pairs as lines of text: vf,v,f0,f1,f2 and so on.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <ccd/kind.hpp>
 #include <ccd/step.hpp>
 #include <cstddef>
+#include <nlohmann/json.hpp>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "ccd/program/options.hpp"
 
@@ -31,6 +34,32 @@ std::string lines_of_pairs(const Lists& pairs, const time_lists* times = nullptr
         }
     });
     return lines;
+}
+
+template <class Intersection>
+std::size_t number_of(const std::vector<Intersection>& pairs, errbound::relation r) {
+    return static_cast<std::size_t>(std::ranges::count(pairs, r, &Intersection::relation));
+}
+
+/// The intersections at the start of a step.
+template <class Intersection>
+std::string text_of_start(const std::vector<Intersection>& pairs) {
+    if (pairs.empty()) return "\nFRAME0 is free of intersections\n";
+    std::string parts;
+    for (const errbound::relation r : intersection_relations)
+        if (const std::size_t n = number_of(pairs, r); n > 0)
+            parts += (parts.empty() ? "" : ", ") + std::to_string(n) + ' ' + std::string(name(r));
+    return "\nFRAME0 has " + std::to_string(pairs.size()) +
+           (pairs.size() == 1 ? " intersection (" : " intersections (") + parts +
+           "); ccd check --pairs lists them\n";
+}
+
+/// Adds their numbers, if there are any.
+template <class Intersection>
+void add_start(nlohmann::ordered_json& document, const std::vector<Intersection>& pairs) {
+    if (pairs.empty()) return;
+    for (const errbound::relation r : intersection_relations)
+        document["intersections_at_start"][std::string(name(r))] = number_of(pairs, r);
 }
 
 inline std::string lines_of_intersections(std::span<const intersection> pairs) {

@@ -10,6 +10,7 @@
 
 #include "ccd/io/view/view_files.hpp"
 #include "ccd/program/command.hpp"
+#include "ccd/program/first_pairs.hpp"
 #include "ccd/program/options.hpp"
 #include "ccd/program/pair_lines.hpp"
 #include "errbound/support/command_line.hpp"
@@ -34,7 +35,9 @@ struct step_request {
     int threads = 0;
     std::optional<instruction_set> set;
     bool explain = false, check_start = true;
-    bool times = false, advance = false;
+    bool times = false, advance = false, replay = false;
+
+    bool needs_first_contact() const { return times || advance || replay; }
     double distance = 0, t_max = 1;
     io::mesh_options reading;
     std::size_t unused = 0;
@@ -46,7 +49,7 @@ struct step_request {
                 .set = set,
                 .count_candidates = method != ccd::method::exact,  // others test every candidate
                 .explain = explain,
-                .first_contact = times || advance,
+                .first_contact = needs_first_contact(),
                 .times = times,
                 .check_start = check_start,
                 .t_max = t_max,
@@ -58,6 +61,7 @@ struct step_request {
 struct step_outcome {
     step_result result;
     std::optional<advance_result> advance;
+    std::vector<reason> reasons;  ///< with --replay
     double read_seconds = 0;
     std::size_t memory = 0;
 };
@@ -72,23 +76,8 @@ bool is_shown(const step_result& result) {
 const first_time& first_contact_of(const step_outcome& found) {
     return found.advance ? found.advance->first_contact : found.result.first_contact;
 }
-
-std::size_t number_at_start(const step_result& result, errbound::relation relation) {
-    return static_cast<std::size_t>(
-        std::ranges::count(result.intersections_at_start, relation, &intersection::relation));
-}
-
-std::string text_of_start(const step_request& request, const step_result& result) {
-    if (!request.check_start) return "";
-    const std::size_t all = result.intersections_at_start.size();
-    if (all == 0) return "\nFRAME0 is free of intersections\n";
-    std::string parts;
-    for (const errbound::relation r : intersection_relations)
-        if (const std::size_t n = number_at_start(result, r); n > 0)
-            parts += (parts.empty() ? "" : ", ") + std::to_string(n) + ' ' + std::string(name(r));
-    return "\nFRAME0 has " + std::to_string(all) +
-           (all == 1 ? " intersection (" : " intersections (") + parts +
-           "); ccd check --pairs lists them\n";
+const pair_lists& first_pairs_of(const step_outcome& found) {
+    return found.advance ? found.advance->first_pairs : found.result.first_pairs;
 }
 
 std::uint64_t undecided(const stage_report::entry& entry) {
@@ -97,7 +86,7 @@ std::uint64_t undecided(const stage_report::entry& entry) {
 
 void add_contacts(const step_request& request, const step_outcome& found,
                   nlohmann::ordered_json& document) {
-    if (!request.times && !request.advance) return;
+    if (!request.needs_first_contact()) return;
     const first_time& first = first_contact_of(found);
     document["touching_at_start"] = number_of(found.result.touching_at_start);
     if (found.advance && request.distance != 0)
@@ -105,6 +94,7 @@ void add_contacts(const step_request& request, const step_outcome& found,
     document["first_contact"] = nullptr;
     if (first.outcome == outcome::collides) document["first_contact"] = {first.low, first.high};
     if (found.advance) document["advance"] = found.advance->fraction;
+    if (request.replay) document["first_pairs"] = json_of_reasons(found.reasons);
 }
 
 struct possible_pairs {
@@ -131,7 +121,6 @@ std::string json_of(const step_request& request, const mesh& before, const step_
                                          {"broad", result.broad_phase_seconds},
                                          {"narrow", result.narrow_phase_seconds},
                                          {"sort", result.sort_seconds},
-                                         {"start", result.start_seconds},
                                          {"total", result.total_seconds}}},
                                        {"threads", result.threads},
                                        {"peak_memory_bytes", found.memory}};
@@ -144,9 +133,7 @@ std::string json_of(const step_request& request, const mesh& before, const step_
     if (request.unused > 0)
         document["unused_vertices"] = {{"count", request.unused}, {"skipped", request.skip_unused}};
     add_contacts(request, found, document);
-    if (!result.intersections_at_start.empty())
-        for (const errbound::relation r : intersection_relations)
-            document["intersections_at_start"][std::string(name(r))] = number_at_start(result, r);
+    add_start(document, result.intersections_at_start);
     if (request.explain) {
         const auto [vertex_face, edge_edge] = pairs_of_mesh(request, before);
         document["pairs_of_mesh"] = {{name(kind::vertex_face), vertex_face},
@@ -211,7 +198,7 @@ std::string text_of_stages(const step_result& result) {
 }
 
 std::string text_of_contacts(const step_request& request, const step_outcome& found) {
-    if (!request.times && !request.advance) return "";
+    if (!request.needs_first_contact()) return "";
     const first_time& first = first_contact_of(found);
     table rows = {
         {request.distance != 0 ? "within at start" : "touching at start", "first contact"},
@@ -223,7 +210,7 @@ std::string text_of_contacts(const step_request& request, const step_outcome& fo
         rows[0].push_back("free to");
         rows[1].push_back(fixed(found.advance->fraction, "%.17g"));
     }
-    return '\n' + text_of(rows, 0);
+    return '\n' + text_of(rows, 0) + text_of_reasons(found.reasons);
 }
 
 std::string text_of_step(const step_request& request, const mesh& before,
@@ -245,7 +232,7 @@ std::string text_of_step(const step_request& request, const mesh& before,
          fixed(1e3 * result.sort_seconds, "%.1f ms"), std::to_string(result.threads),
          fixed(static_cast<double>(found.memory) / (1 << 20), "%.1f MiB")}};
     return text_of(pairs, 1) + '\n' + text_of(costs, 0) + text_of_contacts(request, found) +
-           text_of_start(request, result) +
+           (request.check_start ? text_of_start(result.intersections_at_start) : "") +
            (request.explain
                 ? '\n' + text_of_boxes(request, before, result) + '\n' + text_of_stages(result)
                 : "");
@@ -300,6 +287,9 @@ class step final : public command {
                                           .threads = request_.threads,
                                           .set = request_.set,
                                           .filter = {.skip_unused = request_.skip_unused}});
+        if (replay_)
+            found.reasons = reasons(vertex_rows(before, after), first_pairs_of(found),
+                                    first_contact_of(found), {request_.distance});
         found.memory = errbound::support::system::peak_memory_bytes();
         write(before, after, found);
         stream_for_people() << text_of_step(request_, before, found);
@@ -356,6 +346,7 @@ class step final : public command {
                            ? std::string()
                            : "path is '" + path + "'; expected a name that ends in .ply, or -";
             });
+        add_replay_option(line_, replay_);
         line_
             .add_option(
                 "--view", view_,
@@ -379,6 +370,10 @@ class step final : public command {
         if (pairs_) outputs.push_back({*pairs_, lines_of_pairs(found.result.pairs)});
         if (toi_)
             outputs.push_back({*toi_, lines_of_pairs(found.result.pairs, &found.result.times)});
+        if (replay_)
+            for (auto& file :
+                 replay_files(*replay_, vertex_rows(before, after), first_pairs_of(found)))
+                outputs.push_back(std::move(file));
         if (advance_)
             outputs.push_back({*advance_, io::ply_of({std::move(found.advance->positions),
                                                       before.faces, before.edges})});
@@ -395,17 +390,20 @@ class step final : public command {
     void check_times() {
         request_.times = toi_.has_value();
         request_.advance = advance_.has_value();
+        request_.replay = replay_.has_value();
         request_.distance = separation_.value(0, std::numeric_limits<double>::max());
         request_.t_max = t_max_.value(1, 1);
-        if (!request_.times && !request_.advance && !separation_.was_given() && !t_max_.was_given())
+        if (!request_.needs_first_contact() && !separation_.was_given() && !t_max_.was_given())
             return;
         if (request_.method != method::exact)
-            throw usage_error("--method is " + method_ +
-                              "; expected exact with --toi, --separation, --t-max or --advance");
-        if (request_.device.cuda &&
-            (request_.advance || separation_.was_given() || t_max_.was_given()))
             throw usage_error(
-                "--device is cuda; expected cpu with --separation, --t-max or --advance");
+                "--method is " + method_ +
+                "; expected exact with --toi, --separation, --t-max, --advance or --replay");
+        if (request_.device.cuda &&
+            (request_.advance || request_.replay || separation_.was_given() || t_max_.was_given()))
+            throw usage_error(
+                "--device is cuda; expected cpu with --separation, --t-max, --advance or "
+                "--replay");
         if (request_.advance && t_max_.was_given())
             throw usage_error("--t-max is given with --advance; expected the whole step");
         if (request_.explain && request_.distance != 0)
@@ -436,6 +434,8 @@ class step final : public command {
         std::vector<std::optional<std::filesystem::path>> outputs = {pairs_, toi_, advance_, json_};
         if (view_)
             for (auto& path : io::view_paths(*view_)) outputs.push_back(std::move(path));
+        if (replay_)
+            for (auto& path : replay_paths(*replay_)) outputs.push_back(std::move(path));
         errbound::support::require_good_outputs(outputs, {request_.before, request_.after});
         errbound::support::require_one_standard_input("FRAME0 and FRAME1",
                                                       {request_.before, request_.after});
@@ -443,7 +443,7 @@ class step final : public command {
 
     step_request request_;
     std::string method_ = "exact", set_;
-    std::optional<std::filesystem::path> pairs_, toi_, advance_, json_, view_;
+    std::optional<std::filesystem::path> pairs_, toi_, advance_, json_, view_, replay_;
     number_option separation_{line_, "--separation",
                               "Report pairs that come within NUMBER instead of contacts"};
     number_option t_max_{line_, "--t-max", "Report pairs up to time NUMBER, from 0 to 1"};

@@ -87,6 +87,7 @@ const search_kernels& search_kernels_for(std::optional<instruction_set> set) {
 candidate_search::candidate_search(std::span<const face> faces, std::span<const edge> edges,
                                    std::size_t vertices)
     : vertex_count_(vertices),
+      has_edges_(!edges.empty()),
       unused_(unused_vertices(faces, edges, vertices)),
       vertices_(all_vertices(vertices)),
       faces_(unique_faces(faces)) {
@@ -110,6 +111,7 @@ candidate_search candidate_search::at_start(std::span<const face> faces,
     search.in_plane_ = in_plane;
     search.vertex_count_ = vertices;
     search.unused_ = unused_vertices(faces, edges, vertices);
+    search.has_edges_ = !edges.empty();
     search.faces_ = ordered_elements(unique_faces(faces));
     if (!edges.empty())
         search.rods_ = ordered_elements(edges_of_no_face(edges, unique_edges(faces)));
@@ -120,7 +122,8 @@ candidate_search candidate_search::at_start(std::span<const face> faces,
 void candidate_search::set_resting() {
     const std::span<const face> faces = faces_;
     const std::span<const edge> rods = rods_;
-    std::vector<vertex_index> points = unused_vertices(faces, rods, vertex_count_);
+    std::vector<vertex_index> points = unused_;
+    if (has_edges_) points = unused_vertices(faces, rods, vertex_count_);
     if (skips_unused_) points = without(points, unused_);
     std::vector<face> all;
     if (!rods.empty() || !points.empty()) all.assign(faces.begin(), faces.end());

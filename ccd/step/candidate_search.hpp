@@ -143,6 +143,7 @@ class candidate_search {
     void skip_in(ordered_elements<N>& set, bool skip);
 
     std::size_t vertex_count_;
+    bool has_edges_;  ///< other than those of faces were given
     std::vector<vertex_index> unused_;
     bool skips_unused_ = false;
     vertex_order order_;

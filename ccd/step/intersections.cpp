@@ -65,6 +65,9 @@ class intersection_finder {
     void decide(found_by_thread& found, const face& a, const face& b);
     void find_edges_in_faces(found_by_thread& found, const face& edges_of, const face& f) const;
     void report(found_by_thread& found, const face& a, const face& b, relation r) const;
+    std::size_t size_of(const face& element) const {
+        return search_.is_point(element) ? 1 : search_.is_rod(element) ? 2 : 3;
+    }
     mesh_element element_of(const face& element) const;
 
     const candidate_search& search_;
@@ -76,10 +79,10 @@ class intersection_finder {
 
 template <std::size_t K, std::size_t D>
 std::array<std::array<double, D>, K> points_of(const vertex_rows& positions,
-                                               const simplex_vertices& s) {
+                                               const std::array<vertex_index, 3>& vertices) {
     std::array<std::array<double, D>, K> points;
     for (std::size_t i = 0; i < K; ++i) {
-        const double* row = positions.before + 3 * std::size_t(s.vertices[i]);
+        const double* row = positions.before + 3 * std::size_t(vertices[i]);
         for (std::size_t k = 0; k < D; ++k) points[i][k] = row[k];
     }
     return points;
@@ -91,7 +94,8 @@ auto with_points(const vertex_rows& positions, const simplex_vertices& a, const 
                  const Visit& visit) {
     const simplex_vertices &small = a.size <= b.size ? a : b, &large = a.size <= b.size ? b : a;
     const auto with_sizes = [&]<std::size_t K, std::size_t L>() {
-        return visit(points_of<K, D>(positions, small), points_of<L, D>(positions, large));
+        return visit(points_of<K, D>(positions, small.vertices),
+                     points_of<L, D>(positions, large.vertices));
     };
     switch (4 * small.size + large.size) {
         case 4 * 1 + 1:
@@ -141,8 +145,8 @@ std::array<errbound::located_point<3>, 2> segment_of(const vertex_rows& position
         return with_points<3>(positions, a, b, [](const auto& x, const auto& y) -> ends {
             return errbound::common_segment(x, y);
         });
-    const auto [p, q] =
-        errbound::common_segment(points_of<2, 2>(positions, a), points_of<2, 2>(positions, b));
+    const auto [p, q] = errbound::common_segment(points_of<2, 2>(positions, a.vertices),
+                                                 points_of<2, 2>(positions, b.vertices));
     const auto lifted = [](const errbound::located_point<2>& x) {
         return errbound::located_point<3>{{x.position[0], x.position[1], 0}, x.error};
     };
@@ -184,7 +188,17 @@ bool intersection_finder::may_meet(const simplex_vertices& a, const simplex_vert
 void intersection_finder::decide(std::span<const face> elements,
                                  std::span<const element_pair> pairs) {
     found_by_thread& found = found_.local();
-    for (const auto& [i, j] : pairs) decide(found, elements[i], elements[j]);
+    const bool plain = all_pass_ && !options_.edge_faces && !search_.is_in_plane();
+    for (const auto& [i, j] : pairs) {
+        const face &a = elements[i], &b = elements[j];
+        if (!plain || !is_triangle(a) || !is_triangle(b)) {
+            decide(found, a, b);
+            continue;
+        }
+        const relation r =
+            errbound::relation_of(points_of<3, 3>(positions_, a), points_of<3, 3>(positions_, b));
+        if (r != relation::disjoint) report(found, a, b, r);
+    }
 }
 
 void intersection_finder::decide(found_by_thread& found, const face& a, const face& b) {
@@ -201,7 +215,7 @@ void intersection_finder::decide(found_by_thread& found, const face& a, const fa
 void intersection_finder::find_edges_in_faces(found_by_thread& found, const face& edges_of,
                                               const face& f) const {
     const simplex_vertices from(edges_of), to(f);
-    if (element_of(f).size < 3) return;
+    if (size_of(f) < 3) return;
     for (std::size_t i = 1; i < from.size; ++i)
         for (std::size_t j = 0; j < i; ++j) {
             const edge e{std::min(from.vertices[i], from.vertices[j]),
@@ -216,8 +230,8 @@ void intersection_finder::find_edges_in_faces(found_by_thread& found, const face
 }
 
 mesh_element intersection_finder::element_of(const face& element) const {
-    if (search_.is_point(element)) return {1, {element[0]}};
-    if (search_.is_rod(element)) return {2, {element[0], element[1]}};
+    if (const std::size_t size = size_of(element); size < 3)
+        return {static_cast<std::uint8_t>(size), {element[0], size == 2 ? element[1] : 0}};
     face sorted = element;
     std::ranges::sort(sorted);
     return {3, sorted};

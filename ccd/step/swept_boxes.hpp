@@ -41,6 +41,7 @@ class short_way {
     /// 1.01ε, and the subtraction of w one of (1.01 + w)ε. So the exact coordinate is at least the
     /// rounded one less w. For sums of two coordinates the margin is 7ε + 2w: their error is
     /// 4.04ε + 2δ, and that of the subtraction (2.02 + 7ε + 2w)ε.
+    /// Proof: proofs/Extents.v, wide_extents_hold, until_face_separate, until_edges_separate.
     float margin() const {
         if (error_ == 0) return 0;
         return static_cast<float>(1.0001 * error_ * rounded_.scale() +
@@ -49,6 +50,7 @@ class short_way {
 
   private:
     /// (1 − t)·x + t·y has four roundings, each of at most u of |(1 − t)·x| + |t·y|, or 2^-1075.
+    /// Proof: proofs/Extents.v, after_near.
     static std::vector<double> after(const vertex_rows& way, double t, double& error) {
         std::vector<double> ends(way.before, way.before + 3 * way.vertices);
         error = 0;
@@ -146,6 +148,8 @@ class swept_boxes {
         constexpr double most = std::numeric_limits<double>::max();
         return std::min(std::nextafter(x, std::numeric_limits<double>::infinity()), most);
     }
+    /// Proof: proofs/Extents.v, widened_holds, until_boxes_face_separate,
+    /// until_boxes_edges_separate.
     static void widen(box<double>& b, double by) {
         for (std::size_t k = 0; k < 3; ++k) {
             b.low[k] = -above(by - b.low[k]);

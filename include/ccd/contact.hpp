@@ -5,11 +5,10 @@
 //     ccd::first_time d = ccd::time_within(query, {1e-3, 0});   // first time within a distance
 //     auto times = ccd::first_times(positions, pairs);          // many queries, over threads
 //
-// Semantics are those of ccd/exact.hpp: planar motion, touching without crossing, parallel edges
-// and degenerate triangles all have one right answer. Coordinates that are not finite give
-// `uncertain`. Calls for one query do not allocate or throw, except in their last stage
-// (ccd/reference.hpp). Batches throw std::invalid_argument for bad input; answers do not depend on
-// instruction sets or threads.
+// Semantics are those of ccd/exact.hpp, also for planar motion, parallel edges and degenerate
+// triangles. Coordinates that are not finite give `uncertain`. Calls for one query do not allocate
+// or throw, except in their last stage (ccd/reference.hpp). Batches throw std::invalid_argument for
+// bad input; answers do not depend on instruction sets or threads.
 #pragma once
 
 #include <algorithm>
@@ -24,6 +23,7 @@
 #include <limits>
 #include <optional>
 #include <span>
+#include <string_view>
 #include <vector>
 
 namespace ccd {
@@ -129,9 +129,7 @@ first_contact find_first_contact(const Query& query, double t_max = 1) {
 /// normal velocity is not 0). It is undefined, with all of `by` 0, if
 /// - there is no contact, or it is at the start;
 /// - smaller features meet: other features may then be first after any change of positions;
-/// - the root is multiple, or so close to a multiple one that the sign of the normal velocity is
-/// not
-///   certain;
+/// - the root is multiple, or so close to a multiple one that the normal velocity may be 0;
 /// - two vertices meet, or a vertex and an edge outside the plane. Almost every change parts them.
 /// For a vertex and an edge in the plane (all z are equal), motions stay in it: derivatives by z
 /// are 0. At t = 1, the motion counts as continued after the step.
@@ -150,6 +148,25 @@ struct time_derivative {
 /// ccd/contact/data/derivative.cpp.
 template <any_query Query>
 time_derivative derivative_of(const Query& query, const first_contact& contact);
+
+/// How features move on after their first contact.
+enum class contact_motion : std::uint8_t {
+    unknown,     ///< there is no contact, or it is at the start and the features then part
+    approaches,  ///< each moves to the other side, or their normal velocity is certainly negative
+    touches,     ///< on one side before and after the bracket: they touch without crossing
+    slides,      ///< the motion stays in the plane of the features, or on the line of the edge
+};
+constexpr std::string_view name(contact_motion m) {
+    constexpr std::string_view names[] = {"unknown", "approaches", "touches", "slides"};
+    return names[static_cast<std::size_t>(m)];
+}
+
+/// Returns the motion of the result of contact_at(query, time). Exact: if the normal velocity does
+/// not decide, the signs of Y (docs/notation.md) just before and just after the bracket do. If Y is
+/// zero throughout, those of the distances from the edge that the vertex meets do. Cost: one
+/// comparison if the normal velocity decides, otherwise unbounded integers.
+template <any_query Query>
+contact_motion motion_after(const Query& query, const first_contact& contact);
 
 /// The distance within which a pair is reported: `all` for every pair, or the exact sum of the
 /// thicknesses of its elements. An element's thickness is the largest `thickness` of its vertices.

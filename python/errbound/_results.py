@@ -219,10 +219,12 @@ def _listed(pairs: Any) -> str:
 class IntersectionsOfKind:
     """The k intersections of one kind, sorted: uint32 vertices (k, m), both elements ascending, and their relations.
 
+    In errbound.mpi, vertices are uint64 numbers.
+
     relation: uint8, values of Relation. segment: (k, 2, 3), the ends of the common segment of crossing pairs, each
     coordinate with an error of at most error (k, 2); NaN for other pairs, and with segments=False.
     """
-    vertices: Indices
+    vertices: NDArray[Any]
     relation: Codes
     segment: Doubles
     error: Doubles
@@ -270,8 +272,9 @@ def intersections_of(found: Any) -> Intersections:
     def of_kind(arrays: Any) -> IntersectionsOfKind:
         return IntersectionsOfKind(**{**arrays, "segment": arrays["segment"].reshape(-1, 2, 3)})
 
-    return Intersections(**{name: of_kind(value) if name in INTERSECTION_KINDS else value
-                            for name, value in found.items()})
+    members: dict[str, Any] = {name: of_kind(value) if name in INTERSECTION_KINDS else value
+                               for name, value in found.items()}
+    return Intersections(**members)
 
 
 def at_start(found: Any) -> Intersections | None:

@@ -206,9 +206,10 @@ def nearness(queries: ArrayLike, kind: Kind, *, positions: Positions | ArrayLike
         given = as_array("queries", queries)
         if given.ndim == 3 and given.shape[1] == POINTS.get(kind):
             queries = np.concatenate((given, given), 1)
-    elif np.ndim(positions) == 2:
-        positions = positions, positions
-    checked = _Queries(queries, kind, positions)
+    frames_given: Any = positions
+    if positions is not None and np.ndim(frames_given) == 2:
+        frames_given = positions, positions
+    checked = _Queries(queries, kind, frames_given)
     at = doubles("t", np.ravel(t), (None,))
     if not ((at >= 0) & (at <= 1)).all():
         raise ValueError(f"t is {at[np.argmin((at >= 0) & (at <= 1))]}; expected a number in [0, 1]")
@@ -255,7 +256,7 @@ class FilterOptions(TypedDict, total=False):
 
 
 class SearchOptions(FilterOptions, total=False):
-    """FilterOptions, and the distance of steps.
+    """FilterOptions (threads, groups, between_groups, pinned, skip_unused, can_collide), and the distance of steps.
 
     distance: finds pairs that come within it, instead of pairs that touch.
     thickness: (n,), one per vertex, instead of distance: as decide.
@@ -265,7 +266,7 @@ class SearchOptions(FilterOptions, total=False):
 
 
 class IntersectionOptions(FilterOptions, total=False):
-    """FilterOptions, and options of intersections.
+    """FilterOptions (threads, groups, between_groups, pinned, skip_unused, can_collide), and:
 
     segments: False: skips the common segments of crossing pairs.
     edge_faces: fills edge_faces of the result.

@@ -17,7 +17,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from . import _native
 from ._arrays import Doubles, Indices, as_array, check_finite, checked_indices, doubles, frames, option
-from ._results import StepResult
+from ._results import Intersections, StepResult
 from .ccd import POINTS, Kind
 
 FileError = _native.FileError
@@ -202,6 +202,13 @@ def _checked_result(result: StepResult, vertices: int) -> tuple[dict[Kind, Indic
     return pairs, times
 
 
+def _checked_intersections(found: Intersections | None, vertices: int) -> dict[str, tuple[Any, Any, Any]]:
+    if found is None:
+        return {}
+    return {kind: (checked_indices(f"result.intersections_at_start.{kind}", of.vertices, of.vertices.shape[1], vertices),
+                   of.relation, of.segment.reshape(-1, 6)) for kind, of in found.by_kind.items()}
+
+
 def write_view(path: str | os.PathLike[str], before: Mesh, after: Mesh, result: StepResult) -> None:
     """Writes a step for a viewer, with times if result has them. The file's extension selects the format.
 
@@ -211,7 +218,8 @@ def write_view(path: str | os.PathLike[str], before: Mesh, after: Mesh, result: 
     """
     at_start, at_end, faces, edges = _checked_mesh(before, after)
     pairs, times = _checked_result(result, len(at_start))
-    _native.write_view(_name(path), at_start, at_end, faces, edges, pairs, times)
+    _native.write_view(_name(path), at_start, at_end, faces, edges, pairs, times,
+                       _checked_intersections(result.intersections_at_start, len(at_start)))
 
 
 def write_pvd(path: str | os.PathLike[str], times: ArrayLike, files: Sequence[str | os.PathLike[str]]) -> None:

@@ -30,10 +30,10 @@ except ImportError as missing:
                       f"--config-settings cmake.define.ERRBOUND_WITH_MPI=ON errbound ({missing})") from None
 
 from ._arrays import as_array, checked_indices, frames, option
-from ._results import _listed
-from .ccd import _OF_ADVANCE, _OF_RUN, _request
+from ._results import Intersections, _listed, at_start, intersections_of
+from .ccd import _OF_ADVANCE, _OF_INTERSECTIONS, _OF_RUN, _request
 
-__all__ = ["AdvanceResult", "Pairs", "StepResult", "Work", "advance", "step"]
+__all__ = ["AdvanceResult", "IntersectionResult", "Pairs", "StepResult", "Work", "advance", "intersections", "step"]
 
 if _mpi.library_version() != MPI.Get_library_version().rstrip("\0"):
     raise ImportError(f"MPI of mpi4py is {MPI.Get_library_version()!r}; expected the one that errbound is built with, "
@@ -42,6 +42,8 @@ if _mpi.library_version() != MPI.Get_library_version().rstrip("\0"):
 Numbers = NDArray[np.uint64]
 _OF_STEP = {name: kind for name, kind in _OF_RUN.items() if name not in ("can_collide", "stages")}
 _OF_FREE_STEP = {name: kind for name, kind in _OF_ADVANCE.items() if name not in ("can_collide", "each_vertex")}
+_AT_REST = {name: kind for name, kind in _OF_INTERSECTIONS.items()
+            if name not in ("can_collide", "edge_faces", "merge_equal_positions")}
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -76,6 +78,7 @@ class StepResult:
     times: dict[str, dict[str, NDArray[np.float64]]] | None
     first_contact: tuple[float, float] | None
     candidates: dict[str, int] | None
+    intersections_at_start: Intersections | None
     work: Work
 
 
@@ -89,6 +92,15 @@ class AdvanceResult:
     touching_at_start: Pairs
     near_at_start: Pairs
     first_pairs: Pairs
+    intersections_at_start: Intersections | None
+    work: Work
+
+
+@dataclass(frozen=True, eq=False)
+class IntersectionResult:
+    """The intersections of this rank (with gather: all on rank 0), and their total number in the whole mesh."""
+    pairs: Intersections
+    total: int
     work: Work
 
 
@@ -143,6 +155,7 @@ def step(comm: MPI.Comm, numbers: ArrayLike, before: ArrayLike, after: ArrayLike
     found = _mpi.step(*_checked(comm, numbers, before, after, faces, edges, _OF_STEP, options), gather)
     for name in "pairs", "touching_at_start":
         found[name] = Pairs(**found[name])
+    found["intersections_at_start"] = at_start(found["intersections_at_start"])
     return StepResult(**{**found, "work": Work(**found["work"])})
 
 
@@ -155,4 +168,17 @@ def advance(comm: MPI.Comm, numbers: ArrayLike, before: ArrayLike, after: ArrayL
     found = _mpi.advance(*_checked(comm, numbers, before, after, faces, edges, _OF_FREE_STEP, options))
     for name in "first_pairs", "touching_at_start", "near_at_start":
         found[name] = Pairs(**found[name])
+    found["intersections_at_start"] = at_start(found["intersections_at_start"])
     return AdvanceResult(**{**found, "work": Work(**found["work"])})
+
+
+def intersections(comm: MPI.Comm, numbers: ArrayLike, positions: ArrayLike, faces: ArrayLike, edges: ArrayLike = (),
+                  *, gather: bool = False, **options: Any) -> IntersectionResult:
+    """Finds the elements of the whole mesh that intersect at rest, as errbound.ccd.intersections.
+
+    Each pair is returned on the lowest rank that has its first vertex; with gather, all on rank 0.
+    Options: segments and FilterOptions, except can_collide; equal on all ranks.
+    """
+    gather = option("gather", gather, bool)
+    found = _mpi.intersections(*_checked(comm, numbers, positions, positions, faces, edges, _AT_REST, options), gather)
+    return IntersectionResult(intersections_of(found["pairs"]), found["total"], Work(**found["work"]))

@@ -56,6 +56,24 @@ nb::dict step(const distributed_mesh& mesh, const step_request& request, bool ga
         found["times"] = of_each_kind(std::move(result.times),
                                       [](auto&& times) { return times_of(std::move(times)); });
     found["first_contact"] = time_of(result.first_contact);
+    found["intersections_at_start"] = nb::none();
+    if (request.check_start)
+        found["intersections_at_start"] = intersections_of(result.intersections_at_start);
+    found["work"] = dict_of(result.work);
+    return found;
+}
+
+nb::dict intersections(const distributed_mesh& mesh, const step_request& request, bool gather) {
+    ccd::intersection_options options = request.intersection_options();
+    ccd::mpi::intersection_result result = without_gil([&](const ccd::stop_query& stop) {
+        options.stop = stop;
+        return ccd::mpi::intersections(
+            mesh.communicator(), mesh.part(), options,
+            gather ? ccd::mpi::placement::root : ccd::mpi::placement::owners);
+    });
+    nb::dict found;
+    found["pairs"] = intersections_of(result.pairs);
+    found["total"] = result.counts.total();
     found["work"] = dict_of(result.work);
     return found;
 }
@@ -75,6 +93,9 @@ nb::dict advance(const distributed_mesh& mesh, const step_request& request) {
     found["touching_at_start"] =
         pairs_of<ccd::mpi::vertex_number>(std::move(result.touching_at_start));
     found["near_at_start"] = pairs_of<ccd::mpi::vertex_number>(std::move(result.near_at_start));
+    found["intersections_at_start"] = nb::none();
+    if (request.check_start)
+        found["intersections_at_start"] = intersections_of(result.intersections_at_start);
     found["work"] = dict_of(result.work);
     return found;
 }
@@ -100,5 +121,6 @@ NB_MODULE(_mpi, m) {
         nb::arg("comm"), nb::arg("numbers"), nb::arg("before"), nb::arg("after"), nb::arg("faces"),
         nb::arg("edges"));
     m.def("step", &step, nb::arg("mesh"), nb::arg("request"), nb::arg("gather"));
+    m.def("intersections", &intersections, nb::arg("mesh"), nb::arg("request"), nb::arg("gather"));
     m.def("advance", &advance, nb::arg("mesh"), nb::arg("request"));
 }

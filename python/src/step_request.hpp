@@ -13,6 +13,7 @@
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -129,14 +130,15 @@ nb::dict pairs_of(Lists&& pairs) {
                         [](auto&& list) { return rows_of<Number>(std::move(list)); });
 }
 /// Vertices, relations, segments and their errors of the intersections of one kind.
-template <std::size_t Vertices>
-nb::dict intersections_of_kind(const std::vector<ccd::intersection>& all,
-                               ccd::intersection_kind kind) {
-    std::vector<std::array<ccd::vertex_index, Vertices>> vertices;
+template <std::size_t Vertices, class Intersection>
+nb::dict intersections_of_kind(const std::vector<Intersection>& all, ccd::intersection_kind kind) {
+    using number = std::remove_const_t<
+        typename decltype(std::declval<Intersection>().a.vertices())::element_type>;
+    std::vector<std::array<number, Vertices>> vertices;
     std::vector<std::uint8_t> relations;
     std::vector<std::array<double, 6>> segments;
     std::vector<std::array<double, 2>> errors;
-    for (const ccd::intersection& pair : all) {
+    for (const Intersection& pair : all) {
         if (pair.kind() != kind) continue;
         auto& row = vertices.emplace_back();
         std::ranges::copy(pair.b.vertices(), std::ranges::copy(pair.a.vertices(), row.begin()).out);
@@ -150,13 +152,15 @@ nb::dict intersections_of_kind(const std::vector<ccd::intersection>& all,
                              : std::array{none, none});
     }
     nb::dict found;
-    found["vertices"] = rows_of<ccd::vertex_index>(std::move(vertices));
+    found["vertices"] = rows_of<number>(std::move(vertices));
     found["relation"] = numbers_of<std::uint8_t>(std::move(relations));
     found["segment"] = rows_of<double>(std::move(segments));
     found["error"] = rows_of<double>(std::move(errors));
     return found;
 }
-inline nb::dict intersections_of(const std::vector<ccd::intersection>& all) {
+/// Converts ccd::intersection or ccd::mpi::numbered_intersection.
+template <class Intersection>
+nb::dict intersections_of(const std::vector<Intersection>& all) {
     nb::dict found;
     const auto add = [&]<std::size_t Vertices>(ccd::intersection_kind kind) {
         found[std::string(name(kind)).c_str()] = intersections_of_kind<Vertices>(all, kind);

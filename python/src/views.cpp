@@ -2,6 +2,7 @@
 #include <nanobind/stl/vector.h>
 
 #include <ccd/io/step_view.hpp>
+#include <cmath>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -37,17 +38,52 @@ struct listed_pairs {
     }
 };
 
+/// Converts a dictionary by kind of tuples: vertices, relations, segments (NaN if unknown).
+std::vector<ccd::intersection> intersections_of(const nb::dict& arrays) {
+    std::vector<ccd::intersection> all;
+    for (const ccd::intersection_kind kind : ccd::intersection_kinds) {
+        const std::string key(name(kind));
+        if (!arrays.contains(key.c_str())) continue;
+        const nb::tuple of_kind = nb::cast<nb::tuple>(arrays[key.c_str()]);
+        const auto vertices = nb::cast<input<std::uint32_t, -1, -1>>(of_kind[0]);
+        const auto relations = nb::cast<input<std::uint8_t, -1>>(of_kind[1]);
+        const auto segments = nb::cast<input<double, -1, 6>>(of_kind[2]);
+        const std::size_t second = kind == ccd::intersection_kind::face_face ||
+                                           kind == ccd::intersection_kind::edge_face ||
+                                           kind == ccd::intersection_kind::vertex_face
+                                       ? 3
+                                   : kind == ccd::intersection_kind::vertex_vertex ? 1
+                                                                                   : 2;
+        const std::size_t first = vertices.shape(1) - second;
+        for (std::size_t i = 0; i < vertices.shape(0); ++i) {
+            ccd::intersection& pair = all.emplace_back();
+            pair.a.size = static_cast<std::uint8_t>(first);
+            pair.b.size = static_cast<std::uint8_t>(second);
+            for (std::size_t k = 0; k < first; ++k) pair.a.indices[k] = vertices(i, k);
+            for (std::size_t k = 0; k < second; ++k) pair.b.indices[k] = vertices(i, first + k);
+            pair.relation = static_cast<relation>(relations(i));
+            if (std::isnan(segments(i, 0))) continue;
+            pair.segment.emplace();
+            for (std::size_t k = 0; k < 6; ++k)
+                (*pair.segment)[k / 3].position[k % 3] = segments(i, k);
+        }
+    }
+    return all;
+}
+
 void write_view(const std::string& path, const positions& before, const positions& after,
                 const input<std::uint32_t, -1, 3>& faces, const input<std::uint32_t, -1, 2>& edges,
-                const nb::dict& pairs, const nb::dict& times) {
+                const nb::dict& pairs, const nb::dict& times, const nb::dict& intersections) {
     ccd::io::view_paths(path);  // throws before the pairs are converted
     const listed_pairs listed(pairs, times);
+    const std::vector<ccd::intersection> at_start = intersections_of(intersections);
     const nb::gil_scoped_release released;
     support::write_whole(ccd::io::view_files(path, {{before.data(), after.data(), before.shape(0)},
                                                     items_of<ccd::face>(faces),
                                                     items_of<ccd::edge>(edges),
                                                     listed.pairs,
-                                                    listed.times}));
+                                                    listed.times,
+                                                    at_start}));
 }
 
 void write_pvd(const std::string& path, const std::vector<double>& times,
@@ -61,7 +97,8 @@ void write_pvd(const std::string& path, const std::vector<double>& times,
 
 void bind_views(nb::module_& m) {
     m.def("write_view", write_view, nb::arg("path"), nb::arg("before"), nb::arg("after"),
-          nb::arg("faces"), nb::arg("edges"), nb::arg("pairs"), nb::arg("times"));
+          nb::arg("faces"), nb::arg("edges"), nb::arg("pairs"), nb::arg("times"),
+          nb::arg("intersections"));
     m.def("write_pvd", write_pvd, nb::arg("path"), nb::arg("times"), nb::arg("files"));
 }
 

@@ -22,7 +22,7 @@ namespace {
 
 /// True if the first time is differentiable wherever the normal velocity is not 0. `contact` has
 /// exact features. If they are the query's, all weights are positive and N (or the edge) is not 0.
-/// After a small change, the features then meet at the same root.
+/// After a small change the features then meet at the same root.
 template <class Query>
 bool may_be_differentiable(const Query& query, const first_contact& contact) {
     constexpr kind whole = kind_of<Query>;

@@ -82,15 +82,21 @@ errbound::sign_type sign_beside(const errbound::bernstein<integer, N>& f, const 
     }
 }
 
+/// The sign of f just before or just after the time t. Exact, in unbounded integers; allocates.
+template <int N>
+errbound::sign_type sign_beside(const errbound::bernstein<integer, N>& f, double t, bool before) {
+    const auto at = errbound::dyadic<integer>::from(t);
+    const int unit = std::min(at.exponent(), 0);
+    const integer weight = at.in_units(unit);
+    const integer rest = errbound::dyadic<integer>::power_of_two(0).in_units(unit) - weight;
+    return sign_beside(f, rest, weight, before);
+}
+
 /// The sign of Y before the contact: at `low`, if that is not the contact's time. Zero if the
 /// motion is planar. Exact, in unbounded integers; allocates.
 template <class Query>
 errbound::sign_type side_before(const Query& query, const first_time& time) {
-    const auto low = errbound::dyadic<integer>::from(time.low);
-    const int unit = std::min(low.exponent(), 0);
-    const integer t = low.in_units(unit);
-    const integer s = errbound::dyadic<integer>::power_of_two(0).in_units(unit) - t;
-    return sign_beside(forms_of(to_integers(query)).y(), s, t, time.low == time.high);
+    return sign_beside(forms_of(to_integers(query)).y(), time.low, time.low == time.high);
 }
 
 }  // namespace ccd::detail

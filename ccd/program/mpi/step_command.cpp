@@ -50,6 +50,8 @@ class distributed_step final : public command {
                         "between these times; -: standard output")
             ->type_name("OUT");
         add_threads_option(line_, threads_, "Threads of each rank; 0: one per core");
+        line_.add_flag("!--no-check-start", check_start_,
+                       "Do not look for elements that intersect in FRAME0");
         line_.add_flag("--candidates", candidates_, "Count candidates, in total and by rank");
         line_
             .add_option("--json", json_, "Write counts, seconds and the work of each rank as JSON")
@@ -91,7 +93,8 @@ class distributed_step final : public command {
         return {.method = method,
                 .threads = threads_,
                 .count_candidates = candidates_ || method != method::exact,
-                .times = toi_.has_value()};
+                .times = toi_.has_value(),
+                .check_start = check_start_};
     }
 
     void write(const shared_frames& frames, const step_options& options,
@@ -106,8 +109,8 @@ class distributed_step final : public command {
         if (json_) outputs.push_back({*json_, document.dump(2) + '\n'});
         errbound::support::write_whole(outputs);
         errbound::support::stream_for_people({pairs_, toi_, json_})
-            << text_of_unused(frames.unused, frames.vertices, skipped)
-            << text_of_step(found, ranks);
+            << text_of_unused(frames.unused, frames.vertices, skipped) << text_of_step(found, ranks)
+            << (check_start_ ? text_of_start(found.intersections_at_start) : "");
     }
 
     nlohmann::ordered_json json_of(const mpi::step_result& found,
@@ -127,6 +130,7 @@ class distributed_step final : public command {
             if (first.outcome == outcome::collides)
                 document["first_contact"] = {first.low, first.high};
         }
+        add_start(document, found.intersections_at_start);
         for (const rank_report& r : ranks)
             document["ranks"].push_back({{"vertices_given", r.vertices},
                                          {"elements_given", r.work.elements_given},
@@ -184,7 +188,7 @@ class distributed_step final : public command {
     std::string method_ = "exact";
     std::optional<std::filesystem::path> pairs_, toi_, json_;
     int threads_ = 0;
-    bool candidates_ = false;
+    bool candidates_ = false, check_start_ = true;
     unused_vertices_option unused_{line_};
 };
 

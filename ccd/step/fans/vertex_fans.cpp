@@ -4,6 +4,7 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <cmath>
 #include <errbound/predicates.hpp>
 #include <utility>
 
@@ -95,6 +96,7 @@ bool vertex_fans::is_flat_fan(vertex_index v, const double* positions) const {
             return int{p[k].value > centre[k].value} - int{p[k].value < centre[k].value};
         };
         auto from = at(ring[0]);
+        int x = order(from, i), y = order(from, j);
         sign_type sign = sign_type::zero;
         int turns = 0;
         unsigned not_met = 15;  // of the four half-lines from v along the axes
@@ -104,18 +106,28 @@ bool vertex_fans::is_flat_fan(vertex_index v, const double* positions) const {
             if (sign == sign_type::zero) sign = area;
             if (area != sign || area == sign_type::zero || area == sign_type::uncertain)
                 return false;
-            const int x = order(from, i), y = order(from, j), to_x = order(to, i),
-                      to_y = order(to, j);
+            const int to_x = order(to, i), to_y = order(to, j);
             // In both directions, each turn crosses the half-line x > 0 = y upwards or downwards
             // once, and the half-line x < 0 = y in the opposite direction.
             turns += y < 0 && to_y >= 0;
             not_met &= ~(unsigned(y <= 0 && to_y >= 0) | unsigned(y >= 0 && to_y <= 0) << 1 |
                          unsigned(x <= 0 && to_x >= 0) << 2 | unsigned(x >= 0 && to_x <= 0) << 3);
-            from = to;
+            from = to, x = to_x, y = to_y;
         }
         return kinds_[v] == around::closed_fan ? turns == 1 : not_met != 0;
     };
-    return turns_at_most_once(0, 1) || turns_at_most_once(1, 2) || turns_at_most_once(2, 0);
+    // First along the axis on which the projection of the first face is largest.
+    const auto first = at(ring[0]), second = at(ring[1]);
+    int best = 0;
+    double largest = -1;
+    for (int i = 0; i < 3; ++i) {
+        const double area =
+            std::abs(errbound::forms::area(first, second, centre, i, (i + 1) % 3).value);
+        if (area > largest) best = i, largest = area;
+    }
+    for (int k = best; k < best + 3; ++k)
+        if (turns_at_most_once(k % 3, (k + 1) % 3)) return true;
+    return false;
 }
 
 }  // namespace ccd::detail
