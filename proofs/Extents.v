@@ -350,7 +350,8 @@ Proof.
   destruct (scale_bounds direction low high low_numbers high_numbers low_bounded high_bounded) as (S & _).
   pose proof scale_below as Q. unfold margin_along. set (s := scale f) in *. clearbody s.
   assert (C : 1.00009 <= rnd 53 (-1074) nearest 1.0001).
-  { pose proof (double_near nearest 1.0001) as N. rewrite (Rabs_pos_eq 1.0001) in N by lra. apply Rabs_le_inv in N. lra. }
+  { pose proof (double_near nearest 1.0001) as N. rewrite (Rabs_pos_eq 1.0001) in N by lra. apply Rabs_le_inv in N.
+    lra. }
   set (c := rnd 53 (-1074) nearest 1.0001) in *. clearbody c.
   assert (Cd : 1.00009 * d <= c * d) by (apply Rmult_le_compat_r; lra).
   pose proof (double_lower (c * d) ltac:(lra)) as A. set (a := double (c * d)) in *.
