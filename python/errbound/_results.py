@@ -1,7 +1,7 @@
 """Results of errbound.ccd: small classes of named arrays."""
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from enum import IntEnum
 from typing import Any, Literal
 
@@ -47,6 +47,18 @@ class NormalSource(IntEnum):
     NEAREST_POINTS = 1
     RELATIVE_VELOCITY = 2
     NONE = 3
+
+
+class Motion(IntEnum):
+    """How features move on after a first contact. TOUCHES: on one side before and after, without crossing.
+
+    SLIDES: the motion stays in the plane of the features; with distances, the normal velocity is 0 within its error.
+    UNKNOWN: contact at the start, or no certain sign.
+    """
+    UNKNOWN = 0
+    APPROACHES = 1
+    TOUCHES = 2
+    SLIDES = 3
 
 
 @dataclass(frozen=True)
@@ -338,6 +350,55 @@ class StepResult:
 class TimedStepResult(StepResult):
     """A StepResult with times=True: its times is not None."""
     times: Times
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Passages(FirstContacts):
+    """First contacts of the pairs of one kind, how they move on, and how deep; query has the rows of the pairs.
+
+    motion: uint8, values of Motion. depth: float64 (k,), the distance by which the contact points have moved past each
+    other along the normal at t = 1, with an error of at most depth_error; 0 with an infinite error for contacts at the
+    start, and others without a side.
+    """
+    motion: Codes
+    depth: Doubles
+    depth_error: Doubles
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Certificate:
+    """The pairs in contact in a step, and the elements that intersect at its start. passages: by kind, as step.pairs."""
+    step: TimedStepResult
+    passages: dict[Kind, Passages]
+
+    @property
+    def is_free(self) -> bool:
+        """True if the mesh does not intersect itself at any time of the step."""
+        return len(self.step.pairs) == 0 and not self.step.intersections_at_start
+
+    def __repr__(self) -> str:
+        at_start = self.step.intersections_at_start
+        return (f"<ccd.Certificate, {'free' if self.is_free else 'not free'}: {len(at_start) if at_start else 0} "
+                f"intersections at the start, {_listed(self.step.pairs)} in contact>")
+
+
+@dataclass(frozen=True)
+class Reason:
+    """A pair that limits a step: its vertices, the bracket of its time, its motion and its distance at the start.
+
+    normal_velocity: lengths per step, negative on approach. query: (8, 3), of the kind stored_kind, for io.write_queries:
+    the pair alone. The face of a vertex_edge or vertex_vertex pair has equal corners.
+    """
+    kind: Kind
+    vertices: tuple[int, ...]
+    time: tuple[float, float]
+    motion: Motion
+    normal_velocity: float
+    normal_velocity_error: float
+    distance_at_start: float
+    distance_at_start_error: float
+    stored_kind: Literal["vertex_face", "edge_edge"]
+    query: Doubles = field(repr=False, compare=False)
 
 
 @dataclass(frozen=True, eq=False, repr=False)

@@ -12,7 +12,7 @@ from __future__ import annotations
 
 import sys
 from collections.abc import Callable, Mapping
-from typing import TYPE_CHECKING, Any, Literal, TypedDict, overload
+from typing import TYPE_CHECKING, Any, Literal, TypedDict, cast, overload
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -21,10 +21,10 @@ from . import _native
 from ._arrays import (Doubles, Indices, as_array, check_finite, check_range, check_shape, checked_indices, distance_option,
                       doubles, end_time, frames, frames_of, group_option, indices, option, pinned_option, restated,
                       thickness_option)
-from ._results import (AdvanceResult, Decisions, Features, FirstContacts, FirstTimes, Intersections,
-                       IntersectionsOfKind, Kind, LeastDistance, Method, MethodName, NearPairs, Nearness, NormalSource,
-                       Outcome, Pairs, Relation, Stage, StepResult, TimeDerivatives, TimedStepResult, at_start,
-                       intersections_of, stages)
+from ._results import (AdvanceResult, Certificate, Decisions, Features, FirstContacts, FirstTimes, Intersections,
+                      IntersectionsOfKind, Kind, LeastDistance, Method, MethodName, Motion, NearPairs, Nearness,
+                      NormalSource, Outcome, Pairs, Passages, Reason, Relation, Stage, StepResult, TimeDerivatives,
+                      TimedStepResult, at_start, intersections_of, stages)
 
 if TYPE_CHECKING:
     if sys.version_info >= (3, 11):
@@ -32,13 +32,13 @@ if TYPE_CHECKING:
     else:
         from typing_extensions import Unpack
 
-__all__ = ["AdvanceOptions", "AdvanceResult", "Decisions", "Features", "FilterOptions", "FirstContacts", "FirstTimes",
-           "IntersectionOptions", "Intersections", "IntersectionsOfKind", "Kind", "LeastDistance", "Method",
-           "MethodName", "NearPairs", "Nearness", "NormalSource", "Outcome", "Pairs", "Relation", "RunOptions",
-           "SearchOptions", "Stage", "StepResult", "Steps", "TimeDerivatives", "TimedStepResult", "UntimedOptions",
-           "advance", "candidates", "decide", "first_contact", "first_time", "free_step", "instruction_sets",
-           "intersections", "is_free", "least_distance", "methods", "near_pairs", "nearness", "step",
-           "time_derivatives", "touches_at_start"]
+__all__ = ["AdvanceOptions", "AdvanceResult", "Certificate", "Decisions", "Features", "FilterOptions", "FirstContacts",
+           "FirstTimes", "IntersectionOptions", "Intersections", "IntersectionsOfKind", "Kind", "LeastDistance",
+           "Method", "MethodName", "Motion", "NearPairs", "Nearness", "NormalSource", "Outcome", "Pairs", "Passages",
+           "Reason", "Relation", "RunOptions", "SearchOptions", "Stage", "StepResult", "Steps", "TimeDerivatives",
+           "TimedStepResult", "UntimedOptions", "advance", "candidates", "certify", "decide", "first_contact",
+           "first_time", "free_step", "instruction_sets", "intersections", "is_free", "least_distance", "methods",
+           "near_pairs", "nearness", "reasons", "step", "time_derivatives", "touches_at_start"]
 
 POINTS: dict[Kind, int] = {"vertex_face": 4, "edge_edge": 4, "vertex_edge": 3, "vertex_vertex": 2}
 
@@ -416,12 +416,20 @@ class Steps:
         Options: RunOptions. Returns a TimedStepResult if times=True.
         Throws: ValueError with frame and row of a coordinate that is not finite.
         """
-        found = self._call(self._steps.run, before, after, _OF_RUN, options)
-        for name in "pairs", "first_pairs", "touching_at_start":
-            found[name] = Pairs(**found[name])
-        found["stages"] = _stages(found["stages"])
-        found["intersections_at_start"] = at_start(found["intersections_at_start"])
-        return StepResult(**found) if found["times"] is None else TimedStepResult(**found)
+        return _step_result(self._call(self._steps.run, before, after, _OF_RUN, options))
+
+    def certify(self, before: ArrayLike, after: ArrayLike, **options: Unpack[FilterOptions]) -> Certificate:
+        """Certifies that the step from before to after, (n, 3) each, is free, or finds all contacts and their depths.
+
+        Positions may be float32, as they are stored: they are converted exactly. Options: FilterOptions.
+        """
+        def certified(at_start: Doubles, at_end: Doubles, request: Any) -> Any:
+            request.times = request.check_start = True
+            return self._steps.certify(at_start, at_end, request)
+
+        found = self._call(certified, before, after, _OF_FILTER, options)
+        passages = {kind: _passages(found["passages"][kind], kind) for kind in POINTS}
+        return Certificate(cast(TimedStepResult, _step_result(found["step"])), passages)
 
     def candidates(self, before: ArrayLike, after: ArrayLike, **options: Unpack[SearchOptions]) -> Pairs:
         """Returns all pairs whose swept boxes touch, for a custom narrow phase. Options: SearchOptions."""
@@ -491,6 +499,20 @@ class Steps:
         return len(self._at_rest(positions, True, {**options, "segments": False, "edge_faces": False})) == 0
 
 
+def _step_result(found: Any) -> StepResult:
+    for name in "pairs", "first_pairs", "touching_at_start":
+        found[name] = Pairs(**found[name])
+    found["stages"] = _stages(found["stages"])
+    found["intersections_at_start"] = at_start(found["intersections_at_start"])
+    return StepResult(**found) if found["times"] is None else TimedStepResult(**found)
+
+
+def _passages(found: dict[str, Any], kind: Kind) -> Passages:
+    for name in "points", "weights":
+        found[name] = found[name][:, :POINTS[kind]]
+    return Passages(query=np.arange(len(found["low"]), dtype=np.uint64), **found)
+
+
 def _steps_of(before: ArrayLike, faces: ArrayLike, edges: ArrayLike) -> Steps:
     return Steps(faces, edges, vertices=len(doubles("before", before, (None, 3))))
 
@@ -514,6 +536,45 @@ def step(before: ArrayLike, after: ArrayLike, faces: ArrayLike, edges: ArrayLike
     between_groups, pinned, skip_unused, can_collide). For many steps of one mesh, use Steps.run.
     """
     return _steps_of(before, faces, edges).run(before, after, **options)
+
+
+def certify(before: ArrayLike, after: ArrayLike, faces: ArrayLike, edges: ArrayLike = (),
+            **options: Unpack[FilterOptions]) -> Certificate:
+    """Same as Steps.certify, for one step: free, or the pairs in contact, when and how deep.
+
+    Options: FilterOptions (threads, groups, between_groups, pinned, skip_unused, can_collide).
+    """
+    return _steps_of(before, faces, edges).certify(before, after, **options)
+
+
+def reasons(result: StepResult | AdvanceResult, before: ArrayLike, after: ArrayLike, *, distance: float = 0,
+            thickness: ArrayLike | None = None) -> list[Reason]:
+    """Returns the pairs that limit a step: result.first_pairs, how they move on, and their distance at the start.
+
+    before, after, distance and thickness are those of the call that returned result (after free_step: x and x + p).
+    A StepResult needs the option first_contact or times.
+    """
+    at_start, at_end = (doubles(name, values, (None, np.shape(values)[-1] if np.ndim(values) else 0))
+                        for name, values in (("before", before), ("after", after)))
+    at_start, at_end = (np.pad(at, ((0, 0), (0, max(0, 3 - at.shape[1])))) for at in (at_start, at_end))
+    rows = frames(at_start, at_end)
+    pairs = tuple(checked_indices(f"result.first_pairs.{kind}", getattr(result.first_pairs, kind), points, len(rows[0]))
+                  for kind, points in POINTS.items())
+    if result.first_contact is None:
+        return []
+    check_finite("before", rows[0])
+    check_finite("after", rows[1])
+    found = _native.reasons(pairs, *rows, *result.first_contact, distance_option(distance),
+                            thickness_option(thickness, len(rows[0])))
+
+    def reason(kind: Kind, vertices: tuple[int, ...], motion: int, *numbers: float) -> Reason:
+        used = vertices[:POINTS[kind]]
+        four = list(used) + [used[-1]] * (4 - len(used))
+        stored: Literal["vertex_face", "edge_edge"] = "edge_edge" if kind == "edge_edge" else "vertex_face"
+        return Reason(kind, used, cast("tuple[float, float]", result.first_contact), Motion(motion), *numbers,
+                      stored_kind=stored, query=np.concatenate([frame[four] for frame in rows]))
+
+    return [reason(*one) for one in found]
 
 
 def candidates(before: ArrayLike, after: ArrayLike, faces: ArrayLike, edges: ArrayLike = (),

@@ -181,20 +181,7 @@ nb::dict first_contacts(const query_input& all, double t_max, int threads) {
             return ccd::first_contacts(queries..., times, threads);
         }));
     nb::dict found = times_among(std::move(contacts));
-    const ccd::first_contact& c = shared.first();
-    const auto code = [](const auto& x) -> auto& {
-        return reinterpret_cast<const std::uint8_t&>(x);
-    };
-    found["features"] = shared.column(code(c.features.kind));
-    found["points"] = shared.columns(c.features.points.data(), 4);
-    found["weights"] = shared.columns(c.weights.data(), 4);
-    found["weight_error"] = shared.column(c.weight_error);
-    found["normal"] = shared.columns(&c.normal.x, 3);
-    found["normal_error"] = shared.column(c.normal_error);
-    found["normal_from"] = shared.column(code(c.normal_from));
-    found["sided"] = shared.column(c.sided);
-    found["normal_velocity"] = shared.column(c.normal_velocity);
-    found["normal_velocity_error"] = shared.column(c.normal_velocity_error);
+    add_contacts(found, shared, shared.first());
     return found;
 }
 

@@ -4,6 +4,7 @@
 #include <nanobind/nanobind.h>
 #include <nanobind/stl/string.h>
 
+#include <ccd/certify.hpp>
 #include <ccd/contact.hpp>
 #include <ccd/explain.hpp>
 #include <ccd/method.hpp>
@@ -38,6 +39,37 @@ inline nb::dict times_of(std::vector<ccd::first_time>&& times) {
     nb::dict found;
     found["low"] = shared.column(shared.first().low);
     found["high"] = shared.column(shared.first().high);
+    return found;
+}
+
+/// The columns of a member of type ccd::first_contact, except its time.
+template <class Item>
+void add_contacts(nb::dict& found, const shared_items<Item>& shared, const ccd::first_contact& c) {
+    const auto code = [](const auto& x) -> auto& {
+        return reinterpret_cast<const std::uint8_t&>(x);
+    };
+    found["features"] = shared.column(code(c.features.kind));
+    found["points"] = shared.columns(c.features.points.data(), 4);
+    found["weights"] = shared.columns(c.weights.data(), 4);
+    found["weight_error"] = shared.column(c.weight_error);
+    found["normal"] = shared.columns(&c.normal.x, 3);
+    found["normal_error"] = shared.column(c.normal_error);
+    found["normal_from"] = shared.column(code(c.normal_from));
+    found["sided"] = shared.column(c.sided);
+    found["normal_velocity"] = shared.column(c.normal_velocity);
+    found["normal_velocity_error"] = shared.column(c.normal_velocity_error);
+}
+
+inline nb::dict passages_of(std::vector<ccd::passage>&& passages) {
+    const shared_items<ccd::passage> shared(std::move(passages));
+    const ccd::passage& p = shared.first();
+    nb::dict found;
+    found["low"] = shared.column(p.contact.time.low);
+    found["high"] = shared.column(p.contact.time.high);
+    add_contacts(found, shared, p.contact);
+    found["motion"] = shared.column(reinterpret_cast<const std::uint8_t&>(p.motion));
+    found["depth"] = shared.column(p.depth);
+    found["depth_error"] = shared.column(p.depth_error);
     return found;
 }
 

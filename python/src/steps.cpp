@@ -1,12 +1,16 @@
 #include <nanobind/stl/optional.h>
 #include <nanobind/stl/string.h>
+#include <nanobind/stl/tuple.h>
 
 #include <ccd/advance.hpp>
+#include <ccd/certify.hpp>
 #include <ccd/nearness.hpp>
 #include <ccd/step.hpp>
 #include <cstdint>
 #include <mutex>
 #include <string>
+#include <tuple>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -89,6 +93,20 @@ class steps {
                          }),
                          request);
     }
+    /// The request has times and check_start.
+    nb::dict certify(const positions& before, const positions& after, const step_request& request) {
+        ccd::step_options options = request.step_options();
+        ccd::certificate result = alone([&](const ccd::stop_query& stop) {
+            options.stop = stop;
+            return ccd::certify(steps_, rows(before, after), options);
+        });
+        nb::dict found;
+        found["passages"] = of_each_kind(std::move(result.passages), [](auto&& passages) {
+            return passages_of(std::move(passages));
+        });
+        found["step"] = result_of(std::move(result.step), request);
+        return found;
+    }
     nb::dict candidates(const positions& before, const positions& after,
                         const step_request& request) {
         ccd::step_options options = request.step_options();
@@ -153,6 +171,36 @@ class steps {
     std::mutex mutex_;
 };
 
+/// Vertex/face, edge/edge, vertex/edge and vertex/vertex pairs.
+using pair_inputs = std::tuple<input<std::uint32_t, -1, 4>, input<std::uint32_t, -1, 4>,
+                               input<std::uint32_t, -1, 3>, input<std::uint32_t, -1, 2>>;
+
+nb::list reasons(const pair_inputs& pairs, const positions& before, const positions& after,
+                 double low, double high, double distance,
+                 const std::optional<numbers>& thickness) {
+    const ccd::first_time time{ccd::outcome::collides, low, high};
+    ccd::pair_distances distances{.all = distance};
+    if (thickness) distances.thickness = items_of<double>(*thickness);
+    ccd::pair_lists lists;
+    const auto fill = [](auto& list, const auto& array) {
+        const auto items =
+            items_of<typename std::remove_cvref_t<decltype(list)>::value_type>(array);
+        list.assign(items.begin(), items.end());
+    };
+    fill(lists.vertex_face, std::get<0>(pairs));
+    fill(lists.edge_edge, std::get<1>(pairs));
+    fill(lists.vertex_edge, std::get<2>(pairs));
+    fill(lists.vertex_vertex, std::get<3>(pairs));
+    nb::list found;
+    for (const ccd::reason& r : ccd::reasons(rows(before, after), lists, time, distances))
+        found.append(nb::make_tuple(
+            std::string(ccd::name(r.kind)),
+            nb::make_tuple(r.vertices[0], r.vertices[1], r.vertices[2], r.vertices[3]),
+            static_cast<int>(r.motion), r.normal_velocity, r.normal_velocity_error,
+            r.at_start.distance, r.at_start.distance_error));
+    return found;
+}
+
 }  // namespace
 
 void bind_steps(nb::module_& m) {
@@ -193,6 +241,7 @@ void bind_steps(nb::module_& m) {
             },
             nb::arg("edges"), nb::arg("vertices"), nb::rv_policy::take_ownership)
         .def("run", &steps::run, nb::arg("before"), nb::arg("after"), nb::arg("request"))
+        .def("certify", &steps::certify, nb::arg("before"), nb::arg("after"), nb::arg("request"))
         .def("candidates", &steps::candidates, nb::arg("before"), nb::arg("after"),
              nb::arg("request"))
         .def("advance", &steps::advance, nb::arg("before"), nb::arg("after"), nb::arg("request"))
@@ -200,6 +249,8 @@ void bind_steps(nb::module_& m) {
         .def("intersections", &steps::intersections, nb::arg("positions"), nb::arg("request"))
         .def("near_pairs", &steps::near_pairs, nb::arg("positions"), nb::arg("request"))
         .def("least_distance", &steps::least_distance, nb::arg("positions"), nb::arg("request"));
+    m.def("reasons", reasons, nb::arg("pairs"), nb::arg("before"), nb::arg("after"), nb::arg("low"),
+          nb::arg("high"), nb::arg("distance"), nb::arg("thickness").none());
 }
 
 }  // namespace errbound::python
