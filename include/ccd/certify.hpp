@@ -24,8 +24,8 @@ namespace ccd {
 
 /// The first contact of a pair, and its depth: the distance by which the two contact points have
 /// moved past each other along the normal at t = 1. It is max(0, -normal_velocity * (1 - t)),
-/// since each contact point moves linearly. If the contact has no side, also if it is at the start,
-/// the depth is 0 with an infinite error.
+/// since each contact point moves linearly. The depth is 0 with an infinite error if the contact
+/// has no side, as at the start, or if its normal is the relative velocity.
 struct passage {
     first_contact contact;
     contact_motion motion = contact_motion::unknown;
