@@ -71,10 +71,11 @@ struct reason {
     ccd::kind kind = ccd::kind::vertex_face;
     std::array<vertex_index, 4> vertices{};  ///< in the order of its kind
     first_time time;
-    /// As motion_after. With distances `approaches` if the normal velocity is certainly negative,
-    /// `slides` if it is 0 within its error, else `unknown`.
+    /// The result of motion_after. With distances, it is `approaches` if the normal velocity is
+    /// certainly negative, `slides` if it is 0 within its error, else `unknown`.
     contact_motion motion = contact_motion::unknown;
-    /// As in first_contact; with distances, of the nearest points at time.low along their normal.
+    /// The member of first_contact. With distances, it is the velocity of the nearest points at
+    /// time.low along their normal.
     double normal_velocity = 0;
     double normal_velocity_error = std::numeric_limits<double>::infinity();
     nearness at_start;
