@@ -19,7 +19,9 @@ using detail::enclosure;
 template <class Pair>
 passage passage_of(const Pair& pair, const vertex_rows& positions, const first_contact& contact) {
     passage found{contact, motion_after(query_of(positions, pair), contact)};
-    if (!contact.sided || !std::isfinite(contact.normal_velocity_error)) return found;
+    if (!contact.sided || contact.normal_from == normal_source::relative_velocity ||
+        !std::isfinite(contact.normal_velocity_error))
+        return found;
     const enclosure velocity =
         enclosure::within(contact.normal_velocity, contact.normal_velocity_error);
     const auto [depth, error] =

@@ -24,8 +24,8 @@ namespace ccd {
 
 /// The first contact of a pair, and its depth: the distance by which the two contact points have
 /// moved past each other along the normal at t = 1. It is max(0, -normal_velocity * (1 - t)),
-/// since each contact point moves linearly. If the contact has no side, also if it is at the start,
-/// the depth is 0 with an infinite error.
+/// since each contact point moves linearly. The depth is 0 with an infinite error if the contact
+/// has no side, as at the start, or if its normal is the relative velocity.
 struct passage {
     first_contact contact;
     contact_motion motion = contact_motion::unknown;
@@ -71,11 +71,11 @@ struct reason {
     ccd::kind kind = ccd::kind::vertex_face;
     std::array<vertex_index, 4> vertices{};  ///< in the order of its kind
     first_time time;
-    /// The result of motion_after. With distances `approaches` if the normal velocity is certainly
-    /// negative, `slides` if it is 0 within its error, else `unknown`.
+    /// The result of motion_after. With distances, it is `approaches` if the normal velocity is
+    /// certainly negative, `slides` if it is 0 within its error, else `unknown`.
     contact_motion motion = contact_motion::unknown;
-    /// The value in first_contact; with distances, of the nearest points at time.low along their
-    /// normal.
+    /// The member of first_contact. With distances, it is the velocity of the nearest points at
+    /// time.low along their normal.
     double normal_velocity = 0;
     double normal_velocity_error = std::numeric_limits<double>::infinity();
     nearness at_start;

@@ -356,9 +356,9 @@ class TimedStepResult(StepResult):
 class Passages(FirstContacts):
     """First contacts of the pairs of one kind, how they move on, and how deep; query has the rows of the pairs.
 
-    motion: uint8, values of Motion. depth: float64 (k,), the distance by which the contact points have moved past each
-    other along the normal at t = 1, with an error of at most depth_error; 0 with an infinite error for contacts at the
-    start, and others without a side.
+    motion: uint8, values of Motion. depth: float64 (k,), how far the contact points have moved past each other along the
+    normal at t = 1. Its error is at most depth_error. It is 0 with an infinite error for contacts without a side, such as
+    those at the start.
     """
     motion: Codes
     depth: Doubles

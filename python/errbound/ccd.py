@@ -558,8 +558,8 @@ def reasons(result: StepResult | AdvanceResult, before: ArrayLike, after: ArrayL
                         for name, values in (("before", before), ("after", after)))
     at_start, at_end = (np.pad(at, ((0, 0), (0, max(0, 3 - at.shape[1])))) for at in (at_start, at_end))
     rows = frames(at_start, at_end)
-    pairs = tuple(checked_indices(f"result.first_pairs.{kind}", getattr(result.first_pairs, kind), points, len(rows[0]))
-                  for kind, points in POINTS.items())
+    pairs: Any = tuple(checked_indices(f"result.first_pairs.{kind}", getattr(result.first_pairs, kind), points,
+                                       len(rows[0])) for kind, points in POINTS.items())
     if result.first_contact is None:
         return []
     check_finite("before", rows[0])
@@ -567,12 +567,14 @@ def reasons(result: StepResult | AdvanceResult, before: ArrayLike, after: ArrayL
     found = _native.reasons(pairs, *rows, *result.first_contact, distance_option(distance),
                             thickness_option(thickness, len(rows[0])))
 
-    def reason(kind: Kind, vertices: tuple[int, ...], motion: int, *numbers: float) -> Reason:
+    def reason(kind: Kind, vertices: tuple[int, ...], motion: int, velocity: float,
+               velocity_error: float, distance_at_start: float, distance_error: float) -> Reason:
         used = vertices[:POINTS[kind]]
         four = list(used) + [used[-1]] * (4 - len(used))
         stored: Literal["vertex_face", "edge_edge"] = "edge_edge" if kind == "edge_edge" else "vertex_face"
-        return Reason(kind, used, cast("tuple[float, float]", result.first_contact), Motion(motion), *numbers,
-                      stored_kind=stored, query=np.concatenate([frame[four] for frame in rows]))
+        return Reason(kind, used, cast("tuple[float, float]", result.first_contact), Motion(motion), velocity,
+                      velocity_error, distance_at_start, distance_error, stored,
+                      np.concatenate([frame[four] for frame in rows]))
 
     return [reason(*one) for one in found]
 

@@ -52,7 +52,8 @@ template <any_query Query>
 contact_motion motion_after(const Query& query, const first_contact& contact) {
     const bool any = std::ranges::any_of(contact.weights, [](double w) { return w > 0; });
     if (contact.time.outcome != outcome::collides || !any) return contact_motion::unknown;
-    if (contact.sided && contact.normal_velocity < -contact.normal_velocity_error)
+    if (contact.sided && contact.normal_from != normal_source::relative_velocity &&
+        contact.normal_velocity < -contact.normal_velocity_error)
         return contact_motion::approaches;
     if constexpr (is_cubic(kind_of<Query>)) {
         const sides of_plane = sides_of(forms_of(detail::to_integers(query)).y(), contact.time);

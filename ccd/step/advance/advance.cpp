@@ -198,15 +198,11 @@ bool move(const vertex_rows& directed, double alpha, std::vector<point<double>>&
 advance_result free_step(mesh_steps& steps, const vertex_rows& directed,
                          const advance_options& options) {
     detail::check_shares(options.conservative, options.keep);
-    if (!options.groups.empty())
-        throw std::invalid_argument("ccd::free_step: number of groups is " +
-                                    std::to_string(options.groups.size()) + "; expected none");
-    for (std::size_t i = 0; directed.after != nullptr && i < 3 * directed.vertices; ++i)
-        if (!std::isfinite(directed.after[i]))
-            throw std::invalid_argument("ccd::free_step: displacement of vertex " +
-                                        std::to_string(i / 3) + " has " + "xyz"[i % 3] + " " +
-                                        std::to_string(directed.after[i]) +
-                                        "; expected a finite number");
+    if (!options.groups.empty() || options.each_vertex)
+        throw std::invalid_argument(
+            "ccd::free_step: groups or each_vertex are given; expected none, "
+            "since all vertices have one alpha");
+    detail::check_positions(directed, directed.vertices);  // so that shorter ways become finite
     advance_options unchecked = options;
     unchecked.check_start = false;
     const auto first_contact = [&](const std::vector<point<double>>& end,
