@@ -155,7 +155,8 @@ nearest_pair nearest_of_all(mesh_steps& mesh, const vertex_rows& rows,
         } else {
             const double extent = extent_of(rows);
             if (!(within < extent)) return found;
-            within = std::min(within == 0 ? extent * 0x1p-48 : 16 * within, largest);
+            const double next = within == 0 ? extent * 0x1p-48 : 16 * within;
+            within = std::clamp(next, std::numeric_limits<double>::denorm_min(), largest);
         }
     }
 }

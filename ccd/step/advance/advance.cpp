@@ -115,9 +115,10 @@ class vertex_limits {
         for (std::size_t i = 0; i < vertices.size(); ++i) {
             const std::size_t side = i < first ? 0 : 1;
             const double behind = (start[i] - nearest[side]) * (side == 0 ? 1 : -1);
-            const double room =
-                share_of_way * (behind + gap * (fastest[side] / (fastest[0] + fastest[1])));
-            if (approach[i] > room) move(vertices[i], std::max(room, 0.0) / approach[i]);
+            const double room =  // rounding can make it negative
+                std::max(0.0, share_of_way *
+                                  (behind + gap * (fastest[side] / (fastest[0] + fastest[1]))));
+            if (approach[i] > room) move(vertices[i], room / approach[i]);
         }
         return true;
     }

@@ -75,7 +75,8 @@ inline double time_of_short_way(const vertex_rows& way) {
     for (std::size_t v = 0; v < way.vertices; v += sampling_stride(way.vertices)) {
         const double *x = way.before + 3 * v, *y = way.after + 3 * v;
         for (std::size_t k = 0; k < 3; ++k) box.widen(k, x[k]);
-        lengths.push_back(std::hypot(y[0] - x[0], y[1] - x[1], y[2] - x[2]));
+        const double length = std::hypot(y[0] - x[0], y[1] - x[1], y[2] - x[2]);
+        lengths.push_back(std::isnan(length) ? 0 : length);
     }
     const auto most = lengths.begin() + static_cast<std::ptrdiff_t>(3 * lengths.size() / 4);
     std::ranges::nth_element(lengths, most);
@@ -94,7 +95,8 @@ step_result step_to_first_contact(const vertex_rows& way, step_options options, 
     options.first_contact = true;
     double growth = 4;
     constexpr int slow_rounds = 6;  // then faster: a way may be 1e300 times too long
-    const double start = way.vertices == 0 ? 1 : time_of_short_way(way);
+    const bool is_given = way.vertices > 0 && way.before != nullptr && way.after != nullptr;
+    const double start = is_given ? time_of_short_way(way) : 1;  // the step checks positions
     options.t_max = others.earliest({outcome::collides, start, start}).low;
     for (int round = 0; options.t_max < 1 / growth; ++round, options.t_max *= growth) {
         if (round > slow_rounds) growth *= growth;
@@ -132,8 +134,11 @@ struct near_times {
                 pairs[i] = {all[i], {}};
                 if (options.keep > 0) {
                     const nearness at_start = nearness_of(query);
-                    if (!at_start.touches())
-                        pairs[i].keeps.first = options.keep * at_start.distance;
+                    if (at_start.distance_error < at_start.distance)
+                        pairs[i].keeps.first =
+                            options.keep * (at_start.distance - at_start.distance_error);
+                    else if (!at_start.touches())  // the distance overflows
+                        pairs[i].keeps.first = options.keep * std::numeric_limits<double>::max();
                 }
                 times[i] = time_within(query, pairs[i].keeps);
                 if (times[i].at_start() && pairs[i].keeps.first > 0)

@@ -335,6 +335,46 @@ TEST(AdvanceByVertex, LimitsOnlyVerticesThatComeNear) {
     EXPECT_LT(result.fractions[3], result.fractions[5]);
 }
 
+/// Regression: rounding moved vertices at rest behind the plane, which gave 0/0.
+TEST(AdvanceByVertex, VerticesAtRestAreNotLimited) {
+    for (const auto& points :
+         {std::array<ccd::point<double>, 4>{
+              {{0.1, -0.6, -0.1}, {0, -0.3, 0.8}, {-0.2, 0.7, -0.8}, {0.3, -0.1, 0.1}}},
+          {{{0, 0.1, 0.8}, {0.3, 0.2, 0}, {0, -0.7, -0.4}, {0.3, 0, 0.2}}}}) {
+        const ccd::mesh before{{points.begin(), points.end()}, {{0, 1, 2}}};
+        ccd::mesh after = before;
+        after.vertices[3].x = -1;
+        const auto result = expect_free({before, after}, {.each_vertex = true});
+        for (std::size_t v = 0; v < 3; ++v) EXPECT_EQ(result.fractions[v], 1);
+        EXPECT_LT(result.fractions[3], 1);
+    }
+}
+
+/// Regression: the distance overflows, and no contact was found.
+TEST(AdvanceKeepingADistance, OverflowingDistancesAreKept) {
+    constexpr double far = 1.4e308;
+    const ccd::mesh before{{{-far, 0, 0}, {far, 0, 0}}, {}};
+    const ccd::mesh after{{{far, 0, 0}, {-far, 0, 0}}, {}};
+    const std::vector<double> thickness{1.5e308, 1.5e308};
+    EXPECT_LT(expect_free({before, after}, {.distances = {0, thickness}, .keep = 0.1}).fraction,
+              0.5);
+}
+
+TEST(Advance, RefusesNullPositions) {
+    ccd::mesh_steps steps({}, {}, 3);
+    const double at[9] = {};
+    EXPECT_THROW(ccd::advance(steps, {nullptr, at, 3}), std::invalid_argument);
+    EXPECT_THROW(ccd::advance(steps, {at, nullptr, 3}), std::invalid_argument);
+    EXPECT_THROW(ccd::free_step(steps, {at, nullptr, 3}), std::invalid_argument);
+}
+
+TEST(LeastDistance, EndsForSubnormalMeshes) {
+    const ccd::mesh points{{{0, 0, 0}, {1e-310, 0, 0}}, {}},
+        edge{{{0, 0, 0}, {1, 0, 0}}, {}, {{0, 1}}};
+    EXPECT_EQ(ccd::least_distance(points).data.distance, 1e-310);
+    EXPECT_EQ(ccd::least_distance(edge).low, ccd::nearness::unknown);
+}
+
 /// A vertex is pressed onto a plate and slides along it. Without `keep`, it stops at its distance.
 TEST(AdvanceKeepingADistance, SlidesOnAtItsDistance) {
     for (const double keep : {0.0, 0.1}) {
