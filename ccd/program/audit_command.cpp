@@ -161,9 +161,7 @@ class audit final : public command {
                            : "path is '" + path + "'; expected a name that ends in .html";
             });
         add_replay_option(line_, replay_);
-        line_.add_flag("--triangulate", reading_.triangulate,
-                       "Split faces of more than three vertices into triangles (fans, in the order "
-                       "of their vertices)");
+        add_triangulate_option(line_, reading_.triangulate);
         add_threads_option(line_, options_.threads, "Threads; 0: one per core");
     }
 
@@ -276,26 +274,29 @@ class audit final : public command {
     void report(const io::frame_sequence& frames, mesh_steps& steps) const {
         const audited_step& one = shown();
         std::vector<reason> first;
+        pair_lists first_pairs;
         std::vector<errbound::support::output> outputs;
         if (one.contacts > 0 || view_) {
             const auto before = frames.positions(one.index),
                        after = frames.positions(one.index + 1);
             const vertex_rows positions(before, after);
             const certificate again = certify(steps, positions, options_);
-            first = reasons(positions, again.step.first_pairs, again.step.first_contact);
+            first_pairs = again.step.first_pairs;
+            first = reasons(positions, first_pairs, again.step.first_contact);
             if (view_)
                 outputs.push_back(
                     {*view_, io::page_of({positions, frames.topology().faces,
                                           frames.topology().edges, again.step.pairs,
                                           again.step.times, again.step.intersections_at_start})});
             if (replay_)
-                for (auto& file : replay_files(*replay_, positions, again.step.first_pairs))
+                for (auto& file : replay_files(*replay_, positions, first_pairs))
                     outputs.push_back(std::move(file));
         }
         if (json_)
             outputs.push_back({*json_, errbound::support::json_of(json_of(first), 2) + '\n'});
         write_whole(outputs);
         stream_for_people() << text_of_steps() << text_of_reasons(first);
+        if (replay_) stream_for_people() << text_of_replay(*replay_, first_pairs);
     }
 
     row json_of(const std::vector<reason>& first) const {

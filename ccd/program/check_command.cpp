@@ -99,9 +99,7 @@ class check final : public command {
             });
         line_.add_flag("--merge-equal-positions", options_.merge_equal_positions,
                        "Count vertices with equal positions as the first of them");
-        line_.add_flag("--triangulate", reading_.triangulate,
-                       "Split faces of more than three vertices into triangles (fans, in the order "
-                       "of their vertices)");
+        add_triangulate_option(line_, reading_.triangulate);
         add_threads_option(line_, options_.threads, "Threads; 0: one per core");
     }
 

@@ -102,4 +102,17 @@ std::vector<errbound::support::output> replay_files(const std::filesystem::path&
     return files;
 }
 
+std::string text_of_replay(const std::filesystem::path& path, const pair_lists& pairs) {
+    std::string text;
+    const auto paths = replay_paths(path);
+    for (std::size_t i = 0; i < paths.size(); ++i) {
+        const std::size_t edges = pairs.edge_edge.size();
+        const bool any =
+            (stored_kinds[i] == kind::edge_edge ? edges : number_of(pairs) - edges) > 0;
+        text += (i == 0 ? "\nreplay: " : "; ") + paths[i].string() +
+                (any ? "" : " is not written, since there is no such pair");
+    }
+    return text + '\n';
+}
+
 }  // namespace ccd::program

@@ -29,4 +29,8 @@ std::vector<errbound::support::output> replay_files(const std::filesystem::path&
                                                     const vertex_rows& positions,
                                                     const pair_lists& pairs);
 
+/// A line with the names of files that replay_files returns, and of those that it leaves out: these
+/// may exist from an earlier run.
+std::string text_of_replay(const std::filesystem::path& path, const pair_lists& pairs);
+
 }  // namespace ccd::program

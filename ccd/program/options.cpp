@@ -114,6 +114,12 @@ void query_files::add_options(CLI::App& line) {
         "errors (decimals are always rounded to the nearest double)");
 }
 
+void add_triangulate_option(CLI::App& line, bool& triangulate) {
+    line.add_flag("--triangulate", triangulate,
+                  "Split faces of more than three vertices into triangles (fans, in the order of "
+                  "their vertices)");
+}
+
 void add_threads_option(CLI::App& line, int& threads, const std::string& description) {
     line.add_option("--threads", threads, description)->check(CLI::Range(0, 4096));
 }

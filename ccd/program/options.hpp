@@ -76,5 +76,6 @@ struct query_files {
 };
 
 void add_threads_option(CLI::App& line, int& threads, const std::string& description);
+void add_triangulate_option(CLI::App& line, bool& triangulate);
 
 }  // namespace ccd::program

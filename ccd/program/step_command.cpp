@@ -263,9 +263,7 @@ class step final : public command {
                        "Do not look for elements that intersect in FRAME0");
         line_.add_option("--json", json_, "Write counts and seconds as JSON; -: standard output")
             ->type_name("OUT");
-        line_.add_flag("--triangulate", request_.reading.triangulate,
-                       "Split faces of more than three vertices into triangles (fans, in the order "
-                       "of their vertices)");
+        add_triangulate_option(line_, request_.reading.triangulate);
     }
 
     exit_status run() override {
@@ -293,6 +291,7 @@ class step final : public command {
         found.memory = errbound::support::system::peak_memory_bytes();
         write(before, after, found);
         stream_for_people() << text_of_step(request_, before, found);
+        if (replay_) stream_for_people() << text_of_replay(*replay_, first_pairs_of(found));
         return done;
     }
 

@@ -31,14 +31,6 @@ std::vector<std::array<vertex_index, 1>> vertices_on_no_edge(const std::vector<e
     return points;
 }
 
-/// Precondition: both are sorted.
-template <class Item>
-std::vector<Item> without(const std::vector<Item>& items, const std::vector<Item>& others) {
-    std::vector<Item> rest;
-    std::ranges::set_difference(items, others, std::back_inserter(rest));
-    return rest;
-}
-
 /// The unique ones of `edges` that are not among `face_edges`.
 std::vector<edge> edges_of_no_face(std::span<const edge> edges,
                                    const std::vector<edge>& face_edges) {
@@ -177,7 +169,7 @@ std::size_t candidate_search::find_by(tree_pair<Real>& trees, const search_reque
     constexpr bool within_one = std::is_same_v<First, Second>;
     const auto build = [&](box_tree<Real>& tree, auto& elements) {
         elements.template build_tree<Real>(
-            tree, request.wanted.t_max == 1, sorting<Real>(request.boxes, second), [&] {
+            tree, request.wanted.t_max >= 1, sorting<Real>(request.boxes, second), [&] {
                 tree.build(elements.size(), [&](std::size_t i) {
                     return request.boxes.swept_box<Real>(elements[i]);
                 });
@@ -205,7 +197,7 @@ std::size_t candidate_search::find_close(const search_request& request, First& f
     const auto build = [&](extents_tree& tree, auto& elements) {
         constexpr std::size_t n = std::remove_cvref_t<decltype(elements)>::vertices;
         elements.template build_tree<float>(
-            tree, request.wanted.t_max == 1, sorting<float>(request.boxes, second),
+            tree, request.wanted.t_max >= 1, sorting<float>(request.boxes, second),
             [&] { tree.build<n>(request.kernels, request.rounded, request.margin, elements); });
     };
     extents_tree& b = of_extents_.second;

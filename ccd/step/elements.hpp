@@ -8,7 +8,9 @@
 #include <ccd/verdict.hpp>
 #include <cstddef>
 #include <cstdint>
+#include <iterator>
 #include <utility>
+#include <vector>
 
 namespace ccd::detail {
 
@@ -66,6 +68,14 @@ constexpr std::uint64_t spread_bits(std::uint64_t x) {
     x = (x | (x << 8)) & 0x100F00F00F00F00F;
     x = (x | (x << 4)) & 0x10C30C30C30C30C3;
     return (x | (x << 2)) & 0x1249249249249249;
+}
+
+/// Precondition: both are sorted.
+template <class Item>
+std::vector<Item> without(const std::vector<Item>& items, const std::vector<Item>& others) {
+    std::vector<Item> rest;
+    std::ranges::set_difference(items, others, std::back_inserter(rest));
+    return rest;
 }
 
 /// Adds a pair that first touches at this time to result.first_pairs, unless others touch before.

@@ -25,17 +25,14 @@ class short_way {
   public:
     /// Preconditions: positions are finite, 0 <= t < 1.
     short_way(const vertex_rows& way, double t)
-        : way_(way),
-          after_(after(way, t, error_)),
-          ends_{way.before, after_.data(), way.vertices},
-          rounded_(ends_) {}
+        : end_(way, t), way_{way.before, end_.positions.data(), way.vertices}, rounded_(way_) {}
 
     short_way(const short_way&) = delete;  // it has pointers to itself
     short_way& operator=(const short_way&) = delete;
 
-    batch_positions positions() const { return {ends_, rounded_}; }
+    batch_positions positions() const { return {way_, rounded_}; }
     /// The largest error of a coordinate at the end.
-    double error() const { return error_; }
+    double error() const { return end_.error; }
     /// The margin w = 1.0001δ + 4ε of extents along coordinate axes, in units of the rounded
     /// positions: δ is the error in these units, ε = 2^-23. A rounded coordinate has an error of
     /// 1.01ε, and the subtraction of w one of (1.01 + w)ε. So the exact coordinate is at least the
@@ -43,32 +40,33 @@ class short_way {
     /// 4.04ε + 2δ, and that of the subtraction (2.02 + 7ε + 2w)ε.
     /// Proof: proofs/Extents.v, wide_extents_hold, until_face_separate, until_edges_separate.
     float margin() const {
-        if (error_ == 0) return 0;
-        return static_cast<float>(1.0001 * error_ * rounded_.scale() +
+        if (end_.error == 0) return 0;
+        return static_cast<float>(1.0001 * end_.error * rounded_.scale() +
                                   4 * std::numeric_limits<float>::epsilon());
     }
 
   private:
     /// (1 − t)·x + t·y has four roundings, each of at most u of |(1 − t)·x| + |t·y|, or 2^-1075.
     /// Proof: proofs/Extents.v, after_near.
-    static std::vector<double> after(const vertex_rows& way, double t, double& error) {
-        std::vector<double> ends(way.before, way.before + 3 * way.vertices);
-        error = 0;
-        if (t == 0) return ends;
-        double half_size = 0;
-        for (std::size_t i = 0; i < ends.size(); ++i) {
-            const double x = way.before[i], y = way.after[i], a = (1 - t) * x, b = t * y;
-            ends[i] = std::clamp(a + b, std::min(x, y), std::max(x, y));
-            half_size = std::max(half_size, std::abs(a) / 2 + std::abs(b) / 2);
-        }
-        error = 0x1p-50 * half_size + 0x1p-1072;
-        return ends;
-    }
+    struct rounded_end {
+        std::vector<double> positions;
+        double error = 0;
 
+        rounded_end(const vertex_rows& way, double t)
+            : positions(way.before, way.before + 3 * way.vertices) {
+            if (t == 0) return;
+            double half_size = 0;
+            for (std::size_t i = 0; i < positions.size(); ++i) {
+                const double x = way.before[i], y = way.after[i], a = (1 - t) * x, b = t * y;
+                positions[i] = std::clamp(a + b, std::min(x, y), std::max(x, y));
+                half_size = std::max(half_size, std::abs(a) / 2 + std::abs(b) / 2);
+            }
+            error = 0x1p-50 * half_size + 0x1p-1072;
+        }
+    };
+
+    rounded_end end_;
     vertex_rows way_;
-    double error_ = 0;
-    std::vector<double> after_;
-    vertex_rows ends_;
     rounded_positions rounded_;
 };
 

@@ -2,8 +2,7 @@
 //
 //     const ccd::certificate found = ccd::certify(steps, {before, after});  // or floats as stored
 //     if (!found.is_free()) ...  // found.step.pairs, found.passages
-//     for (const ccd::reason& r : ccd::reasons(positions, free.first_pairs, free.first_contact))
-//     ...
+//     auto why = ccd::reasons(positions, free.first_pairs, free.first_contact);  // of advance
 //
 // Vertices move linearly from `before` to `after`. Pairs, times and motions are exact; depths,
 // velocities and distances have certified errors. Throws std::invalid_argument for bad input.

@@ -25,10 +25,10 @@ struct space_region {
     }
 };
 
-/// The pairs that a step, or a search for intersections, evaluates: those with a vertex of one
-/// element that may collide with a vertex
-/// of the other. Two vertices may collide unless a member excludes it; empty members exclude
-/// nothing. Not owned; `groups` and `pinned` have one entry for each vertex.
+/// The pairs that a step, or a search for intersections, tests: those with a vertex of one element
+/// that may collide with a vertex of the other. Two vertices may collide unless a member excludes
+/// it; empty members exclude nothing. Not owned; `groups` and `pinned` have one entry for each
+/// vertex.
 struct pair_filter {
     enum class group_rule : std::uint8_t {
         between_groups,  ///< two vertices of one group may not collide

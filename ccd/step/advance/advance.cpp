@@ -203,6 +203,13 @@ advance_result free_step(mesh_steps& steps, const vertex_rows& directed,
         throw std::invalid_argument(
             "ccd::free_step: groups or each_vertex are given; expected none, "
             "since all vertices have one alpha");
+    const std::size_t numbers = directed.after == nullptr ? 0 : 3 * directed.vertices;
+    for (std::size_t i = 0; i < numbers; ++i)
+        if (!std::isfinite(directed.after[i]))
+            throw std::invalid_argument("ccd::free_step: " + std::string(1, "xyz"[i % 3]) +
+                                        " of the displacement of vertex " + std::to_string(i / 3) +
+                                        " is " + std::to_string(directed.after[i]) +
+                                        "; expected a finite number");
     detail::check_positions(directed, directed.vertices);  // so that shorter ways become finite
     advance_options unchecked = options;
     unchecked.check_start = false;

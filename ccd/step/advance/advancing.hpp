@@ -44,13 +44,6 @@ inline point<double> between(const moving_point<double>& way, double fraction,
 }
 
 template <class Pair>
-std::vector<Pair> without(const std::vector<Pair>& pairs, const std::vector<Pair>& left_out) {
-    std::vector<Pair> rest;
-    std::ranges::set_difference(pairs, left_out, std::back_inserter(rest));
-    return rest;
-}
-
-template <class Pair>
 struct timed_pair {
     Pair pair;
     first_time time;

@@ -368,13 +368,6 @@ TEST(Advance, RefusesNullPositions) {
     EXPECT_THROW(ccd::free_step(steps, {at, nullptr, 3}), std::invalid_argument);
 }
 
-TEST(LeastDistance, EndsForSubnormalMeshes) {
-    const ccd::mesh points{{{0, 0, 0}, {1e-310, 0, 0}}, {}},
-        edge{{{0, 0, 0}, {1, 0, 0}}, {}, {{0, 1}}};
-    EXPECT_EQ(ccd::least_distance(points).data.distance, 1e-310);
-    EXPECT_EQ(ccd::least_distance(edge).low, ccd::nearness::unknown);
-}
-
 /// A vertex is pressed onto a plate and slides along it. Without `keep`, it stops at its distance.
 TEST(AdvanceKeepingADistance, SlidesOnAtItsDistance) {
     for (const double keep : {0.0, 0.1}) {

@@ -185,12 +185,7 @@ TEST(least_distance, is_that_of_brute_force) {
 TEST(least_distance, of_nasty_shapes) {
     for (const auto& shape : nasty_shapes::shapes) {
         SCOPED_TRACE(shape.name);
-        nasty_shapes::generator random(2);
-        setting s;
-        for (unsigned patch = 0; patch < 12; ++patch) {
-            for (int i = 0; i < 3; ++i) s.mesh.vertices.push_back(shape.vertex(random, patch).t0);
-            s.mesh.faces.push_back({3 * patch, 3 * patch + 1, 3 * patch + 2});
-        }
+        const setting s{nasty_shapes::triangles(shape, 2).first};
         expect_least(s, ccd::least_distance(s.mesh));
     }
 }
@@ -210,6 +205,18 @@ TEST(least_distance, without_pairs) {
     const setting one{{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}}}};
     expect_least(one, ccd::least_distance(one.mesh));
     EXPECT_EQ(ccd::least_distance(one.mesh).low, infinity);
+    const ccd::mesh edge{{{0, 0, 0}, {1, 0, 0}}, {}, {{0, 1}}};
+    EXPECT_EQ(ccd::least_distance(edge).low, infinity);
+}
+/// Regression: the search within a growing distance began at 0, and did not end.
+TEST(least_distance, of_subnormal_meshes) {
+    for (const double size : {0x1p-1074, 1e-310, 7e-310}) {
+        const auto found = ccd::least_distance(ccd::mesh{{{0, 0, 0}, {size, 0, 0}}, {}});
+        EXPECT_EQ(found.data.distance, size);
+        EXPECT_LE(found.low, size);
+        EXPECT_GE(found.high, size);
+        EXPECT_LE(found.high - found.low, 2 * 0x1p-1074 + size * 0x1p-22);
+    }
 }
 
 }  // namespace
