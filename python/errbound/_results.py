@@ -264,9 +264,11 @@ class Intersections:
 
     @property
     def by_kind(self) -> dict[str, IntersectionsOfKind]:
+        """The members of the six kinds, by name."""
         return {kind: getattr(self, kind) for kind in INTERSECTION_KINDS}
 
     def count(self, relation: Relation) -> int:
+        """The number of pairs, of all kinds, with this relation."""
         return sum(int(np.count_nonzero(of.relation == relation)) for of in self.by_kind.values())
 
     def __len__(self) -> int:
