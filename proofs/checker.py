@@ -152,7 +152,7 @@ def answers(build, library, found, subject, commands, *before):
     be mistaken for an answer, since a random mark separates the answers."""
     mark = secrets.token_hex(16)
     script = [f"From {library} Require {' '.join(dict.fromkeys(name for name, _ in found))}.", *before,
-              "Set Printing Width 100.", "Set Printing Depth 1000000.", "Set Printing Implicit."]
+              "Set Printing Width 118.", "Set Printing Depth 1000000.", "Set Printing Implicit."]
     for key, command in commands.items():
         script += [f'Goal True. idtac "{mark} {key}". exact I. Qed.', command]
     file = f"answers_{subject}.v"
@@ -203,9 +203,10 @@ def assumptions(build, library, found):
 
 
 def statements(build, library, found):
-    """Returns the theorems' statements by name (file.theorem), with their sections' hypotheses, in the notations of real
-    numbers only."""
-    notations = ("From Coq Require Import ZArith Reals.", "Open Scope R_scope.")
+    """Returns the theorems' statements by name (file.theorem), with their sections' hypotheses, in the notations of Coq's
+    numbers and of Flocq only."""
+    notations = ("From Coq Require Import ZArith Reals.", "From Flocq Require Import Core BinarySingleNaN.",
+                 "Open Scope R_scope.")
     names = [f"{name}.{theorem}" for name, theorem in found]
     printed = answers(build, library, found, "statements", {name: f"Check @{name}." for name in names}, *notations)
     for name, answer in printed.items():
