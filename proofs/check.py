@@ -188,7 +188,7 @@ def check_all(build):
 
 def show(build, chosen):
     """Prints statements of a compiled folder: of the files and theorems chosen, or those that differ from digests.txt."""
-    found = [each for each in checker.theorems(build, LIBRARY) if each[0] != MAIN]
+    found = [each for each in checker.theorems(proofs, LIBRARY) if each[0] != MAIN]
     if chosen:
         found = [(name, theorem) for name, theorem in found if {name, theorem, f"{name}.{theorem}"} & set(chosen)]
     stated = checker.statements(build, LIBRARY, found)

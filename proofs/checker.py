@@ -91,7 +91,7 @@ def files_of(folder, library):
     listed = [line[:-2] for line in lines[1:]]
     there = sorted(path.stem for path in folder.glob("*.v"))
     if sorted(listed) != there:
-        raise Refused(f"_CoqProject lists {sorted(listed)}, the folder holds {there}")
+        raise Refused(f"_CoqProject and the folder differ: {sorted(set(listed) ^ set(there))}")
     return listed
 
 
