@@ -3,7 +3,8 @@
     so no notation hides anything. The original's file has the definitions, related theorems and the proof.
 
     Numbers with an error bound: `..._known` theorems are about IEEE formats of p bits with exponents up to emax, rounded
-    to nearest, with overflow and underflow. `known a s x`: if the bound s is finite, so is the number a, and |a - x| <= s. `..._sound` theorems have no largest number. *)
+    to nearest, with overflow and underflow. `known p emax a s x`: if the bound s is finite, so is the number a, and
+    |a - x| <= s. `..._sound` theorems have no largest number. *)
 From Coq Require Import ZArith Reals.
 From Flocq Require Import Core BinarySingleNaN.
 From Errbound Require IeeeRules Tight IeeeSafe IeeeInterval IeeeResidual IeeeRelative IeeeAffine IeeeAffineFunctions

@@ -57,7 +57,7 @@ def digest():
     """Returns a digest of every file that a full check depends on, except the C++ code and what names its parts, which
     are always compared. Comments and white space of proofs do not affect it."""
     sum_of_all = hashlib.sha256()
-    for path in sorted([*proofs.glob("*.v"), *proofs.glob("*.ml"), proofs / "check.py", proofs / "checker.py",
+    for path in sorted([*proofs.rglob("*.v"), *proofs.rglob("*.ml"), proofs / "check.py", proofs / "checker.py",
                         proofs / "tie.txt", DIGESTS]):
         text = path.read_text()
         if path.suffix == ".v":
@@ -69,7 +69,8 @@ def digest():
 
 def head_of(name):
     """Returns a file's first comment."""
-    return re.match(r"\(\*\*? *(.*?)\*\)", (proofs / f"{name}.v").read_text(), re.DOTALL)[1].rstrip()
+    path = checker.files_of(proofs, LIBRARY)[name]
+    return re.match(r"\(\*\*? *(.*?)\*\)", (proofs / f"{path}.v").read_text(), re.DOTALL)[1].rstrip()
 
 
 def compare_with_texts(found):
@@ -85,18 +86,20 @@ def compare_with_texts(found):
 
 
 def named_theorems(comment):
-    """Returns (file, theorem) for the theorems that a C++ comment names as proofs/File.v, theorem, theorem."""
+    """Returns (file, theorem) for the theorems that a C++ comment names as proofs/File.v, theorem, theorem, with the
+    file's folder if it has one."""
     text = re.sub(r"\s*\n\s*//+!?<?\s*", " ", comment)
-    if unlisted := re.search(r"proofs/\w+\.v(?!, \w)|proofs/\w+\.v, (?:\w+, )*\w+ and \w*_\w*", text):
+    if unlisted := re.search(r"proofs/[\w/]+\.v(?!, \w)|proofs/[\w/]+\.v, (?:\w+, )*\w+ and \w*_\w*", text):
         fail(f"'{unlisted.group()}': theorems are named as proofs/File.v, theorem, theorem")
-    return [(file, name) for file, names in re.findall(r"proofs/(\w+)\.v, ((?:\w+, )*\w+)", text)
+    return [(file, name) for file, names in re.findall(r"proofs/([\w/]+)\.v, ((?:\w+, )*\w+)", text)
             for name in names.split(", ")]
 
 
 def compare_with_code(found):
     """Fails if the C++ code names a theorem that does not exist. Operations of a bound rule and functions of tracked
     numbers must name one."""
-    known = set(found)
+    paths = checker.files_of(proofs, LIBRARY)
+    known = {(paths[file], name) for file, name in found}
     for folder in ("include", "ccd", "errbound", "tests"):
         for path in sorted((root / folder).rglob("*.[hc]pp")):
             for name in named_theorems(path.read_text()):
@@ -167,9 +170,9 @@ def check_names():
 
 def check_all(build):
     start, files, found = time.monotonic(), digest(), check_names()
-    checker.compile_all(proofs, build, proofs.glob("*.ml"))
+    checker.compile_all(proofs, build, proofs.rglob("*.ml"))
     with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:  # each on one core, the longest first
-        compiled = pool.submit(checker.check_compiled, build, LIBRARY, checker.files_of(proofs, LIBRARY))
+        compiled = pool.submit(checker.check_compiled, build, LIBRARY, checker.files_of(proofs, LIBRARY).values())
         outputs = tie_lines(pool, build)
         used = pool.submit(checker.assumptions, build, LIBRARY, found)
         stated = pool.submit(checker.statements, build, LIBRARY, found).result()
@@ -198,7 +201,7 @@ def show(build, chosen):
 
 def run_ties(build, chosen):
     """Runs the programs of a compiled folder, all or those chosen, and prints their lines that differ from tie.txt."""
-    for path in proofs.glob("*.ml"):
+    for path in proofs.rglob("*.ml"):
         shutil.copy(path, build)
     for program in TIE_PROGRAMS.values():
         shutil.rmtree(build / program, ignore_errors=True)

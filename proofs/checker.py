@@ -80,27 +80,30 @@ def words_of(text):
 
 
 def files_of(folder, library):
-    """Returns the names of the folder's files without .v, in _CoqProject's order. _CoqProject must have no other words,
-    such as options that would weaken the kernel."""
+    """Returns the paths of the files by their names, both without .v, in _CoqProject's order. _CoqProject must have no
+    other words, such as options that would weaken the kernel."""
     lines = [line.strip() for line in (folder / "_CoqProject").read_text().splitlines() if line.strip()]
     if not lines or lines[0] != f"-Q . {library}":
         raise Refused(f"_CoqProject: found '{lines[0] if lines else ''}', expected -Q . {library}")
     for line in lines[1:]:
-        if not re.fullmatch(r"[A-Z]\w*\.v", line):
+        if not re.fullmatch(r"(?:[a-z]+/)?[A-Z]\w*\.v", line):
             raise Refused(f"_CoqProject: found '{line}', expected a file's name")
     listed = [line[:-2] for line in lines[1:]]
-    there = sorted(path.stem for path in folder.glob("*.v"))
+    there = sorted(str(path.relative_to(folder))[:-2] for path in folder.rglob("*.v"))
     if sorted(listed) != there:
         raise Refused(f"_CoqProject and the folder differ: {sorted(set(listed) ^ set(there))}")
-    return listed
+    files = {path.rsplit("/", 1)[-1]: path for path in listed}
+    if len(files) != len(listed):
+        raise Refused("_CoqProject: found two files with one name")
+    return files
 
 
 def theorems(folder, library):
     """Returns (file, name) of every Theorem, in order."""
     found = []
-    for name in files_of(folder, library):
+    for name, path in files_of(folder, library).items():
         try:
-            text = code_of((folder / f"{name}.v").read_text())
+            text = code_of((folder / f"{path}.v").read_text())
         except Refused as why:
             raise Refused(f"{name}.v: {why}") from None
         if hole := REFUSED.search(text) or (not EXTRACTING.match(name) and EXTRACTION.search(text)):
@@ -139,8 +142,9 @@ def compile_all(folder, build, more=()):
         raise Refused(f"{build}: the build folder contains the proofs; expected another folder, whose contents are removed")
     shutil.rmtree(build, ignore_errors=True)
     build.mkdir(parents=True)
-    for path in [*folder.glob("*.v"), folder / "_CoqProject"]:
-        shutil.copy(path, build)
+    for path in [*folder.rglob("*.v"), folder / "_CoqProject"]:
+        (build / path.relative_to(folder)).parent.mkdir(exist_ok=True)
+        shutil.copy(path, build / path.relative_to(folder))
     run(build, "coq_makefile", "-f", "_CoqProject", "-o", "Makefile")
     run(build, "make", f"-j{os.cpu_count()}")
     for path in more:
@@ -273,10 +277,10 @@ def compare_restated(folder, name, found, stated):
             raise Refused(f"{name}.v, {theorem}: the text differs from what Coq prints:\n{stated[original]}")
 
 
-def check_compiled(build, library, names):
+def check_compiled(build, library, paths):
     """Checks the compiled files by coqchk, which trusts the packages of the libraries."""
     printed = run(build, "coqchk", "-o", "-silent", "-Q", ".", library,
-                  *(word for name in names for word in ("-norec", f"{library}.{name}")))
+                  *(word for path in paths for word in ("-norec", f"{library}.{path.replace('/', '.')}")))
     parts = dict(re.findall(r"^\* ([^:\n]+):(.*?)(?=^\* |\Z)", printed, re.MULTILINE | re.DOTALL))
     expected = {"Theory", "Axioms", "Constants/Inductives relying on type-in-type",
                 "Constants/Inductives relying on unsafe (co)fixpoints", "Inductives whose positivity is assumed"}

@@ -34,7 +34,7 @@ class Attack(unittest.TestCase):
         found = [(name[:-2], word) for name, text in files.items() for word in re.findall(r"Theorem (\w+)", text)]
         if scanned:
             found = checker.theorems(folder, "Attack")
-        build = folder / "build"
+        build = BUILD / "built"
         checker.compile_all(folder, build)
         checker.assumptions(build, "Attack", found)
         checker.check_compiled(build, "Attack", [name[:-2] for name in files])
@@ -116,8 +116,8 @@ Proof. exact I. Qed.
             folder.mkdir(parents=True, exist_ok=True)
             (folder / "A.v").write_text(warning)
             (folder / "_CoqProject").write_text("-Q . Attack\nA.v")
-            checker.compile_all(folder, folder / "build")
-            checker.statements(folder / "build", "Attack", [("A", "good")])
+            checker.compile_all(folder, BUILD / "built")
+            checker.statements(BUILD / "built", "Attack", [("A", "good")])
 
     def statement_of(self, text):
         """Returns the printed statement of theorem t, which the message must have."""
@@ -147,8 +147,8 @@ Proof. exact I. Qed.
             (folder / "B.v").write_text(f"From Attack Require A.\n{before}Theorem good :\n  {text}.\nProof. {proof} Qed.\n")
             found = checker.theorems(folder, "Attack")
             checker.restated(folder, "B", found)
-            checker.compile_all(folder, folder / "build")
-            checker.compare_restated(folder, "B", found, checker.statements(folder / "build", "Attack", found))
+            checker.compile_all(folder, BUILD / "built")
+            checker.compare_restated(folder, "B", found, checker.statements(BUILD / "built", "Attack", found))
         restating("forall n : nat,\n  n = n")
         for text, before in (("forall m : nat, m = m", ""),
                              ("wrong", "Notation wrong := (forall n : nat, n = n) (only parsing).\n")):
@@ -172,6 +172,24 @@ Proof. exact I. Qed.
         for hole in ("Axiom(**)a(**): False.", "Unset(**)Guard Checking.", 'Declare(**)ML(**)Module "extraction_plugin".',
                      'Add(* (* *) *)LoadPath "x" as Out.'):
             self.refused("A.v: found ", {"A.v": GOOD + hole})
+
+    def test_folders(self):
+        folder = BUILD / "attack" / "folders"
+        (folder / "more").mkdir(parents=True, exist_ok=True)
+        (folder / "A.v").write_text(GOOD)
+        (folder / "more/B.v").write_text(f"From Attack Require Import A.\n{GOOD}")
+        (folder / "_CoqProject").write_text("-Q . Attack\nA.v\nmore/B.v")
+        found = checker.theorems(folder, "Attack")
+        self.assertEqual(found, [("A", "good"), ("B", "good")])
+        checker.compile_all(folder, BUILD / "built")
+        checker.assumptions(BUILD / "built", "Attack", found)
+        checker.check_compiled(BUILD / "built", "Attack", ["A", "more/B"])
+        (folder / "more/B.v").write_text("Axiom a : False.\n")
+        with self.assertRaisesRegex(checker.Refused, "B.v: found Axiom"):
+            checker.theorems(folder, "Attack")
+        (folder / "_CoqProject").write_text("-Q . Attack\nA.v")
+        with self.assertRaisesRegex(checker.Refused, "differ: .'more/B'"):
+            checker.theorems(folder, "Attack")
 
     def test_suppositions_outside_of_sections(self):
         within = "Section s.\nVariable n : nat.\nTheorem t : n = n.\nProof. reflexivity. Qed.\nEnd s.\n"
@@ -197,9 +215,9 @@ Proof. exact I. Qed.
             folder.mkdir(parents=True, exist_ok=True)
             (folder / "A.v").write_text(text)
             (folder / "_CoqProject").write_text("-Q . Attack\nA.v")
-            checker.compile_all(folder, folder / "build")
+            checker.compile_all(folder, BUILD / "built")
             with self.assertRaisesRegex(checker.Refused, f"coqchk: .*{part}"):
-                checker.check_compiled(folder / "build", "Attack", ["A"])
+                checker.check_compiled(BUILD / "built", "Attack", ["A"])
 
     def test_unproved(self):
         for hole in ("Theorem t : False.\nAdmitted.\n", "Axiom a : False.\n", "Parameter p : False.\n",
