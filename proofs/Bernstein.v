@@ -4,7 +4,8 @@
     file and Sign.v prove this for tracked numbers. A list h of scaled coefficients is the form h_0 s^N + h_1
     s^(N-1) t + ... + h_N t^N, the polynomial's value if s = 1 - t. Results:
         value_at_form, product_form, elevated_form, derivative_form   operations give the forms that they name
-        left_part_form, left_half_form   subdivision
+        left_part_form, left_half_form, reversed_form   subdivision, and the exchange of s and t
+        scaled_cubic, scaled_quartic   coefficients of given control values
         form_ends, power_basis   end coefficients are end values; coefficients are those of powers of x = t/s
         hull_bounds, rootless_hull   min b_i <= p(t) <= max b_i for the control values b_i = h_i/C(N, i); with one
             strict sign of all coefficients there is no root in [0, 1]

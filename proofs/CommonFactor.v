@@ -3,7 +3,7 @@
         images_in_ideal       a result of Euclid's algorithm modulo a prime is u a + v b modulo it
         divided_right         a returned quotient is right
         common_factor_right   the roots of common_factor's result are the common roots
-        common_factor_divides   it divides both
+        common_factor_divides, cofactors_rootless   it divides both, and the quotients have no common root
         chain_multiplicities  squarefree_chain: a root of multiplicity k is one of the first k polynomials
         vanishes_right        the polynomials' sign changes give these multiplicities *)
 

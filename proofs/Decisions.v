@@ -2,9 +2,10 @@
     include/ccd/methods/forms.hpp, BSC on them (include/ccd/methods/bsc.hpp), and tests that separate two features.
     Results:
         forms_y, forms_weights      the forms are Y and the weights of Contact.v at every t
-        bsc_face_separate, bsc_face_collides, bsc_edges_separate, bsc_edges_collides
+        bsc_face_separate, bsc_face_collides, bsc_edges_separate, bsc_edges_collide
                                     answers of decide_bsc are right
-        rootless_separate, outside_separate   one strict sign of Y, or no G >= 0: no collision
+        face_rootless_separate, face_outside_separate, edges_rootless_separate, edges_outside_separate
+                                    one strict sign of Y, or no G >= 0: no collision
         face_separated, edges_separated, vertex_edge_separated   a fixed axis that separates the features in the
                                     same direction at both ends of the step separates them throughout *)
 

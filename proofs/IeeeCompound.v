@@ -3,7 +3,8 @@
 
     `keeps_operations` are the hypotheses on a rule, in addition to `promises` of IeeeFunctions.v. The dot products
     of tight and sharp are those of IeeeDotProduct.v. Results:
-        tight_keeps_operations, sharp_..., safe_..., interval_..., residual_...
+        tight_keeps_operations, sharp_keeps_operations, safe_keeps_operations, interval_keeps_operations,
+        residual_keeps_operations   these rules are such rules
         midpoint_known, pow_known, dot_known, horner_known, lerp_known, copysign_known, and from p = 8 on hypot_known
                           by such a rule, the bound that the code returns holds for functions of known numbers *)
 

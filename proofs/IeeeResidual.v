@@ -7,6 +7,7 @@
         residual_exact_known, residual_within_known, residual_negate_known, residual_add_known,
         residual_subtract_known, residual_multiply_known, residual_divide_known (with fused multiply-add and without,
         `fused`), residual_scale_known
+        residual_displacement_known   a number that is 0 is known by any value and `displacement`
         residual_error_known   the error is one, in the sense of IeeeRules.v
         residual_sign_known    the rule's sign is right or uncertain *)
 

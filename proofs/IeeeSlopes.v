@@ -1,5 +1,6 @@
 (** Square roots, and ab + c rounded once, under rules with first-order errors and under `interval`: the definitions
     of SlopeCode.v over IEEE formats (Ieee.v), to nearest, including overflow; p >= 3, emax > p. Results:
+        root_remainder_exact       over real numbers, x - v^2 is a number of the format
         remainder_of_root_known    if the code reports so, the remainder x - v^2 of v = fl(sqrt x) is exact
         sqrt_by_slope_known, fma_by_slope_known    for every rule that keeps its operations (IeeeCompound.v)
         slope_sqrt_known, slope_fma_known    so returned bounds of functions of known numbers hold

@@ -5,6 +5,7 @@
     computed`. `inflated` covers eight roundings and its own. Results:
         residual_exact_sound, residual_within_sound, residual_negate_sound, residual_add_sound,
         residual_subtract_sound, residual_scale_sound   the bound that the code returns holds
+        residual_displacement_sound   a number that is 0, by any value and `displacement`
         residual_error_sound   the returned error is a bound
         residual_sign_sound    the sign is right or uncertain *)
 

@@ -6,7 +6,8 @@
         isolate_right        the same for all roots in [low, high]
         keep_part_right      narrowing keeps the root
         secant_part_right    the secant selects one of the 2^bits subintervals
-        sign_at_root_right   the sign of g at a root of a square-free polynomial *)
+        sign_at_root_right   the sign of g at a root of a square-free polynomial
+        squarefree_part_roots, real_roots_right   the roots of p in (0, oo), by those of its square-free part *)
 
 From Coq Require Import Reals ZArith Lia Lra Psatz List Bool Sorted.
 From Errbound Require Import Sign Bernstein SignVariations.

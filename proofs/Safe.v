@@ -3,9 +3,8 @@
     A number x with computed value a has (B, k): |x| <= B and |a - x| <= B((1 + eps)^k - 1). Counts must be below
     2^29, where the code stops counting and returns no finite error. Results, rounding in any one direction from 4
     bits on (to nearest from 3):
-        safe_exact_sound, safe_within_sound, safe_add_sound, safe_subtract_sound, safe_multiply_sound   the bound
-            that
-                           the code returns holds
+        safe_exact_sound, safe_within_sound, safe_add_sound, safe_subtract_sound, safe_multiply_sound,
+        safe_scale_sound   the bound that the code returns holds
         safe_error_sound   the error that the code reports is a bound *)
 
 From Coq Require Import Reals ZArith Lia Lra Psatz Bool.

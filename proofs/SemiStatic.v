@@ -3,6 +3,7 @@
     emin <= -4p - 5 (double and float: -1074 <= -217, -149 <= -101). The code tests that m and a are exact:
     `trusted`. Results:
         mass_covers_size            S <= m M^d + (a - 3/4) tau + a tau M^d
+        semi_static_bound_covers    the last operation's exact result is within bound(M), as computed
         semi_static_sign_certain    the certain sign of the code is right
         semi_static_overflow_uncertain   also with a largest number and any overflow *)
 

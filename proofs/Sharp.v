@@ -2,7 +2,7 @@
     computes it. Rounding is to nearest, ties to even, from 3 bits on, with u a number (emin <= -p).
 
     A number x has a value a and a bound sa, |a - x| <= sa. Results:
-        sharp_add_sound, sharp_subtract_sound, sharp_multiply_sound, sharp_divide_sound *)
+        sharp_add_sound, sharp_subtract_sound, sharp_multiply_sound, sharp_divide_sound, sharp_scale_sound *)
 
 From Coq Require Import Reals ZArith Lia Lra Psatz Bool.
 From Flocq Require Import Core.

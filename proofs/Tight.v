@@ -2,10 +2,13 @@
 
     A number x has a value a and a bound sa, |a - x| <= sa. u is a number (emin <= -p), as in every IEEE format.
     Results:
-        tight_add_sound, tight_subtract_sound, tight_multiply_sound, tight_divide_sound
+        tight_add_sound, tight_subtract_sound, tight_multiply_sound, tight_divide_sound, tight_scale_sound
             rounding in any one direction, from 5 bits on
-        tight_add_sound_nearest, ... _multiply_..., ... _divide_...
-            rounding to nearest, ties to even, from 3 bits on *)
+        tight_add_sound_nearest, tight_subtract_sound_nearest, tight_multiply_sound_nearest,
+        tight_divide_sound_nearest, tight_scale_sound_nearest
+            rounding to nearest, ties to even, from 3 bits on
+        tight_exact_sound, tight_within_sound   exact numbers, and numbers within a given error
+        tight_add_number, tight_multiply_number, tight_divide_number   the bound is a number of the format *)
 
 From Coq Require Import Reals ZArith Lia Lra Psatz Bool.
 From Flocq Require Import Core.

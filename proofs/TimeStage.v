@@ -5,6 +5,7 @@
         parts_at                exactly, they are the control values of the subintervals before and after t
         quartic_slope           a quartic changes by at most 8 times its largest control value's size times the way
         only_root_first, first_of_two, second_of_two   the root that is the first contact
+        root_reached            signs of Y before and after t: the first of two roots is within reach
         bracket_around          its bracket, by signs at adjacent doubles *)
 
 From Coq Require Import Reals ZArith Lia Lra Psatz List.

@@ -4,7 +4,11 @@
 
     Sums of bounds, rounded in any one direction, as in detail/sum_of_bounds.hpp for the rules `tight`, `sharp` and
     `residual`: sum_above x y is x + y if that is a number. Otherwise it is the rounded sum or, if that is less, the
-    rounded sum times 1 + eps. *)
+    rounded sum times 1 + eps. Results:
+        sum_above_sound, sum_above_exact, sum_above_least   it is at least x + y, equal if that is a number, and at
+            most the rounded z(1 + eps) for any number z >= x + y
+        sum_of_bounds_sound, sum_of_bounds_at_most   `sum_of_bounds` covers a sum of bounds, and is at most the
+            bound with a factor for its roundings *)
 
 From Coq Require Import Reals ZArith Lia Lra Psatz.
 From Flocq Require Import Core Sterbenz.

@@ -2,14 +2,16 @@
 
 A folder has those files and _CoqProject, which only lists them. A text search could miss an assumption, so Coq confirms
 it twice. Print Assumptions lists the axioms of each theorem, and every line of its output must be recognised. coqchk
-checks the compiled files again and lists their axioms by full names. The theorems' statements are printed, and compared
-with a text for readers.
+checks the compiled files again and lists their axioms by full names. Coq prints the theorems' statements. A file for
+readers must have the printed text of its theorems, and a record the digests of all statements.
 """
+import hashlib
 import os
 import re
 import secrets
 import shutil
 import subprocess
+import textwrap
 from pathlib import Path
 
 # Coq's standard library builds its real numbers and classical logic on these; Flocq adds none. They are compared by name
@@ -78,27 +80,30 @@ def words_of(text):
 
 
 def files_of(folder, library):
-    """Returns the names of the folder's files without .v, in _CoqProject's order. _CoqProject must have no other words,
-    such as options that would weaken the kernel."""
+    """Returns the paths of the files by their names, both without .v, in _CoqProject's order. _CoqProject must have no
+    other words, such as options that would weaken the kernel."""
     lines = [line.strip() for line in (folder / "_CoqProject").read_text().splitlines() if line.strip()]
     if not lines or lines[0] != f"-Q . {library}":
         raise Refused(f"_CoqProject: found '{lines[0] if lines else ''}', expected -Q . {library}")
     for line in lines[1:]:
-        if not re.fullmatch(r"[A-Z]\w*\.v", line):
+        if not re.fullmatch(r"(?:[a-z]+/)?[A-Z]\w*\.v", line):
             raise Refused(f"_CoqProject: found '{line}', expected a file's name")
     listed = [line[:-2] for line in lines[1:]]
-    there = sorted(path.stem for path in folder.glob("*.v"))
+    there = sorted(str(path.relative_to(folder))[:-2] for path in folder.rglob("*.v"))
     if sorted(listed) != there:
-        raise Refused(f"_CoqProject lists {sorted(listed)}, the folder holds {there}")
-    return listed
+        raise Refused(f"_CoqProject and the folder differ: {sorted(set(listed) ^ set(there))}")
+    files = {path.rsplit("/", 1)[-1]: path for path in listed}
+    if len(files) != len(listed):
+        raise Refused("_CoqProject: found two files with one name")
+    return files
 
 
 def theorems(folder, library):
     """Returns (file, name) of every Theorem, in order."""
     found = []
-    for name in files_of(folder, library):
+    for name, path in files_of(folder, library).items():
         try:
-            text = code_of((folder / f"{name}.v").read_text())
+            text = code_of((folder / f"{path}.v").read_text())
         except Refused as why:
             raise Refused(f"{name}.v: {why}") from None
         if hole := REFUSED.search(text) or (not EXTRACTING.match(name) and EXTRACTION.search(text)):
@@ -137,8 +142,9 @@ def compile_all(folder, build, more=()):
         raise Refused(f"{build}: the build folder contains the proofs; expected another folder, whose contents are removed")
     shutil.rmtree(build, ignore_errors=True)
     build.mkdir(parents=True)
-    for path in [*folder.glob("*.v"), folder / "_CoqProject"]:
-        shutil.copy(path, build)
+    for path in [*folder.rglob("*.v"), folder / "_CoqProject"]:
+        (build / path.relative_to(folder)).parent.mkdir(exist_ok=True)
+        shutil.copy(path, build / path.relative_to(folder))
     run(build, "coq_makefile", "-f", "_CoqProject", "-o", "Makefile")
     run(build, "make", f"-j{os.cpu_count()}")
     for path in more:
@@ -150,7 +156,7 @@ def answers(build, library, found, subject, commands, *before):
     be mistaken for an answer, since a random mark separates the answers."""
     mark = secrets.token_hex(16)
     script = [f"From {library} Require {' '.join(dict.fromkeys(name for name, _ in found))}.", *before,
-              "Set Printing Width 100.", "Set Printing Depth 1000000.", "Set Printing Implicit."]
+              "Set Printing Width 118.", "Set Printing Depth 1000000.", "Set Printing Implicit."]
     for key, command in commands.items():
         script += [f'Goal True. idtac "{mark} {key}". exact I. Qed.', command]
     file = f"answers_{subject}.v"
@@ -201,27 +207,80 @@ def assumptions(build, library, found):
 
 
 def statements(build, library, found):
-    """Returns the theorems' statements, with their sections' hypotheses, in the notations of real numbers only."""
-    notations = ("From Coq Require Import ZArith Reals.", "Open Scope R_scope.")
+    """Returns the theorems' statements by name (file.theorem), with their sections' hypotheses, in the notations of Coq's
+    numbers and of Flocq only."""
+    notations = ("From Coq Require Import ZArith Reals.", "From Flocq Require Import Core BinarySingleNaN.",
+                 "Open Scope R_scope.")
     names = [f"{name}.{theorem}" for name, theorem in found]
     printed = answers(build, library, found, "statements", {name: f"Check @{name}." for name in names}, *notations)
     for name, answer in printed.items():
         if not re.match(rf"@?{re.escape(name)}\n +: ", answer) or "..." in answer or "\nwhere" in answer:
             raise Refused(f"{name}: found '{answer}', expected a whole statement")
-    return "".join(re.sub(r"^\S+\n", f"{name}\n", printed[name].rstrip("\n")) + "\n\n" for name in names)
+    return {name: re.sub(r"^\S+\n +: ", "", printed[name]).rstrip("\n") for name in names}
 
 
-def compare(text, path, build):
-    """Fails if the stored file differs from the new text."""
+def record_of(stated):
+    """Returns the record of statements: a paragraph for each file, with theorem:digest for each."""
+    files = {}
+    for name, statement in stated.items():
+        file, theorem = name.split(".")
+        files.setdefault(file, [file]).append(f"{theorem}:{hashlib.sha256(statement.encode()).hexdigest()[:12]}")
+    return "".join(textwrap.fill(" ".join(words), 120, subsequent_indent="    ", break_long_words=False) + "\n"
+                   for words in files.values())
+
+
+def recorded(path):
+    """Returns the digests in a record of statements, by name (file.theorem)."""
+    found = {}
+    for paragraph in re.sub(r"\n ", " ", path.read_text() if path.exists() else "").splitlines():
+        file, *entries = paragraph.split()
+        for entry in entries:
+            theorem, digest = entry.split(":")
+            found[f"{file}.{theorem}"] = digest
+    return found
+
+
+def differing(stated, path):
+    """Returns the statements, as text, whose digests differ from those of the record."""
+    new = {f"{name}:{digest}" for name, digest in recorded(path).items()}
+    return "".join(f"{name}\n     : {statement}\n\n" for name, statement in stated.items()
+                   if f"{name}:{hashlib.sha256(statement.encode()).hexdigest()[:12]}" not in new)
+
+
+def compare(text, path, build, shown=""):
+    """Fails if the stored file differs from the new text. `shown` is what differs, for readers."""
     if not path.exists() or path.read_text() != text:
         (build / path.name).write_text(text)
-        raise Refused(f"{path.name} differs from Coq's output, {build / path.name}: if the change is intended, copy it")
+        raise Refused(f"{path.name} differs from Coq's output, {build / path.name}: if the change is intended, copy it\n"
+                      f"{shown}".rstrip("\n"))
 
 
-def check_compiled(build, library, names):
+RESTATED = re.compile(r"^Theorem ([\w']+) :\n(.*?)\.\nProof\. exact @(\w+\.[\w']+)\. Qed\.$", re.MULTILINE | re.DOTALL)
+
+
+def restated(folder, name, found):
+    """Returns (theorem, statement, name of the original) for the theorems of a file that only restates others."""
+    all_ = RESTATED.findall(code_of((folder / f"{name}.v").read_text()))
+    if [theorem for theorem, _, _ in all_] != [theorem for file, theorem in found if file == name]:
+        raise Refused(f"{name}.v: found a Theorem that is not a statement and Proof. exact @File.theorem. Qed.")
+    for theorem, _, original in all_:
+        if tuple(original.split(".")) not in found or original.split(".")[1] != theorem:
+            raise Refused(f"{name}.v: {theorem} restates {original}")
+    return all_
+
+
+def compare_restated(folder, name, found, stated):
+    """Fails if a theorem of a file that restates others has another text than Coq prints for it."""
+    for theorem, text, original in restated(folder, name, found):
+        printed = {stated[f"{name}.{theorem}"], stated[original]}
+        if {" ".join(each.split()) for each in printed} != {" ".join(text.split())}:
+            raise Refused(f"{name}.v, {theorem}: the text differs from what Coq prints:\n{stated[original]}")
+
+
+def check_compiled(build, library, paths):
     """Checks the compiled files by coqchk, which trusts the packages of the libraries."""
     printed = run(build, "coqchk", "-o", "-silent", "-Q", ".", library,
-                  *(word for name in names for word in ("-norec", f"{library}.{name}")))
+                  *(word for path in paths for word in ("-norec", f"{library}.{path.replace('/', '.')}")))
     parts = dict(re.findall(r"^\* ([^:\n]+):(.*?)(?=^\* |\Z)", printed, re.MULTILINE | re.DOTALL))
     expected = {"Theory", "Axioms", "Constants/Inductives relying on type-in-type",
                 "Constants/Inductives relying on unsafe (co)fixpoints", "Inductives whose positivity is assumed"}

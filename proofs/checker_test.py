@@ -29,15 +29,18 @@ class Attack(unittest.TestCase):
         for name, text in files.items():
             (folder / name).write_text(text)
         (folder / "_CoqProject").write_text(project or "\n".join(["-Q . Attack", *files]))
-        (folder / "statements.txt").write_text(statements or "")
+        known = re.findall(r"^(\S+)\n     : (.*?)\n\n", statements or "", re.MULTILINE | re.DOTALL)
+        (folder / "digests.txt").write_text(checker.record_of(dict(known)))
         found = [(name[:-2], word) for name, text in files.items() for word in re.findall(r"Theorem (\w+)", text)]
         if scanned:
             found = checker.theorems(folder, "Attack")
-        build = folder / "build"
+        build = BUILD / "built"
         checker.compile_all(folder, build)
         checker.assumptions(build, "Attack", found)
         checker.check_compiled(build, "Attack", [name[:-2] for name in files])
-        checker.compare(checker.statements(build, "Attack", found), folder / "statements.txt", build)
+        stated = checker.statements(build, "Attack", found)
+        record = folder / "digests.txt"
+        checker.compare(checker.record_of(stated), record, build, checker.differing(stated, record))
 
     def refused(self, expected, *arguments, **options):
         """Expects these files to be rejected with this message."""
@@ -46,7 +49,7 @@ class Attack(unittest.TestCase):
 
     def test_good_ones_pass(self):
         self.check({"A.v": GOOD}, statements="A.good\n     : (1 + 1)%nat = 2%nat\n\n")
-        self.refused("statements.txt differs from Coq's output", {"A.v": GOOD})
+        self.refused("digests.txt differs from Coq's output", {"A.v": GOOD})
 
     def test_strings_that_look_like_comments(self):
         text = 'Require Import String.\nDefinition s := "(*"%string.\n' + GUARD + 'Definition e := "*)"%string.\n'
@@ -86,11 +89,11 @@ Proof. exact ((fun b => match b with make f => f b end) (make (fun b => match b 
     def test_hypotheses_of_sections_are_in_statements(self):
         def text(more):
             return f"Section s.\n{more}Theorem t : 1 = 1.\nProof. {'destruct h.' if more else 'reflexivity.'} Qed.\nEnd s.\n"
-        self.refused("statements.txt differs from Coq's output", {"A.v": text("Hypothesis h : False.\n")},
+        self.refused("digests.txt differs from Coq's output", {"A.v": text("Hypothesis h : False.\n")},
                      statements="A.t\n     : 1 = 1\n\n")
 
     def test_weakened_statements(self):
-        self.refused("statements.txt differs from Coq's output", {"A.v": "Theorem good : True.\nProof. exact I. Qed.\n"},
+        self.refused("digests.txt differs from Coq's output", {"A.v": "Theorem good : True.\nProof. exact I. Qed.\n"},
                      statements="A.good\n     : (1 + 1)%nat = 2%nat\n\n")
 
     def test_forged_answers(self):
@@ -102,7 +105,7 @@ A.good
      : (1 + 1)%nat = 2%nat
 about junk"; fail : typeclass_instances.
 """
-        self.refused("statements.txt differs from Coq's output", {"A.v": hint},
+        self.refused("digests.txt differs from Coq's output", {"A.v": hint},
                      statements="A.good\n     : (1 + 1)%nat = 2%nat\n\n")
         warning = """Lemma weak : True.
 Proof. exact I. Qed.
@@ -113,14 +116,14 @@ Proof. exact I. Qed.
             folder.mkdir(parents=True, exist_ok=True)
             (folder / "A.v").write_text(warning)
             (folder / "_CoqProject").write_text("-Q . Attack\nA.v")
-            checker.compile_all(folder, folder / "build")
-            checker.statements(folder / "build", "Attack", [("A", "good")])
+            checker.compile_all(folder, BUILD / "built")
+            checker.statements(BUILD / "built", "Attack", [("A", "good")])
 
     def statement_of(self, text):
-        """Returns the printed statement of theorem t."""
-        with self.assertRaises(checker.Refused):
-            self.check({"A.v": text}, statements="none")
-        return (BUILD / "attack" / self.id().rsplit(".", 1)[-1] / "build/statements.txt").read_text()
+        """Returns the printed statement of theorem t, which the message must have."""
+        with self.assertRaises(checker.Refused) as refused:
+            self.check({"A.v": text}, statements="")
+        return str(refused.exception).split("\n", 1)[1]
 
     def test_statements_are_whole(self):
         def nested(inner):
@@ -133,6 +136,26 @@ Proof. exact I. Qed.
                     ).replace("Definition", "Require Import PeanoNat.\nDefinition", 1)
         self.assertNotEqual(self.statement_of(implicit(53)), self.statement_of(implicit(24)))
         self.assertIn("False ->", self.statement_of("Theorem t {h : False} : 1 = 2.\nProof. destruct h. Qed.\n"))
+
+    def test_restated_theorems(self):
+        folder = BUILD / "attack" / "restated"
+        folder.mkdir(parents=True, exist_ok=True)
+        (folder / "_CoqProject").write_text("-Q . Attack\nA.v\nB.v")
+        (folder / "A.v").write_text("Theorem good : forall n : nat, n = n.\nProof. reflexivity. Qed.\n")
+
+        def restating(text, before="", proof="exact @A.good."):
+            (folder / "B.v").write_text(f"From Attack Require A.\n{before}Theorem good :\n  {text}.\nProof. {proof} Qed.\n")
+            found = checker.theorems(folder, "Attack")
+            checker.restated(folder, "B", found)
+            checker.compile_all(folder, BUILD / "built")
+            checker.compare_restated(folder, "B", found, checker.statements(BUILD / "built", "Attack", found))
+        restating("forall n : nat,\n  n = n")
+        for text, before in (("forall m : nat, m = m", ""),
+                             ("wrong", "Notation wrong := (forall n : nat, n = n) (only parsing).\n")):
+            with self.assertRaisesRegex(checker.Refused, "B.v, good: the text differs from what Coq prints"):
+                restating(text, before)
+        with self.assertRaisesRegex(checker.Refused, "B.v: found a Theorem that is not a statement"):
+            restating("forall n : nat, n = n", proof="reflexivity.")
 
     def test_printing_is_left_alone(self):
         self.refused("A.v: found Set Printing", {"A.v": "Global Set Printing Depth 8.\n" + GOOD})
@@ -149,6 +172,24 @@ Proof. exact I. Qed.
         for hole in ("Axiom(**)a(**): False.", "Unset(**)Guard Checking.", 'Declare(**)ML(**)Module "extraction_plugin".',
                      'Add(* (* *) *)LoadPath "x" as Out.'):
             self.refused("A.v: found ", {"A.v": GOOD + hole})
+
+    def test_folders(self):
+        folder = BUILD / "attack" / "folders"
+        (folder / "more").mkdir(parents=True, exist_ok=True)
+        (folder / "A.v").write_text(GOOD)
+        (folder / "more/B.v").write_text(f"From Attack Require Import A.\n{GOOD}")
+        (folder / "_CoqProject").write_text("-Q . Attack\nA.v\nmore/B.v")
+        found = checker.theorems(folder, "Attack")
+        self.assertEqual(found, [("A", "good"), ("B", "good")])
+        checker.compile_all(folder, BUILD / "built")
+        checker.assumptions(BUILD / "built", "Attack", found)
+        checker.check_compiled(BUILD / "built", "Attack", ["A", "more/B"])
+        (folder / "more/B.v").write_text("Axiom a : False.\n")
+        with self.assertRaisesRegex(checker.Refused, "B.v: found Axiom"):
+            checker.theorems(folder, "Attack")
+        (folder / "_CoqProject").write_text("-Q . Attack\nA.v")
+        with self.assertRaisesRegex(checker.Refused, "differ: .'more/B'"):
+            checker.theorems(folder, "Attack")
 
     def test_suppositions_outside_of_sections(self):
         within = "Section s.\nVariable n : nat.\nTheorem t : n = n.\nProof. reflexivity. Qed.\nEnd s.\n"
@@ -174,9 +215,9 @@ Proof. exact I. Qed.
             folder.mkdir(parents=True, exist_ok=True)
             (folder / "A.v").write_text(text)
             (folder / "_CoqProject").write_text("-Q . Attack\nA.v")
-            checker.compile_all(folder, folder / "build")
+            checker.compile_all(folder, BUILD / "built")
             with self.assertRaisesRegex(checker.Refused, f"coqchk: .*{part}"):
-                checker.check_compiled(folder / "build", "Attack", ["A"])
+                checker.check_compiled(BUILD / "built", "Attack", ["A"])
 
     def test_unproved(self):
         for hole in ("Theorem t : False.\nAdmitted.\n", "Axiom a : False.\n", "Parameter p : False.\n",

@@ -25,13 +25,12 @@ def sources_of(path):
 
 def digest(tie):
     """Returns a digest of the mutants, the tests' code and the expected results, without comments and white space."""
-    paths, starts = ties.TIES[tie]
+    paths, _ = ties.TIES[tie]
     files = [*paths, "tests/proofs/mutants.hpp", *sorted(sources_of(f"tests/proofs/tie_{tie}.cpp"))]
     text = "".join(" ".join(code_alone((root / path).read_text()).split()) for path in files)
     for path in paths:
         text += "".join(f"{m.name} {m.numbered}\n" for m in mutants_of(path, ties.untied_functions(path))[1])
-    text += "".join(line for line in (proofs / "tie.txt").read_text().splitlines()
-                    if re.match(r"\w+", line)[0] in starts)
+    text += str(ties.of_tie(tie))
     return hashlib.sha256(text.encode()).hexdigest()[:12]
 
 
@@ -72,7 +71,7 @@ def table():
             of = (f"  {r.date}" + ("" if r.digest == digest(tie) else ", changed since") +
                   (f"; {left} neither found nor listed" if left else ""))
         lines.append(f"{tie:<10}{number:>11}{inputs[tie]:>13}{tried}{of}")
-    lines.append(f"{sum(tied.values())} functions are tied of {sum(tied.values()) + others} that decide; README.md names "
+    lines.append(f"{sum(tied.values())} functions are tied of {sum(tied.values()) + others} that decide; ties.txt names "
                  "the others.\nMutants are those that ./run mutants recorded (mutants.txt); they are not run here.\n"
                  "Listed with the reason, equivalent or not: tests/proofs/equivalent_mutants.txt.")
     return "\n".join(lines)

@@ -1,71 +1,42 @@
 """The functions that decide, and those that are tied: their results on some inputs are compared with those of the
-proofs' definitions (README.md, The tie). README.md lists the others with the reasons."""
+proofs' definitions (README.md, The tie). ties.txt lists their files, and tie.txt has the results."""
 import re
 import sys
+import textwrap
 from pathlib import Path
 
 proofs = Path(__file__).resolve().parent
 root = proofs.parent
 sys.path.insert(0, str(root / "tests/project"))
-from layout_test import code_alone, cpp_functions  # noqa: E402
+from layout_test import cpp_functions  # noqa: E402
 
-# For each tie, the files whose functions it compares, and the beginnings of its lines in tie.txt.
-TIES = {
-    "rules": (["include/errbound/rules/affine.hpp", "include/errbound/rules/interval.hpp",
-               "include/errbound/rules/none.hpp", "include/errbound/rules/relative.hpp",
-               "include/errbound/rules/residual.hpp", "include/errbound/rules/safe.hpp",
-               "include/errbound/rules/sharp.hpp", "include/errbound/rules/tight.hpp",
-               "include/errbound/error_free.hpp", "include/errbound/functions.hpp",
-               "include/errbound/detail/running_bound.hpp", "include/errbound/detail/sum_of_bounds.hpp",
-               "include/errbound/tracked.hpp",
-               "include/errbound/integers/fixed_integer.hpp"],
-              ("tiny_float", "float", "double", "fixed_integer")),
-    "symbols": (["include/errbound/sign.hpp", "include/errbound/bernstein.hpp", "include/errbound/bsc.hpp",
-                 "include/ccd/methods/forms.hpp", "include/errbound/predicates.hpp"], ("symbol",)),
-    "integers": (["ccd/exact/axis_units.hpp", "ccd/exact/bounded_integer.hpp", "ccd/exact/close_contact.hpp",
-                  "ccd/exact/common_roots.hpp", "ccd/exact/cubic_roots.hpp", "ccd/exact/features.hpp",
-                  "ccd/exact/integer_decision.hpp", "ccd/exact/integers.cpp",
-                  "ccd/exact/interior_contact.hpp", "ccd/exact/vertex_edge_contact.hpp"], ("integers",)),
-    "floats": (["ccd/exact/static_filter/coefficient_signs.hpp", "ccd/exact/static_filter/constants.hpp",
-                "ccd/exact/static_filter/difference_extents.hpp",
-                "ccd/exact/static_filter/separating_axes.hpp", "ccd/exact/static_filter/subdivision.hpp",
-                "ccd/exact/static_filter/whole_step.hpp", "ccd/exact/stages.cpp",
-                "ccd/batch/rounded_axes.hpp", "include/errbound/roots/control_values.hpp",
-                "include/errbound/filters/error_count.hpp"], ("filter", "rounded_axes")),
-    "roots": (["include/errbound/roots/descartes_search.hpp", "include/errbound/roots/fixed_row.hpp",
-               "include/errbound/roots/integer_polynomial.hpp", "include/errbound/roots/local_form.hpp",
-               "include/errbound/roots/prime_field.hpp", "include/errbound/roots/root_isolation.hpp",
-               "include/errbound/roots/sign_variations.hpp", "include/errbound/integers/dyadic.hpp"], ("roots",)),
-    "times": (["ccd/contact/integer_first_contact.hpp", "ccd/contact/integer_times.cpp", "ccd/contact/interior_time.hpp",
-               "ccd/contact/time_bracket.hpp", "ccd/contact/vertex_edge_time.hpp"], ("times",)),
-    "words": (["include/errbound/integers/long_integer.hpp"], ("long_integer",)),
-    "filters": (["include/errbound/filters/static_filter.hpp", "include/errbound/filters/semi_static_filter.hpp"],
-                ("expression",)),
-}
-# Other files with functions that decide.
-OTHERS = ["include/errbound/elementary.hpp", "include/errbound/functions/angle_reduction.hpp",
-          "include/errbound/functions/function_error.hpp",
-          "include/errbound/functions/function_of_range.hpp", "include/errbound/roots/double_order.hpp",
-          "include/errbound/roots/floating_roots.hpp", "include/errbound/roots/nearby_value.hpp",
-          "include/errbound/roots/polynomial_stages.hpp",
-          "include/errbound/roots/real_roots.hpp", "include/errbound/roots/root_filter.hpp",
-          "include/errbound/filters/expression_count.hpp", "include/errbound/filters/predicate_stages.hpp",
-          "include/errbound/integers/binary_double.hpp", "include/errbound/integers/common_exponent.hpp",
-          "include/errbound/integers/double_word.hpp", "include/errbound/integers/integer.hpp",
-          "include/errbound/integers/magnitudes.hpp", "include/errbound/integers/sized_integer.hpp",
-          "include/errbound/predicate.hpp", "include/errbound/simplices/relation.hpp",
-          "ccd/exact/coordinate_axes.hpp", "ccd/exact/exact.cpp",
-          "ccd/exact/reference.cpp", "ccd/exact/unbounded_integers.hpp",
-          "ccd/exact/static_filter/distance_margins.hpp", "ccd/contact/condition.cpp",
-          "ccd/contact/control_polynomial.hpp", "ccd/contact/curve_filter.cpp",
-          "ccd/contact/feature_conditions.hpp", "ccd/contact/reference.cpp", "ccd/contact/separation.cpp",
-          "ccd/contact/separation_filter.hpp", "ccd/contact/time_of_impact.cpp",
-          "ccd/contact/time_polynomial.hpp", "ccd/batch/filter_stages.hpp", "ccd/batch/pack_subdivision.hpp",
-          "ccd/batch/rounded_positions.hpp", "ccd/batch/time_stage.hpp", "ccd/batch/twofold.hpp",
-          "ccd/step/box_tree.hpp", "ccd/step/search_kernels.cpp", "ccd/step/swept_boxes.hpp",
-          "include/ccd/methods/bsc.hpp", "ccd/methods/bsc_exact.cpp", "ccd/exact/finite.hpp", "ccd/contact/curves.cpp",
-          "ccd/contact/first_times.cpp", "ccd/contact/data/contact_data.cpp", "ccd/cuda/exact_stages.hpp",
-          "ccd/cuda/packet_search.hpp"]
+
+def paragraphs(text):
+    """Returns the lines of a text without comments and empty lines, each joined with its continuations, which are
+    indented by four spaces."""
+    text = re.sub(r"^#.*\n", "", text, flags=re.MULTILINE)
+    return [line for line in re.sub(r"\n    ", " ", text).splitlines() if line]
+
+
+def listed():
+    """Returns for each tie its files and the first words of its paragraphs in tie.txt; then the untied functions of those
+    files, by file; then the files without a tie."""
+    ties, untied, others, paths = {}, {}, [], None
+    for line in paragraphs((proofs / "ties.txt").read_text()):
+        if line == "no tie":
+            paths = others
+        elif not line.startswith(" "):
+            tie, starts = line.split(", ")
+            paths = []
+            ties[tie] = paths, tuple(starts.split())
+        else:
+            files, names = re.fullmatch(r"(.*?)(?: except (.*?))?(?:: .*)?", line.strip()).groups()
+            paths += files.split()
+            untied.update({path: set(names.split()) for path in files.split()} if names else {})
+    return ties, untied, others
+
+
+TIES, UNTIED, OTHERS = listed()
 
 
 def functions(path):
@@ -82,56 +53,61 @@ def functions(path):
         yield name, first, lines
 
 
-def untied():
-    """Returns the names of untied functions by file, from README.md."""
-    found = {}
-    text = (proofs / "README.md").read_text().split("### Functions without a tie\n")[1].split("\n## ")[0]
-    rows = re.findall(r"^\| `([\w/.]+)` \| (`[^|]+`) \| [^|]+ \|$", text, re.MULTILINE)
-    for path, names in rows:
-        found[path] = set(re.findall(r"`([^`]+)`", names))
-    return found
-
-
 def untied_functions(path):
     """Returns (first line, number of lines) for the untied functions of a tied file."""
-    names = untied().get(path, set())
-    return [(first, lines) for name, first, lines in functions(path) if name in names]
+    return [(first, lines) for name, first, lines in functions(path) if name in UNTIED.get(path, ())]
 
 
 def count():
-    """Returns the number of compared functions by tie, and the number of others. Raises ValueError if README.md names
-    functions that do not exist, or lacks one."""
-    named, tied, others = untied(), {}, 0
+    """Returns the number of compared functions by tie, and the number of others. Raises ValueError if ties.txt names a
+    file or function that does not exist, or lacks a file with theorems."""
+    tied, others = {}, sum(len(list(functions(path))) for path in OTHERS)
     for tie, (paths, _) in TIES.items():
-        tied[tie] = 0
+        names = {path: [name for name, _, _ in functions(path)] for path in paths}
         for path in paths:
-            names = [name for name, _, _ in functions(path)]
-            left = named.pop(path, set())
-            if not left <= set(names):
-                raise ValueError(f"README.md names functions of {path} as not tied: {left}; it has {names}")
-            tied[tie] += sum(name not in left for name in names)
-            others += sum(name in left for name in names)
-    for path in OTHERS:
-        names = [name for name, _, _ in functions(path)]
-        if named.pop(path, set()) != set(names):
-            row = ", ".join(f"`{name}`" for name in dict.fromkeys(names))
-            raise ValueError(f"README.md must name the functions of {path}, which is not tied: {row}")
-        others += len(names)
-    if named:
-        raise ValueError(f"README.md names functions as not tied in files that decide nothing: {sorted(named)}")
-    listed = {path for paths, _ in TIES.values() for path in paths} | set(OTHERS)
+            if unknown := UNTIED.get(path, set()) - set(names[path]):
+                raise ValueError(f"ties.txt: {path} has no {sorted(unknown)}")
+        left_out = sum(name in UNTIED.get(path, ()) for path in paths for name in names[path])
+        tied[tie] = sum(map(len, names.values())) - left_out
+        others += left_out
+    known = {path for paths, _ in TIES.values() for path in paths} | set(OTHERS)
     for path in (path for folder in ("include", "ccd") for path in sorted((root / folder).rglob("*.[hc]pp"))):
         name = str(path.relative_to(root))
-        if name not in listed and re.search(r"proofs/\w+\.v", path.read_text()) and any(functions(name)):
-            raise ValueError(f"{name} names theorems, and ties.py does not list it")
+        if name not in known and re.search(r"proofs/(\w+/)?\w+\.v", path.read_text()) and any(functions(name)):
+            raise ValueError(f"{name} names theorems, and ties.txt does not list it")
     return tied, others
+
+
+def results(lines):
+    """Returns the text of tie.txt for lines "format operation cases hash": a paragraph for each format, with the number
+    of all its cases, and the hash of each operation's results."""
+    formats = {}
+    for line in lines:
+        name, operation, cases, hash_ = line.split()
+        formats.setdefault(name, []).append((int(cases), f"{operation}:{hash_}"))
+    return "".join(textwrap.fill(" ".join([f"{name} {sum(cases for cases, _ in each)}", *(entry for _, entry in each)]),
+                                 120, subsequent_indent="    ", break_long_words=False, break_on_hyphens=False) + "\n"
+                   for name, each in formats.items())
+
+
+def recorded():
+    """Returns (format, number of cases, entries "operation:hash") for each paragraph of tie.txt."""
+    found = (line.split() for line in paragraphs((proofs / "tie.txt").read_text()))
+    return [(name, int(cases), entries) for name, cases, *entries in found]
+
+
+def of_tie(tie):
+    """Returns what tie.txt records of a tie."""
+    return [record for record in recorded() if re.match(r"\w+", record[0])[0] in TIES[tie][1]]
 
 
 def cases():
     """Returns the number of inputs in tie.txt by tie."""
-    found = dict.fromkeys(TIES, 0)
-    for line in (proofs / "tie.txt").read_text().splitlines():
-        start, _, number, _ = line.split()
-        tie = next(tie for tie, (_, starts) in TIES.items() if re.match(r"\w+", start)[0] in starts)
-        found[tie] += int(number)
-    return found
+    return {tie: sum(number for _, number, _ in of_tie(tie)) for tie in TIES}
+
+
+def differences(lines):
+    """Returns the lines "format operation cases hash" whose hashes differ from those of tie.txt, each with the latter."""
+    known = {(name, *entry.rsplit(":", 1)[:1]): entry.rsplit(":", 1)[1] for name, _, entries in recorded() for entry in entries}
+    found = [(line, known.get(tuple(line.split()[:2]), "nothing")) for line in lines]
+    return [f"{line}, recorded: {old}" for line, old in found if old != line.split()[3]]

@@ -1,5 +1,5 @@
 // BSC over intervals, then over integers. Contacts of vertices and edges decide the queries that
-// remain. Derivation: proofs/README.md, "bsc-exact". Proof: proofs/BscExact.v, bsc_exact_face,
+// remain. Derivation: docs/other-methods.md, "bsc-exact". Proof: proofs/BscExact.v, bsc_exact_face,
 // bsc_exact_edges.
 #include <algorithm>
 #include <ccd/methods/bsc.hpp>

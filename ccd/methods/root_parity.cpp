@@ -1,5 +1,5 @@
 // The parity of a ray's crossings with the image of the domain's boundary: first over intervals, up
-// to an uncertain sign, then over integers. Derivation: proofs/README.md, "Root parity".
+// to an uncertain sign, then over integers. Derivation: docs/other-methods.md, "Root parity".
 #include <algorithm>
 #include <array>
 #include <ccd/methods/forms.hpp>

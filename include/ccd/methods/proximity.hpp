@@ -2,7 +2,7 @@
 // uncertain.
 //
 // The vertex/edge and vertex/vertex tests of SafeCCD (Wang 2014), with thresholds for any reach.
-// Derivation: proofs/README.md, "Proximity of a vertex and an edge".
+// Derivation: docs/other-methods.md, "Proximity of a vertex and an edge".
 #pragma once
 
 #include <array>

@@ -3,7 +3,7 @@
 //   decide_safeccd<safe>    `safeccd`: tolerances from one uniform bound on all coordinates
 //   decide_safeccd<tight>   `safeccd-tight`: tolerances from each variable's own bound
 //
-// proofs/README.md, "SafeCCD", shows that no contact is lost, and lists the differences from the
+// docs/other-methods.md, "SafeCCD", shows that no contact is lost, and lists differences from the
 // published method. Sources: Wang 2014, Defending continuous collision detection against errors;
 // Wang, Tang, Tong, Manocha 2015, Section 6 (SafeCCD with TightBound).
 #pragma once
@@ -164,7 +164,8 @@ class solver {
         return at_root(at(f, root), slack, root);
     }
 
-    /// Step 3 of proofs/README.md, "SafeCCD": reports the root or leaves it to the proximity tests.
+    /// Step 3 of "SafeCCD" (docs/other-methods.md): reports the root or leaves it to the proximity
+    /// tests.
     constexpr verdict at_root(const scalar& f, T slack, T root) {
         const auto now = forms_at(forms_, scalar(T(1)), scalar(root));
         const std::array<scalar, 3> n{now.n.x[0], now.n.y[0], now.n.z[0]};

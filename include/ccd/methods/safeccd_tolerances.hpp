@@ -1,4 +1,4 @@
-// The tolerances of SafeCCD. proofs/README.md, "SafeCCD", gives the purpose of each.
+// The tolerances of SafeCCD. docs/other-methods.md, "SafeCCD", gives the purpose of each.
 #pragma once
 
 #include <algorithm>
