@@ -7,6 +7,7 @@
 #include "ccd/batch/rounded_positions.hpp"
 #include "ccd/batch/row_quads.hpp"
 #include "ccd/exact/simd.hpp"
+#include "ccd/step/triangle_signs.hpp"
 
 namespace ccd::detail::ERRBOUND_INSTRUCTION_SET {
 namespace {
@@ -178,6 +179,7 @@ lanes touching(const extents_pack& packed, const Extents& other) {
 }
 
 typedef vertex_index index_pack __attribute__((vector_size(4 * size)));
+typedef vertex_index index_quad __attribute__((vector_size(16)));
 
 /// The lanes of `leaf` that share a vertex with element i of `other`.
 template <std::size_t N, std::size_t M>
@@ -189,9 +191,12 @@ lanes sharing(const leaf_vertices& leaf, const leaf_vertices& other, std::uint32
         for (std::size_t v = 0; v < N; ++v)
             same |= index_pack(vertices == index_pack{} + other.at[v][i]);
     }
-    lanes found = 0;
-    for (std::size_t lane = 0; lane < size; ++lane) found |= same[lane] & (lanes(1) << lane);
-    return found;
+    same &= index_pack{1,      1 << 1, 1 << 2,  1 << 3,  1 << 4,  1 << 5,  1 << 6,  1 << 7,
+                       1 << 8, 1 << 9, 1 << 10, 1 << 11, 1 << 12, 1 << 13, 1 << 14, 1 << 15};
+    index_quad quads[size / 4];
+    __builtin_memcpy(quads, &same, sizeof(quads));
+    const index_quad found = (quads[0] | quads[1]) | (quads[2] | quads[3]);
+    return found[0] | found[1] | found[2] | found[3];
 }
 
 struct found_pairs {
@@ -254,23 +259,36 @@ void find_pairs(const extents_levels& a, const extents_levels& b, std::size_t fi
     };
     node open[size * extents_levels::most];
     found_pairs found(context, visit);
-    for (std::size_t p = first; p < end; ++p) {
-        const hull_reader from{a.at[0].hulls[p]};
+    // Leaves with one parent share the nodes above those that hold leaves.
+    for (std::size_t next = first; next < end;) {
+        const std::size_t from = next, parent = from / size;
+        next = lesser(end, size * (parent + 1));
+        const hull_reader hull{a.count > 1 ? a.at[1].hulls[parent] : a.at[0].hulls[0]};
         std::size_t opened = 0;
         open[opened++] = {b.count - 1, 0};
         while (opened > 0) {
             const node n = open[--opened];
-            if (n.level == 0) {
-                pairs_of_leaves<N, M, At>(a, p, b, n.position, found);
+            const extents_pack& children = b.at[n.level].packs[n.position];
+            if (n.level > 1) {
+                const std::size_t least = N == M ? from >> (4 * (n.level - 1)) : 0;
+                for_each_lane(touching<At>(children, hull), [&](std::uint32_t i) {
+                    const std::size_t child = size * n.position + i;
+                    if (child >= least) open[opened++] = {n.level - 1, child};
+                });
                 continue;
             }
-            const std::size_t below = n.level - 1;
-            const std::size_t least = N == M ? p >> (4 * below) : 0;
-            const lanes some = touching<At>(b.at[n.level].packs[n.position], from);
-            for_each_lane(some, [&](std::uint32_t i) {
-                const std::size_t child = size * n.position + i;
-                if (child >= least) open[opened++] = {below, child};
-            });
+            for (std::size_t p = from; p < next; ++p) {
+                if (n.level == 0) {
+                    pairs_of_leaves<N, M, At>(a, p, b, n.position, found);
+                    continue;
+                }
+                const std::size_t least = N == M ? p : 0;
+                for_each_lane(touching<At>(children, hull_reader{a.at[0].hulls[p]}),
+                              [&](std::uint32_t i) {
+                                  const std::size_t q = size * n.position + i;
+                                  if (q >= least) pairs_of_leaves<N, M, At>(a, p, b, q, found);
+                              });
+            }
         }
     }
     found.flush();
@@ -284,6 +302,7 @@ constinit const search_kernels searching = {fill_leaves<1>,
                                             fill_nodes,
                                             find_pairs<1, 3, times::whole_step>,
                                             find_pairs<2, 2, times::whole_step>,
-                                            find_pairs<3, 3, times::start>};
+                                            find_pairs<3, 3, times::start>,
+                                            triangle_signs};
 
 }  // namespace ccd::detail::ERRBOUND_INSTRUCTION_SET

@@ -5,6 +5,7 @@
 #include <ccd/batch.hpp>
 #include <ccd/kind.hpp>
 #include <cstddef>
+#include <errbound/sign.hpp>
 #include <optional>
 
 #include "ccd/step/extents_pack.hpp"
@@ -32,6 +33,12 @@ struct search_kernels {
     using find_pairs = void (*)(const extents_levels& a, const extents_levels& b, std::size_t first,
                                 std::size_t end, void* context, visitor visit);
     find_pairs of_vertices_and_faces, of_two_edges, of_two_faces_at_start;
+
+    /// Sets the signs of triangle_intersects_triangle (errbound/simplices/predicates.hpp) for pairs
+    /// of elements at rest, or `uncertain`. `positions` are rows x y z.
+    void (*triangle_signs)(const double* positions, const vertex_index* elements,
+                           const element_pair* pairs, std::size_t count,
+                           errbound::sign_type* signs);
 };
 
 const search_kernels& search_kernels_for(std::optional<instruction_set> set);
