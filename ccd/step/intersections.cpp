@@ -284,13 +284,18 @@ void intersection_finder::decide_adjacent(const vertex_fans& fans) {
         vertex_index vertex, element;
         auto operator<=>(const use&) const = default;
     };
-    std::vector<use> uses;
     if (std::ranges::find(is_open, 1) == is_open.end()) return;
-    for (std::size_t i = 0; i < elements.size(); ++i)
-        for_each_vertex(elements[i], [&](vertex_index v) {
-            if (is_open[v] != 0) uses.push_back({v, static_cast<vertex_index>(i)});
-        });
-    std::ranges::sort(uses);
+    const std::size_t shares = shares_of(elements.size());
+    const std::vector<use> uses = sorted_by_vertex<use>(
+        shares, static_cast<vertex_index>(vertices),
+        [&](std::size_t share, const auto& visit) {
+            for (std::size_t i = begin_of_share(share, shares, elements.size());
+                 i < begin_of_share(share + 1, shares, elements.size()); ++i)
+                for_each_vertex(elements[i], [&](vertex_index v) {
+                    if (is_open[v] != 0) visit(use{v, static_cast<vertex_index>(i)});
+                });
+        },
+        [](const use& u) { return u.vertex; });
     const auto is_first_common = [&](vertex_index v, const face& a, const face& b) {
         for (const vertex_index w : simplex_vertices(a))
             if (share_vertex(std::array{w}, b) && (w < v || is_open[w] == 0)) return false;
@@ -396,14 +401,16 @@ intersection_result find_intersections(candidate_search& search, std::optional<v
     const resting_visitor decide = [&](auto elements, auto pairs) {
         finder.decide(elements, pairs);
     };
+    const bool one_suffices = options.wanted == intersection_options::amount::first;
     try {
         if (of_step != nullptr) {
-            search.find_at_start(*of_step, searching, decide,
-                                 candidate_search::trees::of_last_find);
+            search.find_at_start(*of_step, searching, decide, candidate_search::trees::of_last_find,
+                                 one_suffices);
         } else {
             const vertex_rows at_rest(positions.before, positions.before, positions.vertices);
             const rounded_positions rounded(at_rest);
-            search.find_at_start({at_rest, rounded}, searching, decide);
+            search.find_at_start({at_rest, rounded}, searching, decide,
+                                 candidate_search::trees::new_ones, one_suffices);
         }
         if (!fans) fans.emplace(search.resting_elements(), positions.vertices);
         finder.decide_adjacent(*fans);

@@ -114,9 +114,9 @@ struct section_pack {
 /// The sign of triangle_intersects_triangle, or uncertain. `elements` are three vertices each;
 /// those that repeat a vertex are uncertain, since all their volumes are zero. As relation_of_faces
 /// of errbound/simplices/relation.hpp, for certain signs that are not zero.
-inline void triangle_signs(const double* positions, const vertex_index* elements,
-                           const element_pair* pairs, std::size_t count,
-                           errbound::sign_type* signs) {
+[[gnu::flatten]] inline void triangle_signs(const double* positions, const vertex_index* elements,
+                                            const element_pair* pairs, std::size_t count,
+                                            errbound::sign_type* signs) {
     constexpr std::size_t block = 64;
     alignas(64) double columns[18][block] = {};
     for (std::size_t first = 0; first < count; first += block) {
