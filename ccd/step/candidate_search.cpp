@@ -241,7 +241,7 @@ std::size_t candidate_search::find_kind(const search_request& request, First& fi
 }
 
 void candidate_search::find_at_start(const batch_positions& positions, const step_options& options,
-                                     const resting_visitor& visit, trees from) {
+                                     const resting_visitor& visit, trees from, bool one_suffices) {
     skip_unused(options.filter.skip_unused);
     if (from == trees::new_ones) {
         order_.forget();
@@ -259,7 +259,7 @@ void candidate_search::find_at_start(const batch_positions& positions, const ste
     const search_kernels& kernels = search_kernels_for(options.set);
     if (in_second_ != &elements)
         elements.build_tree<float>(tree, true, sorting<float>(boxes, elements),
-                                   [&] { tree.build<3>(kernels, at.rounded, 0, elements); });
+                                   [&] { tree.build<3>(kernels, at.rounded, 0, elements, true); });
     in_second_ = &elements;
     struct context {
         const resting_visitor& visit;
@@ -269,12 +269,20 @@ void candidate_search::find_at_start(const batch_positions& positions, const ste
         const auto& [visit, elements] = *static_cast<context*>(to);
         visit(elements, {pairs, count});
     };
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, tree.leaves(), 8), [&](const auto& range) {
+    const auto find = [&](const extents_levels& leaves, std::size_t first, std::size_t end) {
         stop_if_requested(options.stop);
         context to{visit, elements};
-        kernels.of_two_faces_at_start(tree.levels(), tree.levels(), range.begin(), range.end(), &to,
-                                      pass);
-    });
+        kernels.of_two_faces_at_start(leaves, tree.levels(), first, end, &to, pass);
+    };
+    if (one_suffices) {
+        // Elements that reach far often intersect others. As from another tree, each leaf is
+        // compared with all.
+        const extents_levels others = tree.levels();
+        for (const std::size_t leaf : tree.longest_leaves(tree.leaves() / 64))
+            find(others, leaf, leaf + 1);
+    }
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, tree.leaves(), 8),
+                      [&](const auto& range) { find(tree.levels(), range.begin(), range.end()); });
 }
 
 void candidate_search::find_resting_by_boxes(const swept_boxes& boxes,

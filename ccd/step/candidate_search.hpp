@@ -89,11 +89,12 @@ class candidate_search {
     enum class trees : bool { new_ones, of_last_find };
 
     /// Visits each pair of resting_elements() without a common vertex once, unless an axis
-    /// separates the two at t = 0. Does not apply the filter except skip_unused. `of_last_find` is
+    /// separates the two at t = 0. If `one_suffices` is true, pairs that probably intersect come
+    /// first, and may come again. Does not apply the filter except skip_unused. `of_last_find` is
     /// only for the positions and options of the last find(); otherwise positions at t = 1 must be
     /// those at t = 0.
     void find_at_start(const batch_positions& positions, const step_options& options,
-                       const resting_visitor& visit, trees from = trees::new_ones);
+                       const resting_visitor& visit, trees from, bool one_suffices);
 
     void skip_unused(bool skip);
     /// Faces, edges of no face and vertices of neither, in any order. Edges {v, w, w} and vertices

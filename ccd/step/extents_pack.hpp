@@ -1,5 +1,5 @@
-// Extents of sixteen elements in columns, along nine axes at both ends of the step. Internal;
-// kernels of all instruction sets share it.
+// Extents of sixteen elements in columns, along nine axes at one or both ends of the step.
+// Internal; kernels of all instruction sets share it.
 //
 // An axis that separates two elements, or groups of elements, in the same order at both ends does
 // so throughout. So a tree of such packs finds the pairs that no axis separates without a list of
@@ -18,24 +18,24 @@
 
 namespace ccd::detail {
 
-/// Along each of nine axes: the least at the start and end of the step, then the most at both.
+/// The columns of elements, or of packs: least and most along each of nine axes at the start of the
+/// step, then the same at its end, unless elements are at rest.
 struct extents {
-    static constexpr std::size_t axes = 9, columns = 4 * axes;
+    static constexpr std::size_t axes = 9, columns_of_end = 2 * axes;
     /// The margin outwards along x ± y, y ± z and z ± x.
     static constexpr float margin = 7 * std::numeric_limits<float>::epsilon();
-
-    float of[columns];
 };
 
-struct extents_pack {
+/// One number for each of the sixteen members of a pack.
+struct extents_column {
     static constexpr std::size_t size = 16;
 
-    alignas(64) float at[extents::columns][size];
+    alignas(64) float at[size];
 };
 
 /// One column for each element of a leaf. Elements with fewer vertices leave rows unset.
 struct leaf_vertices {
-    alignas(64) vertex_index at[3][extents_pack::size];
+    alignas(64) vertex_index at[3][extents_column::size];
 };
 
 /// Pack p of level 0 is a leaf with elements 16 p to 16 p + 15. Pack p of the level above holds
@@ -44,12 +44,20 @@ struct extents_levels {
     static constexpr std::size_t most = 8;  ///< 16^8 is the number of indices
 
     struct level {
-        const extents_pack* packs;
-        const extents* hulls;  ///< of the packs
+        const extents_column* packs;
+        const float* hulls;  ///< the extents of the packs
     };
     level at[most];
     std::size_t count = 0;
+    std::size_t columns = 0;                  ///< of a pack, and numbers of a hull
     const leaf_vertices* vertices = nullptr;  ///< of the leaves
+
+    const extents_column* pack(std::size_t level, std::size_t p) const {
+        return at[level].packs + columns * p;
+    }
+    const float* hull(std::size_t level, std::size_t p) const {
+        return at[level].hulls + columns * p;
+    }
 };
 
 struct element_pair {

@@ -18,6 +18,7 @@
 #include "ccd/step/checks.hpp"
 #include "ccd/step/elements.hpp"
 #include "ccd/step/fans/vertex_fans.hpp"
+#include "ccd/step/order/buckets.hpp"
 #include "ccd/step/stopwatch.hpp"
 
 namespace ccd {
@@ -31,9 +32,20 @@ struct simplex_vertices {
     std::array<vertex_index, 3> vertices;
     std::size_t size = 0;
 
-    explicit simplex_vertices(const face& element);
+    explicit simplex_vertices(const face& element) {
+        for_each_vertex(element, [this](vertex_index v) { vertices[size++] = v; });
+    }
+    explicit simplex_vertices(const mesh_element& element)
+        : simplex_vertices(repeating_last(element)) {}
     const vertex_index* begin() const { return vertices.data(); }
     const vertex_index* end() const { return vertices.data() + size; }
+
+  private:
+    static face repeating_last(const mesh_element& element) {
+        face f = element.indices;
+        std::fill(f.begin() + element.size, f.end(), f[element.size - 1U]);
+        return f;
+    }
 };
 
 /// One search for intersections. Keeps references.
@@ -55,8 +67,13 @@ class intersection_finder {
     struct found_first {};
 
   private:
+    struct found_pair {
+        mesh_element a, b;
+        relation how;
+        auto operator<=>(const found_pair&) const = default;
+    };
     struct found_by_thread {
-        std::vector<intersection> pairs;
+        std::array<std::vector<found_pair>, intersection_kinds.size()> pairs;  ///< by kind
         intersection_counts counts;
         std::vector<edge_face_pair> edge_faces;
     };
@@ -73,6 +90,7 @@ class intersection_finder {
     const candidate_search& search_;
     vertex_rows positions_;
     const intersection_options& options_;
+    const search_kernels& kernels_;
     bool all_pass_;
     tbb::enumerable_thread_specific<found_by_thread> found_;
 };
@@ -137,10 +155,11 @@ relation relation_of(const vertex_rows& positions, bool in_plane, const simplex_
                     : with_points<3>(positions, a, b, decide);
 }
 
+/// Precondition: the pair is crossing.
 std::array<errbound::located_point<3>, 2> segment_of(const vertex_rows& positions, bool in_plane,
-                                                     const simplex_vertices& a,
-                                                     const simplex_vertices& b) {
+                                                     const intersection& pair) {
     using ends = std::array<errbound::located_point<3>, 2>;
+    const simplex_vertices a(pair.a), b(pair.b);
     if (!in_plane)
         return with_points<3>(positions, a, b, [](const auto& x, const auto& y) -> ends {
             return errbound::common_segment(x, y);
@@ -153,16 +172,13 @@ std::array<errbound::located_point<3>, 2> segment_of(const vertex_rows& position
     return {lifted(p), lifted(q)};
 }
 
-simplex_vertices::simplex_vertices(const face& element) {
-    for_each_vertex(element, [this](vertex_index v) { vertices[size++] = v; });
-}
-
 intersection_finder::intersection_finder(const candidate_search& search,
                                          const vertex_rows& positions,
                                          const intersection_options& options)
     : search_(search),
       positions_(positions),
       options_(options),
+      kernels_(search_kernels_for(options.set)),
       all_pass_(lets_all_through(options.filter)) {}
 
 bool intersection_finder::may_meet(const simplex_vertices& a, const simplex_vertices& b) const {
@@ -188,16 +204,22 @@ bool intersection_finder::may_meet(const simplex_vertices& a, const simplex_vert
 void intersection_finder::decide(std::span<const face> elements,
                                  std::span<const element_pair> pairs) {
     found_by_thread& found = found_.local();
-    const bool plain = all_pass_ && !options_.edge_faces && !search_.is_in_plane();
-    for (const auto& [i, j] : pairs) {
-        const face &a = elements[i], &b = elements[j];
-        if (!plain || !is_triangle(a) || !is_triangle(b)) {
-            decide(found, a, b);
-            continue;
+    constexpr std::size_t block = 512;
+    std::array<errbound::sign_type, block> signs;
+    signs.fill(errbound::sign_type::uncertain);
+    for (; !pairs.empty(); pairs = pairs.subspan(std::min(block, pairs.size()))) {
+        const auto some = pairs.first(std::min(block, pairs.size()));
+        if (!options_.edge_faces)
+            kernels_.triangle_signs(positions_.before, elements.data()->data(), some.data(),
+                                    some.size(), signs.data());
+        for (std::size_t i = 0; i < some.size(); ++i) {
+            if (signs[i] == errbound::sign_type::negative) continue;
+            const face &a = elements[some[i].first], &b = elements[some[i].second];
+            if (signs[i] == errbound::sign_type::uncertain)
+                decide(found, a, b);
+            else if (may_meet(simplex_vertices(a), simplex_vertices(b)))
+                report(found, a, b, relation::crossing);
         }
-        const relation r =
-            errbound::relation_of(points_of<3, 3>(positions_, a), points_of<3, 3>(positions_, b));
-        if (r != relation::disjoint) report(found, a, b, r);
     }
 }
 
@@ -220,7 +242,7 @@ void intersection_finder::find_edges_in_faces(found_by_thread& found, const face
         for (std::size_t j = 0; j < i; ++j) {
             const edge e{std::min(from.vertices[i], from.vertices[j]),
                          std::max(from.vertices[i], from.vertices[j])};
-            const simplex_vertices ends({e[0], e[1], e[1]});
+            const simplex_vertices ends(face{e[0], e[1], e[1]});
             if (share_vertex(e, f) || !may_meet(ends, to) ||
                 relation_of(positions_, false, ends, to, 0) == relation::disjoint)
                 continue;
@@ -232,22 +254,19 @@ void intersection_finder::find_edges_in_faces(found_by_thread& found, const face
 mesh_element intersection_finder::element_of(const face& element) const {
     if (const std::size_t size = size_of(element); size < 3)
         return {static_cast<std::uint8_t>(size), {element[0], size == 2 ? element[1] : 0}};
-    face sorted = element;
-    std::ranges::sort(sorted);
-    return {3, sorted};
+    const auto [x, y, z] = element;
+    const vertex_index low = std::min({x, y, z}), high = std::max({x, y, z});
+    return {3, {low, x ^ y ^ z ^ low ^ high, high}};
 }
 
 void intersection_finder::report(found_by_thread& found, const face& a, const face& b,
                                  relation relation) const {
     using amount = intersection_options::amount;
-    intersection pair{element_of(a), element_of(b), relation};
-    if (pair.b < pair.a) std::swap(pair.a, pair.b);
-    found.counts.add(pair.kind(), relation);
+    const auto [low, high] = std::minmax({element_of(a), element_of(b)});
+    const intersection_kind kind = kind_of_sizes(low.size, high.size);
+    found.counts.add(kind, relation);
     if (options_.wanted == amount::count) return;
-    if (options_.segments && relation == relation::crossing)
-        pair.segment =
-            segment_of(positions_, search_.is_in_plane(), simplex_vertices(a), simplex_vertices(b));
-    found.pairs.push_back(pair);
+    found.pairs[static_cast<std::size_t>(kind)].push_back({low, high, relation});
     if (options_.wanted == amount::first) throw found_first{};
 }
 
@@ -265,13 +284,18 @@ void intersection_finder::decide_adjacent(const vertex_fans& fans) {
         vertex_index vertex, element;
         auto operator<=>(const use&) const = default;
     };
-    std::vector<use> uses;
     if (std::ranges::find(is_open, 1) == is_open.end()) return;
-    for (std::size_t i = 0; i < elements.size(); ++i)
-        for_each_vertex(elements[i], [&](vertex_index v) {
-            if (is_open[v] != 0) uses.push_back({v, static_cast<vertex_index>(i)});
-        });
-    std::ranges::sort(uses);
+    const std::size_t shares = shares_of(elements.size());
+    const std::vector<use> uses = sorted_by_vertex<use>(
+        shares, static_cast<vertex_index>(vertices),
+        [&](std::size_t share, const auto& visit) {
+            for (std::size_t i = begin_of_share(share, shares, elements.size());
+                 i < begin_of_share(share + 1, shares, elements.size()); ++i)
+                for_each_vertex(elements[i], [&](vertex_index v) {
+                    if (is_open[v] != 0) visit(use{v, static_cast<vertex_index>(i)});
+                });
+        },
+        [](const use& u) { return u.vertex; });
     const auto is_first_common = [&](vertex_index v, const face& a, const face& b) {
         for (const vertex_index w : simplex_vertices(a))
             if (share_vertex(std::array{w}, b) && (w < v || is_open[w] == 0)) return false;
@@ -291,19 +315,41 @@ void intersection_finder::decide_adjacent(const vertex_fans& fans) {
 intersection_result intersection_finder::take() {
     intersection_result all;
     for (found_by_thread& found : found_) {
-        if (options_.wanted == intersection_options::amount::first && !all.pairs.empty()) break;
-        const auto append = [](auto& to, const auto& from) {
-            to.insert(to.end(), from.begin(), from.end());
-        };
-        append(all.pairs, found.pairs);
-        append(all.edge_faces, found.edge_faces);
+        all.edge_faces.insert(all.edge_faces.end(), found.edge_faces.begin(),
+                              found.edge_faces.end());
         all.counts += found.counts;
     }
-    std::ranges::sort(all.pairs, {},
-                      [](const intersection& i) { return std::tuple(i.kind(), i.a, i.b); });
     std::ranges::sort(all.edge_faces);
     const auto repeated = std::ranges::unique(all.edge_faces);
     all.edge_faces.erase(repeated.begin(), repeated.end());
+    if (options_.wanted == intersection_options::amount::count) return all;
+    all.pairs.reserve(all.counts.total());
+    for (std::size_t kind = 0; kind < intersection_kinds.size(); ++kind) {
+        std::vector<std::vector<found_pair>*> lists;
+        for (found_by_thread& found : found_) lists.push_back(&found.pairs[kind]);
+        if (lists.empty()) break;
+        for (const found_pair& pair : sorted_by_vertex<found_pair>(
+                 lists.size(), static_cast<vertex_index>(positions_.vertices),
+                 [&](std::size_t list, const auto&visit) {
+                     for (const found_pair& pair : *lists[list]) visit(pair);
+                 },
+                 [](const found_pair&pair) { return pair.a.indices[0]; }))
+            all.pairs.push_back({pair.a, pair.b, pair.how});
+    }
+    if (options_.wanted == intersection_options::amount::first && all.pairs.size() > 1) {
+        all.pairs.resize(1);
+        all.counts = {};
+        all.counts.add(all.pairs[0].kind(), all.pairs[0].relation);
+    }
+    if (options_.segments)
+        tbb::parallel_for(
+            tbb::blocked_range<std::size_t>(0, all.pairs.size(), 64), [&](const auto& range) {
+                stop_if_requested(options_.stop);
+                for (std::size_t i = range.begin(); i < range.end(); ++i)
+                    if (all.pairs[i].relation == relation::crossing)
+                        all.pairs[i].segment =
+                            segment_of(positions_, search_.is_in_plane(), all.pairs[i]);
+            });
     return all;
 }
 
@@ -355,14 +401,16 @@ intersection_result find_intersections(candidate_search& search, std::optional<v
     const resting_visitor decide = [&](auto elements, auto pairs) {
         finder.decide(elements, pairs);
     };
+    const bool one_suffices = options.wanted == intersection_options::amount::first;
     try {
         if (of_step != nullptr) {
-            search.find_at_start(*of_step, searching, decide,
-                                 candidate_search::trees::of_last_find);
+            search.find_at_start(*of_step, searching, decide, candidate_search::trees::of_last_find,
+                                 one_suffices);
         } else {
             const vertex_rows at_rest(positions.before, positions.before, positions.vertices);
             const rounded_positions rounded(at_rest);
-            search.find_at_start({at_rest, rounded}, searching, decide);
+            search.find_at_start({at_rest, rounded}, searching, decide,
+                                 candidate_search::trees::new_ones, one_suffices);
         }
         if (!fans) fans.emplace(search.resting_elements(), positions.vertices);
         finder.decide_adjacent(*fans);

@@ -5,6 +5,7 @@
 #include <ccd/batch.hpp>
 #include <ccd/kind.hpp>
 #include <cstddef>
+#include <errbound/sign.hpp>
 #include <optional>
 
 #include "ccd/step/extents_pack.hpp"
@@ -16,22 +17,30 @@ struct search_kernels {
 
     /// Sets leaves p, first <= p < end, and their hulls. `rounded` is rounded_positions::data(), of
     /// coordinates that are off by less than `margin` (see short_way); `count` is the number of
-    /// elements.
+    /// elements, `columns` that of a pack.
     using fill_leaves = void (*)(const float* rounded, float margin, const vertex_index* elements,
                                  std::size_t count, std::size_t first, std::size_t end,
-                                 extents_pack* leaves, extents* hulls, leaf_vertices* vertices);
+                                 std::size_t columns, extents_column* leaves, float* hulls,
+                                 leaf_vertices* vertices);
     fill_leaves of_vertices, of_edges, of_faces;
 
     /// Sets packs p, first <= p < end, of the level over these hulls.
-    void (*fill_nodes)(const extents* below, std::size_t count, std::size_t first, std::size_t end,
-                       extents_pack* packs, extents* hulls);
+    void (*fill_nodes)(const float* below, std::size_t count, std::size_t first, std::size_t end,
+                       std::size_t columns, extents_column* packs, float* hulls);
 
     /// Finds pairs, without a common vertex, that no axis separates. They have an element in the
-    /// leaves first <= p < end of `a` and one of `b`. If both are elements of one tree, the later
-    /// one is second. For `of_two_faces_at_start`, the axis need not separate them at t = 1.
+    /// leaves first <= p < end of `a` and one of `b`. If a is b, by address, the later element is
+    /// second, and each pair is found once. For `of_two_faces_at_start`, the axis need not separate
+    /// them at t = 1.
     using find_pairs = void (*)(const extents_levels& a, const extents_levels& b, std::size_t first,
                                 std::size_t end, void* context, visitor visit);
     find_pairs of_vertices_and_faces, of_two_edges, of_two_faces_at_start;
+
+    /// Sets the signs of triangle_intersects_triangle (errbound/simplices/predicates.hpp) for pairs
+    /// of elements at rest, or `uncertain`. `positions` are rows x y z.
+    void (*triangle_signs)(const double* positions, const vertex_index* elements,
+                           const element_pair* pairs, std::size_t count,
+                           errbound::sign_type* signs);
 };
 
 const search_kernels& search_kernels_for(std::optional<instruction_set> set);

@@ -47,8 +47,10 @@ void run_scene(const std::string& name, const options& o, report& out) {
 int main(int argc, char** argv) {
     bench::program bench("./run bench", "Times exact and the other methods; prints tables.");
     bench.line.footer(
-        "./run bench also takes, as its first argument, --integers, --linear, --predicates, "
-        "--roots or --rules:\nthose next to other libraries; --mpi; or --worst: worst cases.");
+        "./run bench also takes, as its first argument, --integers, --intersections, --linear, "
+        "--predicates,\n--roots or --rules: those next to other libraries; --mpi; or --worst: "
+        "worst "
+        "cases.");
     options o;
     std::string only;
     bench.line.add_option("--scene", only, "Only scenes whose name holds this");

@@ -41,11 +41,14 @@ bool vertex_fans::are_closed(std::span<corner> corners, std::span<vertex_index> 
     if (corners.size() > few) return false;
     vertex_index at = corners[0].from;
     for (std::size_t i = 0; i < corners.size(); ++i) {
-        std::size_t next = i;
-        while (next < corners.size() && corners[next].from != at) ++next;
-        if (next == corners.size()) return false;
-        for (std::size_t j = 0; j < i; ++j)
-            if (ring[j] == at) return false;
+        // All are tested, since the position of the next one is not predictable.
+        std::size_t next = i, matches = 0;
+        for (std::size_t j = i; j < corners.size(); ++j) {
+            const bool is_next = corners[j].from == at;
+            next = is_next ? j : next;
+            matches += is_next;
+        }
+        if (matches != 1) return false;
         std::swap(corners[i], corners[next]);
         ring[i] = at;
         at = corners[i].to;
