@@ -467,7 +467,9 @@ class analysis {
         });
     }
     static range angle_over(const range& y, const range& x) {
-        if (!y.is_finite() || !x.is_finite()) return range::unknown();
+        // The angle jumps at the negative x axis.
+        if (!y.is_finite() || !x.is_finite() || (y.has_zero() && !(x.lower() > 0)))
+            return range::unknown();
         const double m = y.middle(), n = x.middle();
         const auto r =
             errbound::detail::angle_of_ranges<double>(m, (y - m).most(), n, (x - n).most());
