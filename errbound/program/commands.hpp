@@ -9,5 +9,6 @@ namespace errbound {
 
 std::unique_ptr<support::command> validate_command(CLI::App& program);
 std::unique_ptr<support::command> explain_command(CLI::App& program);
+std::unique_ptr<support::command> ranges_command(CLI::App& program);
 
 }  // namespace errbound

@@ -306,8 +306,8 @@ void set_power(ball& result, const ball& x, int n) {
         result = power;
 }
 
-void set_compound(ball& result, const expression_operation& o, const ball* values) {
-    const ball &left = values[o.left], &right = values[o.right], &third = values[o.third];
+void set_compound(ball& result, const expression_operation& o, const ball& left, const ball& right,
+                  const ball& third) {
     switch (o.kind) {
         case operation_kind::fused:
             return result.set_fused(left, right, third);
@@ -331,8 +331,10 @@ void set_compound(ball& result, const expression_operation& o, const ball* value
     }
 }
 
-void set_result(ball& result, const expression_operation& o, const ball* values) {
-    const ball &left = values[o.left], &right = values[o.right];
+}  // namespace
+
+void set_result(ball& result, const expression_operation& o, const ball& left, const ball& right,
+                const ball& third) {
     switch (o.kind) {
         case operation_kind::add:
             return result.set_sum(left, right);
@@ -358,11 +360,9 @@ void set_result(ball& result, const expression_operation& o, const ball* values)
             if (is_function(o.kind))
                 result.set_function(function_of(o.kind), left, right);
             else
-                set_compound(result, o, values);
+                set_compound(result, o, left, right, third);
     }
 }
-
-}  // namespace
 
 void evaluate(const expression& e, ball* values) {
     multiples cancelling;
@@ -376,7 +376,7 @@ void evaluate(const expression& e, ball* values) {
     }
     for (std::size_t i = 0; i < e.operation_count; ++i, ++n) {
         const expression_operation& o = e.operations[i];
-        set_result(values[n], o, values);
+        set_result(values[n], o, values[o.left], values[o.right], values[o.third]);
         cancelling.note(o, n, values);
     }
 }

@@ -105,6 +105,12 @@ class ball {
         mpfr_set_zero(radius_.get(), 1);
         rounded(mpfr_add(middle_.get(), sum.get(), part.get(), MPFR_RNDN));
     }
+    /// The number that set(to) rounds to `to`; set returns MPFR's ternary value.
+    template <class Set>
+    void set_rounded(const Set& set) {
+        mpfr_set_zero(radius_.get(), 1);
+        rounded(set(middle_.get()));
+    }
     void set_sum(const ball& a, const ball& b) {
         const int off = mpfr_add(middle_.get(), a.middle(), b.middle(), MPFR_RNDN);
         mpfr_add(radius_.get(), a.radius(), b.radius(), MPFR_RNDU);
@@ -343,6 +349,7 @@ class deviation {
     /// Precondition: not negligible.
     double log10() const { return log10_of(upper_.get()); }
     mpfr_srcptr upper() const { return upper_.get(); }
+    double lower() const { return mpfr_get_d(lower_.get(), MPFR_RNDD); }
 
     /// Precondition: x > 0.
     static double log10_of(mpfr_srcptr x);

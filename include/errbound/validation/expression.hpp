@@ -320,6 +320,10 @@ void evaluate(const expression& e, claim* claims) {
         claims[i] = {exactly(T(x[i].value())), exactly(T(x[i].error())), sign_of(x[i])};
 }
 
+/// Encloses the result of an operation; operands that it lacks are ignored.
+void set_result(ball& result, const expression_operation& o, const ball& left, const ball& right,
+                const ball& third);
+
 /// Enclosures of all values.
 void evaluate(const expression& e, ball* values);
 

@@ -1,0 +1,232 @@
+// `errbound ranges`.
+#include <algorithm>
+#include <cmath>
+#include <errbound/support/error.hpp>
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <ostream>
+#include <string>
+#include <vector>
+
+#include "errbound/program/commands.hpp"
+#include "errbound/program/flame_graph.hpp"
+#include "errbound/program/fpcore.hpp"
+#include "errbound/support/decimal.hpp"
+#include "errbound/support/hexadecimal.hpp"
+#include "errbound/support/output_file.hpp"
+#include "errbound/support/progress_line.hpp"
+#include "errbound/support/rows.hpp"
+
+namespace errbound::validation {
+namespace {
+
+using support::row, support::rows;
+
+class ranges final : public support::command {
+  public:
+    explicit ranges(CLI::App& program);
+    support::exit_status run() override;
+
+  private:
+    void print(std::ostream& people) const;
+
+    std::vector<std::string> files_;
+    std::string precision_, only_;
+    worst_case_options options_;
+    std::optional<std::filesystem::path> published_, csv_, json_, picture_;
+    rows done_, not_done_;
+};
+
+const std::vector<std::string> columns{"core",  "precision", "at_most",  "at_least",
+                                       "ratio", "published", "relative", "lower",
+                                       "upper", "boxes",     "complete", "seconds"};
+
+ranges::ranges(CLI::App& program)
+    : command(
+          program, "ranges",
+          "Bound the rounding error of FPCore programs over all inputs that their preconditions "
+          "allow,\nand search for inputs with a large error. Cores that cannot be bounded are "
+          "listed with the reason") {
+    line_.add_option("files", files_, "FPCore files; - is standard input")
+        ->required()
+        ->type_name("FILE...");
+    line_.add_option("--only", only_, "Only the cores of that name")->type_name("NAME");
+    line_.add_option("--precision", precision_,
+                     "Use this precision for all cores: binary64, binary32, binary16, binary80, "
+                     "bfloat16, e5m2 or e4m3");
+    line_.add_flag("--round-inputs", options_.round_inputs,
+                   "Inputs are real numbers; their rounding counts");
+    line_.add_flag("--relative", options_.relative, "Bound the relative error, too");
+    line_
+        .add_option("--function-units", options_.function_units,
+                    "Errors of elementary functions in units in the last place, instead of "
+                    "function_error;\n0.5 for correct rounding")
+        ->check(CLI::Range(0.5, 1024.0));
+    line_
+        .add_option("--gap", options_.gap,
+                    "Stop if the bound is within this share of the least one that bisection can "
+                    "reach")
+        ->check(CLI::Range(0.0, 1e6))
+        ->capture_default_str();
+    line_.add_option("--seconds", options_.seconds, "Limit of each bound")->capture_default_str();
+    line_.add_option("--boxes", options_.boxes, "Limit of each bound")->capture_default_str();
+    line_.add_option("--samples", options_.samples, "Inputs that each search tries")
+        ->capture_default_str();
+    line_.add_option("--seed", options_.seed, "Seed of the search")
+        ->check(support::checked_seed)
+        ->capture_default_str();
+    line_
+        .add_option("--published", published_,
+                    "Compare with other bounds: lines CORE,BOUND, the core's name without commas")
+        ->type_name("FILE");
+    line_.add_option("--csv", csv_, "Write the table as CSV")->type_name("OUT");
+    line_.add_option("--json", json_, "Write all results, with inputs and operations, as JSON")
+        ->type_name("OUT");
+    line_.add_option("--picture", picture_, "Draw each bound's operations, an SVG file")
+        ->type_name("OUT");
+}
+
+std::map<std::string, double> published_bounds(const std::filesystem::path& path) {
+    std::map<std::string, double> bounds;
+    const std::string text = support::read_whole(path);
+    std::size_t number = 0;
+    for (std::size_t begin = 0; begin < text.size();) {
+        const std::size_t end = std::min(text.find('\n', begin), text.size());
+        std::string line = text.substr(begin, end - begin);
+        begin = end + 1;
+        ++number;
+        if (line.ends_with('\r')) line.pop_back();
+        if (line.empty() || line[0] == '#') continue;
+        const std::size_t comma = line.rfind(',');
+        const auto bound = support::parse_decimal<double>(
+            std::string_view(line).substr(comma == std::string::npos ? 0 : comma + 1));
+        if (comma == std::string::npos || bound.status != support::decimal_status::ok ||
+            !(bound.value >= 0))
+            throw support::file_error(path.string() + ':' + std::to_string(number) + ": line is '" +
+                                      line + "'; expected CORE,BOUND");
+        bounds[line.substr(0, comma)] = bound.value;
+    }
+    return bounds;
+}
+
+row number(double x) {
+    return std::isfinite(x) ? row(x) : row();
+}
+double median(std::vector<double> x) {
+    std::ranges::sort(x);
+    return x.empty() ? NAN : (x[x.size() / 2] + x[(x.size() - 1) / 2]) / 2;
+}
+
+support::exit_status ranges::run() {
+    std::vector<std::filesystem::path> inputs;
+    for (std::string& file : files_) inputs.emplace_back(file = support::input_named(file));
+    if (published_) inputs.push_back(*published_);
+    support::require_one_standard_input("FILE", inputs);
+    support::require_good_outputs({csv_, json_, picture_}, inputs);
+    std::vector<fpcore> cores;
+    for (const std::string& file : files_)
+        for (fpcore& core : parse_fpcores(support::read_whole(file), file))
+            if (only_.empty() || core.name == only_) cores.push_back(std::move(core));
+    if (cores.empty() && !only_.empty())
+        throw support::usage_error("--only is '" + only_ + "'; expected a core of the files");
+    const auto published =
+        published_ ? published_bounds(*published_) : std::map<std::string, double>();
+    std::vector<explanation> explanations;
+    support::progress_line progress;
+    for (std::size_t i = 0; i < cores.size(); ++i) {
+        const fpcore& core = cores[i];
+        progress.show(i, cores.size(), core.name);
+        const std::string& precision = precision_.empty() ? core.precision : precision_;
+        row r{{"core", core.name}, {"precision", precision}, {"file", core.file}};
+        try {
+            worst_case_result found = worst_case_of(core, options_, precision_);
+            const double ratio =
+                found.at_most == found.at_least ? 1 : found.at_most / found.at_least;
+            row where = row::array(), operations = row::array();
+            for (const double x : found.where) where.push_back(support::hexadecimal(x));
+            for (const contribution& c : found.by_operation.contributions)
+                operations.push_back(
+                    {{"operation", c.operation},
+                     {"line", c.scopes.empty() ? row() : row(c.scopes.back().line)},
+                     {"amount", c.amount}});
+            r.update(row{
+                {"at_most", number(found.at_most)},
+                {"at_least", found.at_least},
+                {"ratio", number(ratio)},
+                {"published", published.contains(core.name) ? row(published.at(core.name)) : row()},
+                {"relative", options_.relative ? number(found.relative_at_most) : row()},
+                {"lower", number(found.lower)},
+                {"upper", number(found.upper)},
+                {"boxes", found.boxes},
+                {"complete", found.complete},
+                {"seconds", found.seconds},
+                {"where", where},
+                {"operations", operations}});
+            if (!std::isfinite(found.at_most))
+                r["reason"] = "no finite bound: an operation may overflow or leave its domain";
+            found.by_operation.name = core.name;
+            if (std::isfinite(found.at_most)) explanations.push_back(std::move(found.by_operation));
+        } catch (const unsupported_core& e) {
+            r["reason"] = e.what();
+        }
+        (r.contains("reason") ? not_done_ : done_).push_back(std::move(r));
+    }
+    progress.clear();
+    std::vector<support::output> outputs;
+    if (csv_) outputs.push_back({*csv_, support::csv_of(columns, done_)});
+    if (json_)
+        outputs.push_back(
+            {*json_, support::json_of({{"done", done_}, {"not_done", not_done_}}, 2) + '\n'});
+    if (picture_) outputs.push_back({*picture_, explaining::flame_graphs(explanations)});
+    support::write_whole(outputs);
+    print(support::stream_for_people({csv_, json_, picture_}));
+    return support::done;
+}
+
+void ranges::print(std::ostream& people) const {
+    const auto up = [](const row& x) { return x.is_null() ? row() : row(detail::scientific(x)); };
+    rows shown;
+    std::vector<double> ratios, seconds, shares;
+    for (const row& r : done_) {
+        row& s = shown.emplace_back(row{{"core", r["core"]}, {"precision", r["precision"]}});
+        s["error at most"] = up(r["at_most"]);
+        s["at least"] = support::fixed(r["at_least"].get<double>() * (1 - 0x1p-8), "%.2e");
+        s["ratio"] = r["ratio"].is_null() ? row() : row(support::fixed(r["ratio"], "%.2f"));
+        if (published_)
+            s["published"] =
+                r["published"].is_null() ? row() : row(support::fixed(r["published"], "%.2e"));
+        if (options_.relative) s["relative"] = up(r["relative"]);
+        for (const char* end : {"lower", "upper"}) s[end] = support::fixed(r[end], "%.4g");
+        s["boxes"] = r["boxes"];
+        s["seconds"] = support::fixed(r["seconds"], "%.2f");
+        if (!r["complete"].get<bool>()) s["seconds"] = s["seconds"].get<std::string>() + " (limit)";
+        if (!r["ratio"].is_null()) ratios.push_back(r["ratio"]);
+        seconds.push_back(r["seconds"]);
+        if (!r["published"].is_null())
+            shares.push_back(r["at_most"].get<double>() / r["published"].get<double>());
+    }
+    people << support::text_of(shown);
+    people << (shown.empty() ? "" : "\n") << done_.size() << " cores bounded";
+    if (!ratios.empty())
+        people << "; medians: " << support::fixed(median(ratios), "%.2f")
+               << " of bound/observed error, " << support::fixed(median(seconds), "%.2f")
+               << " s; slowest: " << support::fixed(std::ranges::max(seconds), "%.2f") << " s";
+    people << '\n';
+    if (!shares.empty())
+        people << std::ranges::count_if(shares, [](double s) { return s <= 1; }) << " of "
+               << shares.size() << " bounds are at most the published ones; largest ratio to them: "
+               << support::fixed(std::ranges::max(shares), "%.2f") << '\n';
+    if (not_done_.empty()) return;
+    rows reasons;
+    for (const row& r : not_done_)
+        reasons.push_back({{"not bounded", r["core"]}, {"reason", r["reason"]}});
+    people << '\n' << support::text_of(reasons);
+}
+
+}  // namespace
+}  // namespace errbound::validation
+
+std::unique_ptr<errbound::support::command> errbound::ranges_command(CLI::App& program) {
+    return std::make_unique<validation::ranges>(program);
+}

@@ -1,0 +1,288 @@
+// Certified bounds over boxes, compared with the errors of all inputs in small formats.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <errbound/validation/worst_case.hpp>
+#include <string>
+#include <vector>
+
+#include "errbound/validation/largest_error.hpp"
+#include "errbound/validation/random_source.hpp"
+#include "tests/support/scaled.hpp"
+
+namespace errbound {
+namespace {
+
+using validation::random_source;
+
+enum class op { add, sub, mul, div, neg, root, absolute, lesser, greater, fused, count };
+constexpr elementary_function functions[] = {
+    elementary_function::exp,   elementary_function::log,   elementary_function::sin,
+    elementary_function::cos,   elementary_function::tan,   elementary_function::atan,
+    elementary_function::tanh,  elementary_function::expm1, elementary_function::log1p,
+    elementary_function::asin,  elementary_function::sinh,  elementary_function::cbrt,
+    elementary_function::acosh, elementary_function::pow,   elementary_function::atan2,
+    elementary_function::exp2,  elementary_function::log2,  elementary_function::log10,
+    elementary_function::acos,  elementary_function::cosh,  elementary_function::asinh,
+    elementary_function::atanh};
+constexpr int first_function = static_cast<int>(op::count);
+
+struct step {
+    int kind, left, right, third;
+};
+/// Values: inputs, then constants, then results of steps.
+struct program {
+    int inputs = 1;
+    std::vector<double> constants;
+    std::vector<step> steps;
+};
+
+program random_program(random_source& random, bool with_functions) {
+    program p;
+    p.inputs = 1 + random.below(2);
+    for (int i = random.below(3); i > 0; --i)
+        p.constants.push_back(random.one_in(2) ? random.between(-4, 4)
+                                               : std::ldexp(random.between(-99, 99), -5));
+    const int count = 1 + random.below(7);
+    int values = p.inputs + static_cast<int>(p.constants.size());
+    for (int i = 0; i < count; ++i, ++values) {
+        // Later values more often, so that most steps count.
+        const auto operand = [&] {
+            return random.one_in(2) ? values - 1 - random.below(std::min(values, 2))
+                                    : random.below(values);
+        };
+        int kind = random.below(4);
+        if (random.one_in(4)) kind = random.below(first_function);
+        if (with_functions && random.one_in(3))
+            kind = first_function + random.below(static_cast<int>(std::size(functions)));
+        p.steps.push_back({kind, operand(), operand(), operand()});
+    }
+    return p;
+}
+
+template <class S>
+S absolute_of(const S& x) {
+    if constexpr (std::same_as<S, recorded>)
+        return abs(x);
+    else
+        return number_traits<S>::abs(x);
+}
+template <class S>
+S root_of(const S& x) {
+    if constexpr (std::same_as<S, recorded>)
+        return sqrt(x);
+    else
+        return number_traits<S>::sqrt(x);
+}
+template <class S>
+S fused_of(const S& x, const S& y, const S& z) {
+    if constexpr (std::same_as<S, recorded>)
+        return fma(x, y, z);
+    else if constexpr (std::same_as<S, long double>)
+        return x * y + z;
+    else
+        return number_traits<S>::fma(x, y, z);
+}
+template <class S>
+S lesser_of(const S& x, const S& y) {
+    if constexpr (std::same_as<S, recorded>)
+        return min(x, y);
+    else
+        return y < x ? y : x;
+}
+template <class S>
+S greater_of(const S& x, const S& y) {
+    if constexpr (std::same_as<S, recorded>)
+        return max(x, y);
+    else
+        return x < y ? y : x;
+}
+template <class S>
+S function_of(elementary_function f, const S& x, const S& y) {
+    if constexpr (std::same_as<S, recorded>) {
+        return validation::has_two_arguments(f) ? recorded::of(f, x, y) : recorded::of(f, x);
+    } else {
+        using wide = detail::function_type<S>;
+        return validation::with_function(f, [&]<elementary_function F>() {
+            if constexpr (validation::has_two_arguments(F))
+                return S(detail::system_function<F>(static_cast<wide>(x), static_cast<wide>(y)));
+            else
+                return S(detail::system_function<F>(static_cast<wide>(x)));
+        });
+    }
+}
+
+template <class S>
+S run(const program& p, const std::vector<S>& inputs) {
+    std::vector<S> v(inputs);
+    for (const double c : p.constants) v.push_back(S(c));
+    for (const step& s : p.steps) {
+        const S x = v[static_cast<std::size_t>(s.left)], y = v[static_cast<std::size_t>(s.right)],
+                z = v[static_cast<std::size_t>(s.third)];
+        switch (static_cast<op>(s.kind)) {
+            case op::add:
+                v.push_back(x + y);
+                break;
+            case op::sub:
+                v.push_back(x - y);
+                break;
+            case op::mul:
+                v.push_back(x * y);
+                break;
+            case op::div:
+                v.push_back(x / y);
+                break;
+            case op::neg:
+                v.push_back(-x);
+                break;
+            case op::root:
+                v.push_back(root_of(x));
+                break;
+            case op::absolute:
+                v.push_back(absolute_of(x));
+                break;
+            case op::lesser:
+                v.push_back(lesser_of(x, y));
+                break;
+            case op::greater:
+                v.push_back(greater_of(x, y));
+                break;
+            case op::fused:
+                v.push_back(fused_of(x, y, z));
+                break;
+            default:
+                v.push_back(function_of(functions[s.kind - first_function], x, y));
+        }
+    }
+    return v.back();
+}
+
+/// All numbers of T from a random one on, or from the least one of a random exponent.
+template <class T>
+std::vector<double> random_numbers(random_source& random, int most) {
+    using traits = number_traits<T>;
+    const int e = random.one_in(4) ? random.between(traits::min_exponent, traits::max_exponent - 1)
+                                   : random.between(-3, 4);
+    double x = std::ldexp(random.one_in(3) ? 1 : 1 + random.below(1 << 10) * 0x1p-10, e);
+    x = static_cast<double>(T(random.one_in(2) ? -x : x));
+    if (!std::isfinite(x)) x = 1;
+    if (random.one_in(8)) x = 0;
+    std::vector<double> all{x};
+    // Some boxes are wide, with a part of their numbers tried.
+    const int stride = random.one_in(3) ? 1 + random.below(50) : 1;
+    for (int i = random.below(most) * stride; i > 0; --i) {
+        const int unit =
+            std::max(x == 0 ? traits::min_exponent : std::ilogb(x) + 1, traits::min_exponent) -
+            traits::digits;
+        const bool to_smaller_unit = x < 0 && std::exp2(std::ilogb(x)) == -x;
+        x += std::ldexp(
+            1.0, std::max(unit - (to_smaller_unit ? 1 : 0), traits::min_exponent - traits::digits));
+        if (!(x <= static_cast<double>(traits::largest()))) break;
+        if (i % stride == 0 || i == 1) all.push_back(x);
+    }
+    return all;
+}
+
+struct tally {
+    int bounded = 0, programs = 0;
+    std::uint64_t inputs = 0;
+    double log_ratio = 0;  ///< sum of log2 of bound/largest error
+    int ratios = 0;
+};
+
+template <class T>
+void check_random_programs(std::uint64_t seed, int count, bool with_functions, tally& t) {
+    random_source random(seed);
+    for (int i = 0; i < count; ++i) {
+        const program p = random_program(random, with_functions);
+        std::vector<std::vector<double>> numbers;
+        std::vector<input_range> box;
+        for (int k = 0; k < p.inputs; ++k) {
+            numbers.push_back(random_numbers<T>(random, p.inputs == 1 ? 256 : 32));
+            box.push_back({numbers.back().front(), numbers.back().back()});
+        }
+        worst_case_options options;
+        options.samples = 0;
+        constexpr std::size_t limits[] = {1, 2, 7, 50, 400};
+        options.boxes = limits[random.below(5)];
+        options.round_inputs = random.one_in(4);
+        options.relative = random.one_in(4);
+        validation::recording r(validation::number_type_of<T>(), box, options);
+        std::vector<recorded> inputs;
+        for (std::size_t k = 0; k < box.size(); ++k)
+            inputs.emplace_back(
+                validation::recording::node{.kind = validation::recording::leaf::input, .left = k});
+        r.result = run<recorded>(p, inputs).index();
+        const worst_case_result bound = validation::worst_case_of(r);
+        ++t.programs;
+        if (!std::isfinite(bound.at_most)) continue;
+        ++t.bounded;
+        double largest = 0;
+        for (const double x : numbers[0])
+            for (const double y : p.inputs == 1 ? std::vector<double>{0} : numbers[1]) {
+                std::vector<T> computed_at{T(x)};
+                std::vector<double> at{x}, off{0};
+                if (p.inputs == 2) computed_at.push_back(T(y)), at.push_back(y), off.push_back(0);
+                if (options.round_inputs)
+                    for (std::size_t k = 0; k < at.size(); ++k) {
+                        const int e = at[k] == 0 ? -10000 : std::ilogb(at[k]);
+                        const double half = std::ldexp(
+                            0.4990234375, std::max(e, number_traits<T>::min_exponent - 1) + 1 -
+                                              number_traits<T>::digits -
+                                              (std::exp2(e) == std::abs(at[k])));
+                        off[k] = random.one_in(2) ? half : -half;
+                        if (at[k] + off[k] < box[k].lower || at[k] + off[k] > box[k].upper)
+                            off[k] = 0;
+                    }
+                std::vector<long double> exactly_at;
+                for (std::size_t k = 0; k < at.size(); ++k)
+                    exactly_at.push_back(static_cast<long double>(at[k]) + off[k]);
+                const auto computed = static_cast<double>(run<T>(p, computed_at));
+                const long double exact = run<long double>(p, exactly_at);
+                ++t.inputs;
+                const double error = static_cast<double>(std::abs(computed - exact));
+                largest = std::max(largest, error);
+                const double slack = 1e-12 * std::abs(static_cast<double>(exact));
+                const auto relative_holds = [&](double e) {
+                    return !options.relative || bound.relative_at_most == HUGE_VAL ||
+                           e <= bound.relative_at_most * std::abs(static_cast<double>(exact)) *
+                                    (1 + 1e-12);
+                };
+                const bool in_range = exact >= bound.lower - slack && exact <= bound.upper + slack;
+                if (error <= bound.at_most * 0.999 && relative_holds(error) && in_range) continue;
+                // The estimate is inexact; MPFR decides.
+                const double certain = validation::error_at(r, at, off);
+                ASSERT_TRUE(std::isfinite(computed)) << "seed " << seed << " program " << i;
+                ASSERT_LE(certain, bound.at_most) << "seed " << seed << " program " << i << " at "
+                                                  << x << ' ' << y << " boxes " << bound.boxes;
+                ASSERT_TRUE(relative_holds(certain))
+                    << "seed " << seed << " program " << i << " at " << x << ' ' << y << " error "
+                    << error << " certain " << certain << " exact " << exact << " relative "
+                    << bound.relative_at_most << " absolute " << bound.at_most;
+                ASSERT_TRUE(in_range) << "seed " << seed << " program " << i;
+            }
+        if (largest > 0 && bound.at_most > 0)
+            t.log_ratio += std::log2(bound.at_most / largest), ++t.ratios;
+    }
+}
+
+template <class T>
+class WorstCase : public testing::Test {};
+using formats = testing::Types<float8_e4m3, float8_e5m2, bfloat16, float16, float>;
+TYPED_TEST_SUITE(WorstCase, formats);
+
+TYPED_TEST(WorstCase, BoundsHoldForEveryInputOfRandomPrograms) {
+    tally t;
+    for (const bool with_functions : {false, true})
+        for (int part = 0; part < 4; ++part)
+            check_random_programs<TypeParam>(static_cast<std::uint64_t>(part + 1),
+                                             static_cast<int>(::support::scaled(150u)),
+                                             with_functions, t);
+    std::printf("%d programs, %d bounded, %llu inputs, geometric mean of bound/largest %.2f\n",
+                t.programs, t.bounded, static_cast<unsigned long long>(t.inputs),
+                std::exp2(t.log_ratio / std::max(t.ratios, 1)));
+    EXPECT_GT(t.bounded, t.programs / 3);
+}
+
+}  // namespace
+}  // namespace errbound
