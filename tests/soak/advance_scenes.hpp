@@ -34,6 +34,8 @@ struct advance_scene {
             brute_force::for_each_pair_in_plane(at.first, visit);
         else
             brute_force::for_each_pair(at.first, visit);
+        if (!in_plane && distances().is_contact())
+            brute_force::for_each_adjacent_pair(at.first, visit);
     }
     /// A text with all data of the scene.
     std::string text() const;
