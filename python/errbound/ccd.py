@@ -314,6 +314,7 @@ class AdvanceOptions(SearchOptions, total=False):
     each_vertex: limits each vertex by planes between the elements that meet, at least as far as its island goes.
     conservative: the share of the way to the first contact that is used, in (0, 1]; 0.8 leaves a gap for barriers.
     keep: pairs that start within 1.001 times their distance keep this share, in [0, 1), of their distance at the start.
+        0.1 by default; with 0, the distance is strict, and a pair that rests just above it stops its island.
     check_start: fills intersections_at_start.
     """
     islands: ArrayLike | None

@@ -46,7 +46,7 @@ struct step_request {
          each_vertex = false, adjacent_rods = false;
     // Options of intersections:
     bool segments = true, edge_faces = false, merge_equal_positions = false, first_only = false;
-    double t_max = 1, distance = 0, keep = 0, conservative = 1;
+    double t_max = 1, distance = 0, keep = 0.1, conservative = 1;
     std::optional<numbers> thickness;
     std::optional<group_numbers> groups, islands;
     std::optional<flags> pinned;

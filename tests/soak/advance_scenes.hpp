@@ -25,7 +25,7 @@ struct advance_scene {
     ccd::mesh_steps steps() const;
     ccd::pair_distances distances() const { return {distance, thickness}; }
     ccd::advance_options options(int threads) const {
-        return {.groups = groups, .distances = distances(), .threads = threads};
+        return {.groups = groups, .distances = distances(), .keep = 0, .threads = threads};
     }
     /// Calls visit(pair) for every pair.
     template <class Visit>
