@@ -80,8 +80,8 @@ void check_options(exchanger& ranks, const step_options& options, placement pair
                std::array{static_cast<double>(options.method), double(options.count_candidates),
                           double(options.explain), double(options.initial_contact),
                           double(options.first_contact), double(options.times),
-                          double(options.check_start), options.t_max, options.distances.all,
-                          static_cast<double>(options.filter.rule),
+                          double(options.check_start), double(options.adjacent_rods), options.t_max,
+                          options.distances.all, static_cast<double>(options.filter.rule),
                           double(options.filter.skip_unused), static_cast<double>(pairs)},
                caller);
 }

@@ -337,8 +337,8 @@ class step final : public command {
             .add_option(
                 "--advance", advance_,
                 "Write a frame (PLY, in doubles) as close to FRAME1 as is free: a step to it\n"
-                "has only pairs that touch, or are within --separation, at the start; for the\n"
-                "latter only contact is avoided")
+                "has only pairs that touch, or are within --separation, at the start; the\n"
+                "latter keep a tenth of their distance")
             ->type_name("OUT.ply")
             ->check([](const std::string& path) {
                 return path == "-" || path.ends_with(".ply")

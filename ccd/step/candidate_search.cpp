@@ -240,6 +240,36 @@ std::size_t candidate_search::find_kind(const search_request& request, First& fi
     return find_by<K>(in_doubles_, request, first, second);
 }
 
+std::size_t candidate_search::find_adjacent_rods(const search_request& request) {
+    if (!request.visitor.vertex_edge) return 0;
+    const std::span<const edge> given = rods_;
+    std::vector<edge> rods(given.begin(), given.end());
+    for (const face& f : std::span<const face>(faces_))
+        if (!is_triangle(f)) rods.insert(rods.end(), {{f[0], f[1]}, {f[0], f[2]}});
+    std::vector<edge> from_vertex;  // both directions of each rod
+    for (const edge& e : unique_edges({}, rods))
+        from_vertex.insert(from_vertex.end(), {{e[0], e[1]}, {e[1], e[0]}});
+    std::ranges::sort(from_vertex);
+    candidate_blocks<vertex_edge_pair> blocks(request.visitor.vertex_edge, request.filter,
+                                              request.stop);
+    for (auto first = from_vertex.begin(); first != from_vertex.end();) {
+        const auto last = std::find_if(first, from_vertex.end(),
+                                       [&](const edge& e) { return e[0] != (*first)[0]; });
+        for (auto a = first; a != last; ++a)
+            for (auto b = first; b != last; ++b) {
+                const auto [at, other] = *b;
+                const std::array<vertex_index, 1> end{(*a)[1]};
+                const bool is_twice =  // in a triangle of rods
+                    std::ranges::binary_search(from_vertex, edge{other, end[0]});
+                if (a == b || (is_twice && at > other)) continue;
+                const edge rod{std::min(at, other), std::max(at, other)};
+                blocks.local().add(candidate_of(end, rod), request.boxes.touch(end, rod));
+            }
+        first = last;
+    }
+    return blocks.finish();
+}
+
 void candidate_search::find_at_start(const batch_positions& positions, const step_options& options,
                                      const resting_visitor& visit, trees from, bool one_suffices) {
     skip_unused(options.filter.skip_unused);
@@ -340,6 +370,7 @@ pair_counts candidate_search::find(const batch_positions& positions, const step_
         counts.edge_edge = find_kind<kind::edge_edge>(request, edges_, edges_);
         counts.vertex_face = find_kind<kind::vertex_face>(request, vertices_, faces_);
         counts.vertex_edge = find_kind<kind::vertex_edge>(request, points_, rods_);
+        if (options.adjacent_rods) counts.vertex_edge += find_adjacent_rods(request);
     }
     counts.vertex_vertex = find_kind<kind::vertex_vertex>(request, points_, points_);
     return counts;

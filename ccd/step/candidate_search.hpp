@@ -134,6 +134,8 @@ class candidate_search {
     template <kind K, class Real, class First, class Second>
     std::size_t find_by(tree_pair<Real>& trees, const search_request& request, First& first,
                         Second& second);
+    /// Visits the pairs of step_options::adjacent_rods.
+    std::size_t find_adjacent_rods(const search_request& request);
     template <kind K, class First, class Second>
     std::size_t find_close(const search_request& request, First& first, Second& second);
 

@@ -100,7 +100,7 @@ const passage& certificate::deepest() const {
 certificate certify(mesh_steps& steps, const vertex_rows& positions, step_options options) {
     if (!options.distances.is_contact())
         throw std::invalid_argument("ccd::certify: options have distances; expected contact");
-    options.times = options.check_start = true;
+    options.times = options.check_start = options.adjacent_rods = true;
     certificate found{steps.run(positions, options), {}};
     for_each_kind([&]<kind K>() {
         const auto& pairs = found.step.pairs.of<K>();

@@ -152,6 +152,9 @@ void check_options(const step_options& options, std::size_t vertices) {
         throw std::invalid_argument("ccd::step: method is " +
                                     std::string(info(options.method).name) +
                                     "; expected exact, the only one with times and distances");
+    if (options.adjacent_rods && !options.distances.is_contact())
+        throw std::invalid_argument(
+            "ccd::step: adjacent_rods is given with distances; expected only one of them");
     check_filter("ccd::step", options.filter, vertices);
 }
 

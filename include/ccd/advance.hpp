@@ -26,11 +26,14 @@ struct advance_options {
     /// own), and further up to planes between the elements of each pair in contact, as in
     /// divide-and-truncate methods: motion along a contact is not limited.
     bool each_vertex = false;
-    pair_distances distances = {};  ///< to keep; 0: only contact is avoided
+    /// To keep; 0: only contact is avoided, also of step_options::adjacent_rods. With distances,
+    /// these may fold through each other; certify (ccd/certify.hpp) finds that.
+    pair_distances distances = {};
     /// Pairs that start within their distance, or nearer than 1 + 2^-10 times it, may come nearer,
-    /// but not below this share of their distance at the start: in [0, 1). 0: they only may not
-    /// touch. With 0.1, pairs that rest at their distance can slide on.
-    double keep = 0;
+    /// but not below this share of their distance at the start: in [0, 1). So pairs that rest at
+    /// their distance can slide on. With 0, all others keep their whole distance, near pairs only
+    /// may not touch, and a pair that rests just above its distance stops its group.
+    double keep = 0.1;
     int threads = 0;                          ///< at most; 0: one per core
     std::optional<instruction_set> set = {};  ///< by default the strongest
     stop_query stop = {};                     ///< ends the call by throwing ccd::stopped

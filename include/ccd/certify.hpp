@@ -44,8 +44,8 @@ struct certificate {
     step_result step;
     passage_lists passages;  ///< of step.pairs
 
-    /// True if nothing intersects at the start and no pair of the step touches. Adjacent
-    /// rods, which share a vertex, are no pair: they may fold onto or through each other.
+    /// True if nothing intersects at the start and no pair of the step touches. Then the mesh has
+    /// no intersection (ccd/intersections.hpp) at any time of the step.
     bool is_free() const {
         return number_of(step.pairs) == 0 && step.intersections_at_start.empty();
     }
@@ -58,8 +58,9 @@ struct certificate {
     const passage& deepest() const;
 };
 
-/// Returns the certificate of one step. Sets times and check_start of the options. Throws as
-/// mesh_steps::run, and if the options have distances. Cost: the step, a contact_at for each pair.
+/// Returns the certificate of one step. Sets times, check_start and adjacent_rods of the options.
+/// Throws as mesh_steps::run, and if the options have distances. Cost: the step, a contact_at for
+/// each pair.
 certificate certify(mesh_steps& steps, const vertex_rows& positions, step_options options = {});
 certificate certify(const mesh& before, const mesh& after, const step_options& options = {});
 /// Positions in floats are converted exactly.

@@ -38,7 +38,11 @@ struct step_options {
     bool first_contact = false;    ///< fill step_result::first_contact, and touching_at_start
     bool times = false;            ///< fill times, first_contact and touching_at_start
     bool check_start = false;      ///< fill step_result::intersections_at_start
-    double t_max = 1;              ///< report only pairs with a contact in [0, t_max]
+    /// Test rods with a common vertex, too: pairs of an end of one and the other. Contact only. An
+    /// end that meets the common vertex is in contact. Without effect in the plane, where all these
+    /// pairs are tested. Cost: n rods at a vertex make n² pairs.
+    bool adjacent_rods = false;
+    double t_max = 1;  ///< report only pairs with a contact in [0, t_max]
     /// Report pairs within a distance instead of pairs in contact, also in times and
     /// touching_at_start.
     pair_distances distances = {};

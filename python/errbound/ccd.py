@@ -286,8 +286,10 @@ class UntimedOptions(SearchOptions, total=False):
     t_max: the step is tested in [0, t_max]; 1 by default.
     stages, count_candidates: fill stages, candidates.
     check_start: fills intersections_at_start; about half of the time of a step.
+    adjacent_rods: tests rods with a common vertex, too, as vertex_edge pairs; not with distances.
     """
     method: MethodName
+    adjacent_rods: bool
     check_start: bool
     first_contact: bool
     initial_contact: bool
@@ -312,6 +314,7 @@ class AdvanceOptions(SearchOptions, total=False):
     each_vertex: limits each vertex by planes between the elements that meet, at least as far as its island goes.
     conservative: the share of the way to the first contact that is used, in (0, 1]; 0.8 leaves a gap for barriers.
     keep: pairs that start within 1.001 times their distance keep this share, in [0, 1), of their distance at the start.
+        0.1 by default; with 0, the distance is strict, and a pair that rests just above it stops its island.
     check_start: fills intersections_at_start.
     """
     islands: ArrayLike | None
@@ -326,7 +329,8 @@ _OF_FILTER = {"threads": int, "groups": np.ndarray, "between_groups": bool, "pin
 _OF_SEARCH = {**_OF_FILTER, "distance": float, "thickness": np.ndarray}
 _OF_INTERSECTIONS = {**_OF_FILTER, "segments": bool, "edge_faces": bool, "merge_equal_positions": bool}
 _OF_RUN = {**_OF_SEARCH, "method": str, "times": bool, "first_contact": bool, "initial_contact": bool,
-           "t_max": float, "stages": bool, "count_candidates": bool, "check_start": bool}
+           "t_max": float, "stages": bool, "count_candidates": bool, "check_start": bool,
+           "adjacent_rods": bool}
 _OF_ADVANCE = {**_OF_SEARCH, "islands": np.ndarray, "each_vertex": bool, "conservative": float, "keep": float,
                "check_start": bool}
 

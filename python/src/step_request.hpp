@@ -43,10 +43,10 @@ struct step_request {
     int threads = 0;
     bool count_candidates = false, stages = false, initial_contact = false, first_contact = false,
          times = false, between_groups = true, skip_unused = false, check_start = false,
-         each_vertex = false;
+         each_vertex = false, adjacent_rods = false;
     // Options of intersections:
     bool segments = true, edge_faces = false, merge_equal_positions = false, first_only = false;
-    double t_max = 1, distance = 0, keep = 0, conservative = 1;
+    double t_max = 1, distance = 0, keep = 0.1, conservative = 1;
     std::optional<numbers> thickness;
     std::optional<group_numbers> groups, islands;
     std::optional<flags> pinned;
@@ -80,6 +80,7 @@ struct step_request {
                 .first_contact = first_contact,
                 .times = times,
                 .check_start = check_start,
+                .adjacent_rods = adjacent_rods,
                 .t_max = t_max,
                 .distances = distances(),
                 .filter = filter()};

@@ -216,6 +216,7 @@ void bind_steps(nb::module_& m) {
         .def_rw("between_groups", &step_request::between_groups)
         .def_rw("skip_unused", &step_request::skip_unused)
         .def_rw("check_start", &step_request::check_start)
+        .def_rw("adjacent_rods", &step_request::adjacent_rods)
         .def_rw("each_vertex", &step_request::each_vertex)
         .def_rw("keep", &step_request::keep)
         .def_rw("conservative", &step_request::conservative)

@@ -33,6 +33,18 @@ def test_intersections_at_the_start():
     assert len(found.step.intersections_at_start) == 1
 
 
+def test_adjacent_rods_fold():
+    def at(y):
+        return np.array([[0, 0, 0], [4, 0, 0], [1, y, 0]], float)
+
+    rods = [[0, 1], [1, 2]]
+    found = ccd.certify(at(1), at(-1), (), rods)
+    assert not found.is_free and found.step.pairs.vertex_edge.tolist() == [[2, 0, 1]]
+    assert len(ccd.step(at(1), at(-1), (), rods).pairs) == 0
+    assert len(ccd.step(at(1), at(-1), (), rods, adjacent_rods=True).pairs) == 1
+    assert ccd.advance(at(1), at(-1), (), rods).fraction < 0.5 and ccd.certify(at(1), at(0.5), (), rods).is_free
+
+
 def test_float32_is_converted_exactly():
     before, after = frame(1, np.float32), frame(0.1, np.float32)
     before[:3, 2] = after[:3, 2] = 0.1

@@ -6,7 +6,7 @@ import pytest
 from conftest import ROOT
 
 
-@pytest.mark.parametrize("page, printed", [("README.md", "vertex 2"), ("python/README.md", "free for 0.250"), ("docs/python.md", "vertex 2"),
+@pytest.mark.parametrize("page, printed", [("README.md", "vertex 2"), ("python/README.md", "free for 0.250"), ("docs/python.md", "20 steps, all free"),
                                            ("docs/in-ten-minutes.md", "free for 0.250"),
                                            ("docs/collision-detection.md", "theirs 0.0"),
                                            ("docs/program.md", "rank 0: ")])

@@ -25,7 +25,7 @@ struct advance_scene {
     ccd::mesh_steps steps() const;
     ccd::pair_distances distances() const { return {distance, thickness}; }
     ccd::advance_options options(int threads) const {
-        return {.groups = groups, .distances = distances(), .threads = threads};
+        return {.groups = groups, .distances = distances(), .keep = 0, .threads = threads};
     }
     /// Calls visit(pair) for every pair.
     template <class Visit>
@@ -34,6 +34,8 @@ struct advance_scene {
             brute_force::for_each_pair_in_plane(at.first, visit);
         else
             brute_force::for_each_pair(at.first, visit);
+        if (!in_plane && distances().is_contact())
+            brute_force::for_each_adjacent_pair(at.first, visit);
     }
     /// A text with all data of the scene.
     std::string text() const;

@@ -62,6 +62,7 @@ class vertex_limits {
             way_.before, reinterpret_cast<const double*>(result_.positions.data()), way_.vertices);
         const step_result found = steps_.run(way, {.threads = options_.threads,
                                                    .set = options_.set,
+                                                   .adjacent_rods = options_.distances.is_contact(),
                                                    .distances = options_.distances,
                                                    .stop = options_.stop,
                                                    .filter = options_.filter});

@@ -245,6 +245,7 @@ class advancing {
     step_options base_options() const {
         return {.threads = options_.threads,
                 .set = options_.set,
+                .adjacent_rods = options_.distances.is_contact(),
                 .distances = options_.distances,
                 .stop = options_.stop,
                 .filter = options_.filter};

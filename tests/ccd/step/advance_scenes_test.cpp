@@ -56,9 +56,9 @@ void advance_scene(const fs::path& before, const fs::path& after) {
                  {"by bodies", {.groups = bodies}},
                  {"by vertices", {.groups = each}},
                  {"each vertex by planes", {.each_vertex = true}},
-                 {"keeping 1e-3 of the mean edge", {.distances = {1e-3 * edge}}},
-                 {"keeping a tenth of near distances", {.distances = {1e-3 * edge}, .keep = 0.1}},
-                 {"keeping 1e-12 of it", {.distances = {1e-12 * edge}}}};
+                 {"keeping 1e-3 of the mean edge", {.distances = {1e-3 * edge}, .keep = 0}},
+                 {"keeping a tenth of near distances", {.distances = {1e-3 * edge}}},
+                 {"keeping 1e-12 of it", {.distances = {1e-12 * edge}, .keep = 0}}};
     for (const auto& [name, options] : std::span(cases).first(scaled(std::size(cases)))) {
         SCOPED_TRACE(name);
         const auto result = expect_free(at, options);

@@ -172,7 +172,7 @@ TEST(AdvanceKeepingADistance, NearPairsDoNotTouch) {
     const ccd::mesh before{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0.25, 0.25, 0.5}}, {{0, 1, 2}}};
     ccd::mesh after = before;
     after.vertices[3].z = -0.5;
-    const auto result = expect_free({before, after}, {.distances = {0.75}});
+    const auto result = expect_free({before, after}, {.distances = {0.75}, .keep = 0});
     EXPECT_EQ(result.near_at_start.vertex_face, (std::vector<ccd::vertex_face_pair>{{3, 0, 1, 2}}));
     EXPECT_EQ(result.touching_at_start, ccd::pair_lists());
     EXPECT_GE(result.fraction, 0.99 * 0.5);
@@ -366,6 +366,90 @@ TEST(Advance, RefusesNullPositions) {
     EXPECT_THROW(ccd::advance(steps, {nullptr, at, 3}), std::invalid_argument);
     EXPECT_THROW(ccd::advance(steps, {at, nullptr, 3}), std::invalid_argument);
     EXPECT_THROW(ccd::free_step(steps, {at, nullptr, 3}), std::invalid_argument);
+}
+
+/// Two elements that rest at a distance near 1, in a random orientation and scale. The first one
+/// slides along the other.
+struct resting_contact {
+    std::mt19937_64 random;
+    double scale;
+    ccd::point<double> axes[3];
+    std::array<ccd::point<double>, 2> first;  // along the axes, in units of the scale
+    std::size_t size;                         // of the first element
+    ccd::mesh mesh;
+
+    explicit resting_contact(std::uint64_t seed)
+        : random(seed), scale(std::ldexp(1, static_cast<int>(seed % 41) - 20)), size(1) {
+        const auto [a, b, c] = nasty_shapes::in_cube(random, 1);
+        // The Cayley map of a random vector is a rotation.
+        const double n = 1 + a * a + b * b + c * c;
+        axes[0] = {(1 + a * a - b * b - c * c) / n, 2 * (a * b + c) / n, 2 * (a * c - b) / n};
+        axes[1] = {2 * (a * b - c) / n, (1 - a * a + b * b - c * c) / n, 2 * (b * c + a) / n};
+        axes[2] = {2 * (a * c + b) / n, 2 * (b * c - a) / n, (1 - a * a - b * b + c * c) / n};
+        const double gap = 1 + 1e-6 * part();
+        first = {{{part(), part(), gap}, {part(), 30, gap}}};
+        mesh.vertices = {placed({-90, -80, 0}), placed({90, -80, 0}), placed({0, 90, 0})};
+        if (seed % 3 == 0) {
+            mesh.faces = {{0, 1, 2}};
+        } else {
+            mesh.vertices = {placed({-90, 0, 0}), placed({90, 0, 0})};
+            mesh.edges = {{0, 1}};
+            first[0].y = seed % 3 == 1 ? 0 : -30;  // a point on the line of the edge, or a rod
+            size = seed % 3;
+        }
+        const auto count = static_cast<ccd::vertex_index>(mesh.vertices.size());
+        if (size == 2) mesh.edges.push_back({count, count + 1});
+        for (std::size_t i = 0; i < size; ++i) mesh.vertices.push_back(placed(first[i]));
+    }
+    double part() { return 2e-4 * static_cast<double>(random() % 10000) - 1; }
+    ccd::point<double> placed(const ccd::point<double>& p) const {
+        const auto& [x, y, z] = axes;
+        return {scale * (p.x * x.x + p.y * y.x + p.z * z.x),
+                scale * (p.x * x.y + p.y * y.y + p.z * z.y),
+                scale * (p.x * x.z + p.y * y.z + p.z * z.z)};
+    }
+    /// The goal of a step: the first element slides by up to 1, to a gap near 1.
+    ccd::mesh next_goal() {
+        ccd::mesh goal = mesh;
+        const double x = part(), y = size == 1 && mesh.faces.empty() ? 0 : part(),
+                     gap = 1 + 9e-4 * part();
+        for (std::size_t i = 0; i < size; ++i) {
+            first[i] = {first[i].x + x, first[i].y + y, gap};
+            goal.vertices[goal.vertices.size() - size + i] = placed(first[i]);
+        }
+        return goal;
+    }
+};
+
+TEST(AdvanceKeepingADistance, RestingContactsSlideOn) {
+    constexpr int contacts = 1000, slides = 10;
+    for (const double keep : {0.0, ccd::advance_options().keep}) {
+        int whole = 0, locked = 0;
+        double least = 1;
+        for (std::uint64_t seed = 1; seed <= contacts; ++seed) {
+            resting_contact contact(seed);
+            ccd::mesh_steps steps(contact.mesh);
+            const double start = ccd::least_distance(contact.mesh).low;
+            for (int i = 0; i < slides; ++i) {
+                const ccd::mesh goal = contact.next_goal();
+                const auto result = ccd::advance(steps, {contact.mesh, goal},
+                                                 {.distances = {contact.scale}, .keep = keep});
+                const ccd::vertex_rows way(contact.mesh.vertices, result.positions);
+                const ccd::pair_distances kept{keep == 0 ? 0 : keep * start};
+                EXPECT_EQ(number_of(steps.run(way, {.distances = kept}).pairs), 0U) << seed;
+                whole += result.fraction == 1;
+                locked += result.fraction < 1e-9;
+                contact.mesh.vertices = result.positions;
+                least = std::min(least, ccd::least_distance(contact.mesh).low / start);
+            }
+        }
+        std::printf(
+            "keep %.1f: %d of %d steps go the whole way, %d less than 1e-9; least distance "
+            "%.4f of the first\n",
+            keep, whole, contacts * slides, locked, least);
+        EXPECT_TRUE(keep == 0 ? locked > contacts : whole == contacts * slides);
+        EXPECT_GE(least, keep);
+    }
 }
 
 /// A vertex is pressed onto a plate and slides along it. Without `keep`, it stops at its distance.

@@ -124,6 +124,22 @@ void for_each_pair(const ccd::mesh& m, const Visit& visit) {
     for_each_two(of.points, of.rods, visit);
     for_each_two(of.points, of.points, visit);
 }
+/// Calls visit(pair) for the pairs of step_options::adjacent_rods.
+template <class Visit>
+void for_each_adjacent_pair(const ccd::mesh& m, const Visit& visit) {
+    const elements of(m);
+    std::set<ccd::edge> rods(of.rods.begin(), of.rods.end());
+    for (const ccd::face& f : of.faces)
+        for (const vertex_index v : f)
+            for (const vertex_index w : f)
+                if (v < w && (f[0] == f[1] || f[1] == f[2] || f[2] == f[0])) rods.insert({v, w});
+    for (const vertex& v : of.vertices)
+        for (const ccd::edge& e : rods)
+            if (!share_vertex(v, e) && std::ranges::any_of(e, [&](vertex_index w) {
+                    return rods.contains({std::min(v[0], w), std::max(v[0], w)});
+                }))
+                visit(pair_of(v, e));
+}
 template <class Visit>
 void for_each_pair_in_plane(const ccd::mesh& m, const Visit& visit) {
     const elements of(m);

@@ -24,6 +24,38 @@ TEST(Mixture, AgreesWithBruteForce) {
     ccd::for_each_kind([&]<ccd::kind K>() { EXPECT_GT(found.of<K>(), 0U) << name(K); });
 }
 
+TEST(Mixture, AdjacentRodsAgreeWithBruteForce) {
+    std::size_t contacts = 0;
+    for (std::uint64_t seed = 1; seed <= 600; ++seed) {
+        auto [before, after] = random_mixture(seed);
+        // In a plane, rods often meet. Degenerate faces are rods here, and some rods close rings.
+        for (auto* m : {&before, &after}) {
+            if (seed % 2 == 0)
+                for (auto& p : m->vertices) p.z = 0;
+            m->faces.push_back({1, 1, 2});
+            m->edges.insert(m->edges.end(), {{2, 3}, {3, 4}, {4, 2}, {1, 3}});
+        }
+        const ccd::vertex_rows rows(before, after);
+        ccd::step_options options{.count_candidates = seed % 3 == 0, .times = true};
+        auto expected = ccd::step(before, after, options).pairs;
+        brute_force::for_each_adjacent_pair(before, [&](const auto& pair) {
+            if (decide_exact(query_of(rows, pair)).outcome != ccd::outcome::collides) return;
+            expected.vertex_edge.push_back(pair);
+            ++contacts;
+        });
+        std::ranges::sort(expected.vertex_edge);
+        options.adjacent_rods = true;
+        const ccd::step_result found = ccd::step(before, after, options);
+        EXPECT_EQ(found.pairs, expected);
+        options.t_max = 0.5;
+        std::erase_if(expected.vertex_edge, [&](const auto& pair) {
+            return ccd::time_of_impact(query_of(rows, pair), 0.5).outcome != ccd::outcome::collides;
+        });
+        EXPECT_EQ(ccd::step(before, after, options).pairs.vertex_edge, expected.vertex_edge);
+    }
+    EXPECT_GT(contacts, 200U);
+}
+
 /// An element of a mesh with all its vertices and edges.
 struct element {
     std::vector<vertex> vertices;
