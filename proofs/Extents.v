@@ -13,7 +13,8 @@
     The search until a time t_max < 1 has rounded positions at the end, off by at most d in each coordinate. Margins,
     computed from d, move extents outwards (ccd/step/swept_boxes.hpp, short_way). Results:
         wide_extents_hold         along all nine axes extents contain the exact projections, moved and scaled like
-                                  coordinates: the margins cover d and all roundings, including their own
+                                  coordinates: the margins, if below the largest, cover d and all roundings,
+                                  including their own; with the largest, no two extents are apart
         until_face_separate, until_edges_separate   a pair skipped by its extents, or by those of groups, has no
                                   contact in [0, t_max]
         widened_holds, until_boxes_face_separate, until_boxes_edges_separate   the same for boxes in doubles
@@ -303,14 +304,16 @@ Qed.
 (** ** Until a time t_max < 1 *)
 
 (** Positions at the end that are off by at most d, and the margin of extents along coordinate axes and across two:
-    short_way::margin and fill_leaves. The compiler computes the constant to nearest. *)
+    short_way::margin and fill_leaves. The compiler computes the constant to nearest. A margin of 8 proves nothing: all
+    extents then contain 0. *)
 Section Until.
 
 Variable d : R.
 Hypothesis d_0 : 0 <= d.
 Notation double := (rnd 53 (-1074) direction).
-Definition margin_along : R :=
-  single (double (double (double (rnd 53 (-1074) nearest 1.0001 * d) * scale f) + 4 * eps)).
+Definition margin_in_double : R :=
+  double (double (double (rnd 53 (-1074) nearest 1.0001 * d) * scale f) + 4 * eps).
+Definition margin_along : R := single (Rmin 8 margin_in_double).
 Definition margin_across : R := single (outwards + single (2 * margin_along)).
 Definition wide_axes : list search_axis := map (fun a => (a, margin_along)) coordinates_in_float ++
   map (fun a => (a, margin_across)) (diagonals_in_float direction).
@@ -344,11 +347,11 @@ Proof.
   apply Rabs_le_inv in N. lra.
 Qed.
 
-Lemma margin_lower : 1.00005 * (d * scale f) + 3.99 * eps <= margin_along.
+Lemma margin_lower : margin_in_double <= 8 -> 1.00005 * (d * scale f) + 3.99 * eps <= margin_along.
 Proof.
-  destruct tiny_constants as (E1 & E2 & E3 & E4 & E5 & E6 & E7 & E8).
+  intros L. unfold margin_along. rewrite Rmin_right by auto. clear L. destruct tiny_constants as (E1 & E2 & E3 & E4 & E5 & E6 & E7 & E8).
   destruct (scale_bounds direction low high low_numbers high_numbers low_bounded high_bounded) as (S & _).
-  pose proof scale_below as Q. unfold margin_along. set (s := scale f) in *. clearbody s.
+  pose proof scale_below as Q. unfold margin_in_double. set (s := scale f) in *. clearbody s.
   assert (C : 1.00009 <= rnd 53 (-1074) nearest 1.0001).
   { pose proof (double_near nearest 1.0001) as N. rewrite (Rabs_pos_eq 1.0001) in N by lra. apply Rabs_le_inv in N.
     lra. }
@@ -369,9 +372,9 @@ Proof.
   assert (M0 : 0 <= double (b + 4 * eps)) by (apply rnd_nonnegative; auto with typeclass_instances; lra).
   pose proof (single_lower _ M0) as W. lra.
 Qed.
-Lemma across_lower : 2.00005 * (d * scale f) + 14.9 * eps <= margin_across.
+Lemma across_lower : margin_in_double <= 8 -> 2.00005 * (d * scale f) + 14.9 * eps <= margin_across.
 Proof.
-  destruct tiny_constants as (E1 & E2 & E3 & E4 & E5 & E6 & E7 & E8). pose proof margin_lower as M.
+  intros U. destruct tiny_constants as (E1 & E2 & E3 & E4 & E5 & E6 & E7 & E8). pose proof (margin_lower U) as M.
   destruct (scale_bounds direction low high low_numbers high_numbers low_bounded high_bounded) as (S & _).
   pose proof (Rmult_le_pos d _ d_0 S) as D. unfold margin_across, outwards. set (w := margin_along) in *. clearbody w.
   pose proof (single_lower (2 * w) ltac:(lra)) as A.
@@ -427,11 +430,11 @@ Proof.
     split; lra || easy.
 Qed.
 
-Theorem wide_extents_hold a e first others stored q : In a wide_axes -> In stored (first :: others) ->
-  in_frame stored -> off_by q stored ->
+Theorem wide_extents_hold a e first others stored q : margin_in_double <= 8 ->
+  In a wide_axes -> In stored (first :: others) -> in_frame stored -> off_by q stored ->
   least (of_element first others a e) <= scaled (snd (fst a)) (at_end q e) <= most (of_element first others a e).
 Proof.
-  intros A I (N & B) O. destruct (N e) as (Nx & Ny & Nz), (O e) as (Ox & Oy & Oz).
+  intros U A I (N & B) O. destruct (N e) as (Nx & Ny & Nz), (O e) as (Ox & Oy & Oz).
   destruct (wider_than_vertex first others a e stored I) as (L & M). unfold computed in L, M.
   enough (G : single (fst (fst a) (rounded_point direction f (at_end stored e)) - snd a) <=
     scaled (snd (fst a)) (at_end q e) <= single (fst (fst a) (rounded_point direction f (at_end stored e)) + snd a))
@@ -446,13 +449,35 @@ Proof.
     apply moved_enough with (1.01 * eps + 1 * (d * scale f)); auto.
     + apply (T _ _ _ _ R2). apply Rle_trans with (1 := F). apply Rmult_le_compat_r; auto.
       destruct A as [<- | [<- | [<- | []]]]; cbn [snd x y z]; rewrite Rabs_R0, Rabs_R1; lra.
-    + pose proof margin_lower. lra.
+    + pose proof (margin_lower U). lra.
   - destruct (diagonal_near b _ A Nx Ny Nz (B e)) as (R1 & R2).
     apply moved_enough with (4.05 * eps + 2 * (d * scale f)); auto.
     + apply (T _ _ _ _ R2). apply Rle_trans with (1 := F). apply Rmult_le_compat_r; auto.
       destruct A as [<- | [<- | [<- | [<- | [<- | [<- | []]]]]]]; cbn [snd x y z];
         rewrite ?Rabs_R0, ?Rabs_R1, ?(Rabs_left (-1)) by lra; lra.
-    + pose proof across_lower. lra.
+    + pose proof (across_lower U). lra.
+Qed.
+
+(** The largest margin exceeds all projections. *)
+Lemma largest_margin_extents_hold_0 a e first others : 8 < margin_in_double -> In a wide_axes -> in_frame first ->
+  least (of_element first others a e) <= 0 <= most (of_element first others a e).
+Proof.
+  intros U A (N & B). destruct (N e) as (Nx & Ny & Nz).
+  destruct (wider_than_vertex first others a e first (or_introl eq_refl)) as (L & M). unfold computed in L, M.
+  destruct tiny_constants as (E1 & E2 & E3 & E4 & E5 & E6 & E7 & E8).
+  assert (W : 7 <= margin_along).
+  { unfold margin_along. rewrite Rmin_left by lra. pose proof (single_lower 8 ltac:(lra)). lra. }
+  assert (V : 7 <= margin_across).
+  { unfold margin_across, outwards. pose proof (single_lower (2 * margin_along) ltac:(lra)) as P.
+    pose proof (single_lower (7 * eps + single (2 * margin_along)) ltac:(lra)). lra. }
+  assert (C : Rabs (fst (fst a) (rounded_point direction f (at_end first e))) <= 2.003 /\ 7 <= snd a).
+  { apply in_app_or in A. destruct A as [A | A]; apply in_map_iff in A; destruct A as (b & <- & A); cbn [fst snd].
+    - now destruct (coordinate_near b _ A Nx Ny Nz (B e)).
+    - now destruct (diagonal_near b _ A Nx Ny Nz (B e)). }
+  destruct C as (C & D). apply Rabs_le_inv in C. set (r := fst (fst a) _) in *. clearbody r.
+  assert (Z : float 0) by apply number_0. split.
+  - apply Rle_trans with (1 := L). apply rnd_below; auto with typeclass_instances. lra.
+  - apply Rle_trans with (2 := M). apply rnd_nonnegative; auto with typeclass_instances. lra.
 Qed.
 
 (** Vertices of the first element come before those of the second along an axis. *)
@@ -461,7 +486,10 @@ Lemma until_before p l r m G H : holds G (of_element p l) -> holds H (of_element
   exists n, forall q t s s', In s (p :: l) -> In s' (r :: m) -> off_by q s -> off_by t s' -> before n q t.
 Proof.
   intros Gh Hh A P R'. apply (group_apart_along _ G H _ _ Gh Hh) in A. apply apart_axis in A.
-  destruct A as (a & I & A).
+  destruct A as (a & I & A). destruct (Rlt_or_le 8 margin_in_double) as [U | U].
+  { pose proof (largest_margin_extents_hold_0 a false p l U I (P p (or_introl eq_refl))).
+    pose proof (largest_margin_extents_hold_0 a false r m U I (R' r (or_introl eq_refl))).
+    destruct A as [A | A]; specialize (A false); lra. }
   destruct (scale_bounds direction low high low_numbers high_numbers low_bounded high_bounded) as (S & _).
   assert (K : forall n v w, scaled n v < scaled n w -> dot n v < dot n w).
   { intros n v w L. apply Rnot_le_lt. intros C. assert (D : scaled n w <= scaled n v).
@@ -469,11 +497,11 @@ Proof.
     lra. }
   destruct A as [A | A].
   - exists (minus origin (snd (fst a))). intros q t s s' Q T Oq Ot. apply before_opposite, before_of. intros e.
-    apply K. specialize (A e). pose proof (wide_extents_hold a e p l s q I Q (P s Q) Oq).
-    pose proof (wide_extents_hold a e r m s' t I T (R' s' T) Ot). lra.
+    apply K. specialize (A e). pose proof (wide_extents_hold a e p l s q U I Q (P s Q) Oq).
+    pose proof (wide_extents_hold a e r m s' t U I T (R' s' T) Ot). lra.
   - exists (snd (fst a)). intros q t s s' Q T Oq Ot. apply before_of. intros e.
-    apply K. specialize (A e). pose proof (wide_extents_hold a e p l s q I Q (P s Q) Oq).
-    pose proof (wide_extents_hold a e r m s' t I T (R' s' T) Ot). lra.
+    apply K. specialize (A e). pose proof (wide_extents_hold a e p l s q U I Q (P s Q) Oq).
+    pose proof (wide_extents_hold a e r m s' t U I T (R' s' T) Ot). lra.
 Qed.
 
 (** The motion until a time, over the whole step's time, and the stored one. *)

@@ -37,12 +37,14 @@ class short_way {
     /// positions: δ is the error in these units, ε = 2^-23. A rounded coordinate has an error of
     /// 1.01ε, and the subtraction of w one of (1.01 + w)ε. So the exact coordinate is at least the
     /// rounded one less w. For sums of two coordinates the margin is 7ε + 2w: their error is
-    /// 4.04ε + 2δ, and that of the subtraction (2.02 + 7ε + 2w)ε.
+    /// 4.04ε + 2δ, and that of the subtraction (2.02 + 7ε + 2w)ε. The largest margin exceeds all
+    /// rounded coordinates, so that it separates nothing.
     /// Proof: proofs/Extents.v, wide_extents_hold, until_face_separate, until_edges_separate.
     float margin() const {
         if (end_.error == 0) return 0;
-        return static_cast<float>(1.0001 * end_.error * rounded_.scale() +
-                                  4 * std::numeric_limits<float>::epsilon());
+        constexpr double largest = 8;  // an infinite one would also widen unused lanes
+        return static_cast<float>(std::min(largest, 1.0001 * end_.error * rounded_.scale() +
+                                                        4 * std::numeric_limits<float>::epsilon()));
     }
 
   private:
@@ -117,15 +119,16 @@ class swept_boxes {
     /// outwards.
     bool need_widening() const { return !distances_.is_contact() || error_ > 0; }
     /// True if floats do not suffice for rounded positions: there are distances; or in a sample,
-    /// more than one box in sixteen has zero length on an axis only after rounding. The latter
-    /// happens for small parts that are very far apart.
+    /// more than one box in sixteen has zero length on an axis only after rounding, without the
+    /// error. The latter happens for small parts that are very far apart.
     template <std::size_t N>
     bool need_doubles(std::span<const std::array<vertex_index, N>> elements) const {
         if (!distances_.is_contact()) return true;
+        const swept_boxes unwidened(positions_, distances_);
         std::size_t confused = 0, samples = 0;
         for (std::size_t i = 0; i < elements.size();
              i += sampling_stride(elements.size()), ++samples) {
-            const box<double> exact = swept_box<double>(elements[i]);
+            const box<double> exact = unwidened.swept_box<double>(elements[i]);
             const box<float> rounded = swept_box<float>(elements[i]);
             bool merged = false;
             for (std::size_t k = 0; k < 3; ++k)
