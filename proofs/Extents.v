@@ -8,6 +8,7 @@
                                   before all of the second in exact arithmetic
         group_extents_hold, group_extents_apart   a group's extents contain those of all members, at any depth; if
                                   extents around two elements are apart, so are the elements' extents
+        swept_extents_hold        hulls of both ends, and groups of them, contain an element's extents at both ends
         apart_face_separate, apart_edges_separate   a pair skipped by its extents, or by those of groups around
                                   one or both, has no contact in the step
     The search until a time t_max < 1 has rounded positions at the end, off by at most d in each coordinate. Margins,
@@ -17,6 +18,7 @@
                                   including their own; with the largest, no two extents are apart
         until_face_separate, until_edges_separate   a pair skipped by its extents, or by those of groups, has no
                                   contact in [0, t_max]
+        shorter_face_separate, shorter_edges_separate   nor on ways that end near one fraction of the way until then
         widened_holds, until_boxes_face_separate, until_boxes_edges_separate   the same for boxes in doubles
         after_near                the rounded position at t_max is a double between both ends of the step, off by at
                                   most the computed error; to nearest *)
@@ -241,6 +243,17 @@ Theorem group_extents_hold E G : around E G -> holds G E.
 Proof.
   induction 1 as [| first others F I _ IH]; [apply holds_itself |].
   now apply (holds_all _ F); [apply of_group_holds |].
+Qed.
+
+(** fill_leaves of swept extents, in which each end has the hull of both: comparisons at the start suffice. *)
+Definition swept (E : extents) : extents := fun a _ => Extent
+  (Rmin (least (E a false)) (least (E a true))) (Rmax (most (E a false)) (most (E a true))).
+Theorem swept_extents_hold E G : around (swept E) G -> holds G E.
+Proof.
+  intros A. apply (holds_all _ (swept E)); [now apply group_extents_hold |].
+  intros a e. cbn [swept least most]. pose proof (Rmin_l (least (E a false)) (least (E a true))).
+  pose proof (Rmin_r (least (E a false)) (least (E a true))). pose proof (Rmax_l (most (E a false)) (most (E a true))).
+  pose proof (Rmax_r (most (E a false)) (most (E a true))). destruct e; lra.
 Qed.
 
 Lemma apart_axis axes E F : apart_along axes E F = true <-> exists a, In a axes /\
@@ -548,6 +561,52 @@ Proof.
       simpl; auto.
   - intros q [<- | [<- | []]]; auto.
   - intros q [<- | [<- | []]]; auto.
+Qed.
+
+(** A way that ends near the fraction s of the stored one: short_way with spare. Errors of its ends are within d. *)
+Definition shorter (s : R) (w stored : moving) : Prop := in_frame stored /\
+  off_by (Moving (start w) (finish stored)) stored /\ exists q, off_by q stored /\ finish w = place q s.
+
+Lemma shorter_before s p l r m G H : 0 <= s <= 1 -> holds G (of_element p l) -> holds H (of_element r m) ->
+  apart_until G H = true -> (forall c, In c (p :: l) -> in_frame c) -> (forall c, In c (r :: m) -> in_frame c) ->
+  exists n, forall w v c c', In c (p :: l) -> In c' (r :: m) -> shorter s w c -> shorter s v c' -> before n w v.
+Proof.
+  intros S Gh Hh A P R'. destruct (until_before p l r m G H Gh Hh A P R') as (n & B). exists n.
+  intros w v c c' C C' (_ & W & q & Q & Fw) (_ & V & t & T & Fv).
+  destruct (B _ _ c c' C C' W V) as (B0 & _). destruct (B _ _ c c' C C' Q T) as (B1 & B2).
+  split; [exact B0 |]. rewrite Fw, Fv. unfold place, dot in *. cbn [start finish x y z] in *.
+  destruct (Req_dec s 0) as [-> | Z]; [lra |].
+  assert (0 <= (1 - s) * (x n * x (start t) + y n * y (start t) + z n * z (start t) -
+    (x n * x (start q) + y n * y (start q) + z n * z (start q)))) by (apply Rmult_le_pos; lra).
+  assert (0 < s * (x n * x (finish t) + y n * y (finish t) + z n * z (finish t) -
+    (x n * x (finish q) + y n * y (finish q) + z n * z (finish q)))) by (apply Rmult_lt_0_compat; lra).
+  lra.
+Qed.
+Theorem shorter_face_separate s v f0 f1 f2 v' f0' f1' f2' G H : 0 <= s <= 1 ->
+  shorter s v v' -> shorter s f0 f0' -> shorter s f1 f1' -> shorter s f2 f2' ->
+  holds G (of_element v' []) -> holds H (of_element f0' [f1'; f2']) ->
+  apart_until G H = true \/ apart_until H G = true -> ~ vertex_face_collides v f0 f1 f2.
+Proof.
+  intros S V F0 F1 F2 Gv Hf A.
+  assert (B : apart_until G H = true) by (destruct A; [easy | now apply apart_symmetric]).
+  apply (shorter_before s v' [] f0' [f1'; f2'] G H S Gv Hf) in B.
+  - destruct B as (n & B). apply (face_separated n); [apply (B _ _ v' f0') | apply (B _ _ v' f1') |
+      apply (B _ _ v' f2')]; simpl; auto.
+  - intros q [<- | []]. apply V.
+  - intros q [<- | [<- | [<- | []]]]; [apply F0 | apply F1 | apply F2].
+Qed.
+Theorem shorter_edges_separate s a0 a1 b0 b1 a0' a1' b0' b1' G H : 0 <= s <= 1 ->
+  shorter s a0 a0' -> shorter s a1 a1' -> shorter s b0 b0' -> shorter s b1 b1' ->
+  holds G (of_element a0' [a1']) -> holds H (of_element b0' [b1']) ->
+  apart_until G H = true \/ apart_until H G = true -> ~ edge_edge_collides a0 a1 b0 b1.
+Proof.
+  intros S A0 A1 B0 B1 Ga Hb A.
+  assert (B : apart_until G H = true) by (destruct A; [easy | now apply apart_symmetric]).
+  apply (shorter_before s a0' [a1'] b0' [b1'] G H S Ga Hb) in B.
+  - destruct B as (n & B). apply (edges_separated n); [apply (B _ _ a0' b0') | apply (B _ _ a0' b1') |
+      apply (B _ _ a1' b0') | apply (B _ _ a1' b1')]; simpl; auto.
+  - intros q [<- | [<- | []]]; [apply A0 | apply A1].
+  - intros q [<- | [<- | []]]; [apply B0 | apply B1].
 Qed.
 
 (** swept_boxes::widen of ccd/step/swept_boxes.hpp: boxes of stored positions in doubles, widened by d. One step up

@@ -19,18 +19,19 @@ namespace ccd::detail {
 class extents_tree {
   public:
     /// Builds the tree over `elements`, at least one, whose vertices have rows in `rounded`
-    /// (rounded_positions::data()), off by less than `margin`. Cost: O(count), on all threads of
-    /// the arena. Memory, reused: 175 bytes an element.
+    /// (rounded_positions::data()), off by less than `margin`. If `swept`, extents at the start
+    /// contain those at the end. Cost: O(count), on all threads of the arena. Memory, reused: 175
+    /// bytes an element.
     template <std::size_t N>
-    void build(const search_kernels& kernels, const float* rounded, float margin,
+    void build(const search_kernels& kernels, const float* rounded, float margin, bool swept,
                std::span<const std::array<vertex_index, N>> elements) {
         set_levels(elements.size());
         for_packs(0, [&](std::size_t first, std::size_t end, extents_pack* packs, extents* hulls) {
             constexpr auto fill = N == 1   ? &search_kernels::of_vertices
                                   : N == 2 ? &search_kernels::of_edges
                                            : &search_kernels::of_faces;
-            (kernels.*fill)(rounded, margin, elements.data()->data(), elements.size(), first, end,
-                            packs, hulls, vertices_.data());
+            (kernels.*fill)(rounded, margin, swept, elements.data()->data(), elements.size(), first,
+                            end, packs, hulls, vertices_.data());
         });
         for (std::size_t level = 1; level < levels_.count; ++level)
             for_packs(level,

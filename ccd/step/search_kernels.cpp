@@ -61,6 +61,15 @@ void set_extent(extents_pack& packed, std::size_t axis, std::size_t end, std::si
     (most + float_pack(margin)).store_aligned(&packed.at[4 * axis + 2 + end][lane]);
 }
 
+/// Widens an axis' columns at the start by those at the end. Proof: proofs/Extents.v,
+/// swept_extents_hold.
+inline void sweep_extent(extents_pack& packed, std::size_t axis, std::size_t lane) {
+    const auto column = [&](std::size_t c) { return &packed.at[4 * axis + c][lane]; };
+    const auto load = [&](std::size_t c) { return float_pack::load_aligned(column(c)); };
+    min(load(0), load(1)).store_aligned(column(0));
+    max(load(2), load(3)).store_aligned(column(2));
+}
+
 inline float_quad extreme(const float_quad& x, const float_quad& y, bool most) {
     return most ? (x < y ? y : x) : (x < y ? x : y);
 }
@@ -90,7 +99,7 @@ inline void set_nowhere(extents_pack& packed, std::size_t from) {
 }
 
 template <std::size_t N>
-void fill_leaves(const float* rounded, float margin, const vertex_index* elements,
+void fill_leaves(const float* rounded, float margin, bool swept, const vertex_index* elements,
                  std::size_t count, std::size_t first, std::size_t end_leaf, extents_pack* leaves,
                  extents* hulls, leaf_vertices* vertices) {
     const float margin_across = extents::margin + 2 * margin;
@@ -111,6 +120,9 @@ void fill_leaves(const float* rounded, float margin, const vertex_index* element
                     set_extent<N>(leaves[p], 4 + 2 * k, end, lane, margin_across,
                                   [&](std::size_t v) { return x(v) - y(v); });
                 }
+        for (std::size_t axis = 0; swept && axis < extents::axes; ++axis)
+            for (std::size_t lane = 0; lane < size; lane += float_width)
+                sweep_extent(leaves[p], axis, lane);
         if (count < size * (p + 1)) set_nowhere(leaves[p], count - size * p);
         hulls[p] = hull_of(leaves[p]);
         for (std::size_t i = 0; i < size; ++i)
@@ -284,6 +296,8 @@ constinit const search_kernels searching = {fill_leaves<1>,
                                             fill_nodes,
                                             find_pairs<1, 3, times::whole_step>,
                                             find_pairs<2, 2, times::whole_step>,
+                                            find_pairs<1, 3, times::start>,
+                                            find_pairs<2, 2, times::start>,
                                             find_pairs<3, 3, times::start>};
 
 }  // namespace ccd::detail::ERRBOUND_INSTRUCTION_SET
