@@ -8,14 +8,17 @@
                                   before all of the second in exact arithmetic
         group_extents_hold, group_extents_apart   a group's extents contain those of all members, at any depth; if
                                   extents around two elements are apart, so are the elements' extents
+        swept_extents_hold        hulls of both ends, and groups of them, contain an element's extents at both ends
         apart_face_separate, apart_edges_separate   a pair skipped by its extents, or by those of groups around
                                   one or both, has no contact in the step
     The search until a time t_max < 1 has rounded positions at the end, off by at most d in each coordinate. Margins,
     computed from d, move extents outwards (ccd/step/swept_boxes.hpp, short_way). Results:
         wide_extents_hold         along all nine axes extents contain the exact projections, moved and scaled like
-                                  coordinates: the margins cover d and all roundings, including their own
+                                  coordinates: the margins, if below the largest, cover d and all roundings,
+                                  including their own; with the largest, no two extents are apart
         until_face_separate, until_edges_separate   a pair skipped by its extents, or by those of groups, has no
                                   contact in [0, t_max]
+        shorter_face_separate, shorter_edges_separate   nor on ways that end near one fraction of the way until then
         widened_holds, until_boxes_face_separate, until_boxes_edges_separate   the same for boxes in doubles
         after_near                the rounded position at t_max is a double between both ends of the step, off by at
                                   most the computed error; to nearest *)
@@ -242,6 +245,17 @@ Proof.
   now apply (holds_all _ F); [apply of_group_holds |].
 Qed.
 
+(** fill_leaves of swept extents, in which each end has the hull of both: comparisons at the start suffice. *)
+Definition swept (E : extents) : extents := fun a _ => Extent
+  (Rmin (least (E a false)) (least (E a true))) (Rmax (most (E a false)) (most (E a true))).
+Theorem swept_extents_hold E G : around (swept E) G -> holds G E.
+Proof.
+  intros A. apply (holds_all _ (swept E)); [now apply group_extents_hold |].
+  intros a e. cbn [swept least most]. pose proof (Rmin_l (least (E a false)) (least (E a true))).
+  pose proof (Rmin_r (least (E a false)) (least (E a true))). pose proof (Rmax_l (most (E a false)) (most (E a true))).
+  pose proof (Rmax_r (most (E a false)) (most (E a true))). destruct e; lra.
+Qed.
+
 Lemma apart_axis axes E F : apart_along axes E F = true <-> exists a, In a axes /\
   ((forall e, most (F a e) < least (E a e)) \/ (forall e, most (E a e) < least (F a e))).
 Proof.
@@ -303,14 +317,16 @@ Qed.
 (** ** Until a time t_max < 1 *)
 
 (** Positions at the end that are off by at most d, and the margin of extents along coordinate axes and across two:
-    short_way::margin and fill_leaves. The compiler computes the constant to nearest. *)
+    short_way::margin and fill_leaves. The compiler computes the constant to nearest. A margin of 8 proves nothing: all
+    extents then contain 0. *)
 Section Until.
 
 Variable d : R.
 Hypothesis d_0 : 0 <= d.
 Notation double := (rnd 53 (-1074) direction).
-Definition margin_along : R :=
-  single (double (double (double (rnd 53 (-1074) nearest 1.0001 * d) * scale f) + 4 * eps)).
+Definition margin_in_double : R :=
+  double (double (double (rnd 53 (-1074) nearest 1.0001 * d) * scale f) + 4 * eps).
+Definition margin_along : R := single (Rmin 8 margin_in_double).
 Definition margin_across : R := single (outwards + single (2 * margin_along)).
 Definition wide_axes : list search_axis := map (fun a => (a, margin_along)) coordinates_in_float ++
   map (fun a => (a, margin_across)) (diagonals_in_float direction).
@@ -344,11 +360,11 @@ Proof.
   apply Rabs_le_inv in N. lra.
 Qed.
 
-Lemma margin_lower : 1.00005 * (d * scale f) + 3.99 * eps <= margin_along.
+Lemma margin_lower : margin_in_double <= 8 -> 1.00005 * (d * scale f) + 3.99 * eps <= margin_along.
 Proof.
-  destruct tiny_constants as (E1 & E2 & E3 & E4 & E5 & E6 & E7 & E8).
+  intros L. unfold margin_along. rewrite Rmin_right by auto. clear L. destruct tiny_constants as (E1 & E2 & E3 & E4 & E5 & E6 & E7 & E8).
   destruct (scale_bounds direction low high low_numbers high_numbers low_bounded high_bounded) as (S & _).
-  pose proof scale_below as Q. unfold margin_along. set (s := scale f) in *. clearbody s.
+  pose proof scale_below as Q. unfold margin_in_double. set (s := scale f) in *. clearbody s.
   assert (C : 1.00009 <= rnd 53 (-1074) nearest 1.0001).
   { pose proof (double_near nearest 1.0001) as N. rewrite (Rabs_pos_eq 1.0001) in N by lra. apply Rabs_le_inv in N.
     lra. }
@@ -369,9 +385,9 @@ Proof.
   assert (M0 : 0 <= double (b + 4 * eps)) by (apply rnd_nonnegative; auto with typeclass_instances; lra).
   pose proof (single_lower _ M0) as W. lra.
 Qed.
-Lemma across_lower : 2.00005 * (d * scale f) + 14.9 * eps <= margin_across.
+Lemma across_lower : margin_in_double <= 8 -> 2.00005 * (d * scale f) + 14.9 * eps <= margin_across.
 Proof.
-  destruct tiny_constants as (E1 & E2 & E3 & E4 & E5 & E6 & E7 & E8). pose proof margin_lower as M.
+  intros U. destruct tiny_constants as (E1 & E2 & E3 & E4 & E5 & E6 & E7 & E8). pose proof (margin_lower U) as M.
   destruct (scale_bounds direction low high low_numbers high_numbers low_bounded high_bounded) as (S & _).
   pose proof (Rmult_le_pos d _ d_0 S) as D. unfold margin_across, outwards. set (w := margin_along) in *. clearbody w.
   pose proof (single_lower (2 * w) ltac:(lra)) as A.
@@ -427,11 +443,11 @@ Proof.
     split; lra || easy.
 Qed.
 
-Theorem wide_extents_hold a e first others stored q : In a wide_axes -> In stored (first :: others) ->
-  in_frame stored -> off_by q stored ->
+Theorem wide_extents_hold a e first others stored q : margin_in_double <= 8 ->
+  In a wide_axes -> In stored (first :: others) -> in_frame stored -> off_by q stored ->
   least (of_element first others a e) <= scaled (snd (fst a)) (at_end q e) <= most (of_element first others a e).
 Proof.
-  intros A I (N & B) O. destruct (N e) as (Nx & Ny & Nz), (O e) as (Ox & Oy & Oz).
+  intros U A I (N & B) O. destruct (N e) as (Nx & Ny & Nz), (O e) as (Ox & Oy & Oz).
   destruct (wider_than_vertex first others a e stored I) as (L & M). unfold computed in L, M.
   enough (G : single (fst (fst a) (rounded_point direction f (at_end stored e)) - snd a) <=
     scaled (snd (fst a)) (at_end q e) <= single (fst (fst a) (rounded_point direction f (at_end stored e)) + snd a))
@@ -446,13 +462,35 @@ Proof.
     apply moved_enough with (1.01 * eps + 1 * (d * scale f)); auto.
     + apply (T _ _ _ _ R2). apply Rle_trans with (1 := F). apply Rmult_le_compat_r; auto.
       destruct A as [<- | [<- | [<- | []]]]; cbn [snd x y z]; rewrite Rabs_R0, Rabs_R1; lra.
-    + pose proof margin_lower. lra.
+    + pose proof (margin_lower U). lra.
   - destruct (diagonal_near b _ A Nx Ny Nz (B e)) as (R1 & R2).
     apply moved_enough with (4.05 * eps + 2 * (d * scale f)); auto.
     + apply (T _ _ _ _ R2). apply Rle_trans with (1 := F). apply Rmult_le_compat_r; auto.
       destruct A as [<- | [<- | [<- | [<- | [<- | [<- | []]]]]]]; cbn [snd x y z];
         rewrite ?Rabs_R0, ?Rabs_R1, ?(Rabs_left (-1)) by lra; lra.
-    + pose proof across_lower. lra.
+    + pose proof (across_lower U). lra.
+Qed.
+
+(** The largest margin exceeds all projections. *)
+Lemma largest_margin_extents_hold_0 a e first others : 8 < margin_in_double -> In a wide_axes -> in_frame first ->
+  least (of_element first others a e) <= 0 <= most (of_element first others a e).
+Proof.
+  intros U A (N & B). destruct (N e) as (Nx & Ny & Nz).
+  destruct (wider_than_vertex first others a e first (or_introl eq_refl)) as (L & M). unfold computed in L, M.
+  destruct tiny_constants as (E1 & E2 & E3 & E4 & E5 & E6 & E7 & E8).
+  assert (W : 7 <= margin_along).
+  { unfold margin_along. rewrite Rmin_left by lra. pose proof (single_lower 8 ltac:(lra)). lra. }
+  assert (V : 7 <= margin_across).
+  { unfold margin_across, outwards. pose proof (single_lower (2 * margin_along) ltac:(lra)) as P.
+    pose proof (single_lower (7 * eps + single (2 * margin_along)) ltac:(lra)). lra. }
+  assert (C : Rabs (fst (fst a) (rounded_point direction f (at_end first e))) <= 2.003 /\ 7 <= snd a).
+  { apply in_app_or in A. destruct A as [A | A]; apply in_map_iff in A; destruct A as (b & <- & A); cbn [fst snd].
+    - now destruct (coordinate_near b _ A Nx Ny Nz (B e)).
+    - now destruct (diagonal_near b _ A Nx Ny Nz (B e)). }
+  destruct C as (C & D). apply Rabs_le_inv in C. set (r := fst (fst a) _) in *. clearbody r.
+  assert (Z : float 0) by apply number_0. split.
+  - apply Rle_trans with (1 := L). apply rnd_below; auto with typeclass_instances. lra.
+  - apply Rle_trans with (2 := M). apply rnd_nonnegative; auto with typeclass_instances. lra.
 Qed.
 
 (** Vertices of the first element come before those of the second along an axis. *)
@@ -461,7 +499,10 @@ Lemma until_before p l r m G H : holds G (of_element p l) -> holds H (of_element
   exists n, forall q t s s', In s (p :: l) -> In s' (r :: m) -> off_by q s -> off_by t s' -> before n q t.
 Proof.
   intros Gh Hh A P R'. apply (group_apart_along _ G H _ _ Gh Hh) in A. apply apart_axis in A.
-  destruct A as (a & I & A).
+  destruct A as (a & I & A). destruct (Rlt_or_le 8 margin_in_double) as [U | U].
+  { pose proof (largest_margin_extents_hold_0 a false p l U I (P p (or_introl eq_refl))).
+    pose proof (largest_margin_extents_hold_0 a false r m U I (R' r (or_introl eq_refl))).
+    destruct A as [A | A]; specialize (A false); lra. }
   destruct (scale_bounds direction low high low_numbers high_numbers low_bounded high_bounded) as (S & _).
   assert (K : forall n v w, scaled n v < scaled n w -> dot n v < dot n w).
   { intros n v w L. apply Rnot_le_lt. intros C. assert (D : scaled n w <= scaled n v).
@@ -469,11 +510,11 @@ Proof.
     lra. }
   destruct A as [A | A].
   - exists (minus origin (snd (fst a))). intros q t s s' Q T Oq Ot. apply before_opposite, before_of. intros e.
-    apply K. specialize (A e). pose proof (wide_extents_hold a e p l s q I Q (P s Q) Oq).
-    pose proof (wide_extents_hold a e r m s' t I T (R' s' T) Ot). lra.
+    apply K. specialize (A e). pose proof (wide_extents_hold a e p l s q U I Q (P s Q) Oq).
+    pose proof (wide_extents_hold a e r m s' t U I T (R' s' T) Ot). lra.
   - exists (snd (fst a)). intros q t s s' Q T Oq Ot. apply before_of. intros e.
-    apply K. specialize (A e). pose proof (wide_extents_hold a e p l s q I Q (P s Q) Oq).
-    pose proof (wide_extents_hold a e r m s' t I T (R' s' T) Ot). lra.
+    apply K. specialize (A e). pose proof (wide_extents_hold a e p l s q U I Q (P s Q) Oq).
+    pose proof (wide_extents_hold a e r m s' t U I T (R' s' T) Ot). lra.
 Qed.
 
 (** The motion until a time, over the whole step's time, and the stored one. *)
@@ -520,6 +561,52 @@ Proof.
       simpl; auto.
   - intros q [<- | [<- | []]]; auto.
   - intros q [<- | [<- | []]]; auto.
+Qed.
+
+(** A way that ends near the fraction s of the stored one: short_way with spare. Errors of its ends are within d. *)
+Definition shorter (s : R) (w stored : moving) : Prop := in_frame stored /\
+  off_by (Moving (start w) (finish stored)) stored /\ exists q, off_by q stored /\ finish w = place q s.
+
+Lemma shorter_before s p l r m G H : 0 <= s <= 1 -> holds G (of_element p l) -> holds H (of_element r m) ->
+  apart_until G H = true -> (forall c, In c (p :: l) -> in_frame c) -> (forall c, In c (r :: m) -> in_frame c) ->
+  exists n, forall w v c c', In c (p :: l) -> In c' (r :: m) -> shorter s w c -> shorter s v c' -> before n w v.
+Proof.
+  intros S Gh Hh A P R'. destruct (until_before p l r m G H Gh Hh A P R') as (n & B). exists n.
+  intros w v c c' C C' (_ & W & q & Q & Fw) (_ & V & t & T & Fv).
+  destruct (B _ _ c c' C C' W V) as (B0 & _). destruct (B _ _ c c' C C' Q T) as (B1 & B2).
+  split; [exact B0 |]. rewrite Fw, Fv. unfold place, dot in *. cbn [start finish x y z] in *.
+  destruct (Req_dec s 0) as [-> | Z]; [lra |].
+  assert (0 <= (1 - s) * (x n * x (start t) + y n * y (start t) + z n * z (start t) -
+    (x n * x (start q) + y n * y (start q) + z n * z (start q)))) by (apply Rmult_le_pos; lra).
+  assert (0 < s * (x n * x (finish t) + y n * y (finish t) + z n * z (finish t) -
+    (x n * x (finish q) + y n * y (finish q) + z n * z (finish q)))) by (apply Rmult_lt_0_compat; lra).
+  lra.
+Qed.
+Theorem shorter_face_separate s v f0 f1 f2 v' f0' f1' f2' G H : 0 <= s <= 1 ->
+  shorter s v v' -> shorter s f0 f0' -> shorter s f1 f1' -> shorter s f2 f2' ->
+  holds G (of_element v' []) -> holds H (of_element f0' [f1'; f2']) ->
+  apart_until G H = true \/ apart_until H G = true -> ~ vertex_face_collides v f0 f1 f2.
+Proof.
+  intros S V F0 F1 F2 Gv Hf A.
+  assert (B : apart_until G H = true) by (destruct A; [easy | now apply apart_symmetric]).
+  apply (shorter_before s v' [] f0' [f1'; f2'] G H S Gv Hf) in B.
+  - destruct B as (n & B). apply (face_separated n); [apply (B _ _ v' f0') | apply (B _ _ v' f1') |
+      apply (B _ _ v' f2')]; simpl; auto.
+  - intros q [<- | []]. apply V.
+  - intros q [<- | [<- | [<- | []]]]; [apply F0 | apply F1 | apply F2].
+Qed.
+Theorem shorter_edges_separate s a0 a1 b0 b1 a0' a1' b0' b1' G H : 0 <= s <= 1 ->
+  shorter s a0 a0' -> shorter s a1 a1' -> shorter s b0 b0' -> shorter s b1 b1' ->
+  holds G (of_element a0' [a1']) -> holds H (of_element b0' [b1']) ->
+  apart_until G H = true \/ apart_until H G = true -> ~ edge_edge_collides a0 a1 b0 b1.
+Proof.
+  intros S A0 A1 B0 B1 Ga Hb A.
+  assert (B : apart_until G H = true) by (destruct A; [easy | now apply apart_symmetric]).
+  apply (shorter_before s a0' [a1'] b0' [b1'] G H S Ga Hb) in B.
+  - destruct B as (n & B). apply (edges_separated n); [apply (B _ _ a0' b0') | apply (B _ _ a0' b1') |
+      apply (B _ _ a1' b0') | apply (B _ _ a1' b1')]; simpl; auto.
+  - intros q [<- | [<- | []]]; [apply A0 | apply A1].
+  - intros q [<- | [<- | []]]; [apply B0 | apply B1].
 Qed.
 
 (** swept_boxes::widen of ccd/step/swept_boxes.hpp: boxes of stored positions in doubles, widened by d. One step up

@@ -194,11 +194,14 @@ template <kind K, class First, class Second>
 std::size_t candidate_search::find_close(const search_request& request, First& first,
                                          Second& second) {
     constexpr bool within_one = std::is_same_v<First, Second>;
+    const bool swept = request.boxes.nearly_rest<Second::vertices>(second);
+    const extents_of ends = swept ? extents_of::whole_way : extents_of::both_ends;
     const auto build = [&](extents_tree& tree, auto& elements) {
         constexpr std::size_t n = std::remove_cvref_t<decltype(elements)>::vertices;
         elements.template build_tree<float>(
-            tree, request.wanted.t_max >= 1, sorting<float>(request.boxes, second),
-            [&] { tree.build<n>(request.kernels, request.rounded, request.margin, elements); });
+            tree, request.wanted.t_max >= 1, sorting<float>(request.boxes, second), [&] {
+                tree.build<n>(request.kernels, request.rounded, request.margin, elements, ends);
+            });
     };
     extents_tree& b = of_extents_.second;
     extents_tree& a = within_one ? b : of_extents_.first;
@@ -217,14 +220,22 @@ std::size_t candidate_search::find_close(const search_request& request, First& f
         for (std::size_t i = 0; i < count; ++i)
             block.add(candidate_of(x[pairs[i].first], y[pairs[i].second]), true);
     };
-    constexpr auto find =
+    constexpr auto of_both_ends =
         within_one ? &search_kernels::of_two_edges : &search_kernels::of_vertices_and_faces;
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, a.leaves(), 8),
-                      [&](const tbb::blocked_range<std::size_t>& range) {
-                          context to{first, second, blocks.local()};
-                          (request.kernels.*find)(a.levels(), b.levels(), range.begin(),
-                                                  range.end(), &to, add);
-                      });
+    constexpr auto of_swept = within_one ? &search_kernels::of_two_swept_edges
+                                         : &search_kernels::of_swept_vertices_and_faces;
+    const auto find = swept ? of_swept : of_both_ends;
+    const auto find_in = [&](std::size_t first_leaf, std::size_t end) {
+        context to{first, second, blocks.local()};
+        (request.kernels.*find)(a.levels(), b.levels(), first_leaf, end, &to, add);
+    };
+    constexpr std::size_t stride = 64;
+    if (request.wanted.sample)
+        tbb::parallel_for(std::size_t(0), a.leaves(), stride,
+                          [&](std::size_t leaf) { find_in(leaf, leaf + 1); });
+    else
+        tbb::parallel_for(tbb::blocked_range<std::size_t>(0, a.leaves(), 8),
+                          [&](const auto& range) { find_in(range.begin(), range.end()); });
     return blocks.finish();
 }
 
@@ -235,8 +246,10 @@ std::size_t candidate_search::find_kind(const search_request& request, First& fi
     if (!request.boxes.need_doubles<Second::vertices>(second)) {
         if constexpr (is_cubic(K))
             if (request.wanted.close) return find_close<K>(request, first, second);
+        if (request.wanted.sample) return 0;
         if (!request.boxes.need_widening()) return find_by<K>(in_floats_, request, first, second);
     }
+    if (request.wanted.sample) return 0;
     return find_by<K>(in_doubles_, request, first, second);
 }
 
@@ -288,8 +301,9 @@ void candidate_search::find_at_start(const batch_positions& positions, const ste
     extents_tree& tree = of_extents_.second;
     const search_kernels& kernels = search_kernels_for(options.set);
     if (in_second_ != &elements)
-        elements.build_tree<float>(tree, true, sorting<float>(boxes, elements),
-                                   [&] { tree.build<3>(kernels, at.rounded, 0, elements, true); });
+        elements.build_tree<float>(tree, true, sorting<float>(boxes, elements), [&] {
+            tree.build<3>(kernels, at.rounded, 0, elements, extents_of::start);
+        });
     in_second_ = &elements;
     struct context {
         const resting_visitor& visit;
@@ -348,7 +362,7 @@ pair_counts candidate_search::find(const batch_positions& positions, const step_
                                    const candidate_visitor& visitor,
                                    const wanted_candidates& wanted) {
     std::optional<short_way> until;
-    if (wanted.t_max < 1) until.emplace(positions.exact, std::max(wanted.t_max, 0.0));
+    if (wanted.t_max < 1) until.emplace(positions.exact, std::max(wanted.t_max, 0.0), wanted.spare);
     const swept_boxes whole(positions, options.distances),
         boxes = until ? swept_boxes(until->positions(), options.distances, until->error()) : whole;
     const pair_test test(options.filter, whole);

@@ -55,6 +55,10 @@ struct wanted_candidates {
     bool close = false;
     /// Without pairs that do not meet until this time, if that was tested.
     double t_max = 1;
+    /// For t_max < 1: also those that may meet on ways that short_way's `spare` covers.
+    bool spare = false;
+    /// Only some of the close pairs; none if they cannot be found in floats.
+    bool sample = false;
 };
 
 /// Called with blocks of pairs of these elements, from several threads at once.

@@ -18,23 +18,28 @@
 
 namespace ccd::detail {
 
+/// The extents in a tree: at the start of the step, at both ends, or at both ends where those at
+/// the start contain those at the end.
+enum class extents_of { start, both_ends, whole_way };
+
 class extents_tree {
   public:
     /// Builds the tree over `elements`, at least one, whose vertices have rows in `rounded`
-    /// (rounded_positions::data()), off by less than `margin`. If `at_rest` is true, uses the rows
-    /// at the start of the step only. Cost: O(count), on all threads of the arena. Memory, reused:
-    /// 175 bytes an element, 95 at rest.
+    /// (rounded_positions::data()), off by less than `margin`. Cost: O(count), on all threads of
+    /// the arena. Memory, reused: 175 bytes an element, 95 at rest.
     template <std::size_t N>
     void build(const search_kernels& kernels, const float* rounded, float margin,
-               std::span<const std::array<vertex_index, N>> elements, bool at_rest = false) {
-        levels_.columns = extents::columns_of_end * (at_rest ? 1 : 2);
+               std::span<const std::array<vertex_index, N>> elements,
+               extents_of ends = extents_of::both_ends) {
+        levels_.columns = extents::columns_of_end * (ends == extents_of::start ? 1 : 2);
         set_levels(elements.size());
         for_packs(0, [&](std::size_t first, std::size_t end, extents_column* packs, float* hulls) {
             constexpr auto fill = N == 1   ? &search_kernels::of_vertices
                                   : N == 2 ? &search_kernels::of_edges
                                            : &search_kernels::of_faces;
-            (kernels.*fill)(rounded, margin, elements.data()->data(), elements.size(), first, end,
-                            levels_.columns, packs, hulls, vertices_.data());
+            (kernels.*fill)(rounded, margin, ends == extents_of::whole_way, elements.data()->data(),
+                            elements.size(), first, end, levels_.columns, packs, hulls,
+                            vertices_.data());
         });
         for (std::size_t level = 1; level < levels_.count; ++level)
             for_packs(level,

@@ -61,6 +61,15 @@ void set_extent(extents_column* of_axis, std::size_t lane, float margin, const V
     (most + float_pack(margin)).store_aligned(&of_axis[1].at[lane]);
 }
 
+/// Widens an axis' columns at the start by those at the end. Proof: proofs/Extents.v,
+/// swept_extents_hold.
+inline void sweep_extent(extents_column* of_axis, std::size_t lane) {
+    const auto column = [&](std::size_t c) { return &of_axis[c].at[lane]; };
+    const auto load = [&](std::size_t c) { return float_pack::load_aligned(column(c)); };
+    min(load(0), load(columns_of_end)).store_aligned(column(0));
+    max(load(1), load(columns_of_end + 1)).store_aligned(column(1));
+}
+
 inline float_quad extreme(const float_quad& x, const float_quad& y, bool most) {
     return most ? (x < y ? y : x) : (x < y ? x : y);
 }
@@ -88,7 +97,7 @@ inline void set_nowhere(extents_column* packed, std::size_t columns, std::size_t
 }
 
 template <std::size_t N>
-void fill_leaves(const float* rounded, float margin, const vertex_index* elements,
+void fill_leaves(const float* rounded, float margin, bool swept, const vertex_index* elements,
                  std::size_t count, std::size_t first, std::size_t end_leaf, std::size_t columns,
                  extents_column* leaves, float* hulls, leaf_vertices* vertices) {
     const float margin_across = extents::margin + 2 * margin;
@@ -112,6 +121,9 @@ void fill_leaves(const float* rounded, float margin, const vertex_index* element
                     set_extent<N>(at_end + 8 + 4 * k, lane, margin_across,
                                   [&](std::size_t v) { return x(v) - y(v); });
                 }
+        for (std::size_t axis = 0; swept && axis < extents::axes; ++axis)
+            for (std::size_t lane = 0; lane < size; lane += float_width)
+                sweep_extent(leaf + 2 * axis, lane);
         if (count < size * (p + 1)) set_nowhere(leaf, columns, count - size * p);
         set_hull(hulls + columns * p, leaf, columns);
         for (std::size_t i = 0; i < size; ++i)
@@ -308,6 +320,8 @@ constinit const search_kernels searching = {fill_leaves<1>,
                                             fill_nodes,
                                             find_pairs<1, 3, times::whole_step>,
                                             find_pairs<2, 2, times::whole_step>,
+                                            find_pairs<1, 3, times::start>,
+                                            find_pairs<2, 2, times::start>,
                                             find_pairs<3, 3, times::start>,
                                             triangle_signs};
 

@@ -17,11 +17,12 @@ struct search_kernels {
 
     /// Sets leaves p, first <= p < end, and their hulls. `rounded` is rounded_positions::data(), of
     /// coordinates that are off by less than `margin` (see short_way); `count` is the number of
-    /// elements, `columns` that of a pack.
-    using fill_leaves = void (*)(const float* rounded, float margin, const vertex_index* elements,
-                                 std::size_t count, std::size_t first, std::size_t end,
-                                 std::size_t columns, extents_column* leaves, float* hulls,
-                                 leaf_vertices* vertices);
+    /// elements, `columns` that of a pack. If `swept`, extents at the start contain those at the
+    /// end.
+    using fill_leaves = void (*)(const float* rounded, float margin, bool swept,
+                                 const vertex_index* elements, std::size_t count, std::size_t first,
+                                 std::size_t end, std::size_t columns, extents_column* leaves,
+                                 float* hulls, leaf_vertices* vertices);
     fill_leaves of_vertices, of_edges, of_faces;
 
     /// Sets packs p, first <= p < end, of the level over these hulls.
@@ -30,11 +31,12 @@ struct search_kernels {
 
     /// Finds pairs, without a common vertex, that no axis separates. They have an element in the
     /// leaves first <= p < end of `a` and one of `b`. If a is b, by address, the later element is
-    /// second, and each pair is found once. For `of_two_faces_at_start`, the axis need not separate
-    /// them at t = 1.
+    /// second, and each pair is found once. For `at_start` and `swept`, the axis need only separate
+    /// the extents at the start.
     using find_pairs = void (*)(const extents_levels& a, const extents_levels& b, std::size_t first,
                                 std::size_t end, void* context, visitor visit);
-    find_pairs of_vertices_and_faces, of_two_edges, of_two_faces_at_start;
+    find_pairs of_vertices_and_faces, of_two_edges, of_swept_vertices_and_faces, of_two_swept_edges,
+        of_two_faces_at_start;
 
     /// Sets the signs of triangle_intersects_triangle (errbound/simplices/predicates.hpp) for pairs
     /// of elements at rest, or `uncertain`. `positions` are rows x y z.

@@ -1,9 +1,13 @@
+#include <tbb/blocked_range.h>
 #include <tbb/enumerable_thread_specific.h>
+#include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <atomic>
 #include <ccd/batch.hpp>
 #include <ccd/step.hpp>
 #include <cstddef>
+#include <limits>
 #include <optional>
 #include <span>
 #include <tuple>
@@ -15,6 +19,7 @@
 #include "ccd/step/candidate_search.hpp"
 #include "ccd/step/checks.hpp"
 #include "ccd/step/narrow_phase.hpp"
+#include "ccd/step/short_steps.hpp"
 #include "ccd/step/stopwatch.hpp"
 
 namespace ccd {
@@ -23,28 +28,66 @@ namespace {
 template <kind K>
 using phase = detail::narrow_phase<K>;
 
-/// Runs a step, except first times and contacts at the start.
+by_kind<phase> phases_at(const detail::batch_positions& at, const step_options& options) {
+    return {phase<kind::vertex_face>(at, options), phase<kind::edge_edge>(at, options),
+            phase<kind::vertex_edge>(at, options), phase<kind::vertex_vertex>(at, options)};
+}
+
+/// Collects candidates from several threads, up to a number.
+class candidate_store {
+  public:
+    explicit candidate_store(std::size_t most) : most_(most) {}
+
+    /// Thread-safe.
+    template <kind K>
+    void add(std::span<const pair_of_kind<K>> block) {
+        if ((count_ += block.size()) > most_) return;
+        auto& pairs = lists_.of<K>().local().pairs;
+        pairs.insert(pairs.end(), block.begin(), block.end());
+    }
+    /// True if all candidates were stored.
+    bool is_complete() const { return count_ <= most_; }
+    /// Unsorted.
+    pair_lists take() {
+        pair_lists all;
+        for_each_kind([&]<kind K>() {
+            for (const auto& list : lists_.of<K>())
+                all.of<K>().insert(all.of<K>().end(), list.pairs.begin(), list.pairs.end());
+        });
+        return all;
+    }
+
+  private:
+    std::size_t most_;
+    std::atomic<std::size_t> count_ = 0;
+    by_kind<detail::lists_of_threads> lists_;
+};
+
+/// Runs a step, except first times and contacts at the start. With a store, the search includes
+/// ways that short_way's `spare` covers.
 step_result run_step(detail::candidate_search& search, std::optional<detail::vertex_fans>& fans,
-                     const vertex_rows& positions, const step_options& options) {
+                     const vertex_rows& positions, const step_options& options,
+                     candidate_store* store = nullptr) {
     detail::stopwatch watch;
     step_result result;
     const detail::rounded_positions rounded(positions);
     const detail::batch_positions at(positions, rounded);
     result.prepare_seconds = watch.lap();
 
-    by_kind<phase> phases{
-        phase<kind::vertex_face>(at, options), phase<kind::edge_edge>(at, options),
-        phase<kind::vertex_edge>(at, options), phase<kind::vertex_vertex>(at, options)};
+    by_kind<phase> phases = phases_at(at, options);
     candidate_visitor visitor;
     for_each_kind([&]<kind K>() {
         visitor.of<K>() = [&](std::span<const pair_of_kind<K>> block) {
             phases.of<K>().decide(block);
+            if (store != nullptr) store->add<K>(block);
         };
     });
     const bool counted = options.count_candidates || options.explain;
     detail::wanted_candidates wanted;
     if (!counted && options.method == method::exact)
-        wanted = {.close = options.distances.is_contact(), .t_max = options.t_max};
+        wanted = {.close = options.distances.is_contact(),
+                  .t_max = options.t_max,
+                  .spare = store != nullptr};
     const pair_counts counts = search.find(at, options, visitor, wanted);
     if (counted) result.candidates = counts;
     for_each_kind([&]<kind K>() { result.narrow_phase_seconds += phases.of<K>().seconds(); });
@@ -91,11 +134,15 @@ void find_times(const vertex_rows& positions, const time_options& options, bool 
     if (keep_times) result.times.of<K>() = std::move(times);
 }
 
+time_options timing_of(const step_options& options) {
+    return {options.t_max, options.distances, options.threads, options.set, options.stop};
+}
+
 template <kind K>
 void find_first(const vertex_rows& positions, time_options options, step_result& result) {
     const auto& pairs = result.pairs.of<K>();
     if (result.first_contact.outcome == outcome::collides)
-        options.t_max = result.first_contact.high;
+        options.t_max = std::min(options.t_max, result.first_contact.high);
     const earliest_time found = earliest(positions, pairs, options);
     for (const std::size_t i : found.queries) detail::add_first(found.time, pairs[i], result);
     for (const std::size_t i : found.at_start) result.touching_at_start.of<K>().push_back(pairs[i]);
@@ -121,8 +168,7 @@ void find_touching_at_start(const vertex_rows& positions, time_options options,
 
 void find_pair_times(const vertex_rows& positions, const step_options& options,
                      step_result& result) {
-    const time_options timing{options.t_max, options.distances, options.threads, options.set,
-                              options.stop};
+    const time_options timing = timing_of(options);
     if (options.times || options.first_contact || options.t_max < 1)
         result.first_contact = {outcome::separate};
     for_each_kind([&]<kind K>() {
@@ -194,6 +240,58 @@ intersection_result mesh_steps::intersections(const vertex_rows& positions,
     result.seconds = watch.lap();
     return result;
 }
+
+namespace detail {
+
+first_time short_steps::first_of_sample(const vertex_rows& way, const step_options& options) {
+    mesh_steps::state& state = *steps_.state_;
+    state.check(way, options);
+    candidate_store found(std::numeric_limits<std::size_t>::max());
+    on_threads(options.threads, [&] {
+        const rounded_positions rounded(way);
+        candidate_visitor visitor;
+        visitor.edge_edge = [&](auto block) { found.add<kind::edge_edge>(block); };
+        state.search.find({way, rounded}, options, visitor, {.close = true, .sample = true});
+    });
+    return earliest(way, found.take().edge_edge, timing_of(options)).time;
+}
+
+step_result short_steps::run(const vertex_rows& way, const step_options& options) {
+    mesh_steps::state& state = *steps_.state_;
+    state.check(way, options);
+    constexpr std::size_t for_each_vertex = 16;
+    candidate_store store(for_each_vertex * way.vertices);
+    step_result result;
+    on_threads(options.threads,
+               [&] { result = run_step(state.search, state.fans, way, options, &store); });
+    result.first_contact = {outcome::separate};
+    for_each_kind([&]<kind K>() { find_first<K>(way, timing_of(options), result); });
+    has_candidates_ = store.is_complete();
+    candidates_ = has_candidates_ ? store.take() : pair_lists();
+    return result;
+}
+
+pair_lists short_steps::pairs_on(const vertex_rows& way, const step_options& options) {
+    steps_.state_->check(way, options);
+    pair_lists pairs;
+    on_threads(options.threads, [&] {
+        const rounded_positions rounded(way);
+        by_kind<phase> phases = phases_at({way, rounded}, options);
+        for_each_kind([&]<kind K>() {
+            const std::span<const pair_of_kind<K>> all = candidates_.of<K>();
+            constexpr std::size_t block = 2048;
+            tbb::parallel_for(tbb::blocked_range<std::size_t>(0, all.size(), block),
+                              [&](const auto& range) {
+                                  stop_if_requested(options.stop);
+                                  phases.of<K>().decide(all.subspan(range.begin(), range.size()));
+                              });
+            pairs.of<K>() = phases.of<K>().take_pairs();
+        });
+    });
+    return pairs;
+}
+
+}  // namespace detail
 
 pair_counts mesh_steps::for_each_candidate(const vertex_rows& positions,
                                            const candidate_visitor& visitor,

@@ -23,9 +23,13 @@ constexpr std::size_t sampling_stride(std::size_t count) {
 /// The motion until a time t < 1, with rounded ends.
 class short_way {
   public:
+    /// With `spare`, the error also covers all ways to positions of `between`
+    /// (ccd/step/advance/advancing.hpp) at one fraction, at most t, for all vertices.
     /// Preconditions: positions are finite, 0 <= t < 1.
-    short_way(const vertex_rows& way, double t)
-        : end_(way, t), way_{way.before, end_.positions.data(), way.vertices}, rounded_(way_) {}
+    short_way(const vertex_rows& way, double t, bool spare = false)
+        : end_(way, t, spare),
+          way_{way.before, end_.positions.data(), way.vertices},
+          rounded_(way_) {}
 
     short_way(const short_way&) = delete;  // it has pointers to itself
     short_way& operator=(const short_way&) = delete;
@@ -37,31 +41,39 @@ class short_way {
     /// positions: δ is the error in these units, ε = 2^-23. A rounded coordinate has an error of
     /// 1.01ε, and the subtraction of w one of (1.01 + w)ε. So the exact coordinate is at least the
     /// rounded one less w. For sums of two coordinates the margin is 7ε + 2w: their error is
-    /// 4.04ε + 2δ, and that of the subtraction (2.02 + 7ε + 2w)ε.
+    /// 4.04ε + 2δ, and that of the subtraction (2.02 + 7ε + 2w)ε. The largest margin exceeds all
+    /// rounded coordinates, so that it separates nothing.
     /// Proof: proofs/Extents.v, wide_extents_hold, until_face_separate, until_edges_separate.
     float margin() const {
         if (end_.error == 0) return 0;
-        return static_cast<float>(1.0001 * end_.error * rounded_.scale() +
-                                  4 * std::numeric_limits<float>::epsilon());
+        constexpr double largest = 8;  // an infinite one would also widen unused lanes
+        return static_cast<float>(std::min(largest, 1.0001 * end_.error * rounded_.scale() +
+                                                        4 * std::numeric_limits<float>::epsilon()));
     }
 
   private:
     /// (1 − t)·x + t·y has four roundings, each of at most u of |(1 − t)·x| + |t·y|, or 2^-1075.
     /// Proof: proofs/Extents.v, after_near.
+    /// The spare covers std::lerp and 1024 last places: 2056 times u of the size of x or of the end
+    /// of the way until t, or 2^-1064. So a pair that is apart at both ends stays apart at every
+    /// fraction, even after the roundings. Proof: proofs/Extents.v, shorter_face_separate,
+    /// shorter_edges_separate.
     struct rounded_end {
         std::vector<double> positions;
         double error = 0;
 
-        rounded_end(const vertex_rows& way, double t)
+        rounded_end(const vertex_rows& way, double t, bool spare)
             : positions(way.before, way.before + 3 * way.vertices) {
             if (t == 0) return;
-            double half_size = 0;
+            double half_size = 0, most = 0;
             for (std::size_t i = 0; i < positions.size(); ++i) {
                 const double x = way.before[i], y = way.after[i], a = (1 - t) * x, b = t * y;
                 positions[i] = std::clamp(a + b, std::min(x, y), std::max(x, y));
                 half_size = std::max(half_size, std::abs(a) / 2 + std::abs(b) / 2);
+                most = std::max(most, std::abs(x));
             }
             error = 0x1p-50 * half_size + 0x1p-1072;
+            if (spare) error += 0x1p-40 * half_size + 0x1p-41 * most + 0x1p-1060;
         }
     };
 
@@ -117,15 +129,16 @@ class swept_boxes {
     /// outwards.
     bool need_widening() const { return !distances_.is_contact() || error_ > 0; }
     /// True if floats do not suffice for rounded positions: there are distances; or in a sample,
-    /// more than one box in sixteen has zero length on an axis only after rounding. The latter
-    /// happens for small parts that are very far apart.
+    /// more than one box in sixteen has zero length on an axis only after rounding, without the
+    /// error. The latter happens for small parts that are very far apart.
     template <std::size_t N>
     bool need_doubles(std::span<const std::array<vertex_index, N>> elements) const {
         if (!distances_.is_contact()) return true;
+        const swept_boxes unwidened(positions_, distances_);
         std::size_t confused = 0, samples = 0;
         for (std::size_t i = 0; i < elements.size();
              i += sampling_stride(elements.size()), ++samples) {
-            const box<double> exact = swept_box<double>(elements[i]);
+            const box<double> exact = unwidened.swept_box<double>(elements[i]);
             const box<float> rounded = swept_box<float>(elements[i]);
             bool merged = false;
             for (std::size_t k = 0; k < 3; ++k)
@@ -133,6 +146,26 @@ class swept_boxes {
             confused += merged;
         }
         return confused > samples / 16;
+    }
+
+    /// True if in a sample the sizes of the rounded boxes at the start are most of those of the
+    /// swept ones. Then the latter suffice to separate elements.
+    template <std::size_t N>
+    bool nearly_rest(std::span<const std::array<vertex_index, N>> elements) const {
+        double swept = 0, at_start = 0;
+        for (std::size_t i = 0; i < elements.size(); i += sampling_stride(elements.size())) {
+            const box<float> all = swept_box<float>(elements[i]);
+            for (std::size_t k = 0; k < 3; ++k) {
+                float low = row<float>(elements[i][0], 0)[k], high = low;
+                for (const vertex_index v : elements[i]) {
+                    low = std::min(low, row<float>(v, 0)[k]);
+                    high = std::max(high, row<float>(v, 0)[k]);
+                }
+                swept += double(all.high[k]) - double(all.low[k]);
+                at_start += double(high) - double(low);
+            }
+        }
+        return swept <= 1.03125 * at_start;
     }
 
   private:

@@ -51,6 +51,8 @@ struct step_options {
 };
 
 namespace detail {
+class short_steps;
+
 template <kind K>
 using count_of_kind = std::size_t;
 template <kind K>
@@ -174,6 +176,7 @@ class mesh_steps {
                                       const intersection_options& options = {});
 
   private:
+    friend class detail::short_steps;
     struct state;
     explicit mesh_steps(std::unique_ptr<state> state);
     std::unique_ptr<state> state_;

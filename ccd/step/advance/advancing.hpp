@@ -19,6 +19,7 @@
 
 #include "ccd/batch/threads.hpp"
 #include "ccd/step/elements.hpp"
+#include "ccd/step/short_steps.hpp"
 #include "ccd/step/swept_boxes.hpp"
 #include "ccd/step/vertex_groups.hpp"
 
@@ -81,10 +82,11 @@ inline double time_of_short_way(const vertex_rows& way) {
 
 /// Calls step(options) with t_max = 1, or before with less, until there is a contact. Short
 /// searches are cheap, and the first contact is usually early if vertices move by many times their
-/// spacing: a diverged line search.
-template <class Others, class Step>
+/// spacing: a diverged line search. If they do not, the contacts of a sample of pairs show whether
+/// the first one is early. sample(options) returns the first of these.
+template <class Others, class Sample, class Step>
 step_result step_to_first_contact(const vertex_rows& way, step_options options, Others& others,
-                                  const Step& step) {
+                                  const Sample& sample, const Step& step) {
     options.first_contact = true;
     double growth = 4;
     constexpr int slow_rounds = 6;  // then faster: a way may be 1e300 times too long
@@ -98,6 +100,8 @@ step_result step_to_first_contact(const vertex_rows& way, step_options options, 
         options.check_start = false;
     }
     options.t_max = 1;
+    const first_time early = others.earliest(sample(options));
+    if (early.outcome == outcome::collides && early.high < 1) options.t_max = early.high;
     return step(options);
 }
 
@@ -166,6 +170,7 @@ class advancing {
     advancing(mesh_steps& steps, const vertex_rows& way, const advance_options& options,
               bool islands, vertex_groups& groups, Others& others)
         : steps_(steps),
+          short_(steps),
           way_(way),
           options_(options),
           islands_(islands),
@@ -217,7 +222,10 @@ class advancing {
 
     step_result step(const vertex_rows& way, const step_options& options) {
         step_result found;
-        others_.call([&] { found = steps_.run(way, options); });
+        const bool is_short = options.first_contact && options.t_max < 1;
+        others_.call(
+            [&] { found = is_short ? short_.run(way, options) : steps_.run(way, options); });
+        has_candidates_ = is_short && others_.all(short_.has_candidates());
         if (options.check_start)
             result_.intersections_at_start = std::move(found.intersections_at_start);
         return found;
@@ -252,6 +260,8 @@ class advancing {
     }
 
     mesh_steps& steps_;
+    short_steps short_;
+    bool has_candidates_ = false;  ///< of short_, on all processes, until the next step
     const vertex_rows& way_;
     const advance_options& options_;
     bool islands_;
@@ -313,9 +323,15 @@ void advancing<Others>::evaluate_whole_way() {
     options.first_contact = true;
     options.times = islands_ || keeps;
     options.check_start = options_.check_start;
+    const auto sample = [&](const step_options& o) {
+        first_time found;
+        others_.call([&] { found = short_.first_of_sample(way_, o); });
+        return found;
+    };
     const auto step_way = [&](const step_options& o) { return step(way_, o); };
-    const step_result whole =
-        options.times ? step_way(options) : step_to_first_contact(way_, options, others_, step_way);
+    const step_result whole = options.times
+                                  ? step_way(options)
+                                  : step_to_first_contact(way_, options, others_, sample, step_way);
     const first_time first = others_.earliest(whole.first_contact);
     for_each_kind([&]<kind K>() {
         const auto& pairs = whole.pairs.of<K>();
@@ -380,10 +396,14 @@ bool advancing<Others>::separate_known() {
 
 template <class Others>
 bool advancing<Others>::separate_others() {
-    const step_result found = step(way_to_result(), base_options());
+    pair_lists found;
+    if (has_candidates_)
+        others_.call([&] { found = short_.pairs_on(way_to_result(), base_options()); });
+    else
+        found = step(way_to_result(), base_options()).pairs;
     bool any = false;
     for_each_kind([&]<kind K>() {
-        const auto others = without(found.pairs.of<K>(), at_start_.of<K>());
+        const auto others = without(found.of<K>(), at_start_.of<K>());
         any |= separate(others);
         known_.of<K>().insert(known_.of<K>().end(), others.begin(), others.end());
     });

@@ -126,6 +126,10 @@ TEST(StepTimes, UntilAnyTimeAreThoseOfTheWholeStep) {
                     p = {size * (p.x / 16 + offset), size * (p.y / 16), size * (p.z / 16 - offset)};
             if (std::isfinite(size * offset)) expect_all(at, "soup");
         }
+    // Rounded positions until a short time are one position, so that their scale is 2^1000.
+    auto from_one_point = brute_force::random_soup(6, 8, 5);
+    for (auto& p : from_one_point.first.vertices) p = {1, 1, 1};
+    expect_all(from_one_point, "soup from one point");
     expect_all(random_mixture(5), "mixture");
     for (const auto& shape : nasty_shapes::shapes)
         expect_all(nasty_shapes::triangles(shape, 3), shape.name);
