@@ -1,5 +1,5 @@
 (* Writes the decisions of the proofs' definitions (integers.ml, extracted by TieIntegers.v) on queries in integers,
-   in fixed width and to the end. tests/proofs/tie_integers.cpp does the same with the C++ code, on the same queries.
+   in fixed width and to the end. tests/proofs/tie_integers.cpp does the same with the C++ code.
    Floating-point estimates of close roots are copied from ccd/exact/close_contact.hpp, since the theorems hold for
    any estimates. *)
 module Whole = Z
@@ -261,23 +261,17 @@ let put_bounded ((a, a_bits), (b, b_bits)) =
   put (bounded_difference a b);
   put (bounded_product a b)
 
-let drawn_line name cases draw put =
-  let drawn = Array.init cases (fun _ -> draw ()) in
-  line ("integers " ^ name) cases (fun k -> put drawn.(k))
+let read_line name cases read put = line ("integers " ^ name) cases (fun _ -> put (read ()))
 
 let () =
-  state := 1;
   for i = 0 to 19 do
-    let queries = Array.init 4000 (fun _ ->
-        let mode = draw 16 in
-        let edges = draw 2 = 1 in
-        integers_of edges (query_in_doubles mode (whole_query mode edges))) in
+    let queries = read_all 4000 (fun () -> let edges, x = read_whole_query () in integers_of edges x) in
     line (Printf.sprintf "integers decide.%d" i) 4000 (fun k -> put_decision queries.(k));
     line (Printf.sprintf "integers close.%d" i) 1000 (fun k -> put_close queries.(k))
   done;
-  drawn_line "wide" 4000 wide_query put_wide_query;
-  drawn_line "forms" 4000 forms put_forms;
-  drawn_line "parts" 1000 forms put_parts;
-  drawn_line "deep" 2000 draw_deep put_deep;
-  drawn_line "roots" 4000 draw_quadratics put_roots;
-  drawn_line "bounded" 4000 draw_bounded put_bounded
+  read_line "wide" 4000 read_whole_query put_wide_query;
+  read_line "forms" 4000 read_forms put_forms;
+  read_line "parts" 1000 read_forms put_parts;
+  read_line "deep" 2000 read_deep put_deep;
+  read_line "roots" 4000 read_quadratics put_roots;
+  read_line "bounded" 4000 read_bounded put_bounded

@@ -250,20 +250,11 @@ let put_search d _ =
     (told
        (between (search (Array.of_list p)) (place d.search_low) (place d.search_high) before (place d.search_estimate)))
 
-let drawn_line name cases draw put =
-  let drawn = Array.init cases (fun _ -> draw ()) in
-  line ("times " ^ name) cases (fun k -> put drawn.(k) k)
+let read_line name cases read put = line ("times " ^ name) cases (fun k -> put (read ()) k)
 
 let () =
-  state := 1;
-  for i = 0 to 9 do
-    let queries = Array.init 1000 (fun _ ->
-        let mode = draw 16 in
-        let edges = draw 2 = 1 in
-        edges, query_in_doubles mode (whole_query mode edges)) in
-    line (Printf.sprintf "times first.%d" i) 1000 (fun k -> put_times queries.(k) k)
-  done;
-  drawn_line "wide" 1000 wide_query put_wide;
-  drawn_line "forms" 4000 forms put_of_forms;
+  for i = 0 to 9 do read_line (Printf.sprintf "first.%d" i) 1000 read_whole_query put_times done;
+  read_line "wide" 1000 read_whole_query put_wide;
+  read_line "forms" 4000 read_forms put_of_forms;
   line "times small" ((2 * 6561) + 2401) put_small;
-  drawn_line "search" 8000 draw_search put_search
+  read_line "search" 8000 read_search put_search
