@@ -7,12 +7,6 @@ open Floats
 
 let direction : float -> int = fun _ -> 0
 
-let put_double x =
-  let bits = Int64.bits_of_float (if x = 0. then 0. else x) in
-  put_word (Int64.to_int (Int64.shift_right_logical bits 32));
-  put_word (Int64.to_int bits land 0xffffffff)
-let put_bool b = put_word (if b then 1 else 0)
-
 let finite q = Array.for_all (fun v -> Float.abs v < infinity) q.given
 
 let point q p e : point =
@@ -51,8 +45,6 @@ let compared_apart q =
     List.for_all (fun p -> List.for_all (fun r -> along p > along r)
                      (List.init (4 - count) (fun i -> count + i))) (List.init count Fun.id) in
   List.exists (fun k -> List.exists (fun side -> beyond k 0 side && beyond k 1 side) [ 1.; -1. ]) [ 0; 1; 2 ]
-
-let put_outcome = function Separate -> put_word 0 | Collides -> put_word 1 | Undecided -> put_word 2
 
 let differences_of_query q =
   match List.map (fun (a, b) -> moving q a, moving q b) (pairs q) with

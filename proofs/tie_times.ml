@@ -154,14 +154,10 @@ let first_time d =
       if s.unplaced || s.found = Undecided then Unknown
       else match composed on_border (inside_time s) with None -> Never | Some b -> At b
 
-let put_double x =
-  let bits = Int64.bits_of_float x in
-  put_word (Int64.to_int (Int64.shift_right_logical bits 32));
-  put_word (Int64.to_int bits land 0xffffffff)
 let put_told = function
   | Never -> put_word 0
   | Unknown -> put_word 2
-  | At (low, high) -> put_word 1; put_double (Q.to_float low); put_double (Q.to_float high)
+  | At (low, high) -> put_word 1; put_bits (Q.to_float low); put_bits (Q.to_float high)
 (* True if integers of two words hold all numbers. *)
 let fits d = Array.for_all (fun (_, bits) -> bits <= 125) d.units
 let put_if_fitting d tell = put_told (if fits d then tell d else Unknown)
