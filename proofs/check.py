@@ -42,6 +42,8 @@ MAIN, DIGESTS = "Main", proofs / "digests.txt"
 # The files that Coq extracts, and the programs that run them.
 TIE_PROGRAMS = {"code": "tie", "symbols": "tie_symbols", "integers": "tie_integers", "floats": "tie_floats",
                 "filters": "tie_filters", "roots": "tie_roots", "words": "tie_words", "times": "tie_times"}
+# The programs that read inputs of a tie, which tests/proofs/tie_inputs.cpp writes.
+INPUTS = {"tie_integers": "integers", "tie_floats": "floats", "tie_times": "times"}
 # Parts of programs that take many minutes, which run in parallel.
 TIE_PARTS = {"tie": [("words",), ("tiny_3_3",), ("tiny_5_3",), ("tiny_4_4",), ("floats",)]}
 
@@ -128,6 +130,14 @@ def every_one_names(pattern, path, text, unproved):
             comment = ""
 
 
+def write_inputs(build):
+    """Writes the inputs of ties that read them."""
+    checker.run(build, os.environ.get("CXX", "g++"), "-std=c++20", "-O1", "-ffp-contract=off", '-DERRBOUND_TIE_TABLE=""',
+                f"-I{root}/include", f"-I{root}", root / "tests/proofs/tie_inputs.cpp", "-o", "tie_inputs")
+    for program, tie in INPUTS.items():
+        (build / f"{program}.in").write_text(checker.run(build, "./tie_inputs", tie))
+
+
 def make_tie(build, extracted, program):
     """Builds a program of extracted definitions; returns its folder."""
     folder = build / program  # a separate one: compilers of all ties may run in parallel
@@ -142,9 +152,10 @@ def make_tie(build, extracted, program):
 
 def tie_lines(pool, build, programs=TIE_PROGRAMS.values()):
     """Returns futures of the output of programs of extracted definitions, part by part, in the order of tie.txt."""
+    write_inputs(build)
     made = {program: pool.submit(make_tie, build, extracted, program)
             for extracted, program in TIE_PROGRAMS.items() if program in programs}
-    return [pool.submit(checker.run, folder.result(), "./program", *part)
+    return [pool.submit(checker.run, folder.result(), "./program", *part, given=build / f"{program}.in")
             for program, folder in made.items() for part in TIE_PARTS.get(program, [()])]
 
 

@@ -127,12 +127,14 @@ def supposed_outside(text):
     return None
 
 
-def run(folder, *command, silent=False):
-    """Runs a command; returns its output with errors and warnings. If `silent`, fails on errors and warnings."""
-    result = subprocess.run(command, cwd=folder, stdout=subprocess.PIPE,
-                            stderr=subprocess.PIPE if silent else subprocess.STDOUT, text=True)
+def run(folder, *command, silent=False, given=None):
+    """Runs a command, with the file `given` as its input if that exists; returns its output with errors and warnings. If
+    `silent`, fails on errors and warnings."""
+    with open(given if given and given.exists() else os.devnull) as standard_input:
+        result = subprocess.run(command, cwd=folder, stdin=standard_input, stdout=subprocess.PIPE,
+                                stderr=subprocess.PIPE if silent else subprocess.STDOUT, text=True)
     if result.returncode or result.stderr:
-        raise Refused(f"{' '.join(command[:4])}\n{result.stdout}{result.stderr or ''}")
+        raise Refused(f"{' '.join(map(str, command[:4]))}\n{result.stdout}{result.stderr or ''}")
     return result.stdout
 
 

@@ -37,10 +37,7 @@ let doubles = {
   epsilon = epsilon_float; unit_roundoff = ldexp 1. (-53); underflow_unit = ldexp 1. (-1074);
   smallest_normal = min_float; largest = max_float; infinity = Float.infinity }
 let put_double x =
-  let bits = if Float.is_nan x then Int64.succ (Int64.bits_of_float Float.infinity)
-    else if x = 0. then 0L else Int64.bits_of_float x in
-  put_word (Int64.to_int (Int64.shift_right_logical bits 32));
-  put_word (Int64.to_int (Int64.logand bits 0xffffffffL))
+  put_double (if Float.is_nan x then Int64.float_of_bits (Int64.succ (Int64.bits_of_float Float.infinity)) else x)
 let double_of_float = function
   | B754_zero _ -> 0.
   | B754_infinity s -> if s then Float.neg_infinity else Float.infinity

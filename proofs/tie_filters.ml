@@ -11,12 +11,7 @@ let formats =
 let rounded f x = if f.p = 24 then Int32.float_of_bits (Int32.bits_of_float x) else x
 
 (* Equal for both zeros, and for all NaN. *)
-let put_number x =
-  let bits =
-    if Float.is_nan x then 0x7ff8000000000000L else Int64.bits_of_float (if x = 0. then 0. else x) in
-  put_word (Int64.to_int (Int64.shift_right_logical bits 32));
-  put_word (Int64.to_int bits land 0xffffffff)
-let put_bool b = put_word (if b then 1 else 0)
+let put_number x = put_double (if Float.is_nan x then Int64.float_of_bits 0x7ff8000000000000L else x)
 let put_sign = function
   | Negative -> put_word 0 | Zero -> put_word 1 | Positive -> put_word 2 | Uncertain -> put_word 3
 

@@ -2,122 +2,21 @@
    bounds and control values, each test of the filter, subdivision, and the axes in single precision.
    tests/proofs/tie_floats.cpp does the same with the C++ templates, on the same queries. *)
 open Tie_hash
+open Tie_queries
 open Floats
 
 let direction : float -> int = fun _ -> 0
 
-let put_double x =
-  let bits = Int64.bits_of_float (if x = 0. then 0. else x) in
-  put_word (Int64.to_int (Int64.shift_right_logical bits 32));
-  put_word (Int64.to_int bits land 0xffffffff)
-let put_bool b = put_word (if b then 1 else 0)
-
-(* Queries as in drawn_query.hpp: x.(6 p + 3 e + k) is coordinate k of point p at end e. *)
-type query = { edges : bool; x : float array; low : float array; high : float array }
-
-let unit () = ldexp (float_of_int (draw (1 lsl 40))) (-40)
-
-(* Point 0 meets the face, or the edges cross, at a random time and position. *)
-let pass x edges size near =
-  let t = unit () in
-  let a = unit () in
-  let b = (1. -. a) *. unit () in
-  for c = 0 to 2 do
-    let at p = ((1. -. t) *. x.((6 * p) + c)) +. (t *. x.((6 * p) + 3 + c)) in
-    let d = (unit () -. 0.5) *. size in
-    let off = if near then (let o = unit () -. 0.5 in o *. ldexp size (- draw 50)) else 0. in
-    let moved, target =
-      if edges then
-        let r = 0.2 +. (0.7 *. b) in
-        3, ((((1. -. a) *. at 0) +. (a *. at 1) -. ((1. -. r) *. at 2)) /. r) +. off
-      else 0, (((1. -. a -. b) *. at 1) +. (a *. at 2) +. (b *. at 3)) +. off in
-    x.((6 * moved) + c) <- target -. (t *. d);
-    x.((6 * moved) + 3 + c) <- target +. ((1. -. t) *. d)
-  done
-
-(* The features' gap along an axis is about the filter's margin, or its margin in single precision. *)
-let small_gap x edges coarse =
-  for i = 0 to 23 do
-    x.(i) <- if coarse then ldexp (float_of_int (draw (1 lsl 19) - (1 lsl 18))) (-20) else (unit () -. 0.5) *. 2.
-  done;
-  let origin = if edges then 0 else 1 in
-  for i = 6 * origin to (6 * origin) + 5 do x.(i) <- 0. done;
-  let axis = draw 9 in
-  let k = axis mod 3 in
-  let l = (k + 1) mod 3 in
-  let other = if axis < 3 then 0. else if axis < 6 then 1. else -1. in
-  let side = if draw 2 = 0 then 1. else -1. in
-  for e = 0 to 1 do
-    let at p c = (6 * p) + (3 * e) + c in
-    let along p = side *. (x.(at p k) +. (other *. x.(at p l))) in
-    let first = if edges then along 1 else Float.max (along 2) (along 3) in
-    let steps = float_of_int (draw 40) in
-    let target = side *. (Float.max first 0. +. ldexp steps (if coarse then -24 else -53 + draw 3)) in
-    let p = if edges then 2 else 0 in
-    x.(at p k) <- target -. (other *. x.(at p l));
-    if edges then begin
-      x.(at 3 l) <- x.(at 2 l);
-      x.(at 3 k) <- x.(at 2 k) +. (side *. if coarse then 0.125 else unit ())
-    end
-  done
-
-(* Differences about the largest allowed ones. *)
-let large x =
-  for i = 0 to 23 do x.(i) <- (unit () -. 0.5) *. ldexp 1. 200 done;
-  for i = 0 to 11 do x.(i) <- 0. done;
-  let i = 12 + draw 12 in
-  let size = match draw 4 with
-    | 0 -> ldexp 1. 200 | 1 -> Float.succ (ldexp 1. 200) | 2 -> Float.pred (ldexp 1. 200)
-    | _ -> ldexp 1. 199 in
-  x.(i) <- (if draw 2 = 0 then size else -. size)
-
-let draw_query () =
-  let mode = draw 14 in
-  let exponent = match mode with
-    | 0 -> draw 500 - 400 | 1 -> draw 300 - 100 | 12 -> draw 40 - 1020 | _ -> draw 20 - 10 in
-  let s = ldexp 1. exponent in
-  let b0 = unit () *. s in
-  let b1 = unit () *. s in
-  let b2 = unit () *. s in
-  let base = [| b0; b1; b2 |] in
-  let size = ldexp s (- draw 30) in
-  let edges = draw 2 = 1 in
-  let x = Array.make 24 0. in
-  for i = 0 to 23 do x.(i) <- base.(i mod 3) +. ((unit () -. 0.5) *. size) done;
-  if mode = 2 then for i = 0 to 23 do x.(i) <- floor (unit () *. 9.) -. 4. done;
-  if mode = 8 || mode = 9 then begin (* in a plane, or almost *)
-    let tiny = ldexp size (-50 - draw 6) in
-    for i = 0 to 7 do x.((3 * i) + 2) <- (float_of_int (draw 3) -. 1.) *. tiny done
-  end;
-  if mode >= 3 && mode <= 5 || mode = 9 then pass x edges size (mode = 5);
-  if mode = 6 || mode = 7 || mode = 13 then small_gap x edges (mode = 13);
-  if mode = 10 then large x;
-  let grow = if draw 2 = 0 then 0. else ldexp s (- draw 30) in
-  let low = Array.make 3 infinity and high = Array.make 3 neg_infinity in
-  for i = 0 to 23 do
-    low.(i mod 3) <- Float.min low.(i mod 3) x.(i);
-    high.(i mod 3) <- Float.max high.(i mod 3) x.(i)
-  done;
-  for k = 0 to 2 do
-    low.(k) <- if mode = 13 then -1. else low.(k) -. grow;
-    high.(k) <- if mode = 13 then 1. else high.(k) +. grow
-  done;
-  if mode = 11 then begin
-    let i = draw 24 in
-    x.(i) <- (match draw 3 with 0 -> infinity | 1 -> neg_infinity | _ -> nan)
-  end;
-  { edges; x; low; high }
-
-let finite q = Array.for_all (fun v -> Float.abs v < infinity) q.x
+let finite q = Array.for_all (fun v -> Float.abs v < infinity) q.given
 
 let point q p e : point =
-  { x = q.x.((6 * p) + (3 * e)); y = q.x.((6 * p) + (3 * e) + 1); z0 = q.x.((6 * p) + (3 * e) + 2) }
+  { x = q.given.((6 * p) + (3 * e)); y = q.given.((6 * p) + (3 * e) + 1); z0 = q.given.((6 * p) + (3 * e) + 2) }
 let moving q p : moving = { start = point q p 0; finish = point q p 1 }
 
 (* Ends and starts of b, c, p. *)
-let pairs q = if q.edges then [ 1, 0; 3, 2; 2, 0 ] else [ 2, 1; 3, 1; 0, 1 ]
-let inside q = if q.edges then edge_edge_inside else vertex_face_inside
-let sides q = if q.edges then edge_sides direction else face_sides direction
+let pairs q = if q.two_edges then [ 1, 0; 3, 2; 2, 0 ] else [ 2, 1; 3, 1; 0, 1 ]
+let inside q = if q.two_edges then edge_edge_inside else vertex_face_inside
+let sides q = if q.two_edges then edge_sides direction else face_sides direction
 
 type filter = { y : float list; gs : float list list; y_error : float; g_error : float;
                 y_errors : float; g_errors : float }
@@ -140,14 +39,12 @@ let put_outcome = function Separate -> put_word 0 | Collides -> put_word 1 | Und
 
 (* True if coordinates at both ends separate the first points from the others. *)
 let compared_apart q =
-  let count = if q.edges then 2 else 1 in
+  let count = if q.two_edges then 2 else 1 in
   let beyond k e side =
-    let along p = side *. q.x.((6 * p) + (3 * e) + k) in
+    let along p = side *. q.given.((6 * p) + (3 * e) + k) in
     List.for_all (fun p -> List.for_all (fun r -> along p > along r)
                      (List.init (4 - count) (fun i -> count + i))) (List.init count Fun.id) in
   List.exists (fun k -> List.exists (fun side -> beyond k 0 side && beyond k 1 side) [ 1.; -1. ]) [ 0; 1; 2 ]
-
-let put_outcome = function Separate -> put_word 0 | Collides -> put_word 1 | Undecided -> put_word 2
 
 let differences_of_query q =
   match List.map (fun (a, b) -> moving q a, moving q b) (pairs q) with
@@ -180,7 +77,7 @@ let put_tests q differences (m : point) =
    only by comparisons. *)
 let put_decision q differences (m : point) =
   let axes = ref (0, 0) and coplanarity = ref (0, 0) and inside = ref (0, 0) and subdivision = ref (0, 0, 0) in
-  let filter = if q.edges then filter_edges else filter_face in
+  let filter = if q.two_edges then filter_edges else filter_face in
   let answer =
     if not (finite q) then Undecided
     else if compared_apart q then (axes := 1, 1; Separate)
@@ -247,7 +144,7 @@ let put_subdivision edges =
 
 let put_axes q = if finite q then begin
   let ends e : point = { x = e.(0); y = e.(1); z0 = e.(2) } in
-  let f = frame_of direction (ends q.low) (ends q.high) in
+  let f = frame_of direction (ends q.box_low) (ends q.box_high) in
   for p = 0 to 3 do
     for e = 0 to 1 do
       let r = rounded_point direction f (point q p e) in
@@ -256,7 +153,7 @@ let put_axes q = if finite q then begin
   done;
   let gap (axis : float_axis) e =
     let at p = fst axis (rounded_point direction f (point q p (if e then 1 else 0))) in
-    if q.edges then edges_gap direction (at 0) (at 1) (at 2) (at 3)
+    if q.two_edges then edges_gap direction (at 0) (at 1) (at 2) (at 3)
     else face_gap direction (at 0) (at 1) (at 2) (at 3) in
   put_bool (separated_in_float direction gap) end
 
@@ -268,9 +165,8 @@ let () =
   state := 1;
   line "filter vertex_face_subdivision" 4000 (fun _ -> put_subdivision false);
   line "filter edge_edge_subdivision" 4000 (fun _ -> put_subdivision true);
-  state := 1;
   for i = 0 to 9 do
-    let queries = Array.init 2000 (fun _ -> draw_query ()) in
+    let queries = read_all 2000 read_query in
     line (Printf.sprintf "filter tests.%d" i) 2000 (fun k -> put_filter queries.(k));
     line (Printf.sprintf "rounded_axes separated.%d" i) 2000 (fun k -> put_axes queries.(k))
   done

@@ -1,5 +1,5 @@
 (* Writes the decisions of the proofs' definitions (integers.ml, extracted by TieIntegers.v) on queries in integers,
-   in fixed width and to the end. tests/proofs/tie_integers.cpp does the same with the C++ code, on the same queries.
+   in fixed width and to the end. tests/proofs/tie_integers.cpp does the same with the C++ code.
    Floating-point estimates of close roots are copied from ccd/exact/close_contact.hpp, since the theorems hold for
    any estimates. *)
 module Whole = Z
@@ -105,11 +105,11 @@ let apart first count x =
 (* For all extents, also infinite ones: `count` points, of which `first` belong to the first feature. *)
 let put_wide first count edges x decide =
   let finite = Array.for_all Float.is_finite (Array.sub x 0 (6 * count)) in
-  put_word (Bool.to_int finite);
+  put_bool finite;
   let units = if finite then Array.init 3 (axis count x) else [||] in
   Array.iter (fun (unit, bits) -> put_word (unit land 0xffffffff); put_word bits) units;
   let separated = finite && apart first count x in
-  put_word (Bool.to_int separated);
+  put_bool separated;
   let most = Array.fold_left (fun most (_, bits) -> max most bits) 0 units in
   let none = 0 and inside = 2 and range = 3 in
   let outcome, cause =
@@ -181,7 +181,7 @@ let put_forms f =
     put_if_any (fun (low, high) ->
         put_number low;
         put_number high;
-        if not (Z.equal low high) then put_word (Bool.to_int (normal_vanishes b c low high bits)))
+        if not (Z.equal low high) then put_bool (normal_vanishes b c low high bits))
       (bracket_near y some place bits)
   end
 
@@ -190,7 +190,7 @@ let put_part q =
   put_number q.low;
   put_word q.close_roots.count;
   List.iter (fun n -> put_word (Z.to_int n)) [ q.unit_bits; q.width_bits; q.ask_from; bits q ];
-  put_word (Bool.to_int (can_be_narrowed q))
+  put_bool (can_be_narrowed q)
 
 (* The subintervals of a decision to the end, one after the other, and its result from the last one. *)
 let put_parts f =
@@ -205,12 +205,12 @@ let put_parts f =
            (that_wait three [ from_last ]) Separate)
     end else begin
       put_outcome (inside_from edges b c p q.low q.unit_bits (Some q.width_bits));
-      put_word (Bool.to_int (contact_in_middle edges b c p q));
-      put_word (Bool.to_int (normal_vanishes_at_root b c distinct three q));
+      put_bool (contact_in_middle edges b c p q);
+      put_bool (normal_vanishes_at_root b c distinct three q);
       let before = { q with low = Z.sub q.low (Z.shift_left Z.one (Z.to_int q.width_bits)) } in
-      put_word (Bool.to_int (normal_vanishes_at_root b c distinct three before));
+      put_bool (normal_vanishes_at_root b c distinct three before);
       let narrow = narrowed root_middle root_exponent estimated_pair three q in
-      put_word (Bool.to_int (narrow <> None));
+      put_bool (narrow <> None);
       let half side = sub_part q Z.one (Z.of_int side) Z.zero in
       go_on (path lsr 1)
         (match narrow with
@@ -232,7 +232,7 @@ let put_deep d =
     (by_narrowing edges b c p root_middle root_exponent estimated_pair distinct three steps [ deep ] Separate);
   let size = Z.shift_left Z.one d.limit_bits in
   let y = List.init 4 (fun i -> if i <> d.limit_index then Z.zero else if d.limit_negative then Z.neg size else size) in
-  put_word (Bool.to_int (can_be_narrowed (part y d.limit_unit_bits 0)));
+  put_bool (can_be_narrowed (part y d.limit_unit_bits 0));
   let pair = part d.pair 0 40 in
   if pair.close_roots.count = 2 then
     put_if_any put_part (narrowed root_middle root_exponent estimated_pair three pair)
@@ -242,7 +242,7 @@ let put_roots (forms, other) =
   let forms = List.map quadratic forms in
   let f = List.hd forms in
   if sign_inside reals (coefficients f) = Uncertain then
-    put_word (Bool.to_int (nonpositive_at_a_root f (quadratic other)));
+    put_bool (nonpositive_at_a_root f (quadratic other));
   let put_quadratic q = put_number q.c0; put_number q.c1; put_number q.c2 in
   match common_roots forms with
   | `None -> put_word 0
@@ -261,23 +261,17 @@ let put_bounded ((a, a_bits), (b, b_bits)) =
   put (bounded_difference a b);
   put (bounded_product a b)
 
-let drawn_line name cases draw put =
-  let drawn = Array.init cases (fun _ -> draw ()) in
-  line ("integers " ^ name) cases (fun k -> put drawn.(k))
+let read_line name cases read put = line ("integers " ^ name) cases (fun _ -> put (read ()))
 
 let () =
-  state := 1;
   for i = 0 to 19 do
-    let queries = Array.init 4000 (fun _ ->
-        let mode = draw 16 in
-        let edges = draw 2 = 1 in
-        integers_of edges (query_in_doubles mode (whole_query mode edges))) in
+    let queries = read_all 4000 (fun () -> let edges, x = read_whole_query () in integers_of edges x) in
     line (Printf.sprintf "integers decide.%d" i) 4000 (fun k -> put_decision queries.(k));
     line (Printf.sprintf "integers close.%d" i) 1000 (fun k -> put_close queries.(k))
   done;
-  drawn_line "wide" 4000 wide_query put_wide_query;
-  drawn_line "forms" 4000 forms put_forms;
-  drawn_line "parts" 1000 forms put_parts;
-  drawn_line "deep" 2000 draw_deep put_deep;
-  drawn_line "roots" 4000 draw_quadratics put_roots;
-  drawn_line "bounded" 4000 draw_bounded put_bounded
+  read_line "wide" 4000 read_whole_query put_wide_query;
+  read_line "forms" 4000 read_forms put_forms;
+  read_line "parts" 1000 read_forms put_parts;
+  read_line "deep" 2000 read_deep put_deep;
+  read_line "roots" 4000 read_quadratics put_roots;
+  read_line "bounded" 4000 read_bounded put_bounded

@@ -17,14 +17,8 @@ let put_whole n =
     put_word (Z.to_int (Z.logand !rest (z 0xffffffff)));
     rest := Z.shift_right !rest 32
   done
-let put_int n = put_word (n land 0xffffffff)
-let put_bool b = put_word (if b then 1 else 0)
 let put_all l = put_int (List.length l); List.iter put_whole l
 let put_dyadic (n, e) = put_whole n; put_int (Z.to_int e)
-let put_double x =
-  let bits = Int64.bits_of_float (if x = 0. then 0. else x) in
-  put_word (Int64.to_int (Int64.shift_right_logical bits 32));
-  put_word (Int64.to_int bits land 0xffffffff)
 
 (* Numbers: of `bits` bits, nonnegative; small, one word, longer, and zero. *)
 let rec natural bits = if bits <= 0 then Z.zero else let upper = natural (bits - 30) in

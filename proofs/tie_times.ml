@@ -154,14 +154,10 @@ let first_time d =
       if s.unplaced || s.found = Undecided then Unknown
       else match composed on_border (inside_time s) with None -> Never | Some b -> At b
 
-let put_double x =
-  let bits = Int64.bits_of_float x in
-  put_word (Int64.to_int (Int64.shift_right_logical bits 32));
-  put_word (Int64.to_int bits land 0xffffffff)
 let put_told = function
   | Never -> put_word 0
   | Unknown -> put_word 2
-  | At (low, high) -> put_word 1; put_double (Q.to_float low); put_double (Q.to_float high)
+  | At (low, high) -> put_word 1; put_bits (Q.to_float low); put_bits (Q.to_float high)
 (* True if integers of two words hold all numbers. *)
 let fits d = Array.for_all (fun (_, bits) -> bits <= 125) d.units
 let put_if_fitting d tell = put_told (if fits d then tell d else Unknown)
@@ -250,20 +246,11 @@ let put_search d _ =
     (told
        (between (search (Array.of_list p)) (place d.search_low) (place d.search_high) before (place d.search_estimate)))
 
-let drawn_line name cases draw put =
-  let drawn = Array.init cases (fun _ -> draw ()) in
-  line ("times " ^ name) cases (fun k -> put drawn.(k) k)
+let read_line name cases read put = line ("times " ^ name) cases (fun k -> put (read ()) k)
 
 let () =
-  state := 1;
-  for i = 0 to 9 do
-    let queries = Array.init 1000 (fun _ ->
-        let mode = draw 16 in
-        let edges = draw 2 = 1 in
-        edges, query_in_doubles mode (whole_query mode edges)) in
-    line (Printf.sprintf "times first.%d" i) 1000 (fun k -> put_times queries.(k) k)
-  done;
-  drawn_line "wide" 1000 wide_query put_wide;
-  drawn_line "forms" 4000 forms put_of_forms;
+  for i = 0 to 9 do read_line (Printf.sprintf "first.%d" i) 1000 read_whole_query put_times done;
+  read_line "wide" 1000 read_whole_query put_wide;
+  read_line "forms" 4000 read_forms put_of_forms;
   line "times small" ((2 * 6561) + 2401) put_small;
-  drawn_line "search" 8000 draw_search put_search
+  read_line "search" 8000 read_search put_search

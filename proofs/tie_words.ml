@@ -10,7 +10,6 @@ let ones = Z.pred (Z.shift_left Z.one 64)
 let put_whole w =
   put_word (Z.to_int (Z.shift_right w 32));
   put_word (Z.to_int (Z.logand w (z 0xffffffff)))
-let put_int n = put_word (n land 0xffffffff)
 let put_words x = put_int (List.length x); List.iter put_whole x
 
 (* Without sign extensions (trim_exact). *)

@@ -1,7 +1,7 @@
-// Queries of a vertex and a face or of two edges in doubles, with the random numbers of
-// proofs/tie_floats.ml. Some are of any size, have whole coordinates, meet or almost meet, or have
-// gaps about the filter's margins. Others are in a plane or almost, have differences about the
-// largest allowed ones, or are not finite. Each has a box around it.
+// Queries of a vertex and a face or of two edges in doubles. Some are of any size, have whole
+// coordinates, meet or almost meet, or have gaps about the filter's margins. Others are in a plane
+// or almost, have differences about the largest allowed ones, or are not finite. Each has a box
+// around it.
 #pragma once
 
 #include <algorithm>

@@ -1,5 +1,5 @@
-// The vectors b, c and p of queries in integers of up to 250 bits, and a subinterval of the step,
-// drawn like proofs/tie_queries.ml. Y has a rational root, or one close to a rational, at which
+// The vectors b, c and p of queries in integers of up to 250 bits, and a subinterval of the step.
+// Y has a rational root, or one close to a rational, at which
 // weights, the normal or all vectors vanish or nearly do.
 #pragma once
 

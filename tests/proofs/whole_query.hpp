@@ -1,4 +1,4 @@
-// Queries of a vertex and a face or of two edges in integers, drawn like proofs/tie_queries.ml.
+// Queries of a vertex and a face or of two edges in integers.
 // They are small or large, almost in a plane, or meet or almost meet inside or at a border. Some
 // have equal points, are almost rigid, or move out and back. Some have a Y with close roots, some
 // axes with other units, slightly changed.
