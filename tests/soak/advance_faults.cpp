@@ -51,10 +51,37 @@ double at_least(ccd::separation d) {
     return std::nextafter(d.first + d.second, std::numeric_limits<double>::infinity());
 }
 
+std::vector<checked_pair> pairs_of(const advance_scene& scene) {
+    std::vector<checked_pair> all;
+    const ccd::vertex_rows at_rest(scene.at.first, scene.at.first);
+    const ccd::pair_distances distances = scene.distances();
+    scene.for_each_pair([&](const auto& pair) {
+        const auto query = query_of(at_rest, pair);
+        const ccd::separation d = distances.of(pair);
+        condition unwanted = condition::distance;
+        if (in_contact(query, interval::instant(0)))
+            unwanted = condition::nothing;
+        else if (distances.is_contact() || within(query, d, interval::instant(0)))
+            unwanted = condition::contact;
+        all.push_back({pair, unwanted, d});
+    });
+    return all;
+}
+
+/// True if a pair meets its condition on the way from the start to these positions.
+bool meet(const advance_scene& scene, const std::vector<checked_pair>& pairs,
+          const std::vector<ccd::point<double>>& positions) {
+    const ccd::vertex_rows way(scene.at.first.vertices, positions);
+    return std::ranges::any_of(pairs, [&](const checked_pair& p) { return holds(way, p, {}); });
+}
+
 class checking {
   public:
     checking(const advance_scene& scene, const ccd::advance_result& result)
-        : scene_(scene), result_(result), whole_(scene.at.first, scene.at.second) {
+        : scene_(scene),
+          result_(result),
+          whole_(scene.at.first, scene.at.second),
+          pairs_(pairs_of(scene)) {
         check_pairs_at_start();
         check_first_contact();
         check_positions();
@@ -70,21 +97,17 @@ class checking {
 
     void check_pairs_at_start() {
         ccd::pair_lists touching, near;
-        const ccd::pair_distances distances = scene_.distances();
-        scene_.for_each_pair([&]<class Pair>(const Pair& pair) {
-            constexpr ccd::kind K = ccd::kind_of<Pair>;
-            const auto query = query_of(whole_, pair);
-            const ccd::separation d = distances.of(pair);
-            const bool touches = in_contact(query, interval::instant(0));
-            const bool is_near =
-                !touches && !distances.is_contact() && within(query, d, interval::instant(0));
-            if (touches) touching.of<K>().push_back(brute_force::as_reported(pair));
-            if (is_near) near.of<K>().push_back(brute_force::as_reported(pair));
-            const condition unwanted = touches                             ? condition::nothing
-                                       : is_near || distances.is_contact() ? condition::contact
-                                                                           : condition::distance;
-            pairs_.push_back({pair, unwanted, d});
-        });
+        for (const checked_pair& checked : pairs_)
+            std::visit(
+                [&]<class Pair>(const Pair& pair) {
+                    constexpr ccd::kind K = ccd::kind_of<Pair>;
+                    if (checked.unwanted == condition::nothing)
+                        touching.of<K>().push_back(brute_force::as_reported(pair));
+                    else if (checked.unwanted == condition::contact &&
+                             !scene_.distances().is_contact())
+                        near.of<K>().push_back(brute_force::as_reported(pair));
+                },
+                checked.pair);
         ccd::for_each_kind([&]<ccd::kind K>() {
             std::ranges::sort(touching.of<K>());
             std::ranges::sort(near.of<K>());
@@ -137,9 +160,8 @@ class checking {
     }
 
     void check_way() {
-        const ccd::vertex_rows way(scene_.at.first.vertices, result_.positions);
-        for (const checked_pair& p : pairs_)
-            if (holds(way, p, {})) return fault("a pair meets on the way to the positions");
+        if (meet(scene_, pairs_, result_.positions))
+            fault("a pair meets on the way to the positions");
     }
 
     /// The island of each vertex. Two groups are in one island if a pair of their boxes, swept over
@@ -189,10 +211,41 @@ class checking {
     const advance_scene& scene_;
     const ccd::advance_result& result_;
     const ccd::vertex_rows whole_;
-    std::vector<checked_pair> pairs_;
+    const std::vector<checked_pair> pairs_;
 };
 
 }  // namespace
+
+std::string line_search_faults(const advance_scene& scene, const ccd::advance_result& found,
+                               const ccd::mesh& p) {
+    std::vector<ccd::point<double>> rounded, fused;
+    const auto& before = scene.at.first.vertices;
+    const double alpha = found.fraction;
+    for (std::size_t v = 0; v < before.size(); ++v) {
+        const auto &x = before[v], &d = p.vertices[v];
+        // This file is compiled without contraction of products and sums.
+        rounded.push_back({x.x + alpha * d.x, x.y + alpha * d.y, x.z + alpha * d.z});
+        fused.push_back(
+            {std::fma(alpha, d.x, x.x), std::fma(alpha, d.y, x.y), std::fma(alpha, d.z, x.z)});
+    }
+    std::string faults;
+    if (found.positions != rounded) faults += "positions of free_step are not x + alpha * p; ";
+    const std::vector<checked_pair> pairs = pairs_of(scene);
+    if (meet(scene, pairs, rounded)) faults += "a pair meets on the way to x + alpha * p; ";
+    if (meet(scene, pairs, fused)) faults += "a pair meets on the way to fused x + alpha * p; ";
+    return faults;
+}
+
+std::string each_vertex_faults(const advance_scene& scene, const ccd::advance_result& by_groups,
+                               const ccd::advance_result& found) {
+    std::string faults;
+    if (meet(scene, pairs_of(scene), found.positions))
+        faults += "a pair meets on the way of each vertex; ";
+    for (std::size_t v = 0; v < found.fractions.size(); ++v)
+        if (!(found.fractions[v] >= by_groups.fractions[v] && found.fractions[v] <= 1))
+            faults += "vertex " + std::to_string(v) + " goes less far than its group; ";
+    return faults;
+}
 
 advance_check check(const advance_scene& scene, const ccd::advance_result& result) {
     return checking(scene, result).check_;

@@ -74,4 +74,13 @@ struct advance_check {
 /// The caller checks `is_short`, which gaps of a few last places excuse.
 advance_check check(const advance_scene& scene, const ccd::advance_result& result);
 
+/// Checks by the oracle that the ways from the start to x + alpha * p are free, as rounded twice
+/// and fused. `found` is the result of ccd::free_step along p.
+std::string line_search_faults(const advance_scene& scene, const ccd::advance_result& found,
+                               const ccd::mesh& p);
+/// Checks by the oracle that a result with each_vertex is free, and that no vertex goes less far
+/// than in `by_groups`.
+std::string each_vertex_faults(const advance_scene& scene, const ccd::advance_result& by_groups,
+                               const ccd::advance_result& found);
+
 }  // namespace soak

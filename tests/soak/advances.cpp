@@ -1,10 +1,14 @@
 // The part of the soak that advances small meshes.
 #include <algorithm>
 #include <bit>
+#include <cmath>
 #include <cstdint>
+#include <numeric>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 #include "tests/soak/advance_scenes.hpp"
 #include "tests/soak/parts.hpp"
@@ -14,13 +18,27 @@ namespace {
 
 using query_families::families;
 
-const std::vector<std::string> columns{"scenes", "pairs",       "with a contact", "touching",
-                                       "near",   "all the way", "short",          "differences"};
+const std::vector<std::string> columns{"scenes",   "pairs",       "with a contact",
+                                       "touching", "near",        "all the way",
+                                       "short",    "differences", "line searches"};
 
 bool is_same(const ccd::advance_result& a, const ccd::advance_result& b) {
     return a.positions == b.positions && a.fraction == b.fraction && a.fractions == b.fractions &&
            a.first_contact == b.first_contact && a.touching_at_start == b.touching_at_start &&
            a.near_at_start == b.near_at_start;
+}
+
+/// The difference of both frames, if it is finite.
+std::optional<ccd::mesh> direction_of(const advance_scene& scene) {
+    ccd::mesh p = scene.at.second;
+    bool finite = true;
+    for (std::size_t v = 0; v < p.vertices.size(); ++v) {
+        const auto& x = scene.at.first.vertices[v];
+        auto& d = p.vertices[v];
+        d = {d.x - x.x, d.y - x.y, d.z - x.z};
+        finite &= std::isfinite(d.x) && std::isfinite(d.y) && std::isfinite(d.z);
+    }
+    return finite ? std::optional(p) : std::nullopt;
 }
 
 void compare(const advance_scene& scene, const std::string& row, const std::string& name,
@@ -29,6 +47,25 @@ void compare(const advance_scene& scene, const std::string& row, const std::stri
     const advance_check checked = check(scene, found);
     std::string faults = checked.faults;
     if (!is_same(advance(scene, 2), found)) faults += "another result on two threads; ";
+    ccd::mesh_steps steps = scene.steps();
+    const ccd::vertex_rows way(scene.at.first, scene.at.second);
+    ccd::advance_options options = scene.options(1);
+    std::vector<int> own(scene.groups.empty() ? way.vertices : 0);
+    std::iota(own.begin(), own.end(), 0);
+    if (!own.empty()) options.groups = own;
+    const ccd::advance_result by_groups = own.empty() ? found : ccd::advance(steps, way, options);
+    options.groups = scene.groups;
+    options.each_vertex = true;
+    faults += each_vertex_faults(scene, by_groups, ccd::advance(steps, way, options));
+    const std::optional<ccd::mesh> p = direction_of(scene);
+    if (p) {
+        options = {.distances = options.distances,
+                   .keep = options.keep,
+                   .threads = 1,
+                   .conservative = scene.groups.empty() ? 1 : 0.8};
+        faults +=
+            line_search_faults(scene, ccd::free_step(steps, {scene.at.first, *p}, options), *p);
+    }
     const bool has_contact = found.first_contact.outcome == ccd::outcome::collides;
     const std::uint64_t counts[] = {1,
                                     checked.pairs,
@@ -37,7 +74,8 @@ void compare(const advance_scene& scene, const std::string& row, const std::stri
                                     number_of(found.near_at_start) > 0,
                                     found.fraction == 1,
                                     checked.is_short,
-                                    !faults.empty()};
+                                    !faults.empty(),
+                                    p.has_value()};
     const auto count = [&](const char* table, std::string_view in_row) {
         auto& sums = out.table(table)[in_row];
         for (std::size_t i = 0; i < sums.size(); ++i) sums[i] += counts[i];
@@ -86,7 +124,9 @@ ccd::advance_result library_advance(const advance_scene& scene, int threads) {
 }
 
 part advance_part(advancer advance) {
-    part all{.name = "advances", .unit = "scenes", .version = family_names()};
+    part all{.name = "advances",
+             .unit = "scenes",
+             .version = family_names() + "each vertex; line searches; "};
     for (const auto& f : advance_families) all.version += std::string(f.name) + "; ";
     all.count = [](std::uint64_t blocks) {
         std::uint64_t count = blocks * advance_families.size();

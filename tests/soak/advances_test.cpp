@@ -97,6 +97,35 @@ TEST(advances, a_contact_later_than_the_first) {
                      "first contact: it holds at low or before");
 }
 
+TEST(advances, of_each_vertex_and_line_searches_too_far) {
+    std::size_t vertices = 0, lines = 0, scenes = 0;
+    for (std::uint64_t index = 0; index < 20; ++index)
+        for (const auto& family : soak::advance_families) {
+            const advance_scene scene = soak::scene_of(family, 1, index);
+            ccd::advance_result whole = soak::library_advance(scene, 1);
+            const auto& [before, after] = scene.at;
+            ccd::mesh p = after;
+            for (std::size_t v = 0; v < p.vertices.size(); ++v) {
+                const auto &x = before.vertices[v], &y = after.vertices[v];
+                p.vertices[v] = {y.x - x.x, y.y - x.y, y.z - x.z};
+            }
+            if (whole.first_contact.outcome != ccd::outcome::collides) continue;
+            ++scenes;
+            ccd::advance_result by_groups = whole;
+            whole.positions = after.vertices;
+            whole.fraction = 1;
+            whole.fractions.assign(whole.positions.size(), 1);
+            vertices += soak::each_vertex_faults(scene, by_groups, whole).find("meets") !=
+                        std::string::npos;
+            lines += soak::line_search_faults(scene, whole, p).find("meets") != std::string::npos;
+            whole.fractions.assign(whole.positions.size(), -1);
+            EXPECT_NE(soak::each_vertex_faults(scene, by_groups, whole), "");
+        }
+    EXPECT_GT(scenes, 10u);
+    EXPECT_GT(vertices, scenes / 2);
+    EXPECT_GT(lines, scenes / 2);
+}
+
 TEST(advances, that_stay_where_they_are) {
     const soak::findings found =
         found_of([](const advance_scene& scene, ccd::advance_result& result) {
