@@ -161,13 +161,14 @@ class analysis {
             }
             if (largest * 4 < b.most * f_.options.gap) b.split = widest(box, widths);
         }
-        if (!forward(at_, live_, corner, &over_)) return b;
+        if (!forward(at_, all_, corner, &over_)) return b;
         backward(at_);
         if (has_slopes) b.most = std::min(b.most, (bound_at_corner() + moved) * (1 + 0x1p-50));
-        for (const size_t i : live_) {
-            const node_state& s = at_[i];
-            b.reached += s.error * s.adjoint.least();
-        }
+        const bool in_box = std::ranges::all_of(f_.constraints, [&](const auto& c) {
+            return at_[c.left].path.upper() <= at_[c.right].path.lower();
+        });
+        for (const size_t i : live_)
+            if (in_box) b.reached += at_[i].error * at_[i].adjoint.least();
         if (relative) {
             const double size = at_[f_.result].path.least();
             b.reached = size > 0 ? b.reached / size : infinity;
@@ -373,8 +374,10 @@ class analysis {
                 set_rounded(
                     to, x / y, [&] { return corners(x, y, false, std::divides<>()); },
                     [&] { return corner_size(x, y, std::divides<>()); });
-                if (is_scaling(y))
+                if (is_scaling(y)) {
                     to.error = y.most() <= 1 ? 0 : format_.half_ulp(doubles_underflow);
+                    grid = a.grid - std::ilogb(y.most());
+                }
                 break;
             }
             case operation_kind::root: {
@@ -687,7 +690,9 @@ class branch_and_bound {
         while (!open_.empty()) {
             const double most = open_.front().most;
             if (most <= std::max(reached_ * (1 + f_.options.gap), done_)) break;
-            if (boxes_ >= f_.options.boxes || seconds() > f_.options.seconds ||
+            const bool stalls = boxes_ >= next_check_ && most > (1 - f_.options.gap / 4) * before_;
+            if (boxes_ >= next_check_) next_check_ = boxes_ + 20'000, before_ = most;
+            if (stalls || boxes_ >= f_.options.boxes || seconds() > f_.options.seconds ||
                 (relative_ && reached_ == infinity)) {
                 complete_ = false;
                 break;
@@ -698,7 +703,7 @@ class branch_and_bound {
             const size_t k = b.split;
             const double low = b.inputs.empty() ? 0 : b.inputs[k].lower(),
                          high = b.inputs.empty() ? 0 : b.inputs[k].upper(),
-                         middle = low / 2 + high / 2;
+                         middle = middle_of(low, high);
             if (!(low < middle && middle < high)) {
                 done_ = std::max(done_, b.most);  // cannot be split
                 done_result_ = done_result_ ? hull(*done_result_, b.result) : b.result;
@@ -739,6 +744,12 @@ class branch_and_bound {
     }
 
   private:
+    /// The geometric mean of numbers of one sign that differ much in size.
+    static double middle_of(double low, double high) {
+        if (low > 0 && high > 16 * low) return std::sqrt(low) * std::sqrt(high);
+        if (high < 0 && low < 16 * high) return -std::sqrt(-low) * std::sqrt(-high);
+        return low / 2 + high / 2;
+    }
     void add(box b) {
         ++boxes_;
         const analysis::box_bound found = analysis_.bound_over(b.inputs, widths_, relative_);
@@ -766,7 +777,8 @@ class branch_and_bound {
     box worst_;
     std::optional<range> done_result_;
     double reached_ = 0, done_ = 0;
-    size_t boxes_ = 0;
+    size_t boxes_ = 0, next_check_ = 20'000;
+    double before_ = infinity;  ///< the bound at the last check for progress
     bool complete_ = true;
 };
 
