@@ -135,17 +135,6 @@ class evaluator {
         if (op == "and")
             for (std::size_t i = 1; i < e.items.size(); ++i)
                 require(e.items[i], inputs, box, constraints);
-        if (op == "let" && e.items.size() == 3 && operator_of(e.items[2]) == "and") {
-            for (std::size_t i = 1; i < e.items[2].items.size(); ++i)
-                require({"", {e.items[0], e.items[1], e.items[2].items[i]}, e.line}, inputs, box,
-                        constraints);
-        } else if (op == "let" && e.items.size() == 3 && is_comparison(operator_of(e.items[2]))) {
-            fpcore_expression moved = e.items[2];
-            for (std::size_t i = 1; i < moved.items.size(); ++i)
-                if (moved.items[i].atom.empty())
-                    moved.items[i] = {"", {e.items[0], e.items[1], moved.items[i]}, e.line};
-            require(moved, inputs, box, constraints);
-        }
         if (!is_comparison(op)) return;
         for (std::size_t i = 1; i + 1 < e.items.size(); ++i) {
             const bool ascends = op[0] == '<';
@@ -173,19 +162,8 @@ class evaluator {
             throw unsupported_core("unknown name " + text);
         }
     }
-    /// Encloses an expression of constants.
+    /// Encloses a constant.
     static std::optional<range> constant_range(const fpcore_expression& e) {
-        if (e.items.size() == 3 || (e.items.size() == 2 && operator_of(e) == "-")) {
-            const std::optional<range> x = constant_range(e.items[1]),
-                                       y = constant_range(e.items.back());
-            const std::string& op = operator_of(e);
-            if (!x || !y) return std::nullopt;
-            if (e.items.size() == 2) return -*x;
-            if (op == "+") return *x + *y;
-            if (op == "-") return *x - *y;
-            if (op == "*") return *x * *y;
-            if (op == "/") return *x / *y;
-        }
         if (e.atom.empty()) return std::nullopt;
         try {
             mpfr_number low(53), high(53);

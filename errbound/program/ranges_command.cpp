@@ -207,7 +207,8 @@ void ranges::print(std::ostream& people) const {
             shares.push_back(r["at_most"].get<double>() / r["published"].get<double>());
     }
     people << support::text_of(shown);
-    people << (shown.empty() ? "" : "\n") << done_.size() << " cores bounded";
+    people << (shown.empty() ? "" : "\n") << done_.size()
+           << (done_.size() == 1 ? " core bounded" : " cores bounded");
     if (!ratios.empty())
         people << "; medians: " << support::fixed(median(ratios), "%.2f")
                << " of bound/observed error, " << support::fixed(median(seconds), "%.2f")

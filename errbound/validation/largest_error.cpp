@@ -154,8 +154,8 @@ class search {
 
   public:
     struct candidate {
-        std::vector<double> inputs, offsets;  ///< exact input = input + offset
-        double error = -1;                    ///< estimated
+        std::vector<double> inputs, offsets{};  ///< exact input = input + offset
+        double error = -1;                      ///< estimated
     };
 
     explicit search(const recording& f)
@@ -227,12 +227,14 @@ class search {
         set_offsets(c);
         return c;
     }
+    /// The largest offsets, with random signs or the ones before.
     void set_offsets(candidate& c) {
-        c.offsets.assign(c.inputs.size(), 0);
-        for (std::size_t k = 0; k < c.inputs.size(); ++k) {
+        const bool keeps = !c.offsets.empty() && random_.one_in(2);
+        c.offsets.resize(c.inputs.size(), 0);
+        for (size_t k = 0; k < c.inputs.size(); ++k) {
             const double most = f_.inputs[k].error * (1 - 0x1p-10) +
                                 (f_.options.round_inputs ? half_spacing<T>(c.inputs[k]) : 0);
-            c.offsets[k] = random_.one_in(2) ? most : -most;
+            c.offsets[k] = (keeps ? c.offsets[k] >= 0 : random_.one_in(2)) ? most : -most;
         }
     }
     static double in_format(double x) { return static_cast<double>(static_cast<T>(x)); }
@@ -249,7 +251,7 @@ class search {
             const double step = std::ldexp(1 + uniform(), unit + random_.below(traits::digits));
             x = in_format(random_.one_in(2) ? x + step : x - step);
         }
-        if (random_.one_in(2)) set_offsets(c);
+        set_offsets(c);
         return c;
     }
     T value_of(const candidate& c) {

@@ -99,12 +99,6 @@ struct node_state {
 };
 using states = std::vector<node_state>;
 
-/// A constant's state, which is the same over every box.
-struct constant_state {
-    range computed, exact;
-    double error = 0;
-};
-
 class analysis {
   public:
     explicit analysis(const recording& f)
@@ -120,8 +114,6 @@ class analysis {
         over_.resize(f.nodes.size());
         at_.resize(f.nodes.size());
     }
-    const number_format& format() const { return format_; }
-
     struct box_bound {
         double most = infinity;  ///< of the error, or of the relative error
         double reached = 0;      ///< the bound at one point, not certified
@@ -155,19 +147,22 @@ class analysis {
                 else if (g.upper() <= 0)
                     corner[k] = box[k].lower();
                 if (!corner[k].is_point() || g.lower() >= 0 || g.upper() <= 0) continue;
-                const double part = g.most() * (box[k] - corner[k]).most() * (1 + 0x1p-50);
-                moved += part * (1 + 0x1p-50);
+                const double part = g.most() * (box[k] - corner[k]).most();
+                moved += part + doubles_underflow;
                 if (part > largest) largest = part, b.split = k;
             }
             if (largest * 4 < b.most * f_.options.gap) b.split = widest(box, widths);
         }
-        if (!forward(at_, live_, corner, &over_)) return b;
+        if (!forward(at_, all_, corner, &over_)) return b;
         backward(at_);
-        if (has_slopes) b.most = std::min(b.most, (bound_at_corner() + moved) * (1 + 0x1p-50));
-        for (const size_t i : live_) {
-            const node_state& s = at_[i];
-            b.reached += s.error * s.adjoint.least();
-        }
+        const double roundings = static_cast<double>(box.size() + 4);
+        if (has_slopes)
+            b.most = std::min(b.most, (bound_at_corner() + moved) * (1 + roundings * 0x1p-52));
+        const bool in_box = std::ranges::all_of(f_.constraints, [&](const auto& c) {
+            return at_[c.left].path.upper() <= at_[c.right].path.lower();
+        });
+        for (const size_t i : live_)
+            if (in_box) b.reached += at_[i].error * at_[i].adjoint.least();
         if (relative) {
             const double size = at_[f_.result].path.least();
             b.reached = size > 0 ? b.reached / size : infinity;
@@ -217,46 +212,37 @@ class analysis {
   private:
     const range& path(size_t i) const { return over_[i].path; }
 
-    constant_state constant_of(const std::string& text) const {
-        mpfr_number precise(512), end(53);
+    node_state constant_of(const std::string& text) const {
+        mpfr_number precise(512), low(53), high(53), number(512), distance(53);
         const int off = set_constant(precise.get(), text, MPFR_RNDN);
-        set_constant(end.get(), text, MPFR_RNDD);
-        const double lower = mpfr_get_d(end.get(), MPFR_RNDD);
-        set_constant(end.get(), text, MPFR_RNDU);
-        const double upper = mpfr_get_d(end.get(), MPFR_RNDU);
-        mpfr_number number(512), distance(53);
+        set_constant(low.get(), text, MPFR_RNDD);
+        set_constant(high.get(), text, MPFR_RNDU);
         mpfr_set_ld(number.get(), rounded_to(precise.get(), format_.digits, format_.min_exponent),
                     MPFR_RNDN);
         mpfr_sub(distance.get(), number.get(), precise.get(), MPFR_RNDA);
-        constant_state c;
+        node_state c;
         c.computed = {mpfr_get_d(number.get(), MPFR_RNDD), mpfr_get_d(number.get(), MPFR_RNDU)};
-        c.exact = {lower, upper};
+        c.path =
+            hull(c.computed, {mpfr_get_d(low.get(), MPFR_RNDD), mpfr_get_d(high.get(), MPFR_RNDU)});
         c.error = std::abs(mpfr_get_d(distance.get(), MPFR_RNDA));
         // The precise constant may be off by 2^-512 of its size.
-        if (off != 0) c.error = c.error * (1 + 0x1p-50) + std::ldexp(c.exact.most(), -500);
+        if (off != 0) c.error = c.error * (1 + 0x1p-50) + std::ldexp(c.path.most(), -500);
         if (!(c.computed.most() <= format_.largest)) c.computed = range::unknown();
+        c.grid = format_.grid_of(c.computed);
+        if (c.computed.is_point() && c.computed.lower() != 0) {
+            int e = 0;  // becomes that of the last bit
+            double m = std::frexp(c.computed.lower(), &e);
+            for (; m != 0; --e) m = 2 * m - std::trunc(2 * m);
+            c.grid = std::max(c.grid, e);
+        }
         return c;
     }
 
     static std::string name_of_node(const recording::node& n) {
-        if (n.kind == recording::leaf::input) return "input";
-        if (n.kind == recording::leaf::constant) return "constant";
-        switch (n.operation) {
-            case operation_kind::add:
-                return "+";
-            case operation_kind::subtract:
-                return "-";
-            case operation_kind::multiply:
-                return "*";
-            case operation_kind::divide:
-                return "/";
-            case operation_kind::root:
-                return "sqrt";
-            case operation_kind::fused:
-                return "fma";
-            default:
-                return std::string(name_of(n.operation));
-        }
+        if (n.kind != recording::leaf::none)
+            return n.kind == recording::leaf::input ? "input" : "constant";
+        if (n.operation > operation_kind::divide) return std::string(name_of(n.operation));
+        return {"+-*/"[static_cast<size_t>(n.operation)]};
     }
 
     static size_t widest(const std::vector<range>& box, const std::vector<double>& widths) {
@@ -277,11 +263,11 @@ class analysis {
         for (const size_t i : order) {
             node_state& to = s[i];
             const auto& n = f_.nodes[i];
-            const auto index = n.left;
+            const size_t index = n.left;
             if (n.kind == recording::leaf::input)
                 set_input(to, inputs[index], f_.inputs[index].error);
             else if (n.kind == recording::leaf::constant)
-                set_constant_state(to, constants_[index]);
+                to = constants_[index];
             else
                 set_operation(to, n, s);
             const double e = errors == nullptr ? to.error : (*errors)[i].error;
@@ -307,100 +293,73 @@ class analysis {
         if (!(to.computed.most() <= format_.largest)) to.computed = range::unknown();
         to.grid = format_.grid_of(to.computed);
     }
-    void set_constant_state(node_state& to, const constant_state& c) const {
-        to.computed = c.computed;
-        to.path = hull(c.exact, c.computed);
-        to.error = c.error;
-        to.grid = format_.grid_of(c.computed);
-        if (c.computed.is_point() && c.computed.lower() != 0) {
-            // The last bit that is set.
-            int e = 0;
-            double m = std::frexp(c.computed.lower(), &e);
-            for (; m != 0; --e) m = 2 * m - std::trunc(2 * m);
-            to.grid = std::max(to.grid, e);
-        }
-    }
-
     void set_operation(node_state& to, const recording::node& n, const states& s) {
         const node_state &a = s[n.left], &b = s[n.right], &c = s[n.third];
-        set_path(to, n, a.path, b.path, c.path);
-        range& v = to.computed;
-        int grid = -(1 << 20);
+        const range &x = a.computed, &y = b.computed;
         const bool once = n.left == n.right;
+        int grid = -(1 << 20);
+        set_path(to, n, a.path, b.path, c.path);
         switch (n.operation) {
             case operation_kind::negate:
-                return set_exact(to, -a.computed, a.grid);
+                return set_exact(to, -x, a.grid);
             case operation_kind::absolute:
-                return set_exact(to, abs(a.computed), a.grid);
+                return set_exact(to, abs(x), a.grid);
             case operation_kind::lesser:
-                return set_exact(to, min(a.computed, b.computed), std::min(a.grid, b.grid));
+                return set_exact(to, min(x, y), std::min(a.grid, b.grid));
             case operation_kind::greater:
-                return set_exact(to, max(a.computed, b.computed), std::min(a.grid, b.grid));
+                return set_exact(to, max(x, y), std::min(a.grid, b.grid));
             case operation_kind::add:
             case operation_kind::subtract: {
-                const range& x = a.computed;
-                const range y = n.operation == operation_kind::add ? b.computed : -b.computed;
-                if (once && n.operation == operation_kind::subtract)
-                    return set_exact(to, 0, a.grid);
-                set_rounded(
-                    to, x + y, [&] { return range(x.lower() + y.lower(), x.upper() + y.upper()); },
-                    [&] { return (x + y).most(); });
+                const bool adds = n.operation == operation_kind::add;
+                if (once && !adds) return set_exact(to, 0, a.grid);
+                set_rounded(to, adds ? x + y : x - y, x, adds ? y : -y, false, std::plus<>());
                 // x is a number of the format too, at a distance of |y|.
                 to.error = std::min({to.error, x.most(), y.most()});
-                if (near(x, -y)) to.error = 0;
+                if (near(x, adds ? -y : y)) to.error = 0;
                 grid = std::min(a.grid, b.grid);
                 break;
             }
-            case operation_kind::multiply: {
-                const range &x = a.computed, &y = b.computed;
-                set_rounded(
-                    to, once ? square(x) : x * y,
-                    [&] { return corners(x, y, once, std::multiplies<>()); },
-                    [&] { return corner_size(x, y, std::multiplies<>()); });
-                if (is_scaling(x) || is_scaling(y))
-                    to.error = (is_scaling(x) ? x : y).most() >= 1
-                                   ? 0
-                                   : format_.half_ulp(doubles_underflow);
+            case operation_kind::multiply:
+                set_rounded(to, once ? square(x) : x * y, x, y, once, std::multiplies<>());
                 grid = a.grid + b.grid;
+                if (is_scaling(x) || is_scaling(y))
+                    to.error = (is_scaling(x) ? x : y).most() >= 1 ? 0 : half_underflow();
                 break;
-            }
-            case operation_kind::divide: {
-                const range &x = a.computed, &y = b.computed;
-                if (y.has_zero()) {
-                    v = range::unknown();
-                    return;
+            case operation_kind::divide:
+                set_rounded(to, x / y, x, y, false, std::divides<>());
+                if (is_scaling(y)) {
+                    to.error = y.most() <= 1 ? 0 : half_underflow();
+                    grid = a.grid - std::ilogb(y.most());
                 }
-                set_rounded(
-                    to, x / y, [&] { return corners(x, y, false, std::divides<>()); },
-                    [&] { return corner_size(x, y, std::divides<>()); });
-                if (is_scaling(y))
-                    to.error = y.most() <= 1 ? 0 : format_.half_ulp(doubles_underflow);
                 break;
-            }
-            case operation_kind::root: {
-                const range& x = a.computed;
-                set_rounded(
-                    to, sqrt(x), [&] { return range(std::sqrt(x.lower()), std::sqrt(x.upper())); },
-                    [&] { return sqrt(x).most(); });
+            case operation_kind::root:
+                set_rounded(to, sqrt(x), x, x, true, [](const auto& z, const auto&) {
+                    using std::sqrt;
+                    return sqrt(z);
+                });
                 break;
-            }
             case operation_kind::fused:
-                set_rounded(to, a.computed * b.computed + c.computed);
+                set_rounded(to, x * y + c.computed);
                 grid = std::min(a.grid + b.grid, c.grid);
                 break;
             default: {
                 const elementary_function f = function_of(n.operation);
-                const range r = function_value(f, a.computed, b.computed);
-                to.error = r.is_finite() ? format_.function_error_of(f, r.most()) : infinity;
-                v = std::isfinite(to.error) ? r + range(-to.error, to.error) : range::unknown();
-                // A computed result may exceed the range of the exact one.
+                const range r = function_value(f, x, y);
+                // function_error does not cover large angles.
+                const bool covered =
+                    r.is_finite() && !(errbound::detail::is_function_of_angle(f) &&
+                                       x.most() >= errbound::detail::least_reduced_angle);
+                to.error = covered ? format_.function_error_of(f, r.most()) : infinity;
+                to.computed =
+                    std::isfinite(to.error) ? r + range(-to.error, to.error) : range::unknown();
             }
         }
-        // An error below half a unit of a multiple of 2^grid is a multiple of 2^grid: it is 0.
+        // Errors are multiples of 2^grid, as operands and results are.
         if (to.error < std::ldexp(1.0, grid)) to.error = 0;
-        if (!(v.most() <= format_.largest)) v = range::unknown();
-        to.grid = std::max({format_.grid_of(v), grid, format_.min_exponent - format_.digits});
+        if (!(to.computed.most() <= format_.largest)) to.computed = range::unknown();
+        to.grid = std::max(format_.grid_of(to.computed), grid);
     }
+    double half_underflow() const { return format_.half_ulp(doubles_underflow); }
     static void set_exact(node_state& to, const range& v, int grid) {
         to.computed = v;
         to.error = 0;
@@ -416,15 +375,32 @@ class analysis {
     }
     static bool is_scaling(const range& x) { return x.is_point() && is_power_of_two(x.lower()); }
 
-    /// A result rounded to nearest: `r` encloses the exact ones. For doubles, rounded() gives the
-    /// rounded ends, and exact_size() the largest exact size if that is a power of two.
-    template <class Rounded, class Size>
-    void set_rounded(node_state& to, const range& r, const Rounded& rounded,
-                     const Size& exact_size) {
-        if (!format_.is_double() || !r.is_finite()) return set_rounded(to, r);
-        to.computed = rounded();
-        double most = to.computed.most();
-        if (is_power_of_two(most)) most = exact_size();
+    /// The rounded f of two operands, monotone in each; of one if `once`. `exact` encloses it. For
+    /// doubles, the ends of computed values are rounded ends. A largest one that is a power of two
+    /// may have been rounded down to it.
+    template <class Operation>
+    void set_rounded(node_state& to, const range& exact, const range& x, const range& y, bool once,
+                     const Operation& f) {
+        if (!format_.is_double() || !exact.is_finite()) return set_rounded(to, exact);
+        const range p = once ? range(x.least(), x.most()) : x, q = once ? p : y;
+        double low = infinity, high = -infinity, most = 0;
+        const auto corner = [&](double u, double v) {
+            low = std::min(low, f(u, v));
+            high = std::max(high, f(u, v));
+        };
+        const auto corners = [&](const auto& visit) {
+            visit(p.lower(), q.lower());
+            visit(p.upper(), q.upper());
+            if (once) return;
+            visit(p.lower(), q.upper());
+            visit(p.upper(), q.lower());
+        };
+        corners(corner);
+        to.computed = {low, high};
+        most = to.computed.most();
+        if (is_power_of_two(most))
+            corners(
+                [&](double u, double v) { most = std::max(most, f(range(u), range(v)).most()); });
         to.error = format_.half_ulp(most);
     }
     void set_rounded(node_state& to, const range& r) {
@@ -436,26 +412,6 @@ class analysis {
         else
             to.computed = r + range(-to.error, to.error);
     }
-    template <class Operation>
-    static range corners(const range& x, const range& y, bool once, const Operation& f) {
-        if (once) {
-            const double low = x.least(), high = x.most();
-            return {f(low, low), f(high, high)};
-        }
-        const auto [low, high] = std::minmax({f(x.lower(), y.lower()), f(x.lower(), y.upper()),
-                                              f(x.upper(), y.lower()), f(x.upper(), y.upper())});
-        return {low, high};
-    }
-    /// The largest exact size of the operation on ends.
-    template <class Operation>
-    static double corner_size(const range& x, const range& y, const Operation& f) {
-        double most = 0;
-        for (const double p : {x.lower(), x.upper()})
-            for (const double q : {y.lower(), y.upper()})
-                most = std::max(most, f(range(p), range(q)).most());
-        return most;
-    }
-
     static range function_value(elementary_function f, const range& a, const range& b) {
         return with_function(f, [&]<elementary_function F>() {
             if constexpr (F == elementary_function::pow)
@@ -480,66 +436,49 @@ class analysis {
     void set_path(node_state& to, const recording::node& n, const range& a, const range& b,
                   const range& c) {
         to.curvature_left = to.curvature_both = to.curvature_right = 0;
-        const auto choose = [&](bool left, bool right) {
-            to.slopes = {left    ? range(1)
-                         : right ? range(0)
-                                 : range(0, 1),
-                         right  ? range(1)
-                         : left ? range(0)
-                                : range(0, 1),
-                         range(0)};
+        const auto set = [&](const range& path, const range& left, const range& right = 0,
+                             const range& third = 0) {
+            to.path = path;
+            to.slopes = {left, right, third};
+        };
+        const auto chosen = [&](const range& path, bool left, bool right) {
+            const range none(0), one(1), some(0, 1);
+            set(path, left ? one : right ? none : some, left ? none : right ? one : some);
             smooth_ &= left || right;
         };
+        const bool once = n.left == n.right;
         switch (n.operation) {
             case operation_kind::add:
-                to.path = a + b;
-                to.slopes = {1, 1, 0};
-                return;
+                return set(a + b, 1, 1);
             case operation_kind::subtract:
-                to.path = n.left == n.right ? 0 : a - b;
-                to.slopes = {1, -1, 0};
-                return;
+                return set(once ? 0 : a - b, 1, -1);
             case operation_kind::multiply:
-                to.path = n.left == n.right ? square(a) : a * b;
-                to.slopes = {b, a, 0};
+            case operation_kind::fused: {
+                const bool adds = n.operation == operation_kind::fused;
+                const range product = once ? square(a) : a * b;
                 to.curvature_both = 1;
-                return;
+                return set(adds ? product + c : product, b, a, adds ? 1 : 0);
+            }
             case operation_kind::divide: {
-                const range r = 1 / b;
-                to.path = n.left == n.right && !b.has_zero() ? 1 : a / b;
-                to.slopes = {r, -to.path * r, 0};
+                const range r = 1 / b, q = once && !b.has_zero() ? 1 : a / b;
                 to.curvature_both = -square(r);
-                to.curvature_right = 2 * to.path * square(r);
-                return;
+                to.curvature_right = 2 * q * square(r);
+                return set(q, r, -q * r);
             }
             case operation_kind::negate:
-                to.path = -a;
-                to.slopes = {-1, 0, 0};
-                return;
-            case operation_kind::root:
-                to.path = sqrt(a);
-                to.slopes = {1 / (2 * to.path), 0, 0};
-                to.curvature_left = -to.slopes[0] / (2 * a);
-                return;
+                return set(-a, -1);
+            case operation_kind::root: {
+                const range root = sqrt(a), slope = 1 / (2 * root);
+                to.curvature_left = -slope / (2 * a);
+                return set(root, slope);
+            }
             case operation_kind::absolute:
-                to.path = abs(a);
-                to.slopes = {a.lower() >= 0   ? range(1)
-                             : a.upper() <= 0 ? range(-1)
-                                              : range(-1, 1),
-                             0, 0};
-                smooth_ &= to.slopes[0].is_point();
-                return;
+                smooth_ &= a.lower() >= 0 || a.upper() <= 0;
+                return set(abs(a), {a.lower() >= 0 ? 1.0 : -1.0, a.upper() <= 0 ? -1.0 : 1.0});
             case operation_kind::lesser:
-                to.path = min(a, b);
-                return choose(a.upper() <= b.lower(), b.upper() <= a.lower());
+                return chosen(min(a, b), a.upper() <= b.lower(), b.upper() <= a.lower());
             case operation_kind::greater:
-                to.path = max(a, b);
-                return choose(a.lower() >= b.upper(), b.lower() >= a.upper());
-            case operation_kind::fused:
-                to.path = (n.left == n.right ? square(a) : a * b) + c;
-                to.slopes = {b, a, 1};
-                to.curvature_both = 1;
-                return;
+                return chosen(max(a, b), a.lower() >= b.upper(), b.lower() >= a.upper());
             default:
                 set_function_path(to, function_of(n.operation), a, b);
         }
@@ -655,7 +594,7 @@ class analysis {
 
     const recording& f_;
     number_format format_;
-    std::vector<constant_state> constants_;
+    std::vector<node_state> constants_;
     std::vector<size_t> live_, all_;
     states over_, at_;
     bool smooth_ = true;
@@ -687,7 +626,9 @@ class branch_and_bound {
         while (!open_.empty()) {
             const double most = open_.front().most;
             if (most <= std::max(reached_ * (1 + f_.options.gap), done_)) break;
-            if (boxes_ >= f_.options.boxes || seconds() > f_.options.seconds ||
+            const bool stalls = boxes_ >= next_check_ && most > (1 - f_.options.gap / 4) * before_;
+            if (boxes_ >= next_check_) next_check_ = boxes_ + 20'000, before_ = most;
+            if (stalls || boxes_ >= f_.options.boxes || seconds() > f_.options.seconds ||
                 (relative_ && reached_ == infinity)) {
                 complete_ = false;
                 break;
@@ -698,7 +639,7 @@ class branch_and_bound {
             const size_t k = b.split;
             const double low = b.inputs.empty() ? 0 : b.inputs[k].lower(),
                          high = b.inputs.empty() ? 0 : b.inputs[k].upper(),
-                         middle = low / 2 + high / 2;
+                         middle = middle_of(low, high);
             if (!(low < middle && middle < high)) {
                 done_ = std::max(done_, b.most);  // cannot be split
                 done_result_ = done_result_ ? hull(*done_result_, b.result) : b.result;
@@ -739,6 +680,12 @@ class branch_and_bound {
     }
 
   private:
+    /// The geometric mean of numbers of one sign that differ much in size.
+    static double middle_of(double low, double high) {
+        if (low > 0 && high > 16 * low) return std::sqrt(low) * std::sqrt(high);
+        if (high < 0 && low < 16 * high) return -std::sqrt(-low) * std::sqrt(-high);
+        return low / 2 + high / 2;
+    }
     void add(box b) {
         ++boxes_;
         const analysis::box_bound found = analysis_.bound_over(b.inputs, widths_, relative_);
@@ -766,7 +713,8 @@ class branch_and_bound {
     box worst_;
     std::optional<range> done_result_;
     double reached_ = 0, done_ = 0;
-    size_t boxes_ = 0;
+    size_t boxes_ = 0, next_check_ = 20'000;
+    double before_ = infinity;  ///< the bound at the last check for progress
     bool complete_ = true;
 };
 

@@ -202,7 +202,8 @@ void check_random_programs(std::uint64_t seed, int count, bool with_functions, t
             box.push_back({numbers.back().front(), numbers.back().back()});
         }
         worst_case_options options;
-        options.samples = 0;
+        options.samples = random.one_in(8) ? 400 : 0;
+        options.seed = random.bits();
         constexpr std::size_t limits[] = {1, 2, 7, 50, 400};
         options.boxes = limits[random.below(5)];
         options.round_inputs = random.one_in(4);
@@ -215,6 +216,7 @@ void check_random_programs(std::uint64_t seed, int count, bool with_functions, t
         r.result = run<recorded>(p, inputs).index();
         const worst_case_result bound = validation::worst_case_of(r);
         ++t.programs;
+        ASSERT_LE(bound.at_least, bound.at_most) << "seed " << seed << " program " << i;
         if (!std::isfinite(bound.at_most)) continue;
         ++t.bounded;
         double largest = 0;
@@ -282,6 +284,79 @@ TYPED_TEST(WorstCase, BoundsHoldForEveryInputOfRandomPrograms) {
                 t.programs, t.bounded, static_cast<unsigned long long>(t.inputs),
                 std::exp2(t.log_ratio / std::max(t.ratios, 1)));
     EXPECT_GT(t.bounded, t.programs / 3);
+}
+
+constexpr auto quotient = [](const auto& x, const auto& y) { return x / (x + y); };
+
+TEST(WorstCaseOfFunction, IsTightForAQuotient) {
+    const worst_case_result e = worst_case<float>(quotient, {{1, 4}, {1, 4}});
+    EXPECT_TRUE(e.complete);
+    EXPECT_LE(e.at_least, e.at_most);
+    EXPECT_LT(e.at_most, 1.05 * e.at_least);
+    EXPECT_LE(e.lower, 0.2);
+    EXPECT_GE(e.upper, 0.8);
+    ASSERT_EQ(e.where.size(), 2u);
+    ASSERT_EQ(e.by_operation.contributions.size(), 2u);
+    double sum = 0;
+    for (const contribution& c : e.by_operation.contributions) sum += c.amount;
+    EXPECT_NEAR(sum, e.at_most, 1e-12 * e.at_most);
+}
+
+// x1·x2 to 225, the second product to 450, three sums to 705: halves of units in the last place.
+TEST(WorstCaseOfFunction, AddsHalfUnitsOfARigidBody) {
+    const auto rigid_body = [](const auto& x, const auto& y, const auto& z) {
+        return -(x * y) - 2 * y * z - x - z;
+    };
+    const input_range box[] = {{-15, 15}, {-15, 15}, {-15, 15}};
+    EXPECT_NEAR(worst_case<double>(rigid_body, box).at_most, 3.75 * 0x1p-44, 1e-3 * 0x1p-44);
+    // Rounding of inputs, half a unit of 15 each, reaches the result by 16, 45 and 31.
+    EXPECT_NEAR(worst_case<double>(rigid_body, box, {.round_inputs = true}).at_most,
+                3.75 * 0x1p-44 + 92 * 0x1p-50, 1e-3 * 0x1p-44);
+}
+
+TEST(WorstCaseOfFunction, IsZeroForExactOperations) {
+    const auto exact = [](const auto& x) { return abs(4 * x - (x - 1)) / 2; };
+    EXPECT_EQ(worst_case<double>(exact, {{1, 1}}).at_most, 0);
+    const auto sterbenz = [](const auto& x, const auto& y) { return x - y; };
+    EXPECT_EQ(worst_case<float16>(sterbenz, {{3, 5}, {2.5, 6}}).at_most, 0);
+}
+
+TEST(WorstCaseOfFunction, CountsErrorsOfInputsAndConstants) {
+    const auto identity = [](const auto& x) { return x; };
+    EXPECT_NEAR(worst_case<double>(identity, {{1, 2, 0.25}}).at_most, 0.25, 1e-12);
+    const auto tenth = [](const auto&) { return recorded::constant("0.1"); };
+    const worst_case_result e = worst_case<float>(tenth, {{0, 1}});
+    EXPECT_NEAR(e.at_most, 0.1f - 0.1, 1e-16);
+    EXPECT_NEAR(e.at_least, 0.1f - 0.1, 1e-16);
+}
+
+TEST(WorstCaseOfFunction, IsInfiniteOutsideOfDomains) {
+    const auto root = [](const auto& x) { return sqrt(x); };
+    EXPECT_EQ(worst_case<double>(root, {{-1, 1}}, {.boxes = 100}).at_most, HUGE_VAL);
+    const auto square = [](const auto& x) { return x * x; };
+    EXPECT_EQ(worst_case<float16>(square, {{0, 300}}, {.boxes = 100}).at_most, HUGE_VAL);
+    const auto angle = [](const auto& y, const auto& x) { return atan2(y, x); };
+    EXPECT_EQ(worst_case<double>(angle, {{-1, 1}, {-2, -1}}, {.boxes = 100}).at_most, HUGE_VAL);
+}
+
+TEST(WorstCaseOfFunction, HoldsAtEveryLimit) {
+    const auto f = [](const auto& x, const auto& y) { return (x * x - y) / (x + y * y); };
+    double before = HUGE_VAL;
+    for (const std::size_t boxes : {1, 10, 100, 1000}) {
+        const worst_case_result e = worst_case<double>(f, {{1, 9}, {1, 5}}, {.boxes = boxes});
+        EXPECT_LE(e.at_least, e.at_most);
+        EXPECT_LE(e.at_most, before);
+        before = e.at_most;
+    }
+}
+
+TEST(WorstCaseOfFunction, DecidesComparisonsByTheBox) {
+    const auto f = [](const auto& x) { return x < 2 ? x + 1 : x * x; };
+    EXPECT_LT(worst_case<double>(f, {{0, 1}}).at_most, 0x1p-52);
+    EXPECT_GT(worst_case<double>(f, {{4, 5}}).at_most, 0x1p-50);
+    EXPECT_THROW(worst_case<double>(f, {{1, 3}}), undecided_comparison);
+    EXPECT_THROW(worst_case<double>(f, {{3, 1}}), std::invalid_argument);
+    EXPECT_THROW(recorded(1), std::logic_error);
 }
 
 }  // namespace

@@ -1,0 +1,117 @@
+# Tests of `errbound ranges` as a user runs it: bounds, reasons, files it writes, messages.
+# The path to the program is in the environment variable ERRBOUND_PROGRAM.
+import csv
+import json
+import os
+import pathlib
+import subprocess
+import tempfile
+import unittest
+
+PROGRAM = os.environ["ERRBOUND_PROGRAM"]
+
+CORES = """
+; A comment (with a bracket
+(FPCore (x y) :name "quotient" :precision binary32 :pre (and (<= 1 x 4) (<= 1 y 4)) (/ x (+ x y)))
+(FPCore (x1 x2 x3) :name "rigid body"
+  :pre (and (<= -15 x1 15) (<= -15 x2 15) (>= 15 x3 -15))
+  (- (- (- (- (* x1 x2)) (* (* 2 x2) x3)) x1) x3))
+(FPCore (t) :name "constants" :pre (<= 0 t 1/3) (let* ([a 0.1] [b (+ a t)]) (* PI b)))
+(FPCore (x y) :name "constraint" :pre (and (<= 0 x 8) (<= 0 y 8) (<= x 1) (<= (+ x y) 2)) (+ x y))
+(FPCore (x) :name "decided" :pre (<= 3 x 4) (if (< x 2) (exp x) (- x 3)))
+(FPCore (x) :name "undecided" :pre (<= 1 x 4) (if (< x 2) x 1))
+(FPCore (x) :name "loop" :pre (<= 1 x 4) (while (< x 9) ([x x (* x x)]) x))
+(FPCore (x) :name "unbounded" :pre (>= x 1) (sqrt x))
+(FPCore (x) :name "domain" :pre (<= -1 x 1) (log x))
+(FPCore (x) :name "operation" :pre (<= 1 x 2) (gamma x))
+(FPCore (x) :name "mixed" :pre (<= 1 x 2) (* x (! :precision binary32 (* x x))))
+(FPCore (x) :name "format" :precision posit16 :pre (<= 1 x 2) (* x x))
+"""
+
+
+class Ranges(unittest.TestCase):
+    def setUp(self):
+        directory = tempfile.TemporaryDirectory()
+        self.addCleanup(directory.cleanup)
+        self.directory = pathlib.Path(directory.name)
+        self.cores = self.directory / "cores.fpcore"
+        self.cores.write_text(CORES)
+
+    def run_program(self, *arguments):
+        return subprocess.run([PROGRAM, "ranges", "--samples", "4000", "--boxes", "3000",
+                               *map(str, arguments)], capture_output=True, text=True, timeout=300)
+
+    def good(self, *arguments):
+        done = self.run_program(*arguments)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertEqual(done.stderr, "")
+        return done.stdout
+
+    def test_bounds_as_table_json_csv_and_picture(self):
+        out, table, picture = (self.directory / name for name in ["o.json", "o.csv", "o.svg"])
+        text = self.good(self.cores, "--json", out, "--csv", table, "--picture", picture, "--relative")
+        found = json.loads(out.read_text())
+        done = {entry["core"]: entry for entry in found["done"]}
+        self.assertEqual(list(done), ["quotient", "rigid body", "constants", "constraint", "decided"])
+        for entry in done.values():
+            self.assertLessEqual(entry["at_least"], entry["at_most"])
+            self.assertLessEqual(entry["at_most"], 2.01 * entry["at_least"])
+            self.assertLessEqual(entry["lower"], entry["upper"])
+            self.assertIn(entry["core"], text)
+        self.assertAlmostEqual(done["rigid body"]["at_most"], 3.75 * 2**-44, delta=2**-60)
+        self.assertEqual(done["decided"]["at_most"], 0)
+        self.assertLess(done["constraint"]["at_most"], 1.01 * 2**-52)
+        x, y = map(float.fromhex, done["quotient"]["where"])
+        self.assertTrue(1 <= x <= 4 and 1 <= y <= 4)
+        self.assertGreater(done["quotient"]["relative"], done["quotient"]["at_most"])
+        self.assertEqual({o["line"] for o in done["quotient"]["operations"]}, {3})
+        self.assertAlmostEqual(sum(o["amount"] for o in done["constants"]["operations"]),
+                               done["constants"]["at_most"])
+        self.assertIn("constant", {o["operation"] for o in done["constants"]["operations"]})
+        reasons = {entry["core"]: entry["reason"] for entry in found["not_done"]}
+        self.assertEqual(reasons, {
+            "undecided": "a branch depends on the input", "loop": "loop",
+            "unbounded": "no finite range of x", "operation": "operation gamma",
+            "domain": "no finite bound: an operation may overflow or leave its domain",
+            "mixed": "mixed precision", "format": "precision posit16"})
+        with open(table, newline="") as file:
+            rows = list(csv.DictReader(file))
+        self.assertEqual([float(row["at_most"]) for row in rows],
+                         [entry["at_most"] for entry in done.values()])
+        self.assertTrue(picture.read_text().startswith("<svg"))
+
+    def test_options(self):
+        published = self.directory / "published.csv"
+        published.write_text("# source\nquotient,1e-7\nrigid body,1e-14\n")
+        text = self.good(self.cores, "--published", published)
+        self.assertIn("1 of 2 bounds are at most the published ones", text)
+        half = self.good(self.cores, "--only", "quotient", "--precision", "binary16")
+        self.assertIn("binary16", half)
+        self.assertIn("1 core bounded", half)
+        exact, rounded = (self.directory / name for name in ["exact.json", "rounded.json"])
+        self.good(self.cores, "--only", "rigid body", "--json", exact)
+        self.good(self.cores, "--only", "rigid body", "--json", rounded, "--round-inputs")
+        bounds = [json.loads(p.read_text())["done"][0]["at_most"] for p in [exact, rounded]]
+        self.assertAlmostEqual(bounds[1] - bounds[0], 92 * 2**-50, delta=2**-60)
+
+    def test_bad_input(self):
+        for text, message in [("(FPCore (x) (+ x 1)", "1: the file ends; expected a closing parenthesis"),
+                              ("\n(FPCore (x) (+ x 1]", "2: a bracket is unmatched"),
+                              ("(define x)", "1: a list is no core; expected (FPCore"),
+                              ('(FPCore (x) :name "a', "1: a text does not end")]:
+            self.cores.write_text(text)
+            done = self.run_program(self.cores)
+            self.assertEqual(done.returncode, 1)
+            self.assertIn(f"{self.cores}:{message}", done.stderr)
+        self.cores.write_text(CORES)
+        self.assertEqual(self.run_program(self.cores, "--only", "none").returncode, 2)
+        self.assertEqual(self.run_program(self.cores, "--csv", self.cores).returncode, 2)
+        bad = self.directory / "bad.csv"
+        bad.write_text("quotient;1\n")
+        done = self.run_program(self.cores, "--published", bad)
+        self.assertEqual(done.returncode, 1)
+        self.assertIn("bad.csv:1: line is 'quotient;1'; expected CORE,BOUND", done.stderr)
+
+
+if __name__ == "__main__":
+    unittest.main()
