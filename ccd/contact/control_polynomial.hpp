@@ -45,8 +45,8 @@ class control_polynomial {
         return control_polynomial(std::move(product));
     }
 
-  private:
-    /// Elevates the degree by multiplication with powers of s + t.
+    std::size_t size() const { return h_.size(); }
+    /// The coefficients after multiplication with a power of s + t. Precondition: size >= size().
     std::vector<S> elevated_to(std::size_t size) const {
         if (h_.empty()) return std::vector<S>(size, S(0));
         std::vector<S> h = h_;
@@ -56,6 +56,8 @@ class control_polynomial {
         }
         return h;
     }
+
+  private:
     template <class Combine>
     static control_polynomial combined(const control_polynomial& p, const control_polynomial& q,
                                        const Combine& combine) {

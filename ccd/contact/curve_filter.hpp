@@ -1,30 +1,37 @@
-// Floating-point filters for motion along curves. Internal.
-//
-// Preconditions: points are finite, in the order of points_of and have control points; d is a
-// distance.
+// Floating-point filters for motion along curves, of bodies and the like. Internal.
 #pragma once
 
-#include <ccd/curves.hpp>
+#include <array>
 #include <ccd/kind.hpp>
-#include <ccd/query.hpp>
-#include <errbound/tracked.hpp>
+#include <ccd/verdict.hpp>
+#include <cstddef>
 #include <span>
 #include <vector>
 
+#include "ccd/contact/feature_conditions.hpp"
+#include "ccd/contact/moving_points.hpp"
+
 namespace ccd::detail {
 
-/// True if the boxes of control points are disjoint, or signs of tracked Bernstein coefficients
-/// exclude each condition of ccd/contact/feature_conditions.hpp.
-template <kind K>
-bool certainly_separate(std::span<const curve> points);
+using tracked_polynomial = tracked_ring::element;
 
-/// Returns which conditions of distance <= d, d > 0, may hold in [0, 1], in the order of
+/// A box around a point relative to the ring's origin. Rational points are convex combinations of
+/// the quotients of coefficients, if the weight's are positive; else the box is unbounded.
+motion_box box_of(const homogeneous_point<tracked_ring>& p);
+
+/// True if on some axis all boxes of one feature, the first `first` boxes, are certainly beyond
+/// those of the other, by more than `distance`.
+bool boxes_are_separate(std::span<const motion_box> boxes, std::size_t first, double distance);
+
+/// True if signs of tracked Bernstein coefficients exclude each condition of
+/// ccd/contact/feature_conditions.hpp.
+template <kind K>
+bool certainly_separate(const paths<K, tracked_polynomial>& q);
+
+/// Returns which conditions of distance² <= D, D > 0, may hold in [0, 1], in the order of
 /// visit_distance_conditions.
 template <kind K>
-std::vector<bool> possible_conditions(std::span<const curve> points, separation d);
-
-/// Decides if a VF or EE query touches at a time t at which Y = 0, given by an enclosure.
-template <kind K>
-outcome touches_at_root(std::span<const curve> points, const errbound::tracked<double>& t);
+std::vector<bool> possible_conditions(const paths<K, tracked_polynomial>& q,
+                                      const tracked_polynomial& squared);
 
 }  // namespace ccd::detail

@@ -5,6 +5,8 @@
 // The least distance of two features is attained inside both, on an edge or at a vertex; if N = 0,
 // or an edge has no length, in a lower dimension. So the union is complete. Each condition implies
 // that some two points of the features are within that distance, so the union is not too large.
+//
+// Points may have positive weights. Each polynomial below is then multiplied by powers of them.
 #pragma once
 
 #include <array>
@@ -12,41 +14,50 @@
 #include <ccd/kind.hpp>
 #include <ccd/methods/forms.hpp>
 #include <cstddef>
-#include <span>
+#include <type_traits>
 #include <vector>
 
 #include "ccd/contact/condition.hpp"
 
 namespace ccd::detail {
 
+/// A point's path times a weight that is positive in [0, 1]. Points of one feature have one weight;
+/// none means 1. The weight is not owned.
+template <class R>
+struct weighted_path {
+    path<R> h;
+    const R* weight = nullptr;
+};
+
 template <kind K, class R>
 struct paths;
 template <class R>
 struct paths<kind::vertex_face, R> {
-    path<R> v, f0, f1, f2;
+    weighted_path<R> v, f0, f1, f2;
 };
 template <class R>
 struct paths<kind::edge_edge, R> {
-    path<R> a0, a1, b0, b1;
+    weighted_path<R> a0, a1, b0, b1;
 };
 template <class R>
 struct paths<kind::vertex_edge, R> {
-    path<R> v, e0, e1;
+    weighted_path<R> v, e0, e1;
 };
 template <class R>
 struct paths<kind::vertex_vertex, R> {
-    path<R> v, w;
+    weighted_path<R> v, w;
 };
 
+/// Calls path_of(i) for the index of each point.
 template <kind K, class R, class PathOf>
-paths<K, R> paths_of(std::span<const curve> points, const PathOf& path_of) {
+paths<K, R> paths_of(const PathOf& path_of) {
     constexpr std::size_t count = kind_traits<K>::first_vertices + kind_traits<K>::second_vertices;
     if constexpr (count == 4)
-        return {path_of(points[0]), path_of(points[1]), path_of(points[2]), path_of(points[3])};
+        return {path_of(0), path_of(1), path_of(2), path_of(3)};
     else if constexpr (count == 3)
-        return {path_of(points[0]), path_of(points[1]), path_of(points[2])};
+        return {path_of(0), path_of(1), path_of(2)};
     else
-        return {path_of(points[0]), path_of(points[1])};
+        return {path_of(0), path_of(1)};
 }
 
 template <class R>
@@ -58,9 +69,23 @@ using vertex_edge_paths = paths<kind::vertex_edge, R>;
 template <class R>
 using vertex_vertex_paths = paths<kind::vertex_vertex, R>;
 
+template <class T, class R>
+T times_weight(const T& p, const R* weight) {
+    if (!weight) return p;
+    if constexpr (std::is_same_v<T, path<R>>)
+        return {{{p.x[0] * *weight}}, {{p.y[0] * *weight}}, {{p.z[0] * *weight}}};
+    else
+        return {{p[0] * *weight}};
+}
+
+/// Returns p − q times the weight of their feature, or times the weights of their two features.
 template <class R>
-path<R> operator-(const path<R>& p, const path<R>& q) {
-    return {p.x - q.x, p.y - q.y, p.z - q.z};
+path<R> operator-(const weighted_path<R>& p, const weighted_path<R>& q) {
+    const auto difference = [](const path<R>& a, const path<R>& b) -> path<R> {
+        return {a.x - b.x, a.y - b.y, a.z - b.z};
+    };
+    if (p.weight == q.weight) return difference(p.h, q.h);
+    return difference(times_weight(p.h, q.weight), times_weight(q.h, p.weight));
 }
 
 template <class R>
@@ -79,12 +104,30 @@ std::vector<R> list(const std::array<errbound::bernstein<R, 0>, N>& all) {
 }
 
 template <class R>
-auto forms_of(const vertex_face_paths<R>& q) {
-    return vertex_face_forms<R, 0>(q.f1 - q.f0, q.f2 - q.f0, q.v - q.f0);
+struct weighted_vertex_face_forms : vertex_face_forms<R, 0> {
+    const R* vertex_weight;
+
+    auto inside() const {
+        return vertex_face_forms<R, 0>::inside(times_weight(this->normal_squared(), vertex_weight));
+    }
+};
+template <class R>
+struct weighted_edge_edge_forms : edge_edge_forms<R, 0> {
+    const R *a_weight, *b_weight;
+
+    auto inside() const {
+        const auto n2 = this->normal_squared();
+        return edge_edge_forms<R, 0>::inside(times_weight(n2, b_weight),
+                                             times_weight(n2, a_weight));
+    }
+};
+template <class R>
+weighted_vertex_face_forms<R> forms_of(const vertex_face_paths<R>& q) {
+    return {{q.f1 - q.f0, q.f2 - q.f0, q.v - q.f0}, q.v.weight};
 }
 template <class R>
-auto forms_of(const edge_edge_paths<R>& q) {
-    return edge_edge_forms<R, 0>(q.a1 - q.a0, q.b1 - q.b0, q.b0 - q.a0);
+weighted_edge_edge_forms<R> forms_of(const edge_edge_paths<R>& q) {
+    return {{q.a1 - q.a0, q.b1 - q.b0, q.b0 - q.a0}, q.a0.weight, q.b0.weight};
 }
 
 template <class R>
@@ -164,9 +207,10 @@ condition<R> distance_condition_inside(const Forms& forms, const R& squared) {
 }
 
 /// Calls visit(make) for every condition of distance² <= D; make() returns the condition. All axes
-/// have one unit. Proof: proofs/Distance.v, vertex_edge_within, face_within_union,
-/// edges_within_union; of first times, proofs/FirstConditions.v, vertex_edge_near_candidate,
-/// face_near_candidate, edges_near_candidate.
+/// have one unit. `squared` is D times the squares of both features' weights, as all differences
+/// between the features have both weights as factors. Proof: proofs/Distance.v, vertex_edge_within,
+/// face_within_union, edges_within_union; of first times, proofs/FirstConditions.v,
+/// vertex_edge_near_candidate, face_near_candidate, edges_near_candidate.
 template <kind K, class R, class Visit>
 void visit_distance_conditions(const paths<K, R>& q, const R& squared, const Visit& visit) {
     if constexpr (K != kind::vertex_vertex)

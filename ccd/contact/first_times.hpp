@@ -1,5 +1,6 @@
-// First times along polynomials in t of any degree, in unbounded integers. Allocates. The degrees
-// and the spread of the coordinates' exponents bound time and memory. Internal.
+// First times along polynomials in t of any degree and their quotients, in unbounded integers.
+// Allocates. The degrees and the spread of the coordinates' exponents bound time and memory.
+// Internal.
 #pragma once
 
 #include <array>
@@ -21,9 +22,9 @@ bool is_distance(separation d);
 enum class arithmetic { integers, floating_point_first };
 
 /// Same as time_within, or as time_of_impact if d = 0 (ccd/contact.hpp). `points` are in the order
-/// of points_of.
-template <kind K>
-first_time first_within_of(std::span<const curve> points, separation d, double t_max,
+/// of points_of. Motion: curve, rational_curve or body_point.
+template <kind K, class Motion>
+first_time first_within_of(std::span<const Motion> points, separation d, double t_max,
                            arithmetic by);
 
 template <class Query>
@@ -48,7 +49,7 @@ struct query_curves {
 template <class Query>
 first_time first_within_of(const Query& query, separation d, double t_max, arithmetic by) {
     const query_curves<Query> points(query);
-    return first_within_of<points.query_kind>(points.all, d, t_max, by);
+    return first_within_of<points.query_kind, curve>(points.all, d, t_max, by);
 }
 
 }  // namespace ccd::detail

@@ -2,14 +2,10 @@
 #pragma once
 
 #include <algorithm>
-#include <ccd/curves.hpp>
-#include <ccd/query.hpp>
+#include <array>
 #include <cstddef>
-#include <errbound/integers/binary_double.hpp>
 #include <errbound/integers/dyadic.hpp>
 #include <errbound/roots/integer_polynomial.hpp>
-#include <limits>
-#include <span>
 #include <utility>
 
 #include "ccd/exact/unbounded_integers.hpp"
@@ -24,6 +20,20 @@ class time_polynomial {
     time_polynomial() = default;
     explicit time_polynomial(form ascending) : c_(std::move(ascending)) {
         errbound::roots::trim(c_);
+    }
+
+    /// Σ C(m, i)(1 − t)^(m−i) t^i values_i. The coefficient of t^j is C(m, j) times the j-th
+    /// forward difference of the m + 1 control values.
+    static time_polynomial from_control_values(form values) {
+        const std::size_t degree = values.size() - 1;
+        form coefficients;
+        integer binomial = 1;
+        for (std::size_t j = 0; j <= degree; ++j) {
+            coefficients.push_back(binomial * values[0]);
+            for (std::size_t i = 0; i + j < degree; ++i) values[i] = values[i + 1] - values[i];
+            binomial = binomial * integer(degree - j) / integer(j + 1);
+        }
+        return time_polynomial(std::move(coefficients));
     }
 
     bool is_zero() const { return c_.empty(); }
@@ -62,43 +72,7 @@ class time_polynomial {
     form c_;
 };
 
-/// The coordinates of an axis are integers in units of 2^exponent.
-struct axis_exponents {
-    int x, y, z;
-};
-
-/// The greatest such exponent; any if all coordinates are zero.
-inline int whole_exponent(std::span<const curve> points, double point<double>::*axis) {
-    int last = std::numeric_limits<int>::max();
-    for (const curve& p : points)
-        for (const point<double>& position : p)
-            last = std::min(last, errbound::integers::binary_double(position.*axis).last_bit());
-    return last;
-}
-inline axis_exponents whole_exponents(std::span<const curve> points) {
-    return {whole_exponent(points, &point<double>::x), whole_exponent(points, &point<double>::y),
-            whole_exponent(points, &point<double>::z)};
-}
-
-/// Returns x/2^exponent. Precondition: it is an integer.
-inline integer whole(double x, int exponent) {
-    return errbound::dyadic<integer>::from(x).in_units(exponent);
-}
-
-/// The coefficient of t^j is C(m, j) times the j-th forward difference of the m + 1 control values.
-inline time_polynomial coordinate_in_time(const curve& points, double point<double>::*axis,
-                                          int exponent) {
-    time_polynomial::form values;
-    for (const point<double>& p : points) values.push_back(whole(p.*axis, exponent));
-    const std::size_t degree = points.size() - 1;
-    time_polynomial::form coefficients;
-    integer binomial = 1;
-    for (std::size_t j = 0; j <= degree; ++j) {
-        coefficients.push_back(binomial * values[0]);
-        for (std::size_t i = 0; i + j < degree; ++i) values[i] = values[i + 1] - values[i];
-        binomial = binomial * integer(degree - j) / integer(j + 1);
-    }
-    return time_polynomial(std::move(coefficients));
-}
+/// The coordinates of an axis are integers in units of 2^units[axis].
+using axis_units = std::array<int, 3>;
 
 }  // namespace ccd::detail

@@ -3,6 +3,8 @@
 
 #include <ccd/advance.hpp>
 #include <ccd/batch.hpp>
+#include <ccd/bodies/motion.hpp>
+#include <ccd/bodies/steps.hpp>
 #include <ccd/certify.hpp>
 #include <ccd/contact.hpp>
 #include <ccd/curves.hpp>

@@ -1,10 +1,10 @@
-// Motion along curves: points that move by polynomials in t of any degree.
+// Motion along curves: points that move by polynomials in t of any degree, or by quotients of them.
 //
 // The calls of ccd/exact.hpp and ccd/contact.hpp, equally exact, for points in Bernstein form
 // (Bézier curves in time). Degrees may differ from point to point. A power basis converts to this
 // form; knot insertion converts a B-spline to Bézier pieces. Floating point under tracked bounds
 // decides clearly separate queries, unbounded integers the others (ccd/reference.hpp). Allocates;
-// throws only std::bad_alloc.
+// throws only std::bad_alloc. ccd/bodies/motion.hpp has the same calls for points of rigid bodies.
 #pragma once
 
 #include <algorithm>
@@ -16,6 +16,7 @@
 #include <cstddef>
 #include <limits>
 #include <span>
+#include <string>
 #include <utility>
 
 namespace ccd {
@@ -24,50 +25,97 @@ namespace ccd {
 /// point at rest, two for motion along a line at constant speed. Not owned.
 using curve = std::span<const point<double>>;
 
-/// The four kinds of query (ccd/query.hpp), with a curve for each point.
-struct vertex_face_curves {
-    curve v, f0, f1, f2;
+/// The rational curve x(t) = Σ B_i(t) w_i c_i / Σ B_i(t) w_i with the control points c_i, weights
+/// w_i and B_i(t) = C(m, i)(1 − t)^(m−i) t^i. Not owned.
+struct rational_curve {
+    curve points;
+    std::span<const double> weights = {};  ///< one for each point, all > 0; none: all are 1
 };
-struct edge_edge_curves {
-    curve a0, a1, b0, b1;
+
+/// Returns why the weights are invalid, or "": `weight 2 is -1; expected a finite number > 0`.
+std::string fault_of(const rational_curve& motion);
+
+/// The four kinds of query (ccd/query.hpp), with any description of motion for each point.
+template <class Motion>
+struct vertex_face_of {
+    Motion v, f0, f1, f2;
 };
-struct vertex_edge_curves {
-    curve v, e0, e1;
+template <class Motion>
+struct edge_edge_of {
+    Motion a0, a1, b0, b1;
 };
-struct vertex_vertex_curves {
-    curve v, w;
+template <class Motion>
+struct vertex_edge_of {
+    Motion v, e0, e1;
 };
+template <class Motion>
+struct vertex_vertex_of {
+    Motion v, w;
+};
+
+using vertex_face_curves = vertex_face_of<curve>;
+using edge_edge_curves = edge_edge_of<curve>;
+using vertex_edge_curves = vertex_edge_of<curve>;
+using vertex_vertex_curves = vertex_vertex_of<curve>;
 
 namespace detail {
 
+template <class Motion>
+struct kind_constant<vertex_face_of<Motion>> : kind_constant<vertex_face<double>> {};
+template <class Motion>
+struct kind_constant<edge_edge_of<Motion>> : kind_constant<edge_edge<double>> {};
+template <class Motion>
+struct kind_constant<vertex_edge_of<Motion>> : kind_constant<vertex_edge<double>> {};
+template <class Motion>
+struct kind_constant<vertex_vertex_of<Motion>> : kind_constant<vertex_vertex<double>> {};
+
+/// The motion of all points of a query above.
+template <class Query>
+struct motion_of_query;
+template <template <class> class Query, class Motion>
+struct motion_of_query<Query<Motion>> {
+    using type = Motion;
+};
+
+/// True for the descriptions of motion that the calls below accept.
+template <class Motion>
+inline constexpr bool is_motion = false;
 template <>
-struct kind_constant<vertex_face_curves> : kind_constant<vertex_face<double>> {};
+inline constexpr bool is_motion<curve> = true;
 template <>
-struct kind_constant<edge_edge_curves> : kind_constant<edge_edge<double>> {};
-template <>
-struct kind_constant<vertex_edge_curves> : kind_constant<vertex_edge<double>> {};
-template <>
-struct kind_constant<vertex_vertex_curves> : kind_constant<vertex_vertex<double>> {};
+inline constexpr bool is_motion<rational_curve> = true;
+
+inline verdict as_verdict(const first_time& found) {
+    const bool certain = found.outcome != outcome::uncertain;
+    return {found.outcome, certain ? cause::none : cause::range};
+}
 
 }  // namespace detail
 
 /// One of the four kinds above.
 template <class T>
-concept curve_query = std::same_as<T, vertex_face_curves> || std::same_as<T, edge_edge_curves> ||
-    std::same_as<T, vertex_edge_curves> || std::same_as<T, vertex_vertex_curves>;
+concept curve_query = detail::has_kind<T> && requires {
+    requires detail::is_motion<typename detail::motion_of_query<T>::type>;
+};
 
-/// Same as decide_exact of ccd/exact.hpp. `uncertain` only if a coordinate is not finite or a curve
-/// has no control point.
-template <curve_query Query>
-verdict decide_exact(const Query& query);
-
-/// Same as in ccd/contact.hpp. For curves of degree m the first time has algebraic degree <= 3m.
-template <curve_query Query>
-first_time time_of_impact(const Query& query, double t_max = 1);
-template <curve_query Query>
-verdict decide_within(const Query& query, separation d);
+/// Same as in ccd/contact.hpp, and `uncertain` also if a curve has no control point or invalid
+/// weights. For curves of degree m the first time has algebraic degree <= 3m; weights that differ
+/// among the points multiply it.
 template <curve_query Query>
 first_time time_within(const Query& query, separation d, double t_max = 1);
+template <curve_query Query>
+first_time time_of_impact(const Query& query, double t_max = 1) {
+    return time_within(query, {}, t_max);
+}
+template <curve_query Query>
+verdict decide_within(const Query& query, separation d) {
+    return detail::as_verdict(time_within(query, d));
+}
+/// Same as decide_exact of ccd/exact.hpp. `uncertain` as time_within.
+template <curve_query Query>
+verdict decide_exact(const Query& query) {
+    return detail::as_verdict(time_within(query, {}));
+}
 
 /// The motion between two knots of splines: t goes from 0 to 1 as time goes from `from` to `to`.
 template <class Curves>

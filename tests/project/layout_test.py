@@ -19,7 +19,7 @@ SOURCES = CPP | {".py"}
 
 LAYERS = "docs/architecture.md"
 INTERNAL = r"(errbound/(detail|integers|filters|linear|roots)|ccd/(exact|contact|batch|step|cuda|mpi|io|lab))/\w+\.hpp"
-PUBLIC_HEADERS = r"include/(errbound/(rules/|validation/)?|ccd/((methods|study|adapters)/)?)\w+\.hpp$"
+PUBLIC_HEADERS = r"include/(errbound/(rules/|validation/)?|ccd/((bodies|methods|study|adapters)/)?)\w+\.hpp$"
 
 
 def blank(match):

@@ -132,35 +132,31 @@ std::array<vector, count> place(const std::array<ccd::curve, count>& points) {
 
 }  // namespace
 
-bool collides(const ccd::vertex_face_curves& query, shortcuts use, const interval& when) {
-    const std::array points{query.v, query.f0, query.f1, query.f2};
-    if (separate_at_once(points, 1, use, when)) return false;
-    const auto [v, f0, f1, f2] = place(points);
-    const vector e1 = f1 - f0;
-    const vector e2 = f2 - f0;
-    const vector e12 = f2 - f1;
-    const vector w0 = v - f0;
-    const vector w1 = v - f1;
+namespace detail {
+
+bool collides_of(const ccd::vertex_face_of<vector>& q, const stretch& when) {
+    const vector e1 = q.f1 - q.f0;
+    const vector e2 = q.f2 - q.f0;
+    const vector e12 = q.f2 - q.f1;
+    const vector w0 = q.v - q.f0;
+    const vector w1 = q.v - q.f1;
     const vector normal = cross(e1, e2);
-    return planar_contact(stretch_of(when), dot(normal, w0), [&] {
+    return planar_contact(when, dot(normal, w0), [&] {
         return planar_features{normal,
                                {cross(e1, w0), cross(w0, e2), cross(e12, w1)},
                                {on_segment(w0, e1), on_segment(w0, e2), on_segment(w1, e12)}};
     });
 }
 
-bool collides(const ccd::edge_edge_curves& query, shortcuts use, const interval& when) {
-    const std::array points{query.a0, query.a1, query.b0, query.b1};
-    if (separate_at_once(points, 2, use, when)) return false;
-    const auto [a0, a1, b0, b1] = place(points);
-    const vector a = a1 - a0;
-    const vector b = b1 - b0;
-    const vector w = b0 - a0;
-    const vector w00 = a0 - b0;
-    const vector w01 = b1 - a0;
-    const vector w10 = a1 - b0;
+bool collides_of(const ccd::edge_edge_of<vector>& q, const stretch& when) {
+    const vector a = q.a1 - q.a0;
+    const vector b = q.b1 - q.b0;
+    const vector w = q.b0 - q.a0;
+    const vector w00 = q.a0 - q.b0;
+    const vector w01 = q.b1 - q.a0;
+    const vector w10 = q.a1 - q.b0;
     const vector normal = cross(a, b);
-    return planar_contact(stretch_of(when), dot(normal, w), [&] {
+    return planar_contact(when, dot(normal, w), [&] {
         // a0 + s a = b0 + u b, crossed with b and with a: s normal = w x b and u normal = w x a.
         const vector s = cross(w, b);
         const vector u = cross(w, a);
@@ -171,22 +167,46 @@ bool collides(const ccd::edge_edge_curves& query, shortcuts use, const interval&
     });
 }
 
+bool collides_of(const ccd::vertex_edge_of<vector>& q, const stretch& when) {
+    const on_segment touches(q.v - q.e0, q.e1 - q.e0);
+    return contact_somewhere(when, touches.line, {&touches.between, 1}, touches);
+}
+
+bool collides_of(const ccd::vertex_vertex_of<vector>& q, const stretch& when) {
+    const vector gap = q.v - q.w;
+    return contact_somewhere(when, gap, {}, [&](const instant& t) {
+        return std::ranges::all_of(gap, [&](const polynomial& p) { return t.sign(p) == 0; });
+    });
+}
+
+}  // namespace detail
+
+bool collides(const ccd::vertex_face_curves& query, shortcuts use, const interval& when) {
+    const std::array points{query.v, query.f0, query.f1, query.f2};
+    if (separate_at_once(points, 1, use, when)) return false;
+    const auto [v, f0, f1, f2] = place(points);
+    return collides_of(ccd::vertex_face_of<vector>{v, f0, f1, f2}, stretch_of(when));
+}
+
+bool collides(const ccd::edge_edge_curves& query, shortcuts use, const interval& when) {
+    const std::array points{query.a0, query.a1, query.b0, query.b1};
+    if (separate_at_once(points, 2, use, when)) return false;
+    const auto [a0, a1, b0, b1] = place(points);
+    return collides_of(ccd::edge_edge_of<vector>{a0, a1, b0, b1}, stretch_of(when));
+}
+
 bool collides(const ccd::vertex_edge_curves& query, shortcuts use, const interval& when) {
     const std::array points{query.v, query.e0, query.e1};
     if (separate_at_once(points, 1, use, when)) return false;
     const auto [v, e0, e1] = place(points);
-    const on_segment touches(v - e0, e1 - e0);
-    return contact_somewhere(stretch_of(when), touches.line, {&touches.between, 1}, touches);
+    return collides_of(ccd::vertex_edge_of<vector>{v, e0, e1}, stretch_of(when));
 }
 
 bool collides(const ccd::vertex_vertex_curves& query, shortcuts use, const interval& when) {
     const std::array points{query.v, query.w};
     if (separate_at_once(points, 1, use, when)) return false;
     const auto [v, w] = place(points);
-    const vector gap = v - w;
-    return contact_somewhere(stretch_of(when), gap, {}, [&](const instant& t) {
-        return std::ranges::all_of(gap, [&](const polynomial& p) { return t.sign(p) == 0; });
-    });
+    return collides_of(ccd::vertex_vertex_of<vector>{v, w}, stretch_of(when));
 }
 
 }  // namespace oracle

@@ -3,8 +3,11 @@
 #pragma once
 
 #include <array>
+#include <ccd/bodies/motion.hpp>
 #include <ccd/curves.hpp>
+#include <ccd/kind.hpp>
 #include <ccd/query.hpp>
+#include <concepts>
 #include <cstddef>
 #include <tuple>
 
@@ -56,15 +59,25 @@ bool along_lines(const Query& query, const F& f) {
 }
 
 /// The same functions for queries with linear motion.
-template <class Query>
+template <ccd::any_query Query>
 bool collides(const Query& query, shortcuts use = shortcuts::on, const interval& when = {}) {
     return along_lines(query, [&](const auto& curves) { return collides(curves, use, when); });
 }
-template <class Query>
+template <ccd::any_query Query>
 bool within(const Query& query, double d1, double d2, shortcuts use = shortcuts::on,
             const interval& when = {}) {
     return along_lines(query,
                        [&](const auto& curves) { return within(curves, d1, d2, use, when); });
 }
+
+/// The same functions for rational motion, defined in tests/support/oracle_rational.hpp.
+template <class Motion>
+concept rational_motion =
+    std::same_as<Motion, ccd::rational_curve> || std::same_as<Motion, ccd::body_point>;
+template <template <class> class Query, rational_motion Motion>
+bool collides(const Query<Motion>& query, shortcuts use = shortcuts::on, const interval& when = {});
+template <template <class> class Query, rational_motion Motion>
+bool within(const Query<Motion>& query, double d1, double d2, shortcuts use = shortcuts::on,
+            const interval& when = {});
 
 }  // namespace oracle

@@ -69,4 +69,23 @@ inline stretch stretch_of(const interval& when) {
     return {dyadic_of(when.low), dyadic_of(when.high), when.with_low, when.with_high};
 }
 
+// ---- Decisions about polynomials ----
+//
+// The points may have one positive polynomial as a common factor: contact does not depend on it.
+
+bool collides_of(const ccd::vertex_face_of<vector>&, const stretch& when);
+bool collides_of(const ccd::edge_edge_of<vector>&, const stretch& when);
+bool collides_of(const ccd::vertex_edge_of<vector>&, const stretch& when);
+bool collides_of(const ccd::vertex_vertex_of<vector>&, const stretch& when);
+
+/// `square` is the square of the distance, times that of the common factor.
+bool within_of(const ccd::vertex_face_of<vector>&, const polynomial& square, shortcuts use,
+               const stretch& when);
+bool within_of(const ccd::edge_edge_of<vector>&, const polynomial& square, shortcuts use,
+               const stretch& when);
+bool within_of(const ccd::vertex_edge_of<vector>&, const polynomial& square, shortcuts use,
+               const stretch& when);
+bool within_of(const ccd::vertex_vertex_of<vector>&, const polynomial& square, shortcuts use,
+               const stretch& when);
+
 }  // namespace oracle::detail

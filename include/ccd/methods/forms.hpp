@@ -79,10 +79,13 @@ struct vertex_face_forms : coplanarity_forms<S, Degree> {
         : coplanarity_forms<S>(difference(q.f1, q.f0), difference(q.f2, q.f0),
                                difference(q.v, q.f0)) {}
     /// The barycentric weights of f2, f1, f0, times |N|². Proof: proofs/Decisions.v, forms_weights.
-    constexpr auto inside() const {
+    constexpr auto inside() const { return inside(this->normal_squared()); }
+    /// The same if p was multiplied by a positive number; then `n2` is |N|² times that number.
+    template <class T>
+    constexpr auto inside(const T& n2) const {
         const auto w2 = dot(cross(this->b, this->p), this->n);
         const auto w1 = dot(cross(this->p, this->c), this->n);
-        return std::array{w2, w1, this->normal_squared() - w1 - w2};
+        return std::array{w2, w1, n2 - w1 - w2};
     }
 };
 
@@ -96,10 +99,16 @@ struct edge_edge_forms : coplanarity_forms<S, Degree> {
     /// The parameters on edges a and b and 1 minus each, times |N|². Proof: proofs/Decisions.v,
     /// forms_weights.
     constexpr auto inside() const {
+        const auto n2 = this->normal_squared();
+        return inside(n2, n2);
+    }
+    /// The same if b, c and p were multiplied by positive numbers β, γ and βγ; then `on_a_n2` is
+    /// γ|N|² and `on_b_n2` is β|N|².
+    template <class T>
+    constexpr auto inside(const T& on_a_n2, const T& on_b_n2) const {
         const auto on_a = dot(cross(this->p, this->c), this->n);
         const auto on_b = dot(cross(this->p, this->b), this->n);
-        const auto n2 = this->normal_squared();
-        return std::array{on_a, n2 - on_a, on_b, n2 - on_b};
+        return std::array{on_a, on_a_n2 - on_a, on_b, on_b_n2 - on_b};
     }
 };
 

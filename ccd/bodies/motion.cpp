@@ -1,0 +1,112 @@
+#include <algorithm>
+#include <array>
+#include <ccd/bodies/motion.hpp>
+#include <cmath>
+#include <cstddef>
+#include <errbound/sign.hpp>
+#include <numbers>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "ccd/contact/moving_points.hpp"
+
+namespace ccd {
+namespace {
+
+bool all_finite(const point<double>& p) {
+    return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
+}
+bool all_finite(const matrix3& a) {
+    for (const auto& row : a)
+        for (const double x : row)
+            if (!std::isfinite(x)) return false;
+    return true;
+}
+
+std::string not_finite(const char* what) {
+    return std::string(what) + " is not finite; expected finite numbers";
+}
+
+std::string fault(const resting&) {
+    return {};
+}
+std::string fault(const affine_motion& m) {
+    if (!all_finite(m.a0)) return not_finite("a0");
+    if (!all_finite(m.a1)) return not_finite("a1");
+    if (!all_finite(m.p0)) return not_finite("p0");
+    if (!all_finite(m.p1)) return not_finite("p1");
+    return {};
+}
+std::string fault(const rigid_motion& m) {
+    if (!all_finite(m.p0)) return not_finite("p0");
+    if (!all_finite(m.p1)) return not_finite("p1");
+    if (!all_finite(m.centre)) return not_finite("centre");
+    const auto product = detail::dot_of<errbound::tracked<double>>(m.q0, m.q1);
+    if (sign_of(product) != errbound::sign_type::positive)
+        return "q0·q1 is " + std::to_string(product.value()) +
+               "; expected a number certainly > 0, so that the piece turns by less than half a "
+               "turn";
+    return {};
+}
+
+quaternion product(const quaternion& a, const quaternion& b) {
+    return {a.w * b.w - a.x * b.x - a.y * b.y - a.z * b.z,
+            a.w * b.x + a.x * b.w + a.y * b.z - a.z * b.y,
+            a.w * b.y - a.x * b.z + a.y * b.w + a.z * b.x,
+            a.w * b.z + a.x * b.y - a.y * b.x + a.z * b.w};
+}
+
+}  // namespace
+
+std::string fault_of(const body_motion& motion) {
+    return std::visit([](const auto& m) { return fault(m); }, motion);
+}
+
+rigid_motion shorter_arc(const pose& from, const pose& to) {
+    quaternion q = to.q;
+    if (detail::dot_of<double>(from.q, q) < 0) q = {-q.w, -q.x, -q.y, -q.z};
+    return {from.q, q, from.p, to.p, {}};
+}
+
+rigid_motion screw(const point<double>& d, const point<double>& centre, const point<double>& end) {
+    return {{}, {1, d.x, d.y, d.z}, centre, end, centre};
+}
+
+std::vector<spline_piece<rigid_motion>> turn(const pose& from, const point<double>& axis,
+                                             double angle, const point<double>& end,
+                                             const point<double>& centre) {
+    const double length = std::hypot(axis.x, axis.y, axis.z);
+    if (length == 0) angle = 0;
+    const double pieces = std::max(1.0, std::ceil(std::abs(angle) / (std::numbers::pi / 2)));
+    const auto pose_at = [&](double k) -> pose {
+        if (k == 0) return from;
+        const double half = angle / 2 * (k / pieces), t = k / pieces;
+        const double s = length == 0 ? 0 : std::sin(half) / length;
+        const quaternion r{std::cos(half), s * axis.x, s * axis.y, s * axis.z};
+        if (k == pieces) return {product(r, from.q), end};
+        const auto between = [&](double a, double b) { return (1 - t) * a + t * b; };
+        return {product(r, from.q),
+                {between(from.p.x, end.x), between(from.p.y, end.y), between(from.p.z, end.z)}};
+    };
+    std::vector<spline_piece<rigid_motion>> all;
+    pose last = from;
+    for (double k = 1; k <= pieces; ++k) {
+        const pose next = angle == 0 ? pose{from.q, end} : pose_at(k);
+        all.push_back({(k - 1) / pieces, k / pieces, {last.q, next.q, last.p, next.p, centre}});
+        last = next;
+    }
+    return all;
+}
+
+moving_point<double> rounded_ends(const affine_motion& motion, const point<double>& rest) {
+    const auto at = [&](const matrix3& a, const point<double>& p) -> point<double> {
+        const auto row = [&](std::size_t i, double shift) {
+            return ((a[i][0] * rest.x + a[i][1] * rest.y) + a[i][2] * rest.z) + shift;
+        };
+        return {row(0, p.x), row(1, p.y), row(2, p.z)};
+    };
+    return {at(motion.a0, motion.p0), at(motion.a1, motion.p1)};
+}
+
+}  // namespace ccd

@@ -1,0 +1,132 @@
+// Steps of many bodies: from their motions to the pairs that touch, with first times.
+//
+//     ccd::body_steps steps({gear, pinion, base});               // meshes at rest
+//     const std::vector<ccd::body_motion> motions{turn_left, turn_right, ccd::resting{}};
+//     const ccd::body_step_result found = steps.run(motions);    // pairs and first times
+//     const ccd::body_advance free = steps.advance(motions);     // free.motions end without
+//     contact
+//
+// Exact, as one query (ccd/bodies/motion.hpp): no pair is missed, none is reported without contact.
+// Pairs are of elements of different bodies, as in ccd/step.hpp. Results do not depend on the
+// number of threads. Throws std::invalid_argument for bad input.
+#pragma once
+
+#include <ccd/bodies/motion.hpp>
+#include <ccd/execution.hpp>
+#include <ccd/kind.hpp>
+#include <ccd/mesh.hpp>
+#include <ccd/query.hpp>
+#include <ccd/step.hpp>
+#include <cstddef>
+#include <functional>
+#include <memory>
+#include <span>
+#include <vector>
+
+namespace ccd {
+
+struct body_step_options {
+    separation distance = {};  ///< report pairs within this distance instead of pairs in contact
+    double t_max = 1;          ///< report only pairs with a contact in [0, t_max]
+    int threads = 0;           ///< at most; 0: one per core
+    stop_query stop = {};      ///< ends the call by throwing ccd::stopped
+    /// True for two bodies whose pairs are tested; empty: all. Called once for each two bodies
+    /// whose swept boxes touch and of which one moves, the lesser index first.
+    std::function<bool(std::size_t, std::size_t)> may_touch = {};
+};
+
+/// Lists are as in step_result. Vertices of all bodies are numbered through in the bodies' order.
+struct body_step_result {
+    pair_lists pairs;
+    time_lists times;              ///< the first time of each of `pairs`
+    pair_lists touching_at_start;  ///< the members of `pairs` that touch at t = 0
+    first_time first_contact;      ///< the earliest not at t = 0; `separate` if there is none
+    pair_lists first_pairs;        ///< the members of `pairs` with that time
+    std::size_t body_pairs = 0;    ///< two bodies whose swept boxes touch, and that were tested
+    pair_counts candidates;        ///< pairs whose swept boxes touch
+};
+
+struct body_advance_options {
+    body_step_options step = {};  ///< its t_max is ignored
+    /// The share of the way to the first contact (or distance) that is used: in (0, 1].
+    double conservative = 1;
+};
+
+struct body_advance {
+    /// From the given starts to the poses at `fraction`, rounded: exact queries about these motions
+    /// find no contact, except of pairs that touch at the start. To continue, start from their
+    /// ends; do not normalise the quaternions.
+    std::vector<body_motion> motions;
+    double fraction = 1;           ///< the same for all bodies
+    first_time first_contact;      ///< on the whole way, as in body_step_result
+    pair_lists first_pairs;        ///< the pairs with that time: they limit the step
+    pair_lists touching_at_start;  ///< skipped: no step of these pairs is free
+};
+
+/// Returns the motion until t = fraction, with a rounded end, for another step.
+body_motion until(const body_motion& motion, double fraction);
+
+/// Bodies with meshes in their own coordinates. Keeps the order of their elements and the trees of
+/// resting bodies from step to step. One call at a time. Results do not depend on earlier steps.
+///
+/// A moving body costs a constant time if its swept box touches no other's, else a pass over its
+/// elements. Two resting bodies are not tested: they cost nothing and are never reported, even if
+/// they touch. Memory: about 200 bytes a vertex, edge or face of bodies that met another.
+class body_steps {
+  public:
+    /// Throws std::invalid_argument if an index is out of range, a coordinate is not finite, or
+    /// there are 2^32 or more vertices.
+    explicit body_steps(std::vector<mesh> bodies);
+    ~body_steps();
+    /// A moved-from object may only be destroyed or assigned to.
+    body_steps(body_steps&&) noexcept;
+    body_steps& operator=(body_steps&&) noexcept;
+
+    std::size_t bodies() const;
+    /// The number of a body's first vertex; for bodies(), the number of all vertices.
+    vertex_index first_vertex(std::size_t body) const;
+    std::size_t body_of(vertex_index vertex) const;
+    const mesh& rest(std::size_t body) const;
+    /// The query of a pair of a result. Precondition: `motions` outlives it.
+    template <any_pair Pair>
+    auto query_of(const Pair& pair, std::span<const body_motion> motions) const {
+        const auto at = [&](vertex_index v) -> body_point {
+            const std::size_t b = body_of(v);
+            return {&motions[b], rest(b).vertices[v - first_vertex(b)]};
+        };
+        return detail::with_members(pair,
+                                    [&](auto... v) { return query_of_points<Pair>(at(v)...); });
+    }
+
+    /// Returns the pairs that touch during the motions, one for each body.
+    ///
+    /// Throws std::invalid_argument if the numbers of motions and bodies differ, if fault_of
+    /// reports a motion, or if t_max or the distance is invalid.
+    body_step_result run(std::span<const body_motion> motions,
+                         const body_step_options& options = {});
+
+    /// Returns the longest common step that was found to be free. Its fraction is the time of the
+    /// first contact, or a few units in the last place less, times `conservative`. It is less, at
+    /// worst 0, if the rounded ends touch. Throws as run(). Cost: one step if the whole way is
+    /// free, else usually two, at most 60.
+    body_advance advance(std::span<const body_motion> motions,
+                         const body_advance_options& options = {});
+
+  private:
+    template <class Pair, class... Points>
+    static auto query_of_points(const Points&... points) {
+        if constexpr (kind_of<Pair> == kind::vertex_face)
+            return vertex_face_of<body_point>{points...};
+        else if constexpr (kind_of<Pair> == kind::edge_edge)
+            return edge_edge_of<body_point>{points...};
+        else if constexpr (kind_of<Pair> == kind::vertex_edge)
+            return vertex_edge_of<body_point>{points...};
+        else
+            return vertex_vertex_of<body_point>{points...};
+    }
+
+    struct state;
+    std::unique_ptr<state> state_;
+};
+
+}  // namespace ccd

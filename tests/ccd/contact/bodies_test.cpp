@@ -1,0 +1,513 @@
+// Rational motion: curves with weights, and points of affine and rigid bodies. Cases made by hand,
+// degenerate families and random queries are compared with the oracle.
+#include <gtest/gtest.h>
+
+#include <array>
+#include <ccd/bodies/motion.hpp>
+#include <ccd/contact.hpp>
+#include <ccd/curves.hpp>
+#include <ccd/exact.hpp>
+#include <ccd/kind.hpp>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <numbers>
+#include <optional>
+#include <random>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "tests/ccd/contact/by_hand.hpp"
+#include "tests/support/first_time_faults.hpp"
+#include "tests/support/oracle_rational.hpp"
+#include "tests/support/scaled.hpp"
+
+namespace {
+
+using by_hand::at;
+using by_hand::infinity;
+using by_hand::never;
+using by_hand::point;
+using ccd::affine_motion;
+using ccd::body_motion;
+using ccd::body_point;
+using ccd::first_time;
+using ccd::kind;
+using ccd::outcome;
+using ccd::quaternion;
+using ccd::rational_curve;
+using ccd::resting;
+using ccd::rigid_motion;
+using ccd::separation;
+using control = std::vector<point>;
+using weights = std::vector<double>;
+
+/// The query of a kind with these points; kinds with fewer points skip the last ones.
+template <kind K, class Motion>
+auto query_of(const std::array<Motion, 4>& p) {
+    if constexpr (K == kind::vertex_face)
+        return ccd::vertex_face_of<Motion>{p[0], p[1], p[2], p[3]};
+    else if constexpr (K == kind::edge_edge)
+        return ccd::edge_edge_of<Motion>{p[0], p[1], p[2], p[3]};
+    else if constexpr (K == kind::vertex_edge)
+        return ccd::vertex_edge_of<Motion>{p[0], p[1], p[2]};
+    else
+        return ccd::vertex_vertex_of<Motion>{p[0], p[1]};
+}
+
+template <class Query>
+void expect_first_time_of_oracle(const Query& query, double t_max = 1) {
+    const first_time found = ccd::time_of_impact(query, t_max);
+    EXPECT_EQ(support::fault_of(query, found, t_max), "");
+    if (t_max < 1) return;
+    EXPECT_EQ(ccd::decide_exact(query).outcome, found.outcome);
+}
+
+// ---- Curves with weights ----
+
+TEST(rational_curves, that_are_circles_meet_a_face) {
+    // x = (1 − t²)/(1 + t²), y = 2t/(1 + t²): the quarter of a circle from (1, 0) to (0, 1).
+    const control quarter{{1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
+    const weights w{1, 1, 2};
+    // The plane x = 3/5 is met at t = 1/2, at y = 4/5.
+    const control f0{{0.6, 0.75, -1}}, f1{{0.6, 0.75, 1}}, f2{{0.6, 2, 0}};
+    const ccd::vertex_face_of<rational_curve> query{{quarter, w}, {f0}, {f1}, {f2}};
+    const first_time found = ccd::time_of_impact(query);
+    EXPECT_LE(found.low, 0.5 + 1e-15);
+    EXPECT_GE(found.high, 0.5 - 1e-15);
+    EXPECT_EQ(support::fault_of(query, found), "");
+    // A vertex on the circle itself, and one that the circle misses by one rounding.
+    const control on{{0, 1, 0}}, off{{0, std::nextafter(1, 2), 0}};
+    using pair = ccd::vertex_vertex_of<rational_curve>;
+    EXPECT_EQ(ccd::time_of_impact(pair{{quarter, w}, {on}}), at(1));
+    EXPECT_EQ(ccd::time_of_impact(pair{{quarter, w}, {off}}), never);
+    // All of the circle is at the distance 1 from its centre.
+    const control centre{{0, 0, 0}};
+    EXPECT_EQ(ccd::time_within(pair{{quarter, w}, {centre}}, {1}), at(0));
+    EXPECT_EQ(ccd::time_within(pair{{quarter, w}, {centre}}, {std::nextafter(1, 0)}), never);
+}
+TEST(rational_curves, with_equal_weights_move_as_curves_without) {
+    const control v{{0.25, 0.25, 3}, {0.25, 0.25, -5}, {0.25, 0.25, 3}};
+    const control f0{{0, 0, 0}}, f1{{1, 0, 0}}, f2{{0, 1, 0}};
+    for (const double weight : {1.0, 0.1, 1e-300, 1e300}) {
+        const weights w{weight, weight, weight};
+        const ccd::vertex_face_of<rational_curve> query{{v, w}, {f0}, {f1}, {f2}};
+        EXPECT_EQ(ccd::time_of_impact(query), at(0.25));
+        EXPECT_EQ(ccd::time_within(query, {0.5}),
+                  ccd::time_within(ccd::vertex_face_curves{v, f0, f1, f2}, {0.5}));
+    }
+}
+TEST(rational_curves, with_invalid_weights_are_refused) {
+    const control v{{0, 0, 1}, {0, 0, -1}}, o{{0, 0, 0}};
+    const auto fault = [&](const weights& w) {
+        const rational_curve motion{v, w};
+        EXPECT_EQ(ccd::time_of_impact(ccd::vertex_vertex_of<rational_curve>{motion, {o}}),
+                  first_time{});
+        EXPECT_EQ(ccd::decide_exact(ccd::vertex_vertex_of<rational_curve>{{o}, motion}).cause,
+                  ccd::cause::range);
+        return ccd::fault_of(motion);
+    };
+    EXPECT_EQ(fault({1, -1}), "weight 1 is -1.000000; expected a finite number > 0");
+    EXPECT_EQ(fault({0, 1}), "weight 0 is 0.000000; expected a finite number > 0");
+    EXPECT_EQ(fault({1, infinity}), "weight 1 is inf; expected a finite number > 0");
+    EXPECT_EQ(fault({1}), "number of weights is 1; expected 2, one for each control point");
+    EXPECT_EQ(ccd::fault_of({v, {}}), "");
+}
+
+// ---- Bodies, by hand ----
+
+body_point of(const body_motion& motion, const point& rest) {
+    return {&motion, rest};
+}
+using vertex_face = ccd::vertex_face_of<body_point>;
+using edge_edge = ccd::edge_edge_of<body_point>;
+using vertex_edge = ccd::vertex_edge_of<body_point>;
+using vertex_vertex = ccd::vertex_vertex_of<body_point>;
+
+const body_motion still = resting{};
+/// A quarter of a turn about z, by quaternions of small integers: (1, 0, 0, 0) to (1, 0, 0, 1).
+const body_motion quarter = ccd::screw({0, 0, 1}, {0, 0, 0}, {0, 0, 0});
+
+TEST(bodies, that_turn_about_z_meet_a_plane) {
+    // (1, 0, 0) arrives at (0, 1, 0); x = (1 − t²)/(1 + t²) is 3/5 at t = 1/2.
+    const vertex_face query{of(quarter, {1, 0, 0}), of(still, {0.6, 0, -1}),
+                            of(still, {0.6, 2, -1}), of(still, {0.6, 1, 2})};
+    expect_first_time_of_oracle(query);
+    EXPECT_NEAR(ccd::time_of_impact(query).low, 0.5, 1e-15);
+    // Exactly 3/5 = 0.6 needs a plane through it: with x = 3 for a radius of 5.
+    const vertex_face exact{of(quarter, {5, 0, 0}), of(still, {3, 0, -1}), of(still, {3, 8, -1}),
+                            of(still, {3, 4, 2})};
+    EXPECT_EQ(ccd::time_of_impact(exact), at(0.5));
+    EXPECT_EQ(ccd::time_of_impact(exact, 0.25), never);
+    // The face turns instead, the other way.
+    const body_motion back = ccd::screw({0, 0, -1}, {0, 0, 0}, {0, 0, 0});
+    const vertex_face face_turns{of(still, {5, 0, 0}), of(back, {3, 0, -1}), of(back, {3, 8, -1}),
+                                 of(back, {3, 4, 2})};
+    EXPECT_EQ(ccd::time_of_impact(face_turns), at(0.5));
+    EXPECT_EQ(ccd::time_within(face_turns, {2.25}), at(0));
+    EXPECT_EQ(support::fault_of(face_turns, {2}, ccd::time_within(face_turns, {2})), "");
+}
+TEST(bodies, that_turn_sweep_more_than_the_hull_of_their_ends) {
+    // A rod turns by a quarter about its end. Its other end leaves the triangle of its three ends.
+    const vertex_vertex query{of(quarter, {5, 0, 0}), of(still, {3, 4, 0})};
+    EXPECT_EQ(ccd::time_of_impact(query), at(0.5));
+    EXPECT_EQ(ccd::decide_exact(
+                  vertex_edge{of(still, {4, 3, 0}), of(quarter, {0, 0, 0}), of(quarter, {5, 0, 0})})
+                  .outcome,
+              outcome::collides);
+}
+TEST(bodies, with_invalid_motion_are_refused) {
+    const auto fault = [&](const body_motion& m) {
+        EXPECT_EQ(ccd::time_of_impact(vertex_vertex{of(m, {1, 0, 0}), of(still, {1, 0, 0})}),
+                  first_time{});
+        return ccd::fault_of(m);
+    };
+    const std::string rest =
+        "; expected a number certainly > 0, so that the piece turns by less than half a turn";
+    EXPECT_EQ(fault(rigid_motion{{1, 0, 0, 0}, {-1, 0, 0, 0}, {}, {}, {}}),
+              "q0·q1 is -1.000000" + rest);
+    EXPECT_EQ(fault(rigid_motion{{1, 0, 0, 0}, {0, 0, 0, 1}, {}, {}, {}}),
+              "q0·q1 is 0.000000" + rest);
+    EXPECT_EQ(fault(rigid_motion{{0, 0, 0, 0}, {0, 0, 0, 1}, {}, {}, {}}),
+              "q0·q1 is 0.000000" + rest);
+    EXPECT_EQ(fault(rigid_motion{{}, {}, {infinity, 0, 0}, {}, {}}),
+              "p0 is not finite; expected finite numbers");
+    EXPECT_EQ(fault(affine_motion{.p0 = {}, .p1 = {0, infinity, 0}}),
+              "p1 is not finite; expected finite numbers");
+    EXPECT_NE(fault(rigid_motion{{infinity, 0, 0, 0}, {}, {}, {}, {}}), "");
+    EXPECT_EQ(ccd::fault_of(still), "");
+    EXPECT_EQ(ccd::time_of_impact(vertex_vertex{{nullptr, {}}, of(still, {})}), first_time{});
+    EXPECT_EQ(ccd::time_of_impact(vertex_vertex{of(still, {infinity, 0, 0}), of(still, {})}),
+              first_time{});
+}
+TEST(bodies, take_the_shorter_arc) {
+    const rigid_motion m = ccd::shorter_arc({{1, 0, 0, 0}, {}}, {{-1, 0, 0, -1}, {1, 2, 3}});
+    EXPECT_EQ(m.q1, (quaternion{1, 0, 0, 1}));
+    EXPECT_EQ(m.p1, (point{1, 2, 3}));
+}
+TEST(bodies, in_pieces_turn_by_any_angle) {
+    // One and a half turns about z at (0, 0, 0), of the vertex (1, 0, 0): it passes −x at a third.
+    const auto pieces = ccd::turn({}, {0, 0, 2}, 3 * std::numbers::pi, {0, 0, 0});
+    ASSERT_EQ(pieces.size(), 6u);
+    std::vector<body_motion> motions;
+    for (const auto& piece : pieces) motions.emplace_back(piece.motion);
+    std::vector<ccd::spline_piece<vertex_face>> queries;
+    for (std::size_t i = 0; i < motions.size(); ++i) {
+        EXPECT_EQ(ccd::fault_of(motions[i]), "");
+        EXPECT_EQ(pieces[i].motion.q0, i == 0 ? quaternion{} : pieces[i - 1].motion.q1);
+        EXPECT_EQ(pieces[i].from, i == 0 ? 0 : pieces[i - 1].to);
+        queries.push_back({pieces[i].from,
+                           pieces[i].to,
+                           {of(motions[i], {1, 0, 0}), of(still, {-2, 0, -1}),
+                            of(still, {0, 0, -1}), of(still, {-1, 0, 1})}});
+    }
+    const auto found = ccd::first_time_of_pieces(queries);
+    EXPECT_EQ(found.outcome, outcome::collides);
+    EXPECT_NEAR(found.low, 1 / 3.0, 1e-14);
+    EXPECT_EQ(ccd::turn({}, {0, 0, 0}, 9, {1, 0, 0}).size(), 1u);
+    EXPECT_EQ(ccd::turn({}, {0, 0, 1}, 0, {1, 0, 0})[0].motion.q1, quaternion{});
+}
+
+// ---- Limits: motion without rotation ----
+
+template <class Linear, class Query>
+void expect_as_linear(const Linear& linear, const Query& query) {
+    EXPECT_EQ(ccd::time_of_impact(query), ccd::time_of_impact(linear));
+    EXPECT_EQ(ccd::decide_exact(query).outcome, ccd::decide_exact(linear).outcome);
+    for (const double d : {0.125, 0.75})
+        EXPECT_EQ(ccd::time_within(query, {d, 1e-9}), ccd::time_within(linear, {d, 1e-9}));
+}
+TEST(bodies, that_only_move_along_lines_have_the_times_of_linear_motion) {
+    std::mt19937 random(1);
+    const auto whole = [&] { return static_cast<double>(random() % 9) - 4; };
+    const auto position = [&] { return point{whole(), whole(), whole()}; };
+    for (int i = 0; i < support::scaled(200); ++i) {
+        const point p0 = position(), p1 = position();
+        // One translation as four motions: without rotation; with half a turn about z at both ends;
+        // with the identity as its matrix; with another matrix.
+        const std::array<body_motion, 4> motions{
+            rigid_motion{{1, 0, 0, 0}, {2, 0, 0, 0}, p0, p1, {}},
+            rigid_motion{{0, 0, 0, 3}, {0, 0, 0, 3}, p0, p1, {}}, affine_motion{.p0 = p0, .p1 = p1},
+            affine_motion{{{{-1, 0, 0}, {0, -1, 0}, {0, 0, 1}}},
+                          {{{2, 0, 0}, {0, 1, 3}, {0, 0, 1}}},
+                          p0,
+                          p1}};
+        std::array<point, 4> x;
+        for (point& p : x) p = position();
+        for (const body_motion& motion : motions) {
+            const auto moving = [&](const point& p) -> ccd::moving_point<double> {
+                if (const auto* a = std::get_if<affine_motion>(&motion)) return rounded_ends(*a, p);
+                const double s = std::get<rigid_motion>(motion).q0.z != 0 ? -1 : 1;
+                return {{s * p.x + p0.x, s * p.y + p0.y, p.z + p0.z},
+                        {s * p.x + p1.x, s * p.y + p1.y, p.z + p1.z}};
+            };
+            const auto at_rest = [](const point& p) { return by_hand::still(p); };
+            const auto b = [&](std::size_t k) { return of(motion, x[k]); };
+            const auto r = [&](std::size_t k) { return of(still, x[k]); };
+            expect_as_linear(
+                ccd::vertex_face<double>{moving(x[0]), at_rest(x[1]), at_rest(x[2]), at_rest(x[3])},
+                vertex_face{b(0), r(1), r(2), r(3)});
+            expect_as_linear(
+                ccd::vertex_face<double>{at_rest(x[0]), moving(x[1]), moving(x[2]), moving(x[3])},
+                vertex_face{r(0), b(1), b(2), b(3)});
+            expect_as_linear(
+                ccd::edge_edge<double>{moving(x[0]), moving(x[1]), at_rest(x[2]), at_rest(x[3])},
+                edge_edge{b(0), b(1), r(2), r(3)});
+            expect_as_linear(ccd::vertex_edge<double>{moving(x[0]), at_rest(x[1]), at_rest(x[2])},
+                             vertex_edge{b(0), r(1), r(2)});
+            expect_as_linear(ccd::vertex_vertex<double>{moving(x[0]), at_rest(x[1])},
+                             vertex_vertex{b(0), r(1)});
+        }
+    }
+}
+TEST(bodies, about_the_poses_as_given_differ_from_rounded_ends) {
+    // 0.1·3 − 0.3 is not 0 in exact numbers, but its rounding 5.55e-17 is not its value either.
+    const affine_motion m{{{{0.1, 0, 0}, {0, 1, 0}, {0, 0, 1}}},
+                          {{{0.1, 0, 0}, {0, 1, 0}, {0, 0, 1}}},
+                          {-0.3, 0, 1},
+                          {-0.3, 0, -1}};
+    const body_motion motion = m;
+    const auto ends = ccd::rounded_ends(m, {3, 0, 0});
+    EXPECT_EQ(ends.t0.x, 0.1 * 3 - 0.3);
+    const point o{ends.t0.x, 0, 0};
+    EXPECT_EQ(ccd::decide_exact(ccd::vertex_vertex<double>{ends, by_hand::still(o)}).outcome,
+              outcome::collides);
+    EXPECT_EQ(ccd::decide_exact(vertex_vertex{of(motion, {3, 0, 0}), of(still, o)}).outcome,
+              outcome::separate);
+}
+
+// ---- Degenerate families ----
+
+TEST(degenerate_bodies, that_roll_touch_the_plane_all_the_time) {
+    // A polygon inscribed in a wheel of radius 5 turns about its axis: no rolling without slip has
+    // rational speed, but each vertex touches the plane z = −5 with a double root.
+    const body_motion wheel = ccd::screw({0, 1, 0}, {0, 0, 0}, {4, 0, 0});
+    const std::array<point, 3> plane{{{-99, -99, -5}, {99, -99, -5}, {0, 99, -5}}};
+    // Angles whose tangent of the half is rational: (3, 4), (4, 3), (0, 5).
+    for (const point& rim :
+         {point{3, 0, -4}, point{4, 0, -3}, point{5, 0, 0}, point{-3, 0, -4}, point{0, 0, -5}}) {
+        const vertex_face query{of(wheel, rim), of(still, plane[0]), of(still, plane[1]),
+                                of(still, plane[2])};
+        expect_first_time_of_oracle(query);
+        const edge_edge rim_edge{of(wheel, {rim.x, -1, rim.z}), of(wheel, {rim.x, 1, rim.z}),
+                                 of(still, {-9, 0, -5}), of(still, {9, 0, -5})};
+        expect_first_time_of_oracle(rim_edge);
+        // One rounding higher or lower decides.
+        const vertex_face below{of(wheel, rim), of(still, {-99, -99, std::nextafter(-5, -6)}),
+                                of(still, {99, -99, std::nextafter(-5, -6)}),
+                                of(still, {0, 99, std::nextafter(-5, -6)})};
+        EXPECT_EQ(ccd::time_of_impact(below), never);
+        expect_first_time_of_oracle(below);
+    }
+}
+TEST(degenerate_bodies, that_spin_about_an_axis_through_the_contact_touch_from_the_start) {
+    const body_motion spin = ccd::screw({1, 2, 3}, {1, 1, 1}, {1, 1, 1});
+    const vertex_face at_vertex{of(spin, {1, 1, 1}), of(still, {1, 1, 1}), of(still, {2, 0, 1}),
+                                of(still, {3, 1, 7})};
+    EXPECT_EQ(ccd::time_of_impact(at_vertex), at(0));
+    // The vertex lies on the axis and never moves; a plane hits it, or misses it by one rounding.
+    const vertex_vertex on_axis{of(spin, {2, 3, 4}), of(still, {2, 3, 4})};
+    EXPECT_EQ(ccd::time_of_impact(on_axis), at(0));
+    const vertex_vertex beside{of(spin, {2, 3, 4}), of(still, {2, 3, std::nextafter(4, 5)})};
+    EXPECT_EQ(ccd::time_of_impact(beside), never);
+    // An edge through the axis point sweeps a cone; a second edge meets only its apex.
+    const edge_edge apex{of(spin, {1, 1, 1}), of(spin, {4, 1, 1}), of(still, {1, 1, 1}),
+                         of(still, {0, -1, -3})};
+    EXPECT_EQ(ccd::time_of_impact(apex), at(0));
+}
+TEST(degenerate_bodies, that_are_plates_turning_in_their_plane) {
+    // Everything is coplanar throughout: Y is identically zero.
+    for (int i = 0; i < support::scaled(40); ++i) {
+        std::mt19937 random(static_cast<unsigned>(i));
+        const auto whole = [&] { return static_cast<double>(random() % 7) - 3; };
+        const body_motion a =
+            ccd::screw({0, 0, 1 + whole() / 2}, {whole(), whole(), 0}, {whole(), whole(), 0});
+        const body_motion b =
+            ccd::screw({0, 0, whole()}, {whole(), whole(), 0}, {whole(), whole(), 0});
+        const auto in_plane = [&] { return point{whole() + 2, whole(), 0}; };
+        expect_first_time_of_oracle(vertex_face{of(a, in_plane()), of(b, in_plane()),
+                                                of(b, in_plane()), of(b, in_plane())});
+        expect_first_time_of_oracle(
+            edge_edge{of(a, in_plane()), of(a, in_plane()), of(b, in_plane()), of(b, in_plane())});
+        expect_first_time_of_oracle(
+            vertex_edge{of(a, in_plane()), of(b, in_plane()), of(b, in_plane())});
+    }
+}
+TEST(degenerate_bodies, that_are_teeth_of_gears) {
+    // Two wheels with centres 10 apart turn in opposite directions; their rims of radius 5 touch
+    // at (5, 0, z) at all times, so points of both rims that arrive there together touch.
+    const body_motion left = ccd::screw({0, 0, 1}, {0, 0, 0}, {0, 0, 0});
+    const body_motion right = ccd::screw({0, 0, -1}, {10, 0, 0}, {10, 0, 0});
+    // At t = 1/2, (3, −4) on the left and (7, −4) on the right arrive at (5, 0).
+    const vertex_vertex teeth{of(left, {3, -4, 0}), of(right, {7, -4, 0})};
+    EXPECT_EQ(ccd::time_of_impact(teeth), at(0.5));
+    const edge_edge axles{of(left, {3, -4, -1}), of(left, {3, -4, 1}), of(right, {7, -4, 0}),
+                          of(right, {7, -4, 3})};
+    EXPECT_EQ(ccd::time_of_impact(axles), at(0.5));
+    expect_first_time_of_oracle(axles);
+    const edge_edge apart{of(left, {3, -4, -1}), of(left, {3, -4, 1}),
+                          of(right, {std::nextafter(7, 8), -4, 0}),
+                          of(right, {std::nextafter(7, 8), -4, 3})};
+    EXPECT_EQ(ccd::time_of_impact(apart), never);
+}
+TEST(degenerate_bodies, that_are_a_needle_through_a_rotating_ring) {
+    // A square ring turns about x while a needle along x flies through it along the axis.
+    const body_motion ring = ccd::screw({1, 0, 0}, {0, 0, 0}, {0, 0, 0});
+    for (const double y : {0.0, 0.5, 1.0, 1.25, 1.5}) {
+        const body_motion needle = affine_motion{.p0 = {-8, 0, 0}, .p1 = {8, 0, 0}};
+        const std::array<point, 4> corners{{{0, 1, 1}, {0, -1, 1}, {0, -1, -1}, {0, 1, -1}}};
+        bool touches = false;
+        for (std::size_t i = 0; i < 4; ++i) {
+            const edge_edge query{of(needle, {-1, y, 0}), of(needle, {1, y, 0}),
+                                  of(ring, corners[i]), of(ring, corners[(i + 1) % 4])};
+            expect_first_time_of_oracle(query);
+            touches |= ccd::decide_exact(query).outcome == outcome::collides;
+        }
+        // When the needle passes x = 0, the ring has turned by about 53 degrees. The ray from the
+        // axis to the needle then meets the ring between 1.17 and 1.37.
+        EXPECT_EQ(touches, y == 1.25);
+    }
+}
+
+// ---- Random numbers ----
+
+class random_source {
+  public:
+    explicit random_source(unsigned seed) : random_(seed) {}
+
+    unsigned below(unsigned n) { return static_cast<unsigned>(random_() % n); }
+    double whole(int most) {
+        return static_cast<double>(static_cast<int>(below(static_cast<unsigned>(2 * most + 1))) -
+                                   most);
+    }
+    /// On a coarse grid, where many degenerate cases arise, or anywhere in [−1, 1].
+    double number(int most) {
+        return on_grid ? whole(most) : std::ldexp(static_cast<double>(random_()), -63) - 1;
+    }
+    point position(int most) { return {number(most), number(most), flat ? 0 : number(most)}; }
+    void draw_style() {
+        on_grid = below(4) != 0;
+        flat = below(4) == 0;
+    }
+    bool on_grid = true, flat = false;
+
+  private:
+    std::mt19937_64 random_;
+};
+
+class random_bodies : public random_source {
+  public:
+    using random_source::random_source;
+
+    quaternion rotation() {
+        if (flat) return {number(3), 0, 0, number(3)};
+        return {number(3), number(3), number(3), number(3)};
+    }
+    rigid_motion rigid() {
+        rigid_motion m;
+        do {
+            m = ccd::shorter_arc({rotation(), position(3)}, {rotation(), position(3)});
+        } while (!ccd::fault_of(m).empty());
+        if (below(3) == 0) m.centre = position(2);
+        if (below(3) == 0) m.p1 = m.p0;
+        return m;
+    }
+    affine_motion affine() {
+        affine_motion m{{}, {}, position(3), position(3)};
+        for (auto* a : {&m.a0, &m.a1})
+            for (auto& row : *a)
+                for (double& x : row) x = number(1);
+        if (flat)
+            for (auto* a : {&m.a0, &m.a1}) (*a)[2] = {0, 0, 1};
+        return m;
+    }
+    body_motion motion() {
+        switch (below(4)) {
+            case 0:
+                return affine();
+            case 1:
+                return below(2) == 0 ? body_motion(resting{}) : body_motion(rigid());
+            default:
+                return rigid();
+        }
+    }
+    /// Points of two bodies, one for each feature; at times of up to four bodies.
+    template <kind K>
+    std::array<body_point, 4> points(const std::array<body_motion, 4>& motions) {
+        const bool mixed = below(8) == 0;
+        std::array<body_point, 4> p;
+        for (std::size_t i = 0; i < 4; ++i) {
+            const std::size_t feature = i < ccd::kind_traits<K>::first_vertices ? 0 : 1;
+            p[i] = {&motions[mixed ? i : feature], position(2)};
+        }
+        return p;
+    }
+    std::array<body_motion, 4> motions() { return {motion(), motion(), motion(), motion()}; }
+};
+
+struct random_rational_curves : random_source {
+    using random_source::random_source;
+    std::array<control, 4> points;
+    std::array<weights, 4> all_weights;
+
+    std::array<rational_curve, 4> curves(std::size_t most) {
+        std::array<rational_curve, 4> r;
+        for (std::size_t i = 0; i < 4; ++i) {
+            points[i].resize(1 + below(static_cast<unsigned>(most)));
+            for (point& p : points[i]) p = position(3);
+            all_weights[i].clear();
+            if (i > 0 && below(3) == 0 && points[i].size() == points[i - 1].size())
+                all_weights[i] = all_weights[i - 1];
+            else if (below(4) != 0)
+                for (std::size_t k = 0; k < points[i].size(); ++k)
+                    all_weights[i].push_back(on_grid ? 1 + below(4) : std::abs(number(1)) + 0.125);
+            r[i] = {points[i], all_weights[i]};
+        }
+        return r;
+    }
+};
+
+template <class Random, class Check>
+void for_random_queries(int count, unsigned seed, const Check& check) {
+    Random random(seed);
+    for (int i = 0; i < support::scaled(count); ++i) {
+        random.draw_style();
+        SCOPED_TRACE("query " + std::to_string(i));
+        ccd::for_each_kind([&]<kind K>() { check.template operator()<K>(random); });
+    }
+}
+separation random_distance(random_source& random) {
+    return {std::ldexp(1, static_cast<int>(random.below(5)) - 3), random.below(2) * 1.0};
+}
+
+TEST(random_rational_queries, touch_first_at_the_time_of_the_oracle) {
+    for_random_queries<random_rational_curves>(150, 1, []<kind K>(auto& random) {
+        const auto query = query_of<K>(random.curves(3));
+        expect_first_time_of_oracle(query, random.below(4) == 0 ? 0.5 : 1);
+    });
+}
+TEST(random_rational_queries, come_near_first_at_the_time_of_the_oracle) {
+    for_random_queries<random_rational_curves>(30, 2, []<kind K>(auto& random) {
+        const auto query = query_of<K>(random.curves(2));
+        const separation d = random_distance(random);
+        EXPECT_EQ(support::fault_of(query, d, ccd::time_within(query, d)), "");
+    });
+}
+TEST(random_body_queries, touch_first_at_the_time_of_the_oracle) {
+    for_random_queries<random_bodies>(100, 3, []<kind K>(auto& random) {
+        const auto motions = random.motions();
+        const auto query = query_of<K>(random.template points<K>(motions));
+        expect_first_time_of_oracle(query, random.below(4) == 0 ? 0.5 : 1);
+    });
+}
+TEST(random_body_queries, come_near_first_at_the_time_of_the_oracle) {
+    for_random_queries<random_bodies>(8, 4, []<kind K>(auto& random) {
+        const auto motions = random.motions();
+        const auto query = query_of<K>(random.template points<K>(motions));
+        const separation d = random_distance(random);
+        EXPECT_EQ(support::fault_of(query, d, ccd::time_within(query, d)), "");
+    });
+}
+
+}  // namespace
