@@ -95,40 +95,16 @@ class intersection_finder {
     tbb::enumerable_thread_specific<found_by_thread> found_;
 };
 
-template <std::size_t K, std::size_t D>
-std::array<std::array<double, D>, K> points_of(const vertex_rows& positions,
-                                               const std::array<vertex_index, 3>& vertices) {
-    std::array<std::array<double, D>, K> points;
-    for (std::size_t i = 0; i < K; ++i) {
-        const double* row = positions.before + 3 * std::size_t(vertices[i]);
-        for (std::size_t k = 0; k < D; ++k) points[i][k] = row[k];
+template <std::size_t D>
+errbound::simplices::simplex<D> simplex_of(const vertex_rows& positions,
+                                           const simplex_vertices& vertices) {
+    errbound::simplices::simplex<D> simplex;
+    for (const vertex_index v : vertices) {
+        std::array<double, D> point;
+        std::copy_n(positions.before + 3 * std::size_t(v), D, point.begin());
+        simplex.add(point);
     }
-    return points;
-}
-
-/// Calls visit with the points of both, those of the smaller first.
-template <std::size_t D, class Visit>
-auto with_points(const vertex_rows& positions, const simplex_vertices& a, const simplex_vertices& b,
-                 const Visit& visit) {
-    const simplex_vertices &small = a.size <= b.size ? a : b, &large = a.size <= b.size ? b : a;
-    const auto with_sizes = [&]<std::size_t K, std::size_t L>() {
-        return visit(points_of<K, D>(positions, small.vertices),
-                     points_of<L, D>(positions, large.vertices));
-    };
-    switch (4 * small.size + large.size) {
-        case 4 * 1 + 1:
-            return with_sizes.template operator()<1, 1>();
-        case 4 * 1 + 2:
-            return with_sizes.template operator()<1, 2>();
-        case 4 * 1 + 3:
-            return with_sizes.template operator()<1, 3>();
-        case 4 * 2 + 2:
-            return with_sizes.template operator()<2, 2>();
-        case 4 * 2 + 3:
-            return with_sizes.template operator()<2, 3>();
-        default:
-            return with_sizes.template operator()<3, 3>();
-    }
+    return simplex;
 }
 
 /// Moves the common vertices of both to the front, in one order. Returns their number.
@@ -144,28 +120,26 @@ std::size_t align(simplex_vertices& a, simplex_vertices& b) {
     return common;
 }
 
-/// The relation of elements that share `common` first vertices.
-relation relation_of(const vertex_rows& positions, bool in_plane, const simplex_vertices& a,
-                     const simplex_vertices& b, std::size_t common) {
+relation relation_of(const vertex_rows& positions, bool in_plane, simplex_vertices a,
+                     simplex_vertices b) {
+    const std::size_t common = align(a, b);
     if (common == std::min(a.size, b.size)) return relation::disjoint;
-    const auto decide = [common](const auto& x, const auto& y) {
-        return errbound::relation_of(x, y, common);
+    const auto decide = [&]<std::size_t D>() {
+        return errbound::simplices::relation_of(
+            simplex_of<D>(positions, a), simplex_of<D>(positions, b), static_cast<int>(common));
     };
-    return in_plane ? with_points<2>(positions, a, b, decide)
-                    : with_points<3>(positions, a, b, decide);
+    return in_plane ? decide.template operator()<2>() : decide.template operator()<3>();
 }
 
 /// Precondition: the pair is crossing.
 std::array<errbound::located_point<3>, 2> segment_of(const vertex_rows& positions, bool in_plane,
                                                      const intersection& pair) {
-    using ends = std::array<errbound::located_point<3>, 2>;
     const simplex_vertices a(pair.a), b(pair.b);
     if (!in_plane)
-        return with_points<3>(positions, a, b, [](const auto& x, const auto& y) -> ends {
-            return errbound::common_segment(x, y);
-        });
-    const auto [p, q] = errbound::common_segment(points_of<2, 2>(positions, a.vertices),
-                                                 points_of<2, 2>(positions, b.vertices));
+        return errbound::simplices::common_segment(simplex_of<3>(positions, a),
+                                                   simplex_of<3>(positions, b));
+    const auto [p, q] = errbound::simplices::common_segment(simplex_of<2>(positions, a),
+                                                            simplex_of<2>(positions, b));
     const auto lifted = [](const errbound::located_point<2>& x) {
         return errbound::located_point<3>{{x.position[0], x.position[1], 0}, x.error};
     };
@@ -228,9 +202,9 @@ void intersection_finder::decide(found_by_thread& found, const face& a, const fa
         find_edges_in_faces(found, a, b);
         find_edges_in_faces(found, b, a);
     }
-    simplex_vertices x(a), y(b);
+    const simplex_vertices x(a), y(b);
     if (!may_meet(x, y)) return;
-    const relation r = relation_of(positions_, search_.is_in_plane(), x, y, align(x, y));
+    const relation r = relation_of(positions_, search_.is_in_plane(), x, y);
     if (r != relation::disjoint) report(found, a, b, r);
 }
 
@@ -244,7 +218,7 @@ void intersection_finder::find_edges_in_faces(found_by_thread& found, const face
                          std::max(from.vertices[i], from.vertices[j])};
             const simplex_vertices ends(face{e[0], e[1], e[1]});
             if (share_vertex(e, f) || !may_meet(ends, to) ||
-                relation_of(positions_, false, ends, to, 0) == relation::disjoint)
+                relation_of(positions_, false, ends, to) == relation::disjoint)
                 continue;
             edge_face_pair& pair = found.edge_faces.emplace_back(edge_face_pair{e, f});
             std::ranges::sort(pair.f);

@@ -12,6 +12,28 @@
 
 namespace ccd::detail {
 
+/// Pack p of level 0 is a leaf with elements 16 p to 16 p + 15. Pack p of the level above holds
+/// packs 16 p to 16 p + 15 of this one, and so on up to one root.
+struct extents_levels {
+    static constexpr std::size_t most = 8;  ///< 16^8 is the number of indices
+
+    struct level {
+        const extents_column* packs;
+        const float* hulls;  ///< the extents of the packs
+    };
+    level at[most];
+    std::size_t count = 0;
+    std::size_t columns = 0;                  ///< of a pack, and numbers of a hull
+    const leaf_vertices* vertices = nullptr;  ///< of the leaves
+
+    const extents_column* pack(std::size_t level, std::size_t p) const {
+        return at[level].packs + columns * p;
+    }
+    const float* hull(std::size_t level, std::size_t p) const {
+        return at[level].hulls + columns * p;
+    }
+};
+
 struct search_kernels {
     using visitor = void (*)(void* context, const element_pair* pairs, std::size_t count);
 

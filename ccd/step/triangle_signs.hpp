@@ -30,13 +30,20 @@ inline vector_pack_form select(const pack_mask& m, const vector_pack_form& p,
             {{select(m, p.z[0], q.z[0])}}};
 }
 
+constexpr auto volume_constants() {
+    constexpr auto d = errbound::filters::error_count::difference();
+    constexpr vector_form<errbound::filters::error_count, 0> any{{{d}}, {{d}}, {{d}}};
+    return static_filter::detail::constants_of<double, 3>(
+        coplanarity_forms<errbound::filters::error_count, 0>(any, any, any).y()[0], 3);
+}
+
 /// Bounds the errors of det(b, c, p) for any three of these differences. Infinite if one of them is
-/// too large. Proof: proofs/ErrorCount.v, count_sound.
+/// too large (errbound/filters/error_count.hpp).
 template <class... Differences>
 pack error_of_volumes(const Differences&... d) {
     pack x(0.0), y(0.0), z(0.0);
     ((x = max(x, abs(d.x[0])), y = max(y, abs(d.y[0])), z = max(z, abs(d.z[0]))), ...);
-    constexpr auto c = static_filter::volume_constants<double>;
+    constexpr auto c = volume_constants();
     return select(max(max(x, y), z) <= pack(static_filter::largest_difference<double>),
                   x * y * z * pack(c.relative) + pack(c.absolute),
                   pack(std::numeric_limits<double>::infinity()));

@@ -160,7 +160,7 @@ struct intersection_result {
 ///
 /// Cost: trees over the elements, and their search. Faces around a vertex are tested together, in
 /// linear time, if they form a closed fan that projects along a coordinate axis without overlap;
-/// n others are n²/2 pairs. Memory: some 250 bytes an element, in addition to the result.
+/// n others are n²/2 pairs. Memory: some 170 bytes an element, in addition to the result.
 intersection_result intersections(const mesh& mesh, const intersection_options& options = {});
 intersection_result intersections(std::span<const face> faces, std::span<const edge> edges,
                                   std::span<const point<double>> positions,

@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <errbound/predicate_batch.hpp>
 #include <errbound/predicates.hpp>
+#include <errbound/simplices/predicates.hpp>
 #include <limits>
 #include <span>
 #include <utility>
@@ -71,7 +72,9 @@ void record_predicates(recorder& to) {
     record_all<2, 3>(to, "compare_distances2d", errbound::compare_distances2d);
     record_all<3, 3>(to, "compare_distances3d", errbound::compare_distances3d);
     record_all<3, 4>(to, "segments_intersect3d", errbound::segments_intersect3d);
+    record_all<2, 4>(to, "segments_intersect2d", errbound::segments_intersect2d);
     record_all<3, 5>(to, "segment_intersects_triangle", errbound::segment_intersects_triangle);
+    record_all<3, 6>(to, "triangle_intersects_triangle", errbound::triangle_intersects_triangle);
     record_all<2, 6>(to, "orient2d_line_line", errbound::orient2d_line_line);
     record_all<3, 8>(to, "orient3d_line_plane", errbound::orient3d_line_plane);
     record_all<2, 8>(to, "compare_x_line_line", errbound::compare_x_line_line);

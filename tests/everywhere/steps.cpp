@@ -1,5 +1,6 @@
-// Steps and advances of meshes: waving sheets over each other, soups of every shape.
+// Steps, advances and intersections of meshes: waving sheets over each other, soups of every shape.
 #include <ccd/advance.hpp>
+#include <ccd/intersections.hpp>
 #include <ccd/mesh.hpp>
 #include <ccd/step.hpp>
 #include <string>
@@ -110,6 +111,16 @@ void record_advance(recorder& to, const two_frames& frames, ccd::instruction_set
     to.add(result.first_contact);
 }
 
+void record_intersections(recorder& to, const ccd::mesh& mesh, ccd::instruction_set set) {
+    const auto found = ccd::intersections(mesh, {.segments = false, .threads = 2, .set = set});
+    to.add(found.pairs.size());
+    for (const ccd::intersection& pair : found.pairs) {
+        for (const auto& element : {pair.a, pair.b})
+            for (const vertex_index v : element.indices) to.add(v);
+        to.add(static_cast<std::size_t>(pair.relation));
+    }
+}
+
 }  // namespace
 
 void record_steps(recorder& to, ccd::instruction_set set) {
@@ -117,12 +128,14 @@ void record_steps(recorder& to, ccd::instruction_set set) {
     record_step(to, large, set);
     record_step_within(to, large, set);
     record_advance(to, large, set);
+    record_intersections(to, large.after, set);
     to.end_item("sheets");
     for (const auto& f : query_families::families) {
         if (f.thinning > 1) continue;
         const two_frames frames = soup(f, 8);
         record_step(to, frames, set);
         record_advance(to, frames, set);
+        record_intersections(to, frames.before, set);
         to.end_item(std::string(f.name));
     }
 }

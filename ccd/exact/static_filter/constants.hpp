@@ -112,19 +112,8 @@ constexpr constants<Real> constants_of_g() {
     return constants_of<Real, 4>(w, 4);
 }
 
-template <class Real>
-constexpr constants<Real> constants_of_volume() {
-    constexpr auto d = basic_error_count<Real>::difference();
-    constexpr vector_form<basic_error_count<Real>, 0> any{{{d}}, {{d}}, {{d}}};
-    return constants_of<Real, 3>(
-        coplanarity_forms<basic_error_count<Real>, 0>(any, any, any).y()[0], 3);
-}
-
 }  // namespace detail
 
-/// For det(b, c, p) at one time. The unit is that of Y.
-template <class Real>
-inline constexpr constants<Real> volume_constants = detail::constants_of_volume<Real>();
 template <template <class> class Forms, class Real = double>
 inline constexpr constants<Real> y_constants = detail::constants_of_y<Real, Forms>();
 template <template <class> class Forms, class Real = double>

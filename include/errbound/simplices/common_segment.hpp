@@ -113,6 +113,14 @@ inline std::array<located_point<2>, 2> common_segment_of(const simplex<2>& a, co
     return {p, p};
 }
 
+/// The ends in lexicographic order. Precondition: a and b cross.
+template <std::size_t D>
+std::array<located_point<D>, 2> common_segment(const simplex<D>& a, const simplex<D>& b) {
+    auto ends = common_segment_of(hull_of(a), hull_of(b));
+    if (ends[1].position < ends[0].position) std::swap(ends[0], ends[1]);
+    return ends;
+}
+
 }  // namespace simplices
 
 /// The ends of the segment that two crossing simplices have in common, in lexicographic order; the
@@ -125,12 +133,8 @@ std::array<located_point<D>, 2> common_segment(const std::array<std::array<T, D>
                                                const std::array<std::array<T, D>, L>& b) {
     static_assert(D == 3 || (D == 2 && K == 2 && L == 2),
                   "errbound: common_segment takes edges of the plane, or elements of space");
-    const auto hull = [](const auto& s) {
-        return simplices::hull_of(simplices::simplex_of(simplices::as_doubles(s)));
-    };
-    auto ends = simplices::common_segment_of(hull(a), hull(b));
-    if (ends[1].position < ends[0].position) std::swap(ends[0], ends[1]);
-    return ends;
+    return simplices::common_segment(simplices::simplex_of(simplices::as_doubles(a)),
+                                     simplices::simplex_of(simplices::as_doubles(b)));
 }
 
 }  // namespace errbound

@@ -436,6 +436,19 @@ constexpr relation relation_with_face(const point<3>* a, int size, const point<3
                             : relation::touching;
 }
 
+/// The relation of simplices of 1 to 3 vertices, of which the first `common` are the same.
+template <std::size_t D>
+constexpr relation relation_of(const simplex<D>& a, const simplex<D>& b, int common = 0) {
+    const point<D>*p = a.begin(), *q = b.begin();
+    if (a.size == 2 && b.size == 2) return relation_of_edges(p, q, common);
+    if constexpr (D == 3) {
+        if (a.size == 3 && b.size == 3) return relation_of_faces(p, q, common);
+        if (b.size == 3) return relation_with_face(p, a.size, q, common);
+        if (a.size == 3) return relation_with_face(q, b.size, p, common);
+    }
+    return any_relation(a, b, common);
+}
+
 }  // namespace simplices
 
 /// The relation of two simplices of 1 to 3 vertices: vertices, edges and triangles in the plane
@@ -458,20 +471,9 @@ constexpr relation relation_of(const std::array<std::array<T, D>, K>& a,
     assert(
         common < K && common < L && std::equal(a.begin(), a.begin() + common, b.begin()) &&
         "errbound: the first `common` vertices of both simplices are equal, and both have others");
-    const int shared = static_cast<int>(common);
-    if constexpr (!std::is_same_v<T, double>) {
-        return relation_of(simplices::as_doubles(a), simplices::as_doubles(b), common);
-    } else if constexpr (K == 2 && L == 2) {
-        return simplices::relation_of_edges(a.data(), b.data(), shared);
-    } else if constexpr (D == 3 && K == 3 && L == 3) {
-        return simplices::relation_of_faces(a.data(), b.data(), shared);
-    } else if constexpr (D == 3 && L == 3) {
-        return simplices::relation_with_face(a.data(), int{K}, b.data(), shared);
-    } else if constexpr (D == 3 && K == 3) {
-        return simplices::relation_with_face(b.data(), int{L}, a.data(), shared);
-    } else {
-        return simplices::any_relation(simplices::simplex_of(a), simplices::simplex_of(b), shared);
-    }
+    return simplices::relation_of(simplices::simplex_of(simplices::as_doubles(a)),
+                                  simplices::simplex_of(simplices::as_doubles(b)),
+                                  static_cast<int>(common));
 }
 
 }  // namespace errbound

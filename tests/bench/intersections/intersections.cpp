@@ -21,7 +21,7 @@ using amount = ccd::intersection_options::amount;
 struct named_mesh {
     std::string name;
     ccd::mesh at_rest;
-    ccd::mesh after = {};  ///< the next frame, or empty
+    ccd::mesh after = {};  ///< the next frame
 };
 
 /// A wavy grid of 2 side² faces. If `pierced` is true, one vertex is pushed through it.
@@ -51,8 +51,9 @@ ccd::mesh wavy_grid(std::size_t side, bool pierced) {
     return m;
 }
 
-std::vector<named_mesh> meshes(bool quick) {
-    std::vector<named_mesh> all;
+/// Calls visit with one mesh after the other.
+template <class Visit>
+void for_each_mesh(bool quick, std::size_t most_faces, const Visit& visit) {
     for (const char* folder : {ERRBOUND_SCENES, ERRBOUND_SHARED_DATA "/scenes/cloth-funnel/frames",
                                ERRBOUND_SHARED_DATA "/scenes/cloth-ball/frames"}) {
         std::vector<std::filesystem::path> frames;
@@ -61,18 +62,18 @@ std::vector<named_mesh> meshes(bool quick) {
                 if (entry.path().extension() == ".ply") frames.push_back(entry.path());
         std::ranges::sort(frames);
         if (frames.size() >= 2)
-            all.push_back({frames[0].stem().string(), ccd::io::read_mesh(frames[0]),
-                           ccd::io::read_mesh(frames[1])});
+            visit(named_mesh{frames[0].stem().string(), ccd::io::read_mesh(frames[0]),
+                             ccd::io::read_mesh(frames[1])});
     }
     for (const std::size_t side :
-         quick ? std::vector<std::size_t>{70} : std::vector<std::size_t>{707, 2236})
+         quick ? std::vector<std::size_t>{70} : std::vector<std::size_t>{70, 707, 2236})
         for (const bool pierced : {false, true}) {
+            if (2 * side * side > most_faces) continue;
             named_mesh m{pierced ? "pierced" : "free", wavy_grid(side, pierced)};
             m.after = m.at_rest;
             for (auto& p : m.after.vertices) p.z += std::sin(50 * p.x) / 1000;
-            all.push_back(std::move(m));
+            visit(m);
         }
-    return all;
 }
 
 /// The pairs of two faces, by the indices of the faces in the mesh.
@@ -113,12 +114,14 @@ bench::row row_of(const named_mesh& named, int repeats) {
          [&] { bench::keep(ccd::intersections(mesh, {.threads = 1})); },
          [&] { bench::keep(ccd::intersections(mesh, first)); }, [&] { build_trees(mesh); }},
         repeats);
-    ccd::mesh_steps steps(mesh), checked(mesh);
-    const ccd::vertex_rows frames(mesh.vertices, named.after.vertices);
-    const auto of_steps = bench::race(
-        {[&] { bench::keep(steps.run(frames, {.threads = 1})); },
-         [&] { bench::keep(checked.run(frames, {.threads = 1, .check_start = true})); }},
-        repeats);
+    const std::vector<bench::timing> of_steps = [&] {
+        ccd::mesh_steps steps(mesh);
+        const ccd::vertex_rows frames(mesh.vertices, named.after.vertices);
+        return bench::race(
+            {[&] { bench::keep(steps.run(frames, {.threads = 1})); },
+             [&] { bench::keep(steps.run(frames, {.threads = 1, .check_start = true})); }},
+            repeats);
+    }();
     const auto ms = [&](std::size_t i) { return 1e3 * timings[i].minimum; };
     bench::row r = {{"mesh", named.name},
                     {"faces", mesh.faces.size()},
@@ -149,10 +152,14 @@ bench::row row_of(const named_mesh& named, int repeats) {
 int main(int argc, char** argv) {
     bench::program bench("./run bench --intersections",
                          "ccd::intersections next to CGAL's self_intersections, on one thread.");
+    std::size_t most_faces = 10'000'000;
+    bench.line.add_option("--most-faces", most_faces,
+                          "The size of the largest generated mesh; 10,000,000 faces need 12 GB");
     return bench.run(argc, argv, [&](bench::report& out) {
         bench::rows all;
-        for (const named_mesh& m : meshes(bench.quick))
+        for_each_mesh(bench.quick, most_faces, [&](const named_mesh& m) {
             all.push_back(row_of(m, m.at_rest.faces.size() > 500'000 ? 3 : bench.repeats()));
+        });
         out.table("intersections", {},
                   "intersections of meshes at rest, one thread, ms (least of some passes): pairs "
                   "without and with their segments, the first pair, the trees alone; the cost of "

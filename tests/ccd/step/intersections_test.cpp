@@ -23,6 +23,7 @@
 #include <utility>
 #include <vector>
 
+#include "ccd/step/search_kernels.hpp"
 #include "tests/support/files.hpp"
 
 namespace {
@@ -249,6 +250,31 @@ class mesh_maker {
         return mesh;
     }
 
+    /// Two sheets in one plane, perhaps with vertices at the same positions.
+    ccd::mesh coplanar_sheets() {
+        ccd::mesh mesh;
+        for (const double z : {0., below(8) ? 0. : 1.}) {
+            const std::size_t side = 2 + below(3);
+            const auto first = static_cast<vertex_index>(mesh.vertices.size());
+            const double size = below(2) ? 1 : between(0.3, 2),
+                         shift = below(2) ? 0 : between(0, 1);
+            const bool bent = below(3) == 0;
+            for (std::size_t y = 0; y < side; ++y)
+                for (std::size_t x = 0; x < side; ++x)
+                    mesh.vertices.push_back(
+                        {size * double(x) + shift, size * double(bent ? x * x + y : y) + shift, z});
+            for (std::size_t y = 1; y < side; ++y)
+                for (std::size_t x = 1; x < side; ++x) {
+                    const auto v = static_cast<vertex_index>(first + y * side + x),
+                               s = vertex_index(side);
+                    mesh.faces.push_back({v - s - 1, v - s, v});
+                    mesh.faces.push_back({v - 1, v - s - 1, v});
+                }
+        }
+        turn(mesh);
+        return mesh;
+    }
+
   private:
     void turn(ccd::mesh& mesh) {
         const auto turns = below(3);
@@ -259,7 +285,8 @@ class mesh_maker {
 
 ccd::mesh any_mesh(std::uint64_t seed) {
     mesh_maker maker(seed);
-    ccd::mesh mesh = seed % 3 == 0   ? maker.soup(false)
+    ccd::mesh mesh = seed % 7 == 0   ? maker.coplanar_sheets()
+                     : seed % 3 == 0 ? maker.soup(false)
                      : seed % 3 == 1 ? maker.sheet()
                                      : maker.fan();
     if (seed % 5 == 0)  // rods and points among the faces
@@ -284,6 +311,9 @@ TEST(Intersections, AreThoseOfEveryTwoElements) {
         ASSERT_EQ(listed(found.pairs), expected) << seed;
         ASSERT_EQ(found.edge_faces, expected_edge_faces(mesh, {})) << seed;
         ASSERT_EQ(found.counts.total(), expected.size());
+        const auto set = ccd::instruction_sets()[seed % ccd::instruction_sets().size()];
+        ASSERT_EQ(listed(ccd::intersections(mesh, {.threads = 1, .set = set}).pairs), expected)
+            << seed << ' ' << name(set);
         ASSERT_EQ(ccd::is_free_of_intersections(mesh), expected.empty()) << seed;
         for (const auto& [kind, a, b, r] : expected) ++numbers[{kind, r}];
     }
@@ -296,6 +326,61 @@ TEST(Intersections, AreThoseOfEveryTwoElements) {
     EXPECT_GT((numbers[{ccd::intersection_kind::face_face, relation::crossing}]), 1000U);
     EXPECT_GT((numbers[{ccd::intersection_kind::edge_face, relation::crossing}]), 100U);
     EXPECT_GT((numbers[{ccd::intersection_kind::edge_edge, relation::overlapping}]), 10U);
+}
+
+/// Two triangles on a grid or in any position, some almost or exactly in one plane, of any size.
+std::array<ccd::point<double>, 6> two_triangles(std::uint64_t seed) {
+    mesh_maker maker(seed);
+    std::array<ccd::point<double>, 6> p;
+    const std::size_t side = 2 + maker.below(8);
+    const bool on_grid = maker.below(2), flat = maker.below(4) == 0;
+    for (auto& x : p) {
+        x = {maker.on_grid(side), maker.on_grid(side), maker.on_grid(side)};
+        if (!on_grid) x = {maker.between(-1, 1), maker.between(-1, 1), maker.between(-1, 1)};
+        if (flat) x.z = x.x + 2 * x.y;
+    }
+    if (maker.below(4) == 0) {
+        auto& x = p[maker.below(6)].z;
+        x = std::nextafter(x, maker.between(-8, 8));
+    }
+    constexpr int exponents[] = {0, 0, 0, -300, 199, 201, 600, -1074};
+    const int exponent = exponents[maker.below(std::size(exponents))];
+    for (auto& x : p)
+        x = {std::ldexp(x.x, exponent), std::ldexp(x.y, exponent), std::ldexp(x.z, exponent)};
+    return p;
+}
+
+TEST(Intersections, HaveAFilterThatIsNeverWrong) {
+    constexpr std::size_t pairs = 200'000;
+    std::vector<double> positions;
+    std::vector<vertex_index> elements;
+    std::vector<ccd::detail::element_pair> queries;
+    std::vector<relation> right;
+    for (std::size_t i = 0; i < pairs; ++i) {
+        ccd::mesh mesh;
+        for (const auto& p : two_triangles(i)) {
+            elements.push_back(static_cast<vertex_index>(positions.size() / 3));
+            positions.insert(positions.end(), {p.x, p.y, p.z});
+            mesh.vertices.push_back(p);
+        }
+        queries.push_back({static_cast<unsigned>(2 * i), static_cast<unsigned>(2 * i + 1)});
+        right.push_back(relation_of<3>(mesh, {0, 1, 2}, {3, 4, 5}));
+    }
+    for (const auto set : ccd::instruction_sets()) {
+        std::vector<errbound::sign_type> signs(pairs);
+        ccd::detail::search_kernels_for(set).triangle_signs(positions.data(), elements.data(),
+                                                            queries.data(), pairs, signs.data());
+        std::size_t disjoint = 0, crossing = 0;
+        for (std::size_t i = 0; i < pairs; ++i) {
+            if (!certain(signs[i])) continue;
+            ++(signs[i] == errbound::sign_type::negative ? disjoint : crossing);
+            ASSERT_EQ(right[i], signs[i] == errbound::sign_type::negative ? relation::disjoint
+                                                                          : relation::crossing)
+                << i << ' ' << name(set);
+        }
+        EXPECT_GT(disjoint, pairs / 6);
+        EXPECT_GT(crossing, pairs / 50);
+    }
 }
 
 TEST(Intersections, AreThoseOfAMeshWithoutIntersections) {
