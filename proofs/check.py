@@ -201,13 +201,17 @@ def check_all(build):
 
 
 def show(build, chosen):
-    """Prints statements of a compiled folder: of the files and theorems chosen, or those that differ from digests.txt."""
+    """Prints statements of a compiled folder: of the files and theorems chosen, or those that differ from digests.txt.
+    Then it also writes the new digests to that folder."""
     found = [each for each in checker.theorems(proofs, LIBRARY) if each[0] != MAIN]
     if chosen:
         found = [(name, theorem) for name, theorem in found if {name, theorem, f"{name}.{theorem}"} & set(chosen)]
     stated = checker.statements(build, LIBRARY, found)
-    print("".join(f"{name}\n     : {statement}\n\n" for name, statement in stated.items()) if chosen
-          else checker.differing(stated, DIGESTS), end="")
+    if chosen:
+        print("".join(f"{name}\n     : {statement}\n\n" for name, statement in stated.items()), end="")
+    else:
+        print(checker.differing(stated, DIGESTS), end="")
+        (build / DIGESTS.name).write_text(checker.record_of(stated))
 
 
 def run_ties(build, chosen):
@@ -249,7 +253,8 @@ if __name__ == "__main__":
     what.add_argument("--passed", action="store_true", help="compare names, and the files with those of the last full check")
     what.add_argument("--list", nargs="*", metavar="WORD", help="print the files' first comments, all or those with each WORD")
     what.add_argument("--show", nargs="+", metavar=("BUILD", "NAME"),
-                      help="print the statements of files or theorems, or those that differ from digests.txt")
+                      help="print the statements of files or theorems, or those that differ from digests.txt, and write "
+                      "the new digests to BUILD")
     what.add_argument("--ties", nargs="+", metavar=("BUILD", "PROGRAM"),
                       help="run the extracted programs again, and print the results that differ from tie.txt")
     try:

@@ -255,17 +255,6 @@ let operations f =
      fun i -> case first.(i / count second) second.(i mod count second)) in
   let pairs first second =
     Array.concat (Array.to_list (Array.map (fun x -> Array.map (fun y -> (x, y)) second) first)) in
-  (* states: a rule's operands, value and bound *)
-  let arithmetic rule states add subtract multiply divide scale =
-    let named operation = rule ^ "." ^ operation in
-    [ of_two (named "add") states states (fun (x, s) (y, t) -> add (a.plus x y) x s y t);
-      of_two (named "subtract") states states (fun (x, s) (y, t) -> subtract (a.minus x y) x s y t);
-      of_two (named "multiply") states states (fun (x, s) (y, t) -> multiply (a.times x y) x s y t) ]
-    @ (match divide with
-       | None -> []
-       | Some divide ->
-           [ of_two (named "divide") states states (fun (x, s) (y, t) -> divide (a.over x y) x s y t) ])
-    @ [ of_two (named "scale") states exponents (fun (x, s) e -> scale (a.scale x (z e)) x s (z e)) ] in
   let error_states = pairs f.values f.bounds in
   let safe_values = [| a.integer Z0; a.integer (z 1); a.opposite a.largest; a.infinity;
                        a.minus a.infinity a.infinity |] in
@@ -280,6 +269,7 @@ let operations f =
          if a.at_most l u then [ (l, (l, u)); (u, (l, u)) ] else [])
          (Array.to_list (pairs f.values f.values)))) in
   let residual_bounds = pairs f.values f.bounds in
+  let interval = interval_operations a fused and residual = residual_operations a fused in
   let relative = relative_operations a doubles f.to_double f.of_double fused in
   let relative_states = pairs f.values (relative_counts (of_z a.digits)) in
   let affine = affine_operations a fused and affine_states = affine_states f in
@@ -293,19 +283,25 @@ let operations f =
           put_bound (operations.rule_multiply (a.times x y) x (exact x) y (exact y)));
       of_two (named "divide") f.values f.values (fun x y ->
           put_bound (divide (a.over x y) x (exact x) y (exact y))) ] in
-  (* all operations of a rule *)
-  let of_rule operations name states put_bound =
+  (* all operations of a rule on its states, values with bounds *)
+  let of_rule operations ?errors ?(signed = false) name states put_bound =
     let rule = operations.the_rule in
     let named operation = name ^ "." ^ operation in
+    let errors = Option.value errors ~default:states in
+    let of_states operation result =
+      of_two (named operation) states states (fun (x, s) (y, t) -> put_bound (result x s y t)) in
     [ of_one (named "exact") f.values (fun v -> put_bound (rule.rule_exact v));
-      of_two (named "within") f.values f.values (fun v e -> put_bound (rule.rule_within v e));
-      of_one (named "error") states (fun (v, b) -> put (rule.rule_error v b)) ]
-    @ arithmetic name states
-        (fun v x s y t -> put_bound (operations.rule_add v x s y t))
-        (fun v x s y t -> put_bound (rule.rule_subtract v x s y t))
-        (fun v x s y t -> put_bound (operations.rule_multiply v x s y t))
-        (Option.map (fun divide v x s y t -> put_bound (divide v x s y t)) operations.rule_divide)
-        (fun v x s e -> put_bound (operations.rule_scale v x s e)) in
+      of_two (named "within") f.values f.values (fun v e -> put_bound (rule.rule_within v e)) ]
+    @ (if errors = [||] then [] else [ of_one (named "error") errors (fun (v, b) -> put (rule.rule_error v b)) ])
+    @ (if signed then [ of_one (named "sign") states (fun (v, b) -> put_sign (rule.rule_sign v b)) ] else [])
+    @ [ of_states "add" (fun x s y t -> operations.rule_add (a.plus x y) x s y t);
+        of_states "subtract" (fun x s y t -> rule.rule_subtract (a.minus x y) x s y t);
+        of_states "multiply" (fun x s y t -> operations.rule_multiply (a.times x y) x s y t) ]
+    @ (match operations.rule_divide with
+       | None -> []
+       | Some divide -> [ of_states "divide" (fun x s y t -> divide (a.over x y) x s y t) ])
+    @ [ of_two (named "scale") states exponents (fun (x, s) e ->
+            put_bound (operations.rule_scale (a.scale x (z e)) x s (z e))) ] in
   (* functions of tracked numbers under a rule; `dot`, `sqrt` and `fma` are the rule's, if it has them *)
   let functions operations ?dot ?sqrt ?fma name states put_bound =
     let rule = operations.the_rule in
@@ -361,56 +357,16 @@ let operations f =
       of_two "remainder_of_division" f.values f.values (fun x y ->
           let r, exact = remainder_of_division a fused x y (a.over x y) in
           put r; put_word (if exact then 1 else 0));
-      of_one "none.error" f.values (fun v -> put (none_error a v));
-      of_one "tight.exact" f.values (fun v -> put (tight_exact a v));
-      of_two "tight.within" f.values f.values (fun v e -> put (tight_within a v e)) ]
-    @ arithmetic "tight" error_states
-        (fun v _ s _ t -> put (tight_add a v s t))
-        (fun v _ s _ t -> put (tight_add a v s t))
-        (fun v x s y t -> put (tight_multiply a v x s y t))
-        (Some (fun v x s y t -> put (tight_divide a v x s y t)))
-        (fun v x s e -> put (tight_scale a v x s e))
-    @ [ of_one "sharp.exact" f.values (fun v -> put (tight_exact a v));
-        of_two "sharp.within" f.values f.values (fun v e -> put (tight_within a v e)) ]
-    @ arithmetic "sharp" error_states
-        (fun v _ s _ t -> put (sharp_add a v s t))
-        (fun v _ s _ t -> put (sharp_add a v s t))
-        (fun v x s y t -> put (sharp_multiply a v x s y t))
-        (Some (fun v x s y t -> put (sharp_divide a v x s y t)))
-        (fun v x s e -> put (sharp_scale a v x s e))
-    @ [ of_one "safe.exact" f.values (fun v -> put_safe (safe_exact a v));
-        of_two "safe.within" f.values f.values (fun v e -> put_safe (safe_within a v e));
-        of_one "safe.error" safe_states (fun (v, (b, k)) -> put (safe_error a v b k)) ]
-    @ arithmetic "safe" safe_states
-        (fun _ _ (b, k) _ (c, l) -> put_safe (safe_add a b k c l))
-        (fun _ _ (b, k) _ (c, l) -> put_safe (safe_add a b k c l))
-        (fun _ x (b, k) y (c, l) -> put_safe (safe_multiply a x b k y c l))
-        None
-        (fun v x (b, k) e -> put_safe (safe_scale a v x b k e))
-    @ [ of_one "interval.exact" f.values (fun v -> put2 (interval_exact a v));
-        of_two "interval.within" f.values f.values (fun v e -> put2 (interval_within a v e));
-        of_one "interval.error" interval_states (fun (v, b) -> put (interval_error a v b));
-        of_one "interval.sign" interval_states (fun (_, b) -> put_sign (interval_sign a b)) ]
-    @ arithmetic "interval" interval_states
-        (fun v _ s _ t -> put2 (interval_add a v s t))
-        (fun v _ s _ t -> put2 (interval_subtract a v s t))
-        (fun v x s y t -> put2 (interval_multiply a fused v x s y t))
-        (Some (fun v x s y t -> put2 (interval_divide a fused v x s y t)))
-        (fun v _ s e -> put2 (interval_scale a v s e))
-    @ of_exact "interval" (interval_operations a fused) (fun x -> (x, x)) put2
-    @ [ of_one "residual.exact" f.values (fun v -> put2 (residual_exact a v));
-        of_two "residual.within" f.values f.values (fun v e -> put2 (residual_within a v e));
-        of_one "residual.error" residual_bounds (fun b -> put (residual_error a b));
-        of_one "residual.sign" residual_states (fun (v, b) -> put_sign (residual_sign a v b)) ]
-    @ arithmetic "residual" residual_states
-        (fun v x s y t -> put2 (residual_add a v x s y t))
-        (fun v x s y t -> put2 (residual_subtract a v x s y t))
-        (fun v x s y t -> put2 (residual_multiply a fused v x s y t))
-        (Some (fun v x s y t -> put2 (residual_divide a fused v x s y t)))
-        (fun v x s e -> put2 (residual_scale a v x s e))
-    @ of_exact "residual" (residual_operations a fused) (fun _ -> (a.integer Z0, a.integer Z0)) put2
-    @ of_rule relative "relative" relative_states put_double
-    @ [ of_one "relative.sign" relative_states (fun (v, k) -> put_sign (relative.the_rule.rule_sign v k)) ]
+      of_one "none.error" f.values (fun v -> put (none_error a v)) ]
+    @ of_rule (tight_operations a) ~errors:[||] "tight" error_states put
+    @ of_rule (sharp_operations a) ~errors:[||] "sharp" error_states put
+    @ of_rule (safe_operations a) "safe" safe_states put_safe
+    @ of_rule interval ~signed:true "interval" interval_states put2
+    @ of_exact "interval" interval (fun x -> (x, x)) put2
+    @ of_rule residual ~signed:true ~errors:(Array.map (fun b -> (a.integer Z0, b)) residual_bounds) "residual"
+        residual_states put2
+    @ of_exact "residual" residual (fun _ -> (a.integer Z0, a.integer Z0)) put2
+    @ of_rule relative ~signed:true "relative" relative_states put_double
     @ of_exact "relative" relative (fun _ -> 0.) put_double
     @ of_rule affine "affine" affine_states (put_affine put)
     @ of_exact "affine" affine affine.the_rule.rule_exact (put_affine put) in
@@ -421,8 +377,8 @@ let operations f =
     functions (tight_operations a) ?dot:(own_dot tight_most tight_dot) "tight" error_states put
     @ functions (sharp_operations a) ?dot:(own_dot sharp_most sharp_dot) "sharp" error_states put
     @ functions (safe_operations a) "safe" safe_states put_safe
-    @ functions (interval_operations a fused) ~sqrt:(interval_sqrt a fused) ~fma:(interval_fma a) "interval" interval_states put2
-    @ by_slope (residual_operations a fused) (fun _ -> false) ?dot:None "residual" residual_states put2
+    @ functions interval ~sqrt:(interval_sqrt a fused) ~fma:(interval_fma a) "interval" interval_states put2
+    @ by_slope residual (fun _ -> false) ?dot:None "residual" residual_states put2
     @ functions relative ~dot:(relative_dot a doubles f.to_double f.of_double fused) "relative" relative_states put_double
     @ by_slope affine at_limit ?dot:None "affine" affine_states (put_affine put) in
   (of_rules, of_functions)

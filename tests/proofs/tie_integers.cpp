@@ -57,12 +57,8 @@ void put_decision(hash& h, const Query& query) {
     put(h, ccd::detail::decide_in_integers(query).outcome);
 }
 void put_decision(hash& h, const drawn_query& q) {
-    if (q.edges)
-        put_decision(h, q.as<ccd::edge_edge<double>>());
-    else
-        put_decision(h, q.as<ccd::vertex_face<double>>());
-    put(h, in_words(ccd::vertex_edge<double>{q.moving(0), q.moving(1), q.moving(2)}));
-    put(h, in_words(ccd::vertex_vertex<double>{q.moving(0), q.moving(1)}));
+    tie::with_query(q, [&h](const auto& query) { put_decision(h, query); });
+    tie::with_smaller_queries(q, [&h](const auto& query) { put(h, in_words(query)); });
 }
 
 /// Decisions that only few queries need, since roots nearly coincide.
@@ -71,10 +67,7 @@ void put_close(hash& h, const Query& query) {
     put(h, ccd::detail::decide_close<4>(forms_of(integer_units(query).converted<4>(query))));
 }
 void put_close(hash& h, const drawn_query& q) {
-    if (q.edges)
-        put_close(h, q.as<ccd::edge_edge<double>>());
-    else
-        put_close(h, q.as<ccd::vertex_face<double>>());
+    tie::with_query(q, [&h](const auto& query) { put_close(h, query); });
 }
 
 /// For all extents, also infinite ones: units, separation by coordinates, and the verdict.
@@ -93,12 +86,9 @@ void put_wide(hash& h, const Query& query) {
     h.put(static_cast<std::uint32_t>(verdict.cause));
 }
 void put_wide(hash& h, const drawn_query& q) {
-    if (q.edges)
-        put_wide(h, q.as<ccd::edge_edge<double>>());
-    else
-        put_wide(h, q.as<ccd::vertex_face<double>>());
-    put_wide(h, ccd::vertex_edge<double>{q.moving(0), q.moving(1), q.moving(2)});
-    put_wide(h, ccd::vertex_vertex<double>{q.moving(0), q.moving(1)});
+    const auto put_one = [&h](const auto& query) { put_wide(h, query); };
+    tie::with_query(q, put_one);
+    tie::with_smaller_queries(q, put_one);
 }
 
 template <class Integer>
@@ -230,10 +220,7 @@ void put_deep(hash& h, const tie::drawn_deep& d) {
     if (narrow) put_part(h, *narrow);
 }
 void put_deep(hash& h, const tie::drawn_deep& d) {
-    if (d.forms.edges)
-        put_deep<ccd::edge_edge_forms>(h, d);
-    else
-        put_deep<ccd::vertex_face_forms>(h, d);
+    d.forms.with_kind([&]<template <class, int> class Forms>() { put_deep<Forms>(h, d); });
 }
 
 template <int Words, template <class, int> class Forms>
@@ -269,10 +256,7 @@ void put_forms(hash& h, const tie::drawn_forms& f) {
 }
 template <int Words>
 void put_forms(hash& h, const tie::drawn_forms& f) {
-    if (f.edges)
-        put_forms<Words, ccd::edge_edge_forms>(h, f);
-    else
-        put_forms<Words, ccd::vertex_face_forms>(h, f);
+    f.with_kind([&]<template <class, int> class Forms>() { put_forms<Words, Forms>(h, f); });
 }
 void put_forms(hash& h, const tie::drawn_forms& f) {
     if (f.bits() <= extent_limit(1)) return put_forms<1>(h, f);
@@ -280,10 +264,7 @@ void put_forms(hash& h, const tie::drawn_forms& f) {
     put_forms<4>(h, f);
 }
 void put_parts(hash& h, const tie::drawn_forms& f) {
-    if (f.edges)
-        put_parts<ccd::edge_edge_forms>(h, f);
-    else
-        put_parts<ccd::vertex_face_forms>(h, f);
+    f.with_kind([&]<template <class, int> class Forms>() { put_parts<Forms>(h, f); });
 }
 
 /// Tests at roots of quadratics, and at common roots of three.
