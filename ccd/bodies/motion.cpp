@@ -63,6 +63,14 @@ std::string fault_of(const body_motion& motion) {
     return std::visit([](const auto& m) { return fault(m); }, motion);
 }
 
+bool moves(const body_motion& motion) {
+    if (const auto* affine = std::get_if<affine_motion>(&motion))
+        return affine->a0 != affine->a1 || affine->p0 != affine->p1;
+    if (const auto* rigid = std::get_if<rigid_motion>(&motion))
+        return rigid->q0 != rigid->q1 || rigid->p0 != rigid->p1;
+    return false;
+}
+
 rigid_motion shorter_arc(const pose& from, const pose& to) {
     quaternion q = to.q;
     if (detail::dot_of<double>(from.q, q) < 0) q = {-q.w, -q.x, -q.y, -q.z};

@@ -66,25 +66,24 @@ class swept_body {
     vertex_index first_vertex() const { return first_vertex_; }
     const box<double>& extent() const { return extent_; }
 
-    /// Sets the elements' boxes. Keeps those of a body that rests.
+    /// Sets the elements' boxes, widened by `distance`. Keeps those of the last motion.
     void sweep(const body_motion& motion, double distance) {
+        if (swept_ == std::pair(motion, distance)) return;
+        swept_.reset();
         set_elements();
-        const bool rests = std::holds_alternative<resting>(motion);
-        if (rests && swept_at_rest_) return;
         const detail::swept_points points(motion, extent_);
         boxes_.resize(rest_.vertices.size());
         tbb::parallel_for(
             tbb::blocked_range<std::size_t>(0, boxes_.size(), 1024), [&](const auto& range) {
                 for (std::size_t v = range.begin(); v < range.end(); ++v)
-                    boxes_[v] =
-                        detail::widened(points.box_of(rest_.vertices[v]), rests ? 0 : distance);
+                    boxes_[v] = detail::widened(points.box_of(rest_.vertices[v]), distance);
             });
         vertices.build(boxes_);
         points_.build(boxes_);
         edges.build(boxes_);
         rods.build(boxes_);
         faces.build(boxes_);
-        swept_at_rest_ = rests;
+        swept_ = {motion, distance};
     }
 
     element_set<1> vertices, points_;  ///< points are vertices of no edge
@@ -124,7 +123,7 @@ class swept_body {
     vertex_index first_vertex_;
     box<double> extent_{};
     std::vector<box<double>> boxes_;
-    bool swept_at_rest_ = false;
+    std::optional<std::pair<body_motion, double>> swept_;  ///< of the boxes
 };
 
 template <kind K>
@@ -214,9 +213,6 @@ struct body_steps::state {
     std::vector<std::pair<std::size_t, std::size_t>> partners(
         std::span<const body_motion> motions, double distance,
         const body_step_options& options) const {
-        const auto rests = [&](std::size_t b) {
-            return std::holds_alternative<resting>(motions[b]);
-        };
         std::vector<std::size_t> used;  // bodies with vertices
         std::vector<box<double>> boxes;
         for (std::size_t b = 0; b < motions.size(); ++b) {
@@ -224,12 +220,12 @@ struct body_steps::state {
             if (body.rest().vertices.empty()) continue;
             used.push_back(b);
             const auto all = detail::swept_points(motions[b], body.extent()).box_of_all();
-            boxes.push_back(detail::widened(all, rests(b) ? 0 : distance));
+            boxes.push_back(detail::widened(all, moves(motions[b]) ? distance : 0));
         }
         std::vector<std::pair<std::size_t, std::size_t>> all;
         for_each_two_touching(boxes, [&](std::size_t i, std::size_t j) {
             const std::size_t a = used[i], b = used[j];
-            if (rests(a) && rests(b)) return;
+            if (!moves(motions[a]) && !moves(motions[b])) return;
             if (options.may_touch && !options.may_touch(a, b)) return;
             all.emplace_back(a, b);
         });
@@ -331,7 +327,8 @@ body_step_result body_steps::run(std::span<const body_motion> motions,
         std::vector<bool> is_swept(motions.size());
         for (const auto& [a, b] : partners)
             for (const std::size_t body : {a, b}) {
-                if (!is_swept[body]) state_->bodies[body].sweep(motions[body], distance);
+                if (!is_swept[body])
+                    state_->bodies[body].sweep(motions[body], moves(motions[body]) ? distance : 0);
                 is_swept[body] = true;
             }
         tbb::parallel_for(

@@ -1,6 +1,6 @@
 """Exact continuous collision detection, predicates, roots, and numbers with certified error bounds.
 
-Modules: ccd, predicates, roots, tracked, io (mesh, query and view files); show displays a step.
+Modules: ccd, bodies, predicates, roots, tracked, io (mesh, query and view files); show displays a step.
 Import errbound.ipctk (needs ipctk), errbound.mpi (needs mpi4py) and errbound.cuda (needs a CUDA device) explicitly.
 
 Arrays may have any memory order. Numbers are float64, float32, or integers that doubles represent exactly.
@@ -8,11 +8,11 @@ Arrays are copied unless they are C-contiguous float64, or C-contiguous int32 or
 Errors: ValueError, TypeError or IndexError with the argument, the row, its value and the expected one.
 Long calls release the interpreter's lock. Ctrl-C interrupts them.
 """
-from . import ccd, io, predicates, roots, tracked
+from . import bodies, ccd, io, predicates, roots, tracked
 from ._native import FileError
 from ._show import show
 
-__all__ = ["FileError", "ccd", "io", "predicates", "roots", "show", "tracked"]
+__all__ = ["FileError", "bodies", "ccd", "io", "predicates", "roots", "show", "tracked"]
 
 
 def __getattr__(name: str) -> str:

@@ -4,6 +4,7 @@
 
 namespace errbound::python {
 
+void bind_bodies(nanobind::module_& m);
 void bind_files(nanobind::module_& m);
 void bind_predicates(nanobind::module_& m);
 void bind_queries(nanobind::module_& m);

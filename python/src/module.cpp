@@ -12,6 +12,7 @@ NB_MODULE(_native, m) {
     nb::set_leak_warnings(false);
     errbound::python::bind_queries(m);
     errbound::python::bind_steps(m);
+    errbound::python::bind_bodies(m);
     errbound::python::bind_files(m);
     errbound::python::bind_views(m);
     errbound::python::bind_predicates(m);

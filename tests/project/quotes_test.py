@@ -16,7 +16,7 @@ root = Path(sys.argv[1])
 PROGRAMS = {
     "README.md": ["examples/three_uses.cpp"],
     "docs/authoring-predicates.md": ["examples/authoring.cpp"],
-    "docs/collision-detection.md": ["examples/batch.cpp", "examples/steps.cpp", "examples/curves.cpp",
+    "docs/collision-detection.md": ["examples/batch.cpp", "examples/steps.cpp", "examples/curves.cpp", "examples/bodies/turning.cpp",
                                     "examples/line_search.cpp", "examples/bounce.cpp", "examples/near_pairs.cpp",
                                     "examples/from_ipc_toolkit.cpp", "examples/from_tight_inclusion.cpp"],
     "docs/simulation.md": ["examples/simulation/own_solver.cpp"],

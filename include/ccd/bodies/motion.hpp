@@ -31,18 +31,22 @@ struct quaternion {
 struct pose {
     quaternion q;
     point<double> p;
+    friend bool operator==(const pose&, const pose&) = default;
 };
 
 using matrix3 = std::array<std::array<double, 3>, 3>;  ///< rows
 inline constexpr matrix3 identity3{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
 
 /// Every point rests at its rest position X.
-struct resting {};
+struct resting {
+    friend bool operator==(const resting&, const resting&) = default;
+};
 
 /// x(t) = A(t)X + p(t) with A and p linear in t: every point moves along a line.
 struct affine_motion {
     matrix3 a0 = identity3, a1 = identity3;
     point<double> p0, p1;
+    friend bool operator==(const affine_motion&, const affine_motion&) = default;
 };
 
 /// x(t) = R(t)(X − centre) + p(t) with p linear in t, where R(t) is the rotation of the quaternion
@@ -53,6 +57,7 @@ struct rigid_motion {
     quaternion q0, q1;
     point<double> p0, p1;
     point<double> centre;
+    friend bool operator==(const rigid_motion&, const rigid_motion&) = default;
 };
 
 using body_motion = std::variant<resting, affine_motion, rigid_motion>;
@@ -65,6 +70,9 @@ struct body_point {
 
 /// Returns why a motion is invalid, or "": `q0·q1 is -1; expected a number certainly > 0`.
 std::string fault_of(const body_motion& motion);
+
+/// False if the motion's ends are equal.
+bool moves(const body_motion& motion);
 
 /// The motion from one pose to another, with −q1 for q1 if that is the shorter arc.
 rigid_motion shorter_arc(const pose& from, const pose& to);

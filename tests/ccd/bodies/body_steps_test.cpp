@@ -91,9 +91,11 @@ class random_scenes {
     quaternion rotation() { return {3 + number(2), number(2), number(2), number(2)}; }
     body_motion motion() {
         const auto p0 = position(spread_), p1 = position(spread_);
-        switch (below(5)) {
+        switch (below(6)) {
             case 0:
                 return resting{};
+            case 2:
+                return affine_motion{.p0 = p0, .p1 = p0};
             case 1: {
                 affine_motion m{.p0 = p0, .p1 = p1};
                 for (auto& row : m.a1)
@@ -145,9 +147,7 @@ body_step_result by_brute_force(const body_steps& steps, const scene& s,
         const std::size_t i = steps.body_of(a[0]), j = steps.body_of(b[0]);
         if (i == j || (options.may_touch && !options.may_touch(std::min(i, j), std::max(i, j))))
             return;
-        if (std::holds_alternative<resting>(s.moving[i]) &&
-            std::holds_alternative<resting>(s.moving[j]))
-            return;
+        if (!ccd::moves(s.moving[i]) && !ccd::moves(s.moving[j])) return;
         const auto query = steps.query_of(pair, s.moving);
         const first_time time = ccd::time_within(query, options.distance, options.t_max);
         if (time.outcome == outcome::separate) return;

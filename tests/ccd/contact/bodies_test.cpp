@@ -381,16 +381,26 @@ class random_source {
         return static_cast<double>(static_cast<int>(below(static_cast<unsigned>(2 * most + 1))) -
                                    most);
     }
-    /// On a coarse grid, where many degenerate cases arise, or anywhere in [−1, 1].
+    /// On a coarse grid, where many degenerate cases arise, or anywhere in [−1, 1]. Some are moved
+    /// off the grid by a unit in the last place.
     double number(int most) {
-        return on_grid ? whole(most) : std::ldexp(static_cast<double>(random_()), -63) - 1;
+        if (!on_grid) return std::ldexp(static_cast<double>(random_()), -63) - 1;
+        const double x = whole(most);
+        if (!nudged || below(4) != 0) return x;
+        return std::nextafter(x, below(2) == 0 ? infinity : -infinity);
     }
-    point position(int most) { return {number(most), number(most), flat ? 0 : number(most)}; }
+    point position(int most) {
+        const auto coordinate = [&] { return std::ldexp(number(most), scale); };
+        return {coordinate(), coordinate(), flat ? 0 : coordinate()};
+    }
     void draw_style() {
         on_grid = below(4) != 0;
         flat = below(4) == 0;
+        nudged = below(4) == 0;
+        scale = below(4) == 0 ? static_cast<int>(below(1900)) - 1000 : 0;
     }
-    bool on_grid = true, flat = false;
+    bool on_grid = true, flat = false, nudged = false;
+    int scale = 0;  ///< of positions: a power of two
 
   private:
     std::mt19937_64 random_;
@@ -409,6 +419,10 @@ class random_bodies : public random_source {
         do {
             m = ccd::shorter_arc({rotation(), position(3)}, {rotation(), position(3)});
         } while (!ccd::fault_of(m).empty());
+        if (below(4) == 0) {  // lengths of quaternions do not matter, except for the speed
+            for (double* x : {&m.q0.w, &m.q0.x, &m.q0.y, &m.q0.z}) *x *= 0x1p-90;
+            for (double* x : {&m.q1.w, &m.q1.x, &m.q1.y, &m.q1.z}) *x *= 0x1p-80;
+        }
         if (below(3) == 0) m.centre = position(2);
         if (below(3) == 0) m.p1 = m.p0;
         return m;
@@ -478,7 +492,8 @@ void for_random_queries(int count, unsigned seed, const Check& check) {
     }
 }
 separation random_distance(random_source& random) {
-    return {std::ldexp(1, static_cast<int>(random.below(5)) - 3), random.below(2) * 1.0};
+    return {std::ldexp(1, static_cast<int>(random.below(5)) - 3 + random.scale),
+            std::ldexp(random.below(2), random.scale)};
 }
 
 TEST(random_rational_queries, touch_first_at_the_time_of_the_oracle) {
