@@ -3,6 +3,7 @@
 #include "ccd/io/frame_sequence.hpp"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 #include <cstring>
@@ -61,8 +62,30 @@ std::uint64_t number_at(std::string_view bytes, std::size_t at, std::size_t size
 struct member {
     std::string name;
     bool stored = false;
-    std::uint64_t offset = 0, size = 0;
+    std::uint64_t offset = 0, size = 0, checksum = 0;
 };
+
+/// The CRC-32 of ZIP archives.
+std::uint32_t checksum_of(byte_file& file, std::uint64_t offset, std::uint64_t size) {
+    static const auto table = [] {
+        std::array<std::uint32_t, 256> made{};
+        for (std::uint32_t i = 0; i < made.size(); ++i) {
+            made[i] = i;
+            for (int bit = 0; bit < 8; ++bit)
+                made[i] = made[i] >> 1 ^ (made[i] & 1 ? 0xEDB88320U : 0);
+        }
+        return made;
+    }();
+    std::uint32_t sum = ~0U;
+    for (constexpr std::uint64_t block = 1 << 20; size > 0;) {
+        const std::string bytes = file.read(offset, std::min(size, block));
+        for (const char c : bytes)
+            sum = sum >> 8 ^ table[(sum ^ static_cast<unsigned char>(c)) & 255];
+        offset += bytes.size();
+        size -= bytes.size();
+    }
+    return ~sum;
+}
 
 std::vector<member> members_of(byte_file& file) {
     using namespace std::string_view_literals;
@@ -96,7 +119,8 @@ std::vector<member> members_of(byte_file& file) {
         members.push_back(
             {directory.substr(at + fixed, name),
              field(10, 2) == 0 && (field(8, 2) & encrypted) == 0 && packed == unpacked,
-             header + 30 + number_at(local, 26, 2) + number_at(local, 28, 2), unpacked});
+             header + 30 + number_at(local, 26, 2) + number_at(local, 28, 2), unpacked,
+             field(16, 4)});
         at += fixed + name + extra + comment;
     }
     return members;
@@ -151,6 +175,8 @@ stored_positions positions_in_archive(byte_file& file) {
             "numpy.savez_compressed");
     if (chosen.offset > file.size() || chosen.size > file.size() - chosen.offset)
         file.fail("archive is truncated");
+    if (checksum_of(file, chosen.offset, chosen.size) != chosen.checksum)
+        file.fail("checksum of the array differs; expected that of the archive's directory");
     return array_at(file, chosen.offset, chosen.size);
 }
 

@@ -27,8 +27,9 @@ struct stored_positions {
 class frame_sequence {
   public:
     /// Each file has one frame (PLY, OBJ, or shape (n, 3)) or several (shape (frames, n, 3)). A
-    /// .npz file, as numpy.savez writes it, has one array or one with the name `positions`. Faces
-    /// and edges are those of `mesh`, or of the first file. Throws also if that file has none.
+    /// .npz file, as numpy.savez writes it, has one array or one with the name `positions`, whose
+    /// checksum is compared here. Faces and edges are those of `mesh`, or of the first file. Throws
+    /// also if that file has none.
     frame_sequence(const std::vector<std::filesystem::path>& files,
                    const std::optional<std::filesystem::path>& mesh, const mesh_options& options);
 

@@ -98,16 +98,24 @@ std::optional<audited_step> step_of(const std::string& line) {
     return step;
 }
 
-/// The steps in an earlier table, which are `first`, first + 1, ...
-std::vector<audited_step> steps_in(const std::filesystem::path& path, std::size_t first,
-                                   std::size_t most) {
-    const std::string text = errbound::support::read_whole(path), name = path.string(),
-                      heading = lines_of({}).first;
+/// The steps in an earlier table, which are `first`, first + 1, ... Their lines, with the heading,
+/// have `bytes`. A last line without its end, of a run that was killed, is no part of it.
+struct earlier_table {
+    std::vector<audited_step> steps = {};
+    std::size_t bytes = 0;
+};
+
+earlier_table table_in(const std::filesystem::path& path, std::size_t first, std::size_t most) {
+    std::string text = errbound::support::read_whole(path);
+    const std::string name = path.string(), heading = lines_of({}).first;
+    if (heading.starts_with(text) && text.size() < heading.size()) return {};
     if (!text.starts_with(heading))
         io::fail_at(name, 1, "heading differs; expected " + heading.substr(0, heading.size() - 1));
-    std::vector<audited_step> steps;
+    text.erase(text.rfind('\n') + 1);
+    earlier_table table;
+    std::vector<audited_step>& steps = table.steps;
     for (std::size_t at = heading.size(); at < text.size();) {
-        const std::size_t end = std::min(text.find('\n', at), text.size() - 1) + 1;
+        const std::size_t end = text.find('\n', at) + 1;
         const std::string line = text.substr(at, end - at);
         const auto step = step_of(line);
         if (!step || step->index != first + steps.size())
@@ -120,7 +128,8 @@ std::vector<audited_step> steps_in(const std::filesystem::path& path, std::size_
     if (steps.size() > most)
         throw file_error(name + ": number of steps is " + std::to_string(steps.size()) +
                          "; expected at most " + std::to_string(most));
-    return steps;
+    table.bytes = text.size();
+    return table;
 }
 
 class audit final : public command {
@@ -168,9 +177,13 @@ class audit final : public command {
     exit_status run() override {
         check_options();
         const io::frame_sequence frames(paths_, mesh_, reading_);
-        if (frames.size() < 2 || first_ > frames.size() - 2)
+        if (frames.size() < 2)
             throw usage_error("number of frames is " + std::to_string(frames.size()) +
-                              "; expected at least " + std::to_string(first_ + 2));
+                              "; expected at least 2");
+        if (first_ > frames.size() - 2)
+            throw usage_error("--first is " + std::to_string(first_) + "; expected 0 to " +
+                              std::to_string(frames.size() - 2) + ", as there are " +
+                              std::to_string(frames.size()) + " frames");
         const mesh& mesh = frames.topology();
         const std::size_t unused =
             unused_vertices(mesh.faces, mesh.edges, mesh.vertices.size()).size();
@@ -208,6 +221,8 @@ class audit final : public command {
         step.crossing = number_of(start, errbound::relation::crossing);
         step.touching = number_of(start, errbound::relation::touching);
         step.overlapping = number_of(start, errbound::relation::overlapping);
+        // A face or rod of size 0 touches without intersecting, and may then pass.
+        if (start.empty()) step.touching = number_of(found.step.touching_at_start);
         step.contacts = found.contacts();
         if (found.step.first_contact.outcome == outcome::collides) {
             step.low = found.step.first_contact.low;
@@ -229,10 +244,11 @@ class audit final : public command {
         const std::size_t count = std::min<std::uint64_t>(count_, frames.size() - 1 - first_);
         std::ofstream file;
         std::error_code ignored;
+        earlier_table earlier;
         if (resume_ && std::filesystem::exists(*csv_, ignored))
-            found_ = steps_in(*csv_, first_, count);
-        else if (csv_)
-            errbound::support::write_whole(*csv_, lines_of({}).first);
+            earlier = table_in(*csv_, first_, count);
+        if (csv_ && earlier.bytes == 0) errbound::support::write_whole(*csv_, lines_of({}).first);
+        found_ = std::move(earlier.steps);
         const bool to_output = csv_ && errbound::support::descriptor_of(*csv_) == 1;
         if (csv_ && !to_output) file.open(*csv_, std::ios::binary | std::ios::app);
         std::ostream& table = to_output ? std::cout : file;
@@ -253,6 +269,8 @@ class audit final : public command {
                                     " differs from these frames; expected a table of them");
                 continue;
             }
+            if (earlier.bytes > 0) std::filesystem::resize_file(*csv_, earlier.bytes);
+            earlier.bytes = 0;
             if (csv_ && !(table << line << std::flush))
                 throw file_error(csv_->string() + ": writing failed");
             found_.push_back(step);

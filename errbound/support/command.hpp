@@ -3,6 +3,7 @@
 
 #include <CLI/CLI.hpp>
 #include <memory>
+#include <regex>
 #include <span>
 #include <string>
 
@@ -21,7 +22,10 @@ int parse_and_run(CLI::App& app, int argc, char** argv, const Body& body, bool p
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& error) {
-        if (error.get_exit_code() != 0) throw usage_error(error.what());
+        static const std::regex out_of_range("(\\S+): Value (\\S+) not in range (.*)");
+        if (error.get_exit_code() != 0)
+            throw usage_error(
+                std::regex_replace(error.what(), out_of_range, "$1 is $2; expected $3"));
         if (prints) app.exit(error);
         return done;
     }
@@ -48,7 +52,9 @@ class command {
 /// Parses the line and runs its command. Throws usage_error if there is none.
 inline int run_command(CLI::App& app, int argc, char** argv,
                        std::span<const std::unique_ptr<command>> commands, bool prints = true) {
-    app.require_subcommand(0, 1);  // CLI11 then reports an unknown command by name
+    app.require_subcommand(0, 1);
+    if (argc > 1 && argv[1][0] != '-')
+        entry_named("command", argv[1], app.get_subcommands({}), &CLI::App::get_name);
     const auto run = [&]() -> int {
         for (const auto& c : commands)
             if (c->was_given()) return c->run();

@@ -83,9 +83,10 @@ advance_result advance(mesh_steps& steps, const vertex_rows& positions,
 /// number of vertices.
 advance_result advance(const mesh& before, const mesh& after, const advance_options& options = {});
 
-/// Returns the longest step along a direction that was found to be free: `directed.before` are
-/// positions x, `directed.after` the displacements p. Line searches move to x + alpha * p, which
-/// rounds otherwise than advance_result::positions, so a fraction of `advance` does not certify it.
+/// Returns the longest step along a direction that was found to be free. `x_and_p` are positions x
+/// and displacements p, not positions at t = 1: free_step(steps, {x, p}), where advance takes {x, x
+/// + p}. Line searches move to x + alpha * p, which rounds otherwise than
+/// advance_result::positions, so a fraction of `advance` does not certify it.
 ///
 /// The result's fraction is alpha, and its positions are x + alpha * p. The ways from x to these
 /// are free in both forms: product and sum rounded, and fused, std::fma(alpha, p, x), for each
@@ -95,7 +96,7 @@ advance_result advance(const mesh& before, const mesh& after, const advance_opti
 ///
 /// Throws as advance, and std::invalid_argument if there are groups or a displacement is not
 /// finite. Cost: as advance; one more step if fused positions differ.
-advance_result free_step(mesh_steps& steps, const vertex_rows& directed,
+advance_result free_step(mesh_steps& steps, const vertex_rows& x_and_p,
                          const advance_options& options = {});
 
 }  // namespace ccd

@@ -74,8 +74,8 @@ constexpr intersection_kind kind_of_sizes(std::size_t a, std::size_t b) {
 struct intersection {
     mesh_element a, b;  ///< a has fewer vertices; if both have the same number, a is the lesser
     errbound::relation relation = errbound::relation::disjoint;
-    /// The ends of the common segment if the pair is crossing and intersection_options::segments is
-    /// set; both ends are equal if it is a point.
+    /// The ends of the common segment, in lexicographic order, if the pair is crossing and
+    /// intersection_options::segments is set; both ends are equal if it is a point.
     std::optional<std::array<errbound::located_point<3>, 2>> segment = {};
 
     intersection_kind kind() const { return kind_of_sizes(a.size, b.size); }

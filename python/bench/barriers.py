@@ -154,8 +154,7 @@ def simulate(name, steps, stiffness):
 def line_search(seed):
     """One random line search: a mesh of faces, rods and points, far or near, large or small, and a random direction.
 
-    Returns its alpha, and the number of pairs in contact on the ways to x + alpha * p, as NumPy rounds it, in steps of
-    the three spellings below.
+    Returns alpha, and how many of three spellings of x + alpha * p in NumPy are unfree.
     """
     random = np.random.default_rng(seed)
     scale = 2.0**random.integers(-300, 301)

@@ -7,7 +7,7 @@ import time
 
 import numpy as np
 import pytest
-from conftest import SCENE
+from conftest import ROOT, SCENE
 
 from errbound import ccd, io
 
@@ -199,3 +199,25 @@ def test_queries_are_written_exactly(tmp_path):
     assert read.kind == "vertex_face"
     with pytest.raises(io.FileError, match="file does not exist"):
         io.read_mesh(tmp_path / "missing.ply")
+
+
+def test_line_searches_as_numpy_rounds_them():
+    """Smaller than python/bench/barriers.py --steps 0."""
+    sys.path.append(str(ROOT / "python" / "bench"))
+    found = [pytest.importorskip("barriers").line_search(seed) for seed in range(150)]
+    assert sum(unfree for _, unfree in found) == 0
+    assert sum(alpha < 1 for alpha, _ in found) > 75
+
+
+def test_keep():
+    """A vertex is pressed onto a plate and slides along it."""
+    for keep, fraction in ({}, 1), ({"keep": 0}, 0):
+        x = np.array([[-9, -9, 0], [9, -9, 0], [0, 9, 0], [0, 0, 0.5]])
+        for _ in range(4):
+            first = x[3, 2]
+            found = ccd.advance(x, x + np.array([[0, 0, 0]] * 3 + [[1, 0, -0.05]]), [[0, 1, 2]], distance=0.475, **keep)
+            x = found.positions
+            assert x[3, 2] >= (0.475 if keep else 0.1 * first)
+        assert found.fraction == pytest.approx(fraction, abs=1e-12)
+    with pytest.raises(ValueError, match=r"distance is -1(\.0*)?;"):
+        ccd.advance(x, x, [[0, 1, 2]], distance=-1)

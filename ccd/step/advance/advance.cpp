@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "ccd/batch/checks.hpp"
 #include "ccd/step/advance/advancing.hpp"
 #include "ccd/step/checks.hpp"
 #include "ccd/step/vertex_groups.hpp"
@@ -153,6 +154,7 @@ class vertex_limits {
 advance_result advance(mesh_steps& steps, const vertex_rows& positions,
                        const advance_options& options) {
     detail::check_shares(options.conservative, options.keep);
+    detail::check_distances("ccd::advance", options.distances, positions.vertices);
     detail::vertex_groups groups = groups_of(positions.vertices, options.groups);
     const bool islands = !options.groups.empty() || options.each_vertex;
     if (options.groups.empty() && options.each_vertex)
@@ -180,11 +182,11 @@ double rounded_twice(double x, double alpha, double p) {
 }
 
 /// The two forms of x + alpha * p. Returns false if a position is not finite.
-bool move(const vertex_rows& directed, double alpha, std::vector<point<double>>& rounded,
+bool move(const vertex_rows& x_and_p, double alpha, std::vector<point<double>>& rounded,
           std::vector<point<double>>& fused) {
     bool finite = true;
-    for (std::size_t v = 0; v < directed.vertices; ++v) {
-        const auto [x, p] = directed[static_cast<vertex_index>(v)];
+    for (std::size_t v = 0; v < x_and_p.vertices; ++v) {
+        const auto [x, p] = x_and_p[static_cast<vertex_index>(v)];
         rounded[v] = {rounded_twice(x.x, alpha, p.x), rounded_twice(x.y, alpha, p.y),
                       rounded_twice(x.z, alpha, p.z)};
         fused[v] = {std::fma(alpha, p.x, x.x), std::fma(alpha, p.y, x.y),
@@ -197,34 +199,35 @@ bool move(const vertex_rows& directed, double alpha, std::vector<point<double>>&
 
 }  // namespace
 
-advance_result free_step(mesh_steps& steps, const vertex_rows& directed,
+advance_result free_step(mesh_steps& steps, const vertex_rows& x_and_p,
                          const advance_options& options) {
     detail::check_shares(options.conservative, options.keep);
+    detail::check_distances("ccd::free_step", options.distances, x_and_p.vertices);
     if (!options.groups.empty() || options.each_vertex)
         throw std::invalid_argument(
             "ccd::free_step: groups or each_vertex are given; expected none, "
             "since all vertices have one alpha");
-    const std::size_t numbers = directed.after == nullptr ? 0 : 3 * directed.vertices;
+    const std::size_t numbers = x_and_p.after == nullptr ? 0 : 3 * x_and_p.vertices;
     for (std::size_t i = 0; i < numbers; ++i)
-        if (!std::isfinite(directed.after[i]))
+        if (!std::isfinite(x_and_p.after[i]))
             throw std::invalid_argument("ccd::free_step: " + std::string(1, "xyz"[i % 3]) +
                                         " of the displacement of vertex " + std::to_string(i / 3) +
-                                        " is " + std::to_string(directed.after[i]) +
+                                        " is " + std::to_string(x_and_p.after[i]) +
                                         "; expected a finite number");
-    detail::check_positions(directed, directed.vertices);  // so that shorter ways become finite
+    detail::check_positions(x_and_p, x_and_p.vertices);  // so that shorter ways become finite
     advance_options unchecked = options;
     unchecked.check_start = false;
     const auto first_contact = [&](const std::vector<point<double>>& end,
                                    const advance_options& with) {
-        const vertex_rows way(directed.before, reinterpret_cast<const double*>(end.data()),
-                              directed.vertices);
-        detail::vertex_groups all = groups_of(directed.vertices, {});
+        const vertex_rows way(x_and_p.before, reinterpret_cast<const double*>(end.data()),
+                              x_and_p.vertices);
+        detail::vertex_groups all = groups_of(x_and_p.vertices, {});
         detail::no_others nobody;
         return detail::advancing(steps, way, with, false, all, nobody).first_contact();
     };
-    std::vector<point<double>> rounded(directed.vertices), fused(directed.vertices);
+    std::vector<point<double>> rounded(x_and_p.vertices), fused(x_and_p.vertices);
     double alpha = 1;
-    while (!move(directed, alpha, rounded, fused)) alpha /= 2;
+    while (!move(x_and_p, alpha, rounded, fused)) alpha /= 2;
     advance_result result = first_contact(rounded, options);
     first_time found = result.first_contact;
     // A later contact is due to rounding: alpha decreases by a few ulps, then by more and more.
@@ -235,11 +238,11 @@ advance_result free_step(mesh_steps& steps, const vertex_rows& directed,
         const double before = detail::last_before(found);
         alpha *=
             less == 0 ? options.conservative * before : std::max(0.0, std::min(before, 1 - less));
-        move(directed, alpha, rounded, fused);
+        move(x_and_p, alpha, rounded, fused);
         found = first_contact(rounded, unchecked).first_contact;
     }
     result.fraction = alpha;
-    result.fractions.assign(directed.vertices, alpha);
+    result.fractions.assign(x_and_p.vertices, alpha);
     result.positions = std::move(rounded);
     return result;
 }

@@ -131,15 +131,35 @@ class Audit(ProgramTest):
         good = table.read_text()
         lines = good.splitlines()
         for content, line in [
-                ("step,contacts\n", 1), (good[:-1], 4), ("\n".join([lines[0], lines[2], ""]), 2),
+                ("step,contacts\n", 1), ("\n".join([lines[0], lines[2], ""]), 2),
                 (good.replace("0,0,0,0,0,,,,", "0,0,0,0,0,,,"), 2), (good.replace("1,0,0,0,1", "1,0,0,0,01"), 3),
                 (good + "\n", 5), (good.replace(",0.5,", ",x,"), 3),
-                (good.replace("2,0,0,0,1", "2,0,0,0,2"), 4), ("", 1)]:  # the last but one is of other frames
+                (good.replace("2,0,0,0,1", "2,0,0,0,2"), 4)]:  # the last is of other frames
             table.write_text(content)
             done = self.run_program("audit", run, "--mesh", self.mesh(), "--csv", table, "--resume")
             self.assertEqual(done.returncode, 1, content)
             self.assertIn(f"table.csv:{line}: ", done.stderr)
             self.assertEqual(table.read_text(), content)
+
+    def test_resume_after_a_kill(self):
+        """A table may end anywhere in the line that was being written."""
+        run = self.write("run.npy", npy(heights([1, 0.5, -0.5, 0.5])))
+        table = self.directory / "table.csv"
+        self.audit(run, "--csv", table)
+        whole = table.read_text()
+        for size in {0, 1, len(HEADING), len(HEADING) + 1, *range(len(HEADING) + 2, len(whole), 7), len(whole) - 1}:
+            table.write_text(whole[:size])
+            self.audit(run, "--csv", table, "--resume")
+            self.assertEqual(table.read_text(), whole, size)
+
+    def test_faces_of_size_0_are_not_free(self):
+        """Regression: audit called such a step free, certify did not."""
+        flat = [(0, 0, 0), (0, 0, 0), (0, 1, 0), (1, 0, 0), (0, -1, 0)]
+        faces = [(0, 1, 2), (0, 3, 4)]  # vertex 1 is at vertex 0, which both faces have
+        moved = [(x, y, z + (i == 1)) for i, (x, y, z) in enumerate(flat)]
+        frames = [self.write(f"{i}.ply", ply(p, faces)) for i, p in enumerate([flat, moved])]
+        found = self.steps(*frames, mesh=False, status=3)
+        self.assertEqual((found["free"], found["steps"][0]["touching"]), (False, 3))
 
     def test_start_and_page(self):
         pierced = [(0, 0, 0), (4, 0, 0), (0, 4, 0), (1, 1, -1), (1, 1, 1), (1.5, 1, 1)]
@@ -173,6 +193,7 @@ class Audit(ProgramTest):
                 ("a.npz", npz({"positions": npy(good)})[:-30], "not a ZIP archive"),
                 ("a.npz", b"PK\5\6" + b"\xff" * 18, "4 GiB"),
                 ("a.npz", npz({"positions": npy(good)}).replace(b"PK\1\2", b"PK\0\0"), "damaged directory"),
+                ("a.npz", npz({"positions": npy(good)}).replace(npy(good)[-48:], npy(good)[-48:-1] + b"\x40"), "checksum"),
                 ("a.npz", npz({"positions": npy(good)})[100:], "")]:
             with self.subTest(message=message):
                 self.bad_input(message, "audit", self.write(name, content), "--mesh", mesh)
@@ -186,7 +207,7 @@ class Audit(ProgramTest):
         run, mesh, out = self.write("run.npy", npy(heights([1, 0.5]))), self.mesh(), self.directory / "out"
         for arguments, message in [
                 (["--resume"], "expected --csv OUT"), (["--resume", "--csv", "-"], "expected --csv OUT"),
-                (["--first", 1], "expected at least 3"), (["--count", 0], "--count"),
+                (["--first", 1], "--first is 1; expected 0 to 0"), (["--threads", -1], "--threads is -1; expected 0 to 4096"), (["--count", 0], "--count"),
                 (["--view", "page.vtp"], "ends in .html"), (["--replay", "out"], "ends in .csv"),
                 (["--csv", out, "--json", out], "expected a separate file"),
                 (["--csv", run], "expected a separate file"), (["--csv", mesh], "expected a separate file")]:
