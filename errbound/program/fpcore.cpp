@@ -5,8 +5,8 @@
 #include <errbound/support/error.hpp>
 #include <map>
 
-#include "errbound/validation/largest_error.hpp"
-#include "errbound/validation/range.hpp"
+#include "errbound/validation/worst_case/largest_error.hpp"
+#include "errbound/validation/worst_case/range.hpp"
 
 namespace errbound::validation {
 namespace {

@@ -29,6 +29,7 @@ class ranges final : public support::command {
     support::exit_status run() override;
 
   private:
+    std::vector<fpcore> read_cores() const;
     void print(std::ostream& people) const;
 
     std::vector<std::string> files_;
@@ -113,9 +114,43 @@ std::map<std::string, double> published_bounds(const std::filesystem::path& path
 row number(double x) {
     return std::isfinite(x) ? row(x) : row();
 }
+row row_of(const worst_case_result& found) {
+    const double ratio = found.at_most == found.at_least ? 1 : found.at_most / found.at_least;
+    row where = row::array(), operations = row::array();
+    for (const double x : found.where) where.push_back(support::hexadecimal(x));
+    for (const contribution& c : found.by_operation.contributions)
+        operations.push_back({{"operation", c.operation},
+                              {"line", c.scopes.empty() ? row() : row(c.scopes.back().line)},
+                              {"amount", c.amount}});
+    row r{{"at_most", number(found.at_most)},
+          {"at_least", found.at_least},
+          {"ratio", number(ratio)},
+          {"published", row()},
+          {"relative", number(found.relative_at_most)},
+          {"lower", number(found.lower)},
+          {"upper", number(found.upper)},
+          {"boxes", found.boxes},
+          {"complete", found.complete},
+          {"seconds", found.seconds},
+          {"where", where},
+          {"operations", operations}};
+    if (!std::isfinite(found.at_most))
+        r["reason"] = "no finite bound: an operation may overflow or leave its domain";
+    return r;
+}
 double median(std::vector<double> x) {
     std::ranges::sort(x);
     return x.empty() ? NAN : (x[x.size() / 2] + x[(x.size() - 1) / 2]) / 2;
+}
+
+std::vector<fpcore> ranges::read_cores() const {
+    std::vector<fpcore> cores;
+    for (const std::string& file : files_)
+        for (fpcore& core : parse_fpcores(support::read_whole(file), file))
+            if (only_.empty() || core.name == only_) cores.push_back(std::move(core));
+    if (cores.empty() && !only_.empty())
+        throw support::usage_error("--only is '" + only_ + "'; expected a core of the files");
+    return cores;
 }
 
 support::exit_status ranges::run() {
@@ -124,12 +159,7 @@ support::exit_status ranges::run() {
     if (published_) inputs.push_back(*published_);
     support::require_one_standard_input("FILE", inputs);
     support::require_good_outputs({csv_, json_, picture_}, inputs);
-    std::vector<fpcore> cores;
-    for (const std::string& file : files_)
-        for (fpcore& core : parse_fpcores(support::read_whole(file), file))
-            if (only_.empty() || core.name == only_) cores.push_back(std::move(core));
-    if (cores.empty() && !only_.empty())
-        throw support::usage_error("--only is '" + only_ + "'; expected a core of the files");
+    const std::vector<fpcore> cores = read_cores();
     const auto published =
         published_ ? published_bounds(*published_) : std::map<std::string, double>();
     std::vector<explanation> explanations;
@@ -141,30 +171,10 @@ support::exit_status ranges::run() {
         row r{{"core", core.name}, {"precision", precision}, {"file", core.file}};
         try {
             worst_case_result found = worst_case_of(core, options_, precision_);
-            const double ratio =
-                found.at_most == found.at_least ? 1 : found.at_most / found.at_least;
-            row where = row::array(), operations = row::array();
-            for (const double x : found.where) where.push_back(support::hexadecimal(x));
-            for (const contribution& c : found.by_operation.contributions)
-                operations.push_back(
-                    {{"operation", c.operation},
-                     {"line", c.scopes.empty() ? row() : row(c.scopes.back().line)},
-                     {"amount", c.amount}});
-            r.update(row{
-                {"at_most", number(found.at_most)},
-                {"at_least", found.at_least},
-                {"ratio", number(ratio)},
-                {"published", published.contains(core.name) ? row(published.at(core.name)) : row()},
-                {"relative", options_.relative ? number(found.relative_at_most) : row()},
-                {"lower", number(found.lower)},
-                {"upper", number(found.upper)},
-                {"boxes", found.boxes},
-                {"complete", found.complete},
-                {"seconds", found.seconds},
-                {"where", where},
-                {"operations", operations}});
-            if (!std::isfinite(found.at_most))
-                r["reason"] = "no finite bound: an operation may overflow or leave its domain";
+            r.update(row_of(found));
+            if (!options_.relative) r["relative"] = row();
+            if (const auto other = published.find(core.name); other != published.end())
+                r["published"] = other->second;
             found.by_operation.name = core.name;
             if (std::isfinite(found.at_most)) explanations.push_back(std::move(found.by_operation));
         } catch (const unsupported_core& e) {

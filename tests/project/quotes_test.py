@@ -22,7 +22,7 @@ PROGRAMS = {
     "docs/simulation.md": ["examples/simulation/own_solver.cpp"],
     "docs/program.md": ["examples/mpi/distributed_step.cpp"],
     "docs/in-ten-minutes.md": ["examples/in_ten_minutes.cpp"],
-    "docs/how-wrong.md": ["examples/explain/variance.cpp"],
+    "docs/how-wrong.md": ["examples/explain/variance.cpp", "examples/explain/over_all_inputs.cpp"],
     "docs/bound-rules.md": ["examples/functions/great_circle.cpp", "examples/research/rules_compared.cpp"],
 }
 # The proofs that Coq blocks of each page quote.

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "errbound/validation/largest_error.hpp"
 #include "errbound/validation/random_source.hpp"
+#include "errbound/validation/worst_case/largest_error.hpp"
 #include "tests/support/scaled.hpp"
 
 namespace errbound {
@@ -190,78 +190,96 @@ struct tally {
     int ratios = 0;
 };
 
+/// A program with a box, of which it tries all listed numbers.
 template <class T>
-void check_random_programs(std::uint64_t seed, int count, bool with_functions, tally& t) {
-    random_source random(seed);
-    for (int i = 0; i < count; ++i) {
-        const program p = random_program(random, with_functions);
-        std::vector<std::vector<double>> numbers;
-        std::vector<input_range> box;
+struct trial {
+    program p;
+    std::vector<std::vector<double>> numbers;
+    std::vector<input_range> box;
+    worst_case_options options;
+
+    explicit trial(random_source& random, bool with_functions)
+        : p(random_program(random, with_functions)) {
         for (int k = 0; k < p.inputs; ++k) {
             numbers.push_back(random_numbers<T>(random, p.inputs == 1 ? 256 : 32));
             box.push_back({numbers.back().front(), numbers.back().back()});
         }
-        worst_case_options options;
         options.samples = random.one_in(8) ? 400 : 0;
         options.seed = random.bits();
         constexpr std::size_t limits[] = {1, 2, 7, 50, 400};
         options.boxes = limits[random.below(5)];
         options.round_inputs = random.one_in(4);
         options.relative = random.one_in(4);
-        validation::recording r(validation::number_type_of<T>(), box, options);
+    }
+
+    void record(validation::recording& r) const {
         std::vector<recorded> inputs;
         for (std::size_t k = 0; k < box.size(); ++k)
             inputs.emplace_back(
                 validation::recording::node{.kind = validation::recording::leaf::input, .left = k});
         r.result = run<recorded>(p, inputs).index();
+    }
+    /// Distances of the real numbers that are rounded to these; 0 if they are not in the box.
+    std::vector<double> offsets(const std::vector<double>& at, random_source& random) const {
+        std::vector<double> off(at.size(), 0);
+        for (std::size_t k = 0; k < at.size() && options.round_inputs; ++k) {
+            const int e = at[k] == 0 ? -10000 : std::ilogb(at[k]);
+            const double half = std::ldexp(
+                0.4990234375, std::max(e, number_traits<T>::min_exponent - 1) + 1 -
+                                  number_traits<T>::digits - (std::exp2(e) == std::abs(at[k])));
+            off[k] = random.one_in(2) ? half : -half;
+            if (at[k] + off[k] < box[k].lower || at[k] + off[k] > box[k].upper) off[k] = 0;
+        }
+        return off;
+    }
+    /// The error at one input, by long double. Where that is close to a bound, MPFR decides.
+    double check(const validation::recording& r, const worst_case_result& bound,
+                 const std::vector<double>& at, const std::vector<double>& off) const {
+        std::vector<T> computed_at;
+        std::vector<long double> exactly_at;
+        for (std::size_t k = 0; k < at.size(); ++k) {
+            computed_at.push_back(T(at[k]));
+            exactly_at.push_back(static_cast<long double>(at[k]) + off[k]);
+        }
+        const auto computed = static_cast<double>(run<T>(p, computed_at));
+        const long double exact = run<long double>(p, exactly_at);
+        const auto error = static_cast<double>(std::abs(computed - exact));
+        const double size = std::abs(static_cast<double>(exact)), slack = 1e-12 * size;
+        const auto relative_holds = [&](double e) {
+            return !options.relative || bound.relative_at_most == HUGE_VAL ||
+                   e <= bound.relative_at_most * size * (1 + 1e-12);
+        };
+        const bool in_range = exact >= bound.lower - slack && exact <= bound.upper + slack;
+        if (error <= bound.at_most * 0.999 && relative_holds(error) && in_range) return error;
+        const double certain = validation::error_at(r, at, off);
+        EXPECT_TRUE(std::isfinite(computed));
+        EXPECT_LE(certain, bound.at_most) << at[0] << ' ' << at.back();
+        EXPECT_TRUE(relative_holds(certain)) << at[0] << ' ' << at.back();
+        EXPECT_TRUE(in_range) << at[0] << ' ' << at.back();
+        return error;
+    }
+};
+
+template <class T>
+void check_random_programs(std::uint64_t seed, int count, bool with_functions, tally& t) {
+    random_source random(seed);
+    for (int i = 0; i < count && !testing::Test::HasFailure(); ++i) {
+        SCOPED_TRACE("seed " + std::to_string(seed) + ", program " + std::to_string(i));
+        const trial<T> one(random, with_functions);
+        validation::recording r(validation::number_type_of<T>(), one.box, one.options);
+        one.record(r);
         const worst_case_result bound = validation::worst_case_of(r);
         ++t.programs;
-        ASSERT_LE(bound.at_least, bound.at_most) << "seed " << seed << " program " << i;
+        EXPECT_LE(bound.at_least, bound.at_most);
         if (!std::isfinite(bound.at_most)) continue;
         ++t.bounded;
         double largest = 0;
-        for (const double x : numbers[0])
-            for (const double y : p.inputs == 1 ? std::vector<double>{0} : numbers[1]) {
-                std::vector<T> computed_at{T(x)};
-                std::vector<double> at{x}, off{0};
-                if (p.inputs == 2) computed_at.push_back(T(y)), at.push_back(y), off.push_back(0);
-                if (options.round_inputs)
-                    for (std::size_t k = 0; k < at.size(); ++k) {
-                        const int e = at[k] == 0 ? -10000 : std::ilogb(at[k]);
-                        const double half = std::ldexp(
-                            0.4990234375, std::max(e, number_traits<T>::min_exponent - 1) + 1 -
-                                              number_traits<T>::digits -
-                                              (std::exp2(e) == std::abs(at[k])));
-                        off[k] = random.one_in(2) ? half : -half;
-                        if (at[k] + off[k] < box[k].lower || at[k] + off[k] > box[k].upper)
-                            off[k] = 0;
-                    }
-                std::vector<long double> exactly_at;
-                for (std::size_t k = 0; k < at.size(); ++k)
-                    exactly_at.push_back(static_cast<long double>(at[k]) + off[k]);
-                const auto computed = static_cast<double>(run<T>(p, computed_at));
-                const long double exact = run<long double>(p, exactly_at);
+        for (const double x : one.numbers[0])
+            for (const double y : one.p.inputs == 1 ? std::vector<double>{x} : one.numbers[1]) {
+                std::vector<double> at{x};
+                if (one.p.inputs == 2) at.push_back(y);
                 ++t.inputs;
-                const double error = static_cast<double>(std::abs(computed - exact));
-                largest = std::max(largest, error);
-                const double slack = 1e-12 * std::abs(static_cast<double>(exact));
-                const auto relative_holds = [&](double e) {
-                    return !options.relative || bound.relative_at_most == HUGE_VAL ||
-                           e <= bound.relative_at_most * std::abs(static_cast<double>(exact)) *
-                                    (1 + 1e-12);
-                };
-                const bool in_range = exact >= bound.lower - slack && exact <= bound.upper + slack;
-                if (error <= bound.at_most * 0.999 && relative_holds(error) && in_range) continue;
-                // The estimate is inexact; MPFR decides.
-                const double certain = validation::error_at(r, at, off);
-                ASSERT_TRUE(std::isfinite(computed)) << "seed " << seed << " program " << i;
-                ASSERT_LE(certain, bound.at_most) << "seed " << seed << " program " << i << " at "
-                                                  << x << ' ' << y << " boxes " << bound.boxes;
-                ASSERT_TRUE(relative_holds(certain))
-                    << "seed " << seed << " program " << i << " at " << x << ' ' << y << " error "
-                    << error << " certain " << certain << " exact " << exact << " relative "
-                    << bound.relative_at_most << " absolute " << bound.at_most;
-                ASSERT_TRUE(in_range) << "seed " << seed << " program " << i;
+                largest = std::max(largest, one.check(r, bound, at, one.offsets(at, random)));
             }
         if (largest > 0 && bound.at_most > 0)
             t.log_ratio += std::log2(bound.at_most / largest), ++t.ratios;

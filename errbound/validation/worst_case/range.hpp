@@ -90,9 +90,18 @@ struct function_range {
 /// F at x, enclosed by function_error. Precondition: x is in F's domain, and no large angle.
 template <elementary_function F, class... X>
 range function_at(const X&... x) {
-    const double v = detail::system_function<F>(x...);
-    if (!std::isfinite(v)) return range::unknown();
-    return range::within(v, detail::enlarged<double>(detail::error_of_function<F>(v)));
+    if constexpr (function_error<F, double> != 0) {
+        const double v = detail::system_function<F>(x...);
+        if (std::isfinite(v))
+            return range::within(v, detail::enlarged<double>(detail::error_of_function<F>(v)));
+    }
+    return range::unknown();
+}
+/// F within `reach` of x.
+template <elementary_function F>
+detail::bounded<double> function_around(double x, double reach) {
+    if constexpr (function_error<F, double> != 0) return detail::function_of_range<F>(x, reach);
+    return {0, std::numeric_limits<double>::infinity()};
 }
 
 /// F over a; unknown if a has numbers outside of the domain, or if F may have a pole there.
@@ -120,14 +129,14 @@ range function_over(const range& a) {
         const double reach = (a - middle).most();
         if constexpr (F == tan) {
             // A finite error means no pole, so that the tangent is monotone.
-            const auto whole = detail::function_of_range<tan>(middle, reach);
+            const auto whole = function_around<tan>(middle, reach);
             return std::isfinite(whole.error) ? both(low, high) : all;
         } else {
             // F is monotone if its derivative, ±sin or cos, has no zero.
             constexpr elementary_function other = F == sin ? cos : sin;
-            const auto slope = detail::function_of_range<other>(middle, reach);
+            const auto slope = function_around<other>(middle, reach);
             if (std::abs(slope.value) > slope.error) return common(both(low, high), all);
-            const auto whole = detail::function_of_range<F>(middle, reach);
+            const auto whole = function_around<F>(middle, reach);
             return common(all, range::within(whole.value, whole.error));
         }
     }

@@ -1,5 +1,5 @@
 // Random inputs, then hill climbing by units in the last place.
-#include "errbound/validation/largest_error.hpp"
+#include "errbound/validation/worst_case/largest_error.hpp"
 
 #include <gmp.h>
 

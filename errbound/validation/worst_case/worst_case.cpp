@@ -7,8 +7,8 @@
 #include <cmath>
 #include <optional>
 
-#include "errbound/validation/largest_error.hpp"
-#include "errbound/validation/range.hpp"
+#include "errbound/validation/worst_case/largest_error.hpp"
+#include "errbound/validation/worst_case/range.hpp"
 
 namespace errbound::validation {
 namespace {
@@ -299,19 +299,11 @@ class analysis {
         const bool once = n.left == n.right;
         int grid = -(1 << 20);
         set_path(to, n, a.path, b.path, c.path);
+        if (set_exact(to, n, a, b)) return;
         switch (n.operation) {
-            case operation_kind::negate:
-                return set_exact(to, -x, a.grid);
-            case operation_kind::absolute:
-                return set_exact(to, abs(x), a.grid);
-            case operation_kind::lesser:
-                return set_exact(to, min(x, y), std::min(a.grid, b.grid));
-            case operation_kind::greater:
-                return set_exact(to, max(x, y), std::min(a.grid, b.grid));
             case operation_kind::add:
             case operation_kind::subtract: {
                 const bool adds = n.operation == operation_kind::add;
-                if (once && !adds) return set_exact(to, 0, a.grid);
                 set_rounded(to, adds ? x + y : x - y, x, adds ? y : -y, false, std::plus<>());
                 // x is a number of the format too, at a distance of |y|.
                 to.error = std::min({to.error, x.most(), y.most()});
@@ -342,17 +334,8 @@ class analysis {
                 set_rounded(to, x * y + c.computed);
                 grid = std::min(a.grid + b.grid, c.grid);
                 break;
-            default: {
-                const elementary_function f = function_of(n.operation);
-                const range r = function_value(f, x, y);
-                // function_error does not cover large angles.
-                const bool covered =
-                    r.is_finite() && !(errbound::detail::is_function_of_angle(f) &&
-                                       x.most() >= errbound::detail::least_reduced_angle);
-                to.error = covered ? format_.function_error_of(f, r.most()) : infinity;
-                to.computed =
-                    std::isfinite(to.error) ? r + range(-to.error, to.error) : range::unknown();
-            }
+            default:
+                set_function(to, function_of(n.operation), x, y);
         }
         // Errors are multiples of 2^grid, as operands and results are.
         if (to.error < std::ldexp(1.0, grid)) to.error = 0;
@@ -360,10 +343,31 @@ class analysis {
         to.grid = std::max(format_.grid_of(to.computed), grid);
     }
     double half_underflow() const { return format_.half_ulp(doubles_underflow); }
-    static void set_exact(node_state& to, const range& v, int grid) {
-        to.computed = v;
+    void set_function(node_state& to, elementary_function f, const range& x, const range& y) const {
+        const range r = function_value(f, x, y);
+        // function_error does not cover large angles.
+        const bool covered = r.is_finite() && !(errbound::detail::is_function_of_angle(f) &&
+                                                x.most() >= errbound::detail::least_reduced_angle);
+        to.error = covered ? format_.function_error_of(f, r.most()) : infinity;
+        to.computed = std::isfinite(to.error) ? r + range(-to.error, to.error) : range::unknown();
+    }
+    /// Returns false unless the operation never rounds.
+    static bool set_exact(node_state& to, const recording::node& n, const node_state& a,
+                          const node_state& b) {
         to.error = 0;
-        to.grid = grid;
+        to.grid = std::min(a.grid, b.grid);
+        if (n.operation == operation_kind::lesser)
+            to.computed = min(a.computed, b.computed);
+        else if (n.operation == operation_kind::greater)
+            to.computed = max(a.computed, b.computed);
+        else if (n.operation == operation_kind::subtract && n.left == n.right)
+            to.computed = 0;
+        else if (n.operation == operation_kind::negate || n.operation == operation_kind::absolute) {
+            to.grid = a.grid;
+            to.computed = n.operation == operation_kind::negate ? -a.computed : abs(a.computed);
+        } else
+            return false;
+        return true;
     }
     /// Sterbenz: the difference of x and y is exact.
     static bool near(const range& x, const range& y) {
@@ -426,10 +430,13 @@ class analysis {
         // The angle jumps at the negative x axis.
         if (!y.is_finite() || !x.is_finite() || (y.has_zero() && !(x.lower() > 0)))
             return range::unknown();
-        const double m = y.middle(), n = x.middle();
-        const auto r =
-            errbound::detail::angle_of_ranges<double>(m, (y - m).most(), n, (x - n).most());
-        return std::isfinite(r.error) ? range::within(r.value, r.error) : range::unknown();
+        if constexpr (function_error<elementary_function::atan2, double> != 0) {
+            const double m = y.middle(), n = x.middle();
+            const auto r =
+                errbound::detail::angle_of_ranges<double>(m, (y - m).most(), n, (x - n).most());
+            if (std::isfinite(r.error)) return range::within(r.value, r.error);
+        }
+        return range::unknown();
     }
 
     /// The exact operation on paths, with its derivatives.
