@@ -3,10 +3,10 @@
 //   errbound::sign_type s = turn({4, 7, 9}, p, q, r);  // p has the index 4 in the program's list
 //
 // Coordinate k of the point with index i is x + e(i, k), for infinitesimals e > 0. All calls see
-// the same perturbed points, so their signs never contradict each other. A sign is zero only if two
-// arguments have the same index, and uncertain only if a coordinate is not finite. Only inputs
-// whose exact sign is zero cost more: 1 to 20 µs and one allocation (std::bad_alloc if memory runs
-// out). Source: Edelsbrunner, Mücke 1990, Simulation of Simplicity. Proof:
+// the same perturbed points, so signs never contradict each other. A sign is zero only if arguments
+// have the same index, and uncertain only if a coordinate is not finite. If the exact sign is zero,
+// a call costs 1 to 20 µs (more for equal points) and one allocation; std::bad_alloc if memory runs
+// out. Source: Edelsbrunner, Mücke 1990, Simulation of Simplicity. Proof:
 // docs/authoring-predicates.md.
 #pragma once
 

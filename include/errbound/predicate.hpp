@@ -20,6 +20,7 @@
 #include <errbound/filters/predicate_stages.hpp>
 #include <errbound/filters/static_filter.hpp>
 #include <errbound/sign.hpp>
+#include <tuple>
 #include <type_traits>
 #include <utility>
 
@@ -65,6 +66,9 @@ template <class>
 inline constexpr bool is_shape = false;
 template <int... Dimensions>
 inline constexpr bool is_shape<points<Dimensions...>> = true;
+/// True for constructed points (errbound/constructed_points.hpp).
+template <class Point>
+inline constexpr bool is_constructed = false;
 template <class Number>
 concept exact_stage_number = requires(const Number& x) {
     Number(0.5);
@@ -112,28 +116,37 @@ class predicate_type {
     /// there is none or counts.complete is false.
     static constexpr int coordinate_bits(int bits) { return stages::coordinate_bits(bits); }
 
-    /// Returns the sign. Points: any type that coordinate_of accepts, with float or double numbers.
+    /// Returns the sign. Points: any type that coordinate_of accepts, with float or double numbers,
+    /// or constructed points (errbound/constructed_points.hpp).
     template <class... Points>
     [[gnu::flatten]] constexpr sign_type operator()(const Points&... p) const {
-        // Overflow is not allowed in constant expressions.
-        if (!std::is_constant_evaluated()) {
-            const sign_type s = first_sign(p...);
-            if (certain(s)) [[likely]]
-                return s;
+        if constexpr ((filters::is_constructed<Points> || ...)) {
+            return call_constructed(*this, std::tuple(), p...);
+        } else {
+            // Overflow is not allowed in constant expressions.
+            if (!std::is_constant_evaluated()) {
+                const sign_type s = first_sign(p...);
+                if (certain(s)) [[likely]]
+                    return s;
+            }
+            return stages::template decide<number_of<Points...>>(stages::listed(p...), nullptr);
         }
-        return stages::template decide<number_of<Points...>>(stages::listed(p...), nullptr);
     }
     /// Same as above, and counts the deciding stage in the report, or `undecided` if a coordinate
     /// is not finite.
     template <class... Points>
     constexpr sign_type operator()(predicate_report& report, const Points&... p) const {
-        using enum predicate_stage;
-        const sign_type s = first_sign(p...);
-        if (certain(s)) {
-            report.count(has_semi_static_filter ? semi_static_filter : static_filter);
-            return s;
+        if constexpr ((filters::is_constructed<Points> || ...)) {
+            return call_constructed(*this, std::tie(report), p...);
+        } else {
+            using enum predicate_stage;
+            const sign_type s = first_sign(p...);
+            if (certain(s)) {
+                report.count(has_semi_static_filter ? semi_static_filter : static_filter);
+                return s;
+            }
+            return stages::template decide<number_of<Points...>>(stages::listed(p...), &report);
         }
-        return stages::template decide<number_of<Points...>>(stages::listed(p...), &report);
     }
     /// The first filter's value and bound, or the sign_type of an expression that branches. With
     /// Stored = false, coordinates may be computed on access, as 2 * p: each is rounded before the

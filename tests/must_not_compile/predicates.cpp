@@ -1,5 +1,7 @@
 // Definitions and calls of predicates that must be rejected: their operations, answers and options.
 // Each case is compiled separately, with its name defined.
+#include <errbound/constructed_points.hpp>
+#include <errbound/perturbation.hpp>
 #include <errbound/predicates.hpp>
 #include <errbound/rules/stochastic.hpp>
 
@@ -286,4 +288,18 @@ const int result = call<points<0, 0>, options>(difference, 1.0, 2.0);
 // Coordinates have type int.
 const int whole[2]{};
 const auto result = errbound::orient2d(whole, whole, whole);
+#endif
+
+// ---- Perturbation, constructed points ----
+
+#ifdef CASE_perturbed_branches
+// The expression returns a sign_type.
+const int result = errbound::perturbed(errbound::segments_intersect2d)({0, 1, 2, 3}, p, p, p, p) ==
+                   sign_type::zero;
+#endif
+
+#ifdef CASE_constructed_dimension
+// The point is in the plane, the predicate in space.
+const int result =
+    errbound::orient3d(errbound::line_line_point(p, p, p, p), p, p, p) == sign_type::zero;
 #endif

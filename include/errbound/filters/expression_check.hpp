@@ -41,7 +41,8 @@ struct supposed_signs {
     std::size_t size = 0;
     std::uint64_t unknown = 0;  ///< the number with uncertain sign; 0 in the first run: none
     int evaluated = 0;          ///< signs evaluated in this run
-    std::array<std::uint64_t, 16> zeros{};  ///< the numbers supposed to be zero
+    /// The numbers supposed to be zero, each in the first free slot from its last bits on.
+    std::array<std::uint64_t, 32> zeros{};
     std::size_t zero_count = 0;
 
     /// The sign of a residue. Opposite numbers have opposite signs.
@@ -60,10 +61,12 @@ struct supposed_signs {
   private:
     constexpr bool is_zero(std::uint64_t number) {
         if (supposition % 2 == 0) return false;
-        for (std::size_t i = 0; i < zero_count; ++i)
-            if (zeros[i] == number) return true;
+        std::size_t slot = number % 32;
+        for (; zeros[slot] != 0; slot = (slot + 1) % 32)
+            if (zeros[slot] == number) return true;
         if (zero_count == supposition / 2 % 16) return false;
-        zeros[zero_count++] = number;
+        ++zero_count;
+        zeros[slot] = number;
         return true;
     }
 };

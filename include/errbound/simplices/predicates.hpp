@@ -31,14 +31,14 @@ constexpr sign_type triangles_intersect(const auto& a, const auto& b, const auto
     const simplices::sides sides_of_b{as_int(of_b[0]), as_int(of_b[1]), as_int(of_b[2])};
     if (simplices::all_zero(sides_of_a) || simplices::all_zero(sides_of_b)) {
         // Coplanar, or one is a segment: some edge meets the other triangle.
-        const std::array edges{segment_triangle(a, b, p, q, r), segment_triangle(b, c, p, q, r),
-                               segment_triangle(c, a, p, q, r), segment_triangle(p, q, a, b, c),
-                               segment_triangle(q, r, a, b, c), segment_triangle(r, p, a, b, c)};
-        for (const sign_type s : edges)
-            if (!certain(s)) return s;
         sign_type greatest = sign_type::negative;
-        for (const sign_type s : edges)
-            if (s == sign_type::positive || greatest == sign_type::negative) greatest = s;
+        const auto decided = [&](const auto&... edge_and_triangle) {
+            const sign_type s = segment_triangle(edge_and_triangle...);
+            if (s != sign_type::negative) greatest = s;
+            return s == sign_type::positive || !certain(s);
+        };
+        (void)(decided(a, b, p, q, r) || decided(b, c, p, q, r) || decided(c, a, p, q, r) ||
+               decided(p, q, a, b, c) || decided(q, r, a, b, c) || decided(r, p, a, b, c));
         return greatest;
     }
     const auto with_edge = [](const simplices::crossing_edge& e, const auto& x, const auto& y,

@@ -12,19 +12,20 @@ import sys
 import tempfile
 
 TRIES = 4  # a ratio must be within its limit once: other work makes times longer, never shorter
-POINTS = {2: "const std::array<double, 2>&", 3: "const std::array<double, 3>&"}
-LIMITS = [("predicates.hpp", ["segments_intersect2d 2 4"], 4), ("predicates.hpp", ["segments_intersect3d 3 4"], 5),
-          ("predicates.hpp", ["segment_intersects_triangle 3 5"], 7), ("predicates.hpp", ["insphere 3 5"], 6),
-          ("predicates.hpp", ["orient2d 2 3", "orient3d 3 4", "incircle 2 4", "insphere 3 5"], 9),
-          ("simplices/predicates.hpp", ["triangle_intersects_triangle 3 6"], 13)]
+PREDICATES = "errbound/predicates.hpp"
+LIMITS = [(PREDICATES, ["segments_intersect2d 2 4"], 4), (PREDICATES, ["segments_intersect3d 3 4"], 5),
+          (PREDICATES, ["segment_intersects_triangle 3 5"], 7),
+          (PREDICATES, ["insphere 3 5"], 6), (PREDICATES, ["insphere4d 4 6"], 10),
+          (PREDICATES, ["orient2d 2 3", "orient3d 3 4", "incircle 2 4", "insphere 3 5"], 9),
+          ("errbound/simplices/predicates.hpp", ["triangle_intersects_triangle 3 6"], 13)]
 
 
 def source_of(header, predicates):
-    lines = ["#include <array>", f"#include <errbound/{header}>"]
+    lines = ["#include <array>", f"#include <{header}>"]
     for predicate in predicates:
         name, dimension, count = predicate.split()
         names = "abcdef"[:int(count)]
-        arguments = ", ".join(f"{POINTS[int(dimension)]} {point}" for point in names)
+        arguments = ", ".join(f"const std::array<double, {dimension}>& {point}" for point in names)
         lines.append(f"errbound::sign_type {name}_of({arguments}) {{ return errbound::{name}({', '.join(names)}); }}")
     return "\n".join(lines) + "\n"
 

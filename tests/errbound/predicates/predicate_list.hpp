@@ -69,7 +69,21 @@ inline constexpr std::tuple all{
     ERRBOUND_ENTRY(2, 8, compare_x_line_line, compare_x_line_line, {concurrent, concurrent}),
     ERRBOUND_ENTRY(2, 4, segments_intersect2d, segments_intersect2d, {flat, concurrent}),
     ERRBOUND_ENTRY(3, 6, triangle_intersects_triangle, triangle_intersects_triangle,
-                   {flat, concurrent})};
+                   {flat, concurrent}),
+    ERRBOUND_ENTRY(4, 5, orient4d, homogeneous_sign, {flat, flat}),
+    ERRBOUND_ENTRY(5, 6, orient5d, homogeneous_sign, {flat, flat}),
+    ERRBOUND_ENTRY(4, 6, insphere4d, homogeneous_sign, {round, round}),
+    ERRBOUND_ENTRY(5, 7, insphere5d, homogeneous_sign, {round, round}),
+    ERRBOUND_ENTRY(2, 4, compare_lengths2d, compare_lengths, {flat, round}),
+    ERRBOUND_ENTRY(3, 4, compare_lengths3d, compare_lengths, {flat, round}),
+    ERRBOUND_ENTRY(2, 4, compare_slopes, compare_slopes, {flat, concurrent}),
+    ERRBOUND_ENTRY(2, 4, compare_directions, compare_directions, {flat, concurrent}),
+    ERRBOUND_ENTRY(2, 6, compare_angles2d, compare_angles, {flat, concurrent}),
+    ERRBOUND_ENTRY(3, 6, compare_angles3d, compare_angles, {flat, round}),
+    ERRBOUND_ENTRY(2, 4, point_in_triangle2d, point_in_triangle, {flat, concurrent}),
+    ERRBOUND_ENTRY(3, 5, point_in_tetrahedron, point_in_tetrahedron, {flat, concurrent}),
+    ERRBOUND_ENTRY(2, 4, segment_intersects_box2d, segment_intersects_box, {flat, round}),
+    ERRBOUND_ENTRY(3, 4, segment_intersects_box3d, segment_intersects_box, {flat, round})};
 #undef ERRBOUND_ENTRY
 
 /// The unit in which an entry's oracle takes these points.

@@ -10,6 +10,8 @@
 #include <cstddef>
 #include <cstdint>
 #include <errbound/sign.hpp>
+#include <utility>
+#include <vector>
 
 #include "tests/support/big_integer.hpp"
 
@@ -224,6 +226,174 @@ inline int orient3d_line_plane(const std::array<point3, 8>& x) {
     const auto m = [&](std::size_t k) { return at_a * b[k] - at_b * a[k]; };
     const auto row = [](const point3& y) { return point<4>{y[0], y[1], y[2], 1}; };
     return sign(determinant({m(0), m(1), m(2), w}, row(x[5]), row(x[6]), row(x[7]))) * sign(w);
+}
+
+/// The sign of a determinant by elimination. All divisions are exact. Source: Bareiss 1968.
+inline int sign_of_determinant(std::vector<std::vector<big_integer>> m) {
+    big_integer last = 1;
+    int swaps = 1;
+    for (std::size_t k = 0; k < m.size(); ++k) {
+        std::size_t pivot = k;
+        while (pivot < m.size() && sign(m[pivot][k]) == 0) ++pivot;
+        if (pivot == m.size()) return 0;
+        if (pivot != k) {
+            std::swap(m[pivot], m[k]);
+            swaps = -swaps;
+        }
+        for (std::size_t i = k + 1; i < m.size(); ++i)
+            for (std::size_t j = k + 1; j < m.size(); ++j)
+                m[i][j] = exact_quotient(m[i][j] * m[k][k] - m[i][k] * m[k][j], last);
+        last = m[k][k];
+    }
+    return swaps * sign(last);
+}
+/// The determinant of homogeneous rows (p, 1), or (p, |p|², 1).
+template <std::size_t D, std::size_t N>
+int homogeneous_sign(const std::array<point<D>, N>& p) {
+    std::vector<std::vector<big_integer>> rows;
+    for (const auto& q : p) {
+        std::vector<big_integer> row(q.begin(), q.end());
+        if (N == D + 2) {
+            big_integer squared;
+            for (const big_integer& x : q) squared = squared + x * x;
+            row.push_back(squared);
+        }
+        row.push_back(1);
+        rows.push_back(row);
+    }
+    return sign_of_determinant(std::move(rows));
+}
+
+template <std::size_t D>
+big_integer product_at(const point<D>& a, const point<D>& o, const point<D>& b) {
+    big_integer sum;
+    for (std::size_t k = 0; k < D; ++k) sum = sum + (a[k] - o[k]) * (b[k] - o[k]);
+    return sum;
+}
+template <std::size_t D>
+big_integer compare_lengths(const std::array<point<D>, 4>& p) {
+    return product_at(p[1], p[0], p[1]) - product_at(p[3], p[2], p[3]);
+}
+inline int compare_slopes(const std::array<point2, 4>& p) {
+    big_integer x = p[1][0] - p[0][0], y = p[1][1] - p[0][1], u = p[3][0] - p[2][0],
+                v = p[3][1] - p[2][1];
+    if (sign(x) == 0 || sign(u) == 0) return (sign(x) == 0) - (sign(u) == 0);
+    // Both vectors point to the right.
+    if (x < 0) x = -x, y = -y;
+    if (u < 0) u = -u, v = -v;
+    return sign(y * u - v * x);
+}
+/// By quadrants: 0 to 3, each with its first axis. Zero vectors equal all directions below π.
+inline int compare_directions(const std::array<point2, 4>& p) {
+    struct turned {
+        int quadrant;
+        big_integer x, y;
+    };
+    const auto turned_of = [](const point2& from, const point2& to) {
+        big_integer x = to[0] - from[0], y = to[1] - from[1];
+        int quadrant = 0;
+        for (; !(sign(x) > 0 && sign(y) >= 0) && quadrant < 4; ++quadrant) {
+            const big_integer old = x;
+            x = y;
+            y = -old;
+        }
+        return turned{quadrant, x, y};
+    };
+    const turned a = turned_of(p[0], p[1]), b = turned_of(p[2], p[3]);
+    if (a.quadrant == 4 || b.quadrant == 4) {
+        const int half_a = a.quadrant / 2 % 2, half_b = b.quadrant / 2 % 2;
+        return half_a - half_b;
+    }
+    if (a.quadrant != b.quadrant) return a.quadrant < b.quadrant ? -1 : 1;
+    return sign(a.y * b.x - b.y * a.x);
+}
+/// By cos·|cos|, which falls with the angle.
+template <std::size_t D>
+int compare_angles(const std::array<point<D>, 6>& p) {
+    const auto parts = [](const point<D>& a, const point<D>& o, const point<D>& b) {
+        const big_integer dot = product_at(a, o, b);
+        return std::array<big_integer, 2>{dot * abs(dot),
+                                          product_at(a, o, a) * product_at(b, o, b)};
+    };
+    const auto [m, n] = parts(p[0], p[1], p[2]);
+    const auto [s, t] = parts(p[3], p[4], p[5]);
+    if (sign(n) == 0 || sign(t) == 0) return sign(s) - sign(m);
+    return sign(s * n - m * t);
+}
+
+/// By the line's parameters at which it enters and leaves each slab, as fractions. Positive if the
+/// open segment meets the box without its border, and both together span the space. (A flat box has
+/// only a border normal to its plane.)
+template <std::size_t D>
+int segment_intersects_box(const std::array<point<D>, 4>& x) {
+    const auto& [p, q, a, b] = x;
+    using fraction = std::array<big_integer, 2>;  // with a positive denominator
+    const auto less = [](const fraction& s, const fraction& t) {
+        return s[0] * t[1] < t[0] * s[1];
+    };
+    std::vector<fraction> lower{{0, 1}}, upper{{1, 1}}, at;
+    bool inner = true;
+    for (std::size_t k = 0; k < D; ++k) {
+        const big_integer low = a[k] < b[k] ? a[k] : b[k], high = a[k] < b[k] ? b[k] : a[k];
+        const big_integer d = q[k] - p[k];
+        const bool flat = !(low < high);
+        if (sign(d) == 0) {
+            if (p[k] < low || high < p[k]) return -1;
+            inner = inner && low < p[k] && p[k] < high;
+            continue;
+        }
+        fraction enter{low - p[k], d}, leave{high - p[k], d};
+        if (d < 0) {
+            enter = {p[k] - high, -d};
+            leave = {p[k] - low, -d};
+        }
+        (flat ? at : lower).push_back(enter);
+        (flat ? at : upper).push_back(leave);
+    }
+    // Empty or not, closed and then open. A flat axis has one parameter, twice in `at`.
+    for (const auto& s : lower)
+        for (const auto& t : upper) {
+            if (less(t, s)) return -1;
+            inner = inner && less(s, t);
+        }
+    for (const auto& s : at) {
+        for (const auto& t : at)
+            if (less(s, t)) return -1;
+        for (const auto& t : lower) {
+            if (less(s, t)) return -1;
+            inner = inner && less(t, s);
+        }
+        for (const auto& t : upper) {
+            if (less(t, s)) return -1;
+            inner = inner && less(s, t);
+        }
+    }
+    return inner && at.size() <= 2 ? 1 : 0;
+}
+/// Coordinates p of the point with area·p = u·a + v·b + w·c. Flat: the border of its convex hull.
+inline int point_in_triangle(const std::array<point2, 4>& x) {
+    const auto& [p, a, b, c] = x;
+    const big_integer whole = orient2d({a, b, c});
+    if (sign(whole) != 0) {
+        const int s = sign(whole);
+        return std::min({s * sign(orient2d({p, b, c})), s * sign(orient2d({a, p, c})),
+                         s * sign(orient2d({a, b, p}))});
+    }
+    const int ab = segments_intersect2d({p, p, a, b}), bc = segments_intersect2d({p, p, b, c}),
+              ca = segments_intersect2d({p, p, c, a});
+    return std::max({ab, bc, ca}) < 0 ? -1 : 0;
+}
+inline int point_in_tetrahedron(const std::array<point3, 5>& x) {
+    const auto& [p, a, b, c, d] = x;
+    const int s = sign(orient3d({a, b, c, d}));
+    if (s != 0)
+        return std::min({s * sign(orient3d({p, b, c, d})), s * sign(orient3d({a, p, c, d})),
+                         s * sign(orient3d({a, b, p, d})), s * sign(orient3d({a, b, c, p}))});
+    const int most = std::max({segment_intersects_triangle({p, p, a, b, c}),
+                               segment_intersects_triangle({p, p, a, b, d}),
+                               segment_intersects_triangle({p, p, a, c, d}),
+                               segment_intersects_triangle({p, p, b, c, d})});
+    return most < 0 ? -1 : 0;
 }
 
 }  // namespace predicate_oracle
