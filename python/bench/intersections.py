@@ -159,7 +159,8 @@ def intersect(a, b):
 
 def decided(points, faces, pairs):
     """The number of pairs that intersect."""
-    triangles = {i: [[Fraction(float(x)) for x in points[v]] for v in faces[i]] for i in {int(j) for p in pairs for j in p}}
+    used = {int(i) for pair in pairs for i in pair}
+    triangles = {i: [[Fraction(float(x)) for x in points[v]] for v in faces[i]] for i in used}
     return sum(intersect(triangles[int(i)], triangles[int(j)]) for i, j in pairs)
 
 
