@@ -1,8 +1,9 @@
 // Separating axes in single precision. Internal; host, SIMD and device code share it.
 //
-// A translation per axis and one scale map coordinates to about [−1, 1] in float: X̃ = fl((x −
-// c)·s). Each operation is monotone, so X̃ < Ỹ proves x < y. `margin` covers the errors of sums.
-// Proof: proofs/RoundedAxes.v, rounded_monotone, rounded_face_separate, rounded_edges_separate.
+// A translation per axis and one scale map coordinates to about [−1, 1] in float: X̃ = (x −
+// c)·s, rounded after each operation. Each operation is monotone, so X̃ < Ỹ proves x < y. `margin`
+// covers the errors of sums. Proof: proofs/RoundedAxes.v, rounded_monotone, rounded_face_separate,
+// rounded_edges_separate.
 #pragma once
 
 #include <algorithm>
@@ -33,7 +34,7 @@ constexpr least_gaps gaps_beyond(double distance) {
             static_cast<float>(1.414215 * distance + 1.01 * double(margin))};
 }
 
-/// The box around all positions of both frames. NaN may be ignored.
+/// The box around all positions of both frames. NaN coordinates do not widen it.
 struct extent {
     double low[3], high[3];
 

@@ -43,8 +43,8 @@ inline vector from_segment(const vector& p, const vector& e) {
     return p + part_of(-dot(p, e), dot(e, e)) * e;
 }
 
-/// Returns the difference of two points: one of the second feature and one of the first, about the
-/// nearest to each other. It is exact except for rounding. x is in the order of points_of.
+/// Returns the difference of a point of the second feature and one of the first. They may miss the
+/// nearest points, but lie on the features up to rounding. x is in the order of points_of.
 inline vector nearest(const std::array<vector, 2>& x) {
     return x[1] - x[0];
 }
@@ -142,7 +142,7 @@ class features {
 
   private:
     static constexpr int max_depth = 10;
-    static constexpr double largest_distance = 0x1p300;  ///< in units of size_
+    static constexpr double largest_distance = 0x1p300;  ///< in scaled lengths
     static constexpr double tiny = 0x1p-500;  ///< above the square root of a product's underflow
 
     /// True if two points are certainly nearer than d at one of two estimated times. Each moves t

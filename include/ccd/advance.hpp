@@ -64,10 +64,10 @@ struct advance_result {
 /// group with a contact on the way stops just before it.
 ///
 /// A group's fraction is at least 0.99 of the time of its first contact, or of the least time among
-/// joined groups. It is less, at worst 0, only if moving vertices back by up to 1024 units in the
-/// last place does not free them. Gaps of a few such units cause this. Each round of the search
-/// joins groups, shortens ways or moves vertices back. If 60 rounds do not suffice, all groups are
-/// joined, and vertices are no longer moved back.
+/// joined groups, times `conservative`. It is less, at worst 0, only if moving vertices back by up
+/// to 1024 units in the last place does not free them. Gaps of a few such units cause this. Each
+/// round of the search joins groups, shortens ways or moves vertices back. If 60 rounds do not
+/// suffice, all groups are joined, and vertices are no longer moved back.
 ///
 /// Throws as mesh_steps::run, and std::invalid_argument if the numbers of groups and vertices
 /// differ. Cost: one such step if the whole way is free, else usually two. It is more, at most 80,
@@ -78,9 +78,9 @@ advance_result advance(mesh_steps& steps, const vertex_rows& positions,
 /// number of vertices.
 advance_result advance(const mesh& before, const mesh& after, const advance_options& options = {});
 
-/// Returns the longest free step along a direction that was found: `directed.before` are positions
-/// x, `directed.after` the displacements p. Line searches move to x + alpha * p, which rounds
-/// otherwise than advance_result::positions, so a fraction of `advance` does not certify it.
+/// Returns the longest step along a direction that was found to be free: `directed.before` are
+/// positions x, `directed.after` the displacements p. Line searches move to x + alpha * p, which
+/// rounds otherwise than advance_result::positions, so a fraction of `advance` does not certify it.
 ///
 /// The result's fraction is alpha, and its positions are x + alpha * p. The ways from x to these
 /// are free in both forms: product and sum rounded, and fused, std::fma(alpha, p, x), for each

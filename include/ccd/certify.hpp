@@ -44,7 +44,7 @@ struct certificate {
     step_result step;
     passage_lists passages;  ///< of step.pairs
 
-    /// True if nothing intersects at the start, and then no pair of the step touches. Adjacent
+    /// True if nothing intersects at the start and no pair of the step touches. Adjacent
     /// rods, which share a vertex, are no pair: they may fold onto or through each other.
     bool is_free() const {
         return number_of(step.pairs) == 0 && step.intersections_at_start.empty();

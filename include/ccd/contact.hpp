@@ -151,7 +151,7 @@ time_derivative derivative_of(const Query& query, const first_contact& contact);
 
 /// How features move on after their first contact.
 enum class contact_motion : std::uint8_t {
-    unknown,     ///< there is no contact, or it is at the start and the features then part
+    unknown,     ///< there is no contact, or it is at the start and the features part or cross
     approaches,  ///< each moves to the other side, or their normal velocity is certainly negative
     touches,     ///< on one side before and after the bracket: they touch without crossing
     slides,      ///< the motion stays in the plane of the features, or on the line of the edge
@@ -163,7 +163,8 @@ constexpr std::string_view name(contact_motion m) {
 
 /// Returns the motion of the result of contact_at(query, time). Exact: if the normal velocity does
 /// not decide, the signs of Y (docs/notation.md) just before and just after the bracket do. If Y is
-/// zero throughout, those of the distances from the edge that the vertex meets do. Cost: one
+/// zero throughout, those of a vertex beside the line of the edge that it meets do, or features
+/// that meet inside slide. Cost: one
 /// comparison if the normal velocity decides, otherwise unbounded integers.
 template <any_query Query>
 contact_motion motion_after(const Query& query, const first_contact& contact);

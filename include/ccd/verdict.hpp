@@ -18,7 +18,7 @@ enum class outcome : std::uint8_t {
 
 /// The reason why an outcome is uncertain.
 enum class cause : std::uint8_t {
-    none,         ///< the outcome is certain
+    none,         ///< the outcome is not `uncertain`
     coplanarity,  ///< whether, or how often, the four points become coplanar
     inside,       ///< whether the contact lies inside both features at that time
     range,        ///< a value overflowed, or an input is not finite
@@ -38,7 +38,7 @@ constexpr std::string_view name(cause c) {
     return i < names.size() ? names[i] : "unknown";
 }
 
-/// `cause` is `none` exactly if `outcome` is certain.
+/// `cause` is `none` exactly if `outcome` is not `uncertain`.
 struct verdict {
     ccd::outcome outcome = ccd::outcome::uncertain;
     ccd::cause cause = ccd::cause::undecided;

@@ -70,9 +70,9 @@ auto unless_given_up(const Find& find) -> std::optional<decltype(find())> {
 
 /// The distinct roots of p in [a, b], in disjoint intervals, with multiplicities. Coefficients are
 /// double, float, built-in integers, unbounded integers or rationals (errbound::integer,
-/// Boost.Multiprecision). Integers have the type Integer, if named as in count_roots<mpz_int>(p, a,
-/// b). Otherwise they have the coefficients' own type if it is unbounded, or else
-/// errbound::integer.
+/// Boost.Multiprecision). Exact arithmetic uses the integer type Integer, if the call names one, as
+/// in count_roots<mpz_int>(p, a, b); otherwise the coefficients' own type if it is unbounded, or
+/// else errbound::integer.
 template <class Integer = void, class C>
 auto isolate_roots(const polynomial<C>& p, double a, double b) {
     using exact = roots::integer_for_t<Integer, C>;

@@ -53,8 +53,9 @@ struct predicate_options {
     /// expression has too many branches for the compiler to detect this.
     static constexpr bool homogeneous = false;
     /// One degree >= 1 per coordinate in the shape's order, if not all are 1. Example: points<3, 3>
-    /// of x, y and a squared radius have {1, 1, 2, 1, 1, 2}. If terms of different total degree are
-    /// added, the predicate does not compile. Coordinates far from 1 are then scaled.
+    /// of x, y and a squared radius have {1, 1, 2, 1, 1, 2}. Coordinates far from 1 are then scaled
+    /// by powers of two. If terms of different total degree are added, or if there are too many
+    /// branches to detect this, the predicate does not compile.
     static constexpr std::array<int, 0> degrees{};
 };
 
@@ -135,9 +136,9 @@ class predicate_type {
         return stages::template decide<number_of<Points...>>(stages::listed(p...), &report);
     }
     /// The first filter's value and bound, or the sign_type of an expression that branches. With
-    /// Stored = false, a product that computes a coordinate is not fused (FMA) into a difference of
-    /// the expression. All stages then use the same number. Pass true only if all coordinates are
-    /// values in memory.
+    /// Stored = false, coordinates may be computed on access, as 2 * p: each is rounded before the
+    /// expression uses it, and never fused (FMA) into a difference, so all stages use the same
+    /// coordinate. Pass true only if all coordinates are values in memory.
     template <bool Stored = false, class... Points>
     static constexpr auto estimate(const Points&... p) {
         using T = number_of<Points...>;

@@ -134,7 +134,7 @@ template <class Predicate, class... Ranges>
         const T size = number_traits<T>::abs(x.value);
         const T code = x.value > 0 ? T(2) : T(0);
         const T decided = size > x.bound ? code : T(3);
-        // Kernels may fuse multiply-adds, so that only the value overflows (static_filter.hpp).
+        // With fused multiply-adds the value can overflow although its size does not.
         codes[i] = size <= number_traits<T>::largest() ? decided : T(3);
     }
     unsigned all = 0;

@@ -71,7 +71,8 @@ constexpr auto lifted_volume(const auto& a, const auto& b, const auto& c, const 
 inline constexpr auto unweighted = [](const auto&, const auto& squared) { return squared; };
 
 /// An implicit point: a point computed from others, its parents, as anchor + (x, y[, z])/w. w may
-/// be negative: multiply a sign by sign_of(w) for each odd power of w in the expression.
+/// be negative. If an expression was multiplied by an odd power of w, to avoid the division,
+/// multiply its sign by sign_of(w).
 template <class Anchor, class X, class W>
 struct implicit_point2d {
     const Anchor& anchor;

@@ -26,8 +26,9 @@ inline constexpr Real largest_difference = 0x1p200;
 template <>
 inline constexpr float largest_difference<float> = 4;
 
-/// |ĥ − h| <= relative·unit + absolute, where h is a control value of a form of degree n, times
-/// multiple(n) (errbound/roots/control_values.hpp). The head of this file defines the unit.
+/// |ĥ − h| <= relative·unit + absolute, where h = multiple(n)·b for a control value b of a form of
+/// degree n, as errbound/roots/control_values.hpp stores it. The head of this file defines the
+/// unit.
 template <class Real>
 struct constants {
     Real relative;  ///< times the unit

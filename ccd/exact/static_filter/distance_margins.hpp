@@ -1,11 +1,11 @@
 // Margins of Y and the G_i that prove that the features are farther apart than a distance d.
 //
-// |Y|/|N| is the distance of the vertex from the face's plane, or of the two edges' lines. If some
-// G_i < 0, |G_i|/(|N|·L) is also a distance, where L is the length of an edge: of the projected
-// vertex from the line of the face's edge i, or of one projected edge from the other's line.
-// Projection does not increase distances. So |Y| > d·|N|, or a negative G_i with |G_i| > d·|N|·L,
-// proves a distance above d. Proof: proofs/DistanceMargins.v, plane_face_apart, plane_edges_apart,
-// outside_face_apart, outside_edges_apart.
+// |Y|/|N| is the distance of the vertex from the face's plane, or of the two edges' lines. After
+// projection along N, |G_i|/(|N|·l) is a distance too if G_i < 0: of the vertex from the line of
+// the face's edge i, or of one edge from the other's line; l is the length of edge i or the other
+// edge. Projection does not increase distances. So |Y| > d·|N|, or a negative G_i with |G_i| >
+// d·|N|·l, proves a distance above d. Proof: proofs/DistanceMargins.v, plane_face_apart,
+// plane_edges_apart, outside_face_apart, outside_edges_apart.
 #pragma once
 
 #include <algorithm>
@@ -40,10 +40,11 @@ constexpr S longest(const edge_edge_forms<S>& f) {
 
 }  // namespace detail
 
-/// Margins for the distance d that are added to the errors of the control values over the step. The
-/// sums exclude the step or an interval of it: |N| is at most its longest control vector, and a
-/// length is at most that at one end. Proof: proofs/DistanceMargins.v, margins_face_apart,
-/// margins_edges_apart.
+/// Margins for the distance d. The features are farther apart than d throughout an interval if all
+/// control values of Y there exceed error + margin in size, with one sign. The same holds if all of
+/// a G_i are below −(error + margin). Reason: |N| is at most its longest control vector over the
+/// step, and a length is at most the longer of those at the ends. Proof: proofs/DistanceMargins.v,
+/// margins_face_apart, margins_edges_apart.
 ///
 /// Errors: N's control vectors have an error of less than 2^-48 times the extents' products (6ε of
 /// each term's size); the factor 1 + 2^-40 covers the rest. Squares of an N below 2^-516 may

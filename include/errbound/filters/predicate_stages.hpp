@@ -1,5 +1,5 @@
-// The stages of a predicate after its first filter. Separate from predicate_type, so that unused
-// predicates cost nothing: the expression is analysed when the first of these is compiled.
+// The stages of a predicate after its first filter. They are a class of their own, so that unused
+// predicates cost nothing: the expression is analysed only when this class is first used.
 #pragma once
 
 #include <algorithm>

@@ -37,11 +37,11 @@ struct semi_static {
 
     /// The bound constant(k)·(m·M^d + a·τ); the sign is uncertain if |value| <= bound(M). For signs
     /// constant(k − 1) suffices, which is less by about u. This difference covers a·τ·M^d, and the
-    /// roundings of M^d and of the bound, of order u²·S. The + 2 in a product's a stands for 2τ, of
-    /// which τ covers its own underflow and τ/4 products of two allowances. The other 3/4·τ covers
-    /// underflow of M^d, since τ >= 2^49·η. Below 2^p = 1/u, m and a are exact; otherwise the bound
-    /// is infinite. It is also infinite if a factor is the constant 0. Proof: proofs/SemiStatic.v,
-    /// mass_covers_size, semi_static_bound_covers, semi_static_sign_certain.
+    /// roundings of M^d and of the bound, of order u²·S. The + 2 in a product's a stands for
+    /// 2τ: τ for underflow of the product, τ/4 for the product of the factors' allowances, and
+    /// 3/4·τ for underflow of M^d, since τ >= 2^49·η. Below 2^p = 1/u, m and a are exact; otherwise
+    /// the bound is infinite. It is also infinite if a factor is the constant 0. Proof:
+    /// proofs/SemiStatic.v, mass_covers_size, semi_static_bound_covers, semi_static_sign_certain.
     constexpr T bound(T largest) const {
         constexpr T most = 1 / number_traits<T>::unit_roundoff();
         const bool trusted = mass < most && allowances < most;

@@ -2,11 +2,12 @@
 //
 // Notation: docs/notation.md; v is the computed result, σ a bound. Additions to the printed rule:
 // bounds are inflated for their own roundings. Products add 4η: one η for an underflow of the
-// value, three for products in the bound. Sums add no η: an inexact sum v is so large that |v|ε is
-// at least its unit in the last place. A product with an exact zero is exact. Overflow and NaN give
-// infinite or NaN bounds and no certain sign. Only under directed rounding, overflow to the largest
-// finite number goes unnoticed. Without underflow the bound exceeds that of `safe` at most
-// slightly: proofs/ComputedComparison.v, tight_at_most_safe_computed.
+// value, three for products in the bound. Sums add no η (unless the type has no subnormal numbers):
+// an inexact sum v is so large that |v|ε is at least its unit in the last place. A product with an
+// exact zero is exact. Overflow and NaN give infinite or NaN bounds and no certain sign. Only under
+// directed rounding, overflow to the largest finite number goes unnoticed. Without underflow the
+// bound exceeds that of `safe` at most slightly: proofs/ComputedComparison.v,
+// tight_at_most_safe_computed.
 #pragma once
 
 #include <errbound/detail/rounded.hpp>
@@ -53,7 +54,7 @@ struct tight {
     template <class T>
     static constexpr bound<T> add(const T& v, rule_operand<T, tight> a, rule_operand<T, tight> b) {
         using traits = number_traits<T>;
-        // |v|ε and the sum v may each lose less than η by underflow; x − x is exact.
+        // Here |v|ε and the sum v may each lose less than η by underflow; x − x is exact.
         if constexpr (!has_subnormals<T>)
             if (v != 0 || traits::abs(a.value) != traits::abs(b.value))
                 return {inflated<T>(rounding(v) + (a.bound.error + b.bound.error) +
@@ -82,9 +83,10 @@ struct tight {
         return {inflated<T>(rounding(v) + inherited + 4 * traits::underflow_unit())};
     }
     /// |v − a/b| <= |v|ε/(1 − ε) + (σa + |â/b̂|σb)/(|b̂| − σb) if |b̂| > σb, otherwise infinite.
-    /// This is the printed rule, because σa(|b̂| − σb) + (|â| + σa)σb = σa|b̂| + |â|σb. Source:
-    /// Theorem 1, Divide. Proof: proofs/IeeeRules.v, tight_divide_known; in any direction,
-    /// proofs/Tight.v, tight_divide_sound.
+    /// The paper prints the last term as (σa(|b̂| − σb) + (|â| + σa)σb)/((|b̂| − σb)|b̂|). It is
+    /// the same, because that numerator is σa|b̂| + |â|σb. Source: Theorem 1, Divide. Proof:
+    /// proofs/IeeeRules.v, tight_divide_known; in any direction, proofs/Tight.v,
+    /// tight_divide_sound.
     template <class T>
     static constexpr bound<T> divide(const T& v, rule_operand<T, tight> a,
                                      rule_operand<T, tight> b) {

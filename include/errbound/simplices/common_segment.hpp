@@ -94,7 +94,7 @@ inline located_point<3> located(const simplex<3>& edge_of, const section& s,
         if (s.side[static_cast<std::size_t>(i)] == 0) return {edge_of[i], 0};
     return located<3>({edge_of[edge.from], edge_of[edge.to]}, plane.vertices);
 }
-/// Preconditions: a and b cross; they are their hulls.
+/// Preconditions: a and b cross, and are results of hull_of.
 inline std::array<located_point<3>, 2> common_segment_of(const simplex<3>& a, const simplex<3>& b) {
     if (a.size < b.size) return common_segment_of(b, a);
     if (b.size < 3) {

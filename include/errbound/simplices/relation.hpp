@@ -199,7 +199,7 @@ constexpr bool separated_by_edge(const simplex<2>& a, const simplex<2>& b, inter
     return false;
 }
 /// Two convex sets whose interiors do not meet are separated by the line through an edge, and meet
-/// in that line. Precondition: a and b are their hulls and together span the plane.
+/// in that line. Precondition: a and b are results of hull_of, and together span the plane.
 constexpr intersection meet_in_plane(const simplex<2>& a, const simplex<2>& b) {
     intersection found{a.size + b.size - 4, true};
     if (!separated_by_edge(a, b, found)) separated_by_edge(b, a, found);
@@ -216,7 +216,7 @@ constexpr bool span_plane(const simplex<2>& a, const simplex<2>& b) {
     return false;
 }
 
-/// Preconditions: a and b are their hulls; all vertices are in one plane.
+/// Preconditions: a and b are results of hull_of; all vertices are in one plane.
 constexpr intersection meet_flat(const simplex<2>& a, const simplex<2>& b) {
     return span_plane(a, b) ? meet_in_plane(a, b) : meet_on_line(a, b);
 }
@@ -270,9 +270,10 @@ constexpr bool on_one_side(const sides& s, int size, int first = 0) {
 struct crossing_edge {
     int from, to;
 };
-/// The segment in which a triangle meets a plane. From its low to its high end, the vertices on the
-/// positive side are on the right. Precondition: the sides are neither all zero nor strictly the
-/// same.
+/// The segment in which a triangle meets a plane. See the triangle
+/// from where its vertices run counterclockwise: those on the positive side are to the right of the
+/// way from the low to the high end. Precondition: the sides are neither all zero nor strictly
+/// the same.
 struct section {
     sides side;
     crossing_edge low{}, high{};
@@ -338,8 +339,8 @@ constexpr intersection meet_edge(const point<3>* edge, const point<3>* face, int
     return {0, !on_edge && side_of_first * side_of_last < 0};
 }
 
-/// Preconditions: a and b are their hulls. If `flat` is true and a is a triangle, b is in its
-/// plane. Two triangles are in one plane, and `flat` is true.
+/// Preconditions: a and b are results of hull_of. If `flat` is true and a is a triangle, b is in
+/// its plane. If both are triangles, `flat` is true.
 constexpr intersection meet(const simplex<2>& a, const simplex<2>& b, bool) {
     return meet_flat(a, b);
 }
@@ -356,7 +357,7 @@ constexpr intersection meet(const simplex<3>& a, const simplex<3>& b, bool flat)
     return meet_flat(a, b);
 }
 
-/// The relation of simplices that meet so. Precondition: a and b are their hulls.
+/// The relation of simplices that meet so. Precondition: a and b are results of hull_of.
 template <std::size_t D>
 constexpr relation relation_from(const intersection& x, const simplex<D>& a, const simplex<D>& b,
                                  const simplex<D>& common) {
@@ -376,8 +377,8 @@ constexpr relation relation_from(const intersection& x, const simplex<D>& a, con
     return a.size + b.size - 2 - x.dimension == int{D} ? relation::crossing : relation::touching;
 }
 
-/// Decides all cases, by the hulls. If `flat` is true and a is a proper triangle, b is in its
-/// plane.
+/// Decides all cases, from hull_of(a) and hull_of(b). If `flat` is true and a is a proper triangle,
+/// b is in its plane.
 template <std::size_t D>
 [[gnu::noinline]] constexpr relation any_relation(const simplex<D>& a, const simplex<D>& b,
                                                   int common, bool flat = false) {
