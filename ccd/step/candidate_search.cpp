@@ -319,8 +319,8 @@ void candidate_search::find_at_start(const batch_positions& positions, const ste
         kernels.of_two_faces_at_start(leaves, tree.levels(), first, end, &to, pass);
     };
     if (one_suffices) {
-        // Elements that reach far often intersect others. As from another tree, each leaf is
-        // compared with all.
+        // Elements that reach far often intersect others. A copy of the levels counts as another
+        // tree, so each of their leaves is compared with all.
         const extents_levels others = tree.levels();
         for (const std::size_t leaf : tree.longest_leaves(tree.leaves() / 64))
             find(others, leaf, leaf + 1);

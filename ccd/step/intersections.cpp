@@ -294,8 +294,8 @@ intersection_result intersection_finder::take() {
         all.counts += found.counts;
     }
     std::ranges::sort(all.edge_faces);
-    const auto repeated = std::ranges::unique(all.edge_faces);
-    all.edge_faces.erase(repeated.begin(), repeated.end());
+    all.edge_faces.erase(std::unique(all.edge_faces.begin(), all.edge_faces.end()),
+                         all.edge_faces.end());
     if (options_.wanted == intersection_options::amount::count) return all;
     all.pairs.reserve(all.counts.total());
     for (std::size_t kind = 0; kind < intersection_kinds.size(); ++kind) {

@@ -7,7 +7,7 @@
 #include "ccd/batch/rounded_positions.hpp"
 #include "ccd/batch/row_quads.hpp"
 #include "ccd/exact/simd.hpp"
-#include "ccd/step/triangle_signs.hpp"
+#include "ccd/step/packs/triangle_signs.hpp"
 
 namespace ccd::detail::ERRBOUND_INSTRUCTION_SET {
 namespace {
@@ -323,6 +323,6 @@ constinit const search_kernels searching = {fill_leaves<1>,
                                             find_pairs<1, 3, times::start>,
                                             find_pairs<2, 2, times::start>,
                                             find_pairs<3, 3, times::start>,
-                                            triangle_signs};
+                                            triangle_signs<element_pair>};
 
 }  // namespace ccd::detail::ERRBOUND_INSTRUCTION_SET

@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <iterator>
 #include <map>
+#include <numbers>
 #include <string>
 #include <vector>
 
@@ -44,9 +45,13 @@ ccd::mesh wavy_grid(std::size_t side, bool pierced) {
             m.faces.push_back({index(i, j), index(i + 1, j + 1), index(i, j + 1)});
         }
     if (pierced) {
-        auto& p = m.vertices[index(side / 2, side / 2)];
-        p.x += 5.5 * cell, p.y += 0.3 * cell;
-        p.z = height(p.x, p.y) - 2 * cell;
+        // From half the height of a hill through its other side.
+        constexpr double half_wave = std::numbers::pi / 40;
+        const double x = 2 * half_wave, y = 2 * std::numbers::pi / 33;
+        const auto nearest = [side](double at) {
+            return static_cast<std::size_t>(std::lround(at * static_cast<double>(side)));
+        };
+        m.vertices[index(nearest(x), nearest(y))] = {x + half_wave + 3 * cell, y, 0};
     }
     return m;
 }

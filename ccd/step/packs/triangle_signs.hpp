@@ -10,7 +10,6 @@
 
 #include "ccd/exact/simd.hpp"
 #include "ccd/exact/static_filter/constants.hpp"
-#include "ccd/step/extents_pack.hpp"
 
 namespace ccd::detail::ERRBOUND_INSTRUCTION_SET {
 namespace {
@@ -89,9 +88,9 @@ struct side_pack {
         : of{{dot(n, p)[0], error}, {dot(n, q)[0], error}, {dot(n, r)[0], error}} {}
 };
 
-/// The vertex on a side of a plane on which the two others are not, and the ends of the edges from
-/// it that meet the plane: those of section::low and section::high. Precondition: sides are certain
-/// and not all the same.
+/// `one` is the vertex on a side of a plane on which the two others are not. Its edges to `low` and
+/// `high` meet the plane, at the ends of errbound::simplices::section. Precondition: sides are
+/// certain and not all the same.
 struct section_pack {
     sign_pack side;  ///< opposite to the side of `one`
     vector_pack_form one, low, high;
@@ -118,18 +117,20 @@ struct section_pack {
     }
 };
 
-/// The sign of triangle_intersects_triangle, or uncertain. `elements` are three vertices each;
-/// those that repeat a vertex are uncertain, since all their volumes are zero. As relation_of_faces
-/// of errbound/simplices/relation.hpp, for certain signs that are not zero.
-[[gnu::flatten]] inline void triangle_signs(const double* positions, const vertex_index* elements,
-                                            const element_pair* pairs, std::size_t count,
-                                            errbound::sign_type* signs) {
+/// Sets the sign of triangle_intersects_triangle, or uncertain. `elements` are three vertices each.
+/// Elements that repeat a vertex are uncertain, since all their volumes are zero. For certain signs
+/// that are not zero, the cases are those of relation_of_faces
+/// (errbound/simplices/relation.hpp).
+template <class Pair>
+[[gnu::flatten]] void triangle_signs(const double* positions, const vertex_index* elements,
+                                     const Pair* pairs, std::size_t count,
+                                     errbound::sign_type* signs) {
     constexpr std::size_t block = 64;
     alignas(64) double columns[18][block] = {};
     for (std::size_t first = 0; first < count; first += block) {
         const std::size_t size = count - first < block ? count - first : block;
         for (std::size_t i = 0; i < size; ++i) {
-            const element_pair& pair = pairs[first + i];
+            const Pair& pair = pairs[first + i];
             for (std::size_t c = 0; c < 6; ++c) {
                 const std::size_t element = c < 3 ? pair.first : pair.second;
                 const double* x = positions + 3 * std::size_t(elements[3 * element + c % 3]);
