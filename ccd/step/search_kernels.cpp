@@ -230,11 +230,11 @@ struct found_pairs {
 
 /// Finds pairs of leaf p of `a`, with elements of N vertices, and leaf q of `b`, of M vertices. In
 /// one tree, the element of `b` is the later one.
-template <std::size_t N, std::size_t M, times At>
+template <std::size_t N, std::size_t M, times At, bool OneTree>
 void pairs_of_leaves(const extents_levels& a, std::size_t p, const extents_levels& b, std::size_t q,
                      found_pairs& found) {
     const extents_pack &leaf = a.at[0].packs[p], &other = b.at[0].packs[q];
-    const bool is_same = N == M && p == q;
+    const bool is_same = OneTree && p == q;
     const lanes of_other = touching<At>(other, hull_reader{a.at[0].hulls[p]});
     if (of_other == 0) return;
     const lanes of_leaf = touching<At>(leaf, hull_reader{b.at[0].hulls[q]});
@@ -258,7 +258,7 @@ void pairs_of_leaves(const extents_levels& a, std::size_t p, const extents_level
         });
 }
 
-template <std::size_t N, std::size_t M, times At>
+template <std::size_t N, std::size_t M, times At, bool OneTree = N == M>
 void find_pairs(const extents_levels& a, const extents_levels& b, std::size_t first,
                 std::size_t end, void* context, search_kernels::visitor visit) {
     struct node {
@@ -273,11 +273,11 @@ void find_pairs(const extents_levels& a, const extents_levels& b, std::size_t fi
         while (opened > 0) {
             const node n = open[--opened];
             if (n.level == 0) {
-                pairs_of_leaves<N, M, At>(a, p, b, n.position, found);
+                pairs_of_leaves<N, M, At, OneTree>(a, p, b, n.position, found);
                 continue;
             }
             const std::size_t below = n.level - 1;
-            const std::size_t least = N == M ? p >> (4 * below) : 0;
+            const std::size_t least = OneTree ? p >> (4 * below) : 0;
             const lanes some = touching<At>(b.at[n.level].packs[n.position], from);
             for_each_lane(some, [&](std::uint32_t i) {
                 const std::size_t child = size * n.position + i;
@@ -296,6 +296,7 @@ constinit const search_kernels searching = {fill_leaves<1>,
                                             fill_nodes,
                                             find_pairs<1, 3, times::whole_step>,
                                             find_pairs<2, 2, times::whole_step>,
+                                            find_pairs<2, 2, times::whole_step, false>,
                                             find_pairs<1, 3, times::start>,
                                             find_pairs<2, 2, times::start>,
                                             find_pairs<3, 3, times::start>};

@@ -33,8 +33,9 @@ struct search_kernels {
     /// extents at the start.
     using find_pairs = void (*)(const extents_levels& a, const extents_levels& b, std::size_t first,
                                 std::size_t end, void* context, visitor visit);
-    find_pairs of_vertices_and_faces, of_two_edges, of_swept_vertices_and_faces, of_two_swept_edges,
-        of_two_faces_at_start;
+    /// `of_edges_of_two_trees`, unlike the other kernels of edges, has different trees.
+    find_pairs of_vertices_and_faces, of_two_edges, of_edges_of_two_trees,
+        of_swept_vertices_and_faces, of_two_swept_edges, of_two_faces_at_start;
 };
 
 const search_kernels& search_kernels_for(std::optional<instruction_set> set);
