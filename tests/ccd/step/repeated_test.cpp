@@ -46,6 +46,7 @@ void expect_as_new(std::uint64_t seed, int steps) {
     if (one_in(2)) mesh.vertices.resize(mesh.vertices.size() + 3);  // not of faces
     std::vector<std::uint8_t> pinned(mesh.vertices.size());
     for (auto& p : pinned) p = one_in(3);
+    const auto sets = ccd::instruction_sets();
     ccd::mesh_steps kept(mesh);
     const auto same_elements = [](const ccd::intersection& a, const ccd::intersection& b) {
         return a.a == b.a && a.b == b.b && a.relation == b.relation;
@@ -60,6 +61,7 @@ void expect_as_new(std::uint64_t seed, int steps) {
         const std::size_t moving = one_in(3) ? 0 : one_in(8) ? after.size() : 1 + random() % 4;
         for (std::size_t i = 0; i < moving; ++i) move(after[random() % after.size()]);
         ccd::step_options options{.threads = 1 + static_cast<int>(random() % 2),
+                                  .set = sets[random() % sets.size()],
                                   .count_candidates = one_in(10),
                                   .initial_contact = one_in(3),
                                   .first_contact = one_in(3),
