@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <iterator>
+#include <limits>
 #include <type_traits>
 #include <utility>
 #include <vector>
@@ -37,7 +38,106 @@ std::vector<edge> edges_of_no_face(std::span<const edge> edges,
     return without(unique_edges({}, edges), face_edges);
 }
 
+template <std::size_t N>
+struct listed_elements {
+    std::vector<std::array<vertex_index, N>> elements;
+    std::vector<std::size_t> positions;  ///< among all elements, ascending
+};
+
 }  // namespace
+
+/// The elements with a moving vertex, and the box that they sweep.
+class candidate_search::moving_parts {
+  public:
+    moving_parts(std::span<const std::uint8_t> moving, const float* rounded, float margin,
+                 const candidate_search& all)
+        : moving_(moving), rounded_(rounded) {
+        are_few_ =
+            list(vertices_, all.vertices_) && list(edges_, all.edges_) && list(faces_, all.faces_);
+        if (are_few_) find_sides(margin);
+    }
+
+    /// False if the search of all elements costs less. Then there are no lists.
+    bool are_few() const { return are_few_; }
+
+    template <std::size_t N>
+    bool has(const std::array<vertex_index, N>& element) const {
+        return std::ranges::any_of(element, [&](vertex_index v) { return moving_[v] != 0; });
+    }
+    /// The moving elements.
+    template <std::size_t N>
+    const listed_elements<N>& of() const {
+        if constexpr (N == 1) return vertices_;
+        if constexpr (N == 2) return edges_;
+        if constexpr (N == 3) return faces_;
+    }
+    /// The elements that no coordinate axis separates from the box.
+    template <std::size_t N>
+    listed_elements<N> near(const ordered_elements<N>& all) const {
+        return listed<N>(all, [&](const auto& element) {
+            std::uint8_t sides = all_sides;
+            for (const vertex_index v : element) sides &= sides_[v];
+            return sides == 0;
+        });
+    }
+
+  private:
+    static constexpr std::uint8_t all_sides = 0x3F;
+
+    template <std::size_t N, class IsListed>
+    static listed_elements<N> listed(std::span<const std::array<vertex_index, N>> all,
+                                     const IsListed& is_listed) {
+        listed_elements<N> list;
+        for (std::size_t i = 0; i < all.size(); ++i)
+            if (is_listed(all[i])) {
+                list.elements.push_back(all[i]);
+                list.positions.push_back(i);
+            }
+        return list;
+    }
+    template <std::size_t N>
+    bool list(listed_elements<N>& moving, const ordered_elements<N>& all) {
+        moving = listed<N>(all, [&](const auto& element) { return has(element); });
+        for (const auto& element : moving.elements)
+            for (const vertex_index v : element) widen(v);
+        constexpr std::size_t few = 4;  // one in so many
+        return moving.elements.size() <= all.size() / few;
+    }
+    void widen(vertex_index v) {
+        for (std::size_t k = 0; k < 3; ++k)
+            for (const std::size_t end : {0, 4}) {
+                low_[k] = std::min(low_[k], row(v)[end + k]);
+                high_[k] = std::max(high_[k], row(v)[end + k]);
+            }
+    }
+    /// Coordinates of both are off by at most the margin.
+    void find_sides(float margin) {
+        const double apart = 3 * double(margin);
+        sides_.resize(moving_.size());
+        for (vertex_index v = 0; v < sides_.size(); ++v)
+            for (std::size_t k = 0; k < 3; ++k) {
+                const double before = row(v)[k], after = row(v)[4 + k];
+                const bool below = std::max(before, after) +
+                                   apart<low_[k], above = std::min(before, after) - apart> high_[k];
+                sides_[v] =
+                    static_cast<std::uint8_t>(sides_[v] | below << (2 * k) | above << (2 * k + 1));
+            }
+    }
+    const float* row(vertex_index v) const {
+        return rounded_ + rounded_positions::row * std::size_t(v);
+    }
+
+    std::span<const std::uint8_t> moving_;
+    const float* rounded_;
+    listed_elements<1> vertices_;
+    listed_elements<2> edges_;
+    listed_elements<3> faces_;
+    bool are_few_ = false;
+    static constexpr float infinity = std::numeric_limits<float>::infinity();
+    std::array<float, 3> low_{infinity, infinity, infinity}, high_{-infinity, -infinity, -infinity};
+    /// A bit for each side of the box that a vertex is beyond at both ends of the step.
+    std::vector<std::uint8_t> sides_;
+};
 
 template <std::size_t N>
 template <class Real, class Tree, class Sort, class Build>
@@ -190,52 +290,109 @@ std::size_t candidate_search::find_by(tree_pair<Real>& trees, const search_reque
     return blocks.finish();
 }
 
-template <kind K, class First, class Second>
-std::size_t candidate_search::find_close(const search_request& request, First& first,
-                                         Second& second) {
-    constexpr bool within_one = std::is_same_v<First, Second>;
-    const bool swept = request.boxes.nearly_rest<Second::vertices>(second);
-    const extents_of ends = swept ? extents_of::whole_way : extents_of::both_ends;
-    const auto build = [&](extents_tree& tree, auto& elements) {
-        constexpr std::size_t n = std::remove_cvref_t<decltype(elements)>::vertices;
-        elements.template build_tree<float>(
-            tree, request.wanted.t_max >= 1, sorting<float>(request.boxes, second), [&] {
-                tree.build<n>(request.kernels, request.rounded, request.margin, elements, ends);
-            });
-    };
-    extents_tree& b = of_extents_.second;
-    extents_tree& a = within_one ? b : of_extents_.first;
-    build(b, second);
-    in_second_ = &second;
-    if constexpr (!within_one) build(a, first);
+template <class Elements, class Sample>
+void candidate_search::build(extents_tree& tree, Elements& elements, const Sample& sample,
+                             const search_request& request, extents_of ends) {
+    constexpr std::size_t n = Elements::vertices;
+    elements.template build_tree<float>(
+        tree, request.wanted.t_max >= 1, sorting<float>(request.boxes, sample),
+        [&] { tree.build<n>(request.kernels, request.rounded, request.margin, elements, ends); });
+}
 
-    candidate_blocks<pair_of_kind<K>> blocks(request.visitor.of<K>(), request.filter, request.stop);
+namespace {
+
+/// Calls pair_of(i, j), which returns a candidate and if it is wanted, for the elements that `find`
+/// finds, from each leaf of `a` or from one in `stride`.
+template <class Blocks, class PairOf>
+void search_trees(search_kernels::find_pairs find, const extents_tree& a, const extents_tree& b,
+                  Blocks& blocks, const PairOf& pair_of, std::size_t stride = 1) {
     struct context {
-        const First& first;
-        const Second& second;
-        typename candidate_blocks<pair_of_kind<K>>::block& block;
+        const PairOf& pair_of;
+        typename Blocks::block& block;
     };
     constexpr auto add = [](void* to, const element_pair* pairs, std::size_t count) {
-        auto& [x, y, block] = *static_cast<context*>(to);
-        for (std::size_t i = 0; i < count; ++i)
-            block.add(candidate_of(x[pairs[i].first], y[pairs[i].second]), true);
+        auto& [pair_of, block] = *static_cast<context*>(to);
+        for (std::size_t i = 0; i < count; ++i) {
+            const auto [candidate, is_wanted] = pair_of(pairs[i].first, pairs[i].second);
+            block.add(candidate, is_wanted);
+        }
     };
-    constexpr auto of_both_ends =
-        within_one ? &search_kernels::of_two_edges : &search_kernels::of_vertices_and_faces;
-    constexpr auto of_swept = within_one ? &search_kernels::of_two_swept_edges
-                                         : &search_kernels::of_swept_vertices_and_faces;
-    const auto find = swept ? of_swept : of_both_ends;
-    const auto find_in = [&](std::size_t first_leaf, std::size_t end) {
-        context to{first, second, blocks.local()};
-        (request.kernels.*find)(a.levels(), b.levels(), first_leaf, end, &to, add);
+    const auto find_in = [&](std::size_t first, std::size_t end) {
+        context to{pair_of, blocks.local()};
+        find(a.levels(), b.levels(), first, end, &to, add);
     };
-    constexpr std::size_t stride = 64;
-    if (request.wanted.sample)
+    if (stride > 1)
         tbb::parallel_for(std::size_t(0), a.leaves(), stride,
                           [&](std::size_t leaf) { find_in(leaf, leaf + 1); });
     else
         tbb::parallel_for(tbb::blocked_range<std::size_t>(0, a.leaves(), 8),
                           [&](const auto& range) { find_in(range.begin(), range.end()); });
+}
+
+}  // namespace
+
+template <kind K, class First, class Second>
+std::size_t candidate_search::find_close_moving(const search_request& request, const First& first,
+                                                const Second& second) {
+    const moving_parts& moving = *request.moving;
+    const auto& moving_second = moving.of<Second::vertices>();
+    extents_tree &tree_a = of_extents_.first, &tree_b = of_extents_.second;
+    in_second_ = nullptr;
+    candidate_blocks<pair_of_kind<K>> blocks(request.visitor.of<K>(), request.filter, request.stop);
+    const auto search = [&]<std::size_t N, std::size_t M>(
+                            search_kernels::find_pairs find, const listed_elements<N>& a,
+                            const listed_elements<M>& b, const auto& is_wanted) {
+        if (a.elements.empty() || b.elements.empty()) return;
+        tree_a.build<N>(request.kernels, request.rounded, request.margin, a.elements);
+        tree_b.build<M>(request.kernels, request.rounded, request.margin, b.elements);
+        search_trees(find, tree_a, tree_b, blocks, [&](std::size_t i, std::size_t j) {
+            return std::pair(candidate_of(a.elements[i], b.elements[j]), is_wanted(i, j));
+        });
+    };
+    const auto near_second = moving.near(second);
+    if constexpr (std::is_same_v<First, Second>) {
+        search(request.kernels.of_two_edges, moving_second, near_second,
+               [&](std::size_t i, std::size_t j) {
+                   return moving_second.positions[i] < near_second.positions[j] ||
+                          !moving.has(near_second.elements[j]);
+               });
+    } else {
+        const auto find = request.kernels.of_vertices_and_faces;
+        const auto near_first = moving.near(first);
+        search(find, near_first, moving_second,
+               [&](std::size_t i, std::size_t) { return !moving.has(near_first.elements[i]); });
+        search(find, moving.of<First::vertices>(), near_second,
+               [](std::size_t, std::size_t) { return true; });
+    }
+    skipped_rest_[static_cast<std::size_t>(K)] = true;
+    return blocks.finish();
+}
+
+template <kind K, class First, class Second>
+std::size_t candidate_search::find_close(const search_request& request, First& first,
+                                         Second& second) {
+    if (request.moving != nullptr) return find_close_moving<K>(request, first, second);
+    constexpr bool within_one = std::is_same_v<First, Second>;
+    const bool swept = request.boxes.nearly_rest<Second::vertices>(second);
+    const extents_of ends = swept ? extents_of::whole_way : extents_of::both_ends;
+    extents_tree& b = of_extents_.second;
+    extents_tree& a = within_one ? b : of_extents_.first;
+    build(b, second, second, request, ends);
+    in_second_ = &second;
+    if constexpr (!within_one) build(a, first, second, request, ends);
+
+    candidate_blocks<pair_of_kind<K>> blocks(request.visitor.of<K>(), request.filter, request.stop);
+    constexpr auto of_both_ends =
+        within_one ? &search_kernels::of_two_edges : &search_kernels::of_vertices_and_faces;
+    constexpr auto of_swept = within_one ? &search_kernels::of_two_swept_edges
+                                         : &search_kernels::of_swept_vertices_and_faces;
+    constexpr std::size_t sample_stride = 64;
+    search_trees(
+        request.kernels.*(swept ? of_swept : of_both_ends), a, b, blocks,
+        [&](std::size_t i, std::size_t j) {
+            return std::pair(candidate_of(first[i], second[j]), true);
+        },
+        request.wanted.sample ? sample_stride : 1);
     return blocks.finish();
 }
 
@@ -366,17 +523,35 @@ pair_counts candidate_search::find(const batch_positions& positions, const step_
     const swept_boxes whole(positions, options.distances),
         boxes = until ? swept_boxes(until->positions(), options.distances, until->error()) : whole;
     const pair_test test(options.filter, whole);
+    skip_unused(options.filter.skip_unused);
+    const float* rounded = until ? until->positions().rounded : positions.rounded;
+    const float margin = until ? until->margin() : 0;
+    std::optional<moving_parts> moving;
+    if (!wanted.moving.empty() && wanted.close) {
+        // Every so often, all elements are searched, in a new order: those that move change it.
+        constexpr int most_partial = 256;
+        if (partial_searches_ == most_partial) {
+            edges_.forget_order();
+            faces_.forget_order();
+            vertices_.forget_order();
+        } else {
+            moving.emplace(wanted.moving, rounded, margin, *this);
+        }
+    }
+    const bool is_partial = moving && moving->are_few();
+    partial_searches_ = is_partial ? partial_searches_ + 1 : 0;
     const search_request request{boxes,
                                  lets_all_through(options.filter) ? nullptr : &test,
                                  visitor,
                                  options.stop,
-                                 until ? until->positions().rounded : positions.rounded,
-                                 until ? until->margin() : 0,
+                                 rounded,
+                                 margin,
                                  search_kernels_for(options.set),
-                                 wanted};
-    skip_unused(options.filter.skip_unused);
+                                 wanted,
+                                 is_partial ? &*moving : nullptr};
     order_.forget();
     in_second_ = nullptr;
+    skipped_rest_ = {};
     pair_counts counts;
     if (in_plane_) {
         counts.vertex_edge = find_kind<kind::vertex_edge>(request, vertices_, edges_);

@@ -5,6 +5,7 @@
 #include <ccd/mesh.hpp>
 #include <ccd/step.hpp>
 #include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <optional>
 #include <span>
@@ -40,6 +41,7 @@ class ordered_elements {
     /// Trees of a short way tell nothing about the order for a whole one.
     template <class Real, class Tree, class Sort, class Build>
     void build_tree(const Tree& tree, bool whole_way, const Sort& sort, const Build& build);
+    void forget_order() { ordered_ = false; }
 
   private:
     std::vector<std::array<vertex_index, N>> elements_;
@@ -59,6 +61,9 @@ struct wanted_candidates {
     bool spare = false;
     /// Only some of the close pairs; none if they cannot be found in floats.
     bool sample = false;
+    /// A flag for each vertex, or empty. Close pairs without a vertex whose flag is set are skipped
+    /// if few flags are set: see candidate_search::skipped_rest().
+    std::span<const std::uint8_t> moving = {};
 };
 
 /// Called with blocks of pairs of these elements, from several threads at once.
@@ -89,6 +94,9 @@ class candidate_search {
     pair_counts find(const batch_positions& positions, const step_options& options,
                      const candidate_visitor& visitor, const wanted_candidates& wanted = {});
 
+    /// True if the last find() skipped the pairs of this kind without a moving vertex.
+    bool skipped_rest(kind k) const { return skipped_rest_[static_cast<std::size_t>(k)]; }
+
     /// The trees that find_at_start may use.
     enum class trees : bool { new_ones, of_last_find };
 
@@ -111,6 +119,7 @@ class candidate_search {
     bool is_rod(const face& element) const;
 
   private:
+    class moving_parts;
     template <class Real>
     struct tree_pair {
         box_tree<Real> first, second;
@@ -124,6 +133,7 @@ class candidate_search {
         float margin;  // of `rounded`
         const search_kernels& kernels;
         const wanted_candidates& wanted;
+        const moving_parts* moving;  // null: all pairs are searched
     };
 
     struct extents_trees {
@@ -140,6 +150,13 @@ class candidate_search {
                         Second& second);
     /// Visits the pairs of step_options::adjacent_rods.
     std::size_t find_adjacent_rods(const search_request& request);
+    template <class Elements, class Sample>
+    void build(extents_tree& tree, Elements& elements, const Sample& sample,
+               const search_request& request, extents_of ends);
+    /// Only pairs with a moving vertex.
+    template <kind K, class First, class Second>
+    std::size_t find_close_moving(const search_request& request, const First& first,
+                                  const Second& second);
     template <kind K, class First, class Second>
     std::size_t find_close(const search_request& request, First& first, Second& second);
 
@@ -163,6 +180,8 @@ class candidate_search {
     tree_pair<double> in_doubles_;
     extents_trees of_extents_;
     const void* in_second_ = nullptr;  ///< the elements of of_extents_.second
+    std::array<bool, 4> skipped_rest_{};
+    int partial_searches_ = 0;  ///< since the last search of all elements
     bool in_plane_ = false;
 };
 

@@ -7,6 +7,7 @@
 #include <ccd/batch.hpp>
 #include <ccd/step.hpp>
 #include <cstddef>
+#include <cstdint>
 #include <limits>
 #include <optional>
 #include <span>
@@ -16,9 +17,11 @@
 
 #include "ccd/batch/rounded_positions.hpp"
 #include "ccd/batch/threads.hpp"
+#include "ccd/step/candidate_blocks.hpp"
 #include "ccd/step/candidate_search.hpp"
 #include "ccd/step/checks.hpp"
 #include "ccd/step/narrow_phase.hpp"
+#include "ccd/step/resting_pairs.hpp"
 #include "ccd/step/short_steps.hpp"
 #include "ccd/step/stopwatch.hpp"
 
@@ -63,11 +66,22 @@ class candidate_store {
     by_kind<detail::lists_of_threads> lists_;
 };
 
+/// Thread-safe. Decides candidates in blocks.
+template <kind K>
+void decide_all(phase<K>& by, std::span<const pair_of_kind<K>> candidates, const stop_query& stop) {
+    constexpr std::size_t block = 2048;
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, candidates.size(), block),
+                      [&](const auto& range) {
+                          detail::stop_if_requested(stop);
+                          by.decide(candidates.subspan(range.begin(), range.size()));
+                      });
+}
+
 /// Runs a step, except first times and contacts at the start. With a store, the search includes
-/// ways that short_way's `spare` covers.
+/// ways that short_way's `spare` covers. Pairs that `resting` keeps are not searched for.
 step_result run_step(detail::candidate_search& search, std::optional<detail::vertex_fans>& fans,
                      const vertex_rows& positions, const step_options& options,
-                     candidate_store* store = nullptr) {
+                     candidate_store* store, detail::resting_pairs* resting = nullptr) {
     detail::stopwatch watch;
     step_result result;
     const detail::rounded_positions rounded(positions);
@@ -88,7 +102,16 @@ step_result run_step(detail::candidate_search& search, std::optional<detail::ver
         wanted = {.close = options.distances.is_contact(),
                   .t_max = options.t_max,
                   .spare = store != nullptr};
+    const bool keeps = resting != nullptr && options.method == method::exact &&
+                       options.distances.is_contact() && detail::lets_all_through(options.filter);
+    std::vector<std::uint8_t> moving;
+    if (keeps && wanted.close) moving = resting->moving(positions, options.filter);
+    wanted.moving = moving;
     const pair_counts counts = search.find(at, options, visitor, wanted);
+    for_each_kind([&]<kind K>() {
+        if (search.skipped_rest(K))
+            decide_all<K>(phases.of<K>(), resting->at_rest<K>(moving), options.stop);
+    });
     if (counted) result.candidates = counts;
     for_each_kind([&]<kind K>() { result.narrow_phase_seconds += phases.of<K>().seconds(); });
     result.narrow_phase_seconds /= tbb::this_task_arena::max_concurrency();
@@ -98,6 +121,10 @@ step_result run_step(detail::candidate_search& search, std::optional<detail::ver
         result.pairs.of<K>() = phases.of<K>().take_pairs();
         result.stages += phases.of<K>().report();
     });
+    const bool all_rest =
+        !moving.empty() && std::ranges::none_of(moving, [](auto m) { return m != 0; });
+    if (keeps && options.t_max >= 1 && !all_rest)
+        resting->keep(positions, options.filter, result.pairs);
     result.sort_seconds = watch.lap();
 
     if (options.check_start) {
@@ -186,6 +213,7 @@ void find_pair_times(const vertex_rows& positions, const step_options& options,
 struct mesh_steps::state {
     detail::candidate_search search;
     std::optional<detail::vertex_fans> fans = {};
+    detail::resting_pairs resting = {};
 
     void check(const vertex_rows& positions, const step_options& options) const {
         detail::check_positions(positions, search.vertices());
@@ -217,7 +245,8 @@ step_result mesh_steps::run(const vertex_rows& positions, const step_options& op
     const double check_seconds = watch.lap();
     step_result result;
     const int threads = detail::on_threads(options.threads, [&] {
-        result = run_step(state_->search, state_->fans, positions, options);
+        result =
+            run_step(state_->search, state_->fans, positions, options, nullptr, &state_->resting);
     });
     result.threads = threads;
     result.prepare_seconds += check_seconds;
@@ -278,13 +307,7 @@ pair_lists short_steps::pairs_on(const vertex_rows& way, const step_options& opt
         const rounded_positions rounded(way);
         by_kind<phase> phases = phases_at({way, rounded}, options);
         for_each_kind([&]<kind K>() {
-            const std::span<const pair_of_kind<K>> all = candidates_.of<K>();
-            constexpr std::size_t block = 2048;
-            tbb::parallel_for(tbb::blocked_range<std::size_t>(0, all.size(), block),
-                              [&](const auto& range) {
-                                  stop_if_requested(options.stop);
-                                  phases.of<K>().decide(all.subspan(range.begin(), range.size()));
-                              });
+            decide_all<K>(phases.of<K>(), candidates_.of<K>(), options.stop);
             pairs.of<K>() = phases.of<K>().take_pairs();
         });
     });

@@ -9,6 +9,7 @@ namespace {
 
 using brute_force::expect_both_ways;
 using brute_force::random_mixture;
+using brute_force::random_soup;
 using brute_force::two_frames;
 using brute_force::vertex_index;
 
@@ -34,6 +35,61 @@ TEST(MeshSteps, FindWhatFreshOnesFindWhateverWentBefore) {
             if (step == 20 || step == 25) p.z = static_cast<double>(random() % 2) * 1e12;
         }
     }
+}
+
+/// Steps of one mesh in which parts or all of it rest, which start again or elsewhere, with options
+/// that vary, find the same as steps of a new one.
+void expect_as_new(std::uint64_t seed, int steps) {
+    auto [mesh, second] = seed % 4 == 0 ? random_mixture(seed) : random_soup(seed, 70, 50);
+    std::mt19937_64 random(seed);
+    const auto one_in = [&](unsigned n) { return random() % n == 0; };
+    if (one_in(2)) mesh.vertices.resize(mesh.vertices.size() + 3);  // not of faces
+    std::vector<std::uint8_t> pinned(mesh.vertices.size());
+    for (auto& p : pinned) p = one_in(3);
+    const auto sets = ccd::instruction_sets();
+    ccd::mesh_steps kept(mesh);
+    const auto same_elements = [](const ccd::intersection& a, const ccd::intersection& b) {
+        return a.a == b.a && a.b == b.b && a.relation == b.relation;
+    };
+    std::vector<std::vector<ccd::point<double>>> seen{mesh.vertices};
+    auto before = mesh.vertices;
+    for (int step = 0; step < steps; ++step) {
+        if (one_in(8)) before = seen[random() % seen.size()];  // a restart
+        if (one_in(16)) before[random() % before.size()] = {-0.0, 3, 4};
+        auto after = before;
+        const auto move = [&](auto& p) { p = {p.x + 0.5 * double(random() % 5) - 1, p.y, -p.z}; };
+        const std::size_t moving = one_in(3) ? 0 : one_in(8) ? after.size() : 1 + random() % 4;
+        for (std::size_t i = 0; i < moving; ++i) move(after[random() % after.size()]);
+        ccd::step_options options{.threads = 1 + static_cast<int>(random() % 2),
+                                  .set = sets[random() % sets.size()],
+                                  .count_candidates = one_in(10),
+                                  .initial_contact = one_in(3),
+                                  .first_contact = one_in(3),
+                                  .times = one_in(3),
+                                  .check_start = one_in(4),
+                                  .t_max = one_in(5) ? 0.25 * double(random() % 5) : 1,
+                                  .filter = {.skip_unused = one_in(6)}};
+        if (one_in(10)) options.distances.all = 0.25;
+        if (one_in(10)) options.filter.pinned = pinned;
+        const ccd::vertex_rows way(before, after);
+        const ccd::step_result found = kept.run(way, options);
+        const ccd::step_result expected = ccd::mesh_steps(mesh).run(way, options);
+        ASSERT_EQ(found.pairs, expected.pairs) << seed << ", step " << step;
+        ASSERT_EQ(found.times, expected.times) << seed << ", step " << step;
+        ASSERT_EQ(found.first_contact, expected.first_contact) << seed << ", step " << step;
+        ASSERT_EQ(found.first_pairs, expected.first_pairs) << seed << ", step " << step;
+        ASSERT_EQ(found.touching_at_start, expected.touching_at_start) << seed << ", step " << step;
+        ASSERT_EQ(found.candidates, expected.candidates) << seed << ", step " << step;
+        ASSERT_TRUE(std::ranges::equal(found.intersections_at_start,
+                                       expected.intersections_at_start, same_elements))
+            << seed << ", step " << step;
+        if (!one_in(10)) before = after;
+        seen.push_back(after);
+    }
+}
+
+TEST(MeshSteps, FindWhatFreshOnesFindWhereVerticesRest) {
+    for (std::uint64_t seed = 0; seed < 40; ++seed) expect_as_new(seed, 25);
 }
 
 // A filter of pairs skips unused vertices: points of faces and edges that repeat a vertex stay.
