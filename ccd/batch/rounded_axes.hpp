@@ -2,8 +2,8 @@
 //
 // A translation per axis and one scale map coordinates to about [−1, 1] in float: X̃ = (x −
 // c)·s, rounded after each operation. Each operation is monotone, so X̃ < Ỹ proves x < y. `margin`
-// covers the errors of sums. Proof: proofs/RoundedAxes.v, rounded_monotone, rounded_face_separate,
-// rounded_edges_separate.
+// covers the errors of sums. Proof: proofs/filters/RoundedAxes.v, rounded_monotone,
+// rounded_face_separate, rounded_edges_separate.
 #pragma once
 
 #include <algorithm>

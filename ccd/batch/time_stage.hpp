@@ -33,7 +33,7 @@ template <int N>
 using pack_values = errbound::roots::control_values<pack, N>;
 
 /// Value and slope at t, by de Casteljau. The value's error exceeds that of the control values by
-/// at most 16ε times the largest control value. Proof: proofs/TimeStage.v, value_near.
+/// at most 16ε times the largest control value. Proof: proofs/times/TimeStage.v, value_near.
 template <int N>
 struct value_and_slope {
     pack value, slope;
@@ -47,7 +47,7 @@ struct value_and_slope {
 };
 
 /// The parts of a cubic before and after t, with a further error of at most 32ε times its largest
-/// control value. Proof: proofs/TimeStage.v, lerp_near, parts_at.
+/// control value. Proof: proofs/times/TimeStage.v, lerp_near, parts_at.
 struct parts_of_cubic {
     pack_values<3> before, after;
 
@@ -79,7 +79,7 @@ class twofold_y {
                 change_[i++] = (*axis)[1] - (*axis)[0];
             }
         // Relative to the products of the extents, a difference at t has an error of at most 51u²,
-        // a product of two 116u². N has 243u², and Y 1166u² < 2^-95. Proof: proofs/Twofold.v,
+        // a product of two 116u². N has 243u², and Y 1166u² < 2^-95. Proof: proofs/times/Twofold.v,
         // y_near, time_stage_sign, error_enough.
         error_ = m.x * m.y * m.z * pack(0x1p-94);
         const pack least(0x1p-150), most(0x1p150);  // prevents underflow
@@ -151,7 +151,7 @@ struct pack_roots {
     }
 };
 
-/// Brackets a root from its estimate. Proof: proofs/TimeStage.v, bracket_around.
+/// Brackets a root from its estimate. Proof: proofs/times/TimeStage.v, bracket_around.
 template <kind K>
 pack_times bracket_of_root(const twofold_y<K>& exact, const pack_roots& root,
                            const pack_parts& part, const pack_mask& wanted) {
@@ -183,7 +183,7 @@ pack_times bracket_of_root(const twofold_y<K>& exact, const pack_roots& root,
 /// True if at the first root of Y, near t, all G_i are certainly positive (`inside`) or one is
 /// certainly negative (`outside`). Certain signs of Y bracket the root. Within the bracket, no G_i
 /// changes by more than 8 times its largest control value times the width. Proof:
-/// proofs/TimeStage.v, root_reached, quartic_slope.
+/// proofs/times/TimeStage.v, root_reached, quartic_slope.
 template <kind K>
 struct signs_at_root {
     pack_mask inside = pack_mask(true), outside = pack_mask(false);
@@ -209,7 +209,7 @@ struct signs_at_root {
     }
 };
 
-/// Proof: proofs/TimeStage.v, only_root_first, first_of_two, second_of_two.
+/// Proof: proofs/times/TimeStage.v, only_root_first, first_of_two, second_of_two.
 template <kind K>
 class time_stage {
     template <class S>

@@ -2,7 +2,7 @@
 //
 // Let operands have sizes of at most A and B, and u = 2^-53. Without overflow, a sum has an error
 // of at most 5u²(A + B), a product 13u²AB. These are Dekker's short forms (1971), whose errors are
-// relative to the operands. Proof, with underflow: proofs/Twofold.v, sum_near, product_near,
+// relative to the operands. Proof, with underflow: proofs/times/Twofold.v, sum_near, product_near,
 // product_rounded, product_rounded_fma.
 #pragma once
 

@@ -8,7 +8,7 @@
 //    sign near it, and just before t* some `nonnegative` was negative.
 //  * The case of `also_below` is argued there.
 // A condition without `vanishing` is tested at t = 0 only: if it begins to hold later, another
-// condition holds too. Proof: proofs/FirstConditions.v, first_is_candidate, candidate_holds.
+// condition holds too. Proof: proofs/times/FirstConditions.v, first_is_candidate, candidate_holds.
 #pragma once
 
 #include <ccd/methods/forms.hpp>
@@ -38,14 +38,14 @@ struct condition {
     std::function<side_conditions<R>()> sides;
     /// True if the condition also holds where Z, its only `vanishing`, is negative: Z <= 0 means
     /// distance <= d. The distance is continuous in t, so Z = 0 where it first holds. Proof:
-    /// proofs/Separation.v, vertices_first_within, vertex_edge_first_within, face_first_within,
-    /// edges_first_within.
+    /// proofs/times/Separation.v, vertices_first_within, vertex_edge_first_within,
+    /// face_first_within, edges_first_within.
     bool also_below = false;
 };
 using exact_conditions = std::vector<condition<time_polynomial>>;
 
 /// The first time in [0, min(t_max, 1)] at which a condition holds. Precondition: t_max >= 0.
-/// Proof: proofs/CandidateTimes.v, first_time_of_right, code_comparison.
+/// Proof: proofs/times/CandidateTimes.v, first_time_of_right, code_comparison.
 first_time first_time_of(const exact_conditions& conditions, double t_max);
 
 /// `holds_at`, if not empty, decides in floating point from an enclosure of a root of y; if it is

@@ -1,4 +1,4 @@
-// Proof that a first time exists if there is a contact: proofs/Curves.v, face_curves_first,
+// Proof that a first time exists if there is a contact: proofs/times/Curves.v, face_curves_first,
 // edges_curves_first, smooth_continuous.
 #include <ccd/bodies/motion.hpp>
 #include <ccd/curves.hpp>

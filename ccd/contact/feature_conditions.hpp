@@ -208,9 +208,10 @@ condition<R> distance_condition_inside(const Forms& forms, const R& squared) {
 
 /// Calls visit(make) for every condition of distance² <= D; make() returns the condition. All axes
 /// have one unit. `squared` is D times the squares of both features' weights, as all differences
-/// between the features have both weights as factors. Proof: proofs/Distance.v, vertex_edge_within,
-/// face_within_union, edges_within_union; of first times, proofs/FirstConditions.v,
-/// vertex_edge_near_candidate, face_near_candidate, edges_near_candidate.
+/// between the features have both weights as factors. Proof: proofs/times/Distance.v,
+/// vertex_edge_within, face_within_union, edges_within_union; of first times,
+/// proofs/times/FirstConditions.v, vertex_edge_near_candidate, face_near_candidate,
+/// edges_near_candidate.
 template <kind K, class R, class Visit>
 void visit_distance_conditions(const paths<K, R>& q, const R& squared, const Visit& visit) {
     if constexpr (K != kind::vertex_vertex)

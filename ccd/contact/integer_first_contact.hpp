@@ -3,8 +3,8 @@
 //
 // The first contact of a face or two edges is the earliest of those at their borders and of those
 // inside. Every contact has Y = 0. If Y ≡ 0, contact inside that does not begin at t = 0 begins at
-// a border. Proof: proofs/FirstContact.v, face_contact_root, edges_contact_root, face_times,
-// edges_times, face_planar_first, edges_planar_first; of the code, proofs/InteriorTime.v,
+// a border. Proof: proofs/times/FirstContact.v, face_contact_root, edges_contact_root, face_times,
+// edges_times, face_planar_first, edges_planar_first; of the code, proofs/times/InteriorTime.v,
 // face_time_right, edges_time_right.
 #pragma once
 
@@ -67,7 +67,7 @@ constexpr found_time first_contact_in_words(const Query<double>& query,
 }
 
 /// Same as first_contact_in_words, if floating point has found the interval `part` of the first
-/// contact, with exactly one root of Y. Proof: proofs/ContactPart.v, face_part_bracket,
+/// contact, with exactly one root of Y. Proof: proofs/times/ContactPart.v, face_part_bracket,
 /// edges_part_bracket.
 template <int Words, template <class> class Query>
 constexpr found_time root_in_words(const Query<double>& query, const integer_units& units,

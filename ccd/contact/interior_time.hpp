@@ -33,7 +33,7 @@ class interior_time : interior_contact<Words, Forms, Effort> {
         : base(forms, y, units), search_(y), first_(end) {}
 
     /// Returns the first time with Y = 0 and all G_i > 0 if its bracket is earlier than `end`. If Y
-    /// ≡ 0, considers t = 0 and 1 only. Proof: proofs/InteriorTime.v, interior_time_right.
+    /// ≡ 0, considers t = 0 and 1 only. Proof: proofs/times/InteriorTime.v, interior_time_right.
     constexpr found_time find() {
         if (y_[0] == 0) consider(time_bracket{0, 0}, [this] { return at_end(0); });
         if (y_[3] == 0) consider(time_bracket{1, 1}, [this] { return at_end(1); });
@@ -56,7 +56,7 @@ class interior_time : interior_contact<Words, Forms, Effort> {
     using base::forms_, base::y_;
 
     /// Calls `contact` only if the root of Y is earlier than the first contact so far. Proof:
-    /// proofs/IntegerTimes.v, considered_right.
+    /// proofs/times/IntegerTimes.v, considered_right.
     template <class Contact>
     constexpr void consider(const std::optional<time_bracket>& root, const Contact& contact) {
         if (root && !(*root < first_)) return;
@@ -76,8 +76,8 @@ class interior_time : interior_contact<Words, Forms, Effort> {
     }
     constexpr outcome at_end(int end) const { return strict(forms_at_end(forms_, end)); }
 
-    /// Halves parts on a stack, like interior_contact::by_halving. Proof: proofs/InteriorTime.v,
-    /// in_parts_right, in_parts_ends.
+    /// Halves parts on a stack, like interior_contact::by_halving. Proof:
+    /// proofs/times/InteriorTime.v, in_parts_right, in_parts_ends.
     constexpr void in_parts(const inner_sign_changes& roots) {
         std::array<part, 3> waiting;
         std::size_t count = 0;
@@ -114,9 +114,9 @@ class interior_time : interior_contact<Words, Forms, Effort> {
     }
 
     /// Considers the part's root if it is certainly the only one, else returns false. Next to a
-    /// double root, the weights may be taken at the double root. Proof: proofs/InteriorTime.v,
-    /// asked_root. Proof that the root of these weights is inside the part:
-    /// proofs/InteriorContact.v, near_here.
+    /// double root, the weights may be taken at the double root. Proof:
+    /// proofs/times/InteriorTime.v, asked_root. Proof that the root of these weights is inside the
+    /// part: proofs/contact/InteriorContact.v, near_here.
     constexpr bool root_of(const part& whole) {
         const bool others = this->three_real_roots_ || !this->distinct_;
         if (!whole.roots.opposite || (whole.roots.count > 1 && others)) return false;

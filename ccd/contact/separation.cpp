@@ -27,8 +27,8 @@ bool above(moving_points p, moving_points q, double point<double>::*axis, double
     });
 }
 
-/// Proof: proofs/Separation.v, coordinates_apart, vertices_apart, vertex_edge_apart, face_apart,
-/// edges_apart.
+/// Proof: proofs/times/Separation.v, coordinates_apart, vertices_apart, vertex_edge_apart,
+/// face_apart, edges_apart.
 template <class Query>
 bool separated_by_distance(const Query& query, separation d) {
     constexpr double infinity = std::numeric_limits<double>::infinity();

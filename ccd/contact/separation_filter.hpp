@@ -3,7 +3,8 @@
 // Bisects the step. The direction between the nearest points at the middle of a part is an axis. If
 // it separates the features by more than d at both ends of the part, it does so throughout. If the
 // two points are certainly nearer than d, the query collides. Errors of the nearest points do not
-// affect certainty. Proof that the ends suffice: proofs/Separation.v, face_apart, edges_apart.
+// affect certainty. Proof that the ends suffice: proofs/times/Separation.v, face_apart,
+// edges_apart.
 #pragma once
 
 #include <algorithm>
@@ -174,9 +175,9 @@ class features {
 
     /// True if the axis, longer than 1 by at most 4ε, separates the features by more than d in the
     /// same order at `low` and `high`. A projection is off by 2.1ε·size_, between the ends of the
-    /// step by 3.1ε·size_, a difference of two by 7.3ε·size_. Proof: proofs/SeparationFilter.v,
-    /// projection_near, separated_right, separated_part, axis_length, distance_rounded,
-    /// size_rounded.
+    /// step by 3.1ε·size_, a difference of two by 7.3ε·size_. Proof:
+    /// proofs/times/SeparationFilter.v, projection_near, separated_right, separated_part,
+    /// axis_length, distance_rounded, size_rounded.
     bool separated(const vector& axis, double low, double high) const {
         const auto gap = [&](double t) {
             const auto at = [&](std::size_t i) {

@@ -24,7 +24,7 @@ namespace ccd::detail {
 
 /// Holds a time: a double if low == high, else a time between two adjacent doubles. The lesser of
 /// two different brackets, by low and then by high, has the earlier time. Proof:
-/// proofs/TimeBrackets.v, lesser_bracket, least_bracket, bracket_of_first.
+/// proofs/times/TimeBrackets.v, lesser_bracket, least_bracket, bracket_of_first.
 struct time_bracket {
     double low = 0, high = 0;
     friend constexpr auto operator<=>(const time_bracket&, const time_bracket&) = default;
@@ -54,9 +54,9 @@ class root_search {
 
     /// Returns the only root in (low, high), where the polynomial changes its sign; or another of
     /// its roots there that is a double. `before` is the sign just above low. Returns nothing if
-    /// the root is too near to 0 for fixed widths. Proof: proofs/TimeBrackets.v, search_right; of
-    /// the loop and the number of signs, proofs/TimeSearch.v, between_searches, search_ends,
-    /// double_numbers.
+    /// the root is too near to 0 for fixed widths. Proof: proofs/times/TimeBrackets.v,
+    /// search_right; of the loop and the number of signs, proofs/times/TimeSearch.v,
+    /// between_searches, search_ends, double_numbers.
     constexpr std::optional<time_bracket> between(double low, double high,
                                                   errbound::sign_type before,
                                                   double estimate) const {
@@ -116,7 +116,8 @@ class root_search {
         if (bits <= 126) return value_in_words<2>(d.magnitude >> zeros, bits);
         return {};
     }
-    /// The value at numerator/2^bits. Proof of the widths: proofs/TimeSearch.v, search_widths.
+    /// The value at numerator/2^bits. Proof of the widths: proofs/times/TimeSearch.v,
+    /// search_widths.
     template <int T>
     constexpr value_type value_in_words(std::uint64_t numerator, int bits) const {
         using number = errbound::integers::fixed_integer<T>;
@@ -136,7 +137,7 @@ class root_search {
 };
 
 /// Precondition: p has coefficients of opposite signs, or exactly one zero. Proof:
-/// proofs/TimeBrackets.v, linear_bracket_right.
+/// proofs/times/TimeBrackets.v, linear_bracket_right.
 template <int Words>
 constexpr std::optional<time_bracket> bracket_of_linear_root(
     const errbound::bernstein<errbound::integers::fixed_integer<Words>, 1>& p) {
@@ -161,7 +162,7 @@ constexpr std::array<double, 2> estimated_roots(const std::array<double, 3>& f) 
     return {std::min(x, y), std::max(x, y)};
 }
 
-/// Proof: proofs/TimeBrackets.v, quadratic_only_right, quadratic_first_right,
+/// Proof: proofs/times/TimeBrackets.v, quadratic_only_right, quadratic_first_right,
 /// quadratic_second_right.
 template <int Words>
 constexpr std::optional<time_bracket> bracket_of_quadratic_root(

@@ -33,8 +33,8 @@ struct found_time {
 };
 
 /// Returns the first root of f in (0, 1) where b <= 0. Precondition: f's coefficients have both
-/// signs, and contact requires f = 0. Proof: proofs/VertexEdgeTime.v, first_root_right; of the
-/// widths, proofs/TimeSearch.v, first_root_widths.
+/// signs, and contact requires f = 0. Proof: proofs/times/VertexEdgeTime.v, first_root_right; of
+/// the widths, proofs/times/TimeSearch.v, first_root_widths.
 template <int Words>
 constexpr found_time first_root_nonpositive(const quadratic_form<Words>& f,
                                             const quadratic_form<Words>& b) {
@@ -87,7 +87,7 @@ constexpr found_time first_root_nonpositive(const quadratic_form<Words>& f,
                                                            : outcome::separate;
 }
 
-/// Same widths as vertex_touches_edge. Proof: proofs/VertexEdgeTime.v, first_contact_right,
+/// Same widths as vertex_touches_edge. Proof: proofs/times/VertexEdgeTime.v, first_contact_right,
 /// first_bracket_right.
 template <int Words>
 constexpr found_time first_vertex_edge_contact(
@@ -139,7 +139,7 @@ constexpr found_time first_vertex_edge_contact(
     return inside.outcome == outcome::separate ? at_end() : inside;
 }
 
-/// Proof: proofs/VertexEdgeTime.v, vertices_time_right.
+/// Proof: proofs/times/VertexEdgeTime.v, vertices_time_right.
 template <int Words>
 constexpr found_time first_vertex_vertex_contact(
     const vertex_vertex<errbound::integers::fixed_integer<Words>>& query) {

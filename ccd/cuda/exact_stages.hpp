@@ -89,7 +89,7 @@ struct coefficient_stage : exact_stage<Pair> {
   protected:
     /// The query's forms. Differences are rounded in doubles, then to Real, with a relative error
     /// of at most Real's ε in all, as in error_count::difference(), and η if they underflow. Proof:
-    /// proofs/RoundedAxes.v, converted_difference_near.
+    /// proofs/filters/RoundedAxes.v, converted_difference_near.
     constexpr forms<Real> forms_of_query(const query_of_pair<Pair, double>& query) const {
         if constexpr (std::is_same_v<Real, double>) {
             return forms<double>(query);

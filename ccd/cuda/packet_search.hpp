@@ -30,8 +30,8 @@ struct alignas(16) box_corner {
 };
 
 /// A closed box of rounded coordinates (ccd/batch/rounded_axes.hpp).
-/// Proof: proofs/RoundedAxes.v, swept_rounded_first, swept_face_separate, swept_edges_separate,
-/// swept_boxes_touch.
+/// Proof: proofs/filters/RoundedAxes.v, swept_rounded_first, swept_face_separate,
+/// swept_edges_separate, swept_boxes_touch.
 struct rounded_box {
     box_corner low, high;
 

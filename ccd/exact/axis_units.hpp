@@ -1,7 +1,7 @@
 // Converts coordinates to integers, with a power of two as unit for each axis. So integers need few
 // bits even if one axis is much smaller than the others. Units scale all equations of a contact by
-// positive factors, so contact does not depend on them. Proof: proofs/AxisUnits.v, face_units,
-// edges_units, vertex_edge_units.
+// positive factors, so contact does not depend on them. Proof: proofs/contact/AxisUnits.v,
+// face_units, edges_units, vertex_edge_units.
 #pragma once
 
 #include <algorithm>
@@ -32,7 +32,7 @@ struct axis_extent {
         }
         // Rounding is monotone, so an exact difference is below every power of two that exceeds the
         // rounded one. If it overflows, it is below 2^1025, and end_bit() is 1025. Proof:
-        // proofs/IntegerUnits.v, extent_bits_enough.
+        // proofs/integers/IntegerUnits.v, extent_bits_enough.
         const errbound::integers::binary_double extent(std::max(high0 - low0, high1 - low1));
         if (last == std::numeric_limits<int>::max()) return;  // all coordinates are zero
         unit = last;
@@ -70,7 +70,8 @@ struct integer_units {
         });
     }
     /// Converts to integers of Words words, modulo their width. Differences at one end of the step
-    /// are exact if bits() < 64·Words. Proof: proofs/IntegerUnits.v, difference_in_units_exact.
+    /// are exact if bits() < 64·Words. Proof: proofs/integers/IntegerUnits.v,
+    /// difference_in_units_exact.
     template <int Words, class Query>
     constexpr auto converted(const Query& query) const {
         return converted(query, [](double x, int unit) { return in_units<Words>(x, unit); });

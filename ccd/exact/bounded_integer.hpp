@@ -17,14 +17,14 @@ struct bounded_integer {
     Integer value;
     int error_bits = exact;
 
-    /// Proof: proofs/BoundedInteger.v, bounded_sum_known, bounded_difference_known.
+    /// Proof: proofs/integers/BoundedInteger.v, bounded_sum_known, bounded_difference_known.
     friend constexpr bounded_integer operator+(const bounded_integer& a, const bounded_integer& b) {
         return {a.value + b.value, std::max(a.error_bits, b.error_bits) + 1};
     }
     friend constexpr bounded_integer operator-(const bounded_integer& a, const bounded_integer& b) {
         return {a.value - b.value, std::max(a.error_bits, b.error_bits) + 1};
     }
-    /// Proof: proofs/BoundedInteger.v, bounded_sign_certain.
+    /// Proof: proofs/integers/BoundedInteger.v, bounded_sign_certain.
     friend constexpr errbound::sign_type sign_of(const bounded_integer& x) {
         // |value| >= 2^(bit_length − 1), or is zero.
         const bool is_exact = x.error_bits < exact / 2;
@@ -35,7 +35,8 @@ struct bounded_integer {
 };
 
 /// With |a| <= 2^m, |b| <= 2^n and errors below 2^d, 2^e, the error of the product is below
-/// 2^(m + e) + 2^(n + d) + 2^(d + e). Proof: proofs/BoundedInteger.v, bounded_product_known.
+/// 2^(m + e) + 2^(n + d) + 2^(d + e). Proof: proofs/integers/BoundedInteger.v,
+/// bounded_product_known.
 template <class A, class B>
 constexpr auto operator*(const bounded_integer<A>& a, const bounded_integer<B>& b) {
     using product = decltype(a.value * b.value);

@@ -91,7 +91,7 @@ class close_contact {
     }
 
     /// Tests if Y = 0 and all G_i > 0 at some t in (0, 1) that is no multiple root of Y. Proof:
-    /// proofs/CloseContact.v, close_contact_right, close_contact_ends.
+    /// proofs/contact/CloseContact.v, close_contact_right, close_contact_ends.
     outcome decide() const { return by_narrowing(whole_step()); }
 
   protected:
@@ -101,8 +101,8 @@ class close_contact {
     static constexpr int root_bits = 40, pair_bits = 22;
     /// The most bits by which one step narrows, in an std::int64_t.
     static constexpr int most_at_once = 60;
-    /// Coefficients of at most this size can be narrowed once more. Proof: proofs/CloseContact.v,
-    /// close_widths, narrowed_fits.
+    /// Coefficients of at most this size can be narrowed once more. Proof:
+    /// proofs/contact/CloseContact.v, close_widths, narrowed_fits.
     static constexpr int most_y_bits = 64 * y_words - 3 * most_at_once - 8;
     /// The G_i are tested on parts of width 2^-40 or less; interior_contact has tested wider ones.
     static constexpr int first_tested_bits = 40;
@@ -128,7 +128,7 @@ class close_contact {
         }
 
         /// The part between a/2^n and (a + 2^w)/2^n of this one's width, by Horner's rule. Proof:
-        /// proofs/CloseContact.v, sub_part_right.
+        /// proofs/contact/CloseContact.v, sub_part_right.
         part sub_part(int n, std::int64_t a, int w) const {
             using big = number<y_words>;
             const big thrice = y[0] + y[0] + y[0];
@@ -168,7 +168,7 @@ class close_contact {
         return whole;
     }
 
-    /// Proof: proofs/CloseContact.v, by_narrowing_right, three_close_parts_wait.
+    /// Proof: proofs/contact/CloseContact.v, by_narrowing_right, three_close_parts_wait.
     outcome by_narrowing(const part& whole) const {
         std::array<std::optional<part>, 3> waiting;  // the earliest last
         std::size_t count = 0;
@@ -211,7 +211,7 @@ class close_contact {
     }
 
     /// A part with the same roots (except a double root), if estimates show one. Proof, for any
-    /// estimates: proofs/CloseContact.v, opposite_inside, as_many_changes.
+    /// estimates: proofs/contact/CloseContact.v, opposite_inside, as_many_changes.
     std::optional<part> narrowed(const part& whole) const {
         const auto h = approximated(whole.y.h);
         if (is_single(whole.roots)) {
@@ -244,7 +244,7 @@ class close_contact {
     }
 
     /// Returns decided_by_weights for all t from low/2^bits to less than (low +
-    /// 2^width_bits)/2^bits; without a width, at low/2^bits. Proof: proofs/CloseContact.v,
+    /// 2^width_bits)/2^bits; without a width, at low/2^bits. Proof: proofs/contact/CloseContact.v,
     /// inside_from_right.
     outcome inside_from(const place_number& low, int bits, std::optional<int> width_bits) const {
         using known = bounded_integer<number<coordinate_words + place_words>>;
@@ -270,7 +270,7 @@ class close_contact {
     }
 
     /// True if N = 0 at the part's only root, which is then no contact. Proof:
-    /// proofs/InteriorContact.v, normal_vanishes_right.
+    /// proofs/contact/InteriorContact.v, normal_vanishes_right.
     bool normal_vanishes(const part& p) const {
         if (!is_single(p.roots) || !(distinct_ || p.roots.count == 1)) return false;
         const auto end = place_number(1, p.unit_bits, false);
@@ -297,7 +297,8 @@ class close_contact {
     bool three_real_roots_;  ///< Y may have a pair of roots between equal signs
 };
 
-/// For queries that decide_in_words leaves uncertain. Proof: proofs/CloseContact.v, decided_inside.
+/// For queries that decide_in_words leaves uncertain. Proof: proofs/contact/CloseContact.v,
+/// decided_inside.
 template <int Words, template <class, int> class Forms>
 outcome decide_close(const Forms<errbound::integers::fixed_integer<Words>, 1>& f) {
     using contact = close_contact<Forms>;

@@ -6,7 +6,7 @@
 //
 // Widths, for quadratics of 2W words that are products of two differences (|f0|, |f2| <= 2D²,
 // |f1| <= 4D², D = 2^(64W − 3)): m in 4W words (16D⁴), m1² in 8W, f·m in 6W (96D⁶).
-// Proof: proofs/VertexEdge.v, common_roots_right.
+// Proof: proofs/contact/VertexEdge.v, common_roots_right.
 #pragma once
 
 #include <array>

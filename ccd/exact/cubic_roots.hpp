@@ -28,7 +28,7 @@ constexpr Integer thrice(const Integer& x) {
 }
 
 /// The sign changes of a cubic's coefficients bound the number of its roots in (0, 1). Proof:
-/// proofs/CubicRoots.v, no_changes, one_change, odd_changes.
+/// proofs/contact/CubicRoots.v, no_changes, one_change, odd_changes.
 struct inner_sign_changes {
     int count = 0;          ///< number of changes; without changes no root, with one change one
     bool opposite = false;  ///< count is odd: the cubic has opposite signs just inside the ends
@@ -49,7 +49,7 @@ struct inner_sign_changes {
 /// is zero if y has a triple root. 4·h0·h2 − h1² is 3 times the discriminant: positive for three
 /// distinct real roots t/s (infinity included), negative for one and a complex pair. If |y_i| <=
 /// 18D³ <= 2^(64·Words − 4.8), it fits in 2·Words words (at most 648D⁶). Proof:
-/// proofs/CubicRoots.v, any_change, one_real_root, double_root_place, triple_root_place.
+/// proofs/contact/CubicRoots.v, any_change, one_real_root, double_root_place, triple_root_place.
 template <class Integer>
 constexpr auto hessian(const errbound::bernstein<Integer, 3>& y) {
     return errbound::bernstein<decltype(y[0] * y[0]), 2>{{y[1] * y[1] - thrice(y[0] * y[2]),
@@ -70,7 +70,7 @@ constexpr std::array<double, N> approximated(const std::array<Integer, N>& x) {
 
 /// Estimates a root in [0, 1] from scaled Bernstein coefficients h, by Newton's method and
 /// bisection. Precondition: the end coefficients have opposite signs or are zero. Proof that it
-/// lies in [0, 1]: proofs/Places.v, estimated_root_inside.
+/// lies in [0, 1]: proofs/contact/Places.v, estimated_root_inside.
 constexpr double estimated_root(const std::array<double, 4>& h) {
     constexpr double precision = 0x1p-52, converged = 0x1p-30;
     constexpr int max_steps = 60;
@@ -131,7 +131,7 @@ struct root_bracket {
 };
 
 /// Precondition: the part has opposite signs at its ends. Proof that the numerator is at most
-/// 2^bits: proofs/Places.v, estimated_place_bits.
+/// 2^bits: proofs/contact/Places.v, estimated_place_bits.
 template <int Words>
 constexpr dyadic_point<1> estimated_place(const cubic_part<Words>& part) {
     const int bits = std::min(part.level + 48, 62), to_bits = bits - part.level;
@@ -141,7 +141,7 @@ constexpr dyadic_point<1> estimated_place(const cubic_part<Words>& part) {
 
 /// Returns a bracket around `place` for the root of `part`; nothing if the root is too far away.
 /// Preconditions: `part` has opposite signs at its ends, and place.numerator at most 64·T − 2 bits.
-/// Proof, for any place: proofs/CubicRoots.v, bracket_near_right.
+/// Proof, for any place: proofs/contact/CubicRoots.v, bracket_near_right.
 template <int Words, int T>
 constexpr std::optional<root_bracket<Words, T>> bracket_near(const cubic_form<Words>& y,
                                                              const cubic_part<Words>& part,
@@ -175,7 +175,7 @@ constexpr std::optional<root_bracket<Words, T>> bracket_near(const cubic_form<Wo
 }
 
 /// Estimates the root from the bracket's end values and slopes, to as many more bits as doubles
-/// can. Proof of the bits: proofs/Places.v, refined_place_bits.
+/// can. Proof of the bits: proofs/contact/Places.v, refined_place_bits.
 template <int Words, int T>
 constexpr dyadic_point<T + 1> refined_place(const cubic_form<Words>& y,
                                             const root_bracket<Words, T>& bracket) {

@@ -5,7 +5,7 @@
 
 namespace ccd {
 
-/// Proof: proofs/Exact.v, exact_face_right, exact_edges_right.
+/// Proof: proofs/contact/Exact.v, exact_face_right, exact_edges_right.
 template <any_query Query>
 verdict decide_exact(const Query& query, stage_report* report) {
     if constexpr (cubic_query<Query>) {

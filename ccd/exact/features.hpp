@@ -29,8 +29,8 @@ struct ends_extents {
 
 /// True if a coordinate axis separates the features in the same order at t = 0 and t = 1, and so
 /// throughout linear motion. Precondition: finite coordinates. Branch-free, because the separating
-/// axis is unpredictable. Proof: proofs/Decisions.v, face_separated, edges_separated;
-/// proofs/AxisUnits.v, separated_right.
+/// axis is unpredictable. Proof: proofs/bsc/Decisions.v, face_separated, edges_separated;
+/// proofs/contact/AxisUnits.v, separated_right.
 template <class Query>
 constexpr bool separated_by_coordinates(const Query& query) {
     using traits = kind_traits<kind_constant<Query>::value>;
@@ -49,7 +49,8 @@ constexpr bool separated_by_coordinates(const Query& query) {
 }
 
 /// True if the linear W from w0 to w1 is 0 at some t: w0 and w1 are antiparallel, or one is zero.
-/// Proof: proofs/Contact.v, vertex_vertex_contact; proofs/AxisUnits.v, vertices_contact_right.
+/// Proof: proofs/contact/Contact.v, vertex_vertex_contact; proofs/contact/AxisUnits.v,
+/// vertices_contact_right.
 template <class S>
 constexpr bool vertices_touch(const vertex_vertex<S>& query) {
     const auto w = difference(query.v, query.w);

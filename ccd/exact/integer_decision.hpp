@@ -16,14 +16,15 @@ namespace ccd::detail {
 
 /// The largest integer_units::bits for which all forms fit in Words words (widths:
 /// ccd/exact/vertex_edge_contact.hpp, ccd/exact/interior_contact.hpp). Proof, for 1, 2 and 4 words:
-/// proofs/FixedWidths.v, vertex_edge_widths, vertex_vertex_widths, interior_widths, halving_widths,
-/// bracket_widths, cut_widths.
+/// proofs/integers/FixedWidths.v, vertex_edge_widths, vertex_vertex_widths, interior_widths,
+/// halving_widths, bracket_widths, cut_widths.
 constexpr int extent_limit(int words) {
     return 64 * words - 3;
 }
 
 /// Decides by the union in the head of ccd/exact/reference.cpp, vertex/edge contacts first. Every
-/// contact has Y = 0. Proof: proofs/InteriorContact.v, face_decision_right, edges_decision_right.
+/// contact has Y = 0. Proof: proofs/contact/InteriorContact.v, face_decision_right,
+/// edges_decision_right.
 template <int Words, effort Effort = effort::whole, template <class> class Query>
 constexpr outcome decide_converted(const Query<errbound::integers::fixed_integer<Words>>& query,
                                    const Query<double>& original, const integer_units& units) {
@@ -37,7 +38,7 @@ constexpr outcome decide_converted(const Query<errbound::integers::fixed_integer
             return outcome::collides;
     return interior_contact(forms, y, units, effort_constant<Effort>()).decide();
 }
-/// Proof: proofs/InteriorContact.v, vertex_edge_decision_right.
+/// Proof: proofs/contact/InteriorContact.v, vertex_edge_decision_right.
 template <int Words, effort Effort = effort::whole>
 constexpr outcome decide_converted(
     const vertex_edge<errbound::integers::fixed_integer<Words>>& query,

@@ -8,7 +8,7 @@
 namespace ccd::detail {
 namespace {
 
-/// Proof: proofs/CloseContact.v, face_to_the_end_right, edges_to_the_end_right.
+/// Proof: proofs/contact/CloseContact.v, face_to_the_end_right, edges_to_the_end_right.
 template <int Words, class Query>
 outcome decide_to_the_end(const Query& query, const integer_units& units) {
     const outcome found = decide_in_words<Words>(query, units);

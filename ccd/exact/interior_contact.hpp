@@ -6,8 +6,9 @@
 //
 // G_i are evaluated at roots of Y only, exactly at rational ones, else by refined brackets. A query
 // is `uncertain` if some G_i is too small for the last bracket, or two roots are too close;
-// ccd/exact/close_contact.hpp decides it. Proof: proofs/Contact.v, face_inside, edges_inside,
-// face_coplanar, edges_coplanar; of the code, proofs/InteriorContact.v, interior_contact_right.
+// ccd/exact/close_contact.hpp decides it. Proof: proofs/contact/Contact.v, face_inside,
+// edges_inside, face_coplanar, edges_coplanar; of the code, proofs/contact/InteriorContact.v,
+// interior_contact_right.
 #pragma once
 
 #include <algorithm>
@@ -47,8 +48,8 @@ class interior_contact {
         : forms_(forms), y_(y), units_(units) {}
 
     /// Tests if Y = 0 and all G_i > 0 at some t in [0, 1]; if Y ≡ 0, at t = 0 or 1, since a later
-    /// contact inside begins at a border. Proof: proofs/InteriorContact.v, interior_contact_right,
-    /// interior_contact_ends.
+    /// contact inside begins at a border. Proof: proofs/contact/InteriorContact.v,
+    /// interior_contact_right, interior_contact_ends.
     constexpr outcome decide() {
         if (y_[0] == 0 && all_positive(forms_at_end(forms_, 0))) return outcome::collides;
         if (y_[3] == 0 && all_positive(forms_at_end(forms_, 1))) return outcome::collides;
@@ -84,7 +85,7 @@ class interior_contact {
 
     /// Returns the multiple root of Y inside (0, 1) as the root of c0·s + c1·t with c0 <= 0 < c1,
     /// and sets the flags for other roots. The Hessian's discriminant is at most 2^20.2·D^12, so it
-    /// fits in 12W words. Proof: proofs/CubicRoots.v, one_real_root, double_root_place,
+    /// fits in 12W words. Proof: proofs/contact/CubicRoots.v, one_real_root, double_root_place,
     /// triple_root_place.
     constexpr std::optional<errbound::bernstein<number<6 * Words>, 1>> multiple_root() {
         const auto h = hessian(y_);
@@ -116,13 +117,13 @@ class interior_contact {
     /// True if the part has roots other than a double root. An odd number of sign changes proves
     /// one. If Y has three real roots, any change does, since Descartes' count is then exact.
     /// Otherwise an even number comes from a complex pair or the double root. Proof:
-    /// proofs/CubicRoots.v, odd_changes, any_change, one_real_root.
+    /// proofs/contact/CubicRoots.v, odd_changes, any_change, one_real_root.
     constexpr bool any_root(const inner_sign_changes& roots) const {
         return roots.opposite || (three_real_roots_ && roots.count > 0);
     }
 
     /// Halves have no more sign changes together than the whole, so at most three parts with roots
-    /// wait, the earliest last. Proof: proofs/InteriorContact.v, by_halving_right,
+    /// wait, the earliest last. Proof: proofs/contact/InteriorContact.v, by_halving_right,
     /// three_parts_wait.
     constexpr outcome by_halving(const part& whole) const {
         std::array<part, 3> waiting;
@@ -167,7 +168,7 @@ class interior_contact {
     }
 
     /// Decides by a bracket near `place` of the part's only root (except a double root); nothing if
-    /// no bracket holds the root. Proof: proofs/InteriorContact.v, near_right.
+    /// no bracket holds the root. Proof: proofs/contact/InteriorContact.v, near_right.
     template <int T>
     constexpr std::optional<outcome> near(const part& whole, const dyadic_point<T>& place) const {
         const auto bracket = bracket_near(y_, whole, place);
@@ -190,7 +191,7 @@ class interior_contact {
 
     /// True if N = 0 inside the bracket, at a root of Y without contact: the only one if Y has no
     /// multiple root. Every G_i is then 0, so that no refined bracket decides. Proof:
-    /// proofs/InteriorContact.v, normal_vanishes_right.
+    /// proofs/contact/InteriorContact.v, normal_vanishes_right.
     template <int T>
     constexpr bool normal_vanishes(const root_bracket<3 * Words, T>& bracket) const {
         const auto end = number<T>::shifted(1, bracket.bits);
@@ -211,7 +212,7 @@ class interior_contact {
 
     /// Returns decided_by_weights for all t from low/2^bits to (low + width)/2^bits, width <
     /// 2^width_bits. Differences at low, times 2^bits, are cut to T words with one unit for each
-    /// axis. This keeps the signs of G_i at roots of Y. Proof: proofs/InteriorContact.v,
+    /// axis. This keeps the signs of G_i at roots of Y. Proof: proofs/contact/InteriorContact.v,
     /// throughout_right.
     template <int T>
     constexpr outcome throughout(const number<T>& low, int bits, int width_bits) const {

@@ -8,8 +8,8 @@
 // A contact with N ≠ 0 satisfies the first. If N = 0, the triangle is a segment that its edges
 // cover, or the two edges are parallel and one has an end on the other. If Y ≡ 0, the first case is
 // tested at t = 0 and 1 only, since a later contact inside begins at an edge or an end. Proof:
-// proofs/Contact.v, vertex_face_union, edge_edge_union, vertex_edge_contact, face_coplanar,
-// edges_coplanar; of the code, proofs/Reference.v, reference_face, reference_edges,
+// proofs/contact/Contact.v, vertex_face_union, edge_edge_union, vertex_edge_contact, face_coplanar,
+// edges_coplanar; of the code, proofs/contact/Reference.v, reference_face, reference_edges,
 // reference_vertex_edge, reference_vertex_vertex.
 #include <ccd/methods/forms.hpp>
 #include <ccd/reference.hpp>

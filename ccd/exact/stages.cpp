@@ -16,8 +16,8 @@
 namespace ccd::detail {
 namespace {
 
-/// Proof: proofs/FilterStages.v, filter_face_separate, filter_face_collides, filter_edges_separate,
-/// filter_edges_collide, filter_bounded.
+/// Proof: proofs/filters/FilterStages.v, filter_face_separate, filter_face_collides,
+/// filter_edges_separate, filter_edges_collide, filter_bounded.
 template <template <class> class Forms, class Query>
 [[gnu::flatten]] verdict axes_to_subdivision(const Query& query, stage_report* report,
                                              static_filter::contact_interval* found,

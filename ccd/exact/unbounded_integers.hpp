@@ -16,7 +16,7 @@ namespace ccd::detail {
 
 using errbound::integer;
 
-/// Precondition: finite coordinates. Proof: proofs/UnboundedIntegers.v, to_integers_right.
+/// Precondition: finite coordinates. Proof: proofs/contact/UnboundedIntegers.v, to_integers_right.
 template <template <class> class Query>
 Query<integer> to_integers(const Query<double>& query, const integer_units& units) {
     return units.converted(query, [](double x, int unit) {
@@ -31,8 +31,8 @@ Query<integer> to_integers(const Query<double>& query) {
 }
 
 /// True if W × E = 0 and W·(W − E) <= 0 at some t in [0, 1] (see ccd/exact/reference.cpp). The
-/// times are the roots of the three quadratics' common factor. Proof: proofs/UnboundedIntegers.v,
-/// integer_contact_right.
+/// times are the roots of the three quadratics' common factor. Proof:
+/// proofs/contact/UnboundedIntegers.v, integer_contact_right.
 inline bool vertex_touches_edge(const vertex_edge<integer>& query) {
     const auto e = difference(query.e1, query.e0);
     const auto w = difference(query.v, query.e0);
@@ -65,7 +65,7 @@ inline bool vertex_touches_edge(const vertex_edge<integer>& query) {
     return false;
 }
 
-/// `original` is the query before its conversion. Proof: proofs/UnboundedIntegers.v,
+/// `original` is the query before its conversion. Proof: proofs/contact/UnboundedIntegers.v,
 /// face_border_right, edges_border_right.
 template <template <class> class Query>
 bool touches_at_border(const Query<integer>& query, const Query<double>& original) {

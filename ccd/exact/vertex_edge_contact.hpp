@@ -26,7 +26,7 @@ constexpr errbound::integers::fixed_integer<Words> magnitude(
 }
 
 /// True if b <= 0 at some root of f in (0, 1). Precondition: f's coefficients have both signs.
-/// Proof: proofs/VertexEdge.v, nonpositive_at_a_root_right.
+/// Proof: proofs/contact/VertexEdge.v, nonpositive_at_a_root_right.
 template <int Words>
 constexpr bool nonpositive_at_a_root(const quadratic_form<Words>& f,
                                      const quadratic_form<Words>& b) {
@@ -66,7 +66,7 @@ constexpr bool nonpositive_at_a_root(const quadratic_form<Words>& f,
 
 /// Precondition: differences of coordinates at one end of the step are below 2^(64·Words − 3).
 /// Cost: some 40 products of words, and up to a few hundred if all three components of W × E have a
-/// root in [0, 1]. Proof: proofs/VertexEdge.v, contact_right.
+/// root in [0, 1]. Proof: proofs/contact/VertexEdge.v, contact_right.
 template <int Words>
 constexpr bool vertex_touches_edge(
     const vertex_edge<errbound::integers::fixed_integer<Words>>& query) {

@@ -1,6 +1,6 @@
 // BSC over intervals, then over integers. Contacts of vertices and edges decide the queries that
-// remain. Derivation: docs/other-methods.md, "bsc-exact". Proof: proofs/BscExact.v, bsc_exact_face,
-// bsc_exact_edges.
+// remain. Derivation: docs/other-methods.md, "bsc-exact". Proof: proofs/bsc/BscExact.v,
+// bsc_exact_face, bsc_exact_edges.
 #include <algorithm>
 #include <ccd/methods/bsc.hpp>
 #include <ccd/methods/bsc_exact.hpp>
@@ -12,8 +12,8 @@
 namespace ccd {
 namespace {
 
-/// Proof: proofs/BscExact.v, bsc_exact_inside, bsc_exact_root; proofs/Contact.v, face_coplanar,
-/// edges_coplanar.
+/// Proof: proofs/bsc/BscExact.v, bsc_exact_inside, bsc_exact_root; proofs/contact/Contact.v,
+/// face_coplanar, edges_coplanar.
 template <template <class> class Query>
 bool collides(const Query<double>& original) {
     const auto query = detail::to_integers(original);

@@ -8,8 +8,8 @@
 // Axes: x, y, z, x ± y, y ± z, z ± x of coordinates rounded to float (ccd/batch/rounded_axes.hpp).
 // Along x, y and z rounding keeps the order. Sums and differences are off by 4.04ε, ε = 2^-23; a
 // margin of 7ε outwards, which loses 2.04ε to rounding, makes extents contain the exact ones.
-// Proof: proofs/Extents.v, coordinate_extents_hold, diagonal_extents_hold, group_extents_hold,
-// apart_face_separate, apart_edges_separate.
+// Proof: proofs/filters/Extents.v, coordinate_extents_hold, diagonal_extents_hold,
+// group_extents_hold, apart_face_separate, apart_edges_separate.
 #pragma once
 
 #include <ccd/kind.hpp>

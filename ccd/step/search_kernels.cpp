@@ -61,7 +61,7 @@ void set_extent(extents_column* of_axis, std::size_t lane, float margin, const V
     (most + float_pack(margin)).store_aligned(&of_axis[1].at[lane]);
 }
 
-/// Widens an axis' columns at the start by those at the end. Proof: proofs/Extents.v,
+/// Widens an axis' columns at the start by those at the end. Proof: proofs/filters/Extents.v,
 /// swept_extents_hold.
 inline void sweep_extent(extents_column* of_axis, std::size_t lane) {
     const auto column = [&](std::size_t c) { return &of_axis[c].at[lane]; };

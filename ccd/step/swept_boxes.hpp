@@ -43,7 +43,8 @@ class short_way {
     /// rounded one less w. For sums of two coordinates the margin is 7ε + 2w: their error is
     /// 4.04ε + 2δ, and that of the subtraction (2.02 + 7ε + 2w)ε. The largest margin exceeds all
     /// rounded coordinates, so that it separates nothing.
-    /// Proof: proofs/Extents.v, wide_extents_hold, until_face_separate, until_edges_separate.
+    /// Proof: proofs/filters/Extents.v, wide_extents_hold, until_face_separate,
+    /// until_edges_separate.
     float margin() const {
         if (end_.error == 0) return 0;
         constexpr double largest = 8;  // an infinite one would also widen unused lanes
@@ -53,10 +54,10 @@ class short_way {
 
   private:
     /// (1 − t)·x + t·y has four roundings, each of at most u of |(1 − t)·x| + |t·y|, or 2^-1075.
-    /// Proof: proofs/Extents.v, after_near.
+    /// Proof: proofs/filters/Extents.v, after_near.
     /// The spare covers std::lerp and 1024 last places: 2056 times u of the size of x or of the end
     /// of the way until t, or 2^-1064. So a pair that is apart at both ends stays apart at every
-    /// fraction, even after the roundings. Proof: proofs/Extents.v, shorter_face_separate,
+    /// fraction, even after the roundings. Proof: proofs/filters/Extents.v, shorter_face_separate,
     /// shorter_edges_separate.
     struct rounded_end {
         std::vector<double> positions;
@@ -94,8 +95,8 @@ class swept_boxes {
     /// distance touch. It is widened by the error, too. Floats, which are for neither, give the box
     /// of rounded positions. Rounding is monotone, so boxes that touch still do. Rounded boxes that
     /// touch without a common end also touch exactly; if they have a common end, use touch().
-    /// Proof: proofs/RoundedAxes.v, swept_rounded_first, swept_face_separate, swept_edges_separate,
-    /// swept_boxes_touch.
+    /// Proof: proofs/filters/RoundedAxes.v, swept_rounded_first, swept_face_separate,
+    /// swept_edges_separate, swept_boxes_touch.
     template <class Real, std::size_t N>
     box<Real> swept_box(const std::array<vertex_index, N>& element) const {
         box<Real> all;
@@ -179,7 +180,7 @@ class swept_boxes {
         constexpr double most = std::numeric_limits<double>::max();
         return std::min(std::nextafter(x, std::numeric_limits<double>::infinity()), most);
     }
-    /// Proof: proofs/Extents.v, widened_holds, until_boxes_face_separate,
+    /// Proof: proofs/filters/Extents.v, widened_holds, until_boxes_face_separate,
     /// until_boxes_edges_separate.
     static void widen(box<double>& b, double by) {
         for (std::size_t k = 0; k < 3; ++k) {

@@ -2,7 +2,7 @@
 // polynomial of degree N stores SCALED coefficients h_i, so that no operation divides:
 //     p(s, t) = Σ h_i s^(N−i) t^i,   p(t) = p(1 − t, t),   h_i = C(N, i)·b_i,   b_i: control values
 // The h_i are also the power-basis coefficients in x = t/s, which maps [0, 1] to [0, ∞]. Proof:
-// proofs/Bernstein.v, form_ends, power_basis, hull_bounds.
+// proofs/bsc/Bernstein.v, form_ends, power_basis, hull_bounds.
 #pragma once
 
 #include <array>
@@ -54,7 +54,7 @@ struct bernstein {
     }
 };
 
-/// A convolution. The factors' scalars may differ. Proof: proofs/Bernstein.v, product_form.
+/// A convolution. The factors' scalars may differ. Proof: proofs/bsc/Bernstein.v, product_form.
 template <class S, class T, int A, int B>
 constexpr auto operator*(const bernstein<S, A>& p, const bernstein<T, B>& q) {
     using product = decltype(p[0] * q[0]);
@@ -69,7 +69,7 @@ constexpr auto operator*(const bernstein<S, A>& p, const bernstein<T, B>& q) {
     return r;
 }
 
-/// The same polynomial, one degree higher: p·(s + t). Proof: proofs/Bernstein.v, elevated_form.
+/// The same polynomial, one degree higher: p·(s + t). Proof: proofs/bsc/Bernstein.v, elevated_form.
 template <class S, int N>
 constexpr bernstein<S, N + 1> elevated(const bernstein<S, N>& p) {
     bernstein<S, N + 1> r;
@@ -79,7 +79,7 @@ constexpr bernstein<S, N + 1> elevated(const bernstein<S, N>& p) {
     return r;
 }
 
-/// Coefficient i is (i + 1)·h_(i+1) − (N − i)·h_i. Proof: proofs/Bernstein.v, derivative_form.
+/// Coefficient i is (i + 1)·h_(i+1) − (N − i)·h_i. Proof: proofs/bsc/Bernstein.v, derivative_form.
 template <class S, int N>
 requires(N >= 1) constexpr bernstein<S, N - 1> derivative(const bernstein<S, N>& p) {
     const auto times = [](const S& x, int n) { return n == 1 ? x : S(x * S(n)); };
@@ -103,7 +103,7 @@ constexpr auto value_from_term(const bernstein<S, N>& p, const T& s, const T& t,
 
 }  // namespace detail
 
-/// (s + t)^N · p(t/(s + t)). Cost: 3N − 1 products. Proof: proofs/Bernstein.v, value_at_form.
+/// (s + t)^N · p(t/(s + t)). Cost: 3N − 1 products. Proof: proofs/bsc/Bernstein.v, value_at_form.
 template <class S, int N, class T>
 constexpr auto value_at(const bernstein<S, N>& p, const T& s, const T& t) {
     if constexpr (N == 0)
@@ -118,7 +118,7 @@ constexpr S value_at(const bernstein<S, N>& p, const S& t) {
     return value_at(p, S(S(1) - t), t);
 }
 
-/// Exchanges the ends of [0, 1]. Proof: proofs/Bernstein.v, reversed_form.
+/// Exchanges the ends of [0, 1]. Proof: proofs/bsc/Bernstein.v, reversed_form.
 template <class S, int N>
 constexpr bernstein<S, N> reversed(const bernstein<S, N>& p) {
     bernstein<S, N> r;
@@ -126,7 +126,8 @@ constexpr bernstein<S, N> reversed(const bernstein<S, N>& p) {
     return r;
 }
 
-/// p on [0, w/(v + w)], times (v + w)^N, for v, w > 0. Proof: proofs/Bernstein.v, left_part_form.
+/// p on [0, w/(v + w)], times (v + w)^N, for v, w > 0. Proof: proofs/bsc/Bernstein.v,
+/// left_part_form.
 template <class S, int N>
 constexpr bernstein<S, N> left_part(const bernstein<S, N>& p, const S& v, const S& w) {
     const S whole = v + w;
@@ -149,7 +150,7 @@ constexpr std::pair<bernstein<S, N>, bernstein<S, N>> split(const bernstein<S, N
     return {left_part(p, v, w), reversed(left_part(reversed(p), w, v))};
 }
 
-/// p on [0, 1/2], times 2^N; all products are exact. Proof: proofs/Bernstein.v, left_half_form.
+/// p on [0, 1/2], times 2^N; all products are exact. Proof: proofs/bsc/Bernstein.v, left_half_form.
 template <class S, int N>
 constexpr bernstein<S, N> left_half(const bernstein<S, N>& p) {
     bernstein<S, N> r;
@@ -189,7 +190,7 @@ constexpr bernstein<S, N> normalized(const bernstein<S, N>& p) {
 }
 
 /// The sign on (0, 1): certain if the signs of all coefficients are certain and no two are
-/// opposite. Proof: proofs/Bernstein.v, sign_inside_right.
+/// opposite. Proof: proofs/bsc/Bernstein.v, sign_inside_right.
 template <class S, int N>
 constexpr sign_type sign_inside(const bernstein<S, N>& p) {
     sign_type all = sign_type::zero;
@@ -203,7 +204,7 @@ constexpr sign_type sign_inside(const bernstein<S, N>& p) {
     return all;
 }
 
-/// The sign on [0, 1]: certain if all coefficients have it. Proof: proofs/Bernstein.v,
+/// The sign on [0, 1]: certain if all coefficients have it. Proof: proofs/bsc/Bernstein.v,
 /// sign_throughout_right.
 template <class S, int N>
 constexpr sign_type sign_throughout(const bernstein<S, N>& p) {
@@ -213,7 +214,7 @@ constexpr sign_type sign_throughout(const bernstein<S, N>& p) {
     return first;
 }
 
-/// True if the coefficients exclude roots in [0, 1]. Proof: proofs/Bernstein.v, rootless_hull.
+/// True if the coefficients exclude roots in [0, 1]. Proof: proofs/bsc/Bernstein.v, rootless_hull.
 template <class S, int N>
 constexpr bool certainly_rootless(const bernstein<S, N>& p) {
     const sign_type hull = sign_throughout(p);

@@ -89,7 +89,7 @@ struct linear_signs {
 
 /// Sign determination I (TTWM14): the sign of l at the only inner root of Y, where Y changes from
 /// the strict sign `before` to its opposite. If Y(t_l) has the sign `before`, the root is right of
-/// t_l. Proof: proofs/BscSigns.v, sign_determination_1.
+/// t_l. Proof: proofs/bsc/BscSigns.v, sign_determination_1.
 template <class S>
 constexpr sign_type sign_at_crossing(const cubic<S>& y, sign_type before,
                                      const bernstein<S, 1>& l) {
@@ -105,7 +105,7 @@ constexpr sign_type sign_at_crossing(const cubic<S>& y, sign_type before,
 /// Sign determination II (TTWM14): the signs of l at the two inner roots t0 <= t1 of a CONVEX Y > 0
 /// at both ends; d = Y'. If Y(t_l) < 0, t0 < t_l < t1. If Y(t_l) > 0, t_l < t0 if d(t_l) < 0 and
 /// t_l > t1 if d(t_l) > 0. If only d(t_l) has a certain sign, it gives the sign at t1 or t0. Proof:
-/// proofs/BscSigns.v, sign_determination_2.
+/// proofs/bsc/BscSigns.v, sign_determination_2.
 template <class S>
 constexpr sign_pair signs_at_pair(const cubic<S>& y, const bernstein<S, 2>& d,
                                   const bernstein<S, 1>& l) {
@@ -130,7 +130,8 @@ constexpr sign_pair signs_at_pair(const cubic<S>& y, const bernstein<S, 2>& d,
 
 /// The quadratic J: y0·y3·G = s·t·J + (a form)·Y. y0·G − g0·s·Y = t·E cancels s⁴; y3·E − e3·Y = s·J
 /// cancels t³. At inner roots of Y, sign G = sign(y0·y3)·sign J. If y0 or y3 is zero but its
-/// uncertain sign is followed as strict, J = 0 at these roots. Proof: proofs/BscSigns.v, reduction.
+/// uncertain sign is followed as strict, J = 0 at these roots. Proof: proofs/bsc/BscSigns.v,
+/// reduction.
 template <class S>
 constexpr bernstein<S, 2> reduced(const cubic<S>& y, const bernstein<S, 4>& g) {
     const std::array<S, 4> e{y[0] * g[1] - g[0] * y[1], y[0] * g[2] - g[0] * y[2],
@@ -140,7 +141,7 @@ constexpr bernstein<S, 2> reduced(const cubic<S>& y, const bernstein<S, 4>& g) {
 }
 
 /// Polynomial decomposition: j0·j2·Y = M·J + s·t·R with M, R linear. At an inner root of Y with M
-/// not zero, sign J = −sign M · sign R. Proof: proofs/BscSigns.v, polynomial_decomposition.
+/// not zero, sign J = −sign M · sign R. Proof: proofs/bsc/BscSigns.v, polynomial_decomposition.
 template <class S>
 struct decomposition {
     bernstein<S, 1> m, r;
@@ -154,7 +155,7 @@ struct decomposition {
 };
 
 /// The sign of J at a root of Y, from the signs m and r of M and R there. If M is zero, returns the
-/// sign of J at the root of M (Proof: proofs/Published.v, decomposition_zero).
+/// sign of J at the root of M (Proof: proofs/bsc/Published.v, decomposition_zero).
 template <class S>
 constexpr sign_type combined(sign_type m, sign_type r, const bernstein<S, 1>& m_form,
                              const bernstein<S, 2>& j) {
@@ -194,7 +195,7 @@ constexpr sign_pair signs_at_pair(const cubic<S>& y, const bernstein<S, 2>& d,
 /// The sign of Y at its only inner extremum t_ex, for convex Y (assumes d0 < 0 < d2). Euler's
 /// identity gives Y = A + t·D/3 = B − s·D/3, A and B quadratic. D(t_ex) = 0, so d0·A − y0·D = t·P
 /// gives d0·Y = t·P there, and d2·B − y3·D = s·Q gives d2·Y = s·Q; P and Q are linear. Proof:
-/// proofs/BscSigns.v, root_finding.
+/// proofs/bsc/BscSigns.v, root_finding.
 template <class S>
 constexpr sign_type sign_at_extremum(const cubic<S>& y, const bernstein<S, 2>& d) {
     // The sign of l at t_ex: d increases, so d(t_l) < 0 puts t_ex right of t_l.
@@ -359,7 +360,7 @@ constexpr std::pair<part<S, M>, part<S, M>> divided(const part<S, M>& p, const P
 
 /// The answer on the interval, split at the exact inflection if it has one; nothing if it depends
 /// on an uncertain sign of Y''. After a rounded split, an inflection may remain near an end, and
-/// signs at ends miss roots (Proof: proofs/Published.v, inflection_loses_roots).
+/// signs at ends miss roots (Proof: proofs/bsc/Published.v, inflection_loses_roots).
 template <class S, std::size_t M>
 [[gnu::noinline]] constexpr std::optional<existence> without_halving(const part<S, M>& p) {
     const bernstein<S, 2> d = derivative(p.y);
@@ -416,10 +417,10 @@ template <class S, std::size_t M>
 /// std::array; it is called only if y may have a root.
 ///
 /// If the scalar's certain signs are right, so is `no`, and `yes` proves a root with every g_i > 0.
-/// Proof: proofs/Bsc.v, bsc_no, bsc_yes. Y ≡ 0 gives `no` or `maybe_root`. If no sign is uncertain,
-/// `maybe_root` means Y ≡ 0, and `maybe_inside` means that some root has every g_i >= 0 but none
-/// has every g_i > 0. Proof: proofs/BscExact.v, bsc_exact_root, bsc_exact_inside. Cost: some
-/// hundred operations of S in common cases, at most a few thousand.
+/// Proof: proofs/bsc/Bsc.v, bsc_no, bsc_yes. Y ≡ 0 gives `no` or `maybe_root`. If no sign is
+/// uncertain, `maybe_root` means Y ≡ 0, and `maybe_inside` means that some root has every g_i >= 0
+/// but none has every g_i > 0. Proof: proofs/bsc/BscExact.v, bsc_exact_root, bsc_exact_inside.
+/// Cost: some hundred operations of S in common cases, at most a few thousand.
 template <class S, class MakeConstraints>
 constexpr existence root_with_nonnegative(const bernstein<S, 3>& y, const MakeConstraints& make_g) {
     const bsc::cubic<S> cubic = normalized(y);

@@ -28,7 +28,7 @@ constexpr T half_ulp(const T& v) {
 
 /// a + b = value + error exactly, value = a ⊕ b. Precondition: no overflow, even of intermediate
 /// results; otherwise value or error is infinite or NaN. Cost: 6 operations. Source: Knuth, TAOCP
-/// 2, 4.2.2, Theorem B; any precision >= 2. Proof: proofs/ErrorFree.v, two_sum_exact.
+/// 2, 4.2.2, Theorem B; any precision >= 2. Proof: proofs/floats/ErrorFree.v, two_sum_exact.
 template <class T>
 constexpr with_error<T> two_sum(const T& a, const T& b) {
     const T x = detail::rounded(a), y = detail::rounded(b);
@@ -38,7 +38,8 @@ constexpr with_error<T> two_sum(const T& a, const T& b) {
 }
 
 /// a + b = value + error exactly. Precondition: |a| >= |b| or a = 0, and no overflow. Cost: 3
-/// operations. Source: Dekker 1971 (Fast2Sum). Proof: proofs/ErrorFree.v, fast_two_sum_exact.
+/// operations. Source: Dekker 1971 (Fast2Sum). Proof: proofs/floats/ErrorFree.v,
+/// fast_two_sum_exact.
 template <class T>
 constexpr with_error<T> fast_two_sum(const T& a, const T& b) {
     const T x = detail::rounded(a), y = detail::rounded(b);
@@ -65,7 +66,7 @@ inline constexpr int least_precision_for_split = 4;
 /// 1)x does not overflow (|x| < 2^996 for double, 2^115 for float). On overflow the parts are
 /// infinite or NaN. Cost: 4 operations. Source: Veltkamp; Dekker 1971; Boldo 2006 (Pitfalls of a
 /// full floating-point proof). Proof, with the weaker claim of at most s bits in the error:
-/// proofs/ErrorFree.v, split_exact.
+/// proofs/floats/ErrorFree.v, split_exact.
 template <class T>
 constexpr with_error<T> split(const T& x) {
     constexpr int s = (number_traits<T>::digits + 1) / 2;
@@ -76,7 +77,7 @@ constexpr with_error<T> split(const T& x) {
 
 /// a·b = value + error exactly, value = a ⊙ b, if product_error_is_exact(a, b, result); otherwise
 /// error is unreliable, infinite or NaN. Cost: 2 operations with hardware FMA, otherwise 17.
-/// Source: Dekker 1971 (TwoProduct). Proof: proofs/ErrorFree.v, two_product_exact,
+/// Source: Dekker 1971 (TwoProduct). Proof: proofs/floats/ErrorFree.v, two_product_exact,
 /// two_product_fma_exact.
 template <class T>
 constexpr with_error<T> two_product(const T& a, const T& b) {
@@ -103,7 +104,8 @@ constexpr with_error<T> two_product(const T& a, const T& b) {
 /// 2^-101 for float). Without FMA also p >= least_precision_for_split. Derivation: the error and
 /// Dekker's intermediate results are multiples of ulp(a)·ulp(b), which is at least η, since |a| <
 /// 2^p·ulp(a), |b| < 2^p·ulp(b) and |ab| >= |value|/(1 + u). No overflow: products in split() are
-/// below 2^(s+1)·|x|, value parts at most 1.25|x|. Proof: proofs/IeeeInterval.v, product_known.
+/// below 2^(s+1)·|x|, value parts at most 1.25|x|. Proof: proofs/rules/IeeeInterval.v,
+/// product_known.
 template <class T>
 constexpr bool product_error_is_exact(const T& a, const T& b, const with_error<T>& product) {
     using traits = number_traits<T>;
@@ -129,8 +131,8 @@ struct division_remainder {
 /// In the latter case v is between a/2 and 2a, so a − v is exact (Sterbenz). (a − v) − e is a
 /// multiple of ulp(q)·ulp(b) >= η and at most |b|·ulp(q)/2, so it is exact too. Cost: a two_product
 /// and 2 operations. Source: Pichat 1976; Bohlender, Walter, Kornerup, Matula 1991. Proof:
-/// proofs/ErrorFree.v, remainder_of_division_exact; with overflow, proofs/IeeeInterval.v,
-/// remainder_known.
+/// proofs/floats/ErrorFree.v, remainder_of_division_exact; with overflow,
+/// proofs/rules/IeeeInterval.v, remainder_known.
 template <class T>
 constexpr division_remainder<T> remainder_of_division(const T& a, const T& b, const T& q) {
     using traits = number_traits<T>;
@@ -142,7 +144,7 @@ constexpr division_remainder<T> remainder_of_division(const T& a, const T& b, co
 
 /// Computes x − v² for v = fl(√x), x >= 0 finite. Exact if x = 0, or if two_product(v, v) is. |√x −
 /// v| <= ulp(v)/2, so x − v² is a multiple of ulp(v)² and at most v·ulp(v) in size. Cost and
-/// source: see remainder_of_division. Proof: proofs/IeeeSlopes.v, remainder_of_root_known.
+/// source: see remainder_of_division. Proof: proofs/rules/IeeeSlopes.v, remainder_of_root_known.
 template <class T>
 constexpr division_remainder<T> remainder_of_root(const T& x, const T& v) {
     return remainder_of_division(x, v, v);

@@ -70,8 +70,8 @@ constexpr tracked<T, Rule> lesser_or_either(const tracked<T, Rule>& a, const tra
 namespace detail {
 
 /// √x by e = x.error(), x̂ = x.value(): |√x − √x̂| = |x − x̂|/(√x + √x̂) <= e/(√x̂ + √(x̂ − e)),
-/// and v = fl(√x̂) adds a rounding. Up to five roundings. Proof: proofs/IeeeFunctions.v,
-/// sqrt_known; in any direction, proofs/Functions.v, sqrt_sound.
+/// and v = fl(√x̂) adds a rounding. Up to five roundings. Proof: proofs/rules/IeeeFunctions.v,
+/// sqrt_known; in any direction, proofs/rules/Functions.v, sqrt_sound.
 template <class T, class Rule>
 constexpr tracked<T, Rule> root_by_error(const tracked<T, Rule>& x) {
     using traits = number_traits<T>;
@@ -103,7 +103,7 @@ constexpr tracked<T, Rule> closer(const tracked<T, Rule>& by_error,
 
 /// √x = v + (x − v²)/(√x + v) by the rule's operations, with `root` for √x and its value for v. x −
 /// v² is the remainder x̂ − v², a T, plus x − x̂. Returns `root` if the remainder is unknown.
-/// Proof: proofs/IeeeSlopes.v, sqrt_by_slope_known; of `affine`, affine_slope_sqrt_gives.
+/// Proof: proofs/rules/IeeeSlopes.v, sqrt_by_slope_known; of `affine`, affine_slope_sqrt_gives.
 template <class T, class Rule>
 constexpr tracked<T, Rule> root_by_slope(const tracked<T, Rule>& x, const tracked<T, Rule>& root) {
     using number = tracked<T, Rule>;
@@ -122,8 +122,8 @@ constexpr tracked<T, Rule> root_by_slope(const tracked<T, Rule>& x, const tracke
 
 /// √x. Infinite error if x may be negative. Exact if x is exact and its root is a T. Uses the
 /// rule's own square_root (`interval`), or the slope 1/(2v) if the rule keeps errors to first order
-/// (`residual`, `affine`), otherwise x.error(). Proof: proofs/IeeeSlopes.v, slope_sqrt_known,
-/// interval_sqrt_known; proofs/IeeeFunctions.v, sqrt_known.
+/// (`residual`, `affine`), otherwise x.error(). Proof: proofs/rules/IeeeSlopes.v, slope_sqrt_known,
+/// interval_sqrt_known; proofs/rules/IeeeFunctions.v, sqrt_known.
 template <class T, class Rule>
 constexpr tracked<T, Rule> sqrt(const tracked<T, Rule>& x) {
     static_assert(has_subnormals<T>, "errbound: sqrt needs a number type with subnormal numbers");
@@ -143,7 +143,8 @@ constexpr tracked<T, Rule> sqrt(const tracked<T, Rule>& x) {
     }
 }
 
-/// |x| by the value's sign, as ||x| − |x̂|| <= |x − x̂|. Proof: proofs/IeeeFunctions.v, abs_known.
+/// |x| by the value's sign, as ||x| − |x̂|| <= |x − x̂|. Proof: proofs/rules/IeeeFunctions.v,
+/// abs_known.
 template <class T, class Rule>
 constexpr tracked<T, Rule> abs(const tracked<T, Rule>& x) {
     const bool below = x.value() < 0;
@@ -153,7 +154,7 @@ constexpr tracked<T, Rule> abs(const tracked<T, Rule>& x) {
     return tracked<T, Rule>::within(number_traits<T>::abs(x.value()), x.error());
 }
 
-/// abs by C's name. Proof: proofs/IeeeFunctions.v, abs_known.
+/// abs by C's name. Proof: proofs/rules/IeeeFunctions.v, abs_known.
 template <class T, class Rule>
 constexpr tracked<T, Rule> fabs(const tracked<T, Rule>& x) {
     return abs(x);
@@ -170,12 +171,13 @@ constexpr bool isnan(const tracked<T, Rule>& x) {
 }
 
 /// The operand with the lesser value. If the order is uncertain, the result has the larger error,
-/// as |min(a, b) − min(c, d)| <= max(|a − c|, |b − d|). Proof: proofs/IeeeFunctions.v, min_known.
+/// as |min(a, b) − min(c, d)| <= max(|a − c|, |b − d|). Proof: proofs/rules/IeeeFunctions.v,
+/// min_known.
 template <class T, class Rule>
 constexpr tracked<T, Rule>(min)(const tracked<T, Rule>& a, const tracked<T, Rule>& b) {
     return b.value() < a.value() ? detail::lesser_or_either(b, a) : detail::lesser_or_either(a, b);
 }
-/// Like min, for the greater value. Proof: proofs/IeeeFunctions.v, max_known.
+/// Like min, for the greater value. Proof: proofs/rules/IeeeFunctions.v, max_known.
 template <class T, class Rule>
 constexpr tracked<T, Rule>(max)(const tracked<T, Rule>& a, const tracked<T, Rule>& b) {
     return a.value() < b.value() ? -detail::lesser_or_either(-b, -a)
@@ -187,8 +189,8 @@ namespace detail {
 /// ab + c from the operands' errors σ; v is its rounded value: |v − (ab + c)| <= |v|ε/(1 − ε) + η +
 /// |â|σb + σa(|b̂| + σb) + σc. Each product may lose η by underflow. The third η covers rounding
 /// |b̂| + σb if σa(|b̂| + σb) is so small that the factor 1 + 8ε is lost. The longest path has six
-/// roundings. Proof: proofs/IeeeFunctions.v, fma_known; in any direction, proofs/Functions.v,
-/// fma_sound.
+/// roundings. Proof: proofs/rules/IeeeFunctions.v, fma_known; in any direction,
+/// proofs/rules/Functions.v, fma_sound.
 template <class T, class Rule>
 constexpr tracked<T, Rule> fused_by_error(const T& v, const tracked<T, Rule>& a,
                                           const tracked<T, Rule>& b, const tracked<T, Rule>& c) {
@@ -202,7 +204,7 @@ constexpr tracked<T, Rule> fused_by_error(const T& v, const tracked<T, Rule>& a,
 
 /// ab + c = v + (âb̂ + ĉ − v) + (a(b − b̂) + (a − â)b̂) + (c − ĉ) by the rule's operations; v is
 /// the value of `sum`, an enclosure of ab + c. With âb̂ = p + e and p + ĉ = s + f exactly, v's
-/// error is (s − v) + f + e. Returns `sum` if e or f is unknown. Proof: proofs/IeeeSlopes.v,
+/// error is (s − v) + f + e. Returns `sum` if e or f is unknown. Proof: proofs/rules/IeeeSlopes.v,
 /// fma_by_slope_known; of `affine`, affine_slope_fma_gives.
 template <class T, class Rule>
 constexpr tracked<T, Rule> fused_by_slope(const tracked<T, Rule>& a, const tracked<T, Rule>& b,
@@ -233,8 +235,8 @@ constexpr tracked<T, Rule> fused_by_slope(const tracked<T, Rule>& a, const track
 
 /// ab + c, rounded once by number_traits<T>::fma; does not compile if that rounds twice. Uses the
 /// rule's own `fused` (`interval`), or derivatives if the rule keeps errors to first order
-/// (`residual`, `affine`), otherwise the errors of a, b and c. Proof: proofs/IeeeSlopes.v,
-/// slope_fma_known, interval_fma_known; proofs/IeeeFunctions.v, fma_known.
+/// (`residual`, `affine`), otherwise the errors of a, b and c. Proof: proofs/rules/IeeeSlopes.v,
+/// slope_fma_known, interval_fma_known; proofs/rules/IeeeFunctions.v, fma_known.
 template <class T, class Rule>
 constexpr tracked<T, Rule> fma(const tracked<T, Rule>& a, const tracked<T, Rule>& b,
                                const tracked<T, Rule>& c) {
@@ -258,7 +260,7 @@ constexpr tracked<T, Rule> fma(const tracked<T, Rule>& a, const tracked<T, Rule>
     }
 }
 
-/// (a + b)/2, or a/2 + b/2 if a + b overflows. Proof: proofs/IeeeCompound.v, midpoint_known.
+/// (a + b)/2, or a/2 + b/2 if a + b overflows. Proof: proofs/rules/IeeeCompound.v, midpoint_known.
 template <class T, class Rule>
 constexpr tracked<T, Rule> midpoint(const tracked<T, Rule>& a, const tracked<T, Rule>& b) {
     const tracked<T, Rule> sum = a + b;
@@ -271,8 +273,8 @@ constexpr tracked<T, Rule> midpoint(const tracked<T, Rule>& a, const tracked<T, 
 /// a + t(b − a); a if t is exactly 0, b if it is exactly 1. Infinite error if b − a overflows. With
 /// v = fl(t̂·fl(b̂ − â) + â) and errors σ: (1 − t)a + tb − (1 − t̂)â − t̂b̂ = (1 − t)(a − â) +
 /// t(b − b̂) + (t − t̂)(b̂ − â), so σa counts |1 − t| times, not 1 + |t|. Two partial sums have up
-/// to six roundings each; seven products may lose η each. Proof: proofs/IeeeCompound.v, lerp_known;
-/// in any direction, proofs/Functions.v, lerp_sound.
+/// to six roundings each; seven products may lose η each. Proof: proofs/rules/IeeeCompound.v,
+/// lerp_known; in any direction, proofs/rules/Functions.v, lerp_sound.
 template <class T, class Rule>
 constexpr tracked<T, Rule> lerp(const tracked<T, Rule>& a, const tracked<T, Rule>& b,
                                 const tracked<T, Rule>& t) {
@@ -298,7 +300,7 @@ constexpr tracked<T, Rule> lerp(const tracked<T, Rule>& a, const tracked<T, Rule
 /// √(x² + y²), without intermediate overflow or underflow. It changes by at most the sum of its
 /// arguments' changes. The larger argument is scaled to at least 1/2. Four roundings, and less than
 /// 3η of underflow in the sum, then cause a relative error of 2ε + ε² + 7η. This is less than 3ε +
-/// 8η of the result (ε <= 2^-7). Proof, to nearest: proofs/IeeeCompound.v, hypot_known.
+/// 8η of the result (ε <= 2^-7). Proof, to nearest: proofs/rules/IeeeCompound.v, hypot_known.
 template <class T, class Rule>
 constexpr tracked<T, Rule> hypot(const tracked<T, Rule>& x, const tracked<T, Rule>& y) {
     using traits = number_traits<T>;
@@ -320,8 +322,8 @@ constexpr tracked<T, Rule> hypot(const tracked<T, Rule>& x, const tracked<T, Rul
 }
 
 /// |x| with the sign of the exact y; zero counts as positive. If y's sign is uncertain, so is the
-/// result's; if y has no finite bound, the error is infinite. Proof: proofs/IeeeCompound.v,
-/// copysign_known; in any direction, proofs/Functions.v, copysign_sound.
+/// result's; if y has no finite bound, the error is infinite. Proof: proofs/rules/IeeeCompound.v,
+/// copysign_known; in any direction, proofs/rules/Functions.v, copysign_sound.
 template <class T, class Rule>
 constexpr tracked<T, Rule> copysign(const tracked<T, Rule>& x, const tracked<T, Rule>& y) {
     const tracked<T, Rule> size = abs(x);
@@ -335,7 +337,8 @@ constexpr tracked<T, Rule> copysign(const tracked<T, Rule>& x, const tracked<T, 
 }
 
 /// x^n by repeated squaring; x^0 is 1. The error of 1/x^|n| is infinite if the rule has no
-/// division. Other exponents: errbound/elementary.hpp. Proof: proofs/IeeeCompound.v, pow_known.
+/// division. Other exponents: errbound/elementary.hpp. Proof: proofs/rules/IeeeCompound.v,
+/// pow_known.
 template <class T, class Rule, std::same_as<int> Int>
 constexpr tracked<T, Rule> pow(const tracked<T, Rule>& x, Int n) {
     using number = tracked<T, Rule>;
@@ -443,9 +446,9 @@ constexpr tracked<T, Rule> horner_of(std::size_t count, const C& c, const tracke
 /// precision on: the running error bound). It costs less than the bounds of single operations and
 /// exceeds them by at most a last place or two. Other rules use single operations, which for
 /// `residual` are the compensated dot product (Ogita, Rump, Oishi 2005). The worst case for exact
-/// arguments is about nuΣ|aᵢbᵢ|. Proof: proofs/IeeeDotProduct.v, tight_dot_known, sharp_dot_known;
-/// proofs/IeeeRelative.v, relative_dot_known; of operations one by one, proofs/IeeeCompound.v,
-/// dot_known.
+/// arguments is about nuΣ|aᵢbᵢ|. Proof: proofs/rules/IeeeDotProduct.v, tight_dot_known,
+/// sharp_dot_known; proofs/rules/IeeeRelative.v, relative_dot_known; of operations one by one,
+/// proofs/rules/IeeeCompound.v, dot_known.
 template <tracked_numbers A, tracked_numbers B>
 requires std::same_as<detail::number_of<A>, detail::number_of<B>>
 constexpr detail::number_of<A> dot(const A& a, const B& b) {
@@ -463,8 +466,8 @@ constexpr detail::number_of<A> dot(const A& a, const B& b) {
 /// The bound is that of these operations, or that of p(x̂) + q(x)(x − x̂) if it is less; x̂ =
 /// x.value(), and q's coefficients are the partial results at x̂ (synthetic division). So the error
 /// of x counts |p'(x̂)| times, plus a term of order |x − x̂|², instead of once per occurrence.
-/// Cost: three times that of the operations if x is not exact. Proof: proofs/IeeeCompound.v,
-/// horner_known; of `tight` in any direction, proofs/Compound.v, tight_horner_sound.
+/// Cost: three times that of the operations if x is not exact. Proof: proofs/rules/IeeeCompound.v,
+/// horner_known; of `tight` in any direction, proofs/rules/Compound.v, tight_horner_sound.
 template <tracked_numbers C>
 constexpr detail::number_of<C> horner(const C& c,
                                       const std::type_identity_t<detail::number_of<C>>& x) {

@@ -417,12 +417,12 @@ constexpr auto dot_product(const auto& a, const auto& o, const auto& b) {
 }  // namespace forms
 
 /// Positive if a, b, c turn left; zero if collinear. Proof of its static filter:
-/// proofs/Predicates.v, orient2d_sign_certain.
+/// proofs/filters/Predicates.v, orient2d_sign_certain.
 inline constexpr auto orient2d = predicate<points<2, 2, 2>>(
     [](const auto& a, const auto& b, const auto& c) { return forms::area(a, b, c); });
 
 /// Positive if a, b, c turn right seen from d; zero if all four are coplanar. Proof:
-/// proofs/Predicates.v, orient3d_sign_certain.
+/// proofs/filters/Predicates.v, orient3d_sign_certain.
 inline constexpr auto orient3d =
     predicate<points<3, 3, 3, 3>>([](const auto& a, const auto& b, const auto& c, const auto& d) {
         return forms::volume(a, b, c, d);
@@ -430,7 +430,7 @@ inline constexpr auto orient3d =
 
 /// If a, b, c turn left: positive if d is inside the circle through them. If they turn right: the
 /// opposite. Zero if all four are on one circle or line. Proof of its static filter:
-/// proofs/Predicates.v, incircle_sign_certain.
+/// proofs/filters/Predicates.v, incircle_sign_certain.
 inline constexpr auto incircle =
     predicate<points<2, 2, 2, 2>>([](const auto& a, const auto& b, const auto& c, const auto& d) {
         return forms::lifted_area(a, b, c, d, forms::unweighted);
@@ -438,7 +438,7 @@ inline constexpr auto incircle =
 
 /// If orient3d(a, b, c, d) is positive: positive if e is inside the sphere through them. If it is
 /// negative: the opposite. Zero if all five are on one sphere or plane. Proof of its filters:
-/// proofs/Predicates.v, insphere_sign_certain, insphere_semi_static_certain.
+/// proofs/filters/Predicates.v, insphere_sign_certain, insphere_semi_static_certain.
 inline constexpr auto insphere = predicate<points<3, 3, 3, 3, 3>>(
     [](const auto& a, const auto& b, const auto& c, const auto& d, const auto& e) {
         return forms::lifted_volume(a, b, c, d, e, forms::unweighted);
@@ -465,7 +465,8 @@ inline constexpr auto insphere5d = predicate<points<5, 5, 5, 5, 5, 5, 5>>(
        const auto& g) { return forms::lifted_simplex_volume(g, a, b, c, d, e, f); });
 
 /// Options for Count weighted points. The last of a point's `Dimension` coordinates is a squared
-/// radius, of degree 2. Proof: proofs/Predicates.v, power_incircle_scales, power_insphere_scales.
+/// radius, of degree 2. Proof: proofs/filters/Predicates.v, power_incircle_scales,
+/// power_insphere_scales.
 template <std::size_t Count, std::size_t Dimension>
 struct weighted_options : predicate_options {
     static constexpr std::array<int, Count* Dimension> degrees = [] {
@@ -477,7 +478,7 @@ struct weighted_options : predicate_options {
 
 /// incircle for weighted points x, y, w: circles of squared radius w. If a, b, c turn left:
 /// positive if |d − z|² − w_d < R² for the circle (z, R) that is orthogonal to all three; R² may be
-/// negative. Proof of its static filter: proofs/Predicates.v, power_incircle_sign_certain.
+/// negative. Proof of its static filter: proofs/filters/Predicates.v, power_incircle_sign_certain.
 inline constexpr auto power_incircle = predicate<points<3, 3, 3, 3>, weighted_options<4, 3>>(
     [](const auto& a, const auto& b, const auto& c, const auto& d) {
         return forms::lifted_area(a, b, c, d, [&d](const auto& p, const auto& squared) {
@@ -486,7 +487,7 @@ inline constexpr auto power_incircle = predicate<points<3, 3, 3, 3>, weighted_op
     });
 
 /// insphere for weighted points x, y, z, w: spheres of squared radius w. Proof of its static
-/// filter: proofs/Predicates.v, power_insphere_sign_certain.
+/// filter: proofs/filters/Predicates.v, power_insphere_sign_certain.
 inline constexpr auto power_insphere = predicate<points<4, 4, 4, 4, 4>, weighted_options<5, 4>>(
     [](const auto& a, const auto& b, const auto& c, const auto& d, const auto& e) {
         return forms::lifted_volume(a, b, c, d, e, [&e](const auto& p, const auto& squared) {
@@ -495,7 +496,7 @@ inline constexpr auto power_insphere = predicate<points<4, 4, 4, 4, 4>, weighted
     });
 
 /// Negative if p is nearer to a than to b, zero if equally far. Proof of its static filter:
-/// proofs/Predicates.v, compare_distances2d_sign_certain, compare_distances3d_sign_certain.
+/// proofs/filters/Predicates.v, compare_distances2d_sign_certain, compare_distances3d_sign_certain.
 inline constexpr auto compare_distances2d =
     predicate<points<2, 2, 2>>([](const auto& p, const auto& a, const auto& b) {
         return forms::squared_distance2d(p, a) - forms::squared_distance2d(p, b);
@@ -590,7 +591,7 @@ inline constexpr auto segment_intersects_box3d = predicate<points<3, 3, 3, 3>, h
     });
 
 /// orient2d(p, q, r) for p, the intersection of lines ab and cd; zero if they are parallel. Proof:
-/// proofs/ImplicitPoints.v, orient2d_line_line_right, orient2d_line_line_sign_certain.
+/// proofs/filters/ImplicitPoints.v, orient2d_line_line_right, orient2d_line_line_sign_certain.
 inline constexpr auto orient2d_line_line = predicate<points<2, 2, 2, 2, 2, 2>>(
     [](const auto& a, const auto& b, const auto& c, const auto& d, const auto& q, const auto& r) {
         const auto p = forms::line_line(a, b, c, d);
@@ -599,7 +600,8 @@ inline constexpr auto orient2d_line_line = predicate<points<2, 2, 2, 2, 2, 2>>(
     });
 
 /// orient3d(i, s, t, u) for i, where line ab meets plane pqr; zero if they are parallel.
-/// Proof: proofs/ImplicitPoints.v, orient3d_line_plane_right, orient3d_line_plane_sign_certain.
+/// Proof: proofs/filters/ImplicitPoints.v, orient3d_line_plane_right,
+/// orient3d_line_plane_sign_certain.
 inline constexpr auto orient3d_line_plane = predicate<points<3, 3, 3, 3, 3, 3, 3, 3>>(
     [](const auto& a, const auto& b, const auto& p, const auto& q, const auto& r, const auto& s,
        const auto& t, const auto& u) {
@@ -614,8 +616,8 @@ inline constexpr auto orient3d_line_plane = predicate<points<3, 3, 3, 3, 3, 3, 3
     });
 
 /// Compares the x coordinates of p, the intersection of lines ab and cd, and q, that of ef and gh:
-/// positive if p's is larger, zero if p or q does not exist. Proof: proofs/ImplicitPoints.v,
-/// compare_x_line_line_right, compare_x_line_line_sign_certain.
+/// positive if p's is larger, zero if p or q does not exist. Proof:
+/// proofs/filters/ImplicitPoints.v, compare_x_line_line_right, compare_x_line_line_sign_certain.
 inline constexpr auto compare_x_line_line = predicate<points<2, 2, 2, 2, 2, 2, 2, 2>>(
     [](const auto& a, const auto& b, const auto& c, const auto& d, const auto& e, const auto& f,
        const auto& g, const auto& h) {

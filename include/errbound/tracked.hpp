@@ -186,7 +186,7 @@ class tracked {
 
     /// The certain sign, if promises_bound<Rule>, by the rule's own `sign` if it has one.
     /// `uncertain` if the bound allows more than one sign, also if |value| equals a nonzero error.
-    /// Proof of the default: proofs/IeeeRules.v, sign_of_known.
+    /// Proof of the default: proofs/rules/IeeeRules.v, sign_of_known.
     friend constexpr sign_type sign_of(const tracked& x) {
         const wide v(x.value_);
         if constexpr (detail::rule_has_sign<Rule, wide>) return Rule::sign(v, x.bound_);

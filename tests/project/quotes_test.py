@@ -26,7 +26,7 @@ PROGRAMS = {
     "docs/bound-rules.md": ["examples/functions/great_circle.cpp", "examples/research/rules_compared.cpp"],
 }
 # The proofs that Coq blocks of each page quote.
-PROOFS = {"docs/collision-detection.md": ["proofs/Contact.v", "proofs/Exact.v"]}
+PROOFS = {"docs/collision-detection.md": ["proofs/contact/Contact.v", "proofs/contact/Exact.v"]}
 # Pages with measured figures, and their section; an empty name is the whole page.
 QUOTING = {"README.md": "", "docs/collision-detection.md": "What it costs", "docs/architecture.md": "",
            "docs/guarantees.md": ""}

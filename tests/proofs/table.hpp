@@ -1,5 +1,5 @@
 // Reads the table of results of the proofs' definitions, proofs/tie.txt, and compares results with
-// it. The programs proofs/tie_*.ml write the table. Tests enumerate the same cases in the same
+// it. The programs proofs/tie/tie_*.ml write the table. Tests enumerate the same cases in the same
 // order.
 #pragma once
 

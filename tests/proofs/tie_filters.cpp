@@ -1,5 +1,5 @@
 // Compares static and semi-static filters of expressions of coordinates, in double and float, with
-// the proofs' definitions (proofs/tie_filters.ml), bit for bit: error counts of types, values,
+// the proofs' definitions (proofs/tie/tie_filters.ml), bit for bit: error counts of types, values,
 // sizes, bounds and signs.
 #include <array>
 #include <bit>

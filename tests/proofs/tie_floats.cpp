@@ -1,5 +1,5 @@
 // Compares the filter in doubles, and the axes in single precision, with the proofs' definitions
-// (proofs/tie_floats.ml), bit for bit. It compares each test, and whole decisions.
+// (proofs/tie/tie_floats.ml), bit for bit. It compares each test, and whole decisions.
 #include <algorithm>
 #include <array>
 #include <bit>

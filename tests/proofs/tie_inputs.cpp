@@ -1,5 +1,5 @@
 // Writes the inputs that a tie draws, for the programs of the proofs' definitions
-// (proofs/tie_queries.ml). Each number is its words in hexadecimal, the upper first.
+// (proofs/tie/tie_queries.ml). Each number is its words in hexadecimal, the upper first.
 //
 // usage: tie_inputs integers|floats|times
 #include <bit>

@@ -1,5 +1,5 @@
 // Compares decisions in integers, of fixed width and to the end, and their components with the
-// proofs' definitions on the same queries and forms (proofs/tie_integers.ml).
+// proofs' definitions on the same queries and forms (proofs/tie/tie_integers.ml).
 #include <algorithm>
 #include <array>
 #include <ccd/methods/forms.hpp>

@@ -1,5 +1,5 @@
 // Compares the components of root isolation with the proofs' definitions on the same numbers
-// (proofs/tie_roots.ml). They are dyadic numbers, residues, sign variations, rows of Bernstein
+// (proofs/tie/tie_roots.ml). They are dyadic numbers, residues, sign variations, rows of Bernstein
 // coefficients, polynomials, bounds of roots and their refinement, and local forms.
 #include <algorithm>
 #include <array>

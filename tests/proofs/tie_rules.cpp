@@ -1,5 +1,5 @@
 // Compares the rules, their functions and integers of words with the proofs' definitions
-// (proofs/tie.ml), up to the first difference. mutants.py runs it, and with fused multiply-add
+// (proofs/tie/tie.ml), up to the first difference. mutants.py runs it, and with fused multiply-add
 // every build does. It skips the slowest tiny format, which tie_test has.
 #include <algorithm>
 #include <array>

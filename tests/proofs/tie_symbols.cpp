@@ -1,6 +1,6 @@
 // Compares Bernstein sign classification, polynomials, and the forms of queries and predicates over
-// symbols with the proofs' definitions (proofs/tie_symbols.ml): they compute the same expressions
-// and decide by the same signs.
+// symbols with the proofs' definitions (proofs/tie/tie_symbols.ml): they compute the same
+// expressions and decide by the same signs.
 #include <array>
 #include <ccd/methods/forms.hpp>
 #include <cstddef>

@@ -1,5 +1,5 @@
 // Compares first contacts in integers of fixed width, and the doubles around them, with the proofs'
-// definitions on the same queries (proofs/tie_times.ml). It compares the whole step and
+// definitions on the same queries (proofs/tie/tie_times.ml). It compares the whole step and
 // subintervals.
 #include <algorithm>
 #include <array>

@@ -1,5 +1,5 @@
 // Compares integers of variable length, whose words are often all zeros or all ones, with the
-// proofs' definitions on the same numbers (proofs/tie_words.ml).
+// proofs' definitions on the same numbers (proofs/tie/tie_words.ml).
 #include <array>
 #include <cstddef>
 #include <cstdint>

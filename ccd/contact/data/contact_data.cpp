@@ -26,7 +26,7 @@ double clamped(double weight, double most) {
 /// of 1; the first gets the remainder. True weights are in [0, 1] and add up to 1, so clamping adds
 /// no error. The error of the first is at most the sum of the others' errors. At most two
 /// differences, of size up to 1, add ε/4 each; the bound includes three roundings of this sum.
-/// Proof: proofs/ContactWeights.v, weights_right.
+/// Proof: proofs/times/ContactWeights.v, weights_right.
 void set_weights(const contact_state& state, const point_numbers& points, std::size_t first,
                  std::size_t count, first_contact& into) {
     double left = 1, error = 0;

@@ -44,7 +44,7 @@ constexpr mask<S> changes_sign(const errbound::roots::control_values<S, N>& c, c
 }
 
 /// True if changes_sign, and one inner value certainly has the sign of the end value next to it.
-/// Then signs change once, so there is one root. Proof: proofs/ContactPart.v,
+/// Then signs change once, so there is one root. Proof: proofs/times/ContactPart.v,
 /// changes_sign_once_right.
 template <class S>
 constexpr mask<S> changes_sign_once(const errbound::roots::control_values<S, 3>& c,

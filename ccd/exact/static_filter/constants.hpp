@@ -53,7 +53,7 @@ constexpr basic_error_count<Real> worst_of(const control_values<basic_error_coun
 
 /// The error that max_depth halvings add to control values of size at most 1. Each level takes the
 /// previous one's worst error for all values, so it holds for either half. Proof:
-/// proofs/FilterStages.v, halving_error_enough.
+/// proofs/filters/FilterStages.v, halving_error_enough.
 template <int N>
 constexpr double halving_error() {
     control_values<error_count, N> c;
@@ -88,8 +88,8 @@ constexpr constants<Real> constants_of(basic_error_count<Real> c, int degree) {
             Real(slack * halving_error<N>() * epsilon)};
 }
 
-/// A difference of doubles, rounded to Real. Floats may underflow. Proof: proofs/RoundedAxes.v,
-/// converted_difference_near.
+/// A difference of doubles, rounded to Real. Floats may underflow. Proof:
+/// proofs/filters/RoundedAxes.v, converted_difference_near.
 template <class Real>
 constexpr vector_form<basic_error_count<Real>, 1> any_difference() {
     auto d = basic_error_count<Real>::difference();

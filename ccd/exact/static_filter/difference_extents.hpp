@@ -50,7 +50,8 @@ struct difference_extents {
     }
 
     /// Bounds |ĥ − h| of the control values of Y, or of every G_i. Proved for double. Proof:
-    /// proofs/CcdFilter.v, error_of_y_sound, error_of_vertex_face_sound, error_of_edge_edge_sound.
+    /// proofs/filters/CcdFilter.v, error_of_y_sound, error_of_vertex_face_sound,
+    /// error_of_edge_edge_sound.
     template <template <class> class Forms>
     constexpr S error_of_y() const {
         return x * y * z * S(y_constants<Forms, real>.relative) +

@@ -4,7 +4,7 @@
 // projection along N, |G_i|/(|N|·l) is a distance too if G_i < 0: of the vertex from the line of
 // the face's edge i, or of one edge from the other's line; l is the length of edge i or the other
 // edge. Projection does not increase distances. So |Y| > d·|N|, or a negative G_i with |G_i| >
-// d·|N|·l, proves a distance above d. Proof: proofs/DistanceMargins.v, plane_face_apart,
+// d·|N|·l, proves a distance above d. Proof: proofs/filters/DistanceMargins.v, plane_face_apart,
 // plane_edges_apart, outside_face_apart, outside_edges_apart.
 #pragma once
 
@@ -43,8 +43,8 @@ constexpr S longest(const edge_edge_forms<S>& f) {
 /// Margins for the distance d. The features are farther apart than d throughout an interval if all
 /// control values of Y there exceed error + margin in size, with one sign. The same holds if all of
 /// a G_i are below −(error + margin). Reason: |N| is at most its longest control vector over the
-/// step, and a length is at most the longer of those at the ends. Proof: proofs/DistanceMargins.v,
-/// margins_face_apart, margins_edges_apart.
+/// step, and a length is at most the longer of those at the ends. Proof:
+/// proofs/filters/DistanceMargins.v, margins_face_apart, margins_edges_apart.
 ///
 /// Errors: N's control vectors have an error of less than 2^-48 times the extents' products (6ε of
 /// each term's size); the factor 1 + 2^-40 covers the rest. Squares of an N below 2^-516 may

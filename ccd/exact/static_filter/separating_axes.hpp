@@ -87,8 +87,9 @@ constexpr mask<S> separated_by_diagonals(const Forms& f, const difference_extent
 }
 
 /// True if x, y, z, x ± y, y ± z or z ± x separates the features in the same order at both ends of
-/// the step: so it does throughout. Proof: proofs/Decisions.v, face_separated, edges_separated.
-/// Proof of the margin: proofs/SeparatingAxis.v, separated_face_separate, separated_edges_separate.
+/// the step: so it does throughout. Proof: proofs/bsc/Decisions.v, face_separated, edges_separated.
+/// Proof of the margin: proofs/filters/SeparatingAxis.v, separated_face_separate,
+/// separated_edges_separate.
 ///
 /// Margins: the error of a difference is at most ε·m, of a sum of two axes 2ε(1 + ε)(m_x + m_y), of
 /// two compared projections twice that. An edge's far end is a rounded sum of two projections,

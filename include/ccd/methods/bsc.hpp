@@ -42,8 +42,8 @@ constexpr verdict decide_bsc_of(const Query<Scalar>& query) {
 /// Decides a vertex_face or edge_edge query. `separate` and `collides` are certain if signs under
 /// Rule are. `collides` means that all weights are strictly positive at some root of Y, so the
 /// normal does not vanish there. Cost: at most a few thousand operations, no allocation, never
-/// throws. Proof: proofs/Decisions.v, bsc_face_separate, bsc_face_collides, bsc_edges_separate,
-/// bsc_edges_collide; with each rule: proofs/TrackedBsc.v, tracked_face_separate,
+/// throws. Proof: proofs/bsc/Decisions.v, bsc_face_separate, bsc_face_collides, bsc_edges_separate,
+/// bsc_edges_collide; with each rule: proofs/bsc/TrackedBsc.v, tracked_face_separate,
 /// tracked_face_collides, tracked_edges_separate, tracked_edges_collide.
 template <class Rule, class T, template <class> class Query>
 constexpr verdict decide_bsc(const Query<T>& query) {

@@ -66,7 +66,7 @@ struct coplanarity_forms {
                                 const vector_form<S, Degree>& p_)
         : b(b_), c(c_), p(p_), n(cross(b, c)) {}
 
-    /// Y = det(b, c, p), a cubic. Proof: proofs/Decisions.v, forms_y.
+    /// Y = det(b, c, p), a cubic. Proof: proofs/bsc/Decisions.v, forms_y.
     constexpr auto y() const { return dot(n, p); }
     constexpr auto normal_squared() const { return dot(n, n); }
 };
@@ -78,7 +78,8 @@ struct vertex_face_forms : coplanarity_forms<S, Degree> {
     constexpr explicit vertex_face_forms(const vertex_face<S>& q)
         : coplanarity_forms<S>(difference(q.f1, q.f0), difference(q.f2, q.f0),
                                difference(q.v, q.f0)) {}
-    /// The barycentric weights of f2, f1, f0, times |N|². Proof: proofs/Decisions.v, forms_weights.
+    /// The barycentric weights of f2, f1, f0, times |N|². Proof: proofs/bsc/Decisions.v,
+    /// forms_weights.
     constexpr auto inside() const { return inside(this->normal_squared()); }
     /// The same if p was multiplied by a positive number; then `n2` is |N|² times that number.
     template <class T>
@@ -96,7 +97,7 @@ struct edge_edge_forms : coplanarity_forms<S, Degree> {
     constexpr explicit edge_edge_forms(const edge_edge<S>& q)
         : coplanarity_forms<S>(difference(q.a1, q.a0), difference(q.b1, q.b0),
                                difference(q.b0, q.a0)) {}
-    /// The parameters on edges a and b and 1 minus each, times |N|². Proof: proofs/Decisions.v,
+    /// The parameters on edges a and b and 1 minus each, times |N|². Proof: proofs/bsc/Decisions.v,
     /// forms_weights.
     constexpr auto inside() const {
         const auto n2 = this->normal_squared();

@@ -12,8 +12,8 @@
 namespace errbound::detail {
 
 /// At least x + y, for x, y >= 0, in any rounding direction; equal to x + y if T holds that number.
-/// For x >= y, fl(x + y) − x is exact. Proof: proofs/Upper.v, sum_above_sound, sum_above_exact,
-/// sum_above_least.
+/// For x >= y, fl(x + y) − x is exact. Proof: proofs/floats/Upper.v, sum_above_sound,
+/// sum_above_exact, sum_above_least.
 template <class T>
 constexpr T sum_above(const T& x, const T& y) {
     const T sum = x + y;
@@ -21,8 +21,8 @@ constexpr T sum_above(const T& x, const T& y) {
     return rounded_down ? rounded_product(sum, T(1 + number_traits<T>::epsilon())) : sum;
 }
 
-/// At least own + (x + y), for own, x, y >= 0, and at most `enlarged`. Proof: proofs/Upper.v,
-/// sum_of_bounds_sound, sum_of_bounds_at_most.
+/// At least own + (x + y), for own, x, y >= 0, and at most `enlarged`. Proof:
+/// proofs/floats/Upper.v, sum_of_bounds_sound, sum_of_bounds_at_most.
 template <class T>
 constexpr T sum_of_bounds(const T& enlarged, const T& own, const T& x, const T& y) {
     constexpr int digits = number_traits<T>::digits;

@@ -7,8 +7,8 @@
 //     |x̂ − x| <= error·ε·M^k + underflow·η·max(1, M)^(k−1)
 // This holds in any rounding direction, with or without FMA. Sums do not underflow. If inputs have
 // separate bounds M_x, M_y, ..., M^k stands for the largest product of k of them in a term of a
-// sum. Proof: proofs/ErrorCount.v, count_sound. Constants are nonzero whole numbers there, and
-// counts are far below 1/η (count_height).
+// sum. Proof: proofs/filters/ErrorCount.v, count_sound. Constants are nonzero whole numbers there,
+// and counts are far below 1/η (count_height).
 #pragma once
 
 #include <concepts>

@@ -63,7 +63,7 @@ class predicate_stages {
     static constexpr expression_counts counts = findings.counts;
     static constexpr bool has_semi_static_filter =
         !counts.mixed && counts.degree >= 5 && !branches<Shape, F>;
-    /// 0 if results may be missing. Proof: proofs/Widths.v, coordinate_bits_enough.
+    /// 0 if results may be missing. Proof: proofs/integers/Widths.v, coordinate_bits_enough.
     static constexpr int coordinate_bits(int bits) {
         if (!counts.complete) return 0;
         int least = word_bits;

@@ -2,8 +2,8 @@
 // or coordinate difference, from which the error bound follows. Static filters instead compute the
 // expression with all terms positive (static_filter.hpp): a smaller bound, but with many terms more
 // work. If the bound is finite, no number of the expression has overflowed. A NaN coordinate makes
-// the value NaN. Proof: proofs/SemiStatic.v, semi_static_overflow_uncertain. Source: Devillers,
-// Pion 2003, Efficient exact geometric predicates for Delaunay triangulations.
+// the value NaN. Proof: proofs/filters/SemiStatic.v, semi_static_overflow_uncertain. Source:
+// Devillers, Pion 2003, Efficient exact geometric predicates for Delaunay triangulations.
 #pragma once
 
 #include <concepts>
@@ -20,7 +20,7 @@ namespace errbound::filters {
 /// `mass` m is the size if all coordinates and differences are 1 and τ is 0. `allowances` a bounds
 /// how often τ counts: 0 for coordinates, a_x + a_y for x ± y, 2(m_x·a_y + m_y·a_x) + 2 for x·y.
 /// Both depend only on the expression, so compilers compute them. Proof, without contraction:
-/// proofs/SemiStatic.v, mass_covers_size.
+/// proofs/filters/SemiStatic.v, mass_covers_size.
 template <std::floating_point T, int Roundings, int Degree>
 struct semi_static {
     static_assert(Roundings < 1000 && Degree < 1000,
@@ -41,7 +41,8 @@ struct semi_static {
     /// 2τ: τ for underflow of the product, τ/4 for the product of the factors' allowances, and
     /// 3/4·τ for underflow of M^d, since τ >= 2^49·η. Below 2^p = 1/u, m and a are exact; otherwise
     /// the bound is infinite. It is also infinite if a factor is the constant 0. Proof:
-    /// proofs/SemiStatic.v, mass_covers_size, semi_static_bound_covers, semi_static_sign_certain.
+    /// proofs/filters/SemiStatic.v, mass_covers_size, semi_static_bound_covers,
+    /// semi_static_sign_certain.
     constexpr T bound(T largest) const {
         constexpr T most = 1 / number_traits<T>::unit_roundoff();
         const bool trusted = mass < most && allowances < most;

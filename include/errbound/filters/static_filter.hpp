@@ -4,9 +4,10 @@
 // Notation: docs/notation.md; rounding is to nearest. A number x is computed as x̂. Its size S is
 // the expression with all terms positive: magnitudes of coordinates and of their differences, + for
 // −, and τ = 4·smallest_normal/u added to each product. After k roundings (counted by `filtered`)
-// |x̂ − x| <= ((1 + u)^k − 1)·S. Proof, without contraction: proofs/StaticFilter.v, filter_error.
-// The counts k − 1 of orient2d, orient3d and incircle are 3, 7 and 10, as in the A-filters of
-// Shewchuk 1997, Adaptive Precision Floating-Point Arithmetic; insphere has 15 instead of 16.
+// |x̂ − x| <= ((1 + u)^k − 1)·S. Proof, without contraction: proofs/filters/StaticFilter.v,
+// filter_error. The counts k − 1 of orient2d, orient3d and incircle are 3, 7 and 10, as in the
+// A-filters of Shewchuk 1997, Adaptive Precision Floating-Point Arithmetic; insphere has 15 instead
+// of 16.
 #pragma once
 
 #include <concepts>
@@ -38,8 +39,8 @@ constexpr T filter_constant(int k) {
 ///   Rounding adds at most u·|x̂·ŷ|, underflow at most η/2 < uτ/2.
 ///
 /// Rounding is monotone, so Ŝ >= |x̂|. If an operand is infinite or NaN, so is the size, and no
-/// sign is certain. Proof: proofs/StaticFilter.v, overflow_uncertain. With contraction a value can
-/// overflow where its size does not, so sign_of also tests the value.
+/// sign is certain. Proof: proofs/filters/StaticFilter.v, overflow_uncertain. With contraction a
+/// value can overflow where its size does not, so sign_of also tests the value.
 template <std::floating_point T, int Roundings, int Products, bool Plain>
 struct filtered {
     static_assert(Roundings < 1000, "errbound: the constant holds for fewer than 1000 roundings");
@@ -57,13 +58,13 @@ struct filtered {
 
     /// The sign is uncertain if the value is not finite or |value| <= bound(), except for an exact
     /// zero. The last rounding keeps signs, so constant(k − 1) suffices. Proof:
-    /// proofs/StaticFilter.v, filter_bound.
+    /// proofs/filters/StaticFilter.v, filter_bound.
     constexpr T bound() const {
         if constexpr (Roundings <= 1) return T(0);
         return filter_constant<T>(Roundings - 1) *
                (size + T(Products == 0 ? 1 : Products) * allowance);
     }
-    /// Proof: proofs/StaticFilter.v, filter_sign_certain.
+    /// Proof: proofs/filters/StaticFilter.v, filter_sign_certain.
     friend constexpr sign_type sign_of(const filtered& x) {
         const T magnitude = number_traits<T>::abs(x.value);
         bool decided = magnitude > x.bound();

@@ -36,7 +36,7 @@ struct short_coordinates {
     bool fit = false;
 
     /// `largest` is largest_size(coordinates), finite. Adding 3·2^51 units rounds x to whole units;
-    /// only multiples survive. Proof: proofs/Widths.v, short_coordinates_exact.
+    /// only multiples survive. Proof: proofs/integers/Widths.v, short_coordinates_exact.
     constexpr short_coordinates(const std::array<double, N>& coordinates, std::uint64_t largest) {
         const auto field = static_cast<int>(largest >> 52);
         unit = field - 1022 - Bits;
@@ -63,7 +63,7 @@ struct word_coordinates {
     bool fit;
 
     /// `largest` is largest_size(coordinates), finite, so coordinates are below 2^(field − 1022).
-    /// Proof: proofs/Widths.v, word_coordinates_exact.
+    /// Proof: proofs/integers/Widths.v, word_coordinates_exact.
     constexpr word_coordinates(const std::array<double, N>& coordinates, std::uint64_t largest) {
         const auto field = static_cast<int>(largest >> 52);
         unit = field - 1022 - max_bits;
@@ -107,8 +107,8 @@ struct common_unit {
         bits = end - last;
     }
 
-    /// x as a number of the level. Precondition: the level is wide enough. Proof: proofs/Widths.v,
-    /// converted_exact.
+    /// x as a number of the level. Precondition: the level is wide enough. Proof:
+    /// proofs/integers/Widths.v, converted_exact.
     template <class Level>
     constexpr sized_integer<Level, Level::coordinate_bits, 1> converted(double x) const {
         using storage = typename sized_integer<Level, Level::coordinate_bits, 1>::storage;

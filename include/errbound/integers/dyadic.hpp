@@ -35,8 +35,8 @@ double nearby_double(const Integer& n, int e) {
     return n < 0 ? -x : x;
 }
 
-/// numerator·2^exponent with an odd numerator, or both zero. Proof: proofs/Dyadic.v, dyadic_sum,
-/// dyadic_difference, dyadic_product, dyadic_scale.
+/// numerator·2^exponent with an odd numerator, or both zero. Proof: proofs/integers/Dyadic.v,
+/// dyadic_sum, dyadic_difference, dyadic_product, dyadic_scale.
 template <exact_number Integer>
 class dyadic {
   public:
@@ -84,7 +84,7 @@ class dyadic {
     dyadic operator-() const { return {Integer(-numerator_), exponent_}; }
     friend dyadic scale(const dyadic& x, int e) { return {x.numerator_, x.exponent_ + e}; }
 
-    /// Proof: proofs/Dyadic.v, dyadic_equal, dyadic_order.
+    /// Proof: proofs/integers/Dyadic.v, dyadic_equal, dyadic_order.
     friend bool operator==(const dyadic& a, const dyadic& b) {
         return a.exponent_ == b.exponent_ && a.numerator_ == b.numerator_;
     }
@@ -96,10 +96,11 @@ class dyadic {
     }
     friend sign_type sign_of(const dyadic& x) { return sign_of(x.numerator_); }
     friend dyadic magnitude(const dyadic& x) { return x.numerator_ < 0 ? -x : x; }
-    /// ⌊log2 |x|⌋. Precondition: x is not zero. Proof: proofs/Dyadic.v, dyadic_floor_log2.
+    /// ⌊log2 |x|⌋. Precondition: x is not zero. Proof: proofs/integers/Dyadic.v, dyadic_floor_log2.
     friend int floor_log2(const dyadic& x) { return floor_log2(x.numerator_) + x.exponent_; }
 
-    /// x/2^unit. Precondition: unit <= exponent(). Proof: proofs/Dyadic.v, dyadic_in_units.
+    /// x/2^unit. Precondition: unit <= exponent(). Proof: proofs/integers/Dyadic.v,
+    /// dyadic_in_units.
     Integer in_units(int unit) const {
         return Integer(numerator_ << static_cast<unsigned>(is_zero() ? 0 : exponent_ - unit));
     }

@@ -24,7 +24,7 @@ namespace words {
 #define ERRBOUND_X86_CARRY
 #endif
 
-/// a + b + carry; updates carry (0 or 1). Proof: proofs/Words.v, add_with_carry_exact.
+/// a + b + carry; updates carry (0 or 1). Proof: proofs/integers/Words.v, add_with_carry_exact.
 constexpr word add_with_carry(word a, word b, unsigned char& carry) {
 #ifdef ERRBOUND_X86_CARRY
     if (!std::is_constant_evaluated()) {
@@ -38,7 +38,8 @@ constexpr word add_with_carry(word a, word b, unsigned char& carry) {
     return static_cast<word>(sum);
 }
 
-/// a − b − borrow; updates borrow (0 or 1). Proof: proofs/Words.v, subtract_with_borrow_exact.
+/// a − b − borrow; updates borrow (0 or 1). Proof: proofs/integers/Words.v,
+/// subtract_with_borrow_exact.
 constexpr word subtract_with_borrow(word a, word b, unsigned char& borrow) {
 #ifdef ERRBOUND_X86_CARRY
     if (!std::is_constant_evaluated()) {
@@ -57,7 +58,8 @@ constexpr word sign_word(word w) {
     return static_cast<word>(static_cast<std::int64_t>(w) >> 63);
 }
 
-/// r += a·b for n words; returns the carry out of r. Proof: proofs/Words.v, add_multiple_exact.
+/// r += a·b for n words; returns the carry out of r. Proof: proofs/integers/Words.v,
+/// add_multiple_exact.
 [[gnu::always_inline]] constexpr word add_multiple(word* r, word a, const word* b, int n) {
     word carry = 0;
 #ifndef __CUDACC__
@@ -73,7 +75,7 @@ constexpr word sign_word(word w) {
 }
 
 /// r = a·b, of m + n words. Multiplies unsigned numbers, which adds 2^(64m)·b if a < 0 and
-/// 2^(64n)·a if b < 0, then subtracts these. Proof: proofs/Words.v, product_exact.
+/// 2^(64n)·a if b < 0, then subtracts these. Proof: proofs/integers/Words.v, product_exact.
 [[gnu::always_inline]] constexpr void multiply(word* r, const word* a, int m, const word* b,
                                                int n) {
     for (int j = 0; j < n; ++j) r[j] = 0;
@@ -128,7 +130,8 @@ class fixed_integer {
         x.words_ = w;
         return x;
     }
-    /// magnitude·2^shift modulo 2^width, for shift >= 0. Proof: proofs/WordBits.v, shifted_exact.
+    /// magnitude·2^shift modulo 2^width, for shift >= 0. Proof: proofs/integers/WordBits.v,
+    /// shifted_exact.
     static constexpr fixed_integer shifted(word magnitude, int shift) {
         fixed_integer x;
         const int whole = shift / 64, bits = shift % 64;
@@ -140,14 +143,14 @@ class fixed_integer {
     constexpr word operator[](int i) const { return words_[static_cast<std::size_t>(i)]; }
     constexpr bool negative() const { return (words_[Words - 1] >> 63) != 0; }
 
-    /// Proof: proofs/Words.v, sum_exact.
+    /// Proof: proofs/integers/Words.v, sum_exact.
     friend constexpr fixed_integer operator+(const fixed_integer& a, const fixed_integer& b) {
         fixed_integer r;
         unsigned char carry = 0;
         for (int i = 0; i < Words; ++i) at(r, i) = words::add_with_carry(a[i], b[i], carry);
         return r;
     }
-    /// Proof: proofs/Words.v, difference_exact.
+    /// Proof: proofs/integers/Words.v, difference_exact.
     friend constexpr fixed_integer operator-(const fixed_integer& a, const fixed_integer& b) {
         fixed_integer r;
         unsigned char borrow = 0;
@@ -155,7 +158,7 @@ class fixed_integer {
         return r;
     }
     constexpr fixed_integer operator-() const { return fixed_integer() - *this; }
-    /// x·2^bits, 0 <= bits < 64. Proof: proofs/Words.v, shift_exact.
+    /// x·2^bits, 0 <= bits < 64. Proof: proofs/integers/Words.v, shift_exact.
     friend constexpr fixed_integer operator<<(const fixed_integer& x, int bits) {
         if (bits == 0) return x;
         fixed_integer r;
@@ -169,7 +172,7 @@ class fixed_integer {
         for (int i = 0; i < Words; ++i) differing |= a[i] ^ b[i];
         return differing == 0;
     }
-    /// Proof: proofs/Words.v, compare_exact.
+    /// Proof: proofs/integers/Words.v, compare_exact.
     friend constexpr std::strong_ordering operator<=>(const fixed_integer& a,
                                                       const fixed_integer& b) {
         constexpr word sign_bit = word(1) << 63;  // inverted, to compare as unsigned numbers
@@ -179,7 +182,7 @@ class fixed_integer {
         }
         return std::strong_ordering::equal;
     }
-    /// Proof: proofs/Words.v, sign_exact.
+    /// Proof: proofs/integers/Words.v, sign_exact.
     friend constexpr sign_type sign_of(const fixed_integer& x) {
         if (x.negative()) return sign_type::negative;
         word any = 0;
@@ -187,7 +190,7 @@ class fixed_integer {
         return any == 0 ? sign_type::zero : sign_type::positive;
     }
 
-    /// The least n with −2^n <= x < 2^n. Proof: proofs/WordBits.v, bit_length_exact.
+    /// The least n with −2^n <= x < 2^n. Proof: proofs/integers/WordBits.v, bit_length_exact.
     constexpr int bit_length() const {
         const word invert = words::sign_word(words_[Words - 1]);
         for (int i = Words - 1; i >= 0; --i) {
@@ -197,7 +200,8 @@ class fixed_integer {
         return 0;
     }
 
-    /// ⌊x/2^shift⌋ modulo 2^(64·Result), shift >= 0. Proof: proofs/WordBits.v, from_bit_exact.
+    /// ⌊x/2^shift⌋ modulo 2^(64·Result), shift >= 0. Proof: proofs/integers/WordBits.v,
+    /// from_bit_exact.
     template <int Result>
     constexpr fixed_integer<Result> from_bit(int shift) const {
         const word beyond = words::sign_word(words_[Words - 1]);

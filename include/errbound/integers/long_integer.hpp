@@ -17,7 +17,8 @@ namespace words {
 /// A two's complement number as a sum of signed words times powers of 2^64: visit(index, magnitude,
 /// negative) for the nonzero ones, ascending. A word before an all-ones word, and the last word of
 /// a negative number, counts as negative and passes on a carry: w = 2^64 − (2^64 − w). A partial
-/// sum is negative if and only if its last word is. Proof: proofs/Words.v, signed_words_exact.
+/// sum is negative if and only if its last word is. Proof: proofs/integers/Words.v,
+/// signed_words_exact.
 template <class Visit>
 constexpr void for_signed_words(const word* x, int n, const Visit& visit) {
     word carry = 0;
@@ -35,7 +36,8 @@ constexpr int count_filled(const word* x, int n) {
     return count;
 }
 
-/// r −= a·b for n words; returns the borrow. Proof: proofs/SparseProduct.v, sparse_product_exact.
+/// r −= a·b for n words; returns the borrow. Proof: proofs/integers/SparseProduct.v,
+/// sparse_product_exact.
 [[gnu::always_inline]] constexpr word subtract_multiple(word* r, word a, const word* b, int n) {
     word carry = 0;
     for (int j = 0; j < n; ++j) {
@@ -48,7 +50,7 @@ constexpr int count_filled(const word* x, int n) {
 }
 
 /// r = a·b in two's complement, of m, n and m + n words, by the signed words of a. Precondition: b
-/// is not zero. Proof: proofs/SparseProduct.v, sparse_product_exact.
+/// is not zero. Proof: proofs/integers/SparseProduct.v, sparse_product_exact.
 [[gnu::noinline]] constexpr void multiply_sparse(word* r, const word* a, int m, const word* b,
                                                  int n) {
     int low = 0;
@@ -75,7 +77,7 @@ constexpr int count_filled(const word* x, int n) {
     }
 }
 
-/// r = a·b of m + n words, not trimmed. Proof: proofs/SparseProduct.v, any_product_exact.
+/// r = a·b of m + n words, not trimmed. Proof: proofs/integers/SparseProduct.v, any_product_exact.
 [[gnu::noinline]] constexpr void multiply_any(word* r, const word* a, int m, const word* b, int n) {
     constexpr int worth = 4;  // pays only if most words are skipped
     const auto is_sparse = [](const word* x, int size) {
@@ -93,7 +95,7 @@ constexpr int count_filled(const word* x, int n) {
 constexpr word word_or_sign(const word* x, int n, int i) {
     return i < n ? x[i] : sign_word(x[n - 1]);
 }
-/// The size of x without words that repeat its sign. Proof: proofs/Words.v, trim_exact.
+/// The size of x without words that repeat its sign. Proof: proofs/integers/Words.v, trim_exact.
 constexpr int trimmed_size(const word* x, int n) {
     while (n > 1 && x[n - 1] == sign_word(x[n - 2])) --n;
     return n;
@@ -123,7 +125,7 @@ class long_integer {
   public:
     constexpr long_integer() : long_integer(0) {}
     constexpr long_integer(std::int64_t value) : size_(1) { at(0) = static_cast<word>(value); }
-    /// ±magnitude·2^shift. Proof: proofs/WordBits.v, long_shifted_exact.
+    /// ±magnitude·2^shift. Proof: proofs/integers/WordBits.v, long_shifted_exact.
     constexpr long_integer(word magnitude, int shift, bool negative) {
         const int whole = shift / 64, bits = shift % 64;
         const word low = magnitude << bits, high = bits == 0 ? 0 : magnitude >> (64 - bits);
@@ -137,7 +139,7 @@ class long_integer {
         trim();
     }
     constexpr long_integer(const long_integer& x) : size_(x.size()) { copy(x); }
-    /// Proof: proofs/Words.v, trim_exact.
+    /// Proof: proofs/integers/Words.v, trim_exact.
     template <int Other>
     requires(Other <= Words) constexpr long_integer(const fixed_integer<Other>& x) : size_(Other) {
         copy(x);
@@ -158,17 +160,17 @@ class long_integer {
     constexpr word operator[](int i) const { return words_[static_cast<std::size_t>(i)]; }
     constexpr bool negative() const { return (*this)[size_ - 1] >> 63 != 0; }
 
-    /// Proof: proofs/Words.v, long_sum_exact.
+    /// Proof: proofs/integers/Words.v, long_sum_exact.
     template <int A, int B>
     static constexpr long_integer sum(const long_integer<A>& a, const long_integer<B>& b) {
         return combined<words::add_with_carry>(a, b);
     }
-    /// Proof: proofs/Words.v, long_difference_exact.
+    /// Proof: proofs/integers/Words.v, long_difference_exact.
     template <int A, int B>
     static constexpr long_integer difference(const long_integer<A>& a, const long_integer<B>& b) {
         return combined<words::subtract_with_borrow>(a, b);
     }
-    /// Proof: proofs/SparseProduct.v, long_product_exact.
+    /// Proof: proofs/integers/SparseProduct.v, long_product_exact.
     template <int A, int B>
     static constexpr long_integer product(const long_integer<A>& a, const long_integer<B>& b) {
         return {a, b};
@@ -180,7 +182,8 @@ class long_integer {
         return difference(a, b);
     }
     constexpr long_integer operator-() const { return difference(long_integer(), *this); }
-    /// x·2^bits, bits >= 0. Proof: that of product, and proofs/WordBits.v, long_shifted_exact.
+    /// x·2^bits, bits >= 0. Proof: that of product, and proofs/integers/WordBits.v,
+    /// long_shifted_exact.
     friend constexpr long_integer operator<<(const long_integer& x, int bits) {
         return product(x, long_integer<Words>(1, bits, false));
     }
@@ -195,14 +198,15 @@ class long_integer {
         return x.size_ == 1 && x[0] == 0 ? sign_type::zero : sign_type::positive;
     }
 
-    /// The least n with −2^n <= x < 2^n. Proof: proofs/WordBits.v, long_bit_length_exact.
+    /// The least n with −2^n <= x < 2^n. Proof: proofs/integers/WordBits.v, long_bit_length_exact.
     constexpr int bit_length() const {
         const word invert = words::sign_word((*this)[size_ - 1]);
         // The number is trimmed, so at most the last word repeats the sign.
         const int last = size_ > 1 && (*this)[size_ - 1] == invert ? size_ - 2 : size_ - 1;
         return 64 * last + detail::bit_width((*this)[last] ^ invert);
     }
-    /// ⌊x/2^shift⌋ modulo 2^64, shift >= 0. Proof, of one word: proofs/WordBits.v, from_bit_exact.
+    /// ⌊x/2^shift⌋ modulo 2^64, shift >= 0. Proof, of one word: proofs/integers/WordBits.v,
+    /// from_bit_exact.
     constexpr std::int64_t word_from_bit(int shift) const {
         const int whole = shift / 64, bits = shift % 64;
         return static_cast<std::int64_t>(or_sign(whole) >> bits | or_sign(whole + 1)

@@ -67,7 +67,7 @@ constexpr fixed_integer<Words> narrowed(const fixed_integer<Wider>& x) {
     return fixed_integer<Words>::from_words(low);
 }
 
-/// A number x with |x| < 2^Bits units of its degree. Proof: proofs/Widths.v, sized_exact,
+/// A number x with |x| < 2^Bits units of its degree. Proof: proofs/integers/Widths.v, sized_exact,
 /// sized_fits.
 template <class Level, int Bits, int Degree>
 struct sized_integer {

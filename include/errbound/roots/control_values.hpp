@@ -58,8 +58,8 @@ constexpr void halve(const std::array<S, Left>& row, control_values<S, N>& left,
         halve(midpoints(row, std::make_index_sequence<Left - 1>()), left, right);
 }
 
-/// The control values on [0, 1/2] and on [1/2, 1] (de Casteljau). Proof: proofs/Subdivision.v,
-/// halves_cubic, halves_quartic.
+/// The control values on [0, 1/2] and on [1/2, 1] (de Casteljau). Proof:
+/// proofs/filters/Subdivision.v, halves_cubic, halves_quartic.
 template <class S, int N>
 constexpr std::pair<control_values<S, N>, control_values<S, N>> halves(
     const control_values<S, N>& p) {

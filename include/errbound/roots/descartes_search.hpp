@@ -77,7 +77,7 @@ class descartes_search {
     };
 
     /// Appends the roots strictly between low and high, ascending. Precondition: 0 < low < high.
-    /// Bounded stack. Proof: proofs/RootIsolation.v, on_part_right.
+    /// Bounded stack. Proof: proofs/roots/RootIsolation.v, on_part_right.
     void find(const end& low, const end& high, std::vector<interval>& roots) {
         add({low.at, high.at, low.is_root, high.is_root});
         while (!parts_.empty()) {
@@ -325,7 +325,7 @@ class descartes_search {
     /// slowly. Newton's method with growing precision finds the extremum. Real roots are then on
     /// both sides. Two complex roots are outside both circles that have a side as diameter, so
     /// neither side has a sign change. Tried after 0, 8, 16, 32, ... halvings. Proof:
-    /// proofs/SignVariations.v, two_variations_two_roots.
+    /// proofs/roots/SignVariations.v, two_variations_two_roots.
     bool divided_as_pair(part& whole) {
         if (whole.has_root_at_end() || whole.halvings % 8 != 0 ||
             (whole.halvings & (whole.halvings - 1)) != 0)

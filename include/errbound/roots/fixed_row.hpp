@@ -18,8 +18,9 @@ namespace errbound::roots {
 template <int Words>
 class fixed_row {
   public:
-    /// From coefficients, not all zero, each given within `error`. Proof: proofs/ControlValues.v,
-    /// row_cut_right, row_uncertain; proofs/FixedRow.v, row_fits.
+    /// From coefficients, not all zero, each given within `error`. Proof:
+    /// proofs/roots/ControlValues.v, row_cut_right, row_uncertain; proofs/roots/FixedRow.v,
+    /// row_fits.
     template <exact_number Integer>
     fixed_row(const integer_form<Integer>& b, const Integer& error) {
         int bits = 0;
@@ -47,7 +48,8 @@ class fixed_row {
             std::fill(b_.begin(), b_.end(), integers::fixed_integer<Words>(0));
     }
 
-    /// 1 or −1 for a certain sign, otherwise 0. Proof: proofs/ControlValues.v, row_signs_right.
+    /// 1 or −1 for a certain sign, otherwise 0. Proof: proofs/roots/ControlValues.v,
+    /// row_signs_right.
     int sign(std::size_t i) const {
         if (b_[i].negative()) return -b_[i] > integers::fixed_integer<Words>(error_) ? -1 : 0;
         return b_[i] > integers::fixed_integer<Words>(error_) ? 1 : 0;
@@ -68,8 +70,8 @@ class fixed_row {
     }
 
     /// The two halves, by de Casteljau. A midpoint inherits at most the error of its ends; rounding
-    /// adds half a unit in each of the degree's steps. Proof: proofs/ControlValues.v,
-    /// row_halves_right; proofs/FixedRow.v, row_stays.
+    /// adds half a unit in each of the degree's steps. Proof: proofs/roots/ControlValues.v,
+    /// row_halves_right; proofs/roots/FixedRow.v, row_stays.
     std::pair<fixed_row, fixed_row> halves() && {
         const std::size_t n = b_.size() - 1;
         fixed_row left;

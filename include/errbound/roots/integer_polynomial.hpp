@@ -59,7 +59,7 @@ integer_form<Integer> mirrored(integer_form<Integer> p) {
     return p;
 }
 
-/// a/b; empty if b ≠ 0 does not divide a over the integers. Proof: proofs/CommonFactor.v,
+/// a/b; empty if b ≠ 0 does not divide a over the integers. Proof: proofs/roots/CommonFactor.v,
 /// divided_right.
 template <class Integer>
 integer_form<Integer> divided(integer_form<Integer> a, const integer_form<Integer>& b) {
@@ -152,7 +152,7 @@ sign_type sign_at(const integer_form<Integer>& p, const dyadic<Integer>& x) {
 }
 
 /// 1/C(n, i) times the least common multiple of the C(n, i), which is lcm(1, ..., n + 1)/(n + 1)
-/// and fits 64 bits for n <= 40. Proof: proofs/ControlValues.v, weights_right, weights_fit.
+/// and fits 64 bits for n <= 40. Proof: proofs/roots/ControlValues.v, weights_right, weights_fit.
 template <class Number>
 std::vector<Number> inverse_binomials(std::size_t n) {
     using std::gcd;
@@ -167,7 +167,7 @@ std::vector<Number> inverse_binomials(std::size_t n) {
 }
 
 /// A positive multiple of p's control values (Bernstein coefficients) on [low, high], all integers.
-/// Proof: proofs/ControlValues.v, control_values_on_right.
+/// Proof: proofs/roots/ControlValues.v, control_values_on_right.
 template <class Integer>
 integer_form<Integer> control_values_on(integer_form<Integer> p, const dyadic<Integer>& low,
                                         const dyadic<Integer>& high, work_meter& meter) {
@@ -238,7 +238,7 @@ std::vector<std::uint64_t> residues(const integer_form<Integer>& p, const prime_
 }
 
 /// The residue of the value at x, times 2^(−e·n) for e < 0, where x has the exponent e. If nonzero,
-/// the value is not zero. Proof: proofs/PrimeField.v, value_modulo_right.
+/// the value is not zero. Proof: proofs/roots/PrimeField.v, value_modulo_right.
 template <class Integer>
 std::uint64_t value_at(const std::vector<std::uint64_t>& residues, const prime_field& field,
                        const dyadic<Integer>& x) {
@@ -297,7 +297,7 @@ bool surely_squarefree(const integer_form<Integer>& p, work_meter& meter) {
 /// modulo primes (W. S. Brown, On Euclid's algorithm and the computation of polynomial greatest
 /// common divisors, JACM 18, 1971). Their degree is at least the divisor's, so one prime detects
 /// coprime polynomials. Division verifies a divisor combined from several primes. Proof:
-/// proofs/CommonFactor.v, common_factor_right, common_factor_divides.
+/// proofs/roots/CommonFactor.v, common_factor_right, common_factor_divides.
 template <exact_number Integer>
 integer_form<Integer> common_factor(integer_form<Integer> a, integer_form<Integer> b,
                                     work_meter& meter) {
@@ -338,8 +338,8 @@ integer_form<Integer> common_factor(integer_form<Integer> a, integer_form<Intege
 
 /// Square-free polynomials f_1, f_2, ..., each dividing the one before: a root of multiplicity m of
 /// p is a root of exactly f_1 to f_m. Returns at most `most`. Precondition: p is not constant. Cost
-/// without multiple roots: Euclid's algorithm modulo one prime. Proof: proofs/CommonFactor.v,
-/// chain_multiplicities, cofactors_rootless; proofs/RootIsolation.v, squarefree_part_roots.
+/// without multiple roots: Euclid's algorithm modulo one prime. Proof: proofs/roots/CommonFactor.v,
+/// chain_multiplicities, cofactors_rootless; proofs/roots/RootIsolation.v, squarefree_part_roots.
 template <exact_number Integer>
 std::vector<integer_form<Integer>> squarefree_chain(integer_form<Integer> p, std::size_t most,
                                                     work_meter& meter) {

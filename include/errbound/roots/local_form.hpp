@@ -45,7 +45,7 @@ class local_form {
     /// The error is about 2^(−bits) of p's largest term at `low`. Precondition: 0 < low, 0 < width.
     /// Cost: degree multiplications of numbers of `bits` bits, and degree additions per coefficient
     /// kept. `meter` is polled for each row of these, also in later calls, and must outlive this.
-    /// Proof: proofs/TaylorCoefficients.v, taylor_right.
+    /// Proof: proofs/roots/TaylorCoefficients.v, taylor_right.
     local_form(const form& p, const point& low, const point& width, int bits,
                work_meter* meter = nullptr)
         : degree_(static_cast<int>(p.size()) - 1), bits_(bits), meter_(meter) {
@@ -69,7 +69,7 @@ class local_form {
     }
 
     /// On u = (from + length·v)/2^depth, v in [0, 1]. Precondition: 0 <= from, 0 < length, from +
-    /// length <= 2^depth. Proof: proofs/LocalForm.v, part_right, dropped_right.
+    /// length <= 2^depth. Proof: proofs/roots/LocalForm.v, part_right, dropped_right.
     local_form part(const Integer& from, const Integer& length, int depth) const {
         local_form result = *this;
         form& a = result.a_;
@@ -97,14 +97,14 @@ class local_form {
 
     /// The Bernstein coefficients times C(n, i), up to a positive factor, from the a_j truncated to
     /// this many bits of the largest. The i-th is within its margin, error·C(n + 1, i), since the
-    /// error of a_j counts C(n − j, i − j) times. Proof: proofs/LocalForm.v, cut_right.
+    /// error of a_j counts C(n − j, i − j) times. Proof: proofs/roots/LocalForm.v, cut_right.
     approximate_row<Integer> scaled_coefficients(int bits) const {
         int excess = 0;
         for (const Integer& a : a_) excess = (std::max)(excess, bits_of(a) - bits);
         return {scaled_coefficients(static_cast<std::size_t>(degree_), excess),
                 excess > 0 ? Integer(shifted(error_, -excess) + 2) : error_};
     }
-    /// The Bernstein coefficients, up to a positive factor. Proof: proofs/LocalForm.v,
+    /// The Bernstein coefficients, up to a positive factor. Proof: proofs/roots/LocalForm.v,
     /// coefficients_right, row_signs_of_coefficients.
     approximate_row<Integer> coefficients(int bits) const {
         auto row = scaled_coefficients(bits);
@@ -117,7 +117,8 @@ class local_form {
         row.error = row.error * Integer(row.values.size()) + 1;
         return row;
     }
-    /// Signs of scaled_coefficients(bits), 0 if uncertain. Proof: proofs/LocalForm.v, signs_right.
+    /// Signs of scaled_coefficients(bits), 0 if uncertain. Proof: proofs/roots/LocalForm.v,
+    /// signs_right.
     std::vector<signed char> signs(int bits) const {
         const auto h = scaled_coefficients(bits);
         std::vector<signed char> result;
@@ -133,7 +134,8 @@ class local_form {
     }
 
     /// True if all values on [0, 1] certainly exceed the error, by the Bernstein coefficients of
-    /// the stored terms. Cheap if few are stored. Proof: proofs/LocalForm.v, surely_rootless_right.
+    /// the stored terms. Cheap if few are stored. Proof: proofs/roots/LocalForm.v,
+    /// surely_rootless_right.
     bool surely_rootless() const {
         const form h = scaled_coefficients(a_.size() - 1, 0);
         Integer margin = error_ * Integer(degree_ + 1);
@@ -157,7 +159,7 @@ class local_form {
     /// True if the error takes less than half of the requested bits: terms have similar sizes at
     /// both ends.
     bool ends_are_alike() const { return bits_of(error_) < bits_ / 2; }
-    /// Proof: proofs/LocalForm.v, low_end_right, high_end_right.
+    /// Proof: proofs/roots/LocalForm.v, low_end_right, high_end_right.
     bool low_end_is_certain() const { return abs(a_[0]) > error_; }
     bool high_end_is_certain() const { return abs(value_at_end()) > error_ * Integer(degree_ + 1); }
     const Integer& value_at_start() const { return a_[0]; }
@@ -191,7 +193,8 @@ class local_form {
     }
     static int bits_of(const Integer& x) { return x == 0 ? 0 : floor_log2(x) + 1; }
 
-    /// c_i·low^i in a common unit, each within 3. Proof: proofs/TaylorCoefficients.v, terms_right.
+    /// c_i·low^i in a common unit, each within 3. Proof: proofs/roots/TaylorCoefficients.v,
+    /// terms_right.
     static form terms(const form& p, const point& low, int bits, int count_bits) {
         const int precision = bits + count_bits + 1;
         std::vector<cut_number<Integer>> all;
@@ -245,7 +248,7 @@ class local_form {
         }
     }
 
-    /// log2 of a bound of C(n + 1, j + 1)·(width/low)^j. Proof: proofs/TaylorCoefficients.v,
+    /// log2 of a bound of C(n + 1, j + 1)·(width/low)^j. Proof: proofs/roots/TaylorCoefficients.v,
     /// error_bits_right.
     static std::int64_t error_bits(std::size_t size, int ratio) {
         if (ratio + bits_of_count(size) <= 0) return bits_of_count(size);

@@ -14,7 +14,7 @@
 
 namespace errbound::roots {
 
-/// A number x with |x − value·2^exponent| <= error·2^exponent. Proof: proofs/NearbyValue.v,
+/// A number x with |x − value·2^exponent| <= error·2^exponent. Proof: proofs/roots/NearbyValue.v,
 /// near_exact, near_product, near_sum, near_shifted, near_cut, near_widened, near_sign.
 template <exact_number Integer>
 struct nearby_value {

@@ -21,8 +21,8 @@ class prime_field {
     using word = std::uint64_t;
     using double_word = integers::words::double_word;
 
-    /// Precondition: p < 2^62 odd, above 2. Proof: proofs/PrimeField.v, negative_inverse_right,
-    /// constants_right.
+    /// Precondition: p < 2^62 odd, above 2. Proof: proofs/roots/PrimeField.v,
+    /// negative_inverse_right, constants_right.
     explicit constexpr prime_field(word p) : p_(p) {
         word inverse = p;  // right modulo 2^3; each step doubles the correct bits
         for (int i = 0; i < 5; ++i) inverse *= 2 - p * inverse;
@@ -31,19 +31,19 @@ class prime_field {
         square_ = static_cast<word>(double_word(one_) * one_ % p);
     }
 
-    // Proof: proofs/PrimeField.v, nonzero_form, field_add, field_subtract, field_forms.
+    // Proof: proofs/roots/PrimeField.v, nonzero_form, field_add, field_subtract, field_forms.
     constexpr word modulus() const { return p_; }
     constexpr word one() const { return one_; }
     constexpr word add(word a, word b) const { return a + b >= p_ ? a + b - p_ : a + b; }
     constexpr word subtract(word a, word b) const { return a >= b ? a - b : a + p_ - b; }
-    /// a·b/R. Proof: proofs/PrimeField.v, field_multiply.
+    /// a·b/R. Proof: proofs/roots/PrimeField.v, field_multiply.
     constexpr word multiply(word a, word b) const {
         const double_word t = double_word(a) * b;
         const word m = static_cast<word>(t) * negative_inverse_;
         const word r = static_cast<word>((t + double_word(m) * p_) >> 64);
         return r >= p_ ? r - p_ : r;
     }
-    /// (a·b − c·d)/R. Proof: proofs/PrimeField.v, field_multiply_and_subtract.
+    /// (a·b − c·d)/R. Proof: proofs/roots/PrimeField.v, field_multiply_and_subtract.
     constexpr word multiply_and_subtract(word a, word b, word c, word d) const {
         // t is below 2p², so t + m·p is below 2p² + pR and r below 3p/2.
         const double_word t = double_word(a) * b + double_word(c) * (p_ - d);
@@ -53,7 +53,7 @@ class prime_field {
     }
     constexpr word to_form(word a) const { return multiply(a, square_); }
     constexpr word from_form(word a) const { return multiply(a, 1); }
-    /// Proof: proofs/PrimeField.v, power_right.
+    /// Proof: proofs/roots/PrimeField.v, power_right.
     constexpr word power(word a, word n) const {
         word result = one_;
         for (; n > 0; n >>= 1) {
@@ -123,7 +123,8 @@ inline std::vector<std::uint64_t> derivative(const prime_field& field,
 }
 
 /// A nonzero multiple of the greatest common divisor modulo p, in the power basis and Montgomery's
-/// form. Precondition: last coefficients are not 0. Proof: proofs/CommonFactor.v, images_in_ideal.
+/// form. Precondition: last coefficients are not 0. Proof: proofs/roots/CommonFactor.v,
+/// images_in_ideal.
 inline std::vector<std::uint64_t> common_factor(const prime_field& field,
                                                 std::vector<std::uint64_t> a,
                                                 std::vector<std::uint64_t> b, work_meter& meter) {

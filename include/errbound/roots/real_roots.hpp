@@ -25,7 +25,7 @@ namespace errbound::roots {
 
 /// The form Σ h_i s^(n−i) t^i of p without its roots at t = 0 and t = 1; empty if p is identically
 /// zero. Its coefficients are power-basis coefficients in x = t/s, which maps (0, 1) to (0, ∞).
-/// Proof: proofs/UnboundedIntegers.v, without_end_roots_value.
+/// Proof: proofs/contact/UnboundedIntegers.v, without_end_roots_value.
 template <exact_number Integer, int N>
 integer_form<Integer> without_end_roots(const bernstein<Integer, N>& p) {
     std::size_t first = 0, last = N + 1;
@@ -69,7 +69,7 @@ class real_roots {
     using number = typename roots::staged_polynomial<Integer>::number;
 
     /// The roots of p in (0, ∞), by integers. Precondition: first and last coefficients are not
-    /// zero. Proof: proofs/RootFinder.v, found_roots_right.
+    /// zero. Proof: proofs/roots/RootFinder.v, found_roots_right.
     explicit real_roots(const roots::integer_form<Integer>& p) : p_(p) {
         const point zero;
         isolate(zero, exact().upper_bound());

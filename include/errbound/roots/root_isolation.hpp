@@ -17,7 +17,8 @@ namespace errbound::roots {
 /// A bound of Kioustelidis (1986): no root of p is at or above 2^(result). INT_MIN: no positive
 /// root. Precondition: the last coefficient is not zero. Proof: with M the largest
 /// (|c_i|/|c_n|)^(1/(n−i)) over c_i of the sign opposite to c_n's, and x >= 2M, these terms sum to
-/// at most |c_n|x^n·Σ 2^(i−n) < |c_n|x^n. Checked: proofs/ControlValues.v, root_exponent_right.
+/// at most |c_n|x^n·Σ 2^(i−n) < |c_n|x^n. Checked: proofs/roots/ControlValues.v,
+/// root_exponent_right.
 template <class Integer>
 int positive_root_exponent(const integer_form<Integer>& p) {
     const int n = static_cast<int>(p.size()) - 1;
@@ -62,7 +63,8 @@ class root_isolation {
     point least_positive() const { return unlikely_root<Integer>(right_.lower - 1); }
     point greatest_negative() const { return -unlikely_root<Integer>(left_.lower - 1); }
 
-    /// Appends the roots in [low, high], ascending. Proof: proofs/RootIsolation.v, isolate_right.
+    /// Appends the roots in [low, high], ascending. Proof: proofs/roots/RootIsolation.v,
+    /// isolate_right.
     void isolate(const point& low, const point& high, std::vector<interval>& roots,
                  work_meter& meter) const {
         const std::size_t first = roots.size();
@@ -102,7 +104,7 @@ class root_isolation {
     }
 
     /// The sign of g at the root, whose interval it refines. A common factor decides zero, equal
-    /// signs of g's control values any other sign. Proof: proofs/RootIsolation.v,
+    /// signs of g's control values any other sign. Proof: proofs/roots/RootIsolation.v,
     /// sign_at_root_right.
     sign_type sign_at_root(const form& g, interval& root, work_meter& meter) const {
         if (g.empty()) return sign_type::zero;
@@ -123,7 +125,7 @@ class root_isolation {
   private:
     /// A square-free polynomial p. Its positive roots x have 2^lower < x < 2^upper; upper < lower
     /// if there are none. `variations` is the number of sign changes of its coefficients; if 1,
-    /// there is one root (Descartes). Proof: proofs/ControlValues.v, half_line_right.
+    /// there is one root (Descartes). Proof: proofs/roots/ControlValues.v, half_line_right.
     struct half_line {
         form p;
         int lower = 1, upper = 0;
@@ -143,7 +145,7 @@ class root_isolation {
     static bool changes_sign(const form& f, const interval& root, work_meter& meter) {
         return sign_at(f, root.low, meter) != sign_at(f, root.high, meter);
     }
-    /// True if f, a divisor of p, is zero at the root. Proof: proofs/CommonFactor.v,
+    /// True if f, a divisor of p, is zero at the root. Proof: proofs/roots/CommonFactor.v,
     /// vanishes_right.
     static bool vanishes(const form& f, const interval& root, work_meter& meter) {
         if (f.size() < 2) return false;
@@ -157,7 +159,8 @@ class root_isolation {
     }
 
     /// ⌊2^bits·a/(a + b)⌋ for the magnitudes a and b of the end values; their errors only worsen
-    /// the choice. Precondition: b is not 0. Proof: proofs/RootIsolation.v, secant_part_right.
+    /// the choice. Precondition: b is not 0. Proof: proofs/roots/RootIsolation.v,
+    /// secant_part_right.
     static Integer secant_part(const nearby_value<Integer>& at_low,
                                const nearby_value<Integer>& at_high, int bits) {
         const Integer parts = Integer(1) << static_cast<unsigned>(bits);
@@ -172,8 +175,8 @@ class root_isolation {
         return Integer(a << static_cast<unsigned>(bits)) / Integer(a + b);
     }
     /// Divides the interval into 2^bits parts. Keeps the secant's choice if it holds the root,
-    /// otherwise the root's side of that part (a half for bits = 1). Proof: proofs/RootIsolation.v,
-    /// keep_part_right.
+    /// otherwise the root's side of that part (a half for bits = 1). Proof:
+    /// proofs/roots/RootIsolation.v, keep_part_right.
     bool keep_part(interval& root, int bits, work_meter& meter) const {
         const form& f = squarefree();
         const auto at_low = value_within(f, root.low, bits + 4, meter);
@@ -222,7 +225,7 @@ class root_isolation {
         if (line.variations > 1) {
             descartes_search<Integer>(line.p, meter).find(low, high, roots);
         } else if (line.variations == 1 && !low.is_root && !high.is_root) {
-            // A sign change proves a root. Proof: proofs/RootIsolation.v, isolate_right.
+            // A sign change proves a root. Proof: proofs/roots/RootIsolation.v, isolate_right.
             if (all || sign_at(line.p, low.at, meter) != sign_at(line.p, high.at, meter))
                 roots.push_back({low.at, high.at});
         }

@@ -27,7 +27,7 @@ constexpr sign_changes<S> sign_changes_of(std::size_t count, S zero, const Sign&
 }
 
 /// Sign changes among sign(0), ..., sign(count − 1), each 1, −1 or 0; skips zeros. Proof:
-/// proofs/SignVariations.v, no_variation_no_root, one_variation_one_root.
+/// proofs/roots/SignVariations.v, no_variation_no_root, one_variation_one_root.
 template <class Sign>
 int sign_variations(std::size_t count, const Sign& sign) {
     return sign_changes_of(count, 0, sign).count;
@@ -36,7 +36,7 @@ int sign_variations(std::size_t count, const Sign& sign) {
 /// The largest possible count, where 0 is an uncertain sign. The result 3 stands for more than 2,
 /// or for an uncertain end. 0 and 1 are exact, since the end signs fix the parity. (Between
 /// opposite signs, every two uncertain signs add two changes; between equal signs, one uncertain
-/// sign already adds two.) Proof: proofs/SignVariations.v, max_variations_right.
+/// sign already adds two.) Proof: proofs/roots/SignVariations.v, max_variations_right.
 template <class Sign>
 int max_sign_variations(std::size_t count, const Sign& sign) {
     int last = sign(0), most = 0, open = 0;

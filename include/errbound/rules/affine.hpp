@@ -7,7 +7,7 @@
 // count no sources. One counter numbers the sources of all threads of a program; enter numbers of
 // another process by `within`. sqrt and fma keep sources; the results of other functions are new
 // sources. References: Comba, Stolfi 1993; de Figueiredo, Stolfi 2004 (Numerical Algorithms 37).
-// Proof, of whole computations: proofs/IeeeAffineFunctions.v, computed_known, gives_known.
+// Proof, of whole computations: proofs/rules/IeeeAffineFunctions.v, computed_known, gives_known.
 #pragma once
 
 #include <array>
@@ -65,13 +65,13 @@ struct affine_of {
     template <class T>
     using operand = rule_operand<T, affine_of>;
 
-    /// Proof: proofs/IeeeAffine.v, affine_exact_known.
+    /// Proof: proofs/rules/IeeeAffine.v, affine_exact_known.
     template <class T>
     static constexpr bound<T> exact(const T& value) {
         const T nothing = value - value;  // NaN if the value is not finite
         return {nothing, nothing, 0, {}};
     }
-    /// One term, of a new source. Proof: proofs/IeeeAffine.v, affine_within_known.
+    /// One term, of a new source. Proof: proofs/rules/IeeeAffine.v, affine_within_known.
     template <class T>
     static constexpr bound<T> within(const T& value, const T& error) {
         if (!(error >= 0)) return unknown<T>();
@@ -79,7 +79,7 @@ struct affine_of {
         r.add_left(error);
         return r.finished(value);
     }
-    /// Proof: proofs/IeeeAffine.v, affine_error_known.
+    /// Proof: proofs/rules/IeeeAffine.v, affine_error_known.
     template <class T>
     static constexpr T error(const T&, const bound<T>& b) {
         return b.radius;
@@ -90,7 +90,7 @@ struct affine_of {
     static constexpr bool is_crowded(const bound<T>& b) {
         return b.count == Limit;
     }
-    /// Proof: proofs/IeeeAffine.v, affine_negate_known.
+    /// Proof: proofs/rules/IeeeAffine.v, affine_negate_known.
     template <class T>
     static constexpr bound<T> negate(const bound<T>& b) {
         bound<T> r = b;
@@ -99,18 +99,18 @@ struct affine_of {
     }
 
     /// a + b = v + δ + Σ (aᵢ + bᵢ)εᵢ ± rests, with coefficients aᵢ, bᵢ and the rounding error δ.
-    /// Proof: proofs/IeeeAffine.v, affine_add_known.
+    /// Proof: proofs/rules/IeeeAffine.v, affine_add_known.
     template <class T>
     static constexpr bound<T> add(const T& v, operand<T> a, operand<T> b) {
         return sum<false, T>(v, a, b);
     }
-    /// Proof: proofs/IeeeAffine.v, affine_subtract_known.
+    /// Proof: proofs/rules/IeeeAffine.v, affine_subtract_known.
     template <class T>
     static constexpr bound<T> subtract(const T& v, operand<T> a, operand<T> b) {
         return sum<true, T>(v, a, b);
     }
     /// ab = v + δ + Σ (â·bᵢ + aᵢ·b̂)εᵢ, within |â|·rest_b + rest_a·|b̂| + radius_a·radius_b. Proof:
-    /// proofs/IeeeAffine.v, affine_multiply_known.
+    /// proofs/rules/IeeeAffine.v, affine_multiply_known.
     template <class T>
     static constexpr bound<T> multiply(const T& v, operand<T> a, operand<T> b) {
         using traits = number_traits<T>;
@@ -136,7 +136,7 @@ struct affine_of {
     /// Let q = v, r = â − q·b̂ and N = r + Σ (aᵢ − q·bᵢ)εᵢ ± (rest_a + |q|·rest_b). Then a/b − q =
     /// N/b, and N/b − N/b̂ = N/b̂·(b̂ − b)/b is at most |N/b̂|·radius_b/(|b̂| − radius_b). If r is
     /// not known exactly, r/b̂, the rounding error of q, is at most u|v| + η/2. Infinite if b may
-    /// be zero. Proof: proofs/IeeeAffine.v, affine_divide_known.
+    /// be zero. Proof: proofs/rules/IeeeAffine.v, affine_divide_known.
     template <class T>
     static constexpr bound<T> divide(const T& v, operand<T> a, operand<T> b) {
         using traits = number_traits<T>;
@@ -167,7 +167,7 @@ struct affine_of {
         return r.finished(v);
     }
     /// If it underflows, value, coefficients and rest are each off by at most η/2. Proof:
-    /// proofs/IeeeAffine.v, affine_scale_known.
+    /// proofs/rules/IeeeAffine.v, affine_scale_known.
     template <class T>
     static constexpr bound<T> scale(const T& v, operand<T> a, int e) {
         using traits = number_traits<T>;

@@ -21,19 +21,19 @@ struct interval {
         T lower, upper;
     };
 
-    /// Proof: proofs/IeeeInterval.v, interval_exact_known.
+    /// Proof: proofs/rules/IeeeInterval.v, interval_exact_known.
     template <class T>
     static constexpr bound<T> exact(const T& value) {
         return checked<T>(value, value, value);
     }
-    /// Proof: proofs/IeeeInterval.v, interval_within_known.
+    /// Proof: proofs/rules/IeeeInterval.v, interval_within_known.
     template <class T>
     static constexpr bound<T> within(const T& value, const T& error) {
         if (error == 0) return exact(value);
         if (!(error > 0)) return unknown<T>();
         return checked<T>(value, below<T>(value - error), above<T>(value + error));
     }
-    /// Proof: proofs/IeeeInterval.v, interval_error_known.
+    /// Proof: proofs/rules/IeeeInterval.v, interval_error_known.
     template <class T>
     static constexpr T error(const T& value, const bound<T>& b) {
         using traits = number_traits<T>;
@@ -44,33 +44,33 @@ struct interval {
         return certain(sign<T>(value, b)) && !(enough < traits::largest()) ? traits::largest()
                                                                            : enough;
     }
-    /// Proof: proofs/IeeeInterval.v, interval_sign_known.
+    /// Proof: proofs/rules/IeeeInterval.v, interval_sign_known.
     template <class T>
     static constexpr sign_type sign(const T&, const bound<T>& b) {
         if (b.lower > 0) return sign_type::positive;
         if (b.upper < 0) return sign_type::negative;
         return b.lower == 0 && b.upper == 0 ? sign_type::zero : sign_type::uncertain;
     }
-    /// Proof: proofs/IeeeInterval.v, interval_negate_known.
+    /// Proof: proofs/rules/IeeeInterval.v, interval_negate_known.
     template <class T>
     static constexpr bound<T> negate(const bound<T>& b) {
         return {-b.upper, -b.lower};
     }
 
-    /// Proof: proofs/IeeeInterval.v, interval_add_known.
+    /// Proof: proofs/rules/IeeeInterval.v, interval_add_known.
     template <class T>
     static constexpr bound<T> add(const T& v, rule_operand<T, interval> a,
                                   rule_operand<T, interval> b) {
         return sum<T>(v, a.bound, b.bound);
     }
-    /// Proof: proofs/IeeeInterval.v, interval_subtract_known.
+    /// Proof: proofs/rules/IeeeInterval.v, interval_subtract_known.
     template <class T>
     static constexpr bound<T> subtract(const T& v, rule_operand<T, interval> a,
                                        rule_operand<T, interval> b) {
         return sum<T>(v, a.bound, negate<T>(b.bound));
     }
     /// Both ends are among the four products of ends. If an operand is [−∞, ∞], so is the result,
-    /// even if a product 0·∞ is NaN. Proof: proofs/IeeeInterval.v, interval_multiply_known.
+    /// even if a product 0·∞ is NaN. Proof: proofs/rules/IeeeInterval.v, interval_multiply_known.
     template <class T>
     static constexpr bound<T> multiply(const T& v, rule_operand<T, interval> a,
                                        rule_operand<T, interval> b) {
@@ -85,7 +85,7 @@ struct interval {
                        detail::rounded_product(a.bound.upper, b.bound.lower),
                        detail::rounded_product(a.bound.upper, b.bound.upper));
     }
-    /// Infinite if b may be zero. Proof: proofs/IeeeInterval.v, interval_divide_known.
+    /// Infinite if b may be zero. Proof: proofs/rules/IeeeInterval.v, interval_divide_known.
     template <class T>
     static constexpr bound<T> divide(const T& v, rule_operand<T, interval> a,
                                      rule_operand<T, interval> b) {
@@ -99,7 +99,8 @@ struct interval {
                        a.bound.upper / b.bound.lower, a.bound.upper / b.bound.upper);
     }
     /// The roots of both ends. A root takes a step outwards unless its exact remainder shows that
-    /// it is exact or rounded outwards. Proof: proofs/IeeeSlopes.v, interval_square_root_known.
+    /// it is exact or rounded outwards. Proof: proofs/rules/IeeeSlopes.v,
+    /// interval_square_root_known.
     template <class T>
     static constexpr bound<T> square_root(const T& v, rule_operand<T, interval> a) {
         using traits = number_traits<T>;
@@ -111,7 +112,7 @@ struct interval {
                           of_upper.exact && of_upper.value <= 0 ? upper : above<T>(upper));
     }
     /// The least and the greatest fma of ends, one step outwards: four products of ends, plus the
-    /// lower or the upper end of c. Proof: proofs/IeeeSlopes.v, interval_fused_known.
+    /// lower or the upper end of c. Proof: proofs/rules/IeeeSlopes.v, interval_fused_known.
     template <class T>
     static constexpr bound<T> fused(const T& v, rule_operand<T, interval> a,
                                     rule_operand<T, interval> b, rule_operand<T, interval> c) {
@@ -137,7 +138,7 @@ struct interval {
         const T upper = above<T>(end(most, c.bound.upper));
         return overflows ? unknown<T>() : checked<T>(v, lower, upper);
     }
-    /// Exact unless it underflows. Proof: proofs/IeeeInterval.v, interval_scale_known.
+    /// Exact unless it underflows. Proof: proofs/rules/IeeeInterval.v, interval_scale_known.
     template <class T>
     static constexpr bound<T> scale(const T& v, rule_operand<T, interval> a, int e) {
         using traits = number_traits<T>;

@@ -5,7 +5,7 @@
 
 namespace errbound {
 
-/// Treats every finite result as exact: signs are guesses (proofs/IeeeRules.v, none_guesses).
+/// Treats every finite result as exact: signs are guesses (proofs/rules/IeeeRules.v, none_guesses).
 struct none {
     static constexpr const char* name = "none";
     static constexpr error_meaning error_is = error_meaning::nothing;

@@ -24,12 +24,12 @@ struct relative {
         double factors;  ///< k, a double for every T; infinite if there is no bound
     };
 
-    /// Proof: proofs/IeeeRelative.v, relative_exact_known.
+    /// Proof: proofs/rules/IeeeRelative.v, relative_exact_known.
     template <class T>
     static constexpr bound<T> exact(const T& value) {
         return {number_traits<T>::is_finite(value) ? 0 : unknown};
     }
-    /// Infinite unless error < |value|. Proof: proofs/IeeeRelative.v, relative_within_known.
+    /// Infinite unless error < |value|. Proof: proofs/rules/IeeeRelative.v, relative_within_known.
     template <class T>
     static constexpr bound<T> within(const T& value, const T& error) {
         using traits = number_traits<T>;
@@ -38,7 +38,7 @@ struct relative {
         return {factors_of<T>(error, traits::abs(value))};
     }
     /// |v − x| <= |v|(e^L − 1), L = kw, and e^L − 1 <= L/(1 − L/2) for 0 <= L < 2, since ln((2 +
-    /// L)/(2 − L)) = L + L³/12 + ... Proof: proofs/IeeeRelative.v, relative_error_known.
+    /// L)/(2 − L)) = L + L³/12 + ... Proof: proofs/rules/IeeeRelative.v, relative_error_known.
     template <class T>
     static constexpr T error(const T& value, const bound<T>& b) {
         using traits = number_traits<T>;
@@ -53,7 +53,8 @@ struct relative {
         return upper<T>(detail::rounded_product(traits::abs(value), share)) +
                traits::underflow_unit();
     }
-    /// The value's sign if the error is finite. Proof: proofs/IeeeRelative.v, relative_sign_known.
+    /// The value's sign if the error is finite. Proof: proofs/rules/IeeeRelative.v,
+    /// relative_sign_known.
     template <class T>
     static constexpr sign_type sign(const T& value, const bound<T>& b) {
         if (!number_traits<T>::is_finite(error<T>(value, b))) return sign_type::uncertain;
@@ -61,19 +62,20 @@ struct relative {
         return value > 0 ? sign_type::positive : sign_type::negative;
     }
 
-    /// Proof: proofs/IeeeRelative.v, relative_add_known.
+    /// Proof: proofs/rules/IeeeRelative.v, relative_add_known.
     template <class T>
     static constexpr bound<T> add(const T& v, rule_operand<T, relative> a,
                                   rule_operand<T, relative> b) {
         return sum<T>(v, a.value, a.bound, b.value, b.bound);
     }
-    /// Proof: proofs/IeeeRelative.v, relative_subtract_known.
+    /// Proof: proofs/rules/IeeeRelative.v, relative_subtract_known.
     template <class T>
     static constexpr bound<T> subtract(const T& v, rule_operand<T, relative> a,
                                        rule_operand<T, relative> b) {
         return sum<T>(v, a.value, a.bound, T(-b.value), b.bound);
     }
-    /// k = ka + kb, plus one unless exact. Proof: proofs/IeeeRelative.v, relative_multiply_known.
+    /// k = ka + kb, plus one unless exact. Proof: proofs/rules/IeeeRelative.v,
+    /// relative_multiply_known.
     template <class T>
     static constexpr bound<T> multiply(const T& v, rule_operand<T, relative> a,
                                        rule_operand<T, relative> b) {
@@ -84,7 +86,7 @@ struct relative {
         return rounded_to<T>(v, count_sum(a.bound.factors, b.bound.factors), is_exact);
     }
     /// k = ka + kb, plus one unless exact. Infinite if b has value 0 or an infinite count. Proof:
-    /// proofs/IeeeRelative.v, relative_divide_known.
+    /// proofs/rules/IeeeRelative.v, relative_divide_known.
     template <class T>
     static constexpr bound<T> divide(const T& v, rule_operand<T, relative> a,
                                      rule_operand<T, relative> b) {
@@ -94,7 +96,7 @@ struct relative {
         return rounded_to<T>(v, count_sum(a.bound.factors, b.bound.factors),
                              division.exact && division.value == 0);
     }
-    /// Proof: proofs/IeeeRelative.v, relative_scale_known.
+    /// Proof: proofs/rules/IeeeRelative.v, relative_scale_known.
     template <class T>
     static constexpr bound<T> scale(const T& v, rule_operand<T, relative> a, int e) {
         return rounded_to<T>(v, a.bound.factors,
@@ -104,7 +106,7 @@ struct relative {
     /// Σ aᵢbᵢ by absolute errors, or by the counts of single operations if that gives less. The
     /// errors of products (from their counts) and of partial sums (by two_sum) become relative only
     /// at the end. So the bound can stay finite if partial sums cancel. For n terms of one size and
-    /// sign k is about n/2, not n. Proof: proofs/IeeeRelative.v, relative_dot_known.
+    /// sign k is about n/2, not n. Proof: proofs/rules/IeeeRelative.v, relative_dot_known.
     template <class T>
     class dot_bound {
       public:

@@ -26,22 +26,22 @@ struct residual {
         T correction, remainder;
     };
 
-    /// Proof: proofs/IeeeResidual.v, residual_exact_known.
+    /// Proof: proofs/rules/IeeeResidual.v, residual_exact_known.
     template <class T>
     static constexpr bound<T> exact(const T& value) {
         return {T(0), value - value};  // NaN if the value is not finite
     }
-    /// Proof: proofs/IeeeResidual.v, residual_within_known.
+    /// Proof: proofs/rules/IeeeResidual.v, residual_within_known.
     template <class T>
     static constexpr bound<T> within(const T& value, const T& error) {
         return {T(0), error >= 0 ? error + (value - value) : number_traits<T>::infinity()};
     }
-    /// The exact value is 0. Proof: proofs/IeeeResidual.v, residual_displacement_known.
+    /// The exact value is 0. Proof: proofs/rules/IeeeResidual.v, residual_displacement_known.
     template <class T>
     static constexpr bound<T> displacement(const T& value) {
         return {-value, value - value};
     }
-    /// |c| + ρ. Proof: proofs/IeeeResidual.v, residual_error_known.
+    /// |c| + ρ. Proof: proofs/rules/IeeeResidual.v, residual_error_known.
     template <class T>
     static constexpr T error(const T&, const bound<T>& b) {
         using traits = number_traits<T>;
@@ -53,7 +53,8 @@ struct residual {
         return b.correction;
     }
     /// The exact value is within ρ of v + c. For s = v ⊕ c, |v + c| >= |s|(1 − u), and (1 + 8ε)(1 −
-    /// u)/(1 + u) > 1; a subnormal s is exact. Proof: proofs/IeeeResidual.v, residual_sign_known.
+    /// u)/(1 + u) > 1; a subnormal s is exact. Proof: proofs/rules/IeeeResidual.v,
+    /// residual_sign_known.
     template <class T>
     static constexpr sign_type sign(const T& value, const bound<T>& b) {
         using traits = number_traits<T>;
@@ -64,19 +65,20 @@ struct residual {
             return sign_type::uncertain;
         return corrected > 0 ? sign_type::positive : sign_type::negative;
     }
-    /// Proof: proofs/IeeeResidual.v, residual_negate_known.
+    /// Proof: proofs/rules/IeeeResidual.v, residual_negate_known.
     template <class T>
     static constexpr bound<T> negate(const bound<T>& b) {
         return {-b.correction, b.remainder};
     }
 
-    /// a + b = v + δ + (ca + cb) ± (ρa + ρb). Proof: proofs/IeeeResidual.v, residual_add_known.
+    /// a + b = v + δ + (ca + cb) ± (ρa + ρb). Proof: proofs/rules/IeeeResidual.v,
+    /// residual_add_known.
     template <class T>
     static constexpr bound<T> add(const T& v, rule_operand<T, residual> a,
                                   rule_operand<T, residual> b) {
         return sum<T>(v, a.value, a.bound, b.value, b.bound);
     }
-    /// Proof: proofs/IeeeResidual.v, residual_subtract_known.
+    /// Proof: proofs/rules/IeeeResidual.v, residual_subtract_known.
     template <class T>
     static constexpr bound<T> subtract(const T& v, rule_operand<T, residual> a,
                                        rule_operand<T, residual> b) {
@@ -84,7 +86,7 @@ struct residual {
     }
     /// ab = v + δ + (va·cb + ca·vb) + ca·cb; ρa and ρb add (|va| + |ca|)ρb + (|vb| + |cb| +
     /// ρb)ρa. If δ is not known exactly, it counts as 0, and ρ includes u|v| + η. Proof:
-    /// proofs/IeeeResidual.v, residual_multiply_known.
+    /// proofs/rules/IeeeResidual.v, residual_multiply_known.
     template <class T>
     static constexpr bound<T> multiply(const T& v, rule_operand<T, residual> a,
                                        rule_operand<T, residual> b) {
@@ -113,7 +115,7 @@ struct residual {
     /// |q|ρb, and N/b − N/vb = N/vb·(vb − b)/b. So c = N/vb, and ρ is at most (|N/vb|(|cb| + ρb) +
     /// ρa + |q|ρb + roundings)/(|vb| − |cb| − ρb). If r is not known exactly, c omits it, and ρ
     /// includes u|v| + η instead: r/vb is the rounding error of q. Infinite if b may be zero.
-    /// Proof: proofs/IeeeResidual.v, residual_divide_known.
+    /// Proof: proofs/rules/IeeeResidual.v, residual_divide_known.
     template <class T>
     static constexpr bound<T> divide(const T& v, rule_operand<T, residual> a,
                                      rule_operand<T, residual> b) {
@@ -143,7 +145,7 @@ struct residual {
                 inflated<T>(inflated<T>(left) / distance + detail::half_ulp<T>(correction) + lost)};
     }
     /// Exact unless it underflows; then value, correction and remainder are each off by at most
-    /// η/2. Proof: proofs/IeeeResidual.v, residual_scale_known.
+    /// η/2. Proof: proofs/rules/IeeeResidual.v, residual_scale_known.
     template <class T>
     static constexpr bound<T> scale(const T& v, rule_operand<T, residual> a, int e) {
         using traits = number_traits<T>;

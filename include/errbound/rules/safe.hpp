@@ -21,12 +21,12 @@ struct safe {
         int operations;  ///< k; 0 for an exact number
     };
 
-    /// Proof: proofs/IeeeSafe.v, safe_exact_known.
+    /// Proof: proofs/rules/IeeeSafe.v, safe_exact_known.
     template <class T>
     static constexpr bound<T> exact(const T& value) {
         return {number_traits<T>::abs(value), 0};
     }
-    /// B = max(|value| + error, error/ε), k = 1. Proof: proofs/IeeeSafe.v, safe_within_known.
+    /// B = max(|value| + error, error/ε), k = 1. Proof: proofs/rules/IeeeSafe.v, safe_within_known.
     template <class T>
     static constexpr bound<T> within(const T& value, const T& error) {
         using traits = number_traits<T>;
@@ -38,7 +38,8 @@ struct safe {
         return {enlarged<T>((traits::max)(traits::abs(value) + error, least)), 1};
     }
     /// B[(1 + ε)^k − 1] <= B·kε(1 + kε), since e^x − 1 <= x + x² for x <= 1. Proof:
-    /// proofs/IeeeSafe.v, safe_error_known; in any direction, proofs/Safe.v, safe_error_sound.
+    /// proofs/rules/IeeeSafe.v, safe_error_known; in any direction, proofs/rules/Safe.v,
+    /// safe_error_sound.
     template <class T>
     static constexpr T error(const T& value, const bound<T>& b) {
         using traits = number_traits<T>;
@@ -50,15 +51,15 @@ struct safe {
                            traits::underflow_unit());
     }
 
-    /// B = Ba + Bb, k = max(ka, kb) + 1. Proof: proofs/IeeeSafe.v, safe_add_known; in any
-    /// direction, proofs/Safe.v, safe_add_sound.
+    /// B = Ba + Bb, k = max(ka, kb) + 1. Proof: proofs/rules/IeeeSafe.v, safe_add_known; in any
+    /// direction, proofs/rules/Safe.v, safe_add_sound.
     template <class T>
     static constexpr bound<T> add(const T&, rule_operand<T, safe> a, rule_operand<T, safe> b) {
         const int k =
             a.bound.operations < b.bound.operations ? b.bound.operations : a.bound.operations;
         return {enlarged<T>(a.bound.magnitude + b.bound.magnitude), counted(k)};
     }
-    /// Proof: proofs/IeeeSafe.v, safe_subtract_known; in any direction, proofs/Safe.v,
+    /// Proof: proofs/rules/IeeeSafe.v, safe_subtract_known; in any direction, proofs/rules/Safe.v,
     /// safe_subtract_sound.
     template <class T>
     static constexpr bound<T> subtract(const T& v, rule_operand<T, safe> a,
@@ -66,8 +67,8 @@ struct safe {
         return add(v, a, b);
     }
     /// B = Ba·Bb, at least the smallest normal number m, k = ka + kb + 1. The 1 in k covers a
-    /// rounding error: ε relatively, or η = mε <= Bε on underflow. Proof: proofs/IeeeSafe.v,
-    /// safe_multiply_known; in any direction, proofs/Safe.v, safe_multiply_sound.
+    /// rounding error: ε relatively, or η = mε <= Bε on underflow. Proof: proofs/rules/IeeeSafe.v,
+    /// safe_multiply_known; in any direction, proofs/rules/Safe.v, safe_multiply_sound.
     template <class T>
     static constexpr bound<T> multiply(const T&, rule_operand<T, safe> a, rule_operand<T, safe> b) {
         using traits = number_traits<T>;
@@ -84,7 +85,8 @@ struct safe {
         return {};
     }
     /// (B·2^e, k) is exact unless it underflows; then B is at least m and k grows by one. Proof:
-    /// proofs/IeeeSafe.v, safe_scale_known; in any direction, proofs/Safe.v, safe_scale_sound.
+    /// proofs/rules/IeeeSafe.v, safe_scale_known; in any direction, proofs/rules/Safe.v,
+    /// safe_scale_sound.
     template <class T>
     static constexpr bound<T> scale(const T& v, rule_operand<T, safe> a, int e) {
         using traits = number_traits<T>;

@@ -24,29 +24,29 @@ struct sharp {
         T error;
     };
 
-    /// Proof: proofs/IeeeRules.v, tight_exact_known.
+    /// Proof: proofs/rules/IeeeRules.v, tight_exact_known.
     template <class T>
     static constexpr bound<T> exact(const T& value) {
         return {value - value};  // 0, or NaN if the value is not finite
     }
-    /// Proof: proofs/IeeeRules.v, tight_within_known.
+    /// Proof: proofs/rules/IeeeRules.v, tight_within_known.
     template <class T>
     static constexpr bound<T> within(const T& value, const T& error) {
         return {error >= 0 ? error + (value - value) : number_traits<T>::infinity()};
     }
-    /// Bounds a number whose exact value is 0. Proof: proofs/IeeeRules.v, tight_within_known.
+    /// Bounds a number whose exact value is 0. Proof: proofs/rules/IeeeRules.v, tight_within_known.
     template <class T>
     static constexpr bound<T> displacement(const T& value) {
         return within<T>(value, number_traits<T>::abs(value));
     }
-    /// Proof of the resulting sign: proofs/IeeeRules.v, sign_of_known.
+    /// Proof of the resulting sign: proofs/rules/IeeeRules.v, sign_of_known.
     template <class T>
     static constexpr T error(const T&, const bound<T>& b) {
         return b.error;
     }
 
     /// |v − (a + b)| <= u|v| + σa + σb. The bound has three roundings, (1 + u)³ <= 1 + 4u = 1 + 2ε
-    /// for u <= 1/8; 1 + ε is too small. Proof: proofs/IeeeRules.v, sharp_add_known.
+    /// for u <= 1/8; 1 + ε is too small. Proof: proofs/rules/IeeeRules.v, sharp_add_known.
     template <class T>
     static constexpr bound<T> add(const T& v, rule_operand<T, sharp> a, rule_operand<T, sharp> b) {
         using traits = number_traits<T>;
@@ -55,13 +55,13 @@ struct sharp {
                                                    T(1 + 2 * traits::epsilon()));
         return {detail::sum_of_bounds<T>(enlarged, own, a.bound.error, b.bound.error)};
     }
-    /// Proof: proofs/IeeeRules.v, sharp_subtract_known.
+    /// Proof: proofs/rules/IeeeRules.v, sharp_subtract_known.
     template <class T>
     static constexpr bound<T> subtract(const T& v, rule_operand<T, sharp> a,
                                        rule_operand<T, sharp> b) {
         return add(v, a, b);
     }
-    /// |v − ab| <= u|v| + η/2 + |â|σb + σa(|b̂| + σb). Proof: proofs/IeeeRules.v,
+    /// |v − ab| <= u|v| + η/2 + |â|σb + σa(|b̂| + σb). Proof: proofs/rules/IeeeRules.v,
     /// sharp_multiply_known.
     template <class T>
     static constexpr bound<T> multiply(const T& v, rule_operand<T, sharp> a,
@@ -74,7 +74,7 @@ struct sharp {
         return {inflated<T>((rounding(v) + 2 * traits::underflow_unit()) + inherited)};
     }
     /// If |b̂| > σb: |v − a/b| <= u|v| + η/2 + (σa + |â/b̂|σb)/(|b̂| − σb), as in `tight`;
-    /// otherwise infinite. Proof: proofs/IeeeRules.v, sharp_divide_known.
+    /// otherwise infinite. Proof: proofs/rules/IeeeRules.v, sharp_divide_known.
     template <class T>
     static constexpr bound<T> divide(const T& v, rule_operand<T, sharp> a,
                                      rule_operand<T, sharp> b) {
@@ -90,8 +90,8 @@ struct sharp {
             (a.bound.error + (detail::rounded_product(quotient, b.bound.error) + lost)) / distance;
         return {inflated<T>((rounding(v) + 2 * traits::underflow_unit()) + inflated<T>(inherited))};
     }
-    /// If it underflows, value and bound are each off by at most η/2. Proof: proofs/IeeeRules.v,
-    /// sharp_scale_known.
+    /// If it underflows, value and bound are each off by at most η/2. Proof:
+    /// proofs/rules/IeeeRules.v, sharp_scale_known.
     template <class T>
     static constexpr bound<T> scale(const T& v, rule_operand<T, sharp> a, int e) {
         using traits = number_traits<T>;
@@ -107,7 +107,7 @@ struct sharp {
     /// the roundings of the bound, j = m + 6 for m terms as in `tight`: (1 + u)^j <= 1 + ju + (ju)²
     /// <= 1 + (⌈j/2⌉ + 1)ε if j²ε <= 4. Underflow loses at most η/2 for each p and each u|p|, η per
     /// term with inexact arguments, and η/2 at the end. Source: Higham 2002, Section 3.3;
-    /// Jeannerod, Rump 2013 (SIAM J. Matrix Anal. Appl. 34). Proof: proofs/IeeeDotProduct.v,
+    /// Jeannerod, Rump 2013 (SIAM J. Matrix Anal. Appl. 34). Proof: proofs/rules/IeeeDotProduct.v,
     /// sharp_dot_known.
     template <class T>
     class dot_bound : detail::running_bound<T, dot_bound<T>, number_traits<T>::digits + 1> {

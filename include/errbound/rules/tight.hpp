@@ -6,7 +6,7 @@
 // an inexact sum v is so large that |v|ε is at least its unit in the last place. A product with an
 // exact zero is exact. Overflow and NaN give infinite or NaN bounds and no certain sign. Only under
 // directed rounding, overflow to the largest finite number goes unnoticed. Without underflow the
-// bound exceeds that of `safe` at most slightly: proofs/ComputedComparison.v,
+// bound exceeds that of `safe` at most slightly: proofs/rules/ComputedComparison.v,
 // tight_at_most_safe_computed.
 #pragma once
 
@@ -27,22 +27,22 @@ struct tight {
         T error;
     };
 
-    /// Proof: proofs/IeeeRules.v, tight_exact_known.
+    /// Proof: proofs/rules/IeeeRules.v, tight_exact_known.
     template <class T>
     static constexpr bound<T> exact(const T& value) {
         return {value - value};  // 0, or NaN if the value is not finite
     }
-    /// Proof: proofs/IeeeRules.v, tight_within_known.
+    /// Proof: proofs/rules/IeeeRules.v, tight_within_known.
     template <class T>
     static constexpr bound<T> within(const T& value, const T& error) {
         return {error >= 0 ? error + (value - value) : number_traits<T>::infinity()};
     }
-    /// Bounds a number whose exact value is 0. Proof: proofs/IeeeRules.v, tight_within_known.
+    /// Bounds a number whose exact value is 0. Proof: proofs/rules/IeeeRules.v, tight_within_known.
     template <class T>
     static constexpr bound<T> displacement(const T& value) {
         return within<T>(value, number_traits<T>::abs(value));
     }
-    /// Proof of the resulting sign: proofs/IeeeRules.v, sign_of_known.
+    /// Proof of the resulting sign: proofs/rules/IeeeRules.v, sign_of_known.
     template <class T>
     static constexpr T error(const T&, const bound<T>& b) {
         return b.error;
@@ -50,7 +50,8 @@ struct tight {
 
     /// |v − (a + b)| <= |v|ε/(1 − ε) + σa + σb. In types of fewer than 40 bits, long sums do not
     /// inflate σa and σb (detail/sum_of_bounds.hpp). Source: Theorem 1, Add. Proof:
-    /// proofs/IeeeRules.v, tight_add_known; in any direction, proofs/Tight.v, tight_add_sound.
+    /// proofs/rules/IeeeRules.v, tight_add_known; in any direction, proofs/rules/Tight.v,
+    /// tight_add_sound.
     template <class T>
     static constexpr bound<T> add(const T& v, rule_operand<T, tight> a, rule_operand<T, tight> b) {
         using traits = number_traits<T>;
@@ -63,15 +64,15 @@ struct tight {
         return {detail::sum_of_bounds<T>(inflated<T>(own + (a.bound.error + b.bound.error)), own,
                                          a.bound.error, b.bound.error)};
     }
-    /// Source: Theorem 1, Subtract. Proof: proofs/IeeeRules.v, tight_subtract_known; in any
-    /// direction, proofs/Tight.v, tight_subtract_sound.
+    /// Source: Theorem 1, Subtract. Proof: proofs/rules/IeeeRules.v, tight_subtract_known; in any
+    /// direction, proofs/rules/Tight.v, tight_subtract_sound.
     template <class T>
     static constexpr bound<T> subtract(const T& v, rule_operand<T, tight> a,
                                        rule_operand<T, tight> b) {
         return add(v, a, b);
     }
-    /// |v − ab| <= |v|ε/(1 − ε) + |â|σb + σa|b̂| + σaσb. Proof: proofs/IeeeRules.v,
-    /// tight_multiply_known; in any direction, proofs/Tight.v, tight_multiply_sound.
+    /// |v − ab| <= |v|ε/(1 − ε) + |â|σb + σa|b̂| + σaσb. Proof: proofs/rules/IeeeRules.v,
+    /// tight_multiply_known; in any direction, proofs/rules/Tight.v, tight_multiply_sound.
     template <class T>
     static constexpr bound<T> multiply(const T& v, rule_operand<T, tight> a,
                                        rule_operand<T, tight> b) {
@@ -85,7 +86,7 @@ struct tight {
     /// |v − a/b| <= |v|ε/(1 − ε) + (σa + |â/b̂|σb)/(|b̂| − σb) if |b̂| > σb, otherwise infinite.
     /// The paper prints the last term as (σa(|b̂| − σb) + (|â| + σa)σb)/((|b̂| − σb)|b̂|). It is
     /// the same, because that numerator is σa|b̂| + |â|σb. Source: Theorem 1, Divide. Proof:
-    /// proofs/IeeeRules.v, tight_divide_known; in any direction, proofs/Tight.v,
+    /// proofs/rules/IeeeRules.v, tight_divide_known; in any direction, proofs/rules/Tight.v,
     /// tight_divide_sound.
     template <class T>
     static constexpr bound<T> divide(const T& v, rule_operand<T, tight> a,
@@ -104,8 +105,9 @@ struct tight {
             (a.bound.error + detail::rounded_product(quotient, b.bound.error) + lost) / distance;
         return {inflated<T>(rounding(v) + inflated<T>(inherited) + 4 * traits::underflow_unit())};
     }
-    /// If it underflows, value and bound are each off by less than η. Proof: proofs/IeeeRules.v,
-    /// tight_scale_known; in any direction, proofs/Tight.v, tight_scale_sound.
+    /// If it underflows, value and bound are each off by less than η. Proof:
+    /// proofs/rules/IeeeRules.v, tight_scale_known; in any direction, proofs/rules/Tight.v,
+    /// tight_scale_sound.
     template <class T>
     static constexpr bound<T> scale(const T& v, rule_operand<T, tight> a, int e) {
         using traits = number_traits<T>;
@@ -123,8 +125,8 @@ struct tight {
     /// |sᵢ|ε at most m + 1 times, each argument's error at most m + 2 times. At most four more
     /// roundings follow. With j = m + 6, 1 + (j + 1)ε >= 1/(1 − jε) >= (1 − ε)^−j if j²ε <= 1/2.
     /// Underflow loses less than η per product, 2η per term with inexact arguments, and η at the
-    /// end. Proof: proofs/IeeeDotProduct.v, tight_dot_known; in any direction, proofs/DotProduct.v,
-    /// tight_dot_sound.
+    /// end. Proof: proofs/rules/IeeeDotProduct.v, tight_dot_known; in any direction,
+    /// proofs/rules/DotProduct.v, tight_dot_sound.
     template <class T>
     class dot_bound : detail::running_bound<T, dot_bound<T>,
                                             has_subnormals<T> ? number_traits<T>::digits - 2 : 0> {

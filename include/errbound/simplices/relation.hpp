@@ -256,7 +256,7 @@ constexpr bool all_zero(const sides& s) {
     return s[0] == 0 && s[1] == 0 && s[2] == 0;
 }
 /// True if the vertices from first to size − 1 are strictly on one side. Proof:
-/// proofs/Intersections.v, one_side_apart.
+/// proofs/contact/Intersections.v, one_side_apart.
 constexpr bool on_one_side(const sides& s, int size, int first = 0) {
     for (int i = first; i < size; ++i)
         if (s[static_cast<std::size_t>(i)] == 0 ||
@@ -300,7 +300,7 @@ struct section {
 
 /// Two triangles in different planes, both with a section by the other's plane. Both sections are
 /// on the line in which the planes meet; b's goes from its high to its low end in a's direction.
-/// Proof: proofs/Intersections.v, section_ends, sections_right.
+/// Proof: proofs/contact/Intersections.v, section_ends, sections_right.
 struct two_sections {
     const point<3>*a, *b;
     int common;  ///< the number of first vertices that a and b share
@@ -325,7 +325,7 @@ struct two_sections {
 };
 
 /// The intersection of a segment and a triangle. The segment's ends are on these sides of the
-/// triangle's plane, not both zero. Proof: proofs/Intersections.v, edge_meets_face,
+/// triangle's plane, not both zero. Proof: proofs/contact/Intersections.v, edge_meets_face,
 /// edge_crosses_face.
 constexpr intersection meet_edge(const point<3>* edge, const point<3>* face, int side_of_first,
                                  int side_of_last) {

@@ -1,5 +1,5 @@
 // Compares the C++ code with the proofs' definitions, in every case of a tiny format and in a
-// selection of cases of larger ones. proofs/tie.ml, a program of those definitions, writes the
+// selection of cases of larger ones. proofs/tie/tie.ml, a program of those definitions, writes the
 // hashes of the results to proofs/tie.txt. It enumerates the same cases in the same order.
 #pragma once
 

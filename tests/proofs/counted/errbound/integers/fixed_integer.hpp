@@ -116,7 +116,7 @@ class fixed_integer {
         if (a.coordinate_ >= 0 && b.coordinate_ == a.coordinate_)
             return given(a.x_ - b.x_, a.difference_bits_);
         // The rest of the step after a position in it: both are at most the step, 2^bits, which
-        // sums of bounds do not show. Proof: proofs/CubicRoots.v, bracket_near_right.
+        // sums of bounds do not show. Proof: proofs/contact/CubicRoots.v, bracket_near_right.
         if (a.is_unit_ && !b.x_.negative() && b.x_ <= a.x_) {
             b.bound_ = std::min(b.bound_, a.bound_);
             b.is_place_ = true;

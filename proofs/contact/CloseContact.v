@@ -1175,7 +1175,7 @@ End Decisions.
 
 (** ** Widths *)
 
-(** Expressions of proofs/FixedWidths.v, with differences below 2^253: s and t of 24 words, at most 2^max_bits.
+(** Expressions of proofs/integers/FixedWidths.v, with differences below 2^253: s and t of 24 words, at most 2^max_bits.
     These are the numbers that inside_from and normal_vanishes compute. *)
 Section Widths.
 Import FixedWidths.
