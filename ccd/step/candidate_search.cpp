@@ -100,7 +100,7 @@ class candidate_search::moving_parts {
         moving = listed<N>(all, [&](const auto& element) { return has(element); });
         for (const auto& element : moving.elements)
             for (const vertex_index v : element) widen(v);
-        constexpr std::size_t few = 4;  // one in so many
+        constexpr std::size_t few = 4;  // one in four
         return moving.elements.size() <= all.size() / few;
     }
     void widen(vertex_index v) {
@@ -301,8 +301,8 @@ void candidate_search::build(extents_tree& tree, Elements& elements, const Sampl
 
 namespace {
 
-/// Calls pair_of(i, j), which returns a candidate and if it is wanted, for the elements that `find`
-/// finds, from each leaf of `a` or from one in `stride`.
+/// Calls pair_of(i, j) for the elements that `find` finds, from each leaf of `a` or from one in
+/// `stride`. It returns a candidate, and true if the candidate is wanted.
 template <class Blocks, class PairOf>
 void search_trees(search_kernels::find_pairs find, const extents_tree& a, const extents_tree& b,
                   Blocks& blocks, const PairOf& pair_of, std::size_t stride = 1) {

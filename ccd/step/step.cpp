@@ -77,6 +77,20 @@ void decide_all(phase<K>& by, std::span<const pair_of_kind<K>> candidates, const
                       });
 }
 
+detail::wanted_candidates candidates_for(const step_options& options, bool spare) {
+    if (options.count_candidates || options.explain || options.method != method::exact) return {};
+    return {.close = options.distances.is_contact(), .t_max = options.t_max, .spare = spare};
+}
+
+void find_start(detail::candidate_search& search, std::optional<detail::vertex_fans>& fans,
+                const vertex_rows& positions, const step_options& options,
+                const detail::batch_positions& at, step_result& result) {
+    const intersection_options at_start{
+        .segments = false, .set = options.set, .stop = options.stop, .filter = options.filter};
+    result.intersections_at_start =
+        detail::find_intersections(search, fans, positions, at_start, &at).pairs;
+}
+
 /// Runs a step, except first times and contacts at the start. With a store, the search includes
 /// ways that short_way's `spare` covers. Pairs that `resting` keeps are not searched for.
 step_result run_step(detail::candidate_search& search, std::optional<detail::vertex_fans>& fans,
@@ -97,11 +111,7 @@ step_result run_step(detail::candidate_search& search, std::optional<detail::ver
         };
     });
     const bool counted = options.count_candidates || options.explain;
-    detail::wanted_candidates wanted;
-    if (!counted && options.method == method::exact)
-        wanted = {.close = options.distances.is_contact(),
-                  .t_max = options.t_max,
-                  .spare = store != nullptr};
+    detail::wanted_candidates wanted = candidates_for(options, store != nullptr);
     const bool keeps = resting != nullptr && options.method == method::exact &&
                        options.distances.is_contact() && detail::lets_all_through(options.filter);
     std::vector<std::uint8_t> moving;
@@ -128,10 +138,7 @@ step_result run_step(detail::candidate_search& search, std::optional<detail::ver
     result.sort_seconds = watch.lap();
 
     if (options.check_start) {
-        const intersection_options at_start{
-            .segments = false, .set = options.set, .stop = options.stop, .filter = options.filter};
-        result.intersections_at_start =
-            detail::find_intersections(search, fans, positions, at_start, &at).pairs;
+        find_start(search, fans, positions, options, at, result);
         result.start_seconds = watch.lap();
     }
     return result;

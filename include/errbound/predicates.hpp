@@ -143,7 +143,7 @@ constexpr auto sum_of_squares(const auto& x, const auto&... rest) {
     else
         return x * x + sum_of_squares(rest...);
 }
-/// As simplex_volume, with |p − o|² as the last column.
+/// The determinant of simplex_volume with |p − o|² as the last column.
 constexpr auto lifted_simplex_volume(const auto& o, const auto&... p) {
     const auto column = [&](int k) { return std::array{(p[k] - o[k])...}; };
     return [&]<std::size_t... K>(std::index_sequence<K...>) {

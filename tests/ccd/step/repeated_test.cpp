@@ -37,8 +37,8 @@ TEST(MeshSteps, FindWhatFreshOnesFindWhateverWentBefore) {
     }
 }
 
-/// Steps of one mesh in which parts or all of it rest, which start again or elsewhere, with options
-/// that vary, find the same as steps of a new one.
+/// Repeated steps of one mesh find the same as steps of a new one. Parts or all of it rest, steps
+/// start again or elsewhere, and options vary.
 void expect_as_new(std::uint64_t seed, int steps) {
     auto [mesh, second] = seed % 4 == 0 ? random_mixture(seed) : random_soup(seed, 70, 50);
     std::mt19937_64 random(seed);

@@ -79,6 +79,16 @@ TEST(StepTimes, AreNotAfterTheLast) {
     EXPECT_EQ(ccd::step(at.first, at.second, {.t_max = 0.5}).pairs, part.pairs);
 }
 
+ccd::pair_lists pairs_with(const ccd::first_time& time, const ccd::pair_lists& pairs,
+                           const ccd::time_lists& times) {
+    ccd::pair_lists found;
+    ccd::for_each_kind([&]<ccd::kind K>() {
+        for (std::size_t i = 0; i < times.of<K>().size(); ++i)
+            if (times.of<K>()[i] == time) found.of<K>().push_back(pairs.of<K>()[i]);
+    });
+    return found;
+}
+
 /// The search until t_max finds the pairs of a whole step with a time in [0, t_max], near and far
 /// from the origin, at any scale. t_max may be one of these times, or next to one.
 TEST(StepTimes, UntilAnyTimeAreThoseOfTheWholeStep) {
@@ -109,13 +119,8 @@ TEST(StepTimes, UntilAnyTimeAreThoseOfTheWholeStep) {
                 });
                 ASSERT_EQ(part.pairs, pairs) << what << ", t_max " << t_max;
                 ASSERT_EQ(part.times, times) << what << ", t_max " << t_max;
-                ccd::pair_lists first;
-                ccd::for_each_kind([&]<ccd::kind K>() {
-                    for (std::size_t i = 0; i < times.of<K>().size(); ++i)
-                        if (times.of<K>()[i] == part.first_contact)
-                            first.of<K>().push_back(pairs.of<K>()[i]);
-                });
-                ASSERT_EQ(part.first_pairs, first) << what << ", t_max " << t_max;
+                ASSERT_EQ(part.first_pairs, pairs_with(part.first_contact, pairs, times))
+                    << what << ", t_max " << t_max;
             }
     };
     for (const double size : {0x1p-1060, 1e-150, 1.0, 1e150, 0x1p1020})

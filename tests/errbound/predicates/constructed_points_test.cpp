@@ -134,6 +134,17 @@ sign_type right_sign(const errbound::predicate_type<Shape, F, Options>&, const d
         return sign_of(result);
 }
 
+void expect_all_stages(const char* name, int all, int zeros,
+                       const errbound::predicate_report& report) {
+    const auto filtered = report[predicate_stage::static_filter];
+    const auto exact = report[predicate_stage::long_integers];
+    std::printf("%s: %d inputs, %d zero; static filter %llu, long %llu\n", name, all, zeros,
+                static_cast<unsigned long long>(filtered), static_cast<unsigned long long>(exact));
+    EXPECT_GT(zeros, all / 50);
+    EXPECT_GT(filtered, 0U);
+    EXPECT_GT(exact, 0U);
+}
+
 /// Compares signs as a call, by each stage, and as a predicate of all parents.
 template <class... Arguments, class Predicate>
 void compare_constructed(const char* name, const Predicate& predicate) {
@@ -186,12 +197,7 @@ void compare_constructed(const char* name, const Predicate& predicate) {
                 (std::make_index_sequence<N>());
                 if (testing::Test::HasFatalFailure()) return;
             }
-    std::printf("%s: %d inputs, %d zero; static filter %llu, long %llu\n", name, all, zeros,
-                static_cast<unsigned long long>(report[predicate_stage::static_filter]),
-                static_cast<unsigned long long>(report[predicate_stage::long_integers]));
-    EXPECT_GT(zeros, all / 50);
-    EXPECT_GT(report[predicate_stage::static_filter], 0U);
-    EXPECT_GT(report[predicate_stage::long_integers], 0U);
+    expect_all_stages(name, all, zeros, report);
 }
 
 TEST(ConstructedPoints, InThePlane) {

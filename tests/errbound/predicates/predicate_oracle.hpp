@@ -283,7 +283,8 @@ inline int compare_slopes(const std::array<point2, 4>& p) {
     if (u < 0) u = -u, v = -v;
     return sign(y * u - v * x);
 }
-/// By quadrants: 0 to 3, each with its first axis. Zero vectors equal all directions below π.
+/// Compares quadrants first: 0 to 3, each with its first axis. Zero vectors equal all directions
+/// below π.
 inline int compare_directions(const std::array<point2, 4>& p) {
     struct turned {
         int quadrant;
@@ -307,7 +308,7 @@ inline int compare_directions(const std::array<point2, 4>& p) {
     if (a.quadrant != b.quadrant) return a.quadrant < b.quadrant ? -1 : 1;
     return sign(a.y * b.x - b.y * a.x);
 }
-/// By cos·|cos|, which falls with the angle.
+/// Compares cos·|cos|, which falls with the angle.
 template <std::size_t D>
 int compare_angles(const std::array<point<D>, 6>& p) {
     const auto parts = [](const point<D>& a, const point<D>& o, const point<D>& b) {
@@ -321,9 +322,9 @@ int compare_angles(const std::array<point<D>, 6>& p) {
     return sign(s * n - m * t);
 }
 
-/// By the line's parameters at which it enters and leaves each slab, as fractions. Positive if the
-/// open segment meets the box without its border, and both together span the space. (A flat box has
-/// only a border normal to its plane.)
+/// Compares the line's parameters at which it enters and leaves each slab, as fractions. Positive
+/// if the open segment meets the box without its border, and both together span the space. (A flat
+/// box has only a border normal to its plane.)
 template <std::size_t D>
 int segment_intersects_box(const std::array<point<D>, 4>& x) {
     const auto& [p, q, a, b] = x;

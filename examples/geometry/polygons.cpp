@@ -56,7 +56,7 @@ class overlay {
         }
     }
 
-    /// The borders of the result: counterclockwise, but for holes.
+    /// The borders of the result: counterclockwise; those of holes are clockwise.
     std::vector<std::vector<exact_point>> border(operation o) const {
         std::vector<std::vector<exact_point>> loops;
         const bool first_inside = contains(1, 0), second_inside = contains(0, size_);
@@ -67,8 +67,8 @@ class overlay {
             if (o == operation::difference && second_inside) std::ranges::reverse(loops.back());
             return loops;
         }
-        // Each loop follows the first polygon, from where it enters (leaves) the second to the next
-        // crossing, then the second polygon, forwards or for differences backwards.
+        // Each loop follows the first polygon from where it enters (leaves) the second to the next
+        // crossing. Then it follows the second polygon, backwards for differences.
         std::vector<bool> done(crossings_.size());
         for (std::size_t i = 0; i < crossings_.size(); ++i) {
             if (done[i] || (first_inside == (i % 2 == 1)) != wanted_inside) continue;
@@ -100,7 +100,7 @@ class overlay {
     bool above(std::size_t v, std::size_t p) const {
         return compare_y({v, p}, points_[v], points_[p]) == sign_type::positive;
     }
-    /// By the edges to the right of vertex p.
+    /// Counts the edges to the right of vertex p.
     bool contains(std::size_t polygon, std::size_t p) const {
         bool inside = false;
         const std::size_t end = polygon == 0 ? size_ : points_.size();
