@@ -139,9 +139,9 @@ step_result step(const mesh& before, const mesh& after, const step_options& opti
 /// candidates: n unused vertices at the origin make n²/2 pairs, unless skip_unused skips them.
 /// Memory, kept between steps, in addition to two `mesh` frames and the result: up to nine times
 /// these frames. With count_candidates, explain or a method other than `exact`, it is up to three
-/// times these frames. Vertices at rest add 24 bytes a vertex and a copy of the pairs. Trees hold
-/// doubles instead of floats with distances, and for a mesh so far from the origin that floats
-/// cannot separate its boxes.
+/// times these frames. Vertices at rest add 24 bytes a vertex and a copy of the pairs, and during a
+/// step up to 40 bytes a face. Trees hold doubles instead of floats with distances, and for a mesh
+/// so far from the origin that floats cannot separate its boxes.
 class mesh_steps {
   public:
     /// Throws std::invalid_argument if an index is not below `vertices`, or for 2^32 or more
