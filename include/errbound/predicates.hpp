@@ -355,16 +355,16 @@ constexpr sign_type segment_box(const auto& p, const auto& q, const auto& a, con
         along[static_cast<std::size_t>(i)] = d;
         size[static_cast<std::size_t>(i)] = e;
     }
-    const auto magnitude = [](const auto& x, sign_type s) {
-        return s == sign_type::negative ? -x : x;
+    const auto magnitude = [](const auto& from, const auto& to, int i, sign_type s) {
+        return s == sign_type::negative ? from[i] - to[i] : to[i] - from[i];
     };
     for (int i = Dimension == 3 ? 0 : 2; i < 3; ++i) {
         const int j = (i + 1) % 3, k = (i + 2) % 3;
         const auto at_j = static_cast<std::size_t>(j), at_k = static_cast<std::size_t>(k);
         if (along[at_j] == sign_type::zero && along[at_k] == sign_type::zero) continue;
         const auto x = q[j] - p[j], y = q[k] - p[k];
-        const auto radius = magnitude(b[j] - a[j], size[at_j]) * magnitude(y, along[at_k]) +
-                            magnitude(b[k] - a[k], size[at_k]) * magnitude(x, along[at_j]);
+        const auto radius = magnitude(a, b, j, size[at_j]) * magnitude(p, q, k, along[at_k]) +
+                            magnitude(a, b, k, size[at_k]) * magnitude(p, q, j, along[at_j]);
         const auto offset =
             ((a[j] - p[j]) + (b[j] - q[j])) * y - ((a[k] - p[k]) + (b[k] - q[k])) * x;
         const sign_type above = sign_of(radius - offset), below = sign_of(radius + offset);

@@ -54,8 +54,8 @@ def main():
             predicate = None
             for i, line in enumerate(lines):
                 form = re.match(r"constexpr sign_type (\w+)\(", line)
-                predicate = PREDICATES[form[1]] if form else predicate
-                if "!certain" not in line:
+                predicate = PREDICATES.get(form[1]) if form else predicate
+                if predicate is None or "!certain" not in line:
                     continue
                 for mutant, before in omissions(line, lines[i - 1]):
                     text = "\n".join([*lines[:i - 1], before, mutant, *lines[i + 1:]])
