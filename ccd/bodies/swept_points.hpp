@@ -1,6 +1,7 @@
 // Boxes around the ways of a body's points. Internal.
 #pragma once
 
+#include <array>
 #include <ccd/bodies/motion.hpp>
 #include <ccd/query.hpp>
 #include <vector>

@@ -1,10 +1,12 @@
 #include "ccd/contact/first_times.hpp"
 
 #include <algorithm>
+#include <array>
 #include <ccd/bodies/motion.hpp>
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <optional>
 #include <vector>
 
 #include "ccd/contact/condition.hpp"

@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <optional>
 #include <span>
+#include <type_traits>
 #include <utility>
 
 #include "ccd/contact/feature_conditions.hpp"
@@ -23,12 +24,19 @@ class weighted_paths {
     weighted_paths(std::span<const Motion> points, const Ring& ring) {
         point_evaluator<Ring> evaluate(ring);
         for (std::size_t i = 0; i < count; ++i) own[i] = evaluate(points[i]);
-        auto common = own;
+        // Only boxes of bodies need each point with its own weight afterwards.
+        std::array<path<element>, count> common;
+        for (std::size_t i = 0; i < count; ++i) {
+            if constexpr (std::is_same_v<Motion, body_point>)
+                common[i] = own[i].h;
+            else
+                common[i] = std::move(own[i].h);
+        }
         weights_ = {with_common_weight(points, common, 0, first),
                     with_common_weight(points, common, first, count)};
         q = paths_of<K, element>([&](std::size_t i) -> weighted_path<element> {
             const auto& weight = weights_[i < first ? 0 : 1];
-            return {std::move(common[i].h), weight ? &*weight : nullptr};
+            return {std::move(common[i]), weight ? &*weight : nullptr};
         });
     }
     weighted_paths(const weighted_paths&) = delete;
@@ -43,7 +51,7 @@ class weighted_paths {
 
     static constexpr std::size_t first = kind_traits<K>::first_vertices;
     static constexpr std::size_t count = first + kind_traits<K>::second_vertices;
-    std::array<homogeneous_point<Ring>, count> own;  ///< each point with its own weight
+    std::array<homogeneous_point<Ring>, count> own;  ///< a body's points with their own weights
     paths<K, element> q;
 
   private:
@@ -51,7 +59,7 @@ class weighted_paths {
     /// Returns the product of all.
     template <class Motion>
     std::optional<element> with_common_weight(std::span<const Motion> points,
-                                              std::array<homogeneous_point<Ring>, count>& common,
+                                              std::array<path<element>, count>& common,
                                               std::size_t begin, std::size_t end) const {
         std::optional<element> product;
         for (std::size_t i = begin; i < end; ++i) {
@@ -62,7 +70,7 @@ class weighted_paths {
             const element& w = *own[i].weight;
             for (std::size_t j = begin; j < end; ++j)
                 if (!own[j].weight || !have_one_weight(points[i], points[j]))
-                    common[j].h = times_weight(common[j].h, &w);
+                    common[j] = times_weight(common[j], &w);
             product = product ? *product * w : w;
         }
         return product;

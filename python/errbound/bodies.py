@@ -1,8 +1,8 @@
 """Exact continuous collision detection of bodies that turn: rigid and affine motion between two poses.
 
-Poses are an array (n, 7), a row for each body: x y z of the position, then w x y z of a quaternion q. A pose means
-the rotation q/|q| about the body's origin, then the translation, without rounding. Between two poses the position moves
-linearly and the quaternion is interpolated linearly and normalised, along the shorter arc (docs/collision-detection.md).
+Poses are an array (n, 7), a row for each body: x y z of the position, then w x y z of a quaternion q. A pose means the
+rotation q/|q| about the body's origin, then the translation, without rounding. Between two poses the position moves
+linearly. The quaternion is interpolated linearly and normalised, along the shorter arc (docs/collision-detection.md).
 Affine poses are matrices (n, 4, 4) with the last row 0 0 0 1, interpolated linearly. "Exact" is about the poses as
 given: no vertex is rounded. Bodies whose poses are equal rest; two resting bodies are not tested.
 """
