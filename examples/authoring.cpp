@@ -8,11 +8,11 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstdio>
-#include <errbound/constructed_points.hpp>
 #include <errbound/multiprecision.hpp>
-#include <errbound/perturbation.hpp>
 #include <errbound/predicate_batch.hpp>
 #include <errbound/predicates.hpp>
+#include <errbound/predicates/constructed_points.hpp>
+#include <errbound/predicates/perturbation.hpp>
 #include <errbound/simplices/common_segment.hpp>
 #include <random>
 #include <span>

@@ -17,9 +17,9 @@
 #include "ccd/batch/threads.hpp"
 #include "ccd/bodies/swept_points.hpp"
 #include "ccd/exact/finite.hpp"
-#include "ccd/step/box_tree.hpp"
 #include "ccd/step/checks.hpp"
 #include "ccd/step/elements.hpp"
+#include "ccd/step/trees/box_tree.hpp"
 #include "ccd/step/vertex_order.hpp"
 
 namespace ccd {

@@ -6,7 +6,7 @@
 #include <ccd/query.hpp>
 #include <vector>
 
-#include "ccd/step/box_tree.hpp"
+#include "ccd/step/trees/box_tree.hpp"
 
 namespace ccd::detail {
 

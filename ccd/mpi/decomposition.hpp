@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "ccd/mpi/exchange.hpp"
-#include "ccd/step/box_tree.hpp"
+#include "ccd/step/trees/box_tree.hpp"
 
 namespace ccd::mpi::detail {
 

@@ -12,10 +12,10 @@
 #include <utility>
 #include <vector>
 
-#include "ccd/step/box_tree.hpp"
 #include "ccd/step/extents_tree.hpp"
-#include "ccd/step/fans/vertex_fans.hpp"
+#include "ccd/step/rest/vertex_fans.hpp"
 #include "ccd/step/swept_boxes.hpp"
+#include "ccd/step/trees/box_tree.hpp"
 #include "ccd/step/vertex_order.hpp"
 
 namespace ccd::detail {

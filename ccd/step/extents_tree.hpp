@@ -1,4 +1,4 @@
-// A tree over the extents of elements, sixteen to a node: see ccd/step/extents_pack.hpp.
+// A tree over the extents of elements, sixteen to a node: see ccd/step/trees/extents_pack.hpp.
 #pragma once
 
 #include <tbb/blocked_range.h>
@@ -13,8 +13,8 @@
 #include <vector>
 
 #include "ccd/batch/first_touch.hpp"
-#include "ccd/step/extents_pack.hpp"
 #include "ccd/step/search_kernels.hpp"
+#include "ccd/step/trees/extents_pack.hpp"
 
 namespace ccd::detail {
 

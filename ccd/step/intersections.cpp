@@ -17,8 +17,8 @@
 #include "ccd/step/candidate_search.hpp"
 #include "ccd/step/checks.hpp"
 #include "ccd/step/elements.hpp"
-#include "ccd/step/fans/vertex_fans.hpp"
 #include "ccd/step/order/buckets.hpp"
+#include "ccd/step/rest/vertex_fans.hpp"
 #include "ccd/step/stopwatch.hpp"
 
 namespace ccd {

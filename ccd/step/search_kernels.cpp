@@ -7,7 +7,7 @@
 #include "ccd/batch/rounded_positions.hpp"
 #include "ccd/batch/row_quads.hpp"
 #include "ccd/exact/simd.hpp"
-#include "ccd/step/packs/triangle_signs.hpp"
+#include "ccd/step/rest/triangle_signs.hpp"
 
 namespace ccd::detail::ERRBOUND_INSTRUCTION_SET {
 namespace {

@@ -8,7 +8,7 @@
 #include <errbound/sign.hpp>
 #include <optional>
 
-#include "ccd/step/extents_pack.hpp"
+#include "ccd/step/trees/extents_pack.hpp"
 
 namespace ccd::detail {
 

@@ -21,7 +21,7 @@
 #include "ccd/step/candidate_search.hpp"
 #include "ccd/step/checks.hpp"
 #include "ccd/step/narrow_phase.hpp"
-#include "ccd/step/resting_pairs.hpp"
+#include "ccd/step/rest/resting_pairs.hpp"
 #include "ccd/step/short_steps.hpp"
 #include "ccd/step/stopwatch.hpp"
 

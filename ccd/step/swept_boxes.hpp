@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "ccd/batch/rounded_positions.hpp"
-#include "ccd/step/box_tree.hpp"
+#include "ccd/step/trees/box_tree.hpp"
 
 namespace ccd::detail {
 

@@ -7,7 +7,7 @@
 #include <chrono>
 #include <cstddef>
 #include <cstdio>
-#include <errbound/constructed_points.hpp>
+#include <errbound/predicates/constructed_points.hpp>
 #include <random>
 #include <set>
 #include <vector>

@@ -8,8 +8,8 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdio>
-#include <errbound/perturbation.hpp>
 #include <errbound/predicates.hpp>
+#include <errbound/predicates/perturbation.hpp>
 #include <map>
 #include <random>
 #include <utility>

@@ -5,8 +5,8 @@
 #include <boost/multiprecision/cpp_int.hpp>
 #include <cstddef>
 #include <cstdio>
-#include <errbound/perturbation.hpp>
 #include <errbound/predicates.hpp>
+#include <errbound/predicates/perturbation.hpp>
 #include <random>
 #include <vector>
 

@@ -6,16 +6,16 @@
 
 #include <errbound/bernstein.hpp>
 #include <errbound/bsc.hpp>
-#include <errbound/constructed_points.hpp>
 #include <errbound/conversion.hpp>
 #include <errbound/decimal.hpp>
 #include <errbound/elementary.hpp>
 #include <errbound/environment.hpp>
 #include <errbound/functions.hpp>
-#include <errbound/perturbation.hpp>
 #include <errbound/polynomial.hpp>
 #include <errbound/predicate_batch.hpp>
 #include <errbound/predicates.hpp>
+#include <errbound/predicates/constructed_points.hpp>
+#include <errbound/predicates/perturbation.hpp>
 #include <errbound/roots/real_roots.hpp>
 #include <errbound/simplices/common_segment.hpp>
 #include <errbound/simplices/predicates.hpp>

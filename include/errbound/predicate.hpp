@@ -66,7 +66,7 @@ template <class>
 inline constexpr bool is_shape = false;
 template <int... Dimensions>
 inline constexpr bool is_shape<points<Dimensions...>> = true;
-/// True for constructed points (errbound/constructed_points.hpp).
+/// True for constructed points (errbound/predicates/constructed_points.hpp).
 template <class Point>
 inline constexpr bool is_constructed = false;
 template <class Number>
@@ -117,7 +117,7 @@ class predicate_type {
     static constexpr int coordinate_bits(int bits) { return stages::coordinate_bits(bits); }
 
     /// Returns the sign. Points: any type that coordinate_of accepts, with float or double numbers,
-    /// or constructed points (errbound/constructed_points.hpp).
+    /// or constructed points (errbound/predicates/constructed_points.hpp).
     template <class... Points>
     [[gnu::flatten]] constexpr sign_type operator()(const Points&... p) const {
         if constexpr ((filters::is_constructed<Points> || ...)) {

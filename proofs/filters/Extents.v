@@ -1,4 +1,4 @@
-(** Comparisons of a step's search (ccd/step/extents_pack.hpp and ccd/step/search_kernels.cpp): extents of elements
+(** Comparisons of a step's search (ccd/step/trees/extents_pack.hpp and ccd/step/search_kernels.cpp): extents of elements
     and groups along nine axes at both ends of the step. They are in single precision, with coordinates rounded as in
     RoundedAxes.v, in any direction, the same in both formats. All positions are in the frame's box. Results:
         coordinate_extents_hold   along x, y, z extents contain the rounded coordinates of all vertices

@@ -1,8 +1,8 @@
 // Definitions and calls of predicates that must be rejected: their operations, answers and options.
 // Each case is compiled separately, with its name defined.
-#include <errbound/constructed_points.hpp>
-#include <errbound/perturbation.hpp>
 #include <errbound/predicates.hpp>
+#include <errbound/predicates/constructed_points.hpp>
+#include <errbound/predicates/perturbation.hpp>
 #include <errbound/rules/stochastic.hpp>
 
 using errbound::points;

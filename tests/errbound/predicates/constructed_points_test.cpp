@@ -1,5 +1,5 @@
 // Constructed points as arguments, compared with the predicates at rational points.
-#include <errbound/constructed_points.hpp>
+#include <errbound/predicates/constructed_points.hpp>
 #include <optional>
 #include <vector>
 
@@ -145,6 +145,13 @@ void expect_all_stages(const char* name, int all, int zeros,
     EXPECT_GT(exact, 0U);
 }
 
+/// Few different points, at times in one plane.
+void set_few_points(auto& points, predicate_inputs::generator& random) {
+    const int most = predicate_inputs::between(random, 1, 4);
+    for (auto& point : points)
+        for (double& x : point) x = predicate_inputs::between(random, 0, most);
+}
+
 /// Compares signs as a call, by each stage, and as a predicate of all parents.
 template <class... Arguments, class Predicate>
 void compare_constructed(const char* name, const Predicate& predicate) {
@@ -160,12 +167,7 @@ void compare_constructed(const char* name, const Predicate& predicate) {
         for (const auto& family : predicate_inputs::families<double, D, N>)
             for (int i = 0; i < std::max(support::scaled(24), 4); ++i, ++all) {
                 auto p = family.make(random, s);
-                const bool whole =
-                    random() % 8 == 0;  // few different points, in the plane at times
-                const int most = predicate_inputs::between(random, 1, 4);
-                if (whole)
-                    for (auto& point : p)
-                        for (double& x : point) x = predicate_inputs::between(random, 0, most);
+                if (random() % 8 == 0) set_few_points(p, random);
                 std::array<double, shape::size> list;
                 for (std::size_t k = 0; k < N; ++k)
                     for (std::size_t j = 0; j < (shape::dimensions[k] == 0 ? 1U : D); ++j)

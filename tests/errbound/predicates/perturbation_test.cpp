@@ -1,5 +1,5 @@
 // Perturbed predicates, compared with a concrete small epsilon in integers, on degenerate points.
-#include <errbound/perturbation.hpp>
+#include <errbound/predicates/perturbation.hpp>
 #include <numeric>
 #include <optional>
 #include <vector>

@@ -1,4 +1,4 @@
-#include "ccd/step/fans/vertex_fans.hpp"
+#include "ccd/step/rest/vertex_fans.hpp"
 
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
