@@ -70,8 +70,8 @@ constexpr auto lifted_volume(const auto& a, const auto& b, const auto& c, const 
            (height(b, bx * bx + by * by + bz * bz) * cda -
             height(a, ax * ax + ay * ay + az * az) * bcd);
 }
-/// The sets of K of N rows: row j of set i, and the index of the set without that row among the
-/// sets of K − 1.
+/// All sets of K of the N rows, numbered: the j-th row of set i, and the number of the set of K − 1
+/// rows that remains without it.
 template <std::size_t N, std::size_t K>
 struct row_sets {
     static constexpr auto all = [] {
@@ -333,8 +333,9 @@ constexpr sign_type point_in_tetrahedron(const auto& p, const auto& a, const aut
     if (s == sign_type::negative) s = in(b, c, d);
     return s;
 }
-/// The box between corners a and b and the reversed segment add up to a polytope. Its faces are
-/// normal to an axis, or to an axis and the segment.
+/// The Minkowski sum of the box between corners a and b and the reflected segment is a polytope.
+/// The two meet if it contains the origin. Its faces are normal to an axis, or to an axis and the
+/// segment.
 template <int Dimension>
 constexpr sign_type segment_box(const auto& p, const auto& q, const auto& a, const auto& b) {
     bool touches = false;
@@ -522,7 +523,8 @@ inline constexpr auto compare_slopes =
         return forms::compare_slopes(a, b, c, d);
     });
 /// Negative if the direction from a to b comes before that from c to d, counterclockwise from the x
-/// axis, from 0 to 2π. A zero vector has the angle 0, and equals every direction below π.
+/// axis, from 0 to 2π. A zero vector compares as equal to every direction below π, and comes
+/// before the others.
 inline constexpr auto compare_directions =
     predicate<points<2, 2, 2, 2>>([](const auto& a, const auto& b, const auto& c, const auto& d) {
         return forms::compare_directions(a, b, c, d);

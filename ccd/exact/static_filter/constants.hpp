@@ -26,7 +26,7 @@ inline constexpr Real largest_difference = 0x1p200;
 template <>
 inline constexpr float largest_difference<float> = 4;
 
-/// |ĥ − h| <= relative·unit + absolute, where h = multiple(n)·b for a control value b of a form of
+/// |ĉ − c| <= relative·unit + absolute, where c = multiple(n)·b for a control value b of a form of
 /// degree n, as errbound/roots/control_values.hpp stores it. The head of this file defines the
 /// unit.
 template <class Real>

@@ -35,9 +35,10 @@ struct waiting_parts {
 };
 
 /// `separate` and `collides` are certain. Returns `uncertain` if further halving would not help, or
-/// if `deepest` <= max_depth halvings did not decide. Sets `*found` if the query `collides`. Proof:
-/// proofs/filters/Subdivision.v, subdivision_separate, subdivision_collides; of `found`,
-/// proofs/times/ContactPart.v, part_found, first_part_right, first_root_in_part.
+/// if `deepest` halvings did not decide. Precondition: deepest <= max_depth. Sets `*found` if the
+/// query `collides`. Proof: proofs/filters/Subdivision.v, subdivision_separate,
+/// subdivision_collides; of `found`, proofs/times/ContactPart.v, part_found, first_part_right,
+/// first_root_in_part.
 template <template <class> class Forms>
 constexpr outcome subdivide(const whole_step<double, Forms>& whole,
                             contact_interval* found = nullptr, std::size_t deepest = max_depth) {

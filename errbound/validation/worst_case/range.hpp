@@ -9,8 +9,8 @@
 
 namespace errbound::validation {
 
-/// All x with lower <= x <= upper. Overflow and undefined operations give [−∞, ∞], as does every
-/// operation on it, except a product with exactly 0.
+/// All x with lower <= x <= upper. Overflow and undefined operations give [−∞, ∞], as do sums,
+/// products (except with exactly 0) and quotients of it.
 class range {
   public:
     constexpr range() = default;
@@ -68,7 +68,8 @@ class range {
     friend range hull(const range& a, const range& b) {
         return {std::min(a.lower(), b.lower()), std::max(a.upper(), b.upper())};
     }
-    /// Precondition: a and b have a common number, except for rounding errors that a widens by.
+    /// Precondition: a and b enclose the same numbers, b except for rounding errors. So a is right
+    /// if the two are disjoint.
     friend range common(const range& a, const range& b) {
         const range r(std::max(a.lower(), b.lower()), std::min(a.upper(), b.upper()));
         return r.lower() <= r.upper() ? r : a;

@@ -3,11 +3,11 @@
 //   errbound::sign_type s = errbound::incircle(i, p, q, r);
 //
 // Nothing is rounded: coordinates are anchor + x/w, for an explicit anchor and expressions x and w
-// of the parents. The predicate's expression is evaluated over fractions with such denominators, by
-// the stages of a predicate of all parents. Its filter is derived from that expression. A sign is
-// zero if a point does not exist (w = 0). Constructed points copy their parents, and point to the
-// coordinates if these are plain arrays or pointers. No rounding, no allocation. Cost: 2 to 10
-// times that of explicit points.
+// of the parents. The predicate's expression is evaluated over fractions with such denominators.
+// This is a predicate of the parents of constructed points, and of the explicit points, with its
+// own filter. A sign is zero if a point does not exist (w = 0). Constructed points copy their
+// parents, except plain arrays and pointers, whose coordinates must outlive them. No rounding, no
+// allocation. Cost where the filter decides: 2 to 10 times that of explicit points.
 #pragma once
 
 #include <array>
@@ -217,12 +217,11 @@ template <whole_operand X, fraction_operand Y>
 constexpr auto operator+(const X& x, const Y& y) {
     return y + x;
 }
-/// Coordinates of different points: the anchors are subtracted first, so that the filter's size
-/// depends on differences only.
 template <fraction_operand X, fraction_operand Y>
 constexpr auto operator-(const X& x, const Y& y) {
     return fraction_sum<true>(as_fraction(x), as_fraction(y));
 }
+/// The anchors are subtracted first, so that the filter's size depends on differences only.
 template <std::size_t I, std::size_t J, class A, class B, class X, class Y, class D>
 constexpr auto operator-(const constructed_coordinate<I, A, X, D>& x,
                          const constructed_coordinate<J, B, Y, D>& y) {
@@ -300,7 +299,7 @@ struct joined<points<D...>> {
 template <int... D, int... E, class... Rest>
 struct joined<points<D...>, points<E...>, Rest...> : joined<points<D..., E...>, Rest...> {};
 
-/// An argument's parents: of a construction, or an explicit point of the shape.
+/// The shape of an argument's parents: those of its construction, or an explicit point itself.
 template <class Argument, int Dimension>
 struct argument_traits {
     static_assert(Argument::dimension == Dimension,

@@ -4,10 +4,10 @@
 //
 // Coordinate k of the point with index i is x + e(i, k), for infinitesimals e > 0. All calls see
 // the same perturbed points, so signs never contradict each other. A sign is zero only if arguments
-// have the same index, and uncertain only if a coordinate is not finite. If the exact sign is zero,
-// a call costs 1 to 20 µs (more for equal points) and one allocation; std::bad_alloc if memory runs
-// out. Source: Edelsbrunner, Mücke 1990, Simulation of Simplicity. Proof:
-// docs/authoring-predicates.md.
+// have the same index, or only some coordinates are perturbed. It is uncertain only if a coordinate
+// is not finite. If the exact sign is zero, a call costs 1 to 20 µs (more for equal points) and
+// allocates; std::bad_alloc if memory runs out. Source: Edelsbrunner, Mücke 1990, Simulation of
+// Simplicity. Proof: docs/authoring-predicates.md.
 #pragma once
 
 #include <algorithm>
@@ -124,8 +124,8 @@ class infinitesimal_polynomial {
                                               const infinitesimal_polynomial& x) {
         return x * c;
     }
-    /// Skipped infinitesimals change no term without them. So the first term is final if there is
-    /// one, and otherwise the sign is uncertain.
+    /// Terms with a skipped infinitesimal come after all others. So the first term, if there is
+    /// one, is final; otherwise the sign is uncertain, or zero if nothing was skipped.
     friend sign_type sign_of(const infinitesimal_polynomial& x) {
         if (x.count_ == 0) return x.store_->complete ? sign_type::zero : sign_type::uncertain;
         return sign_of_coefficient(x.store_->terms[x.first_].coefficient);
@@ -297,10 +297,10 @@ class perturbed_predicate<predicate_type<Shape, F, Options>, Coordinates...> {
     }
 };
 
-/// The predicate over perturbed points. Its expression must return a number. With coordinates
-/// given, as in perturbed<3>(power_insphere), only these are perturbed: weights, so that no flat
-/// simplex becomes one of positive volume. The sign may then be zero (if all five points are
-/// coplanar).
+/// The predicate over perturbed points. Its expression must return a number. Template arguments
+/// are the indices of the coordinates to perturb; without any, all are.
+/// perturbed<3>(power_insphere) perturbs only weights, so no flat simplex gets a positive volume.
+/// The sign may then be zero (if all five points are coplanar).
 template <int... Coordinates, class Shape, class F, class Options>
 constexpr perturbed_predicate<predicate_type<Shape, F, Options>, Coordinates...> perturbed(
     const predicate_type<Shape, F, Options>&) {

@@ -24,7 +24,7 @@ namespace errbound {
 
 namespace simplices {
 
-/// The offset from line[0] at which a line meets a plane, or in the plane another line, as
+/// The offset from line[0] at which a line meets a plane (D = 3) or another line (D = 2), as
 /// numerators and their divisor.
 template <class Number, std::size_t D>
 struct meeting_point {
@@ -55,7 +55,7 @@ struct meeting_point {
             return Number::from(x);
     }
 };
-/// The point at which a segment meets a plane, or in the plane another segment. Evaluated exactly
+/// The point at which a segment meets a plane (D = 3) or another segment (D = 2). Evaluated exactly
 /// if the error of floating point exceeds 2^-44 times the segment's largest coordinate.
 template <std::size_t D>
 located_point<D> located(const std::array<point<D>, 2>& line, const std::array<point<D>, D>& flat) {

@@ -59,7 +59,7 @@ constexpr std::array<point<D>, K> as_doubles(const std::array<std::array<T, D>, 
     return doubles;
 }
 
-/// The intersection of two simplices: its dimension, −1 if it is empty, and if their relative
+/// The intersection of two simplices: its dimension (−1 if it is empty), and true if their relative
 /// interiors meet.
 struct intersection {
     int dimension;
@@ -270,10 +270,10 @@ constexpr bool on_one_side(const sides& s, int size, int first = 0) {
 struct crossing_edge {
     int from, to;
 };
-/// The segment in which a triangle meets a plane. See the triangle
-/// from where its vertices run counterclockwise: those on the positive side are to the right of the
-/// way from the low to the high end. Precondition: the sides are neither all zero nor strictly
-/// the same.
+/// The segment in which a triangle meets a plane. Its vertices run counterclockwise as seen from
+/// here: those on the positive side are to the right of the way from the low to the high end.
+/// Precondition: the sides are neither all zero nor
+/// strictly the same.
 struct section {
     sides side;
     crossing_edge low{}, high{};

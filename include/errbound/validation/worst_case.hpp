@@ -3,10 +3,10 @@
 //   const auto e = errbound::worst_case<float>(f, {{1, 4}, {1, 4}});
 //   e.at_most, e.at_least;  // certified, and observed at e.where
 //
-// `at_most` holds whenever the search stops, under the assumptions of the bound rules: rounding to
-// nearest, and function_error for elementary functions. It is infinite if an operation may overflow
-// or leave its domain. Method and proof: docs/how-wrong.md. Cost: microseconds per operation and
-// box, up to the limits of the options. Links to errbound::validation.
+// `at_most` holds whenever the bisection stops, under the assumptions of the bound rules: rounding
+// to nearest, and function_error for elementary functions. It is infinite if an operation may
+// overflow or leave its domain. Method and proof: docs/how-wrong.md. Cost: microseconds per
+// operation and box, up to the limits of the options. Links to errbound::validation.
 #pragma once
 
 #include <algorithm>
@@ -38,7 +38,7 @@ struct input_range {
 
 struct worst_case_options {
     bool round_inputs = false;  ///< inputs stand for real numbers, rounded to nearest
-    double gap = 0.01;          ///< stop if the bound is within this share of its least value
+    double gap = 0.01;          ///< stop if bisection can lower the bound by at most this share
     double seconds = 10;        ///< for the bound; once more for the relative one
     std::size_t boxes = 1'000'000;
     std::size_t samples = 200'000;  ///< inputs that the search for the largest error tries
@@ -54,11 +54,12 @@ struct worst_case_result {
     std::vector<double> where;    ///< inputs with that error; empty if no input was evaluated
     double lower = 0, upper = 0;  ///< enclosure of the exact result
     double relative_at_most = std::numeric_limits<double>::infinity();
-    /// Amounts add up to at_most: each operation's rounding, where their sum is largest.
+    /// The share of each operation in the bound, in the box with the largest bound. Amounts are
+    /// scaled to add up to at_most.
     explanation by_operation;
     std::size_t boxes = 0;
     double seconds = 0;    ///< for the bound and the search
-    bool complete = true;  ///< false if a limit ended the bound before the gap was reached
+    bool complete = true;  ///< false if bisection ended before the gap was reached
 };
 
 /// A comparison of recorded numbers has no unique result in the box.
@@ -76,8 +77,8 @@ class recording {
     struct node {
         leaf kind = leaf::none;
         operation_kind operation = operation_kind::add;
-        std::size_t left = 0, right = 0,
-                    third = 0;  ///< of an input: its index; of a constant: of its text
+        std::size_t left = 0;  ///< an operand; of an input or constant, its index
+        std::size_t right = 0, third = 0;
         std::uint32_t scope = 0;
 
         using identity = std::tuple<leaf, operation_kind, std::size_t, std::size_t, std::size_t>;
@@ -149,7 +150,8 @@ concept worst_case_format = std::same_as<T, float> || std::same_as<T, double> ||
     std::same_as<T, float8_e5m2> || std::same_as<T, float8_e4m3>;
 
 /// The number with which worst_case calls f. Comparisons throw undecided_comparison if their result
-/// depends on the input. A built-in constant is exact, and rounded to the format if necessary.
+/// depends on the input. A built-in constant stands for exactly its C++ value; if the format does
+/// not have it, its rounding counts as an error.
 class recorded {
     using kind = validation::operation_kind;
 
