@@ -26,8 +26,9 @@ struct advance_options {
     /// own), and further up to planes between the elements of each pair in contact, as in
     /// divide-and-truncate methods: motion along a contact is not limited.
     bool each_vertex = false;
-    /// To keep; 0: only contact is avoided, also of step_options::adjacent_rods. With distances,
-    /// these may fold through each other; certify (ccd/certify.hpp) finds that.
+    /// The distances that pairs keep. If 0, pairs only avoid contact, and rods with a common vertex
+    /// are tested too. With distances such rods are not tested: they may fold through each other,
+    /// which certify (ccd/certify.hpp) finds.
     pair_distances distances = {};
     /// Pairs that start within their distance, or nearer than 1 + 2^-10 times it, may come nearer,
     /// but not below this share of their distance at the start: in [0, 1). So pairs that rest at

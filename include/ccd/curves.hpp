@@ -99,8 +99,8 @@ concept curve_query = detail::has_kind<T> && requires {
 };
 
 /// Same as in ccd/contact.hpp, and `uncertain` also if a curve has no control point or invalid
-/// weights. For curves of degree m the first time has algebraic degree <= 3m; weights that differ
-/// among the points multiply it.
+/// weights. For curves of degree m the first time has algebraic degree <= 3m, and a higher one if
+/// weights differ among the points.
 template <curve_query Query>
 first_time time_within(const Query& query, separation d, double t_max = 1);
 template <curve_query Query>
@@ -129,7 +129,8 @@ struct spline_time {
     ccd::outcome outcome = ccd::outcome::uncertain;
     std::size_t piece = 0;  ///< the first piece with a first time, or that is uncertain
     first_time in_piece;    ///< exact, in that piece's t
-    /// Bounds of the first time, some units in the last place apart; at a knot both are the knot.
+    /// Bounds of the first time, some units in the last place of the larger knot apart; at a knot
+    /// both are the knot.
     double low = 0, high = 0;
 };
 

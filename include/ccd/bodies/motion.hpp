@@ -2,9 +2,11 @@
 //
 //     const ccd::body_motion spin = ccd::shorter_arc({q0, p0}, {q1, p1});
 //     const ccd::body_motion still = ccd::resting{};
-//     const auto vertex = [&](auto x) { return ccd::body_point{&spin, x}; };  // x in the rest
-//     frame const ccd::vertex_face_of<ccd::body_point> query{vertex(v), {&still, f0}, ...}; const
-//     ccd::first_time touch = ccd::time_of_impact(query);
+//     const auto vertex = [&](auto x) { return ccd::body_point{&spin, x}; };
+//     const ccd::vertex_face_of<ccd::body_point> query{vertex(v), {&still, f0}, ...};
+//     const ccd::first_time touch = ccd::time_of_impact(query);
+//
+// Positions x, as v and f0, are in the body's rest frame.
 //
 // The calls of ccd/curves.hpp accept such queries. They decide about the poses as given: products
 // and sums of the doubles, without rounding. rounded_ends gives the linear motion between rounded
@@ -51,8 +53,9 @@ struct affine_motion {
 
 /// x(t) = R(t)(X − centre) + p(t) with p linear in t, where R(t) is the rotation of the quaternion
 /// q(t) = (1 − t)q0 + t q1, normalised. The body turns about the point that is `centre` at rest. t
-/// is the parameter of this interpolation; the speed of rotation is not constant. The lengths of q0
-/// and q1 determine it. A piece turns by less than half a turn: q0·q1 must certainly be > 0.
+/// is the parameter of this interpolation; the speed of rotation is not constant. It depends on the
+/// lengths of q0 and q1 and the angle between them. A piece turns by less than half a turn: q0·q1
+/// must certainly be > 0.
 struct rigid_motion {
     quaternion q0, q1;
     point<double> p0, p1;
@@ -77,9 +80,9 @@ bool moves(const body_motion& motion);
 /// The motion from one pose to another, with −q1 for q1 if that is the shorter arc.
 rigid_motion shorter_arc(const pose& from, const pose& to);
 
-/// A screw with the half-angle's tangent as its parameter: t d is the tangent times the axis'
-/// direction. So the angle at t is 2 atan(t|d|). The axis goes through `centre`, which moves to
-/// `end`; at t = 0 all points are at rest. No number is rounded.
+/// A screw motion about the direction d, whose length is the tangent of half the angle at t = 1. At
+/// t the angle is 2 atan(t|d|). The axis goes through `centre`, which moves to `end`. At t = 0 all
+/// points are at their rest positions. No number is rounded.
 rigid_motion screw(const point<double>& d, const point<double>& centre, const point<double>& end);
 
 /// A turn from `from` by `angle`, in radians and of any size, about the direction `axis`, while

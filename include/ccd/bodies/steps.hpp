@@ -3,8 +3,7 @@
 //     ccd::body_steps steps({gear, pinion, base});               // meshes at rest
 //     const std::vector<ccd::body_motion> motions{turn_left, turn_right, ccd::resting{}};
 //     const ccd::body_step_result found = steps.run(motions);    // pairs and first times
-//     const ccd::body_advance free = steps.advance(motions);     // free.motions end without
-//     contact
+//     const ccd::body_advance free = steps.advance(motions);     // motions without contact
 //
 // Exact, as one query (ccd/bodies/motion.hpp): no pair is missed, none is reported without contact.
 // Pairs are of elements of different bodies, as in ccd/step.hpp. Results do not depend on the
