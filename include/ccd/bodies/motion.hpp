@@ -7,9 +7,9 @@
 //     const ccd::first_time touch = ccd::time_of_impact(query);
 //
 // Positions such as v and f0 are in the body's rest frame. The calls of ccd/curves.hpp accept such
-// queries. They decide about the poses as given: products
-// and sums of the doubles, without rounding. rounded_ends gives the linear motion between rounded
-// ends instead. Cost: microseconds if floating point decides, else 0.1 to 1 ms.
+// queries. They decide about the poses as given: products and sums of the doubles, without
+// rounding. rounded_ends gives the linear motion between rounded ends instead. Cost: microseconds
+// if floating point decides, else 0.1 to 1 ms.
 #pragma once
 
 #include <array>
