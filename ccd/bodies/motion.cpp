@@ -57,6 +57,15 @@ quaternion product(const quaternion& a, const quaternion& b) {
             a.w * b.z + a.x * b.y - a.y * b.x + a.z * b.w};
 }
 
+/// The same direction with its largest coordinate in [1, 2), so that its length neither overflows
+/// nor underflows.
+point<double> scaled_direction(const point<double>& d) {
+    const double most = std::max({std::abs(d.x), std::abs(d.y), std::abs(d.z)});
+    if (!(most > 0 && std::isfinite(most))) return d;
+    const int shift = -std::ilogb(most);
+    return {std::scalbn(d.x, shift), std::scalbn(d.y, shift), std::scalbn(d.z, shift)};
+}
+
 }  // namespace
 
 std::string fault_of(const body_motion& motion) {
@@ -81,12 +90,14 @@ rigid_motion screw(const point<double>& d, const point<double>& centre, const po
     return {{}, {1, d.x, d.y, d.z}, centre, end, centre};
 }
 
-std::vector<spline_piece<rigid_motion>> turn(const pose& from, const point<double>& axis,
+std::vector<spline_piece<rigid_motion>> turn(const pose& from, const point<double>& direction,
                                              double angle, const point<double>& end,
                                              const point<double>& centre) {
+    const point<double> axis = scaled_direction(direction);
     const double length = std::hypot(axis.x, axis.y, axis.z);
-    if (length == 0) angle = 0;
-    const double pieces = std::max(1.0, std::ceil(std::abs(angle) / (std::numbers::pi / 2)));
+    if (axis.x == 0 && axis.y == 0 && axis.z == 0) angle = 0;  // not if one is NaN
+    const double quarters = std::abs(angle) / (std::numbers::pi / 2);
+    const double pieces = std::isfinite(quarters) ? std::max(1.0, std::ceil(quarters)) : 1;
     const auto pose_at = [&](double k) -> pose {
         if (k == 0) return from;
         const double half = angle / 2 * (k / pieces), t = k / pieces;
@@ -98,6 +109,7 @@ std::vector<spline_piece<rigid_motion>> turn(const pose& from, const point<doubl
                 {between(from.p.x, end.x), between(from.p.y, end.y), between(from.p.z, end.z)}};
     };
     std::vector<spline_piece<rigid_motion>> all;
+    all.reserve(static_cast<std::size_t>(std::min(pieces, 0x1p63)));  // throws for too many
     pose last = from;
     for (double k = 1; k <= pieces; ++k) {
         const pose next = angle == 0 ? pose{from.q, end} : pose_at(k);

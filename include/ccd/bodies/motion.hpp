@@ -87,7 +87,8 @@ rigid_motion screw(const point<double>& d, const point<double>& centre, const po
 /// A turn from `from` by `angle`, in radians and of any size, about the direction `axis`, while
 /// `centre` moves to `end`. The pieces turn by at most a quarter of a turn, at equal intervals of
 /// time in [0, 1]. Their ends are rounded, and each begins exactly where the last one ended.
-/// Returns one piece without rotation if `axis` is 0.
+/// Returns one piece without rotation if `axis` is 0, and one that fault_of reports if `angle` or
+/// `axis` is not finite. Throws std::length_error or std::bad_alloc if there are too many pieces.
 std::vector<spline_piece<rigid_motion>> turn(const pose& from, const point<double>& axis,
                                              double angle, const point<double>& end,
                                              const point<double>& centre = {});

@@ -14,6 +14,7 @@
 #include <numbers>
 #include <optional>
 #include <random>
+#include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
@@ -207,6 +208,25 @@ TEST(bodies, in_pieces_turn_by_any_angle) {
     EXPECT_NEAR(found.low, 1 / 3.0, 1e-14);
     EXPECT_EQ(ccd::turn({}, {0, 0, 0}, 9, {1, 0, 0}).size(), 1u);
     EXPECT_EQ(ccd::turn({}, {0, 0, 1}, 0, {1, 0, 0})[0].motion.q1, quaternion{});
+}
+TEST(bodies, turn_about_axes_of_any_length) {
+    const auto end = [](const point& axis) { return ccd::turn({}, axis, 1.25, {})[0].motion.q1; };
+    const quaternion expected = end({1, -1, 0.5});
+    for (const double length : {0x1p1023, 0x1p600, 0x1p-600, 0x1p-1073})
+        EXPECT_EQ(end({length, -length, length / 2}), expected) << length;
+}
+TEST(bodies, turn_by_finite_angles_about_finite_axes) {
+    const auto expect_refused = [](const point& axis, double angle) {
+        const auto pieces = ccd::turn({}, axis, angle, {});
+        ASSERT_EQ(pieces.size(), 1u);
+        EXPECT_NE(ccd::fault_of(pieces[0].motion), "");
+    };
+    for (const double x : {infinity, -infinity, std::nan("")}) {
+        expect_refused({0, 0, 1}, x);
+        expect_refused({0, 0, x}, 1);
+        expect_refused({x, 1, 0}, 1);
+    }
+    EXPECT_THROW(ccd::turn({}, {0, 0, 1}, 1e300, {}), std::length_error);
 }
 
 // ---- Limits: motion without rotation ----
