@@ -226,7 +226,8 @@ class analysis {
             hull(c.computed, {mpfr_get_d(low.get(), MPFR_RNDD), mpfr_get_d(high.get(), MPFR_RNDU)});
         c.error = std::abs(mpfr_get_d(distance.get(), MPFR_RNDA));
         // The precise constant may be off by 2^-512 of its size.
-        if (off != 0) c.error = c.error * (1 + 0x1p-50) + std::ldexp(c.path.most(), -500);
+        if (off != 0)
+            c.error = c.error * (1 + 0x1p-50) + std::ldexp(c.path.most(), -500) + doubles_underflow;
         if (!(c.computed.most() <= format_.largest)) c.computed = range::unknown();
         c.grid = format_.grid_of(c.computed);
         if (c.computed.is_point() && c.computed.lower() != 0) {

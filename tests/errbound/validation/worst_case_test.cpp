@@ -348,6 +348,21 @@ TEST(WorstCaseOfFunction, CountsErrorsOfInputsAndConstants) {
     EXPECT_NEAR(e.at_least, 0.1f - 0.1, 1e-16);
 }
 
+// 2^-1000 + 2^-1600, whose error no double holds.
+TEST(WorstCaseOfFunction, CountsErrorsOfTinyConstants) {
+    const std::string text = "0x1." + std::string(149, '0') + "1p-1000";
+    const auto scaled = [&](const auto&) { return recorded::constant(text) * 0x1p1000; };
+    EXPECT_GE(worst_case<double>(scaled, {{0, 1}}).at_most, 0x1p-600);
+}
+
+TEST(WorstCaseOfFunction, TakesNoInputs) {
+    const auto third = [](std::span<const recorded>) { return recorded(1) / 3; };
+    const worst_case_result e = worst_case<double>(third, std::span<const input_range>());
+    EXPECT_GT(e.at_least, 0);
+    EXPECT_LE(e.at_least, e.at_most);
+    EXPECT_TRUE(e.where.empty());
+}
+
 TEST(WorstCaseOfFunction, IsInfiniteOutsideOfDomains) {
     const auto root = [](const auto& x) { return sqrt(x); };
     EXPECT_EQ(worst_case<double>(root, {{-1, 1}}, {.boxes = 100}).at_most, HUGE_VAL);
