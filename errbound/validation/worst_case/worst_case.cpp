@@ -153,7 +153,10 @@ class analysis {
             }
             if (largest * 4 < b.most * f_.options.gap) b.split = widest(box, widths);
         }
-        if (!forward(at_, all_, corner, &over_)) return b;
+        if (!forward(at_, all_, corner, &over_)) {
+            if (relative) b.most = infinity;
+            return b;
+        }
         backward(at_);
         const double roundings = static_cast<double>(box.size() + 4);
         if (has_slopes)
@@ -205,6 +208,7 @@ class analysis {
         const range a = both(left), b = both(right);
         if (a.upper() < b.lower()) return sign_type::negative;
         if (a.lower() > b.upper()) return sign_type::positive;
+        if (!a.is_finite() || !b.is_finite()) return sign_type::uncertain;
         if (left == right || (a.is_point() && b.is_point())) return sign_type::zero;
         return sign_type::uncertain;
     }
@@ -406,7 +410,7 @@ class analysis {
         if (is_power_of_two(most))
             corners(
                 [&](double u, double v) { most = std::max(most, f(range(u), range(v)).most()); });
-        to.error = format_.half_ulp(most);
+        to.error = format_.half_ulp(most > 0 ? most : exact.most());  // all may underflow to 0
     }
     void set_rounded(node_state& to, const range& r) {
         to.error = format_.half_ulp(r.most());

@@ -355,6 +355,19 @@ TEST(WorstCaseOfFunction, CountsErrorsOfTinyConstants) {
     EXPECT_GE(worst_case<double>(scaled, {{0, 1}}).at_most, 0x1p-600);
 }
 
+TEST(WorstCaseOfFunction, CountsUnderflowToZero) {
+    const auto product = [](const auto& x) { return x * x * 0x1p1000 * 0x1p1000; };
+    EXPECT_GE(worst_case<double>(product, {{0x1p-600, 0x1p-599}}).at_most, 0x1p802);
+    const auto quotient = [](const auto& x) { return 0x1p-600 / x * 0x1p1000 * 0x1p1000; };
+    EXPECT_GE(worst_case<double>(quotient, {{0x1p600, 0x1p601}}).at_most, 0x1p800);
+}
+
+TEST(WorstCaseOfFunction, DoesNotDecideComparisonsOfUndefinedNumbers) {
+    const auto f = [](const auto& x) { return sqrt(x) == sqrt(x) ? x : 1; };
+    EXPECT_THROW(worst_case<double>(f, {{-1, 1}}), undecided_comparison);
+    EXPECT_EQ(worst_case<double>(f, {{0, 1}}).at_most, 0);
+}
+
 TEST(WorstCaseOfFunction, TakesNoInputs) {
     const auto third = [](std::span<const recorded>) { return recorded(1) / 3; };
     const worst_case_result e = worst_case<double>(third, std::span<const input_range>());
