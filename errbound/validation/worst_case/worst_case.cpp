@@ -169,7 +169,10 @@ class analysis {
         if (relative) {
             const double size = at_[f_.result].path.least();
             b.reached = size > 0 ? b.reached / size : infinity;
-            b.most = b.result.least() > 0 ? b.most / b.result.least() * (1 + 0x1p-50) : infinity;
+            if (!(b.result.least() > 0))
+                b.most = infinity;
+            else if (b.most > 0)
+                b.most = b.most / b.result.least() * (1 + 0x1p-50) + doubles_underflow;
         }
         return b;
     }

@@ -362,6 +362,15 @@ TEST(WorstCaseOfFunction, CountsUnderflowToZero) {
     EXPECT_GE(worst_case<double>(quotient, {{0x1p600, 0x1p601}}).at_most, 0x1p800);
 }
 
+TEST(WorstCaseOfFunction, BoundsRelativeErrorsTooSmallForDoubles) {
+    const auto f = [](const auto& x, const auto& y) { return x + y; };
+    const worst_case_result e =
+        worst_case<double>(f, {{0x1p1000, 0x1p1001, 0x1p-1000}, {0, 0}}, {.relative = true});
+    EXPECT_GT(e.at_most, 0);
+    EXPECT_GT(e.relative_at_most, 0);
+    EXPECT_LT(e.relative_at_most, 1e-300);
+}
+
 TEST(WorstCaseOfFunction, DoesNotDecideComparisonsOfUndefinedNumbers) {
     const auto f = [](const auto& x) { return sqrt(x) == sqrt(x) ? x : 1; };
     EXPECT_THROW(worst_case<double>(f, {{-1, 1}}), undecided_comparison);
