@@ -115,9 +115,7 @@ class evaluator {
         }
         if (op == "if" && count == 3) return value(e.items[holds(e.items[1], in) ? 2 : 3], in);
         if (op == "!" && count >= 1) {
-            for (std::size_t i = 1; i + 1 < count; i += 2)
-                if (e.items[i].atom == ":precision" && e.items[i + 1].atom != precision_)
-                    throw unsupported_core("mixed precision");
+            require_supported(e);
             return value(e.items.back(), in);
         }
         if (op.starts_with("while") || op.starts_with("for")) throw unsupported_core("loop");
@@ -125,6 +123,27 @@ class evaluator {
         for (std::size_t i = 1; i <= count; ++i) x.push_back(value(e.items[i], in));
         const errbound::scope here(core_.name, core_.file, e.line);
         return applied(op, x);
+    }
+
+    /// Throws unsupported_core if a list (! PROPERTY... EXPRESSION) changes how numbers are
+    /// rounded.
+    void require_supported(const fpcore_expression& e) const {
+        for (std::size_t i = 1; i + 2 < e.items.size(); i += 2) {
+            const std::string &property = e.items[i].atom, &to = e.items[i + 1].atom;
+            if (property == ":precision" && to != precision_)
+                throw unsupported_core("mixed precision");
+            if (property == ":round") require_nearest(to);
+        }
+    }
+    static void require_nearest(const std::string& rounding) {
+        if (rounding != "nearestEven") throw unsupported_core("rounding " + rounding);
+    }
+    /// The name of an argument, which may have properties.
+    std::string name_of_argument(const fpcore_expression& e) const {
+        if (!e.atom.empty()) return e.atom;
+        if (operator_of(e) != "!") throw unsupported_core("array argument");
+        require_supported(e);
+        return e.items.back().atom;
     }
 
     /// Narrows the box by the part of a precondition, or adds it as a constraint.
@@ -144,7 +163,11 @@ class evaluator {
                 const auto found = inputs.find(x.atom);
                 return found == inputs.end() ? nullptr : &box[found->second];
             };
-            const std::optional<range> from = constant_range(low), to = constant_range(high);
+            // An argument hides the constant of its name.
+            const auto constant = [&](const fpcore_expression& x) {
+                return input(x) == nullptr ? constant_range(x) : std::nullopt;
+            };
+            const std::optional<range> from = constant(low), to = constant(high);
             if (input(low) != nullptr && to)
                 input(low)->upper = std::min(input(low)->upper, to->upper());
             else if (input(high) != nullptr && from)
@@ -188,12 +211,17 @@ class evaluator {
         std::vector<recorded> x;
         for (std::size_t i = 1; i < e.items.size(); ++i) x.push_back(value(e.items[i], in));
         bool all = true;
+        if (op == "!=") {
+            for (std::size_t i = 0; i < x.size(); ++i)
+                for (std::size_t j = 0; j < i && all; ++j) all = x[j] != x[i];
+            return all;
+        }
         for (std::size_t i = 0; i + 1 < x.size() && all; ++i)
             all = op == "<"    ? x[i] < x[i + 1]
                   : op == ">"  ? x[i] > x[i + 1]
                   : op == "<=" ? x[i] <= x[i + 1]
                   : op == ">=" ? x[i] >= x[i + 1]
-                               : (x[i] == x[i + 1]) == (op == "==");
+                               : x[i] == x[i + 1];
         return all;
     }
     static recorded applied(const std::string& op, const std::vector<recorded>& x) {
@@ -233,10 +261,7 @@ std::vector<fpcore> parse_fpcores(std::string_view text, const std::string& file
         core.file = file;
         std::size_t i = e.items[1].atom.empty() ? 1 : 2;
         core.name = file + ':' + std::to_string(e.line);
-        if (e.items[i].atom.empty())
-            for (const fpcore_expression& a : e.items[i].items)
-                core.arguments.push_back(a.atom.empty() && !a.items.empty() ? a.items.back().atom
-                                                                            : a.atom);
+        core.arguments = e.items[i].items;
         for (++i; i + 1 < e.items.size(); i += 2) {
             const std::string& property = e.items[i].atom;
             const fpcore_expression& value = e.items[i + 1];
@@ -244,6 +269,7 @@ std::vector<fpcore> parse_fpcores(std::string_view text, const std::string& file
             if (property == ":name" && value.atom.size() >= 2)
                 core.name = value.atom.substr(1, value.atom.size() - 2);
             if (property == ":precision") core.precision = value.atom;
+            if (property == ":round") core.rounding = value.atom;
             if (property == ":pre") core.precondition = value;
         }
         // Some cores have an expression after :alt, which lacks its value.
@@ -259,9 +285,13 @@ worst_case_result worst_case_of(const fpcore& core, const worst_case_options& op
     const auto type = precisions.find(name);
     if (type == precisions.end()) throw unsupported_core("precision " + name);
     const evaluator e(core, core.precision);
+    evaluator::require_nearest(core.rounding);
     std::map<std::string, std::size_t> inputs;
     std::vector<input_range> box(core.arguments.size(), {-HUGE_VAL, HUGE_VAL});
-    for (std::size_t k = 0; k < core.arguments.size(); ++k) inputs[core.arguments[k]] = k;
+    for (const fpcore_expression& a : core.arguments)
+        if (const auto [place, is_new] = inputs.emplace(e.name_of_argument(a), inputs.size());
+            !is_new)
+            throw unsupported_core("two arguments " + place->first);
     std::vector<std::pair<fpcore_expression, fpcore_expression>> constraints;
     if (core.precondition) e.require(*core.precondition, inputs, box, constraints);
     for (const auto& [argument, k] : inputs)
@@ -271,9 +301,9 @@ worst_case_result worst_case_of(const fpcore& core, const worst_case_options& op
             throw unsupported_core("empty range of " + argument);
     recording r(type->second, box, options);
     names known;
-    for (std::size_t k = 0; k < box.size(); ++k)
-        known.insert_or_assign(core.arguments[k], recorded(recording::node{
-                                                      .kind = recording::leaf::input, .left = k}));
+    for (const auto& [argument, k] : inputs)
+        known.emplace(argument,
+                      recorded(recording::node{.kind = recording::leaf::input, .left = k}));
     try {
         r.result = e.value(core.body, known).index();
         for (const auto& [low, high] : constraints)

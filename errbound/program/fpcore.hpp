@@ -20,8 +20,8 @@ struct fpcore_expression {
 
 struct fpcore {
     std::string name, file;
-    std::vector<std::string> arguments;
-    std::string precision = "binary64";
+    std::vector<fpcore_expression> arguments;
+    std::string precision = "binary64", rounding = "nearestEven";
     std::optional<fpcore_expression> precondition;
     fpcore_expression body;
 };

@@ -241,7 +241,8 @@ class search {
     /// Moves one or all inputs by a random power of two of units in the last place.
     candidate moved(const candidate& from) {
         candidate c = from;
-        const size_t count = c.inputs.size(), only = random_.bits() % (2 * count);
+        const size_t count = c.inputs.size();
+        const size_t only = count == 0 ? 0 : random_.bits() % (2 * count);
         for (size_t k = 0; k < count; ++k) {
             if (only < count && k != only) continue;
             double& x = c.inputs[k];

@@ -153,7 +153,10 @@ class analysis {
             }
             if (largest * 4 < b.most * f_.options.gap) b.split = widest(box, widths);
         }
-        if (!forward(at_, all_, corner, &over_)) return b;
+        if (!forward(at_, all_, corner, &over_)) {
+            if (relative) b.most = infinity;
+            return b;
+        }
         backward(at_);
         const double roundings = static_cast<double>(box.size() + 4);
         if (has_slopes)
@@ -166,7 +169,10 @@ class analysis {
         if (relative) {
             const double size = at_[f_.result].path.least();
             b.reached = size > 0 ? b.reached / size : infinity;
-            b.most = b.result.least() > 0 ? b.most / b.result.least() * (1 + 0x1p-50) : infinity;
+            if (!(b.result.least() > 0))
+                b.most = infinity;
+            else if (b.most > 0)
+                b.most = b.most / b.result.least() * (1 + 0x1p-50) + doubles_underflow;
         }
         return b;
     }
@@ -205,6 +211,7 @@ class analysis {
         const range a = both(left), b = both(right);
         if (a.upper() < b.lower()) return sign_type::negative;
         if (a.lower() > b.upper()) return sign_type::positive;
+        if (!a.is_finite() || !b.is_finite()) return sign_type::uncertain;
         if (left == right || (a.is_point() && b.is_point())) return sign_type::zero;
         return sign_type::uncertain;
     }
@@ -226,7 +233,8 @@ class analysis {
             hull(c.computed, {mpfr_get_d(low.get(), MPFR_RNDD), mpfr_get_d(high.get(), MPFR_RNDU)});
         c.error = std::abs(mpfr_get_d(distance.get(), MPFR_RNDA));
         // The precise constant may be off by 2^-512 of its size.
-        if (off != 0) c.error = c.error * (1 + 0x1p-50) + std::ldexp(c.path.most(), -500);
+        if (off != 0)
+            c.error = c.error * (1 + 0x1p-50) + std::ldexp(c.path.most(), -500) + doubles_underflow;
         if (!(c.computed.most() <= format_.largest)) c.computed = range::unknown();
         c.grid = format_.grid_of(c.computed);
         if (c.computed.is_point() && c.computed.lower() != 0) {
@@ -405,7 +413,7 @@ class analysis {
         if (is_power_of_two(most))
             corners(
                 [&](double u, double v) { most = std::max(most, f(range(u), range(v)).most()); });
-        to.error = format_.half_ulp(most);
+        to.error = format_.half_ulp(most > 0 ? most : exact.most());  // all may underflow to 0
     }
     void set_rounded(node_state& to, const range& r) {
         to.error = format_.half_ulp(r.most());

@@ -94,6 +94,32 @@ class Ranges(unittest.TestCase):
         bounds = [json.loads(p.read_text())["done"][0]["at_most"] for p in [exact, rounded]]
         self.assertAlmostEqual(bounds[1] - bounds[0], 92 * 2**-50, delta=2**-60)
 
+    def test_names_rounding_and_cores_without_inputs(self):
+        out = self.directory / "o.json"
+        self.cores.write_text("""
+(FPCore () :name "constant" (/ 1 3))
+(FPCore (E x) :name "hidden" :pre (and (<= 0 E 4) (<= 0 x 4) (<= E x)) (/ 1 (+ x 1/1024)))
+(FPCore (x) :name "different" :pre (<= 1 x 2) (if (!= 1 2 1) (/ x 3) x))
+(FPCore ((! :round nearestEven x)) :name "nearest" :pre (<= 1 x 2) (/ x 3))
+(FPCore (x x) :name "twice" :pre (<= 1 x 2) (+ x x))
+(FPCore (x) :name "down" :round toZero :pre (<= 1 x 2) (* x x))
+(FPCore (x) :name "up" :pre (<= 1 x 2) (! :round toPositive (* x x)))
+(FPCore ((! :precision binary64 x)) :name "wide" :precision binary16 :pre (<= 1 x 2) x)
+(FPCore ((x 2)) :name "array" :pre (<= 1 x 2) x)
+""")
+        self.good(self.cores, "--json", out)
+        found = json.loads(out.read_text())
+        done = {entry["core"]: entry for entry in found["done"]}
+        self.assertEqual(list(done), ["constant", "hidden", "different", "nearest"])
+        self.assertGreater(done["constant"]["at_most"], 0)
+        self.assertGreater(done["hidden"]["at_most"], 2**-45)
+        self.assertGreaterEqual(done["hidden"]["upper"], 1024)
+        self.assertEqual(done["different"]["at_most"], 0)
+        reasons = {entry["core"]: entry["reason"] for entry in found["not_done"]}
+        self.assertEqual(reasons, {
+            "twice": "two arguments x", "down": "rounding toZero", "up": "rounding toPositive",
+            "wide": "mixed precision", "array": "array argument"})
+
     def test_bad_input(self):
         for text, message in [("(FPCore (x) (+ x 1)", "1: the file ends; expected a closing parenthesis"),
                               ("\n(FPCore (x) (+ x 1]", "2: a bracket is unmatched"),

@@ -348,6 +348,43 @@ TEST(WorstCaseOfFunction, CountsErrorsOfInputsAndConstants) {
     EXPECT_NEAR(e.at_least, 0.1f - 0.1, 1e-16);
 }
 
+// 2^-1000 + 2^-1600, whose error no double holds.
+TEST(WorstCaseOfFunction, CountsErrorsOfTinyConstants) {
+    const std::string text = "0x1." + std::string(149, '0') + "1p-1000";
+    const auto scaled = [&](const auto&) { return recorded::constant(text) * 0x1p1000; };
+    EXPECT_GE(worst_case<double>(scaled, {{0, 1}}).at_most, 0x1p-600);
+}
+
+TEST(WorstCaseOfFunction, CountsUnderflowToZero) {
+    const auto product = [](const auto& x) { return x * x * 0x1p1000 * 0x1p1000; };
+    EXPECT_GE(worst_case<double>(product, {{0x1p-600, 0x1p-599}}).at_most, 0x1p802);
+    const auto quotient = [](const auto& x) { return 0x1p-600 / x * 0x1p1000 * 0x1p1000; };
+    EXPECT_GE(worst_case<double>(quotient, {{0x1p600, 0x1p601}}).at_most, 0x1p800);
+}
+
+TEST(WorstCaseOfFunction, BoundsRelativeErrorsTooSmallForDoubles) {
+    const auto f = [](const auto& x, const auto& y) { return x + y; };
+    const worst_case_result e =
+        worst_case<double>(f, {{0x1p1000, 0x1p1001, 0x1p-1000}, {0, 0}}, {.relative = true});
+    EXPECT_GT(e.at_most, 0);
+    EXPECT_GT(e.relative_at_most, 0);
+    EXPECT_LT(e.relative_at_most, 1e-300);
+}
+
+TEST(WorstCaseOfFunction, DoesNotDecideComparisonsOfUndefinedNumbers) {
+    const auto f = [](const auto& x) { return sqrt(x) == sqrt(x) ? x : 1; };
+    EXPECT_THROW(worst_case<double>(f, {{-1, 1}}), undecided_comparison);
+    EXPECT_EQ(worst_case<double>(f, {{0, 1}}).at_most, 0);
+}
+
+TEST(WorstCaseOfFunction, TakesNoInputs) {
+    const auto third = [](std::span<const recorded>) { return recorded(1) / 3; };
+    const worst_case_result e = worst_case<double>(third, std::span<const input_range>());
+    EXPECT_GT(e.at_least, 0);
+    EXPECT_LE(e.at_least, e.at_most);
+    EXPECT_TRUE(e.where.empty());
+}
+
 TEST(WorstCaseOfFunction, IsInfiniteOutsideOfDomains) {
     const auto root = [](const auto& x) { return sqrt(x); };
     EXPECT_EQ(worst_case<double>(root, {{-1, 1}}, {.boxes = 100}).at_most, HUGE_VAL);
