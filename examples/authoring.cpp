@@ -260,12 +260,12 @@ void print_relation() {
 }
 
 void print_special_signs() {
-    using point = std::array<double, 2>;
-    const point p{0, 0}, q{1, 1}, r{2, 2};  // on one line
+    using planar = std::array<double, 2>;
+    const planar p{0, 0}, q{1, 1}, r{2, 2};  // on one line
     constexpr auto turn = errbound::perturbed(errbound::orient2d);
     const errbound::sign_type s = turn({4, 7, 9}, p, q, r);  // never zero
     std::printf("perturbed, they turn %s\n", s == sign_type::positive ? "left" : "right");
-    const point a{0, 3}, b{3, 0}, c{0, 1}, d{1, 2}, e{4, 0};
+    const planar a{0, 3}, b{3, 0}, c{0, 1}, d{1, 2}, e{4, 0};
     const auto i = errbound::line_line_point(a, b, c, d);  // where the lines ab and cd cross
     const errbound::sign_type side = errbound::incircle(p, q, e, i);
     std::printf("the crossing is %s the circle\n\n",

@@ -138,9 +138,13 @@ def write_inputs(build):
         (build / f"{program}.in").write_text(checker.run(build, "./tie_inputs", tie))
 
 
+def folder_of(build, program):
+    return build / f"{program}_program"
+
+
 def make_tie(build, extracted, program):
     """Builds a program of extracted definitions; returns its folder."""
-    folder = build / program  # a separate one: compilers of all ties may run in parallel
+    folder = folder_of(build, program)  # a separate one: compilers of all ties may run in parallel
     folder.mkdir()
     sources = ["tie_hash.ml", "tie_queries.ml", f"{extracted}.ml", f"{program}.ml"]
     for name in sources:  # without extracted.mli, which would hide types
@@ -219,7 +223,7 @@ def run_ties(build, chosen):
     for path in proofs.rglob("*.ml"):
         shutil.copy(path, build)
     for program in TIE_PROGRAMS.values():
-        shutil.rmtree(build / program, ignore_errors=True)
+        shutil.rmtree(folder_of(build, program), ignore_errors=True)
     with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
         outputs = tie_lines(pool, build, chosen or TIE_PROGRAMS.values())
         lines = [line for output in outputs for line in output.result().splitlines()]

@@ -39,6 +39,12 @@ class ranges final : public support::command {
     rows done_, not_done_;
 };
 
+const CLI::Validator not_nan(
+    [](const std::string& text) {
+        return text.find("nan") == text.npos ? "" : text + "; expected a number";
+    },
+    "");
+
 const std::vector<std::string> columns{"core",  "precision", "at_most",  "at_least",
                                        "ratio", "published", "relative", "lower",
                                        "upper", "boxes",     "complete", "seconds"};
@@ -53,9 +59,11 @@ ranges::ranges(CLI::App& program)
         ->required()
         ->type_name("FILE...");
     line_.add_option("--only", only_, "Only the cores of that name")->type_name("NAME");
-    line_.add_option("--precision", precision_,
-                     "Use this precision for all cores: binary64, binary32, binary16, binary80, "
-                     "bfloat16, e5m2 or e4m3");
+    line_
+        .add_option("--precision", precision_,
+                    "Use this precision for all cores, instead of their own")
+        ->check(CLI::IsMember(
+            {"binary64", "binary32", "binary16", "binary80", "bfloat16", "e5m2", "e4m3"}));
     line_.add_flag("--round-inputs", options_.round_inputs,
                    "Inputs are real numbers; their rounding counts");
     line_.add_flag("--relative", options_.relative, "Bound the relative error, too");
@@ -63,12 +71,12 @@ ranges::ranges(CLI::App& program)
         .add_option("--function-units", options_.function_units,
                     "Errors of elementary functions in units in the last place, instead of "
                     "function_error;\n0.5 for correct rounding")
-        ->check(CLI::Range(0.5, 1024.0));
+        ->check(not_nan & CLI::Range(0.5, 1024.0));
     line_
         .add_option("--gap", options_.gap,
                     "Stop if the bound is within this share of the least one that bisection can "
                     "reach")
-        ->check(CLI::Range(0.0, 1e6))
+        ->check(not_nan & CLI::Range(0.0, 1e6))
         ->capture_default_str();
     line_.add_option("--seconds", options_.seconds, "Limit of each bound")->capture_default_str();
     line_.add_option("--boxes", options_.boxes, "Limit of each bound")->capture_default_str();

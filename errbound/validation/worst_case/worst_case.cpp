@@ -166,15 +166,16 @@ class analysis {
         });
         for (const size_t i : live_)
             if (in_box) b.reached += at_[i].error * at_[i].adjoint.least();
-        if (relative) {
-            const double size = at_[f_.result].path.least();
-            b.reached = size > 0 ? b.reached / size : infinity;
-            if (!(b.result.least() > 0))
-                b.most = infinity;
-            else if (b.most > 0)
-                b.most = b.most / b.result.least() * (1 + 0x1p-50) + doubles_underflow;
-        }
+        if (relative) make_relative(b);
         return b;
+    }
+    void make_relative(box_bound& b) const {
+        const double size = at_[f_.result].path.least();
+        b.reached = size > 0 ? b.reached / size : infinity;
+        if (!(b.result.least() > 0))
+            b.most = infinity;
+        else if (b.most > 0)
+            b.most = b.most / b.result.least() * (1 + 0x1p-50) + doubles_underflow;
     }
 
     /// Each operation's part of the bound over the box.
