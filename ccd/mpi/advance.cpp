@@ -128,7 +128,10 @@ advance_result advance(MPI_Comm comm, const mesh_part& mesh, const advance_optio
     const detail::vertex_lists lists(options.filter, options.distances, options.groups);
     detail::check_mesh(ranks, mesh, options.filter, lists, "ccd::mpi::advance");
     detail::check_options(ranks, options, mesh.numbers.size(), "ccd::mpi::advance");
-    const detail::given_elements given(mesh, options.distances, options.filter.skip_unused);
+    // The search for near pairs has the widest boxes: each rank holds all pairs that it owns there.
+    std::vector<double> scaled;
+    const detail::given_elements given(mesh, ccd::detail::near_distances(options, scaled),
+                                       options.filter.skip_unused);
     const detail::decomposition parts(ranks, given.boxes());
     const detail::local_mesh local(ranks, mesh, given, parts, lists);
 
