@@ -203,6 +203,9 @@ class perturbed_predicate<predicate_type<Shape, F, Options>, Coordinates...> {
                   "errbound: perturbed needs an expression that returns a number; one that "
                   "branches or returns sign_of(x) may be zero, or take another branch, for "
                   "perturbed points: perturb the predicates that it combines");
+    static_assert(
+        ((Coordinates >= 0 && Coordinates < *std::ranges::max_element(Shape::dimensions)) && ...),
+        "errbound: perturbed has the index of a coordinate that no point has");
     using predicate = predicate_type<Shape, F, Options>;
     using stages = filters::predicate_stages<Shape, F, Options>;
     using monomial = filters::monomial<Shape::size, predicate::counts.degree>;
