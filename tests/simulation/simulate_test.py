@@ -152,9 +152,9 @@ class Simulate(unittest.TestCase):
         for arguments, message in ((["funnel9"], "expected one of funnel1"),
                                 (["funnel1", "--method", "best"], "expected one of float"),
                                 (["funnel1", "--resolution", "2"], "--resolution"),
-                                (["funnel1", "--seed", "-1"], "--seed is -1; expected 0 to 2147483647"),
-                                (["funnel1", "--seed", str(2**64)], "expected 0 to 2147483647"),
-                                (["funnel1", "--threads", "-1"], "--threads is -1; expected 0 to 2147483647"),
+                                (["funnel1", "--seed", "-1"], "not in range 0 to 2147483647"),
+                                (["funnel1", "--seed", str(2**64)], "not in range 0 to 2147483647"),
+                                (["funnel1", "--threads", "-1"], "not in range 0 to 2147483647"),
                                 (["funnel1", "--out", ""], "expected a folder's name"),
                                 ([], "SCENE")):
             out = [] if "--out" in arguments else ["--out", self.out]
