@@ -131,7 +131,7 @@ def test_limits_of_roots():
 def test_roots_do_not_hold_the_lock():
     """A thread counts while another searches. Calls of both on the same roots are refused while one runs."""
     refused, counted = [], 0
-    for _ in range(20):  # a loaded machine may not run this thread while the other one works
+    for _ in range(200):  # a loaded machine may not run this thread while the other one works
         found = roots.isolate(three_terms(30000))
         working = threading.Thread(target=lambda: found.interval(0, 1e-300))
         working.start()
