@@ -292,6 +292,12 @@ const auto result = errbound::orient2d(whole, whole, whole);
 
 // ---- Perturbation, constructed points ----
 
+#ifdef CASE_perturbed_coordinate
+// Coordinate 3 is perturbed, which no point has: the sign could be zero.
+const int result =
+    errbound::perturbed<3>(errbound::orient2d)({0, 1, 2}, p, p, p) == sign_type::zero;
+#endif
+
 #ifdef CASE_perturbed_branches
 // The expression returns a sign_type.
 const int result = errbound::perturbed(errbound::segments_intersect2d)({0, 1, 2, 3}, p, p, p, p) ==

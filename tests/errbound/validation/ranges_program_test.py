@@ -131,6 +131,10 @@ class Ranges(unittest.TestCase):
             self.assertIn(f"{self.cores}:{message}", done.stderr)
         self.cores.write_text(CORES)
         self.assertEqual(self.run_program(self.cores, "--only", "none").returncode, 2)
+        for option, value in (("--precision", "double"), ("--gap", "nan"), ("--function-units", "nan")):
+            done = self.run_program(self.cores, option, value)
+            self.assertEqual(done.returncode, 2)
+            self.assertIn(value, done.stderr)
         self.assertEqual(self.run_program(self.cores, "--csv", self.cores).returncode, 2)
         bad = self.directory / "bad.csv"
         bad.write_text("quotient;1\n")
