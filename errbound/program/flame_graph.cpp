@@ -9,6 +9,8 @@
 #include <string_view>
 #include <utility>
 
+#include "errbound/program/svg.hpp"
+
 namespace errbound::explaining {
 namespace {
 
@@ -45,28 +47,6 @@ std::vector<pile> piles_of(const explanation& e) {
     std::sort(piles.begin(), piles.end(),
               [](const pile& p, const pile& q) { return p.frames < q.frames; });
     return piles;
-}
-
-/// Precondition: UTF-8 without control characters. Two other characters that XML forbids become
-/// '?'.
-std::string escaped(std::string_view text) {
-    std::string result;
-    for (; !text.empty(); text.remove_prefix(detail::character_length(text))) {
-        const std::string_view character = text.substr(0, detail::character_length(text));
-        if (character == "<")
-            result += "&lt;";
-        else if (character == ">")
-            result += "&gt;";
-        else if (character == "&")
-            result += "&amp;";
-        else if (character == "\"")
-            result += "&quot;";
-        else if (character == "\xef\xbf\xbe" || character == "\xef\xbf\xbf")
-            result += '?';
-        else
-            result += character;
-    }
-    return result;
 }
 
 std::string shortened(std::string_view text, double room) {
@@ -160,12 +140,7 @@ std::string flame_graphs(const std::vector<explanation>& results) {
         body += graph(piles, bottom);
         top = bottom;
     }
-    const std::string height = number(top + margin);
-    return "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"" + number(width) + "\" height=\"" +
-           height + "\" viewBox=\"0 0 " + number(width) + ' ' + height +
-           "\" font-family=\"monospace\" font-size=\"12\">\n"
-           "<rect width=\"100%\" height=\"100%\" fill=\"#fff\"/>\n" +
-           body + "</svg>\n";
+    return svg_of(width, top + margin, body);
 }
 
 }  // namespace errbound::explaining

@@ -70,6 +70,8 @@ class parser {
     std::uint_least32_t line_ = 1;
 };
 
+const std::string mixed = "the program has several precisions";
+
 const std::map<std::string, number_type> precisions {
     {"binary64", number_type::double_type}, {"binary32", number_type::float_type},
         {"binary16", number_type::float16_type}, {"bfloat16", number_type::bfloat16_type},
@@ -107,7 +109,7 @@ class evaluator {
         if ((op == "let" || op == "let*") && count == 2) {
             names inner = in;
             for (const fpcore_expression& b : e.items[1].items) {
-                if (b.items.size() != 2) throw unsupported_core("a binding without a value");
+                if (b.items.size() != 2) throw unsupported_core("a binding has no value");
                 inner.insert_or_assign(b.items[0].atom,
                                        value(b.items[1], op == "let" ? in : inner));
             }
@@ -118,7 +120,8 @@ class evaluator {
             require_supported(e);
             return value(e.items.back(), in);
         }
-        if (op.starts_with("while") || op.starts_with("for")) throw unsupported_core("loop");
+        if (op.starts_with("while") || op.starts_with("for"))
+            throw unsupported_core("the program has a loop");
         std::vector<recorded> x;
         for (std::size_t i = 1; i <= count; ++i) x.push_back(value(e.items[i], in));
         const errbound::scope here(core_.name, core_.file, e.line);
@@ -130,18 +133,18 @@ class evaluator {
     void require_supported(const fpcore_expression& e) const {
         for (std::size_t i = 1; i + 2 < e.items.size(); i += 2) {
             const std::string &property = e.items[i].atom, &to = e.items[i + 1].atom;
-            if (property == ":precision" && to != precision_)
-                throw unsupported_core("mixed precision");
+            if (property == ":precision" && to != precision_) throw unsupported_core(mixed);
             if (property == ":round") require_nearest(to);
         }
     }
     static void require_nearest(const std::string& rounding) {
-        if (rounding != "nearestEven") throw unsupported_core("rounding " + rounding);
+        if (rounding != "nearestEven")
+            throw unsupported_core("rounding is " + rounding + ", not to nearest");
     }
     /// The name of an argument, which may have properties.
     std::string name_of_argument(const fpcore_expression& e) const {
         if (!e.atom.empty()) return e.atom;
-        if (operator_of(e) != "!") throw unsupported_core("array argument");
+        if (operator_of(e) != "!") throw unsupported_core("an argument is an array");
         require_supported(e);
         return e.items.back().atom;
     }
@@ -182,7 +185,7 @@ class evaluator {
         try {
             return recorded::constant(text);
         } catch (const std::invalid_argument&) {
-            throw unsupported_core("unknown name " + text);
+            throw unsupported_core("the name " + text + " is unknown");
         }
     }
     /// Encloses a constant.
@@ -207,7 +210,7 @@ class evaluator {
             return op == "and";
         }
         if (!is_comparison(op) && op != "==" && op != "!=")
-            throw unsupported_core("condition " + op);
+            throw unsupported_core("the condition " + op + " is not supported");
         std::vector<recorded> x;
         for (std::size_t i = 1; i < e.items.size(); ++i) x.push_back(value(e.items[i], in));
         bool all = true;
@@ -241,7 +244,7 @@ class evaluator {
             if (f.name == op && x.size() == (has_two_arguments(f.function) ? 2 : 1))
                 return x.size() == 1 ? recorded::of(f.function, x[0])
                                      : recorded::of(f.function, x[0], x[1]);
-        throw unsupported_core(op == "cast" ? "mixed precision" : "operation " + op);
+        throw unsupported_core(op == "cast" ? mixed : "the operation " + op + " is not supported");
     }
 
     const fpcore& core_;
@@ -283,7 +286,8 @@ worst_case_result worst_case_of(const fpcore& core, const worst_case_options& op
                                 const std::string& precision) {
     const std::string& name = precision.empty() ? core.precision : precision;
     const auto type = precisions.find(name);
-    if (type == precisions.end()) throw unsupported_core("precision " + name);
+    if (type == precisions.end())
+        throw unsupported_core("the precision " + name + " is not supported");
     const evaluator e(core, core.precision);
     evaluator::require_nearest(core.rounding);
     std::map<std::string, std::size_t> inputs;
@@ -291,14 +295,14 @@ worst_case_result worst_case_of(const fpcore& core, const worst_case_options& op
     for (const fpcore_expression& a : core.arguments)
         if (const auto [place, is_new] = inputs.emplace(e.name_of_argument(a), inputs.size());
             !is_new)
-            throw unsupported_core("two arguments " + place->first);
+            throw unsupported_core("two arguments have the name " + place->first);
     std::vector<std::pair<fpcore_expression, fpcore_expression>> constraints;
     if (core.precondition) e.require(*core.precondition, inputs, box, constraints);
     for (const auto& [argument, k] : inputs)
         if (!std::isfinite(box[k].lower) || !std::isfinite(box[k].upper))
-            throw unsupported_core("no finite range of " + argument);
+            throw unsupported_core("the precondition gives no finite range of " + argument);
         else if (box[k].lower > box[k].upper)
-            throw unsupported_core("empty range of " + argument);
+            throw unsupported_core("the precondition gives an empty range of " + argument);
     recording r(type->second, box, options);
     names known;
     for (const auto& [argument, k] : inputs)

@@ -29,7 +29,11 @@ struct fpcore {
 /// Returns the cores in a file. Throws errbound::support::file_error with file and line.
 std::vector<fpcore> parse_fpcores(std::string_view text, const std::string& file);
 
-/// A core that worst_case cannot bound; what() is the reason.
+/// The reason if worst_case returns infinity.
+inline constexpr const char* no_finite_bound =
+    "there is no finite bound: an operation may overflow or leave its domain";
+
+/// A core that worst_case cannot bound; what() is the reason, a sentence.
 struct unsupported_core : std::runtime_error {
     using std::runtime_error::runtime_error;
 };

@@ -12,6 +12,8 @@
 #include "errbound/program/commands.hpp"
 #include "errbound/program/flame_graph.hpp"
 #include "errbound/program/fpcore.hpp"
+#include "errbound/program/named_rules.hpp"
+#include "errbound/program/ratio_plot.hpp"
 #include "errbound/support/decimal.hpp"
 #include "errbound/support/hexadecimal.hpp"
 #include "errbound/support/output_file.hpp"
@@ -33,10 +35,17 @@ class ranges final : public support::command {
     void print(std::ostream& people) const;
 
     std::vector<std::string> files_;
-    std::string precision_, only_;
+    row row_of(const fpcore& core, worst_case_result& found) const;
+    std::vector<std::string> compared() const;
+    std::string picture() const;
+
+    std::string precision_, only_, rules_;
     worst_case_options options_;
-    std::optional<std::filesystem::path> published_, csv_, json_, picture_;
+    std::vector<std::filesystem::path> published_;
+    std::optional<std::filesystem::path> csv_, json_, picture_, operations_;
+    std::map<std::string, std::map<std::string, double>> others_;  ///< bounds by source and core
     rows done_, not_done_;
+    std::vector<explanation> explanations_;
 };
 
 const CLI::Validator not_nan(
@@ -44,10 +53,10 @@ const CLI::Validator not_nan(
         return text.find("nan") == text.npos ? "" : text + "; expected a number";
     },
     "");
+const CLI::Validator a_duration = not_nan & CLI::Range(0.0, 1e9);
 
-const std::vector<std::string> columns{"core",  "precision", "at_most",  "at_least",
-                                       "ratio", "published", "relative", "lower",
-                                       "upper", "boxes",     "complete", "seconds"};
+const std::vector<std::string> first_columns{"core", "precision", "at_most", "at_least", "ratio"},
+    last_columns{"relative", "lower", "upper", "boxes", "complete", "seconds"};
 
 ranges::ranges(CLI::App& program)
     : command(
@@ -78,21 +87,34 @@ ranges::ranges(CLI::App& program)
                     "reach")
         ->check(not_nan & CLI::Range(0.0, 1e6))
         ->capture_default_str();
-    line_.add_option("--seconds", options_.seconds, "Limit of each bound")->capture_default_str();
+    line_.add_option("--seconds", options_.seconds, "Limit of each bound")
+        ->check(a_duration)
+        ->capture_default_str();
     line_.add_option("--boxes", options_.boxes, "Limit of each bound")->capture_default_str();
     line_.add_option("--samples", options_.samples, "Inputs that each search tries")
         ->capture_default_str();
+    line_.add_option("--measured", options_.measured,
+                     "Random inputs of which MPFR measures each error, too");
     line_.add_option("--seed", options_.seed, "Seed of the search")
         ->check(support::checked_seed)
         ->capture_default_str();
     line_
+        .add_option("--rules", rules_,
+                    "Search for the largest error() of these bound rules, too; or of all")
+        ->type_name("R[,R...]");
+    line_
         .add_option("--published", published_,
-                    "Compare with other bounds: lines CORE,BOUND, the core's name without commas")
+                    "Compare with other bounds: lines CORE,BOUND, the core's name without commas. "
+                    "The\ncolumn has the file's name; may be repeated")
         ->type_name("FILE");
     line_.add_option("--csv", csv_, "Write the table as CSV")->type_name("OUT");
     line_.add_option("--json", json_, "Write all results, with inputs and operations, as JSON")
         ->type_name("OUT");
-    line_.add_option("--picture", picture_, "Draw each bound's operations, an SVG file")
+    line_
+        .add_option("--picture", picture_,
+                    "Draw all bounds as multiples of the observed error, an SVG file")
+        ->type_name("OUT");
+    line_.add_option("--operations", operations_, "Draw each bound's operations, an SVG file")
         ->type_name("OUT");
 }
 
@@ -122,7 +144,7 @@ std::map<std::string, double> published_bounds(const std::filesystem::path& path
 row number(double x) {
     return std::isfinite(x) ? row(x) : row();
 }
-row row_of(const worst_case_result& found) {
+row ranges::row_of(const fpcore& core, worst_case_result& found) const {
     const double ratio = found.at_most == found.at_least ? 1 : found.at_most / found.at_least;
     row where = row::array(), operations = row::array();
     for (const double x : found.where) where.push_back(support::hexadecimal(x));
@@ -133,8 +155,7 @@ row row_of(const worst_case_result& found) {
     row r{{"at_most", number(found.at_most)},
           {"at_least", found.at_least},
           {"ratio", number(ratio)},
-          {"published", row()},
-          {"relative", number(found.relative_at_most)},
+          {"relative", options_.relative ? number(found.relative_at_most) : row()},
           {"lower", number(found.lower)},
           {"upper", number(found.upper)},
           {"boxes", found.boxes},
@@ -142,8 +163,11 @@ row row_of(const worst_case_result& found) {
           {"seconds", found.seconds},
           {"where", where},
           {"operations", operations}};
-    if (!std::isfinite(found.at_most))
-        r["reason"] = "no finite bound: an operation may overflow or leave its domain";
+    for (const rule_bound& b : found.by_rule) r[b.rule] = number(b.largest);
+    for (const auto& [source, bounds] : others_)
+        if (const auto other = bounds.find(core.name); other != bounds.end())
+            r[source] = other->second;
+    if (!std::isfinite(found.at_most)) r["reason"] = no_finite_bound;
     return r;
 }
 double median(std::vector<double> x) {
@@ -164,13 +188,19 @@ std::vector<fpcore> ranges::read_cores() const {
 support::exit_status ranges::run() {
     std::vector<std::filesystem::path> inputs;
     for (std::string& file : files_) inputs.emplace_back(file = support::input_named(file));
-    if (published_) inputs.push_back(*published_);
+    inputs.insert(inputs.end(), published_.begin(), published_.end());
     support::require_one_standard_input("FILE", inputs);
-    support::require_good_outputs({csv_, json_, picture_}, inputs);
+    support::require_good_outputs({csv_, json_, picture_, operations_}, inputs);
+    if (!rules_.empty()) options_.rules = rules_with_errors(rules_);
     const std::vector<fpcore> cores = read_cores();
-    const auto published =
-        published_ ? published_bounds(*published_) : std::map<std::string, double>();
-    std::vector<explanation> explanations;
+    for (const std::filesystem::path& path : published_)
+        if (const std::string name = path.stem().string();
+            std::ranges::find(first_columns, name) != first_columns.end() ||
+            std::ranges::find(last_columns, name) != last_columns.end() ||
+            std::ranges::find(rules(), name, &rule::name) != rules().end() ||
+            !others_.emplace(name, published_bounds(path)).second)
+            throw support::usage_error("--published is '" + path.string() +
+                                       "'; expected a name other than those of columns");
     support::progress_line progress;
     for (std::size_t i = 0; i < cores.size(); ++i) {
         const fpcore& core = cores[i];
@@ -179,12 +209,10 @@ support::exit_status ranges::run() {
         row r{{"core", core.name}, {"precision", precision}, {"file", core.file}};
         try {
             worst_case_result found = worst_case_of(core, options_, precision_);
-            r.update(row_of(found));
-            if (!options_.relative) r["relative"] = row();
-            if (const auto other = published.find(core.name); other != published.end())
-                r["published"] = other->second;
+            r.update(row_of(core, found));
             found.by_operation.name = core.name;
-            if (std::isfinite(found.at_most)) explanations.push_back(std::move(found.by_operation));
+            if (std::isfinite(found.at_most))
+                explanations_.push_back(std::move(found.by_operation));
         } catch (const unsupported_core& e) {
             r["reason"] = e.what();
         }
@@ -192,28 +220,53 @@ support::exit_status ranges::run() {
     }
     progress.clear();
     std::vector<support::output> outputs;
+    std::vector<std::string> columns = first_columns, more = compared();
+    columns.insert(columns.end(), more.begin(), more.end());
+    columns.insert(columns.end(), last_columns.begin(), last_columns.end());
     if (csv_) outputs.push_back({*csv_, support::csv_of(columns, done_)});
     if (json_)
         outputs.push_back(
             {*json_, support::json_of({{"done", done_}, {"not_done", not_done_}}, 2) + '\n'});
-    if (picture_) outputs.push_back({*picture_, explaining::flame_graphs(explanations)});
+    if (picture_) outputs.push_back({*picture_, picture()});
+    if (operations_) outputs.push_back({*operations_, explaining::flame_graphs(explanations_)});
     support::write_whole(outputs);
-    print(support::stream_for_people({csv_, json_, picture_}));
+    print(support::stream_for_people({csv_, json_, picture_, operations_}));
     return support::done;
+}
+
+/// Columns of other bounds: the rules, then the published ones.
+std::vector<std::string> ranges::compared() const {
+    std::vector<std::string> names;
+    for (const rule& r : options_.rules) names.emplace_back(r.name);
+    for (const auto& [source, bounds] : others_) names.push_back(source);
+    return names;
+}
+
+std::string ranges::picture() const {
+    std::vector<std::string> series{"at_most"};
+    for (std::string& name : compared()) series.push_back(std::move(name));
+    std::vector<explaining::ratio_line> lines;
+    for (const row& r : done_) {
+        std::vector<double> ratios;
+        for (const std::string& name : series)
+            ratios.push_back(r.contains(name) && !r[name].is_null()
+                                 ? r[name].get<double>() / r["at_least"].get<double>()
+                                 : NAN);
+        lines.emplace_back(r["core"], ratios);
+    }
+    return explaining::ratio_plot("bound / observed error", series, lines);
 }
 
 void ranges::print(std::ostream& people) const {
     const auto up = [](const row& x) { return x.is_null() ? row() : row(detail::scientific(x)); };
     rows shown;
-    std::vector<double> ratios, seconds, shares;
+    std::vector<double> ratios, seconds;
     for (const row& r : done_) {
         row& s = shown.emplace_back(row{{"core", r["core"]}, {"precision", r["precision"]}});
         s["error at most"] = up(r["at_most"]);
         s["at least"] = support::fixed(r["at_least"].get<double>() * (1 - 0x1p-8), "%.2e");
         s["ratio"] = r["ratio"].is_null() ? row() : row(support::fixed(r["ratio"], "%.2f"));
-        if (published_)
-            s["published"] =
-                r["published"].is_null() ? row() : row(support::fixed(r["published"], "%.2e"));
+        for (const std::string& name : compared()) s[name] = up(r.value(name, row()));
         if (options_.relative) s["relative"] = up(r["relative"]);
         for (const char* end : {"lower", "upper"}) s[end] = support::fixed(r[end], "%.4g");
         s["boxes"] = r["boxes"];
@@ -221,8 +274,6 @@ void ranges::print(std::ostream& people) const {
         if (!r["complete"].get<bool>()) s["seconds"] = s["seconds"].get<std::string>() + " (limit)";
         if (!r["ratio"].is_null()) ratios.push_back(r["ratio"]);
         seconds.push_back(r["seconds"]);
-        if (!r["published"].is_null())
-            shares.push_back(r["at_most"].get<double>() / r["published"].get<double>());
     }
     people << support::text_of(shown);
     people << (shown.empty() ? "" : "\n") << done_.size()
@@ -232,10 +283,17 @@ void ranges::print(std::ostream& people) const {
                << " of bound/observed error, " << support::fixed(median(seconds), "%.2f")
                << " s; slowest: " << support::fixed(std::ranges::max(seconds), "%.2f") << " s";
     people << '\n';
-    if (!shares.empty())
-        people << std::ranges::count_if(shares, [](double s) { return s <= 1; }) << " of "
-               << shares.size() << " bounds are at most the published ones; largest ratio to them: "
-               << support::fixed(std::ranges::max(shares), "%.2f") << '\n';
+    for (const auto& [source, bounds] : others_) {
+        std::vector<double> shares;
+        for (const row& r : done_)
+            if (r.contains(source))
+                shares.push_back(r["at_most"].get<double>() / r[source].get<double>());
+        if (!shares.empty())
+            people << std::ranges::count_if(shares, [](double s) { return s <= 1; }) << " of "
+                   << shares.size() << " bounds are at most those of " << source
+                   << "; largest ratio to them: "
+                   << support::fixed(std::ranges::max(shares), "%.2f") << '\n';
+    }
     if (not_done_.empty()) return;
     rows reasons;
     for (const row& r : not_done_)

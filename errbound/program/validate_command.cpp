@@ -8,6 +8,7 @@
 
 #include "errbound/program/commands.hpp"
 #include "errbound/program/examined_parts.hpp"
+#include "errbound/program/named_rules.hpp"
 
 namespace errbound::validation {
 namespace {
@@ -34,15 +35,12 @@ class validate final : public support::command {
     void require_use_of_options(const validate_arguments& all) const;
 
     validate_arguments arguments_;
-    std::string rules_, numbers_, functions_;
+    std::string rules_ = "all", numbers_, functions_;
 };
 
 /// The largest error that function_error allows.
 constexpr double most_units = 1024;
 
-rule rule_named(const std::string& name) {
-    return support::entry_named("--rules", name, rules(), &rule::name);
-}
 number_type number_named(const std::string& name) {
     return support::entry_named("--numbers", name, number_types, &named_number_type::name).type;
 }
@@ -143,10 +141,7 @@ void validate::add_functions() {
 
 validate_arguments validate::checked() const {
     validate_arguments all = arguments_;
-    if (line_.count("--rules") == 0)
-        all.rules.assign(rules().begin(), rules().end());
-    else
-        all.rules = support::all_named("--rules", rules_, rule_named);
+    all.rules = rules_named(rules_);
     if (line_.count("--numbers") > 0)
         all.options.numbers = support::all_named("--numbers", numbers_, number_named);
     if (line_.count("--functions") > 0) all.functions.functions = functions_named(functions_);

@@ -167,9 +167,9 @@ expression made(random_source& random, std::uint64_t index, int longest) {
             deep && i > 0 ? values - 1 - random.below(std::min(values, 2)) : random.below(values);
         const int other = random.below(values);
         const bool exchanged = random.one_in(2);
-        o.left = static_cast<std::uint8_t>(exchanged ? other : recent);
-        o.right = static_cast<std::uint8_t>(exchanged ? recent : other);
-        if (o.has_third()) o.third = static_cast<std::uint8_t>(random.below(values));
+        o.left = static_cast<expression_operation::index>(exchanged ? other : recent);
+        o.right = static_cast<expression_operation::index>(exchanged ? recent : other);
+        if (o.has_third()) o.third = static_cast<expression_operation::index>(random.below(values));
         const int reach = random.one_in(4) ? number_traits<T>::max_exponent : 8;
         if (o.kind == operation_kind::scale) o.exponent = random.between(-reach, reach);
         if (o.kind == operation_kind::power) o.exponent = random.between(-3, 6);

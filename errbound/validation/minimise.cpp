@@ -15,18 +15,18 @@ expression cut(const expression& e, std::size_t root) {
     for (std::size_t n = root + 1; n-- > e.input_count;) {
         if (!used[n]) continue;
         expression_operation o = e.operations[n - e.input_count];
-        o.for_each_operand([&](std::uint8_t& v) { used[v] = true; });
+        o.for_each_operand([&](expression_operation::index& v) { used[v] = true; });
     }
     expression r;
-    std::array<std::uint8_t, expression::max_values> renamed{};
+    std::array<expression_operation::index, expression::max_values> renamed{};
     for (std::size_t n = 0; n <= root; ++n) {
         if (!used[n]) continue;
-        renamed[n] = static_cast<std::uint8_t>(r.size());
+        renamed[n] = static_cast<expression_operation::index>(r.size());
         if (n < e.input_count) {
             r.inputs[r.input_count++] = e.inputs[n];
         } else {
             expression_operation o = e.operations[n - e.input_count];
-            o.for_each_operand([&](std::uint8_t& v) { v = renamed[v]; });
+            o.for_each_operand([&](expression_operation::index& v) { v = renamed[v]; });
             if (!o.has_right()) o.right = 0;
             r.operations[r.operation_count++] = o;
         }
@@ -123,11 +123,11 @@ std::optional<expression> with_input(const expression& e, std::size_t n,
     expression r = cut(e, e.size() - 1);
     if (r.size() != e.size() || r.input_count == expression::max_inputs) return std::nullopt;
     const std::size_t added = r.input_count, root = r.size() - 1;
-    const auto moved = [&](std::uint8_t v) {
-        return static_cast<std::uint8_t>(v == n ? added : v >= added ? v + 1U : v);
+    const auto moved = [&](expression_operation::index v) {
+        return static_cast<expression_operation::index>(v == n ? added : v >= added ? v + 1U : v);
     };
     for (std::size_t i = 0; i < r.operation_count; ++i)
-        r.operations[i].for_each_operand([&](std::uint8_t& v) { v = moved(v); });
+        r.operations[i].for_each_operand([&](expression_operation::index& v) { v = moved(v); });
     r.inputs[r.input_count++] = in;
     return cut(r, n == root ? added : root + 1);
 }
@@ -137,8 +137,8 @@ expression with_other(const expression& e, std::size_t n, std::size_t m) {
     if (n == e.size() - 1) return cut(e, m);
     expression r = e;
     for (std::size_t i = 0; i < r.operation_count; ++i)
-        r.operations[i].for_each_operand([&](std::uint8_t& v) {
-            if (v == n) v = static_cast<std::uint8_t>(m);
+        r.operations[i].for_each_operand([&](expression_operation::index& v) {
+            if (v == n) v = static_cast<expression_operation::index>(m);
         });
     return cut(r, r.size() - 1);
 }
@@ -149,7 +149,8 @@ std::vector<expression> smaller(const expression& e, number_type type) {
     with_any_number_type(type, [&]<class T>() { evaluate<none, T>(e, plain.data()); });
     for (std::size_t n = e.input_count; n < e.size(); ++n) {
         expression_operation o = e.operations[n - e.input_count];
-        o.for_each_operand([&](std::uint8_t& v) { r.push_back(with_other(e, n, v)); });
+        o.for_each_operand(
+            [&](expression_operation::index& v) { r.push_back(with_other(e, n, v)); });
         if (plain[n].value.is_finite())
             if (auto with = with_input(e, n, {.value = plain[n].value})) r.push_back(*with);
         if (is_compound(o.kind)) {

@@ -8,133 +8,10 @@
 #include <iterator>
 
 #include "errbound/validation/random_source.hpp"
+#include "errbound/validation/worst_case/evaluation.hpp"
 
 namespace errbound::validation {
 namespace {
-
-using std::size_t;
-
-constexpr mpfr_prec_t constant_precision = 512;
-
-/// The result of an operation in T. Functions are the C library's, in T or float.
-template <class T>
-T computed(operation_kind kind, const T& a, const T& b, const T& c) {
-    using traits = number_traits<T>;
-    switch (kind) {
-        case operation_kind::add:
-            return a + b;
-        case operation_kind::subtract:
-            return a - b;
-        case operation_kind::multiply:
-            return a * b;
-        case operation_kind::divide:
-            return a / b;
-        case operation_kind::negate:
-            return -a;
-        case operation_kind::root:
-            return traits::sqrt(a);
-        case operation_kind::absolute:
-            return traits::abs(a);
-        case operation_kind::lesser:
-            return b < a ? b : a;
-        case operation_kind::greater:
-            return a < b ? b : a;
-        case operation_kind::fused:
-            return traits::fma(a, b, c);
-        default:
-            break;
-    }
-    using wide = detail::function_type<T>;
-    return with_function(function_of(kind), [&]<elementary_function F>() {
-        const auto x = static_cast<wide>(a);
-        if constexpr (has_two_arguments(F))
-            return T(detail::system_function<F>(x, static_cast<wide>(b)));
-        else
-            return T(detail::system_function<F>(x));
-    });
-}
-
-/// Precondition: T holds x.
-template <class T>
-T from(long double x) {
-    if constexpr (fits_double<T>)
-        return static_cast<T>(static_cast<double>(x));
-    else
-        return static_cast<T>(x);
-}
-
-template <class T>
-class evaluation {
-  public:
-    evaluation(const recording& f, std::vector<size_t> order, int digits, int min_exponent)
-        : f_(f), order_(std::move(order)), values_(f.nodes.size()) {
-        mpfr_number c(constant_precision);
-        for (const std::string& text : f.constants) {
-            set_constant(c.get(), text, MPFR_RNDN);
-            constants_.push_back(from<T>(rounded_to(c.get(), digits, min_exponent)));
-        }
-    }
-    /// The values of all nodes; input(k) is the k-th input.
-    template <class Input>
-    const std::vector<T>& operator()(const Input& input) {
-        for (const size_t i : order_) {
-            const auto& n = f_.nodes[i];
-            const auto value = [&](size_t k) -> T& { return values_[k]; };
-            switch (n.kind) {
-                case recording::leaf::input:
-                    value(i) = input(n.left);
-                    break;
-                case recording::leaf::constant:
-                    value(i) = constants_[n.left];
-                    break;
-                default:
-                    value(i) =
-                        computed<T>(n.operation, value(n.left), value(n.right), value(n.third));
-            }
-        }
-        return values_;
-    }
-
-  private:
-    const recording& f_;
-    std::vector<size_t> order_;
-    std::vector<T> constants_, values_;
-};
-
-/// The exact result in MPFR.
-class exact_evaluation {
-  public:
-    exact_evaluation(const recording& f)
-        : f_(f), order_(nodes_of(f, {f.result})), values_(f.nodes.size(), ball(2)) {}
-
-    const ball& operator()(const std::vector<double>& inputs, const std::vector<double>& offsets,
-                           mpfr_prec_t precision) {
-        mpfr_number c(precision);
-        for (const size_t i : order_) {
-            const auto& n = f_.nodes[i];
-            ball& value = values_[i];
-            value.restart(precision);
-            if (n.kind == recording::leaf::input) {
-                exact_value x(inputs[n.left]);
-                x.rest[0] = offsets[n.left];
-                value.set(x);
-            } else if (n.kind == recording::leaf::constant) {
-                value.set_rounded(
-                    [&](mpfr_ptr to) { return set_constant(to, f_.constants[n.left], MPFR_RNDN); });
-            } else {
-                const auto operand = [&](size_t k) -> const ball& { return values_[k]; };
-                set_result(value, {.kind = n.operation}, operand(n.left), operand(n.right),
-                           operand(n.third));
-            }
-        }
-        return values_[f_.result];
-    }
-
-  private:
-    const recording& f_;
-    std::vector<size_t> order_;
-    std::vector<ball> values_;
-};
 
 /// Half the distance from x to the next number of T towards 0, reduced so that rounding is certain.
 template <class T>
@@ -167,31 +44,44 @@ class search {
           exact_(f) {}
 
     observed_error run(const std::vector<std::vector<input_range>>& boxes) {
-        constexpr std::size_t kept = 8;
-        const std::size_t tries = estimates ? f_.options.samples : f_.options.samples / 64;
-        std::vector<candidate> best;
-        for (std::size_t i = 0; i < tries / 4; ++i) {
-            const auto& hot = boxes[random_.bits() % boxes.size()];
-            candidate c = drawn(random_.one_in(2) ? hot : f_.inputs);
-            if (!estimate(c)) continue;
-            if (best.size() == kept && c.error <= best.back().error) continue;
-            if (best.size() == kept) best.pop_back();
-            best.insert(
-                std::ranges::upper_bound(best, c.error, std::greater<>(), &candidate::error),
-                std::move(c));
-        }
         observed_error found;
-        for (candidate& c : best) {
-            for (std::size_t i = 0; i < tries * 3 / 4 / kept; ++i) {
-                candidate next = moved(c);
-                if (estimate(next) && next.error >= c.error) c = std::move(next);
-            }
+        const auto add = [&](const candidate& c) {
             const double error = measured(c);
-            if (error >= found.at_least || found.where.empty()) {
-                found.at_least = std::max(error, found.at_least);
-                found.where = c.inputs;
-            }
-        }
+            if (error < found.at_least && !found.where.empty()) return;
+            found.at_least = std::max(error, found.at_least);
+            found.where = c.inputs;
+            found.offsets = c.offsets;
+        };
+        const auto size = [&](const candidate& c, const T& computed, long double real) {
+            if constexpr (estimates)
+                return static_cast<double>(std::abs(static_cast<long double>(computed) - real));
+            else
+                return measured(c);
+        };
+        const std::size_t tries = estimates ? f_.options.samples : f_.options.samples / 64;
+        for (const candidate& c : climbed(boxes, tries, size)) add(c);
+        for (std::size_t i = 0; i < f_.options.measured; ++i)
+            if (candidate c = drawn(f_.inputs); estimate(c, size)) add(c);
+        return found;
+    }
+
+    /// The largest error() that the search finds. Compares with the exact result there.
+    rule_bound run(const rule& r, const std::vector<std::vector<input_range>>& boxes,
+                   const observed_error& worst) {
+        rule_check check(f_);
+        rule_bound found{std::string(r.name), infinity};
+        if (!check.applies(r)) return found;
+        const auto size = [&](const candidate& c, const T&, long double) {
+            return rounded_up(check.evaluate(r, c.inputs).error);
+        };
+        found.largest = 0;
+        const auto add = [&](const candidate& c) {
+            const claim claimed = check.evaluate(r, c.inputs);
+            found.largest = std::max(found.largest, rounded_up(claimed.error));
+            found.broken += is_violation(check.compare(r, claimed, c.inputs, c.offsets));
+        };
+        for (const candidate& c : climbed(boxes, f_.options.samples / 10, size)) add(c);
+        if (worst.where.size() == f_.inputs.size()) add({worst.where, worst.offsets});
         return found;
     }
 
@@ -211,6 +101,34 @@ class search {
     }
 
   private:
+    static double rounded_up(const exact_value& x) {
+        if (!(x.leading >= 0)) return infinity;
+        const double sum = std::ldexp(x.leading, x.exponent);
+        return x.is_double() ? sum : sum * (1 + 0x1p-50) + doubles_underflow;
+    }
+    /// Inputs of large `size(candidate, computed, real)`, the largest first.
+    template <class Size>
+    std::vector<candidate> climbed(const std::vector<std::vector<input_range>>& boxes,
+                                   std::size_t tries, const Size& size) {
+        constexpr std::size_t kept = 8;
+        std::vector<candidate> best;
+        for (std::size_t i = 0; i < tries / 4; ++i) {
+            const auto& hot = boxes[random_.bits() % boxes.size()];
+            candidate c = drawn(random_.one_in(2) ? hot : f_.inputs);
+            if (!estimate(c, size)) continue;
+            if (best.size() == kept && c.error <= best.back().error) continue;
+            if (best.size() == kept) best.pop_back();
+            best.insert(
+                std::ranges::upper_bound(best, c.error, std::greater<>(), &candidate::error),
+                std::move(c));
+        }
+        for (candidate& c : best)
+            for (std::size_t i = 0; i < tries * 3 / 4 / kept; ++i) {
+                candidate next = moved(c);
+                if (estimate(next, size) && next.error >= c.error) c = std::move(next);
+            }
+        return best;
+    }
     static std::vector<size_t> compared(const recording& f) {
         std::vector<size_t> all{f.result};
         for (const auto& [left, right] : f.constraints) all.insert(all.end(), {left, right});
@@ -257,10 +175,12 @@ class search {
     }
     T value_of(const candidate& c) {
         const auto input = [&](std::size_t k) { return static_cast<T>(c.inputs[k]); };
-        return program_(input)[f_.result];
+        return program_(input)[f_.result].value();
     }
-    /// False if the inputs are not in the box, or the result is not finite.
-    bool estimate(candidate& c) {
+    /// Sets the error to the size. False if the inputs are not in the box, or the result is not
+    /// finite.
+    template <class Size>
+    bool estimate(candidate& c, const Size& size) {
         for (std::size_t k = 0; k < c.inputs.size(); ++k) {
             const double x = c.inputs[k], off = c.offsets[k];
             const input_range& r = f_.inputs[k];
@@ -272,19 +192,15 @@ class search {
         const auto& real = real_(
             [&](std::size_t k) { return static_cast<long double>(c.inputs[k]) + c.offsets[k]; });
         for (const auto& [left, right] : f_.constraints)
-            if (!(real[left] <= real[right])) return false;
-        if constexpr (estimates)
-            c.error =
-                static_cast<double>(std::abs(static_cast<long double>(result) - real[f_.result]));
-        else
-            c.error = measured(c);
+            if (!(real[left].value() <= real[right].value())) return false;
+        c.error = size(c, result, real[f_.result].value());
         return c.error >= 0;
     }
 
     const recording& f_;
     random_source random_;
-    evaluation<T> program_;
-    evaluation<long double> real_;
+    format_evaluation<T> program_;
+    format_evaluation<long double> real_;
     exact_evaluation exact_;
 };
 
@@ -356,15 +272,92 @@ std::vector<size_t> nodes_of(const recording& f, const std::vector<size_t>& resu
     return order;
 }
 
-observed_error largest_error(const recording& f,
-                             const std::vector<std::vector<input_range>>& boxes) {
-    const exponents range = exponents::widest();
+rule_check::rule_check(const recording& f)
+    : f_(f),
+      format_(with_number_type(f.type, []<class T>() { return number_format::of<T>(0); })),
+      exact_(f) {
+    std::vector<expression_operation::index> index(f.nodes.size());
+    const std::vector<size_t> order = nodes_of(f, {f.result});
+    fits_ = order.size() <= std::numeric_limits<expression_operation::index>::max();
+    mpfr_number precise(constant_precision), off(53);
+    for (const size_t i : order) {
+        const recording::node& n = f.nodes[i];
+        if (n.kind == recording::leaf::none) continue;
+        index[i] = static_cast<expression_operation::index>(leaves_.size());
+        inputs_.push_back(n.kind == recording::leaf::input ? n.left : f.inputs.size());
+        expression_input& leaf = leaves_.emplace_back();
+        if (n.kind == recording::leaf::input) continue;
+        const int ternary = set_constant(precise.get(), f.constants[n.left], MPFR_RNDN);
+        const long double c = rounded_to(precise.get(), format_.digits, format_.min_exponent);
+        leaf.value = exactly(c);
+        MPFR_DECL_INIT(rounded, 64);
+        mpfr_set_ld(rounded, c, MPFR_RNDN);
+        mpfr_sub(off.get(), rounded, precise.get(), MPFR_RNDA);
+        double error = std::abs(mpfr_get_d(off.get(), MPFR_RNDA));
+        if (ternary != 0)
+            error = error * (1 + 0x1p-50) + std::ldexp(std::abs(static_cast<double>(c)), -500) +
+                    doubles_underflow;
+        leaf.error = format_.rounded_up(error);
+    }
+    for (const size_t i : order) {
+        const recording::node& n = f.nodes[i];
+        if (n.kind != recording::leaf::none) continue;
+        index[i] = static_cast<expression_operation::index>(leaves_.size() + operations_.size());
+        operations_.push_back({n.operation, index[n.left], index[n.right], index[n.third]});
+        divides_ |= n.operation == operation_kind::divide;
+    }
+    claims_.resize(order.size());
+    result_ = index[f.result];
+}
+
+const claim& rule_check::evaluate(const rule& r, const std::vector<double>& inputs) {
+    for (size_t i = 0; i < leaves_.size(); ++i) {
+        const size_t k = inputs_[i];
+        if (k == inputs.size()) continue;
+        leaves_[i].value = inputs[k];
+        double error = f_.inputs[k].error;
+        if (f_.options.round_inputs) error += format_.half_ulp_beyond(inputs[k]);
+        leaves_[i].error = format_.rounded_up(error);
+    }
+    r.evaluate[static_cast<size_t>(f_.type)]({leaves_, operations_}, claims_.data());
+    return claims_[result_];
+}
+
+finding rule_check::compare(const rule& r, const claim& c, const std::vector<double>& inputs,
+                            const std::vector<double>& offsets, distribution* ratios) {
+    const exponents widest = exponents::widest();
+    for (mpfr_prec_t precision = 192;; precision *= 4) {
+        const ball& exact = exact_(inputs, offsets, precision);
+        deviation off;
+        if (c.value.is_finite() && exact.is_defined()) off.compute(c.value, exact);
+        const finding f = validation::compare(c, exact, off);
+        const bool decided = f != finding::undetermined && (off.is_zero() || !off.is_negligible());
+        if (!decided && precision < 20'000) continue;
+        if (ratios != nullptr && exact.is_defined() && c.value.is_finite())
+            add_ratio(*ratios, r.error_is, c, exact, off);
+        return f;
+    }
+}
+
+template <class Result, class... Arguments>
+Result searched(const recording& f, const Arguments&... arguments) {
+    const exponents widest = exponents::widest();
     return with_number_type(f.type, [&]<class T>() {
-        observed_error found;
+        Result found;
         if constexpr (fits_double<T> || std::same_as<T, long double>)
-            found = search<T>(f).run(boxes);
+            found = search<T>(f).run(arguments...);
         return found;
     });
+}
+
+observed_error largest_error(const recording& f,
+                             const std::vector<std::vector<input_range>>& boxes) {
+    return searched<observed_error>(f, boxes);
+}
+rule_bound largest_bound(const recording& f, const rule& r,
+                         const std::vector<std::vector<input_range>>& boxes,
+                         const observed_error& worst) {
+    return searched<rule_bound>(f, r, boxes, worst);
 }
 
 double error_at(const recording& f, const std::vector<double>& inputs,

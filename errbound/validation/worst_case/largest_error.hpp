@@ -20,14 +20,19 @@ long double rounded_to(mpfr_srcptr x, int digits, int min_exponent);
 std::vector<std::size_t> nodes_of(const recording& f, const std::vector<std::size_t>& results);
 
 struct observed_error {
-    double at_least = 0;  ///< rounded down
-    std::vector<double> where;
+    double at_least = 0;                 ///< rounded down
+    std::vector<double> where, offsets;  ///< exact input = input + offset
 };
 
 /// Tries inputs in the boxes, which are lists of lower and upper ends, and hill-climbs from the
 /// worst ones. Errors are estimated in long double, and those of the worst inputs enclosed by MPFR.
 observed_error largest_error(const recording& f,
                              const std::vector<std::vector<input_range>>& boxes);
+
+/// Searches for inputs of a large error() under the rule, in the same way. Starts at `worst`, too.
+rule_bound largest_bound(const recording& f, const rule& r,
+                         const std::vector<std::vector<input_range>>& boxes,
+                         const observed_error& worst);
 
 /// The error at one input, as a lower bound; 0 if MPFR's precision does not suffice.
 double error_at(const recording& f, const std::vector<double>& inputs,

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <errbound/elementary.hpp>
 #include <errbound/rules/interval.hpp>
+#include <errbound/validation/mpfr_functions.hpp>
 #include <limits>
 
 namespace errbound::validation {
@@ -158,6 +159,31 @@ inline range power_over(const range& a, const range& b) {
     const bool odd = std::fmod(n, 2) != 0;
     const auto at = [&](double x) { return x == 0 ? range(0) : function_at<pow>(x, n); };
     return odd ? hull(at(a.lower()), at(a.upper())) : hull(at(a.least()), at(a.most()));
+}
+
+/// atan2 over two ranges.
+inline range angle_over(const range& y, const range& x) {
+    // The angle jumps at the negative x axis.
+    if (!y.is_finite() || !x.is_finite() || (y.has_zero() && !(x.lower() > 0)))
+        return range::unknown();
+    if constexpr (function_error<elementary_function::atan2, double> != 0) {
+        const double m = y.middle(), n = x.middle();
+        const auto r = detail::angle_of_ranges<double>(m, (y - m).most(), n, (x - n).most());
+        if (std::isfinite(r.error)) return range::within(r.value, r.error);
+    }
+    return range::unknown();
+}
+
+/// f over a, and b if it has two arguments.
+inline range function_value(elementary_function f, const range& a, const range& b) {
+    return with_function(f, [&]<elementary_function F>() {
+        if constexpr (F == elementary_function::pow)
+            return power_over(a, b);
+        else if constexpr (F == elementary_function::atan2)
+            return angle_over(a, b);
+        else
+            return function_over<F>(a);
+    });
 }
 
 /// F and its derivatives over a. Precondition: F has one argument.

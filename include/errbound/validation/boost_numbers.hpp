@@ -22,7 +22,8 @@ template <class Rule>
 constexpr void set_boost_checks(rule& r) {
     if constexpr (errbound::detail::holds_without_subnormals<Rule>) {
         const auto set = [&r]<number_type Type>() {
-            r.evaluate[static_cast<std::size_t>(Type)] = [](const expression& e, claim* claims) {
+            r.evaluate[static_cast<std::size_t>(Type)] = [](const expression_view& e,
+                                                            claim* claims) {
                 with_boost_number_type(Type, [&]<class T>() { evaluate<Rule, T>(e, claims); });
             };
         };

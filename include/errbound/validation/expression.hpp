@@ -14,9 +14,11 @@
 #include <errbound/validation/ball.hpp>
 #include <errbound/validation/exact_value.hpp>
 #include <errbound/validation/rule_list.hpp>
+#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 namespace errbound::validation {
 
@@ -64,8 +66,10 @@ struct expression_input {
 /// third·(right − left); √(left² + right²); left^exponent; a function of left, or of left and
 /// right.
 struct expression_operation {
+    using index = std::uint16_t;
+
     operation_kind kind = operation_kind::add;
-    std::uint8_t left = 0, right = 0, third = 0;
+    index left = 0, right = 0, third = 0;
     int exponent = 0;
 
     bool has_right() const {
@@ -115,6 +119,18 @@ struct expression {
             if (condition(operations[i].kind)) return true;
         return false;
     }
+};
+
+/// An expression of any length.
+struct expression_view {
+    std::span<const expression_input> inputs;
+    std::span<const expression_operation> operations;
+
+    expression_view(const expression& e)
+        : inputs(e.inputs.data(), e.input_count),
+          operations(e.operations.data(), e.operation_count) {}
+    expression_view(std::span<const expression_input> i, std::span<const expression_operation> o)
+        : inputs(i), operations(o) {}
 };
 
 enum class number_type : std::uint8_t {
@@ -305,17 +321,18 @@ tracked<T, Rule> applied(const expression_operation& o, const tracked<T, Rule>* 
 /// All values of the expression in tracked<T, Rule>. Precondition: T has its operations, and the
 /// rule has division if needed.
 template <class Rule, class T>
-void evaluate(const expression& e, claim* claims) {
+void evaluate(const expression_view& e, claim* claims) {
     using number = tracked<T, Rule>;
-    std::array<number, expression::max_values> x;
+    const std::size_t size = e.inputs.size() + e.operations.size();
+    std::array<number, expression::max_values> few;
+    std::vector<number> many(size > few.size() ? size : 0);
+    number* const x = many.empty() ? few.data() : many.data();
     std::size_t n = 0;
-    for (; n < e.input_count; ++n) {
-        const expression_input& in = e.inputs[n];
+    for (const expression_input& in : e.inputs) {
         const T value = number_of<T>(in.value);
-        x[n] = in.error == 0 ? number(value) : number::within(value, number_of<T>(in.error));
+        x[n++] = in.error == 0 ? number(value) : number::within(value, number_of<T>(in.error));
     }
-    for (std::size_t i = 0; i < e.operation_count; ++i, ++n)
-        x[n] = applied(e.operations[i], x.data());
+    for (const expression_operation& o : e.operations) x[n++] = applied(o, x);
     for (std::size_t i = 0; i < n; ++i)
         claims[i] = {exactly(T(x[i].value())), exactly(T(x[i].error())), sign_of(x[i])};
 }

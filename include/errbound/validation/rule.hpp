@@ -10,7 +10,7 @@
 
 namespace errbound::validation {
 
-using evaluation = void (*)(const expression&, claim*);
+using evaluation = void (*)(const expression_view&, claim*);
 
 /// Made by rule_of, also for rules outside errbound/validation/rule_list.hpp. set_boost_checks
 /// (errbound/validation/boost_numbers.hpp) adds Boost's number types.

@@ -18,6 +18,7 @@
 #include <cstdio>
 #include <errbound/explain/explanation.hpp>
 #include <errbound/validation/expression.hpp>
+#include <errbound/validation/rule.hpp>
 #include <limits>
 #include <map>
 #include <span>
@@ -42,10 +43,20 @@ struct worst_case_options {
     double seconds = 10;        ///< for the bound; once more for the relative one
     std::size_t boxes = 1'000'000;
     std::size_t samples = 200'000;  ///< inputs that the search for the largest error tries
+    std::size_t measured = 0;       ///< random inputs of which MPFR measures each error, too
     std::uint64_t seed = 1;
     bool relative = false;  ///< bound the relative error, too
     double function_units =
         0;  ///< errors of functions in units in the last place; 0: function_error
+    /// Compares these rules: validation::rules(), or validation::rule_of<mine>().
+    std::vector<validation::rule> rules{};
+};
+
+/// A bound rule on one computation over a box.
+struct rule_bound {
+    std::string rule;
+    double largest = 0;  ///< error() of the result at an input found by search; infinite: no bound
+    std::size_t broken = 0;  ///< inputs, of the eight largest, with a larger error or a wrong sign
 };
 
 struct worst_case_result {
@@ -57,6 +68,7 @@ struct worst_case_result {
     /// The share of each operation in the bound, in the box with the largest bound. Amounts are
     /// scaled to add up to at_most.
     explanation by_operation;
+    std::vector<rule_bound> by_rule;  ///< one for each of the options' rules
     std::size_t boxes = 0;
     double seconds = 0;    ///< for the bound and the search
     bool complete = true;  ///< false if bisection ended before the gap was reached
