@@ -95,8 +95,11 @@ rows conformance_command::table() const {
 
 rows conformance_command::skipped() const {
     rows all;
-    for (const auto& [what, count] : found_.skipped)
-        all.push_back({{"skipped", what.first}, {"reason", what.second}, {"count", count}});
+    for (const auto& [what, vectors] : found_.skipped)
+        all.push_back(
+            {{"skipped", what.first},
+             {"reason", what.second + (vectors.names.empty() ? "" : ": " + vectors.names)},
+             {"count", vectors.count}});
     return all;
 }
 
@@ -156,7 +159,7 @@ support::exit_status conformance_command::run() {
         people << support::printable(found_.wrong[i]) << '\n';
     people << (left_out.empty() ? "" : "\n")
            << (found_.wrong.empty() ? "no" : std::to_string(found_.wrong.size()))
-           << " wrong answers\n";
+           << (found_.wrong.size() == 1 ? " wrong answer\n" : " wrong answers\n");
     return found_.wrong.empty() ? support::done : support::broken_promise;
 }
 

@@ -79,7 +79,8 @@ std::vector<integer> coefficients_in(const std::string& text, std::string& reaso
         if (k > degree || next + parts > words.size()) return refuse("a file ends too early");
         const auto c = fraction_in(words[next]), d = fraction_in(words[next + parts - 1]);
         next += parts;
-        if (!c || !d || d->above == 0) return refuse("a coefficient is no decimal");
+        if (!c || !d || (kind == 'q' && d->above == 0))
+            return refuse("a coefficient is no decimal");
         all[k] = kind == 'q' ? fraction{c->above * d->below, c->below * d->above} : *c;
     }
     integer common = 1;

@@ -23,13 +23,18 @@ struct conformance_row {
     distribution log10{};         ///< of bound/true error, or of the ratio of two widths
 };
 
+struct skipped_vectors {
+    std::uint64_t count = 0;
+    std::string names;  ///< of operations, for a reason that concerns them
+};
+
 struct conformance {
     worst_case_options options;  ///< with the rules to compare
     std::vector<conformance_row> rows;
-    std::map<std::pair<std::string, std::string>, std::uint64_t> skipped;  ///< by set and reason
-    std::vector<std::string> wrong;                                        ///< FILE:LINE: answer
+    std::map<std::pair<std::string, std::string>, skipped_vectors> skipped;  ///< by set and reason
+    std::vector<std::string> wrong;                                          ///< FILE:LINE: answer
 
-    void skip(const std::string& set, const std::string& reason) { ++skipped[{set, reason}]; }
+    void skip(const std::string& set, const std::string& reason, const std::string& name = "");
     conformance_row& row(const std::string& set, const std::string& subject,
                          const std::string& method, bool promises = true);
     /// Counts an answer, which is wrong if `error` is not empty.

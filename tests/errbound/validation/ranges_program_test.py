@@ -49,7 +49,7 @@ class Ranges(unittest.TestCase):
 
     def test_bounds_as_table_json_csv_and_picture(self):
         out, table, picture = (self.directory / name for name in ["o.json", "o.csv", "o.svg"])
-        text = self.good(self.cores, "--json", out, "--csv", table, "--picture", picture, "--relative")
+        text = self.good(self.cores, "--json", out, "--csv", table, "--operations", picture, "--relative")
         found = json.loads(out.read_text())
         done = {entry["core"]: entry for entry in found["done"]}
         self.assertEqual(list(done), ["quotient", "rigid body", "constants", "constraint", "decided"])
@@ -70,10 +70,12 @@ class Ranges(unittest.TestCase):
         self.assertIn("constant", {o["operation"] for o in done["constants"]["operations"]})
         reasons = {entry["core"]: entry["reason"] for entry in found["not_done"]}
         self.assertEqual(reasons, {
-            "undecided": "a branch depends on the input", "loop": "loop",
-            "unbounded": "no finite range of x", "operation": "operation gamma",
-            "domain": "no finite bound: an operation may overflow or leave its domain",
-            "mixed": "mixed precision", "format": "precision posit16"})
+            "undecided": "a branch depends on the input", "loop": "the program has a loop",
+            "unbounded": "the precondition gives no finite range of x",
+            "operation": "the operation gamma is not supported",
+            "domain": "there is no finite bound: an operation may overflow or leave its domain",
+            "mixed": "the program has several precisions",
+            "format": "the precision posit16 is not supported"})
         with open(table, newline="") as file:
             rows = list(csv.DictReader(file))
         self.assertEqual([float(row["at_most"]) for row in rows],
@@ -81,10 +83,17 @@ class Ranges(unittest.TestCase):
         self.assertTrue(picture.read_text().startswith("<svg"))
 
     def test_options(self):
-        published = self.directory / "published.csv"
-        published.write_text("# source\nquotient,1e-7\nrigid body,1e-14\n")
-        text = self.good(self.cores, "--published", published)
-        self.assertIn("1 of 2 bounds are at most the published ones", text)
+        tool, other = (self.directory / name for name in ["tool.csv", "other.csv"])
+        tool.write_text("# source\nquotient,1e-7\nrigid body,1e-14\n")
+        other.write_text("quotient,1e-9\n")
+        table = self.directory / "all.csv"
+        text = self.good(self.cores, "--published", tool, "--published", other, "--csv", table)
+        self.assertIn("1 of 2 bounds are at most those of tool", text)
+        self.assertIn("0 of 1 bounds are at most those of other", text)
+        with open(table, newline="") as file:
+            rows = {row["core"]: row for row in csv.DictReader(file)}
+        self.assertEqual(rows["quotient"]["other"], "1e-09")
+        self.assertEqual(rows["constants"]["tool"], "")
         half = self.good(self.cores, "--only", "quotient", "--precision", "binary16")
         self.assertIn("binary16", half)
         self.assertIn("1 core bounded", half)
@@ -93,6 +102,20 @@ class Ranges(unittest.TestCase):
         self.good(self.cores, "--only", "rigid body", "--json", rounded, "--round-inputs")
         bounds = [json.loads(p.read_text())["done"][0]["at_most"] for p in [exact, rounded]]
         self.assertAlmostEqual(bounds[1] - bounds[0], 92 * 2**-50, delta=2**-60)
+
+    def test_bounds_of_rules(self):
+        out, picture = self.directory / "o.json", self.directory / "o.svg"
+        self.good(self.cores, "--rules", "safe,tight,residual", "--json", out, "--picture", picture)
+        done = {entry["core"]: entry for entry in json.loads(out.read_text())["done"]}
+        for name in ("quotient", "rigid body", "constants"):
+            self.assertGreaterEqual(done[name]["tight"], done[name]["at_least"])
+            self.assertGreaterEqual(done[name]["residual"], done[name]["at_least"])
+            self.assertLess(done[name]["tight"], 4 * done[name]["at_most"])
+        self.assertIsNone(done["quotient"]["safe"])  # no division
+        self.assertGreater(done["rigid body"]["safe"], done["rigid body"]["tight"])
+        text = picture.read_text()
+        self.assertIn("<title>rigid body, tight: ", text)
+        self.assertNotIn("<title>quotient, safe: ", text)
 
     def test_names_rounding_and_cores_without_inputs(self):
         out = self.directory / "o.json"
@@ -117,8 +140,9 @@ class Ranges(unittest.TestCase):
         self.assertEqual(done["different"]["at_most"], 0)
         reasons = {entry["core"]: entry["reason"] for entry in found["not_done"]}
         self.assertEqual(reasons, {
-            "twice": "two arguments x", "down": "rounding toZero", "up": "rounding toPositive",
-            "wide": "mixed precision", "array": "array argument"})
+            "twice": "two arguments have the name x", "down": "rounding is toZero, not to nearest",
+            "up": "rounding is toPositive, not to nearest",
+            "wide": "the program has several precisions", "array": "an argument is an array"})
 
     def test_bad_input(self):
         for text, message in [("(FPCore (x) (+ x 1)", "1: the file ends; expected a closing parenthesis"),
@@ -131,11 +155,15 @@ class Ranges(unittest.TestCase):
             self.assertIn(f"{self.cores}:{message}", done.stderr)
         self.cores.write_text(CORES)
         self.assertEqual(self.run_program(self.cores, "--only", "none").returncode, 2)
-        for option, value in (("--precision", "double"), ("--gap", "nan"), ("--function-units", "nan")):
+        for option, value in (("--precision", "double"), ("--gap", "nan"), ("--function-units", "nan"),
+                              ("--seconds", "-1"), ("--rules", "tightest")):
             done = self.run_program(self.cores, option, value)
             self.assertEqual(done.returncode, 2)
             self.assertIn(value, done.stderr)
         self.assertEqual(self.run_program(self.cores, "--csv", self.cores).returncode, 2)
+        column = self.directory / "upper.csv"
+        column.write_text("quotient,1\n")
+        self.assertEqual(self.run_program(self.cores, "--published", column).returncode, 2)
         bad = self.directory / "bad.csv"
         bad.write_text("quotient;1\n")
         done = self.run_program(self.cores, "--published", bad)
