@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "errbound/program/commands.hpp"
-#include "errbound/program/conformance/sets.hpp"
 #include "errbound/program/named_rules.hpp"
+#include "errbound/program/published/sets.hpp"
 #include "errbound/program/ratio_plot.hpp"
 #include "errbound/support/output_file.hpp"
 #include "errbound/support/progress_line.hpp"

@@ -11,8 +11,8 @@
 
 #include "errbound/program/commands.hpp"
 #include "errbound/program/flame_graph.hpp"
-#include "errbound/program/fpcore.hpp"
 #include "errbound/program/named_rules.hpp"
+#include "errbound/program/published/fpcore.hpp"
 #include "errbound/program/ratio_plot.hpp"
 #include "errbound/support/decimal.hpp"
 #include "errbound/support/hexadecimal.hpp"
@@ -31,6 +31,7 @@ class ranges final : public support::command {
     support::exit_status run() override;
 
   private:
+    void add_comparisons_and_outputs();
     std::vector<fpcore> read_cores() const;
     void print(std::ostream& people) const;
 
@@ -98,6 +99,10 @@ ranges::ranges(CLI::App& program)
     line_.add_option("--seed", options_.seed, "Seed of the search")
         ->check(support::checked_seed)
         ->capture_default_str();
+    add_comparisons_and_outputs();
+}
+
+void ranges::add_comparisons_and_outputs() {
     line_
         .add_option("--rules", rules_,
                     "Search for the largest error() of these bound rules, too; or of all")

@@ -1,5 +1,5 @@
 // Expressions are evaluated with recorded numbers, preconditions with ranges.
-#include "errbound/program/fpcore.hpp"
+#include "errbound/program/published/fpcore.hpp"
 
 #include <cmath>
 #include <errbound/support/error.hpp>

@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "errbound/program/conformance/sets.hpp"
+#include "errbound/program/published/sets.hpp"
 #include "errbound/validation/worst_case/evaluation.hpp"
 
 namespace errbound::validation {

@@ -1,4 +1,4 @@
-#include "errbound/program/conformance/text.hpp"
+#include "errbound/program/published/text.hpp"
 
 #include <errbound/validation/ball.hpp>
 

@@ -8,9 +8,9 @@
 #include <span>
 #include <string_view>
 
-#include "errbound/program/conformance/compared_rules.hpp"
-#include "errbound/program/conformance/text.hpp"
-#include "errbound/program/fpcore.hpp"
+#include "errbound/program/published/compared_rules.hpp"
+#include "errbound/program/published/fpcore.hpp"
+#include "errbound/program/published/text.hpp"
 #include "errbound/validation/worst_case/range.hpp"
 
 namespace errbound::validation {

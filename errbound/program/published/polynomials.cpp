@@ -6,8 +6,8 @@
 #include <span>
 #include <string_view>
 
-#include "errbound/program/conformance/compared_rules.hpp"
-#include "errbound/program/conformance/text.hpp"
+#include "errbound/program/published/compared_rules.hpp"
+#include "errbound/program/published/text.hpp"
 
 namespace errbound::validation {
 namespace {
