@@ -8,6 +8,7 @@
 
 #include "errbound/validation/random_source.hpp"
 #include "errbound/validation/worst_case/largest_error.hpp"
+#include "tests/errbound/validation/validation_rules.hpp"
 #include "tests/support/scaled.hpp"
 
 namespace errbound {
@@ -322,6 +323,31 @@ TEST(WorstCaseOfFunction, IsTightForAQuotient) {
     double sum = 0;
     for (const contribution& c : e.by_operation.contributions) sum += c.amount;
     EXPECT_NEAR(sum, e.at_most, 1e-12 * e.at_most);
+}
+
+TEST(WorstCaseOfFunction, ComparesRules) {
+    const auto f = [](const auto& x, const auto& y) { return x * x - 0.1F * y + sqrt(y); };
+    worst_case_options options{.samples = 20'000};
+    options.rules.assign(validation::rules().begin(), validation::rules().end());
+    options.rules.emplace_back();
+    validation::set_expression_checks<validation_test::too_small>(options.rules.back());
+    for (const bool rounds : {false, true}) {
+        options.round_inputs = rounds;
+        const worst_case_result e = worst_case<float>(f, {{1, 4}, {1, 4}}, options);
+        ASSERT_EQ(e.by_rule.size(), options.rules.size());
+        for (std::size_t i = 0; i < options.rules.size(); ++i) {
+            const rule_bound& found = e.by_rule[i];
+            EXPECT_EQ(found.rule, options.rules[i].name);
+            if (!options.rules[i].promises()) continue;
+            const bool is_broken = found.rule == "too_small";
+            EXPECT_EQ(found.broken > 0, is_broken) << found.rule;
+            if (!is_broken) EXPECT_GE(found.largest, e.at_least) << found.rule;
+            if (found.rule == "residual") EXPECT_LT(found.largest, 1.1 * e.at_most);
+        }
+    }
+    const auto quotients = worst_case<double>(quotient, {{1, 4}, {1, 4}}, options);
+    for (const rule_bound& found : quotients.by_rule)
+        EXPECT_EQ(std::isfinite(found.largest), found.rule != "safe") << found.rule;
 }
 
 // x1·x2 to 225, the second product to 450, three sums to 705: halves of units in the last place.
