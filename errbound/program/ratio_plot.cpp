@@ -10,6 +10,7 @@
 namespace errbound::explaining {
 namespace {
 
+constexpr int most_decades = 4;  // larger ratios are at the right end
 constexpr double names_width = 300, plot_width = 640, margin = 20, line_height = 18;
 // Distinguishable by colour-blind people (Paul Tol's palettes).
 constexpr std::string_view colours[] = {"#4477aa", "#ee6677", "#228833", "#ccbb44", "#66ccee",
@@ -41,10 +42,12 @@ std::string ratio_plot(const std::string& axis, const std::vector<std::string>& 
                 low = std::min(low, static_cast<int>(std::floor(std::log10(ratio))));
                 high = std::max(high, static_cast<int>(std::ceil(std::log10(ratio))));
             }
+    const bool cuts = high > most_decades;
+    high = std::min(high, most_decades);
     const double left = margin + names_width, top = margin + 4 * line_height,
                  bottom = top + line_height * static_cast<double>(lines.size());
     const auto place = [&](double log10) {
-        return left + (log10 - low) / (high - low) * plot_width;
+        return left + (std::min<double>(log10, high) - low) / (high - low) * plot_width;
     };
     std::string body = text(margin, margin, axis);
     for (std::size_t s = 0; s < series.size(); ++s) {
@@ -52,11 +55,11 @@ std::string ratio_plot(const std::string& axis, const std::vector<std::string>& 
                      y = margin + line_height * static_cast<double>(1 + s / 6);
         body += mark(x + 5, y - 4, s, series[s]) + text(x + 14, y, series[s]);
     }
-    const int step = (high - low) / 12 + 1;
-    for (int e = low; e <= high; e += step)
+    for (int e = low; e <= high; ++e)
         body += "<line x1=\"" + number(place(e)) + "\" y1=\"" + number(top) + "\" x2=\"" +
                 number(place(e)) + "\" y2=\"" + number(bottom) + "\" stroke=\"#d9d9d9\"/>\n" +
-                text(place(e), top - 4, "1e" + std::to_string(e), "text-anchor=\"middle\"");
+                text(place(e), top - 4, (cuts && e == high ? "≥ 1e" : "1e") + std::to_string(e),
+                     "text-anchor=\"middle\"");
     for (std::size_t i = 0; i < lines.size(); ++i) {
         const auto& [name, ratios] = lines[i];
         const double y = top + line_height * (static_cast<double>(i) + 0.5);
