@@ -122,13 +122,13 @@ std::string conformance_command::picture() const {
 }
 
 support::exit_status conformance_command::run() {
-    support::require_good_outputs({csv_, json_, picture_}, {});
     found_.options.rules = rules_with_errors(rules_);
     if (!std::filesystem::is_directory(folder_))
         throw support::file_error(folder_ + " is no folder; expected a folder of test vectors");
     std::vector<std::filesystem::path> files;
     for (const auto& entry : std::filesystem::recursive_directory_iterator(folder_))
         if (entry.is_regular_file()) files.push_back(entry.path());
+    support::require_good_outputs({csv_, json_, picture_}, files);
     std::ranges::sort(files);
     for (const std::filesystem::path& path : files)
         if (path.extension() == ".res") results_[path.stem().string()] = path;

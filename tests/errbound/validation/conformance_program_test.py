@@ -179,6 +179,9 @@ class Conformance(unittest.TestCase):
         self.assertEqual(self.run_program().returncode, 1)
         self.assertEqual(self.run_program("--rules", "tightest").returncode, 2)
         self.assertEqual(self.run_program("--seconds", "-1").returncode, 2)
+        path = self.write("sums.itl", INTERVALS)
+        self.assertEqual(self.run_program("--csv", path).returncode, 2)
+        self.assertEqual(path.read_text(), INTERVALS)
         self.folder = self.folder / "missing"
         done = self.run_program()
         self.assertEqual(done.returncode, 1)
