@@ -1,6 +1,7 @@
 // `errbound conformance`.
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <errbound/support/error.hpp>
 #include <filesystem>
 #include <map>
@@ -56,6 +57,7 @@ conformance_command::conformance_command(CLI::App& program)
     line_
         .add_option("--measured", found_.options.measured,
                     "Random inputs of each program of which MPFR measures each error")
+        ->check(CLI::Range(std::uint64_t{0}, std::uint64_t{1} << 50))
         ->capture_default_str();
     line_.add_option("--csv", csv_, "Write the table as CSV")->type_name("OUT");
     line_.add_option("--json", json_, "Write the table, skipped vectors and wrong answers as JSON")

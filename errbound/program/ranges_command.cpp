@@ -1,6 +1,7 @@
 // `errbound ranges`.
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <errbound/support/error.hpp>
 #include <filesystem>
 #include <map>
@@ -54,7 +55,8 @@ const CLI::Validator not_nan(
         return text.find("nan") == text.npos ? "" : text + "; expected a number";
     },
     "");
-const CLI::Validator a_duration = not_nan & CLI::Range(0.0, 1e9);
+const CLI::Validator a_duration = not_nan & CLI::Range(0.0, 1e9),
+                     a_count = CLI::Range(std::uint64_t{0}, std::uint64_t{1} << 50);
 
 const std::vector<std::string> first_columns{"core", "precision", "at_most", "at_least", "ratio"},
     last_columns{"relative", "lower", "upper", "boxes", "complete", "seconds"};
@@ -91,11 +93,16 @@ ranges::ranges(CLI::App& program)
     line_.add_option("--seconds", options_.seconds, "Limit of each bound")
         ->check(a_duration)
         ->capture_default_str();
-    line_.add_option("--boxes", options_.boxes, "Limit of each bound")->capture_default_str();
-    line_.add_option("--samples", options_.samples, "Inputs that each search tries")
+    line_.add_option("--boxes", options_.boxes, "Limit of each bound")
+        ->check(a_count)
         ->capture_default_str();
-    line_.add_option("--measured", options_.measured,
-                     "Random inputs of which MPFR measures each error, too");
+    line_.add_option("--samples", options_.samples, "Inputs that each search tries")
+        ->check(a_count)
+        ->capture_default_str();
+    line_
+        .add_option("--measured", options_.measured,
+                    "Random inputs of which MPFR measures each error, too")
+        ->check(a_count);
     line_.add_option("--seed", options_.seed, "Seed of the search")
         ->check(support::checked_seed)
         ->capture_default_str();

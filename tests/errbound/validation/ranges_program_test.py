@@ -156,7 +156,7 @@ class Ranges(unittest.TestCase):
         self.cores.write_text(CORES)
         self.assertEqual(self.run_program(self.cores, "--only", "none").returncode, 2)
         for option, value in (("--precision", "double"), ("--gap", "nan"), ("--function-units", "nan"),
-                              ("--seconds", "-1"), ("--rules", "tightest")):
+                              ("--seconds", "-1"), ("--measured", "-1"), ("--rules", "tightest")):
             done = self.run_program(self.cores, option, value)
             self.assertEqual(done.returncode, 2)
             self.assertIn(value, done.stderr)
