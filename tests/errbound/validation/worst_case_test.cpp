@@ -287,7 +287,7 @@ void check_random_programs(std::uint64_t seed, int count, bool with_functions, t
                 largest = std::max(largest, one.check(r, bound, at, one.offsets(at, random)));
             }
         if (largest > 0 && bound.at_most > 0)
-            t.log_ratio += std::log2(bound.at_most / largest), ++t.ratios;
+            t.log_ratio += std::log2(bound.at_most) - std::log2(largest), ++t.ratios;
     }
 }
 
