@@ -176,8 +176,8 @@ std::vector<time_decider> distance_deciders();
 /// t_max = 1 (tests/support/first_time_faults.hpp). First times are unique, so all others must
 /// agree. For any other t_max, the answer follows from the first time. Rationals check the data of
 /// contacts (tests/support/contact_data_faults.hpp). Then batches compute
-/// the first times of the block's queries with every instruction set, and ccd::earliest those of
-/// the whole block and of a few queries at a time. Tables: "family", the
+/// the first times of the block's queries with every instruction set. ccd::earliest computes
+/// that of the whole block, and of a few queries at a time. Tables: "family", the
 /// queries; "distance", the distances; "decider", all answers.
 part contact_time_part(std::vector<time_decider> deciders);
 /// The same comparison for distances of many families (tests/support/distance_families.hpp).
