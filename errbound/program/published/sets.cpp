@@ -52,9 +52,9 @@ struct fixture {
         for_each_line(file.text, [&](std::size_t line, std::string_view text) {
             std::vector<double> numbers;
             for (const std::string_view word : words_of(text))
-                if (const auto x = number_in(word)) numbers.push_back(*x);
+                if (const auto x = number_in(word); x && std::isfinite(*x)) numbers.push_back(*x);
             const bool good =
-                numbers.size() == coordinates + 2 && numbers.size() == words_of(text).size();
+                numbers.size() == coordinates + 2 && words_of(text).size() == numbers.size();
             const double sign = good ? numbers.back() : 2;
             if (text.empty() || !(std::abs(sign) <= 1)) {
                 if (!text.empty()) to.skip(set, "a line is not an index, coordinates and a sign");
@@ -82,7 +82,8 @@ std::optional<range> range_in(std::string_view text) {
     const std::size_t end = text.find(']'), comma = text.find(',');
     const auto low = number_in(text.substr(1, std::min(comma, end) - 1));
     const auto high = comma < end ? number_in(text.substr(comma + 1, end - comma - 1)) : low;
-    if (!low || !high || !std::isfinite(*low) || !std::isfinite(*high)) return std::nullopt;
+    if (!low || !high || !(*low <= *high) || !std::isfinite(*low) || !std::isfinite(*high))
+        return std::nullopt;
     return range(*low, *high);
 }
 

@@ -20,6 +20,7 @@ testcase sums {
     add [0.1] [0x1.999999999999ap-3] = [0x1.3333333333333p-2, 0x1.3333333333334p-2]; // a point
     sub [1.0, 2.0]_com [1.0, 2.0]_dac = [-1.0, 1.0]_dac;
     add [empty] [1.0, 2.0] = [empty];
+    add [2.0, 1.0] [1.0, 2.0] = [2.0, 3.0];
     add [1.0, infinity] [1.0, 2.0] = [2.0, infinity];
 }
 testcase others {
@@ -106,12 +107,12 @@ class Conformance(unittest.TestCase):
                                            "reason": "a text file is not named by a predicate"}])
 
     def test_wrong_signs_are_found(self):
-        path = self.write("orient2d.txt", "0 0 0 1 0 0 1 1\n1 0 0 1 0 0 1 -1\nno numbers\n")
+        path = self.write("orient2d.txt", "0 0 0 1 0 0 1 1\n1 0 0 1 0 0 1 -1\nno numbers\n3 inf 0 1 0 0 1 1\n")
         rows, all, text = self.found("--rules", "tight", status=1)
         self.assertEqual(rows["predicates", "orient2d", "exact"]["wrong"], 1)
         self.assertEqual(all["wrong"], [f"{path}:2: the sign of orient2d by exact is wrong"])
         self.assertIn("1 wrong answer", text)
-        self.assertEqual(all["skipped"][0]["count"], 1)
+        self.assertEqual(all["skipped"][0]["count"], 2)
 
     def test_intervals(self):
         path = self.write("sums.itl", INTERVALS)
@@ -122,6 +123,7 @@ class Conformance(unittest.TestCase):
         self.assertAlmostEqual(rows["ITF1788", "sub", "interval"]["median_ratio"], 1, delta=0.05)
         reasons = {r["reason"]: r["count"] for r in all["skipped"]}
         self.assertEqual(reasons, {
+            "an operand is empty or unbounded": 1,
             "the result is empty, unbounded or no interval": 2,
             "the library has no such operation: intersection, isEmpty": 2})
         with open(self.folder.parent / "out.csv", newline="") as file:
