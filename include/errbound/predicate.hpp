@@ -69,6 +69,10 @@ inline constexpr bool is_shape<points<Dimensions...>> = true;
 /// True for constructed points (errbound/predicates/constructed_points.hpp).
 template <class Point>
 inline constexpr bool is_constructed = false;
+/// True for expressions that return the sign of a fraction, which is zero only if the numerator is
+/// the zero polynomial or a denominator is zero.
+template <class F>
+inline constexpr bool is_sign_of_fraction = false;
 template <class Number>
 concept exact_stage_number = requires(const Number& x) {
     Number(0.5);
