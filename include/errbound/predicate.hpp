@@ -161,9 +161,10 @@ class predicate_type {
         using T = number_of<Points...>;
         if constexpr (has_semi_static_filter) {
             T largest = 0;
-            const auto x = filters::evaluate<Shape>(
-                F(), filters::semi_static_scalars<T, Stored, Points...>{{p...}, &largest});
-            return filters::sign_estimate<T>{x.value, x.bound(largest)};
+            const T value = filters::evaluate<Shape>(
+                F(), filters::measured_scalars<T, Stored, Points...>{{p...}, &largest});
+            constexpr auto count = stages::template semi_static_count<T>;
+            return filters::sign_estimate<T>{value, count.bound(largest)};
         } else {
             const auto x = filtered<Stored>(p...);
             if constexpr (std::is_same_v<decltype(x), const sign_type>)

@@ -101,7 +101,7 @@ void put_semi_static(hash& h, tie::sequence& s, const Expression& expression) {
     put(h, f.roundings);
     put(h, f.degree);
     put(h, f.value);
-    if (f.mass < std::numeric_limits<T>::infinity()) {
+    if (f.mass < f.most) {
         put(h, f.mass);
         put(h, f.allowances);
     }
