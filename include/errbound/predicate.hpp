@@ -69,8 +69,7 @@ inline constexpr bool is_shape<points<Dimensions...>> = true;
 /// True for constructed points (errbound/predicates/constructed_points.hpp).
 template <class Point>
 inline constexpr bool is_constructed = false;
-/// True for expressions that return the sign of a fraction, which is zero only if the numerator is
-/// the zero polynomial or a denominator is zero.
+/// True for expressions that return the sign of a fraction of polynomials, and zero if it has none.
 template <class F>
 inline constexpr bool is_sign_of_fraction = false;
 template <class Number>

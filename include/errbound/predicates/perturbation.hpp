@@ -315,10 +315,10 @@ class perturbed_predicate<predicate_type<Shape, F, Options>, Coordinates...> {
     }
 };
 
-/// The predicate over perturbed points. Its expression must return a number. Template arguments
-/// are the indices of the coordinates to perturb; without any, all are.
-/// perturbed<3>(power_insphere) perturbs only weights, so no flat simplex gets a positive volume.
-/// The sign may then be zero (if all five points are coplanar).
+/// The predicate over perturbed points. Its expression must return a number, or be one of
+/// with_constructed. Template arguments are the indices of the coordinates to perturb; without any,
+/// all are. perturbed<3>(power_insphere) perturbs only weights, so no flat simplex gets a positive
+/// volume. The sign may then be zero (if all five points are coplanar).
 template <int... Coordinates, class Shape, class F, class Options>
 constexpr perturbed_predicate<predicate_type<Shape, F, Options>, Coordinates...> perturbed(
     const predicate_type<Shape, F, Options>&) {
