@@ -90,6 +90,7 @@ class sweep {
     /// Positive if e is above the segment's line.
     sign_type side(std::size_t i, const event& e) const {
         const segment& s = segments_[i];
+        if (&s == e.first || &s == e.second) return sign_type::zero;
         return at<Exact>(
             e, [&](const auto& p) { return sign_by<Exact>(errbound::orient2d)(s.from, s.to, p); });
     }
@@ -130,7 +131,7 @@ class sweep {
     }
     /// Adds the crossing of two neighbours, if it is after e.
     void meet(std::size_t i, std::size_t j, const event& e) {
-        const segment &s = segments_[i], &t = segments_[j];
+        const segment &s = segments_[std::min(i, j)], &t = segments_[std::max(i, j)];
         if (sign_by<Exact>(errbound::segments_intersect2d)(s.from, s.to, t.from, t.to) ==
             sign_type::negative)
             return;
