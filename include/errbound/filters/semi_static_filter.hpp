@@ -29,13 +29,12 @@ struct semi_static {
     using value_type = T;
     static constexpr int roundings = Roundings, degree = Degree;
 
-    /// Greater ones are replaced by this: constant expressions cannot overflow. No bound trusts it.
-    static constexpr T most = [] {
-        T x = 1;
-        for (int i = number_traits<T>::max_exponent / 2 - 4; i > 0; --i) x *= 2;
-        return x;
-    }();
+    /// Replaces masses and allowances that are greater: constant expressions cannot overflow. No
+    /// bound trusts it.
+    static constexpr T most = number_traits<T>::largest() / 16;
     static constexpr T limited(T x) { return x < most ? x : most; }
+    /// Precondition: both are at most `most`.
+    static constexpr T limited_product(T x, T y) { return y <= 1 || x < most / y ? x * y : most; }
 
     T value;
     T mass;
@@ -121,10 +120,12 @@ constexpr auto semi_static_sum(typename X::value_type value, const X& x, const Y
 }
 template <class X, class Y>
 constexpr auto semi_static_product(const X& x, const Y& y) {
+    using T = typename X::value_type;
     using result =
         semi_static<typename X::value_type, X::roundings + Y::roundings + 1, X::degree + Y::degree>;
-    return result{x.value * y.value, result::limited(x.mass * y.mass),
-                  result::limited(2 * (x.mass * y.allowances + y.mass * x.allowances) + 2)};
+    const auto product = [](T a, T b) { return result::limited_product(a, b); };
+    const T allowances = product(x.mass, y.allowances) + product(y.mass, x.allowances);
+    return result{x.value * y.value, product(x.mass, y.mass), result::limited(2 * allowances + 2)};
 }
 
 template <semi_static_operand X, semi_static_operand Y>

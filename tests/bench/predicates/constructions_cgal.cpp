@@ -27,7 +27,7 @@ std::size_t cgal_delaunay3d(const space_points& points) {
     std::vector<kernel::Point_3> converted;
     for (const auto& p : points) converted.emplace_back(p[0], p[1], p[2]);
     const CGAL::Delaunay_triangulation_3<kernel> result(converted.begin(), converted.end());
-    return result.number_of_cells();
+    return result.number_of_finite_cells();
 }
 std::size_t cgal_arrangement(const plane_points& ends) {
     std::vector<lazy_kernel::Segment_2> segments;
