@@ -245,8 +245,9 @@ class predicate_type {
 /// - tracked: errbound::tracked under the options' rule, if any;
 /// - exact stages, on coordinates as integers times one power of two. exact_doubles and
 ///   short_integers hold results of 53 and 127 bits; word_integers and two_word_integers hold
-///   coordinates of 61 and 124 bits; long_integers (or the options' exact type) hold any. An
-///   expression that branches skips two_word_integers.
+///   coordinates of 61 and 124 bits; long_integers (or the options' exact type) hold any.
+///   two_word_integers are skipped if the expression branches or its degree exceeds 6,
+///   exact_doubles if they hold only coordinates of less than 8 bits.
 ///
 /// Contraction to FMA is allowed. Predicates work in constant expressions and in device code
 /// (compiled, not yet run). Filters cost 1 to 3 times the plain expression, integers about ten

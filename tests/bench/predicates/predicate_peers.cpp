@@ -471,6 +471,6 @@ int main(int argc, char** argv) {
         bench::exact_stages_alone(o, out);
         bench::in_batches(o, out);
         bench::without_peers(o, out);
-        if (o.predicate.empty()) bench::whole_constructions(o.quick, out);
+        if (o.wants("constructions")) bench::whole_constructions(o.quick, out);
     });
 }
