@@ -268,8 +268,15 @@ void print_special_signs() {
     const planar a{0, 3}, b{3, 0}, c{0, 1}, d{1, 2}, e{4, 0};
     const auto i = errbound::line_line_point(a, b, c, d);  // where the lines ab and cd cross
     const errbound::sign_type side = errbound::incircle(p, q, e, i);
-    std::printf("the crossing is %s the circle\n\n",
-                side == sign_type::positive ? "in" : "outside");
+    std::printf("the crossing is %s the circle\n", side == sign_type::positive ? "in" : "outside");
+    using namespace errbound;
+    constexpr auto turn_at_crossing =
+        perturbed(with_constructed<line_line, given, given>(orient2d));
+    // The indices are those of the parents a, b, c, d and of q, r. All lines cross, also equal
+    // ones.
+    const sign_type t = turn_at_crossing({0, 1, 2, 3, 4, 5}, p, q, q, r, p, r);
+    std::printf("the perturbed crossing is %s of the line\n\n",
+                t == sign_type::positive ? "left" : "right");
 }
 
 int main() {

@@ -10,28 +10,15 @@
 #include <random>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
+
+#include "examples/geometry/signs.hpp"
 
 namespace {
 
 using errbound::sign_type;
 using point = std::array<double, 2>;
-
-struct exact_signs {
-    static constexpr auto orient2d = errbound::orient2d;
-    static constexpr auto incircle = errbound::incircle;
-};
-struct plain_signs {
-    static sign_type sign_of(double x) {
-        return x > 0 ? sign_type::positive : x < 0 ? sign_type::negative : sign_type::zero;
-    }
-    static sign_type orient2d(const point& a, const point& b, const point& c) {
-        return sign_of(errbound::forms::area(a.data(), b.data(), c.data()));
-    }
-    static sign_type incircle(const point& a, const point& b, const point& c, const point& d) {
-        return sign_of(errbound::forms::lifted_area(a, b, c, d, errbound::forms::unweighted));
-    }
-};
 
 constexpr std::array<std::size_t, 3> after{1, 2, 0}, before{2, 0, 1};
 
@@ -52,7 +39,7 @@ struct triangle {
 
 /// Incremental algorithm (Bowyer 1981, Watson 1981). Triangles whose circles contain a point are
 /// replaced by triangles that join it to their border.
-template <class Signs>
+template <bool Exact>
 class triangulation {
   public:
     /// Precondition: distinct points. Throws std::runtime_error if signs contradict each other.
@@ -79,7 +66,7 @@ class triangulation {
     static constexpr std::size_t none = ~std::size_t{0};
 
     sign_type orient(std::size_t a, std::size_t b, std::size_t c) const {
-        return Signs::orient2d(points_[a], points_[b], points_[c]);
+        return sign_by<Exact>(errbound::orient2d)(points_[a], points_[b], points_[c]);
     }
 
     /// Returns the triangle that contains p, or one at infinity with p beyond its edge.
@@ -106,8 +93,8 @@ class triangulation {
         const auto& v = t.vertex;
         const std::size_t ghost = t.corner_of(infinity);
         if (ghost == 3)
-            return Signs::incircle(points_[v[0]], points_[v[1]], points_[v[2]], points_[p]) ==
-                   sign_type::positive;
+            return sign_by<Exact>(errbound::incircle)(points_[v[0]], points_[v[1]], points_[v[2]],
+                                                      points_[p]) == sign_type::positive;
         const sign_type side = orient(v[after[ghost]], v[before[ghost]], p);
         if (side != sign_type::zero) return side == sign_type::positive;
         const triangle& inner = triangles[t.neighbour[ghost]];
@@ -309,46 +296,18 @@ std::vector<point> line_and_cluster(generator&) {
     return points;
 }
 
-template <class Signs>
-bool valid(const char* signs, const std::vector<point>& points) {
-    std::string found;
-    std::size_t triangles = 0;
-    try {
-        const triangulation<Signs> result(points);
-        triangles = result.triangles.size();
-        found = examination(points, result.triangles).flaws();
-    } catch (const std::runtime_error& contradiction) {
-        found = contradiction.what();
-    }
-    if (found.empty())
-        std::printf("  %s: valid, %zu triangles\n", signs, triangles);
-    else
-        std::printf("  %s: broken: %s\n", signs, found.c_str());
-    return found.empty();
-}
-
 }  // namespace
 
 int main() {
-    generator random(1);
-    int families = 0, as_expected = 0;
-    struct family {
-        const char* name;
-        std::vector<point> (*make)(generator&);
-    };
-    for (const auto& [name, make] :
-         {family{"turned grid", turned_grid}, family{"jittered grid", jittered_grid},
-          family{"circles", circles}, family{"line and cluster", line_and_cluster}}) {
-        auto points = make(random);
-        std::ranges::sort(points);
-        points.erase(std::unique(points.begin(), points.end()), points.end());
-        std::ranges::shuffle(points, random);
-        std::printf("%s, %zu points\n", name, points.size());
-        const bool exact = valid<exact_signs>("errbound", points);
-        const bool plain = valid<plain_signs>("plain double", points);
-        ++families;
-        as_expected += exact && !plain;
-    }
-    std::printf("%d of %d as expected\n", as_expected, families);
-    return as_expected == families ? 0 : 1;
+    const bool as_expected =
+        compare_families<2>({{"turned grid", turned_grid},
+                             {"jittered grid", jittered_grid},
+                             {"circles", circles},
+                             {"line and cluster", line_and_cluster}},
+                            "triangles", []<bool Exact>(const std::vector<point>& points) {
+                                const triangulation<Exact> result(points);
+                                return std::pair(result.triangles.size(),
+                                                 examination(points, result.triangles).flaws());
+                            });
+    return as_expected ? 0 : 1;
 }

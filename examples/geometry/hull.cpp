@@ -10,17 +10,15 @@
 #include <random>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
+
+#include "examples/geometry/signs.hpp"
 
 namespace {
 
 using errbound::sign_type;
 using point = std::array<double, 3>;
-
-constexpr auto plain_orient3d = [](const point& a, const point& b, const point& c, const point& d) {
-    const double volume = errbound::forms::volume(a, b, c, d);
-    return volume > 0 ? sign_type::positive : volume < 0 ? sign_type::negative : sign_type::zero;
-};
 
 using face = std::array<std::size_t, 3>;
 using edge = std::array<std::size_t, 2>;
@@ -36,10 +34,11 @@ std::vector<edge> sorted_edges(const std::vector<face>& faces) {
 /// Incremental algorithm: faces that see a point are replaced by faces that join it to their
 /// border. Empty if all points are coplanar. Throws std::runtime_error if signs contradict each
 /// other. Cost: points times faces.
-template <class Orient3d>
-std::vector<face> convex_hull(const std::vector<point>& points, const Orient3d& orient3d) {
+template <bool Exact>
+std::vector<face> convex_hull(const std::vector<point>& points) {
     const auto orient = [&](const face& f, std::size_t p) {
-        return orient3d(points[f[0]], points[f[1]], points[f[2]], points[p]);
+        return sign_by<Exact>(errbound::orient3d)(points[f[0]], points[f[1]], points[f[2]],
+                                                  points[p]);
     };
     std::size_t c = 2, d = 3;
     while (d < points.size() && orient({0, 1, c}, d) == sign_type::zero)
@@ -190,45 +189,17 @@ std::vector<point> plane_and_cluster(generator& random) {
     return points;
 }
 
-template <class Orient3d>
-bool valid(const char* name, const std::vector<point>& points, const Orient3d& orient3d) {
-    std::vector<face> faces;
-    std::string found;
-    try {
-        faces = convex_hull(points, orient3d);
-        found = flaws(points, faces);
-    } catch (const std::runtime_error& contradiction) {
-        found = contradiction.what();
-    }
-    if (found.empty())
-        std::printf("  %s: valid, %zu faces\n", name, faces.size());
-    else
-        std::printf("  %s: broken: %s\n", name, found.c_str());
-    return found.empty();
-}
-
 }  // namespace
 
 int main() {
-    generator random(1);
-    int families = 0, as_expected = 0;
-    struct family {
-        const char* name;
-        std::vector<point> (*make)(generator&);
-    };
-    for (const auto& [name, make] :
-         {family{"turned cube", turned_cube}, family{"jittered cube", jittered_cube},
-          family{"cylinder", cylinder}, family{"plane and cluster", plane_and_cluster}}) {
-        auto points = make(random);
-        std::ranges::sort(points);
-        points.erase(std::unique(points.begin(), points.end()), points.end());
-        std::ranges::shuffle(points, random);
-        std::printf("%s, %zu points\n", name, points.size());
-        const bool exact = valid("errbound", points, errbound::orient3d);
-        const bool plain = valid("plain double", points, plain_orient3d);
-        ++families;
-        as_expected += exact && !plain;
-    }
-    std::printf("%d of %d as expected\n", as_expected, families);
-    return as_expected == families ? 0 : 1;
+    const bool as_expected =
+        compare_families<3>({{"turned cube", turned_cube},
+                             {"jittered cube", jittered_cube},
+                             {"cylinder", cylinder},
+                             {"plane and cluster", plane_and_cluster}},
+                            "faces", []<bool Exact>(const std::vector<point>& points) {
+                                const std::vector<face> faces = convex_hull<Exact>(points);
+                                return std::pair(faces.size(), flaws(points, faces));
+                            });
+    return as_expected ? 0 : 1;
 }

@@ -69,6 +69,9 @@ inline constexpr bool is_shape<points<Dimensions...>> = true;
 /// True for constructed points (errbound/predicates/constructed_points.hpp).
 template <class Point>
 inline constexpr bool is_constructed = false;
+/// True for expressions that return the sign of a fraction of polynomials, and zero if it has none.
+template <class F>
+inline constexpr bool is_sign_of_fraction = false;
 template <class Number>
 concept exact_stage_number = requires(const Number& x) {
     Number(0.5);
@@ -157,9 +160,10 @@ class predicate_type {
         using T = number_of<Points...>;
         if constexpr (has_semi_static_filter) {
             T largest = 0;
-            const auto x = filters::evaluate<Shape>(
-                F(), filters::semi_static_scalars<T, Stored, Points...>{{p...}, &largest});
-            return filters::sign_estimate<T>{x.value, x.bound(largest)};
+            const T value = filters::evaluate<Shape>(
+                F(), filters::measured_scalars<T, Stored, Points...>{{p...}, &largest});
+            constexpr auto count = stages::template semi_static_count<T>;
+            return filters::sign_estimate<T>{value, count.bound(largest)};
         } else {
             const auto x = filtered<Stored>(p...);
             if constexpr (std::is_same_v<decltype(x), const sign_type>)
@@ -241,8 +245,9 @@ class predicate_type {
 /// - tracked: errbound::tracked under the options' rule, if any;
 /// - exact stages, on coordinates as integers times one power of two. exact_doubles and
 ///   short_integers hold results of 53 and 127 bits; word_integers and two_word_integers hold
-///   coordinates of 61 and 124 bits; long_integers (or the options' exact type) hold any. An
-///   expression that branches skips two_word_integers.
+///   coordinates of 61 and 124 bits; long_integers (or the options' exact type) hold any.
+///   two_word_integers are skipped if the expression branches or its degree exceeds 6,
+///   exact_doubles if they hold only coordinates of less than 8 bits.
 ///
 /// Contraction to FMA is allowed. Predicates work in constant expressions and in device code
 /// (compiled, not yet run). Filters cost 1 to 3 times the plain expression, integers about ten

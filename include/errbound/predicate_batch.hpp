@@ -207,9 +207,22 @@ void batch_over(const Predicate& predicate, std::span<sign_type> signs, std::ind
 /// 64 points at a time. Expressions that branch are evaluated one by one. No allocation.
 template <class Predicate, class... Ranges>
 void batch_signs(const Predicate& predicate, std::span<sign_type> signs, const Ranges&... p) {
+    static_assert(
+        requires { Predicate::counts; },
+        "errbound: batch_signs takes a predicate made by predicate(); for a perturbed one "
+        "pass the predicate that it perturbs, then call the perturbed one where a sign "
+        "is zero");
+    constexpr bool constructed =
+        (filters::is_constructed<
+             std::remove_cvref_t<decltype(detail::input_of(std::declval<const Ranges&>(), 0))>> ||
+         ...);
+    static_assert(!constructed,
+                  "errbound: batch_signs takes explicit points; for constructed ones pass the "
+                  "predicate of their parents, by with_constructed, and ranges of parents");
     assert((detail::has_inputs(p, signs.size()) && ...) &&
            "errbound: a range has fewer points than there are signs");
-    detail::batch_over(predicate, signs, std::index_sequence_for<Ranges...>(), p...);
+    if constexpr (requires { Predicate::counts; } && !constructed)
+        detail::batch_over(predicate, signs, std::index_sequence_for<Ranges...>(), p...);
 }
 
 }  // namespace errbound

@@ -100,23 +100,27 @@ struct row_sets {
         return t;
     }();
 };
-/// The minor of the first K columns and row set i, expanded along the last of these columns.
-/// `minors` are those of the columns before.
-template <std::size_t N, std::size_t K, std::size_t J = 0>
-constexpr auto minor_of(const auto& minors, const auto& column, std::size_t i) {
-    constexpr auto tables = row_sets<N, K>::rows_and_others;
-    const auto term = column[tables.first[i][J]] * minors[tables.second[i][J]];
-    if constexpr (J + 1 == K)
-        return term;
-    else if constexpr ((K - J) % 2 == 0)
-        return minor_of<N, K, J + 1>(minors, column, i) - term;
+/// x − y + z − ..., from the last term to the first, which is positive for an odd count.
+constexpr auto alternating_sum(const auto& x, const auto&... rest) {
+    if constexpr (sizeof...(rest) == 0)
+        return x;
+    else if constexpr (sizeof...(rest) % 2 == 1)
+        return alternating_sum(rest...) - x;
     else
-        return minor_of<N, K, J + 1>(minors, column, i) + term;
+        return alternating_sum(rest...) + x;
+}
+/// The minor of the first K columns and row set I, expanded along the last of these columns.
+/// `minors` are those of the columns before.
+template <class Sets, std::size_t I, std::size_t... J>
+constexpr auto minor_of(const auto& minors, const auto& column, std::index_sequence<J...>) {
+    constexpr auto rows = Sets::rows_and_others.first[I], others = Sets::rows_and_others.second[I];
+    return alternating_sum(column[rows[J]] * minors[others[J]]...);
 }
 template <std::size_t N, std::size_t K>
 constexpr auto expanded(const auto& minors, const auto& column, const auto&... rest) {
     const auto next = [&]<std::size_t... I>(std::index_sequence<I...>) {
-        return std::array{minor_of<N, K>(minors, column, I)...};
+        return std::array{
+            minor_of<row_sets<N, K>, I>(minors, column, std::make_index_sequence<K>())...};
     }
     (std::make_index_sequence<row_sets<N, K>::count>());
     if constexpr (sizeof...(rest) == 0)

@@ -304,6 +304,45 @@ const int result = errbound::perturbed(errbound::segments_intersect2d)({0, 1, 2,
                    sign_type::zero;
 #endif
 
+#ifdef CASE_perturbed_indices
+// A call with two indices for three points.
+const int result = errbound::perturbed(errbound::orient2d)({0, 1}, p, p, p) == sign_type::zero;
+#endif
+
+#ifdef CASE_perturbed_indices_of_array
+const int result = errbound::perturbed(errbound::orient2d)(std::array<std::size_t, 4>(), p, p, p) ==
+                   sign_type::zero;
+#endif
+
+#ifdef CASE_perturbed_constructed
+// A constructed point is the argument of a perturbed predicate.
+const int result = errbound::perturbed(errbound::orient2d)(
+                       {0, 1, 2}, errbound::line_line_point(p, p, p, p), p, p) == sign_type::zero;
+#endif
+
+#ifdef CASE_perturbed_constructed_branches
+// The predicate of the parents branches.
+const int result =
+    errbound::perturbed(
+        errbound::with_constructed<errbound::line_line, errbound::given, errbound::given,
+                                   errbound::given>(errbound::segments_intersect2d))(
+        {0, 1, 2, 3, 4, 5, 6}, p, p, p, p, p, p, p) == sign_type::zero;
+#endif
+
+#if defined(CASE_perturbed_batch) || defined(CASE_constructed_batch)
+#include <errbound/predicate_batch.hpp>
+
+using point = std::array<double, 2>;
+void batch(std::array<sign_type, 2>& signs, const std::array<point, 2>& a) {
+#ifdef CASE_perturbed_batch
+    errbound::batch_signs(errbound::perturbed(errbound::orient2d), signs, a, a, a);
+#else
+    using crossing = decltype(errbound::line_line_point(a[0], a[0], a[0], a[0]));
+    errbound::batch_signs(errbound::orient2d, signs, std::array<crossing, 2>(), a, a);
+#endif
+}
+#endif
+
 #ifdef CASE_constructed_dimension
 // The point is in the plane, the predicate in space.
 const int result =

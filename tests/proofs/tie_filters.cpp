@@ -20,6 +20,7 @@
 namespace {
 
 using errbound::filters::filtered_coordinate;
+using errbound::filters::measured_coordinate;
 using errbound::filters::semi_static_coordinate;
 using tie::hash;
 
@@ -101,7 +102,13 @@ void put_semi_static(hash& h, tie::sequence& s, const Expression& expression) {
     put(h, f.roundings);
     put(h, f.degree);
     put(h, f.value);
-    if (f.mass < std::numeric_limits<T>::infinity()) {
+    T largest_measured = 0;
+    points<measured_coordinate<T>> q;
+    for (std::size_t i = 0; i < x.size(); ++i) q[i / 3][i % 3] = {x[i], &largest_measured};
+    const T value = expression(q);
+    const bool is_same = value == f.value || (std::isnan(value) && std::isnan(f.value));
+    if (!is_same || largest != largest_measured) put(h, largest_measured);
+    if (f.mass < f.most) {
         put(h, f.mass);
         put(h, f.allowances);
     }

@@ -55,21 +55,21 @@ struct filtered_scalars {
     }
 };
 template <class T, bool Stored, class Point>
-struct semi_static_point {
+struct measured_point {
     const Point& point;
     T* largest;
-    constexpr semi_static_coordinate<T> operator[](int i) const {
+    constexpr measured_coordinate<T> operator[](int i) const {
         return {unfused_coordinate<T, Stored>(point, i), largest};
     }
 };
 template <class T, bool Stored, class... Points>
-struct semi_static_scalars {
+struct measured_scalars {
     std::tuple<const Points&...> points;
     T* largest;
     template <std::size_t Argument>
     constexpr auto point() const {
         using type = std::tuple_element_t<Argument, std::tuple<Points...>>;
-        return semi_static_point<T, Stored, type>{std::get<Argument>(points), largest};
+        return measured_point<T, Stored, type>{std::get<Argument>(points), largest};
     }
 };
 /// A point given by its coordinates. `make` turns each coordinate into a scalar, possibly a

@@ -63,6 +63,15 @@ class predicate_stages {
     static constexpr expression_counts counts = findings.counts;
     static constexpr bool has_semi_static_filter =
         !counts.mixed && counts.degree >= 5 && !branches<Shape, F>;
+    /// The semi-static filter's value and mass at zeros, which determine its bound.
+    template <class T>
+    static constexpr auto semi_static_count = [] {
+        T largest = 0;
+        const auto make = [&](T x) { return semi_static_coordinate<T>{x, &largest}; };
+        const std::array<T, Shape::size> zeros{};
+        return as_semi_static(evaluate<Shape>(
+            F(), listed_scalars<Shape, std::array<T, Shape::size>, decltype(make)>{zeros, make}));
+    }();
     /// 0 if results may be missing. Proof: proofs/integers/Widths.v, coordinate_bits_enough.
     static constexpr int coordinate_bits(int bits) {
         if (!counts.complete) return 0;
@@ -174,7 +183,7 @@ class predicate_stages {
                                                     std::uint64_t largest, const Counted& counted) {
         using enum predicate_stage;
         // If two words hold all results of one-word coordinates, doubles gain nothing.
-        if constexpr (short_bits < word_bits) {
+        if constexpr (short_bits < word_bits && coordinate_bits(53) >= least_double_bits) {
             const sign_type s = by_doubles(list, largest);
             if (certain(s)) return counted(s, exact_doubles);
         }
@@ -186,7 +195,8 @@ class predicate_stages {
             }
             return counted(by_words(words), word_integers);
         }
-        if constexpr (!branches<Shape, F>) {
+        // From degree 7 on, this stage would take most of the time to compile.
+        if constexpr (!branches<Shape, F> && counts.degree < 7) {
             const sign_type s = by_two_words(list);
             if (certain(s)) return counted(s, two_word_integers);
         }
@@ -226,9 +236,11 @@ class predicate_stages {
             F(), list, [](double x) { return errbound::tracked<T, rule>(static_cast<T>(x)); });
     }
 
+    /// With fewer bits than this, doubles hold hardly any inputs: short integers are fast enough.
+    static constexpr int least_double_bits = 8;
     static constexpr sign_type by_doubles(const coordinate_list& list, std::uint64_t largest) {
         constexpr int bits = coordinate_bits(53);
-        if constexpr (bits < 1) {
+        if constexpr (bits < least_double_bits) {
             return sign_type::uncertain;
         } else {
             const integers::short_coordinates<listed_size, bits> c(list, largest);
@@ -255,8 +267,10 @@ class predicate_stages {
     template <int Bits>
     [[gnu::always_inline]] static constexpr sign_type by_values(
         const integers::word_coordinates<listed_size>& words, int shift) {
-        using scalar = integers::sized_integer<
-            integers::integer_level<integers::integer_kind::words, Bits, mixed>, Bits, 1>;
+        using scalar =
+            integers::sized_integer<integers::integer_level<integers::integer_kind::words, Bits,
+                                                            mixed, (counts.degree > 4)>,
+                                    Bits, 1>;
         return sign_over<Shape>(F(), words.value, [&](std::int64_t v) {
             return scalar{v >> shift, words.unit + shift};
         });
@@ -266,8 +280,8 @@ class predicate_stages {
     /// Differences of such coordinates have 125 bits. A product of n of them fits in 2n words of 64
     /// bits, with 3n bits left for the sign and for sums.
     static constexpr int two_word_bits = 124;
-    /// Above degree 3, operations on two or more words are calls: inlined they take a second to
-    /// compile. Expressions that branch skip this stage for that reason.
+    /// Above degree 3 (with one-word coordinates, 4), operations on two or more words are calls:
+    /// inlined they take longer to compile and to run. Expressions that branch skip this stage.
     using two_word_level = integers::integer_level<integers::integer_kind::words, two_word_bits,
                                                    mixed, (counts.degree > 3)>;
     [[gnu::noinline]] static constexpr sign_type by_two_words(const coordinate_list& list) {

@@ -19,8 +19,8 @@ namespace errbound::filters {
 ///
 /// `mass` m is the size if all coordinates and differences are 1 and τ is 0. `allowances` a bounds
 /// how often τ counts: 0 for coordinates, a_x + a_y for x ± y, 2(m_x·a_y + m_y·a_x) + 2 for x·y.
-/// Both depend only on the expression, so compilers compute them. Proof, without contraction:
-/// proofs/filters/SemiStatic.v, mass_covers_size.
+/// Both depend only on the expression, so they are computed at compile time. Proof, without
+/// contraction: proofs/filters/SemiStatic.v, mass_covers_size.
 template <std::floating_point T, int Roundings, int Degree>
 struct semi_static {
     static_assert(Roundings < 1000 && Degree < 1000,
@@ -28,6 +28,13 @@ struct semi_static {
                   "1000");
     using value_type = T;
     static constexpr int roundings = Roundings, degree = Degree;
+
+    /// Replaces masses and allowances that are greater: constant expressions cannot overflow. No
+    /// bound trusts it.
+    static constexpr T most = number_traits<T>::largest() / 16;
+    static constexpr T limited(T x) { return x < most ? x : most; }
+    /// Precondition: both are at most `most`.
+    static constexpr T limited_product(T x, T y) { return y <= 1 || x < most / y ? x * y : most; }
 
     T value;
     T mass;
@@ -44,8 +51,8 @@ struct semi_static {
     /// proofs/filters/SemiStatic.v, mass_covers_size, semi_static_bound_covers,
     /// semi_static_sign_certain.
     constexpr T bound(T largest) const {
-        constexpr T most = 1 / number_traits<T>::unit_roundoff();
-        const bool trusted = mass < most && allowances < most;
+        constexpr T exact = 1 / number_traits<T>::unit_roundoff();
+        const bool trusted = mass < exact && allowances < exact;
         if (!trusted) return number_traits<T>::infinity();
         const T size =
             2 * mass * power<Degree>(largest) + 2 * allowances * filtered<T, 0, 0, true>::allowance;
@@ -107,15 +114,18 @@ constexpr auto semi_static_sum(typename X::value_type value, const X& x, const Y
     static_assert(X::degree == Y::degree,
                   "errbound: the expression is not homogeneous as declared");
     constexpr int roundings = (X::roundings > Y::roundings ? X::roundings : Y::roundings) + 1;
-    return semi_static<typename X::value_type, roundings, X::degree>{value, x.mass + y.mass,
-                                                                     x.allowances + y.allowances};
+    using result = semi_static<typename X::value_type, roundings, X::degree>;
+    return result{value, result::limited(x.mass + y.mass),
+                  result::limited(x.allowances + y.allowances)};
 }
 template <class X, class Y>
 constexpr auto semi_static_product(const X& x, const Y& y) {
-    return semi_static<typename X::value_type, X::roundings + Y::roundings + 1,
-                       X::degree + Y::degree>{
-        x.value * y.value, x.mass * y.mass,
-        2 * (x.mass * y.allowances + y.mass * x.allowances) + 2};
+    using T = typename X::value_type;
+    using result =
+        semi_static<typename X::value_type, X::roundings + Y::roundings + 1, X::degree + Y::degree>;
+    const auto product = [](T a, T b) { return result::limited_product(a, b); };
+    const T allowances = product(x.mass, y.allowances) + product(y.mass, x.allowances);
+    return result{x.value * y.value, product(x.mass, y.mass), result::limited(2 * allowances + 2)};
 }
 
 template <semi_static_operand X, semi_static_operand Y>
@@ -136,13 +146,30 @@ constexpr auto operator*(const X& x, std::same_as<int> auto c) {
     using T = typename X::value_type;
     const auto factor = filtered_constant<T>(c);
     // A factor 0 would erase the mass of x.
-    const T mass = c == 0 ? number_traits<T>::infinity() : factor.size;
-    return as_semi_static(x) *
-           semi_static<T, decltype(factor)::roundings, 0>{factor.value, mass, 0};
+    using number = semi_static<T, decltype(factor)::roundings, 0>;
+    return as_semi_static(x) * number{factor.value, c == 0 ? number::most : factor.size, 0};
 }
 template <semi_static_operand X>
 constexpr auto operator*(std::same_as<int> auto c, const X& x) {
     return x * c;
 }
+
+/// A coordinate of the plain floating-point expression, whose value the bound covers. Differences
+/// are numbers; in other operations it converts to one.
+template <std::floating_point T>
+struct measured_coordinate {
+    T value;
+    T* largest;
+
+    constexpr operator T() const { return as_semi_static(as_coordinate(*this)).value; }
+    friend constexpr T operator-(const measured_coordinate& x, const measured_coordinate& y) {
+        return (as_coordinate(x) - as_coordinate(y)).value;
+    }
+
+  private:
+    friend constexpr semi_static_coordinate<T> as_coordinate(const measured_coordinate& x) {
+        return {x.value, x.largest};
+    }
+};
 
 }  // namespace errbound::filters

@@ -387,6 +387,9 @@ struct constructed_expression {
         }
     }
 };
+template <class Shape, class F, class... Arguments>
+inline constexpr bool is_sign_of_fraction<constructed_expression<Shape, F, Arguments...>> =
+    !branches<Shape, F>;
 /// The degrees of the options are those of the predicate's own coordinates.
 template <class Options>
 struct constructed_options : Options {

@@ -199,7 +199,7 @@ template <class Predicate, int... Coordinates>
 class perturbed_predicate;
 template <class Shape, class F, class Options, int... Coordinates>
 class perturbed_predicate<predicate_type<Shape, F, Options>, Coordinates...> {
-    static_assert(!filters::branches<Shape, F>,
+    static_assert(!filters::branches<Shape, F> || filters::is_sign_of_fraction<F>,
                   "errbound: perturbed needs an expression that returns a number; one that "
                   "branches or returns sign_of(x) may be zero, or take another branch, for "
                   "perturbed points: perturb the predicates that it combines");
@@ -213,14 +213,29 @@ class perturbed_predicate<predicate_type<Shape, F, Options>, Coordinates...> {
   public:
     using index_list = std::array<std::size_t, Shape::count>;
 
-    /// Returns the sign for the points with these indices. Precondition: points of equal index are
-    /// equal.
-    template <class... Points>
-    sign_type operator()(const index_list& indices, const Points&... p) const {
-        const sign_type s = predicate()(p...);
-        if (s != sign_type::zero) [[likely]]
-            return s;
-        return perturbed_sign(indices, stages::listed(p...));
+    /// Returns the sign for the points with these indices: a braced list or an array. Precondition:
+    /// points of equal index are equal.
+    template <std::size_t Count, class... Points>
+    sign_type operator()(const std::size_t (&indices)[Count], const Points&... p) const {
+        return (*this)(std::to_array(indices), p...);
+    }
+    template <std::size_t Count, class... Points>
+    sign_type operator()(const std::array<std::size_t, Count>& indices, const Points&... p) const {
+        static_assert(Count == Shape::count,
+                      "errbound: perturbed takes one index for each point of the predicate's "
+                      "shape");
+        static_assert(!(filters::is_constructed<Points> || ...),
+                      "errbound: perturbed takes explicit points; for constructed ones perturb the "
+                      "predicate of their parents: "
+                      "perturbed(with_constructed<line_line, given, given>(orient2d))");
+        if constexpr (Count == Shape::count && !(filters::is_constructed<Points> || ...)) {
+            const sign_type s = predicate()(p...);
+            if (s != sign_type::zero) [[likely]]
+                return s;
+            return perturbed_sign(indices, stages::listed(p...));
+        } else {
+            return sign_type::uncertain;
+        }
     }
 
   private:
@@ -300,10 +315,10 @@ class perturbed_predicate<predicate_type<Shape, F, Options>, Coordinates...> {
     }
 };
 
-/// The predicate over perturbed points. Its expression must return a number. Template arguments
-/// are the indices of the coordinates to perturb; without any, all are.
-/// perturbed<3>(power_insphere) perturbs only weights, so no flat simplex gets a positive volume.
-/// The sign may then be zero (if all five points are coplanar).
+/// The predicate over perturbed points. Its expression must return a number, or be one of
+/// with_constructed. Template arguments are the indices of the coordinates to perturb; without any,
+/// all are. perturbed<3>(power_insphere) perturbs only weights, so no flat simplex gets a positive
+/// volume. The sign may then be zero (if all five points are coplanar).
 template <int... Coordinates, class Shape, class F, class Options>
 constexpr perturbed_predicate<predicate_type<Shape, F, Options>, Coordinates...> perturbed(
     const predicate_type<Shape, F, Options>&) {

@@ -9,6 +9,7 @@
 #include <errbound/integers/binary_double.hpp>
 #include <errbound/predicate_batch.hpp>
 #include <errbound/predicates.hpp>
+#include <errbound/predicates/constructed_points.hpp>
 #include <functional>
 #include <limits>
 #include <stdexcept>
@@ -106,11 +107,6 @@ struct peer {
     decider<Form> decide;      ///< null: not for this predicate, or not installed
     std::size_t thinning = 1;  ///< slow peers are timed on one input in this many
 };
-#ifdef ERRBOUND_HAVE_CGAL
-constexpr bool have_cgal = true;
-#else
-constexpr bool have_cgal = false;
-#endif
 #ifdef ERRBOUND_HAVE_MPFI
 constexpr bool have_mpfi = true;
 #else
@@ -119,13 +115,15 @@ constexpr bool have_mpfi = false;
 
 template <class Form>
 std::vector<peer<Form>> peers() {
-    decider<Form> cgal = nullptr, mpfi = nullptr, geometry = nullptr;
+    decider<Form> cgal = nullptr, shewchuk = nullptr, mpfi = nullptr, geometry = nullptr;
     if constexpr (have_cgal) cgal = decide_by_cgal<Form>;
+    if constexpr (have_tetgen) shewchuk = decide_by_shewchuk<Form>;
     if constexpr (have_mpfi) mpfi = decide_by_mpfi<Form>;
     if constexpr (std::is_same_v<Form, orient2d_form>) geometry = decide_by_boost_geometry;
     return {{"plain double", decide_plainly<Form>},
             {"errbound", decide_by_errbound<Form>},
             {"CGAL", cgal},
+            {"Shewchuk", shewchuk},
             {"GMP integers", decide_by_integers<Form, big_integer>, 10},
             {"Boost cpp_int", decide_by_integers<Form, cpp_int>, 20},
             {"cpp_rational", decide_by_rationals<Form>, 100},
@@ -379,38 +377,56 @@ class plain_double {
     double value_;
 };
 
+double percent_different(const signs& a, const signs& b, bool only_negative) {
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < a.size(); ++i)
+        count += only_negative ? (a[i] == sign_type::negative) != (b[i] == sign_type::negative)
+                               : a[i] != b[i];
+    return 100 * static_cast<double>(count) / static_cast<double>(a.size());
+}
+/// A row of times next to those of CGAL's kernels, as far as they have the predicate.
 template <class Entry>
 void add_other_row(const Entry& entry, const run_options& o, rows& table) {
     if (!o.wants(entry.name)) return;
+    constexpr std::size_t D = Entry::dimension, N = Entry::count;
     row& r = table.emplace_back(row{{"predicate", entry.name}});
     for (std::size_t family = 0; family < 4; ++family) {
-        const input_set<Entry::dimension, Entry::count> set(
-            predicate_inputs::families<double, Entry::dimension, Entry::count>[family].make,
-            entry.surfaces[1], o.inputs(), 0);
-        signs plain(set.size()), found(set.size());
-        const auto timings =
-            race({[&] {
-                      for (std::size_t i = 0; i < set.size(); ++i)
-                          plain[i] = set.with(i, [&](const auto&... p) {
-                              return errbound::filters::conclude(
-                                  entry.predicate.template value<plain_double>(p...));
-                          });
-                      keep(plain);
-                  },
-                  [&] {
-                      for (std::size_t i = 0; i < set.size(); ++i)
-                          found[i] = set.with(i, entry.predicate);
-                      keep(found);
-                  }},
-                 o.repeats());
-        std::size_t wrong = 0;
-        for (std::size_t i = 0; i < set.size(); ++i) wrong += plain[i] != found[i];
+        const input_set<D, N> set(predicate_inputs::families<double, D, N>[family].make,
+                                  entry.surfaces[1], o.inputs() / (o.quick ? 1 : 10), 0);
+        signs plain(set.size()), found(set.size()), theirs(set.size());
+        std::vector<std::function<void()>> passes{
+            [&] {
+                for (std::size_t i = 0; i < set.size(); ++i)
+                    plain[i] = set.with(i, [&](const auto&... p) {
+                        return errbound::filters::conclude(
+                            entry.predicate.template value<plain_double>(p...));
+                    });
+                keep(plain);
+            },
+            [&] {
+                for (std::size_t i = 0; i < set.size(); ++i)
+                    found[i] = set.with(i, entry.predicate);
+                keep(found);
+            }};
+        std::array<cgal_pass, 2> cgal;
+        if constexpr (have_cgal && (D == 2 || D == 3)) cgal = cgal_passes(entry.name, set);
+        for (const cgal_pass& pass : cgal)
+            if (pass.decide) passes.push_back([&] { pass.decide(theirs), keep(theirs); });
+        const auto timings = race(passes, o.repeats());
         const auto all = static_cast<double>(set.size());
         const std::string name(input_kinds[family].name);
-        r[name + ":_plain"] = 1e9 * timings[0].minimum / all;
-        r[name + ":_errbound"] = 1e9 * timings[1].minimum / all;
-        r[name + ":_ratio"] = timings[1].minimum / timings[0].minimum;
-        r[name + ":_plain_wrong_%"] = 100 * static_cast<double>(wrong) / all;
+        const auto ns = [&](std::size_t i) { return 1e9 * timings[i].minimum / all; };
+        r[name + ":_plain"] = ns(0);
+        r[name + ":_errbound"] = ns(1);
+        r[name + ":_plain_wrong_%"] = percent_different(plain, found, false);
+        std::size_t next = 2;
+        for (std::size_t k = 0; k < cgal.size(); ++k) {
+            const std::string column = name + (k == 0 ? ":_Epick" : ":_Epeck");
+            r[column] = cgal[k].decide ? row(ns(next++)) : row("");
+            if (!cgal[k].decide) continue;
+            cgal[k].decide(theirs);
+            r[column + "_differs_%"] = percent_different(theirs, found, cgal[k].only_negative);
+        }
     }
 }
 
@@ -420,6 +436,21 @@ void without_peers(const run_options& o, report& out) {
         if (entry.constant_of_shewchuk == 0) add_other_row(entry, o, all);
     };
     std::apply([&](const auto&... entry) { (other(entry), ...); }, predicate_list::all);
+    using namespace errbound;
+    using predicate_list::make_entry;
+    const auto with_crossings = [&]<std::size_t D, std::size_t N>(std::string_view name,
+                                                                  const auto& predicate) {
+        other(make_entry<D, N>(name, predicate, 0, {surface::concurrent, surface::concurrent}));
+    };
+    with_crossings.operator()<2, 6>("orient2d of a crossing",
+                                    with_constructed<line_line, given, given>(orient2d));
+    with_crossings.operator()<2, 7>("incircle of a crossing",
+                                    with_constructed<given, given, given, line_line>(incircle));
+    with_crossings.operator()<2, 9>(
+        "distances of two crossings",
+        with_constructed<line_line, line_line, given>(compare_distances2d));
+    with_crossings.operator()<3, 8>("orient3d of a crossing",
+                                    with_constructed<line_plane, given, given, given>(orient3d));
     out.table("predicates", {{"what", "others"}}, "the other predicates, ns per call", all);
 }
 
@@ -434,10 +465,12 @@ int main(int argc, char** argv) {
     return bench.run(argc, argv, [&](bench::report& out) {
         o.quick = bench.quick;
         if (!bench::have_cgal) bench::say("built without CGAL (libcgal-dev)");
+        if (!bench::have_tetgen) bench::say("built without TetGen (libtet1.5-dev)");
         if (!bench::have_mpfi) bench::say("built without MPFI (libmpfi-dev)");
         bench::beside_peers(o, out);
         bench::exact_stages_alone(o, out);
         bench::in_batches(o, out);
         bench::without_peers(o, out);
+        if (o.wants("constructions")) bench::whole_constructions(o.quick, out);
     });
 }

@@ -13,18 +13,28 @@ import tempfile
 
 TRIES = 4  # a ratio must be within its limit once: other work makes times longer, never shorter
 PREDICATES = "errbound/predicates.hpp"
+CUSTOM = "custom 2 3"
+DEFINITION = """namespace errbound {
+inline constexpr auto custom = predicate<points<2, 2, 2>>([](const auto& a, const auto& b, const auto& c) {
+    return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
+});
+}"""
 LIMITS = [(PREDICATES, ["segments_intersect2d 2 4"], 4), (PREDICATES, ["segments_intersect3d 3 4"], 5),
           (PREDICATES, ["segment_intersects_triangle 3 5"], 7),
-          (PREDICATES, ["insphere 3 5"], 6), (PREDICATES, ["insphere4d 4 6"], 10),
+          (PREDICATES, ["insphere 3 5"], 6), (PREDICATES, ["insphere4d 4 6"], 9),
           (PREDICATES, ["orient2d 2 3", "orient3d 3 4", "incircle 2 4", "insphere 3 5"], 9),
+          (PREDICATES, ["orient5d 5 6"], 8), (PREDICATES, ["insphere5d 5 7"], 11),
+          ("errbound/predicate.hpp", [CUSTOM], 3),
           ("errbound/simplices/predicates.hpp", ["triangle_intersects_triangle 3 6"], 13)]
 
 
 def source_of(header, predicates):
     lines = ["#include <array>", f"#include <{header}>"]
     for predicate in predicates:
+        if predicate == CUSTOM:
+            lines.append(DEFINITION)
         name, dimension, count = predicate.split()
-        names = "abcdef"[:int(count)]
+        names = "abcdefg"[:int(count)]
         arguments = ", ".join(f"const std::array<double, {dimension}>& {point}" for point in names)
         lines.append(f"errbound::sign_type {name}_of({arguments}) {{ return errbound::{name}({', '.join(names)}); }}")
     return "\n".join(lines) + "\n"

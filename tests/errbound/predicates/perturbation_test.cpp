@@ -1,4 +1,5 @@
 // Perturbed predicates, compared with a concrete small epsilon in integers, on degenerate points.
+#include <errbound/predicates/constructed_points.hpp>
 #include <errbound/predicates/perturbation.hpp>
 #include <numeric>
 #include <optional>
@@ -77,8 +78,9 @@ std::optional<int> sign_by_epsilon(const Entry& e, const Points& p,
     return 0;
 }
 
+/// Exchanges of two points from index `rows` on change the sign.
 template <int... Only, class Entry>
-void compare_with_epsilon(const Entry& e) {
+void compare_with_epsilon(const Entry& e, std::size_t rows = 0) {
     constexpr std::size_t D = Entry::dimension, N = Entry::count;
     constexpr int only = sizeof...(Only) == 0 ? -1 : (Only + ... + 0);
     const auto perturbed = errbound::perturbed<Only...>(e.predicate);
@@ -98,10 +100,11 @@ void compare_with_epsilon(const Entry& e) {
         if (only < 0) {
             ASSERT_NE(s, sign_type::zero) << e.name << predicate_inputs::text_of(p);
         }
-        // All are determinants with one row for each point.
+        // Determinants with one row for each of these points.
         auto q = p;
         auto swapped = indices;
-        const std::size_t a = random() % N, b = (a + 1 + random() % (N - 1)) % N;
+        const std::size_t count = N - rows, from = random() % count;
+        const std::size_t a = rows + from, b = rows + (from + 1 + random() % (count - 1)) % count;
         std::swap(q[a], q[b]);
         std::swap(swapped[a], swapped[b]);
         ASSERT_EQ(sign(q, swapped), -s) << e.name << predicate_inputs::text_of(p);
@@ -126,6 +129,21 @@ TEST(Perturbation, OfWeightedPoints) {
     compare_with_epsilon(std::get<5>(predicate_list::all));
     compare_with_epsilon<2>(std::get<4>(predicate_list::all));
     compare_with_epsilon<3>(std::get<5>(predicate_list::all));
+}
+
+TEST(Perturbation, OfConstructedPoints) {
+    using namespace errbound;
+    const auto with_oracle = [](const auto& entry, const auto& predicate) {
+        using type = std::remove_cvref_t<decltype(entry)>;
+        return predicate_list::make_entry<type::dimension, type::count>(
+            entry.name, predicate, entry.oracle, entry.surfaces);
+    };
+    compare_with_epsilon(with_oracle(std::get<10>(predicate_list::all),
+                                     with_constructed<line_line, given, given>(orient2d)),
+                         4);
+    compare_with_epsilon(with_oracle(std::get<11>(predicate_list::all),
+                                     with_constructed<line_plane, given, given, given>(orient3d)),
+                         5);
 }
 
 // Signs of one configuration: the orientations of the triples of five points in the plane satisfy
