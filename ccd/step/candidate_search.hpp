@@ -5,14 +5,15 @@
 #include <ccd/mesh.hpp>
 #include <ccd/step.hpp>
 #include <cstddef>
-#include <cstdint>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <span>
 #include <utility>
 #include <vector>
 
 #include "ccd/step/extents_tree.hpp"
+#include "ccd/step/rest/kept_positions.hpp"
 #include "ccd/step/rest/vertex_fans.hpp"
 #include "ccd/step/swept_boxes.hpp"
 #include "ccd/step/trees/box_tree.hpp"
@@ -61,9 +62,9 @@ struct wanted_candidates {
     bool spare = false;
     /// Only some of the close pairs; none if they cannot be found in floats.
     bool sample = false;
-    /// A flag for each vertex, or empty. Close pairs without a vertex whose flag is set are skipped
-    /// if few flags are set: see candidate_search::skipped_rest().
-    std::span<const std::uint8_t> moving = {};
+    /// Positions with a list of active vertices, or null. Close pairs without an active vertex are
+    /// skipped if few elements have one: see candidate_search::skipped_rest().
+    const kept_positions* kept = nullptr;
 };
 
 /// Called with blocks of pairs of these elements, from several threads at once.
@@ -72,12 +73,15 @@ using resting_visitor =
 
 /// The search in one mesh. Keeps its working memory: about 40 bytes a face or 44 an edge, whichever
 /// is more, 18 a vertex, and 32 KB a thread. Elements and vertices take twice as much if floats do
-/// not suffice, and 187, 191 and 183 bytes for close pairs.
+/// not suffice, and 187, 191 and 183 bytes for close pairs. While few vertices are active, elements
+/// near them take 110 bytes more.
 class candidate_search {
   public:
     /// Precondition: indices are in range.
     candidate_search(std::span<const face> faces, std::span<const edge> edges,
                      std::size_t vertices);
+    ~candidate_search();
+    candidate_search(candidate_search&&) noexcept;
 
     /// Pairs are each vertex with each edge, and each two points.
     static candidate_search in_plane(std::span<const edge> edges, std::size_t vertices);
@@ -94,8 +98,9 @@ class candidate_search {
     pair_counts find(const batch_positions& positions, const step_options& options,
                      const candidate_visitor& visitor, const wanted_candidates& wanted = {});
 
-    /// True if the last find() skipped the pairs of this kind without a moving vertex.
-    bool skipped_rest(kind k) const { return skipped_rest_[static_cast<std::size_t>(k)]; }
+    /// True if the last find() skipped the vertex/face and edge/edge pairs without an active
+    /// vertex.
+    bool skipped_rest() const { return skipped_rest_; }
 
     /// The trees that find_at_start may use.
     enum class trees : bool { new_ones, of_last_find };
@@ -119,7 +124,7 @@ class candidate_search {
     bool is_rod(const face& element) const;
 
   private:
-    class moving_parts;
+    class active_parts;
     template <class Real>
     struct tree_pair {
         box_tree<Real> first, second;
@@ -133,7 +138,7 @@ class candidate_search {
         float margin;  // of `rounded`
         const search_kernels& kernels;
         const wanted_candidates& wanted;
-        const moving_parts* moving;  // null: all pairs are searched
+        active_parts* active;  // null: all pairs are searched
     };
 
     struct extents_trees {
@@ -153,9 +158,12 @@ class candidate_search {
     template <class Elements, class Sample>
     void build(extents_tree& tree, Elements& elements, const Sample& sample,
                const search_request& request, extents_of ends);
-    /// Only pairs with a moving vertex.
+    /// Sets active_ for these positions. Returns null if the search of all pairs pays.
+    active_parts* choose_active(const kept_positions& kept, const swept_boxes& boxes,
+                                const search_kernels& kernels);
+    /// Only pairs with an active vertex.
     template <kind K, class First, class Second>
-    std::size_t find_close_moving(const search_request& request, const First& first,
+    std::size_t find_close_active(const search_request& request, const First& first,
                                   const Second& second);
     template <kind K, class First, class Second>
     std::size_t find_close(const search_request& request, First& first, Second& second);
@@ -180,8 +188,9 @@ class candidate_search {
     tree_pair<double> in_doubles_;
     extents_trees of_extents_;
     const void* in_second_ = nullptr;  ///< the elements of of_extents_.second
-    std::array<bool, 4> skipped_rest_{};
-    int partial_searches_ = 0;  ///< since the last search of all elements
+    std::unique_ptr<active_parts> active_;
+    std::size_t active_searched_ = 0;  ///< elements, since the last search of all
+    bool skipped_rest_ = false;
     bool in_plane_ = false;
 };
 

@@ -49,6 +49,27 @@ class extents_tree {
                       });
     }
 
+    /// Makes the extents at the start contain those at the end. Precondition: built with both ends.
+    void sweep() {
+        constexpr std::size_t at_end = extents::columns_of_end;
+        const auto sweep = [](std::size_t column, float& start, float end) {
+            start = column % 2 == 0 ? std::min(start, end) : std::max(start, end);
+        };
+        const auto sweep_pack = [&](extents_column* pack, float* hull) {
+            for (std::size_t c = 0; c < at_end; ++c) {
+                for (std::size_t i = 0; i < extents_column::size; ++i)
+                    sweep(c, pack[c].at[i], pack[c + at_end].at[i]);
+                sweep(c, hull[c], hull[c + at_end]);
+            }
+        };
+        for (std::size_t level = 0; level < levels_.count; ++level)
+            for_packs(level,
+                      [&](std::size_t p, std::size_t end, extents_column* packs, float* hulls) {
+                          for (; p < end; ++p)
+                              sweep_pack(packs + levels_.columns * p, hulls + levels_.columns * p);
+                      });
+    }
+
     const extents_levels& levels() const { return levels_; }
     std::size_t leaves() const { return sizes_[0]; }
 

@@ -4,6 +4,7 @@
 #include <atomic>
 
 #include "tests/ccd/step/expect_steps.hpp"
+#include "tests/support/scaled.hpp"
 
 namespace {
 
@@ -12,6 +13,7 @@ using brute_force::random_mixture;
 using brute_force::random_soup;
 using brute_force::two_frames;
 using brute_force::vertex_index;
+using support::scaled;
 
 TEST(MeshSteps, FindWhatFreshOnesFindWhateverWentBefore) {
     const auto [mesh, second] = random_mixture(1);
@@ -37,11 +39,36 @@ TEST(MeshSteps, FindWhatFreshOnesFindWhateverWentBefore) {
     }
 }
 
+/// Adds a square sheet of n by n cells, at heights of a few quarters.
+void add_sheet(ccd::mesh& mesh, vertex_index n, double from, double height,
+               std::mt19937_64& random) {
+    const auto first = static_cast<vertex_index>(mesh.vertices.size());
+    for (vertex_index i = 0; i <= n; ++i)
+        for (vertex_index j = 0; j <= n; ++j)
+            mesh.vertices.push_back(
+                {from + i, from + j, height + 0.25 * static_cast<double>(random() % 3)});
+    for (vertex_index i = 0; i < n; ++i)
+        for (vertex_index j = 0; j < n; ++j) {
+            const vertex_index a = first + i * (n + 1) + j, b = a + n + 1;
+            mesh.faces.insert(mesh.faces.end(), {{a, b, b + 1}, {a, b + 1, a + 1}});
+        }
+}
+
 /// Repeated steps of one mesh find the same as steps of a new one. Parts or all of it rest, steps
-/// start again or elsewhere, and options vary.
+/// start again or elsewhere, and options vary. In some meshes, a small sheet drifts over a large
+/// one and is thrown elsewhere.
 void expect_as_new(std::uint64_t seed, int steps) {
-    auto [mesh, second] = seed % 4 == 0 ? random_mixture(seed) : random_soup(seed, 70, 50);
     std::mt19937_64 random(seed);
+    ccd::mesh mesh = seed % 4 == 0 ? random_mixture(seed).first : random_soup(seed, 70, 50).first;
+    const bool has_sheets = seed % 4 == 3;
+    std::size_t first_of_sheet = 0;
+    ccd::point<double> drift{0, 0, 0};
+    if (has_sheets) {
+        mesh = {};
+        add_sheet(mesh, 12, 0, 0, random);
+        first_of_sheet = mesh.vertices.size();
+        add_sheet(mesh, 4, 3, 0.5, random);
+    }
     const auto one_in = [&](unsigned n) { return random() % n == 0; };
     if (one_in(2)) mesh.vertices.resize(mesh.vertices.size() + 3);  // not of faces
     std::vector<std::uint8_t> pinned(mesh.vertices.size());
@@ -60,6 +87,15 @@ void expect_as_new(std::uint64_t seed, int steps) {
         const auto move = [&](auto& p) { p = {p.x + 0.5 * double(random() % 5) - 1, p.y, -p.z}; };
         const std::size_t moving = one_in(3) ? 0 : one_in(8) ? after.size() : 1 + random() % 4;
         for (std::size_t i = 0; i < moving; ++i) move(after[random() % after.size()]);
+        if (has_sheets) {
+            after = before;
+            const auto eighths = [&] { return 0.125 * (static_cast<double>(random() % 5) - 2); };
+            if (one_in(4)) drift = {eighths(), eighths(), eighths()};
+            if (one_in(12)) drift = {32 * eighths(), eighths(), eighths()};
+            if (one_in(6)) move(after[random() % after.size()]);
+            for (std::size_t v = first_of_sheet; v < after.size() && !one_in(200); ++v)
+                after[v] = {after[v].x + drift.x, after[v].y + drift.y, after[v].z + drift.z};
+        }
         ccd::step_options options{.threads = 1 + static_cast<int>(random() % 2),
                                   .set = sets[random() % sets.size()],
                                   .count_candidates = one_in(10),
@@ -83,13 +119,16 @@ void expect_as_new(std::uint64_t seed, int steps) {
         ASSERT_TRUE(std::ranges::equal(found.intersections_at_start,
                                        expected.intersections_at_start, same_elements))
             << seed << ", step " << step;
+        if (one_in(20)) kept.candidates(way);
         if (!one_in(10)) before = after;
         seen.push_back(after);
     }
 }
 
 TEST(MeshSteps, FindWhatFreshOnesFindWhereVerticesRest) {
-    for (std::uint64_t seed = 0; seed < 40; ++seed) expect_as_new(seed, 25);
+    // Long sequences are also searched as a whole at times.
+    for (std::uint64_t seed = 0; seed < scaled(std::uint64_t(40)); ++seed)
+        expect_as_new(seed, seed % 40 == 3 ? 700 : 25);
 }
 
 // A filter of pairs skips unused vertices: points of faces and edges that repeat a vertex stay.
