@@ -229,15 +229,15 @@ struct mesh_steps::state {
     detail::resting_pairs resting = {};
 
     /// Lists the moving vertices if `lists_moving`, and returns true if they were listed.
-    bool check(const vertex_rows& positions, const step_options& options,
+    bool check(const vertex_rows& positions, const step_options& options, const std::string& caller,
                bool lists_moving = false) {
-        detail::check_rows(positions, search.vertices());
+        detail::check_rows(positions, search.vertices(), caller);
         const bool is_listed = lists_moving && resting.find_moving(positions, options.filter);
         // Kept positions are finite.
         if (!is_listed || !detail::are_finite(positions, resting.positions().moving()))
-            detail::check_positions(positions, search.vertices());
-        if (search.is_in_plane()) detail::check_plane(positions);
-        detail::check_options(options, search.vertices());
+            detail::check_positions(positions, search.vertices(), caller);
+        if (search.is_in_plane()) detail::check_plane(positions, caller);
+        detail::check_options(options, search.vertices(), caller);
         return is_listed;
     }
 };
@@ -261,7 +261,7 @@ mesh_steps& mesh_steps::operator=(mesh_steps&&) noexcept = default;
 
 step_result mesh_steps::run(const vertex_rows& positions, const step_options& options) {
     detail::stopwatch total, watch;
-    const bool is_listed = state_->check(positions, options, keeps_rest(options));
+    const bool is_listed = state_->check(positions, options, "ccd::step", keeps_rest(options));
     const double check_seconds = watch.lap();
     step_result result;
     const int threads = detail::on_threads(options.threads, [&] {
@@ -292,9 +292,14 @@ intersection_result mesh_steps::intersections(const vertex_rows& positions,
 
 namespace detail {
 
+void short_steps::check(const vertex_rows& way, const step_options& options,
+                        const std::string& caller) const {
+    steps_.state_->check(way, options, caller);
+}
+
 first_time short_steps::first_of_sample(const vertex_rows& way, const step_options& options) {
     mesh_steps::state& state = *steps_.state_;
-    state.check(way, options);
+    state.check(way, options, "ccd::step");
     candidate_store found(std::numeric_limits<std::size_t>::max());
     on_threads(options.threads, [&] {
         const rounded_positions rounded(way);
@@ -307,7 +312,7 @@ first_time short_steps::first_of_sample(const vertex_rows& way, const step_optio
 
 step_result short_steps::run(const vertex_rows& way, const step_options& options) {
     mesh_steps::state& state = *steps_.state_;
-    state.check(way, options);
+    state.check(way, options, "ccd::step");
     constexpr std::size_t for_each_vertex = 16;
     candidate_store store(for_each_vertex * way.vertices);
     step_result result;
@@ -322,7 +327,7 @@ step_result short_steps::run(const vertex_rows& way, const step_options& options
 }
 
 pair_lists short_steps::pairs_on(const vertex_rows& way, const step_options& options) {
-    steps_.state_->check(way, options);
+    steps_.state_->check(way, options, "ccd::step");
     pair_lists pairs;
     on_threads(options.threads, [&] {
         const rounded_positions rounded(way);
@@ -340,7 +345,7 @@ pair_lists short_steps::pairs_on(const vertex_rows& way, const step_options& opt
 pair_counts mesh_steps::for_each_candidate(const vertex_rows& positions,
                                            const candidate_visitor& visitor,
                                            const step_options& options) {
-    state_->check(positions, options);
+    state_->check(positions, options, "ccd::step");
     pair_counts counts;
     detail::on_threads(options.threads, [&] {
         const detail::rounded_positions rounded(positions);
@@ -391,7 +396,7 @@ step_result step(std::span<const face> faces, std::span<const edge> edges,
     return result;
 }
 step_result step(const mesh& before, const mesh& after, const step_options& options) {
-    detail::check_frames(before, after);
+    detail::check_frames(before, after, "ccd::step");
     return step(before.faces, before.edges, vertex_rows(before, after), options);
 }
 
@@ -401,7 +406,7 @@ pair_lists candidates(std::span<const face> faces, std::span<const edge> edges,
         .candidates(positions, options);
 }
 pair_lists candidates(const mesh& before, const mesh& after, const step_options& options) {
-    detail::check_frames(before, after);
+    detail::check_frames(before, after, "ccd::candidates");
     return candidates(before.faces, before.edges, vertex_rows(before, after), options);
 }
 
