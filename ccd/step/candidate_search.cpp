@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <cstring>
 #include <iterator>
 #include <limits>
 #include <type_traits>
@@ -171,7 +172,7 @@ void ordered_elements<N>::build_tree(const Tree& tree, bool whole_way, const Sor
                                      const Build& build) {
     constexpr bool by_doubles = std::is_same_v<Real, double>;
     constexpr double worth_sorting = 1.25;  // sort if leaves are this much longer than their least
-    auto& least = std::is_same_v<Tree, extents_tree> ? least_of_extents_ : least_of_boxes_;
+    auto& least = std::is_same_v<Tree, box_tree<Real>> ? least_of_boxes_ : least_of_extents_;
     if (ordered_ && by_doubles_ == by_doubles) {
         build();
         if (!whole_way) return;
@@ -317,21 +318,20 @@ std::size_t candidate_search::find_by(tree_pair<Real>& trees, const search_reque
 }
 
 template <class Elements, class Sample>
-void candidate_search::build(extents_tree& tree, Elements& elements, const Sample& sample,
-                             const search_request& request, extents_of ends) {
-    constexpr std::size_t n = Elements::vertices;
-    elements.template build_tree<float>(
-        tree, request.wanted.t_max >= 1, sorting<float>(request.boxes, sample),
-        [&] { tree.build<n>(request.kernels, request.rounded, request.margin, elements, ends); });
+void candidate_search::improve_order(Elements& elements, const Sample& sample,
+                                     const search_request& request) {
+    const extents_leaves<Elements::vertices> leaves{request.rounded, elements};
+    elements.template build_tree<float>(leaves, request.wanted.t_max >= 1,
+                                        sorting<float>(request.boxes, sample), [] {});
 }
 
 namespace {
 
-/// Adds the candidate pair_of(i, j) for the elements that `find` finds, from each leaf of `a` or
-/// from one in `stride`.
+/// Adds the candidates pair_of(i, j) of the elements that `find` finds, of leaves first <= p < end
+/// of `a` and all of `b`.
 template <class Blocks, class PairOf>
-void search_trees(search_kernels::find_pairs find, const extents_tree& a, const extents_tree& b,
-                  Blocks& blocks, const PairOf& pair_of, std::size_t stride = 1) {
+void search_leaves(search_kernels::find_pairs find, const extents_tree& a, std::size_t first,
+                   std::size_t end, const extents_tree& b, Blocks& blocks, const PairOf& pair_of) {
     struct context {
         const PairOf& pair_of;
         typename Blocks::block& block;
@@ -341,19 +341,46 @@ void search_trees(search_kernels::find_pairs find, const extents_tree& a, const 
         for (std::size_t i = 0; i < count; ++i)
             block.add(pair_of(pairs[i].first, pairs[i].second), true);
     };
-    const auto find_in = [&](std::size_t first, std::size_t end) {
-        context to{pair_of, blocks.local()};
-        find(a.levels(), b.levels(), first, end, &to, add);
-    };
+    context to{pair_of, blocks.local()};
+    find(a.levels(), b.levels(), first, end, &to, add);
+}
+
+/// Searches each leaf of `a`, or one in `stride`.
+template <class Blocks, class PairOf>
+void search_trees(search_kernels::find_pairs find, const extents_tree& a, const extents_tree& b,
+                  Blocks& blocks, const PairOf& pair_of, std::size_t stride = 1) {
     if (stride > 1)
-        tbb::parallel_for(std::size_t(0), a.leaves(), stride,
-                          [&](std::size_t leaf) { find_in(leaf, leaf + 1); });
+        tbb::parallel_for(std::size_t(0), a.leaves(), stride, [&](std::size_t leaf) {
+            search_leaves(find, a, leaf, leaf + 1, b, blocks, pair_of);
+        });
     else
-        tbb::parallel_for(tbb::blocked_range<std::size_t>(0, a.leaves(), 8),
-                          [&](const auto& range) { find_in(range.begin(), range.end()); });
+        tbb::parallel_for(
+            tbb::blocked_range<std::size_t>(0, a.leaves(), 8), [&](const auto& range) {
+                search_leaves(find, a, range.begin(), range.end(), b, blocks, pair_of);
+            });
 }
 
 }  // namespace
+
+template <std::size_t N, class Blocks, class PairOf>
+void candidate_search::search_elements(search_kernels::find_pairs find,
+                                       const search_request& request,
+                                       std::span<const std::array<vertex_index, N>> elements,
+                                       extents_of ends, const extents_tree& b, Blocks& blocks,
+                                       const PairOf& pair_of) {
+    constexpr std::size_t in_chunk = extents_column::size * extents_column::size;
+    tbb::enumerable_thread_specific<extents_tree> trees;
+    tbb::parallel_for(
+        std::size_t(0), (elements.size() + in_chunk - 1) / in_chunk, [&](std::size_t chunk) {
+            const std::size_t first = in_chunk * chunk;
+            extents_tree& a = trees.local();
+            a.build<N>(request.kernels, request.rounded, request.margin,
+                       elements.subspan(first, std::min(in_chunk, elements.size() - first)), ends);
+            const std::size_t end = request.wanted.sample ? 1 : a.leaves();
+            search_leaves(find, a, 0, end, b, blocks,
+                          [&](std::size_t i, std::size_t j) { return pair_of(first + i, j); });
+        });
+}
 
 candidate_search::active_parts* candidate_search::choose_active(const kept_positions& kept,
                                                                 const swept_boxes& boxes,
@@ -414,24 +441,48 @@ template <kind K, class First, class Second>
 std::size_t candidate_search::find_close(const search_request& request, First& first,
                                          Second& second) {
     constexpr bool within_one = std::is_same_v<First, Second>;
-    const bool swept = request.boxes.nearly_rest<Second::vertices>(second);
-    const extents_of ends = swept ? extents_of::whole_way : extents_of::both_ends;
-    extents_tree& b = of_extents_.second;
-    extents_tree& a = within_one ? b : of_extents_.first;
-    build(b, second, second, request, ends);
-    in_second_ = &second;
-    if constexpr (!within_one) build(a, first, second, request, ends);
-
-    candidate_blocks<pair_of_kind<K>> blocks(request.visitor.of<K>(), request.filter, request.stop);
+    constexpr std::size_t n = First::vertices, m = Second::vertices;
+    const bool swept = request.rests || request.boxes.nearly_rest<m>(second);
+    const extents_of ends = request.rests ? extents_of::start
+                            : swept       ? extents_of::whole_way
+                                          : extents_of::both_ends;
     constexpr auto of_both_ends =
         within_one ? &search_kernels::of_two_edges : &search_kernels::of_vertices_and_faces;
     constexpr auto of_swept = within_one ? &search_kernels::of_two_swept_edges
                                          : &search_kernels::of_swept_vertices_and_faces;
-    constexpr std::size_t sample_stride = 64;
-    search_trees(
-        request.kernels.*(swept ? of_swept : of_both_ends), a, b, blocks,
-        [&](std::size_t i, std::size_t j) { return candidate_of(first[i], second[j]); },
-        request.wanted.sample ? sample_stride : 1);
+    const search_kernels::find_pairs find = request.kernels.*(swept ? of_swept : of_both_ends);
+    candidate_blocks<pair_of_kind<K>> blocks(request.visitor.of<K>(), request.filter, request.stop);
+    const std::span<const std::array<vertex_index, n>> all_first = first;
+    const std::span<const std::array<vertex_index, m>> all_second = second;
+    extents_tree& tree = of_extents_.second;
+    improve_order(second, second, request);
+    in_second_ = &second;
+    if constexpr (within_one) {
+        // One tree after the other, so that edges take no more memory than faces.
+        constexpr std::size_t few = 1 << 16, sample_stride = 64;
+        const std::size_t at_once =
+            second.size() <= few ? second.size() : std::max(faces_.size(), few);
+        for (std::size_t end = second.size(), begin = 0; end > 0; end = begin) {
+            begin = end - std::min(end, at_once);
+            tree.build<m>(request.kernels, request.rounded, request.margin,
+                          all_second.subspan(begin, end - begin), ends);
+            const auto pair_of = [&, begin](std::size_t i, std::size_t j) {
+                return candidate_of(all_first[i], all_second[begin + j]);
+            };
+            search_trees(
+                find, tree, tree, blocks,
+                [&](std::size_t i, std::size_t j) { return pair_of(begin + i, j); },
+                request.wanted.sample ? sample_stride : 1);
+            search_elements(find, request, all_first.first(begin), ends, tree, blocks, pair_of);
+        }
+    } else {
+        tree.build<m>(request.kernels, request.rounded, request.margin, all_second, ends);
+        improve_order(first, second, request);
+        search_elements(find, request, all_first, ends, tree, blocks,
+                        [&](std::size_t i, std::size_t j) {
+                            return candidate_of(all_first[i], all_second[j]);
+                        });
+    }
     return blocks.finish();
 }
 
@@ -498,10 +549,11 @@ void candidate_search::find_at_start(const batch_positions& positions, const ste
         return find_resting_by_boxes(boxes, elements, options, visit);
     extents_tree& tree = of_extents_.second;
     const search_kernels& kernels = search_kernels_for(options.set);
-    if (in_second_ != &elements)
-        elements.build_tree<float>(tree, true, sorting<float>(boxes, elements), [&] {
-            tree.build<3>(kernels, at.rounded, 0, elements, extents_of::start);
-        });
+    if (in_second_ != &elements) {
+        elements.build_tree<float>(extents_leaves<3>{at.rounded, elements, 1}, true,
+                                   sorting<float>(boxes, elements), [] {});
+        tree.build<3>(kernels, at.rounded, 0, elements, extents_of::start);
+    }
     in_second_ = &elements;
     struct context {
         const resting_visitor& visit;
@@ -568,6 +620,9 @@ pair_counts candidate_search::find(const batch_positions& positions, const step_
     const float* rounded = until ? until->positions().rounded : positions.rounded;
     const float margin = until ? until->margin() : 0;
     const search_kernels& kernels = search_kernels_for(options.set);
+    const std::size_t bytes = 3 * sizeof(double) * positions.exact.vertices;
+    const bool rests =
+        bytes == 0 || std::memcmp(positions.exact.before, positions.exact.after, bytes) == 0;
     active_parts* const active = wanted.close && wanted.kept != nullptr
                                      ? choose_active(*wanted.kept, whole, kernels)
                                      : nullptr;
@@ -581,7 +636,7 @@ pair_counts candidate_search::find(const batch_positions& positions, const step_
                                  visitor, options.stop,
                                  rounded, margin,
                                  kernels, wanted,
-                                 active};
+                                 active,  rests};
     order_.forget();
     in_second_ = nullptr;
     skipped_rest_ = active != nullptr;

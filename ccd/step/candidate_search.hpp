@@ -144,6 +144,7 @@ class candidate_search {
         const search_kernels& kernels;
         const wanted_candidates& wanted;
         active_parts* active;  // null: all pairs are searched
+        bool rests;            // positions are those at the start
     };
 
     struct extents_trees {
@@ -161,8 +162,13 @@ class candidate_search {
     /// Visits the pairs of step_options::adjacent_rods.
     std::size_t find_adjacent_rods(const search_request& request);
     template <class Elements, class Sample>
-    void build(extents_tree& tree, Elements& elements, const Sample& sample,
-               const search_request& request, extents_of ends);
+    void improve_order(Elements& elements, const Sample& sample, const search_request& request);
+    /// Adds the candidates pair_of(i, j) of elements i and those of `b` that `find` finds. Trees
+    /// over the elements are built piece by piece.
+    template <std::size_t N, class Blocks, class PairOf>
+    void search_elements(search_kernels::find_pairs find, const search_request& request,
+                         std::span<const std::array<vertex_index, N>> elements, extents_of ends,
+                         const extents_tree& b, Blocks& blocks, const PairOf& pair_of);
     /// Sets active_ for these positions. Returns null if the search of all pairs pays.
     active_parts* choose_active(const kept_positions& kept, const swept_boxes& boxes,
                                 const search_kernels& kernels);
