@@ -458,10 +458,11 @@ std::size_t candidate_search::find_close(const search_request& request, First& f
     improve_order(second, second, request);
     in_second_ = &second;
     if constexpr (within_one) {
-        // One tree after the other, so that edges take no more memory than faces.
-        constexpr std::size_t few = 1 << 16, sample_stride = 64;
+        // Two trees, one after the other, so that edges take no more memory than faces.
+        constexpr std::size_t few = 4096, sample_stride = 64;
+        const std::size_t half = (second.size() + 1) / 2;
         const std::size_t at_once =
-            second.size() <= few ? second.size() : std::max(faces_.size(), few);
+            second.size() <= few ? second.size() : std::max(faces_.size(), half);
         for (std::size_t end = second.size(), begin = 0; end > 0; end = begin) {
             begin = end - std::min(end, at_once);
             tree.build<m>(request.kernels, request.rounded, request.margin,

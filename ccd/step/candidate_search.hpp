@@ -72,14 +72,15 @@ struct wanted_candidates {
 using resting_visitor =
     std::function<void(std::span<const face> elements, std::span<const element_pair> pairs)>;
 
-/// The search in one mesh. Keeps its working memory: 32 KB a thread, and about these numbers of
-/// bytes. For faces and edges, only the larger of both sums counts. While few vertices are active,
+/// The search in one mesh. Keeps its working memory: 70 KB a thread, and about these numbers of
+/// bytes. For faces and edges, only the larger of both sums counts. For close pairs, the trees of
+/// edges take no more than those of faces, or of half of the edges. While few vertices are active,
 /// elements near them take 110 bytes more.
 ///
 ///                                    a face   an edge   a vertex
 ///     in floats                          40        44         18
 ///     if floats do not suffice           80        88         36
-///     with wanted_candidates::close     187       191        183
+///     with wanted_candidates::close     187       191         18
 class candidate_search {
   public:
     /// Precondition: indices are in range.

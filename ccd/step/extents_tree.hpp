@@ -90,6 +90,7 @@ class extents_tree {
     }
 
     /// Makes the extents at the start contain those at the end. Precondition: built with both ends.
+    /// Proof: proofs/filters/Extents.v, swept_extents_hold.
     void sweep() {
         constexpr std::size_t at_end = extents::columns_of_end;
         const auto sweep = [](std::size_t column, float& start, float end) {
