@@ -59,8 +59,8 @@ class candidate_search::active_parts {
         float longest = 0;
         for (std::size_t k = 0; k < 3; ++k) longest = std::max(longest, high_[k] - low_[k]);
         for (std::size_t k = 0; k < 3; ++k) {
-            low_[k] -= longest / 8;
-            high_[k] += longest / 8;
+            low_[k] -= longest / 16;
+            high_[k] += longest / 16;
         }
         const std::vector<std::uint8_t> sides = sides_of(kept, all.vertices());
         list_near(vertices_, all.vertices_, sides);
@@ -621,9 +621,6 @@ pair_counts candidate_search::find(const batch_positions& positions, const step_
     const float* rounded = until ? until->positions().rounded : positions.rounded;
     const float margin = until ? until->margin() : 0;
     const search_kernels& kernels = search_kernels_for(options.set);
-    const std::size_t bytes = 3 * sizeof(double) * positions.exact.vertices;
-    const bool rests =
-        bytes == 0 || std::memcmp(positions.exact.before, positions.exact.after, bytes) == 0;
     active_parts* const active = wanted.close && wanted.kept != nullptr
                                      ? choose_active(*wanted.kept, whole, kernels)
                                      : nullptr;
@@ -633,6 +630,9 @@ pair_counts candidate_search::find(const batch_positions& positions, const step_
     } else {
         active_searched_ += active->size();
     }
+    const std::size_t bytes = 3 * sizeof(double) * positions.exact.vertices;
+    const bool rests = active == nullptr && bytes > 0 &&
+                       std::memcmp(positions.exact.before, positions.exact.after, bytes) == 0;
     const search_request request{boxes,   lets_all_through(options.filter) ? nullptr : &test,
                                  visitor, options.stop,
                                  rounded, margin,
