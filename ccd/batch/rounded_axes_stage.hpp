@@ -33,10 +33,15 @@ struct rounded_columns {
         }
     }
 
-    /// Lanes beyond the last query repeat it.
+    /// Lanes beyond the last query repeat it. Rows are prefetched, since pairs in no order of space
+    /// have them far apart.
     template <class Pair>
     void fill(const float* rounded, const Pair* queries, std::size_t count) {
-        for (std::size_t lane = 0; lane < count; lane += 4)
+        for (std::size_t lane = 0; lane < count; lane += 4) {
+            constexpr std::size_t ahead = 24;
+            for (std::size_t i = lane + ahead; i < lane + ahead + 4 && i < count; ++i)
+                for (const auto v : vertices_of(queries[i]))
+                    __builtin_prefetch(rounded + rounded_positions::row * std::size_t(v));
             for (std::size_t p = 0; p < 4; ++p) {
                 const float* rows[4];
                 for (std::size_t i = 0; i < 4; ++i) {
@@ -45,6 +50,7 @@ struct rounded_columns {
                 }
                 fill(p, lane, rows);
             }
+        }
     }
 
     template <class Pair>

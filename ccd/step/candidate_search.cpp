@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <cstring>
 #include <iterator>
 #include <limits>
 #include <type_traits>
@@ -38,70 +39,68 @@ std::vector<edge> edges_of_no_face(std::span<const edge> edges,
     return without(unique_edges({}, edges), face_edges);
 }
 
-template <std::size_t N>
-struct listed_elements {
-    std::vector<std::array<vertex_index, N>> elements;
-    std::vector<std::size_t> positions;  ///< among all elements, ascending
-};
-
 }  // namespace
 
-/// The elements with a moving vertex, and the box that they sweep.
-class candidate_search::moving_parts {
+/// The elements with an active vertex, and the others near them with their trees.
+class candidate_search::active_parts {
   public:
-    moving_parts(std::span<const std::uint8_t> moving, const float* rounded, float margin,
-                 const candidate_search& all)
-        : moving_(moving), rounded_(rounded) {
-        are_few_ =
-            list(vertices_, all.vertices_) && list(edges_, all.edges_) && list(faces_, all.faces_);
-        if (are_few_) find_sides(margin);
+    template <std::size_t N>
+    struct part {
+        std::vector<std::array<vertex_index, N>> active, near;
+        extents_tree of_near;  ///< at rest, unless `near` is empty
+    };
+
+    active_parts(const kept_positions& kept, const candidate_search& all)
+        : version_(kept.version()), rounded_(kept.rounded().data()) {
+        are_few_ = list_active(vertices_, all.vertices_, kept) &&
+                   list_active(edges_, all.edges_, kept) && list_active(faces_, all.faces_, kept);
+        if (!are_few_) return;
+        // With room, so that the box holds them for some steps.
+        float longest = 0;
+        for (std::size_t k = 0; k < 3; ++k) longest = std::max(longest, high_[k] - low_[k]);
+        for (std::size_t k = 0; k < 3; ++k) {
+            low_[k] -= longest / 16;
+            high_[k] += longest / 16;
+        }
+        const std::vector<std::uint8_t> sides = sides_of(kept, all.vertices());
+        list_near(vertices_, all.vertices_, sides);
+        list_near(edges_, all.edges_, sides);
+        list_near(faces_, all.faces_, sides);
     }
 
-    /// False if the search of all elements costs less. Then there are no lists.
+    /// False if the search of all elements costs less. Then not all are listed.
     bool are_few() const { return are_few_; }
-
-    template <std::size_t N>
-    bool has(const std::array<vertex_index, N>& element) const {
-        return std::ranges::any_of(element, [&](vertex_index v) { return moving_[v] != 0; });
+    /// True if these parts are also those of positions that have changed.
+    bool hold(const kept_positions& kept) const {
+        return version_ == kept.version() &&
+               (!are_few_ || std::ranges::all_of(kept.active(), [&](auto v) { return has(v); }));
     }
-    /// The moving elements.
+    void build_trees(const search_kernels& kernels) {
+        const auto build = [&]<std::size_t N>(part<N>& p) {
+            if (!p.near.empty())
+                p.of_near.template build<N>(kernels, rounded_, 0, p.near, extents_of::start);
+        };
+        build(vertices_);
+        build(edges_);
+        build(faces_);
+    }
+
+    const float* rounded() const { return rounded_; }
     template <std::size_t N>
-    const listed_elements<N>& of() const {
+    const part<N>& of() const {
         if constexpr (N == 1) return vertices_;
         if constexpr (N == 2) return edges_;
         if constexpr (N == 3) return faces_;
     }
-    /// The elements that no coordinate axis separates from the box.
-    template <std::size_t N>
-    listed_elements<N> near(const ordered_elements<N>& all) const {
-        return listed<N>(all, [&](const auto& element) {
-            std::uint8_t sides = all_sides;
-            for (const vertex_index v : element) sides &= sides_[v];
-            return sides == 0;
-        });
+    std::size_t size() const {
+        return vertices_.active.size() + edges_.active.size() + faces_.active.size();
     }
 
   private:
-    static constexpr std::uint8_t all_sides = 0x3F;
+    static constexpr std::uint8_t all_sides = 0x3F, active_bit = 0x40;
 
-    template <std::size_t N, class IsListed>
-    static listed_elements<N> listed(std::span<const std::array<vertex_index, N>> all,
-                                     const IsListed& is_listed) {
-        listed_elements<N> list;
-        for (std::size_t i = 0; i < all.size(); ++i)
-            if (is_listed(all[i])) {
-                list.elements.push_back(all[i]);
-                list.positions.push_back(i);
-            }
-        return list;
-    }
-    template <std::size_t N>
-    bool list(listed_elements<N>& moving, const ordered_elements<N>& all) {
-        moving = listed<N>(all, [&](const auto& element) { return has(element); });
-        for (const auto& element : moving.elements)
-            for (const vertex_index v : element) widen(v);
-        constexpr std::size_t few = 4;  // one in four
-        return moving.elements.size() <= all.size() / few;
+    const float* row(vertex_index v) const {
+        return rounded_ + rounded_positions::row * std::size_t(v);
     }
     void widen(vertex_index v) {
         for (std::size_t k = 0; k < 3; ++k)
@@ -110,34 +109,62 @@ class candidate_search::moving_parts {
                 high_[k] = std::max(high_[k], row(v)[end + k]);
             }
     }
-    /// Coordinates of both are off by at most the margin.
-    void find_sides(float margin) {
-        const double apart = 3 * double(margin);
-        sides_.resize(moving_.size());
-        for (vertex_index v = 0; v < sides_.size(); ++v)
-            for (std::size_t k = 0; k < 3; ++k) {
-                const double before = row(v)[k], after = row(v)[4 + k];
-                const bool below = std::max(before, after) +
-                                   apart<low_[k], above = std::min(before, after) - apart> high_[k];
-                sides_[v] =
-                    static_cast<std::uint8_t>(sides_[v] | below << (2 * k) | above << (2 * k + 1));
-            }
+    bool has(vertex_index v) const {
+        bool inside = true;
+        for (std::size_t k = 0; k < 3; ++k)
+            for (const std::size_t end : {0, 4})
+                inside &= low_[k] <= row(v)[end + k] && row(v)[end + k] <= high_[k];
+        return inside;
     }
-    const float* row(vertex_index v) const {
-        return rounded_ + rounded_positions::row * std::size_t(v);
+    template <std::size_t N>
+    bool list_active(part<N>& p, const ordered_elements<N>& all, const kept_positions& kept) {
+        for (std::size_t i = 0; i < all.size(); ++i)
+            if (std::ranges::any_of(all[i], [&](vertex_index v) { return kept.is_active(v); })) {
+                p.active.push_back(all[i]);
+                for (const vertex_index v : all[i]) widen(v);
+            }
+        constexpr std::size_t few = 4;  // one in four
+        return p.active.size() <= all.size() / few;
+    }
+    /// Bits for each side of the box that a vertex is beyond, or for active ones.
+    std::vector<std::uint8_t> sides_of(const kept_positions& kept, std::size_t vertices) const {
+        std::vector<std::uint8_t> all(vertices);
+        for (vertex_index v = 0; v < vertices; ++v) {
+            unsigned sides = kept.is_active(v) ? active_bit : 0;
+            for (std::size_t k = 0; k < 3; ++k)
+                sides |= unsigned(row(v)[k] < low_[k]) << (2 * k) | unsigned(row(v)[k] > high_[k])
+                                                                        << (2 * k + 1);
+            all[v] = static_cast<std::uint8_t>(sides);
+        }
+        return all;
+    }
+    /// Elements are near if no coordinate axis separates them from the box. Rounding is monotone.
+    template <std::size_t N>
+    static void list_near(part<N>& p, const ordered_elements<N>& all,
+                          std::span<const std::uint8_t> sides) {
+        for (std::size_t i = 0; i < all.size(); ++i) {
+            unsigned any = 0, common = all_sides;
+            for (const vertex_index v : all[i]) {
+                any |= sides[v];
+                common &= sides[v];
+            }
+            if ((any & active_bit) == 0 && common == 0) p.near.push_back(all[i]);
+        }
     }
 
-    std::span<const std::uint8_t> moving_;
+    std::uint64_t version_;
     const float* rounded_;
-    listed_elements<1> vertices_;
-    listed_elements<2> edges_;
-    listed_elements<3> faces_;
+    part<1> vertices_;
+    part<2> edges_;
+    part<3> faces_;
     bool are_few_ = false;
     static constexpr float infinity = std::numeric_limits<float>::infinity();
+    /// A box in rounded positions that holds the active elements.
     std::array<float, 3> low_{infinity, infinity, infinity}, high_{-infinity, -infinity, -infinity};
-    /// A bit for each side of the box that a vertex is beyond at both ends of the step.
-    std::vector<std::uint8_t> sides_;
 };
+
+candidate_search::~candidate_search() = default;
+candidate_search::candidate_search(candidate_search&&) noexcept = default;
 
 template <std::size_t N>
 template <class Real, class Tree, class Sort, class Build>
@@ -145,7 +172,7 @@ void ordered_elements<N>::build_tree(const Tree& tree, bool whole_way, const Sor
                                      const Build& build) {
     constexpr bool by_doubles = std::is_same_v<Real, double>;
     constexpr double worth_sorting = 1.25;  // sort if leaves are this much longer than their least
-    auto& least = std::is_same_v<Tree, extents_tree> ? least_of_extents_ : least_of_boxes_;
+    auto& least = std::is_same_v<Tree, box_tree<Real>> ? least_of_boxes_ : least_of_extents_;
     if (ordered_ && by_doubles_ == by_doubles) {
         build();
         if (!whole_way) return;
@@ -291,108 +318,172 @@ std::size_t candidate_search::find_by(tree_pair<Real>& trees, const search_reque
 }
 
 template <class Elements, class Sample>
-void candidate_search::build(extents_tree& tree, Elements& elements, const Sample& sample,
-                             const search_request& request, extents_of ends) {
-    constexpr std::size_t n = Elements::vertices;
-    elements.template build_tree<float>(
-        tree, request.wanted.t_max >= 1, sorting<float>(request.boxes, sample),
-        [&] { tree.build<n>(request.kernels, request.rounded, request.margin, elements, ends); });
+void candidate_search::improve_order(Elements& elements, const Sample& sample,
+                                     const search_request& request) {
+    const extents_leaves<Elements::vertices> leaves{request.rounded, elements};
+    elements.template build_tree<float>(leaves, request.wanted.t_max >= 1,
+                                        sorting<float>(request.boxes, sample), [] {});
 }
 
 namespace {
 
-/// Calls pair_of(i, j) for the elements that `find` finds, from each leaf of `a` or from one in
-/// `stride`. It returns a candidate, and true if the candidate is wanted.
+/// Adds the candidates pair_of(i, j) of the elements that `find` finds, of leaves first <= p < end
+/// of `a` and all of `b`.
 template <class Blocks, class PairOf>
-void search_trees(search_kernels::find_pairs find, const extents_tree& a, const extents_tree& b,
-                  Blocks& blocks, const PairOf& pair_of, std::size_t stride = 1) {
+void search_leaves(search_kernels::find_pairs find, const extents_tree& a, std::size_t first,
+                   std::size_t end, const extents_tree& b, Blocks& blocks, const PairOf& pair_of) {
     struct context {
         const PairOf& pair_of;
         typename Blocks::block& block;
     };
     constexpr auto add = [](void* to, const element_pair* pairs, std::size_t count) {
         auto& [pair_of, block] = *static_cast<context*>(to);
-        for (std::size_t i = 0; i < count; ++i) {
-            const auto [candidate, is_wanted] = pair_of(pairs[i].first, pairs[i].second);
-            block.add(candidate, is_wanted);
-        }
+        for (std::size_t i = 0; i < count; ++i)
+            block.add(pair_of(pairs[i].first, pairs[i].second), true);
     };
-    const auto find_in = [&](std::size_t first, std::size_t end) {
-        context to{pair_of, blocks.local()};
-        find(a.levels(), b.levels(), first, end, &to, add);
-    };
+    context to{pair_of, blocks.local()};
+    find(a.levels(), b.levels(), first, end, &to, add);
+}
+
+/// Searches each leaf of `a`, or one in `stride`.
+template <class Blocks, class PairOf>
+void search_trees(search_kernels::find_pairs find, const extents_tree& a, const extents_tree& b,
+                  Blocks& blocks, const PairOf& pair_of, std::size_t stride = 1) {
     if (stride > 1)
-        tbb::parallel_for(std::size_t(0), a.leaves(), stride,
-                          [&](std::size_t leaf) { find_in(leaf, leaf + 1); });
+        tbb::parallel_for(std::size_t(0), a.leaves(), stride, [&](std::size_t leaf) {
+            search_leaves(find, a, leaf, leaf + 1, b, blocks, pair_of);
+        });
     else
-        tbb::parallel_for(tbb::blocked_range<std::size_t>(0, a.leaves(), 8),
-                          [&](const auto& range) { find_in(range.begin(), range.end()); });
+        tbb::parallel_for(
+            tbb::blocked_range<std::size_t>(0, a.leaves(), 8), [&](const auto& range) {
+                search_leaves(find, a, range.begin(), range.end(), b, blocks, pair_of);
+            });
 }
 
 }  // namespace
 
-template <kind K, class First, class Second>
-std::size_t candidate_search::find_close_moving(const search_request& request, const First& first,
-                                                const Second& second) {
-    const moving_parts& moving = *request.moving;
-    const auto& moving_second = moving.of<Second::vertices>();
-    extents_tree &tree_a = of_extents_.first, &tree_b = of_extents_.second;
-    in_second_ = nullptr;
-    candidate_blocks<pair_of_kind<K>> blocks(request.visitor.of<K>(), request.filter, request.stop);
-    const auto search = [&]<std::size_t N, std::size_t M>(
-                            search_kernels::find_pairs find, const listed_elements<N>& a,
-                            const listed_elements<M>& b, const auto& is_wanted) {
-        if (a.elements.empty() || b.elements.empty()) return;
-        tree_a.build<N>(request.kernels, request.rounded, request.margin, a.elements);
-        tree_b.build<M>(request.kernels, request.rounded, request.margin, b.elements);
-        search_trees(find, tree_a, tree_b, blocks, [&](std::size_t i, std::size_t j) {
-            return std::pair(candidate_of(a.elements[i], b.elements[j]), is_wanted(i, j));
+template <std::size_t N, class Blocks, class PairOf>
+void candidate_search::search_elements(search_kernels::find_pairs find,
+                                       const search_request& request,
+                                       std::span<const std::array<vertex_index, N>> elements,
+                                       extents_of ends, const extents_tree& b, Blocks& blocks,
+                                       const PairOf& pair_of) {
+    constexpr std::size_t in_chunk = extents_column::size * extents_column::size;
+    tbb::enumerable_thread_specific<extents_tree> trees;
+    tbb::parallel_for(
+        std::size_t(0), (elements.size() + in_chunk - 1) / in_chunk, [&](std::size_t chunk) {
+            const std::size_t first = in_chunk * chunk;
+            extents_tree& a = trees.local();
+            a.build<N>(request.kernels, request.rounded, request.margin,
+                       elements.subspan(first, std::min(in_chunk, elements.size() - first)), ends);
+            const std::size_t end = request.wanted.sample ? 1 : a.leaves();
+            search_leaves(find, a, 0, end, b, blocks,
+                          [&](std::size_t i, std::size_t j) { return pair_of(first + i, j); });
         });
-    };
-    const auto near_second = moving.near(second);
-    if constexpr (std::is_same_v<First, Second>) {
-        search(request.kernels.of_two_edges, moving_second, near_second,
-               [&](std::size_t i, std::size_t j) {
-                   return moving_second.positions[i] < near_second.positions[j] ||
-                          !moving.has(near_second.elements[j]);
-               });
-    } else {
-        const auto find = request.kernels.of_vertices_and_faces;
-        const auto near_first = moving.near(first);
-        search(find, near_first, moving_second,
-               [&](std::size_t i, std::size_t) { return !moving.has(near_first.elements[i]); });
-        search(find, moving.of<First::vertices>(), near_second,
-               [](std::size_t, std::size_t) { return true; });
+}
+
+candidate_search::active_parts* candidate_search::choose_active(const kept_positions& kept,
+                                                                const swept_boxes& boxes,
+                                                                const search_kernels& kernels) {
+    // Every so often, all elements are searched, in a new order: those that move change it.
+    constexpr std::size_t most_searched = 64;  // times all elements
+    if (active_searched_ > most_searched * (vertices_.size() + edges_.size() + faces_.size())) {
+        edges_.forget_order();
+        faces_.forget_order();
+        vertices_.forget_order();
+        return nullptr;
     }
-    skipped_rest_[static_cast<std::size_t>(K)] = true;
+    if (!active_ || !active_->hold(kept)) {
+        if (boxes.need_doubles<2>(edges_) || boxes.need_doubles<3>(faces_)) return nullptr;
+        active_ = std::make_unique<active_parts>(kept, *this);
+        if (active_->are_few()) active_->build_trees(kernels);
+    }
+    return active_->are_few() ? active_.get() : nullptr;
+}
+
+template <kind K, class First, class Second>
+std::size_t candidate_search::find_close_active(const search_request& request, const First&,
+                                                const Second&) {
+    constexpr std::size_t n = First::vertices, m = Second::vertices;
+    constexpr bool within_one = std::is_same_v<First, Second>;
+    const auto& first = request.active->template of<n>();
+    const auto& second = request.active->template of<m>();
+    extents_tree& b = of_extents_.second;
+    extents_tree& a = within_one ? b : of_extents_.first;
+    candidate_blocks<pair_of_kind<K>> blocks(request.visitor.of<K>(), request.filter, request.stop);
+    const auto build = [&]<std::size_t N>(extents_tree& tree, const auto& elements) {
+        if (!elements.empty())
+            tree.build<N>(request.kernels, request.active->rounded(), 0, elements);
+    };
+    const auto search = [&](search_kernels::find_pairs find, const extents_tree& x,
+                            const auto& of_x, const extents_tree& y, const auto& of_y) {
+        if (of_x.empty() || of_y.empty()) return;
+        search_trees(find, x, y, blocks,
+                     [&](std::size_t i, std::size_t j) { return candidate_of(of_x[i], of_y[j]); });
+    };
+    build.template operator()<m>(b, second.active);
+    if constexpr (!within_one) build.template operator()<n>(a, first.active);
+    constexpr auto of_both_ends =
+        within_one ? &search_kernels::of_two_edges : &search_kernels::of_vertices_and_faces;
+    constexpr auto of_swept = within_one ? &search_kernels::of_two_swept_edges
+                                         : &search_kernels::of_swept_vertices_and_faces;
+    search(request.kernels.*of_both_ends, a, first.active, b, second.active);
+    // An axis separates swept elements from those at rest if it does at both ends.
+    if (!second.active.empty()) b.sweep();
+    if (!within_one && !first.active.empty()) a.sweep();
+    search(request.kernels.*of_swept, a, first.active, second.of_near, second.near);
+    if constexpr (!within_one)
+        search(request.kernels.*of_swept, first.of_near, first.near, b, second.active);
     return blocks.finish();
 }
 
 template <kind K, class First, class Second>
 std::size_t candidate_search::find_close(const search_request& request, First& first,
                                          Second& second) {
-    if (request.moving != nullptr) return find_close_moving<K>(request, first, second);
     constexpr bool within_one = std::is_same_v<First, Second>;
-    const bool swept = request.boxes.nearly_rest<Second::vertices>(second);
-    const extents_of ends = swept ? extents_of::whole_way : extents_of::both_ends;
-    extents_tree& b = of_extents_.second;
-    extents_tree& a = within_one ? b : of_extents_.first;
-    build(b, second, second, request, ends);
-    in_second_ = &second;
-    if constexpr (!within_one) build(a, first, second, request, ends);
-
-    candidate_blocks<pair_of_kind<K>> blocks(request.visitor.of<K>(), request.filter, request.stop);
+    constexpr std::size_t n = First::vertices, m = Second::vertices;
+    const bool swept = request.rests || request.boxes.nearly_rest<m>(second);
+    const extents_of ends = request.rests ? extents_of::start
+                            : swept       ? extents_of::whole_way
+                                          : extents_of::both_ends;
     constexpr auto of_both_ends =
         within_one ? &search_kernels::of_two_edges : &search_kernels::of_vertices_and_faces;
     constexpr auto of_swept = within_one ? &search_kernels::of_two_swept_edges
                                          : &search_kernels::of_swept_vertices_and_faces;
-    constexpr std::size_t sample_stride = 64;
-    search_trees(
-        request.kernels.*(swept ? of_swept : of_both_ends), a, b, blocks,
-        [&](std::size_t i, std::size_t j) {
-            return std::pair(candidate_of(first[i], second[j]), true);
-        },
-        request.wanted.sample ? sample_stride : 1);
+    const search_kernels::find_pairs find = request.kernels.*(swept ? of_swept : of_both_ends);
+    candidate_blocks<pair_of_kind<K>> blocks(request.visitor.of<K>(), request.filter, request.stop);
+    const std::span<const std::array<vertex_index, n>> all_first = first;
+    const std::span<const std::array<vertex_index, m>> all_second = second;
+    extents_tree& tree = of_extents_.second;
+    improve_order(second, second, request);
+    in_second_ = &second;
+    if constexpr (within_one) {
+        // Two trees, one after the other, so that edges take no more memory than faces.
+        constexpr std::size_t few = 4096, sample_stride = 64;
+        const std::size_t half = (second.size() + 1) / 2;
+        const std::size_t at_once =
+            second.size() <= few ? second.size() : std::max(faces_.size(), half);
+        for (std::size_t end = second.size(), begin = 0; end > 0; end = begin) {
+            begin = end - std::min(end, at_once);
+            tree.build<m>(request.kernels, request.rounded, request.margin,
+                          all_second.subspan(begin, end - begin), ends);
+            const auto pair_of = [&, begin](std::size_t i, std::size_t j) {
+                return candidate_of(all_first[i], all_second[begin + j]);
+            };
+            search_trees(
+                find, tree, tree, blocks,
+                [&](std::size_t i, std::size_t j) { return pair_of(begin + i, j); },
+                request.wanted.sample ? sample_stride : 1);
+            search_elements(find, request, all_first.first(begin), ends, tree, blocks, pair_of);
+        }
+    } else {
+        tree.build<m>(request.kernels, request.rounded, request.margin, all_second, ends);
+        improve_order(first, second, request);
+        search_elements(find, request, all_first, ends, tree, blocks,
+                        [&](std::size_t i, std::size_t j) {
+                            return candidate_of(all_first[i], all_second[j]);
+                        });
+    }
     return blocks.finish();
 }
 
@@ -400,6 +491,8 @@ template <kind K, class First, class Second>
 std::size_t candidate_search::find_kind(const search_request& request, First& first,
                                         Second& second) {
     if (!request.visitor.of<K>() || first.size() == 0 || second.size() == 0) return 0;
+    if constexpr (is_cubic(K))
+        if (request.active != nullptr) return find_close_active<K>(request, first, second);
     if (!request.boxes.need_doubles<Second::vertices>(second)) {
         if constexpr (is_cubic(K))
             if (request.wanted.close) return find_close<K>(request, first, second);
@@ -457,10 +550,11 @@ void candidate_search::find_at_start(const batch_positions& positions, const ste
         return find_resting_by_boxes(boxes, elements, options, visit);
     extents_tree& tree = of_extents_.second;
     const search_kernels& kernels = search_kernels_for(options.set);
-    if (in_second_ != &elements)
-        elements.build_tree<float>(tree, true, sorting<float>(boxes, elements), [&] {
-            tree.build<3>(kernels, at.rounded, 0, elements, extents_of::start);
-        });
+    if (in_second_ != &elements) {
+        elements.build_tree<float>(extents_leaves<3>{at.rounded, elements, 1}, true,
+                                   sorting<float>(boxes, elements), [] {});
+        tree.build<3>(kernels, at.rounded, 0, elements, extents_of::start);
+    }
     in_second_ = &elements;
     struct context {
         const resting_visitor& visit;
@@ -526,32 +620,27 @@ pair_counts candidate_search::find(const batch_positions& positions, const step_
     skip_unused(options.filter.skip_unused);
     const float* rounded = until ? until->positions().rounded : positions.rounded;
     const float margin = until ? until->margin() : 0;
-    std::optional<moving_parts> moving;
-    if (!wanted.moving.empty() && wanted.close) {
-        // Every so often, all elements are searched, in a new order: those that move change it.
-        constexpr int most_partial = 256;
-        if (partial_searches_ == most_partial) {
-            edges_.forget_order();
-            faces_.forget_order();
-            vertices_.forget_order();
-        } else {
-            moving.emplace(wanted.moving, rounded, margin, *this);
-        }
+    const search_kernels& kernels = search_kernels_for(options.set);
+    active_parts* const active = wanted.close && wanted.kept != nullptr
+                                     ? choose_active(*wanted.kept, whole, kernels)
+                                     : nullptr;
+    if (active == nullptr) {
+        active_ = nullptr;
+        active_searched_ = 0;
+    } else {
+        active_searched_ += active->size();
     }
-    const bool is_partial = moving && moving->are_few();
-    partial_searches_ = is_partial ? partial_searches_ + 1 : 0;
-    const search_request request{boxes,
-                                 lets_all_through(options.filter) ? nullptr : &test,
-                                 visitor,
-                                 options.stop,
-                                 rounded,
-                                 margin,
-                                 search_kernels_for(options.set),
-                                 wanted,
-                                 is_partial ? &*moving : nullptr};
+    const std::size_t bytes = 3 * sizeof(double) * positions.exact.vertices;
+    const bool rests = active == nullptr && bytes > 0 &&
+                       std::memcmp(positions.exact.before, positions.exact.after, bytes) == 0;
+    const search_request request{boxes,   lets_all_through(options.filter) ? nullptr : &test,
+                                 visitor, options.stop,
+                                 rounded, margin,
+                                 kernels, wanted,
+                                 active,  rests};
     order_.forget();
     in_second_ = nullptr;
-    skipped_rest_ = {};
+    skipped_rest_ = active != nullptr;
     pair_counts counts;
     if (in_plane_) {
         counts.vertex_edge = find_kind<kind::vertex_edge>(request, vertices_, edges_);

@@ -5,14 +5,15 @@
 #include <ccd/mesh.hpp>
 #include <ccd/step.hpp>
 #include <cstddef>
-#include <cstdint>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <span>
 #include <utility>
 #include <vector>
 
 #include "ccd/step/extents_tree.hpp"
+#include "ccd/step/rest/kept_positions.hpp"
 #include "ccd/step/rest/vertex_fans.hpp"
 #include "ccd/step/swept_boxes.hpp"
 #include "ccd/step/trees/box_tree.hpp"
@@ -62,27 +63,31 @@ struct wanted_candidates {
     bool spare = false;
     /// Only some of the close pairs; none if they cannot be found in floats.
     bool sample = false;
-    /// A flag for each vertex, or empty. Close pairs without a vertex whose flag is set are skipped
-    /// if few flags are set: see candidate_search::skipped_rest().
-    std::span<const std::uint8_t> moving = {};
+    /// Positions with a list of active vertices, or null. Close pairs without an active vertex are
+    /// skipped if few elements have one: see candidate_search::skipped_rest().
+    const kept_positions* kept = nullptr;
 };
 
 /// Called with blocks of pairs of these elements, from several threads at once.
 using resting_visitor =
     std::function<void(std::span<const face> elements, std::span<const element_pair> pairs)>;
 
-/// The search in one mesh. Keeps its working memory: 32 KB a thread, and about these numbers of
-/// bytes. For faces and edges, only the larger of both sums counts.
+/// The search in one mesh. Keeps its working memory: 70 KB a thread, and about these numbers of
+/// bytes. For faces and edges, only the larger of both sums counts. For close pairs, the trees of
+/// edges take no more than those of faces, or of half of the edges. While few vertices are active,
+/// elements near them take 110 bytes more.
 ///
 ///                                    a face   an edge   a vertex
 ///     in floats                          40        44         18
 ///     if floats do not suffice           80        88         36
-///     with wanted_candidates::close     187       191        183
+///     with wanted_candidates::close     187       191         18
 class candidate_search {
   public:
     /// Precondition: indices are in range.
     candidate_search(std::span<const face> faces, std::span<const edge> edges,
                      std::size_t vertices);
+    ~candidate_search();
+    candidate_search(candidate_search&&) noexcept;
 
     /// Pairs are each vertex with each edge, and each two points.
     static candidate_search in_plane(std::span<const edge> edges, std::size_t vertices);
@@ -99,8 +104,9 @@ class candidate_search {
     pair_counts find(const batch_positions& positions, const step_options& options,
                      const candidate_visitor& visitor, const wanted_candidates& wanted = {});
 
-    /// True if the last find() skipped the pairs of this kind without a moving vertex.
-    bool skipped_rest(kind k) const { return skipped_rest_[static_cast<std::size_t>(k)]; }
+    /// True if the last find() skipped the vertex/face and edge/edge pairs without an active
+    /// vertex.
+    bool skipped_rest() const { return skipped_rest_; }
 
     /// The trees that find_at_start may use.
     enum class trees : bool { new_ones, of_last_find };
@@ -124,7 +130,7 @@ class candidate_search {
     bool is_rod(const face& element) const;
 
   private:
-    class moving_parts;
+    class active_parts;
     template <class Real>
     struct tree_pair {
         box_tree<Real> first, second;
@@ -138,7 +144,8 @@ class candidate_search {
         float margin;  // of `rounded`
         const search_kernels& kernels;
         const wanted_candidates& wanted;
-        const moving_parts* moving;  // null: all pairs are searched
+        active_parts* active;  // null: all pairs are searched
+        bool rests;            // positions are those at the start
     };
 
     struct extents_trees {
@@ -156,11 +163,19 @@ class candidate_search {
     /// Visits the pairs of step_options::adjacent_rods.
     std::size_t find_adjacent_rods(const search_request& request);
     template <class Elements, class Sample>
-    void build(extents_tree& tree, Elements& elements, const Sample& sample,
-               const search_request& request, extents_of ends);
-    /// Only pairs with a moving vertex.
+    void improve_order(Elements& elements, const Sample& sample, const search_request& request);
+    /// Adds the candidates pair_of(i, j) of elements i and those of `b` that `find` finds. Trees
+    /// over the elements are built piece by piece.
+    template <std::size_t N, class Blocks, class PairOf>
+    void search_elements(search_kernels::find_pairs find, const search_request& request,
+                         std::span<const std::array<vertex_index, N>> elements, extents_of ends,
+                         const extents_tree& b, Blocks& blocks, const PairOf& pair_of);
+    /// Sets active_ for these positions. Returns null if the search of all pairs pays.
+    active_parts* choose_active(const kept_positions& kept, const swept_boxes& boxes,
+                                const search_kernels& kernels);
+    /// Only pairs with an active vertex.
     template <kind K, class First, class Second>
-    std::size_t find_close_moving(const search_request& request, const First& first,
+    std::size_t find_close_active(const search_request& request, const First& first,
                                   const Second& second);
     template <kind K, class First, class Second>
     std::size_t find_close(const search_request& request, First& first, Second& second);
@@ -185,8 +200,9 @@ class candidate_search {
     tree_pair<double> in_doubles_;
     extents_trees of_extents_;
     const void* in_second_ = nullptr;  ///< the elements of of_extents_.second
-    std::array<bool, 4> skipped_rest_{};
-    int partial_searches_ = 0;  ///< since the last search of all elements
+    std::unique_ptr<active_parts> active_;
+    std::size_t active_searched_ = 0;  ///< elements, since the last search of all
+    bool skipped_rest_ = false;
     bool in_plane_ = false;
 };
 

@@ -94,14 +94,24 @@ void check_elements(std::span<const face> faces, std::span<const edge> edges, st
     check_indices(edges, caller + ": vertex index of edge ", vertices);
 }
 
+void check_rows(const vertex_rows& positions, std::size_t vertices, const std::string& caller) {
+    check_length(caller + ": number of positions", positions.vertices, vertices);
+    if (vertices > 0 && (positions.before == nullptr || positions.after == nullptr))
+        throw std::invalid_argument(caller + ": pointer to positions is null; expected positions");
+}
+
 void check_positions(const vertex_rows& positions, std::size_t vertices, const std::string& caller,
                      std::span<const std::uint64_t> numbers) {
-    check_length(caller + ": number of positions", positions.vertices, vertices);
-    if (vertices == 0) return;
-    if (positions.before == nullptr || positions.after == nullptr)
-        throw std::invalid_argument(caller + ": pointer to positions is null; expected positions");
+    check_rows(positions, vertices, caller);
     check_finite(caller, positions.before, vertices, " at t = 0", numbers);
     check_finite(caller, positions.after, vertices, " at t = 1", numbers);
+}
+
+bool are_finite(const vertex_rows& positions, std::span<const vertex_index> vertices) {
+    return std::ranges::all_of(vertices, [&](vertex_index v) {
+        const std::size_t first = 3 * std::size_t(v);
+        return all_finite(positions.before + first, 3) && all_finite(positions.after + first, 3);
+    });
 }
 
 void check_at_rest(const vertex_rows& positions, std::size_t vertices, const pair_filter& filter,

@@ -17,10 +17,16 @@ void check_frames(const mesh& before, const mesh& after, const std::string& call
 void check_elements(std::span<const face> faces, std::span<const edge> edges, std::size_t vertices,
                     const std::string& caller);
 
+/// Checks that there are positions of this many vertices.
+void check_rows(const vertex_rows& positions, std::size_t vertices, const std::string& caller);
+
 /// Checks that there are finite positions of this many vertices. Messages use the numbers of
 /// vertices, or their indices if there are no numbers.
 void check_positions(const vertex_rows& positions, std::size_t vertices, const std::string& caller,
                      std::span<const std::uint64_t> numbers = {});
+
+/// True if the positions of these vertices are finite.
+bool are_finite(const vertex_rows& positions, std::span<const vertex_index> vertices);
 
 /// The same for ccd::intersections, which reads positions.before only.
 void check_at_rest(const vertex_rows& positions, std::size_t vertices, const pair_filter& filter,

@@ -13,7 +13,9 @@
 #include <vector>
 
 #include "ccd/batch/first_touch.hpp"
+#include "ccd/batch/rounded_positions.hpp"
 #include "ccd/step/search_kernels.hpp"
+#include "ccd/step/swept_boxes.hpp"
 #include "ccd/step/trees/extents_pack.hpp"
 
 namespace ccd::detail {
@@ -21,6 +23,44 @@ namespace ccd::detail {
 /// The extents in a tree: at the start of the step, at both ends, or at both ends where those at
 /// the start contain those at the end.
 enum class extents_of { start, both_ends, whole_way };
+
+/// The leaves of a tree over elements, without the tree.
+template <std::size_t N>
+struct extents_leaves {
+    const float* rounded;  ///< rounded_positions::data()
+    std::span<const std::array<vertex_index, N>> elements;
+    std::size_t ends = 2;  ///< of the step
+
+    /// The sum of the lengths of a sample along the coordinate axes. A good order keeps it small.
+    double length_of_leaves() const {
+        constexpr std::size_t size = extents_column::size;
+        const std::size_t stride = size * sampling_stride(elements.size() / size);
+        double sum = 0;
+        for (std::size_t first = 0; first < elements.size(); first += stride)
+            for (std::size_t end = 0; end < ends; ++end)
+                sum += length(elements.subspan(first, std::min(size, elements.size() - first)),
+                              4 * end);
+        return sum;
+    }
+
+  private:
+    double length(std::span<const std::array<vertex_index, N>> leaf, std::size_t end) const {
+        const auto row = [&](vertex_index v) {
+            return rounded + rounded_positions::row * std::size_t(v) + end;
+        };
+        double sum = 0;
+        for (std::size_t k = 0; k < 3; ++k) {
+            float low = row(leaf[0][0])[k], high = low;
+            for (const auto& element : leaf)
+                for (const vertex_index v : element) {
+                    low = std::min(low, row(v)[k]);
+                    high = std::max(high, row(v)[k]);
+                }
+            sum += double(high) - double(low);
+        }
+        return sum;
+    }
+};
 
 class extents_tree {
   public:
@@ -49,16 +89,31 @@ class extents_tree {
                       });
     }
 
+    /// Makes the extents at the start contain those at the end. Precondition: built with both ends.
+    /// Proof: proofs/filters/Extents.v, swept_extents_hold.
+    void sweep() {
+        constexpr std::size_t at_end = extents::columns_of_end;
+        const auto sweep = [](std::size_t column, float& start, float end) {
+            start = column % 2 == 0 ? std::min(start, end) : std::max(start, end);
+        };
+        const auto sweep_pack = [&](extents_column* pack, float* hull) {
+            for (std::size_t c = 0; c < at_end; ++c) {
+                for (std::size_t i = 0; i < extents_column::size; ++i)
+                    sweep(c, pack[c].at[i], pack[c + at_end].at[i]);
+                sweep(c, hull[c], hull[c + at_end]);
+            }
+        };
+        for (std::size_t level = 0; level < levels_.count; ++level)
+            for_packs(level,
+                      [&](std::size_t p, std::size_t end, extents_column* packs, float* hulls) {
+                          for (; p < end; ++p)
+                              sweep_pack(packs + levels_.columns * p, hulls + levels_.columns * p);
+                      });
+    }
+
     const extents_levels& levels() const { return levels_; }
     std::size_t leaves() const { return sizes_[0]; }
 
-    /// The sum of the leaves' lengths along the coordinate axes, as a mean over the ends of the
-    /// step. A good order keeps it small.
-    double length_of_leaves() const {
-        double sum = 0;
-        for (std::size_t leaf = 0; leaf < leaves(); ++leaf) sum += length(leaf);
-        return sum;
-    }
     std::vector<std::size_t> longest_leaves(std::size_t count) const {
         std::vector<std::pair<double, std::size_t>> all(leaves());
         for (std::size_t leaf = 0; leaf < leaves(); ++leaf) all[leaf] = {-length(leaf), leaf};
@@ -99,7 +154,9 @@ class extents_tree {
 
     template <class Fill>
     void for_packs(std::size_t level, const Fill& fill) {
-        tbb::parallel_for(tbb::blocked_range<std::size_t>(0, sizes_[level], 64),
+        constexpr std::size_t few = 64;  // for one thread, which takes up no other task meanwhile
+        if (sizes_[level] <= few) return fill(0, sizes_[level], packs_of(level), hulls_of(level));
+        tbb::parallel_for(tbb::blocked_range<std::size_t>(0, sizes_[level], few),
                           [&](const tbb::blocked_range<std::size_t>& range) {
                               fill(range.begin(), range.end(), packs_of(level), hulls_of(level));
                           });

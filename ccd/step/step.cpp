@@ -91,15 +91,23 @@ void find_start(detail::candidate_search& search, std::optional<detail::vertex_f
         detail::find_intersections(search, fans, positions, at_start, &at).pairs;
 }
 
+/// True if pairs at rest are those of any other step.
+bool keeps_rest(const step_options& options) {
+    return options.method == method::exact && options.distances.is_contact() &&
+           detail::lets_all_through(options.filter);
+}
+
 /// Runs a step, except first times and contacts at the start. With a store, the search includes
-/// ways that short_way's `spare` covers. Pairs that `resting` keeps are not searched for.
+/// ways that short_way's `spare` covers. Pairs that `resting` keeps are not searched for, if
+/// `is_listed`: its moving vertices are those of this step.
 step_result run_step(detail::candidate_search& search, std::optional<detail::vertex_fans>& fans,
                      const vertex_rows& positions, const step_options& options,
-                     candidate_store* store, detail::resting_pairs* resting = nullptr) {
+                     candidate_store* store, detail::resting_pairs& resting, bool is_listed) {
     detail::stopwatch watch;
     step_result result;
-    const detail::rounded_positions rounded(positions);
-    const detail::batch_positions at(positions, rounded);
+    detail::kept_positions& kept = resting.positions();
+    is_listed ? kept.round_active(positions) : kept.round_all(positions);
+    const detail::batch_positions at(positions, kept.rounded());
     result.prepare_seconds = watch.lap();
 
     by_kind<phase> phases = phases_at(at, options);
@@ -112,16 +120,16 @@ step_result run_step(detail::candidate_search& search, std::optional<detail::ver
     });
     const bool counted = options.count_candidates || options.explain;
     detail::wanted_candidates wanted = candidates_for(options, store != nullptr);
-    const bool keeps = resting != nullptr && options.method == method::exact &&
-                       options.distances.is_contact() && detail::lets_all_through(options.filter);
-    std::vector<std::uint8_t> moving;
-    if (keeps && wanted.close) moving = resting->moving(positions, options.filter);
-    wanted.moving = moving;
+    if (is_listed) wanted.kept = &kept;
     const pair_counts counts = search.find(at, options, visitor, wanted);
-    for_each_kind([&]<kind K>() {
-        if (search.skipped_rest(K))
-            decide_all<K>(phases.of<K>(), resting->at_rest<K>(moving), options.stop);
-    });
+    if (search.skipped_rest()) {
+        decide_all<kind::vertex_face>(phases.vertex_face, resting.at_rest<kind::vertex_face>(),
+                                      options.stop);
+        decide_all<kind::edge_edge>(phases.edge_edge, resting.at_rest<kind::edge_edge>(),
+                                    options.stop);
+    } else {
+        kept.forget_rounded();
+    }
     if (counted) result.candidates = counts;
     for_each_kind([&]<kind K>() { result.narrow_phase_seconds += phases.of<K>().seconds(); });
     result.narrow_phase_seconds /= tbb::this_task_arena::max_concurrency();
@@ -131,10 +139,8 @@ step_result run_step(detail::candidate_search& search, std::optional<detail::ver
         result.pairs.of<K>() = phases.of<K>().take_pairs();
         result.stages += phases.of<K>().report();
     });
-    const bool all_rest =
-        !moving.empty() && std::ranges::none_of(moving, [](auto m) { return m != 0; });
-    if (keeps && options.t_max >= 1 && !all_rest)
-        resting->keep(positions, options.filter, result.pairs);
+    if (keeps_rest(options) && options.t_max >= 1 && store == nullptr)
+        resting.keep(positions, result.pairs);
     result.sort_seconds = watch.lap();
 
     if (options.check_start) {
@@ -222,11 +228,17 @@ struct mesh_steps::state {
     std::optional<detail::vertex_fans> fans = {};
     detail::resting_pairs resting = {};
 
-    void check(const vertex_rows& positions, const step_options& options,
-               const std::string& caller = "ccd::step") const {
-        detail::check_positions(positions, search.vertices(), caller);
+    /// Lists the moving vertices if `lists_moving`, and returns true if they were listed.
+    bool check(const vertex_rows& positions, const step_options& options, const std::string& caller,
+               bool lists_moving = false) {
+        detail::check_rows(positions, search.vertices(), caller);
+        const bool is_listed = lists_moving && resting.find_moving(positions, options.filter);
+        // Kept positions are finite.
+        if (!is_listed || !detail::are_finite(positions, resting.positions().moving()))
+            detail::check_positions(positions, search.vertices(), caller);
         if (search.is_in_plane()) detail::check_plane(positions, caller);
         detail::check_options(options, search.vertices(), caller);
+        return is_listed;
     }
 };
 
@@ -249,12 +261,12 @@ mesh_steps& mesh_steps::operator=(mesh_steps&&) noexcept = default;
 
 step_result mesh_steps::run(const vertex_rows& positions, const step_options& options) {
     detail::stopwatch total, watch;
-    state_->check(positions, options);
+    const bool is_listed = state_->check(positions, options, "ccd::step", keeps_rest(options));
     const double check_seconds = watch.lap();
     step_result result;
     const int threads = detail::on_threads(options.threads, [&] {
-        result =
-            run_step(state_->search, state_->fans, positions, options, nullptr, &state_->resting);
+        result = run_step(state_->search, state_->fans, positions, options, nullptr,
+                          state_->resting, is_listed);
     });
     result.threads = threads;
     result.prepare_seconds += check_seconds;
@@ -287,7 +299,7 @@ void short_steps::check(const vertex_rows& way, const step_options& options,
 
 first_time short_steps::first_of_sample(const vertex_rows& way, const step_options& options) {
     mesh_steps::state& state = *steps_.state_;
-    state.check(way, options);
+    state.check(way, options, "ccd::step");
     candidate_store found(std::numeric_limits<std::size_t>::max());
     on_threads(options.threads, [&] {
         const rounded_positions rounded(way);
@@ -300,12 +312,13 @@ first_time short_steps::first_of_sample(const vertex_rows& way, const step_optio
 
 step_result short_steps::run(const vertex_rows& way, const step_options& options) {
     mesh_steps::state& state = *steps_.state_;
-    state.check(way, options);
+    state.check(way, options, "ccd::step");
     constexpr std::size_t for_each_vertex = 16;
     candidate_store store(for_each_vertex * way.vertices);
     step_result result;
-    on_threads(options.threads,
-               [&] { result = run_step(state.search, state.fans, way, options, &store); });
+    on_threads(options.threads, [&] {
+        result = run_step(state.search, state.fans, way, options, &store, state.resting, false);
+    });
     result.first_contact = {outcome::separate};
     for_each_kind([&]<kind K>() { find_first<K>(way, timing_of(options), result); });
     has_candidates_ = store.is_complete();
@@ -314,7 +327,7 @@ step_result short_steps::run(const vertex_rows& way, const step_options& options
 }
 
 pair_lists short_steps::pairs_on(const vertex_rows& way, const step_options& options) {
-    steps_.state_->check(way, options);
+    steps_.state_->check(way, options, "ccd::step");
     pair_lists pairs;
     on_threads(options.threads, [&] {
         const rounded_positions rounded(way);
@@ -332,7 +345,7 @@ pair_lists short_steps::pairs_on(const vertex_rows& way, const step_options& opt
 pair_counts mesh_steps::for_each_candidate(const vertex_rows& positions,
                                            const candidate_visitor& visitor,
                                            const step_options& options) {
-    state_->check(positions, options);
+    state_->check(positions, options, "ccd::step");
     pair_counts counts;
     detail::on_threads(options.threads, [&] {
         const detail::rounded_positions rounded(positions);

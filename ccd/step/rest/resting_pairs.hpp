@@ -5,56 +5,54 @@
 #include <algorithm>
 #include <ccd/step.hpp>
 #include <cstddef>
-#include <cstdint>
 #include <cstring>
-#include <span>
 #include <vector>
+
+#include "ccd/step/rest/kept_positions.hpp"
 
 namespace ccd::detail {
 
 class resting_pairs {
   public:
-    /// Returns a flag for each vertex: 0 if its positions at both ends of the step are those at the
-    /// end of the kept one, bit for bit. Returns no flags if no step was kept for this filter.
-    std::vector<std::uint8_t> moving(const vertex_rows& way, const pair_filter& filter) const {
-        if (positions_.size() != way.vertices || skip_unused_ != filter.skip_unused) return {};
-        std::vector<std::uint8_t> flags(way.vertices);
-        for (std::size_t v = 0; v < way.vertices; ++v)
-            flags[v] = differ(&way.before[3 * v], &way.after[3 * v]) ||
-                       differ(&way.before[3 * v], &positions_[v].x);
-        return flags;
+    /// Lists the vertices that do not rest: see kept_positions::find_moving. Returns false also if
+    /// no step was kept for this filter.
+    bool find_moving(const vertex_rows& way, const pair_filter& filter) {
+        if (skip_unused_ != filter.skip_unused) positions_.forget();
+        skip_unused_ = filter.skip_unused;
+        return positions_.find_moving(way);
     }
+    const kept_positions& positions() const { return positions_; }
+    kept_positions& positions() { return positions_; }
 
-    /// Returns the pairs without a moving vertex. Among all such pairs of the mesh, they include
+    /// Returns the pairs without an active vertex. Among all such pairs of the mesh, they include
     /// those in contact.
     template <kind K>
-    std::vector<pair_of_kind<K>> at_rest(std::span<const std::uint8_t> moving) const {
+    std::vector<pair_of_kind<K>> at_rest() const {
         std::vector<pair_of_kind<K>> found;
         for (const auto& pair : pairs_.of<K>())
-            if (std::ranges::none_of(vertices_of(pair), [&](auto v) { return moving[v] != 0; }))
+            if (std::ranges::none_of(vertices_of(pair),
+                                     [&](auto v) { return positions_.is_active(v); }))
                 found.push_back(pair);
         return found;
     }
 
-    /// Keeps the end of a step in which a vertex rests. `pairs` are all pairs that are in contact
-    /// in [0, 1].
-    void keep(const vertex_rows& way, const pair_filter& filter, const pair_lists& pairs) {
-        bool any_rests = false;
-        for (std::size_t v = 0; v < way.vertices && !any_rests; ++v)
-            any_rests = !differ(&way.before[3 * v], &way.after[3 * v]);
-        if (!any_rests) return;
+    /// Keeps the end of a step in which a vertex rests, after find_moving(way, ...). `pairs` are
+    /// all pairs that are in contact in [0, 1].
+    void keep(const vertex_rows& way, const pair_lists& pairs) {
+        if (!any_rests(way)) return;
+        positions_.keep(way);
         pairs_ = pairs;
-        positions_.resize(way.vertices);
-        for (vertex_index v = 0; v < way.vertices; ++v) positions_[v] = way[v].t1;
-        skip_unused_ = filter.skip_unused;
     }
 
   private:
-    static bool differ(const double* p, const double* q) {
-        return std::memcmp(p, q, sizeof(point<double>)) != 0;
+    static bool any_rests(const vertex_rows& way) {
+        constexpr std::size_t size = 3 * sizeof(double);
+        for (std::size_t v = 0; v < way.vertices; ++v)
+            if (std::memcmp(&way.before[3 * v], &way.after[3 * v], size) == 0) return true;
+        return false;
     }
 
-    std::vector<point<double>> positions_;
+    kept_positions positions_;
     pair_lists pairs_;
     bool skip_unused_ = false;
 };

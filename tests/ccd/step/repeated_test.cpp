@@ -4,6 +4,7 @@
 #include <atomic>
 
 #include "tests/ccd/step/expect_steps.hpp"
+#include "tests/support/scaled.hpp"
 
 namespace {
 
@@ -12,6 +13,7 @@ using brute_force::random_mixture;
 using brute_force::random_soup;
 using brute_force::two_frames;
 using brute_force::vertex_index;
+using support::scaled;
 
 TEST(MeshSteps, FindWhatFreshOnesFindWhateverWentBefore) {
     const auto [mesh, second] = random_mixture(1);
@@ -37,59 +39,139 @@ TEST(MeshSteps, FindWhatFreshOnesFindWhateverWentBefore) {
     }
 }
 
-/// Repeated steps of one mesh find the same as steps of a new one. Parts or all of it rest, steps
-/// start again or elsewhere, and options vary.
-void expect_as_new(std::uint64_t seed, int steps) {
-    auto [mesh, second] = seed % 4 == 0 ? random_mixture(seed) : random_soup(seed, 70, 50);
-    std::mt19937_64 random(seed);
-    const auto one_in = [&](unsigned n) { return random() % n == 0; };
-    if (one_in(2)) mesh.vertices.resize(mesh.vertices.size() + 3);  // not of faces
-    std::vector<std::uint8_t> pinned(mesh.vertices.size());
-    for (auto& p : pinned) p = one_in(3);
-    const auto sets = ccd::instruction_sets();
-    ccd::mesh_steps kept(mesh);
-    const auto same_elements = [](const ccd::intersection& a, const ccd::intersection& b) {
-        return a.a == b.a && a.b == b.b && a.relation == b.relation;
-    };
-    std::vector<std::vector<ccd::point<double>>> seen{mesh.vertices};
-    auto before = mesh.vertices;
-    for (int step = 0; step < steps; ++step) {
-        if (one_in(8)) before = seen[random() % seen.size()];  // a restart
-        if (one_in(16)) before[random() % before.size()] = {-0.0, 3, 4};
-        auto after = before;
-        const auto move = [&](auto& p) { p = {p.x + 0.5 * double(random() % 5) - 1, p.y, -p.z}; };
-        const std::size_t moving = one_in(3) ? 0 : one_in(8) ? after.size() : 1 + random() % 4;
-        for (std::size_t i = 0; i < moving; ++i) move(after[random() % after.size()]);
-        ccd::step_options options{.threads = 1 + static_cast<int>(random() % 2),
-                                  .set = sets[random() % sets.size()],
+/// Adds a square sheet of n by n cells, at heights of a few quarters.
+void add_sheet(ccd::mesh& mesh, vertex_index n, double from, double height,
+               std::mt19937_64& random) {
+    const auto first = static_cast<vertex_index>(mesh.vertices.size());
+    for (vertex_index i = 0; i <= n; ++i)
+        for (vertex_index j = 0; j <= n; ++j)
+            mesh.vertices.push_back(
+                {from + i, from + j, height + 0.25 * static_cast<double>(random() % 3)});
+    for (vertex_index i = 0; i < n; ++i)
+        for (vertex_index j = 0; j < n; ++j) {
+            const vertex_index a = first + i * (n + 1) + j, b = a + n + 1;
+            mesh.faces.insert(mesh.faces.end(), {{a, b, b + 1}, {a, b + 1, a + 1}});
+        }
+}
+
+/// A mesh, and steps in which parts or all of it rest. In some meshes, a small sheet drifts over a
+/// large one and is thrown elsewhere.
+class resting_sequence {
+  public:
+    explicit resting_sequence(std::uint64_t seed) : random_(seed) {
+        if (seed % 4 == 3) {
+            add_sheet(mesh_, 12, 0, 0, random_);
+            first_of_sheet_ = mesh_.vertices.size();
+            add_sheet(mesh_, 4, 3, 0.5, random_);
+        } else {
+            mesh_ = (seed % 4 == 0 ? random_mixture(seed) : random_soup(seed, 70, 50)).first;
+        }
+        if (one_in(2)) mesh_.vertices.resize(mesh_.vertices.size() + 3);  // not of faces
+        pinned_.resize(mesh_.vertices.size());
+        for (auto& p : pinned_) p = one_in(3);
+        seen_.push_back(mesh_.vertices);
+        before = after = mesh_.vertices;
+    }
+
+    /// Sets the next step: the last one goes on, or one starts again or elsewhere.
+    void move() {
+        if (!one_in(10)) before = after;
+        if (one_in(8)) before = seen_[random_() % seen_.size()];
+        if (one_in(16)) before[random_() % before.size()] = {-0.0, 3, 4};
+        after = before;
+        if (first_of_sheet_ > 0) {
+            if (one_in(12)) drift_ = {32 * eighths(), eighths(), eighths()};
+            if (one_in(6)) move_one();
+            drift();
+        } else {
+            const std::size_t moving = one_in(3) ? 0 : one_in(8) ? after.size() : 1 + random_() % 4;
+            for (std::size_t i = 0; i < moving; ++i) move_one();
+        }
+        seen_.push_back(after);
+    }
+    /// Sets a step after the last one in which the small sheet drifts.
+    void drift() {
+        before = after;
+        if (one_in(4)) drift_ = {eighths(), eighths(), eighths()};
+        for (std::size_t v = first_of_sheet_; v < after.size() && !one_in(200); ++v)
+            after[v] = {after[v].x + drift_.x, after[v].y + drift_.y, after[v].z + drift_.z};
+    }
+    ccd::step_options options() {
+        const auto sets = ccd::instruction_sets();
+        ccd::step_options options{.threads = 1 + static_cast<int>(random_() % 2),
+                                  .set = sets[random_() % sets.size()],
                                   .count_candidates = one_in(10),
                                   .initial_contact = one_in(3),
                                   .first_contact = one_in(3),
                                   .times = one_in(3),
                                   .check_start = one_in(4),
-                                  .t_max = one_in(5) ? 0.25 * double(random() % 5) : 1,
+                                  .t_max = one_in(5) ? 0.25 * double(random_() % 5) : 1,
                                   .filter = {.skip_unused = one_in(6)}};
         if (one_in(10)) options.distances.all = 0.25;
-        if (one_in(10)) options.filter.pinned = pinned;
-        const ccd::vertex_rows way(before, after);
-        const ccd::step_result found = kept.run(way, options);
-        const ccd::step_result expected = ccd::mesh_steps(mesh).run(way, options);
-        ASSERT_EQ(found.pairs, expected.pairs) << seed << ", step " << step;
-        ASSERT_EQ(found.times, expected.times) << seed << ", step " << step;
-        ASSERT_EQ(found.first_contact, expected.first_contact) << seed << ", step " << step;
-        ASSERT_EQ(found.first_pairs, expected.first_pairs) << seed << ", step " << step;
-        ASSERT_EQ(found.touching_at_start, expected.touching_at_start) << seed << ", step " << step;
-        ASSERT_EQ(found.candidates, expected.candidates) << seed << ", step " << step;
-        ASSERT_TRUE(std::ranges::equal(found.intersections_at_start,
-                                       expected.intersections_at_start, same_elements))
-            << seed << ", step " << step;
-        if (!one_in(10)) before = after;
-        seen.push_back(after);
+        if (one_in(10)) options.filter.pinned = pinned_;
+        return options;
     }
+    bool one_in(unsigned n) { return random_() % n == 0; }
+    const ccd::mesh& mesh() const { return mesh_; }
+
+    std::vector<ccd::point<double>> before, after;
+
+  private:
+    void move_one() {
+        auto& p = after[random_() % after.size()];
+        p = {p.x + 0.5 * double(random_() % 5) - 1, p.y, -p.z};
+    }
+    double eighths() { return 0.125 * (static_cast<double>(random_() % 5) - 2); }
+
+    std::mt19937_64 random_;
+    ccd::mesh mesh_;
+    std::size_t first_of_sheet_ = 0;
+    ccd::point<double> drift_{0, 0, 0};
+    std::vector<std::uint8_t> pinned_;
+    std::vector<std::vector<ccd::point<double>>> seen_;
+};
+
+void expect_same_results(const ccd::step_result& found, const ccd::step_result& expected) {
+    const auto same_elements = [](const ccd::intersection& a, const ccd::intersection& b) {
+        return a.a == b.a && a.b == b.b && a.relation == b.relation;
+    };
+    ASSERT_EQ(found.pairs, expected.pairs);
+    ASSERT_EQ(found.times, expected.times);
+    ASSERT_EQ(found.first_contact, expected.first_contact);
+    ASSERT_EQ(found.first_pairs, expected.first_pairs);
+    ASSERT_EQ(found.touching_at_start, expected.touching_at_start);
+    ASSERT_EQ(found.candidates, expected.candidates);
+    ASSERT_TRUE(std::ranges::equal(found.intersections_at_start, expected.intersections_at_start,
+                                   same_elements));
 }
 
 TEST(MeshSteps, FindWhatFreshOnesFindWhereVerticesRest) {
-    for (std::uint64_t seed = 0; seed < 40; ++seed) expect_as_new(seed, 25);
+    for (std::uint64_t seed = 0; seed < scaled(std::uint64_t(40)); ++seed) {
+        resting_sequence sequence(seed);
+        ccd::mesh_steps kept(sequence.mesh());
+        for (int step = 0; step < 25; ++step) {
+            SCOPED_TRACE(std::to_string(seed) + ", step " + std::to_string(step));
+            sequence.move();
+            const ccd::vertex_rows way(sequence.before, sequence.after);
+            const ccd::step_options options = sequence.options();
+            expect_same_results(kept.run(way, options),
+                                ccd::mesh_steps(sequence.mesh()).run(way, options));
+            if (sequence.one_in(20)) kept.candidates(way);
+        }
+    }
+}
+
+// At times, all elements are searched in a new order.
+TEST(MeshSteps, FindWhatFreshOnesFindWhereASheetDriftsForLong) {
+    resting_sequence sequence(3);
+    ccd::mesh_steps kept(sequence.mesh());
+    for (int step = 0; step < 2000; ++step) {
+        sequence.drift();
+        const ccd::vertex_rows way(sequence.before, sequence.after);
+        ASSERT_EQ(kept.run(way, {.threads = 1}).pairs,
+                  ccd::step(sequence.mesh().faces, {}, way, {.threads = 1}).pairs)
+            << step;
+    }
 }
 
 // A filter of pairs skips unused vertices: points of faces and edges that repeat a vertex stay.
