@@ -178,8 +178,7 @@ Definition inside_forms (edges : bool) (b c p : vector_form) : list (list S) :=
 
 Section Query.
 
-Variable edges : bool.
-Variables q0 q1 q2 q3 : moving_point.
+Context (edges : bool) (q0 q1 q2 q3 : moving_point).
 Let b := side_b edges difference q0 q1 q2 q3.
 Let c := side_c edges difference q0 q1 q2 q3.
 Let p := side_p edges difference q0 q1 q2 q3.

@@ -46,16 +46,9 @@ End Any.
 
 Section Tracked.
 
-Variables p emax : Z.
-Context {p_positive : Prec_gt_0 p}.
-Context {p_below : Prec_lt_emax p emax}.
-Hypothesis p_3 : (3 <= p)%Z.
+Context (p emax : Z) {p_positive : Prec_gt_0 p} {p_below : Prec_lt_emax p emax} (p_3 : (3 <= p)%Z).
 Notation float := (binary_float p emax).
 Notation F := (floats p emax).
-Notation finite x := (BinarySingleNaN.is_finite x = true).
-Infix "⊕" := (plus float F) (at level 50, left associativity).
-Infix "⊖" := (minus float F) (at level 50, left associativity).
-Infix "⊗" := (times float F) (at level 40, left associativity).
 
 Definition sign_given (s : sign_type) : Sign.sign :=
   match s with

@@ -476,9 +476,8 @@ Definition can_be_narrowed (q : close_part) : bool :=
 
 Section Query.
 
-Variable edges : bool.
-Variables b c p : @vector_form integers.
-Hypotheses (degree_b : degree b 1) (degree_c : degree c 1) (degree_p : degree p 1).
+Context (edges : bool) (b c p : @vector_form integers) (degree_b : degree b 1) (degree_c : degree c 1)
+  (degree_p : degree p 1).
 (** The hypotheses that extent_limit gives for four words. *)
 Hypotheses (below_b : below 253 b) (below_c : below 253 c) (below_p : below 253 p).
 Let y : list R := map IZR (y_form b c p).
@@ -555,9 +554,8 @@ Definition contact_in_middle (q : close_part) : bool :=
 
 (** Arbitrary estimates: of a root's position times 2^n, rounded; of the least n such that roots t/s are below 2^n;
     of an extremum's position; and of the exponent of its roots' distance from it. *)
-Variable estimated_root : list Z -> Z -> Z.
-Variable root_exponent : list Z -> Z.
-Variable estimated_pair : list Z -> option ((Z -> Z) * Z).
+Context (estimated_root : list Z -> Z -> Z) (root_exponent : list Z -> Z)
+  (estimated_pair : list Z -> option ((Z -> Z) * Z)).
 
 Definition narrowed (three : bool) (q : close_part) : option close_part :=
   let h := close_y q in
@@ -639,8 +637,7 @@ Definition close_good (q : close_part) : Prop := is_close_part y q /\ (unit_bits
 
 Section Known.
 
-Variables distinct three : bool.
-Hypothesis known_y : close_known_roots distinct three.
+Context (distinct three : bool) (known_y : close_known_roots distinct three).
 
 Lemma single_once q : close_good q -> is_single three (close_roots q) = true ->
   crosses_once (close_start q) (close_end q) (at_ y) (fun t => told t /\ distinct = false).
@@ -1016,13 +1013,9 @@ End Query.
 
 Section Answers.
 
-Variable edges : bool.
-Variables b c p : @vector_form integers.
-Hypotheses (degree_b : degree b 1) (degree_c : degree c 1) (degree_p : degree p 1).
-Hypotheses (below_b : below 253 b) (below_c : below 253 c) (below_p : below 253 p).
-Variable estimated_root : list Z -> Z -> Z.
-Variable root_exponent : list Z -> Z.
-Variable estimated_pair : list Z -> option ((Z -> Z) * Z).
+Context (edges : bool) (b c p : @vector_form integers) (degree_b : degree b 1) (degree_c : degree c 1)
+  (degree_p : degree p 1) (below_b : below 253 b) (below_c : below 253 c) (below_p : below 253 p)
+  (estimated_root : list Z -> Z -> Z) (root_exponent : list Z -> Z) (estimated_pair : list Z -> option ((Z -> Z) * Z)).
 Let y : list R := map IZR (y_form b c p).
 Let contact := close_contact edges b c p estimated_root root_exponent estimated_pair.
 Let y_length : length y = 4%nat := InteriorContact.y_length b c p degree_b degree_c degree_p.
@@ -1127,15 +1120,9 @@ Definition decide_to_the_end (edges : bool) (extent_x extent_y extent_z : Z)
 
 Section Decisions.
 
-Variable unit : point.
-Hypothesis U : units unit.
-Variables extent_x extent_y extent_z : Z.
-Variable estimate : part -> Z.
-Variable refine : Z -> part -> Z -> Z -> Z -> Z.
-Variables steps more : nat.
-Variable estimated_root : list Z -> Z -> Z.
-Variable root_exponent : list Z -> Z.
-Variable estimated_pair : list Z -> option ((Z -> Z) * Z).
+Context (unit : point) (U : units unit) (extent_x extent_y extent_z : Z) (estimate : part -> Z)
+  (refine : Z -> part -> Z -> Z -> Z -> Z) (steps more : nat) (estimated_root : list Z -> Z -> Z)
+  (root_exponent : list Z -> Z) (estimated_pair : list Z -> option ((Z -> Z) * Z)).
 Let decide edges := decide_to_the_end edges extent_x extent_y extent_z estimate refine steps
   estimated_root root_exponent estimated_pair more.
 
@@ -1243,12 +1230,6 @@ Definition sub_numbers (y0 y1 y2 y3 v a q : Z) : list Z :=
    c3 * a; d2; d2 * a; d1; d1 * a; d0; e2; e2 * a; e1; f2; w1; w2; w3;
    d0 + d0; d0 + d0 + w1; d0 + d0 + w1 + d0; d0 + d0 + w1 + d0 + w1; d0 + d0 + w1 + d0 + w1 + w2;
    d0 + w1; d0 + w1 + w2; d0 + w1 + w2 + w3]%Z.
-Lemma sub_numbers_has y0 y1 y2 y3 n a w :
-  incl (sub_y [y0; y1; y2; y3] n a w) (sub_numbers y0 y1 y2 y3 (2 ^ n) a (2 ^ w)).
-Proof.
-  unfold sub_y, sub_numbers, from_power, widened, moved, power_coefficients. cbv zeta beta iota.
-  intros x H. cbn [In] in *. destruct H as [<- | [<- | [<- | [<- | []]]]]; auto 60.
-Qed.
 Theorem narrowed_fits y0 y1 y2 y3 n a w : (0 <= n <= 60)%Z -> (0 <= a)%Z -> (0 <= w)%Z -> (a + 2 ^ w <= 2 ^ n)%Z ->
   Forall (fun h => BoundedInteger.bit_length h <= most_y_bits)%Z [y0; y1; y2; y3] ->
   Forall (fun h => Z.abs h < 2 ^ (64 * Z.of_nat y_words - 1))%Z (sub_numbers y0 y1 y2 y3 (2 ^ n) a (2 ^ w)).

@@ -835,8 +835,7 @@ Qed.
 
 Section Query.
 
-Variable edges : bool.
-Variables m0 m1 m2 m3 : moving.
+Context (edges : bool) (m0 m1 m2 m3 : moving).
 Let B (t : R) := side_b edges minus (place m0 t) (place m1 t) (place m2 t) (place m3 t).
 Let C (t : R) := side_c edges minus (place m0 t) (place m1 t) (place m2 t) (place m3 t).
 Let P (t : R) := side_p edges minus (place m0 t) (place m1 t) (place m2 t) (place m3 t).

@@ -119,23 +119,17 @@ Qed.
 Section Exact.
 
 (** The rounding direction of the filter, which is to nearest; any is right. *)
-Variable direction : R -> Z.
-Context {direction_valid : Valid_rnd direction}.
+Context (direction : R -> Z) {direction_valid : Valid_rnd direction}.
 
 (** Arbitrary estimates in integers. *)
-Variables extent_x extent_y extent_z : Z.
-Variable estimate : CubicRoots.part -> Z.
-Variable refine : Z -> CubicRoots.part -> Z -> Z -> Z -> Z.
-Variables steps more : nat.
-Variable estimated_root : list Z -> Z -> Z.
-Variable root_exponent : list Z -> Z.
-Variable estimated_pair : list Z -> option ((Z -> Z) * Z).
+Context (extent_x extent_y extent_z : Z) (estimate : CubicRoots.part -> Z)
+  (refine : Z -> CubicRoots.part -> Z -> Z -> Z -> Z) (steps more : nat) (estimated_root : list Z -> Z -> Z)
+  (root_exponent : list Z -> Z) (estimated_pair : list Z -> option ((Z -> Z) * Z)).
 
 (** Results of the reference's algorithms. *)
-Variable common : list Z -> list Z -> list Z.
-Variable squarefree : list Z -> list Z.
-Variable intervals : list Z -> list RootIsolation.interval.
-Variable sign_there : list Z -> list Z -> RootIsolation.interval -> Sign.sign.
+Context (common : list Z -> list Z -> list Z) (squarefree : list Z -> list Z)
+  (intervals : list Z -> list RootIsolation.interval)
+  (sign_there : list Z -> list Z -> RootIsolation.interval -> Sign.sign).
 Notation finder := (isolation common squarefree intervals sign_there).
 Notation returned := (returned common squarefree intervals sign_there).
 

@@ -257,10 +257,8 @@ Section Query.
 
 (** Differences of coordinates as integers, of an edge/edge or a vertex/face query. On each axis they are below
     2^extent, which only determines the rounding. *)
-Variable edges : bool.
-Variables b c p : @vector_form integers.
-Hypotheses (degree_b : degree b 1) (degree_c : degree c 1) (degree_p : degree p 1).
-Variables extent_x extent_y extent_z : Z.
+Context (edges : bool) (b c p : @vector_form integers) (degree_b : degree b 1) (degree_c : degree c 1)
+  (degree_p : degree p 1) (extent_x extent_y extent_z : Z).
 Let y : list R := map IZR (y_form b c p).
 
 Let B (t : R) : point := vector_at b t.
@@ -429,8 +427,7 @@ Proof.
 Qed.
 
 (** Arbitrary estimates in floating point. *)
-Variable estimate : part -> Z.
-Variable refine : Z -> part -> Z -> Z -> Z -> Z.
+Context (estimate : part -> Z) (refine : Z -> part -> Z -> Z -> Z -> Z).
 
 Fixpoint near (distinct : bool) (more : nat) (T : Z) (q : part) (place bits : Z) : option outcome :=
   match bracket_near y q place bits with
@@ -1032,12 +1029,8 @@ Definition contact_of (edges : bool) (extent_x extent_y extent_z : Z)
 
 Section Decisions.
 
-Variable unit : point.
-Hypothesis U : units unit.
-Variables extent_x extent_y extent_z : Z.
-Variable estimate : part -> Z.
-Variable refine : Z -> part -> Z -> Z -> Z -> Z.
-Variable steps : nat.
+Context (unit : point) (U : units unit) (extent_x extent_y extent_z : Z) (estimate : part -> Z)
+  (refine : Z -> part -> Z -> Z -> Z -> Z) (steps : nat).
 Let decide edges := contact_of edges extent_x extent_y extent_z estimate refine steps.
 
 Theorem vertex_edge_decision_right m0 m1 m2 v e0 e1 : in_integers unit m0 v -> in_integers unit m1 e0 ->

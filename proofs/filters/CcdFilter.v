@@ -87,8 +87,7 @@ Proof. induction e; simpl; congruence. Qed.
 
 Section CcdFilter.
 
-Variable direction : R -> Z.
-Context {direction_valid : Valid_rnd direction}.
+Context (direction : R -> Z) {direction_valid : Valid_rnd direction}.
 Notation fl := (rnd p emin direction).
 Notation flc := (rnd p emin nearest).
 Notation number := (number p emin).
@@ -207,17 +206,14 @@ Proof. destruct f; easy. Qed.
 
 Section Query.
 
-Variables mx my mz : R.
-Variable q : query.
+Context (mx my mz : R) (q : query).
 (** Components are differences at both ends of the step. *)
 Definition differences_fit (m : R) (f : form) : Prop :=
   length f = 2%nat /\ forall e, In e f ->
     exists a b, e = Difference a b m /\ number a /\ number b /\ Rabs (fl (a - b)) <= m <= W.
 Definition moving (v : vector) : Prop :=
   differences_fit mx (x_ v) /\ differences_fit my (y_ v) /\ differences_fit mz (z_ v).
-Hypothesis b_moving : moving (b_ q).
-Hypothesis c_moving : moving (c_ q).
-Hypothesis p_moving : moving (p_ q).
+Context (b_moving : moving (b_ q)) (c_moving : moving (c_ q)) (p_moving : moving (p_ q)).
 
 Lemma differences_all_fit m f : differences_fit m f -> all_fit m 1 0 f.
 Proof.

@@ -63,10 +63,7 @@ Fixpoint height (e : counted) : nat :=
 
 Section ErrorCount.
 
-Variables p emin : Z.
-Context {p_positive : Prec_gt_0 p}.
-Variable direction : R -> Z.
-Context {direction_valid : Valid_rnd direction}.
+Context (p emin : Z) {p_positive : Prec_gt_0 p} (direction : R -> Z) {direction_valid : Valid_rnd direction}.
 Notation fl := (rnd p emin direction).
 (** Counts are rounded to nearest, since the compiler computes them. *)
 Notation flc := (rnd p emin nearest).
@@ -116,8 +113,7 @@ Fixpoint count (e : counted) : error_count :=
   | Converted _ _ _ => {| magnitude := 1; error := 1; underflow := 1 |}
   end.
 
-Variable W : R.
-Hypothesis W_1 : 1 <= W.
+Context (W : R) (W_1 : 1 <= W).
 
 (** Inputs are numbers within their bounds, constants are nonzero numbers, and there is no product of constants. *)
 Fixpoint admissible (e : counted) : Prop :=
@@ -132,8 +128,7 @@ Fixpoint admissible (e : counted) : Prop :=
       number computed /\ Rabs computed <= M <= W /\ Rabs (computed - x) <= eps * Rabs computed + eta
   end.
 
-Hypothesis p_10 : (10 <= p)%Z.
-Hypothesis emin_p : (emin <= 1 - 2 * p)%Z.
+Context (p_10 : (10 <= p)%Z) (emin_p : (emin <= 1 - 2 * p)%Z).
 
 Lemma nearest_error : rounding_error p emin nearest u (eta / 2).
 Proof. apply rounding_error_nearest; auto. lia. Qed.

@@ -34,18 +34,15 @@ Open Scope R_scope.
 
 Section Extents.
 
-Variable direction : R -> Z.
-Context {direction_valid : Valid_rnd direction}.
+Context (direction : R -> Z) {direction_valid : Valid_rnd direction}.
 Notation single := (rnd 24 (-149) direction).
 Notation number := (Format.number 53 (-1074)).
 Notation float := (Format.number 24 (-149)).
 Notation eps := (eps 24).
 
-Variables low high : point.
-Hypothesis low_numbers : number (x low) /\ number (y low) /\ number (z low).
-Hypothesis high_numbers : number (x high) /\ number (y high) /\ number (z high).
-Hypothesis low_bounded : bounded low.
-Hypothesis high_bounded : bounded high.
+Context (low high : point) (low_numbers : number (x low) /\ number (y low) /\ number (z low))
+  (high_numbers : number (x high) /\ number (y high) /\ number (z high)) (low_bounded : bounded low)
+  (high_bounded : bounded high).
 Notation f := (frame_of direction low high).
 Notation in_frame := (in_frame low high).
 
@@ -321,8 +318,7 @@ Qed.
     extents then contain 0. *)
 Section Until.
 
-Variable d : R.
-Hypothesis d_0 : 0 <= d.
+Context (d : R) (d_0 : 0 <= d).
 Notation double := (rnd 53 (-1074) direction).
 Definition margin_in_double : R :=
   double (double (double (rnd 53 (-1074) nearest 1.0001 * d) * scale f) + 4 * eps).

@@ -77,10 +77,7 @@ Qed.
 
 Section Query.
 
-Variable q : query.
-Hypothesis b_length : of_length 2 (b_ q).
-Hypothesis c_length : of_length 2 (c_ q).
-Hypothesis p_length : of_length 2 (p_ q).
+Context (q : query) (b_length : of_length 2 (b_ q)) (c_length : of_length 2 (c_ q)) (p_length : of_length 2 (p_ q)).
 Notation b := (exact_vector (b_ q)).
 Notation c := (exact_vector (c_ q)).
 Notation p := (exact_vector (p_ q)).
@@ -132,8 +129,7 @@ Qed.
 
 Section Halvings.
 
-Variable direction : R -> Z.
-Context {direction_valid : Valid_rnd direction}.
+Context (direction : R -> Z) {direction_valid : Valid_rnd direction}.
 Notation fl := (rnd p emin direction).
 Notation flc := (rnd p emin nearest).
 Notation number := (number p emin).
@@ -326,8 +322,7 @@ End Halvings.
 
 Section Stages.
 
-Variable direction : R -> Z.
-Context {direction_valid : Valid_rnd direction}.
+Context (direction : R -> Z) {direction_valid : Valid_rnd direction}.
 Notation fl := (rnd p emin direction).
 Notation number := (number p emin).
 Notation eps := (eps p).
@@ -426,17 +421,12 @@ Proof. intros N P L. apply stands_read; auto. simpl INR. lra. Qed.
 
 Section Query.
 
-Variable q : query.
-Variables mx my mz : R.
-Hypothesis b_moving : moving direction mx my mz (b_ q).
-Hypothesis c_moving : moving direction mx my mz (c_ q).
-Hypothesis p_moving : moving direction mx my mz (p_ q).
-Variable inside : query -> list form.
+Context (q : query) (mx my mz : R) (b_moving : moving direction mx my mz (b_ q))
+  (c_moving : moving direction mx my mz (c_ q)) (p_moving : moving direction mx my mz (p_ q))
+  (inside : query -> list form).
 Notation g_error := (error_of_g direction inside mx my mz).
-Hypothesis inside_fits : inside_fit direction mx my mz (inside q).
-Hypothesis inside_error : forall f e, In f (inside q) -> In e (quartic f) ->
-  Rabs (value e - exact e) + tiny / 1000 <= g_error * (1 - eps).
-Hypothesis inside_some : inside q <> [].
+Context (inside_fits : inside_fit direction mx my mz (inside q)) (inside_error : forall f e, In f (inside q) -> In e
+    (quartic f) -> Rabs (value e - exact e) + tiny / 1000 <= g_error * (1 - eps)) (inside_some : inside q <> []).
 
 Notation y := (map value (cubic (coplanarity q))).
 Notation Y := (map exact (cubic (coplanarity q))).
@@ -590,12 +580,8 @@ Section Sized.
 
 Variables b1 b0 c1 c0 p1 p0 : Contact.moving.
 Notation numbers := SeparatingAxis.numbers.
-Hypothesis b1_numbers : numbers b1.
-Hypothesis b0_numbers : numbers b0.
-Hypothesis c1_numbers : numbers c1.
-Hypothesis c0_numbers : numbers c0.
-Hypothesis p1_numbers : numbers p1.
-Hypothesis p0_numbers : numbers p0.
+Context (b1_numbers : numbers b1) (b0_numbers : numbers b0) (c1_numbers : numbers c1) (c0_numbers : numbers c0)
+  (p1_numbers : numbers p1) (p0_numbers : numbers p0).
 Notation d := (differences_of b1 b0 c1 c0 p1 p0).
 Notation m := (sizes d).
 Notation q := {| b_ := moving_difference m b1 b0; c_ := moving_difference m c1 c0;
@@ -679,26 +665,18 @@ Qed.
 End At.
 
 (** Hypotheses on a kind of query; K means that it collides. *)
-Variable inside : query -> list form.
-Variable sides : sides_of.
-Variable K : Prop.
+Context (inside : query -> list form) (sides : sides_of) (K : Prop).
 Notation Y := (map exact (cubic (coplanarity q))).
 Notation Gs := (map (fun f => map exact (quartic f)) (inside q)).
 Notation parts axes := (SeparatingAxis.separated (sides d) axes).
-Hypothesis parts_right :
-  parts (SeparatingAxis.coordinate_axes (Contact.x m) (Contact.y m) (Contact.z m)) = true \/
-  parts (SeparatingAxis.diagonal_axes direction (Contact.x m) (Contact.y m) (Contact.z m)) = true -> ~ K.
-Hypothesis inside_right :
-  let moving := moving direction (Contact.x m) (Contact.y m) (Contact.z m) in
-  moving (b_ q) -> moving (c_ q) -> moving (p_ q) ->
-  inside_fit direction (Contact.x m) (Contact.y m) (Contact.z m) (inside q) /\
-  forall f e, In f (inside q) -> In e (quartic f) -> Rabs (value e - exact e) + tiny / 1000 <=
-    error_of_g direction inside (Contact.x m) (Contact.y m) (Contact.z m) * (1 - eps).
-Hypothesis inside_some : inside q <> [].
-Hypothesis necessary : K -> exists t, 0 <= t <= 1 /\ Subdivision.control_at Y t = 0 /\
-  forall G, In G Gs -> 0 <= Subdivision.control_at G t.
-Hypothesis sufficient : forall t, 0 <= t <= 1 -> Subdivision.control_at Y t = 0 ->
-  (forall G, In G Gs -> 0 < Subdivision.control_at G t) -> K.
+Context (parts_right : parts (SeparatingAxis.coordinate_axes (Contact.x m) (Contact.y m) (Contact.z m)) = true \/ parts
+    (SeparatingAxis.diagonal_axes direction (Contact.x m) (Contact.y m) (Contact.z m)) = true -> ~ K) (inside_right :
+    let moving := moving direction (Contact.x m) (Contact.y m) (Contact.z m) in moving (b_ q) -> moving (c_ q) ->
+    moving (p_ q) -> inside_fit direction (Contact.x m) (Contact.y m) (Contact.z m) (inside q) /\ forall f e, In f
+    (inside q) -> In e (quartic f) -> Rabs (value e - exact e) + tiny / 1000 <= error_of_g direction inside (Contact.x
+    m) (Contact.y m) (Contact.z m) * (1 - eps)) (inside_some : inside q <> []) (necessary : K -> exists t, 0 <= t <= 1
+    /\ Subdivision.control_at Y t = 0 /\ forall G, In G Gs -> 0 <= Subdivision.control_at G t) (sufficient : forall t,
+    0 <= t <= 1 -> Subdivision.control_at Y t = 0 -> (forall G, In G Gs -> 0 < Subdivision.control_at G t) -> K).
 
 Lemma filter_right : match filter sides inside b1 b0 c1 c0 p1 p0 with
   | Subdivision.separate => ~ K

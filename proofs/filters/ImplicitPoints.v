@@ -178,9 +178,7 @@ End Signs.
 
 Section Filter.
 
-Variables p emin : Z.
-Context {p_positive : Prec_gt_0 p}.
-Hypothesis emin_p : (emin <= 1 - 2 * p)%Z.
+Context (p emin : Z) {p_positive : Prec_gt_0 p} (emin_p : (emin <= 1 - 2 * p)%Z).
 Notation filter_sign := (filter_sign p emin).
 Notation roundings := (roundings p).
 Notation representable := (representable p emin).

@@ -104,9 +104,7 @@ Definition scaled (degrees : list nat) (dimension : nat) (s : R) (k : nat) (x : 
 
 Section Predicates.
 
-Variables p emin : Z.
-Context {p_positive : Prec_gt_0 p}.
-Hypothesis emin_p : (emin <= 1 - 2 * p)%Z.
+Context (p emin : Z) {p_positive : Prec_gt_0 p} (emin_p : (emin <= 1 - 2 * p)%Z).
 Notation filter_sign := (filter_sign p emin).
 Notation roundings := (roundings p).
 Definition representable (a : point) : Prop := forall i, number p emin (a i).

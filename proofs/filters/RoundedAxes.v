@@ -21,8 +21,7 @@ Open Scope R_scope.
 
 Section RoundedAxes.
 
-Variable direction : R -> Z.
-Context {direction_valid : Valid_rnd direction}.
+Context (direction : R -> Z) {direction_valid : Valid_rnd direction}.
 Notation double := (rnd 53 (-1074) direction).
 Notation single := (rnd 24 (-149) direction).
 Notation number := (number 53 (-1074)).
@@ -124,14 +123,12 @@ Qed.
 
 Section Frame.
 
-Variables low high : point.
-Hypothesis low_numbers : number (x low) /\ number (y low) /\ number (z low).
-Hypothesis high_numbers : number (x high) /\ number (y high) /\ number (z high).
+Context (low high : point) (low_numbers : number (x low) /\ number (y low) /\ number (z low))
+  (high_numbers : number (x high) /\ number (y high) /\ number (z high)).
 (** Any finite double. *)
 Definition bounded (p : point) : Prop :=
   Rabs (x p) <= bpow radix2 1024 /\ Rabs (y p) <= bpow radix2 1024 /\ Rabs (z p) <= bpow radix2 1024.
-Hypothesis low_bounded : bounded low.
-Hypothesis high_bounded : bounded high.
+Context (low_bounded : bounded low) (high_bounded : bounded high).
 Notation f := (frame_of low high).
 
 Definition inside_box (p : point) : Prop :=
@@ -463,8 +460,7 @@ Qed.
 Section Boxes.
 
 (** box_pack: rounded boxes do not touch if on some axis one ends before the other begins. *)
-Variables c s : R.
-Hypothesis s_0 : 0 <= s.
+Context (c s : R) (s_0 : 0 <= s).
 Definition coordinate_of (n : nat) : point -> R := match n with 0%nat => x | 1%nat => y | _ => z end.
 Definition axis_of (n : nat) : point := match n with 0%nat => Point 1 0 0 | 1%nat => Point 0 1 0 | _ =>
   Point 0 0 1 end.

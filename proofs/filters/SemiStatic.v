@@ -14,8 +14,7 @@ Open Scope R_scope.
 
 Section SemiStatic.
 
-Variables p emin : Z.
-Context {p_positive : Prec_gt_0 p}.
+Context (p emin : Z) {p_positive : Prec_gt_0 p}.
 Notation fl := (rnd p emin nearest).
 Notation number := (number p emin).
 Notation u := (u p).
@@ -119,10 +118,7 @@ Fixpoint homogeneous (e : expression) : Prop :=
   | Negation x => homogeneous x
   end.
 
-Hypothesis M_0 : 0 <= M.
-Hypothesis M_number : number M.
-Hypothesis p_2 : (2 <= p)%Z.
-Hypothesis emin_4p : (emin <= - 4 * p - 5)%Z.
+Context (M_0 : 0 <= M) (M_number : number M) (p_2 : (2 <= p)%Z) (emin_4p : (emin <= - 4 * p - 5)%Z).
 
 Lemma whole_number n : (0 <= n <= 2 ^ p)%Z -> number (IZR n).
 Proof.
@@ -781,8 +777,7 @@ Qed.
 Section Overflow.
 
 (** The format's largest number. Operations that exceed it give an infinity or NaN, as in StaticFilter.v. *)
-Variable largest : R.
-Hypothesis largest_p : 2 * IZR (2 ^ p) <= largest.
+Context (largest : R) (largest_p : 2 * IZR (2 ^ p) <= largest).
 Notation in_range := (in_range largest).
 Notation value_in_range := (value_in_range p emin largest).
 

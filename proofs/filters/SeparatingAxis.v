@@ -17,8 +17,7 @@ Notation emin := (-1074)%Z (only parsing).
 
 Section SeparatingAxis.
 
-Variable direction : R -> Z.
-Context {direction_valid : Valid_rnd direction}.
+Context (direction : R -> Z) {direction_valid : Valid_rnd direction}.
 Notation fl := (rnd p emin direction).
 Notation flc := (rnd p emin nearest).
 Notation number := (number p emin).
@@ -165,9 +164,7 @@ Qed.
 Section Margin.
 
 (** M is the size, Mc its computed value. *)
-Variables M Mc : R.
-Hypothesis M_0 : 0 <= M.
-Hypothesis Mc_size : M * (1 - eps) <= Mc <= M * (1 + eps).
+Context (M Mc : R) (M_0 : 0 <= M) (Mc_size : M * (1 - eps) <= Mc <= M * (1 + eps)).
 Notation allowed := (fl (Mc * margin)).
 
 Lemma allowed_bounds : 0 <= allowed /\ 9.18 * eps * M - eta <= allowed <= 17 * eps * M + eta.
@@ -284,9 +281,7 @@ Qed.
 
 Section Axes.
 
-Variable m : point.
-Hypothesis m_number : number (x m) /\ number (y m) /\ number (z m).
-Hypothesis m_0 : 0 <= x m /\ 0 <= y m /\ 0 <= z m.
+Context (m : point) (m_number : number (x m) /\ number (y m) /\ number (z m)) (m_0 : 0 <= x m /\ 0 <= y m /\ 0 <= z m).
 
 Lemma axes_measure a : In a (coordinate_axes (x m) (y m) (z m) ++ diagonal_axes (x m) (y m) (z m)) ->
   measures m a.
@@ -381,11 +376,8 @@ Proof. apply rnd_le; auto with typeclass_instances. Qed.
 
 Section Face.
 
-Variables v f0 f1 f2 : moving.
-Hypothesis v_numbers : numbers v.
-Hypothesis f0_numbers : numbers f0.
-Hypothesis f1_numbers : numbers f1.
-Hypothesis f2_numbers : numbers f2.
+Context (v f0 f1 f2 : moving) (v_numbers : numbers v) (f0_numbers : numbers f0) (f1_numbers : numbers f1)
+  (f2_numbers : numbers f2).
 Notation d := (differences_of f1 f0 f2 f0 v f0).
 Hypothesis d_sized : sized d.
 
@@ -444,11 +436,8 @@ End Face.
 
 Section Edges.
 
-Variables a0 a1 b0 b1 : moving.
-Hypothesis a0_numbers : numbers a0.
-Hypothesis a1_numbers : numbers a1.
-Hypothesis b0_numbers : numbers b0.
-Hypothesis b1_numbers : numbers b1.
+Context (a0 a1 b0 b1 : moving) (a0_numbers : numbers a0) (a1_numbers : numbers a1) (b0_numbers : numbers b0)
+  (b1_numbers : numbers b1).
 Notation d := (differences_of a1 a0 b1 b0 b0 a0).
 Hypothesis d_sized : sized d.
 

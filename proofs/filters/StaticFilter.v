@@ -25,8 +25,7 @@ Inductive expression :=
 
 Section StaticFilter.
 
-Variables p emin : Z.
-Context {p_positive : Prec_gt_0 p}.
+Context (p emin : Z) {p_positive : Prec_gt_0 p}.
 Notation fl := (rnd p emin nearest).
 Notation number := (number p emin).
 Notation eps := (eps p).
@@ -132,8 +131,7 @@ Fixpoint exact_size (e : expression) : R :=
   | Negation x => exact_size x
   end.
 
-Hypothesis p_2 : (2 <= p)%Z.
-Hypothesis emin_p : (emin <= 1 - 2 * p)%Z.
+Context (p_2 : (2 <= p)%Z) (emin_p : (emin <= 1 - 2 * p)%Z).
 
 Let an_error := rounding_error_nearest p emin ltac:(lia).
 Let rnd_exact := Format.rnd_exact p emin nearest.
@@ -823,8 +821,7 @@ Section Overflow.
 
 (** The format's largest number: rounding to nearest gives an infinity if the result without it would exceed it.
     Operations +, - and * on infinities and NaN give one of them. *)
-Variable largest : R.
-Hypothesis largest_0 : 0 <= largest.
+Context (largest : R) (largest_0 : 0 <= largest).
 Definition in_range (x : R) : Prop := Rabs x <= largest.
 
 (** No operation of the value overflows, or of the size. *)

@@ -92,8 +92,7 @@ Proof. intros F. induction F; simpl; congruence. Qed.
 
 Section Subdivision.
 
-Context {S : Type}.
-Variable none : S.
+Context {S : Type} (none : S).
 Variable midpoint : S -> S -> S.  (** (a + b)*S(0.5) *)
 Notation halves := (halves none midpoint).
 
@@ -119,10 +118,7 @@ Definition changes_sign (sign_of : S -> sign) (p : list S) : bool :=
 
 Section OneKind.
 
-Variable sign_of : S -> sign.
-Variable stands : nat -> S -> R -> Prop.
-Variable most : nat.
-Hypothesis signs_read : reads sign_of stands most.
+Context (sign_of : S -> sign) (stands : nat -> S -> R -> Prop) (most : nat) (signs_read : reads sign_of stands most).
 
 Lemma signs_of_all s i p P : (i <= most)%nat -> Forall2 (stands i) p P ->
   forallb (fun a => same_sign (sign_of a) s) p = true -> Forall (sign_is_right s) P.
@@ -186,8 +182,7 @@ End OneKind.
 
 (** The loop: the left half of an interval is tested before its right half, and the first answer except "separate"
     ends it. `hopeless` gives intervals to the next stage before the last halving. *)
-Variables sign_y sign_g : S -> sign.
-Variable hopeless : nat -> list S -> bool.
+Context (sign_y sign_g : S -> sign) (hopeless : nat -> list S -> bool).
 Fixpoint subdivide (halvings_left : nat) (y : list S) (gs : list (list S)) : outcome :=
   if (above sign_y y || below sign_y y) || existsb (below sign_g) gs then separate
   else if changes_sign sign_y y && forallb (above sign_g) gs then collides
@@ -202,10 +197,8 @@ Fixpoint subdivide (halvings_left : nat) (y : list S) (gs : list (list S)) : out
           end
     end.
 
-Variables stands_y stands_g : nat -> S -> R -> Prop.
-Variables max_y max_g : nat.
-Hypothesis reads_y : reads sign_y stands_y max_y.
-Hypothesis reads_g : reads sign_g stands_g max_g.
+Context (stands_y stands_g : nat -> S -> R -> Prop) (max_y max_g : nat) (reads_y : reads sign_y stands_y max_y)
+  (reads_g : reads sign_g stands_g max_g).
 
 Definition quartics (j : nat) (gs : list (list S)) (Gs : list (list R)) : Prop :=
   Forall2 (fun g G => length g = 5%nat /\ Forall2 (stands_g j) g G) gs Gs.

@@ -14,8 +14,7 @@ Open Scope R_scope.
 
 Section ErrorFree.
 
-Variables p emin : Z.
-Context {p_positive : Prec_gt_0 p}.
+Context (p emin : Z) {p_positive : Prec_gt_0 p}.
 Notation fl := (rnd p emin nearest).
 Notation number := (number p emin).
 Notation eta := (eta emin).

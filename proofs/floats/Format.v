@@ -31,8 +31,7 @@ Qed.
 
 Section Format.
 
-Variables p emin : Z.
-Context {p_positive : Prec_gt_0 p}.
+Context (p emin : Z) {p_positive : Prec_gt_0 p}.
 
 Notation format := (FLT_exp emin p).
 Definition number (x : R) : Prop := generic_format radix2 format x.
@@ -118,8 +117,7 @@ Qed.
 
 Section Rounding.
 
-Variable direction : R -> Z.
-Context {direction_valid : Valid_rnd direction}.
+Context (direction : R -> Z) {direction_valid : Valid_rnd direction}.
 
 (** The rounded value of a real number: fl(x). *)
 Definition rnd (x : R) : R := round radix2 format direction x.
@@ -259,8 +257,7 @@ Qed.
 (** Lower bounds of a rounded nonnegative number. *)
 Section Lower.
 
-Variables r h : R.
-Hypothesis E : rounding_error r h.
+Context (r h : R) (E : rounding_error r h).
 
 Lemma rnd_relative x : smallest_normal <= x -> x * (1 - r) <= rnd x.
 Proof.
@@ -381,11 +378,9 @@ End Lower.
 (** A rounding leaves at least q times a normal number, and all but h of a smaller one. *)
 Section Leaves.
 
-Variables q h : R.
-Hypothesis q_1 : 0 < q <= 1.
-Hypothesis h_eta : 0 <= h <= eta.
-Hypothesis leaves_normal : forall x, smallest_normal <= Rabs x -> Rabs x * q <= Rabs (rnd x).
-Hypothesis leaves_small : forall x, Rabs x < smallest_normal -> Rabs x - h <= Rabs (rnd x).
+Context (q h : R) (q_1 : 0 < q <= 1) (h_eta : 0 <= h <= eta)
+  (leaves_normal : forall x, smallest_normal <= Rabs x -> Rabs x * q <= Rabs (rnd x))
+  (leaves_small : forall x, Rabs x < smallest_normal -> Rabs x - h <= Rabs (rnd x)).
 
 Lemma normal_left x : smallest_normal <= x -> x * q <= rnd x.
 Proof.

@@ -11,11 +11,11 @@ From Errbound Require Import Code.
 From Errbound Require Format.
 Open Scope R_scope.
 
+Notation finite x := (BinarySingleNaN.is_finite x = true).
+
 Section Ieee.
 
-Variables p emax : Z.
-Context {p_positive : Prec_gt_0 p}.
-Context {p_below : Prec_lt_emax p emax}.
+Context (p emax : Z) {p_positive : Prec_gt_0 p} {p_below : Prec_lt_emax p emax}.
 Notation float := (binary_float p emax).
 
 (** n 2^e, rounded. *)
@@ -50,7 +50,6 @@ Definition exponent (x : float) : Z := snd (Bfrexp x).
 Notation emin := (3 - emax - p)%Z.
 Notation fl := (Format.rnd p emin Format.nearest).
 Notation number := (Format.number p emin).
-Notation finite x := (BinarySingleNaN.is_finite x = true).
 
 Lemma number_B2R (x : float) : number (B2R x).
 Proof. apply (generic_format_B2R p emax x). Qed.
@@ -312,6 +311,11 @@ Proof.
   - destruct x as [| s | |]; simpl in *; try easy. now destruct s.
 Qed.
 End Ieee.
+
+Infix "⊕" := (plus _ (floats _ _)) (at level 50, left associativity).
+Infix "⊖" := (minus _ (floats _ _)) (at level 50, left associativity).
+Infix "⊗" := (times _ (floats _ _)) (at level 40, left associativity).
+Infix "⊘" := (over _ (floats _ _)) (at level 40, left associativity).
 
 (** Splits finite results into finite operands and the value. *)
 Ltac finite_parts p emax p_3 := repeat match goal with

@@ -17,8 +17,7 @@ Open Scope R_scope.
 
 Section Upper.
 
-Variables p emin : Z.
-Context {p_positive : Prec_gt_0 p}.
+Context (p emin : Z) {p_positive : Prec_gt_0 p}.
 
 Notation fl := (rnd p emin nearest).
 Notation number := (number p emin).
@@ -29,8 +28,7 @@ Notation ulp := (ulp radix2 (FLT_exp emin p)).
 
 Definition upper (x : R) : R := fl (x * fl (1 + eps)).
 
-Hypothesis emin_p : (emin <= - p - 1)%Z.
-Hypothesis p_2 : (2 <= p)%Z.
+Context (emin_p : (emin <= - p - 1)%Z) (p_2 : (2 <= p)%Z).
 
 Lemma one_plus_eps : fl (1 + eps) = 1 + eps.
 Proof. apply rnd_exact; auto with typeclass_instances. apply (number_1_power p emin 1); auto; lia. Qed.
@@ -132,10 +130,7 @@ End Upper.
 
 Section Sum_of_bounds.
 
-Variables p emin : Z.
-Context {p_positive : Prec_gt_0 p}.
-Variable direction : R -> Z.
-Context {direction_valid : Valid_rnd direction}.
+Context (p emin : Z) {p_positive : Prec_gt_0 p} (direction : R -> Z) {direction_valid : Valid_rnd direction}.
 
 Notation fl := (rnd p emin direction).
 Notation number := (number p emin).
@@ -155,8 +150,7 @@ Definition sum_of_bounds (enlarged own x y : R) : R :=
     if Rlt_bool careful enlarged then careful else enlarged
   else enlarged.
 
-Hypothesis p_2 : (2 <= p)%Z.
-Hypothesis emin_p : (emin <= - p)%Z.
+Context (p_2 : (2 <= p)%Z) (emin_p : (emin <= - p)%Z).
 
 Lemma one_and_eps : fl (1 + eps) = 1 + eps.
 Proof. apply rnd_exact; auto. apply (number_1_power p emin 1); auto; lia. Qed.

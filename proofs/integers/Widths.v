@@ -26,8 +26,7 @@ Inductive sized :=
 Section Sized.
 
 (** A coordinate's bits. 1 is 2^-unit units, if numbers of different degree are added. *)
-Variable coordinate_bits : Z.
-Variable unit : Z.
+Context (coordinate_bits : Z) (unit : Z).
 
 Fixpoint degree (e : sized) : Z :=
   match e with

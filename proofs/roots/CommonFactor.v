@@ -158,8 +158,7 @@ Qed.
 
 Section Root.
 
-Variables (p : Z) (r : R).
-Hypothesis P : prime p.
+Context (p : Z) (r : R) (P : prime p).
 Let prime_p : zero_or_prime p := or_intror P.
 
 (** A polynomial of least degree with the root r. *)

@@ -123,11 +123,8 @@ Proof. induction a; intros; simpl; auto. Qed.
 
 Section Part.
 
-Variables from len depth : Z.
-Hypothesis from_range : (0 <= from)%Z.
-Hypothesis len_range : (0 < len)%Z.
-Hypothesis sum_range : (from + len <= 2 ^ depth)%Z.
-Hypothesis depth_range : (0 <= depth)%Z.
+Context (from len depth : Z) (from_range : (0 <= from)%Z) (len_range : (0 < len)%Z)
+  (sum_range : (from + len <= 2 ^ depth)%Z) (depth_range : (0 <= depth)%Z).
 Let s := IZR from * pow2 (- depth).
 Let l := IZR len * pow2 (- depth).
 

@@ -15,9 +15,7 @@ Open Scope Z_scope.
 
 Section Field.
 
-Variable p : Z.
-Hypothesis p_range : 2 < p < 2 ^ 62.
-Hypothesis p_odd : Z.Odd p.
+Context (p : Z) (p_range : 2 < p < 2 ^ 62) (p_odd : Z.Odd p).
 
 (** The code, with double words modulo 2^128. *)
 Definition better (inverse : Z) : Z := inverse * ((2 - p * inverse mod B) mod B) mod B.

@@ -115,10 +115,8 @@ Qed.
 
 Section Isolation.
 
-Variable common : list Z -> list Z -> list Z.
-Variable squarefree : list Z -> list Z.
-Variable intervals : list Z -> list interval.
-Variable sign_there : list Z -> list Z -> interval -> sign.
+Context (common : list Z -> list Z -> list Z) (squarefree : list Z -> list Z) (intervals : list Z -> list interval)
+  (sign_there : list Z -> list Z -> interval -> sign).
 
 Definition asked (p : list Z) : Prop := trimmed p /\ (2 <= length p)%nat /\ poly p 0 <> 0.
 (** The results of the algorithms, for the given arguments. The interval may be one that earlier calls have refined:

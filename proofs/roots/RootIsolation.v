@@ -181,9 +181,7 @@ Qed.
 
 Section Part.
 
-Variables (p h : list R) (lo hi : R).
-Hypothesis L : lo < hi.
-Hypothesis S : stands_for h p lo hi.
+Context (p h : list R) (lo hi : R) (L : lo < hi) (S : stands_for h p lo hi).
 Let place (t : R) := lo + t * (hi - lo).
 Let time (x : R) := (x - lo) / (hi - lo).
 

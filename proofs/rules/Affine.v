@@ -19,8 +19,7 @@ Open Scope R_scope.
 
 Section Affine.
 
-Variables p emin : Z.
-Context {p_positive : Prec_gt_0 p}.
+Context (p emin : Z) {p_positive : Prec_gt_0 p}.
 
 Notation fl := (rnd p emin nearest).
 Notation number := (number p emin).
@@ -168,8 +167,7 @@ Definition set (e : Z -> R) (f : Z) (t : R) : Z -> R := fun s => if (s =? f)%Z t
 (** f is not a source of these terms. *)
 Definition is_new (f : Z) (A : bound) : Prop := Forall (fun t => fst t <> f) (of A).
 
-Hypothesis p_4 : (4 <= p)%Z.
-Hypothesis emin_p : (emin <= - p - 1)%Z.
+Context (p_4 : (4 <= p)%Z) (emin_p : (emin <= - p - 1)%Z).
 
 Lemma number_fl x : number (fl x).
 Proof. apply rnd_number; auto with typeclass_instances. Qed.
@@ -259,9 +257,7 @@ Proof. now intros H <-. Qed.
 
 Section Operation.
 
-Variable e : Z -> R.
-Variable f : Z.
-Hypothesis e_units : units e.
+Context (e : Z -> R) (f : Z) (e_units : units e).
 Notation accounts := (accounts e f).
 
 Lemma fold_sum l r : Forall (fun t : Z * R => number (snd t)) l -> amount r ->
@@ -414,14 +410,8 @@ Proof.
 Qed.
 
 (** Hypotheses on two operands. *)
-Variables (a x b y : R) (A B : bound).
-Hypothesis of_a : holds e a A x.
-Hypothesis of_b : holds e b B y.
-Hypothesis new_a : is_new f A.
-Hypothesis new_b : is_new f B.
-Variable limit : nat.
-Variable g : option Z.
-Hypothesis g_f : g = Some f \/ g = None.
+Context (a x b y : R) (A B : bound) (of_a : holds e a A x) (of_b : holds e b B y) (new_a : is_new f A)
+  (new_b : is_new f B) (limit : nat) (g : option Z) (g_f : g = Some f \/ g = None).
 
 Lemma merged_fit : Forall fit (merged (of A) (of B)).
 Proof.

@@ -8,10 +8,7 @@ Import ListNotations.
 
 Section Affine.
 
-Variable T : Type.
-Variable A : arithmetic T.
-Variable has_fast_fma : bool.
-Variable limit : nat.
+Context (T : Type) (A : arithmetic T) (has_fast_fma : bool) (limit : nat).
 
 Declare Scope code.
 Infix "+" := (plus T A) : code.

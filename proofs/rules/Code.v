@@ -35,8 +35,7 @@ Inductive sign_type := negative | zero | positive | uncertain.
 
 Section Code.
 
-Variable T : Type.
-Variable A : arithmetic T.
+Context (T : Type) (A : arithmetic T).
 (** True if fma is one instruction. In constant expressions two_product does not use fma, but product_error_is_exact
     still tests has_fast_fma. From 4 digits on both give the same for every product. *)
 Variable has_fast_fma : bool.
@@ -390,8 +389,7 @@ Definition residual_rule : rule (T * T) := {|
 (** functions.hpp, for tracked numbers: a value and a bound. *)
 Section Functions.
 
-Variable B : Type.
-Variable R : rule B.
+Context (B : Type) (R : rule B).
 
 Definition tracked_exactly (v : T) : T * B := (v, rule_exact B R v).
 Definition tracked_within (v e : T) : T * B := (v, rule_within B R v e).

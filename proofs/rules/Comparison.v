@@ -10,8 +10,7 @@ Open Scope R_scope.
 
 Section Comparison.
 
-Variable eps : R.
-Hypothesis eps_range : 0 < eps < 1.
+Context (eps : R) (eps_range : 0 < eps < 1).
 
 Definition tight_sum (v sa sb : R) : R := Rabs v * eps / (1 - eps) + sa + sb.
 Definition tight_product (v a sa b sb : R) : R :=

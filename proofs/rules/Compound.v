@@ -21,15 +21,11 @@ Definition exact_horner (c : list R) (x : R) : R := fold_right (fun a sum => a +
 
 Section Compound.
 
-Variable T : Type.
-Variable A : arithmetic T.
-Variable B : Type.
-Variable by_rule : operations T B.
+Context (T : Type) (A : arithmetic T) (B : Type) (by_rule : operations T B).
 Notation rule := (the_rule T B by_rule).
 
 (** The real number of a number, and the meaning of a value and a bound for it. *)
-Variable real : T -> R.
-Variable holds : T -> B -> R -> Prop.
+Context (real : T -> R) (holds : T -> B -> R -> Prop).
 Definition tracked_holds (x : T * B) (r : R) : Prop := holds (fst x) (snd x) r.
 
 Record keeps : Prop := {
@@ -180,12 +176,8 @@ End Compound.
 (** The rule tight over the real numbers, rounded in any one direction. *)
 Section Tight_keeps.
 
-Variables p emin : Z.
-Context {p_positive : Prec_gt_0 p}.
-Hypothesis emin_p : (emin <= - p)%Z.
-Hypothesis p_5 : (5 <= p)%Z.
-Variable direction : R -> Z.
-Context {direction_valid : Valid_rnd direction}.
+Context (p emin : Z) {p_positive : Prec_gt_0 p} (emin_p : (emin <= - p)%Z) (p_5 : (5 <= p)%Z) (direction : R -> Z)
+  {direction_valid : Valid_rnd direction}.
 Notation fl := (Format.rnd p emin direction).
 Notation number := (Format.number p emin).
 Notation rounded := (reals p emin direction).

@@ -9,9 +9,7 @@ Import ListNotations.
 
 Section Compound.
 
-Variable T : Type.
-Variable A : arithmetic T.
-Variable has_fast_fma : bool.
+Context (T : Type) (A : arithmetic T) (has_fast_fma : bool).
 
 Declare Scope code.
 Infix "+" := (plus T A) : code.
@@ -46,9 +44,7 @@ Record running := {
 
 Section Running_bound.
 
-Variable most : nat.
-Variable factor_units : nat -> Z.
-Variable underflows : nat -> nat -> Z.
+Context (most : nat) (factor_units : nat -> Z) (underflows : nat -> nat -> Z).
 
 Definition no_terms : running :=
   {| closed := #0; own := #0; inherited := #0; terms := O; uncertain_terms := O |}.
@@ -151,8 +147,7 @@ Definition residual_operations : operations (T * T) := {|
 (** functions.hpp, for tracked numbers: a value and a bound. *)
 Section Functions.
 
-Variable B : Type.
-Variable R : operations B.
+Context (B : Type) (R : operations B).
 Notation rule := (the_rule B R).
 Notation number := (T * B)%type.
 Notation exactly := (tracked_exactly T B rule).

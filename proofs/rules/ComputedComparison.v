@@ -16,10 +16,7 @@ Open Scope R_scope.
 
 Section Computed.
 
-Variables p emin : Z.
-Context {p_positive : Prec_gt_0 p}.
-Hypothesis p_8 : (8 <= p)%Z.
-Hypothesis emin_2p : (emin <= 2 - 2 * p)%Z.
+Context (p emin : Z) {p_positive : Prec_gt_0 p} (p_8 : (8 <= p)%Z) (emin_2p : (emin <= 2 - 2 * p)%Z).
 
 Notation fl := (rnd p emin nearest).
 Notation number := (number p emin).
@@ -161,9 +158,7 @@ Lemma f_1 : 1 <= f.
 Proof. unfold f. generalize (eps_positive p). lra. Qed.
 
 (** The induction's bound: s <= c (f^k - 1) B. *)
-Variables D least : R.
-Hypothesis D_range : 1 <= D <= 7.
-Hypothesis D_least : 6 * smallest_normal <= (D - 1) * Rmax least smallest_normal.
+Context (D least : R) (D_range : 1 <= D <= 7) (D_least : 6 * smallest_normal <= (D - 1) * Rmax least smallest_normal).
 Let c := D * f / 22.
 Notation power k := (f ^ Z.to_nat k).
 
@@ -523,10 +518,7 @@ End Computed.
 
 Section Theorems.
 
-Variables p emin : Z.
-Context {p_positive : Prec_gt_0 p}.
-Hypothesis p_8 : (8 <= p)%Z.
-Hypothesis emin_2p : (emin <= 2 - 2 * p)%Z.
+Context (p emin : Z) {p_positive : Prec_gt_0 p} (p_8 : (8 <= p)%Z) (emin_2p : (emin <= 2 - 2 * p)%Z).
 Notation eps := (eps p).
 Notation eta := (eta emin).
 Notation smallest_normal := (smallest_normal p emin).
@@ -623,8 +615,7 @@ End Theorems.
 
 (** 1 times 1, n times: its value, tight's error and safe's bound, as the code computes them. *)
 Section Ones.
-Variable T : Type.
-Variable A : Code.arithmetic T.
+Context (T : Type) (A : Code.arithmetic T).
 Fixpoint ones_multiplied (n : nat) : T * T * (T * Z) :=
   let number v := (v, Code.tight_exact T A v, Code.safe_exact T A v) in
   match n with

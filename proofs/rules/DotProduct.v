@@ -17,10 +17,7 @@ Open Scope R_scope.
 
 Section Rounded.
 
-Variables p emin : Z.
-Context {p_positive : Prec_gt_0 p}.
-Variable direction : R -> Z.
-Context {direction_valid : Valid_rnd direction}.
+Context (p emin : Z) {p_positive : Prec_gt_0 p} (direction : R -> Z) {direction_valid : Valid_rnd direction}.
 
 Notation fl := (Format.rnd p emin direction).
 Notation number := (Format.number p emin).
@@ -76,24 +73,16 @@ Definition exact_dot (pairs : list (R * R)) : R := fold_right (fun xy sum => fst
 Section Running.
 
 (** q is the part that remains after a rounding, h the part that it takes. *)
-Variables q h : R.
-Hypothesis q_1 : 0 < q <= 1.
-Hypothesis h_0 : 0 <= h.
-Hypothesis lower : forall x, 0 <= x -> x * q <= fl x \/ x - h <= fl x.
-Hypothesis sum_lower : forall x y, number x -> number y -> 0 <= x -> 0 <= y -> (x + y) * q <= fl (x + y).
+Context (q h : R) (q_1 : 0 < q <= 1) (h_0 : 0 <= h) (lower : forall x, 0 <= x -> x * q <= fl x \/ x - h <= fl x)
+  (sum_lower : forall x y, number x -> number y -> 0 <= x -> 0 <= y -> (x + y) * q <= fl (x + y)).
 
-Variable most : nat.
-Variable factor_units : nat -> Z.
-Variable underflows : nat -> nat -> Z.
-Variable own_of : bool -> R -> R -> R -> R.
+Context (most : nat) (factor_units : nat -> Z) (underflows : nat -> nat -> Z) (own_of : bool -> R -> R -> R -> R).
 
 Definition factor (m : nat) : R := 1 + IZR (factor_units m) * eps.
-Hypothesis factor_exact : forall m, (1 <= m <= most)%nat ->
-  fl (1 + fl (IZR (factor_units m) * eps)) = factor m.
-Hypothesis factor_pays : forall m, (1 <= m <= most)%nat -> 1 <= factor m * q ^ (m + 6).
-Hypothesis lost_exact : forall m k, (k <= m <= most)%nat ->
-  number (IZR (underflows m k) * eta).
-Hypothesis lost_pays : forall m k, (INR m + 1 + 2 * INR k) * h <= IZR (underflows m k) * eta.
+Context (factor_exact : forall m, (1 <= m <= most)%nat -> fl (1 + fl (IZR (factor_units m) * eps)) = factor m)
+  (factor_pays : forall m, (1 <= m <= most)%nat -> 1 <= factor m * q ^ (m + 6))
+  (lost_exact : forall m k, (k <= m <= most)%nat -> number (IZR (underflows m k) * eta))
+  (lost_pays : forall m k, (INR m + 1 + 2 * INR k) * h <= IZR (underflows m k) * eta).
 (** A term's own error covers the roundings of product and sum, except for h. *)
 Hypothesis own_pays : forall (first : bool) a b s, number a -> number b -> number s -> (first = true -> s = 0) ->
   let product := fl (a * b) in
@@ -441,10 +430,7 @@ Qed.
 (** Constants are exact. *)
 Section Constants.
 
-Variables p emin : Z.
-Context {p_positive : Prec_gt_0 p}.
-Variable direction : R -> Z.
-Context {direction_valid : Valid_rnd direction}.
+Context (p emin : Z) {p_positive : Prec_gt_0 p} (direction : R -> Z) {direction_valid : Valid_rnd direction}.
 Notation fl := (Format.rnd p emin direction).
 
 Lemma small_units_exact n : (emin <= 1 - p)%Z -> (0 <= n <= 2 ^ (p - 1))%Z ->
@@ -468,12 +454,8 @@ End Constants.
 (** Rule tight. *)
 Section Tight_dot.
 
-Variables p emin : Z.
-Context {p_positive : Prec_gt_0 p}.
-Hypothesis emin_p : (emin <= - p)%Z.
-Hypothesis p_8 : (8 <= p)%Z.
-Variable direction : R -> Z.
-Context {direction_valid : Valid_rnd direction}.
+Context (p emin : Z) {p_positive : Prec_gt_0 p} (emin_p : (emin <= - p)%Z) (p_8 : (8 <= p)%Z) (direction : R -> Z)
+  {direction_valid : Valid_rnd direction}.
 Notation fl := (Format.rnd p emin direction).
 Notation r := (Format.eps p).
 Notation h := (Format.eta emin).
@@ -555,10 +537,7 @@ End Tight_dot.
 (** Rule sharp. *)
 Section Sharp_dot.
 
-Variables p emin : Z.
-Context {p_positive : Prec_gt_0 p}.
-Hypothesis emin_p : (emin <= - p)%Z.
-Hypothesis p_5 : (5 <= p)%Z.
+Context (p emin : Z) {p_positive : Prec_gt_0 p} (emin_p : (emin <= - p)%Z) (p_5 : (5 <= p)%Z).
 Notation nearest := Format.nearest.
 Notation fl := (Format.rnd p emin nearest).
 Notation u := (Format.u p).
@@ -647,9 +626,7 @@ End Sharp_dot.
 (** The theorems. *)
 Section Sound.
 
-Variables p emin : Z.
-Context {p_positive : Prec_gt_0 p}.
-Hypothesis emin_p : (emin <= - p)%Z.
+Context (p emin : Z) {p_positive : Prec_gt_0 p} (emin_p : (emin <= - p)%Z).
 
 Theorem tight_dot_sound (direction : R -> Z) {direction_valid : Valid_rnd direction} pairs exacts : (8 <= p)%Z ->
   Forall2 (pair_known p emin) pairs exacts ->

@@ -32,10 +32,7 @@ Qed.
 
 Section Functions.
 
-Variables p emin : Z.
-Context {p_positive : Prec_gt_0 p}.
-Variable direction : R -> Z.
-Context {direction_valid : Valid_rnd direction}.
+Context (p emin : Z) {p_positive : Prec_gt_0 p} (direction : R -> Z) {direction_valid : Valid_rnd direction}.
 
 Notation fl := (rnd p emin direction).
 Notation number := (number p emin).
@@ -74,14 +71,10 @@ Definition hypot_error (v sx sy : R) : R :=
 
 Section Proof.
 
-Hypothesis p_3 : (3 <= p)%Z.
-Hypothesis emin_p : (emin <= - p)%Z.
-Variables r h : R.
-Hypothesis E : rounding_error p emin direction r h.
+Context (p_3 : (3 <= p)%Z) (emin_p : (emin <= - p)%Z) (r h : R) (E : rounding_error p emin direction r h).
 Let f := 1 + 8 * eps.
 Let q := 1 - r.
-Hypothesis f_q6 : 1 <= f * (q * q * q * q * q * q).
-Hypothesis r_8 : r <= / 8.
+Context (f_q6 : 1 <= f * (q * q * q * q * q * q)) (r_8 : r <= / 8).
 
 Let rnd_number := Format.rnd_number p emin direction.
 Let rnd_nonnegative := Format.rnd_nonnegative p emin direction.
@@ -583,9 +576,7 @@ Proof.
 Qed.
 
 (** Lengths of numbers whose larger one is A, scaled to at least 1/2. *)
-Hypothesis eps_128 : eps <= / 128.
-Hypothesis eta_small : eta <= / 8192.
-Hypothesis h_half : 31 / 10 * h <= 2 * eta.
+Context (eps_128 : eps <= / 128) (eta_small : eta <= / 8192) (h_half : 31 / 10 * h <= 2 * eta).
 
 Lemma hypot_squares A B b : / 2 <= A < 1 -> 0 <= B <= A -> number A -> 0 <= b <= 1 -> Rabs (b - B) <= h ->
   let s := fl (fl (A * A) + fl (b * b)) in
@@ -874,15 +865,12 @@ End Functions.
 (** The theorems. *)
 Section Sound.
 
-Variables p emin : Z.
-Context {p_positive : Prec_gt_0 p}.
+Context (p emin : Z) {p_positive : Prec_gt_0 p}.
 Notation number := (number p emin).
 
 Section Any_direction.
 
-Hypothesis p_5 : (5 <= p)%Z.
-Variable direction : R -> Z.
-Context {direction_valid : Valid_rnd direction}.
+Context (p_5 : (5 <= p)%Z) (direction : R -> Z) {direction_valid : Valid_rnd direction}.
 Notation fl := (rnd p emin direction).
 
 Let error : rounding_error p emin direction (eps p) (eta emin) :=

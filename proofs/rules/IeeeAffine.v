@@ -31,10 +31,7 @@ Qed.
 
 Section Rules.
 
-Variables p emax : Z.
-Context {p_positive : Prec_gt_0 p}.
-Context {p_below : Prec_lt_emax p emax}.
-Hypothesis p_4 : (4 <= p)%Z.
+Context (p emax : Z) {p_positive : Prec_gt_0 p} {p_below : Prec_lt_emax p emax} (p_4 : (4 <= p)%Z).
 Variable fused : bool.  (* has_fast_fma *)
 Variable limit : nat.
 Notation float := (binary_float p emax).
@@ -42,7 +39,6 @@ Notation F := (floats p emax).
 Notation emin := (3 - emax - p)%Z.
 Notation fl := (Format.rnd p emin Format.nearest).
 Notation number := (Format.number p emin).
-Notation finite x := (BinarySingleNaN.is_finite x = true).
 Notation nonnegative := (nonnegative p emax).
 Notation known := (known p emax).
 Notation terms := (terms float).
@@ -52,11 +48,6 @@ Notation radius := (radius float).
 Notation rest := (rest float).
 Notation parts := (parts float).
 Notation zero := (integer _ F 0).
-
-Infix "⊕" := (plus float F) (at level 50, left associativity).
-Infix "⊖" := (minus float F) (at level 50, left associativity).
-Infix "⊗" := (times float F) (at level 40, left associativity).
-Infix "⊘" := (over float F) (at level 40, left associativity).
 
 Lemma at_least_3 : (3 <= p)%Z.
 Proof. lia. Qed.
@@ -434,11 +425,7 @@ Qed.
 (** Operations, with the numbers e of the sources so far, and a new source f. *)
 Section Operation.
 
-Variable e : Z -> R.
-Hypothesis e_units : Affine.units e.
-Variable f : Z.
-Variable g : option Z.
-Hypothesis g_f : g = Some f \/ g = None.
+Context (e : Z -> R) (e_units : Affine.units e) (f : Z) (g : option Z) (g_f : g = Some f \/ g = None).
 
 (** The meaning of terms with an infinite rest: any large enough radius holds. *)
 Lemma known_within v A x : affine_known e v A x -> finite (radius A) -> all_finite (parts A) -> exists r,
@@ -506,11 +493,8 @@ Proof.
 Qed.
 
 (** Hypotheses on two operands. *)
-Variables (a b : float) (sa sb : affine) (x y : R).
-Hypothesis of_a : affine_known e a sa x.
-Hypothesis of_b : affine_known e b sb y.
-Hypothesis new_a : is_new f sa.
-Hypothesis new_b : is_new f sb.
+Context (a b : float) (sa sb : affine) (x y : R) (of_a : affine_known e a sa x) (of_b : affine_known e b sb y)
+  (new_a : is_new f sa) (new_b : is_new f sb).
 
 Lemma sum_known v : (finite v -> finite a /\ finite b /\ B2R v = fl (B2R a + B2R b)) ->
   made e v (affine_add _ F limit v a sa b sb g) (x + y) g.

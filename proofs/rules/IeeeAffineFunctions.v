@@ -22,11 +22,7 @@ Open Scope R_scope.
 (** A result's sources are those of its operands, and its own. *)
 Section Sources.
 
-Variable T : Type.
-Variable A : arithmetic T.
-Variable fused : bool.
-Variable limit : nat.
-Variable P : Z -> Prop.
+Context (T : Type) (A : arithmetic T) (fused : bool) (limit : nat) (P : Z -> Prop).
 
 Definition all_from {X} (l : list (Z * X)) : Prop := Forall (fun t => P (fst t)) l.
 Lemma add_from s c (B : builder T) : P s -> all_from (snd B) -> all_from (snd (add T A s c B)).
@@ -77,13 +73,10 @@ Proof. intros H. induction l as [| t l IH]; intros s L R; simpl; auto. inversion
 
 Lemma negate_from b : all_from (parts T b) -> all_from (parts T (affine_negate T A b)).
 Proof. intros H. unfold affine_negate. cbn [parts]. apply Forall_map. exact H. Qed.
-Variable g : option Z.
-Hypothesis own : forall s, g = Some s -> P s.
+Context (g : option Z) (own : forall s, g = Some s -> P s).
 Lemma within_from v error : all_from (parts T (affine_within T A limit v error g)).
 Proof. unfold affine_within. destruct (negb _); [constructor |]. apply finished_from; auto. constructor. Qed.
-Variables sa sb : affine T.
-Hypothesis of_a : all_from (parts T sa).
-Hypothesis of_b : all_from (parts T sb).
+Context (sa sb : affine T) (of_a : all_from (parts T sa)) (of_b : all_from (parts T sb)).
 Lemma sum_from v a b : all_from (parts T (affine_add T A limit v a sa b sb g)).
 Proof.
   unfold affine_add. cbv zeta. apply finished_from; auto. unfold add_left at 1 2. cbn [snd].
@@ -119,16 +112,12 @@ End Sources.
 
 Section Functions.
 
-Variables p emax : Z.
-Context {p_positive : Prec_gt_0 p}.
-Context {p_below : Prec_lt_emax p emax}.
-Hypothesis p_4 : (4 <= p)%Z.
+Context (p emax : Z) {p_positive : Prec_gt_0 p} {p_below : Prec_lt_emax p emax} (p_4 : (4 <= p)%Z).
 Variable fused : bool.  (* has_fast_fma *)
 Variable limit : nat.
 Notation float := (binary_float p emax).
 Notation F := (floats p emax).
 Notation emin := (3 - emax - p)%Z.
-Notation finite x := (BinarySingleNaN.is_finite x = true).
 Notation affine := (affine float).
 Notation radius := (radius float).
 Notation parts := (parts float).
@@ -140,11 +129,6 @@ Notation p_3 := (at_least_3 p p_4).
 Notation by_rule := (affine_operations float F fused limit).
 Notation rule := (affine_rule float F limit).
 Notation number := (float * affine)%type.
-
-Infix "⊕" := (plus float F) (at level 50, left associativity).
-Infix "⊖" := (minus float F) (at level 50, left associativity).
-Infix "⊗" := (times float F) (at level 40, left associativity).
-Infix "⊘" := (over float F) (at level 40, left associativity).
 
 Lemma known_alike e a c A x : finite a -> finite c -> B2R a = B2R c -> affine_known e a A x -> affine_known e c A x.
 Proof.
@@ -165,8 +149,7 @@ Proof. intros H. apply Forall_forall. intros t T. apply H. now apply in_map. Qed
 (** Without sources: results for any numbers of the operands' sources. *)
 Section Without_sources.
 
-Variable e : Z -> R.
-Hypothesis e_units : Affine.units e.
+Context (e : Z -> R) (e_units : Affine.units e).
 
 Lemma new_to_both A B : exists f, is_new f A /\ is_new f B.
 Proof.
@@ -418,8 +401,7 @@ Qed.
 
 (** Functions of several operations (NumberedCode.v): the operation after k others has the source `source k`. The
     sources to come are new and different. *)
-Variable source : nat -> option Z.
-Hypothesis all_different : forall i j s, source i = Some s -> source j = Some s -> i = j.
+Context (source : nat -> option Z) (all_different : forall i j s, source i = Some s -> source j = Some s -> i = j).
 Notation operation := (fun k => by_rule (source k)).
 
 Record ready (k : nat) (l : list_of_numbers) : Prop := {
@@ -485,11 +467,8 @@ Notation subtract := (numbered_subtract _ F _ operation).
 Notation multiply := (numbered_multiply _ F _ operation).
 Notation scale := (numbered_scale _ F _ operation).
 Section Operations.
-Variables (l : list_of_numbers) (k : nat).
-Hypothesis Ready : ready k l.
-Variables (a b : number) (x y : R).
-Hypothesis of_a : In (a, x) l.
-Hypothesis of_b : In (b, y) l.
+Context (l : list_of_numbers) (k : nat) (Ready : ready k l) (a b : number) (x y : R) (of_a : In (a, x) l)
+  (of_b : In (b, y) l).
 Lemma add_gives : gives l k (add a b) (x + y).
 Proof. apply gives_once; auto. now apply of_add. Qed.
 Lemma subtract_gives : gives l k (subtract a b) (x - y).
@@ -811,10 +790,7 @@ Qed.
 
 (** Functions of one operation. *)
 Section One_operation.
-Variables (l : list_of_numbers) (k : nat).
-Hypothesis Ready : ready k l.
-Variables (a b c : number) (x y z : R).
-Hypothesis of_a : In (a, x) l.
+Context (l : list_of_numbers) (k : nat) (Ready : ready k l) (a b c : number) (x y z : R) (of_a : In (a, x) l).
 Theorem affine_sqrt_gives : gives l k (numbered_sqrt _ F fused _ operation a) (sqrt x) /\
   (finite (radius (snd (fst (numbered_sqrt _ F fused _ operation a k)))) -> 0 <= x).
 Proof.

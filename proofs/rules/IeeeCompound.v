@@ -17,23 +17,14 @@ Open Scope R_scope.
 
 Section Compound.
 
-Variables p emax : Z.
-Context {p_positive : Prec_gt_0 p}.
-Context {p_below : Prec_lt_emax p emax}.
-Hypothesis p_3 : (3 <= p)%Z.
+Context (p emax : Z) {p_positive : Prec_gt_0 p} {p_below : Prec_lt_emax p emax} (p_3 : (3 <= p)%Z).
 Variable fused : bool.  (* has_fast_fma *)
 Notation float := (binary_float p emax).
 Notation F := (floats p emax).
 Notation emin := (3 - emax - p)%Z.
 Notation fl := (Format.rnd p emin Format.nearest).
-Notation finite x := (BinarySingleNaN.is_finite x = true).
 Notation known := (known p emax).
 Notation promises := (promises p emax).
-
-Infix "⊕" := (plus float F) (at level 50, left associativity).
-Infix "⊖" := (minus float F) (at level 50, left associativity).
-Infix "⊗" := (times float F) (at level 40, left associativity).
-Infix "⊘" := (over float F) (at level 40, left associativity).
 
 Ltac parts := finite_parts p emax p_3.
 Ltac values := known_values p emax p_3.
@@ -109,10 +100,8 @@ Proof.
 Qed.
 
 (** Theorems for any such rule. *)
-Variable B : Type.
-Variable by_rule : operations float B.
-Variable holds : float -> B -> R -> Prop.
-Hypothesis Keeps : keeps_operations B by_rule holds.
+Context (B : Type) (by_rule : operations float B) (holds : float -> B -> R -> Prop)
+  (Keeps : keeps_operations B by_rule holds).
 Notation rule := (the_rule float B by_rule).
 Notation Rule := (keeps_promises _ _ _ Keeps).
 Notation tracked_known := (tracked_known p emax B holds).

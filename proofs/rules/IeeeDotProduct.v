@@ -13,16 +13,12 @@ Open Scope R_scope.
 
 Section Dot.
 
-Variables p emax : Z.
-Context {p_positive : Prec_gt_0 p}.
-Context {p_below : Prec_lt_emax p emax}.
-Hypothesis p_5 : (5 <= p)%Z.
+Context (p emax : Z) {p_positive : Prec_gt_0 p} {p_below : Prec_lt_emax p emax} (p_5 : (5 <= p)%Z).
 Notation float := (binary_float p emax).
 Notation F := (floats p emax).
 Notation emin := (3 - emax - p)%Z.
 Notation fl := (Format.rnd p emin Format.nearest).
 Notation rounded := (reals p emin Format.nearest).
-Notation finite x := (BinarySingleNaN.is_finite x = true).
 Notation nonnegative := (nonnegative p emax).
 Notation known := (known p emax).
 Notation pair := ((float * float) * (float * float))%type.
@@ -45,18 +41,13 @@ Qed.
 
 Section Running.
 
-Variable most : nat.
-Variable factor_units : nat -> Z.
-Variable underflows : nat -> nat -> Z.
-Variable own_float : bool -> float -> float -> float -> float.
-Variable own_real : bool -> R -> R -> R -> R.
-Hypothesis most_8 : (1 <= most <= 8)%nat.
-Hypothesis few_units : forall m, (m <= 8)%nat -> (0 <= factor_units m <= 32)%Z.
-Hypothesis few_underflows : forall m k, (k <= m <= 8)%nat -> (0 <= underflows m k <= 32)%Z.
-Hypothesis own_value : forall first product before sum, finite (own_float first product before sum) ->
-  finite before -> finite sum ->
-  B2R (own_float first product before sum) = own_real first (B2R product) (B2R before) (B2R sum).
-Hypothesis own_nonnegative : forall first product before sum, nonnegative (own_float first product before sum).
+Context (most : nat) (factor_units : nat -> Z) (underflows : nat -> nat -> Z)
+  (own_float : bool -> float -> float -> float -> float) (own_real : bool -> R -> R -> R -> R)
+  (most_8 : (1 <= most <= 8)%nat) (few_units : forall m, (m <= 8)%nat -> (0 <= factor_units m <= 32)%Z)
+  (few_underflows : forall m k, (k <= m <= 8)%nat -> (0 <= underflows m k <= 32)%Z) (own_value : forall first product
+    before sum, finite (own_float first product before sum) -> finite before -> finite sum -> B2R (own_float first
+    product before sum) = own_real first (B2R product) (B2R before) (B2R sum))
+  (own_nonnegative : forall first product before sum, nonnegative (own_float first product before sum)).
 
 Notation running := (running float).
 Notation close_terms := (close_terms float F factor_units underflows).

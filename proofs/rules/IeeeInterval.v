@@ -18,10 +18,7 @@ Open Scope R_scope.
 
 Section Rules.
 
-Variables p emax : Z.
-Context {p_positive : Prec_gt_0 p}.
-Context {p_below : Prec_lt_emax p emax}.
-Hypothesis p_3 : (3 <= p)%Z.
+Context (p emax : Z) {p_positive : Prec_gt_0 p} {p_below : Prec_lt_emax p emax} (p_3 : (3 <= p)%Z).
 Variable fused : bool.  (* has_fast_fma *)
 Notation float := (binary_float p emax).
 Notation F := (floats p emax).
@@ -29,13 +26,8 @@ Notation emin := (3 - emax - p)%Z.
 Notation format := (FLT_exp emin p).
 Notation fl := (Format.rnd p emin Format.nearest).
 Notation number := (Format.number p emin).
-Notation finite x := (BinarySingleNaN.is_finite x = true).
 Notation emin_p := (emin_p p emax p_3).
 
-Infix "⊕" := (plus float F) (at level 50, left associativity).
-Infix "⊖" := (minus float F) (at level 50, left associativity).
-Infix "⊗" := (times float F) (at level 40, left associativity).
-Infix "⊘" := (over float F) (at level 40, left associativity).
 Notation minus_infinity := (B754_infinity true : float).
 Notation plus_infinity := (B754_infinity false : float).
 

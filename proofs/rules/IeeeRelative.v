@@ -22,22 +22,13 @@ Open Scope R_scope.
 (** Facts about one format. *)
 Section Format.
 
-Variables p emax : Z.
-Context {p_positive : Prec_gt_0 p}.
-Context {p_below : Prec_lt_emax p emax}.
-Hypothesis p_3 : (3 <= p)%Z.
+Context (p emax : Z) {p_positive : Prec_gt_0 p} {p_below : Prec_lt_emax p emax} (p_3 : (3 <= p)%Z).
 Notation float := (binary_float p emax).
 Notation F := (floats p emax).
 Notation emin := (3 - emax - p)%Z.
 Notation fl := (Format.rnd p emin Format.nearest).
 Notation number := (Format.number p emin).
-Notation finite x := (BinarySingleNaN.is_finite x = true).
 Notation nonnegative := (nonnegative p emax).
-
-Infix "⊕" := (plus float F) (at level 50, left associativity).
-Infix "⊖" := (minus float F) (at level 50, left associativity).
-Infix "⊗" := (times float F) (at level 40, left associativity).
-Infix "⊘" := (over float F) (at level 40, left associativity).
 
 Lemma less_finite_left x y : nonnegative x -> less _ F x y = true -> finite x.
 Proof. destruct x as [| s | |]; try easy. cbn [Ieee.nonnegative]. intros ->. now destruct y as [| [|] | | [|]]. Qed.
@@ -141,13 +132,10 @@ End Format.
 (** Conversion to another format, rounded to nearest. *)
 Section Conversion.
 
-Variables p emax q qmax : Z.
-Context {q_positive : Prec_gt_0 q}.
-Context {q_below : Prec_lt_emax q qmax}.
+Context (p emax q qmax : Z) {q_positive : Prec_gt_0 q} {q_below : Prec_lt_emax q qmax}.
 Notation emin := (3 - emax - p)%Z.
 Notation qmin := (3 - qmax - q)%Z.
 Notation dl := (Format.rnd q qmin Format.nearest).
-Notation finite x := (BinarySingleNaN.is_finite x = true).
 
 Definition converted (x : binary_float p emax) : binary_float q qmax :=
   match x with
@@ -190,13 +178,9 @@ End Conversion.
 
 Section Rule.
 
-Variables p emax q qmax : Z.
-Context {p_positive : Prec_gt_0 p} {p_below : Prec_lt_emax p emax}.
-Context {q_positive : Prec_gt_0 q} {q_below : Prec_lt_emax q qmax}.
-Hypothesis p_q : (4 <= p <= q)%Z.
-Hypothesis q_24 : (24 <= q)%Z.
-Hypothesis emax_qmax : (emax <= qmax)%Z.
-Hypothesis q_qmax : (5 * q + 3 <= qmax)%Z.
+Context (p emax q qmax : Z) {p_positive : Prec_gt_0 p} {p_below : Prec_lt_emax p emax} {q_positive : Prec_gt_0 q}
+  {q_below : Prec_lt_emax q qmax} (p_q : (4 <= p <= q)%Z) (q_24 : (24 <= q)%Z) (emax_qmax : (emax <= qmax)%Z)
+  (q_qmax : (5 * q + 3 <= qmax)%Z).
 Variable fused : bool.  (* has_fast_fma *)
 Notation float := (binary_float p emax).
 Notation double := (binary_float q qmax).
@@ -207,16 +191,10 @@ Notation qmin := (3 - qmax - q)%Z.
 Notation fl := (Format.rnd p emin Format.nearest).
 Notation dl := (Format.rnd q qmin Format.nearest).
 Notation number := (Format.number p emin).
-Notation finite x := (BinarySingleNaN.is_finite x = true).
 Notation is_count := (is_count q qmax).
 Notation to_count := (converted p emax q qmax).
 Notation from_count := (converted q qmax p emax).
 Notation holds := (Relative.holds p emin q qmin).
-
-Infix "⊕" := (plus float F) (at level 50, left associativity).
-Infix "⊖" := (minus float F) (at level 50, left associativity).
-Infix "⊗" := (times float F) (at level 40, left associativity).
-Infix "⊘" := (over float F) (at level 40, left associativity).
 
 Lemma p_3 : (3 <= p)%Z. Proof. lia. Qed.
 Lemma q_3 : (3 <= q)%Z. Proof. lia. Qed.
@@ -233,7 +211,6 @@ Qed.
 (** Arithmetic of counts. *)
 Notation u := (u_of_counts _ _ F to_count).
 Notation up := (Format.u p).
-Notation uq := (Format.u q).
 Notation fits := (fitting q qmax).
 Infix "+#" := (plus double C) (at level 50, left associativity).
 Infix "-#" := (minus double C) (at level 50, left associativity).
@@ -504,12 +481,6 @@ Lemma one_count : is_count (count 1).
 Proof. apply (integer_count q qmax q_3). lia. Qed.
 Lemma value_0 : B2R (count 0) = 0.
 Proof. apply (zero_value q qmax q_3). Qed.
-Lemma is_finite_intro x : finite x -> is_finite _ F x = true.
-Proof.
-  intros X. unfold is_finite. destruct (IeeeInterval.largest_value p emax p_3) as [FL VL].
-  assert (A := abs_finite_intro p emax x X). rewrite (at_most_finite p emax) by auto.
-  rewrite (proj2 (abs_finite p emax p_3 x A)), VL. apply Rle_bool_true. apply (IeeeInterval.le_M p emax).
-Qed.
 
 Theorem relative_exact_known v : relative_known v (relative_exact v) (B2R v).
 Proof.

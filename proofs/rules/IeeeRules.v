@@ -19,23 +19,14 @@ Open Scope R_scope.
 
 Section Rules.
 
-Variables p emax : Z.
-Context {p_positive : Prec_gt_0 p}.
-Context {p_below : Prec_lt_emax p emax}.
-Hypothesis p_3 : (3 <= p)%Z.
+Context (p emax : Z) {p_positive : Prec_gt_0 p} {p_below : Prec_lt_emax p emax} (p_3 : (3 <= p)%Z).
 Notation float := (binary_float p emax).
 Notation F := (floats p emax).
 Notation emin := (3 - emax - p)%Z.
 Notation fl := (Format.rnd p emin Format.nearest).
 Notation number := (Format.number p emin).
-Notation finite x := (BinarySingleNaN.is_finite x = true).
 Notation nonnegative := (nonnegative p emax).
 Notation emin_p := (emin_p p emax p_3).
-
-Infix "⊕" := (plus float F) (at level 50, left associativity).
-Infix "⊖" := (minus float F) (at level 50, left associativity).
-Infix "⊗" := (times float F) (at level 40, left associativity).
-Infix "⊘" := (over float F) (at level 40, left associativity).
 
 Ltac parts := finite_parts p emax p_3.
 Ltac values := known_values p emax p_3.

@@ -20,9 +20,7 @@ Open Scope R_scope.
 (** Over real numbers. *)
 Section Remainder.
 
-Variables p emin : Z.
-Context {p_positive : Prec_gt_0 p}.
-Hypothesis p_3 : (3 <= p)%Z.
+Context (p emin : Z) {p_positive : Prec_gt_0 p} (p_3 : (3 <= p)%Z).
 Notation fl := (Format.rnd p emin Format.nearest).
 Notation number := (Format.number p emin).
 Notation cexp := (cexp radix2 (FLT_exp emin p)).
@@ -132,22 +130,13 @@ End Remainder.
 
 Section Slopes.
 
-Variables p emax : Z.
-Context {p_positive : Prec_gt_0 p}.
-Context {p_below : Prec_lt_emax p emax}.
-Hypothesis p_3 : (3 <= p)%Z.
+Context (p emax : Z) {p_positive : Prec_gt_0 p} {p_below : Prec_lt_emax p emax} (p_3 : (3 <= p)%Z).
 Variable fused : bool.  (* has_fast_fma *)
 Notation float := (binary_float p emax).
 Notation F := (floats p emax).
 Notation emin := (3 - emax - p)%Z.
 Notation fl := (Format.rnd p emin Format.nearest).
-Notation finite x := (BinarySingleNaN.is_finite x = true).
 Notation known := (known p emax).
-
-Infix "⊕" := (plus float F) (at level 50, left associativity).
-Infix "⊖" := (minus float F) (at level 50, left associativity).
-Infix "⊗" := (times float F) (at level 40, left associativity).
-Infix "⊘" := (over float F) (at level 40, left associativity).
 
 Lemma code_finite (x : float) : Code.is_finite _ F x = true -> finite x.
 Proof. unfold Code.is_finite, Code.abs. destruct x as [| [|] | | [|]]; simpl; auto; discriminate. Qed.
@@ -194,10 +183,8 @@ Qed.
 (** For a rule that keeps its operations. *)
 Section By_operations.
 
-Variable B : Type.
-Variable by_rule : operations float B.
-Variable holds : float -> B -> R -> Prop.
-Hypothesis Keeps : keeps_operations p emax B by_rule holds.
+Context (B : Type) (by_rule : operations float B) (holds : float -> B -> R -> Prop)
+  (Keeps : keeps_operations p emax B by_rule holds).
 Notation rule := (the_rule float B by_rule).
 Notation Rule := (keeps_promises _ _ _ _ _ Keeps).
 Notation tracked_known := (tracked_known p emax B holds).
@@ -493,17 +480,12 @@ End Slopes.
 (** The rule `affine`, with a source for each operation. *)
 Section Affine_slopes.
 
-Variables p emax : Z.
-Context {p_positive : Prec_gt_0 p}.
-Context {p_below : Prec_lt_emax p emax}.
-Hypothesis p_4 : (4 <= p)%Z.
+Context (p emax : Z) {p_positive : Prec_gt_0 p} {p_below : Prec_lt_emax p emax} (p_4 : (4 <= p)%Z).
 Variable fused : bool.  (* has_fast_fma *)
-Variable limit : nat.
-Variable source : nat -> option Z.
-Hypothesis all_different : forall i j s, source i = Some s -> source j = Some s -> i = j.
+Context (limit : nat) (source : nat -> option Z)
+  (all_different : forall i j s, source i = Some s -> source j = Some s -> i = j).
 Notation float := (binary_float p emax).
 Notation F := (floats p emax).
-Notation finite x := (BinarySingleNaN.is_finite x = true).
 Notation p_3 := (at_least_3 p p_4).
 Notation operation := (fun k => affine_operations float F fused limit (source k)).
 Notation rule := (the_rule _ _ (operation O)).
@@ -512,7 +494,6 @@ Notation ready := (ready p emax source).
 Notation gives := (gives p emax fused limit source).
 Notation makes := (makes p emax fused limit source).
 Notation first_rule := (operation O).
-
 
 Lemma beside_exactly {X} l k v (m : counted X) P : ready k l ->
   (ready k ((exactly v, B2R v) :: l) -> makes ((exactly v, B2R v) :: l) k m P) -> makes l k m P.

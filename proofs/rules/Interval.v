@@ -10,9 +10,7 @@ Open Scope R_scope.
 
 Section Outward.
 
-Variables p emin : Z.
-Context {p_positive : Prec_gt_0 p}.
-Hypothesis p_3 : (3 <= p)%Z.
+Context (p emin : Z) {p_positive : Prec_gt_0 p} (p_3 : (3 <= p)%Z).
 Notation format := (FLT_exp emin p).
 Notation fl := (rnd p emin nearest).
 Notation number := (number p emin).

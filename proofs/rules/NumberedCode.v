@@ -22,11 +22,7 @@ Fixpoint each {S X} (f : S -> X -> counted S) (l : list X) (s : S) : counted S :
 
 Section Numbered.
 
-Variable T : Type.
-Variable A : arithmetic T.
-Variable has_fast_fma : bool.
-Variable B : Type.
-Variable by_rule : nat -> operations T B.
+Context (T : Type) (A : arithmetic T) (has_fast_fma : bool) (B : Type) (by_rule : nat -> operations T B).
 
 Declare Scope code.
 Infix "+" := (plus T A) : code.
@@ -164,10 +160,7 @@ End Numbered.
 (** The same operations at each call. *)
 Section Constant.
 
-Variable T : Type.
-Variable A : arithmetic T.
-Variable B : Type.
-Variable R : operations T B.
+Context (T : Type) (A : arithmetic T) (B : Type) (R : operations T B).
 Notation rules := (fun _ : nat => R).
 
 Lemma fst_after {X Y} (m : counted X) (f : X -> counted Y) (g : X -> Y) :

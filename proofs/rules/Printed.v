@@ -12,10 +12,7 @@ Open Scope R_scope.
 
 Section Printed.
 
-Variables p emin : Z.
-Context {p_positive : Prec_gt_0 p}.
-Hypothesis p_3 : (3 <= p)%Z.
-Hypothesis emin_p : (emin <= - p - 1)%Z.
+Context (p emin : Z) {p_positive : Prec_gt_0 p} (p_3 : (3 <= p)%Z) (emin_p : (emin <= - p - 1)%Z).
 Notation fl := (rnd p emin nearest).
 Notation number := (number p emin).
 Notation eps := (eps p).

@@ -252,8 +252,7 @@ Qed.
 (** Arithmetic of counts, in doubles. *)
 Section Counts.
 
-Variables q qmin : Z.
-Context {q_positive : Prec_gt_0 q}.
+Context (q qmin : Z) {q_positive : Prec_gt_0 q}.
 
 Notation dl := (rnd q qmin nearest).
 Notation double := (Format.number q qmin).
@@ -264,8 +263,7 @@ Notation normal := (Format.smallest_normal q qmin).
 
 Definition slack : R := dl (1 + dl (8 * deps)).
 
-Hypothesis q_24 : (24 <= q)%Z.
-Hypothesis qmin_q : (qmin <= - 6 * q)%Z.
+Context (q_24 : (24 <= q)%Z) (qmin_q : (qmin <= - 6 * q)%Z).
 
 Lemma v_small : 0 < v <= / 16777216.
 Proof.
@@ -369,8 +367,7 @@ Proof.
 Qed.
 
 (** Numbers with p digits, p no more than those of counts. *)
-Variable p : Z.
-Hypothesis p_q : (4 <= p <= q)%Z.
+Context (p : Z) (p_q : (4 <= p <= q)%Z).
 Notation u := (Format.u p).
 
 Definition of_one_factor : R := dl (dl (dl (u * dl (1 - dl (u / 2))) / dl (1 - u)) * slack).
@@ -874,8 +871,7 @@ End Counts.
 (** The rule: numbers with p digits, counts with q >= p. *)
 Section Rule.
 
-Variables p emin q qmin : Z.
-Context {p_positive : Prec_gt_0 p} {q_positive : Prec_gt_0 q}.
+Context (p emin q qmin : Z) {p_positive : Prec_gt_0 p} {q_positive : Prec_gt_0 q}.
 
 Notation fl := (rnd p emin nearest).
 Notation number := (number p emin).
@@ -959,10 +955,7 @@ Definition relative_scale (v a ka : R) (e : Z) : option R :=
 (** The meaning of a number and its count for x. *)
 Definition holds (v k x : R) : Prop := number v /\ double k /\ 0 <= k /\ close v x (k * w).
 
-Hypothesis p_q : (4 <= p <= q)%Z.
-Hypothesis emin_p : (emin <= - p - 1)%Z.
-Hypothesis q_24 : (24 <= q)%Z.
-Hypothesis qmin_q : (qmin <= - 6 * q)%Z.
+Context (p_q : (4 <= p <= q)%Z) (emin_p : (emin <= - p - 1)%Z) (q_24 : (24 <= q)%Z) (qmin_q : (qmin <= - 6 * q)%Z).
 
 Lemma u_small : 0 < u <= / 16.
 Proof. split; [apply u_positive |]. generalize (eps_le p 4 ltac:(lia)) (eps_2u p). simpl. lra. Qed.

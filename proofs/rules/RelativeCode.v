@@ -8,8 +8,7 @@ Import ListNotations.
 (** Code for counts of either type. *)
 Section Counts.
 
-Variable D : Type.
-Variable A : arithmetic D.
+Context (D : Type) (A : arithmetic D).
 
 Declare Scope code.
 Infix "+" := (plus D A) : code.
@@ -36,12 +35,8 @@ End Counts.
 
 Section Relative.
 
-Variables T D : Type.
-Variable A : arithmetic T.
-Variable C : arithmetic D.
-Variable to_count : T -> D.
-Variable from_count : D -> T.
-Variable has_fast_fma : bool.
+Context (T D : Type) (A : arithmetic T) (C : arithmetic D) (to_count : T -> D) (from_count : D -> T)
+  (has_fast_fma : bool).
 
 Declare Scope code.
 Infix "+" := (plus T A) : code.

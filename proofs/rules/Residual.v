@@ -17,8 +17,7 @@ Open Scope R_scope.
 
 Section Residual.
 
-Variables p emin : Z.
-Context {p_positive : Prec_gt_0 p}.
+Context (p emin : Z) {p_positive : Prec_gt_0 p}.
 
 Notation fl := (rnd p emin nearest).
 Notation number := (number p emin).
@@ -74,8 +73,7 @@ Proof.
   apply Rabs_le_inv in H. lra.
 Qed.
 
-Hypothesis p_3 : (3 <= p)%Z.
-Hypothesis emin_p : (emin <= - p)%Z.
+Context (p_3 : (3 <= p)%Z) (emin_p : (emin <= - p)%Z).
 
 Let an_error := rounding_error_nearest p emin ltac:(lia).
 Let rnd_exact := Format.rnd_exact p emin nearest.

@@ -18,8 +18,7 @@ Proof. intros. rewrite Rabs_mult. apply Rmult_le_compat; auto using Rabs_pos. Qe
 
 Section Product.
 
-Variables p emin : Z.
-Context {p_positive : Prec_gt_0 p}.
+Context (p emin : Z) {p_positive : Prec_gt_0 p}.
 
 Notation fl := (rnd p emin nearest).
 Notation number := (number p emin).
@@ -70,8 +69,7 @@ Definition residual_divide (known : bool) (value v a ca ra b cb rb : R) : option
       Some (correction,
             inflated (fl (fl (fl (inflated left / distance) + half_ulp correction) + lost))).
 
-Hypothesis p_3 : (3 <= p)%Z.
-Hypothesis emin_p : (emin <= - p)%Z.
+Context (p_3 : (3 <= p)%Z) (emin_p : (emin <= - p)%Z).
 
 Let rnd_exact := Format.rnd_exact p emin nearest.
 Let rnd_number := Format.rnd_number p emin nearest.

@@ -14,10 +14,7 @@ Open Scope R_scope.
 
 Section Safe.
 
-Variables p emin : Z.
-Context {p_positive : Prec_gt_0 p}.
-Variable direction : R -> Z.
-Context {direction_valid : Valid_rnd direction}.
+Context (p emin : Z) {p_positive : Prec_gt_0 p} (direction : R -> Z) {direction_valid : Valid_rnd direction}.
 
 Notation fl := (rnd p emin direction).
 Notation number := (number p emin).
@@ -96,10 +93,7 @@ Qed.
 
 Section Proof.
 
-Hypothesis p_3 : (3 <= p)%Z.
-Hypothesis emin_p : (emin <= - p)%Z.
-Variables r h : R.
-Hypothesis E : rounding_error p emin direction r h.
+Context (p_3 : (3 <= p)%Z) (emin_p : (emin <= - p)%Z) (r h : R) (E : rounding_error p emin direction r h).
 Let g := 1 + 4 * eps.
 Let q := 1 - r.
 Hypothesis g_q3 : 1 <= g * (q * q * q).
@@ -445,8 +439,7 @@ Qed.
 End Proof.
 
 (** The theorems on the code's results. *)
-Hypothesis enough_bits : (4 <= p)%Z \/ ((3 <= p)%Z /\ direction = nearest).
-Hypothesis emin_p : (emin <= - p)%Z.
+Context (enough_bits : (4 <= p)%Z \/ ((3 <= p)%Z /\ direction = nearest)) (emin_p : (emin <= - p)%Z).
 
 Lemma three_roundings_any e : 0 <= e <= / 8 -> 1 <= (1 + 4 * e) * ((1 - e) * (1 - e) * (1 - e)).
 Proof.

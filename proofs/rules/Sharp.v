@@ -12,8 +12,7 @@ Open Scope R_scope.
 
 Section Sharp.
 
-Variables p emin : Z.
-Context {p_positive : Prec_gt_0 p}.
+Context (p emin : Z) {p_positive : Prec_gt_0 p}.
 
 Notation fl := (rnd p emin nearest).
 Notation number := (number p emin).
@@ -50,8 +49,7 @@ Definition sharp_divide (v a sa b sb : R) : option R :=
 Definition sharp_scale (v a sa : R) (e : Z) : R :=
   scaled_error p emin nearest (fun scaled => inflated (fl (scaled + eta))) v a sa e.
 
-Hypothesis p_3 : (3 <= p)%Z.
-Hypothesis emin_p : (emin <= - p)%Z.
+Context (p_3 : (3 <= p)%Z) (emin_p : (emin <= - p)%Z).
 
 Let an_error := rounding_error_nearest p emin ltac:(lia).
 Let rnd_exact := Format.rnd_exact p emin nearest.
@@ -178,20 +176,11 @@ Proof. unfold rounding. rewrite rnd_0, Rabs_R0, Rmult_0_l. apply rnd_0. Qed.
 Lemma sharp_sum_error a x sa b y sb :
   number a -> number b -> Rabs (a - x) <= sa -> Rabs (b - y) <= sb ->
   Rabs (fl (a + b) - (x + y)) <= rounding (fl (a + b)) + (sa + sb).
-Proof.
-  intros A B HA HB.
-  replace (fl (a + b) - (x + y)) with ((fl (a + b) - (a + b)) + ((a - x) + (b - y))) by ring.
-  apply Rle_trans with (1 := Rabs_triang _ _). apply Rplus_le_compat.
-  - now apply rounding_sum.
-  - apply Rle_trans with (1 := Rabs_triang _ _). lra.
-Qed.
+Proof. intros. apply Tight.within_through with (a + b); [now apply rounding_sum | now apply Tight.within_sum]. Qed.
 Lemma sharp_difference_error a x sa b y sb :
   number a -> number b -> Rabs (a - x) <= sa -> Rabs (b - y) <= sb ->
   Rabs (fl (a - b) - (x - y)) <= rounding (fl (a - b)) + (sa + sb).
-Proof.
-  intros. apply sharp_sum_error; auto using number_opp.
-  replace (- b - - y) with (- (b - y)) by ring. now rewrite Rabs_Ropp.
-Qed.
+Proof. intros. apply sharp_sum_error; auto using number_opp, Tight.within_opp. Qed.
 Lemma sharp_enlarged_sound v sa sb : number sa -> number sb -> 0 <= sa -> 0 <= sb ->
   rounding v + (sa + sb) <= sharp_enlarged v sa sb.
 Proof.
@@ -217,10 +206,7 @@ Theorem sharp_subtract_sound a x sa b y sb :
   number a -> number b -> number sa -> number sb ->
   Rabs (a - x) <= sa -> Rabs (b - y) <= sb ->
   Rabs (fl (a - b) - (x - y)) <= sharp_add (fl (a - b)) sa sb.
-Proof.
-  intros. apply sharp_add_sound; auto using number_opp.
-  replace (- b - - y) with (- (b - y)) by ring. now rewrite Rabs_Ropp.
-Qed.
+Proof. intros. apply sharp_add_sound; auto using number_opp, Tight.within_opp. Qed.
 
 Theorem sharp_multiply_sound a x sa b y sb :
   number a -> number b -> number sa -> number sb ->
@@ -232,14 +218,8 @@ Proof.
   assert (PB : 0 <= sb) by (generalize (Rabs_pos (b - y)); lra).
   unfold sharp_multiply. cbv zeta.
   destruct (is_zero a sa || is_zero b sb) eqn:Zero.
-  { (* an exact zero *)
-    apply orb_prop in Zero.
-    assert (Z0 : a * b = 0 /\ x * y = 0).
-    { destruct Zero as [Zero | Zero]; apply Tight.is_zero_true in Zero; destruct Zero as [Z1 Z2].
-      - rewrite Z2 in HA. apply Tight.within_0 in HA. rewrite <- HA, Z1. lra.
-      - rewrite Z2 in HB. apply Tight.within_0 in HB. rewrite <- HB, Z1. lra. }
-    destruct Z0 as [-> ->]. rewrite rounding_0, rnd_0.
-    rewrite Rminus_0_r, Rabs_R0. lra. }
+  { destruct (Tight.product_with_zero a x sa b y sb HA HB Zero) as [-> ->].
+    rewrite rounding_0, rnd_0, Rminus_0_r, Rabs_R0. lra. }
   rewrite (rnd_exact (2 * eta) number_2_eta), inflated_exact.
   set (v := fl (a * b)). set (R := rounding v). generalize (eta_positive emin) f_2 q_1 q_u u_8; intros.
   destruct (product_inherited p emin nearest q (eta / 2) q_1 h_eta leaves leaves_small
@@ -256,10 +236,7 @@ Proof.
   assert (PX : 0 <= X) by (generalize (Rabs_pos a) (Rabs_pos b); intros; unfold X; nra).
   (* the exact bound *)
   apply Rle_trans with (R + eta / 2 + X).
-  { replace (v - x * y) with ((v - a * b) + (a * b - x * y)) by ring.
-    apply Rle_trans with (1 := Rabs_triang _ _). apply Rplus_le_compat.
-    - apply rounding_any.
-    - now apply Tight.product_inherits. }
+  { apply Tight.within_through with (a * b); [apply rounding_any | now apply Tight.product_inherits]. }
   set (J := fl (R + 2 * eta)). set (S := fl (J + I)).
   assert (NJ : number J) by apply rnd_number. assert (PJ : 0 <= J) by (apply rnd_nonnegative; lra).
   assert (NS : number S) by apply rnd_number. assert (LJ : J <= S) by (apply rnd_above; auto; lra).
@@ -377,10 +354,7 @@ Proof.
   assert (Pq4 : 0 <= q * q * q * q) by (apply Rmult_le_pos; lra).
   (* the exact bound *)
   apply Rle_trans with (R + eta / 2 + Z).
-  { replace (v - x / y) with ((v - a / b) + (a / b - x / y)) by ring.
-    apply Rle_trans with (1 := Rabs_triang _ _). apply Rplus_le_compat.
-    - apply rounding_any.
-    - now apply Tight.quotient_inherits. }
+  { apply Tight.within_through with (a / b); [apply rounding_any | now apply Tight.quotient_inherits]. }
   generalize f_q5 f_q4 f_q3; intros F5 F4 F3.
   set (J := inflated I).
   assert (NJ : number J) by apply rnd_number.

@@ -8,9 +8,7 @@ From Errbound Require Import Code CompoundCode NumberedCode.
 
 Section Slopes.
 
-Variable T : Type.
-Variable A : arithmetic T.
-Variable has_fast_fma : bool.
+Context (T : Type) (A : arithmetic T) (has_fast_fma : bool).
 
 Declare Scope code.
 Infix "+" := (plus T A) : code.

@@ -16,12 +16,17 @@ From Errbound Require Import Format.
 From Errbound Require Upper.
 Open Scope R_scope.
 
+(** Errors of negations, of sums, and by an intermediate value. *)
+Lemma within_opp b y s : Rabs (b - y) <= s -> Rabs (- b - - y) <= s.
+Proof. replace (- b - - y) with (- (b - y)) by ring. now rewrite Rabs_Ropp. Qed.
+Lemma within_through m v x r s : Rabs (v - m) <= r -> Rabs (m - x) <= s -> Rabs (v - x) <= r + s.
+Proof. intros R S. apply Rabs_le_inv in R, S. apply Rabs_le. lra. Qed.
+Lemma within_sum a x sa b y sb : Rabs (a - x) <= sa -> Rabs (b - y) <= sb -> Rabs (a + b - (x + y)) <= sa + sb.
+Proof. intros A B. apply Rabs_le_inv in A, B. apply Rabs_le. lra. Qed.
+
 Section Tight.
 
-Variables p emin : Z.
-Context {p_positive : Prec_gt_0 p}.
-Variable direction : R -> Z.
-Context {direction_valid : Valid_rnd direction}.
+Context (p emin : Z) {p_positive : Prec_gt_0 p} (direction : R -> Z) {direction_valid : Valid_rnd direction}.
 
 Notation fl := (rnd p emin direction).
 Notation number := (number p emin).
@@ -74,10 +79,7 @@ Let scaled_up := Format.scaled_up p emin direction.
 (** The proof for a rounding with a relative error r, or an error h below the smallest normal number. *)
 Section Proof.
 
-Hypothesis p_3 : (3 <= p)%Z.
-Hypothesis emin_p : (emin <= - p)%Z.
-Variables r h : R.
-Hypothesis E : rounding_error p emin direction r h.
+Context (p_3 : (3 <= p)%Z) (emin_p : (emin <= - p)%Z) (r h : R) (E : rounding_error p emin direction r h).
 Let sum_relative := Format.sum_relative p emin direction r h E.
 Let rnd_absolute := Format.rnd_absolute p emin direction r h E.
 Let rnd_lower := Format.rnd_lower p emin direction r h E.
@@ -86,8 +88,7 @@ Let sum_error := Format.sum_error p emin direction r h E.
 Let inflated_relative := Format.inflated_relative p emin direction r h E.
 Let f := 1 + 8 * eps.
 Let q := 1 - r.
-Hypothesis f_q6 : 1 <= f * (q * q * q * q * q * q).
-Hypothesis h_f : h * (2 + f) <= 4 * eta.
+Context (f_q6 : 1 <= f * (q * q * q * q * q * q)) (h_f : h * (2 + f) <= 4 * eta).
 
 Lemma f_1 : 1 <= f.
 Proof. unfold f. generalize (eps_positive p). lra. Qed.
@@ -171,13 +172,7 @@ Qed.
 Lemma sum_error_at_most a x sa b y sb :
   number a -> number b -> Rabs (a - x) <= sa -> Rabs (b - y) <= sb ->
   Rabs (fl (a + b) - (x + y)) <= rounding (fl (a + b)) + (sa + sb).
-Proof.
-  intros A B HA HB.
-  replace (fl (a + b) - (x + y)) with ((fl (a + b) - (a + b)) + ((a - x) + (b - y))) by ring.
-  apply Rle_trans with (1 := Rabs_triang _ _). apply Rplus_le_compat.
-  - now apply rounding_sum.
-  - apply Rle_trans with (1 := Rabs_triang _ _). lra.
-Qed.
+Proof. intros. apply within_through with (a + b); [now apply rounding_sum | now apply within_sum]. Qed.
 Lemma enlarged_sound v sa sb : number sa -> number sb -> 0 <= sa -> 0 <= sb ->
   rounding v + (sa + sb) <= tight_enlarged v sa sb.
 Proof. intros. apply inflated_sum_right; auto using rounding_nonnegative. apply rnd_number; auto. Qed.
@@ -219,6 +214,13 @@ Proof.
   intros H. generalize (Rabs_pos (a - x)); intros. enough (a - x = 0) by lra.
   destruct (Req_dec (a - x) 0); auto. apply Rabs_no_R0 in H1. lra.
 Qed.
+Lemma product_with_zero a x sa b y sb : Rabs (a - x) <= sa -> Rabs (b - y) <= sb ->
+  is_zero a sa || is_zero b sb = true -> a * b = 0 /\ x * y = 0.
+Proof.
+  intros HA HB Zero. apply orb_prop in Zero. destruct Zero as [Zero | Zero]; apply is_zero_true in Zero; destruct Zero as [-> ->].
+  - apply within_0 in HA. rewrite <- HA. lra.
+  - apply within_0 in HB. rewrite <- HB. lra.
+Qed.
 
 Lemma multiply_sound a x sa b y sb :
   number a -> number b -> number sa -> number sb ->
@@ -230,14 +232,8 @@ Proof.
   assert (PB : 0 <= sb) by (generalize (Rabs_pos (b - y)); lra).
   unfold tight_multiply. cbv zeta.
   destruct (is_zero a sa || is_zero b sb) eqn:Zero.
-  { (* an exact zero *)
-    apply orb_prop in Zero.
-    assert (Z0 : a * b = 0 /\ x * y = 0).
-    { destruct Zero as [Zero | Zero]; apply is_zero_true in Zero; destruct Zero as [Z1 Z2].
-      - rewrite Z2 in HA. apply within_0 in HA. rewrite <- HA, Z1. lra.
-      - rewrite Z2 in HB. apply within_0 in HB. rewrite <- HB, Z1. lra. }
-    destruct Z0 as [-> ->]. rewrite rounding_0, rnd_0 by auto.
-    rewrite Rminus_0_r, Rabs_R0. lra. }
+  { destruct (product_with_zero a x sa b y sb HA HB Zero) as [-> ->].
+    rewrite rounding_0, rnd_0, Rminus_0_r, Rabs_R0. lra. }
   rewrite (rnd_exact (4 * eta) number_4_eta), inflated_exact.
   set (v := fl (a * b)). set (R := rounding v).
   generalize (eta_positive emin) (error_h _ _ _ _ _ E) (error_r _ _ _ _ _ E) f_1 q_1; intros.
@@ -256,10 +252,7 @@ Proof.
   assert (PX : 0 <= X) by (generalize (Rabs_pos a) (Rabs_pos b); intros; unfold X; nra).
   (* the exact bound *)
   apply Rle_trans with (R + h + X).
-  { replace (v - x * y) with ((v - a * b) + (a * b - x * y)) by ring.
-    apply Rle_trans with (1 := Rabs_triang _ _). apply Rplus_le_compat.
-    - apply rounding_any.
-    - now apply product_inherits. }
+  { apply within_through with (a * b); [apply rounding_any | now apply product_inherits]. }
   set (S := fl (fl (R + I) + 4 * eta)).
   assert (PRI : 0 <= fl (R + I)) by (apply rnd_nonnegative; auto; lra).
   assert (LRI : fl (R + I) <= S) by (apply rnd_above; [apply rnd_number | lra]).
@@ -418,10 +411,7 @@ Proof.
   (* all together *)
   apply Rle_trans with (R + inflated I + 4 * eta).
   - apply Rle_trans with (R + h + Z).
-    + replace (v - x / y) with ((v - a / b) + (a / b - x / y)) by ring.
-      apply Rle_trans with (1 := Rabs_triang _ _). apply Rplus_le_compat.
-      * apply rounding_any.
-      * now apply quotient_inherits.
+    + apply within_through with (a / b); [apply rounding_any | now apply quotient_inherits].
     + lra.
   - apply inflated_sum_left; try apply rnd_number; auto using number_4_eta; try lra.
     + apply rounding_nonnegative.
@@ -498,16 +488,12 @@ End Tight.
 (** The theorems: the returned bound holds for the computed value. *)
 Section Sound.
 
-Variables p emin : Z.
-Context {p_positive : Prec_gt_0 p}.
-Hypothesis emin_p : (emin <= - p)%Z.
+Context (p emin : Z) {p_positive : Prec_gt_0 p} (emin_p : (emin <= - p)%Z).
 Notation number := (number p emin).
 
 Section Any_direction.
 
-Hypothesis p_5 : (5 <= p)%Z.
-Variable direction : R -> Z.
-Context {direction_valid : Valid_rnd direction}.
+Context (p_5 : (5 <= p)%Z) (direction : R -> Z) {direction_valid : Valid_rnd direction}.
 Notation fl := (rnd p emin direction).
 
 Lemma eps_16 : 0 <= eps p <= / 16.
@@ -530,10 +516,7 @@ Theorem tight_subtract_sound a x sa b y sb :
   number a -> number b -> number sa -> number sb ->
   Rabs (a - x) <= sa -> Rabs (b - y) <= sb ->
   Rabs (fl (a - b) - (x - y)) <= tight_add p emin direction (fl (a - b)) sa sb.
-Proof.
-  intros. apply tight_add_sound; auto using number_opp.
-  replace (- b - - y) with (- (b - y)) by ring. now rewrite Rabs_Ropp.
-Qed.
+Proof. intros. apply tight_add_sound; auto using number_opp, within_opp. Qed.
 
 Theorem tight_multiply_sound a x sa b y sb :
   number a -> number b -> number sa -> number sb ->
@@ -589,10 +572,7 @@ Proof. exact (sum_error_at_most p emin nearest p_3 emin_p a x sa b y sb). Qed.
 Lemma tight_difference_error_nearest a x sa b y sb :
   number a -> number b -> Rabs (a - x) <= sa -> Rabs (b - y) <= sb ->
   Rabs (fl (a - b) - (x - y)) <= rounding p emin nearest (fl (a - b)) + (sa + sb).
-Proof.
-  intros. apply tight_sum_error_nearest; auto using number_opp.
-  replace (- b - - y) with (- (b - y)) by ring. now rewrite Rabs_Ropp.
-Qed.
+Proof. intros. apply tight_sum_error_nearest; auto using number_opp, within_opp. Qed.
 Lemma tight_enlarged_sound_nearest v sa sb : number sa -> number sb -> 0 <= sa -> 0 <= sb ->
   rounding p emin nearest v + (sa + sb) <= tight_enlarged p emin nearest v sa sb.
 Proof. apply (enlarged_sound p emin nearest p_3 emin_p _ _ error nearest_q6). Qed.
@@ -601,10 +581,7 @@ Theorem tight_subtract_sound_nearest a x sa b y sb :
   number a -> number b -> number sa -> number sb ->
   Rabs (a - x) <= sa -> Rabs (b - y) <= sb ->
   Rabs (fl (a - b) - (x - y)) <= tight_add p emin nearest (fl (a - b)) sa sb.
-Proof.
-  intros. apply tight_add_sound_nearest; auto using number_opp.
-  replace (- b - - y) with (- (b - y)) by ring. now rewrite Rabs_Ropp.
-Qed.
+Proof. intros. apply tight_add_sound_nearest; auto using number_opp, within_opp. Qed.
 
 Theorem tight_multiply_sound_nearest a x sa b y sb :
   number a -> number b -> number sa -> number sb ->

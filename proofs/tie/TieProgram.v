@@ -9,9 +9,7 @@ From Errbound Require Words WordBits SparseProduct.
 
 Section Bits.
 
-Variables p emax : Z.
-Context {p_positive : Prec_gt_0 p}.
-Context {p_below : Prec_lt_emax p emax}.
+Context (p emax : Z) {p_positive : Prec_gt_0 p} {p_below : Prec_lt_emax p emax}.
 
 (** The fields of an IEEE 754 float: sign, exponent, fraction. There is one NaN. *)
 Definition least_normal : Z := 2 ^ (p - 1).

@@ -52,9 +52,7 @@ Qed.
 
 Section Part.
 
-Context {S : Type}.
-Variable none : S.
-Variable midpoint : S -> S -> S.
+Context {S : Type} (none : S) (midpoint : S -> S -> S).
 Notation halves := (halves none midpoint).
 
 (** The signs at the ends are certainly opposite. *)
@@ -91,8 +89,7 @@ Qed.
 
 (** ** The interval *)
 
-Variables sign_y sign_g : S -> sign.
-Variable hopeless : nat -> list S -> bool.
+Context (sign_y sign_g : S -> sign) (hopeless : nat -> list S -> bool).
 Notation subdivide := (subdivide none midpoint sign_y sign_g hopeless).
 Definition excluded (y : list S) (gs : list (list S)) : bool :=
   (above sign_y y || below sign_y y) || existsb (below sign_g) gs.
@@ -124,10 +121,8 @@ Proof.
     + destruct (IH _ _ Left) as (l & h & p & Q). do 3 eexists. now apply left_part; eauto.
 Qed.
 
-Variables stands_y stands_g : nat -> S -> R -> Prop.
-Variables max_y max_g : nat.
-Hypothesis reads_y : reads midpoint sign_y stands_y max_y.
-Hypothesis reads_g : reads midpoint sign_g stands_g max_g.
+Context (stands_y stands_g : nat -> S -> R -> Prop) (max_y max_g : nat)
+  (reads_y : reads midpoint sign_y stands_y max_y) (reads_g : reads midpoint sign_g stands_g max_g).
 
 (** Y's control values on the interval, and facts about all G. *)
 Definition part_is (Y : list R) (Gs : list (list R)) (low high : R) (p : list S) : Prop :=

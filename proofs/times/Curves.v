@@ -90,9 +90,8 @@ Qed.
 Section Paths.
 
 Variable D : R.  (** the square of the distance: 0 for contact *)
-Hypothesis D_0 : 0 <= D.
-Variables p0 p1 p2 p3 : path.
-Hypotheses (C0 : continuous p0) (C1 : continuous p1) (C2 : continuous p2) (C3 : continuous p3).
+Context (D_0 : 0 <= D) (p0 p1 p2 p3 : path) (C0 : continuous p0) (C1 : continuous p1) (C2 : continuous p2)
+  (C3 : continuous p3).
 Definition face_in_contact (t : R) : Prop := face_near D (p0 t) (p1 t) (p2 t) (p3 t).
 Definition edges_in_contact (t : R) : Prop := edges_near D (p0 t) (p1 t) (p2 t) (p3 t).
 

@@ -20,12 +20,9 @@ Open Scope R_scope.
 
 Section Query.
 
-Variable edges : bool.
-Variables b c p : @vector_form integers.
-Hypotheses (degree_b : degree b 1) (degree_c : degree c 1) (degree_p : degree p 1).
-Variables extent_x extent_y extent_z : Z.
-Variable estimate : part -> Z.
-Variable refine : Z -> part -> Z -> Z -> Z -> Z.
+Context (edges : bool) (b c p : @vector_form integers) (degree_b : degree b 1) (degree_c : degree c 1)
+  (degree_p : degree p 1) (extent_x extent_y extent_z : Z) (estimate : part -> Z)
+  (refine : Z -> part -> Z -> Z -> Z -> Z).
 Let y : list R := map IZR (y_form b c p).
 Let Inside (t : R) : Prop := weights_positive edges (vector_at b t) (vector_at c t) (vector_at p t).
 Let positive_at : R -> R -> bool := positive_at edges b c p.
@@ -36,11 +33,10 @@ Definition interior (t : R) : Prop := at_ y t = 0 /\ Inside t.
 Variable double : R -> Prop.
 Hypothesis dyadic : forall n bits, (0 <= bits <= 40)%Z -> (0 <= n <= 2 ^ bits)%Z -> double (over n bits).
 (** root_search::between for an interval's root, and bracket_of_linear_root; none if fixed widths do not suffice. *)
-Variable part_root : part -> option bracket.
-Variable linear_root : R -> R -> option bracket.
-Hypothesis part_root_searched : forall q found, part_root q = Some found ->
-  search double (at_ y) (unit_of (CubicRoots.first (roots q))) (part_start q) (part_end q) found.
-Hypothesis linear_root_searched : forall p0 p1 found, linear_root p0 p1 = Some found -> linear_bracket double p0 p1 found.
+Context (part_root : part -> option bracket) (linear_root : R -> R -> option bracket) (part_root_searched : forall q
+    found, part_root q = Some found -> search double (at_ y) (unit_of (CubicRoots.first (roots q))) (part_start q)
+    (part_end q) found) (linear_root_searched : forall p0 p1 found, linear_root p0 p1 = Some found -> linear_bracket
+    double p0 p1 found).
 (** place_of *)
 Variable place_of : R -> Z -> Z.
 
@@ -386,23 +382,15 @@ End Query.
 
 Section Kinds.
 
-Variable double : R -> Prop.
-Hypothesis dyadic : forall n bits, (0 <= bits <= 40)%Z -> (0 <= n <= 2 ^ bits)%Z -> double (over n bits).
-Hypothesis double_2 : double 2.
-Hypothesis bracketed : forall t, 0 <= t <= 1 -> exists b, holds_time double b t.
+Context (double : R -> Prop) (dyadic : forall n bits, (0 <= bits <= 40)%Z -> (0 <= n <= 2 ^ bits)%Z -> double (over n
+    bits)) (double_2 : double 2) (bracketed : forall t, 0 <= t <= 1 -> exists b, holds_time double b t).
 (** Each for the given polynomial. *)
-Variable part_root : list R -> part -> option bracket.
-Variable linear_root : R -> R -> option bracket.
-Hypothesis part_root_searched : forall y q found, part_root y q = Some found ->
-  search double (at_ y) (unit_of (CubicRoots.first (roots q))) (part_start q) (part_end q) found.
-Hypothesis linear_root_searched : forall p0 p1 found, linear_root p0 p1 = Some found -> linear_bracket double p0 p1 found.
-Variables extent_x extent_y extent_z : Z.
-Variable estimate : part -> Z.
-Variable refine : Z -> part -> Z -> Z -> Z -> Z.
-Variable place_of : R -> Z -> Z.
-Variable steps : nat.
-Variable unit : point.
-Hypothesis U : units unit.
+Context (part_root : list R -> part -> option bracket) (linear_root : R -> R -> option bracket) (part_root_searched :
+    forall y q found, part_root y q = Some found -> search double (at_ y) (unit_of (CubicRoots.first (roots q)))
+    (part_start q) (part_end q) found)
+  (linear_root_searched : forall p0 p1 found, linear_root p0 p1 = Some found -> linear_bracket double p0 p1 found)
+  (extent_x extent_y extent_z : Z) (estimate : part -> Z) (refine : Z -> part -> Z -> Z -> Z -> Z)
+  (place_of : R -> Z -> Z) (steps : nat) (unit : point) (U : units unit).
 
 (** The result for an edge of the border: first_vertex_edge_contact, or none if coordinates separate. *)
 Definition border_time (m0 m1 m2 : moving) (v e0 e1 : integer_motion) (o : option bracket) : Prop :=

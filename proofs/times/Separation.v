@@ -110,10 +110,7 @@ Qed.
 
 Section First.
 
-Variable K : family.
-Variable L : R.
-Hypothesis slow : bounded K L.
-Hypothesis measured : forall t, exists m, squared_distance K t m.
+Context (K : family) (L : R) (slow : bounded K L) (measured : forall t, exists m, squared_distance K t m).
 
 (** A distance above or below d stays so for a while, before and after. *)
 Lemma stays_apart D s : ~ family_near K D s -> exists e, 0 < e /\ forall t, Rabs (t - s) < e -> ~ family_near K D t.
@@ -149,11 +146,9 @@ Proof.
   exists (s + e). split; [lra |]. intros t T. apply F. rewrite Rabs_pos_eq; lra.
 Qed.
 
-Variable near_at : R -> R -> Prop.
-Variable conditions : R -> list condition.
-Hypothesis reads : forall D t, family_near K D t <-> near_at D t.
-Hypothesis formed : forall t, Forall well_formed (conditions t).
-Hypothesis complete : forall D t, near_at D t <-> Exists (holds D) (conditions t).
+Context (near_at : R -> R -> Prop) (conditions : R -> list condition)
+  (reads : forall D t, family_near K D t <-> near_at D t) (formed : forall t, Forall well_formed (conditions t))
+  (complete : forall D t, near_at D t <-> Exists (holds D) (conditions t)).
 
 (** A root of some Z at which its sides hold, where no Z whose sides hold is negative. *)
 Definition met (D : R) (all : list condition) : Prop :=
@@ -455,10 +450,7 @@ Qed.
 
 Section Rounded.
 
-Variable fexp : Z -> Z.
-Context {valid : Valid_exp fexp}.
-Variable direction : R -> Z.
-Context {valid_direction : Valid_rnd direction}.
+Context (fexp : Z -> Z) {valid : Valid_exp fexp} (direction : R -> Z) {valid_direction : Valid_rnd direction}.
 Notation fl := (round radix2 fexp direction).
 
 (** If a rounded difference exceeds a number of the format, the difference does. *)

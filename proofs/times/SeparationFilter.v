@@ -72,8 +72,7 @@ Qed.
 Section Filter.
 
 (** The largest sizes of scaled coordinates. Their sum is at least 1, except in scenes below 2^-1000. *)
-Variables mx my mz : R.
-Hypotheses (mx_0 : 0 <= mx) (my_0 : 0 <= my) (mz_0 : 0 <= mz).
+Context (mx my mz : R) (mx_0 : 0 <= mx) (my_0 : 0 <= my) (mz_0 : 0 <= mz).
 Let S : R := mx + my + mz.
 Hypothesis not_tiny : bpow radix2 (-900) <= S.
 
@@ -88,8 +87,7 @@ Qed.
 Definition off (m s t : R) : Prop := Rabs s <= m /\ Rabs (s - t) <= u * m + 2 * (u * (u * m)) + 3 * eta.
 Definition near_point (s t : point) : Prop := off mx (x s) (x t) /\ off my (y s) (y t) /\ off mz (z s) (z t).
 
-Variable a : point.
-Hypothesis axis_length : norm a <= 1 + 8 * u.
+Context (a : point) (axis_length : norm a <= 1 + 8 * u).
 Lemma axis_component : Rabs (x a) <= 1025 / 1024 /\ Rabs (y a) <= 1025 / 1024 /\ Rabs (z a) <= 1025 / 1024.
 Proof.
   pose proof u_small. assert (L : norm a <= 1025 / 1024) by lra. pose proof (norm_nonnegative a) as N.
@@ -165,11 +163,8 @@ Proof.
 Qed.
 
 (** above_, for a distance D in scaled units; `sum` and `size` are rounded. *)
-Variables D sum size : R.
-Hypothesis D_0 : 0 <= D.
-Hypothesis sum_near : D * (1 - 2 * u) - eta <= sum.
-Hypothesis sum_0 : 0 <= sum.
-Hypothesis size_near : S * (1 - 4 * u) <= size.
+Context (D sum size : R) (D_0 : 0 <= D) (sum_near : D * (1 - 2 * u) - eta <= sum) (sum_0 : 0 <= sum)
+  (size_near : S * (1 - 4 * u) <= size).
 Definition above : R := fl (fl (fl (sum * (1 + 48 * u)) + fl (20 * u * size)) + bpow radix2 (-500)).
 Lemma above_enough : D * (1 + 8 * u) + 15 * (u * S) <= above.
 Proof.

@@ -111,8 +111,7 @@ Qed.
 
 (** ** Linear forms *)
 
-Hypothesis double_0 : double 0.
-Hypothesis double_1 : double 1.
+Context (double_0 : double 0) (double_1 : double 1).
 
 (** bracket_of_linear_root *)
 Definition linear_bracket (p0 p1 : R) (b : bracket) : Prop :=
@@ -182,11 +181,8 @@ Qed.
 
 Section TwoRoots.
 
-Variable f : quadratic.
-Variables k p q : R.
-Hypothesis nonzero : k <> 0.
-Hypothesis in_order : 0 < p < q /\ q < 1.
-Hypothesis product : forall t, quadratic_at f t = k * ((t - p) * (t - q)).
+Context (f : quadratic) (k p q : R) (nonzero : k <> 0) (in_order : 0 < p < q /\ q < 1)
+  (product : forall t, quadratic_at f t = k * ((t - p) * (t - q))).
 
 Lemma end_value : c0 f = k * (p * q).
 Proof. rewrite <- (proj1 (at_ends f)), product. ring. Qed.

@@ -18,17 +18,15 @@ Section Search.
 
 Variable double : R -> Prop.
 (** double_of_order, from 0 to the index of 1 *)
-Variable double_of : Z -> R.
-Variable one : Z.
-Hypothesis numbered : forall x, double x /\ 0 <= x <= 1 <-> exists n, (0 <= n <= one)%Z /\ x = double_of n.
-Hypothesis increasing : forall m n, (0 <= m < n)%Z -> (n <= one)%Z -> double_of m < double_of n.
+Context (double_of : Z -> R) (one : Z)
+  (numbered : forall x, double x /\ 0 <= x <= 1 <-> exists n, (0 <= n <= one)%Z /\ x = double_of n)
+  (increasing : forall m n, (0 <= m < n)%Z -> (n <= one)%Z -> double_of m < double_of n).
 
 Variable p : R -> R.
 (** value_at's sign; none if fixed widths do not suffice. *)
-Variable sign_of_value : Z -> option sign.
-Hypothesis certain_sign : forall n s, sign_of_value n = Some s -> s = sign_of_real (p (double_of n)).
-Variable before : sign.
-Hypothesis strict_before : strict before.
+Context (sign_of_value : Z -> option sign)
+  (certain_sign : forall n s, sign_of_value n = Some s -> s = sign_of_real (p (double_of n))) (before : sign)
+  (strict_before : strict before).
 (** order_of(next), where `next` is not NaN *)
 Variable newton : Z -> option Z.
 

@@ -164,8 +164,7 @@ Section Roots.
 
 Variable H : R -> Prop.  (** contact *)
 Variable f : R -> R.     (** Y *)
-Hypothesis at_roots : forall t, 0 <= t <= 1 -> H t -> f t = 0.
-Hypothesis collides : sometime H.
+Context (at_roots : forall t, 0 <= t <= 1 -> H t -> f t = 0) (collides : sometime H).
 
 (** `early` and `late` *)
 Theorem only_root_first r : (forall t, 0 <= t <= 1 -> f t = 0 -> t = r) -> first H r.
@@ -173,9 +172,7 @@ Proof.
   intros Only. destruct collides as (t & T & Ht). pose proof (Only t T (at_roots t T Ht)) as E. subst t.
   split; auto. split; auto. intros s S Hs. pose proof (Only s ltac:(lra) (at_roots s ltac:(lra) Hs)). lra.
 Qed.
-Variables r1 r2 : R.
-Hypothesis in_order : 0 <= r1 < r2.
-Hypothesis two_roots : forall t, 0 <= t <= 1 -> f t = 0 -> t = r1 \/ t = r2.
+Context (r1 r2 : R) (in_order : 0 <= r1 < r2) (two_roots : forall t, 0 <= t <= 1 -> f t = 0 -> t = r1 \/ t = r2).
 Theorem first_of_two : r1 <= 1 -> H r1 -> first H r1.
 Proof.
   intros L H1. split; [lra |]. split; auto. intros s S Hs.

@@ -180,10 +180,9 @@ Qed.
 (** Products with any algorithm for their errors. *)
 Section Products.
 
-Variable two_product : R -> R -> R * R.
-Variable lost : R.
-Hypothesis two_product_near : forall a b, double a -> double b -> fst (two_product a b) = fl (a * b) /\
-  double (snd (two_product a b)) /\ Rabs (fst (two_product a b) + snd (two_product a b) - a * b) <= lost.
+Context (two_product : R -> R -> R * R) (lost : R) (two_product_near : forall a b, double a -> double b -> fst
+    (two_product a b) = fl (a * b) /\ double (snd (two_product a b)) /\ Rabs (fst (two_product a b) + snd (two_product
+    a b) - a * b) <= lost).
 
 Definition product (a b : R * R) : R * R :=
   let p := two_product (fst a) (fst b) in
@@ -327,35 +326,6 @@ Qed.
 Definition component (q0 p0 q1 p1 t : R) : R * R :=
   let start := difference (q0, 0) (p0, 0) in
   sum start (product (t, 0) (difference (difference (q1, 0) (p1, 0)) start)).
-Lemma component_near q0 p0 q1 p1 t m : double q0 -> double p0 -> double q1 -> double p1 -> double t -> 0 <= t <= 1 ->
-  Rabs (fl (q0 - p0)) <= m -> Rabs (fl (q1 - p1)) <= m -> moderate m -> let M := m * (1 + 2 * u) in
-  known (component q0 p0 q1 p1 t) ((1 - t) * (q0 - p0) + t * (q1 - p1)) M (51 * (u * (u * M))).
-Proof.
-  intros Q0 P0 Q1 P1 Nt T H0 H1 Mm M. pose proof u_small as U.
-  pose proof (difference_exact q0 p0 m Q0 P0 H0) as S. pose proof (difference_exact q1 p1 m Q1 P1 H1) as E.
-  fold M in S, E. assert (Mp : 0 < m) by (unfold moderate in Mm; pose proof (bpow_gt_0 radix2 (-150)); lra).
-  assert (MM : m <= M) by (unfold M; nra). assert (Um : 0 < u * M) by (apply Rmult_lt_0_compat; lra).
-  assert (U2 : u * (u * M) <= / 1099511627776 * (u * M)) by (apply Rmult_le_compat_r; lra).
-  assert (U0 : 0 <= u * (u * M)) by (apply Rmult_le_pos; lra).
-  set (x0 := q0 - p0) in *. set (x1 := q1 - p1) in *. pose proof (known_size _ _ _ _ S) as B0.
-  pose proof (known_size _ _ _ _ E) as B1.
-  unfold component. set (start := difference (q0, 0) (p0, 0)) in *. set (finish := difference (q1, 0) (p1, 0)) in *.
-  assert (C : known (difference finish start) (x1 - x0) (2 * M) (10 * (u * (u * M)))).
-  { unfold difference. apply known_less with (0 + 0 + 5 * (u * (u * (M + M)))); [| lra].
-    apply sum_near; auto using negative_near; try lra.
-    pose proof (triangle _ _ _ _ B1 (eq_ind_r (fun z => z <= M) B0 (Rabs_Ropp x0))). lra. }
-  assert (Kt : known (t, 0) t 1 0).
-  { constructor; cbn [fst snd]; auto; [apply number_0; easy | rewrite Rabs_pos_eq; lra .. | rewrite Rabs_R0; lra |].
-    rewrite Rplus_0_r, Rminus_diag_eq, Rabs_R0 by easy. lra. }
-  destruct (lost_little (1 * (2 * M))) as (L1 & L2).
-  { apply Rle_trans with (bpow radix2 (-150)); [apply bpow_le; lia |]. unfold moderate in Mm. lra. }
-  pose proof (product_near two_product _ two_product_near _ _ _ _ _ _ _ _ Kt C L1 L2 ltac:(lra)) as Pr.
-  apply known_less with (0 + (1 * (10 * (u * (u * M))) + 2 * M * 0 + 0 * (10 * (u * (u * M))) + 13 * (u * (u * (1 * (2 * M))))) +
-    5 * (u * (u * (M + 1 * (2 * M))))); [| lra].
-  replace ((1 - t) * x0 + t * x1) with (x0 + t * (x1 - x0)) by ring.
-  apply sum_near; auto; try lra. replace (x0 + t * (x1 - x0)) with ((1 - t) * x0 + t * x1) by ring.
-  unabs. split; nra.
-Qed.
 
 (** Y of vectors b, c and p, as coplanarity_forms has it. *)
 Definition y_of (bx by_ bz cx cy cz px py pz : R * R) : R * R :=
@@ -366,8 +336,7 @@ Definition y_of (bx by_ bz cx cy cz px py pz : R * R) : R * R :=
 
 Section Vectors.
 
-Variables bx by_ bz cx cy cz px py pz : R * R.
-Variables Bx By Bz Cx Cy Cz Px Py Pz X Y Z : R.
+Context (bx by_ bz cx cy cz px py pz : R * R) (Bx By Bz Cx Cy Cz Px Py Pz X Y Z : R).
 Notation near a x m := (known a x m (51 * (u * (u * m)))).
 Hypotheses (KBx : near bx Bx X) (KBy : near by_ By Y) (KBz : near bz Bz Z) (KCx : near cx Cx X) (KCy : near cy Cy Y)
   (KCz : near cz Cz Z) (KPx : near px Px X) (KPy : near py Py Y) (KPz : near pz Pz Z).

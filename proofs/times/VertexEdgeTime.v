@@ -174,9 +174,7 @@ Qed.
 
 Section Brackets.
 
-Variable double : R -> Prop.
-Hypothesis double_0 : double 0.
-Hypothesis double_1 : double 1.
+Context (double : R -> Prop) (double_0 : double 0) (double_1 : double 1).
 
 Definition place_bracket (place : place_in_time) (b : bracket) : Prop :=
   match place with
