@@ -1,6 +1,6 @@
 """Reads, builds and checks a folder of Coq files. Nothing is accepted without Coq's confirmation.
 
-A folder has those files and _CoqProject, which only lists them. A text search could miss an assumption, so Coq confirms
+A folder has those files and _CoqProject, which only names the library. A text search could miss an assumption, so Coq confirms
 it twice. Print Assumptions lists the axioms of each theorem, and every line of its output must be recognised. coqchk
 checks the compiled files again and lists their axioms by full names. Coq prints the theorems' statements. A file for
 readers must have the printed text of its theorems, and a record the digests of all statements.
@@ -80,21 +80,18 @@ def words_of(text):
 
 
 def files_of(folder, library):
-    """Returns the paths of the files by their names, both without .v, in _CoqProject's order. _CoqProject must have no
-    other words, such as options that would weaken the kernel."""
-    lines = [line.strip() for line in (folder / "_CoqProject").read_text().splitlines() if line.strip()]
-    if not lines or lines[0] != f"-Q . {library}":
-        raise Refused(f"_CoqProject: found '{lines[0] if lines else ''}', expected -Q . {library}")
-    for line in lines[1:]:
-        if not re.fullmatch(r"(?:[a-z]+/)?[A-Z]\w*\.v", line):
-            raise Refused(f"_CoqProject: found '{line}', expected a file's name")
-    listed = [line[:-2] for line in lines[1:]]
-    there = sorted(str(path.relative_to(folder))[:-2] for path in folder.rglob("*.v"))
-    if sorted(listed) != there:
-        raise Refused(f"_CoqProject and the folder differ: {sorted(set(listed) ^ set(there))}")
-    files = {path.rsplit("/", 1)[-1]: path for path in listed}
-    if len(files) != len(listed):
-        raise Refused("_CoqProject: found two files with one name")
+    """Returns the paths of the files by their names, both without .v, in the order of the paths. _CoqProject must have no
+    other words than the library, such as options that would weaken the kernel."""
+    project = (folder / "_CoqProject").read_text().strip()
+    if project != f"-Q . {library}":
+        raise Refused(f"_CoqProject: found '{project}', expected -Q . {library}")
+    there = sorted(str(path.relative_to(folder)) for path in folder.rglob("*.v"))
+    for path in there:
+        if not re.fullmatch(r"(?:[a-z]+/)?[A-Z]\w*\.v", path):
+            raise Refused(f"found the file {path}, expected File.v or folder/File.v")
+    files = {path.rsplit("/", 1)[-1][:-2]: path[:-2] for path in there}
+    if len(files) != len(there):
+        raise Refused("found two files with one name")
     return files
 
 
@@ -144,10 +141,11 @@ def compile_all(folder, build, more=()):
         raise Refused(f"{build}: the build folder contains the proofs; expected another folder, whose contents are removed")
     shutil.rmtree(build, ignore_errors=True)
     build.mkdir(parents=True)
-    for path in [*folder.rglob("*.v"), folder / "_CoqProject"]:
-        (build / path.relative_to(folder)).parent.mkdir(exist_ok=True)
-        shutil.copy(path, build / path.relative_to(folder))
-    run(build, "coq_makefile", "-f", "_CoqProject", "-o", "Makefile")
+    files = [path.relative_to(folder) for path in sorted(folder.rglob("*.v"))]
+    for path in [*files, Path("_CoqProject")]:
+        (build / path).parent.mkdir(exist_ok=True)
+        shutil.copy(folder / path, build / path)
+    run(build, "coq_makefile", "-f", "_CoqProject", *files, "-o", "Makefile")
     run(build, "make", f"-j{os.cpu_count()}")
     for path in more:
         shutil.copy(path, build)

@@ -8,10 +8,8 @@
 
 From Coq Require Import Reals ZArith Lia Lra List Sorted.
 From Errbound Require Import RootIsolation ControlValues CommonFactor.
-From Errbound Require Import Sign Contact UnboundedIntegers Reference BscExact.
-From Errbound Require BoundedInteger.
-Import ListNotations.
-Open Scope R_scope.
+From Errbound Require Import Sign Contact UnboundedIntegers Reference BscExact. From Errbound Require BoundedInteger.
+Import ListNotations. Open Scope R_scope.
 
 (** ** The chain's first polynomial, in integers *)
 
@@ -50,8 +48,7 @@ Proof.
   assert (S : same q (product m f)) by (apply equal_same; intros x; rewrite product_at; apply V).
   rewrite <- last_coefficient, S in Lq. rewrite <- last_coefficient. intros Z. apply Lq.
   assert (Over : forall l i, (length l - 1 < i)%nat -> coefficient l i = 0%Z)
-    by (intros l i I; apply nth_overflow; lia).
-  destruct f as [| a l].
+    by (intros l i I; apply nth_overflow; lia). destruct f as [| a l].
   - rewrite <- S. apply zero_everywhere. intros x. rewrite V. unfold poly at 2. simpl. ring.
   - replace (length q - 1)%nat with (length m - 1 + (length (a :: l) - 1))%nat.
     + rewrite last_of_product by apply Over. rewrite Z. ring.
@@ -106,8 +103,7 @@ Definition root_of (k : located) : R :=
 Lemma root_of_right f i r : isolates (reals_of f) i r -> root_of (Located f i) = r.
 Proof.
   intros (Z & I). unfold root_of. destruct completeness as (m & Upper & Least). cbn [proj1_sig].
-  assert (R : low i <= r <= high i) by (destruct I as [(-> & ->) | (I & _)]; lra).
-  apply Rle_antisym.
+  assert (R : low i <= r <= high i) by (destruct I as [(-> & ->) | (I & _)]; lra). apply Rle_antisym.
   - apply Least. intros x [-> | (X & Zx)]; cbn [place polynomial] in *; [lra |].
     destruct I as [(A & B) | (_ & Only & _)]; [lra |]. rewrite (Only x); auto. lra.
   - apply Upper. right. split; [exact R | exact Z].
@@ -115,10 +111,8 @@ Qed.
 
 Section Isolation.
 
-Variable common : list Z -> list Z -> list Z.
-Variable squarefree : list Z -> list Z.
-Variable intervals : list Z -> list interval.
-Variable sign_there : list Z -> list Z -> interval -> sign.
+Context (common : list Z -> list Z -> list Z) (squarefree : list Z -> list Z) (intervals : list Z -> list interval)
+  (sign_there : list Z -> list Z -> interval -> sign).
 
 Definition asked (p : list Z) : Prop := trimmed p /\ (2 <= length p)%nat /\ poly p 0 <> 0.
 (** The results of the algorithms, for the given arguments. The interval may be one that earlier calls have refined:

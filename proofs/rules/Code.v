@@ -35,26 +35,17 @@ Inductive sign_type := negative | zero | positive | uncertain.
 
 Section Code.
 
-Variable T : Type.
-Variable A : arithmetic T.
+Context (T : Type) (A : arithmetic T).
 (** True if fma is one instruction. In constant expressions two_product does not use fma, but product_error_is_exact
     still tests has_fast_fma. From 4 digits on both give the same for every product. *)
 Variable has_fast_fma : bool.
 
 Declare Scope code.
-Infix "+" := (plus T A) : code.
-Infix "-" := (minus T A) : code.
-Infix "*" := (times T A) : code.
-Infix "/" := (over T A) : code.
-Notation "- x" := (opposite T A x) : code.
-Infix "<" := (less T A) : code.
-Infix "<=" := (at_most T A) : code.
-Infix "==" := (equal T A) (at level 70) : code.
-Notation "# n" := (integer T A n%Z) (at level 1, n at level 0, format "# n") : code.
-Notation ε := (epsilon T A).
-Notation u := (unit_roundoff T A).
-Notation η := (underflow_unit T A).
-Notation "∞" := (infinity T A).
+Infix "+" := (plus T A) : code. Infix "-" := (minus T A) : code. Infix "*" := (times T A) : code.
+Infix "/" := (over T A) : code. Notation "- x" := (opposite T A x) : code. Infix "<" := (less T A) : code.
+Infix "<=" := (at_most T A) : code. Infix "==" := (equal T A) (at level 70) : code.
+Notation "# n" := (integer T A n%Z) (at level 1, n at level 0, format "# n") : code. Notation ε := (epsilon T A).
+Notation u := (unit_roundoff T A). Notation η := (underflow_unit T A). Notation "∞" := (infinity T A).
 Open Scope code.
 
 (** number_traits.hpp *)
@@ -390,8 +381,7 @@ Definition residual_rule : rule (T * T) := {|
 (** functions.hpp, for tracked numbers: a value and a bound. *)
 Section Functions.
 
-Variable B : Type.
-Variable R : rule B.
+Context (B : Type) (R : rule B).
 
 Definition tracked_exactly (v : T) : T * B := (v, rule_exact B R v).
 Definition tracked_within (v e : T) : T * B := (v, rule_within B R v e).

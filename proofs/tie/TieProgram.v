@@ -2,16 +2,13 @@
     those of integers of words, as a program. tie.ml evaluates them on tiny formats, float, double, and integers of
     up to four words. tests/errbound/validation/tie_test.cpp compares the C++ code with the results. *)
 
-From Coq Require Import ZArith Extraction ExtrOcamlBasic.
-From Flocq Require Import Core IEEE754.BinarySingleNaN.
+From Coq Require Import ZArith Extraction ExtrOcamlBasic. From Flocq Require Import Core IEEE754.BinarySingleNaN.
 From Errbound Require Import Code CompoundCode RelativeCode AffineCode SlopeCode Ieee.
 From Errbound Require Words WordBits SparseProduct.
 
 Section Bits.
 
-Variables p emax : Z.
-Context {p_positive : Prec_gt_0 p}.
-Context {p_below : Prec_lt_emax p emax}.
+Context (p emax : Z) {p_positive : Prec_gt_0 p} {p_below : Prec_lt_emax p emax}.
 
 (** The fields of an IEEE 754 float: sign, exponent, fraction. There is one NaN. *)
 Definition least_normal : Z := 2 ^ (p - 1).

@@ -6,8 +6,7 @@
         face_curves_closed, edges_curves_closed, face_curves_first, edges_curves_first   times of contact are closed
         smooth_continuous    paths are continuous if their coordinates are, like polynomials *)
 
-From Coq Require Import Reals Lra Psatz List.
-From Errbound Require Import Contact Distance Separation FirstContact.
+From Coq Require Import Reals Lra Psatz List. From Errbound Require Import Contact Distance Separation FirstContact.
 Open Scope R_scope.
 
 Definition closed_times (H : R -> Prop) : Prop :=
@@ -90,9 +89,8 @@ Qed.
 Section Paths.
 
 Variable D : R.  (** the square of the distance: 0 for contact *)
-Hypothesis D_0 : 0 <= D.
-Variables p0 p1 p2 p3 : path.
-Hypotheses (C0 : continuous p0) (C1 : continuous p1) (C2 : continuous p2) (C3 : continuous p3).
+Context (D_0 : 0 <= D) (p0 p1 p2 p3 : path) (C0 : continuous p0) (C1 : continuous p1) (C2 : continuous p2)
+  (C3 : continuous p3).
 Definition face_in_contact (t : R) : Prop := face_near D (p0 t) (p1 t) (p2 t) (p3 t).
 Definition edges_in_contact (t : R) : Prop := edges_near D (p0 t) (p1 t) (p2 t) (p3 t).
 

@@ -8,11 +8,9 @@
         root_reached            signs of Y before and after t: the first of two roots is within reach
         bracket_around          its bracket, by signs at adjacent doubles *)
 
-From Coq Require Import Reals ZArith Lia Lra Psatz List.
-From Flocq Require Import Core.
+From Coq Require Import Reals ZArith Lia Lra Psatz List. From Flocq Require Import Core.
 From Errbound Require Import Bernstein CubicRoots Subdivision Contact Separation TimeBrackets Format Twofold.
-Import ListNotations.
-Open Scope R_scope.
+Import ListNotations. Open Scope R_scope.
 
 (** ** De Casteljau *)
 
@@ -73,13 +71,12 @@ Proof. intros L F. induction F as [| a b p q (A & M & N) F IH]; constructor; aut
 Lemma row_step t e m p q : 0 <= t <= 1 -> row_near e m p q ->
   row_near (e + 51 / 10 * (u * m) + 2 * eta) (m + 51 / 10 * (u * m) + 2 * eta) (next_row (lerp t) p) (next_row (exact_lerp t) q).
 Proof.
-  intros T F. induction F as [| a x p q (A & Ma & Na) F IH]; [constructor |]. destruct F as [| b y p q (B & Mb & Nb) F]; [constructor |].
-  cbn [next_row] in *. constructor; auto. destruct (lerp_near t a b m A B T Ma Mb) as (N & S).
-  split; [apply fl_number |]. split; auto.
+  intros T F. induction F as [| a x p q (A & Ma & Na) F IH]; [constructor |].
+  destruct F as [| b y p q (B & Mb & Nb) F]; [constructor |]. cbn [next_row] in *. constructor; auto.
+  destruct (lerp_near t a b m A B T Ma Mb) as (N & S). split; [apply fl_number |]. split; auto.
   replace (lerp t a b - exact_lerp t x y) with (lerp t a b - exact_lerp t a b + ((1 - t) * (a - x) + t * (b - y)))
-    by (unfold exact_lerp; ring).
-  eapply Rle_trans; [apply Rabs_triang |]. assert (Rabs ((1 - t) * (a - x) + t * (b - y)) <= e); [| lra].
-  apply Rabs_le_inv in Na, Nb. apply Rabs_le. split; nra.
+    by (unfold exact_lerp; ring). eapply Rle_trans; [apply Rabs_triang |].
+  assert (Rabs ((1 - t) * (a - x) + t * (b - y)) <= e); [| lra]. apply Rabs_le_inv in Na, Nb. apply Rabs_le. split; nra.
 Qed.
 Fixpoint after_rows (n : nat) (lerp : R -> R -> R) (p : list R) : list R :=
   match n with O => p | S n => after_rows n lerp (next_row lerp p) end.
@@ -146,8 +143,7 @@ Proof.
     pose proof (P (w ^ 3) _ ltac:(now apply pow_le) (D e d ltac:(auto) ltac:(auto))).
     replace (8 * m) with (4 * ((1 - w) ^ 3 * (2 * m) + 3 * (1 - w) ^ 2 * w * (2 * m) + 3 * (1 - w) * w ^ 2 * (2 * m) + w ^ 3 * (2 * m)))
       by ring. apply Rabs_le. lra. }
-  assert (Way : forall g h, 0 <= g -> g < h -> h <= 1 ->
-    Rabs (form q (1 - h) h - form q (1 - g) g) <= 8 * m * (h - g)).
+  assert (Way : forall g h, 0 <= g -> g < h -> h <= 1 -> Rabs (form q (1 - h) h - form q (1 - g) g) <= 8 * m * (h - g)).
   { intros g h G GH H'. destruct (MVT_cor2 (fun w => form q (1 - w) w) (slope q) g h GH) as (w & Ew & W).
     { intros w _. apply derivable_form. }
     rewrite Ew, Rabs_mult, (Rabs_pos_eq (h - g)) by lra. apply Rmult_le_compat_r; [lra |]. apply B. lra. }
@@ -164,8 +160,7 @@ Section Roots.
 
 Variable H : R -> Prop.  (** contact *)
 Variable f : R -> R.     (** Y *)
-Hypothesis at_roots : forall t, 0 <= t <= 1 -> H t -> f t = 0.
-Hypothesis collides : sometime H.
+Context (at_roots : forall t, 0 <= t <= 1 -> H t -> f t = 0) (collides : sometime H).
 
 (** `early` and `late` *)
 Theorem only_root_first r : (forall t, 0 <= t <= 1 -> f t = 0 -> t = r) -> first H r.
@@ -173,9 +168,7 @@ Proof.
   intros Only. destruct collides as (t & T & Ht). pose proof (Only t T (at_roots t T Ht)) as E. subst t.
   split; auto. split; auto. intros s S Hs. pose proof (Only s ltac:(lra) (at_roots s ltac:(lra) Hs)). lra.
 Qed.
-Variables r1 r2 : R.
-Hypothesis in_order : 0 <= r1 < r2.
-Hypothesis two_roots : forall t, 0 <= t <= 1 -> f t = 0 -> t = r1 \/ t = r2.
+Context (r1 r2 : R) (in_order : 0 <= r1 < r2) (two_roots : forall t, 0 <= t <= 1 -> f t = 0 -> t = r1 \/ t = r2).
 Theorem first_of_two : r1 <= 1 -> H r1 -> first H r1.
 Proof.
   intros L H1. split; [lra |]. split; auto. intros s S Hs.

@@ -7,24 +7,17 @@
         difference_exact     differences of coordinates are exact
         y_near, time_stage_sign, error_enough   if the value exceeds error(), Y has its sign *)
 
-From Coq Require Import Reals ZArith Lia Lra Psatz List.
-From Flocq Require Import Core.
-From Errbound Require Import Format ErrorFree.
-Import ListNotations.
-Open Scope R_scope.
+From Coq Require Import Reals ZArith Lia Lra Psatz List. From Flocq Require Import Core.
+From Errbound Require Import Format ErrorFree. Import ListNotations. Open Scope R_scope.
 
 #[local] Instance double_precision : Prec_gt_0 53 := eq_refl.
-Notation fl := (rnd 53 (-1074) nearest).
-Notation double := (number 53 (-1074)).
-Notation u := (u 53).
-Notation eta := (eta (-1074)).
-Notation two_sum := (two_sum 53 (-1074)).
+Notation fl := (rnd 53 (-1074) nearest). Notation double := (number 53 (-1074)). Notation u := (u 53).
+Notation eta := (eta (-1074)). Notation two_sum := (two_sum 53 (-1074)).
 Notation fast_two_sum := (fast_two_sum 53 (-1074)).
 
 Lemma u_small : 0 < u <= / 1099511627776.
 Proof. split; [apply u_positive |]. unfold Format.u. apply Rle_trans with (bpow radix2 (-40)); [apply bpow_le; lia | simpl; lra]. Qed.
-Lemma fl_number x : double (fl x).
-Proof. apply rnd_number; auto with typeclass_instances. Qed.
+Lemma fl_number x : double (fl x). Proof. apply rnd_number; auto with typeclass_instances. Qed.
 Lemma fl_sum x y : double x -> double y -> Rabs (fl (x + y) - (x + y)) <= u * Rabs (x + y).
 Proof. apply (sum_error 53 (-1074) nearest _ _ (rounding_error_nearest 53 (-1074) ltac:(lia))). Qed.
 Lemma fl_difference x y : double x -> double y -> Rabs (fl (x - y) - (x - y)) <= u * Rabs (x - y).
@@ -50,8 +43,7 @@ Theorem fast_two_sum_near x y : double x -> double y -> Rabs x <= Rabs y -> let 
   Rabs (fst r + snd r - (x + y)) <= 2 * u * Rabs y /\ Rabs (snd r) <= 5 * u * Rabs y.
 Proof.
   intros X Y L. unfold ErrorFree.fast_two_sum. cbn [fst snd]. pose proof u_small as U. pose proof (Rabs_pos y) as Y0.
-  set (s := fl (x + y)). set (z := fl (s - x)). set (e := fl (y - z)).
-  pose proof (fl_sum x y X Y) as H1. fold s in H1.
+  set (s := fl (x + y)). set (z := fl (s - x)). set (e := fl (y - z)). pose proof (fl_sum x y X Y) as H1. fold s in H1.
   pose proof (fl_difference s x (fl_number _) X) as H2. fold z in H2.
   pose proof (fl_difference y z Y (fl_number _)) as H3. fold e in H3. set (m := Rabs y) in *.
   assert (B1 : Rabs (x + y) <= 2 * m) by (pose proof (Rabs_triang x y); fold m in H; lra).
@@ -125,16 +117,14 @@ Theorem sum_near a b x y A B k l m : known a x A k -> known b y B l -> Rabs (x +
   (Rabs (snd (sum a b)) <= 2 * u * Rabs (fst (sum a b)) \/ Rabs (snd (sum a b)) <= 6 * (u * (u * (A + B)))).
 Proof.
   intros Ka Kb Hm HS Hk. unfold sum. destruct Ka as [Av Ae Ax A1 A2 A3], Kb as [Bv Be By B1 B2 B3].
-  destruct a as (av, ae), b as (bv, be). cbn [fst snd] in *. pose proof u_small as U.
-  set (S := A + B) in *. assert (S0 : 0 <= S) by (pose proof (Rabs_pos x); pose proof (Rabs_pos y); unfold S; lra).
-  assert (Us : 0 <= u * S) by (apply Rmult_le_pos; lra).
-  assert (Uus : 0 <= u * (u * S)) by (apply Rmult_le_pos; lra).
+  destruct a as (av, ae), b as (bv, be). cbn [fst snd] in *. pose proof u_small as U. set (S := A + B) in *.
+  assert (S0 : 0 <= S) by (pose proof (Rabs_pos x); pose proof (Rabs_pos y); unfold S; lra).
+  assert (Us : 0 <= u * S) by (apply Rmult_le_pos; lra). assert (Uus : 0 <= u * (u * S)) by (apply Rmult_le_pos; lra).
   assert (U3 : u * (u * (u * S)) <= / 1024 * (u * (u * S))) by (apply Rmult_le_compat_r; lra).
   pose proof (two_sum_exact 53 (-1074) ltac:(lia) av bv ltac:(lia) Av Bv) as E.
   assert (Ns : double (fst (two_sum av bv)) /\ double (snd (two_sum av bv))) by (split; apply fl_number).
-  assert (Fs : fst (two_sum av bv) = fl (av + bv)) by easy.
-  destruct (two_sum av bv) as (s, e). cbn [fst snd] in *. destruct Ns as (Ns & Ne).
-  pose proof (fl_sum av bv Av Bv) as R1. rewrite <- Fs in R1.
+  assert (Fs : fst (two_sum av bv) = fl (av + bv)) by easy. destruct (two_sum av bv) as (s, e). cbn [fst snd] in *.
+  destruct Ns as (Ns & Ne). pose proof (fl_sum av bv Av Bv) as R1. rewrite <- Fs in R1.
   assert (Sv : Rabs (av + bv) <= 33 / 32 * S) by (eapply Rle_trans; [apply Rabs_triang |]; unfold S; lra).
   assert (E1 : Rabs e <= 33 / 32 * (u * S)).
   { replace e with (- (s - (av + bv))) by lra. rewrite Rabs_Ropp. nra. }
@@ -180,10 +170,9 @@ Qed.
 (** Products with any algorithm for their errors. *)
 Section Products.
 
-Variable two_product : R -> R -> R * R.
-Variable lost : R.
-Hypothesis two_product_near : forall a b, double a -> double b -> fst (two_product a b) = fl (a * b) /\
-  double (snd (two_product a b)) /\ Rabs (fst (two_product a b) + snd (two_product a b) - a * b) <= lost.
+Context (two_product : R -> R -> R * R) (lost : R) (two_product_near : forall a b, double a -> double b -> fst
+    (two_product a b) = fl (a * b) /\ double (snd (two_product a b)) /\ Rabs (fst (two_product a b) + snd (two_product
+    a b) - a * b) <= lost).
 
 Definition product (a b : R * R) : R * R :=
   let p := two_product (fst a) (fst b) in
@@ -236,8 +225,7 @@ Proof.
   { replace z with (z - (pe + g) + (pe + g)) by ring. eapply Rle_trans; [apply Rabs_triang |].
     pose proof (Rabs_triang pe g). nra. }
   pose proof (Rabs_triang pe g) as Tg. pose proof (Rabs_pos pe) as Q0. pose proof (Rabs_pos g) as G0.
-  set (K := A * l + B * k + k * l) in *.
-  destruct (Rle_or_lt (Rabs z) (Rabs p)) as [L | L].
+  set (K := A * l + B * k + k * l) in *. destruct (Rle_or_lt (Rabs z) (Rabs p)) as [L | L].
   - assert (Sg : Rabs (pe + g) <= 112 / 32 * (u * P)) by lra. pose proof (Scale _ _ Sg).
     destruct (normal_near p z (x * y) P (K + 13 * (u * (u * P)))) as [(_ & N & _) | (L' & _)]; auto;
       try (subst p z; apply fl_number); try lra. now apply product_of.
@@ -327,35 +315,6 @@ Qed.
 Definition component (q0 p0 q1 p1 t : R) : R * R :=
   let start := difference (q0, 0) (p0, 0) in
   sum start (product (t, 0) (difference (difference (q1, 0) (p1, 0)) start)).
-Lemma component_near q0 p0 q1 p1 t m : double q0 -> double p0 -> double q1 -> double p1 -> double t -> 0 <= t <= 1 ->
-  Rabs (fl (q0 - p0)) <= m -> Rabs (fl (q1 - p1)) <= m -> moderate m -> let M := m * (1 + 2 * u) in
-  known (component q0 p0 q1 p1 t) ((1 - t) * (q0 - p0) + t * (q1 - p1)) M (51 * (u * (u * M))).
-Proof.
-  intros Q0 P0 Q1 P1 Nt T H0 H1 Mm M. pose proof u_small as U.
-  pose proof (difference_exact q0 p0 m Q0 P0 H0) as S. pose proof (difference_exact q1 p1 m Q1 P1 H1) as E.
-  fold M in S, E. assert (Mp : 0 < m) by (unfold moderate in Mm; pose proof (bpow_gt_0 radix2 (-150)); lra).
-  assert (MM : m <= M) by (unfold M; nra). assert (Um : 0 < u * M) by (apply Rmult_lt_0_compat; lra).
-  assert (U2 : u * (u * M) <= / 1099511627776 * (u * M)) by (apply Rmult_le_compat_r; lra).
-  assert (U0 : 0 <= u * (u * M)) by (apply Rmult_le_pos; lra).
-  set (x0 := q0 - p0) in *. set (x1 := q1 - p1) in *. pose proof (known_size _ _ _ _ S) as B0.
-  pose proof (known_size _ _ _ _ E) as B1.
-  unfold component. set (start := difference (q0, 0) (p0, 0)) in *. set (finish := difference (q1, 0) (p1, 0)) in *.
-  assert (C : known (difference finish start) (x1 - x0) (2 * M) (10 * (u * (u * M)))).
-  { unfold difference. apply known_less with (0 + 0 + 5 * (u * (u * (M + M)))); [| lra].
-    apply sum_near; auto using negative_near; try lra.
-    pose proof (triangle _ _ _ _ B1 (eq_ind_r (fun z => z <= M) B0 (Rabs_Ropp x0))). lra. }
-  assert (Kt : known (t, 0) t 1 0).
-  { constructor; cbn [fst snd]; auto; [apply number_0; easy | rewrite Rabs_pos_eq; lra .. | rewrite Rabs_R0; lra |].
-    rewrite Rplus_0_r, Rminus_diag_eq, Rabs_R0 by easy. lra. }
-  destruct (lost_little (1 * (2 * M))) as (L1 & L2).
-  { apply Rle_trans with (bpow radix2 (-150)); [apply bpow_le; lia |]. unfold moderate in Mm. lra. }
-  pose proof (product_near two_product _ two_product_near _ _ _ _ _ _ _ _ Kt C L1 L2 ltac:(lra)) as Pr.
-  apply known_less with (0 + (1 * (10 * (u * (u * M))) + 2 * M * 0 + 0 * (10 * (u * (u * M))) + 13 * (u * (u * (1 * (2 * M))))) +
-    5 * (u * (u * (M + 1 * (2 * M))))); [| lra].
-  replace ((1 - t) * x0 + t * x1) with (x0 + t * (x1 - x0)) by ring.
-  apply sum_near; auto; try lra. replace (x0 + t * (x1 - x0)) with ((1 - t) * x0 + t * x1) by ring.
-  unabs. split; nra.
-Qed.
 
 (** Y of vectors b, c and p, as coplanarity_forms has it. *)
 Definition y_of (bx by_ bz cx cy cz px py pz : R * R) : R * R :=
@@ -366,8 +325,7 @@ Definition y_of (bx by_ bz cx cy cz px py pz : R * R) : R * R :=
 
 Section Vectors.
 
-Variables bx by_ bz cx cy cz px py pz : R * R.
-Variables Bx By Bz Cx Cy Cz Px Py Pz X Y Z : R.
+Context (bx by_ bz cx cy cz px py pz : R * R) (Bx By Bz Cx Cy Cz Px Py Pz X Y Z : R).
 Notation near a x m := (known a x m (51 * (u * (u * m)))).
 Hypotheses (KBx : near bx Bx X) (KBy : near by_ By Y) (KBz : near bz Bz Z) (KCx : near cx Cx X) (KCy : near cy Cy Y)
   (KCz : near cz Cz Z) (KPx : near px Px X) (KPy : near py Py Y) (KPz : near pz Pz Z).
@@ -416,8 +374,7 @@ Proof.
   { unfold M. replace (bpow radix2 (-450)) with (bpow radix2 (-300) * bpow radix2 (-150)) by now rewrite <- bpow_plus.
     apply Rmult_le_compat; auto using bpow_ge_0. now apply moderate_product. }
   assert (M0 : 0 < M) by (unfold M; repeat apply Rmult_lt_0_compat; auto).
-  destruct (lost_little (2 * M)) as (L1 & L2); [lra |].
-  assert (Um : 0 < u * M) by (apply Rmult_lt_0_compat; lra).
+  destruct (lost_little (2 * M)) as (L1 & L2); [lra |]. assert (Um : 0 < u * M) by (apply Rmult_lt_0_compat; lra).
   assert (U2 : u * (u * M) <= / 1099511627776 * (u * M)) by (apply Rmult_le_compat_r; lra).
   assert (U0 : 0 <= u * (u * M)) by (apply Rmult_le_pos; lra).
   assert (U4 : u * (u * (u * (u * M))) <= / 1099511627776 * (u * (u * M))).
@@ -516,8 +473,7 @@ Proof.
   { assert ((1 + 2 * u) * (1 + 2 * u) <= 11 / 10) by nra. assert (9 / 10 <= (1 - u) * (1 - u)) by nra.
     assert ((1 + 2 * u) * (1 + 2 * u) * (1 + 2 * u) <= 11 / 10 * (11 / 10)) by (apply Rmult_le_compat; nra).
     assert (9 / 10 * (9 / 10) <= (1 - u) * (1 - u) * (1 - u)) by (apply Rmult_le_compat; nra). lra. }
-  assert (Hp : 0 < h * P) by (now apply Rmult_lt_0_compat).
-  apply (Rmult_le_compat_r (h * P)) in H; [| lra].
+  assert (Hp : 0 < h * P) by (now apply Rmult_lt_0_compat). apply (Rmult_le_compat_r (h * P)) in H; [| lra].
   replace (1210 * (/ 4096 * h) * ((1 + 2 * u) * (1 + 2 * u) * (1 + 2 * u)) * P) with
     (1210 * / 4096 * ((1 + 2 * u) * (1 + 2 * u) * (1 + 2 * u)) * (h * P)) by ring.
   replace (P * (1 - u) * (1 - u) * h * (1 - u)) with ((1 - u) * (1 - u) * (1 - u) * (h * P)) by ring. exact H.
@@ -548,8 +504,7 @@ Proof.
     rewrite Rabs_Ropp. lra. }
   lra.
 Qed.
-Lemma exact_or_tiny a b error : double a -> double b ->
-  product_error_is_exact 53 (-1074) a b (fl (a * b), error) \/
+Lemma exact_or_tiny a b error : double a -> double b -> product_error_is_exact 53 (-1074) a b (fl (a * b), error) \/
   (a <> 0 /\ b <> 0 /\ Rabs (a * b) <= 2 * bpow radix2 (-968) /\ eta <= bpow radix2 (-968)).
 Proof.
   intros A B. unfold product_error_is_exact. rewrite (threshold 53 (-1074)) by lia. cbn [fst].
@@ -580,9 +535,8 @@ Qed.
 Lemma split_crude x : double x -> x <> 0 -> let s := split 53 (-1074) x in
   Rabs (fst s) <= bpow radix2 40 * Rabs x /\ Rabs (snd s) <= bpow radix2 40 * Rabs x.
 Proof.
-  intros N Z s. pose proof (at_least_eta x N Z) as E. unfold s, split. cbn [fst snd].
-  change (half_bits 53) with 27%Z. set (c := fl ((bpow radix2 27 + 1) * x)).
-  set (w := fl (c - x)). set (h := fl (c - w)). set (l := fl (x - h)).
+  intros N Z s. pose proof (at_least_eta x N Z) as E. unfold s, split. cbn [fst snd]. change (half_bits 53) with 27%Z.
+  set (c := fl ((bpow radix2 27 + 1) * x)). set (w := fl (c - x)). set (h := fl (c - w)). set (l := fl (x - h)).
   assert (P : Rabs ((bpow radix2 27 + 1) * x) <= bpow radix2 28 * Rabs x).
   { rewrite Rabs_mult, Rabs_pos_eq by (pose proof (bpow_gt_0 radix2 27); lra). apply Rmult_le_compat_r; [apply Rabs_pos |].
     simpl. lra. }
