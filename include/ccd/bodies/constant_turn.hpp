@@ -50,8 +50,8 @@ enclosing_motion enclose(const constant_turn& motion, double from, double to);
 
 struct enclosed_time {
     /// `separate` and `collides` are certain. `uncertain`: the features come within the bound, but
-    /// their contact is not certain (for example of features that graze each other), or a number
-    /// is too large.
+    /// a contact is not certain, for example because they graze each other; or an input is invalid
+    /// or too large.
     ccd::outcome outcome = ccd::outcome::uncertain;
     /// There is no contact in [0, low). If the outcome is `collides`, there is one in [low, high].
     double low = 0, high = 1;
