@@ -3,18 +3,19 @@
 usage: bodies.py [SCENE]...   (default: all of torus, bump, gears, needle, plates)
 
 Two bodies move in steps, each with constant velocities of position and rotation. Every package decides one step after
-the other, up to the first contact. coal and drake have no continuous queries: conservative advancement by their
-distances, written here, stops at the distance 1e-4, which is also python-fcl's default tolerance. drake takes convex
-bodies only.
+the other, up to the first contact. coal and drake have no continuous queries of meshes: conservative advancement by
+their distances, written here, stops at the distance 1e-4. drake takes convex bodies only. python-fcl has its defaults
+(tolerance 1e-4 of a step, 10 samples) and runs each step in a process, since its answers depend on earlier calls.
 
 `errbound` interpolates the quaternions of each step; `pieces` does so in 64 pieces of each step, and its times are
-those of the truth: the bound of its distance from the true motion is printed. Seconds are the least of three runs, on
-one thread, without building of models; errors are in steps. `missed` counts steps with a contact in which the package
-reports none, `false` the reverse. For a miss, the pair that touches is printed with the times between which exact
-queries find its contact.
+those of the truth: the bound of its distance from the true motion is printed. Seconds are the least of three runs (one
+of python-fcl), on one thread, without building of models; errors are in steps. `missed` counts steps with a contact in
+which the package reports none, `false` the reverse. Exact queries give the reasons: the pair that touches and the times
+around its contact, or a distance that all pairs keep.
 """
 import importlib.util
 import math
+import multiprocessing
 import sys
 import time
 from pathlib import Path
@@ -135,7 +136,8 @@ def by_pieces(scene):
     return decide
 
 
-def by_fcl(scene, solver):
+def fcl_answer(name, index, solver):
+    """The time of the first contact in a step, or None, and seconds."""
     import fcl
 
     def model(vertices, faces):
@@ -145,17 +147,26 @@ def by_fcl(scene, solver):
         made.endModel()
         return made
 
-    objects = [fcl.CollisionObject(model(*mesh)) for mesh in scene.meshes]
-    request = fcl.ContinuousCollisionRequest(ccd_motion_type=fcl.CCDMotionType.CCDM_LINEAR, ccd_solver_type=solver)
-    transform = lambda pose: fcl.Transform(pose[3:], pose[:3])  # noqa: E731
+    def transform(pose):
+        return fcl.Transform(pose[3:], pose[:3])
 
-    def decide(step):
-        for o, m in zip(objects, step):
-            o.setTransform(transform(m.at(0)))
-        result = fcl.ContinuousCollisionResult()
-        fcl.continuousCollide(objects[0], transform(step[0].at(1)), objects[1], transform(step[1].at(1)), request, result)
-        return result.time_of_contact if result.is_collide else None
-    return decide
+    scene = SCENES[name]()
+    step, result = scene.steps[index], fcl.ContinuousCollisionResult()
+    first, second = (fcl.CollisionObject(model(*mesh), transform(m.at(0))) for mesh, m in zip(scene.meshes, step))
+    request = fcl.ContinuousCollisionRequest(ccd_motion_type=fcl.CCDMotionType.CCDM_LINEAR,
+                                             ccd_solver_type=getattr(fcl.CCDSolverType, solver))
+    start = time.perf_counter()
+    fcl.continuousCollide(first, transform(step[0].at(1)), second, transform(step[1].at(1)), request, result)
+    seconds = time.perf_counter() - start
+    return result.time_of_contact if result.is_collide else None, seconds
+
+
+def by_fcl(solver):
+    def decide_all(name, scene, steps):
+        with multiprocessing.get_context("spawn").Pool(1, maxtasksperchild=1) as pool:
+            answers = pool.starmap(fcl_answer, [(name, i, solver) for i in range(len(steps))], 1)
+        return [t for t, _ in answers], sum(seconds for _, seconds in answers)
+    return decide_all
 
 
 def advancing(scene, distance):
@@ -188,10 +199,11 @@ def by_coal(scene):
     request.enable_signed_distance = False
 
     def transform(pose):
-        return coal.Transform3s(coal.Quaternion(*pose[3:]) if hasattr(coal, "Quaternion") else matrix(pose[3:]), pose[:3])
+        return coal.Transform3s(matrix(pose[3:]), pose[:3])
 
     def distance(poses):
-        return coal.distance(models[0], transform(poses[0]), models[1], transform(poses[1]), request, coal.DistanceResult())
+        first, second = map(transform, poses)
+        return coal.distance(models[0], first, models[1], second, request, coal.DistanceResult())
     return advancing(scene, distance)
 
 
@@ -215,7 +227,7 @@ def by_drake(scene):
     plant, graph = AddMultibodyPlantSceneGraph(builder, time_step=0)
     bodies, ids = [], []
     for i, (vertices, _) in enumerate(scene.meshes):
-        body = plant.AddRigidBody(f"body{i}", SpatialInertia.SolidCubeWithMass(1, 1))
+        body = plant.AddRigidBody(f"body{i}", SpatialInertia.SolidSphereWithMass(1, 1))
         ids.append(plant.RegisterCollisionGeometry(body, RigidTransform(), Convex(vertices.T, "body"), "shape",
                                                    CoulombFriction(1, 1)))
         bodies.append(body)
@@ -232,27 +244,23 @@ def by_drake(scene):
     return advancing(scene, distance)
 
 
-def fcl_solver(name):
-    def made(scene):
-        import fcl
-        return by_fcl(scene, getattr(fcl.CCDSolverType, name))
-    return made
+def timed(package):
+    """Returns a function that returns the answers to all steps, and the least seconds."""
+    def decide_all(name, scene, steps):
+        seconds, begin, found = [], time.monotonic(), None
+        while len(seconds) < REPEATS and (not seconds or time.monotonic() - begin + seconds[-1] < LIMIT):
+            decide = package(scene)
+            start = time.perf_counter()
+            found = [decide(step) for step in steps]
+            seconds.append(time.perf_counter() - start)
+        return found, min(seconds)
+    return decide_all
 
 
-PACKAGES = {"errbound": by_errbound, "errbound, pieces": by_pieces,
-            "python-fcl, conservative advancement": fcl_solver("CCDC_CONSERVATIVE_ADVANCEMENT"),
-            "python-fcl, naive": fcl_solver("CCDC_NAIVE"), "coal, advancing": by_coal, "drake, advancing": by_drake}
-
-
-def timed(package, scene, steps):
-    """Returns the answers to all steps and the least seconds."""
-    seconds, begin, found = [], time.monotonic(), None
-    while len(seconds) < REPEATS and (not seconds or time.monotonic() - begin + seconds[-1] < LIMIT):
-        decide = package(scene)
-        start = time.perf_counter()
-        found = [decide(step) for step in steps]
-        seconds.append(time.perf_counter() - start)
-    return found, min(seconds)
+PACKAGES = {"errbound": timed(by_errbound), "errbound, pieces": timed(by_pieces),
+            "python-fcl, conservative advancement": by_fcl("CCDC_CONSERVATIVE_ADVANCEMENT"),
+            "python-fcl, naive": by_fcl("CCDC_NAIVE"), "coal, advancing": timed(by_coal),
+            "drake, advancing": timed(by_drake)}
 
 
 def truth_of(scene):
@@ -277,6 +285,17 @@ def text_of_contact(scene, report):
     return ""
 
 
+def text_of_gap(scene, step):
+    """A distance that the bodies keep in a step, exactly, except for the deviation of its pieces."""
+    bodies, pieces = Bodies(scene.meshes), 16
+    for exponent in range(1, 10):
+        distance = 10. ** -exponent
+        if all(len(bodies.run([m.at(k / pieces) for m in step], [m.at((k + 1) / pieces) for m in step],
+                              distance=distance).pairs) == 0 for k in range(pieces)):
+            return f"no pair comes within {distance:.0e}"
+    return ""
+
+
 def deviation(scene, steps):
     """A bound of the distance of pieces from the true motion (ccd/bodies/constant_turn.hpp)."""
     return max(sum(1.0001 * (m.angle / PIECES) ** 3 / 249 * np.linalg.norm(v, axis=1).max()
@@ -290,10 +309,10 @@ def compare(name):
     first = f"first contact at {len(steps) - 1 + truth[-1]:.9g}" if truth[-1] is not None else "no contact"
     print(f"\n{name}: {faces} faces, {len(steps)} steps, {first}, pieces within {deviation(scene, steps):.1e}\n")
     print("| package | seconds | contact reported | error | missed | false |\n|---|---:|---:|---:|---:|---:|")
-    misses = []
+    misses, wrong = [], {}
     for package, made in PACKAGES.items():
         try:
-            found, seconds = timed(made, scene, steps)
+            found, seconds = made(name, scene, steps)
         except (ImportError, ValueError, RuntimeError) as error:
             print(f"| {package} | {str(error).splitlines()[0]} | | | | |")
             continue
@@ -301,10 +320,15 @@ def compare(name):
         missed = sum(t is not None and f is None for t, f in zip(truth, found))
         false = sum(t is None and f is not None for t, f in zip(truth, found))
         error = f"{found[-1] - truth[-1]:+.1e}" if found[-1] is not None and truth[-1] is not None else ""
-        print(f"| {package} | {seconds:.3g} | {f'{sum(reported):.6f}' if reported else ''} | {error} | {missed} | {false} |",
-              flush=True)
+        at = f"{sum(reported):.6f}" if reported else ""
+        print(f"| {package} | {seconds:.3g} | {at} | {error} | {missed} | {false} |", flush=True)
         if missed:
             misses.append(package)
+        if false:
+            first_false = next(i for i, (t, f) in enumerate(zip(truth, found)) if t is None and f is not None)
+            wrong.setdefault(first_false, package)
+    for i, package in wrong.items():
+        print(f"\nfalse report of {package}: in step {i} {text_of_gap(scene, steps[i])}")
     if misses:
         print(f"\nmissed by {', '.join(misses)}: {text_of_contact(scene, report)}")
 
