@@ -158,7 +158,8 @@ bool are_certainly_inside(const std::array<vector, 4>& p) {
 }
 
 /// A contact certainly happens between two times near t if the volume changes its sign there, and
-/// the features are inside at all times between. Returns the later time, or infinity.
+/// the features are inside at all times between. Bisection then moves the times together. Returns
+/// the later time, or infinity.
 template <kind K>
 double certain_contact(const std::array<turning_point, 4>& points, double t) {
     if (!is_cubic(K)) return infinity;
@@ -180,7 +181,14 @@ double certain_contact(const std::array<turning_point, 4>& points, double t) {
         const double half = enlarged(std::max(middle - from, to - middle));
         const bool inside = are_certainly_inside<K>(
             positions([&](const turning_point& p) { return position_near(p, middle, half); }));
-        return inside ? to : infinity;  // wider is less certain
+        if (!inside) return infinity;  // wider is less certain
+        double last = from, next = to;
+        for (double at = middle; last < at && at < next; at = last + (next - last) / 2) {
+            const sign_type sign = sign_at(at);
+            if (sign != before && sign != after) break;
+            (sign == before ? last : next) = at;
+        }
+        return next;
     }
     return infinity;
 }
@@ -272,6 +280,10 @@ class enclosed_search {
             ++pieces_ < options_.max_pieces && t.to - t.from > 0x1p-40 &&
             (t.bound == infinity || bound < t.bound / 2);  // otherwise roundings dominate
         if (!(bound < infinity)) return may_halve ? bound : leave(t.from);
+        if (certain_ <= t.to) {  // the piece has a contact, so only its length matters
+            if (t.to - t.from <= options_.resolution) return leave(t.from);
+            if (may_halve) return bound;
+        }
         std::array<body_motion, 4> motions;
         const auto query = query_of(motions, [&](const constant_turn& m) -> body_motion {
             return enclose(m, t.from, t.to).motion;
