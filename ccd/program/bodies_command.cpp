@@ -88,7 +88,7 @@ class bodies final : public command {
             .add_option(
                 "--pairs", pairs_,
                 "Write lines STEP,vf,v,f0,f1,f2,low,high (also ee, ve, vv) of the pairs of\n"
-                "elements that touch. The vertices of all bodies are numbered through;\n"
+                "elements that touch. Vertices are numbered consecutively over all bodies;\n"
                 "-: standard output")
             ->type_name("OUT");
         line_.add_option("--json", json_, "Write all steps as JSON; -: standard output")
