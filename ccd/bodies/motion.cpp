@@ -9,6 +9,7 @@
 #include <variant>
 #include <vector>
 
+#include "ccd/bodies/scaled_direction.hpp"
 #include "ccd/contact/moving_points.hpp"
 
 namespace ccd {
@@ -57,15 +58,6 @@ quaternion product(const quaternion& a, const quaternion& b) {
             a.w * b.z + a.x * b.y - a.y * b.x + a.z * b.w};
 }
 
-/// The same direction with its largest coordinate in [1, 2), so that its length neither overflows
-/// nor underflows.
-point<double> scaled_direction(const point<double>& d) {
-    const double most = std::max({std::abs(d.x), std::abs(d.y), std::abs(d.z)});
-    if (!(most > 0 && std::isfinite(most))) return d;
-    const int shift = -std::ilogb(most);
-    return {std::scalbn(d.x, shift), std::scalbn(d.y, shift), std::scalbn(d.z, shift)};
-}
-
 }  // namespace
 
 std::string fault_of(const body_motion& motion) {
@@ -93,7 +85,7 @@ rigid_motion screw(const point<double>& d, const point<double>& centre, const po
 std::vector<spline_piece<rigid_motion>> turn(const pose& from, const point<double>& direction,
                                              double angle, const point<double>& end,
                                              const point<double>& centre) {
-    const point<double> axis = scaled_direction(direction);
+    const point<double> axis = detail::scaled_direction(direction);
     const double length = std::hypot(axis.x, axis.y, axis.z);
     if (axis.x == 0 && axis.y == 0 && axis.z == 0) angle = 0;  // not if one is NaN
     const double quarters = std::abs(angle) / (std::numbers::pi / 2);

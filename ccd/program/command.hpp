@@ -13,6 +13,7 @@ std::unique_ptr<command> query_command(CLI::App& program);
 std::unique_ptr<command> step_command(CLI::App& program);
 std::unique_ptr<command> check_command(CLI::App& program);
 std::unique_ptr<command> audit_command(CLI::App& program);
+std::unique_ptr<command> bodies_command(CLI::App& program);
 std::unique_ptr<command> stress_command(CLI::App& program);
 std::unique_ptr<command> report_command(CLI::App& program);
 std::unique_ptr<command> validate_command(CLI::App& program);

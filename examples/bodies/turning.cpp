@@ -1,10 +1,12 @@
 // Bodies that turn: one query, a body that turns by more than half a turn, and steps of many bodies
 // up to poses that are certainly free.
+#include <ccd/bodies/constant_turn.hpp>
 #include <ccd/bodies/motion.hpp>
 #include <ccd/bodies/steps.hpp>
 #include <cstddef>
 #include <cstdio>
 #include <numbers>
+#include <string>
 #include <vector>
 
 namespace {
@@ -43,6 +45,16 @@ int main() {
     const ccd::spline_time first = ccd::first_time_of_pieces(pieces);
     std::printf("in two turns: in piece %zu of %zu, at time %.6f\n", first.piece, pieces.size(),
                 first.low);
+
+    // The same tip, at a constant angular velocity of 12 radians.
+    const ccd::constant_turn spin{{}, {0, 0, 1}, 12, {}, {}}, at_rest{};
+    const ccd::enclosed_time constant = ccd::enclosed_time_of_impact(
+        ccd::vertex_face_of<ccd::turning_point>{{&spin, {5, 0, 0}},
+                                                {&at_rest, {3, -9, -9}},
+                                                {&at_rest, {3, 9, -9}},
+                                                {&at_rest, {3, 0, 9}}});
+    std::printf("at constant velocity: %s between %.9f and %.9f\n",
+                std::string(name(constant.outcome)).c_str(), constant.low, constant.high);
 
     // A bar turns towards a wall, above a floor.
     ccd::body_steps steps({box(4, 0.5, 0.5), box(9, 0.25, 1), box(9, 9, 0.25)});

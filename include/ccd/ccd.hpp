@@ -3,6 +3,7 @@
 
 #include <ccd/advance.hpp>
 #include <ccd/batch.hpp>
+#include <ccd/bodies/constant_turn.hpp>
 #include <ccd/bodies/motion.hpp>
 #include <ccd/bodies/steps.hpp>
 #include <ccd/certify.hpp>

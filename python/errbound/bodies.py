@@ -64,14 +64,43 @@ class BodyAdvance:
         return f"<bodies.BodyAdvance of {len(self.poses)} bodies: fraction {self.fraction!r}, {_first(self.first_contact)}>"
 
 
+def _groups_of(groups: ArrayLike | None, bodies: int) -> NDArray[np.int32]:
+    """Returns numbers from 0, or an empty array without groups."""
+    if groups is None:
+        return np.empty(0, np.int32)
+    array = as_array("groups", groups)
+    check_shape("groups", array, (bodies,))
+    if array.size and array.dtype.kind not in "iu":
+        raise TypeError(f"groups is an array of {array.dtype}; expected integers")
+    return np.unique(array, return_inverse=True)[1].astype(np.int32)
+
+
+def _skipped(skip: ArrayLike, bodies: int) -> NDArray[np.int32]:
+    """Returns sorted pairs, the lesser body first."""
+    pairs = as_array("skip", skip)
+    if pairs.size == 0:
+        return np.empty((0, 2), np.int32)
+    check_shape("skip", pairs, (None, 2))
+    if pairs.dtype.kind not in "iu":
+        raise TypeError(f"skip is an array of {pairs.dtype}; expected integers")
+    wrong = (pairs < 0) | (pairs >= bodies)
+    if wrong.any():
+        row = int(np.argwhere(wrong)[0][0])
+        raise IndexError(f"body index in row {row} of skip is {pairs[row][wrong[row]][0]}; expected 0 to {bodies - 1}")
+    return np.unique(np.sort(pairs, axis=1), axis=0).astype(np.int32)
+
+
 class Bodies:
     """Bodies with meshes in their own coordinates. Keeps their trees from step to step.
 
     meshes: a sequence of (vertices, faces) or (vertices, faces, edges), for each body: (m, 3) coordinates, and indices
     (k, 3) and (k, 2) into them. A call from a second thread throws RuntimeError.
+    groups: integers (n,), one per body: tests only bodies of different groups against each other.
+    skip: pairs of bodies (k, 2) that are not tested against each other, such as bodies that a joint connects.
     """
 
-    def __init__(self, meshes: Sequence[Sequence[ArrayLike]]) -> None:
+    def __init__(self, meshes: Sequence[Sequence[ArrayLike]], *, groups: ArrayLike | None = None,
+                 skip: ArrayLike = ()) -> None:
         shapes = []
         first = [0]
         for i, mesh in enumerate(meshes):
@@ -84,7 +113,8 @@ class Bodies:
             edges = checked_indices(f"edges of meshes[{i}]", mesh[2] if len(mesh) == 3 else (), 2, len(vertices))
             shapes.append((vertices, faces, edges))
             first.append(first[-1] + len(vertices))
-        self._bodies = _native.Bodies(shapes)
+        count = len(shapes)
+        self._bodies = _native.Bodies(shapes, _groups_of(groups, count), _skipped(skip, count))
         self.first_vertex: NDArray[np.int64] = np.array(first, np.int64)
         """The number of each body's first vertex; the last is the number of all vertices."""
 

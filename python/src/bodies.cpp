@@ -78,6 +78,8 @@ std::vector<ccd::mesh> meshes_of(const std::vector<shape>& shapes) {
 }
 
 class bodies {
+    using pair = std::array<std::int32_t, 2>;
+
     template <class Call>
     auto alone(const Call& call) {
         const std::unique_lock held(mutex_, std::try_to_lock);
@@ -86,13 +88,29 @@ class bodies {
         return without_gil(call);
     }
 
+    ccd::body_step_options options(double distance, double t_max, int threads,
+                                   const ccd::stop_query& stop) const {
+        ccd::body_step_options options{{distance, 0}, t_max, threads, stop, {}};
+        if (groups_.empty() && skipped_.empty()) return options;
+        options.may_touch = [this](std::size_t a, std::size_t b) {
+            return (groups_.empty() || groups_[a] != groups_[b]) &&
+                   !std::ranges::binary_search(
+                       skipped_, pair{static_cast<std::int32_t>(a), static_cast<std::int32_t>(b)});
+        };
+        return options;
+    }
+
   public:
-    explicit bodies(const std::vector<shape>& shapes) : steps_(meshes_of(shapes)) {}
+    bodies(const std::vector<shape>& shapes, const input<std::int32_t, -1>& groups,
+           const input<std::int32_t, -1, 2>& skipped)
+        : steps_(meshes_of(shapes)),
+          groups_(groups.data(), groups.data() + groups.size()),
+          skipped_(items_of<pair>(skipped).begin(), items_of<pair>(skipped).end()) {}
 
     nb::dict run(const poses& from, const poses& to, double distance, double t_max, int threads) {
         const auto motions = motions_of(from, to);
         ccd::body_step_result result = alone([&](const ccd::stop_query& stop) {
-            return steps_.run(motions, {{distance, 0}, t_max, threads, stop, {}});
+            return steps_.run(motions, options(distance, t_max, threads, stop));
         });
         nb::dict found;
         found["candidates"] = counts_of(result.candidates);
@@ -109,7 +127,7 @@ class bodies {
                      int threads) {
         const auto motions = motions_of(from, to);
         ccd::body_advance result = alone([&](const ccd::stop_query& stop) {
-            return steps_.advance(motions, {{{distance, 0}, 1, threads, stop, {}}, conservative});
+            return steps_.advance(motions, {options(distance, 1, threads, stop), conservative});
         });
         nb::dict found;
         found["poses"] = from.shape(1) == affine_size ? ends_of(result.motions, affine_end)
@@ -123,6 +141,8 @@ class bodies {
 
   private:
     ccd::body_steps steps_;
+    std::vector<std::int32_t> groups_;  ///< one per body, or none
+    std::vector<pair> skipped_;         ///< sorted, the lesser body first
     std::mutex mutex_;
 };
 
@@ -130,7 +150,9 @@ class bodies {
 
 void bind_bodies(nb::module_& m) {
     nb::class_<bodies>(m, "Bodies")
-        .def(nb::init<const std::vector<shape>&>(), nb::arg("shapes"))
+        .def(nb::init<const std::vector<shape>&, const input<std::int32_t, -1>&,
+                      const input<std::int32_t, -1, 2>&>(),
+             nb::arg("shapes"), nb::arg("groups"), nb::arg("skipped"))
         .def("run", &bodies::run, nb::arg("start"), nb::arg("end"), nb::arg("distance"),
              nb::arg("t_max"), nb::arg("threads"))
         .def("advance", &bodies::advance, nb::arg("start"), nb::arg("end"), nb::arg("distance"),

@@ -69,6 +69,19 @@ def test_advance_ends_at_poses_that_are_free():
     assert len(bodies.run(matrices[0], moved.poses).pairs) == 0
 
 
+def test_groups_and_skipped_pairs_are_not_tested():
+    meshes = [(CUBE, FACES)] * 3
+    start, end = [pose((4 * i, 0, 0)) for i in range(3)], [pose((2 * i, 0, 0)) for i in range(3)]
+    pairs = {}
+    for name, options in {"all": {}, "groups": {"groups": [7, 7, -1]}, "skip": {"skip": [(2, 1)]},
+                          "both": {"groups": [7, 7, -1], "skip": [(2, 1), (0, 1)]}}.items():
+        bodies = Bodies(meshes, **options)
+        found = bodies.run(start, end).pairs
+        pairs[name] = {tuple(sorted({int(b) for b in bodies.body_of(p)})) for p in found.edge_edge}
+        assert (bodies.advance(start, end).fraction == 1) == (name == "both")
+    assert pairs == {"all": {(0, 1), (1, 2)}, "groups": {(1, 2)}, "skip": {(0, 1)}, "both": set()}
+
+
 @pytest.mark.parametrize("arguments, message", [
     (([pose()], [pose()]), r"shape of start is \(1, 7\); expected \(2, 7\)"),
     (([pose(), pose()], [pose(), pose(q=(0, 1, 0, 0))]), "motion of body 1: q0·q1 is 0.0.*less than half a turn"),
@@ -86,6 +99,12 @@ def test_bad_meshes_and_options_are_refused():
         Bodies([TRIANGLE, (TRIANGLE[0], [[0, 1, 3]])])
     with pytest.raises(ValueError, match=r"length of meshes\[0\] is 1"):
         Bodies([(TRIANGLE[0],)])
+    with pytest.raises(IndexError, match=r"body index in row 1 of skip is 2; expected 0 to 1"):
+        Bodies([TRIANGLE, TRIANGLE], skip=[(0, 1), (2, 0)])
+    with pytest.raises(ValueError, match=r"shape of groups is \(1,\); expected \(2,\)"):
+        Bodies([TRIANGLE, TRIANGLE], groups=[1])
+    with pytest.raises(TypeError, match="groups is an array of float64; expected integers"):
+        Bodies([TRIANGLE, TRIANGLE], groups=[1.5, 2])
     bodies = Bodies([TRIANGLE])
     with pytest.raises(ValueError, match="conservative is 0.0"):
         bodies.advance([pose()], [pose()], conservative=0)

@@ -1,9 +1,11 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <ccd/bodies/steps.hpp>
 #include <ccd/contact.hpp>
 #include <ccd/io/step_view.hpp>
 #include <cstdint>
+#include <initializer_list>
 #include <limits>
 #include <span>
 #include <string_view>
@@ -14,7 +16,7 @@
 namespace ccd::io {
 
 // Generated from the files in page/ by the build.
-extern const std::string_view page_template, page_camera, page_picture, page_script;
+extern const std::string_view page_template, page_camera, page_picture, page_bodies, page_script;
 
 namespace {
 
@@ -84,7 +86,12 @@ void append_intersections(std::string& text, std::span<const intersection> all,
     append_array(text, id + "_segments", std::move(segments));
 }
 
-std::string arrays_of(const step_view& step) {
+/// Bodies that turn, for bodies.js: then positions are those at rest. Empty for all other steps.
+struct body_arrays {
+    std::string motions, ends;
+};
+
+std::string arrays_of(const step_view& step, const body_arrays& bodies) {
     std::string text;
     const std::size_t vertices = step.positions.vertices;
     const auto rows = [vertices](const double* frame) {
@@ -92,6 +99,8 @@ std::string arrays_of(const step_view& step) {
     };
     append_array(text, "before", bytes_of_rows(rows(step.positions.before)));
     append_array(text, "after", bytes_of_rows(rows(step.positions.after)));
+    append_array(text, "motions", bodies.motions);
+    append_array(text, "ends", bodies.ends);
     append_array(text, "faces", bytes_of_rows(step.faces));
     append_array(text, "edges", bytes_of_rows(step.edges));
     append_array(text, "parts", bytes_of_parts(step));
@@ -104,23 +113,18 @@ std::string arrays_of(const step_view& step) {
         const std::string id(name(K));
         append_array(text, id, std::move(pairs));
         append_array(text, id + "_times", std::move(times));
-        append_array(text, id + "_contacts", bytes_of_contacts<K>(step));
+        append_array(text, id + "_contacts",
+                     bodies.ends.empty() ? bytes_of_contacts<K>(step) : std::string());
     });
     for (const intersection_kind k : intersection_kinds)
         append_intersections(text, step.intersections, k);
     return text;
 }
 
-}  // namespace
-
-std::string page_of(const step_view& step) {
-    detail::require_view(step);
-    const std::string arrays = arrays_of(step);
+std::string page_of_arrays(std::string_view arrays) {
     const std::pair<std::string_view, std::string_view> parts[] = {
-        {"{{arrays}}", arrays},
-        {"{{camera}}", page_camera},
-        {"{{picture}}", page_picture},
-        {"{{script}}", page_script},
+        {"{{arrays}}", arrays},      {"{{camera}}", page_camera}, {"{{picture}}", page_picture},
+        {"{{bodies}}", page_bodies}, {"{{script}}", page_script},
     };
     std::string text;
     std::string_view rest = page_template;
@@ -130,6 +134,58 @@ std::string page_of(const step_view& step) {
         rest.remove_prefix(at + place.size());
     }
     return text.append(rest);
+}
+
+std::string bytes_of_motion(const body_motion& motion) {
+    std::array<double, 25> row{};  // as in bodies.js
+    const auto set = [&row](std::size_t at, std::initializer_list<double> numbers) {
+        std::ranges::copy(numbers, &row[at]);
+    };
+    if (const auto* m = std::get_if<rigid_motion>(&motion)) {
+        set(0, {1, m->q0.w, m->q0.x, m->q0.y, m->q0.z, m->q1.w, m->q1.x, m->q1.y, m->q1.z});
+        set(9, {m->centre.x, m->centre.y, m->centre.z});
+        set(19, {m->p0.x, m->p0.y, m->p0.z, m->p1.x, m->p1.y, m->p1.z});
+    } else {
+        const auto* given = std::get_if<affine_motion>(&motion);
+        const affine_motion affine = given ? *given : affine_motion{};
+        for (std::size_t i = 0; i < 3; ++i) {
+            std::ranges::copy(affine.a0[i], &row[1 + 3 * i]);
+            std::ranges::copy(affine.a1[i], &row[10 + 3 * i]);
+        }
+        set(19, {affine.p0.x, affine.p0.y, affine.p0.z, affine.p1.x, affine.p1.y, affine.p1.z});
+    }
+    return bytes_of_rows(std::span(&row, 1));
+}
+
+}  // namespace
+
+std::string page_of(const body_steps& steps, std::span<const body_motion> motions,
+                    const body_step_result& found) {
+    mesh all;
+    body_arrays bodies;
+    for (std::size_t b = 0; b < steps.bodies(); ++b) {
+        const mesh& rest = steps.rest(b);
+        const vertex_index first = steps.first_vertex(b);
+        all.vertices.insert(all.vertices.end(), rest.vertices.begin(), rest.vertices.end());
+        for (face f : rest.faces) {
+            for (vertex_index& v : f) v += first;
+            all.faces.push_back(f);
+        }
+        for (edge e : rest.edges) {
+            for (vertex_index& v : e) v += first;
+            all.edges.push_back(e);
+        }
+        bodies.motions += bytes_of_motion(motions[b]);
+        append_number(bodies.ends, steps.first_vertex(b + 1));
+    }
+    const step_view step{vertex_rows(all, all), all.faces, all.edges, found.pairs, found.times};
+    detail::require_view(step);
+    return page_of_arrays(arrays_of(step, bodies));
+}
+
+std::string page_of(const step_view& step) {
+    detail::require_view(step);
+    return page_of_arrays(arrays_of(step, {}));
 }
 
 }  // namespace ccd::io

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <ccd/batch.hpp>
+#include <ccd/bodies/steps.hpp>
 #include <ccd/mesh.hpp>
 #include <ccd/step.hpp>
 #include <cstddef>
@@ -30,6 +31,11 @@ struct step_view {
 /// each pair with a time. Throws std::invalid_argument if an index is out of range, or if there are
 /// times but not one a pair.
 std::string page_of(const step_view& step);
+
+/// The same page for bodies, which turn. It has no weights and normals of contacts. Preconditions:
+/// `found` is a result of `steps` for these motions.
+std::string page_of(const body_steps& steps, std::span<const body_motion> motions,
+                    const body_step_result& found);
 
 enum class frame : std::uint8_t { before, after };
 

@@ -20,7 +20,13 @@ function bytes(id) {
 /// All pairs are one after the other, by kind. `times` is empty if they are unknown. Intersections have relations.
 function readStep() {
   const step = {before: new Float64Array(bytes("before")), after: new Float64Array(bytes("after")),
-    faces: new Uint32Array(bytes("faces")), edges: new Uint32Array(bytes("edges")), parts: new Uint8Array(bytes("parts"))};
+    faces: new Uint32Array(bytes("faces")), edges: new Uint32Array(bytes("edges")), parts: new Uint8Array(bytes("parts")),
+    motions: new Float64Array(bytes("motions")), ends: new Uint32Array(bytes("ends"))};
+  step.turns = step.ends.length > 0;
+  if (step.turns) {
+    step.rest = step.before;
+    [step.before, step.after] = [0, 1].map(t => positionsAt(step, t));
+  }
   step.kinds = NAMES.map((name, k) => {
     const vertices = new Uint32Array(bytes(name)), count = vertices.length / POINTS[k];
     if (k >= STEP_KINDS)
@@ -32,7 +38,7 @@ function readStep() {
   step.kinds.reduce((first, kind) => (kind.first = first) + kind.count, 0);
   step.count = step.kinds.reduce((sum, kind) => sum + kind.count, 0);
   step.pairs = step.kinds[STEP_KINDS].first;
-  step.moves = step.before.some((c, i) => c !== step.after[i]);
+  step.moves = step.turns || step.before.some((c, i) => c !== step.after[i]);
   step.timed = step.kinds.some((kind, k) => k < STEP_KINDS && kind.times.length > 0);
   return step;
 }
@@ -52,7 +58,8 @@ function pairOf(step, i) {
 /// The picture's coordinates: floats, relative to the middle of both frames and to their largest extent.
 function sceneOf(step) {
   const low = [Infinity, Infinity, Infinity], high = [-Infinity, -Infinity, -Infinity];
-  for (const frame of [step.before, step.after])
+  const times = [0, 1, 2, 3, 4, 5, 6, 7, 8].map(i => i / 8);
+  for (const frame of step.turns ? times.map(t => positionsAt(step, t)) : [step.before, step.after])
     frame.forEach((c, i) => {
       low[i % 3] = Math.min(low[i % 3], c);
       high[i % 3] = Math.max(high[i % 3], c);
@@ -60,7 +67,7 @@ function sceneOf(step) {
   const middle = low.map((c, a) => c / 2 + high[a] / 2);
   const half = Math.max(...low.map((c, a) => high[a] / 2 - c / 2)) || 1;
   const scaled = frame => Float32Array.from(frame, (c, i) => (c - middle[i % 3]) / half);
-  const scene = {before: scaled(step.before), after: scaled(step.after), faces: step.faces, parts: step.parts,
+  const scene = {scaled, before: scaled(step.before), after: scaled(step.after), faces: step.faces, parts: step.parts,
     rods: step.edges, points: pointsOf(step), marks: marksOf(step, scaled(step.before), scaled(step.after)),
     struck: elementsOf(step, 0, 3), crossed: elementsOf(step, 1, 2), meeting: edgesAtStart(step)};
   scene.edgeLength = typicalLength(scene);
@@ -137,7 +144,16 @@ function redraw() {
   });
 }
 
+/// Moves bodies that turn. All else moves along straight lines from `before` to `after`.
+function moveTo(t) {
+  if (!step.turns) return;
+  scene.before = scene.after = scene.scaled(positionsAt(step, t));
+  scene.marks = marksOf(step, scene.before, scene.after);
+  if (picture) picture.update();
+}
+
 function setTime(t) {
+  moveTo(t);
   element("time").value = t;
   element("shown-time").textContent = String(t);
   redraw();
@@ -230,6 +246,10 @@ function whereOf(pair) {
 }
 
 function queryOf(pair) {
+  if (step.turns) {
+    const at = positionsAt(step, pair.low);
+    return pair.vertices.map(v => Array.from(at.subarray(3 * v, 3 * v + 3)).join(",")).join("\n") + "\n";
+  }
   const row = (frame, v) => Array.from(frame.subarray(3 * v, 3 * v + 3)).join(",");
   return (pair.relation ? [step.before] : [step.before, step.after]).flatMap(frame => pair.vertices.map(v => row(frame, v))).join("\n") + "\n";
 }
@@ -237,6 +257,7 @@ function queryOf(pair) {
 /// The time of first contact if it is known, else the time shown; the middle of the vertices and their radius.
 function placeOfPair(pair) {
   const t = pair.relation ? 0 : step.timed ? pair.low : time();
+  moveTo(t);
   const at = pair.vertices.map(v =>
     [0, 1, 2].map(a => scene.before[3 * v + a] * (1 - t) + scene.after[3 * v + a] * t));
   const middle = [0, 1, 2].map(a => at.reduce((sum, p) => sum + p[a], 0) / at.length);
@@ -251,7 +272,7 @@ function choose(i) {
   element("what").textContent = said(pair.elements);
   element("when").textContent = whenOf(pair);
   element("where").textContent = whereOf(pair);
-  element("form").textContent = pair.relation ? "Its vertices (x,y,z):" : "As a query (x,y,z at t = 0, then at t = 1):";
+  element("form").textContent = step.turns ? "Its vertices at that time, rounded (x,y,z):" : pair.relation ? "Its vertices (x,y,z):" : "As a query (x,y,z at t = 0, then at t = 1):";
   element("query").textContent = queryOf(pair);
   const {t, middle, radius} = placeOfPair(pair);
   if (picture) picture.choose(pair.elements, middle, radius);

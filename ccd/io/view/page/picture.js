@@ -117,36 +117,54 @@ class Picture {
   points(before, after, parts) {
     const gl = this.gl, layout = gl.createVertexArray();
     gl.bindVertexArray(layout);
-    [[before, 3, gl.FLOAT], [after, 3, gl.FLOAT], [parts, 1, gl.UNSIGNED_BYTE]].forEach(([data, size, type], i) => {
-      this.buffer(gl.ARRAY_BUFFER, data);
+    const buffers = [[before, 3, gl.FLOAT], [after, 3, gl.FLOAT], [parts, 1, gl.UNSIGNED_BYTE]].map(([data, size, type], i) => {
+      const made = this.buffer(gl.ARRAY_BUFFER, data);
       gl.enableVertexAttribArray(i);
       gl.vertexAttribPointer(i, size, type, false, 0, 0);
+      return made;
     });
     gl.bindVertexArray(null);
-    return {layout, count: before.length / 3};
+    return {layout, buffers, count: before.length / 3};
   }
 
   indices(data) {
     return {buffer: this.buffer(this.gl.ELEMENT_ARRAY_BUFFER, data), count: data.length};
   }
 
-  /// Wide lines: the ends of each, by vertex.
-  segments(ends) {
-    const gl = this.gl, {before, after} = this.scene, layout = gl.createVertexArray();
-    const data = new Float32Array(6 * ends.length);
+  positionsOf(ends) {
+    const {before, after} = this.scene, data = new Float32Array(6 * ends.length);
     ends.forEach((v, i) => {
       data.set(before.subarray(3 * v, 3 * v + 3), 6 * i);
       data.set(after.subarray(3 * v, 3 * v + 3), 6 * i + 3);
     });
+    return data;
+  }
+
+  /// Takes new positions from the scene.
+  update() {
+    const gl = this.gl, {before, after, marks} = this.scene;
+    const fill = (buffer, data) => {
+      gl.bindBuffer(gl.ARRAY_BUFFER, buffer);
+      gl.bufferData(gl.ARRAY_BUFFER, data, gl.DYNAMIC_DRAW);
+    };
+    [before, after].forEach((data, i) => fill(this.vertices.buffers[i], data));
+    [marks.before, marks.after].forEach((data, i) => fill(this.marks.buffers[i], data));
+    for (const lines of [this.rods, this.crossed, this.meeting, this.chosen && this.chosen.lines])
+      if (lines) fill(lines.buffer, this.positionsOf(lines.ends));
+  }
+
+  /// Wide lines: the ends of each, by vertex.
+  segments(ends) {
+    const gl = this.gl, layout = gl.createVertexArray();
     gl.bindVertexArray(layout);
-    const buffer = this.buffer(gl.ARRAY_BUFFER, data);
+    const buffer = this.buffer(gl.ARRAY_BUFFER, this.positionsOf(ends));
     for (let i = 0; i < 4; ++i) {
       gl.enableVertexAttribArray(i);
       gl.vertexAttribPointer(i, 3, gl.FLOAT, false, 48, 12 * i);
       gl.vertexAttribDivisor(i, 1);
     }
     gl.bindVertexArray(null);
-    return {layout, buffer, count: ends.length / 2};
+    return {layout, buffer, ends, count: ends.length / 2};
   }
 
   use(program) {
