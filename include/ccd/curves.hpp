@@ -32,7 +32,8 @@ struct rational_curve {
     std::span<const double> weights = {};  ///< one for each point, all > 0; none: all are 1
 };
 
-/// Returns why the weights are invalid, or "": `weight 2 is -1; expected a finite number > 0`.
+/// Returns "" if the weights are valid, else the reason, such as `weight 2 is -1; expected a finite
+/// number > 0`.
 std::string fault_of(const rational_curve& motion);
 
 /// The four kinds of query (ccd/query.hpp), with any description of motion for each point.

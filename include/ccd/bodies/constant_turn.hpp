@@ -44,8 +44,9 @@ struct enclosing_motion {
 };
 
 /// Encloses the turn between two times; t = 0 of the result is `from`, t = 1 is `to`. For a turn by
-/// θ <= π/2 between these times, the angle is at most about θ³/250 plus some units in the last
-/// place; it is infinite for larger turns. Precondition: 0 <= from < to <= 1; the turn is valid.
+/// θ <= π/2 between these times, the result's bound `angle` is at most about θ³/250 plus some units
+/// in the last place. For larger turns it is infinite. Precondition: 0 <= from < to <= 1; the turn
+/// is valid.
 enclosing_motion enclose(const constant_turn& motion, double from, double to);
 
 struct enclosed_time {
@@ -65,8 +66,8 @@ struct enclosure_options {
 };
 
 /// Returns the first time in [0, 1] at which two features touch. Contacts at t = 0 and motion
-/// without rotation are exact. A contact at a vertex or of two vertices after t = 0 is always
-/// uncertain, since an arbitrarily small error removes it.
+/// without rotation are exact. Any other contact of a vertex with an edge (or the border of a face)
+/// or with a vertex is uncertain, since an arbitrarily small error removes it.
 enclosed_time enclosed_time_of_impact(const vertex_face_of<turning_point>& query,
                                       const enclosure_options& options = {});
 enclosed_time enclosed_time_of_impact(const edge_edge_of<turning_point>& query,

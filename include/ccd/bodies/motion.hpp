@@ -70,7 +70,8 @@ struct body_point {
     point<double> rest;
 };
 
-/// Returns why a motion is invalid, or "": `q0·q1 is -1; expected a number certainly > 0`.
+/// Returns "" if the motion is valid, else the reason, such as `q0·q1 is -1; expected a number
+/// certainly > 0`.
 std::string fault_of(const body_motion& motion);
 
 /// False if the motion's ends are equal.

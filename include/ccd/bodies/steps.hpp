@@ -100,7 +100,7 @@ class body_steps {
                                     [&](auto... v) { return query_of_points<Pair>(at(v)...); });
     }
 
-    /// Returns the pairs that touch during the motions, one for each body.
+    /// Returns the pairs that touch. `motions` has one motion for each body.
     ///
     /// Throws std::invalid_argument if the numbers of motions and bodies differ, if fault_of
     /// reports a motion, or if t_max or the distance is invalid.

@@ -68,7 +68,7 @@ class mpfr_number {
 
     mpfr_ptr get() { return x_; }
     mpfr_srcptr get() const { return x_; }
-    /// Sets x, rounded once to nearest; exact at exact_bits. Returns mpfr_add's ternary value.
+    /// Sets x, rounded once to nearest; exact at exact_bits. Returns MPFR's ternary value.
     int set(const exact_value& x) {
         if (x.is_double()) return mpfr_set_d(x_, x.leading, MPFR_RNDN);
         MPFR_DECL_INIT(sum, exact_bits);
@@ -105,7 +105,8 @@ class ball {
         mpfr_set_zero(radius_.get(), 1);
         rounded(mpfr_add(middle_.get(), sum.get(), part.get(), MPFR_RNDN));
     }
-    /// The number that set(to) rounds to `to`; set returns MPFR's ternary value.
+    /// Encloses the exact number that set(to) rounds and stores in `to`. set returns MPFR's ternary
+    /// value.
     template <class Set>
     void set_rounded(const Set& set) {
         mpfr_set_zero(radius_.get(), 1);

@@ -129,7 +129,7 @@ class shadowed {
 }  // namespace errbound::validation
 
 namespace errbound {
-/// normalized scales it as it scales a tracked number.
+/// So that `normalized` (errbound/bernstein.hpp) scales shadowed numbers as tracked ones.
 template <class Rule>
 inline constexpr bool is_tracked<validation::shadowed<Rule>> = true;
 }  // namespace errbound

@@ -106,7 +106,8 @@ struct exact_range {
     bool defined() const { return std::isfinite(low) && std::isfinite(high); }
 };
 
-/// How a result was computed: operands a, b, c; d, if a and b are combined first; the operation.
+/// How a result was computed, from operands a, b and c. If `inner` is set, it combines a and b
+/// first; texts call that result d.
 struct tiny_account {
     struct operand {
         double value, error;
@@ -332,7 +333,7 @@ class tiny_checker {
                 check_pair(exactly(Tiny::from_code(a)), exactly(Tiny::from_code(b)));
         }
     }
-    /// Every pair of numbers with some pairs of bounds, which together cover all.
+    /// Every pair of numbers, with some pairs of bounds, drawn at random.
     void check_some_bounded() {
         constexpr std::size_t pairs_of_bounds = 8;
         std::size_t next = 0;

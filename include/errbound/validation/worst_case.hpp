@@ -56,7 +56,8 @@ struct worst_case_options {
 struct rule_bound {
     std::string rule;
     double largest = 0;  ///< error() of the result at an input found by search; infinite: no bound
-    std::size_t broken = 0;  ///< inputs, of the eight largest, with a larger error or a wrong sign
+    std::size_t broken =
+        0;  ///< of the inputs with the largest bounds: true error larger, or wrong sign
 };
 
 struct worst_case_result {
