@@ -66,8 +66,8 @@ struct enclosure_options {
 };
 
 /// Returns the first time in [0, 1] at which two features touch. Contacts at t = 0 and motion
-/// without rotation are exact. Any other contact of a vertex with an edge (or the border of a face)
-/// or with a vertex is uncertain, since an arbitrarily small error removes it.
+/// without rotation are exact. Other contacts of a vertex with a vertex, an edge or the border of a
+/// face are uncertain, since an arbitrarily small error removes them.
 enclosed_time enclosed_time_of_impact(const vertex_face_of<turning_point>& query,
                                       const enclosure_options& options = {});
 enclosed_time enclosed_time_of_impact(const edge_edge_of<turning_point>& query,
