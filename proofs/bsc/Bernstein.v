@@ -11,7 +11,9 @@
             strict sign of all coefficients there is no root in [0, 1]
         sign_inside_right, sign_throughout_right   conclusions of the code from signs of coefficients *)
 
-From Coq Require Import Reals ZArith Lia Lra List. From Errbound Require Import Sign. Import ListNotations.
+From Coq Require Import Reals ZArith Lia Lra List.
+From Errbound Require Import Sign.
+Import ListNotations.
 Open Scope R_scope.
 
 Record scalar := {
@@ -60,15 +62,17 @@ Proof. induction h as [| a l IH]; simpl; [| rewrite IH, map_length]; ring. Qed.
 
 Lemma form_homogeneous a h c s t : form (a :: h) (c * s) (c * t) = c ^ length h * form (a :: h) s t.
 Proof.
-  revert a. induction h as [| b l IH]; intros a; simpl; [ring |]. specialize (IH b). simpl in IH.
-  rewrite Rpow_mult_distr in *.
+  revert a. induction h as [| b l IH]; intros a; simpl; [ring |].
+  specialize (IH b). simpl in IH. rewrite Rpow_mult_distr in *.
   replace (c * t * (b * (c ^ length l * s ^ length l) + c * t * form l (c * s) (c * t)))
-    with (c * t * (c ^ length l * (b * s ^ length l + t * form l s t))) by (rewrite <- IH; ring). ring.
+    with (c * t * (c ^ length l * (b * s ^ length l + t * form l s t))) by (rewrite <- IH; ring).
+  ring.
 Qed.
 
 Theorem form_ends a l b : form (a :: l) 1 0 = a /\ form (l ++ [b]) 0 1 = b.
 Proof.
-  split; [simpl; rewrite pow1; ring |]. induction l as [| c l IH]; simpl; [ring |].
+  split; [simpl; rewrite pow1; ring |].
+  induction l as [| c l IH]; simpl; [ring |].
   rewrite IH, app_length, Nat.add_comm. simpl. ring.
 Qed.
 
@@ -86,8 +90,10 @@ Theorem power_basis a l s t : s <> 0 -> form (a :: l) s t = s ^ length l * power
 Proof.
   intros Z. revert a. induction l as [| b l IH]; intros a.
   - simpl. ring.
-  - change (form (a :: b :: l) s t) with (a * s ^ S (length l) + t * form (b :: l) s t). rewrite IH.
-    change (power_form (a :: b :: l) (t / s)) with (a + t / s * power_form (b :: l) (t / s)). simpl. field. easy.
+  - change (form (a :: b :: l) s t) with (a * s ^ S (length l) + t * form (b :: l) s t).
+    rewrite IH. change (power_form (a :: b :: l) (t / s)) with (a + t / s * power_form (b :: l) (t /
+      s)).
+    simpl. field. easy.
 Qed.
 
 (** ** The convex hull *)
@@ -108,15 +114,18 @@ Proof.
     assert (0 < t * form l s t) by (apply Rmult_lt_0_compat; auto). lra.
 Qed.
 
-Lemma hull_positive a l s t : Forall (Rlt 0) (a :: l) -> 0 <= s -> 0 <= t -> 0 < s + t -> 0 < form (a :: l) s t.
+Lemma hull_positive a l s t : Forall (Rlt 0) (a :: l) -> 0 <= s -> 0 <= t -> 0 < s + t ->
+  0 < form (a :: l) s t.
 Proof.
-  intros F Hs Ht P. assert (N : Forall (Rle 0) (a :: l)) by (eapply Forall_impl; [| exact F]; simpl; intros; lra).
+  intros F Hs Ht P.
+  assert (N : Forall (Rle 0) (a :: l)) by (eapply Forall_impl; [| exact F]; simpl; intros; lra).
   assert (A : 0 < a) by (inversion F; auto).
   destruct (Req_dec s 0) as [-> | Zs]; [| destruct (Req_dec t 0) as [-> | Zt]].
   - assert (T : 0 < t) by lra. clear Hs Ht P N A. revert a F.
-    induction l as [| b l IH]; intros a F; inversion_clear F; [simpl; lra |]. specialize (IH b H0).
-    change (form (a :: b :: l) 0 t) with (a * 0 ^ S (length l) + t * form (b :: l) 0 t). rewrite pow_i by lia.
-    assert (0 < t * form (b :: l) 0 t) by (apply Rmult_lt_0_compat; auto). lra.
+    induction l as [| b l IH]; intros a F; inversion_clear F; [simpl; lra |].
+    specialize (IH b H0). change (form (a :: b :: l) 0 t) with (a * 0 ^ S (length l) + t * form (b :: l)
+      0 t).
+    rewrite pow_i by lia. assert (0 < t * form (b :: l) 0 t) by (apply Rmult_lt_0_compat; auto). lra.
   - simpl. assert (0 < a * s ^ length l) by (apply Rmult_lt_0_compat; auto; apply pow_lt; lra). lra.
   - apply hull_inside; auto; lra.
 Qed.
@@ -128,9 +137,13 @@ Fixpoint binomials (n : nat) : list R :=
   | S n => map (fun xy => fst xy + snd xy) (combine (binomials n ++ [0]) (0 :: binomials n))
   end.
 Lemma length_binomials n : length (binomials n) = S n.
-Proof. induction n as [| n IH]; [easy |]. simpl. rewrite map_length, combine_length, app_length. simpl. lia. Qed.
+Proof.
+  induction n as [| n IH]; [easy |]. simpl. rewrite map_length, combine_length, app_length. simpl. lia.
+Qed.
 Lemma form_append_0 h s t : form (h ++ [0]) s t = s * form h s t.
-Proof. induction h as [| a l IH]; simpl; [ring |]. rewrite IH, app_length, Nat.add_comm. simpl. ring. Qed.
+Proof.
+  induction h as [| a l IH]; simpl; [ring |]. rewrite IH, app_length, Nat.add_comm. simpl. ring.
+Qed.
 Lemma form_binomials n s t : form (binomials n) s t = (s + t) ^ n.
 Proof.
   induction n as [| n IH]; [simpl; ring |]. simpl binomials. rewrite form_plus.
@@ -139,9 +152,10 @@ Proof.
 Qed.
 Lemma binomials_nonnegative n : Forall (Rle 0) (binomials n).
 Proof.
-  induction n as [| n IH]; [repeat constructor; lra |]. simpl. apply Forall_forall. intros x I. apply in_map_iff in I.
-  destruct I as ([y z] & <- & I). simpl. pose proof (in_combine_l _ _ _ _ I) as L.
-  pose proof (in_combine_r _ _ _ _ I) as R0. rewrite Forall_forall in IH. apply in_app_or in L.
+  induction n as [| n IH]; [repeat constructor; lra |]. simpl.
+  apply Forall_forall. intros x I. apply in_map_iff in I. destruct I as ([y z] & <- & I). simpl.
+  pose proof (in_combine_l _ _ _ _ I) as L. pose proof (in_combine_r _ _ _ _ I) as R0.
+  rewrite Forall_forall in IH. apply in_app_or in L.
   assert (0 <= y) by (destruct L as [L | [<- | []]]; auto; lra).
   assert (0 <= z) by (destruct R0 as [<- | R0]; auto; lra). lra.
 Qed.
@@ -160,22 +174,27 @@ Proof. unfold scaled_coefficients. simpl. repeat f_equal; ring. Qed.
 Lemma products_below c l k s t : Forall (Rle 0) c -> length c = length l -> Forall (Rle k) l ->
   0 <= s -> 0 <= t -> k * form c s t <= form (products c l) s t /\ length (products c l) = length l.
 Proof.
-  intros Fc L G Hs Ht. revert l L G. induction Fc as [| x c X Fc IH]; intros [| y l] L G; try discriminate.
+  intros Fc L G Hs Ht. revert l L G. induction Fc as [| x c X Fc IH]; intros [| y l] L G; try
+    discriminate.
   - simpl. split; [lra | easy].
-  - injection L as L. inversion_clear G as [| ? ? K G']. destruct (IH l L G') as (I & E). simpl. rewrite E, L.
-    split; [| easy]. assert (0 <= x * s ^ length l) by (apply Rmult_le_pos; auto; apply pow_le; auto).
+  - injection L as L. inversion_clear G as [| ? ? K G']. destruct (IH l L G') as (I & E). simpl.
+    rewrite E, L. split; [| easy].
+    assert (0 <= x * s ^ length l) by (apply Rmult_le_pos; auto; apply pow_le; auto).
     assert (x * s ^ length l * k <= x * s ^ length l * y) by (apply Rmult_le_compat_l; auto).
     assert (t * (k * form c s t) <= t * form (products c l) s t) by (apply Rmult_le_compat_l; auto).
       lra.
 Qed.
 Lemma products_opp c b : products c (map Ropp b) = map Ropp (products c b).
-Proof. revert b. induction c as [| x c IH]; intros [| y b]; simpl; auto. rewrite IH. f_equal. ring. Qed.
+Proof.
+  revert b. induction c as [| x c IH]; intros [| y b]; simpl; auto. rewrite IH. f_equal. ring.
+Qed.
 
 Theorem hull_bounds b m M t : b <> [] -> Forall (fun x => m <= x <= M) b -> 0 <= t <= 1 ->
   m <= form (scaled_coefficients b) (1 - t) t <= M.
 Proof.
   intros N F T. unfold scaled_coefficients. set (c := binomials (length b - 1)).
-  assert (L : length c = length b) by (unfold c; rewrite length_binomials; destruct b; [easy | simpl; lia]).
+  assert (L : length c = length b) by (unfold c; rewrite length_binomials; destruct b; [easy | simpl;
+    lia]).
   assert (One : form c (1 - t) t = 1)
     by (unfold c; rewrite form_binomials; replace (1 - t + t) with 1 by ring; apply pow1).
   assert (C : Forall (Rle 0) c) by apply binomials_nonnegative.
@@ -209,7 +228,8 @@ Theorem value_at_form p s t : exact (value_at p s t) = form (exacts p) (exact s)
 Proof.
   assert (H : forall l sum power, exact (value_from_term sum l s t power) =
     exact sum * exact s ^ length l + exact power * form (exacts l) (exact s) (exact t)).
-  { induction l as [| a l IH]; intros sum power; [simpl; ring |]. cbn [value_from_term]. destruct l as [| b l].
+  { induction l as [| a l IH]; intros sum power; [simpl; ring |]. cbn [value_from_term].
+    destruct l as [| b l].
     - simpl. exacts. ring.
     - rewrite IH. exacts. change (form (exacts (a :: b :: l)) (exact s) (exact t))
         with (exact a * exact s ^ length (exacts (b :: l)) + exact t * form (exacts (b :: l)) (exact s)
@@ -238,8 +258,10 @@ Fixpoint product_after (sums p q : list S) : list S :=
   end.
 Definition product : list S -> list S -> list S := product_after [].
 
-Lemma plus_form p q s t : (length p <= length q)%nat -> form (exacts (plus p q))
-  s t = s ^ (length q - length p) * form (exacts p) s t + form (exacts q) s t /\ length (plus p q) = length q.
+Lemma plus_form p q s t : (length p <= length q)%nat ->
+  form (exacts (plus p q)) s t = s ^ (length q - length p) * form (exacts p) s t + form (exacts q) s t
+    /\
+  length (plus p q) = length q.
 Proof.
   revert q. induction p as [| a p IH]; intros [| b q] L; simpl in *; try (split; [ring | easy]).
   destruct (IH q ltac:(lia)) as (E & M). rewrite E, !map_length, M. split; [| easy].
@@ -252,8 +274,9 @@ Lemma times_form a q s t : form (exacts (map (mul a) q)) s t = exact a * form (e
 Proof. induction q as [| c q IH]; simpl; [ring |]. rewrite IH, !map_length. exacts. ring. Qed.
 
 Lemma product_after_form sums p b q s t : length sums = length q ->
-  form (exacts (product_after sums p (b :: q))) s t = s ^ length p * form (exacts sums) s t + form
-  (exacts p) s t * form (exacts (b :: q)) s t /\ length (product_after sums p (b :: q)) = (length p + length q)%nat.
+  form (exacts (product_after sums p (b :: q))) s t =
+    s ^ length p * form (exacts sums) s t + form (exacts p) s t * form (exacts (b :: q)) s t /\
+  length (product_after sums p (b :: q)) = (length p + length q)%nat.
 Proof.
   revert sums. induction p as [| a l IH]; intros sums L; [simpl; split; [ring | easy] |].
   destruct (plus_form sums (map (mul a) (b :: q)) s t) as (F & K).
@@ -266,8 +289,9 @@ Proof.
   rewrite K in F. apply (f_equal (Rmult (s ^ length l))) in F. simpl in *. lra.
 Qed.
 
-Lemma product_both p b q s t : form (exacts (product p (b :: q))) s t = form
-  (exacts p) s t * form (exacts (b :: q)) s t /\ (p <> [] -> length (product p (b :: q)) = (length p + length q)%nat).
+Lemma product_both p b q s t :
+  form (exacts (product p (b :: q))) s t = form (exacts p) s t * form (exacts (b :: q)) s t /\
+  (p <> [] -> length (product p (b :: q)) = (length p + length q)%nat).
 Proof.
   destruct p as [| a l]; [simpl; split; [ring | easy] |]. unfold product; cbn [product_after plus map].
   destruct (product_after_form (map (mul a) q) l b q s t (map_length _ _)) as (E & L).
@@ -277,7 +301,9 @@ Qed.
 
 Theorem product_form p q s t :
   form (exacts (product p q)) s t = form (exacts p) s t * form (exacts q) s t.
-Proof. destruct q as [| b q]; [| apply product_both]. destruct p; simpl; ring. Qed.
+Proof.
+  destruct q as [| b q]; [| apply product_both]. destruct p; simpl; ring.
+Qed.
 
 (** elevated(p): p_0, p_1 + p_0, ..., p_N + p_(N-1), p_N. *)
 Fixpoint elevated_after (before : S) (p : list S) : list S :=
@@ -289,9 +315,10 @@ Theorem elevated_form p s t : form (exacts (elevated p)) s t = (s + t) * form (e
 Proof.
   assert (H : forall l b, form (exacts (elevated_after b l)) s t =
     exact b * s ^ length l + (s + t) * form (exacts l) s t).
-  { induction l as [| a l IH]; intros b; [simpl; ring |]. simpl. rewrite IH. exacts. rewrite !map_length.
-    replace (length (elevated_after a l)) with (Datatypes.S (length l)); [simpl; ring |]. clear. revert a.
-    induction l as [| c l IH]; intros a; simpl; auto. }
+  { induction l as [| a l IH]; intros b; [simpl; ring |]. simpl. rewrite IH. exacts.
+    rewrite !map_length. replace (length (elevated_after a l)) with (Datatypes.S (length l)); [simpl;
+      ring |].
+    clear. revert a. induction l as [| c l IH]; intros a; simpl; auto. }
   destruct p as [| a l]; simpl; [ring |]. rewrite H, !map_length.
   replace (length (elevated_after a l)) with (Datatypes.S (length l)); [simpl; ring |].
   clear. revert a. induction l as [| c l IH]; intros a; simpl; auto.
@@ -307,7 +334,10 @@ Fixpoint derivative_from (i : nat) (p : list S) : list S :=
 Definition derivative (p : list S) : list S := derivative_from 0 p.
 
 Lemma exact_times x n : exact (times x n) = exact x * INR n.
-Proof. unfold times. destruct (Nat.eqb_spec n 1) as [-> | N]; [simpl; ring |]. exacts. now rewrite INR_IZR_INZ. Qed.
+Proof.
+  unfold times. destruct (Nat.eqb_spec n 1) as [-> | N]; [simpl; ring |].
+  exacts. now rewrite INR_IZR_INZ.
+Qed.
 Lemma length_derivative_from i p : length (derivative_from i p) = (length p - 1)%nat.
 Proof.
   revert i. induction p as [| a [| b l] IH]; intros i; auto.
@@ -332,7 +362,8 @@ Proof.
     apply derivable_pt_lim_comp with (f1 := fun t => 1 - t) (f2 := fun s => s ^ length l).
     + apply derivable_pt_lim_minus; [apply derivable_pt_lim_const | apply derivable_pt_lim_id].
     + apply derivable_pt_lim_pow.
-  - apply (derivable_pt_lim_mult id (fun t => form l (1 - t) t)); [apply derivable_pt_lim_id | exact IH].
+  - apply (derivable_pt_lim_mult id (fun t => form l (1 - t) t)); [apply derivable_pt_lim_id | exact
+      IH].
 Qed.
 
 Theorem derivative_form p t :
@@ -340,13 +371,15 @@ Theorem derivative_form p t :
 Proof.
   assert (H : forall p i, at_time (derivative_from i p) t =
     slope (exacts p) t + INR i * form (exacts (tl p)) (1 - t) t).
-  { unfold at_time. induction p0 as [| a l IH]; intros i; [simpl; ring |]. destruct l as [| b l]; [simpl; ring |].
+  { unfold at_time. induction p0 as [| a l IH]; intros i; [simpl; ring |].
+    destruct l as [| b l]; [simpl; ring |].
     change (derivative_from i (a :: b :: l))
       with (sub (times b (i + 1)) (times a (length (b :: l))) :: derivative_from (i + 1) (b :: l)).
     cbn [map form slope]. rewrite IH. exacts. rewrite !exact_times, plus_INR.
     rewrite !map_length, length_derivative_from. simpl tl. simpl length.
-    replace (Datatypes.S (length l) - 1)%nat with (length l) by lia. rewrite S_INR.
-    change (map exact (b :: l)) with (exact b :: exacts l). cbn [form slope]. rewrite !map_length. simpl. ring. }
+    replace (Datatypes.S (length l) - 1)%nat with (length l) by lia.
+    rewrite S_INR. change (map exact (b :: l)) with (exact b :: exacts l).
+    cbn [form slope]. rewrite !map_length. simpl. ring. }
   unfold derivative. rewrite H. simpl. rewrite Rmult_0_l, Rplus_0_r. apply derivable_form.
 Qed.
 
@@ -380,15 +413,18 @@ Definition next_half (part : list S) (term : S) : list S :=
 Definition left_half (p : list S) : list S :=
   match p with [] => [] | a :: l => fold_left next_half l [a] end.
 
-Lemma shifted_form all v part : forall before term s t, form (exacts (shifted all v before part term))
-  s t = exact before * exact v * s ^ length part + form (exacts part) s t * (exact all * s + exact v * t)
-  + exact term * t ^ length part /\ length (shifted all v before part term) = Datatypes.S (length part).
+Lemma shifted_form all v part : forall before term s t,
+  form (exacts (shifted all v before part term)) s t =
+  exact before * exact v * s ^ length part + form (exacts part) s t * (exact all * s + exact v * t)
+  + exact term * t ^ length part /\
+  length (shifted all v before part term) = Datatypes.S (length part).
 Proof.
   induction part as [| a l IH]; intros before term s t; simpl; exacts; [split; [ring | easy] |].
   destruct (IH a term s t) as (E & L). rewrite E, !map_length, L. split; [simpl; ring | easy].
 Qed.
-Lemma next_part_form all v a part term s t : form (exacts (next_part all v (a :: part) term))
-  s t = form (exacts (a :: part)) s t * (exact all * s + exact v * t) + exact term * t ^ length (a :: part) /\
+Lemma next_part_form all v a part term s t :
+  form (exacts (next_part all v (a :: part) term)) s t =
+  form (exacts (a :: part)) s t * (exact all * s + exact v * t) + exact term * t ^ length (a :: part) /\
   length (next_part all v (a :: part) term) = Datatypes.S (length (a :: part)).
 Proof.
   simpl. destruct (shifted_form all v part a term s t) as (E & L).
@@ -404,16 +440,20 @@ Proof.
     form (exacts (part_from (add v w) v w (a :: part) power l)) s t =
     form (exacts (a :: part)) s t * s' ^ length l
     + exact power * t ^ length (a :: part) * form (exacts l) s' t').
-  { induction l as [| b l IH]; intros a part power; [simpl; ring |]. cbn [part_from].
-    destruct (next_part_form (add v w) v a part (mul b power) s t) as (E & L). rewrite exact_add in E. fold s' in E.
-    rewrite exact_mul in E. destruct l as [| c l].
+  { induction l as [| b l IH]; intros a part power; [simpl; ring |].
+    cbn [part_from]. destruct (next_part_form (add v w) v a part (mul b power) s t) as (E & L).
+    rewrite exact_add in E. fold s' in E. rewrite exact_mul in E.
+    destruct l as [| c l].
     - rewrite E. simpl. ring.
     - destruct (next_part (add v w) v (a :: part) (mul b power)) as [| d next]; [discriminate |].
       rewrite IH, E, L, exact_mul.
       change (form (exacts (b :: c :: l)) s' t')
-        with (exact b * s' ^ length (exacts (c :: l)) + t' * form (exacts (c :: l)) s' t'). rewrite map_length.
-      unfold t'. change (length (b :: c :: l)) with (Datatypes.S (length (c :: l))). rewrite <- !tech_pow_Rmult. ring. }
-  destruct p as [| a l]; [easy |]. unfold left_part. rewrite H. simpl. rewrite map_length. unfold t'. ring.
+        with (exact b * s' ^ length (exacts (c :: l)) + t' * form (exacts (c :: l)) s' t').
+      rewrite map_length. unfold t'.
+      change (length (b :: c :: l)) with (Datatypes.S (length (c :: l))).
+      rewrite <- !tech_pow_Rmult. ring. }
+  destruct p as [| a l]; [easy |]. unfold left_part. rewrite H. simpl. rewrite map_length.
+  unfold t'. ring.
 Qed.
 
 Theorem left_half_form p s t :
@@ -430,9 +470,10 @@ Proof.
     form (exacts (fold_left next_half l (a :: part))) s t =
     form (exacts (a :: part)) s t * (2 * s + t) ^ length l
     + t ^ length (a :: part) * form (exacts l) (2 * s + t) t).
-  { induction l as [| b l IH]; intros a part; [simpl; ring |]. cbn [fold_left]. destruct (Sh part a b) as (E & L).
-    change (next_half (a :: part) b) with (twice a :: half_shifted a part b). rewrite IH. cbn [map form length].
-    rewrite E, !map_length, L, exact_twice. simpl. ring. }
+  { induction l as [| b l IH]; intros a part; [simpl; ring |].
+    cbn [fold_left]. destruct (Sh part a b) as (E & L).
+    change (next_half (a :: part) b) with (twice a :: half_shifted a part b). rewrite IH.
+    cbn [map form length]. rewrite E, !map_length, L, exact_twice. simpl. ring. }
   destruct p as [| a l]; [easy |]. unfold left_half. rewrite H. simpl. rewrite map_length. ring.
 Qed.
 
@@ -440,8 +481,10 @@ Qed.
 Theorem reversed_form p s t : form (exacts (rev p)) s t = form (exacts p) t s.
 Proof.
   assert (A : forall h a, form (h ++ [a]) s t = s * form h s t + a * t ^ length h).
-  { induction h as [| b l IH]; intros a; simpl; [ring |]. rewrite IH, app_length, Nat.add_comm. simpl. ring. }
-  induction p as [| a l IH]; [easy |]. simpl. rewrite map_app. simpl. rewrite A, IH, !map_length, rev_length. ring.
+  { induction h as [| b l IH]; intros a; simpl; [ring |].
+    rewrite IH, app_length, Nat.add_comm. simpl. ring. }
+  induction p as [| a l IH]; [easy |].
+  simpl. rewrite map_app. simpl. rewrite A, IH, !map_length, rev_length. ring.
 Qed.
 Definition split (p : list S) (v w : S) : list S * list S :=
   (left_part p v w, rev (left_part (rev p) w v)).
@@ -497,33 +540,42 @@ Proof.
       p)
     | uncertain => True
     end).
-  { clear p. induction p as [| a l IH]; intros all; simpl; [destruct all; auto |]. pose proof (sign_right S a) as A.
-    destruct (sign_of a), all; simpl in A; auto; match goal with |- context [sign_inside_from ?x l] => specialize
-      (IH x); destruct (sign_inside_from x l) end; intuition (try discriminate; try (constructor; auto; lra); auto).
-    all: try (right; split; [easy | constructor 1; lra]). all: try (right; split; [easy | now constructor 2]). }
+  { clear p. induction p as [| a l IH]; intros all; simpl; [destruct all; auto |].
+    pose proof (sign_right S a) as A. destruct (sign_of a), all; simpl in A; auto;
+      match goal with |- context [sign_inside_from ?x l] => specialize (IH x); destruct
+        (sign_inside_from x l) end;
+      intuition (try discriminate; try (constructor; auto; lra); auto).
+    all: try (right; split; [easy | constructor 1; lra]). all: try (right; split; [easy | now
+      constructor 2]). }
   specialize (H p zero). unfold sign_inside. destruct (sign_inside_from zero p); simpl in *;
     intuition (try discriminate; auto).
 Qed.
 
 Theorem sign_inside_right p t : 0 < t < 1 -> sign_is_right (sign_inside p) (at_time p t).
 Proof.
-  intros T. unfold at_time. pose proof (sign_inside_coefficients p) as H. destruct (sign_inside p); simpl in *; auto.
+  intros T. unfold at_time. pose proof (sign_inside_coefficients p) as H.
+  destruct (sign_inside p); simpl in *; auto.
   - destruct H as (F & E). pose proof (hull_inside _ (1 - t) t F E) as P. rewrite form_opp in P. lra.
   - induction H as [| a l <- F IH]; simpl; [easy |]. rewrite IH. ring.
   - destruct H. apply hull_inside; auto; lra.
 Qed.
 
-Lemma sign_throughout_coefficients p : match sign_throughout p with |
-  negative => Forall (Rlt 0) (map Ropp (exacts p)) /\
-  p <> [] | zero => Forall (eq 0) (exacts p) | positive => Forall (Rlt 0) (exacts p) /\ p <> [] | uncertain => True end.
+Lemma sign_throughout_coefficients p :
+  match sign_throughout p with
+  | negative => Forall (Rlt 0) (map Ropp (exacts p)) /\ p <> []
+  | zero => Forall (eq 0) (exacts p)
+  | positive => Forall (Rlt 0) (exacts p) /\ p <> []
+  | uncertain => True
+  end.
 Proof.
   destruct p as [| a l]; simpl; auto. pose proof (sign_right S a) as A.
   destruct (forallb _ l) eqn:F; auto. rewrite forallb_forall in F.
   assert (H : forall b, In b l -> sign_is_right (sign_of a) (exact b)).
   { intros b I. specialize (F b I). pose proof (sign_right S b) as B.
     destruct (sign_of b), (sign_of a); simpl in *; auto; discriminate. }
-  destruct (sign_of a); simpl in *; auto; repeat split; try discriminate; constructor; try (simpl in A; lra);
-    repeat rewrite Forall_map; apply Forall_forall; intros b I; specialize (H b I); simpl in H; lra.
+  destruct (sign_of a); simpl in *; auto; repeat split; try discriminate;
+    constructor; try (simpl in A; lra); repeat rewrite Forall_map; apply Forall_forall; intros b I;
+    specialize (H b I); simpl in H; lra.
 Qed.
 
 Theorem sign_throughout_right p t : 0 <= t <= 1 -> sign_is_right (sign_throughout p) (at_time p t).
@@ -532,7 +584,8 @@ Proof.
   destruct (sign_throughout p); cbn [sign_is_right]; auto.
   - destruct H as (F & N). destruct p as [| a l]; [easy |].
     pose proof (hull_positive (- exact a) (map Ropp (exacts l)) (1 - t) t F) as P.
-    change (- exact a :: map Ropp (exacts l)) with (map Ropp (exacts (a :: l))) in P. rewrite form_opp in P. lra.
+    change (- exact a :: map Ropp (exacts l)) with (map Ropp (exacts (a :: l))) in P.
+    rewrite form_opp in P. lra.
   - induction H as [| a l <- F IH]; simpl; [easy |]. rewrite IH. ring.
   - destruct H as (F & N). destruct p as [| a l]; [easy |]. apply (hull_positive _ _ (1 - t) t F); lra.
 Qed.

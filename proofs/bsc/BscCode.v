@@ -1,7 +1,9 @@
 (** The code of Bernstein sign classification (include/errbound/bsc.hpp), in its order, over every scalar
     (Bernstein.v). Y is a cubic and each G a quartic, as lists of scaled coefficients. *)
 
-From Coq Require Import Reals ZArith List Bool. From Errbound Require Import Sign Bernstein. Import ListNotations.
+From Coq Require Import Reals ZArith List Bool.
+From Errbound Require Import Sign Bernstein.
+Import ListNotations.
 Open Scope R_scope.
 
 (** ** Signs (include/errbound/sign.hpp) *)
@@ -39,7 +41,8 @@ Definition verdict (root_is_certain : bool) (signs : list sign) : existence :=
 Section Code.
 
 Context {S : scalar}.
-Notation exacts := (map (@exact S)). Notation "p '#' i" := (nth i p (whole 0)) (at level 20).
+Notation exacts := (map (@exact S)).
+Notation "p '#' i" := (nth i p (whole 0)) (at level 20).
 Implicit Types (y g l d j : list S).
 
 Definition linear_root l : S * S :=

@@ -9,57 +9,72 @@
 
 From Coq Require Import Reals ZArith Lia Lra Psatz List Bool.
 From Errbound Require Import RootIsolation Sign Bernstein Bsc Contact Decisions AxisUnits UnboundedIntegers.
-Import ListNotations. Open Scope R_scope.
+Import ListNotations.
+Open Scope R_scope.
 
 Section Exact.
 
 Context {S : scalar} (Exact : forall x : S, sign_of x <> uncertain).
-Notation exacts := (map (@exact S)). Notation "p '#' i" := (nth i p (whole 0)) (at level 20).
-Notation form_at := (@at_time S). Notation dy y := (derivative y). Notation ddy y := (derivative (derivative y)).
+Notation exacts := (map (@exact S)).
+Notation "p '#' i" := (nth i p (whole 0)) (at level 20).
+Notation form_at := (@at_time S).
+Notation dy y := (derivative y).
+Notation ddy y := (derivative (derivative y)).
 Notation five gs := (Forall (fun g : list S => length g = 5%nat) gs).
 Implicit Types (y g l d j : list S) (gs : list (list S)).
 
 (** ** Signs *)
 
-Lemma sign_tells (x : S) : tells (sign_of x) (exact x). Proof. split; [apply Exact | apply sign_right]. Qed.
-Lemma always_certain (x : S) : certain (sign_of x) = true. Proof. pose proof (Exact x). now destruct (sign_of x). Qed.
+Lemma sign_tells (x : S) : tells (sign_of x) (exact x).
+Proof. split; [apply Exact | apply sign_right]. Qed.
+Lemma always_certain (x : S) : certain (sign_of x) = true.
+Proof. pose proof (Exact x). now destruct (sign_of x). Qed.
 
 Lemma inside_certain l : inside l <> uncertain.
 Proof.
-  unfold inside. pose proof (Exact (l#0)). pose proof (Exact (l#1)). now destruct (sign_of (l#0)), (sign_of (l#1)).
+  unfold inside. pose proof (Exact (l#0)). pose proof (Exact (l#1)).
+  now destruct (sign_of (l#0)), (sign_of (l#1)).
 Qed.
 Lemma at_root_certain l p : sign_at_root_of l p <> uncertain.
 Proof. unfold sign_at_root_of. destruct (linear_root l). apply Exact. Qed.
 Lemma at_crossing_certain y before l : linear_at_crossing y before l <> uncertain.
 Proof.
-  unfold linear_at_crossing. destruct (negb (opposite l)); [apply inside_certain |]. pose proof (at_root_certain l y).
-  destruct (sign_at_root_of l y); try easy; destruct (same_sign _ before); apply Exact.
+  unfold linear_at_crossing. destruct (negb (opposite l)); [apply inside_certain |].
+  pose proof (at_root_certain l y). destruct (sign_at_root_of l y); try easy;
+    destruct (same_sign _ before); apply Exact.
 Qed.
 Lemma at_extremum_certain d form : linear_at_extremum d form <> uncertain.
 Proof.
   unfold linear_at_extremum. destruct (negb _); [apply inside_certain |].
-  pose proof (at_root_certain (normalized form) d). destruct (sign_at_root_of _ d); try easy; apply Exact.
+  pose proof (at_root_certain (normalized form) d). destruct (sign_at_root_of _ d); try easy; apply
+    Exact.
 Qed.
 Lemma extremum_certain y d : certain (sign_at_extremum y d) = true.
 Proof.
-  unfold sign_at_extremum. set (f := linear_at_extremum d _). destruct (certain (negate f)) eqn:E; auto.
+  unfold sign_at_extremum. set (f := linear_at_extremum d _).
+  destruct (certain (negate f)) eqn:E; auto.
   assert (f <> uncertain) by apply at_extremum_certain. now destruct f.
 Qed.
 
 (** If Y has a root and no positive value at the extremum, no sign at a pair is uncertain. *)
-Lemma at_pair_certain y d l r : length l = 2%nat -> y <> [] -> d <> [] -> convex (form_at y) (form_at d) ->
-  0 < r < 1 -> form_at y r = 0 -> fst (linear_at_pair y d l) <> uncertain /\ snd (linear_at_pair y d l) <> uncertain.
+Lemma at_pair_certain y d l r : length l = 2%nat -> y <> [] -> d <> [] ->
+  convex (form_at y) (form_at d) -> 0 < r < 1 -> form_at y r = 0 ->
+  fst (linear_at_pair y d l) <> uncertain /\ snd (linear_at_pair y d l) <> uncertain.
 Proof.
   intros L Ny Nd (T & _) I Z. unfold linear_at_pair.
   destruct (opposite l) eqn:O; simpl; [| split; apply inside_certain].
-  destruct (opposite_root l L O) as (x & X & _ & _ & _ & Sign & _). pose proof (Sign y Ny) as Sy.
-  pose proof (Sign d Nd) as Sd. pose proof (at_root_certain l y). pose proof (at_root_certain l d).
+  destruct (opposite_root l L O) as (x & X & _ & _ & _ & Sign & _).
+  pose proof (Sign y Ny) as Sy. pose proof (Sign d Nd) as Sd.
+  pose proof (at_root_certain l y). pose proof (at_root_certain l d).
   pose proof (Exact (l#0)). pose proof (Exact (l#1)).
   destruct (sign_at_root_of l y), (sign_at_root_of l d); simpl; try easy; exfalso; simpl in *.
-  assert (N : x <> r) by (intros ->; lra). specialize (T x r ltac:(lra) ltac:(lra) N). rewrite Sd, Z in T. lra.
+  assert (N : x <> r) by (intros ->; lra). specialize (T x r ltac:(lra) ltac:(lra) N). rewrite Sd, Z in
+    T.
+  lra.
 Qed.
 
-Lemma zero_form l : length l = 2%nat -> opposite l = false -> inside l = zero -> Forall (eq 0) (exacts l).
+Lemma zero_form l : length l = 2%nat -> opposite l = false -> inside l = zero ->
+  Forall (eq 0) (exacts l).
 Proof. intros L O E. pose proof (inside_signs l L O) as H. now rewrite E in H. Qed.
 Lemma normalized_zero (p : list S) : Forall (eq 0) (exacts (normalized p)) -> Forall (eq 0) (exacts p).
 Proof.
@@ -69,29 +84,36 @@ Qed.
 
 (** M does not vanish at a root at which J is evaluated, unless coefficients give J a certain sign. *)
 Lemma combined_tells y j r m s : length y = 4%nat -> length j = 3%nat -> form_at y r = 0 -> 0 < r < 1 ->
-  exact (y#0) * exact (y#3) <> 0 -> certain (sign_inside j) = false -> tells m (form_at (decomposition_m y j) r) ->
-  tells s (form_at (decomposition_r y j) r) -> tells (combined m s (decomposition_m y j) j) (form_at j r).
+  exact (y#0) * exact (y#3) <> 0 -> certain (sign_inside j) = false ->
+  tells m (form_at (decomposition_m y j) r) -> tells s (form_at (decomposition_r y j) r) ->
+  tells (combined m s (decomposition_m y j) j) (form_at j r).
 Proof.
-  intros Ly Lj Z I N J (Cm & M) (Cs & Rs). destruct (combined_right y j r m s Ly Lj Z I M Rs) as (_ & R). split; auto.
-  unfold combined. destruct (same_sign m zero) eqn:Q; simpl; [| now destruct m, s].
+  intros Ly Lj Z I N J (Cm & M) (Cs & Rs).
+  destruct (combined_right y j r m s Ly Lj Z I M Rs) as (_ & R). split; auto. unfold combined.
+  destruct (same_sign m zero) eqn:Q; simpl; [| now destruct m, s].
   destruct (opposite (decomposition_m y j)) eqn:O; simpl; [apply at_root_certain |]. intros _.
   assert (m = zero) by now destruct m. subst m. simpl in M.
-  assert (Lm : length (decomposition_m y j) = 2%nat) by (unfold decomposition_m; now rewrite length_normalized).
+  assert (Lm : length (decomposition_m y j) = 2%nat) by (unfold decomposition_m; now rewrite
+    length_normalized).
   pose proof (inside_right _ r Lm O I) as E. pose proof (inside_certain (decomposition_m y j)) as C.
   assert (E0 : inside (decomposition_m y j) = zero).
   { destruct (inside (decomposition_m y j)); try easy; simpl in E; lra. }
   pose proof (normalized_zero _ (zero_form _ Lm O E0)) as F. clear - Exact F N J Ly Lj.
-  destruct (length_3 j Lj) as (a & b & c & ->). simpl in F. rewrite !exact_mul in F. inversion_clear F as [| ? ? F0 F'].
-  inversion_clear F' as [| ? ? F1 _]. assert (exact (y#0) <> 0) by (intros H; apply N; rewrite H; ring).
-  assert (exact (y#3) <> 0) by (intros H0; apply N; rewrite H0; ring). symmetry in F0, F1.
-  apply Rmult_integral in F0, F1. destruct F0 as [| F0], F1 as [| F1]; try easy. unfold sign_inside in J.
-  cbn [sign_inside_from] in J. pose proof (sign_tells a) as (Ca & Ra). pose proof (sign_tells b) as (Cb & _).
-  pose proof (sign_tells c) as (Cc & Rc). destruct (sign_of a), (sign_of c), (sign_of b); simpl in *; try easy; lra.
+  destruct (length_3 j Lj) as (a & b & c & ->). simpl in F. rewrite !exact_mul in F.
+  inversion_clear F as [| ? ? F0 F']. inversion_clear F' as [| ? ? F1 _].
+  assert (exact (y#0) <> 0) by (intros H; apply N; rewrite H; ring).
+  assert (exact (y#3) <> 0) by (intros H0; apply N; rewrite H0; ring).
+  symmetry in F0, F1. apply Rmult_integral in F0, F1. destruct F0 as [| F0], F1 as [| F1]; try easy.
+  unfold sign_inside in J. cbn [sign_inside_from] in J.
+  pose proof (sign_tells a) as (Ca & Ra). pose proof (sign_tells b) as (Cb & _). pose proof (sign_tells
+    c) as (Cc & Rc).
+  destruct (sign_of a), (sign_of c), (sign_of b); simpl in *; try easy; lra.
 Qed.
 
 (** The sign of G from the sign of J. *)
-Lemma reduced_tells y g r s : length y = 4%nat -> length g = 5%nat -> form_at y r = 0 ->
-  0 < r < 1 -> tells s (form_at (reduced y g) r) -> (exact (y#0) * exact (y#3) < 0 -> tells (negate s) (form_at g r)) /\
+Lemma reduced_tells y g r s : length y = 4%nat -> length g = 5%nat -> form_at y r = 0 -> 0 < r < 1 ->
+  tells s (form_at (reduced y g) r) ->
+  (exact (y#0) * exact (y#3) < 0 -> tells (negate s) (form_at g r)) /\
   (0 < exact (y#0) * exact (y#3) -> tells s (form_at g r)).
 Proof.
   intros Ly Lg Z I (C & T). destruct (reduction y g r Ly Lg Z) as (c & Pc & E).
@@ -100,7 +122,8 @@ Proof.
     specialize (D ltac:(lra)); destruct s; simpl in *; tauto.
 Qed.
 
-Lemma hull_tells (p : list S) t : 0 < t < 1 -> certain (sign_inside p) = true -> tells (sign_inside p) (form_at p t).
+Lemma hull_tells (p : list S) t : 0 < t < 1 -> certain (sign_inside p) = true ->
+  tells (sign_inside p) (form_at p t).
 Proof. intros T C. split; [now destruct (sign_inside p) | now apply sign_inside_right]. Qed.
 Lemma length_parts y j : length (decomposition_m y j) = 2%nat /\ length (decomposition_r y j) = 2%nat.
 Proof. unfold decomposition_m, decomposition_r. now rewrite !length_normalized. Qed.
@@ -118,9 +141,10 @@ Proof.
     now apply sign_determination_1.
 Qed.
 
-Lemma at_pair_tells y d g r : length y = 4%nat -> d <> [] -> length g = 5%nat -> convex (form_at y) (form_at d) -> 0 < r
-  < 1 -> form_at y r = 0 -> 0 < exact (y#0) * exact (y#3) -> (form_at d r <= 0 -> tells (fst (quartic_at_pair y d g))
-  (form_at g r)) /\ (0 <= form_at d r -> tells (snd (quartic_at_pair y d g)) (form_at g r)).
+Lemma at_pair_tells y d g r : length y = 4%nat -> d <> [] -> length g = 5%nat ->
+  convex (form_at y) (form_at d) -> 0 < r < 1 -> form_at y r = 0 -> 0 < exact (y#0) * exact (y#3) ->
+  (form_at d r <= 0 -> tells (fst (quartic_at_pair y d g)) (form_at g r)) /\
+  (0 <= form_at d r -> tells (snd (quartic_at_pair y d g)) (form_at g r)).
 Proof.
   intros Ly Nd Lg C I Z K. unfold quartic_at_pair.
   destruct (certain (sign_inside g)) eqn:Cg; [split; intros _; now apply hull_tells |].
@@ -129,9 +153,11 @@ Proof.
   - split; intros _; refine (proj2 (reduced_tells y g r _ Ly Lg Z I _) K); now apply hull_tells.
   - destruct (sign_determination_2 y d _ r Lm Ny Nd C I Z) as (M0 & M1).
     destruct (sign_determination_2 y d _ r Lr Ny Nd C I Z) as (R0 & R1).
-    destruct (at_pair_certain y d _ r Lm Ny Nd C I Z). destruct (at_pair_certain y d _ r Lr Ny Nd C I Z).
-    split; intros D; refine (proj2 (reduced_tells y g r _ Ly Lg Z I _) K);
-      apply combined_tells; auto using length_reduced; try lra; split; auto.
+    destruct (at_pair_certain y d _ r Lm Ny Nd C I Z). destruct (at_pair_certain y d _ r Lr Ny Nd C I
+      Z).
+    split; intros D; refine (proj2 (reduced_tells y g r _ Ly Lg Z I _) K); apply combined_tells; auto
+      using length_reduced; try lra;
+      split; auto.
 Qed.
 
 (** ** Answers *)
@@ -173,7 +199,8 @@ Proof.
   - intros t [T | T]; auto.
   - destruct B as ((t & T & B) & N). split; [exists t; auto |]. intros u [U | U]; auto.
   - destruct A as ((t & T & A) & N). split; [exists t; auto |]. intros u [U | U]; auto.
-  - destruct A as ((t & T & A) & N). split; [exists t; auto |]. destruct B as (_ & B). intros u [U | U]; auto.
+  - destruct A as ((t & T & A) & N). split; [exists t; auto |]. destruct B as (_ & B). intros u [U | U];
+    auto.
 Qed.
 
 Lemma verdict_answers gs t (f : list S -> sign) : Forall (fun g => tells (f g) (form_at g t)) gs ->
@@ -197,8 +224,9 @@ Proof.
       specialize (P g I). destruct (T g I) as (C & R). destruct (f g); simpl in *; try easy; lra. }
     congruence. }
   split; [| now intros u <-]. exists t. split; auto. split; [now apply Forall_forall |].
-  apply Exists_Forall_neg in P; [| intros g; destruct (Rlt_dec 0 (form_at g t)); auto]. apply Exists_exists in P.
-  destruct P as (g & I & P). apply Exists_exists. exists g. split; auto. specialize (M g I). lra.
+  apply Exists_Forall_neg in P; [| intros g; destruct (Rlt_dec 0 (form_at g t)); auto].
+  apply Exists_exists in P. destruct P as (g & I & P). apply Exists_exists. exists g. split; auto.
+  specialize (M g I). lra.
 Qed.
 
 (** Roots of Y in [0, 1], and interior ones. *)
@@ -206,17 +234,21 @@ Definition roots y (t : R) : Prop := 0 <= t <= 1 /\ form_at y t = 0.
 Definition inner y (t : R) : Prop := 0 < t < 1 /\ form_at y t = 0.
 
 Lemma at_end_answers y gs k t : five gs -> (k = 0%nat /\ t = 0 \/ k = 4%nat /\ t = 1) ->
-  forall x : S, exact x = form_at y t -> answers (at_end (sign_of x) gs k) (fun u => t = u /\ form_at y t = 0) gs.
+  forall x : S, exact x = form_at y t ->
+  answers (at_end (sign_of x) gs k) (fun u => t = u /\ form_at y t = 0) gs.
 Proof.
   intros F K x E. unfold at_end. destruct (sign_tells x) as (C & X). rewrite E in X.
   destruct (sign_of x); simpl in X; try easy; try (apply answers_no; intros u (_ & Z); lra).
-  apply (answers_same _ (eq t)); [intuition |]. apply verdict_answers. eapply Forall_impl; [| exact F]. simpl.
-  intros g Lg. replace (form_at g t) with (exact (g#k)); [apply sign_tells |].
-  destruct K as [(-> & ->) | (-> & ->)]; symmetry; [apply at_start; now destruct g | now apply at_finish].
+  apply (answers_same _ (eq t)); [intuition |]. apply verdict_answers.
+  eapply Forall_impl; [| exact F]. simpl. intros g Lg.
+  replace (form_at g t) with (exact (g#k)); [apply sign_tells |].
+  destruct K as [(-> & ->) | (-> & ->)]; symmetry; [apply at_start; now destruct g | now apply
+    at_finish].
 Qed.
 
-Lemma ends_answer y gs : length y = 4%nat -> five gs -> answers (either
-  (at_end (sign_of (y#0)) gs 0) (at_end (sign_of (y#3)) gs 4)) (fun t => (t = 0 \/ t = 1) /\ form_at y t = 0) gs.
+Lemma ends_answer y gs : length y = 4%nat -> five gs ->
+  answers (either (at_end (sign_of (y#0)) gs 0) (at_end (sign_of (y#3)) gs 4))
+    (fun t => (t = 0 \/ t = 1) /\ form_at y t = 0) gs.
 Proof.
   intros L F. assert (N : y <> []) by now destruct y.
   apply (answers_either _ _ (fun t => 0 = t /\ form_at y 0 = 0) (fun t => 1 = t /\ form_at y 1 = 0)).
@@ -233,7 +265,10 @@ Proof.
 Qed.
 Lemma without_inner y gs e : answers e (fun t => (t = 0 \/ t = 1) /\ form_at y t = 0) gs ->
   (forall t, ~ inner y t) -> answers e (roots y) gs.
-Proof. intros E N. replace e with (either e no) by now destruct e. apply with_inner; auto. now apply answers_no. Qed.
+Proof.
+  intros E N. replace e with (either e no) by now destruct e. apply with_inner; auto. now apply
+    answers_no.
+Qed.
 
 Lemma at_crossing_answers y before gs r : length y = 4%nat -> five gs ->
   before = negative \/ before = positive -> crossing (form_at y) (unit before) r ->
@@ -253,59 +288,74 @@ Qed.
 Lemma strict_root (y : list S) : form_at y 0 * form_at y 1 < 0 -> exists r, inner y r.
 Proof.
   intros N. destruct (between y 0 1) as (r & I & Z); [lra | lra |]. exists r. split; auto.
-  assert (r <> 0) by (intros ->; rewrite Z in N; lra). assert (r <> 1) by (intros ->; rewrite Z in N; lra). lra.
+  assert (r <> 0) by (intros ->; rewrite Z in N; lra). assert (r <> 1) by (intros ->; rewrite Z in N;
+    lra). lra.
 Qed.
 
 Lemma at_ends y : length y = 4%nat -> form_at y 0 = exact (y#0) /\ form_at y 1 = exact (y#3).
 Proof. intros L. split; [apply at_start; now destruct y | now apply at_finish]. Qed.
 
 Lemma on_increasing_answers y gs : length y = 4%nat -> five gs ->
-  (forall a b, 0 <= a -> a < b -> b <= 1 -> form_at y a < form_at y b) -> answers (on_increasing y gs) (roots y) gs.
+  (forall a b, 0 <= a -> a < b -> b <= 1 -> form_at y a < form_at y b) ->
+  answers (on_increasing y gs) (roots y) gs.
 Proof.
-  intros L F M. destruct (at_ends y L) as (E0 & E3). pose proof (ends_answer y gs L F) as Ends. unfold on_increasing.
-  rewrite !always_certain. cbn [andb]. destruct (sign_tells (y#0)) as (C0 & S0).
-  destruct (sign_tells (y#3)) as (C3 & S3). rewrite <- E0 in S0. rewrite <- E3 in S3.
+  intros L F M. destruct (at_ends y L) as (E0 & E3). pose proof (ends_answer y gs L F) as Ends.
+  unfold on_increasing. rewrite !always_certain. cbn [andb].
+  destruct (sign_tells (y#0)) as (C0 & S0). destruct (sign_tells (y#3)) as (C3 & S3). rewrite <- E0 in
+    S0. rewrite <- E3 in S3.
   assert (None : 0 <= form_at y 0 \/ form_at y 1 <= 0 -> forall t, ~ inner y t).
   { intros N t (T & Z). pose proof (M 0 t). pose proof (M t 1). lra. }
   destruct (possibly_negative (sign_of (y#0)) && possibly_positive (sign_of (y#3))) eqn:B.
-  - apply with_inner; auto. clear Ends. assert (N0 : form_at y 0 < 0) by (destruct (sign_of (y#0)); easy).
+  - apply with_inner; auto. clear Ends.
+    assert (N0 : form_at y 0 < 0) by (destruct (sign_of (y#0)); easy).
     assert (N3 : 0 < form_at y 1) by (destruct (sign_of (y#0)), (sign_of (y#3)); easy).
     destruct (strict_root y) as (r & I & Z); [nra |].
     assert (K : crossing (form_at y) (unit negative) r).
-    { repeat split; simpl; try tauto; try lra; intros t T; [pose proof (M t r) | pose proof (M r t)]; lra. }
+    { repeat split; simpl; try tauto; try lra; intros t T; [pose proof (M t r) | pose proof (M r t)];
+      lra. }
     apply (answers_same _ (eq r)); [intros t; symmetry; apply (crossing_inner y negative); auto |].
     apply at_crossing_answers; auto. rewrite <- E0, <- E3. nra.
-  - apply without_inner; auto. apply None. destruct (sign_of (y#0)), (sign_of (y#3)); simpl in *; try easy; lra.
+  - apply without_inner; auto. apply None.
+    destruct (sign_of (y#0)), (sign_of (y#3)); simpl in *; try easy; lra.
 Qed.
 
 
-Lemma at_pair_answers y d gs : length y = 4%nat -> length d = 3%nat -> exacts d = exacts (dy y) -> five gs ->
-  convex (form_at y) (form_at d) -> 0 < exact (y#0) -> 0 < exact (y#3) -> answers (at_pair y d true gs) (inner y) gs.
+Lemma at_pair_answers y d gs : length y = 4%nat -> length d = 3%nat -> exacts d = exacts (dy y) ->
+  five gs -> convex (form_at y) (form_at d) -> 0 < exact (y#0) -> 0 < exact (y#3) ->
+  answers (at_pair y d true gs) (inner y) gs.
 Proof.
   intros L Ld Ed F C Y0 Y3. pose proof C as (T & M). destruct (at_ends y L) as (E0 & E3).
-  assert (Nd : d <> []) by now destruct d. pose proof (at_start d Nd) as D0. pose proof (at_finish d 2 Ld) as D2.
-  unfold at_pair. rewrite !always_certain, extremum_certain. cbn [andb]. destruct (sign_tells (d#0)) as (C0 & S0).
-  destruct (sign_tells (d#2)) as (C2 & S2). rewrite <- D0 in S0. rewrite <- D2 in S2.
+  assert (Nd : d <> []) by now destruct d.
+  pose proof (at_start d Nd) as D0. pose proof (at_finish d 2 Ld) as D2.
+  unfold at_pair. rewrite !always_certain, extremum_certain. cbn [andb].
+  destruct (sign_tells (d#0)) as (C0 & S0). destruct (sign_tells (d#2)) as (C2 & S2). rewrite <- D0 in
+    S0. rewrite <- D2 in S2.
   destruct (certainly_nonnegative (sign_of (d#0)) || certainly_nonpositive (sign_of (d#2))) eqn:Q.
-  { apply answers_no. intros t (I & Z). pose proof (T 0 t ltac:(lra) ltac:(lra) ltac:(lra)).
-    pose proof (T 1 t ltac:(lra) ltac:(lra) ltac:(lra)). assert (form_at d 0 < 0) by nra.
-    assert (0 < form_at d 1) by nra. destruct (sign_of (d#0)), (sign_of (d#2)); simpl in *; easy || lra. }
+  { apply answers_no. intros t (I & Z).
+    pose proof (T 0 t ltac:(lra) ltac:(lra) ltac:(lra)). pose proof (T 1 t ltac:(lra) ltac:(lra)
+      ltac:(lra)).
+    assert (form_at d 0 < 0) by nra. assert (0 < form_at d 1) by nra.
+    destruct (sign_of (d#0)), (sign_of (d#2)); simpl in *; easy || lra. }
   assert (N0 : form_at d 0 < 0) by (destruct (sign_of (d#0)); easy).
   assert (N2 : 0 < form_at d 1) by (destruct (sign_of (d#0)), (sign_of (d#2)); easy).
   clear C0 S0 C2 S2 Q D0 D2. destruct (strict_root d) as (x & X & Zx); [nra |].
   pose proof (root_finding y d x L Ld Ed X Zx M) as Low. pose proof (extremum_certain y d) as Cl.
   assert (Above : forall t, 0 <= t <= 1 -> form_at y x <= form_at y t).
-  { intros t I. destruct (Req_dec x t) as [-> | N]; [lra |]. specialize (T x t ltac:(lra) I N). rewrite Zx in T. lra. }
+  { intros t I. destruct (Req_dec x t) as [-> | N]; [lra |]. specialize (T x t ltac:(lra) I N). rewrite
+    Zx in T. lra. }
   destruct (same_sign (sign_at_extremum y d) positive) eqn:P.
   { apply answers_no. intros t (I & Z). specialize (Above t ltac:(lra)).
     destruct (sign_at_extremum y d); try easy. simpl in Low. lra. }
   assert (Yx : form_at y x <= 0) by (destruct (sign_at_extremum y d); simpl in *; easy || lra).
   assert (Side : forall u v, 0 <= u <= 1 -> 0 <= v <= 1 -> u <= v -> form_at d u <= form_at d v).
   { intros u v U V [W | ->]; [left; now apply M | lra]. }
-  destruct (between y 0 x) as (a & A & Za); [lra | nra |]. destruct (between y x 1) as (b & B & Zb); [lra | nra |].
+  destruct (between y 0 x) as (a & A & Za); [lra | nra |]. destruct (between y x 1) as (b & B & Zb);
+    [lra | nra |].
   assert (a <> 0) by (intros ->; lra). assert (b <> 1) by (intros ->; lra).
-  assert (K : 0 < exact (y#0) * exact (y#3)) by nra. pose proof (Side a x ltac:(lra) ltac:(lra) ltac:(lra)) as Da.
-  pose proof (Side x b ltac:(lra) ltac:(lra) ltac:(lra)) as Db. rewrite Zx in Da, Db.
+  assert (K : 0 < exact (y#0) * exact (y#3)) by nra.
+  pose proof (Side a x ltac:(lra) ltac:(lra) ltac:(lra)) as Da. pose proof (Side x b ltac:(lra)
+    ltac:(lra) ltac:(lra)) as Db.
+  rewrite Zx in Da, Db.
   assert (Left : forall u v, 0 <= u < v -> v <= x -> form_at y u = 0 -> form_at y v <> 0).
   { intros u v U V Zu Zv. specialize (T v u ltac:(lra) ltac:(lra) ltac:(lra)).
     pose proof (Side v x ltac:(lra) ltac:(lra) V). nra. }
@@ -313,8 +363,10 @@ Proof.
   { intros u v U V Zu Zv. specialize (T u v ltac:(lra) ltac:(lra) ltac:(lra)).
     pose proof (Side x u ltac:(lra) ltac:(lra) ltac:(lra)). nra. }
   apply (answers_either _ _ (eq a) (eq b)).
-  - intros t. split; [| intros [<- | <-]; split; auto; lra]. intros (I & Z). destruct (Rle_or_lt t x) as [W | W].
-    + left. destruct (Rtotal_order a t) as [G | [G | G]]; auto; exfalso; [now apply (Left a t) | apply (Left t a); lra].
+  - intros t. split; [| intros [<- | <-]; split; auto; lra]. intros (I & Z). destruct (Rle_or_lt t x) as
+    [W | W].
+    + left. destruct (Rtotal_order a t) as [G | [G | G]]; auto; exfalso; [now apply (Left a t) | apply
+      (Left t a); lra].
     + right. destruct (Rtotal_order b t) as [G | [G | G]]; auto; exfalso; [apply (Right b t); lra |
       apply (Right t b); lra].
   - apply verdict_answers. eapply Forall_impl; [| exact F]. simpl. intros g Lg.
@@ -332,19 +384,22 @@ Proof.
     by (rewrite (at_time_by d (dy y) 0 Ed); clear -L; four y L; values; ring).
   assert (D1 : form_at d 1 = 3 * exact (y#3) - exact (y#2))
     by (rewrite (at_time_by d (dy y) 1 Ed); clear -L; four y L; values; ring).
-  assert (Rise : form_at y 0 < 0 -> 0 < form_at y 1 -> answers (at_crossing y negative true gs) (inner y) gs).
+  assert (Rise : form_at y 0 < 0 -> 0 < form_at y 1 -> answers (at_crossing y negative true gs) (inner
+    y) gs).
   { intros Y0 Y1. destruct (strict_root y) as (r & I & Z); [nra |].
     destruct (rising_crossing _ _ r C I Z ltac:(lra)) as (K & _).
     apply (answers_same _ (eq r)); [intros t; symmetry; apply (crossing_inner y negative); auto |].
     apply at_crossing_answers; auto. rewrite <- E0, <- E3. nra. }
-  assert (Fall : 0 < form_at y 0 -> form_at y 1 < 0 -> answers (at_crossing y positive true gs) (inner y) gs).
+  assert (Fall : 0 < form_at y 0 -> form_at y 1 < 0 -> answers (at_crossing y positive true gs) (inner
+    y) gs).
   { intros Y0 Y1. destruct (strict_root y) as (r & I & Z); [nra |].
     destruct (falling_crossing _ _ r C I Z ltac:(lra)) as (K & _).
     apply (answers_same _ (eq r)); [intros t; symmetry; apply (crossing_inner y positive); auto |].
     apply at_crossing_answers; auto. rewrite <- E0, <- E3. nra. }
   assert (Start : form_at y 0 = 0 -> exact (y#1) < 0 -> 0 < form_at y 1 ->
     answers (at_crossing (elevated [y#1; y#2; y#3]) negative true gs) (inner y) gs).
-  { intros Y0 Y1 Y3. set (e := elevated [y#1; y#2; y#3]). destruct (at_ends e eq_refl) as (A & B). simpl in A, B.
+  { intros Y0 Y1 Y3. set (e := elevated [y#1; y#2; y#3]). destruct (at_ends e eq_refl) as (A & B). simpl
+    in A, B.
     destruct (strict_root e) as (r & I & Z); [rewrite A, B; nra |].
     assert (Zy : form_at y r = 0) by (rewrite <- (without_start y r L Y0); fold e; rewrite Z; ring).
     destruct (rising_crossing _ _ r C I Zy ltac:(lra)) as (K & _).
@@ -353,7 +408,8 @@ Proof.
     apply at_crossing_answers; auto. simpl. rewrite <- E3. nra. }
   assert (Finish : 0 < form_at y 0 -> form_at y 1 = 0 -> exact (y#2) < 0 ->
     answers (at_crossing (elevated [y#0; y#1; y#2]) positive true gs) (inner y) gs).
-  { intros Y0 Y3 Y2. set (e := elevated [y#0; y#1; y#2]). destruct (at_ends e eq_refl) as (A & B). simpl in A, B.
+  { intros Y0 Y3 Y2. set (e := elevated [y#0; y#1; y#2]). destruct (at_ends e eq_refl) as (A & B). simpl
+    in A, B.
     destruct (strict_root e) as (r & I & Z); [rewrite A, B; nra |].
     assert (Zy : form_at y r = 0) by (rewrite <- (without_finish y r L Y3); fold e; rewrite Z; ring).
     destruct (falling_crossing _ _ r C I Zy ltac:(lra)) as (K & _).
@@ -369,19 +425,26 @@ Proof.
   assert (Descends : form_at y 1 = 0 -> 0 <= exact (y#2) -> forall t, ~ inner y t).
   { intros Y1 Y2 t (I & Z). pose proof (proj1 C 1 t ltac:(lra) ltac:(lra) ltac:(lra)). rewrite E3 in Y1.
     rewrite D1, E3, Y1, Z in H. nra. }
-  assert (C2 : certain (negate (sign_of (y#2))) = true) by (pose proof (Exact (y#2)); now destruct (sign_of (y#2))).
-  unfold on_convex. rewrite !always_certain, C2. cbn [andb]. clear C2 Ed F C D0 D1 Ld. revert Ends.
-  generalize (either (at_end (sign_of (y#0)) gs 0) (at_end (sign_of (y#3)) gs 4)). intros found Ends.
-  destruct (sign_tells (y#0)) as (C0 & S0). destruct (sign_tells (y#3)) as (C3 & S3). rewrite <- E0 in S0.
-  rewrite <- E3 in S3. destruct (sign_tells (y#1)) as (C1 & S1). destruct (sign_tells (y#2)) as (C2 & S2).
+  assert (C2 : certain (negate (sign_of (y#2))) = true) by (pose proof (Exact (y#2)); now destruct
+    (sign_of (y#2))).
+  unfold on_convex. rewrite !always_certain, C2. cbn [andb]. clear C2 Ed F C D0 D1 Ld.
+  revert Ends. generalize (either (at_end (sign_of (y#0)) gs 0) (at_end (sign_of (y#3)) gs 4)). intros
+    found Ends.
+  destruct (sign_tells (y#0)) as (C0 & S0). destruct (sign_tells (y#3)) as (C3 & S3). rewrite <- E0 in
+    S0. rewrite <- E3 in S3.
+  destruct (sign_tells (y#1)) as (C1 & S1). destruct (sign_tells (y#2)) as (C2 & S2).
   rewrite <- E0, <- E3 in Pair.
-  destruct (sign_of (y#0)), (sign_of (y#3)); try easy; cbn [same_sign possibly_negative possibly_positive orb andb];
+  destruct (sign_of (y#0)), (sign_of (y#3)); try easy; cbn [same_sign possibly_negative
+    possibly_positive orb andb];
     rewrite ?andb_false_r, ?andb_true_r; cbn [sign_is_right] in S0, S3;
-    try (apply with_inner; auto; fail); try (apply without_inner; [exact Ends | exact (Below ltac:(lra) ltac:(lra))]).
+    try (apply with_inner; auto; fail); try (apply without_inner; [exact Ends | exact (Below ltac:(lra)
+      ltac:(lra))]).
   - destruct (sign_of (y#1)); try easy; cbn [same_sign possibly_negative possibly_positive orb andb];
-      cbn [sign_is_right] in S1; [apply with_inner; auto | |]; apply without_inner; auto; apply Climbs; lra.
-  - destruct (sign_of (y#2)); try easy; cbn [negate same_sign possibly_negative possibly_positive orb andb];
-      cbn [sign_is_right] in S2; [apply with_inner; auto | |]; apply without_inner; auto; apply Descends; lra.
+    cbn [sign_is_right] in S1;
+      [apply with_inner; auto | |]; apply without_inner; auto; apply Climbs; lra.
+  - destruct (sign_of (y#2)); try easy; cbn [negate same_sign possibly_negative possibly_positive orb
+    andb]; cbn [sign_is_right] in S2;
+      [apply with_inner; auto | |]; apply without_inner; auto; apply Descends; lra.
 Qed.
 
 
@@ -400,25 +463,31 @@ Qed.
 (** Without inflection and curvature, Y is linear. *)
 Lemma linear_slope d : length d = 3%nat -> Forall (eq 0) (exacts (dy d)) -> sign_inside d <> uncertain.
 Proof.
-  intros L F. destruct (length_3 d L) as (a & b & c & ->). revert F. unfold derivative. cbn [map derivative_from].
-  repeat (progress exacts || rewrite exact_times). simpl. intros F. inversion_clear F as [| ? ? F0 F'].
-  inversion_clear F' as [| ? ? F1 _]. unfold sign_inside. cbn [sign_inside_from].
+  intros L F. destruct (length_3 d L) as (a & b & c & ->). revert F. unfold derivative. cbn [map
+    derivative_from].
+  repeat (progress exacts || rewrite exact_times). simpl. intros F.
+  inversion_clear F as [| ? ? F0 F']. inversion_clear F' as [| ? ? F1 _].
+  unfold sign_inside. cbn [sign_inside_from].
   destruct (sign_tells a) as (Ca & A), (sign_tells b) as (Cb & B), (sign_tells c) as (Cc & C).
   destruct (sign_of a), (sign_of b), (sign_of c); simpl in *; easy || lra.
 Qed.
 
-Lemma on_whole_part_answered y gs curvature parts : length y = 4%nat ->
-  five gs -> signs_inside curvature (exacts (ddy y)) -> curvature <> zero -> (opposite (ddy y) = true ->
-  curvature = uncertain -> answers (parts (ddy y)) (roots y) gs) -> answered (on_whole_part y gs curvature parts) y gs.
+Lemma on_whole_part_answered y gs curvature parts : length y = 4%nat -> five gs ->
+  signs_inside curvature (exacts (ddy y)) -> curvature <> zero ->
+  (opposite (ddy y) = true -> curvature = uncertain -> answers (parts (ddy y)) (roots y) gs) ->
+  answered (on_whole_part y gs curvature parts) y gs.
 Proof.
   intros L F K Nz Parts. unfold on_whole_part. destruct (excluded_by_hull y gs) eqn:H.
   { right. intros t (T & Z). apply orb_prop in H. destruct H as [H | H].
     - now apply rootless_hull with (t := t) in H.
     - apply existsb_exists in H. destruct H as (g & I & N). apply Exists_exists. exists g. split; auto.
       pose proof (sign_throughout_right g t T) as R. destruct (sign_throughout g); easy. }
-  destruct (derivative_opp y L) as (Eo & Eoo). assert (Lo : length (map opp y) = 4%nat) by now rewrite map_length.
-  pose proof (sign_inside_coefficients (dy y)) as Slope. destruct (sign_inside (dy y)) eqn:Es.
-  - right. apply answers_opp, on_increasing_answers; auto. apply monotone_by_signs; auto. rewrite Eo. exact Slope.
+  destruct (derivative_opp y L) as (Eo & Eoo).
+  assert (Lo : length (map opp y) = 4%nat) by now rewrite map_length.
+  pose proof (sign_inside_coefficients (dy y)) as Slope.
+  destruct (sign_inside (dy y)) eqn:Es.
+  - right. apply answers_opp, on_increasing_answers; auto. apply monotone_by_signs; auto. rewrite Eo.
+    exact Slope.
   - assert (Y : forall t, form_at y t = exact (y#0)).
     { intros t. rewrite <- at_start by now destruct y. pose proof (simpson y 0 t L) as Q.
       assert (Zero : forall x, form_at (dy y) x = 0).
@@ -426,23 +495,29 @@ Proof.
         simpl; [easy |]. rewrite IH. ring. }
       rewrite !Zero in Q. lra. }
     destruct (sign_tells (y#0)) as (C & R). unfold answered.
-    destruct (sign_of (y#0)); try easy;
-      simpl in *; [right | left; split; auto; intros t; now rewrite Y | right]; intros t (_ & Z); rewrite Y in Z; lra.
+    destruct (sign_of (y#0)); try easy; simpl in *; [right | left; split; auto; intros t; now rewrite Y
+      | right];
+      intros t (_ & Z); rewrite Y in Z; lra.
   - right. apply on_increasing_answers; auto. now apply monotone_by_signs.
-  - set (c := if negb (certain curvature) && negb (opposite (ddy y)) then inside (ddy y) else curvature).
-    assert (Ls : length (ddy y) = 2%nat) by now four y L. assert (Ld : length (dy y) = 3%nat) by now four y L.
+  - set (c := if negb (certain curvature) && negb (opposite (ddy y)) then inside (ddy y) else
+    curvature).
+    assert (Ls : length (ddy y) = 2%nat) by now four y L.
+    assert (Ld : length (dy y) = 3%nat) by now four y L.
     pose proof (inside_certain (ddy y)) as Ci.
     assert (Kc : signs_inside c (exacts (ddy y))).
-    { unfold c. destruct (negb (certain curvature)), (opposite (ddy y)) eqn:O; simpl; auto. now apply inside_signs. }
+    { unfold c. destruct (negb (certain curvature)), (opposite (ddy y)) eqn:O; simpl; auto. now apply
+      inside_signs. }
     assert (Nc : c <> zero).
     { unfold c. destruct (negb (certain curvature)), (opposite (ddy y)) eqn:O; simpl; auto. intros E.
       now apply (linear_slope (dy y) Ld) in Es; [| apply zero_form]. }
     assert (Uc : c = uncertain -> opposite (ddy y) = true /\ curvature = uncertain).
     { unfold c. destruct curvature, (opposite (ddy y)); simpl; auto; easy. }
     right. destruct c eqn:Ec; try easy.
-    + apply answers_opp, on_convex_answers; auto; try (now rewrite map_length); [now rewrite exacts_opp, Eo |].
+    + apply answers_opp, on_convex_answers; auto; try (now rewrite map_length); [now rewrite exacts_opp,
+      Eo |].
       replace (form_at (map opp (dy y))) with (form_at (dy (map opp y)))
-        by (unfold at_time; now rewrite exacts_opp, Eo). apply convex_by_signs; auto. rewrite Eoo. exact Kc.
+        by (unfold at_time; now rewrite exacts_opp, Eo).
+      apply convex_by_signs; auto. rewrite Eoo. exact Kc.
     + apply on_convex_answers; auto. now apply convex_by_signs.
     + apply Parts; now apply Uc.
 Qed.
@@ -452,16 +527,19 @@ Lemma on_curved_answers y gs curvature : length y = 4%nat -> five gs ->
 Proof.
   intros L F K C.
   destruct (on_whole_part_answered y gs curvature (fun _ => maybe_root) L F K) as [(_ & Z) | A]; auto;
-    try (destruct C; congruence). exfalso. rewrite (second_of_cubic y L) in K.
+    try (destruct C; congruence).
+  exfalso. rewrite (second_of_cubic y L) in K.
   assert (N : forall t, form_at (ddy y) t = 0) by (intros t; pose proof (second_difference y t 1 L) as
-    D; rewrite !Z in D; lra). rewrite !N in K.
-  destruct C as [-> | ->]; destruct K as (_ & E);
-    simpl in E; inversion_clear E as [? ? P | ? ? E']; try lra; inversion_clear E' as [? ? P | ? ? E'']; try lra; easy.
+    D; rewrite !Z in D; lra).
+  rewrite !N in K. destruct C as [-> | ->]; destruct K as (_ & E); simpl in E;
+    inversion_clear E as [? ? P | ? ? E']; try lra; inversion_clear E' as [? ? P | ? ? E'']; try lra;
+      easy.
 Qed.
 
-Lemma same_signs gs (f : list S -> list S) u t : Forall
-  (fun g => exists c, 0 < c /\ form_at (f g) u = c * form_at g t) gs -> (excluded (map f gs) u <-> excluded gs t) /\
-  (all_positive (map f gs) u <-> all_positive gs t) /\ (touching (map f gs) u <-> touching gs t).
+Lemma same_signs gs (f : list S -> list S) u t :
+  Forall (fun g => exists c, 0 < c /\ form_at (f g) u = c * form_at g t) gs ->
+  (excluded (map f gs) u <-> excluded gs t) /\ (all_positive (map f gs) u <-> all_positive gs t) /\
+  (touching (map f gs) u <-> touching gs t).
 Proof.
   intros H. unfold touching, excluded, all_positive.
   assert (Each : forall P Q : R -> Prop, (forall c x, 0 < c -> (P (c * x) <-> Q x)) ->
@@ -472,11 +550,13 @@ Proof.
   destruct (Each (fun x => x < 0) (fun x => x < 0)) as (_ & A); [intros; split; nra |].
   destruct (Each (Rlt 0) (Rlt 0)) as (B & _); [intros; split; nra |].
   destruct (Each (Rle 0) (Rle 0)) as (C & _); [intros; split; nra |].
-  destruct (Each (fun x => x = 0) (fun x => x = 0)) as (_ & D); [intros; split; nra |]. tauto.
+  destruct (Each (fun x => x = 0) (fun x => x = 0)) as (_ & D); [intros; split; nra |].
+  tauto.
 Qed.
 
-Lemma answers_part e y q gs (f : list S -> list S) a b : a < b -> is_part y q a b -> Forall (fun g =>
-  is_part g (f g) a b) gs -> answers e (roots q) (map f gs) -> answers e (fun t => a <= t <= b /\ form_at y t = 0) gs.
+Lemma answers_part e y q gs (f : list S -> list S) a b : a < b -> is_part y q a b ->
+  Forall (fun g => is_part g (f g) a b) gs -> answers e (roots q) (map f gs) ->
+  answers e (fun t => a <= t <= b /\ form_at y t = 0) gs.
 Proof.
   intros W (_ & c & C & E) G.
   assert (Same : forall u, (excluded (map f gs) u <-> excluded gs (a + (b - a) * u)) /\
@@ -487,12 +567,14 @@ Proof.
   assert (To : forall u, roots q u -> a <= a + (b - a) * u <= b /\ form_at y (a + (b - a) * u) = 0).
   { intros u (U & Z). rewrite E in Z. split; [nra |]. apply Rmult_integral in Z. destruct Z; auto. lra.
     }
-  assert (From : forall t, a <= t <= b /\ form_at y t = 0 -> exists u, roots q u /\ t = a + (b - a) * u).
-  { intros t (T & Z). exists ((t - a) / (b - a)). assert (X : t = a + (b - a) * ((t - a) / (b - a))) by (field; lra).
+  assert (From : forall t, a <= t <= b /\ form_at y t = 0 -> exists u, roots q u /\ t = a + (b - a) *
+    u).
+  { intros t (T & Z). exists ((t - a) / (b - a)). assert (X : t = a + (b - a) * ((t - a) / (b - a))) by
+    (field; lra).
     split; auto. split; [| rewrite E, <- X, Z; ring].
     split; [apply Rmult_le_pos; [lra | left; apply Rinv_0_lt_compat; lra] |].
-    apply Rmult_le_reg_r with (b - a); [lra |]. replace ((t - a) / (b - a) * (b - a)) with (t - a) by (field; lra).
-    lra. }
+    apply Rmult_le_reg_r with (b - a); [lra |]. replace ((t - a) / (b - a) * (b - a)) with (t - a) by
+      (field; lra). lra. }
   destruct e; simpl; auto.
   - intros A t T. destruct (From t T) as (u & U & ->). now apply Same, A.
   - intros (u & U & A). exists (a + (b - a) * u). split; auto. now apply Same.
@@ -502,9 +584,12 @@ Qed.
 
 (** Y is split at its inflection into two subintervals of known curvature. *)
 Lemma split_answers y gs : length y = 4%nat -> five gs -> opposite (ddy y) = true ->
-  let (v, w) := linear_root (ddy y) in let parts_of f := let (a, b) := split f v w in (normalized a, normalized b) in
-  answers (either (on_curved (fst (parts_of y)) (map (fun f => fst (parts_of f)) gs) (sign_of (ddy y # 0)))
-  (on_curved (snd (parts_of y)) (map (fun f => snd (parts_of f)) gs) (sign_of (ddy y # 1)))) (roots y) gs.
+  let (v, w) := linear_root (ddy y) in
+  let parts_of f := let (a, b) := split f v w in (normalized a, normalized b) in
+  answers
+    (either (on_curved (fst (parts_of y)) (map (fun f => fst (parts_of f)) gs) (sign_of (ddy y # 0)))
+            (on_curved (snd (parts_of y)) (map (fun f => snd (parts_of f)) gs) (sign_of (ddy y # 1))))
+    (roots y) gs.
 Proof.
   intros L F O. assert (Ls : length (ddy y) = 2%nat) by now four y L.
   destruct (opposite_root _ Ls O) as (m & M & Zm & _ & _ & _ & v & w & E & V & W & Em). rewrite E.
@@ -519,57 +604,70 @@ Proof.
   assert (G1 : Forall (fun g => is_part g (snd (parts_of g)) m 1) gs)
     by (eapply Forall_impl; [| exact F]; intros g Lg; apply P; now right).
   assert (Five : forall f a b, Forall (fun g => is_part g (f g) a b) gs -> five (map f gs)).
-  { intros f a b G. apply Forall_map. rewrite Forall_forall in *. intros g I. destruct (G g I) as (-> & _). auto. }
+  { intros f a b G. apply Forall_map. rewrite Forall_forall in *. intros g I. destruct (G g I) as (-> &
+    _). auto. }
   assert (L0 := proj1 P0). assert (L1 := proj1 P1). rewrite L in L0, L1.
-  destruct (second_of_part y _ 0 m L P0) as (c0 & C0 & S0). destruct (second_of_part y _ m 1 L P1) as (c1 & C1 & S1).
+  destruct (second_of_part y _ 0 m L P0) as (c0 & C0 & S0).
+  destruct (second_of_part y _ m 1 L P1) as (c1 & C1 & S1).
   assert (At0 : form_at (ddy y) 0 = exact (ddy y # 0)) by (apply at_start; now destruct (ddy y)).
   assert (At1 : form_at (ddy y) 1 = exact (ddy y # 1)) by now apply at_finish.
   assert (K0 : 0 < c0 * ((m - 0) * (m - 0))) by (repeat apply Rmult_lt_0_compat; lra).
   assert (K1 : 0 < c1 * ((1 - m) * (1 - m))) by (repeat apply Rmult_lt_0_compat; lra).
-  apply (answers_either _ _ (fun t => 0 <= t <= m /\ form_at y t = 0) (fun t => m <= t <= 1 /\ form_at y t = 0)).
+  apply (answers_either _ _ (fun t => 0 <= t <= m /\ form_at y t = 0) (fun t => m <= t <= 1 /\ form_at y
+    t = 0)).
   - intros t. unfold roots. split; [| intros [(T & Z) | (T & Z)]; split; auto; lra]. intros (T & Z).
     destruct (Rle_or_lt t m); [left | right]; split; auto; lra.
   - apply (answers_part _ y (fst (parts_of y)) _ (fun f => fst (parts_of f))); auto; [lra |].
     apply on_curved_answers; auto; [now apply (Five _ 0 m) | | apply (opposite_signs _ O)].
-    rewrite (second_of_cubic _ L0), !S0. replace (0 + (m - 0) * 0) with 0 by ring.
-    replace (0 + (m - 0) * 1) with m by ring. rewrite Zm, At0. rewrite <- !Rmult_assoc. rewrite (Rmult_assoc c0).
+    rewrite (second_of_cubic _ L0), !S0.
+    replace (0 + (m - 0) * 0) with 0 by ring. replace (0 + (m - 0) * 1) with m by ring. rewrite Zm, At0.
+    rewrite <- !Rmult_assoc. rewrite (Rmult_assoc c0).
     apply (strict_beside_0 _ _ _ (proj1 (opposite_signs _ O)) (sign_right S (ddy y # 0)) K0).
   - apply (answers_part _ y (snd (parts_of y)) _ (fun f => snd (parts_of f))); auto; [lra |].
     apply on_curved_answers; auto; [now apply (Five _ m 1) | | apply (opposite_signs _ O)].
-    rewrite (second_of_cubic _ L1), !S1. replace (m + (1 - m) * 0) with m by ring.
-    replace (m + (1 - m) * 1) with 1 by ring. rewrite Zm, At1. rewrite <- !Rmult_assoc. rewrite (Rmult_assoc c1).
+    rewrite (second_of_cubic _ L1), !S1.
+    replace (m + (1 - m) * 0) with m by ring. replace (m + (1 - m) * 1) with 1 by ring. rewrite Zm, At1.
+    rewrite <- !Rmult_assoc. rewrite (Rmult_assoc c1).
     apply (strict_beside_0 _ _ _ (proj2 (opposite_signs _ O)) (sign_right S (ddy y # 1)) K1).
 Qed.
 
 (** No subinterval is halved. *)
-Lemma on_part_answered y gs halvings : length y = 4%nat -> five gs -> answered (on_part y gs halvings) y gs.
+Lemma on_part_answered y gs halvings : length y = 4%nat -> five gs ->
+  answered (on_part y gs halvings) y gs.
 Proof.
   intros L F. destruct halvings; (apply on_whole_part_answered; simpl; auto; [discriminate |]); intros O
     _; rewrite O;
     pose proof (split_answers y gs L F O) as A; destruct (linear_root (ddy y)); exact A.
 Qed.
 
-Lemma root_with_nonnegative_answered y gs : length y = 4%nat -> five gs -> answered (root_with_nonnegative y gs) y gs.
+Lemma root_with_nonnegative_answered y gs : length y = 4%nat -> five gs ->
+  answered (root_with_nonnegative y gs) y gs.
 Proof.
   intros L F. unfold root_with_nonnegative.
   assert (Whole : forall p : list S, is_part p (normalized p) 0 1).
   { intros p. apply part_normalized. split; auto. exists 1. split; [lra |]. intros t.
     replace (0 + (1 - 0) * t) with t by ring. ring. }
-  assert (Back : forall e, answers e (roots (normalized y)) (map normalized gs) -> answers e (roots y) gs).
+  assert (Back : forall e, answers e (roots (normalized y)) (map normalized gs) -> answers e (roots y)
+    gs).
   { intros e. apply answers_part; auto; [lra |]. apply Forall_forall. auto. }
   destruct (certainly_rootless (normalized y)) eqn:N.
   - right. apply Back, answers_no. intros t (T & Z). now apply rootless_hull with (t := t) in N.
   - destruct (on_part_answered (normalized y) (map normalized gs) max_halvings) as [(E & Z) | A].
     + now rewrite length_normalized.
-    + apply Forall_map. eapply Forall_impl; [| exact F]. simpl. intros g Lg. now rewrite length_normalized.
-    + left. split; auto. intros t. destruct (normalized_at y) as (c & C & En). specialize (Z t). rewrite En in Z.
+    + apply Forall_map. eapply Forall_impl; [| exact F]. simpl. intros g Lg. now rewrite
+      length_normalized.
+    + left. split; auto. intros t. destruct (normalized_at y) as (c & C & En). specialize (Z t). rewrite
+      En in Z.
       apply Rmult_integral in Z. destruct Z; auto. lra.
     + right. auto.
 Qed.
 
 Theorem bsc_exact_root y gs t : length y = 4%nat -> five gs ->
   root_with_nonnegative y gs = maybe_root -> form_at y t = 0.
-Proof. intros L F E. destruct (root_with_nonnegative_answered y gs L F) as [(_ & Z) | A]; auto. now rewrite E in A. Qed.
+Proof.
+  intros L F E. destruct (root_with_nonnegative_answered y gs L F) as [(_ & Z) | A]; auto. now rewrite E
+    in A.
+Qed.
 
 Theorem bsc_exact_inside y gs : length y = 4%nat -> five gs ->
   root_with_nonnegative y gs = maybe_inside ->
@@ -599,15 +697,17 @@ Lemma all_at_start gs : five gs ->
 Proof.
   intros F. rewrite forallb_forall. unfold all_positive. rewrite Forall_forall in *.
   assert (A : forall g, In g gs -> same_sign (sign_of (g#0)) positive = true <-> 0 < form_at g 0).
-  { intros g I. rewrite at_start by (specialize (F g I); now destruct g). destruct (sign_tells (g#0)) as (C & R).
+  { intros g I. rewrite at_start by (specialize (F g I); now destruct g). destruct (sign_tells (g#0)) as
+    (C & R).
     destruct (sign_of (g#0)); simpl in *; split; easy || lra. }
   split; intros H g I; now apply A, H.
 Qed.
 
-Lemma query_decision edges (q0 q1 q2 q3 : moving_point) border : let m0 := exact_motion q0 in
-  let m1 := exact_motion q1 in let m2 := exact_motion q2 in let m3 := exact_motion q3 in
-  border = true <-> query_border edges m0 m1 m2 m3 -> let b := side_b edges difference q0 q1 q2 q3 in
-  let c := side_c edges difference q0 q1 q2 q3 in let p := side_p edges difference q0 q1 q2 q3 in
+Lemma query_decision edges (q0 q1 q2 q3 : moving_point) border :
+  let m0 := exact_motion q0 in let m1 := exact_motion q1 in let m2 := exact_motion q2 in let m3 := exact_motion q3 in
+  border = true <-> query_border edges m0 m1 m2 m3 ->
+  let b := side_b edges difference q0 q1 q2 q3 in let c := side_c edges difference q0 q1 q2 q3 in
+  let p := side_p edges difference q0 q1 q2 q3 in
   decision (y_form b c p) (inside_forms edges b c p) border = true <-> query_collides edges m0 m1 m2 m3.
 Proof.
   intros m0 m1 m2 m3 Border b c p. unfold decision. destruct (query_lengths edges q0 q1 q2 q3) as (L & F).
@@ -619,8 +719,9 @@ Proof.
   destruct (root_with_nonnegative (y_form b c p) (inside_forms edges b c p)) eqn:E.
   - split; [easy | intros H; now apply query_bsc_separate in E].
   - split; [intros _; now apply query_bsc_collides | easy].
-  - rewrite query_coplanar, orb_true_iff, (all_at_start _ F), Border, G; [easy |]. intros t _.
-    destruct (Sides t) as (<- & <- & <-). rewrite <- (proj1 (Forms t)). now apply (bsc_exact_root _ _ t L F).
+  - rewrite query_coplanar, orb_true_iff, (all_at_start _ F), Border, G; [easy |].
+    intros t _. destruct (Sides t) as (<- & <- & <-). rewrite <- (proj1 (Forms t)).
+    now apply (bsc_exact_root _ _ t L F).
   - destruct (bsc_exact_inside _ _ L F E) as (_ & N). split; [intros H; now apply query_border_collision, Border |].
     destruct border; [easy |]. intros H. exfalso. apply query_inside in H; [| rewrite <- Border; easy].
     destruct H as (t & T & Z & I). destruct (Sides t) as (Eb & Ec & Ep). rewrite <- Eb, <- Ec, <- Ep in *.
@@ -640,7 +741,8 @@ Definition bsc_exact_decides (edges : bool) (finder : root_finder) (q0 q1 q2 q3 
 Definition bsc_exact_decides_face : root_finder -> given -> given -> given -> given -> bool := bsc_exact_decides false.
 Definition bsc_exact_decides_edges : root_finder -> given -> given -> given -> given -> bool := bsc_exact_decides true.
 
-Lemma integers_exact (n : integers) : sign_of n <> uncertain. Proof. apply integer_tells. Qed.
+Lemma integers_exact (n : integers) : sign_of n <> uncertain.
+Proof. apply integer_tells. Qed.
 
 Lemma query_bsc_exact edges finder q0 q1 q2 q3 : query_border_meets finder edges (promises finder) q0 q1 q2 q3 ->
   bsc_exact_decides edges finder q0 q1 q2 q3 = true <->

@@ -9,8 +9,10 @@
         face_separated, edges_separated, vertex_edge_separated   a fixed axis that separates the features in the
                                     same direction at both ends of the step separates them throughout *)
 
-From Coq Require Import Reals ZArith Lia Lra Psatz List. From Errbound Require Import Sign Bernstein Bsc Contact.
-Import ListNotations. Open Scope R_scope.
+From Coq Require Import Reals ZArith Lia Lra Psatz List.
+From Errbound Require Import Sign Bernstein Bsc Contact.
+Import ListNotations.
+Open Scope R_scope.
 
 (** ** The forms *)
 
@@ -59,7 +61,8 @@ Definition vector_at (v : vector_form) (t : R) : point :=
 Definition degree (v : vector_form) (n : nat) : Prop :=
   length (vx v) = Datatypes.S n /\ length (vy v) = Datatypes.S n /\ length (vz v) = Datatypes.S n.
 
-Lemma difference_at q p t : vector_at (difference q p) t = minus (place (exact_motion q) t) (place (exact_motion p) t).
+Lemma difference_at q p t : vector_at (difference q p) t = minus (place (exact_motion q) t) (place
+  (exact_motion p) t).
 Proof.
   unfold vector_at, difference, at_time, minus, place, exact_motion. cbn [vx vy vz x y z start finish
     exact_position map form length].
@@ -69,16 +72,18 @@ Qed.
 Lemma plus_form_at p q t : length p = length q ->
   form_at (plus_form p q) t = form_at p t + form_at q t /\ length (plus_form p q) = length p.
 Proof.
-  unfold at_time. revert q.
-  induction p as [| a p IH]; intros [| b q] L; try discriminate; simpl; [split; [ring | easy] |]. injection L as L.
-  destruct (IH q L) as (E & K). rewrite E, !map_length, K, exact_add, L. split; [ring | easy].
+  unfold at_time. revert q. induction p as [| a p IH]; intros [| b q] L; try discriminate; simpl;
+    [split; [ring | easy] |].
+  injection L as L. destruct (IH q L) as (E & K). rewrite E, !map_length, K, exact_add, L. split; [ring
+    | easy].
 Qed.
 Lemma minus_form_at p q t : length p = length q ->
   form_at (minus_form p q) t = form_at p t - form_at q t /\ length (minus_form p q) = length p.
 Proof.
-  unfold at_time. revert q.
-  induction p as [| a p IH]; intros [| b q] L; try discriminate; simpl; [split; [ring | easy] |]. injection L as L.
-  destruct (IH q L) as (E & K). rewrite E, !map_length, K, exact_sub, L. split; [ring | easy].
+  unfold at_time. revert q. induction p as [| a p IH]; intros [| b q] L; try discriminate; simpl;
+    [split; [ring | easy] |].
+  injection L as L. destruct (IH q L) as (E & K). rewrite E, !map_length, K, exact_sub, L. split; [ring
+    | easy].
 Qed.
 Lemma product_at p q m n t : length p = Datatypes.S m -> length q = Datatypes.S n ->
   form_at (product p q) t = form_at p t * form_at q t /\ length (product p q) = Datatypes.S (m + n).
@@ -87,8 +92,9 @@ Proof.
   destruct (product_both p b q 1 1) as (_ & E). rewrite E by now destruct p. simpl in K. lia.
 Qed.
 
-Lemma cross_at b c m n t : degree b m ->
-  degree c n -> vector_at (cross_form b c) t = cross (vector_at b t) (vector_at c t) /\ degree (cross_form b c) (m + n).
+Lemma cross_at b c m n t : degree b m -> degree c n ->
+  vector_at (cross_form b c) t = cross (vector_at b t) (vector_at c t) /\ degree (cross_form b c) (m +
+    n).
 Proof.
   intros (B0 & B1 & B2) (C0 & C1 & C2).
   assert (D : forall p q r s, length p = Datatypes.S m -> length q = Datatypes.S n -> length r =
@@ -100,27 +106,34 @@ Proof.
       s m n t Lr Ls) as (F & K).
     destruct (minus_form_at (product p q) (product r s) t) as (G & J); [congruence |]. rewrite G, E, F.
       split; congruence. }
-  destruct (D (vy b) (vz c) (vz b) (vy c)) as (E0 & L0); auto.
-  destruct (D (vz b) (vx c) (vx b) (vz c)) as (E1 & L1); auto.
-  destruct (D (vx b) (vy c) (vy b) (vx c)) as (E2 & L2); auto. split; [| now repeat split].
-  unfold vector_at, cross, cross_form. cbn [vx vy vz x y z]. now rewrite E0, E1, E2.
+  destruct (D (vy b) (vz c) (vz b) (vy c)) as (E0 & L0); auto. destruct (D (vz b) (vx c) (vx b) (vz c))
+    as (E1 & L1); auto.
+  destruct (D (vx b) (vy c) (vy b) (vx c)) as (E2 & L2); auto.
+  split; [| now repeat split]. unfold vector_at, cross, cross_form. cbn [vx vy vz x y z]. now rewrite
+    E0, E1, E2.
 Qed.
 Lemma dot_at b c m n t : degree b m -> degree c n ->
-  form_at (dot_form b c) t = dot (vector_at b t) (vector_at c t) /\ length (dot_form b c) = Datatypes.S (m + n).
+  form_at (dot_form b c) t = dot (vector_at b t) (vector_at c t) /\ length (dot_form b c) = Datatypes.S
+    (m + n).
 Proof.
-  intros (B0 & B1 & B2) (C0 & C1 & C2). destruct (product_at (vx b) (vx c) m n t B0 C0) as (E0 & L0).
-  destruct (product_at (vy b) (vy c) m n t B1 C1) as (E1 & L1).
+  intros (B0 & B1 & B2) (C0 & C1 & C2).
+  destruct (product_at (vx b) (vx c) m n t B0 C0) as (E0 & L0). destruct (product_at (vy b) (vy c) m n t
+    B1 C1) as (E1 & L1).
   destruct (product_at (vz b) (vz c) m n t B2 C2) as (E2 & L2). unfold dot_form.
-  destruct (plus_form_at (product (vx b) (vx c)) (product (vy b) (vy c)) t) as (E3 & L3); [congruence |].
-  destruct (plus_form_at (plus_form (product (vx b) (vx c)) (product (vy b) (vy c))) (product (vz b) (vz c)) t)
-    as (E4 & L4); [congruence |]. rewrite E4, E3, E0, E1, E2. split; [easy | congruence].
+  destruct (plus_form_at (product (vx b) (vx c)) (product (vy b) (vy c)) t) as (E3 & L3); [congruence
+    |].
+  destruct (plus_form_at (plus_form (product (vx b) (vx c)) (product (vy b) (vy c))) (product (vz b) (vz
+    c)) t)
+    as (E4 & L4); [congruence |].
+  rewrite E4, E3, E0, E1, E2. split; [easy | congruence].
 Qed.
 
 Theorem forms_y b c p t : degree b 1 -> degree c 1 -> degree p 1 ->
   form_at (y_form b c p) t = det (vector_at b t) (vector_at c t) (vector_at p t) /\ length (y_form b c
     p) = 4%nat.
 Proof.
-  intros B C P. destruct (cross_at b c 1 1 t B C) as (E & D). destruct (dot_at _ p 2 1 t D P) as (F & L).
+  intros B C P. destruct (cross_at b c 1 1 t B C) as (E & D). destruct (dot_at _ p 2 1 t D P) as (F &
+    L).
   unfold y_form, det. now rewrite F, E.
 Qed.
 Theorem forms_weights b c p t : degree b 1 -> degree c 1 -> degree p 1 ->
@@ -137,18 +150,25 @@ Proof.
     form_at (dot_form (cross_form v w) (cross_form b c)) t = dot (cross (vector_at v t) (vector_at w t))
       (cross B C) /\
     length (dot_form (cross_form v w) (cross_form b c)) = 5%nat).
-  { intros v w V W. destruct (cross_at v w 1 1 t V W) as (E & D). destruct (dot_at _ _ 2 2 t D Dn) as (F & L).
+  { intros v w V W. destruct (cross_at v w 1 1 t V W) as (E & D). destruct (dot_at _ _ 2 2 t D Dn) as (F
+      & L).
     rewrite F, E, En. now split. }
-  destruct (Q b p Db Dp) as (E2 & L2). destruct (Q p c Dp Dc) as (E1 & L1). destruct (Q b c Db Dc) as (E0 & L0).
+  destruct (Q b p Db Dp) as (E2 & L2). destruct (Q p c Dp Dc) as (E1 & L1). destruct (Q b c Db Dc) as
+    (E0 & L0).
   destruct (Q p b Dp Db) as (Eb & Lb). fold B C P in E2, E1, E0, Eb.
-  unfold inside_face_forms, inside_edges_forms, normal_squared, weight_0, weight_1, weight_2, on_a, on_b, square_normal.
+  unfold inside_face_forms, inside_edges_forms, normal_squared, weight_0, weight_1, weight_2, on_a,
+    on_b, square_normal.
   cbv zeta. cbn [map].
-  destruct (minus_form_at (dot_form (cross_form b c) (cross_form b c)) (dot_form (cross_form p c) (cross_form b c)) t)
+  destruct (minus_form_at (dot_form (cross_form b c) (cross_form b c)) (dot_form (cross_form p c)
+    (cross_form b c)) t)
     as (F1 & M1); [congruence |].
-  destruct (minus_form_at (minus_form (dot_form (cross_form b c) (cross_form b c)) (dot_form
-    (cross_form p c) (cross_form b c))) (dot_form (cross_form b p) (cross_form b c)) t) as (F0 & M0); [congruence |].
-  destruct (minus_form_at (dot_form (cross_form b c) (cross_form b c)) (dot_form (cross_form p b) (cross_form b c)) t)
-    as (F2 & M2); [congruence |]. rewrite F0, F1, F2, E0, E1, E2, Eb. repeat split; repeat constructor; congruence.
+  destruct (minus_form_at (minus_form (dot_form (cross_form b c) (cross_form b c)) (dot_form (cross_form
+    p c) (cross_form b c)))
+    (dot_form (cross_form b p) (cross_form b c)) t) as (F0 & M0); [congruence |].
+  destruct (minus_form_at (dot_form (cross_form b c) (cross_form b c)) (dot_form (cross_form p b)
+    (cross_form b c)) t)
+    as (F2 & M2); [congruence |].
+  rewrite F0, F1, F2, E0, E1, E2, Eb. repeat split; repeat constructor; congruence.
 Qed.
 
 (** ** Decisions *)
@@ -169,7 +189,8 @@ Let m3 := exact_motion q3.
 
 Lemma query_degrees : degree b 1 /\ degree c 1 /\ degree p 1.
 Proof. unfold b, c, p. destruct edges; now repeat split. Qed.
-Lemma query_sides_at t : vector_at b t = side_b edges minus (place m0 t) (place m1 t) (place m2 t) (place m3 t) /\
+Lemma query_sides_at t :
+  vector_at b t = side_b edges minus (place m0 t) (place m1 t) (place m2 t) (place m3 t) /\
   vector_at c t = side_c edges minus (place m0 t) (place m1 t) (place m2 t) (place m3 t) /\
   vector_at p t = side_p edges minus (place m0 t) (place m1 t) (place m2 t) (place m3 t).
 Proof. unfold b, c, p. destruct edges; repeat split; apply difference_at. Qed.
@@ -269,11 +290,14 @@ End Forms.
 Definition before (n : point) (p q : moving) : Prop :=
   dot n (start p) < dot n (start q) /\ dot n (finish p) < dot n (finish q).
 
-Lemma before_throughout n p q t : before n p q -> 0 <= t <= 1 -> 0 < dot n (minus (place q t) (place p t)).
+Lemma before_throughout n p q t : before n p q -> 0 <= t <= 1 -> 0 < dot n (minus (place q t) (place p
+  t)).
 Proof.
   intros (A & B) T.
-  replace (dot _ _) with ((1 - t) * (dot n (start q) - dot n (start p)) + t * (dot n (finish q) - dot n (finish p)))
-    by (unfold dot, minus, place; simpl; ring). destruct (Req_dec t 0) as [-> |]; [lra |].
+  replace (dot _ _) with ((1 - t) * (dot n (start q) - dot n (start p)) + t * (dot n (finish q) - dot n
+    (finish p)))
+    by (unfold dot, minus, place; simpl; ring).
+  destruct (Req_dec t 0) as [-> |]; [lra |].
   assert (0 <= (1 - t) * (dot n (start q) - dot n (start p))) by (apply Rmult_le_pos; lra).
   assert (0 < t * (dot n (finish q) - dot n (finish p))) by (apply Rmult_lt_0_compat; lra). lra.
 Qed.
@@ -281,17 +305,18 @@ Qed.
 Theorem face_separated n v f0 f1 f2 : before n v f0 -> before n v f1 -> before n v f2 ->
   ~ vertex_face_collides v f0 f1 f2.
 Proof.
-  intros P0 P1 P2 (t & T & (u & w & U & W & UW & E)). pose proof (before_throughout n _ _ t P0 T) as Q0.
-  pose proof (before_throughout n _ _ t P1 T) as Q1. pose proof (before_throughout n _ _ t P2 T) as Q2. revert Q0 Q1 Q2.
-  rewrite E. generalize (place f0 t) (place f1 t) (place f2 t). intros a b c.
+  intros P0 P1 P2 (t & T & (u & w & U & W & UW & E)).
+  pose proof (before_throughout n _ _ t P0 T) as Q0. pose proof (before_throughout n _ _ t P1 T) as Q1.
+  pose proof (before_throughout n _ _ t P2 T) as Q2. revert Q0 Q1 Q2. rewrite E.
+  generalize (place f0 t) (place f1 t) (place f2 t). intros a b c.
   set (q := along (along a u (minus b a)) w (minus c a)). intros Q0 Q1 Q2.
   assert (Z : (1 - u - w) * dot n (minus a q) + u * dot n (minus b q) + w * dot n (minus c q) = 0)
     by (unfold q, dot, along, minus; simpl; ring).
   assert (0 <= (1 - u - w) * dot n (minus a q)) by (apply Rmult_le_pos; lra).
   assert (0 <= u * dot n (minus b q)) by (apply Rmult_le_pos; lra).
-  assert (0 <= w * dot n (minus c q)) by (apply Rmult_le_pos; lra). assert (H2 : u * dot n (minus b q) = 0) by lra.
-  assert (H3 : w * dot n (minus c q) = 0) by lra. apply Rmult_integral in H2, H3. destruct H2, H3; try lra. subst u w.
-  lra.
+  assert (0 <= w * dot n (minus c q)) by (apply Rmult_le_pos; lra).
+  assert (H2 : u * dot n (minus b q) = 0) by lra. assert (H3 : w * dot n (minus c q) = 0) by lra.
+  apply Rmult_integral in H2, H3. destruct H2, H3; try lra. subst u w. lra.
 Qed.
 
 Theorem vertex_edge_separated n v e0 e1 : before n v e0 -> before n v e1 -> ~ vertex_edge_collides v e0 e1.
@@ -305,13 +330,17 @@ Theorem edges_separated n a0 a1 b0 b1 : before n a0 b0 -> before n a0 b1 -> befo
   ~ edge_edge_collides a0 a1 b0 b1.
 Proof.
   intros P00 P01 P10 P11 (t & T & (p & (u & U & Ea) & (w & W & Eb))).
-  pose proof (before_throughout n _ _ t P00 T) as Q0. pose proof (before_throughout n _ _ t P01 T) as Q1.
-  pose proof (before_throughout n _ _ t P10 T) as Q2. pose proof (before_throughout n _ _ t P11 T) as Q3.
-  revert Ea Eb Q0 Q1 Q2 Q3. generalize (place a0 t) (place a1 t) (place b0 t) (place b1 t).
-  intros a c d g Ea Eb Q0 Q1 Q2 Q3.
+  pose proof (before_throughout n _ _ t P00 T) as Q0. pose proof (before_throughout n _ _ t P01 T) as
+    Q1.
+  pose proof (before_throughout n _ _ t P10 T) as Q2. pose proof (before_throughout n _ _ t P11 T) as
+    Q3.
+  revert Ea Eb Q0 Q1 Q2 Q3. generalize (place a0 t) (place a1 t) (place b0 t) (place b1 t). intros a c d
+    g Ea Eb Q0 Q1 Q2 Q3.
   assert (Z : (1 - u) * ((1 - w) * dot n (minus d a) + w * dot n (minus g a))
               + u * ((1 - w) * dot n (minus d c) + w * dot n (minus g c)) = 0).
-  { transitivity (dot n (minus p p)); [rewrite Ea at 2; rewrite Eb at 1 | ]; unfold dot, along, minus; simpl; ring. }
-  assert (Mix : forall k g h, 0 <= k <= 1 -> 0 < g -> 0 < h -> 0 < (1 - k) * g + k * h) by (intros; nra).
+  { transitivity (dot n (minus p p)); [rewrite Ea at 2; rewrite Eb at 1 | ]; unfold dot, along, minus;
+      simpl; ring. }
+  assert (Mix : forall k g h, 0 <= k <= 1 -> 0 < g -> 0 < h -> 0 < (1 - k) * g + k * h) by (intros;
+    nra).
   pose proof (Mix w _ _ W Q0 Q1). pose proof (Mix w _ _ W Q2 Q3). specialize (Mix u _ _ U H H0). lra.
 Qed.

@@ -6,7 +6,8 @@
         extremum_not_at_start    "the sign of the extreme point is that of T(0)": wrong
         decomposition_zero       "sign G = - sign M sign R": wrong if M vanishes with Y *)
 
-From Coq Require Import Reals Lra Psatz. Open Scope R_scope.
+From Coq Require Import Reals Lra Psatz.
+Open Scope R_scope.
 
 (** Y' is negative and Y positive at both ends, so the classification finds no extremum and no root. But Y has two
     roots. Its inflection is at 1 - 4e. *)
@@ -34,10 +35,11 @@ Proof.
     apply (derivable_pt_lim_minus (fun t => 9 * e * u t ^ 2) (fun t => u t ^ 3)); [| apply U].
     apply (derivable_pt_lim_scal (fun t => u t ^ 2)). apply U. }
   assert (D' : forall t, derivable_pt_lim Y' t (Y'' t)).
-  { intros t.
-    replace (Y'' t) with (18 * e * (1 - 0) - 3 * (INR 2 * u t ^ pred 2 * (1 - 0))) by (unfold Y''; simpl; ring).
-    assert (U : derivable_pt_lim u t (1 - 0)) by (apply (derivable_pt_lim_minus id (fun _ => 1 - 7 * e));
-      [apply derivable_pt_lim_id | apply derivable_pt_lim_const]).
+  { intros t. replace (Y'' t) with (18 * e * (1 - 0) - 3 * (INR 2 * u t ^ pred 2 * (1 - 0))) by (unfold
+      Y''; simpl; ring).
+    assert (U : derivable_pt_lim u t (1 - 0))
+      by (apply (derivable_pt_lim_minus id (fun _ => 1 - 7 * e)); [apply derivable_pt_lim_id | apply
+        derivable_pt_lim_const]).
     apply (derivable_pt_lim_minus (fun t => 18 * e * u t) (fun t => 3 * u t ^ 2)).
     - now apply (derivable_pt_lim_scal u).
     - apply (derivable_pt_lim_scal (fun t => u t ^ 2)).
@@ -45,17 +47,19 @@ Proof.
   assert (E3 : 0 < e ^ 3) by (apply pow_lt; lra).
   assert (Y0 : 0 < Y 0).
   { replace (Y 0) with (9 * e * (1 - 7 * e) ^ 2 + (1 - 7 * e) ^ 3 - 49 * e ^ 3) by (unfold Y, u; ring).
-    assert (9 * e * (3 * e) ^ 2 <= 9 * e * (1 - 7 * e) ^ 2) by (apply Rmult_le_compat_l; [lra | apply pow_incr; lra]).
+    assert (9 * e * (3 * e) ^ 2 <= 9 * e * (1 - 7 * e) ^ 2) by (apply Rmult_le_compat_l; [lra | apply
+      pow_incr; lra]).
     assert (0 <= (1 - 7 * e) ^ 3) by (apply pow_le; lra). lra. }
   assert (Y1 : Y 1 = 49 * e ^ 3) by (unfold Y, u; ring).
   assert (Ym : Y (1 - 7 * e) = - 49 * e ^ 3) by (unfold Y, u; ring).
-  assert (C : continuity Y) by (intros t; apply derivable_continuous_pt; exists (Y' t); apply D). split; [auto |].
-  split; [unfold Y'', u; ring |]. split; [unfold Y', u; nra |]. split; [unfold Y', u; nra |]. split; [auto |].
-  split; [lra |]. destruct (IVT_cor Y 0 (1 - 7 * e) C ltac:(lra)) as (t0 & T0 & Z0); [rewrite Ym; nra |].
+  assert (C : continuity Y) by (intros t; apply derivable_continuous_pt; exists (Y' t); apply D).
+  split; [auto |]. split; [unfold Y'', u; ring |].
+  split; [unfold Y', u; nra |]. split; [unfold Y', u; nra |]. split; [auto |]. split; [lra |].
+  destruct (IVT_cor Y 0 (1 - 7 * e) C ltac:(lra)) as (t0 & T0 & Z0); [rewrite Ym; nra |].
   destruct (IVT_cor Y (1 - 7 * e) 1 C ltac:(lra)) as (t1 & T1 & Z1); [rewrite Ym, Y1; nra |].
   assert (t0 <> 0) by (intros ->; lra). assert (t0 <> 1 - 7 * e) by (intros ->; lra).
-  assert (t1 <> 1 - 7 * e) by (intros ->; lra). assert (t1 <> 1) by (intros ->; lra). exists t0, t1.
-  repeat split; auto; lra.
+  assert (t1 <> 1 - 7 * e) by (intros ->; lra). assert (t1 <> 1) by (intros ->; lra).
+  exists t0, t1. repeat split; auto; lra.
 Qed.
 
 (** Y = Y' S + T without inflection inside, and a negative minimum at 1/2. If the signs of Y'(0) and Y'(1) are
@@ -66,7 +70,9 @@ Theorem extremum_not_at_start :
   let T t := 1 - 4 * t in
   (forall t, Y t = Y' t * (t / 3) + T t) /\ (forall s t, 0 <= s < t -> Y' s < Y' t) /\
   0 < Y 0 /\ 0 < Y 1 /\ 0 < T 0 /\ Y' (1 / 2) = 0 /\ Y (1 / 2) < 0.
-Proof. intros Y Y' T. unfold Y, Y', T. repeat split; intros; try field; try lra; simpl; nra. Qed.
+Proof.
+  intros Y Y' T. unfold Y, Y', T. repeat split; intros; try field; try lra; simpl; nra.
+Qed.
 
 (** Y = M J + R, and J is positive where Y, M and R vanish. *)
 Theorem decomposition_zero :

@@ -7,10 +7,13 @@
         tracked_face_separate, tracked_edges_separate   a "no" is right
         tracked_face_collides, tracked_edges_collide    a "yes" is right *)
 
-From Coq Require Import Reals ZArith Lia Lra List Bool. From Flocq Require Import Core IEEE754.BinarySingleNaN.
+From Coq Require Import Reals ZArith Lia Lra List Bool.
+From Flocq Require Import Core IEEE754.BinarySingleNaN.
 From Errbound Require Import Code Ieee IeeeRules.
 From Errbound Require Sign Bernstein BscCode Contact Decisions AxisUnits IeeeSafe IeeeInterval IeeeResidual
-  CompoundCode IeeeFunctions IeeeCompound. Import ListNotations. Open Scope R_scope.
+  CompoundCode IeeeFunctions IeeeCompound.
+Import ListNotations.
+Open Scope R_scope.
 
 (** ** BSC over any scalar, as decide_bsc evaluates it *)
 
@@ -44,7 +47,8 @@ End Any.
 Section Tracked.
 
 Context (p emax : Z) {p_positive : Prec_gt_0 p} {p_below : Prec_lt_emax p emax} (p_3 : (3 <= p)%Z).
-Notation float := (binary_float p emax). Notation F := (floats p emax).
+Notation float := (binary_float p emax).
+Notation F := (floats p emax).
 
 Definition sign_given (s : sign_type) : Sign.sign :=
   match s with
@@ -87,59 +91,73 @@ Proof. intros K. generalize (sign_of_known p emax p_3 a s x K). now destruct (si
 
 Definition tight_rule : rule.
 Proof.
-  refine {| bound := float; known := IeeeRules.known p emax; exact := tight_exact _ F; within := tight_within _ F;
-    negate := fun s => s; add := fun v _ sa _ sb => tight_add _ F v sa sb; subtract := fun v _ sa _ sb =>
-    tight_add _ F v sa sb; multiply := tight_multiply _ F; rescale := tight_scale _ F; sign := sign_of _ F |};
-    auto using tight_exact_known, tight_within_known, tight_negate_known,
-    tight_add_known, tight_subtract_known, tight_multiply_known, tight_scale_known, default_sign_right.
+  refine {| bound := float; known := IeeeRules.known p emax; exact := tight_exact _ F;
+    within := tight_within _ F; negate := fun s => s;
+    add := fun v _ sa _ sb => tight_add _ F v sa sb; subtract := fun v _ sa _ sb => tight_add _ F v sa sb;
+    multiply := tight_multiply _ F; rescale := tight_scale _ F; sign := sign_of _ F |};
+    auto using tight_exact_known, tight_within_known, tight_negate_known, tight_add_known,
+      tight_subtract_known, tight_multiply_known, tight_scale_known, default_sign_right.
 Defined.
 Definition sharp_rule : rule.
 Proof.
-  refine {| bound := float; known := IeeeRules.known p emax; exact := tight_exact _ F; within := tight_within _ F;
-    negate := fun s => s; add := fun v _ sa _ sb => sharp_add _ F v sa sb; subtract := fun v _ sa _ sb =>
-    sharp_add _ F v sa sb; multiply := sharp_multiply _ F; rescale := sharp_scale _ F; sign := sign_of _ F |};
-    auto using tight_exact_known, tight_within_known, tight_negate_known,
-    sharp_add_known, sharp_subtract_known, sharp_multiply_known, sharp_scale_known, default_sign_right.
+  refine {| bound := float; known := IeeeRules.known p emax; exact := tight_exact _ F;
+    within := tight_within _ F; negate := fun s => s;
+    add := fun v _ sa _ sb => sharp_add _ F v sa sb; subtract := fun v _ sa _ sb => sharp_add _ F v sa sb;
+    multiply := sharp_multiply _ F; rescale := sharp_scale _ F; sign := sign_of _ F |};
+    auto using tight_exact_known, tight_within_known, tight_negate_known, sharp_add_known,
+      sharp_subtract_known, sharp_multiply_known, sharp_scale_known, default_sign_right.
 Defined.
 Definition safe_rule : rule.
 Proof.
-  refine {| bound := float * Z; known := IeeeSafe.safe_known p emax; exact := safe_exact _ F; within := safe_within _ F;
-    negate := fun b => b; add := fun _ _ A _ B => safe_add _ F (fst A) (snd A) (fst B) (snd B);
-    subtract := fun _ _ A _ B => safe_add _ F (fst A) (snd A) (fst B) (snd B); multiply := fun _ a A b B =>
-    safe_multiply _ F a (fst A) (snd A) b (fst B) (snd B); rescale := fun v a A e => safe_scale _ F v a (fst A) (snd A)
-    e; sign := fun a A => sign_of _ F a (safe_error _ F a (fst A) (snd A)) |}; auto using IeeeSafe.safe_exact_known,
-    IeeeSafe.safe_within_known, IeeeSafe.safe_negate_known, IeeeSafe.safe_add_known, IeeeSafe.safe_subtract_known,
-    IeeeSafe.safe_multiply_known, IeeeSafe.safe_scale_known, default_sign_right, IeeeSafe.safe_error_known.
+  refine {| bound := float * Z; known := IeeeSafe.safe_known p emax; exact := safe_exact _ F;
+    within := safe_within _ F; negate := fun b => b;
+    add := fun _ _ A _ B => safe_add _ F (fst A) (snd A) (fst B) (snd B);
+    subtract := fun _ _ A _ B => safe_add _ F (fst A) (snd A) (fst B) (snd B);
+    multiply := fun _ a A b B => safe_multiply _ F a (fst A) (snd A) b (fst B) (snd B);
+    rescale := fun v a A e => safe_scale _ F v a (fst A) (snd A) e;
+    sign := fun a A => sign_of _ F a (safe_error _ F a (fst A) (snd A)) |};
+    auto using IeeeSafe.safe_exact_known, IeeeSafe.safe_within_known, IeeeSafe.safe_negate_known,
+      IeeeSafe.safe_add_known, IeeeSafe.safe_subtract_known, IeeeSafe.safe_multiply_known,
+      IeeeSafe.safe_scale_known, default_sign_right, IeeeSafe.safe_error_known.
 Defined.
 Definition interval_rule (fused : bool) : rule.
 Proof.
-  refine {| bound := float * float; known := IeeeInterval.interval_known p emax; exact := interval_exact _ F; within
-    := interval_within _ F; negate := interval_negate _ F; add := fun v _ A _ B => interval_add _ F v A B; subtract
-    := fun v _ A _ B => interval_subtract _ F v A B; multiply := interval_multiply _ F fused; rescale := fun v _ A e =>
-    interval_scale _ F v A e; sign := fun _ A => interval_sign _ F A |}; auto using IeeeInterval.interval_exact_known,
-    IeeeInterval.interval_within_known, IeeeInterval.interval_negate_known, IeeeInterval.interval_add_known,
-    IeeeInterval.interval_subtract_known, IeeeInterval.interval_multiply_known, IeeeInterval.interval_scale_known.
-  intros a A x K. generalize (IeeeInterval.interval_sign_known p emax p_3 a A x K). now destruct (interval_sign _ F A).
+  refine {| bound := float * float; known := IeeeInterval.interval_known p emax; exact := interval_exact _ F;
+    within := interval_within _ F; negate := interval_negate _ F;
+    add := fun v _ A _ B => interval_add _ F v A B; subtract := fun v _ A _ B => interval_subtract _ F v A B;
+    multiply := interval_multiply _ F fused; rescale := fun v _ A e => interval_scale _ F v A e;
+    sign := fun _ A => interval_sign _ F A |};
+    auto using IeeeInterval.interval_exact_known, IeeeInterval.interval_within_known,
+      IeeeInterval.interval_negate_known, IeeeInterval.interval_add_known,
+      IeeeInterval.interval_subtract_known, IeeeInterval.interval_multiply_known,
+      IeeeInterval.interval_scale_known.
+  intros a A x K. generalize (IeeeInterval.interval_sign_known p emax p_3 a A x K).
+  now destruct (interval_sign _ F A).
 Defined.
 Definition residual_rule (fused : bool) : rule.
 Proof.
   refine {| bound := float * float; known := IeeeResidual.residual_known p emax; exact := residual_exact _ F;
-    within := residual_within _ F; negate := residual_negate _ F; add := residual_add _ F; subtract := residual_subtract
-    _ F; multiply := residual_multiply _ F fused; rescale := residual_scale _ F; sign := residual_sign _ F |};
-    auto using IeeeResidual.residual_exact_known,
-    IeeeResidual.residual_within_known, IeeeResidual.residual_negate_known, IeeeResidual.residual_add_known,
-    IeeeResidual.residual_subtract_known, IeeeResidual.residual_multiply_known, IeeeResidual.residual_scale_known.
+    within := residual_within _ F; negate := residual_negate _ F;
+    add := residual_add _ F; subtract := residual_subtract _ F;
+    multiply := residual_multiply _ F fused; rescale := residual_scale _ F;
+    sign := residual_sign _ F |};
+    auto using IeeeResidual.residual_exact_known, IeeeResidual.residual_within_known,
+      IeeeResidual.residual_negate_known, IeeeResidual.residual_add_known,
+      IeeeResidual.residual_subtract_known, IeeeResidual.residual_multiply_known,
+      IeeeResidual.residual_scale_known.
   intros a A x K. generalize (IeeeResidual.residual_sign_known p emax p_3 a A x K).
   now destruct (residual_sign _ F a A).
 Defined.
 Definition kept_rule B by_rule holds (kept : IeeeCompound.keeps_operations p emax B by_rule holds) : rule.
 Proof.
-  refine {| bound := B; known := holds; exact := rule_exact _ _ (CompoundCode.the_rule _ _ by_rule); within :=
-    rule_within _ _ (CompoundCode.the_rule _ _ by_rule); negate := rule_negate _ _ (CompoundCode.the_rule _ _ by_rule);
+  refine {| bound := B; known := holds; exact := rule_exact _ _ (CompoundCode.the_rule _ _ by_rule);
+    within := rule_within _ _ (CompoundCode.the_rule _ _ by_rule);
+    negate := rule_negate _ _ (CompoundCode.the_rule _ _ by_rule);
     add := CompoundCode.rule_add _ _ by_rule; subtract := rule_subtract _ _ (CompoundCode.the_rule _ _ by_rule);
     multiply := CompoundCode.rule_multiply _ _ by_rule; rescale := CompoundCode.rule_scale _ _ by_rule;
-    sign := rule_sign _ _ (CompoundCode.the_rule _ _ by_rule) |}; destruct kept as [[] ? ? _ ? _]; auto. intros a A x K.
-  generalize (promise_sign a A x K). now destruct (rule_sign _ _ _ a A).
+    sign := rule_sign _ _ (CompoundCode.the_rule _ _ by_rule) |};
+    destruct kept as [[] ? ? _ ? _]; auto.
+  intros a A x K. generalize (promise_sign a A x K). now destruct (rule_sign _ _ _ a A).
 Defined.
 
 (** ** Tracked numbers as scalars *)
@@ -164,15 +182,19 @@ Definition tracked_scale (a : tracked) (e : Z) : tracked :=
 Definition exactly (a : float) : tracked := Tracked _ _ _ (exact_known r a).
 
 (** The code's whole numbers are numbers of the format. *)
-Lemma known_equal v b x y : known r v b x -> x = y -> known r v b y. Proof. now intros K <-. Qed.
-Lemma known_unlimited a x : known r a (within r a (infinity _ F)) x. Proof. apply within_known. discriminate. Qed.
+Lemma known_equal v b x y : known r v b x -> x = y -> known r v b y.
+Proof. now intros K <-. Qed.
+Lemma known_unlimited a x : known r a (within r a (infinity _ F)) x.
+Proof. apply within_known. discriminate. Qed.
 Definition tracked_whole (n : Z) : tracked :=
   match Req_EM_T (B2R (integer _ F n)) (IZR n) with
   | left E => Tracked _ _ (IZR n) (known_equal _ _ _ _ (exact_known r (integer _ F n)) E)
   | right _ => Tracked _ _ (IZR n) (known_unlimited (integer _ F n) (IZR n))
   end.
-Lemma meant_whole n : meant (tracked_whole n) = IZR n. Proof. unfold tracked_whole. now destruct (Req_EM_T _ _). Qed.
-Lemma meant_twice a : meant (tracked_scale a 1) = 2 * meant a. Proof. apply Rmult_comm. Qed.
+Lemma meant_whole n : meant (tracked_whole n) = IZR n.
+Proof. unfold tracked_whole. now destruct (Req_EM_T _ _). Qed.
+Lemma meant_twice a : meant (tracked_scale a 1) = 2 * meant a.
+Proof. apply Rmult_comm. Qed.
 
 (** normalized(p). *)
 Definition largest_of (l : list tracked) : float :=
@@ -228,7 +250,8 @@ Definition moves (m : float_motion) : @Decisions.moving_point rule_scalar :=
   Decisions.MovingPoint (at_ (fst m)) (at_ (snd m)).
 
 Definition unit : R := match chosen with None => 1 | Some e => bpow radix2 (- e) end.
-Lemma unit_positive : 0 < unit. Proof. unfold unit. destruct chosen; [apply bpow_gt_0 | lra]. Qed.
+Lemma unit_positive : 0 < unit.
+Proof. unfold unit. destruct chosen; [apply bpow_gt_0 | lra]. Qed.
 Lemma coordinate_meant x : meant (coordinate x) = unit * B2R x.
 Proof. unfold coordinate, unit. destruct chosen; simpl; ring. Qed.
 Definition all_units : Contact.point := Contact.Point unit unit unit.
@@ -238,7 +261,8 @@ Proof.
   cbn [Decisions.t0 Decisions.t1 Decisions.px Decisions.py Decisions.pz fst snd Bernstein.exact rule_scalar].
   now rewrite !coordinate_meant.
 Qed.
-Lemma all_units_positive : AxisUnits.units all_units. Proof. generalize unit_positive. now repeat split. Qed.
+Lemma all_units_positive : AxisUnits.units all_units.
+Proof. generalize unit_positive. now repeat split. Qed.
 
 Ltac in_units units answer := intros E; rewrite <- (units _ _ _ _ _ all_units_positive); cbv zeta;
   rewrite <- !moves_exactly; exact (answer _ _ _ _ E).

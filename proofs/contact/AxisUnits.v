@@ -4,8 +4,11 @@
         separated_right          if `separated_by_coordinates` (ccd/exact/features.hpp) is true, vertex and edge do
                                  not meet *)
 
-From Coq Require Import Reals ZArith Lra List Bool. From Errbound Require Import Sign Bernstein Contact Decisions.
-From Errbound Require BoundedInteger. Import ListNotations. Open Scope R_scope.
+From Coq Require Import Reals ZArith Lra List Bool.
+From Errbound Require Import Sign Bernstein Contact Decisions.
+From Errbound Require BoundedInteger.
+Import ListNotations.
+Open Scope R_scope.
 
 (** Exact integers as scalars of Bernstein.v. *)
 Program Definition integers : scalar := {|
@@ -30,7 +33,8 @@ Lemma place_stretched k m t : place (stretched_motion k m) t = stretched k (plac
 Proof. unfold place, stretched_motion, stretched. apply same_point; simpl; ring. Qed.
 Lemma stretched_same k p q : units k -> stretched k p = stretched k q <-> p = q.
 Proof.
-  intros (Kx & Ky & Kz). split; [| now intros ->]. intros E. apply point_eq in E. destruct E as (X & Y & Z). simpl in *.
+  intros (Kx & Ky & Kz). split; [| now intros ->]. intros E.
+  apply point_eq in E. destruct E as (X & Y & Z). simpl in *.
   apply same_point; eapply Rmult_eq_reg_l; eauto; lra.
 Qed.
 Lemma stretched_along k p s a b :
@@ -103,17 +107,21 @@ Proof.
   intros K V W. assert (U : vertex_vertex_collides (exact_motion v) (exact_motion w) <-> vertex_vertex_collides m n).
   { rewrite V, W. split; intros (t & T & H); exists t; (split; [exact T |]); rewrite ?place_stretched in *;
       now apply (stretched_same k). }
-  rewrite <- U, vertex_vertex_contact. clear. unfold vertices_contact, difference. cbn [vx vy vz nth].
+  rewrite <- U, vertex_vertex_contact. clear.
+  unfold vertices_contact, difference. cbn [vx vy vz nth].
   set (p0 := VectorForm _ _ _). set (p1 := VectorForm _ _ _).
   destruct (cross_at p0 p1 0 0 0) as (C & D); [now repeat split | now repeat split |].
   destruct (dot_at p0 p1 0 0 0) as (E & F); [now repeat split | now repeat split |].
   assert (At : forall f : list integers, length f = 1%nat -> at_time f 0 = IZR (nth 0 f 0%Z))
     by (intros f L; apply (@Bsc.at_start integers); now destruct f).
-  replace (minus (start (exact_motion v)) (start (exact_motion w))) with (vector_at p0 0) by (unfold vector_at,
-    p0, at_time, minus; apply same_point; cbn [x y z vx vy vz map form length]; rewrite exact_sub; simpl; ring).
-  replace (minus (finish (exact_motion v)) (finish (exact_motion w))) with (vector_at p1 0) by (unfold vector_at,
-    p1, at_time, minus; apply same_point; cbn [x y z vx vy vz map form length]; rewrite exact_sub; simpl; ring).
-  rewrite <- C, <- E, At by exact F. destruct D as (Dx & Dy & Dz). unfold vector_at. rewrite !At by assumption.
+  replace (minus (start (exact_motion v)) (start (exact_motion w))) with (vector_at p0 0)
+    by (unfold vector_at, p0, at_time, minus; apply same_point; cbn [x y z vx vy vz map form length];
+      rewrite exact_sub; simpl; ring).
+  replace (minus (finish (exact_motion v)) (finish (exact_motion w))) with (vector_at p1 0)
+    by (unfold vector_at, p1, at_time, minus; apply same_point; cbn [x y z vx vy vz map form length];
+      rewrite exact_sub; simpl; ring).
+  rewrite <- C, <- E, At by exact F. destruct D as (Dx & Dy & Dz). unfold vector_at. rewrite !At by
+    assumption.
   rewrite !andb_true_iff, !Z.eqb_eq, Z.leb_le. split.
   - intros (((X & Y) & Z) & P). split; [| now apply IZR_le].
     apply same_point; cbn [x y z origin]; apply (f_equal IZR); assumption.
@@ -136,13 +144,15 @@ Definition separated (v e0 e1 : moving) : bool :=
 
 Theorem separated_right v e0 e1 : separated v e0 e1 = true -> ~ vertex_edge_collides v e0 e1.
 Proof.
-  assert (Less : forall c d, less c d = true -> c < d) by (intros c d; unfold less; now destruct Rlt_dec).
+  assert (Less : forall c d, less c d = true -> c < d) by (intros c d; unfold less; now destruct
+    Rlt_dec).
   assert (Along : forall axis n, (forall p, dot n p = axis p) -> separated_along axis v e0 e1 = true -> ~
     vertex_edge_collides v e0 e1).
   { intros axis n E P. unfold separated_along in P. apply orb_prop in P.
     assert (O : forall p, dot (minus origin n) p = - axis p) by (intros p; rewrite <- E; unfold minus,
       dot, origin; simpl; ring).
-    destruct P as [P | P]; rewrite !andb_true_iff in P; destruct P as (((A & B) & C) & D); apply Less in A, B, C, D.
+    destruct P as [P | P]; rewrite !andb_true_iff in P; destruct P as (((A & B) & C) & D); apply Less in
+      A, B, C, D.
     - apply (vertex_edge_separated (minus origin n)); unfold before; rewrite !O; lra.
     - apply (vertex_edge_separated n); unfold before; rewrite !E; lra. }
   unfold separated. intros P. apply orb_prop in P. destruct P as [P | P]; [apply orb_prop in P; destruct P

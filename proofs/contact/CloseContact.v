@@ -11,10 +11,12 @@
         face_to_the_end_right, edges_to_the_end_right   certain answers of decide_to_the_end are right
         close_widths, narrowed_fits   all numbers fit their types *)
 
-From Coq Require Import Reals ZArith Lia Lra Psatz List Bool Classical. From Flocq Require Import Core.
-From Errbound
-  Require Import Sign Bernstein Subdivision Contact VertexEdge Decisions AxisUnits CubicRoots InteriorContact.
-From Errbound Require BoundedInteger FixedWidths. Import ListNotations. Open Scope R_scope.
+From Coq Require Import Reals ZArith Lia Lra Psatz List Bool Classical.
+From Flocq Require Import Core.
+From Errbound Require Import Sign Bernstein Subdivision Contact VertexEdge Decisions AxisUnits CubicRoots InteriorContact.
+From Errbound Require BoundedInteger FixedWidths.
+Import ListNotations.
+Open Scope R_scope.
 
 (** ** Subintervals of a cubic *)
 
@@ -36,7 +38,8 @@ Proof. intros L. four y L. simpl. ring. Qed.
 
 (** The form on [a, b]. *)
 Definition part_of (y : list R) (a b : R) : list R := substituted y (1 - a) (1 - b) a b.
-Lemma part_of_length y a b : length y = 4%nat -> length (part_of y a b) = 4%nat. Proof. intros L. now four y L. Qed.
+Lemma part_of_length y a b : length y = 4%nat -> length (part_of y a b) = 4%nat.
+Proof. intros L. now four y L. Qed.
 Lemma part_of_at y a b u : length y = 4%nat -> at_ (part_of y a b) u = at_ y (a + u * (b - a)).
 Proof. intros L. unfold at_, part_of. rewrite substituted_form by easy. f_equal; ring. Qed.
 Lemma part_of_part y a b c d : length y = 4%nat ->
@@ -62,7 +65,8 @@ Qed.
 Lemma zeros_part y a b : Forall (eq 0) y -> Forall (eq 0) (part_of y a b).
 Proof.
   intros F. unfold part_of, substituted. destruct y as [| y0 [| y1 [| y2 [| y3 [|]]]]]; auto.
-  repeat match goal with H : Forall _ (_ :: _) |- _ => inversion_clear H end. subst. repeat constructor; ring.
+  repeat match goal with H : Forall _ (_ :: _) |- _ => inversion_clear H end. subst.
+  repeat constructor; ring.
 Qed.
 Lemma moving_part y a b : length y = 4%nat -> a < b -> ~ Forall (eq 0) y -> ~ Forall (eq 0) (part_of y a b).
 Proof.
@@ -83,15 +87,18 @@ Qed.
 
 (** Signs just inside the ends of a subinterval. *)
 Notation changes_in y a b := (inner_sign_changes (part_of y a b)).
-Lemma signs_in y a b : length y = 4%nat -> a < b -> ~ Forall (eq 0) y -> let c := changes_in y a b in sign_after
-  (first c) (at_ y) a /\ sign_before (if opposite c then opposed (first c) else first c) (at_ y) b /\ strict (first c).
+Lemma signs_in y a b : length y = 4%nat -> a < b -> ~ Forall (eq 0) y -> let c := changes_in y a b in
+  sign_after (first c) (at_ y) a /\ sign_before (if opposite c then opposed (first c) else first c) (at_ y) b /\
+  strict (first c).
 Proof.
   intros L O N c. destruct (changes_first _ (part_of_length y a b L) (moving_part y a b L O N)) as ((d & D & A) & (e & D' & B) & F).
   fold c in A, B, F. split; [| split; auto].
-  - exists (d * (b - a)). split; [apply Rmult_lt_0_compat; lra |]. intros t T. rewrite (at_part y a b) by easy. apply A.
-    assert (E : (t - a) / (b - a) * (b - a) = t - a) by (field; lra). split; apply Rmult_lt_reg_r with (b - a); lra.
-  - exists (e * (b - a)). split; [apply Rmult_lt_0_compat; lra |]. intros t T. rewrite (at_part y a b) by easy. apply B.
-    assert (E : (t - a) / (b - a) * (b - a) = t - a) by (field; lra). split; apply Rmult_lt_reg_r with (b - a); lra.
+  - exists (d * (b - a)). split; [apply Rmult_lt_0_compat; lra |]. intros t T. rewrite (at_part y a b) by easy.
+    apply A. assert (E : (t - a) / (b - a) * (b - a) = t - a) by (field; lra).
+    split; apply Rmult_lt_reg_r with (b - a); lra.
+  - exists (e * (b - a)). split; [apply Rmult_lt_0_compat; lra |]. intros t T. rewrite (at_part y a b) by easy.
+    apply B. assert (E : (t - a) / (b - a) * (b - a) = t - a) by (field; lra).
+    split; apply Rmult_lt_reg_r with (b - a); lra.
 Qed.
 Lemma none_in y a b t : length y = 4%nat -> a < b -> ~ Forall (eq 0) y -> count (changes_in y a b) = 0%nat ->
   a < t < b -> at_ y t <> 0.
@@ -100,7 +107,8 @@ Proof.
   - now destruct (moving_part y a b L O N).
   - rewrite (at_part y a b) by easy. apply F. now apply (place_in a b t O).
 Qed.
-Lemma one_in y a b Q : length y = 4%nat -> a < b -> count (changes_in y a b) = 1%nat -> crosses_once a b (at_ y) Q.
+Lemma one_in y a b Q : length y = 4%nat -> a < b -> count (changes_in y a b) = 1%nat ->
+  crosses_once a b (at_ y) Q.
 Proof.
   intros L O C. destruct (one_change_crosses _ (part_of_length y a b L) C) as (l0 & l1 & q & One).
   exists (l0 - l1 * a / (b - a)), (l1 / (b - a)), (fun t => q ((t - a) / (b - a))). intros t T.
@@ -124,8 +132,9 @@ Qed.
     root *)
 
 Lemma split_changes y p : length y = 4%nat -> 0 < p < 1 ->
-  (count (changes_in y 0 p) + count (changes_in y p 1) <= count (inner_sign_changes y))%nat /\ (0 < discriminant y ->
-  at_ y p = 0 -> (count (changes_in y 0 p) + count (changes_in y p 1) < count (inner_sign_changes y))%nat).
+  (count (changes_in y 0 p) + count (changes_in y p 1) <= count (inner_sign_changes y))%nat /\
+  (0 < discriminant y -> at_ y p = 0 ->
+    (count (changes_in y 0 p) + count (changes_in y p 1) < count (inner_sign_changes y))%nat).
 Proof.
   intros L (P & V). set (v := 1 - p) in *. assert (0 < v) as Pv by (unfold v; lra). clear V.
   assert (D0 := discriminant_part y 0 p L). four y L.
@@ -150,14 +159,16 @@ Proof.
 Qed.
 
 Lemma parts_changes y a m b : length y = 4%nat -> a < m < b ->
-  (count (changes_in y a m) + count (changes_in y m b) <= count (changes_in y a b))%nat /\ (0 < discriminant y ->
-  at_ y m = 0 -> (count (changes_in y a m) + count (changes_in y m b) < count (changes_in y a b))%nat).
+  (count (changes_in y a m) + count (changes_in y m b) <= count (changes_in y a b))%nat /\
+  (0 < discriminant y -> at_ y m = 0 ->
+    (count (changes_in y a m) + count (changes_in y m b) < count (changes_in y a b))%nat).
 Proof.
   intros L M. assert (O : a < b) by lra. pose proof (proj1 (place_in a b m O) M) as P.
   destruct (split_changes (part_of y a b) _ (part_of_length y a b L) P) as (Le & Lt).
-  rewrite !part_of_part in Le, Lt by easy. replace (a + 0 * (b - a)) with a in Le, Lt by ring.
-  replace (a + 1 * (b - a)) with b in Le, Lt by ring.
-  replace (a + (m - a) / (b - a) * (b - a)) with m in Le, Lt by (field; lra). split; auto. intros D Z. apply Lt.
+  rewrite !part_of_part in Le, Lt by easy.
+  replace (a + 0 * (b - a)) with a in Le, Lt by ring. replace (a + 1 * (b - a)) with b in Le, Lt by ring.
+  replace (a + (m - a) / (b - a) * (b - a)) with m in Le, Lt by (field; lra).
+  split; auto. intros D Z. apply Lt.
   - rewrite discriminant_part by easy. apply Rmult_lt_0_compat; auto. apply pow_lt. lra.
   - now rewrite <- at_part.
 Qed.
@@ -174,12 +185,15 @@ Theorem as_many_changes y a a' b' b t : length y = 4%nat -> 0 < discriminant y -
   a <= a' -> a' < b' -> b' <= b -> count (changes_in y a' b') = count (changes_in y a b) ->
   a < t < b -> at_ y t = 0 -> a' < t < b'.
 Proof.
-  intros L D N A O B C T Z. pose proof (fewer_changes y a' a' b' b L ltac:(lra) O B) as C1.
+  intros L D N A O B C T Z.
+  pose proof (fewer_changes y a' a' b' b L ltac:(lra) O B) as C1.
   pose proof (fewer_changes y a a' b b L A ltac:(lra) ltac:(lra)) as C2. split; apply Rnot_le_lt; intros K.
   - assert (A' : a < a') by lra. destruct (parts_changes y a a' b L ltac:(lra)) as (H & H').
-    destruct K as [K | <-]; [| specialize (H' D Z); lia]. apply (none_in y a a' t L A' N); auto; [lia | lra].
+    destruct K as [K | <-]; [| specialize (H' D Z); lia].
+    apply (none_in y a a' t L A' N); auto; [lia | lra].
   - assert (B' : b' < b) by lra. destruct (parts_changes y a' b' b L ltac:(lra)) as (H & H').
-    destruct K as [K | <-]; [| specialize (H' D Z); lia]. apply (none_in y b' b t L B' N); auto; [lia | lra].
+    destruct K as [K | <-]; [| specialize (H' D Z); lia].
+    apply (none_in y b' b t L B' N); auto; [lia | lra].
 Qed.
 (** If an interval has one crossing, a subinterval with opposite signs of Y at its ends has that crossing. *)
 Theorem opposite_inside y a a' b' b Q : length y = 4%nat -> ~ Forall (eq 0) y ->
@@ -227,8 +241,9 @@ Lemma sub_y_substituted y n a w : length y = 4%nat -> map IZR (sub_y y n a w) =
   substituted (map IZR y) (IZR (2 ^ n - a)) (IZR (2 ^ n - (a + 2 ^ w))) (IZR a) (IZR (a + 2 ^ w)).
 Proof.
   intros L. destruct y as [| y0 [| y1 [| y2 [| y3 [|]]]]]; try discriminate.
-  unfold sub_y, from_power, widened, moved, power_coefficients. cbv zeta beta iota. generalize (2 ^ n)%Z (2 ^ w)%Z.
-  intros v q. cbn [map]. unfold substituted. apply same_four; repeat rewrite ?plus_IZR, ?mult_IZR, ?minus_IZR; ring.
+  unfold sub_y, from_power, widened, moved, power_coefficients. cbv zeta beta iota.
+  generalize (2 ^ n)%Z (2 ^ w)%Z. intros v q. cbn [map]. unfold substituted.
+  apply same_four; repeat rewrite ?plus_IZR, ?mult_IZR, ?minus_IZR; ring.
 Qed.
 
 (** The coefficients are those on [a/2^n, (a + 2^w)/2^n], times 2^(3n). *)
@@ -278,7 +293,8 @@ Proof. intros (_ & -> & _ & k & K & ->). now apply changes_scaled. Qed.
 
 (** sub_part returns a subinterval if a >= 0 and a + 2^w <= 2^n. *)
 Lemma over_within low wb ub n a : (0 <= wb <= n)%Z -> (0 <= ub)%Z -> (wb <= ub)%Z ->
-  over (low * 2 ^ (n - wb) + a) (ub + n - wb) = over low ub + over a n * (over (low + 2 ^ wb) ub - over low ub).
+  over (low * 2 ^ (n - wb) + a) (ub + n - wb) =
+  over low ub + over a n * (over (low + 2 ^ wb) ub - over low ub).
 Proof.
   intros W U V. unfold over. replace (ub + n - wb)%Z with (ub + (n - wb))%Z by ring.
   rewrite Z.pow_add_r, !plus_IZR, !mult_IZR by lia.
@@ -286,10 +302,12 @@ Proof.
   rewrite mult_IZR. pose proof (power_positive wb ltac:(lia)). pose proof (power_positive ub ltac:(lia)).
   pose proof (power_positive (n - wb) ltac:(lia)). field. repeat split; lra.
 Qed.
-Lemma sub_part_is_part y q n a w : length y = 4%nat -> is_close_part y q -> (width_bits q <= n /\
-  0 <= w <= 1 /\ w < n /\ 0 <= a /\ a + 2 ^ w <= 2 ^ n)%Z -> let r := sub_part q n a w in is_close_part y r /\
-  close_start q <= close_start r /\ close_end r <= close_end q /\ close_start r = close_start q + over a
-  n * (close_end q - close_start q) /\ close_end r = close_start q + over (a + 2 ^ w) n * (close_end q - close_start q).
+Lemma sub_part_is_part y q n a w : length y = 4%nat -> is_close_part y q ->
+  (width_bits q <= n /\ 0 <= w <= 1 /\ w < n /\ 0 <= a /\ a + 2 ^ w <= 2 ^ n)%Z ->
+  let r := sub_part q n a w in
+  is_close_part y r /\ close_start q <= close_start r /\ close_end r <= close_end q /\
+  close_start r = close_start q + over a n * (close_end q - close_start q) /\
+  close_end r = close_start q + over (a + 2 ^ w) n * (close_end q - close_start q).
 Proof.
   intros Ly H (Wn & W & Nw & A & B) r. pose proof (close_inside y q H) as In.
   pose proof H as (L & R & (Wq & Uq & Lq & Hq) & k & K & E).
@@ -304,13 +322,15 @@ Proof.
   { pose proof (power_positive n Hn). replace 1 with (over (2 ^ n) n) by (unfold over; field; lra). now apply over_le. }
   assert (0 <= over a n * (close_end q - close_start q)) by (apply Rmult_le_pos; lra).
   assert (0 <= (1 - over (a + 2 ^ w) n) * (close_end q - close_start q)) by (apply Rmult_le_pos; lra).
-  split; [| repeat split; lra]. split; [now apply sub_y_length |]. split; [reflexivity |]. split.
+  split; [| repeat split; lra].
+  split; [now apply sub_y_length |]. split; [reflexivity |]. split.
   { unfold r, sub_part. cbn [low unit_bits width_bits].
     assert (Q : (2 ^ (unit_bits q + n - width_bits q) = 2 ^ unit_bits q * 2 ^ (n - width_bits q))%Z)
       by (rewrite <- Z.pow_add_r by lia; f_equal; lia).
     assert (N2 : (2 ^ n = 2 ^ width_bits q * 2 ^ (n - width_bits q))%Z)
       by (rewrite <- Z.pow_add_r by lia; f_equal; lia).
-    assert (Pn : (0 < 2 ^ (n - width_bits q))%Z) by (apply Z.pow_pos_nonneg; lia). repeat split; try lia; nia. }
+    assert (Pn : (0 < 2 ^ (n - width_bits q))%Z) by (apply Z.pow_pos_nonneg; lia).
+    repeat split; try lia; nia. }
   exists (IZR (2 ^ n) ^ 3 * k). split; [apply Rmult_lt_0_compat; auto; apply pow_lt; now apply power_positive |].
   change (close_y r) with (sub_y (close_y q) n a w). rewrite sub_part_right, E by easy. unfold part_of at 1.
   rewrite substituted_scaled by now apply part_of_length.
@@ -349,7 +369,8 @@ Proof.
   - destruct (Z.ltb_spec (n + width_bits) (BoundedInteger.exact / 2)) as [X | _].
     { exfalso. change (BoundedInteger.exact / 2)%Z with (-524288)%Z in X. lia. }
     rewrite E, Rabs_mult, (Rabs_pos_eq u), <- abs_IZR, bpow_plus, <- !(IZR_Zpower radix2) by (lra || lia).
-    change (Zpower radix2) with (Z.pow 2). pose proof (power_positive n Bl). apply Rle_lt_trans with (IZR (2 ^ n) * u).
+    change (Zpower radix2) with (Z.pow 2). pose proof (power_positive n Bl).
+    apply Rle_lt_trans with (IZR (2 ^ n) * u).
     + apply Rmult_le_compat_r; [lra | now apply IZR_le].
     + apply Rmult_lt_compat_l; lra.
 Qed.
@@ -357,8 +378,9 @@ Qed.
 (** At a position, numbers of less than 2000 bits are exact. *)
 Definition near_exact (m e : Z) (x : known) : Prop :=
   (Z.abs (BoundedInteger.value x) <= 2 ^ m /\ 0 <= m /\ BoundedInteger.error_bits x <= BoundedInteger.exact + e)%Z.
-Lemma near_sum m e m' e' x y : near_exact m e x -> near_exact m' e' y -> near_exact (Z.max m m' + 1)
-  (Z.max e e' + 1) (BoundedInteger.add x y) /\ near_exact (Z.max m m' + 1) (Z.max e e' + 1) (BoundedInteger.sub x y).
+Lemma near_sum m e m' e' x y : near_exact m e x -> near_exact m' e' y ->
+  near_exact (Z.max m m' + 1) (Z.max e e' + 1) (BoundedInteger.add x y) /\
+  near_exact (Z.max m m' + 1) (Z.max e e' + 1) (BoundedInteger.sub x y).
 Proof.
   intros (A & M & E) (A' & M' & E').
   assert (P : (2 ^ (Z.max m m' + 1) = 2 * 2 ^ Z.max m m')%Z) by (rewrite Z.pow_add_r by lia; ring).
@@ -383,7 +405,9 @@ Qed.
 Definition near_vector (m e : Z) (v : known_vector) : Prop :=
   near_exact m e (kx v) /\ near_exact m e (ky v) /\ near_exact m e (kz v).
 Lemma near_weaker m e m' e' x : (m <= m')%Z -> (e <= e')%Z -> near_exact m e x -> near_exact m' e' x.
-Proof. intros M E (A & N & H). pose proof (Z.pow_le_mono_r 2 m m' ltac:(lia) M). unfold near_exact. lia. Qed.
+Proof.
+  intros M E (A & N & H). pose proof (Z.pow_le_mono_r 2 m m' ltac:(lia) M). unfold near_exact. lia.
+Qed.
 Lemma near_cross m e p q : (0 <= e)%Z -> near_vector m e p -> near_vector m e q ->
   near_vector (2 * m + 1) (2 * m + 2 * e + 4) (cross_known p q).
 Proof.
@@ -670,7 +694,8 @@ Lemma sub_part_narrower q n a w : close_good q -> can_be_narrowed q = true ->
 Proof.
   intros (H & _) C N. apply andb_prop in C. destruct C as (C & _). apply Z.leb_le in C.
   pose proof H as (_ & _ & (W & U & _) & _).
-  destruct (sub_part_is_part y q n a w y_length H ltac:(lia)) as (R & S & E & _). split; [split; [exact R |] |].
+  destruct (sub_part_is_part y q n a w y_length H ltac:(lia)) as (R & S & E & _).
+  split; [split; [exact R |] |].
   - unfold sub_part. cbn [unit_bits]. unfold max_bits in *. lia.
   - split; auto. split; auto. split; [unfold bits, sub_part; cbn [unit_bits width_bits]; lia |].
     rewrite (close_changes y q H), (close_changes y _ R). pose proof (close_inside y _ R).
@@ -690,11 +715,13 @@ Proof.
   intros G S ((R & _) & A & B & _) O t T Z. rewrite (close_changes y r R) in O. pose proof (close_inside y r R).
   destruct known_y as (N & _).
   destruct (opposite_inside y (close_start q) (close_start r) (close_end r) (close_end q) _ y_length N A
-    ltac:(lra) B O (single_once q G S)) as (s & Hs & _ & Only). destruct (Only t T Z) as [-> | (K & _)]; auto.
+    ltac:(lra) B O (single_once q G S)) as (s & Hs & _ & Only).
+  destruct (Only t T Z) as [-> | (K & _)]; auto.
 Qed.
 Lemma counted_narrowed q r : close_good q -> any_root three (close_roots q) = true ->
-  is_single three (close_roots q) = false -> narrower q r -> Nat.eqb (count (close_roots r)) (count (close_roots q))
-  = true -> forall t, close_start q < t < close_end q -> at_ y t = 0 -> close_start r < t < close_end r \/ told t.
+  is_single three (close_roots q) = false -> narrower q r ->
+  Nat.eqb (count (close_roots r)) (count (close_roots q)) = true ->
+  forall t, close_start q < t < close_end q -> at_ y t = 0 -> close_start r < t < close_end r \/ told t.
 Proof.
   intros (H & _) A S ((R & _) & B & C & _) E t T Z. left. apply Nat.eqb_eq in E. pose proof (close_inside y r R).
   rewrite (close_changes y q H), (close_changes y r R) in E. destruct known_y as (N & D & _).
@@ -713,16 +740,19 @@ Proof.
   set (n := Z.min (- root_exponent (close_y q)) 60). set (m := Z.min (- root_exponent (rev (close_y q))) 60).
   destruct ((1 <? n)%Z && _) eqn:E0.
   { apply andb_prop in E0. destruct E0 as (L & E0). apply Z.ltb_lt in L. intros I. injection I as <-.
-    split; [| exact E0]. assert (2 ^ 1 <= 2 ^ n)%Z by (apply Z.pow_le_mono_r; lia). change (2 ^ 1)%Z with 2%Z in *.
+    split; [| exact E0].
+    assert (2 ^ 1 <= 2 ^ n)%Z by (apply Z.pow_le_mono_r; lia). change (2 ^ 1)%Z with 2%Z in *.
     apply sub_part_narrower; auto. change (2 ^ 0)%Z with 1%Z. lia. }
   destruct ((1 <? m)%Z && _) eqn:E1.
   { apply andb_prop in E1. destruct E1 as (L & E1). apply Z.ltb_lt in L. intros I. injection I as <-.
-    split; [| exact E1]. assert (2 ^ 1 <= 2 ^ m)%Z by (apply Z.pow_le_mono_r; lia). change (2 ^ 1)%Z with 2%Z in *.
+    split; [| exact E1].
+    assert (2 ^ 1 <= 2 ^ m)%Z by (apply Z.pow_le_mono_r; lia). change (2 ^ 1)%Z with 2%Z in *.
     apply sub_part_narrower; auto. change (2 ^ 0)%Z with 1%Z. lia. }
   destruct (Nat.eqb (count (close_roots q)) 2); [| discriminate].
   destruct (estimated_pair (close_y q)) as [[middle exponent] |]; [| discriminate].
-  destruct ((exponent <? -5)%Z && _) eqn:E2; [| discriminate]. apply andb_prop in E2. destruct E2 as (L & E2).
-  apply Z.ltb_lt in L. intros I. injection I as <-. split; [| exact E2]. apply around_narrower; auto. lia.
+  destruct ((exponent <? -5)%Z && _) eqn:E2; [| discriminate].
+  apply andb_prop in E2. destruct E2 as (L & E2). apply Z.ltb_lt in L. intros I. injection I as <-. split; [| exact E2].
+  apply around_narrower; auto. lia.
 Qed.
 Lemma narrowed_right q r : close_good q -> can_be_narrowed q = true -> any_root three (close_roots q) = true ->
   narrowed three q = Some r -> narrower q r /\
@@ -734,8 +764,9 @@ Qed.
 
 (** The common end of the halves. *)
 Lemma middle_of q : is_close_part y q -> let h := close_y q in
-  let m := close_start q + / 2 * (close_end q - close_start q) in over (low q * 2 + 2 ^ width_bits q)
-  (unit_bits q + 1) = m /\ ((nth 0 h 0 + nth 1 h 0 + nth 2 h 0 + nth 3 h 0 =? 0)%Z = true <-> at_ y m = 0).
+  let m := close_start q + / 2 * (close_end q - close_start q) in
+  over (low q * 2 + 2 ^ width_bits q) (unit_bits q + 1) = m /\
+  ((nth 0 h 0 + nth 1 h 0 + nth 2 h 0 + nth 3 h 0 =? 0)%Z = true <-> at_ y m = 0).
 Proof.
   intros H h m. pose proof (close_inside y q H) as In. destruct H as (L & _ & (W & U & _) & k & K & E). split.
   - unfold m, close_start, close_end, over. rewrite Z.pow_add_r, !plus_IZR, !mult_IZR by lia. change (2 ^ 1)%Z with 2%Z.
@@ -752,9 +783,12 @@ Proof.
 Qed.
 
 Lemma next_of_right q : close_good q -> any_root three (close_roots q) = true ->
-  match next_of distinct three q with | inl o => close_answers (close_start q) (close_end q) o |
-  inr parts => Forall (narrower q) parts /\ forall t, close_start q < t < close_end q ->
-  at_ y t = 0 -> (exists r, In r parts /\ close_start r < t < close_end r) \/ told t \/ ~ Inside t end.
+  match next_of distinct three q with
+  | inl o => close_answers (close_start q) (close_end q) o
+  | inr parts => Forall (narrower q) parts /\
+      forall t, close_start q < t < close_end q -> at_ y t = 0 ->
+        (exists r, In r parts /\ close_start r < t < close_end r) \/ told t \/ ~ Inside t
+  end.
 Proof.
   intros G A. pose proof G as (H & Max). pose proof (close_inside y q H) as In01. unfold next_of. cbv zeta.
   set (ask := (ask_from q <=? bits q)%Z). clearbody ask.
@@ -769,7 +803,8 @@ Proof.
   destruct (if ask then _ else undecided); try (now apply Known). clear Known.
   destruct (ask && normal_vanishes_at_root distinct three q) eqn:V.
   { apply andb_prop in V. destruct V as (_ & V). intros t T Z. right. now apply (vanishes_right q). }
-  clear V. destruct (can_be_narrowed asked) eqn:C; cbn [negb]; [| easy]. destruct (narrowed three asked) as [r |] eqn:E.
+  clear V. destruct (can_be_narrowed asked) eqn:C; cbn [negb]; [| easy].
+  destruct (narrowed three asked) as [r |] eqn:E.
   { destruct (narrowed_right asked r Ga C A E) as (Nr & All). split; [constructor; [now apply Na | constructor] |].
     intros t T Z. destruct (All t T Z); auto. left. exists r. split; [now left | easy]. }
   destruct (middle_of q H) as (Em & Zm). set (m := close_start q + / 2 * (close_end q - close_start q)) in *.
@@ -872,13 +907,15 @@ Proof.
   destruct (narrowed three asked) as [r |] eqn:E.
   { apply narrowed_narrower in E; auto. apply proj1, Na in E. intros I. injection I as <-. split; [constructor; auto |].
     split; [simpl; lia |]. rewrite all_changes_cons. destruct E as (_ & _ & _ & _ & E). cbn. lia. }
-  destruct ((_ =? 0)%Z && _); [discriminate |]. intros I. injection I as <-. pose proof H as (_ & _ & (W & U & _) & _).
+  destruct ((_ =? 0)%Z && _); [discriminate |]. intros I. injection I as <-.
+  pose proof H as (_ & _ & (W & U & _) & _).
   assert (Half : over 1 1 = / 2 /\ over 0 1 = 0 /\ over 2 1 = 1) by (unfold over; change (2 ^ 1)%Z with 2%Z; lra).
   destruct (sub_part_is_part y asked 1 0 0 y_length H) as (P0 & _ & _ & S0 & E0); [cbn [asked width_bits]; lia |].
   destruct (sub_part_is_part y asked 1 1 0 y_length H) as (P1 & _ & _ & S1 & E1); [cbn [asked width_bits]; lia |].
   change (0 + 2 ^ 0)%Z with 1%Z in E0. change (1 + 2 ^ 0)%Z with 2%Z in E1. destruct Half as (H1 & H0 & H2).
-  rewrite H0 in S0. rewrite H1 in E0, S1. rewrite H2 in E1. change (close_start asked) with (close_start q) in *.
-  change (close_end asked) with (close_end q) in *. split; [| split; [simpl; lia |]].
+  rewrite H0 in S0. rewrite H1 in E0, S1. rewrite H2 in E1.
+  change (close_start asked) with (close_start q) in *. change (close_end asked) with (close_end q) in *.
+  split; [| split; [simpl; lia |]].
   - constructor; [| constructor; [| constructor]]; apply Na, sub_part_narrower; auto; cbn; lia.
   - rewrite !all_changes_cons, Nat.add_0_r, (close_changes y _ P0), (close_changes y _ P1), (close_changes y q H).
     rewrite S0, E0, S1, E1.
@@ -920,8 +957,9 @@ Proof.
   induction waiting as [| q rest IH]; [easy |]. cbn [close_work fold_right] in *.
   pose proof (Z.pow_nonneg 3 (max_bits + 1 - bits q)). unfold close_work in IH. lia.
 Qed.
-Lemma close_next_work distinct three q rest parts : close_good q ->
-  Forall close_good rest -> next_of distinct three q = inr parts -> Forall close_good (that_wait three parts ++ rest) /\
+Lemma close_next_work distinct three q rest parts : close_good q -> Forall close_good rest ->
+  next_of distinct three q = inr parts ->
+  Forall close_good (that_wait three parts ++ rest) /\
   (close_work (that_wait three parts ++ rest) < close_work (q :: rest))%Z.
 Proof.
   intros G Gr E. destruct (next_narrower _ _ _ _ G E) as (N & L & _). split.
@@ -955,7 +993,8 @@ Proof.
   { destruct Fq as ((_ & _ & (Wq & Uq & _) & _) & Mq). apply Z.pow_pos_nonneg; unfold bits; lia. }
   destruct (next_of distinct three q) as [[ | | ] | parts] eqn:E; try (apply IH; auto; lia); [easy |].
   destruct (close_next_work _ _ _ rest _ Fq Fr E) as (Fn & Wn).
-  change (close_work (q :: rest)) with (3 ^ (max_bits + 1 - bits q) + close_work rest)%Z in Wn. apply IH; auto; lia.
+  change (close_work (q :: rest)) with (3 ^ (max_bits + 1 - bits q) + close_work rest)%Z in Wn.
+  apply IH; auto; lia.
 Qed.
 Theorem close_contact_ends : exists enough, forall steps, (enough <= steps)%nat ->
   close_contact steps = close_contact enough.
@@ -1015,10 +1054,11 @@ Proof.
 Qed.
 
 (** Facts that hold if interior_contact is uncertain. *)
-Lemma uncertain_interior extent_x extent_y extent_z
-  estimate refine steps : interior_contact edges b c p extent_x extent_y extent_z estimate refine steps = undecided ->
-  (forall t, t = 0 \/ t = 1 -> at_ y t = 0 -> ~ weights_positive edges (vector_at b t) (vector_at c t) (vector_at p t))
-  /\ known_roots edges b c p (distinct_flag b c p) (three_flag b c p).
+Lemma uncertain_interior extent_x extent_y extent_z estimate refine steps :
+  interior_contact edges b c p extent_x extent_y extent_z estimate refine steps = undecided ->
+  (forall t, t = 0 \/ t = 1 -> at_ y t = 0 ->
+    ~ weights_positive edges (vector_at b t) (vector_at c t) (vector_at p t)) /\
+  known_roots edges b c p (distinct_flag b c p) (three_flag b c p).
 Proof.
   unfold interior_contact. fold y.
   assert (Ends : at_ y 0 = nth 0 y 0 /\ at_ y 1 = nth 3 y 0).
@@ -1049,11 +1089,12 @@ Theorem decided_inside extent_x extent_y extent_z estimate refine steps more :
   (contact more = collides -> contact_inside edges b c p) /\
   (contact more = separate -> ~ contact_inside edges b c p).
 Proof.
-  intros U. apply uncertain_interior in U. destruct U as (Ends & K). split; [apply close_contact_right |]. intros E.
+  intros U. apply uncertain_interior in U. destruct U as (Ends & K).
+  split; [apply close_contact_right |]. intros E.
   pose proof (close_contact_answers edges b c p degree_b degree_c degree_p below_b below_c below_p
     estimated_root root_exponent estimated_pair
-    (fun t => ~ weights_positive edges (vector_at b t) (vector_at c t) (vector_at p t)) more K) as A. fold contact in A.
-  rewrite E in A. intros (t & T & Z & I). rewrite <- y_at in Z.
+    (fun t => ~ weights_positive edges (vector_at b t) (vector_at c t) (vector_at p t)) more K) as A.
+  fold contact in A. rewrite E in A. intros (t & T & Z & I). rewrite <- y_at in Z.
   destruct (Req_dec t 0) as [-> |]; [now apply (Ends 0 (or_introl eq_refl)) |].
   destruct (Req_dec t 1) as [-> |]; [now apply (Ends 1 (or_intror eq_refl)) |].
   destruct (A t ltac:(lra) Z) as [N | N]; now apply N.
@@ -1198,7 +1239,8 @@ Proof.
   { eapply Forall_impl; [| exact F]. intros h H. cbv beta in H. destruct (BoundedInteger.bit_length_bounds h) as (H0 & H1 & _).
     apply Z.le_trans with (1 := H1). now apply Z.pow_le_mono_r. }
   clear F. assert (Q : (0 < 2 ^ w)%Z) by (apply Z.pow_pos_nonneg; lia).
-  assert (V1 : (2 ^ n <= 2 ^ 60)%Z) by (apply Z.pow_le_mono_r; lia). assert (V0 : (1 <= 2 ^ n)%Z) by lia.
+  assert (V1 : (2 ^ n <= 2 ^ 60)%Z) by (apply Z.pow_le_mono_r; lia).
+  assert (V0 : (1 <= 2 ^ n)%Z) by lia.
   revert V1 V0 Q B. generalize (2 ^ n)%Z (2 ^ w)%Z. intros v q V1 V0 Q B.
   assert (PM : (0 < 2 ^ most_y_bits)%Z) by (apply Z.pow_pos_nonneg; unfold most_y_bits; lia).
   assert (Lim : (128 * (2 ^ most_y_bits * v ^ 3) <= 2 ^ (64 * Z.of_nat y_words - 1))%Z).

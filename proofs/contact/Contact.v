@@ -9,7 +9,9 @@
         face_coplanar, edges_coplanar        Y = 0 throughout: contact at t = 0, or vertex/edge contact
         query_...       the same for either query *)
 
-From Coq Require Import Reals Lra Psatz List FunctionalExtensionality. Import ListNotations. Open Scope R_scope.
+From Coq Require Import Reals Lra Psatz List FunctionalExtensionality.
+Import ListNotations.
+Open Scope R_scope.
 
 (** ** Space *)
 
@@ -32,7 +34,8 @@ Definition segments_meet (a0 a1 b0 b1 : point) : Prop := exists p, in_segment p 
 Ltac coordinates := unfold along, minus, cross, dot, origin in *; cbn [x y z] in *.
 Lemma same_point p q : x p = x q -> y p = y q -> z p = z q -> p = q.
 Proof. destruct p, q. simpl. now intros -> -> ->. Qed.
-Lemma point_eq p q : p = q -> x p = x q /\ y p = y q /\ z p = z q. Proof. now intros ->. Qed.
+Lemma point_eq p q : p = q -> x p = x q /\ y p = y q /\ z p = z q.
+Proof. now intros ->. Qed.
 
 Lemma square_0 v : dot v v = 0 -> v = origin.
 Proof. destruct v as [a b c]. coordinates. intros H. apply same_point; simpl; nra. Qed.
@@ -43,7 +46,8 @@ Proof.
 Qed.
 Lemma origin_dec v : v = origin \/ v <> origin.
 Proof.
-  destruct (Req_dec (dot v v) 0) as [E | E]; [left; now apply square_0 | right]. intros ->. apply E. coordinates. ring.
+  destruct (Req_dec (dot v v) 0) as [E | E]; [left; now apply square_0 | right].
+  intros ->. apply E. coordinates. ring.
 Qed.
 
 (** Vectors whose cross product vanishes are parallel. *)
@@ -51,8 +55,9 @@ Lemma parallel v w : v <> origin -> cross v w = origin -> exists k, w = along or
 Proof.
   intros N H. apply square_positive in N. exists (dot v w / dot v v). apply point_eq in H.
   destruct v as [a b c], w as [d e f]. coordinates. destruct H as (H0 & H1 & H2).
-  apply same_point;
-    simpl; apply Rmult_eq_reg_r with (a * a + b * b + c * c); try lra; field_simplify; try lra; apply Rminus_diag_uniq.
+  apply same_point; simpl; apply Rmult_eq_reg_r with (a * a + b * b + c * c); try lra; field_simplify;
+    try lra;
+    apply Rminus_diag_uniq.
   - transitivity (c * (c * d - a * f) - b * (a * e - b * d)); [ring | rewrite H1, H2; ring].
   - transitivity (a * (a * e - b * d) - c * (b * f - c * e)); [ring | rewrite H0, H2; ring].
   - transitivity (b * (b * f - c * e) - a * (c * d - a * f)); [ring | rewrite H0, H1; ring].
@@ -75,23 +80,26 @@ Definition square_normal (b c : point) : R := dot (cross b c) (cross b c).
 
 (** P in the basis B, C, N. *)
 Lemma decomposed b c p : let n := cross b c in
-  along (along (along origin (- dot n n) p) (weight_1 b c p) b) (weight_2 b c p) c = along origin (- det b c p) n.
+  along (along (along origin (- dot n n) p) (weight_1 b c p) b) (weight_2 b c p) c = along origin (- det
+    b c p) n.
 Proof.
   destruct b as [b0 b1 b2], c as [c0 c1 c2], p as [p0 p1 p2]. unfold weight_1, weight_2, det.
     coordinates.
   apply same_point; simpl; ring.
 Qed.
 
-Lemma face_at_normal p a b c : let B := minus b a in let C := minus c a in let P := minus p a in cross B C <> origin ->
-  det B C P = 0 -> p = along (along a (weight_1 B C P / square_normal B C) B) (weight_2 B C P / square_normal B C) C.
+Lemma face_at_normal p a b c : let B := minus b a in let C := minus c a in let P := minus p a in
+  cross B C <> origin -> det B C P = 0 ->
+  p = along (along a (weight_1 B C P / square_normal B C) B) (weight_2 B C P / square_normal B C) C.
 Proof.
-  intros B C P N Y. apply square_positive in N. pose proof (decomposed B C P) as D. cbv zeta in D. rewrite Y in D.
-  apply point_eq in D. unfold square_normal. set (n2 := dot (cross B C) (cross B C)) in *.
-  set (u := weight_1 B C P) in *. set (v := weight_2 B C P) in *. destruct D as (D0 & D1 & D2).
-  unfold along, origin in D0, D1, D2. cbn [x y z] in D0, D1, D2.
+  intros B C P N Y. apply square_positive in N. pose proof (decomposed B C P) as D. cbv zeta in D.
+  rewrite Y in D. apply point_eq in D. unfold square_normal. set (n2 := dot (cross B C) (cross B C)) in
+    *.
+  set (u := weight_1 B C P) in *. set (v := weight_2 B C P) in *.
+  destruct D as (D0 & D1 & D2). unfold along, origin in D0, D1, D2. cbn [x y z] in D0, D1, D2.
   assert (Ep : x p = x a + x P /\ y p = y a + y P /\ z p = z a + z P) by (unfold P, minus; simpl; lra).
-  destruct Ep as (E0 & E1 & E2). unfold along.
-  apply same_point; cbn [x y z]; apply Rmult_eq_reg_r with n2; try lra;
+  destruct Ep as (E0 & E1 & E2).
+  unfold along. apply same_point; cbn [x y z]; apply Rmult_eq_reg_r with n2; try lra;
     [rewrite E0 | rewrite E1 | rewrite E2]; field_simplify; lra.
 Qed.
 
@@ -111,8 +119,9 @@ Proof.
   intros H. destruct (origin_dec (minus b a)) as [E | N].
   - right. left. exists 0. split; [lra |]. apply point_eq in E. destruct a, b. coordinates.
     apply same_point; simpl; lra.
-  - destruct (parallel _ _ N H) as (k & E). apply point_eq in E.
-    destruct a as [a0 a1 a2], b as [b0 b1 b2], c as [c0 c1 c2]. coordinates. destruct E as (E0 & E1 & E2).
+  - destruct (parallel _ _ N H) as (k & E). apply point_eq in E. destruct a as [a0 a1 a2], b as [b0 b1
+      b2], c as [c0 c1 c2].
+    coordinates. destruct E as (E0 & E1 & E2).
     destruct (Rle_or_lt 0 k) as [K | K]; [destruct (Rle_or_lt k 1) as [L | L] |].
     + left. exists k. split; [lra |]. apply same_point; simpl; lra.
     + right. left. exists (/ k). split.
@@ -125,7 +134,8 @@ Qed.
 
 Lemma segment_sym p a b : in_segment p a b -> in_segment p b a.
 Proof.
-  intros (u & U & ->). exists (1 - u). split; [lra |]. destruct a, b. coordinates. apply same_point; simpl; ring.
+  intros (u & U & ->). exists (1 - u). split; [lra |]. destruct a, b. coordinates. apply same_point;
+    simpl; ring.
 Qed.
 (** A triangle one of whose vertices lies on the opposite edge is that edge. *)
 Lemma covered p a b c : in_triangle p a b c -> in_segment c a b -> in_segment p a b.
@@ -160,19 +170,25 @@ Proof.
       * left. now apply covered with c.
       * right. right. apply segment_sym. apply covered with b; auto. now apply triangle_swap.
       * right. left. apply covered with a; auto. now apply triangle_turn.
-    + left. destruct T as (u & v & U & V & W & E). split; auto. destruct (weights_of a b c p u v E) as (Y & W1 & W2).
-      split; auto. unfold weight_0. rewrite W1, W2. apply square_positive in N. unfold square_normal in *.
+    + left. destruct T as (u & v & U & V & W & E). split; auto.
+      destruct (weights_of a b c p u v E) as (Y & W1 & W2). split; auto. unfold weight_0.
+      rewrite W1, W2. apply square_positive in N. unfold square_normal in *.
       assert (0 <= (1 - u - v) * dot (cross (minus b a) (minus c a)) (cross (minus b a) (minus c a)))
         by (apply Rmult_le_pos; lra). repeat split; nra.
   - intros [(N & Y & W2 & W1 & W0) | [(u & U & E) | [(u & U & E) | (u & U & E)]]].
-    + pose proof (face_at_normal p a b c N Y) as E. apply square_positive in N.
-      fold (square_normal (minus b a) (minus c a)) in N. set (n2 := square_normal (minus b a) (minus c a)) in *.
-      unfold weight_0 in W0. fold (square_normal (minus b a) (minus c a)) in W0. fold n2 in W0. do 2 eexists.
-      repeat split; [| | | exact E]; try (apply Rmult_le_pos; auto; left; now apply Rinv_0_lt_compat).
+    + pose proof (face_at_normal p a b c N Y) as E. apply square_positive in N. fold (square_normal
+        (minus b a) (minus c a)) in N.
+      set (n2 := square_normal (minus b a) (minus c a)) in *. unfold weight_0 in W0. fold (square_normal
+        (minus b a) (minus c a)) in W0.
+      fold n2 in W0. do 2 eexists. repeat split; [| | | exact E];
+        try (apply Rmult_le_pos; auto; left; now apply Rinv_0_lt_compat).
       apply Rmult_le_reg_r with n2; auto. field_simplify; lra.
-    + exists u, 0. repeat split; try lra. rewrite E. destruct a, b, c. coordinates. apply same_point; simpl; ring.
-    + exists (1 - u), u. repeat split; try lra. rewrite E. destruct a, b, c. coordinates. apply same_point; simpl; ring.
-    + exists 0, (1 - u). repeat split; try lra. rewrite E. destruct a, b, c. coordinates. apply same_point; simpl; ring.
+    + exists u, 0. repeat split; try lra. rewrite E. destruct a, b, c. coordinates. apply same_point;
+        simpl; ring.
+    + exists (1 - u), u. repeat split; try lra. rewrite E. destruct a, b, c. coordinates. apply
+        same_point; simpl; ring.
+    + exists 0, (1 - u). repeat split; try lra. rewrite E. destruct a, b, c. coordinates. apply
+        same_point; simpl; ring.
 Qed.
 
 (** Contact in the interior of two edges, as the code tests it. *)
@@ -183,18 +199,22 @@ Definition regular_edges (a0 a1 b0 b1 : point) : Prop :=
 Definition edges_border (a0 a1 b0 b1 : point) : Prop :=
   in_segment a0 b0 b1 \/ in_segment a1 b0 b1 \/ in_segment b0 a0 a1 \/ in_segment b1 a0 a1.
 
-Lemma edges_at_normal a0 a1 b0 b1 : let B := minus a1 a0 in let C := minus b1 b0 in let P := minus b0 a0 in cross B C <>
-  origin -> det B C P = 0 -> along a0 (on_a B C P / square_normal B C) B = along b0 (on_b B C P / square_normal B C) C.
+Lemma edges_at_normal a0 a1 b0 b1 : let B := minus a1 a0 in let C := minus b1 b0 in let P := minus b0 a0
+  in
+  cross B C <> origin -> det B C P = 0 ->
+  along a0 (on_a B C P / square_normal B C) B = along b0 (on_b B C P / square_normal B C) C.
 Proof.
-  intros B C P N Y. apply square_positive in N. pose proof (decomposed B C P) as D. cbv zeta in D. rewrite Y in D.
-  apply point_eq in D. unfold square_normal. set (n2 := dot (cross B C) (cross B C)) in *. unfold on_a.
-  fold (weight_1 B C P).
-  replace (on_b B C P) with (- weight_2 B C P) by (unfold on_b, weight_2, dot, cross; simpl; ring).
-  set (u := weight_1 B C P) in *. set (v := weight_2 B C P) in *. destruct D as (D0 & D1 & D2).
-  unfold along, origin in D0, D1, D2. cbn [x y z] in D0, D1, D2.
-  assert (Ep : x b0 = x a0 + x P /\ y b0 = y a0 + y P /\ z b0 = z a0 + z P) by (unfold P, minus; simpl; lra).
-  destruct Ep as (E0 & E1 & E2). unfold along.
-  apply same_point; cbn [x y z]; apply Rmult_eq_reg_r with n2; try lra;
+  intros B C P N Y. apply square_positive in N. pose proof (decomposed B C P) as D. cbv zeta in D.
+  rewrite Y in D. apply point_eq in D. unfold square_normal. set (n2 := dot (cross B C) (cross B C)) in
+    *.
+  unfold on_a. fold (weight_1 B C P). replace (on_b B C P) with (- weight_2 B C P)
+    by (unfold on_b, weight_2, dot, cross; simpl; ring).
+  set (u := weight_1 B C P) in *. set (v := weight_2 B C P) in *.
+  destruct D as (D0 & D1 & D2). unfold along, origin in D0, D1, D2. cbn [x y z] in D0, D1, D2.
+  assert (Ep : x b0 = x a0 + x P /\ y b0 = y a0 + y P /\ z b0 = z a0 + z P) by (unfold P, minus; simpl;
+    lra).
+  destruct Ep as (E0 & E1 & E2).
+  unfold along. apply same_point; cbn [x y z]; apply Rmult_eq_reg_r with n2; try lra;
     [rewrite E0 | rewrite E1 | rewrite E2]; field_simplify; lra.
 Qed.
 
@@ -204,27 +224,34 @@ Lemma weights_at_meeting a0 a1 b0 b1 s t : along a0 s (minus a1 a0) = along b0 t
 Proof.
   intros E B C P. fold B C in E. apply point_eq in E.
   assert (Ep : P = along (along origin s B) (- t) C).
-  { unfold P. clearbody B C. destruct E as (E0 & E1 & E2). unfold along, minus, origin in *. cbn [x y z] in *.
+  { unfold P. clearbody B C. destruct E as (E0 & E1 & E2). unfold along, minus, origin in *. cbn [x y z]
+      in *.
     apply same_point; cbn [x y z]; lra. }
-  rewrite Ep. clearbody B C. unfold det, on_a, on_b, square_normal. destruct B, C. coordinates. repeat split; ring.
+  rewrite Ep. clearbody B C. unfold det, on_a, on_b, square_normal. destruct B, C. coordinates. repeat
+    split; ring.
 Qed.
 
 (** In contact, Y = 0 and no weight is negative. *)
-Lemma touching_conditions p a b c : in_triangle p a b c -> let B := minus b a in let C := minus c a in
-  let P := minus p a in det B C P = 0 /\ 0 <= weight_2 B C P /\ 0 <= weight_1 B C P /\ 0 <= weight_0 B C P.
+Lemma touching_conditions p a b c : in_triangle p a b c ->
+  let B := minus b a in let C := minus c a in let P := minus p a in
+  det B C P = 0 /\ 0 <= weight_2 B C P /\ 0 <= weight_1 B C P /\ 0 <= weight_0 B C P.
 Proof.
-  intros (u & w & U & W & UW & E) B C P. destruct (weights_of a b c p u w E) as (Y & W1 & W2). fold B C P in Y, W1, W2.
-  unfold weight_0. fold (square_normal B C). rewrite W1, W2.
+  intros (u & w & U & W & UW & E) B C P. destruct (weights_of a b c p u w E) as (Y & W1 & W2).
+  fold B C P in Y, W1, W2. unfold weight_0. fold (square_normal B C). rewrite W1, W2.
   assert (0 <= square_normal B C) by (unfold square_normal, dot; nra).
-  assert (0 <= (1 - u - w) * square_normal B C) by (apply Rmult_le_pos; lra). repeat split; auto; nra.
+  assert (0 <= (1 - u - w) * square_normal B C) by (apply Rmult_le_pos; lra).
+  repeat split; auto; nra.
 Qed.
 Lemma meeting_conditions a0 a1 b0 b1 : segments_meet a0 a1 b0 b1 ->
-  let B := minus a1 a0 in let C := minus b1 b0 in let P := minus b0 a0 in det B C P = 0 /\
-  0 <= on_a B C P /\ 0 <= square_normal B C - on_a B C P /\ 0 <= on_b B C P /\ 0 <= square_normal B C - on_b B C P.
+  let B := minus a1 a0 in let C := minus b1 b0 in let P := minus b0 a0 in
+  det B C P = 0 /\ 0 <= on_a B C P /\ 0 <= square_normal B C - on_a B C P /\
+  0 <= on_b B C P /\ 0 <= square_normal B C - on_b B C P.
 Proof.
   intros M B C P. destruct M as (q & (s & S & Ea) & (t & T & Eb)).
-  destruct (weights_at_meeting a0 a1 b0 b1 s t) as (Y & Oa & Ob); [now rewrite <- Ea |]. fold B C P in Y, Oa, Ob.
-  rewrite Oa, Ob. assert (0 <= square_normal B C) by (unfold square_normal, dot; nra). repeat split; auto; nra.
+  destruct (weights_at_meeting a0 a1 b0 b1 s t) as (Y & Oa & Ob); [now rewrite <- Ea |].
+  fold B C P in Y, Oa, Ob. rewrite Oa, Ob.
+  assert (0 <= square_normal B C) by (unfold square_normal, dot; nra).
+  repeat split; auto; nra.
 Qed.
 
 (** On a line, with edge a from 0 to 1 and edge b from m to m + k. *)
@@ -239,42 +266,54 @@ Proof.
   - right. left. apply (Q (- m)); [now field |]. left. nra.
 Qed.
 
-Lemma edges_at_a_time a0 a1 b0 b1 : segments_meet a0 a1 b0 b1 <-> regular_edges a0 a1 b0 b1 \/ edges_border a0 a1 b0 b1.
+Lemma edges_at_a_time a0 a1 b0 b1 :
+  segments_meet a0 a1 b0 b1 <-> regular_edges a0 a1 b0 b1 \/ edges_border a0 a1 b0 b1.
 Proof.
   split.
-  - intros (p & (s & S & Ea) & (t & T & Eb)). destruct (origin_dec (cross (minus a1 a0) (minus b1 b0))) as [E | N].
+  - intros (p & (s & S & Ea) & (t & T & Eb)).
+    destruct (origin_dec (cross (minus a1 a0) (minus b1 b0))) as [E | N].
     + right. destruct (origin_dec (minus a1 a0)) as [Ez | Na].
-      { left. exists t. split; auto. rewrite <- Eb, Ea. apply point_eq in Ez. destruct Ez as (Z0 & Z1 & Z2).
+      { left. exists t. split; auto. rewrite <- Eb, Ea. apply point_eq in Ez. destruct Ez as (Z0 & Z1 &
+          Z2).
         unfold along. rewrite Z0, Z1, Z2. destruct a0. simpl. apply same_point; simpl; ring. }
       destruct (origin_dec (minus b1 b0)) as [Ez | Nb].
       { right. right. left. exists s. split; auto. rewrite <- Ea, Eb. apply point_eq in Ez. destruct Ez
           as (Z0 & Z1 & Z2).
         unfold along. rewrite Z0, Z1, Z2. destruct b0. simpl. apply same_point; simpl; ring. }
       destruct (parallel _ _ Na E) as (k & Ek).
-      assert (K : k <> 0) by (intros ->; apply Nb; rewrite Ek; coordinates; apply same_point; simpl; ring).
+      assert (K : k <> 0) by (intros ->; apply Nb; rewrite Ek; coordinates; apply same_point; simpl;
+        ring).
       rewrite Ea in Eb. apply point_eq in Eb, Ek.
       destruct a0 as [p0 p1 p2], a1 as [q0 q1 q2], b0 as [r0 r1 r2], b1 as [w0 w1 w2]. coordinates.
       destruct Eb as (E0 & E1 & E2), Ek as (K0 & K1 & K2).
       destruct (line_meeting s t (s - t * k) k S T ltac:(ring) K) as [M | [M | M]].
       * right. right. left. exists (s - t * k). split; auto. coordinates.
         rewrite K0 in E0. rewrite K1 in E1. rewrite K2 in E2. apply same_point; simpl; lra.
-      * left. exists (- (s - t * k) / k). split; auto. coordinates. rewrite K0 in *. rewrite K1 in *. rewrite K2 in *.
-        apply same_point; simpl; field_simplify; try easy; try lra; rewrite ?Rplus_0_l in *; nra.
-      * right. left. exists ((1 - (s - t * k)) / k). split; auto. coordinates. rewrite K0 in *. rewrite K1 in *.
-        rewrite K2 in *. apply same_point; simpl; field_simplify; try easy; try lra; rewrite ?Rplus_0_l in *; nra.
-    + left. split; auto. destruct (weights_at_meeting a0 a1 b0 b1 s t) as (Y & Oa & Ob); [now rewrite <- Ea |].
-      rewrite Oa, Ob. apply square_positive in N. fold (square_normal (minus a1 a0) (minus b1 b0)) in N.
+      * left. exists (- (s - t * k) / k). split; auto. coordinates.
+        rewrite K0 in *. rewrite K1 in *. rewrite K2 in *. apply same_point; simpl;
+          field_simplify; try easy; try lra; rewrite ?Rplus_0_l in *; nra.
+      * right. left. exists ((1 - (s - t * k)) / k). split; auto. coordinates.
+        rewrite K0 in *. rewrite K1 in *. rewrite K2 in *. apply same_point; simpl;
+          field_simplify; try easy; try lra; rewrite ?Rplus_0_l in *; nra.
+    + left. split; auto.
+      destruct (weights_at_meeting a0 a1 b0 b1 s t) as (Y & Oa & Ob); [now rewrite <- Ea |]. rewrite Oa,
+        Ob. apply square_positive in N. fold (square_normal (minus a1 a0) (minus b1 b0)) in N.
       repeat split; auto; nra.
   - intros [(N & Y & A0 & A1 & B0 & B1) | [M | [M | [M | M]]]].
-    + pose proof (edges_at_normal a0 a1 b0 b1 N Y) as E. apply square_positive in N.
-      fold (square_normal (minus a1 a0) (minus b1 b0)) in N. set (n2 := square_normal (minus a1 a0) (minus b1 b0)) in *.
-      cbv zeta in E. fold n2 in E. eexists.
-      split; [eexists; split; [| reflexivity] | eexists; split; [| exact E]]; (split; [apply Rmult_le_pos;
-        auto; left; now apply Rinv_0_lt_compat | apply Rmult_le_reg_r with n2; auto; field_simplify; lra]).
-    + exists a0. split; auto. exists 0. split; [lra |]. destruct a0, a1. coordinates. apply same_point; simpl; ring.
-    + exists a1. split; auto. exists 1. split; [lra |]. destruct a0, a1. coordinates. apply same_point; simpl; ring.
-    + exists b0. split; auto. exists 0. split; [lra |]. destruct b0, b1. coordinates. apply same_point; simpl; ring.
-    + exists b1. split; auto. exists 1. split; [lra |]. destruct b0, b1. coordinates. apply same_point; simpl; ring.
+    + pose proof (edges_at_normal a0 a1 b0 b1 N Y) as E. apply square_positive in N. fold (square_normal
+        (minus a1 a0) (minus b1 b0)) in N.
+      set (n2 := square_normal (minus a1 a0) (minus b1 b0)) in *. cbv zeta in E. fold n2 in E.
+      eexists. split; [eexists; split; [| reflexivity] | eexists; split; [| exact E]];
+        (split; [apply Rmult_le_pos; auto; left; now apply Rinv_0_lt_compat |
+                 apply Rmult_le_reg_r with n2; auto; field_simplify; lra]).
+    + exists a0. split; auto. exists 0. split; [lra |]. destruct a0, a1. coordinates. apply same_point;
+        simpl; ring.
+    + exists a1. split; auto. exists 1. split; [lra |]. destruct a0, a1. coordinates. apply same_point;
+        simpl; ring.
+    + exists b0. split; auto. exists 0. split; [lra |]. destruct b0, b1. coordinates. apply same_point;
+        simpl; ring.
+    + exists b1. split; auto. exists 1. split; [lra |]. destruct b0, b1. coordinates. apply same_point;
+        simpl; ring.
 Qed.
 
 (** Vertex/edge contact as the code tests it: W x E = 0 and W X <= 0, with W = v - e0, X = v - e1. *)
@@ -287,17 +326,20 @@ Proof.
   - intros (u & U & ->). unfold vertex_edge_test. split.
     + destruct e0, e1. coordinates. apply same_point; simpl; ring.
     + replace (dot _ _) with (- (u * (1 - u) * dot (minus e1 e0) (minus e1 e0)))
-        by (destruct e0, e1; coordinates; ring). assert (0 <= dot (minus e1 e0) (minus e1 e0)) by (unfold dot; nra).
+        by (destruct e0, e1; coordinates; ring).
+      assert (0 <= dot (minus e1 e0) (minus e1 e0)) by (unfold dot; nra).
       assert (0 <= u * (1 - u) * dot (minus e1 e0) (minus e1 e0)) by (apply Rmult_le_pos; nra). lra.
   - intros (C & D). destruct (origin_dec (minus e1 e0)) as [E | N].
     + assert (Z : minus v e0 = origin).
-      { apply square_0. replace (dot (minus v e0) (minus v e0)) with (dot (minus v e0) (minus v e1)) in *.
+      { apply square_0. replace (dot (minus v e0) (minus v e0)) with (dot (minus v e0) (minus v e1)) in
+          *.
         - assert (0 <= dot (minus v e0) (minus v e0)) by (unfold dot; nra).
           assert (X : minus v e1 = minus v e0).
           { apply point_eq in E. destruct v, e0, e1. coordinates. apply same_point; simpl; lra. }
           rewrite X in *. lra.
         - f_equal. apply point_eq in E. destruct v, e0, e1. coordinates. apply same_point; simpl; lra. }
-      exists 0. split; [lra |]. apply point_eq in Z. destruct v, e0. coordinates. apply same_point; simpl; lra.
+      exists 0. split; [lra |]. apply point_eq in Z. destruct v, e0. coordinates. apply same_point;
+        simpl; lra.
     + assert (C' : cross (minus e1 e0) (minus v e0) = origin).
       { apply point_eq in C. destruct v, e0, e1. coordinates. apply same_point; simpl; lra. }
       destruct (parallel _ _ N C') as (k & K). exists k.
@@ -343,7 +385,8 @@ Theorem vertex_face_union v f0 f1 f2 : vertex_face_collides v f0 f1 f2 <->
 Proof.
   unfold vertex_face_collides, face_border_collides, vertex_edge_collides, face_regular_at, sometime.
     split.
-  - intros (t & T & C). apply face_at_a_time in C. unfold face_border in C. destruct C as [C | [C | [C | C]]]; eauto 8.
+  - intros (t & T & C). apply face_at_a_time in C. unfold face_border in C. destruct C as [C | [C | [C |
+      C]]]; eauto 8.
   - intros [(t & T & C) | [(t & T & C) | [(t & T & C) | (t & T & C)]]]; exists t; split; auto;
       apply face_at_a_time; unfold face_border; auto.
 Qed.
@@ -354,8 +397,9 @@ Proof.
     split.
   - intros (t & T & C). apply edges_at_a_time in C. unfold edges_border in C.
     destruct C as [C | [C | [C | [C | C]]]]; eauto 9.
-  - intros [(t & T & C) | [(t & T & C) | [(t & T & C) | [(t & T & C) | (t & T & C)]]]];
-      exists t; split; auto; apply edges_at_a_time; unfold edges_border; auto.
+  - intros [(t & T & C) | [(t & T & C) | [(t & T & C) | [(t & T & C) | (t & T & C)]]]]; exists t; split;
+      auto;
+      apply edges_at_a_time; unfold edges_border; auto.
 Qed.
 
 (** W(t) = 0 for a linear W: the ends are antiparallel, or one of them is zero. *)
@@ -382,7 +426,8 @@ Proof.
   - intros (C & D). destruct (origin_dec p) as [-> | N].
     { exists 0. split; [lra |]. apply E. destruct q. coordinates. apply same_point; simpl; ring. }
     destruct (parallel _ _ N C) as (k & K). subst q. apply square_positive in N.
-    assert (k <= 0) by (destruct p; coordinates; nra). exists (1 / (1 - k)). split.
+    assert (k <= 0) by (destruct p; coordinates; nra).
+    exists (1 / (1 - k)). split.
     { split; [apply Rmult_le_pos; [lra | left; apply Rinv_0_lt_compat; lra] |].
       apply Rmult_le_reg_r with (1 - k); [lra |]. field_simplify; lra. }
     apply E. destruct p. coordinates. apply same_point; simpl; field; lra.
@@ -394,21 +439,27 @@ Qed.
 Lemma last_zero f b : continuity f -> 0 <= b -> f 0 <= 0 -> 0 < f b ->
   exists s, 0 <= s < b /\ f s = 0 /\ forall t, s < t <= b -> 0 < f t.
 Proof.
-  intros C B F0 Fb. set (E := fun t => 0 <= t <= b /\ f t <= 0). destruct (completeness E) as (s & Up & Least).
+  intros C B F0 Fb. set (E := fun t => 0 <= t <= b /\ f t <= 0).
+  destruct (completeness E) as (s & Up & Least).
   { exists b. intros t (T & _). lra. }
   { exists 0. split; [lra | easy]. }
-  assert (S0 : 0 <= s) by (apply Up; split; [lra | easy]). assert (Sb : s <= b) by (apply Least; intros t (T & _); lra).
-  assert (Near : f s <> 0 -> exists d, 0 < d /\ forall t, Rabs (t - s) < d -> Rabs (f t - f s) < Rabs (f s)).
-  { intros N. destruct (C s (Rabs (f s)) (Rabs_pos_lt _ N)) as (d & D & H). exists d. split; auto. intros t T.
-    destruct (Req_dec t s) as [-> | Ne]; [rewrite Rminus_diag_eq, Rabs_R0 by easy; now apply Rabs_pos_lt |]. apply H.
-    split; [split; [exact I | congruence] | exact T]. }
+  assert (S0 : 0 <= s) by (apply Up; split; [lra | easy]).
+  assert (Sb : s <= b) by (apply Least; intros t (T & _); lra).
+  assert (Near : f s <> 0 -> exists d, 0 < d /\ forall t, Rabs (t - s) < d -> Rabs (f t - f s) < Rabs (f
+    s)).
+  { intros N. destruct (C s (Rabs (f s)) (Rabs_pos_lt _ N)) as (d & D & H). exists d. split; auto.
+    intros t T. destruct (Req_dec t s) as [-> | Ne]; [rewrite Rminus_diag_eq, Rabs_R0 by easy; now apply
+      Rabs_pos_lt |].
+    apply H. split; [split; [exact I | congruence] | exact T]. }
   assert (After : forall t, s < t <= b -> 0 < f t).
-  { intros t T. destruct (Rlt_or_le 0 (f t)) as [| H]; auto. assert (t <= s) by (apply Up; split; [lra | easy]). lra. }
+  { intros t T. destruct (Rlt_or_le 0 (f t)) as [| H]; auto. assert (t <= s) by (apply Up; split; [lra |
+      easy]). lra. }
   assert (Zs : f s = 0).
   { destruct (Req_dec (f s) 0) as [| N]; auto. destruct (Near N) as (d & D & H).
     destruct (Rlt_or_le (f s) 0) as [L | L].
     - assert (s <> b) by (intros ->; lra). set (t := Rmin b (s + d / 2)).
-      assert (T : s < t <= b /\ t <= s + d / 2) by (unfold t, Rmin; destruct (Rle_dec b (s + d / 2)); lra).
+      assert (T : s < t <= b /\ t <= s + d / 2) by (unfold t, Rmin; destruct (Rle_dec b (s + d / 2));
+        lra).
       specialize (After t (proj1 T)). specialize (H t ltac:(rewrite Rabs_pos_eq; lra)).
       rewrite (Rabs_left (f s)) in H by easy. apply Rabs_def2 in H. lra.
     - assert (P : 0 < f s) by lra. exfalso. enough (s <= s - d / 2) by lra. apply Least.
@@ -419,9 +470,10 @@ Proof.
 Qed.
 
 (** Contact that does not hold at t = 0 began at a time with f = 0. *)
-Lemma begins f (contact : R -> Prop) b : continuity f ->
-  0 <= b <= 1 -> 0 < f b -> f 0 <= 0 -> (forall t, 0 <= t <= 1 -> 0 < f t -> contact t) -> (forall s, 0 <= s < b ->
-  f s = 0 -> (forall t, s < t <= b -> contact t) -> contact s) -> exists s, 0 <= s <= 1 /\ f s = 0 /\ contact s.
+Lemma begins f (contact : R -> Prop) b : continuity f -> 0 <= b <= 1 -> 0 < f b -> f 0 <= 0 ->
+  (forall t, 0 <= t <= 1 -> 0 < f t -> contact t) ->
+  (forall s, 0 <= s < b -> f s = 0 -> (forall t, s < t <= b -> contact t) -> contact s) ->
+  exists s, 0 <= s <= 1 /\ f s = 0 /\ contact s.
 Proof.
   intros C B Fb F0 P Closed. destruct (last_zero f b C ltac:(lra) F0 Fb) as (s & Hs & Z & After).
   exists s. split; [lra |]. split; auto. apply Closed; auto. intros t T. apply P; [lra | auto].
@@ -431,11 +483,13 @@ Qed.
 Lemma off_segment p a b : in_segment p a b \/ exists n, 0 < dot n (minus a p) /\ 0 < dot n (minus b p).
 Proof.
   set (e := minus b a). set (w := minus a p).
-  assert (Eb : minus b p = along w 1 e) by (unfold e, w, along, minus; simpl; apply same_point; simpl; ring).
+  assert (Eb : minus b p = along w 1 e) by (unfold e, w, along, minus; simpl; apply same_point; simpl;
+    ring).
   assert (Ep : forall u, p = along a u e <-> along origin (- u) e = w).
   { intros u. unfold w, along, minus, origin. split; intros H; apply point_eq in H; cbn [x y z] in H;
       apply same_point; cbn [x y z]; lra. }
-  rewrite Eb. unfold in_segment. fold e. clearbody e w. clear Eb. destruct (origin_dec e) as [-> | N].
+  rewrite Eb. unfold in_segment. fold e. clearbody e w. clear Eb.
+  destruct (origin_dec e) as [-> | N].
   { destruct (origin_dec w) as [-> | Nw].
     - left. exists 0. split; [lra |]. apply Ep. coordinates. apply same_point; simpl; ring.
     - right. exists w. apply square_positive in Nw. split; auto.
@@ -447,29 +501,34 @@ Proof.
     { unfold n in Z. apply point_eq in Z. unfold along, origin in *. cbn [x y z] in *. apply same_point;
         cbn [x y z]; lra. }
     assert (D0 : dot e w = m * dot e e) by (rewrite Ew; unfold dot, along, origin; simpl; ring).
-    assert (D1 : dot e (along w 1 e) = (m + 1) * dot e e) by (rewrite Ew; unfold dot, along, origin; simpl; ring).
+    assert (D1 : dot e (along w 1 e) = (m + 1) * dot e e) by (rewrite Ew; unfold dot, along, origin;
+      simpl; ring).
     assert (Opp : forall q, dot (along origin (-1) e) q = - dot e q) by (intros q; unfold dot, along,
       origin; simpl; ring).
-    destruct (Rlt_or_le 0 m) as [M | M]; [right; exists e; rewrite D0, D1; split; apply Rmult_lt_0_compat; lra |].
+    destruct (Rlt_or_le 0 m) as [M | M]; [right; exists e; rewrite D0, D1; split; apply
+      Rmult_lt_0_compat; lra |].
     destruct (Rlt_or_le m (-1)) as [L | L].
     + right. exists (along origin (-1) e). rewrite !Opp, D0, D1. split; nra.
     + left. exists (- m). split; [lra |]. apply Ep. rewrite Ew. f_equal. ring.
   - right. exists n. apply square_positive in Nn.
     assert (D : dot n w = dot n n).
     { transitivity (dot n n + m * dot n e); [unfold n, dot, along; simpl; ring | rewrite Pn; ring]. }
-    split; [lra |]. replace (dot n (along w 1 e)) with (dot n w + dot n e) by (unfold dot, along; simpl; ring). lra.
+    split; [lra |]. replace (dot n (along w 1 e)) with (dot n w + dot n e) by (unfold dot, along; simpl;
+      ring). lra.
 Qed.
 
 Lemma off_degenerate p a b c : cross (minus b a) (minus c a) = origin ->
-  in_triangle p a b c \/ exists n, 0 < dot n (minus a p) /\ 0 < dot n (minus b p) /\ 0 < dot n (minus c p).
+  in_triangle p a b c \/ exists n, 0 < dot n (minus a p) /\ 0 < dot n (minus b p) /\ 0 < dot n (minus c
+    p).
 Proof.
   intros D.
   assert (Between : forall n q r s, in_segment s q r -> 0 < dot n (minus q p) -> 0 < dot n (minus r p)
     -> 0 < dot n (minus s p)).
   { intros n q r s (u & U & ->) A B.
     replace (dot _ _) with ((1 - u) * dot n (minus q p) + u * dot n (minus r p)) by (unfold dot, along,
-      minus; simpl; ring). destruct (Req_dec u 0) as [-> | Nu]; [lra |].
-    assert (0 < u * dot n (minus r p)) by (apply Rmult_lt_0_compat; lra).
+      minus; simpl; ring).
+    destruct (Req_dec u 0) as [-> | Nu]; [lra |]. assert (0 < u * dot n (minus r p)) by (apply
+      Rmult_lt_0_compat; lra).
     assert (0 <= (1 - u) * dot n (minus q p)) by (apply Rmult_le_pos; lra). lra. }
   destruct (degenerate a b c D) as [S | [S | S]].
   - destruct (off_segment p a b) as [I | (n & A & B)]; [left; apply face_at_a_time; right; now left |].
@@ -477,20 +536,26 @@ Proof.
   - destruct (off_segment p a c) as [I | (n & A & C)];
       [left; apply face_at_a_time; right; right; right; now apply segment_sym |]. right. exists n.
         eauto.
-  - destruct (off_segment p b c) as [I | (n & B & C)]; [left; apply face_at_a_time; right; right; now left |]. right.
-    exists n. eauto.
+  - destruct (off_segment p b c) as [I | (n & B & C)]; [left; apply face_at_a_time; right; right; now
+      left |].
+    right. exists n. eauto.
 Qed.
 
-Lemma off_parallel a0 a1 b0 b1 : cross (minus a1 a0) (minus b1 b0) = origin -> segments_meet a0 a1 b0 b1 \/
-  exists n, 0 < dot n (minus b0 a0) /\ 0 < dot n (minus b1 a0) /\ 0 < dot n (minus b0 a1) /\ 0 < dot n (minus b1 a1).
+Lemma off_parallel a0 a1 b0 b1 : cross (minus a1 a0) (minus b1 b0) = origin ->
+  segments_meet a0 a1 b0 b1 \/ exists n, 0 < dot n (minus b0 a0) /\ 0 < dot n (minus b1 a0) /\
+    0 < dot n (minus b0 a1) /\ 0 < dot n (minus b1 a1).
 Proof.
   intros H. destruct (origin_dec (minus a1 a0)) as [E | N].
-  { assert (a1 = a0) by (apply point_eq in E; destruct a0, a1; coordinates; apply same_point; simpl; lra). subst a1.
-    destruct (off_segment a0 b0 b1) as [I | (n & A & B)]; [left; apply edges_at_a_time; right; now left |]. right.
-    exists n. auto. }
-  destruct (parallel _ _ N H) as (k & K). set (e := minus a1 a0) in *. set (w := minus b0 a0).
+  { assert (a1 = a0) by (apply point_eq in E; destruct a0, a1; coordinates; apply same_point; simpl;
+      lra). subst a1.
+    destruct (off_segment a0 b0 b1) as [I | (n & A & B)]; [left; apply edges_at_a_time; right; now left
+      |].
+    right. exists n. auto. }
+  destruct (parallel _ _ N H) as (k & K).
+  set (e := minus a1 a0) in *. set (w := minus b0 a0).
   assert (E1 : minus b1 a0 = along w k e).
-  { apply point_eq in K. unfold w, along, minus, origin in *. cbn [x y z] in *. apply same_point; cbn [x y z]; lra. }
+  { apply point_eq in K. unfold w, along, minus, origin in *. cbn [x y z] in *. apply same_point; cbn [x
+      y z]; lra. }
   assert (E2 : minus b0 a1 = along w (-1) e).
   { unfold w, e, along, minus. cbn [x y z]. apply same_point; cbn [x y z]; ring. }
   assert (E3 : minus b1 a1 = along w (k - 1) e).
@@ -502,11 +567,13 @@ Proof.
       rewrite K.
     apply point_eq in Ew. unfold w, along, minus, origin in *. cbn [x y z] in *. rewrite E. apply
       same_point; cbn [x y z]; lra. }
-  rewrite E1, E2, E3. clear E1 E2 E3. apply square_positive in N. set (m := dot w e / dot e e).
-  set (n := along w (- m) e).
-  assert (Pn : dot n e = 0) by (unfold n, m; clearbody e w; unfold dot, along in *; simpl in *; field; lra).
+  rewrite E1, E2, E3. clear E1 E2 E3. apply square_positive in N.
+  set (m := dot w e / dot e e). set (n := along w (- m) e).
+  assert (Pn : dot n e = 0) by (unfold n, m; clearbody e w; unfold dot, along in *; simpl in *; field;
+    lra).
   assert (Along : forall p j, dot p (along w j e) = dot p w + j * dot p e)
-    by (intros p j; clearbody e w; unfold dot, along; simpl; ring). destruct (origin_dec n) as [Z | Nn].
+    by (intros p j; clearbody e w; unfold dot, along; simpl; ring).
+  destruct (origin_dec n) as [Z | Nn].
   - assert (Ew : w = along origin m e).
     { unfold n in Z. apply point_eq in Z. clearbody w e m. unfold along, origin in *. cbn [x y z] in *.
       apply same_point; cbn [x y z]; lra. }
@@ -538,8 +605,10 @@ Lemma cont_minus f g : continuity f -> continuity g -> continuity (fun t => f t 
 Proof. exact (continuity_minus f g). Qed.
 Lemma cont_mult f g : continuity f -> continuity g -> continuity (fun t => f t * g t).
 Proof. exact (continuity_mult f g). Qed.
-Lemma cont_const c : continuity (fun _ => c). Proof. apply continuity_const. now intros a b. Qed.
-Lemma cont_id : continuity (fun t => t). Proof. exact (derivable_continuous id derivable_id). Qed.
+Lemma cont_const c : continuity (fun _ => c).
+Proof. apply continuity_const. now intros a b. Qed.
+Lemma cont_id : continuity (fun t => t).
+Proof. exact (derivable_continuous id derivable_id). Qed.
 Lemma cont_min f g : continuity f -> continuity g -> continuity (fun t => Rmin (f t) (g t)).
 Proof.
   intros F G.
@@ -561,10 +630,13 @@ Proof.
 Qed.
 Lemma smooth_cross v w : smooth v -> smooth w -> smooth (fun t => cross (v t) (w t)).
 Proof.
-  intros (V0 & V1 & V2) (W0 & W1 & W2). repeat split; cbn [x y z cross]; apply cont_minus; now apply cont_mult.
+  intros (V0 & V1 & V2) (W0 & W1 & W2). repeat split; cbn [x y z cross]; apply cont_minus; now apply
+    cont_mult.
 Qed.
 Lemma cont_dot v w : smooth v -> smooth w -> continuity (fun t => dot (v t) (w t)).
-Proof. intros (V0 & V1 & V2) (W0 & W1 & W2). unfold dot. repeat apply cont_plus; now apply cont_mult. Qed.
+Proof.
+  intros (V0 & V1 & V2) (W0 & W1 & W2). unfold dot. repeat apply cont_plus; now apply cont_mult.
+Qed.
 Ltac continuous := unfold on_a, on_b, square_normal, weight_0, weight_1, weight_2;
   repeat (apply cont_min || apply cont_dot || apply smooth_cross || apply smooth_difference || apply
     cont_minus || apply cont_const).
@@ -578,27 +650,33 @@ Proof.
     by (intros t; unfold f0, f1, dot, minus, place; simpl; ring).
   rewrite E. intros P. pose proof (Rabs_pos (f1 - f0)) as A. pose proof (Rle_abs (- (f1 - f0))) as B.
     rewrite Rabs_Ropp in B.
-  set (k := Rabs (f1 - f0) + 1) in *. set (v := f0 + s * (f1 - f0)) in *. exists (s + v / k).
-  assert (Q : 0 < v / k) by (apply Rdiv_lt_0_compat; unfold k; lra). split; [lra |]. intros t T. rewrite E.
-  assert (Ev : v = v / k * k) by (field; unfold k; lra). assert (Kp : 0 < k) by (unfold k; lra).
+  set (k := Rabs (f1 - f0) + 1) in *. set (v := f0 + s * (f1 - f0)) in *.
+  exists (s + v / k). assert (Q : 0 < v / k) by (apply Rdiv_lt_0_compat; unfold k; lra). split; [lra |].
+  intros t T. rewrite E. assert (Ev : v = v / k * k) by (field; unfold k; lra).
+  assert (Kp : 0 < k) by (unfold k; lra).
   assert ((t - s) * k < v / k * k) by (apply Rmult_lt_compat_r; [exact Kp | lra]).
-  assert (- ((t - s) * k) <= (t - s) * (f1 - f0)) by (unfold k; nra). rewrite <- Ev in H. unfold v in H. lra.
+  assert (- ((t - s) * k) <= (t - s) * (f1 - f0)) by (unfold k; nra).
+  rewrite <- Ev in H. unfold v in H. lra.
 Qed.
 
 (** Contact of a face that degenerates at time s, if there is contact right after s. *)
-Lemma face_closed v f0 f1 f2 s b : s < b -> cross (minus (place f1 s) (place f0 s)) (minus (place f2 s) (place f0 s))
-  = origin -> (forall t, s < t <= b -> in_triangle (place v t) (place f0 t) (place f1 t) (place f2 t)) ->
+Lemma face_closed v f0 f1 f2 s b : s < b ->
+  cross (minus (place f1 s) (place f0 s)) (minus (place f2 s) (place f0 s)) = origin ->
+  (forall t, s < t <= b -> in_triangle (place v t) (place f0 t) (place f1 t) (place f2 t)) ->
   in_triangle (place v s) (place f0 s) (place f1 s) (place f2 s).
 Proof.
   intros B D H. destruct (off_degenerate (place v s) _ _ _ D) as [| (n & P0 & P1 & P2)]; auto. exfalso.
-  apply stays_separated in P0, P1, P2. destruct P0 as (e0 & E0 & P0), P1 as (e1 & E1 & P1), P2 as (e2 & E2 & P2).
+  apply stays_separated in P0, P1, P2. destruct P0 as (e0 & E0 & P0), P1 as (e1 & E1 & P1), P2 as (e2 & E2
+    & P2).
   set (e := Rmin (Rmin e0 e1) (Rmin e2 b)).
   assert (E : s < e /\ e <= e0 /\ e <= e1 /\ e <= e2 /\ e <= b).
   { pose proof (Rmin_l (Rmin e0 e1) (Rmin e2 b)). pose proof (Rmin_r (Rmin e0 e1) (Rmin e2 b)).
-    pose proof (Rmin_l e0 e1). pose proof (Rmin_r e0 e1). pose proof (Rmin_l e2 b). pose proof (Rmin_r e2 b). unfold e.
-    split; [repeat apply Rmin_glb_lt; auto |]. lra. }
-  set (t := (s + e) / 2). assert (T : s < t < e) by (unfold t; lra). specialize (P0 t ltac:(lra)).
-  specialize (P1 t ltac:(lra)). specialize (P2 t ltac:(lra)). destruct (H t ltac:(lra)) as (u & w & U & W & UW & Ep).
+    pose proof (Rmin_l e0 e1). pose proof (Rmin_r e0 e1). pose proof (Rmin_l e2 b). pose proof (Rmin_r
+      e2 b).
+    unfold e. split; [repeat apply Rmin_glb_lt; auto |]. lra. }
+  set (t := (s + e) / 2). assert (T : s < t < e) by (unfold t; lra).
+  specialize (P0 t ltac:(lra)). specialize (P1 t ltac:(lra)). specialize (P2 t ltac:(lra)).
+  destruct (H t ltac:(lra)) as (u & w & U & W & UW & Ep).
   assert (Z : (1 - u - w) * dot n (minus (place f0 t) (place v t)) + u * dot n (minus (place f1 t)
     (place v t))
               + w * dot n (minus (place f2 t) (place v t)) = 0).
@@ -611,8 +689,9 @@ Proof.
     destruct (Req_dec w 0) as [-> |]; [| assert (0 < w * k) by (apply Rmult_lt_0_compat; lra)]; lra. }
   specialize (Weights _ _ _ P0 P1 P2). lra.
 Qed.
-Lemma edges_closed a0 a1 b0 b1 s b : s < b -> cross (minus (place a1 s) (place a0 s)) (minus (place b1 s) (place b0 s))
-  = origin -> (forall t, s < t <= b -> segments_meet (place a0 t) (place a1 t) (place b0 t) (place b1 t)) ->
+Lemma edges_closed a0 a1 b0 b1 s b : s < b ->
+  cross (minus (place a1 s) (place a0 s)) (minus (place b1 s) (place b0 s)) = origin ->
+  (forall t, s < t <= b -> segments_meet (place a0 t) (place a1 t) (place b0 t) (place b1 t)) ->
   segments_meet (place a0 s) (place a1 s) (place b0 s) (place b1 s).
 Proof.
   intros B D H. destruct (off_parallel _ _ _ _ D) as [| (n & P0 & P1 & P2 & P3)]; auto. exfalso.
@@ -620,23 +699,29 @@ Proof.
   destruct P0 as (e0 & E0 & P0), P1 as (e1 & E1 & P1), P2 as (e2 & E2 & P2), P3 as (e3 & E3 & P3).
   set (e := Rmin (Rmin e0 e1) (Rmin (Rmin e2 e3) b)).
   assert (E : s < e /\ e <= e0 /\ e <= e1 /\ e <= e2 /\ e <= e3 /\ e <= b).
-  { pose proof (Rmin_l (Rmin e0 e1) (Rmin (Rmin e2 e3) b)). pose proof (Rmin_r (Rmin e0 e1) (Rmin (Rmin e2 e3) b)).
+  { pose proof (Rmin_l (Rmin e0 e1) (Rmin (Rmin e2 e3) b)). pose proof (Rmin_r (Rmin e0 e1) (Rmin (Rmin
+      e2 e3) b)).
     pose proof (Rmin_l e0 e1). pose proof (Rmin_r e0 e1). pose proof (Rmin_l (Rmin e2 e3) b).
-    pose proof (Rmin_r (Rmin e2 e3) b). pose proof (Rmin_l e2 e3). pose proof (Rmin_r e2 e3). unfold e.
-    split; [repeat apply Rmin_glb_lt; auto |]. lra. }
-  set (t := (s + e) / 2). assert (T : s < t < e) by (unfold t; lra). specialize (P0 t ltac:(lra)).
-  specialize (P1 t ltac:(lra)). specialize (P2 t ltac:(lra)). specialize (P3 t ltac:(lra)).
+    pose proof (Rmin_r (Rmin e2 e3) b). pose proof (Rmin_l e2 e3). pose proof (Rmin_r e2 e3).
+    unfold e. split; [repeat apply Rmin_glb_lt; auto |]. lra. }
+  set (t := (s + e) / 2). assert (T : s < t < e) by (unfold t; lra).
+  specialize (P0 t ltac:(lra)). specialize (P1 t ltac:(lra)). specialize (P2 t ltac:(lra)). specialize
+    (P3 t ltac:(lra)).
   destruct (H t ltac:(lra)) as (p & (u & U & Ea) & (w & W & Eb)).
   assert (Z : (1 - u) * ((1 - w) * dot n (minus (place b0 t) (place a0 t)) + w * dot n (minus (place b1
     t) (place a0 t)))
               + u * ((1 - w) * dot n (minus (place b0 t) (place a1 t)) + w * dot n (minus (place b1 t)
                   (place a1 t))) = 0).
-  { transitivity (dot n (minus p p)); [rewrite Ea at 2; rewrite Eb at 1 | unfold dot, minus; simpl; ring].
-    generalize (place a0 t) (place a1 t) (place b0 t) (place b1 t). intros a c d g. unfold dot, along, minus. simpl.
-    ring. }
-  assert (Mix : forall k g h, 0 <= k <= 1 -> 0 < g -> 0 < h -> 0 < (1 - k) * g + k * h) by (intros; nra).
-  assert (0 < (1 - w) * dot n (minus (place b0 t) (place a0 t)) + w * dot n (minus (place b1 t) (place a0 t))) by auto.
-  assert (0 < (1 - w) * dot n (minus (place b0 t) (place a1 t)) + w * dot n (minus (place b1 t) (place a1 t))) by auto.
+  { transitivity (dot n (minus p p)); [rewrite Ea at 2; rewrite Eb at 1 | unfold dot, minus; simpl;
+      ring].
+    generalize (place a0 t) (place a1 t) (place b0 t) (place b1 t). intros a c d g. unfold dot, along,
+      minus. simpl. ring. }
+  assert (Mix : forall k g h, 0 <= k <= 1 -> 0 < g -> 0 < h -> 0 < (1 - k) * g + k * h) by (intros;
+    nra).
+  assert (0 < (1 - w) * dot n (minus (place b0 t) (place a0 t)) + w * dot n (minus (place b1 t) (place
+    a0 t))) by auto.
+  assert (0 < (1 - w) * dot n (minus (place b0 t) (place a1 t)) + w * dot n (minus (place b1 t) (place
+    a1 t))) by auto.
   specialize (Mix u _ _ U H0 H1). lra.
 Qed.
 
@@ -649,16 +734,19 @@ Definition inside_edges (a0 a1 b0 b1 : point) : Prop :=
   0 < on_a B C P /\ 0 < square_normal B C - on_a B C P /\ 0 < on_b B C P /\ 0 < square_normal B C - on_b
     B C P.
 
-Lemma square_origin v : v = origin -> dot v v = 0. Proof. intros ->. coordinates. ring. Qed.
+Lemma square_origin v : v = origin -> dot v v = 0.
+Proof. intros ->. coordinates. ring. Qed.
 
-Lemma inside_face_regular p a b c : det (minus b a) (minus c a) (minus p a) = 0 ->
-  inside_face p a b c -> regular_face p a b c.
+Lemma inside_face_regular p a b c : det (minus b a) (minus c a) (minus p a) = 0 -> inside_face p a b c
+  ->
+  regular_face p a b c.
 Proof.
   intros Y (W2 & W1 & W0). split; [| repeat split; auto; lra]. intros E. apply square_origin in E.
   unfold weight_0 in W0. lra.
 Qed.
 Lemma inside_edges_regular a0 a1 b0 b1 : det (minus a1 a0) (minus b1 b0) (minus b0 a0) = 0 ->
-  inside_edges a0 a1 b0 b1 -> regular_edges a0 a1 b0 b1.
+  inside_edges a0 a1 b0 b1 ->
+  regular_edges a0 a1 b0 b1.
 Proof.
   intros Y (A0 & A1 & B0 & B1). split; [| repeat split; auto; lra]. intros E. apply square_origin in E.
   unfold square_normal in *. lra.
@@ -674,17 +762,21 @@ Proof.
   { intros w W. split; [apply Rmult_le_pos; [lra | left; now apply Rinv_0_lt_compat] |].
     apply Rmult_le_reg_r with n2; auto. field_simplify; lra. }
   unfold weight_0 in *. fold (square_normal B C) in *. fold n2 in W0.
-  destruct (Req_dec (weight_2 B C P) 0) as [Z2 | Z2]; [| destruct (Req_dec (weight_1 B C P) 0) as [Z1 | Z1];
+  destruct (Req_dec (weight_2 B C P) 0) as [Z2 | Z2]; [| destruct (Req_dec (weight_1 B C P) 0) as [Z1 |
+    Z1];
     [| destruct (Req_dec (n2 - weight_1 B C P - weight_2 B C P) 0) as [Z0 | Z0]]].
   - right. left. exists (weight_1 B C P / n2). split; [apply Bound; lra |]. rewrite E at 1. rewrite Z2.
     unfold along, Rdiv. rewrite Rmult_0_l. cbn [x y z]. apply same_point; cbn [x y z]; unfold B; ring.
-  - right. right. right. apply segment_sym. exists (weight_2 B C P / n2). split; [apply Bound; lra |]. rewrite E at 1.
-    rewrite Z1. unfold along, Rdiv. rewrite Rmult_0_l. cbn [x y z]. apply same_point; cbn [x y z]; unfold C; ring.
+  - right. right. right. apply segment_sym. exists (weight_2 B C P / n2). split; [apply Bound; lra |].
+    rewrite E at 1. rewrite Z1. unfold along, Rdiv. rewrite Rmult_0_l. cbn [x y z]. apply same_point;
+      cbn [x y z]; unfold C; ring.
   - right. right. left. exists (weight_2 B C P / n2). split; [apply Bound; lra |].
     assert (E1 : weight_1 B C P / n2 = 1 - weight_2 B C P / n2).
     { apply Rmult_eq_reg_r with n2; [field_simplify; lra | lra]. }
-    rewrite E at 1. rewrite E1. unfold along, B, C, minus. cbn [x y z]. apply same_point; cbn [x y z]; ring.
-  - left. unfold inside_face, weight_0. fold B C P. fold (square_normal B C). fold n2. repeat split; lra.
+    rewrite E at 1. rewrite E1. unfold along, B, C, minus. cbn [x y z]. apply same_point; cbn [x y z];
+      ring.
+  - left. unfold inside_face, weight_0. fold B C P. fold (square_normal B C). fold n2. repeat split;
+      lra.
 Qed.
 Lemma regular_edges_border a0 a1 b0 b1 : regular_edges a0 a1 b0 b1 -> inside_edges a0 a1 b0 b1 \/
   edges_border a0 a1 b0 b1.
@@ -695,17 +787,21 @@ Proof.
   assert (Bound : forall w, 0 <= w <= n2 -> 0 <= w / n2 <= 1).
   { intros w W. split; [apply Rmult_le_pos; [lra | left; now apply Rinv_0_lt_compat] |].
     apply Rmult_le_reg_r with n2; auto. field_simplify; lra. }
-  assert (Zero : forall q v, along q 0 v = q) by (intros q v; unfold along; apply same_point; cbn [x y z]; ring).
+  assert (Zero : forall q v, along q 0 v = q) by (intros q v; unfold along; apply same_point; cbn [x y
+    z]; ring).
   assert (Za : along a0 1 B = a1) by (unfold along, B, minus; apply same_point; cbn [x y z]; ring).
   assert (Zb : along b0 1 C = b1) by (unfold along, C, minus; apply same_point; cbn [x y z]; ring).
   assert (One : n2 / n2 = 1) by (field; lra). assert (Nul : 0 / n2 = 0) by (field; lra).
   unfold edges_border, in_segment. fold B C.
-  destruct (Req_dec (on_a B C P) 0) as [Z | Za0]; [| destruct (Req_dec (n2 - on_a B C P) 0) as [Z | Za1];
-    [| destruct (Req_dec (on_b B C P) 0) as [Z | Zb0]; [| destruct (Req_dec (n2 - on_b B C P) 0) as [Z | Zb1]]]].
+  destruct (Req_dec (on_a B C P) 0) as [Z | Za0]; [| destruct (Req_dec (n2 - on_a B C P) 0) as [Z |
+    Za1];
+    [| destruct (Req_dec (on_b B C P) 0) as [Z | Zb0]; [| destruct (Req_dec (n2 - on_b B C P) 0) as [Z |
+      Zb1]]]].
   - right. left. exists (on_b B C P / n2). split; [apply Bound; lra |]. now rewrite <- E, Z, Nul, Zero.
   - right. right. left. exists (on_b B C P / n2). split; [apply Bound; lra |].
     rewrite <- E. replace (on_a B C P) with n2 by lra. now rewrite One, Za.
-  - right. right. right. left. exists (on_a B C P / n2). split; [apply Bound; lra |]. now rewrite E, Z, Nul, Zero.
+  - right. right. right. left. exists (on_a B C P / n2). split; [apply Bound; lra |]. now rewrite E, Z,
+      Nul, Zero.
   - right. right. right. right. exists (on_a B C P / n2). split; [apply Bound; lra |].
     rewrite E. replace (on_b B C P) with n2 by lra. now rewrite One, Zb.
   - left. unfold inside_edges. fold B C P. fold n2. repeat split; lra.
@@ -792,7 +888,8 @@ Proof.
   unfold query_collides, query_touches, query_regular_at, query_border.
   destruct edges; [exact (edge_edge_union m0 m1 m2 m3) | exact (vertex_face_union m0 m1 m2 m3)].
 Qed.
-Lemma query_border_collision : query_border -> query_collides. Proof. intros H. apply query_union. now right. Qed.
+Lemma query_border_collision : query_border -> query_collides.
+Proof. intros H. apply query_union. now right. Qed.
 Lemma query_inside : ~ query_border ->
   (query_collides <-> sometime (fun t => det (B t) (C t) (P t) = 0 /\ query_inside_at t)).
 Proof.
@@ -818,7 +915,8 @@ Proof.
   intros (b & Hb & H). destruct (Either b Hb H) as [I |]; [| now right].
   set (f := fun t => least_weight (weights edges (B t) (C t) (P t))).
   assert (F : forall t, 0 < f t <-> query_inside_at t) by (intros t; rewrite <- query_inside_same;
-    apply least_weight_right). destruct (Rlt_or_le 0 (f 0)) as [F0 | F0]; [left; now apply F | right].
+    apply least_weight_right).
+  destruct (Rlt_or_le 0 (f 0)) as [F0 | F0]; [left; now apply F | right].
   destruct (begins f query_touches b) as (s & S & Z & K); auto.
   - unfold f, least_weight, B, C, P. destruct edges; cbn [weights fold_right side_b side_c side_p]; continuous.
   - now apply F.

@@ -8,7 +8,9 @@
         bracket_near_right  a bracket contains the root that is crossed, or is a root *)
 
 From Coq Require Import Reals ZArith Lia Lra Psatz List Bool Classical.
-From Errbound Require Import Sign Bernstein VertexEdge. Import ListNotations. Open Scope R_scope.
+From Errbound Require Import Sign Bernstein VertexEdge.
+Import ListNotations.
+Open Scope R_scope.
 
 (** ** Signs of coefficients *)
 
@@ -38,7 +40,9 @@ Definition sign_before (s : sign) (f : R -> R) (b : R) : Prop :=
   exists d, 0 < d /\ forall t, b - d < t < b -> 0 < unit_of s * f t.
 
 Lemma continuous_form y : continuity (at_ y).
-Proof. intros t. apply derivable_continuous_pt. exists (slope y t). apply derivable_form. Qed.
+Proof.
+  intros t. apply derivable_continuous_pt. exists (slope y t). apply derivable_form.
+Qed.
 
 Fixpoint first_sign (y : list R) : sign :=
   match y with
@@ -47,15 +51,18 @@ Fixpoint first_sign (y : list R) : sign :=
   end.
 Lemma sign_after_start y : first_sign y <> zero -> sign_after (first_sign y) (at_ y) 0.
 Proof.
-  induction y as [| a l IH]; [easy |]. simpl. intros N. destruct (Req_dec a 0) as [-> | A].
-  - rewrite (sign_zero 0 eq_refl) in *. simpl in *. destruct (IH N) as (d & D & H). exists d. split; auto. intros u U.
-    specialize (H u U). unfold at_ in *. simpl. rewrite Rmult_0_l, Rplus_0_l.
+  induction y as [| a l IH]; [easy |]. simpl. intros N.
+  destruct (Req_dec a 0) as [-> | A].
+  - rewrite (sign_zero 0 eq_refl) in *. simpl in *. destruct (IH N) as (d & D & H). exists d. split; auto.
+    intros u U. specialize (H u U). unfold at_ in *. simpl. rewrite Rmult_0_l, Rplus_0_l.
     replace (unit_of (first_sign l) * (u * form l (1 - u) u))
-      with (u * (unit_of (first_sign l) * form l (1 - u) u)) by ring. apply Rmult_lt_0_compat; lra.
+      with (u * (unit_of (first_sign l) * form l (1 - u) u)) by ring.
+    apply Rmult_lt_0_compat; lra.
   - clear IH. assert (E : at_ (a :: l) 0 = a).
     { unfold at_. rewrite Rminus_0_r. apply (proj1 (form_ends a l 0)). }
-    destruct (continuous_form (a :: l) 0 (Rabs a) ltac:(now apply Rabs_pos_lt)) as (d & D & H). exists d. split; auto.
-    intros u U. specialize (H u). simpl in H. unfold R_dist, D_x, no_cond in H. rewrite E, Rminus_0_r in H.
+    destruct (continuous_form (a :: l) 0 (Rabs a) ltac:(now apply Rabs_pos_lt)) as (d & D & H).
+    exists d. split; auto. intros u U.
+    specialize (H u). simpl in H. unfold R_dist, D_x, no_cond in H. rewrite E, Rminus_0_r in H.
     specialize (H ltac:(split; [split; [easy | lra] | rewrite Rabs_pos_eq; lra])).
     destruct (Rtotal_order a 0) as [L | [L | L]]; [| easy |].
     + rewrite (sign_negative a L) in *. simpl. rewrite (Rabs_left a) in H by easy. apply Rabs_def2 in H. lra.
@@ -77,11 +84,13 @@ Ltac four y L := destruct y as [| ?y0 [| ?y1 [| ?y2 [| ?y3 [|]]]]]; try discrimi
 Ltac four_signs a b c d :=
   cases_of_sign a; cases_of_sign b; cases_of_sign c; cases_of_sign d.
 
-Lemma same_four (a b c d a' b' c' d' : R) : a = a' -> b = b' -> c = c' -> d = d' -> [a; b; c; d] = [a'; b'; c'; d'].
+Lemma same_four (a b c d a' b' c' d' : R) : a = a' -> b = b' -> c = c' -> d = d' -> [a; b; c; d] = [a'; b';
+  c'; d'].
 Proof. now intros -> -> -> ->. Qed.
 
-Lemma changes_ends y : length y = 4%nat -> let c := inner_sign_changes y in first c = first_sign y /\ opposite
-  c = negb (same_sign (first_sign y) (first_sign (rev y))) /\ (first_sign y = zero <-> first_sign (rev y) = zero) /\
+Lemma changes_ends y : length y = 4%nat -> let c := inner_sign_changes y in
+  first c = first_sign y /\ opposite c = negb (same_sign (first_sign y) (first_sign (rev y))) /\
+  (first_sign y = zero <-> first_sign (rev y) = zero) /\
   (first_sign y = zero -> Forall (eq 0) y /\ count c = 0%nat) /\ (opposite c = true -> (0 < count c)%nat).
 Proof.
   intros L. four y L. unfold inner_sign_changes. cbn [rev app map first_sign].
@@ -89,7 +98,8 @@ Proof.
 Qed.
 (** Facts about the signs just inside the ends, unless Y is zero throughout. *)
 Lemma changes_first y : length y = 4%nat -> ~ Forall (eq 0) y -> let c := inner_sign_changes y in
-  sign_after (first c) (at_ y) 0 /\ sign_before (if opposite c then opposed (first c) else first c) (at_ y) 1 /\
+  sign_after (first c) (at_ y) 0 /\
+  sign_before (if opposite c then opposed (first c) else first c) (at_ y) 1 /\
   (first c = positive \/ first c = negative).
 Proof.
   intros L N c. destruct (changes_ends y L) as (F & O & Z & C & _). fold c in F, O, C.
@@ -97,14 +107,16 @@ Proof.
   assert (U : forall l, first_sign l <> uncertain).
   { clear. induction l as [| a l IH]; simpl; [discriminate |]. pose proof (never_uncertain a).
     destruct (same_sign (sign_of_real a) zero); auto. }
-  split; [now apply sign_after_start |]. assert (Nl : first_sign (rev y) <> zero) by (intros E; apply Nz, Z, E).
+  split; [now apply sign_after_start |].
+  assert (Nl : first_sign (rev y) <> zero) by (intros E; apply Nz, Z, E).
   pose proof (sign_before_end y Nl) as E. pose proof (U y). pose proof (U (rev y)). rewrite O.
   destruct (first_sign y), (first_sign (rev y)); simpl; split; auto; easy.
 Qed.
 Lemma changes_moving y : length y = 4%nat -> (0 < count (inner_sign_changes y))%nat -> ~ Forall (eq 0) y.
 Proof.
-  intros L C Z. revert C. four y L. repeat match goal with H : Forall _ (_ :: _) |- _ => inversion_clear H end. subst.
-  unfold inner_sign_changes. cbn [map]. rewrite (sign_zero 0 eq_refl). simpl. lia.
+  intros L C Z. revert C. four y L. repeat match goal with H : Forall _ (_ :: _) |- _ => inversion_clear H
+    end.
+  subst. unfold inner_sign_changes. cbn [map]. rewrite (sign_zero 0 eq_refl). simpl. lia.
 Qed.
 
 (** ** Descartes' rule *)
@@ -141,12 +153,14 @@ Qed.
 (** A point just inside an interval. *)
 Lemma just_after s f a b : sign_after s f a -> a < b -> exists t, a < t < b /\ 0 < unit_of s * f t.
 Proof.
-  intros (d & D & H) L. exists (a + Rmin d (b - a) / 2). assert (0 < Rmin d (b - a)) by (apply Rmin_glb_lt; lra).
+  intros (d & D & H) L. exists (a + Rmin d (b - a) / 2). assert (0 < Rmin d (b - a)) by (apply Rmin_glb_lt;
+    lra).
   pose proof (Rmin_l d (b - a)). pose proof (Rmin_r d (b - a)). split; [lra |]. apply H. lra.
 Qed.
 Lemma just_before s f a b : sign_before s f b -> a < b -> exists t, a < t < b /\ 0 < unit_of s * f t.
 Proof.
-  intros (d & D & H) L. exists (b - Rmin d (b - a) / 2). assert (0 < Rmin d (b - a)) by (apply Rmin_glb_lt; lra).
+  intros (d & D & H) L. exists (b - Rmin d (b - a) / 2). assert (0 < Rmin d (b - a)) by (apply Rmin_glb_lt;
+    lra).
   pose proof (Rmin_l d (b - a)). pose proof (Rmin_r d (b - a)). split; [lra |]. apply H. lra.
 Qed.
 
@@ -156,7 +170,8 @@ Proof.
   intros L O. destruct (changes_ends y L) as (_ & _ & _ & _ & C). specialize (C O).
   destruct (changes_first y L (changes_moving y L C)) as (A & B & F). rewrite O in B.
   destruct (just_after _ _ _ (1 / 2) A ltac:(lra)) as (t & T & P).
-  destruct (just_before _ _ (1 / 2) _ B ltac:(lra)) as (u & U & M). destruct (between_signs (at_ y) t u) as (r & S & Z).
+  destruct (just_before _ _ (1 / 2) _ B ltac:(lra)) as (u & U & M).
+  destruct (between_signs (at_ y) t u) as (r & S & Z).
   - apply continuous_form.
   - lra.
   - destruct F as [F | F]; rewrite F in *; simpl in *; nra.
@@ -176,7 +191,8 @@ Proof.
   { apply Rnot_le_lt. intros L.
     assert (B : f u * f (1 / 2) < 0).
     { replace (f u * f (1 / 2)) with (f u / f (1 / 2) * (f (1 / 2) * f (1 / 2))) by now field.
-      assert (f u / f (1 / 2) <> 0) by (apply Rmult_integral_contrapositive; split; auto; now apply Rinv_neq_0_compat).
+      assert (f u / f (1 / 2) <> 0) by (apply Rmult_integral_contrapositive; split; auto;
+        now apply Rinv_neq_0_compat).
       assert (0 < f (1 / 2) * f (1 / 2)) by nra. nra. }
     destruct (Rtotal_order u (1 / 2)) as [W | [-> | W]].
     - destruct (between_signs f u (1 / 2) C W B) as (t & T & Z). apply (N t); auto. lra.
@@ -189,13 +205,15 @@ Qed.
 Definition linear_times (r q0 q1 q2 : R) : list R :=
   [- r * q0; (1 - r) * q0 - r * q1; (1 - r) * q1 - r * q2; (1 - r) * q2].
 Definition quadratic_value (q0 q1 q2 t : R) : R := q0 * (1 - t) ^ 2 + q1 * (1 - t) * t + q2 * t ^ 2.
-Lemma divided y r : length y = 4%nat -> 0 < r < 1 -> at_ y r = 0 -> exists q0 q1 q2, y = linear_times r q0 q1 q2.
+Lemma divided y r : length y = 4%nat -> 0 < r < 1 -> at_ y r = 0 ->
+  exists q0 q1 q2, y = linear_times r q0 q1 q2.
 Proof.
   intros L U Z. four y L. exists (- y0 / r), (((1 - r) * (- y0 / r) - y1) / r), (y3 / (1 - r)).
   unfold linear_times. unfold at_ in Z. simpl in Z.
   assert (E : y2 = (1 - r) * (((1 - r) * (- y0 / r) - y1) / r) - r * (y3 / (1 - r))).
   { apply Rmult_eq_reg_r with ((1 - r) * r ^ 2); [| apply Rmult_integral_contrapositive; split; [lra |];
-      apply pow_nonzero; lra]. apply Rminus_diag_uniq. rewrite <- Z. field. lra. }
+      apply pow_nonzero; lra].
+    apply Rminus_diag_uniq. rewrite <- Z. field. lra. }
   rewrite <- E. repeat f_equal; field; lra.
 Qed.
 Lemma linear_times_at r q0 q1 q2 t : at_ (linear_times r q0 q1 q2) t = (t - r) * quadratic_value q0 q1 q2 t.
@@ -203,23 +221,28 @@ Proof. unfold at_, linear_times, quadratic_value. simpl. ring. Qed.
 
 Lemma changing_once y0 y1 y2 y3 : count (inner_sign_changes [y0; y1; y2; y3]) = 1%nat ->
   (y0 <= 0 /\ 0 <= y3 /\ (0 <= y2 \/ y1 <= 0)) \/ (0 <= y0 /\ y3 <= 0 /\ (y2 <= 0 \/ 0 <= y1)).
-Proof. unfold inner_sign_changes. cbn [map]. four_signs y0 y1 y2 y3; cbn; intros C; try discriminate C; lra. Qed.
+Proof.
+  unfold inner_sign_changes. cbn [map].
+  four_signs y0 y1 y2 y3; cbn; intros C; try discriminate C; lra.
+Qed.
 Lemma positive_quadratic q0 q1 q2 u : 0 < u < 1 -> 0 <= q0 -> 0 <= q1 -> 0 <= q2 -> 0 < q0 + q1 + q2 ->
   0 < quadratic_value q0 q1 q2 u.
 Proof.
   intros U A B C S. unfold quadratic_value. assert (0 < (1 - u) ^ 2) by (apply pow_lt; lra).
   assert (0 < u ^ 2) by (apply pow_lt; lra). assert (0 < (1 - u) * u) by (apply Rmult_lt_0_compat; lra).
   assert (0 <= q0 * (1 - u) ^ 2) by (apply Rmult_le_pos; lra).
-  assert (0 <= q1 * ((1 - u) * u)) by (apply Rmult_le_pos; lra). assert (0 <= q2 * u ^ 2) by (apply Rmult_le_pos; lra).
+  assert (0 <= q1 * ((1 - u) * u)) by (apply Rmult_le_pos; lra).
+  assert (0 <= q2 * u ^ 2) by (apply Rmult_le_pos; lra).
   destruct (Req_dec q0 0) as [Z0 | Z0]; [destruct (Req_dec q1 0) as [Z1 | Z1] |].
   - assert (0 < q2 * u ^ 2) by (apply Rmult_lt_0_compat; lra). lra.
   - assert (0 < q1 * ((1 - u) * u)) by (apply Rmult_lt_0_compat; lra). lra.
   - assert (0 < q0 * (1 - u) ^ 2) by (apply Rmult_lt_0_compat; lra). lra.
 Qed.
 (** The product with a factor without roots, of any sign. *)
-Lemma linear_times_once r q0 q1 q2 (Q : R -> Prop) : (forall u, 0 < u < 1 -> 0 <= quadratic_value q0 q1 q2 u /\
-  (quadratic_value q0 q1 q2 u = 0 -> Q u)) \/ (forall u, 0 < u < 1 -> quadratic_value q0 q1 q2 u <= 0 /\
-  (quadratic_value q0 q1 q2 u = 0 -> Q u)) -> crosses_once 0 1 (at_ (linear_times r q0 q1 q2)) Q.
+Lemma linear_times_once r q0 q1 q2 (Q : R -> Prop) :
+  (forall u, 0 < u < 1 -> 0 <= quadratic_value q0 q1 q2 u /\ (quadratic_value q0 q1 q2 u = 0 -> Q u)) \/
+  (forall u, 0 < u < 1 -> quadratic_value q0 q1 q2 u <= 0 /\ (quadratic_value q0 q1 q2 u = 0 -> Q u)) ->
+  crosses_once 0 1 (at_ (linear_times r q0 q1 q2)) Q.
 Proof.
   intros [H | H].
   - exists (- r), 1, (quadratic_value q0 q1 q2). intros u U. rewrite linear_times_at.
@@ -238,17 +261,20 @@ Proof.
   { destruct (Req_dec q0 0) as [-> |]; auto. destruct (Req_dec q1 0) as [-> |]; auto.
     destruct (Req_dec q2 0) as [-> |]; auto. exfalso. revert C. unfold linear_times, inner_sign_changes.
     cbn [map]. rewrite !sign_zero by ring. discriminate. }
-  apply changing_once in C. assert (R1 : 0 < 1 - r) by lra. destruct U as (U & _).
-  assert (P : forall a b, 0 < a -> 0 <= a * b -> 0 <= b) by (clear; intros; nra). apply linear_times_once.
-  destruct C as [(A & D & B) | (A & D & B)]; [left | right]; intros u V.
+  apply changing_once in C.
+  assert (R1 : 0 < 1 - r) by lra. destruct U as (U & _).
+  assert (P : forall a b, 0 < a -> 0 <= a * b -> 0 <= b) by (clear; intros; nra).
+  apply linear_times_once. destruct C as [(A & D & B) | (A & D & B)]; [left | right]; intros u V.
   - assert (Q0 : 0 <= q0) by (apply (P r); lra). assert (Q2 : 0 <= q2) by (apply (P (1 - r)); lra).
     assert (Q1 : 0 <= q1).
-    { assert (0 <= r * q2) by (apply Rmult_le_pos; lra). assert (0 <= (1 - r) * q0) by (apply Rmult_le_pos; lra).
+    { assert (0 <= r * q2) by (apply Rmult_le_pos; lra). assert (0 <= (1 - r) * q0) by (apply Rmult_le_pos;
+      lra).
       destruct B; [apply (P (1 - r)) | apply (P r)]; lra. }
     pose proof (positive_quadratic q0 q1 q2 u V Q0 Q1 Q2 ltac:(lra)). split; [lra |]. intros. lra.
   - assert (Q0 : 0 <= - q0) by (apply (P r); lra). assert (Q2 : 0 <= - q2) by (apply (P (1 - r)); lra).
     assert (Q1 : 0 <= - q1).
-    { assert (0 <= r * - q2) by (apply Rmult_le_pos; lra). assert (0 <= (1 - r) * - q0) by (apply Rmult_le_pos; lra).
+    { assert (0 <= r * - q2) by (apply Rmult_le_pos; lra).
+      assert (0 <= (1 - r) * - q0) by (apply Rmult_le_pos; lra).
       destruct B; [apply (P (1 - r)) | apply (P r)]; lra. }
     pose proof (positive_quadratic (- q0) (- q1) (- q2) u V Q0 Q1 Q2 ltac:(lra)) as H.
     replace (quadratic_value (- q0) (- q1) (- q2) u) with (- quadratic_value q0 q1 q2 u) in H
@@ -256,7 +282,10 @@ Proof.
 Qed.
 Lemma one_change_opposite y : length y = 4%nat -> count (inner_sign_changes y) = 1%nat ->
   opposite (inner_sign_changes y) = true.
-Proof. intros L. four y L. unfold inner_sign_changes. cbn [map]. four_signs y0 y1 y2 y3; cbn; intros C; congruence. Qed.
+Proof.
+  intros L. four y L. unfold inner_sign_changes. cbn [map].
+  four_signs y0 y1 y2 y3; cbn; intros C; congruence.
+Qed.
 (** There is exactly one root, at which Y changes its sign; Y may vanish at the ends. *)
 Theorem one_change y : length y = 4%nat -> let c := inner_sign_changes y in count c = 1%nat ->
   exists r, 0 < r < 1 /\ at_ y r = 0 /\ forall t, 0 < t < 1 ->
@@ -267,13 +296,16 @@ Proof.
   assert (P : forall t, 0 < t < 1 -> 0 < q t).
   { intros t T. destruct (H t T) as (_ & [Q | Q] & N); [easy |]. now destruct N. }
   assert (E : l0 = - l1 * r).
-  { destruct (H r U) as (E & _). rewrite Z in E. specialize (P r U). apply Rmult_eq_reg_r with (q r); [| lra]. lra. }
-  assert (V : forall t, 0 < t < 1 -> unit_of (first c) * at_ y t = (- (unit_of (first c) * l1)) * ((r - t) * q t)).
+  { destruct (H r U) as (E & _). rewrite Z in E. specialize (P r U).
+    apply Rmult_eq_reg_r with (q r); [| lra]. lra. }
+  assert (V : forall t, 0 < t < 1 ->
+    unit_of (first c) * at_ y t = (- (unit_of (first c) * l1)) * ((r - t) * q t)).
   { intros t T. destruct (H t T) as (-> & _). rewrite E. ring. }
   destruct (changes_first y L (changes_moving y L ltac:(unfold c in C; lia))) as (A & _). fold c in A.
   destruct (just_after _ _ _ r A ltac:(lra)) as (t & T & S). rewrite V in S by lra.
   assert (K : 0 < - (unit_of (first c) * l1)).
-  { assert (0 < (r - t) * q t) by (apply Rmult_lt_0_compat; [lra | apply P; lra]). apply Rnot_le_lt. intros N. nra. }
+  { assert (0 < (r - t) * q t) by (apply Rmult_lt_0_compat; [lra | apply P; lra]).
+    apply Rnot_le_lt. intros N. nra. }
   intros u W. rewrite V by auto. specialize (P u W). split; intros B.
   - apply Rmult_lt_0_compat; auto. apply Rmult_lt_0_compat; lra.
   - assert (0 < (u - r) * q u) by (apply Rmult_lt_0_compat; lra). nra.
@@ -307,13 +339,16 @@ Lemma discriminant_divided r q0 q1 q2 : discriminant (linear_times r q0 q1 q2) =
 Proof. unfold discriminant, linear_times, hessian, quadratic_value. cbn [c0 c1 c2]. ring. Qed.
 
 Lemma semidefinite q0 q1 q2 : q1 ^ 2 <= 4 * q0 * q2 ->
-  (forall u, 0 < u < 1 -> 0 <= quadratic_value q0 q1 q2 u) \/ (forall u, 0 < u < 1 -> quadratic_value q0 q1 q2 u <= 0).
+  (forall u, 0 < u < 1 -> 0 <= quadratic_value q0 q1 q2 u) \/
+  (forall u, 0 < u < 1 -> quadratic_value q0 q1 q2 u <= 0).
 Proof.
   intros D. assert (P : 0 <= q0 * q2) by nra.
-  assert (E : forall u, 4 * q0 * quadratic_value q0 q1
-    q2 u = (2 * q0 * (1 - u) + q1 * u) ^ 2 + (4 * q0 * q2 - q1 ^ 2) * u ^ 2) by (intros; unfold quadratic_value; ring).
+  assert (E : forall u, 4 * q0 * quadratic_value q0 q1 q2 u =
+    (2 * q0 * (1 - u) + q1 * u) ^ 2 + (4 * q0 * q2 - q1 ^ 2) * u ^ 2)
+    by (intros; unfold quadratic_value; ring).
   assert (S : forall u, 0 <= 4 * q0 * quadratic_value q0 q1 q2 u).
-  { intros u. rewrite E. assert (0 <= (4 * q0 * q2 - q1 ^ 2) * u ^ 2) by (apply Rmult_le_pos; [lra | apply pow2_ge_0]).
+  { intros u. rewrite E. assert (0 <= (4 * q0 * q2 - q1 ^ 2) * u ^ 2) by (apply Rmult_le_pos;
+    [lra | apply pow2_ge_0]).
     pose proof (pow2_ge_0 (2 * q0 * (1 - u) + q1 * u)). lra. }
   destruct (Rtotal_order q0 0) as [N | [-> | N]].
   - right. intros u _. specialize (S u). nra.
@@ -327,7 +362,8 @@ Proof.
   intros D U Z. assert (N : (1 - u) ^ 2 <> 0) by (apply pow_nonzero; lra).
   assert (A : 2 * q0 * (1 - u) + q1 * u = 0 /\ (4 * q0 * q2 - q1 ^ 2) * u ^ 2 = 0).
   { assert (E : (2 * q0 * (1 - u) + q1 * u) ^ 2 + (4 * q0 * q2 - q1 ^ 2) * u ^ 2 = 0)
-      by (transitivity (4 * q0 * quadratic_value q0 q1 q2 u); [unfold quadratic_value; ring | rewrite Z; ring]).
+      by (transitivity (4 * q0 * quadratic_value q0 q1 q2 u); [unfold quadratic_value; ring | rewrite Z;
+        ring]).
     assert (0 <= (4 * q0 * q2 - q1 ^ 2) * u ^ 2) by (apply Rmult_le_pos; [lra | apply pow2_ge_0]).
     pose proof (pow2_ge_0 (2 * q0 * (1 - u) + q1 * u)). split; [| lra].
     assert (B : (2 * q0 * (1 - u) + q1 * u) ^ 2 = 0) by lra. simpl in B. rewrite Rmult_1_r in B.
@@ -336,7 +372,8 @@ Proof.
   assert (B : q1 * (1 - u) = - (2 * q2 * u)).
   { apply Rmult_eq_reg_r with u; [| lra]. unfold quadratic_value in Z. nra. }
   assert (E1 : q1 = - (2 * q2 * u) / (1 - u)) by (apply Rmult_eq_reg_r with (1 - u); [field_simplify |]; lra).
-  assert (E0 : q0 = - (q1 * u) / (2 * (1 - u))) by (apply Rmult_eq_reg_r with (2 * (1 - u)); [field_simplify |]; lra).
+  assert (E0 : q0 = - (q1 * u) / (2 * (1 - u))) by (apply Rmult_eq_reg_r with (2 * (1 - u));
+    [field_simplify |]; lra).
   repeat split; [rewrite E0, E1 | rewrite E1 |]; field; lra.
 Qed.
 
@@ -346,7 +383,8 @@ Theorem one_real_root y : length y = 4%nat -> discriminant y <= 0 ->
 Proof.
   intros L D. destruct (classic (exists r, 0 < r < 1 /\ at_ y r = 0)) as [(r & U & Z) | N].
   2: { apply rootless_once; [apply continuous_form |]. intros u U Z. apply N. now exists u. }
-  destruct (divided y r L U Z) as (q0 & q1 & q2 & ->). clear Z L. rewrite discriminant_divided in *.
+  destruct (divided y r L U Z) as (q0 & q1 & q2 & ->). clear Z L.
+  rewrite discriminant_divided in *.
   destruct (Req_dec (quadratic_value q0 q1 q2 r) 0) as [Zr | Nr].
   { (* r is multiple *)
     assert (E : exists a b, q0 = - r * a /\ q1 = (1 - r) * a - r * b /\ q2 = (1 - r) * b).
@@ -358,7 +396,8 @@ Proof.
     intros Z. assert (Eu : u = r) by (apply NNPP; intros K; apply (pow_nonzero (u - r) 2); lra). subst u.
     split; [now exists a, b | ring]. }
   assert (P : 0 < quadratic_value q0 q1 q2 r ^ 2) by (pose proof (pow2_ge_0 (quadratic_value q0 q1 q2 r));
-    pose proof (pow_nonzero _ 2 Nr); lra). assert (S : q1 ^ 2 <= 4 * q0 * q2) by nra.
+    pose proof (pow_nonzero _ 2 Nr); lra).
+  assert (S : q1 ^ 2 <= 4 * q0 * q2) by nra.
   assert (M : forall u, 0 < u < 1 -> quadratic_value q0 q1 q2 u = 0 ->
     multiple_root (linear_times r q0 q1 q2) u /\ 3 * (q1 ^ 2 - 4 * q0 * q2) * quadratic_value q0 q1 q2 r ^ 2
       = 0).
@@ -380,8 +419,9 @@ Theorem double_root_place y : length y = 4%nat -> discriminant y = 0 -> let h :=
 Proof.
   intros L D h N. split; [| split].
   - unfold h in *. four y L.
-    assert (E : 4 * c2 (hessian [y0; y1; y2; y3]) ^ 3 = (2 * y2 ^ 3 - 9 * y1 * y2 * y3 + 27 * y0 * y3 ^ 2)
-      ^ 2 + 9 * y3 ^ 2 * discriminant [y0; y1; y2; y3]) by (unfold discriminant, hessian; cbn [c0 c1 c2]; ring).
+    assert (E : 4 * c2 (hessian [y0; y1; y2; y3]) ^ 3 =
+      (2 * y2 ^ 3 - 9 * y1 * y2 * y3 + 27 * y0 * y3 ^ 2) ^ 2 + 9 * y3 ^ 2 * discriminant [y0; y1; y2; y3])
+      by (unfold discriminant, hessian; cbn [c0 c1 c2]; ring).
     rewrite D in E. set (h2 := c2 (hessian [y0; y1; y2; y3])) in *. apply Rnot_le_lt. intros H.
     assert (0 < (- h2) ^ 3) by (apply pow_lt; lra). replace ((- h2) ^ 3) with (- h2 ^ 3) in * by ring.
     pose proof (pow2_ge_0 (2 * y2 ^ 3 - 9 * y1 * y2 * y3 + 27 * y0 * y3 ^ 2)). lra.
@@ -390,11 +430,13 @@ Proof.
     + unfold discriminant, hessian. cbn [c0 c1 c2]. simpl. field.
     + rewrite D. ring.
   - intros r U M. destruct (multiple_root_hessian y r U M) as (k & K & E). unfold h in *. rewrite E in *.
-    cbn [c0 c1 c2] in *. assert (k <> 0) by (intros ->; apply N; ring). assert (0 < (1 - r) ^ 2) by (apply pow_lt; lra).
-    assert (0 < r * (1 - r)) by (apply Rmult_lt_0_compat; lra).
+    cbn [c0 c1 c2] in *. assert (k <> 0) by (intros ->; apply N; ring).
+    assert (0 < (1 - r) ^ 2) by (apply pow_lt; lra). assert (0 < r * (1 - r)) by (apply Rmult_lt_0_compat;
+      lra).
     assert (0 < k * (1 - r) ^ 2) by (apply Rmult_lt_0_compat; lra).
-    assert (0 < k * (r * (1 - r))) by (apply Rmult_lt_0_compat; lra). split; [lra |].
-    apply Rmult_eq_reg_r with (2 * (k * (1 - r) ^ 2) - - (2 * k * r * (1 - r))); [| lra]. field. lra.
+    assert (0 < k * (r * (1 - r))) by (apply Rmult_lt_0_compat; lra).
+    split; [lra |]. apply Rmult_eq_reg_r with (2 * (k * (1 - r) ^ 2) - - (2 * k * r * (1 - r))); [| lra].
+    field. lra.
 Qed.
 (** If also h2 = 0, there is a triple root, inside if there is more than one sign change. *)
 Theorem triple_root_place y : length y = 4%nat -> discriminant y = 0 -> c2 (hessian y) = 0 ->
@@ -407,12 +449,14 @@ Proof.
   assert (N : y3 <> 0).
   { intros ->. assert (y2 = 0) as -> by nra. unfold inner_sign_changes in C. cbn [map] in C.
     rewrite (sign_zero 0 eq_refl) in C. cases_of_sign y0; cases_of_sign y1; simpl in C; lia. }
-  set (x := - y2 / (3 * y3)). assert (E2 : y2 = - 3 * y3 * x) by (unfold x; field; auto).
+  set (x := - y2 / (3 * y3)).
+  assert (E2 : y2 = - 3 * y3 * x) by (unfold x; field; auto).
   assert (E1 : y1 = 3 * y3 * x ^ 2) by (apply Rmult_eq_reg_r with (3 * y3); [| lra]; rewrite E2 in Z; nra).
   assert (E0 : y0 = - y3 * x ^ 3) by (apply Rmult_eq_reg_r with (9 * y3); [| lra]; rewrite E1, E2 in Z1; nra).
   clearbody x. subst y0 y1 y2. clear Z Z1.
   assert (X : 0 < x).
-  { apply Rnot_le_lt. intros X. unfold inner_sign_changes in C. cbn [map] in C. assert (0 <= x ^ 2) by apply pow2_ge_0.
+  { apply Rnot_le_lt. intros X. unfold inner_sign_changes in C. cbn [map] in C.
+    assert (0 <= x ^ 2) by apply pow2_ge_0.
     assert (x ^ 3 <= 0) by (replace (x ^ 3) with (x * x ^ 2) by ring; nra).
     destruct (Rtotal_order y3 0) as [S | [S | S]]; [| lra |].
     - assert (- y3 * x ^ 3 <= 0) by nra. assert (3 * y3 * x ^ 2 <= 0) by nra.
@@ -435,7 +479,8 @@ Proof.
   split; intros S.
   - assert (0 < - y3 * x) by (apply Rmult_lt_0_compat; lra). split; [lra |]. intros u. rewrite R0.
     replace (- 3 * y3 * x / (- (3 * y3) + - 3 * y3 * x)) with (x / (1 + x)); [easy | field; nra].
-  - assert (0 < y3) by lra. assert (0 < y3 * x) by (apply Rmult_lt_0_compat; lra). split; [lra |]. split; [lra |].
+  - assert (0 < y3) by lra. assert (0 < y3 * x) by (apply Rmult_lt_0_compat; lra). split; [lra |]. split;
+      [lra |].
     intros u. rewrite R0.
     replace (- (- 3 * y3 * x) / (3 * y3 + - (- 3 * y3 * x))) with (x / (1 + x)); [easy | field; nra].
 Qed.
@@ -462,12 +507,14 @@ Proof.
   { clear D. unfold inner_sign_changes in *. cbn [map] in *. revert F O C.
     four_signs y0 y1 y2 y3; cbn; intros; try discriminate; try lia; lra. }
   clear F O C. destruct S as (Y3 & Y0 & Z & N). unfold discriminant, hessian in D. cbn [c0 c1 c2] in D.
-  set (h2 := y2 * y2 - 3 * (y1 * y3)) in *. destruct Y3 as [Y3 | <-].
+  set (h2 := y2 * y2 - 3 * (y1 * y3)) in *.
+  destruct Y3 as [Y3 | <-].
   - set (e := 2 * y2 ^ 3 - 9 * y1 * y2 * y3 + 27 * y0 * y3 ^ 2).
     set (d := 4 * ((y1 * y1 - 3 * (y0 * y2)) * h2) -
       (y1 * y2 - 3 * (3 * (y0 * y3))) * (y1 * y2 - 3 * (3 * (y0 * y3)))) in *.
     assert (E : 4 * h2 ^ 3 = e ^ 2 + 9 * y3 ^ 2 * d) by (unfold e, d, h2; ring).
-    assert (0 < y3 ^ 2) by (apply pow_lt; easy). assert (0 < y3 ^ 2 * d) by (apply Rmult_lt_0_compat; easy).
+    assert (0 < y3 ^ 2) by (apply pow_lt; easy).
+    assert (0 < y3 ^ 2 * d) by (apply Rmult_lt_0_compat; easy).
     assert (P2 : 0 < h2).
     { apply Rnot_le_lt. intros N2. assert (h2 ^ 3 <= 0) by (pose proof (pow2_ge_0 h2);
         replace (h2 ^ 3) with (h2 * h2 ^ 2) by ring; nra). pose proof (pow2_ge_0 e). lra. }
@@ -483,15 +530,19 @@ Proof.
         assert (0 < - y1 * y3) by (apply Rmult_lt_0_compat; lra).
       assert (y2 * y2 < q * q) by (rewrite Q; unfold h2; lra). apply Rnot_le_lt. intros W.
       assert (q * q <= y2 * y2) by (apply Rmult_le_compat; lra). lra.
-    + replace (form [y0; y1; y2; y3] (3 * y3) (- y2 + q)) with (y3 * (e - 2 * q ^ 3) + 3 * q * y3 * (q * q - h2)).
+    + replace (form [y0; y1; y2; y3] (3 * y3) (- y2 + q)) with (y3 * (e - 2 * q ^ 3)
+        + 3 * q * y3 * (q * q - h2)).
       * rewrite (Rminus_diag_eq _ _ Q). assert (0 < y3 * (2 * q ^ 3 - e)) by (apply Rmult_lt_0_compat; lra).
           lra.
       * unfold e, h2. simpl. ring.
   - destruct (Z eq_refl) as (P2 & P1 & P0). exists (2 * y2), (- y1). split; [lra |]. split; [lra |].
     replace (form [y0; y1; y2; 0] (2 * y2) (- y1)) with (- (2 * (y2 * y2)) * (y1 * y1 - 4 * (y0 * y2))) by
-      (simpl; ring). assert (0 < y2 * y2) by nra.
-    replace (4 * ((y1 * y1 - 3 * (y0 * y2)) * h2) - (y1 * y2 - 3 * (3 * (y0 * 0))) * (y1 * y2 - 3 * (3 * (y0 * 0))))
-      with (3 * (y2 * y2) * (y1 * y1 - 4 * (y0 * y2))) in D by (unfold h2; ring). nra.
+      (simpl; ring).
+    assert (0 < y2 * y2) by nra.
+    replace (4 * ((y1 * y1 - 3 * (y0 * y2)) * h2) - (y1 * y2 - 3 * (3 * (y0 * 0))) * (y1 * y2 - 3 * (3 * (y0
+      * 0))))
+      with (3 * (y2 * y2) * (y1 * y1 - 4 * (y0 * y2))) in D by (unfold h2; ring).
+    nra.
 Qed.
 
 Theorem any_change y : length y = 4%nat -> 0 < discriminant y -> (0 < count (inner_sign_changes y))%nat ->
@@ -506,14 +557,17 @@ Proof.
     assert (V : at_ y (t / (s + t)) < 0).
     { four y L. rewrite cubic_at_ratio in N by lra. assert (0 < (s + t) ^ 3) by (apply pow_lt; lra). nra. }
     assert (U : 0 < t / (s + t) < 1).
-    { split; [apply Rdiv_lt_0_compat; lra |]. apply Rmult_lt_reg_r with (s + t); [lra |]. field_simplify; lra. }
+    { split; [apply Rdiv_lt_0_compat; lra |]. apply Rmult_lt_reg_r with (s + t); [lra |]. field_simplify;
+      lra. }
     destruct (just_after _ _ _ (t / (s + t)) B ltac:(lra)) as (u & Hu & P). simpl in P.
     destruct (between_signs (at_ y) u (t / (s + t))) as (r & Hr & Z); [apply continuous_form | lra | nra |].
     exists r. split; auto. lra. }
   destruct (changes_first y L (changes_moving y L C)) as (_ & _ & [F | F]); [now apply (H y) |].
-  destruct (opposite_changes y L) as (Ec & Eo & Ef). rewrite F in Ef. destruct (H (map Ropp y)) as (t & T & Z).
+  destruct (opposite_changes y L) as (Ec & Eo & Ef). rewrite F in Ef.
+  destruct (H (map Ropp y)) as (t & T & Z).
   - now rewrite map_length.
-  - four y L. replace (discriminant (map Ropp [y0; y1; y2; y3])) with (discriminant [y0; y1; y2; y3]); [easy |].
+  - four y L. replace (discriminant (map Ropp [y0; y1; y2; y3])) with (discriminant [y0; y1; y2; y3]);
+      [easy |].
     unfold discriminant, hessian. cbn [map c0 c1 c2]. ring.
   - now rewrite Ec.
   - now rewrite Eo.
@@ -526,9 +580,11 @@ Qed.
 Definition left_half_of (y : list R) : list R := left_half (S := reals) y.
 Definition right_half_of (y : list R) : list R := rev (left_half (S := reals) (rev y)).
 
-Lemma halves_of_four y0
-  y1 y2 y3 : left_half_of [y0; y1; y2; y3] = [8 * y0; 12 * y0 + 4 * y1; 6 * y0 + 4 * y1 + 2 * y2; y0 + y1 + y2 + y3] /\
-  right_half_of [y0; y1; y2; y3] = [y0 + y1 + y2 + y3; 6 * y3 + 4 * y2 + 2 * y1; 12 * y3 + 4 * y2; 8 * y3].
+Lemma halves_of_four y0 y1 y2 y3 :
+  left_half_of [y0; y1; y2; y3] =
+    [8 * y0; 12 * y0 + 4 * y1; 6 * y0 + 4 * y1 + 2 * y2; y0 + y1 + y2 + y3] /\
+  right_half_of [y0; y1; y2; y3] =
+    [y0 + y1 + y2 + y3; 6 * y3 + 4 * y2 + 2 * y1; 12 * y3 + 4 * y2; 8 * y3].
 Proof. split; unfold left_half_of, right_half_of, left_half; cbn; apply same_four; ring. Qed.
 
 Theorem halves_at y u : length y = 4%nat -> length (left_half_of y) = 4%nat /\ length (right_half_of y) =
@@ -548,7 +604,8 @@ Definition signs_between (a b : sign) : list sign :=
   | s, _ => [s]
   end.
 Definition positive_sum (a b c : R) : Prop := exists k l, 0 < k /\ 0 < l /\ c = k * a + l * b.
-Lemma sign_between a b c : positive_sum a b c -> In (sign_of_real c) (signs_between (sign_of_real a) (sign_of_real b)).
+Lemma sign_between a b c : positive_sum a b c ->
+  In (sign_of_real c) (signs_between (sign_of_real a) (sign_of_real b)).
 Proof.
   intros (k & l & K & L & ->).
   cases_of_sign a; cases_of_sign b; simpl; cases_of_sign (k * a + l * b); auto; exfalso; nra.
@@ -566,18 +623,20 @@ Definition parts_change_no_more : bool :=
       (signs_between abc bcd)) (signs_between bc cd)) (signs_between ab bc))
     (signs_between c d)) (signs_between b c)) (signs_between a b)) all) all) all) all.
 Ltac among C H := apply (fun F => proj1 (forallb_forall _ _) F _ H) in C; cbv beta in C.
-Lemma parts_change a b c d ab bc cd abc bcd m : positive_sum a b ab -> positive_sum b c bc ->
-  positive_sum c d cd -> positive_sum ab bc abc -> positive_sum bc cd bcd -> positive_sum abc bcd m ->
-  (count (inner_sign_changes [a; ab; abc; m]) + count (inner_sign_changes [m; bcd; cd; d]) + (if same_sign (sign_of_real
-  m) zero && negb (same_sign (sign_of_real abc) zero) then 1 else 0) <= count (inner_sign_changes [a; b; c; d]))%nat.
+Lemma parts_change a b c d ab bc cd abc bcd m : positive_sum a b ab -> positive_sum b c bc -> positive_sum c d cd ->
+  positive_sum ab bc abc -> positive_sum bc cd bcd -> positive_sum abc bcd m ->
+  (count (inner_sign_changes [a; ab; abc; m]) + count (inner_sign_changes [m; bcd; cd; d]) +
+    (if same_sign (sign_of_real m) zero && negb (same_sign (sign_of_real abc) zero) then 1 else 0) <=
+   count (inner_sign_changes [a; b; c; d]))%nat.
 Proof.
   intros Ab Bc Cd Abc Bcd M. unfold inner_sign_changes. cbn [map].
   assert (All : forall x, In (sign_of_real x) [negative; zero; positive]).
   { intros x. cases_of_sign x; simpl; auto. }
   assert (C : parts_change_no_more = true) by (vm_compute; reflexivity). unfold parts_change_no_more in C.
-  among C (All a). among C (All b). among C (All c). among C (All d). among C (sign_between _ _ _ Ab).
-  among C (sign_between _ _ _ Bc). among C (sign_between _ _ _ Cd). among C (sign_between _ _ _ Abc).
-  among C (sign_between _ _ _ Bcd). among C (sign_between _ _ _ M). now apply Nat.leb_le.
+  among C (All a). among C (All b). among C (All c). among C (All d).
+  among C (sign_between _ _ _ Ab). among C (sign_between _ _ _ Bc). among C (sign_between _ _ _ Cd).
+  among C (sign_between _ _ _ Abc). among C (sign_between _ _ _ Bcd). among C (sign_between _ _ _ M).
+  now apply Nat.leb_le.
 Qed.
 
 (** So waiting intervals together have no more sign changes than the whole. *)
@@ -589,8 +648,9 @@ Proof.
   assert (Same : forall a, sign_of_real (8 * a) = sign_of_real a).
   { intros a. rewrite sign_product, (sign_positive 8) by lra. cases_of_sign a; easy. }
   assert (C := parts_change y0 y1 y2 y3 (12 * y0 + 4 * y1) (y1 + y2) (12 * y3 + 4 * y2)
-    (6 * y0 + 4 * y1 + 2 * y2) (6 * y3 + 4 * y2 + 2 * y1) (y0 + y1 + y2 + y3)). unfold inner_sign_changes in *.
-  cbn [map] in *. rewrite !Same. eapply Nat.le_trans; [apply Nat.le_add_r | apply C].
+    (6 * y0 + 4 * y1 + 2 * y2) (6 * y3 + 4 * y2 + 2 * y1) (y0 + y1 + y2 + y3)).
+  unfold inner_sign_changes in *. cbn [map] in *. rewrite !Same.
+  eapply Nat.le_trans; [apply Nat.le_add_r | apply C].
   - exists 12, 4. lra.
   - exists 1, 1. lra.
   - exists 4, 12. lra.
@@ -616,29 +676,33 @@ Proof.
   intros (l0 & l1 & q & H) A B T Z. destruct (just_after s f a t A ltac:(lra)) as (u & U & P).
   destruct (just_before s f t b B ltac:(lra)) as (w & W & P').
   destruct (H u ltac:(lra)) as (Eu & Qu & _), (H w ltac:(lra)) as (Ew & Qw & _), (H t T) as (Et & Qt & R).
-  rewrite Eu in P. rewrite Ew in P'. apply linear_sign in P, P'; auto. rewrite Et in Z. apply Rmult_integral in Z.
-  destruct Z as [Z | Z]; auto. exfalso.
+  rewrite Eu in P. rewrite Ew in P'. apply linear_sign in P, P'; auto. rewrite Et in Z.
+  apply Rmult_integral in Z. destruct Z as [Z | Z]; auto. exfalso.
   assert (E : (w - u) * (l0 + l1 * t) = (w - t) * (l0 + l1 * u) + (t - u) * (l0 + l1 * w)) by ring.
-  rewrite Z, Rmult_0_r in E. assert (0 < (w - t) * (unit_of s * (l0 + l1 * u))) by (apply Rmult_lt_0_compat; lra).
+  rewrite Z, Rmult_0_r in E.
+  assert (0 < (w - t) * (unit_of s * (l0 + l1 * u))) by (apply Rmult_lt_0_compat; lra).
   assert (0 < (t - u) * (unit_of s * (l0 + l1 * w))) by (apply Rmult_lt_0_compat; lra).
   assert (unit_of s * ((w - t) * (l0 + l1 * u) + (t - u) * (l0 + l1 * w)) = 0) by (rewrite <- E; ring). lra.
 Qed.
 
 (** With opposite signs at l and h, or just inside the ends, the crossing lies between them. *)
 Lemma crossed a b f Q s l h : crosses_once a b f Q -> a <= l -> l < h -> h <= b ->
-  (if Req_EM_T l a then sign_after s f a else 0 < unit_of s * f l) -> (if Req_EM_T h b then sign_before (opposed s)
-  f b else unit_of s * f h < 0) -> exists r, l < r < h /\ f r = 0 /\ forall t, a < t < b -> f t = 0 -> t = r \/ Q t.
+  (if Req_EM_T l a then sign_after s f a else 0 < unit_of s * f l) ->
+  (if Req_EM_T h b then sign_before (opposed s) f b else unit_of s * f h < 0) ->
+  exists r, l < r < h /\ f r = 0 /\ forall t, a < t < b -> f t = 0 -> t = r \/ Q t.
 Proof.
   intros (l0 & l1 & q & H) Al Lh Hb L R. set (m := (l + h) / 2).
   assert (Left : exists u, l <= u < m /\ a < u /\ 0 < unit_of s * (l0 + l1 * u)).
   { destruct (Req_EM_T l a) as [-> | N].
-    - destruct (just_after s f a m L ltac:(unfold m; lra)) as (u & U & P). exists u. split; [lra | split; [lra |]].
-      destruct (H u ltac:(unfold m in *; lra)) as (E & Qu & _). rewrite E in P. now apply linear_sign in P.
+    - destruct (just_after s f a m L ltac:(unfold m; lra)) as (u & U & P). exists u.
+      split; [lra | split; [lra |]]. destruct (H u ltac:(unfold m in *; lra)) as (E & Qu & _). rewrite E in P.
+      now apply linear_sign in P.
     - exists l. split; [unfold m; lra | split; [lra |]]. destruct (H l ltac:(lra)) as (E & Qu & _).
         rewrite E in L.
       now apply linear_sign in L. }
   assert (Right : exists u, m < u <= h /\ u < b /\ unit_of s * (l0 + l1 * u) < 0).
-  { assert (O : unit_of (opposed s) = - unit_of s) by (destruct s; simpl; ring). destruct (Req_EM_T h b) as [-> | N].
+  { assert (O : unit_of (opposed s) = - unit_of s) by (destruct s; simpl; ring).
+    destruct (Req_EM_T h b) as [-> | N].
     - destruct (just_before (opposed s) f m b R ltac:(unfold m; lra)) as (u & U & P). exists u.
       split; [lra | split; [lra |]]. destruct (H u ltac:(unfold m in *; lra)) as (E & Qu & _).
         rewrite E, O in P.
@@ -668,9 +732,10 @@ Qed.
 Lemma only_crossing a b f Q s t u : crosses_once a b f Q -> sign_after s f a ->
   a < t < b -> a < u < b -> f t = 0 -> f u = 0 -> t = u \/ Q t \/ Q u.
 Proof.
-  intros (l0 & l1 & q & H) A T U Zt Zu. destruct (H t T) as (Et & _ & Qt), (H u U) as (Eu & _ & Qu). rewrite Et in Zt.
-  rewrite Eu in Zu. apply Rmult_integral in Zt, Zu. destruct Zt as [Zt | Zt]; auto. destruct Zu as [Zu | Zu]; auto.
-  left. destruct (Req_dec l1 0) as [-> | N].
+  intros (l0 & l1 & q & H) A T U Zt Zu.
+  destruct (H t T) as (Et & _ & Qt), (H u U) as (Eu & _ & Qu). rewrite Et in Zt. rewrite Eu in Zu.
+  apply Rmult_integral in Zt, Zu. destruct Zt as [Zt | Zt]; auto. destruct Zu as [Zu | Zu]; auto. left.
+  destruct (Req_dec l1 0) as [-> | N].
   - exfalso. destruct (just_after s f a t A ltac:(lra)) as (w & W & P). destruct (H w ltac:(lra)) as (E & _).
     rewrite E in P. assert (l0 = 0) by lra. subst l0.
       rewrite !Rmult_0_l, Rplus_0_l, Rmult_0_l, Rmult_0_r in P. lra.
@@ -689,7 +754,8 @@ Definition is_part (y : list R) (p : part) : Prop :=
   (0 <= level p /\ 0 <= index p /\ index p + 1 <= 2 ^ level p)%Z /\ ~ Forall (eq 0) (part_y p) /\
   exists c, 0 < c /\ forall u, at_ (part_y p) u = c * at_ y ((IZR (index p) + u) / IZR (2 ^ level p)).
 
-Lemma power_positive n : (0 <= n)%Z -> 0 < IZR (2 ^ n). Proof. intros N. apply IZR_lt. now apply Z.pow_pos_nonneg. Qed.
+Lemma power_positive n : (0 <= n)%Z -> 0 < IZR (2 ^ n).
+Proof. intros N. apply IZR_lt. now apply Z.pow_pos_nonneg. Qed.
 Lemma over_less a b n : (0 <= n)%Z -> (a < b)%Z -> over a n < over b n.
 Proof.
   intros N L. apply power_positive in N. unfold over. apply Rmult_lt_compat_r; [now apply Rinv_0_lt_compat |].
@@ -697,7 +763,8 @@ Proof.
 Qed.
 Lemma over_le a b n : (0 <= n)%Z -> (a <= b)%Z -> over a n <= over b n.
 Proof.
-  intros N L. apply power_positive in N. unfold over. apply Rmult_le_compat_r; [left; now apply Rinv_0_lt_compat |].
+  intros N L. apply power_positive in N. unfold over. apply Rmult_le_compat_r; [left;
+    now apply Rinv_0_lt_compat |].
   now apply IZR_le.
 Qed.
 Lemma over_finer a n m : (0 <= n <= m)%Z -> over (a * 2 ^ (m - n)) m = over a n.
@@ -714,8 +781,10 @@ Proof.
 Qed.
 
 (** The signs just inside its ends. *)
-Lemma part_signs y p : is_part y p -> sign_after (first (roots p)) (at_ y) (part_start p) /\ sign_before (if opposite
-  (roots p) then opposed (first (roots p)) else first (roots p)) (at_ y) (part_end p) /\ strict (first (roots p)).
+Lemma part_signs y p : is_part y p -> sign_after (first (roots p)) (at_ y) (part_start p) /\
+  sign_before (if opposite (roots p) then opposed (first (roots p)) else first (roots p)) (at_ y) (part_end
+    p) /\
+  strict (first (roots p)).
 Proof.
   intros (L & R & (Hl & _) & N & c & C & E). apply power_positive in Hl. rewrite R.
   destruct (changes_first _ L N) as ((d & D & A) & (e & D' & B) & F). set (w := IZR (2 ^ level p)) in *.
@@ -733,11 +802,13 @@ Proof.
     assert (t * w < (i + 1) / w * w) by (apply Rmult_lt_compat_r; lra).
     assert (((i + 1) / w - e / w) * w < t * w) by (apply Rmult_lt_compat_r; lra). lra.
 Qed.
-Lemma part_place y p t : is_part y p -> part_start p < t < part_end p <-> 0 < t * IZR (2 ^ level p) - IZR (index p) < 1.
+Lemma part_place y p t : is_part y p -> part_start p < t < part_end p <->
+  0 < t * IZR (2 ^ level p) - IZR (index p) < 1.
 Proof.
-  intros (_ & _ & (Hl & _) & _). apply power_positive in Hl. unfold part_start, part_end, over. rewrite plus_IZR.
-  set (w := IZR (2 ^ level p)) in *. set (i := IZR (index p)). assert (A : i / w * w = i) by (field; lra).
-  assert (B : (i + 1) / w * w = i + 1) by (field; lra). split; intros (T & U).
+  intros (_ & _ & (Hl & _) & _). apply power_positive in Hl. unfold part_start, part_end, over.
+  rewrite plus_IZR. set (w := IZR (2 ^ level p)) in *. set (i := IZR (index p)).
+  assert (A : i / w * w = i) by (field; lra). assert (B : (i + 1) / w * w = i + 1) by (field; lra).
+  split; intros (T & U).
   - apply (Rmult_lt_compat_r w) in T, U; lra.
   - split; apply Rmult_lt_reg_r with w; lra.
 Qed.
@@ -746,14 +817,17 @@ Lemma part_at y p : is_part y p -> exists c, 0 < c /\
 Proof.
   intros (_ & _ & (Hl & _) & _ & c & C & E). apply power_positive in Hl. exists (/ c).
   split; [now apply Rinv_0_lt_compat |]. intros t. rewrite E.
-  replace ((IZR (index p) + (t * IZR (2 ^ level p) - IZR (index p))) / IZR (2 ^ level p)) with t by (field; lra). field.
-  lra.
+  replace ((IZR (index p) + (t * IZR (2 ^ level p) - IZR (index p))) / IZR (2 ^ level p)) with t by (field;
+    lra).
+  field. lra.
 Qed.
 
-Lemma whole_is_part y : length y = 4%nat -> ~ Forall (eq 0) y -> is_part y (Part y (inner_sign_changes y) 0 0).
+Lemma whole_is_part y : length y = 4%nat -> ~ Forall (eq 0) y -> is_part y (Part y (inner_sign_changes y) 0
+  0).
 Proof.
-  intros L N. unfold is_part. cbn [part_y roots index level]. repeat split; auto; try lia. exists 1. split; [lra |].
-  intros u. rewrite Rplus_0_l. change (2 ^ 0)%Z with 1%Z. replace (u / 1) with u by field. ring.
+  intros L N. unfold is_part. cbn [part_y roots index level]. repeat split; auto; try lia.
+  exists 1. split; [lra |]. intros u. rewrite Rplus_0_l. change (2 ^ 0)%Z with 1%Z.
+  replace (u / 1) with u by field. ring.
 Qed.
 Definition left_of (p : part) : part :=
   Part (left_half_of (part_y p)) (inner_sign_changes (left_half_of (part_y p))) (2 * index p) (level p + 1).
@@ -761,9 +835,10 @@ Definition right_of (p : part) : part :=
   Part (right_half_of (part_y p)) (inner_sign_changes (right_half_of (part_y p))) (2 * index p + 1) (level p
     + 1).
 
-Lemma halves_are_parts y p : is_part y p -> is_part y (left_of p) /\
-  is_part y (right_of p) /\ part_start (left_of p) = part_start p /\ part_end (right_of p) = part_end p /\ part_end
-  (left_of p) = over (2 * index p + 1) (level p + 1) /\ part_start (right_of p) = over (2 * index p + 1) (level p + 1).
+Lemma halves_are_parts y p : is_part y p -> is_part y (left_of p) /\ is_part y (right_of p) /\
+  part_start (left_of p) = part_start p /\ part_end (right_of p) = part_end p /\
+  part_end (left_of p) = over (2 * index p + 1) (level p + 1) /\
+  part_start (right_of p) = over (2 * index p + 1) (level p + 1).
 Proof.
   intros (L & R & (Hl & Hi & Hj) & N & c & C & E).
   assert (P : (2 ^ (level p + 1) = 2 * 2 ^ level p)%Z) by (rewrite Z.pow_add_r; lia).
@@ -773,12 +848,14 @@ Proof.
     destruct (halves_of_four y0 y1 y2 y3) as (-> & ->).
     split; intros F; apply N; repeat match goal with H : Forall _ (_ :: _) |- _ => inversion_clear H end;
       repeat constructor; lra. }
-  pose proof (power_positive _ Hl) as W. unfold left_of, right_of, is_part, part_start, part_end.
-  cbn [part_y roots index level]. split; [| split; [| split; [| split; [| split]]]]; auto.
+  pose proof (power_positive _ Hl) as W.
+  unfold left_of, right_of, is_part, part_start, part_end. cbn [part_y roots index level].
+  split; [| split; [| split; [| split; [| split]]]]; auto.
   - repeat split; auto; try lia; try apply M. exists (8 * c). split; [lra |]. intros u.
     rewrite (proj1 (proj2 (proj2 (halves_at _ u L)))), E, P, !mult_IZR.
-    replace ((2 * IZR (index p) + u) / (2 * IZR (2 ^ level p)))
-      with ((IZR (index p) + u / 2) / IZR (2 ^ level p)) by (field; lra). ring.
+    replace ((2 * IZR (index p) + u) / (2 * IZR (2 ^ level p))) with ((IZR (index p) + u / 2) / IZR (2 ^
+      level p))
+      by (field; lra). ring.
   - repeat split; auto; try lia; try apply M. exists (8 * c). split; [lra |]. intros u.
     rewrite (proj1 (proj2 (proj2 (proj2 (halves_at _ u L))))), E, P, plus_IZR, !mult_IZR.
     replace ((2 * IZR (index p) + 1 + u) / (2 * IZR (2 ^ level p)))
@@ -791,11 +868,12 @@ Qed.
 Lemma one_change_part y p Q : is_part y p -> count (roots p) = 1%nat ->
   crosses_once (part_start p) (part_end p) (at_ y) Q.
 Proof.
-  intros H C. pose proof H as (L & R & _). rewrite R in C. destruct (one_change_crosses _ L C) as (l0 & l1 & q & One).
-  destruct (part_at y p H) as (c & Hc & E). set (w := IZR (2 ^ level p)) in *. set (i := IZR (index p)) in *.
-  exists (c * (l0 - l1 * i)), (c * (l1 * w)), (fun t => q (t * w - i)). intros t T. apply (part_place y p t H) in T.
-  fold w i in T. destruct (One _ T) as (V & P & N). split; [rewrite E, V; ring |]. split; auto. intros Z.
-  destruct (N Z).
+  intros H C. pose proof H as (L & R & _). rewrite R in C.
+  destruct (one_change_crosses _ L C) as (l0 & l1 & q & One). destruct (part_at y p H) as (c & Hc & E).
+  set (w := IZR (2 ^ level p)) in *. set (i := IZR (index p)) in *.
+  exists (c * (l0 - l1 * i)), (c * (l1 * w)), (fun t => q (t * w - i)). intros t T.
+  apply (part_place y p t H) in T. fold w i in T. destruct (One _ T) as (V & P & N).
+  split; [rewrite E, V; ring |]. split; auto. intros Z. destruct (N Z).
 Qed.
 
 (** ** Brackets *)
@@ -833,7 +911,8 @@ Proof.
   intros L B. apply power_positive in B. unfold sign_at. four y L.
   replace (form [y0; y1; y2; y3] (IZR (2 ^ bits - n)) (IZR n))
     with (IZR (2 ^ bits) ^ 3 * at_ [y0; y1; y2; y3] (over n bits)).
-  - rewrite sign_product, (sign_positive (IZR (2 ^ bits) ^ 3)) by now apply pow_lt. destruct (sign_of_real _); easy.
+  - rewrite sign_product, (sign_positive (IZR (2 ^ bits) ^ 3)) by now apply pow_lt.
+    destruct (sign_of_real _); easy.
   - unfold at_, over. rewrite minus_IZR. simpl. field. lra.
 Qed.
 
@@ -845,8 +924,9 @@ Definition brackets (y : list R) (p : part) (Q : R -> Prop) (low high bits : Z) 
    ((low < high)%Z /\ exists r, over low bits < r < over high bits /\ at_ y r = 0 /\
       forall t, part_start p < t < part_end p -> at_ y t = 0 -> t = r \/ Q t)).
 
-Lemma bracket_within_right y p Q place bits radius low high : length y = 4%nat -> is_part y p -> (level p <= bits)%Z ->
-  (0 <= radius <= 24)%Z -> opposite (roots p) = true -> crosses_once (part_start p) (part_end p) (at_ y) Q ->
+Lemma bracket_within_right y p Q place bits radius low high : length y = 4%nat -> is_part y p ->
+  (level p <= bits)%Z -> (0 <= radius <= 24)%Z -> opposite (roots p) = true ->
+  crosses_once (part_start p) (part_end p) (at_ y) Q ->
   bracket_within y p place bits radius = Some (low, high) -> brackets y p Q low high bits.
 Proof.
   intros L H B Hr O One. destruct (part_signs y p H) as (A & Z & F). rewrite O in Z.
@@ -860,9 +940,12 @@ Proof.
   assert (Hw : (begin < finish)%Z) by (unfold begin, finish; lia).
   assert (R : (1 <= 2 ^ radius <= 2 ^ 24)%Z).
   { split; [change 1%Z with (2 ^ 0)%Z |]; apply Z.pow_le_mono_r; lia. }
-  assert (T : (2 ^ bits = 2 ^ level p * 2 ^ (bits - level p))%Z) by (rewrite <- Z.pow_add_r by lia; f_equal; lia).
-  assert (Bounds : (0 <= begin <= lo /\ lo < hi /\ hi <= finish /\ finish <= 2 ^ bits /\ hi - lo <= 2 ^ 25)%Z).
-  { change (2 ^ 25)%Z with (2 ^ 24 + 2 ^ 24)%Z. unfold lo, hi, middle. unfold begin, finish in *. rewrite T. nia. }
+  assert (T : (2 ^ bits = 2 ^ level p * 2 ^ (bits - level p))%Z) by (rewrite <- Z.pow_add_r by lia; f_equal;
+    lia).
+  assert (Bounds : (0 <= begin <= lo /\ lo < hi /\ hi <= finish /\ finish <= 2 ^ bits /\ hi - lo <= 2 ^
+    25)%Z).
+  { change (2 ^ 25)%Z with (2 ^ 24 + 2 ^ 24)%Z. unfold lo, hi, middle. unfold begin, finish in *. rewrite T.
+    nia. }
   destruct Bounds as (B0 & B1 & B2 & B3 & B4).
   assert (Pl : part_start p <= over lo bits) by (rewrite <- Es; apply over_le; lia).
   assert (Ph : over hi bits <= part_end p) by (rewrite <- Ef; apply over_le; lia).
@@ -879,7 +962,8 @@ Proof.
     - exfalso. destruct F as [F | F]; rewrite F in S0; discriminate.
     - destruct (sign_at y lo bits) eqn:S; try discriminate. destruct (Inner lo ltac:(lia) S) as (P & V).
       split; [lia |]. split; [lra |]. split; [lra |]. left. auto. }
-  destruct (same_sign (if (hi =? finish)%Z then opposed (first (roots p)) else sign_at y hi bits) zero) eqn:S1.
+  destruct (same_sign (if (hi =? finish)%Z then opposed (first (roots p)) else sign_at y hi bits) zero)
+    eqn:S1.
   { intros E. injection E as <- <-. destruct (Z.eqb_spec hi finish) as [K | K].
     - exfalso. destruct F as [F | F]; rewrite F in S1; discriminate.
     - destruct (sign_at y hi bits) eqn:S; try discriminate. destruct (Inner hi ltac:(lia) S) as (P & V).
@@ -894,8 +978,9 @@ Proof.
     destruct F as [F | F]; rewrite F in *; destruct (sign_of_real (at_ y (over lo bits))); try discriminate;
       simpl in *; lra.
   - destruct (Req_EM_T (over hi bits) (part_end p)) as [K | K]; auto.
-    destruct (Z.eqb_spec hi finish) as [-> | N]; [now rewrite Ef in K |]. rewrite sign_at_right in * by (auto; lia).
-    pose proof (sign_of_real_right (at_ y (over hi bits))) as V. pose proof (never_uncertain (at_ y (over hi bits))).
+    destruct (Z.eqb_spec hi finish) as [-> | N]; [now rewrite Ef in K |].
+    rewrite sign_at_right in * by (auto; lia). pose proof (sign_of_real_right (at_ y (over hi bits))) as V.
+    pose proof (never_uncertain (at_ y (over hi bits))).
     destruct F as [F | F]; rewrite F in *; destruct (sign_of_real (at_ y (over hi bits))); try discriminate;
       simpl in *; try easy; lra.
 Qed.

@@ -7,7 +7,8 @@
                             concern only the calls of this query, and only if it reaches the reference
         batch_face_right, batch_edges_right   the same with the earlier tests of batches and steps, in any order *)
 
-From Coq Require Import Reals ZArith List Bool Lia. From Flocq Require Import Core.
+From Coq Require Import Reals ZArith List Bool Lia.
+From Flocq Require Import Core.
 From Errbound Require Import Format Contact AxisUnits UnboundedIntegers Reference RootFinder.
 From Errbound Require IntegerUnits Subdivision SeparatingAxis FilterStages Decisions InteriorContact CloseContact.
 Import ListNotations.
@@ -59,9 +60,10 @@ Definition query_bits (query : list given) : Z :=
 Notation double_number := (Format.number 53 (-1074)).
 
 (** Rmin and Rmax, and the order in which their result comes first. *)
-Lemma extreme_in (f : R -> R -> R) (first : R -> R -> Prop) : (forall x, first x x) ->
-  (forall x y z, first x y -> first y z -> first x z) -> (forall x y, (f x y = x \/ f x y = y) /\ first (f x y) x /\
-  first (f x y) y) -> forall l x, In (fold_left f l x) (x :: l) /\ forall y, In y (x :: l) -> first (fold_left f l x) y.
+Lemma extreme_in (f : R -> R -> R) (first : R -> R -> Prop) :
+  (forall x, first x x) -> (forall x y z, first x y -> first y z -> first x z) ->
+  (forall x y, (f x y = x \/ f x y = y) /\ first (f x y) x /\ first (f x y) y) ->
+  forall l x, In (fold_left f l x) (x :: l) /\ forall y, In y (x :: l) -> first (fold_left f l x) y.
 Proof.
   intros Same Then Of l. induction l as [| z l IH]; intros x; cbn [fold_left].
   - split; [now left |]. now intros y [<- | []].
@@ -106,8 +108,9 @@ Proof.
   { intros n In. apply to_integer_right. destruct (lowest_right axis query n In). now destruct E as [-> | ->]. }
   apply le_IZR. rewrite abs_IZR, minus_IZR, !W by assumption. rewrite <- Rmult_minus_distr_l, Rabs_mult.
   assert (U : powerRZ 2 (- unit) = bpow radix2 (- unit)) by (now rewrite bpow_powerRZ).
-  rewrite U, (Rabs_pos_eq (bpow radix2 (- unit))) by apply bpow_ge_0. change 2%Z with (radix_val radix2).
-  rewrite IZR_Zpower by (unfold axis_bits; lia). apply Rmult_le_reg_l with (bpow radix2 unit); [apply bpow_gt_0 |].
+  rewrite U, (Rabs_pos_eq (bpow radix2 (- unit))) by apply bpow_ge_0.
+  change 2%Z with (radix_val radix2). rewrite IZR_Zpower by (unfold axis_bits; lia).
+  apply Rmult_le_reg_l with (bpow radix2 unit); [apply bpow_gt_0 |].
   rewrite <- Rmult_assoc, <- !bpow_plus, Z.add_opp_diag_r, Rmult_1_l. now apply Rlt_le.
 Qed.
 
@@ -140,10 +143,11 @@ Definition in_integers_decided (edges : bool) (q0 q1 q2 q3 : given) : answer :=
     root_exponent estimated_pair more (given_motion q0) (given_motion q1) (given_motion q2) (given_motion q3)
     (i q0) (i q1) (i q2) (i q3)
   else Subdivision.undecided.
-Lemma query_fits edges q0 q1 q2 q3 : numbers q0 -> numbers q1 -> numbers q2 ->
-  numbers q3 -> (query_bits [q0; q1; q2; q3] <= 253)%Z -> let i := to_integers [q0; q1; q2; q3] in CloseContact.below
-  253 (side_b edges difference (i q0) (i q1) (i q2) (i q3)) /\ CloseContact.below 253 (side_c edges difference
-  (i q0) (i q1) (i q2) (i q3)) /\ CloseContact.below 253 (side_p edges difference (i q0) (i q1) (i q2) (i q3)).
+Lemma query_fits edges q0 q1 q2 q3 : numbers q0 -> numbers q1 -> numbers q2 -> numbers q3 ->
+  (query_bits [q0; q1; q2; q3] <= 253)%Z -> let i := to_integers [q0; q1; q2; q3] in
+  CloseContact.below 253 (side_b edges difference (i q0) (i q1) (i q2) (i q3)) /\
+  CloseContact.below 253 (side_c edges difference (i q0) (i q1) (i q2) (i q3)) /\
+  CloseContact.below 253 (side_p edges difference (i q0) (i q1) (i q2) (i q3)).
 Proof.
   intros N0 N1 N2 N3 L i. set (query := [q0; q1; q2; q3]) in *.
   assert (N : forall m, In m query -> numbers m) by (intros m [<- | [<- | [<- | [<- | []]]]]; assumption).

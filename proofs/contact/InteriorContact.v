@@ -10,9 +10,12 @@
         face_decision_right, edges_decision_right, vertex_edge_decision_right   certain answers of contact_of are
             right *)
 
-From Coq Require Import Reals ZArith Lia Lra Psatz List Bool Classical. From Flocq Require Import Core.
+From Coq Require Import Reals ZArith Lia Lra Psatz List Bool Classical.
+From Flocq Require Import Core.
 From Errbound Require Import Sign Bernstein Subdivision Contact VertexEdge Decisions AxisUnits CubicRoots.
-From Errbound Require BoundedInteger. Import ListNotations. Open Scope R_scope.
+From Errbound Require BoundedInteger.
+Import ListNotations.
+Open Scope R_scope.
 
 (** ** Weights at a time *)
 
@@ -20,7 +23,8 @@ Definition all_positive (edges : bool) (b c p : point) : bool :=
   forallb (fun w => same_sign (sign_of_real w) positive) (weights edges b c p).
 Lemma all_positive_true edges b c p : all_positive edges b c p = true <-> weights_positive edges b c p.
 Proof.
-  unfold all_positive, weights_positive. rewrite forallb_forall, Forall_forall. split; intros H w I; specialize (H w I).
+  unfold all_positive, weights_positive. rewrite forallb_forall, Forall_forall.
+  split; intros H w I; specialize (H w I).
   - pose proof (sign_of_real_right w) as S. destruct (sign_of_real w); try discriminate. easy.
   - now rewrite sign_positive.
 Qed.
@@ -56,7 +60,8 @@ Proof.
       apply point_eq in E.
       assert (Ep : along (along (along origin (- square_normal b c) p') (weight_1 b c p) b') (weight_2 b c
         p) c' = origin).
-      { unfold b', c', p', stretched. coordinates. destruct E as (E0 & E1 & E2). apply same_point; cbn [x y z].
+      { unfold b', c', p', stretched. coordinates. destruct E as (E0 & E1 & E2).
+        apply same_point; cbn [x y z].
         - transitivity (k * (0 + - square_normal b c * x p + weight_1 b c p * x b + weight_2 b c p * x c));
             [ring | rewrite E0; ring].
         - transitivity (l * (0 + - square_normal b c * y p + weight_1 b c p * y b + weight_2 b c p * y c));
@@ -64,14 +69,17 @@ Proof.
         - transitivity (m * (0 + - square_normal b c * z p + weight_1 b c p * z b + weight_2 b c p * z c));
             [ring | rewrite E2; ring]. }
       clearbody b' c' p'. clear E. apply point_eq in Ep. unfold along, origin in Ep. cbn [x y z] in Ep.
-      destruct Ep as (E0 & E1 & E2). set (n2 := square_normal b c) in *. set (w1 := weight_1 b c p) in *.
-      set (w2 := weight_2 b c p) in *. clearbody n2 w1 w2. assert (X0 : n2 * x p' = w1 * x b' + w2 * x c') by lra.
-      assert (X1 : n2 * y p' = w1 * y b' + w2 * y c') by lra. assert (X2 : n2 * z p' = w1 * z b' + w2 * z c') by lra.
+      destruct Ep as (E0 & E1 & E2). set (n2 := square_normal b c) in *.
+      set (w1 := weight_1 b c p) in *. set (w2 := weight_2 b c p) in *. clearbody n2 w1 w2.
+      assert (X0 : n2 * x p' = w1 * x b' + w2 * x c') by lra.
+      assert (X1 : n2 * y p' = w1 * y b' + w2 * y c') by lra.
+      assert (X2 : n2 * z p' = w1 * z b' + w2 * z c') by lra.
       repeat split; [field; lra | |]; apply Rmult_eq_reg_l with n2; try lra; field_simplify; try lra.
       + unfold weight_1, square_normal, dot, cross. cbn [x y z].
         transitivity (((n2 * y p') * z c' - (n2 * z p') * y c') * (y b' * z c' - z b' * y c') +
           ((n2 * z p') * x c' - (n2 * x p') * z c') * (z b' * x c' - x b' * z c') +
-          ((n2 * x p') * y c' - (n2 * y p') * x c') * (x b' * y c' - y b' * x c')); [ring |]. rewrite X0, X1, X2. ring.
+          ((n2 * x p') * y c' - (n2 * y p') * x c') * (x b' * y c' - y b' * x c')); [ring |].
+        rewrite X0, X1, X2. ring.
       + unfold weight_2, square_normal, dot, cross. cbn [x y z].
         transitivity ((y b' * (n2 * z p') - z b' * (n2 * y p')) * (y b' * z c' - z b' * y c') +
           (z b' * (n2 * x p') - x b' * (n2 * z p')) * (z b' * x c' - x b' * z c') +
@@ -79,7 +87,8 @@ Proof.
         rewrite X0, X1, X2. ring. }
   destruct H as (f & F & S & W1 & W2). exists f. split; auto.
   assert (A : forall b c p, on_a b c p = weight_1 b c p) by easy.
-  assert (B : forall b c p, on_b b c p = - weight_2 b c p) by (intros; unfold on_b, weight_2, dot, cross; simpl; ring).
+  assert (B : forall b c p, on_b b c p = - weight_2 b c p)
+    by (intros; unfold on_b, weight_2, dot, cross; simpl; ring).
   unfold weights, weight_0. fold (square_normal b' c') (square_normal b c).
     rewrite (A b c p), (A b' c' p'), (B b c p), (B b' c' p'), S, W1, W2.
   destruct edges; cbn [map]; repeat (apply (f_equal2 (@cons R)); [ring |]); easy.
@@ -87,7 +96,8 @@ Qed.
 
 (** ** Numbers known near the bracket *)
 
-Notation known := BoundedInteger.bounded. Notation stands := BoundedInteger.stands.
+Notation known := BoundedInteger.bounded.
+Notation stands := BoundedInteger.stands.
 Record known_vector := KnownVector { kx : known; ky : known; kz : known }.
 Definition cross_known (p q : known_vector) : known_vector :=
   let sub := BoundedInteger.sub in let mul := BoundedInteger.mul in
@@ -111,7 +121,8 @@ Definition known_weights (edges : bool) (b c p : known_vector) : list known :=
 
 Definition vector_stands (v : known_vector) (r : point) : Prop :=
   stands (kx v) (x r) /\ stands (ky v) (y r) /\ stands (kz v) (z r).
-Lemma cross_stands p q r s : vector_stands p r -> vector_stands q s -> vector_stands (cross_known p q) (cross r s).
+Lemma cross_stands p q r s : vector_stands p r -> vector_stands q s ->
+  vector_stands (cross_known p q) (cross r s).
 Proof.
   intros (Px & Py & Pz) (Qx & Qy & Qz). unfold vector_stands, cross_known, cross. cbn [kx ky kz x y z].
   auto 8 using BoundedInteger.bounded_difference_known, BoundedInteger.bounded_product_known.
@@ -140,11 +151,13 @@ Fixpoint conclusion (found : outcome) (gs : list known) : outcome :=
       | _ => conclusion undecided rest
       end
   end.
-Lemma conclusion_right gs ws found : Forall2 stands gs ws -> (conclusion found gs = collides ->
-  found = collides /\ Forall (Rlt 0) ws) /\ (conclusion found gs = separate -> found = separate \/ ~ Forall (Rlt 0) ws).
+Lemma conclusion_right gs ws found : Forall2 stands gs ws ->
+  (conclusion found gs = collides -> found = collides /\ Forall (Rlt 0) ws) /\
+  (conclusion found gs = separate -> found = separate \/ ~ Forall (Rlt 0) ws).
 Proof.
   intros F. revert found. induction F as [| g w gs ws S F IH]; intros found; cbn [conclusion]; [auto |].
-  pose proof (BoundedInteger.bounded_sign_certain g w S) as H. destruct (BoundedInteger.sign_of g); simpl in H.
+  pose proof (BoundedInteger.bounded_sign_certain g w S) as H.
+  destruct (BoundedInteger.sign_of g); simpl in H.
   - split; [discriminate |]. intros _. right. intros N. inversion_clear N. lra.
   - destruct (IH undecided) as (A & B). split; intros E; [now apply A in E |].
     destruct (B E) as [| N]; [discriminate |]. right. intros K. now inversion_clear K.
@@ -165,14 +178,16 @@ Definition component (T low bits width_bits extent : Z) (l : list Z) : known :=
   BoundedInteger.Bounded ((nth 0 l 0 * (2 ^ bits - low) + nth 1 l 0 * low) / 2 ^ cut)%Z
     (if 0 <? cut then Z.max changes 0 + 1 else changes)%Z.
 
-Lemma component_stands T low bits width_bits extent width l t : length l = 2%nat ->
-  (0 <= bits)%Z -> (0 <= width < 2 ^ width_bits)%Z -> over low bits <= t <= over (low + width) bits -> stands (component
-  T low bits width_bits extent l) (IZR (2 ^ bits) / IZR (2 ^ cut_of T bits extent) * form (map IZR l) (1 - t) t).
+Lemma component_stands T low bits width_bits extent width l t : length l = 2%nat -> (0 <= bits)%Z ->
+  (0 <= width < 2 ^ width_bits)%Z -> over low bits <= t <= over (low + width) bits ->
+  stands (component T low bits width_bits extent l)
+    (IZR (2 ^ bits) / IZR (2 ^ cut_of T bits extent) * form (map IZR l) (1 - t) t).
 Proof.
   intros L Hb Hw Ht. destruct l as [| x0 [| x1 [|]]]; try discriminate. clear L.
   assert (W : (0 <= width_bits)%Z).
   { apply Z.nlt_ge. intros N. rewrite Z.pow_neg_r in Hw by easy. lia. }
-  pose proof (power_positive _ Hb) as P. set (w := IZR (2 ^ bits)) in *. set (u := t * w - IZR low).
+  pose proof (power_positive _ Hb) as P. set (w := IZR (2 ^ bits)) in *.
+  set (u := t * w - IZR low).
   assert (U : 0 <= u <= IZR width).
   { unfold over in Ht. fold w in Ht. rewrite plus_IZR in Ht. unfold u.
     assert (IZR low / w * w = IZR low) by (field; lra).
@@ -183,27 +198,32 @@ Proof.
   set (v := (x0 * (2 ^ bits - low) + x1 * low)%Z). set (slope := (x1 - x0)%Z).
   assert (E : w * form (map IZR [x0; x1]) (1 - t) t = IZR v + IZR slope * u).
   { unfold v, slope, u, w. rewrite plus_IZR, !mult_IZR, !minus_IZR. simpl. ring. }
-  replace (w / IZR (2 ^ cut) * form (map IZR [x0; x1]) (1 - t) t)
-    with ((IZR v + IZR slope * u) / IZR (2 ^ cut)) by (rewrite <- E; field; lra).
+  replace (w / IZR (2 ^ cut) * form (map IZR [x0;
+    x1]) (1 - t) t) with ((IZR v + IZR slope * u) / IZR (2 ^ cut))
+    by (rewrite <- E; field; lra).
   (* the cut *)
   pose proof (Z.div_mod v (2 ^ cut) ltac:(lia)) as D.
-  pose proof (Z.mod_pos_bound v (2 ^ cut) ltac:(apply Z.pow_pos_nonneg; lia)) as M. set (k := (v / 2 ^ cut)%Z) in *.
-  set (m := (v mod 2 ^ cut)%Z) in *.
-  assert (Dr : (IZR v + IZR slope * u) / IZR (2 ^ cut) - IZR k = IZR m / IZR (2 ^ cut) + IZR slope * u / IZR (2 ^ cut)).
+  pose proof (Z.mod_pos_bound v (2 ^ cut) ltac:(apply Z.pow_pos_nonneg; lia)) as M.
+  set (k := (v / 2 ^ cut)%Z) in *. set (m := (v mod 2 ^ cut)%Z) in *.
+  assert (Dr : (IZR v + IZR slope * u) / IZR (2 ^ cut) - IZR k =
+    IZR m / IZR (2 ^ cut) + IZR slope * u / IZR (2 ^ cut)).
   { rewrite D, plus_IZR, mult_IZR. field. lra. }
   assert (Hm : 0 <= IZR m / IZR (2 ^ cut) < 1).
   { destruct M as (M0 & M1). apply IZR_le in M0. apply IZR_lt in M1. split.
     - apply Rmult_le_pos; [lra | left; now apply Rinv_0_lt_compat].
     - apply Rmult_lt_reg_r with (IZR (2 ^ cut)); [lra |]. field_simplify; lra. }
   (* the change *)
-  destruct (BoundedInteger.bit_length_bounds slope) as (Bl & Bs & _). set (n := BoundedInteger.bit_length slope) in *.
+  destruct (BoundedInteger.bit_length_bounds slope) as (Bl & Bs & _).
+  set (n := BoundedInteger.bit_length slope) in *.
   assert (C : Rabs (IZR slope * u / IZR (2 ^ cut)) < bpow radix2 (n + width_bits - cut)).
   { replace (n + width_bits - cut)%Z with (n + (width_bits + - cut))%Z by ring.
-    rewrite !bpow_plus, bpow_opp, <- !(IZR_Zpower radix2) by lia. change (Zpower radix2) with (Z.pow 2). unfold Rdiv.
-    rewrite !Rabs_mult, <- abs_IZR, Rabs_inv, (Rabs_pos_eq u), (Rabs_pos_eq (IZR (2 ^ cut))) by lra.
+    rewrite !bpow_plus, bpow_opp, <- !(IZR_Zpower radix2) by lia. change (Zpower radix2) with (Z.pow 2).
+    unfold Rdiv. rewrite !Rabs_mult, <- abs_IZR, Rabs_inv, (Rabs_pos_eq u),
+      (Rabs_pos_eq (IZR (2 ^ cut))) by lra.
     rewrite Rmult_assoc. pose proof (power_positive n Bl).
     apply Rle_lt_trans with (IZR (2 ^ n) * (u * / IZR (2 ^ cut))).
-    - apply Rmult_le_compat_r; [| now apply IZR_le]. apply Rmult_le_pos; [lra | left; now apply Rinv_0_lt_compat].
+    - apply Rmult_le_compat_r; [| now apply IZR_le].
+      apply Rmult_le_pos; [lra | left; now apply Rinv_0_lt_compat].
     - apply Rmult_lt_compat_l; auto. apply Rmult_lt_compat_r; [now apply Rinv_0_lt_compat |].
       destruct Hw as (_ & Hw). apply IZR_lt in Hw. lra. }
   unfold stands, BoundedInteger.is_exact. cbn [BoundedInteger.error_bits BoundedInteger.value].
@@ -247,8 +267,10 @@ Let P (t : R) : point := vector_at p t.
 (** All G_i > 0. *)
 Let Inside (t : R) : Prop := weights_positive edges (B t) (C t) (P t).
 
-Lemma y_length : length y = 4%nat. Proof. unfold y. rewrite map_length. apply (forms_y b c p 0); auto. Qed.
-Lemma y_at t : at_ y t = det (B t) (C t) (P t). Proof. apply (forms_y b c p t); auto. Qed.
+Lemma y_length : length y = 4%nat.
+Proof. unfold y. rewrite map_length. apply (forms_y b c p 0); auto. Qed.
+Lemma y_at t : at_ y t = det (B t) (C t) (P t).
+Proof. apply (forms_y b c p t); auto. Qed.
 
 (** forms_at, and the signs of all G_i there. *)
 Definition vector_value (v : @vector_form integers) (s t : R) : point :=
@@ -265,21 +287,26 @@ Proof.
   { intros l L. destruct l as [| l0 [| l1 [|]]]; try discriminate. simpl. field. easy. }
   unfold vector_value, vector_at, stretched, at_time. cbn [vx vy vz x Contact.y z]. now rewrite <- !E.
 Qed.
-Lemma weights_homogeneous k q r s : weights edges (stretched (Point k k k) q)
-  (stretched (Point k k k) r) (stretched (Point k k k) s) = map (Rmult (k ^ 4)) (weights edges q r s).
+Lemma weights_homogeneous k q r s :
+  weights edges (stretched (Point k k k) q) (stretched (Point k k k) r) (stretched (Point k k k) s) = map (Rmult (k ^ 4)) (weights
+    edges q r s).
 Proof.
-  unfold weights, weight_0, weight_1, weight_2, on_a, on_b, square_normal, stretched, dot, cross. cbn [x Contact.y z].
+  unfold weights, weight_0, weight_1, weight_2, on_a, on_b, square_normal, stretched, dot, cross.
+  cbn [x Contact.y z].
   destruct edges; cbn [map]; repeat (apply (f_equal2 (@cons R)); [ring |]); easy.
 Qed.
 Lemma inside_scaled k ws : 0 < k -> Forall (Rlt 0) (map (Rmult k) ws) <-> Forall (Rlt 0) ws.
-Proof. intros K. rewrite Forall_map, !Forall_forall. split; intros H w I; specialize (H w I); nra. Qed.
+Proof.
+  intros K. rewrite Forall_map, !Forall_forall. split; intros H w I; specialize (H w I); nra.
+Qed.
 Lemma positive_at_right s t : 0 < s + t -> positive_at s t = true <-> Inside (t / (s + t)).
 Proof.
   intros S. unfold positive_at. rewrite all_positive_true. unfold weights_positive.
   rewrite !vector_value_at by (auto; lra). rewrite weights_homogeneous, inside_scaled by (now apply pow_lt).
     easy.
 Qed.
-Lemma positive_over n bits : (0 <= bits)%Z -> positive_at (IZR (2 ^ bits - n)) (IZR n) = true <-> Inside (over n bits).
+Lemma positive_over n bits : (0 <= bits)%Z ->
+  positive_at (IZR (2 ^ bits - n)) (IZR n) = true <-> Inside (over n bits).
 Proof.
   intros Hb. apply power_positive in Hb. rewrite positive_at_right; rewrite minus_IZR;
     [| lra]. unfold over. now replace (IZR (2 ^ bits) - IZR n + IZR n) with (IZR (2 ^ bits)) by ring.
@@ -300,7 +327,8 @@ Theorem throughout_right T low bits width_bits width t : (0 <= bits)%Z -> (0 <= 
   (throughout T low bits width_bits = collides -> Inside t) /\
   (throughout T low bits width_bits = separate -> ~ Inside t).
 Proof.
-  intros Hb Hw Ht Z. rewrite y_at in Z. set (k := fun extent => IZR (2 ^ bits) / IZR (2 ^ cut_of T bits extent)).
+  intros Hb Hw Ht Z. rewrite y_at in Z.
+  set (k := fun extent => IZR (2 ^ bits) / IZR (2 ^ cut_of T bits extent)).
   assert (K : forall extent, 0 < k extent).
   { intros extent. unfold k. apply Rdiv_lt_0_compat; apply power_positive; auto. unfold cut_of. lia. }
   assert (V : forall v, degree v 1 -> vector_stands (known_at T low bits width_bits v)
@@ -308,7 +336,8 @@ Proof.
   { intros v (L0 & L1 & L2). repeat split; cbn [known_at kx ky kz];
       apply component_stands with (width := width); auto. }
   pose proof (weights_stand edges _ _ _ _ _ _ (V b degree_b) (V c degree_c) (V p degree_p)) as F.
-  destruct (weights_stretched edges (k extent_x) (k extent_y) (k extent_z) (B t) (C t) (P t)) as (f & Pf & E); auto.
+  destruct (weights_stretched edges (k extent_x) (k extent_y) (k extent_z) (B t) (C t) (P t)) as (f & Pf &
+    E); auto.
   unfold B, C, P in E. rewrite E in F. destruct (conclusion_right _ _ collides F) as (Yes & No).
   unfold throughout, Inside, weights_positive. split; intros O.
   - destruct (Yes O) as (_ & W). now apply (inside_scaled f).
@@ -348,7 +377,8 @@ Lemma over_value f n bits : (0 <= bits)%Z ->
 Proof.
   intros Hb. apply power_positive in Hb.
   replace (value f (IZR (2 ^ bits - n)) (IZR n)) with (IZR (2 ^ bits) ^ 2 * quadratic_at f (over n bits)).
-  - rewrite sign_product, (sign_positive (IZR (2 ^ bits) ^ 2)) by now apply pow_lt. destruct (sign_of_real _); easy.
+  - rewrite sign_product, (sign_positive (IZR (2 ^ bits) ^ 2)) by now apply pow_lt.
+    destruct (sign_of_real _); easy.
   - unfold quadratic_at, value, over. rewrite minus_IZR. field. lra.
 Qed.
 
@@ -366,20 +396,24 @@ Proof.
     pose proof (common_roots_right (let n := cross_form b c in
       [quadratic_of (vx n); quadratic_of (vy n); quadratic_of (vz n)])) as K. cbv zeta in K.
     destruct (common_roots _) as [| m | f |]; try discriminate; cbn [kind_is_right] in K.
-    - destruct K as (k & t & Pk & T & (S0 & S1 & S2) & Only). exists t. split; [| apply normal_at, Only; auto].
+    - destruct K as (k & t & Pk & T & (S0 & S1 & S2) & Only). exists t. split; [| apply normal_at, Only;
+        auto].
       apply andb_prop in V. destruct V as (V0 & V1).
-      assert (Neg : forall a, below_0 a = true -> a < 0) by (intros a; unfold below_0; destruct Rlt_dec; easy).
+      assert (Neg : forall a, below_0 a = true -> a < 0) by (intros a; unfold below_0; destruct Rlt_dec;
+        easy).
       apply Neg in V0, V1. rewrite S0, S1, minus_IZR in *. pose proof (power_positive _ Hb) as W.
       set (w := IZR (2 ^ bits)) in *.
       assert (F0 : k * (1 - t) * (IZR low - t * w) < 0) by (eapply Rle_lt_trans; [| exact V0]; right; ring).
       assert (F1 : k * (1 - t) * (t * w - IZR high) < 0) by (eapply Rle_lt_trans; [| exact V1]; right; ring).
       assert (0 < k * (1 - t)) by (apply Rmult_lt_0_compat; lra).
-      assert (Cancel : forall a q, 0 < a -> a * q < 0 -> q < 0) by (clear; intros; nra). apply Cancel in F0, F1; auto.
-      unfold over. fold w. split; apply Rmult_lt_reg_r with w; auto; unfold Rdiv; rewrite Rmult_assoc, Rinv_l; lra.
+      assert (Cancel : forall a q, 0 < a -> a * q < 0 -> q < 0) by (clear; intros; nra).
+      apply Cancel in F0, F1; auto. unfold over. fold w.
+      split; apply Rmult_lt_reg_r with w; auto; unfold Rdiv; rewrite Rmult_assoc, Rinv_l; lra.
     - destruct K as (_ & Same). rewrite !over_value, <- sign_product in V by easy.
       pose proof (sign_of_real_right (quadratic_at f (over low bits) * quadratic_at f (over high bits))) as S.
       destruct (sign_of_real _); try discriminate. simpl in S.
-      destruct (between_signs (quadratic_at f) (over low bits) (over high bits)) as (t & T & Z); auto; [| lra |].
+      destruct (between_signs (quadratic_at f) (over low bits) (over high bits)) as (t & T & Z); auto;
+        [| lra |].
       + assert (E : quadratic_at f = at_ [c0 f; c1 f; c2 f]).
         { apply FunctionalExtensionality.functional_extensionality. intros t.
           unfold quadratic_at, value, at_. simpl. ring. }
@@ -438,32 +472,43 @@ Proof.
 Qed.
 
 (** `collides` implies a root inside the interval. *)
-Lemma near_told distinct more T q place bits o : is_part y q -> (level q <= bits)%Z -> opposite (roots q) = true ->
+Lemma near_told distinct more T q place bits o : is_part y q -> (level q <= bits)%Z ->
+  opposite (roots q) = true ->
   crosses_once (part_start q) (part_end q) (at_ y) (fun t => ~ Inside t /\ distinct = false) ->
-  near distinct more T q place bits = Some o -> match o with | collides =>
-  exists t, part_start q < t < part_end q /\ at_ y t = 0 /\ Inside t | _ => answers (part_start q) (part_end q) o end.
+  near distinct more T q place bits = Some o -> match o with
+    | collides => exists t, part_start q < t < part_end q /\ at_ y t = 0 /\ Inside t
+    | _ => answers (part_start q) (part_end q) o
+  end.
 Proof.
-  intros H Hb O One. revert T place bits o Hb. induction more as [| more IH]; intros T place bits o Hb; cbn [near].
+  intros H Hb O One. revert T place bits o Hb. induction more as [| more IH]; intros T place bits o Hb;
+    cbn [near].
   all: destruct (bracket_near y q place bits) as [[low high] |] eqn:E; [| discriminate].
-  all: destruct (bracket_near_right y q _ place bits low high y_length H Hb O One E) as ((L & Lh & W) & Ps & Pe & K).
+  all: destruct (bracket_near_right y q _ place bits low high y_length H Hb O One E) as
+    ((L & Lh & W) & Ps & Pe & K).
   all: assert (Hp : (0 <= bits)%Z) by (destruct H as (_ & _ & (? & _) & _); lia).
-  all: pose proof (part_inside y q H) as In01. all: destruct (Z.eqb_spec low high) as [Eq | Ne].
-  1, 3: destruct K as [(_ & In & Z) | (N & _)];
-    [| lia]; intros X; injection X as <-; pose proof (positive_over low bits Hp) as Pos; destruct (positive_at _ _);
-    [exists (over low bits); split; [exact In |]; split; auto; now apply Pos |]; destruct distinct;
-    [| easy]; intros t T' Zt Ins; destruct (part_signs y q H) as (A & _); destruct (only_crossing _ _ _ _ _
-    t (over low bits) One A T' In Zt Z) as [-> | [(_ & D) | (_ & D)]]; try discriminate; apply Pos in Ins; discriminate.
+  all: pose proof (part_inside y q H) as In01.
+  all: destruct (Z.eqb_spec low high) as [Eq | Ne].
+  1, 3: destruct K as [(_ & In & Z) | (N & _)]; [| lia]; intros X; injection X as <-;
+    pose proof (positive_over low bits Hp) as Pos; destruct (positive_at _ _);
+    [exists (over low bits); split; [exact In |]; split; auto; now apply Pos |];
+    destruct distinct; [| easy]; intros t T' Zt Ins;
+    destruct (part_signs y q H) as (A & _);
+    destruct (only_crossing _ _ _ _ _ t (over low bits) One A T' In Zt Z) as [-> | [(_ & D) | (_ & D)]];
+    try discriminate; apply Pos in Ins; discriminate.
   all: destruct K as [(N & _) | (Lt & r & Hr & Zr & Only)]; [lia |].
   all: destruct (bit_width_bounds (high - low) ltac:(lia)) as (Bw & B0).
-  all: destruct (throughout_right T low bits (BoundedInteger.bit_width (high - low)) (high - low) r Hp) as (Yes & No);
+  all: destruct (throughout_right T low bits (BoundedInteger.bit_width (high - low)) (high - low) r Hp) as
+    (Yes & No);
     [lia | replace (low + (high - low))%Z with high by lia; lra | exact Zr |].
   all: destruct (throughout T low bits (BoundedInteger.bit_width (high - low))).
   1, 4: intros X; injection X as <-; intros t T' Zt; destruct (Only t T' Zt) as [-> | (Q & _)]; auto.
   1, 3: intros X; injection X as <-; exists r; split; [lra | auto].
   all: destruct ((T =? 2)%Z && distinct && normal_vanishes low high bits) eqn:V.
-  1, 3: intros X; injection X as <-; apply andb_prop in V; destruct V as (V & Nv); apply andb_prop in V; destruct
-    V as (_ & D); destruct (normal_vanishes_right low high bits) as (s & Hs & Zs & Ns); auto; try lia; destruct (Only s
-    ltac:(lra) Zs) as [-> | (_ & D')]; [| congruence]; intros t T' Zt; destruct (Only t T' Zt) as [-> | (Q & _)]; auto.
+  1, 3: intros X; injection X as <-; apply andb_prop in V; destruct V as (V & Nv); apply andb_prop in V;
+    destruct V as (_ & D); destruct (normal_vanishes_right low high bits) as (s & Hs & Zs & Ns); auto;
+      try lia;
+    destruct (Only s ltac:(lra) Zs) as [-> | (_ & D')]; [| congruence];
+    intros t T' Zt; destruct (Only t T' Zt) as [-> | (Q & _)]; auto.
   - intros X. now injection X as <-.
   - destruct (near distinct more (T + 1) q _ _) as [o' |] eqn:E'; intros X; injection X as <-; [| easy].
     apply (IH _ _ _ o') in E'; auto. lia.
@@ -552,58 +597,70 @@ Lemma part_root three q : good three q -> any_root three (roots q) = true ->
 Proof.
   intros (H & _ & D) A. pose proof H as (L & Er & (Hl & _) & _).
   assert (Ru : exists u, 0 < u < 1 /\ at_ (part_y q) u = 0).
-  { rewrite Er in A. unfold any_root in A. apply orb_prop in A. destruct A as [O | A]; [now apply odd_changes |].
+  { rewrite Er in A. unfold any_root in A. apply orb_prop in A. destruct A as [O | A];
+    [now apply odd_changes |].
     apply andb_prop in A. destruct A as (-> & C'). apply Nat.ltb_lt in C'. apply any_change; auto. }
-  destruct Ru as (u & U & Zu). exists ((IZR (index q) + u) / IZR (2 ^ level q)). apply power_positive in Hl.
-  assert (Eu : (IZR (index q) + u) / IZR (2 ^ level q) * IZR (2 ^ level q) - IZR (index q) = u) by (field; lra).
-  split; [apply (proj2 (part_place y q _ H)); now rewrite Eu |]. destruct (part_at y q H) as (k & _ & E').
-  rewrite E', Eu, Zu. ring.
+  destruct Ru as (u & U & Zu). exists ((IZR (index q) + u) / IZR (2 ^ level q)).
+  apply power_positive in Hl.
+  assert (Eu : (IZR (index q) + u) / IZR (2 ^ level q) * IZR (2 ^ level q) - IZR (index q) = u) by (field;
+    lra).
+  split; [apply (proj2 (part_place y q _ H)); now rewrite Eu |].
+  destruct (part_at y q H) as (k & _ & E'). rewrite E', Eu, Zu. ring.
 Qed.
 Lemma all_over_right q : is_part y q -> (exists t, part_start q < t < part_end q /\ at_ y t = 0) ->
   answers (part_start q) (part_end q) (throughout 1 (index q) (level q) 1).
 Proof.
   intros H Root. pose proof (part_inside y q H). pose proof H as (_ & _ & (Hl & _) & _).
-  assert (Th : forall t, part_start q <= t <= part_end q -> at_ y t = 0 -> (throughout
-    1 (index q) (level q) 1 = collides -> Inside t) /\ (throughout 1 (index q) (level q) 1 = separate -> ~ Inside t))
+  assert (Th : forall t, part_start q <= t <= part_end q -> at_ y t = 0 ->
+    (throughout 1 (index q) (level q) 1 = collides -> Inside t) /\
+    (throughout 1 (index q) (level q) 1 = separate -> ~ Inside t))
     by (intros t T Z; apply throughout_right with (width := 1%Z); auto; lia).
   destruct (throughout 1 (index q) (level q) 1); simpl; auto.
   - intros t T Z. apply Th; auto; lra.
   - destruct Root as (t & T & Z). exists t. split; [lra |]. split; auto. apply Th; auto; lra.
 Qed.
-Lemma middle_sign q : is_part y q -> let h := part_y q in same_sign (sign_of_real
-  (nth 0 h 0 + nth 1 h 0 + nth 2 h 0 + nth 3 h 0)) zero = true <-> at_ y (over (2 * index q + 1) (level q + 1)) = 0.
+Lemma middle_sign q : is_part y q -> let h := part_y q in
+  same_sign (sign_of_real (nth 0 h 0 + nth 1 h 0 + nth 2 h 0 + nth 3 h 0)) zero = true <->
+  at_ y (over (2 * index q + 1) (level q + 1)) = 0.
 Proof.
   intros H h. destruct (part_at y q H) as (k & K & E). pose proof H as (L & _ & (Hl & _) & _). rewrite E.
   pose proof (power_positive _ Hl) as W. unfold over. rewrite Z.pow_add_r, plus_IZR, !mult_IZR by lia.
   change (2 ^ 1)%Z with 2%Z.
   replace ((2 * IZR (index q) + 1) / (IZR (2 ^ level q) * 2) * IZR (2 ^ level q) - IZR (index q)) with (1 / 2)
-    by (field; lra). unfold h. clear - L K. destruct (part_y q) as [| h0 [| h1 [| h2 [| h3 [|]]]]]; try discriminate.
-  cbn [nth].
-  replace (k * at_ [h0; h1; h2; h3] (1 / 2)) with (k / 8 * (h0 + h1 + h2 + h3)) by (unfold at_; simpl; field). split.
+    by (field; lra).
+  unfold h. clear - L K. destruct (part_y q) as [| h0 [| h1 [| h2 [| h3 [|]]]]]; try discriminate. cbn [nth].
+  replace (k * at_ [h0; h1; h2; h3] (1 / 2)) with (k / 8 * (h0 + h1 + h2 + h3)) by (unfold at_; simpl; field).
+  split.
   - intros S. pose proof (sign_of_real_right (h0 + h1 + h2 + h3)) as Q.
     destruct (sign_of_real _); try discriminate. simpl in Q. rewrite Q. ring.
   - intros Z. apply Rmult_integral in Z. destruct Z; [lra |]. now rewrite sign_zero.
 Qed.
 
-Lemma without_halving_right distinct three q : known_roots distinct three ->
-  good three q -> match without_halving distinct three q with | Some o => answers (part_start q) (part_end q) o |
-  None => (level q < max_halvings)%Z /\ let t := over (2 * index q + 1) (level q + 1) in at_ y t = 0 -> ~ Inside t end.
+Lemma without_halving_right distinct three q : known_roots distinct three -> good three q ->
+  match without_halving distinct three q with
+  | Some o => answers (part_start q) (part_end q) o
+  | None => (level q < max_halvings)%Z /\
+      let t := over (2 * index q + 1) (level q + 1) in at_ y t = 0 -> ~ Inside t
+  end.
 Proof.
   intros K G. unfold without_halving. pose proof (dropped distinct three q K G) as Drop.
-  pose proof (part_root three q G) as Root. destruct (any_root three (roots q)) eqn:A; cbn [negb]; [| now apply Drop].
-  clear Drop. destruct G as (H & Lv & _). destruct K as (_ & _ & One). pose proof (part_inside y q H) as In01.
-  destruct (if opposite (roots q) && (Nat.eqb (count (roots q)) 1 || negb three) then _ else None) as [o |] eqn:E.
+  pose proof (part_root three q G) as Root.
+  destruct (any_root three (roots q)) eqn:A; cbn [negb]; [| now apply Drop]. clear Drop.
+  destruct G as (H & Lv & _). destruct K as (_ & _ & One). pose proof (part_inside y q H) as In01.
+  destruct (if opposite (roots q) && (Nat.eqb (count (roots q)) 1 || negb three) then _ else None) as [o |]
+    eqn:E.
   { destruct (opposite (roots q) && (Nat.eqb (count (roots q)) 1 || negb three)) eqn:Nr; [| discriminate].
     apply andb_prop in Nr. destruct Nr as (O & Nr).
     apply near_right with (5 := E); auto; [unfold max_halvings in Lv; lia |].
     destruct three; [| apply (restricted 0 1); [now apply One | lra | lra]].
     apply one_change_part; auto. rewrite orb_false_r in Nr. now apply Nat.eqb_eq. }
-  destruct (Z.eqb_spec (level q) max_halvings) as [Eq | Ne]; [now apply all_over_right; auto |]. cbv zeta.
-  pose proof (middle_sign q H) as M. cbv zeta in M.
+  destruct (Z.eqb_spec (level q) max_halvings) as [Eq | Ne]; [now apply all_over_right; auto |].
+  cbv zeta. pose proof (middle_sign q H) as M. cbv zeta in M.
   assert (Hl : (0 <= level q + 1)%Z) by (destruct H as (_ & _ & (? & _) & _); lia).
   pose proof (positive_over (2 * index q + 1) (level q + 1) Hl) as Pos.
-  destruct (halves_are_parts y q H) as (Hq & _ & _ & _ & Em & _). pose proof (part_inside y _ Hq) as Im.
-  rewrite Em in Im. destruct (same_sign _ zero && positive_at _ _) eqn:S.
+  destruct (halves_are_parts y q H) as (Hq & _ & _ & _ & Em & _).
+  pose proof (part_inside y _ Hq) as Im. rewrite Em in Im.
+  destruct (same_sign _ zero && positive_at _ _) eqn:S.
   - apply andb_prop in S. destruct S as (S0 & S1). exists (over (2 * index q + 1) (level q + 1)).
     split; [lra |]. split; [now apply M | now apply Pos].
   - split; [lia |]. intros Z I. apply M in Z. apply Pos in I. rewrite Z, I in S. discriminate.
@@ -613,8 +670,9 @@ Lemma halves_good three q : good three q -> (level q < max_halvings)%Z ->
   good three (left_of q) /\ good three (right_of q).
 Proof.
   intros (H & _ & D) L. destruct (halves_are_parts y q H) as (H0 & H1 & _).
-  destruct (halves_at (part_y q) 0 (proj1 H)) as (_ & _ & _ & _ & D0 & D1). unfold good, left_of, right_of in *.
-  cbn [part_y level] in *. split; (split; [easy |]; split; [lia |]); intros E; specialize (D E); lra.
+  destruct (halves_at (part_y q) 0 (proj1 H)) as (_ & _ & _ & _ & D0 & D1).
+  unfold good, left_of, right_of in *. cbn [part_y level] in *.
+  split; (split; [easy |]; split; [lia |]); intros E; specialize (D E); lra.
 Qed.
 
 Theorem by_halving_right distinct three steps waiting found : known_roots distinct three ->
@@ -625,8 +683,10 @@ Theorem by_halving_right distinct three steps waiting found : known_roots distin
      found = separate /\ forall q, In q waiting -> answers (part_start q) (part_end q) separate).
 Proof.
   intros K. revert waiting found. induction steps as [| steps IH]; intros waiting found G; [easy |].
-  destruct waiting as [| q rest]; cbn [by_halving]; [split; intros E; [now left | split; [easy | intros q []]] |].
-  inversion_clear G as [| ? ? Gq Gr]. pose proof (without_halving_right distinct three q K Gq) as W.
+  destruct waiting as [| q rest]; cbn [by_halving]; [split; intros E; [now left | split;
+    [easy | intros q []]] |].
+  inversion_clear G as [| ? ? Gq Gr].
+  pose proof (without_halving_right distinct three q K Gq) as W.
   destruct (without_halving distinct three q) as [[ | | ] |]; simpl in W.
   - destruct (IH rest found Gr) as (Yes & No). split; auto. intros E. destruct (No E) as (F & A). split; auto.
     intros q' [<- | I]; auto.
@@ -636,7 +696,8 @@ Proof.
     + destruct (No E). discriminate.
   - destruct W as (Lv & Mid). destruct (halves_good three q Gq Lv) as (G0 & G1).
     assert (Gn : Forall (good three) (waiting_next three q rest)).
-    { unfold waiting_next. apply Forall_app. split; auto. apply Forall_forall. intros h I. apply filter_In in I.
+    { unfold waiting_next. apply Forall_app. split; auto. apply Forall_forall. intros h I.
+      apply filter_In in I.
       destruct I as ([<- | [<- | []]] & _); auto. }
     destruct (IH _ found Gn) as (Yes & No). split; auto. intros E. destruct (No E) as (F & A). split; auto.
     destruct (halves_are_parts y q (proj1 Gq)) as (_ & _ & Es & Ee & Em & Em').
@@ -689,14 +750,20 @@ Definition interior_contact (steps : nat) : outcome :=
         end
       else by_halving true false steps [whole] separate.
 
-Lemma below_0_true a : below_0 a = true <-> a < 0. Proof. unfold below_0. destruct Rlt_dec; split; easy. Qed.
+Lemma below_0_true a : below_0 a = true <-> a < 0.
+Proof. unfold below_0. destruct Rlt_dec; split; easy. Qed.
 
 (** Then the only multiple root of Y inside is the returned one. *)
-Lemma linear_of_multiple_right : (1 < count (inner_sign_changes y))%nat -> let '(root, (distinct, three, triple))
-  := linear_of_multiple in ~ Forall (eq 0) y /\ (three = true -> 0 < discriminant y) /\ (three = false -> discriminant
-  y <= 0) /\ (distinct = true -> discriminant y <> 0) /\ match root with | Some (p0, p1) => p0 < 0 < p1 /\ let r := - p0
-  / (p1 + - p0) in at_ y r = 0 /\ (forall t, 0 < t < 1 -> multiple_root y t -> t = r) /\ (triple = true -> forall t, at_
-  y t = 0 -> t = r) | None => triple = false /\ forall t, 0 < t < 1 -> discriminant y = 0 -> ~ multiple_root y t end.
+Lemma linear_of_multiple_right : (1 < count (inner_sign_changes y))%nat ->
+  let '(root, (distinct, three, triple)) := linear_of_multiple in
+  ~ Forall (eq 0) y /\ (three = true -> 0 < discriminant y) /\ (three = false -> discriminant y <= 0) /\
+  (distinct = true -> discriminant y <> 0) /\
+  match root with
+  | Some (p0, p1) => p0 < 0 < p1 /\ let r := - p0 / (p1 + - p0) in
+      at_ y r = 0 /\ (forall t, 0 < t < 1 -> multiple_root y t -> t = r) /\
+      (triple = true -> forall t, at_ y t = 0 -> t = r)
+  | None => triple = false /\ forall t, 0 < t < 1 -> discriminant y = 0 -> ~ multiple_root y t
+  end.
 Proof.
   intros N. pose proof y_length as L. unfold linear_of_multiple. fold (discriminant y). set (h := hessian y). cbv zeta.
   pose proof (sign_of_real_right (discriminant y)) as S. pose proof (never_uncertain (discriminant y)) as U.
@@ -720,7 +787,8 @@ Proof.
     destruct (double_root_place y L S N2) as (P2 & Root & Only). fold h in P2, Root, Only.
     split; auto. split; [discriminate |]. split; [intros; lra |]. split; [discriminate |]. split; [lra |]. cbv zeta.
     split; [| split; [| discriminate]].
-    + assert (E : form y (2 * c2 h) (- c1 h) = (2 * c2 h + - c1 h) ^ 3 * at_ y (- c1 h / (2 * c2 h + - c1 h))).
+    + assert (E : form y (2 * c2 h) (- c1 h) =
+        (2 * c2 h + - c1 h) ^ 3 * at_ y (- c1 h / (2 * c2 h + - c1 h))).
       { clearbody h. revert L. generalize y. intros w L. four w L. apply cubic_at_ratio. lra. }
       rewrite E in Root. apply Rmult_integral in Root. destruct Root as [Root |]; auto. exfalso.
       revert Root. apply pow_nonzero. lra.
@@ -730,8 +798,9 @@ Proof.
     split; auto. split; [discriminate |]. split; [intros; lra |]. split; [discriminate |]. split; auto.
     intros t T _ M. destruct (Only t T M) as (K & _). apply below_0_true in K. congruence.
 Qed.
-Lemma at_multiple_root_right : (1 < count (inner_sign_changes y))%nat -> let '(answer, distinct, three)
-  := at_multiple_root in answers 0 1 answer /\ (answer = undecided -> known_roots distinct three).
+Lemma at_multiple_root_right : (1 < count (inner_sign_changes y))%nat ->
+  let '(answer, distinct, three) := at_multiple_root in
+  answers 0 1 answer /\ (answer = undecided -> known_roots distinct three).
 Proof.
   intros N. pose proof (linear_of_multiple_right N) as M. pose proof y_length as L. unfold at_multiple_root.
   destruct linear_of_multiple as [root [[distinct three] triple]]. destruct M as (Moving & Three & One & Dist & Root).
@@ -772,21 +841,30 @@ Proof.
 Qed.
 
 (** Between the ends. *)
-Lemma inner_right steps : ~ Forall (eq 0) y -> answers 0 1 (let changes := inner_sign_changes y in
-  if Nat.eqb (count changes) 0 then separate else if Nat.ltb 1 (count changes) then let
-  '(multiple, distinct, three) := at_multiple_root in match multiple with | undecided => by_halving distinct three steps
-  [Part y changes 0 0] separate | _ => multiple end else by_halving true false steps [Part y changes 0 0] separate).
+Lemma inner_right steps : ~ Forall (eq 0) y -> answers 0 1
+  (let changes := inner_sign_changes y in
+   if Nat.eqb (count changes) 0 then separate
+   else if Nat.ltb 1 (count changes) then
+     let '(multiple, distinct, three) := at_multiple_root in
+     match multiple with
+     | undecided => by_halving distinct three steps [Part y changes 0 0] separate
+     | _ => multiple
+     end
+   else by_halving true false steps [Part y changes 0 0] separate).
 Proof.
-  intros N. pose proof y_length as L. cbv zeta. destruct (Nat.eqb_spec (count (inner_sign_changes y)) 0) as [Z | N0].
+  intros N. pose proof y_length as L. cbv zeta.
+  destruct (Nat.eqb_spec (count (inner_sign_changes y)) 0) as [Z | N0].
   { destruct (no_changes y L Z) as [F | F]; [easy |]. intros t T Zt. now apply F in Zt. }
   assert (Loop : forall distinct three, known_roots distinct three ->
     answers 0 1 (by_halving distinct three steps [Part y (inner_sign_changes y) 0 0] separate)).
   { intros distinct three K. pose proof (whole_is_part y L N) as W.
-    destruct (by_halving_right distinct three steps [Part y (inner_sign_changes y) 0 0] separate K) as (Yes & No).
+    destruct (by_halving_right distinct three steps [Part y (inner_sign_changes y) 0 0] separate K) as (Yes
+      & No).
     { constructor; [| constructor]. split; auto. split; [easy |]. apply K. }
     destruct (by_halving _ _ _ _ _); [| | easy].
-    - destruct (No eq_refl) as (_ & A). specialize (A _ (or_introl eq_refl)). unfold part_start, part_end, over in A.
-      cbn [index level] in A. replace (IZR 0 / IZR (2 ^ 0)) with 0 in A by (simpl; field).
+    - destruct (No eq_refl) as (_ & A). specialize (A _ (or_introl eq_refl)).
+      unfold part_start, part_end, over in A. cbn [index level] in A.
+      replace (IZR 0 / IZR (2 ^ 0)) with 0 in A by (simpl; field).
       replace (IZR (0 + 1) / IZR (2 ^ 0)) with 1 in A by (simpl; field). easy.
     - now destruct (Yes eq_refl). }
   destruct (Nat.ltb_spec 1 (count (inner_sign_changes y))) as [Many | One].
@@ -804,9 +882,10 @@ Proof.
   unfold interior_contact. pose proof y_length as L.
   assert (Ends : at_ y 0 = nth 0 y 0 /\ at_ y 1 = nth 3 y 0).
   { revert L. generalize y. intros w L. four w L. unfold at_. simpl. split; ring. }
-  destruct Ends as (E0 & E1). pose proof (positive_at_right 1 0 ltac:(lra)) as I0.
-  replace (0 / (1 + 0)) with 0 in I0 by field. pose proof (positive_at_right 0 1 ltac:(lra)) as I1.
-  replace (1 / (0 + 1)) with 1 in I1 by field. destruct (is_0 (nth 0 y 0) && positive_at 1 0) eqn:S0.
+  destruct Ends as (E0 & E1).
+  pose proof (positive_at_right 1 0 ltac:(lra)) as I0. replace (0 / (1 + 0)) with 0 in I0 by field.
+  pose proof (positive_at_right 0 1 ltac:(lra)) as I1. replace (1 / (0 + 1)) with 1 in I1 by field.
+  destruct (is_0 (nth 0 y 0) && positive_at 1 0) eqn:S0.
   { split; [intros _ | discriminate]. apply andb_prop in S0. destruct S0 as (Z & I). apply is_0_true in Z.
     exists 0. split; [lra |]. split; [now rewrite <- y_at, E0 | now apply I0]. }
   destruct (is_0 (nth 3 y 0) && positive_at 0 1) eqn:S1.
@@ -825,8 +904,9 @@ Proof.
   - pose proof (inner_right steps F) as A. cbv zeta in *.
     match goal with |- (?o = collides -> _) /\ _ => set (answer := o) in * end.
     destruct answer; split; try discriminate; intros _.
-    + right. intros (t & T & Z & I). rewrite <- y_at in Z. destruct (Req_dec t 0) as [-> |]; [now apply N0 |].
-      destruct (Req_dec t 1) as [-> |]; [now apply N1 |]. apply (A t); auto. lra.
+    + right. intros (t & T & Z & I). rewrite <- y_at in Z.
+      destruct (Req_dec t 0) as [-> |]; [now apply N0 |]. destruct (Req_dec t 1) as [-> |]; [now apply N1 |].
+      apply (A t); auto. lra.
     + destruct A as (t & T & Z & I). exists t. split; [easy |]. split; [now rewrite <- y_at | easy].
 Qed.
 
@@ -853,10 +933,11 @@ Qed.
 Theorem three_parts_wait three q rest : is_part y q -> waiting_fits (q :: rest) ->
   waiting_fits (waiting_next three q rest) /\ (length (waiting_next three q rest) <= 3)%nat.
 Proof.
-  intros (L & E & _) (F & S).
-  assert (W : waiting_fits (waiting_next three q rest)); [| split; auto; now apply three_at_most].
-  inversion_clear F as [| ? ? _ Fr]. cbn in S. rewrite E in S. pose proof (halves_changes (part_y q) L).
-  destruct (halves_at (part_y q) 0 L) as (L0 & L1 & _). unfold waiting_next. cbn [filter].
+  intros (L & E & _) (F & S). assert (W : waiting_fits (waiting_next three q rest)); [| split; auto;
+    now apply three_at_most].
+  inversion_clear F as [| ? ? _ Fr]. cbn in S. rewrite E in S.
+  pose proof (halves_changes (part_y q) L). destruct (halves_at (part_y q) 0 L) as (L0 & L1 & _).
+  unfold waiting_next. cbn [filter].
   pose proof (any_root_count three _ L0) as C0. pose proof (any_root_count three _ L1) as C1.
   change (roots (left_of q)) with (inner_sign_changes (left_half_of (part_y q))).
   change (roots (right_of q)) with (inner_sign_changes (right_half_of (part_y q))).
@@ -889,8 +970,9 @@ Proof.
       cbn [app]; rewrite ?K by auto; lia.
 Qed.
 Lemma enough_steps distinct three steps : forall waiting found more,
-  Forall (fun q => level q <= max_halvings)%Z waiting -> (work waiting < Z.of_nat steps)%Z ->
-  (steps <= more)%nat -> by_halving distinct three more waiting found = by_halving distinct three steps waiting found.
+  Forall (fun q => level q <= max_halvings)%Z waiting -> (work waiting < Z.of_nat steps)%Z -> (steps <=
+    more)%nat ->
+  by_halving distinct three more waiting found = by_halving distinct three steps waiting found.
 Proof.
   induction steps as [| steps IH]; intros waiting found more F W M.
   { pose proof (work_positive waiting). lia. }
@@ -901,7 +983,8 @@ Proof.
   assert (N : level q <> max_halvings).
   { intros N. unfold without_halving in E. rewrite N, Z.eqb_refl in E.
     destruct (negb _); [discriminate |]. destruct (if _ && _ then _ else _); discriminate. }
-  destruct (next_work three q rest) as (Fn & Wn); auto; [unfold max_halvings in *; lia |]. apply IH; auto; lia.
+  destruct (next_work three q rest) as (Fn & Wn); auto; [unfold max_halvings in *; lia |].
+  apply IH; auto; lia.
 Qed.
 
 Theorem interior_contact_ends : exists enough, forall steps, (enough <= steps)%nat ->
@@ -957,9 +1040,10 @@ Proof.
   rewrite andb_true_iff, negb_true_iff, contact_right, (vertex_edge_units unit) by easy.
   split; [tauto |]. intros H. split; auto. destruct (separated m0 m1 m2) eqn:P; auto. now apply separated_right in P.
 Qed.
-Lemma queries_contact edges m0 m1 m2 m3 q0 q1 q2 q3 : in_integers unit m0 q0 -> in_integers unit m1 q1 -> in_integers
-  unit m2 q2 -> in_integers unit m3 q3 -> existsb edge_contact (combine (vertex_edge_queries edges m0 m1 m2 m3)
-  (vertex_edge_queries edges q0 q1 q2 q3)) = true <-> query_border edges m0 m1 m2 m3.
+Lemma queries_contact edges m0 m1 m2 m3 q0 q1 q2 q3 : in_integers unit m0 q0 -> in_integers unit m1 q1 ->
+  in_integers unit m2 q2 -> in_integers unit m3 q3 ->
+  existsb edge_contact (combine (vertex_edge_queries edges m0 m1 m2 m3) (vertex_edge_queries edges q0 q1 q2 q3)) = true
+  <-> query_border edges m0 m1 m2 m3.
 Proof.
   intros. unfold query_border, edges_border_collides, face_border_collides.
   destruct edges; cbn [vertex_edge_queries combine existsb];
@@ -967,9 +1051,10 @@ Proof.
 Qed.
 
 (** Without contact at a border. *)
-Lemma query_contact_inside edges (q0 q1 q2 q3 : integer_motion)
-  : ~ query_border edges (exact_motion q0) (exact_motion q1) (exact_motion q2) (exact_motion q3) -> contact_inside edges
-  (side_b edges difference q0 q1 q2 q3) (side_c edges difference q0 q1 q2 q3) (side_p edges difference q0 q1 q2 q3) <->
+Lemma query_contact_inside edges (q0 q1 q2 q3 : integer_motion) :
+  ~ query_border edges (exact_motion q0) (exact_motion q1) (exact_motion q2) (exact_motion q3) ->
+  contact_inside edges (side_b edges difference q0 q1 q2 q3) (side_c edges difference q0 q1 q2 q3)
+    (side_p edges difference q0 q1 q2 q3) <->
   query_collides edges (exact_motion q0) (exact_motion q1) (exact_motion q2) (exact_motion q3).
 Proof.
   intros N. rewrite query_inside by easy. apply sometime_same. intros t.
@@ -982,16 +1067,19 @@ Lemma query_decision_right edges m0 m1 m2 m3 q0 q1 q2 q3 : in_integers unit m0 q
 Proof.
   intros I0 I1 I2 I3. cbv zeta. pose proof (queries_contact edges m0 m1 m2 m3 q0 q1 q2 q3 I0 I1 I2 I3) as Border.
   rewrite <- (query_border_units unit) in Border by easy. rewrite <- (query_units unit) by easy.
-  unfold in_integers in *. rewrite <- I0, <- I1, <- I2, <- I3 in *. unfold decide, contact_of. cbv zeta.
-  destruct (query_degrees edges q0 q1 q2 q3) as (Db & Dc & Dp). destruct (certainly_rootless _) eqn:R.
+  unfold in_integers in *. rewrite <- I0, <- I1, <- I2, <- I3 in *.
+  unfold decide, contact_of. cbv zeta. destruct (query_degrees edges q0 q1 q2 q3) as (Db & Dc & Dp).
+  destruct (certainly_rootless _) eqn:R.
   { split; [discriminate |]. intros _. now apply (query_rootless_separate edges q0 q1 q2 q3). }
   destruct (existsb _ _).
   { split; [intros _ | discriminate]. now apply query_border_collision, Border. }
   assert (N : ~ query_border edges (exact_motion q0) (exact_motion q1) (exact_motion q2) (exact_motion q3)).
   { intros H. now apply Border in H. }
-  destruct (interior_contact_right edges _ _ _ Db Dc Dp extent_x extent_y extent_z estimate refine steps) as (Yes & No).
-  pose proof (query_contact_inside edges q0 q1 q2 q3 N) as E. split; intros O; [now apply E, Yes |].
-  destruct (No O) as [(I & Z) | I]; [| now rewrite <- E]. intros H. apply query_coplanar in H.
+  destruct (interior_contact_right edges _ _ _ Db Dc Dp extent_x extent_y extent_z estimate refine steps) as
+    (Yes & No).
+  pose proof (query_contact_inside edges q0 q1 q2 q3 N) as E.
+  split; intros O; [now apply E, Yes |]. destruct (No O) as [(I & Z) | I]; [| now rewrite <- E].
+  intros H. apply query_coplanar in H.
   - destruct H as [H | H]; [| easy]. apply I. destruct (query_sides_at edges q0 q1 q2 q3 0) as (-> & -> & ->).
     now apply query_inside_same.
   - intros t T. specialize (Z t T). cbv beta in Z. destruct (query_sides_at edges q0 q1 q2 q3 t) as (Eb & Ec & Ep).

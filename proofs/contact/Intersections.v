@@ -10,8 +10,10 @@
         sections_right            two triangles in different planes share a point if and only if the code's two
                                   comparisons of the sections' ends do not exclude it *)
 
-From Coq Require Import Reals ZArith List Lia Lra Psatz Bool. From Errbound Require Import Contact.
-Import ListNotations. Open Scope R_scope.
+From Coq Require Import Reals ZArith List Lia Lra Psatz Bool.
+From Errbound Require Import Contact.
+Import ListNotations.
+Open Scope R_scope.
 
 (** ** The code *)
 
@@ -67,7 +69,8 @@ Proof.
   - left. exists u. split; [lra |]. unfold weighted. by_coordinates.
   - right. left. exists v. split; [lra |]. replace u with (1 - v) by lra. unfold weighted. by_coordinates.
 Qed.
-Lemma degenerate_border p a b c : cross (minus b a) (minus c a) = origin -> in_triangle p a b c -> face_border p a b c.
+Lemma degenerate_border p a b c : cross (minus b a) (minus c a) = origin -> in_triangle p a b c ->
+  face_border p a b c.
 Proof. intros E T. apply face_at_a_time in T. destruct T as [(N & _) | B]; [now rewrite E in N | exact B]. Qed.
 
 (** A direction in the plane, as changes of u and v. *)
@@ -82,7 +85,8 @@ Proof.
 Qed.
 
 (** A common point moves in both planes until one of the six weights is zero. *)
-Lemma common_moves a0 a1 a2 b0 b1 b2 p d : in_triangle p a0 a1 a2 -> in_triangle p b0 b1 b2 ->
+Lemma common_moves a0 a1 a2 b0 b1 b2 p d :
+  in_triangle p a0 a1 a2 -> in_triangle p b0 b1 b2 ->
   cross (minus a1 a0) (minus a2 a0) <> origin -> cross (minus b1 b0) (minus b2 b0) <> origin ->
   det (minus a1 a0) (minus a2 a0) d = 0 -> det (minus b1 b0) (minus b2 b0) d = 0 -> d <> origin ->
   exists q, in_triangle q a0 a1 a2 /\ in_triangle q b0 b1 b2 /\ (face_border q a0 a1 a2 \/ face_border q b0 b1 b2).
@@ -118,7 +122,8 @@ Proof.
     some_edge_meets c0 c1 c2 d0 d1 d2).
   { intros q c0 c1 c2 d0 d1 d2 T [B | [B | B]]; [left | right; left | right; right]; now exists q. }
   split.
-  - intros (p & A & B). destruct (origin_dec (cross (minus a1 a0) (minus a2 a0))) as [Ea | Na].
+  - intros (p & A & B).
+    destruct (origin_dec (cross (minus a1 a0) (minus a2 a0))) as [Ea | Na].
     { left. apply (Border p); auto. now apply degenerate_border. }
     destruct (origin_dec (cross (minus b1 b0) (minus b2 b0))) as [Eb | Nb].
     { right. apply (Border p); auto. now apply degenerate_border. }
@@ -135,13 +140,15 @@ Proof.
     destruct D as (d & Da & Db & D).
     destruct (common_moves a0 a1 a2 b0 b1 b2 p d A B Na Nb Da Db D) as (q & Qa & Qb & [C | C]);
       [left | right]; now apply (Border q).
-  - assert (Edge : forall p q c0 c1 c2 d0 d1 d2, edge_meets p q d0 d1 d2 -> (forall s,
-      in_segment s p q -> face_border s c0 c1 c2) -> exists s, in_triangle s c0 c1 c2 /\ in_triangle s d0 d1 d2).
+  - assert (Edge : forall p q c0 c1 c2 d0 d1 d2, edge_meets p q d0 d1 d2 ->
+      (forall s, in_segment s p q -> face_border s c0 c1 c2) ->
+      exists s, in_triangle s c0 c1 c2 /\ in_triangle s d0 d1 d2).
     { intros p q c0 c1 c2 d0 d1 d2 (s & S & T) F. exists s. split; auto. apply face_at_a_time. right. auto. }
     unfold face_border in Edge.
-    intros [[M | [M | M]] | [M | [M | M]]]; [apply (Edge _ _ a0 a1 a2) in
-      M | apply (Edge _ _ a0 a1 a2) in M | apply (Edge _ _ a0 a1 a2) in M | apply (Edge _ _ b0 b1 b2) in M |
-      apply (Edge _ _ b0 b1 b2) in M | apply (Edge _ _ b0 b1 b2) in M]; auto; destruct M as (s & M1 & M2); now exists s.
+    intros [[M | [M | M]] | [M | [M | M]]];
+      [apply (Edge _ _ a0 a1 a2) in M | apply (Edge _ _ a0 a1 a2) in M | apply (Edge _ _ a0 a1 a2) in M |
+       apply (Edge _ _ b0 b1 b2) in M | apply (Edge _ _ b0 b1 b2) in M | apply (Edge _ _ b0 b1 b2) in M]; auto;
+      destruct M as (s & M1 & M2); now exists s.
 Qed.
 
 (** ** One plane *)
@@ -192,11 +199,13 @@ Theorem triangles_meet_in_plane a0 a1 a2 b0 b1 b2 :
   borders_meet a0 a1 a2 b0 b1 b2 \/ vertex_inside a0 a1 a2 b0 b1 b2 \/ vertex_inside b0 b1 b2 a0 a1 a2.
 Proof.
   intros A B. rewrite triangles_meet. unfold some_edge_meets.
-  rewrite (edge_meets_in_plane a0 a1), (edge_meets_in_plane a1 a2), (edge_meets_in_plane a2 a0), (edge_meets_in_plane
-    b0 b1), (edge_meets_in_plane b1 b2), (edge_meets_in_plane b2 b0) by (apply A || apply B; simpl; auto).
+  rewrite (edge_meets_in_plane a0 a1), (edge_meets_in_plane a1 a2), (edge_meets_in_plane a2 a0),
+    (edge_meets_in_plane b0 b1), (edge_meets_in_plane b1 b2), (edge_meets_in_plane b2 b0)
+    by (apply A || apply B; simpl; auto).
   unfold borders_meet, vertex_inside, edge_meets_border.
   assert (S : forall p q r s, segments_meet p q r s -> segments_meet r s p q)
-    by (intros p q r s (o & O); exists o; tauto). split; [| tauto]. intros [M | M]; [tauto |].
+    by (intros p q r s (o & O); exists o; tauto).
+  split; [| tauto]. intros [M | M]; [tauto |].
   repeat match goal with H : _ \/ _ |- _ => destruct H as [H | H] end; try apply S in M; tauto.
 Qed.
 
@@ -214,8 +223,9 @@ Lemma det_of_combinations l m n l' m' n' l'' m'' n'' b c d :
     (l * (m' * n'' - n' * m'') - m * (l' * n'' - n' * l'') + n * (l' * m'' - m' * l'')) * det b c d.
 Proof. unfold combination. by_coordinates. Qed.
 Lemma meeting_signs p q a b c t u v : along p t (minus q p) = weighted a b c u v ->
-  let k := volume a b c p - volume a b c q in volume a b c p = t * k /\
-  volume a b c q = (t - 1) * k /\ edge_signs p q a b c = [v * - k; (1 - u - v) * - k; u * - k].
+  let k := volume a b c p - volume a b c q in
+  volume a b c p = t * k /\ volume a b c q = (t - 1) * k /\
+  edge_signs p q a b c = [v * - k; (1 - u - v) * - k; u * - k].
 Proof.
   intros E. unfold edge_signs, volume. unfold weighted in E.
   assert (D : exists B C d, B = minus b a /\ C = minus c a /\ d = minus q p) by (do 3 eexists; auto).
@@ -234,12 +244,14 @@ Proof.
   rewrite !det_of_combinations. repeat split; [ring | ring |]. f_equal; [| f_equal; [| f_equal]]; ring.
 Qed.
 (** The point at which a line meets a plane, by the weights of both. *)
-Lemma meeting_point p q a b c : volume a b c p <> volume a b c q -> let k := volume a b c p - volume a b c q in
+Lemma meeting_point p q a b c : volume a b c p <> volume a b c q ->
+  let k := volume a b c p - volume a b c q in
   along p (volume a b c p / k) (minus q p) = weighted a b c (- volume p q c a / k) (- volume p q a b / k).
 Proof.
   intros N k. assert (K : k <> 0) by (unfold k; lra).
-  assert (I : along (along origin k p) (volume a b c p) (minus q p) = along (along
-    (along origin k a) (- volume p q c a) (minus b a)) (- volume p q a b) (minus c a)) by (unfold k; by_coordinates).
+  assert (I : along (along origin k p) (volume a b c p) (minus q p) =
+    along (along (along origin k a) (- volume p q c a) (minus b a)) (- volume p q a b) (minus c a))
+    by (unfold k; by_coordinates).
   clearbody k. revert I. generalize (volume a b c p), (volume p q c a), (volume p q a b). intros h f g I.
   apply point_eq in I. destruct I as (I0 & I1 & I2). unfold weighted, along, minus, origin in *. cbn [x y z] in *.
   apply same_point; cbn [x y z]; apply Rmult_eq_reg_r with k; auto; field_simplify; auto; lra.
@@ -250,8 +262,10 @@ Lemma opposite_signs m k : 0 <= m -> k <= 0 -> 0 <= - m * k.
 Proof. intros M K. replace (- m * k) with (m * - k) by ring. apply Rmult_le_pos; lra. Qed.
 Lemma opposite_signs_strict m k : 0 < m -> k < 0 -> 0 < - m * k.
 Proof. intros M K. replace (- m * k) with (m * - k) by ring. apply Rmult_lt_0_compat; lra. Qed.
-Lemma negative_signs m k : m <= 0 -> 0 <= k -> 0 <= - m * k. Proof. intros M K. apply Rmult_le_pos; lra. Qed.
-Lemma negative_signs_strict m k : m < 0 -> 0 < k -> 0 < - m * k. Proof. intros M K. apply Rmult_lt_0_compat; lra. Qed.
+Lemma negative_signs m k : m <= 0 -> 0 <= k -> 0 <= - m * k.
+Proof. intros M K. apply Rmult_le_pos; lra. Qed.
+Lemma negative_signs_strict m k : m < 0 -> 0 < k -> 0 < - m * k.
+Proof. intros M K. apply Rmult_lt_0_compat; lra. Qed.
 Lemma fraction m k : 0 <= m * k -> k <> 0 -> 0 <= m / k.
 Proof.
   intros M K. replace (m / k) with (m * k * / (k * k)) by (field; auto). apply Rmult_le_pos; auto.
@@ -323,8 +337,9 @@ Theorem one_side_apart a0 a1 a2 b0 b1 b2 :
 Proof.
   intros S (p & (u & v & _ & _ & _ & Ea) & u' & v' & U & V & W & Eb). cbv zeta in S. rewrite !Forall_cons_iff in S.
   assert (Z : volume a0 a1 a2 p = 0) by (rewrite Ea; by_coordinates).
-  assert (C : volume a0 a1 a2 p = (1 - u' - v')
-    * volume a0 a1 a2 b0 + u' * volume a0 a1 a2 b1 + v' * volume a0 a1 a2 b2) by (rewrite Eb; by_coordinates).
+  assert (C : volume a0 a1 a2 p =
+    (1 - u' - v') * volume a0 a1 a2 b0 + u' * volume a0 a1 a2 b1 + v' * volume a0 a1 a2 b2)
+    by (rewrite Eb; by_coordinates).
   rewrite Z in C. clear Z Ea Eb p. revert S C.
   generalize (volume a0 a1 a2 b0), (volume a0 a1 a2 b1), (volume a0 a1 a2 b2). intros k l m S C.
   assert (G : forall w s, 0 <= w -> 0 < s -> w * s <= 0 -> w = 0).
@@ -363,25 +378,29 @@ Definition meets_plane (s : nat -> R) : Prop := ~ (s 0%nat = 0 /\ s 1%nat = 0 /\
   ~ (0 < s 0%nat /\ 0 < s 1%nat /\ 0 < s 2%nat) /\ ~ (s 0%nat < 0 /\ s 1%nat < 0 /\ s 2%nat < 0).
 
 Lemma alone_sides s : meets_plane s -> let (one, side) := alone_vertex (fun i => sign (s i)) in
-  (one < 3)%nat /\ ((0 < side)%Z /\ 0 <= s one /\ s (next one) <= 0 /\
-  s (previous one) <= 0 /\ 0 < s one - s (next one) /\ 0 < s one - s (previous one) \/ (side < 0)%Z /\
-  s one <= 0 /\ 0 <= s (next one) /\ 0 <= s (previous one) /\ s one - s (next one) < 0 /\ s one - s (previous one) < 0).
+  (one < 3)%nat /\ ((0 < side)%Z /\ 0 <= s one /\ s (next one) <= 0 /\ s (previous one) <= 0 /\
+      0 < s one - s (next one) /\ 0 < s one - s (previous one) \/
+    (side < 0)%Z /\ s one <= 0 /\ 0 <= s (next one) /\ 0 <= s (previous one) /\
+      s one - s (next one) < 0 /\ s one - s (previous one) < 0).
 Proof.
   unfold meets_plane. intros (Z & P & N). cbv beta iota zeta delta [alone_vertex sign previous next].
-  destruct (Rlt_dec 0 (s 0%nat)), (Rlt_dec 0 (s 1%nat)), (Rlt_dec 0 (s 2%nat)); try destruct (Rlt_dec (s 0%nat) 0);
-    try destruct (Rlt_dec (s 1%nat) 0); try destruct (Rlt_dec (s 2%nat) 0); try lra; try (exfalso; first [apply Z |
-    apply P | apply N]; repeat split; lra); cbn; repeat match goal with |- context [Rlt_dec ?r ?t] => destruct (Rlt_dec
-    r t); try lra end; (split; [lia |]); first [left; repeat split; lia || lra | right; repeat split; lia || lra].
+  destruct (Rlt_dec 0 (s 0%nat)), (Rlt_dec 0 (s 1%nat)), (Rlt_dec 0 (s 2%nat));
+    try destruct (Rlt_dec (s 0%nat) 0); try destruct (Rlt_dec (s 1%nat) 0); try destruct (Rlt_dec (s 2%nat) 0);
+    try lra; try (exfalso; first [apply Z | apply P | apply N]; repeat split; lra);
+    cbn; repeat match goal with |- context [Rlt_dec ?r ?t] => destruct (Rlt_dec r t); try lra end;
+    (split; [lia |]); first [left; repeat split; lia || lra | right; repeat split; lia || lra].
 Qed.
 
 Section Sections.
 
 (** The triangle o p q meets the plane of b0 b1 b2 in a segment; o is alone on its side. *)
 Variables o p q b0 b1 b2 : point.
-Notation side := (volume b0 b1 b2). Notation n := (cross (minus b1 b0) (minus b2 b0)).
+Notation side := (volume b0 b1 b2).
+Notation n := (cross (minus b1 b0) (minus b2 b0)).
 Notation m := (cross (minus p o) (minus q o)).
 
-Lemma side_difference r s : side r - side s = dot n (minus s r). Proof. by_coordinates. Qed.
+Lemma side_difference r s : side r - side s = dot n (minus s r).
+Proof. by_coordinates. Qed.
 Lemma double_cross : cross n m = along (along origin (side o - side q) (minus p o)) (- (side o - side p)) (minus q o).
 Proof.
   rewrite !side_difference. generalize (cross (minus b1 b0) (minus b2 b0)), (minus p o), (minus q o). intros.
@@ -389,10 +408,11 @@ Proof.
 Qed.
 
 (** r and t are the positions on the edges; k is the section's length along n x m. *)
-Lemma alone_section : side o - side p <> 0 ->
-  side o - side q <> 0 -> 0 <= side o /\ side p <= 0 /\ side q <= 0 \/ side o <= 0 /\ 0 <= side p /\ 0 <= side q ->
-  exists r t k, let P := along o r (minus p o) in let Q := along o t (minus q o) in P = along Q k (cross n m) /\
-  0 <= k * side o /\ (side o = 0 -> k = 0) /\ forall s, in_triangle s o p q /\ side s = 0 <-> in_segment s P Q.
+Lemma alone_section : side o - side p <> 0 -> side o - side q <> 0 ->
+  0 <= side o /\ side p <= 0 /\ side q <= 0 \/ side o <= 0 /\ 0 <= side p /\ 0 <= side q ->
+  exists r t k, let P := along o r (minus p o) in let Q := along o t (minus q o) in
+  P = along Q k (cross n m) /\ 0 <= k * side o /\ (side o = 0 -> k = 0) /\
+  forall s, in_triangle s o p q /\ side s = 0 <-> in_segment s P Q.
 Proof.
   intros E0 F0 S. rewrite double_cross.
   assert (At : forall u v, side (weighted o p q u v) = side o - u * (side o - side p) - v * (side o - side q))
@@ -458,7 +478,8 @@ Definition on_edge (a : nat -> point) (e : crossing_edge) (p : point) : Prop :=
 Definition descends (b a : nat -> point) (e : crossing_edge) : Prop := sides b a (to e) < sides b a (from e) /\
   dot (normal a) (minus (a (to e)) (a (from e))) = 0.
 
-Lemma from_one one a p : (one < 3)%nat -> (in_triangle p (a one) (a (next one)) (a (previous one)) <-> in_face p a) /\
+Lemma from_one one a p : (one < 3)%nat ->
+  (in_triangle p (a one) (a (next one)) (a (previous one)) <-> in_face p a) /\
   cross (minus (a (next one)) (a one)) (minus (a (previous one)) (a one)) = normal a.
 Proof.
   intros L. assert (T : forall q r s, in_triangle p q r s <-> in_triangle p r s q).
@@ -468,7 +489,8 @@ Proof.
   - split; [symmetry; apply T | by_coordinates].
   - split; [apply T | by_coordinates].
 Qed.
-Lemma other_end o p r : along o r (minus p o) = along p (1 - r) (minus o p). Proof. by_coordinates. Qed.
+Lemma other_end o p r : along o r (minus p o) = along p (1 - r) (minus o p).
+Proof. by_coordinates. Qed.
 
 Theorem section_ends a b : meets_plane (sides b a) -> let (low, high) := section_of (fun i => sign (sides b a i)) in
   exists p k, let q := along p k (cross (normal b) (normal a)) in
@@ -525,7 +547,8 @@ Proof.
 Qed.
 Lemma det_of_line n m c d k : dot m c = 0 -> det (along origin k (cross n m)) c d = k * (dot n c * dot m d).
 Proof.
-  intros Z. replace (det _ c d) with (k * (dot n c * dot m d - dot m c * dot n d)) by by_coordinates. rewrite Z. ring.
+  intros Z. replace (det _ c d) with (k * (dot n c * dot m d - dot m c * dot n d)) by by_coordinates.
+  rewrite Z. ring.
 Qed.
 Lemma sign_negative r : (sign r < 0)%Z <-> r < 0.
 Proof. unfold sign. destruct (Rlt_dec 0 r), (Rlt_dec r 0); split; intros; lia || lra. Qed.
@@ -540,15 +563,17 @@ Proof.
   pose proof (det_of_line (normal b) (normal a) (minus (a (to x)) (a (from x))) (minus (b (to y)) (b (from y))) 1
     (proj2 X)) as E. rewrite Z in E. replace (det _ _ _) with 0 in E by by_coordinates. lra.
 Qed.
-Lemma order_of_points a b x y p k : descends b a x -> descends a b y -> on_edge a x p -> on_edge b
-  y (along p k (cross (normal b) (normal a))) -> ((order a b x y < 0)%Z <-> 0 < k) /\ ((0 < order a b x y)%Z <-> k < 0).
+Lemma order_of_points a b x y p k : descends b a x -> descends a b y -> on_edge a x p ->
+  on_edge b y (along p k (cross (normal b) (normal a))) ->
+  ((order a b x y < 0)%Z <-> 0 < k) /\ ((0 < order a b x y)%Z <-> k < 0).
 Proof.
   intros X Y (i & Px) (j & Py). pose proof (Rmult_lt_0_compat _ _ (descent a b x X) (descent b a y Y)) as P.
   unfold order. set (l := cross (normal b) (normal a)) in *.
   assert (V : volume (a (from x)) (a (to x)) (b (from y)) (b (to y)) = k *
     (dot (normal b) (minus (a (to x)) (a (from x))) * dot (normal a) (minus (b (to y)) (b (from y))))).
   { rewrite (volume_on_edges _ _ _ _ i j). rewrite <- Px, <- Py.
-    replace (minus (along p k l) p) with (along origin k l) by (clearbody l; by_coordinates). apply det_of_line, X. }
+    replace (minus (along p k l) p) with (along origin k l) by (clearbody l; by_coordinates).
+    apply det_of_line, X. }
   rewrite V. revert P. generalize (dot (normal b) (minus (a (to x)) (a (from x))) *
     dot (normal a) (minus (b (to y)) (b (from y)))). intros r P.
   assert (Up : 0 < k * r <-> 0 < k) by (split; intros H; [apply Rmult_lt_reg_r with r | apply Rmult_lt_0_compat]; lra).
@@ -572,7 +597,8 @@ Proof.
   intros W. destruct (Req_dec k 0) as [Z | Z]; [exists 0; split; lra |]. exists (w / k). split; [| field; auto].
   assert (E : w / k * k = w) by (field; auto). split; apply Rmult_le_reg_r with k; lra.
 Qed.
-Lemma along_along p k l u : along p u (minus (along p k l) p) = along p (u * k) l. Proof. by_coordinates. Qed.
+Lemma along_along p k l u : along p u (minus (along p k l) p) = along p (u * k) l.
+Proof. by_coordinates. Qed.
 Lemma along_opposite p k k' n m : along (along p k (cross n m)) k' (cross m n) = along p (k - k') (cross n m).
 Proof. by_coordinates. Qed.
 Lemma along_injective p k k' l : l <> origin -> along p k l = along p k' l -> k = k'.
@@ -607,10 +633,13 @@ Proof.
   clear Ei. rewrite Eq in Lq, Hq, T. rewrite along_opposite in Hq, T.
   destruct (order_of_points a b low low_b p i Dl Dl' Lp Lq) as (_ & Low).
   assert (Top : along p (i - j) (cross n m) = along (along p k (cross n m)) (i - j - k) (cross n m))
-    by (generalize (cross n m); intros; by_coordinates). rewrite Top in Hq.
-  destruct (order_of_points a b high high_b _ (i - j - k) Dh Dh' Hp Hq) as (High & _). rewrite Low, High.
-  assert (Back : forall u, along (along p i (cross n m)) u (minus (along p (i - j) (cross n m)) (along p i (cross n m)))
-    = along p (i - u * j) (cross n m)) by (intros; generalize (cross n m); intros; by_coordinates). split.
+    by (generalize (cross n m); intros; by_coordinates).
+  rewrite Top in Hq. destruct (order_of_points a b high high_b _ (i - j - k) Dh Dh' Hp Hq) as (High & _).
+  rewrite Low, High.
+  assert (Back : forall u,
+    along (along p i (cross n m)) u (minus (along p (i - j) (cross n m)) (along p i (cross n m))) =
+    along p (i - u * j) (cross n m)) by (intros; generalize (cross n m); intros; by_coordinates).
+  split.
   - intros (s & Sa & Sb). pose proof (proj1 (S s) (conj Sa (own_plane s b Sb))) as (u & U & Es).
     pose proof (proj1 (T s) (conj Sb (own_plane s a Sa))) as (v & V & Et).
     rewrite along_along in Es. rewrite Back, Es in Et. apply along_injective in Et; auto.

@@ -6,12 +6,15 @@
 
 From Coq Require Import Reals ZArith Lia Lra Psatz List Bool.
 From Errbound Require Import RootIsolation Sign Bernstein Bsc Contact Decisions AxisUnits UnboundedIntegers.
-From Errbound Require VertexEdge. Import ListNotations. Open Scope R_scope.
+From Errbound Require VertexEdge.
+Import ListNotations.
+Open Scope R_scope.
 
 Section Reference.
 
 Variable finder : root_finder.
-Notation form_at := (@at_time integers). Notation five gs := (Forall (fun g : list integers => length g = 5%nat) gs).
+Notation form_at := (@at_time integers).
+Notation five gs := (Forall (fun g : list integers => length g = 5%nat) gs).
 Implicit Types (y g n f : list integers) (gs : list (list integers)).
 
 (** ** regular_contact *)
@@ -49,7 +52,8 @@ Proof.
     0 <= form_at g t) gs).
   { rewrite forallb_forall, Forall_forall. assert (E : forall g, In g gs ->
       negb (same_sign (sign_there g) negative) = true <-> 0 <= form_at g t).
-    { intros g I. destruct (T g (or_intror I)) as (C & R). destruct (sign_there g); simpl in *; split; easy || lra. }
+    { intros g I. destruct (T g (or_intror I)) as (C & R). destruct (sign_there g); simpl in *; split; easy ||
+      lra. }
     split; intros H g I; now apply E, H. }
   destruct (T n2 (or_introl eq_refl)) as (C & R). destruct (sign_there n2); simpl in *; try easy; rewrite A; split; try
     tauto; intuition lra.
@@ -58,22 +62,26 @@ Qed.
 Lemma ends_of f : length f = 4%nat \/ length f = 5%nat ->
   form_at f 0 = IZR (hd 0%Z f) /\ form_at f 1 = IZR (last f 0%Z).
 Proof.
-  intros [L | L]; [destruct (length_4 f L) as (? & ? & ? & ? & ->) |
-    destruct (length_5 f L) as (? & ? & ? & ? & ? & ->)]; unfold at_time; simpl; split; ring.
+  intros [L | L]; [destruct (length_4 f L) as (? & ? & ? & ? & ->) | destruct (length_5 f L) as (? & ? &
+    ? & ? & ? & ->)];
+    unfold at_time; simpl; split; ring.
 Qed.
-Lemma end_tells f : length f = 5%nat -> tells (at_start f) (form_at f 0) /\ tells (at_end f) (form_at f 1).
+Lemma end_tells f : length f = 5%nat -> tells (at_start f) (form_at f 0) /\ tells (at_end f) (form_at f
+  1).
 Proof. intros L. destruct (ends_of f (or_intror L)) as (-> & ->). split; apply integer_tells. Qed.
 
-Lemma regular_contact_right y gs n2 : regular_meets (promises finder) y gs n2 -> length y = 4%nat -> five gs ->
-  length n2 = 5%nat -> (regular_contact y gs n2 = true -> exists t, 0 <= t <= 1 /\ regular_at y gs n2 t) /\ (forall t,
-  0 <= t <= 1 -> regular_at y gs n2 t -> regular_contact y gs n2 = true \/ 0 < t < 1 /\ forall u, form_at y u = 0).
+Lemma regular_contact_right y gs n2 : regular_meets (promises finder) y gs n2 -> length y = 4%nat -> five gs -> length n2 = 5%nat ->
+  (regular_contact y gs n2 = true -> exists t, 0 <= t <= 1 /\ regular_at y gs n2 t) /\
+  (forall t, 0 <= t <= 1 -> regular_at y gs n2 t -> regular_contact y gs n2 = true \/
+    0 < t < 1 /\ forall u, form_at y u = 0).
 Proof.
   intros (Roots & Signs) L F N. unfold regular_contact, regular_at. destruct (ends_of y (or_introl L)) as (Y0 & Y1).
   destruct (@certainly_rootless integers y) eqn:C.
   { split; [easy |]. intros t T (Z & _). now apply (@rootless_hull integers y t C T) in Z. }
   destruct (existsb _ gs) eqn:O.
   { split; [easy |]. intros t T (_ & _ & G). apply existsb_exists in O. destruct O as (g & I & O).
-    rewrite Forall_forall in G. specialize (G g I). pose proof (@sign_throughout_right integers g t T) as R.
+    rewrite Forall_forall in G. specialize (G g I). pose proof (@sign_throughout_right integers g t T)
+      as R.
     destruct (@sign_throughout integers g); try easy. simpl in R. lra. }
   assert (Len : forall f, In f (n2 :: gs) -> length f = 5%nat)
     by (intros f [<- | I]; [exact N | now apply (proj1 (Forall_forall _ _) F)]).
@@ -84,17 +92,22 @@ Proof.
   assert (Z1 : Z.eqb (last y 0%Z) 0 = true <-> form_at y 1 = 0)
     by (rewrite Y1, Z.eqb_eq; split; [now intros -> | now intros H; apply eq_IZR in H]).
   destruct (Z.eqb (hd 0%Z y) 0 && contact_at at_start n2 gs) eqn:E0.
-  { split; auto. intros _. apply andb_prop in E0. exists 0. split; [lra |]. split; [now apply Z0 | now apply At0]. }
+  { split; auto. intros _. apply andb_prop in E0. exists 0. split; [lra |]. split; [now apply Z0 | now
+    apply At0]. }
   destruct (Z.eqb (last y 0%Z) 0 && contact_at at_end n2 gs) eqn:E1.
-  { split; auto. intros _. apply andb_prop in E1. exists 1. split; [lra |]. split; [now apply Z1 | now apply At1]. }
+  { split; auto. intros _. apply andb_prop in E1. exists 1. split; [lra |]. split; [now apply Z1 | now
+    apply At1]. }
   assert (Inside : forall t, 0 <= t <= 1 -> regular_at y gs n2 t -> 0 < t < 1).
-  { intros t T (Z & G). destruct (Req_dec t 0) as [-> |]; [apply Z0 in Z; apply At0 in G; now rewrite Z, G in E0 |].
+  { intros t T (Z & G). destruct (Req_dec t 0) as [-> |]; [apply Z0 in Z; apply At0 in G; now rewrite Z,
+    G in E0 |].
     destruct (Req_dec t 1) as [-> |]; [apply Z1 in Z; apply At1 in G; now rewrite Z, G in E1 |]. lra. }
-  clear At0 At1 Z0 Z1 E0 E1 Y0 Y1 O C. assert (Ny : y <> []) by now destruct y.
+  clear At0 At1 Z0 Z1 E0 E1 Y0 Y1 O C.
+  assert (Ny : y <> []) by now destruct y.
   pose proof (fun t => inner_signs y t Ny) as Root. pose proof (without_end_roots_trimmed y) as Tr.
   pose proof (without_end_roots_start y) as Start. pose proof (without_end_roots_empty y) as Empty.
   destruct (without_end_roots y) as [| a [| c l]].
-  - split; [easy |]. intros t T R. right. split; auto. intros u. specialize (Empty eq_refl). unfold at_time.
+  - split; [easy |]. intros t T R. right. split; auto. intros u. specialize (Empty eq_refl). unfold
+    at_time.
     clear - Empty. induction Empty as [| a l <- _ IH]; [easy |]. cbn [map form]. rewrite IH. simpl.
       ring.
   - split; [easy |]. intros t T R. pose proof (proj1 (proj1 (Root t (Inside t T R))) (proj1 R)) as Z.
@@ -117,7 +130,8 @@ Proof.
       exists t. split; [lra |]. split; [apply Root; auto; now rewrite W | now apply (There t k)].
     + intros t T R. left. pose proof (Inside t T R) as It. destruct R as (Z & G). apply existsb_exists.
       apply (Root t It) in Z.
-      destruct (proj2 (Roots Tr Two Start (t / (1 - t)))) as (k & I & W); [split; auto; apply Rdiv_lt_0_compat; lra |].
+      destruct (proj2 (Roots Tr Two Start (t / (1 - t)))) as (k & I & W);
+        [split; auto; apply Rdiv_lt_0_compat; lra |].
       exists k. split; auto. now apply (There t k).
 Qed.
 
@@ -145,20 +159,25 @@ Definition reference_face_meets : demands -> given -> given -> given -> given ->
 Definition reference_edges_meets : demands -> given -> given -> given -> given -> Prop := reference_meets true.
 
 Lemma normal_form (b c : @vector_form integers) t : degree b 1 -> degree c 1 ->
-  form_at (normal_squared b c) t = square_normal (vector_at b t) (vector_at c t) /\ length (normal_squared b c) = 5%nat.
+  form_at (normal_squared b c) t = square_normal (vector_at b t) (vector_at c t) /\ length
+    (normal_squared b c) = 5%nat.
 Proof.
   intros B C. destruct (cross_at b c 1 1 t B C) as (E & D). destruct (dot_at _ _ 2 2 t D D) as (Q & L).
   unfold normal_squared, square_normal. now rewrite Q, E.
 Qed.
 Lemma normal_vanishes b c : square_normal b c <> 0 <-> cross b c <> origin.
-Proof. unfold square_normal. split; intros N E; apply N; [now apply square_origin | now apply square_0]. Qed.
+Proof.
+  unfold square_normal. split; intros N E; apply N; [now apply square_origin | now apply square_0].
+Qed.
 
-Lemma query_decides edges (q0 q1 q2 q3 : @moving_point integers) border : let m0 := exact_motion q0 in
-  let m1 := exact_motion q1 in let m2 := exact_motion q2 in let m3 := exact_motion q3 in
-  border = true <-> query_border edges m0 m1 m2 m3 -> let b := side_b edges difference q0 q1 q2 q3 in
-  let c := side_c edges difference q0 q1 q2 q3 in let p := side_p edges difference q0 q1 q2 q3 in
-  regular_meets (promises finder) (y_form b c p) (inside_forms edges b c p) (normal_squared b c) -> regular_contact
-  (y_form b c p) (inside_forms edges b c p) (normal_squared b c) || border = true <-> query_collides edges m0 m1 m2 m3.
+Lemma query_decides edges (q0 q1 q2 q3 : @moving_point integers) border :
+  let m0 := exact_motion q0 in let m1 := exact_motion q1 in let m2 := exact_motion q2 in let m3 := exact_motion q3 in
+  border = true <-> query_border edges m0 m1 m2 m3 ->
+  let b := side_b edges difference q0 q1 q2 q3 in let c := side_c edges difference q0 q1 q2 q3 in
+  let p := side_p edges difference q0 q1 q2 q3 in
+  regular_meets (promises finder) (y_form b c p) (inside_forms edges b c p) (normal_squared b c) ->
+  regular_contact (y_form b c p) (inside_forms edges b c p) (normal_squared b c) || border = true <->
+  query_collides edges m0 m1 m2 m3.
 Proof.
   intros m0 m1 m2 m3 Border b c p Asked.
   destruct (query_degrees edges q0 q1 q2 q3) as (Db & Dc & Dp), (query_lengths edges q0 q1 q2 q3) as (L & F).

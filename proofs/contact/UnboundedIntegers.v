@@ -9,7 +9,9 @@
 
 From Coq Require Import Reals ZArith Lia Lra Psatz List Bool.
 From Errbound Require Import RootIsolation Sign Bernstein Bsc Contact Decisions AxisUnits.
-From Errbound Require VertexEdge. Import ListNotations. Open Scope R_scope.
+From Errbound Require VertexEdge.
+Import ListNotations.
+Open Scope R_scope.
 
 (** s is the sign of v. *)
 Definition tells (s : sign) (v : R) : Prop := s <> uncertain /\ sign_is_right s v.
@@ -43,11 +45,13 @@ Definition to_integers (query : list given) (m : given) : @moving_point integers
 Definition unit_of (query : list given) : point := Point
   (powerRZ 2 (- lowest dx query)) (powerRZ 2 (- lowest dy query)) (powerRZ 2 (- lowest dz query)).
 
-Lemma lowest_right axis query m : In m query -> (mantissa (axis (at0 m)) = 0%Z \/ (lowest axis query
-  <= exponent (axis (at0 m)))%Z) /\ (mantissa (axis (at1 m)) = 0%Z \/ (lowest axis query <= exponent (axis (at1 m)))%Z).
+Lemma lowest_right axis query m : In m query ->
+  (mantissa (axis (at0 m)) = 0%Z \/ (lowest axis query <= exponent (axis (at0 m)))%Z) /\
+  (mantissa (axis (at1 m)) = 0%Z \/ (lowest axis query <= exponent (axis (at1 m)))%Z).
 Proof.
   unfold lowest. generalize (2 ^ 31 - 1)%Z.
-  assert (Lower : forall bound d, (lower bound d <= bound)%Z /\ (mantissa d = 0%Z \/ (lower bound d <= exponent d)%Z)).
+  assert (Lower : forall bound d, (lower bound d <= bound)%Z /\ (mantissa d = 0%Z \/ (lower bound d <=
+    exponent d)%Z)).
   { intros bound d. unfold lower. destruct (Z.eqb_spec (mantissa d) 0); split; auto; lia. }
   assert (Down : forall q bound, (fold_left (fun bound m => lower (lower bound (axis (at0 m))) (axis
     (at1 m))) q bound <= bound)%Z).
@@ -60,10 +64,12 @@ Qed.
 Lemma to_integer_right d unit : mantissa d = 0%Z \/ (unit <= exponent d)%Z ->
   IZR (to_integer d unit) = powerRZ 2 (- unit) * double d.
 Proof.
-  unfold to_integer, double. destruct (Z.eqb_spec (mantissa d) 0) as [-> | N]; [intros; ring |]. intros [| H]; [easy |].
+  unfold to_integer, double. destruct (Z.eqb_spec (mantissa d) 0) as [-> | N]; [intros; ring |]. intros
+    [| H]; [easy |].
   rewrite Z.shiftl_mul_pow2, mult_IZR by lia.
   replace (IZR (2 ^ (exponent d - unit))) with (powerRZ 2 (exponent d - unit)).
-  - replace (exponent d - unit)%Z with (- unit + exponent d)%Z by ring. rewrite powerRZ_add by lra. ring.
+  - replace (exponent d - unit)%Z with (- unit + exponent d)%Z by ring. rewrite powerRZ_add by lra.
+    ring.
   - rewrite <- (Z2Nat.id (exponent d - unit)) by lia. now rewrite <- pow_powerRZ, <- pow_IZR.
 Qed.
 
@@ -72,8 +78,10 @@ Theorem to_integers_right query m : In m query ->
 Proof.
   intros I. split; [repeat split; apply powerRZ_lt; lra |].
   destruct (lowest_right dx query m I), (lowest_right dy query m I), (lowest_right dz query m I).
-  unfold in_integers, exact_motion, exact_position, to_integers, stretched_motion, stretched, given_motion, given_point.
-  cbn [t0 t1 px py pz start finish x y z unit_of]. f_equal; apply same_point; cbn [x y z]; now apply to_integer_right.
+  unfold in_integers, exact_motion, exact_position, to_integers, stretched_motion, stretched,
+    given_motion, given_point.
+  cbn [t0 t1 px py pz start finish x y z unit_of]. f_equal; apply same_point; cbn [x y z]; now apply
+    to_integer_right.
 Qed.
 
 Lemma query_in_integers q0 q1 q2 q3 : let q := [q0; q1; q2; q3] in let k := unit_of q in units k /\
@@ -98,13 +106,16 @@ Proof. unfold poly. induction l as [| a l IH]; simpl; [ring | rewrite IH; ring].
 Lemma poly_trimmed l x : poly (rev (without_zeros l)) x = poly (rev l) x.
 Proof. induction l as [| a l IH]; [easy |]. destruct a; [| easy | easy]. simpl. now rewrite IH,
   poly_without_last. Qed.
-Lemma without_zeros_head p : without_zeros p = [] /\ Forall (eq 0%Z) p \/ hd 0%Z (without_zeros p) <> 0%Z.
+Lemma without_zeros_head p :
+  without_zeros p = [] /\ Forall (eq 0%Z) p \/ hd 0%Z (without_zeros p) <> 0%Z.
 Proof.
   induction p as [| a l IH]; [left; auto |]. destruct a; [| right; easy | right; easy].
   simpl. destruct IH as [(-> & F) |]; auto.
 Qed.
-Lemma poly_at_0 p : poly p 0 = IZR (hd 0%Z p). Proof. destruct p; unfold poly; simpl; [easy | ring]. Qed.
-Lemma last_rev (l : list Z) : last (rev l) 0%Z = hd 0%Z l. Proof. destruct l; [easy |]. simpl. apply last_last. Qed.
+Lemma poly_at_0 p : poly p 0 = IZR (hd 0%Z p).
+Proof. destruct p; unfold poly; simpl; [easy | ring]. Qed.
+Lemma last_rev (l : list Z) : last (rev l) 0%Z = hd 0%Z l.
+Proof. destruct l; [easy |]. simpl. apply last_last. Qed.
 
 Lemma without_end_roots_trimmed p : trimmed (without_end_roots p).
 Proof.
@@ -118,10 +129,12 @@ Proof.
 Qed.
 Lemma without_end_roots_empty p : without_end_roots p = [] -> Forall (eq 0%Z) p.
 Proof.
-  unfold without_end_roots. intros E. apply (f_equal (@rev Z)) in E. rewrite rev_involutive in E. simpl in E.
+  unfold without_end_roots. intros E.
+  apply (f_equal (@rev Z)) in E. rewrite rev_involutive in E. simpl in E.
   destruct (without_zeros_head (rev (without_zeros p))) as [(_ & F) | N]; [| now rewrite E in N].
-  destruct (without_zeros_head p) as [(_ & G) | N]; auto. destruct (without_zeros p) as [| a l]; [easy |]. simpl in *.
-  apply Forall_app in F. destruct F as (_ & F). inversion_clear F. now subst.
+  destruct (without_zeros_head p) as [(_ & G) | N]; auto. destruct (without_zeros p) as [| a l]; [easy
+    |].
+  simpl in *. apply Forall_app in F. destruct F as (_ & F). inversion_clear F. now subst.
 Qed.
 
 Theorem without_end_roots_value (p : list integers) t : p <> [] -> 0 < t < 1 ->
@@ -134,7 +147,8 @@ Proof.
   destruct p as [| a l]; [easy |]. unfold at_time, poly. cbn [map]. rewrite power_basis by lra.
   rewrite map_length. now replace (length (a :: l) - 1)%nat with (length l) by (simpl; lia).
 Qed.
-Lemma inner_signs (p : list integers) t : p <> [] -> 0 < t < 1 -> let v := poly (without_end_roots p) (t / (1 - t)) in
+Lemma inner_signs (p : list integers) t : p <> [] -> 0 < t < 1 ->
+  let v := poly (without_end_roots p) (t / (1 - t)) in
   (at_time p t = 0 <-> v = 0) /\ forall s, tells s v -> tells s (at_time p t).
 Proof.
   intros N T. cbv zeta. destruct (without_end_roots_value p t N T) as (c & C & ->). split.
@@ -172,7 +186,8 @@ Definition promises (finder : root_finder) : demands := {|
 Section Contact.
 
 Variable finder : root_finder.
-Notation "p '#' i" := (nth i p 0%Z) (at level 20). Notation form_at := (@at_time integers).
+Notation "p '#' i" := (nth i p 0%Z) (at level 20).
+Notation form_at := (@at_time integers).
 Implicit Types (f b : list Z) (fs : list (list Z)).
 
 Definition on_line fs : list Z :=
@@ -226,7 +241,9 @@ Definition touches_meets (d : demands) fs b : Prop :=
 Definition meets fs b (t : R) : Prop := Forall (fun f => form_at f t = 0) fs /\ form_at b t <= 0.
 
 Lemma quadratic_ends f : length f = 3%nat -> form_at f 0 = IZR (f#0) /\ form_at f 1 = IZR (f#2).
-Proof. intros L. split; [now apply (@at_start integers); destruct f | now apply (@at_finish integers)]. Qed.
+Proof.
+  intros L. split; [now apply (@at_start integers); destruct f | now apply (@at_finish integers)].
+Qed.
 Lemma at_an_end fs b i t : Forall (fun f => length f = 3%nat) fs -> length b = 3%nat ->
   i = 0%nat /\ t = 0 \/ i = 2%nat /\ t = 1 -> on_line_at fs i && (b#i <=? 0)%Z = true <-> meets fs b t.
 Proof.
@@ -235,14 +252,16 @@ Proof.
     by (intros f L; destruct (quadratic_ends f L), I as [(-> & ->) | (-> & ->)]; auto).
   unfold on_line_at, meets. rewrite andb_true_iff, Z.leb_le, forallb_forall, (V b B), Forall_forall.
   rewrite Forall_forall in F. split; intros (A & C).
-  - split; [| now apply IZR_le]. intros f J. rewrite V by auto. specialize (A f J). apply Z.eqb_eq in A. now rewrite A.
+  - split; [| now apply IZR_le]. intros f J. rewrite V by auto. specialize (A f J). apply Z.eqb_eq in A.
+    now rewrite A.
   - split; [| now apply le_IZR]. intros f J. apply Z.eqb_eq, eq_IZR. rewrite <- V by auto. now apply A.
 Qed.
 
 Lemma inner_all_vanish fs t : factors_meet (promises finder) [] fs -> Forall (fun f => length f = 3%nat) fs ->
   0 < t < 1 -> Forall (fun f => form_at f t = 0) fs <-> poly (on_line fs) (t / (1 - t)) = 0.
 Proof.
-  intros M F T. rewrite (proj2 (proj2 (on_line_right fs M))). rewrite !Forall_forall. rewrite Forall_forall in F.
+  intros M F T. rewrite (proj2 (proj2 (on_line_right fs M))). rewrite !Forall_forall. rewrite Forall_forall
+    in F.
   split; intros A f I; specialize (A f I); specialize (F f I);
     (apply (proj1 (inner_signs f t ltac:(now destruct f) T)); exact A).
 Qed.
@@ -251,10 +270,12 @@ Lemma touches_right fs b : touches_meets (promises finder) fs b -> Forall (fun f
   length b = 3%nat -> touches fs b = true <-> exists t, 0 <= t <= 1 /\ meets fs b t.
 Proof.
   intros (Factors & Roots & Signs) F B. unfold touches. destruct (existsb (@certainly_rootless integers) fs) eqn:Rootless.
-  { split; [easy |]. intros (t & T & V & _). apply existsb_exists in Rootless. destruct Rootless as (f & I & R).
+  { split; [easy |]. intros (t & T & V & _). apply existsb_exists in Rootless. destruct Rootless as (f &
+    I & R).
     rewrite Forall_forall in V. specialize (V f I). now apply (@rootless_hull integers f t R T) in V. }
-  clear Rootless. pose proof (at_an_end fs b 0 0 F B ltac:(auto)) as At0.
-  pose proof (at_an_end fs b 2 1 F B ltac:(auto)) as At1. destruct (on_line_at fs 0 && (b#0 <=? 0)%Z).
+  clear Rootless. pose proof (at_an_end fs b 0 0 F B ltac:(auto)) as At0. pose proof (at_an_end fs b 2 1
+    F B ltac:(auto)) as At1.
+  destruct (on_line_at fs 0 && (b#0 <=? 0)%Z).
   { split; auto. intros _. exists 0. split; [lra | now apply At0]. }
   destruct (on_line_at fs 2 && (b#2 <=? 0)%Z).
   { split; auto. intros _. exists 1. split; [lra | now apply At1]. }
@@ -262,13 +283,16 @@ Proof.
   { split; intros (t & T & M); exists t; split; auto; [| lra].
     destruct (Req_dec t 0) as [-> | N0]; [now apply At0 in M |].
     destruct (Req_dec t 1) as [-> | N1]; [now apply At1 in M |]. lra. }
-  rewrite Inside. clear Inside. assert (Nb : b <> []) by now destruct b.
-  destruct (on_line_right fs Factors) as (Tr & Empty & At).
-  pose proof (fun t => inner_all_vanish fs t Factors F) as Vanish. destruct (on_line fs) as [| a [| c l]] eqn:E.
+  rewrite Inside. clear Inside.
+  assert (Nb : b <> []) by now destruct b.
+  destruct (on_line_right fs Factors) as (Tr & Empty & At). pose proof (fun t => inner_all_vanish fs t Factors F) as
+    Vanish.
+  destruct (on_line fs) as [| a [| c l]] eqn:E.
   - (* on the line throughout *)
     assert (Z : Forall (fun f => forall i, f#i = 0%Z) fs).
     { eapply Forall_impl; [| apply Empty; auto]. intros f H i. apply without_end_roots_empty in H.
-      rewrite Forall_forall in H. destruct (nth_in_or_default i f 0%Z) as [I | I]; auto. now rewrite <- (H _ I). }
+      rewrite Forall_forall in H. destruct (nth_in_or_default i f 0%Z) as [I | I]; auto. now rewrite <-
+        (H _ I). }
     assert (Always : forall t, 0 <= t <= 1 -> Forall (fun f => form_at f t = 0) fs).
     { intros t _. rewrite Forall_forall in *. intros f I. specialize (Z f I). specialize (F f I).
       destruct (length_3 f F) as (f0 & f1 & f2 & ->). unfold at_time. cbn [map form].
@@ -278,7 +302,8 @@ Proof.
     { rewrite <- B0, <- B2. split; apply Rnot_le_lt; intros H;
         [assert (M : meets fs b 0) by (split; auto; apply Always; lra); now apply At0 in M |
          assert (M : meets fs b 1) by (split; auto; apply Always; lra); now apply At1 in M]. }
-    pose proof (VertexEdge.dips (VertexEdge.Quadratic (IZR (b#0)) (IZR (b#1)) (IZR (b#2))) (proj1 P) (proj2 P)) as D.
+    pose proof (VertexEdge.dips (VertexEdge.Quadratic (IZR (b#0)) (IZR (b#1)) (IZR (b#2))) (proj1 P)
+      (proj2 P)) as D.
     simpl VertexEdge.c0 in D. simpl VertexEdge.c1 in D. simpl VertexEdge.c2 in D.
     rewrite <- (VertexEdge.by_ratio (fun x => VertexEdge.at_ratio _ x <= 0)) in D.
     rewrite andb_true_iff, Z.ltb_lt, Z.leb_le.
@@ -291,9 +316,10 @@ Proof.
     assert (V : forall t, 0 < t < 1 -> VertexEdge.at_ratio
       (VertexEdge.Quadratic (IZR (b#0)) (IZR (b#1)) (IZR (b#2))) (t / (1 - t)) <= 0 <-> form_at b t <=
         0).
-    { intros t T. destruct (length_3 b B) as (b0 & b1 & b2 & ->). unfold at_time. cbn [map nth].
-      rewrite power_basis by lra. unfold VertexEdge.at_ratio. simpl VertexEdge.c0. simpl VertexEdge.c1.
-      simpl VertexEdge.c2. set (r := t / (1 - t)). simpl length. assert (0 < (1 - t) ^ 2) by (apply pow_lt; lra).
+    { intros t T. destruct (length_3 b B) as (b0 & b1 & b2 & ->). unfold at_time. cbn [map nth]. rewrite
+      power_basis by lra.
+      unfold VertexEdge.at_ratio. simpl VertexEdge.c0. simpl VertexEdge.c1. simpl VertexEdge.c2.
+      set (r := t / (1 - t)). simpl length. assert (0 < (1 - t) ^ 2) by (apply pow_lt; lra).
       cbn [exact integers power_form]. split; intros; nra. }
     split; intros (t & T & H); exists t; split; auto; [split; [apply Always; lra | now apply V] | apply
       V; auto; apply H].
@@ -305,18 +331,23 @@ Proof.
       assert (N : Forall (fun f => without_end_roots f = []) fs).
       { eapply Forall_impl; [| exact H]. intros f Z. destruct (without_end_roots_start f); easy. }
       now apply Empty in N. }
-    assert (Two : (2 <= length (a :: c :: l))%nat) by (simpl; lia). remember (a :: c :: l) as p eqn:Ep. clear Ep.
+    assert (Two : (2 <= length (a :: c :: l))%nat) by (simpl; lia).
+    remember (a :: c :: l) as p eqn:Ep. clear Ep.
     rewrite existsb_exists. split.
-    + intros (k & I & S). destruct (proj1 (Roots Tr Two Start (where_is finder k))) as (X & Z); [now exists k |].
+    + intros (k & I & S). destruct (proj1 (Roots Tr Two Start (where_is finder k))) as (X & Z); [now
+      exists k |].
       destruct (proj2 (VertexEdge.by_ratio (fun x => x = where_is finder k))) as (t & T & W); [now
-        exists (where_is finder k) |]. exists t. split; auto. split; [apply Vanish; auto; now rewrite W |].
+        exists (where_is finder k) |].
+      exists t. split; auto. split; [apply Vanish; auto; now rewrite W |].
       pose proof (Signs Tr Two Start (without_end_roots_trimmed b) k I) as Tell.
         rewrite <- W in Tell.
       apply (proj2 (inner_signs b t Nb T)) in Tell. destruct Tell as (C & R).
       destruct (sign_at_root finder (without_end_roots b) k); simpl in *; try easy; lra.
     + intros (t & T & A & H). apply Vanish in A; auto.
-      destruct (proj2 (Roots Tr Two Start (t / (1 - t)))) as (k & I & W); [split; auto; apply Rdiv_lt_0_compat; lra |].
-      exists k. split; auto. pose proof (Signs Tr Two Start (without_end_roots_trimmed b) k I) as Tell.
+      destruct (proj2 (Roots Tr Two Start (t / (1 - t)))) as (k & I & W);
+        [split; auto; apply Rdiv_lt_0_compat; lra |].
+      exists k. split; auto.
+      pose proof (Signs Tr Two Start (without_end_roots_trimmed b) k I) as Tell.
         rewrite W in Tell.
       apply (proj2 (inner_signs b t Nb T)) in Tell. destruct Tell as (C & R).
       destruct (sign_at_root finder (without_end_roots b) k); simpl in *; try easy; lra.
@@ -376,14 +407,16 @@ Definition edges_border_meets (d : demands) (a0 a1 b0 b1 : given) : Prop :=
 
 Lemma edge_contact_right query (v e0 e1 : given) : edge_contact_meets (promises finder) query v e0 e1 ->
   In v query -> In e0 query -> In e1 query ->
-  edge_contact query v e0 e1 = true <-> vertex_edge_collides (given_motion v) (given_motion e0) (given_motion e1).
+  edge_contact query v e0 e1 = true <->
+  vertex_edge_collides (given_motion v) (given_motion e0) (given_motion e1).
 Proof.
-  intros Asked V E0 E1. destruct (to_integers_right query v V) as (K & Vi).
-  destruct (to_integers_right query e0 E0) as (_ & E0i). destruct (to_integers_right query e1 E1) as (_ & E1i).
-  unfold edge_contact, in_integers in *.
+  intros Asked V E0 E1. destruct (to_integers_right query v V) as (K & Vi). destruct (to_integers_right query
+    e0 E0) as (_ & E0i).
+  destruct (to_integers_right query e1 E1) as (_ & E1i). unfold edge_contact, in_integers in *.
   rewrite andb_true_iff, negb_true_iff, (integer_contact_right _ _ _ Asked), Vi, E0i, E1i, (vertex_edge_units (unit_of
-    query)) by exact K. split; [tauto |]. intros H. split; auto. destruct (separated _ _ _) eqn:P; auto.
-  now apply separated_right in P.
+    query)) by exact K.
+  split; [tauto |]. intros H. split; auto. destruct (separated _ _ _) eqn:P; auto. now apply separated_right
+    in P.
 Qed.
 Theorem face_border_right (v f0 f1 f2 : given) : face_border_meets (promises finder) v f0 f1 f2 ->
   face_border v f0 f1 f2 = true <->

@@ -5,8 +5,10 @@
         nonpositive_at_a_root_right     b <= 0 at some root of f in (0, 1): there is a first one
         contact_right                   `vertex_touches_edge` is true exactly if vertex and edge meet in [0, 1] *)
 
-From Coq Require Import Reals ZArith Lra Psatz List Bool. From Errbound Require Import Sign Bernstein Contact.
-Import ListNotations. Open Scope R_scope.
+From Coq Require Import Reals ZArith Lra Psatz List Bool.
+From Errbound Require Import Sign Bernstein Contact.
+Import ListNotations.
+Open Scope R_scope.
 
 (** ** Exact numbers *)
 
@@ -39,9 +41,11 @@ Definition below_0 (x : R) : bool := if Rlt_dec x 0 then true else false.
 Definition is_0 (x : R) : bool := if Req_EM_T x 0 then true else false.
 Lemma nonpositive_true x : nonpositive x = true <-> x <= 0.
 Proof. unfold nonpositive. destruct Rle_dec; split; easy. Qed.
-Lemma is_0_true x : is_0 x = true <-> x = 0. Proof. unfold is_0. destruct Req_EM_T; split; easy. Qed.
+Lemma is_0_true x : is_0 x = true <-> x = 0.
+Proof. unfold is_0. destruct Req_EM_T; split; easy. Qed.
 
-Lemma sign_positive x : 0 < x -> sign_of_real x = positive. Proof. unfold sign_of_real. destruct Rlt_dec; easy. Qed.
+Lemma sign_positive x : 0 < x -> sign_of_real x = positive.
+Proof. unfold sign_of_real. destruct Rlt_dec; easy. Qed.
 Lemma sign_negative x : x < 0 -> sign_of_real x = negative.
 Proof. unfold sign_of_real. intros. destruct Rlt_dec; [lra |]. destruct Rlt_dec; easy. Qed.
 Lemma sign_zero x : x = 0 -> sign_of_real x = zero.
@@ -71,14 +75,18 @@ Lemma value_ratio f s t : s <> 0 -> value f s t = s ^ 2 * at_ratio f (t / s).
 Proof. intros. unfold value, at_ratio. field. easy. Qed.
 Lemma ratio_sign f s t : 0 < s -> (value f s t = 0 <-> at_ratio f (t / s) = 0) /\
   (value f s t <= 0 <-> at_ratio f (t / s) <= 0).
-Proof. intros S. rewrite value_ratio by lra. assert (0 < s ^ 2) by (apply pow_lt; lra). split; split; intros; nra. Qed.
+Proof.
+  intros S. rewrite value_ratio by lra. assert (0 < s ^ 2) by (apply pow_lt; lra).
+  split; split; intros; nra.
+Qed.
 (** t in (0, 1) and x > 0 *)
 Lemma by_ratio (P : R -> Prop) : (exists t, 0 < t < 1 /\ P (t / (1 - t))) <-> exists x, 0 < x /\ P x.
 Proof.
   split.
   - intros (t & T & H). exists (t / (1 - t)). split; [apply Rdiv_lt_0_compat; lra | easy].
-  - intros (x & X & H). exists (x / (1 + x)). replace (x / (1 + x) / (1 - x / (1 + x))) with x by (field; lra).
-    split; [| easy]. split; [apply Rdiv_lt_0_compat; lra |]. apply Rmult_lt_reg_r with (1 + x); [lra |].
+  - intros (x & X & H). exists (x / (1 + x)).
+    replace (x / (1 + x) / (1 - x / (1 + x))) with x by (field; lra). split; [| easy].
+    split; [apply Rdiv_lt_0_compat; lra |]. apply Rmult_lt_reg_r with (1 + x); [lra |].
     field_simplify; lra.
 Qed.
 
@@ -95,7 +103,8 @@ Proof.
   cases_of_sign (c0 f); cases_of_sign (c1 f); cases_of_sign (c2 f);
     cbn [sign_inside_from]; try discriminate; intros _; split; tauto.
 Qed.
-Lemma one_sign f : c0 f * c1 f > 0 -> c0 f * c2 f > 0 -> sign_throughout (coefficients f) = sign_of_real (c0 f).
+Lemma one_sign f : c0 f * c1 f > 0 -> c0 f * c2 f > 0 ->
+  sign_throughout (coefficients f) = sign_of_real (c0 f).
 Proof.
   intros A B. unfold sign_throughout, coefficients. cbn [forallb sign_of reals].
   cases_of_sign (c0 f); cases_of_sign (c1 f); cases_of_sign (c2 f); try nra; reflexivity.
@@ -144,27 +153,34 @@ Definition common_roots (fs : list quadratic) : kind_of_roots :=
 
 Definition all_vanish (fs : list quadratic) (t : R) : Prop := Forall (fun f => quadratic_at f t = 0) fs.
 
-Lemma proportional f g t : (c0 f <> 0 \/ c1 f <> 0 \/ c2 f <> 0) -> c0 (cross_product f g) = 0 ->
-  c1 (cross_product f g) = 0 -> c2 (cross_product f g) = 0 -> quadratic_at f t = 0 -> quadratic_at g t = 0.
+Lemma proportional f g t : (c0 f <> 0 \/ c1 f <> 0 \/ c2 f <> 0) ->
+  c0 (cross_product f g) = 0 -> c1 (cross_product f g) = 0 -> c2 (cross_product f g) = 0 ->
+  quadratic_at f t = 0 -> quadratic_at g t = 0.
 Proof.
   destruct f as [f0 f1 f2], g as [g0 g1 g2]. unfold cross_product, quadratic_at, value. cbn [c0 c1 c2].
   intros N Z0 Z1 Z2 F.
   assert (E : forall a b, a <> 0 -> a * b = 0 -> b = 0) by (intros a b A H; apply Rmult_integral in H; tauto).
   destruct N as [N | [N | N]]; [apply (E f0) | apply (E f1) | apply (E f2)]; auto.
   - transitivity (g0 * (f0 * (1 - t) ^ 2 + f1 * (1 - t) * t + f2 * t ^ 2)
-      + (f0 * g1 - f1 * g0) * (1 - t) * t - (f2 * g0 - f0 * g2) * t ^ 2); [ring |]. rewrite F, Z1, Z2. ring.
+      + (f0 * g1 - f1 * g0) * (1 - t) * t - (f2 * g0 - f0 * g2) * t ^ 2); [ring |].
+    rewrite F, Z1, Z2. ring.
   - transitivity (g1 * (f0 * (1 - t) ^ 2 + f1 * (1 - t) * t + f2 * t ^ 2)
-      - (f0 * g1 - f1 * g0) * (1 - t) ^ 2 + (f1 * g2 - f2 * g1) * t ^ 2); [ring |]. rewrite F, Z0, Z2. ring.
+      - (f0 * g1 - f1 * g0) * (1 - t) ^ 2 + (f1 * g2 - f2 * g1) * t ^ 2); [ring |].
+    rewrite F, Z0, Z2. ring.
   - transitivity (g2 * (f0 * (1 - t) ^ 2 + f1 * (1 - t) * t + f2 * t ^ 2)
-      + (f2 * g0 - f0 * g2) * (1 - t) ^ 2 - (f1 * g2 - f2 * g1) * (1 - t) * t); [ring |]. rewrite F, Z0, Z1. ring.
+      + (f2 * g0 - f0 * g2) * (1 - t) ^ 2 - (f1 * g2 - f2 * g1) * (1 - t) * t); [ring |].
+    rewrite F, Z0, Z1. ring.
 Qed.
 
 (** m is a multiple of (s^2, st, t^2). *)
 Definition squares_at (m : quadratic) (k t : R) : Prop :=
   c0 m = k * (1 - t) ^ 2 /\ c1 m = k * ((1 - t) * t) /\ c2 m = k * t ^ 2.
 Lemma value_squares f m k t : squares_at m k t -> value_at_squares f m = k * quadratic_at f t.
-Proof. intros (A & B & C). unfold value_at_squares, quadratic_at, value. rewrite A, B, C. ring. Qed.
-Lemma root_of_both f g t : 0 < t < 1 -> (let m := cross_product f g in c0 m <> 0 \/ c1 m <> 0 \/ c2 m <> 0) ->
+Proof.
+  intros (A & B & C). unfold value_at_squares, quadratic_at, value. rewrite A, B, C. ring.
+Qed.
+Lemma root_of_both f g t : 0 < t < 1 ->
+  (let m := cross_product f g in c0 m <> 0 \/ c1 m <> 0 \/ c2 m <> 0) ->
   quadratic_at f t = 0 -> quadratic_at g t = 0 -> exists k, k <> 0 /\ squares_at (cross_product f g) k t.
 Proof.
   intros T N F G. cbv zeta in N. set (m := cross_product f g) in *.
@@ -184,7 +200,8 @@ Proof.
     rewrite Z1 in E0, E2. unfold Rdiv in E0, E2. lra.
   - split; [| split]; [rewrite E0 | | rewrite E2]; field; lra.
 Qed.
-Lemma squares_unique m k k' t r : k <> 0 -> 0 < t < 1 -> 0 < r < 1 -> squares_at m k t -> squares_at m k' r -> r = t.
+Lemma squares_unique m k k' t r : k <> 0 -> 0 < t < 1 -> 0 < r < 1 ->
+  squares_at m k t -> squares_at m k' r -> r = t.
 Proof.
   intros K T U (A & B & _) (C & D & _). assert (k' <> 0) by (intros ->; assert (k * (1 - t) ^ 2 <> 0) by
     (apply Rmult_integral_contrapositive; split; [easy | apply pow_nonzero; lra]); lra).
@@ -205,7 +222,8 @@ Definition kind_is_right (kind : kind_of_roots) (vanish : R -> Prop) : Prop :=
       forall r, 0 < r < 1 -> (vanish r <-> quadratic_at f r = 0)
   | everywhere => forall r, vanish r
   end.
-Lemma kind_of_same kind (p q : R -> Prop) : (forall r, p r <-> q r) -> kind_is_right kind p -> kind_is_right kind q.
+Lemma kind_of_same kind (p q : R -> Prop) :
+  (forall r, p r <-> q r) -> kind_is_right kind p -> kind_is_right kind q.
 Proof.
   intros E. destruct kind; simpl.
   - intros H r T Q. apply (H r T), E, Q.
@@ -216,9 +234,11 @@ Proof.
 Qed.
 
 Lemma roots_among_right first others : sign_inside (coefficients first) = uncertain ->
-  kind_is_right (roots_among first others) (fun r => quadratic_at first r = 0 /\ all_vanish others r).
+  kind_is_right (roots_among first others)
+    (fun r => quadratic_at first r = 0 /\ all_vanish others r).
 Proof.
-  intros U. assert (N : c0 first <> 0 \/ c1 first <> 0 \/ c2 first <> 0) by (destruct (both_signs first U); lra).
+  intros U. assert (N : c0 first <> 0 \/ c1 first <> 0 \/ c2 first <> 0)
+    by (destruct (both_signs first U); lra).
   induction others as [| other rest IH]; cbn [roots_among]; cbv zeta.
   { simpl. split; auto. intros r T. split; [tauto |]. split; auto. constructor. }
   set (m := cross_product first other).
@@ -239,7 +259,8 @@ Proof.
   assert (Signs : forall k r, k <> 0 -> 0 < r < 1 -> squares_at m k r ->
     sign_throughout (coefficients m) = sign_of_real (c0 m) /\ 0 < k * c0 m /\ c1 m * c1 m = c0 m * c2 m).
   { intros k r K T (A & B & C). assert (0 < k * k) by nra. assert (0 < (1 - r) ^ 2) by (apply pow_lt; lra).
-    assert (0 < (1 - r) * r) by nra. assert (0 < r ^ 2) by (apply pow_lt; lra). split; [| split].
+    assert (0 < (1 - r) * r) by nra. assert (0 < r ^ 2) by (apply pow_lt; lra).
+    split; [| split].
     - apply one_sign; [rewrite A, B | rewrite A, C].
       + replace (_ * _) with (k * k * ((1 - r) ^ 2 * ((1 - r) * r))) by ring.
         apply Rmult_lt_0_compat; [easy | now apply Rmult_lt_0_compat].
@@ -253,7 +274,8 @@ Proof.
                    else if negb (is_0 (c1 m * c1 m - c0 m * c2 m)) then none
                    else one (match s with negative => opposite m | _ => m end))
       (fun r => quadratic_at first r = 0 /\ all_vanish (other :: rest) r)).
-  { intros NZ s S Cs. destruct (existsb _ rest) eqn:X; [| destruct (is_0 (c1 m * c1 m - c0 m * c2 m)) eqn:Q]; simpl.
+  { intros NZ s S Cs.
+    destruct (existsb _ rest) eqn:X; [| destruct (is_0 (c1 m * c1 m - c0 m * c2 m)) eqn:Q]; simpl.
     - intros r T H. destruct (Root r NZ T H) as (k & K & Sq). apply existsb_exists in X.
       destruct X as (g & I & G). destruct H as (_ & H). inversion_clear H as [| ? ? _ H'].
       rewrite (value_squares g m k r Sq), (proj1 (Forall_forall _ _) H' g I), Rmult_0_r in G.
@@ -262,7 +284,8 @@ Proof.
       assert (P : 0 < c0 m * c1 m /\ 0 < c0 m * c0 m).
       { destruct Cs as [-> | ->]; simpl in H; destruct H as (H & _); inversion_clear H as [| ? ? Z0 H'];
           inversion_clear H' as [| ? ? Z1 H]; simpl in *; split; nra. }
-      destruct P as (P & P'). set (t := c1 m / (c0 m + c1 m)). set (k := (c0 m + c1 m) * (c0 m + c1 m) / c0 m).
+      destruct P as (P & P').
+      set (t := c1 m / (c0 m + c1 m)). set (k := (c0 m + c1 m) * (c0 m + c1 m) / c0 m).
       assert (N0 : c0 m <> 0) by (intros Z; rewrite Z in P'; lra).
       assert (N1 : c0 m + c1 m <> 0) by (intros Z; replace (c1 m) with (- c0 m) in P by lra; nra).
       assert (T : 0 < t < 1).
@@ -271,14 +294,16 @@ Proof.
           replace (b / (a + b)) with ((a * b + b * b) / ((a + b) * (a + b))) by (field; auto).
           apply Rdiv_lt_0_compat; nra. }
         split; [apply F; auto |]. enough (0 < 1 - t) by lra. unfold t.
-        replace (1 - c1 m / (c0 m + c1 m)) with (c0 m / (c1 m + c0 m)) by (field; lra). apply F; [lra |]. nra. }
+        replace (1 - c1 m / (c0 m + c1 m)) with (c0 m / (c1 m + c0 m)) by (field; lra). apply F; [lra |].
+        nra. }
       assert (Sq : squares_at m k t).
       { unfold squares_at, k, t. split; [field; auto | split; [field; auto |]].
         replace (_ * _) with (c1 m * c1 m / c0 m) by (field; auto).
         replace (c1 m * c1 m) with (c0 m * c2 m) by lra. field. auto. }
       assert (K : k <> 0).
       { intros Z. destruct Sq as (A & _). rewrite Z in A. lra. }
-      assert (Only : forall r, 0 < r < 1 -> (quadratic_at first r = 0 /\ all_vanish (other :: rest) r <-> r = t)).
+      assert (Only : forall r, 0 < r < 1 ->
+        (quadratic_at first r = 0 /\ all_vanish (other :: rest) r <-> r = t)).
       { intros r T'. split.
         - intros V. destruct (Root r NZ T' V) as (k' & K' & Sq'). now apply (squares_unique m k k').
         - intros ->. assert (V : forall g, value_at_squares g m = 0 -> quadratic_at g t = 0).
@@ -295,9 +320,10 @@ Proof.
       pose proof H as H'. destruct Cs as [-> | ->]; simpl in H; destruct H as (H & _);
         inversion_clear H as [| ? ? Z0 _].
       + exists k, t. split; [exact (Pos k (c0 m) Kp Z0) |]. auto.
-      + exists (- k), t. split; [apply (Pos (- k) (- c0 m)); [rewrite Rmult_opp_opp |]; auto |]. split; auto.
-        split; auto. destruct Sq as (A & B & C). unfold squares_at, opposite. cbn [c0 c1 c2]. rewrite A, B, C.
-        repeat split; ring.
+      + exists (- k), t. split; [apply (Pos (- k) (- c0 m)); [rewrite Rmult_opp_opp |]; auto |].
+        split; auto. split; auto.
+        destruct Sq as (A & B & C). unfold squares_at, opposite. cbn [c0 c1 c2].
+        rewrite A, B, C. repeat split; ring.
     - intros r T H. destruct (Root r NZ T H) as (k & K & Sq). destruct (Signs k r K T Sq) as (_ & _ & E).
       rewrite (proj2 (is_0_true (c1 m * c1 m - c0 m * c2 m))) in Q; [discriminate | lra]. }
   destruct (sign_throughout (coefficients m)) eqn:S; [| now apply Zero | |].
@@ -347,11 +373,13 @@ Definition linear_value (h0 h1 s t : R) : R := value_at (S := reals) [h0; h1] s 
 Lemma factors f0 f1 f2 : f2 <> 0 -> 0 < f1 * f1 - 4 * (f0 * f2) ->
   exists p q, p < q /\ f0 = f2 * (p * q) /\ f1 = - (f2 * (p + q)).
 Proof.
-  intros N D. set (d := sqrt (f1 * f1 - 4 * (f0 * f2))). assert (P : 0 < d) by now apply sqrt_lt_R0.
-  assert (Q : d * d = f1 * f1 - 4 * (f0 * f2)) by (apply sqrt_sqrt; lra). set (u := (- f1 - d) / (2 * f2)).
-  set (v := (- f1 + d) / (2 * f2)).
+  intros N D. set (d := sqrt (f1 * f1 - 4 * (f0 * f2))).
+  assert (P : 0 < d) by now apply sqrt_lt_R0.
+  assert (Q : d * d = f1 * f1 - 4 * (f0 * f2)) by (apply sqrt_sqrt; lra).
+  set (u := (- f1 - d) / (2 * f2)). set (v := (- f1 + d) / (2 * f2)).
   assert (E0 : f0 = f2 * (u * v)).
-  { unfold u, v. replace (f2 * _) with ((f1 * f1 - d * d) / (4 * f2)) by (field; auto). rewrite Q. field. auto. }
+  { unfold u, v. replace (f2 * _) with ((f1 * f1 - d * d) / (4 * f2)) by (field; auto). rewrite Q. field.
+    auto. }
   assert (E1 : f1 = - (f2 * (u + v))) by (unfold u, v; field; auto).
   assert (L : f2 * (v - u) = d) by (unfold u, v; field; auto).
   destruct (Rtotal_order f2 0) as [H | [H | H]]; [| easy |].
@@ -361,18 +389,23 @@ Qed.
 
 (** The last part, for f = f2 (x - p)(x - q). *)
 Lemma both_roots f2 p q b0 b1 b2 : let f := Quadratic (f2 * (p * q)) (- (f2 * (p + q))) f2 in
-  let b := Quadratic b0 b1 b2 in let L0 := b0 - b2 * (p * q) in let L1 := b1 + b2 * (p + q) in c2 f * c0 b - c2
-  b * c0 f = f2 * L0 /\ c2 f * c1 b - c2 b * c1 f = f2 * L1 /\ (forall x, at_ratio f x = f2 * ((x - p) * (x - q))) /\
+  let b := Quadratic b0 b1 b2 in
+  let L0 := b0 - b2 * (p * q) in let L1 := b1 + b2 * (p + q) in
+  c2 f * c0 b - c2 b * c0 f = f2 * L0 /\ c2 f * c1 b - c2 b * c1 f = f2 * L1 /\
+  (forall x, at_ratio f x = f2 * ((x - p) * (x - q))) /\
   (forall x, at_ratio f x = 0 -> f2 <> 0 -> at_ratio b x = L0 + L1 * x).
 Proof.
   intros f b L0 L1. unfold f, b, L0, L1, at_ratio. cbn [c0 c1 c2].
-  split; [ring | split; [ring | split; [intros x; ring |]]]. intros x Z N. assert (E : (x - p) * (x - q) = 0).
+  split; [ring | split; [ring | split; [intros x; ring |]]].
+  intros x Z N. assert (E : (x - p) * (x - q) = 0).
   { apply Rmult_eq_reg_l with f2; auto. rewrite Rmult_0_r, <- Z. ring. }
-  transitivity (b0 - b2 * (p * q) + (b1 + b2 * (p + q)) * x + b2 * ((x - p) * (x - q))); [ring |]. rewrite E. ring.
+  transitivity (b0 - b2 * (p * q) + (b1 + b2 * (p + q)) * x + b2 * ((x - p) * (x - q))); [ring |].
+  rewrite E. ring.
 Qed.
 
 Lemma inside_ratio f t : 0 < t < 1 ->
-  (quadratic_at f t = 0 <-> at_ratio f (t / (1 - t)) = 0) /\ (quadratic_at f t <= 0 <-> at_ratio f (t / (1 - t)) <= 0).
+  (quadratic_at f t = 0 <-> at_ratio f (t / (1 - t)) = 0) /\
+  (quadratic_at f t <= 0 <-> at_ratio f (t / (1 - t)) <= 0).
 Proof. intros T. unfold quadratic_at. apply ratio_sign. lra. Qed.
 
 (** ** first_root_nonpositive (ccd/contact/vertex_edge_time.hpp) *)
@@ -437,15 +470,18 @@ Definition ratio_right (f b : quadratic) (p q : R) (place : place_in_time) : Pro
 
 (** lra without the implications in the context, each of which multiplies its cases. *)
 Ltac plain_lra := repeat match goal with H : _ -> _ |- _ => clear H end; lra.
-Lemma first_of_two f2 p q b : f2 <> 0 -> p < q -> p <> 0 ->
-  0 < q -> let f := Quadratic (f2 * (p * q)) (- (f2 * (p + q))) f2 in ratio_right f b p q (first_root_nonpositive f b).
+Lemma first_of_two f2 p q b : f2 <> 0 -> p < q -> p <> 0 -> 0 < q ->
+  let f := Quadratic (f2 * (p * q)) (- (f2 * (p + q))) f2 in
+  ratio_right f b p q (first_root_nonpositive f b).
 Proof.
-  intros N O P Q f. destruct b as [b0 b1 b2]. destruct (both_roots f2 p q b0 b1 b2) as (El0 & El1 & Ef & Eb).
-  fold f in El0, El1, Ef, Eb. set (b := Quadratic b0 b1 b2) in *. set (L0 := b0 - b2 * (p * q)) in *.
-  set (L1 := b1 + b2 * (p + q)) in *. assert (Bp : at_ratio b p = L0 + L1 * p) by (apply Eb; auto; rewrite Ef; ring).
+  intros N O P Q f. destruct b as [b0 b1 b2].
+  destruct (both_roots f2 p q b0 b1 b2) as (El0 & El1 & Ef & Eb). fold f in El0, El1, Ef, Eb.
+  set (b := Quadratic b0 b1 b2) in *. set (L0 := b0 - b2 * (p * q)) in *. set (L1 := b1 + b2 * (p + q)) in *.
+  assert (Bp : at_ratio b p = L0 + L1 * p) by (apply Eb; auto; rewrite Ef; ring).
   assert (Bq : at_ratio b q = L0 + L1 * q) by (apply Eb; auto; rewrite Ef; ring).
   assert (D : sign_of_real (c1 f * c1 f - 4 * (c0 f * c2 f)) = positive).
-  { apply sign_positive. unfold f. cbn [c0 c1 c2]. replace (_ - _) with ((f2 * (q - p)) * (f2 * (q - p))) by ring.
+  { apply sign_positive. unfold f. cbn [c0 c1 c2].
+    replace (_ - _) with ((f2 * (q - p)) * (f2 * (q - p))) by ring.
     assert (f2 * (q - p) <> 0) by (apply Rmult_integral_contrapositive; lra). nra. }
   assert (There : forall c a, sign_of_real (code_value f (Rabs f2 * c) (Rabs f2 * a))
     = times (sign_of_real f2) (times (sign_of_real (a - p * c)) (sign_of_real (a - q * c)))).
@@ -461,13 +497,17 @@ Proof.
   { intros c a. rewrite <- !sign_product.
     transitivity (sign_of_real (Rabs f2 * (f2 * ((1 + p) * (a - q * c) + (1 + q) * (a - p * c))))).
     - f_equal. unfold linear_value, f. cbn. ring.
-    - rewrite sign_product, (sign_positive (Rabs f2)) by now apply Rabs_pos_lt. now destruct (sign_of_real (f2 * _)). }
+    - rewrite sign_product, (sign_positive (Rabs f2)) by now apply Rabs_pos_lt.
+      now destruct (sign_of_real (f2 * _)). }
   unfold first_root_nonpositive. cbv zeta. rewrite D, El0, El1, !Rabs_mult, There, Slope.
   assert (First : sign_of_real (c0 f) = times (sign_of_real f2) (sign_of_real p)).
-  { unfold f. cbn [c0]. rewrite !sign_product, (sign_positive q Q). now destruct (sign_of_real f2), (sign_of_real p). }
-  rewrite First. change (c2 f) with f2. unfold sign_inside. cbn [sign_inside_from sign_of reals]. rewrite !sign_product.
+  { unfold f. cbn [c0]. rewrite !sign_product, (sign_positive q Q).
+    now destruct (sign_of_real f2), (sign_of_real p). }
+  rewrite First. change (c2 f) with f2.
+  unfold sign_inside. cbn [sign_inside_from sign_of reals]. rewrite !sign_product.
   assert (Later : forall g : bool, sign_of_real (if g then f2 * L1 else f2 * L0)
-    = times (sign_of_real f2) (if g then sign_of_real L1 else sign_of_real L0)) by (intros []; apply sign_product).
+     = times (sign_of_real f2) (if g then sign_of_real L1 else sign_of_real L0))
+    by (intros []; apply sign_product).
   rewrite !Later. clear Later.
   assert (Up : Rabs L0 - q * Rabs L1 <= Rabs L0 - p * Rabs L1) by (pose proof (Rabs_pos L1); nra).
   set (u := Rabs L0 - p * Rabs L1) in *. set (v := Rabs L0 - q * Rabs L1) in *.
@@ -494,11 +534,13 @@ Proof.
     auto. }
   assert (Below : forall r, 0 < r -> L0 <= 0 -> L1 <= 0 -> L0 + L1 * r <= 0).
   { clear. intros. assert (0 <= - L1 * r) by (apply Rmult_le_pos; lra). lra. }
-  unfold ratio_right. fold f. rewrite Bp, Bq. assert (Itself : f = f) by reflexivity. revert Itself.
+  unfold ratio_right. fold f. rewrite Bp, Bq.
+  assert (Itself : f = f) by reflexivity. revert Itself.
   clear There Slope First D Ef El0 El1 E Eb Bp Bq. clearbody L0 L1 u v f. intros Itself.
   cases_of_sign f2; [| easy |]; (cases_of_sign p; [| easy |]); cases_of_sign L0; cases_of_sign L1.
   all: cbn [times same_sign sign_inside_from certain certainly_nonpositive andb orb negb opposite_sign].
-  all: try (apply Same; plain_lra). all: try (split; [reflexivity |]; split; [plain_lra |]; apply Below; plain_lra).
+  all: try (apply Same; plain_lra).
+  all: try (split; [reflexivity |]; split; [plain_lra |]; apply Below; plain_lra).
   all: first [destruct (Falling ltac:(assumption) ltac:(assumption)) as (U & V & A & A1)
              | destruct (Rising ltac:(assumption) ltac:(assumption)) as (U & V & A & A1)].
   all: specialize (Apart A1); clear Falling Rising Same Below; set (gp := L0 + L1 * p) in *;
@@ -532,12 +574,15 @@ Definition root_told (f b : quadratic) (place : place_in_time) : Prop :=
   (place = nowhere /\ forall t, 0 < t < 1 -> quadratic_at f t = 0 -> 0 < quadratic_at b t) \/
   exists r, tells place r /\ first_nonpositive f b r.
 
-Lemma rational_told f b k0 k1 : k0 * k1 < 0 -> (forall t, 0 < t < 1 -> (quadratic_at f t = 0 <-> linear_at k0 k1 t = 0))
-  -> root_told f b (if nonpositive (code_value b (Rabs k1) (Rabs k0)) then linear_root k0 k1 else nowhere).
+Lemma rational_told f b k0 k1 : k0 * k1 < 0 ->
+  (forall t, 0 < t < 1 -> (quadratic_at f t = 0 <-> linear_at k0 k1 t = 0)) ->
+  root_told f b (if nonpositive (code_value b (Rabs k1) (Rabs k0)) then linear_root k0 k1 else nowhere).
 Proof.
-  intros O Same. assert (N0 : k0 <> 0) by nra. assert (N1 : k1 <> 0) by nra. pose proof (Rabs_pos_lt _ N0) as P0.
-  pose proof (Rabs_pos_lt _ N1) as P1. set (r := Rabs k0 / (Rabs k0 + Rabs k1)).
-  assert (E : r * (Rabs k0 + Rabs k1) = Rabs k0) by (unfold r; field; lra). assert (R0 : 0 < r < 1) by (split; nra).
+  intros O Same. assert (N0 : k0 <> 0) by nra. assert (N1 : k1 <> 0) by nra.
+  pose proof (Rabs_pos_lt _ N0) as P0. pose proof (Rabs_pos_lt _ N1) as P1.
+  set (r := Rabs k0 / (Rabs k0 + Rabs k1)).
+  assert (E : r * (Rabs k0 + Rabs k1) = Rabs k0) by (unfold r; field; lra).
+  assert (R0 : 0 < r < 1) by (split; nra).
   assert (Linear : forall t, linear_at k0 k1 t = 0 <-> t = r).
   { assert (Q : k0 * Rabs k1 = - k1 * Rabs k0).
     { destruct (Rlt_or_le k0 0); [rewrite (Rabs_left k0), (Rabs_pos_eq k1) by nra |
@@ -549,26 +594,34 @@ Proof.
     intros t. replace (linear_at k0 k1 t) with ((k0 - k1) * (r - t)) by (unfold linear_at; lra).
     split; [| intros ->; ring]. intros Z. apply Rmult_integral in Z. destruct Z; lra. }
   assert (V : code_value b (Rabs k1) (Rabs k0) = (Rabs k0 + Rabs k1) * (Rabs k0 + Rabs k1) * quadratic_at b r).
-  { unfold code_value. rewrite value_of_code. unfold quadratic_at, value. set (m := Rabs k0 + Rabs k1) in *.
-    transitivity (c0 b * (m - r * m) ^ 2 + c1 b * (m - r * m) * (r * m) + c2 b * (r * m) ^ 2); [| ring]. rewrite E.
-    unfold m. ring. }
+  { unfold code_value. rewrite value_of_code. unfold quadratic_at, value.
+    set (m := Rabs k0 + Rabs k1) in *.
+    transitivity (c0 b * (m - r * m) ^ 2 + c1 b * (m - r * m) * (r * m) + c2 b * (r * m) ^ 2); [| ring].
+    rewrite E. unfold m. ring. }
   assert (M : 0 < (Rabs k0 + Rabs k1) * (Rabs k0 + Rabs k1)) by nra.
   destruct (nonpositive (code_value b (Rabs k1) (Rabs k0))) eqn:B.
   - right. exists r. apply nonpositive_true in B. rewrite V in B. split.
     + split; [lra |]. split; auto. now apply Linear.
-    + split; auto. split; [now apply Same, Linear |]. split; [nra |]. intros t T Z. apply Same, Linear in Z; lra.
+    + split; auto. split; [now apply Same, Linear |]. split; [nra |].
+      intros t T Z. apply Same, Linear in Z; lra.
   - left. split; auto. intros t T Z. apply Same, Linear in Z; auto. subst t.
     apply Rnot_le_lt. intros Q. enough (nonpositive (code_value b (Rabs k1) (Rabs k0)) = true) by congruence.
     apply nonpositive_true. rewrite V. nra.
 Qed.
 
 Lemma place_of_ratio x : 0 < x -> 0 < x / (1 + x) < 1 /\ x / (1 + x) / (1 - x / (1 + x)) = x.
-Proof. intros X. assert (E : x / (1 + x) * (1 + x) = x) by (field; lra). split; [split; nra | field; lra]. Qed.
+Proof.
+  intros X. assert (E : x / (1 + x) * (1 + x) = x) by (field; lra).
+  split; [split; nra | field; lra].
+Qed.
 Lemma sign_of_ratio b x : 0 < x -> (quadratic_at b (x / (1 + x)) <= 0 <-> at_ratio b x <= 0).
-Proof. intros X. destruct (place_of_ratio x X) as (T & E). rewrite (proj2 (inside_ratio b _ T)). now rewrite E. Qed.
+Proof.
+  intros X. destruct (place_of_ratio x X) as (T & E). rewrite (proj2 (inside_ratio b _ T)). now rewrite E.
+Qed.
 
-Lemma two_told f2 p q b : f2 <> 0 -> p < q -> p <> 0 ->
-  0 < q -> let f := Quadratic (f2 * (p * q)) (- (f2 * (p + q))) f2 in root_told f b (first_root_nonpositive f b).
+Lemma two_told f2 p q b : f2 <> 0 -> p < q -> p <> 0 -> 0 < q ->
+  let f := Quadratic (f2 * (p * q)) (- (f2 * (p + q))) f2 in
+  root_told f b (first_root_nonpositive f b).
 Proof.
   intros N O P Q f. pose proof (first_of_two f2 p q b N O P Q) as H. cbv zeta in H. fold f in H.
   destruct (place_of_ratio q Q) as (Tq & _). pose proof (sign_of_ratio b q Q) as Sq.
@@ -597,7 +650,8 @@ Proof.
     + destruct H as (-> & _ & H & I). right. exists y. split; [exists k, x; repeat split; auto; lra |].
       split; auto. split; auto. split; [now apply Sq |]. intros t T Z. destruct (Zeros t Z); subst t; [| lra].
       apply Rnot_le_lt. intros C. apply Sp in C. lra.
-  - assert (Pm : p < 0) by lra. assert (Pos : forall t, 0 < t < 1 -> 0 < t - p * (1 - t)) by (intros t T; nra).
+  - assert (Pm : p < 0) by lra.
+    assert (Pos : forall t, 0 < t < 1 -> 0 < t - p * (1 - t)) by (intros t T; nra).
     assert (Zeros : forall t, 0 < t < 1 -> quadratic_at f t = 0 -> t = y).
     { intros t T. rewrite F, Fy. specialize (Pos t T). intros Z. apply Rmult_integral in Z.
       destruct Z as [| Z]; [easy |]. apply Rmult_integral in Z. destruct Z as [|Z]; [lra |].
@@ -623,9 +677,11 @@ Proof.
     + destruct H as (_ & H & _). lra.
 Qed.
 
-Lemma first_root_told f b : sign_inside (coefficients f) = uncertain -> root_told f b (first_root_nonpositive f b).
+Lemma first_root_told f b : sign_inside (coefficients f) = uncertain ->
+  root_told f b (first_root_nonpositive f b).
 Proof.
-  intros U. apply both_signs in U. destruct f as [f0 f1 f2]. cbn [c0 c1 c2] in U. destruct (Req_dec f0 0) as [-> | N0].
+  intros U. apply both_signs in U. destruct f as [f0 f1 f2]. cbn [c0 c1 c2] in U.
+  destruct (Req_dec f0 0) as [-> | N0].
   { unfold first_root_nonpositive. cbv zeta. cbn [c0 c1 c2]. rewrite (sign_zero 0) by easy. cbn [same_sign].
     apply rational_told; [nra |]. intros t T. unfold quadratic_at, value, linear_at. cbn [c0 c1 c2]. split; intros Z.
     - apply Rmult_eq_reg_l with t; lra.
@@ -636,25 +692,29 @@ Proof.
     apply rational_told; [nra |]. intros t T. unfold quadratic_at, value, linear_at. cbn [c0 c1 c2]. split; intros Z.
     - apply Rmult_eq_reg_l with (1 - t); lra.
     - transitivity ((1 - t) * (f0 * (1 - t) + f1 * t)); [ring | rewrite Z; ring]. }
-  set (d := f1 * f1 - 4 * (f0 * f2)). destruct (Rlt_or_le 0 d) as [D | D].
+  set (d := f1 * f1 - 4 * (f0 * f2)).
+  destruct (Rlt_or_le 0 d) as [D | D].
   { destruct (factors f0 f1 f2 N2 D) as (p & q & O & -> & ->).
-    assert (P : p * q <> 0) by (intros Z; rewrite Z in N0; lra). assert (p <> 0) by (intros Z; rewrite Z in P; lra).
-    apply two_told; auto. clear d D N0. apply Rnot_le_lt. intros Q. assert (p < 0) by lra. assert (0 <= p * q) by nra.
-    assert (p + q < 0) by lra. nra. }
+    assert (P : p * q <> 0) by (intros Z; rewrite Z in N0; lra).
+    assert (p <> 0) by (intros Z; rewrite Z in P; lra).
+    apply two_told; auto. clear d D N0. apply Rnot_le_lt. intros Q.
+    assert (p < 0) by lra. assert (0 <= p * q) by nra. assert (p + q < 0) by lra. nra. }
   assert (S : 0 < f0 * f2) by (unfold d in D; assert (0 <= f1 * f1) by nra; nra).
   assert (same_sign (sign_of_real f0) (sign_of_real f2) = true /\ same_sign (sign_of_real f0) zero = false
     /\ same_sign (sign_of_real f2) zero = false) as (T1 & T2 & T3).
   { cases_of_sign f0; cases_of_sign f2; try nra; repeat split. }
   unfold first_root_nonpositive. cbv zeta. cbn [c0 c1 c2]. rewrite T1, T2, T3. fold d. cbn [andb].
-  assert (Sq : forall t, 4 * f2 * quadratic_at (Quadratic f0 f1 f2) t = linear_at f1 (2 * f2) t * linear_at f1
-    (2 * f2) t - d * ((1 - t) * (1 - t))) by (intros t; unfold quadratic_at, value, linear_at, d; cbn [c0 c1 c2]; ring).
+  assert (Sq : forall t, 4 * f2 * quadratic_at (Quadratic f0 f1 f2) t =
+    linear_at f1 (2 * f2) t * linear_at f1 (2 * f2) t - d * ((1 - t) * (1 - t)))
+    by (intros t; unfold quadratic_at, value, linear_at, d; cbn [c0 c1 c2]; ring).
   destruct D as [D | D].
   - rewrite (sign_negative d D). cbn [same_sign]. left. split; auto. intros t T Z. exfalso.
     specialize (Sq t). rewrite Z, Rmult_0_r in Sq. pose proof (Rle_0_sqr (linear_at f1 (2 * f2) t)) as P.
     unfold Rsqr in P. assert (0 < - d * ((1 - t) * (1 - t))) by (apply Rmult_lt_0_compat; nra). lra.
   - rewrite (sign_zero d D). cbn [same_sign].
     assert (Op : f1 * (2 * f2) < 0) by (assert (f1 <> 0) by (intros ->; unfold d in D; lra); nra).
-    apply rational_told; auto. intros t T. specialize (Sq t). rewrite D in Sq. split; intros Z.
+    apply rational_told; auto.
+    intros t T. specialize (Sq t). rewrite D in Sq. split; intros Z.
     + rewrite Z in Sq. apply Rsqr_0_uniq. unfold Rsqr. lra.
     + rewrite Z in Sq. apply Rmult_eq_reg_l with (4 * f2); lra.
 Qed.
@@ -700,8 +760,9 @@ Lemma slope_outside f s t : (c0 f < 0 \/ c1 f < 0 \/ c2 f < 0) -> (0 < c0 f \/ 0
   linear_value (c1 f - 2 * c0 f) (2 * c2 f - c1 f) s t <> 0.
 Proof.
   destruct f as [f0 f1 f2]. cbn [c0 c1 c2]. intros Neg Pos S D V.
-  destruct (factors f0 f1 f2 ltac:(nra) D) as (p & q & O & E0 & E1). assert (N : f0 * f1 < 0) by nra.
-  unfold code_value in V. rewrite value_of_code in V. unfold value in V. cbn [c0 c1 c2] in V.
+  destruct (factors f0 f1 f2 ltac:(nra) D) as (p & q & O & E0 & E1).
+  assert (N : f0 * f1 < 0) by nra. unfold code_value in V. rewrite value_of_code in V. unfold value in V.
+  cbn [c0 c1 c2] in V.
   assert (F : 0 < f2 * f2) by nra. assert (PQ : 0 < p * q) by (rewrite E0 in S; nra).
   assert (0 < p + q) by (rewrite E0, E1 in N; nra). assert (0 < p) by nra. assert (0 < q) by nra.
   assert (W : 0 < (t - p * s) * (t - q * s)).
@@ -723,11 +784,13 @@ Proof.
   set (l0 := c2 f * c0 b - c2 b * c0 f). set (l1 := c2 f * c1 b - c2 b * c1 f).
   pose proof (slope_outside f (Rabs l1) (Rabs l0) Neg Pos) as Slope.
   cases_of_sign (c0 f); cases_of_sign (c2 f); cbn [same_sign andb negb]; rewrite ?If by easy; try reflexivity;
-    cases_of_sign (c1 f * c1 f - 4 * (c0 f * c2 f)); cbn [same_sign]; rewrite ?If by easy; try reflexivity; destruct
-    (certain _); rewrite ?If by easy; try reflexivity; cases_of_sign (code_value f (Rabs l1) (Rabs l0)); cbn [same_sign
-    andb orb negb opposite_sign]; try specialize (Slope ltac:(nra) ltac:(assumption) ltac:(nra)); try cases_of_sign
-    (linear_value (c1 f - 2 * c0 f) (2 * c2 f - c1 f) (Rabs l1) (Rabs l0)); try contradiction; cbn [same_sign negb];
-    rewrite ?If by easy; try reflexivity; match goal with |- _ = told (if ?c then _ else _) => now destruct c end.
+    cases_of_sign (c1 f * c1 f - 4 * (c0 f * c2 f)); cbn [same_sign]; rewrite ?If by easy; try reflexivity;
+    destruct (certain _); rewrite ?If by easy; try reflexivity;
+    cases_of_sign (code_value f (Rabs l1) (Rabs l0)); cbn [same_sign andb orb negb opposite_sign];
+    try specialize (Slope ltac:(nra) ltac:(assumption) ltac:(nra));
+    try cases_of_sign (linear_value (c1 f - 2 * c0 f) (2 * c2 f - c1 f) (Rabs l1) (Rabs l0)); try contradiction;
+    cbn [same_sign negb]; rewrite ?If by easy; try reflexivity;
+    match goal with |- _ = told (if ?c then _ else _) => now destruct c end.
 Qed.
 Theorem nonpositive_at_a_root_right f b : sign_inside (coefficients f) = uncertain ->
   nonpositive_at_a_root f b = true <-> nonpositive_somewhere f b.
@@ -737,8 +800,9 @@ Proof.
   - split; [discriminate |]. intros (x & X & Z & N). destruct (place_of_ratio x X) as (T & E).
     destruct (inside_ratio f _ T) as (F & _), (inside_ratio b _ T) as (_ & B). rewrite E in F, B.
     apply F in Z. apply B in N. specialize (No _ T Z). lra.
-  - split; [intros _ | intros _; now destruct (first_root_nonpositive f b)]. exists (r / (1 - r)).
-    split; [apply Rdiv_lt_0_compat; lra |]. split; [now apply inside_ratio | now apply inside_ratio].
+  - split; [intros _ | intros _; now destruct (first_root_nonpositive f b)].
+    exists (r / (1 - r)). split; [apply Rdiv_lt_0_compat; lra |].
+    split; [now apply inside_ratio | now apply inside_ratio].
 Qed.
 
 (** ** contact *)
@@ -782,12 +846,15 @@ Definition meets (f0 f1 f2 b : quadratic) (t : R) : Prop :=
   all_vanish [f0; f1; f2] t /\ quadratic_at b t <= 0.
 Lemma at_ends f : quadratic_at f 0 = c0 f /\ quadratic_at f 1 = c2 f.
 Proof. unfold quadratic_at, value. split; ring. Qed.
-Lemma touches_true f0 f1 f2 b : (touches f0 f1 f2 b c0 = true <-> meets f0 f1 f2 b 0) /\
+Lemma touches_true f0 f1 f2 b :
+  (touches f0 f1 f2 b c0 = true <-> meets f0 f1 f2 b 0) /\
   (touches f0 f1 f2 b c2 = true <-> meets f0 f1 f2 b 1).
 Proof.
-  unfold touches, meets, all_vanish. rewrite !andb_true_iff, !is_0_true, !nonpositive_true. rewrite !Forall_cons_iff.
-  destruct (at_ends f0), (at_ends f1), (at_ends f2), (at_ends b).
-  repeat match goal with H : quadratic_at _ _ = _ |- _ => rewrite H; clear H end. split; split; intuition.
+  unfold touches, meets, all_vanish.
+  rewrite !andb_true_iff, !is_0_true, !nonpositive_true.
+  rewrite !Forall_cons_iff. destruct (at_ends f0), (at_ends f1), (at_ends f2), (at_ends b).
+  repeat match goal with H : quadratic_at _ _ = _ |- _ => rewrite H; clear H end.
+  split; split; intuition.
 Qed.
 
 (** b0, b2 > 0, and b has a value <= 0 at some x > 0. *)
@@ -796,8 +863,10 @@ Lemma dips b : 0 < c0 b -> 0 < c2 b ->
 Proof.
   intros A B. unfold at_ratio. split.
   - intros (N & D). exists (- c1 b / (2 * c2 b)). split; [apply Rdiv_lt_0_compat; lra |].
-    apply Rmult_le_reg_r with (4 * c2 b); [lra |]. field_simplify; [| lra]. lra.
-  - intros (x & X & L). assert (0 < c2 b * x ^ 2) by (apply Rmult_lt_0_compat; [| apply pow_lt]; easy). split; [nra |].
+    apply Rmult_le_reg_r with (4 * c2 b); [lra |].
+    field_simplify; [| lra]. lra.
+  - intros (x & X & L). assert (0 < c2 b * x ^ 2) by (apply Rmult_lt_0_compat; [| apply pow_lt]; easy).
+    split; [nra |].
     assert (0 <= (2 * c2 b * x + c1 b) * (2 * c2 b * x + c1 b)) by apply Rle_0_sqr. nra.
 Qed.
 
@@ -811,11 +880,14 @@ Proof.
     destruct (rootless_hull _ t C T). rewrite at_time_quadratic. now apply (proj1 (Forall_forall _ _) V). }
   destruct (certainly_rootless (coefficients f0)) eqn:R0; [apply (Rootless f0); simpl; auto |].
   destruct (certainly_rootless (coefficients f1)) eqn:R1; [apply (Rootless f1); simpl; auto |].
-  destruct (certainly_rootless (coefficients f2)) eqn:R2; [apply (Rootless f2); simpl; auto |]. clear Rootless R0 R1 R2.
+  destruct (certainly_rootless (coefficients f2)) eqn:R2; [apply (Rootless f2); simpl; auto |].
+  clear Rootless R0 R1 R2.
   destruct (same_sign (sign_throughout (coefficients b)) positive) eqn:H.
   { split; [discriminate |]. intros (t & T & _ & B). pose proof (sign_throughout_right (coefficients b) t T) as S.
-    destruct (sign_throughout (coefficients b)); try discriminate. rewrite at_time_quadratic in S. simpl in S. lra. }
-  clear H. destruct (touches_true f0 f1 f2 b) as (T0 & T1). destruct (touches f0 f1 f2 b c0) eqn:S0.
+    destruct (sign_throughout (coefficients b)); try discriminate.
+    rewrite at_time_quadratic in S. simpl in S. lra. }
+  clear H. destruct (touches_true f0 f1 f2 b) as (T0 & T1).
+  destruct (touches f0 f1 f2 b c0) eqn:S0.
   { cbn [orb]. split; auto. intros _. exists 0. split; [lra | now apply T0]. }
   destruct (touches f0 f1 f2 b c2) eqn:S1.
   { cbn [orb]. split; auto. intros _. exists 1. split; [lra | now apply T1]. }
@@ -824,10 +896,13 @@ Proof.
   { split; intros (t & T & M); exists t; split; auto; [| lra].
     destruct (Req_dec t 0) as [-> | N0]; [now apply T0 in M |].
     destruct (Req_dec t 1) as [-> | N1]; [now apply T1 in M |]. lra. }
-  rewrite Inside. clear Inside. destruct (same_sign (sign_inside (coefficients b)) positive) eqn:H.
+  rewrite Inside. clear Inside.
+  destruct (same_sign (sign_inside (coefficients b)) positive) eqn:H.
   { split; [discriminate |]. intros (t & T & _ & B). pose proof (sign_inside_right (coefficients b) t T) as S.
-    destruct (sign_inside (coefficients b)); try discriminate. rewrite at_time_quadratic in S. simpl in S. lra. }
-  pose proof (common_roots_right [f0; f1; f2]) as K. destruct (common_roots [f0; f1; f2]) as [| m | f |]; simpl in K.
+    destruct (sign_inside (coefficients b)); try discriminate.
+    rewrite at_time_quadratic in S. simpl in S. lra. }
+  pose proof (common_roots_right [f0; f1; f2]) as K.
+  destruct (common_roots [f0; f1; f2]) as [| m | f |]; simpl in K.
   - split; [discriminate |]. intros (t & T & V & _). now apply (K t T) in V.
   - destruct K as (k & t & P & T & Sq & Only). rewrite nonpositive_true, (value_squares b m k t Sq). split.
     + intros B. exists t. split; auto. split; [now apply Only | nra].
@@ -849,18 +924,25 @@ Proof.
     + destruct B as (_ & B). now apply inside_ratio.
 Qed.
 
-Lemma meets_contact v e0 e1 t : meets (cross_x v e0 e1) (cross_y v e0 e1) (cross_z v e0 e1) (between v e0 e1) t <->
+Lemma meets_contact v e0 e1 t :
+  meets (cross_x v e0 e1) (cross_y v e0 e1) (cross_z v e0 e1) (between v e0 e1) t <->
   in_segment (place v t) (place e0 t) (place e1 t).
 Proof.
-  rewrite vertex_edge_contact. unfold vertex_edge_test, meets, all_vanish. rewrite !Forall_cons_iff.
-  replace (quadratic_at (between v e0 e1) t) with (dot (minus (place v t) (place e0 t))
-    (minus (place v t) (place e1 t))) by (unfold quadratic_at, value, between, dot, minus, place; cbn; ring).
-  replace (quadratic_at (cross_x v e0 e1) t) with (x (cross (minus (place v t) (place e0 t))
-    (minus (place e1 t) (place e0 t)))) by (unfold quadratic_at, value, cross_x, cross, minus, place; cbn; ring).
-  replace (quadratic_at (cross_y v e0 e1) t) with (y (cross (minus (place v t) (place e0 t))
-    (minus (place e1 t) (place e0 t)))) by (unfold quadratic_at, value, cross_y, cross, minus, place; cbn; ring).
-  replace (quadratic_at (cross_z v e0 e1) t) with (z (cross (minus (place v t) (place e0 t))
-    (minus (place e1 t) (place e0 t)))) by (unfold quadratic_at, value, cross_z, cross, minus, place; cbn; ring). split.
+  rewrite vertex_edge_contact. unfold vertex_edge_test, meets, all_vanish.
+  rewrite !Forall_cons_iff.
+  replace (quadratic_at (between v e0 e1) t) with
+    (dot (minus (place v t) (place e0 t)) (minus (place v t) (place e1 t)))
+    by (unfold quadratic_at, value, between, dot, minus, place; cbn; ring).
+  replace (quadratic_at (cross_x v e0 e1) t) with
+    (x (cross (minus (place v t) (place e0 t)) (minus (place e1 t) (place e0 t))))
+    by (unfold quadratic_at, value, cross_x, cross, minus, place; cbn; ring).
+  replace (quadratic_at (cross_y v e0 e1) t) with
+    (y (cross (minus (place v t) (place e0 t)) (minus (place e1 t) (place e0 t))))
+    by (unfold quadratic_at, value, cross_y, cross, minus, place; cbn; ring).
+  replace (quadratic_at (cross_z v e0 e1) t) with
+    (z (cross (minus (place v t) (place e0 t)) (minus (place e1 t) (place e0 t))))
+    by (unfold quadratic_at, value, cross_z, cross, minus, place; cbn; ring).
+  split.
   - intros ((A & B & C & _) & D). split; auto. now apply same_point.
   - intros (A & D). split; auto. rewrite A. repeat split. constructor.
 Qed.

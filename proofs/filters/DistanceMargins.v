@@ -8,7 +8,8 @@
                                                   a subinterval *)
 
 From Coq Require Import Reals Lra Psatz List.
-From Errbound Require Import Contact Distance Subdivision Separation FirstContact. Import ListNotations.
+From Errbound Require Import Contact Distance Subdivision Separation FirstContact.
+Import ListNotations.
 Open Scope R_scope.
 
 (** ** At a time *)
@@ -20,7 +21,8 @@ Proof.
   rewrite <- norm_square. assert (d < norm v); [| nra]. apply Rnot_le_lt. intros L.
   assert (norm v * norm m <= d * k) by (apply Rmult_le_compat; auto). lra.
 Qed.
-Lemma norm_opposite v : norm (opposite_of v) = norm v. Proof. unfold norm, opposite_of. f_equal. coordinates. ring. Qed.
+Lemma norm_opposite v : norm (opposite_of v) = norm v.
+Proof. unfold norm, opposite_of. f_equal. coordinates. ring. Qed.
 Lemma beyond_either v m d k : 0 <= d -> norm m <= k -> d * k < Rabs (dot v m) -> d * d < dot v v.
 Proof.
   intros D K H. unfold Rabs in H. destruct (Rcase_abs (dot v m)) as [N | N].
@@ -36,7 +38,10 @@ Proof.
     by (coordinates; ring). assert (0 <= dot v w * dot v w) by apply Rle_0_sqr. lra.
 Qed.
 Lemma norm_cross_below v w k l : norm v <= k -> norm w <= l -> norm (cross v w) <= k * l.
-Proof. intros K L. eapply Rle_trans; [apply norm_cross |]. apply Rmult_le_compat; auto using norm_nonnegative. Qed.
+Proof.
+  intros K L. eapply Rle_trans; [apply norm_cross |].
+  apply Rmult_le_compat; auto using norm_nonnegative.
+Qed.
 
 Section Face.
 
@@ -56,8 +61,9 @@ Qed.
 Theorem plane_face_apart d n : 0 <= d -> norm N <= n -> d * n < Rabs (det B C P) -> ~ face_near (d * d) v f0 f1 f2.
 Proof.
   intros D Hn H (q & T & Near). destruct (from_triangle q T) as (u & w & _ & _ & _ & E).
-  enough (d * d < dot (minus v q) (minus v q)) by (unfold near in Near; lra). apply (beyond_either _ N d n); auto.
-  rewrite E. unfold N. replace (dot _ _) with (det B C P) by (unfold det; coordinates; ring). auto.
+  enough (d * d < dot (minus v q) (minus v q)) by (unfold near in Near; lra).
+  apply (beyond_either _ N d n); auto. rewrite E. unfold N.
+  replace (dot _ _) with (det B C P) by (unfold det; coordinates; ring). auto.
 Qed.
 Theorem outside_face_apart d n l : 0 <= d -> norm N <= n -> norm B <= l -> norm C <= l -> norm (minus C B) <= l ->
   Exists (fun g => g < - (d * (n * l))) [weight_2 B C P; weight_1 B C P; weight_0 B C P] -> ~ face_near (d * d) v f0 f1 f2.
@@ -70,8 +76,9 @@ Proof.
     rewrite E. replace (dot _ _) with (w * dot N N - weight_2 B C P)
       by (unfold weight_2, opposite_of, N; coordinates; ring). nra.
   - apply (beyond _ (opposite_of (cross C N)) d (n * l)); auto;
-      [rewrite norm_opposite, Rmult_comm; now apply norm_cross_below |]. rewrite E.
-    replace (dot _ _) with (u * dot N N - weight_1 B C P) by (unfold weight_1, opposite_of, N; coordinates; ring). nra.
+      [rewrite norm_opposite, Rmult_comm; now apply norm_cross_below |].
+    rewrite E. replace (dot _ _) with (u * dot N N - weight_1 B C P)
+      by (unfold weight_1, opposite_of, N; coordinates; ring). nra.
   - apply (beyond _ (cross (minus C B) N) d (n * l)); auto; [rewrite Rmult_comm; now apply norm_cross_below |].
     rewrite E. replace (dot _ _) with ((1 - u - w) * dot N N - weight_0 B C P)
       by (unfold weight_0, weight_1, weight_2, N; coordinates; ring). nra.
@@ -147,22 +154,24 @@ Proof.
 Qed.
 (** N = s² N0 + s t N1 + t² N2; its control vectors are N0, N1/2 and N2. *)
 Lemma normal_below (a b c e : moving) t n : 0 <= t <= 1 ->
-  let B0 := minus (start a) (start b) in let B1 := minus (finish a) (finish b) in let C0 := minus (start c) (start e) in
-  let C1 := minus (finish c) (finish e) in norm (cross B0 C0) <= n -> norm (along (cross B0 C1) 1 (cross B1 C0)) <= 2
-  * n -> norm (cross B1 C1) <= n -> norm (cross (minus (place a t) (place b t)) (minus (place c t) (place e t))) <= n.
+  let B0 := minus (start a) (start b) in let B1 := minus (finish a) (finish b) in
+  let C0 := minus (start c) (start e) in let C1 := minus (finish c) (finish e) in
+  norm (cross B0 C0) <= n -> norm (along (cross B0 C1) 1 (cross B1 C0)) <= 2 * n -> norm (cross B1 C1) <= n ->
+  norm (cross (minus (place a t) (place b t)) (minus (place c t) (place e t))) <= n.
 Proof.
   intros T B0 B1 C0 C1 N0 N1 N2.
   replace (cross (minus (place a t) (place b t)) (minus (place c t) (place e t))) with
     (along (along (along origin ((1 - t) * (1 - t)) (cross B0 C0)) ((1 - t) * t) (along (cross B0 C1) 1 (cross B1 C0)))
-    (t * t) (cross B1 C1)) by (unfold B0, B1, C0, C1, place; coordinates; apply same_point; simpl; ring).
-  assert (Z : norm origin = 0)
-    by (unfold norm; replace (dot origin origin) with 0 by (coordinates; ring); apply sqrt_0).
+      (t * t) (cross B1 C1))
+    by (unfold B0, B1, C0, C1, place; coordinates; apply same_point; simpl; ring).
+  assert (Z : norm origin = 0) by (unfold norm; replace (dot origin origin) with 0 by (coordinates; ring); apply sqrt_0).
   assert (P0 : 0 <= (1 - t) * (1 - t)) by nra. assert (P1 : 0 <= (1 - t) * t) by nra. assert (P2 : 0 <= t * t) by nra.
   eapply Rle_trans; [apply norm_along |]. rewrite (Rabs_pos_eq (t * t)) by auto.
   eapply Rle_trans; [apply Rplus_le_compat_r, norm_along |]. rewrite (Rabs_pos_eq ((1 - t) * t)) by auto.
   eapply Rle_trans; [apply Rplus_le_compat_r, Rplus_le_compat_r, norm_along |].
-  rewrite (Rabs_pos_eq ((1 - t) * (1 - t))), Z by auto. apply (Rmult_le_compat_l _ _ _ P0) in N0.
-  apply (Rmult_le_compat_l _ _ _ P1) in N1. apply (Rmult_le_compat_l _ _ _ P2) in N2. lra.
+  rewrite (Rabs_pos_eq ((1 - t) * (1 - t))), Z by auto.
+  apply (Rmult_le_compat_l _ _ _ P0) in N0. apply (Rmult_le_compat_l _ _ _ P1) in N1.
+  apply (Rmult_le_compat_l _ _ _ P2) in N2. lra.
 Qed.
 
 (** Control values above or below a number, on the step or a subinterval. *)
@@ -199,8 +208,9 @@ Proof.
   intros U (L & Ey & F) [A | [A | A]] Dn.
   - left. apply control_above with (t := u) in A; auto. rewrite Rabs_pos_eq; lra.
   - left. apply control_below with (t := u) in A; auto. rewrite Rabs_left; lra.
-  - right. induction F as [| G g Gs gs (Lg & Eg) F IH]; [now apply Exists_nil in A |]. apply Exists_cons in A.
-    apply Exists_cons. destruct A as [A | A]; auto. left. apply control_below with (t := u) in A; auto. lra.
+  - right. induction F as [| G g Gs gs (Lg & Eg) F IH]; [now apply Exists_nil in A |].
+    apply Exists_cons in A. apply Exists_cons. destruct A as [A | A]; auto. left.
+    apply control_below with (t := u) in A; auto. lra.
 Qed.
 
 Theorem margins_face_apart v f0 f1 f2 d n l Y Gs t u : 0 <= t <= 1 -> 0 <= u <= 1 -> 0 <= d -> 0 <= n ->
@@ -210,7 +220,8 @@ Theorem margins_face_apart v f0 f1 f2 d n l Y Gs t u : 0 <= t <= 1 -> 0 <= u <= 
   stand_for u Y Gs (face_y v f0 f1 f2 t) [weight_2 B C P; weight_1 B C P; weight_0 B C P] -> excludes d n l Y Gs ->
   ~ face_near (d * d) (place v t) (place f0 t) (place f1 t) (place f2 t).
 Proof.
-  intros T U D N0 at_time B C P N Lb Lc Le S X. destruct (excluded_at d n l Y Gs u _ _ U S X) as [H | H]; [nra | |].
+  intros T U D N0 at_time B C P N Lb Lc Le S X.
+  destruct (excluded_at d n l Y Gs u _ _ U S X) as [H | H]; [nra | |].
   - apply plane_face_apart with n; auto.
   - apply outside_face_apart with n l; auto.
     replace (minus (minus (place f2 t) (place f0 t)) (minus (place f1 t) (place f0 t))) with (at_time f2 f1); auto.
@@ -224,7 +235,8 @@ Theorem margins_edges_apart a0 a1 b0 b1 d n l Y Gs t u : 0 <= t <= 1 -> 0 <= u <
     [on_a B C P; square_normal B C - on_a B C P; on_b B C P; square_normal B C - on_b B C P] -> excludes d n l Y Gs ->
   ~ edges_near (d * d) (place a0 t) (place a1 t) (place b0 t) (place b1 t).
 Proof.
-  intros T U D N0 at_time B C P N Lb Lc S X. destruct (excluded_at d n l Y Gs u _ _ U S X) as [H | H]; [nra | |].
+  intros T U D N0 at_time B C P N Lb Lc S X.
+  destruct (excluded_at d n l Y Gs u _ _ U S X) as [H | H]; [nra | |].
   - apply plane_edges_apart with n; auto.
   - apply outside_edges_apart with n l; auto.
 Qed.

@@ -8,7 +8,9 @@
                        |value - exact| <= error eps unit + underflow eta W^(degree - 1)
         count_height   no count exceeds 2^height, a number that depends on the expression's shape *)
 
-From Coq Require Import Reals ZArith Lia Lra Psatz. From Flocq Require Import Core. From Errbound Require Import Format.
+From Coq Require Import Reals ZArith Lia Lra Psatz.
+From Flocq Require Import Core.
+From Errbound Require Import Format.
 Open Scope R_scope.
 
 (** Inputs come with M, a bound on their computed sizes; constants are whole. Converted is a converted difference of
@@ -64,8 +66,12 @@ Section ErrorCount.
 Context (p emin : Z) {p_positive : Prec_gt_0 p} (direction : R -> Z) {direction_valid : Valid_rnd direction}.
 Notation fl := (rnd p emin direction).
 (** Counts are rounded to nearest, since the compiler computes them. *)
-Notation flc := (rnd p emin nearest). Notation number := (number p emin). Notation eps := (eps p). Notation u := (u p).
-Notation eta := (eta emin). Notation smallest_normal := (smallest_normal p emin).
+Notation flc := (rnd p emin nearest).
+Notation number := (number p emin).
+Notation eps := (eps p).
+Notation u := (u p).
+Notation eta := (eta emin).
+Notation smallest_normal := (smallest_normal p emin).
 
 (** The code. *)
 Fixpoint value (e : counted) : R :=
@@ -124,12 +130,18 @@ Fixpoint admissible (e : counted) : Prop :=
 
 Context (p_10 : (10 <= p)%Z) (emin_p : (emin <= 1 - 2 * p)%Z).
 
-Lemma nearest_error : rounding_error p emin nearest u (eta / 2). Proof. apply rounding_error_nearest; auto. lia. Qed.
-Lemma any_error : rounding_error p emin direction eps eta. Proof. apply rounding_error_any; auto. lia. Qed.
+Lemma nearest_error : rounding_error p emin nearest u (eta / 2).
+Proof. apply rounding_error_nearest; auto. lia. Qed.
+Lemma any_error : rounding_error p emin direction eps eta.
+Proof. apply rounding_error_any; auto. lia. Qed.
 
 Lemma u_small : 0 < u <= / 1024.
-Proof. split; [apply u_positive |]. replace (/ 1024) with (bpow radix2 (- 10)) by (simpl; lra). apply bpow_le. lia. Qed.
-Lemma eps_small : 0 < eps <= / 512. Proof. generalize u_small (eps_2u p). lra. Qed.
+Proof.
+  split; [apply u_positive |]. replace (/ 1024) with (bpow radix2 (- 10)) by (simpl; lra).
+  apply bpow_le. lia.
+Qed.
+Lemma eps_small : 0 < eps <= / 512.
+Proof. generalize u_small (eps_2u p). lra. Qed.
 
 (** c is a number with c >= (1 - u)^j x: at least x computed with j roundings. Counts are zero or at least eps, so
     they do not underflow. *)
@@ -153,20 +165,27 @@ Proof.
   apply Rmult_le_compat_r; auto. now apply shrunk_le.
 Qed.
 Lemma covers_itself c : number c -> c = 0 \/ eps <= c -> covers 0 c c.
-Proof. intros N Z. generalize eps_small; intros. repeat split; auto; unfold shrunk; simpl; lra. Qed.
-Lemma number_eps : number eps. Proof. apply number_power; auto. lia. Qed.
-Lemma covers_sum i c x d y : covers i c x -> covers i d y -> covers (S i) (flc (c + d)) (x + y).
 Proof.
-  intros (Nc & Zc & Pc & C) (Nd & Zd & Pd & D). generalize eps_small u_small; intros. assert (0 <= c) by lra.
-  assert (0 <= d) by lra. repeat split; try lra.
+  intros N Z. generalize eps_small; intros. repeat split; auto; unfold shrunk; simpl; lra.
+Qed.
+Lemma number_eps : number eps.
+Proof. apply number_power; auto. lia. Qed.
+Lemma covers_sum i c x d y :
+  covers i c x -> covers i d y -> covers (S i) (flc (c + d)) (x + y).
+Proof.
+  intros (Nc & Zc & Pc & C) (Nd & Zd & Pd & D). generalize eps_small u_small; intros.
+  assert (0 <= c) by lra. assert (0 <= d) by lra.
+  repeat split; try lra.
   - apply rnd_number; auto with typeclass_instances.
-  - destruct Zc as [-> | Zc], Zd as [-> | Zd]. 1: left; rewrite Rplus_0_l; apply rnd_0; auto with typeclass_instances.
+  - destruct Zc as [-> | Zc], Zd as [-> | Zd].
+    1: left; rewrite Rplus_0_l; apply rnd_0; auto with typeclass_instances.
     all: right; apply rnd_above; auto using number_eps with typeclass_instances; lra.
   - generalize (sum_relative p emin nearest _ _ nearest_error c d Nc Nd ltac:(lra) ltac:(lra)).
     unfold shrunk in *. rewrite <- tech_pow_Rmult. nra.
 Qed.
-Lemma covers_scaled i c x d y : covers i c x ->
-  number d -> 0 <= y <= d -> (c * d = 0 \/ eps <= c * d) -> covers (S i) (flc (c * d)) (x * y).
+Lemma covers_scaled i c x d y :
+  covers i c x -> number d -> 0 <= y <= d -> (c * d = 0 \/ eps <= c * d) ->
+  covers (S i) (flc (c * d)) (x * y).
 Proof.
   intros (Nc & Zc & Pc & C) Nd Hy P. generalize eps_small u_small (shrunk_positive i); intros.
   assert (0 <= c) by lra. assert (0 <= x * y) by nra.
@@ -176,10 +195,12 @@ Proof.
   - apply rnd_number; auto with typeclass_instances.
   - destruct P as [-> | P]; [left; apply rnd_0; auto with typeclass_instances | right].
     apply rnd_above; auto using number_eps with typeclass_instances.
-  - unfold shrunk. rewrite <- tech_pow_Rmult. fold (shrunk i). apply Rle_trans with ((c * d) * (1 - u)); [nra |].
+  - unfold shrunk. rewrite <- tech_pow_Rmult. fold (shrunk i).
+    apply Rle_trans with ((c * d) * (1 - u)); [nra |].
     destruct P as [-> | P].
     + rewrite (rnd_0 p emin nearest). lra.
-    + apply (rnd_relative p emin nearest u (eta / 2) nearest_error). apply Rle_trans with (2 := P). apply bpow_le. lia.
+    + apply (rnd_relative p emin nearest u (eta / 2) nearest_error).
+      apply Rle_trans with (2 := P). apply bpow_le. lia.
 Qed.
 
 Lemma growth_exact : flc (1 + flc (16 * eps)) = 1 + 16 * eps.
@@ -196,7 +217,8 @@ Proof.
            rewrite <- Z.pow_add_r by lia. apply Z.pow_le_mono_r; lia.
       * generalize (Z.pow_nonneg 2 (p - 5)). lia.
     + rewrite plus_IZR. change 2%Z with (radix_val radix2). rewrite IZR_Zpower by lia.
-      rewrite Rmult_plus_distr_r, <- bpow_plus. replace (p - 5 + (5 - p))%Z with 0%Z by lia. simpl. lra.
+      rewrite Rmult_plus_distr_r, <- bpow_plus. replace (p - 5 + (5 - p))%Z with 0%Z by lia.
+      simpl. lra.
   - rewrite E. apply number_power; auto. lia.
 Qed.
 Lemma number_growth : number (1 + 16 * eps).
@@ -206,17 +228,20 @@ Proof. rewrite <- growth_exact. apply rnd_number; auto with typeclass_instances.
 Lemma rounded_covers i c x : (i <= 6)%nat -> covers i c x ->
   number (rounded c) /\ 0 <= x /\ (1 + eps) * x <= rounded c /\ c <= rounded c.
 Proof.
-  intros I H. generalize H. intros (Nc & Zc & Pc & _). generalize eps_small u_small; intros. unfold rounded.
-  rewrite growth_exact. apply (covers_more i 6) in H; auto.
+  intros I H. generalize H. intros (Nc & Zc & Pc & _). generalize eps_small u_small; intros.
+  unfold rounded. rewrite growth_exact.
+  apply (covers_more i 6) in H; auto.
   assert (G : covers 7 (flc (c * (1 + 16 * eps))) (x * (1 + 16 * eps))).
-  { apply covers_scaled; auto using number_growth; try lra. destruct Zc as [-> | Zc]; [left; ring | right; nra]. }
+  { apply covers_scaled; auto using number_growth; try lra.
+    destruct Zc as [-> | Zc]; [left; ring | right; nra]. }
   destruct G as (N & _ & _ & G). repeat split; auto.
   - apply Rle_trans with (2 := G). rewrite (eps_2u p).
     assert (L : 1 - 7 * u <= shrunk 7).
     { unfold shrunk. generalize (u_positive p). intros.
       assert (B : forall n, 1 - INR n * u <= (1 - u) ^ n).
       { induction n as [| n IH]; [simpl; lra |]. rewrite <- tech_pow_Rmult, S_INR.
-        assert (0 <= (1 - u) ^ n) by (apply pow_le; lra). generalize (pos_INR n). nra. }
+        assert (0 <= (1 - u) ^ n) by (apply pow_le; lra).
+        generalize (pos_INR n). nra. }
       generalize (B 7%nat). simpl INR. lra. }
     assert (F : 1 + 2 * u <= (1 - 7 * u) * (1 + 16 * (2 * u))) by nra.
     apply Rle_trans with ((1 - 7 * u) * (1 + 16 * (2 * u)) * x).
@@ -231,78 +256,116 @@ Definition proper (c : error_count) : Prop :=
   number (magnitude c) /\ number (error c) /\ number (underflow c) /\ 1 <= magnitude c /\
   (error c = 0 \/ 1 <= error c) /\ (underflow c = 0 \/ 1 <= underflow c).
 
-Lemma number_1 : number 1. Proof. change 1 with (bpow radix2 0). apply number_power; auto. lia. Qed.
-Lemma number_2 : number 2. Proof. change 2 with (bpow radix2 1). apply number_power; auto. lia. Qed.
+Lemma number_1 : number 1.
+Proof. change 1 with (bpow radix2 0). apply number_power; auto. lia. Qed.
+Lemma number_2 : number 2.
+Proof. change 2 with (bpow radix2 1). apply number_power; auto. lia. Qed.
 Lemma covers_count c : number c -> c = 0 \/ 1 <= c -> covers 0 c c.
 Proof. intros N Z. apply covers_itself; auto. generalize eps_small. lra. Qed.
-Lemma covers_product c d : number c -> number d -> c = 0 \/ 1 <= c -> d = 0 \/ 1 <= d -> covers 1 (flc (c * d)) (c * d).
+Lemma covers_product c d : number c -> number d -> c = 0 \/ 1 <= c -> d = 0 \/ 1 <= d ->
+  covers 1 (flc (c * d)) (c * d).
 Proof.
-  intros Nc Nd Zc Zd. apply covers_scaled; auto using covers_count; try lra. generalize eps_small; intros.
-  destruct Zc as [-> | Zc], Zd as [-> | Zd]; try (left; ring). right. nra.
+  intros Nc Nd Zc Zd. apply covers_scaled; auto using covers_count; try lra.
+  generalize eps_small; intros. destruct Zc as [-> | Zc], Zd as [-> | Zd]; try (left; ring).
+  right. nra.
 Qed.
 
-Lemma sum_proper a b : proper a -> proper b -> proper (count_sum a b) /\ (1 + eps) * (magnitude a + magnitude b)
-  <= magnitude (count_sum a b) /\ error a + error b + (magnitude a + magnitude b) <= error (count_sum a b) /\
+Lemma sum_proper a b : proper a -> proper b -> proper (count_sum a b) /\
+  (1 + eps) * (magnitude a + magnitude b) <= magnitude (count_sum a b) /\
+  error a + error b + (magnitude a + magnitude b) <= error (count_sum a b) /\
   (1 + eps) * (underflow a + underflow b) <= underflow (count_sum a b).
 Proof.
-  intros (Na & Oa & Va & Ma & Ea & Ua) (Nb & Ob & Vb & Mb & Eb & Ub). generalize eps_small; intros P.
+  intros (Na & Oa & Va & Ma & Ea & Ua) (Nb & Ob & Vb & Mb & Eb & Ub).
+  generalize eps_small; intros P.
   destruct (rounded_covers 1 _ _ ltac:(lia)
-    (covers_sum 0 _ _ _ _ (covers_count _ Na ltac:(lra)) (covers_count _ Nb ltac:(lra)))) as (N1 & _ & H1 & _).
-  set (m := rounded (flc (magnitude a + magnitude b))) in *. assert (M1 : 1 <= m) by nra.
-  destruct (rounded_covers 2 _ _ ltac:(lia) (covers_sum 1 _ _ _ _ (covers_sum 0 _ _ _ _ (covers_count _ Oa Ea)
-    (covers_count _ Ob Eb)) (covers_more 0 1 _ _ ltac:(lia) (covers_count m N1 ltac:(lra))))) as (N2 & _ & H2 & _).
-  destruct (rounded_covers 1 _ _ ltac:(lia) (covers_sum 0 _ _ _ _ (covers_count _ Va Ua) (covers_count _ Vb Ub)))
-    as (N3 & P3 & H3 & C3). unfold count_sum. fold m. cbn [magnitude error underflow].
-  assert (0 <= error a + error b) by lra. set (er := rounded (flc (flc (error a + error b) + m))) in *.
+              (covers_sum 0 _ _ _ _ (covers_count _ Na ltac:(lra)) (covers_count _ Nb ltac:(lra))))
+    as (N1 & _ & H1 & _).
+  set (m := rounded (flc (magnitude a + magnitude b))) in *.
+  assert (M1 : 1 <= m) by nra.
+  destruct (rounded_covers 2 _ _ ltac:(lia)
+              (covers_sum 1 _ _ _ _
+                 (covers_sum 0 _ _ _ _ (covers_count _ Oa Ea) (covers_count _ Ob Eb))
+                 (covers_more 0 1 _ _ ltac:(lia) (covers_count m N1 ltac:(lra)))))
+    as (N2 & _ & H2 & _).
+  destruct (rounded_covers 1 _ _ ltac:(lia)
+              (covers_sum 0 _ _ _ _ (covers_count _ Va Ua) (covers_count _ Vb Ub)))
+    as (N3 & P3 & H3 & C3).
+  unfold count_sum. fold m. cbn [magnitude error underflow].
+  assert (0 <= error a + error b) by lra.
+  set (er := rounded (flc (flc (error a + error b) + m))) in *.
   assert (0 <= eps * (error a + error b + m)) by (apply Rmult_le_pos; lra).
   split; [repeat split | repeat split; assumption || lra || nra]; auto.
   - right. simpl. lra.
   - simpl. assert (L : underflow a + underflow b <= rounded (flc (underflow a + underflow b))).
     { assert (0 <= eps * (underflow a + underflow b)) by (apply Rmult_le_pos; lra). lra. }
-    destruct Ua as [Ua | Ua], Ub as [Ub | Ub]; [left | right; lra ..]. unfold rounded.
-    rewrite Ua, Ub, Rplus_0_l, (rnd_0 p emin nearest), Rmult_0_l. apply rnd_0. auto with typeclass_instances.
+    destruct Ua as [Ua | Ua], Ub as [Ub | Ub]; [left | right; lra ..].
+    unfold rounded. rewrite Ua, Ub, Rplus_0_l, (rnd_0 p emin nearest), Rmult_0_l.
+    apply rnd_0. auto with typeclass_instances.
 Qed.
 
-Lemma product_proper a b : proper a -> proper b -> proper (count_product a b) /\ (1 + eps) * (magnitude a * magnitude b)
-  <= magnitude (count_product a b) /\ magnitude a * error b + error a * magnitude b + error a * error
-  b * eps + magnitude a * magnitude b <= error (count_product a b) /\ (1 + eps) * (magnitude a * underflow b + underflow
-  a * magnitude b + (error a * underflow b + underflow a * error b) * (2 * eps) + 2) <= underflow (count_product a b).
+Lemma product_proper a b : proper a -> proper b -> proper (count_product a b) /\
+  (1 + eps) * (magnitude a * magnitude b) <= magnitude (count_product a b) /\
+  magnitude a * error b + error a * magnitude b + error a * error b * eps +
+    magnitude a * magnitude b <= error (count_product a b) /\
+  (1 + eps) * (magnitude a * underflow b + underflow a * magnitude b +
+    (error a * underflow b + underflow a * error b) * (2 * eps) + 2) <=
+    underflow (count_product a b).
 Proof.
-  intros (Na & Oa & Va & Ma & Ea & Ua) (Nb & Ob & Vb & Mb & Eb & Ub). generalize eps_small; intros P.
-  destruct (rounded_covers 1 _ _ ltac:(lia) (covers_product _ _ Na Nb ltac:(lra) ltac:(lra))) as (N1 & _ & H1 & _).
-  set (m := rounded (flc (magnitude a * magnitude b))) in *. assert (M0 : 1 <= magnitude a * magnitude b) by nra.
-  assert (M1 : 1 <= m) by nra.
+  intros (Na & Oa & Va & Ma & Ea & Ua) (Nb & Ob & Vb & Mb & Eb & Ub).
+  generalize eps_small; intros P.
+  destruct (rounded_covers 1 _ _ ltac:(lia)
+              (covers_product _ _ Na Nb ltac:(lra) ltac:(lra))) as (N1 & _ & H1 & _).
+  set (m := rounded (flc (magnitude a * magnitude b))) in *.
+  assert (M0 : 1 <= magnitude a * magnitude b) by nra. assert (M1 : 1 <= m) by nra.
   assert (Small : forall x, x = 0 \/ 1 <= x -> forall e, eps <= e -> x * e = 0 \/ eps <= x * e).
   { intros x [-> | X] e E; [left; ring | right; nra]. }
-  assert (One : forall c d, c = 0 \/ 1 <= c -> d = 0 \/ 1 <= d -> flc (c * d) = 0 \/ 1 <= flc (c * d)).
+  assert (One : forall c d, c = 0 \/ 1 <= c -> d = 0 \/ 1 <= d ->
+                  flc (c * d) = 0 \/ 1 <= flc (c * d)).
   { intros c d [-> | C] [-> | D]; try (left; rewrite ?Rmult_0_l, ?Rmult_0_r;
       apply rnd_0; auto with typeclass_instances).
     right. apply rnd_above; auto using number_1 with typeclass_instances. nra. }
-  destruct (rounded_covers 4 _ _ ltac:(lia) (covers_sum 3 _ _ _ _ (covers_sum 2 _ _ _ _ (covers_sum
-    1 _ _ _ _ (covers_product _ _ Na Ob ltac:(lra) Eb) (covers_product _ _ Oa Nb Ea ltac:(lra))) (covers_scaled
-    1 _ _ eps eps (covers_product _ _ Oa Ob Ea Eb) number_eps ltac:(lra) (Small _ (One _ _ Ea Eb) eps ltac:(lra))))
-    (covers_more 0 3 _ _ ltac:(lia) (covers_count m N1 ltac:(lra))))) as (N2 & P2 & H2 & _).
+  destruct (rounded_covers 4 _ _ ltac:(lia)
+    (covers_sum 3 _ _ _ _
+       (covers_sum 2 _ _ _ _
+          (covers_sum 1 _ _ _ _ (covers_product _ _ Na Ob ltac:(lra) Eb)
+                                (covers_product _ _ Oa Nb Ea ltac:(lra)))
+          (covers_scaled 1 _ _ eps eps (covers_product _ _ Oa Ob Ea Eb) number_eps ltac:(lra)
+             (Small _ (One _ _ Ea Eb) eps ltac:(lra))))
+       (covers_more 0 3 _ _ ltac:(lia) (covers_count m N1 ltac:(lra)))))
+    as (N2 & P2 & H2 & _).
   assert (E2 : flc (2 * eps) = 2 * eps).
-  { apply rnd_exact; auto with typeclass_instances. replace (2 * eps) with (bpow radix2 (2 - p)).
+  { apply rnd_exact; auto with typeclass_instances.
+    replace (2 * eps) with (bpow radix2 (2 - p)).
     - apply number_power; auto. lia.
     - unfold Format.eps. replace (2 - p)%Z with (1 + (1 - p))%Z by lia. now rewrite bpow_plus. }
-  assert (OneSum : forall c d, c = 0 \/ 1 <= c -> d = 0 \/ 1 <= d -> flc (c + d) = 0 \/ 1 <= flc (c + d)).
-  { intros c d [-> | C] [-> | D]. 1: left; rewrite Rplus_0_l; apply rnd_0; auto with typeclass_instances.
+  assert (OneSum : forall c d, c = 0 \/ 1 <= c -> d = 0 \/ 1 <= d ->
+                     flc (c + d) = 0 \/ 1 <= flc (c + d)).
+  { intros c d [-> | C] [-> | D].
+    1: left; rewrite Rplus_0_l; apply rnd_0; auto with typeclass_instances.
     all: right; apply rnd_above; auto using number_1 with typeclass_instances; lra. }
   assert (N2e : number (flc (2 * eps))) by (apply rnd_number; auto with typeclass_instances).
   destruct (rounded_covers 5 _ _ ltac:(lia)
-    (covers_sum 4 _ _ _ _ (covers_sum 3 _ _ _ _ (covers_more 2 3 _ _ ltac:(lia) (covers_sum 1 _ _ _ _ (covers_product
-    _ _ Na Vb ltac:(lra) Ub) (covers_product _ _ Va Nb Ua ltac:(lra)))) (covers_scaled 2 _ _ (flc (2 * eps)) (2 * eps)
-    (covers_sum 1 _ _ _ _ (covers_product _ _ Oa Vb Ea Ub) (covers_product _ _ Va Ob Ua Eb)) N2e ltac:(rewrite E2; lra)
-    (Small _ (OneSum _ _ (One _ _ Ea Ub) (One _ _ Ua Eb)) (flc (2 * eps)) ltac:(rewrite E2; lra))))
-    (covers_more 0 4 _ _ ltac:(lia) (covers_count 2 number_2 ltac:(lra))))) as (N3 & P3 & H3 & _). unfold count_product.
-  fold m. cbn [magnitude error underflow].
+    (covers_sum 4 _ _ _ _
+       (covers_sum 3 _ _ _ _
+          (covers_more 2 3 _ _ ltac:(lia)
+             (covers_sum 1 _ _ _ _ (covers_product _ _ Na Vb ltac:(lra) Ub)
+                                   (covers_product _ _ Va Nb Ua ltac:(lra))))
+          (covers_scaled 2 _ _ (flc (2 * eps)) (2 * eps)
+             (covers_sum 1 _ _ _ _ (covers_product _ _ Oa Vb Ea Ub)
+                                   (covers_product _ _ Va Ob Ua Eb))
+             N2e ltac:(rewrite E2; lra)
+             (Small _ (OneSum _ _ (One _ _ Ea Ub) (One _ _ Ua Eb)) (flc (2 * eps))
+                ltac:(rewrite E2; lra))))
+       (covers_more 0 4 _ _ ltac:(lia) (covers_count 2 number_2 ltac:(lra)))))
+    as (N3 & P3 & H3 & _).
+  unfold count_product. fold m. cbn [magnitude error underflow].
   assert (Pos : forall c d, c = 0 \/ 1 <= c -> d = 0 \/ 1 <= d -> 0 <= c * d).
   { intros. apply Rmult_le_pos; lra. }
   generalize (Pos _ _ (or_intror Ma) Eb) (Pos _ _ Ea (or_intror Mb)) (Pos _ _ Ea Eb)
     (Pos _ _ (or_intror Ma) Ub) (Pos _ _ Ua (or_intror Mb)) (Pos _ _ Ea Ub) (Pos _ _ Ua Eb).
   intros A1 A2 A3 A4 A5 A6 A7.
-  assert (A8 : 0 <= (error a * underflow b + underflow a * error b) * (2 * eps)) by (apply Rmult_le_pos; lra).
+  assert (A8 : 0 <= (error a * underflow b + underflow a * error b) * (2 * eps))
+    by (apply Rmult_le_pos; lra).
   assert (A9 : 0 <= error a * error b * eps) by (apply Rmult_le_pos; lra).
   assert (0 <= eps * (magnitude a * error b + error a * magnitude b + error a * error b * eps + m))
     by (apply Rmult_le_pos; lra).
@@ -312,7 +375,8 @@ Proof.
   - fold m. lra || nra.
 Qed.
 
-Lemma constant_1 c : c <> 0%Z -> 1 <= Rabs (IZR c). Proof. intros H. rewrite <- abs_IZR. apply IZR_le. lia. Qed.
+Lemma constant_1 c : c <> 0%Z -> 1 <= Rabs (IZR c).
+Proof. intros H. rewrite <- abs_IZR. apply IZR_le. lia. Qed.
 Lemma count_proper e : admissible e -> proper (count e).
 Proof.
   generalize number_1 (number_0 p emin); intros N1 N0.
@@ -329,14 +393,22 @@ Qed.
 
 (** Counts below powers of two. *)
 Notation pow2 n := (bpow radix2 (Z.of_nat n)).
-Lemma number_pow2 n : number (pow2 n). Proof. apply number_power; auto. lia. Qed.
-Lemma pow2_le m n : (m <= n)%nat -> pow2 m <= pow2 n. Proof. intros. apply bpow_le. lia. Qed.
-Lemma pow2_succ n : pow2 (S n) = 2 * pow2 n. Proof. rewrite Nat2Z.inj_succ, <- Z.add_1_l. now rewrite bpow_plus. Qed.
-Lemma pow2_plus m n : pow2 (m + n) = pow2 m * pow2 n. Proof. rewrite Nat2Z.inj_add. now rewrite bpow_plus. Qed.
-Lemma pow2_1 n : 1 <= pow2 n. Proof. apply (pow2_le 0). lia. Qed.
+Lemma number_pow2 n : number (pow2 n).
+Proof. apply number_power; auto. lia. Qed.
+Lemma pow2_le m n : (m <= n)%nat -> pow2 m <= pow2 n.
+Proof. intros. apply bpow_le. lia. Qed.
+Lemma pow2_succ n : pow2 (S n) = 2 * pow2 n.
+Proof. rewrite Nat2Z.inj_succ, <- Z.add_1_l. now rewrite bpow_plus. Qed.
+Lemma pow2_plus m n : pow2 (m + n) = pow2 m * pow2 n.
+Proof. rewrite Nat2Z.inj_add. now rewrite bpow_plus. Qed.
+Lemma pow2_1 n : 1 <= pow2 n.
+Proof. apply (pow2_le 0). lia. Qed.
 Lemma sum_below n c d : c <= pow2 n -> d <= pow2 n -> flc (c + d) <= pow2 (S n).
-Proof. intros. apply rnd_below; auto using number_pow2 with typeclass_instances. rewrite pow2_succ. lra. Qed.
-Lemma product_below m n c d : 0 <= c <= pow2 m -> 0 <= d <= pow2 n -> flc (c * d) <= pow2 (m + n).
+Proof.
+  intros. apply rnd_below; auto using number_pow2 with typeclass_instances. rewrite pow2_succ. lra.
+Qed.
+Lemma product_below m n c d :
+  0 <= c <= pow2 m -> 0 <= d <= pow2 n -> flc (c * d) <= pow2 (m + n).
 Proof.
   intros. apply rnd_below; auto using number_pow2 with typeclass_instances. rewrite pow2_plus.
   apply Rmult_le_compat; lra.
@@ -346,11 +418,13 @@ Proof.
   intros. unfold rounded. rewrite growth_exact. generalize eps_small; intros.
   apply rnd_below; auto using number_pow2 with typeclass_instances. rewrite pow2_succ. nra.
 Qed.
-Lemma flc_nonnegative x : 0 <= x -> 0 <= flc x. Proof. apply rnd_nonnegative; auto with typeclass_instances. Qed.
+Lemma flc_nonnegative x : 0 <= x -> 0 <= flc x.
+Proof. apply rnd_nonnegative; auto with typeclass_instances. Qed.
 
 Definition below (n : nat) (c : error_count) : Prop :=
   magnitude c <= pow2 n /\ error c <= pow2 n /\ underflow c <= pow2 n.
-Lemma sum_of_counts_below n a b : proper a -> proper b -> below n a -> below n b -> below (4 + n) (count_sum a b).
+Lemma sum_of_counts_below n a b :
+  proper a -> proper b -> below n a -> below n b -> below (4 + n) (count_sum a b).
 Proof.
   intros (_ & _ & _ & Ma & Ea & Ua) (_ & _ & _ & Mb & Eb & Ub) (A1 & A2 & A3) (B1 & B2 & B3).
   unfold count_sum. set (m := rounded (flc (magnitude a + magnitude b))).
@@ -366,14 +440,16 @@ Proof.
   - apply L with (2 := M). lia.
   - apply rounded_below; [apply flc_nonnegative; lra |]. apply sum_below; auto.
     apply Rle_trans with (1 := sum_below n _ _ A2 B2). apply pow2_le. lia.
-  - apply L with (S (S n)); [lia |]. apply rounded_below; [apply flc_nonnegative; lra | apply sum_below; auto].
+  - apply L with (S (S n)); [lia |].
+    apply rounded_below; [apply flc_nonnegative; lra | apply sum_below; auto].
 Qed.
 Lemma product_of_counts_below n k a b :
   proper a -> proper b -> below n a -> below k b -> below (4 + (n + k)) (count_product a b).
 Proof.
-  intros (_ & _ & _ & Ma & Ea & Ua) (_ & _ & _ & Mb & Eb & Ub) (A1 & A2 & A3) (B1 & B2 & B3). unfold count_product.
-  set (m := rounded (flc (magnitude a * magnitude b))).
-  assert (Q : forall c d, 0 <= c <= pow2 n -> 0 <= d <= pow2 k -> 0 <= flc (c * d) <= pow2 (n + k)).
+  intros (_ & _ & _ & Ma & Ea & Ua) (_ & _ & _ & Mb & Eb & Ub) (A1 & A2 & A3) (B1 & B2 & B3).
+  unfold count_product. set (m := rounded (flc (magnitude a * magnitude b))).
+  assert (Q : forall c d, 0 <= c <= pow2 n -> 0 <= d <= pow2 k ->
+                0 <= flc (c * d) <= pow2 (n + k)).
   { intros c d C D. split; [apply flc_nonnegative, Rmult_le_pos; lra | now apply product_below]. }
   assert (T : forall j c d, 0 <= c <= pow2 j -> 0 <= d <= pow2 j -> 0 <= flc (c + d) <= pow2 (S j)).
   { intros j c d C D. split; [apply flc_nonnegative; lra | apply sum_below; lra]. }
@@ -402,8 +478,9 @@ Proof.
     { apply T; [apply T; [apply T; apply Q; lra |] | apply W' with (2 := M); lia].
       apply W' with s; [lia |]. apply F; [apply W' with s; [lia | apply Q; lra] | lra]. }
     apply rounded_below; apply X.
-  - assert (X : 0 <= flc (flc (flc (flc (magnitude a * underflow b) + flc (underflow a * magnitude b)) + flc
-      (flc (flc (error a * underflow b) + flc (underflow a * error b)) * flc (2 * eps))) + 2) <= pow2 (S (S (S s)))).
+  - assert (X : 0 <= flc (flc (flc (flc (magnitude a * underflow b) + flc (underflow a * magnitude b)) +
+                     flc (flc (flc (error a * underflow b) + flc (underflow a * error b)) *
+                          flc (2 * eps))) + 2) <= pow2 (S (S (S s)))).
     { apply T; [apply T; [apply T; apply Q; lra |] | exact Two].
       apply W' with s; [lia |]. apply F; [apply T; apply Q; lra | exact E2]. }
     apply rounded_below; apply X.
@@ -426,8 +503,9 @@ Proof.
     cbn [admissible height count].
   - unfold below. simpl. lra.
   - unfold below. simpl. lra.
-  - intros [_ C]. unfold below. cbn [magnitude error underflow]. generalize (pow2_1 (Z.to_nat (Z.log2_up (Z.abs c)))).
-    intros. split; [| lra]. rewrite <- abs_IZR. rewrite Z2Nat.id by apply Z.log2_up_nonneg.
+  - intros [_ C]. unfold below. cbn [magnitude error underflow].
+    generalize (pow2_1 (Z.to_nat (Z.log2_up (Z.abs c)))). intros. split; [| lra].
+    rewrite <- abs_IZR. rewrite Z2Nat.id by apply Z.log2_up_nonneg.
     rewrite <- IZR_Zpower by apply Z.log2_up_nonneg. apply IZR_le. simpl (radix_val radix2).
     destruct (Z.eq_dec (Z.abs c) 1) as [-> | D]; [simpl; lia |]. apply Z.log2_up_spec. lia.
   - intros [A B]. now apply S; auto.
@@ -439,11 +517,14 @@ Qed.
 
 (** Soundness. *)
 Definition scale (e : counted) : R := W ^ Nat.pred (degree e).
-Lemma power_W_1 n : 1 <= W ^ n. Proof. now apply pow_R1_Rle. Qed.
-Lemma power_W_le m n : (m <= n)%nat -> W ^ m <= W ^ n. Proof. now apply Rle_pow. Qed.
+Lemma power_W_1 n : 1 <= W ^ n.
+Proof. now apply pow_R1_Rle. Qed.
+Lemma power_W_le m n : (m <= n)%nat -> W ^ m <= W ^ n.
+Proof. now apply Rle_pow. Qed.
 Lemma unit_power e : admissible e -> 0 <= unit e <= W ^ degree e.
 Proof.
-  assert (M : forall x y i j, 0 <= x <= W ^ i -> 0 <= y <= W ^ j -> 0 <= Rmax x y <= W ^ Nat.max i j).
+  assert (M : forall x y i j, 0 <= x <= W ^ i -> 0 <= y <= W ^ j ->
+                0 <= Rmax x y <= W ^ Nat.max i j).
   { intros x y i j X Y. generalize (power_W_le i (Nat.max i j) ltac:(lia))
       (power_W_le j (Nat.max i j) ltac:(lia)). unfold Rmax. destruct (Rle_dec x y); lra. }
   induction e as [x M0 | a b M0 | c | x IHx y IHy | x IHx y IHy | x IHx y IHy | x IHx | c x M0]; simpl.
@@ -461,7 +542,8 @@ Qed.
 Lemma underflow_of_constants e : admissible e -> degree e = O -> underflow (count e) = 0.
 Proof.
   assert (Z : rounded (flc (0 + 0)) = 0).
-  { unfold rounded. rewrite Rplus_0_l, (rnd_0 p emin nearest), Rmult_0_l. apply rnd_0. auto with typeclass_instances. }
+  { unfold rounded. rewrite Rplus_0_l, (rnd_0 p emin nearest), Rmult_0_l.
+    apply rnd_0. auto with typeclass_instances. }
   induction e as [x M0 | a b M0 | c | x IHx y IHy | x IHx y IHy | x IHx y IHy | x IHx | c x M0]; simpl; auto;
     try discriminate.
   - intros [A B] D. rewrite IHx, IHy by (auto; lia). exact Z.
@@ -474,10 +556,13 @@ Definition near (v x U T : R) (c : error_count) : Prop :=
   Rabs v <= magnitude c * U + underflow c * (eta * T) /\
   Rabs (v - x) <= error c * (eps * U) + underflow c * (eta * T).
 
-Lemma near_sum v w x y a b U V T T' Z S : number v -> number w -> proper a -> proper b -> 0 <= U <= Z -> 0 <= V <= Z ->
-  0 <= T <= S -> 0 <= T' <= S -> near v x U T a -> near w y V T' b -> near (fl (v + w)) (x + y) Z S (count_sum a b).
+Lemma near_sum v w x y a b U V T T' Z S :
+  number v -> number w -> proper a -> proper b ->
+  0 <= U <= Z -> 0 <= V <= Z -> 0 <= T <= S -> 0 <= T' <= S ->
+  near v x U T a -> near w y V T' b -> near (fl (v + w)) (x + y) Z S (count_sum a b).
 Proof.
-  intros Nv Nw Ca Cb HU HV HT HT' (V1 & V2) (W1 & W2). generalize (sum_proper a b Ca Cb). intros (_ & M & E & F).
+  intros Nv Nw Ca Cb HU HV HT HT' (V1 & V2) (W1 & W2).
+  generalize (sum_proper a b Ca Cb). intros (_ & M & E & F).
   destruct Ca as (_ & _ & _ & Ma & Ea & Ua), Cb as (_ & _ & _ & Mb & Eb & Ub).
   generalize eps_small (eta_positive emin); intros P Q.
   assert (Up : forall c d, 0 <= c -> d <= Z -> c * d <= c * Z).
@@ -489,10 +574,13 @@ Proof.
   set (mags := (magnitude a + magnitude b) * Z). set (unders := (underflow a + underflow b) * (eta * S)).
   assert (B : Rabs (v + w) <= mags + unders).
   { apply Rle_trans with (1 := Rabs_triang _ _). unfold mags, unders.
-    generalize (Up (magnitude a) U) (Up (magnitude b) V) (Down (underflow a) T) (Down (underflow b) T'). lra. }
+    generalize (Up (magnitude a) U) (Up (magnitude b) V) (Down (underflow a) T)
+      (Down (underflow b) T'). lra. }
   assert (D : Rabs (v + w - (x + y)) <= (error a + error b) * (eps * Z) + unders).
-  { replace (v + w - (x + y)) with ((v - x) + (w - y)) by ring. apply Rle_trans with (1 := Rabs_triang _ _).
-    unfold unders. generalize (Upe (error a) U) (Upe (error b) V) (Down (underflow a) T) (Down (underflow b) T'). lra. }
+  { replace (v + w - (x + y)) with ((v - x) + (w - y)) by ring.
+    apply Rle_trans with (1 := Rabs_triang _ _). unfold unders.
+    generalize (Upe (error a) U) (Upe (error b) V) (Down (underflow a) T)
+      (Down (underflow b) T'). lra. }
   generalize (sum_error p emin direction _ _ any_error v w Nv Nw). intros R.
   assert (R' : eps * Rabs (v + w) <= eps * (mags + unders)) by (apply Rmult_le_compat_l; lra).
   assert (HZ : 0 <= eta * S) by (apply Rmult_le_pos; lra).
@@ -501,7 +589,8 @@ Proof.
   assert (F' : (1 + eps) * unders <= underflow (count_sum a b) * (eta * S)).
   { unfold unders. rewrite <- Rmult_assoc. apply Rmult_le_compat_r; lra. }
   assert (E' : (error a + error b) * (eps * Z) + eps * mags <= error (count_sum a b) * (eps * Z)).
-  { unfold mags. apply Rle_trans with ((error a + error b + (magnitude a + magnitude b)) * (eps * Z)).
+  { unfold mags. apply Rle_trans with
+      ((error a + error b + (magnitude a + magnitude b)) * (eps * Z)).
     - right. ring.
     - apply Rmult_le_compat_r; auto. apply Rmult_le_pos; lra. }
   split.
@@ -514,35 +603,43 @@ Qed.
 Lemma product_rounding x : Rabs (fl x - x) <= eps * Rabs x + eta.
 Proof.
   generalize eps_small (eta_positive emin) (Rabs_pos x); intros.
-  assert (0 <= eps * Rabs x) by (apply Rmult_le_pos; lra). destruct (Rlt_or_le (Rabs x) smallest_normal) as [C | C].
+  assert (0 <= eps * Rabs x) by (apply Rmult_le_pos; lra).
+  destruct (Rlt_or_le (Rabs x) smallest_normal) as [C | C].
   - generalize (absolute_error_any p emin direction x C). lra.
   - generalize (relative_error_any p emin direction x C). lra.
 Qed.
 
 (** T and T' belong to the factors, S to the product. If a factor has no underflow, its T is arbitrary. *)
-Lemma near_product v w x y a b U V T T' S : proper a -> proper b -> 0 <= U ->
-  0 <= V -> 0 <= T -> 0 <= T' -> 1 <= S -> (underflow b = 0 \/ U * T' <= S) -> (underflow a = 0 \/ T * V <= S) ->
-  (underflow a = 0 \/ underflow b = 0 \/ T * T' <= S) -> eta * (underflow a * underflow b) <= / 16 ->
+Lemma near_product v w x y a b U V T T' S :
+  proper a -> proper b -> 0 <= U -> 0 <= V -> 0 <= T -> 0 <= T' -> 1 <= S ->
+  (underflow b = 0 \/ U * T' <= S) -> (underflow a = 0 \/ T * V <= S) ->
+  (underflow a = 0 \/ underflow b = 0 \/ T * T' <= S) ->
+  eta * (underflow a * underflow b) <= / 16 ->
   near v x U T a -> near w y V T' b -> near (fl (v * w)) (x * y) (U * V) S (count_product a b).
 Proof.
-  intros Ca Cb HU HV HT HT' HS SB SA SAB Tiny (V1 & V2) (W1 & W2). generalize (product_proper a b Ca Cb).
-  intros (_ & M & E & F). destruct Ca as (_ & _ & _ & Ma & Ea & Ua), Cb as (_ & _ & _ & Mb & Eb & Ub).
-  generalize eps_small (eta_positive emin); intros P Q. set (ma := magnitude a) in *. set (mb := magnitude b) in *.
-  set (ea := error a) in *. set (eb := error b) in *. set (ua := underflow a) in *. set (ub := underflow b) in *.
+  intros Ca Cb HU HV HT HT' HS SB SA SAB Tiny (V1 & V2) (W1 & W2).
+  generalize (product_proper a b Ca Cb). intros (_ & M & E & F).
+  destruct Ca as (_ & _ & _ & Ma & Ea & Ua), Cb as (_ & _ & _ & Mb & Eb & Ub).
+  generalize eps_small (eta_positive emin); intros P Q.
+  set (ma := magnitude a) in *. set (mb := magnitude b) in *. set (ea := error a) in *.
+  set (eb := error b) in *. set (ua := underflow a) in *. set (ub := underflow b) in *.
   (* the contribution of underflow, in units of eta S *)
   set (h := eta * S). assert (Hh : eta <= h).
   { unfold h. rewrite <- (Rmult_1_r eta) at 1. apply Rmult_le_compat_l; lra. }
   assert (X1 : U * (ub * (eta * T')) <= ub * h).
-  { unfold h. destruct SB as [-> | SB]; [lra |]. replace (U * (ub * (eta * T'))) with (ub * (eta * (U * T'))) by ring.
+  { unfold h. destruct SB as [-> | SB]; [lra |].
+    replace (U * (ub * (eta * T'))) with (ub * (eta * (U * T'))) by ring.
     repeat apply Rmult_le_compat_l; lra. }
   assert (X2 : (ua * (eta * T)) * V <= ua * h).
-  { unfold h. destruct SA as [-> | SA]; [lra |]. replace (ua * (eta * T) * V) with (ua * (eta * (T * V))) by ring.
+  { unfold h. destruct SA as [-> | SA]; [lra |].
+    replace (ua * (eta * T) * V) with (ua * (eta * (T * V))) by ring.
     repeat apply Rmult_le_compat_l; lra. }
   assert (X3 : (ua * (eta * T)) * (ub * (eta * T')) <= / 16 * h).
-  { unfold h.
-    destruct SAB as [-> | [-> | SAB]]; [rewrite !Rmult_0_l; fold h; lra | rewrite Rmult_0_l, Rmult_0_r; fold h; lra |].
+  { unfold h. destruct SAB as [-> | [-> | SAB]];
+      [rewrite !Rmult_0_l; fold h; lra | rewrite Rmult_0_l, Rmult_0_r; fold h; lra |].
     replace (ua * (eta * T) * (ub * (eta * T'))) with (eta * (ua * ub) * (eta * (T * T'))) by ring.
-    assert (0 <= T * T') by (apply Rmult_le_pos; lra). apply Rmult_le_compat; try lra.
+    assert (0 <= T * T') by (apply Rmult_le_pos; lra).
+    apply Rmult_le_compat; try lra.
     - apply Rmult_le_pos; [lra |]. apply Rmult_le_pos; lra.
     - apply Rmult_le_pos; lra.
     - apply Rmult_le_compat_l; lra. }
@@ -555,7 +652,8 @@ Proof.
   (* the product's size *)
   set (under := (ma * ub + ua * mb) * h).
   assert (Y1 : ma * U * p2 <= ma * ub * h).
-  { replace (ma * U * p2) with (ma * (U * p2)) by ring. rewrite (Rmult_assoc ma). apply Rmult_le_compat_l; lra. }
+  { replace (ma * U * p2) with (ma * (U * p2)) by ring. rewrite (Rmult_assoc ma).
+    apply Rmult_le_compat_l; lra. }
   assert (Y2 : p1 * (mb * V) <= ua * mb * h).
   { replace (p1 * (mb * V)) with (mb * (p1 * V)) by ring.
     replace (ua * mb * h) with (mb * (ua * h)) by ring. apply Rmult_le_compat_l; lra. }
@@ -566,23 +664,28 @@ Proof.
   (* its error *)
   assert (Z1 : ea * (eps * U) * p2 <= ea * ub * eps * h).
   { replace (ea * (eps * U) * p2) with (ea * eps * (U * p2)) by ring.
-    replace (ea * ub * eps * h) with (ea * eps * (ub * h)) by ring. apply Rmult_le_compat_l; auto. apply Hmm; lra. }
+    replace (ea * ub * eps * h) with (ea * eps * (ub * h)) by ring.
+    apply Rmult_le_compat_l; auto. apply Hmm; lra. }
   assert (Z2 : p1 * (eb * (eps * V)) <= ua * eb * eps * h).
   { replace (p1 * (eb * (eps * V))) with (eb * eps * (p1 * V)) by ring.
-    replace (ua * eb * eps * h) with (eb * eps * (ua * h)) by ring. apply Rmult_le_compat_l; auto. apply Hmm; lra. }
+    replace (ua * eb * eps * h) with (eb * eps * (ua * h)) by ring.
+    apply Rmult_le_compat_l; auto. apply Hmm; lra. }
   set (cross := (ea * ub + ua * eb) * (2 * eps) * h).
   assert (D : Rabs (v * w - x * y) <=
     (ma * eb + ea * mb + ea * eb * eps) * (eps * (U * V)) + under + cross + 3 * (/ 16 * h)).
   { replace (v * w - x * y) with (v * (w - y) + (v - x) * w + - ((v - x) * (w - y))) by ring.
-    apply Rle_trans with (Rabs v * Rabs (w - y) + Rabs (v - x) * Rabs w + Rabs (v - x) * Rabs (w - y)).
-    { apply Rle_trans with (1 := Rabs_triang _ _). rewrite Rabs_Ropp, !Rabs_mult. apply Rplus_le_compat_r.
-      apply Rle_trans with (1 := Rabs_triang _ _). rewrite !Rabs_mult. lra. }
+    apply Rle_trans with (Rabs v * Rabs (w - y) + Rabs (v - x) * Rabs w +
+                          Rabs (v - x) * Rabs (w - y)).
+    { apply Rle_trans with (1 := Rabs_triang _ _). rewrite Rabs_Ropp, !Rabs_mult.
+      apply Rplus_le_compat_r. apply Rle_trans with (1 := Rabs_triang _ _).
+      rewrite !Rabs_mult. lra. }
     apply Rle_trans with ((ma * U + p1) * (eb * (eps * V) + p2) +
       (ea * (eps * U) + p1) * (mb * V + p2) + (ea * (eps * U) + p1) * (eb * (eps * V) + p2)).
     - repeat apply Rplus_le_compat; apply Rmult_le_compat; lra.
     - unfold under, cross. lra. }
   generalize (product_rounding (v * w)). intros R.
-  assert (R' : eps * Rabs (v * w) <= eps * (ma * mb * (U * V) + under + / 16 * h)) by (apply Rmult_le_compat_l; lra).
+  assert (R' : eps * Rabs (v * w) <= eps * (ma * mb * (U * V) + under + / 16 * h))
+    by (apply Rmult_le_compat_l; lra).
   assert (Und : 0 <= under).
   { unfold under. apply Hmm; [| lra]. generalize (Hmm ma ub) (Hmm ua mb). lra. }
   assert (Crs : 0 <= cross).
@@ -596,13 +699,16 @@ Proof.
     - apply Rmult_le_compat_r; lra. }
   assert (E' : (ma * eb + ea * mb + ea * eb * eps) * (eps * (U * V)) + eps * (ma * mb * (U * V)) <=
                error (count_product a b) * (eps * (U * V))).
-  { apply Rle_trans with ((ma * eb + ea * mb + ea * eb * eps + ma * mb) * (eps * (U * V))).
+  { apply Rle_trans with
+      ((ma * eb + ea * mb + ea * eb * eps + ma * mb) * (eps * (U * V))).
     - right. ring.
     - apply Rmult_le_compat_r; auto. apply Hmm; lra. }
   assert (0 <= eps * h <= / 512 * h).
   { split; [apply Hmm; lra | apply Rmult_le_compat_r; lra]. }
-  assert (0 <= eps * cross) by (apply Hmm; lra). split; fold h.
-  - replace (fl (v * w)) with ((fl (v * w) - v * w) + v * w) by ring. apply Rle_trans with (1 := Rabs_triang _ _). lra.
+  assert (0 <= eps * cross) by (apply Hmm; lra).
+  split; fold h.
+  - replace (fl (v * w)) with ((fl (v * w) - v * w) + v * w) by ring.
+    apply Rle_trans with (1 := Rabs_triang _ _). lra.
   - replace (fl (v * w) - x * y) with ((fl (v * w) - v * w) + (v * w - x * y)) by ring.
     apply Rle_trans with (1 := Rabs_triang _ _). lra.
 Qed.
@@ -613,7 +719,10 @@ Proof.
   intros A. apply number_opp. auto.
 Qed.
 Lemma near_opp v x U T c : near v x U T c -> near (- v) (- x) U T c.
-Proof. unfold near. rewrite Rabs_Ropp. replace (- v - - x) with (- (v - x)) by ring. now rewrite Rabs_Ropp. Qed.
+Proof.
+  unfold near. rewrite Rabs_Ropp. replace (- v - - x) with (- (v - x)) by ring.
+  now rewrite Rabs_Ropp.
+Qed.
 
 Lemma count_near e : admissible e -> (Z.of_nat (height e) + emin <= 0)%Z ->
   near (value e) (exact e) (unit e) (scale e) (count e).
@@ -637,11 +746,15 @@ Proof.
     cbn [admissible height]; intros A H.
   - destruct A as [_ A]. unfold near. simpl. replace (x - x) with 0 by ring. rewrite Rabs_R0. lra.
   - destruct A as (Na & Nb & A). unfold near. simpl.
-    generalize (sum_error p emin direction _ _ any_error a (- b) Na (number_opp _ _ _ Nb)) (number_opp _ _ _ Nb).
-    change (a + - b) with (a - b). intros. split; [lra |]. apply Rle_trans with (eps * Rabs (fl (a - b))); [| nra].
+    generalize (sum_error p emin direction _ _ any_error a (- b) Na (number_opp _ _ _ Nb))
+      (number_opp _ _ _ Nb).
+    change (a + - b) with (a - b). intros.
+    split; [lra |].
+    apply Rle_trans with (eps * Rabs (fl (a - b))); [| nra].
     destruct (Rlt_or_le (Rabs (a - b)) smallest_normal) as [C | C].
-    + rewrite (sum_exact_below p emin direction a (- b) Na ltac:(auto) C) at 1. change (a + - b) with (a - b).
-      replace (a - b - (a - b)) with 0 by ring. rewrite Rabs_R0. apply Rmult_le_pos; [lra | apply Rabs_pos].
+    + rewrite (sum_exact_below p emin direction a (- b) Na ltac:(auto) C) at 1.
+      change (a + - b) with (a - b). replace (a - b - (a - b)) with 0 by ring. rewrite Rabs_R0.
+      apply Rmult_le_pos; [lra | apply Rabs_pos].
     + apply Rle_trans with (ulp radix2 (FLT_exp emin p) (fl (a - b))).
       * apply error_le_ulp_round; auto with typeclass_instances.
       * rewrite (Rmult_comm eps). apply ulp_FLT_le; auto.
@@ -653,24 +766,32 @@ Proof.
   - destruct A as [A B]. simpl. unfold scale. simpl. apply Sum; auto using number_opp, value_number.
     + apply IHx; auto. lia.
     + apply near_opp, IHy; auto. lia.
-  - destruct A as (A & B & D). simpl. generalize (unit_power x A) (unit_power y B); intros HX HY.
-    generalize (count_proper x A) (count_proper y B); intros CX CY. generalize (count_height x A) (count_height y B).
-    intros (_ & _ & UX) (_ & _ & UY). generalize (S x) (S y); intros.
+  - destruct A as (A & B & D). simpl.
+    generalize (unit_power x A) (unit_power y B); intros HX HY.
+    generalize (count_proper x A) (count_proper y B); intros CX CY.
+    generalize (count_height x A) (count_height y B). intros (_ & _ & UX) (_ & _ & UY).
+    generalize (S x) (S y); intros.
     assert (Deg : forall z, admissible z -> underflow (count z) = 0 \/ (1 <= degree z)%nat).
-    { intros z Z. destruct (Nat.eq_dec (degree z) 0); [left | right; lia]. now apply underflow_of_constants. }
-    unfold scale at 1. cbn [degree]. apply (near_product _ _ _ _ _ _ _ _ (scale x) (scale y)); auto; try lra.
+    { intros z Z. destruct (Nat.eq_dec (degree z) 0); [left | right; lia].
+      now apply underflow_of_constants. }
+    unfold scale at 1. cbn [degree].
+    apply (near_product _ _ _ _ _ _ _ _ (scale x) (scale y)); auto; try lra.
     + apply power_W_1.
-    + destruct (Deg y B) as [| L]; [now left | right]. apply Rle_trans with (W ^ degree x * scale y).
+    + destruct (Deg y B) as [| L]; [now left | right].
+      apply Rle_trans with (W ^ degree x * scale y).
       * apply Rmult_le_compat_r; lra.
       * unfold scale. rewrite <- pow_add. apply power_W_le. lia.
-    + destruct (Deg x A) as [| L]; [now left | right]. apply Rle_trans with (scale x * W ^ degree y).
+    + destruct (Deg x A) as [| L]; [now left | right].
+      apply Rle_trans with (scale x * W ^ degree y).
       * apply Rmult_le_compat_l; lra.
       * unfold scale. rewrite <- pow_add. apply power_W_le. lia.
-    + destruct (Deg x A) as [| L]; [now left | right]. destruct (Deg y B) as [| L']; [now left | right]. unfold scale.
-      rewrite <- pow_add. apply power_W_le. lia.
+    + destruct (Deg x A) as [| L]; [now left | right].
+      destruct (Deg y B) as [| L']; [now left | right].
+      unfold scale. rewrite <- pow_add. apply power_W_le. lia.
     + apply Rle_trans with (bpow radix2 (emin + Z.of_nat (height x + height y))).
-      * unfold Format.eta. rewrite bpow_plus. apply Rmult_le_compat_l; [apply bpow_ge_0 |]. rewrite pow2_plus.
-        destruct CX as (_ & _ & _ & _ & _ & ?), CY as (_ & _ & _ & _ & _ & ?). apply Rmult_le_compat; lra.
+      * unfold Format.eta. rewrite bpow_plus. apply Rmult_le_compat_l; [apply bpow_ge_0 |].
+        rewrite pow2_plus. destruct CX as (_ & _ & _ & _ & _ & ?), CY as (_ & _ & _ & _ & _ & ?).
+        apply Rmult_le_compat; lra.
       * replace (/ 16) with (bpow radix2 (- 4)) by (simpl; lra). apply bpow_le. lia.
     + apply IHx; auto. lia.
     + apply IHy; auto. lia.

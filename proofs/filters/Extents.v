@@ -23,8 +23,10 @@
         after_near                the rounded position at t_max is a double between both ends of the step, off by at
                                   most the computed error; to nearest *)
 
-From Coq Require Import Reals ZArith List Lia Lra Bool. From Flocq Require Import Core.
-From Errbound Require Import Format Contact Decisions SeparatingAxis RoundedAxes. Import ListNotations.
+From Coq Require Import Reals ZArith List Lia Lra Bool.
+From Flocq Require Import Core.
+From Errbound Require Import Format Contact Decisions SeparatingAxis RoundedAxes.
+Import ListNotations.
 Open Scope R_scope.
 
 #[local] Instance float_precision : Prec_gt_0 24 := eq_refl.
@@ -33,13 +35,16 @@ Open Scope R_scope.
 Section Extents.
 
 Context (direction : R -> Z) {direction_valid : Valid_rnd direction}.
-Notation single := (rnd 24 (-149) direction). Notation number := (Format.number 53 (-1074)).
-Notation float := (Format.number 24 (-149)). Notation eps := (eps 24).
+Notation single := (rnd 24 (-149) direction).
+Notation number := (Format.number 53 (-1074)).
+Notation float := (Format.number 24 (-149)).
+Notation eps := (eps 24).
 
 Context (low high : point) (low_numbers : number (x low) /\ number (y low) /\ number (z low))
   (high_numbers : number (x high) /\ number (y high) /\ number (z high)) (low_bounded : bounded low)
   (high_bounded : bounded high).
-Notation f := (frame_of direction low high). Notation in_frame := (in_frame low high).
+Notation f := (frame_of direction low high).
+Notation in_frame := (in_frame low high).
 
 (** ** The code *)
 
@@ -73,27 +78,33 @@ Definition apart : extents -> extents -> bool := apart_along search_axes.
 
 (** ** Elements *)
 
-Lemma fold_min_below (value : moving -> R) others m : let r := fold_left (fun m q => Rmin m (value q)) others m in
+Lemma fold_min_below (value : moving -> R) others m :
+  let r := fold_left (fun m q => Rmin m (value q)) others m in
   r <= m /\ forall q, In q others -> r <= value q.
 Proof.
   revert m. induction others as [| q l IH]; intros m; cbn zeta; cbn [fold_left]; [split; [lra | easy] |].
-  destruct (IH (Rmin m (value q))) as (A & B). pose proof (Rmin_l m (value q)). pose proof (Rmin_r m (value q)).
+  destruct (IH (Rmin m (value q))) as (A & B).
+  pose proof (Rmin_l m (value q)). pose proof (Rmin_r m (value q)).
   split; [lra |]. intros r [<- | I]; [lra | now apply B].
 Qed.
-Lemma fold_max_above (value : moving -> R) others m : let r := fold_left (fun m q => Rmax m (value q)) others m in
+Lemma fold_max_above (value : moving -> R) others m :
+  let r := fold_left (fun m q => Rmax m (value q)) others m in
   m <= r /\ forall q, In q others -> value q <= r.
 Proof.
   revert m. induction others as [| q l IH]; intros m; cbn zeta; cbn [fold_left]; [split; [lra | easy] |].
-  destruct (IH (Rmax m (value q))) as (A & B). pose proof (Rmax_l m (value q)). pose proof (Rmax_r m (value q)).
+  destruct (IH (Rmax m (value q))) as (A & B).
+  pose proof (Rmax_l m (value q)). pose proof (Rmax_r m (value q)).
   split; [lra |]. intros r [<- | I]; [lra | now apply B].
 Qed.
 (** Extents are at least as wide as those of a single vertex. *)
-Lemma wider_than_vertex first others a e q : In q (first :: others) -> least (of_element first others a e)
-  <= single (computed a e q - snd a) /\ single (computed a e q + snd a) <= most (of_element first others a e).
+Lemma wider_than_vertex first others a e q : In q (first :: others) ->
+  least (of_element first others a e) <= single (computed a e q - snd a) /\
+  single (computed a e q + snd a) <= most (of_element first others a e).
 Proof.
   intros I. cbn [of_element least most].
   destruct (fold_min_below (computed a e) others (computed a e first)) as (A & B).
-  destruct (fold_max_above (computed a e) others (computed a e first)) as (C & D). split; apply single_le; auto.
+  destruct (fold_max_above (computed a e) others (computed a e first)) as (C & D).
+  split; apply single_le; auto.
   - destruct I as [<- | I]; [lra | specialize (B q I); lra].
   - destruct I as [<- | I]; [lra | specialize (D q I); lra].
 Qed.
@@ -113,16 +124,19 @@ Definition scaled (n p : point) : R := dot n (minus p (middle f)) * scale f.
 
 Lemma sum_size r s : Rabs r <= 1.001 -> Rabs s <= 1.001 -> Rabs (single (r + s)) <= 2.003.
 Proof.
-  intros A B. destruct tiny_constants as (_ & _ & E3 & E4 & E5 & _). pose proof (single_near direction (r + s)) as N.
-  pose proof (Rabs_triang r s) as T. assert (eps * Rabs (r + s) <= eps * 2.002) by (apply Rmult_le_compat_l; lra).
-  assert (M : Rabs (single (r + s) - (r + s)) <= 0.001) by lra. assert (C : Rabs (r + s) <= 2.002) by lra.
+  intros A B. destruct tiny_constants as (_ & _ & E3 & E4 & E5 & _).
+  pose proof (single_near direction (r + s)) as N. pose proof (Rabs_triang r s) as T.
+  assert (eps * Rabs (r + s) <= eps * 2.002) by (apply Rmult_le_compat_l; lra).
+  assert (M : Rabs (single (r + s) - (r + s)) <= 0.001) by lra.
+  assert (C : Rabs (r + s) <= 2.002) by lra.
   apply Rabs_le_inv in M, C. apply Rabs_le. lra.
 Qed.
 Lemma difference_size r s : Rabs r <= 1.001 -> Rabs s <= 1.001 -> Rabs (single (r - s)) <= 2.003.
 Proof. intros A B. apply (sum_size r (- s)); auto. now rewrite Rabs_Ropp. Qed.
 
-Lemma diagonal_near a p : In a (diagonals_in_float direction) -> number (x p) ->
-  number (y p) -> number (z p) -> inside_box low high p -> Rabs (fst a (rounded_point direction f p)) <= 2.003 /\
+Lemma diagonal_near a p : In a (diagonals_in_float direction) ->
+  number (x p) -> number (y p) -> number (z p) -> inside_box low high p ->
+  Rabs (fst a (rounded_point direction f p)) <= 2.003 /\
   Rabs (fst a (rounded_point direction f p) - scaled (snd a) p) <= 4.05 * eps.
 Proof.
   intros I Px Py Pz B.
@@ -163,8 +177,10 @@ Proof.
   assert (N : forall t, Rabs t <= 2.004 -> Rabs (single t - t) <= 2.01 * eps).
   { intros t T. pose proof (single_near direction t) as M.
     assert (eps * Rabs t <= eps * 2.004) by (apply Rmult_le_compat_l; lra). lra. }
-  apply Rabs_le_inv in A, B. pose proof (N (r - 7 * eps) ltac:(apply Rabs_le; lra)) as D.
-  pose proof (N (r + 7 * eps) ltac:(apply Rabs_le; lra)) as U. apply Rabs_le_inv in D, U. lra.
+  apply Rabs_le_inv in A, B.
+  pose proof (N (r - 7 * eps) ltac:(apply Rabs_le; lra)) as D.
+  pose proof (N (r + 7 * eps) ltac:(apply Rabs_le; lra)) as U.
+  apply Rabs_le_inv in D, U. lra.
 Qed.
 
 Theorem diagonal_extents_hold a e first others q : In a (diagonals_in_float direction) ->
@@ -185,7 +201,8 @@ Proof.
   intros A Q T Fq Ft L. apply in_app_or in A. destruct A as [A | A]; apply in_map_iff in A;
     destruct A as (b & <- & B); cbn [fst].
   - pose proof (coordinate_extents_hold b e p l q B Q). pose proof (coordinate_extents_hold b e r m t B T).
-    unfold computed in *. cbn [fst] in *. apply (told direction low high 0); auto; [now apply coordinates_tell | lra].
+    unfold computed in *. cbn [fst] in *.
+    apply (told direction low high 0); auto; [now apply coordinates_tell | lra].
   - pose proof (diagonal_extents_hold b e p l q B Q Fq). pose proof (diagonal_extents_hold b e r m t B T Ft).
     destruct (scale_bounds direction low high low_numbers high_numbers low_bounded high_bounded) as (S & _).
     apply Rnot_le_lt. intros C.
@@ -204,10 +221,14 @@ Inductive around (E : extents) : extents -> Prop :=
   | around_itself : around E E
   | around_group first others F : In F (first :: others) -> around E F -> around E (of_group first others).
 
-Lemma holds_itself E : holds E E. Proof. intros a e. lra. Qed.
-Lemma holds_all G F E : holds G F -> holds F E -> holds G E. Proof. intros A B a e. destruct (A a e), (B a e). lra. Qed.
+Lemma holds_itself E : holds E E.
+Proof. intros a e. lra. Qed.
+Lemma holds_all G F E : holds G F -> holds F E -> holds G E.
+Proof. intros A B a e. destruct (A a e), (B a e). lra. Qed.
 Lemma hull_holds E F : holds (hull E F) E /\ holds (hull E F) F.
-Proof. split; intros a e; cbn [hull least most]; split; auto using Rmin_l, Rmin_r, Rmax_l, Rmax_r. Qed.
+Proof.
+  split; intros a e; cbn [hull least most]; split; auto using Rmin_l, Rmin_r, Rmax_l, Rmax_r.
+Qed.
 Lemma of_group_holds first others E : In E (first :: others) -> holds (of_group first others) E.
 Proof.
   unfold of_group. revert E first. induction others as [| F l IH]; intros E first; cbn [fold_left].
@@ -217,7 +238,8 @@ Proof.
 Qed.
 Theorem group_extents_hold E G : around E G -> holds G E.
 Proof.
-  induction 1 as [| first others F I _ IH]; [apply holds_itself |]. now apply (holds_all _ F); [apply of_group_holds |].
+  induction 1 as [| first others F I _ IH]; [apply holds_itself |].
+  now apply (holds_all _ F); [apply of_group_holds |].
 Qed.
 
 (** fill_leaves of swept extents, in which each end has the hull of both: comparisons at the start suffice. *)
@@ -241,7 +263,9 @@ Proof.
     destruct H as [H | H]; [left | right]; apply andb_true_iff; split; now apply Rlt_bool_true.
 Qed.
 Lemma apart_symmetric axes E F : apart_along axes E F = true -> apart_along axes F E = true.
-Proof. rewrite !apart_axis. intros (a & I & H). exists a. split; auto. destruct H as [H | H]; auto. Qed.
+Proof.
+  rewrite !apart_axis. intros (a & I & H). exists a. split; auto. destruct H as [H | H]; auto.
+Qed.
 Lemma group_apart_along axes G H E F : holds G E -> holds H F ->
   apart_along axes G H = true -> apart_along axes E F = true.
 Proof.
@@ -255,13 +279,15 @@ Proof. apply group_apart_along. Qed.
 (** ** Pairs *)
 
 (** Two elements are apart if all vertices of one come before all of the other along an axis. *)
-Lemma apart_before p l r m : apart (of_element p l) (of_element r m) = true -> (forall q, In q (p :: l) -> in_frame q)
-  -> (forall t, In t (r :: m) -> in_frame t) -> exists n, forall q t, In q (p :: l) -> In t (r :: m) -> before n q t.
+Lemma apart_before p l r m : apart (of_element p l) (of_element r m) = true ->
+  (forall q, In q (p :: l) -> in_frame q) -> (forall t, In t (r :: m) -> in_frame t) ->
+  exists n, forall q t, In q (p :: l) -> In t (r :: m) -> before n q t.
 Proof.
   unfold apart. rewrite apart_axis. intros (a & I & H) P R'. destruct H as [H | H].
   - exists (minus origin (snd (fst a))). intros q t Q T. apply before_opposite, before_of. intros e.
     now apply (extents_tell a e r m p l t q); auto.
-  - exists (snd (fst a)). intros q t Q T. apply before_of. intros e. now apply (extents_tell a e p l r m q t); auto.
+  - exists (snd (fst a)). intros q t Q T. apply before_of. intros e.
+    now apply (extents_tell a e p l r m q t); auto.
 Qed.
 
 Theorem apart_face_separate v f0 f1 f2 G H : in_frame v -> in_frame f0 -> in_frame f1 -> in_frame f2 ->
@@ -375,26 +401,29 @@ Proof.
   { intros t T. pose proof (single_near direction t) as M.
     assert (eps * Rabs t <= eps * (2.003 + w)) by (apply Rmult_le_compat_l; lra).
     assert (eps * w <= / 1000000 * w) by (apply Rmult_le_compat_r; lra). lra. }
-  apply Rabs_le_inv in A, B. pose proof (N (r - w) ltac:(apply Rabs_le; lra)) as D.
-  pose proof (N (r + w) ltac:(apply Rabs_le; lra)) as U. apply Rabs_le_inv in D, U. lra.
+  apply Rabs_le_inv in A, B.
+  pose proof (N (r - w) ltac:(apply Rabs_le; lra)) as D. pose proof (N (r + w) ltac:(apply Rabs_le; lra)) as U.
+  apply Rabs_le_inv in D, U. lra.
 Qed.
 
 Lemma scaled_off n p q : Rabs (x p - x q) <= d -> Rabs (y p - y q) <= d -> Rabs (z p - z q) <= d ->
   Rabs (scaled n q - scaled n p) <= (Rabs (x n) + Rabs (y n) + Rabs (z n)) * (d * scale f).
 Proof.
   intros X Y Z. destruct (scale_bounds direction low high low_numbers high_numbers low_bounded high_bounded) as (S & _).
-  replace (scaled n q - scaled n p) with (- (x n * (x p - x q) + y n * (y p - y q) + z n * (z p - z q)) * scale f)
+  replace (scaled n q - scaled n p) with
+    (- (x n * (x p - x q) + y n * (y p - y q) + z n * (z p - z q)) * scale f)
     by (unfold scaled, dot, minus; cbn [x y z]; ring).
   rewrite Rabs_mult, Rabs_Ropp, (Rabs_pos_eq (scale f)), <- Rmult_assoc by easy. apply Rmult_le_compat_r; auto.
   assert (H : forall k m, Rabs m <= d -> Rabs (k * m) <= Rabs k * d)
-    by (intros; rewrite Rabs_mult; apply Rmult_le_compat_l; auto using Rabs_pos). pose proof (H (x n) _ X).
-  pose proof (H (y n) _ Y). pose proof (H (z n) _ Z).
+    by (intros; rewrite Rabs_mult; apply Rmult_le_compat_l; auto using Rabs_pos).
+  pose proof (H (x n) _ X). pose proof (H (y n) _ Y). pose proof (H (z n) _ Z).
   pose proof (Rabs_triang (x n * (x p - x q) + y n * (y p - y q)) (z n * (z p - z q))).
   pose proof (Rabs_triang (x n * (x p - x q)) (y n * (y p - y q))). lra.
 Qed.
 
-Lemma coordinate_near a p : In a coordinates_in_float -> number (x p) ->
-  number (y p) -> number (z p) -> inside_box low high p -> Rabs (fst a (rounded_point direction f p)) <= 2.003 /\
+Lemma coordinate_near a p : In a coordinates_in_float ->
+  number (x p) -> number (y p) -> number (z p) -> inside_box low high p ->
+  Rabs (fst a (rounded_point direction f p)) <= 2.003 /\
   Rabs (fst a (rounded_point direction f p) - scaled (snd a) p) <= 1.01 * eps.
 Proof.
   intros I Px Py Pz B.
@@ -416,8 +445,9 @@ Theorem wide_extents_hold a e first others stored q : margin_in_double <= 8 ->
 Proof.
   intros U A I (N & B) O. destruct (N e) as (Nx & Ny & Nz), (O e) as (Ox & Oy & Oz).
   destruct (wider_than_vertex first others a e stored I) as (L & M). unfold computed in L, M.
-  enough (G : single (fst (fst a) (rounded_point direction f (at_end stored e)) - snd a) <= scaled
-    (snd (fst a)) (at_end q e) <= single (fst (fst a) (rounded_point direction f (at_end stored e)) + snd a)) by lra.
+  enough (G : single (fst (fst a) (rounded_point direction f (at_end stored e)) - snd a) <=
+    scaled (snd (fst a)) (at_end q e) <= single (fst (fst a) (rounded_point direction f (at_end stored e)) + snd a))
+    by lra.
   destruct (scale_bounds direction low high low_numbers high_numbers low_bounded high_bounded) as (S & _).
   pose proof (Rmult_le_pos d _ d_0 S) as D. destruct tiny_constants as (_ & _ & _ & E4 & _).
   pose proof (scaled_off (snd (fst a)) _ _ Ox Oy Oz) as F.
@@ -522,8 +552,9 @@ Proof.
   assert (B : apart_until G H = true) by (destruct A; [easy | now apply apart_symmetric]). clear A.
   apply (until_before a0' [a1'] b0' [b1'] G H Ga Hb) in B.
   - destruct B as (n & B). destruct (place_until t s T) as (r & R1 & P). rewrite !P in C.
-    apply (edges_separated n (until t a0) (until t a1) (until t b0) (until t b1)); [apply (B _ _ a0' b0') |
-      apply (B _ _ a0' b1') | apply (B _ _ a1' b0') | apply (B _ _ a1' b1') | now exists r]; simpl; auto.
+    apply (edges_separated n (until t a0) (until t a1) (until t b0) (until t b1));
+      [apply (B _ _ a0' b0') | apply (B _ _ a0' b1') | apply (B _ _ a1' b0') | apply (B _ _ a1' b1') | now exists r];
+      simpl; auto.
   - intros q [<- | [<- | []]]; auto.
   - intros q [<- | [<- | []]]; auto.
 Qed.
@@ -537,20 +568,23 @@ Lemma shorter_before s p l r m G H : 0 <= s <= 1 -> holds G (of_element p l) -> 
   exists n, forall w v c c', In c (p :: l) -> In c' (r :: m) -> shorter s w c -> shorter s v c' -> before n w v.
 Proof.
   intros S Gh Hh A P R'. destruct (until_before p l r m G H Gh Hh A P R') as (n & B). exists n.
-  intros w v c c' C C' (_ & W & q & Q & Fw) (_ & V & t & T & Fv). destruct (B _ _ c c' C C' W V) as (B0 & _).
-  destruct (B _ _ c c' C C' Q T) as (B1 & B2). split; [exact B0 |]. rewrite Fw, Fv. unfold place, dot in *.
-  cbn [start finish x y z] in *. destruct (Req_dec s 0) as [-> | Z]; [lra |].
+  intros w v c c' C C' (_ & W & q & Q & Fw) (_ & V & t & T & Fv).
+  destruct (B _ _ c c' C C' W V) as (B0 & _). destruct (B _ _ c c' C C' Q T) as (B1 & B2).
+  split; [exact B0 |]. rewrite Fw, Fv. unfold place, dot in *. cbn [start finish x y z] in *.
+  destruct (Req_dec s 0) as [-> | Z]; [lra |].
   assert (0 <= (1 - s) * (x n * x (start t) + y n * y (start t) + z n * z (start t) -
     (x n * x (start q) + y n * y (start q) + z n * z (start q)))) by (apply Rmult_le_pos; lra).
   assert (0 < s * (x n * x (finish t) + y n * y (finish t) + z n * z (finish t) -
-    (x n * x (finish q) + y n * y (finish q) + z n * z (finish q)))) by (apply Rmult_lt_0_compat; lra). lra.
+    (x n * x (finish q) + y n * y (finish q) + z n * z (finish q)))) by (apply Rmult_lt_0_compat; lra).
+  lra.
 Qed.
 Theorem shorter_face_separate s v f0 f1 f2 v' f0' f1' f2' G H : 0 <= s <= 1 ->
   shorter s v v' -> shorter s f0 f0' -> shorter s f1 f1' -> shorter s f2 f2' ->
   holds G (of_element v' []) -> holds H (of_element f0' [f1'; f2']) ->
   apart_until G H = true \/ apart_until H G = true -> ~ vertex_face_collides v f0 f1 f2.
 Proof.
-  intros S V F0 F1 F2 Gv Hf A. assert (B : apart_until G H = true) by (destruct A; [easy | now apply apart_symmetric]).
+  intros S V F0 F1 F2 Gv Hf A.
+  assert (B : apart_until G H = true) by (destruct A; [easy | now apply apart_symmetric]).
   apply (shorter_before s v' [] f0' [f1'; f2'] G H S Gv Hf) in B.
   - destruct B as (n & B). apply (face_separated n); [apply (B _ _ v' f0') | apply (B _ _ v' f1') |
       apply (B _ _ v' f2')]; simpl; auto.
@@ -562,7 +596,8 @@ Theorem shorter_edges_separate s a0 a1 b0 b1 a0' a1' b0' b1' G H : 0 <= s <= 1 -
   holds G (of_element a0' [a1']) -> holds H (of_element b0' [b1']) ->
   apart_until G H = true \/ apart_until H G = true -> ~ edge_edge_collides a0 a1 b0 b1.
 Proof.
-  intros S A0 A1 B0 B1 Ga Hb A. assert (B : apart_until G H = true) by (destruct A; [easy | now apply apart_symmetric]).
+  intros S A0 A1 B0 B1 Ga Hb A.
+  assert (B : apart_until G H = true) by (destruct A; [easy | now apply apart_symmetric]).
   apply (shorter_before s a0' [a1'] b0' [b1'] G H S Ga Hb) in B.
   - destruct B as (n & B). apply (edges_separated n); [apply (B _ _ a0' b0') | apply (B _ _ a0' b1') |
       apply (B _ _ a1' b0') | apply (B _ _ a1' b1')]; simpl; auto.
@@ -577,17 +612,20 @@ Definition widened_low (m : R) : R := - above (double (d - m)).
 Definition widened_high (m : R) : R := above (double (m + d)).
 Theorem widened_holds m r : (m - d <= r -> widened_low m <= r) /\ (r <= m + d -> r <= widened_high m).
 Proof.
-  assert (A : forall t, t <= above (double t)) by (intros t; apply succ_round_ge_id; auto with typeclass_instances).
+  assert (A : forall t, t <= above (double t))
+    by (intros t; apply succ_round_ge_id; auto with typeclass_instances).
   split; intros H; [pose proof (A (d - m)) | pose proof (A (m + d))]; unfold widened_low, widened_high; lra.
 Qed.
 
 Notation low_of k q l := (widened_low (sweep Rmin (coordinate_of k) q l)).
 Notation high_of k q l := (widened_high (sweep Rmax (coordinate_of k) q l)).
-Lemma boxes_before k t p l r m : high_of k p l < low_of k r m -> forall q s q' s', In q' (p :: l) ->
-  In s' (r :: m) -> off_by (until t q) q' -> off_by (until t s) s' -> before (axis_of k) (until t q) (until t s).
+Lemma boxes_before k t p l r m : high_of k p l < low_of k r m -> forall q s q' s',
+  In q' (p :: l) -> In s' (r :: m) -> off_by (until t q) q' -> off_by (until t s) s' ->
+  before (axis_of k) (until t q) (until t s).
 Proof.
   intros L q s q' s' Q S Oq Os. apply before_of. intros e. rewrite !coordinate_along.
-  assert (C : forall v v', off_by v v' -> Rabs (coordinate_of k (at_end v e) - coordinate_of k (at_end v' e)) <= d).
+  assert (C : forall v v', off_by v v' ->
+    Rabs (coordinate_of k (at_end v e) - coordinate_of k (at_end v' e)) <= d).
   { intros v v' O. destruct (O e) as (A & B & C). destruct k as [| [|]]; auto. }
   apply C, Rabs_le_inv in Oq, Os. destruct (high_above (coordinate_of k) p l q' Q) as (H1 & H2).
   destruct (low_below (coordinate_of k) r m s' S) as (L1 & L2).
@@ -614,8 +652,9 @@ Theorem until_boxes_edges_separate k t a0 a1 b0 b1 a0' a1' b0' b1' :
 Proof.
   intros A0 A1 B0 B1 [B | B] (s & T & C); destruct (place_until t s T) as (r & R1 & P); rewrite !P in C;
     pose proof (boxes_before k t _ _ _ _ B) as O.
-  - apply (edges_separated (axis_of k) (until t a0) (until t a1) (until t b0) (until t b1)); [apply (O _ _ a0' b0') |
-      apply (O _ _ a0' b1') | apply (O _ _ a1' b0') | apply (O _ _ a1' b1') | now exists r]; simpl; auto.
+  - apply (edges_separated (axis_of k) (until t a0) (until t a1) (until t b0) (until t b1));
+      [apply (O _ _ a0' b0') | apply (O _ _ a0' b1') | apply (O _ _ a1' b0') | apply (O _ _ a1' b1') | now exists r];
+      simpl; auto.
   - apply (edges_separated (minus origin (axis_of k)) (until t a0) (until t a1) (until t b0) (until t b1));
       [apply before_opposite, (O _ _ b0' a0') | apply before_opposite, (O _ _ b1' a0') |
        apply before_opposite, (O _ _ b0' a1') | apply before_opposite, (O _ _ b1' a1') | now exists r]; simpl; auto.
@@ -630,7 +669,9 @@ End Extents.
 (** short_way::after: a coordinate from r to s at time t, and its part of the error. To nearest. *)
 Section After.
 
-Notation fl := (rnd 53 (-1074) nearest). Notation number := (Format.number 53 (-1074)). Notation eta := (eta (-1074)).
+Notation fl := (rnd 53 (-1074) nearest).
+Notation number := (Format.number 53 (-1074)).
+Notation eta := (eta (-1074)).
 Notation u := (u 53).
 Definition from_start (t r : R) : R := fl (fl (1 - t) * r).
 Definition from_finish (t s : R) : R := fl (t * s).
@@ -661,12 +702,13 @@ Lemma sum_after t r s : number t -> 0 <= t <= 1 ->
 Proof.
   intros Nt T. pose proof u_tiny as U. pose proof (eta_positive (-1074)) as Q.
   assert (N1 : number 1) by (change 1 with (bpow radix2 0); apply number_power; [exact eq_refl | lia]).
-  pose proof (sum_error _ _ nearest _ _ fl_error 1 (- t) N1 (number_opp _ _ _ Nt)) as K. fold (1 - t) in K.
-  set (k := fl (1 - t)) in *. pose proof (fl_near (k * r)) as A. change (fl (k * r)) with (from_start t r) in A.
+  pose proof (sum_error _ _ nearest _ _ fl_error 1 (- t) N1 (number_opp _ _ _ Nt)) as K.
+  fold (1 - t) in K. set (k := fl (1 - t)) in *.
+  pose proof (fl_near (k * r)) as A. change (fl (k * r)) with (from_start t r) in A.
   pose proof (fl_near (t * s)) as B. change (fl (t * s)) with (from_finish t s) in B.
   pose proof (sum_error _ _ nearest _ _ fl_error (from_start t r) (from_finish t s)
-    (rnd_number _ _ nearest _) (rnd_number _ _ nearest _)) as C. unfold after_error. set (a := from_start t r) in *.
-  set (b := from_finish t s) in *. clearbody a b k.
+    (rnd_number _ _ nearest _) (rnd_number _ _ nearest _)) as C.
+  unfold after_error. set (a := from_start t r) in *. set (b := from_finish t s) in *. clearbody a b k.
   assert (K1 : Rabs (k * r - (1 - t) * r) <= u * Rabs ((1 - t) * r)).
   { rewrite <- Rmult_minus_distr_r, !Rabs_mult, <- Rmult_assoc. apply Rmult_le_compat_r; [apply Rabs_pos | exact K]. }
   set (v := (1 - t) * r) in *. set (w := t * s) in *. set (c := k * r) in *. clearbody v w c.
@@ -676,19 +718,22 @@ Proof.
   assert (Ua : Rabs v <= Rabs a + 3 * (u * Rabs v) + eta / 2).
   { assert (u * Rabs c <= u * (Rabs v + u * Rabs v)) by (apply Rmult_le_compat_l; lra).
     assert (u * (u * Rabs v) <= / 1000000000 * (u * Rabs v))
-      by (apply Rmult_le_compat_r; [apply Rmult_le_pos; [lra | apply Rabs_pos] | lra]). pose proof (Rabs_pos v).
-    assert (0 <= u * Rabs v) by (apply Rmult_le_pos; lra). pose proof (Rabs_triang (v - c) (c - a)) as D1.
-    pose proof (Rabs_triang (v - a) a) as D2. replace (v - c + (c - a)) with (v - a) in D1 by ring.
-    replace (v - a + a) with v in D2 by ring. rewrite (Rabs_minus_sym v c), (Rabs_minus_sym c a) in D1. lra. }
+      by (apply Rmult_le_compat_r; [apply Rmult_le_pos; [lra | apply Rabs_pos] | lra]).
+    pose proof (Rabs_pos v). assert (0 <= u * Rabs v) by (apply Rmult_le_pos; lra).
+    pose proof (Rabs_triang (v - c) (c - a)) as D1. pose proof (Rabs_triang (v - a) a) as D2.
+    replace (v - c + (c - a)) with (v - a) in D1 by ring. replace (v - a + a) with v in D2 by ring.
+    rewrite (Rabs_minus_sym v c), (Rabs_minus_sym c a) in D1. lra. }
   assert (Ub : Rabs w <= Rabs b + u * Rabs w + eta / 2).
   { pose proof (Rabs_triang (w - b) b) as H. replace (w - b + b) with w in H by ring.
     rewrite (Rabs_minus_sym w b) in H. lra. }
   assert (Small : forall m, 0 <= m -> 0 <= u * m <= / 1000000000 * m)
-    by (intros m M; split; [apply Rmult_le_pos | apply Rmult_le_compat_r]; lra). pose proof (Rabs_pos v) as Pv.
-  pose proof (Rabs_pos w) as Pw. pose proof (Rabs_pos a) as Pa. pose proof (Rabs_pos b) as Pb.
+    by (intros m M; split; [apply Rmult_le_pos | apply Rmult_le_compat_r]; lra).
+  pose proof (Rabs_pos v) as Pv. pose proof (Rabs_pos w) as Pw. pose proof (Rabs_pos a) as Pa.
+  pose proof (Rabs_pos b) as Pb.
   pose proof (Small _ Pv) as Sv. pose proof (Small _ Pw) as Sw. pose proof (Small _ Pa) as Sa.
-  pose proof (Small _ Pb) as Sb. pose proof (Small (u * Rabs v) ltac:(lra)) as Suv.
-  pose proof (Small (u * Rabs w) ltac:(lra)) as Suw. pose proof (Small eta ltac:(lra)) as Se.
+  pose proof (Small _ Pb) as Sb.
+  pose proof (Small (u * Rabs v) ltac:(lra)) as Suv. pose proof (Small (u * Rabs w) ltac:(lra)) as Suw.
+  pose proof (Small eta ltac:(lra)) as Se.
   assert (Mv : u * Rabs v <= u * Rabs a + 3 * (u * (u * Rabs v)) + u * eta / 2).
   { apply (Rmult_le_compat_l u) in Ua; lra. }
   assert (Mw : u * Rabs w <= u * Rabs b + u * (u * Rabs w) + u * eta / 2).
@@ -728,8 +773,9 @@ Proof.
   intros Nt T Nr Ns. pose proof (sum_after t r s Nt T) as E.
   assert (I : Rmin r s <= (1 - t) * r + t * s <= Rmax r s).
   { pose proof (Rmin_l r s). pose proof (Rmin_r r s). pose proof (Rmax_l r s). pose proof (Rmax_r r s).
-    split; [replace (Rmin r s) with ((1 - t) * Rmin r s + t * Rmin r s) by ring | replace (Rmax r s)
-      with ((1 - t) * Rmax r s + t * Rmax r s) by ring]; apply Rplus_le_compat; apply Rmult_le_compat_l; lra. }
+    split; [replace (Rmin r s) with ((1 - t) * Rmin r s + t * Rmin r s) by ring |
+            replace (Rmax r s) with ((1 - t) * Rmax r s + t * Rmax r s) by ring];
+      apply Rplus_le_compat; apply Rmult_le_compat_l; lra. }
   unfold after. set (c := fl (from_start t r + from_finish t s)) in *.
   assert (Nc : number c) by exact (rnd_number _ _ nearest _). set (v := (1 - t) * r + t * s) in *. clearbody c v.
   apply Rabs_le_inv in E. split; [| split; [| apply Rabs_le]]; revert I; unfold Rmax, Rmin;

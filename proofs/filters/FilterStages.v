@@ -7,19 +7,23 @@
             an
                                overflow of a difference it is not usable *)
 
-From Coq Require Import Reals ZArith List Lia Lra Psatz Bool. From Flocq Require Import Core Mult_error.
+From Coq Require Import Reals ZArith List Lia Lra Psatz Bool.
+From Flocq Require Import Core Mult_error.
 From Errbound Require Import Format ErrorCount CcdFilter.
-From Errbound Require Sign Bernstein Contact Decisions Subdivision SeparatingAxis. Import ListNotations.
+From Errbound Require Sign Bernstein Contact Decisions Subdivision SeparatingAxis.
+Import ListNotations.
 Open Scope R_scope.
 
 (** ** The forms: those of Decisions.v *)
 
 Definition reals : Bernstein.scalar.
 Proof.
-  refine {| Bernstein.number := R; Bernstein.add := Rplus; Bernstein.sub := Rminus; Bernstein.mul := Rmult;
-    Bernstein.opp := Ropp; Bernstein.whole := IZR; Bernstein.twice := fun x => 2 * x; Bernstein.normalized := fun p =>
-    p; Bernstein.sign_of := fun _ => Sign.uncertain; Bernstein.exact := fun x => x |}; auto.
-  - intros p. exists 1. split; [lra |]. induction p as [| a p IH]; simpl; [easy |]. now rewrite <- IH, Rmult_1_l.
+  refine {| Bernstein.number := R; Bernstein.add := Rplus; Bernstein.sub := Rminus;
+            Bernstein.mul := Rmult; Bernstein.opp := Ropp; Bernstein.whole := IZR;
+            Bernstein.twice := fun x => 2 * x; Bernstein.normalized := fun p => p;
+            Bernstein.sign_of := fun _ => Sign.uncertain; Bernstein.exact := fun x => x |}; auto.
+  - intros p. exists 1. split; [lra |]. induction p as [| a p IH]; simpl; [easy |].
+    now rewrite <- IH, Rmult_1_l.
   - easy.
 Defined.
 Definition exact_form (f : form) : list (Bernstein.number reals) := map exact f.
@@ -30,7 +34,8 @@ Definition of_length (n : nat) (v : vector) : Prop :=
   length (x_ v) = n /\ length (y_ v) = n /\ length (z_ v) = n.
 
 Lemma exact_times f g n : length g = S n -> (length f = 2%nat /\ n = 1%nat) \/ (length f = 3%nat /\
-  (n = 1%nat \/ n = 2%nat)) -> exact_form (times f g) = @Bernstein.product reals (exact_form f) (exact_form g).
+  (n = 1%nat \/ n = 2%nat)) ->
+  exact_form (times f g) = @Bernstein.product reals (exact_form f) (exact_form g).
 Proof.
   intros G L. destruct f as [| a [| b [| c [|]]]]; try (simpl in L; lia);
     destruct g as [| d [| e [| h [|]]]]; simpl in G, L; try lia; cbn;
@@ -40,15 +45,17 @@ Lemma exact_minus f g : length f = length g ->
   exact_form (minus f g) = @Decisions.minus_form reals (exact_form f) (exact_form g).
 Proof.
   unfold minus, zip. revert g. induction f as [| a f IH]; intros [| b g] L; try discriminate; [easy |].
-  injection L as L. cbn [length seq map exact_form Decisions.minus_form]. cbn. f_equal. rewrite <- seq_shift, !map_map.
-  etransitivity; [| apply (IH g L)]. unfold exact_form. rewrite map_map. now apply map_ext.
+  injection L as L. cbn [length seq map exact_form Decisions.minus_form]. cbn. f_equal.
+  rewrite <- seq_shift, !map_map. etransitivity; [| apply (IH g L)].
+  unfold exact_form. rewrite map_map. now apply map_ext.
 Qed.
 Lemma exact_plus f g : length f = length g ->
   exact_form (plus f g) = @Decisions.plus_form reals (exact_form f) (exact_form g).
 Proof.
-  unfold plus, zip. revert g. induction f as [| a f IH]; intros [| b g] L; try discriminate; [easy |]. injection L as L.
-  cbn [length seq map exact_form Decisions.plus_form]. cbn. f_equal. rewrite <- seq_shift, !map_map.
-  etransitivity; [| apply (IH g L)]. unfold exact_form. rewrite map_map. now apply map_ext.
+  unfold plus, zip. revert g. induction f as [| a f IH]; intros [| b g] L; try discriminate; [easy |].
+  injection L as L. cbn [length seq map exact_form Decisions.plus_form]. cbn. f_equal.
+  rewrite <- seq_shift, !map_map. etransitivity; [| apply (IH g L)].
+  unfold exact_form. rewrite map_map. now apply map_ext.
 Qed.
 Lemma exact_cross v w : of_length 2 v -> of_length 2 w ->
   exact_vector (cross v w) = Decisions.cross_form (exact_vector v) (exact_vector w) /\ of_length 3 (cross v w).
@@ -62,7 +69,8 @@ Lemma exact_dot v w n : of_length 3 v -> of_length (S n) w -> n = 1%nat \/ n = 2
   exact_form (dot v w) = Decisions.dot_form (exact_vector v) (exact_vector w) /\ length (dot v w) = (3 + n)%nat.
 Proof.
   intros (A & B & C) (D & E & F) N. unfold dot, Decisions.dot_form, exact_vector.
-  cbn [Decisions.vx Decisions.vy Decisions.vz]. split; [| unfold plus; rewrite !zip_length, !times_length, A, D; lia].
+  cbn [Decisions.vx Decisions.vy Decisions.vz].
+  split; [| unfold plus; rewrite !zip_length, !times_length, A, D; lia].
   rewrite !exact_plus by (unfold plus; rewrite ?zip_length, !times_length; congruence).
   rewrite !exact_times with (n := n) by auto. reflexivity.
 Qed.
@@ -70,28 +78,33 @@ Qed.
 Section Query.
 
 Context (q : query) (b_length : of_length 2 (b_ q)) (c_length : of_length 2 (c_ q)) (p_length : of_length 2 (p_ q)).
-Notation b := (exact_vector (b_ q)). Notation c := (exact_vector (c_ q)). Notation p := (exact_vector (p_ q)).
+Notation b := (exact_vector (b_ q)).
+Notation c := (exact_vector (c_ q)).
+Notation p := (exact_vector (p_ q)).
 
 Lemma exact_coplanarity : exact_form (coplanarity q) = Decisions.y_form b c p /\ length (coplanarity q) = 4%nat.
 Proof.
   destruct (exact_cross _ _ b_length c_length) as (E & L). unfold coplanarity, normal.
   destruct (exact_dot _ _ 1 L p_length) as (F & K); auto. split; [rewrite F, E; reflexivity | exact K].
 Qed.
-Lemma exact_inside : map exact_form (vertex_face_inside q) = Decisions.inside_face_forms b c p /\
+Lemma exact_inside :
+  map exact_form (vertex_face_inside q) = Decisions.inside_face_forms b c p /\
   map exact_form (edge_edge_inside q) = Decisions.inside_edges_forms b c p /\
   (forall f, In f (vertex_face_inside q) \/ In f (edge_edge_inside q) -> length f = 5%nat).
 Proof.
-  destruct (exact_cross _ _ b_length c_length) as (E & L). destruct (exact_cross _ _ b_length p_length) as (Ebp & Lbp).
+  destruct (exact_cross _ _ b_length c_length) as (E & L).
+  destruct (exact_cross _ _ b_length p_length) as (Ebp & Lbp).
   destruct (exact_cross _ _ p_length c_length) as (Epc & Lpc).
-  destruct (exact_cross _ _ p_length b_length) as (Epb & Lpb). destruct (exact_dot _ _ 2 L L) as (F & K); auto.
-  destruct (exact_dot _ _ 2 Lbp L) as (Fbp & Kbp); auto. destruct (exact_dot _ _ 2 Lpc L) as (Fpc & Kpc); auto.
-  destruct (exact_dot _ _ 2 Lpb L) as (Fpb & Kpb); auto. rewrite E in F, Fbp, Fpc, Fpb. rewrite Ebp in Fbp.
-  rewrite Epc in Fpc. rewrite Epb in Fpb.
-  unfold vertex_face_inside,
-    edge_edge_inside, normal, Decisions.inside_face_forms, Decisions.inside_edges_forms, Decisions.normal_squared.
-  cbv zeta. cbn [map]. assert (M : forall f g, length (minus f g) = length f) by (intros; apply zip_length).
-  rewrite !exact_minus by (rewrite ?M; congruence). rewrite F, Fbp, Fpc, Fpb. repeat split. simpl. intros f H.
-  repeat (destruct H as [H | H]; try contradiction; try (subst f; rewrite ?M; auto)).
+  destruct (exact_cross _ _ p_length b_length) as (Epb & Lpb).
+  destruct (exact_dot _ _ 2 L L) as (F & K); auto. destruct (exact_dot _ _ 2 Lbp L) as (Fbp & Kbp); auto.
+  destruct (exact_dot _ _ 2 Lpc L) as (Fpc & Kpc); auto. destruct (exact_dot _ _ 2 Lpb L) as (Fpb & Kpb); auto.
+  rewrite E in F, Fbp, Fpc, Fpb. rewrite Ebp in Fbp. rewrite Epc in Fpc. rewrite Epb in Fpb.
+  unfold vertex_face_inside, edge_edge_inside, normal, Decisions.inside_face_forms,
+    Decisions.inside_edges_forms,
+    Decisions.normal_squared. cbv zeta. cbn [map].
+  assert (M : forall f g, length (minus f g) = length f) by (intros; apply zip_length).
+  rewrite !exact_minus by (rewrite ?M; congruence). rewrite F, Fbp, Fpc, Fpb. repeat split.
+  simpl. intros f H. repeat (destruct H as [H | H]; try contradiction; try (subst f; rewrite ?M; auto)).
 Qed.
 
 End Query.
@@ -117,8 +130,11 @@ Qed.
 Section Halvings.
 
 Context (direction : R -> Z) {direction_valid : Valid_rnd direction}.
-Notation fl := (rnd p emin direction). Notation flc := (rnd p emin nearest). Notation number := (number p emin).
-Notation eps := (eps p). Notation eta := (eta emin).
+Notation fl := (rnd p emin direction).
+Notation flc := (rnd p emin nearest).
+Notation number := (number p emin).
+Notation eps := (eps p).
+Notation eta := (eta emin).
 
 (** The code: halving_error, over counts. *)
 Definition max_depth : nat := 12.
@@ -149,7 +165,8 @@ Qed.
 Lemma midpoint_at_least k a b : (0 <= k <= 10000)%Z -> at_least k a -> at_least k b ->
   at_least (k + 2) (count_midpoint a b).
 Proof.
-  intros K (MA & EA) (MB & EB). unfold count_midpoint, at_least. set (s := count_sum p emin a b).
+  intros K (MA & EA) (MB & EB). unfold count_midpoint, at_least.
+  set (s := count_sum p emin a b).
   assert (MS : 2 <= magnitude s).
   { apply (rounded_whole 2); [lia |]. apply (flc_whole 2); [lia | lra]. }
   assert (ES : IZR (2 * k + 2) <= error s).
@@ -173,7 +190,8 @@ Lemma next_error_enough n k e : n = 3%nat \/ n = 4%nat -> (0 <= k <= 9000)%Z -> 
   IZR (k + 2 * Z.of_nat n) <= next_error n e.
 Proof.
   intros N K E. unfold next_error. eapply Rle_trans; [| apply Rmax_r].
-  set (c := {| magnitude := 1; error := e; underflow := 0 |}). assert (C : at_least k c) by (split; simpl; lra).
+  set (c := {| magnitude := 1; error := e; underflow := 0 |}).
+  assert (C : at_least k c) by (split; simpl; lra).
   destruct N as [-> | ->].
   - set (d := count_midpoint c c). set (h := count_midpoint d d).
     assert (D : at_least (k + 2) d) by (apply midpoint_at_least; auto; lia).
@@ -208,7 +226,8 @@ Definition halvings (n : nat) : R := relative (halving_error n).
 Definition size_of (l : list R) : R := fold_right (fun a m => Rmax (Rabs a) m) 0 l.
 Definition error_of_parts (bound largest : R) (n : nat) : R := fl (bound + fl (largest * halvings n)).
 
-Lemma flc_le r s : r <= s -> flc r <= flc s. Proof. apply rnd_le; auto with typeclass_instances. Qed.
+Lemma flc_le r s : r <= s -> flc r <= flc s.
+Proof. apply rnd_le; auto with typeclass_instances. Qed.
 Lemma halvings_enough n : n = 3%nat \/ n = 4%nat -> INR (n * max_depth) * eps <= 0.51 * halvings n.
 Proof.
   intros N. pose proof (halving_error_counts n N) as H. generalize eps_tiny slack_enough. intros P S.
@@ -270,7 +289,8 @@ Theorem halving_error_enough E bound largest n : n = 3%nat \/ n = 4%nat ->
   number bound -> number largest -> 0 <= largest -> 0 <= E -> E + tiny / 1000 <= bound * (1 - eps) ->
   E + INR (n * max_depth) * (eps * largest + eta) <= error_of_parts bound largest n.
 Proof.
-  intros N NB NL PL PE B. generalize eps_tiny (eta_positive emin). intros P Q. pose proof (halvings_enough n N) as H.
+  intros N NB NL PL PE B. generalize eps_tiny (eta_positive emin). intros P Q.
+  pose proof (halvings_enough n N) as H.
   assert (K : 0 <= INR (n * max_depth) <= 48).
   { split; [apply pos_INR |]. destruct N as [-> | ->]; simpl; lra. }
   assert (Small : 50 * eta <= tiny / 1000).
@@ -289,9 +309,11 @@ Proof.
   fold (error_of_parts bound largest n) in L2. set (d := fl (largest * halvings n)) in *.
   assert (D : INR (n * max_depth) * (eps * largest) <= 0.51 * (largest * halvings n)).
   { replace (INR (n * max_depth) * (eps * largest)) with (INR (n * max_depth) * eps * largest) by ring.
-    replace (0.51 * (largest * halvings n)) with (0.51 * halvings n * largest) by ring. now apply Rmult_le_compat_r. }
+    replace (0.51 * (largest * halvings n)) with (0.51 * halvings n * largest) by ring.
+    now apply Rmult_le_compat_r. }
   assert (INR (n * max_depth) * eta <= 48 * eta) by (apply Rmult_le_compat_r; lra).
-  assert (0.9 * (largest * halvings n) - 1.1 * eta <= d * (1 - eps)) by nra. lra.
+  assert (0.9 * (largest * halvings n) - 1.1 * eta <= d * (1 - eps)) by nra.
+  lra.
 Qed.
 
 End Halvings.
@@ -301,9 +323,14 @@ End Halvings.
 Section Stages.
 
 Context (direction : R -> Z) {direction_valid : Valid_rnd direction}.
-Notation fl := (rnd p emin direction). Notation number := (number p emin). Notation eps := (eps p).
-Notation eta := (eta emin). Notation value := (value p emin direction). Notation W := largest_difference.
-Notation midpoint := (midpoint direction). Notation subdivide := (Subdivision.subdivide 0 midpoint).
+Notation fl := (rnd p emin direction).
+Notation number := (number p emin).
+Notation eps := (eps p).
+Notation eta := (eta emin).
+Notation value := (value p emin direction).
+Notation W := largest_difference.
+Notation midpoint := (midpoint direction).
+Notation subdivide := (Subdivision.subdivide 0 midpoint).
 Notation sides_of := (SeparatingAxis.differences -> SeparatingAxis.axis -> bool -> bool * bool).
 Notation differences_of := (SeparatingAxis.differences_of direction).
 
@@ -368,7 +395,8 @@ Proof.
     + apply Rle_trans with (1 := IH2), Rmax_r.
     + intros b [<- | I]; [apply Rmax_l | apply Rle_trans with (1 := IH3 b I), Rmax_r].
 Qed.
-Lemma largest_size gs : Forall (Forall number) gs -> let m := fold_right (fun g m => Rmax (size_of g) m) 0 gs in
+Lemma largest_size gs : Forall (Forall number) gs ->
+  let m := fold_right (fun g m => Rmax (size_of g) m) 0 gs in
   number m /\ 0 <= m /\ forall g a, In g gs -> In a g -> Rabs a <= m.
 Proof.
   intros F. induction F as [| g gs G F (IH1 & IH2 & IH3)]; cbn zeta; cbn [fold_right].
@@ -379,10 +407,12 @@ Proof.
     + intros f a [<- | I] J; [apply Rle_trans with (1 := B a J), Rmax_l |
                               apply Rle_trans with (1 := IH3 f a I J), Rmax_r].
 Qed.
-Lemma values_stand M E l : Forall (fun e => number (value e) /\ Rabs (value e) <= M /\ Rabs (value e - exact e) <= E)
-  l -> Forall2 (stands M E 0) (map value l) (map exact l).
+Lemma values_stand M E l : Forall (fun e => number (value e) /\ Rabs (value e) <= M /\
+    Rabs (value e - exact e) <= E) l ->
+  Forall2 (stands M E 0) (map value l) (map exact l).
 Proof.
-  intros F. induction F as [| e l (N & B & D) F IH]; constructor; auto. split; [| split]; auto. simpl INR. lra.
+  intros F. induction F as [| e l (N & B & D) F IH]; constructor; auto. split; [| split]; auto.
+  simpl INR. lra.
 Qed.
 (** If the assumed error is at least the real one, signs are right without a halving. *)
 Lemma signs_read M E error : number M -> 0 <= M -> E <= error ->
@@ -398,9 +428,11 @@ Notation g_error := (error_of_g direction inside mx my mz).
 Context (inside_fits : inside_fit direction mx my mz (inside q)) (inside_error : forall f e, In f (inside q) -> In e
     (quartic f) -> Rabs (value e - exact e) + tiny / 1000 <= g_error * (1 - eps)) (inside_some : inside q <> []).
 
-Notation y := (map value (cubic (coplanarity q))). Notation Y := (map exact (cubic (coplanarity q))).
+Notation y := (map value (cubic (coplanarity q))).
+Notation Y := (map exact (cubic (coplanarity q))).
 Notation gs := (map (fun f => map value (quartic f)) (inside q)).
-Notation Gs := (map (fun f => map exact (quartic f)) (inside q)). Notation y_error := (error_of_y direction mx my mz).
+Notation Gs := (map (fun f => map exact (quartic f)) (inside q)).
+Notation y_error := (error_of_y direction mx my mz).
 Notation largest_g := (fold_right (fun g m => Rmax (size_of g) m) 0 gs).
 Notation y_errors := (error_of_parts direction y_error (size_of y) 3).
 Notation g_errors := (error_of_parts direction g_error largest_g 4).
@@ -420,13 +452,15 @@ Lemma own_error_nonnegative bound e : Rabs (value e - exact e) + tiny / 1000 <= 
   Rabs (value e - exact e) <= own_error bound /\ 0 <= own_error bound <= bound.
 Proof.
   intros H. unfold own_error. generalize eps_tiny (Rabs_pos (value e - exact e)). intros P Q.
-  assert (0 < tiny) by apply bpow_gt_0. assert (0 <= bound) by (apply Rmult_le_reg_r with (1 - eps); lra).
+  assert (0 < tiny) by apply bpow_gt_0.
+  assert (0 <= bound) by (apply Rmult_le_reg_r with (1 - eps); lra).
   assert (0 <= bound * eps) by (apply Rmult_le_pos; lra). lra.
 Qed.
 
 Lemma y_stands : length y = 4%nat /\ Forall2 (stands (size_of y) (own_error y_error) 0) y Y.
 Proof.
-  split; [reflexivity |]. apply values_stand, Forall_forall. intros e I. split; [now apply cubic_numbers |]. split.
+  split; [reflexivity |]. apply values_stand, Forall_forall. intros e I.
+  split; [now apply cubic_numbers |]. split.
   - apply size_of_bounds; [| now apply in_map]. apply Forall_map, Forall_forall. exact cubic_numbers.
   - apply own_error_nonnegative. now apply error_of_y_sound with (q := q).
 Qed.
@@ -434,7 +468,8 @@ Lemma y_bounds : number (size_of y) /\ 0 <= size_of y /\ 0 <= own_error y_error 
 Proof.
   destruct (size_of_bounds y) as (N & P & _).
   { apply Forall_map, Forall_forall. exact cubic_numbers. }
-  split; [easy |]. split; [easy |]. apply (own_error_nonnegative y_error (at_ (cubic (coplanarity q)) 0)).
+  split; [easy |]. split; [easy |].
+  apply (own_error_nonnegative y_error (at_ (cubic (coplanarity q)) 0)).
   apply error_of_y_sound with (q := q); auto. now left.
 Qed.
 Lemma y_reads : Subdivision.reads midpoint (certain y_error) (stands (size_of y) (own_error y_error)) 0.
@@ -442,7 +477,8 @@ Proof. destruct y_bounds as (N & P & E). apply signs_read; [exact N | exact P | 
 Lemma y_parts_read : Subdivision.reads midpoint (certain y_errors) (stands (size_of y) (own_error y_error))
   (3 * max_depth).
 Proof.
-  destruct y_bounds as (N & P & E). apply stands_read; auto. apply halving_error_enough; auto; try lra.
+  destruct y_bounds as (N & P & E). apply stands_read; auto.
+  apply halving_error_enough; auto; try lra.
   - apply rnd_number; auto with typeclass_instances.
   - unfold own_error. lra.
 Qed.
@@ -461,7 +497,8 @@ Proof.
   { induction l as [| f l IH]; intros I; constructor; [| apply IH; intros; apply I; now right].
     split; [reflexivity |]. apply values_stand, Forall_forall. intros e J.
     pose proof (I f (or_introl eq_refl)) as K. split; [now apply quartic_numbers with f |]. split.
-    - apply B with (map value (quartic f)); [now apply (in_map (fun f => map value (quartic f))) | now apply in_map].
+    - apply B with (map value (quartic f)); [now apply (in_map (fun f => map value (quartic f))) | now
+      apply in_map].
     - apply own_error_nonnegative. now apply inside_error with f. }
   now apply G.
 Qed.
@@ -477,8 +514,9 @@ Proof.
   - unfold own_error. lra.
 Qed.
 
-Lemma rootless_right t : Subdivision.above (certain y_error) y ||
-  Subdivision.below (certain y_error) y = true -> 0 <= t <= 1 -> Subdivision.control_at Y t <> 0.
+Lemma rootless_right t : Subdivision.above (certain y_error) y || Subdivision.below (certain y_error) y =
+  true ->
+  0 <= t <= 1 -> Subdivision.control_at Y t <> 0.
 Proof.
   intros H T. destruct y_stands as (L & F). apply orb_prop in H. destruct H as [H | H].
   - pose proof (Subdivision.above_positive _ _ _ _ y_reads 0 y Y t (or_introl L) (le_n 0) F H T). lra.
@@ -492,15 +530,20 @@ Proof.
   exact (Subdivision.below_negative _ _ _ _ g_parts_read 0 g G t (or_intror L) (Nat.le_0_l _) F B T).
 Qed.
 
-Lemma subdivided_right (answer : Subdivision.outcome)
-  : subdivide (certain y_errors) (certain g_errors) (hopeless y_errors) max_depth y gs = answer -> match answer with |
-  Subdivision.separate => forall t, 0 <= t <= 1 -> Subdivision.control_at Y t = 0 -> exists G, In G Gs /\
-  Subdivision.control_at G t < 0 | Subdivision.collides => exists t, 0 <= t <= 1 /\ Subdivision.control_at Y t = 0 /\
-  forall G, In G Gs -> 0 < Subdivision.control_at G t | Subdivision.undecided => True end.
+Lemma subdivided_right (answer : Subdivision.outcome) :
+  subdivide (certain y_errors) (certain g_errors) (hopeless y_errors) max_depth y gs = answer ->
+  match answer with
+  | Subdivision.separate => forall t, 0 <= t <= 1 -> Subdivision.control_at Y t = 0 ->
+      exists G, In G Gs /\ Subdivision.control_at G t < 0
+  | Subdivision.collides => exists t, 0 <= t <= 1 /\ Subdivision.control_at Y t = 0 /\
+      forall G, In G Gs -> 0 < Subdivision.control_at G t
+  | Subdivision.undecided => True
+  end.
 Proof.
   intros E. destruct y_stands as (L & F).
   destruct (Subdivision.subdivision_right 0 midpoint (certain y_errors) (certain g_errors) (hopeless y_errors)
-    _ _ _ _ y_parts_read g_parts_read max_depth 0 0 y Y gs Gs L F gs_stand) as (A & B); [unfold max_depth; lia .. |].
+    _ _ _ _ y_parts_read g_parts_read max_depth 0 0 y Y gs Gs L F gs_stand) as (A & B); [unfold max_depth;
+      lia .. |].
   destruct answer; auto.
 Qed.
 
@@ -512,13 +555,15 @@ Lemma largest_covers coordinate d : let m := largest coordinate d in
   (forall e, Rabs (coordinate (SeparatingAxis.b d e)) <= m) /\ (forall e, Rabs (coordinate (SeparatingAxis.c d e)) <= m) /\
   (forall e, Rabs (coordinate (SeparatingAxis.p_ d e)) <= m).
 Proof.
-  cbv zeta. unfold largest. cbn [fold_left]. set (b0 := Rabs (coordinate (SeparatingAxis.b d false))).
-  set (b1 := Rabs (coordinate (SeparatingAxis.b d true))). set (c0 := Rabs (coordinate (SeparatingAxis.c d false))).
-  set (c1 := Rabs (coordinate (SeparatingAxis.c d true))). set (p0 := Rabs (coordinate (SeparatingAxis.p_ d false))).
-  set (p1 := Rabs (coordinate (SeparatingAxis.p_ d true))). pose proof (Rmax_l b0 b1). pose proof (Rmax_r b0 b1).
-  set (m1 := Rmax b0 b1) in *. pose proof (Rmax_l m1 c0). pose proof (Rmax_r m1 c0). set (m2 := Rmax m1 c0) in *.
-  pose proof (Rmax_l m2 c1). pose proof (Rmax_r m2 c1). set (m3 := Rmax m2 c1) in *. pose proof (Rmax_l m3 p0).
-  pose proof (Rmax_r m3 p0). set (m4 := Rmax m3 p0) in *. pose proof (Rmax_l m4 p1). pose proof (Rmax_r m4 p1).
+  cbv zeta. unfold largest. cbn [fold_left].
+  set (b0 := Rabs (coordinate (SeparatingAxis.b d false))). set (b1 := Rabs (coordinate (SeparatingAxis.b d true))).
+  set (c0 := Rabs (coordinate (SeparatingAxis.c d false))). set (c1 := Rabs (coordinate (SeparatingAxis.c d true))).
+  set (p0 := Rabs (coordinate (SeparatingAxis.p_ d false))). set (p1 := Rabs (coordinate (SeparatingAxis.p_ d true))).
+  pose proof (Rmax_l b0 b1). pose proof (Rmax_r b0 b1). set (m1 := Rmax b0 b1) in *.
+  pose proof (Rmax_l m1 c0). pose proof (Rmax_r m1 c0). set (m2 := Rmax m1 c0) in *.
+  pose proof (Rmax_l m2 c1). pose proof (Rmax_r m2 c1). set (m3 := Rmax m2 c1) in *.
+  pose proof (Rmax_l m3 p0). pose proof (Rmax_r m3 p0). set (m4 := Rmax m3 p0) in *.
+  pose proof (Rmax_l m4 p1). pose proof (Rmax_r m4 p1).
   repeat split; intros []; fold b0 b1 c0 c1 p0 p1; lra.
 Qed.
 Lemma largest_number coordinate d : (forall e, number (coordinate (SeparatingAxis.b d e))) ->
@@ -537,13 +582,16 @@ Variables b1 b0 c1 c0 p1 p0 : Contact.moving.
 Notation numbers := SeparatingAxis.numbers.
 Context (b1_numbers : numbers b1) (b0_numbers : numbers b0) (c1_numbers : numbers c1) (c0_numbers : numbers c0)
   (p1_numbers : numbers p1) (p0_numbers : numbers p0).
-Notation d := (differences_of b1 b0 c1 c0 p1 p0). Notation m := (sizes d).
-Notation q := {| b_ := moving_difference m b1 b0; c_ := moving_difference m c1 c0; p_ := moving_difference m p1 p0 |}.
+Notation d := (differences_of b1 b0 c1 c0 p1 p0).
+Notation m := (sizes d).
+Notation q := {| b_ := moving_difference m b1 b0; c_ := moving_difference m c1 c0;
+  p_ := moving_difference m p1 p0 |}.
 
 Lemma sizes_cover : SeparatingAxis.sized m d.
 Proof.
   unfold SeparatingAxis.sized, SeparatingAxis.within, sizes. cbn [Contact.x Contact.y Contact.z].
-  pose proof (largest_covers Contact.x d) as (X1 & X2 & X3). pose proof (largest_covers Contact.y d) as (Y1 & Y2 & Y3).
+  pose proof (largest_covers Contact.x d) as (X1 & X2 & X3). pose proof (largest_covers Contact.y d) as (Y1
+    & Y2 & Y3).
   pose proof (largest_covers Contact.z d) as (Z1 & Z2 & Z3). auto 10.
 Qed.
 Lemma sizes_number : (number (Contact.x m) /\ number (Contact.y m) /\ number (Contact.z m)) /\
@@ -553,7 +601,8 @@ Proof.
   destruct sizes_cover as (B & _). destruct (B false) as (X & Y & Z).
   repeat split; (eapply Rle_trans; [apply Rabs_pos | eassumption]).
 Qed.
-Lemma usable_moving : usable m = true -> let moving := moving direction (Contact.x m) (Contact.y m) (Contact.z m) in
+Lemma usable_moving : usable m = true ->
+  let moving := moving direction (Contact.x m) (Contact.y m) (Contact.z m) in
   moving (b_ q) /\ moving (c_ q) /\ moving (p_ q).
 Proof.
   intros U. unfold usable in U. destruct (Rle_bool_spec (Rmax (Rmax (Contact.x m) (Contact.y m)) (Contact.z
@@ -580,8 +629,10 @@ Proof.
   unfold Decisions.vector_at, exact_vector, moving_difference, exact_form, Bernstein.at_time, Contact.minus,
     Contact.place. apply Contact.same_point; cbn; ring.
 Qed.
-Lemma degrees q' r : Decisions.degree (exact_vector (moving_difference m q' r)) 1. Proof. repeat split. Qed.
-Lemma lengths q' r : of_length 2 (moving_difference m q' r). Proof. repeat split. Qed.
+Lemma degrees q' r : Decisions.degree (exact_vector (moving_difference m q' r)) 1.
+Proof. repeat split. Qed.
+Lemma lengths q' r : of_length 2 (moving_difference m q' r).
+Proof. repeat split. Qed.
 
 Section At.
 
@@ -592,26 +643,31 @@ Notation P := (Contact.minus (Contact.place p1 t) (Contact.place p0 t)).
 
 Lemma cubic_at : Subdivision.control_at (map exact (cubic (coplanarity q))) t = 3 * Contact.det B C P.
 Proof.
-  destruct (exact_coplanarity q (lengths _ _) (lengths _ _) (lengths _ _)) as (E & L). rewrite control_cubic by exact L.
-  rewrite E. destruct (Decisions.forms_y _ _ _ t (degrees b1 b0) (degrees c1 c0) (degrees p1 p0)) as (F & _).
+  destruct (exact_coplanarity q (lengths _ _) (lengths _ _) (lengths _ _)) as (E & L).
+  rewrite control_cubic by exact L. rewrite E.
+  destruct (Decisions.forms_y _ _ _ t (degrees b1 b0) (degrees c1 c0) (degrees p1 p0)) as (F & _).
   rewrite !vector_at in F. f_equal. exact F.
 Qed.
-Lemma quartics_at : map (fun f => Subdivision.control_at (map exact (quartic f)) t) (vertex_face_inside q)
-  = map (Rmult 12) [Contact.weight_2 B C P; Contact.weight_1 B C P; Contact.weight_0 B C P] /\ map
-  (fun f => Subdivision.control_at (map exact (quartic f)) t) (edge_edge_inside q) = map (Rmult 12) [Contact.on_a B C P;
-  Contact.square_normal B C - Contact.on_a B C P; Contact.on_b B C P; Contact.square_normal B C - Contact.on_b B C P].
+Lemma quartics_at :
+  map (fun f => Subdivision.control_at (map exact (quartic f)) t) (vertex_face_inside q) =
+    map (Rmult 12) [Contact.weight_2 B C P; Contact.weight_1 B C P; Contact.weight_0 B C P] /\
+  map (fun f => Subdivision.control_at (map exact (quartic f)) t) (edge_edge_inside q) =
+    map (Rmult 12) [Contact.on_a B C P; Contact.square_normal B C - Contact.on_a B C P;
+                    Contact.on_b B C P; Contact.square_normal B C - Contact.on_b B C P].
 Proof.
   destruct (exact_inside q (lengths _ _) (lengths _ _) (lengths _ _)) as (E & F & L).
   destruct (Decisions.forms_weights _ _ _ t (degrees b1 b0) (degrees c1 c0) (degrees p1 p0)) as (G & H & _).
-  cbv zeta in G, H. rewrite !vector_at in G, H. rewrite <- G, <- H. cbn [b_ c_ p_] in E, F.
-  rewrite <- E, <- F, !map_map. split; apply map_ext_in; intros f I; apply control_quartic, L; auto.
+  cbv zeta in G, H. rewrite !vector_at in G, H. rewrite <- G, <- H.
+  cbn [b_ c_ p_] in E, F. rewrite <- E, <- F, !map_map.
+  split; apply map_ext_in; intros f I; apply control_quartic, L; auto.
 Qed.
 
 End At.
 
 (** Hypotheses on a kind of query; K means that it collides. *)
 Context (inside : query -> list form) (sides : sides_of) (K : Prop).
-Notation Y := (map exact (cubic (coplanarity q))). Notation Gs := (map (fun f => map exact (quartic f)) (inside q)).
+Notation Y := (map exact (cubic (coplanarity q))).
+Notation Gs := (map (fun f => map exact (quartic f)) (inside q)).
 Notation parts axes := (SeparatingAxis.separated (sides d) axes).
 Context (parts_right : parts (SeparatingAxis.coordinate_axes (Contact.x m) (Contact.y m) (Contact.z m)) = true \/ parts
     (SeparatingAxis.diagonal_axes direction (Contact.x m) (Contact.y m) (Contact.z m)) = true -> ~ K) (inside_right :
@@ -622,8 +678,11 @@ Context (parts_right : parts (SeparatingAxis.coordinate_axes (Contact.x m) (Cont
     /\ Subdivision.control_at Y t = 0 /\ forall G, In G Gs -> 0 <= Subdivision.control_at G t) (sufficient : forall t,
     0 <= t <= 1 -> Subdivision.control_at Y t = 0 -> (forall G, In G Gs -> 0 < Subdivision.control_at G t) -> K).
 
-Lemma filter_right : match filter sides inside b1 b0 c1 c0 p1 p0 with |
-  Subdivision.separate => ~ K | Subdivision.collides => K | Subdivision.undecided => True end.
+Lemma filter_right : match filter sides inside b1 b0 c1 c0 p1 p0 with
+  | Subdivision.separate => ~ K
+  | Subdivision.collides => K
+  | Subdivision.undecided => True
+  end.
 Proof.
   unfold filter. cbv zeta. destruct (usable m) eqn:U; [| easy]. cbn [negb].
   destruct (usable_moving U) as (Mb & Mc & Mp). destruct (inside_right Mb Mc Mp) as (Fit & Sound).
@@ -633,28 +692,34 @@ Proof.
   destruct (parts (SeparatingAxis.diagonal_axes _ _ _ _)); [now apply parts_right; right |].
   match goal with |- context [if ?c then _ else _] => destruct c eqn:O end.
   { intros k. destruct (necessary k) as (t & T & _ & G).
-    destruct (outside_right q _ _ _ inside Fit Sound inside_some t O T) as (g & I & N). specialize (G g I). lra. }
+    destruct (outside_right q _ _ _ inside Fit Sound inside_some t O T) as (g & I & N).
+    specialize (G g I). lra. }
   match goal with |- match ?s with _ => _ end =>
-    pose proof (subdivided_right q _ _ _ Mb Mc Mp inside Fit Sound inside_some s eq_refl) as S; destruct s end; auto.
-  - intros k. destruct (necessary k) as (t & T & Z & G). destruct (S t T Z) as (g & I & N). specialize (G g I). lra.
+    pose proof (subdivided_right q _ _ _ Mb Mc Mp inside Fit Sound inside_some s eq_refl) as S;
+      destruct s end; auto.
+  - intros k. destruct (necessary k) as (t & T & Z & G). destruct (S t T Z) as (g & I & N).
+    specialize (G g I). lra.
   - destruct S as (t & T & Z & G). exact (sufficient t T Z G).
 Qed.
 
 End Sized.
 
-Lemma in_quartics (P : R -> Prop) t (fs : list form) w : map (fun f => Subdivision.control_at (map exact (quartic f)) t)
-  fs = map (Rmult 12) w -> (forall G, In G (map (fun f => map exact (quartic f)) fs) -> P (Subdivision.control_at G t))
-  <-> Forall (fun r => P (12 * r)) w.
+Lemma in_quartics (P : R -> Prop) t (fs : list form) w :
+  map (fun f => Subdivision.control_at (map exact (quartic f)) t) fs = map (Rmult 12) w ->
+  (forall G, In G (map (fun f => map exact (quartic f)) fs) -> P (Subdivision.control_at G t)) <->
+  Forall (fun r => P (12 * r)) w.
 Proof.
   intros E. rewrite <- (Forall_map (Rmult 12) P), <- E, Forall_map, Forall_forall. split.
   - intros H f I. apply H. now apply (in_map (fun f => map exact (quartic f))).
   - intros H G I. apply in_map_iff in I. destruct I as (f & <- & I). now apply H.
 Qed.
 
-Lemma filter_face_right v f0 f1 f2 : SeparatingAxis.numbers v ->
-  SeparatingAxis.numbers f0 -> SeparatingAxis.numbers f1 -> SeparatingAxis.numbers f2 ->
-  match filter_face v f0 f1 f2 with | Subdivision.separate => ~ Contact.vertex_face_collides v f0 f1 f2 |
-  Subdivision.collides => Contact.vertex_face_collides v f0 f1 f2 | Subdivision.undecided => True end.
+Lemma filter_face_right v f0 f1 f2 : SeparatingAxis.numbers v -> SeparatingAxis.numbers f0 -> SeparatingAxis.numbers f1 ->
+  SeparatingAxis.numbers f2 -> match filter_face v f0 f1 f2 with
+  | Subdivision.separate => ~ Contact.vertex_face_collides v f0 f1 f2
+  | Subdivision.collides => Contact.vertex_face_collides v f0 f1 f2
+  | Subdivision.undecided => True
+  end.
 Proof.
   intros V F0 F1 F2.
   refine (filter_right f1 f0 f2 f0 v f0 F1 F0 F2 F0 V F0 vertex_face_inside (SeparatingAxis.face_sides direction)
@@ -668,14 +733,17 @@ Proof.
     apply (in_quartics (Rle 0) _ _ _ (proj1 (quartics_at f1 f0 f2 f0 v f0 t))).
     repeat apply Forall_cons; try apply Forall_nil; lra.
   - intros t T Z G. exists t. split; [exact T |]. apply Contact.face_at_a_time. left.
-    apply (in_quartics (Rlt 0) _ _ _ (proj1 (quartics_at f1 f0 f2 f0 v f0 t))) in G. inversion_clear G as [| ? ? G2 G'].
-    inversion_clear G' as [| ? ? G1 G]. inversion_clear G as [| ? ? G0 _]. rewrite cubic_at in Z.
-    apply Contact.inside_face_regular; [lra |]. unfold Contact.inside_face. split; [| split]; lra.
+    apply (in_quartics (Rlt 0) _ _ _ (proj1 (quartics_at f1 f0 f2 f0 v f0 t))) in G.
+    inversion_clear G as [| ? ? G2 G']. inversion_clear G' as [| ? ? G1 G]. inversion_clear G as [| ? ? G0 _].
+    rewrite cubic_at in Z. apply Contact.inside_face_regular; [lra |]. unfold Contact.inside_face.
+    split; [| split]; lra.
 Qed.
-Lemma filter_edges_right a0 a1 b0 b1 : SeparatingAxis.numbers a0 ->
-  SeparatingAxis.numbers a1 -> SeparatingAxis.numbers b0 -> SeparatingAxis.numbers b1 ->
-  match filter_edges a0 a1 b0 b1 with | Subdivision.separate => ~ Contact.edge_edge_collides a0 a1 b0 b1 |
-  Subdivision.collides => Contact.edge_edge_collides a0 a1 b0 b1 | Subdivision.undecided => True end.
+Lemma filter_edges_right a0 a1 b0 b1 : SeparatingAxis.numbers a0 -> SeparatingAxis.numbers a1 -> SeparatingAxis.numbers b0 ->
+  SeparatingAxis.numbers b1 -> match filter_edges a0 a1 b0 b1 with
+  | Subdivision.separate => ~ Contact.edge_edge_collides a0 a1 b0 b1
+  | Subdivision.collides => Contact.edge_edge_collides a0 a1 b0 b1
+  | Subdivision.undecided => True
+  end.
 Proof.
   intros A0 A1 B0 B1.
   refine (filter_right a1 a0 b1 b0 b0 a0 A1 A0 B1 B0 B0 A0 edge_edge_inside (SeparatingAxis.edge_sides direction)
@@ -710,14 +778,16 @@ Lemma step_bounded e f : admissible p emin direction W e -> (degree e <= 4)%nat 
 Proof.
   assert (Self : forall e, admissible p emin direction W e -> (degree e <= 4)%nat -> (height e <= 60)%nat ->
     Rabs (value e) <= bpow radix2 900).
-  { intros g A D H. destruct (count_sound p emin direction W W_1 p_10 emin_p g A ltac:(lia)) as (S & _).
+  { intros g A D H.
+    destruct (count_sound p emin direction W W_1 p_10 emin_p g A ltac:(lia)) as (S & _).
     destruct (count_height p emin direction W p_10 emin_p g A) as (M & _ & U).
     pose proof (unit_power p emin direction W W_1 g A) as Un.
     assert (H60 : bpow radix2 (Z.of_nat (height g)) <= bpow radix2 60) by (apply bpow_le; lia).
     assert (W4 : forall n, (n <= 4)%nat -> 0 <= W ^ n <= bpow radix2 800).
     { intros n L. rewrite W_power. split; [apply bpow_ge_0 | apply bpow_le; lia]. }
     pose proof (W4 _ D) as W1. pose proof (W4 (Nat.pred (degree g)) ltac:(lia)) as W2.
-    assert (E : 0 <= eta <= 1) by (split; [apply bpow_ge_0 | change 1 with (bpow radix2 0); apply bpow_le; lia]).
+    assert (E : 0 <= eta <= 1) by (split; [apply bpow_ge_0 | change 1 with (bpow radix2 0); apply bpow_le;
+      lia]).
     apply Rle_trans with (1 := S).
     apply Rle_trans with (bpow radix2 60 * bpow radix2 800 + bpow radix2 60 * (1 * bpow radix2 800)).
     - destruct (count_proper p emin direction W p_10 emin_p g A) as (_ & _ & _ & M0 & _ & U0).
@@ -725,8 +795,9 @@ Proof.
       apply Rplus_le_compat; apply Rmult_le_compat; try lra. apply Rmult_le_compat; lra.
     - rewrite Rmult_1_l, <- bpow_plus. apply Rle_trans with (2 * bpow radix2 860); [simpl Z.add; lra |].
       change 2 with (bpow radix2 1). rewrite <- bpow_plus. apply bpow_le. lia. }
-  induction e as [| | | x IHx y IHy | x IHx y IHy | x IHx y IHy | x IHx | ]; cbn [steps In degree height admissible];
-    intros A D H I; (destruct I as [<- | I]; [apply Self; auto |]); try easy; try (apply in_app_iff in I).
+  induction e as [| | | x IHx y IHy | x IHx y IHy | x IHx y IHy | x IHx | ];
+    cbn [steps In degree height admissible]; intros A D H I;
+    (destruct I as [<- | I]; [apply Self; auto |]); try easy; try (apply in_app_iff in I).
   - destruct A, I; [apply IHx | apply IHy]; auto; lia.
   - destruct A, I; [apply IHx | apply IHy]; auto; lia.
   - destruct A as (A & B & _), I; [apply IHx | apply IHy]; auto; lia.

@@ -9,8 +9,11 @@
         orient3d_line_plane_sign_certain   11
         compare_x_line_line_sign_certain   10 *)
 
-From Coq Require Import Reals ZArith Lia Lra. From Flocq Require Import Core.
-From Errbound Require Import Format Sign StaticFilter Predicates. From Errbound Require BscCode. Open Scope R_scope.
+From Coq Require Import Reals ZArith Lia Lra.
+From Flocq Require Import Core.
+From Errbound Require Import Format Sign StaticFilter Predicates.
+From Errbound Require BscCode.
+Open Scope R_scope.
 
 Notation times := BscCode.times_sign.
 
@@ -83,32 +86,41 @@ Definition finds (e : expression) : Prop := sign_is_right (sign_of e) (exact e).
 
 Lemma times_right s t x w : sign_is_right s (w * x) -> sign_is_right t w -> w <> 0 -> sign_is_right (times s t) x.
 Proof. destruct s, t; simpl; auto; intros; nra. Qed.
-Lemma times_right_0 s t : sign_is_right t 0 -> sign_is_right (times s t) 0. Proof. destruct s, t; simpl; auto; lra. Qed.
+Lemma times_right_0 s t : sign_is_right t 0 -> sign_is_right (times s t) 0.
+Proof. destruct s, t; simpl; auto; lra. Qed.
 Lemma zero_times_right s t : sign_is_right s 0 -> sign_is_right (times s t) 0.
 Proof. destruct s, t; simpl; auto; lra. Qed.
 
 (** The common point is a + along (b - a). *)
-Lemma at_line_line a b c d x : on_line 2 a b x -> on_line 2 c d x -> let w := exact (w_line_line a b c d) in
-  let '(px, py, _) := line_line a b c d in exact px = w * (x 0%nat - a 0%nat) /\ exact py = w * (x 1%nat - a 1%nat).
+Lemma at_line_line a b c d x :
+  on_line 2 a b x -> on_line 2 c d x ->
+  let w := exact (w_line_line a b c d) in let '(px, py, _) := line_line a b c d in
+  exact px = w * (x 0%nat - a 0%nat) /\ exact py = w * (x 1%nat - a 1%nat).
 Proof.
   intros [t A] [s C]. simpl.
   generalize (A 0%nat ltac:(lia)) (A 1%nat ltac:(lia)) (C 0%nat ltac:(lia)) (C 1%nat ltac:(lia)).
-  generalize (x 0%nat) (x 1%nat). intros x0 x1 -> -> C0 C1. set (bx := b 0%nat - a 0%nat) in *.
-  set (by_ := b 1%nat - a 1%nat) in *. set (dx := d 0%nat - c 0%nat) in *. set (dy := d 1%nat - c 1%nat) in *.
-  assert (Ex : c 0%nat - a 0%nat = t * bx - s * dx) by lra. assert (Ey : c 1%nat - a 1%nat = t * by_ - s * dy) by lra.
+  generalize (x 0%nat) (x 1%nat). intros x0 x1 -> -> C0 C1.
+  set (bx := b 0%nat - a 0%nat) in *. set (by_ := b 1%nat - a 1%nat) in *.
+  set (dx := d 0%nat - c 0%nat) in *. set (dy := d 1%nat - c 1%nat) in *.
+  assert (Ex : c 0%nat - a 0%nat = t * bx - s * dx) by lra.
+  assert (Ey : c 1%nat - a 1%nat = t * by_ - s * dy) by lra.
   rewrite Ex, Ey. split; ring.
 Qed.
-Lemma at_line_plane a b p q r x : on_line 3 a b x ->
-  turn3d x q r p = 0 -> let w := exact (w_line_plane a b p q r) in let '(ix, iy, iz, _) := line_plane a b p q r in
+Lemma at_line_plane a b p q r x :
+  on_line 3 a b x -> turn3d x q r p = 0 ->
+  let w := exact (w_line_plane a b p q r) in let '(ix, iy, iz, _) := line_plane a b p q r in
   exact ix = w * (x 0%nat - a 0%nat) /\ exact iy = w * (x 1%nat - a 1%nat) /\ exact iz = w * (x 2%nat - a 2%nat).
 Proof.
-  intros [t A]. unfold turn3d, row, det3, det2. simpl. rewrite (A 0%nat), (A 1%nat), (A 2%nat) by lia. clear A.
+  intros [t A]. unfold turn3d, row, det3, det2. simpl.
+  rewrite (A 0%nat), (A 1%nat), (A 2%nat) by lia. clear A.
   set (qx := q 0%nat - p 0%nat). set (qy := q 1%nat - p 1%nat). set (qz := q 2%nat - p 2%nat).
   set (rx := r 0%nat - p 0%nat). set (ry := r 1%nat - p 1%nat). set (rz := r 2%nat - p 2%nat).
-  set (bx := b 0%nat - a 0%nat). set (by_ := b 1%nat - a 1%nat). set (bz := b 2%nat - a 2%nat). intros P.
+  set (bx := b 0%nat - a 0%nat). set (by_ := b 1%nat - a 1%nat). set (bz := b 2%nat - a 2%nat).
+  intros P.
   set (along := _ + _ + _).
   assert (E : along = t * ((qy * rz - qz * ry) * bx + (qz * rx - qx * rz) * by_ + (qx * ry - qy * rx) * bz))
-    by (unfold along; lra). rewrite E. repeat split; ring.
+    by (unfold along; lra).
+  rewrite E. repeat split; ring.
 Qed.
 
 Theorem orient2d_line_line_right a b c d q r :
@@ -152,10 +164,12 @@ Proof.
   - intros [P | P].
     + apply zero_times_right, times_right_0. now rewrite <- P.
     + apply times_right_0. now rewrite <- P.
-  - intros P Q x y A C E G. generalize (at_line_line a b c d x A C) (at_line_line e f g h y E G). intros [X _] [Y _].
+  - intros P Q x y A C E G.
+    generalize (at_line_line a b c d x A C) (at_line_line e f g h y E G). intros [X _] [Y _].
     apply times_right with (w := exact (w_line_line e f g h)); auto.
     apply times_right with (w := exact (w_line_line a b c d)); auto.
-    replace (_ * _) with (exact (order_line_line a b c d e f g h)); auto. simpl in X, Y |- *. rewrite X, Y. ring.
+    replace (_ * _) with (exact (order_line_line a b c d e f g h)); auto.
+    simpl in X, Y |- *. rewrite X, Y. ring.
 Qed.
 
 End Signs.
@@ -165,7 +179,8 @@ End Signs.
 Section Filter.
 
 Context (p emin : Z) {p_positive : Prec_gt_0 p} (emin_p : (emin <= 1 - 2 * p)%Z).
-Notation filter_sign := (filter_sign p emin). Notation roundings := (roundings p).
+Notation filter_sign := (filter_sign p emin).
+Notation roundings := (roundings p).
 Notation representable := (representable p emin).
 
 Ltac found bits :=

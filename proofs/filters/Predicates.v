@@ -9,8 +9,11 @@
         insphere_semi_static_certain   its semi-static filter, from 24 bits on
         power_incircle_scales, power_insphere_scales   scaling by the degrees of weighted points changes no sign *)
 
-From Coq Require Import Reals ZArith List Lia Lra. From Flocq Require Import Core.
-From Errbound Require Import Format Sign StaticFilter SemiStatic. Import ListNotations. Open Scope R_scope.
+From Coq Require Import Reals ZArith List Lia Lra.
+From Flocq Require Import Core.
+From Errbound Require Import Format Sign StaticFilter SemiStatic.
+Import ListNotations.
+Open Scope R_scope.
 
 (** A point as a function from index to coordinate. *)
 Definition point := nat -> R.
@@ -102,15 +105,19 @@ Definition scaled (degrees : list nat) (dimension : nat) (s : R) (k : nat) (x : 
 Section Predicates.
 
 Context (p emin : Z) {p_positive : Prec_gt_0 p} (emin_p : (emin <= 1 - 2 * p)%Z).
-Notation filter_sign := (filter_sign p emin). Notation roundings := (roundings p).
+Notation filter_sign := (filter_sign p emin).
+Notation roundings := (roundings p).
 Definition representable (a : point) : Prop := forall i, number p emin (a i).
 
 (** From its counts, which the compiler evaluates. *)
-Lemma sign_by_counts e k bits x : (2 <= bits <= p)%Z -> admissible p emin e -> roundings e = (k + 1)%nat ->
-  (64 * Z.of_nat (k + 3) <= 2 ^ bits)%Z -> exact e = x -> roundings e = (k + 1)%nat /\ sign_is_right (filter_sign e) x.
+Lemma sign_by_counts e k bits x :
+  (2 <= bits <= p)%Z -> admissible p emin e -> roundings e = (k + 1)%nat ->
+  (64 * Z.of_nat (k + 3) <= 2 ^ bits)%Z -> exact e = x ->
+  roundings e = (k + 1)%nat /\ sign_is_right (filter_sign e) x.
 Proof.
-  intros P A K B <-. split; auto. apply filter_sign_certain; auto; try lia. rewrite K.
-  replace (k + 1 + 2)%nat with (k + 3)%nat by lia. apply Rle_trans with (bpow radix2 bits * Format.u p).
+  intros P A K B <-. split; auto. apply filter_sign_certain; auto; try lia.
+  rewrite K. replace (k + 1 + 2)%nat with (k + 3)%nat by lia.
+  apply Rle_trans with (bpow radix2 bits * Format.u p).
   - apply Rmult_le_compat_r; [generalize (u_positive p); lra |].
     rewrite INR_IZR_INZ, <- mult_IZR, <- IZR_Zpower by lia. now apply IZR_le.
   - unfold Format.u. rewrite <- bpow_plus. change 1 with (bpow radix2 0). apply bpow_le. lia.

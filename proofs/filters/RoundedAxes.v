@@ -10,8 +10,11 @@
                                   differs by at most eps of itself or by eta
         swept_boxes_touch         rounded boxes that touch without a common end touch before rounding *)
 
-From Coq Require Import Reals ZArith List Lia Lra Psatz Bool. From Flocq Require Import Core.
-From Errbound Require Import Format Contact Decisions SeparatingAxis. Import ListNotations. Open Scope R_scope.
+From Coq Require Import Reals ZArith List Lia Lra Psatz Bool.
+From Flocq Require Import Core.
+From Errbound Require Import Format Contact Decisions SeparatingAxis.
+Import ListNotations.
+Open Scope R_scope.
 
 #[local] Instance float_precision : Prec_gt_0 24 := eq_refl.
 #[local] Instance double_precision : Prec_gt_0 53 := eq_refl.
@@ -19,8 +22,11 @@ From Errbound Require Import Format Contact Decisions SeparatingAxis. Import Lis
 Section RoundedAxes.
 
 Context (direction : R -> Z) {direction_valid : Valid_rnd direction}.
-Notation double := (rnd 53 (-1074) direction). Notation single := (rnd 24 (-149) direction).
-Notation number := (number 53 (-1074)). Notation float := (Format.number 24 (-149)). Notation eps := (eps 24).
+Notation double := (rnd 53 (-1074) direction).
+Notation single := (rnd 24 (-149) direction).
+Notation number := (number 53 (-1074)).
+Notation float := (Format.number 24 (-149)).
+Notation eps := (eps 24).
 
 (** ** The code *)
 
@@ -70,10 +76,14 @@ Lemma double_error : rounding_error 53 (-1074) direction (Format.eps 53) (eta (-
 Proof. exact (rounding_error_any 53 (-1074) direction ltac:(lia)). Qed.
 Lemma single_error : rounding_error 24 (-149) direction eps (eta (-149)).
 Proof. exact (rounding_error_any 24 (-149) direction ltac:(lia)). Qed.
-Lemma double_le r s : r <= s -> double r <= double s. Proof. apply rnd_le; auto with typeclass_instances. Qed.
-Lemma single_le r s : r <= s -> single r <= single s. Proof. apply rnd_le; auto with typeclass_instances. Qed.
-Lemma double_number r : number (double r). Proof. apply rnd_number; auto with typeclass_instances. Qed.
-Lemma single_number r : float (single r). Proof. apply rnd_number; auto with typeclass_instances. Qed.
+Lemma double_le r s : r <= s -> double r <= double s.
+Proof. apply rnd_le; auto with typeclass_instances. Qed.
+Lemma single_le r s : r <= s -> single r <= single s.
+Proof. apply rnd_le; auto with typeclass_instances. Qed.
+Lemma double_number r : number (double r).
+Proof. apply rnd_number; auto with typeclass_instances. Qed.
+Lemma single_number r : float (single r).
+Proof. apply rnd_number; auto with typeclass_instances. Qed.
 (** The rounding error of any number: relative, or absolute after an underflow. *)
 Lemma double_near r : Rabs (double r - r) <= Format.eps 53 * Rabs r + eta (-1074).
 Proof.
@@ -93,7 +103,9 @@ Proof.
 Qed.
 
 Theorem rounded_monotone c s r t : 0 <= s -> r <= t -> rounded c s r <= rounded c s t.
-Proof. intros S L. apply single_le, double_le, Rmult_le_compat_r; auto. apply double_le. lra. Qed.
+Proof.
+  intros S L. apply single_le, double_le, Rmult_le_compat_r; auto. apply double_le. lra.
+Qed.
 Lemma rounded_less c s r t : 0 <= s -> rounded c s r < rounded c s t -> r < t.
 Proof. intros S L. apply Rnot_le_lt. intros C. pose proof (rounded_monotone c s t r S C). lra. Qed.
 
@@ -148,21 +160,26 @@ Proof.
 Qed.
 
 (** Points in the box are at most 1 from the middle after scaling, except for roundings. *)
-Lemma scale_bounds : 0 <= scale f /\ forall p, inside_box p -> Rabs (x p - x (middle f)) * scale f <= 1 + eps / 500 /\
-  Rabs (y p - y (middle f)) * scale f <= 1 + eps / 500 /\ Rabs (z p - z (middle f)) * scale f <= 1 + eps / 500.
+Lemma scale_bounds : 0 <= scale f /\ forall p, inside_box p ->
+  Rabs (x p - x (middle f)) * scale f <= 1 + eps / 500 /\
+  Rabs (y p - y (middle f)) * scale f <= 1 + eps / 500 /\
+  Rabs (z p - z (middle f)) * scale f <= 1 + eps / 500.
 Proof.
   destruct low_bounded as (Lx & Ly & Lz), high_bounded as (Hx & Hy & Hz).
   destruct low_numbers as (Nlx & Nly & Nlz), high_numbers as (Nhx & Nhy & Nhz).
   pose proof (middle_below _ _ Lx Hx) as Mx. pose proof (middle_below _ _ Ly Hy) as My.
-  pose proof (middle_below _ _ Lz Hz) as Mz. unfold frame_of. cbv zeta. cbn [middle scale x y z].
+  pose proof (middle_below _ _ Lz Hz) as Mz.
+  unfold frame_of. cbv zeta. cbn [middle scale x y z].
   assert (Nc : forall a b, number (middle_of a b)) by (intros; apply double_number).
   pose proof (Nc (x low) (x high)) as Ncx. pose proof (Nc (y low) (y high)) as Ncy.
-  pose proof (Nc (z low) (z high)) as Ncz. set (cx := middle_of (x low) (x high)) in *.
-  set (cy := middle_of (y low) (y high)) in *. set (cz := middle_of (z low) (z high)) in *.
+  pose proof (Nc (z low) (z high)) as Ncz.
+  set (cx := middle_of (x low) (x high)) in *. set (cy := middle_of (y low) (y high)) in *.
+  set (cz := middle_of (z low) (z high)) in *.
   pose proof (distance_below _ _ Hx Mx) as D1. pose proof (distance_below _ _ Mx Lx) as D2.
   pose proof (distance_below _ _ Hy My) as D3. pose proof (distance_below _ _ My Ly) as D4.
   pose proof (distance_below _ _ Hz Mz) as D5. pose proof (distance_below _ _ Mz Lz) as D6.
-  destruct tiny_constants as (E1 & E2 & E3 & E4 & _). set (r := Rmax _ (bpow radix2 (-1000))).
+  destruct tiny_constants as (E1 & E2 & E3 & E4 & _).
+  set (r := Rmax _ (bpow radix2 (-1000))).
   assert (B0 : 0 < bpow radix2 (-1000)) by apply bpow_gt_0.
   assert (B1 : bpow radix2 (-1000) <= bpow radix2 1025) by (apply bpow_le; lia).
   assert (R1 : r <= bpow radix2 1025) by (unfold r; repeat apply Rmax_lub; lra).
@@ -181,7 +198,8 @@ Proof.
     apply Rle_trans with (r * (1 / r * (1 + Format.eps 53) + eta (-1074))); [apply Rmult_le_compat_l; lra |].
     replace (r * (1 / r * (1 + Format.eps 53) + eta (-1074))) with (1 + Format.eps 53 + r * eta (-1074))
       by (field; lra).
-    assert (r * eta (-1074) <= bpow radix2 1025 * eta (-1074)) by (apply Rmult_le_compat_r; [apply bpow_ge_0 | lra]).
+    assert (r * eta (-1074) <= bpow radix2 1025 * eta (-1074)) by (apply Rmult_le_compat_r;
+      [apply bpow_ge_0 | lra]).
     assert (Q : bpow radix2 1025 * eta (-1074) <= eps / 100000).
     { unfold eta. rewrite <- bpow_plus. apply Rle_trans with (bpow radix2 (-23 + -17)); [apply bpow_le; lia |].
       rewrite bpow_plus. unfold Rdiv. apply Rmult_le_compat_l; [apply bpow_ge_0 |]. simpl. lra. }
@@ -197,7 +215,8 @@ Proof.
   { intros a c l h Nl Nh N B H L. apply Far in H, L; auto.
     assert (A : Rabs (a - c) * (1 - Format.eps 53) <= r).
     { apply Rle_trans with (Rmax (h - c) (c - l) * (1 - Format.eps 53)).
-      - apply Rmult_le_compat_r; [lra |]. pose proof (Rmax_l (h - c) (c - l)). pose proof (Rmax_r (h - c) (c - l)).
+      - apply Rmult_le_compat_r; [lra |]. pose proof (Rmax_l (h - c) (c - l)).
+        pose proof (Rmax_r (h - c) (c - l)).
         apply Rabs_le. lra.
       - unfold Rmax. destruct Rle_dec; lra. }
     apply (Rmult_le_compat_r _ _ _ S0) in A.
@@ -233,7 +252,8 @@ Proof.
   { pose proof (Rabs_triang (g - d * s) (d * s)) as T. replace (g - d * s + d * s) with g in T by ring. lra. }
   pose proof (single_near g) as D4.
   assert (D5 : Rabs (single g - g) <= 1.001 * eps).
-  { apply Rle_trans with (1 := D4). assert (eps * Rabs g <= eps * 1.0001) by (apply Rmult_le_compat_l; lra). lra. }
+  { apply Rle_trans with (1 := D4). assert (eps * Rabs g <= eps * 1.0001) by (apply Rmult_le_compat_l;
+    lra). lra. }
   apply Rabs_le_inv in D1, D3, D5, Z. split; apply Rabs_le; lra.
 Qed.
 
@@ -251,15 +271,17 @@ Lemma coordinates_tell a : In a coordinates_in_float -> tells 0 a.
 Proof.
   destruct scale_bounds as (S & _).
   intros [<- | [<- | [<- | []]]] p q _ _ _ _ _ _ _ _; unfold rounded_point, dot; cbn [fst snd x y z]; intros L;
-    [enough (x p < x q) by lra | enough (y p < y q) by lra | enough (z p < z q) by lra]; eapply rounded_less; [exact S |
-    apply Rminus_gt_0_lt; exact L | exact S | apply Rminus_gt_0_lt; exact L | exact S | apply Rminus_gt_0_lt; exact L].
+    [enough (x p < x q) by lra | enough (y p < y q) by lra | enough (z p < z q) by lra];
+    eapply rounded_less; [exact S | apply Rminus_gt_0_lt; exact L | exact S | apply Rminus_gt_0_lt; exact L |
+                          exact S | apply Rminus_gt_0_lt; exact L].
 Qed.
 
 Lemma sum_in_float r s r' s' : Rabs r' <= 1.001 -> Rabs s' <= 1.001 ->
   Rabs (r' - r) <= 1.01 * eps -> Rabs (s' - s) <= 1.01 * eps -> Rabs (single (r' + s') - (r + s)) <= 4.05 * eps.
 Proof.
-  intros A B C D. destruct tiny_constants as (E1 & E2 & E3 & E4 & E5 & E6 & _). pose proof (single_near (r' + s')) as N.
-  pose proof (Rabs_triang r' s') as T. assert (eps * Rabs (r' + s') <= eps * 2.002) by (apply Rmult_le_compat_l; lra).
+  intros A B C D. destruct tiny_constants as (E1 & E2 & E3 & E4 & E5 & E6 & _).
+  pose proof (single_near (r' + s')) as N. pose proof (Rabs_triang r' s') as T.
+  assert (eps * Rabs (r' + s') <= eps * 2.002) by (apply Rmult_le_compat_l; lra).
   apply Rabs_le_inv in C, D. assert (M : Rabs (single (r' + s') - (r' + s')) <= 2.01 * eps) by lra.
   apply Rabs_le_inv in M. apply Rabs_le. lra.
 Qed.
@@ -285,8 +307,9 @@ Proof.
   set (c := middle f) in *. set (s := scale f) in *. clearbody c s.
   assert (Final : forall g h g' h', Rabs (g' - g * s) <= 4.05 * eps -> Rabs (h' - h * s) <= 4.05 * eps ->
     float_margin < h' - g' -> g < h).
-  { intros g h g' h' G H' L. apply Rabs_le_inv in G, H'. unfold float_margin in L. assert (0 < (h - g) * s) by lra.
-    destruct (Rle_or_lt h g) as [C |]; [| easy]. assert (0 <= (g - h) * s) by (apply Rmult_le_pos; lra). lra. }
+  { intros g h g' h' G H' L. apply Rabs_le_inv in G, H'. unfold float_margin in L.
+    assert (0 < (h - g) * s) by lra. destruct (Rle_or_lt h g) as [C |]; [| easy].
+    assert (0 <= (g - h) * s) by (apply Rmult_le_pos; lra). lra. }
   destruct I as [<- | [<- | [<- | [<- | [<- | [<- | []]]]]]]; cbn [fst snd x y z]; intros L.
   - enough ((x p - x c) + (y p - y c) < (x q - x c) + (y q - y c)) by lra.
     eapply Final; [| | exact L]; rewrite Rmult_plus_distr_r; now apply sum_in_float.
@@ -308,9 +331,11 @@ Definition in_frame (q : moving) : Prop := numbers q /\ forall e, inside_box (at
 
 Lemma gap_of t r s : float t -> t < single (r - s) -> t < r - s.
 Proof.
-  intros N L. apply Rnot_le_lt. intros C. apply (Rlt_not_le _ _ L). apply rnd_below; auto with typeclass_instances.
+  intros N L. apply Rnot_le_lt. intros C. apply (Rlt_not_le _ _ L). apply rnd_below;
+    auto with typeclass_instances.
 Qed.
-Lemma largest_of t gap axes : -1 <= t -> t < largest_gap gap axes -> exists a, In a axes /\ t < separated_by (gap a).
+Lemma largest_of t gap axes : -1 <= t -> t < largest_gap gap axes -> exists a, In a axes /\
+  t < separated_by (gap a).
 Proof.
   intros T. unfold largest_gap.
   assert (G : forall l m, m <= t -> t < fold_left (fun m a => Rmax m (separated_by (gap a))) l m ->
@@ -323,8 +348,9 @@ Qed.
 Lemma both_ends t gap : t < separated_by gap -> (forall e, t < fst (gap e)) \/ (forall e, t < snd (gap e)).
 Proof.
   unfold separated_by. intros L.
-  destruct (Rlt_or_le t (Rmin (fst (gap false)) (fst (gap true)))) as [A | A]; [left | right; destruct (Rlt_or_le
-    t (Rmin (snd (gap false)) (snd (gap true)))) as [B | B]; [| pose proof (Rmax_lub _ _ _ A B); lra]]; intros [].
+  destruct (Rlt_or_le t (Rmin (fst (gap false)) (fst (gap true)))) as [A | A];
+    [left | right; destruct (Rlt_or_le t (Rmin (snd (gap false)) (snd (gap true)))) as [B | B];
+              [| pose proof (Rmax_lub _ _ _ A B); lra]]; intros [].
   - pose proof (Rmin_r (fst (gap false)) (fst (gap true))). lra.
   - pose proof (Rmin_l (fst (gap false)) (fst (gap true))). lra.
   - pose proof (Rmin_r (snd (gap false)) (snd (gap true))). lra.
@@ -337,16 +363,20 @@ Proof.
   { split; [apply number_0 |]. unfold float_margin, Format.eps. apply number_integer; [exact eq_refl | lia |].
     change (2 ^ 24)%Z with 16777216%Z. lia. }
   assert (M : 0 <= float_margin) by (unfold float_margin; generalize (bpow_gt_0 radix2 (1 - 24));
-    unfold Format.eps; lra). intros H. apply orb_prop in H.
-  destruct H as [H | H]; apply less_of, largest_of in H; try lra; destruct H as (a & I & L); apply both_ends in L.
+    unfold Format.eps; lra).
+  intros H. apply orb_prop in H. destruct H as [H | H]; apply less_of, largest_of in H; try lra;
+    destruct H as (a & I & L); apply both_ends in L.
   - exists a, 0. repeat split; auto; [apply N | now apply coordinates_tell].
   - exists a, float_margin. repeat split; auto; [apply N | now apply diagonals_tell].
 Qed.
 
 (** The order of two points along such an axis. *)
-Lemma told t a q r e : tells t a -> in_frame q -> in_frame r -> t < fst a (rounded_point f (at_end r e))
-  - fst a (rounded_point f (at_end q e)) -> dot (snd a) (at_end q e) < dot (snd a) (at_end r e).
-Proof. intros T (Nq & Bq) (Nr & Br). destruct (Nq e) as (? & ? & ?), (Nr e) as (? & ? & ?). now apply T. Qed.
+Lemma told t a q r e : tells t a -> in_frame q -> in_frame r ->
+  t < fst a (rounded_point f (at_end r e)) - fst a (rounded_point f (at_end q e)) ->
+  dot (snd a) (at_end q e) < dot (snd a) (at_end r e).
+Proof.
+  intros T (Nq & Bq) (Nr & Br). destruct (Nq e) as (? & ? & ?), (Nr e) as (? & ? & ?). now apply T.
+Qed.
 
 Ltac by_gap t H := intros e; apply told with t; auto; specialize (H e); apply gap_of in H; auto; revert H;
   unfold Rmax, Rmin; repeat match goal with |- context [Rle_dec ?r ?s] =>
@@ -386,8 +416,9 @@ Definition sweep (least : R -> R -> R) (coordinate : point -> R) (first : moving
 Notation low coordinate first others := (sweep Rmin coordinate first others).
 Notation high coordinate first others := (sweep Rmax coordinate first others).
 
-Lemma fold_min coordinate others m : let r := fold_left (fun m q => Rmin (Rmin m (coordinate (start q))) (coordinate
-  (finish q))) others m in r <= m /\ forall q, In q others -> r <= coordinate (start q) /\ r <= coordinate (finish q).
+Lemma fold_min coordinate others m :
+  let r := fold_left (fun m q => Rmin (Rmin m (coordinate (start q))) (coordinate (finish q))) others m in
+  r <= m /\ forall q, In q others -> r <= coordinate (start q) /\ r <= coordinate (finish q).
 Proof.
   revert m. induction others as [| q l IH]; intros m; cbn zeta; cbn [fold_left]; [split; [lra | easy] |].
   destruct (IH (Rmin (Rmin m (coordinate (start q))) (coordinate (finish q)))) as (A & B).
@@ -396,8 +427,9 @@ Proof.
   pose proof (Rmin_l m (coordinate (start q))). pose proof (Rmin_r m (coordinate (start q))).
   split; [lra |]. intros r [<- | I]; [lra | now apply B].
 Qed.
-Lemma fold_max coordinate others m : let r := fold_left (fun m q => Rmax (Rmax m (coordinate (start q))) (coordinate
-  (finish q))) others m in m <= r /\ forall q, In q others -> coordinate (start q) <= r /\ coordinate (finish q) <= r.
+Lemma fold_max coordinate others m :
+  let r := fold_left (fun m q => Rmax (Rmax m (coordinate (start q))) (coordinate (finish q))) others m in
+  m <= r /\ forall q, In q others -> coordinate (start q) <= r /\ coordinate (finish q) <= r.
 Proof.
   revert m. induction others as [| q l IH]; intros m; cbn zeta; cbn [fold_left]; [split; [lra | easy] |].
   destruct (IH (Rmax (Rmax m (coordinate (start q))) (coordinate (finish q)))) as (A & B).
@@ -409,7 +441,8 @@ Qed.
 Lemma low_below coordinate first others q : In q (first :: others) ->
   low coordinate first others <= coordinate (start q) /\ low coordinate first others <= coordinate (finish q).
 Proof.
-  destruct (fold_min coordinate others (Rmin (coordinate (start first)) (coordinate (finish first)))) as (A & B).
+  destruct (fold_min coordinate others (Rmin (coordinate (start first)) (coordinate (finish first)))) as (A
+    & B).
   pose proof (Rmin_l (coordinate (start first)) (coordinate (finish first))).
   pose proof (Rmin_r (coordinate (start first)) (coordinate (finish first))).
   intros [<- | I]; [unfold sweep; lra | now apply B].
@@ -417,7 +450,8 @@ Qed.
 Lemma high_above coordinate first others q : In q (first :: others) ->
   coordinate (start q) <= high coordinate first others /\ coordinate (finish q) <= high coordinate first others.
 Proof.
-  destruct (fold_max coordinate others (Rmax (coordinate (start first)) (coordinate (finish first)))) as (A & B).
+  destruct (fold_max coordinate others (Rmax (coordinate (start first)) (coordinate (finish first)))) as (A
+    & B).
   pose proof (Rmax_l (coordinate (start first)) (coordinate (finish first))).
   pose proof (Rmax_r (coordinate (start first)) (coordinate (finish first))).
   intros [<- | I]; [unfold sweep; lra | now apply B].
@@ -436,7 +470,8 @@ Definition ends_before (k : nat) (a : moving) (others : list moving) (b : moving
 
 Lemma coordinate_along k p : dot (axis_of k) p = coordinate_of k p.
 Proof. destruct k as [| [|]]; unfold dot; simpl; ring. Qed.
-Lemma swept_before k a l b m q r : ends_before k a l b m -> In q (a :: l) -> In r (b :: m) -> before (axis_of k) q r.
+Lemma swept_before k a l b m q r : ends_before k a l b m -> In q (a :: l) -> In r (b :: m) ->
+  before (axis_of k) q r.
 Proof.
   intros H Q R'. apply rounded_less in H; auto.
   destruct (high_above (coordinate_of k) a l q Q), (low_below (coordinate_of k) b m r R').
@@ -484,11 +519,13 @@ Notation down r := (round radix2 (FLT_exp (-149) 24) Zfloor r).
 Notation up r := (round radix2 (FLT_exp (-149) 24) Zceil r).
 Lemma neighbour_near r c : c = down r \/ c = up r -> Rabs (c - r) <= eps * Rabs c + eta (-149).
 Proof.
-  assert (G : forall d (V : Valid_rnd d), Rabs (rnd 24 (-149) d r - r) <= eps * Rabs (rnd 24 (-149) d r) + eta (-149)).
+  assert (G : forall d (V : Valid_rnd d), Rabs (rnd 24 (-149) d r - r) <= eps * Rabs (rnd 24 (-149) d r) +
+    eta (-149)).
   { intros d V. pose proof (bpow_gt_0 radix2 (-149)) as Q. fold (eta (-149)) in Q.
     destruct (Rlt_or_le (Rabs r) (smallest_normal 24 (-149))) as [S | S].
     - pose proof (absolute_error_any 24 (-149) d r S).
-      assert (0 <= eps * Rabs (rnd 24 (-149) d r)) by (apply Rmult_le_pos; [apply bpow_ge_0 | apply Rabs_pos]). lra.
+      assert (0 <= eps * Rabs (rnd 24 (-149) d r)) by (apply Rmult_le_pos;
+        [apply bpow_ge_0 | apply Rabs_pos]). lra.
     - apply Rle_trans with (ulp radix2 (FLT_exp (-149) 24) (rnd 24 (-149) d r)).
       + apply error_le_ulp_round; auto with typeclass_instances.
       + apply Rle_trans with (Rabs (rnd 24 (-149) d r) * eps); [| lra].
@@ -504,11 +541,13 @@ Proof.
   destruct (Req_dec (rnd 24 (-149) d r) 0) as [Z | Z]; [rewrite Z, Rmult_0_l; apply number_0 |].
   assert (M : (cexp radix2 (FLT_exp (-149) 24) r <= cexp radix2 (FLT_exp (-149) 24) (rnd 24 (-149) d r))%Z).
   { apply monotone_exp; [auto with typeclass_instances |]. apply mag_round_ge; auto with typeclass_instances. }
-  rewrite N. unfold F2R. simpl. rewrite Rmult_assoc, <- bpow_plus. apply number_integer; [exact eq_refl | lia |].
+  rewrite N. unfold F2R. simpl. rewrite Rmult_assoc, <- bpow_plus. apply number_integer;
+    [exact eq_refl | lia |].
   assert (L : (Z.abs (Ztrunc (scaled_mantissa radix2 (FLT_exp (-149) 24) (rnd 24 (-149) d r))) < 2 ^ 24)%Z).
-  { apply lt_IZR. rewrite abs_IZR, <- scaled_mantissa_generic by exact N. change (IZR (2 ^ 24)) with (bpow radix2 24).
-    apply Rlt_le_trans with (1 := scaled_mantissa_lt_bpow radix2 (FLT_exp (-149) 24) _). apply bpow_le.
-    unfold cexp, FLT_exp. lia. }
+  { apply lt_IZR. rewrite abs_IZR, <- scaled_mantissa_generic by exact N.
+    change (IZR (2 ^ 24)) with (bpow radix2 24).
+    apply Rlt_le_trans with (1 := scaled_mantissa_lt_bpow radix2 (FLT_exp (-149) 24) _).
+    apply bpow_le. unfold cexp, FLT_exp. lia. }
   change (2 ^ 53)%Z with 9007199254740992%Z. change (2 ^ 24)%Z with 16777216%Z in L. lia.
 Qed.
 

@@ -7,15 +7,22 @@
         semi_static_sign_certain    the certain sign of the code is right
         semi_static_overflow_uncertain   also with a largest number and any overflow *)
 
-From Coq Require Import Reals ZArith Lia Lra Psatz Bool Classical_Prop. From Flocq Require Import Core.
-From Errbound Require Import Format Sign StaticFilter. Open Scope R_scope.
+From Coq Require Import Reals ZArith Lia Lra Psatz Bool Classical_Prop.
+From Flocq Require Import Core.
+From Errbound Require Import Format Sign StaticFilter.
+Open Scope R_scope.
 
 Section SemiStatic.
 
 Context (p emin : Z) {p_positive : Prec_gt_0 p}.
-Notation fl := (rnd p emin nearest). Notation number := (number p emin). Notation u := (u p).
-Notation eta := (eta emin). Notation value := (value p emin). Notation exact_size := (exact_size p emin).
-Notation tau := (allowance p emin). Notation roundings := (roundings p).
+Notation fl := (rnd p emin nearest).
+Notation number := (number p emin).
+Notation u := (u p).
+Notation eta := (eta emin).
+Notation value := (value p emin).
+Notation exact_size := (exact_size p emin).
+Notation tau := (allowance p emin).
+Notation roundings := (roundings p).
 
 (** The code: degree, mass and allowances of an expression. *)
 Fixpoint degree (e : expression) : nat :=
@@ -114,7 +121,10 @@ Fixpoint homogeneous (e : expression) : Prop :=
 Context (M_0 : 0 <= M) (M_number : number M) (p_2 : (2 <= p)%Z) (emin_4p : (emin <= - 4 * p - 5)%Z).
 
 Lemma whole_number n : (0 <= n <= 2 ^ p)%Z -> number (IZR n).
-Proof. intros H. rewrite <- (Rmult_1_r (IZR n)). change 1 with (bpow radix2 0). apply number_integer; auto; lia. Qed.
+Proof.
+  intros H. rewrite <- (Rmult_1_r (IZR n)). change 1 with (bpow radix2 0).
+  apply number_integer; auto; lia.
+Qed.
 Lemma fl_whole n : (0 <= n <= 2 ^ p)%Z -> fl (IZR n) = IZR n.
 Proof. intros H. apply rnd_exact; auto using whole_number with typeclass_instances. Qed.
 Lemma masses e : measured e -> (1 <= whole_mass e)%Z /\ (0 <= whole_allowances e)%Z /\
@@ -131,21 +141,24 @@ Proof.
     fl (allowances x + allowances y) = IZR (whole_allowances x + whole_allowances y)).
   { intros x y _ _ LM LA (X1 & X2 & -> & ->) (Y1 & Y2 & -> & ->). rewrite <- !plus_IZR.
     rewrite !fl_whole by lia. repeat split; lia. }
-  induction e as [c | a b | c | x IHx y IHy | x IHx y IHy | x IHx y IHy | x IHx]; cbn [measured
-    whole_mass whole_allowances mass allowances]; intros (LM & LA & H); try (repeat split; reflexivity || lia).
+  induction e as [c | a b | c | x IHx y IHy | x IHx y IHy | x IHx y IHy | x IHx];
+    cbn [measured whole_mass whole_allowances mass allowances]; intros (LM & LA & H);
+    try (repeat split; reflexivity || lia).
   - repeat split; try lia. rewrite (fl_abs p emin), <- abs_IZR. apply fl_whole. lia.
   - destruct H as (A & B & _). auto.
   - destruct H as (A & B & _). auto.
   - destruct H as (A & B). destruct (IHx A) as (X1 & X2 & E1 & E2), (IHy B) as (Y1 & Y2 & E3 & E4).
     rewrite E1, E2, E3, E4. rewrite <- !mult_IZR.
     assert (0 <= whole_mass x * whole_allowances y)%Z by (apply Z.mul_nonneg_nonneg; lia).
-    assert (0 <= whole_mass y * whole_allowances x)%Z by (apply Z.mul_nonneg_nonneg; lia). rewrite !fl_whole by nia.
-    rewrite <- plus_IZR, fl_whole by lia. rewrite <- mult_IZR, fl_whole by lia. rewrite <- plus_IZR, fl_whole by lia.
+    assert (0 <= whole_mass y * whole_allowances x)%Z by (apply Z.mul_nonneg_nonneg; lia).
+    rewrite !fl_whole by nia. rewrite <- plus_IZR, fl_whole by lia.
+    rewrite <- mult_IZR, fl_whole by lia. rewrite <- plus_IZR, fl_whole by lia.
     split; [nia |]. split; [nia |]. split; reflexivity.
   - auto.
 Qed.
 
-Lemma tau_positive : 0 < tau. Proof. apply allowance_positive; auto; lia. Qed.
+Lemma tau_positive : 0 < tau.
+Proof. apply allowance_positive; auto; lia. Qed.
 Lemma tau_small : IZR (2 ^ p) * (IZR (2 ^ p) * tau) <= / 16.
 Proof.
   rewrite (allowance_exact p emin) by lia. change 2%Z with (radix_val radix2).
@@ -153,18 +166,21 @@ Proof.
   replace (/ 16) with (bpow radix2 (- 4)) by (simpl; lra). apply bpow_le. simpl radix_val. lia.
 Qed.
 
-Lemma power_nonnegative n : 0 <= M ^ n. Proof. now apply pow_le. Qed.
+Lemma power_nonnegative n : 0 <= M ^ n.
+Proof. now apply pow_le. Qed.
 (** Powers of one number are both large or both small. *)
 Lemma powers_alike i j : M ^ i <= 1 + M ^ i * M ^ j.
 Proof.
-  generalize (power_nonnegative i) (power_nonnegative j). intros P Q. destruct (Rle_or_lt 1 M) as [L | L].
+  generalize (power_nonnegative i) (power_nonnegative j). intros P Q.
+  destruct (Rle_or_lt 1 M) as [L | L].
   - assert (1 <= M ^ j) by now apply pow_R1_Rle. nra.
   - assert (M ^ i <= 1); [| nra]. rewrite <- (pow1 i). apply pow_incr. lra.
 Qed.
 
 Lemma measured_mass_covers_size e : measured e ->
-  exact_size e <= IZR (whole_mass e) * M ^ degree e + (if (whole_allowances e =? 0)%Z
-  then 0 else (IZR (whole_allowances e) - 3 / 4) * tau + IZR (whole_allowances e) * tau * M ^ degree e).
+  exact_size e <= IZR (whole_mass e) * M ^ degree e +
+    (if (whole_allowances e =? 0)%Z then 0
+     else (IZR (whole_allowances e) - 3 / 4) * tau + IZR (whole_allowances e) * tau * M ^ degree e).
 Proof.
   generalize tau_positive; intros T.
   (* the sum, with or without allowances *)
@@ -180,11 +196,13 @@ Proof.
        else (IZR (whole_allowances x + whole_allowances y) - 3 / 4) * tau +
             IZR (whole_allowances x + whole_allowances y) * tau * M ^ degree x)).
   { intros x y A B D X Y. rewrite <- D in Y. generalize (power_nonnegative (degree x)). intros P.
-    destruct (masses x A) as (_ & X2 & _), (masses y B) as (_ & Y2 & _). rewrite !plus_IZR.
-    set (a := whole_allowances x) in *. set (b := whole_allowances y) in *. set (D' := M ^ degree x) in *.
+    destruct (masses x A) as (_ & X2 & _), (masses y B) as (_ & Y2 & _).
+    rewrite !plus_IZR. set (a := whole_allowances x) in *. set (b := whole_allowances y) in *.
+    set (D' := M ^ degree x) in *.
     destruct (Z.eqb_spec a 0) as [Ea | Ea], (Z.eqb_spec b 0) as [Eb | Eb],
       (Z.eqb_spec (a + b) 0) as [Ec | Ec]; try lia; try rewrite Ea; try rewrite Eb; lra. }
-  induction e as [c | a b | c | x IHx y IHy | x IHx y IHy | x IHx y IHy | x IHx]; cbn [measured]; intros (LM & LA & H).
+  induction e as [c | a b | c | x IHx y IHy | x IHx y IHy | x IHx y IHy | x IHx];
+    cbn [measured]; intros (LM & LA & H).
   - simpl. lra.
   - simpl. lra.
   - cbn [StaticFilter.exact_size whole_mass whole_allowances degree]. simpl (0 =? 0)%Z. cbv iota.
@@ -205,38 +223,47 @@ Proof.
       destruct (Z.eqb_spec (whole_allowances y) 0) as [-> |]; lra. }
     destruct (Z.eqb_spec (2 * (whole_mass x * whole_allowances y + whole_mass y * whole_allowances x) + 2) 0)
       as [E | _]; [nia |].
-    generalize (exact_size_nonnegative p emin ltac:(lia) x) (exact_size_nonnegative p emin ltac:(lia) y). intros Sx Sy.
+    generalize (exact_size_nonnegative p emin ltac:(lia) x)
+      (exact_size_nonnegative p emin ltac:(lia) y). intros Sx Sy.
     assert (Ax : measured x) by exact A. assert (Ay : measured y) by exact B.
     assert (HX : (whole_allowances x <= 2 ^ p)%Z) by (destruct x; apply A).
     assert (HY : (whole_allowances y <= 2 ^ p)%Z) by (destruct y; apply B).
-    rewrite plus_IZR, !mult_IZR, plus_IZR, !mult_IZR. apply IZR_le in X1, Y1, X2, Y2, HX, HY.
-    set (mx := IZR (whole_mass x)) in *. set (my := IZR (whole_mass y)) in *. set (ax := IZR (whole_allowances x)) in *.
-    set (ay := IZR (whole_allowances y)) in *.
+    rewrite plus_IZR, !mult_IZR, plus_IZR, !mult_IZR.
+    apply IZR_le in X1, Y1, X2, Y2, HX, HY.
+    set (mx := IZR (whole_mass x)) in *. set (my := IZR (whole_mass y)) in *.
+    set (ax := IZR (whole_allowances x)) in *. set (ay := IZR (whole_allowances y)) in *.
     (* products of allowances are negligible *)
     assert (Tiny : ax * (ay * tau) <= / 16).
     { apply Rle_trans with (2 := tau_small). apply Rmult_le_compat; auto.
       - apply Rmult_le_pos; lra.
       - apply Rmult_le_compat_r; lra. }
-    assert (P : exact_size x * exact_size y <= (mx * X + ax * tau * (1 + X)) * (my * Y + ay * tau * (1 + Y)))
-      by (apply Rmult_le_compat; lra). apply Rle_trans with (1 := Rplus_le_compat_r tau _ _ P).
+    assert (P : exact_size x * exact_size y <=
+                (mx * X + ax * tau * (1 + X)) * (my * Y + ay * tau * (1 + Y)))
+      by (apply Rmult_le_compat; lra).
+    apply Rle_trans with (1 := Rplus_le_compat_r tau _ _ P).
     assert (Q : forall c d, 0 <= c -> 0 <= d -> 0 <= c * d) by (intros; now apply Rmult_le_pos).
     assert (T1 : mx * X * (ay * tau * (1 + Y)) <= 2 * (mx * ay) * tau * (1 + X * Y)).
     { replace (mx * X * (ay * tau * (1 + Y))) with (mx * ay * tau * (X + X * Y)) by ring.
       replace (2 * (mx * ay) * tau * (1 + X * Y)) with (mx * ay * tau * (2 * (1 + X * Y))) by ring.
-      generalize (Q X Y PX PY). intros. apply Rmult_le_compat_l; [| lra]. apply Q; [apply Q |]; lra. }
+      generalize (Q X Y PX PY). intros. apply Rmult_le_compat_l; [| lra].
+      apply Q; [apply Q |]; lra. }
     assert (T2 : ax * tau * (1 + X) * (my * Y) <= 2 * (my * ax) * tau * (1 + X * Y)).
     { replace (ax * tau * (1 + X) * (my * Y)) with (my * ax * tau * (Y + X * Y)) by ring.
       replace (2 * (my * ax) * tau * (1 + X * Y)) with (my * ax * tau * (2 * (1 + X * Y))) by ring.
-      generalize (Q X Y PX PY). intros. apply Rmult_le_compat_l; [| lra]. apply Q; [apply Q |]; lra. }
+      generalize (Q X Y PX PY). intros. apply Rmult_le_compat_l; [| lra].
+      apply Q; [apply Q |]; lra. }
     assert (T3 : ax * tau * (1 + X) * (ay * tau * (1 + Y)) <= / 4 * tau * (1 + X * Y)).
-    { replace (ax * tau * (1 + X) * (ay * tau * (1 + Y))) with (ax * (ay * tau) * (tau * ((1 + X) * (1 + Y)))) by ring.
-      generalize (Q X Y PX PY). intros. apply Rle_trans with (/ 16 * (tau * (4 * (1 + X * Y)))).
+    { replace (ax * tau * (1 + X) * (ay * tau * (1 + Y)))
+        with (ax * (ay * tau) * (tau * ((1 + X) * (1 + Y)))) by ring.
+      generalize (Q X Y PX PY). intros.
+      apply Rle_trans with (/ 16 * (tau * (4 * (1 + X * Y)))).
       - apply Rmult_le_compat; try lra.
         + apply Q; [| apply Q]; lra.
         + apply Q; [| apply Q]; lra.
         + apply Rmult_le_compat_l; lra.
       - lra. }
-    generalize (Q X Y PX PY). intros. assert (0 <= tau * (X * Y)) by (apply Q; lra). lra.
+    generalize (Q X Y PX PY). intros.
+    assert (0 <= tau * (X * Y)) by (apply Q; lra). lra.
   - cbn [StaticFilter.exact_size whole_mass whole_allowances degree]. auto.
 Qed.
 
@@ -244,22 +271,26 @@ Qed.
 Notation power := (power p).
 Lemma eta_p : eta * IZR (2 ^ p) <= / 4.
 Proof.
-  change 2%Z with (radix_val radix2). rewrite IZR_Zpower by (unfold Prec_gt_0 in *; lia). unfold Format.eta.
-  rewrite <- bpow_plus. replace (/ 4) with (bpow radix2 (- 2)) by (simpl; lra). apply bpow_le. lia.
+  change 2%Z with (radix_val radix2). rewrite IZR_Zpower by (unfold Prec_gt_0 in *; lia).
+  unfold Format.eta. rewrite <- bpow_plus. replace (/ 4) with (bpow radix2 (- 2)) by (simpl; lra).
+  apply bpow_le. lia.
 Qed.
 Lemma product_upper z : 0 <= z -> z <= (1 + u) * fl z + eta.
 Proof.
   intros P. generalize (u_small p ltac:(lia)) (eta_positive emin). intros U E.
   assert (0 <= fl z) by (apply rnd_nonnegative; auto with typeclass_instances).
-  assert (0 <= u * fl z) by (apply Rmult_le_pos; lra). destruct (Rlt_or_le z (smallest_normal p emin)) as [C | C].
+  assert (0 <= u * fl z) by (apply Rmult_le_pos; lra).
+  destruct (Rlt_or_le z (smallest_normal p emin)) as [C | C].
   - generalize (rnd_absolute p emin nearest _ _ (rounding_error_nearest p emin ltac:(lia)) z P C). lra.
   - generalize (normal_upper p emin z C). lra.
 Qed.
-Lemma shifted_power y k : 0 <= y <= 1 -> 2 * INR k * eta <= 1 -> (y + eta) ^ k <= y ^ k + 2 * INR k * eta.
+Lemma shifted_power y k : 0 <= y <= 1 -> 2 * INR k * eta <= 1 ->
+  (y + eta) ^ k <= y ^ k + 2 * INR k * eta.
 Proof.
-  intros Y. generalize (eta_positive emin). intros E. induction k as [| k IH]; [simpl; lra |]. rewrite S_INR. intros H.
-  generalize (pos_INR k). intros K. assert (0 <= INR k * eta) by (apply Rmult_le_pos; lra). specialize (IH ltac:(lra)).
-  rewrite <- !tech_pow_Rmult.
+  intros Y. generalize (eta_positive emin). intros E. induction k as [| k IH]; [simpl; lra |].
+  rewrite S_INR. intros H. generalize (pos_INR k). intros K.
+  assert (0 <= INR k * eta) by (apply Rmult_le_pos; lra).
+  specialize (IH ltac:(lra)). rewrite <- !tech_pow_Rmult.
   assert (0 <= y ^ k <= 1).
   { split; [apply pow_le; lra |]. rewrite <- (pow1 k). apply pow_incr. lra. }
   apply Rle_trans with ((y + eta) * (y ^ k + 2 * INR k * eta)).
@@ -268,55 +299,74 @@ Proof.
     assert (y * (INR k * eta) <= 1 * (INR k * eta)) by (apply Rmult_le_compat_r; lra).
     assert (eta * (2 * INR k * eta) <= eta * 1) by (apply Rmult_le_compat_l; lra). lra.
 Qed.
-Lemma number_1 : number 1. Proof. change 1 with (bpow radix2 0). apply number_power; auto. lia. Qed.
+Lemma number_1 : number 1.
+Proof. change 1 with (bpow radix2 0). apply number_power; auto. lia. Qed.
 
 Lemma even_half n : Nat.even n = true -> n = (2 * Nat.div2 n)%nat.
-Proof. intros H. apply Nat.even_spec in H. destruct H as [k ->]. now rewrite Nat.div2_double. Qed.
-Lemma power_lower fuel : forall n x, (1 <= n <= fuel)%nat -> number x -> 0 <= x -> 2 * INR n * eta <= 1 ->
-  0 <= code_power fuel n x /\ (x <= 1 -> x ^ n <= power n * (code_power fuel n x + 2 * INR n * eta)) /\
+Proof.
+  intros H. apply Nat.even_spec in H. destruct H as [k ->].
+  now rewrite Nat.div2_double.
+Qed.
+Lemma power_lower fuel : forall n x, (1 <= n <= fuel)%nat -> number x -> 0 <= x ->
+  2 * INR n * eta <= 1 ->
+  0 <= code_power fuel n x /\
+  (x <= 1 -> x ^ n <= power n * (code_power fuel n x + 2 * INR n * eta)) /\
   (1 <= x -> 1 <= code_power fuel n x /\ x ^ n <= power n * code_power fuel n x).
 Proof.
   generalize (u_small p ltac:(lia)) (eta_positive emin). intros U E.
   induction fuel as [| fuel IH]; intros n x Hn N P Hs; [lia |]. cbn [code_power].
-  assert (One : forall k, 1 <= power k) by (intros; apply power_1; lia). destruct (Nat.leb_spec n 1) as [L | L].
+  assert (One : forall k, 1 <= power k) by (intros; apply power_1; lia).
+  destruct (Nat.leb_spec n 1) as [L | L].
   { replace n with 1%nat in * by lia. unfold StaticFilter.power. simpl. split; auto.
     assert (0 <= u * x) by (apply Rmult_le_pos; lra).
     split; intros; [| split]; simpl in Hs; try lra. assert (0 <= u * eta) by nra. lra. }
   destruct (Nat.even n) eqn:Ev.
-  - apply even_half in Ev. set (k := Nat.div2 n) in *. assert (Sq : 0 <= x * x) by (apply Rmult_le_pos; auto).
+  - apply even_half in Ev. set (k := Nat.div2 n) in *.
+    assert (Sq : 0 <= x * x) by (apply Rmult_le_pos; auto).
     assert (Ny : number (fl (x * x))) by (apply rnd_number; auto with typeclass_instances).
     assert (Py : 0 <= fl (x * x)) by (apply rnd_nonnegative; auto with typeclass_instances).
-    assert (Kn : INR n = 2 * INR k) by (rewrite Ev, mult_INR; reflexivity). rewrite Kn in Hs. generalize (pos_INR k).
-    intros Pk. assert (0 <= INR k * eta) by (apply Rmult_le_pos; lra).
-    destruct (IH k (fl (x * x)) ltac:(lia) Ny Py ltac:(lra)) as (I1 & I2 & I3). set (y := fl (x * x)) in *.
-    set (c := code_power fuel k y) in *. rewrite Ev. replace (2 * k)%nat with (k + k)%nat by lia.
-    rewrite pow_add, <- Rpow_mult_distr. unfold StaticFilter.power. rewrite pow_add. fold (power k). split; auto.
-    split; intros X.
-    + assert (Y1 : y <= 1) by (apply rnd_below; auto using number_1 with typeclass_instances; nra). specialize (I2 Y1).
-      generalize (product_upper (x * x) Sq). fold y. intros Z. apply Rle_trans with (((1 + u) * (y + eta)) ^ k).
+    assert (Kn : INR n = 2 * INR k) by (rewrite Ev, mult_INR; reflexivity).
+    rewrite Kn in Hs.
+    generalize (pos_INR k). intros Pk.
+    assert (0 <= INR k * eta) by (apply Rmult_le_pos; lra).
+    destruct (IH k (fl (x * x)) ltac:(lia) Ny Py ltac:(lra)) as (I1 & I2 & I3).
+    set (y := fl (x * x)) in *. set (c := code_power fuel k y) in *.
+    rewrite Ev. replace (2 * k)%nat with (k + k)%nat by lia.
+    rewrite pow_add, <- Rpow_mult_distr. unfold StaticFilter.power. rewrite pow_add.
+    fold (power k). split; auto. split; intros X.
+    + assert (Y1 : y <= 1) by (apply rnd_below; auto using number_1 with typeclass_instances; nra).
+      specialize (I2 Y1). generalize (product_upper (x * x) Sq). fold y. intros Z.
+      apply Rle_trans with (((1 + u) * (y + eta)) ^ k).
       { apply pow_incr. split; auto. assert (0 <= u * eta) by (apply Rmult_le_pos; lra). lra. }
       rewrite Rpow_mult_distr. fold (power k). rewrite Rmult_assoc.
       apply Rmult_le_compat_l; [generalize (One k); lra |].
-      apply Rle_trans with (1 := shifted_power y k ltac:(lra) ltac:(lra)). rewrite plus_INR. generalize (One k).
-      intros Q. assert (1 * (2 * INR k * eta) <= power k * (2 * INR k * eta)) by (apply Rmult_le_compat_r; lra). lra.
+      apply Rle_trans with (1 := shifted_power y k ltac:(lra) ltac:(lra)).
+      rewrite plus_INR. generalize (One k). intros Q.
+      assert (1 * (2 * INR k * eta) <= power k * (2 * INR k * eta)) by (apply Rmult_le_compat_r; lra).
+      lra.
     + assert (Y1 : 1 <= y) by (apply rnd_above; auto using number_1 with typeclass_instances; nra).
       destruct (I3 Y1) as [I4 I5]. split; auto.
       assert (Z : x * x <= (1 + u) * y).
       { apply (normal_upper p emin). apply Rle_trans with 1; [| nra].
         change 1 with (bpow radix2 0). apply bpow_le. unfold Prec_gt_0 in *. lia. }
-      apply Rle_trans with (((1 + u) * y) ^ k); [apply pow_incr; lra |]. rewrite Rpow_mult_distr. fold (power k).
-      rewrite Rmult_assoc. apply Rmult_le_compat_l; [generalize (One k); lra | exact I5].
-  - assert (exists k, n = S k) as [k ->] by (exists (n - 1)%nat; lia). replace (S k - 1)%nat with k by lia.
-    rewrite S_INR in *. generalize (pos_INR k). intros Pk. assert (0 <= INR k * eta) by (apply Rmult_le_pos; lra).
-    destruct (IH k x ltac:(lia) N P ltac:(lra)) as (I1 & I2 & I3). set (c := code_power fuel k x) in *.
+      apply Rle_trans with (((1 + u) * y) ^ k); [apply pow_incr; lra |].
+      rewrite Rpow_mult_distr. fold (power k). rewrite Rmult_assoc.
+      apply Rmult_le_compat_l; [generalize (One k); lra | exact I5].
+  - assert (exists k, n = S k) as [k ->] by (exists (n - 1)%nat; lia).
+    replace (S k - 1)%nat with k by lia. rewrite S_INR in *.
+    generalize (pos_INR k). intros Pk. assert (0 <= INR k * eta) by (apply Rmult_le_pos; lra).
+    destruct (IH k x ltac:(lia) N P ltac:(lra)) as (I1 & I2 & I3).
+    set (c := code_power fuel k x) in *.
     assert (Pc : 0 <= c * x) by (apply Rmult_le_pos; auto).
     assert (Pf : 0 <= fl (c * x)) by (apply rnd_nonnegative; auto with typeclass_instances).
     rewrite <- tech_pow_Rmult, power_succ. generalize (One k). intros Q. split; auto. split; intros X.
     + specialize (I2 X). generalize (product_upper (c * x) Pc). intros Z.
       apply Rle_trans with (x * (power k * (c + 2 * INR k * eta))); [apply Rmult_le_compat_l; auto |].
-      replace (x * (power k * (c + 2 * INR k * eta))) with (power k * (c * x + x * (2 * INR k * eta))) by ring.
+      replace (x * (power k * (c + 2 * INR k * eta)))
+        with (power k * (c * x + x * (2 * INR k * eta))) by ring.
       replace ((1 + u) * power k * (fl (c * x) + 2 * (INR k + 1) * eta))
-        with (power k * ((1 + u) * (fl (c * x) + 2 * (INR k + 1) * eta))) by ring. apply Rmult_le_compat_l; [lra |].
+        with (power k * ((1 + u) * (fl (c * x) + 2 * (INR k + 1) * eta))) by ring.
+      apply Rmult_le_compat_l; [lra |].
       assert (x * (2 * INR k * eta) <= 1 * (2 * INR k * eta)) by (apply Rmult_le_compat_r; lra).
       assert (0 <= u * (2 * (INR k + 1) * eta)) by (apply Rmult_le_pos; lra). lra.
     + destruct (I3 X) as [I4 I5].
@@ -332,8 +382,9 @@ Qed.
 Lemma computed_power_lower n : (1 <= n)%nat -> 2 * INR n * eta <= 1 ->
   M ^ n <= power n * (computed_power n + 2 * INR n * eta) /\ 0 <= computed_power n.
 Proof.
-  intros L H. destruct (power_lower n n M ltac:(lia) M_number M_0 H) as (I1 & I2 & I3). split; auto.
-  generalize (eta_positive emin) (pos_INR n). intros E P. destruct (Rle_or_lt M 1) as [C | C]; [now apply I2 |].
+  intros L H. destruct (power_lower n n M ltac:(lia) M_number M_0 H) as (I1 & I2 & I3).
+  split; auto. generalize (eta_positive emin) (pos_INR n). intros E P.
+  destruct (Rle_or_lt M 1) as [C | C]; [now apply I2 |].
   destruct (I3 ltac:(lra)) as [_ I]. apply Rle_trans with (1 := I).
   apply Rmult_le_compat_l; [generalize (power_1 p ltac:(lia) n); lra |].
   assert (0 <= INR n * eta) by (apply Rmult_le_pos; lra). unfold computed_power. lra.
@@ -353,7 +404,8 @@ Qed.
 Lemma slack_enough t : 0 <= t -> 64 * (t + 3 * u) <= 1 ->
   (1 + u) ^ 6 * (1 + t) * ((1 + (t + u) + (t + u) * (t + u)) * (1 + u / 16)) <= 1 + 4 * t + 8 * u.
 Proof.
-  intros T H. generalize (u_positive p). intros U. assert (P2 : (1 + u) ^ 2 <= 1 + 2.01 * u) by (simpl; nra).
+  intros T H. generalize (u_positive p). intros U.
+  assert (P2 : (1 + u) ^ 2 <= 1 + 2.01 * u) by (simpl; nra).
   assert (P6 : (1 + u) ^ 6 <= 1 + 6.2 * u).
   { replace ((1 + u) ^ 6) with ((1 + u) ^ 2 * (1 + u) ^ 2 * (1 + u) ^ 2) by ring.
     assert (0 <= (1 + u) ^ 2) by (apply pow_le; lra).
@@ -363,29 +415,38 @@ Proof.
   set (y := t + u) in *. assert (Y : 0 <= y <= / 64) by (unfold y; lra).
   assert (A : (1 + t) * (1 + y + y * y) <= 1 + 2.05 * t + 1.05 * u).
   { assert (y * y <= / 64 * y) by (apply Rmult_le_compat_r; lra).
-    assert (t * (y + y * y) <= / 64 * (y + y * y)) by (apply Rmult_le_compat_r; nra). unfold y in *. lra. }
+    assert (t * (y + y * y) <= / 64 * (y + y * y)) by (apply Rmult_le_compat_r; nra).
+    unfold y in *. lra. }
   assert (B : (1 + u) ^ 6 * (1 + u / 16) <= 1 + 6.3 * u).
   { apply Rle_trans with ((1 + 6.2 * u) * (1 + u / 16)); [apply Rmult_le_compat_r; lra | nra]. }
   replace ((1 + u) ^ 6 * (1 + t) * ((1 + y + y * y) * (1 + u / 16)))
     with ((1 + u) ^ 6 * (1 + u / 16) * ((1 + t) * (1 + y + y * y))) by ring.
-  assert (0 <= (1 + u) ^ 6) by (apply pow_le; lra). apply Rle_trans with ((1 + 6.3 * u) * (1 + 2.05 * t + 1.05 * u)).
+  assert (0 <= (1 + u) ^ 6) by (apply pow_le; lra).
+  apply Rle_trans with ((1 + 6.3 * u) * (1 + 2.05 * t + 1.05 * u)).
   - apply Rmult_le_compat; auto.
     + apply Rmult_le_pos; lra.
     + apply Rmult_le_pos; [lra |]. assert (0 <= y * y) by (apply Rmult_le_pos; lra). lra.
   - nra.
 Qed.
 
-Lemma measured_bound_covers e : admissible p emin e -> measured e -> (1 <= whole_allowances e)%Z ->
-  (1 <= degree e)%nat -> (1 <= roundings e)%nat -> 64 * INR (roundings e + 3) * u <= 1 -> (whole_mass
-  e * Z.of_nat (degree e) <= 2 ^ (2 * p - 6))%Z -> Rabs (unrounded p emin e - exact e) <= semi_static_bound e.
+Lemma measured_bound_covers e : admissible p emin e -> measured e ->
+  (1 <= whole_allowances e)%Z -> (1 <= degree e)%nat -> (1 <= roundings e)%nat ->
+  64 * INR (roundings e + 3) * u <= 1 ->
+  (whole_mass e * Z.of_nat (degree e) <= 2 ^ (2 * p - 6))%Z ->
+  Rabs (unrounded p emin e - exact e) <= semi_static_bound e.
 Proof.
-  intros A Ho Ha Hd Hr H Hm. apply Rle_trans with (1 := proj2 (expression_near p emin ltac:(lia) ltac:(lia) e A)).
-  set (k := roundings e) in *. set (d := degree e) in *. generalize (u_positive p) (eta_positive emin) tau_positive.
-  intros U E T. destruct (masses e Ho) as (M1 & _ & Em & Ea).
-  assert (LM : (whole_mass e <= 2 ^ p)%Z /\ (whole_allowances e <= 2 ^ p)%Z) by (destruct e; split; apply Ho).
-  unfold semi_static_bound. rewrite Em, Ea. fold k d. generalize (measured_mass_covers_size e Ho). fold d.
-  destruct (Z.eqb_spec (whole_allowances e) 0) as [Z | _]; [lia |]. intros S0. set (mz := whole_mass e) in *.
-  set (az := whole_allowances e) in *. assert (Dr : (d <= S k)%nat) by now apply degree_roundings.
+  intros A Ho Ha Hd Hr H Hm.
+  apply Rle_trans with (1 := proj2 (expression_near p emin ltac:(lia) ltac:(lia) e A)).
+  set (k := roundings e) in *. set (d := degree e) in *.
+  generalize (u_positive p) (eta_positive emin) tau_positive. intros U E T.
+  destruct (masses e Ho) as (M1 & _ & Em & Ea).
+  assert (LM : (whole_mass e <= 2 ^ p)%Z /\ (whole_allowances e <= 2 ^ p)%Z)
+    by (destruct e; split; apply Ho).
+  unfold semi_static_bound. rewrite Em, Ea. fold k d.
+  generalize (measured_mass_covers_size e Ho). fold d.
+  destruct (Z.eqb_spec (whole_allowances e) 0) as [Z | _]; [lia |]. intros S0.
+  set (mz := whole_mass e) in *. set (az := whole_allowances e) in *.
+  assert (Dr : (d <= S k)%nat) by now apply degree_roundings.
   (* k u and the like *)
   assert (Kp : 64 * (INR k * u + 3 * u) <= 1).
   { rewrite plus_INR in H. simpl (INR 3) in H. lra. }
@@ -399,9 +460,11 @@ Proof.
     assert (u * INR d <= u * (INR k + 1)) by (apply Rmult_le_compat_l; lra). unfold t in *. lra. }
   generalize (pos_INR d). intros D0.
   assert (De : 2 * INR d * eta <= 1).
-  { generalize eta_p. intros. assert (INR d * eta <= IZR (2 ^ p) * eta) by (apply Rmult_le_compat_r; lra). lra. }
+  { generalize eta_p. intros. assert (INR d * eta <= IZR (2 ^ p) * eta) by (apply Rmult_le_compat_r; lra).
+    lra. }
   destruct (computed_power_lower d Hd De) as [Pw P0]. set (P := computed_power d) in *.
-  assert (m1 : 1 <= IZR mz) by now apply IZR_le. assert (a1 : 1 <= IZR az) by now apply IZR_le.
+  assert (m1 : 1 <= IZR mz) by now apply IZR_le.
+  assert (a1 : 1 <= IZR az) by now apply IZR_le.
   (* underflow of the power *)
   assert (Te : IZR mz * (2 * INR d * eta) <= tau / 64).
   { apply IZR_le in Hm. rewrite mult_IZR, <- INR_IZR_INZ in Hm.
@@ -409,7 +472,8 @@ Proof.
     assert (Q : IZR (radix_val radix2 ^ (2 * p - 6)) * eta <= tau / 128).
     { destruct (Z_le_gt_dec 0 (2 * p - 6)) as [N | N].
       - rewrite IZR_Zpower by lia. rewrite (allowance_exact p emin) by lia. unfold Format.eta, Rdiv.
-        replace (/ 128) with (bpow radix2 (- 7)) by (simpl; lra). rewrite <- !bpow_plus. apply bpow_le. lia.
+        replace (/ 128) with (bpow radix2 (- 7)) by (simpl; lra). rewrite <- !bpow_plus.
+        apply bpow_le. lia.
       - rewrite Z.pow_neg_r by lia. lra. }
     assert (IZR mz * INR d * eta <= IZR (radix_val radix2 ^ (2 * p - 6)) * eta)
       by (apply Rmult_le_compat_r; lra). lra. }
@@ -418,20 +482,23 @@ Proof.
     - apply power_le; auto; lia.
     - generalize (power_quadratic u (S k) ltac:(lra)). rewrite S_INR.
       replace ((INR k + 1) * u) with (t + u) by (unfold t; ring). intros Q. apply Q. lra. }
-  set (pw := 1 + (t + u) + (t + u) * (t + u)) in *. assert (Mn : 0 <= M ^ d) by apply power_nonnegative.
+  set (pw := 1 + (t + u) + (t + u) * (t + u)) in *.
+  assert (Mn : 0 <= M ^ d) by apply power_nonnegative.
   assert (MD : IZR mz * M ^ d <= pw * (IZR mz * P + tau / 64)).
   { apply Rle_trans with (IZR mz * (power d * (P + 2 * INR d * eta))).
     - apply Rmult_le_compat_l; lra.
     - replace (IZR mz * (power d * (P + 2 * INR d * eta)))
         with (power d * (IZR mz * P + IZR mz * (2 * INR d * eta))) by ring.
-      assert (0 <= INR d * eta) by (apply Rmult_le_pos; lra). assert (0 <= IZR mz * P) by (apply Rmult_le_pos; lra).
+      assert (0 <= INR d * eta) by (apply Rmult_le_pos; lra).
+      assert (0 <= IZR mz * P) by (apply Rmult_le_pos; lra).
       apply Rmult_le_compat; try lra.
       + generalize (power_1 p ltac:(lia) d). lra.
       + assert (0 <= IZR mz * (2 * INR d * eta)) by (apply Rmult_le_pos; lra). lra. }
   assert (AT : IZR az * tau <= u / 16).
   { apply Rmult_le_reg_l with (IZR (2 ^ p)).
     - rewrite <- (Rmult_1_l (IZR (2 ^ p))). nra.
-    - replace (IZR (2 ^ p) * (u / 16)) with (/ 16) by (unfold Rdiv; rewrite <- Rmult_assoc, (Rmult_comm _ u), Up; ring).
+    - replace (IZR (2 ^ p) * (u / 16)) with (/ 16) by (unfold Rdiv;
+      rewrite <- Rmult_assoc, (Rmult_comm _ u), Up; ring).
       generalize tau_small. intros. apply Rle_trans with (IZR (2 ^ p) * (IZR (2 ^ p) * tau)); auto.
       apply Rmult_le_compat_l; [apply IZR_le; lia |]. apply Rmult_le_compat_r; [lra | apply IZR_le; lia]. }
   assert (S1 : exact_size e <= pw * (1 + u / 16) * (IZR mz * P) + (IZR az - / 2) * tau).
@@ -443,19 +510,22 @@ Proof.
     assert (pw * (1 + u / 16) <= 2).
     { unfold pw. assert (0 <= t + u <= / 64) by lra.
       assert ((t + u) * (t + u) <= / 64 * (t + u)) by (apply Rmult_le_compat_r; lra). nra. }
-    assert (pw * (1 + u / 16) * (tau / 64) <= 2 * (tau / 64)) by (apply Rmult_le_compat_r; lra). lra. }
+    assert (pw * (1 + u / 16) * (tau / 64) <= 2 * (tau / 64)) by (apply Rmult_le_compat_r; lra).
+    lra. }
   (* the computed bound *)
   assert (Ptau : number (2 * IZR az * tau)).
   { rewrite (allowance_exact p emin) by lia.
     replace (2 * IZR az * bpow radix2 (emin + 2 * p + 1))
-      with (IZR az * bpow radix2 (emin + 2 * p + 1 + 1)) by (rewrite bpow_plus; change (bpow radix2 1) with 2; ring).
+      with (IZR az * bpow radix2 (emin + 2 * p + 1 + 1)) by (rewrite bpow_plus;
+        change (bpow radix2 1) with 2; ring).
     apply number_integer; auto; lia. }
   assert (Twice : forall z, (0 <= z <= 2 ^ p)%Z -> fl (2 * IZR z) = 2 * IZR z).
   { intros z Hz. apply rnd_exact; auto with typeclass_instances.
     replace (2 * IZR z) with (IZR z * bpow radix2 1) by (change (bpow radix2 1) with 2; ring).
     apply number_integer; auto; lia. }
-  rewrite !Twice by lia. rewrite (rnd_exact p emin nearest _ Ptau). set (a := fl (2 * IZR mz * P)).
-  set (s := fl (a + 2 * IZR az * tau)). assert (PP : 0 <= IZR mz * P) by (apply Rmult_le_pos; lra).
+  rewrite !Twice by lia. rewrite (rnd_exact p emin nearest _ Ptau).
+  set (a := fl (2 * IZR mz * P)). set (s := fl (a + 2 * IZR az * tau)).
+  assert (PP : 0 <= IZR mz * P) by (apply Rmult_le_pos; lra).
   assert (A1 : 2 * (IZR mz * P) <= (1 + u) * a + eta).
   { rewrite <- Rmult_assoc. apply product_upper. rewrite Rmult_assoc. lra. }
   assert (A0 : 0 <= a) by (apply rnd_nonnegative; auto with typeclass_instances; rewrite Rmult_assoc; lra).
@@ -479,7 +549,8 @@ Proof.
   assert (B1 : c * s <= (1 + u) * fl (c * s)).
   { apply (normal_upper p emin). apply Rle_trans with (u / 2 * tau).
     - rewrite (allowance_exact p emin) by lia. unfold Format.u, Rdiv.
-      replace (/ 2) with (bpow radix2 (- 1)) by reflexivity. rewrite <- !bpow_plus. apply bpow_le. lia.
+      replace (/ 2) with (bpow radix2 (- 1)) by reflexivity.
+      rewrite <- !bpow_plus. apply bpow_le. lia.
     - apply Rmult_le_compat; lra. }
   set (b := fl (c * s)) in *.
   (* together *)
@@ -489,14 +560,16 @@ Proof.
   assert (S2 : 2 * (IZR mz * P + (IZR az - / 4) * tau) <= (1 + u) ^ 2 * s).
   { apply Rle_trans with ((1 + u) * (a + 2 * IZR az * tau)).
     - assert (0 <= u * (2 * IZR az * tau)) by (apply Rmult_le_pos; lra). lra.
-    - replace ((1 + u) ^ 2 * s) with ((1 + u) * ((1 + u) * s)) by ring. apply Rmult_le_compat_l; lra. }
+    - replace ((1 + u) ^ 2 * s) with ((1 + u) * ((1 + u) * s)) by ring.
+      apply Rmult_le_compat_l; lra. }
   set (g := IZR mz * P + (IZR az - / 4) * tau) in *.
   assert (G0 : 0 <= g) by (unfold g; assert (0 <= (IZR az - / 4) * tau) by (apply Rmult_le_pos; lra); lra).
   assert (F1 : t * (1 + INR (4 * k + 8) * u) * g <= (1 + u) ^ 6 * b).
   { apply Rle_trans with ((1 + u) * (1 + u) * C * g); [apply Rmult_le_compat_r; auto |].
     replace ((1 + u) * (1 + u) * C * g) with ((1 + u) ^ 2 * ((C / 2) * (2 * g))) by field.
     replace ((1 + u) ^ 6 * b) with ((1 + u) ^ 2 * ((1 + u) ^ 3 * ((1 + u) * b))) by ring.
-    apply Rmult_le_compat_l; [apply pow_le; lra |]. apply Rle_trans with ((1 + u) * c * ((1 + u) ^ 2 * s)).
+    apply Rmult_le_compat_l; [apply pow_le; lra |].
+    apply Rle_trans with ((1 + u) * c * ((1 + u) ^ 2 * s)).
     - apply Rmult_le_compat; lra.
     - replace ((1 + u) * c * ((1 + u) ^ 2 * s)) with ((1 + u) ^ 3 * (c * s)) by ring.
       apply Rmult_le_compat_l; [apply pow_le; lra | exact B1]. }
@@ -513,12 +586,15 @@ Proof.
   { unfold pw. assert (0 <= (t + u) * (t + u)) by (apply Rmult_le_pos; lra).
     apply Rle_trans with (1 * 1); [lra | apply Rmult_le_compat; lra]. }
   assert (S3 : exact_size e <= pw * (1 + u / 16) * g).
-  { apply Rle_trans with (1 := S1). unfold g. assert (0 <= (IZR az - / 4) * tau) by (apply Rmult_le_pos; lra).
-    assert (1 * ((IZR az - / 4) * tau) <= pw * (1 + u / 16) * ((IZR az - / 4) * tau)) by (apply Rmult_le_compat_r; lra).
-    lra. }
-  apply Rmult_le_reg_l with ((1 + u) ^ 6); [lra |]. apply Rle_trans with (2 := F1).
+  { apply Rle_trans with (1 := S1). unfold g.
+    assert (0 <= (IZR az - / 4) * tau) by (apply Rmult_le_pos; lra).
+    assert (1 * ((IZR az - / 4) * tau) <= pw * (1 + u / 16) * ((IZR az - / 4) * tau))
+      by (apply Rmult_le_compat_r; lra). lra. }
+  apply Rmult_le_reg_l with ((1 + u) ^ 6); [lra |].
+  apply Rle_trans with (2 := F1).
   apply Rle_trans with ((1 + u) ^ 6 * (t * (1 + t) * (pw * (1 + u / 16) * g))).
-  - apply Rmult_le_compat_l; [lra |]. apply Rmult_le_compat; auto.
+  - apply Rmult_le_compat_l; [lra |].
+    apply Rmult_le_compat; auto.
     + generalize (power_1 p ltac:(lia) (Nat.pred k)). lra.
     + apply (exact_size_nonnegative p emin ltac:(lia)).
   - replace ((1 + u) ^ 6 * (t * (1 + t) * (pw * (1 + u / 16) * g)))
@@ -551,24 +627,29 @@ Proof. intros N P Q. apply rnd_above; auto with typeclass_instances. nra. Qed.
 Lemma mass_1 e : constants_not_zero e = true -> 1 <= mass e /\ 0 <= allowances e.
 Proof.
   assert (P2 : (1 <= 2 ^ p)%Z) by (generalize (Z.pow_le_mono_r 2 0 p); unfold Prec_gt_0 in p_positive; lia).
-  assert (Z0 : forall x, 0 <= x -> 0 <= fl x) by (intros; now apply rnd_nonnegative; auto with typeclass_instances).
+  assert (Z0 : forall x, 0 <= x -> 0 <= fl x) by (intros; now apply rnd_nonnegative;
+    auto with typeclass_instances).
   induction e as [c | a b | c | x IHx y IHy | x IHx y IHy | x IHx y IHy | x IHx];
     cbn [constants_not_zero mass allowances]; try (intros _; lra).
   - intros C. apply negb_true_iff, Z.eqb_neq in C. split; [| lra]. rewrite (fl_abs p emin), <- abs_IZR.
     apply (fl_above 1); [lia |]. apply IZR_le. lia.
-  - intros H. apply andb_prop in H. destruct H as (A & B). destruct (IHx A), (IHy B), (number_mass x), (number_mass y).
+  - intros H. apply andb_prop in H. destruct H as (A & B). destruct (IHx A), (IHy B), (number_mass x),
+    (number_mass y).
     split; [| apply Z0; lra]. apply Rle_trans with (mass x); auto. apply part_of_sum; auto. lra.
-  - intros H. apply andb_prop in H. destruct H as (A & B). destruct (IHx A), (IHy B), (number_mass x), (number_mass y).
+  - intros H. apply andb_prop in H. destruct H as (A & B). destruct (IHx A), (IHy B), (number_mass x),
+    (number_mass y).
     split; [| apply Z0; lra]. apply Rle_trans with (mass x); auto. apply part_of_sum; auto. lra.
-  - intros H. apply andb_prop in H. destruct H as (A & B). destruct (IHx A), (IHy B), (number_mass x), (number_mass y).
+  - intros H. apply andb_prop in H. destruct H as (A & B). destruct (IHx A), (IHy B), (number_mass x),
+    (number_mass y).
     split.
     + apply Rle_trans with (mass x); auto. apply part_of_product; auto. lra.
     + apply Z0. assert (0 <= fl (2 * fl (fl (mass x * allowances y) + fl (mass y * allowances x)))); [| lra].
       apply Z0, Rmult_le_pos; [lra |]. apply Z0, Rplus_le_le_0_compat; apply Z0, Rmult_le_pos; lra.
   - auto.
 Qed.
-Lemma trusted_measured e : homogeneous e -> constants_not_zero e = true -> mass e < IZR (2 ^ p) ->
-  allowances e < IZR (2 ^ p) -> measured e /\ (whole_mass e < 2 ^ p)%Z /\ (whole_allowances e < 2 ^ p)%Z.
+Lemma trusted_measured e : homogeneous e -> constants_not_zero e = true ->
+  mass e < IZR (2 ^ p) -> allowances e < IZR (2 ^ p) ->
+  measured e /\ (whole_mass e < 2 ^ p)%Z /\ (whole_allowances e < 2 ^ p)%Z.
 Proof.
   assert (P2 : (1 < 2 ^ p)%Z).
   { unfold Prec_gt_0 in p_positive. change 1%Z with (2 ^ 0)%Z. apply Z.pow_lt_mono_r; lia. }
@@ -585,11 +666,12 @@ Proof.
     assert (X1 : mass x <= fl (mass x + mass y)) by (apply part_of_sum; auto; lra).
     assert (X2 : mass y <= fl (mass x + mass y)) by (rewrite Rplus_comm; apply part_of_sum; auto; lra).
     assert (X3 : allowances x <= fl (allowances x + allowances y)) by (apply part_of_sum; auto).
-    assert (X4 : allowances y <= fl (allowances x + allowances y)) by (rewrite Rplus_comm; apply part_of_sum; auto).
+    assert (X4 : allowances y <= fl (allowances x + allowances y)) by (rewrite Rplus_comm;
+      apply part_of_sum; auto).
     destruct (IHx Cx ltac:(lra) ltac:(lra)) as (Mx & _ & _), (IHy Cy ltac:(lra) ltac:(lra)) as (My & _ & _).
     destruct (masses x Mx) as (U1 & U2 & E1 & E2), (masses y My) as (V1 & V2 & E3 & E4).
-    rewrite E1, E3, <- plus_IZR in M2. rewrite E2, E4, <- plus_IZR in A2. apply fl_whole_below in M2, A2; try lia.
-    tauto. }
+    rewrite E1, E3, <- plus_IZR in M2. rewrite E2, E4, <- plus_IZR in A2.
+    apply fl_whole_below in M2, A2; try lia. tauto. }
   induction e as [c | a b | c | x IHx y IHy | x IHx y IHy | x IHx y IHy | x IHx];
     cbn [homogeneous constants_not_zero mass allowances measured whole_mass whole_allowances].
   - intros H _ _ _. repeat split; auto; lia.
@@ -603,32 +685,41 @@ Proof.
   - intros (Hx & Hy) C M2 A2. apply andb_prop in C. destruct C as (Cx & Cy).
     destruct (mass_1 x Cx), (mass_1 y Cy), (number_mass x), (number_mass y).
     assert (N : forall r, number (fl r)) by (intros; apply rnd_number; auto with typeclass_instances).
-    assert (Z0 : forall r, 0 <= r -> 0 <= fl r) by (intros; now apply rnd_nonnegative; auto with typeclass_instances).
+    assert (Z0 : forall r, 0 <= r -> 0 <= fl r) by (intros; now apply rnd_nonnegative;
+      auto with typeclass_instances).
     assert (X1 : mass x <= fl (mass x * mass y)) by (apply part_of_product; auto; lra).
     assert (X2 : mass y <= fl (mass x * mass y)) by (rewrite Rmult_comm; apply part_of_product; auto; lra).
     set (a := fl (mass x * allowances y)) in *. set (b := fl (mass y * allowances x)) in *.
-    assert (Pa : 0 <= a) by (apply Z0, Rmult_le_pos; lra). assert (Pb : 0 <= b) by (apply Z0, Rmult_le_pos; lra).
+    assert (Pa : 0 <= a) by (apply Z0, Rmult_le_pos; lra). assert (Pb : 0 <= b) by (apply Z0, Rmult_le_pos;
+      lra).
     assert (X3 : allowances y <= a) by (unfold a; rewrite Rmult_comm; apply part_of_product; auto).
     assert (X4 : allowances x <= b) by (unfold b; rewrite Rmult_comm; apply part_of_product; auto).
     assert (X5 : a <= fl (a + b)) by (apply part_of_sum; auto; apply N).
-    assert (X6 : b <= fl (a + b)) by (rewrite Rplus_comm; apply part_of_sum; auto; apply N). set (s := fl (a + b)) in *.
+    assert (X6 : b <= fl (a + b)) by (rewrite Rplus_comm; apply part_of_sum; auto; apply N).
+    set (s := fl (a + b)) in *.
     assert (X7 : s <= fl (2 * s)) by (rewrite Rmult_comm; apply part_of_product; [apply N | lra | lra]).
-    set (d := fl (2 * s)) in *. assert (X8 : d <= fl (d + 2)) by (apply part_of_sum; [apply N | lra]).
-    destruct (IHx Hx Cx ltac:(lra) ltac:(lra)) as (Mx & _ & _), (IHy Hy Cy ltac:(lra) ltac:(lra)) as (My & _ & _).
+    set (d := fl (2 * s)) in *.
+    assert (X8 : d <= fl (d + 2)) by (apply part_of_sum; [apply N | lra]).
+    destruct (IHx Hx Cx ltac:(lra) ltac:(lra)) as (Mx & _ & _),
+      (IHy Hy Cy ltac:(lra) ltac:(lra)) as (My & _ & _).
     destruct (masses x Mx) as (U1 & U2 & E1 & E2), (masses y My) as (V1 & V2 & E3 & E4).
-    rewrite E1, E3, <- mult_IZR in M2. apply fl_whole_below in M2; [| lia]. assert (La : a < IZR (2 ^ p)) by lra.
-    assert (Lb : b < IZR (2 ^ p)) by lra. assert (Ls : s < IZR (2 ^ p)) by lra. assert (Ld : d < IZR (2 ^ p)) by lra.
-    unfold a in La. rewrite E1, E4, <- mult_IZR in La. apply fl_whole_below in La; [| lia]. unfold b in Lb.
-    rewrite E3, E2, <- mult_IZR in Lb. apply fl_whole_below in Lb; [| lia].
-    assert (Ea : a = IZR (whole_mass x * whole_allowances y)) by (unfold a; rewrite E1, E4, <- mult_IZR; apply La).
-    assert (Eb : b = IZR (whole_mass y * whole_allowances x)) by (unfold b; rewrite E3, E2, <- mult_IZR; apply Lb).
+    rewrite E1, E3, <- mult_IZR in M2. apply fl_whole_below in M2; [| lia].
+    assert (La : a < IZR (2 ^ p)) by lra. assert (Lb : b < IZR (2 ^ p)) by lra.
+    assert (Ls : s < IZR (2 ^ p)) by lra. assert (Ld : d < IZR (2 ^ p)) by lra.
+    unfold a in La. rewrite E1, E4, <- mult_IZR in La. apply fl_whole_below in La; [| lia].
+    unfold b in Lb. rewrite E3, E2, <- mult_IZR in Lb. apply fl_whole_below in Lb; [| lia].
+    assert (Ea : a = IZR (whole_mass x * whole_allowances y)) by (unfold a; rewrite E1, E4, <- mult_IZR;
+      apply La).
+    assert (Eb : b = IZR (whole_mass y * whole_allowances x)) by (unfold b; rewrite E3, E2, <- mult_IZR;
+      apply Lb).
     unfold s in Ls. rewrite Ea, Eb, <- plus_IZR in Ls. apply fl_whole_below in Ls; [| lia].
     assert (Es : s = IZR (whole_mass x * whole_allowances y + whole_mass y * whole_allowances x))
-      by (unfold s; rewrite Ea, Eb, <- plus_IZR; apply Ls). unfold d in Ld. rewrite Es, <- mult_IZR in Ld.
-    apply fl_whole_below in Ld; [| lia].
+      by (unfold s; rewrite Ea, Eb, <- plus_IZR; apply Ls).
+    unfold d in Ld. rewrite Es, <- mult_IZR in Ld. apply fl_whole_below in Ld; [| lia].
     assert (Ed : d = IZR (2 * (whole_mass x * whole_allowances y + whole_mass y * whole_allowances x)))
-      by (unfold d; rewrite Es, <- mult_IZR; apply Ld). rewrite Ed, <- plus_IZR in A2.
-    apply fl_whole_below in A2; [| lia]. repeat split; auto; lia.
+      by (unfold d; rewrite Es, <- mult_IZR; apply Ld).
+    rewrite Ed, <- plus_IZR in A2. apply fl_whole_below in A2; [| lia].
+    repeat split; auto; lia.
   - intros Hx C M2 A2. destruct (IHx Hx C M2 A2) as (Mx & L & K). repeat split; auto; lia.
 Qed.
 Lemma trusted_parts e : homogeneous e -> trusted e = true ->
@@ -636,7 +727,8 @@ Lemma trusted_parts e : homogeneous e -> trusted e = true ->
 Proof.
   intros H T. apply andb_prop in T. destruct T as (T & A). apply andb_prop in T. destruct T as (C & B).
   destruct (Rlt_bool_spec (mass e) (IZR (2 ^ p))) as [Lm |]; [| discriminate].
-  destruct (Rlt_bool_spec (allowances e) (IZR (2 ^ p))) as [La |]; [| discriminate]. now apply trusted_measured.
+  destruct (Rlt_bool_spec (allowances e) (IZR (2 ^ p))) as [La |]; [| discriminate].
+  now apply trusted_measured.
 Qed.
 
 Theorem mass_covers_size e : homogeneous e -> trusted e = true ->
@@ -686,7 +778,8 @@ Section Overflow.
 
 (** The format's largest number. Operations that exceed it give an infinity or NaN, as in StaticFilter.v. *)
 Context (largest : R) (largest_p : 2 * IZR (2 ^ p) <= largest).
-Notation in_range := (in_range largest). Notation value_in_range := (value_in_range p emin largest).
+Notation in_range := (in_range largest).
+Notation value_in_range := (value_in_range p emin largest).
 
 (** No operation of the bound overflows (those of m, a, tau and the constant cannot). *)
 Fixpoint power_in_range (fuel n : nat) (x : R) : Prop :=
@@ -706,9 +799,11 @@ Definition bound_in_range (e : expression) : Prop :=
 Definition semi_static_machine_sign (v b : ieee) : sign :=
   if less b (magnitude v) then if less (finite 0) v then positive else negative else uncertain.
 
-Lemma parts_in_range k m d : (forall x, admissible p emin x -> measured x -> (roundings x <= k)%nat ->
-  (whole_mass x <= m)%Z -> (degree x <= d)%nat -> in_range (value x)) -> forall e, admissible p emin e ->
-  measured e -> (roundings e <= k)%nat -> (whole_mass e <= m)%Z -> (degree e <= d)%nat -> value_in_range e.
+Lemma parts_in_range k m d :
+  (forall x, admissible p emin x -> measured x -> (roundings x <= k)%nat -> (whole_mass x <= m)%Z ->
+    (degree x <= d)%nat -> in_range (value x)) ->
+  forall e, admissible p emin e -> measured e -> (roundings e <= k)%nat -> (whole_mass e <= m)%Z ->
+    (degree e <= d)%nat -> value_in_range e.
 Proof.
   intros R. induction e as [c | a b | c | x IHx y IHy | x IHx y IHy | x IHx y IHy | x IHx]; intros A Me K L D;
     (split; [now apply R |]); auto;
@@ -728,7 +823,8 @@ Lemma bound_in_range_value e : admissible p emin e -> homogeneous e -> (1 <= deg
   64 * INR (roundings e + 3) * u <= 1 -> bound_in_range e -> value_in_range e.
 Proof.
   intros A Ho Hd Hk (T & _ & B & _). destruct (trusted_parts e Ho T) as (Me & Lm & _).
-  destruct (masses e Me) as (M1 & _ & Em & _). pose proof (degree_roundings e Me) as Dr.
+  destruct (masses e Me) as (M1 & _ & Em & _).
+  pose proof (degree_roundings e Me) as Dr.
   generalize (u_positive p) (eta_positive emin) tau_positive tau_small. intros U E Tp Ts.
   assert (P2 : (1 <= 2 ^ p)%Z) by (generalize (Z.pow_le_mono_r 2 0 p); unfold Prec_gt_0 in p_positive; lia).
   apply IZR_le in P2. set (k := roundings e) in *. set (m := whole_mass e) in *. set (d := degree e) in *.
@@ -755,7 +851,8 @@ Proof.
   { apply Rle_trans with (1 := Sx).
     assert (IZR (whole_mass x) * M ^ degree x <= IZR m * M ^ degree x) by (apply Rmult_le_compat_r; auto).
     destruct (whole_allowances x =? 0)%Z; [lra |].
-    assert (IZR (whole_allowances x) * tau * M ^ degree x <= / 16 * M ^ degree x) by (apply Rmult_le_compat_r; auto).
+    assert (IZR (whole_allowances x) * tau * M ^ degree x <= / 16 * M ^ degree x) by (apply
+      Rmult_le_compat_r; auto).
     lra. }
   unfold StaticFilter.in_range in *. destruct (Rle_or_lt M 1) as [C | C].
   - assert (M ^ degree x <= 1) by (rewrite <- (pow1 (degree x)); apply pow_incr; lra).
@@ -774,7 +871,8 @@ Proof.
     destruct (computed_power_lower d Hd ltac:(lra)) as (Pw & P0). set (P := computed_power d) in *.
     assert (Pd : power d <= 1.02) by (apply Rle_trans with (2 := Pk); apply power_le; auto; lia).
     assert (Q1 : M ^ d <= 1.02 * (P + / 64)).
-    { apply Rle_trans with (1 := Pw). pose proof (pos_INR d). assert (0 <= INR d * eta) by (apply Rmult_le_pos; lra).
+    { apply Rle_trans with (1 := Pw). pose proof (pos_INR d).
+      assert (0 <= INR d * eta) by (apply Rmult_le_pos; lra).
       apply Rmult_le_compat; try lra. pose proof (power_1 p ltac:(lia) d). lra. }
     rewrite Em in B. fold m in B.
     assert (Twice : fl (2 * IZR m) = 2 * IZR m).
@@ -804,7 +902,8 @@ Theorem semi_static_overflow_uncertain e v b : admissible p emin e -> homogeneou
   (~ bound_in_range e -> b = plus_infinity \/ b = nan) ->
   sign_is_right (semi_static_machine_sign v b) (exact e).
 Proof.
-  intros A Ho Ha Hd Hp Hr Hk V B B'. unfold semi_static_machine_sign. destruct (classic (bound_in_range e)) as [I | I].
+  intros A Ho Ha Hd Hp Hr Hk V B B'. unfold semi_static_machine_sign.
+  destruct (classic (bound_in_range e)) as [I | I].
   - generalize (semi_static_sign_certain e A Ho Ha Hd Hp Hr Hk). unfold semi_static_sign.
     rewrite (proj1 I), (V (bound_in_range_value e A Ho Hd Hk I)), (B I). easy.
   - destruct (B' I) as [-> | ->]; destruct v; exact Logic.I.

@@ -5,17 +5,24 @@
             that
                                   cover the computed differences, do not collide *)
 
-From Coq Require Import Reals ZArith List Lia Lra Psatz Bool. From Flocq Require Import Core.
-From Errbound Require Import Format Contact Decisions. Import ListNotations. Open Scope R_scope.
+From Coq Require Import Reals ZArith List Lia Lra Psatz Bool.
+From Flocq Require Import Core.
+From Errbound Require Import Format Contact Decisions.
+Import ListNotations.
+Open Scope R_scope.
 
-Notation p := 53%Z (only parsing). Notation emin := (-1074)%Z (only parsing).
+Notation p := 53%Z (only parsing).
+Notation emin := (-1074)%Z (only parsing).
 #[local] Instance double_precision : Prec_gt_0 p := eq_refl.
 
 Section SeparatingAxis.
 
 Context (direction : R -> Z) {direction_valid : Valid_rnd direction}.
-Notation fl := (rnd p emin direction). Notation flc := (rnd p emin nearest). Notation number := (number p emin).
-Notation eps := (eps p). Notation eta := (eta emin).
+Notation fl := (rnd p emin direction).
+Notation flc := (rnd p emin nearest).
+Notation number := (number p emin).
+Notation eps := (eps p).
+Notation eta := (eta emin).
 
 (** ** The code *)
 
@@ -55,7 +62,8 @@ Definition separated (sides : axis -> bool -> bool * bool) (axes : list axis) : 
 (** ** Errors: zero, or at most a bound minus one smallest number *)
 
 Definition near (bound r : R) : Prop := r = 0 \/ Rabs r <= bound - eta.
-Lemma near_more a b r : a <= b -> near a r -> near b r. Proof. intros L [-> | H]; [now left | right; lra]. Qed.
+Lemma near_more a b r : a <= b -> near a r -> near b r.
+Proof. intros L [-> | H]; [now left | right; lra]. Qed.
 Lemma near_sum a b r s : 0 <= a -> 0 <= b -> near a r -> near b s -> near (a + b) (r + s).
 Proof.
   generalize (eta_positive emin). intros P A B [-> | H] [-> | K].
@@ -64,7 +72,8 @@ Proof.
   - right. rewrite Rplus_0_r. lra.
   - right. apply Rle_trans with (1 := Rabs_triang r s). lra.
 Qed.
-Lemma near_opp a r : near a r -> near a (- r). Proof. intros [-> | H]; [left; ring | right; now rewrite Rabs_Ropp]. Qed.
+Lemma near_opp a r : near a r -> near a (- r).
+Proof. intros [-> | H]; [left; ring | right; now rewrite Rabs_Ropp]. Qed.
 Lemma near_size a r : 0 <= a -> near a r -> Rabs r <= a.
 Proof. generalize (eta_positive emin). intros P A [-> | H]; [rewrite Rabs_R0; lra | lra]. Qed.
 
@@ -73,7 +82,8 @@ Proof.
   intros N. apply generic_format_FIX_FLT in N. apply FIX_format_generic in N.
   destruct N as [[n e] E F]. simpl in F. exists n. rewrite E, F. reflexivity.
 Qed.
-Lemma number_fl r : number (fl r). Proof. apply rnd_number; auto with typeclass_instances. Qed.
+Lemma number_fl r : number (fl r).
+Proof. apply rnd_number; auto with typeclass_instances. Qed.
 
 (** The error of a sum is a multiple of eta and less than an ulp, which is a multiple, too. *)
 Lemma sum_near r s : number r -> number s -> near (eps * Rabs (r + s)) (fl (r + s) - (r + s)).
@@ -86,31 +96,40 @@ Proof.
   { apply error_lt_ulp; auto with typeclass_instances. }
   assert (U : ulp radix2 (FLT_exp emin p) (r + s) <= Rabs (r + s) * eps).
   { apply ulp_FLT_le. exact S. }
-  rewrite ulp_neq_0 in L, U by easy. unfold cexp, FLT_exp in L, U. set (e := Z.max (mag radix2 (r + s) - p) emin) in *.
+  rewrite ulp_neq_0 in L, U by easy. unfold cexp, FLT_exp in L, U.
+  set (e := Z.max (mag radix2 (r + s) - p) emin) in *.
   assert (G : bpow radix2 e = IZR (2 ^ (e - emin)) * eta).
   { unfold Format.eta. rewrite (IZR_Zpower radix2) by lia. rewrite <- bpow_plus. f_equal. lia. }
   destruct (multiple r X) as (a & A). destruct (multiple s Y) as (b & B).
   destruct (multiple (fl (r + s)) (number_fl _)) as (c & C).
-  assert (E : fl (r + s) - (r + s) = IZR (c - a - b) * eta) by (rewrite C, A, B, !minus_IZR; ring).
+  assert (E : fl (r + s) - (r + s) = IZR (c - a - b) * eta)
+    by (rewrite C, A, B, !minus_IZR; ring).
   generalize (eta_positive emin). intros P. rewrite E, Rabs_mult, (Rabs_pos_eq eta) in * by lra.
-  rewrite <- abs_IZR in *. rewrite G in L, U. apply Rmult_lt_reg_r in L; auto. apply lt_IZR in L.
-  assert (M : (Z.abs (c - a - b) + 1 <= 2 ^ (e - emin))%Z) by lia. apply IZR_le in M. rewrite plus_IZR in M.
-  assert ((IZR (Z.abs (c - a - b)) + 1) * eta <= IZR (2 ^ (e - emin)) * eta) by (apply Rmult_le_compat_r; lra). lra.
+  rewrite <- abs_IZR in *. rewrite G in L, U. apply Rmult_lt_reg_r in L; auto.
+  apply lt_IZR in L. assert (M : (Z.abs (c - a - b) + 1 <= 2 ^ (e - emin))%Z) by lia.
+  apply IZR_le in M. rewrite plus_IZR in M.
+  assert ((IZR (Z.abs (c - a - b)) + 1) * eta <= IZR (2 ^ (e - emin)) * eta)
+    by (apply Rmult_le_compat_r; lra). lra.
 Qed.
 Lemma difference_near r s : number r -> number s -> near (eps * Rabs (r - s)) (fl (r - s) - (r - s)).
 Proof. intros X Y. apply (sum_near r (- s)); auto. now apply number_opp. Qed.
 
 Lemma eps_tiny : 0 < eps <= / 1000000.
-Proof. split; [apply bpow_gt_0 |]. apply Rle_trans with (bpow radix2 (- 20)); [apply bpow_le; lia |]. simpl. lra. Qed.
+Proof.
+  split; [apply bpow_gt_0 |]. apply Rle_trans with (bpow radix2 (- 20)); [apply bpow_le; lia |].
+  simpl. lra.
+Qed.
 (** The error in terms of the result. *)
-Lemma near_result r m : near (eps * Rabs r) (fl r - r) -> Rabs (fl r) <= m -> near (1.01 * eps * m) (fl r - r).
+Lemma near_result r m : near (eps * Rabs r) (fl r - r) -> Rabs (fl r) <= m ->
+  near (1.01 * eps * m) (fl r - r).
 Proof.
   intros N L. generalize eps_tiny. intros P. apply near_more with (2 := N).
   apply near_size in N; [| apply Rmult_le_pos; [lra | apply Rabs_pos]].
   assert (Rabs r - Rabs (fl r) <= Rabs (fl r - r)).
   { rewrite (Rabs_minus_sym (fl r)). apply Rabs_triang_inv. }
   assert (eps * Rabs r <= / 1000000 * Rabs r) by (apply Rmult_le_compat_r; [apply Rabs_pos | lra]).
-  pose proof (Rabs_pos (fl r)). apply Rle_trans with (eps * (1.01 * m)); [| lra]. apply Rmult_le_compat_l; lra.
+  pose proof (Rabs_pos (fl r)). apply Rle_trans with (eps * (1.01 * m)); [| lra].
+  apply Rmult_le_compat_l; lra.
 Qed.
 
 (** ** The margin *)
@@ -131,9 +150,11 @@ Proof.
     apply number_power; [exact eq_refl | lia]. }
   split.
   - apply Rle_trans with (flc 9.2 * eps * (1 - u p)).
-    + replace (flc 9.2 * eps * (1 - u p)) with (flc 9.2 * (1 - u p) * eps) by ring. apply Rmult_le_compat_r; nra.
+    + replace (flc 9.2 * eps * (1 - u p)) with (flc 9.2 * (1 - u p) * eps) by ring.
+      apply Rmult_le_compat_r; nra.
     + apply (rnd_relative p emin nearest (u p) (eta / 2) nearest_error).
-      apply Rle_trans with (1 * eps); [rewrite Rmult_1_l; apply bpow_le; lia |]. apply Rmult_le_compat_r; nra.
+      apply Rle_trans with (1 * eps); [rewrite Rmult_1_l; apply bpow_le; lia |].
+      apply Rmult_le_compat_r; nra.
   - apply rnd_below; auto with typeclass_instances.
     + change 16 with (bpow radix2 4). unfold Format.eps. rewrite <- bpow_plus.
       apply number_power; [exact eq_refl | lia].
@@ -150,7 +171,8 @@ Lemma allowed_bounds : 0 <= allowed /\ 9.18 * eps * M - eta <= allowed <= 17 * e
 Proof.
   destruct margin_bounds as (L & H). generalize eps_tiny (eta_positive emin). intros P Q.
   assert (C : 0 <= Mc) by (assert (0 <= M * (1 - eps)) by (apply Rmult_le_pos; lra); lra).
-  assert (D : 0 <= Mc * margin) by (apply Rmult_le_pos; lra). assert (EM : 0 <= eps * M) by (apply Rmult_le_pos; lra).
+  assert (D : 0 <= Mc * margin) by (apply Rmult_le_pos; lra).
+  assert (EM : 0 <= eps * M) by (apply Rmult_le_pos; lra).
   assert (E2 : eps * (eps * M) <= / 1000000 * (eps * M)) by (apply Rmult_le_compat_r; lra).
   assert (X : Mc * margin <= 16.1 * (eps * M)).
   { apply Rle_trans with (M * (1 + eps) * (16 * eps)); [apply Rmult_le_compat; lra |].
@@ -168,7 +190,8 @@ Proof.
     - generalize (error_relative p emin direction eps eta any_error _ S). intros K.
       rewrite (Rabs_pos_eq (Mc * margin)) in K by easy. apply Rabs_le_inv in K. lra. }
   assert (Mc * margin * eps <= 16.1 * (eps * (eps * M))).
-  { replace (16.1 * (eps * (eps * M))) with (16.1 * (eps * M) * eps) by ring. apply Rmult_le_compat_r; lra. }
+  { replace (16.1 * (eps * (eps * M))) with (16.1 * (eps * M) * eps) by ring.
+    apply Rmult_le_compat_r; lra. }
   split; lra.
 Qed.
 
@@ -176,11 +199,13 @@ Qed.
 Lemma bound_near r s : number r -> Rabs r <= 1.01 * M -> s = allowed \/ s = - allowed ->
   near (1.02 * eps * M) (fl (r + s) - (r + s)).
 Proof.
-  intros N L S. destruct allowed_bounds as (E0 & E1 & E2). generalize eps_tiny (eta_positive emin). intros P Q.
+  intros N L S. destruct allowed_bounds as (E0 & E1 & E2).
+  generalize eps_tiny (eta_positive emin). intros P Q.
   assert (NS : number s) by (destruct S as [-> | ->]; [| apply number_opp]; apply number_fl).
   assert (LS : Rabs s = allowed) by (destruct S as [-> | ->]; rewrite ?Rabs_Ropp; now apply Rabs_pos_eq).
-  assert (EM : eps * M <= / 1000000 * M) by (apply Rmult_le_compat_r; lra). pose proof (Rabs_triang r s) as T.
-  rewrite LS in T. destruct (Rlt_or_le M (1000 * eta)) as [Tiny | Large].
+  assert (EM : eps * M <= / 1000000 * M) by (apply Rmult_le_compat_r; lra).
+  pose proof (Rabs_triang r s) as T. rewrite LS in T.
+  destruct (Rlt_or_le M (1000 * eta)) as [Tiny | Large].
   - left. rewrite (sum_exact_below p emin direction r s N NS); [ring |].
     apply Rle_lt_trans with (1 := T). apply Rlt_le_trans with (2000 * eta); [lra |].
     unfold smallest_normal, Format.eta. apply Rle_trans with (bpow radix2 11 * bpow radix2 (-1074)).
@@ -191,18 +216,22 @@ Proof.
 Qed.
 
 (** r' and s' are the computed r and s, with errors of 8.1 eps M together. *)
-Lemma after_margin r s r' s' A B : 0 <= A -> 0 <= B -> A + B <= 8.1 * eps * M -> number r' -> Rabs r' <= 1.01 * M ->
-  near A (r' - r) -> near B (s' - s) -> (fl (r' + allowed) < s' -> r < s) /\ (s' < fl (r' - allowed) -> s < r).
+Lemma after_margin r s r' s' A B : 0 <= A -> 0 <= B -> A + B <= 8.1 * eps * M ->
+  number r' -> Rabs r' <= 1.01 * M -> near A (r' - r) -> near B (s' - s) ->
+  (fl (r' + allowed) < s' -> r < s) /\ (s' < fl (r' - allowed) -> s < r).
 Proof.
-  intros PA PB S N L Nr Ns. destruct allowed_bounds as (E0 & E1 & E2). generalize eps_tiny (eta_positive emin).
-  intros P Q. assert (EM : 0 <= eps * M) by (apply Rmult_le_pos; lra).
+  intros PA PB S N L Nr Ns. destruct allowed_bounds as (E0 & E1 & E2).
+  generalize eps_tiny (eta_positive emin). intros P Q.
+  assert (EM : 0 <= eps * M) by (apply Rmult_le_pos; lra).
   assert (Final : forall t, near (A + B + 1.02 * eps * M) t -> t <= allowed).
   { intros t [-> | H]; [easy |]. apply Rabs_le_inv in H. lra. }
-  assert (D : near (A + B) ((r' - r) + - (s' - s))) by (apply near_sum; auto; now apply near_opp). split; intros H.
+  assert (D : near (A + B) ((r' - r) + - (s' - s))) by (apply near_sum; auto; now apply near_opp).
+  split; intros H.
   - pose proof (bound_near r' allowed N L (or_introl eq_refl)) as R1.
     enough (- ((r' - r) + - (s' - s) + (fl (r' + allowed) - (r' + allowed))) <= allowed) by lra.
     apply Final, near_opp, near_sum; auto; lra.
-  - pose proof (bound_near r' (- allowed) N L (or_intror eq_refl)) as R2. fold (r' - allowed) in R2.
+  - pose proof (bound_near r' (- allowed) N L (or_intror eq_refl)) as R2.
+    fold (r' - allowed) in R2.
     enough ((r' - r) + - (s' - s) + (fl (r' - allowed) - (r' - allowed)) <= allowed) by lra.
     apply Final, near_sum; auto; lra.
 Qed.
@@ -223,9 +252,10 @@ Definition measures (m : point) (a : axis) : Prop := exists M, 0 <= M /\
 Lemma coordinate_measures m r s : number r -> number s -> Rabs (fl (r - s)) <= m ->
   number (fl (r - s)) /\ near (1.01 * eps * m) (fl (r - s) - (r - s)).
 Proof. intros A B L. split; [apply number_fl |]. apply near_result; auto. now apply difference_near. Qed.
-Lemma sum_measures m n r s r' s' : number r' -> number s' -> Rabs r' <= m ->
-  Rabs s' <= n -> near (1.01 * eps * m) (r' - r) -> near (1.01 * eps * n) (s' - s) -> number (fl (r' + s')) /\
-  Rabs (fl (r' + s')) <= 1.001 * (m + n) /\ near (2.02 * eps * (m + n)) (fl (r' + s') - (r + s)).
+Lemma sum_measures m n r s r' s' : number r' -> number s' -> Rabs r' <= m -> Rabs s' <= n ->
+  near (1.01 * eps * m) (r' - r) -> near (1.01 * eps * n) (s' - s) ->
+  number (fl (r' + s')) /\ Rabs (fl (r' + s')) <= 1.001 * (m + n) /\
+  near (2.02 * eps * (m + n)) (fl (r' + s') - (r + s)).
 Proof.
   intros A B L K E F. generalize eps_tiny. intros P. pose proof (Rabs_pos r'). pose proof (Rabs_pos s').
   pose proof (sum_near r' s' A B) as N. pose proof (Rabs_triang r' s') as T.
@@ -253,7 +283,8 @@ Section Axes.
 
 Context (m : point) (m_number : number (x m) /\ number (y m) /\ number (z m)) (m_0 : 0 <= x m /\ 0 <= y m /\ 0 <= z m).
 
-Lemma axes_measure a : In a (coordinate_axes (x m) (y m) (z m) ++ diagonal_axes (x m) (y m) (z m)) -> measures m a.
+Lemma axes_measure a : In a (coordinate_axes (x m) (y m) (z m) ++ diagonal_axes (x m) (y m) (z m)) ->
+  measures m a.
 Proof.
   generalize eps_tiny. intros P. destruct m_number as (NX & NY & NZ), m_0 as (X & Y & Z).
   assert (One : forall n, 0 <= n -> n * (1 - eps) <= n <= n * (1 + eps)).
@@ -264,11 +295,14 @@ Proof.
   { intros n r s H. replace (- r - - s) with (- (r - s)) by ring. now apply near_opp. }
   intros I. cbn in I. unfold measures.
   destruct I as [<- | [<- | [<- | [<- | [<- | [<- | [<- | [<- | [<- | []]]]]]]]]];
-    [exists (x m) | exists (y m) | exists (z m) | exists (x m + y m) | exists (x m + y m) | exists (y m + z m) |
-    exists (y m + z m) | exists (z m + x m) | exists (z m + x m)]; cbn [project along_axis size]; (split; [lra |]);
-    (split; [auto using size_sum; fail |]); intros q r Qx Qy Qz Rx Ry Rz; cbn zeta; unfold difference_of,
-    dot, minus; cbn [x y z]; intros Lx Ly Lz; destruct (coordinate_measures _ _ _ Qx Rx Lx) as (Nx & Ex),
-    (coordinate_measures _ _ _ Qy Ry Ly) as (Ny & Ey), (coordinate_measures _ _ _ Qz Rz Lz) as (Nz & Ez).
+    [exists (x m) | exists (y m) | exists (z m) | exists (x m + y m) | exists (x m + y m) |
+     exists (y m + z m) | exists (y m + z m) | exists (z m + x m) | exists (z m + x m)];
+    cbn [project along_axis size]; (split; [lra |]); (split; [auto using size_sum; fail |]);
+    intros q r Qx Qy Qz Rx Ry Rz; cbn zeta; unfold difference_of, dot, minus; cbn [x y z];
+    intros Lx Ly Lz;
+    destruct (coordinate_measures _ _ _ Qx Rx Lx) as (Nx & Ex),
+      (coordinate_measures _ _ _ Qy Ry Ly) as (Ny & Ey),
+      (coordinate_measures _ _ _ Qz Rz Lz) as (Nz & Ez).
   1-3: split; [apply number_fl |]; split; [lra |]; rewrite ?Rmult_0_l, ?Rmult_1_l, ?Rplus_0_l, ?Rplus_0_r;
     now apply More.
   - replace (1 * (x q - x r) + 1 * (y q - y r) + 0 * (z q - z r)) with ((x q - x r) + (y q - y r)) by ring.
@@ -299,16 +333,21 @@ Definition within (v : bool -> point) : Prop := forall e,
 Definition sized (d : differences) : Prop := within (b d) /\ within (c d) /\ within (p_ d).
 
 (** An axis computed from one difference. *)
-Lemma measured a q r e M : numbers q -> numbers r -> within (fun e => difference_of (at_end q e) (at_end r e)) ->
+Lemma measured a q r e M : numbers q -> numbers r ->
+  within (fun e => difference_of (at_end q e) (at_end r e)) ->
   (forall q p, number (x q) -> number (y q) -> number (z q) -> number (x p) -> number (y p) -> number (z p) ->
-  let d := difference_of q p in Rabs (x d) <= x m -> Rabs (y d) <= y m -> Rabs (z d) <= z m -> number (project a d) /\
-  Rabs (project a d) <= 1.001 * M /\ near (2.02 * eps * M) (project a d - dot (along_axis a) (minus q p))) ->
-  let d := project a (difference_of (at_end q e) (at_end r e)) in number d /\ Rabs d <= 1.001 * M /\
+    let d := difference_of q p in
+    Rabs (x d) <= x m -> Rabs (y d) <= y m -> Rabs (z d) <= z m ->
+    number (project a d) /\ Rabs (project a d) <= 1.001 * M /\
+    near (2.02 * eps * M) (project a d - dot (along_axis a) (minus q p))) ->
+  let d := project a (difference_of (at_end q e) (at_end r e)) in
+  number d /\ Rabs d <= 1.001 * M /\
   near (2.02 * eps * M) (d - (dot (along_axis a) (at_end q e) - dot (along_axis a) (at_end r e))).
 Proof.
-  intros Q R W H. destruct (Q e) as (Q1 & Q2 & Q3), (R e) as (R1 & R2 & R3), (W e) as (W1 & W2 & W3). cbv zeta.
-  replace (dot (along_axis a) (at_end q e) - dot (along_axis a) (at_end r e))
-    with (dot (along_axis a) (minus (at_end q e) (at_end r e))) by (unfold dot, minus; simpl; ring). now apply H.
+  intros Q R W H. destruct (Q e) as (Q1 & Q2 & Q3), (R e) as (R1 & R2 & R3), (W e) as (W1 & W2 & W3).
+  cbv zeta. replace (dot (along_axis a) (at_end q e) - dot (along_axis a) (at_end r e))
+    with (dot (along_axis a) (minus (at_end q e) (at_end r e))) by (unfold dot, minus; simpl; ring).
+  now apply H.
 Qed.
 
 Lemma before_of n q r : (forall e, dot n (at_end q e) < dot n (at_end r e)) -> before n q r.
@@ -322,12 +361,18 @@ Proof.
   unfold separated_along. intros H. apply orb_prop in H. destruct H as [H | H]; apply andb_prop in H;
     [left | right]; intros []; apply H.
 Qed.
-Lemma separated_on sides : separated sides (coordinate_axes (x m) (y m) (z m)) = true \/
-  separated sides (diagonal_axes (x m) (y m) (z m)) = true -> exists a,
-  In a (coordinate_axes (x m) (y m) (z m) ++ diagonal_axes (x m) (y m) (z m)) /\ separated_along (sides a) = true.
-Proof. intros [T | T]; apply existsb_exists in T; destruct T as (a & I & T); exists a; rewrite in_app_iff; auto. Qed.
-Lemma less_of a b : Rlt_bool a b = true -> a < b. Proof. destruct (Rlt_bool_spec a b); [easy | discriminate]. Qed.
-Lemma fl_le r s : r <= s -> fl r <= fl s. Proof. apply rnd_le; auto with typeclass_instances. Qed.
+Lemma separated_on sides :
+  separated sides (coordinate_axes (x m) (y m) (z m)) = true \/ separated sides (diagonal_axes (x m) (y m) (z m)) =
+    true ->
+  exists a, In a (coordinate_axes (x m) (y m) (z m) ++ diagonal_axes (x m) (y m) (z m)) /\
+    separated_along (sides a) = true.
+Proof.
+  intros [T | T]; apply existsb_exists in T; destruct T as (a & I & T); exists a; rewrite in_app_iff; auto.
+Qed.
+Lemma less_of a b : Rlt_bool a b = true -> a < b.
+Proof. destruct (Rlt_bool_spec a b); [easy | discriminate]. Qed.
+Lemma fl_le r s : r <= s -> fl r <= fl s.
+Proof. apply rnd_le; auto with typeclass_instances. Qed.
 
 Section Face.
 
@@ -336,10 +381,12 @@ Context (v f0 f1 f2 : moving) (v_numbers : numbers v) (f0_numbers : numbers f0) 
 Notation d := (differences_of f1 f0 f2 f0 v f0).
 Hypothesis d_sized : sized d.
 
-Lemma face_axis a : measures m a -> separated_along (face_sides d a) = true -> ~ vertex_face_collides v f0 f1 f2.
+Lemma face_axis a : measures m a -> separated_along (face_sides d a) = true ->
+  ~ vertex_face_collides v f0 f1 f2.
 Proof.
   intros (M & M0 & Ms & H) T. generalize eps_tiny. intros P. destruct d_sized as (Wb & Wc & Wp).
-  assert (EM : 0 <= eps * M) by (apply Rmult_le_pos; lra). pose (D := dot (along_axis a)).
+  assert (EM : 0 <= eps * M) by (apply Rmult_le_pos; lra).
+  pose (D := dot (along_axis a)).
   assert (Zero : number 0 /\ Rabs 0 <= 1.01 * M /\ forall r, near (2.02 * eps * M) (0 - (r - r))).
   { split; [apply number_0 |]. split; [rewrite Rabs_R0; lra |]. intros r. left. ring. }
   assert (Side : forall e,
@@ -365,11 +412,13 @@ Proof.
       destruct (after_margin M (size a) M0 Ms _ _ _ _ (2.02 * eps * M) (2.02 * eps * M)
         ltac:(lra) ltac:(lra) ltac:(lra) N L E Ep) as (A1 & A2).
       split; intros K; [apply A1 in K | apply A2 in K]; lra. }
-    pose proof (G (D (at_end f0 e)) 0 Nz Lz (Ez _)) as G0. pose proof (G (D (at_end f1 e)) b' Nb ltac:(lra) Eb) as G1.
-    pose proof (G (D (at_end f2 e)) c' Nc ltac:(lra) Ec) as G2. pose proof (Rmax_l (Rmax b' c') 0).
-    pose proof (Rmax_r (Rmax b' c') 0). pose proof (Rmax_l b' c'). pose proof (Rmax_r b' c').
-    pose proof (Rmin_l (Rmin b' c') 0). pose proof (Rmin_r (Rmin b' c') 0). pose proof (Rmin_l b' c').
-    pose proof (Rmin_r b' c').
+    pose proof (G (D (at_end f0 e)) 0 Nz Lz (Ez _)) as G0.
+    pose proof (G (D (at_end f1 e)) b' Nb ltac:(lra) Eb) as G1.
+    pose proof (G (D (at_end f2 e)) c' Nc ltac:(lra) Ec) as G2.
+    pose proof (Rmax_l (Rmax b' c') 0). pose proof (Rmax_r (Rmax b' c') 0).
+    pose proof (Rmax_l b' c'). pose proof (Rmax_r b' c').
+    pose proof (Rmin_l (Rmin b' c') 0). pose proof (Rmin_r (Rmin b' c') 0).
+    pose proof (Rmin_l b' c'). pose proof (Rmin_r b' c').
     split; intros K; apply less_of in K; (split; [apply G0 | split; [apply G1 | apply G2]]);
       (eapply Rle_lt_trans; [| exact K]) || (eapply Rlt_le_trans; [exact K |]); apply fl_le; lra. }
   apply separated_sides in T. destruct T as [T | T].
@@ -392,7 +441,8 @@ Context (a0 a1 b0 b1 : moving) (a0_numbers : numbers a0) (a1_numbers : numbers a
 Notation d := (differences_of a1 a0 b1 b0 b0 a0).
 Hypothesis d_sized : sized d.
 
-Lemma edges_axis a : measures m a -> separated_along (edge_sides d a) = true -> ~ edge_edge_collides a0 a1 b0 b1.
+Lemma edges_axis a : measures m a -> separated_along (edge_sides d a) = true ->
+  ~ edge_edge_collides a0 a1 b0 b1.
 Proof.
   intros (M & M0 & Ms & H) T. generalize eps_tiny. intros P. destruct d_sized as (Wb & Wc & Wp).
   assert (EM : 0 <= eps * M <= / 1000000 * M) by (split; [apply Rmult_le_pos | apply Rmult_le_compat_r]; lra).
@@ -415,27 +465,34 @@ Proof.
     set (b' := project a (difference_of (at_end b0 e) (at_end a0 e))) in *.
     destruct Ha as (Na & La & Ea), Hc as (Nc & Lc & Ec), Hp as (Np & Lp & Ep), Zero as (Nz & Lz & Ez).
     assert (E1 : near (6.07 * eps * M) (fl (b' + c') - (D (at_end b1 e) - D (at_end a0 e)))).
-    { replace (fl (b' + c') - (D (at_end b1 e) - D (at_end a0 e))) with ((fl (b' + c') - (b' + c'))
-        + ((b' - (D (at_end b0 e) - D (at_end a0 e))) + (c' - (D (at_end b1 e) - D (at_end b0 e))))) by ring.
+    { replace (fl (b' + c') - (D (at_end b1 e) - D (at_end a0 e))) with
+        ((fl (b' + c') - (b' + c')) + ((b' - (D (at_end b0 e) - D (at_end a0 e))) +
+                                       (c' - (D (at_end b1 e) - D (at_end b0 e))))) by ring.
       apply near_more with (2.03 * eps * M + (2.02 * eps * M + 2.02 * eps * M)); [lra |].
-      apply near_sum; try lra; [| apply near_sum; auto; lra]. apply near_more with (2 := sum_near b' c' Np Nc).
-      pose proof (Rabs_triang b' c'). apply Rle_trans with (eps * (2.03 * M)); [apply Rmult_le_compat_l; lra | lra]. }
+      apply near_sum; try lra; [| apply near_sum; auto; lra].
+      apply near_more with (2 := sum_near b' c' Np Nc). pose proof (Rabs_triang b' c').
+      apply Rle_trans with (eps * (2.03 * M)); [apply Rmult_le_compat_l; lra | lra]. }
     assert (G : forall r r' s s', number r' -> Rabs r' <= 1.01 * M ->
       near (2.02 * eps * M) (r' - (r - D (at_end a0 e))) -> near (6.07 * eps * M) (s' - (s - D (at_end a0
         e))) ->
       (fl (r' + fl (size a * margin)) < s' -> r < s) /\ (s' < fl (r' - fl (size a * margin)) -> s < r)).
     { intros r r' s s' N L E F.
       destruct (after_margin M (size a) M0 Ms _ _ _ _ (2.02 * eps * M) (6.07 * eps * M)
-        ltac:(lra) ltac:(lra) ltac:(lra) N L E F) as (A1 & A2). split; intros K; [apply A1 in K | apply A2 in K]; lra. }
+        ltac:(lra) ltac:(lra) ltac:(lra) N L E F) as (A1 & A2).
+      split; intros K; [apply A1 in K | apply A2 in K]; lra. }
     assert (E0 : near (6.07 * eps * M) (b' - (D (at_end b0 e) - D (at_end a0 e))))
-      by (apply near_more with (2 := Ep); lra). pose proof (G (D (at_end a0 e)) 0 _ _ Nz Lz (Ez _) E0) as G00.
+      by (apply near_more with (2 := Ep); lra).
+    pose proof (G (D (at_end a0 e)) 0 _ _ Nz Lz (Ez _) E0) as G00.
     pose proof (G (D (at_end a0 e)) 0 _ _ Nz Lz (Ez _) E1) as G01.
     pose proof (G (D (at_end a1 e)) a' _ _ Na ltac:(lra) Ea E0) as G10.
-    pose proof (G (D (at_end a1 e)) a' _ _ Na ltac:(lra) Ea E1) as G11. set (b'' := fl (b' + c')) in *.
+    pose proof (G (D (at_end a1 e)) a' _ _ Na ltac:(lra) Ea E1) as G11.
+    set (b'' := fl (b' + c')) in *.
     pose proof (Rmax_l a' 0) as X1. pose proof (Rmax_r a' 0) as X2. pose proof (Rmin_l a' 0) as X3.
-    pose proof (Rmin_r a' 0) as X4. pose proof (Rmax_l b' b''). pose proof (Rmax_r b' b''). pose proof (Rmin_l b' b'').
-    pose proof (Rmin_r b' b''). apply (Rplus_le_compat_r (fl (size a * margin))), fl_le in X1, X2.
-    apply (Rplus_le_compat_r (- fl (size a * margin))), fl_le in X3, X4. unfold Rminus in *.
+    pose proof (Rmin_r a' 0) as X4. pose proof (Rmax_l b' b''). pose proof (Rmax_r b' b'').
+    pose proof (Rmin_l b' b''). pose proof (Rmin_r b' b'').
+    apply (Rplus_le_compat_r (fl (size a * margin))), fl_le in X1, X2.
+    apply (Rplus_le_compat_r (- fl (size a * margin))), fl_le in X3, X4.
+    unfold Rminus in *.
     split; intros K; apply less_of in K;
       (split; [apply G00 | split; [apply G01 | split; [apply G10 | apply G11]]]); lra. }
   apply separated_sides in T. destruct T as [T | T].

@@ -9,8 +9,10 @@
         size_covers_value     |value| <= size
         overflow_uncertain    also with a largest number: after an overflow no sign is certain *)
 
-From Coq Require Import Reals ZArith Lia Lra Psatz Bool Classical_Prop. From Flocq Require Import Core Plus_error.
-From Errbound Require Import Format Sign. Open Scope R_scope.
+From Coq Require Import Reals ZArith Lia Lra Psatz Bool Classical_Prop.
+From Flocq Require Import Core Plus_error.
+From Errbound Require Import Format Sign.
+Open Scope R_scope.
 
 Inductive expression :=
 | Coordinate (c : R)
@@ -24,8 +26,12 @@ Inductive expression :=
 Section StaticFilter.
 
 Context (p emin : Z) {p_positive : Prec_gt_0 p}.
-Notation fl := (rnd p emin nearest). Notation number := (number p emin). Notation eps := (eps p). Notation u := (u p).
-Notation eta := (eta emin). Notation smallest_normal := (smallest_normal p emin).
+Notation fl := (rnd p emin nearest).
+Notation number := (number p emin).
+Notation eps := (eps p).
+Notation u := (u p).
+Notation eta := (eta emin).
+Notation smallest_normal := (smallest_normal p emin).
 
 Fixpoint exact (e : expression) : R :=
   match e with
@@ -134,9 +140,11 @@ Let rnd_above := Format.rnd_above p emin nearest.
 Let rnd_nonnegative := Format.rnd_nonnegative p emin nearest.
 Let sum_error := Format.sum_error p emin nearest _ _ an_error.
 
-Lemma u_small : 0 < u <= / 4. Proof. generalize (u_positive p) (eps_le p 2 p_2) (eps_2u p). simpl. lra. Qed.
+Lemma u_small : 0 < u <= / 4.
+Proof. generalize (u_positive p) (eps_le p 2 p_2) (eps_2u p). simpl. lra. Qed.
 
-Lemma fl_opp x : fl (- x) = - fl x. Proof. apply round_NE_opp. Qed.
+Lemma fl_opp x : fl (- x) = - fl x.
+Proof. apply round_NE_opp. Qed.
 
 Lemma allowance_exact : allowance = bpow radix2 (emin + 2 * p + 1).
 Proof.
@@ -145,48 +153,64 @@ Proof.
     + apply rnd_exact, number_power; auto. lia.
     + unfold Rdiv, Format.u, Format.smallest_normal. rewrite <- bpow_opp.
       change 4 with (bpow radix2 2). rewrite <- !bpow_plus. f_equal. lia.
-  - unfold Format.smallest_normal. change 4 with (bpow radix2 2). rewrite <- bpow_plus. apply number_power; auto. lia.
+  - unfold Format.smallest_normal. change 4 with (bpow radix2 2). rewrite <- bpow_plus.
+    apply number_power; auto. lia.
 Qed.
-Lemma allowance_positive : 0 < allowance. Proof. rewrite allowance_exact. apply bpow_gt_0. Qed.
-Lemma number_allowance : number allowance. Proof. apply rnd_number. Qed.
+Lemma allowance_positive : 0 < allowance.
+Proof. rewrite allowance_exact. apply bpow_gt_0. Qed.
+Lemma number_allowance : number allowance.
+Proof. apply rnd_number. Qed.
 (** u tau is a normal number, larger than any loss by underflow. *)
 Lemma u_allowance : smallest_normal <= u * allowance.
-Proof. rewrite allowance_exact. unfold Format.u. rewrite <- bpow_plus. apply bpow_le. lia. Qed.
+Proof.
+  rewrite allowance_exact. unfold Format.u. rewrite <- bpow_plus. apply bpow_le. lia.
+Qed.
 Lemma u_allowance_eta : eta / 2 <= u * allowance.
-Proof. generalize u_allowance (eta_le_smallest_normal p emin) (eta_positive emin). lra. Qed.
+Proof.
+  generalize u_allowance (eta_le_smallest_normal p emin) (eta_positive emin). lra.
+Qed.
 
 (** One rounding of a product has an error of u of it, or u tau. *)
 Lemma product_error x : Rabs (fl x - x) <= u * Rabs x + eta / 2.
 Proof.
-  generalize u_small (eta_positive emin) (Rabs_pos x); intros. destruct (Rlt_or_le (Rabs x) smallest_normal) as [C | C].
+  generalize u_small (eta_positive emin) (Rabs_pos x); intros.
+  destruct (Rlt_or_le (Rabs x) smallest_normal) as [C | C].
   - generalize (error_absolute _ _ _ _ _ an_error x C). nra.
   - generalize (error_relative _ _ _ _ _ an_error x C). lra.
 Qed.
 (** The error in units of the result. *)
-Lemma sum_error_of_result x y : number x -> number y -> Rabs (fl (x + y) - (x + y)) <= u * Rabs (fl (x + y)).
+Lemma sum_error_of_result x y :
+  number x -> number y -> Rabs (fl (x + y) - (x + y)) <= u * Rabs (fl (x + y)).
 Proof.
   intros X Y. destruct (Rlt_or_le (Rabs (x + y)) smallest_normal) as [C | C].
-  - rewrite (sum_exact_below p emin nearest x y X Y C) at 1. replace (x + y - (x + y)) with 0 by ring. rewrite Rabs_R0.
+  - rewrite (sum_exact_below p emin nearest x y X Y C) at 1.
+    replace (x + y - (x + y)) with 0 by ring. rewrite Rabs_R0.
     apply Rmult_le_pos; [generalize u_small; lra | apply Rabs_pos].
   - now apply nearest_relative_to_result.
 Qed.
 Lemma sum_upper x y : number x -> number y -> 0 <= x + y -> x + y <= (1 + u) * fl (x + y).
 Proof.
   intros X Y P. generalize (sum_error_of_result x y X Y). intros H.
-  rewrite (Rabs_pos_eq (fl _)) in H by now apply rnd_nonnegative. apply Rabs_le_inv in H. lra.
+  rewrite (Rabs_pos_eq (fl _)) in H by now apply rnd_nonnegative.
+  apply Rabs_le_inv in H. lra.
 Qed.
 Lemma normal_upper x : smallest_normal <= x -> x <= (1 + u) * fl x.
 Proof.
-  intros C. generalize (smallest_normal_positive p emin); intros. assert (A : Rabs x = x) by (apply Rabs_pos_eq; lra).
-  generalize (nearest_relative_to_result p emin x). rewrite A. intros H1. specialize (H1 C). unfold rnd_nearest in H1.
-  rewrite (Rabs_pos_eq (fl _)) in H1 by (apply rnd_nonnegative; lra). apply Rabs_le_inv in H1. lra.
+  intros C. generalize (smallest_normal_positive p emin); intros.
+  assert (A : Rabs x = x) by (apply Rabs_pos_eq; lra).
+  generalize (nearest_relative_to_result p emin x). rewrite A. intros H1. specialize (H1 C).
+  unfold rnd_nearest in H1.
+  rewrite (Rabs_pos_eq (fl _)) in H1 by (apply rnd_nonnegative; lra).
+  apply Rabs_le_inv in H1. lra.
 Qed.
 
 (** A whole constant, as the code counts its rounding. *)
-Lemma constant_rounds (c : Z) : (Z.abs c <= 2 ^ 31)%Z -> (31 <= p)%Z -> fl (IZR c) = IZR c.
+Lemma constant_rounds (c : Z) :
+  (Z.abs c <= 2 ^ 31)%Z -> (31 <= p)%Z -> fl (IZR c) = IZR c.
 Proof.
   intros C P. apply rnd_exact. rewrite <- (Rmult_1_r (IZR c)). change 1 with (bpow radix2 0).
-  apply number_integer; auto; try lia. apply Z.le_trans with (1 := C). now apply Z.pow_le_mono_r.
+  apply number_integer; auto; try lia. apply Z.le_trans with (1 := C).
+  now apply Z.pow_le_mono_r.
 Qed.
 Lemma constant_normal (c : Z) : c <> 0%Z -> smallest_normal <= Rabs (IZR c).
 Proof.
@@ -204,17 +228,24 @@ Lemma constant_zero (c : Z) : fl (IZR c) = 0 -> c = 0%Z.
 Proof.
   intros H. destruct (Z.eq_dec c 0) as [| C]; auto.
   generalize (rnd_abs_above p emin nearest _ _ (number_smallest_normal p emin)
-                (constant_normal c C)) (smallest_normal_positive p emin). rewrite H, Rabs_R0. lra.
+                (constant_normal c C)) (smallest_normal_positive p emin).
+  rewrite H, Rabs_R0. lra.
 Qed.
 
 Definition power (n : nat) : R := (1 + u) ^ n.
-Lemma power_1 n : 1 <= power n. Proof. apply pow_R1_Rle. generalize u_small. lra. Qed.
-Lemma power_succ n : power (S n) = (1 + u) * power n. Proof. reflexivity. Qed.
-Lemma power_plus m n : power (m + n) = power m * power n. Proof. apply pow_add. Qed.
-Lemma power_le m n : (m <= n)%nat -> power m <= power n. Proof. apply Rle_pow. generalize u_small. lra. Qed.
+Lemma power_1 n : 1 <= power n.
+Proof. apply pow_R1_Rle. generalize u_small. lra. Qed.
+Lemma power_succ n : power (S n) = (1 + u) * power n.
+Proof. reflexivity. Qed.
+Lemma power_plus m n : power (m + n) = power m * power n.
+Proof. apply pow_add. Qed.
+Lemma power_le m n : (m <= n)%nat -> power m <= power n.
+Proof. apply Rle_pow. generalize u_small. lra. Qed.
 
 Lemma value_number e : admissible e -> number (value e).
-Proof. induction e; simpl; intros [_ H]; try apply rnd_number; auto. now apply number_opp, IHe. Qed.
+Proof.
+  induction e; simpl; intros [_ H]; try apply rnd_number; auto. now apply number_opp, IHe.
+Qed.
 Lemma size_number e : admissible e -> number (size e).
 Proof.
   induction e as [c | a b | c | | | x ? y ? | ]; intros [_ H]; try apply rnd_number; auto.
@@ -226,21 +257,28 @@ Proof.
     + apply rnd_number.
 Qed.
 Lemma exact_size_nonnegative e : 0 <= exact_size e.
-Proof. generalize allowance_positive; intros. induction e; simpl; auto using Rabs_pos; try lra. nra. Qed.
+Proof.
+  generalize allowance_positive; intros.
+  induction e; simpl; auto using Rabs_pos; try lra. nra.
+Qed.
 
 (** Two numbers with errors of at most (A - 1) S and (B - 1) T and sizes of at most A S and B T: their exact product
     has an error of at most (A B - 1) S T. *)
 Lemma opposite a x : a * x <= 0 -> Rabs a + Rabs x <= Rabs (a - x).
 Proof. intros H. unfold Rabs. repeat destruct Rcase_abs; nra. Qed.
-Lemma alike a x low high : 0 <= a * x -> low <= Rabs a <= high -> low <= Rabs x <= high -> Rabs (a - x) <= high - low.
+Lemma alike a x low high :
+  0 <= a * x -> low <= Rabs a <= high -> low <= Rabs x <= high -> Rabs (a - x) <= high - low.
 Proof. intros H. unfold Rabs. repeat destruct Rcase_abs; nra. Qed.
 
-Lemma product_of_errors a x A S b y B T : 1 <= A ->
-  1 <= B -> 0 <= S -> 0 <= T -> Rabs a <= A * S -> Rabs x <= A * S -> Rabs (a - x) <= (A - 1) * S ->
-  Rabs b <= B * T -> Rabs y <= B * T -> Rabs (b - y) <= (B - 1) * T -> Rabs (a * b - x * y) <= (A * B - 1) * (S * T).
+Lemma product_of_errors a x A S b y B T :
+  1 <= A -> 1 <= B -> 0 <= S -> 0 <= T ->
+  Rabs a <= A * S -> Rabs x <= A * S -> Rabs (a - x) <= (A - 1) * S ->
+  Rabs b <= B * T -> Rabs y <= B * T -> Rabs (b - y) <= (B - 1) * T ->
+  Rabs (a * b - x * y) <= (A * B - 1) * (S * T).
 Proof.
   intros HA HB PS PT Ha Hx Hax Hb Hy Hby.
-  generalize (Rabs_pos a) (Rabs_pos x) (Rabs_pos b) (Rabs_pos y) (Rabs_pos (a - x)) (Rabs_pos (b - y)); intros.
+  generalize (Rabs_pos a) (Rabs_pos x) (Rabs_pos b) (Rabs_pos y) (Rabs_pos (a - x))
+    (Rabs_pos (b - y)); intros.
   (* two ways to split the difference *)
   assert (W1 : Rabs (a * b - x * y) <= Rabs (a - x) * Rabs b + Rabs x * Rabs (b - y)).
   { replace (a * b - x * y) with ((a - x) * b + x * (b - y)) by ring.
@@ -269,18 +307,22 @@ Proof.
       (M (Rabs a) (Rabs (b - y)) S ((B - 1) * T) ltac:(lra) ltac:(lra) Ca Hby). lra. }
   (* all are larger than their sizes *)
   assert (W3 : Rabs (a * b - x * y) <= Rabs a * Rabs b + Rabs x * Rabs y).
-  { rewrite <- !Rabs_mult. unfold Rminus. apply Rle_trans with (1 := Rabs_triang _ _). rewrite Rabs_Ropp. lra. }
+  { rewrite <- !Rabs_mult. unfold Rminus.
+    apply Rle_trans with (1 := Rabs_triang _ _). rewrite Rabs_Ropp. lra. }
   destruct (Rle_or_lt (a * x) 0) as [Sx | Sx].
   { apply opposite in Sx. apply Rle_trans with (1 := W3).
-    generalize (M (Rabs a + Rabs x) (B * T) ((A - 1) * S) (B * T) ltac:(lra) ltac:(lra) ltac:(lra) ltac:(lra))
+    generalize (M (Rabs a + Rabs x) (B * T) ((A - 1) * S) (B * T) ltac:(lra) ltac:(lra)
+                  ltac:(lra) ltac:(lra))
       (M (Rabs a) (Rabs b) (Rabs a) (B * T) ltac:(lra) ltac:(lra) ltac:(lra) Hb)
       (M (Rabs x) (Rabs y) (Rabs x) (B * T) ltac:(lra) ltac:(lra) ltac:(lra) Hy). nra. }
   destruct (Rle_or_lt (b * y) 0) as [Sy | Sy].
   { apply opposite in Sy. apply Rle_trans with (1 := W3).
-    generalize (M (A * S) (Rabs b + Rabs y) (A * S) ((B - 1) * T) ltac:(lra) ltac:(lra) ltac:(lra) ltac:(lra))
+    generalize (M (A * S) (Rabs b + Rabs y) (A * S) ((B - 1) * T) ltac:(lra) ltac:(lra)
+                  ltac:(lra) ltac:(lra))
       (M (Rabs a) (Rabs b) (A * S) (Rabs b) ltac:(lra) ltac:(lra) Ha ltac:(lra))
       (M (Rabs x) (Rabs y) (A * S) (Rabs y) ltac:(lra) ltac:(lra) Hx ltac:(lra)). nra. }
-  replace ((A * B - 1) * (S * T)) with (A * S * (B * T) - S * T) by ring. apply alike.
+  replace ((A * B - 1) * (S * T)) with (A * S * (B * T) - S * T) by ring.
+  apply alike.
   - replace (a * b * (x * y)) with (a * x * (b * y)) by ring. apply Rmult_le_pos; lra.
   - rewrite Rabs_mult. split; apply M; lra.
   - rewrite Rabs_mult. split; apply M; lra.
@@ -293,16 +335,22 @@ Definition near (v x E S : R) : Prop :=
 Lemma near_weaker v x E F S : E <= F -> 0 <= S -> near v x E S -> near v x F S.
 Proof. intros L P (H1 & H2 & H3). unfold near. repeat split; nra. Qed.
 Lemma near_opp v x E S : near v x E S -> near (- v) (- x) E S.
-Proof. unfold near. rewrite !Rabs_Ropp. replace (- v - - x) with (- (v - x)) by ring. now rewrite Rabs_Ropp. Qed.
-Lemma near_sum v x S w y T E : near v x E S -> near w y E T -> near (v + w) (x + y) E (S + T).
+Proof.
+  unfold near. rewrite !Rabs_Ropp. replace (- v - - x) with (- (v - x)) by ring.
+  now rewrite Rabs_Ropp.
+Qed.
+Lemma near_sum v x S w y T E :
+  near v x E S -> near w y E T -> near (v + w) (x + y) E (S + T).
 Proof.
   intros (H1 & H2 & H3) (G1 & G2 & G3). unfold near. repeat split.
-  - replace (v + w - (x + y)) with ((v - x) + (w - y)) by ring. apply Rle_trans with (1 := Rabs_triang _ _). lra.
+  - replace (v + w - (x + y)) with ((v - x) + (w - y)) by ring.
+    apply Rle_trans with (1 := Rabs_triang _ _). lra.
   - apply Rle_trans with (1 := Rabs_triang _ _). lra.
   - apply Rle_trans with (1 := Rabs_triang _ _). lra.
 Qed.
-Lemma near_product v x S w y T E F : 1 <= E ->
-  1 <= F -> 0 <= S -> 0 <= T -> near v x E S -> near w y F T -> near (v * w) (x * y) (E * F) (S * T).
+Lemma near_product v x S w y T E F :
+  1 <= E -> 1 <= F -> 0 <= S -> 0 <= T ->
+  near v x E S -> near w y F T -> near (v * w) (x * y) (E * F) (S * T).
 Proof.
   intros HE HF HS HT (H1 & H2 & H3) (G1 & G2 & G3). unfold near. repeat split.
   - now apply product_of_errors.
@@ -312,17 +360,23 @@ Proof.
     apply Rmult_le_compat; auto using Rabs_pos.
 Qed.
 (** One more rounding, with d for underflow. *)
-Lemma near_rounded w x E S d : 1 <= E ->
-  0 <= S -> 0 <= d -> Rabs (fl w - w) <= u * Rabs w + u * d -> near w x E S -> near (fl w) x ((1 + u) * E) (S + d).
+Lemma near_rounded w x E S d :
+  1 <= E -> 0 <= S -> 0 <= d -> Rabs (fl w - w) <= u * Rabs w + u * d ->
+  near w x E S -> near (fl w) x ((1 + u) * E) (S + d).
 Proof.
   intros HE HS Hd HR (H1 & H2 & H3). generalize u_small; intros U.
   assert (A : u * Rabs w <= u * (E * S)) by (apply Rmult_le_compat_l; lra).
-  assert (0 <= E * d) by (apply Rmult_le_pos; lra). assert (D : d <= E * d) by nra.
+  assert (0 <= E * d) by (apply Rmult_le_pos; lra).
+  assert (D : d <= E * d) by nra.
   assert (0 <= u * (E * d)) by (apply Rmult_le_pos; lra).
-  assert (u * d <= u * (E * d)) by (apply Rmult_le_compat_l; lra). assert (0 <= E * S) by (apply Rmult_le_pos; lra).
-  assert (0 <= u * (E * S)) by (apply Rmult_le_pos; lra). unfold near. repeat split.
-  - replace (fl w - x) with ((fl w - w) + (w - x)) by ring. apply Rle_trans with (1 := Rabs_triang _ _). lra.
-  - replace (fl w) with ((fl w - w) + w) by ring. apply Rle_trans with (1 := Rabs_triang _ _). lra.
+  assert (u * d <= u * (E * d)) by (apply Rmult_le_compat_l; lra).
+  assert (0 <= E * S) by (apply Rmult_le_pos; lra).
+  assert (0 <= u * (E * S)) by (apply Rmult_le_pos; lra).
+  unfold near. repeat split.
+  - replace (fl w - x) with ((fl w - w) + (w - x)) by ring.
+    apply Rle_trans with (1 := Rabs_triang _ _). lra.
+  - replace (fl w) with ((fl w - w) + w) by ring.
+    apply Rle_trans with (1 := Rabs_triang _ _). lra.
   - apply Rle_trans with (1 := H3). lra.
 Qed.
 
@@ -344,7 +398,8 @@ Proof.
   - now rewrite fl_opp, IHe.
 Qed.
 
-Lemma expression_near e : admissible e -> near (value e) (exact e) (power (roundings e)) (exact_size e) /\
+Lemma expression_near e : admissible e ->
+  near (value e) (exact e) (power (roundings e)) (exact_size e) /\
   Rabs (unrounded e - exact e) <= (power (Nat.pred (roundings e)) - 1) * exact_size e.
 Proof.
   generalize allowance_positive u_small; intros T U.
@@ -359,14 +414,18 @@ Proof.
   assert (Never : forall z, near z z (power 0) (Rabs z) /\ Rabs (z - z) <= (power 0 - 1) * Rabs z).
   { intros z. unfold near, power. simpl. replace (z - z) with 0 by ring. rewrite Rabs_R0.
     generalize (Rabs_pos z). lra. }
-  induction e as [c | a b | c | x IHx y IHy | x IHx y IHy | x IHx y IHy | x IHx]; simpl; intros [_ H].
+  induction e as [c | a b | c | x IHx y IHy | x IHx y IHy | x IHx y IHy | x IHx]; simpl;
+    intros [_ H].
   - apply Never.
-  - destruct H as [A B]. apply Once. apply (sum_error_of_result a (- b) A (number_opp _ _ _ B)).
+  - destruct H as [A B]. apply Once.
+    apply (sum_error_of_result a (- b) A (number_opp _ _ _ B)).
   - destruct (Z.ltb_spec p 31) as [C | C].
     + apply Once, constant_error.
     + rewrite constant_rounds by auto. apply Never.
-  - destruct H as [A B]. destruct (IHx A) as [NX _], (IHy B) as [NY _]. set (m := Nat.max (roundings x) (roundings y)).
-    assert (N : near (value x + value y) (exact x + exact y) (power m) (exact_size x + exact_size y)).
+  - destruct H as [A B]. destruct (IHx A) as [NX _], (IHy B) as [NY _].
+    set (m := Nat.max (roundings x) (roundings y)).
+    assert (N : near (value x + value y) (exact x + exact y) (power m)
+                  (exact_size x + exact_size y)).
     { apply near_sum.
       - apply near_weaker with (3 := NX); [apply power_le; lia | apply exact_size_nonnegative].
       - apply near_weaker with (3 := NY); [apply power_le; lia | apply exact_size_nonnegative]. }
@@ -374,11 +433,14 @@ Proof.
     generalize (exact_size_nonnegative x) (exact_size_nonnegative y). intros.
     apply near_rounded; auto using power_1; try lra.
     rewrite Rmult_0_r, Rplus_0_r. apply sum_error; now apply value_number.
-  - destruct H as [A B]. destruct (IHx A) as [NX _], (IHy B) as [NY _]. set (m := Nat.max (roundings x) (roundings y)).
-    assert (N : near (value x - value y) (exact x - exact y) (power m) (exact_size x + exact_size y)).
+  - destruct H as [A B]. destruct (IHx A) as [NX _], (IHy B) as [NY _].
+    set (m := Nat.max (roundings x) (roundings y)).
+    assert (N : near (value x - value y) (exact x - exact y) (power m)
+                  (exact_size x + exact_size y)).
     { apply near_sum.
       - apply near_weaker with (3 := NX); [apply power_le; lia | apply exact_size_nonnegative].
-      - apply near_opp. apply near_weaker with (3 := NY); [apply power_le; lia | apply exact_size_nonnegative]. }
+      - apply near_opp.
+        apply near_weaker with (3 := NY); [apply power_le; lia | apply exact_size_nonnegative]. }
     split; [| apply N]. rewrite power_succ. rewrite <- (Rplus_0_r (exact_size x + exact_size y)).
     generalize (exact_size_nonnegative x) (exact_size_nonnegative y). intros.
     apply near_rounded; auto using power_1; try lra.
@@ -388,13 +450,16 @@ Proof.
     assert (N : near (value x * value y) (exact x * exact y) (power (roundings x + roundings y))
                   (exact_size x * exact_size y)).
     { rewrite power_plus. apply near_product; auto using power_1. }
-    assert (0 <= exact_size x * exact_size y) by (apply Rmult_le_pos; auto). split.
+    assert (0 <= exact_size x * exact_size y) by (apply Rmult_le_pos; auto).
+    split.
     + rewrite power_succ. apply near_rounded; auto using power_1; try lra.
       generalize (product_error (value x * value y)) u_allowance_eta. lra.
-    + apply Rle_trans with (1 := proj1 N). generalize (power_1 (roundings x + roundings y)). intros P1.
+    + apply Rle_trans with (1 := proj1 N).
+      generalize (power_1 (roundings x + roundings y)). intros P1.
       apply Rmult_le_compat_l; lra.
   - destruct (IHx H) as [N1 N2]. split; [now apply near_opp |].
-    replace (- unrounded x - - exact x) with (- (unrounded x - exact x)) by ring. now rewrite Rabs_Ropp.
+    replace (- unrounded x - - exact x) with (- (unrounded x - exact x)) by ring.
+    now rewrite Rabs_Ropp.
 Qed.
 
 Theorem filter_error e : admissible e ->
@@ -414,33 +479,43 @@ Lemma path_roundings e : (path e + over (products e) <= 2 * roundings e)%nat.
 Proof. induction e; cbn [path products roundings]; unfold over in *; lia. Qed.
 
 Lemma plain_size e : plain e = true -> products e = O -> size e = Rabs (value e).
-Proof. induction e; simpl; try discriminate; auto. intros. rewrite Rabs_Ropp. auto. Qed.
-Lemma size_product x y : size (Product x y) = fl (full (size x) (products x) * full (size y) (products y)).
 Proof.
-  cbn [size]. destruct (plain (Product x y)) eqn:P; auto. simpl in P. apply andb_prop in P. destruct P as [P Y0].
-  apply andb_prop in P. destruct P as [P X0]. apply andb_prop in P. destruct P as [PX PY]. apply Nat.eqb_eq in X0, Y0.
-  rewrite X0, Y0. unfold full. rewrite (plain_size x PX X0), (plain_size y PY Y0), <- Rabs_mult. symmetry.
+  induction e; simpl; try discriminate; auto.
+  intros. rewrite Rabs_Ropp. auto.
+Qed.
+Lemma size_product x y :
+  size (Product x y) = fl (full (size x) (products x) * full (size y) (products y)).
+Proof.
+  cbn [size]. destruct (plain (Product x y)) eqn:P; auto. simpl in P.
+  apply andb_prop in P. destruct P as [P Y0]. apply andb_prop in P. destruct P as [P X0].
+  apply andb_prop in P. destruct P as [PX PY].
+  apply Nat.eqb_eq in X0, Y0. rewrite X0, Y0. unfold full.
+  rewrite (plain_size x PX X0), (plain_size y PY Y0), <- Rabs_mult. symmetry.
   apply round_NE_abs. auto with typeclass_instances.
 Qed.
 
 Lemma number_count n : (Z.of_nat n <= 2 ^ p)%Z -> number (INR n).
 Proof.
-  intros H. rewrite INR_IZR_INZ, <- (Rmult_1_r (IZR _)). change 1 with (bpow radix2 0). apply number_integer; auto; lia.
+  intros H. rewrite INR_IZR_INZ, <- (Rmult_1_r (IZR _)). change 1 with (bpow radix2 0).
+  apply number_integer; auto; lia.
 Qed.
-Lemma counted_allowance n : (Z.of_nat n <= 2 ^ p)%Z -> fl (fl (INR n) * allowance) = INR n * allowance.
+Lemma counted_allowance n :
+  (Z.of_nat n <= 2 ^ p)%Z -> fl (fl (INR n) * allowance) = INR n * allowance.
 Proof.
   intros H. rewrite (rnd_exact (INR n)) by now apply number_count. apply rnd_exact.
   rewrite INR_IZR_INZ, allowance_exact. apply number_integer; auto; lia.
 Qed.
-Lemma with_allowance_covers s n : number s ->
-  0 <= s -> (Z.of_nat n <= 2 ^ p)%Z -> s + INR n * allowance <= (1 + u) * with_allowance s n.
+Lemma with_allowance_covers s n :
+  number s -> 0 <= s -> (Z.of_nat n <= 2 ^ p)%Z ->
+  s + INR n * allowance <= (1 + u) * with_allowance s n.
 Proof.
   intros N P C. unfold with_allowance. generalize allowance_positive (pos_INR n); intros.
   assert (0 <= INR n * allowance) by (apply Rmult_le_pos; lra).
   rewrite <- (counted_allowance n C) in *. apply sum_upper; auto. lra.
 Qed.
-Lemma full_covers s n : number s ->
-  0 <= s -> (Z.of_nat n <= 2 ^ p)%Z -> s + INR n * allowance <= power (over n) * full s n.
+Lemma full_covers s n :
+  number s -> 0 <= s -> (Z.of_nat n <= 2 ^ p)%Z ->
+  s + INR n * allowance <= power (over n) * full s n.
 Proof.
   intros N P C. destruct n as [| n].
   - unfold power, over. simpl. lra.
@@ -448,22 +523,28 @@ Proof.
     change (Nat.min 1 (S n)) with 1%nat. rewrite pow_1. auto.
 Qed.
 
-Lemma admissible_products e : admissible e -> (Z.of_nat (products e) <= 2 ^ p)%Z. Proof. destruct e; now intros []. Qed.
+Lemma admissible_products e : admissible e -> (Z.of_nat (products e) <= 2 ^ p)%Z.
+Proof. destruct e; now intros []. Qed.
 Lemma size_nonnegative e : admissible e -> 0 <= size e.
 Proof.
-  induction e as [c | a b | c | x IHx y IHy | x IHx y IHy | x IHx y IHy | x IHx]; intros A; try apply Rabs_pos.
-  - simpl in *. apply rnd_nonnegative. destruct A as (_ & A & B). generalize (IHx A) (IHy B). lra.
-  - simpl in *. apply rnd_nonnegative. destruct A as (_ & A & B). generalize (IHx A) (IHy B). lra.
+  induction e as [c | a b | c | x IHx y IHy | x IHx y IHy | x IHx y IHy | x IHx]; intros A;
+    try apply Rabs_pos.
+  - simpl in *. apply rnd_nonnegative. destruct A as (_ & A & B).
+    generalize (IHx A) (IHy B). lra.
+  - simpl in *. apply rnd_nonnegative. destruct A as (_ & A & B).
+    generalize (IHx A) (IHy B). lra.
   - rewrite size_product. apply rnd_nonnegative. destruct A as (_ & A & B).
     assert (F : forall s n, 0 <= s -> 0 <= full s n).
-    { intros s [| n] Ps; auto. apply rnd_nonnegative. assert (0 <= fl (fl (INR (S n)) * allowance)); [| lra].
+    { intros s [| n] Ps; auto. apply rnd_nonnegative.
+      assert (0 <= fl (fl (INR (S n)) * allowance)); [| lra].
       apply rnd_nonnegative. apply Rmult_le_pos; [| generalize allowance_positive; lra].
       apply rnd_nonnegative, pos_INR. }
     apply Rmult_le_pos; apply F; auto.
   - apply IHx, A.
 Qed.
 
-Lemma size_covered e : admissible e -> exact_size e <= power (path e) * (size e + INR (products e) * allowance).
+Lemma size_covered e : admissible e ->
+  exact_size e <= power (path e) * (size e + INR (products e) * allowance).
 Proof.
   generalize allowance_positive u_small; intros T U.
   assert (Sum : forall x y, admissible x -> admissible y ->
@@ -471,15 +552,17 @@ Proof.
     exact_size y <= power (path y) * (size y + INR (products y) * allowance) ->
     exact_size x + exact_size y <=
       power (S (Nat.max (path x) (path y))) * (fl (size x + size y) + INR (products x + products y) * allowance)).
-  { intros x y A B.
-    generalize (size_nonnegative x A) (size_nonnegative y B) (sum_upper _ _ (size_number x A) (size_number y B)).
-    intros PX PY G CX CY. specialize (G ltac:(lra)). rewrite plus_INR. set (m := Nat.max (path x) (path y)).
+  { intros x y A B. generalize (size_nonnegative x A) (size_nonnegative y B)
+      (sum_upper _ _ (size_number x A) (size_number y B)).
+    intros PX PY G CX CY. specialize (G ltac:(lra)).
+    rewrite plus_INR. set (m := Nat.max (path x) (path y)).
     generalize (pos_INR (products x)) (pos_INR (products y)); intros.
     assert (0 <= INR (products x) * allowance) by (apply Rmult_le_pos; lra).
     assert (0 <= INR (products y) * allowance) by (apply Rmult_le_pos; lra).
     assert (LX : power (path x) <= power m) by (apply power_le; lia).
-    assert (LY : power (path y) <= power m) by (apply power_le; lia). rewrite power_succ. generalize (power_1 m).
-    intros P1. apply Rle_trans with (power m * (size x + size y + (INR (products x) + INR (products y)) * allowance)).
+    assert (LY : power (path y) <= power m) by (apply power_le; lia).
+    rewrite power_succ. generalize (power_1 m). intros P1.
+    apply Rle_trans with (power m * (size x + size y + (INR (products x) + INR (products y)) * allowance)).
     + nra.
     + replace ((1 + u) * power m) with (power m * (1 + u)) by ring. rewrite Rmult_assoc.
       apply Rmult_le_compat_l; [lra |]. nra. }
@@ -490,24 +573,30 @@ Proof.
   - rewrite size_product. cbn [exact_size path products]. destruct A as (_ & A & B).
     generalize (size_nonnegative x A) (size_nonnegative y B). intros PX PY.
     generalize (full_covers _ _ (size_number x A) PX (admissible_products x A))
-      (full_covers _ _ (size_number y B) PY (admissible_products y B)). set (fx := full (size x) (products x)).
-    set (fy := full (size y) (products y)). intros FX FY.
+      (full_covers _ _ (size_number y B) PY (admissible_products y B)).
+    set (fx := full (size x) (products x)). set (fy := full (size y) (products y)).
+    intros FX FY.
     assert (CX : exact_size x <= power (path x + over (products x)) * fx).
     { apply Rle_trans with (1 := IHx A). rewrite power_plus, Rmult_assoc.
       apply Rmult_le_compat_l; auto. generalize (power_1 (path x)). lra. }
     assert (CY : exact_size y <= power (path y + over (products y)) * fy).
     { apply Rle_trans with (1 := IHy B). rewrite power_plus, Rmult_assoc.
       apply Rmult_le_compat_l; auto. generalize (power_1 (path y)). lra. }
-    set (i := (path x + over (products x))%nat) in *. set (j := (path y + over (products y))%nat) in *.
+    set (i := (path x + over (products x))%nat) in *.
+    set (j := (path y + over (products y))%nat) in *.
     assert (CZ : exact_size x * exact_size y <= power (i + j) * (fx * fy)).
-    { rewrite power_plus. replace (power i * power j * (fx * fy)) with (power i * fx * (power j * fy)) by ring.
+    { rewrite power_plus.
+      replace (power i * power j * (fx * fy)) with (power i * fx * (power j * fy)) by ring.
       apply Rmult_le_compat; auto using exact_size_nonnegative. }
     generalize (exact_size_nonnegative x) (exact_size_nonnegative y). intros.
-    generalize (power_1 i) (power_1 j) (power_1 (i + j)). intros P1 P2 P3. assert (Pfx : 0 <= fx) by nra.
-    assert (Pfy : 0 <= fy) by nra. assert (Pz : 0 <= fx * fy) by (apply Rmult_le_pos; auto). change (INR 1) with 1.
-    rewrite Rmult_1_l, power_succ. set (P := power (i + j)) in *. set (z := fx * fy) in *.
+    generalize (power_1 i) (power_1 j) (power_1 (i + j)). intros P1 P2 P3.
+    assert (Pfx : 0 <= fx) by nra. assert (Pfy : 0 <= fy) by nra.
+    assert (Pz : 0 <= fx * fy) by (apply Rmult_le_pos; auto).
+    change (INR 1) with 1. rewrite Rmult_1_l, power_succ.
+    set (P := power (i + j)) in *. set (z := fx * fy) in *.
     assert (0 <= P * allowance) by (apply Rmult_le_pos; lra).
-    assert (0 <= u * (P * allowance)) by (apply Rmult_le_pos; lra). assert (allowance <= P * allowance) by nra.
+    assert (0 <= u * (P * allowance)) by (apply Rmult_le_pos; lra).
+    assert (allowance <= P * allowance) by nra.
     destruct (Rlt_or_le z smallest_normal) as [C | C].
     + assert (Z : z <= fl z + eta / 2).
       { generalize (rnd_absolute p emin nearest _ _ an_error z Pz C). lra. }
@@ -515,7 +604,8 @@ Proof.
       assert (P * z <= P * (fl z + eta / 2)) by (apply Rmult_le_compat_l; lra).
       assert (P * (eta / 2) <= P * (u * allowance)).
       { apply Rmult_le_compat_l; [lra | apply u_allowance_eta]. }
-      assert (0 <= u * (P * fl z)) by (apply Rmult_le_pos; [| apply Rmult_le_pos]; lra). lra.
+      assert (0 <= u * (P * fl z)) by (apply Rmult_le_pos; [| apply Rmult_le_pos]; lra).
+      lra.
     + generalize (normal_upper z C). intros Z.
       assert (P * z <= P * ((1 + u) * fl z)) by (apply Rmult_le_compat_l; lra). lra.
   - apply IHx, A.
@@ -531,32 +621,44 @@ Qed.
 Lemma number_count_u n : (Z.of_nat n <= 2 ^ p)%Z -> number (INR n * u).
 Proof. intros H. rewrite INR_IZR_INZ. apply number_integer; auto; lia. Qed.
 
-Lemma INR_linear a b n : INR (a * n + b) = INR a * INR n + INR b. Proof. now rewrite plus_INR, mult_INR. Qed.
+Lemma INR_linear a b n : INR (a * n + b) = INR a * INR n + INR b.
+Proof. now rewrite plus_INR, mult_INR. Qed.
 Lemma constant_enough n : 64 * INR (n + 3) * u <= 1 ->
   (power n - 1) * power (2 * n + 6) <= INR n * u * (1 + INR (4 * n + 8) * u).
 Proof.
   intros H. generalize u_small (pos_INR n); intros U Pn.
-  generalize (power_quadratic u n) (power_quadratic u (2 * n + 6)). fold (power n) (power (2 * n + 6)).
-  replace (INR (2 * n + 6) * u) with (2 * (INR n * u) + 6 * u) by (rewrite INR_linear; simpl; ring).
-  replace (INR (4 * n + 8) * u) with (4 * (INR n * u) + 8 * u) by (rewrite INR_linear; simpl; ring).
-  replace (64 * INR (n + 3) * u) with (64 * (INR n * u + 3 * u)) in H by (rewrite plus_INR; simpl; ring).
-  assert (Pt : 0 <= INR n * u) by (apply Rmult_le_pos; lra). generalize (power_1 n) (power_1 (2 * n + 6)).
-  generalize dependent (INR n * u). generalize (power n) (power (2 * n + 6)). intros A B t H Pt PA PB HA HB.
-  specialize (HA ltac:(lra) ltac:(lra)). specialize (HB ltac:(lra) ltac:(lra)).
-  assert (Y : exists y, y = 2 * t + 6 * u) by (eexists; reflexivity). destruct Y as [y Y]. rewrite <- Y in HB.
-  assert (YY : y * y <= y / 32) by nra. apply Rle_trans with ((t + t * t) * (1 + y + y / 32)).
+  generalize (power_quadratic u n) (power_quadratic u (2 * n + 6)).
+  fold (power n) (power (2 * n + 6)).
+  replace (INR (2 * n + 6) * u) with (2 * (INR n * u) + 6 * u)
+    by (rewrite INR_linear; simpl; ring).
+  replace (INR (4 * n + 8) * u) with (4 * (INR n * u) + 8 * u)
+    by (rewrite INR_linear; simpl; ring).
+  replace (64 * INR (n + 3) * u) with (64 * (INR n * u + 3 * u)) in H
+    by (rewrite plus_INR; simpl; ring).
+  assert (Pt : 0 <= INR n * u) by (apply Rmult_le_pos; lra).
+  generalize (power_1 n) (power_1 (2 * n + 6)).
+  generalize dependent (INR n * u). generalize (power n) (power (2 * n + 6)).
+  intros A B t H Pt PA PB HA HB. specialize (HA ltac:(lra) ltac:(lra)).
+  specialize (HB ltac:(lra) ltac:(lra)).
+  assert (Y : exists y, y = 2 * t + 6 * u) by (eexists; reflexivity).
+  destruct Y as [y Y]. rewrite <- Y in HB.
+  assert (YY : y * y <= y / 32) by nra.
+  apply Rle_trans with ((t + t * t) * (1 + y + y / 32)).
   - apply Rmult_le_compat; lra.
-  - replace (t + t * t) with (t * (1 + t)) by ring. rewrite Rmult_assoc. apply Rmult_le_compat_l; auto.
+  - replace (t + t * t) with (t * (1 + t)) by ring. rewrite Rmult_assoc.
+    apply Rmult_le_compat_l; auto.
     assert (t * (y + y / 32) <= (y + y / 32) / 64) by nra. lra.
 Qed.
 
 Lemma filter_constant_lower n : (1 <= n)%nat -> 64 * INR (n + 3) * u <= 1 ->
-  INR n * u * (1 + INR (4 * n + 8) * u) <= (1 + u) * (1 + u) * filter_constant n /\ u <= filter_constant n.
+  INR n * u * (1 + INR (4 * n + 8) * u) <= (1 + u) * (1 + u) * filter_constant n /\
+  u <= filter_constant n.
 Proof.
   intros N1 H. generalize u_small (pos_INR n); intros U Pn.
   assert (H1 : INR n * u <= 1 /\ INR (4 * n + 8) * u <= 1).
   { rewrite plus_INR in H. rewrite plus_INR, mult_INR. simpl INR in *. split; nra. }
-  destruct H1 as [S1 S2]. apply small_count in S1, S2. unfold filter_constant.
+  destruct H1 as [S1 S2]. apply small_count in S1, S2.
+  unfold filter_constant.
   rewrite (rnd_exact (INR n)), (rnd_exact (INR n * u)), (rnd_exact (INR (4 * n + 8))),
     (rnd_exact (INR (4 * n + 8) * u)) by (apply number_count || apply number_count_u; auto).
   assert (N0 : number 1).
@@ -564,11 +666,13 @@ Proof.
   assert (Pk : 0 <= INR (4 * n + 8) * u) by (apply Rmult_le_pos; [apply pos_INR | lra]).
   assert (A : 1 <= fl (1 + INR (4 * n + 8) * u)) by (apply rnd_above; auto; lra).
   generalize (sum_upper 1 _ N0 (number_count_u _ S2) ltac:(lra)). intros B.
-  set (c := fl (1 + INR (4 * n + 8) * u)) in *. assert (L : 1 <= INR n) by (change 1 with (INR 1); now apply le_INR).
+  set (c := fl (1 + INR (4 * n + 8) * u)) in *.
+  assert (L : 1 <= INR n) by (change 1 with (INR 1); now apply le_INR).
   assert (Lu : u <= INR n * u).
   { rewrite <- (Rmult_1_l u) at 1. apply Rmult_le_compat_r; lra. }
   assert (C : u <= INR n * u * c).
-  { apply Rle_trans with (1 := Lu). rewrite <- (Rmult_1_r (INR n * u)) at 1. apply Rmult_le_compat_l; lra. }
+  { apply Rle_trans with (1 := Lu). rewrite <- (Rmult_1_r (INR n * u)) at 1.
+    apply Rmult_le_compat_l; lra. }
   split.
   - assert (M : smallest_normal <= INR n * u * c).
     { apply Rle_trans with (2 := C). apply bpow_le. lia. }
@@ -588,9 +692,11 @@ Proof.
   destruct (roundings e) as [| [| n]] eqn:K; simpl Nat.pred; intros N.
   - apply Rle_trans with (1 := N). unfold power. simpl. lra.
   - apply Rle_trans with (1 := N). unfold power. simpl. lra.
-  - replace (S (S n) + 2)%nat with (S n + 3)%nat in H by lia. set (m := S n) in *.
-    generalize u_small allowance_positive; intros U T. destruct (filter_constant_lower m ltac:(lia) H) as [C1 C2].
-    set (C := filter_constant m) in *. set (P := Nat.max 1 (products e)). set (s := with_allowance (size e) P).
+  - replace (S (S n) + 2)%nat with (S n + 3)%nat in H by lia.
+    set (m := S n) in *. generalize u_small allowance_positive; intros U T.
+    destruct (filter_constant_lower m ltac:(lia) H) as [C1 C2].
+    set (C := filter_constant m) in *.
+    set (P := Nat.max 1 (products e)). set (s := with_allowance (size e) P).
     assert (CP : (Z.of_nat P <= 2 ^ p)%Z).
     { generalize (admissible_products e A). unfold P.
       assert (1 <= 2 ^ p)%Z by (apply (Z.pow_le_mono_r 2 0); lia). lia. }
@@ -598,13 +704,16 @@ Proof.
     generalize (with_allowance_covers _ P (size_number e A) Ps CP). fold s. intros W.
     (* the size *)
     assert (S1 : exact_size e <= power (2 * m + 3) * s).
-    { apply Rle_trans with (1 := size_covered e A). replace (2 * m + 3)%nat with (S (2 * S m)) by lia.
-      rewrite power_succ. replace ((1 + u) * power (2 * S m) * s) with (power (2 * S m) * ((1 + u) * s)) by ring.
-      generalize (path_roundings e). rewrite K. fold m. intros L. generalize (power_1 (path e)) (pos_INR (products e)).
-      intros. apply Rmult_le_compat; try lra.
+    { apply Rle_trans with (1 := size_covered e A).
+      replace (2 * m + 3)%nat with (S (2 * S m)) by lia. rewrite power_succ.
+      replace ((1 + u) * power (2 * S m) * s) with (power (2 * S m) * ((1 + u) * s)) by ring.
+      generalize (path_roundings e). rewrite K. fold m. intros L.
+      generalize (power_1 (path e)) (pos_INR (products e)). intros.
+      apply Rmult_le_compat; try lra.
       - assert (0 <= INR (products e) * allowance) by (apply Rmult_le_pos; lra). lra.
       - apply power_le. lia.
-      - apply Rle_trans with (2 := W). apply Rplus_le_compat_l, Rmult_le_compat_r; [lra |]. apply le_INR. lia. }
+      - apply Rle_trans with (2 := W). apply Rplus_le_compat_l, Rmult_le_compat_r; [lra |].
+        apply le_INR. lia. }
     (* the bound, a normal number *)
     assert (Ts : allowance <= s).
     { apply rnd_above; auto using number_allowance. rewrite (counted_allowance P CP).
@@ -613,34 +722,43 @@ Proof.
     { apply Rle_trans with (1 := u_allowance). apply Rmult_le_compat; lra. }
     generalize (normal_upper _ M). intros B.
     (* together *)
-    generalize (constant_enough m H) (power_1 m) (power_1 (2 * m + 3)). intros G P1 P3. apply Rle_trans with (1 := N).
+    generalize (constant_enough m H) (power_1 m) (power_1 (2 * m + 3)). intros G P1 P3.
+    apply Rle_trans with (1 := N).
     apply Rle_trans with ((power m - 1) * (power (2 * m + 3) * s)).
     { apply Rmult_le_compat_l; lra. }
-    replace (2 * m + 6)%nat with (2 * m + 3 + 3)%nat in G by lia. rewrite power_plus in G.
-    change (power 3) with ((1 + u) * ((1 + u) * ((1 + u) * 1))) in G. set (Q := power (2 * m + 3)) in *.
-    set (D := power m - 1) in *. apply Rmult_le_reg_l with ((1 + u) * ((1 + u) * (1 + u))).
+    replace (2 * m + 6)%nat with (2 * m + 3 + 3)%nat in G by lia.
+    rewrite power_plus in G. change (power 3) with ((1 + u) * ((1 + u) * ((1 + u) * 1))) in G.
+    set (Q := power (2 * m + 3)) in *. set (D := power m - 1) in *.
+    apply Rmult_le_reg_l with ((1 + u) * ((1 + u) * (1 + u))).
     { repeat apply Rmult_lt_0_compat; lra. }
     apply Rle_trans with (INR m * u * (1 + INR (4 * m + 8) * u) * s).
     { replace ((1 + u) * ((1 + u) * (1 + u)) * (D * (Q * s)))
-        with (D * (Q * ((1 + u) * ((1 + u) * ((1 + u) * 1)))) * s) by ring. apply Rmult_le_compat_r; lra. }
+        with (D * (Q * ((1 + u) * ((1 + u) * ((1 + u) * 1)))) * s) by ring.
+      apply Rmult_le_compat_r; lra. }
     apply Rle_trans with ((1 + u) * (1 + u) * C * s).
     { apply Rmult_le_compat_r; lra. }
     replace ((1 + u) * (1 + u) * C * s) with ((1 + u) * (1 + u) * (C * s)) by ring.
-    replace ((1 + u) * ((1 + u) * (1 + u)) * fl (C * s)) with ((1 + u) * (1 + u) * ((1 + u) * fl (C * s))) by ring.
+    replace ((1 + u) * ((1 + u) * (1 + u)) * fl (C * s))
+      with ((1 + u) * (1 + u) * ((1 + u) * fl (C * s))) by ring.
     apply Rmult_le_compat_l; auto. apply Rmult_le_pos; lra.
 Qed.
 
 Lemma bound_number e : number (bound e).
-Proof. unfold bound. destruct (roundings e) as [| []]; apply number_0 || apply rnd_number. Qed.
+Proof.
+  unfold bound. destruct (roundings e) as [| []]; apply number_0 || apply rnd_number.
+Qed.
 
 Lemma zero_unrounded e : admissible e -> products e = O -> value e = 0 -> unrounded e = 0.
 Proof.
-  induction e as [c | a b | c | x IHx y IHy | x IHx y IHy | x IHx y IHy | x IHx]; simpl; intros [_ H] P; auto.
+  induction e as [c | a b | c | x IHx y IHy | x IHx y IHy | x IHx y IHy | x IHx]; simpl;
+    intros [_ H] P; auto.
   - destruct H as [A B]. intros Z. unfold Rminus in *.
     apply round_plus_eq_0 in Z; auto with typeclass_instances. now apply number_opp.
   - intros Z. apply IZR_eq. now apply constant_zero.
-  - destruct H as [A B]. intros Z. apply round_plus_eq_0 in Z; auto with typeclass_instances; now apply value_number.
-  - destruct H as [A B]. intros Z. unfold Rminus in *. apply round_plus_eq_0 in Z; auto with typeclass_instances.
+  - destruct H as [A B]. intros Z.
+    apply round_plus_eq_0 in Z; auto with typeclass_instances; now apply value_number.
+  - destruct H as [A B]. intros Z. unfold Rminus in *.
+    apply round_plus_eq_0 in Z; auto with typeclass_instances.
     + now apply value_number.
     + now apply number_opp, value_number.
   - discriminate.
@@ -650,28 +768,34 @@ Qed.
 Theorem filter_sign_certain e : admissible e -> 64 * INR (roundings e + 2) * u <= 1 ->
   sign_is_right (filter_sign e) (exact e).
 Proof.
-  intros A H. generalize (filter_bound e A H). intros B. apply Rabs_le_inv in B. unfold filter_sign.
+  intros A H. generalize (filter_bound e A H). intros B. apply Rabs_le_inv in B.
+  unfold filter_sign.
   destruct (Rlt_bool_spec (bound e) (Rabs (value e))) as [L | L].
   - rewrite (value_rounds e A) in *.
     assert (W : bound e < Rabs (unrounded e)).
-    { apply Rnot_le_lt. intros C. apply (rnd_abs_below p emin nearest) in C; [lra | apply bound_number]. }
+    { apply Rnot_le_lt. intros C.
+      apply (rnd_abs_below p emin nearest) in C; [lra | apply bound_number]. }
     destruct (Rlt_bool_spec 0 (fl (unrounded e))) as [S | S]; simpl.
     + assert (0 < unrounded e).
-      { apply Rnot_le_lt. intros C. apply (rnd_below p emin nearest _ 0) in C; [lra | apply number_0]. }
+      { apply Rnot_le_lt. intros C.
+        apply (rnd_below p emin nearest _ 0) in C; [lra | apply number_0]. }
       rewrite Rabs_pos_eq in W; lra.
     + assert (unrounded e < 0).
-      { apply Rnot_le_lt. intros C. apply rnd_nonnegative in C. assert (Z : fl (unrounded e) = 0) by lra.
-        rewrite Z, Rabs_R0 in L. assert (0 <= bound e); [| lra]. apply Rle_trans with (2 := filter_bound e A H).
-        apply Rabs_pos. }
+      { apply Rnot_le_lt. intros C. apply rnd_nonnegative in C.
+        assert (Z : fl (unrounded e) = 0) by lra. rewrite Z, Rabs_R0 in L.
+        assert (0 <= bound e); [| lra].
+        apply Rle_trans with (2 := filter_bound e A H). apply Rabs_pos. }
       rewrite Rabs_left in W; lra.
   - destruct ((roundings e <=? 1)%nat && (products e =? 0)%nat) eqn:F; simpl; auto.
-    destruct (Req_bool_spec (value e) 0) as [Z | Z]; simpl; auto. apply andb_prop in F. destruct F as [F1 F2].
-    apply Nat.leb_le in F1. apply Nat.eqb_eq in F2. apply zero_unrounded in Z; auto. rewrite Z in B. unfold bound in B.
-    destruct (roundings e) as [| []]; try lra. lia.
+    destruct (Req_bool_spec (value e) 0) as [Z | Z]; simpl; auto.
+    apply andb_prop in F. destruct F as [F1 F2]. apply Nat.leb_le in F1. apply Nat.eqb_eq in F2.
+    apply zero_unrounded in Z; auto. rewrite Z in B.
+    unfold bound in B. destruct (roundings e) as [| []]; try lra. lia.
 Qed.
 
 (** Overflow. For every operation of the value there is one of the size that is no smaller. *)
-Lemma fl_abs x : Rabs (fl x) = fl (Rabs x). Proof. symmetry. apply round_NE_abs. auto with typeclass_instances. Qed.
+Lemma fl_abs x : Rabs (fl x) = fl (Rabs x).
+Proof. symmetry. apply round_NE_abs. auto with typeclass_instances. Qed.
 Lemma full_above s n : 0 <= s -> number s -> s <= full s n.
 Proof.
   intros P N. destruct n as [| n]; [apply Rle_refl |]. apply rnd_above; auto.
@@ -680,7 +804,8 @@ Proof.
 Qed.
 Theorem size_covers_value e : admissible e -> Rabs (value e) <= size e.
 Proof.
-  induction e as [c | a b | c | x IHx y IHy | x IHx y IHy | x IHx y IHy | x IHx]; intros A; try apply Rle_refl.
+  induction e as [c | a b | c | x IHx y IHy | x IHx y IHy | x IHx y IHy | x IHx]; intros A;
+    try apply Rle_refl.
   - destruct A as (_ & A & B). cbn [value size]. rewrite fl_abs. apply (rnd_le p emin nearest).
     apply Rle_trans with (1 := Rabs_triang _ _). apply Rplus_le_compat; auto.
   - destruct A as (_ & A & B). cbn [value size]. rewrite fl_abs. apply (rnd_le p emin nearest).

@@ -9,20 +9,24 @@
         eta = 2^emin      the smallest positive number
         smallest_normal = 2^(emin+p-1); its ulp, and that of all smaller numbers, is eta *)
 
-From Coq Require Import Reals ZArith Lia Lra Psatz Bool. From Flocq Require Import Core Relative Plus_error Mult_error.
+From Coq Require Import Reals ZArith Lia Lra Psatz Bool.
+From Flocq Require Import Core Relative Plus_error Mult_error.
 Open Scope R_scope.
 
 (** (1 + e)^k <= 1 + ke + (ke)^2 for ke <= 1. *)
-Lemma power_quadratic e n : 0 <= e -> INR n * e <= 1 -> (1 + e) ^ n <= 1 + INR n * e + (INR n * e) * (INR n * e).
+Lemma power_quadratic e n : 0 <= e -> INR n * e <= 1 ->
+  (1 + e) ^ n <= 1 + INR n * e + (INR n * e) * (INR n * e).
 Proof.
   intros P. induction n as [| n IH]; intros H.
   - simpl. lra.
   - rewrite S_INR in *. rewrite <- tech_pow_Rmult. set (x := INR n * e) in *.
     replace ((INR n + 1) * e) with (x + e) in * by (unfold x; ring).
     assert (0 <= x) by (apply Rmult_le_pos; auto; apply pos_INR).
-    assert (IH' : (1 + e) ^ n <= 1 + x + x * x) by (apply IH; lra). apply Rle_trans with ((1 + e) * (1 + x + x * x)).
+    assert (IH' : (1 + e) ^ n <= 1 + x + x * x) by (apply IH; lra).
+    apply Rle_trans with ((1 + e) * (1 + x + x * x)).
     + apply Rmult_le_compat_l; lra.
-    + assert (x * x <= x) by nra. assert (0 <= e * (x + e - x * x)) by (apply Rmult_le_pos; lra). nra.
+    + assert (x * x <= x) by nra.
+      assert (0 <= e * (x + e - x * x)) by (apply Rmult_le_pos; lra). nra.
 Qed.
 
 Section Format.
@@ -36,39 +40,55 @@ Definition u : R := bpow radix2 (- p).
 Definition eta : R := bpow radix2 emin.
 Definition smallest_normal : R := bpow radix2 (emin + p - 1).
 
-Lemma eps_positive : 0 < eps. Proof. apply bpow_gt_0. Qed.
-Lemma u_positive : 0 < u. Proof. apply bpow_gt_0. Qed.
-Lemma eta_positive : 0 < eta. Proof. apply bpow_gt_0. Qed.
-Lemma smallest_normal_positive : 0 < smallest_normal. Proof. apply bpow_gt_0. Qed.
+Lemma eps_positive : 0 < eps.
+Proof. apply bpow_gt_0. Qed.
+Lemma u_positive : 0 < u.
+Proof. apply bpow_gt_0. Qed.
+Lemma eta_positive : 0 < eta.
+Proof. apply bpow_gt_0. Qed.
+Lemma smallest_normal_positive : 0 < smallest_normal.
+Proof. apply bpow_gt_0. Qed.
 
-Lemma eps_2u : eps = 2 * u. Proof. unfold eps, u. replace (1 - p)%Z with (1 + - p)%Z by lia. now rewrite bpow_plus. Qed.
+Lemma eps_2u : eps = 2 * u.
+Proof.
+  unfold eps, u. replace (1 - p)%Z with (1 + - p)%Z by lia. now rewrite bpow_plus.
+Qed.
 
 Lemma smallest_normal_eps : smallest_normal * eps = eta.
 Proof. unfold smallest_normal, eps, eta. rewrite <- bpow_plus. f_equal. lia. Qed.
 
-Lemma eta_le_smallest_normal : eta <= smallest_normal. Proof. apply bpow_le. unfold Prec_gt_0 in p_positive. lia. Qed.
+Lemma eta_le_smallest_normal : eta <= smallest_normal.
+Proof. apply bpow_le. unfold Prec_gt_0 in p_positive. lia. Qed.
 
 (** eps <= 2^(1-k) from k bits on. *)
-Lemma eps_le (k : Z) : (k <= p)%Z -> eps <= bpow radix2 (1 - k). Proof. intros H. apply bpow_le. lia. Qed.
+Lemma eps_le (k : Z) : (k <= p)%Z -> eps <= bpow radix2 (1 - k).
+Proof. intros H. apply bpow_le. lia. Qed.
 
-Lemma number_0 : number 0. Proof. apply generic_format_0. Qed.
+Lemma number_0 : number 0.
+Proof. apply generic_format_0. Qed.
 Lemma number_power (e : Z) : (emin <= e)%Z -> number (bpow radix2 e).
 Proof. apply generic_format_FLT_bpow. exact p_positive. Qed.
-Lemma number_eta : number eta. Proof. apply number_power. lia. Qed.
+Lemma number_eta : number eta.
+Proof. apply number_power. lia. Qed.
 Lemma number_smallest_normal : number smallest_normal.
 Proof. apply number_power. unfold Prec_gt_0 in p_positive. lia. Qed.
-Lemma number_opp x : number x -> number (- x). Proof. apply generic_format_opp. Qed.
-Lemma number_abs x : number x -> number (Rabs x). Proof. apply generic_format_abs. Qed.
+Lemma number_opp x : number x -> number (- x).
+Proof. apply generic_format_opp. Qed.
+Lemma number_abs x : number x -> number (Rabs x).
+Proof. apply generic_format_abs. Qed.
 
 (** Integers of at most p bits times a power of two. *)
-Lemma number_integer (n e : Z) : (emin <= e)%Z -> (Z.abs n <= 2 ^ p)%Z -> number (IZR n * bpow radix2 e).
+Lemma number_integer (n e : Z) :
+  (emin <= e)%Z -> (Z.abs n <= 2 ^ p)%Z -> number (IZR n * bpow radix2 e).
 Proof.
-  intros He Hn. unfold Prec_gt_0 in p_positive. destruct (Z.eq_dec (Z.abs n) (2 ^ p)) as [E | E].
+  intros He Hn. unfold Prec_gt_0 in p_positive.
+  destruct (Z.eq_dec (Z.abs n) (2 ^ p)) as [E | E].
   - destruct (Z.abs_spec n) as [[_ A] | [_ A]].
     + rewrite <- A, E. change 2%Z with (radix_val radix2). rewrite IZR_Zpower by lia.
       rewrite <- bpow_plus. apply number_power. lia.
-    + replace n with (- Z.abs n)%Z by lia. rewrite E, opp_IZR, <- Ropp_mult_distr_l. apply number_opp.
-      change 2%Z with (radix_val radix2). rewrite IZR_Zpower by lia. rewrite <- bpow_plus. apply number_power. lia.
+    + replace n with (- Z.abs n)%Z by lia. rewrite E, opp_IZR, <- Ropp_mult_distr_l.
+      apply number_opp. change 2%Z with (radix_val radix2). rewrite IZR_Zpower by lia.
+      rewrite <- bpow_plus. apply number_power. lia.
   - apply generic_format_FLT. exists (Float radix2 n e); simpl; auto.
     change 2%Z with (radix_val radix2) in E. simpl in *. lia.
 Qed.
@@ -83,8 +103,9 @@ Proof.
     apply number_integer; [lia |]. generalize (Z.pow_le_mono_r 2 2 p ltac:(lia) P2). simpl. lia.
   - replace (1 + bpow radix2 (k - p)) with (IZR (2 ^ (p - k) + 1) * bpow radix2 (k - p)).
     + apply number_integer; [lia |]. replace p with (1 + (p - 1))%Z at 2 by lia. rewrite Z.pow_add_r by lia.
-      generalize (Z.pow_le_mono_r 2 (p - k) (p - 1) ltac:(lia) ltac:(lia))
-        (Z.pow_le_mono_r 2 1 (p - 1) ltac:(lia) ltac:(lia)) (Z.pow_nonneg 2 (p - k) ltac:(lia)). simpl (2 ^ 1)%Z. lia.
+      generalize (Z.pow_le_mono_r 2 (p - k) (p - 1) ltac:(lia) ltac:(lia)) (Z.pow_le_mono_r 2 1 (p - 1) ltac:(lia)
+        ltac:(lia))
+        (Z.pow_nonneg 2 (p - k) ltac:(lia)). simpl (2 ^ 1)%Z. lia.
     + rewrite plus_IZR, Rmult_plus_distr_r. change 2%Z with (radix_val radix2). rewrite IZR_Zpower, <- bpow_plus by lia.
       replace (p - k + (k - p))%Z with 0%Z by lia. simpl. lra.
 Qed.
@@ -101,15 +122,20 @@ Context (direction : R -> Z) {direction_valid : Valid_rnd direction}.
 (** The rounded value of a real number: fl(x). *)
 Definition rnd (x : R) : R := round radix2 format direction x.
 
-Lemma rnd_number x : number (rnd x). Proof. apply generic_format_round; auto with typeclass_instances. Qed.
-Lemma rnd_exact x : number x -> rnd x = x. Proof. intros H. apply round_generic; auto with typeclass_instances. Qed.
-Lemma rnd_le x y : x <= y -> rnd x <= rnd y. Proof. apply round_le; auto with typeclass_instances. Qed.
-Lemma rnd_0 : rnd 0 = 0. Proof. apply rnd_exact, number_0. Qed.
+Lemma rnd_number x : number (rnd x).
+Proof. apply generic_format_round; auto with typeclass_instances. Qed.
+Lemma rnd_exact x : number x -> rnd x = x.
+Proof. intros H. apply round_generic; auto with typeclass_instances. Qed.
+Lemma rnd_le x y : x <= y -> rnd x <= rnd y.
+Proof. apply round_le; auto with typeclass_instances. Qed.
+Lemma rnd_0 : rnd 0 = 0.
+Proof. apply rnd_exact, number_0. Qed.
 Lemma rnd_above x y : number x -> x <= y -> x <= rnd y.
 Proof. intros N H. rewrite <- (rnd_exact x N). now apply rnd_le. Qed.
 Lemma rnd_below x y : number y -> x <= y -> rnd x <= y.
 Proof. intros N H. rewrite <- (rnd_exact y N). now apply rnd_le. Qed.
-Lemma rnd_nonnegative x : 0 <= x -> 0 <= rnd x. Proof. apply rnd_above, number_0. Qed.
+Lemma rnd_nonnegative x : 0 <= x -> 0 <= rnd x.
+Proof. apply rnd_above, number_0. Qed.
 Lemma rnd_abs_above x y : number x -> x <= Rabs y -> x <= Rabs (rnd y).
 Proof. apply abs_round_ge_generic; auto with typeclass_instances. Qed.
 Lemma rnd_abs_below x y : number y -> Rabs x <= y -> Rabs (rnd x) <= y.
@@ -132,7 +158,8 @@ Qed.
 (** Scaling up is exact, and scaling down was if scaling up restores the number. *)
 Lemma scale_up x e : number x -> (0 <= e)%Z -> rnd (x * bpow radix2 e) = x * bpow radix2 e.
 Proof. intros. apply rnd_exact, mult_bpow_pos_exact_FLT; auto. Qed.
-Lemma scale_back v a e : number v -> (e < 0)%Z -> rnd (v * bpow radix2 (- e)) = a -> v = a * bpow radix2 e.
+Lemma scale_back v a e : number v -> (e < 0)%Z -> rnd (v * bpow radix2 (- e)) = a ->
+  v = a * bpow radix2 e.
 Proof.
   intros N H. rewrite scale_up by (auto; lia). intros <-.
   rewrite Rmult_assoc, <- bpow_plus. replace (- e + e)%Z with 0%Z by lia. simpl. ring.
@@ -165,13 +192,18 @@ Proof.
 Qed.
 
 (** Sums that underflow are exact: up to 2^p eta, twice the smallest normal number. *)
-Lemma sum_exact x y : number x -> number y -> Rabs (x + y) <= bpow radix2 (p + emin) -> number (x + y).
+Lemma sum_exact x y :
+  number x -> number y -> Rabs (x + y) <= bpow radix2 (p + emin) -> number (x + y).
 Proof. apply FLT_format_plus_small. exact p_positive. Qed.
 
 Lemma twice_smallest_normal : bpow radix2 (p + emin) = 2 * smallest_normal.
-Proof. unfold smallest_normal. replace (p + emin)%Z with (1 + (emin + p - 1))%Z by lia. now rewrite bpow_plus. Qed.
+Proof.
+  unfold smallest_normal. replace (p + emin)%Z with (1 + (emin + p - 1))%Z by lia.
+  now rewrite bpow_plus.
+Qed.
 
-Lemma sum_exact_below x y : number x -> number y -> Rabs (x + y) < smallest_normal -> rnd (x + y) = x + y.
+Lemma sum_exact_below x y :
+  number x -> number y -> Rabs (x + y) < smallest_normal -> rnd (x + y) = x + y.
 Proof.
   intros X Y H. apply rnd_exact, sum_exact; auto. rewrite twice_smallest_normal.
   generalize smallest_normal_positive. lra.
@@ -179,7 +211,8 @@ Qed.
 
 (** The rule's term for its rounding, fl(|v| c) with c >= eps, is at least the error of a sum rounded to v. For a
     product or quotient, this holds together with h. *)
-Lemma ulp_covered v c : eps <= c -> smallest_normal <= Rabs v -> ulp radix2 format v <= rnd (Rabs v * c).
+Lemma ulp_covered v c :
+  eps <= c -> smallest_normal <= Rabs v -> ulp radix2 format v <= rnd (Rabs v * c).
 Proof.
   intros C V. apply rnd_above.
   - apply generic_format_ulp; auto with typeclass_instances.
@@ -188,7 +221,8 @@ Proof.
     + apply Rmult_le_compat_l; auto. apply Rabs_pos.
 Qed.
 
-Lemma rounding_of_normal s c : eps <= c -> smallest_normal <= Rabs s -> Rabs (rnd s - s) <= rnd (Rabs (rnd s) * c).
+Lemma rounding_of_normal s c :
+  eps <= c -> smallest_normal <= Rabs s -> Rabs (rnd s - s) <= rnd (Rabs (rnd s) * c).
 Proof.
   intros C S. apply Rle_trans with (ulp radix2 format (rnd s)).
   - apply error_le_ulp_round; auto with typeclass_instances.
@@ -198,16 +232,19 @@ Qed.
 Lemma rounding_term_nonnegative v c : 0 <= c -> 0 <= rnd (Rabs v * c).
 Proof. intros C. apply rnd_nonnegative. apply Rmult_le_pos; auto. apply Rabs_pos. Qed.
 
-Lemma rounding_of_sum x y c : number x ->
-  number y -> eps <= c -> Rabs (rnd (x + y) - (x + y)) <= rnd (Rabs (rnd (x + y)) * c).
+Lemma rounding_of_sum x y c :
+  number x -> number y -> eps <= c ->
+  Rabs (rnd (x + y) - (x + y)) <= rnd (Rabs (rnd (x + y)) * c).
 Proof.
   intros X Y C. destruct (Rlt_or_le (Rabs (x + y)) smallest_normal) as [S | S].
-  - rewrite (sum_exact_below x y X Y S) at 1. replace (x + y - (x + y)) with 0 by ring. rewrite Rabs_R0.
+  - rewrite (sum_exact_below x y X Y S) at 1.
+    replace (x + y - (x + y)) with 0 by ring. rewrite Rabs_R0.
     apply rounding_term_nonnegative. generalize eps_positive; lra.
   - now apply rounding_of_normal.
 Qed.
 
-Lemma rounding_of_any s c r h : rounding_error r h -> eps <= c -> Rabs (rnd s - s) <= rnd (Rabs (rnd s) * c) + h.
+Lemma rounding_of_any s c r h :
+  rounding_error r h -> eps <= c -> Rabs (rnd s - s) <= rnd (Rabs (rnd s) * c) + h.
 Proof.
   intros E C. destruct (Rlt_or_le (Rabs s) smallest_normal) as [S | S].
   - generalize (error_absolute r h E s S).
@@ -224,14 +261,17 @@ Context (r h : R) (E : rounding_error r h).
 
 Lemma rnd_relative x : smallest_normal <= x -> x * (1 - r) <= rnd x.
 Proof.
-  intros H. generalize smallest_normal_positive; intros M. assert (A : Rabs x = x) by (apply Rabs_pos_eq; lra).
-  generalize (error_relative r h E x). rewrite A. intros B. specialize (B H). apply Rabs_le_inv in B. lra.
+  intros H. generalize smallest_normal_positive; intros M.
+  assert (A : Rabs x = x) by (apply Rabs_pos_eq; lra).
+  generalize (error_relative r h E x). rewrite A. intros B. specialize (B H).
+  apply Rabs_le_inv in B. lra.
 Qed.
 
 Lemma rnd_absolute x : 0 <= x -> x < smallest_normal -> x - h <= rnd x <= x + h.
 Proof.
-  intros P H. assert (A : Rabs x = x) by (apply Rabs_pos_eq; lra). generalize (error_absolute r h E x). rewrite A.
-  intros B. specialize (B H). apply Rabs_le_inv in B. lra.
+  intros P H. assert (A : Rabs x = x) by (apply Rabs_pos_eq; lra).
+  generalize (error_absolute r h E x). rewrite A. intros B. specialize (B H).
+  apply Rabs_le_inv in B. lra.
 Qed.
 
 (** For any number, one of both errors applies. *)
@@ -247,7 +287,9 @@ Lemma rnd_normal x : smallest_normal <= x -> smallest_normal <= rnd x.
 Proof. apply rnd_above, number_smallest_normal. Qed.
 
 Lemma rnd_subnormal x : rnd x < smallest_normal -> x < smallest_normal.
-Proof. intros H. apply Rnot_le_lt. intros C. apply rnd_normal in C. lra. Qed.
+Proof.
+  intros H. apply Rnot_le_lt. intros C. apply rnd_normal in C. lra.
+Qed.
 
 (** Scaling by a power of two is exact unless it underflows; then the error is at most h. *)
 Lemma scale_error x e : number x -> Rabs (rnd (x * bpow radix2 e) - x * bpow radix2 e) <= h.
@@ -255,24 +297,30 @@ Proof.
   intros N. destruct (Rlt_or_le (Rabs (x * bpow radix2 e)) smallest_normal) as [S | S].
   - now apply (error_absolute r h E).
   - rewrite rnd_exact.
-    + replace (x * bpow radix2 e - x * bpow radix2 e) with 0 by ring. rewrite Rabs_R0. apply (error_h r h E).
+    + replace (x * bpow radix2 e - x * bpow radix2 e) with 0 by ring. rewrite Rabs_R0.
+      apply (error_h r h E).
     + apply mult_bpow_exact_FLT; auto. rewrite Rabs_mult, (Rabs_pos_eq (bpow _ _)) in S by apply bpow_ge_0.
       assert (M : bpow radix2 (emin + p - e - 1) <= Rabs x).
-      { replace (emin + p - e - 1)%Z with (emin + p - 1 + - e)%Z by lia. rewrite bpow_plus, bpow_opp.
-        unfold smallest_normal in S. apply Rmult_le_reg_r with (bpow radix2 e); [apply bpow_gt_0 |].
+      { replace (emin + p - e - 1)%Z with (emin + p - 1 + - e)%Z by lia.
+        rewrite bpow_plus, bpow_opp. unfold smallest_normal in S.
+        apply Rmult_le_reg_r with (bpow radix2 e); [apply bpow_gt_0 |].
         rewrite Rmult_assoc, Rinv_l, Rmult_1_r; auto. apply Rgt_not_eq, bpow_gt_0. }
       apply mag_ge_bpow in M. lia.
 Qed.
 
-Lemma scaled_error_sound inflate a x sa e : (forall s, number s -> 0 <= s -> s + 2 * h <= inflate s) ->
+Lemma scaled_error_sound inflate a x sa e :
+  (forall s, number s -> 0 <= s -> s + 2 * h <= inflate s) ->
   number a -> number sa -> Rabs (a - x) <= sa ->
-  Rabs (rnd (a * bpow radix2 e) - x * bpow radix2 e) <= scaled_error inflate (rnd (a * bpow radix2 e)) a sa e.
+  Rabs (rnd (a * bpow radix2 e) - x * bpow radix2 e) <=
+    scaled_error inflate (rnd (a * bpow radix2 e)) a sa e.
 Proof.
-  intros I A SA H. unfold scaled_error. cbv zeta. set (v := rnd (a * bpow radix2 e)).
-  set (s := rnd (sa * bpow radix2 e)). generalize (bpow_ge_0 radix2 e). intros PB.
+  intros I A SA H. unfold scaled_error. cbv zeta.
+  set (v := rnd (a * bpow radix2 e)). set (s := rnd (sa * bpow radix2 e)).
+  generalize (bpow_ge_0 radix2 e). intros PB.
   assert (PA : 0 <= sa) by (generalize (Rabs_pos (a - x)); lra).
   assert (D : Rabs (a * bpow radix2 e - x * bpow radix2 e) <= sa * bpow radix2 e).
-  { rewrite <- Rmult_minus_distr_r, Rabs_mult, (Rabs_pos_eq (bpow _ _)) by auto. now apply Rmult_le_compat_r. }
+  { rewrite <- Rmult_minus_distr_r, Rabs_mult, (Rabs_pos_eq (bpow _ _)) by auto.
+    now apply Rmult_le_compat_r. }
   assert (Ns : number s) by apply rnd_number. assert (Nv : number v) by apply rnd_number.
   assert (Z : rnd (s + rnd (v - v)) = s).
   { replace (v - v) with 0 by ring. rewrite rnd_0, Rplus_0_r. now apply rnd_exact. }
@@ -288,7 +336,8 @@ Proof.
 Qed.
 
 (** A sum of nonnegative numbers has the relative error r, and none below the smallest normal number. *)
-Lemma sum_relative x y : number x -> number y -> 0 <= x -> 0 <= y -> (x + y) * (1 - r) <= rnd (x + y).
+Lemma sum_relative x y :
+  number x -> number y -> 0 <= x -> 0 <= y -> (x + y) * (1 - r) <= rnd (x + y).
 Proof.
   intros X Y PX PY. destruct (Rlt_or_le (x + y) smallest_normal) as [S | S].
   - rewrite sum_exact_below; auto.
@@ -297,9 +346,13 @@ Proof.
   - now apply rnd_relative.
 Qed.
 
-Lemma sum_subnormal x y : number x ->
-  number y -> 0 <= x -> 0 <= y -> rnd (x + y) < smallest_normal -> rnd (x + y) = x + y.
-Proof. intros X Y PX PY H. apply rnd_subnormal in H. apply sum_exact_below; auto. rewrite Rabs_pos_eq; lra. Qed.
+Lemma sum_subnormal x y :
+  number x -> number y -> 0 <= x -> 0 <= y -> rnd (x + y) < smallest_normal ->
+  rnd (x + y) = x + y.
+Proof.
+  intros X Y PX PY H. apply rnd_subnormal in H. apply sum_exact_below; auto.
+  rewrite Rabs_pos_eq; lra.
+Qed.
 
 (** The error of a sum in units of the exact sum. *)
 Lemma sum_error x y : number x -> number y -> Rabs (rnd (x + y) - (x + y)) <= r * Rabs (x + y).
@@ -314,8 +367,11 @@ Qed.
 Lemma scaled_up x f : number x -> 0 <= x -> 1 <= f -> x <= rnd (x * f).
 Proof. intros X P H. apply rnd_above; auto. nra. Qed.
 
-Lemma inflated_relative x f : number x -> smallest_normal <= x -> 1 <= f -> x * f * (1 - r) <= rnd (x * f).
-Proof. intros X P H. apply rnd_relative. generalize smallest_normal_positive. nra. Qed.
+Lemma inflated_relative x f :
+  number x -> smallest_normal <= x -> 1 <= f -> x * f * (1 - r) <= rnd (x * f).
+Proof.
+  intros X P H. apply rnd_relative. generalize smallest_normal_positive. nra.
+Qed.
 
 End Lower.
 
@@ -334,7 +390,8 @@ Qed.
 Lemma small_left x : 0 <= x -> x < smallest_normal -> x - h <= rnd x.
 Proof.
   intros P C. generalize (leaves_small x).
-  rewrite (Rabs_pos_eq x), (Rabs_pos_eq (rnd x)) by (try apply rnd_nonnegative; lra). auto.
+  rewrite (Rabs_pos_eq x), (Rabs_pos_eq (rnd x)) by (try apply rnd_nonnegative; lra).
+  auto.
 Qed.
 Lemma any_left x : 0 <= x -> x * q - h <= rnd x.
 Proof.
@@ -358,8 +415,9 @@ Proof.
   set (s := rnd (rnd (x + y) + z)). assert (S : number s) by apply rnd_number.
   assert (NS : rnd (x + y) <= s) by (apply rnd_above; [apply rnd_number | lra]).
   destruct (Rlt_or_le s smallest_normal) as [C | C].
-  - apply Rle_trans with s; [| apply scaled_up; auto; lra]. unfold s.
-    rewrite (sum_subnormal _ z); auto using rnd_number. rewrite (sum_subnormal x y); auto; lra.
+  - apply Rle_trans with s; [| apply scaled_up; auto; lra].
+    unfold s. rewrite (sum_subnormal _ z); auto using rnd_number.
+    rewrite (sum_subnormal x y); auto; lra.
   - apply Rle_trans with (2 := scaled_left s f C F).
     generalize (sum_left x y X Y ltac:(lra)) (sum_left (rnd (x + y)) z (rnd_number _) Z ltac:(lra)). fold s. intros A B.
     assert (D : (x + y + z) * (q * q) <= s).
@@ -375,10 +433,12 @@ Lemma covered_by_rounded s f : 1 <= f -> 1 <= f * (q * q * q) -> Rabs s <= rnd (
 Proof.
   intros F F3. generalize eta_positive (Rabs_pos s) (Rabs_pos (rnd s)); intros. set (w := rnd (Rabs (rnd s) + eta)).
   assert (N : number (Rabs (rnd s))) by (apply number_abs, rnd_number). assert (W : number w) by apply rnd_number.
-  assert (V : Rabs (rnd s) <= w) by (apply rnd_above; auto; lra). destruct (Rlt_or_le w smallest_normal) as [C | C].
-  - apply Rle_trans with w; [| apply scaled_up; auto; lra]. unfold w.
-    rewrite sum_subnormal; auto using number_eta; try lra. enough (Rabs s - h <= Rabs (rnd s)) by lra.
-    apply leaves_small. apply Rnot_le_lt. intros S. apply rnd_abs_above in S; auto using number_smallest_normal. lra.
+  assert (V : Rabs (rnd s) <= w) by (apply rnd_above; auto; lra).
+  destruct (Rlt_or_le w smallest_normal) as [C | C].
+  - apply Rle_trans with w; [| apply scaled_up; auto; lra].
+    unfold w. rewrite sum_subnormal; auto using number_eta; try lra.
+    enough (Rabs s - h <= Rabs (rnd s)) by lra. apply leaves_small. apply Rnot_le_lt. intros S.
+    apply rnd_abs_above in S; auto using number_smallest_normal. lra.
   - apply Rle_trans with (2 := scaled_left w f C F).
     assert (A : Rabs s * q <= Rabs (rnd s) + eta).
     { destruct (Rlt_or_le (Rabs s) smallest_normal) as [S | S].
@@ -393,10 +453,12 @@ Proof.
 Qed.
 
 (** The error that a product inherits from its factors' bounds, as the rules compute it. *)
-Lemma product_inherited A B sa sb d : number B -> number sb -> 0 <= A -> 0 <= B -> 0 <= sa ->
-  0 <= sb -> (forall x w, 0 <= x -> x * q <= w -> w + eta < smallest_normal -> x - d <= w) -> let inherited := rnd
-  (rnd (A * sb) + rnd (sa * rnd (B + sb))) in let exactly := A * sb + sa * (B + sb) in 0 <= inherited /\ (inherited
-  + 2 * eta < smallest_normal -> exactly <= inherited + 2 * h + d) /\ (exactly * (q * q) - 2 * h) * q <= inherited.
+Lemma product_inherited A B sa sb d : number B -> number sb -> 0 <= A -> 0 <= B -> 0 <= sa -> 0 <= sb ->
+  (forall x w, 0 <= x -> x * q <= w -> w + eta < smallest_normal -> x - d <= w) ->
+  let inherited := rnd (rnd (A * sb) + rnd (sa * rnd (B + sb))) in
+  let exactly := A * sb + sa * (B + sb) in
+  0 <= inherited /\ (inherited + 2 * eta < smallest_normal -> exactly <= inherited + 2 * h + d) /\
+  (exactly * (q * q) - 2 * h) * q <= inherited.
 Proof.
   intros NB NSb PA PB PSa PSb Small. cbv zeta. set (t := rnd (B + sb)).
   set (K := A * sb). set (T := sa * (B + sb)). set (P1 := rnd K). set (P2 := rnd (sa * t)). set (I := rnd (P1 + P2)).
@@ -421,7 +483,9 @@ Qed.
 
 (** A quotient w that four roundings made less than Z, times a factor that covers five. *)
 Lemma quotient_inflated Z w f : 0 <= Z -> 1 <= f -> 1 <= f * (q * q * q * q * q) -> Z * (q * q * q * q) <= w ->
-  0 <= w -> let inflated := rnd (rnd w * f) in (rnd w < smallest_normal -> Z - h * (1 + f) <= inflated) /\
+  0 <= w ->
+  let inflated := rnd (rnd w * f) in
+  (rnd w < smallest_normal -> Z - h * (1 + f) <= inflated) /\
   (smallest_normal <= rnd w -> Z * (q * q * q * q) * q * (f * q) <= inflated).
 Proof.
   intros PZ F F5 W Pw. cbv zeta. set (I := rnd w). assert (PI : 0 <= I) by now apply rnd_nonnegative.
@@ -430,7 +494,8 @@ Proof.
     assert (D2 : Z * f * (q * q * q * q) - h * f <= I * f).
     { replace (Z * f * (q * q * q * q) - h * f) with ((Z * (q * q * q * q) - h) * f) by ring.
       apply Rmult_le_compat_r; lra. }
-    assert (Ph : 0 <= h * f) by (apply Rmult_le_pos; lra). generalize (any_left (I * f) PIf). intros D3.
+    assert (Ph : 0 <= h * f) by (apply Rmult_le_pos; lra).
+    generalize (any_left (I * f) PIf). intros D3.
     assert (D4 : (Z * f * (q * q * q * q) - h * f) * q <= I * f * q) by (apply Rmult_le_compat_r; lra).
     assert (Z * 1 <= Z * (f * (q * q * q * q * q))) by (apply Rmult_le_compat_l; auto).
     assert (h * f * q <= h * f * 1) by (apply Rmult_le_compat_l; lra). lra.
@@ -442,8 +507,9 @@ Qed.
 
 End Leaves.
 
-Lemma leaves_of_error r h : rounding_error r h -> (forall x, smallest_normal <= Rabs x ->
-  Rabs x * (1 - r) <= Rabs (rnd x)) /\ (forall x, Rabs x < smallest_normal -> Rabs x - h <= Rabs (rnd x)).
+Lemma leaves_of_error r h : rounding_error r h ->
+  (forall x, smallest_normal <= Rabs x -> Rabs x * (1 - r) <= Rabs (rnd x)) /\
+  (forall x, Rabs x < smallest_normal -> Rabs x - h <= Rabs (rnd x)).
 Proof.
   intros E. split; intros x C; [generalize (error_relative r h E x C) | generalize (error_absolute r h E x C)];
     generalize (Rabs_triang_inv x (rnd x)); rewrite (Rabs_minus_sym x); lra.
@@ -467,7 +533,8 @@ Proof.
     + rewrite bpow_plus. change (bpow radix2 1) with 2. unfold u. field.
   - intros x H. replace (eta / 2) with (/ 2 * ulp radix2 format x).
     + apply error_le_half_ulp; auto with typeclass_instances.
-    + unfold eta. rewrite ulp_FLT_small; auto. field. apply Rlt_le_trans with (1 := H). apply bpow_le. lia.
+    + unfold eta. rewrite ulp_FLT_small; auto. field.
+      apply Rlt_le_trans with (1 := H). apply bpow_le. lia.
   - rewrite eps_2u. generalize u_positive. lra.
   - generalize (eps_le 1 P) eps_2u u_positive. simpl. lra.
   - generalize eta_positive. lra.
@@ -482,8 +549,9 @@ Proof.
   - assert (NZ : rnd nearest s <> 0).
     { intros Z. rewrite Z, Rabs_R0 in V. generalize (bpow_gt_0 radix2 (p + emin)). lra. }
     apply rnd_above; auto with typeclass_instances.
-    + rewrite ulp_neq_0; auto. replace (/ 2) with (bpow radix2 (-1)) by reflexivity. rewrite <- bpow_plus.
-      apply number_power. assert (p + emin < mag radix2 (rnd nearest s))%Z by (apply mag_gt_bpow; auto).
+    + rewrite ulp_neq_0; auto. replace (/ 2) with (bpow radix2 (-1)) by reflexivity.
+      rewrite <- bpow_plus. apply number_power.
+      assert (p + emin < mag radix2 (rnd nearest s))%Z by (apply mag_gt_bpow; auto).
       unfold cexp, FLT_exp. lia.
     + assert (ulp radix2 format (rnd nearest s) <= Rabs (rnd nearest s) * bpow radix2 (1 - p)).
       { apply ulp_FLT_le; auto. apply Rle_trans with (2 := V). apply bpow_le. lia. }
@@ -497,7 +565,8 @@ Proof.
 Qed.
 
 (** In units of the result: x is at most (1 + u) fl(x). *)
-Lemma nearest_relative_to_result x : smallest_normal <= Rabs x -> Rabs (rnd_nearest x - x) <= u * Rabs (rnd_nearest x).
+Lemma nearest_relative_to_result x :
+  smallest_normal <= Rabs x -> Rabs (rnd_nearest x - x) <= u * Rabs (rnd_nearest x).
 Proof.
   intros H. replace u with (/ 2 * bpow radix2 (- p + 1)).
   - apply relative_error_N_FLT_round; auto.
@@ -507,7 +576,8 @@ Qed.
 (** The smallest positive number disappears in a sum with 1. *)
 Lemma eta_lost : (3 <= p)%Z -> (emin <= - p - 1)%Z -> rnd nearest (1 + eta) = 1.
 Proof.
-  intros P L. assert (N1 : number 1) by (change 1 with (bpow radix2 0); apply number_power; lia).
+  intros P L.
+  assert (N1 : number 1) by (change 1 with (bpow radix2 0); apply number_power; lia).
   generalize u_positive eta_positive eps_2u. intros Pu Pe E2.
   assert (U : u <= / 8) by (generalize (eps_le 3 P); simpl; lra).
   assert (H : 2 * eta <= u).
@@ -515,12 +585,14 @@ Proof.
   assert (L1 : 1 <= rnd nearest (1 + eta)) by (apply rnd_above; auto with typeclass_instances; lra).
   destruct (Rle_lt_or_eq_dec _ _ L1) as [C | C]; [exfalso | auto].
   apply (succ_le_lt radix2 format) in C; auto with typeclass_instances.
-  2: apply rnd_number; auto with typeclass_instances. rewrite succ_eq_pos in C by lra.
-  change 1 with (bpow radix2 0) in C at 2. rewrite ulp_bpow in C.
-  replace (format (0 + 1)) with (1 - p)%Z in C by (unfold FLT_exp; lia). change (bpow radix2 (1 - p)) with eps in C.
+  2: apply rnd_number; auto with typeclass_instances.
+  rewrite succ_eq_pos in C by lra. change 1 with (bpow radix2 0) in C at 2. rewrite ulp_bpow in C.
+  replace (format (0 + 1)) with (1 - p)%Z in C by (unfold FLT_exp; lia).
+  change (bpow radix2 (1 - p)) with eps in C.
   assert (D : Rabs (rnd nearest (1 + eta) - (1 + eta)) <= u * Rabs (1 + eta)).
-  { apply (error_relative nearest _ _ (rounding_error_nearest ltac:(lia))). rewrite Rabs_pos_eq by lra.
-    assert (smallest_normal <= 1); [| lra]. change 1 with (bpow radix2 0). apply bpow_le. lia. }
+  { apply (error_relative nearest _ _ (rounding_error_nearest ltac:(lia))).
+    rewrite Rabs_pos_eq by lra. assert (smallest_normal <= 1); [| lra].
+    change 1 with (bpow radix2 0). apply bpow_le. lia. }
   rewrite (Rabs_pos_eq (1 + _)) in D by lra. apply Rabs_le_inv in D. nra.
 Qed.
 

@@ -5,8 +5,11 @@
     result is finite, nothing before overflowed, and the code computed the definitions over real numbers (Tight.v,
     ...). `nonnegative` means not below zero, but possibly infinite or NaN. *)
 
-From Coq Require Import Reals ZArith Lia Lra Psatz Bool. From Flocq Require Import Core IEEE754.BinarySingleNaN.
-From Errbound Require Import Code. From Errbound Require Format. Open Scope R_scope.
+From Coq Require Import Reals ZArith Lia Lra Psatz Bool.
+From Flocq Require Import Core IEEE754.BinarySingleNaN.
+From Errbound Require Import Code.
+From Errbound Require Format.
+Open Scope R_scope.
 
 Notation finite x := (BinarySingleNaN.is_finite x = true).
 
@@ -44,10 +47,12 @@ Definition floats : arithmetic float := {|
 (** The e with 1/2 <= |x| / 2^e < 1. *)
 Definition exponent (x : float) : Z := snd (Bfrexp x).
 
-Notation emin := (3 - emax - p)%Z. Notation fl := (Format.rnd p emin Format.nearest).
+Notation emin := (3 - emax - p)%Z.
+Notation fl := (Format.rnd p emin Format.nearest).
 Notation number := (Format.number p emin).
 
-Lemma number_B2R (x : float) : number (B2R x). Proof. apply (generic_format_B2R p emax x). Qed.
+Lemma number_B2R (x : float) : number (B2R x).
+Proof. apply (generic_format_B2R p emax x). Qed.
 
 (** A finite result has finite operands and is the rounded exact one. *)
 Lemma plus_finite x y : finite (plus _ floats x y) ->
@@ -56,8 +61,9 @@ Proof.
   intros H. assert (F : finite x /\ finite y).
   { revert H. destruct x as [s | s | | s m e b], y as [t | t | | t n f c]; simpl; auto;
       destruct (Bool.eqb s t); discriminate. }
-  destruct F as [X Y]. repeat split; auto. generalize (Bplus_correct p emax _ _ mode_NE x y X Y).
-  case Rlt_bool; [tauto |]. intros [O _]. exfalso. revert H O. simpl. destruct (Bplus mode_NE x y); discriminate.
+  destruct F as [X Y]. repeat split; auto.
+  generalize (Bplus_correct p emax _ _ mode_NE x y X Y). case Rlt_bool; [tauto |].
+  intros [O _]. exfalso. revert H O. simpl. destruct (Bplus mode_NE x y); discriminate.
 Qed.
 Lemma minus_finite x y : finite (minus _ floats x y) ->
   finite x /\ finite y /\ B2R (minus _ floats x y) = fl (B2R x - B2R y).
@@ -65,8 +71,9 @@ Proof.
   intros H. assert (F : finite x /\ finite y).
   { revert H. destruct x as [s | s | | s m e b], y as [t | t | | t n f c]; simpl; auto;
       destruct (Bool.eqb s (negb t)); discriminate. }
-  destruct F as [X Y]. repeat split; auto. generalize (Bminus_correct p emax _ _ mode_NE x y X Y).
-  case Rlt_bool; [tauto |]. intros [O _]. exfalso. revert H O. simpl. destruct (Bminus mode_NE x y); discriminate.
+  destruct F as [X Y]. repeat split; auto.
+  generalize (Bminus_correct p emax _ _ mode_NE x y X Y). case Rlt_bool; [tauto |].
+  intros [O _]. exfalso. revert H O. simpl. destruct (Bminus mode_NE x y); discriminate.
 Qed.
 Lemma times_finite x y : finite (times _ floats x y) ->
   finite x /\ finite y /\ B2R (times _ floats x y) = fl (B2R x * B2R y).
@@ -92,7 +99,8 @@ Proof.
   generalize (Bfma_correct p emax _ _ mode_NE x y z X Y Z). cbv zeta. case Rlt_bool; [tauto |].
   intros O. exfalso. revert H O. unfold fma, floats. destruct (Bfma mode_NE x y z); discriminate.
 Qed.
-Lemma root_finite x : finite (root _ floats x) -> finite x /\ 0 <= B2R x /\ B2R (root _ floats x) = fl (sqrt (B2R x)).
+Lemma root_finite x : finite (root _ floats x) ->
+  finite x /\ 0 <= B2R x /\ B2R (root _ floats x) = fl (sqrt (B2R x)).
 Proof.
   generalize (Bsqrt_correct p emax _ _ mode_NE x). intros (E & F & _) H. simpl in H. rewrite F in H.
   destruct x as [s | s | | s m e b]; try discriminate; repeat split; auto; simpl; [lra |].
@@ -111,8 +119,10 @@ Proof.
   - intros (E & F & _). simpl in H. rewrite F in H. tauto.
   - intros O. exfalso. revert H O. simpl. destruct (Bldexp mode_NE x e); discriminate.
 Qed.
-Lemma opposite_finite x : finite (opposite _ floats x) -> finite x. Proof. simpl. now rewrite is_finite_Bopp. Qed.
-Lemma opposite_value x : B2R (opposite _ floats x) = - B2R x. Proof. apply B2R_Bopp. Qed.
+Lemma opposite_finite x : finite (opposite _ floats x) -> finite x.
+Proof. simpl. now rewrite is_finite_Bopp. Qed.
+Lemma opposite_value x : B2R (opposite _ floats x) = - B2R x.
+Proof. apply B2R_Bopp. Qed.
 
 Lemma less_finite x y : finite x -> finite y -> less _ floats x y = Rlt_bool (B2R x) (B2R y).
 Proof. apply Bltb_correct. Qed.
@@ -122,7 +132,8 @@ Lemma equal_finite x y : finite x -> finite y -> equal _ floats x y = Req_bool (
 Proof. apply Beqb_correct. Qed.
 
 (** Constants. *)
-Lemma constant_value n e : number (IZR n * bpow radix2 e) -> Rabs (IZR n * bpow radix2 e) < bpow radix2 emax ->
+Lemma constant_value n e :
+  number (IZR n * bpow radix2 e) -> Rabs (IZR n * bpow radix2 e) < bpow radix2 emax ->
   finite (constant n e) /\ B2R (constant n e) = IZR n * bpow radix2 e.
 Proof.
   intros N B. generalize (binary_normalize_correct p emax _ _ mode_NE n e false). cbv zeta.
@@ -131,15 +142,18 @@ Proof.
 Qed.
 
 Hypothesis p_3 : (3 <= p)%Z.
-Lemma p_emax : (p < emax)%Z. Proof. exact p_below. Qed.
-Lemma emin_p : (emin <= - p)%Z. Proof. generalize p_emax. lia. Qed.
+Lemma p_emax : (p < emax)%Z.
+Proof. exact p_below. Qed.
+Lemma emin_p : (emin <= - p)%Z.
+Proof. generalize p_emax. lia. Qed.
 
 Lemma exponent_value x : finite x -> B2R x <> 0 ->
   bpow radix2 (exponent x - 1) <= Rabs (B2R x) < bpow radix2 (exponent x).
 Proof.
   intros X N. assert (S : is_finite_strict x = true) by now destruct x.
   generalize (Bfrexp_correct p emax _ x S) (bpow_gt_0 radix2 (exponent x)). unfold exponent.
-  destruct (Bfrexp x) as [z e]. cbn [snd]. intros [-> H] P. destruct H as [H _]; [generalize p_emax; lia |].
+  destruct (Bfrexp x) as [z e]. cbn [snd]. intros [-> H] P.
+  destruct H as [H _]; [generalize p_emax; lia |].
   rewrite Rabs_mult, (Rabs_pos_eq (bpow radix2 e)) by lra. unfold Zminus. rewrite bpow_plus.
   change (bpow radix2 (-(1))) with (/ 2). nra.
 Qed.
@@ -148,20 +162,23 @@ Lemma integer_value n : (Z.abs n <= 8)%Z -> finite (integer _ floats n) /\ B2R (
 Proof.
   intros H. generalize (constant_value n 0). change (bpow radix2 0) with 1. rewrite Rmult_1_r.
   intros C. generalize p_emax. intros L. apply C.
-  - rewrite <- (Rmult_1_r (IZR n)). change 1 with (bpow radix2 0). apply Format.number_integer; auto.
+  - rewrite <- (Rmult_1_r (IZR n)). change 1 with (bpow radix2 0).
+    apply Format.number_integer; auto.
     + lia.
     + apply Z.le_trans with (1 := H). apply (Z.pow_le_mono_r 2 3); lia.
   - rewrite <- abs_IZR. apply Rle_lt_trans with (bpow radix2 3).
     + simpl. now apply IZR_le.
     + apply bpow_lt. lia.
 Qed.
-Lemma power_value e : (emin <= e < emax)%Z -> finite (constant 1 e) /\ B2R (constant 1 e) = bpow radix2 e.
+Lemma power_value e : (emin <= e < emax)%Z ->
+  finite (constant 1 e) /\ B2R (constant 1 e) = bpow radix2 e.
 Proof.
   intros H. generalize (constant_value 1 e). rewrite Rmult_1_l. intros C. apply C.
   - apply Format.number_power; auto. lia.
   - rewrite Rabs_pos_eq by apply bpow_ge_0. apply bpow_lt. lia.
 Qed.
-Lemma zero_value : finite (integer _ floats 0) /\ B2R (integer _ floats 0) = 0. Proof. now apply (integer_value 0). Qed.
+Lemma zero_value : finite (integer _ floats 0) /\ B2R (integer _ floats 0) = 0.
+Proof. now apply (integer_value 0). Qed.
 Lemma eps_value : finite (epsilon _ floats) /\ B2R (epsilon _ floats) = Format.eps p.
 Proof. apply power_value. generalize p_emax. lia. Qed.
 Lemma u_value : finite (unit_roundoff _ floats) /\ B2R (unit_roundoff _ floats) = Format.u p.
@@ -191,13 +208,17 @@ Definition nonnegative (x : float) : Prop :=
   | B754_infinity s | B754_finite s _ _ _ => s = false
   end.
 Lemma nonnegative_value x : nonnegative x -> 0 <= B2R x.
-Proof. destruct x as [| | | s m e b]; simpl; try lra. intros ->. apply F2R_ge_0. simpl. lia. Qed.
+Proof.
+  destruct x as [| | | s m e b]; simpl; try lra. intros ->. apply F2R_ge_0. simpl. lia.
+Qed.
 Lemma nonnegative_intro x : finite x -> 0 <= B2R x -> nonnegative x.
 Proof.
   destruct x as [| | | s m e b]; simpl; try easy. intros _. destruct s; auto. intros H. exfalso.
-  assert (F2R (Float radix2 (Zneg m) e) < 0) by (apply F2R_lt_0; simpl; lia). unfold F2R in *. simpl in *. lra.
+  assert (F2R (Float radix2 (Zneg m) e) < 0) by (apply F2R_lt_0; simpl; lia).
+  unfold F2R in *. simpl in *. lra.
 Qed.
-Lemma nonnegative_sign x : nonnegative x -> B2R x <> 0 -> Bsign x = false. Proof. destruct x; simpl; tauto. Qed.
+Lemma nonnegative_sign x : nonnegative x -> B2R x <> 0 -> Bsign x = false.
+Proof. destruct x; simpl; tauto. Qed.
 Lemma nonnegative_overflow x s : B2SF x = binary_overflow p emax mode_NE s -> s = false -> nonnegative x.
 Proof. intros H ->. destruct x; simpl in *; try easy. now injection H as ->. Qed.
 
@@ -206,7 +227,8 @@ Proof.
   intros X Y. destruct (BinarySingleNaN.is_finite x) eqn:FX.
   - destruct (BinarySingleNaN.is_finite y) eqn:FY.
     + generalize (Bplus_correct p emax _ _ mode_NE x y FX FY).
-      generalize (nonnegative_value x X) (nonnegative_value y Y). intros PX PY. case Rlt_bool_spec; intros C.
+      generalize (nonnegative_value x X) (nonnegative_value y Y). intros PX PY.
+      case Rlt_bool_spec; intros C.
       * intros (E & F & _). apply nonnegative_intro; auto. simpl. rewrite E.
         apply (Format.rnd_nonnegative p emin Format.nearest). lra.
       * intros [O S]. apply (nonnegative_overflow _ _ O).
@@ -220,10 +242,12 @@ Qed.
 Lemma nonnegative_times x y : nonnegative x -> nonnegative y -> nonnegative (times _ floats x y).
 Proof.
   intros X Y. generalize (Bmult_correct p emax _ _ mode_NE x y).
-  generalize (nonnegative_value x X) (nonnegative_value y Y). intros PX PY. case Rlt_bool_spec; intros C.
+  generalize (nonnegative_value x X) (nonnegative_value y Y). intros PX PY.
+  case Rlt_bool_spec; intros C.
   - intros (E & F & _).
     destruct (BinarySingleNaN.is_finite x) eqn:FX, (BinarySingleNaN.is_finite y) eqn:FY;
-      try (destruct x, y; simpl in *; subst; easy). apply nonnegative_intro; auto. simpl. rewrite E.
+      try (destruct x, y; simpl in *; subst; easy).
+    apply nonnegative_intro; auto. simpl. rewrite E.
     apply (Format.rnd_nonnegative p emin Format.nearest). now apply Rmult_le_pos.
   - intros O. apply (nonnegative_overflow _ _ O).
     assert (N : B2R x * B2R y <> 0).
@@ -231,16 +255,20 @@ Proof.
       generalize (bpow_gt_0 radix2 emax). lra. }
     rewrite (nonnegative_sign x), (nonnegative_sign y); auto; intros Z; apply N; rewrite Z; ring.
 Qed.
-Lemma nonnegative_over x y : nonnegative x -> nonnegative y -> B2R y <> 0 -> nonnegative (over _ floats x y).
+Lemma nonnegative_over x y : nonnegative x -> nonnegative y -> B2R y <> 0 ->
+  nonnegative (over _ floats x y).
 Proof.
   intros X Y N. generalize (Bdiv_correct p emax _ _ mode_NE x y N).
-  generalize (nonnegative_value x X) (nonnegative_value y Y). intros PX PY. case Rlt_bool_spec; intros C.
+  generalize (nonnegative_value x X) (nonnegative_value y Y). intros PX PY.
+  case Rlt_bool_spec; intros C.
   - intros (E & F & _). destruct (BinarySingleNaN.is_finite x) eqn:FX.
-    + apply nonnegative_intro; auto. simpl. rewrite E. apply (Format.rnd_nonnegative p emin Format.nearest).
-      apply Rmult_le_pos; auto. apply Rlt_le, Rinv_0_lt_compat. lra.
+    + apply nonnegative_intro; auto. simpl. rewrite E.
+      apply (Format.rnd_nonnegative p emin Format.nearest). apply Rmult_le_pos; auto.
+      apply Rlt_le, Rinv_0_lt_compat. lra.
     + destruct x, y; simpl in *; subst; easy.
-  - intros O. apply (nonnegative_overflow _ _ O). rewrite (nonnegative_sign y), (nonnegative_sign x); auto. intros Z.
-    unfold Rdiv in C. rewrite Z, Rmult_0_l, round_0, Rabs_R0 in C; auto with typeclass_instances.
+  - intros O. apply (nonnegative_overflow _ _ O).
+    rewrite (nonnegative_sign y), (nonnegative_sign x); auto.
+    intros Z. unfold Rdiv in C. rewrite Z, Rmult_0_l, round_0, Rabs_R0 in C; auto with typeclass_instances.
     generalize (bpow_gt_0 radix2 emax). lra.
 Qed.
 Lemma nonnegative_scale x e : nonnegative x -> nonnegative (scale _ floats x e).
@@ -251,8 +279,9 @@ Proof.
     + apply nonnegative_intro; auto. simpl. rewrite E.
       apply (Format.rnd_nonnegative p emin Format.nearest). apply Rmult_le_pos; auto. apply bpow_ge_0.
     + destruct x; simpl in *; subst; easy.
-  - intros O. apply (nonnegative_overflow _ _ O). apply nonnegative_sign; auto. intros Z.
-    rewrite Z, Rmult_0_l, round_0, Rabs_R0 in C; auto with typeclass_instances. generalize (bpow_gt_0 radix2 emax). lra.
+  - intros O. apply (nonnegative_overflow _ _ O). apply nonnegative_sign; auto.
+    intros Z. rewrite Z, Rmult_0_l, round_0, Rabs_R0 in C; auto with typeclass_instances.
+    generalize (bpow_gt_0 radix2 emax). lra.
 Qed.
 Lemma nonnegative_abs x : nonnegative (abs _ floats x).
 Proof.
@@ -261,10 +290,13 @@ Proof.
 Qed.
 Lemma nonnegative_integer n : (0 <= n <= 8)%Z -> nonnegative (integer _ floats n).
 Proof.
-  intros H. destruct (integer_value n) as [F V]; [lia |]. apply nonnegative_intro; auto. rewrite V. now apply IZR_le.
+  intros H. destruct (integer_value n) as [F V]; [lia |].
+  apply nonnegative_intro; auto. rewrite V. now apply IZR_le.
 Qed.
 Lemma nonnegative_eps : nonnegative (epsilon _ floats).
-Proof. destruct eps_value as [F V]. apply nonnegative_intro; auto. rewrite V. apply bpow_ge_0. Qed.
+Proof.
+  destruct eps_value as [F V]. apply nonnegative_intro; auto. rewrite V. apply bpow_ge_0.
+Qed.
 Lemma nonnegative_u : nonnegative (unit_roundoff _ floats).
 Proof. destruct u_value as [F V]. apply nonnegative_intro; auto. rewrite V. apply bpow_ge_0. Qed.
 Lemma nonnegative_eta : nonnegative (underflow_unit _ floats).
@@ -272,9 +304,10 @@ Proof. destruct eta_value as [F V]. apply nonnegative_intro; auto. rewrite V. ap
 Lemma nonnegative_nothing x : nonnegative (minus _ floats x x).
 Proof.
   destruct (BinarySingleNaN.is_finite x) eqn:F.
-  - generalize (Bminus_correct p emax _ _ mode_NE x x F F). replace (B2R x - B2R x) with 0 by ring.
-    rewrite round_0, Rabs_R0; auto with typeclass_instances. rewrite Rlt_bool_true by apply bpow_gt_0.
-    intros (E & G & _). apply nonnegative_intro; auto. simpl. rewrite E. lra.
+  - generalize (Bminus_correct p emax _ _ mode_NE x x F F).
+    replace (B2R x - B2R x) with 0 by ring. rewrite round_0, Rabs_R0; auto with typeclass_instances.
+    rewrite Rlt_bool_true by apply bpow_gt_0. intros (E & G & _).
+    apply nonnegative_intro; auto. simpl. rewrite E. lra.
   - destruct x as [| s | |]; simpl in *; try easy. now destruct s.
 Qed.
 End Ieee.

@@ -4,7 +4,9 @@
             NaN). So
                        overflow, for which rules return such an error, gives uncertain signs *)
 
-From Coq Require Import Reals Lra Bool. From Flocq Require Import Core. Open Scope R_scope.
+From Coq Require Import Reals Lra Bool.
+From Flocq Require Import Core.
+Open Scope R_scope.
 
 Inductive sign := negative | zero | positive | uncertain.
 
@@ -43,8 +45,10 @@ Definition sign_is_right (s : sign) (x : R) : Prop :=
 
 Theorem sign_certain v x e : Rabs (v - x) <= e -> sign_is_right (sign_of (finite v) (finite e)) x.
 Proof.
-  intros H. apply Rabs_le_inv in H. unfold sign_of. simpl. destruct (Rlt_bool_spec e v); [simpl; lra |].
-  destruct (Rlt_bool_spec v (- e)); [simpl; lra |]. destruct (Req_bool_spec v 0), (Req_bool_spec e 0); simpl; auto. lra.
+  intros H. apply Rabs_le_inv in H. unfold sign_of. simpl.
+  destruct (Rlt_bool_spec e v); [simpl; lra |].
+  destruct (Rlt_bool_spec v (- e)); [simpl; lra |].
+  destruct (Req_bool_spec v 0), (Req_bool_spec e 0); simpl; auto. lra.
 Qed.
 
 Theorem sign_unknown v e : e = plus_infinity \/ e = nan -> sign_of v e = uncertain.

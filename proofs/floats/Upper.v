@@ -10,15 +10,20 @@
         sum_of_bounds_sound, sum_of_bounds_at_most   `sum_of_bounds` covers a sum of bounds, and is at most the
             bound with a factor for its roundings *)
 
-From Coq Require Import Reals ZArith Lia Lra Psatz. From Flocq Require Import Core Sterbenz.
-From Errbound Require Import Format. Open Scope R_scope.
+From Coq Require Import Reals ZArith Lia Lra Psatz.
+From Flocq Require Import Core Sterbenz.
+From Errbound Require Import Format.
+Open Scope R_scope.
 
 Section Upper.
 
 Context (p emin : Z) {p_positive : Prec_gt_0 p}.
 
-Notation fl := (rnd p emin nearest). Notation number := (number p emin). Notation eps := (eps p).
-Notation eta := (eta emin). Notation smallest_normal := (smallest_normal p emin).
+Notation fl := (rnd p emin nearest).
+Notation number := (number p emin).
+Notation eps := (eps p).
+Notation eta := (eta emin).
+Notation smallest_normal := (smallest_normal p emin).
 Notation ulp := (ulp radix2 (FLT_exp emin p)).
 
 Definition upper (x : R) : R := fl (x * fl (1 + eps)).
@@ -27,7 +32,8 @@ Context (emin_p : (emin <= - p - 1)%Z) (p_2 : (2 <= p)%Z).
 
 Lemma one_plus_eps : fl (1 + eps) = 1 + eps.
 Proof. apply rnd_exact; auto with typeclass_instances. apply (number_1_power p emin 1); auto; lia. Qed.
-Lemma upper_number x : number (upper x). Proof. apply rnd_number; auto with typeclass_instances. Qed.
+Lemma upper_number x : number (upper x).
+Proof. apply rnd_number; auto with typeclass_instances. Qed.
 Lemma upper_le x : number x -> 0 <= x -> x <= upper x.
 Proof.
   intros N P. unfold upper. rewrite one_plus_eps. apply rnd_above; auto with typeclass_instances.
@@ -39,12 +45,14 @@ Proof.
   rewrite one_plus_eps. rewrite <- succ_eq_pos by lra. apply rnd_above; auto with typeclass_instances.
   - apply generic_format_succ; auto with typeclass_instances.
   - rewrite succ_eq_pos by lra. rewrite Rmult_plus_distr_l, Rmult_1_r. apply Rplus_le_compat_l.
-    rewrite <- (Rabs_pos_eq x) at 2 by lra. apply ulp_FLT_le. rewrite Rabs_pos_eq by lra.
-    unfold Format.smallest_normal in H. now replace (emin + p - 1)%Z with (emin + p - 1)%Z by lia.
+    rewrite <- (Rabs_pos_eq x) at 2 by lra. apply ulp_FLT_le.
+    rewrite Rabs_pos_eq by lra. unfold Format.smallest_normal in H.
+    now replace (emin + p - 1)%Z with (emin + p - 1)%Z by lia.
 Qed.
 Lemma half_ulp z : Rabs (fl z - z) <= / 2 * ulp (fl z).
 Proof. apply error_le_half_ulp_round; auto with typeclass_instances. Qed.
-Lemma ulp_nonnegative x : 0 <= ulp x. Proof. apply ulp_ge_0. Qed.
+Lemma ulp_nonnegative x : 0 <= ulp x.
+Proof. apply ulp_ge_0. Qed.
 
 Lemma upper_covers z : smallest_normal <= fl z -> z <= upper (fl z).
 Proof.
@@ -111,10 +119,12 @@ Proof.
   assert (Z : fl (fl s * (1 - eps)) <= fl s).
   { apply rnd_below; auto using rnd_number with typeclass_instances.
     apply Rle_trans with (fl s * 1); [apply Rmult_le_compat_l; lra | lra]. }
-  assert (T : fl (fl s * (1 - eps)) = fl s) by lra. generalize (half_ulp (fl s * (1 - eps))). rewrite T. intros D.
+  assert (T : fl (fl s * (1 - eps)) = fl s) by lra.
+  generalize (half_ulp (fl s * (1 - eps))). rewrite T. intros D.
   assert (U : ulp (fl s) <= fl s * eps).
   { rewrite <- (Rabs_pos_eq (fl s)) at 2 by lra. apply ulp_FLT_le. rewrite Rabs_pos_eq by lra. exact V. }
-  assert (P : 0 < fl s * eps) by (apply Rmult_lt_0_compat; lra). apply Rabs_le_inv in D. lra.
+  assert (P : 0 < fl s * eps) by (apply Rmult_lt_0_compat; lra).
+  apply Rabs_le_inv in D. lra.
 Qed.
 End Upper.
 
@@ -122,8 +132,11 @@ Section Sum_of_bounds.
 
 Context (p emin : Z) {p_positive : Prec_gt_0 p} (direction : R -> Z) {direction_valid : Valid_rnd direction}.
 
-Notation fl := (rnd p emin direction). Notation number := (number p emin). Notation eps := (eps p).
-Notation smallest_normal := (smallest_normal p emin). Notation ulp := (ulp radix2 (FLT_exp emin p)).
+Notation fl := (rnd p emin direction).
+Notation number := (number p emin).
+Notation eps := (eps p).
+Notation smallest_normal := (smallest_normal p emin).
+Notation ulp := (ulp radix2 (FLT_exp emin p)).
 Notation succ := (succ radix2 (FLT_exp emin p)).
 
 (** The code, in its order of evaluation. *)
@@ -150,8 +163,9 @@ Proof.
   intros N H. generalize (smallest_normal_positive p emin). intros P. apply rnd_above; auto.
   - apply generic_format_succ; auto with typeclass_instances.
   - rewrite succ_eq_pos by lra. rewrite Rmult_plus_distr_l, Rmult_1_r. apply Rplus_le_compat_l.
-    rewrite <- (Rabs_pos_eq s) at 2 by lra. apply ulp_FLT_le. rewrite Rabs_pos_eq by lra.
-    unfold Format.smallest_normal in H. now replace (emin + p - 1)%Z with (emin + p - 1)%Z by lia.
+    rewrite <- (Rabs_pos_eq s) at 2 by lra. apply ulp_FLT_le.
+    rewrite Rabs_pos_eq by lra. unfold Format.smallest_normal in H.
+    now replace (emin + p - 1)%Z with (emin + p - 1)%Z by lia.
 Qed.
 
 Theorem sum_above_sound x y : number x -> number y -> 0 <= x -> 0 <= y -> x + y <= sum_above x y.
@@ -163,7 +177,8 @@ Proof.
   rewrite E. set (s := fl (l + m)). assert (S : number s) by now apply rnd_number.
   assert (D : fl (s - l) = s - l).
   { apply rnd_exact; auto. apply sterbenz; auto with typeclass_instances.
-    assert (l <= s) by (apply rnd_above; auto; lra). assert (s <= 2 * l); [| lra]. apply rnd_below; auto; [| lra].
+    assert (l <= s) by (apply rnd_above; auto; lra).
+    assert (s <= 2 * l); [| lra]. apply rnd_below; auto; [| lra].
     rewrite Rmult_comm. change 2 with (bpow radix2 1). rewrite <- (scale_up p emin direction) by (auto; lia).
     now apply rnd_number. }
   rewrite D, one_and_eps. case Rlt_bool_spec; intros C; [| lra].
@@ -189,8 +204,9 @@ Qed.
 Theorem sum_above_least x y z : 0 <= x -> 0 <= y -> number z -> x + y <= z -> sum_above x y <= fl (z * (1 + eps)).
 Proof.
   intros PX PY Z H. unfold sum_above. cbv zeta. rewrite one_and_eps.
-  assert (S : fl (x + y) <= z) by now apply rnd_below. assert (0 <= fl (x + y)) by (apply rnd_nonnegative; auto; lra).
-  generalize (eps_positive p). intros P. destruct Rlt_bool.
+  assert (S : fl (x + y) <= z) by now apply rnd_below.
+  assert (0 <= fl (x + y)) by (apply rnd_nonnegative; auto; lra). generalize (eps_positive p). intros P.
+  destruct Rlt_bool.
   - apply rnd_le; auto. apply Rmult_le_compat_r; lra.
   - apply Rle_trans with (1 := S). apply rnd_above; auto. nra.
 Qed.
@@ -203,9 +219,11 @@ Qed.
 Theorem sum_of_bounds_sound enlarged own x y e : number own -> number x -> number y ->
   0 <= own -> 0 <= x -> 0 <= y -> e <= own + (x + y) -> e <= enlarged -> e <= sum_of_bounds enlarged own x y.
 Proof.
-  intros O X Y PO PX PY H L. unfold sum_of_bounds. cbv zeta. destruct (40 <=? p)%Z; auto. destruct Rlt_bool; auto.
-  destruct Rlt_bool; auto. apply Rle_trans with (1 := H). generalize (sum_above_sound x y X Y PX PY). intros S.
-  apply Rle_trans with (own + sum_above x y); [lra |]. apply sum_above_sound; auto using sum_above_number; lra.
+  intros O X Y PO PX PY H L. unfold sum_of_bounds. cbv zeta. destruct (40 <=? p)%Z; auto.
+  destruct Rlt_bool; auto. destruct Rlt_bool; auto. apply Rle_trans with (1 := H).
+  generalize (sum_above_sound x y X Y PX PY). intros S.
+  apply Rle_trans with (own + sum_above x y); [lra |].
+  apply sum_above_sound; auto using sum_above_number; lra.
 Qed.
 Lemma sum_of_bounds_number enlarged own x y : number enlarged -> number (sum_of_bounds enlarged own x y).
 Proof.

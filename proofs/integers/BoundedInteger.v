@@ -8,7 +8,9 @@
                                 the result stands for the sum, difference and product
         bounded_sign_certain    sign_of is right or uncertain *)
 
-From Coq Require Import ZArith Reals Lia Lra Bool. From Flocq Require Import Core. From Errbound Require Import Sign.
+From Coq Require Import ZArith Reals Lia Lra Bool.
+From Flocq Require Import Core.
+From Errbound Require Import Sign.
 Open Scope Z_scope.
 
 Notation pow2 := (bpow radix2).
@@ -24,9 +26,11 @@ Proof.
   assert (H : forall m, 0 <= m -> 0 <= (if m =? 0 then 0 else Z.log2 m + 1) /\
     m < 2 ^ (if m =? 0 then 0 else Z.log2 m + 1) /\
     (0 < (if m =? 0 then 0 else Z.log2 m + 1) -> 2 ^ ((if m =? 0 then 0 else Z.log2 m + 1) - 1) <= m)).
-  { intros m M. destruct (Z.eqb_spec m 0) as [-> | N]; [simpl; lia |]. pose proof (Z.log2_spec m ltac:(lia)).
-    pose proof (Z.log2_nonneg m). replace (Z.log2 m + 1 - 1) with (Z.log2 m) by lia. rewrite <- Z.add_1_r in *. lia. }
-  destruct (Z.ltb_spec x 0) as [L | L]; [destruct (H (- x - 1)) as (A & B & C) | destruct (H x) as (A & B & C)];
+  { intros m M. destruct (Z.eqb_spec m 0) as [-> | N]; [simpl; lia |].
+    pose proof (Z.log2_spec m ltac:(lia)). pose proof (Z.log2_nonneg m).
+    replace (Z.log2 m + 1 - 1) with (Z.log2 m) by lia. rewrite <- Z.add_1_r in *. lia. }
+  destruct (Z.ltb_spec x 0) as [L | L]; [destruct (H (- x - 1)) as (A & B & C) | destruct (H x) as (A & B &
+    C)];
     try lia; repeat split; auto; intros; try (specialize (C ltac:(auto))); lia.
 Qed.
 
@@ -56,16 +60,19 @@ Open Scope R_scope.
 
 Lemma stands_error x r : stands x r -> Rabs (r - IZR (value x)) < pow2 (error_bits x).
 Proof.
-  unfold stands. destruct (is_exact x); auto. intros ->. rewrite Rminus_diag_eq, Rabs_R0 by easy. apply bpow_gt_0.
+  unfold stands. destruct (is_exact x); auto. intros ->. rewrite Rminus_diag_eq, Rabs_R0 by easy.
+  apply bpow_gt_0.
 Qed.
 (** A result's error bound is that of an exact number only if both operands are exact. *)
 Lemma stands_if x r a b : (Z.max (error_bits a) (error_bits b) < error_bits x)%Z ->
   (is_exact a = true -> is_exact b = true -> r = IZR (value x)) ->
-  ((is_exact a = false \/ is_exact b = false) -> Rabs (r - IZR (value x)) < pow2 (error_bits x)) -> stands x r.
+  ((is_exact a = false \/ is_exact b = false) -> Rabs (r - IZR (value x)) < pow2 (error_bits x)) ->
+  stands x r.
 Proof.
   unfold stands, is_exact. intros E Both One.
   destruct (Z.ltb_spec (error_bits a) (exact / 2)), (Z.ltb_spec (error_bits b) (exact / 2)).
-  1: { rewrite Both by easy. rewrite Rminus_diag_eq, Rabs_R0 by easy. destruct (_ <? _)%Z; [easy | apply bpow_gt_0]. }
+  1: { rewrite Both by easy. rewrite Rminus_diag_eq, Rabs_R0 by easy.
+       destruct (_ <? _)%Z; [easy | apply bpow_gt_0]. }
   all: destruct (Z.ltb_spec (error_bits x) (exact / 2)); [exfalso; lia | now apply One; auto].
 Qed.
 
@@ -92,7 +99,8 @@ Proof.
   - lia.
   - unfold stands in *. intros Ea Eb. rewrite Ea in A. rewrite Eb in B. now rewrite A, B, minus_IZR.
   - intros _. apply Rle_lt_trans with (2 := sum_error a b x y A B). rewrite minus_IZR.
-    replace (x - y - (IZR (value a) - IZR (value b))) with (x - IZR (value a) + - (y - IZR (value b))) by ring.
+    replace (x - y - (IZR (value a) - IZR (value b))) with (x - IZR (value a) + - (y - IZR (value b))) by
+      ring.
     rewrite <- (Rabs_Ropp (y - _)). apply Rabs_triang.
 Qed.
 
@@ -107,19 +115,24 @@ Proof.
   intros A B. destruct (bit_length_bounds (value a)) as (Na & _), (bit_length_bounds (value b)) as (Nb & _).
   apply (stands_if _ _ a b).
   - cbn [mul value error_bits]. lia.
-  - unfold stands in *. intros Ea Eb. rewrite Ea in A. rewrite Eb in B. cbn [mul value]. now rewrite A, B, mult_IZR.
-  - intros _. apply stands_error in A, B. cbn [mul value error_bits]. rewrite mult_IZR. pose proof (value_size a) as Sa.
-    pose proof (value_size b) as Sb. set (la := bit_length (value a)) in *. set (lb := bit_length (value b)) in *.
-    set (ea := error_bits a) in *. set (eb := error_bits b) in *. set (va := IZR (value a)) in *.
-    set (vb := IZR (value b)) in *. set (m := Z.max (Z.max (la + eb) (lb + ea)) (ea + eb)).
+  - unfold stands in *. intros Ea Eb. rewrite Ea in A. rewrite Eb in B. cbn [mul value].
+    now rewrite A, B, mult_IZR.
+  - intros _. apply stands_error in A, B. cbn [mul value error_bits]. rewrite mult_IZR.
+    pose proof (value_size a) as Sa. pose proof (value_size b) as Sb.
+    set (la := bit_length (value a)) in *. set (lb := bit_length (value b)) in *.
+    set (ea := error_bits a) in *. set (eb := error_bits b) in *.
+    set (va := IZR (value a)) in *. set (vb := IZR (value b)) in *.
+    set (m := Z.max (Z.max (la + eb) (lb + ea)) (ea + eb)).
     replace (x * y - va * vb) with (va * (y - vb) + vb * (x - va) + (x - va) * (y - vb)) by ring.
-    assert (P : forall p q d e, Rabs p <= pow2 d -> Rabs q < pow2 e -> (d + e <= m)%Z -> Rabs (p * q) <= pow2 m).
+    assert (P : forall p q d e, Rabs p <= pow2 d -> Rabs q < pow2 e -> (d + e <= m)%Z ->
+      Rabs (p * q) <= pow2 m).
     { intros p q d e P Q M. rewrite Rabs_mult. apply Rle_trans with (pow2 d * pow2 e).
       - apply Rmult_le_compat; auto using Rabs_pos; lra.
       - rewrite <- bpow_plus. now apply bpow_le. }
     pose proof (P va (y - vb) la eb Sa B ltac:(lia)). pose proof (P vb (x - va) lb ea Sb A ltac:(lia)).
-    pose proof (P (x - va) (y - vb) ea eb ltac:(lra) B ltac:(lia)). rewrite bpow_plus. change (pow2 2) with 4.
-    pose proof (bpow_gt_0 radix2 m). pose proof (Rabs_triang (va * (y - vb) + vb * (x - va)) ((x - va) * (y - vb))).
+    pose proof (P (x - va) (y - vb) ea eb ltac:(lra) B ltac:(lia)).
+    rewrite bpow_plus. change (pow2 2) with 4. pose proof (bpow_gt_0 radix2 m).
+    pose proof (Rabs_triang (va * (y - vb) + vb * (x - va)) ((x - va) * (y - vb))).
     pose proof (Rabs_triang (va * (y - vb)) (vb * (x - va))). lra.
 Qed.
 
@@ -138,7 +151,8 @@ Proof.
   rewrite (IZR_Zpower radix2), abs_IZR in S by lia.
   pose proof (bpow_le radix2 (error_bits x) (bit_length (value x) - 1) ltac:(lia)).
   assert (D : Rabs (r - IZR (value x)) < Rabs (IZR (value x))) by lra. clear - D.
-  pose proof (sign_of_integer_right (value x)) as Q. destruct (sign_of_integer (value x)); simpl in *; auto.
+  pose proof (sign_of_integer_right (value x)) as Q.
+  destruct (sign_of_integer (value x)); simpl in *; auto.
   - rewrite (Rabs_left (IZR (value x))) in D by easy. apply Rabs_def2 in D. lra.
   - rewrite Q, Rabs_R0 in D. pose proof (Rabs_pos (r - 0)). lra.
   - rewrite (Rabs_pos_eq (IZR (value x))) in D by lra. apply Rabs_def2 in D. lra.

@@ -4,7 +4,9 @@
         dyadic_in_units         in_units: x/2^unit
         dyadic_floor_log2       floor_log2 *)
 
-From Coq Require Import Reals ZArith Lia Lra Bool. From Flocq Require Import Core. Open Scope Z_scope.
+From Coq Require Import Reals ZArith Lia Lra Bool.
+From Flocq Require Import Core.
+Open Scope Z_scope.
 
 Definition dyadic : Set := Z * Z.
 Definition value (x : dyadic) : R := (IZR (fst x) * bpow radix2 (snd x))%R.
@@ -52,8 +54,9 @@ Proof.
 Qed.
 Theorem dyadic_in_units x unit : unit <= snd x -> (IZR (in_units x unit) * bpow radix2 unit = value x)%R.
 Proof.
-  intros H. unfold in_units, value. destruct (Z.eqb_spec (fst x) 0) as [-> | N]; [simpl; ring |]. rewrite mult_IZR.
-  change 2 with (radix_val radix2). rewrite IZR_Zpower by lia. rewrite Rmult_assoc, <- bpow_plus. do 2 f_equal. lia.
+  intros H. unfold in_units, value. destruct (Z.eqb_spec (fst x) 0) as [-> | N]; [simpl; ring |].
+  rewrite mult_IZR. change 2 with (radix_val radix2). rewrite IZR_Zpower by lia. rewrite Rmult_assoc, <- bpow_plus.
+  do 2 f_equal. lia.
 Qed.
 Theorem dyadic_sum a b : value (sum a b) = (value a + value b)%R /\ normal (sum a b).
 Proof.

@@ -9,8 +9,10 @@
         halving_widths, bracket_widths   nor in halves of Y, nor with brackets of T = 1, ..., 4 words
         cut_widths             nor in rounded forms with T words, if only a bracket is known *)
 
-From Coq Require Import Reals ZArith List Lia Lra Bool. From Errbound Require Import Sign Bernstein Decisions Words.
-Import ListNotations. Open Scope Z_scope.
+From Coq Require Import Reals ZArith List Lia Lra Bool.
+From Errbound Require Import Sign Bernstein Decisions Words.
+Import ListNotations.
+Open Scope Z_scope.
 
 (** A number with n words has a size of at most m 2^k; `Whole` has no fixed width. *)
 Inductive expression :=
@@ -102,7 +104,8 @@ Proof.
 Qed.
 Lemma within_fits e : within e = true -> Z.abs (number e) <= bound e -> fits (width e) (number e).
 Proof. unfold within, fits. intros H L. apply Z.ltb_lt in H. lia. Qed.
-Lemma nonempty (x : list Z) n : length x = n -> n <> 0%nat -> x <> []. Proof. intros L N E. subst x. now subst n. Qed.
+Lemma nonempty (x : list Z) n : length x = n -> n <> 0%nat -> x <> [].
+Proof. intros L N E. subst x. now subst n. Qed.
 
 Lemma opposite_exact x : words x -> x <> [] -> fits (length x) (- signed x) ->
   words (opposite x) /\ length (opposite x) = length x /\ signed (opposite x) = - signed x.
@@ -156,7 +159,8 @@ Proof.
     { unfold shifted. destruct (Z.eqb_spec bits 0); auto.
       destruct (shift_words_value 0 (computed x) bits ltac:(lia) ltac:(unfold word; generalize B_positive; lia) Wx) as (L & V & _).
       split; [congruence | exact V]. }
-    split; [| split; [apply LW | split; [apply LW | auto]]]. rewrite <- Sx. apply shift_exact; auto. now rewrite Sx, Lx.
+    split; [| split; [apply LW | split; [apply LW | auto]]].
+    rewrite <- Sx. apply shift_exact; auto. now rewrite Sx, Lx.
   - destruct (IHx G F) as (Sx & Lx & Wx & Bx & Nx). cbn [computed number bound width].
     assert (R : Z.abs (number (Opposite x)) <= bound (Opposite x)) by (cbn [number bound]; lia).
     assert (Ex := nonempty _ _ Lx Nx). assert (Hf := within_fits _ F0 R). cbn [number width] in Hf.
@@ -292,10 +296,12 @@ Ltac widths := apply all_measured; vm_cast_no_check (eq_refl true).
 
 (** ** The code's numbers *)
 
-Notation polynomial := (list expression). Notation vector := (@vector_form expressions).
+Notation polynomial := (list expression).
+Notation vector := (@vector_form expressions).
 Notation value_at := (@Bernstein.value_at expressions).
 Notation "p # i" := (nth i p (Whole 0)) (at level 9, format "p # i").
-Infix "⊕" := Plus (at level 50, left associativity). Infix "⊖" := Less (at level 50, left associativity).
+Infix "⊕" := Plus (at level 50, left associativity).
+Infix "⊖" := Less (at level 50, left associativity).
 Infix "⊗" := Times (at level 40, left associativity).
 Definition thrice (x : expression) : expression := Shifted x 1 ⊕ x.
 (** The components one after the other. *)
@@ -410,8 +416,9 @@ Theorem halving_widths W level b c p x y : In W [1; 2; 4]%nat -> 0 <= level < 40
 Proof.
   intros HW L. split; [destruct HW as [<- | [<- | [<- | []]]]; vm_compute; reflexivity |].
   assert (F : forallb (fun l => forallb is_measured (halving_numbers (part W l x))) levels = true)
-    by (destruct HW as [<- | [<- | [<- | []]]]; vm_compute; reflexivity). rewrite forallb_forall in F.
-  specialize (F level (levels_all level L)). split; [now apply all_measured |]. clear F. cbn [In] in HW.
+    by (destruct HW as [<- | [<- | [<- | []]]]; vm_compute; reflexivity).
+  rewrite forallb_forall in F. specialize (F level (levels_all level L)).
+  split; [now apply all_measured |]. clear F. cbn [In] in HW.
   assert (E : forall m, m * 2 ^ (3 * (64 * Z.of_nat W - 3) + 3 * (level + 1)) =
     m * 8 * 2 ^ (3 * (64 * Z.of_nat W - 3) + 3 * level)).
   { intros m. replace (3 * (64 * Z.of_nat W - 3) + 3 * (level + 1)) with (3 + (3 * (64 * Z.of_nat W - 3) + 3 * level)) by ring.
@@ -422,7 +429,11 @@ Qed.
 Theorem bracket_widths W T b c p place reach s t width estimate :
   In W [1; 2; 4]%nat -> In T [1; 2; 3; 4]%nat ->
   forallb fine (bracket_numbers T (moving W b) (moving W c) (moving W p) place reach s t width estimate) = true.
-Proof. intros [<- | [<- | [<- | []]]] H; repeat (destruct H as [<- | H]; [widths |]); contradiction. Qed.
+Proof.
+  intros [<- | [<- | [<- | []]]] H; repeat (destruct H as [<- | H]; [widths |]); contradiction.
+Qed.
 Theorem cut_widths T b c p : In T [1; 2; 3; 4]%nat ->
   forallb fine (inside_numbers (cut_vector T b) (cut_vector T c) (cut_vector T p)) = true.
-Proof. intros H. repeat (destruct H as [<- | H]; [widths |]); contradiction. Qed.
+Proof.
+  intros H. repeat (destruct H as [<- | H]; [widths |]); contradiction.
+Qed.

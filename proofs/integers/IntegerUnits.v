@@ -4,8 +4,11 @@
                                     2^(64W - 1) units, even if the conversion wrapped around
         extent_bits_enough          coordinates of an axis differ by less than 2^bits units *)
 
-From Coq Require Import Reals ZArith List Lia Lra Bool. From Flocq Require Import Core.
-From Errbound Require Import Format Words Widths. From Errbound Require WordBits FixedWidths. Open Scope Z_scope.
+From Coq Require Import Reals ZArith List Lia Lra Bool.
+From Flocq Require Import Core.
+From Errbound Require Import Format Words Widths.
+From Errbound Require WordBits FixedWidths.
+Open Scope Z_scope.
 
 (** integer_units::in_units of the double (-1)^n m 2^e *)
 Definition in_units (W : nat) (m e : Z) (negative : bool) (unit : Z) : list Z :=
@@ -16,8 +19,9 @@ Definition coordinate (m e : Z) (negative : bool) : R :=
   ((if negative then -1 else 1) * (IZR m * bpow radix2 e))%R.
 
 Lemma in_units_modulo W m e negative unit : 0 <= m < 2 ^ 53 -> (2 ^ Z.max 0 (unit - e) | m) ->
-  words (in_units W m e negative unit) /\ length (in_units W m e negative unit) = W /\ exists v k, value
-  (in_units W m e negative unit) = v + k * B ^ Z.of_nat W /\ (IZR v * bpow radix2 unit = coordinate m e negative)%R.
+  words (in_units W m e negative unit) /\ length (in_units W m e negative unit) = W /\
+  exists v k, value (in_units W m e negative unit) = v + k * B ^ Z.of_nat W /\
+    (IZR v * bpow radix2 unit = coordinate m e negative)%R.
 Proof.
   intros M H. unfold in_units. cbv zeta. set (shift := e - unit).
   set (q := m / 2 ^ Z.min 63 (Z.max 0 (- shift))). set (v := q * 2 ^ Z.max shift 0).
@@ -34,7 +38,8 @@ Proof.
   assert (S := proj1 (WordBits.shifted_exact q (Z.max shift 0) W Q ltac:(lia))). fold v in S.
   rewrite (WordBits.shifted_words q (Z.max shift 0) W Q ltac:(lia)) in *. fold v in S |- *.
   destruct (WordBits.words_of_words W v) as [Ws Ls]. set (size := WordBits.words_of W v) in *.
-  generalize (Z.div_mod v (B ^ Z.of_nat W)) (power_positive W). intros D P. unfold coordinate. destruct negative.
+  generalize (Z.div_mod v (B ^ Z.of_nat W)) (power_positive W). intros D P. unfold coordinate.
+  destruct negative.
   - assert (L0 : length (zeros (length size)) = length size) by apply length_zeros. unfold FixedWidths.opposite.
     destruct (FixedWidths.difference_words _ _ L0 (words_zeros _) Ws) as [Wd Ld]. split; [exact Wd |]. split; [congruence |].
     generalize (stepped_difference _ _ 0 L0 (words_zeros _) Ws ltac:(lia)). unfold difference.
@@ -59,7 +64,8 @@ Proof.
     change (radix_val radix2) with 2 in L. unfold fits, base. rewrite <- Z.pow_mul_r by lia.
     replace (64 * Z.of_nat W) with (1 + (64 * Z.of_nat W - 1)) by ring. rewrite Z.pow_add_r by lia. change (2 ^ 1) with 2. lia. }
   set (a := in_units W m e n unit) in *. set (b := in_units W m' e' n' unit) in *.
-  assert (Lab : length a = length b) by congruence. destruct (FixedWidths.difference_words a b Lab Wa Wb) as [Wd Ld].
+  assert (Lab : length a = length b) by congruence.
+  destruct (FixedWidths.difference_words a b Lab Wa Wb) as [Wd Ld].
   generalize (stepped_difference a b 0 Lab Wa Wb ltac:(lia)). revert Wd Ld. unfold difference.
   destruct (stepped subtract_with_borrow a b 0) as [r c]. cbn [fst]. intros Wd Ld (_ & _ & Er).
   apply signed_is with (k := c + k - k'); auto.
@@ -77,7 +83,8 @@ Theorem extent_bits_enough low high x y E unit : double low -> double high ->
   (Rabs (x - y) < bpow radix2 (unit + Z.max 0 (E - unit)))%R.
 Proof.
   intros NL NH X Y PE H. apply Rlt_le_trans with (bpow radix2 E); [| apply bpow_le; lia].
-  apply Rle_lt_trans with (high - low)%R; [apply Rabs_le; lra |]. destruct H as [H | (-> & HL & HH)].
+  apply Rle_lt_trans with (high - low)%R; [apply Rabs_le; lra |].
+  destruct H as [H | (-> & HL & HH)].
   - apply Rnot_le_lt. intros C. apply (rnd_above 53 (-1074) nearest) in C; [lra |]. now apply number_power.
   - change (bpow radix2 1025) with (bpow radix2 (1 + 1024)). rewrite bpow_plus. change (bpow radix2 1) with 2%R.
     apply Rabs_def2 in HL, HH. lra.

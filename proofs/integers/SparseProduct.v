@@ -3,7 +3,9 @@
         any_product_exact      multiply_any, by either algorithm
         long_product_exact     long_integer's product, if it fits *)
 
-From Coq Require Import ZArith List Lia Bool. From Errbound Require Import Words. Import ListNotations.
+From Coq Require Import ZArith List Lia Bool.
+From Errbound Require Import Words.
+Import ListNotations.
 Open Scope Z_scope.
 
 (** r - a b in the words of b, and the rest to be subtracted beyond. *)
@@ -50,9 +52,11 @@ Definition any_product (a b : list Z) : list Z :=
   else if is_sparse b && not_zero a then sparse_product b a
   else product a b.
 
-Lemma subtract_multiple_exact r a b carry : length r = length b ->
-  words r -> words b -> word a -> word carry -> let (s, c) := subtract_multiple r a b carry in
-  length s = length r /\ words s /\ word c /\ value s - B ^ size r * c = value r - a * value b - carry.
+Lemma subtract_multiple_exact r a b carry : length r = length b -> words r -> words b -> word a ->
+  word carry ->
+  let (s, c) := subtract_multiple r a b carry in
+  length s = length r /\ words s /\ word c /\
+  value s - B ^ size r * c = value r - a * value b - carry.
 Proof.
   revert b carry. induction r as [| x r IH]; destruct b as [| y b]; try easy.
   - intros carry _ _ _ _ C. cbn [subtract_multiple length value]. change (B ^ Z.of_nat 0) with 1.
@@ -61,8 +65,9 @@ Proof.
     cbn [subtract_multiple]. unfold word in A, C, X, Y. generalize B_positive; intros P. cbv zeta.
     rewrite (Z.mod_small (a * y + carry) (B * B)) by nia. set (s := a * y + carry).
     assert (Hs : 0 <= s <= (B - 1) * B) by (unfold s; nia).
-    generalize (Z.div_mod s B ltac:(lia)) (Z.mod_pos_bound s B P). set (h := s / B). set (l := s mod B). intros Es Hl.
-    assert (Hh : 0 <= h <= B - 1) by (split; [apply Z.div_pos; lia | nia]). assert (Hh' : h = B - 1 -> l = 0) by nia.
+    generalize (Z.div_mod s B ltac:(lia)) (Z.mod_pos_bound s B P). set (h := s / B). set (l := s mod B).
+    intros Es Hl. assert (Hh : 0 <= h <= B - 1) by (split; [apply Z.div_pos; lia | nia]).
+    assert (Hh' : h = B - 1 -> l = 0) by nia.
     set (d := (x - l) mod B). set (c := (h + (if x <? d then 1 else 0)) mod B).
     assert (Q : word d /\ word c /\ d - B * c = x - s).
     { assert (Ed : d = if x <? l then x - l + B else x - l).
@@ -74,10 +79,11 @@ Proof.
       unfold c, word. rewrite Ex, Ed. destruct (Z.ltb_spec x l).
       - rewrite Z.mod_small by lia. nia.
       - rewrite Z.mod_small by lia. nia. }
-    clearbody d c. destruct Q as (Wd & Wc & E). specialize (IH b c ltac:(simpl in L; lia) R' D' A Wc).
-    destruct (subtract_multiple r a b c) as [t c']. destruct IH as (L' & T & W & F). split; [simpl; lia |].
-    split; [now constructor |]. split; auto. cbn [value length]. rewrite Nat2Z.inj_succ, Z.pow_succ_r by lia.
-    unfold s in E. nia.
+    clearbody d c. destruct Q as (Wd & Wc & E).
+    specialize (IH b c ltac:(simpl in L; lia) R' D' A Wc).
+    destruct (subtract_multiple r a b c) as [t c']. destruct IH as (L' & T & W & F).
+    split; [simpl; lia |]. split; [now constructor |]. split; auto.
+    cbn [value length]. rewrite Nat2Z.inj_succ, Z.pow_succ_r by lia. unfold s in E. nia.
 Qed.
 
 Lemma value_repeat_ones n : value (repeat (B - 1) n) = B ^ Z.of_nat n - 1.
@@ -95,13 +101,15 @@ Lemma stands_longer r beyond z n : stands_for (r, beyond) z -> stands_for (r ++ 
 Proof.
   intros [W H]. assert (Wb : word beyond) by (unfold word; generalize B_positive; lia). split.
   - apply words_app; auto using words_repeat.
-  - rewrite value_app, app_length, repeat_length, Nat2Z.inj_add, Z.pow_add_r by lia. destruct H as [[-> ->] | [-> ->]].
+  - rewrite value_app, app_length, repeat_length, Nat2Z.inj_add, Z.pow_add_r by lia.
+    destruct H as [[-> ->] | [-> ->]].
     + left. split; auto. fold (zeros n). rewrite value_zeros. ring.
     + right. split; auto. rewrite value_repeat_ones. ring.
 Qed.
 (** Numbers of n words that are equal modulo 2^(64n). *)
 Lemma stands_modulo r (up : bool) z k : words r -> value r = z + k * B ^ size r ->
-  (if up then 0 <= z < B ^ size r else - B ^ size r <= z < 0) -> stands_for (r, if up then 0 else B - 1) z.
+  (if up then 0 <= z < B ^ size r else - B ^ size r <= z < 0) ->
+  stands_for (r, if up then 0 else B - 1) z.
 Proof.
   intros W E F. split; auto. generalize (value_bounds r W). intros V. generalize (power_positive (length r)). intros P.
   destruct up; [left | right]; split; auto.
@@ -111,20 +119,24 @@ Qed.
 Lemma stands_value r beyond z : stands_for (r, beyond) z -> exists k, value r = z + k * B ^ size r.
 Proof. intros [_ [[_ ->] | [_ ->]]]; [exists 0 | exists 1]; ring. Qed.
 
-Lemma leading_zeros_exact b : words b -> (leading_zeros b <= length b)%nat /\ value b = B ^
-  Z.of_nat (leading_zeros b) * value (skipn (leading_zeros b) b) /\ (value b <> 0 -> (leading_zeros b < length b)%nat).
+Lemma leading_zeros_exact b : words b ->
+  (leading_zeros b <= length b)%nat /\ value b = B ^ Z.of_nat (leading_zeros b) * value (skipn (leading_zeros b) b) /\
+  (value b <> 0 -> (leading_zeros b < length b)%nat).
 Proof.
-  induction 1 as [| w b W H IH]; [simpl; lia |]. cbn [leading_zeros]. destruct (Z.eqb_spec w 0) as [-> | N].
+  induction 1 as [| w b W H IH]; [simpl; lia |]. cbn [leading_zeros].
+  destruct (Z.eqb_spec w 0) as [-> | N].
   - destruct IH as (L & V & S). cbn [skipn value length]. rewrite V, Nat2Z.inj_succ, Z.pow_succ_r by lia.
     split; [lia |]. split; [ring |]. rewrite <- V. intros. assert (value b <> 0) by nia. lia.
   - cbn [skipn length]. change (B ^ Z.of_nat 0) with 1. split; [lia |]. split; [ring | lia].
 Qed.
 
 (** One word: z becomes z + w 2^(64i) b. *)
-Lemma visit_exact b low r beyond z i w : words b -> low = leading_zeros b ->
-  value b <> 0 -> stands_for (r, beyond) z -> 0 <= i -> (length r <= Z.to_nat i + length b)%nat ->
-  w <> 0 -> Z.abs w < B -> (if w <? 0 then - B ^ (i + size b + 1) <= z + w * B ^ i * value b < 0 else 0 <= z + w
-  * B ^ i * value b < B ^ (i + size b + 1)) -> stands_for (visit low b (r, beyond) (i, w)) (z + w * B ^ i * value b) /\
+Lemma visit_exact b low r beyond z i w :
+  words b -> low = leading_zeros b -> value b <> 0 -> stands_for (r, beyond) z -> 0 <= i ->
+  (length r <= Z.to_nat i + length b)%nat -> w <> 0 -> Z.abs w < B ->
+  (if w <? 0 then - B ^ (i + size b + 1) <= z + w * B ^ i * value b < 0
+   else 0 <= z + w * B ^ i * value b < B ^ (i + size b + 1)) ->
+  stands_for (visit low b (r, beyond) (i, w)) (z + w * B ^ i * value b) /\
   length (fst (visit low b (r, beyond) (i, w))) = (Z.to_nat i + length b + 1)%nat.
 Proof.
   intros Wb -> NB H I L NW HW Range. unfold visit. destruct (leading_zeros_exact b Wb) as (L1 & V1 & S1). specialize (S1 NB).
@@ -137,21 +149,23 @@ Proof.
   { assert (Ls : length (skipn e y) = S (length b - low)) by (rewrite skipn_length; unfold n, e in *; lia).
     destruct (exists_last (l := skipn e y)) as (m & t & E); [intros E; rewrite E in Ls; discriminate |].
     exists m, t. split; auto. rewrite E, app_length in Ls. simpl in Ls. lia. }
-  destruct Split as (m & t & E & Lm). rewrite E, removelast_last, last_last. set (first := firstn e y).
-  assert (Ey : y = first ++ m ++ [t]) by (unfold first; rewrite <- E; symmetry; apply firstn_skipn).
-  assert (Lf : length first = e) by (unfold first; rewrite firstn_length; unfold n, e in *; lia). clearbody first.
-  clear E. subst y. apply Forall_app in Wy. destruct Wy as [Wf Wy]. apply Forall_app in Wy. destruct Wy as [Wm Wt].
+  destruct Split as (m & t & E & Lm). rewrite E, removelast_last, last_last.
+  set (first := firstn e y). assert (Ey : y = first ++ m ++ [t]) by (unfold first; rewrite <- E; symmetry; apply firstn_skipn).
+  assert (Lf : length first = e) by (unfold first; rewrite firstn_length; unfold n, e in *; lia). clearbody first. clear E.
+  subst y. apply Forall_app in Wy. destruct Wy as [Wf Wy]. apply Forall_app in Wy. destruct Wy as [Wm Wt].
   inversion_clear Wt as [| ? ? Ht _]. set (f := skipn low b) in *.
   assert (Wg : words f) by (unfold f; rewrite <- (firstn_skipn low b) in Wb; apply Forall_app in Wb; tauto).
-  assert (Lg : length m = length f) by (unfold f; rewrite skipn_length; exact Lm). generalize B_positive. intros P.
+  assert (Lg : length m = length f) by (unfold f; rewrite skipn_length; exact Lm).
+  generalize B_positive. intros P.
   assert (Size : forall s v, length s = length m -> length (first ++ s ++ [v]) = n).
   { intros s v Ls. rewrite !app_length. simpl. unfold n, e in *. lia. }
   assert (Power : B ^ Z.of_nat n = B ^ i * B ^ Z.of_nat low * B ^ size m * B).
   { rewrite <- (Z.pow_1_r B) at 5. rewrite <- !Z.pow_add_r by lia. f_equal. unfold n, e in *. lia. }
   assert (Place : B ^ size first = B ^ i * B ^ Z.of_nat low).
   { rewrite Lf, <- Z.pow_add_r by lia. f_equal. unfold e. lia. }
-  assert (End : B ^ (i + size b + 1) = B ^ Z.of_nat n) by (f_equal; unfold n; lia). rewrite End in Range.
-  rewrite Ly in K. rewrite !value_app in K. cbn [value] in K. rewrite Place in K. destruct (Z.ltb_spec w 0) as [C | C].
+  assert (End : B ^ (i + size b + 1) = B ^ Z.of_nat n) by (f_equal; unfold n; lia).
+  rewrite End in Range. rewrite Ly in K. rewrite !value_app in K. cbn [value] in K. rewrite Place in K.
+  destruct (Z.ltb_spec w 0) as [C | C].
   - generalize (subtract_multiple_exact m (- w) f 0 Lg Wm Wg ltac:(unfold word; lia) ltac:(unfold word; lia)).
     destruct (subtract_multiple m (- w) f 0) as [s c]. intros (Ls & Ws & Wc & Es). cbn [fst].
     split; [| now apply Size]. apply (stands_modulo _ false) with (k := k - ((t - c) / B)).
@@ -187,10 +201,11 @@ Proof.
   { replace (0 - w) with (B - w + (-1) * B) by ring. rewrite Z.mod_add by lia. apply Z.mod_small. lia. }
   destruct (_ =? 0); [| rewrite M]; (split; [lia | split; [lia | apply IH]]).
 Qed.
-Lemma visits_exact b low l : words b -> low = leading_zeros b -> value b <> 0 -> forall r beyond s start stop,
-  stands_for (r, beyond) (s * value b) -> 0 <= start <= stop -> Z.abs s < B ^ start -> (length
-  r <= Z.to_nat start + length b)%nat -> ascending l start stop -> stands_for (fold_left (visit low b) l (r, beyond))
-  ((s + total l) * value b) /\ (length (fst (fold_left (visit low b) l (r, beyond))) <= Z.to_nat stop + length b)%nat.
+Lemma visits_exact b low l : words b -> low = leading_zeros b -> value b <> 0 ->
+  forall r beyond s start stop, stands_for (r, beyond) (s * value b) -> 0 <= start <= stop -> Z.abs s < B ^ start ->
+  (length r <= Z.to_nat start + length b)%nat -> ascending l start stop ->
+  stands_for (fold_left (visit low b) l (r, beyond)) ((s + total l) * value b) /\
+  (length (fst (fold_left (visit low b) l (r, beyond))) <= Z.to_nat stop + length b)%nat.
 Proof.
   intros Wb EL NB. induction l as [| [i w] l IH]; intros r beyond s start stop H P S L A.
   { cbn [fold_left total fst]. rewrite Z.add_0_r. split; [exact H | lia]. }
@@ -245,8 +260,9 @@ Proof.
   assert (Ly : length y = (length a + length b)%nat) by (unfold y; rewrite app_length, repeat_length; lia).
   destruct (stands_value _ _ _ H) as [k K]. destruct H as [Wy _]. clearbody y.
   destruct (subtract_from_exact (length b) y a (negative b) Wy Wa ltac:(lia)) as (L2 & W2 & j & E2).
-  set (t := subtract_from (length b) y a (negative b)) in *. assert (Lt : length t = (length a + length b)%nat) by lia.
-  split; [exact Lt |]. split; [exact W2 |]. destruct (signed_modulo a) as [i I].
+  set (t := subtract_from (length b) y a (negative b)) in *.
+  assert (Lt : length t = (length a + length b)%nat) by lia. split; [exact Lt |]. split; [exact W2 |].
+  destruct (signed_modulo a) as [i I].
   apply signed_is with (k := j + k + (if negative b then i else 0)); auto.
   - intros E. rewrite E in Lt. destruct a; easy.
   - rewrite Lt. apply product_fits; now apply signed_fits.
@@ -259,7 +275,8 @@ Lemma not_zero_exact b : words b -> b <> [] -> trimmed b -> not_zero b = true ->
 Proof.
   intros W N T H Z. assert (V : value b = 0).
   { generalize (negative_spec b W N) (value_bounds b W). unfold signed in Z. destruct (negative b); lia. }
-  assert (A : forallb (Z.eqb 0) b = true) by (rewrite value_zero, V by auto; reflexivity). destruct T as [L | T].
+  assert (A : forallb (Z.eqb 0) b = true) by (rewrite value_zero, V by auto; reflexivity).
+  destruct T as [L | T].
   - destruct b as [| w [|]]; try discriminate. unfold not_zero in H. cbn [forallb] in A.
     rewrite andb_true_r in A. apply Z.eqb_eq in A. now subst w.
   - apply T. destruct (exists_last N) as (y & w & ->). rewrite last_last, removelast_last.
@@ -272,7 +289,8 @@ Qed.
 Theorem any_product_exact a b : a <> [] -> b <> [] -> words a -> words b -> trimmed a -> trimmed b ->
   signed (any_product a b) = signed a * signed b.
 Proof.
-  intros Na Nb Wa Wb Ta Tb. unfold any_product. destruct (is_sparse a && not_zero b) eqn:C1.
+  intros Na Nb Wa Wb Ta Tb. unfold any_product.
+  destruct (is_sparse a && not_zero b) eqn:C1.
   { apply andb_prop in C1. apply sparse_product_exact; auto. now apply not_zero_exact. }
   destruct (is_sparse b && not_zero a) eqn:C2.
   { apply andb_prop in C2. rewrite Z.mul_comm. apply sparse_product_exact; auto. now apply not_zero_exact. }
@@ -284,7 +302,8 @@ Definition long_product (n : nat) (a b : list Z) : list Z := firstn n (any_produ
 Lemma any_product_words a b : a <> [] -> b <> [] -> words a -> words b -> trimmed a -> trimmed b ->
   words (any_product a b) /\ length (any_product a b) = (length a + length b)%nat.
 Proof.
-  intros Na Nb Wa Wb Ta Tb. unfold any_product. destruct (is_sparse a && not_zero b) eqn:C1.
+  intros Na Nb Wa Wb Ta Tb. unfold any_product.
+  destruct (is_sparse a && not_zero b) eqn:C1.
   { apply andb_prop in C1. destruct (sparse_product_exact a b) as (L & W & _); auto. now apply not_zero_exact. }
   destruct (is_sparse b && not_zero a) eqn:C2.
   { apply andb_prop in C2. destruct (sparse_product_exact b a) as (L & W & _); auto; [now apply not_zero_exact |].

@@ -10,8 +10,10 @@
         word_coordinates_exact, short_coordinates_exact   if word_coordinates or short_coordinates fit, they are the
                           coordinates *)
 
-From Coq Require Import Reals ZArith List Lia Lra. From Flocq Require Import Core.
-From Errbound Require Import Format Words. Open Scope Z_scope.
+From Coq Require Import Reals ZArith List Lia Lra.
+From Flocq Require Import Core.
+From Errbound Require Import Format Words.
+Open Scope Z_scope.
 
 Inductive sized :=
 | Coordinate (c : Z)
@@ -78,11 +80,16 @@ Fixpoint admissible (e : sized) : Prop :=
 
 Hypothesis coordinate_bits_0 : 0 <= coordinate_bits.
 
-Lemma degree_0 e : 0 <= degree e. Proof. induction e; simpl; lia. Qed.
+Lemma degree_0 e : 0 <= degree e.
+Proof. induction e; simpl; lia. Qed.
 Lemma bits_0 e : 0 <= bits e.
-Proof. induction e; simpl; unfold raised_bits; try lia; generalize (degree_0 e1) (degree_0 e2); nia. Qed.
+Proof.
+  induction e; simpl; unfold raised_bits; try lia;
+    generalize (degree_0 e1) (degree_0 e2); nia.
+Qed.
 Lemma raised_range x b own other : 0 <= b -> Z.abs x < 2 ^ b ->
-  own = other \/ unit <= 0 /\ - unit < coordinate_bits -> Z.abs (raised x own other) < 2 ^ raised_bits b own other.
+  own = other \/ unit <= 0 /\ - unit < coordinate_bits ->
+  Z.abs (raised x own other) < 2 ^ raised_bits b own other.
 Proof.
   unfold raised, raised_bits. intros B X [-> | [U V]].
   - replace (other - other) with 0 by lia. change (Z.max 0 0) with 0.
@@ -118,13 +125,16 @@ Proof.
     rewrite Z.abs_mul, Z.pow_add_r by apply bits_0. apply Z.mul_lt_mono_nonneg; lia.
   - rewrite Z.abs_opp. auto.
 Qed.
-Lemma raised_exact x own other : own = other \/ unit <= 0 /\ - unit < coordinate_bits ->
+Lemma raised_exact x own other :
+  own = other \/ unit <= 0 /\ - unit < coordinate_bits ->
   (IZR (raised x own other) * bpow radix2 (unit * Z.max own other) = IZR x * bpow radix2 (unit * own))%R.
 Proof.
   unfold raised. intros [-> | [U V]].
-  - replace (other - other) with 0 by lia. rewrite !Z.max_id. now rewrite Z.pow_0_r, Z.mul_1_r.
-  - set (k := Z.max 0 (other - own)). replace (Z.max own other) with (own + k) by lia. rewrite <- Z.pow_mul_r by lia.
-    rewrite mult_IZR. change 2 with (radix_val radix2). rewrite IZR_Zpower by (apply Z.mul_nonneg_nonneg; lia).
+  - replace (other - other) with 0 by lia. rewrite !Z.max_id.
+    now rewrite Z.pow_0_r, Z.mul_1_r.
+  - set (k := Z.max 0 (other - own)). replace (Z.max own other) with (own + k) by lia.
+    rewrite <- Z.pow_mul_r by lia. rewrite mult_IZR. change 2 with (radix_val radix2).
+    rewrite IZR_Zpower by (apply Z.mul_nonneg_nonneg; lia).
     rewrite Rmult_assoc, <- bpow_plus. f_equal. f_equal. ring.
 Qed.
 Theorem sized_exact e : admissible e ->
@@ -138,8 +148,10 @@ Proof.
   - destruct A as (A & B & D). rewrite plus_IZR, Rmult_plus_distr_r, raised_exact by auto.
     rewrite Z.max_comm, raised_exact by lia. now rewrite IHx, IHy.
   - destruct A as (A & B & D). rewrite minus_IZR. unfold Rminus. rewrite Rmult_plus_distr_r.
-    rewrite raised_exact by auto. rewrite <- Ropp_mult_distr_l, Z.max_comm, raised_exact by lia. now rewrite IHx, IHy.
-  - destruct A as (A & B). rewrite mult_IZR, Z.mul_add_distr_l, bpow_plus. rewrite <- (IHx A), <- (IHy B). ring.
+    rewrite raised_exact by auto. rewrite <- Ropp_mult_distr_l, Z.max_comm, raised_exact by lia.
+    now rewrite IHx, IHy.
+  - destruct A as (A & B). rewrite mult_IZR, Z.mul_add_distr_l, bpow_plus.
+    rewrite <- (IHx A), <- (IHy B). ring.
   - rewrite opp_IZR, <- (IHx A). ring.
 Qed.
 
@@ -165,8 +177,11 @@ Fixpoint shape_bits (e : sized) : Z :=
   | Product x y => shape_bits x + shape_bits y
   | Negation x => shape_bits x
   end.
-Lemma raised_by_degree n s own other : raised_bits n (s + own * n) own other = s + Z.max own other * n.
-Proof. unfold raised_bits. replace (Z.max 0 (other - own)) with (Z.max own other - own) by lia. ring. Qed.
+Lemma raised_by_degree n s own other :
+  raised_bits n (s + own * n) own other = s + Z.max own other * n.
+Proof.
+  unfold raised_bits. replace (Z.max 0 (other - own)) with (Z.max own other - own) by lia. ring.
+Qed.
 Theorem bits_by_degree n e : bits n e = shape_bits e + degree e * n.
 Proof.
   induction e as [c | c | x IHx y IHy | x IHx y IHy | x IHx y IHy | x IHx];
@@ -193,24 +208,32 @@ Theorem converted_exact m e unit bits :
   let v := m / 2 ^ Z.min 63 (Z.max 0 (- shift)) * 2 ^ Z.max shift 0 in
   (IZR v * bpow radix2 unit = IZR m * bpow radix2 e)%R /\ (IZR v < bpow radix2 bits)%R.
 Proof.
-  intros M [q Q] H shift v. set (s := Z.max 0 (unit - e)) in *. assert (P : 0 < 2 ^ s) by (apply Z.pow_pos_nonneg; lia).
+  intros M [q Q] H shift v. set (s := Z.max 0 (unit - e)) in *.
+  assert (P : 0 < 2 ^ s) by (apply Z.pow_pos_nonneg; lia).
   assert (L : s < 53).
-  { apply (Z.pow_lt_mono_r_iff 2); try lia. assert (1 <= q) by nia. apply Z.le_lt_trans with m; [| lia]. rewrite Q.
-    rewrite <- (Z.mul_1_l (2 ^ s)) at 1. apply Z.mul_le_mono_nonneg_r; lia. }
+  { apply (Z.pow_lt_mono_r_iff 2); try lia. assert (1 <= q) by nia.
+    apply Z.le_lt_trans with m; [| lia]. rewrite Q. rewrite <- (Z.mul_1_l (2 ^ s)) at 1.
+    apply Z.mul_le_mono_nonneg_r; lia. }
   assert (S : Z.min 63 (Z.max 0 (- shift)) = s) by (unfold shift; lia).
   assert (E : (IZR v * bpow radix2 unit = IZR m * bpow radix2 e)%R).
   { unfold v. rewrite S, Q, Z.div_mul by lia. rewrite !mult_IZR. change 2 with (radix_val radix2).
-    rewrite !IZR_Zpower by lia. rewrite !Rmult_assoc, <- !bpow_plus. f_equal. f_equal. unfold shift, s. lia. }
+    rewrite !IZR_Zpower by lia. rewrite !Rmult_assoc, <- !bpow_plus. f_equal. f_equal.
+    unfold shift, s. lia. }
   split; auto. apply Rmult_lt_reg_r with (bpow radix2 unit); [apply bpow_gt_0 |].
   rewrite E, <- bpow_plus. now rewrite Z.add_comm.
 Qed.
 
 (** Coordinates in double, and arithmetic in double, rounded to nearest. *)
-Notation fl := (rnd 53 (-1074) nearest). Notation double := (Format.number 53 (-1074)).
+Notation fl := (rnd 53 (-1074) nearest).
+Notation double := (Format.number 53 (-1074)).
 #[local] Instance double_precision : Prec_gt_0 53 := eq_refl.
 
-Lemma double_form x : double x -> exists m e : Z, (x = IZR m * bpow radix2 e)%R /\ Z.abs m < 2 ^ 53 /\ -1074 <= e.
-Proof. intros H. apply FLT_format_generic in H; [| exact eq_refl]. destruct H as [[m e] -> M E]. exists m, e. auto. Qed.
+Lemma double_form x : double x -> exists m e : Z,
+  (x = IZR m * bpow radix2 e)%R /\ Z.abs m < 2 ^ 53 /\ -1074 <= e.
+Proof.
+  intros H. apply FLT_format_generic in H; [| exact eq_refl]. destruct H as [[m e] -> M E].
+  exists m, e. auto.
+Qed.
 Lemma double_is m e : Z.abs m < 2 ^ 53 -> -1074 <= e -> double (IZR m * bpow radix2 e).
 Proof. intros M E. apply number_integer; [exact eq_refl | lia | change 2 with 2; lia]. Qed.
 
@@ -222,15 +245,18 @@ Proof.
   intros X U i. set (y := fl (x * bpow radix2 (- unit))) in *.
   assert (Y : double y) by (apply rnd_number; auto with typeclass_instances).
   assert (F : exists m e, IZR i = (IZR m * bpow radix2 e)%R /\ Z.abs m < 2 ^ 53 /\ 0 <= e).
-  { destruct (double_form y Y) as (m & e & Em & M & E). destruct (Z_le_gt_dec 0 e) as [P | P].
+  { destruct (double_form y Y) as (m & e & Em & M & E).
+    destruct (Z_le_gt_dec 0 e) as [P | P].
     - exists m, e. split; auto. rewrite <- Em. unfold i. rewrite Em.
       rewrite <- IZR_Zpower, <- mult_IZR by lia. now rewrite Ztrunc_IZR.
     - exists i, 0. simpl (bpow radix2 0). split; [ring |]. split; [| lia].
       apply lt_IZR. rewrite abs_IZR. apply Rle_lt_trans with (Rabs y).
-      + unfold i. rewrite <- abs_IZR, <- Ztrunc_abs. rewrite Ztrunc_floor by apply Rabs_pos. apply Zfloor_lb.
+      + unfold i. rewrite <- abs_IZR, <- Ztrunc_abs. rewrite Ztrunc_floor by apply Rabs_pos.
+        apply Zfloor_lb.
       + rewrite Em, Rabs_mult, (Rabs_pos_eq (bpow _ _)) by apply bpow_ge_0. rewrite <- abs_IZR.
         apply Rle_lt_trans with (IZR (Z.abs m) * 1)%R.
-        * apply Rmult_le_compat_l; [apply IZR_le; lia |]. change 1%R with (bpow radix2 0). apply bpow_le. lia.
+        * apply Rmult_le_compat_l; [apply IZR_le; lia |]. change 1%R with (bpow radix2 0).
+          apply bpow_le. lia.
         * rewrite Rmult_1_r. now apply IZR_lt. }
   destruct F as (m & e & Em & M & E). rewrite Em.
   rewrite (rnd_exact 53 (-1074) nearest (IZR m * bpow radix2 e)) by (apply double_is; auto; lia).
@@ -244,9 +270,11 @@ Theorem short_coordinates_exact x unit : double x -> -1022 <= unit <= 970 ->
   fl (fl (x + 3 * bpow radix2 (unit + 51)) - 3 * bpow radix2 (unit + 51)) = x ->
   exists k, Z.abs k <= 2 ^ 51 /\ (x = IZR k * bpow radix2 unit)%R.
 Proof.
-  intros X U B H. set (b := bpow radix2 unit). assert (P : (0 < b)%R) by apply bpow_gt_0.
+  intros X U B H. set (b := bpow radix2 unit).
+  assert (P : (0 < b)%R) by apply bpow_gt_0.
   assert (P51 : bpow radix2 (unit + 51) = (IZR (2 ^ 51) * b)%R).
-  { change 2 with (radix_val radix2). rewrite IZR_Zpower by lia. unfold b. rewrite <- bpow_plus. f_equal. lia. }
+  { change 2 with (radix_val radix2). rewrite IZR_Zpower by lia. unfold b. rewrite <- bpow_plus.
+    f_equal. lia. }
   assert (Whole : forall z, Z.abs z <= 2 ^ 53 -> double (IZR z * b)).
   { intros z Hz. apply number_integer; [exact eq_refl | lia | exact Hz]. }
   rewrite P51 in *. set (s := (x + 3 * (IZR (2 ^ 51) * b))%R) in *. apply Rabs_le_inv in B.

@@ -6,16 +6,20 @@
         shifted_exact      shifted: magnitude 2^shift if it fits, else modulo the width
         long_shifted_exact the long integer of a magnitude, a shift and a sign *)
 
-From Coq Require Import ZArith List Lia Bool. From Errbound Require Import Words. From Errbound Require SparseProduct.
-Import ListNotations. Open Scope Z_scope.
+From Coq Require Import ZArith List Lia Bool.
+From Errbound Require Import Words.
+From Errbound Require SparseProduct.
+Import ListNotations.
+Open Scope Z_scope.
 
 (** The words of a number: the i-th is floor(z/2^(64i)) modulo 2^64. *)
 Definition words_of (n : nat) (z : Z) : list Z := map (fun i => z / B ^ Z.of_nat i mod B) (seq 0 n).
 
 Lemma words_of_words n z : words (words_of n z) /\ length (words_of n z) = n.
 Proof.
-  unfold words_of. split; [| now rewrite map_length, seq_length]. apply Forall_forall. intros w I.
-  apply in_map_iff in I. destruct I as (i & <- & _). apply Z.mod_pos_bound. exact B_positive.
+  unfold words_of. split; [| now rewrite map_length, seq_length].
+  apply Forall_forall. intros w I. apply in_map_iff in I. destruct I as (i & <- & _).
+  apply Z.mod_pos_bound. exact B_positive.
 Qed.
 Lemma words_of_succ n z : words_of (S n) z = z mod B :: words_of n (z / B).
 Proof.
@@ -32,7 +36,8 @@ Proof.
 Qed.
 Lemma words_of_exact n z : n <> 0%nat -> fits n z -> signed (words_of n z) = z.
 Proof.
-  intros N F. destruct (words_of_words n z) as [W L]. apply signed_is with (k := - (z / B ^ Z.of_nat n)); auto.
+  intros N F. destruct (words_of_words n z) as [W L].
+  apply signed_is with (k := - (z / B ^ Z.of_nat n)); auto.
   - intros E. rewrite E in L. now destruct n.
   - now rewrite L.
   - rewrite words_of_value, L. generalize (Z.div_mod z (B ^ Z.of_nat n)) (power_positive n). lia.
@@ -59,8 +64,9 @@ Proof.
     - rewrite app_nth2, nth_overflow by auto. symmetry. apply (repeat_spec (n - length x)), nth_In.
       rewrite repeat_length. lia. }
   rewrite E, nth_value by (auto; lia). rewrite <- SE. destruct (signed_modulo (extended x n)) as [k ->]. rewrite L.
-  replace (Z.of_nat n) with (Z.of_nat (n - S i) + 1 + Z.of_nat i) by lia. rewrite !Z.pow_add_r by lia.
-  rewrite Z.pow_1_r, !Z.mul_assoc. rewrite Z.div_add by (generalize (power_positive i); lia).
+  replace (Z.of_nat n) with (Z.of_nat (n - S i) + 1 + Z.of_nat i) by lia.
+  rewrite !Z.pow_add_r by lia. rewrite Z.pow_1_r, !Z.mul_assoc.
+  rewrite Z.div_add by (generalize (power_positive i); lia).
   rewrite Z.mod_add by (generalize B_positive; lia). reflexivity.
 Qed.
 
@@ -105,8 +111,9 @@ Lemma from_bit_words x shift n : words x -> x <> [] -> 0 <= shift ->
   from_bit x shift n = words_of n (signed x / 2 ^ shift).
 Proof.
   intros W N P. unfold from_bit, words_of. cbv zeta. apply map_ext. intros i.
-  assert (H : 0 <= shift mod 64 < 64) by (apply Z.mod_pos_bound; lia). assert (D := Z.div_mod shift 64 ltac:(lia)).
-  assert (D0 : 0 <= shift / 64) by (apply Z.div_pos; lia). generalize B_positive. intros PB.
+  assert (H : 0 <= shift mod 64 < 64) by (apply Z.mod_pos_bound; lia).
+  assert (D := Z.div_mod shift 64 ltac:(lia)). assert (D0 : 0 <= shift / 64) by (apply Z.div_pos; lia).
+  generalize B_positive. intros PB.
   rewrite !word_at_exact by auto. set (q := signed x / B ^ Z.of_nat (Z.to_nat (shift / 64) + i)).
   assert (Q : signed x / B ^ Z.of_nat (Z.to_nat (shift / 64) + i + 1) = q / B).
   { rewrite Nat2Z.inj_add, Z.pow_add_r by lia. rewrite <- Z.div_div by (try apply power_positive; try lia; generalize (power_positive (Z.to_nat (shift / 64) + i)); lia).
@@ -118,7 +125,9 @@ Qed.
 Theorem from_bit_exact x shift n : words x -> x <> [] -> 0 <= shift ->
   value (from_bit x shift n) = signed x / 2 ^ shift mod B ^ Z.of_nat n /\
   (n <> 0%nat -> fits n (signed x / 2 ^ shift) -> signed (from_bit x shift n) = signed x / 2 ^ shift).
-Proof. intros. rewrite from_bit_words by auto. split; [apply words_of_value | apply words_of_exact]. Qed.
+Proof.
+  intros. rewrite from_bit_words by auto. split; [apply words_of_value | apply words_of_exact].
+Qed.
 
 (** magnitude 2^shift in n words. *)
 Definition shifted_word (magnitude shift : Z) (i : nat) : Z :=
@@ -132,16 +141,19 @@ Lemma shifted_word_right magnitude shift i : word magnitude -> 0 <= shift ->
   shifted_word magnitude shift i = magnitude * 2 ^ shift / B ^ Z.of_nat i mod B.
 Proof.
   intros M P. unfold shifted_word. cbv zeta. unfold word in M.
-  assert (H : 0 <= shift mod 64 < 64) by (apply Z.mod_pos_bound; lia). assert (D := Z.div_mod shift 64 ltac:(lia)).
-  assert (D0 : 0 <= shift / 64) by (apply Z.div_pos; lia). set (whole := shift / 64) in *.
-  set (bits := shift mod 64) in *. set (k := Z.of_nat i). assert (K : 0 <= k) by (unfold k; lia). generalize B_positive.
-  intros PB. assert (E : B ^ k = 2 ^ (64 * k)) by (unfold base; now rewrite <- Z.pow_mul_r by lia).
-  assert (Pk : 0 < 2 ^ (64 * k)) by (apply Z.pow_pos_nonneg; lia). destruct (Z.eqb_spec k whole) as [-> | N1].
+  assert (H : 0 <= shift mod 64 < 64) by (apply Z.mod_pos_bound; lia).
+  assert (D := Z.div_mod shift 64 ltac:(lia)). assert (D0 : 0 <= shift / 64) by (apply Z.div_pos; lia).
+  set (whole := shift / 64) in *. set (bits := shift mod 64) in *. set (k := Z.of_nat i).
+  assert (K : 0 <= k) by (unfold k; lia). generalize B_positive. intros PB.
+  assert (E : B ^ k = 2 ^ (64 * k)) by (unfold base; now rewrite <- Z.pow_mul_r by lia).
+  assert (Pk : 0 < 2 ^ (64 * k)) by (apply Z.pow_pos_nonneg; lia).
+  destruct (Z.eqb_spec k whole) as [-> | N1].
   { rewrite E, D, Z.pow_add_r by lia. rewrite (Z.mul_comm (2 ^ _)), Z.mul_assoc, Z.div_mul by lia. reflexivity. }
   destruct (Z.eqb_spec k (whole + 1)) as [-> | N2].
   { replace shift with (64 * whole + bits) by lia. rewrite E. replace (64 * (whole + 1)) with (64 * whole + 64) by lia.
     rewrite !Z.pow_add_r by lia. rewrite Z.mul_assoc, (Z.mul_comm magnitude), <- Z.mul_assoc, Z.div_mul_cancel_l by lia.
-    assert (P1 : 0 < 2 ^ bits) by (apply Z.pow_pos_nonneg; lia). destruct (Z.eqb_spec bits 0) as [-> | N0].
+    assert (P1 : 0 < 2 ^ bits) by (apply Z.pow_pos_nonneg; lia).
+    destruct (Z.eqb_spec bits 0) as [-> | N0].
     - rewrite Z.mul_1_r. change (2 ^ 64) with B. now rewrite (Z.div_small magnitude).
     - assert (S : 2 ^ 64 = 2 ^ (64 - bits) * 2 ^ bits) by (rewrite <- Z.pow_add_r by lia; now replace (64 - bits + bits) with 64 by lia).
       assert (P2 : 0 < 2 ^ (64 - bits)) by (apply Z.pow_pos_nonneg; lia).
@@ -162,7 +174,9 @@ Proof. intros. apply map_ext. intros. now apply shifted_word_right. Qed.
 Theorem shifted_exact magnitude shift n : word magnitude -> 0 <= shift ->
   value (shifted magnitude shift n) = magnitude * 2 ^ shift mod B ^ Z.of_nat n /\
   (n <> 0%nat -> fits n (magnitude * 2 ^ shift) -> signed (shifted magnitude shift n) = magnitude * 2 ^ shift).
-Proof. intros. rewrite shifted_words by auto. split; [apply words_of_value | apply words_of_exact]. Qed.
+Proof.
+  intros. rewrite shifted_words by auto. split; [apply words_of_value | apply words_of_exact].
+Qed.
 
 (** The least n with -2^n <= x < 2^n. *)
 Definition bit_width (w : Z) : Z := if w =? 0 then 0 else Z.log2 w + 1.
@@ -193,8 +207,9 @@ Proof.
   intros W I. induction x as [| w x IH] using rev_ind.
   { destruct I as [-> | ->]; reflexivity. }
   apply Forall_app in W. destruct W as [W H]. inversion_clear H as [| ? ? Hw _]. specialize (IH W).
-  rewrite rev_app_distr. cbn [rev app length_from_last]. rewrite IH, rev_length. rewrite value_app, app_length.
-  cbn [length value]. replace (Z.of_nat (length x + 1)) with (Z.succ (size x)) by lia. rewrite Z.pow_succ_r by lia.
+  rewrite rev_app_distr. cbn [rev app length_from_last]. rewrite IH, rev_length.
+  rewrite value_app, app_length. cbn [length value].
+  replace (Z.of_nat (length x + 1)) with (Z.succ (size x)) by lia. rewrite Z.pow_succ_r by lia.
   generalize (value_bounds x W) (power_positive (length x)) B_positive. intros V P PB.
   assert (X : exists v, Z.lxor w invert = v /\ word v /\ (if invert =? 0 then w else B - 1 - w) = v).
   { unfold word in *. destruct I as [-> | ->].
@@ -212,8 +227,9 @@ Proof.
     destruct (Z.eqb_spec (y + v * B ^ size x) 0) as [C | C]; [nia |].
     enough (Z.log2 (y + v * B ^ size x) = 64 * size x + Z.log2 v) by lia.
     destruct (Z.log2_spec v ltac:(lia)) as [L1 L2]. generalize (Z.log2_nonneg v). intros L0.
-    assert (EB : B ^ size x = 2 ^ (64 * size x)) by (unfold base; now rewrite <- Z.pow_mul_r by lia). rewrite EB in *.
-    apply Z.log2_unique; [lia |]. rewrite Z.pow_succ_r in L2 |- * by lia. rewrite Z.pow_add_r by lia. split; nia.
+    assert (EB : B ^ size x = 2 ^ (64 * size x)) by (unfold base; now rewrite <- Z.pow_mul_r by lia).
+    rewrite EB in *. apply Z.log2_unique; [lia |]. rewrite Z.pow_succ_r in L2 |- * by lia.
+    rewrite Z.pow_add_r by lia. split; nia.
 Qed.
 Theorem bit_length_exact x n : words x -> x <> [] -> 0 <= n ->
   0 <= bit_length x /\ (bit_length x <= n <-> - 2 ^ n <= signed x < 2 ^ n).
@@ -254,7 +270,8 @@ Proof.
   2: { rewrite andb_false_r. destruct (Z.eqb_spec (Z.lxor w invert) 0) as [Z0 |]; [now apply X in Z0 |].
        rewrite app_nth2 by lia. replace (length y + 1 - 1 - length y)%nat with 0%nat by lia. cbn [nth].
        now replace (length y + 1 - 1)%nat with (length y) by lia. }
-  apply X in E. rewrite E, Z.eqb_refl, andb_true_r. apply X in E. clear X. destruct y as [| u z _] using rev_ind.
+  apply X in E. rewrite E, Z.eqb_refl, andb_true_r. apply X in E. clear X.
+  destruct y as [| u z _] using rev_ind.
   { cbn [app nth length Nat.add Nat.sub]. now rewrite E, Z.lxor_nilpotent. }
   rewrite app_length in *. cbn [length] in *. replace (1 <? Z.of_nat (length z + 1 + 1)) with true by (symmetry; apply Z.ltb_lt; lia).
   replace (length z + 1 + 1 - 2)%nat with (length z) by lia. rewrite <- app_assoc, app_nth2, Nat.sub_diag by lia.
@@ -315,7 +332,8 @@ Proof.
   generalize (stepped_sum x (zeros (length upper)) c Lz Wx (words_zeros _) C)
     (stepped_length add_with_carry x (zeros (length upper)) c Lz).
   destruct (stepped add_with_carry x (zeros (length upper)) c) as [r c']. cbn [fst]. intros (Wr & _ & Er) Lr.
-  rewrite value_zeros, Lx in Er. assert (Lt : length (zeros whole ++ r) = n) by (rewrite app_length, length_zeros; lia).
+  rewrite value_zeros, Lx in Er.
+  assert (Lt : length (zeros whole ++ r) = n) by (rewrite app_length, length_zeros; lia).
   apply signed_is with (k := (if negative then 1 + q / B ^ Z.of_nat k - c' else - (q / B ^ Z.of_nat k) - c')); auto.
   - apply words_app; auto using words_zeros.
   - intros Z0. rewrite Z0 in Lt. simpl in Lt. lia.

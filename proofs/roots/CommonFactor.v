@@ -8,7 +8,9 @@
         vanishes_right        the polynomials' sign changes give these multiplicities *)
 
 From Coq Require Import Reals ZArith Znumtheory Lia Lra List Classical Wf_nat.
-From Errbound Require Import Sign Bernstein SignVariations RootIsolation. Import ListNotations. Open Scope Z_scope.
+From Errbound Require Import Sign Bernstein SignVariations RootIsolation.
+Import ListNotations.
+Open Scope Z_scope.
 
 Definition coefficient (f : list Z) (i : nat) : Z := nth i f 0.
 Definition same (f g : list Z) : Prop := forall i, coefficient f i = coefficient g i.
@@ -27,7 +29,8 @@ Proof. unfold coefficient, multiple. revert i. induction f as [| a f IH]; intros
 Lemma coefficient_product a f g i : coefficient (product (a :: f) g) i =
   a * coefficient g i + match i with O => 0 | S i => coefficient (product f g) i end.
 Proof. simpl. rewrite coefficient_sum, coefficient_multiple. now destruct i. Qed.
-Lemma coefficient_nil i : coefficient [] i = 0. Proof. now destruct i. Qed.
+Lemma coefficient_nil i : coefficient [] i = 0.
+Proof. now destruct i. Qed.
 
 Lemma sum_at f g r : poly (sum f g) r = (poly f r + poly g r)%R.
 Proof.
@@ -86,7 +89,8 @@ Proof.
   - assert (F : forall i, (p | coefficient f i)) by (intros i; apply (B (S i)); lia).
     pose proof (zero_product p f g F) as Zp. destruct G as (C & D). split.
     + rewrite coefficient_product. intros H. destruct (divides_product p a (coefficient g e) P) as [K | K]; auto.
-      simpl in H. apply (Z.divide_add_cancel_r p (match e with O => 0 | S i => coefficient (product f g) i end)).
+      simpl in H.
+      apply (Z.divide_add_cancel_r p (match e with O => 0 | S i => coefficient (product f g) i end)).
       * destruct e; [apply Z.divide_0_r | apply Zp].
       * now rewrite Z.add_comm.
     + intros i I. rewrite coefficient_product. apply Z.divide_add_r; [apply Z.divide_mul_r, D; lia |].
@@ -165,11 +169,13 @@ Lemma not_all_divisible g k : degree 0 g k -> poly g r = 0%R ->
   exists h, degree 0 h k /\ poly h r = 0%R /\ exists e, degree p h e.
 Proof.
   pose proof (prime_ge_2 p P) as Two. remember (Z.abs_nat (coefficient g k)) as n eqn:N. revert g N.
-  induction n as [n IH] using lt_wf_ind. intros g N D Z. destruct (some_degree p g) as [All | E]; [| now exists g].
+  induction n as [n IH] using lt_wf_ind. intros g N D Z.
+  destruct (some_degree p g) as [All | E]; [| now exists g].
   destruct (divide_out p g All) as (h & E).
   assert (C : forall i, coefficient g i = p * coefficient h i).
   { intros i. rewrite <- coefficient_multiple. apply equal_same. intros x. now rewrite multiple_at. }
-  apply degree_0 in D. destruct D as (D & Up). apply (IH (Z.abs_nat (coefficient h k))) with (g := h); auto.
+  apply degree_0 in D. destruct D as (D & Up).
+  apply (IH (Z.abs_nat (coefficient h k))) with (g := h); auto.
   - rewrite N, C. assert (coefficient h k <> 0) by (intros K; apply D; rewrite C, K; ring). nia.
   - apply degree_0. split; [intros K; apply D; rewrite C, K; ring |]. intros i I. specialize (Up i I). rewrite C in Up. nia.
   - rewrite E in Z. apply Rmult_eq_reg_l with (IZR p); [rewrite Z; ring |]. apply IZR_neq. lia.
@@ -228,7 +234,8 @@ Qed.
 
 (** image = u a + v b modulo p has degree k, p does not divide a's last coefficient, and a divisor of both has degree
     k. Then the quotients by the divisor have no common root. *)
-Lemma no_common_root (a b divisor image u v w fa fb : list Z) (n k : nat) : degree 0 a n -> ~ (p | coefficient a n) ->
+Lemma no_common_root (a b divisor image u v w fa fb : list Z) (n k : nat) :
+  degree 0 a n -> ~ (p | coefficient a n) ->
   (forall x, poly a x = poly divisor x * poly fa x)%R -> (forall x, poly b x = poly divisor x * poly fb x)%R ->
   (forall x, poly image x = poly u x * poly a x + poly v x * poly b x + IZR p * poly w x)%R ->
   degree p image k -> degree 0 divisor k -> ~ (poly fa r = 0%R /\ poly fb r = 0%R).
@@ -551,11 +558,13 @@ Theorem vanishes_right c lo hi r : lo < r < hi -> (forall x, lo <= x <= hi -> po
   (power_form c r = 0 -> multiplicity c r 1) ->
   (sgn (power_form c lo) <> sgn (power_form c hi) <-> power_form c r = 0).
 Proof.
-  intros L Only Simple. assert (Nl : power_form c lo <> 0) by (intros Z; apply Only in Z; lra).
+  intros L Only Simple.
+  assert (Nl : power_form c lo <> 0) by (intros Z; apply Only in Z; lra).
   assert (Nh : power_form c hi <> 0) by (intros Z; apply Only in Z; lra).
   assert (D : sgn (power_form c lo) <> sgn (power_form c hi) <-> power_form c lo * power_form c hi < 0).
-  { destruct (sgn_cases (power_form c lo)) as [(H & ->) | [(H & ->) | (H & ->)]], (sgn_cases (power_form c hi))
-      as [(K & ->) | [(K & ->) | (K & ->)]]; try lra; split; intros; try easy; try nra; exfalso; nra. }
+  { destruct (sgn_cases (power_form c lo)) as [(H & ->) | [(H & ->) | (H & ->)]],
+      (sgn_cases (power_form c hi)) as [(K & ->) | [(K & ->) | (K & ->)]]; try lra;
+      split; intros; try easy; try nra; exfalso; nra. }
   rewrite D. split.
   - intros O. destruct (root_between (power_form c) lo hi) as (x & X & Z); auto; [apply continuous_power_form | lra |].
     rewrite <- (Only x); auto. lra.

@@ -8,8 +8,10 @@
                                    fixed_row: errors, signs, halves
         weights_right, weights_fit  inverse_binomials, which fit in 64 bits *)
 
-From Coq Require Import Reals ZArith Lia Lra Psatz List Bool. From Flocq Require Import Core.
-From Errbound Require Import Sign Bernstein VertexEdge SignVariations RootIsolation. Import ListNotations.
+From Coq Require Import Reals ZArith Lia Lra Psatz List Bool.
+From Flocq Require Import Core.
+From Errbound Require Import Sign Bernstein VertexEdge SignVariations RootIsolation.
+Import ListNotations.
 Open Scope R_scope.
 
 (** ** Kioustelidis' bound *)
@@ -43,7 +45,9 @@ Qed.
 Lemma pow2_next e : pow2 e = 2 * pow2 (e - 1).
 Proof. replace e with (1 + (e - 1))%Z at 1 by ring. now rewrite bpow_plus. Qed.
 Lemma pow2_power e (d : nat) : pow2 e ^ d = pow2 (e * Z.of_nat d).
-Proof. induction d as [| d IH]; [now rewrite Z.mul_0_r |]. cbn [pow]. rewrite IH, <- bpow_plus. f_equal. lia. Qed.
+Proof.
+  induction d as [| d IH]; [now rewrite Z.mul_0_r |]. cbn [pow]. rewrite IH, <- bpow_plus. f_equal. lia.
+Qed.
 Lemma exponent_enough c last (d : nat) : (c <> 0)%Z -> (last <> 0)%Z -> (0 < d)%nat ->
   IZR (Z.abs c) <= IZR (Z.abs last) * pow2 (exponent_of c last (Z.of_nat d) - 1) ^ d.
 Proof.
@@ -85,7 +89,8 @@ Proof.
     assert (H : 0 < h) by (apply pow_lt; lra).
     assert (Main : - (IZR (Z.abs last) * (x / 2 * h)) <= sign_factor last * IZR c).
     { assert (0 <= IZR (Z.abs last) * (x / 2 * h)) by (apply Rmult_le_pos; [| apply Rmult_le_pos]; lra).
-      destruct (Z.eq_dec c 0) as [-> | C]; [lra |]. destruct (Bool.eqb (c <? 0)%Z (last <? 0)%Z) eqn:S.
+      destruct (Z.eq_dec c 0) as [-> | C]; [lra |].
+      destruct (Bool.eqb (c <? 0)%Z (last <? 0)%Z) eqn:S.
       - unfold sign_factor. revert S. destruct (Z.ltb_spec c 0) as [K | K], (Z.ltb_spec last 0); intros S; try discriminate;
           [apply IZR_lt in K | apply IZR_le in K]; lra.
       - assert (M : IZR (Z.abs c) <= IZR (Z.abs last) * (x / 2 * h)).
@@ -110,7 +115,8 @@ Qed.
 Theorem root_exponent_right p x : 0 < x -> List.last p 0%Z <> 0%Z -> poly p x = 0 ->
   exists e, positive_root_exponent p = Some e /\ x < pow2 e.
 Proof.
-  intros X L Z. unfold positive_root_exponent. assert (N : p <> []) by (intros ->; easy).
+  intros X L Z. unfold positive_root_exponent.
+  assert (N : p <> []) by (intros ->; easy).
   assert (No : ~ (forall e, root_exponent (List.last p 0%Z) p = Some e -> pow2 e <= x)).
   { intros B. pose proof (above_the_bound _ L p x X N eq_refl B) as H. rewrite Z, Rmult_0_r in H.
     assert (0 < IZR (Z.abs (List.last p 0%Z))) by (apply IZR_lt; lia).
@@ -216,10 +222,13 @@ Lemma products_sum c d b s t : length c = length b -> length d = length b ->
 Proof.
   revert d b. induction c as [| x c IH]; intros [| y d] [| z b] C D; try discriminate; [simpl; ring |].
   injection C as C. injection D as D. cbn [combine map products fst snd form].
-  rewrite (IH d b C D), !products_length; auto; [ring |]. rewrite map_length, combine_length. lia.
+  rewrite (IH d b C D), !products_length; auto; [ring |].
+  rewrite map_length, combine_length. lia.
 Qed.
 Lemma products_last c b x y : length c = length b -> products (c ++ [x]) (b ++ [y]) = products c b ++ [x * y].
-Proof. revert b. induction c as [| z c IH]; intros [| w b] L; try discriminate; [easy |]. simpl. rewrite IH; auto. Qed.
+Proof.
+  revert b. induction c as [| z c IH]; intros [| w b] L; try discriminate; [easy |]. simpl. rewrite IH; auto.
+Qed.
 Lemma control_form b n s t : length b = S n -> form (scaled_coefficients b) s t = casteljau n (at_index b) s t.
 Proof.
   unfold scaled_coefficients. intros L. rewrite L. replace (S n - 1)%nat with n by lia. revert b L.
@@ -270,11 +279,14 @@ Qed.
 Lemma row_first_form n f s t : casteljau n (row_first f) s t = casteljau n f (s + t) t.
 Proof.
   revert f. induction n as [| n IH]; intros f; [easy |]. cbn [casteljau]. rewrite IH.
-  change (fun i => row_first f (S i)) with (row_first (fun i => f i + f (S i))). rewrite IH, casteljau_plus. ring.
+  change (fun i => row_first f (S i)) with (row_first (fun i => f i + f (S i))).
+  rewrite IH, casteljau_plus. ring.
 Qed.
 Lemma rows_form n l s t : length l = S n ->
   casteljau n (at_index (first_of_rows (S n) l)) s t = casteljau n (at_index l) (s + t) t.
-Proof. intros L. rewrite <- row_first_form. apply casteljau_same. intros i I. apply first_of_rows_index; lia. Qed.
+Proof.
+  intros L. rewrite <- row_first_form. apply casteljau_same. intros i I. apply first_of_rows_index; lia.
+Qed.
 
 (** control_values_on. Its passes over the array, in order: powers of 2^e; Taylor's shift by `start`, by Horner's
     rule on shorter and shorter lists; weights and powers of `length`; sums. *)
@@ -316,8 +328,11 @@ Proof.
     exists (pow2 (- e) ^ (length p - 1)). split; [now apply pow_lt |]. intros x. rewrite times_descending_value by lra.
     f_equal. f_equal. rewrite <- (Z.opp_involutive e) at 2. rewrite (bpow_opp _ (- e)). unfold Rdiv. ring.
 Qed.
-Lemma horner_value start p : match horner start p with | [] => p = [] | a :: l =>
-  a = power_form p start /\ length p = S (length l) /\ forall x, power_form p x = a + (x - start) * power_form l x end.
+Lemma horner_value start p : match horner start p with
+  | [] => p = []
+  | a :: l => a = power_form p start /\ length p = S (length l) /\
+      forall x, power_form p x = a + (x - start) * power_form l x
+  end.
 Proof.
   induction p as [| a l IH]; [easy |]. simpl. destruct (horner start l) as [| b r].
   - subst l. simpl. repeat split; intros; ring.
@@ -374,7 +389,8 @@ Proof.
   unfold at_index. revert i. induction l as [| a l IH]; intros i L; simpl in L; [lia |].
   destruct i as [| i]; simpl; [now rewrite !Nat.sub_0_r |]. rewrite IH by lia. do 2 f_equal. lia.
 Qed.
-Lemma times_descending_length r l : length (times_descending r l) = length l. Proof. induction l; simpl; auto. Qed.
+Lemma times_descending_length r l : length (times_descending r l) = length l.
+Proof. induction l; simpl; auto. Qed.
 Lemma left_half_form n b s t : length b = S n ->
   casteljau n (at_index (left_half n b)) s t = casteljau n (at_index b) (2 * s + t) t.
 Proof.
@@ -398,8 +414,9 @@ Proof.
   assert (Pn : 0 < 2 ^ n) by (apply pow_lt; lra).
   split; exists (c * 2 ^ n); (split; [now apply Rmult_lt_0_compat |]); intros t.
   - rewrite (control_form _ n) by (unfold left_half; now rewrite times_descending_length, first_of_rows_length).
-    rewrite left_half_form by easy. replace (2 * (1 - t) + t) with (2 * (1 - t / 2)) by field.
-    replace t with (2 * (t / 2)) at 2 by field. rewrite Hom, <- control_form, E by easy.
+    rewrite left_half_form by easy.
+    replace (2 * (1 - t) + t) with (2 * (1 - t / 2)) by field. replace t with (2 * (t / 2)) at 2 by field.
+    rewrite Hom, <- control_form, E by easy.
     replace (lo + t / 2 * (hi - lo)) with (lo + t * ((lo + hi) / 2 - lo)) by field. ring.
   - assert (Lr : length (rev b) = S n) by now rewrite rev_length.
     rewrite (control_form _ n) by (unfold right_half; now rewrite rev_length, times_descending_length, first_of_rows_length).
@@ -428,8 +445,9 @@ Proof. induction p as [| a | a b l IH] using pairs_induction; try easy. simpl. r
 Lemma mirrored_ends p : hd 0%Z (mirrored_integers p) = hd 0%Z p /\
   (List.last p 0%Z <> 0%Z -> List.last (mirrored_integers p) 0%Z <> 0%Z).
 Proof.
-  split; [now destruct p as [| a [| b l]] |]. induction p as [| a | a b l IH] using pairs_induction; try easy.
-  destruct l as [| c l]; [simpl; lia |]. intros H. specialize (IH H). destruct l as [| d l]; exact IH.
+  split; [now destruct p as [| a [| b l]] |].
+  induction p as [| a | a b l IH] using pairs_induction; try easy. destruct l as [| c l]; [simpl; lia |].
+  intros H. specialize (IH H). destruct l as [| d l]; exact IH.
 Qed.
 
 Lemma last_reals (p : list Z) : List.last (reals_of p) (IZR 0) = IZR (List.last p 0%Z).
@@ -487,7 +505,8 @@ Qed.
 
 (** x·2^shift, rounded towards zero (`shifted` of include/errbound/integers/dyadic.hpp). *)
 Definition cut_shift (shift x : Z) : Z := if (0 <=? shift)%Z then (x * 2 ^ shift)%Z else cut (- shift) x.
-Lemma pow2_integer e : (0 <= e)%Z -> IZR (2 ^ e) = pow2 e. Proof. exact (IZR_Zpower radix2 e). Qed.
+Lemma pow2_integer e : (0 <= e)%Z -> IZR (2 ^ e) = pow2 e.
+Proof. exact (IZR_Zpower radix2 e). Qed.
 Lemma cut_shift_near shift x : Rabs (IZR (cut_shift shift x) - IZR x * pow2 shift) <= 1.
 Proof.
   unfold cut_shift. destruct (Z.leb_spec 0 shift) as [P | P].
@@ -499,7 +518,8 @@ Proof.
     rewrite Rabs_mult, Rabs_pos_eq by lra. apply Rmult_le_reg_l with (/ pow2 shift); [now apply Rinv_0_lt_compat |].
     rewrite <- Rmult_assoc, Rinv_l, Rmult_1_l, Rmult_1_r by lra. exact H.
 Qed.
-Lemma cut_shift_0 x : cut_shift 0 x = x. Proof. unfold cut_shift. simpl. ring. Qed.
+Lemma cut_shift_0 x : cut_shift 0 x = x.
+Proof. unfold cut_shift. simpl. ring. Qed.
 Lemma cut_shift_nonnegative shift x : (0 <= x)%Z -> (0 <= cut_shift shift x)%Z.
 Proof.
   intros X. unfold cut_shift, cut. destruct (Z.leb_spec 0 shift); [apply Z.mul_nonneg_nonneg; [easy | apply Z.pow_nonneg; lia] |].
@@ -633,7 +653,9 @@ Proof.
   - replace n with (i + (S n - 1 - i))%nat at 1 by lia. rewrite pow_add. field. split; apply pow_nonzero; lra.
 Qed.
 Lemma within_rev row e unit b : within row e unit b -> within (rev row) e unit (rev b).
-Proof. intros W. induction W as [| x c row b C W IH]; [constructor |]. simpl. apply Forall2_app; auto. Qed.
+Proof.
+  intros W. induction W as [| x c row b C W IH]; [constructor |]. simpl. apply Forall2_app; auto.
+Qed.
 Lemma controls_scaled c b p lo hi : 0 < c -> controls b p lo hi -> controls (map (Rmult c) b) p lo hi.
 Proof.
   intros C (d & D & E). exists (c * d). split; [now apply Rmult_lt_0_compat |]. intros t. rewrite Rmult_assoc, <- E.

@@ -3,7 +3,9 @@
         row_fits     a row's numbers are below 2^(64W - 3)
         row_stays    halving does not enlarge them: sums of two fit *)
 
-From Coq Require Import ZArith List Lia. Import ListNotations. Open Scope Z_scope.
+From Coq Require Import ZArith List Lia.
+Import ListNotations.
+Open Scope Z_scope.
 
 (** The coefficient c in units of 2^excess, rounded towards zero. *)
 Definition cut_to (excess c : Z) : Z :=
@@ -12,7 +14,8 @@ Definition cut_to (excess c : Z) : Z :=
 Theorem row_fits excess bits width c : Z.abs c < 2 ^ bits -> 0 <= bits -> excess = bits - (width - 3) ->
   3 <= width -> Z.abs (cut_to excess c) < 2 ^ (width - 3).
 Proof.
-  intros Hc Pb E Pw. unfold cut_to. assert (0 <= Z.abs c) by lia. destruct (Z.ltb_spec 0 excess) as [L | L].
+  intros Hc Pb E Pw. unfold cut_to. assert (0 <= Z.abs c) by lia.
+  destruct (Z.ltb_spec 0 excess) as [L | L].
   - assert (P : 0 < 2 ^ excess) by (apply Z.pow_pos_nonneg; lia).
     assert (0 <= Z.abs c / 2 ^ excess) by (apply Z.div_pos; lia).
     assert (Z.abs c / 2 ^ excess < 2 ^ (width - 3)).
@@ -21,7 +24,8 @@ Proof.
     destruct (c <? 0); lia.
   - assert (P : 0 < 2 ^ (- excess)) by (apply Z.pow_pos_nonneg; lia).
     assert (Z.abs c * 2 ^ (- excess) < 2 ^ (width - 3)).
-    { replace (width - 3) with (bits + - excess) by lia. rewrite Z.pow_add_r by lia. apply Z.mul_lt_mono_pos_r; auto. }
+    { replace (width - 3) with (bits + - excess) by lia. rewrite Z.pow_add_r by lia.
+      apply Z.mul_lt_mono_pos_r; auto. }
     assert (0 <= Z.abs c * 2 ^ (- excess)) by lia. destruct (c <? 0); lia.
 Qed.
 

@@ -9,8 +9,10 @@
         row_signs_of_coefficients   the signs of a fixed_row of them
         surely_rootless_right, low_end_right, high_end_right   no root on [0, 1], at 0, at 1 *)
 
-From Coq Require Import Reals ZArith Lia Lra Psatz List Bool. From Flocq Require Import Core.
-From Errbound Require Import Sign Bernstein SignVariations RootIsolation ControlValues. Import ListNotations.
+From Coq Require Import Reals ZArith Lia Lra Psatz List Bool.
+From Flocq Require Import Core.
+From Errbound Require Import Sign Bernstein SignVariations RootIsolation ControlValues.
+Import ListNotations.
 Open Scope R_scope.
 
 (** ** The meaning of the integers *)
@@ -103,7 +105,8 @@ Proof.
   assert (w * distance w (tl a) exact <= 1 * distance w (tl a) exact) by (apply Rmult_le_compat_r; lra). lra.
 Qed.
 
-Lemma cut_shift_of_0 shift : cut_shift shift 0 = 0%Z. Proof. unfold cut_shift, cut. now destruct (0 <=? shift)%Z. Qed.
+Lemma cut_shift_of_0 shift : cut_shift shift 0 = 0%Z.
+Proof. unfold cut_shift, cut. now destruct (0 <=? shift)%Z. Qed.
 Lemma horner_cons s y l : horner s (y :: l) = (y + hd 0 (horner s l) * s) :: horner s l.
 Proof. simpl. destruct (horner s l); [simpl; f_equal; ring | easy]. Qed.
 Lemma horner_length s l : length (horner s l) = length l.
@@ -188,9 +191,10 @@ Proof.
         specialize (IH ltac:(lia) ltac:(simpl; lia)). cbn [shifted_cut length INR Nat.pred] in IH, H |- *.
         assert (l * distance l [] (shifted m s h) <= l * distance (s + l) [] h) by (apply Rmult_le_compat_l; lra). lra.
       * destruct n as [| n]; [simpl in Ln; lia |]. cbn [shifted_cut].
-        destruct (horner_cut from depth (x :: a)) as [| x' r] eqn:Er; [discriminate |]. cbn [distance hd tl] in *.
-        simpl in Lc, Lh, La, Lm, Ln. specialize (IH n r h ltac:(lia) ltac:(lia) ltac:(lia)).
-        assert (Lr : length r = length a) by lia. rewrite Lr in IH. cbn [length Nat.pred] in *. rewrite S_INR.
+        destruct (horner_cut from depth (x :: a)) as [| x' r] eqn:Er; [discriminate |].
+        cbn [distance hd tl] in *. simpl in Lc, Lh, La, Lm, Ln.
+        specialize (IH n r h ltac:(lia) ltac:(lia) ltac:(lia)). assert (Lr : length r = length a) by lia. rewrite Lr in IH.
+        cbn [length Nat.pred] in *. rewrite S_INR.
         pose proof (pos_INR (length a)) as P.
         assert (E : INR (length a) * INR (Nat.pred (length a)) = INR (length a) * (INR (length a) - 1)).
         { destruct a; [simpl; ring |]. cbn [length Nat.pred]. rewrite S_INR. ring. }
@@ -301,7 +305,8 @@ Fixpoint raised_by (n : nat) (h a : list A) : list A :=
   match n with O => h | S n => raised_by n (raised zero h (hd zero a)) (tl a) end.
 Definition bernstein (n : nat) (a : list A) : list A := raised_by n [hd zero a] (tl a).
 End Rows.
-Notation integer_row := (bernstein Z.add 0%Z). Notation exact_row := (bernstein Rplus 0).
+Notation integer_row := (bernstein Z.add 0%Z).
+Notation exact_row := (bernstein Rplus 0).
 
 Lemma raised_form h x s t : forall before, form (raised Rplus before h x) s t =
   before * s ^ length h + (s + t) * form h s t + x * t ^ length h /\ length (raised Rplus before h x) = S (length h).

@@ -7,7 +7,9 @@
         near_widened     a coarser unit, if only the error is left
         near_sign        the sign, if the value exceeds the error *)
 
-From Coq Require Import Reals ZArith Lia Lra Psatz. From Flocq Require Import Core. Open Scope R_scope.
+From Coq Require Import Reals ZArith Lia Lra Psatz.
+From Flocq Require Import Core.
+Open Scope R_scope.
 
 Notation two := (bpow radix2).
 
@@ -39,12 +41,13 @@ Definition product_error (v e w f : Z) : Z := (e * (Z.abs w + f) + Z.abs v * f)%
 Theorem near_product v e k x w f l y : encloses v e k x -> encloses w f l y ->
   encloses (v * w) (product_error v e w f) (k + l) (x * y).
 Proof.
-  intros N M. pose proof (near_error _ _ _ _ N). pose proof (near_error _ _ _ _ M). apply near_part in N.
-  apply near_part in M. destruct N as (c & -> & C), M as (d & -> & D). apply near_part.
-  exists (c * (IZR w + d) + IZR v * d). split; [rewrite mult_IZR, bpow_plus; ring |]. unfold product_error.
-  rewrite plus_IZR, !mult_IZR, plus_IZR, !abs_IZR. eapply Rle_trans; [apply Rabs_triang |]. rewrite !Rabs_mult.
-  pose proof (Rabs_triang (IZR w) d). pose proof (Rabs_pos c). pose proof (Rabs_pos d).
-  pose proof (Rabs_pos (IZR w + d)). pose proof (Rabs_pos (IZR v)). pose proof (Rabs_pos (IZR w)).
+  intros N M. pose proof (near_error _ _ _ _ N). pose proof (near_error _ _ _ _ M).
+  apply near_part in N. apply near_part in M. destruct N as (c & -> & C), M as (d & -> & D). apply near_part.
+  exists (c * (IZR w + d) + IZR v * d). split; [rewrite mult_IZR, bpow_plus; ring |].
+  unfold product_error. rewrite plus_IZR, !mult_IZR, plus_IZR, !abs_IZR.
+  eapply Rle_trans; [apply Rabs_triang |]. rewrite !Rabs_mult.
+  pose proof (Rabs_triang (IZR w) d). pose proof (Rabs_pos c). pose proof (Rabs_pos d). pose proof (Rabs_pos (IZR w + d)).
+  pose proof (Rabs_pos (IZR v)). pose proof (Rabs_pos (IZR w)).
   assert (Rabs c * Rabs (IZR w + d) <= IZR e * (Rabs (IZR w) + IZR f)) by (apply Rmult_le_compat; lra).
   assert (Rabs (IZR v) * Rabs d <= Rabs (IZR v) * IZR f) by (apply Rmult_le_compat_l; lra). lra.
 Qed.
@@ -63,7 +66,8 @@ Proof. intros S. rewrite <- (IZR_Zpower radix2) by easy. reflexivity. Qed.
 Theorem near_shifted v e k s x : (0 <= s)%Z -> encloses v e k x -> encloses (v * 2 ^ s) (e * 2 ^ s) (k - s) x.
 Proof.
   intros S N. unfold encloses in *. rewrite !mult_IZR, <- !two_shift by easy.
-  assert (E : two s * two (k - s) = two k) by (rewrite <- bpow_plus; f_equal; lia). now rewrite !Rmult_assoc, E.
+  assert (E : two s * two (k - s) = two k) by (rewrite <- bpow_plus; f_equal; lia).
+  now rewrite !Rmult_assoc, E.
 Qed.
 
 (** drop: the value is rounded towards zero, the error downwards, and 2 is added. *)
@@ -75,8 +79,9 @@ Proof.
   - rewrite bpow_plus. field. lra.
   - rewrite (two_shift s S) in *. pose proof (Z.quot_rem' v (2 ^ s)) as Q. pose proof (Z.quot_rem' e (2 ^ s)) as F.
     pose proof (Z.rem_bound_abs v (2 ^ s) ltac:(lia)) as RV. pose proof (Z.rem_bound_pos e (2 ^ s) E P) as RE.
-    set (u := (2 ^ s)%Z) in *. set (q := Z.quot v u) in *. set (r := Z.rem v u) in *. set (g := Z.quot e u) in *.
-    set (h := Z.rem e u) in *. assert (RV' : Rabs (IZR r) <= IZR u) by (rewrite <- abs_IZR; apply IZR_le; lia).
+    set (u := (2 ^ s)%Z) in *. set (q := Z.quot v u) in *. set (r := Z.rem v u) in *.
+    set (g := Z.quot e u) in *. set (h := Z.rem e u) in *.
+    assert (RV' : Rabs (IZR r) <= IZR u) by (rewrite <- abs_IZR; apply IZR_le; lia).
     assert (VE : IZR v = IZR u * IZR q + IZR r) by (rewrite Q, plus_IZR, mult_IZR; reflexivity).
     assert (EE : IZR e <= IZR u * (IZR g + 1)).
     { replace (IZR u * (IZR g + 1)) with (IZR (u * g + u)) by (rewrite plus_IZR, mult_IZR; ring). apply IZR_le. lia. }

@@ -8,7 +8,9 @@
         power_right               power
         value_modulo_right        if a polynomial's value modulo p is not zero, the value is not zero *)
 
-From Coq Require Import ZArith Znumtheory List Lia. From Errbound Require Import Words. Import ListNotations.
+From Coq Require Import ZArith Znumtheory List Lia.
+From Errbound Require Import Words.
+Import ListNotations.
 Open Scope Z_scope.
 
 Section Field.
@@ -36,7 +38,8 @@ Definition from_form (a : Z) : Z := multiply a 1.
 (** a is the form of x. *)
 Definition form (a x : Z) : Prop := 0 <= a < p /\ (p | a - x * B).
 
-Lemma B_is : B = 4 * 2 ^ 62. Proof. reflexivity. Qed.
+Lemma B_is : B = 4 * 2 ^ 62.
+Proof. reflexivity. Qed.
 
 (** Each step doubles the number of right bits. *)
 Lemma better_right k x : 0 <= k <= 32 -> (2 ^ k | 1 - p * x) -> (2 ^ (2 * k) | 1 - p * better x).
@@ -56,7 +59,9 @@ Proof.
   replace (2 * k) with (k + k) by ring. rewrite Z.pow_add_r by lia. ring.
 Qed.
 Lemma fewer_bits k l z : 0 <= l <= k -> (2 ^ k | z) -> (2 ^ l | z).
-Proof. intros L. apply Z.divide_trans. exists (2 ^ (k - l)). rewrite <- Z.pow_add_r by lia. f_equal. lia. Qed.
+Proof.
+  intros L. apply Z.divide_trans. exists (2 ^ (k - l)). rewrite <- Z.pow_add_r by lia. f_equal. lia.
+Qed.
 Theorem negative_inverse_right : word negative_inverse /\ (B | p * negative_inverse + 1).
 Proof.
   split; [apply Z.mod_pos_bound; exact B_positive |].
@@ -90,8 +95,9 @@ Proof.
     assert (S' : t + r * p = B * h + t0 * (p * n + 1) - B * l * p).
     { replace r with (t0 * n - B * l) by lia. rewrite D1 at 1. ring. }
     rewrite S', I. ring. }
-  destruct Div as [r E]. rewrite E, Z.div_mul by lia. assert (R : 0 <= r < 2 * p) by nia.
-  rewrite (Z.mod_small r) by lia. destruct (Z.leb_spec p r).
+  destruct Div as [r E]. rewrite E, Z.div_mul by lia.
+  assert (R : 0 <= r < 2 * p) by nia. rewrite (Z.mod_small r) by lia.
+  destruct (Z.leb_spec p r).
   - rewrite Z.mod_small by lia. split; [lia |]. exists (B - m). nia.
   - split; [lia |]. exists (- m). nia.
 Qed.
@@ -120,7 +126,9 @@ Proof.
   - rewrite (Z.mod_small (a + p)), Z.mod_small by lia. split; [lia |]. exists (q - r + 1). lia.
 Qed.
 Lemma reduced_form t z : 0 <= t < 3 * p * p -> (p | t - z * B * B) -> form (reduced t) z.
-Proof. intros T [q Q]. destruct (reduced_right t T) as [R [s S]]. split; auto. apply cancel_R. exists (q - s). lia. Qed.
+Proof.
+  intros T [q Q]. destruct (reduced_right t T) as [R [s S]]. split; auto. apply cancel_R. exists (q - s). lia.
+Qed.
 Theorem field_multiply a x b y : form a x -> form b y -> form (multiply a b) (x * y).
 Proof.
   intros [A [q Q]] [D [r R]]. unfold multiply. generalize B_is p_range. intros. rewrite Z.mod_small by nia.
@@ -231,8 +239,9 @@ Definition value_modulo (n e : Z) (coefficients : list Z) : Z :=
 Theorem value_modulo_right n e coefficients : value_modulo n e coefficients <> 0 ->
   homogeneous (if 0 <=? e then n * 2 ^ e else n) (if 0 <=? e then 1 else 2 ^ (- e)) 0 1 coefficients <> 0.
 Proof.
-  generalize p_range. intros PR N V. apply N. clear N. set (num := if 0 <=? e then n * 2 ^ e else n) in *.
-  set (den := if 0 <=? e then 1 else 2 ^ (- e)) in *. destruct constants_right as (O & _).
+  generalize p_range. intros PR N V. apply N. clear N.
+  set (num := if 0 <=? e then n * 2 ^ e else n) in *. set (den := if 0 <=? e then 1 else 2 ^ (- e)) in *.
+  destruct constants_right as (O & _).
   assert (Mod : forall c, residue_of (c mod p) c).
   { intros c. split; [apply Z.mod_pos_bound; lia |]. exists (- (c / p)). pose proof (Z.div_mod c p ltac:(lia)). lia. }
   assert (Two : form (power (add one one) (Z.abs e)) (2 ^ Z.abs e)) by (apply power_right; [lia | now apply (field_add one 1 one 1)]).
@@ -251,7 +260,8 @@ Proof.
       replace (2 ^ e) with (2 ^ Z.abs e) by (f_equal; lia). now apply field_multiply.
     - intros s k F. unfold den. destruct (Z.leb_spec 0 e), (Z.ltb_spec e 0); try lia; [now rewrite Z.mul_1_r |].
       replace (2 ^ (- e)) with (2 ^ Z.abs e) by (f_equal; lia). now apply field_multiply. }
-  rewrite V in R. destruct R as [R [q Q]]. rewrite Z.sub_0_r in Q. assert (q = 0) as -> by (clear - R Q PR; nia). lia.
+  rewrite V in R. destruct R as [R [q Q]]. rewrite Z.sub_0_r in Q.
+  assert (q = 0) as -> by (clear - R Q PR; nia). lia.
 Qed.
 
 End Field.

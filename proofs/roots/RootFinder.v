@@ -8,8 +8,10 @@
 
 From Coq Require Import Reals ZArith Lia Lra List Sorted.
 From Errbound Require Import RootIsolation ControlValues CommonFactor.
-From Errbound Require Import Sign Contact UnboundedIntegers Reference BscExact. From Errbound Require BoundedInteger.
-Import ListNotations. Open Scope R_scope.
+From Errbound Require Import Sign Contact UnboundedIntegers Reference BscExact.
+From Errbound Require BoundedInteger.
+Import ListNotations.
+Open Scope R_scope.
 
 (** ** The chain's first polynomial, in integers *)
 
@@ -48,7 +50,8 @@ Proof.
   assert (S : same q (product m f)) by (apply equal_same; intros x; rewrite product_at; apply V).
   rewrite <- last_coefficient, S in Lq. rewrite <- last_coefficient. intros Z. apply Lq.
   assert (Over : forall l i, (length l - 1 < i)%nat -> coefficient l i = 0%Z)
-    by (intros l i I; apply nth_overflow; lia). destruct f as [| a l].
+    by (intros l i I; apply nth_overflow; lia).
+  destruct f as [| a l].
   - rewrite <- S. apply zero_everywhere. intros x. rewrite V. unfold poly at 2. simpl. ring.
   - replace (length q - 1)%nat with (length m - 1 + (length (a :: l) - 1))%nat.
     + rewrite last_of_product by apply Over. rewrite Z. ring.
@@ -103,7 +106,8 @@ Definition root_of (k : located) : R :=
 Lemma root_of_right f i r : isolates (reals_of f) i r -> root_of (Located f i) = r.
 Proof.
   intros (Z & I). unfold root_of. destruct completeness as (m & Upper & Least). cbn [proj1_sig].
-  assert (R : low i <= r <= high i) by (destruct I as [(-> & ->) | (I & _)]; lra). apply Rle_antisym.
+  assert (R : low i <= r <= high i) by (destruct I as [(-> & ->) | (I & _)]; lra).
+  apply Rle_antisym.
   - apply Least. intros x [-> | (X & Zx)]; cbn [place polynomial] in *; [lra |].
     destruct I as [(A & B) | (_ & Only & _)]; [lra |]. rewrite (Only x); auto. lra.
   - apply Upper. right. split; [exact R | exact Z].

@@ -10,7 +10,9 @@
         squarefree_part_roots, real_roots_right   the roots of p in (0, oo), by those of its square-free part *)
 
 From Coq Require Import Reals ZArith Lia Lra Psatz List Bool Sorted.
-From Errbound Require Import Sign Bernstein SignVariations. Import ListNotations. Open Scope R_scope.
+From Errbound Require Import Sign Bernstein SignVariations.
+Import ListNotations.
+Open Scope R_scope.
 
 (** ** Polynomials *)
 
@@ -24,8 +26,9 @@ Lemma without_root p c : exists q, length q = pred (length p) /\
   forall x, power_form p x = power_form p c + (x - c) * power_form q x.
 Proof.
   induction p as [| a l (q & L & E)]; [exists []; split; [easy | intros; simpl; ring] |].
-  destruct l as [| b l]; [exists []; split; [easy | intros; simpl; ring] |]. exists (power_form (b :: l) c :: q).
-  split; [simpl in *; lia |]. intros x. change (power_form (a :: b :: l) x) with (a + x * power_form (b :: l) x).
+  destruct l as [| b l]; [exists []; split; [easy | intros; simpl; ring] |].
+  exists (power_form (b :: l) c :: q). split; [simpl in *; lia |]. intros x.
+  change (power_form (a :: b :: l) x) with (a + x * power_form (b :: l) x).
   change (power_form (a :: b :: l) c) with (a + c * power_form (b :: l) c). rewrite E. simpl. ring.
 Qed.
 (** Zero between two points implies zero everywhere. *)
@@ -33,9 +36,10 @@ Lemma zero_between p lo hi : lo < hi -> (forall x, lo < x < hi -> power_form p x
 Proof.
   remember (length p) as n eqn:N. revert p N lo. induction n as [| n IH]; intros p N lo L Z x.
   - destruct p; [easy | discriminate].
-  - set (c := (lo + hi) / 2). assert (C : lo < c < hi) by (unfold c; lra). destruct (without_root p c) as (q & Lq & E).
-    rewrite E, (Z c C), (IH q ltac:(simpl; lia) c (proj2 C)); [ring |]. intros y Y. specialize (E y).
-    rewrite (Z y ltac:(lra)), (Z c C) in E. apply Rmult_eq_reg_l with (y - c); lra.
+  - set (c := (lo + hi) / 2). assert (C : lo < c < hi) by (unfold c; lra).
+    destruct (without_root p c) as (q & Lq & E). rewrite E, (Z c C), (IH q ltac:(simpl; lia) c (proj2 C)); [ring |].
+    intros y Y. specialize (E y). rewrite (Z y ltac:(lra)), (Z c C) in E.
+    apply Rmult_eq_reg_l with (y - c); lra.
 Qed.
 
 Definition not_zero (p : list R) : Prop := exists x, power_form p x <> 0.
@@ -68,10 +72,12 @@ Proof.
   destruct b as [| x b]; [easy |]. apply signs_of_products; [apply binomials_positive |].
   rewrite length_binomials. simpl. lia.
 Qed.
-Lemma sgn_0 : sgn 0 = 0%Z. Proof. destruct (sgn_cases 0) as [(L & _) | [(L & _) | (_ & E)]]; auto; lra. Qed.
+Lemma sgn_0 : sgn 0 = 0%Z.
+Proof. destruct (sgn_cases 0) as [(L & _) | [(L & _) | (_ & E)]]; auto; lra. Qed.
 Lemma signs_hd_last h : sgn (hd 0 h) = hd 0%Z (map sgn h) /\ sgn (last h 0) = last (map sgn h) 0%Z.
 Proof.
-  split; [destruct h; [apply sgn_0 | easy] |]. induction h as [| a [| b h] IH]; [apply sgn_0 | easy |]. exact IH.
+  split; [destruct h; [apply sgn_0 | easy] |].
+  induction h as [| a [| b h] IH]; [apply sgn_0 | easy |]. exact IH.
 Qed.
 Lemma scaled_ends b : sgn (hd 0 (scaled_coefficients b)) = sgn (hd 0 b) /\
   sgn (last (scaled_coefficients b) 0) = sgn (last b 0).
@@ -179,7 +185,8 @@ Context (p h : list R) (lo hi : R) (L : lo < hi) (S : stands_for h p lo hi).
 Let place (t : R) := lo + t * (hi - lo).
 Let time (x : R) := (x - lo) / (hi - lo).
 
-Lemma place_time x : place (time x) = x. Proof. unfold place, time. field. lra. Qed.
+Lemma place_time x : place (time x) = x.
+Proof. unfold place, time. field. lra. Qed.
 Lemma times_order x y : x < y <-> time x < time y.
 Proof.
   unfold time. split; intros H.
@@ -188,7 +195,8 @@ Proof.
 Qed.
 Lemma times_le x y : x <= y -> time x <= time y.
 Proof. intros [H | ->]; [left; now apply (proj1 (times_order x y)) | lra]. Qed.
-Lemma time_ends : time lo = 0 /\ time hi = 1. Proof. unfold time. split; field; lra. Qed.
+Lemma time_ends : time lo = 0 /\ time hi = 1.
+Proof. unfold time. split; field; lra. Qed.
 Lemma value_multiple : exists c, 0 < c /\ forall x, on_unit h (time x) = c * power_form p x.
 Proof. destruct S as (c & C & E). exists c. split; auto. intros x. rewrite E. fold (place (time x)). now rewrite place_time. Qed.
 Lemma root_time x : on_unit h (time x) = 0 <-> power_form p x = 0.
@@ -204,15 +212,18 @@ Proof.
   rewrite <- F0, <- F1, <- E0, <- E1. split; apply sign_time.
 Qed.
 
-Lemma one_root_isolates u v : lo <= u < v -> v <= hi -> sgn (power_form p u) <> 0%Z ->
-  sgn (power_form p v) = (- sgn (power_form p u))%Z -> (exists r, time u < r < time v /\ on_unit h r = 0 /\
-  forall t, time u <= t <= time v -> on_unit h t = 0 -> t = r) -> exists r, isolates p (Interval u v) r.
+Lemma one_root_isolates u v : lo <= u < v -> v <= hi ->
+  sgn (power_form p u) <> 0%Z -> sgn (power_form p v) = (- sgn (power_form p u))%Z ->
+  (exists r, time u < r < time v /\ on_unit h r = 0 /\
+    forall t, time u <= t <= time v -> on_unit h t = 0 -> t = r) ->
+  exists r, isolates p (Interval u v) r.
 Proof.
   intros U V N O (r & R & Z & Only). exists (place r). unfold isolates. cbn [low high].
-  assert (E : time (place r) = r) by (unfold time, place; field; lra). rewrite <- E in Z, R, Only.
-  rewrite root_time in Z. split; auto. right. rewrite <- !times_order in R. split; auto.
-  split; [| now apply sgn_opposite]. intros x X Zx. rewrite <- (place_time x). f_equal.
-  rewrite Only with (t := time x); auto; [| now apply root_time]. split; apply times_le; lra.
+  assert (E : time (place r) = r) by (unfold time, place; field; lra).
+  rewrite <- E in Z, R, Only. rewrite root_time in Z. split; auto. right.
+  rewrite <- !times_order in R. split; auto. split; [| now apply sgn_opposite].
+  intros x X Zx. rewrite <- (place_time x). f_equal. rewrite Only with (t := time x); auto; [| now apply root_time].
+  split; apply times_le; lra.
 Qed.
 Lemma one_root_part (V : sign_variations (map sgn h) = 1%nat) : hd 0 h <> 0 -> last h 0 <> 0 ->
   exists r, isolates p (Interval lo hi) r.
@@ -277,16 +288,18 @@ Lemma equal_ends h : sgn (hd 0 h) <> 0%Z -> sgn (last h 0) <> 0%Z ->
   Nat.even (sign_variations (map sgn h)) = true -> sgn (last h 0) = sgn (hd 0 h).
 Proof.
   destruct h as [| x l]; [intros N; exfalso; apply N, sgn_0 |]. intros N K E.
-  destruct (signs_hd_last (x :: l)) as (_ & El). rewrite El in *. cbn [hd map] in *. unfold sign_variations in E.
-  cbn [changes_after] in E. destruct (Z.eqb_spec (sgn x) 0); [easy |]. destruct (Z.eqb_spec (sgn x) (- 0)); [easy |].
-  cbn [Nat.add] in E. rewrite changes_even in E; auto; [now apply Z.eqb_eq | | apply sgn_plain].
+  destruct (signs_hd_last (x :: l)) as (_ & El). rewrite El in *. cbn [hd map] in *.
+  unfold sign_variations in E. cbn [changes_after] in E.
+  destruct (Z.eqb_spec (sgn x) 0); [easy |]. destruct (Z.eqb_spec (sgn x) (- 0)); [easy |]. cbn [Nat.add] in E.
+  rewrite changes_even in E; auto; [now apply Z.eqb_eq | | apply sgn_plain].
   pose proof (sgn_plain [x]) as F. inversion_clear F as [| ? ? [V | V] _]; easy.
 Qed.
 (** Zeros at the ends change nothing. *)
 Lemma changes_before_0 last signs : changes_after last (signs ++ [0%Z]) = changes_after last signs.
 Proof. revert last. induction signs as [| s l IH]; intros last; [easy |]. cbn [app changes_after]. now rewrite !IH. Qed.
-Lemma variations_without_ends low_end high_end row : (low_end = true -> hd 0%Z row = 0%Z) ->
-  (high_end = true -> last row 0%Z = 0%Z) -> sign_variations (without_ends low_end high_end row) = sign_variations row.
+Lemma variations_without_ends low_end high_end row :
+  (low_end = true -> hd 0%Z row = 0%Z) -> (high_end = true -> last row 0%Z = 0%Z) ->
+  sign_variations (without_ends low_end high_end row) = sign_variations row.
 Proof.
   intros Low High. unfold without_ends, sign_variations.
   transitivity (changes_after 0 (if low_end then tl row else row)).
@@ -303,8 +316,9 @@ Lemma seen_without_ends low_end high_end signs truth : Forall2 sign_seen signs t
 Proof.
   intros F. unfold without_ends.
   assert (G : Forall2 sign_seen (if low_end then tl signs else signs) (if low_end then tl truth else truth))
-    by (destruct low_end; [destruct F; [constructor | easy] | easy]). destruct high_end; [| exact G].
-  induction G as [| s t signs' truth' S G IH]; [constructor |]. destruct G; simpl in *; constructor; auto.
+    by (destruct low_end; [destruct F; [constructor | easy] | easy]).
+  destruct high_end; [| exact G]. induction G as [| s t signs' truth' S G IH]; [constructor |].
+  destruct G; simpl in *; constructor; auto.
 Qed.
 
 Lemma counted_right p lo hi n : lo < hi -> counted p lo hi n -> (n < 3)%nat -> exists h, stands_for h p lo hi /\
@@ -339,7 +353,8 @@ Proof.
     assert (S : hd 0%Z signs = sgn (power_form p lo)).
     { destruct (ends_signs p k lo hi L Ck) as (<- & _). rewrite (proj1 (signs_hd_last k)).
       destruct R as [| s t signs truth (_ & T) R]; [easy | now apply T]. }
-    rewrite S in Nl, O. apply sgn_not_0 in Nh. destruct (two_roots_part p h lo hi L C x W) as ((r & A) & (q & B)); auto.
+    rewrite S in Nl, O. apply sgn_not_0 in Nh.
+    destruct (two_roots_part p h lo hi L C x W) as ((r & A) & (q & B)); auto.
     + apply sgn_not_0. now rewrite Eh.
     + apply equal_ends; [now rewrite Eh | now rewrite El | easy].
     + now rewrite Eh.
@@ -389,8 +404,9 @@ Proof.
   destruct (on_unit_ratio p t T) as (c & C & F). apply (no_variation_no_root p t V); auto; [destruct p; [now destruct N | now left] |].
   now rewrite F, E, Z, Rmult_0_r.
 Qed.
-Lemma one_change_one_root p u v : sign_variations (map sgn p) = 1%nat -> hd 0 p <> 0 -> last p 0 <> 0 ->
-  0 <= u -> (forall x, 0 < x -> power_form p x = 0 -> u < x < v) -> exists r, u < r < v /\ isolates p (Interval u v) r.
+Lemma one_change_one_root p u v : sign_variations (map sgn p) = 1%nat -> hd 0 p <> 0 -> last p 0 <> 0 -> 0 <= u ->
+  (forall x, 0 < x -> power_form p x = 0 -> u < x < v) ->
+  exists r, u < r < v /\ isolates p (Interval u v) r.
 Proof.
   assert (G : forall p, sign_variations (map sgn p) = 1%nat -> 0 < hd 0 p -> last p 0 <> 0 -> 0 <= u ->
     (forall x, 0 < x -> power_form p x = 0 -> u < x < v) ->
@@ -409,11 +425,13 @@ Proof.
     { destruct (Rle_lt_or_eq_dec 0 u U) as [U' | <-].
       - destruct (Rle_lt_dec (power_form p u) 0) as [H | H]; auto. pose proof (Falls u r ltac:(lra) H). lra.
       - destruct p as [| a l]; simpl in *; lra. }
-    pose proof (Falls r v ltac:(lra) ltac:(lra)) as High. exists r. split; auto. split; auto. right. cbn [low high].
-    split; auto. split; [| nra]. intros x X Zx. apply Only; auto.
-    destruct (Rle_lt_or_eq_dec 0 x ltac:(lra)) as [H | <-]; auto. assert (u = 0) by lra. subst u. lra. }
+    pose proof (Falls r v ltac:(lra) ltac:(lra)) as High.
+    exists r. split; auto. split; auto. right. cbn [low high]. split; auto. split; [| nra].
+    intros x X Zx. apply Only; auto. destruct (Rle_lt_or_eq_dec 0 x ltac:(lra)) as [H | <-]; auto.
+    assert (u = 0) by lra. subst u. lra. }
   intros V N L U B. destruct (Rtotal_order (hd 0 p) 0) as [H | [H | H]]; [| easy | now apply G].
-  destruct (hd_last_opp p) as (Eh & El). destruct (G (map Ropp p)) as (r & R & Z & I).
+  destruct (hd_last_opp p) as (Eh & El).
+  destruct (G (map Ropp p)) as (r & R & Z & I).
   - now rewrite variations_opp.
   - lra.
   - lra.
@@ -492,7 +510,8 @@ Proof.
         apply equal_signs with (power_form p greatest); [apply Aa; lra | apply Ab; lra].
       - destruct (Rtotal_order b r) as [K | [K | K]]; auto; [| lra]. exfalso. apply Sg.
         apply equal_signs with (power_form p u); rewrite Rmult_comm; [apply Ba; lra | apply Bb; lra]. }
-    specialize (Ba ltac:(lra)). specialize (Ab ltac:(lra)). apply isolated_same with (fun x => a < x < b).
+    specialize (Ba ltac:(lra)). specialize (Ab ltac:(lra)).
+    apply isolated_same with (fun x => a < x < b).
     + intros x X. rewrite (Within _ _ _ E X). fold a b. split; [| tauto]. intros; split; auto. pose proof (Rmax_l lo least). fold a in H1. lra.
     + apply isolated_one with r; [| lra]. split; auto. right. cbn [low high]. split; auto. split; [intros x X; apply Only; lra |].
       nra.
@@ -520,7 +539,8 @@ Fixpoint mirrored (p : list R) : list R :=
 Lemma mirrored_value p x : power_form (mirrored p) x = power_form p (- x).
 Proof.
   enough (G : forall n p, (length p <= n)%nat -> power_form (mirrored p) x = power_form p (- x)) by (eapply G; auto).
-  clear p. induction n as [| n IH]; intros [| a [| b l]] L; simpl in *; try lia; try ring. rewrite IH by lia. ring.
+  clear p. induction n as [| n IH]; intros [| a [| b l]] L; simpl in *; try lia; try ring.
+  rewrite IH by lia. ring.
 Qed.
 
 Definition reflected (i : interval) : interval := Interval (- high i) (- low i).
@@ -569,8 +589,9 @@ Theorem isolate_right p right left lo hi found : power_form p 0 <> 0 -> last p 0
   bounds_right p right -> bounds_right (mirrored p) left -> isolate p right left lo hi found ->
   isolated p (fun x => lo <= x <= hi) found.
 Proof.
-  intros N0 Nn L Br Bl I. assert (NZ : not_zero p) by now exists 0. destruct (mirrored_ends_real p) as (Mh & Ml).
-  specialize (Ml Nn). assert (Nh : hd 0 p <> 0) by (intros K; apply N0; destruct p; simpl in *; lra).
+  intros N0 Nn L Br Bl I.
+  assert (NZ : not_zero p) by now exists 0. destruct (mirrored_ends_real p) as (Mh & Ml). specialize (Ml Nn).
+  assert (Nh : hd 0 p <> 0) by (intros K; apply N0; destruct p; simpl in *; lra).
   assert (NM : not_zero (mirrored p)) by (exists 0; now rewrite mirrored_value, Ropp_0).
   destruct I as [E | negative positive H Neg Pos].
   - apply isolated_same with (fun x => x = lo); [intros; lra | apply isolated_point].
@@ -588,7 +609,8 @@ Proof.
         apply inside_right with (bounds := right); auto. destruct (Rlt_dec lo 0); lra.
       - subst positive. apply isolated_none. intros x X. lra. }
     apply isolated_same with (fun x => x = lo \/ below x \/ above x \/ x = hi).
-    + intros x Z. assert (x <> 0) by now intros ->. unfold below, above. destruct (Rlt_dec hi 0), (Rlt_dec lo 0); lra.
+    + intros x Z. assert (x <> 0) by now intros ->. unfold below, above.
+      destruct (Rlt_dec hi 0), (Rlt_dec lo 0); lra.
     + assert (Order : forall x y, below x -> above y -> x < y).
       { unfold below, above. intros x y X Y. destruct (Rlt_dec hi 0), (Rlt_dec lo 0); lra. }
       repeat (apply isolated_app; auto using isolated_point); unfold below, above;
@@ -666,7 +688,9 @@ Qed.
 Definition secant_part (a b parts : Z) : Z := a * parts / (a + b).
 Theorem secant_part_right a b parts : (0 <= a)%Z -> (0 < b)%Z -> (0 < parts)%Z ->
   (0 <= secant_part a b parts < parts)%Z.
-Proof. intros A B P. unfold secant_part. split; [apply Z.div_pos; nia |]. apply Z.div_lt_upper_bound; nia. Qed.
+Proof.
+  intros A B P. unfold secant_part. split; [apply Z.div_pos; nia |]. apply Z.div_lt_upper_bound; nia.
+Qed.
 (** Its ends satisfy the hypotheses of keep_part_right. *)
 Lemma part_ends lo hi k parts : (0 <= k < parts)%Z -> lo < hi ->
   let place n := lo + (hi - lo) * (IZR n / IZR parts) in lo <= place k < hi /\ place k < place (k + 1)%Z.
@@ -720,7 +744,8 @@ Proof.
     { apply hull_positive; try lra. change (Forall (Rlt 0) (map Ropp (x :: l))). apply Forall_map.
       eapply Forall_impl; [| exact F]. simpl. intros y Y.
       destruct (sgn_cases y) as [(K & D) | [(K & D) | (K & D)]]; try lra; rewrite D in Y; easy. }
-    rewrite on_unit_opp in P. destruct (sgn_cases (on_unit (x :: l) t)) as [(K & D) | [(K & D) | (K & D)]]; auto; lra.
+    rewrite on_unit_opp in P.
+    destruct (sgn_cases (on_unit (x :: l) t)) as [(K & D) | [(K & D) | (K & D)]]; auto; lra.
 Qed.
 (** If all control values have one sign, g has it throughout. *)
 Lemma one_sign_throughout b g lo hi x : lo < hi -> controls b g lo hi -> hd 0 b <> 0 ->
@@ -826,7 +851,8 @@ Proof.
       assert (Q : power_form p x * power_form g x = power_form m x * power_form g x * power_form f x) by (rewrite E; ring).
       rewrite D, F in Q. unfold h. apply Rmult_eq_reg_l with ((x - r) ^ k); [| apply pow_nonzero; lra].
       simpl in Q. rewrite Rmult_0_r. simpl. lra. }
-  unfold h in H. rewrite Rminus_diag_eq, Rmult_0_l, Rplus_0_r in H by easy. pose proof (lt_0_INR (S k) ltac:(lia)).
+  unfold h in H. rewrite Rminus_diag_eq, Rmult_0_l, Rplus_0_r in H by easy.
+  pose proof (lt_0_INR (S k) ltac:(lia)).
   apply Rmult_integral in H. destruct H as [H | H]; [| easy]. apply Rmult_integral in H. destruct H; lra.
 Qed.
 
@@ -860,8 +886,9 @@ Theorem real_roots_right p f found : power_form p 0 <> 0 -> real_roots p f found
   exists roots, Forall2 (isolates f) found roots /\ StronglySorted Rlt roots /\
     forall x, In x roots <-> 0 < x /\ power_form p x = 0.
 Proof.
-  intros N [right left upper l C Nf Br Bl U Top I]. assert (NZ : not_zero p) by now exists 0.
-  pose proof (first_of_chain_roots p f NZ C) as E. apply isolate_right in I; auto; [| now rewrite <- E | lra].
+  intros N [right left upper l C Nf Br Bl U Top I].
+  assert (NZ : not_zero p) by now exists 0. pose proof (first_of_chain_roots p f NZ C) as E.
+  apply isolate_right in I; auto; [| now rewrite <- E | lra].
   destruct (isolated_same f (fun x => 0 <= x <= upper) (fun x => 0 < x) l) with (2 := I) as (roots & F & S & H).
   - intros x Z. specialize (Top x). split; [| intros; split; [| left; apply Top]; auto; lra].
     intros ([X | X] & _); auto. subst x. apply E in Z. easy.

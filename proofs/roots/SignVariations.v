@@ -8,8 +8,10 @@
         max_variations_right     the count of uncertain signs is not below the true number if it is below 3, and both
                                  are even or both odd *)
 
-From Coq Require Import Reals ZArith Lia Lra Psatz List Bool. From Errbound Require Import Sign Bernstein.
-Import ListNotations. Open Scope R_scope.
+From Coq Require Import Reals ZArith Lia Lra Psatz List Bool.
+From Errbound Require Import Sign Bernstein.
+Import ListNotations.
+Open Scope R_scope.
 
 (** ** The code: signs are 1, -1 and 0 *)
 
@@ -51,24 +53,28 @@ Definition plain (s : Z) : Prop := s = 1%Z \/ s = (-1)%Z.
 Definition sign_seen (s : Z) (true_sign : Z) : Prop :=
   (plain true_sign \/ true_sign = 0%Z) /\ (s <> 0%Z -> s = true_sign).
 
-Lemma run u last s rest : plain last -> plain s -> Forall (fun v => plain v \/ v = 0%Z) u -> exists c, changes_after
-  last (u ++ s :: rest) = (c + changes_after s rest)%nat /\ (c <= length u + 1)%nat /\ Nat.even c = (s =? last)%Z.
+Lemma run u last s rest : plain last -> plain s -> Forall (fun v => plain v \/ v = 0%Z) u ->
+  exists c, changes_after last (u ++ s :: rest) = (c + changes_after s rest)%nat /\
+    (c <= length u + 1)%nat /\ Nat.even c = (s =? last)%Z.
 Proof.
   intros L P F. revert last L. induction F as [| v u V F IH]; intros last L.
   - simpl. exists (if (s =? - last)%Z then 1 else 0)%nat.
     destruct L as [-> | ->], P as [-> | ->]; simpl; repeat split; lia.
   - simpl. destruct V as [V | ->].
-    + destruct (IH v V) as (c & E & Le & Ev). rewrite E. exists ((if (v =? - last)%Z then 1 else 0) + c)%nat.
+    + destruct (IH v V) as (c & E & Le & Ev). rewrite E.
+      exists ((if (v =? - last)%Z then 1 else 0) + c)%nat.
       destruct L as [-> | ->], V as [-> | ->], P as [-> | ->]; cbn [Z.eqb Pos.eqb Z.opp] in *;
         rewrite ?Nat.even_add, ?Ev; repeat split; try (simpl; lia); now rewrite Ev.
     + destruct (IH last L) as (c & E & Le & Ev). exists c. simpl. repeat split; auto; lia.
 Qed.
 
-Lemma even_sum a b c d : Nat.even a = Nat.even b -> Nat.even c = Nat.even d -> Nat.even (a + c) = Nat.even (b + d).
+Lemma even_sum a b c d : Nat.even a = Nat.even b -> Nat.even c = Nat.even d ->
+  Nat.even (a + c) = Nat.even (b + d).
 Proof. intros H K. now rewrite !Nat.even_add, H, K. Qed.
 
-Lemma max_after_right signs truth : Forall2 sign_seen signs truth -> forall u last most open,
-  plain last -> Forall (fun v => plain v \/ v = 0%Z) u -> length u = open -> (max_after last most open signs < 3)%nat ->
+Lemma max_after_right signs truth : Forall2 sign_seen signs truth ->
+  forall u last most open, plain last -> Forall (fun v => plain v \/ v = 0%Z) u -> length u = open ->
+  (max_after last most open signs < 3)%nat ->
   (most + changes_after last (u ++ truth) <= max_after last most open signs)%nat /\
   Nat.even (most + changes_after last (u ++ truth)) = Nat.even (max_after last most open signs).
 Proof.
@@ -88,10 +94,13 @@ Proof.
       { pose proof (Nat.div_mod open 2 ltac:(lia)). pose proof (Nat.mod_upper_bound open 2 ltac:(lia)).
         pose proof (Nat.div_mod (open + 1) 2 ltac:(lia)). pose proof (Nat.mod_upper_bound (open + 1) 2 ltac:(lia)).
         rewrite O in Le. rewrite Ev. unfold more in *. destruct (s =? last)%Z.
-        - apply Nat.even_spec in Ev. destruct Ev as (d & D). split; [lia |]. now rewrite Nat.even_mul, orb_true_r.
-        - assert (Od : Nat.odd c = true) by (unfold Nat.odd; now rewrite Ev). apply Nat.odd_spec in Od.
-          destruct Od as (d & D). split; [lia |]. now rewrite Nat.even_add, Nat.even_mul, orb_true_r. }
-      split; [lia |]. rewrite <- E, !Nat.add_assoc. apply even_sum; auto. now apply even_sum.
+        - apply Nat.even_spec in Ev. destruct Ev as (d & D).
+          split; [lia |]. now rewrite Nat.even_mul, orb_true_r.
+        - assert (Od : Nat.odd c = true) by (unfold Nat.odd; now rewrite Ev).
+          apply Nat.odd_spec in Od. destruct Od as (d & D).
+          split; [lia |]. now rewrite Nat.even_add, Nat.even_mul, orb_true_r. }
+      split; [lia |]. rewrite <- E, !Nat.add_assoc.
+      apply even_sum; auto. now apply even_sum.
 Qed.
 
 Theorem max_variations_right signs truth : Forall2 sign_seen signs truth ->
@@ -135,7 +144,8 @@ Qed.
 Lemma variations_alternate x l : x <> 0 ->
   alternates (sgn x) (sign_variations (map sgn (x :: l))) (x :: l) /\ plain (sgn x).
 Proof.
-  intros N. unfold sign_variations. cbn [map changes_after]. sgn_of x; try easy; cbn [Z.eqb Pos.eqb Z.opp Nat.add].
+  intros N. unfold sign_variations. cbn [map changes_after].
+  sgn_of x; try easy; cbn [Z.eqb Pos.eqb Z.opp Nat.add].
   - split; [| now left]. apply alternates_cons; [lra |]. apply changes_alternate. now left.
   - split; [| now right]. apply alternates_cons; [lra |]. apply changes_alternate. now right.
 Qed.
@@ -156,17 +166,19 @@ Proof.
   intros F (X & Y). induction F as [| c b C F IH]; simpl; [lra |].
   apply Rplus_le_compat_l, Rmult_le_compat; try lra. apply power_form_nonnegative; auto. lra.
 Qed.
-Lemma below_a_power a x y : Forall (Rle 0) a -> 0 < x < y -> x ^ length a * power_form a y <= y
-  ^ length a * power_form a x /\ (Exists (Rlt 0) a -> x ^ length a * power_form a y < y ^ length a * power_form a x).
+Lemma below_a_power a x y : Forall (Rle 0) a -> 0 < x < y ->
+  x ^ length a * power_form a y <= y ^ length a * power_form a x /\
+  (Exists (Rlt 0) a -> x ^ length a * power_form a y < y ^ length a * power_form a x).
 Proof.
   intros F (X & Y). induction F as [| c a C F (W & S)]; simpl; [split; [lra | intros E; inversion E] |].
   assert (Px : 0 < x ^ length a) by (apply pow_lt; lra). assert (Py : 0 < y ^ length a) by (apply pow_lt; lra).
-  assert (Q : x ^ length a <= y ^ length a) by (apply pow_incr; lra). set (f := power_form a x) in *.
-  set (g := power_form a y) in *. set (v := x ^ length a) in *. set (w := y ^ length a) in *.
+  assert (Q : x ^ length a <= y ^ length a) by (apply pow_incr; lra).
+  set (f := power_form a x) in *. set (g := power_form a y) in *.
+  set (v := x ^ length a) in *. set (w := y ^ length a) in *.
   assert (XY : 0 < x * y) by (apply Rmult_lt_0_compat; lra).
-  assert (V : x * v < y * w)
-    by (apply Rlt_le_trans with (y * v); [apply Rmult_lt_compat_r; lra | apply Rmult_le_compat_l; lra]).
-  assert (K : x * v * c <= y * w * c) by (apply Rmult_le_compat_r; lra). split.
+  assert (V : x * v < y * w) by (apply Rlt_le_trans with (y * v); [apply Rmult_lt_compat_r; lra | apply Rmult_le_compat_l; lra]).
+  assert (K : x * v * c <= y * w * c) by (apply Rmult_le_compat_r; lra).
+  split.
   - assert (x * y * (v * g) <= x * y * (w * f)) by (apply Rmult_le_compat_l; lra). lra.
   - intros E. inversion_clear E as [? ? Cp | ? ? E'].
     + assert (x * v * c < y * w * c) by (apply Rmult_lt_compat_r; lra).
@@ -178,7 +190,8 @@ Qed.
 Lemma falls_once a b x y : Forall (Rle 0) a -> Exists (Rlt 0) a -> Forall (fun c => c <= 0) b ->
   0 < x < y -> power_form (a ++ b) x <= 0 -> power_form (a ++ b) y < 0.
 Proof.
-  intros A E B H L. rewrite power_form_app in *. destruct (below_a_power a x y A H) as (_ & S). specialize (S E).
+  intros A E B H L. rewrite power_form_app in *.
+  destruct (below_a_power a x y A H) as (_ & S). specialize (S E).
   assert (M : power_form b y <= power_form b x).
   { assert (Forall (Rle 0) (map Ropp b)) by (apply Forall_map; eapply Forall_impl; [| exact B]; simpl; intros; lra).
     pose proof (rises (map Ropp b) x y H0 ltac:(lra)). rewrite !power_form_opp in H1. lra. }
@@ -213,7 +226,8 @@ Proof.
   cbn [app weighted length]. rewrite IH, S_INR. cbn [app]. do 2 f_equal. f_equal. ring.
 Qed.
 Lemma weighted_before k a : INR (length a) <= k -> Forall (Rle 0) a ->
-  Forall (Rle 0) (map Ropp (weighted k a)) /\ (Exists (Rlt 0) a -> Exists (Rlt 0) (map Ropp (weighted k a))).
+  Forall (Rle 0) (map Ropp (weighted k a)) /\
+  (Exists (Rlt 0) a -> Exists (Rlt 0) (map Ropp (weighted k a))).
 Proof.
   intros K F. revert k K. induction F as [| c a C F IH]; intros k K; [split; [constructor | intros E; inversion E] |].
   cbn [length] in K. rewrite S_INR in K. pose proof (pos_INR (length a)).
@@ -236,7 +250,8 @@ Proof.
   intros X. apply (derivable_pt_lim_div (power_form p) (fun y => y ^ k));
     [apply derivable_power_form | apply derivable_pt_lim_pow |]. apply pow_nonzero. lra.
 Qed.
-Lemma over_power_slope_sign p k x : 0 < x -> over_power_slope p k x * (x * x ^ k) = power_form (weighted (INR k) p) x.
+Lemma over_power_slope_sign p k x : 0 < x ->
+  over_power_slope p k x * (x * x ^ k) = power_form (weighted (INR k) p) x.
 Proof.
   intros X. rewrite <- weighted_slope. unfold over_power_slope, Rsqr. destruct k as [| k]; [simpl; field |].
   cbn [pred]. change (x ^ S k) with (x * x ^ k) in *. field. split; [apply pow_nonzero |]; lra.
@@ -268,7 +283,8 @@ Proof.
     (over_power p k v - over_power p k u) * (w * w ^ k) = power_form (weighted (INR k) p) w * (v - u)).
   { intros u v V. destruct (MVT_cor2 (over_power p k) (over_power_slope p k) u v) as (w & Ew & Hw); [lra | |].
     - intros w Hw. apply derivable_over_power. lra.
-    - exists w. assert (0 < w ^ k) by (apply pow_lt; lra). split; [easy |]. split; [apply Rmult_lt_0_compat; lra |].
+    - exists w. assert (0 < w ^ k) by (apply pow_lt; lra).
+      split; [easy |]. split; [apply Rmult_lt_0_compat; lra |].
       rewrite Ew, <- over_power_slope_sign by lra. ring. }
   assert (Q : forall u, 0 < u -> power_form p u = over_power p k u * u ^ k /\ 0 < u ^ k).
   { intros u U. assert (0 < u ^ k) by (apply pow_lt; lra). split; auto. unfold over_power. field. lra. }
@@ -288,7 +304,8 @@ Qed.
 
 Definition on_unit (h : list R) (t : R) : R := form h (1 - t) t.
 
-Lemma on_unit_opp h t : on_unit (map Ropp h) t = - on_unit h t. Proof. apply form_opp. Qed.
+Lemma on_unit_opp h t : on_unit (map Ropp h) t = - on_unit h t.
+Proof. apply form_opp. Qed.
 Lemma on_unit_ratio h t : 0 < t < 1 -> exists c, 0 < c /\ on_unit h t = c * power_form h (t / (1 - t)).
 Proof.
   intros T. destruct h as [| a l]; [exists 1; split; [lra | unfold on_unit; simpl; ring] |].
@@ -327,7 +344,9 @@ Lemma no_change_sign a : Forall (Rle 0) a -> Exists (Rlt 0) a -> forall t, 0 < t
 Proof. intros F E t T. apply hull_inside; auto; lra. Qed.
 
 Lemma hd_last_opp (h : list R) : hd 0 (map Ropp h) = - hd 0 h /\ last (map Ropp h) 0 = - last h 0.
-Proof. split; [destruct h; simpl; ring |]. induction h as [| a [| b l] IH]; [simpl; ring | easy | exact IH]. Qed.
+Proof.
+  split; [destruct h; simpl; ring |]. induction h as [| a [| b l] IH]; [simpl; ring | easy | exact IH].
+Qed.
 
 Lemma changes_opp sg h : changes_after (- sg) (map sgn (map Ropp h)) = changes_after sg (map sgn h).
 Proof.
@@ -380,11 +399,13 @@ Theorem no_variation_no_root h t : sign_variations (map sgn h) = 0%nat -> Exists
   0 < t < 1 -> on_unit h t <> 0.
 Proof.
   intros V E T. destruct (some_alternation h) as (sg & P & A). rewrite V in A. apply alternates_0 in A.
-  rewrite Exists_exists in E. destruct E as (x & I & N). rewrite Forall_forall in A. destruct P as [-> | ->].
+  rewrite Exists_exists in E. destruct E as (x & I & N). rewrite Forall_forall in A.
+  destruct P as [-> | ->].
   - apply Rgt_not_eq, no_change_sign; auto.
     + apply Forall_forall. intros y J. specialize (A y J). lra.
     + apply Exists_exists. exists x. split; auto. specialize (A x I). lra.
-  - assert (0 < on_unit (map Ropp h) t); [| rewrite on_unit_opp in *; lra]. apply no_change_sign; auto.
+  - assert (0 < on_unit (map Ropp h) t); [| rewrite on_unit_opp in *; lra].
+    apply no_change_sign; auto.
     + apply Forall_map, Forall_forall. intros y J. specialize (A y J). lra.
     + apply Exists_exists. exists (- x). split; [now apply in_map |]. specialize (A x I). lra.
 Qed.
@@ -425,15 +446,18 @@ Proof.
   assert (G : forall h, sign_variations (map sgn h) = 1%nat -> 0 < hd 0 h -> last h 0 <> 0 ->
     on_unit h 0 * on_unit h 1 < 0 /\
     exists r, 0 < r < 1 /\ on_unit h r = 0 /\ forall t, 0 <= t <= 1 -> on_unit h t = 0 -> t = r).
-  { clear h. intros h V P L. pose proof (falls_ends h P V L) as N. destruct (on_unit_ends h) as (E0 & E1).
+  { clear h. intros h V P L. pose proof (falls_ends h P V L) as N.
+    destruct (on_unit_ends h) as (E0 & E1).
     assert (S : on_unit h 0 * on_unit h 1 < 0) by (rewrite E0, E1; nra). split; auto.
-    destruct (root_between (on_unit h) 0 1) as (r & Hr & Z); [apply form_continuous | lra | easy |]. exists r.
-    split; auto. split; auto. intros t T Zt. assert (t <> 0) by (intros ->; lra). assert (t <> 1) by (intros ->; lra).
+    destruct (root_between (on_unit h) 0 1) as (r & Hr & Z); [apply form_continuous | lra | easy |].
+    exists r. split; auto. split; auto. intros t T Zt.
+    assert (t <> 0) by (intros ->; lra). assert (t <> 1) by (intros ->; lra).
     destruct (Rtotal_order t r) as [H1 | [H1 | H1]]; auto; exfalso.
     - pose proof (falls_inside h t r P V ltac:(lra) ltac:(lra) ltac:(lra)). lra.
     - pose proof (falls_inside h r t P V ltac:(lra) ltac:(lra) ltac:(lra)). lra. }
   intros V H L. destruct (Rtotal_order (hd 0 h) 0) as [N | [N | N]]; [| easy | now apply G].
-  destruct (hd_last_opp h) as (Eh & El). destruct (G (map Ropp h)) as (S & r & Hr & Z & Only).
+  destruct (hd_last_opp h) as (Eh & El).
+  destruct (G (map Ropp h)) as (S & r & Hr & Z & Only).
   - now rewrite variations_opp.
   - rewrite Eh. lra.
   - rewrite El. lra.
@@ -458,7 +482,8 @@ Proof.
     { destruct (sign_variations (map sgn h)) as [| [| [| n]]] eqn:E; try lia; exfalso.
       - apply (no_variation_no_root h r E); auto; [| lra]. destruct h; simpl in P; [lra |]. left. lra.
       - pose proof (falls_inside h m q P E ltac:(lra) ltac:(lra) ltac:(lra)). lra. }
-    rewrite V2 in A. destruct (alternates_2 h A P) as (a & b & c & -> & Fa & Ea & Fb & Fc). set (h := a ++ b ++ c) in *.
+    rewrite V2 in A. destruct (alternates_2 h A P) as (a & b & c & -> & Fa & Ea & Fb & Fc).
+    set (h := a ++ b ++ c) in *.
     assert (Up : forall t u v, 0 < t < u -> u < v < 1 -> on_unit h t <= 0 -> 0 <= on_unit h u -> 0 < on_unit h v).
     { intros t u v T U Lt Lu.
       destruct (on_unit_ratio h t) as (ct & Ct & Et); [lra |]. destruct (on_unit_ratio h u) as (cu & Cu & Eu); [lra |].
@@ -469,16 +494,19 @@ Proof.
       - fold h. apply Rmult_le_reg_l with ct; lra.
       - fold h. apply Rmult_le_reg_l with cu; lra. }
     split.
-    - exists r. split; auto. split; auto. intros t T Zt. assert (t <> 0) by (intros ->; lra).
-      assert (t <> m) by (intros ->; lra). destruct (Rtotal_order t r) as [H1 | [H1 | H1]]; auto; exfalso.
+    - exists r. split; auto. split; auto. intros t T Zt.
+      assert (t <> 0) by (intros ->; lra). assert (t <> m) by (intros ->; lra).
+      destruct (Rtotal_order t r) as [H1 | [H1 | H1]]; auto; exfalso.
       + pose proof (Up t r m ltac:(lra) ltac:(lra) ltac:(lra) ltac:(lra)). lra.
       + pose proof (Up r t m ltac:(lra) ltac:(lra) ltac:(lra) ltac:(lra)). lra.
-    - exists q. split; auto. split; auto. intros t T Zt. assert (t <> 1) by (intros ->; lra).
-      assert (t <> m) by (intros ->; lra). destruct (Rtotal_order t q) as [H1 | [H1 | H1]]; auto; exfalso.
+    - exists q. split; auto. split; auto. intros t T Zt.
+      assert (t <> 1) by (intros ->; lra). assert (t <> m) by (intros ->; lra).
+      destruct (Rtotal_order t q) as [H1 | [H1 | H1]]; auto; exfalso.
       + pose proof (Up m t q ltac:(lra) ltac:(lra) ltac:(lra) ltac:(lra)). lra.
       + pose proof (Up m q t ltac:(lra) ltac:(lra) ltac:(lra) ltac:(lra)). lra. }
   intros V E M N. destruct (Rtotal_order (hd 0 h) 0) as [H | [H | H]]; [| rewrite H in E; lra | apply G; auto; nra].
-  destruct (hd_last_opp h) as (Eh & El). destruct (G (map Ropp h)) as ((r & Hr & Zr & Or) & (q & Hq & Zq & Oq)); auto.
+  destruct (hd_last_opp h) as (Eh & El).
+  destruct (G (map Ropp h)) as ((r & Hr & Zr & Or) & (q & Hq & Zq & Oq)); auto.
   - now rewrite variations_opp.
   - rewrite Eh. lra.
   - rewrite El. nra.

@@ -4,8 +4,10 @@
         error_bits_right    error_bits: C(n + 1, j + 1) (width/low)^j is at most 2^error_bits
         taylor_right        the constructor: the hypotheses of LocalForm.v on the integers and their error *)
 
-From Coq Require Import Reals ZArith Lia Lra Psatz List Bool. From Flocq Require Import Core.
-From Errbound Require Import Sign Bernstein SignVariations RootIsolation ControlValues LocalForm. Import ListNotations.
+From Coq Require Import Reals ZArith Lia Lra Psatz List Bool.
+From Flocq Require Import Core.
+From Errbound Require Import Sign Bernstein SignVariations RootIsolation ControlValues LocalForm.
+Import ListNotations.
 Open Scope R_scope.
 
 (** ** Rounded numbers: mantissa 2^exponent *)
@@ -22,7 +24,8 @@ Definition cut_to (bits : Z) (x : number) : number :=
 (** v is X except for k relative errors of size r, and at most X. *)
 Definition below (k r v X : R) : Prop := X * (1 - k * r) <= v <= X.
 
-Lemma pow2_shifted a b : pow2 a * pow2 b = pow2 (a + b). Proof. symmetry. apply bpow_plus. Qed.
+Lemma pow2_shifted a b : pow2 a * pow2 b = pow2 (a + b).
+Proof. symmetry. apply bpow_plus. Qed.
 Lemma value_times x y : value (times x y) = value x * value y.
 Proof. unfold value, times. cbn [fst snd]. rewrite mult_IZR, bpow_plus. ring. Qed.
 Lemma value_positive x : (0 < fst x)%Z -> 0 < value x.
@@ -71,7 +74,8 @@ Proof.
     assert (G : forall a b, a <= b -> a * (pow2 e * pow2 excess) <= b * (pow2 e * pow2 excess)).
     { intros a b H. apply Rmult_le_compat_r; auto. apply Rmult_le_pos; lra. }
     assert (I : IZR m * pow2 (- excess) * (pow2 e * pow2 excess) = IZR m * pow2 e)
-      by (rewrite <- (Rmult_1_r (IZR m * pow2 e)), <- Inv; ring). split.
+      by (rewrite <- (Rmult_1_r (IZR m * pow2 e)), <- Inv; ring).
+    split.
     + destruct C as (C & _). apply G in C. assert (pow2 e * pow2 excess <= pow2 e * (IZR m * pow2 (1 - bits))) by (apply Rmult_le_compat_l; lra). lra.
     + apply G in D. lra.
 Qed.
@@ -222,7 +226,8 @@ Lemma column_0 m : column 0 m = repeat 1%Z m.
 Proof. induction m as [| m IH]; [easy |]. cbn [column repeat]. rewrite IH. f_equal. now destruct m. Qed.
 Lemma horner_column k m : horner_cut 1 0 (column k m) = column (S k) m.
 Proof.
-  induction m as [| m IH]; [easy |]. cbn [column]. rewrite horner_next, IH. f_equal. destruct m as [| m].
+  induction m as [| m IH]; [easy |]. cbn [column]. rewrite horner_next, IH. f_equal.
+  destruct m as [| m].
   - cbn [column hd]. rewrite !Nat.add_0_l, !choose_all. easy.
   - cbn [column hd]. replace (S m + S k)%nat with (S (m + S k)) by lia. replace (S m + k)%nat with (m + S k)%nat by lia. easy.
 Qed.
@@ -343,8 +348,9 @@ Proof.
   intros M. destruct (Z.log2_spec m M) as (A & B). pose proof (Z.log2_nonneg m). apply IZR_le in A. apply IZR_lt in B.
   rewrite pow2_integer in A, B by lia. rewrite <- Z.add_1_r, bpow_plus in B. simpl (pow2 1) in B. lra.
 Qed.
-Lemma quotient_right bits low width : (0 < fst low)%Z -> (0 < fst width)%Z -> (1 < bits)%Z -> (0 < fst (quotient_of
-  bits low width))%Z /\ below 1 (pow2 (1 - bits)) (value (quotient_of bits low width)) (value width / value low).
+Lemma quotient_right bits low width : (0 < fst low)%Z -> (0 < fst width)%Z -> (1 < bits)%Z ->
+  (0 < fst (quotient_of bits low width))%Z /\
+  below 1 (pow2 (1 - bits)) (value (quotient_of bits low width)) (value width / value low).
 Proof.
   destruct low as (lm, le), width as (wm, we). cbn [fst]. intros L W B. unfold quotient_of. cbn [fst snd].
   set (s := (bits + Z.log2 lm - Z.log2 wm)%Z). set (z := cut_shift s wm). set (q := (z / lm)%Z).
@@ -433,7 +439,9 @@ Proof.
   revert m. induction n as [| n IH]; intros m; [easy |]. cbn [shifted]. rewrite H. destruct m as [| m]; [easy |]. cbn [repeat]. now rewrite IH.
 Qed.
 Lemma times_powers_index r p i : forall w, nth i (times_powers r w p) 0 = nth i p 0 * (w * r ^ i).
-Proof. revert i. induction p as [| a p IH]; intros [| i] w; cbn [times_powers nth pow]; try ring. rewrite IH. ring. Qed.
+Proof.
+  revert i. induction p as [| a p IH]; intros [| i] w; cbn [times_powers nth pow]; try ring. rewrite IH. ring.
+Qed.
 Lemma scaled_by_first bits ratio k : forall power a, scaled_by bits ratio power (firstn k a) = firstn k (scaled_by bits ratio power a).
 Proof. induction k as [| k IH]; intros power [| x a]; [easy .. |]. cbn [firstn scaled_by]. now rewrite IH. Qed.
 Lemma scale_first bits ratio k a : scale bits ratio (firstn k a) = firstn k (scale bits ratio a).

@@ -10,16 +10,23 @@
     theorems prove that a number of f exists for which the result is right. Without sources (None) that error goes to
     the rest. *)
 
-From Coq Require Import Reals ZArith Lia Lra Psatz Bool List. From Flocq Require Import Core.
-From Errbound Require Import Format ErrorFree Upper. From Errbound Require Residual. Import ListNotations.
+From Coq Require Import Reals ZArith Lia Lra Psatz Bool List.
+From Flocq Require Import Core.
+From Errbound Require Import Format ErrorFree Upper.
+From Errbound Require Residual.
+Import ListNotations.
 Open Scope R_scope.
 
 Section Affine.
 
 Context (p emin : Z) {p_positive : Prec_gt_0 p}.
 
-Notation fl := (rnd p emin nearest). Notation number := (number p emin). Notation eps := (eps p).
-Notation eta := (eta emin). Notation upper := (upper p emin). Notation half_ulp := (Residual.half_ulp p emin).
+Notation fl := (rnd p emin nearest).
+Notation number := (number p emin).
+Notation eps := (eps p).
+Notation eta := (eta emin).
+Notation upper := (upper p emin).
+Notation half_ulp := (Residual.half_ulp p emin).
 
 (** The code, in its order of evaluation. *)
 Definition terms : Set := list (Z * R).
@@ -162,22 +169,29 @@ Definition is_new (f : Z) (A : bound) : Prop := Forall (fun t => fst t <> f) (of
 
 Context (p_4 : (4 <= p)%Z) (emin_p : (emin <= - p - 1)%Z).
 
-Lemma number_fl x : number (fl x). Proof. apply rnd_number; auto with typeclass_instances. Qed.
-Lemma fl_nonnegative x : 0 <= x -> 0 <= fl x. Proof. apply rnd_nonnegative; auto with typeclass_instances. Qed.
+Lemma number_fl x : number (fl x).
+Proof. apply rnd_number; auto with typeclass_instances. Qed.
+Lemma fl_nonnegative x : 0 <= x -> 0 <= fl x.
+Proof. apply rnd_nonnegative; auto with typeclass_instances. Qed.
 
 Lemma upper_nonnegative x : number x -> 0 <= x -> 0 <= upper x.
 Proof. intros N P. apply Rle_trans with x; auto. apply upper_le; auto; lia. Qed.
 Definition amount (x : R) : Prop := number x /\ 0 <= x.
-Lemma amount_0 : amount 0. Proof. split; [apply number_0 | lra]. Qed.
-Lemma amount_abs x : number x -> amount (Rabs x). Proof. split; [now apply number_abs | apply Rabs_pos]. Qed.
+Lemma amount_0 : amount 0.
+Proof. split; [apply number_0 | lra]. Qed.
+Lemma amount_abs x : number x -> amount (Rabs x).
+Proof. split; [now apply number_abs | apply Rabs_pos]. Qed.
 Lemma amount_half_ulp v : amount (half_ulp v).
 Proof.
-  split; [exact (Residual.half_ulp_number p emin v) |]. exact (Residual.half_ulp_nonnegative p emin ltac:(lia) v).
+  split; [exact (Residual.half_ulp_number p emin v) |].
+  exact (Residual.half_ulp_nonnegative p emin ltac:(lia) v).
 Qed.
 Lemma upper_sum_sound x y : amount x -> amount y -> amount (upper_sum x y) /\ x + y <= upper_sum x y.
 Proof.
-  intros [NX X] [NY Y]. unfold upper_sum. case Req_bool_spec; intros H; [split; [split |]; auto; lra |].
-  case Req_bool_spec; intros H'; [split; [split |]; auto; lra |]. split; [| apply upper_covers_sum; auto; lia || lra].
+  intros [NX X] [NY Y]. unfold upper_sum.
+  case Req_bool_spec; intros H; [split; [split |]; auto; lra |].
+  case Req_bool_spec; intros H'; [split; [split |]; auto; lra |].
+  split; [| apply upper_covers_sum; auto; lia || lra].
   split; [apply upper_number; auto |]. apply upper_nonnegative; [apply number_fl | apply fl_nonnegative; lra].
 Qed.
 Lemma up_eta_sound z : 0 <= z -> amount (fl (upper (fl z) + eta)) /\ z <= fl (upper (fl z) + eta).
@@ -217,8 +231,11 @@ Lemma sum_of_opp e l : sum_of e (map (fun t => (fst t, - snd t)) l) = - sum_of e
 Proof. induction l as [| t l IH]; simpl; [ring |]. rewrite IH. ring. Qed.
 
 Lemma accounts_nothing e f : accounts e f 0 nothing.
-Proof. split; [apply amount_0 |]. split; [constructor |]. simpl. rewrite Rminus_0_r, Rabs_R0. lra. Qed.
-Lemma accounts_add e f d B s c : accounts e f d B -> s <> f -> number c -> accounts e f (d + c * e s) (add s c B).
+Proof.
+  split; [apply amount_0 |]. split; [constructor |]. simpl. rewrite Rminus_0_r, Rabs_R0. lra.
+Qed.
+Lemma accounts_add e f d B s c : accounts e f d B -> s <> f -> number c ->
+  accounts e f (d + c * e s) (add s c B).
 Proof.
   intros (A & F & H) S C. unfold add. case Req_bool_spec; intros Z.
   - split; auto. split; auto. rewrite Z. now replace (d + 0 * e s) with d by ring.
@@ -230,11 +247,13 @@ Qed.
 Lemma accounts_add_left e f d B x t : accounts e f d B -> amount x -> Rabs t <= x ->
   accounts e f (d + t) (add_left x B).
 Proof.
-  intros (A & F & H) X T. destruct (upper_sum_sound (fst B) x A X) as [A' S]. split; [exact A' |]. split; auto. simpl.
+  intros (A & F & H) X T. destruct (upper_sum_sound (fst B) x A X) as [A' S].
+  split; [exact A' |]. split; auto. simpl.
   replace (d + t - sum_of e (snd B)) with ((d - sum_of e (snd B)) + t) by ring.
   apply Rle_trans with (1 := Rabs_triang _ _). lra.
 Qed.
-Lemma accounts_eq e f d d' B : accounts e f d B -> d = d' -> accounts e f d' B. Proof. now intros H <-. Qed.
+Lemma accounts_eq e f d d' B : accounts e f d B -> d = d' -> accounts e f d' B.
+Proof. now intros H <-. Qed.
 
 Section Operation.
 
@@ -247,7 +266,8 @@ Lemma fold_sum l r : Forall (fun t : Z * R => number (snd t)) l -> amount r ->
 Proof.
   revert r. induction l as [| t l IH]; intros r F A.
   - simpl. rewrite Rabs_R0. split; auto. lra.
-  - inversion F as [| ? ? N F']. subst. simpl. destruct (upper_sum_sound r (Rabs (snd t)) A (amount_abs _ N)) as [A' S].
+  - inversion F as [| ? ? N F']. subst. simpl.
+    destruct (upper_sum_sound r (Rabs (snd t)) A (amount_abs _ N)) as [A' S].
     destruct (IH _ F' A') as [A2 S2]. split; auto.
     assert (Rabs (snd t * e (fst t)) <= Rabs (snd t)).
     { rewrite Rabs_mult. rewrite <- (Rmult_1_r (Rabs (snd t))) at 2.
@@ -260,27 +280,34 @@ Proof. intros F. split; apply Forall_impl with (2 := F); tauto. Qed.
 Lemma radius_sound B d : accounts d B -> amount (upper_sum (radius_of B) (fst B)) /\
   Rabs d <= upper_sum (radius_of B) (fst B).
 Proof.
-  intros (A & F & H). destruct (numbers_of _ F) as [N _]. destruct (fold_sum (snd B) 0 N amount_0) as [A' S].
-  fold (radius_of B) in A', S. destruct (upper_sum_sound _ _ A' A) as [A2 S2]. split; auto.
-  replace d with ((d - sum_of e (snd B)) + sum_of e (snd B)) by ring. apply Rle_trans with (1 := Rabs_triang _ _). lra.
+  intros (A & F & H). destruct (numbers_of _ F) as [N _].
+  destruct (fold_sum (snd B) 0 N amount_0) as [A' S]. fold (radius_of B) in A', S.
+  destruct (upper_sum_sound _ _ A' A) as [A2 S2]. split; auto.
+  replace d with ((d - sum_of e (snd B)) + sum_of e (snd B)) by ring.
+  apply Rle_trans with (1 := Rabs_triang _ _). lra.
 Qed.
 
-Lemma least_terms_sound t l : let (m, r) := least t l in sum_of e (t :: l) = snd m * e (fst m) + sum_of e r /\
+Lemma least_terms_sound t l : let (m, r) := least t l in
+  sum_of e (t :: l) = snd m * e (fst m) + sum_of e r /\
   forall P : Z * R -> Prop, P t -> Forall P l -> P m /\ Forall P r.
 Proof.
   revert t. induction l as [| x l IH]; intros t; simpl.
   - split; [ring | auto].
   - specialize (IH x). destruct (least x l) as [m r]. destruct IH as [E F].
-    case Rlt_bool_spec; intros _; [| now split; [| intros P T H]]. split.
+    case Rlt_bool_spec; intros _; [| now split; [| intros P T H]].
+    split.
     + simpl in *. rewrite E. ring.
     + intros P T H. inversion H. subst. destruct (F P); auto.
 Qed.
 Lemma shorten_sound limit fuel B d : accounts d B -> accounts d (shorten limit fuel B).
 Proof.
-  revert B. induction fuel as [| n IH]; intros B A; auto. simpl. destruct (snd B) as [| t l] eqn:E; auto.
-  destruct (limit <=? length (t :: l))%nat; auto. assert (L := least_terms_sound t l). destruct (least t l) as [m r].
-  destruct L as [S F]. apply IH. destruct A as (A & N & H). rewrite E in N, H. inversion N as [| ? ? Nt Nl]. subst.
-  destruct (F _ Nt Nl) as [Nm Nr]. apply accounts_eq with ((d - snd m * e (fst m)) + snd m * e (fst m)); [| ring].
+  revert B. induction fuel as [| n IH]; intros B A; auto. simpl.
+  destruct (snd B) as [| t l] eqn:E; auto.
+  destruct (limit <=? length (t :: l))%nat; auto.
+  assert (L := least_terms_sound t l). destruct (least t l) as [m r]. destruct L as [S F].
+  apply IH. destruct A as (A & N & H). rewrite E in N, H.
+  inversion N as [| ? ? Nt Nl]. subst. destruct (F _ Nt Nl) as [Nm Nr].
+  apply accounts_eq with ((d - snd m * e (fst m)) + snd m * e (fst m)); [| ring].
   apply accounts_add_left.
   - split; auto. split; auto. simpl. rewrite S in H.
     now replace (d - snd m * e (fst m) - sum_of e r) with (d - (snd m * e (fst m) + sum_of e r)) by ring.
@@ -291,7 +318,8 @@ Qed.
 Lemma placed_sound t l e' : sum_of e' (placed t l) = snd t * e' (fst t) + sum_of e' l /\
   forall P : Z * R -> Prop, P t -> Forall P l -> Forall P (placed t l).
 Proof.
-  induction l as [| x l [IH F]]; simpl; [split; [ring | auto] |]. destruct (fst t <? fst x)%Z.
+  induction l as [| x l [IH F]]; simpl; [split; [ring | auto] |].
+  destruct (fst t <? fst x)%Z.
   - split; [simpl; rewrite IH; ring |]. intros P T H. inversion H. subst. auto.
   - split; [simpl; ring |]. intros P T H. inversion H. subst. auto.
 Qed.
@@ -306,11 +334,13 @@ Lemma finished_sound limit B v x g : number v -> accounts (x - v) B -> g = Some 
   made v (finished limit B g) x g.
 Proof.
   intros V A G. destruct (radius_sound B _ A) as [RA RS]. unfold finished.
-  set (all := upper_sum (radius_of B) (fst B)) in *. set (room := if Req_bool (fst B) 0 then limit else Nat.pred limit).
+  set (all := upper_sum (radius_of B) (fst B)) in *.
+  set (room := if Req_bool (fst B) 0 then limit else Nat.pred limit).
   set (C := if (room <? length (snd B))%nat then shorten limit (length (snd B)) B else B).
   assert (AC : accounts (x - v) C).
   { unfold C. destruct (room <? length (snd B))%nat; auto. now apply shorten_sound. }
-  cbv zeta. fold C. destruct AC as ([NL PL] & F & H). destruct (numbers_of _ F) as [N S]. destruct RA as [NA PA].
+  cbv zeta. fold C. destruct AC as ([NL PL] & F & H). destruct (numbers_of _ F) as [N S].
+  destruct RA as [NA PA].
   case Req_bool_spec; intros Z.
   - assert (E : forall t, holds (set e f t) v {| radius := all; rest := 0; of := snd C |} x).
     { intros t. split; auto. split; auto. split; [| split; auto].
@@ -325,17 +355,20 @@ Proof.
         apply Rmult_le_reg_r with (fst C); [lra |]. rewrite Rmult_assoc, Rinv_l, !Rmult_1_r, Rmult_1_l by auto.
         exact H. }
       set (t := (x - v - sum_of e (snd C)) / fst C).
-      destruct (placed_sound (f, fst C) (rev (snd C)) (set e f t)) as [P Q]. split; auto. split.
+      destruct (placed_sound (f, fst C) (rev (snd C)) (set e f t)) as [P Q].
+      split; auto. split.
       { simpl. apply Forall_rev, Q; [exact NL |]. now apply Forall_rev. }
-      split; [| split; auto]. simpl. rewrite sum_of_rev, P, sum_of_rev, sum_of_set by auto. split; [apply number_0 |].
-      split; [lra |]. simpl. unfold set at 1. rewrite Z.eqb_refl.
-      replace (x - v - (fst C * t + sum_of e (snd C))) with 0 by (unfold t; field; exact Z). rewrite Rabs_R0. lra.
+      split; [| split; auto]. simpl. rewrite sum_of_rev, P, sum_of_rev, sum_of_set by auto.
+      split; [apply number_0 |]. split; [lra |]. simpl. unfold set at 1. rewrite Z.eqb_refl.
+      replace (x - v - (fst C * t + sum_of e (snd C))) with 0 by (unfold t; field; exact Z).
+      rewrite Rabs_R0. lra.
     + repeat split; auto.
 Qed.
 
-Lemma merged_sound a b : (forall x y, sum_of e (map (fun t : Z * (R * R) => (fst t, x * fst (snd t) + y * snd (snd t)))
-  (merged a b)) = x * sum_of e a + y * sum_of e b) /\ forall P : Z * R -> Prop, (forall s, P (s, 0)) ->
-  Forall P a -> Forall P b -> Forall (fun t => P (fst t, fst (snd t)) /\ P (fst t, snd (snd t))) (merged a b).
+Lemma merged_sound a b : (forall x y, sum_of e (map (fun t : Z * (R * R) => (fst t, x * fst (snd t) + y * snd (snd t))) (merged a b)) =
+    x * sum_of e a + y * sum_of e b) /\
+  forall P : Z * R -> Prop, (forall s, P (s, 0)) -> Forall P a -> Forall P b ->
+    Forall (fun t => P (fst t, fst (snd t)) /\ P (fst t, snd (snd t))) (merged a b).
 Proof.
   revert b. induction a as [| [s x] a IHa].
   - induction b as [| [t y] b [IH F]].
@@ -366,8 +399,10 @@ Definition weighed (x y : R) (l : list (Z * (R * R))) : terms :=
 Definition fit (t : Z * (R * R)) : Prop :=
   fst t <> f /\ number (fst (snd t)) /\ number (snd (snd t)).
 Lemma fold_step (step : builder -> Z * (R * R) -> builder) x y :
-  (forall B d t, fit t -> accounts d B -> accounts (d + (x * fst (snd t) + y * snd (snd t)) * e (fst t)) (step B t)) ->
-  forall l B d, Forall fit l -> accounts d B -> accounts (d + sum_of e (weighed x y l)) (fold_left step l B).
+  (forall B d t, fit t -> accounts d B ->
+     accounts (d + (x * fst (snd t) + y * snd (snd t)) * e (fst t)) (step B t)) ->
+  forall l B d, Forall fit l -> accounts d B ->
+    accounts (d + sum_of e (weighed x y l)) (fold_left step l B).
 Proof.
   intros S. induction l as [| t l IH]; intros B d F A.
   - simpl. apply accounts_eq with d; auto. ring.
@@ -380,41 +415,50 @@ Context (a x b y : R) (A B : bound) (of_a : holds e a A x) (of_b : holds e b B y
 
 Lemma merged_fit : Forall fit (merged (of A) (of B)).
 Proof.
-  destruct of_a as (_ & NA & _), of_b as (_ & NB & _). destruct (merged_sound (of A) (of B)) as [_ F].
-  unfold is_new in *. assert (F1 := F (fun t => number (snd t)) (fun _ => number_0 p emin) NA NB).
+  destruct of_a as (_ & NA & _), of_b as (_ & NB & _).
+  destruct (merged_sound (of A) (of B)) as [_ F]. unfold is_new in *.
+  assert (F1 := F (fun t => number (snd t)) (fun _ => number_0 p emin) NA NB).
   assert (F2 : Forall (fun t => fst t <> f) (merged (of A) (of B))).
   { clear - new_a new_b. generalize (of A) (of B) new_a new_b. clear. intros k l.
     revert l. induction k as [| [s x] k IHk].
-    - induction l as [| [t y] l IH]; intros K L; [constructor |]. inversion L. subst. constructor; auto.
+    - induction l as [| [t y] l IH]; intros K L; [constructor |]. inversion L. subst.
+      constructor; auto.
     - induction l as [| [t y] l IH]; intros K L.
       + inversion K. subst. constructor; auto.
       + inversion K. inversion L. subst. cbn [merged].
         destruct (s <? t)%Z; [| destruct (t <? s)%Z]; constructor; simpl; auto. }
-  apply Forall_forall. intros t T. assert (T1 := proj1 (Forall_forall _ _) F1 t T).
-  assert (T2 := proj1 (Forall_forall _ _) F2 t T). simpl in T1. split; tauto.
+  apply Forall_forall. intros t T.
+  assert (T1 := proj1 (Forall_forall _ _) F1 t T). assert (T2 := proj1 (Forall_forall _ _) F2 t T).
+  simpl in T1. split; tauto.
 Qed.
-Lemma emin_negative : (emin < 0)%Z. Proof. lia. Qed.
+Lemma emin_negative : (emin < 0)%Z.
+Proof. lia. Qed.
 Lemma two_sum_numbers s t : number (fst (two_sum p emin s t)) /\ number (snd (two_sum p emin s t)).
 Proof. split; apply number_fl. Qed.
 
 Lemma sum_step_sound r d t : fit t -> accounts d r ->
   accounts (d + (1 * fst (snd t) + 1 * snd (snd t)) * e (fst t)) (sum_step r t).
 Proof.
-  intros (F & N1 & N2) H. unfold sum_step. destruct (two_sum_numbers (fst (snd t)) (snd (snd t))) as [S1 S2].
+  intros (F & N1 & N2) H. unfold sum_step.
+  destruct (two_sum_numbers (fst (snd t)) (snd (snd t))) as [S1 S2].
   assert (E := two_sum_exact p emin emin_negative (fst (snd t)) (snd (snd t)) ltac:(lia) N1 N2).
   set (c := two_sum p emin (fst (snd t)) (snd (snd t))) in *.
   apply accounts_eq with (d + fst c * e (fst t) + snd c * e (fst t)).
-  - apply accounts_add_left; [now apply accounts_add | now apply amount_abs |]. rewrite Rabs_mult.
-    rewrite <- (Rmult_1_r (Rabs (snd c))) at 2. apply Rmult_le_compat_l; [apply Rabs_pos | apply e_units].
+  - apply accounts_add_left; [now apply accounts_add | now apply amount_abs |].
+    rewrite Rabs_mult. rewrite <- (Rmult_1_r (Rabs (snd c))) at 2.
+    apply Rmult_le_compat_l; [apply Rabs_pos | apply e_units].
   - replace (1 * fst (snd t) + 1 * snd (snd t)) with (fst c + snd c) by lra. ring.
 Qed.
 Theorem affine_add_sound : made (fl (a + b)) (affine_add limit a A b B g) (x + y) g.
 Proof.
   assert (F := merged_fit). destruct of_a as (Na & NA & (RA1 & RA2 & RA) & _).
-  destruct of_b as (Nb & NB & (RB1 & RB2 & RB) & _). unfold affine_add. apply finished_sound; auto; [apply number_fl |].
+  destruct of_b as (Nb & NB & (RB1 & RB2 & RB) & _). unfold affine_add.
+  apply finished_sound; auto; [apply number_fl |].
   assert (E := two_sum_exact p emin emin_negative a b ltac:(lia) Na Nb).
-  change (fst (two_sum p emin a b)) with (fl (a + b)) in E. destruct (two_sum_numbers a b) as [_ S2].
-  set (SA := sum_of e (of A)) in *. set (SB := sum_of e (of B)) in *. eapply accounts_eq.
+  change (fst (two_sum p emin a b)) with (fl (a + b)) in E.
+  destruct (two_sum_numbers a b) as [_ S2].
+  set (SA := sum_of e (of A)) in *. set (SB := sum_of e (of B)) in *.
+  eapply accounts_eq.
   - apply accounts_add_left with (t := y - b - SB); [| split; auto | exact RB].
     apply accounts_add_left with (t := x - a - SA); [| split; auto | exact RA].
     apply (fold_step sum_step 1 1 sum_step_sound); [exact F |].
@@ -442,13 +486,15 @@ Lemma fl_error z : Rabs (z - fl z) <= half_ulp (fl z).
 Proof. rewrite Rabs_minus_sym. exact (Residual.half_ulp_above p emin ltac:(lia) z). Qed.
 Lemma times_unit c s : Rabs (c * e s) <= Rabs c.
 Proof.
-  rewrite Rabs_mult. rewrite <- (Rmult_1_r (Rabs c)) at 2. apply Rmult_le_compat_l; [apply Rabs_pos | apply e_units].
+  rewrite Rabs_mult. rewrite <- (Rmult_1_r (Rabs c)) at 2.
+  apply Rmult_le_compat_l; [apply Rabs_pos | apply e_units].
 Qed.
 
 Lemma product_step_sound r d t : fit t -> accounts d r ->
   accounts (d + (b * fst (snd t) + a * snd (snd t)) * e (fst t)) (product_step a b r t).
 Proof.
-  intros (F & N1 & N2) H. unfold product_step. set (s := fl (a * snd (snd t))). set (u := fl (fst (snd t) * b)).
+  intros (F & N1 & N2) H. unfold product_step.
+  set (s := fl (a * snd (snd t))). set (u := fl (fst (snd t) * b)).
   destruct (two_sum_numbers s u) as [S1 S2].
   assert (E := two_sum_exact p emin emin_negative s u ltac:(lia) (number_fl _) (number_fl _)).
   set (c := two_sum p emin s u) in *.
@@ -481,18 +527,21 @@ Qed.
 Theorem affine_multiply_sound known : (forall k, known = Some k -> number k /\ fl (a * b) + k = a * b) ->
   made (fl (a * b)) (affine_multiply limit (fl (a * b)) a A b B known g) (x * y) g.
 Proof.
-  intros K. assert (F := merged_fit). unfold affine_multiply. case_eq (is_zero a A || is_zero b B).
+  intros K. assert (F := merged_fit). unfold affine_multiply.
+  case_eq (is_zero a A || is_zero b B).
   { intros I. apply orb_prop in I. assert (P : fl (a * b) = 0 /\ x * y = 0).
     { destruct I as [I | I].
       - destruct (is_zero_sound _ _ _ of_a I) as [-> ->]. rewrite !Rmult_0_l, rnd_0; auto with typeclass_instances.
       - destruct (is_zero_sound _ _ _ of_b I) as [-> ->]. rewrite !Rmult_0_r, rnd_0; auto with typeclass_instances. }
     destruct P as [-> ->]. apply zero_made. }
   intros _. destruct of_a as (Na & NA & (RA1 & RA2 & RA) & (DA1 & DA2 & DA)).
-  destruct of_b as (Nb & NB & (RB1 & RB2 & RB) & (DB1 & DB2 & DB)). apply finished_sound; auto; [apply number_fl |].
+  destruct of_b as (Nb & NB & (RB1 & RB2 & RB) & (DB1 & DB2 & DB)).
+  apply finished_sound; auto; [apply number_fl |].
   destruct (upper_product_sound (Rabs a) (rest B) ltac:(apply Rabs_pos) RB2) as [P1 Q1].
   destruct (upper_product_sound (rest A) (Rabs b) RA2 ltac:(apply Rabs_pos)) as [P2 Q2].
-  destruct (upper_product_sound (radius A) (radius B) DA2 DB2) as [P3 Q3]. set (SA := sum_of e (of A)) in *.
-  set (SB := sum_of e (of B)) in *. eapply accounts_eq.
+  destruct (upper_product_sound (radius A) (radius B) DA2 DB2) as [P3 Q3].
+  set (SA := sum_of e (of A)) in *. set (SB := sum_of e (of B)) in *.
+  eapply accounts_eq.
   - apply accounts_add_left with (t := (x - a) * (y - b)); [| exact P3 |].
     + apply accounts_add_left with (t := (x - a - SA) * b); [| exact P2 |].
       * apply accounts_add_left with (t := a * (y - b - SB)); [| exact P1 |].
@@ -534,11 +583,13 @@ Definition divides (d m : R) (r : R * builder) : Prop :=
 Lemma quotient_step_sound v d m r t : b <> 0 -> fit t -> divides d m r ->
   divides d (m + (1 * fst (snd t) + - v * snd (snd t)) * e (fst t)) (quotient_step v b r t).
 Proof.
-  intros Z (F & N1 & N2) (P & D & H & Q). unfold quotient_step. set (s := fl (v * snd (snd t))).
+  intros Z (F & N1 & N2) (P & D & H & Q). unfold quotient_step.
+  set (s := fl (v * snd (snd t))).
   assert (NS : number (- s)) by (apply number_opp, number_fl).
   destruct (two_sum_numbers (fst (snd t)) (- s)) as [S1 S2].
   assert (E := two_sum_exact p emin emin_negative (fst (snd t)) (- s) ltac:(lia) N1 NS).
-  set (n := two_sum p emin (fst (snd t)) (- s)) in *. set (left := upper_sum (fst r) (Rabs (snd n))).
+  set (n := two_sum p emin (fst (snd t)) (- s)) in *.
+  set (left := upper_sum (fst r) (Rabs (snd n))).
   destruct (upper_sum_sound (fst r) (Rabs (snd n)) P (amount_abs _ S2)) as [P1 L1]. fold left in P1, L1.
   set (left' := if Req_bool (snd (snd t)) 0 then left else upper_sum left (half_ulp s)).
   assert (L2 : amount left' /\ left + Rabs (v * snd (snd t) - s) <= left').
@@ -548,7 +599,8 @@ Proof.
       rewrite S0, W, Rmult_0_r, Rminus_0_r, Rabs_R0. lra.
     - destruct (upper_sum_sound left (half_ulp s) P1 (amount_half_ulp _)) as [P2 L2]. split; auto.
       assert (G : Rabs (v * snd (snd t) - s) <= half_ulp s) by apply fl_error. lra. }
-  destruct L2 as [P2 L2]. cbv zeta. split; [exact P2 |]. exists (D + fst n / b * e (fst t)). split.
+  destruct L2 as [P2 L2]. cbv zeta. split; [exact P2 |].
+  exists (D + fst n / b * e (fst t)). split.
   - set (c := fl (fst n / b)).
     assert (H1 : accounts (D + c * e (fst t)) (add (fst t) c (snd r))) by (apply accounts_add; auto; apply number_fl).
     match goal with |- accounts _ (snd (_, ?z)) => change (accounts (D + fst n / b * e (fst t)) z) end.
@@ -584,18 +636,23 @@ Qed.
 Theorem affine_divide_sound known q : (forall k, known = Some k -> number k /\ k = a - fl (a / b) * b) ->
   affine_divide limit (fl (a / b)) a A b B known g = Some q -> y <> 0 /\ made (fl (a / b)) q (x / y) g.
 Proof.
-  intros K. assert (F := merged_fit). unfold affine_divide. assert (of_a' := of_a). assert (of_b' := of_b).
+  intros K. assert (F := merged_fit). unfold affine_divide.
+  assert (of_a' := of_a). assert (of_b' := of_b).
   destruct of_a' as (Na & NA & (RA1 & RA2 & RA) & (DA1 & DA2 & DA)).
-  destruct of_b' as (Nb & NB & (RB1 & RB2 & RB) & (DB1 & DB2 & DB)). set (v := fl (a / b)) in *.
+  destruct of_b' as (Nb & NB & (RB1 & RB2 & RB) & (DB1 & DB2 & DB)).
+  set (v := fl (a / b)) in *.
   case Rlt_bool_spec; intros P; [| discriminate]. cbn [negb].
   assert (L := distance_sound (Rabs b) (radius B) (number_abs p emin b Nb) DB1 P).
   set (distance := fl (fl (Rabs b - radius B) * fl (1 - eps))) in *.
   assert (Y : distance <= Rabs y).
   { apply Rle_trans with (1 := L). assert (Rabs b <= Rabs y + Rabs (y - b)); [| lra].
-    replace b with (y + - (y - b)) at 1 by ring. apply Rle_trans with (1 := Rabs_triang _ _). rewrite Rabs_Ropp. lra. }
+    replace b with (y + - (y - b)) at 1 by ring. apply Rle_trans with (1 := Rabs_triang _ _).
+    rewrite Rabs_Ropp. lra. }
   assert (Y0 : y <> 0) by (intros Z; rewrite Z, Rabs_R0 in Y; lra).
-  assert (B0 : b <> 0) by (intros Z; rewrite Z, Rabs_R0 in L; lra). assert (BP : 0 < Rabs b) by now apply Rabs_pos_lt.
-  intros Q. split; auto. revert Q. case_eq (is_zero a A).
+  assert (B0 : b <> 0) by (intros Z; rewrite Z, Rabs_R0 in L; lra).
+  assert (BP : 0 < Rabs b) by now apply Rabs_pos_lt.
+  intros Q. split; auto. revert Q.
+  case_eq (is_zero a A).
   { intros I Q. injection Q. intros <-. destruct (is_zero_sound _ _ _ of_a I) as [-> ->]. unfold v, Rdiv.
     rewrite !Rmult_0_l, rnd_0 by auto with typeclass_instances. apply zero_made. }
   intros _. set (SA := sum_of e (of A)) in *. set (SB := sum_of e (of B)) in *.
@@ -608,20 +665,23 @@ Proof.
   destruct (upper_sum_sound _ (rest A) P1 (conj RA1 RA2)) as [P2 Q2]. fold left in P2, Q2.
   assert (W : Rabs ((x - a - SA) - v * (y - b - SB)) <= left).
   { apply Rle_trans with (1 := Rabs_triang _ _). rewrite Rabs_Ropp, Rabs_mult.
-    assert (Rabs v * Rabs (y - b - SB) <= Rabs v * rest B) by (apply Rmult_le_compat_l; auto; apply Rabs_pos). lra. }
+    assert (Rabs v * Rabs (y - b - SB) <= Rabs v * rest B) by (apply Rmult_le_compat_l; auto; apply Rabs_pos).
+    lra. }
   assert (D : divides d m (left', r0)).
   { unfold divides, left', r0, d, m. destruct known as [k |]; simpl.
-    - destruct (K k eq_refl) as [NK _]. destruct (upper_sum_sound left (Rabs k) P2 (amount_abs _ NK)) as [P3 Q3].
-      split; auto. exists 0. split; [apply accounts_nothing |]. replace (b * (0 - 0)) with 0 by ring.
-      rewrite Rminus_0_r. apply Rle_trans with (1 := Rabs_triang _ _). lra.
+    - destruct (K k eq_refl) as [NK _].
+      destruct (upper_sum_sound left (Rabs k) P2 (amount_abs _ NK)) as [P3 Q3]. split; auto.
+      exists 0. split; [apply accounts_nothing |]. replace (b * (0 - 0)) with 0 by ring. rewrite Rminus_0_r.
+      apply Rle_trans with (1 := Rabs_triang _ _). lra.
     - split; auto. exists (a / b - v). split.
       + apply accounts_eq with (0 + (a / b - v)); [| ring].
         apply accounts_add_left; [apply accounts_nothing | apply amount_half_ulp | apply fl_error].
       + replace (b * (a / b - v - (a / b - v))) with 0 by ring. now rewrite Rminus_0_r, Rplus_0_l. }
   assert (E := quotient_fold v d (merged (of A) (of B)) B0 m (left', r0) F D).
   destruct (merged_sound (of A) (of B)) as [M _]. unfold weighed in E. rewrite M in E. fold SA SB in E.
-  destruct (fold_left (quotient_step v b) (merged (of A) (of B)) (left', r0)) as [l r]. destruct E as (PL & C & AC & H).
-  cbn [fst snd] in PL, AC, H. set (n := x - v * y).
+  destruct (fold_left (quotient_step v b) (merged (of A) (of B)) (left', r0)) as [l r].
+  destruct E as (PL & C & AC & H). cbn [fst snd] in PL, AC, H.
+  set (n := x - v * y).
   assert (N : n = m + (1 * SA + - v * SB) + b * d).
   { unfold n, m, d. destruct known as [k |].
     - rewrite (proj2 (K k eq_refl)). fold v. ring.
@@ -632,14 +692,16 @@ Proof.
     - apply accounts_add_left; auto. unfold Rdiv. rewrite Rabs_mult, Rabs_inv.
       apply Rle_trans with (2 := QQ). apply Rmult_le_compat_r; auto. left. now apply Rinv_0_lt_compat.
     - rewrite N. field. exact B0. }
-  set (r2 := add_left (upper_quotient l (Rabs b)) r) in *. destruct (radius_sound _ _ AL) as [PR QR].
-  set (quotient := upper_sum (radius_of r2) (fst r2)) in *. intros Q. injection Q. intros <-.
-  apply finished_sound; auto; [apply number_fl |].
-  assert (T : x / y - v = n / b + n / b * (b - y) / y) by (unfold n; field; auto). case Rlt_bool_spec; intros RP.
+  set (r2 := add_left (upper_quotient l (Rabs b)) r) in *.
+  destruct (radius_sound _ _ AL) as [PR QR]. set (quotient := upper_sum (radius_of r2) (fst r2)) in *.
+  intros Q. injection Q. intros <-. apply finished_sound; auto; [apply number_fl |].
+  assert (T : x / y - v = n / b + n / b * (b - y) / y) by (unfold n; field; auto).
+  case Rlt_bool_spec; intros RP.
   - destruct (upper_product_sound quotient (radius B) (proj2 PR) DB2) as [P5 Q5].
     destruct (upper_quotient_sound _ distance (proj2 P5) P) as [P6 Q6].
-    apply accounts_eq with (n / b + n / b * (b - y) / y); [| now rewrite T]. apply accounts_add_left; auto.
-    apply Rle_trans with (2 := Q6). unfold Rdiv. rewrite Rabs_mult, Rabs_inv. apply Rmult_le_compat.
+    apply accounts_eq with (n / b + n / b * (b - y) / y); [| now rewrite T].
+    apply accounts_add_left; auto. apply Rle_trans with (2 := Q6).
+    unfold Rdiv. rewrite Rabs_mult, Rabs_inv. apply Rmult_le_compat.
     + apply Rabs_pos.
     + left. apply Rinv_0_lt_compat. lra.
     + apply Rle_trans with (2 := Q5). rewrite Rabs_mult. apply Rmult_le_compat; try apply Rabs_pos; auto.
@@ -661,9 +723,10 @@ Proof.
     case_eq ((0 <=? k)%Z || Req_bool (fl (fl (c * bpow radix2 k) * bpow radix2 (- k))) c); intros I.
     - split; [apply amount_0 |].
       assert (X : fl (c * bpow radix2 k) = c * bpow radix2 k).
-      { destruct (Z_le_gt_dec 0 k) as [E | E]; [apply scale_up; auto with typeclass_instances |]. apply orb_prop in I.
-        destruct I as [I | I]; [apply Zle_bool_imp_le in I; lia |]. revert I. case Req_bool_spec; [| discriminate].
-        intros I _. exact (scale_back p emin nearest (fl (c * bpow radix2 k)) c k (number_fl _) ltac:(lia) I). }
+      { destruct (Z_le_gt_dec 0 k) as [E | E]; [apply scale_up; auto with typeclass_instances |].
+        apply orb_prop in I. destruct I as [I | I]; [apply Zle_bool_imp_le in I; lia |].
+        revert I. case Req_bool_spec; [| discriminate]. intros I _.
+        exact (scale_back p emin nearest (fl (c * bpow radix2 k)) c k (number_fl _) ltac:(lia) I). }
       rewrite X, Rminus_diag_eq, Rabs_R0 by auto. lra.
     - split; [split; [now apply number_eta | lra] |]. rewrite Rabs_minus_sym.
       assert (S := scale_error p emin nearest _ _ (rounding_error_nearest p emin ltac:(lia)) c k C). lra. }
@@ -674,13 +737,16 @@ Proof.
     accounts (d + sum_of e l * bpow radix2 k) (fold_left (scale_step k) l r)).
   { induction l as [| t l IH]; intros r d G H; simpl.
     - apply accounts_eq with (1 := H). ring.
-    - inversion G as [| ? ? [G1 G2] G3]. subst. destruct (L _ G2) as [L1 L2]. eapply accounts_eq.
+    - inversion G as [| ? ? [G1 G2] G3]. subst. destruct (L _ G2) as [L1 L2].
+      eapply accounts_eq.
       + apply IH; auto. unfold scale_step.
-        apply accounts_add_left with (t := (snd t * bpow radix2 k - fl (snd t * bpow radix2 k)) * e (fst t)); auto.
+        apply accounts_add_left with
+          (t := (snd t * bpow radix2 k - fl (snd t * bpow radix2 k)) * e (fst t)); auto.
         * apply accounts_add with (1 := H); auto. apply number_fl.
         * apply Rle_trans with (1 := times_unit _ _). exact L2.
       + ring. }
-  apply finished_sound; auto; [apply number_fl |]. destruct (L _ Na) as [L1 L2]. destruct (L _ RA1) as [L3 L4].
+  apply finished_sound; auto; [apply number_fl |].
+  destruct (L _ Na) as [L1 L2]. destruct (L _ RA1) as [L3 L4].
   set (scaled := fl (rest A * bpow radix2 k)) in *.
   assert (SP : amount scaled).
   { split; [apply number_fl |]. apply fl_nonnegative, Rmult_le_pos; auto. apply bpow_ge_0. }
@@ -697,7 +763,8 @@ Proof.
       split; apply Rabs_le; lra. }
   eapply accounts_eq.
   - apply accounts_add_left with (t := rho - part); [| exact L3 | exact (proj2 PART)].
-    apply accounts_add_left with (t := part); [| exact SP | exact (proj1 PART)]. apply S; [exact F |].
+    apply accounts_add_left with (t := part); [| exact SP | exact (proj1 PART)].
+    apply S; [exact F |].
     apply accounts_add_left with (t := a * bpow radix2 k - fl (a * bpow radix2 k));
       [apply accounts_nothing | exact L1 | exact L2].
   - fold SA. unfold rho. ring.
@@ -713,7 +780,8 @@ Qed.
 Theorem affine_within_sound e f limit v x error g : units e -> number v -> number error -> 0 <= error ->
   Rabs (v - x) <= error -> g = Some f \/ g = None -> made e f v (affine_within limit error g) x g.
 Proof.
-  intros U V N P H G. unfold affine_within. apply finished_sound; auto. apply accounts_eq with (0 + (x - v)); [| ring].
+  intros U V N P H G. unfold affine_within. apply finished_sound; auto.
+  apply accounts_eq with (0 + (x - v)); [| ring].
   apply accounts_add_left; [apply accounts_nothing | split; auto |]. now rewrite Rabs_minus_sym.
 Qed.
 Theorem affine_negate_sound e v A x : holds e v A x -> holds e (- v) (negated A) (- x).
@@ -731,8 +799,9 @@ Theorem affine_subtract_sound e f : units e -> forall a x b y A B, holds e a A x
   made e f (fl (a - b)) (affine_subtract limit a A b B g) (x - y) g.
 Proof.
   intros U a x b y A B HA HB FA FB limit g G. unfold affine_subtract, Rminus.
-  apply affine_add_sound; auto; [now apply affine_negate_sound |]. unfold is_new, negated. simpl. apply Forall_forall.
-  intros t T. apply in_map_iff in T. destruct T as (s & <- & S). simpl. now apply (proj1 (Forall_forall _ _) FB).
+  apply affine_add_sound; auto; [now apply affine_negate_sound |].
+  unfold is_new, negated. simpl. apply Forall_forall. intros t T. apply in_map_iff in T.
+  destruct T as (s & <- & S). simpl. now apply (proj1 (Forall_forall _ _) FB).
 Qed.
 (** Bounds still hold when a source is new. *)
 Theorem affine_keeps e f t v A x : is_new f A -> holds e v A x -> holds (set e f t) v A x.

@@ -2,18 +2,28 @@
     in Code.v. It has at most `limit` terms. `f` is an operation's new source, if there are sources. Nothing is
     proved here. *)
 
-From Coq Require Import ZArith Bool List. From Errbound Require Import Code CompoundCode. Import ListNotations.
+From Coq Require Import ZArith Bool List.
+From Errbound Require Import Code CompoundCode.
+Import ListNotations.
 
 Section Affine.
 
 Context (T : Type) (A : arithmetic T) (has_fast_fma : bool) (limit : nat).
 
 Declare Scope code.
-Infix "+" := (plus T A) : code. Infix "-" := (minus T A) : code. Infix "*" := (times T A) : code.
-Infix "/" := (over T A) : code. Notation "- x" := (opposite T A x) : code. Infix "<" := (less T A) : code.
-Infix "<=" := (at_most T A) : code. Infix "==" := (equal T A) (at level 70) : code.
-Notation "# n" := (integer T A n%Z) (at level 1, n at level 0, format "# n") : code. Notation ε := (epsilon T A).
-Notation η := (underflow_unit T A). Notation abs := (abs T A). Notation is_finite := (is_finite T A).
+Infix "+" := (plus T A) : code.
+Infix "-" := (minus T A) : code.
+Infix "*" := (times T A) : code.
+Infix "/" := (over T A) : code.
+Notation "- x" := (opposite T A x) : code.
+Infix "<" := (less T A) : code.
+Infix "<=" := (at_most T A) : code.
+Infix "==" := (equal T A) (at level 70) : code.
+Notation "# n" := (integer T A n%Z) (at level 1, n at level 0, format "# n") : code.
+Notation ε := (epsilon T A).
+Notation η := (underflow_unit T A).
+Notation abs := (abs T A).
+Notation is_finite := (is_finite T A).
 Notation half_ulp := (half_ulp T A).
 Open Scope code.
 

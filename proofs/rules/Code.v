@@ -41,11 +41,19 @@ Context (T : Type) (A : arithmetic T).
 Variable has_fast_fma : bool.
 
 Declare Scope code.
-Infix "+" := (plus T A) : code. Infix "-" := (minus T A) : code. Infix "*" := (times T A) : code.
-Infix "/" := (over T A) : code. Notation "- x" := (opposite T A x) : code. Infix "<" := (less T A) : code.
-Infix "<=" := (at_most T A) : code. Infix "==" := (equal T A) (at level 70) : code.
-Notation "# n" := (integer T A n%Z) (at level 1, n at level 0, format "# n") : code. Notation ε := (epsilon T A).
-Notation u := (unit_roundoff T A). Notation η := (underflow_unit T A). Notation "∞" := (infinity T A).
+Infix "+" := (plus T A) : code.
+Infix "-" := (minus T A) : code.
+Infix "*" := (times T A) : code.
+Infix "/" := (over T A) : code.
+Notation "- x" := (opposite T A x) : code.
+Infix "<" := (less T A) : code.
+Infix "<=" := (at_most T A) : code.
+Infix "==" := (equal T A) (at level 70) : code.
+Notation "# n" := (integer T A n%Z) (at level 1, n at level 0, format "# n") : code.
+Notation ε := (epsilon T A).
+Notation u := (unit_roundoff T A).
+Notation η := (underflow_unit T A).
+Notation "∞" := (infinity T A).
 Open Scope code.
 
 (** number_traits.hpp *)

@@ -7,9 +7,12 @@
     direction, from p = 5 on:
         tight_keeps, tight_horner_sound *)
 
-From Coq Require Import Reals ZArith Lia Lra Bool List. From Flocq Require Import Core.
-From Errbound Require Import Code CompoundCode DotProduct. From Errbound Require Format Tight Upper.
-Import ListNotations. Open Scope R_scope.
+From Coq Require Import Reals ZArith Lia Lra Bool List.
+From Flocq Require Import Core.
+From Errbound Require Import Code CompoundCode DotProduct.
+From Errbound Require Format Tight Upper.
+Import ListNotations.
+Open Scope R_scope.
 
 Lemma Forall2_rev {X Y} (P : X -> Y -> Prop) l m : Forall2 P l m -> Forall2 P (rev l) (rev m).
 Proof. induction 1; simpl; auto. apply Forall2_app; auto. Qed.
@@ -67,14 +70,16 @@ Qed.
 
 (** Powers with a positive whole exponent. *)
 Lemma power_loop_kept x r : forall bits first result s power t k,
-  tracked_holds power t -> (first = false -> tracked_holds result s) -> t = r ^ k -> (first = true -> s = 1) ->
+  tracked_holds power t -> (first = false -> tracked_holds result s) ->
+  t = r ^ k -> (first = true -> s = 1) ->
   tracked_holds x r -> tracked_holds (power_loop T A B by_rule bits first result power) (s * r ^ (k * Pos.to_nat bits)).
 Proof.
   intros bits. induction bits as [bits IH | bits IH |]; intros first result s power t k P Q E F X; cbn [power_loop].
   - assert (S : tracked_holds (if first then power else tracked_multiply T A B by_rule result power) (s * t)).
     { destruct first; [rewrite (F eq_refl), Rmult_1_l; exact P | apply multiply_kept; auto]. }
     replace (s * r ^ (k * Pos.to_nat bits~1)) with (s * t * r ^ (k * 2 * Pos.to_nat bits)).
-    + apply IH with (t * t); auto; try discriminate; [now apply multiply_kept |]. rewrite E, <- pow_add. f_equal. lia.
+    + apply IH with (t * t); auto; try discriminate; [now apply multiply_kept |].
+      rewrite E, <- pow_add. f_equal. lia.
     + rewrite E, Rmult_assoc, <- pow_add. do 2 f_equal. rewrite Pos2Nat.inj_xI. lia.
   - replace (s * r ^ (k * Pos.to_nat bits~0)) with (s * r ^ (k * 2 * Pos.to_nat bits)).
     + apply IH with (t * t); auto; [now apply multiply_kept |]. rewrite E, <- pow_add. f_equal. lia.
@@ -85,8 +90,9 @@ Qed.
 Theorem power_kept x r n : (0 <= n)%Z -> tracked_holds x r ->
   tracked_holds (tracked_pow T A B by_rule x n) (r ^ Z.to_nat n).
 Proof.
-  intros N X. destruct n as [| bits | bits]; [apply (keeps_one K) | | lia]. cbn [tracked_pow Z.to_nat].
-  rewrite <- (Rmult_1_l (r ^ _)). replace (Pos.to_nat bits) with (1 * Pos.to_nat bits)%nat by lia.
+  intros N X. destruct n as [| bits | bits]; [apply (keeps_one K) | | lia].
+  cbn [tracked_pow Z.to_nat]. rewrite <- (Rmult_1_l (r ^ _)).
+  replace (Pos.to_nat bits) with (1 * Pos.to_nat bits)%nat by lia.
   apply power_loop_kept with x r; auto; [discriminate | simpl; ring].
 Qed.
 
@@ -128,7 +134,8 @@ Qed.
 Lemma same_values at_value x l : fst at_value = fst x -> forall s t, fst (fst s) = fst t ->
   fst (fst (fold_left (slope_step T A B by_rule at_value x) l s)) = fst (fold_left (horner_step T A B by_rule x) l t).
 Proof.
-  intros V. induction l as [| c l IH]; intros s t S; simpl; auto. apply IH. unfold slope_step. simpl. now rewrite S, V.
+  intros V. induction l as [| c l IH]; intros s t S; simpl; auto. apply IH. unfold slope_step. simpl.
+  now rewrite S, V.
 Qed.
 Theorem horner_kept c exact x r : Forall2 tracked_holds c exact -> tracked_holds x r ->
   tracked_holds (tracked_horner T A B by_rule c x) (exact_horner exact r).
@@ -139,16 +146,19 @@ Proof.
   { unfold exact_horner. rewrite <- fold_left_rev_right, rev_involutive.
     induction e as [| a e' IH'] in |- *; simpl; auto. rewrite IH'. ring. }
   apply Forall2_rev in H. rewrite EX. clear EX.
-  destruct H as [| top b middle m Top H]; [simpl; now rewrite Rmult_0_r, Rplus_0_r |]. cbn [fold_left].
-  rewrite Rmult_0_l, Rplus_0_l. set (p := fold_left _ m b). replace (a0 + r * p) with (p * r + a0) by ring. cbv zeta.
+  destruct H as [| top b middle m Top H]; [simpl; now rewrite Rmult_0_r, Rplus_0_r |].
+  cbn [fold_left]. rewrite Rmult_0_l, Rplus_0_l. set (p := fold_left _ m b).
+  replace (a0 + r * p) with (p * r + a0) by ring. cbv zeta.
   set (result := horner_step T A B by_rule x (fold_left (horner_step T A B by_rule x) middle top) c0).
   assert (KR : tracked_holds result (p * r + a0)) by (apply step_kept; auto; now apply steps_kept).
-  destruct (_ || _); [exact KR |]. set (at_value := tracked_exactly T B rule (fst x)).
+  destruct (_ || _); [exact KR |].
+  set (at_value := tracked_exactly T B rule (fst x)).
   assert (V : tracked_holds at_value (real (fst x))) by (apply (keeps_value K) with (1 := X)).
   destruct (slope_kept at_value _ x r middle m V X H (top, top) b b b Top Top ltac:(ring)) as (t & q & KT & KQ & E).
-  fold p in E. assert (SV := same_values at_value x middle eq_refl (top, top) top eq_refl).
-  set (s := fold_left _ middle (top, top)) in *. destruct (_ && _) eqn:C; [| exact KR]. apply andb_prop in C.
-  destruct C as [C _].
+  fold p in E.
+  assert (SV := same_values at_value x middle eq_refl (top, top) top eq_refl).
+  set (s := fold_left _ middle (top, top)) in *.
+  destruct (_ && _) eqn:C; [| exact KR]. apply andb_prop in C. destruct C as [C _].
   assert (KS : tracked_holds (tracked_add T A B by_rule (horner_step T A B by_rule at_value (fst s) c0)
       (tracked_multiply T A B by_rule (snd s) (tracked_subtract T A B rule x at_value))) (p * r + a0)).
   { replace (p * r + a0) with ((t * real (fst x) + a0) + q * (r - real (fst x))) by (rewrite E; ring).
@@ -168,7 +178,8 @@ Section Tight_keeps.
 
 Context (p emin : Z) {p_positive : Prec_gt_0 p} (emin_p : (emin <= - p)%Z) (p_5 : (5 <= p)%Z) (direction : R -> Z)
   {direction_valid : Valid_rnd direction}.
-Notation fl := (Format.rnd p emin direction). Notation number := (Format.number p emin).
+Notation fl := (Format.rnd p emin direction).
+Notation number := (Format.number p emin).
 Notation rounded := (reals p emin direction).
 
 Definition known_within (a s x : R) : Prop := number a /\ number s /\ Rabs (a - x) <= s.
@@ -195,7 +206,8 @@ Proof.
 Qed.
 Theorem tight_keeps : keeps R rounded R (tight_operations R rounded) (fun x => x) known_within.
 Proof.
-  assert (P : (0 <= p)%Z) by lia. assert (N : forall x, number (fl x)) by (intros; now apply Format.rnd_number).
+  assert (P : (0 <= p)%Z) by lia.
+  assert (N : forall x, number (fl x)) by (intros; now apply Format.rnd_number).
   assert (Inflated : forall x, tight_inflated R rounded x = Tight.inflated p emin direction x) by reflexivity.
   assert (Rounding : forall v, tight_rounding R rounded v = Tight.rounding p emin direction v).
   { intros v. unfold tight_rounding. rewrite abs_reals. reflexivity. }

@@ -3,18 +3,26 @@
     Also the running bounds of dot products (detail/running_bound.hpp, rules/tight.hpp, rules/sharp.hpp). Nothing is
     proved here. *)
 
-From Coq Require Import ZArith Bool List. From Errbound Require Import Code. Import ListNotations.
+From Coq Require Import ZArith Bool List.
+From Errbound Require Import Code.
+Import ListNotations.
 
 Section Compound.
 
 Context (T : Type) (A : arithmetic T) (has_fast_fma : bool).
 
 Declare Scope code.
-Infix "+" := (plus T A) : code. Infix "-" := (minus T A) : code. Infix "*" := (times T A) : code.
-Notation "- x" := (opposite T A x) : code. Infix "<" := (less T A) : code.
+Infix "+" := (plus T A) : code.
+Infix "-" := (minus T A) : code.
+Infix "*" := (times T A) : code.
+Notation "- x" := (opposite T A x) : code.
+Infix "<" := (less T A) : code.
 Infix "==" := (equal T A) (at level 70) : code.
-Notation "# n" := (integer T A n%Z) (at level 1, n at level 0, format "# n") : code. Notation ε := (epsilon T A).
-Notation η := (underflow_unit T A). Notation abs := (abs T A). Notation is_finite := (is_finite T A).
+Notation "# n" := (integer T A n%Z) (at level 1, n at level 0, format "# n") : code.
+Notation ε := (epsilon T A).
+Notation η := (underflow_unit T A).
+Notation abs := (abs T A).
+Notation is_finite := (is_finite T A).
 Open Scope code.
 
 (** detail/running_bound.hpp: the sums over terms that are not closed yet, and the closed sum. *)
@@ -140,9 +148,13 @@ Definition residual_operations : operations (T * T) := {|
 Section Functions.
 
 Context (B : Type) (R : operations B).
-Notation rule := (the_rule B R). Notation number := (T * B)%type. Notation exactly := (tracked_exactly T B rule).
-Notation within := (tracked_within T B rule). Notation error_of := (tracked_error T A B rule).
-Notation sign := (tracked_sign T B rule). Notation subtract := (tracked_subtract T A B rule).
+Notation rule := (the_rule B R).
+Notation number := (T * B)%type.
+Notation exactly := (tracked_exactly T B rule).
+Notation within := (tracked_within T B rule).
+Notation error_of := (tracked_error T A B rule).
+Notation sign := (tracked_sign T B rule).
+Notation subtract := (tracked_subtract T A B rule).
 Notation negate := (tracked_negate T A B rule).
 
 Definition tracked_add (a b : number) : number :=

@@ -8,19 +8,28 @@
         computed_tight_may_exceed     s <= e does not hold: 1 + 0 + ... + 0, with 50 zeros and 8 bits
         underflowed_tight_exceeds     nor after one operation if it underflows: eta eta *)
 
-From Coq Require Import Reals ZArith Lia Lra Psatz Bool. From Flocq Require Import Core IEEE754.BinarySingleNaN.
-From Errbound Require Import Format. From Errbound Require Code Ieee Tight Safe Upper. Open Scope R_scope.
+From Coq Require Import Reals ZArith Lia Lra Psatz Bool.
+From Flocq Require Import Core IEEE754.BinarySingleNaN.
+From Errbound Require Import Format.
+From Errbound Require Code Ieee Tight Safe Upper.
+Open Scope R_scope.
 
 Section Computed.
 
 Context (p emin : Z) {p_positive : Prec_gt_0 p} (p_8 : (8 <= p)%Z) (emin_2p : (emin <= 2 - 2 * p)%Z).
 
-Notation fl := (rnd p emin nearest). Notation number := (number p emin). Notation eps := (eps p). Notation u := (u p).
-Notation eta := (eta emin). Notation smallest_normal := (smallest_normal p emin).
+Notation fl := (rnd p emin nearest).
+Notation number := (number p emin).
+Notation eps := (eps p).
+Notation u := (u p).
+Notation eta := (eta emin).
+Notation smallest_normal := (smallest_normal p emin).
 Notation tight_add := (Tight.tight_add p emin nearest).
 Notation tight_multiply := (Tight.tight_multiply p emin nearest).
-Notation safe_within := (Safe.safe_within p emin nearest). Notation safe_add := (Safe.safe_add p emin nearest).
-Notation safe_multiply := (Safe.safe_multiply p emin nearest). Notation safe_error := (Safe.safe_error p emin nearest).
+Notation safe_within := (Safe.safe_within p emin nearest).
+Notation safe_add := (Safe.safe_add p emin nearest).
+Notation safe_multiply := (Safe.safe_multiply p emin nearest).
+Notation safe_error := (Safe.safe_error p emin nearest).
 
 (** v, computed by an expression, has tight's error s and safe's bound (B, k). No B except 0 is below `least`. *)
 Inductive computed (least : R) : R -> R -> R -> Z -> Prop :=
@@ -40,24 +49,31 @@ Inductive computed (least : R) : R -> R -> R -> Z -> Prop :=
     v = fl (a * b) -> B = safe_multiply a Ba ka b Bb kb -> fst B = 0 \/ least <= fst B ->
     computed least v (tight_multiply v a sa b sb) (fst B) (snd B).
 
-Lemma p_1 : (1 <= p)%Z. Proof. lia. Qed.
-Lemma p_3 : (3 <= p)%Z. Proof. lia. Qed.
+Lemma p_1 : (1 <= p)%Z.
+Proof. lia. Qed.
+Lemma p_3 : (3 <= p)%Z.
+Proof. lia. Qed.
 Let E := rounding_error_nearest p emin p_1.
 Let rnd_exact := Format.rnd_exact p emin nearest.
 Let rnd_number := Format.rnd_number p emin nearest.
 Let rnd_nonnegative := Format.rnd_nonnegative p emin nearest.
 
-Lemma emin_p : (emin <= - p)%Z. Proof. lia. Qed.
+Lemma emin_p : (emin <= - p)%Z.
+Proof. lia. Qed.
 Lemma u_256 : 0 < u <= / 256.
-Proof. split; [apply u_positive |]. generalize (eps_2u p) (eps_le p 8 p_8). simpl. lra. Qed.
+Proof.
+  split; [apply u_positive |]. generalize (eps_2u p) (eps_le p 8 p_8). simpl. lra.
+Qed.
 
 (** Upper ends of roundings. *)
 Lemma up x : 0 <= x -> fl x <= x * (1 + u) + eta / 2.
 Proof.
   intros P. generalize u_256 (eta_positive emin). intros U H. assert (A : Rabs x = x) by now apply Rabs_pos_eq.
   destruct (Rlt_or_le x smallest_normal) as [C | C].
-  - generalize (error_absolute _ _ _ _ _ E x). rewrite A. intros D. specialize (D C). apply Rabs_le_inv in D. nra.
-  - generalize (error_relative _ _ _ _ _ E x). rewrite A. intros D. specialize (D C). apply Rabs_le_inv in D. nra.
+  - generalize (error_absolute _ _ _ _ _ E x). rewrite A. intros D. specialize (D C).
+    apply Rabs_le_inv in D. nra.
+  - generalize (error_relative _ _ _ _ _ E x). rewrite A. intros D. specialize (D C).
+    apply Rabs_le_inv in D. nra.
 Qed.
 Lemma up_sum x y : number x -> number y -> 0 <= x -> 0 <= y -> fl (x + y) <= (x + y) * (1 + u).
 Proof.
@@ -71,23 +87,28 @@ Qed.
 (** A sum loses less than half of eta. *)
 Lemma up_lost x d : number x -> 0 <= x -> d < eta / 2 -> fl (x + d) <= x.
 Proof.
-  intros N P D. apply round_N_le_midp; auto with typeclass_instances. rewrite succ_eq_pos by auto.
-  enough (eta <= ulp radix2 (FLT_exp emin p) x) by lra. apply Rle_trans with (ulp radix2 (FLT_exp emin p) 0).
+  intros N P D. apply round_N_le_midp; auto with typeclass_instances.
+  rewrite succ_eq_pos by auto.
+  enough (eta <= ulp radix2 (FLT_exp emin p) x) by lra.
+  apply Rle_trans with (ulp radix2 (FLT_exp emin p) 0).
   - rewrite ulp_FLT_small; auto; [apply Rle_refl |]. rewrite Rabs_R0. apply bpow_gt_0.
   - apply ulp_ge_ulp_0; auto with typeclass_instances.
 Qed.
 Lemma up_inflated x : number x -> 0 <= x -> Tight.inflated p emin nearest x <= x * (1 + 32 * u) * (1 + u).
 Proof.
-  intros N P. rewrite (Tight.inflated_exact p emin nearest p_3 emin_p), (eps_2u p). generalize u_256. intros U.
-  assert (PU : 0 <= x * u) by (apply Rmult_le_pos; lra). destruct (Rlt_or_le (x * (16 * u)) (eta / 2)) as [C | C].
-  - replace (x * (1 + 8 * (2 * u))) with (x + x * (16 * u)) by ring. apply Rle_trans with (1 := up_lost x _ N P C). nra.
+  intros N P. rewrite (Tight.inflated_exact p emin nearest p_3 emin_p), (eps_2u p).
+  generalize u_256. intros U. assert (PU : 0 <= x * u) by (apply Rmult_le_pos; lra).
+  destruct (Rlt_or_le (x * (16 * u)) (eta / 2)) as [C | C].
+  - replace (x * (1 + 8 * (2 * u))) with (x + x * (16 * u)) by ring.
+    apply Rle_trans with (1 := up_lost x _ N P C). nra.
   - apply Rle_trans with (1 := up (x * (1 + 8 * (2 * u))) ltac:(nra)). nra.
 Qed.
 Lemma factor_exact : fl (eps * fl (1 + eps)) = eps * (1 + eps).
 Proof.
   assert (S : 1 + eps = IZR (2 ^ (p - 1) + 1) * bpow radix2 (1 - p)).
-  { rewrite plus_IZR, Rmult_plus_distr_r. change 2%Z with (radix_val radix2). rewrite IZR_Zpower by lia.
-    rewrite <- bpow_plus. replace (p - 1 + (1 - p))%Z with 0%Z by lia. unfold Format.eps. simpl. lra. }
+  { rewrite plus_IZR, Rmult_plus_distr_r. change 2%Z with (radix_val radix2).
+    rewrite IZR_Zpower by lia. rewrite <- bpow_plus. replace (p - 1 + (1 - p))%Z with 0%Z by lia.
+    unfold Format.eps. simpl. lra. }
   assert (L : (Z.abs (2 ^ (p - 1) + 1) <= 2 ^ p)%Z).
   { assert (D : (2 ^ p = 2 * 2 ^ (p - 1))%Z).
     { rewrite <- Z.pow_succ_r by lia. f_equal. lia. }
@@ -103,14 +124,18 @@ Qed.
 
 Notation rounding := (Tight.rounding p emin nearest).
 Lemma rounding_facts v : number (rounding v) /\ 0 <= rounding v.
-Proof. split; [apply rnd_number |]. apply (Tight.rounding_nonnegative p emin nearest p_3 emin_p). Qed.
-Lemma up_rounding v : rounding v <= Rabs v * (eps * (1 + eps)) * (1 + u) + eta / 2 /\
+Proof.
+  split; [apply rnd_number |]. apply (Tight.rounding_nonnegative p emin nearest p_3 emin_p).
+Qed.
+Lemma up_rounding v :
+  rounding v <= Rabs v * (eps * (1 + eps)) * (1 + u) + eta / 2 /\
   rounding v <= 2 * (Rabs v * (eps * (1 + eps)) * (1 + u)).
 Proof.
   unfold Tight.rounding. rewrite factor_exact. generalize (eps_positive p) u_256 (Rabs_pos v). intros Pe U A.
   assert (P : 0 <= Rabs v * (eps * (1 + eps))) by (repeat apply Rmult_le_pos; lra).
-  set (x := Rabs v * (eps * (1 + eps))) in *. generalize (up x P). intros H. split; auto.
-  assert (0 <= x * u) by (apply Rmult_le_pos; lra). destruct (Rlt_or_le x (eta / 2)) as [C | C]; [| lra].
+  set (x := Rabs v * (eps * (1 + eps))) in *.
+  generalize (up x P). intros H. split; auto. assert (0 <= x * u) by (apply Rmult_le_pos; lra).
+  destruct (Rlt_or_le x (eta / 2)) as [C | C]; [| lra].
   generalize (up_lost 0 x (number_0 p emin) (Rle_refl 0) C). rewrite Rplus_0_l. lra.
 Qed.
 
@@ -129,7 +154,8 @@ Proof.
       with (1 + 40 * x + x * (x * (284 + x * (928 + x * 1024)))) by ring.
     assert (x * (284 + x * (928 + x * 1024)) <= 4) by nra. nra.
 Qed.
-Lemma f_1 : 1 <= f. Proof. unfold f. generalize (eps_positive p). lra. Qed.
+Lemma f_1 : 1 <= f.
+Proof. unfold f. generalize (eps_positive p). lra. Qed.
 
 (** The induction's bound: s <= c (f^k - 1) B. *)
 Context (D least : R) (D_range : 1 <= D <= 7) (D_least : 6 * smallest_normal <= (D - 1) * Rmax least smallest_normal).
@@ -141,9 +167,12 @@ Proof.
   unfold c, f. generalize (eps_positive p) (eps_2u p) u_256. intros P2 E2 U. split; [| nra].
   unfold Rdiv. repeat apply Rmult_le_pos; lra.
 Qed.
-Lemma c_own : c * (f - 1) = D * f * eps. Proof. unfold c. unfold f at 2. field. Qed.
-Lemma power_1 k : 1 <= power k. Proof. apply pow_R1_Rle, f_1. Qed.
-Lemma power_le k l : (k <= l)%Z -> power k <= power l. Proof. intros. apply Rle_pow; [apply f_1 | lia]. Qed.
+Lemma c_own : c * (f - 1) = D * f * eps.
+Proof. unfold c. unfold f at 2. field. Qed.
+Lemma power_1 k : 1 <= power k.
+Proof. apply pow_R1_Rle, f_1. Qed.
+Lemma power_le k l : (k <= l)%Z -> power k <= power l.
+Proof. intros. apply Rle_pow; [apply f_1 | lia]. Qed.
 Lemma power_succ k : (0 <= k)%Z -> power (k + 1) = power k * f.
 Proof. intros H. rewrite Z2Nat.inj_add, pow_add by lia. simpl. ring. Qed.
 
@@ -170,14 +199,16 @@ Proof.
   { unfold w. apply Rle_trans with (eps * B * ((1 + eps) * (h * (1 + u)))).
     - replace (Rabs v * (eps * (1 + eps)) * (1 + u) * h) with (eps * Rabs v * ((1 + eps) * (h * (1 + u)))) by ring.
       apply Rmult_le_compat_r; [repeat apply Rmult_le_pos; lra |]. apply Rmult_le_compat_l; lra.
-    - rewrite (Rmult_comm f). apply Rmult_le_compat_l; [apply Rmult_le_pos; lra |]. apply Rle_trans with (2 := A).
-      rewrite H6. apply Rmult_le_compat_l; [lra |]. apply Rmult_le_compat_l; auto. simpl in *. nra. }
+    - rewrite (Rmult_comm f). apply Rmult_le_compat_l; [apply Rmult_le_pos; lra |].
+      apply Rle_trans with (2 := A). rewrite H6. apply Rmult_le_compat_l; [lra |]. apply Rmult_le_compat_l; auto.
+      simpl in *. nra. }
   assert (PB : 0 <= f * (eps * B)).
   { apply Rle_trans with (2 := W). unfold w. repeat apply Rmult_le_pos; lra. }
   destruct (Rle_or_lt 2 D) as [C | C].
   - apply Rle_trans with (2 * (w * h)); [nra |]. rewrite Rmult_assoc. nra.
   - assert (Hh : h <= f).
-    { apply Rle_trans with (2 := A). rewrite H6. assert (1 <= (1 + u) ^ 4) by (apply pow_R1_Rle; lra).
+    { apply Rle_trans with (2 := A). rewrite H6.
+      assert (1 <= (1 + u) ^ 4) by (apply pow_R1_Rle; lra).
       assert (h * 1 <= h * (1 + u) ^ 4) by (apply Rmult_le_compat_l; lra).
       assert (0 <= eps * (h * (1 + u) ^ 4)) by (apply Rmult_le_pos; lra). lra. }
     destruct L as [Z | L].
@@ -199,7 +230,8 @@ Proof.
   rewrite (eps_2u p). replace (4 * (2 * u)) with (8 * u) by ring. apply Safe.three_roundings_nearest.
   generalize u_256. lra.
 Qed.
-Lemma enlarged_sum x y : number x -> number y -> 0 <= x -> 0 <= y -> x + y <= Safe.enlarged p emin nearest (fl (x + y)).
+Lemma enlarged_sum x y : number x -> number y -> 0 <= x -> 0 <= y ->
+  x + y <= Safe.enlarged p emin nearest (fl (x + y)).
 Proof. apply (Safe.enlarged_sum p emin nearest p_3 emin_p _ _ E g_q3). Qed.
 Lemma enlarged_more x : number x -> 0 <= x -> x <= Safe.enlarged p emin nearest x.
 Proof.
@@ -218,17 +250,20 @@ Definition carries (v s B : R) (k : Z) : Prop :=
   number v /\ number s /\ number B /\ 0 <= s /\ (0 <= k <= Safe.too_many)%Z /\ Rabs v <= B /\
   ((k < Safe.too_many)%Z -> s <= c * (power k - 1) * B /\ (k = 0%Z -> s = 0)).
 
-Lemma sum_carries a sa Ba ka b sb Bb kb B : carries a sa Ba ka -> carries b sb Bb kb -> B = safe_add Ba ka Bb kb ->
-  fst B = 0 \/ least <= fst B -> carries (fl (a + b)) (tight_add (fl (a + b)) sa sb) (fst B) (snd B).
+Lemma sum_carries a sa Ba ka b sb Bb kb B :
+  carries a sa Ba ka -> carries b sb Bb kb -> B = safe_add Ba ka Bb kb -> fst B = 0 \/ least <= fst B ->
+  carries (fl (a + b)) (tight_add (fl (a + b)) sa sb) (fst B) (snd B).
 Proof.
-  intros (NA & NSA & NBA & PSA & PKA & VA & HA) (NB & NSB & NBB & PSB & PKB & VB & HB) -> L. unfold Safe.safe_add in *.
-  cbn [fst snd] in *. set (B := Safe.enlarged p emin nearest (fl (Ba + Bb))) in *. generalize (Rabs_pos a) (Rabs_pos b).
-  intros PA PB. assert (S : Ba + Bb <= B) by (apply enlarged_sum; auto; lra).
+  intros (NA & NSA & NBA & PSA & PKA & VA & HA) (NB & NSB & NBB & PSB & PKB & VB & HB) -> L.
+  unfold Safe.safe_add in *. cbn [fst snd] in *. set (B := Safe.enlarged p emin nearest (fl (Ba + Bb))) in *.
+  generalize (Rabs_pos a) (Rabs_pos b). intros PA PB.
+  assert (S : Ba + Bb <= B) by (apply enlarged_sum; auto; lra).
   assert (V : Rabs (fl (a + b)) <= B).
   { apply Rle_trans with (fl (Ba + Bb)); [| apply enlarged_more; [apply rnd_number | apply rnd_nonnegative; lra]].
     apply covered. apply Rle_trans with (1 := Rabs_triang _ _). lra. }
   destruct (counted_few (Z.max ka kb) ltac:(lia)) as [K0 K].
-  assert (PS : 0 <= fl (sa + sb)) by (apply rnd_nonnegative; lra). destruct (rounding_facts (fl (a + b))) as [NR PR].
+  assert (PS : 0 <= fl (sa + sb)) by (apply rnd_nonnegative; lra).
+  destruct (rounding_facts (fl (a + b))) as [NR PR].
   assert (P2 : 0 <= fl (rounding (fl (a + b)) + fl (sa + sb))) by (apply rnd_nonnegative; lra).
   split; [apply rnd_number |]. split; [apply (Tight.tight_add_number p emin nearest) |]. split; [apply rnd_number |].
   split; [| split; [exact K0 | split; [exact V |]]].
@@ -243,9 +278,11 @@ Proof.
     generalize c_range u_256 f_1 (eps_positive p). intros C U F1 Pe.
     assert (Given : sa + sb <= c * (G - 1) * B).
     { apply Rle_trans with (c * (G - 1) * (Ba + Bb)); [| apply Rmult_le_compat_l; [nra | exact S]].
-      apply Rle_trans with (c * (power ka - 1) * Ba + c * (power kb - 1) * Bb); [lra |]. rewrite Rmult_plus_distr_l.
-      apply Rplus_le_compat; apply Rmult_le_compat_r; try lra; apply Rmult_le_compat_l; lra. }
-    set (h := (1 + 32 * u) * (1 + u) ^ 2). assert (Own := own_of_sum (fl (a + b)) B V L). fold h in Own.
+      apply Rle_trans with (c * (power ka - 1) * Ba + c * (power kb - 1) * Bb); [lra |].
+      rewrite Rmult_plus_distr_l. apply Rplus_le_compat; apply Rmult_le_compat_r; try lra;
+        apply Rmult_le_compat_l; lra. }
+    set (h := (1 + 32 * u) * (1 + u) ^ 2).
+    assert (Own := own_of_sum (fl (a + b)) B V L). fold h in Own.
     assert (Ph : 0 <= h) by (unfold h; apply Rmult_le_pos; [lra | apply pow_le; lra]).
     assert (Hf : (1 + u) * h <= f).
     { apply Rle_trans with (2 := all_roundings).
@@ -253,8 +290,9 @@ Proof.
       assert (1 <= (1 + u) ^ 3) by (apply pow_R1_Rle; lra). assert (0 <= (1 + u) * h) by nra.
       assert ((1 + u) * h * 1 <= (1 + u) * h * (1 + u) ^ 3) by (apply Rmult_le_compat_l; lra).
       assert (0 <= eps * ((1 + u) * h * (1 + u) ^ 3)) by (apply Rmult_le_pos; lra). lra. }
-    apply Rle_trans with (1 := Upper.sum_of_bounds_at_most _ _ _ _ _ _ _). unfold Tight.tight_enlarged.
-    set (R := rounding (fl (a + b))) in *. apply Rle_trans with (1 := up_inflated _ (rnd_number _) P2).
+    apply Rle_trans with (1 := Upper.sum_of_bounds_at_most _ _ _ _ _ _ _).
+    unfold Tight.tight_enlarged. set (R := rounding (fl (a + b))) in *.
+    apply Rle_trans with (1 := up_inflated _ (rnd_number _) P2).
     apply Rle_trans with ((R + (sa + sb) * (1 + u)) * h).
     + replace ((R + (sa + sb) * (1 + u)) * h)
         with ((R + (sa + sb) * (1 + u)) * (1 + u) * ((1 + 32 * u) * (1 + u))) by (unfold h; ring).
@@ -267,8 +305,9 @@ Proof.
       apply Rmult_le_pos; lra.
 Qed.
 (** An operation's own error and losses, in a product's bound. *)
-Lemma own_of_product v B : Rabs v <= B -> least <= B -> smallest_normal <= B -> (Rabs v * (eps * (1 + eps)))
-  * ((1 + 32 * u) * (1 + u) ^ 6) + 11 / 2 * eta * ((1 + 32 * u) * (1 + u) ^ 6) <= D * f * (eps * B).
+Lemma own_of_product v B : Rabs v <= B -> least <= B -> smallest_normal <= B ->
+  (Rabs v * (eps * (1 + eps))) * ((1 + 32 * u) * (1 + u) ^ 6) + 11 / 2 * eta * ((1 + 32 * u) * (1 + u) ^ 6) <=
+  D * f * (eps * B).
 Proof.
   intros V L M. generalize (lost_share B L M) all_roundings (eps_positive p) u_256 (eta_positive emin) f_1 (Rabs_pos v).
   set (h := (1 + 32 * u) * (1 + u) ^ 6). intros S A Pe U Ph F PV.
@@ -277,11 +316,13 @@ Proof.
   { replace (Rabs v * (eps * (1 + eps)) * h) with ((1 + eps) * h * (eps * Rabs v)) by ring.
     apply Rmult_le_compat; try apply Rmult_le_pos; try lra. apply Rmult_le_compat_l; lra. }
   assert (Hh : h <= f) by (apply Rle_trans with (2 := A); nra).
-  assert (T : 11 / 2 * eta * h <= (D - 1) * (eps * B) * f) by (apply Rmult_le_compat; lra). lra.
+  assert (T : 11 / 2 * eta * h <= (D - 1) * (eps * B) * f) by (apply Rmult_le_compat; lra).
+  lra.
 Qed.
 
-Lemma product_carries a sa Ba ka b sb Bb kb B : carries a sa Ba ka -> carries b sb Bb kb -> B = safe_multiply a Ba ka b
-  Bb kb -> fst B = 0 \/ least <= fst B -> carries (fl (a * b)) (tight_multiply (fl (a * b)) a sa b sb) (fst B) (snd B).
+Lemma product_carries a sa Ba ka b sb Bb kb B :
+  carries a sa Ba ka -> carries b sb Bb kb -> B = safe_multiply a Ba ka b Bb kb -> fst B = 0 \/ least <= fst B ->
+  carries (fl (a * b)) (tight_multiply (fl (a * b)) a sa b sb) (fst B) (snd B).
 Proof.
   intros (NA & NSA & NBA & PSA & PKA & VA & HA) (NB & NSB & NBB & PSB & PKB & VB & HB) EB L.
   generalize (Rabs_pos a) (Rabs_pos b) (eps_positive p) u_256 (eta_positive emin) c_range f_1.
@@ -295,10 +336,12 @@ Proof.
         split; [| split; [| exact K]].
         + apply Rmax_case; [apply rnd_number | now apply number_smallest_normal].
         + apply Rle_trans with (2 := Rmax_r _ _). lra. }
-    destruct PB' as (N1 & P1 & P2). unfold carries. rewrite Rabs_R0. split; [apply number_0 |].
-    split; [apply number_0 |]. split; [exact N1 |]. split; [lra |]. split; [exact P2 |]. split; [exact P1 |]. intros _.
-    split; [| auto]. generalize (power_1 (snd B)). intros G. repeat apply Rmult_le_pos; lra. }
-  unfold Tight.tight_multiply. cbv zeta. destruct (Tight.is_zero a sa || Tight.is_zero b sb) eqn:TZ.
+    destruct PB' as (N1 & P1 & P2). unfold carries. rewrite Rabs_R0.
+    split; [apply number_0 |]. split; [apply number_0 |]. split; [exact N1 |]. split; [lra |].
+    split; [exact P2 |]. split; [exact P1 |]. intros _. split; [| auto].
+    generalize (power_1 (snd B)). intros G. repeat apply Rmult_le_pos; lra. }
+  unfold Tight.tight_multiply. cbv zeta.
+  destruct (Tight.is_zero a sa || Tight.is_zero b sb) eqn:TZ.
   { apply N0. apply orb_prop in TZ. destruct TZ as [TZ | TZ]; apply Tight.is_zero_true in TZ;
       destruct TZ as [-> _]; ring. }
   clear N0. unfold Safe.safe_multiply in EB. destruct (Safe.is_zero a ka || Safe.is_zero b kb) eqn:SZ.
@@ -310,8 +353,10 @@ Proof.
     apply orb_false_elim in TZ. destruct TZ as [T1 T2].
     rewrite (Q _ _ _ _ HA T1), (Q _ _ _ _ HB T2) in SZ. discriminate. }
   subst B. cbn [fst snd] in *. set (B := Rmax (Safe.enlarged p emin nearest (fl (Ba * Bb))) smallest_normal) in *.
-  assert (PP : 0 <= Ba * Bb) by (apply Rmult_le_pos; lra). assert (M : smallest_normal <= B) by apply Rmax_r.
-  assert (P0 := smallest_normal_positive p emin). assert (LB : least <= B) by (destruct L; lra). clear L.
+  assert (PP : 0 <= Ba * Bb) by (apply Rmult_le_pos; lra).
+  assert (M : smallest_normal <= B) by apply Rmax_r.
+  assert (P0 := smallest_normal_positive p emin).
+  assert (LB : least <= B) by (destruct L; lra). clear L.
   assert (S : Ba * Bb <= B).
   { destruct (Rlt_or_le (Ba * Bb) smallest_normal) as [D1 | D1]; [lra |].
     apply Rle_trans with (2 := Rmax_l _ _). apply (Safe.enlarged_above p emin nearest p_3 emin_p _ _ E g_q3); auto.
@@ -321,21 +366,26 @@ Proof.
   { apply Rle_trans with (fl (Ba * Bb)).
     - apply covered. rewrite Rabs_mult. apply Rmult_le_compat; lra.
     - apply Rle_trans with (2 := Rmax_l _ _). apply enlarged_more; [apply rnd_number | now apply rnd_nonnegative]. }
-  destruct (counted_few (ka + kb) ltac:(lia)) as [K0 K]. destruct (rounding_facts (fl (a * b))) as [NR PR].
-  set (R := rounding (fl (a * b))) in *. rewrite (rnd_exact (4 * eta)) by (apply (Tight.number_4_eta p emin)).
+  destruct (counted_few (ka + kb) ltac:(lia)) as [K0 K].
+  destruct (rounding_facts (fl (a * b))) as [NR PR]. set (R := rounding (fl (a * b))) in *.
+  rewrite (rnd_exact (4 * eta)) by (apply (Tight.number_4_eta p emin)).
   set (t := fl (Rabs b + sb)). set (P1 := fl (Rabs a * sb)). set (P2 := fl (sa * t)). set (I := fl (P1 + P2)).
-  assert (Q1 : 0 <= Rabs a * sb) by (apply Rmult_le_pos; lra). assert (Pt : 0 <= t) by (apply rnd_nonnegative; lra).
-  assert (Q2 : 0 <= sa * t) by (apply Rmult_le_pos; lra). assert (PP1 : 0 <= P1) by now apply rnd_nonnegative.
-  assert (PP2 : 0 <= P2) by now apply rnd_nonnegative. assert (PI : 0 <= I) by (apply rnd_nonnegative; lra).
+  assert (Q1 : 0 <= Rabs a * sb) by (apply Rmult_le_pos; lra).
+  assert (Pt : 0 <= t) by (apply rnd_nonnegative; lra).
+  assert (Q2 : 0 <= sa * t) by (apply Rmult_le_pos; lra).
+  assert (PP1 : 0 <= P1) by now apply rnd_nonnegative. assert (PP2 : 0 <= P2) by now apply rnd_nonnegative.
+  assert (PI : 0 <= I) by (apply rnd_nonnegative; lra).
   assert (PRI : 0 <= fl (R + I)) by (apply rnd_nonnegative; lra).
-  assert (PS : 0 <= fl (fl (R + I) + 4 * eta)) by (apply rnd_nonnegative; lra). split; [apply rnd_number |].
-  split; [apply rnd_number |]. split; [apply Rmax_case; [apply rnd_number | now apply number_smallest_normal] |].
+  assert (PS : 0 <= fl (fl (R + I) + 4 * eta)) by (apply rnd_nonnegative; lra).
+  split; [apply rnd_number |]. split; [apply rnd_number |].
+  split; [apply Rmax_case; [apply rnd_number | now apply number_smallest_normal] |].
   split; [| split; [exact K0 | split; [exact V |]]].
   - apply rnd_nonnegative, Rmult_le_pos; [exact PS |].
     apply rnd_above; auto with typeclass_instances; [apply number_0 |].
     assert (0 <= fl (8 * eps)) by (apply rnd_nonnegative; lra). lra.
   - intros Few. apply K in Few. destruct Few as [Few EK]. rewrite EK, power_succ by lia. split; [| lia].
-    destruct (HA ltac:(lia)) as [SA _], (HB ltac:(lia)) as [SB _]. clear HA HB. rewrite Z2Nat.inj_add, pow_add by lia.
+    destruct (HA ltac:(lia)) as [SA _], (HB ltac:(lia)) as [SB _]. clear HA HB.
+    rewrite Z2Nat.inj_add, pow_add by lia.
     assert (G1 := power_1 ka). assert (G2 := power_1 kb). set (Ga := power ka) in *. set (Gb := power kb) in *.
     set (T := Rabs a * sb + sa * (Rabs b + sb)).
     assert (PT : 0 <= T) by (unfold T; assert (0 <= sa * (Rabs b + sb)) by (apply Rmult_le_pos; lra); lra).
@@ -361,13 +411,16 @@ Proof.
       assert (H4 := up_sum P1 P2 (rnd_number _) (rnd_number _) PP1 PP2). fold I q in H4.
       assert (H5 : sa * t <= sa * (Rabs b + sb) * q).
       { rewrite Rmult_assoc. apply Rmult_le_compat_l; lra. }
-      apply Rle_trans with (1 := H4). replace (T * q ^ 3 + eta * q) with ((T * q ^ 2 + eta) * q) by ring.
-      apply Rmult_le_compat_r; [lra |]. unfold T. generalize (Step (Rabs a * sb) 1%nat Q1). intros H6.
-      assert (sa * t * q <= sa * (Rabs b + sb) * q * q) by (apply Rmult_le_compat_r; lra). simpl in H6 |- *. lra. }
+      apply Rle_trans with (1 := H4).
+      replace (T * q ^ 3 + eta * q) with ((T * q ^ 2 + eta) * q) by ring. apply Rmult_le_compat_r; [lra |].
+      unfold T. generalize (Step (Rabs a * sb) 1%nat Q1). intros H6.
+      assert (sa * t * q <= sa * (Rabs b + sb) * q * q) by (apply Rmult_le_compat_r; lra).
+      simpl in H6 |- *. lra. }
     assert (HR := proj1 (up_rounding (fl (a * b)))). fold R q in HR.
     set (w := Rabs (fl (a * b)) * (eps * (1 + eps))) in *.
     assert (PW : 0 <= w) by (unfold w; repeat apply Rmult_le_pos; try lra; apply Rabs_pos).
-    apply Rle_trans with (1 := up_inflated _ (rnd_number _) PS). set (h := 1 + 32 * u).
+    apply Rle_trans with (1 := up_inflated _ (rnd_number _) PS).
+    set (h := 1 + 32 * u).
     assert (HS : fl (fl (R + I) + 4 * eta) <= (w + T) * q ^ 5 + 11 / 2 * eta * q ^ 5).
     { assert (N4 : number (4 * eta)) by (apply (Tight.number_4_eta p emin)).
       assert (H1 := up_sum R I NR (rnd_number _) PR PI). fold q in H1.
@@ -416,12 +469,13 @@ Proof.
     assert (Nm : number m) by (unfold m; apply Rmax_case; apply rnd_number).
     assert (M1 : Rabs v <= m).
     { apply Rle_trans with (2 := Rmax_l _ _). apply rnd_above; auto with typeclass_instances; [now apply number_abs | lra]. }
-    assert (M2 : error / eps <= m) by (rewrite <- NQ; apply Rmax_r). assert (M3 := enlarged_more m Nm ltac:(lra)).
+    assert (M2 : error / eps <= m) by (rewrite <- NQ; apply Rmax_r).
+    assert (M3 := enlarged_more m Nm ltac:(lra)).
     split; [exact N |]. split; [exact NE |]. split; [apply rnd_number |]. split; [lra |]. split; [easy |].
     split; [lra |]. intros _. split; [| discriminate]. change (power 1) with (f * 1). rewrite Rmult_1_r, CO.
     replace error with (1 * (eps * (error / eps))) by (field; lra). rewrite (Rmult_assoc (D * f)).
-    assert (0 <= eps * (error / eps)) by (apply Rmult_le_pos; lra). assert (1 <= D * f) by nra.
-    apply Rmult_le_compat; try lra. apply Rmult_le_compat_l; lra.
+    assert (0 <= eps * (error / eps)) by (apply Rmult_le_pos; lra).
+    assert (1 <= D * f) by nra. apply Rmult_le_compat; try lra. apply Rmult_le_compat_l; lra.
   - now apply sum_carries with (1 := IA) (2 := IB).
   - replace (a - b) with (a + - b) by ring. apply sum_carries with (1 := IA) (4 := L) (3 := EB).
     destruct IB as (N & H). split; [now apply number_opp |]. now rewrite Rabs_Ropp.
@@ -446,16 +500,18 @@ Proof.
   assert (P1 : 1 + INR n * eps <= (1 + eps) ^ n) by now apply poly.
   assert (Le : B * ((1 + eps) ^ n - 1) <= e).
   { replace (B * ((1 + eps) ^ n - 1)) with (Rabs (B * ((1 + eps) ^ n - 1) - 0)).
-    - apply (Safe.safe_error_sound p emin nearest (or_introl (Z.le_trans 4 8 p ltac:(lia) p_8)) emin_p) with (3 := He);
-        auto. split; [exact NB |]. split; [apply PK |]. cbn [fst snd]. rewrite Rabs_R0. split; [lra |].
-      rewrite Rminus_0_r, Rabs_pos_eq; [apply Rle_refl |]. apply Rmult_le_pos; [lra |]. generalize (pos_INR n). nra.
+    - apply (Safe.safe_error_sound p emin nearest (or_introl (Z.le_trans 4 8 p ltac:(lia) p_8)) emin_p) with (3 := He); auto.
+      split; [exact NB |]. split; [apply PK |]. cbn [fst snd]. rewrite Rabs_R0. split; [lra |].
+      rewrite Rminus_0_r, Rabs_pos_eq; [apply Rle_refl |]. apply Rmult_le_pos; [lra |].
+      generalize (pos_INR n). nra.
     - rewrite Rminus_0_r. apply Rabs_pos_eq. apply Rmult_le_pos; [lra |]. generalize (pos_INR n). nra. }
   apply Rle_trans with (1 := S). apply Rle_trans with (D * f ^ n * (B * (INR n * eps))).
   - replace (D * f ^ n * (B * (INR n * eps))) with (D / 22 * (INR n * (f - 1) * f ^ n) * B) by (unfold f at 1; field).
     apply Rmult_le_compat_r; [lra |]. unfold c. unfold Rdiv.
     replace (D * f * / 22 * (f ^ n - 1)) with (D * / 22 * (f * (f ^ n - 1))) by ring.
     apply Rmult_le_compat_l; [lra | apply power_above].
-  - apply Rmult_le_compat_l; [apply Rmult_le_pos; lra |]. apply Rle_trans with (2 := Le). apply Rmult_le_compat_l; lra.
+  - apply Rmult_le_compat_l; [apply Rmult_le_pos; lra |]. apply Rle_trans with (2 := Le).
+    apply Rmult_le_compat_l; lra.
 Qed.
 
 End Computed.
@@ -463,7 +519,9 @@ End Computed.
 Section Theorems.
 
 Context (p emin : Z) {p_positive : Prec_gt_0 p} (p_8 : (8 <= p)%Z) (emin_2p : (emin <= 2 - 2 * p)%Z).
-Notation eps := (eps p). Notation eta := (eta emin). Notation smallest_normal := (smallest_normal p emin).
+Notation eps := (eps p).
+Notation eta := (eta emin).
+Notation smallest_normal := (smallest_normal p emin).
 
 (** The theorem if no B except 0 is below `least`. *)
 Theorem tight_at_most_safe_computed least v s B k e : smallest_normal <= least ->

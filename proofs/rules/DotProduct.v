@@ -8,16 +8,22 @@
         sharp_dot_sound   to nearest, ties to even, from 5 bits on, the least with such bounds in the code; u is a
                           number (emin <= -p) *)
 
-From Coq Require Import Reals ZArith Lia Lra Psatz Bool List. From Flocq Require Import Core.
-From Errbound Require Import Code CompoundCode. From Errbound Require Format Tight Sharp. Import ListNotations.
+From Coq Require Import Reals ZArith Lia Lra Psatz Bool List.
+From Flocq Require Import Core.
+From Errbound Require Import Code CompoundCode.
+From Errbound Require Format Tight Sharp.
+Import ListNotations.
 Open Scope R_scope.
 
 Section Rounded.
 
 Context (p emin : Z) {p_positive : Prec_gt_0 p} (direction : R -> Z) {direction_valid : Valid_rnd direction}.
 
-Notation fl := (Format.rnd p emin direction). Notation number := (Format.number p emin). Notation eps := (Format.eps p).
-Notation eta := (Format.eta emin). Notation smallest_normal := (Format.smallest_normal p emin).
+Notation fl := (Format.rnd p emin direction).
+Notation number := (Format.number p emin).
+Notation eps := (Format.eps p).
+Notation eta := (Format.eta emin).
+Notation smallest_normal := (Format.smallest_normal p emin).
 
 (** The real numbers as a number type whose operations round. They have no largest number and no infinity, which no
     definition here uses. *)
@@ -50,7 +56,8 @@ Proof.
   - now rewrite Rabs_left.
   - now rewrite Rabs_pos_eq.
 Qed.
-Lemma is_zero_reals a sa : Code.is_zero R reals a sa = true -> a = 0 /\ sa = 0. Proof. apply Tight.is_zero_true. Qed.
+Lemma is_zero_reals a sa : Code.is_zero R reals a sa = true -> a = 0 /\ sa = 0.
+Proof. apply Tight.is_zero_true. Qed.
 Lemma zero_is_zero : Code.is_zero R reals 0 0 = true.
 Proof. unfold Code.is_zero. cbn [equal reals integer]. now rewrite Req_bool_true. Qed.
 
@@ -84,8 +91,12 @@ Hypothesis own_pays : forall (first : bool) a b s, number a -> number b -> numbe
   exists w, 0 <= w /\ w * q <= v /\
     Rabs (product - a * b) + Rabs (fl (s + product) - (s + product)) <= w + h.
 
-Notation running := (running R). Notation closed := (closed R). Notation own := (own R).
-Notation inherited := (inherited R). Notation terms := (terms R). Notation uncertain_terms := (uncertain_terms R).
+Notation running := (running R).
+Notation closed := (closed R).
+Notation own := (own R).
+Notation inherited := (inherited R).
+Notation terms := (terms R).
+Notation uncertain_terms := (uncertain_terms R).
 Notation close_terms := (close_terms R reals factor_units underflows).
 Notation add_term := (add_term R reals most factor_units underflows).
 
@@ -140,17 +151,21 @@ Qed.
 Lemma close_covers r D : (1 <= terms r <= most)%nat -> covers r D ->
   covers (close_terms r) D /\ D <= closed (close_terms r).
 Proof.
-  intros M [Nc No Ni Pc Po Pi U _ (W & E & PW & PE & HW & HE & HD)]. set (m := terms r) in *.
-  set (k := uncertain_terms r) in *. set (S1 := fl (inherited r + closed r)). set (S2 := fl (own r + S1)).
+  intros M [Nc No Ni Pc Po Pi U _ (W & E & PW & PE & HW & HE & HD)].
+  set (m := terms r) in *. set (k := uncertain_terms r) in *.
+  set (S1 := fl (inherited r + closed r)). set (S2 := fl (own r + S1)).
   set (lost := IZR (underflows m k) * eta). set (S := fl (S2 + lost)).
   assert (EQ : closed (close_terms r) = fl (S * factor m)).
   { unfold CompoundCode.close_terms. cbn [CompoundCode.closed plus times integer epsilon underflow_unit reals].
     fold m k. rewrite factor_exact by exact M. rewrite (rnd_exact (IZR (underflows m k) * eta)) by (apply lost_exact; lia).
     reflexivity. }
-  assert (L0 : (INR m + 1 + 2 * INR k) * h <= lost) by apply lost_pays. generalize (pos_INR m) (pos_INR k).
-  intros Pm Pk. assert (PH : 0 <= (INR m + 1) * h) by (apply Rmult_le_pos; lra).
-  assert (PK : 0 <= 2 * INR k * h) by (apply Rmult_le_pos; lra). assert (PL : 0 <= lost) by lra.
-  assert (P1 : 0 <= S1) by (apply rnd_nonnegative; lra). assert (P2 : 0 <= S2) by (apply rnd_nonnegative; lra).
+  assert (L0 : (INR m + 1 + 2 * INR k) * h <= lost) by apply lost_pays.
+  generalize (pos_INR m) (pos_INR k). intros Pm Pk.
+  assert (PH : 0 <= (INR m + 1) * h) by (apply Rmult_le_pos; lra).
+  assert (PK : 0 <= 2 * INR k * h) by (apply Rmult_le_pos; lra).
+  assert (PL : 0 <= lost) by lra.
+  assert (P1 : 0 <= S1) by (apply rnd_nonnegative; lra).
+  assert (P2 : 0 <= S2) by (apply rnd_nonnegative; lra).
   assert (PS : 0 <= S) by (apply rnd_nonnegative; lra).
   assert (PF : 1 <= factor m) by (generalize (factor_pays_less m 0 M ltac:(lia)); simpl; lra).
   assert (L1 : (inherited r + closed r) * q <= S1) by (apply sum_lower; auto).
@@ -167,11 +182,13 @@ Proof.
       { apply Rmult_le_compat_l; auto. replace q with (q ^ 1) at 2 by ring. apply more_roundings. lia. }
       replace (W * q ^ (m + 2)) with (W * q ^ m * q ^ 2) by (rewrite pow_add; ring).
       replace (E * q ^ (m + 5)) with (E * q ^ (m + 2) * q ^ 3)
-        by (replace (m + 5)%nat with ((m + 2) + 3)%nat by lia; rewrite !pow_add; ring). lra.
+        by (replace (m + 5)%nat with ((m + 2) + 3)%nat by lia; rewrite !pow_add; ring).
+      lra.
     - apply Rle_trans with (2 := L3).
       replace (own r * q ^ 2 + inherited r * q ^ 3 + closed r * q ^ 3 + lost * q)
-        with (((own r + (inherited r + closed r) * q) * q + lost) * q) by ring. apply Rmult_le_compat_r; [lra |].
-      apply Rplus_le_compat_r. apply Rle_trans with (2 := L2). apply Rmult_le_compat_r; lra. }
+        with (((own r + (inherited r + closed r) * q) * q + lost) * q) by ring.
+      apply Rmult_le_compat_r; [lra |]. apply Rplus_le_compat_r.
+      apply Rle_trans with (2 := L2). apply Rmult_le_compat_r; lra. }
   set (G := closed r + W + E + (lost - 2 * INR k * h)).
   assert (LF : G <= S * factor m /\ G <= S * factor m * q).
   { assert (Pays : forall n, (n <= m + 6)%nat -> 1 <= factor m * q ^ n) by (intros; now apply factor_pays_less).
@@ -179,11 +196,13 @@ Proof.
     assert (All : forall i, (i <= 1)%nat -> G <= S * (factor m * q ^ i)).
     { intros i I. apply Rle_trans with ((W * q ^ (m + 2) + E * q ^ (m + 5) + closed r * q ^ 3 +
                          (lost - 2 * INR k * h) * q) * (factor m * q ^ i)).
-      - replace ((W * q ^ (m + 2) + E * q ^ (m + 5) + closed r * q ^ 3 + (lost - 2 * INR k * h) * q)
-          * (factor m * q ^ i)) with (W * (factor m * q ^ (m + 2 + i)) + E * (factor m * q ^ (m + 5 + i)) + closed
-          r * (factor m * q ^ (3 + i)) + (lost - 2 * INR k * h) * (factor m * q ^ (1 + i))) by (rewrite !pow_add; ring).
+      - replace ((W * q ^ (m + 2) + E * q ^ (m + 5) + closed r * q ^ 3 + (lost - 2 * INR k * h) * q) * (factor m * q ^ i))
+          with (W * (factor m * q ^ (m + 2 + i)) + E * (factor m * q ^ (m + 5 + i)) +
+                closed r * (factor m * q ^ (3 + i)) + (lost - 2 * INR k * h) * (factor m * q ^ (1 + i)))
+          by (rewrite !pow_add; ring).
         generalize (no_less W _ PW (Pays (m + 2 + i)%nat ltac:(lia)))
-          (no_less E _ PE (Pays (m + 5 + i)%nat ltac:(lia))) (no_less _ _ Pc (Pays (3 + i)%nat ltac:(lia)))
+          (no_less E _ PE (Pays (m + 5 + i)%nat ltac:(lia)))
+          (no_less _ _ Pc (Pays (3 + i)%nat ltac:(lia)))
           (no_less (lost - 2 * INR k * h) _ ltac:(lra) (Pays (1 + i)%nat ltac:(lia))). unfold G. lra.
       - apply Rmult_le_compat_r; [| exact LS]. apply Rmult_le_pos; [lra |]. generalize (power_q i). lra. }
     split.
@@ -200,48 +219,61 @@ Proof.
 Qed.
 
 (** The inherited error of an uncertain product is computed with five roundings, as in Tight.v. *)
-Lemma inherited_lower a sa b sb : number a -> number b -> number sa -> number sb -> 0 <= sa -> 0 <= sb -> let I := fl
-  (fl (Rabs a * sb) + fl (sa * fl (Rabs b + sb))) in 0 <= I /\ (Rabs a * sb + sa * (Rabs b + sb)) * q ^ 3 - 2 * h <= I.
+Lemma inherited_lower a sa b sb : number a -> number b -> number sa -> number sb -> 0 <= sa -> 0 <= sb ->
+  let I := fl (fl (Rabs a * sb) + fl (sa * fl (Rabs b + sb))) in
+  0 <= I /\ (Rabs a * sb + sa * (Rabs b + sb)) * q ^ 3 - 2 * h <= I.
 Proof.
-  intros A B SA SB PA PB. cbv zeta. generalize (Rabs_pos a) (Rabs_pos b). intros Pa Pb. set (t := fl (Rabs b + sb)).
-  set (P1 := fl (Rabs a * sb)). set (P2 := fl (sa * t)). set (K := Rabs a * sb). set (E := sa * (Rabs b + sb)).
-  assert (PK : 0 <= K) by (apply Rmult_le_pos; lra). assert (PE : 0 <= E) by (apply Rmult_le_pos; lra).
-  assert (Pt : 0 <= t) by (apply rnd_nonnegative; lra). assert (Pst : 0 <= sa * t) by (apply Rmult_le_pos; lra).
-  assert (PP1 : 0 <= P1) by now apply rnd_nonnegative. assert (PP2 : 0 <= P2) by now apply rnd_nonnegative.
+  intros A B SA SB PA PB. cbv zeta. generalize (Rabs_pos a) (Rabs_pos b). intros Pa Pb.
+  set (t := fl (Rabs b + sb)). set (P1 := fl (Rabs a * sb)). set (P2 := fl (sa * t)).
+  set (K := Rabs a * sb). set (E := sa * (Rabs b + sb)).
+  assert (PK : 0 <= K) by (apply Rmult_le_pos; lra).
+  assert (PE : 0 <= E) by (apply Rmult_le_pos; lra).
+  assert (Pt : 0 <= t) by (apply rnd_nonnegative; lra).
+  assert (Pst : 0 <= sa * t) by (apply Rmult_le_pos; lra).
+  assert (PP1 : 0 <= P1) by now apply rnd_nonnegative.
+  assert (PP2 : 0 <= P2) by now apply rnd_nonnegative.
   split; [apply rnd_nonnegative; lra |].
   assert (Lt : (Rabs b + sb) * q <= t) by (apply sum_lower; auto; now apply Format.number_abs).
   assert (Lst : E * q <= sa * t).
   { unfold E. rewrite Rmult_assoc. apply Rmult_le_compat_l; auto. }
   generalize (lower_both K PK) (lower_both (sa * t) Pst). change (fl K) with P1. fold P2. intros L1 L2.
   assert (LI : (P1 + P2) * q <= fl (P1 + P2)) by (apply sum_lower; auto; apply rnd_number).
-  apply Rle_trans with (2 := LI). apply Rle_trans with ((K * q - h + (E * q * q - h)) * q).
+  apply Rle_trans with (2 := LI).
+  apply Rle_trans with ((K * q - h + (E * q * q - h)) * q).
   - assert (K * q ^ 3 <= K * q ^ 2) by (apply Rmult_le_compat_l; [auto | apply more_roundings; lia]).
     generalize (less_q h h_0). fold K E.
     replace ((K * q - h + (E * q * q - h)) * q) with (K * q ^ 2 + E * q ^ 3 - 2 * (h * q)) by ring. lra.
-  - apply Rmult_le_compat_r; [lra |]. assert (E * q * q <= sa * t * q) by (apply Rmult_le_compat_r; lra). lra.
+  - apply Rmult_le_compat_r; [lra |].
+    assert (E * q * q <= sa * t * q) by (apply Rmult_le_compat_r; lra). lra.
 Qed.
 
-Lemma add_covers r D v w a sa b sb : (terms r < most)%nat -> covers r D -> number v -> 0 <= v -> 0 <= w ->
-  w * q <= v -> number a -> number b -> number sa -> number sb -> 0 <= sa -> 0 <= sb -> covers (add_term r v a sa b sb)
-  (D + w + h + (Rabs a * sb + sa * (Rabs b + sb))) /\ (terms (add_term r v a sa b sb) < most)%nat.
+Lemma add_covers r D v w a sa b sb : (terms r < most)%nat -> covers r D ->
+  number v -> 0 <= v -> 0 <= w -> w * q <= v ->
+  number a -> number b -> number sa -> number sb -> 0 <= sa -> 0 <= sb ->
+  covers (add_term r v a sa b sb) (D + w + h + (Rabs a * sb + sa * (Rabs b + sb))) /\
+  (terms (add_term r v a sa b sb) < most)%nat.
 Proof.
   intros M [Nc No Ni Pc Po Pi U Z (W & E & PW & PE & HW & HE & HD)] Nv Pv Pw Hw A B SA SB PA PB.
   set (t := Rabs a * sb + sa * (Rabs b + sb)).
   assert (Pt : 0 <= t).
   { generalize (Rabs_pos a) (Rabs_pos b). intros. apply Rplus_le_le_0_compat; apply Rmult_le_pos; lra. }
   destruct (inherited_lower a sa b sb A B SA SB PA PB) as [PI LI]. cbv zeta in PI, LI. fold t in LI.
-  set (I := fl (fl (Rabs a * sb) + fl (sa * fl (Rabs b + sb)))) in *. set (m := terms r) in *.
-  set (k := uncertain_terms r) in *. set (exact := Req_bool sa 0 && Req_bool sb 0).
+  set (I := fl (fl (Rabs a * sb) + fl (sa * fl (Rabs b + sb)))) in *.
+  set (m := terms r) in *. set (k := uncertain_terms r) in *.
+  set (exact := Req_bool sa 0 && Req_bool sb 0).
   set (r' := {| CompoundCode.closed := closed r;
-    CompoundCode.own := fl (own r + v); CompoundCode.inherited := if exact then inherited r else fl (inherited r + I);
-    CompoundCode.terms := S m; CompoundCode.uncertain_terms := if exact then k else S k |} : running).
+    CompoundCode.own := fl (own r + v);
+    CompoundCode.inherited := if exact then inherited r else fl (inherited r + I);
+    CompoundCode.terms := S m;
+    CompoundCode.uncertain_terms := if exact then k else S k |} : running).
   assert (EQ : add_term r v a sa b sb = if Nat.eqb (S m) most then close_terms r' else r').
   { unfold CompoundCode.add_term. rewrite !abs_reals. reflexivity. }
   generalize (pos_INR k) (power_q m). intros Pk Qm.
   assert (C : covers r' (D + w + h + t)).
   { assert (Ex : exact = true -> t = 0).
-    { unfold exact, t. intros X. apply andb_prop in X. destruct X as [X1 X2]. revert X1 X2.
-      case Req_bool_spec; [intros -> _ | discriminate]. case Req_bool_spec; [intros -> _ | discriminate]. ring. }
+    { unfold exact, t. intros X. apply andb_prop in X. destruct X as [X1 X2].
+      revert X1 X2. case Req_bool_spec; [intros -> _ | discriminate]. case Req_bool_spec; [intros -> _ | discriminate].
+      ring. }
     split; unfold r'; cbn [CompoundCode.closed CompoundCode.own CompoundCode.inherited CompoundCode.terms
       CompoundCode.uncertain_terms]; auto.
     - destruct exact; [exact Ni | apply rnd_number].
@@ -254,7 +286,8 @@ Proof.
         * destruct (Z eq_refl) as [Z1 _]. rewrite Z1 in *. rewrite Rplus_0_l, rnd_exact by auto.
           simpl in HW |- *. assert (W0 : W = 0) by lra. rewrite W0. lra.
         * rewrite <- M0 in *. assert (L : (own r + v) * q <= fl (own r + v)) by (apply sum_lower; auto).
-          apply Rle_trans with (2 := L). simpl. assert (W * q ^ m * q <= own r * q) by (apply Rmult_le_compat_r; lra).
+          apply Rle_trans with (2 := L). simpl.
+          assert (W * q ^ m * q <= own r * q) by (apply Rmult_le_compat_r; lra).
           assert (w * q ^ m <= w * q).
           { apply Rmult_le_compat_l; auto. replace q with (q ^ 1) at 2 by ring. apply more_roundings. lia. }
           assert (w * q ^ m * q <= v * q) by (apply Rmult_le_compat_r; lra). lra.
@@ -291,13 +324,15 @@ Definition in_loop (s : R * bool * running) (X : R) : Prop :=
 
 Lemma covers_less r D D' : D' <= D -> covers r D -> covers r D'.
 Proof.
-  intros L [? ? ? ? ? ? ? ? (W & E & H1 & H2 & H3 & H4 & H5)]. split; auto. exists W, E. repeat split; auto. lra.
+  intros L [? ? ? ? ? ? ? ? (W & E & H1 & H2 & H3 & H4 & H5)]. split; auto.
+  exists W, E. repeat split; auto. lra.
 Qed.
 Lemma step_covers s X pair exact : in_loop s X -> pair_known pair exact ->
   in_loop (dot_step R reals most factor_units underflows own_of s pair) (X + fst exact * snd exact).
 Proof.
-  destruct s as [[sum first] r], pair as [[a sa] [b sb]], exact as [x y]. intros (Ns & Z & C & M) (A & B & K).
-  unfold dot_step. cbn [fst snd plus times reals]. set (product := fl (a * b)). set (after := fl (sum + product)).
+  destruct s as [[sum first] r], pair as [[a sa] [b sb]], exact as [x y].
+  intros (Ns & Z & C & M) (A & B & K). unfold dot_step. cbn [fst snd plus times reals].
+  set (product := fl (a * b)). set (after := fl (sum + product)).
   assert (Zero : forall c d, c = 0 \/ d = 0 -> c * d = 0) by (intros c d [-> | ->]; ring).
   destruct (is_zero R reals a sa || is_zero R reals b sb) eqn:C0.
   - (* nothing is added *)
@@ -314,12 +349,14 @@ Proof.
     assert (K' : number sa /\ number sb /\ Rabs (a - x) <= sa /\ Rabs (b - y) <= sb).
     { destruct K as [(-> & -> & _) | [(-> & -> & _) | K]]; auto; exfalso; revert C0; rewrite zero_is_zero;
         [discriminate | now rewrite orb_true_r]. }
-    destruct K' as (SA & SB & HA & HB). assert (PA : 0 <= sa) by (generalize (Rabs_pos (a - x)); lra).
+    destruct K' as (SA & SB & HA & HB).
+    assert (PA : 0 <= sa) by (generalize (Rabs_pos (a - x)); lra).
     assert (PB : 0 <= sb) by (generalize (Rabs_pos (b - y)); lra).
-    destruct (own_pays first a b sum A B Ns Z) as (Nv & Pv & w & Pw & Lw & Hw). fold product in Nv, Pv, Lw, Hw.
-    fold after in Nv, Pv, Lw, Hw.
+    destruct (own_pays first a b sum A B Ns Z) as (Nv & Pv & w & Pw & Lw & Hw).
+    fold product in Nv, Pv, Lw, Hw. fold after in Nv, Pv, Lw, Hw.
     destruct (add_covers r _ (own_of first product sum after) w a sa b sb M C Nv Pv Pw Lw A B SA SB PA PB) as [C' M'].
-    split; [apply rnd_number |]. split; [discriminate |]. split; [| exact M']. apply covers_less with (2 := C').
+    split; [apply rnd_number |]. split; [discriminate |]. split; [| exact M'].
+    apply covers_less with (2 := C').
     replace (after - (X + x * y)) with
       ((after - (sum + product)) + ((product - a * b) + ((a * b - x * y) + (sum - X)))) by ring.
     generalize (Tight.product_inherits a x sa b y sb HA HB)
@@ -334,12 +371,14 @@ Proof.
   - rewrite <- Rplus_assoc. apply IH, step_covers; auto.
 Qed.
 
-Lemma dot_covered pairs exacts : (1 <= most)%nat -> Forall2 pair_known pairs exacts -> let '(sum, bound)
-  := dot_of R reals most factor_units underflows own_of pairs in number bound /\ Rabs (sum - exact_dot exacts) <= bound.
+Lemma dot_covered pairs exacts : (1 <= most)%nat -> Forall2 pair_known pairs exacts ->
+  let '(sum, bound) := dot_of R reals most factor_units underflows own_of pairs in
+  number bound /\ Rabs (sum - exact_dot exacts) <= bound.
 Proof.
   intros M K. unfold dot_of.
   assert (L : in_loop (0, true, no_terms R reals) 0).
-  { split; [apply Format.number_0 |]. split; [auto |]. split; [| exact M]. rewrite Rminus_0_r, Rabs_R0.
+  { split; [apply Format.number_0 |]. split; [auto |]. split; [| exact M].
+    rewrite Rminus_0_r, Rabs_R0.
     split; cbn; try apply Format.number_0; try lra; try lia; auto. exists 0, 0. repeat split; lra. }
   apply (loop_covers _ _ K) in L. rewrite Rplus_0_l in L. cbn [integer reals].
   destruct (fold_left _ pairs _) as [[sum first] r]. destruct L as (Ns & _ & C & T).
@@ -348,10 +387,12 @@ Proof.
               Rabs (sum - exact_dot exacts) <= closed_bound R reals factor_units underflows r).
   { unfold closed_bound. destruct (Nat.ltb_spec 0 (terms r)) as [P | P].
     - destruct (close_covers r _ ltac:(lia) C) as [C' L]. split; [apply (closed_number _ _ C') | exact L].
-    - split; [apply (closed_number _ _ C) |]. destruct C as [Nc No Ni Pc Po Pi U Z (W & E & PW & PE & HW & HE & HD)].
+    - split; [apply (closed_number _ _ C) |].
+      destruct C as [Nc No Ni Pc Po Pi U Z (W & E & PW & PE & HW & HE & HD)].
       assert (T0 : terms r = O) by lia. destruct (Z T0) as [Z1 Z2]. rewrite T0, Z1, Z2 in *.
-      assert (U0 : uncertain_terms r = O) by lia. rewrite U0 in *. simpl in HW, HE, HD. assert (W0 : W = 0) by lra.
-      generalize (power_q 2). simpl. intros Q2. assert (E0 : E = 0) by nra. rewrite W0, E0 in HD. lra. }
+      assert (U0 : uncertain_terms r = O) by lia. rewrite U0 in *. simpl in HW, HE, HD.
+      assert (W0 : W = 0) by lra. generalize (power_q 2). simpl. intros Q2.
+      assert (E0 : E = 0) by nra. rewrite W0, E0 in HD. lra. }
   destruct H as [H1 H2]. rewrite rnd_exact by auto. split; auto.
 Qed.
 
@@ -364,7 +405,8 @@ Lemma terms_squared bits m : (1 <= m <= terms_at_once bits)%nat ->
 Proof.
   assert (G : forall n, (n <= 8)%nat -> (most_terms bits n <= n)%nat /\
     (most_terms bits n = O \/ Z.of_nat (most_terms bits n + 6) * Z.of_nat (most_terms bits n + 6) <= 2 ^ bits)%Z).
-  { induction n as [| n IH]; intros N; cbn [most_terms]; [split; auto |]. destruct ((bits <? 8) && _)%Z eqn:C.
+  { induction n as [| n IH]; intros N; cbn [most_terms]; [split; auto |].
+    destruct ((bits <? 8) && _)%Z eqn:C.
     - destruct IH as [I1 I2]; [lia |]. split; [lia | exact I2].
     - split; [lia |]. right. apply andb_false_iff in C. destruct C as [C | C].
       + apply Z.ltb_ge in C. apply Z.le_trans with (2 ^ 8)%Z; [| apply Z.pow_le_mono_r; lia].
@@ -374,8 +416,9 @@ Proof.
   split; [lia |]. destruct G2 as [G2 | G2]; [lia |].
   assert (B : (0 <= bits)%Z).
   { destruct (Z.neg_nonneg_cases bits) as [N | N]; auto. rewrite (Z.pow_neg_r 2 bits N) in G2. lia. }
-  rewrite <- IZR_Zpower by exact B. change (radix_val radix2) with 2%Z. rewrite INR_IZR_INZ, <- plus_IZR, <- mult_IZR.
-  apply IZR_le. apply Z.le_trans with (2 := G2). apply Z.mul_le_mono_nonneg; lia.
+  rewrite <- IZR_Zpower by exact B. change (radix_val radix2) with 2%Z.
+  rewrite INR_IZR_INZ, <- plus_IZR, <- mult_IZR. apply IZR_le. apply Z.le_trans with (2 := G2).
+  apply Z.mul_le_mono_nonneg; lia.
 Qed.
 Lemma one_at_least bits : (6 <= bits)%Z -> (1 <= terms_at_once bits)%nat.
 Proof.
@@ -413,7 +456,9 @@ Section Tight_dot.
 
 Context (p emin : Z) {p_positive : Prec_gt_0 p} (emin_p : (emin <= - p)%Z) (p_8 : (8 <= p)%Z) (direction : R -> Z)
   {direction_valid : Valid_rnd direction}.
-Notation fl := (Format.rnd p emin direction). Notation r := (Format.eps p). Notation h := (Format.eta emin).
+Notation fl := (Format.rnd p emin direction).
+Notation r := (Format.eps p).
+Notation h := (Format.eta emin).
 Let E : Format.rounding_error p emin direction r h := Format.rounding_error_any p emin direction ltac:(lia).
 
 Lemma power_linear e n : 0 <= e <= 1 -> 1 - INR n * e <= (1 - e) ^ n.
@@ -444,14 +489,17 @@ Proof.
   assert (0 <= e * (1 - (j * j * e + j * e))) by (apply Rmult_le_pos; lra). lra.
 Qed.
 
-Lemma two_p : (2 ^ 8 <= 2 ^ p)%Z /\ (2 ^ 7 <= 2 ^ (p - 1))%Z. Proof. split; apply Z.pow_le_mono_r; lia. Qed.
+Lemma two_p : (2 ^ 8 <= 2 ^ p)%Z /\ (2 ^ 7 <= 2 ^ (p - 1))%Z.
+Proof. split; apply Z.pow_le_mono_r; lia. Qed.
 
-Lemma tight_dot_covered pairs exacts : Forall2 (pair_known p emin) pairs exacts -> let '(sum, bound)
-  := tight_dot R (reals p emin direction) pairs in Format.number p emin bound /\ Rabs (sum - exact_dot exacts) <= bound.
+Lemma tight_dot_covered pairs exacts : Forall2 (pair_known p emin) pairs exacts ->
+  let '(sum, bound) := tight_dot R (reals p emin direction) pairs in
+  Format.number p emin bound /\ Rabs (sum - exact_dot exacts) <= bound.
 Proof.
   generalize (Format.error_r _ _ _ _ _ E) (Format.error_r_1 _ _ _ _ _ E) (Format.error_h _ _ _ _ _ E)
-    (Format.eta_positive emin) two_p. change (2 ^ 8)%Z with 256%Z. change (2 ^ 7)%Z with 128%Z.
-  intros Rr R1 Rh Pe [T8 T7]. assert (P3 : (3 <= p)%Z) by lia. apply dot_covered with (1 - r) h; auto; try lra.
+    (Format.eta_positive emin) two_p. change (2 ^ 8)%Z with 256%Z. change (2 ^ 7)%Z with 128%Z. intros Rr R1 Rh Pe [T8 T7].
+  assert (P3 : (3 <= p)%Z) by lia.
+  apply dot_covered with (1 - r) h; auto; try lra.
   - intros x P. destruct (Rlt_or_le x (Format.smallest_normal p emin)) as [C | C].
     + right. apply (Format.rnd_absolute p emin direction r h E x P C).
     + left. now apply (Format.rnd_relative p emin direction r h E).
@@ -490,7 +538,9 @@ End Tight_dot.
 Section Sharp_dot.
 
 Context (p emin : Z) {p_positive : Prec_gt_0 p} (emin_p : (emin <= - p)%Z) (p_5 : (5 <= p)%Z).
-Notation nearest := Format.nearest. Notation fl := (Format.rnd p emin nearest). Notation u := (Format.u p).
+Notation nearest := Format.nearest.
+Notation fl := (Format.rnd p emin nearest).
+Notation u := (Format.u p).
 Notation number := (Format.number p emin).
 
 Lemma sharp_factor_pays m : (1 <= m <= sharp_most R (reals p emin nearest))%nat ->
@@ -516,8 +566,9 @@ Proof.
   assert (j * u <= 2 * IZR (Z.of_nat (m + 7) / 2) * u) by (apply Rmult_le_compat_r; lra). lra.
 Qed.
 
-Lemma sharp_dot_covered pairs exacts : Forall2 (pair_known p emin) pairs exacts -> let
-  '(sum, bound) := sharp_dot R (reals p emin nearest) pairs in number bound /\ Rabs (sum - exact_dot exacts) <= bound.
+Lemma sharp_dot_covered pairs exacts : Forall2 (pair_known p emin) pairs exacts ->
+  let '(sum, bound) := sharp_dot R (reals p emin nearest) pairs in
+  number bound /\ Rabs (sum - exact_dot exacts) <= bound.
 Proof.
   assert (P3 : (3 <= p)%Z) by lia.
   generalize (Format.u_positive p) (Format.eta_positive emin) (Sharp.u_8 p P3) (Sharp.q_1 p P3). intros Pu Pe U8 Q1.
@@ -539,7 +590,8 @@ Proof.
       change (p + 1)%Z with (digits R (reals p emin nearest) + 1)%Z. fold (sharp_most R (reals p emin nearest)). lia. }
     unfold sharp_underflows. apply small_multiple; auto; lia.
   - intros m k. unfold sharp_underflows. rewrite <- INR_IZR_INZ, !plus_INR. simpl (INR 1).
-    generalize (pos_INR m) (pos_INR k). intros. assert (0 <= INR m * Format.eta emin) by (apply Rmult_le_pos; lra). lra.
+    generalize (pos_INR m) (pos_INR k). intros.
+    assert (0 <= INR m * Format.eta emin) by (apply Rmult_le_pos; lra). lra.
   - intros first a b s A B S _. cbv zeta. set (product := fl (a * b)). set (after := fl (s + product)).
     unfold sharp_own. cbn [plus integer reals].
     assert (RT : forall v, sharp_rounding R (reals p emin nearest) v = Sharp.rounding p emin v).
@@ -547,7 +599,8 @@ Proof.
     rewrite !RT, !abs_reals.
     assert (LM : forall m n, least R (reals p emin nearest) m n = Rmin m n).
     { intros m n. unfold least. cbn [less reals]. case Rlt_bool_spec; intros; [rewrite Rmin_right | rewrite Rmin_left]; lra. }
-    rewrite !LM. set (R1 := Sharp.rounding p emin product). set (R2 := Rmin _ _).
+    rewrite !LM.
+    set (R1 := Sharp.rounding p emin product). set (R2 := Rmin _ _).
     assert (PR1 : 0 <= R1) by apply (Sharp.rounding_nonnegative p emin P3).
     assert (NP : number product) by apply (Format.rnd_number p emin nearest).
     assert (NR2 : number R2).

@@ -10,17 +10,20 @@
         affine_error_known   the radius is an error, in the sense of IeeeRules.v
         affine_known_stays   bounds still hold if other sources get other numbers *)
 
-From Coq Require Import Reals ZArith Lia Lra Psatz Bool List. From Flocq Require Import Core IEEE754.BinarySingleNaN.
+From Coq Require Import Reals ZArith Lia Lra Psatz Bool List.
+From Flocq Require Import Core IEEE754.BinarySingleNaN.
 From Errbound Require Import Code CompoundCode AffineCode Ieee IeeeRules.
-From Errbound Require Format ErrorFree Residual Upper Affine IeeeInterval IeeeResidual. Import ListNotations.
+From Errbound Require Format ErrorFree Residual Upper Affine IeeeInterval IeeeResidual.
+Import ListNotations.
 Open Scope R_scope.
 
 (** A list whose items are processed one after the other. If the result is good, all items were, and the result
     stands for the processed real items. *)
-Lemma fold_backward {S X S' X'}
-  (good : S -> Prop) (fine : X -> Prop) (read : S -> S') (item : X -> X') (step : S -> X -> S) (step' : S' -> X' -> S')
-  : (forall s t, good (step s t) -> good s /\ fine t /\ read (step s t) = step' (read s) (item t)) -> forall l s, good
-  (fold_left step l s) -> good s /\ Forall fine l /\ read (fold_left step l s) = fold_left step' (map item l) (read s).
+Lemma fold_backward {S X S' X'} (good : S -> Prop) (fine : X -> Prop) (read : S -> S') (item : X -> X')
+    (step : S -> X -> S) (step' : S' -> X' -> S') :
+  (forall s t, good (step s t) -> good s /\ fine t /\ read (step s t) = step' (read s) (item t)) ->
+  forall l s, good (fold_left step l s) ->
+    good s /\ Forall fine l /\ read (fold_left step l s) = fold_left step' (map item l) (read s).
 Proof.
   intros H. induction l as [| t l IH]; intros s G; simpl in *; auto.
   destruct (IH _ G) as (G1 & F & E). destruct (H _ _ G1) as (G2 & FT & E'). rewrite <- E', E. auto.
@@ -31,15 +34,27 @@ Section Rules.
 Context (p emax : Z) {p_positive : Prec_gt_0 p} {p_below : Prec_lt_emax p emax} (p_4 : (4 <= p)%Z).
 Variable fused : bool.  (* has_fast_fma *)
 Variable limit : nat.
-Notation float := (binary_float p emax). Notation F := (floats p emax). Notation emin := (3 - emax - p)%Z.
-Notation fl := (Format.rnd p emin Format.nearest). Notation number := (Format.number p emin).
-Notation nonnegative := (nonnegative p emax). Notation known := (known p emax). Notation terms := (terms float).
-Notation builder := (builder float). Notation affine := (affine float). Notation radius := (radius float).
-Notation rest := (rest float). Notation parts := (parts float). Notation zero := (integer _ F 0).
+Notation float := (binary_float p emax).
+Notation F := (floats p emax).
+Notation emin := (3 - emax - p)%Z.
+Notation fl := (Format.rnd p emin Format.nearest).
+Notation number := (Format.number p emin).
+Notation nonnegative := (nonnegative p emax).
+Notation known := (known p emax).
+Notation terms := (terms float).
+Notation builder := (builder float).
+Notation affine := (affine float).
+Notation radius := (radius float).
+Notation rest := (rest float).
+Notation parts := (parts float).
+Notation zero := (integer _ F 0).
 
-Lemma at_least_3 : (3 <= p)%Z. Proof. lia. Qed.
-Lemma emin_below : (emin <= - p - 1)%Z. Proof. generalize (p_emax p emax). lia. Qed.
-Lemma zero_is_0 : finite zero /\ B2R zero = 0. Proof. apply (zero_value p emax at_least_3). Qed.
+Lemma at_least_3 : (3 <= p)%Z.
+Proof. lia. Qed.
+Lemma emin_below : (emin <= - p - 1)%Z.
+Proof. generalize (p_emax p emax). lia. Qed.
+Lemma zero_is_0 : finite zero /\ B2R zero = 0.
+Proof. apply (zero_value p emax at_least_3). Qed.
 
 Ltac split_finite := finite_parts p emax at_least_3.
 Ltac values := known_values p emax at_least_3.
@@ -58,7 +73,8 @@ Lemma equal_zero x : finite x -> equal _ F x zero = Req_bool (B2R x) 0.
 Proof. intros H. destruct zero_is_0 as [Z0 Z]. now rewrite (equal_finite p emax), Z. Qed.
 Lemma equals_zero x : equal _ F x zero = true -> finite x /\ B2R x = 0.
 Proof. intros H. now apply (equal_true p emax) in H. Qed.
-Lemma factor_value : finite (integer _ F 1 ⊕ epsilon _ F) /\ B2R (integer _ F 1 ⊕ epsilon _ F) = fl (1 + Format.eps p).
+Lemma factor_value : finite (integer _ F 1 ⊕ epsilon _ F) /\
+  B2R (integer _ F 1 ⊕ epsilon _ F) = fl (1 + Format.eps p).
 Proof.
   destruct (integer_value p emax at_least_3 1 ltac:(lia)) as [F1 V1]. destruct (eps_value p emax at_least_3) as [F2 V2].
   generalize (Bplus_correct p emax _ _ mode_NE _ _ F1 F2). rewrite Rlt_bool_true.
@@ -104,7 +120,8 @@ Proof.
 Qed.
 
 (** A result's terms and rest. *)
-Lemma real_length B : length (snd (real B)) = length (snd B). Proof. apply map_length. Qed.
+Lemma real_length B : length (snd (real B)) = length (snd B).
+Proof. apply map_length. Qed.
 Lemma nothing_real : real (nothing _ F) = Affine.nothing.
 Proof. unfold real, nothing, Affine.nothing. cbn [fst snd real_terms map]. now rewrite (proj2 zero_is_0). Qed.
 Lemma add_fine s c B : fine (add _ F s c B) ->
@@ -128,15 +145,17 @@ Lemma radius_finite B : finite (fold_left (fun r (t : Z * float) => upper_sum _ 
   all_finite (snd B) /\ B2R (radius_of _ F B) = Affine.radius_of p emin (real B).
 Proof.
   intros H.
-  destruct (fold_backward (fun r : float => finite r) (fun t : Z * float => finite (snd t))
-    (fun r => B2R r) (fun t => (fst t, B2R (snd t))) (fun r t => upper_sum _ F r (abs _ F (snd t)))
-    (fun r (t : Z * R) => Affine.upper_sum p emin r (Rabs (snd t)))) with (l := snd B) (s := zero) as (_ & A & E); auto.
+  destruct (fold_backward (fun r : float => finite r) (fun t : Z * float => finite (snd t)) (fun r => B2R r)
+    (fun t => (fst t, B2R (snd t))) (fun r t => upper_sum _ F r (abs _ F (snd t)))
+    (fun r (t : Z * R) => Affine.upper_sum p emin r (Rabs (snd t)))) with (l := snd B) (s := zero)
+    as (_ & A & E); auto.
   intros r t G. apply sum_finite in G. destruct G as (FR & FA & E). apply abs_value in FA. destruct FA as [FA EA].
   rewrite EA in E. auto.
 Qed.
 
-Lemma least_real t l : finite (snd t) -> all_finite l -> let (m, r) := least _ F t l in finite (snd m) /\
-  all_finite r /\ Affine.least (fst t, B2R (snd t)) (real_terms l) = ((fst m, B2R (snd m)), real_terms r).
+Lemma least_real t l : finite (snd t) -> all_finite l -> let (m, r) := least _ F t l in
+  finite (snd m) /\ all_finite r /\
+  Affine.least (fst t, B2R (snd t)) (real_terms l) = ((fst m, B2R (snd m)), real_terms r).
 Proof.
   revert t. induction l as [| x l IH]; intros t FT FL; cbn [least real_terms map Affine.least].
   - repeat split; auto.
@@ -144,19 +163,22 @@ Proof.
     destruct IH as (FM & FR & E). fold (real_terms l). rewrite E. cbn [snd].
     assert (L : less _ F (abs _ F (snd m)) (abs _ F (snd t)) = Rlt_bool (Rabs (B2R (snd m))) (Rabs (B2R (snd t)))).
     { generalize (abs_finite_intro p emax _ FM) (abs_finite_intro p emax _ FT). intros A1 A2.
-      rewrite (less_finite p emax) by auto. apply abs_value in A1, A2. now destruct A1 as [_ ->], A2 as [_ ->]. }
+      rewrite (less_finite p emax) by auto. apply abs_value in A1, A2.
+      now destruct A1 as [_ ->], A2 as [_ ->]. }
     rewrite L. destruct (Rlt_bool _ _); repeat split; auto; constructor; auto.
 Qed.
 Lemma shorten_real fuel B : all_finite (snd B) -> let C := shorten _ F limit fuel B in
   all_finite (snd C) /\ (finite (fst C) -> finite (fst B) /\ real C = Affine.shorten p emin limit fuel (real B)).
 Proof.
-  revert B. induction fuel as [| n IH]; intros [left l] FB; cbn [shorten Affine.shorten]; auto. unfold real at 2.
-  cbn [fst snd] in *. destruct l as [| t l]; [cbn [snd real_terms map]; auto |]. cbn [real_terms map].
-  fold (real_terms l). unfold real_terms at 1. rewrite <- (map_length (fun t => (fst t, B2R (snd t))) (t :: l)).
-  cbn [map]. fold (real_terms l). destruct (limit <=? _)%nat; [| auto]. inversion FB as [| ? ? FT FL]. subst.
-  assert (L := least_real t l FT FL). destruct (least _ F t l) as [m r]. destruct L as (FM & FR & ->).
-  destruct (IH (add_left _ F (abs _ F (snd m)) (left, r)) FR) as [A E]. split; auto. intros H.
-  destruct (E H) as [H' ->]. destruct (add_left_fine (abs _ F (snd m)) (left, r)) as (FA & FB' & E').
+  revert B. induction fuel as [| n IH]; intros [left l] FB; cbn [shorten Affine.shorten]; auto.
+  unfold real at 2. cbn [fst snd] in *. destruct l as [| t l]; [cbn [snd real_terms map]; auto |].
+  cbn [real_terms map]. fold (real_terms l). unfold real_terms at 1.
+  rewrite <- (map_length (fun t => (fst t, B2R (snd t))) (t :: l)).
+  cbn [map]. fold (real_terms l). destruct (limit <=? _)%nat; [| auto].
+  inversion FB as [| ? ? FT FL]. subst. assert (L := least_real t l FT FL). destruct (least _ F t l) as [m r].
+  destruct L as (FM & FR & ->). destruct (IH (add_left _ F (abs _ F (snd m)) (left, r)) FR) as [A E].
+  split; auto. intros H. destruct (E H) as [H' ->].
+  destruct (add_left_fine (abs _ F (snd m)) (left, r)) as (FA & FB' & E').
   - now split.
   - split; [apply FB' |]. rewrite E'. cbn [snd]. now rewrite (proj2 (abs_value _ FA)).
 Qed.
@@ -167,7 +189,8 @@ Proof.
 Qed.
 Lemma placed_finite t l : all_finite (placed _ t l) -> finite (snd t).
 Proof.
-  induction l as [| x l IH]; simpl; intros H; [now inversion H |]. destruct (fst t <? fst x)%Z; inversion H; auto.
+  induction l as [| x l IH]; simpl; intros H; [now inversion H |].
+  destruct (fst t <? fst x)%Z; inversion H; auto.
 Qed.
 
 (** The meaning of a number's value and bound for x, with the numbers e of the sources (Affine.v). If the radius is
@@ -188,13 +211,15 @@ Proof. split; [split; [reflexivity |] |]; discriminate. Qed.
 Lemma always_made v A x : (forall e, affine_known e v A x) -> forall e g, made e v A x g.
 Proof. intros K e [f |]; [exists 0; rewrite Rabs_R0; split; [lra |] |]; apply K. Qed.
 
-Lemma finished_known e f v B x g : (finite v -> fine B -> Affine.made
-  p emin e f (B2R v) (Affine.finished p emin limit (real B) g) x g) -> made e v (finished _ F limit v B g) x g.
+Lemma finished_known e f v B x g :
+  (finite v -> fine B -> Affine.made p emin e f (B2R v) (Affine.finished p emin limit (real B) g) x g) ->
+  made e v (finished _ F limit v B g) x g.
 Proof.
   intros H. unfold finished. cbv zeta. set (all := upper_sum _ F (radius_of _ F B) (fst B)).
   destruct (is_finite _ F v) eqn:CV; [| apply always_made; intros; apply unknown_known].
-  destruct (is_finite _ F all) eqn:CA; [| apply always_made; intros; apply unknown_known]. cbn [negb orb].
-  apply (IeeeInterval.is_finite_true p emax) in CV, CA. assert (FA := CA). apply sum_finite in CA as (FR & FL & EA).
+  destruct (is_finite _ F all) eqn:CA; [| apply always_made; intros; apply unknown_known].
+  cbn [negb orb]. apply (IeeeInterval.is_finite_true p emax) in CV, CA. assert (FA := CA).
+  apply sum_finite in CA as (FR & FL & EA).
   apply radius_finite in FR. destruct FR as [FP ER]. rewrite ER in EA. fold all in EA. specialize (H CV (conj FL FP)).
   set (room := if equal _ F (fst B) zero then limit else Nat.pred limit).
   set (C := if (room <? length (snd B))%nat then shorten _ F limit (length (snd B)) B else B).
@@ -230,14 +255,17 @@ Proof.
   { intros e' He. assert (He' := He). destruct He' as (_ & _ & _ & (_ & PR & D)). rewrite RR in PR, D.
     cbn [real fst] in PR, D. fold (real B) in PR, D. rewrite <- EA in PR, D. split.
     - rewrite Radius. split; [now apply nonnegative_intro |]. intros _. split; auto. now rewrite Rabs_minus_sym.
-    - intros R P. rewrite Radius. split; auto. rewrite Same by auto. exact He. }
-  destruct g as [s |]; cbn [made Affine.made] in *; [| now apply K]. destruct H as (-> & t & T & H). exists t. auto.
+    - intros R P. rewrite Radius. split; auto. rewrite Same by auto.
+      exact He. }
+  destruct g as [s |]; cbn [made Affine.made] in *; [| now apply K].
+  destruct H as (-> & t & T & H). exists t. auto.
 Qed.
 (** The terms of two numbers. *)
 Lemma merged_real a b : map real_pair (merged _ F a b) = Affine.merged (real_terms a) (real_terms b) /\
   (Forall fine_pair (merged _ F a b) -> all_finite a /\ all_finite b).
 Proof.
-  assert (Z := proj2 zero_is_0). assert (L : forall t x y, real_pair (t, (x, y)) = (t, (B2R x, B2R y))) by reflexivity.
+  assert (Z := proj2 zero_is_0).
+  assert (L : forall t x y, real_pair (t, (x, y)) = (t, (B2R x, B2R y))) by reflexivity.
   assert (Step : forall s (x y : float) l (P Q : Prop), (Forall fine_pair l -> P) -> (finite x -> finite y -> P -> Q) ->
     Forall fine_pair ((s, (x, y)) :: l) -> Q).
   { intros s x y l P Q LP PQ H. inversion H as [| ? ? [H1 H2] H3]. auto. }
@@ -260,7 +288,8 @@ Proof.
         destruct (s <? t)%Z; [| destruct (t <? s)%Z]; cbn [map]; now rewrite ?E, ?E1, ?E2, L, ?Z.
       * change (Forall fine_pair (if (s <? t)%Z then (s, (x, zero)) :: merged _ F a ((t, y) :: b)
             else if (t <? s)%Z then (t, (zero, y)) :: merged _ F ((s, x) :: a) b else (s, (x, y)) :: merged _ F a b) ->
-          all_finite ((s, x) :: a) /\ all_finite ((t, y) :: b)). destruct (s <? t)%Z; [| destruct (t <? s)%Z].
+          all_finite ((s, x) :: a) /\ all_finite ((t, y) :: b)).
+        destruct (s <? t)%Z; [| destruct (t <? s)%Z].
         -- apply Step with (1 := M1). intros FX _ [A B]. split; auto. now constructor.
         -- apply Step with (1 := M). intros _ FY [A B]. split; auto. now constructor.
         -- apply Step with (1 := M2). intros FX FY [A B]. split; now constructor.
@@ -274,10 +303,12 @@ Proof.
   apply (IeeeResidual.two_sum_finite p emax) in FE. destruct FE as (F1 & F2 & E1 & E2). rewrite E1, E2.
   repeat split; auto; apply H.
 Qed.
-Lemma half_ulp_value v : finite (half_ulp _ F v) -> finite v /\ B2R (half_ulp _ F v) = Residual.half_ulp p emin (B2R v).
+Lemma half_ulp_value v : finite (half_ulp _ F v) ->
+  finite v /\ B2R (half_ulp _ F v) = Residual.half_ulp p emin (B2R v).
 Proof. apply (IeeeResidual.half_ulp_finite p emax at_least_3). Qed.
-Lemma product_step_fine a b B t : fine (product_step _ F a b B t) -> fine B /\
-  fine_pair t /\ real (product_step _ F a b B t) = Affine.product_step p emin (B2R a) (B2R b) (real B) (real_pair t).
+Lemma product_step_fine a b B t : fine (product_step _ F a b B t) ->
+  fine B /\ fine_pair t /\
+  real (product_step _ F a b B t) = Affine.product_step p emin (B2R a) (B2R b) (real B) (real_pair t).
 Proof.
   unfold product_step, Affine.product_step. cbv zeta. destruct t as [s [of_a of_b]]. cbn [real_pair fst snd].
   intros H. apply add_left_fine in H. destruct H as (FE & H & ->). apply abs_value in FE. destruct FE as [FE ->].
@@ -296,13 +327,15 @@ Proof.
 Qed.
 Definition fine_quotient (r : float * builder) : Prop := finite (fst r) /\ fine (snd r).
 Definition real_quotient (r : float * builder) : R * Affine.builder := (B2R (fst r), real (snd r)).
-Lemma quotient_step_fine v b r t : finite b ->
-  B2R b <> 0 -> fine_quotient (quotient_step _ F v b r t) -> fine_quotient r /\ fine_pair t /\ real_quotient
-  (quotient_step _ F v b r t) = Affine.quotient_step p emin (B2R v) (B2R b) (real_quotient r) (real_pair t).
+Lemma quotient_step_fine v b r t : finite b -> B2R b <> 0 -> fine_quotient (quotient_step _ F v b r t) ->
+  fine_quotient r /\ fine_pair t /\
+  real_quotient (quotient_step _ F v b r t) =
+    Affine.quotient_step p emin (B2R v) (B2R b) (real_quotient r) (real_pair t).
 Proof.
   intros FB NB. unfold quotient_step, Affine.quotient_step, fine_quotient, real_quotient. cbv zeta.
-  destruct t as [s [of_a of_b]]. destruct r as [left B]. cbn [real_pair fst snd]. set (x := v ⊗ of_b).
-  set (n := two_sum _ F of_a (opposite _ F x)). set (c := fst n ⊘ b). intros [HL HB].
+  destruct t as [s [of_a of_b]]. destruct r as [left B]. cbn [real_pair fst snd].
+  set (x := v ⊗ of_b). set (n := two_sum _ F of_a (opposite _ F x)). set (c := fst n ⊘ b).
+  intros [HL HB].
   assert (GB : finite c /\ finite (fst n) /\ fine B /\ real (if equal _ F (fst n) zero then add _ F s c B
       else add_left _ F (half_ulp _ F c) (add _ F s c B)) =
     if equal _ F (fst n) zero then Affine.add s (B2R c) (real B)
@@ -335,7 +368,8 @@ Proof.
   destruct (_ || _); [apply zero_is_0 | apply (eta_value p emax at_least_3)].
 Qed.
 Lemma scale_step_fine k B t : fine (scale_step _ F k B t) ->
-  fine B /\ finite (snd t) /\ real (scale_step _ F k B t) = Affine.scale_step p emin k (real B) (fst t, B2R (snd t)).
+  fine B /\ finite (snd t) /\
+  real (scale_step _ F k B t) = Affine.scale_step p emin k (real B) (fst t, B2R (snd t)).
 Proof.
   unfold scale_step, Affine.scale_step. cbv zeta. intros H. apply add_left_fine in H. destruct H as (_ & H & ->).
   apply add_fine in H. destruct H as (FC & H & ->). assert (FS := scale_finite p emax _ _ FC). destruct FS as [FT ->].
@@ -377,8 +411,9 @@ Proof.
   destruct shrinking_value as (FS & VS & S). destruct zero_is_0 as [Z0 Z]. intros C.
   destruct (BinarySingleNaN.is_finite d) eqn:FD.
   - assert (FP := shrunk_finite d FD). rewrite (less_finite p emax), Z in C by auto.
-    rewrite (less_finite p emax), Z by auto. destruct (times_finite p emax _ _ FP) as (_ & _ & E). rewrite E, VS in C.
-    revert C. case Rlt_bool_spec; [| discriminate]. intros C _. apply Rlt_bool_true. apply Rnot_le_lt. intros D.
+    rewrite (less_finite p emax), Z by auto.
+    destruct (times_finite p emax _ _ FP) as (_ & _ & E). rewrite E, VS in C. revert C.
+    case Rlt_bool_spec; [| discriminate]. intros C _. apply Rlt_bool_true. apply Rnot_le_lt. intros D.
     apply (Rlt_not_le _ _ C). apply (Format.rnd_below p emin Format.nearest); [apply Format.number_0 |]. nra.
   - revert C FS VS. generalize (integer _ F 1 ⊖ epsilon _ F). intros c C FC VC.
     destruct d as [| [|] | |]; try discriminate; [| reflexivity]. exfalso.
@@ -393,9 +428,10 @@ Section Operation.
 Context (e : Z -> R) (e_units : Affine.units e) (f : Z) (g : option Z) (g_f : g = Some f \/ g = None).
 
 (** The meaning of terms with an infinite rest: any large enough radius holds. *)
-Lemma known_within v A x : affine_known e v A x ->
-  finite (radius A) -> all_finite (parts A) -> exists r, (finite (rest A) -> B2R (rest A) = r) /\ 0 <= r /\ Affine.holds
-  p emin e (B2R v) {| Affine.radius := B2R (radius A); Affine.rest := r; Affine.of := real_terms (parts A) |} x.
+Lemma known_within v A x : affine_known e v A x -> finite (radius A) -> all_finite (parts A) -> exists r,
+  (finite (rest A) -> B2R (rest A) = r) /\ 0 <= r /\
+  Affine.holds p emin e (B2R v)
+    {| Affine.radius := B2R (radius A); Affine.rest := r; Affine.of := real_terms (parts A) |} x.
 Proof.
   intros [[PR KR] K] FR FP. destruct (BinarySingleNaN.is_finite (rest A)) eqn:FT.
   - exists (B2R (rest A)). destruct (K eq_refl FP) as [_ H]. assert (G := H).
@@ -463,8 +499,9 @@ Context (a b : float) (sa sb : affine) (x y : R) (of_a : affine_known e a sa x) 
 Lemma sum_known v : (finite v -> finite a /\ finite b /\ B2R v = fl (B2R a + B2R b)) ->
   made e v (affine_add _ F limit v a sa b sb g) (x + y) g.
 Proof.
-  intros V. unfold affine_add. cbv zeta. apply finished_known with f. intros FV FB. destruct (V FV) as (FA & FB' & ->).
-  apply add_left_fine in FB. destruct FB as (RB & FB & ->). apply add_left_fine in FB. destruct FB as (RA & FB & ->).
+  intros V. unfold affine_add. cbv zeta. apply finished_known with f. intros FV FB.
+  destruct (V FV) as (FA & FB' & ->). apply add_left_fine in FB. destruct FB as (RB & FB & ->).
+  apply add_left_fine in FB. destruct FB as (RA & FB & ->).
   apply (fold_backward fine fine_pair real real_pair _ (Affine.sum_step p emin)) in FB; [| apply sum_step_fine].
   destruct FB as (FB & FM & ->). destruct (merged_real (parts sa) (parts sb)) as [-> M]. destruct (M FM) as [PA PB].
   apply add_left_fine in FB. destruct FB as (FE & _ & ->). apply abs_value in FE. destruct FE as [FE ->].
@@ -500,14 +537,18 @@ Proof.
       - destruct (exact_zero_known _ _ _ of_a C) as [A ->]. split; [ring | auto].
       - destruct (exact_zero_known _ _ _ of_b C) as [B ->]. split; [ring | auto]. }
     destruct P as [-> P]. apply zero_made. intros H. now apply (zero_times p emax). }
-  cbv zeta. apply finished_known with f. intros FV FB. destruct (times_finite p emax _ _ FV) as (FA & FB' & EV).
-  rewrite EV. apply add_left_fine in FB. destruct FB as (F3 & FB & ->). apply add_left_fine in FB.
-  destruct FB as (F2 & FB & ->). apply add_left_fine in FB. destruct FB as (F1 & FB & ->).
+  cbv zeta. apply finished_known with f. intros FV FB.
+  destruct (times_finite p emax _ _ FV) as (FA & FB' & EV). rewrite EV.
+  apply add_left_fine in FB. destruct FB as (F3 & FB & ->).
+  apply add_left_fine in FB. destruct FB as (F2 & FB & ->).
+  apply add_left_fine in FB. destruct FB as (F1 & FB & ->).
   apply (fold_backward fine fine_pair real real_pair _ (Affine.product_step p emin (B2R a) (B2R b))) in FB;
-    [| apply product_step_fine]. destruct FB as (FB & FM & ->). destruct (merged_real (parts sa) (parts sb)) as [-> M].
-  destruct (M FM) as [PA PB]. apply add_left_fine in FB. destruct FB as (FE & _ & ->). rewrite nothing_real.
+    [| apply product_step_fine].
+  destruct FB as (FB & FM & ->). destruct (merged_real (parts sa) (parts sb)) as [-> M]. destruct (M FM) as [PA PB].
+  apply add_left_fine in FB. destruct FB as (FE & _ & ->). rewrite nothing_real.
   assert (AA := abs_value _ (abs_finite_intro p emax _ FA)). assert (AB := abs_value _ (abs_finite_intro p emax _ FB')).
-  destruct AA as [_ AA], AB as [_ AB]. apply orb_false_iff in CZ. destruct CZ as [CA CB].
+  destruct AA as [_ AA], AB as [_ AB].
+  apply orb_false_iff in CZ. destruct CZ as [CA CB].
   destruct (product_finite (abs _ F a) (rest sb) _ _ (fun _ => eq_refl) (fun _ => eq_refl) F1) as [_ D1].
   destruct (product_finite (rest sa) (abs _ F b) _ _ (fun _ => eq_refl) (fun _ => eq_refl) F2) as [_ D2].
   destruct (product_finite (radius sa) (radius sb) _ _ (fun _ => eq_refl) (fun _ => eq_refl) F3) as [_ D3].
@@ -530,8 +571,9 @@ Proof.
   set (known := product_error_is_exact _ F fused a b (two_product _ F fused a b)) in *.
   set (error := snd (two_product _ F fused a b)) in *.
   assert (T := Affine.affine_multiply_sound p emin p_4 emin_below e f e_units _ _ _ _ _ _ HA HB (real_new _ new_a _ _)
-    (real_new _ new_b _ _) limit g g_f (if known then Some (B2R error) else None)). unfold Affine.affine_multiply in T.
-  rewrite <- !is_exact_zero_real, CA, CB in T by auto. cbn [orb] in T. cbn [Affine.radius Affine.rest Affine.of] in T.
+    (real_new _ new_b _ _) limit g g_f (if known then Some (B2R error) else None)).
+  unfold Affine.affine_multiply in T. rewrite <- !is_exact_zero_real, CA, CB in T by auto. cbn [orb] in T.
+  cbn [Affine.radius Affine.rest Affine.of] in T.
   destruct known eqn:CK.
   - apply (IeeeInterval.product_known p emax at_least_3) in CK. destruct CK as (_ & _ & _ & _ & E & _). rewrite EV in E.
     apply abs_value in FE. destruct FE as [_ ->]. apply T. intros k [= <-]. split; [apply number_B2R | exact E].
@@ -546,14 +588,16 @@ Proof.
   destruct (less _ F zero (d ⊗ (integer _ F 1 ⊖ epsilon _ F))) eqn:C; cbn [negb];
     [| split; [apply always_made; intros; apply unknown_known | discriminate]].
   destruct (distance_positive p emax at_least_3 b (radius sb) y (proj1 of_b) (less_of_shrunk _ C))
-    as (FB & RB & FD & PD & NB & NY). fold d in FD, PD. split; [| auto]. assert (FQ := shrunk_finite d FD).
-  destruct (times_finite p emax _ _ FQ) as (_ & _ & EQ). rewrite (proj1 (proj2 shrinking_value)) in EQ.
-  set (distance := d ⊗ _) in *.
+    as (FB & RB & FD & PD & NB & NY).
+  fold d in FD, PD. split; [| auto].
+  assert (FQ := shrunk_finite d FD). destruct (times_finite p emax _ _ FQ) as (_ & _ & EQ).
+  rewrite (proj1 (proj2 shrinking_value)) in EQ. set (distance := d ⊗ _) in *.
   assert (PQ : 0 < B2R distance).
   { revert C. destruct zero_is_0 as [Z0 Z]. rewrite (less_finite p emax), Z by auto. now case Rlt_bool_spec. }
   assert (ED : B2R d = fl (Rabs (B2R b) - B2R (radius sb))).
   { destruct (minus_finite _ _ _ _ FD) as (FAB & _ & E). apply abs_value in FAB. now rewrite (proj2 FAB) in E. }
-  rewrite ED in EQ. assert (AB := abs_value _ (abs_finite_intro p emax _ FB)). destruct AB as [_ AB].
+  rewrite ED in EQ.
+  assert (AB := abs_value _ (abs_finite_intro p emax _ FB)). destruct AB as [_ AB].
   destruct (is_exact_zero _ F a sa) eqn:CZ.
   { destruct (exact_zero_known _ _ _ of_a CZ) as [A ->]. unfold Rdiv. rewrite Rmult_0_l. apply zero_made.
     now apply (zero_over p emax). }
@@ -563,8 +607,10 @@ Proof.
   set (left0 := upper_sum _ F (upper_product _ F (abs _ F (a ⊘ b)) (rest sb)) (rest sa)).
   set (left1 := if known then upper_sum _ F left0 (abs _ F remainder) else left0).
   destruct (fold_left (quotient_step _ F (a ⊘ b) b) (merged _ F (parts sa) (parts sb)) (left1, r0))
-    as [left2 r2] eqn:Fold. set (r3 := add_left _ F (upper_quotient _ F left2 (abs _ F b)) r2).
-  set (quotient := upper_sum _ F (radius_of _ F r3) (fst r3)). apply finished_known with f. intros FV FB'.
+    as [left2 r2] eqn:Fold.
+  set (r3 := add_left _ F (upper_quotient _ F left2 (abs _ F b)) r2).
+  set (quotient := upper_sum _ F (radius_of _ F r3) (fst r3)).
+  apply finished_known with f. intros FV FB'.
   destruct (over_finite p emax _ _ FB NB FV) as [FA EV].
   assert (G3 : fine r3 /\
     real (if less _ F zero (radius sb)
@@ -591,8 +637,9 @@ Proof.
     with (l := merged _ F (parts sa) (parts sb)) (s := (left1, r0)) as (G0 & FM & EF).
   { intros r t. now apply quotient_step_fine. }
   { rewrite Fold. now split. }
-  rewrite Fold in EF. destruct (merged_real (parts sa) (parts sb)) as [EM M]. rewrite EM in EF.
-  destruct (M FM) as [PA PB]. destruct G0 as [GL1 G0]. cbn [fst snd] in GL1, G0.
+  rewrite Fold in EF. destruct (merged_real (parts sa) (parts sb)) as [EM M].
+  rewrite EM in EF. destruct (M FM) as [PA PB].
+  destruct G0 as [GL1 G0]. cbn [fst snd] in GL1, G0.
   assert (G1 : finite left0 /\ (known = true -> finite remainder) /\ B2R left1 =
       match (if known then Some (B2R remainder) else None) with
       | Some r => Affine.upper_sum p emin (B2R left0) (Rabs r)
@@ -624,12 +671,13 @@ Theorem affine_scale_known k :
   made e (scale _ F a k) (affine_scale _ F limit (scale _ F a k) a sa k g) (x * bpow radix2 k) g.
 Proof.
   unfold affine_scale. cbv zeta. apply finished_known with f. intros FV FB.
-  destruct (scale_finite p emax _ _ FV) as [FA EV]. apply add_left_fine in FB. destruct FB as (_ & FB & ->).
+  destruct (scale_finite p emax _ _ FV) as [FA EV].
+  apply add_left_fine in FB. destruct FB as (_ & FB & ->).
   apply add_left_fine in FB. destruct FB as (FS & FB & ->). destruct (scale_finite p emax _ _ FS) as [FR ES].
   rewrite (proj2 (lost_real _ _ k FS FR)), ES.
   apply (fold_backward fine (fun t => finite (snd t)) real (fun t => (fst t, B2R (snd t))) _
-    (Affine.scale_step p emin k)) in FB; [| apply scale_step_fine]. destruct FB as (FB & FP & ->).
-  apply add_left_fine in FB. destruct FB as (_ & _ & ->). rewrite nothing_real.
+    (Affine.scale_step p emin k)) in FB; [| apply scale_step_fine].
+  destruct FB as (FB & FP & ->). apply add_left_fine in FB. destruct FB as (_ & _ & ->). rewrite nothing_real.
   rewrite (proj2 (lost_real _ _ k FV FA)), EV. destruct (proj2 of_a FR FP) as [_ HA].
   apply (Affine.affine_scale_sound p emin p_4 emin_below e f e_units _ _ _ HA (real_new _ new_a _ _) limit g g_f).
 Qed.

@@ -11,9 +11,12 @@
             `gives l k m r`: from numbers of l, after k operations, m computes a number that stands for r
         gives_known, gives_error   it is known by an assignment as in next_known, and its radius is an error *)
 
-From Coq Require Import Reals ZArith Lia Lra Bool List. From Flocq Require Import Core IEEE754.BinarySingleNaN.
+From Coq Require Import Reals ZArith Lia Lra Bool List.
+From Flocq Require Import Core IEEE754.BinarySingleNaN.
 From Errbound Require Import Code CompoundCode AffineCode NumberedCode Ieee IeeeRules IeeeAffine IeeeFunctions
-  IeeeCompound. From Errbound Require Format Tight Functions Affine DotProduct Compound. Import ListNotations.
+  IeeeCompound.
+From Errbound Require Format Tight Functions Affine DotProduct Compound.
+Import ListNotations.
 Open Scope R_scope.
 
 (** A result's sources are those of its operands, and its own. *)
@@ -23,12 +26,15 @@ Context (T : Type) (A : arithmetic T) (fused : bool) (limit : nat) (P : Z -> Pro
 
 Definition all_from {X} (l : list (Z * X)) : Prop := Forall (fun t => P (fst t)) l.
 Lemma add_from s c (B : builder T) : P s -> all_from (snd B) -> all_from (snd (add T A s c B)).
-Proof. intros S H. unfold add. destruct (equal T A c _); auto. cbn [snd]. apply Forall_app. split; auto. Qed.
+Proof.
+  intros S H. unfold add. destruct (equal T A c _); auto. cbn [snd]. apply Forall_app. split; auto.
+Qed.
 Lemma least_from t l : P (fst t) -> all_from l -> P (fst (fst (least T A t l))) /\ all_from (snd (least T A t l)).
 Proof.
   revert t. induction l as [| x l IH]; intros t H L; [simpl; auto |]. inversion L. subst. cbn [least].
   destruct (IH x) as [HM HR]; auto. destruct (least T A x l) as [m r].
-  destruct (less T A _ _); cbn [fst snd] in *; auto. split; auto. now constructor.
+  destruct (less T A _ _); cbn [fst snd] in *; auto.
+  split; auto. now constructor.
 Qed.
 Lemma shorten_from fuel (B : builder T) : all_from (snd B) -> all_from (snd (shorten T A limit fuel B)).
 Proof.
@@ -60,8 +66,9 @@ Proof.
     + inversion HB. subst. cbn [merged]. destruct (s <? t)%Z; [| destruct (t <? s)%Z];
         (constructor; [easy |]); [now apply IHa | now apply IH | now apply IHa].
 Qed.
-Lemma fold_from {S X} (read : S -> terms T) (step : S -> Z * X -> S) : (forall s t, P (fst t) -> all_from (read s) ->
-  all_from (read (step s t))) -> forall l s, all_from l -> all_from (read s) -> all_from (read (fold_left step l s)).
+Lemma fold_from {S X} (read : S -> terms T) (step : S -> Z * X -> S) :
+  (forall s t, P (fst t) -> all_from (read s) -> all_from (read (step s t))) ->
+  forall l s, all_from l -> all_from (read s) -> all_from (read (fold_left step l s)).
 Proof. intros H. induction l as [| t l IH]; intros s L R; simpl; auto. inversion L. subst. auto. Qed.
 
 Lemma negate_from b : all_from (parts T b) -> all_from (parts T (affine_negate T A b)).
@@ -108,15 +115,25 @@ Section Functions.
 Context (p emax : Z) {p_positive : Prec_gt_0 p} {p_below : Prec_lt_emax p emax} (p_4 : (4 <= p)%Z).
 Variable fused : bool.  (* has_fast_fma *)
 Variable limit : nat.
-Notation float := (binary_float p emax). Notation F := (floats p emax). Notation emin := (3 - emax - p)%Z.
-Notation affine := (affine float). Notation radius := (radius float). Notation parts := (parts float).
-Notation known := (known p emax). Notation affine_known := (affine_known p emax). Notation is_new := (is_new p emax).
-Notation made := (made p emax). Notation p_3 := (at_least_3 p p_4).
-Notation by_rule := (affine_operations float F fused limit). Notation rule := (affine_rule float F limit).
+Notation float := (binary_float p emax).
+Notation F := (floats p emax).
+Notation emin := (3 - emax - p)%Z.
+Notation affine := (affine float).
+Notation radius := (radius float).
+Notation parts := (parts float).
+Notation known := (known p emax).
+Notation affine_known := (affine_known p emax).
+Notation is_new := (is_new p emax).
+Notation made := (made p emax).
+Notation p_3 := (at_least_3 p p_4).
+Notation by_rule := (affine_operations float F fused limit).
+Notation rule := (affine_rule float F limit).
 Notation number := (float * affine)%type.
 
 Lemma known_alike e a c A x : finite a -> finite c -> B2R a = B2R c -> affine_known e a A x -> affine_known e c A x.
-Proof. intros FA FC E [KR K]. split; [now apply (known_same p emax) with a |]. now rewrite <- E. Qed.
+Proof.
+  intros FA FC E [KR K]. split; [now apply (known_same p emax) with a |]. now rewrite <- E.
+Qed.
 (** There is always another source. *)
 Lemma another (l : list Z) : exists f, forall s, In s l -> s <> f.
 Proof.
@@ -269,7 +286,8 @@ Proof.
   split; cbn [last_operation the_rule rule_add rule_multiply rule_divide rule_scale]; auto; try discriminate.
   - split; cbn [last_operation the_rule rule_exact rule_within rule_error rule_subtract rule_negate rule_sign]; auto.
     + intros a. apply always_made. intros. now apply affine_exact_known.
-    + intros a error x K. destruct (some_source g) as [f G]. now apply (affine_within_known p emax p_4 limit e U f g G).
+    + intros a error x K. destruct (some_source g) as [f G].
+      now apply (affine_within_known p emax p_4 limit e U f g G).
     + intros a b x. apply made_error.
     + intros a b x. apply made_map. intros. now apply affine_negate_known.
     + intros a b x K. apply (sign_of_known p emax p_3). now apply made_error in K.
@@ -284,11 +302,12 @@ Proof.
   destruct L as (f & G & NF). clear New.
   assert (M : forall n x, In (n, x) l -> made e (fst n) (snd n) x g) by (intros; apply made_of_known; auto).
   assert (Last := last_operation_keeps e g U). assert (Rule := keeps_promises _ _ _ _ _ Last).
-  destruct 1 as [v | v error x E | a c A x FA FC E I | a x I | a x b y I J | a x b y I J | a x b y I J |
-    a x b y t I J Q w | a x k I | a x I | a x I | a x b y c z I J H | a x b y c z I J H | exponent a x b y P8 Exp I J];
-    unfold tracked_exactly, tracked_within,
-    tracked_negate, tracked_add, tracked_subtract, tracked_multiply, tracked_scale; cbn [fst snd affine_rule
-    affine_operations the_rule rule_exact rule_within rule_negate rule_add rule_subtract rule_multiply rule_scale].
+  destruct 1 as [v | v error x E | a c A x FA FC E I | a x I | a x b y I J | a x b y I J | a x b y I J | a x b y t
+    I J Q w | a x k I | a x I | a x I | a x b y c z I J H | a x b y c z I J H | exponent a x b y P8 Exp I J];
+    unfold tracked_exactly, tracked_within, tracked_negate, tracked_add, tracked_subtract, tracked_multiply,
+      tracked_scale;
+    cbn [fst snd affine_rule affine_operations the_rule rule_exact rule_within rule_negate rule_add rule_subtract
+      rule_multiply rule_scale].
   - apply always_made. intros. now apply affine_exact_known.
   - now apply (affine_within_known p emax p_4 limit e U f g G).
   - apply made_of_known; auto. apply known_alike with a; auto. exact (K (a, A) x I).
@@ -296,7 +315,8 @@ Proof.
   - apply (affine_add_known p emax p_4 limit e U f g G); eauto.
   - apply (affine_subtract_known p emax p_4 limit e f); eauto.
   - apply (affine_multiply_known p emax p_4 fused limit e U f g G); eauto.
-  - apply (quotient_of_any e _ _ x y g); auto. apply (affine_divide_known p emax p_4 fused limit e U f g G); eauto.
+  - apply (quotient_of_any e _ _ x y g); auto.
+    apply (affine_divide_known p emax p_4 fused limit e U f g G); eauto.
   - apply (affine_scale_known p emax p_4 limit e U f g G); eauto.
   - rewrite <- last_sqrt. apply (sqrt_known p emax p_3 fused affine _ _ Rule a x (M _ _ I)).
   - rewrite <- last_abs. apply (IeeeFunctions.abs_known p emax p_3 affine _ _ Rule a x (M _ _ I)).
@@ -309,7 +329,8 @@ Qed.
 Theorem next_known e g l n x : all_known e l -> unused_source g l -> result g l n x ->
   exists e', all_known e' ((n, x) :: l) /\ forall s, used l s -> e' s = e s.
 Proof.
-  intros K New H. assert (M := result_made e g l n x K New H). destruct K as [U K]. destruct g as [f |].
+  intros K New H. assert (M := result_made e g l n x K New H). destruct K as [U K].
+  destruct g as [f |].
   - destruct M as (t & T & M). specialize (New f eq_refl).
     assert (S : forall s, used l s -> Affine.set e f t s = e s).
     { intros s (m & y & I & S). unfold Affine.set. destruct (Z.eqb_spec s f) as [-> |]; auto. exfalso.
@@ -407,7 +428,8 @@ Lemma ready_next k l n x : ready k l -> result (source k) l n x ->
 Proof.
   intros [(e & K) New] H. assert (N := New k (le_n k)).
   split; [now apply one_more with (source k); [constructor | |] |].
-  destruct (next_known e _ l n x K N H) as (e' & K' & _). split; [now exists e' |]. intros j L f J m y [[= <- <-] | I].
+  destruct (next_known e _ l n x K N H) as (e' & K' & _). split; [now exists e' |].
+  intros j L f J m y [[= <- <-] | I].
   - apply new_intro. intros s S ->. destruct (result_sources _ _ _ _ H f S) as [(m & y & I & U) | U].
     + apply in_map_iff in U. destruct U as (t & T & U).
       now apply (proj1 (Forall_forall _ _) (New j ltac:(lia) f J m y I) t U).
@@ -440,15 +462,21 @@ Notation the_rule := (the_rule _ _ (operation O)).
 Lemma sign_right k l n x : ready k l -> In (n, x) l -> right_sign (tracked_sign _ _ the_rule n) x.
 Proof. intros Ready I. apply (sign_of_known p emax p_3). now apply (error_right k l n). Qed.
 
-Notation add := (numbered_add _ F _ operation). Notation subtract := (numbered_subtract _ F _ operation).
-Notation multiply := (numbered_multiply _ F _ operation). Notation scale := (numbered_scale _ F _ operation).
+Notation add := (numbered_add _ F _ operation).
+Notation subtract := (numbered_subtract _ F _ operation).
+Notation multiply := (numbered_multiply _ F _ operation).
+Notation scale := (numbered_scale _ F _ operation).
 Section Operations.
 Context (l : list_of_numbers) (k : nat) (Ready : ready k l) (a b : number) (x y : R) (of_a : In (a, x) l)
   (of_b : In (b, y) l).
-Lemma add_gives : gives l k (add a b) (x + y). Proof. apply gives_once; auto. now apply of_add. Qed.
-Lemma subtract_gives : gives l k (subtract a b) (x - y). Proof. apply gives_once; auto. now apply of_subtract. Qed.
-Lemma multiply_gives : gives l k (multiply a b) (x * y). Proof. apply gives_once; auto. now apply of_multiply. Qed.
-Lemma scale_gives e : gives l k (scale a e) (x * bpow radix2 e). Proof. apply gives_once; auto. now apply of_scale. Qed.
+Lemma add_gives : gives l k (add a b) (x + y).
+Proof. apply gives_once; auto. now apply of_add. Qed.
+Lemma subtract_gives : gives l k (subtract a b) (x - y).
+Proof. apply gives_once; auto. now apply of_subtract. Qed.
+Lemma multiply_gives : gives l k (multiply a b) (x * y).
+Proof. apply gives_once; auto. now apply of_multiply. Qed.
+Lemma scale_gives e : gives l k (scale a e) (x * bpow radix2 e).
+Proof. apply gives_once; auto. now apply of_scale. Qed.
 End Operations.
 
 (** The sum need not be finite. *)
@@ -460,12 +488,14 @@ Proof.
   apply makes_after with (1 := add_gives l k Ready x y r s X Y). intros sum l1 j C R1 S. apply computed_incl in C.
   destruct (_ && _); [now apply scale_gives |]. rewrite Rmult_plus_distr_r.
   apply makes_after with (1 := scale_gives l1 j R1 x r (C _ X) (-1)). intros half l2 i C2 R2 H.
-  apply computed_incl in C2. apply makes_after with (1 := scale_gives l2 i R2 y s (C2 _ (C _ Y)) (-1)).
-  intros other l3 h C3 R3 O. apply computed_incl in C3. apply add_gives; auto.
+  apply computed_incl in C2.
+  apply makes_after with (1 := scale_gives l2 i R2 y s (C2 _ (C _ Y)) (-1)). intros other l3 h C3 R3 O.
+  apply computed_incl in C3. apply add_gives; auto.
 Qed.
 
-Lemma lesser_gives l k x r y s : ready k l -> In (x, r) l -> In (y, s) l -> (finite (fst x) ->
-  finite (fst y) -> B2R (fst x) <= B2R (fst y)) -> gives l k (numbered_lesser_or_either _ F _ operation x y) (Rmin r s).
+Lemma lesser_gives l k x r y s : ready k l -> In (x, r) l -> In (y, s) l ->
+  (finite (fst x) -> finite (fst y) -> B2R (fst x) <= B2R (fst y)) ->
+  gives l k (numbered_lesser_or_either _ F _ operation x y) (Rmin r s).
 Proof.
   intros Ready X Y L. unfold numbered_lesser_or_either.
   apply makes_after with (1 := subtract_gives l k Ready x y r s X Y). intros difference l1 j C R1 D.
@@ -496,19 +526,22 @@ Qed.
 Theorem affine_max_gives l k x r y s : ready k l -> In (x, r) l -> In (y, s) l ->
   gives l k (numbered_max _ F _ operation x y) (Rmax r s).
 Proof.
-  intros Ready X Y. unfold numbered_max. replace (Rmax r s) with (- Rmin (- r) (- s)) by (rewrite <- Ropp_Rmax; ring).
+  intros Ready X Y. unfold numbered_max.
+  replace (Rmax r s) with (- Rmin (- r) (- s)) by (rewrite <- Ropp_Rmax; ring).
   apply makes_beside with (1 := Ready) (2 := of_negate None l x r X). intros R1.
   apply makes_beside with (1 := R1) (2 := of_negate None (_ :: l) y s (or_intror Y)). intros R2.
   set (nx := tracked_negate _ F _ (rule None) x) in *. set (ny := tracked_negate _ F _ (rule None) y) in *.
-  set (l2 := (ny, - s) :: (nx, - r) :: l) in *. assert (NX : In (nx, - r) l2) by (right; now left).
-  assert (NY : In (ny, - s) l2) by now left.
+  set (l2 := (ny, - s) :: (nx, - r) :: l) in *.
+  assert (NX : In (nx, - r) l2) by (right; now left). assert (NY : In (ny, - s) l2) by now left.
   assert (L : gives l2 k (if less _ F (fst x) (fst y) then numbered_lesser_or_either _ F _ operation ny nx
       else numbered_lesser_or_either _ F _ operation nx ny) (Rmin (- r) (- s))).
   { destruct (less _ F (fst x) (fst y)) eqn:C; [rewrite Rmin_comm |]; apply lesser_gives; auto;
-      cbn [fst tracked_negate nx ny]; intros F1 F2; apply (opposite_finite p emax) in F1, F2; rewrite !opposite_value;
-      revert C; rewrite (less_finite p emax) by auto; case Rlt_bool_spec; try discriminate; lra. }
+      cbn [fst tracked_negate nx ny];
+      intros F1 F2; apply (opposite_finite p emax) in F1, F2; rewrite !opposite_value; revert C;
+      rewrite (less_finite p emax) by auto; case Rlt_bool_spec; try discriminate; lra. }
   apply makes_after with (1 := L). intros lesser l3 j C R3 M.
-  apply makes_beside with (1 := R3) (2 := of_negate None l3 lesser _ M). intros R4. apply makes_at_once; auto. now left.
+  apply makes_beside with (1 := R3) (2 := of_negate None l3 lesser _ M). intros R4.
+  apply makes_at_once; auto. now left.
 Qed.
 
 (** Whole powers. For n < 0 it is 1/x^-n, and any number if x is zero. *)
@@ -520,13 +553,15 @@ Proof.
   - assert (N : gives l k (if first then at_once power else multiply result power) (s * t)).
     { destruct first; [rewrite (One eq_refl), Rmult_1_l; now apply makes_at_once | apply multiply_gives; auto]. }
     apply makes_after with (1 := N). intros next l1 j C1 R1 N1. apply computed_incl in C1.
-    apply makes_after with (1 := multiply_gives l1 j R1 power power t t (C1 _ P) (C1 _ P)). intros square l2 i C2 R2 Q.
-    apply computed_incl in C2. replace (s * r ^ (m * Pos.to_nat bits~1)) with (s * t * r ^ (m * 2 * Pos.to_nat bits)).
+    apply makes_after with (1 := multiply_gives l1 j R1 power power t t (C1 _ P) (C1 _ P)).
+    intros square l2 i C2 R2 Q. apply computed_incl in C2.
+    replace (s * r ^ (m * Pos.to_nat bits~1)) with (s * t * r ^ (m * 2 * Pos.to_nat bits)).
     + apply (IH l2 i false next square (s * t) (t * t) (m * 2)%nat); auto; try discriminate.
       rewrite E, <- pow_add. f_equal. lia.
     + rewrite E, Rmult_assoc, <- pow_add. do 2 f_equal. rewrite Pos2Nat.inj_xI. lia.
-  - apply makes_after with (1 := multiply_gives l k Ready power power t t P P). intros square l2 i C2 R2 Q.
-    apply computed_incl in C2. replace (s * r ^ (m * Pos.to_nat bits~0)) with (s * r ^ (m * 2 * Pos.to_nat bits)).
+  - apply makes_after with (1 := multiply_gives l k Ready power power t t P P).
+    intros square l2 i C2 R2 Q. apply computed_incl in C2.
+    replace (s * r ^ (m * Pos.to_nat bits~0)) with (s * r ^ (m * 2 * Pos.to_nat bits)).
     + apply (IH l2 i first result square s (t * t) (m * 2)%nat); auto. rewrite E, <- pow_add. f_equal. lia.
     + do 2 f_equal. rewrite Pos2Nat.inj_xO. lia.
   - replace (m * Pos.to_nat 1)%nat with m by lia. rewrite <- E.
@@ -540,8 +575,9 @@ Proof.
     ltac:(discriminate) ltac:(simpl; ring) ltac:(reflexivity)).
   replace (1 * r ^ (1 * Pos.to_nat bits)) with (r ^ Pos.to_nat bits) in P by (rewrite Nat.mul_1_l; ring).
   apply makes_after with (1 := P). intros power l1 j C R1 W.
-  apply makes_beside with (1 := R1) (2 := of_exactly None l1 (integer _ F 1)). intros R2. apply gives_once; auto.
-  apply (of_divide _ _ _ (B2R (integer _ F 1)) _ (r ^ Pos.to_nat bits)); [now left | now right |].
+  apply makes_beside with (1 := R1) (2 := of_exactly None l1 (integer _ F 1)). intros R2.
+  apply gives_once; auto. apply (of_divide _ _ _ (B2R (integer _ F 1)) _ (r ^ Pos.to_nat bits));
+    [now left | now right |].
   rewrite (proj2 (integer_value p emax p_3 1 ltac:(lia))).
   destruct Q as [-> | ->]; [left; apply pow_i; lia | right; unfold Rdiv; ring].
 Qed.
@@ -576,7 +612,8 @@ Lemma dot_loop pairs : forall exacts l k sum r, ready k l -> Forall2 (pair_in l)
   gives l k (each (numbered_dot_step _ F _ operation) pairs sum) (r + DotProduct.exact_dot exacts).
 Proof.
   induction pairs as [| pair pairs IH]; intros exacts l k sum r Ready H S;
-    inversion H as [| ? exact ? exacts' [P1 P2] H']; subst; cbn [each DotProduct.exact_dot fold_right].
+    inversion H as [| ? exact ? exacts' [P1 P2] H']; subst;
+    cbn [each DotProduct.exact_dot fold_right].
   - rewrite Rplus_0_r. now apply makes_at_once.
   - apply makes_after with (P := fun x l' => In (x, r + fst exact * snd exact) l').
     + apply makes_after with (1 := multiply_gives l k Ready _ _ _ _ P1 P2). intros product l1 j C R1 M.
@@ -615,7 +652,8 @@ Proof.
   apply computed_incl in I. apply add_gives; auto.
 Qed.
 Lemma steps_give x r c : forall exact l k s q, ready k l -> In (x, r) l -> Forall2 (number_in l) c exact ->
-  In (s, q) l -> gives l k (each (horner_step x) c s) (fold_left (fun sum a => sum * r + a) exact q).
+  In (s, q) l ->
+  gives l k (each (horner_step x) c s) (fold_left (fun sum a => sum * r + a) exact q).
 Proof.
   induction c as [| a c IH]; intros exact l k s q Ready X H S; inversion H as [| ? t ? exact' A H']; subst;
     cbn [each fold_left]; [now apply makes_at_once |].
@@ -631,8 +669,9 @@ Proof.
     cbn [each fold_left]; [apply makes_at_once; eauto |].
   apply makes_after with (P := fun s' l' => In (fst s', t * v + w) l' /\ In (snd s', q * r + (t * v + w)) l').
   - apply makes_after with (1 := step_gives l k at_value v _ t a w Ready V S1 A). intros there l1 j I1 R1 N1.
-    apply computed_incl in I1. apply makes_after with (1 := multiply_gives l1 j R1 _ _ q r (I1 _ S2) (I1 _ X)).
-    intros product l2 i I2 R2 N2. apply computed_incl in I2.
+    apply computed_incl in I1.
+    apply makes_after with (1 := multiply_gives l1 j R1 _ _ q r (I1 _ S2) (I1 _ X)). intros product l2 i I2 R2 N2.
+    apply computed_incl in I2.
     apply makes_after with (1 := add_gives l2 i R2 _ _ _ _ N2 (I2 _ N1)). intros slope l3 h I3 R3 N3.
     apply computed_incl in I3. apply makes_at_once; auto.
   - intros s' l1 j I R1 [N1 N2]. apply computed_incl in I.
@@ -643,8 +682,9 @@ Qed.
 Lemma steps_value x c : forall s k,
   fst (fst (each (horner_step x) c s k)) = fold_left (fun v a => v ⊗ fst x ⊕ fst a) c (fst s).
 Proof. induction c as [| a c IH]; intros s k; [reflexivity |]. cbn [each fold_left]. apply IH. Qed.
-Lemma slopes_value at_value x c : forall s k, fst
-  (fst (fst (each (slope_step at_value x) c s k))) = fold_left (fun v a => v ⊗ fst at_value ⊕ fst a) c (fst (fst s)).
+Lemma slopes_value at_value x c : forall s k,
+  fst (fst (fst (each (slope_step at_value x) c s k))) = fold_left (fun v a => v ⊗ fst at_value ⊕ fst a) c (fst (fst
+    s)).
 Proof. induction c as [| a c IH]; intros s k; [reflexivity |]. cbn [each fold_left]. apply IH. Qed.
 Lemma makes_and {X} l k (m : counted X) P (Q : X -> Prop) :
   makes l k m P -> Q (fst (m k)) -> makes l k m (fun x l' => P x l' /\ Q x).
@@ -664,30 +704,37 @@ Proof.
   destruct H as [| top b middle m Top H]; [simpl; rewrite Rmult_0_r, Rplus_0_r; now apply makes_at_once |].
   cbn [fold_left]. rewrite Rmult_0_l, Rplus_0_l. set (o := fold_left _ m b).
   replace (a0 + r * o) with (o * r + a0) by ring. cbv zeta.
-  apply makes_after with (1 := makes_and l k _ _ (fun y => fst y = fold_left (fun v a => v ⊗ fst x ⊕ fst a)
-    middle (fst top)) (steps_give x r middle m l k top b Ready X H Top) (steps_value x middle top k)).
+  apply makes_after with (1 := makes_and l k _ _ (fun y => fst y =
+    fold_left (fun v a => v ⊗ fst x ⊕ fst a) middle (fst top))
+    (steps_give x r middle m l k top b Ready X H Top) (steps_value x middle top k)).
   intros part l1 k1 I1 R1 [P1 V1]. apply computed_incl in I1.
   apply makes_after with (1 := makes_and l1 k1 _ _ (fun y => fst y = fst part ⊗ fst x ⊕ fst c0)
-    (step_gives l1 k1 x r part o c0 a0 R1 (I1 _ X) P1 (I1 _ C0)) eq_refl). intros result l2 k2 I2 R2 [P2 V2].
-  apply computed_incl in I2. destruct (_ || _); [now apply makes_at_once |].
+    (step_gives l1 k1 x r part o c0 a0 R1 (I1 _ X) P1 (I1 _ C0)) eq_refl).
+  intros result l2 k2 I2 R2 [P2 V2]. apply computed_incl in I2.
+  destruct (_ || _); [now apply makes_at_once |].
   set (at_value := tracked_exactly _ _ the_rule (fst x)).
   apply makes_beside with (1 := R2) (2 := of_exactly None l2 (fst x)). fold at_value.
   change (tracked_exactly _ _ (rule None) (fst x)) with at_value. set (l3 := (at_value, B2R (fst x)) :: l2). intros R3.
   assert (I3 : incl l l3) by (intros n N; right; auto). assert (V : In (at_value, B2R (fst x)) l3) by now left.
-  apply makes_after with (1 := makes_and l3 k2 _ _ (fun s => fst (fst s) = fold_left (fun v a => v
-    ⊗ fst at_value ⊕ fst a) middle (fst top)) (slopes_give at_value _ x r middle m l3 k2 (top, top) b b b R3 V (I3 _ X)
-    (numbers_in _ _ _ _ I3 H) (I3 _ Top) (I3 _ Top) ltac:(ring)) (slopes_value at_value x middle (top, top) k2)).
+  apply makes_after with (1 := makes_and l3 k2 _ _
+    (fun s => fst (fst s) = fold_left (fun v a => v ⊗ fst at_value ⊕ fst a) middle (fst top))
+    (slopes_give at_value _ x r middle m l3 k2 (top, top) b b b R3 V (I3 _ X) (numbers_in _ _ _ _ I3 H) (I3 _ Top) (I3
+      _ Top)
+      ltac:(ring)) (slopes_value at_value x middle (top, top) k2)).
   intros s l4 k4 I4 R4 [(t & q & S1 & S2 & E) V4]. apply computed_incl in I4. fold o in E.
   apply makes_after with (1 := makes_and l4 k4 _ _ (fun y => fst y = fst x ⊖ fst x)
-    (subtract_gives l4 k4 R4 x at_value r _ (I4 _ (I3 _ X)) (I4 _ V)) eq_refl). intros difference l5 k5 I5 R5 [D V5].
-  apply computed_incl in I5.
+    (subtract_gives l4 k4 R4 x at_value r _ (I4 _ (I3 _ X)) (I4 _ V)) eq_refl).
+  intros difference l5 k5 I5 R5 [D V5]. apply computed_incl in I5.
   apply makes_after with (1 := makes_and l5 k5 _ _ (fun y => fst y = fst (snd s) ⊗ fst difference)
-    (multiply_gives l5 k5 R5 _ _ _ _ (I5 _ S2) D) eq_refl). intros change l6 k6 I6 R6 [M V6]. apply computed_incl in I6.
-  apply makes_after with (1 := makes_and l6 k6 _ _ (fun y => fst y = fst (fst s) ⊗ fst x ⊕ fst c0) (step_gives l6
-    k6 at_value _ (fst s) t c0 a0 R6 (I6 _ (I5 _ (I4 _ V))) (I6 _ (I5 _ S1)) (I6 _ (I5 _ (I4 _ (I3 _ C0))))) eq_refl).
+    (multiply_gives l5 k5 R5 _ _ _ _ (I5 _ S2) D) eq_refl).
+  intros change l6 k6 I6 R6 [M V6]. apply computed_incl in I6.
+  apply makes_after with (1 := makes_and l6 k6 _ _ (fun y => fst y = fst (fst s) ⊗ fst x ⊕ fst c0)
+    (step_gives l6 k6 at_value _ (fst s) t c0 a0 R6 (I6 _ (I5 _ (I4 _ V))) (I6 _ (I5 _ S1))
+      (I6 _ (I5 _ (I4 _ (I3 _ C0))))) eq_refl).
   intros there l7 k7 I7 R7 [T V7]. apply computed_incl in I7.
   apply makes_after with (1 := makes_and l7 k7 _ _ (fun y => fst y = fst there ⊕ fst change)
-    (add_gives l7 k7 R7 _ _ _ _ T (I7 _ M)) eq_refl). intros by_slope l8 k8 I8 R8 [W V8]. apply computed_incl in I8.
+    (add_gives l7 k7 R7 _ _ _ _ T (I7 _ M)) eq_refl).
+  intros by_slope l8 k8 I8 R8 [W V8]. apply computed_incl in I8.
   assert (Result : In (result, o * r + a0) l8) by (apply I8, I7, I6, I5, I4; now right).
   destruct (_ && _) eqn:C; [| now apply makes_at_once]. apply andb_prop in C. destruct C as [C _].
   replace (t * B2R (fst x) + a0 + q * (r - B2R (fst x))) with (o * r + a0) in W by (rewrite E; ring).
@@ -777,6 +824,8 @@ Proof.
   apply computed_incl in C. intros n' x [[= <- <-] | H]; apply K'; auto.
 Qed.
 Theorem gives_error l k m r : gives l k m r -> known (fst (fst (m k))) (radius (snd (fst (m k)))) r.
-Proof. unfold gives, makes. destruct (m k) as [n j]. intros (l' & _ & Ready & I). now apply (error_right j l'). Qed.
+Proof.
+  unfold gives, makes. destruct (m k) as [n j]. intros (l' & _ & Ready & I). now apply (error_right j l').
+Qed.
 
 End Functions.

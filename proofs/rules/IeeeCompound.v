@@ -8,17 +8,22 @@
         midpoint_known, pow_known, dot_known, horner_known, lerp_known, copysign_known, and from p = 8 on hypot_known
                           by such a rule, the bound that the code returns holds for functions of known numbers *)
 
-From Coq Require Import Reals ZArith Lia Lra Bool List. From Flocq Require Import Core IEEE754.BinarySingleNaN.
+From Coq Require Import Reals ZArith Lia Lra Bool List.
+From Flocq Require Import Core IEEE754.BinarySingleNaN.
 From Errbound Require Import Code CompoundCode Ieee IeeeRules IeeeFunctions DotProduct Compound.
-From Errbound Require Format Tight Functions IeeeSafe IeeeInterval IeeeResidual. Import ListNotations.
+From Errbound Require Format Tight Functions IeeeSafe IeeeInterval IeeeResidual.
+Import ListNotations.
 Open Scope R_scope.
 
 Section Compound.
 
 Context (p emax : Z) {p_positive : Prec_gt_0 p} {p_below : Prec_lt_emax p emax} (p_3 : (3 <= p)%Z).
 Variable fused : bool.  (* has_fast_fma *)
-Notation float := (binary_float p emax). Notation F := (floats p emax). Notation emin := (3 - emax - p)%Z.
-Notation fl := (Format.rnd p emin Format.nearest). Notation known := (known p emax).
+Notation float := (binary_float p emax).
+Notation F := (floats p emax).
+Notation emin := (3 - emax - p)%Z.
+Notation fl := (Format.rnd p emin Format.nearest).
+Notation known := (known p emax).
 Notation promises := (promises p emax).
 
 Ltac parts := finite_parts p emax p_3.
@@ -43,7 +48,9 @@ Lemma known_same a c s x : finite a -> finite c -> B2R a = B2R c -> known a s x 
 Proof. intros _ C E [P K]. split; auto. intros H. rewrite <- E. split; auto. now apply K. Qed.
 
 Lemma known_of_quotient v s x y : known v s (x / y) /\ (finite s -> y <> 0) -> forall t, y = 0 \/ t = x / y -> known v s t.
-Proof. intros [K N] t [Y | ->]; [| exact K]. split; [apply K |]. intros H. now apply N in H. Qed.
+Proof.
+  intros [K N] t [Y | ->]; [| exact K]. split; [apply K |]. intros H. now apply N in H.
+Qed.
 
 Ltac known_operations promised add multiply divide scale :=
   split; cbn [tight_operations sharp_operations the_rule rule_add rule_multiply rule_divide rule_scale];
@@ -95,16 +102,21 @@ Qed.
 (** Theorems for any such rule. *)
 Context (B : Type) (by_rule : operations float B) (holds : float -> B -> R -> Prop)
   (Keeps : keeps_operations B by_rule holds).
-Notation rule := (the_rule float B by_rule). Notation Rule := (keeps_promises _ _ _ Keeps).
-Notation tracked_known := (tracked_known p emax B holds). Notation error_of := (tracked_error float F B rule).
+Notation rule := (the_rule float B by_rule).
+Notation Rule := (keeps_promises _ _ _ Keeps).
+Notation tracked_known := (tracked_known p emax B holds).
+Notation error_of := (tracked_error float F B rule).
 
 Lemma integer_known n : (n = 0 \/ n = 1)%Z -> holds (integer _ F n) (rule_exact _ _ rule (integer _ F n)) (IZR n).
-Proof. intros N. rewrite <- (proj2 (integer_value p emax p_3 n ltac:(lia))). apply (promise_exact _ _ _ _ _ Rule). Qed.
+Proof.
+  intros N. rewrite <- (proj2 (integer_value p emax p_3 n ltac:(lia))). apply (promise_exact _ _ _ _ _ Rule).
+Qed.
 Lemma zero_plus a : finite (integer _ F 0 ⊕ a) \/ integer _ F 0 ⊕ a = a.
 Proof.
   destruct (zero_value p emax p_3) as [Z0 Z]. destruct (BinarySingleNaN.is_finite a) eqn:FA.
   - left. generalize (Bplus_correct p emax _ _ mode_NE (integer _ F 0) a Z0 FA). rewrite Z, Rplus_0_l.
-    rewrite Rlt_bool_true; [now intros (_ & H & _) |]. change (Rabs (fl (B2R a)) < bpow radix2 emax).
+    rewrite Rlt_bool_true; [now intros (_ & H & _) |].
+    change (Rabs (fl (B2R a)) < bpow radix2 emax).
     rewrite (Format.rnd_exact p emin Format.nearest) by apply number_B2R. apply abs_B2R_lt_emax.
   - right. clear Z. destruct (integer _ F 0) as [| | |]; try discriminate; now destruct a.
 Qed.
@@ -118,8 +130,9 @@ Proof.
   - apply (promise_subtract _ _ _ _ _ Rule).
   - apply (known_product _ _ _ Keeps).
   - apply (known_scaled _ _ _ Keeps).
-  - intros a b x H. destruct (zero_plus a) as [FS | ->]; auto. assert (G := plus_finite p emax _ _ FS).
-    destruct G as (_ & FA & E). apply (known_alike _ _ _ Keeps) with a; auto. rewrite E, Z, Rplus_0_l. symmetry.
+  - intros a b x H. destruct (zero_plus a) as [FS | ->]; auto.
+    assert (G := plus_finite p emax _ _ FS). destruct G as (_ & FA & E).
+    apply (known_alike _ _ _ Keeps) with a; auto. rewrite E, Z, Rplus_0_l. symmetry.
     apply (Format.rnd_exact p emin Format.nearest), number_B2R.
   - intros a sa x b c d r e H v KV L.
     assert (KE := error_of_known p emax B rule holds Rule (v, d) r KV). cbn [fst] in KE. destruct KE as [PE KE].
@@ -127,10 +140,12 @@ Proof.
     { destruct (error_of (v, d)) as [| s | |]; try discriminate; auto. simpl in PE. subst s.
       now destruct e as [| [|] | | [|]]. }
     destruct (KE FE) as [FV _]. assert (G := plus_finite p emax _ _ FV). destruct G as (FA & FP & EV).
-    assert (G := times_finite p emax _ _ FP). destruct G as (FB & FD & EP). assert (G := minus_finite p emax _ _ FD).
-    destruct G as (FC & _ & ED). apply (known_alike _ _ _ Keeps) with v; auto. unfold v at 1.
+    assert (G := times_finite p emax _ _ FP). destruct G as (FB & FD & EP).
+    assert (G := minus_finite p emax _ _ FD). destruct G as (FC & _ & ED).
+    apply (known_alike _ _ _ Keeps) with v; auto. unfold v at 1.
     rewrite EV, EP, ED, Rminus_eq_0, (Format.rnd_0 p emin Format.nearest), Rmult_0_r,
-      (Format.rnd_0 p emin Format.nearest), Rplus_0_r. apply (Format.rnd_exact p emin Format.nearest), number_B2R.
+      (Format.rnd_0 p emin Format.nearest), Rplus_0_r.
+    apply (Format.rnd_exact p emin Format.nearest), number_B2R.
 Qed.
 
 Theorem midpoint_known x r y s : tracked_known x r -> tracked_known y s ->
@@ -148,7 +163,8 @@ Proof.
   - enough (G : forall t, r = 0 \/ t = / r ^ Pos.to_nat bits -> tracked_known (tracked_pow _ F _ by_rule x (Zneg bits)) t).
     { split; [apply G; now right |]. intros _ H ->. revert H. apply (any_number_error p emax B rule holds Rule). auto. }
     intros t Q. assert (P := power_kept _ _ _ _ _ _ compound_keeps x r (Zpos bits) ltac:(lia) X).
-    cbn [tracked_pow Z.to_nat powerRZ] in *. destruct (rule_divide float B by_rule) as [divide |] eqn:D.
+    cbn [tracked_pow Z.to_nat powerRZ] in *.
+    destruct (rule_divide float B by_rule) as [divide |] eqn:D.
     + apply (known_quotient _ _ _ Keeps divide) with 1 (r ^ Pos.to_nat bits); auto.
       * apply integer_known. now right.
       * destruct Q as [-> | ->]; [left; apply pow_i; lia | right; unfold Rdiv; ring].
@@ -182,22 +198,24 @@ Proof.
   { rewrite (At _ Z0 C0), ZV. replace ((1 - 0) * r + 0 * s) with r by ring. exact KX. }
   clear C0. destruct (_ && _) eqn:C1.
   { rewrite (At _ O0 C1), OV. replace ((1 - 1) * r + 1 * s) with s by ring. exact KY. }
-  clear C1 At. apply (promise_within _ _ _ _ _ Rule). intros H _. set (d := fst y ⊖ fst x) in *.
-  set (v := Code.fma _ F (fst z) d (fst x)) in *. apply (IeeeFunctions.enlarged_finite p emax p_3) in H.
-  destruct H as [H ->]. apply plus_finite in H. destruct H as (FR & H & ->).
-  apply (IeeeFunctions.rounding_of_finite p emax p_3) in FR. destruct FR as [FV ->]. apply plus_finite in H.
-  destruct H as (FE & H & ->). apply (IeeeFunctions.enlarged_finite p emax p_3) in FE. destruct FE as [FE ->].
-  apply plus_finite in H. destruct H as (FT & H8 & ->). apply (IeeeFunctions.enlarged_finite p emax p_3) in FT.
-  destruct FT as [FT ->]. apply fma_finite in FV. destruct FV as (FZ & FD & FX & EV). fold v in EV.
+  clear C1 At. apply (promise_within _ _ _ _ _ Rule). intros H _.
+  set (d := fst y ⊖ fst x) in *. set (v := Code.fma _ F (fst z) d (fst x)) in *.
+  apply (IeeeFunctions.enlarged_finite p emax p_3) in H. destruct H as [H ->].
+  apply plus_finite in H. destruct H as (FR & H & ->). apply (IeeeFunctions.rounding_of_finite p emax p_3) in FR. destruct FR as [FV ->].
+  apply plus_finite in H. destruct H as (FE & H & ->). apply (IeeeFunctions.enlarged_finite p emax p_3) in FE. destruct FE as [FE ->].
+  apply plus_finite in H. destruct H as (FT & H8 & ->). apply (IeeeFunctions.enlarged_finite p emax p_3) in FT. destruct FT as [FT ->].
+  apply fma_finite in FV. destruct FV as (FZ & FD & FX & EV). fold v in EV.
   apply plus_finite in FT. destruct FT as (FT1 & FT2 & ->). apply times_finite in FT1, FT2.
-  destruct FT1 as (FT1 & FK & ->), FT2 as (FT2 & FRD & ->). apply (IeeeFunctions.rounding_of_finite p emax p_3) in FRD.
-  destruct FRD as [_ ERD]. assert (G := minus_finite p emax _ _ FD). destruct G as (FY & _ & ED). fold d in ED.
-  apply plus_finite in FT1. destruct FT1 as (FT1 & _ & ->). parts. values.
+  destruct FT1 as (FT1 & FK & ->), FT2 as (FT2 & FRD & ->).
+  apply (IeeeFunctions.rounding_of_finite p emax p_3) in FRD. destruct FRD as [_ ERD].
+  assert (G := minus_finite p emax _ _ FD). destruct G as (FY & _ & ED). fold d in ED.
+  apply plus_finite in FT1. destruct FT1 as (FT1 & _ & ->).
+  parts. values.
   destruct (proj2 LX ltac:(assumption)) as [_ DX], (proj2 LY ltac:(assumption)) as [_ DY],
     (proj2 LZ ltac:(assumption)) as [_ DZ].
   assert (T := Functions.lerp_sound_nearest p emin p_3 (B2R (fst x)) r (B2R e) (B2R (fst y)) s (B2R g)
-                 (B2R (fst z)) t (B2R k) ltac:(generalize (p_emax p emax); lia)). unfold Functions.lerp_error in T.
-  cbv zeta in T. apply T; auto using number_B2R.
+                 (B2R (fst z)) t (B2R k) ltac:(generalize (p_emax p emax); lia)).
+  unfold Functions.lerp_error in T. cbv zeta in T. apply T; auto using number_B2R.
 Qed.
 
 Lemma abs_value x : finite (fst (tracked_abs _ F _ rule x)) ->
@@ -241,7 +259,8 @@ Theorem hypot_known exponent x r y s : (8 <= p)%Z ->
 Proof.
   intros P8 Exponent KX KY. unfold tracked_hypot. cbv zeta.
   generalize (error_of_known p emax B rule holds Rule _ _ KX) (error_of_known p emax B rule holds Rule _ _ KY).
-  set (e := error_of x). set (g := error_of y). intros LX LY. destruct (zero_value p emax p_3) as [Z0 ZV].
+  set (e := error_of x). set (g := error_of y). intros LX LY.
+  destruct (zero_value p emax p_3) as [Z0 ZV].
   destruct (Code.is_finite _ F (e ⊕ g)) eqn:C; cbn [negb].
   2: { apply (nothing_known p emax B rule holds Rule). discriminate. }
   assert (FI : finite (e ⊕ g)).
@@ -254,10 +273,13 @@ Proof.
   assert (LV : finite larger /\ B2R larger = Rmax (Rabs (B2R (fst x))) (Rabs (B2R (fst y)))).
   { unfold larger, Code.max. rewrite (less_finite p emax) by auto. rewrite EAX, EAY.
     case Rlt_bool_spec; intros; split; auto; [rewrite Rmax_right | rewrite Rmax_left]; auto; lra. }
-  destruct LV as [FL EL]. rewrite (equal_finite p emax) by auto. rewrite ZV, EL. case Req_bool_spec; intros M.
+  destruct LV as [FL EL].
+  rewrite (equal_finite p emax) by auto. rewrite ZV, EL.
+  case Req_bool_spec; intros M.
   - assert (X0 : B2R (fst x) = 0 /\ B2R (fst y) = 0).
     { generalize (Rmax_l (Rabs (B2R (fst x))) (Rabs (B2R (fst y)))) (Rmax_r (Rabs (B2R (fst x))) (Rabs (B2R (fst y))))
-        (Rabs_pos (B2R (fst x))) (Rabs_pos (B2R (fst y))). intros. split; apply Rabs_eq_R0; lra. }
+        (Rabs_pos (B2R (fst x))) (Rabs_pos (B2R (fst y))). intros.
+      split; apply Rabs_eq_R0; lra. }
     destruct X0 as [X0 Y0]. apply (promise_within _ _ _ _ _ Rule). intros H _.
     apply (IeeeFunctions.enlarged_finite p emax p_3) in H. destruct H as [_ ->]. rewrite EI, ZV.
     assert (Pe : 0 <= B2R e) by (generalize (Rabs_pos (B2R (fst x) - r)); lra).
@@ -272,17 +294,20 @@ Proof.
       apply Format.number_0.
   - assert (EX := Exponent larger FL ltac:(rewrite EL; exact M)). rewrite EL in EX.
     rewrite (Rabs_pos_eq (Rmax _ _)) in EX by (apply Rle_trans with (2 := Rmax_l _ _); apply Rabs_pos).
-    set (n := exponent larger) in *. apply (promise_within _ _ _ _ _ Rule). intros H _.
-    apply (IeeeFunctions.enlarged_finite p emax p_3) in H. destruct H as [H ->]. apply plus_finite in H.
-    destruct H as (H1 & H2 & ->). apply times_finite in H1. destruct H1 as (FV & HR & ->). apply scale_finite in FV.
-    destruct FV as (FR & EV). apply root_finite in FR. destruct FR as (FS & _ & ER). rewrite ER in EV.
-    apply plus_finite in FS. destruct FS as (FA & FB & ES). rewrite ES in EV. apply times_finite in FA, FB.
-    destruct FA as (FA & _ & EA), FB as (FB & _ & EB). rewrite EA, EB in EV. apply scale_finite in FA, FB.
-    destruct FA as (_ & EA'), FB as (_ & EB'). rewrite EA', EB' in EV. clear ER ES EA EB EA' EB'.
+    set (n := exponent larger) in *.
+    apply (promise_within _ _ _ _ _ Rule). intros H _.
+    apply (IeeeFunctions.enlarged_finite p emax p_3) in H. destruct H as [H ->].
+    apply plus_finite in H. destruct H as (H1 & H2 & ->). apply times_finite in H1. destruct H1 as (FV & HR & ->).
+    apply scale_finite in FV. destruct FV as (FR & EV). apply root_finite in FR. destruct FR as (FS & _ & ER).
+    rewrite ER in EV. apply plus_finite in FS. destruct FS as (FA & FB & ES). rewrite ES in EV.
+    apply times_finite in FA, FB. destruct FA as (FA & _ & EA), FB as (FB & _ & EB). rewrite EA, EB in EV.
+    apply scale_finite in FA, FB. destruct FA as (_ & EA'), FB as (_ & EB'). rewrite EA', EB' in EV.
+    clear ER ES EA EB EA' EB'.
     apply plus_finite in H2. destruct H2 as (_ & H3 & ->). rewrite EI. parts. values.
     assert (T := Functions.hypot_sound_nearest p emin p_3 (B2R (fst x)) r (B2R (fst y)) s (B2R e) (B2R g) n P8
-                   ltac:(generalize (p_emax p emax); lia)). unfold Functions.hypot_value, Functions.hypot_error in T.
-    cbv zeta in T. apply T; auto using number_B2R.
+                   ltac:(generalize (p_emax p emax); lia)).
+    unfold Functions.hypot_value, Functions.hypot_error in T. cbv zeta in T.
+    apply T; auto using number_B2R.
 Qed.
 
 End Compound.

@@ -8,17 +8,23 @@
             of
             known numbers; if the error of a square root is finite, its argument is not negative *)
 
-From Coq Require Import Reals ZArith Lia Lra Psatz Bool. From Flocq Require Import Core IEEE754.BinarySingleNaN.
+From Coq Require Import Reals ZArith Lia Lra Psatz Bool.
+From Flocq Require Import Core IEEE754.BinarySingleNaN.
 From Errbound Require Import Code Ieee IeeeRules.
-From Errbound Require Format Tight Functions IeeeSafe IeeeInterval IeeeResidual. Open Scope R_scope.
+From Errbound Require Format Tight Functions IeeeSafe IeeeInterval IeeeResidual.
+Open Scope R_scope.
 
 Section Functions.
 
 Context (p emax : Z) {p_positive : Prec_gt_0 p} {p_below : Prec_lt_emax p emax} (p_3 : (3 <= p)%Z).
 Variable fused : bool.  (* has_fast_fma *)
-Notation float := (binary_float p emax). Notation F := (floats p emax). Notation emin := (3 - emax - p)%Z.
-Notation fl := (Format.rnd p emin Format.nearest). Notation nonnegative := (nonnegative p emax).
-Notation emin_p := (emin_p p emax p_3). Notation known := (known p emax).
+Notation float := (binary_float p emax).
+Notation F := (floats p emax).
+Notation emin := (3 - emax - p)%Z.
+Notation fl := (Format.rnd p emin Format.nearest).
+Notation nonnegative := (nonnegative p emax).
+Notation emin_p := (emin_p p emax p_3).
+Notation known := (known p emax).
 
 Ltac parts := finite_parts p emax p_3.
 Ltac values := known_values p emax p_3.
@@ -91,13 +97,15 @@ Proof. apply (tight_inflated_finite p emax p_3). Qed.
 Lemma rounding_of_finite v : finite (rounding_of _ F v) ->
   finite v /\ B2R (rounding_of _ F v) = Functions.rounding_of p emin Format.nearest (B2R v).
 Proof.
-  change (rounding_of _ F v) with (tight_rounding _ F v ⊕ underflow_unit _ F). intros H. apply plus_finite in H.
-  destruct H as (H & _ & E). apply (tight_rounding_finite p emax p_3) in H. destruct H as [V ER]. split; auto.
+  change (rounding_of _ F v) with (tight_rounding _ F v ⊕ underflow_unit _ F). intros H.
+  apply plus_finite in H. destruct H as (H & _ & E).
+  apply (tight_rounding_finite p emax p_3) in H. destruct H as [V ER]. split; auto.
   rewrite E, ER. now values.
 Qed.
 
 (** Roots are so small that their sums do not overflow. *)
-Lemma root_sum_finite x y : finite (root _ F x) -> finite (root _ F y) -> finite (root _ F x ⊕ root _ F y).
+Lemma root_sum_finite x y : finite (root _ F x) -> finite (root _ F y) ->
+  finite (root _ F x ⊕ root _ F y).
 Proof.
   intros X Y. generalize (p_emax p emax). intros L. set (k := ((emax + 1) / 2)%Z).
   assert (HK : (emax <= 2 * k)%Z /\ (k + 1 < emax)%Z).
@@ -154,7 +162,8 @@ Proof.
     tracked_known (tracked_within _ _ rule v s) (sqrt r) /\
     (finite (error_of (tracked_within _ _ rule v s)) -> 0 <= r)).
   { intros s N. split; [now apply nothing_known |]. intros H. now apply nothing_error in H. }
-  destruct (at_most _ F e a) eqn:C; cbn [negb]; [| now apply Nothing]. destruct (zero_value p emax p_3) as [Z0 Z].
+  destruct (at_most _ F e a) eqn:C; cbn [negb]; [| now apply Nothing].
+  destruct (zero_value p emax p_3) as [Z0 Z].
   destruct (BinarySingleNaN.is_finite e) eqn:FE.
   2: { (* the value is infinite *)
     assert (A : finite a -> False).
@@ -172,17 +181,20 @@ Proof.
   assert (FV : finite v) by (apply root_of_nonnegative; auto; lra).
   assert (EV : B2R v = fl (sqrt (B2R a))) by (apply root_finite in FV; tauto).
   destruct (Functions.sqrt_sound_nearest p emin p_3 (B2R a) r (B2R e)) as [PR T];
-    auto using number_B2R; [generalize (p_emax p emax); lia |]. rewrite <- EV in T. unfold Functions.sqrt_error in T.
-  rewrite <- EV in T. cbv zeta in T. split; auto. rewrite equal_finite, Z by auto.
+    auto using number_B2R; [generalize (p_emax p emax); lia |].
+  rewrite <- EV in T. unfold Functions.sqrt_error in T. rewrite <- EV in T. cbv zeta in T.
+  split; auto. rewrite equal_finite, Z by auto.
   destruct (Req_bool_spec (B2R e) 0) as [E0 | E0].
   - assert (W : tracked_known (tracked_within _ _ rule v (enlarged _ F (rounding_of _ F v))) (sqrt r)).
     { apply (promise_within _ _ _ Rule). intros H _. apply enlarged_finite in H. destruct H as [H ->].
       apply rounding_of_finite in H. destruct H as [_ ->]. exact T. }
-    destruct (_ && _) eqn:D; [| exact W]. clear W T. apply andb_prop in D. destruct D as [D D3]. apply andb_prop in D.
-    destruct D as [D1 D2]. apply (IeeeInterval.product_known p emax p_3 fused) in D1.
-    destruct D1 as (_ & _ & _ & _ & D1 & _). apply (equal_true p emax) in D2, D3; auto. rewrite Z in D2.
-    destruct D2 as [_ D2], D3 as [_ D3]. rewrite IeeeInterval.product_value in D3. rewrite D2, D3, Rplus_0_r in D1.
-    rewrite E0 in HX. apply Tight.within_0 in HX. rewrite <- HX. replace (sqrt (B2R a)) with (B2R v).
+    destruct (_ && _) eqn:D; [| exact W]. clear W T.
+    apply andb_prop in D. destruct D as [D D3]. apply andb_prop in D. destruct D as [D1 D2].
+    apply (IeeeInterval.product_known p emax p_3 fused) in D1. destruct D1 as (_ & _ & _ & _ & D1 & _).
+    apply (equal_true p emax) in D2, D3; auto. rewrite Z in D2. destruct D2 as [_ D2], D3 as [_ D3].
+    rewrite IeeeInterval.product_value in D3. rewrite D2, D3, Rplus_0_r in D1.
+    rewrite E0 in HX. apply Tight.within_0 in HX. rewrite <- HX.
+    replace (sqrt (B2R a)) with (B2R v).
     + apply (promise_exact _ _ _ Rule).
     + rewrite D1. change (B2R v * B2R v) with (Rsqr (B2R v)). symmetry. apply sqrt_Rsqr. rewrite EV.
       apply (Format.rnd_nonnegative p emin Format.nearest), sqrt_pos.
@@ -196,8 +208,9 @@ Proof.
     assert (ED : B2R (v ⊕ root _ F (a ⊖ e)) = fl (B2R v + fl (sqrt (fl (B2R a - B2R e))))).
     { apply plus_finite in FD. destruct FD as (_ & _ & ->). apply root_finite in FW.
       destruct FW as (FM & _ & ->). apply minus_finite in FM. now destruct FM as (_ & _ & ->). }
-    set (d := v ⊕ root _ F (a ⊖ e)) in *. clearbody d. apply plus_finite in H. destruct H as (H1 & H2 & ->).
-    apply plus_finite in H2. destruct H2 as (H2 & _ & ->). apply rounding_of_finite in H2. destruct H2 as [_ ->].
+    set (d := v ⊕ root _ F (a ⊖ e)) in *. clearbody d.
+    apply plus_finite in H. destruct H as (H1 & H2 & ->). apply plus_finite in H2.
+    destruct H2 as (H2 & _ & ->). apply rounding_of_finite in H2. destruct H2 as [_ ->].
     assert (PD : B2R d <> 0).
     { rewrite ED, EV. apply Rgt_not_eq.
       apply (Functions.divisor_positive p emin p_3 (B2R a) (B2R e)); auto using number_B2R; [| lra].
@@ -210,8 +223,9 @@ Proof.
   intros K. generalize (promise_sign _ _ _ Rule _ _ _ K). intros S. unfold tracked_abs. cbv zeta.
   change (rule_sign _ _ rule (fst x) (snd x)) with (tracked_sign _ _ rule x) in S.
   assert (W : tracked_known (tracked_within _ _ rule (abs _ F (fst x)) (error_of x)) (Rabs r)).
-  { apply (promise_within _ _ _ Rule). intros H _. apply error_of_known in K. destruct (proj2 K H) as [FA D].
-    apply (abs_finite_intro p emax) in FA. apply (abs_finite p emax p_3) in FA. destruct FA as [_ ->].
+  { apply (promise_within _ _ _ Rule). intros H _. apply error_of_known in K.
+    destruct (proj2 K H) as [FA D]. apply (abs_finite_intro p emax) in FA.
+    apply (abs_finite p emax p_3) in FA. destruct FA as [_ ->].
     apply Rle_trans with (2 := D). apply Rabs_triang_inv2. }
   assert (Kept : right_sign (if less _ F (fst x) (integer _ F 0) then negative else positive) r \/ r = 0 ->
     tracked_known (if less _ F (fst x) (integer _ F 0) then tracked_negate _ F _ rule x else x) (Rabs r)).
@@ -221,9 +235,11 @@ Proof.
   destruct (tracked_sign _ _ rule x); auto; destruct (less _ F (fst x) (integer _ F 0)); auto.
 Qed.
 
-Lemma larger_error_finite x r y s : tracked_known x r ->
-  tracked_known y s -> finite (larger_error _ F _ rule x y) -> finite (error_of x) /\ finite (error_of y) /\
-  B2R (error_of x) <= B2R (larger_error _ F _ rule x y) /\ B2R (error_of y) <= B2R (larger_error _ F _ rule x y).
+Lemma larger_error_finite x r y s : tracked_known x r -> tracked_known y s ->
+  finite (larger_error _ F _ rule x y) ->
+  finite (error_of x) /\ finite (error_of y) /\
+  B2R (error_of x) <= B2R (larger_error _ F _ rule x y) /\
+  B2R (error_of y) <= B2R (larger_error _ F _ rule x y).
 Proof.
   intros KX KY. apply error_of_known in KX, KY. destruct KX as [PX _], KY as [PY _].
   unfold larger_error. cbv zeta. set (e := error_of x) in *. set (g := error_of y) in *.
@@ -237,17 +253,19 @@ Proof.
     rewrite at_most_finite in C2 by auto. revert C2. case Rle_bool_spec; [| discriminate].
     intros. repeat split; auto. lra.
 Qed.
-Lemma lesser_known x r y s : tracked_known x r -> tracked_known y s -> (finite (fst x) ->
-  finite (fst y) -> B2R (fst x) <= B2R (fst y)) -> tracked_known (lesser_or_either _ F _ rule x y) (Rmin r s).
+Lemma lesser_known x r y s : tracked_known x r -> tracked_known y s ->
+  (finite (fst x) -> finite (fst y) -> B2R (fst x) <= B2R (fst y)) ->
+  tracked_known (lesser_or_either _ F _ rule x y) (Rmin r s).
 Proof.
   intros KX KY L. unfold lesser_or_either, tracked_compare.
   assert (S : right_sign (tracked_sign _ _ rule (tracked_subtract _ F _ rule x y)) (r - s)).
   { apply (promise_sign _ _ _ Rule). now apply (promise_subtract _ _ _ Rule). }
   assert (W : tracked_known (tracked_within _ _ rule (fst x) (larger_error _ F _ rule x y)) (Rmin r s)).
   { apply (promise_within _ _ _ Rule). intros H _.
-    destruct (larger_error_finite x r y s KX KY H) as (FX & FY & LX & LY). apply error_of_known in KX, KY.
-    destruct (proj2 KX FX) as [AX DX], (proj2 KY FY) as [AY DY]. specialize (L AX AY). apply Rabs_le_inv in DX, DY.
-    apply Rabs_le. unfold Rmin. destruct (Rle_dec r s); lra. }
+    destruct (larger_error_finite x r y s KX KY H) as (FX & FY & LX & LY).
+    apply error_of_known in KX, KY. destruct (proj2 KX FX) as [AX DX], (proj2 KY FY) as [AY DY].
+    specialize (L AX AY). apply Rabs_le_inv in DX, DY. apply Rabs_le.
+    unfold Rmin. destruct (Rle_dec r s); lra. }
   destruct (tracked_sign _ _ rule (tracked_subtract _ F _ rule x y)); simpl in S; auto;
     rewrite Rmin_left by lra; exact KX.
 Qed.
@@ -264,7 +282,8 @@ Qed.
 Theorem max_known x r y s : tracked_known x r -> tracked_known y s ->
   tracked_known (tracked_max _ F _ rule x y) (Rmax r s).
 Proof.
-  intros KX KY. unfold tracked_max. assert (E : Rmax r s = - Rmin (- r) (- s)) by (rewrite <- Ropp_Rmax; ring).
+  intros KX KY. unfold tracked_max.
+  assert (E : Rmax r s = - Rmin (- r) (- s)) by (rewrite <- Ropp_Rmax; ring).
   assert (Finite : forall z, finite (fst (tracked_negate _ F _ rule z)) -> finite (fst z)).
   { intros z. apply opposite_finite. }
   assert (Value : forall z, B2R (fst (tracked_negate _ F _ rule z)) = - B2R (fst z)).
@@ -277,11 +296,12 @@ Qed.
 Theorem fma_known x r y s z t : tracked_known x r -> tracked_known y s -> tracked_known z t ->
   tracked_known (tracked_fma _ F _ rule x y z) (r * s + t).
 Proof.
-  intros KX KY KZ. unfold tracked_fma. cbv zeta. set (e := error_of x). set (g := error_of y). set (k := error_of z).
-  set (v := Code.fma _ F _ _ _).
+  intros KX KY KZ. unfold tracked_fma. cbv zeta.
+  set (e := error_of x). set (g := error_of y). set (k := error_of z). set (v := Code.fma _ F _ _ _).
   change ((equal _ F (fst x) (integer _ F 0)) && equal _ F e (integer _ F 0)) with (is_zero _ F (fst x) e).
   change ((equal _ F (fst y) (integer _ F 0)) && equal _ F g (integer _ F 0)) with (is_zero _ F (fst y) g).
-  generalize (error_of_known x r KX) (error_of_known y s KY) (error_of_known z t KZ). fold e g k. intros LX LY LZ.
+  generalize (error_of_known x r KX) (error_of_known y s KY) (error_of_known z t KZ).
+  fold e g k. intros LX LY LZ.
   destruct (_ && _) eqn:C.
   { assert (Zero : r * s = 0).
     { apply andb_prop in C. destruct C as [C _]. apply orb_prop in C.
@@ -290,11 +310,12 @@ Proof.
     now rewrite Zero, Rplus_0_l. }
   clear C. apply (promise_within _ _ _ Rule). intros H _. apply enlarged_finite in H. destruct H as [H ->].
   apply plus_finite in H. destruct H as (FR & H & ->). apply rounding_of_finite in FR. destruct FR as [FV ->].
-  apply fma_finite in FV. destruct FV as (FX & FY & FZ & EV). fold v in EV. parts. values.
+  apply fma_finite in FV. destruct FV as (FX & FY & FZ & EV). fold v in EV.
+  parts. values.
   destruct (proj2 LX ltac:(assumption)) as [_ DX], (proj2 LY ltac:(assumption)) as [_ DY],
     (proj2 LZ ltac:(assumption)) as [_ DZ].
   assert (T := Functions.fma_sound_nearest p emin p_3 (B2R (fst x)) r (B2R e) (B2R (fst y)) s (B2R g)
-                 (B2R (fst z)) t (B2R k) emin_p). unfold Functions.fma_error in T. cbv zeta in T.
-  apply T; auto using number_B2R.
+                 (B2R (fst z)) t (B2R k) emin_p).
+  unfold Functions.fma_error in T. cbv zeta in T. apply T; auto using number_B2R.
 Qed.
 End Functions.

@@ -12,16 +12,22 @@
             IeeeCompound.v), and
             dot products by the rule's dot_bound *)
 
-From Coq Require Import Reals ZArith Lia Lra Psatz Bool List. From Flocq Require Import Core IEEE754.BinarySingleNaN.
+From Coq Require Import Reals ZArith Lia Lra Psatz Bool List.
+From Flocq Require Import Core IEEE754.BinarySingleNaN.
 From Errbound Require Import Code CompoundCode RelativeCode Ieee IeeeRules IeeeFunctions IeeeCompound DotProduct.
-From Errbound Require Format ErrorFree Upper Tight IeeeInterval Relative. Import ListNotations. Open Scope R_scope.
+From Errbound Require Format ErrorFree Upper Tight IeeeInterval Relative.
+Import ListNotations.
+Open Scope R_scope.
 
 (** Facts about one format. *)
 Section Format.
 
 Context (p emax : Z) {p_positive : Prec_gt_0 p} {p_below : Prec_lt_emax p emax} (p_3 : (3 <= p)%Z).
-Notation float := (binary_float p emax). Notation F := (floats p emax). Notation emin := (3 - emax - p)%Z.
-Notation fl := (Format.rnd p emin Format.nearest). Notation number := (Format.number p emin).
+Notation float := (binary_float p emax).
+Notation F := (floats p emax).
+Notation emin := (3 - emax - p)%Z.
+Notation fl := (Format.rnd p emin Format.nearest).
+Notation number := (Format.number p emin).
 Notation nonnegative := (nonnegative p emax).
 
 Lemma less_finite_left x y : nonnegative x -> less _ F x y = true -> finite x.
@@ -32,7 +38,8 @@ Proof.
   apply plus_finite in H. destruct H as (_ & _ & ->). split; auto.
   now rewrite (proj2 (integer_value p emax p_3 1 ltac:(lia))), (proj2 (eps_value p emax p_3)).
 Qed.
-Lemma nonnegative_upper x : nonnegative x -> nonnegative (upper _ F x). Proof. intros. unfold upper. positive. Qed.
+Lemma nonnegative_upper x : nonnegative x -> nonnegative (upper _ F x).
+Proof. intros. unfold upper. positive. Qed.
 
 (** A number of at most the size of a number of the format does not overflow. *)
 Definition fitting (y : R) : Prop := number y /\ y < bpow radix2 emax.
@@ -41,7 +48,9 @@ Proof. intros H. split; [apply Format.number_power; auto; lia | apply bpow_lt; l
 Lemma fitting_value (x : float) : fitting (Rabs (B2R x)).
 Proof. split; [apply Format.number_abs, number_B2R | apply abs_B2R_lt_emax]. Qed.
 Lemma rounded_fits z y : fitting y -> Rabs z <= y -> Rabs (fl z) < bpow radix2 emax.
-Proof. intros [N L] H. apply Rle_lt_trans with (2 := L). now apply (Format.rnd_abs_below p emin Format.nearest). Qed.
+Proof.
+  intros [N L] H. apply Rle_lt_trans with (2 := L). now apply (Format.rnd_abs_below p emin Format.nearest).
+Qed.
 Lemma plus_fits x y t : finite x -> finite y -> fitting t -> Rabs (B2R x + B2R y) <= t ->
   finite (x ⊕ y) /\ B2R (x ⊕ y) = fl (B2R x + B2R y).
 Proof.
@@ -69,10 +78,12 @@ Qed.
 
 (** Neither negative nor NaN, but possibly infinite. *)
 Definition is_count (k : float) : Prop := nonnegative k /\ BinarySingleNaN.is_nan k = false.
-Lemma finite_no_nan (x : float) : finite x -> BinarySingleNaN.is_nan x = false. Proof. now destruct x. Qed.
+Lemma finite_no_nan (x : float) : finite x -> BinarySingleNaN.is_nan x = false.
+Proof. now destruct x. Qed.
 Lemma count_intro x : finite x -> 0 <= B2R x -> is_count x.
 Proof. intros X P. split; [now apply nonnegative_intro | now apply finite_no_nan]. Qed.
-Lemma infinite_count : is_count (infinity _ F). Proof. now split. Qed.
+Lemma infinite_count : is_count (infinity _ F).
+Proof. now split. Qed.
 Lemma integer_count n : (0 <= n <= 8)%Z -> is_count (integer _ F n).
 Proof.
   intros H. destruct (integer_value p emax p_3 n ltac:(lia)) as [N V]. apply count_intro; auto.
@@ -94,7 +105,8 @@ Qed.
 Lemma count_times j c : is_count j -> finite c -> 0 < B2R c -> is_count (j ⊗ c).
 Proof.
   intros J FC PC. assert (NC : nonnegative c) by (apply nonnegative_intro; auto; lra).
-  split; [apply nonnegative_times; [apply J | exact NC] |]. destruct (count_cases j J) as [FJ | ->].
+  split; [apply nonnegative_times; [apply J | exact NC] |].
+  destruct (count_cases j J) as [FJ | ->].
   - generalize (Bmult_correct p emax _ _ mode_NE j c). case Rlt_bool.
     + intros (_ & H & _). rewrite FJ, FC in H. now apply finite_no_nan.
     + intros H. now apply overflow_no_nan in H.
@@ -112,7 +124,8 @@ Proof.
     apply (Format.rnd_above p emin Format.nearest); [| lra].
     change 1 with (bpow radix2 0). apply Format.number_power; auto. lia.
 Qed.
-Lemma minus_is_plus x y : x ⊖ y = x ⊕ opposite _ F y. Proof. destruct x, y; reflexivity. Qed.
+Lemma minus_is_plus x y : x ⊖ y = x ⊕ opposite _ F y.
+Proof. destruct x, y; reflexivity. Qed.
 
 End Format.
 
@@ -120,7 +133,9 @@ End Format.
 Section Conversion.
 
 Context (p emax q qmax : Z) {q_positive : Prec_gt_0 q} {q_below : Prec_lt_emax q qmax}.
-Notation emin := (3 - emax - p)%Z. Notation qmin := (3 - qmax - q)%Z. Notation dl := (Format.rnd q qmin Format.nearest).
+Notation emin := (3 - emax - p)%Z.
+Notation qmin := (3 - qmax - q)%Z.
+Notation dl := (Format.rnd q qmin Format.nearest).
 
 Definition converted (x : binary_float p emax) : binary_float q qmax :=
   match x with
@@ -130,8 +145,10 @@ Definition converted (x : binary_float p emax) : binary_float q qmax :=
   | B754_finite s m e _ => binary_normalize q qmax q_positive q_below mode_NE (cond_Zopp s (Zpos m)) e s
   end.
 
-Lemma converted_correct x : finite x -> if Rlt_bool (Rabs (dl (B2R x))) (bpow radix2 qmax) then finite (converted x) /\
-  B2R (converted x) = dl (B2R x) else B2SF (converted x) = binary_overflow q qmax mode_NE (Rlt_bool (B2R x) 0).
+Lemma converted_correct x : finite x ->
+  if Rlt_bool (Rabs (dl (B2R x))) (bpow radix2 qmax)
+  then finite (converted x) /\ B2R (converted x) = dl (B2R x)
+  else B2SF (converted x) = binary_overflow q qmax mode_NE (Rlt_bool (B2R x) 0).
 Proof.
   destruct x as [s | | | s m e b]; try easy; intros _; cbn [converted B2R].
   - rewrite Format.rnd_0, Rabs_R0, Rlt_bool_true by (auto with typeclass_instances; apply bpow_gt_0). auto.
@@ -165,11 +182,18 @@ Context (p emax q qmax : Z) {p_positive : Prec_gt_0 p} {p_below : Prec_lt_emax p
   {q_below : Prec_lt_emax q qmax} (p_q : (4 <= p <= q)%Z) (q_24 : (24 <= q)%Z) (emax_qmax : (emax <= qmax)%Z)
   (q_qmax : (5 * q + 3 <= qmax)%Z).
 Variable fused : bool.  (* has_fast_fma *)
-Notation float := (binary_float p emax). Notation double := (binary_float q qmax). Notation F := (floats p emax).
-Notation C := (floats q qmax). Notation emin := (3 - emax - p)%Z. Notation qmin := (3 - qmax - q)%Z.
-Notation fl := (Format.rnd p emin Format.nearest). Notation dl := (Format.rnd q qmin Format.nearest).
-Notation number := (Format.number p emin). Notation is_count := (is_count q qmax).
-Notation to_count := (converted p emax q qmax). Notation from_count := (converted q qmax p emax).
+Notation float := (binary_float p emax).
+Notation double := (binary_float q qmax).
+Notation F := (floats p emax).
+Notation C := (floats q qmax).
+Notation emin := (3 - emax - p)%Z.
+Notation qmin := (3 - qmax - q)%Z.
+Notation fl := (Format.rnd p emin Format.nearest).
+Notation dl := (Format.rnd q qmin Format.nearest).
+Notation number := (Format.number p emin).
+Notation is_count := (is_count q qmax).
+Notation to_count := (converted p emax q qmax).
+Notation from_count := (converted q qmax p emax).
 Notation holds := (Relative.holds p emin q qmin).
 
 Lemma p_3 : (3 <= p)%Z. Proof. lia. Qed.
@@ -185,14 +209,19 @@ Proof.
 Qed.
 
 (** Arithmetic of counts. *)
-Notation u := (u_of_counts _ _ F to_count). Notation up := (Format.u p). Notation fits := (fitting q qmax).
+Notation u := (u_of_counts _ _ F to_count).
+Notation up := (Format.u p).
+Notation fits := (fitting q qmax).
 Infix "+#" := (plus double C) (at level 50, left associativity).
 Infix "-#" := (minus double C) (at level 50, left associativity).
 Infix "*#" := (times double C) (at level 40, left associativity).
-Infix "/#" := (over double C) (at level 40, left associativity). Notation count n := (integer double C n).
+Infix "/#" := (over double C) (at level 40, left associativity).
+Notation count n := (integer double C n).
 
 Lemma u_of_counts_value : finite u /\ B2R u = up.
-Proof. destruct (u_value p emax p_3) as [U V]. unfold u_of_counts. rewrite <- V. now apply to_count_exact. Qed.
+Proof.
+  destruct (u_value p emax p_3) as [U V]. unfold u_of_counts. rewrite <- V. now apply to_count_exact.
+Qed.
 Lemma count_value n : (Z.abs n <= 8)%Z -> finite (count n) /\ B2R (count n) = IZR n.
 Proof. apply (integer_value q qmax q_3). Qed.
 Lemma fits_power e : (- q - q - 10 <= e <= q + q + 10)%Z -> fits (bpow radix2 e).
@@ -213,9 +242,10 @@ Ltac small_double := first [apply double_integer; simpl; lia | apply number_B2R]
 Lemma slack_value : finite (slack _ C) /\ B2R (slack _ C) = Relative.slack q qmin.
 Proof.
   destruct (count_value 1 ltac:(lia)) as [F1 V1], (count_value 8 ltac:(lia)) as [F8 V8],
-    (eps_value q qmax q_3) as [FE VE]. assert (S := Relative.slack_is q qmin q_24 qmin_q).
-  assert (V := Relative.v_small q q_24). assert (E2 := Format.eps_2u q). unfold slack.
-  destruct (times_fits q qmax (count 8) (epsilon _ C) (bpow radix2 0)) as [FT VT]; auto.
+    (eps_value q qmax q_3) as [FE VE].
+  assert (S := Relative.slack_is q qmin q_24 qmin_q). assert (V := Relative.v_small q q_24).
+  assert (E2 := Format.eps_2u q).
+  unfold slack. destruct (times_fits q qmax (count 8) (epsilon _ C) (bpow radix2 0)) as [FT VT]; auto.
   - apply fits_power. lia.
   - change (bpow radix2 0) with 1. rewrite V8, VE, Rabs_pos_eq; lra.
   - rewrite V8, VE in VT.
@@ -229,22 +259,25 @@ Lemma slack_bounds : 1 <= Relative.slack q qmin <= 2.
 Proof. rewrite (Relative.slack_is q qmin q_24 qmin_q). generalize (Relative.v_small q q_24). lra. Qed.
 
 (** Forwards: if the exact value of a step is between 0 and 2^e, the result is finite and known. *)
-Lemma forward_times x y e : finite x -> finite y -> (- q - q - 10 <= e <= q + q + 10)%Z -> 0 <= B2R x * B2R
-  y <= bpow radix2 e -> finite (x *# y) /\ B2R (x *# y) = dl (B2R x * B2R y) /\ 0 <= B2R (x *# y) <= bpow radix2 e.
+Lemma forward_times x y e : finite x -> finite y -> (- q - q - 10 <= e <= q + q + 10)%Z ->
+  0 <= B2R x * B2R y <= bpow radix2 e ->
+  finite (x *# y) /\ B2R (x *# y) = dl (B2R x * B2R y) /\ 0 <= B2R (x *# y) <= bpow radix2 e.
 Proof.
   intros X Y E H. destruct (times_fits q qmax x y (bpow radix2 e)) as [G V]; auto using fits_power.
   - rewrite Rabs_pos_eq; lra.
   - split; auto. split; auto. rewrite V. apply between; auto using double_power. apply Format.number_0.
 Qed.
-Lemma forward_over x y e : finite x -> B2R y <> 0 -> (- q - q - 10 <= e <= q + q + 10)%Z -> 0 <= B2R x /
-  B2R y <= bpow radix2 e -> finite (x /# y) /\ B2R (x /# y) = dl (B2R x / B2R y) /\ 0 <= B2R (x /# y) <= bpow radix2 e.
+Lemma forward_over x y e : finite x -> B2R y <> 0 -> (- q - q - 10 <= e <= q + q + 10)%Z ->
+  0 <= B2R x / B2R y <= bpow radix2 e ->
+  finite (x /# y) /\ B2R (x /# y) = dl (B2R x / B2R y) /\ 0 <= B2R (x /# y) <= bpow radix2 e.
 Proof.
   intros X Y E H. destruct (over_fits q qmax x y (bpow radix2 e)) as [G V]; auto using fits_power.
   - rewrite Rabs_pos_eq; lra.
   - split; auto. split; auto. rewrite V. apply between; auto using double_power. apply Format.number_0.
 Qed.
-Lemma forward_minus x y e : finite x -> finite y -> (- q - q - 10 <= e <= q + q + 10)%Z -> 0 <= B2R x - B2R
-  y <= bpow radix2 e -> finite (x -# y) /\ B2R (x -# y) = dl (B2R x - B2R y) /\ 0 <= B2R (x -# y) <= bpow radix2 e.
+Lemma forward_minus x y e : finite x -> finite y -> (- q - q - 10 <= e <= q + q + 10)%Z ->
+  0 <= B2R x - B2R y <= bpow radix2 e ->
+  finite (x -# y) /\ B2R (x -# y) = dl (B2R x - B2R y) /\ 0 <= B2R (x -# y) <= bpow radix2 e.
 Proof.
   intros X Y E H. destruct (minus_fits q qmax x y (bpow radix2 e)) as [G V]; auto using fits_power.
   - rewrite Rabs_pos_eq; lra.
@@ -260,33 +293,41 @@ Proof.
     + apply Rmult_le_compat_l; [apply bpow_ge_0 | exact Y].
 Qed.
 Lemma product_between x y e f : 0 <= x <= bpow radix2 e -> 0 <= y <= bpow radix2 f -> 0 <= x * y <= bpow radix2 (e + f).
-Proof. intros X Y. rewrite bpow_plus. split; [apply Rmult_le_pos; lra | apply Rmult_le_compat; lra]. Qed.
-Lemma up_bounds : bpow radix2 (- q) <= up <= / 16. Proof. exact (Relative.u_bounds q p p_q). Qed.
+Proof.
+  intros X Y. rewrite bpow_plus. split; [apply Rmult_le_pos; lra | apply Rmult_le_compat; lra].
+Qed.
+Lemma up_bounds : bpow radix2 (- q) <= up <= / 16.
+Proof. exact (Relative.u_bounds q p p_q). Qed.
 Lemma up_1 : 0 <= up <= bpow radix2 0.
 Proof. generalize up_bounds (bpow_gt_0 radix2 (- q)). simpl (bpow radix2 0). lra. Qed.
 Lemma slack_2 : 0 <= B2R (slack _ C) <= bpow radix2 1.
 Proof. rewrite (proj2 slack_value). generalize slack_bounds. simpl (bpow radix2 1). lra. Qed.
 
 Lemma of_one_factor_value : finite (of_one_factor _ C u) /\
-  B2R (of_one_factor _ C u) = Relative.of_one_factor q qmin p /\ 0 <= B2R (of_one_factor _ C u) <= bpow radix2 2.
+  B2R (of_one_factor _ C u) = Relative.of_one_factor q qmin p /\
+  0 <= B2R (of_one_factor _ C u) <= bpow radix2 2.
 Proof.
   destruct u_of_counts_value as [FU VU], slack_value as [FS VS], (count_value 1 ltac:(lia)) as [F1 V1],
-    (count_value 2 ltac:(lia)) as [F2 V2]. generalize up_bounds up_1 (bpow_gt_0 radix2 (- q)) slack_2. intros B B1 P S2.
-  unfold of_one_factor.
+    (count_value 2 ltac:(lia)) as [F2 V2].
+  generalize up_bounds up_1 (bpow_gt_0 radix2 (- q)) slack_2. intros B B1 P S2. unfold of_one_factor.
   destruct (forward_over u (count 2) 0) as (G1 & E1 & R1);
-    [auto | rewrite V2; lra | lia | rewrite VU, V2; simpl; lra |]. set (x1 := u /# count 2) in *.
+    [auto | rewrite V2; lra | lia | rewrite VU, V2; simpl; lra |].
+  set (x1 := u /# count 2) in *.
   destruct (forward_minus (count 1) x1 0) as (G2 & E2 & R2); [auto | auto | lia | rewrite V1; simpl in *; lra |].
-  set (x2 := count 1 -# x1) in *. destruct (forward_times u x2 0) as (G3 & E3 & R3); [auto | auto | lia | |].
+  set (x2 := count 1 -# x1) in *.
+  destruct (forward_times u x2 0) as (G3 & E3 & R3); [auto | auto | lia | |].
   { rewrite VU. now apply (product_between _ _ 0 0). }
   set (x3 := u *# x2) in *.
   destruct (forward_minus (count 1) u 0) as (G4 & E4 & _); [auto | auto | lia | rewrite V1, VU; simpl; lra |].
   assert (R4 : bpow radix2 (-1) <= B2R (count 1 -# u)).
   { rewrite E4, V1, VU. apply (Format.rnd_above q qmin Format.nearest); [apply double_power; lia | simpl; lra]. }
-  set (x4 := count 1 -# u) in *. destruct (forward_over x3 x4 1) as (G5 & E5 & R5); [auto | simpl in R4; lra | lia | |].
+  set (x4 := count 1 -# u) in *.
+  destruct (forward_over x3 x4 1) as (G5 & E5 & R5); [auto | simpl in R4; lra | lia | |].
   { now apply (quotient_between _ _ 0 (-1)). }
   set (x5 := x3 /# x4) in *.
   destruct (forward_times x5 (slack _ C) 2) as (G6 & E6 & R6);
-    [auto | auto | lia | now apply (product_between _ _ 1 1) |]. split; [exact G6 |]. split; [| exact R6].
+    [auto | auto | lia | now apply (product_between _ _ 1 1) |].
+  split; [exact G6 |]. split; [| exact R6].
   unfold Relative.of_one_factor. rewrite E6, E5, E4, E3, E2, E1, V1, V2, VU, VS. reflexivity.
 Qed.
 
@@ -296,8 +337,9 @@ Proof.
   intros FR HR. assert (HR' := Relative.below_1 q qmin q_24 qmin_q (B2R r) (number_B2R _ _ r) (proj2 HR)).
   destruct u_of_counts_value as [FU VU], slack_value as [FS VS], (count_value 1 ltac:(lia)) as [F1 V1],
     (count_value 2 ltac:(lia)) as [F2 V2], (count_value 3 ltac:(lia)) as [F3 V3], (count_value 5 ltac:(lia)) as [F5 V5],
-    (count_value 6 ltac:(lia)) as [F6 V6]. generalize up_bounds up_1 (bpow_gt_0 radix2 (- q)) slack_2. intros B B1 P S2.
-  unfold count_of_share. assert (R0 : 0 <= B2R r <= bpow radix2 0) by (simpl; lra).
+    (count_value 6 ltac:(lia)) as [F6 V6].
+  generalize up_bounds up_1 (bpow_gt_0 radix2 (- q)) slack_2. intros B B1 P S2. unfold count_of_share.
+  assert (R0 : 0 <= B2R r <= bpow radix2 0) by (simpl; lra).
   destruct (forward_times (count 5) r 3) as (G1 & E1 & _); [auto | auto | lia | rewrite V5; simpl; lra |].
   assert (R1 : 0 <= B2R (count 5 *# r) <= 5).
   { rewrite E1, V5. apply between; [apply Format.number_0 | apply double_integer; simpl; lia | lra]. }
@@ -334,19 +376,23 @@ Proof.
     [auto | generalize (bpow_gt_0 radix2 (- q + - q)); lra | lia | now apply quotient_between |].
   set (x9 := x3 /# x8) in *.
   destruct (forward_times x9 (slack _ C) (3 - (- q + - q) + 1)) as (G10 & E10 & R10);
-    [auto | auto | lia | now apply product_between |]. split; [exact G10 |]. unfold Relative.count_of_share.
+    [auto | auto | lia | now apply product_between |].
+  split; [exact G10 |]. unfold Relative.count_of_share.
   rewrite E10, E9, E8, E7, E6, E5, E4, E3, E2, E1, V1, V2, V3, V5, V6, VU, VS. reflexivity.
 Qed.
 
-Lemma share_of_length_value l : finite l -> 0 <= B2R l < 7 / 4 -> finite (share_of_length _ C l) /\ B2R (share_of_length
-  _ C l) = dl (dl (B2R l / dl (1 - dl (B2R l / 2))) * Relative.slack q qmin) /\ 0 <= B2R (share_of_length _ C l).
+Lemma share_of_length_value l : finite l -> 0 <= B2R l < 7 / 4 ->
+  finite (share_of_length _ C l) /\
+  B2R (share_of_length _ C l) = dl (dl (B2R l / dl (1 - dl (B2R l / 2))) * Relative.slack q qmin) /\
+  0 <= B2R (share_of_length _ C l).
 Proof.
   intros FL HL. destruct slack_value as [FS VS], (count_value 1 ltac:(lia)) as [F1 V1],
     (count_value 2 ltac:(lia)) as [F2 V2].
   generalize slack_2. intros S2. unfold share_of_length.
   destruct (forward_over l (count 2) 0) as (G1 & E1 & _); [auto | rewrite V2; lra | lia | rewrite V2; simpl; lra |].
   assert (R1 : 0 <= B2R (l /# count 2) <= 7 * bpow radix2 (-3)).
-  { rewrite E1, V2. apply between; [apply Format.number_0 | | simpl; lra]. apply Format.number_integer; auto; [lia |].
+  { rewrite E1, V2. apply between; [apply Format.number_0 | | simpl; lra].
+    apply Format.number_integer; auto; [lia |].
     apply (Z.le_trans _ (2 ^ 3)); [simpl; lia | apply Z.pow_le_mono_r; lia]. }
   set (x1 := l /# count 2) in *.
   destruct (forward_minus (count 1) x1 0) as (G2 & E2 & _); [auto | auto | lia | rewrite V1; simpl in *; lra |].
@@ -384,13 +430,16 @@ Proof.
   destruct (Less (j +# k) (j +# k -# j)) as [F2 E2]; auto; [lra |].
   assert (P2 : 0 <= B2R (j +# k -# (j +# k -# j))).
   { rewrite E2. apply (Format.rnd_nonnegative q qmin Format.nearest). lra. }
-  destruct (Less j (j +# k -# (j +# k -# j))) as [F3 _]; auto. destruct (Less k (j +# k -# j)) as [F4 _]; auto.
-  revert N. unfold two_sum. cbn [snd]. generalize (Bplus_correct q qmax _ _ mode_NE _ _ F3 F4). case Rlt_bool.
+  destruct (Less j (j +# k -# (j +# k -# j))) as [F3 _]; auto.
+  destruct (Less k (j +# k -# j)) as [F4 _]; auto.
+  revert N. unfold two_sum. cbn [snd].
+  generalize (Bplus_correct q qmax _ _ mode_NE _ _ F3 F4). case Rlt_bool.
   - intros (_ & H & _) N. apply finite_no_nan in H. discriminate (eq_trans (eq_sym N) H).
   - intros [H _] N. apply overflow_no_nan in H. discriminate (eq_trans (eq_sym N) H).
 Qed.
-Lemma count_sum_known j k : is_count j -> is_count k -> is_count (count_sum _ C j k) /\ (finite (count_sum _ C j k) ->
-  finite j /\ finite k /\ B2R (count_sum _ C j k) = Relative.count_sum q qmin (B2R j) (B2R k)).
+Lemma count_sum_known j k : is_count j -> is_count k -> is_count (count_sum _ C j k) /\
+  (finite (count_sum _ C j k) -> finite j /\ finite k /\
+   B2R (count_sum _ C j k) = Relative.count_sum q qmin (B2R j) (B2R k)).
 Proof.
   intros J K. assert (S := count_plus q qmax j k J K). unfold count_sum, Relative.count_sum. cbv zeta.
   change (fst (two_sum _ C j k)) with (j +# k). split.
@@ -399,7 +448,8 @@ Proof.
     assert (FS : finite (j +# k)) by (destruct (less _ C _ e); [now apply (upper_finite q qmax q_3) in H | exact H]).
     assert (G := plus_finite q qmax _ _ FS). destruct G as (FJ & FK & ES). split; [exact FJ |]. split; [exact FK |].
     destruct (two_sum_of_counts j k FS) as [FE EE]; [apply nonnegative_value, J | apply nonnegative_value, K |].
-    destruct (zero_value q qmax q_3) as [Z0 Z]. fold e in FE, EE. revert H. rewrite (less_finite q qmax), Z, EE by auto.
+    destruct (zero_value q qmax q_3) as [Z0 Z]. fold e in FE, EE. revert H.
+    rewrite (less_finite q qmax), Z, EE by auto.
     change (fst (ErrorFree.two_sum q qmin (B2R j) (B2R k))) with (dl (B2R j + B2R k)).
     case Rlt_bool; intros H; [| exact ES]. apply (upper_finite q qmax q_3) in H. now rewrite (proj2 H), ES.
 Qed.
@@ -423,10 +473,14 @@ Notation real_factors := (Relative.factors_of p emin q qmin).
 Notation of_reals theorem := (theorem p emin q qmin _ _ p_q q_24 qmin_q).
 Notation of_sums theorem := (theorem p emin q qmin _ _ p_q emin_p q_24 qmin_q).
 
-Lemma unknown_known v x : relative_known v (unknown _ C) x. Proof. split; [apply infinite_count | discriminate]. Qed.
-Lemma zero_count : is_count (count 0). Proof. apply (integer_count q qmax q_3). lia. Qed.
-Lemma one_count : is_count (count 1). Proof. apply (integer_count q qmax q_3). lia. Qed.
-Lemma value_0 : B2R (count 0) = 0. Proof. apply (zero_value q qmax q_3). Qed.
+Lemma unknown_known v x : relative_known v (unknown _ C) x.
+Proof. split; [apply infinite_count | discriminate]. Qed.
+Lemma zero_count : is_count (count 0).
+Proof. apply (integer_count q qmax q_3). lia. Qed.
+Lemma one_count : is_count (count 1).
+Proof. apply (integer_count q qmax q_3). lia. Qed.
+Lemma value_0 : B2R (count 0) = 0.
+Proof. apply (zero_value q qmax q_3). Qed.
 
 Theorem relative_exact_known v : relative_known v (relative_exact v) (B2R v).
 Proof.
@@ -442,9 +496,12 @@ Qed.
 
 (** The error. *)
 Lemma count_is_zero k : is_count k -> equal _ C k (count 0) = true -> finite k /\ B2R k = 0.
-Proof. intros K E. apply (equal_true q qmax) in E; [| apply (zero_value q qmax q_3)]. now rewrite value_0 in E. Qed.
-Lemma length_finite k : finite (length_of_count _ C u k) -> finite k /\ B2R
-  (length_of_count _ C u k) = dl (Upper.upper q qmin (dl (B2R k * Relative.of_one_factor q qmin p)) + Format.eta qmin).
+Proof.
+  intros K E. apply (equal_true q qmax) in E; [| apply (zero_value q qmax q_3)]. now rewrite value_0 in E.
+Qed.
+Lemma length_finite k : finite (length_of_count _ C u k) -> finite k /\
+  B2R (length_of_count _ C u k) =
+  dl (Upper.upper q qmin (dl (B2R k * Relative.of_one_factor q qmin p)) + Format.eta qmin).
 Proof.
   unfold length_of_count. intros H. apply plus_finite in H. destruct H as (H & _ & ->).
   apply (upper_finite q qmax q_3) in H. destruct H as (H & ->). apply times_finite in H. destruct H as (K & _ & ->).
@@ -461,18 +518,21 @@ Lemma limit_value : finite (count 7 /# count 4) /\ B2R (count 7 /# count 4) = 7 
 Proof.
   destruct (count_value 7 ltac:(lia)) as [F7 V7], (count_value 4 ltac:(lia)) as [F4 V4].
   destruct (forward_over (count 7) (count 4) 1) as (G & E & _);
-    [auto | rewrite V4; lra | lia | rewrite V7, V4; simpl; lra |]. split; [exact G |]. rewrite E, V7, V4.
-  apply (Format.rnd_exact q qmin Format.nearest). replace (7 / 4) with (7 * bpow radix2 (-2)) by (simpl; lra).
-  apply Format.number_integer; auto; [lia |]. apply (Z.le_trans _ (2 ^ 3)); [simpl; lia | apply Z.pow_le_mono_r; lia].
+    [auto | rewrite V4; lra | lia | rewrite V7, V4; simpl; lra |].
+  split; [exact G |]. rewrite E, V7, V4. apply (Format.rnd_exact q qmin Format.nearest).
+  replace (7 / 4) with (7 * bpow radix2 (-2)) by (simpl; lra).
+  apply Format.number_integer; auto; [lia |].
+  apply (Z.le_trans _ (2 ^ 3)); [simpl; lia | apply Z.pow_le_mono_r; lia].
 Qed.
 Lemma error_nonnegative v k : is_count k -> nonnegative p emax (relative_error v k).
 Proof.
   intros K. assert (P := p_3). unfold RelativeCode.relative_error. cbv zeta.
   destruct (equal _ C k (count 0)) eqn:E; [now apply nonnegative_integer |].
   destruct (less _ C (length_of_count _ C u k) (count 7 /# count 4)) eqn:L; cbn [negb]; [| reflexivity].
-  assert (N := nonnegative_length k K). assert (FL := less_finite_left q qmax _ _ N L). destruct limit_value as [F7 V7].
-  rewrite (less_finite q qmax), V7 in L by auto. revert L. case Rlt_bool_spec; [| discriminate]. intros L _.
-  apply nonnegative_value in N. destruct (share_of_length_value _ FL (conj N L)) as (FS & _ & PS).
+  assert (N := nonnegative_length k K). assert (FL := less_finite_left q qmax _ _ N L).
+  destruct limit_value as [F7 V7]. rewrite (less_finite q qmax), V7 in L by auto. revert L.
+  case Rlt_bool_spec; [| discriminate]. intros L _. apply nonnegative_value in N.
+  destruct (share_of_length_value _ FL (conj N L)) as (FS & _ & PS).
   assert (NS : nonnegative p emax (from_count (share_of_length _ C (length_of_count _ C u k)))).
   { apply converted_nonnegative. now apply nonnegative_intro. }
   apply nonnegative_plus; [| now apply nonnegative_eta]. apply nonnegative_upper; auto.
@@ -482,27 +542,30 @@ Qed.
 Lemma error_finite v k : is_count k -> finite (relative_error v k) ->
   finite k /\ real_error (B2R v) (B2R k) = Some (B2R (relative_error v k)).
 Proof.
-  intros K. assert (P := p_3). unfold RelativeCode.relative_error, Relative.relative_error, Relative.error_of_count.
-  cbv zeta. destruct (equal _ C k (count 0)) eqn:E.
+  intros K. assert (P := p_3).
+  unfold RelativeCode.relative_error, Relative.relative_error, Relative.error_of_count. cbv zeta.
+  destruct (equal _ C k (count 0)) eqn:E.
   { destruct (count_is_zero k K E) as [FK ->]. intros _. split; [exact FK |]. rewrite Req_bool_true by auto.
     destruct (zero_value p emax p_3) as [_ Z]. now rewrite Z. }
   destruct (less _ C (length_of_count _ C u k) (count 7 /# count 4)) eqn:L; cbn [negb]; [| discriminate].
-  assert (N := nonnegative_length k K). assert (FL := less_finite_left q qmax _ _ N L). destruct limit_value as [F7 V7].
-  rewrite (less_finite q qmax), V7 in L by auto. revert L. case Rlt_bool_spec; [| discriminate]. intros L _.
-  apply nonnegative_value in N. destruct (share_of_length_value _ FL (conj N L)) as (FS & ES & PS).
-  assert (G := length_finite k FL). destruct G as [FK EL].
-  rewrite (equal_finite q qmax) in E; [| auto | apply (zero_value q qmax q_3)]. rewrite value_0 in E. rewrite E.
-  rewrite <- EL, Rlt_bool_true by exact L. rewrite <- ES. set (r := share_of_length _ C (length_of_count _ C u k)) in *.
-  set (share := from_count r). intros H. split; [exact FK |]. apply plus_finite in H. destruct H as (H & _ & ->).
+  assert (N := nonnegative_length k K). assert (FL := less_finite_left q qmax _ _ N L).
+  destruct limit_value as [F7 V7]. rewrite (less_finite q qmax), V7 in L by auto. revert L.
+  case Rlt_bool_spec; [| discriminate]. intros L _. apply nonnegative_value in N.
+  destruct (share_of_length_value _ FL (conj N L)) as (FS & ES & PS).
+  assert (G := length_finite k FL). destruct G as [FK EL]. rewrite (equal_finite q qmax) in E;
+    [| auto | apply (zero_value q qmax q_3)]. rewrite value_0 in E. rewrite E. rewrite <- EL, Rlt_bool_true by exact L.
+  rewrite <- ES. set (r := share_of_length _ C (length_of_count _ C u k)) in *. set (share := from_count r).
+  intros H. split; [exact FK |]. apply plus_finite in H. destruct H as (H & _ & ->).
   apply (upper_finite p emax p_3) in H. destruct H as (H & ->). apply times_finite in H. destruct H as (HA & H & ->).
   apply (abs_finite p emax p_3) in HA. destruct HA as [FV ->]. rewrite (proj2 (eta_value p emax p_3)).
   assert (FH : finite share).
   { destruct (less _ C (to_count share) r); [| exact H]. apply plus_finite in H. destruct H as (H & _).
     now apply (upper_finite p emax p_3) in H. }
   assert (G := converted_finite q qmax p emax r FH). destruct G as [_ EH]. fold share in EH.
-  destruct (to_count_exact share FH) as [FT ET]. rewrite (less_finite q qmax), ET in H |- * by auto.
-  rewrite EH in H |- *. destruct (Rlt_bool (fl (B2R r)) (B2R r)); [| now rewrite EH]. apply plus_finite in H.
-  destruct H as (H & _ & ->). apply (upper_finite p emax p_3) in H. destruct H as (_ & ->).
+  destruct (to_count_exact share FH) as [FT ET].
+  rewrite (less_finite q qmax), ET in H |- * by auto. rewrite EH in H |- *.
+  destruct (Rlt_bool (fl (B2R r)) (B2R r)); [| now rewrite EH].
+  apply plus_finite in H. destruct H as (H & _ & ->). apply (upper_finite p emax p_3) in H. destruct H as (_ & ->).
   now rewrite EH, (proj2 (eta_value p emax p_3)).
 Qed.
 Theorem relative_error_known v k x : relative_known v k x -> known p emax v (relative_error v k) x.
@@ -522,13 +585,15 @@ Proof.
 Qed.
 
 (** Counts of absolute errors. *)
-Lemma factors_known error size : nonnegative p emax error -> finite size -> is_count (factors_of error size) /\ (finite
-  (factors_of error size) -> finite error /\ real_factors (B2R error) (B2R size) = Some (B2R (factors_of error size))).
+Lemma factors_known error size : nonnegative p emax error -> finite size -> is_count (factors_of error size) /\
+  (finite (factors_of error size) -> finite error /\
+   real_factors (B2R error) (B2R size) = Some (B2R (factors_of error size))).
 Proof.
   intros PE FZ. assert (P := p_3). assert (Q := q_3). destruct (zero_value p emax p_3) as [Z0 Z].
   assert (Nothing : forall r, is_count (unknown _ C) /\ (finite (unknown _ C) -> finite error /\
-    r = Some (B2R (unknown _ C)))) by (split; [apply infinite_count | discriminate]). unfold RelativeCode.factors_of.
-  cbv zeta. unfold Relative.factors_of. destruct (less _ F (integer _ F 0) size) eqn:S; cbn [negb]; [| apply Nothing].
+    r = Some (B2R (unknown _ C)))) by (split; [apply infinite_count | discriminate]).
+  unfold RelativeCode.factors_of. cbv zeta. unfold Relative.factors_of.
+  destruct (less _ F (integer _ F 0) size) eqn:S; cbn [negb]; [| apply Nothing].
   rewrite (less_finite p emax), Z in S by auto. rewrite S. revert S. case Rlt_bool_spec; [| discriminate]. intros S _.
   set (share := upper _ F (error ⊘ size) ⊕ underflow_unit _ F).
   destruct (less _ F share (integer _ F 1)) eqn:L1; cbn [negb]; [| apply Nothing].
@@ -536,7 +601,8 @@ Proof.
   assert (PS : nonnegative p emax share).
   { apply nonnegative_plus; [| now apply nonnegative_eta]. apply nonnegative_upper; auto.
     apply nonnegative_over; auto; [apply nonnegative_intro; auto; lra | lra]. }
-  assert (FS := less_finite_left p emax _ _ PS L1). destruct (to_count_exact share FS) as [FT ET].
+  assert (FS := less_finite_left p emax _ _ PS L1).
+  destruct (to_count_exact share FS) as [FT ET].
   set (r := upper _ C (to_count share) +# underflow_unit _ C).
   destruct (less _ C r (count 1)) eqn:L2; cbn [negb]; [| apply Nothing].
   assert (PR : nonnegative q qmax r).
@@ -579,8 +645,9 @@ Proof.
 Qed.
 
 (** Sums. *)
-Lemma rounded_sum_known v k (is_exact : bool) x : is_count k -> (finite k -> finite v -> holds
-  (B2R v) (Relative.rounded_sum q qmin (B2R k) is_exact) x) -> relative_known v (rounded_sum _ _ F C v k is_exact) x.
+Lemma rounded_sum_known v k (is_exact : bool) x : is_count k ->
+  (finite k -> finite v -> holds (B2R v) (Relative.rounded_sum q qmin (B2R k) is_exact) x) ->
+  relative_known v (rounded_sum _ _ F C v k is_exact) x.
 Proof.
   intros K H. unfold rounded_sum. destruct (is_finite _ F v) eqn:FV; cbn [negb]; [| apply unknown_known].
   apply (IeeeInterval.is_finite_true p emax) in FV. destruct (count_sum_known k (count 1) K one_count) as [S V].
@@ -592,8 +659,9 @@ Lemma larger_count j k : is_count j -> is_count k -> let m := if less _ C j k th
 Proof.
   intros J K m. split; [unfold m; now destruct (less _ C j k) |]. unfold m. intros H.
   assert (B : finite j /\ finite k).
-  { destruct (count_cases q qmax j J) as [FJ | ->], (count_cases q qmax k K) as [FK | ->]; [now split |
-      exfalso | exfalso | exfalso]; [now destruct j as [| | | [|]] | now destruct k as [| | | [|]] | easy]. }
+  { destruct (count_cases q qmax j J) as [FJ | ->], (count_cases q qmax k K) as [FK | ->];
+      [now split | exfalso | exfalso | exfalso];
+      [now destruct j as [| | | [|]] | now destruct k as [| | | [|]] | easy]. }
   destruct B as [FJ FK]. split; [exact FJ |]. split; [exact FK |].
   rewrite (less_finite q qmax) by auto. now case Rlt_bool.
 Qed.
@@ -624,7 +692,8 @@ Proof.
     apply (of_sums Relative.relative_add_sound (B2R a) (B2R ka) x (B2R b) (B2R kb) y e); auto.
     - now apply KA.
     - now apply KB. }
-  unfold Relative.relative_add in Real. cbv zeta in Real. destruct (_ || _) eqn:One.
+  unfold Relative.relative_add in Real. cbv zeta in Real.
+  destruct (_ || _) eqn:One.
   - apply rounded_sum_known; [exact CM |]. intros FM FV. destruct (HM FM) as (FKA & FKB & EM).
     destruct (Sum FV) as (FA & FB & _). apply Real; auto. rewrite <- EM, <- Same by auto. reflexivity.
   - set (ea := relative_error a ka). set (eb := relative_error b kb). set (off := upper _ F (ea ⊕ eb)).
@@ -634,19 +703,21 @@ Proof.
     destruct (less _ F off least) eqn:L; cbn [negb]; [| apply unknown_known].
     assert (PO : nonnegative p emax off).
     { apply nonnegative_upper; auto. apply nonnegative_plus; now apply error_nonnegative. }
-    assert (FO := less_finite_left p emax _ _ PO L). assert (VO := upper_finite p emax p_3 _ FO).
-    destruct VO as [VO EO]. apply plus_finite in VO. destruct VO as (FEA & FEB & ES). rewrite ES in EO. fold off in EO.
+    assert (FO := less_finite_left p emax _ _ PO L).
+    assert (VO := upper_finite p emax p_3 _ FO). destruct VO as [VO EO]. apply plus_finite in VO.
+    destruct VO as (FEA & FEB & ES). rewrite ES in EO. fold off in EO.
     destruct (error_finite a ka CA FEA) as [FKA EA]. destruct (error_finite b kb CB FEB) as [FKB EB].
     destruct (Sum FV) as (FA & FB & EV). assert (FM : finite m) by (unfold m; now destruct (less _ C ka kb)).
-    destruct (HM FM) as (_ & _ & EM). assert (AV := abs_finite_intro p emax v FV).
-    destruct (abs_finite p emax p_3 v AV) as [_ EAV].
+    destruct (HM FM) as (_ & _ & EM).
+    assert (AV := abs_finite_intro p emax v FV). destruct (abs_finite p emax p_3 v AV) as [_ EAV].
     assert (HL : finite least /\ B2R least =
       if e then Rabs (fl (B2R a + B2R b)) else fl (Rabs (fl (B2R a + B2R b)) * fl (1 - Format.eps p))).
     { unfold least. rewrite <- EV. destruct e; [split; auto |].
       destruct (integer_value p emax p_3 1 ltac:(lia)) as [F1 V1], (eps_value p emax p_3) as [FE VE].
       assert (E1 : 0 <= Format.eps p <= 1).
       { split; [apply bpow_ge_0 |]. change 1 with (bpow radix2 0). apply bpow_le. lia. }
-      assert (PE := p_emax p emax). destruct (minus_fits p emax (integer _ F 1) (epsilon _ F) 1) as [FD VD]; auto.
+      assert (PE := p_emax p emax).
+      destruct (minus_fits p emax (integer _ F 1) (epsilon _ F) 1) as [FD VD]; auto.
       - apply (fitting_power p emax 0). lia.
       - rewrite V1, VE, Rabs_pos_eq; lra.
       - destruct (times_fits p emax (Code.abs _ F v) (integer _ F 1 ⊖ epsilon _ F) (Rabs (B2R v))) as [FT VT]; auto.
@@ -656,21 +727,26 @@ Proof.
           apply (Format.rnd_abs_below p emin Format.nearest); [| rewrite Rabs_pos_eq; lra].
           apply (fitting_power p emax 0). lia.
         + split; [exact FT |]. now rewrite VT, VD, V1, VE, EAV. }
-    destruct HL as [FL EL]. destruct (factors_known off least PO FL) as [CK HK]. apply rounded_sum_known; [exact CK |].
-    intros FK _. destruct (HK FK) as [_ EF]. apply Real; auto. fold ea in EA. fold eb in EB.
-    rewrite <- EM, <- Same, EA, EB, <- EO, <- EL, <- (less_finite p emax), L, EF by auto. reflexivity.
+    destruct HL as [FL EL].
+    destruct (factors_known off least PO FL) as [CK HK]. apply rounded_sum_known; [exact CK |]. intros FK _.
+    destruct (HK FK) as [_ EF]. apply Real; auto.
+    fold ea in EA. fold eb in EB. rewrite <- EM, <- Same, EA, EB, <- EO, <- EL, <- (less_finite p emax), L, EF by auto.
+    reflexivity.
 Qed.
 Theorem relative_add_known a ka x b kb y : relative_known a ka x -> relative_known b kb y ->
   relative_known (a ⊕ b) (relative_add (a ⊕ b) a ka b kb) (x + y).
 Proof. intros A B. apply sum_known; auto. Qed.
 Theorem relative_subtract_known a ka x b kb y : relative_known a ka x -> relative_known b kb y ->
   relative_known (a ⊖ b) (relative_subtract (a ⊖ b) a ka b kb) (x - y).
-Proof. intros A B. apply sum_known; [exact A | now apply relative_negate_known |]. rewrite minus_is_plus. auto. Qed.
+Proof.
+  intros A B. apply sum_known; [exact A | now apply relative_negate_known |]. rewrite minus_is_plus. auto.
+Qed.
 
 (** Products, quotients, powers of two. *)
 Lemma rounded_to_known v k (is_exact : bool) x : is_count k ->
   (forall n, finite k -> finite v -> Relative.rounded_to p emin q qmin (B2R v) (B2R k) is_exact = Some n ->
-  holds (B2R v) n x) -> relative_known v (rounded_to _ _ F C v k is_exact) x.
+    holds (B2R v) n x) ->
+  relative_known v (rounded_to _ _ F C v k is_exact) x.
 Proof.
   intros K H. unfold rounded_to. unfold Relative.rounded_to in H.
   destruct (is_finite _ F v) eqn:FV; cbn [negb]; [| apply unknown_known].
@@ -689,7 +765,8 @@ Proof.
   destruct (KA FK) as [FA HA]. repeat split; try tauto. apply (Relative.is_zero_tells p emin q qmin) with (1 := HA).
   unfold Relative.is_zero. now rewrite !Req_bool_true.
 Qed.
-Lemma exact_zero_value a ka : finite a -> finite ka -> is_exact_zero _ _ F C a ka = Relative.is_zero (B2R a) (B2R ka).
+Lemma exact_zero_value a ka : finite a -> finite ka ->
+  is_exact_zero _ _ F C a ka = Relative.is_zero (B2R a) (B2R ka).
 Proof.
   intros A K. unfold is_exact_zero, Relative.is_zero.
   destruct (zero_value p emax p_3) as [Z0 Z], (zero_value q qmax q_3) as [C0 Z'].
@@ -743,9 +820,10 @@ Proof.
     apply certain_zero_known. now apply (zero_over p emax). }
   assert (R := IeeeInterval.remainder_known p emax p_3 fused a b).
   destruct (remainder_of_division _ F fused a b (a ⊘ b)) as [remainder known]. cbn [fst snd] in R.
-  set (e := known && equal _ F remainder (integer _ F 0)). destruct A as [CA KA].
-  destruct (count_sum_known ka kb CA CB) as [CS HS]. apply rounded_to_known; [exact CS |]. intros n FS FV E.
-  destruct (HS FS) as (FKA & _ & ES). destruct (KA FKA) as [FA HA].
+  set (e := known && equal _ F remainder (integer _ F 0)).
+  destruct A as [CA KA]. destruct (count_sum_known ka kb CA CB) as [CS HS].
+  apply rounded_to_known; [exact CS |]. intros n FS FV E. destruct (HS FS) as (FKA & _ & ES).
+  destruct (KA FKA) as [FA HA].
   assert (Exact : e = true -> B2R (a ⊘ b) = B2R a / B2R b).
   { intros E'. apply andb_prop in E'. destruct E' as [E1 E2]. destruct (R FV FB NB E1) as [_ ER].
     apply (equal_true p emax) in E2; auto. rewrite Z in E2. destruct E2 as [_ E2].
@@ -814,13 +892,14 @@ Lemma dot_step_known s pair t exact : state_known s t -> known_pair pair exact -
   state_known (relative_dot_step _ _ F C to_count from_count fused s pair) (t + fst exact * snd exact).
 Proof.
   destruct s as [[before off] counted], pair as [[a ka] [b kb]]. unfold state_known, known_pair, relative_dot_step.
-  cbn [fst snd]. intros [[PO KO] KC] [A B]. set (product := a ⊗ b).
-  set (of_product := relative_multiply product a ka b kb).
+  cbn [fst snd]. intros [[PO KO] KC] [A B].
+  set (product := a ⊗ b). set (of_product := relative_multiply product a ka b kb).
   assert (KP : relative_known product of_product (fst exact * snd exact)) by now apply relative_multiply_known.
-  split; [| now apply relative_add_known]. assert (KE := relative_error_known _ _ _ KP). destruct KE as [PE KE].
+  split; [| now apply relative_add_known].
+  assert (KE := relative_error_known _ _ _ KP). destruct KE as [PE KE].
   set (lost := relative_error product of_product) in *.
-  set (rounded_off := Code.abs _ F (snd (two_sum _ F before product))). assert (P := p_3).
-  assert (PR : nonnegative p emax rounded_off) by now apply nonnegative_abs.
+  set (rounded_off := Code.abs _ F (snd (two_sum _ F before product))).
+  assert (P := p_3). assert (PR : nonnegative p emax rounded_off) by now apply nonnegative_abs.
   assert (PU : nonnegative p emax (upper _ F (lost ⊕ rounded_off))).
   { apply nonnegative_upper; auto. now apply nonnegative_plus. }
   split; [apply nonnegative_upper; auto; now apply nonnegative_plus |]. intros H.

@@ -11,17 +11,23 @@
         residual_error_known   the error is one, in the sense of IeeeRules.v
         residual_sign_known    the rule's sign is right or uncertain *)
 
-From Coq Require Import Reals ZArith Lia Lra Psatz Bool. From Flocq Require Import Core IEEE754.BinarySingleNaN.
+From Coq Require Import Reals ZArith Lia Lra Psatz Bool.
+From Flocq Require Import Core IEEE754.BinarySingleNaN.
 From Errbound Require Import Code Ieee IeeeRules.
-From Errbound Require Format Residual ResidualProduct ErrorFree IeeeInterval. Open Scope R_scope.
+From Errbound Require Format Residual ResidualProduct ErrorFree IeeeInterval.
+Open Scope R_scope.
 
 Section Rules.
 
 Context (p emax : Z) {p_positive : Prec_gt_0 p} {p_below : Prec_lt_emax p emax} (p_3 : (3 <= p)%Z).
 Variable fused : bool.  (* has_fast_fma *)
-Notation float := (binary_float p emax). Notation F := (floats p emax). Notation emin := (3 - emax - p)%Z.
-Notation fl := (Format.rnd p emin Format.nearest). Notation nonnegative := (nonnegative p emax).
-Notation emin_p := (emin_p p emax p_3). Notation holds := (Residual.holds p emin).
+Notation float := (binary_float p emax).
+Notation F := (floats p emax).
+Notation emin := (3 - emax - p)%Z.
+Notation fl := (Format.rnd p emin Format.nearest).
+Notation nonnegative := (nonnegative p emax).
+Notation emin_p := (emin_p p emax p_3).
+Notation holds := (Residual.holds p emin).
 
 Ltac parts := finite_parts p emax p_3.
 Ltac values := known_values p emax p_3.
@@ -37,9 +43,12 @@ Lemma nonnegative_inflated b : nonnegative b -> nonnegative (residual_inflated _
 Proof. intros. unfold residual_inflated. positive. Qed.
 (** A finite error of two_sum is that over real numbers. *)
 Lemma two_sum_finite a b : finite (snd (two_sum _ F a b)) ->
-  finite a /\ finite b /\ B2R (fst (two_sum _ F a b)) = fst (ErrorFree.two_sum p emin (B2R a) (B2R b)) /\
+  finite a /\ finite b /\
+  B2R (fst (two_sum _ F a b)) = fst (ErrorFree.two_sum p emin (B2R a) (B2R b)) /\
   B2R (snd (two_sum _ F a b)) = snd (ErrorFree.two_sum p emin (B2R a) (B2R b)).
-Proof. unfold two_sum, ErrorFree.two_sum. cbn [fst snd]. intros H. parts. repeat split; auto; now values. Qed.
+Proof.
+  unfold two_sum, ErrorFree.two_sum. cbn [fst snd]. intros H. parts. repeat split; auto; now values.
+Qed.
 
 Theorem residual_exact_known v : residual_known v (residual_exact _ F v) (B2R v).
 Proof.
@@ -51,9 +60,10 @@ Theorem residual_within_known v error x :
   (finite error -> 0 <= B2R error -> Rabs (B2R v - x) <= B2R error) ->
   residual_known v (residual_within _ F v error) x.
 Proof.
-  intros K. generalize (tight_within_known p emax p_3 v error x K). unfold tight_within, residual_within. intros [P H].
-  split; [exact P |]. cbn [fst snd]. intros _ FR. destruct (H FR) as [V E]. split; auto. values.
-  repeat split; auto using number_B2R, Format.number_0. now rewrite Rplus_0_r.
+  intros K. generalize (tight_within_known p emax p_3 v error x K).
+  unfold tight_within, residual_within. intros [P H].
+  split; [exact P |]. cbn [fst snd]. intros _ FR. destruct (H FR) as [V E]. split; auto.
+  values. repeat split; auto using number_B2R, Format.number_0. now rewrite Rplus_0_r.
 Qed.
 Theorem residual_negate_known v b x : residual_known v b x ->
   residual_known (opposite _ F v) (residual_negate _ F b) (- x).
@@ -65,9 +75,11 @@ Proof.
 Qed.
 
 (** The remainder of a sum, from ra, rb and the errors e and f of its corrections. *)
-Lemma remainders_finite ra rb e f : nonnegative ra -> nonnegative rb -> let lost := abs _ F e ⊕ abs _ F f in let bound
-  := sum_of_bounds _ F (residual_inflated _ F (ra ⊕ rb ⊕ lost)) (residual_inflated _ F lost) ra rb in finite bound ->
-  finite ra /\ finite rb /\ finite e /\ finite f /\ B2R ra + B2R rb + (Rabs (B2R e) + Rabs (B2R f)) <= B2R bound.
+Lemma remainders_finite ra rb e f : nonnegative ra -> nonnegative rb ->
+  let lost := abs _ F e ⊕ abs _ F f in
+  let bound := sum_of_bounds _ F (residual_inflated _ F (ra ⊕ rb ⊕ lost)) (residual_inflated _ F lost) ra rb in
+  finite bound -> finite ra /\ finite rb /\ finite e /\ finite f /\
+  B2R ra + B2R rb + (Rabs (B2R e) + Rabs (B2R f)) <= B2R bound.
 Proof.
   intros PA PB lost bound H. unfold bound in *. clear bound. assert (PL : nonnegative lost) by (unfold lost; positive).
   assert (Lost : finite lost -> finite e /\ finite f /\ B2R lost = fl (Rabs (B2R e) + Rabs (B2R f))).
@@ -76,29 +88,35 @@ Proof.
   assert (NF := Format.number_abs p emin _ (number_B2R p emax f)).
   destruct (sum_of_bounds_finite p emax p_3 (residual_inflated _ F (ra ⊕ rb ⊕ lost)) (residual_inflated _ F lost) ra rb)
     as [E | (FO & FA & FB & L)]; auto using nonnegative_inflated.
-  - rewrite E in H |- *. apply inflated_finite in H. destruct H as [H ->]. assert (G := plus_finite p emax _ _ H).
-    destruct G as (FAB & FL & ->). assert (G := plus_finite p emax _ _ FAB). destruct G as (FA & FB & ->).
+  - rewrite E in H |- *. apply inflated_finite in H. destruct H as [H ->].
+    assert (G := plus_finite p emax _ _ H). destruct G as (FAB & FL & ->).
+    assert (G := plus_finite p emax _ _ FAB). destruct G as (FA & FB & ->).
     destruct (Lost FL) as (FE & FF & ->). repeat split; auto.
-    apply Residual.inflated_remainders; auto using number_B2R, Rabs_pos, emin_p; now apply (nonnegative_value p emax).
+    apply Residual.inflated_remainders; auto using number_B2R, Rabs_pos, emin_p;
+      now apply (nonnegative_value p emax).
   - apply inflated_finite in FO. destruct FO as [FL EO]. destruct (Lost FL) as (FE & FF & EL).
     repeat split; auto. rewrite EO, EL in L.
     generalize (Residual.inflated_losses p emin p_3 emin_p _ _ NE NF (Rabs_pos _) (Rabs_pos _)). lra.
 Qed.
 Lemma sum_known v a sa x b sb y : (finite v -> B2R v = fl (B2R a + B2R b)) ->
-  residual_known a sa x -> residual_known b sb y -> residual_known v (residual_add _ F v a sa b sb) (x + y).
+  residual_known a sa x -> residual_known b sb y ->
+  residual_known v (residual_add _ F v a sa b sb) (x + y).
 Proof.
   intros V [PA KA] [PB KB]. unfold residual_add. cbv zeta. split; cbn [fst snd].
   { apply nonnegative_plus; auto using nonnegative_nothing.
     apply nonnegative_sum_of_bounds; auto; apply nonnegative_inflated; positive. }
-  intros FC FR. apply plus_finite in FR. destruct FR as (FS & FN & ER). assert (G := minus_finite p emax _ _ FN).
-  destruct G as (FV & _ & EN). specialize (V FV). apply remainders_finite in FS; auto.
-  destruct FS as (RA & RB & FE & FF & L). apply two_sum_finite in FE. destruct FE as (CA & CB & E3 & E4).
-  apply two_sum_finite in FF. destruct FF as (FO & _ & E1 & E2). apply two_sum_finite in FO.
-  destruct FO as (_ & _ & _ & E5). destruct (KA CA RA) as [_ HA], (KB CB RB) as [_ HB]. split; auto.
+  intros FC FR. apply plus_finite in FR. destruct FR as (FS & FN & ER).
+  assert (G := minus_finite p emax _ _ FN). destruct G as (FV & _ & EN). specialize (V FV).
+  apply remainders_finite in FS; auto. destruct FS as (RA & RB & FE & FF & L).
+  apply two_sum_finite in FE. destruct FE as (CA & CB & E3 & E4).
+  apply two_sum_finite in FF. destruct FF as (FO & _ & E1 & E2).
+  apply two_sum_finite in FO. destruct FO as (_ & _ & _ & E5).
+  destruct (KA CA RA) as [_ HA], (KB CB RB) as [_ HB]. split; auto.
   assert (D := Residual.residual_sum_error p emin p_3 emin_p _ _ _ _ _ _ _ _ HA HB). cbv zeta in D.
   rewrite E4, E2, E5, E3 in L. rewrite <- V in D. repeat split; auto using number_B2R.
   rewrite ER, EN, Rminus_eq_0, (Format.rnd_0 p emin Format.nearest), Rplus_0_r,
-    (Format.rnd_exact p emin Format.nearest) by apply number_B2R. rewrite E1, E5, E3. lra.
+    (Format.rnd_exact p emin Format.nearest) by apply number_B2R.
+  rewrite E1, E5, E3. lra.
 Qed.
 Theorem residual_add_known a sa x b sb y : residual_known a sa x -> residual_known b sb y ->
   residual_known (a ⊕ b) (residual_add _ F (a ⊕ b) a sa b sb) (x + y).
@@ -120,8 +138,10 @@ Qed.
 Theorem residual_scale_known a sa x e : residual_known a sa x ->
   residual_known (scale _ F a e) (residual_scale _ F (scale _ F a e) a sa e) (x * bpow radix2 e).
 Proof.
-  intros [P K]. unfold residual_scale. cbv zeta. set (v := scale _ F a e). set (c := scale _ F (fst sa) e).
-  set (r := scale _ F (snd sa) e). assert (Pr : nonnegative r) by now apply nonnegative_scale. split; cbn [fst snd].
+  intros [P K]. unfold residual_scale. cbv zeta.
+  set (v := scale _ F a e). set (c := scale _ F (fst sa) e). set (r := scale _ F (snd sa) e).
+  assert (Pr : nonnegative r) by now apply nonnegative_scale.
+  split; cbn [fst snd].
   { destruct (_ || _); [positive | apply nonnegative_inflated; positive]. }
   intros FC FR. generalize FC. intros C. apply scale_finite in C as [C EC]. change (B2R c = fl (B2R (fst sa) * bpow radix2 e)) in EC.
   assert (FS : finite r /\ finite v).
@@ -131,12 +151,14 @@ Proof.
       apply orb_false_iff in L. destruct L as [L _]. apply Z.leb_gt in L.
       match goal with H : finite r |- _ => apply scale_finite in H; destruct H as [H _] end.
       apply scale_down_finite; auto. now apply K. }
-  destruct FS as [FR' FV]. generalize FR' FV. intros R A. apply scale_finite in R as [R ER].
-  apply scale_finite in A as [A EV]. change (B2R r = fl (B2R (snd sa) * bpow radix2 e)) in ER.
-  change (B2R v = fl (B2R a * bpow radix2 e)) in EV. split; auto. destruct (K C R) as [_ H].
-  generalize (Residual.residual_scale_sound p emin p_3 emin_p _ _ _ _ e H). unfold Residual.residual_scale. cbv zeta.
-  cbn [fst snd]. rewrite <- EV, <- EC, <- ER. rewrite !(scale_equal p emax) in FR by auto.
-  rewrite !(scale_equal p emax) by auto. clear EV EC ER. destruct (_ || _); intros T.
+  destruct FS as [FR' FV]. generalize FR' FV. intros R A.
+  apply scale_finite in R as [R ER]. apply scale_finite in A as [A EV].
+  change (B2R r = fl (B2R (snd sa) * bpow radix2 e)) in ER. change (B2R v = fl (B2R a * bpow radix2 e)) in EV.
+  split; auto. destruct (K C R) as [_ H].
+  generalize (Residual.residual_scale_sound p emin p_3 emin_p _ _ _ _ e H).
+  unfold Residual.residual_scale. cbv zeta. cbn [fst snd]. rewrite <- EV, <- EC, <- ER.
+  rewrite !(scale_equal p emax) in FR by auto. rewrite !(scale_equal p emax) by auto.
+  clear EV EC ER. destruct (_ || _); intros T.
   - parts. now values.
   - apply inflated_finite in FR. destruct FR as [FR E]. rewrite E. parts. now values.
 Qed.
@@ -153,7 +175,8 @@ Qed.
 Theorem residual_error_known v b x : residual_known v b x -> known p emax v (residual_error _ F b) x.
 Proof.
   destruct b as [c r]. intros [P K]. cbn [fst snd] in *. split.
-  - unfold residual_error. cbn [fst snd]. destruct (equal _ F r _); [positive |]. apply nonnegative_inflated. positive.
+  - unfold residual_error. cbn [fst snd]. destruct (equal _ F r _); [positive |].
+    apply nonnegative_inflated. positive.
   - intros H. apply error_finite in H. destruct H as (C & N & ->). destruct (K C N) as [V H]. split; auto.
     apply (Residual.residual_error_sound p emin p_3 emin_p _ _ _ _ H).
 Qed.
@@ -165,15 +188,17 @@ Proof.
   - destruct s; lra.
   - destruct s; [apply F2R_le_0 | apply F2R_ge_0]; simpl; lia.
 Qed.
-Lemma sum_overflows v c (r : float) : finite v -> finite c -> ~ finite (v ⊕ c) -> (v ⊕ c = B754_infinity false /\
-  Rabs (B2R r) < B2R v + B2R c) \/ (v ⊕ c = B754_infinity true /\ B2R v + B2R c < - Rabs (B2R r)).
+Lemma sum_overflows v c (r : float) : finite v -> finite c -> ~ finite (v ⊕ c) ->
+  (v ⊕ c = B754_infinity false /\ Rabs (B2R r) < B2R v + B2R c) \/
+  (v ⊕ c = B754_infinity true /\ B2R v + B2R c < - Rabs (B2R r)).
 Proof.
   intros V C N. generalize (Bplus_correct p emax _ _ mode_NE v c V C). case Rlt_bool_spec; intros L.
   { intros (_ & H & _). easy. }
   intros [O S].
   assert (G : Rabs (B2R r) < Rabs (B2R v + B2R c)).
-  { apply Rnot_le_lt. intros D. apply (Rlt_not_le _ _ (abs_B2R_lt_emax p emax r)). apply Rle_trans with (1 := L).
-    apply (Format.rnd_abs_below p emin Format.nearest); auto. apply Format.number_abs, number_B2R. }
+  { apply Rnot_le_lt. intros D. apply (Rlt_not_le _ _ (abs_B2R_lt_emax p emax r)).
+    apply Rle_trans with (1 := L). apply (Format.rnd_abs_below p emin Format.nearest); auto.
+    apply Format.number_abs, number_B2R. }
   generalize (sign_value v V) (sign_value c C). rewrite <- S.
   assert (E : v ⊕ c = B754_infinity (Bsign v)).
   { revert O. simpl plus. destruct (Bplus mode_NE v c); try discriminate. now intros [= ->]. }
@@ -205,16 +230,19 @@ Proof.
     apply inflated_finite in I. destruct I as [_ ->]. rewrite E. reflexivity. }
   destruct (equal _ F (v ⊕ c) (integer _ F 0) && equal _ F r (integer _ F 0)) eqn:E0.
   { apply andb_prop in E0. destruct E0 as [E1 E2]. apply equal_true in E1, E2; auto.
-    destruct E1 as [S E1], E2 as [R E2]. apply plus_finite in S. destruct S as (_ & C & S). destruct (K C R) as [_ H].
-    generalize (Residual.residual_sign_sound p emin p_3 emin_p _ _ _ _ H). unfold Residual.residual_sign. cbv zeta.
-    rewrite <- S, E1, E2, Z, Req_bool_true by auto. auto. }
+    destruct E1 as [S E1], E2 as [R E2]. apply plus_finite in S. destruct S as (_ & C & S).
+    destruct (K C R) as [_ H].
+    generalize (Residual.residual_sign_sound p emin p_3 emin_p _ _ _ _ H).
+    unfold Residual.residual_sign. cbv zeta. rewrite <- S, E1, E2, Z, Req_bool_true by auto. auto. }
   destruct (less _ F (residual_inflated _ F r) (abs _ F (v ⊕ c))) eqn:L; cbn [negb orb]; auto.
   destruct (is_finite _ F (residual_error _ F (c, r))) eqn:FE; cbn [negb]; auto.
   apply (IeeeInterval.is_finite_true p emax) in FE. apply error_finite in FE. destruct FE as (C & R & _).
-  destruct (K C R) as [V H]. destruct (BinarySingleNaN.is_finite (v ⊕ c)) eqn:S.
+  destruct (K C R) as [V H].
+  destruct (BinarySingleNaN.is_finite (v ⊕ c)) eqn:S.
   - assert (I : finite (residual_inflated _ F r)).
     { generalize (nonnegative_inflated r P) (abs_finite_intro p emax (v ⊕ c) S). revert L.
-      destruct (residual_inflated _ F r) as [| t | |], (abs _ F (v ⊕ c)); simpl; try easy; intros L ->; discriminate. }
+      destruct (residual_inflated _ F r) as [| t | |], (abs _ F (v ⊕ c)); simpl; try easy;
+        intros L ->; discriminate. }
     destruct (Real eq_refl R I) as [T E]. rewrite E in T. cbn [negb] in T. exact T.
   - clear Real. destruct H as (_ & _ & _ & H). apply Rabs_le_inv in H. generalize (Rle_abs (B2R r)). intros.
     destruct (sum_overflows v c r V C) as [[-> G] | [-> G]]; [congruence | |]; simpl; lra.
@@ -224,9 +252,11 @@ Qed.
 Lemma half_ulp_finite v : finite (half_ulp _ F v) ->
   finite v /\ B2R (half_ulp _ F v) = Residual.half_ulp p emin (B2R v).
 Proof. unfold half_ulp, Residual.half_ulp. intros H. parts. split; auto. now values. Qed.
-Lemma nonnegative_half_ulp v : nonnegative (half_ulp _ F v). Proof. unfold half_ulp. positive. Qed.
+Lemma nonnegative_half_ulp v : nonnegative (half_ulp _ F v).
+Proof. unfold half_ulp. positive. Qed.
 Lemma roundings_finite x y f s : finite (roundings _ F x y f s) ->
-  finite x /\ finite y /\ B2R (roundings _ F x y f s) = Residual.roundings p emin (B2R x) (B2R y) (B2R f) (B2R s).
+  finite x /\ finite y /\
+  B2R (roundings _ F x y f s) = Residual.roundings p emin (B2R x) (B2R y) (B2R f) (B2R s).
 Proof. unfold roundings, Residual.roundings. intros H. parts. repeat split; auto. now values. Qed.
 Lemma is_exact_true b : residual_is_exact _ F b = true ->
   finite (fst b) /\ finite (snd b) /\ B2R (fst b) = 0 /\ B2R (snd b) = 0.
@@ -276,7 +306,8 @@ Proof.
   { apply times_finite. }
   assert (KN : known = true -> B2R v + B2R error = B2R a * B2R b) by (intros H; now apply KP).
   assert (FK : known = true -> finite v /\ finite error) by (intros H; split; now apply KP).
-  set (own := if known then error else integer _ F 0). set (unknown := if known then integer _ F 0 else half_ulp _ F v).
+  set (own := if known then error else integer _ F 0).
+  set (unknown := if known then integer _ F 0 else half_ulp _ F v).
   assert (Pu : nonnegative unknown).
   { unfold unknown. destruct known; [positive | apply nonnegative_half_ulp]. }
   assert (O : finite unknown -> finite v /\ B2R own = (if known then B2R error else 0) /\
@@ -295,9 +326,10 @@ Proof.
     - intros H. rewrite <- E. auto. }
   destruct (residual_is_exact _ F sa && residual_is_exact _ F sb) eqn:CE; split; cbn [fst snd].
   - exact Pu.
-  - intros _ FU. generalize CE. intros C. apply andb_prop in C. destruct C as [C1 C2]. apply is_exact_true in C1, C2.
-    destruct C1 as (CA & RA & _), C2 as (CB & RB & _). destruct (Real FU CA RA CB RB) as [FV T]. split; auto.
-    destruct (O FU) as (_ & EO & EU). destruct (EV FV) as (FA & FB & _). unfold ResidualProduct.residual_multiply in T.
+  - intros _ FU. generalize CE. intros C. apply andb_prop in C. destruct C as [C1 C2].
+    apply is_exact_true in C1, C2. destruct C1 as (CA & RA & _), C2 as (CB & RB & _).
+    destruct (Real FU CA RA CB RB) as [FV T]. split; auto. destruct (O FU) as (_ & EO & EU).
+    destruct (EV FV) as (FA & FB & _). unfold ResidualProduct.residual_multiply in T.
     rewrite <- !is_zero_value, CZ, <- !is_exact_value, CE in T by auto. now rewrite EO, EU.
   - apply nonnegative_inflated. positive.
   - intros FC FR. apply inflated_finite in FR. destruct FR as [FR ER]. rewrite ER. clear ER. parts.
@@ -315,11 +347,13 @@ Theorem residual_divide_known a sa x b sb y : residual_known a sa x -> residual_
 Proof.
   intros KA KB. destruct (zero_value p emax p_3) as [Z0 Z]. unfold residual_divide. cbv zeta.
   set (off := residual_error _ F sb). set (d := abs _ F b ⊖ off).
-  destruct (less _ F (integer _ F 0) d) eqn:C; cbn [negb]; [| split; [split; [reflexivity |] |]; discriminate].
-  generalize (residual_error_known _ _ _ KB). fold off. intros KO. generalize (distance_positive p emax p_3 _ _ _ KO C).
-  fold off d. intros (FB & FO & FD & D & NB & NY). split; auto. generalize FO. intros EO. unfold off in EO.
-  destruct sb as [cb rb]. apply error_finite in EO. destruct EO as (CB & RB & EO). fold off in EO.
-  assert (ED : B2R d = fl (Rabs (B2R b) - Residual.residual_error p emin (B2R cb) (B2R rb))).
+  destruct (less _ F (integer _ F 0) d) eqn:C; cbn [negb];
+    [| split; [split; [reflexivity |] |]; discriminate].
+  generalize (residual_error_known _ _ _ KB). fold off. intros KO.
+  generalize (distance_positive p emax p_3 _ _ _ KO C). fold off d. intros (FB & FO & FD & D & NB & NY).
+  split; auto.
+  generalize FO. intros EO. unfold off in EO. destruct sb as [cb rb]. apply error_finite in EO. destruct EO as (CB & RB & EO).
+  fold off in EO. assert (ED : B2R d = fl (Rabs (B2R b) - Residual.residual_error p emin (B2R cb) (B2R rb))).
   { rewrite <- EO. unfold d in FD |- *. apply minus_finite in FD. destruct FD as (FA & _ & ->).
     now apply (abs_finite p emax p_3) in FA as [_ ->]. }
   generalize (is_exact_value (cb, rb) CB RB). cbn [fst snd]. intros XB. clearbody d. set (v := a ⊘ b).
@@ -330,7 +364,8 @@ Proof.
   generalize (IeeeInterval.remainder_known p emax p_3 fused a b). fold v.
   destruct (remainder_of_division _ F fused a b v) as [value known]. cbn [fst snd]. intros KR.
   destruct KA as [PA KA], KB as [PB KB]. destruct (KB CB RB) as [_ HB]. cbn [fst snd] in *. clear KB.
-  set (own := if known then value else integer _ F 0). set (unknown := if known then integer _ F 0 else half_ulp _ F v).
+  set (own := if known then value else integer _ F 0).
+  set (unknown := if known then integer _ F 0 else half_ulp _ F v).
   assert (Pu : nonnegative unknown).
   { unfold unknown. destruct known; [positive | apply nonnegative_half_ulp]. }
   assert (O : finite v -> finite unknown -> finite own /\ B2R own = (if known then B2R value else 0) /\
@@ -361,18 +396,20 @@ Proof.
     rewrite equal_finite, Z in CE by auto.
     rewrite <- XB, CE in Real. destruct Real as [_ Real]. clear E1 E2. now values.
   - assert (PO : nonnegative off) by apply KO. apply nonnegative_inflated. positive.
-    apply nonnegative_over; auto; [| apply nonnegative_intro; auto; lra | lra]. apply nonnegative_inflated. positive.
+    apply nonnegative_over; auto; [| apply nonnegative_intro; auto; lra | lra].
+    apply nonnegative_inflated. positive.
   - intros FC FR. apply inflated_finite in FR. destruct FR as [FR ER]. rewrite ER. clear ER. parts.
     match goal with H : finite (_ ⊘ d) |- _ => apply over_finite in H; [destruct H as [FL EL] | auto | lra] end.
     match goal with H : finite (half_ulp _ _ _) |- _ => apply half_ulp_finite in H; destruct H as [_ EH] end.
-    apply over_finite in FC; auto. destruct FC as [FN EC]. apply inflated_finite in FL. destruct FL as [FL EI]. parts.
-    match goal with H : finite (roundings _ _ _ _ _ _) |- _ =>
-      apply roundings_finite in H; destruct H as (FX & FY & ?) end. parts. split; auto.
-    destruct (O ltac:(auto) ltac:(auto)) as (FW & E1 & E2). destruct (EV ltac:(auto)) as (FA & _).
-    specialize (Real ltac:(auto) ltac:(auto) ltac:(auto)).
+    apply over_finite in FC; auto. destruct FC as [FN EC].
+    apply inflated_finite in FL. destruct FL as [FL EI]. parts.
+    match goal with H : finite (roundings _ _ _ _ _ _) |- _ => apply roundings_finite in H; destruct H as (FX & FY & ?) end.
+    parts. split; auto. destruct (O ltac:(auto) ltac:(auto)) as (FW & E1 & E2).
+    destruct (EV ltac:(auto)) as (FA & _). specialize (Real ltac:(auto) ltac:(auto) ltac:(auto)).
     rewrite <- !is_zero_value, CZ, <- E1, <- E2, <- !is_exact_value in Real by auto.
-    rewrite equal_finite, Z in CE by auto. rewrite <- XB, CE in Real. destruct Real as [_ Real]. clear EV O E1 E2 KR.
-    now values.
+    rewrite equal_finite, Z in CE by auto.
+    rewrite <- XB, CE in Real. destruct Real as [_ Real].
+    clear EV O E1 E2 KR. now values.
 Qed.
 
 End Rules.

@@ -11,15 +11,22 @@
         sign_of_known, none_guesses   the default sign is right or uncertain, except under the rule none
                              (emax > p makes u a number of the format) *)
 
-From Coq Require Import Reals ZArith Lia Lra Psatz Bool. From Flocq Require Import Core IEEE754.BinarySingleNaN.
-From Errbound Require Import Code Ieee. From Errbound Require Format Tight Sharp Upper. Open Scope R_scope.
+From Coq Require Import Reals ZArith Lia Lra Psatz Bool.
+From Flocq Require Import Core IEEE754.BinarySingleNaN.
+From Errbound Require Import Code Ieee.
+From Errbound Require Format Tight Sharp Upper.
+Open Scope R_scope.
 
 Section Rules.
 
 Context (p emax : Z) {p_positive : Prec_gt_0 p} {p_below : Prec_lt_emax p emax} (p_3 : (3 <= p)%Z).
-Notation float := (binary_float p emax). Notation F := (floats p emax). Notation emin := (3 - emax - p)%Z.
-Notation fl := (Format.rnd p emin Format.nearest). Notation number := (Format.number p emin).
-Notation nonnegative := (nonnegative p emax). Notation emin_p := (emin_p p emax p_3).
+Notation float := (binary_float p emax).
+Notation F := (floats p emax).
+Notation emin := (3 - emax - p)%Z.
+Notation fl := (Format.rnd p emin Format.nearest).
+Notation number := (Format.number p emin).
+Notation nonnegative := (nonnegative p emax).
+Notation emin_p := (emin_p p emax p_3).
 
 Ltac parts := finite_parts p emax p_3.
 Ltac values := known_values p emax p_3.
@@ -44,12 +51,15 @@ Proof.
 Qed.
 Lemma is_zero_true a s : is_zero _ F a s = true -> finite a /\ finite s /\ B2R a = 0 /\ B2R s = 0.
 Proof.
-  destruct (zero_value p emax p_3) as [Z0 Z]. unfold is_zero. intros H. apply andb_prop in H. destruct H as [H1 H2].
-  apply equal_true in H1, H2; auto. rewrite Z in *. tauto.
+  destruct (zero_value p emax p_3) as [Z0 Z]. unfold is_zero. intros H.
+  apply andb_prop in H. destruct H as [H1 H2]. apply equal_true in H1, H2; auto.
+  rewrite Z in *. tauto.
 Qed.
-Lemma is_zero_value a s : finite a -> finite s -> is_zero _ F a s = Tight.is_zero (B2R a) (B2R s).
+Lemma is_zero_value a s : finite a -> finite s ->
+  is_zero _ F a s = Tight.is_zero (B2R a) (B2R s).
 Proof.
-  destruct (zero_value p emax p_3) as [Z0 Z]. intros A S. unfold is_zero, Tight.is_zero. now rewrite !equal_finite, Z.
+  destruct (zero_value p emax p_3) as [Z0 Z]. intros A S. unfold is_zero, Tight.is_zero.
+  now rewrite !equal_finite, Z.
 Qed.
 Lemma known_zero a s x : known a s x -> is_zero _ F a s = true -> x = 0.
 Proof.
@@ -67,11 +77,13 @@ Proof. unfold tight_inflated, Tight.inflated. intros H. parts. split; auto. valu
 Definition tight_enlarged (v sa sb : float) : float := tight_inflated _ F (tight_rounding _ F v ⊕ (sa ⊕ sb)).
 Definition sharp_enlarged (v sa sb : float) : float :=
   (sharp_rounding _ F v ⊕ (sa ⊕ sb)) ⊗ (integer _ F 1 ⊕ integer _ F 2 ⊗ epsilon _ F).
-Lemma tight_enlarged_finite v sa sb : finite (tight_enlarged v sa sb) -> finite v /\ finite sa /\
-  finite sb /\ B2R (tight_enlarged v sa sb) = Tight.tight_enlarged p emin Format.nearest (B2R v) (B2R sa) (B2R sb).
+Lemma tight_enlarged_finite v sa sb : finite (tight_enlarged v sa sb) ->
+  finite v /\ finite sa /\ finite sb /\
+  B2R (tight_enlarged v sa sb) = Tight.tight_enlarged p emin Format.nearest (B2R v) (B2R sa) (B2R sb).
 Proof.
   unfold tight_enlarged. intros H. apply tight_inflated_finite in H. destruct H as [H E]. parts.
-  apply tight_rounding_finite in H. destruct H as [H ER]. repeat split; auto. values. reflexivity.
+  apply tight_rounding_finite in H. destruct H as [H ER]. repeat split; auto.
+  values. reflexivity.
 Qed.
 
 Lemma sharp_rounding_finite v : finite (sharp_rounding _ F v) ->
@@ -80,8 +92,9 @@ Proof. unfold sharp_rounding, Sharp.rounding. intros H. parts. split; auto. now 
 Lemma sharp_inflated_finite b : finite (sharp_inflated _ F b) ->
   finite b /\ B2R (sharp_inflated _ F b) = Sharp.inflated p emin (B2R b).
 Proof. unfold sharp_inflated, Sharp.inflated. intros H. parts. split; auto. now values. Qed.
-Lemma sharp_enlarged_finite v sa sb : finite (sharp_enlarged v sa sb) -> finite v /\
-  finite sa /\ finite sb /\ B2R (sharp_enlarged v sa sb) = Sharp.sharp_enlarged p emin (B2R v) (B2R sa) (B2R sb).
+Lemma sharp_enlarged_finite v sa sb : finite (sharp_enlarged v sa sb) ->
+  finite v /\ finite sa /\ finite sb /\
+  B2R (sharp_enlarged v sa sb) = Sharp.sharp_enlarged p emin (B2R v) (B2R sa) (B2R sb).
 Proof.
   unfold sharp_enlarged. intros H. parts.
   match goal with H : finite (sharp_rounding _ _ _) |- _ => apply sharp_rounding_finite in H; destruct H end.
@@ -99,10 +112,12 @@ Ltac inflated := match goal with
   | H : finite (sharp_inflated _ _ _) |- _ => apply sharp_inflated_finite in H; destruct H
   end.
 (** Sums of bounds. *)
-Lemma minus_nonnegative_finite x y : finite x -> finite y -> nonnegative x -> nonnegative y -> finite (x ⊖ y).
+Lemma minus_nonnegative_finite x y : finite x -> finite y -> nonnegative x -> nonnegative y ->
+  finite (x ⊖ y).
 Proof.
-  intros FX FY PX PY. apply nonnegative_value in PX, PY. generalize (Bminus_correct p emax _ _ mode_NE x y FX FY).
-  rewrite Rlt_bool_true; [now intros (_ & ? & _) |]. apply Rle_lt_trans with (Rmax (B2R x) (B2R y)).
+  intros FX FY PX PY. apply nonnegative_value in PX, PY.
+  generalize (Bminus_correct p emax _ _ mode_NE x y FX FY). rewrite Rlt_bool_true; [now intros (_ & ? & _) |].
+  apply Rle_lt_trans with (Rmax (B2R x) (B2R y)).
   - apply (Format.rnd_abs_below p emin Format.nearest).
     + apply Rmax_case; apply number_B2R.
     + apply Rabs_le. generalize (Rmax_l (B2R x) (B2R y)) (Rmax_r (B2R x) (B2R y)). lra.
@@ -123,11 +138,13 @@ Proof.
   assert (L : finite (least _ F x y) /\ B2R (least _ F x y) = Rmin (B2R x) (B2R y)).
   { unfold least. rewrite less_finite by auto. unfold Rmin. case Rlt_bool_spec; intros C;
       destruct (Rle_dec (B2R x) (B2R y)); split; auto; lra. }
-  destruct M as (FM & PM & EM), L as (FL & EL). assert (PS : nonnegative (x ⊕ y)) by positive.
-  assert (D := minus_nonnegative_finite _ _ FS FM PS PM). assert (G := minus_finite p emax _ _ D).
-  destruct G as (_ & _ & ED). rewrite (less_finite p emax _ _ D FL), ED, ES, EM, EL.
-  destruct Rlt_bool; intros H; [| exact ES]. apply times_finite in H. destruct H as (_ & H & ->). rewrite ES. parts.
-  now values.
+  destruct M as (FM & PM & EM), L as (FL & EL).
+  assert (PS : nonnegative (x ⊕ y)) by positive.
+  assert (D := minus_nonnegative_finite _ _ FS FM PS PM).
+  assert (G := minus_finite p emax _ _ D). destruct G as (_ & _ & ED).
+  rewrite (less_finite p emax _ _ D FL), ED, ES, EM, EL.
+  destruct Rlt_bool; intros H; [| exact ES]. apply times_finite in H. destruct H as (_ & H & ->).
+  rewrite ES. parts. now values.
 Qed.
 
 (** Either bound of a sum: the single formula, or the sum of own and x + y rounded upwards. *)
@@ -137,9 +154,11 @@ Proof.
   intros PE PO PX PY. unfold sum_of_bounds. destruct (40 <=? _)%Z; auto. destruct less; auto.
   unfold least. destruct less; auto using nonnegative_sum_above.
 Qed.
-Lemma sum_of_bounds_finite enlarged own x y : nonnegative own -> nonnegative x ->
-  nonnegative y -> finite (sum_of_bounds _ F enlarged own x y) -> sum_of_bounds _ F enlarged own x y = enlarged \/
-  finite own /\ finite x /\ finite y /\ B2R own + (B2R x + B2R y) <= B2R (sum_of_bounds _ F enlarged own x y).
+Lemma sum_of_bounds_finite enlarged own x y : nonnegative own -> nonnegative x -> nonnegative y ->
+  finite (sum_of_bounds _ F enlarged own x y) ->
+  sum_of_bounds _ F enlarged own x y = enlarged \/
+  finite own /\ finite x /\ finite y /\
+  B2R own + (B2R x + B2R y) <= B2R (sum_of_bounds _ F enlarged own x y).
 Proof.
   intros PO PX PY. unfold sum_of_bounds. destruct (40 <=? _)%Z; auto. destruct less; auto.
   unfold least. destruct less; auto. intros H. right. assert (P := nonnegative_sum_above x y PX PY).
@@ -153,7 +172,8 @@ Proof.
   apply Upper.sum_above_number; auto with typeclass_instances.
 Qed.
 
-Lemma sum_bounded first own v sa sb e : nonnegative first -> nonnegative own -> nonnegative sa -> nonnegative sb ->
+Lemma sum_bounded first own v sa sb e :
+  nonnegative first -> nonnegative own -> nonnegative sa -> nonnegative sb ->
   (finite first -> finite own /\ finite sa /\ finite sb /\ B2R own + (B2R sa + B2R sb) <= B2R first) ->
   (finite own -> finite sa -> finite sb -> finite v /\ Rabs (B2R v - e) <= B2R own + (B2R sa + B2R sb)) ->
   known v (sum_of_bounds _ F first own sa sb) e.
@@ -161,7 +181,8 @@ Proof.
   intros PF PO PA PB One Error. split; [now apply nonnegative_sum_of_bounds |]. intros H.
   assert (G : finite own /\ finite sa /\ finite sb /\
     B2R own + (B2R sa + B2R sb) <= B2R (sum_of_bounds _ F first own sa sb)).
-  { destruct (sum_of_bounds_finite first own sa sb PO PA PB H) as [E | G]; auto. rewrite E in *. now apply One. }
+  { destruct (sum_of_bounds_finite first own sa sb PO PA PB H) as [E | G]; auto.
+    rewrite E in *. now apply One. }
   destruct G as (FO & FA & FB & L). destruct (Error FO FA FB) as [FV D]. split; auto. lra.
 Qed.
 
@@ -187,19 +208,24 @@ Proof.
     rewrite (Format.rnd_exact p emin Format.nearest); auto. apply number_B2R.
 Qed.
 
-Lemma tight_sum_bounded v sa sb e : nonnegative sa -> nonnegative sb -> (finite v -> finite sa -> finite sb -> Rabs
-  (B2R v - e) <= Tight.rounding p emin Format.nearest (B2R v) + (B2R sa + B2R sb)) -> known v (tight_add _ F v sa sb) e.
+Lemma tight_sum_bounded v sa sb e : nonnegative sa -> nonnegative sb ->
+  (finite v -> finite sa -> finite sb -> Rabs (B2R v - e) <=
+     Tight.rounding p emin Format.nearest (B2R v) + (B2R sa + B2R sb)) ->
+  known v (tight_add _ F v sa sb) e.
 Proof.
   intros PA PB H. apply (sum_bounded (tight_enlarged v sa sb) (tight_rounding _ F v)); auto;
     try solve [unfold tight_enlarged; positive_bound].
-  - intros One. assert (G := tight_enlarged_finite _ _ _ One). destruct G as (_ & FA & FB & E). rewrite E.
-    unfold tight_enlarged in One. apply tight_inflated_finite in One. destruct One as [One _]. parts.
-    repeat split; auto. rewrite (proj2 (tight_rounding_finite v ltac:(assumption))).
+  - intros One. assert (G := tight_enlarged_finite _ _ _ One). destruct G as (_ & FA & FB & E).
+    rewrite E. unfold tight_enlarged in One. apply tight_inflated_finite in One.
+    destruct One as [One _]. parts. repeat split; auto.
+    rewrite (proj2 (tight_rounding_finite v ltac:(assumption))).
     apply Tight.tight_enlarged_sound_nearest; auto using number_B2R, nonnegative_value; apply emin_p.
   - intros FO FA FB. apply tight_rounding_finite in FO. destruct FO as [FV EV]. rewrite EV. auto.
 Qed.
-Lemma sharp_sum_bounded v sa sb e : nonnegative sa -> nonnegative sb -> (finite v -> finite sa -> finite sb ->
-  Rabs (B2R v - e) <= Sharp.rounding p emin (B2R v) + (B2R sa + B2R sb)) -> known v (sharp_add _ F v sa sb) e.
+Lemma sharp_sum_bounded v sa sb e : nonnegative sa -> nonnegative sb ->
+  (finite v -> finite sa -> finite sb -> Rabs (B2R v - e) <=
+     Sharp.rounding p emin (B2R v) + (B2R sa + B2R sb)) ->
+  known v (sharp_add _ F v sa sb) e.
 Proof.
   intros PA PB H. apply (sum_bounded (sharp_enlarged v sa sb) (sharp_rounding _ F v)); auto;
     try solve [unfold sharp_enlarged; positive_bound].
@@ -228,8 +254,9 @@ Proof.
   intros H Z. apply times_finite in H. destruct H as (_ & _ & ->).
   replace (B2R a * B2R b) with 0 by (destruct Z as [-> | ->]; ring). apply rnd_0.
 Qed.
-Lemma product_with_zero a sa x b sb y : known a sa x ->
-  known b sb y -> finite (a ⊗ b) -> is_zero _ F a sa || is_zero _ F b sb = true -> B2R (a ⊗ b) = 0 /\ x * y = 0.
+Lemma product_with_zero a sa x b sb y :
+  known a sa x -> known b sb y -> finite (a ⊗ b) ->
+  is_zero _ F a sa || is_zero _ F b sb = true -> B2R (a ⊗ b) = 0 /\ x * y = 0.
 Proof.
   intros KA KB H C. apply orb_prop in C. split.
   - apply zero_times; auto. destruct C as [C | C]; apply is_zero_true in C; tauto.
@@ -260,8 +287,11 @@ Proof. unfold tight_multiply. product_known (Tight.tight_multiply_sound_nearest 
 
 (** A nonzero divisor: both are finite, and so is its distance from zero. *)
 Lemma abs_finite_intro x : finite x -> finite (abs _ F x).
-Proof. intros X. unfold abs. destruct (less _ F x (integer _ F 0)); auto. simpl. now rewrite is_finite_Bopp. Qed.
-Lemma distance_positive b sb y : known b sb y -> less _ F (integer _ F 0) (abs _ F b ⊖ sb) = true ->
+Proof.
+  intros X. unfold abs. destruct (less _ F x (integer _ F 0)); auto. simpl. now rewrite is_finite_Bopp.
+Qed.
+Lemma distance_positive b sb y : known b sb y ->
+  less _ F (integer _ F 0) (abs _ F b ⊖ sb) = true ->
   finite b /\ finite sb /\ finite (abs _ F b ⊖ sb) /\ 0 < B2R (abs _ F b ⊖ sb) /\ B2R b <> 0 /\ y <> 0.
 Proof.
   intros [P K] C. destruct (BinarySingleNaN.is_finite sb) eqn:FS.
@@ -335,7 +365,8 @@ Proof.
   - apply Rle_lt_trans with (Rabs (B2R a)); [| apply abs_B2R_lt_emax].
     apply (Format.rnd_abs_below p emin Format.nearest); [apply Format.number_abs, number_B2R |].
     rewrite Rabs_mult, (Rabs_pos_eq (bpow _ _)) by apply bpow_ge_0.
-    assert (bpow radix2 e <= bpow radix2 0) by (apply bpow_le; lia). simpl in *. generalize (Rabs_pos (B2R a)). nra.
+    assert (bpow radix2 e <= bpow radix2 0) by (apply bpow_le; lia). simpl in *.
+    generalize (Rabs_pos (B2R a)). nra.
 Qed.
 Lemma scale_equal v a k : finite v -> finite a ->
   equal _ F (scale _ F v k) a = Req_bool (fl (B2R v * bpow radix2 k)) (B2R a).
@@ -346,22 +377,28 @@ Proof.
       (round radix2 (SpecFloat.fexp p emax) (round_mode mode_NE) (B2R v * bpow radix2 k)).
     rewrite <- E. apply equal_finite; auto. simpl. now rewrite H.
   - intros O. rewrite Req_bool_false.
-    + simpl. revert O. destruct (Bldexp mode_NE v k); try discriminate. destruct a; try easy; simpl; now destruct s.
-    + intros E. unfold Format.rnd in E. simpl round_mode in C. assert (L := abs_B2R_lt_emax p emax a).
-      rewrite <- E in L. apply (Rlt_not_le _ _ L). exact C.
+    + simpl. revert O. destruct (Bldexp mode_NE v k); try discriminate. destruct a; try easy;
+      simpl; now destruct s.
+    + intros E. unfold Format.rnd in E. simpl round_mode in C.
+      assert (L := abs_B2R_lt_emax p emax a). rewrite <- E in L.
+      apply (Rlt_not_le _ _ L). exact C.
 Qed.
 Definition scaled (inflate : float -> float) (v a sa : float) (e : Z) : float :=
   let scaled := scale _ F sa e in
   let lossless := (0 <=? e)%Z ||
     (equal _ F (scale _ F v (- e)) a && equal _ F (scale _ F scaled (- e)) sa) in
   if lossless then scaled ⊕ (v ⊖ v) else inflate scaled.
-Lemma scaled_known inflate inflate_real : (forall s, nonnegative s -> nonnegative (inflate s)) ->
+Lemma scaled_known inflate inflate_real :
+  (forall s, nonnegative s -> nonnegative (inflate s)) ->
   (forall s, finite (inflate s) -> finite s /\ B2R (inflate s) = inflate_real (B2R s)) ->
-  (forall a x sa e, number a -> number sa -> Rabs (a - x) <= sa -> Rabs (fl (a * bpow radix2 e) - x * bpow radix2 e)
-  <= Format.scaled_error p emin Format.nearest inflate_real (fl (a * bpow radix2 e)) a sa e) ->
-  forall a sa x e, known a sa x -> known (scale _ F a e) (scaled inflate (scale _ F a e) a sa e) (x * bpow radix2 e).
+  (forall a x sa e, number a -> number sa -> Rabs (a - x) <= sa ->
+   Rabs (fl (a * bpow radix2 e) - x * bpow radix2 e) <=
+     Format.scaled_error p emin Format.nearest inflate_real (fl (a * bpow radix2 e)) a sa e) ->
+  forall a sa x e, known a sa x ->
+  known (scale _ F a e) (scaled inflate (scale _ F a e) a sa e) (x * bpow radix2 e).
 Proof.
-  intros PI HI Sound a sa x e [P K]. unfold scaled. cbv zeta. set (v := scale _ F a e). set (s := scale _ F sa e).
+  intros PI HI Sound a sa x e [P K]. unfold scaled. cbv zeta.
+  set (v := scale _ F a e). set (s := scale _ F sa e).
   assert (Ps : nonnegative s) by now apply nonnegative_scale.
   split; [destruct (_ || _); [apply nonnegative_plus; auto; now apply nonnegative_nothing | now apply PI] |].
   assert (Given : finite v -> finite s ->
@@ -392,7 +429,8 @@ Proof.
   apply (scaled_known (fun s => tight_inflated _ F (s ⊕ integer _ F 2 ⊗ underflow_unit _ F))
            (fun s => Tight.inflated p emin Format.nearest (fl (s + fl (2 * Format.eta emin))))).
   - intros s P. positive.
-  - intros s H. apply tight_inflated_finite in H. destruct H as [H E]. parts. split; auto. rewrite E. now values.
+  - intros s H. apply tight_inflated_finite in H. destruct H as [H E]. parts. split; auto.
+    rewrite E. now values.
   - apply Tight.tight_scale_sound_nearest; auto. apply emin_p.
 Qed.
 
@@ -424,7 +462,8 @@ Proof.
   apply (scaled_known (fun s => sharp_inflated _ F (s ⊕ underflow_unit _ F))
            (fun s => Sharp.inflated p emin (fl (s + Format.eta emin)))).
   - intros s P. positive.
-  - intros s H. apply sharp_inflated_finite in H. destruct H as [H E]. parts. split; auto. rewrite E. now values.
+  - intros s H. apply sharp_inflated_finite in H. destruct H as [H E]. parts. split; auto.
+    rewrite E. now values.
   - apply Sharp.sharp_scale_sound; auto. apply emin_p.
 Qed.
 
@@ -442,7 +481,8 @@ Proof.
   - destruct (K eq_refl) as [A H]. apply Rabs_le_inv in H.
     assert (N : finite (opposite _ F s)) by (simpl; now rewrite is_finite_Bopp).
     rewrite !less_finite, !equal_finite, (opposite_value p emax s), Z by auto.
-    destruct (Rlt_bool_spec (B2R s) (B2R a)); [lra |]. destruct (Rlt_bool_spec (B2R a) (- B2R s)); [lra |].
+    destruct (Rlt_bool_spec (B2R s) (B2R a)); [lra |].
+    destruct (Rlt_bool_spec (B2R a) (- B2R s)); [lra |].
     destruct (Req_bool_spec (B2R a) 0), (Req_bool_spec (B2R s) 0); simpl; auto. lra.
   - destruct s as [| t | |]; try discriminate.
     + simpl in P. subst t. destruct a as [| t | | t m e b]; try easy; now destruct t.
@@ -454,14 +494,16 @@ Theorem none_guesses : let one := integer _ F 1 in let eta := underflow_unit _ F
   let v := one ⊕ eta ⊖ one in
   B2R one = 1 /\ B2R eta = Format.eta emin /\ sign_of _ F v (none_error _ F v) = zero.
 Proof.
-  destruct (integer_value p emax p_3 1 ltac:(lia)) as [F1 V1]. destruct (eta_value p emax p_3) as [Fe Ve].
-  destruct (zero_value p emax p_3) as [Z0 Z]. cbv zeta. split; auto. split; auto.
+  destruct (integer_value p emax p_3 1 ltac:(lia)) as [F1 V1].
+  destruct (eta_value p emax p_3) as [Fe Ve]. destruct (zero_value p emax p_3) as [Z0 Z].
+  cbv zeta. split; auto. split; auto.
   assert (S : finite (integer _ F 1 ⊕ underflow_unit _ F) /\ B2R (integer _ F 1 ⊕ underflow_unit _ F) = 1).
   { generalize (Bplus_correct p emax _ _ mode_NE _ _ F1 Fe). rewrite V1, Ve.
     change (round radix2 (SpecFloat.fexp p emax) (round_mode mode_NE) (1 + Format.eta emin))
-      with (fl (1 + Format.eta emin)). rewrite (Format.eta_lost p emin) by (generalize (p_emax p emax); lia).
-    rewrite Rabs_R1. rewrite Rlt_bool_true; [now intros (E & H & _) |]. change 1 with (bpow radix2 0). apply bpow_lt.
-    generalize (p_emax p emax). lia. }
+      with (fl (1 + Format.eta emin)).
+    rewrite (Format.eta_lost p emin) by (generalize (p_emax p emax); lia). rewrite Rabs_R1.
+    rewrite Rlt_bool_true; [now intros (E & H & _) |].
+    change 1 with (bpow radix2 0). apply bpow_lt. generalize (p_emax p emax). lia. }
   destruct S as [FS VS].
   assert (D : finite (integer _ F 1 ⊕ underflow_unit _ F ⊖ integer _ F 1) /\
               B2R (integer _ F 1 ⊕ underflow_unit _ F ⊖ integer _ F 1) = 0).

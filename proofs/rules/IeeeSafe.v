@@ -8,15 +8,22 @@
         safe_error_known   a finite error bounds |a - x|, and a is finite; from 2^29 operations on the error is never
                            finite (IeeeRules.v: `known`, and so the sign) *)
 
-From Coq Require Import Reals ZArith Lia Lra Psatz Bool. From Flocq Require Import Core IEEE754.BinarySingleNaN.
-From Errbound Require Import Code Ieee IeeeRules. From Errbound Require Format Safe Tight. Open Scope R_scope.
+From Coq Require Import Reals ZArith Lia Lra Psatz Bool.
+From Flocq Require Import Core IEEE754.BinarySingleNaN.
+From Errbound Require Import Code Ieee IeeeRules.
+From Errbound Require Format Safe Tight.
+Open Scope R_scope.
 
 Section Rules.
 
 Context (p emax : Z) {p_positive : Prec_gt_0 p} {p_below : Prec_lt_emax p emax} (p_3 : (3 <= p)%Z).
-Notation float := (binary_float p emax). Notation F := (floats p emax). Notation emin := (3 - emax - p)%Z.
-Notation fl := (Format.rnd p emin Format.nearest). Notation nonnegative := (nonnegative p emax).
-Notation emin_p := (emin_p p emax p_3). Notation real_known := (Safe.known p emin).
+Notation float := (binary_float p emax).
+Notation F := (floats p emax).
+Notation emin := (3 - emax - p)%Z.
+Notation fl := (Format.rnd p emin Format.nearest).
+Notation nonnegative := (nonnegative p emax).
+Notation emin_p := (emin_p p emax p_3).
+Notation real_known := (Safe.known p emin).
 Notation enough_bits := (or_intror (conj p_3 eq_refl)).
 
 Definition safe_known (a : float) (bound : float * Z) (x : R) : Prop :=
@@ -28,10 +35,14 @@ Definition safe_known (a : float) (bound : float * Z) (x : R) : Prop :=
 
 Lemma counted_range k : (0 <= k <= 2 * too_many)%Z -> (1 <= counted k <= too_many)%Z.
 Proof.
-  unfold counted, too_many. change (2 ^ 29)%Z with 536870912%Z. intros. destruct (Z.ltb_spec k (536870912 - 1)); lia.
+  unfold counted, too_many. change (2 ^ 29)%Z with 536870912%Z.
+  intros. destruct (Z.ltb_spec k (536870912 - 1)); lia.
 Qed.
 Lemma counted_below k : (counted k < too_many)%Z -> (k < too_many - 1)%Z.
-Proof. unfold counted, too_many. change (2 ^ 29)%Z with 536870912%Z. destruct (Z.ltb_spec k (536870912 - 1)); lia. Qed.
+Proof.
+  unfold counted, too_many. change (2 ^ 29)%Z with 536870912%Z.
+  destruct (Z.ltb_spec k (536870912 - 1)); lia.
+Qed.
 
 Lemma enlarged_finite b : finite (safe_enlarged _ F b) ->
   finite b /\ B2R (safe_enlarged _ F b) = Safe.enlarged p emin Format.nearest (B2R b).
@@ -71,9 +82,11 @@ Qed.
 
 Theorem safe_exact_known a : safe_known a (safe_exact _ F a) (B2R a).
 Proof.
-  unfold safe_known, safe_exact. split; [now apply nonnegative_abs |]. split; [unfold too_many; lia |]. intros FA _.
-  assert (FB : finite (abs _ F a)) by now apply abs_finite_intro. destruct (abs_finite p emax p_3 _ FB) as [_ E].
-  rewrite E. split; auto. intros _. apply Safe.safe_exact_sound. apply number_B2R.
+  unfold safe_known, safe_exact. split; [now apply nonnegative_abs |].
+  split; [unfold too_many; lia |]. intros FA _.
+  assert (FB : finite (abs _ F a)) by now apply abs_finite_intro.
+  destruct (abs_finite p emax p_3 _ FB) as [_ E]. rewrite E. split; auto.
+  intros _. apply Safe.safe_exact_sound. apply number_B2R.
 Qed.
 
 (** A negative, infinite or NaN error gives an unknown number. *)
@@ -99,24 +112,33 @@ Proof.
   split; [unfold too_many; lia |]. intros FA _. split; [discriminate |]. intros FB.
   apply enlarged_finite in FB. destruct FB as [FM E]. rewrite E. apply max_finite in FM; auto.
   2: { apply over_no_nan; auto. destruct error; easy. }
-  destruct FM as (F1 & F2 & EM). rewrite EM. apply plus_finite in F1. destruct F1 as (F1 & FE & E1).
-  apply (abs_finite p emax p_3) in F1. destruct F1 as [_ E3]. apply over_finite in F2; auto. destruct F2 as [_ E2].
+  destruct FM as (F1 & F2 & EM). rewrite EM.
+  apply plus_finite in F1. destruct F1 as (F1 & FE & E1). apply (abs_finite p emax p_3) in F1.
+  destruct F1 as [_ E3]. apply over_finite in F2; auto. destruct F2 as [_ E2].
   rewrite E1, E2, E3, Ve.
   assert (0 < B2R error) by (rewrite less_finite, Z in C1 by auto; revert C1; now case Rlt_bool_spec).
-  apply (Safe.safe_within_sound p emin Format.nearest enough_bits emin_p); auto using number_B2R. apply K; auto. lra.
+  apply (Safe.safe_within_sound p emin Format.nearest enough_bits emin_p); auto using number_B2R.
+  apply K; auto. lra.
 Qed.
 
-Lemma add_known v a A x b B y s : safe_known a A x -> safe_known b B y -> (finite v -> finite a /\ finite b) ->
-  (forall Ba ka Bb kb, (Z.max ka kb < 2 ^ 29)%Z -> finite v -> real_known (B2R a) x (Ba, ka) ->
-  real_known (B2R b) y (Bb, kb) -> real_known (B2R v) s (Safe.safe_add p emin Format.nearest Ba ka Bb kb)) ->
+Lemma add_known v a A x b B y s : safe_known a A x -> safe_known b B y ->
+  (finite v -> finite a /\ finite b) ->
+  (forall Ba ka Bb kb, (Z.max ka kb < 2 ^ 29)%Z -> finite v ->
+    real_known (B2R a) x (Ba, ka) -> real_known (B2R b) y (Bb, kb) ->
+    real_known (B2R v) s (Safe.safe_add p emin Format.nearest Ba ka Bb kb)) ->
   safe_known v (safe_add _ F (fst A) (snd A) (fst B) (snd B)) s.
 Proof.
-  destruct A as [Ba ka], B as [Bb kb]. intros (PA & RA & KA) (PB & RB & KB) FV Sound. unfold safe_add. cbn [fst snd].
-  replace (if (ka <? kb)%Z then kb else ka) with (Z.max ka kb) by (destruct (Z.ltb_spec ka kb); lia). unfold safe_known.
-  split; [now apply nonnegative_enlarged, nonnegative_plus |]. assert (R := counted_range (Z.max ka kb) ltac:(lia)).
-  split; [lia |]. intros V C. apply counted_below in C. split; [lia |]. intros FB. apply enlarged_finite in FB.
-  destruct FB as [FB E]. apply plus_finite in FB. destruct FB as (FA & FB & E1). rewrite E, E1.
-  destruct (FV V) as [FFA FFB]. apply Sound; auto; [unfold too_many in C; lia | apply KA | apply KB]; auto; lia.
+  destruct A as [Ba ka], B as [Bb kb]. intros (PA & RA & KA) (PB & RB & KB) FV Sound.
+  unfold safe_add. cbn [fst snd].
+  replace (if (ka <? kb)%Z then kb else ka) with (Z.max ka kb)
+    by (destruct (Z.ltb_spec ka kb); lia).
+  unfold safe_known.
+  split; [now apply nonnegative_enlarged, nonnegative_plus |].
+  assert (R := counted_range (Z.max ka kb) ltac:(lia)). split; [lia |].
+  intros V C. apply counted_below in C. split; [lia |]. intros FB.
+  apply enlarged_finite in FB. destruct FB as [FB E]. apply plus_finite in FB.
+  destruct FB as (FA & FB & E1). rewrite E, E1. destruct (FV V) as [FFA FFB].
+  apply Sound; auto; [unfold too_many in C; lia | apply KA | apply KB]; auto; lia.
 Qed.
 
 Theorem safe_add_known a A x b B y : safe_known a A x -> safe_known b B y ->
@@ -136,12 +158,14 @@ Proof.
     apply (Safe.safe_subtract_sound p emin Format.nearest enough_bits emin_p); auto using number_B2R.
 Qed.
 
-Lemma is_zero_known a B k x : safe_known a (B, k) x -> safe_is_zero _ F a k = true -> finite a /\ B2R a = 0 /\ x = 0.
+Lemma is_zero_known a B k x : safe_known a (B, k) x -> safe_is_zero _ F a k = true ->
+  finite a /\ B2R a = 0 /\ x = 0.
 Proof.
   intros (_ & _ & K) C. unfold safe_is_zero in C. apply andb_prop in C. destruct C as [C0 C].
-  destruct (zero_value p emax p_3) as [Z0 Z]. apply equal_true in C0; auto. rewrite Z in C0. destruct C0 as [FA A].
-  split; auto. split; auto. apply Z.eqb_eq in C. subst k. destruct (K FA eq_refl) as [E H]. specialize (E eq_refl).
-  destruct E as [FB E]. destruct (H FB) as (_ & _ & _ & D). cbn [fst snd] in D. rewrite E, A, Rabs_R0, Rmult_0_l in D.
+  destruct (zero_value p emax p_3) as [Z0 Z]. apply equal_true in C0; auto. rewrite Z in C0.
+  destruct C0 as [FA A]. split; auto. split; auto. apply Z.eqb_eq in C. subst k.
+  destruct (K FA eq_refl) as [E H]. specialize (E eq_refl). destruct E as [FB E].
+  destruct (H FB) as (_ & _ & _ & D). cbn [fst snd] in D. rewrite E, A, Rabs_R0, Rmult_0_l in D.
   apply Tight.within_0 in D. auto.
 Qed.
 
@@ -159,22 +183,26 @@ Proof.
     { apply orb_prop in C. destruct C as [C | C].
       - destruct (is_zero_known _ _ _ _ KA C) as (_ & _ & ->). ring.
       - destruct (is_zero_known _ _ _ _ KB C) as (_ & _ & ->). ring. }
-    unfold safe_known. split; [apply nonnegative_integer; auto; lia |]. split; [unfold too_many; lia |]. intros H _.
-    rewrite (V H), Z, XY, Rabs_R0. split; auto. intros _. unfold Safe.known. cbn [fst snd]. rewrite Rminus_0_r, Rabs_R0.
+    unfold safe_known. split; [apply nonnegative_integer; auto; lia |].
+    split; [unfold too_many; lia |]. intros H _. rewrite (V H), Z, XY, Rabs_R0. split; auto.
+    intros _. unfold Safe.known. cbn [fst snd]. rewrite Rminus_0_r, Rabs_R0.
     repeat split; try lra; try lia. apply Format.number_0.
   - generalize KA KB. intros (PA & RA & LA) (PB & RB & LB). unfold safe_known.
     assert (PP : nonnegative (safe_enlarged _ F (Ba ⊗ Bb))) by now apply nonnegative_enlarged, nonnegative_times.
     destruct (smallest_normal_value p emax p_3) as [Fm Vm].
     assert (Pm : nonnegative (smallest_normal _ F)).
     { apply nonnegative_intro; auto. rewrite Vm. apply bpow_ge_0. }
-    split; [now apply nonnegative_max |]. assert (R := counted_range (ka + kb) ltac:(lia)). split; [lia |].
+    split; [now apply nonnegative_max |].
+    assert (R := counted_range (ka + kb) ltac:(lia)). split; [lia |].
     intros H Few. apply counted_below in Few. split; [lia |]. intros FM. apply max_finite in FM; auto.
     2: { destruct (smallest_normal _ F); easy. }
-    destruct FM as (FE & _ & EM). apply enlarged_finite in FE. destruct FE as [FE EE]. apply times_finite in FE.
-    destruct FE as (FA & FB & ET). rewrite EM, EE, ET, Vm. apply times_finite in H. destruct H as (FFA & FFB & ->).
+    destruct FM as (FE & _ & EM). apply enlarged_finite in FE. destruct FE as [FE EE].
+    apply times_finite in FE. destruct FE as (FA & FB & ET). rewrite EM, EE, ET, Vm.
+    apply times_finite in H. destruct H as (FFA & FFB & ->).
     destruct (LA FFA ltac:(lia)) as [_ LA'], (LB FFB ltac:(lia)) as [_ LB'].
     assert (T := Safe.safe_multiply_sound p emin Format.nearest enough_bits emin_p (B2R a) x (B2R Ba) ka
-      (B2R b) y (B2R Bb) kb (number_B2R _ _ _) (number_B2R _ _ _) (LA' FA) (LB' FB) ltac:(unfold too_many in *; lia)).
+                   (B2R b) y (B2R Bb) kb (number_B2R _ _ _) (number_B2R _ _ _) (LA' FA) (LB' FB)
+                   ltac:(unfold too_many in *; lia)).
     unfold Safe.safe_multiply in T.
     assert (Same : forall c k, finite c -> safe_is_zero _ F c k = Safe.is_zero (B2R c) k).
     { intros c k FC. destruct (zero_value p emax p_3) as [Z0 Z].
@@ -205,18 +233,21 @@ Proof.
     destruct (KB FA Few) as [_ K]. rewrite !scale_equal, ES, EV by auto.
     apply (Safe.safe_scale_sound p emin Format.nearest enough_bits emin_p); auto using number_B2R. }
   destruct ((0 <=? e)%Z || (equal _ F (scale _ F v (- e)) a && equal _ F (scale _ F s (- e)) B)) eqn:C.
-  - unfold safe_known. split; auto. split; auto. intros V Few. split; [| now intros S; apply Real]. intros ->.
-    apply scale_finite in V as V'. destruct V' as [FA EV]. destruct (KB FA Few) as [K0 _].
-    destruct (K0 eq_refl) as [FB EB].
-    generalize (Bldexp_correct p emax _ _ mode_NE B e) (Bldexp_correct p emax _ _ mode_NE a e). rewrite EB.
+  - unfold safe_known. split; auto. split; auto. intros V Few. split; [| now intros S; apply Real].
+    intros ->. apply scale_finite in V as V'. destruct V' as [FA EV].
+    destruct (KB FA Few) as [K0 _]. destruct (K0 eq_refl) as [FB EB].
+    generalize (Bldexp_correct p emax _ _ mode_NE B e) (Bldexp_correct p emax _ _ mode_NE a e).
+    rewrite EB.
     replace (Rabs (B2R a) * bpow radix2 e) with (Rabs (B2R a * bpow radix2 e)).
     2: { rewrite Rabs_mult, (Rabs_pos_eq (bpow _ _)); auto. apply bpow_ge_0. }
-    rewrite (round_abs (B2R a * bpow radix2 e)), Rabs_Rabsolu. case Rlt_bool.
+    rewrite (round_abs (B2R a * bpow radix2 e)), Rabs_Rabsolu.
+    case Rlt_bool.
     + intros (EB' & FB' & _) (EA' & _). unfold s, v, scale, floats. rewrite FB', EB', EA'. auto.
     + intros _ O. exfalso. revert V. unfold v, scale, floats. now destruct (Bldexp mode_NE a e).
   - unfold safe_known. split; [now apply nonnegative_max; [apply nonnegative_enlarged |] |].
-    assert (R := counted_range k ltac:(lia)). split; [lia |]. intros V Few. apply counted_below in Few. split; [lia |].
-    intros FM. apply max_finite in FM; auto. 2: now apply nonnegative_enlarged.
+    assert (R := counted_range k ltac:(lia)). split; [lia |].
+    intros V Few. apply counted_below in Few. split; [lia |]. intros FM. apply max_finite in FM; auto.
+    2: now apply nonnegative_enlarged.
     2: { destruct (smallest_normal _ F); easy. }
     destruct FM as (FE & _ & EM). apply enlarged_finite in FE. destruct FE as [FE EE].
     rewrite EM, EE, Vm. apply Real; auto. lia.
@@ -246,7 +277,8 @@ Proof.
   assert (Pk : nonnegative (integer _ F k)).
   { generalize (binary_normalize_correct p emax _ _ mode_NE k 0 false). cbv zeta. case Rlt_bool.
     - intros (E & FK & _). apply nonnegative_intro; auto. simpl integer. unfold constant. rewrite E.
-      apply (Format.rnd_nonnegative p emin Format.nearest). unfold F2R. simpl. rewrite Rmult_1_r. apply IZR_le. lia.
+      apply (Format.rnd_nonnegative p emin Format.nearest). unfold F2R. simpl. rewrite Rmult_1_r.
+      apply IZR_le. lia.
     - intros O. apply (nonnegative_overflow _ _ _ _ O). apply Rlt_bool_false. unfold F2R. simpl.
       rewrite Rmult_1_r. apply IZR_le. lia. }
   assert (Px : nonnegative (integer _ F k ⊗ epsilon _ F)).
@@ -255,8 +287,9 @@ Proof.
   { destruct (integer _ F k ⊗ epsilon _ F) as [| s | |] eqn:Ex; try easy.
     simpl in Px. subst s. revert C1. now destruct (integer _ F 1). }
   assert (Ek : B2R (integer _ F k ⊗ epsilon _ F) = fl (fl (IZR k) * Format.eps p)).
-  { apply times_finite in Fx. destruct Fx as (Fk & _ & E). rewrite E, (proj2 (eps_value p emax p_3)). f_equal. f_equal.
-    generalize (binary_normalize_correct p emax _ _ mode_NE k 0 false). cbv zeta. case Rlt_bool.
+  { apply times_finite in Fx. destruct Fx as (Fk & _ & E). rewrite E, (proj2 (eps_value p emax p_3)).
+    f_equal. f_equal. generalize (binary_normalize_correct p emax _ _ mode_NE k 0 false). cbv zeta.
+    case Rlt_bool.
     - intros (E' & _). simpl integer. unfold constant. rewrite E'. unfold F2R. simpl Fnum. simpl Fexp.
       change (bpow radix2 0) with 1. now rewrite Rmult_1_r.
     - intros O. exfalso. revert Fk O. simpl integer. unfold constant.
@@ -275,10 +308,11 @@ Proof.
     + apply nonnegative_enlarged, nonnegative_plus; auto; [| now apply nonnegative_eta].
       apply nonnegative_times; auto. apply nonnegative_enlarged, nonnegative_times; auto.
       apply nonnegative_plus; auto. apply nonnegative_integer; auto; lia.
-    + intros H. apply enlarged_finite in H. destruct H as [H E]. apply plus_finite in H. destruct H as (H & _ & Es).
-      apply times_finite in H. destruct H as (FB & H & Et). apply enlarged_finite in H. destruct H as [H Eu].
-      apply times_finite in H. destruct H as (_ & H & Ev). apply plus_finite in H. destruct H as (_ & _ & Ew).
-      split; auto. rewrite E, Es, Et, Eu, Ev, Ew, V1, Ek, (proj2 (eta_value p emax p_3)). now apply S.
+    + intros H. apply enlarged_finite in H. destruct H as [H E]. apply plus_finite in H.
+      destruct H as (H & _ & Es). apply times_finite in H. destruct H as (FB & H & Et).
+      apply enlarged_finite in H. destruct H as [H Eu]. apply times_finite in H. destruct H as (_ & H & Ev).
+      apply plus_finite in H. destruct H as (_ & _ & Ew). split; auto.
+      rewrite E, Es, Et, Eu, Ev, Ew, V1, Ek, (proj2 (eta_value p emax p_3)). now apply S.
 Qed.
 
 End Rules.

@@ -21,14 +21,17 @@ Open Scope R_scope.
 Section Remainder.
 
 Context (p emin : Z) {p_positive : Prec_gt_0 p} (p_3 : (3 <= p)%Z).
-Notation fl := (Format.rnd p emin Format.nearest). Notation number := (Format.number p emin).
+Notation fl := (Format.rnd p emin Format.nearest).
+Notation number := (Format.number p emin).
 Notation cexp := (cexp radix2 (FLT_exp emin p)).
 
 Lemma root_error a : 0 <= a -> let q := fl (sqrt a) in 0 < q -> bpow radix2 (emin + 2 * p - 1) <= q * q ->
-  (emin <= 0)%Z -> Rabs (a - q * q) <= q * bpow radix2 (cexp q) + bpow radix2 (cexp q) * bpow radix2 (cexp q) / 4 /\
+  (emin <= 0)%Z ->
+  Rabs (a - q * q) <= q * bpow radix2 (cexp q) + bpow radix2 (cexp q) * bpow radix2 (cexp q) / 4 /\
   Rabs (a - q * q) <= q * q / 2.
 Proof.
-  intros A q Q F E0. assert (Nq : number q) by (apply Format.rnd_number; auto with typeclass_instances).
+  intros A q Q F E0.
+  assert (Nq : number q) by (apply Format.rnd_number; auto with typeclass_instances).
   assert (E : Rabs (sqrt a - q) <= bpow radix2 (cexp q) / 2).
   { rewrite Rabs_minus_sym. rewrite <- (ulp_neq_0 radix2 (FLT_exp emin p) q) by lra.
     generalize (error_le_half_ulp_round radix2 (FLT_exp emin p) (fun n => negb (Z.even n)) (sqrt a)).
@@ -40,8 +43,9 @@ Proof.
   assert (U : 4 * w <= q).
   { destruct (ErrorFree.cexp_form p emin q Nq) as (m & Eq & L). fold w in Eq.
     assert (M : (2 ^ (p - 1) <= m)%Z).
-    { apply le_IZR. change 2%Z with (radix_val radix2). rewrite IZR_Zpower by lia. apply Rmult_le_reg_r with w; auto.
-      rewrite <- Eq. unfold w. rewrite <- bpow_plus. unfold Core.Generic_fmt.cexp, FLT_exp. rewrite Zmax_left.
+    { apply le_IZR. change 2%Z with (radix_val radix2). rewrite IZR_Zpower by lia.
+      apply Rmult_le_reg_r with w; auto. rewrite <- Eq. unfold w. rewrite <- bpow_plus.
+      unfold Core.Generic_fmt.cexp, FLT_exp. rewrite Zmax_left.
       - replace (p - 1 + (mag radix2 q - p))%Z with (mag radix2 q - 1)%Z by lia.
         destruct (mag radix2 q) as [e He]. simpl. rewrite Rabs_pos_eq in He by lra. apply He. lra.
       - assert (emin + p - 1 < mag radix2 q)%Z; [| lia]. apply (lt_bpow radix2).
@@ -51,8 +55,10 @@ Proof.
   apply Rabs_le_inv in E. set (d := sqrt a - q) in *.
   assert (D : a - q * q = d * (2 * q + d)).
   { unfold d. rewrite <- (sqrt_sqrt a A) at 1. ring. }
-  rewrite D. clear D. clearbody d w. assert (P : 0 < 2 * q + d) by lra.
-  rewrite Rabs_mult, (Rabs_pos_eq (2 * q + d)) by lra. assert (L : Rabs d <= w / 2) by (apply Rabs_le; lra).
+  rewrite D. clear D. clearbody d w.
+  assert (P : 0 < 2 * q + d) by lra.
+  rewrite Rabs_mult, (Rabs_pos_eq (2 * q + d)) by lra.
+  assert (L : Rabs d <= w / 2) by (apply Rabs_le; lra).
   assert (H : Rabs d * (2 * q + d) <= w / 2 * (2 * q + w / 2)).
   { apply Rmult_le_compat; [apply Rabs_pos | lra | exact L |]. lra. }
   split; nra.
@@ -71,8 +77,10 @@ Proof.
   destruct product as [v e]. cbn [fst snd] in *. subst v.
   assert (F : q * q = 0 \/ bpow radix2 (emin + 2 * p - 1) <= Rabs (q * q))
     by (apply ErrorFree.far_from_underflow with e; auto; lia).
-  destruct F as [F | F]; [apply Rmult_integral in F; tauto |]. assert (P0 : 0 < q * q) by nra. assert (F' := F).
-  rewrite Rabs_pos_eq in F' by lra. destruct (root_error a A0 Q0 F' E0) as [E1 E2]. fold q in E1, E2.
+  destruct F as [F | F]; [apply Rmult_integral in F; tauto |].
+  assert (P0 : 0 < q * q) by nra.
+  assert (F' := F). rewrite Rabs_pos_eq in F' by lra.
+  destruct (root_error a A0 Q0 F' E0) as [E1 E2]. fold q in E1, E2.
   assert (D : fl (a - fl (q * q)) = a - fl (q * q)).
   { apply ErrorFree.difference_is_number; auto; try lia.
     - apply Rle_trans with (2 := F). apply bpow_le. lia.
@@ -102,7 +110,8 @@ Proof.
     { rewrite minus_IZR, !mult_IZR. change 2%Z with (radix_val radix2). rewrite IZR_Zpower by lia.
       rewrite Fa at 1. rewrite Fq at 1 2. rewrite Rmult_minus_distr_r, (Rmult_assoc (IZR ma)), <- bpow_plus.
       replace (ea - (eq + eq) + (eq + eq))%Z with ea by lia. rewrite (bpow_plus radix2 eq eq). ring. }
-    rewrite R. apply Format.number_integer; auto. set (k := (ma * 2 ^ (ea - (eq + eq)) - mq * mq)%Z) in *.
+    rewrite R. apply Format.number_integer; auto.
+    set (k := (ma * 2 ^ (ea - (eq + eq)) - mq * mq)%Z) in *.
     assert (W : 0 < bpow radix2 eq) by apply bpow_gt_0.
     assert (M : (Z.abs k <= Z.abs mq)%Z).
     { apply Z.lt_succ_r, lt_IZR. rewrite succ_IZR, !abs_IZR.
@@ -112,7 +121,8 @@ Proof.
       assert (R2 : Rabs (IZR mq) * bpow radix2 eq = q).
       { rewrite <- (Rabs_pos_eq (bpow radix2 eq)) by lra. rewrite <- Rabs_mult, <- Fq. apply Rabs_pos_eq. lra. }
       rewrite R1, Rmult_plus_distr_r, <- (Rmult_assoc (Rabs (IZR mq))), R2. nra. }
-    apply Z.le_trans with (1 := M), le_IZR. rewrite abs_IZR, Pq. apply Rmult_le_reg_r with (bpow radix2 eq); auto.
+    apply Z.le_trans with (1 := M), le_IZR. rewrite abs_IZR, Pq.
+    apply Rmult_le_reg_r with (bpow radix2 eq); auto.
     rewrite <- (Rabs_pos_eq (bpow radix2 eq)) at 1 by lra. rewrite <- Rabs_mult, <- Fq, <- bpow_plus. lra.
 Qed.
 
@@ -122,8 +132,11 @@ Section Slopes.
 
 Context (p emax : Z) {p_positive : Prec_gt_0 p} {p_below : Prec_lt_emax p emax} (p_3 : (3 <= p)%Z).
 Variable fused : bool.  (* has_fast_fma *)
-Notation float := (binary_float p emax). Notation F := (floats p emax). Notation emin := (3 - emax - p)%Z.
-Notation fl := (Format.rnd p emin Format.nearest). Notation known := (known p emax).
+Notation float := (binary_float p emax).
+Notation F := (floats p emax).
+Notation emin := (3 - emax - p)%Z.
+Notation fl := (Format.rnd p emin Format.nearest).
+Notation known := (known p emax).
 
 Lemma code_finite (x : float) : Code.is_finite _ F x = true -> finite x.
 Proof. unfold Code.is_finite, Code.abs. destruct x as [| [|] | | [|]]; simpl; auto; discriminate. Qed.
@@ -141,13 +154,15 @@ Proof.
   intros C. apply andb_prop in C. destruct C as [CQ CP]. rewrite equal_finite, Z in CQ by auto.
   destruct (Req_bool_spec (B2R v) 0) as [NV | NV]; [discriminate CQ |]. clear CQ.
   apply (IeeeInterval.product_known p emax p_3 fused) in CP. rewrite (IeeeInterval.product_value p emax fused).
-  destruct CP as (FP & FE & _ & _ & EX & D). set (e := snd (two_product _ F fused v v)) in *.
+  destruct CP as (FP & FE & _ & _ & EX & D).
+  set (e := snd (two_product _ F fused v v)) in *.
   assert (EP : B2R (v ⊗ v) = fl (B2R v * B2R v)) by now apply times_finite in FP.
   destruct (root_remainder_exact p emin p_3 (B2R x) (B2R (v ⊗ v), B2R e)) as (R & RD & Q);
-    rewrite <- ?EV; cbn [fst snd]; auto using number_B2R; [lia |]. rewrite <- EV in Q. rewrite <- EV in R.
-  cbn [fst snd] in R, RD, Q. destruct (IeeeInterval.U_M p emax p_3) as [PU LM].
-  assert (MP := IeeeInterval.le_M p emax (v ⊗ v)). set (U := bpow radix2 (emax - p)) in *.
-  set (M := bpow radix2 emax - U) in *.
+    rewrite <- ?EV; cbn [fst snd]; auto using number_B2R; [lia |].
+  rewrite <- EV in Q. rewrite <- EV in R. cbn [fst snd] in R, RD, Q.
+  destruct (IeeeInterval.U_M p emax p_3) as [PU LM].
+  assert (MP := IeeeInterval.le_M p emax (v ⊗ v)).
+  set (U := bpow radix2 (emax - p)) in *. set (M := bpow radix2 emax - U) in *.
   assert (HP : Rabs (B2R (v ⊗ v) - B2R v * B2R v) <= U / 2).
   { rewrite EP. apply (IeeeInterval.half_ulp_U p emax p_3). now rewrite <- EP. }
   assert (LQ : Rabs (B2R v * B2R v) <= M + U / 2).
@@ -170,11 +185,14 @@ Section By_operations.
 
 Context (B : Type) (by_rule : operations float B) (holds : float -> B -> R -> Prop)
   (Keeps : keeps_operations p emax B by_rule holds).
-Notation rule := (the_rule float B by_rule). Notation Rule := (keeps_promises _ _ _ _ _ Keeps).
-Notation tracked_known := (tracked_known p emax B holds). Notation error_of := (tracked_error float F B rule).
+Notation rule := (the_rule float B by_rule).
+Notation Rule := (keeps_promises _ _ _ _ _ Keeps).
+Notation tracked_known := (tracked_known p emax B holds).
+Notation error_of := (tracked_error float F B rule).
 Notation exactly := (tracked_exactly float B rule).
 
-Lemma exactly_known v : tracked_known (exactly v) (B2R v). Proof. apply (promise_exact _ _ _ _ _ Rule). Qed.
+Lemma exactly_known v : tracked_known (exactly v) (B2R v).
+Proof. apply (promise_exact _ _ _ _ _ Rule). Qed.
 Lemma add_known x r y s : tracked_known x r -> tracked_known y s -> tracked_known (tracked_add _ F _ by_rule x y) (r + s).
 Proof. apply (known_sum _ _ _ _ _ Keeps). Qed.
 Lemma subtract_known x r y s : tracked_known x r -> tracked_known y s ->
@@ -195,7 +213,8 @@ Proof. unfold closer. cbv zeta. destruct (_ && _); auto. Qed.
 
 (** The properties of the root that a slope needs. *)
 Lemma slope_of_root x root s : fst root = Code.root _ F (fst x) -> known (fst root) (error_of root) s ->
-  no_root_slope _ F fused B by_rule x root = false -> finite (error_of root) /\ 0 < B2R (fst root) /\
+  no_root_slope _ F fused B by_rule x root = false ->
+  finite (error_of root) /\ 0 < B2R (fst root) /\
   B2R (fst (remainder_of_root _ F fused (fst x) (fst root))) = B2R (fst x) - B2R (fst root) * B2R (fst root).
 Proof.
   intros V K C. unfold no_root_slope in C. apply orb_false_elim in C. destruct C as [C C3].
@@ -246,15 +265,18 @@ Qed.
 
 (** The rounding error of ab + c, in three numbers. *)
 Lemma slope_of_fma (a b c : float * B) : no_fma_slope _ F fused B a b c = false ->
-  let product := two_product _ F fused (fst a) (fst b) in let total := two_sum _ F (fst product) (fst c) in
+  let product := two_product _ F fused (fst a) (fst b) in
+  let total := two_sum _ F (fst product) (fst c) in
   B2R (fst total) + B2R (snd total) + B2R (snd product) = B2R (fst a) * B2R (fst b) + B2R (fst c).
 Proof.
   unfold no_fma_slope. cbv zeta. intros C. apply orb_false_elim in C. destruct C as [C1 C2].
-  apply negb_false_iff in C1, C2. apply code_finite in C2. apply (IeeeInterval.product_known p emax p_3 fused) in C1.
-  destruct C1 as (FP & FE & _ & _ & EX & _). rewrite (IeeeInterval.product_value p emax fused) in *.
+  apply negb_false_iff in C1, C2. apply code_finite in C2.
+  apply (IeeeInterval.product_known p emax p_3 fused) in C1. destruct C1 as (FP & FE & _ & _ & EX & _).
+  rewrite (IeeeInterval.product_value p emax fused) in *.
   assert (FS : finite (fst a ⊗ fst b ⊕ fst c)).
-  { revert C2. unfold two_sum. cbn [snd]. generalize (fst a ⊗ fst b ⊕ fst c). intros s H. apply plus_finite in H.
-    destruct H as (_ & H & _). apply minus_finite in H. destruct H as (_ & H & _). apply minus_finite in H. tauto. }
+  { revert C2. unfold two_sum. cbn [snd]. generalize (fst a ⊗ fst b ⊕ fst c). intros s H.
+    apply plus_finite in H. destruct H as (_ & H & _). apply minus_finite in H. destruct H as (_ & H & _).
+    apply minus_finite in H. tauto. }
   destruct (IeeeInterval.two_sum_known p emax p_3 _ _ FS) as [N | [_ E]].
   - destruct (snd (two_sum _ F (fst a ⊗ fst b) (fst c))); discriminate.
   - change (fst (two_sum _ F (fst a ⊗ fst b) (fst c))) with (fst a ⊗ fst b ⊕ fst c). lra.
@@ -301,16 +323,18 @@ Proof. apply (slope_fma_known _ _ _ (residual_keeps_operations p emax p_3 fused)
 (** The rule `interval`. *)
 Notation interval_known := (IeeeInterval.interval_known p emax).
 
-Lemma end_known a A x : interval_known a A x -> Code.is_finite _ F (fst A) = true -> finite (fst A) /\
-  finite (snd A) /\ finite a /\ B2R (fst A) <= B2R a <= B2R (snd A) /\ B2R (fst A) <= x <= B2R (snd A).
+Lemma end_known a A x : interval_known a A x -> Code.is_finite _ F (fst A) = true ->
+  finite (fst A) /\ finite (snd A) /\ finite a /\ B2R (fst A) <= B2R a <= B2R (snd A) /\
+  B2R (fst A) <= x <= B2R (snd A).
 Proof. intros [-> | K]; [discriminate | auto]. Qed.
 
 Lemma lower_root c : finite c -> 0 <= B2R c -> let v := root _ F c in let r := remainder_of_root _ F fused c v in
   let w := if snd r && at_most _ F (integer _ F 0) (fst r) then v else below _ F v in finite w -> B2R w <= sqrt (B2R c).
 Proof.
   intros FC PC v r w W. destruct (zero_value p emax p_3) as [Z0 Z].
-  assert (FV : finite v) by now apply root_of_nonnegative. assert (H := FV). apply root_finite in H.
-  destruct H as (_ & _ & EV). fold v in EV. unfold w in *. destruct (snd r && _) eqn:C.
+  assert (FV : finite v) by now apply root_of_nonnegative.
+  assert (H := FV). apply root_finite in H. destruct H as (_ & _ & EV). fold v in EV. unfold w in *.
+  destruct (snd r && _) eqn:C.
   - apply andb_prop in C. destruct C as [C1 C2].
     destruct (remainder_of_root_known c v FV eq_refl C1) as [FR ER]. fold r in FR, ER.
     rewrite (at_most_finite p emax), Z, ER in C2 by auto. revert C2. case Rle_bool_spec; [intros S _ | discriminate].
@@ -321,8 +345,9 @@ Lemma upper_root c : finite c -> 0 <= B2R c -> let v := root _ F c in let r := r
   let w := if snd r && at_most _ F (fst r) (integer _ F 0) then v else above _ F v in finite w -> sqrt (B2R c) <= B2R w.
 Proof.
   intros FC PC v r w W. destruct (zero_value p emax p_3) as [Z0 Z].
-  assert (FV : finite v) by now apply root_of_nonnegative. assert (H := FV). apply root_finite in H.
-  destruct H as (_ & _ & EV). fold v in EV. unfold w in *. destruct (snd r && _) eqn:C.
+  assert (FV : finite v) by now apply root_of_nonnegative.
+  assert (H := FV). apply root_finite in H. destruct H as (_ & _ & EV). fold v in EV. unfold w in *.
+  destruct (snd r && _) eqn:C.
   - apply andb_prop in C. destruct C as [C1 C2].
     destruct (remainder_of_root_known c v FV eq_refl C1) as [FR ER]. fold r in FR, ER.
     rewrite (at_most_finite p emax), Z, ER in C2 by auto. revert C2. case Rle_bool_spec; [intros S _ | discriminate].
@@ -356,9 +381,10 @@ Lemma fma_rounds a b c : finite a -> finite b -> finite c -> rounds (fma _ F a b
 Proof.
   intros FA FB FC. generalize (Bfma_correct p emax _ _ mode_NE a b c FA FB FC). cbv zeta.
   change (round radix2 (SpecFloat.fexp p emax) (round_mode mode_NE) (B2R a * B2R b + B2R c)) with
-    (fl (B2R a * B2R b + B2R c)). change (Bfma mode_NE a b c) with (fma _ F a b c). set (q := B2R a * B2R b + B2R c).
-  case Rlt_bool_spec; intros L; [intros (E & H & _); left; auto |]. intros E. right. revert E.
-  case Rlt_bool_spec; intros S E; [right | left].
+    (fl (B2R a * B2R b + B2R c)).
+  change (Bfma mode_NE a b c) with (fma _ F a b c). set (q := B2R a * B2R b + B2R c).
+  case Rlt_bool_spec; intros L; [intros (E & H & _); left; auto |]. intros E. right.
+  revert E. case Rlt_bool_spec; intros S E; [right | left].
   - assert (N : fl q <= 0).
     { rewrite <- (Format.rnd_0 p emin Format.nearest). apply (Format.rnd_le p emin Format.nearest). lra. }
     rewrite Rabs_left1 in L by exact N. split; [| lra].
@@ -391,12 +417,13 @@ Proof.
     destruct M as [[FM EM] | [[-> L] | [-> L]]], N as [[FN EN] | [[-> K] | [-> K]]];
     solve [chosen C | picked q | picked r].
 Qed.
-Lemma end_rounds (A B : float * float) c choice
-  (order : R -> R -> Prop) : (forall x y z, order x y -> order y z -> order x z) -> (forall m q n r, rounds m q ->
-  rounds n r -> exists s, rounds (choice m n) s /\ order (fl s) (fl q) /\ order (fl s) (fl r)) -> finite (fst A) ->
-  finite (snd A) -> finite (fst B) -> finite (snd B) -> finite c -> exists s, rounds (fused_end _ F choice A B c) s /\
-  order (fl s) (fl (B2R (fst A) * B2R (fst B) + B2R c)) /\ order (fl s) (fl (B2R (fst A) * B2R (snd B) + B2R c)) /\
-  order (fl s) (fl (B2R (snd A) * B2R (fst B) + B2R c)) /\ order (fl s) (fl (B2R (snd A) * B2R (snd B) + B2R c)).
+Lemma end_rounds (A B : float * float) c choice (order : R -> R -> Prop) :
+  (forall x y z, order x y -> order y z -> order x z) ->
+  (forall m q n r, rounds m q -> rounds n r -> exists s, rounds (choice m n) s /\ order (fl s) (fl q) /\ order (fl s) (fl r)) ->
+  finite (fst A) -> finite (snd A) -> finite (fst B) -> finite (snd B) -> finite c ->
+  exists s, rounds (fused_end _ F choice A B c) s /\
+    order (fl s) (fl (B2R (fst A) * B2R (fst B) + B2R c)) /\ order (fl s) (fl (B2R (fst A) * B2R (snd B) + B2R c)) /\
+    order (fl s) (fl (B2R (snd A) * B2R (fst B) + B2R c)) /\ order (fl s) (fl (B2R (snd A) * B2R (snd B) + B2R c)).
 Proof.
   intros Trans Choice A1 A2 B1 B2 FC. unfold fused_end.
   destruct (Choice _ _ _ _ (fma_rounds _ _ _ A1 B1 FC) (fma_rounds _ _ _ A1 B2 FC)) as (s & S & S1 & S2).
@@ -419,12 +446,13 @@ Proof.
   assert (Le : forall q, q <= x * y + z -> fl q <= fl (x * y + z)) by (intros; now apply (Format.rnd_le p emin Format.nearest)).
   assert (Ge : forall q, x * y + z <= q -> fl (x * y + z) <= fl q) by (intros; now apply (Format.rnd_le p emin Format.nearest)).
   split.
-  - apply (IeeeInterval.below_true p emax p_3); auto. apply (IeeeInterval.below_finite p emax p_3) in L.
-    destruct L as [L _].
-    destruct (end_rounds A B (fst C) (Code.least _ F) Rle Rle_trans least_rounds A1 A2 B1 B2 C1)
-      as (s & S & S1 & S2 & S3 & S4). rewrite (rounds_finite _ _ S L).
-    destruct (IeeeInterval.corner_below _ _ _ _ _ _ X Y) as [H | [H | [H | H]]]; [apply Rle_trans with (1 := S1) |
-      apply Rle_trans with (1 := S2) | apply Rle_trans with (1 := S3) | apply Rle_trans with (1 := S4)]; apply Le; lra.
+  - apply (IeeeInterval.below_true p emax p_3); auto.
+    apply (IeeeInterval.below_finite p emax p_3) in L. destruct L as [L _].
+    destruct (end_rounds A B (fst C) (Code.least _ F) Rle Rle_trans least_rounds A1 A2 B1 B2 C1) as (s & S & S1 & S2 & S3 & S4).
+    rewrite (rounds_finite _ _ S L).
+    destruct (IeeeInterval.corner_below _ _ _ _ _ _ X Y) as [H | [H | [H | H]]];
+      [apply Rle_trans with (1 := S1) | apply Rle_trans with (1 := S2) | apply Rle_trans with (1 := S3) |
+       apply Rle_trans with (1 := S4)]; apply Le; lra.
   - apply (IeeeInterval.above_true p emax p_3); auto.
     apply (IeeeInterval.above_finite p emax p_3) in U. destruct U as [U _].
     destruct (end_rounds A B (snd C) (Code.most _ F) Rge Rge_trans) as (s & S & S1 & S2 & S3 & S4); auto.
@@ -456,11 +484,16 @@ Context (p emax : Z) {p_positive : Prec_gt_0 p} {p_below : Prec_lt_emax p emax} 
 Variable fused : bool.  (* has_fast_fma *)
 Context (limit : nat) (source : nat -> option Z)
   (all_different : forall i j s, source i = Some s -> source j = Some s -> i = j).
-Notation float := (binary_float p emax). Notation F := (floats p emax). Notation p_3 := (at_least_3 p p_4).
+Notation float := (binary_float p emax).
+Notation F := (floats p emax).
+Notation p_3 := (at_least_3 p p_4).
 Notation operation := (fun k => affine_operations float F fused limit (source k)).
-Notation rule := (the_rule _ _ (operation O)). Notation exactly := (tracked_exactly _ _ rule).
-Notation ready := (ready p emax source). Notation gives := (gives p emax fused limit source).
-Notation makes := (makes p emax fused limit source). Notation first_rule := (operation O).
+Notation rule := (the_rule _ _ (operation O)).
+Notation exactly := (tracked_exactly _ _ rule).
+Notation ready := (ready p emax source).
+Notation gives := (gives p emax fused limit source).
+Notation makes := (makes p emax fused limit source).
+Notation first_rule := (operation O).
 
 Lemma beside_exactly {X} l k v (m : counted X) P : ready k l ->
   (ready k ((exactly v, B2R v) :: l) -> makes ((exactly v, B2R v) :: l) k m P) -> makes l k m P.
@@ -526,7 +559,8 @@ Proof.
   assert (H : In (best, sqrt r) l2).
   { destruct (closer_either p emax _ first_rule root s) as [E | E];
       [change (best = root) in E | change (best = s) in E]; rewrite E; auto. }
-  destruct (crowded (snd best)); [| now apply makes_at_once]. assert (E := error_known l2 i best (sqrt r) R2 H).
+  destruct (crowded (snd best)); [| now apply makes_at_once].
+  assert (E := error_known l2 i best (sqrt r) R2 H).
   apply (gives_once p emax p_4 fused limit source all_different l2 i _ (sqrt r) R2).
   apply (of_within p emax fused limit (source i) l2 (fst best)). intros FE _. now apply (proj2 E).
 Qed.
@@ -540,11 +574,12 @@ Proof.
   set (product := two_product _ F fused (fst a) (fst b)) in *. set (total := two_sum _ F (fst product) (fst c)) in *.
   replace (x * y + z) with (B2R (fst sum) + (((x - B2R (fst a)) * B2R (fst b) + x * (y - B2R (fst b)) +
     (z - B2R (fst c))) + ((B2R (fst total) - B2R (fst sum)) + B2R (snd total) + B2R (snd product)))) by lra.
-  apply beside_exactly with (v := fst sum); auto. intros Q1. apply beside_exactly with (v := fst total); auto.
-  intros Q2. apply beside_exactly with (v := snd total); auto. intros Q3.
-  apply beside_exactly with (v := snd product); auto. intros Q4. apply beside_exactly with (v := fst a); auto.
-  intros Q5. apply beside_exactly with (v := fst b); auto. intros Q6. apply beside_exactly with (v := fst c); auto.
-  intros R0. clear Q1 Q2 Q3 Q4 Q5 Q6. match type of R0 with ready k ?m => set (l0 := m) in * end.
+  apply beside_exactly with (v := fst sum); auto. intros Q1. apply beside_exactly with (v := fst total); auto. intros Q2.
+  apply beside_exactly with (v := snd total); auto. intros Q3.
+  apply beside_exactly with (v := snd product); auto. intros Q4. apply beside_exactly with (v := fst a); auto. intros Q5.
+  apply beside_exactly with (v := fst b); auto. intros Q6. apply beside_exactly with (v := fst c); auto. intros R0.
+  clear Q1 Q2 Q3 Q4 Q5 Q6.
+  match type of R0 with ready k ?m => set (l0 := m) in * end.
   assert (I0 : incl l l0) by (intros n N; do 7 right; exact N).
   assert (C1 : In (exactly (fst sum), B2R (fst sum)) l0) by (do 6 right; now left).
   assert (C2 : In (exactly (fst total), B2R (fst total)) l0) by (do 5 right; now left).
@@ -552,24 +587,28 @@ Proof.
   assert (C4 : In (exactly (snd product), B2R (snd product)) l0) by (do 3 right; now left).
   assert (C5 : In (exactly (fst a), B2R (fst a)) l0) by (do 2 right; now left).
   assert (C6 : In (exactly (fst b), B2R (fst b)) l0) by (right; now left).
-  assert (C7 : In (exactly (fst c), B2R (fst c)) l0) by now left. apply I0 in X, Y, Z. clearbody l0. clear I0.
+  assert (C7 : In (exactly (fst c), B2R (fst c)) l0) by now left.
+  apply I0 in X, Y, Z. clearbody l0. clear I0.
   apply (after_it (subtract_gives l0 k R0 _ _ _ _ C2 C1)). intros difference l1 k1 I1 R1 N1. apply computed_incl in I1.
   apply (after_it (add_gives l1 k1 R1 _ _ _ _ N1 (I1 _ C3))). intros partial l2 k2 I2 R2 N2. apply computed_incl in I2.
-  apply (after_it (add_gives l2 k2 R2 _ _ _ _ N2 (I2 _ (I1 _ C4)))). intros rounding l3 k3 I3 R3 N3.
-  apply computed_incl in I3. assert (J3 : incl l0 l3) by (intros n N; now apply I3, I2, I1).
+  apply (after_it (add_gives l2 k2 R2 _ _ _ _ N2 (I2 _ (I1 _ C4)))). intros rounding l3 k3 I3 R3 N3. apply computed_incl in I3.
+  assert (J3 : incl l0 l3) by (intros n N; now apply I3, I2, I1).
   apply (after_it (subtract_gives l3 k3 R3 _ _ _ _ (J3 _ Y) (J3 _ C6))). intros change_b l4 k4 I4 R4 N4.
-  apply computed_incl in I4. apply (after_it (multiply_gives l4 k4 R4 _ _ _ _ (I4 _ (J3 _ X)) N4)).
-  intros of_b l5 k5 I5 R5 N5. apply computed_incl in I5. assert (J5 : incl l0 l5) by (intros n N; now apply I5, I4, J3).
+  apply computed_incl in I4.
+  apply (after_it (multiply_gives l4 k4 R4 _ _ _ _ (I4 _ (J3 _ X)) N4)). intros of_b l5 k5 I5 R5 N5. apply computed_incl in I5.
+  assert (J5 : incl l0 l5) by (intros n N; now apply I5, I4, J3).
   apply (after_it (subtract_gives l5 k5 R5 _ _ _ _ (J5 _ X) (J5 _ C5))). intros change_a l6 k6 I6 R6 N6.
-  apply computed_incl in I6. apply (after_it (multiply_gives l6 k6 R6 _ _ _ _ N6 (I6 _ (J5 _ C6)))).
-  intros of_a l7 k7 I7 R7 N7. apply computed_incl in I7. assert (J7 : incl l0 l7) by (intros n N; now apply I7, I6, J5).
+  apply computed_incl in I6.
+  apply (after_it (multiply_gives l6 k6 R6 _ _ _ _ N6 (I6 _ (J5 _ C6)))). intros of_a l7 k7 I7 R7 N7. apply computed_incl in I7.
+  assert (J7 : incl l0 l7) by (intros n N; now apply I7, I6, J5).
   apply (after_it (subtract_gives l7 k7 R7 _ _ _ _ (J7 _ Z) (J7 _ C7))). intros change_c l8 k8 I8 R8 N8.
-  apply computed_incl in I8. apply (after_it (add_gives l8 k8 R8 _ _ _ _ (I8 _ N7) (I8 _ (I7 _ (I6 _ N5))))).
-  intros products l9 k9 I9 R9 N9. apply computed_incl in I9. apply (after_it (add_gives l9 k9 R9 _ _ _ _ N9 (I9 _ N8))).
-  intros inherited l10 k10 I10 R10 N10. apply computed_incl in I10.
+  apply computed_incl in I8.
+  apply (after_it (add_gives l8 k8 R8 _ _ _ _ (I8 _ N7) (I8 _ (I7 _ (I6 _ N5))))). intros products l9 k9 I9 R9 N9.
+  apply computed_incl in I9.
+  apply (after_it (add_gives l9 k9 R9 _ _ _ _ N9 (I9 _ N8))). intros inherited l10 k10 I10 R10 N10. apply computed_incl in I10.
   assert (J : incl l3 l10) by (intros n N; now apply I10, I9, I8, I7, I6, I5, I4).
-  apply (after_it (add_gives l10 k10 R10 _ _ _ _ N10 (J _ N3))). intros change l11 k11 I11 R11 N11.
-  apply computed_incl in I11. apply add_gives; auto.
+  apply (after_it (add_gives l10 k10 R10 _ _ _ _ N10 (J _ N3))). intros change l11 k11 I11 R11 N11. apply computed_incl in I11.
+  apply add_gives; auto.
 Qed.
 Theorem affine_slope_fma_gives l k a x b y c z : ready k l -> In (a, x) l -> In (b, y) l -> In (c, z) l ->
   gives l k (numbered_slope_fma _ F fused _ operation a b c) (x * y + z).

@@ -5,7 +5,9 @@
         numbered_min_constant, numbered_max_constant, numbered_midpoint_constant, numbered_pow_constant,
         numbered_dot_constant, numbered_horner_constant, numbered_copysign_constant *)
 
-From Coq Require Import ZArith Bool List. From Errbound Require Import Code CompoundCode. Import ListNotations.
+From Coq Require Import ZArith Bool List.
+From Errbound Require Import Code CompoundCode.
+Import ListNotations.
 
 (** A result of operations, as a function of the number of earlier operations, which it continues to count. *)
 Definition counted (X : Type) : Type := nat -> X * nat.
@@ -23,16 +25,22 @@ Section Numbered.
 Context (T : Type) (A : arithmetic T) (has_fast_fma : bool) (B : Type) (by_rule : nat -> operations T B).
 
 Declare Scope code.
-Infix "+" := (plus T A) : code. Notation "- x" := (opposite T A x) : code. Infix "*" := (times T A) : code.
-Infix "<" := (less T A) : code. Infix "==" := (equal T A) (at level 70) : code.
+Infix "+" := (plus T A) : code.
+Notation "- x" := (opposite T A x) : code.
+Infix "*" := (times T A) : code.
+Infix "<" := (less T A) : code.
+Infix "==" := (equal T A) (at level 70) : code.
 Notation "# n" := (integer T A n%Z) (at level 1, n at level 0, format "# n") : code.
 Notation is_finite := (is_finite T A).
 Open Scope code.
 
 (** Functions that are not operations are the same at each call. *)
-Notation rule := (the_rule T B (by_rule O)). Notation number := (T * B)%type.
-Notation exactly := (tracked_exactly T B rule). Notation error_of := (tracked_error T A B rule).
-Notation sign := (tracked_sign T B rule). Notation negate := (tracked_negate T A B rule).
+Notation rule := (the_rule T B (by_rule O)).
+Notation number := (T * B)%type.
+Notation exactly := (tracked_exactly T B rule).
+Notation error_of := (tracked_error T A B rule).
+Notation sign := (tracked_sign T B rule).
+Notation negate := (tracked_negate T A B rule).
 
 Definition once (f : operations T B -> number) : counted number := fun k => (f (by_rule k), S k).
 Definition numbered_within (v error : T) : counted number :=
@@ -210,12 +218,13 @@ Proof.
   assert (Steps : forall s k, fst (each (numbered_horner_step T A B rules x) middle s k) =
     fold_left (horner_step T A B R x) middle s) by (intros; apply fst_each; reflexivity).
   assert (Slopes : forall v s k, fst (each (numbered_slope_step T A B rules v x) middle s k) =
-    fold_left (slope_step T A B R v x) middle s) by (intros; apply fst_each; reflexivity). unfold after at 1.
-  destruct (each _ middle top k) as [s j] eqn:E. assert (S := Steps top k). rewrite E in S. cbn [fst] in S.
-  rewrite <- S. clear E S.
+    fold_left (slope_step T A B R v x) middle s) by (intros; apply fst_each; reflexivity).
+  unfold after at 1. destruct (each _ middle top k) as [s j] eqn:E. assert (S := Steps top k). rewrite E in S.
+  cbn [fst] in S. rewrite <- S. clear E S.
   unfold after at 1, numbered_horner_step at 1, after at 1, numbered_multiply at 1, numbered_add at 1, once.
   change (tracked_add T A B R (tracked_multiply T A B R s x) c0) with (horner_step T A B R x s c0).
-  destruct (_ || _); [reflexivity |]. unfold after at 1. destruct (each _ middle (top, top) _) as [t i] eqn:E.
+  destruct (_ || _); [reflexivity |]. unfold after at 1.
+  destruct (each _ middle (top, top) _) as [t i] eqn:E.
   assert (S := Slopes (tracked_exactly T B (the_rule T B R) (fst x)) (top, top) (Datatypes.S (Datatypes.S j))).
   rewrite E in S. cbn [fst] in S. rewrite <- S.
   unfold numbered_horner_step, numbered_subtract, numbered_multiply, numbered_add, after, once. cbn [fst snd].

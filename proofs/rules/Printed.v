@@ -5,13 +5,17 @@
         printed_product_lost    the bound of a product that underflows is wrong
         printed_sum_rounded     so is that of a sum whose bound is rounded *)
 
-From Coq Require Import Reals ZArith Lia Lra. From Flocq Require Import Core.
-From Errbound Require Import Format Sign Comparison. Open Scope R_scope.
+From Coq Require Import Reals ZArith Lia Lra.
+From Flocq Require Import Core.
+From Errbound Require Import Format Sign Comparison.
+Open Scope R_scope.
 
 Section Printed.
 
 Context (p emin : Z) {p_positive : Prec_gt_0 p} (p_3 : (3 <= p)%Z) (emin_p : (emin <= - p - 1)%Z).
-Notation fl := (rnd p emin nearest). Notation number := (number p emin). Notation eps := (eps p).
+Notation fl := (rnd p emin nearest).
+Notation number := (number p emin).
+Notation eps := (eps p).
 Notation eta := (eta emin).
 
 (** Section 4.1: 1 from sigma on, -1 from -sigma down, otherwise 0, which means undetermined. *)
@@ -39,8 +43,9 @@ Proof.
       auto with typeclass_instances.
     - split; [apply bpow_le | apply bpow_lt]; lia.
     - unfold FLT_exp. lia. }
-  split; auto. rewrite Z. unfold tight_product. replace (0 - eta * eta) with (- (eta * eta)) by ring.
-  assert (0 < eta * eta) by nra. rewrite Rabs_Ropp, Rabs_R0, (Rabs_pos_eq (eta * eta)) by lra.
+  split; auto. rewrite Z. unfold tight_product.
+  replace (0 - eta * eta) with (- (eta * eta)) by ring. assert (0 < eta * eta) by nra.
+  rewrite Rabs_Ropp, Rabs_R0, (Rabs_pos_eq (eta * eta)) by lra.
   split; [unfold Rdiv; ring | lra].
 Qed.
 
@@ -50,12 +55,15 @@ Theorem printed_sum_rounded (a := 1) (x := 0) (sa := 1) (b := -1) (y := -1 - eta
   fl (fl (fl (fl (Rabs (fl (a + b)) * eps) / fl (1 - eps)) + sa) + sb) = 1 /\
   Rabs (fl (a + b) - (x + y)) = 1 + eta.
 Proof.
-  subst a x sa b y sb. assert (N1 : number 1) by (change 1 with (bpow radix2 0); apply number_power; auto; lia).
-  generalize (number_eta p emin) (eta_positive emin) (Format.rnd_0 p emin nearest). intros N P Z. split; [auto |].
-  split; [now apply number_opp |]. split; [auto |]. split; [auto |]. replace (1 - 0) with 1 by ring.
-  replace (-1 - (-1 - eta)) with eta by ring. rewrite Rabs_R1, Rabs_pos_eq by lra. split; [lra |]. split; [lra |].
+  subst a x sa b y sb.
+  assert (N1 : number 1) by (change 1 with (bpow radix2 0); apply number_power; auto; lia).
+  generalize (number_eta p emin) (eta_positive emin) (Format.rnd_0 p emin nearest). intros N P Z.
+  split; [auto |]. split; [now apply number_opp |]. split; [auto |]. split; [auto |].
+  replace (1 - 0) with 1 by ring. replace (-1 - (-1 - eta)) with eta by ring.
+  rewrite Rabs_R1, Rabs_pos_eq by lra. split; [lra |]. split; [lra |].
   replace (1 + -1) with 0 by ring. rewrite Z, Rabs_R0, Rmult_0_l, Z. unfold Rdiv. rewrite Rmult_0_l, Z.
-  rewrite Rplus_0_l, (rnd_exact p emin nearest 1 N1). rewrite eta_lost by auto. split; [easy |].
+  rewrite Rplus_0_l, (rnd_exact p emin nearest 1 N1).
+  rewrite eta_lost by auto. split; [easy |].
   replace (0 - (0 + (-1 - eta))) with (1 + eta) by ring. rewrite Rabs_pos_eq; lra.
 Qed.
 

@@ -1,7 +1,9 @@
 (** The C++ code of the rule `relative` (include/errbound/rules/relative.hpp), line by line, over any number type, as
     in Code.v. Counts have another number type, double in the code. Nothing is proved here. *)
 
-From Coq Require Import ZArith Bool List. From Errbound Require Import Code CompoundCode. Import ListNotations.
+From Coq Require Import ZArith Bool List.
+From Errbound Require Import Code CompoundCode.
+Import ListNotations.
 
 (** Code for counts of either type. *)
 Section Counts.
@@ -9,8 +11,11 @@ Section Counts.
 Context (D : Type) (A : arithmetic D).
 
 Declare Scope code.
-Infix "+" := (plus D A) : code. Infix "-" := (minus D A) : code. Infix "*" := (times D A) : code.
-Infix "/" := (over D A) : code. Infix "<" := (less D A) : code.
+Infix "+" := (plus D A) : code.
+Infix "-" := (minus D A) : code.
+Infix "*" := (times D A) : code.
+Infix "/" := (over D A) : code.
+Infix "<" := (less D A) : code.
 Notation "# n" := (integer D A n%Z) (at level 1, n at level 0, format "# n") : code.
 Open Scope code.
 
@@ -34,14 +39,25 @@ Context (T D : Type) (A : arithmetic T) (C : arithmetic D) (to_count : T -> D) (
   (has_fast_fma : bool).
 
 Declare Scope code.
-Infix "+" := (plus T A) : code. Infix "-" := (minus T A) : code. Infix "*" := (times T A) : code.
-Infix "/" := (over T A) : code. Notation "- x" := (opposite T A x) : code. Infix "<" := (less T A) : code.
-Infix "<=" := (at_most T A) : code. Infix "==" := (equal T A) (at level 70) : code.
-Infix "<#" := (less D C) (at level 70) : code. Infix "==#" := (equal D C) (at level 70) : code.
+Infix "+" := (plus T A) : code.
+Infix "-" := (minus T A) : code.
+Infix "*" := (times T A) : code.
+Infix "/" := (over T A) : code.
+Notation "- x" := (opposite T A x) : code.
+Infix "<" := (less T A) : code.
+Infix "<=" := (at_most T A) : code.
+Infix "==" := (equal T A) (at level 70) : code.
+Infix "<#" := (less D C) (at level 70) : code.
+Infix "==#" := (equal D C) (at level 70) : code.
 Notation "# n" := (integer T A n%Z) (at level 1, n at level 0, format "# n") : code.
-Notation count n := (integer D C n%Z). Notation ε := (epsilon T A). Notation η := (underflow_unit T A).
-Notation "∞" := (infinity T A). Notation abs := (abs T A). Notation is_finite := (is_finite T A).
-Notation upper := (upper T A). Notation count_sum := (count_sum D C).
+Notation count n := (integer D C n%Z).
+Notation ε := (epsilon T A).
+Notation η := (underflow_unit T A).
+Notation "∞" := (infinity T A).
+Notation abs := (abs T A).
+Notation is_finite := (is_finite T A).
+Notation upper := (upper T A).
+Notation count_sum := (count_sum D C).
 Open Scope code.
 
 Definition unknown : D := infinity D C.

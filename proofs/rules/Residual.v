@@ -9,15 +9,22 @@
         residual_error_sound   the returned error is a bound
         residual_sign_sound    the sign is right or uncertain *)
 
-From Coq Require Import Reals ZArith Lia Lra Psatz Bool. From Flocq Require Import Core.
-From Errbound Require Import Format ErrorFree. From Errbound Require Code Upper. Open Scope R_scope.
+From Coq Require Import Reals ZArith Lia Lra Psatz Bool.
+From Flocq Require Import Core.
+From Errbound Require Import Format ErrorFree.
+From Errbound Require Code Upper.
+Open Scope R_scope.
 
 Section Residual.
 
 Context (p emin : Z) {p_positive : Prec_gt_0 p}.
 
-Notation fl := (rnd p emin nearest). Notation number := (number p emin). Notation eps := (eps p). Notation u := (u p).
-Notation eta := (eta emin). Notation smallest_normal := (smallest_normal p emin).
+Notation fl := (rnd p emin nearest).
+Notation number := (number p emin).
+Notation eps := (eps p).
+Notation u := (u p).
+Notation eta := (eta emin).
+Notation smallest_normal := (smallest_normal p emin).
 
 (** The code, in its order of evaluation. *)
 Definition inflated (bound : R) : R := fl (bound * fl (1 + fl (8 * eps))).
@@ -62,7 +69,8 @@ Proof. intros (_ & _ & _ & H). generalize (Rabs_pos (v + c - x)). lra. Qed.
 Lemma holds_exact v c r x : holds v c r x -> is_exact c r = true -> x = v.
 Proof.
   intros (_ & _ & _ & H) E. apply andb_prop in E. destruct E as [E1 E2]. revert E1 E2.
-  do 2 (case Req_bool_spec; [| discriminate]). intros -> -> _ _. apply Rabs_le_inv in H. lra.
+  do 2 (case Req_bool_spec; [| discriminate]). intros -> -> _ _.
+  apply Rabs_le_inv in H. lra.
 Qed.
 
 Context (p_3 : (3 <= p)%Z) (emin_p : (emin <= - p)%Z).
@@ -75,7 +83,8 @@ Let rnd_nonnegative := Format.rnd_nonnegative p emin nearest.
 Let sum_subnormal := Format.sum_subnormal p emin nearest.
 Let scaled_up := Format.scaled_up p emin nearest.
 
-Lemma u_8 : 0 < u <= / 8. Proof. generalize (u_positive p) (eps_le p 3 p_3) (eps_2u p). simpl. lra. Qed.
+Lemma u_8 : 0 < u <= / 8.
+Proof. generalize (u_positive p) (eps_le p 3 p_3) (eps_2u p). simpl. lra. Qed.
 
 (** One rounding, in units of its result. *)
 Lemma rounding_any s : Rabs (fl s - s) <= u * Rabs (fl s) + eta / 2.
@@ -85,7 +94,8 @@ Proof.
   - apply Rle_trans with (eta / 2); [now apply (error_absolute _ _ _ _ _ an_error) | nra].
   - generalize (nearest_relative_to_result p emin s S). unfold rnd_nearest. lra.
 Qed.
-Lemma rounding_sum x y : number x -> number y -> Rabs (fl (x + y) - (x + y)) <= u * Rabs (fl (x + y)).
+Lemma rounding_sum x y : number x -> number y ->
+  Rabs (fl (x + y) - (x + y)) <= u * Rabs (fl (x + y)).
 Proof.
   intros X Y. destruct (Rlt_or_le (Rabs (x + y)) smallest_normal) as [S | S].
   - rewrite (sum_exact_below p emin nearest) by auto. replace (x + y - (x + y)) with 0 by ring.
@@ -95,7 +105,8 @@ Qed.
 Lemma sum_lower x y : number x -> number y -> 0 <= x -> 0 <= y -> x + y <= fl (x + y) * (1 + u).
 Proof.
   intros X Y PX PY. generalize (rounding_sum x y X Y).
-  rewrite (Rabs_pos_eq (fl (x + y))) by (apply rnd_nonnegative; lra). intros H. apply Rabs_le_inv in H. lra.
+  rewrite (Rabs_pos_eq (fl (x + y))) by (apply rnd_nonnegative; lra). intros H.
+  apply Rabs_le_inv in H. lra.
 Qed.
 Lemma any_lower s : 0 <= s -> s <= fl s * (1 + u) + eta / 2.
 Proof.
@@ -104,12 +115,14 @@ Proof.
 Qed.
 
 (** The factor covers nine roundings. *)
-Lemma power_1 k : 1 <= (1 + u) ^ k. Proof. apply pow_R1_Rle. generalize u_8. lra. Qed.
+Lemma power_1 k : 1 <= (1 + u) ^ k.
+Proof. apply pow_R1_Rle. generalize u_8. lra. Qed.
 Lemma power_le k l : (k <= l)%nat -> (1 + u) ^ k <= (1 + u) ^ l.
 Proof. intros. apply Rle_pow; auto. generalize u_8. lra. Qed.
 Lemma nine_roundings : (1 + u) ^ 9 <= 1 + 16 * u.
 Proof.
-  generalize u_8. intros U. assert (U2 : u * u <= u / 8) by nra. assert (U3 : u * u * u <= u / 64) by nra.
+  generalize u_8. intros U. assert (U2 : u * u <= u / 8) by nra.
+  assert (U3 : u * u * u <= u / 64) by nra.
   assert (S : (1 + u) ^ 2 <= 1 + 17 / 8 * u).
   { replace ((1 + u) ^ 2) with (1 + 2 * u + u * u) by ring. lra. }
   assert (T : (1 + u) ^ 4 <= 1 + 5 * u).
@@ -118,22 +131,26 @@ Proof.
     - apply Rmult_le_compat; auto; apply pow_le; lra.
     - lra. }
   assert (V : (1 + u) ^ 8 <= (1 + 5 * u) * (1 + 5 * u)).
-  { replace ((1 + u) ^ 8) with ((1 + u) ^ 4 * (1 + u) ^ 4) by ring. apply Rmult_le_compat; auto; apply pow_le; lra. }
+  { replace ((1 + u) ^ 8) with ((1 + u) ^ 4 * (1 + u) ^ 4) by ring.
+    apply Rmult_le_compat; auto; apply pow_le; lra. }
   replace ((1 + u) ^ 9) with ((1 + u) ^ 8 * (1 + u)) by ring.
   apply Rle_trans with ((1 + 5 * u) * (1 + 5 * u) * (1 + u)).
   - apply Rmult_le_compat_r; lra.
   - lra.
 Qed.
-Lemma number_factor : number (1 + bpow radix2 (4 - p)). Proof. apply number_1_power; auto; lia. Qed.
+Lemma number_factor : number (1 + bpow radix2 (4 - p)).
+Proof. apply number_1_power; auto; lia. Qed.
 Lemma inflated_exact x : inflated x = fl (x * (1 + 16 * u)).
 Proof.
   unfold inflated. replace (8 * eps) with (bpow radix2 (4 - p)).
-  - rewrite (rnd_exact (bpow radix2 (4 - p))) by (apply number_power; auto; lia). rewrite (rnd_exact _ number_factor).
-    f_equal. f_equal. f_equal. unfold Zminus, Format.u. now rewrite bpow_plus.
+  - rewrite (rnd_exact (bpow radix2 (4 - p))) by (apply number_power; auto; lia).
+    rewrite (rnd_exact _ number_factor). f_equal. f_equal. f_equal.
+    unfold Zminus, Format.u. now rewrite bpow_plus.
   - rewrite eps_2u. replace (4 - p)%Z with (4 + - p)%Z by lia. rewrite bpow_plus.
     change (bpow radix2 4) with 16. unfold Format.u. ring.
 Qed.
-Lemma inflated_number x : number (inflated x). Proof. apply rnd_number. Qed.
+Lemma inflated_number x : number (inflated x).
+Proof. apply rnd_number. Qed.
 Lemma inflated_above x : number x -> 0 <= x -> x <= inflated x.
 Proof. intros X P. rewrite inflated_exact. apply scaled_up; auto. generalize u_8. lra. Qed.
 
@@ -141,10 +158,13 @@ Proof. intros X P. rewrite inflated_exact. apply scaled_up; auto. generalize u_8
 Definition covered (k : nat) (h exact computed : R) : Prop :=
   number computed /\ 0 <= computed /\ exact <= computed * (1 + u) ^ k + h.
 
-Lemma covered_number x : number x -> 0 <= x -> covered 0 0 x x. Proof. intros. repeat split; auto. simpl. lra. Qed.
+Lemma covered_number x : number x -> 0 <= x -> covered 0 0 x x.
+Proof. intros. repeat split; auto. simpl. lra. Qed.
 (** Numbers eta that the code adds. *)
-Lemma covered_nothing x : number x -> 0 <= x -> covered 0 (- x) 0 x. Proof. intros. repeat split; auto. simpl. lra. Qed.
-Lemma covered_weaken k h X l j Y x : covered k h X x -> (k <= l)%nat -> h <= j -> Y <= X -> covered l j Y x.
+Lemma covered_nothing x : number x -> 0 <= x -> covered 0 (- x) 0 x.
+Proof. intros. repeat split; auto. simpl. lra. Qed.
+Lemma covered_weaken k h X l j Y x : covered k h X x -> (k <= l)%nat -> h <= j -> Y <= X ->
+  covered l j Y x.
 Proof.
   intros (N & P & H) L J D. repeat split; auto. generalize (power_le k l L). intros.
   assert (x * (1 + u) ^ k <= x * (1 + u) ^ l) by (apply Rmult_le_compat_l; auto). lra.
@@ -165,25 +185,29 @@ Qed.
 Lemma covered_times k X x l Y y : covered k 0 X x -> covered l 0 Y y -> 0 <= X -> 0 <= Y ->
   covered (S (k + l)) (eta / 2 * (1 + u) ^ (k + l)) (X * Y) (fl (x * y)).
 Proof.
-  intros (NX & PX & C) (NY & PY & D) PX' PY'. assert (P : 0 <= x * y) by now apply Rmult_le_pos. repeat split.
+  intros (NX & PX & C) (NY & PY & D) PX' PY'. assert (P : 0 <= x * y) by now apply Rmult_le_pos.
+  repeat split.
   - apply rnd_number.
   - now apply rnd_nonnegative.
   - apply Rle_trans with (x * y * (1 + u) ^ (k + l)).
-    + rewrite pow_add. replace (x * y * ((1 + u) ^ k * (1 + u) ^ l)) with (x * (1 + u) ^ k * (y * (1 + u) ^ l)) by ring.
+    + rewrite pow_add. replace (x * y * ((1 + u) ^ k * (1 + u) ^ l))
+        with (x * (1 + u) ^ k * (y * (1 + u) ^ l)) by ring.
       apply Rmult_le_compat; lra.
     + rewrite <- tech_pow_Rmult. generalize (any_lower _ P) (power_1 (k + l)). intros S G.
       assert (E : x * y * (1 + u) ^ (k + l) <= (fl (x * y) * (1 + u) + eta / 2) * (1 + u) ^ (k + l)).
       { apply Rmult_le_compat_r; lra. }
       lra.
 Qed.
-Lemma inflated_covers k h X x : covered k h X x -> (k <= 8)%nat -> h <= - (eta / 2) -> X <= inflated x.
+Lemma inflated_covers k h X x : covered k h X x -> (k <= 8)%nat -> h <= - (eta / 2) ->
+  X <= inflated x.
 Proof.
   intros C K H. apply (covered_weaken k h X 8 (- (eta / 2)) X) in C; [| lia | lra | lra].
   destruct C as (N & P & C). rewrite inflated_exact. generalize u_8 nine_roundings. intros U F.
   assert (S : x * (1 + 16 * u) <= fl (x * (1 + 16 * u)) * (1 + u) + eta / 2).
   { apply any_lower. apply Rmult_le_pos; lra. }
   assert (T : x * (1 + u) ^ 8 * (1 + u) <= x * (1 + 16 * u)).
-  { replace (x * (1 + u) ^ 8 * (1 + u)) with (x * (1 + u) ^ 9) by ring. now apply Rmult_le_compat_l. }
+  { replace (x * (1 + u) ^ 8 * (1 + u)) with (x * (1 + u) ^ 9) by ring.
+    now apply Rmult_le_compat_l. }
   apply Rmult_le_reg_r with (1 + u); [lra |]. generalize (eta_positive emin). intros.
   apply Rle_trans with ((x * (1 + u) ^ 8 + - (eta / 2)) * (1 + u)).
   - apply Rmult_le_compat_r; lra.
@@ -194,8 +218,10 @@ Qed.
 Definition summed (k : nat) (exact computed : R) : Prop :=
   covered k 0 exact computed /\ (computed < smallest_normal -> exact <= computed).
 
-Lemma summed_number x : number x -> 0 <= x -> summed 0 x x. Proof. intros. split; [now apply covered_number | lra]. Qed.
-Lemma summed_plus k X x l Y y : summed k X x -> summed l Y y -> summed (S (max k l)) (X + Y) (fl (x + y)).
+Lemma summed_number x : number x -> 0 <= x -> summed 0 x x.
+Proof. intros. split; [now apply covered_number | lra]. Qed.
+Lemma summed_plus k X x l Y y : summed k X x -> summed l Y y ->
+  summed (S (max k l)) (X + Y) (fl (x + y)).
 Proof.
   intros [C SX] [D SY]. split.
   - rewrite <- (Rplus_0_r 0). now apply covered_plus.
@@ -212,21 +238,26 @@ Proof.
   assert (B : smallest_normal <= Rabs (x * (1 + 16 * u))) by (rewrite Rabs_pos_eq; lra).
   generalize (nearest_relative_to_result p emin _ B). unfold rnd_nearest.
   rewrite (Rabs_pos_eq (fl _)) by (apply rnd_nonnegative; lra). intros H. apply Rabs_le_inv in H.
-  apply Rmult_le_reg_r with (1 + u); [lra |]. apply Rle_trans with (x * (1 + u) ^ 9).
+  apply Rmult_le_reg_r with (1 + u); [lra |].
+  apply Rle_trans with (x * (1 + u) ^ 9).
   - replace (x * (1 + u) ^ 9) with (x * (1 + u) ^ 8 * (1 + u)) by ring. apply Rmult_le_compat_r; lra.
   - apply Rle_trans with (x * (1 + 16 * u)); [now apply Rmult_le_compat_l | lra].
 Qed.
 
 Lemma error_above c r : number c -> number r -> 0 <= r -> Rabs c + r <= residual_error c r.
 Proof.
-  intros C N P. unfold residual_error. case Req_bool_spec; [lra |]. intros _. apply inflated_summed with 1%nat; [| lia].
+  intros C N P. unfold residual_error. case Req_bool_spec; [lra |]. intros _.
+  apply inflated_summed with 1%nat; [| lia].
   apply (summed_plus 0 _ _ 0); apply summed_number; auto using number_abs, Rabs_pos.
 Qed.
 Lemma error_number c r : number c -> number (residual_error c r).
-Proof. intros C. unfold residual_error. case Req_bool; [now apply number_abs | apply inflated_number]. Qed.
+Proof.
+  intros C. unfold residual_error. case Req_bool; [now apply number_abs | apply inflated_number].
+Qed.
 
 (** At least the error of a result rounded to v. *)
-Lemma half_ulp_number v : number (half_ulp v). Proof. apply rnd_number. Qed.
+Lemma half_ulp_number v : number (half_ulp v).
+Proof. apply rnd_number. Qed.
 Lemma half_ulp_nonnegative v : 0 <= half_ulp v.
 Proof.
   generalize u_8 (Rabs_pos v) (eta_positive emin). intros. apply rnd_nonnegative.
@@ -243,10 +274,12 @@ Proof.
 Qed.
 
 (** An upper bound of the roundings of two products and two sums. *)
-Lemma number_4_eta : number (4 * eta). Proof. exact (number_eta_times p emin 2 ltac:(lia)). Qed.
-Lemma roundings_cover X Y a b c d : number a -> number b -> number c -> number d -> covered
-  3 (- (9 / 4 * eta)) (Rabs (fl X - X) + Rabs (fl Y - Y) + (Rabs (fl (a + b) - (a + b)) + Rabs (fl (c + d) - (c + d))))
-  (roundings (fl X) (fl Y) (fl (a + b)) (fl (c + d))).
+Lemma number_4_eta : number (4 * eta).
+Proof. exact (number_eta_times p emin 2 ltac:(lia)). Qed.
+Lemma roundings_cover X Y a b c d : number a -> number b -> number c -> number d ->
+  covered 3 (- (9 / 4 * eta))
+    (Rabs (fl X - X) + Rabs (fl Y - Y) + (Rabs (fl (a + b) - (a + b)) + Rabs (fl (c + d) - (c + d))))
+    (roundings (fl X) (fl Y) (fl (a + b)) (fl (c + d))).
 Proof.
   intros A B C D. generalize u_8 (eta_positive emin). intros U P.
   generalize (rounding_any X) (rounding_any Y) (rounding_sum a b A B) (rounding_sum c d C D).
@@ -260,19 +293,22 @@ Proof.
   set (T := Rabs x + Rabs y + (Rabs f + Rabs s)). intros (Nt & Pt & Ht) HX HY HA HC.
   assert (Tu : covered 2 (eta / 2 * (1 + u) ^ 2) (T * u) (fl (t * u))).
   { repeat split; [apply rnd_number | apply rnd_nonnegative, Rmult_le_pos; lra |].
-    generalize (scale_error p emin nearest _ _ an_error t (- p) Nt). change (bpow radix2 (- p)) with u. intros E.
-    apply Rabs_le_inv in E. apply Rle_trans with (t * u * (1 + u) ^ 2).
+    generalize (scale_error p emin nearest _ _ an_error t (- p) Nt). change (bpow radix2 (- p)) with u.
+    intros E. apply Rabs_le_inv in E.
+    apply Rle_trans with (t * u * (1 + u) ^ 2).
     - replace (t * u * (1 + u) ^ 2) with ((t * (1 + u) ^ 2 + (0 + 0 + (0 + 0))) * u) by ring.
       apply Rmult_le_compat_r; lra.
     - rewrite <- Rmult_plus_distr_r. apply Rmult_le_compat_r; [apply pow_le |]; lra. }
   generalize (covered_plus _ _ _ _ _ _ _ _ Tu (covered_nothing (4 * eta) number_4_eta ltac:(lra))).
-  intros (NG & PG & G). repeat split; auto. cbn [max] in G. apply Rle_trans with (T * u + eta); [unfold T; lra |].
+  intros (NG & PG & G). repeat split; auto. cbn [max] in G.
+  apply Rle_trans with (T * u + eta); [unfold T; lra |].
   assert ((1 + u) ^ 2 <= 3 / 2) by nra.
   assert (eta / 2 * (1 + u) ^ 2 <= eta / 2 * (3 / 2)) by (apply Rmult_le_compat_l; lra). lra.
 Qed.
 
 (** The operations. *)
-Lemma nothing v : fl (v - v) = 0. Proof. replace (v - v) with 0 by ring. apply (Format.rnd_0 p emin nearest). Qed.
+Lemma nothing v : fl (v - v) = 0.
+Proof. replace (v - v) with 0 by ring. apply (Format.rnd_0 p emin nearest). Qed.
 
 Theorem residual_exact_sound v : number v ->
   holds v (fst (residual_exact v)) (snd (residual_exact v)) v.
@@ -294,17 +330,20 @@ Qed.
 
 (** The errors of the sums that make a correction are all that the code adds to the remainders. *)
 Lemma residual_sum_error a ca ra x b cb rb y : holds a ca ra x -> holds b cb rb y ->
-  let inherited := two_sum p emin ca cb in let correction := two_sum p emin (snd (two_sum p emin a b)) (fst inherited)
-  in Rabs (fl (a + b) + fst correction - (x + y)) <= ra + rb + (Rabs (snd inherited) + Rabs (snd correction)).
+  let inherited := two_sum p emin ca cb in
+  let correction := two_sum p emin (snd (two_sum p emin a b)) (fst inherited) in
+  Rabs (fl (a + b) + fst correction - (x + y)) <= ra + rb + (Rabs (snd inherited) + Rabs (snd correction)).
 Proof.
   intros (A & CA & RA & HA) (B & CB & RB & HB). cbv zeta.
   assert (E : forall s t, number s -> number t ->
     number (fst (two_sum p emin s t)) /\ number (snd (two_sum p emin s t)) /\
     fst (two_sum p emin s t) + snd (two_sum p emin s t) = s + t).
-  { intros s t S T. split; [apply rnd_number |]. split; [apply rnd_number |]. apply two_sum_exact; auto; lia. }
+  { intros s t S T. split; [apply rnd_number |]. split; [apply rnd_number |].
+    apply two_sum_exact; auto; lia. }
   destruct (E a b A B) as (_ & NO & EO). change (fst (two_sum p emin a b)) with (fl (a + b)) in EO.
-  set (v := fl (a + b)) in *. set (own := snd (two_sum p emin a b)) in *. destruct (E ca cb CA CB) as (NI & NF & EI).
-  set (inherited := two_sum p emin ca cb) in *. destruct (E own (fst inherited) NO NI) as (NC & NG & EC).
+  set (v := fl (a + b)) in *. set (own := snd (two_sum p emin a b)) in *.
+  destruct (E ca cb CA CB) as (NI & NF & EI). set (inherited := two_sum p emin ca cb) in *.
+  destruct (E own (fst inherited) NO NI) as (NC & NG & EC).
   set (correction := two_sum p emin own (fst inherited)) in *.
   replace (v + fst correction - (x + y))
     with ((a + ca - x) + (b + cb - y) + (- snd inherited + - snd correction)) by lra.
@@ -329,22 +368,28 @@ Theorem residual_add_sound a ca ra x b cb rb y : holds a ca ra x -> holds b cb r
 Proof.
   intros KA KB. generalize (holds_nonnegative _ _ _ _ KA) (holds_nonnegative _ _ _ _ KB). intros PA PB.
   assert (H := residual_sum_error _ _ _ _ _ _ _ _ KA KB). cbv zeta in H.
-  destruct KA as (_ & _ & RA & _), KB as (_ & _ & RB & _). unfold residual_add. cbv zeta. cbn [fst snd].
-  rewrite nothing, Rplus_0_r. set (e := Rabs (snd (two_sum p emin ca cb))) in *.
+  destruct KA as (_ & _ & RA & _), KB as (_ & _ & RB & _).
+  unfold residual_add. cbv zeta. cbn [fst snd]. rewrite nothing, Rplus_0_r.
+  set (e := Rabs (snd (two_sum p emin ca cb))) in *.
   set (correction := two_sum p emin (snd (two_sum p emin a b)) (fst (two_sum p emin ca cb))) in *.
-  set (f := Rabs (snd correction)) in *. assert (NE : number e) by (apply number_abs, rnd_number).
-  assert (NF : number f) by (apply number_abs, rnd_number). assert (PE : 0 <= e) by apply Rabs_pos.
-  assert (PF : 0 <= f) by apply Rabs_pos. generalize (inflated_losses e f NE NF PE PF). intros L.
+  set (f := Rabs (snd correction)) in *.
+  assert (NE : number e) by (apply number_abs, rnd_number).
+  assert (NF : number f) by (apply number_abs, rnd_number).
+  assert (PE : 0 <= e) by apply Rabs_pos. assert (PF : 0 <= f) by apply Rabs_pos.
+  generalize (inflated_losses e f NE NF PE PF). intros L.
   repeat split; try apply rnd_number.
-  match goal with |- _ <= fl ?bound => replace (fl bound) with bound
-    by (symmetry; apply rnd_exact, Upper.sum_of_bounds_number, inflated_number; auto with typeclass_instances) end.
+  match goal with |- _ <= fl ?bound =>
+    replace (fl bound) with bound
+      by (symmetry; apply rnd_exact, Upper.sum_of_bounds_number, inflated_number; auto with typeclass_instances)
+  end.
   apply Upper.sum_of_bounds_sound; auto using inflated_number with typeclass_instances; try lia; try lra.
   apply Rle_trans with (1 := H). now apply inflated_remainders.
 Qed.
 (** A number with value d that is known to be 0. *)
 Theorem residual_displacement_sound d : number d -> holds d (- d) 0 0.
 Proof.
-  intros N. repeat split; auto using number_opp, number_0. replace (d + - d - 0) with 0 by ring. rewrite Rabs_R0. lra.
+  intros N. repeat split; auto using number_opp, number_0. replace (d + - d - 0) with 0 by ring.
+  rewrite Rabs_R0. lra.
 Qed.
 Theorem residual_subtract_sound a ca ra x b cb rb y : holds a ca ra x -> holds b cb rb y ->
   let bound := residual_add (fl (a - b)) a ca ra (- b) (- cb) rb in
@@ -356,25 +401,30 @@ Theorem residual_scale_sound a ca ra x e : holds a ca ra x ->
   let bound := residual_scale v a ca ra e in
   holds v (fst bound) (snd bound) (x * bpow radix2 e).
 Proof.
-  intros K. generalize (holds_nonnegative _ _ _ _ K). intros PA. destruct K as (A & C & N & H). unfold residual_scale.
-  cbv zeta. cbn [fst snd]. rewrite nothing, Rplus_0_r, (rnd_exact _ (rnd_number _)). set (v := fl (a * bpow radix2 e)).
-  set (c := fl (ca * bpow radix2 e)). set (r := fl (ra * bpow radix2 e)). generalize (bpow_ge_0 radix2 e). intros PB.
+  intros K. generalize (holds_nonnegative _ _ _ _ K). intros PA. destruct K as (A & C & N & H).
+  unfold residual_scale. cbv zeta. cbn [fst snd]. rewrite nothing, Rplus_0_r, (rnd_exact _ (rnd_number _)).
+  set (v := fl (a * bpow radix2 e)). set (c := fl (ca * bpow radix2 e)). set (r := fl (ra * bpow radix2 e)).
+  generalize (bpow_ge_0 radix2 e). intros PB.
   assert (D : Rabs (a * bpow radix2 e + ca * bpow radix2 e - x * bpow radix2 e) <= ra * bpow radix2 e).
-  { replace (a * bpow radix2 e + ca * bpow radix2 e - x * bpow radix2 e) with ((a + ca - x) * bpow radix2 e) by ring.
+  { replace (a * bpow radix2 e + ca * bpow radix2 e - x * bpow radix2 e)
+      with ((a + ca - x) * bpow radix2 e) by ring.
     rewrite Rabs_mult, (Rabs_pos_eq (bpow _ _)) by auto. now apply Rmult_le_compat_r. }
   assert (Nv : number v) by apply rnd_number. assert (Nc : number c) by apply rnd_number.
-  assert (Nr : number r) by apply rnd_number. repeat split; auto.
+  assert (Nr : number r) by apply rnd_number.
+  repeat split; auto.
   { case orb; [exact Nr | apply inflated_number]. }
   destruct (Z.leb_spec 0 e) as [P | P]; cbn [orb].
   { unfold v, c, r. now rewrite !(scale_up p emin nearest). }
   assert (L : Rabs (v + c - x * bpow radix2 e) <= inflated (fl (r + fl (2 * eta)))).
   { assert (N2 : number (2 * eta)).
-    { replace (2 * eta) with (bpow radix2 (1 + emin)); [apply number_power; auto; lia |]. now rewrite bpow_plus. }
+    { replace (2 * eta) with (bpow radix2 (1 + emin)); [apply number_power; auto; lia |].
+      now rewrite bpow_plus. }
     generalize (eta_positive emin). intros. rewrite (rnd_exact _ N2). apply Rle_trans with (r + 2 * eta).
     - generalize (scale_error p emin nearest _ _ an_error a e A)
         (scale_error p emin nearest _ _ an_error ca e C) (scale_error p emin nearest _ _ an_error ra e N).
       fold v c r. intros DA DC DR. apply Rabs_le_inv in DA, DC, DR, D. apply Rabs_le. lra.
-    - apply inflated_summed with 1%nat; [| lia]. apply (summed_plus 0 _ _ 0); apply summed_number; auto; [| lra].
+    - apply inflated_summed with 1%nat; [| lia].
+      apply (summed_plus 0 _ _ 0); apply summed_number; auto; [| lra].
       apply rnd_nonnegative. now apply Rmult_le_pos. }
   destruct (Req_bool_spec (fl (v * bpow radix2 (- e))) a) as [B1 | B1]; auto.
   destruct (Req_bool_spec (fl (c * bpow radix2 (- e))) ca) as [B2 | B2]; auto.
@@ -385,8 +435,9 @@ Qed.
 Theorem residual_error_sound v c r x : holds v c r x -> Rabs (v - x) <= residual_error c r.
 Proof.
   intros K. generalize (holds_nonnegative _ _ _ _ K). intros P. destruct K as (V & C & N & H).
-  apply Rle_trans with (2 := error_above c r C N P). replace (v - x) with (- c + (v + c - x)) by ring.
-  apply Rle_trans with (1 := Rabs_triang _ _). rewrite Rabs_Ropp. lra.
+  apply Rle_trans with (2 := error_above c r C N P).
+  replace (v - x) with (- c + (v + c - x)) by ring. apply Rle_trans with (1 := Rabs_triang _ _).
+  rewrite Rabs_Ropp. lra.
 Qed.
 
 (** If the corrected value exceeds the inflated remainder, so did the exact sum. *)
@@ -419,17 +470,20 @@ Theorem residual_sign_sound v c r x : holds v c r x ->
   | Code.uncertain => True
   end.
 Proof.
-  intros K. generalize (holds_nonnegative _ _ _ _ K). intros P. destruct K as (V & C & N & H). unfold residual_sign.
-  cbv zeta. apply Rabs_le_inv in H. destruct (Req_bool (fl (v + c)) 0 && Req_bool r 0) eqn:Z.
+  intros K. generalize (holds_nonnegative _ _ _ _ K). intros P. destruct K as (V & C & N & H).
+  unfold residual_sign. cbv zeta. apply Rabs_le_inv in H.
+  destruct (Req_bool (fl (v + c)) 0 && Req_bool r 0) eqn:Z.
   { apply andb_prop in Z. destruct Z as [Z1 Z2]. revert Z1 Z2.
     do 2 (case Req_bool_spec; [| discriminate]). intros R0 Z _ _.
     generalize (rounding_sum v c V C). rewrite Z, Rabs_R0, Rmult_0_r. intros E. apply Rabs_le_inv in E. lra. }
   destruct (Rlt_bool_spec (inflated r) (Rabs (fl (v + c)))) as [L | L]; cbn [negb]; auto.
-  generalize (corrected_above v c r V C N P L) (inflated_above r N P). intros A I. case Rlt_bool_spec; intros S.
+  generalize (corrected_above v c r V C N P L) (inflated_above r N P). intros A I.
+  case Rlt_bool_spec; intros S.
   - assert (0 < v + c); [| rewrite Rabs_pos_eq in A; lra].
     apply Rnot_le_lt. intros D. apply (rnd_below p emin nearest _ 0) in D; [lra | apply number_0].
-  - rewrite (Rabs_left1 (fl _)) in L by auto. assert (v + c < 0); [| rewrite Rabs_left in A; lra]. apply Rnot_le_lt.
-    intros D. apply rnd_nonnegative in D. lra.
+  - rewrite (Rabs_left1 (fl _)) in L by auto.
+    assert (v + c < 0); [| rewrite Rabs_left in A; lra].
+    apply Rnot_le_lt. intros D. apply rnd_nonnegative in D. lra.
 Qed.
 
 End Residual.

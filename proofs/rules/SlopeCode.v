@@ -3,17 +3,21 @@
     `interval` (include/errbound/rules/interval.hpp). The functions `numbered_...` use operations that differ from
     call to call, as in NumberedCode.v. Nothing is proved here. *)
 
-From Coq Require Import ZArith Bool. From Errbound Require Import Code CompoundCode NumberedCode.
+From Coq Require Import ZArith Bool.
+From Errbound Require Import Code CompoundCode NumberedCode.
 
 Section Slopes.
 
 Context (T : Type) (A : arithmetic T) (has_fast_fma : bool).
 
 Declare Scope code.
-Infix "+" := (plus T A) : code. Infix "/" := (over T A) : code. Infix "<=" := (at_most T A) : code.
+Infix "+" := (plus T A) : code.
+Infix "/" := (over T A) : code.
+Infix "<=" := (at_most T A) : code.
 Infix "==" := (equal T A) (at level 70) : code.
 Notation "# n" := (integer T A n%Z) (at level 1, n at level 0, format "# n") : code.
-Notation is_finite := (is_finite T A). Notation root := (root T A).
+Notation is_finite := (is_finite T A).
+Notation root := (root T A).
 Open Scope code.
 
 (** error_free.hpp *)
@@ -53,9 +57,13 @@ Variable B : Type.
 Section One_rule.
 
 Variable R : operations T B.
-Notation rule := (the_rule T B R). Notation number := (T * B)%type. Notation exactly := (tracked_exactly T B rule).
-Notation error_of := (tracked_error T A B rule). Notation subtract := (tracked_subtract T A B rule).
-Notation add := (tracked_add T A B R). Notation multiply := (tracked_multiply T A B R).
+Notation rule := (the_rule T B R).
+Notation number := (T * B)%type.
+Notation exactly := (tracked_exactly T B rule).
+Notation error_of := (tracked_error T A B rule).
+Notation subtract := (tracked_subtract T A B rule).
+Notation add := (tracked_add T A B R).
+Notation multiply := (tracked_multiply T A B R).
 
 (** For a rule with quotients. *)
 Definition tracked_divide (a b : number) : number :=
@@ -119,9 +127,13 @@ Definition slope_fma (a b c : number) : number :=
 End One_rule.
 
 Variable by_rule : nat -> operations T B.
-Notation R := (by_rule O). Notation rule := (the_rule T B R). Notation number := (T * B)%type.
-Notation exactly := (tracked_exactly T B rule). Notation subtract := (numbered_subtract T A B by_rule).
-Notation add := (numbered_add T A B by_rule). Notation multiply := (numbered_multiply T A B by_rule).
+Notation R := (by_rule O).
+Notation rule := (the_rule T B R).
+Notation number := (T * B)%type.
+Notation exactly := (tracked_exactly T B rule).
+Notation subtract := (numbered_subtract T A B by_rule).
+Notation add := (numbered_add T A B by_rule).
+Notation multiply := (numbered_multiply T A B by_rule).
 Notation divide := (numbered_divide T A B by_rule).
 
 Definition numbered_sqrt_by_slope (x root : number) : counted number :=

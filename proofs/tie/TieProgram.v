@@ -2,7 +2,8 @@
     those of integers of words, as a program. tie.ml evaluates them on tiny formats, float, double, and integers of
     up to four words. tests/errbound/validation/tie_test.cpp compares the C++ code with the results. *)
 
-From Coq Require Import ZArith Extraction ExtrOcamlBasic. From Flocq Require Import Core IEEE754.BinarySingleNaN.
+From Coq Require Import ZArith Extraction ExtrOcamlBasic.
+From Flocq Require Import Core IEEE754.BinarySingleNaN.
 From Errbound Require Import Code CompoundCode RelativeCode AffineCode SlopeCode Ieee.
 From Errbound Require Words WordBits SparseProduct.
 

@@ -3,7 +3,8 @@
     number is computed. *)
 
 From Coq Require Import Reals Extraction ExtrOcamlBasic ExtrOcamlNatInt ExtrOcamlZInt.
-From Errbound Require Import Sign Bernstein BscCode. From Errbound Require Decisions Predicates ImplicitPoints.
+From Errbound Require Import Sign Bernstein BscCode.
+From Errbound Require Decisions Predicates ImplicitPoints.
 
 (** Coq's construction of real numbers is extracted with their name; none of it is computed. *)
 Extract Constant ClassicalDedekindReals.sig_forall_dec => "(fun _ -> assert false)".

@@ -8,7 +8,8 @@
 
 From Coq Require Import Reals Lra List.
 From Errbound Require Import Contact Distance Separation FirstContact FirstConditions TimeBrackets IntegerTimes.
-Import ListNotations. Open Scope R_scope.
+Import ListNotations.
+Open Scope R_scope.
 
 Section Doubles.
 
@@ -59,7 +60,8 @@ Lemma more_asked (D P : R -> Prop) s : asked_all D s -> (forall r, 0 < r <= end_
 Proof.
   destruct s as [b |]; cbn [asked_all end_of]; intros A N.
   - destruct A as ((t & T & Dt & B) & Least). split; [exists t; auto |].
-    intros q c Q [Dq | Pq] C; [now apply (Least q c) |]. intros L. pose proof (lesser_bracket double c b q t C B L).
+    intros q c Q [Dq | Pq] C; [now apply (Least q c) |]. intros L.
+    pose proof (lesser_bracket double c b q t C B L).
     assert (t <= snd b) by (destruct B as [(_ & _ & E) | (_ & S)]; lra). apply (N q); auto. lra.
   - intros q Q [Dq | Pq]; [now apply (A q) | now apply (N q)].
 Qed.
@@ -74,8 +76,9 @@ Proof.
   - destruct A as ((t & T & Dt & At) & Least). destruct (lesser_dec b a) as [L | L]; cbn [asked_all].
     + split; [exists r; split; [lra | auto] |]. intros q c Q [Dq | Pq] C; [| now apply (New q c)].
       intros M. apply (Least q c Q Dq C). now apply lesser_trans with b.
-    + split; [exists t; auto |]. intros q c Q [Dq | Pq] C; [now apply (Least q c) |]. intros M. apply (New q c Q Pq C).
-      destruct (lesser_total a b) as [K | [<- | K]]; auto; [| easy]. now apply lesser_trans with a.
+    + split; [exists t; auto |]. intros q c Q [Dq | Pq] C; [now apply (Least q c) |]. intros M.
+      apply (New q c Q Pq C). destruct (lesser_total a b) as [K | [<- | K]]; auto; [| easy].
+      now apply lesser_trans with a.
   - split; [exists r; split; [lra | auto] |]. intros q c Q [Dq | Pq] C; [now apply A in Dq | now apply (New q c)].
 Qed.
 Lemma asked_same (D E : R -> Prop) s : (forall t, D t <-> E t) -> asked_all D s -> asked_all E s.
@@ -117,11 +120,12 @@ Proof.
   { intros t F Tl. pose proof F as (T & Ht & _). assert (t <> 0) by (intros ->; easy).
     split; [lra |]. right. now apply Candidate. }
   destruct o as [b |]; cbn [asked_all told_until] in *.
-  - destruct A as ((t & T & [[] | (P & I & Pt)] & B) & Least). assert (Ht : H t) by (apply (Sound t P); auto; lra).
+  - destruct A as ((t & T & [[] | (P & I & Pt)] & B) & Least).
+    assert (Ht : H t) by (apply (Sound t P); auto; lra).
     destruct Exist as (r & F); [exists t; split; auto; lra |]. pose proof F as (R0 & Hr & Before).
-    assert (Rt : r <= t) by (apply Rnot_lt_le; intros Q; apply (Before t); auto; lra). exists r. split; auto.
-    split; [lra |]. destruct (At r F ltac:(lra)) as (Rl & C). destruct (bracketed r R0) as (c & Hc).
-    rewrite <- (same_bracket double c b r t); auto. now apply (Least r c).
+    assert (Rt : r <= t) by (apply Rnot_lt_le; intros Q; apply (Before t); auto; lra).
+    exists r. split; auto. split; [lra |]. destruct (At r F ltac:(lra)) as (Rl & C).
+    destruct (bracketed r R0) as (c & Hc). rewrite <- (same_bracket double c b r t); auto. now apply (Least r c).
   - intros t T Ht. destruct Exist as (r & F); [exists t; split; auto; lra |]. pose proof F as (R0 & Hr & Before).
     assert (Rt : r <= t) by (apply Rnot_lt_le; intros Q; apply (Before t); auto; lra).
     destruct (At r F ltac:(lra)) as (Rl & C). now apply (A r).
@@ -131,9 +135,10 @@ Qed.
 
 Definition parts_of (cs : list asked) (parts : list (R -> Prop)) : Prop :=
   forall t, (exists P, In P parts /\ P t) <-> exists c, In c cs /\ candidate c t.
-Lemma time_of cs (H : R -> Prop) parts o : 0 <= last <= 1 -> ~ H 0 ->
-  (sometime H -> exists t, first H t) -> (forall t, first H t -> t <> 0 -> exists c, In c cs /\ candidate c t) ->
-  (forall t c, 0 <= t <= 1 -> In c cs -> is_met c t -> H t) -> parts_of cs parts -> loop None parts o -> told_until H o.
+Lemma time_of cs (H : R -> Prop) parts o : 0 <= last <= 1 -> ~ H 0 -> (sometime H -> exists t, first H t) ->
+  (forall t, first H t -> t <> 0 -> exists c, In c cs /\ candidate c t) ->
+  (forall t c, 0 <= t <= 1 -> In c cs -> is_met c t -> H t) -> parts_of cs parts -> loop None parts o ->
+  told_until H o.
 Proof.
   intros L H0 Exist Candidate Sound Parts Loop. apply first_time_of_right with parts; auto.
   - intros t F N. apply Parts. now apply Candidate.

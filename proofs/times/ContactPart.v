@@ -16,22 +16,26 @@ Open Scope R_scope.
 
 (** ** One root *)
 
-Lemma control_at_ends a b c d : control_at [a; b; c; d] 0 = a /\ control_at [a; b; c; d] 1 = d.
+Lemma control_at_ends a b c d :
+  control_at [a; b; c; d] 0 = a /\ control_at [a; b; c; d] 1 = d.
 Proof. rewrite !control_cubic. simpl. split; ring. Qed.
-Lemma once a b c d : a * d < 0 -> 0 < a * b \/ a * c < 0 -> exists r, 0 < r < 1 /\ control_at [a; b; c; d] r = 0 /\
-  forall t, 0 <= t <= 1 -> (t < r -> 0 < control_at [a; b; c; d] t * a) /\ (r < t -> control_at [a; b; c; d] t * a < 0).
+Lemma once a b c d : a * d < 0 -> 0 < a * b \/ a * c < 0 ->
+  exists r, 0 < r < 1 /\ control_at [a; b; c; d] r = 0 /\ forall t, 0 <= t <= 1 ->
+    (t < r -> 0 < control_at [a; b; c; d] t * a) /\ (r < t -> control_at [a; b; c; d] t * a < 0).
 Proof.
   intros Ends Inner. set (y := [a; 3 * b; 3 * c; d]).
   assert (E : forall t, control_at [a; b; c; d] t = at_ y t) by (intros t; apply control_cubic).
   assert (C : CubicRoots.count (inner_sign_changes y) = 1%nat /\
     CubicRoots.first (inner_sign_changes y) = sign_of_real a).
-  { unfold y, inner_sign_changes. cbn [map]. assert (I : 0 < a * (3 * b) \/ a * (3 * c) < 0) by lra. clear Inner E y.
+  { unfold y, inner_sign_changes. cbn [map].
+    assert (I : 0 < a * (3 * b) \/ a * (3 * c) < 0) by lra. clear Inner E y.
     set (b' := 3 * b) in *. set (c' := 3 * c) in *. clearbody b' c'.
     cases_of_sign a; cases_of_sign d; try nra; cases_of_sign b'; cases_of_sign c'; try nra; cbn; auto. }
   destruct C as (C & F). destruct (one_change y eq_refl C) as (r & R0 & Z & Signs).
   exists r. split; auto. rewrite E. split; auto. rewrite F in Signs.
   assert (U : a = unit_of (sign_of_real a) * Rabs a /\ 0 < Rabs a).
-  { split; [| apply Rabs_pos_lt; intros A; rewrite A in Ends; lra]. destruct (Rtotal_order a 0) as [A | [A | A]].
+  { split; [| apply Rabs_pos_lt; intros A; rewrite A in Ends; lra].
+    destruct (Rtotal_order a 0) as [A | [A | A]].
     - rewrite (sign_negative a A), (Rabs_left a A). simpl. ring.
     - rewrite A in Ends. lra.
     - rewrite (sign_positive a A), (Rabs_pos_eq a) by lra. simpl. ring. }
@@ -70,10 +74,13 @@ Theorem changes_sign_once_right sign_of stands most i p P : reads midpoint sign_
 Proof.
   intros Reads I L F Change Once. destruct p as [| a' [| b' [| c' [| d' [|]]]]]; try discriminate.
   inversion F as [| ? a ? ? A F1]. inversion F1 as [| ? b ? ? B F2]. inversion F2 as [| ? c ? ? C F3].
-  inversion F3 as [| ? d ? ? D F4]. inversion F4. subst. clear F F1 F2 F3 F4. rewrite (proj1 (control_at_ends a b c d)).
-  unfold changes_sign in Change. cbn [hd last] in Change. cbn [changes_sign_once] in Once.
-  pose proof (reads_sign _ _ _ _ Reads i) as Sign. pose proof (Sign _ _ I A) as SA. pose proof (Sign _ _ I B) as SB.
-  pose proof (Sign _ _ I C) as SC. pose proof (Sign _ _ I D) as SD. clear Sign A B C D. apply once.
+  inversion F3 as [| ? d ? ? D F4]. inversion F4. subst. clear F F1 F2 F3 F4.
+  rewrite (proj1 (control_at_ends a b c d)). unfold changes_sign in Change. cbn [hd last] in Change.
+  cbn [changes_sign_once] in Once.
+  pose proof (reads_sign _ _ _ _ Reads i) as Sign.
+  pose proof (Sign _ _ I A) as SA. pose proof (Sign _ _ I B) as SB. pose proof (Sign _ _ I C) as SC.
+  pose proof (Sign _ _ I D) as SD. clear Sign A B C D.
+  apply once.
   - destruct (sign_of a'), (sign_of d'); try discriminate; simpl in SA, SD; nra.
   - destruct (sign_of a'), (sign_of d'); try discriminate; apply orb_true_iff in Once;
       (destruct Once as [O | O]; [left; destruct (sign_of b'); try discriminate; simpl in SA, SB; nra |
@@ -129,10 +136,11 @@ Definition part_is (Y : list R) (Gs : list (list R)) (low high : R) (p : list S)
 Lemma ends_change i p P : (i <= max_y)%nat -> length p = 4%nat -> Forall2 (stands_y i) p P ->
   changes_sign none sign_y p = true -> control_at P 0 * control_at P 1 < 0.
 Proof.
-  intros I L F C. destruct p as [| a' [| b' [| c' [| d' [|]]]]]; try discriminate. inversion F as [| ? a ? ? A F1].
-  inversion F1 as [| ? b ? ? _ F2]. inversion F2 as [| ? c ? ? _ F3]. inversion F3 as [| ? d ? ? D F4]. inversion F4.
-  subst. destruct (control_at_ends a b c d) as (-> & ->). unfold changes_sign in C. simpl in C.
-  apply (reads_sign _ _ _ _ reads_y i) in A, D; auto.
+  intros I L F C. destruct p as [| a' [| b' [| c' [| d' [|]]]]]; try discriminate.
+  inversion F as [| ? a ? ? A F1]. inversion F1 as [| ? b ? ? _ F2]. inversion F2 as [| ? c ? ? _ F3].
+  inversion F3 as [| ? d ? ? D F4]. inversion F4. subst.
+  destruct (control_at_ends a b c d) as (-> & ->).
+  unfold changes_sign in C. simpl in C. apply (reads_sign _ _ _ _ reads_y i) in A, D; auto.
   destruct (sign_y a'), (sign_y d'); try discriminate; simpl in *; nra.
 Qed.
 
@@ -152,8 +160,9 @@ Proof.
       exact (above_positive _ _ _ _ reads_g j g G t (or_intror Lg) ltac:(lia) Fg (A g Ig) T).
     + exists i, Y. split; [lia |]. split; auto.
   - assert (LY : length Y = 4%nat) by now rewrite <- (same_length F).
-    destruct (halves_stand none _ _ _ _ reads_y i y Y (or_introl L) F) as (F0 & _ & L0 & _). rewrite L in *.
-    cbn [Nat.sub] in F0. destruct (quartics_halves none _ _ _ _ reads_g j gs Gs Q) as (G0 & _).
+    destruct (halves_stand none _ _ _ _ reads_y i y Y (or_introl L) F) as (F0 & _ & L0 & _).
+    rewrite L in *. cbn [Nat.sub] in F0.
+    destruct (quartics_halves none _ _ _ _ reads_g j gs Gs Q) as (G0 & _).
     destruct (quartics_in stands_g j gs Gs Q) as (_ & Q2).
     assert (LG : forall G, In G Gs -> length G = 5%nat).
     { intros G IG. destruct (Q2 G IG) as (g & _ & Lg & Fg). now rewrite <- (same_length Fg). }
@@ -167,8 +176,9 @@ Proof.
       apply In_; [lra |]. apply in_map_iff. eauto.
     + exists k, P. split; auto. split; auto. intros u. rewrite E, (proj1 (halves_cubic Y _ LY)). f_equal. field.
   - assert (LY : length Y = 4%nat) by now rewrite <- (same_length F).
-    destruct (halves_stand none _ _ _ _ reads_y i y Y (or_introl L) F) as (F0 & F1 & L0 & L1). rewrite L in *.
-    cbn [Nat.sub] in F0, F1. destruct (quartics_halves none _ _ _ _ reads_g j gs Gs Q) as (G0 & G1).
+    destruct (halves_stand none _ _ _ _ reads_y i y Y (or_introl L) F) as (F0 & F1 & L0 & L1).
+    rewrite L in *. cbn [Nat.sub] in F0, F1.
+    destruct (quartics_halves none _ _ _ _ reads_g j gs Gs Q) as (G0 & G1).
     destruct (quartics_in stands_g j gs Gs Q) as (_ & Q2).
     assert (LG : forall G, In G Gs -> length G = 5%nat).
     { intros G IG. destruct (Q2 G IG) as (g & _ & Lg & Fg). now rewrite <- (same_length Fg). }
@@ -201,12 +211,14 @@ Theorem first_root_in_part Y Gs low high p : part_is Y Gs low high p ->
       (r < t -> control_at Y t * control_at Y low < 0)) /\
     (forall t, 0 <= t < r -> control_at Y t = 0 -> exists G, In G Gs /\ control_at G t < 0)).
 Proof.
-  intros (O & H & Before & In_ & Lp & Cp & k & P & K & Fp & E). pose proof (ends_change k p P K Lp Fp Cp) as Ends.
+  intros (O & H & Before & In_ & Lp & Cp & k & P & K & Fp & E).
+  pose proof (ends_change k p P K Lp Fp Cp) as Ends.
   assert (At : forall t, control_at Y t = control_at P ((t - low) / (high - low)))
     by (intros t; rewrite E; f_equal; field; lra).
   assert (Inv : forall u, (low + u * (high - low) - low) / (high - low) = u) by (intros u; field; lra).
   assert (E0 : control_at Y low = control_at P 0) by (rewrite E; f_equal; ring).
-  assert (W : forall u, 0 < u < 1 -> low < low + u * (high - low) < high) by (intros u U; split; nra). split.
+  assert (W : forall u, 0 < u < 1 -> low < low + u * (high - low) < high) by (intros u U; split; nra).
+  split.
   - destruct (IVT_cor (control_at P) 0 1 (control_continuous P) Rle_0_1 ltac:(lra)) as (u & U & Z).
     assert (u <> 0) by (intros ->; rewrite Z in Ends; lra). assert (u <> 1) by (intros ->; rewrite Z in Ends; lra).
     exists (low + u * (high - low)). assert (0 < u < 1) by lra. split; [now apply W |].
@@ -230,11 +242,12 @@ Variable double : R -> Prop.
 
 (** Y and the G_i are k and l times the functions that are zero and not negative in contact. root_in_integers
     searches with exact signs; `before` is the sign of Y at low. *)
-Lemma part_bracket (touches inside : R -> Prop) (y : R -> R)
-  Y Gs k low high p before b : (forall t, touches t -> y t = 0 /\ forall G, In G Gs -> 0 <= control_at G t) ->
-  (forall t, y t = 0 -> (forall G, In G Gs -> 0 < control_at G t) -> touches t) -> 0 < k ->
-  (forall t, control_at Y t = k * y t) -> part_is Y Gs low high p -> changes_sign_once sign_y p = true -> 0 < before
-  * y low -> search double y before low high b -> exists r, first touches r /\ low < r < high /\ holds_time double b r.
+Lemma part_bracket (touches inside : R -> Prop) (y : R -> R) Y Gs k low high p before b :
+  (forall t, touches t -> y t = 0 /\ forall G, In G Gs -> 0 <= control_at G t) ->
+  (forall t, y t = 0 -> (forall G, In G Gs -> 0 < control_at G t) -> touches t) ->
+  0 < k -> (forall t, control_at Y t = k * y t) -> part_is Y Gs low high p -> changes_sign_once sign_y p = true ->
+  0 < before * y low -> search double y before low high b ->
+  exists r, first touches r /\ low < r < high /\ holds_time double b r.
 Proof.
   intros Necessary Sufficient K E Part Once Sign Search. pose proof Part as (O & H & _).
   destruct (proj2 (first_root_in_part Y Gs low high p Part) Once) as (r & R0 & Z & Pos & Signs & Before).
@@ -264,12 +277,14 @@ Proof.
         [specialize (A L) | specialize (B L)]; rewrite E, Zt in *; lra.
 Qed.
 
-Lemma query_part_bracket edges m0 m1 m2 m3 Y Gs k l low high p before b : 0 < k ->
-  0 < l -> (forall t, control_at Y t = k * query_y edges m0 m1 m2 m3 t) -> (forall t, map (fun G => control_at G t)
-  Gs = map (Rmult l) (weights edges (side_b edges minus (place m0 t) (place m1 t) (place m2 t) (place m3 t))
-  (side_c edges minus (place m0 t) (place m1 t) (place m2 t) (place m3 t)) (side_p edges minus (place m0 t)
-  (place m1 t) (place m2 t) (place m3 t)))) -> part_is Y Gs low high p -> changes_sign_once sign_y p = true ->
-  0 < before * query_y edges m0 m1 m2 m3 low -> search double (query_y edges m0 m1 m2 m3) before low high b ->
+Lemma query_part_bracket edges m0 m1 m2 m3 Y Gs k l low high p before b : 0 < k -> 0 < l ->
+  (forall t, control_at Y t = k * query_y edges m0 m1 m2 m3 t) ->
+  (forall t, map (fun G => control_at G t) Gs = map (Rmult l) (weights edges
+     (side_b edges minus (place m0 t) (place m1 t) (place m2 t) (place m3 t))
+     (side_c edges minus (place m0 t) (place m1 t) (place m2 t) (place m3 t))
+     (side_p edges minus (place m0 t) (place m1 t) (place m2 t) (place m3 t)))) ->
+  part_is Y Gs low high p -> changes_sign_once sign_y p = true -> 0 < before * query_y edges m0 m1 m2 m3 low ->
+  search double (query_y edges m0 m1 m2 m3) before low high b ->
   exists r, first (query_touches edges m0 m1 m2 m3) r /\ low < r < high /\ holds_time double b r.
 Proof.
   intros K L E W.

@@ -3,11 +3,16 @@
 
     Result: weights_right   each is in [0, 1] and differs by at most `weight_error` *)
 
-From Coq Require Import Reals ZArith Lia Lra List. From Flocq Require Import Core. From Errbound Require Import Format.
-Import ListNotations. Open Scope R_scope.
+From Coq Require Import Reals ZArith Lia Lra List.
+From Flocq Require Import Core.
+From Errbound Require Import Format.
+Import ListNotations.
+Open Scope R_scope.
 
 #[local] Instance double_precision : Prec_gt_0 53 := eq_refl.
-Notation fl := (rnd 53 (-1074) nearest). Notation double := (number 53 (-1074)). Notation u := (u 53).
+Notation fl := (rnd 53 (-1074) nearest).
+Notation double := (number 53 (-1074)).
+Notation u := (u 53).
 Notation eps := (eps 53).
 
 (** clamped *)
@@ -25,13 +30,15 @@ Fixpoint cut (told : list (R * R)) (remains error : R) : list R * R * R :=
 (** The error if there is more than one point. *)
 Definition weight_error (error : R) : R := fl (fl (error + eps / 2) * (1 + 4 * eps)).
 
-Lemma double_1 : double 1. Proof. change 1 with (bpow radix2 0). apply number_power; [easy | lia]. Qed.
+Lemma double_1 : double 1.
+Proof. change 1 with (bpow radix2 0). apply number_power; [easy | lia]. Qed.
 (** A number up to 1 is rounded by at most half of 2^-53. *)
 Lemma up_to_1 x : 0 <= x <= 1 -> Rabs (fl x - x) <= u / 2.
 Proof.
   intros (X0 & X1). pose proof (rounding_error_nearest 53 (-1074) ltac:(lia)) as E. pose proof (u_positive 53) as U.
   assert (H : Rabs (fl x - x) <= / 2 * ulp radix2 (FLT_exp (-1074) 53) x)
-    by (apply error_le_half_ulp; auto with typeclass_instances). destruct (Req_dec x 1) as [-> | N].
+    by (apply error_le_half_ulp; auto with typeclass_instances).
+  destruct (Req_dec x 1) as [-> | N].
   { rewrite (rnd_exact 53 (-1074) nearest 1 double_1), Rminus_diag_eq, Rabs_R0 by easy. lra. }
   apply Rle_trans with (1 := H). enough (ulp radix2 (FLT_exp (-1074) 53) x <= u) by lra.
   apply Rle_trans with (ulp radix2 (FLT_exp (-1074) 53) (bpow radix2 (-1))).
@@ -48,10 +55,12 @@ Lemma sum_nonnegative told weights : Forall2 told_right told weights -> 0 <= sum
 Proof. induction 1 as [| t w told weights (_ & W & _) F IH]; cbn [sum fold_right] in *; [lra | unfold sum in *; lra]. Qed.
 
 (** rest: the sum of the first weight and the weights that follow in the loop. *)
-Lemma cut_right told weights : Forall2 told_right told weights -> forall remains rest off error, double remains ->
-  0 <= remains <= 1 -> Rabs (remains - rest) <= off -> 0 <= rest - sum weights -> let total := off + sum (map snd told)
-  + INR (length told) * (u / 2) in let '(found, first, _) := cut told remains error in Forall2 (fun f w => 0
-  <= f <= 1 /\ Rabs (f - w) <= total) found weights /\ 0 <= first <= 1 /\ Rabs (first - (rest - sum weights)) <= total.
+Lemma cut_right told weights : Forall2 told_right told weights -> forall remains rest off error,
+  double remains -> 0 <= remains <= 1 -> Rabs (remains - rest) <= off -> 0 <= rest - sum weights ->
+  let total := off + sum (map snd told) + INR (length told) * (u / 2) in
+  let '(found, first, _) := cut told remains error in
+  Forall2 (fun f w => 0 <= f <= 1 /\ Rabs (f - w) <= total) found weights /\
+  0 <= first <= 1 /\ Rabs (first - (rest - sum weights)) <= total.
 Proof.
   pose proof (u_positive 53) as U.
   induction 1 as [| (value, o) w told weights (D & W & V) F IH]; intros remains rest off error N L E R.
@@ -117,9 +126,10 @@ Proof.
         rewrite Rplus_0_l, (rnd_exact 53 (-1074) nearest o0 N0). rewrite Rplus_0_r.
         split; [now apply Sn |].
         split; [apply rnd_number; auto with typeclass_instances | apply rnd_nonnegative; auto with typeclass_instances; lra]. }
-    destruct Sum as (Sum & Ns & S0). set (error := snd (cut told 1 0)) in *. clearbody error. unfold weight_error.
-    pose proof (Sn error (eps / 2) Ns Neps S0 ltac:(lra)) as T. set (t := fl (error + eps / 2)) in *.
-    assert (Tu : u * (1 - u) <= t) by nra. assert (Big : u * / 2 <= t * (1 + 4 * eps)) by nra.
+    destruct Sum as (Sum & Ns & S0). set (error := snd (cut told 1 0)) in *. clearbody error.
+    unfold weight_error. pose proof (Sn error (eps / 2) Ns Neps S0 ltac:(lra)) as T.
+    set (t := fl (error + eps / 2)) in *. assert (Tu : u * (1 - u) <= t) by nra.
+    assert (Big : u * / 2 <= t * (1 + 4 * eps)) by nra.
     assert (P : t * (1 + 4 * eps) * (1 - u) <= fl (t * (1 + 4 * eps))).
     { pose proof (error_relative 53 (-1074) nearest _ _ (rounding_error_nearest 53 (-1074) ltac:(lia)) (t * (1 + 4 * eps))) as E.
       rewrite (Rabs_pos_eq (t * (1 + 4 * eps))) in E by lra.
@@ -132,15 +142,18 @@ Proof.
     { assert (INR (length told) <= 2) by (change 2 with (INR 2); apply le_INR; lia). nra. }
     assert (Z0 : 0 <= sum (map snd told)).
     { clear - Offs. induction Offs; cbn [map sum fold_right] in *; [lra | unfold sum in *; lra]. }
-    set (s := sum (map snd told)) in *. rewrite E2 in *. assert (A : (s * (1 - u) + u) * (1 - u) <= t) by nra.
+    set (s := sum (map snd told)) in *. rewrite E2 in *.
+    assert (A : (s * (1 - u) + u) * (1 - u) <= t) by nra.
     assert (G : 1 <= (1 - u) * (1 - u) * (1 + 4 * (2 * u)) * (1 - u)) by nra.
     assert (t * (1 + 4 * (2 * u)) * (1 - u) >= (s * (1 - u) + u) * (1 - u) * (1 + 4 * (2 * u)) * (1 - u)).
     { apply Rle_ge, Rmult_le_compat_r; [lra |]. apply Rmult_le_compat_r; lra. }
-    assert ((s + u) * 1 <= (s + u) * ((1 - u) * (1 - u) * (1 + 4 * (2 * u)) * (1 - u)))
-      by (apply Rmult_le_compat_l; lra). assert ((s + u) * (1 - u) <= s * (1 - u) + u) by nra.
+    assert ((s + u) * 1 <= (s + u) * ((1 - u) * (1 - u) * (1 + 4 * (2 * u)) * (1 - u))) by (apply Rmult_le_compat_l; lra).
+    assert ((s + u) * (1 - u) <= s * (1 - u) + u) by nra.
     assert ((s + u) * (1 - u) * ((1 - u) * (1 + 4 * (2 * u)) * (1 - u)) <=
-      (s * (1 - u) + u) * ((1 - u) * (1 + 4 * (2 * u)) * (1 - u))) by (apply Rmult_le_compat_r; nra). lra. }
+      (s * (1 - u) + u) * ((1 - u) * (1 + 4 * (2 * u)) * (1 - u))) by (apply Rmult_le_compat_r; nra).
+    lra. }
   destruct (cut told 1 0) as [[found first] error]. cbn [snd] in Enough.
-  destruct H as (A & B & C); [lra | rewrite Rminus_diag_eq, Rabs_R0; lra | lra |]. split; [| split; auto; lra].
-  clear - A Enough. induction A as [| f w found weights (F0 & F1) A IH]; constructor; [split; auto; lra | exact IH].
+  destruct H as (A & B & C); [lra | rewrite Rminus_diag_eq, Rabs_R0; lra | lra |].
+  split; [| split; auto; lra]. clear - A Enough.
+  induction A as [| f w found weights (F0 & F1) A IH]; constructor; [split; auto; lra | exact IH].
 Qed.

@@ -7,7 +7,9 @@
         vertex_edge_within, face_within_union, edges_within_union   within d exactly if a condition holds
         vertex_edge_distance, face_distance, edges_distance         there is a least distance *)
 
-From Coq Require Import Reals Lra Psatz List. From Errbound Require Import Contact. Import ListNotations.
+From Coq Require Import Reals Lra Psatz List.
+From Errbound Require Import Contact.
+Import ListNotations.
 Open Scope R_scope.
 
 (** ** Conditions *)
@@ -52,7 +54,8 @@ Definition face_near (D : R) (v f0 f1 f2 : point) : Prop := exists q, in_triangl
 Definition edges_near (D : R) (a0 a1 b0 b1 : point) : Prop :=
   exists p q, in_segment p a0 a1 /\ in_segment q b0 b1 /\ near D p q.
 
-Lemma square_nonnegative v : 0 <= dot v v. Proof. unfold dot. nra. Qed.
+Lemma square_nonnegative v : 0 <= dot v v.
+Proof. unfold dot. nra. Qed.
 Lemma near_sym D p q : near D p q -> near D q p.
 Proof. unfold near. intros H. replace (dot _ _) with (dot (minus p q) (minus p q)) by (coordinates; ring). easy. Qed.
 Lemma corner_holds D v w : holds D (corner_condition v w) <-> near D v w.
@@ -69,10 +72,12 @@ Lemma from_edge v e0 e1 u : let W := minus v e0 in let E := minus e1 e0 in
   dot (minus v (along e0 u E)) (minus v (along e0 u E)) = dot W W - 2 * u * dot W E + u * u * dot E E.
 Proof. intros W E. unfold W, E. coordinates. ring. Qed.
 
-Lemma vertex_edge_complete D v e0 e1 : vertex_edge_near D v e0 e1 -> Exists (holds D) (vertex_edge_conditions v e0 e1).
+Lemma vertex_edge_complete D v e0 e1 : vertex_edge_near D v e0 e1 ->
+  Exists (holds D) (vertex_edge_conditions v e0 e1).
 Proof.
-  intros (q & (u & U & ->) & H). unfold near in H. rewrite from_edge in H. set (W := minus v e0) in *.
-  set (E := minus e1 e0) in *. destruct (origin_dec E) as [O | N].
+  intros (q & (u & U & ->) & H). unfold near in H. rewrite from_edge in H.
+  set (W := minus v e0) in *. set (E := minus e1 e0) in *.
+  destruct (origin_dec E) as [O | N].
   { apply Exists_cons_hd, corner_holds. unfold near. fold W. rewrite O in H.
     replace (dot W origin) with 0 in H by (coordinates; ring).
     replace (dot origin origin) with 0 in H by (coordinates; ring). lra. }
@@ -110,7 +115,8 @@ Proof.
     + apply Rmult_le_reg_r with (dot E E); auto. field_simplify; lra.
   - unfold near, E. rewrite from_edge. fold W E. apply Rmult_le_reg_r with (dot E E); auto.
     replace (dot (cross E W) (cross E W)) with (dot E E * dot W W - dot W E * dot W E) in H
-      by (clearbody W E; coordinates; ring). field_simplify; lra.
+      by (clearbody W E; coordinates; ring).
+    field_simplify; lra.
 Qed.
 
 Theorem vertex_edge_within D v e0 e1 :
@@ -126,29 +132,35 @@ Qed.
 (** ** Interior of a face and interiors of both edges *)
 
 (** P in the basis of the plane's two directions and its normal. *)
-Lemma in_basis B C P : cross B C <> origin -> exists h k n, P = along (along (along origin h B) k C) n (cross B C) /\
-  h * square_normal B C = weight_1 B C P /\ k * square_normal B C = weight_2 B C P /\ n * square_normal B C = det B C P.
+Lemma in_basis B C P : cross B C <> origin -> exists h k n,
+  P = along (along (along origin h B) k C) n (cross B C) /\ h * square_normal B C = weight_1 B C P /\
+  k * square_normal B C = weight_2 B C P /\ n * square_normal B C = det B C P.
 Proof.
   intros N. apply square_positive in N. fold (square_normal B C) in N.
-  exists (weight_1 B C P / square_normal B C), (weight_2 B C P / square_normal B C), (det B C P / square_normal B C).
-  split; [| repeat split; field; lra]. pose proof (decomposed B C P) as H. cbv zeta in H. apply point_eq in H.
-  fold (square_normal B C) in H. set (n2 := square_normal B C) in *. set (a := weight_1 B C P) in *.
-  set (b := weight_2 B C P) in *. set (d := det B C P) in *. clearbody n2 a b d. destruct (cross B C) as [c0 c1 c2].
-  unfold along, origin in *. cbn [x y z] in *. destruct H as (H0 & H1 & H2).
+  exists (weight_1 B C P / square_normal B C), (weight_2 B C P / square_normal B C),
+    (det B C P / square_normal B C).
+  split; [| repeat split; field; lra].
+  pose proof (decomposed B C P) as H. cbv zeta in H. apply point_eq in H.
+  fold (square_normal B C) in H. set (n2 := square_normal B C) in *.
+  set (a := weight_1 B C P) in *. set (b := weight_2 B C P) in *. set (d := det B C P) in *. clearbody n2 a b d.
+  destruct (cross B C) as [c0 c1 c2]. unfold along, origin in *. cbn [x y z] in *. destruct H as (H0 & H1 & H2).
   apply same_point; cbn [x y z]; apply Rmult_eq_reg_r with n2; try lra; field_simplify; lra.
 Qed.
 Definition flat (a b : R) (B C : point) : R := dot (along (along origin a B) b C) (along (along origin a B) b C).
 Lemma from_basis h k n u v B C : let P := along (along (along origin h B) k C) n (cross B C) in
-  let X := along (along P (- u) B) (- v) C in dot X X = flat (h - u) (k - v) B C + n * n * square_normal B C.
+  let X := along (along P (- u) B) (- v) C in
+  dot X X = flat (h - u) (k - v) B C + n * n * square_normal B C.
 Proof. cbv zeta. unfold flat, square_normal. destruct B, C. coordinates. ring. Qed.
 Lemma flat_scaled l a b B C : flat (l * a) (l * b) B C = l * l * flat a b B C.
 Proof. unfold flat. destruct B, C. coordinates. ring. Qed.
-Lemma flat_nonnegative a b B C : 0 <= flat a b B C. Proof. apply square_nonnegative. Qed.
+Lemma flat_nonnegative a b B C : 0 <= flat a b B C.
+Proof. apply square_nonnegative. Qed.
 
 (** From numbers >= 0 towards others: until the others are reached or one number becomes zero, all stay >= 0. *)
 Definition between (l : R) (a : R * R) : R := fst a + l * (snd a - fst a).
-Lemma leaving pairs : Forall (fun a => 0 <= fst a) pairs -> exists l,
-  0 <= l <= 1 /\ Forall (fun a => 0 <= between l a) pairs /\ (l = 1 \/ Exists (fun a => between l a = 0) pairs).
+Lemma leaving pairs : Forall (fun a => 0 <= fst a) pairs ->
+  exists l, 0 <= l <= 1 /\ Forall (fun a => 0 <= between l a) pairs /\
+    (l = 1 \/ Exists (fun a => between l a = 0) pairs).
 Proof.
   intros F. induction F as [| (u, h) pairs U F (l & L & All & End)]; [exists 1; repeat split; auto; lra |].
   cbn [fst] in U. destruct (Rle_or_lt 0 (between l (u, h))) as [G | G].
@@ -184,8 +196,9 @@ Qed.
 Lemma face_complete D v f0 f1 f2 : face_near D v f0 f1 f2 ->
   holds D (face_condition v f0 f1 f2) \/ border_near D v f0 f1 f2.
 Proof.
-  intros (q & (u & w & U & W & S & ->) & H). set (B := minus f1 f0) in *. set (C := minus f2 f0) in *.
-  set (P := minus v f0). destruct (origin_dec (cross B C)) as [O | N].
+  intros (q & (u & w & U & W & S & ->) & H).
+  set (B := minus f1 f0) in *. set (C := minus f2 f0) in *. set (P := minus v f0).
+  destruct (origin_dec (cross B C)) as [O | N].
   { right. assert (T : in_triangle (along (along f0 u B) w C) f0 f1 f2) by (exists u, w; auto).
     apply face_at_a_time in T. destruct T as [(T & _) | T]; [easy |].
     destruct T as [T | [T | T]]; [left | right; left | right; right]; eexists; split; eauto. }
@@ -201,7 +214,8 @@ Proof.
   destruct (leaving [(u, h); (w, k); (1 - u - w, 1 - h - k)]) as (l & L & All & End).
   { repeat (apply Forall_cons; [cbn [fst]; lra |]). apply Forall_nil. }
   inversion_clear All as [| ? ? Au All']. inversion_clear All' as [| ? ? Aw All]. inversion_clear All as [| ? ? A0 _].
-  unfold between in Au, Aw, A0. cbn [fst snd] in Au, Aw, A0. destruct End as [-> | End].
+  unfold between in Au, Aw, A0. cbn [fst snd] in Au, Aw, A0.
+  destruct End as [-> | End].
   - left. split.
     + cbn [sides face_condition]. fold B C P. unfold weight_0. fold (square_normal B C). rewrite <- Eh, <- Ek.
       split; auto. assert (0 <= h /\ 0 <= k /\ 0 <= 1 - h - k) as (I & J & K) by lra.
@@ -217,7 +231,8 @@ Proof.
       inversion_clear End' as [? ? E | ? ? End]; [right; left; exact E |].
       inversion_clear End as [? ? E | ? ? End']; [| inversion End'].
       right; right. unfold between in E. cbn [fst snd] in E. lra.
-    + unfold near. fold B C. rewrite Apart. replace (h - (u + l * (h - u))) with ((1 - l) * (h - u)) by ring.
+    + unfold near. fold B C. rewrite Apart.
+      replace (h - (u + l * (h - u))) with ((1 - l) * (h - u)) by ring.
       replace (k - (w + l * (k - w))) with ((1 - l) * (k - w)) by ring. rewrite flat_scaled.
       pose proof (flat_nonnegative (h - u) (k - w) B C).
       assert ((1 - l) * (1 - l) * flat (h - u) (k - w) B C <= 1 * flat (h - u) (k - w) B C)
@@ -227,9 +242,11 @@ Lemma face_sound D v f0 f1 f2 : holds D (face_condition v f0 f1 f2) -> face_near
 Proof.
   intros ((N & W2 & W1 & W0) & H). unfold excess in H. cbn [top weight face_condition] in H.
   set (B := minus f1 f0) in *. set (C := minus f2 f0) in *. set (P := minus v f0) in *.
-  destruct (in_basis B C P N) as (h & k & n & EP & Eh & Ek & En). pose proof (square_positive _ N) as N2.
-  fold (square_normal B C) in N2. unfold weight_0 in W0. fold (square_normal B C) in W0. rewrite <- Eh, <- Ek in W0.
-  rewrite <- Eh in W1. rewrite <- Ek in W2. rewrite <- En in H. exists (along (along f0 h B) k C). split.
+  destruct (in_basis B C P N) as (h & k & n & EP & Eh & Ek & En).
+  pose proof (square_positive _ N) as N2. fold (square_normal B C) in N2.
+  unfold weight_0 in W0. fold (square_normal B C) in W0. rewrite <- Eh, <- Ek in W0. rewrite <- Eh in W1.
+  rewrite <- Ek in W2. rewrite <- En in H.
+  exists (along (along f0 h B) k C). split.
   - exists h, k. repeat split; [| |]; apply Rmult_le_reg_r with (square_normal B C); lra.
   - unfold near. replace (dot _ _) with (dot (along (along P (- h) B) (- k) C) (along (along P (- h) B) (- k) C))
       by (unfold P; clearbody B C; coordinates; ring).
@@ -259,13 +276,15 @@ Qed.
 Definition edges_border_near (D : R) (a0 a1 b0 b1 : point) : Prop :=
   vertex_edge_near D a0 b0 b1 \/ vertex_edge_near D a1 b0 b1 \/
   vertex_edge_near D b0 a0 a1 \/ vertex_edge_near D b1 a0 a1.
-Lemma edges_border_point D a0 a1 b0 b1 s t : 0 <= s -> 0 <= 1 - s -> 0 <= t -> 0 <= 1 - t -> s = 0 \/ 1 - s = 0 \/
-  t = 0 \/ 1 - t = 0 -> near D (along a0 s (minus a1 a0)) (along b0 t (minus b1 b0)) -> edges_border_near D a0 a1 b0 b1.
+Lemma edges_border_point D a0 a1 b0 b1 s t : 0 <= s -> 0 <= 1 - s -> 0 <= t -> 0 <= 1 - t ->
+  s = 0 \/ 1 - s = 0 \/ t = 0 \/ 1 - t = 0 ->
+  near D (along a0 s (minus a1 a0)) (along b0 t (minus b1 b0)) -> edges_border_near D a0 a1 b0 b1.
 Proof.
   intros S S1 T T1 Zero H. unfold edges_border_near, vertex_edge_near.
   assert (At0 : forall p e, along p 0 e = p) by (intros p e; destruct p; coordinates; apply same_point; simpl; ring).
   assert (At1 : forall p q, along p 1 (minus q p) = q)
-    by (intros p q; destruct q; coordinates; apply same_point; simpl; ring). destruct Zero as [-> | [E | [-> | E]]].
+    by (intros p q; destruct q; coordinates; apply same_point; simpl; ring).
+  destruct Zero as [-> | [E | [-> | E]]].
   - left. rewrite At0 in H. eexists. split; [| exact H]. exists t. split; [lra | easy].
   - right. left. replace s with 1 in H by lra. rewrite At1 in H. eexists. split; [| exact H].
     exists t. split; [lra | easy].
@@ -275,54 +294,61 @@ Proof.
 Qed.
 
 (** The difference of a point of one edge and a point of the other. *)
-Lemma between_edges a0 a1 b0 b1 s t : let B := minus a1 a0 in let C := minus b1 b0 in let X := along (along (minus b0
-  a0) (- s) B) (- - t) C in dot (minus (along a0 s B) (along b0 t C)) (minus (along a0 s B) (along b0 t C)) = dot X X.
+Lemma between_edges a0 a1 b0 b1 s t : let B := minus a1 a0 in let C := minus b1 b0 in
+  let X := along (along (minus b0 a0) (- s) B) (- - t) C in
+  dot (minus (along a0 s B) (along b0 t C)) (minus (along a0 s B) (along b0 t C)) = dot X X.
 Proof. intros B C X. unfold X. clearbody B C. coordinates. ring. Qed.
 
 (** Parallel edges: a pair of points can be shifted at equal distance until one edge ends. *)
 Lemma parallel_near D a0 a1 b0 b1 : cross (minus a1 a0) (minus b1 b0) = origin ->
   edges_near D a0 a1 b0 b1 -> edges_border_near D a0 a1 b0 b1.
 Proof.
-  intros O (p & q & (s & S & ->) & (t & T & ->) & H). destruct (origin_dec (minus a1 a0)) as [OB | NB].
+  intros O (p & q & (s & S & ->) & (t & T & ->) & H).
+  destruct (origin_dec (minus a1 a0)) as [OB | NB].
   { apply edges_border_point with 0 t; try lra. rewrite OB in *.
     replace (along a0 0 origin) with (along a0 s origin); auto. coordinates. apply same_point; simpl; ring. }
   destruct (parallel _ _ NB O) as (k & K).
   destruct (leaving [(s, s - k * t); (1 - s, 1 - (s - k * t)); (t, 0); (1 - t, 1)]) as (l & L & All & End).
   { repeat (apply Forall_cons; [cbn [fst]; lra |]). apply Forall_nil. }
-  rewrite Forall_forall in All. pose proof (All _ (or_introl eq_refl)) as A0.
-  pose proof (All _ (or_intror (or_introl eq_refl))) as A1.
+  rewrite Forall_forall in All.
+  pose proof (All _ (or_introl eq_refl)) as A0. pose proof (All _ (or_intror (or_introl eq_refl))) as A1.
   pose proof (All _ (or_intror (or_intror (or_introl eq_refl)))) as A2.
-  pose proof (All _ (or_intror (or_intror (or_intror (or_introl eq_refl))))) as A3. unfold between in A0, A1, A2, A3.
-  cbn [fst snd] in A0, A1, A2, A3. apply edges_border_point with (s - l * (k * t)) (t - l * t); try lra.
+  pose proof (All _ (or_intror (or_intror (or_intror (or_introl eq_refl))))) as A3.
+  unfold between in A0, A1, A2, A3. cbn [fst snd] in A0, A1, A2, A3.
+  apply edges_border_point with (s - l * (k * t)) (t - l * t); try lra.
   - destruct End as [-> | End]; [right; right; left; ring |].
     rewrite !Exists_cons, Exists_nil in End. unfold between in End. cbn [fst snd] in End.
     destruct End as [E | [E | [E | [E | []]]]]; [left | right; left | right; right; left | right; right; right]; lra.
   - unfold near in *. rewrite between_edges in *. rewrite K in *. set (B := minus a1 a0) in *.
     set (P := minus b0 a0) in *. clearbody B P.
     replace (along (along P (- (s - l * (k * t))) B) (- - (t - l * t)) (along origin k B))
-      with (along (along P (- s) B) (- - t) (along origin k B)); auto. coordinates. apply same_point; simpl; ring.
+      with (along (along P (- s) B) (- - t) (along origin k B)); auto.
+    coordinates. apply same_point; simpl; ring.
 Qed.
 
 Lemma edges_complete D a0 a1 b0 b1 : edges_near D a0 a1 b0 b1 ->
   holds D (edges_condition a0 a1 b0 b1) \/ edges_border_near D a0 a1 b0 b1.
 Proof.
-  intros H. destruct (origin_dec (cross (minus a1 a0) (minus b1 b0))) as [O | N]; [right; now apply parallel_near |].
+  intros H. destruct (origin_dec (cross (minus a1 a0) (minus b1 b0))) as [O | N];
+    [right; now apply parallel_near |].
   destruct H as (p & q & (s & S & ->) & (t & T & ->) & H). unfold near in H.
-  destruct (in_basis _ _ (minus b0 a0) N) as (h & k & n & EP & Eh & Ek & En). pose proof (square_positive _ N) as N2.
-  fold (square_normal (minus a1 a0) (minus b1 b0)) in N2.
+  destruct (in_basis _ _ (minus b0 a0) N) as (h & k & n & EP & Eh & Ek & En).
+  pose proof (square_positive _ N) as N2. fold (square_normal (minus a1 a0) (minus b1 b0)) in N2.
   assert (Apart : forall s t, dot (minus (along a0 s (minus a1 a0)) (along b0 t (minus b1 b0)))
       (minus (along a0 s (minus a1 a0)) (along b0 t (minus b1 b0))) =
     flat (h - s) (k - - t) (minus a1 a0) (minus b1 b0) + n * n * square_normal (minus a1 a0) (minus b1 b0)).
   { intros s' t'. rewrite between_edges. rewrite EP. apply from_basis. }
-  rewrite Apart in H. destruct (leaving [(s, h); (1 - s, 1 - h); (t, - k); (1 - t, 1 - - k)]) as (l & L & All & End).
+  rewrite Apart in H.
+  destruct (leaving [(s, h); (1 - s, 1 - h); (t, - k); (1 - t, 1 - - k)]) as (l & L & All & End).
   { repeat (apply Forall_cons; [cbn [fst]; lra |]). apply Forall_nil. }
-  rewrite Forall_forall in All. pose proof (All _ (or_introl eq_refl)) as A0.
-  pose proof (All _ (or_intror (or_introl eq_refl))) as A1.
+  rewrite Forall_forall in All.
+  pose proof (All _ (or_introl eq_refl)) as A0. pose proof (All _ (or_intror (or_introl eq_refl))) as A1.
   pose proof (All _ (or_intror (or_intror (or_introl eq_refl)))) as A2.
   pose proof (All _ (or_intror (or_intror (or_intror (or_introl eq_refl))))) as A3. clear All.
   unfold between in A0, A1, A2, A3. cbn [fst snd] in A0, A1, A2, A3.
   set (n2 := square_normal (minus a1 a0) (minus b1 b0)) in *.
-  pose proof (flat_nonnegative (h - s) (k - - t) (minus a1 a0) (minus b1 b0)) as F. destruct End as [-> | End].
+  pose proof (flat_nonnegative (h - s) (k - - t) (minus a1 a0) (minus b1 b0)) as F.
+  destruct End as [-> | End].
   - left. split.
     + cbn [sides edges_condition]. split; auto.
       replace (on_b _ _ _) with (- weight_2 (minus a1 a0) (minus b1 b0) (minus b0 a0))
@@ -335,7 +361,8 @@ Proof.
   - right. apply edges_border_point with (s + l * (h - s)) (t + l * (- k - t)); try lra.
     + rewrite !Exists_cons, Exists_nil in End. unfold between in End. cbn [fst snd] in End.
       destruct End as [E | [E | [E | [E | []]]]]; [left | right; left | right; right; left | right; right; right]; lra.
-    + unfold near. rewrite Apart. replace (h - (s + l * (h - s))) with ((1 - l) * (h - s)) by ring.
+    + unfold near. rewrite Apart.
+      replace (h - (s + l * (h - s))) with ((1 - l) * (h - s)) by ring.
       replace (k - - (t + l * (- k - t))) with ((1 - l) * (k - - t)) by ring. rewrite flat_scaled.
       assert ((1 - l) * (1 - l) * flat (h - s) (k - - t) (minus a1 a0) (minus b1 b0) <=
         1 * flat (h - s) (k - - t) (minus a1 a0) (minus b1 b0)) by (apply Rmult_le_compat_r; nra). lra.
@@ -343,17 +370,18 @@ Qed.
 Lemma edges_sound D a0 a1 b0 b1 : holds D (edges_condition a0 a1 b0 b1) -> edges_near D a0 a1 b0 b1.
 Proof.
   intros ((N & A0 & A1 & B0 & B1) & H). unfold excess in H. cbn [top weight edges_condition] in H.
-  destruct (in_basis _ _ (minus b0 a0) N) as (h & k & n & EP & Eh & Ek & En). pose proof (square_positive _ N) as N2.
-  fold (square_normal (minus a1 a0) (minus b1 b0)) in N2.
+  destruct (in_basis _ _ (minus b0 a0) N) as (h & k & n & EP & Eh & Ek & En).
+  pose proof (square_positive _ N) as N2. fold (square_normal (minus a1 a0) (minus b1 b0)) in N2.
   replace (on_b _ _ _) with (- weight_2 (minus a1 a0) (minus b1 b0) (minus b0 a0)) in B0, B1
-    by (unfold on_b, weight_2, dot, cross; simpl; ring). unfold on_a in A0, A1.
-  fold (weight_1 (minus a1 a0) (minus b1 b0) (minus b0 a0)) in A0, A1. rewrite <- Eh in A0, A1. rewrite <- Ek in B0, B1.
-  rewrite <- En in H. set (n2 := square_normal (minus a1 a0) (minus b1 b0)) in *.
+    by (unfold on_b, weight_2, dot, cross; simpl; ring).
+  unfold on_a in A0, A1. fold (weight_1 (minus a1 a0) (minus b1 b0) (minus b0 a0)) in A0, A1.
+  rewrite <- Eh in A0, A1. rewrite <- Ek in B0, B1. rewrite <- En in H.
+  set (n2 := square_normal (minus a1 a0) (minus b1 b0)) in *.
   exists (along a0 h (minus a1 a0)), (along b0 (- k) (minus b1 b0)).
   assert (In : forall u, 0 <= u * n2 -> 0 <= n2 - u * n2 -> 0 <= u <= 1)
-    by (intros u U V; split; apply Rmult_le_reg_r with n2; lra). split; [exists h; split; auto |].
-  split; [exists (- k); split; auto; apply In; lra |]. unfold near. rewrite between_edges, EP, from_basis. fold n2.
-  apply Rmult_le_reg_r with n2; auto.
+    by (intros u U V; split; apply Rmult_le_reg_r with n2; lra).
+  split; [exists h; split; auto |]. split; [exists (- k); split; auto; apply In; lra |].
+  unfold near. rewrite between_edges, EP, from_basis. fold n2. apply Rmult_le_reg_r with n2; auto.
   replace (flat (h - h) (k - - - k) (minus a1 a0) (minus b1 b0)) with 0 by (unfold flat; coordinates; ring). lra.
 Qed.
 Lemma border_edges D a0 a1 b0 b1 : edges_border_near D a0 a1 b0 b1 -> edges_near D a0 a1 b0 b1.
@@ -371,11 +399,13 @@ Theorem edges_within_union D a0 a1 b0 b1 :
 Proof.
   assert (Border : edges_border_near D a0 a1 b0 b1 <-> Exists (holds D) (vertex_edge_conditions a0 b0 b1) \/
     Exists (holds D) (vertex_edge_conditions a1 b0 b1) \/ Exists (holds D) (vertex_edge_conditions b0 a0 a1) \/
-    Exists (holds D) (vertex_edge_conditions b1 a0 a1)) by (unfold edges_border_near; now rewrite !vertex_edge_within).
+    Exists (holds D) (vertex_edge_conditions b1 a0 a1))
+    by (unfold edges_border_near; now rewrite !vertex_edge_within).
   assert (Sym : forall v w, holds D (corner_condition v w) <-> holds D (corner_condition w v))
-    by (intros v w; rewrite !corner_holds; split; apply near_sym). unfold edges_conditions, vertex_edge_conditions in *.
-  rewrite !Exists_cons in Border. rewrite (Sym b0 a0), (Sym b0 a1), (Sym b1 a0), (Sym b1 a1) in Border. clear Sym.
-  rewrite !Exists_cons. split.
+    by (intros v w; rewrite !corner_holds; split; apply near_sym).
+  unfold edges_conditions, vertex_edge_conditions in *. rewrite !Exists_cons in Border.
+  rewrite (Sym b0 a0), (Sym b0 a1), (Sym b1 a0), (Sym b1 a1) in Border. clear Sym. rewrite !Exists_cons.
+  split.
   - intros Q. apply edges_complete in Q. rewrite Border in Q. clear Border. tauto.
   - intros Q. enough (holds D (edges_condition a0 a1 b0 b1) \/ edges_border_near D a0 a1 b0 b1) as [K | K];
       [now apply edges_sound | now apply border_edges |].
@@ -388,7 +418,8 @@ Definition distances (near : R -> Prop) (squared : R) : Prop :=
   0 <= squared /\ forall D, near D <-> squared <= D.
 
 Lemma nearest conditions : Forall well_formed conditions ->
-  (forall D, ~ Exists (holds D) conditions) \/ exists m, forall D, Exists (holds D) conditions <-> m <= D.
+  (forall D, ~ Exists (holds D) conditions) \/
+  exists m, forall D, Exists (holds D) conditions <-> m <= D.
 Proof.
   intros F. induction F as [| c conditions W F IH].
   { left. intros D H. inversion H. }
@@ -406,12 +437,14 @@ Proof.
     + pose proof (Rmin_l m n). pose proof (Rmin_r m n). lra.
     + unfold Rmin. destruct (Rle_dec m n); tauto.
 Qed.
-Lemma least_distance near conditions : Forall well_formed conditions -> (forall D, near D <->
-  Exists (holds D) conditions) -> (forall D, near D -> 0 <= D) -> (exists D, near D) -> exists m, distances near m.
+Lemma least_distance near conditions : Forall well_formed conditions ->
+  (forall D, near D <-> Exists (holds D) conditions) -> (forall D, near D -> 0 <= D) -> (exists D, near D) ->
+  exists m, distances near m.
 Proof.
   intros F E Positive (D & H). destruct (nearest conditions F) as [None | (m & M)].
   { apply E, None in H. easy. }
-  exists m. assert (Q : forall D, near D <-> m <= D) by (intros D'; now rewrite E). split; auto. apply Positive, Q. lra.
+  exists m. assert (Q : forall D, near D <-> m <= D) by (intros D'; now rewrite E). split; auto.
+  apply Positive, Q. lra.
 Qed.
 (** If Z < 0, the points are nearer than d. *)
 Lemma nearer near conditions m D c : distances near m -> (forall D, near D <-> Exists (holds D) conditions) ->
@@ -419,11 +452,13 @@ Lemma nearer near conditions m D c : distances near m -> (forall D, near D <-> E
 Proof.
   intros (_ & M) E I W S H. specialize (W S). unfold excess in H.
   assert (Q : top c = top c / weight c * weight c) by (field; lra).
-  assert (top c / weight c < D) by (apply Rmult_lt_reg_r with (weight c); lra). enough (m <= top c / weight c) by lra.
-  apply M, E, Exists_exists. exists c. split; auto. split; auto. unfold excess. lra.
+  assert (top c / weight c < D) by (apply Rmult_lt_reg_r with (weight c); lra).
+  enough (m <= top c / weight c) by lra. apply M, E, Exists_exists. exists c. split; auto. split; auto.
+  unfold excess. lra.
 Qed.
 
-Lemma corner_well_formed v w : well_formed (corner_condition v w). Proof. intros _. cbn. lra. Qed.
+Lemma corner_well_formed v w : well_formed (corner_condition v w).
+Proof. intros _. cbn. lra. Qed.
 Lemma vertex_edge_well_formed v e0 e1 : Forall well_formed (vertex_edge_conditions v e0 e1).
 Proof. repeat constructor; auto using corner_well_formed, edge_well_formed. Qed.
 Lemma all_face_well_formed v f0 f1 f2 : Forall well_formed (face_conditions v f0 f1 f2).
@@ -439,7 +474,8 @@ Qed.
 
 Lemma near_positive D p q : near D p q -> 0 <= D.
 Proof. unfold near. pose proof (square_nonnegative (minus p q)). lra. Qed.
-Lemma near_itself p q : near (dot (minus p q) (minus p q)) p q. Proof. unfold near. lra. Qed.
+Lemma near_itself p q : near (dot (minus p q) (minus p q)) p q.
+Proof. unfold near. lra. Qed.
 
 Theorem vertex_edge_distance v e0 e1 : exists m, distances (fun D => vertex_edge_near D v e0 e1) m.
 Proof.

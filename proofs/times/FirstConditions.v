@@ -6,8 +6,10 @@
         vertices_near_candidate, vertex_edge_near_candidate, face_near_candidate, edges_near_candidate   for a
                                distance *)
 
-From Coq Require Import Reals Lra Psatz List. From Errbound Require Import Contact Distance Separation FirstContact.
-Import ListNotations. Open Scope R_scope.
+From Coq Require Import Reals Lra Psatz List.
+From Errbound Require Import Contact Distance Separation FirstContact.
+Import ListNotations.
+Open Scope R_scope.
 
 (** ** Conditions: ccd/contact/condition.hpp *)
 
@@ -45,7 +47,8 @@ Lemma all_near (ps : list (R -> R)) t : (forall p, In p ps -> continuity p) ->
   exists e, 0 < e /\ forall p s, In p ps -> p t <> 0 -> Rabs (s - t) < e -> 0 < p s * p t.
 Proof.
   induction ps as [| p ps IH]; intros C; [exists 1; split; [lra | easy] |].
-  destruct IH as (e & E & H); [intros q Q; apply C; now right |]. destruct (Req_dec (p t) 0) as [Z | N].
+  destruct IH as (e & E & H); [intros q Q; apply C; now right |].
+  destruct (Req_dec (p t) 0) as [Z | N].
   { exists e. split; auto. intros q s [<- | Q] Nq; [easy | now apply H]. }
   destruct (near_positive p t (C p (or_introl eq_refl)) N) as (d & D & G).
   exists (Rmin d e). split; [now apply Rmin_glb_lt |]. pose proof (Rmin_l d e). pose proof (Rmin_r d e).
@@ -125,7 +128,8 @@ Definition edges_weights (a0 a1 b0 b1 : moving) : list (R -> R) :=
 Definition face_normal (f0 f1 f2 : moving) (t : R) : point := cross (from f1 f0 t) (from f2 f0 t).
 Definition edges_normal (a0 a1 b0 b1 : moving) (t : R) : point := cross (from a1 a0 t) (from b1 b0 t).
 
-Lemma smooth_from p q : smooth (from p q). Proof. apply smooth_difference. Qed.
+Lemma smooth_from p q : smooth (from p q).
+Proof. apply smooth_difference. Qed.
 Ltac from_continuous := unfold on_a, on_b, square_normal, weight_0, weight_1, weight_2;
   repeat (apply cont_dot || apply smooth_cross || apply smooth_from || apply cont_minus || apply cont_mult ||
     apply cont_const).
@@ -148,7 +152,8 @@ Proof.
   unfold is_met, sides_hold, vertex_on_edge. rewrite vertex_edge_contact. unfold vertex_edge_test.
   cbn [vanishing nonnegative not_all_zero also_below vertex_edge_asked].
   assert (D : dot (from v e0 t) (from e1 v t) = - dot (minus (place v t) (place e0 t)) (minus (place v t) (place e1 t)))
-    by (unfold from; coordinates; ring). split.
+    by (unfold from; coordinates; ring).
+  split.
   - intros (V & N & _). split.
     + apply (proj1 (components_0 (fun t => cross (from v e0 t) (from e1 e0 t)) t)).
       intros p P. destruct (V p P) as [|(H & _)]; [easy | discriminate].
@@ -157,8 +162,9 @@ Proof.
     + intros p P. left. revert p P. now apply (proj2 (components_0 (fun t => cross (from v e0 t) (from e1 e0 t)) t)).
     + intros p [<- | []]. lra.
 Qed.
-Lemma vertex_edge_asked_continuous v e0 e1 p : In p (vanishing (vertex_edge_asked v e0 e1)) \/
-  In p (nonnegative (vertex_edge_asked v e0 e1)) \/ In p (not_all_zero (vertex_edge_asked v e0 e1)) -> continuity p.
+Lemma vertex_edge_asked_continuous v e0 e1 p :
+  In p (vanishing (vertex_edge_asked v e0 e1)) \/ In p (nonnegative (vertex_edge_asked v e0 e1)) \/
+  In p (not_all_zero (vertex_edge_asked v e0 e1)) -> continuity p.
 Proof.
   intros [H | [[<- | []] | []]].
   - apply components_continuous in H; auto. from_continuous.
@@ -275,7 +281,8 @@ Ltac asks_sides := split; [| split; [easy | eexists; split; reflexivity]]; unfol
     sides edge_condition face_condition edges_condition];
   unfold face_weights, edges_weights; rewrite <- Forall_forall, !Forall_cons_iff, components_not_0;
   unfold face_normal, edges_normal, from; intuition.
-Lemma asks_edge D v e0 e1 t : asks D t (edge_asked D v e0 e1) (edge_condition (place v t) (place e0 t) (place e1 t)).
+Lemma asks_edge D v e0 e1 t :
+  asks D t (edge_asked D v e0 e1) (edge_condition (place v t) (place e0 t) (place e1 t)).
 Proof. asks_sides. Qed.
 Lemma asks_face D v f0 f1 f2 t : asks D t (face_near_asked D v f0 f1 f2)
   (face_condition (place v t) (place f0 t) (place f1 t) (place f2 t)).
@@ -324,7 +331,8 @@ Proof.
   - apply (Fs t); auto. lra.
 Qed.
 Lemma asked_pairs D s cs ks : Forall2 (asks D s) cs ks ->
-  (forall c, In c cs -> exists k, In k ks /\ asks D s c k) /\ (Exists (holds D) ks <-> exists c, In c cs /\ is_met c s).
+  (forall c, In c cs -> exists k, In k ks /\ asks D s c k) /\
+  (Exists (holds D) ks <-> exists c, In c cs /\ is_met c s).
 Proof.
   intros A. induction A as [| c k cs ks P F2 (IH1 & IH2)].
   - split; [easy |]. rewrite Exists_nil. split; [easy | now intros (c & [] & _)].
@@ -343,7 +351,8 @@ Proof.
   assert (M : met D (conditions t)).
   { destruct Within as (s & Fs & M); [exists t; split; apply F |]. rewrite <- (first_unique _ _ _ Fs F) in *.
     now destruct M. }
-  pose proof (fun s => asked_pairs D s cs (conditions s) (A s)) as Pairs. apply first_is_candidate; auto.
+  pose proof (fun s => asked_pairs D s cs (conditions s) (A s)) as Pairs.
+  apply first_is_candidate; auto.
   - intros c p I. now apply C.
   - revert F. apply same_first_time. intros s _. rewrite Near. apply Pairs.
   - intros c I _ E. destruct (proj1 (Pairs t) c I) as (k & _ & _ & _ & z & V & _). congruence.

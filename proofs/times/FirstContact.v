@@ -6,8 +6,10 @@
         face_planar, edges_planar   if Y = 0 up to a contact, there was one inside at t = 0 or at the border since
         face_planar_first, edges_planar_first    so the first contact is at t = 0 or at the border *)
 
-From Coq Require Import Reals Lra Psatz List. From Errbound Require Import Contact Distance Separation.
-Import ListNotations. Open Scope R_scope.
+From Coq Require Import Reals Lra Psatz List.
+From Errbound Require Import Contact Distance Separation.
+Import ListNotations.
+Open Scope R_scope.
 
 (** ** Necessary conditions *)
 
@@ -107,17 +109,20 @@ Qed.
 Theorem vertex_edge_first v e0 e1 : vertex_edge_collides v e0 e1 -> exists t, first (vertex_on_edge v e0 e1) t.
 Proof.
   apply (same_first (fun t => vertex_edge_near 0 (place v t) (place e0 t) (place e1 t)));
-    [intros t; apply edge_near_0 |]. intros H. destruct (vertex_edge_first_within v e0 e1 0 H) as (t & F & _). eauto.
+    [intros t; apply edge_near_0 |].
+  intros H. destruct (vertex_edge_first_within v e0 e1 0 H) as (t & F & _). eauto.
 Qed.
 Theorem face_first v f0 f1 f2 : vertex_face_collides v f0 f1 f2 -> exists t, first (face_touches v f0 f1 f2) t.
 Proof.
   apply (same_first (fun t => face_near 0 (place v t) (place f0 t) (place f1 t) (place f2 t)));
-    [intros t; apply face_near_0 |]. intros H. destruct (face_first_within v f0 f1 f2 0 H) as (t & F & _). eauto.
+    [intros t; apply face_near_0 |].
+  intros H. destruct (face_first_within v f0 f1 f2 0 H) as (t & F & _). eauto.
 Qed.
 Theorem edges_first a0 a1 b0 b1 : edge_edge_collides a0 a1 b0 b1 -> exists t, first (edges_touch a0 a1 b0 b1) t.
 Proof.
   apply (same_first (fun t => edges_near 0 (place a0 t) (place a1 t) (place b0 t) (place b1 t)));
-    [intros t; apply edges_near_0 |]. intros H. destruct (edges_first_within a0 a1 b0 b1 0 H) as (t & F & _). eauto.
+    [intros t; apply edges_near_0 |].
+  intros H. destruct (edges_first_within a0 a1 b0 b1 0 H) as (t & F & _). eauto.
 Qed.
 Lemma query_first edges m0 m1 m2 m3 :
   query_collides edges m0 m1 m2 m3 -> exists t, first (query_touches edges m0 m1 m2 m3) t.
@@ -126,17 +131,19 @@ Theorem face_times_closed v f0 f1 f2 s : ~ face_touches v f0 f1 f2 s ->
   exists e, 0 < e /\ forall t, Rabs (t - s) < e -> ~ face_touches v f0 f1 f2 t.
 Proof.
   assert (E : forall t, face_touches v f0 f1 f2 t <-> family_near (face_family v f0 f1 f2) 0 t)
-    by (intros t; rewrite face_family_near; symmetry; apply face_near_0). intros N. rewrite E in N.
-  destruct (stays_apart _ _ (face_slow v f0 f1 f2) (face_measured v f0 f1 f2) 0 s N) as (e & E0 & F). exists e.
-  split; auto. intros t T. rewrite E. now apply F.
+    by (intros t; rewrite face_family_near; symmetry; apply face_near_0).
+  intros N. rewrite E in N.
+  destruct (stays_apart _ _ (face_slow v f0 f1 f2) (face_measured v f0 f1 f2) 0 s N) as (e & E0 & F).
+  exists e. split; auto. intros t T. rewrite E. now apply F.
 Qed.
 Theorem edges_times_closed a0 a1 b0 b1 s : ~ edges_touch a0 a1 b0 b1 s ->
   exists e, 0 < e /\ forall t, Rabs (t - s) < e -> ~ edges_touch a0 a1 b0 b1 t.
 Proof.
   assert (E : forall t, edges_touch a0 a1 b0 b1 t <-> family_near (edges_family a0 a1 b0 b1) 0 t)
-    by (intros t; rewrite edges_family_near; symmetry; apply edges_near_0). intros N. rewrite E in N.
-  destruct (stays_apart _ _ (edges_slow a0 a1 b0 b1) (edges_measured a0 a1 b0 b1) 0 s N) as (e & E0 & F). exists e.
-  split; auto. intros t T. rewrite E. now apply F.
+    by (intros t; rewrite edges_family_near; symmetry; apply edges_near_0).
+  intros N. rewrite E in N.
+  destruct (stays_apart _ _ (edges_slow a0 a1 b0 b1) (edges_measured a0 a1 b0 b1) 0 s N) as (e & E0 & F).
+  exists e. split; auto. intros t T. rewrite E. now apply F.
 Qed.
 
 (** ** Planar motion *)
@@ -151,8 +158,9 @@ Lemma query_planar edges m0 m1 m2 m3 b : 0 <= b <= 1 -> (forall t, 0 <= t <= b -
   query_inside_at edges m0 m1 m2 m3 0 \/ exists s, 0 <= s <= b /\ query_on_border edges m0 m1 m2 m3 s.
 Proof.
   intros B Y H. pose proof (query_coplanar edges (until b m0) (until b m1) (until b m2) (until b m3)) as C.
-  assert (At : forall t, query_y edges (until b m0) (until b m1) (until b m2)
-    (until b m3) t = query_y edges m0 m1 m2 m3 (b * t)) by (intros t; unfold query_y; now rewrite !place_until).
+  assert (At : forall t, query_y edges (until b m0) (until b m1) (until b m2) (until b m3) t = query_y edges m0 m1 m2
+    m3 (b * t))
+    by (intros t; unfold query_y; now rewrite !place_until).
   destruct (proj1 (C (fun t T => eq_trans (At t) (Y (b * t) ltac:(nra))))) as [I | I].
   - exists 1. split; [lra |]. unfold query_touches in *. rewrite !place_until, Rmult_1_r. exact H.
   - left. unfold query_inside_at in *. rewrite !place_until, Rmult_0_r in I. exact I.

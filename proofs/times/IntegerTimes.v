@@ -7,8 +7,10 @@
             contact
         format_bracketed      every number has a bracket between numbers of a floating-point format *)
 
-From Coq Require Import Reals ZArith Lra List. From Flocq Require Import Core.
-From Errbound Require Import Subdivision Contact Separation FirstContact TimeBrackets. Import ListNotations.
+From Coq Require Import Reals ZArith Lra List.
+From Flocq Require Import Core.
+From Errbound Require Import Subdivision Contact Separation FirstContact TimeBrackets.
+Import ListNotations.
 Open Scope R_scope.
 
 Section Doubles.
@@ -41,7 +43,8 @@ Qed.
 Lemma later_bracket a b s t r : holds_time a s -> ~ r < fst a -> r < t -> holds_time b t -> ~ lesser b a.
 Proof.
   intros A N L B Q. pose proof (lesser_bracket double b a t s B A Q) as T.
-  destruct A as [(_ & E & _) | (Nb & S)]; [lra |]. assert (A' : holds_time a t) by (right; split; auto; lra).
+  destruct A as [(_ & E & _) | (Nb & S)]; [lra |].
+  assert (A' : holds_time a t) by (right; split; auto; lra).
   pose proof (lesser_bracket double b a t t B A' Q). lra.
 Qed.
 
@@ -64,7 +67,9 @@ Proof.
   intros r R0 [Hr | Gr]; [now apply (Before r) | apply (Before' r); auto; lra].
 Qed.
 Lemma first_swapped H G t : first (either G H) t -> first (either H G) t.
-Proof. unfold either. intros (T & Q & B). split; auto. split; [tauto |]. intros s S C. apply (B s S). tauto. Qed.
+Proof.
+  unfold either. intros (T & Q & B). split; auto. split; [tauto |]. intros s S C. apply (B s S). tauto.
+Qed.
 Lemma first_alone (H G : R -> Prop) t : first H t -> (forall s, 0 <= s <= 1 -> ~ G s) -> first (either H G) t.
 Proof.
   intros (T & Ht & Before) No. split; auto. split; [now left |].
@@ -78,7 +83,8 @@ Proof.
     + assert (F : first (either H G) s) by now apply first_either with t.
       destruct (lesser_dec b a) as [Q |]; [now apply (not_lesser a b s t) in Q | now exists s].
     + assert (F : first (either H G) t) by (apply first_swapped, first_either with s; auto; lra).
-      destruct (lesser_dec b a) as [Q | Q]; exists t; split; auto. rewrite <- (same_bracket b a t s); auto. lra.
+      destruct (lesser_dec b a) as [Q | Q]; exists t; split; auto.
+      rewrite <- (same_bracket b a t s); auto. lra.
   - intros (s & Hs & A) No. exists s. split; auto. now apply first_alone.
   - intros No (t & Gt & B). exists t. split; auto. now apply first_swapped, first_alone.
   - intros NoH NoG t T [Ht | Gt]; [now apply (NoH t) | now apply (NoG t)].
@@ -166,20 +172,26 @@ Proof.
     2: { apply IH; auto. left. eauto. }
     2: { apply IH; auto. right. eauto. }
     injection E as -> -> ->. destruct root' as [a |].
-    + pose proof (one_bracket a b r (Root a eq_refl) B) as ->. apply (at_most_lesser _ _ _ Less) in Q.
-      unfold consider in Q. destruct (lesser_dec b (first_found s)) as [D | D]; [| easy].
+    + pose proof (one_bracket a b r (Root a eq_refl) B) as ->.
+      apply (at_most_lesser _ _ _ Less) in Q. unfold consider in Q.
+      destruct (lesser_dec b (first_found s)) as [D | D]; [| easy].
       destruct answer'; cbn [first_found] in Q; [now apply No in I | |]; unfold lesser in Q; lra.
     + unfold consider in U0. destruct answer'; [now apply No in I | discriminate | discriminate].
-  - inversion_clear F as [| ? ? _ Fs]. destruct C as [(root & answer & [E | J]) | (t & [E | J] & L)]; try discriminate.
+  - inversion_clear F as [| ? ? _ Fs].
+    destruct C as [(root & answer & [E | J]) | (t & [E | J] & L)]; try discriminate.
     + apply IH; auto. left. eauto.
     + injection E as ->. apply (at_most_lesser _ _ _ (run_less _ _ _ Rn)) in Q.
       destruct V as (w & W). now apply (later_bracket (first_found s) b w r t).
     + apply IH; auto. right. eauto.
 Qed.
-Lemma run_found last s steps s' : run s steps s' -> Forall step_right steps -> (found s = separate -> first_found
-  s = last) -> (found s = collides -> lesser (first_found s) last /\ exists r, 0 <= r <= 1 /\ inside r /\ holds_time
-  (first_found s) r) -> at_most (first_found s) last -> (found s' = separate -> first_found s' = last) /\ (found
-  s' = collides -> lesser (first_found s') last /\ exists r, 0 <= r <= 1 /\ inside r /\ holds_time (first_found s') r).
+Lemma run_found last s steps s' : run s steps s' -> Forall step_right steps ->
+  (found s = separate -> first_found s = last) ->
+  (found s = collides -> lesser (first_found s) last /\
+    exists r, 0 <= r <= 1 /\ inside r /\ holds_time (first_found s) r) ->
+  at_most (first_found s) last ->
+  (found s' = separate -> first_found s' = last) /\
+  (found s' = collides -> lesser (first_found s') last /\
+    exists r, 0 <= r <= 1 /\ inside r /\ holds_time (first_found s') r).
 Proof.
   intros Rn. induction Rn as [s | s x root answer steps s' Rn IH | s start steps s' N Rn IH]; intros F A B C.
   - now split.
@@ -225,8 +237,9 @@ Proof.
   assert (NotLate : forall r b, 0 <= r <= 1 -> holds_time b r -> lesser b never).
   { intros r b R0 [(_ & E & _) | (_ & S)]; left; unfold never; cbn [fst]; lra. }
   destruct i as [a |]; cbn [composed told_before] in *.
-  - destruct Inside as (L & (r & R0 & I & A) & Least). destruct Exists_ as (t & F); [exists r; split; auto; now left |].
-    exists t. split; auto. pose proof F as (T & [It | Bt] & Before).
+  - destruct Inside as (L & (r & R0 & I & A) & Least).
+    destruct Exists_ as (t & F); [exists r; split; auto; now left |]. exists t. split; auto.
+    pose proof F as (T & [It | Bt] & Before).
     + destruct (bracketed t T) as (b & B).
       assert (T0 : t <= r) by (apply Rnot_lt_le; intros Q; apply (Before r); [lra | now left]).
       rewrite <- (same_bracket b a t r); auto. now apply (Least t b).

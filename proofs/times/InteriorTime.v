@@ -11,11 +11,12 @@
         face_time_right, edges_time_right   first_contact is right
         doubles_suffice       doubles have the properties that these theorems need *)
 
-From Coq Require Import Reals ZArith Lia Lra List Bool Classical. From Flocq Require Import Core.
-From Errbound
-  Require Import Sign Bernstein VertexEdge CubicRoots Subdivision Contact Decisions AxisUnits InteriorContact.
+From Coq Require Import Reals ZArith Lia Lra List Bool Classical.
+From Flocq Require Import Core.
+From Errbound Require Import Sign Bernstein VertexEdge CubicRoots Subdivision Contact Decisions AxisUnits InteriorContact.
 From Errbound Require Import Separation FirstContact TimeBrackets VertexEdgeTime IntegerTimes TimeSearch.
-Import ListNotations. Open Scope R_scope.
+Import ListNotations.
+Open Scope R_scope.
 
 Section Query.
 
@@ -110,8 +111,9 @@ Proof.
     (r & R0 & Z & Only); try lra; auto.
   { destruct Req_EM_T; [auto | congruence]. }
   { destruct Req_EM_T; [auto | congruence]. }
-  assert (Opp : unit_of (opposed s) = - unit_of s) by (destruct s; simpl; ring). exists r. split; auto. split; auto.
-  intros t T. split; [intros Zt; now destruct (Only t T Zt) |].
+  assert (Opp : unit_of (opposed s) = - unit_of s) by (destruct s; simpl; ring).
+  exists r. split; auto. split; auto. intros t T.
+  split; [intros Zt; now destruct (Only t T Zt) |].
   split; intros S; (destruct (Rtotal_order t r) as [L | [-> | L]]; [| rewrite Z in S; lra |]); auto; exfalso.
   - destruct (just_before _ _ t _ S1 ltac:(lra)) as (u & U & P). rewrite Opp in P.
     destruct (between_signs (at_ y) t u) as (v & V & Zv); [apply continuous_form | lra | |].
@@ -150,7 +152,9 @@ Qed.
 Lemma covers_more x steps t : covers steps t -> covers (x :: steps) t.
 Proof. intros [(r & a & I) | (s & I & L)]; [left | right]; eauto using in_cons. Qed.
 Lemma unplaced_step s steps s' : run (consider s None undecided) steps s' -> unplaced s' = true.
-Proof. intros R. destruct (unplaced s') eqn:U; auto. now apply run_unplaced in R. Qed.
+Proof.
+  intros R. destruct (unplaced s') eqn:U; auto. now apply run_unplaced in R.
+Qed.
 Theorem in_parts_right distinct three D steps : known_but distinct three D -> forall waiting s,
   Forall (good three) waiting -> exists asked_for, run s asked_for (in_parts distinct three steps waiting s) /\
   Forall (step_right double interior) asked_for /\
@@ -180,10 +184,11 @@ Proof.
   { destruct (IH rest (consider s None undecided) Gr) as (l & Rn & F & C). exists (considered 0 None undecided :: l).
     split; [now constructor |]. split; [now constructor |]. intros U. apply unplaced_step in Rn. congruence. }
   cbv zeta. pose proof Gq as (H & Lv & _). destruct (halves_good b c p three q Gq ltac:(lia)) as (G0 & G1).
-  destruct (halves_are_parts y q H) as (Hl & _ & Es & Ee & Em & Em'). pose proof (part_inside y _ Hl) as Im.
-  rewrite Em in Im. pose proof H as (_ & _ & (Hlv & Hi & Hj) & _). set (t := (2 * index q + 1)%Z) in *.
-  set (middle := over t (level q + 1)) in *. pose proof (middle_sign b c p q H) as Ms. cbv zeta in Ms.
-  fold y t middle in Ms. set (s' := if same_sign _ zero then _ else s).
+  destruct (halves_are_parts y q H) as (Hl & _ & Es & Ee & Em & Em').
+  pose proof (part_inside y _ Hl) as Im. rewrite Em in Im. pose proof H as (_ & _ & (Hlv & Hi & Hj) & _).
+  set (t := (2 * index q + 1)%Z) in *. set (middle := over t (level q + 1)) in *.
+  pose proof (middle_sign b c p q H) as Ms. cbv zeta in Ms. fold y t middle in Ms.
+  set (s' := if same_sign _ zero then _ else s).
   assert (Gn : Forall (good three) (waiting_next three q rest)).
   { unfold waiting_next. apply Forall_app. split; auto. apply Forall_forall. intros h I. apply filter_In in I.
     destruct I as ([<- | [<- | []]] & _); auto. }
@@ -213,7 +218,8 @@ Proof.
         - intros X (_ & I). now apply No. }
       split; [intros _; left; eexists _, _; now left |]. intros u. apply covers_more.
     - exists l. split; auto. split; auto. split; auto. intros Z. apply Ms in Z. congruence. }
-  destruct Mid as (l' & Rn' & F' & Cm & More). exists l'. split; auto. split; auto. intros U q' u [<- | I] T Z.
+  destruct Mid as (l' & Rn' & F' & Cm & More). exists l'. split; auto. split; auto.
+  intros U q' u [<- | I] T Z.
   - destruct (Rtotal_order u middle) as [Lm | [-> | Lm]]; auto.
     + destruct (Halves U (left_of q) u) as [Q | Q]; auto. lra.
     + destruct (Halves U (right_of q) u) as [Q | Q]; auto. lra.
@@ -345,8 +351,9 @@ Proof.
         exists (l ++ l'). split; [now apply run_app with (1 := R) |]. split; [now apply Forall_app |].
         intros U _ t T Zt. apply covers_app. destruct (C' U t T Zt) as [Q | (Q & _)]; auto.
         left. now rewrite (Only t T Q).
-    + destruct Root as (-> & None_). destruct (Parts distinct three _ s K) as (l & R & F & C). exists l. split; auto.
-      split; auto. intros U _ t T Zt. destruct (C U t T Zt) as [Q | (Q & D)]; auto. now destruct (None_ t T D).
+    + destruct Root as (-> & None_). destruct (Parts distinct three _ s K) as (l & R & F & C).
+      exists l. split; auto. split; auto. intros U _ t T Zt. destruct (C U t T Zt) as [Q | (Q & D)]; auto.
+      now destruct (None_ t T D).
   - destruct (Nat.ltb_spec 0 (count (inner_sign_changes y))) as [Some_ | Zero].
     + destruct (Parts true false (fun _ => False) s) as (l & R & F & C).
       { split; [apply changes_moving; auto |]. split; [discriminate |]. split; [| easy]. intros _.
@@ -399,7 +406,8 @@ Proof.
     by (split; [apply (double_end double dyadic 0) | apply (double_end double dyadic 1)]; auto).
   unfold in_integers, border_time. intros I0 I1 I2 H.
   destruct (first_bracket_right double D0 D1 (exact_motion v) (exact_motion e0) (exact_motion e1))
-    as [(E & No) | (N & t & F & B)]; destruct o as [found |]; cbn [told].
+    as [(E & No) | (N & t & F & B)];
+    destruct o as [found |]; cbn [told].
   - now rewrite E in H.
   - intros s S C. apply No. now exists s.
   - exists t. auto.
@@ -414,12 +422,14 @@ Qed.
 Notation find edges b c p := (find edges b c p extent_x extent_y extent_z estimate refine
   (part_root (map IZR (y_form b c p))) linear_root place_of steps).
 
-Lemma wanted_first edges b c p touches border inside_at : (forall t, touches t <->
-  (det (vector_at b t) (vector_at c t) (vector_at p t) = 0 /\ inside_at t) \/ border t) -> degree b 1 -> degree c 1 ->
-  degree p 1 -> (forall t, weights_positive edges (vector_at b t) (vector_at c t) (vector_at p t) <-> inside_at t) ->
-  (sometime touches -> exists t, first touches t) -> (forall t, zero_throughout b c p ->
-  first touches t -> t = 0 \/ border t) -> forall o, told double border o -> let s := find edges b c p (last_of o) in
-  unplaced s = false -> found s <> undecided -> told double touches (composed o (inside_time s)).
+Lemma wanted_first edges b c p touches border inside_at :
+  (forall t, touches t <-> (det (vector_at b t) (vector_at c t) (vector_at p t) = 0 /\ inside_at t) \/ border t) ->
+  degree b 1 -> degree c 1 -> degree p 1 ->
+  (forall t, weights_positive edges (vector_at b t) (vector_at c t) (vector_at p t) <-> inside_at t) ->
+  (sometime touches -> exists t, first touches t) ->
+  (forall t, zero_throughout b c p -> first touches t -> t = 0 \/ border t) -> forall o, told double border o ->
+  let s := find edges b c p (last_of o) in unplaced s = false -> found s <> undecided ->
+  told double touches (composed o (inside_time s)).
 Proof.
   intros Times Db Dc Dp Same First Planar o Border s Un O.
   pose proof (interior_time_right edges b c p Db Dc Dp extent_x extent_y extent_z estimate refine double dyadic _ linear_root
@@ -434,11 +444,13 @@ Proof.
     + left. split; [now apply I | easy].
 Qed.
 
-Lemma query_time_right edges m0 m1 m2 m3 q0 q1 q2 q3 o : in_integers unit m0 q0 -> in_integers unit m1 q1 -> in_integers
-  unit m2 q2 -> in_integers unit m3 q3 -> told double (query_on_border edges (exact_motion q0) (exact_motion q1)
-  (exact_motion q2) (exact_motion q3)) o -> let s := find edges (side_b edges Decisions.difference q0 q1 q2 q3) (side_c
-  edges Decisions.difference q0 q1 q2 q3) (side_p edges Decisions.difference q0 q1 q2 q3) (last_of o) in unplaced
-  s = false -> found s <> undecided -> told double (query_touches edges m0 m1 m2 m3) (composed o (inside_time s)).
+Lemma query_time_right edges m0 m1 m2 m3 q0 q1 q2 q3 o : in_integers unit m0 q0 -> in_integers unit m1 q1 ->
+  in_integers unit m2 q2 -> in_integers unit m3 q3 ->
+  told double (query_on_border edges (exact_motion q0) (exact_motion q1) (exact_motion q2) (exact_motion q3)) o ->
+  let s := find edges (side_b edges Decisions.difference q0 q1 q2 q3) (side_c edges Decisions.difference q0 q1 q2 q3)
+    (side_p edges Decisions.difference q0 q1 q2 q3) (last_of o) in
+  unplaced s = false -> found s <> undecided ->
+    told double (query_touches edges m0 m1 m2 m3) (composed o (inside_time s)).
 Proof.
   intros I0 I1 I2 I3 Border s Un O. pose proof (query_sides_at edges q0 q1 q2 q3) as Sides.
   apply (told_same double (query_touches edges (exact_motion q0) (exact_motion q1) (exact_motion q2) (exact_motion

@@ -11,14 +11,19 @@
             than d times its length are farther apart than d throughout
         coordinates_apart         the same for the code's rounded differences of coordinates *)
 
-From Coq Require Import Reals ZArith Lra Psatz List. From Flocq Require Import Core.
-From Errbound Require Import Contact Distance. Import ListNotations. Open Scope R_scope.
+From Coq Require Import Reals ZArith Lra Psatz List.
+From Flocq Require Import Core.
+From Errbound Require Import Contact Distance.
+Import ListNotations.
+Open Scope R_scope.
 
 (** ** Length *)
 
 Definition norm (v : point) : R := sqrt (dot v v).
-Lemma norm_nonnegative v : 0 <= norm v. Proof. apply sqrt_pos. Qed.
-Lemma norm_square v : norm v * norm v = dot v v. Proof. apply sqrt_sqrt, square_nonnegative. Qed.
+Lemma norm_nonnegative v : 0 <= norm v.
+Proof. apply sqrt_pos. Qed.
+Lemma norm_square v : norm v * norm v = dot v v.
+Proof. apply sqrt_sqrt, square_nonnegative. Qed.
 Lemma norm_below v r : 0 <= r -> dot v v <= r * r -> norm v <= r.
 Proof. intros R0 H. pose proof (norm_nonnegative v). pose proof (norm_square v). nra. Qed.
 Lemma dot_below v w : dot v w <= norm v * norm w.
@@ -35,7 +40,8 @@ Lemma norm_along p s v : norm (along p s v) <= norm p + Rabs s * norm v.
 Proof.
   pose proof (norm_nonnegative p). pose proof (norm_nonnegative v). pose proof (Rabs_pos s).
   apply norm_below; [apply Rplus_le_le_0_compat; auto; now apply Rmult_le_pos |].
-  replace (dot (along p s v) (along p s v)) with (dot p p + 2 * (s * dot p v) + s * s * dot v v) by (coordinates; ring).
+  replace (dot (along p s v) (along p s v)) with (dot p p + 2 * (s * dot p v) + s * s * dot v v)
+    by (coordinates; ring).
   rewrite <- !norm_square.
   assert (s * dot p v <= Rabs s * (norm p * norm v)).
   { pose proof (dot_below p v). unfold Rabs. destruct (Rcase_abs s) as [N | N].
@@ -78,11 +84,13 @@ Qed.
 Definition first (H : R -> Prop) (t : R) : Prop := 0 <= t <= 1 /\ H t /\ forall s, 0 <= s < t -> ~ H s.
 (** If a property that holds at some time fails in an open set of times, it holds at a first time. *)
 Lemma least_time (H : R -> Prop) : sometime H ->
-  (forall s, 0 <= s <= 1 -> ~ H s -> exists e, s < e /\ forall t, s <= t < e -> ~ H t) -> exists t, first H t.
+  (forall s, 0 <= s <= 1 -> ~ H s -> exists e, s < e /\ forall t, s <= t < e -> ~ H t) ->
+  exists t, first H t.
 Proof.
   intros (b & B & Hb) Open. destruct (Classical_Prop.classic (H 0)) as [H0 | H0].
   { exists 0. split; [lra |]. split; auto. intros s S. lra. }
-  set (E := fun t => 0 <= t <= 1 /\ forall r, 0 <= r <= t -> ~ H r). destruct (completeness E) as (s & Up & Least).
+  set (E := fun t => 0 <= t <= 1 /\ forall r, 0 <= r <= t -> ~ H r).
+  destruct (completeness E) as (s & Up & Least).
   { exists 1. intros t (T & _). lra. }
   { exists 0. split; [lra |]. intros r R0. replace r with 0 by lra. easy. }
   assert (S0 : 0 <= s). { apply Up. split; [lra |]. intros r R0. now replace r with 0 by lra. }
@@ -92,8 +100,10 @@ Proof.
   { intros t T Ht. enough (s <= t) by lra. apply Least. intros r (R0 & F).
     destruct (Rle_or_lt r t); auto. exfalso. apply (F t); auto. lra. }
   exists s. split; [lra |]. split; auto. apply Classical_Prop.NNPP. intros N.
-  destruct (Open s ltac:(lra) N) as (e & Ee & F). assert (s <> b) by now intros ->. set (t := Rmin ((s + e) / 2) b).
-  assert (T : s < t /\ t <= (s + e) / 2 /\ t <= b) by (unfold t, Rmin; destruct (Rle_dec ((s + e) / 2) b); lra).
+  destruct (Open s ltac:(lra) N) as (e & Ee & F). assert (s <> b) by now intros ->.
+  set (t := Rmin ((s + e) / 2) b).
+  assert (T : s < t /\ t <= (s + e) / 2 /\ t <= b)
+    by (unfold t, Rmin; destruct (Rle_dec ((s + e) / 2) b); lra).
   enough (t <= s) by lra. apply Up. split; [lra |]. intros r R0.
   destruct (Rlt_or_le r s); [apply Before; lra | apply F; lra].
 Qed.
@@ -106,25 +116,28 @@ Context (K : family) (L : R) (slow : bounded K L) (measured : forall t, exists m
 Lemma stays_apart D s : ~ family_near K D s -> exists e, 0 < e /\ forall t, Rabs (t - s) < e -> ~ family_near K D t.
 Proof.
   intros N. destruct (measured s) as (m & M). pose proof slow as (L0 & _).
-  assert (Dm : D < m) by (apply Rnot_le_lt; intros H; apply N, M, H). destruct (Rlt_or_le D 0) as [Neg | D0].
+  assert (Dm : D < m) by (apply Rnot_le_lt; intros H; apply N, M, H).
+  destruct (Rlt_or_le D 0) as [Neg | D0].
   { exists 1. split; [lra |]. intros t _ Q. destruct Q as (p & _ & Q).
     pose proof (square_nonnegative (place p t)). lra. }
-  assert (G : sqrt D < sqrt m) by now apply sqrt_lt_1_alt. exists ((sqrt m - sqrt D) / (L + 1)).
-  split; [apply Rdiv_lt_0_compat; lra |]. intros t T Q. destruct (measured t) as (n & Nn). apply Nn in Q.
-  apply sqrt_le_1_alt in Q. pose proof (distance_continuous K L t s n m slow Nn M) as C. rewrite Rabs_minus_sym in C.
-  assert (E : (sqrt m - sqrt D) / (L + 1) * (L + 1) = sqrt m - sqrt D) by (field; lra). pose proof (Rabs_pos (t - s)).
-  nra.
+  assert (G : sqrt D < sqrt m) by now apply sqrt_lt_1_alt.
+  exists ((sqrt m - sqrt D) / (L + 1)). split; [apply Rdiv_lt_0_compat; lra |]. intros t T Q.
+  destruct (measured t) as (n & Nn). apply Nn in Q. apply sqrt_le_1_alt in Q.
+  pose proof (distance_continuous K L t s n m slow Nn M) as C. rewrite Rabs_minus_sym in C.
+  assert (E : (sqrt m - sqrt D) / (L + 1) * (L + 1) = sqrt m - sqrt D) by (field; lra).
+  pose proof (Rabs_pos (t - s)). nra.
 Qed.
 Lemma stays_nearer D s m : 0 < s -> squared_distance K s m -> m < D -> exists t, 0 <= t < s /\ family_near K D t.
 Proof.
   intros S M H. pose proof slow as (L0 & _). pose proof (proj1 M) as M0.
   assert (G : sqrt m < sqrt D) by (apply sqrt_lt_1_alt; lra). set (r := (sqrt D - sqrt m) / (L + 1)).
   assert (R0 : 0 < r) by (apply Rdiv_lt_0_compat; lra).
-  assert (E : r * (L + 1) = sqrt D - sqrt m) by (unfold r; field; lra). exists (Rmax 0 (s - r)).
-  pose proof (Rmax_l 0 (s - r)). pose proof (Rmax_r 0 (s - r)). set (t := Rmax 0 (s - r)) in *.
-  assert (T : t < s) by (apply Rmax_lub_lt; lra). split; [lra |]. destruct (measured t) as (n & Nn). apply Nn.
-  pose proof (proj1 Nn) as N0. apply sqrt_le_0; try lra. pose proof (distance_continuous K L s t m n slow M Nn) as C.
-  rewrite Rabs_left in C by lra. assert (L * - (t - s) <= L * r) by (apply Rmult_le_compat_l; lra). nra.
+  assert (E : r * (L + 1) = sqrt D - sqrt m) by (unfold r; field; lra).
+  exists (Rmax 0 (s - r)). pose proof (Rmax_l 0 (s - r)). pose proof (Rmax_r 0 (s - r)).
+  set (t := Rmax 0 (s - r)) in *. assert (T : t < s) by (apply Rmax_lub_lt; lra). split; [lra |].
+  destruct (measured t) as (n & Nn). apply Nn. pose proof (proj1 Nn) as N0. apply sqrt_le_0; try lra.
+  pose proof (distance_continuous K L s t m n slow M Nn) as C. rewrite Rabs_left in C by lra.
+  assert (L * - (t - s) <= L * r) by (apply Rmult_le_compat_l; lra). nra.
 Qed.
 
 Lemma first_near D : sometime (family_near K D) -> exists t, first (family_near K D) t.
@@ -140,7 +153,8 @@ Context (near_at : R -> R -> Prop) (conditions : R -> list condition)
 (** A root of some Z at which its sides hold, where no Z whose sides hold is negative. *)
 Definition met (D : R) (all : list condition) : Prop :=
   Exists (fun c => sides c /\ excess D c = 0) all /\ forall c, In c all -> sides c -> 0 <= excess D c.
-Lemma first_within D : sometime (near_at D) -> exists t, first (near_at D) t /\ (t = 0 \/ met D (conditions t)).
+Lemma first_within D : sometime (near_at D) ->
+  exists t, first (near_at D) t /\ (t = 0 \/ met D (conditions t)).
 Proof.
   intros (b & B & H). destruct (first_near D) as (t & T & N & First).
   { exists b. split; auto. now apply reads. }
@@ -169,7 +183,8 @@ Definition difference (p q : moving) : moving :=
   Moving (minus (start p) (start q)) (minus (finish p) (finish q)).
 Lemma place_difference p q t : place (difference p q) t = minus (place p t) (place q t).
 Proof. unfold place. coordinates. apply same_point; simpl; ring. Qed.
-Lemma place_segment e0 e1 u t : place (segment_of e0 e1 u) t = along (place e0 t) u (minus (place e1 t) (place e0 t)).
+Lemma place_segment e0 e1 u t :
+  place (segment_of e0 e1 u) t = along (place e0 t) u (minus (place e1 t) (place e0 t)).
 Proof. unfold place. coordinates. apply same_point; simpl; ring. Qed.
 Lemma place_face f0 f1 f2 u w t : place (point_of_face f0 f1 f2 u w) t =
   along (along (place f0 t) u (minus (place f1 t) (place f0 t))) w (minus (place f2 t) (place f0 t)).
@@ -183,7 +198,8 @@ Qed.
 Lemma speed_segment e0 e1 u : 0 <= u <= 1 -> speed (segment_of e0 e1 u) <= speed e0 + speed e1.
 Proof.
   intros U. unfold speed. set (d0 := minus (finish e0) (start e0)). set (d1 := minus (finish e1) (start e1)).
-  replace (minus (finish (segment_of e0 e1 u)) (start (segment_of e0 e1 u))) with (along (along origin (1 - u) d0) u d1)
+  replace (minus (finish (segment_of e0 e1 u)) (start (segment_of e0 e1 u)))
+    with (along (along origin (1 - u) d0) u d1)
     by (unfold segment_of, d0, d1; coordinates; apply same_point; simpl; ring).
   pose proof (norm_along (along origin (1 - u) d0) u d1) as A. pose proof (norm_along origin (1 - u) d0) as B.
   rewrite Rabs_pos_eq in A, B by lra. pose proof (norm_nonnegative d0). pose proof (norm_nonnegative d1).
@@ -214,7 +230,8 @@ Definition face_family (v f0 f1 f2 : moving) : family :=
 Definition edges_family (a0 a1 b0 b1 : moving) : family :=
   fun m => exists s t, 0 <= s <= 1 /\ 0 <= t <= 1 /\ m = difference (segment_of a0 a1 s) (segment_of b0 b1 t).
 
-Lemma vertex_vertex_family_near v w D t : family_near (vertex_vertex_family v w) D t <-> near D (place v t) (place w t).
+Lemma vertex_vertex_family_near v w D t :
+  family_near (vertex_vertex_family v w) D t <-> near D (place v t) (place w t).
 Proof.
   unfold family_near, vertex_vertex_family, near. rewrite <- place_difference. split.
   - now intros (m & -> & H).
@@ -243,12 +260,15 @@ Proof.
   unfold family_near, edges_family, edges_near, near, in_segment. split.
   - intros (m & (s & r & S & T & ->) & H). rewrite place_difference, !place_segment in H.
     do 2 eexists. split; [| split; [| exact H]]; eauto.
-  - intros (p & q & (s & S & ->) & (r & T & ->) & H). exists (difference (segment_of a0 a1 s) (segment_of b0 b1 r)).
+  - intros (p & q & (s & S & ->) & (r & T & ->) & H).
+    exists (difference (segment_of a0 a1 s) (segment_of b0 b1 r)).
     rewrite place_difference, !place_segment. split; auto. eauto 6.
 Qed.
 
 Lemma vertex_vertex_slow v w : bounded (vertex_vertex_family v w) (speed v + speed w).
-Proof. split; [apply Rplus_le_le_0_compat; apply norm_nonnegative |]. intros m ->. apply speed_difference. Qed.
+Proof.
+  split; [apply Rplus_le_le_0_compat; apply norm_nonnegative |]. intros m ->. apply speed_difference.
+Qed.
 Lemma vertex_edge_slow v e0 e1 : bounded (vertex_edge_family v e0 e1) (speed v + (speed e0 + speed e1)).
 Proof.
   split; [repeat apply Rplus_le_le_0_compat; apply norm_nonnegative |]. intros m (u & U & ->).
@@ -259,7 +279,8 @@ Proof.
   split; [repeat apply Rplus_le_le_0_compat; apply norm_nonnegative |]. intros m (u & w & U & W & S & ->).
   eapply Rle_trans; [apply speed_difference |]. apply Rplus_le_compat_l. now apply speed_face.
 Qed.
-Lemma edges_slow a0 a1 b0 b1 : bounded (edges_family a0 a1 b0 b1) (speed a0 + speed a1 + (speed b0 + speed b1)).
+Lemma edges_slow a0 a1 b0 b1 :
+  bounded (edges_family a0 a1 b0 b1) (speed a0 + speed a1 + (speed b0 + speed b1)).
 Proof.
   split; [repeat apply Rplus_le_le_0_compat; apply norm_nonnegative |]. intros m (s & t & S & T & ->).
   eapply Rle_trans; [apply speed_difference |]. apply Rplus_le_compat; now apply speed_segment.
@@ -302,8 +323,9 @@ Theorem vertex_edge_first_within v e0 e1 D :
     (t = 0 \/ met D (vertex_edge_conditions (place v t) (place e0 t) (place e1 t))).
 Proof.
   first_within_by (vertex_edge_slow v e0 e1) (vertex_edge_measured v e0 e1)
-    (fun D t => vertex_edge_near D (place v t) (place e0 t) (place e1 t)) (fun t => vertex_edge_conditions
-    (place v t) (place e0 t) (place e1 t)) vertex_edge_family_near vertex_edge_well_formed vertex_edge_within.
+    (fun D t => vertex_edge_near D (place v t) (place e0 t) (place e1 t))
+    (fun t => vertex_edge_conditions (place v t) (place e0 t) (place e1 t))
+    vertex_edge_family_near vertex_edge_well_formed vertex_edge_within.
 Qed.
 Theorem face_first_within v f0 f1 f2 D :
   sometime (fun t => face_near D (place v t) (place f0 t) (place f1 t) (place f2 t)) ->
@@ -311,8 +333,9 @@ Theorem face_first_within v f0 f1 f2 D :
     (t = 0 \/ met D (face_conditions (place v t) (place f0 t) (place f1 t) (place f2 t))).
 Proof.
   first_within_by (face_slow v f0 f1 f2) (face_measured v f0 f1 f2)
-    (fun D t => face_near D (place v t) (place f0 t) (place f1 t) (place f2 t)) (fun t => face_conditions
-    (place v t) (place f0 t) (place f1 t) (place f2 t)) face_family_near all_face_well_formed face_within_union.
+    (fun D t => face_near D (place v t) (place f0 t) (place f1 t) (place f2 t))
+    (fun t => face_conditions (place v t) (place f0 t) (place f1 t) (place f2 t))
+    face_family_near all_face_well_formed face_within_union.
 Qed.
 Theorem edges_first_within a0 a1 b0 b1 D :
   sometime (fun t => edges_near D (place a0 t) (place a1 t) (place b0 t) (place b1 t)) ->
@@ -320,8 +343,9 @@ Theorem edges_first_within a0 a1 b0 b1 D :
     (t = 0 \/ met D (edges_conditions (place a0 t) (place a1 t) (place b0 t) (place b1 t))).
 Proof.
   first_within_by (edges_slow a0 a1 b0 b1) (edges_measured a0 a1 b0 b1)
-    (fun D t => edges_near D (place a0 t) (place a1 t) (place b0 t) (place b1 t)) (fun t => edges_conditions
-    (place a0 t) (place a1 t) (place b0 t) (place b1 t)) edges_family_near all_edges_well_formed edges_within_union.
+    (fun D t => edges_near D (place a0 t) (place a1 t) (place b0 t) (place b1 t))
+    (fun t => edges_conditions (place a0 t) (place a1 t) (place b0 t) (place b1 t))
+    edges_family_near all_edges_well_formed edges_within_union.
 Qed.
 
 (** ** Axes *)
@@ -336,7 +360,8 @@ Proof.
   intros D0 H. pose proof (dot_below n w) as B. pose proof (norm_nonnegative n) as N.
   pose proof (norm_nonnegative w) as W. rewrite <- norm_square.
   assert (d < norm w).
-  { destruct (Rle_or_lt (norm w) d) as [Q |]; auto. pose proof (Rmult_le_compat_r (norm n) (norm w) d N Q). lra. }
+  { destruct (Rle_or_lt (norm w) d) as [Q |]; auto.
+    pose proof (Rmult_le_compat_r (norm n) (norm w) d N Q). lra. }
   nra.
 Qed.
 Lemma mixed r u a b : 0 <= u <= 1 -> r < a -> r < b -> r < (1 - u) * a + u * b.
@@ -393,21 +418,23 @@ Proof.
   assert (F : r < dot m (minus (place v t) (along (along (place f0 t) u (minus (place f1 t) (place f0 t))) w
     (minus (place f2 t) (place f0 t))))).
   { replace (dot m _) with ((1 - u - w) * dot m (minus (place v t) (place f0 t)) + u * dot m (minus (place v t)
-      (place f1 t)) + w * dot m (minus (place v t) (place f2 t))) by (coordinates; ring). clearbody r.
-    set (x0 := dot m (minus (place v t) (place f0 t))) in *. set (x1 := dot m (minus (place v t) (place f1 t))) in *.
-    set (x2 := dot m (minus (place v t) (place f2 t))) in *. clearbody x0 x1 x2. set (e := Rmin x0 (Rmin x1 x2)).
+      (place f1 t)) + w * dot m (minus (place v t) (place f2 t))) by (coordinates; ring).
+    clearbody r. set (x0 := dot m (minus (place v t) (place f0 t))) in *.
+    set (x1 := dot m (minus (place v t) (place f1 t))) in *. set (x2 := dot m (minus (place v t) (place f2 t))) in *.
+    clearbody x0 x1 x2. set (e := Rmin x0 (Rmin x1 x2)).
     pose proof (Rmin_l x0 (Rmin x1 x2)). pose proof (Rmin_r x0 (Rmin x1 x2)). pose proof (Rmin_l x1 x2).
     pose proof (Rmin_r x1 x2). fold e in H0, H1. assert (r < e) by (unfold e; repeat apply Rmin_glb_lt; auto).
     assert (0 <= (1 - u - w) * (x0 - e)) by (apply Rmult_le_pos; lra).
-    assert (0 <= u * (x1 - e)) by (apply Rmult_le_pos; lra). assert (0 <= w * (x2 - e)) by (apply Rmult_le_pos; lra).
-    lra. }
+    assert (0 <= u * (x1 - e)) by (apply Rmult_le_pos; lra).
+    assert (0 <= w * (x2 - e)) by (apply Rmult_le_pos; lra). lra. }
   apply far_along in F; auto. unfold near in N. lra.
 Qed.
 Theorem edges_apart n d a0 a1 b0 b1 t : 0 <= d -> 0 <= t <= 1 ->
   above_along n d [a0; a1] [b0; b1] \/ above_along n d [b0; b1] [a0; a1] ->
   ~ edges_near (d * d) (place a0 t) (place a1 t) (place b0 t) (place b1 t).
 Proof.
-  intros D0 T A (p & q & (s & S & ->) & (r & R0 & ->) & N). apply either_way in A. destruct A as (m & H).
+  intros D0 T A (p & q & (s & S & ->) & (r & R0 & ->) & N).
+  apply either_way in A. destruct A as (m & H).
   assert (Of : forall a, In a [a0; a1] ->
     d * norm m < dot m (minus (place a t) (along (place b0 t) r (minus (place b1 t) (place b0 t))))).
   { intros a I. apply above_between; auto; eapply above_place; try eassumption; simpl; auto. }
@@ -433,7 +460,8 @@ Proof.
   rewrite (round_generic radix2 fexp direction distance F) in Q. lra.
 Qed.
 (** The next number above a rounded one exceeds the number that was rounded. *)
-Lemma next_above a : a <= succ radix2 fexp (fl a). Proof. apply succ_round_ge_id; auto. Qed.
+Lemma next_above a : a <= succ radix2 fexp (fl a).
+Proof. apply succ_round_ge_id; auto. Qed.
 
 Inductive coordinate := x_axis | y_axis | z_axis.
 Definition coordinate_of (c : coordinate) : point -> R := match c with x_axis => x | y_axis => y | z_axis => z end.
@@ -456,7 +484,8 @@ Proof.
   { unfold norm. replace (dot (unit_axis c) (unit_axis c)) with 1; [apply sqrt_1 |].
     destruct c; unfold unit_axis; coordinates; ring. }
   assert (Dot : forall a b, dot (unit_axis c) (minus a b) = coordinate_of c a - coordinate_of c b)
-    by (intros a b; destruct c; unfold unit_axis, coordinate_of; coordinates; ring). rewrite One, !Dot. lra.
+    by (intros a b; destruct c; unfold unit_axis, coordinate_of; coordinates; ring).
+  rewrite One, !Dot. lra.
 Qed.
 
 End Rounded.

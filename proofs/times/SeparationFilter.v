@@ -6,16 +6,22 @@
         separated_part       so `separated` on a subinterval of the step gives an axis as in Separation.v
         axis_length, distance_rounded, size_rounded   the operands *)
 
-From Coq Require Import Reals ZArith Lia Lra Psatz List. From Flocq Require Import Core.
-From Errbound Require Import Contact Distance Separation Format. Import ListNotations. Open Scope R_scope.
+From Coq Require Import Reals ZArith Lia Lra Psatz List.
+From Flocq Require Import Core.
+From Errbound Require Import Contact Distance Separation Format.
+Import ListNotations.
+Open Scope R_scope.
 
 #[local] Instance double_precision : Prec_gt_0 53 := eq_refl.
-Notation fl := (rnd 53 (-1074) nearest). Notation double := (number 53 (-1074)). Notation u := (u 53).
+Notation fl := (rnd 53 (-1074) nearest).
+Notation double := (number 53 (-1074)).
+Notation u := (u 53).
 Notation eta := (eta (-1074)).
 
 Lemma u_small : 0 < u <= / 1048576.
 Proof. split; [apply u_positive |]. unfold Format.u. apply Rle_trans with (bpow radix2 (-20)); [apply bpow_le; lia | simpl; lra]. Qed.
-Lemma fl_number x : double (fl x). Proof. apply rnd_number; auto with typeclass_instances. Qed.
+Lemma fl_number x : double (fl x).
+Proof. apply rnd_number; auto with typeclass_instances. Qed.
 Lemma fl_any x : Rabs (fl x - x) <= u * Rabs x + eta.
 Proof.
   pose proof (rounding_error_nearest 53 (-1074) ltac:(lia)) as E. pose proof (eta_positive (-1074)). pose proof u_small.
@@ -46,9 +52,11 @@ Proof.
     replace (u * (k * Rabs (q - o))) with (k * (u * Rabs (q - o))) by ring. apply Rmult_le_compat_l; lra. }
   set (X := k * (q - o)) in *. set (Y := k * d) in *.
   assert (B : Rabs X <= m + eta + u * Rabs X).
-  { replace X with (s + - (s - Y) + - (Y - X)) at 1 by ring. eapply Rle_trans; [apply Rabs_triang |]. rewrite Rabs_Ropp.
-    pose proof (Rabs_triang s (- (s - Y))) as T. rewrite Rabs_Ropp in T. lra. }
-  assert (M0 : 0 <= m) by (pose proof (Rabs_pos s); lra). assert (Um : 0 <= u * m) by (apply Rmult_le_pos; lra).
+  { replace X with (s + - (s - Y) + - (Y - X)) at 1 by ring.
+    eapply Rle_trans; [apply Rabs_triang |]. rewrite Rabs_Ropp. pose proof (Rabs_triang s (- (s - Y))) as T.
+    rewrite Rabs_Ropp in T. lra. }
+  assert (M0 : 0 <= m) by (pose proof (Rabs_pos s); lra).
+  assert (Um : 0 <= u * m) by (apply Rmult_le_pos; lra).
   assert (B2 : u * Rabs X <= u * m + 2 * (u * (u * m)) + 2 * eta).
   { assert (Q1 : Rabs X * (1 - u) <= m + eta) by lra.
     assert (Q2 : Rabs X <= (m + eta) * (1 + 2 * u)).
@@ -103,9 +111,9 @@ Proof.
   assert (Uu : forall m, 0 <= m -> u * (u * m) <= / 1048576 * (u * m)).
   { intros m M. apply Rmult_le_compat_r; [apply Rmult_le_pos; lra | lra]. }
   pose proof (Uu mx mx_0). pose proof (Uu my my_0). pose proof (Uu mz mz_0).
-  assert (Us' : u * S = u * mx + u * my + u * mz) by (unfold S; ring). destruct (fl_within _ _ Px) as (Rx & Bx).
-  destruct (fl_within _ _ Py) as (Ry & By). destruct (fl_within _ _ Pz) as (Rz & Bz). set (px := fl (x a * x s)) in *.
-  set (py := fl (y a * y s)) in *. set (pz := fl (z a * z s)) in *.
+  assert (Us' : u * S = u * mx + u * my + u * mz) by (unfold S; ring).
+  destruct (fl_within _ _ Px) as (Rx & Bx). destruct (fl_within _ _ Py) as (Ry & By). destruct (fl_within _ _ Pz) as (Rz & Bz).
+  set (px := fl (x a * x s)) in *. set (py := fl (y a * y s)) in *. set (pz := fl (z a * z s)) in *.
   assert (Small : forall m, 0 <= m -> u * m <= / 1048576 * m) by (intros m M; apply Rmult_le_compat_r; lra).
   pose proof (Small mx mx_0). pose proof (Small my my_0). pose proof (Small mz mz_0).
   assert (Bx' : Rabs px <= 1002 / 1000 * mx + eta) by lra. assert (By' : Rabs py <= 1002 / 1000 * my + eta) by lra.
@@ -120,8 +128,9 @@ Proof.
   pose proof (product_within _ _ _ _ Ax Ox) as Dx. pose proof (product_within _ _ _ _ Ay Oy) as Dy.
   pose proof (product_within _ _ _ _ Az Oz) as Dz.
   assert (Eq : P - dot a t = (P - (q + pz)) + (q - (px + py)) + (px - x a * x s) + (py - y a * y s) + (pz - z a * z s) +
-    x a * (x s - x t) + y a * (y s - y t) + z a * (z s - z t)) by (unfold dot; ring). rewrite Eq.
-  apply Rabs_le_inv in R1, R2, Rx, Ry, Rz, Dx, Dy, Dz. apply Rabs_le. distribute. unfold S in *. distribute. split; lra.
+    x a * (x s - x t) + y a * (y s - y t) + z a * (z s - z t)) by (unfold dot; ring).
+  rewrite Eq. apply Rabs_le_inv in R1, R2, Rx, Ry, Rz, Dx, Dy, Dz. apply Rabs_le.
+  distribute. unfold S in *. distribute. split; lra.
 Qed.
 
 (** at(i), if 1 - t is a double. *)
@@ -182,13 +191,15 @@ Proof.
   assert (B1 : D * (1 + 40 * u) - 3 * eta <= a1).
   { assert (H : (D * (1 - 2 * u) - eta) * ((1 + 48 * u) * (1 - u)) <= sum * ((1 + 48 * u) * (1 - u))).
     { apply Rmult_le_compat_r; auto. apply Rmult_le_pos; lra. }
-    assert (F : 1 + 40 * u <= (1 - 2 * u) * ((1 + 48 * u) * (1 - u))) by nra. apply (Rmult_le_compat_l D) in F; auto.
-    assert (G : (1 + 48 * u) * (1 - u) <= 2) by nra. apply (Rmult_le_compat_l eta) in G; lra. }
+    assert (F : 1 + 40 * u <= (1 - 2 * u) * ((1 + 48 * u) * (1 - u))) by nra.
+    apply (Rmult_le_compat_l D) in F; auto. assert (G : (1 + 48 * u) * (1 - u) <= 2) by nra.
+    apply (Rmult_le_compat_l eta) in G; lra. }
   assert (B3 : D * (1 + 30 * u) + 19 * (u * S) <= a3).
   { apply Rle_trans with ((a1 + a2) * (1 - u) - eta); auto.
     assert ((D * (1 + 40 * u) - 3 * eta + (199 / 10 * (u * S) - eta)) * (1 - u) <= (a1 + a2) * (1 - u))
-      by (apply Rmult_le_compat_r; lra). assert (F : 1 + 30 * u <= (1 + 40 * u) * (1 - u)) by nra.
-    apply (Rmult_le_compat_l D) in F; auto. assert (0 <= u * eta) by (apply Rmult_le_pos; lra). lra. }
+      by (apply Rmult_le_compat_r; lra).
+    assert (F : 1 + 30 * u <= (1 + 40 * u) * (1 - u)) by nra. apply (Rmult_le_compat_l D) in F; auto.
+    assert (0 <= u * eta) by (apply Rmult_le_pos; lra). lra. }
   assert ((D * (1 + 30 * u) + 19 * (u * S)) * (1 - u) <= (a3 + bpow radix2 (-500)) * (1 - u)) by (apply Rmult_le_compat_r; lra).
   assert (F : 1 + 8 * u <= (1 + 30 * u) * (1 - u)) by nra. apply (Rmult_le_compat_l D) in F; auto. lra.
 Qed.
@@ -206,7 +217,8 @@ Proof.
   { pose proof (Rabs_triang Q (- P)) as Tr. rewrite Rabs_Ropp in Tr. change (Q + - P) with (Q - P) in Tr. lra. }
   destruct (fl_within _ _ B) as (R1 & _).
   replace (dot a _) with ((1 - t) * dot a q0 + t * dot a q1 - ((1 - t) * dot a p0 + t * dot a p1))
-    by (coordinates; ring). assert (L : D * norm a <= D * (1 + 8 * u)) by (apply Rmult_le_compat_l; auto).
+    by (coordinates; ring).
+  assert (L : D * norm a <= D * (1 + 8 * u)) by (apply Rmult_le_compat_l; auto).
   apply Rabs_le_inv in Dp, Dq, R1. lra.
 Qed.
 
@@ -280,14 +292,15 @@ Proof.
   assert (Low : forall v, 0 <= v -> v * (1 - u) - eta <= fl v /\ 0 <= fl v).
   { intros v V. pose proof (fl_any v) as F. rewrite (Rabs_pos_eq v) in F by auto. apply Rabs_le_inv in F.
     split; [lra | apply rnd_nonnegative; auto with typeclass_instances]. }
-  assert (Sq : forall c, 0 <= c * c) by (intros; nra). destruct (Low _ (Sq (x b))) as (L0 & P0).
-  destruct (Low _ (Sq (y b))) as (L1 & P1). destruct (Low _ (Sq (z b))) as (L2 & P2). unfold q in *.
-  set (s0 := fl (x b * x b)) in *. set (s1 := fl (y b * y b)) in *. set (s2 := fl (z b * z b)) in *.
+  assert (Sq : forall c, 0 <= c * c) by (intros; nra).
+  destruct (Low _ (Sq (x b))) as (L0 & P0). destruct (Low _ (Sq (y b))) as (L1 & P1). destruct (Low _ (Sq (z b))) as (L2 & P2).
+  unfold q in *. set (s0 := fl (x b * x b)) in *. set (s1 := fl (y b * y b)) in *. set (s2 := fl (z b * z b)) in *.
   destruct (Low (s0 + s1) ltac:(lra)) as (L3 & P3). set (s3 := fl (s0 + s1)) in *.
   destruct (Low (s3 + s2) ltac:(lra)) as (L4 & P4). set (s4 := fl (s3 + s2)) in *. unfold dot.
-  set (X := x b * x b) in *. set (Y := y b * y b) in *. set (Z := z b * z b) in *. pose proof (Sq (x b)) as X0.
-  pose proof (Sq (y b)) as Y0. pose proof (Sq (z b)) as Z0. fold X in X0. fold Y in Y0. fold Z in Z0. clearbody X Y Z.
-  assert (W : 0 <= 1 - u) by lra. assert (B1 : (X + Y) * (1 - u) - 2 * eta <= s0 + s1) by lra.
+  set (X := x b * x b) in *. set (Y := y b * y b) in *. set (Z := z b * z b) in *.
+  pose proof (Sq (x b)) as X0. pose proof (Sq (y b)) as Y0. pose proof (Sq (z b)) as Z0. fold X in X0. fold Y in Y0. fold Z in Z0. clearbody X Y Z.
+  assert (W : 0 <= 1 - u) by lra.
+  assert (B1 : (X + Y) * (1 - u) - 2 * eta <= s0 + s1) by lra.
   assert (B2 : (X + Y) * (1 - u) * (1 - u) - 3 * eta <= s3).
   { apply (Rmult_le_compat_r (1 - u)) in B1; auto. assert (0 <= u * eta) by (apply Rmult_le_pos; lra). lra. }
   assert (B3 : (X + Y + Z) * (1 - u) * (1 - u) - 4 * eta <= s3 + s2).
@@ -348,16 +361,19 @@ Proof.
       apply (Rmult_le_compat_l (sqrt q)) in F; [| lra].
       apply Rle_trans with (1 := F). rewrite <- Rmult_assoc. apply Rmult_le_compat_r; lra. }
   (* a product's error is u of it and eta *)
-  pose proof (norm_nonnegative b) as Nb0. set (n := r * norm b) in *. assert (N0 : 0 <= n) by (apply Rmult_le_pos; lra).
+  pose proof (norm_nonnegative b) as Nb0. set (n := r * norm b) in *.
+  assert (N0 : 0 <= n) by (apply Rmult_le_pos; lra).
   assert (C : forall c, Rabs (fl (r * c)) <= (1 + u) * r * Rabs c + eta).
   { intros c. pose proof (fl_any (r * c)) as F. rewrite Rabs_mult, (Rabs_pos_eq r) in F by lra.
     replace (fl (r * c)) with (fl (r * c) - r * c + r * c) by ring. eapply Rle_trans; [apply Rabs_triang |].
     rewrite Rabs_mult, (Rabs_pos_eq r) by lra. lra. }
-  apply norm_below; [lra |]. eapply Rle_trans; [apply norm_sum; cbn [x y z]; apply C |].
+  apply norm_below; [lra |].
+  eapply Rle_trans; [apply norm_sum; cbn [x y z]; apply C |].
   assert (Abs : forall c, Rabs c * Rabs c = c * c) by (intros; rewrite <- Rabs_mult; apply Rabs_pos_eq; nra).
   assert (Cm : forall c, c * c <= norm b * norm b -> r * Rabs c <= n).
   { intros c Hc. apply Rmult_le_compat_l; [lra |]. apply Rsqr_le_abs_0 in Hc. now rewrite (Rabs_pos_eq (norm b)) in Hc. }
-  pose proof (norm_square b) as Nq. unfold dot in Nq. assert (Cx : r * Rabs (x b) <= n) by (apply Cm; rewrite Nq; nra).
+  pose proof (norm_square b) as Nq. unfold dot in Nq.
+  assert (Cx : r * Rabs (x b) <= n) by (apply Cm; rewrite Nq; nra).
   assert (Cy : r * Rabs (y b) <= n) by (apply Cm; rewrite Nq; nra).
   assert (Cz : r * Rabs (z b) <= n) by (apply Cm; rewrite Nq; nra).
   assert (Eu : eta <= / 1024 * u).
@@ -383,7 +399,8 @@ Proof.
     assert (U4 : u * (u * (u * u)) <= 1 * (u * (u * u))) by (apply Rmult_le_compat_r; lra).
     clear - N4 U2 U3 U4 Eu U. lra. }
   assert (All : (1 + u) * (1 + u) * (r * r * (x b * x b)) + (1 + u) * (1 + u) * (r * r * (y b * y b)) +
-    (1 + u) * (1 + u) * (r * r * (z b * z b)) = (1 + u) * (1 + u) * (n * n)) by (rewrite <- Nn; ring). lra.
+    (1 + u) * (1 + u) * (r * r * (z b * z b)) = (1 + u) * (1 + u) * (n * n)) by (rewrite <- Nn; ring).
+  lra.
 Qed.
 
 (** sum, for the distance D = k (d0 + d1). *)

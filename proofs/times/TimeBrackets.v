@@ -8,8 +8,10 @@
         linear_bracket_right, quadratic_only_right, quadratic_first_right, quadratic_second_right
                               brackets of roots of linear and quadratic forms *)
 
-From Coq Require Import Reals Lra Psatz List. From Errbound Require Import Contact VertexEdge Separation.
-Import ListNotations. Open Scope R_scope.
+From Coq Require Import Reals Lra Psatz List.
+From Errbound Require Import Contact VertexEdge Separation.
+Import ListNotations.
+Open Scope R_scope.
 
 Section Doubles.
 
@@ -41,8 +43,9 @@ Theorem least_bracket (times : list (R * bracket)) s a : Forall (fun p => holds_
   In (s, a) times -> (forall t b, In (t, b) times -> s <= t) ->
   forall t b, In (t, b) times -> (forall r c, In (r, c) times -> ~ lesser c b) -> b = a.
 Proof.
-  intros F Is Least t b It No. rewrite Forall_forall in F. pose proof (F _ Is) as Hs. pose proof (F _ It) as Ht.
-  cbn [fst snd] in Hs, Ht. destruct (lesser_total a b) as [L | [E | L]]; auto; [exfalso; exact (No s a Is L) |].
+  intros F Is Least t b It No. rewrite Forall_forall in F.
+  pose proof (F _ Is) as Hs. pose proof (F _ It) as Ht. cbn [fst snd] in Hs, Ht.
+  destruct (lesser_total a b) as [L | [E | L]]; auto; [exfalso; exact (No s a Is L) |].
   pose proof (lesser_bracket b a t s Ht Hs L). specialize (Least t b It). lra.
 Qed.
 
@@ -54,8 +57,9 @@ Theorem first_of_union (parts : list (R -> Prop)) t : (exists H, In H parts /\ f
   first (fun s => exists H, In H parts /\ H s) t.
 Proof.
   intros (H & I & (T & Ht & _)) Least Exist. split; auto. split; [eauto |]. intros s S (G & J & Gs).
-  destruct (Exist G J) as (r & Fr); [exists s; split; [lra | auto] |]. pose proof (Least G r J Fr).
-  destruct Fr as (R0 & _ & Before). apply (Before s); auto. lra.
+  destruct (Exist G J) as (r & Fr); [exists s; split; [lra | auto] |].
+  pose proof (Least G r J Fr). destruct Fr as (R0 & _ & Before).
+  apply (Before s); auto. lra.
 Qed.
 (** There is no contact before the bracket, nor at its lower end if it has positive length, and there is one inside. *)
 Theorem bracket_of_first (H : R -> Prop) t b : first H t -> holds_time b t ->
@@ -96,7 +100,8 @@ Proof.
       intros y Y; apply Earlier; lra |]. right. split; [lra | auto].
 Qed.
 Lemma search_only p before low high r b : search p before low high b -> low < r < high ->
-  (forall x, low < x < high -> 0 < p x * before -> x < r) -> (forall x, low < x < high -> p x * before < 0 -> r < x) ->
+  (forall x, low < x < high -> 0 < p x * before -> x < r) ->
+  (forall x, low < x < high -> p x * before < 0 -> r < x) ->
   (forall x, low < x < high -> p x = 0 -> x = r) -> holds_time b r.
 Proof.
   intros B R0 Later Earlier Only. destruct (search_right p before low high r b B R0 Later Earlier)
@@ -122,8 +127,10 @@ Proof.
   assert (Root : forall t, linear_at p0 p1 t = 0 <-> t = r).
   { intros t. rewrite L. split; [| intros ->; ring]. intros Z. apply Rmult_integral in Z. destruct Z; lra. }
   exists r. destruct B as [(Z & ->) | [(N0 & Z & ->) | (N0 & N1 & B)]].
-  - assert (Er : r = 0) by (unfold r; rewrite Z; field; lra). rewrite Er in *. split; [lra |]. split; auto. left. auto.
-  - assert (Er : r = 1) by (unfold r; rewrite Z; field; lra). rewrite Er in *. split; [lra |]. split; auto. left. auto.
+  - assert (Er : r = 0) by (unfold r; rewrite Z; field; lra). rewrite Er in *. split; [lra |]. split; auto.
+    left. auto.
+  - assert (Er : r = 1) by (unfold r; rewrite Z; field; lra). rewrite Er in *. split; [lra |]. split; auto.
+    left. auto.
   - assert (O : p0 * p1 < 0) by (destruct (Req_dec (p0 * p1) 0) as [Q |]; [apply Rmult_integral in Q; tauto | lra]).
     assert (P : 0 < p0 * (p0 - p1)) by nra. assert (P1 : 0 < - p1 * (p0 - p1)) by nra.
     assert (E1 : (1 - r) * (p0 - p1) = - p1) by lra.
@@ -132,8 +139,10 @@ Proof.
       - assert (0 < p0) by nra. assert (0 < - p1) by nra. split; nra.
       - assert (p0 < 0) by nra. assert (- p1 < 0) by nra. split; nra. }
     split; [lra |]. split; auto. apply (search_only _ _ _ _ r b B); auto.
-    + intros x X. rewrite L. intros Q. assert (0 < (p0 * (p0 - p1)) * (r - x)) by lra. apply Rnot_le_lt. intros C. nra.
-    + intros x X. rewrite L. intros Q. assert ((p0 * (p0 - p1)) * (r - x) < 0) by lra. apply Rnot_le_lt. intros C. nra.
+    + intros x X. rewrite L. intros Q. assert (0 < (p0 * (p0 - p1)) * (r - x)) by lra.
+      apply Rnot_le_lt. intros C. nra.
+    + intros x X. rewrite L. intros Q. assert ((p0 * (p0 - p1)) * (r - x) < 0) by lra.
+      apply Rnot_le_lt. intros C. nra.
     + intros x X Z. now apply Root.
 Qed.
 
@@ -175,7 +184,8 @@ Section TwoRoots.
 Context (f : quadratic) (k p q : R) (nonzero : k <> 0) (in_order : 0 < p < q /\ q < 1)
   (product : forall t, quadratic_at f t = k * ((t - p) * (t - q))).
 
-Lemma end_value : c0 f = k * (p * q). Proof. rewrite <- (proj1 (at_ends f)), product. ring. Qed.
+Lemma end_value : c0 f = k * (p * q).
+Proof. rewrite <- (proj1 (at_ends f)), product. ring. Qed.
 Lemma relative_sign t : quadratic_at f t * c0 f = k * k * (p * q) * ((t - p) * (t - q)).
 Proof. rewrite end_value, product. ring. Qed.
 Lemma unit_positive : 0 < k * k * (p * q).

@@ -6,9 +6,11 @@
         search_widths         the polynomial's values fit the words of their type
         first_root_widths     so do the numbers of first_root_nonpositive and of bracket_of_quadratic_root *)
 
-From Coq Require Import Reals ZArith Lia Lra List Bool. From Flocq Require Import Core.
+From Coq Require Import Reals ZArith Lia Lra List Bool.
+From Flocq Require Import Core.
 From Errbound Require Import Sign Bernstein VertexEdge CubicRoots TimeBrackets Decisions Words FixedWidths.
-Import ListNotations. Open Scope R_scope.
+Import ListNotations.
+Open Scope R_scope.
 
 (** ** The loop *)
 
@@ -62,8 +64,9 @@ Fixpoint between (steps : nat) (a b x step : Z) (corrections : nat) : option bra
 Lemma place_inside a b x step : (1 < b - a)%Z -> (a < place_asked a b x step < b)%Z.
 Proof.
   intros W. unfold place_asked.
-  destruct (Z.leb_spec x a), (Z.leb_spec b x); cbn [orb]; try lia; (destruct (Z.eqb_spec step 1);
-    [lia |]; pose proof (Z.div_mod (b - a) 2 ltac:(lia)); pose proof (Z.mod_pos_bound (b - a) 2 ltac:(lia)); lia).
+  destruct (Z.leb_spec x a), (Z.leb_spec b x); cbn [orb]; try lia;
+    (destruct (Z.eqb_spec step 1); [lia |]; pose proof (Z.div_mod (b - a) 2 ltac:(lia));
+     pose proof (Z.mod_pos_bound (b - a) 2 ltac:(lia)); lia).
 Qed.
 Lemma double_is n : (0 <= n <= one)%Z -> double (double_of n).
 Proof. intros N. apply (proj2 (numbered (double_of n))). eauto. Qed.
@@ -104,19 +107,25 @@ Qed.
 Definition ends (steps : nat) (a b x step : Z) (corrections : nat) : Prop :=
   forall more, (steps <= more)%nat ->
     between more a b x step corrections = between steps a b x step corrections.
-Lemma step_ends steps a b x step corrections : (forall a' b' x' step', let m := place_asked a b x step in
-  (1 < b - a)%Z -> (a' = m /\ b' = b \/ a' = a /\ b' = m) -> (x' = m + step /\ a' = m \/ x' = m - step /\ b' = m)%Z /\
-  step' = Z.min (4 * step) farthest_step \/ (corrections < 3)%nat /\ step' = step ->
-  ends steps a' b' x' step' (Datatypes.S corrections)) -> ends (Datatypes.S steps) a b x step corrections.
+Lemma step_ends steps a b x step corrections :
+  (forall a' b' x' step', let m := place_asked a b x step in (1 < b - a)%Z ->
+     (a' = m /\ b' = b \/ a' = a /\ b' = m) ->
+     (x' = m + step /\ a' = m \/ x' = m - step /\ b' = m)%Z /\ step' = Z.min (4 * step) farthest_step \/
+     (corrections < 3)%nat /\ step' = step ->
+     ends steps a' b' x' step' (Datatypes.S corrections)) ->
+  ends (Datatypes.S steps) a b x step corrections.
 Proof.
-  intros H more L. destruct more as [| more]; [lia |]. cbn [between]. destruct (Z.leb_spec (b - a) 1) as [| W]; auto.
-  cbv zeta in H |- *. set (m := place_asked a b x step) in *. destruct (sign_of_value m) as [s |]; auto.
-  assert (Same : forall a' b' x' step',
-    (a' = m /\ b' = b \/ a' = a /\ b' = m) -> (x' = m + step /\ a' = m \/ x' = m - step /\ b' = m)%Z /\
-    step' = Z.min (4 * step) farthest_step \/ (corrections < 3)%nat /\ step' = step -> between more a' b' x' step'
-    (Datatypes.S corrections) = between steps a' b' x' step' (Datatypes.S corrections)) by (intros; apply H; auto; lia).
-  destruct s; auto; destruct (same_sign _ before); (destruct (newton m) as [next |]; [destruct
-    (Nat.ltb_spec corrections 3); cbn [andb]; [destruct ((_ <? next)%Z && (next <? _)%Z) |] |]); apply Same; auto 6.
+  intros H more L. destruct more as [| more]; [lia |]. cbn [between].
+  destruct (Z.leb_spec (b - a) 1) as [| W]; auto. cbv zeta in H |- *. set (m := place_asked a b x step) in *.
+  destruct (sign_of_value m) as [s |]; auto.
+  assert (Same : forall a' b' x' step', (a' = m /\ b' = b \/ a' = a /\ b' = m) ->
+     (x' = m + step /\ a' = m \/ x' = m - step /\ b' = m)%Z /\ step' = Z.min (4 * step) farthest_step \/
+     (corrections < 3)%nat /\ step' = step ->
+     between more a' b' x' step' (Datatypes.S corrections) = between steps a' b' x' step' (Datatypes.S corrections))
+    by (intros; apply H; auto; lia).
+  destruct s; auto; destruct (same_sign _ before);
+    (destruct (newton m) as [next |]; [destruct (Nat.ltb_spec corrections 3); cbn [andb];
+       [destruct ((_ <? next)%Z && (next <? _)%Z) |] |]); apply Same; auto 6.
 Qed.
 
 (** From the farthest step on, each step halves the width or reduces it by the farthest step. *)
@@ -149,10 +158,12 @@ Proof.
     pose proof (Z.div_pos (b - a) farthest_step ltac:(lia) ltac:(easy)). lia. }
   apply step_ends. intros a' b' x' step' m W A [(X' & ->) | (? & _)]; [| lia].
   change (Z.min (4 * farthest_step) farthest_step) with farthest_step.
-  pose proof (place_inside a b x farthest_step W) as I. fold m in I. apply IH; [lia | | lia | lia].
-  enough (left_to_do (b' - a') < left_to_do (b - a))%Z by lia. unfold m, place_asked in A, I.
-  change (farthest_step =? 1)%Z with false in A, I. destruct ((x <=? a) || (b <=? x))%Z eqn:K.
-  - pose proof (Z.div_mod (b - a) 2 ltac:(lia)). pose proof (Z.mod_pos_bound (b - a) 2 ltac:(lia)). apply halved; lia.
+  pose proof (place_inside a b x farthest_step W) as I. fold m in I.
+  apply IH; [lia | | lia | lia]. enough (left_to_do (b' - a') < left_to_do (b - a))%Z by lia.
+  unfold m, place_asked in A, I. change (farthest_step =? 1)%Z with false in A, I.
+  destruct ((x <=? a) || (b <=? x))%Z eqn:K.
+  - pose proof (Z.div_mod (b - a) 2 ltac:(lia)). pose proof (Z.mod_pos_bound (b - a) 2 ltac:(lia)).
+    apply halved; lia.
   - apply orb_false_iff in K. destruct K as (K0 & K1). apply Z.leb_gt in K0, K1. apply far_off; lia.
 Qed.
 (** Before that, the step grows. *)
@@ -181,11 +192,13 @@ Lemma early_ends k : (k <= 3)%nat -> forall a b x j, (j + k <= 3)%nat -> (a < b)
 Proof.
   intros K. induction k as [| k IH]; intros a b x j J O W.
   - replace (Z.of_nat j) with (30 - Z.of_nat (30 - j))%Z by lia. change (3 - 0)%nat with 3%nat. intros more L.
-    assert (E : forall n, (30 - j + 68 <= n)%nat -> between n a b x (4 ^ (30 - Z.of_nat (30 - j)))
-      3 = between (30 - j + 68) a b x (4 ^ (30 - Z.of_nat (30 - j))) 3) by (apply growing_ends; lia).
+    assert (E : forall n, (30 - j + 68 <= n)%nat ->
+      between n a b x (4 ^ (30 - Z.of_nat (30 - j))) 3 = between (30 - j + 68) a b x (4 ^ (30 - Z.of_nat (30 - j))) 3)
+      by (apply growing_ends; lia).
     rewrite (E more), (E (0 + 98)%nat); [easy | lia | lia].
-  - apply step_ends. intros a' b' x' step' m W' A B. pose proof (place_inside a b x (4 ^ Z.of_nat j)%Z W') as I.
-    fold m in I. replace (Datatypes.S (3 - Datatypes.S k)) with (3 - k)%nat by lia.
+  - apply step_ends. intros a' b' x' step' m W' A B.
+    pose proof (place_inside a b x (4 ^ Z.of_nat j)%Z W') as I. fold m in I.
+    replace (Datatypes.S (3 - Datatypes.S k)) with (3 - k)%nat by lia.
     destruct B as [(_ & ->) | (_ & ->)]; [| apply IH; lia].
     replace (Z.min (4 * 4 ^ Z.of_nat j) farthest_step) with (4 ^ Z.of_nat (Datatypes.S j))%Z; [apply IH; lia |].
     rewrite Nat2Z.inj_succ, Z.pow_succ_r by lia. assert (4 ^ Z.of_nat j <= 4 ^ 29)%Z by (apply Z.pow_le_mono_r; lia).
@@ -210,8 +223,10 @@ Lemma next_double n : (0 <= n)%Z ->
   double_of_order (n + 1) = double_of_order n + bpow radix2 (Z.max 1 (n / 2 ^ 52) - 1075).
 Proof.
   intros N. unfold double_of_order. pose proof (Z.div_mod n (2 ^ 52) ltac:(easy)) as D.
-  pose proof (Z.mod_pos_bound n (2 ^ 52) ltac:(easy)) as M. pose proof (Z.div_pos n (2 ^ 52) N ltac:(easy)) as E.
-  set (e := (n / 2 ^ 52)%Z) in *. set (m := (n mod 2 ^ 52)%Z) in *. destruct (Z.eq_dec (m + 1) (2 ^ 52)) as [F | F].
+  pose proof (Z.mod_pos_bound n (2 ^ 52) ltac:(easy)) as M.
+  pose proof (Z.div_pos n (2 ^ 52) N ltac:(easy)) as E.
+  set (e := (n / 2 ^ 52)%Z) in *. set (m := (n mod 2 ^ 52)%Z) in *.
+  destruct (Z.eq_dec (m + 1) (2 ^ 52)) as [F | F].
   - assert (Q : ((n + 1) / 2 ^ 52 = e + 1)%Z) by (symmetry; apply Z.div_unique with 0%Z; lia).
     assert (R : ((n + 1) mod 2 ^ 52 = 0)%Z) by (symmetry; apply Z.mod_unique with (e + 1)%Z; lia).
     rewrite Q, R. destruct (Z.eqb_spec (e + 1) 0); [lia |]. destruct (Z.eqb_spec e 0) as [-> | E0].
@@ -234,7 +249,8 @@ Proof.
   - rewrite Nat2Z.inj_succ. unfold Z.succ. rewrite Z.add_assoc, next_double by lia.
     pose proof (bpow_gt_0 radix2 (Z.max 1 ((m + 1 + Z.of_nat k) / 2 ^ 52) - 1075)). lra.
 Qed.
-Lemma first_double : double_of_order 0 = 0. Proof. unfold double_of_order. simpl. ring. Qed.
+Lemma first_double : double_of_order 0 = 0.
+Proof. unfold double_of_order. simpl. ring. Qed.
 Lemma last_double : double_of_order order_of_1 = 1.
 Proof.
   unfold double_of_order, order_of_1. change (1023 * 2 ^ 52 / 2 ^ 52)%Z with 1023%Z. cbn [Z.eqb].
@@ -253,7 +269,8 @@ Proof.
     unfold generic_format in D. set (e := cexp radix2 (FLT_exp (-1074) 53) x) in *.
     set (m := Ztrunc (scaled_mantissa radix2 (FLT_exp (-1074) 53) x)) in *.
     assert (E : x = IZR m * bpow radix2 e) by exact D.
-    assert (Ee : e = Z.max (mag radix2 x - 53) (-1074)) by reflexivity. pose proof (bpow_gt_0 radix2 e) as Pe.
+    assert (Ee : e = Z.max (mag radix2 x - 53) (-1074)) by reflexivity.
+    pose proof (bpow_gt_0 radix2 e) as Pe.
     assert (Pm : (0 < m)%Z).
     { apply lt_IZR. apply Rmult_lt_reg_r with (bpow radix2 e); auto. rewrite <- E. lra. }
     destruct (mag radix2 x) as (k & K). cbn [mag_val] in *. specialize (K N). rewrite Rabs_pos_eq in K by lra.
@@ -265,8 +282,9 @@ Proof.
     destruct (Z_lt_le_dec m (2 ^ 52)) as [S | S].
     + assert (Es : e = (-1074)%Z).
       { destruct (Z.max_spec (k - 53) (-1074)) as [(_ & G) | (G & G')]; [congruence |]. exfalso.
-        assert (e = k - 53)%Z by lia. apply (Rlt_irrefl x). apply Rlt_le_trans with (bpow radix2 (k - 1)); auto.
-        rewrite E. replace (k - 1)%Z with (52 + e)%Z by lia. rewrite bpow_plus. apply Rmult_lt_compat_r; auto.
+        assert (e = k - 53)%Z by lia. apply (Rlt_irrefl x).
+        apply Rlt_le_trans with (bpow radix2 (k - 1)); auto. rewrite E.
+        replace (k - 1)%Z with (52 + e)%Z by lia. rewrite bpow_plus. apply Rmult_lt_compat_r; auto.
         apply IZR_lt in S. exact S. }
       exists m. split; [lia |]. unfold double_of_order. rewrite Z.div_small by lia. cbn [Z.eqb]. now rewrite <- Es.
     + exists ((e + 1074) * 2 ^ 52 + m)%Z. split; [lia |]. unfold double_of_order.

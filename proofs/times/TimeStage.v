@@ -8,9 +8,11 @@
         root_reached            signs of Y before and after t: the first of two roots is within reach
         bracket_around          its bracket, by signs at adjacent doubles *)
 
-From Coq Require Import Reals ZArith Lia Lra Psatz List. From Flocq Require Import Core.
+From Coq Require Import Reals ZArith Lia Lra Psatz List.
+From Flocq Require Import Core.
 From Errbound Require Import Bernstein CubicRoots Subdivision Contact Separation TimeBrackets Format Twofold.
-Import ListNotations. Open Scope R_scope.
+Import ListNotations.
+Open Scope R_scope.
 
 (** ** De Casteljau *)
 
@@ -71,12 +73,13 @@ Proof. intros L F. induction F as [| a b p q (A & M & N) F IH]; constructor; aut
 Lemma row_step t e m p q : 0 <= t <= 1 -> row_near e m p q ->
   row_near (e + 51 / 10 * (u * m) + 2 * eta) (m + 51 / 10 * (u * m) + 2 * eta) (next_row (lerp t) p) (next_row (exact_lerp t) q).
 Proof.
-  intros T F. induction F as [| a x p q (A & Ma & Na) F IH]; [constructor |].
-  destruct F as [| b y p q (B & Mb & Nb) F]; [constructor |]. cbn [next_row] in *. constructor; auto.
-  destruct (lerp_near t a b m A B T Ma Mb) as (N & S). split; [apply fl_number |]. split; auto.
+  intros T F. induction F as [| a x p q (A & Ma & Na) F IH]; [constructor |]. destruct F as [| b y p q (B & Mb & Nb) F]; [constructor |].
+  cbn [next_row] in *. constructor; auto. destruct (lerp_near t a b m A B T Ma Mb) as (N & S).
+  split; [apply fl_number |]. split; auto.
   replace (lerp t a b - exact_lerp t x y) with (lerp t a b - exact_lerp t a b + ((1 - t) * (a - x) + t * (b - y)))
-    by (unfold exact_lerp; ring). eapply Rle_trans; [apply Rabs_triang |].
-  assert (Rabs ((1 - t) * (a - x) + t * (b - y)) <= e); [| lra]. apply Rabs_le_inv in Na, Nb. apply Rabs_le. split; nra.
+    by (unfold exact_lerp; ring).
+  eapply Rle_trans; [apply Rabs_triang |]. assert (Rabs ((1 - t) * (a - x) + t * (b - y)) <= e); [| lra].
+  apply Rabs_le_inv in Na, Nb. apply Rabs_le. split; nra.
 Qed.
 Fixpoint after_rows (n : nat) (lerp : R -> R -> R) (p : list R) : list R :=
   match n with O => p | S n => after_rows n lerp (next_row lerp p) end.
@@ -143,7 +146,8 @@ Proof.
     pose proof (P (w ^ 3) _ ltac:(now apply pow_le) (D e d ltac:(auto) ltac:(auto))).
     replace (8 * m) with (4 * ((1 - w) ^ 3 * (2 * m) + 3 * (1 - w) ^ 2 * w * (2 * m) + 3 * (1 - w) * w ^ 2 * (2 * m) + w ^ 3 * (2 * m)))
       by ring. apply Rabs_le. lra. }
-  assert (Way : forall g h, 0 <= g -> g < h -> h <= 1 -> Rabs (form q (1 - h) h - form q (1 - g) g) <= 8 * m * (h - g)).
+  assert (Way : forall g h, 0 <= g -> g < h -> h <= 1 ->
+    Rabs (form q (1 - h) h - form q (1 - g) g) <= 8 * m * (h - g)).
   { intros g h G GH H'. destruct (MVT_cor2 (fun w => form q (1 - w) w) (slope q) g h GH) as (w & Ew & W).
     { intros w _. apply derivable_form. }
     rewrite Ew, Rabs_mult, (Rabs_pos_eq (h - g)) by lra. apply Rmult_le_compat_r; [lra |]. apply B. lra. }

@@ -7,17 +7,24 @@
         difference_exact     differences of coordinates are exact
         y_near, time_stage_sign, error_enough   if the value exceeds error(), Y has its sign *)
 
-From Coq Require Import Reals ZArith Lia Lra Psatz List. From Flocq Require Import Core.
-From Errbound Require Import Format ErrorFree. Import ListNotations. Open Scope R_scope.
+From Coq Require Import Reals ZArith Lia Lra Psatz List.
+From Flocq Require Import Core.
+From Errbound Require Import Format ErrorFree.
+Import ListNotations.
+Open Scope R_scope.
 
 #[local] Instance double_precision : Prec_gt_0 53 := eq_refl.
-Notation fl := (rnd 53 (-1074) nearest). Notation double := (number 53 (-1074)). Notation u := (u 53).
-Notation eta := (eta (-1074)). Notation two_sum := (two_sum 53 (-1074)).
+Notation fl := (rnd 53 (-1074) nearest).
+Notation double := (number 53 (-1074)).
+Notation u := (u 53).
+Notation eta := (eta (-1074)).
+Notation two_sum := (two_sum 53 (-1074)).
 Notation fast_two_sum := (fast_two_sum 53 (-1074)).
 
 Lemma u_small : 0 < u <= / 1099511627776.
 Proof. split; [apply u_positive |]. unfold Format.u. apply Rle_trans with (bpow radix2 (-40)); [apply bpow_le; lia | simpl; lra]. Qed.
-Lemma fl_number x : double (fl x). Proof. apply rnd_number; auto with typeclass_instances. Qed.
+Lemma fl_number x : double (fl x).
+Proof. apply rnd_number; auto with typeclass_instances. Qed.
 Lemma fl_sum x y : double x -> double y -> Rabs (fl (x + y) - (x + y)) <= u * Rabs (x + y).
 Proof. apply (sum_error 53 (-1074) nearest _ _ (rounding_error_nearest 53 (-1074) ltac:(lia))). Qed.
 Lemma fl_difference x y : double x -> double y -> Rabs (fl (x - y) - (x - y)) <= u * Rabs (x - y).
@@ -43,7 +50,8 @@ Theorem fast_two_sum_near x y : double x -> double y -> Rabs x <= Rabs y -> let 
   Rabs (fst r + snd r - (x + y)) <= 2 * u * Rabs y /\ Rabs (snd r) <= 5 * u * Rabs y.
 Proof.
   intros X Y L. unfold ErrorFree.fast_two_sum. cbn [fst snd]. pose proof u_small as U. pose proof (Rabs_pos y) as Y0.
-  set (s := fl (x + y)). set (z := fl (s - x)). set (e := fl (y - z)). pose proof (fl_sum x y X Y) as H1. fold s in H1.
+  set (s := fl (x + y)). set (z := fl (s - x)). set (e := fl (y - z)).
+  pose proof (fl_sum x y X Y) as H1. fold s in H1.
   pose proof (fl_difference s x (fl_number _) X) as H2. fold z in H2.
   pose proof (fl_difference y z Y (fl_number _)) as H3. fold e in H3. set (m := Rabs y) in *.
   assert (B1 : Rabs (x + y) <= 2 * m) by (pose proof (Rabs_triang x y); fold m in H; lra).
@@ -117,14 +125,16 @@ Theorem sum_near a b x y A B k l m : known a x A k -> known b y B l -> Rabs (x +
   (Rabs (snd (sum a b)) <= 2 * u * Rabs (fst (sum a b)) \/ Rabs (snd (sum a b)) <= 6 * (u * (u * (A + B)))).
 Proof.
   intros Ka Kb Hm HS Hk. unfold sum. destruct Ka as [Av Ae Ax A1 A2 A3], Kb as [Bv Be By B1 B2 B3].
-  destruct a as (av, ae), b as (bv, be). cbn [fst snd] in *. pose proof u_small as U. set (S := A + B) in *.
-  assert (S0 : 0 <= S) by (pose proof (Rabs_pos x); pose proof (Rabs_pos y); unfold S; lra).
-  assert (Us : 0 <= u * S) by (apply Rmult_le_pos; lra). assert (Uus : 0 <= u * (u * S)) by (apply Rmult_le_pos; lra).
+  destruct a as (av, ae), b as (bv, be). cbn [fst snd] in *. pose proof u_small as U.
+  set (S := A + B) in *. assert (S0 : 0 <= S) by (pose proof (Rabs_pos x); pose proof (Rabs_pos y); unfold S; lra).
+  assert (Us : 0 <= u * S) by (apply Rmult_le_pos; lra).
+  assert (Uus : 0 <= u * (u * S)) by (apply Rmult_le_pos; lra).
   assert (U3 : u * (u * (u * S)) <= / 1024 * (u * (u * S))) by (apply Rmult_le_compat_r; lra).
   pose proof (two_sum_exact 53 (-1074) ltac:(lia) av bv ltac:(lia) Av Bv) as E.
   assert (Ns : double (fst (two_sum av bv)) /\ double (snd (two_sum av bv))) by (split; apply fl_number).
-  assert (Fs : fst (two_sum av bv) = fl (av + bv)) by easy. destruct (two_sum av bv) as (s, e). cbn [fst snd] in *.
-  destruct Ns as (Ns & Ne). pose proof (fl_sum av bv Av Bv) as R1. rewrite <- Fs in R1.
+  assert (Fs : fst (two_sum av bv) = fl (av + bv)) by easy.
+  destruct (two_sum av bv) as (s, e). cbn [fst snd] in *. destruct Ns as (Ns & Ne).
+  pose proof (fl_sum av bv Av Bv) as R1. rewrite <- Fs in R1.
   assert (Sv : Rabs (av + bv) <= 33 / 32 * S) by (eapply Rle_trans; [apply Rabs_triang |]; unfold S; lra).
   assert (E1 : Rabs e <= 33 / 32 * (u * S)).
   { replace e with (- (s - (av + bv))) by lra. rewrite Rabs_Ropp. nra. }
@@ -225,7 +235,8 @@ Proof.
   { replace z with (z - (pe + g) + (pe + g)) by ring. eapply Rle_trans; [apply Rabs_triang |].
     pose proof (Rabs_triang pe g). nra. }
   pose proof (Rabs_triang pe g) as Tg. pose proof (Rabs_pos pe) as Q0. pose proof (Rabs_pos g) as G0.
-  set (K := A * l + B * k + k * l) in *. destruct (Rle_or_lt (Rabs z) (Rabs p)) as [L | L].
+  set (K := A * l + B * k + k * l) in *.
+  destruct (Rle_or_lt (Rabs z) (Rabs p)) as [L | L].
   - assert (Sg : Rabs (pe + g) <= 112 / 32 * (u * P)) by lra. pose proof (Scale _ _ Sg).
     destruct (normal_near p z (x * y) P (K + 13 * (u * (u * P)))) as [(_ & N & _) | (L' & _)]; auto;
       try (subst p z; apply fl_number); try lra. now apply product_of.
@@ -374,7 +385,8 @@ Proof.
   { unfold M. replace (bpow radix2 (-450)) with (bpow radix2 (-300) * bpow radix2 (-150)) by now rewrite <- bpow_plus.
     apply Rmult_le_compat; auto using bpow_ge_0. now apply moderate_product. }
   assert (M0 : 0 < M) by (unfold M; repeat apply Rmult_lt_0_compat; auto).
-  destruct (lost_little (2 * M)) as (L1 & L2); [lra |]. assert (Um : 0 < u * M) by (apply Rmult_lt_0_compat; lra).
+  destruct (lost_little (2 * M)) as (L1 & L2); [lra |].
+  assert (Um : 0 < u * M) by (apply Rmult_lt_0_compat; lra).
   assert (U2 : u * (u * M) <= / 1099511627776 * (u * M)) by (apply Rmult_le_compat_r; lra).
   assert (U0 : 0 <= u * (u * M)) by (apply Rmult_le_pos; lra).
   assert (U4 : u * (u * (u * (u * M))) <= / 1099511627776 * (u * (u * M))).
@@ -473,7 +485,8 @@ Proof.
   { assert ((1 + 2 * u) * (1 + 2 * u) <= 11 / 10) by nra. assert (9 / 10 <= (1 - u) * (1 - u)) by nra.
     assert ((1 + 2 * u) * (1 + 2 * u) * (1 + 2 * u) <= 11 / 10 * (11 / 10)) by (apply Rmult_le_compat; nra).
     assert (9 / 10 * (9 / 10) <= (1 - u) * (1 - u) * (1 - u)) by (apply Rmult_le_compat; nra). lra. }
-  assert (Hp : 0 < h * P) by (now apply Rmult_lt_0_compat). apply (Rmult_le_compat_r (h * P)) in H; [| lra].
+  assert (Hp : 0 < h * P) by (now apply Rmult_lt_0_compat).
+  apply (Rmult_le_compat_r (h * P)) in H; [| lra].
   replace (1210 * (/ 4096 * h) * ((1 + 2 * u) * (1 + 2 * u) * (1 + 2 * u)) * P) with
     (1210 * / 4096 * ((1 + 2 * u) * (1 + 2 * u) * (1 + 2 * u)) * (h * P)) by ring.
   replace (P * (1 - u) * (1 - u) * h * (1 - u)) with ((1 - u) * (1 - u) * (1 - u) * (h * P)) by ring. exact H.
@@ -504,7 +517,8 @@ Proof.
     rewrite Rabs_Ropp. lra. }
   lra.
 Qed.
-Lemma exact_or_tiny a b error : double a -> double b -> product_error_is_exact 53 (-1074) a b (fl (a * b), error) \/
+Lemma exact_or_tiny a b error : double a -> double b ->
+  product_error_is_exact 53 (-1074) a b (fl (a * b), error) \/
   (a <> 0 /\ b <> 0 /\ Rabs (a * b) <= 2 * bpow radix2 (-968) /\ eta <= bpow radix2 (-968)).
 Proof.
   intros A B. unfold product_error_is_exact. rewrite (threshold 53 (-1074)) by lia. cbn [fst].
@@ -535,8 +549,9 @@ Qed.
 Lemma split_crude x : double x -> x <> 0 -> let s := split 53 (-1074) x in
   Rabs (fst s) <= bpow radix2 40 * Rabs x /\ Rabs (snd s) <= bpow radix2 40 * Rabs x.
 Proof.
-  intros N Z s. pose proof (at_least_eta x N Z) as E. unfold s, split. cbn [fst snd]. change (half_bits 53) with 27%Z.
-  set (c := fl ((bpow radix2 27 + 1) * x)). set (w := fl (c - x)). set (h := fl (c - w)). set (l := fl (x - h)).
+  intros N Z s. pose proof (at_least_eta x N Z) as E. unfold s, split. cbn [fst snd].
+  change (half_bits 53) with 27%Z. set (c := fl ((bpow radix2 27 + 1) * x)).
+  set (w := fl (c - x)). set (h := fl (c - w)). set (l := fl (x - h)).
   assert (P : Rabs ((bpow radix2 27 + 1) * x) <= bpow radix2 28 * Rabs x).
   { rewrite Rabs_mult, Rabs_pos_eq by (pose proof (bpow_gt_0 radix2 27); lra). apply Rmult_le_compat_r; [apply Rabs_pos |].
     simpl. lra. }

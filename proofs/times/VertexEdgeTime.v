@@ -7,7 +7,8 @@
 
 From Coq Require Import Reals Lra Psatz List Bool.
 From Errbound Require Import Sign Bernstein Contact VertexEdge Separation FirstContact TimeBrackets.
-Import ListNotations. Open Scope R_scope.
+Import ListNotations.
+Open Scope R_scope.
 
 (** ** first_root_nonpositive *)
 
@@ -61,7 +62,8 @@ Proof.
     destruct place; try easy; now split.
 Qed.
 
-Lemma quadratic_continuous b : continuity (quadratic_at b). Proof. unfold quadratic_at, value. reg. Qed.
+Lemma quadratic_continuous b : continuity (quadratic_at b).
+Proof. unfold quadratic_at, value. reg. Qed.
 (** Positive at 0 and without roots up to t. *)
 Lemma no_root_positive b t : 0 < c0 b -> 0 < t -> (forall s, 0 < s <= t -> quadratic_at b s <> 0) ->
   0 < quadratic_at b t.
@@ -112,11 +114,14 @@ Proof.
     destruct (rootless_hull _ t C T). rewrite at_time_quadratic. now apply (proj1 (Forall_forall _ _) V). }
   destruct (certainly_rootless (coefficients f0)) eqn:R0; [apply (Rootless f0); simpl; auto |].
   destruct (certainly_rootless (coefficients f1)) eqn:R1; [apply (Rootless f1); simpl; auto |].
-  destruct (certainly_rootless (coefficients f2)) eqn:R2; [apply (Rootless f2); simpl; auto |]. clear Rootless R0 R1 R2.
+  destruct (certainly_rootless (coefficients f2)) eqn:R2; [apply (Rootless f2); simpl; auto |].
+  clear Rootless R0 R1 R2.
   destruct (same_sign (sign_throughout (coefficients b)) positive) eqn:H.
   { left. split; auto. intros t T (_ & B). pose proof (sign_throughout_right (coefficients b) t T) as S.
-    destruct (sign_throughout (coefficients b)); try discriminate. rewrite at_time_quadratic in S. simpl in S. lra. }
-  clear H. destruct (touches_true f0 f1 f2 b) as (T0 & T1). destruct (touches f0 f1 f2 b c0) eqn:S0.
+    destruct (sign_throughout (coefficients b)); try discriminate.
+    rewrite at_time_quadratic in S. simpl in S. lra. }
+  clear H. destruct (touches_true f0 f1 f2 b) as (T0 & T1).
+  destruct (touches f0 f1 f2 b c0) eqn:S0.
   { right. exists 0. split; [easy |]. split; [lra |]. split; [now apply T0 | intros s S; lra]. }
   assert (N0 : ~ meets f0 f1 f2 b 0) by (intros M; apply T0 in M; discriminate).
   set (at_1 := touches f0 f1 f2 b c2) in *. clearbody at_1. clear S0. cbv zeta.
@@ -125,11 +130,14 @@ Proof.
   { intros No. apply (or_at_end_told _ nowhere at_1 N0 T1). now left. }
   destruct (same_sign (sign_inside (coefficients b)) positive) eqn:H.
   { apply AtEnd. intros t T (_ & B). pose proof (sign_inside_right (coefficients b) t T) as S.
-    destruct (sign_inside (coefficients b)); try discriminate. rewrite at_time_quadratic in S. simpl in S. lra. }
-  pose proof (common_roots_right [f0; f1; f2]) as K. destruct (common_roots [f0; f1; f2]) as [| m | f |]; simpl in K.
+    destruct (sign_inside (coefficients b)); try discriminate.
+    rewrite at_time_quadratic in S. simpl in S. lra. }
+  pose proof (common_roots_right [f0; f1; f2]) as K.
+  destruct (common_roots [f0; f1; f2]) as [| m | f |]; simpl in K.
   - apply AtEnd. intros t T (V & _). now apply (K t T) in V.
-  - apply or_at_end_told; auto. destruct K as (k & t & P & T & Sq & Only). pose proof (value_squares b m k t Sq) as Vb.
-    destruct Sq as (Q0 & Q1 & Q2). destruct (nonpositive (value_at_squares b m)) eqn:E.
+  - apply or_at_end_told; auto. destruct K as (k & t & P & T & Sq & Only).
+    pose proof (value_squares b m k t Sq) as Vb. destruct Sq as (Q0 & Q1 & Q2).
+    destruct (nonpositive (value_at_squares b m)) eqn:E.
     + apply nonpositive_true in E. rewrite Vb in E. right. exists t. split; [| split; auto; split].
       * assert (0 < c0 m) by (rewrite Q0; apply Rmult_lt_0_compat; [| apply pow_lt]; lra).
         assert (0 < c1 m) by (rewrite Q1; apply Rmult_lt_0_compat; [| apply Rmult_lt_0_compat]; lra).
@@ -146,7 +154,8 @@ Proof.
   - assert (B0 : 0 < c0 b).
     { rewrite <- (proj1 (at_ends b)). apply Rnot_le_lt. intros B. apply N0. now split. }
     assert (M : forall t, meets f0 f1 f2 b t <-> quadratic_at b t <= 0)
-      by (intros t; split; [now intros (_ & B) | now split]). destruct (nonpositive (c2 b) || _) eqn:C.
+      by (intros t; split; [now intros (_ & B) | now split]).
+    destruct (nonpositive (c2 b) || _) eqn:C.
     + destruct (everywhere_told b B0 H C) as [(E & No) | (r & Told & T & B & Before)].
       * left. split; auto. intros t T. rewrite M. auto.
       * right. exists r. split; auto. split; auto. split; [now apply M |]. intros s S. rewrite M. auto.
@@ -215,13 +224,16 @@ Definition moving_component (v w : moving) : place_in_time :=
   else if negb (is_0 (z p)) then linear_root (z p) (z q)
   else start_time.
 
-Lemma component_first (c : point -> R) v w t : (forall a b s,
-  place a s = place b s -> linear_at (c (minus (start a) (start b))) (c (minus (finish a) (finish b))) s = 0) ->
-  c (minus (start v) (start w)) <> 0 -> 0 <= t <= 1 -> place v t = place w t -> tells (linear_root
-  (c (minus (start v) (start w))) (c (minus (finish v) (finish w)))) t /\ first (fun s => place v s = place w s) t.
+Lemma component_first (c : point -> R) v w t : (forall a b s, place a s = place b s ->
+    linear_at (c (minus (start a) (start b))) (c (minus (finish a) (finish b))) s = 0) ->
+  c (minus (start v) (start w)) <> 0 -> 0 <= t <= 1 -> place v t = place w t ->
+  tells (linear_root (c (minus (start v) (start w))) (c (minus (finish v) (finish w)))) t /\
+  first (fun s => place v s = place w s) t.
 Proof.
-  intros L N T E. pose proof (L v w t E) as Z. set (k0 := c (minus (start v) (start w))) in *.
-  set (k1 := c (minus (finish v) (finish w))) in *. unfold linear_at in Z. assert (T0 : t <> 0) by (intros ->; lra).
+  intros L N T E. pose proof (L v w t E) as Z. 
+  set (k0 := c (minus (start v) (start w))) in *. set (k1 := c (minus (finish v) (finish w))) in *.
+  unfold linear_at in Z.
+  assert (T0 : t <> 0) by (intros ->; lra).
   assert (Ek : k1 * t = - (k0 * (1 - t))) by lra.
   assert (S : k0 * k1 <= 0).
   { assert (Sq : 0 <= k0 * k0 * (1 - t)) by (apply Rmult_le_pos; [apply Rle_0_sqr | lra]).
@@ -240,7 +252,8 @@ Proof.
   apply vertex_vertex_contact in H. destruct H as (t & T & E).
   enough (exists t, tells (moving_component v w) t /\ first (fun s => place v s = place w s) t) as (r & Told & F).
   { exists r. split; auto. intros b B. now apply told_bracket with (2 := B). }
-  unfold moving_component. cbv zeta. destruct (is_0 (x (minus (start v) (start w)))) eqn:X; cbn [negb].
+  unfold moving_component. cbv zeta.
+  destruct (is_0 (x (minus (start v) (start w)))) eqn:X; cbn [negb].
   2: { exists t. apply (component_first x); auto.
        - intros a b s Q. apply point_eq in Q. unfold place, linear_at, minus in *. cbn [x y z] in *. lra.
        - intros Z. apply is_0_true in Z. congruence. }
