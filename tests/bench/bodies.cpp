@@ -228,7 +228,7 @@ row turn_of_spheres(double gap, const options& o) {
 void bodies(const options& o, report& out) {
     out.table("bodies", {},
               "Two meshes, of which one turns once in 20 steps: ms per step, one thread",
-              {turn_of_spheres(0.001, o), turn_of_spheres(-0.04, o)});
+              {turn_of_spheres(0.001, o), turn_of_spheres(-0.025, o), turn_of_spheres(-0.04, o)});
     rows all;
     for (const double angle : {0.0, 0.1}) {
         add_rows<ccd::vertex_face_of, ccd::vertex_face>("vf", angle, o, all);

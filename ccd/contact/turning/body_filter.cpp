@@ -113,12 +113,12 @@ body_filter<K>::body_filter(std::span<const body_point> points, const control_ma
     : points_(points), a_(first_maps), b_(second_maps) {
     // Any centre serves a body at rest: x = (x − centre) + centre.
     const auto centre_of = [&](const control_maps& maps, std::size_t i) {
-        return maps.motion == control_maps::kind::rests ? points[i].rest : maps.centre;
+        return maps.motion == control_maps::motion_kind::rests ? points[i].rest : maps.centre;
     };
     const vector a = centre_of(a_, 0), b = centre_of(b_, first);
     for (std::size_t i = 0; i < count; ++i) from_centre_[i] = points[i].rest - (i < first ? a : b);
     const auto way_of = [](const control_maps& maps, const vector& centre) {
-        if (maps.motion == control_maps::kind::rests) return std::array{centre, centre};
+        if (maps.motion == control_maps::motion_kind::rests) return std::array{centre, centre};
         return std::array{maps.p0, maps.p1};
     };
     a_way_ = way_of(a_, a);
@@ -272,7 +272,7 @@ template <kind K>
 constexpr form_constants rigid_constants{y_constants_of(counted_rigid_forms<K>()),
                                          g_constants_of(counted_rigid_forms<K>())};
 
-/// The units are those of the errors of Y and of the G_i.
+/// Decides as ccd/exact/stages.hpp. The units are those of the constants' relative errors.
 template <class Forms>
 outcome decide_forms(const Forms& forms, const form_constants& constants, double y_unit,
                      double g_unit, touching_interval* found) {
@@ -300,7 +300,8 @@ triple<double> numbers_of(const vector& p) {
     return {p.x, p.y, p.z};
 }
 
-/// The larger of both bodies' largest matrix entries, and of all components in the forms.
+/// Bounds of the components in the forms: of positions, which are at least those of the edges, and
+/// of both edges. Each term of Y has one factor of each; each term of a G_i one more of an edge.
 struct sizes {
     double position, e, f;
 
@@ -339,7 +340,7 @@ struct body_filter<K>::elements {
 
 template <kind K>
 outcome body_filter<K>::decide(touching_interval* found) const requires(is_cubic(K)) {
-    using motion = control_maps::kind;
+    using motion = control_maps::motion_kind;
     const elements query(*this);
     if (a_.motion != motion::turns && b_.motion != motion::turns) {
         const auto ends = [](const control_maps& maps) {

@@ -59,7 +59,7 @@ control_maps::control_maps(const body_motion& motion_of_body) {
 }
 
 void control_maps::set(const affine_motion& m) {
-    motion = kind::keeps_direction;
+    motion = motion_kind::keeps_direction;
     is_affine = true;
     count = 2;
     linear[0] = m.a0;
@@ -78,13 +78,13 @@ void control_maps::set(const rigid_motion& m) {
     p1 = m.p1;
     centre = m.centre;
     if (point_evaluator<tracked_ring>::never_turns(m)) {
-        motion = kind::keeps_direction;
+        motion = motion_kind::keeps_direction;
         count = 2;
         linear[0] = linear[1] = identity3;
         along = {0, 1};
         return;
     }
-    motion = kind::turns;
+    motion = motion_kind::turns;
     q = {{{m.q0.w, m.q0.x, m.q0.y, m.q0.z}, {m.q1.w, m.q1.x, m.q1.y, m.q1.z}}};
     const double largest = std::max(largest_of(q[0]), largest_of(q[1]));
     if (!(largest >= 0.5 && largest <= 1)) {

@@ -18,11 +18,11 @@ std::optional<rigid_motion> as_rigid(const body_motion& motion);
 /// 25u·largest_entry. `weight` has relative errors of at most 10u. `along` has errors of at most
 /// 5u.
 struct control_maps {
-    enum class kind { rests, keeps_direction, turns };
+    enum class motion_kind { rests, keeps_direction, turns };
 
     explicit control_maps(const body_motion& motion);
 
-    kind motion = kind::rests;
+    motion_kind motion = motion_kind::rests;
     std::size_t count = 1;
     std::array<matrix3, 4> linear;
     std::array<double, 4> along{};
@@ -35,7 +35,7 @@ struct control_maps {
     std::array<std::array<double, 4>, 2> q{};
     /// False if the motion is too extreme for the bounds above.
     bool usable = true;
-    bool is_affine = false;
+    bool is_affine = false;  ///< not a rigid body
 
   private:
     void set(const affine_motion& m);

@@ -644,7 +644,7 @@ using rational_form = errbound::bernstein<rational, 1>;
 /// has no maps.
 bool expect_errors_of_maps(const rigid_motion& m) {
     const ccd::detail::control_maps maps{body_motion(m)};
-    if (maps.motion != ccd::detail::control_maps::kind::turns || !maps.usable) return false;
+    if (maps.motion != ccd::detail::control_maps::motion_kind::turns || !maps.usable) return false;
     const auto form = [](double a, double b) { return rational_form{{rational(a), rational(b)}}; };
     const auto r = ccd::detail::rotation_of<rational_form>(
         {form(m.q0.w, m.q1.w), form(m.q0.x, m.q1.x), form(m.q0.y, m.q1.y), form(m.q0.z, m.q1.z)});
