@@ -543,6 +543,10 @@ void for_random_queries(int count, unsigned seed, const Check& check) {
         ccd::for_each_kind([&]<kind K>() { check.template operator()<K>(random); });
     }
 }
+/// True unless ERRBOUND_TEST_SCALE reduces the counts.
+bool is_whole_run() {
+    return support::scaled(100) >= 100;
+}
 separation random_distance(random_source& random) {
     return {std::ldexp(1, static_cast<int>(random.below(5)) - 3 + random.scale),
             std::ldexp(random.below(2), random.scale)};
@@ -571,7 +575,7 @@ void expect_times_of_oracle(random_bodies::style style, unsigned seed) {
         contacts[static_cast<std::size_t>(K)] +=
             ccd::decide_exact(query).outcome == outcome::collides;
     });
-    EXPECT_GT(contacts[0], 0u);
+    if (is_whole_run()) EXPECT_GT(contacts[0], 0u);
     for (std::size_t k = 0; k < 4; ++k)
         std::cout << queries[k] << " queries of kind " << k << ", " << contacts[k] << " contacts\n";
 }
@@ -633,6 +637,7 @@ TEST(random_body_queries, pass_filters_that_agree_with_the_oracle) {
     std::cout << "axes " << all.axes << ", axes with a distance " << all.far << "; signs: separate "
               << all.separate << ", collides " << all.collides << ", uncertain " << all.uncertain
               << '\n';
+    if (!is_whole_run()) return;
     for (const int count : {all.axes, all.far, all.separate, all.collides}) EXPECT_GT(count, 0);
 }
 
