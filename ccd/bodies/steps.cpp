@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <ccd/bodies/steps.hpp>
+#include <ccd/methods/transform.hpp>
 #include <cmath>
 #include <cstddef>
 #include <limits>
@@ -16,6 +17,7 @@
 #include "ccd/batch/checks.hpp"
 #include "ccd/batch/threads.hpp"
 #include "ccd/bodies/swept_points.hpp"
+#include "ccd/contact/turning/two_bodies.hpp"
 #include "ccd/exact/finite.hpp"
 #include "ccd/step/checks.hpp"
 #include "ccd/step/elements.hpp"
@@ -28,102 +30,138 @@ namespace {
 using detail::box;
 using detail::box_tree;
 
-/// Elements of N vertices of one body, in an order that gathers neighbours, and their tree.
+bool touch(const box<double>& a, const box<double>& b) {
+    bool all = true;
+    for (std::size_t k = 0; k < 3; ++k) all &= a.low[k] <= b.high[k] && b.low[k] <= a.high[k];
+    return all;
+}
+/// Extends `all`.
+void include(const box<double>& b, box<double>& all) {
+    for (std::size_t k = 0; k < 3; ++k) {
+        all.low[k] = std::min(all.low[k], b.low[k]);
+        all.high[k] = std::max(all.high[k], b.high[k]);
+    }
+}
+constexpr double inf = std::numeric_limits<double>::infinity();
+constexpr box<double> empty_box{{inf, inf, inf}, {-inf, -inf, -inf}};
+
+/// Elements of N vertices of one body, in an order that gathers neighbours, and a tree of boxes.
 template <std::size_t N>
 struct element_set {
     std::vector<std::array<vertex_index, N>> elements;
     box_tree<double> tree;
 
-    void build(const std::vector<box<double>>& of_vertices) {
-        tree.build(elements.size(), [&](std::size_t i) {
-            box<double> all = of_vertices[elements[i][0]];
-            for (const vertex_index v : elements[i])
-                for (std::size_t k = 0; k < 3; ++k) {
-                    all.low[k] = std::min(all.low[k], of_vertices[v].low[k]);
-                    all.high[k] = std::max(all.high[k], of_vertices[v].high[k]);
-                }
-            return all;
-        });
+    /// Builds the tree from a box of each vertex.
+    template <class BoxOf>
+    void build(const BoxOf& box_of) {
+        tree.build(elements.size(), [&](std::size_t i) { return box_of_element(i, box_of); });
+    }
+    template <class BoxOf>
+    box<double> box_of_element(std::size_t i, const BoxOf& box_of) const {
+        box<double> all = empty_box;
+        for (const vertex_index v : elements[i]) include(box_of(v), all);
+        return all;
     }
 };
 
-/// A body's mesh, and the boxes of its elements in the last step for which it had a partner.
-class swept_body {
+struct element_sets {
+    element_set<1> vertices, points;  ///< points are vertices of no edge
+    element_set<2> edges, rods;       ///< rods are edges of no face
+    element_set<3> faces;
+};
+
+/// A body during one step. Bodies that move are wider by `distance`.
+struct swept_body {
+    detail::swept_points points;
+    detail::control_maps maps;
+    double distance;
+
+    template <class Part>
+    box<double> box_of(const Part& part) const {
+        return detail::widened(points.box_of(part), distance);
+    }
+};
+
+/// A body's mesh, and trees of its elements at rest.
+class body_at_rest {
   public:
-    swept_body(mesh rest, vertex_index first_vertex)
+    body_at_rest(mesh rest, vertex_index first_vertex)
         : rest_(std::move(rest)), first_vertex_(first_vertex) {
-        if (rest_.vertices.empty()) return;
-        extent_ = {{inf, inf, inf}, {-inf, -inf, -inf}};
-        for (const auto& p : rest_.vertices)
-            for (std::size_t k = 0; k < 3; ++k) {
-                const double x = std::array{p.x, p.y, p.z}[k];
-                extent_.low[k] = std::min(extent_.low[k], x);
-                extent_.high[k] = std::max(extent_.high[k], x);
-            }
+        for (const auto& p : rest_.vertices) include({{p.x, p.y, p.z}, {p.x, p.y, p.z}}, extent_);
     }
 
     const mesh& rest() const { return rest_; }
     vertex_index first_vertex() const { return first_vertex_; }
     const box<double>& extent() const { return extent_; }
 
-    /// Sets the elements' boxes, widened by `distance`. Keeps those of the last motion.
-    void sweep(const body_motion& motion, double distance) {
-        if (swept_ == std::pair(motion, distance)) return;
-        swept_.reset();
-        set_elements();
-        const detail::swept_points points(motion, extent_);
-        boxes_.resize(rest_.vertices.size());
-        tbb::parallel_for(
-            tbb::blocked_range<std::size_t>(0, boxes_.size(), 1024), [&](const auto& range) {
-                for (std::size_t v = range.begin(); v < range.end(); ++v)
-                    boxes_[v] = detail::widened(points.box_of(rest_.vertices[v]), distance);
-            });
-        vertices.build(boxes_);
-        points_.build(boxes_);
-        edges.build(boxes_);
-        rods.build(boxes_);
-        faces.build(boxes_);
-        swept_ = {motion, distance};
-    }
-
-    element_set<1> vertices, points_;  ///< points are vertices of no edge
-    element_set<2> edges, rods;        ///< rods are edges of no face
-    element_set<3> faces;
-
-  private:
-    static constexpr double inf = std::numeric_limits<double>::infinity();
-
-    void set_elements() {
-        if (!vertices.elements.empty()) return;
-        edges.elements = unique_edges(rest_.faces, rest_.edges);
-        rods.elements = detail::without(edges.elements, unique_edges(rest_.faces));
-        faces.elements = unique_faces(rest_.faces);
+    /// Sets the trees, at the first call.
+    void prepare() {
+        element_sets& all = sets_;
+        if (!all.vertices.elements.empty()) return;
+        all.edges.elements = unique_edges(rest_.faces, rest_.edges);
+        all.rods.elements = detail::without(all.edges.elements, unique_edges(rest_.faces));
+        all.faces.elements = unique_faces(rest_.faces);
         std::vector<bool> on_an_edge(rest_.vertices.size());
-        for (const edge& e : edges.elements) on_an_edge[e[0]] = on_an_edge[e[1]] = true;
+        for (const edge& e : all.edges.elements) on_an_edge[e[0]] = on_an_edge[e[1]] = true;
         for (vertex_index v = 0; v < rest_.vertices.size(); ++v) {
-            vertices.elements.push_back({v});
-            if (!on_an_edge[v]) points_.elements.push_back({v});
+            all.vertices.elements.push_back({v});
+            if (!on_an_edge[v]) all.points.elements.push_back({v});
         }
         const vertex_rows rows(rest_, rest_);
         const pair_distances contact;
         const detail::swept_boxes boxes(detail::batch_positions(rows), contact);
         detail::vertex_order order;
-        order.find<double>(boxes, rest_.vertices.size(), std::span<const edge>(edges.elements));
-        const auto sort = [&](auto& set) {
-            if (!set.elements.empty()) order.sort<double>(set.elements, boxes);
+        order.find<double>(boxes, rest_.vertices.size(), std::span<const edge>(all.edges.elements));
+        const auto box_of = [&](vertex_index v) -> box<double> {
+            const auto& p = rest_.vertices[v];
+            return {{p.x, p.y, p.z}, {p.x, p.y, p.z}};
         };
-        sort(vertices);
-        sort(points_);
-        sort(edges);
-        sort(rods);
-        sort(faces);
+        for_each_set(all, all, [&](auto& set, auto&) {
+            if (set.elements.empty()) return;
+            order.sort<double>(set.elements, boxes);
+            set.build(box_of);
+        });
+    }
+
+    /// Returns the elements whose swept boxes touch the region, with trees of these boxes, and
+    /// sets it to a box around them.
+    element_sets near(const swept_body& swept, box<double>& region) const {
+        element_sets found;
+        box<double> all = empty_box;
+        for_each_set(sets_, found, [&](const auto& set, auto& some) {
+            std::vector<box<double>> boxes;
+            set.tree.find_where(
+                [&](const box<double>& b) { return touch(swept.box_of(b), region); },
+                [&](std::size_t i) {
+                    const box<double> b = set.box_of_element(
+                        i, [&](vertex_index v) { return swept.box_of(rest_.vertices[v]); });
+                    if (!touch(b, region)) return;
+                    some.elements.push_back(set.elements[i]);
+                    boxes.push_back(b);
+                    include(b, all);
+                });
+            if (!boxes.empty())
+                some.tree.build(boxes.size(), [&](std::size_t i) { return boxes[i]; });
+        });
+        region = all;
+        return found;
+    }
+
+  private:
+    /// Calls visit(set, other) for the sets of each kind.
+    template <class Sets, class Visit>
+    static void for_each_set(Sets& sets, element_sets& others, const Visit& visit) {
+        visit(sets.vertices, others.vertices);
+        visit(sets.points, others.points);
+        visit(sets.edges, others.edges);
+        visit(sets.rods, others.rods);
+        visit(sets.faces, others.faces);
     }
 
     mesh rest_;
     vertex_index first_vertex_;
-    box<double> extent_{};
-    std::vector<box<double>> boxes_;
-    std::optional<std::pair<body_motion, double>> swept_;  ///< of the boxes
+    box<double> extent_ = empty_box;
+    element_sets sets_;
 };
 
 template <kind K>
@@ -148,17 +186,15 @@ void for_each_two_touching(const std::vector<box<double>>& boxes, const Visit& v
     for (const std::size_t i : by_low) {
         std::erase_if(active, [&](std::size_t j) { return boxes[j].high[0] < boxes[i].low[0]; });
         for (const std::size_t j : active) {
-            bool touch = true;
-            for (std::size_t k = 1; k < 3; ++k)
-                touch &= boxes[i].low[k] <= boxes[j].high[k] && boxes[j].low[k] <= boxes[i].high[k];
-            if (touch) visit(std::min(i, j), std::max(i, j));
+            if (touch(boxes[i], boxes[j])) visit(std::min(i, j), std::max(i, j));
         }
         active.push_back(i);
     }
 }
 
 template <std::size_t N>
-std::array<vertex_index, N> numbered(std::array<vertex_index, N> element, const swept_body& body) {
+std::array<vertex_index, N> numbered(std::array<vertex_index, N> element,
+                                     const body_at_rest& body) {
     for (vertex_index& v : element) v += body.first_vertex();
     return element;
 }
@@ -192,7 +228,7 @@ void collect(tbb::enumerable_thread_specific<findings>& found, body_step_result&
 }  // namespace
 
 struct body_steps::state {
-    std::vector<swept_body> bodies;
+    std::vector<body_at_rest> bodies;
     std::vector<vertex_index> first_vertices;
 
     void check(std::span<const body_motion> motions, const body_step_options& options) const {
@@ -209,25 +245,35 @@ struct body_steps::state {
             detail::check_distances("ccd::body_steps", {.all = d}, first_vertices.back());
     }
 
-    /// Returns each two bodies, of which one moves, whose swept boxes touch.
-    std::vector<std::pair<std::size_t, std::size_t>> partners(
-        std::span<const body_motion> motions, double distance,
-        const body_step_options& options) const {
-        std::vector<std::size_t> used;  // bodies with vertices
-        std::vector<box<double>> boxes;
+    /// The bodies that have vertices, during a step.
+    struct swept_bodies {
+        std::vector<std::size_t> index;  ///< of the body
+        std::vector<swept_body> body;
+        std::vector<box<double>> box_of_all;
+    };
+    swept_bodies sweep(std::span<const body_motion> motions, double distance) const {
+        swept_bodies all;
         for (std::size_t b = 0; b < motions.size(); ++b) {
-            const swept_body& body = bodies[b];
-            if (body.rest().vertices.empty()) continue;
-            used.push_back(b);
-            const auto all = detail::swept_points(motions[b], body.extent()).box_of_all();
-            boxes.push_back(detail::widened(all, moves(motions[b]) ? distance : 0));
+            if (bodies[b].rest().vertices.empty()) continue;
+            all.index.push_back(b);
+            all.body.push_back({detail::swept_points(motions[b], bodies[b].extent()),
+                                detail::control_maps(motions[b]),
+                                moves(motions[b]) ? distance : 0});
+            all.box_of_all.push_back(all.body.back().box_of(bodies[b].extent()));
         }
+        return all;
+    }
+
+    /// Returns each two of the swept bodies, of which one moves, whose boxes touch.
+    std::vector<std::pair<std::size_t, std::size_t>> partners(
+        const swept_bodies& swept, std::span<const body_motion> motions,
+        const body_step_options& options) const {
         std::vector<std::pair<std::size_t, std::size_t>> all;
-        for_each_two_touching(boxes, [&](std::size_t i, std::size_t j) {
-            const std::size_t a = used[i], b = used[j];
+        for_each_two_touching(swept.box_of_all, [&](std::size_t i, std::size_t j) {
+            const std::size_t a = swept.index[i], b = swept.index[j];
             if (!moves(motions[a]) && !moves(motions[b])) return;
             if (options.may_touch && !options.may_touch(a, b)) return;
-            all.emplace_back(a, b);
+            all.emplace_back(i, j);
         });
         return all;
     }
@@ -235,11 +281,12 @@ struct body_steps::state {
     /// Decides all pairs of element sets whose boxes touch.
     template <kind K, std::size_t A, std::size_t B>
     void decide(const body_steps& steps, const std::array<std::size_t, 2>& of,
-                const element_set<A>& a, const element_set<B>& b,
-                std::span<const body_motion> motions, const body_step_options& options,
+                const std::array<const detail::control_maps*, 2>& maps, const element_set<A>& a,
+                const element_set<B>& b, std::span<const body_motion> motions,
+                const body_step_options& options,
                 tbb::enumerable_thread_specific<findings>& found) const {
         if (a.elements.empty() || b.elements.empty()) return;
-        const swept_body &first = bodies[of[0]], &second = bodies[of[1]];
+        const body_at_rest &first = bodies[of[0]], &second = bodies[of[1]];
         detail::for_each_touching(
             a.tree, b.tree,
             [&]() -> findings& {
@@ -250,27 +297,39 @@ struct body_steps::state {
                 const auto pair = detail::candidate_of(numbered(a.elements[i], first),
                                                        numbered(b.elements[j], second));
                 ++local.candidates.template of<K>();
-                const auto query = steps.query_of(pair, motions);
-                const first_time time = time_within(query, options.distance, options.t_max);
+                const auto points = points_of(steps.query_of(pair, motions));
+                const bool swapped = points[0].motion != &motions[of[0]];
+                const first_time time = detail::first_within_of_bodies<K>(
+                    points, *maps[swapped ? 1 : 0], *maps[swapped ? 0 : 1], options.distance,
+                    options.t_max);
                 if (time.outcome != outcome::separate)
                     local.pairs.template of<K>().push_back({detail::canonical(pair), time});
             });
     }
 
-    void decide_bodies(const body_steps& steps, std::size_t i, std::size_t j,
-                       std::span<const body_motion> motions, const body_step_options& options,
+    /// Decides pairs of the swept bodies p and q.
+    void decide_bodies(const body_steps& steps, const swept_bodies& swept, std::size_t p,
+                       std::size_t q, std::span<const body_motion> motions,
+                       const body_step_options& options,
                        tbb::enumerable_thread_specific<findings>& found) const {
-        const auto decide_kind = [&]<kind K>(std::size_t first, std::size_t second, const auto& a,
-                                             const auto& b) {
-            decide<K>(steps, {first, second}, a, b, motions, options, found);
+        const std::size_t i = swept.index[p], j = swept.index[q];
+        box<double> region = swept.box_of_all[q];
+        const element_sets a = bodies[i].near(swept.body[p], region);
+        const element_sets b = bodies[j].near(swept.body[q], region);
+        const auto decide_kind = [&]<kind K>(std::size_t first, std::size_t second,
+                                             const auto& of_first, const auto& of_second) {
+            const auto maps_of = [&](std::size_t body) {
+                return &swept.body[body == i ? p : q].maps;
+            };
+            decide<K>(steps, {first, second}, {maps_of(first), maps_of(second)}, of_first,
+                      of_second, motions, options, found);
         };
-        const swept_body &a = bodies[i], &b = bodies[j];
         decide_kind.operator()<kind::vertex_face>(i, j, a.vertices, b.faces);
         decide_kind.operator()<kind::vertex_face>(j, i, b.vertices, a.faces);
         decide_kind.operator()<kind::edge_edge>(i, j, a.edges, b.edges);
-        decide_kind.operator()<kind::vertex_edge>(i, j, a.points_, b.rods);
-        decide_kind.operator()<kind::vertex_edge>(j, i, b.points_, a.rods);
-        decide_kind.operator()<kind::vertex_vertex>(i, j, a.points_, b.points_);
+        decide_kind.operator()<kind::vertex_edge>(i, j, a.points, b.rods);
+        decide_kind.operator()<kind::vertex_edge>(j, i, b.points, a.rods);
+        decide_kind.operator()<kind::vertex_vertex>(i, j, a.points, b.points);
     }
 };
 
@@ -320,22 +379,18 @@ body_step_result body_steps::run(std::span<const body_motion> motions,
                                 : std::nextafter(options.distance.first + options.distance.second,
                                                  std::numeric_limits<double>::infinity());
     body_step_result result;
-    const auto partners = state_->partners(motions, distance, options);
+    const auto swept = state_->sweep(motions, distance);
+    const auto partners = state_->partners(swept, motions, options);
     result.body_pairs = partners.size();
     tbb::enumerable_thread_specific<findings> found;
     detail::on_threads(options.threads, [&] {
-        std::vector<bool> is_swept(motions.size());
-        for (const auto& [a, b] : partners)
-            for (const std::size_t body : {a, b}) {
-                if (!is_swept[body])
-                    state_->bodies[body].sweep(motions[body], moves(motions[body]) ? distance : 0);
-                is_swept[body] = true;
-            }
+        for (const auto& [p, q] : partners)
+            for (const std::size_t body : {p, q}) state_->bodies[swept.index[body]].prepare();
         tbb::parallel_for(
             tbb::blocked_range<std::size_t>(0, partners.size(), 1), [&](const auto& range) {
                 for (std::size_t i = range.begin(); i < range.end(); ++i)
-                    state_->decide_bodies(*this, partners[i].first, partners[i].second, motions,
-                                          options, found);
+                    state_->decide_bodies(*this, swept, partners[i].first, partners[i].second,
+                                          motions, options, found);
             });
     });
     collect(found, result);

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -84,45 +85,49 @@ void swept_points::set_error() {
     }
 }
 
-box<double> swept_points::box_of(const point<double>& x) const {
-    if (maps_.empty()) return {{x.x, x.y, x.z}, {x.x, x.y, x.z}};
-    const std::array from_centre{x.x - centre_.x, x.y - centre_.y, x.z - centre_.z};
+/// ends_of(map, i) returns the least and greatest coordinate i of the control points.
+template <class EndsOf>
+box<double> swept_points::box_around(const EndsOf& ends_of) const {
     box<double> b;
     for (std::size_t i = 0; i < 3; ++i) {
         double low = infinity, high = -infinity;
         for (const affine_map& map : maps_) {
-            const auto& row = map.linear[i];
-            const double at = row[0] * from_centre[0] + row[1] * from_centre[1] +
-                              row[2] * from_centre[2] + map.shift[i];
-            low = std::min(low, at);
-            high = std::max(high, at);
+            const auto [least, greatest] = ends_of(map, i);
+            low = std::min(low, least);
+            high = std::max(high, greatest);
         }
-        b.low[i] = low;
-        b.high[i] = high;
         // Overflow: an infinite or undefined coordinate may be lost in the comparisons above.
-        if (!(error_[i] < infinity)) b.low[i] = -largest, b.high[i] = largest;
-    }
-    for (std::size_t i = 0; i < 3; ++i) {
-        b.low[i] = std::max(-largest, std::nextafter(b.low[i] - error_[i], -infinity));
-        b.high[i] = std::min(largest, std::nextafter(b.high[i] + error_[i], infinity));
+        if (!(error_[i] < infinity)) low = -largest, high = largest;
+        b.low[i] = std::max(-largest, std::nextafter(low - error_[i], -infinity));
+        b.high[i] = std::min(largest, std::nextafter(high + error_[i], infinity));
     }
     return b;
 }
 
-box<double> swept_points::box_of_all() const {
-    if (maps_.empty()) return rest_;
-    box<double> all{{infinity, infinity, infinity}, {-infinity, -infinity, -infinity}};
-    for (unsigned corner = 0; corner < 8; ++corner) {
-        const auto end = [&](std::size_t axis) {
-            return (corner >> axis & 1) != 0 ? rest_.high[axis] : rest_.low[axis];
-        };
-        const box<double> b = box_of({end(0), end(1), end(2)});
-        for (std::size_t i = 0; i < 3; ++i) {
-            all.low[i] = std::min(all.low[i], b.low[i]);
-            all.high[i] = std::max(all.high[i], b.high[i]);
+box<double> swept_points::box_of(const point<double>& x) const {
+    if (maps_.empty()) return {{x.x, x.y, x.z}, {x.x, x.y, x.z}};
+    const std::array from_centre{x.x - centre_.x, x.y - centre_.y, x.z - centre_.z};
+    return box_around([&](const affine_map& map, std::size_t i) {
+        const auto& row = map.linear[i];
+        const double at = row[0] * from_centre[0] + row[1] * from_centre[1] +
+                          row[2] * from_centre[2] + map.shift[i];
+        return std::pair(at, at);
+    });
+}
+
+box<double> swept_points::box_of(const box<double>& b) const {
+    if (maps_.empty()) return b;
+    const std::array centre{centre_.x, centre_.y, centre_.z};
+    return box_around([&](const affine_map& map, std::size_t i) {
+        double least = map.shift[i], greatest = map.shift[i];
+        for (std::size_t j = 0; j < 3; ++j) {
+            const double p = map.linear[i][j] * (b.low[j] - centre[j]),
+                         q = map.linear[i][j] * (b.high[j] - centre[j]);
+            least += std::min(p, q);
+            greatest += std::max(p, q);
         }
-    }
-    return all;
+        return std::pair(least, greatest);
+    });
 }
 
 box<double> widened(const box<double>& b, double by) {

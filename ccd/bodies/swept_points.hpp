@@ -20,8 +20,10 @@ class swept_points {
 
     /// Precondition: x is in the box at rest.
     box<double> box_of(const point<double>& x) const;
+    /// Contains the ways of all points of a box in the box at rest.
+    box<double> box_of(const box<double>& b) const;
     /// Contains the ways of all points in the box at rest.
-    box<double> box_of_all() const;
+    box<double> box_of_all() const { return box_of(rest_); }
 
   private:
     struct affine_map {
@@ -29,6 +31,8 @@ class swept_points {
         std::array<double, 3> shift;
     };
     void set_error();
+    template <class EndsOf>
+    box<double> box_around(const EndsOf& ends_of) const;
 
     box<double> rest_;
     point<double> centre_;

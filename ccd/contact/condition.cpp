@@ -133,4 +133,9 @@ first_time first_time_at_roots(const time_polynomial& y, const root_test& test, 
     return never;
 }
 
+first_time first_root_time(const time_polynomial& y, double low, double high) {
+    roots_in_time roots(staged_polynomial(y.coefficients()), low, high);
+    return at_root(roots, 0);
+}
+
 }  // namespace ccd::detail

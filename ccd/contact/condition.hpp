@@ -57,5 +57,7 @@ struct root_test {
 /// Same as first_time_of, for conditions that hold at roots of y only. Precondition: y is not
 /// identically zero.
 first_time first_time_at_roots(const time_polynomial& y, const root_test& test, double t_max);
+/// The first root of y in [low, high]. Precondition: there is one.
+first_time first_root_time(const time_polynomial& y, double low, double high);
 
 }  // namespace ccd::detail

@@ -1,3 +1,5 @@
+// Proof that a first time exists if there is a contact: proofs/times/Curves.v, face_curves_first,
+// edges_curves_first, smooth_continuous.
 #include "ccd/contact/first_times.hpp"
 
 #include <algorithm>
@@ -7,6 +9,8 @@
 #include <cstddef>
 #include <limits>
 #include <optional>
+#include <span>
+#include <string>
 #include <vector>
 
 #include "ccd/contact/condition.hpp"
@@ -71,22 +75,27 @@ class filter {
 
 /// Contact does not depend on units, so each axis has its own.
 template <kind K, class Motion>
-first_time first_contact(std::span<const Motion> points, double t_max, arithmetic by) {
+first_time first_contact(std::span<const Motion> points, double t_max, arithmetic by,
+                         const polynomial_source& y_source) {
     const bool filtered = by == arithmetic::floating_point_first;
     filter<K, Motion> bounds(points);
     if (filtered && (bounds.boxes_are_separate(0) ||
                      (bounds.has_paths() && certainly_separate<K>(bounds.paths().q))))
         return never;
-    const weighted_paths<K, integer_ring> exact(points, integer_ring(common_units(points)));
+    std::optional<weighted_paths<K, integer_ring>> exact;
+    const auto paths = [&]() -> const auto& {
+        if (!exact) exact.emplace(points, integer_ring(common_units(points)));
+        return exact->q;
+    };
     if constexpr (is_cubic(K)) {
-        const time_polynomial y = forms_of(exact.q).y()[0];
+        const time_polynomial y = y_source ? y_source() : forms_of(paths()).y()[0];
         if (!y.is_zero()) {
-            root_test test{{}, [&] { return contact_conditions<K>(exact.q); }};
+            root_test test{{}, [&] { return contact_conditions<K>(paths()); }};
             if (filtered) test.holds_at = [&](const auto& t) { return bounds.touches_at_root(t); };
             return first_time_at_roots(y, test, t_max);
         }
     }
-    return first_time_of(contact_conditions<K>(exact.q), t_max);
+    return first_time_of(contact_conditions<K>(paths()), t_max);
 }
 
 /// Uses one unit for all axes and d.
@@ -96,9 +105,7 @@ first_time first_at_distance(std::span<const Motion> points, separation d, doubl
     std::vector<bool> possible;
     if (by == arithmetic::floating_point_first) {
         filter<K, Motion> bounds(points);
-        if (bounds.boxes_are_separate(
-                std::nextafter(d.first + d.second, std::numeric_limits<double>::infinity())))
-            return never;
+        if (bounds.boxes_are_separate(rounded_up_sum(d))) return never;
         if (bounds.has_paths()) {
             const auto& tracked = bounds.paths();
             const auto distance =
@@ -132,16 +139,21 @@ bool is_distance(separation d) {
 }
 
 template <kind K, class Motion>
-first_time first_within_of(std::span<const Motion> points, separation d, double t_max,
-                           arithmetic by) {
-    if (!is_distance(d) || !std::isfinite(t_max) ||
-        !std::all_of(points.begin(), points.end(), [](const Motion& p) { return is_valid(p); }))
-        return {};
+first_time first_of_valid(std::span<const Motion> points, separation d, double t_max, arithmetic by,
+                          const polynomial_source& y) {
     if (t_max < 0) return never;
-    return d.first == 0 && d.second == 0 ? first_contact<K>(points, t_max, by)
+    return d.first == 0 && d.second == 0 ? first_contact<K>(points, t_max, by, y)
                                          : first_at_distance<K>(points, d, t_max, by);
 }
 
+template <kind K, class Motion>
+first_time first_within_of(std::span<const Motion> points, separation d, double t_max,
+                           arithmetic by) {
+    if (!is_distance(d) || !std::isfinite(t_max) || !are_valid(points)) return {};
+    return first_of_valid<K>(points, d, t_max, by, {});
+}
+
+// For linear queries in integers, and for bodies.
 template first_time first_within_of<kind::vertex_face>(std::span<const curve>, separation, double,
                                                        arithmetic);
 template first_time first_within_of<kind::edge_edge>(std::span<const curve>, separation, double,
@@ -150,23 +162,48 @@ template first_time first_within_of<kind::vertex_edge>(std::span<const curve>, s
                                                        arithmetic);
 template first_time first_within_of<kind::vertex_vertex>(std::span<const curve>, separation, double,
                                                          arithmetic);
+template first_time first_of_valid<kind::vertex_face>(std::span<const body_point>, separation,
+                                                      double, arithmetic, const polynomial_source&);
+template first_time first_of_valid<kind::edge_edge>(std::span<const body_point>, separation, double,
+                                                    arithmetic, const polynomial_source&);
+template first_time first_of_valid<kind::vertex_edge>(std::span<const body_point>, separation,
+                                                      double, arithmetic, const polynomial_source&);
+template first_time first_of_valid<kind::vertex_vertex>(std::span<const body_point>, separation,
+                                                        double, arithmetic,
+                                                        const polynomial_source&);
 
-template first_time first_within_of<kind::vertex_face>(std::span<const rational_curve>, separation,
-                                                       double, arithmetic);
-template first_time first_within_of<kind::edge_edge>(std::span<const rational_curve>, separation,
-                                                     double, arithmetic);
-template first_time first_within_of<kind::vertex_edge>(std::span<const rational_curve>, separation,
-                                                       double, arithmetic);
-template first_time first_within_of<kind::vertex_vertex>(std::span<const rational_curve>,
-                                                         separation, double, arithmetic);
+template <curve_query Query>
+first_time first_within(const Query& query, separation d, double t_max, answer) {
+    const auto points = points_of(query);
+    return first_within_of<kind_of<Query>, typename motion_of_query<Query>::type>(
+        points, d, t_max, arithmetic::floating_point_first);
+}
 
-template first_time first_within_of<kind::vertex_face>(std::span<const body_point>, separation,
-                                                       double, arithmetic);
-template first_time first_within_of<kind::edge_edge>(std::span<const body_point>, separation,
-                                                     double, arithmetic);
-template first_time first_within_of<kind::vertex_edge>(std::span<const body_point>, separation,
-                                                       double, arithmetic);
-template first_time first_within_of<kind::vertex_vertex>(std::span<const body_point>, separation,
-                                                         double, arithmetic);
+template first_time first_within(const vertex_face_of<curve>&, separation, double, answer);
+template first_time first_within(const edge_edge_of<curve>&, separation, double, answer);
+template first_time first_within(const vertex_edge_of<curve>&, separation, double, answer);
+template first_time first_within(const vertex_vertex_of<curve>&, separation, double, answer);
+
+template first_time first_within(const vertex_face_of<rational_curve>&, separation, double, answer);
+template first_time first_within(const edge_edge_of<rational_curve>&, separation, double, answer);
+template first_time first_within(const vertex_edge_of<rational_curve>&, separation, double, answer);
+template first_time first_within(const vertex_vertex_of<rational_curve>&, separation, double,
+                                 answer);
 
 }  // namespace ccd::detail
+
+namespace ccd {
+
+std::string fault_of(const rational_curve& motion) {
+    const auto& w = motion.weights;
+    if (!w.empty() && w.size() != motion.points.size())
+        return "number of weights is " + std::to_string(w.size()) + "; expected " +
+               std::to_string(motion.points.size()) + ", one for each control point";
+    for (std::size_t i = 0; i < w.size(); ++i)
+        if (!(w[i] > 0 && std::isfinite(w[i])))
+            return "weight " + std::to_string(i) + " is " + std::to_string(w[i]) +
+                   "; expected a finite number > 0";
+    return {};
+}
+
+}  // namespace ccd

@@ -9,8 +9,13 @@
 #include <ccd/methods/transform.hpp>
 #include <ccd/query.hpp>
 #include <ccd/verdict.hpp>
+#include <cmath>
 #include <cstddef>
+#include <functional>
+#include <limits>
 #include <span>
+
+#include "ccd/contact/time_polynomial.hpp"
 
 namespace ccd::detail {
 
@@ -26,6 +31,19 @@ enum class arithmetic { integers, floating_point_first };
 template <kind K, class Motion>
 first_time first_within_of(std::span<const Motion> points, separation d, double t_max,
                            arithmetic by);
+
+/// Computes a polynomial with the roots of Y in [0, 1] and their multiplicities.
+using polynomial_source = std::function<time_polynomial()>;
+
+/// Same, for valid points and distances. Calls y(), if not empty, if Y is needed.
+template <kind K, class Motion>
+first_time first_of_valid(std::span<const Motion> points, separation d, double t_max, arithmetic by,
+                          const polynomial_source& y);
+
+/// The sum of two distances, not rounded down.
+inline double rounded_up_sum(separation d) {
+    return std::nextafter(d.first + d.second, std::numeric_limits<double>::infinity());
+}
 
 template <class Query>
 struct query_curves {

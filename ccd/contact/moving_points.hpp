@@ -29,6 +29,7 @@
 
 #include "ccd/contact/condition.hpp"
 #include "ccd/contact/control_polynomial.hpp"
+#include "ccd/contact/rotation.hpp"
 #include "ccd/contact/time_polynomial.hpp"
 
 namespace ccd::detail {
@@ -288,18 +289,13 @@ class point_evaluator {
         return {difference(rest.x, centre.x), difference(rest.y, centre.y),
                 difference(rest.z, centre.z)};
     }
-    /// The matrix of the rotation q/|q| times the weight |q|² (Euler, Rodrigues).
     void set_rotation(const rigid_motion& m) {
         const int unit = std::min(common_exponent(m.q0), common_exponent(m.q1));
-        const element w = linear(m.q0.w, m.q1.w, unit), x = linear(m.q0.x, m.q1.x, unit),
-                      y = linear(m.q0.y, m.q1.y, unit), z = linear(m.q0.z, m.q1.z, unit);
-        const element ww = w * w, xx = x * x, yy = y * y, zz = z * z;
-        const auto twice = [](const element& e) { return e + e; };
-        const element xy = x * y, wz = w * z, xz = x * z, wy = w * y, yz = y * z, wx = w * x;
-        rotation_ = {{{ww + xx - yy - zz, twice(xy - wz), twice(xz + wy)},
-                      {twice(xy + wz), ww - xx + yy - zz, twice(yz - wx)},
-                      {twice(xz - wy), twice(yz + wx), ww - xx - yy + zz}}};
-        weight_ = ww + xx + yy + zz;
+        const auto r =
+            rotation_of<element>({linear(m.q0.w, m.q1.w, unit), linear(m.q0.x, m.q1.x, unit),
+                                  linear(m.q0.y, m.q1.y, unit), linear(m.q0.z, m.q1.z, unit)});
+        rotation_ = r.matrix;
+        weight_ = r.weight;
     }
 
     const Ring& ring_;
@@ -338,8 +334,21 @@ inline bool is_valid(const curve& p) {
 inline bool is_valid(const rational_curve& p) {
     return is_valid(p.points) && fault_of(p).empty();
 }
-inline bool is_valid(const body_point& p) {
-    return p.motion != nullptr && is_finite(p.rest) && fault_of(*p.motion).empty();
+/// True if fault_of reports nothing.
+bool is_valid(const body_motion& motion);
+/// True if all points are valid.
+template <class Motion>
+bool are_valid(std::span<const Motion> points) {
+    return std::all_of(points.begin(), points.end(), [](const Motion& p) { return is_valid(p); });
+}
+inline bool are_valid(std::span<const body_point> points) {
+    const body_motion* last = nullptr;
+    for (const body_point& p : points) {
+        if (p.motion == nullptr || !is_finite(p.rest)) return false;
+        if (p.motion != last && !is_valid(*p.motion)) return false;
+        last = p.motion;
+    }
+    return true;
 }
 
 inline point<double> origin_of(const curve& p) {

@@ -99,23 +99,34 @@ concept curve_query = detail::has_kind<T> && requires {
     requires detail::is_motion<typename detail::motion_of_query<T>::type>;
 };
 
+namespace detail {
+
+/// Results of time_within; with answer::outcome, `low` and `high` of a contact are unspecified.
+enum class answer { outcome, time };
+template <curve_query Query>
+first_time first_within(const Query& query, separation d, double t_max, answer wanted);
+
+}  // namespace detail
+
 /// Same as in ccd/contact.hpp, and `uncertain` also if a curve has no control point or invalid
 /// weights. For curves of degree m the first time has algebraic degree <= 3m, and a higher one if
 /// weights differ among the points.
 template <curve_query Query>
-first_time time_within(const Query& query, separation d, double t_max = 1);
+first_time time_within(const Query& query, separation d, double t_max = 1) {
+    return detail::first_within(query, d, t_max, detail::answer::time);
+}
 template <curve_query Query>
 first_time time_of_impact(const Query& query, double t_max = 1) {
     return time_within(query, {}, t_max);
 }
 template <curve_query Query>
 verdict decide_within(const Query& query, separation d) {
-    return detail::as_verdict(time_within(query, d));
+    return detail::as_verdict(detail::first_within(query, d, 1, detail::answer::outcome));
 }
 /// Same as decide_exact of ccd/exact.hpp. `uncertain` as time_within.
 template <curve_query Query>
 verdict decide_exact(const Query& query) {
-    return detail::as_verdict(time_within(query, {}));
+    return decide_within(query, {});
 }
 
 /// The motion between two knots of splines: t goes from 0 to 1 as time goes from `from` to `to`.

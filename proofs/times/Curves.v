@@ -1,4 +1,4 @@
-(** First times of points that move continuously, on any curves (ccd/contact/curves.cpp). Times of contact, and of a
+(** First times of points that move continuously, on any curves (ccd/contact/first_times.cpp). Times of contact, and of a
     distance, are closed, so there is a first one. Results:
         first_of_closed      a nonempty closed set of times has a first one
         face_near_after_moving, edges_near_after_moving   points within a distance that move by d are within that and

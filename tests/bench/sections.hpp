@@ -10,7 +10,7 @@
 namespace bench {
 
 inline constexpr std::string_view section_names[] = {"methods", "stages",   "contacts", "steps",
-                                                     "growth",  "nearness", "curves"};
+                                                     "growth",  "nearness", "curves",   "bodies"};
 
 struct options {
     bool quick = false;
@@ -49,5 +49,8 @@ void nearness(const options& o, report& out);
 
 /// First times of contact and of a distance along random curves, by degree.
 void curves(const options& o, report& out);
+
+/// Queries of bodies that turn, next to linear ones.
+void bodies(const options& o, report& out);
 
 }  // namespace bench

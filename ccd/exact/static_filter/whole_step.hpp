@@ -14,10 +14,10 @@
 
 namespace ccd::static_filter {
 
-template <class S, std::size_t Constraints>
+template <class S, std::size_t Constraints, int YDegree = 3, int GDegree = 4>
 struct part_forms {
-    errbound::roots::control_values<S, 3> y;
-    std::array<errbound::roots::control_values<S, 4>, Constraints> g;
+    errbound::roots::control_values<S, YDegree> y;
+    std::array<errbound::roots::control_values<S, GDegree>, Constraints> g;
 };
 
 /// Bounds for all control values after at most max_depth halvings.

@@ -163,13 +163,32 @@ class box_tree {
         return sum;
     }
 
+    /// Calls visit(i) for every box i for which `holds`, as for all nodes that contain it.
+    template <class Holds, class Visit>
+    void find_where(const Holds& holds, const Visit& visit) const {
+        if (packs_.empty()) return;
+        std::array<node, pack::size * max_levels> open;
+        std::size_t opened = 0;
+        open[opened++] = {levels_ - 1, 0};
+        while (opened > 0) {
+            const node n = open[--opened];
+            const pack& boxes = packs_[level_start_[n.level] + n.position];
+            for (std::size_t i = 0; i < pack::size; ++i) {
+                const box<Real> b = boxes[i];
+                if (!(b.low[0] <= b.high[0]) || !holds(b)) continue;  // the first: unused
+                const std::size_t child = pack::size * n.position + i;
+                if (n.level == 0)
+                    visit(child);
+                else
+                    open[opened++] = {n.level - 1, child};
+            }
+        }
+    }
+
     /// Calls visit(p, members) for every leaf p >= first with members that touch b.
     template <class Visit>
     void find(const box<Real>& b, std::size_t first, const Visit& visit) const {
         if (packs_.empty()) return;
-        struct node {
-            std::size_t level, position;
-        };
         std::array<node, pack::size * max_levels> open;
         std::size_t opened = 0;
         open[opened++] = {levels_ - 1, 0};
@@ -189,6 +208,9 @@ class box_tree {
     }
 
   private:
+    struct node {
+        std::size_t level, position;
+    };
     /// Eight to the power of 11 exceeds the number of indices.
     static constexpr std::size_t max_levels = 11;
     static constexpr std::size_t pack_bits = std::countr_zero(pack::size);

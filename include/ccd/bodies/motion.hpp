@@ -8,8 +8,8 @@
 //
 // Positions such as v and f0 are in the body's rest frame. The calls of ccd/curves.hpp accept such
 // queries. They decide about the poses as given: products and sums of the doubles, without
-// rounding. rounded_ends gives the linear motion between rounded ends instead. Cost: microseconds
-// if floating point decides, else 0.1 to 1 ms.
+// rounding. rounded_ends gives the linear motion between rounded ends instead. Cost: below a
+// microsecond if floating point decides, some for a time, 0.1 to 1 ms for degenerate contact.
 #pragma once
 
 #include <array>
@@ -22,7 +22,8 @@
 
 namespace ccd {
 
-/// w + xi + yj + zk, of any length but 0: it means the rotation of q/|q|, without rounding.
+/// w + xi + yj + zk, finite and of any length but 0: it means the rotation of q/|q|, without
+/// rounding.
 struct quaternion {
     double w = 1, x = 0, y = 0, z = 0;
     friend bool operator==(const quaternion&, const quaternion&) = default;

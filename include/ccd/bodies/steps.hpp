@@ -66,14 +66,13 @@ struct body_advance {
 /// Returns the motion until t = fraction, with a rounded end, for another step.
 body_motion until(const body_motion& motion, double fraction);
 
-/// Bodies with meshes in their own coordinates. Keeps the order of their elements, and trees of the
-/// last motion, which bodies that do not move use again. One call at a time. Results do not depend
-/// on earlier steps.
+/// Bodies with meshes in their own coordinates. Keeps a tree of each at rest, whose nodes are moved
+/// where needed. One call at a time. Results do not depend on earlier steps.
 ///
-/// A moving body costs a constant time if its swept box touches no other's, else a pass over its
-/// elements. Two bodies that do not move (see `moves`) are not tested: they cost nothing and are
-/// never reported, even if they touch. Memory: about 200 bytes a vertex, edge or face of bodies
-/// that met another.
+/// Two bodies whose swept boxes touch cost a search for the elements near the other body, and their
+/// pairs. Two bodies that do not move (see `moves`) are not tested: they cost nothing and are never
+/// reported, even if they touch. Memory: about 100 bytes a vertex, edge or face of bodies that met
+/// another.
 class body_steps {
   public:
     /// Throws std::invalid_argument if an index is out of range, a coordinate is not finite, or

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <boost/multiprecision/gmp.hpp>
 #include <ccd/bodies/motion.hpp>
 #include <ccd/contact.hpp>
 #include <ccd/curves.hpp>
@@ -10,6 +11,8 @@
 #include <ccd/kind.hpp>
 #include <cmath>
 #include <cstddef>
+#include <errbound/bernstein.hpp>
+#include <iostream>
 #include <limits>
 #include <numbers>
 #include <optional>
@@ -19,6 +22,9 @@
 #include <utility>
 #include <vector>
 
+#include "ccd/contact/rotation.hpp"
+#include "ccd/contact/turning/body_filter.hpp"
+#include "ccd/contact/turning/control_maps.hpp"
 #include "tests/ccd/contact/by_hand.hpp"
 #include "tests/support/first_time_faults.hpp"
 #include "tests/support/oracle_rational.hpp"
@@ -166,17 +172,16 @@ TEST(bodies, with_invalid_motion_are_refused) {
     };
     const std::string rest =
         "; expected a number certainly > 0, so that the piece turns by less than half a turn";
-    EXPECT_EQ(fault(rigid_motion{{1, 0, 0, 0}, {-1, 0, 0, 0}, {}, {}, {}}),
-              "q0·q1 is -1.000000" + rest);
-    EXPECT_EQ(fault(rigid_motion{{1, 0, 0, 0}, {0, 0, 0, 1}, {}, {}, {}}),
-              "q0·q1 is 0.000000" + rest);
+    EXPECT_EQ(fault(rigid_motion{{1, 0, 0, 0}, {-1, 0, 0, 0}, {}, {}, {}}), "q0·q1 is -1" + rest);
+    EXPECT_EQ(fault(rigid_motion{{1, 0, 0, 0}, {0, 0, 0, 1}, {}, {}, {}}), "q0·q1 is 0" + rest);
     EXPECT_EQ(fault(rigid_motion{{0, 0, 0, 0}, {0, 0, 0, 1}, {}, {}, {}}),
-              "q0·q1 is 0.000000" + rest);
+              "q0 is (0, 0, 0, 0); expected finite numbers, not all 0");
+    EXPECT_EQ(fault(rigid_motion{{1, 0, 0, 0}, {0.5, std::nan(""), -infinity, 0}, {}, {}, {}}),
+              "q1 is (0.5, nan, -inf, 0); expected finite numbers, not all 0");
     EXPECT_EQ(fault(rigid_motion{{}, {}, {infinity, 0, 0}, {}, {}}),
               "p0 is not finite; expected finite numbers");
     EXPECT_EQ(fault(affine_motion{.p0 = {}, .p1 = {0, infinity, 0}}),
               "p1 is not finite; expected finite numbers");
-    EXPECT_NE(fault(rigid_motion{{infinity, 0, 0, 0}, {}, {}, {}, {}}), "");
     EXPECT_EQ(ccd::fault_of(still), "");
     EXPECT_EQ(ccd::time_of_impact(vertex_vertex{{nullptr, {}}, of(still, {})}), first_time{});
     EXPECT_EQ(ccd::time_of_impact(vertex_vertex{of(still, {infinity, 0, 0}), of(still, {})}),
@@ -186,6 +191,17 @@ TEST(bodies, take_the_shorter_arc) {
     const rigid_motion m = ccd::shorter_arc({{1, 0, 0, 0}, {}}, {{-1, 0, 0, -1}, {1, 2, 3}});
     EXPECT_EQ(m.q1, (quaternion{1, 0, 0, 1}));
     EXPECT_EQ(m.p1, (point{1, 2, 3}));
+}
+TEST(bodies, turn_by_quaternions_of_any_length) {
+    const double smallest = std::numeric_limits<double>::denorm_min();
+    for (const double a : {smallest, 1e-160, 1.0, 0x1p1023})
+        for (const double b : {smallest, 1e-160, 1.0, 0x1p1023}) {
+            const body_motion m = ccd::shorter_arc({{a, 0, 0, 0}, {}}, {{-b, 0, 0, -b}, {}});
+            EXPECT_EQ(ccd::fault_of(m), "");
+            const vertex_face query{of(m, {5, 0, 0}), of(still, {3, 0, -1}), of(still, {3, 8, -1}),
+                                    of(still, {3, 4, 2})};
+            EXPECT_EQ(support::fault_of(query, ccd::time_of_impact(query)), "") << a << ' ' << b;
+        }
 }
 TEST(bodies, in_pieces_turn_by_any_angle) {
     // One and a half turns about z at (0, 0, 0), of the vertex (1, 0, 0): it passes −x at a third.
@@ -438,11 +454,13 @@ class random_bodies : public random_source {
         rigid_motion m;
         do {
             m = ccd::shorter_arc({rotation(), position(3)}, {rotation(), position(3)});
+            if (below(4) == 0) {  // lengths of quaternions do not matter, except for the speed
+                const int size = static_cast<int>(below(1000)) - 500;
+                for (double* x : {&m.q0.w, &m.q0.x, &m.q0.y, &m.q0.z}) *x = std::ldexp(*x, size);
+                const int other = size + static_cast<int>(below(40)) - 20;
+                for (double* x : {&m.q1.w, &m.q1.x, &m.q1.y, &m.q1.z}) *x = std::ldexp(*x, other);
+            }
         } while (!ccd::fault_of(m).empty());
-        if (below(4) == 0) {  // lengths of quaternions do not matter, except for the speed
-            for (double* x : {&m.q0.w, &m.q0.x, &m.q0.y, &m.q0.z}) *x *= 0x1p-90;
-            for (double* x : {&m.q1.w, &m.q1.x, &m.q1.y, &m.q1.z}) *x *= 0x1p-80;
-        }
         if (below(3) == 0) m.centre = position(2);
         if (below(3) == 0) m.p1 = m.p0;
         return m;
@@ -456,20 +474,29 @@ class random_bodies : public random_source {
             for (auto* a : {&m.a0, &m.a1}) (*a)[2] = {0, 0, 1};
         return m;
     }
-    body_motion motion() {
-        switch (below(4)) {
-            case 0:
+    rigid_motion screw() {
+        constexpr std::array sizes{1.0, 1.0, 0x1p-6, 0x1p-6, 0x1p-6, 0x1p-40, 0x1p-600};
+        const double shorter = sizes[below(7)];  // 2^-6: less than 0.1 rad
+        const point d{shorter * number(2), shorter * number(2), shorter * number(2)};
+        if (flat) return ccd::screw({0, 0, d.z}, position(2), position(3));
+        return ccd::screw(d, position(2), position(3));
+    }
+    enum class style { affine, interpolated, screw, any };
+    body_motion motion(style s) {
+        switch (s) {
+            case style::affine:
                 return affine();
-            case 1:
-                return below(2) == 0 ? body_motion(resting{}) : body_motion(rigid());
-            default:
+            case style::interpolated:
                 return rigid();
+            case style::screw:
+                return screw();
+            default:
+                return motion(static_cast<style>(below(3)));
         }
     }
-    /// Points of two bodies, one for each feature; at times of up to four bodies.
+    /// Points of two bodies, one for each feature; if `mixed`, of four bodies.
     template <kind K>
-    std::array<body_point, 4> points(const std::array<body_motion, 4>& motions) {
-        const bool mixed = below(8) == 0;
+    std::array<body_point, 4> points(const std::array<body_motion, 4>& motions, bool mixed) {
         std::array<body_point, 4> p;
         for (std::size_t i = 0; i < 4; ++i) {
             const std::size_t feature = i < ccd::kind_traits<K>::first_vertices ? 0 : 1;
@@ -477,7 +504,12 @@ class random_bodies : public random_source {
         }
         return p;
     }
-    std::array<body_motion, 4> motions() { return {motion(), motion(), motion(), motion()}; }
+    /// Draws motions of one style, some at rest.
+    std::array<body_motion, 4> motions(style s) {
+        std::array<body_motion, 4> all{motion(s), motion(s), motion(s), motion(s)};
+        if (below(4) == 0) all[below(2)] = resting{};
+        return all;
+    }
 };
 
 struct random_rational_curves : random_source {
@@ -511,6 +543,10 @@ void for_random_queries(int count, unsigned seed, const Check& check) {
         ccd::for_each_kind([&]<kind K>() { check.template operator()<K>(random); });
     }
 }
+/// True unless ERRBOUND_TEST_SCALE reduces the counts.
+bool is_whole_run() {
+    return support::scaled(100) >= 100;
+}
 separation random_distance(random_source& random) {
     return {std::ldexp(1, static_cast<int>(random.below(5)) - 3 + random.scale),
             std::ldexp(random.below(2), random.scale)};
@@ -529,17 +565,133 @@ TEST(random_rational_queries, come_near_first_at_the_time_of_the_oracle) {
         EXPECT_EQ(support::fault_of(query, d, ccd::time_within(query, d)), "");
     });
 }
-TEST(random_body_queries, touch_first_at_the_time_of_the_oracle) {
-    for_random_queries<random_bodies>(100, 3, []<kind K>(auto& random) {
-        const auto motions = random.motions();
-        const auto query = query_of<K>(random.template points<K>(motions));
+void expect_times_of_oracle(random_bodies::style style, unsigned seed) {
+    std::array<std::size_t, 4> queries{}, contacts{};
+    for_random_queries<random_bodies>(30, seed, [&]<kind K>(auto& random) {
+        const auto motions = random.motions(style);
+        const auto query = query_of<K>(random.template points<K>(motions, random.below(8) == 0));
         expect_first_time_of_oracle(query, random.below(4) == 0 ? 0.5 : 1);
+        ++queries[static_cast<std::size_t>(K)];
+        contacts[static_cast<std::size_t>(K)] +=
+            ccd::decide_exact(query).outcome == outcome::collides;
     });
+    if (is_whole_run()) EXPECT_GT(contacts[0], 0u);
+    for (std::size_t k = 0; k < 4; ++k)
+        std::cout << queries[k] << " queries of kind " << k << ", " << contacts[k] << " contacts\n";
 }
+TEST(random_body_queries, of_affine_bodies_touch_first_at_the_time_of_the_oracle) {
+    expect_times_of_oracle(random_bodies::style::affine, 3);
+}
+TEST(random_body_queries, of_interpolated_poses_touch_first_at_the_time_of_the_oracle) {
+    expect_times_of_oracle(random_bodies::style::interpolated, 4);
+}
+TEST(random_body_queries, of_screws_touch_first_at_the_time_of_the_oracle) {
+    expect_times_of_oracle(random_bodies::style::screw, 5);
+}
+TEST(random_body_queries, of_mixed_motions_touch_first_at_the_time_of_the_oracle) {
+    expect_times_of_oracle(random_bodies::style::any, 6);
+}
+// ---- Filters, by themselves ----
+
+/// The queries that each filter decided.
+struct filter_counts {
+    int axes = 0, far = 0, separate = 0, collides = 0, uncertain = 0;
+};
+template <kind K>
+void expect_decisions_of_oracle(random_bodies& random, filter_counts& counts) {
+    const auto motions = random.motions(random_bodies::style::any);
+    const auto query = query_of<K>(random.template points<K>(motions, false));
+    const auto points = points_of(query);
+    const ccd::detail::control_maps a(*points.front().motion), b(*points.back().motion);
+    const ccd::detail::body_filter<K> filter(points, a, b);
+    const bool touches = oracle::collides(query);
+    if (filter.separated_by_axes(0)) {
+        ++counts.axes;
+        EXPECT_FALSE(touches);
+        const double d = std::ldexp(1 + random.below(2), random.scale);
+        if (random.below(4) == 0 && filter.separated_by_axes(d)) {
+            ++counts.far;
+            EXPECT_FALSE(oracle::within(query, d, 0));
+        }
+    }
+    if constexpr (ccd::is_cubic(K)) {
+        ccd::detail::touching_interval part;
+        const outcome found = filter.decide(&part);
+        if (found == outcome::uncertain) ++counts.uncertain;
+        if (found == outcome::separate) {
+            ++counts.separate;
+            EXPECT_FALSE(touches);
+        }
+        if (found != outcome::collides) return;
+        ++counts.collides;
+        EXPECT_TRUE(touches);
+        EXPECT_TRUE(part.low == 0 ||
+                    !oracle::collides(query, oracle::shortcuts::on, {0, part.low}));
+        EXPECT_TRUE(oracle::collides(query, oracle::shortcuts::on, {part.low, part.high}));
+    }
+}
+TEST(random_body_queries, pass_filters_that_agree_with_the_oracle) {
+    filter_counts all;
+    for_random_queries<random_bodies>(
+        60, 8, [&]<kind K>(auto& random) { expect_decisions_of_oracle<K>(random, all); });
+    std::cout << "axes " << all.axes << ", axes with a distance " << all.far << "; signs: separate "
+              << all.separate << ", collides " << all.collides << ", uncertain " << all.uncertain
+              << '\n';
+    if (!is_whole_run()) return;
+    for (const int count : {all.axes, all.far, all.separate, all.collides}) EXPECT_GT(count, 0);
+}
+
+using rational = boost::multiprecision::number<boost::multiprecision::gmp_rational,
+                                               boost::multiprecision::et_off>;
+using rational_form = errbound::bernstein<rational, 1>;
+
+/// Checks the errors that ccd/contact/turning/control_maps.hpp states. Returns false if the motion
+/// has no maps.
+bool expect_errors_of_maps(const rigid_motion& m) {
+    const ccd::detail::control_maps maps{body_motion(m)};
+    if (maps.motion != ccd::detail::control_maps::motion_kind::turns || !maps.usable) return false;
+    const auto form = [](double a, double b) { return rational_form{{rational(a), rational(b)}}; };
+    const auto r = ccd::detail::rotation_of<rational_form>(
+        {form(m.q0.w, m.q1.w), form(m.q0.x, m.q1.x), form(m.q0.y, m.q1.y), form(m.q0.z, m.q1.z)});
+    const rational u(0x1p-53), largest(maps.largest_entry);
+    const bool has_four = maps.count == 4;
+    const auto weight = elevated(r.weight);
+    for (int k = 0; k < static_cast<int>(maps.count); ++k) {
+        const std::size_t at = static_cast<std::size_t>(k);
+        const rational w = has_four ? weight[k] : r.weight[k];
+        for (std::size_t i = 0; i < 3; ++i)
+            for (std::size_t j = 0; j < 3; ++j) {
+                const auto entry = elevated(r.matrix[i][j]);
+                const rational exact = (has_four ? entry[k] : r.matrix[i][j][k]) / w;
+                EXPECT_LE(abs(exact), largest);
+                EXPECT_LE(abs(exact - rational(maps.linear[at][i][j])), 25 * u * largest);
+            }
+        // Weights have one factor in common.
+        const rational scale = rational(maps.weight[0]) / (has_four ? weight[0] : r.weight[0]);
+        EXPECT_LE(abs(rational(maps.weight[at]) - w * scale), 20 * u * w * scale);
+        // The motion along a line, times the weight.
+        const rational share = has_four && k > 0 ? r.weight[k - 1] / w : rational(0);
+        EXPECT_LE(abs(share - rational(maps.along[at])), 5 * u);
+    }
+    return true;
+}
+TEST(control_maps, have_errors_within_their_bounds) {
+    random_bodies random(9);
+    int with_maps = 0;
+    for (int i = 0; i < support::scaled(500); ++i) {
+        SCOPED_TRACE("motion " + std::to_string(i));
+        random.draw_style();
+        with_maps += expect_errors_of_maps(random.rigid()) + expect_errors_of_maps(random.screw());
+    }
+    EXPECT_GT(with_maps, support::scaled(250));
+    // A motion close to half a turn has no maps, but exact results.
+    EXPECT_FALSE(expect_errors_of_maps({{1, 0, 0, 0}, {0x1p-20, 0, 0, 1}, {}, {}, {}}));
+}
+
 TEST(random_body_queries, come_near_first_at_the_time_of_the_oracle) {
-    for_random_queries<random_bodies>(8, 4, []<kind K>(auto& random) {
-        const auto motions = random.motions();
-        const auto query = query_of<K>(random.template points<K>(motions));
+    for_random_queries<random_bodies>(8, 7, []<kind K>(auto& random) {
+        const auto motions = random.motions(random_bodies::style::any);
+        const auto query = query_of<K>(random.template points<K>(motions, random.below(8) == 0));
         const separation d = random_distance(random);
         EXPECT_EQ(support::fault_of(query, d, ccd::time_within(query, d)), "");
     });

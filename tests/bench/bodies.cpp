@@ -1,0 +1,241 @@
+#include <algorithm>
+#include <array>
+#include <ccd/bodies/motion.hpp>
+#include <ccd/bodies/steps.hpp>
+#include <ccd/contact.hpp>
+#include <ccd/exact.hpp>
+#include <ccd/methods/transform.hpp>
+#include <cmath>
+#include <numbers>
+#include <random>
+
+#include "tests/bench/sections.hpp"
+
+namespace bench {
+namespace {
+
+using position = ccd::point<double>;
+
+/// How a query of two bodies is decided, from cheap to costly.
+enum class family { boxes, axes, plane, contact };
+constexpr std::string_view family_names[] = {"boxes", "axes", "plane", "contact"};
+
+template <template <class> class Bodies, class Linear>
+struct query_pair {
+    std::array<ccd::body_motion, 2> motions;
+    std::array<position, 4> rest;
+    Linear linear;  ///< between the same ends, rounded
+
+    Bodies<ccd::body_point> bodies() const {
+        constexpr std::size_t first = ccd::kind_traits<ccd::kind_of<Linear>>::first_vertices;
+        const auto at = [&](std::size_t i) {
+            return ccd::body_point{&motions[i < first ? 0 : 1], rest[i]};
+        };
+        return {at(0), at(1), at(2), at(3)};
+    }
+};
+
+position operator-(const position& a, const position& b) {
+    return {a.x - b.x, a.y - b.y, a.z - b.z};
+}
+double determinant(const position& a, const position& b, const position& c) {
+    return a.x * (b.y * c.z - b.z * c.y) + a.y * (b.z * c.x - b.x * c.z) +
+           a.z * (b.x * c.y - b.y * c.x);
+}
+
+/// Draws elements with edges of about 1 that move by about 1 and turn by at most `angle`.
+class drawn_queries {
+  public:
+    explicit drawn_queries(double angle) : angle_(angle) {}
+
+    template <class Query>
+    Query next() {
+        Query q;
+        for (auto& motion : q.motions) motion = this->motion();
+        for (auto& x : q.rest) x = point(0.6);
+        return q;
+    }
+    static position moved(const ccd::body_motion& motion, const position& x, bool end) {
+        const auto& m = std::get<ccd::rigid_motion>(motion);
+        const ccd::quaternion& q = end ? m.q1 : m.q0;
+        const position& p = end ? m.p1 : m.p0;
+        const double n = q.w * q.w + q.x * q.x + q.y * q.y + q.z * q.z;
+        // x + 2u × (u × x + w x) for the quaternion (w, u).
+        const position u{q.x, q.y, q.z};
+        const auto cross = [](const position& a, const position& b) -> position {
+            return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+        };
+        const position c = cross(u, x),
+                       d = cross(u, {c.x + q.w * x.x, c.y + q.w * x.y, c.z + q.w * x.z});
+        return {x.x + 2 * d.x / n + p.x, x.y + 2 * d.y / n + p.y, x.z + 2 * d.z / n + p.z};
+    }
+
+  private:
+    position point(double most) {
+        return {most * number_(random_), most * number_(random_), most * number_(random_)};
+    }
+    ccd::body_motion motion() {
+        const position axis = point(1), p0 = point(1);
+        const double length = std::hypot(axis.x, axis.y, axis.z),
+                     half = angle_ / 2 * number_(random_), s = std::sin(half) / length;
+        const position way = point(0.4), p1{p0.x + way.x, p0.y + way.y, p0.z + way.z};
+        return ccd::rigid_motion{
+            {}, {std::cos(half), s * axis.x, s * axis.y, s * axis.z}, p0, p1, {}};
+    }
+
+    double angle_;
+    std::mt19937 random_{1};
+    std::uniform_real_distribution<double> number_{-1, 1};
+};
+
+/// The family of a query by its linear motion, or `contact` if the bodies touch.
+template <class Query>
+family family_of(const Query& q) {
+    if (ccd::decide_exact(q.bodies()).outcome == ccd::outcome::collides) return family::contact;
+    const auto points = points_of(q.linear);
+    constexpr std::size_t first =
+        ccd::kind_traits<ccd::kind_of<decltype(q.linear)>>::first_vertices;
+    for (const auto axis : {&position::x, &position::y, &position::z}) {
+        std::array<double, 2> low{9, 9}, high{-9, -9};
+        for (std::size_t i = 0; i < points.size(); ++i)
+            for (const position& x : {points[i].t0, points[i].t1}) {
+                low[i < first ? 0 : 1] = std::min(low[i < first ? 0 : 1], x.*axis);
+                high[i < first ? 0 : 1] = std::max(high[i < first ? 0 : 1], x.*axis);
+            }
+        if (low[0] > high[1] + 0.05 || low[1] > high[0] + 0.05) return family::boxes;
+    }
+    const auto side = [&](auto end) {
+        const auto x = [&](std::size_t i) { return points[i].*end; };
+        return determinant(x(1) - x(0), x(2) - x(0), x(3) - x(0)) > 0;
+    };
+    using moving = ccd::moving_point<double>;
+    return side(&moving::t0) != side(&moving::t1) ? family::plane : family::axes;
+}
+
+template <template <class> class Bodies, template <class> class Linear>
+void add_rows(std::string_view kind, double angle, const options& o, rows& all) {
+    using drawn = query_pair<Bodies, Linear<double>>;
+    const std::size_t count = o.quick ? 100 : 1'000;
+    std::array<std::vector<drawn>, std::size(family_names)> families;
+    drawn_queries draw(angle);
+    const auto is_full = [&](const auto& f) { return f.size() == count; };
+    while (!std::ranges::all_of(families, is_full)) {
+        auto q = draw.template next<drawn>();
+        constexpr std::size_t first =
+            ccd::kind_traits<ccd::kind_of<Linear<double>>>::first_vertices;
+        const auto at = [&](std::size_t i) -> ccd::moving_point<double> {
+            const auto& motion = q.motions[i < first ? 0 : 1];
+            return {draw.moved(motion, q.rest[i], false), draw.moved(motion, q.rest[i], true)};
+        };
+        q.linear = {at(0), at(1), at(2), at(3)};
+        auto& family = families[static_cast<std::size_t>(family_of(q))];
+        if (!is_full(family)) family.push_back(q);
+    }
+    for (std::size_t f = 0; f < families.size(); ++f) {
+        const auto& queries = families[f];
+        const auto each = [&](const auto& decide) {
+            return [&queries, decide] {
+                for (const drawn& q : queries) keep(decide(q));
+            };
+        };
+        const auto timings =
+            race({each([](const drawn& q) { return ccd::decide_exact(q.linear); }),
+                  each([](const drawn& q) { return ccd::decide_exact(q.bodies()); }),
+                  each([](const drawn& q) { return ccd::time_of_impact(q.linear); }),
+                  each([](const drawn& q) { return ccd::time_of_impact(q.bodies()); })},
+                 o.repeats());
+        const auto ns = [&](double seconds) { return 1e9 * seconds / static_cast<double>(count); };
+        const auto columns = [&](const std::string& name, const timing& t) {
+            all.back()[name + "_ns"] = ns(t.minimum);
+            all.back()[name + "_median"] = ns(t.median);
+        };
+        all.push_back({{"kind", kind}, {"rad", angle}, {"decided_by", family_names[f]}});
+        columns("linear", timings[0]);
+        columns("bodies", timings[1]);
+        all.back()["ratio"] = timings[1].minimum / timings[0].minimum;
+        columns("toi_linear", timings[2]);
+        columns("toi_bodies", timings[3]);
+    }
+}
+
+// ---- Steps of meshes ----
+
+/// A sphere of radius 1 with waves of height 0.02 and 2·n·(2n − 2) faces.
+ccd::mesh wavy_sphere(unsigned n) {
+    ccd::mesh m;
+    const unsigned around = 2 * n;
+    const auto add = [&](double latitude, double longitude) {
+        const double r = 1 + 0.02 * std::sin(9 * latitude) * std::sin(9 * longitude);
+        m.vertices.push_back({r * std::cos(latitude) * std::cos(longitude),
+                              r * std::cos(latitude) * std::sin(longitude),
+                              r * std::sin(latitude)});
+    };
+    add(-std::numbers::pi / 2, 0);
+    for (unsigned i = 1; i < n; ++i)
+        for (unsigned j = 0; j < around; ++j)
+            add(std::numbers::pi * (i / static_cast<double>(n) - 0.5), std::numbers::pi * j / n);
+    add(std::numbers::pi / 2, 0);
+    const auto at = [&](unsigned i, unsigned j) {
+        if (i == 0) return ccd::vertex_index{0};
+        if (i == n) return static_cast<ccd::vertex_index>(m.vertices.size() - 1);
+        return 1 + (i - 1) * around + j % around;
+    };
+    for (unsigned i = 0; i < n; ++i)
+        for (unsigned j = 0; j < around; ++j) {
+            if (i > 0) m.faces.push_back({at(i, j), at(i, j + 1), at(i + 1, j)});
+            if (i + 1 < n) m.faces.push_back({at(i, j + 1), at(i + 1, j + 1), at(i + 1, j)});
+        }
+    return m;
+}
+
+/// One sphere turns once about z in 20 steps, beside another at rest.
+row turn_of_spheres(double gap, const options& o) {
+    const ccd::mesh sphere = wavy_sphere(o.quick ? 12 : 51);
+    constexpr int steps = 20;
+    ccd::body_steps bodies({sphere, sphere});
+    std::vector<std::vector<ccd::body_motion>> motions;
+    const double other = 2.04 + gap;
+    for (int i = 0; i < steps; ++i) {
+        const auto pose_at = [](int k) {
+            const double half = std::numbers::pi * k / steps;
+            return ccd::pose{{std::cos(half), 0, 0, std::sin(half)}, {}};
+        };
+        ccd::affine_motion rest;
+        rest.p0 = rest.p1 = {other, 0, 0};
+        motions.push_back({ccd::shorter_arc(pose_at(i), pose_at(i + 1)), rest});
+    }
+    ccd::body_step_result last;
+    std::size_t candidates = 0, pairs = 0;
+    const auto turn = [&] {
+        candidates = pairs = 0;
+        for (const auto& step : motions) {
+            last = bodies.run(step, {.threads = 1});
+            ccd::for_each_kind([&]<ccd::kind K>() { candidates += last.candidates.of<K>(); });
+            pairs += number_of(last.pairs);
+        }
+    };
+    const timing t = race({turn}, o.quick ? 3 : 5)[0];
+    return {{"gap", gap},
+            {"faces", sphere.faces.size()},
+            {"ms_per_step", 1e3 * t.minimum / steps},
+            {"median", 1e3 * t.median / steps},
+            {"candidates_per_step", candidates / steps},
+            {"pairs_per_step", pairs / steps}};
+}
+
+}  // namespace
+
+void bodies(const options& o, report& out) {
+    out.table("bodies", {},
+              "Two meshes, of which one turns once in 20 steps: ms per step, one thread",
+              {turn_of_spheres(0.001, o), turn_of_spheres(-0.025, o), turn_of_spheres(-0.04, o)});
+    rows all;
+    for (const double angle : {0.0, 0.1}) {
+        add_rows<ccd::vertex_face_of, ccd::vertex_face>("vf", angle, o, all);
+        add_rows<ccd::edge_edge_of, ccd::edge_edge>("ee", angle, o, all);
+    }
+    out.table("bodies", {},
+              "Queries of two bodies that turn by at most `rad`, next to linear motion", all);
+}
+
+}  // namespace bench
