@@ -20,7 +20,6 @@
 #include "ccd/program/first_pairs.hpp"
 #include "ccd/program/options.hpp"
 #include "ccd/program/pair_lines.hpp"
-#include "errbound/support/command_line.hpp"
 #include "errbound/support/output_file.hpp"
 #include "errbound/support/progress_line.hpp"
 #include "errbound/support/rows.hpp"
@@ -136,42 +135,27 @@ class audit final : public command {
   public:
     explicit audit(CLI::App& program)
         : command(program, "audit", "Find contacts and intersections in a recorded simulation") {
-        line_
-            .add_option("FRAME", paths_,
-                        "PLY or OBJ, a frame each; or .npy or .npz (numpy.savez, positions) of\n"
-                        "float32 or float64, shape (n, 3) or (frames, n, 3)")
-            ->required();
-        line_.add_option("--mesh", mesh_, "PLY or OBJ with the faces; by default the first FRAME")
-            ->type_name("FILE");
-        line_
-            .add_option("--first", first_,
-                        "Skip the first N steps; step N is from frame N to N + 1")
-            ->type_name("N")
-            ->check(CLI::Range(std::uint64_t{0}, std::uint64_t{1} << 48));
-        line_.add_option("--count", count_, "Audit at most N steps; all by default")
-            ->type_name("N")
-            ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1} << 48));
-        line_
-            .add_option("--csv", csv_,
-                        "Write a line for each step as soon as it is done; -: standard output")
-            ->type_name("OUT");
-        line_.add_flag("--resume", resume_,
-                       "Continue the table of --csv, if it exists, after its last step");
-        line_.add_option("--json", json_, "Write all steps as JSON; -: standard output")
-            ->type_name("OUT");
-        line_
-            .add_option("--view", view_,
-                        "Write a page for a browser with the first step that has contacts, else\n"
-                        "with the first that starts with intersections, else with the nearest pair")
-            ->type_name("OUT.html")
-            ->check([](const std::string& path) {
-                return path.ends_with(".html")
-                           ? std::string()
-                           : "path is '" + path + "'; expected a name that ends in .html";
-            });
+        add(line_, "FRAME", paths_,
+            "PLY or OBJ, a frame each; or .npy or .npz (numpy.savez, positions) of\n"
+            "float32 or float64, shape (n, 3) or (frames, n, 3)")
+            .required();
+        add(line_, "--mesh", mesh_, "PLY or OBJ with the faces; by default the first FRAME")
+            .type("FILE");
+        add_range_options(line_, first_, count_,
+                          "Skip the first N steps; step N is from frame N to N + 1",
+                          "Audit at most N steps; all by default");
+        add_output(line_, "--csv", csv_,
+                   "Write a line for each step as soon as it is done; -: standard output");
+        add_flag(line_, "--resume", resume_,
+                 "Continue the table of --csv, if it exists, after its last step");
+        add_output(line_, "--json", json_, "Write all steps as JSON; -: standard output");
+        add(line_, "--view", view_,
+            "Write a page for a browser with the first step that has contacts, else\n"
+            "with the first that starts with intersections, else with the nearest pair")
+            .ends_in(".html");
         add_replay_option(line_, replay_);
         add_triangulate_option(line_, reading_.triangulate);
-        add_threads_option(line_, options_.threads, "Threads; 0: one per core");
+        add_threads_option(line_, options_.threads);
     }
 
     exit_status run() override {

@@ -17,7 +17,6 @@
 #include "ccd/lab/queries.hpp"
 #include "ccd/program/command.hpp"
 #include "ccd/program/options.hpp"
-#include "errbound/support/command_line.hpp"
 #include "errbound/support/error.hpp"
 #include "errbound/support/output_file.hpp"
 #include "errbound/support/progress_line.hpp"
@@ -118,24 +117,14 @@ class convert final : public command {
   public:
     explicit convert(CLI::App& program)
         : command(program, "convert", "Convert stored queries from CSV to HDF5, and back") {
-        line_
-            .add_option(
-                "FILE", files_,
-                "Files of queries in the formats of `ccd query`, then the output: OUT.h5 or "
-                "OUT.hdf5, an\n"
-                "HDF5 store, or OUT.csv, rows of hexadecimal floats")
-            ->required()
-            ->expected(2, -1);
-        line_
-            .add_option("--kind", kind_,
-                        "Kind of query; by default taken from the path (vertex-face or vf, "
-                        "edge-edge or ee)")
-            ->check(CLI::IsMember(io::kind_names()));
-        line_.add_flag("--round", round_,
-                       "Round rationals and hexadecimal floats that no double equals; by default\n"
-                       "they are errors");
-        line_.add_option("--json", json_, "Write the table as JSON; -: standard output")
-            ->type_name("OUT");
+        add(line_, "FILE", files_,
+            "Files of queries in the formats of `ccd query`, then the output: OUT.h5 or OUT.hdf5, "
+            "an\nHDF5 store, or OUT.csv, rows of hexadecimal floats")
+            .required()
+            .at_least(2);
+        add_kind_option(line_, kind_);
+        add_round_option(line_, round_);
+        add_output(line_, "--json", json_, "Write the table as JSON; -: standard output");
     }
 
     exit_status run() override {

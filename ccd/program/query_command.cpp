@@ -1,4 +1,3 @@
-#include <CLI/CLI.hpp>
 #include <cstdint>
 #include <filesystem>
 #include <iostream>
@@ -12,7 +11,6 @@
 #include "ccd/program/command.hpp"
 #include "ccd/program/options.hpp"
 #include "ccd/program/query_results.hpp"
-#include "errbound/support/command_line.hpp"
 #include "errbound/support/output_file.hpp"
 #include "errbound/support/progress_line.hpp"
 
@@ -55,25 +53,15 @@ class query final : public command {
 
 query::query(CLI::App& program) : command(program, "query", "Decide stored queries") {
     files_.add_options(line_);
-    line_.add_option("--first", range_.first, "Skip the first N queries of each file")
-        ->check(CLI::Range(std::uint64_t{0}, std::uint64_t{1} << 48))
-        ->capture_default_str();
-    line_
-        .add_option("--count", range_.count,
-                    "Decide at most N queries of each file; all by default")
-        ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1} << 48));
-    line_
-        .add_option("--verdicts", verdicts_,
-                    "Write 0 or 1 per query (one method, one file); -: standard output")
-        ->type_name("OUT");
-    line_
-        .add_option("--toi", toi_,
-                    "Write low,high per query: the first contact is between these adjacent\n"
-                    "hexadecimal floats (0,0 at the start; equal if the time is a double); a line\n"
-                    "- means no contact (method exact, one file); -: standard output")
-        ->type_name("OUT");
-    line_.add_option("--json", json_, "Write the table as JSON; -: standard output")
-        ->type_name("OUT");
+    add_range_options(line_, range_.first, range_.count, "Skip the first N queries of each file",
+                      "Decide at most N queries of each file; all by default");
+    add_output(line_, "--verdicts", verdicts_,
+               "Write 0 or 1 per query (one method, one file); -: standard output");
+    add_output(line_, "--toi", toi_,
+               "Write low,high per query: the first contact is between these adjacent\n"
+               "hexadecimal floats (0,0 at the start; equal if the time is a double); a line\n"
+               "- means no contact (method exact, one file); -: standard output");
+    add_output(line_, "--json", json_, "Write the table as JSON; -: standard output");
 }
 
 exit_status query::run() {

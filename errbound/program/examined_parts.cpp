@@ -179,8 +179,8 @@ void write_files(const std::vector<found_part>& parts, const result_files& to) {
 }  // namespace
 
 void result_files::add_options(CLI::App& line) {
-    line.add_option("--json", json, "Write all tables as JSON")->type_name("OUT");
-    line.add_option("--csv", csv, "Write the table of tightness as CSV")->type_name("OUT");
+    support::add_output(line, "--json", json, "Write all tables as JSON");
+    support::add_output(line, "--csv", csv, "Write the table of tightness as CSV");
 }
 
 support::exit_status examine_parts(const std::vector<part>& parts, int threads,
