@@ -2,13 +2,13 @@
 #include <ccd/advance.hpp>
 #include <ccd/io/mesh_file.hpp>
 #include <ccd/step.hpp>
-#include <chrono>
 #include <iostream>
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <string>
 
 #include "ccd/io/view/view_files.hpp"
+#include "ccd/lab/timing.hpp"
 #include "ccd/program/command.hpp"
 #include "ccd/program/first_pairs.hpp"
 #include "ccd/program/options.hpp"
@@ -233,13 +233,12 @@ class step final : public command {
 
     exit_status run() override {
         check_options();
-        const auto start = std::chrono::steady_clock::now();
+        const auto start = lab::clock::now();
         const mesh before = io::read_mesh(request_.before, request_.reading);
         const mesh after = io::read_mesh(request_.after, request_.reading);
         io::require_same_topology(before, request_.before.string(), after, request_.after.string());
         step_outcome found;
-        found.read_seconds =
-            std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+        found.read_seconds = lab::seconds_since(start);
         report_unused(before);
 
         found.result = request_.device.cuda ? device_step(before, after)

@@ -1,13 +1,13 @@
 // `ccd_mpi step`: each rank reads a share of the files; rank 0 writes all pairs.
 #include <algorithm>
 #include <ccd/mpi.hpp>
-#include <chrono>
 #include <iostream>
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
+#include "ccd/lab/timing.hpp"
 #include "ccd/mpi/exchange.hpp"
 #include "ccd/program/command.hpp"
 #include "ccd/program/mpi/shared_frames.hpp"
@@ -59,13 +59,12 @@ class distributed_step final : public command {
             if (is_root)
                 errbound::support::require_good_outputs({pairs_, toi_, json_}, {before_, after_});
         });
-        const auto start = std::chrono::steady_clock::now();
+        const auto start = lab::clock::now();
         const shared_frames frames = read_shared_frames(ranks, before_, after_);
         options.filter.skip_unused = unused_.skips(frames.unused, frames.vertices);
         rank_report own;
         own.vertices = frames.numbers.size();
-        own.read_seconds =
-            std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+        own.read_seconds = lab::seconds_since(start);
         const mpi::step_result found =
             mpi::step(MPI_COMM_WORLD, frames.part(), options, mpi::placement::root);
         own.work = found.work;
