@@ -30,7 +30,9 @@ class stress_run final : public command {
             "Queries of each family, kind and value of the knob; fewer where the truth\n"
             "takes tenths of a second. 1000, or 100 with --quick")
             .between(1, 1000000);
-        add(line_, "--seed", plan_.seed, "Same seed, same queries").seed().shows_default();
+        add(line_, "--seed", plan_.seed, "Same seed, same queries")
+            .check(errbound::support::checked_seed)
+            .shows_default();
         add_threads_option(
             line_, plan_.threads,
             "Threads that find the truth; 0: one per core. Methods are timed on one");
@@ -85,19 +87,15 @@ class report_run final : public command {
                   "A stopped report continues") {
         settings_.out = "out/report";
         settings_.commit = lab::configured_commit();
-        std::vector<std::string> names;
-        for (const lab::section& s : lab::sections()) names.push_back(s.name);
         add(line_, "DATA", settings_.data,
             "Folders with stored queries (CSV; kind from the path) and scenes (folders of two\n"
             "meshes), searched recursively; else the bundled scene and generated queries");
         add(line_, "--out", settings_.out, "The report's folder, else out/report").type("DIR");
         add_flag(line_, "--quick", settings_.quick, "Fewer queries are timed");
-        add(line_, "--sections", settings_.sections,
+        add(line_, "--sections", sections_,
             "Only these: methods, times, contacts, bounds, tightness (needs a build\n"
             "with MPFR), stress")
-            .type("S[,S...]")
-            .separated_by_commas()
-            .among(names);
+            .type("S[,S...]");
         add_threads_option(line_, settings_.threads,
                            "Threads that count errors; 0: one per core (times are taken on one)");
         add(line_, "--commit", settings_.commit,
@@ -106,6 +104,13 @@ class report_run final : public command {
     }
 
     exit_status run() override {
+        if (was_given("--sections"))
+            settings_.sections =
+                errbound::support::all_named("--sections", sections_, [](const std::string& name) {
+                    return errbound::support::entry_named("--sections", name, lab::sections(),
+                                                          &lab::section::name)
+                        .name;
+                });
         if (settings_.data.empty()) {
             settings_.data.push_back(bundled_scenes());
             settings_.made = true;
@@ -141,6 +146,7 @@ class report_run final : public command {
 
   private:
     lab::report_options settings_;
+    std::string sections_;
     methods_option methods_{line_};
 };
 

@@ -25,10 +25,6 @@ option& option::at_least(int values) {
     of_->expected(values, -1);
     return *this;
 }
-option& option::separated_by_commas() {
-    of_->delimiter(',');
-    return *this;
-}
 option& option::shows_default() {
     of_->capture_default_str();
     return *this;
@@ -44,9 +40,6 @@ option& option::between(T least, T most) {
 }
 template option& option::between(int, int);
 template option& option::between(std::uint64_t, std::uint64_t);
-option& option::seed() {
-    return check(checked_seed);
-}
 option& option::check(std::function<std::string(const std::string&)> fault) {
     of_->check(std::move(fault));
     return *this;
@@ -73,7 +66,6 @@ template option add(CLI::App&, const std::string&, std::optional<std::filesystem
                     const std::string&);
 template option add(CLI::App&, const std::string&, std::vector<std::filesystem::path>&,
                     const std::string&);
-template option add(CLI::App&, const std::string&, std::vector<std::string>&, const std::string&);
 
 option add_flag(CLI::App& line, const std::string& name, bool& value,
                 const std::string& description) {

@@ -31,12 +31,10 @@ class option {
     option& type(const std::string& name);
     option& input();  ///< a file; - is standard input
     option& at_least(int values);
-    option& separated_by_commas();
     option& shows_default();
     option& among(const std::vector<std::string>& names);
     template <class T>
     option& between(T least, T most);  ///< int, std::uint64_t
-    option& seed();                    ///< checked_seed
     /// `fault` returns a message, or nothing for a good value.
     option& check(std::function<std::string(const std::string&)> fault);
     /// A name with this ending; with `or_output` also -.
