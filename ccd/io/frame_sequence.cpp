@@ -3,8 +3,8 @@
 #include "ccd/io/frame_sequence.hpp"
 
 #include <algorithm>
-#include <array>
 #include <bit>
+#include <boost/crc.hpp>
 #include <cmath>
 #include <cstring>
 #include <errbound/support/error.hpp>
@@ -67,24 +67,14 @@ struct member {
 
 /// The CRC-32 of ZIP archives.
 std::uint32_t checksum_of(byte_file& file, std::uint64_t offset, std::uint64_t size) {
-    static const auto table = [] {
-        std::array<std::uint32_t, 256> made{};
-        for (std::uint32_t i = 0; i < made.size(); ++i) {
-            made[i] = i;
-            for (int bit = 0; bit < 8; ++bit)
-                made[i] = made[i] >> 1 ^ (made[i] & 1 ? 0xEDB88320U : 0);
-        }
-        return made;
-    }();
-    std::uint32_t sum = ~0U;
+    boost::crc_32_type sum;
     for (constexpr std::uint64_t block = 1 << 20; size > 0;) {
         const std::string bytes = file.read(offset, std::min(size, block));
-        for (const char c : bytes)
-            sum = sum >> 8 ^ table[(sum ^ static_cast<unsigned char>(c)) & 255];
+        sum.process_bytes(bytes.data(), bytes.size());
         offset += bytes.size();
         size -= bytes.size();
     }
-    return ~sum;
+    return sum.checksum();
 }
 
 std::vector<member> members_of(byte_file& file) {

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <fstream>
 #include <memory>
 #include <optional>
 #include <string>
@@ -16,20 +17,6 @@
 namespace ccd::io {
 
 inline constexpr std::size_t rows_per_query = 8;
-
-/// Rows of whole queries, except the last range of a truncated CSV file.
-struct query_range {
-    std::uint64_t begin = 0, end = 0;  ///< bytes; of a store: queries
-    std::uint64_t rows = 0;            ///< before the range
-};
-
-struct query_index {
-    std::vector<query_range> ranges;  ///< at least one
-    std::uint64_t columns = 0;        ///< of the first row; of a store: 0
-};
-
-/// Finds line ends only. Throws errbound::support::file_error unless the file can be read in parts.
-query_index index_queries(const std::filesystem::path& path, std::size_t queries_of_a_range);
 
 /// The truth that may lie next to a file of queries (read_queries).
 class truth_file {
@@ -46,23 +33,32 @@ class truth_file {
     std::optional<std::vector<bool>> truth_;
 };
 
+/// Reads a regular file of queries, a range at a time.
 class range_reader {
   public:
+    /// Throws errbound::support::file_error, as next().
     range_reader(std::filesystem::path path, std::optional<ccd::kind> kind, bool round,
-                 query_index index);
+                 std::size_t queries_of_a_range);
 
-    /// Same as read_queries, with line numbers of the whole file.
-    query_file read(std::size_t range);
+    /// The next queries as by read_queries, with line numbers of the whole file; at least one
+    /// range.
+    std::optional<query_file> next();
+    double share() const;  ///< of the file that was read, from 0 to 1
 
   private:
-    query_file read_from_store(const query_range& range);
+    bool has_range();
+    query_file next_of_text();
 
     std::filesystem::path path_;
     ccd::kind kind_;
-    bool round_;
-    query_index index_;
-    std::optional<truth_file> truth_;      ///< once it is needed
-    std::unique_ptr<store_reader> store_;  ///< once it is open
+    bool round_, at_end_ = false;
+    std::uint64_t queries_of_a_range_, size_, read_ = 0;  ///< bytes; of a store: queries
+    std::unique_ptr<store_reader> store_;
+    std::optional<truth_file> truth_;  ///< once it is needed
+    std::ifstream file_;
+    std::uint64_t rows_ = 0, columns_ = 0;  ///< of the text before
+    std::string text_;                      ///< read, and not yet returned
+    std::size_t scanned_ = 0, lines_ = 0, end_ = 0;
 };
 
 /// Same as parse_queries, for rows that follow `rows` other rows of `columns` columns.

@@ -7,7 +7,6 @@
 #include <utility>
 
 #include "ccd/io/plots/plots.hpp"
-#include "ccd/lab/kept.hpp"
 #include "ccd/lab/machine.hpp"
 #include "ccd/lab/sections.hpp"
 #include "ccd/lab/stress.hpp"

@@ -1,4 +1,5 @@
 // The text of report.md.
+#include <algorithm>
 #include <cmath>
 
 #include "ccd/lab/report.hpp"
@@ -24,9 +25,10 @@ const rows& table_of(const report_summary& report, const std::string& section) {
     return found == report.tables.end() ? none : found->second;
 }
 
-/// The first `left` columns are words.
-std::string table(const rows& of, const strings& heading, const strings& columns,
-                  std::size_t left) {
+/// Headings are the columns' names with blanks. The first `left` columns are words.
+std::string table(const rows& of, const strings& columns, std::size_t left) {
+    strings heading = columns;
+    for (std::string& name : heading) std::ranges::replace(name, '_', ' ');
     return markdown_of(cells_of(of, heading, columns), left);
 }
 
@@ -60,16 +62,15 @@ std::string methods_on(const report_summary& report, const std::string& heading,
             return of == 0 ? 0 : 1e6 * r[count].get<double>() / static_cast<double>(of);
         };
         const std::size_t colliding = r["colliding"], queries = r["queries"];
-        r["fp_rate"] = per_million("false_positives", queries - colliding);
-        r["fn_rate"] = per_million("false_negatives", colliding);
+        r["FP_per_million_separate"] = per_million("false_positives", queries - colliding);
+        r["FN_per_million_colliding"] = per_million("false_negatives", colliding);
+        r["ns_per_query"] = r["ns"];
     }
     return heading + "\n\n" + grouped(all[0]["queries"]) + " queries, of which " +
            grouped(all[0]["colliding"]) + " collide.\n\n" +
            table(all,
-                 {"method", "false positives", "false negatives", "uncertain",
-                  "FP per million separate", "FN per million colliding", "ns per query"},
-                 {"method", "false_positives", "false_negatives", "uncertain", "fp_rate", "fn_rate",
-                  "ns"},
+                 {"method", "false_positives", "false_negatives", "uncertain",
+                  "FP_per_million_separate", "FN_per_million_colliding", "ns_per_query"},
                  1);
 }
 
@@ -88,9 +89,8 @@ std::string all_data(const report_summary& report) {
 
 std::string data(const report_summary& report) {
     std::string text =
-        "## Data\n\n" + table(report.data,
-                              {"data set", "kind", "queries", "truth", "number", "colliding"},
-                              {"data_set", "kind", "origin", "truth", "queries", "colliding"}, 4);
+        "## Data\n\n" +
+        table(report.data, {"data_set", "kind", "origin", "truth", "queries", "colliding"}, 4);
     for (const omission& o : report.skipped)
         text += "* skipped: `" + o.path.string() + "`: " + o.why + "\n";
     return text + (report.skipped.empty() ? "" : "\n");
@@ -102,19 +102,17 @@ std::string per_data_set(const report_summary& report) {
     if (!methods.empty())
         text += "## Methods on each data set\n\n" +
                 table(methods,
-                      {"data set", "kind", "method", "queries", "collisions", "false positives",
-                       "false negatives", "uncertain", "ns, least", "ns, median"},
                       {"data_set", "kind", "method", "queries", "collisions", "false_positives",
                        "false_negatives", "uncertain", "ns_min", "ns_median"},
                       3);
     if (!times.empty())
-        text += "## Times of single queries\n\nIn ns.\n\n" +
-                table(times,
-                      {"data set", "kind", "method", "timed", "median", "90 %", "99 %", "99.9 %",
-                       "worst"},
-                      {"data_set", "kind", "method", "timed", "ns_median", "ns_90", "ns_99",
-                       "ns_99_9", "ns_worst"},
-                      3);
+        text +=
+            "## Times of single queries\n\nIn ns: the median, the quantiles of 90, 99 and 99.9 "
+            "percent, and the worst.\n\n" +
+            table(times,
+                  {"data_set", "kind", "method", "timed", "ns_median", "ns_90", "ns_99", "ns_99_9",
+                   "ns_worst"},
+                  3);
     return text;
 }
 
@@ -151,7 +149,7 @@ std::string tightness(const report_summary& report) {
            "that estimate errors, the estimate. The columns claimed and observed of tightness.csv "
            "have the promised and the measured share of estimates that are no less. In further "
            "cases the true error is zero or the bound infinite; tightness.csv counts them.\n\n" +
-           table(lines, columns, columns, 2);
+           table(lines, columns, 2);
 }
 
 std::string first_contacts(const report_summary& report) {
@@ -165,17 +163,12 @@ std::string first_contacts(const report_summary& report) {
            "bracket of two neighbouring ones, whose width is in t. Data sets, then families of "
            "stress, over all values of their knobs.\n\n" +
            table(all,
-                 {"data", "kind", "queries", "contacts", "at the start", "at another double",
-                  "two neighbours", "width, median", "width, largest"},
                  {"data_set", "kind", "queries", "contacts", "at_start", "one_double", "neighbours",
                   "width_median", "width_largest"},
                  2) +
            "Cost: ns per query, one thread, the least of several passes alternately; yes or no, "
            "and with the first time. On the right only queries with a contact, one by one.\n\n" +
            table(all,
-                 {"data", "kind", "timed", "batch: yes or no", "and time", "ratio",
-                  "one by one: yes or no", "and time", "ratio", "with a contact", "yes or no",
-                  "and time"},
                  {"data_set", "kind", "timed", "ns_batch_decision", "ns_batch_time", "batch_ratio",
                   "ns_decision", "ns_time", "ratio", "timed_contacts", "ns_contact_decision",
                   "ns_contact_time"},

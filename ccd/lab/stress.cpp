@@ -7,7 +7,6 @@
 #include <ccd/batch.hpp>
 #include <ccd/reference.hpp>
 #include <cmath>
-#include <cstdio>
 #include <limits>
 #include <ostream>
 #include <utility>
@@ -20,6 +19,7 @@
 namespace ccd::lab {
 namespace {
 
+using errbound::support::fixed;
 using errbound::support::table;
 using errbound::support::write_whole;
 
@@ -97,14 +97,8 @@ void add_cells(const plan& what, const family& f, double knob, std::vector<cell>
 
 // ---- What is printed and written ----
 
-std::string formatted(const char* pattern, double value) {
-    char text[64];
-    std::snprintf(text, sizeof text, pattern, value);
-    return text;
-}
-
 std::string knob_of(const cell& c) {
-    return formatted("%g", c.knob);
+    return fixed(c.knob, "%g");
 }
 
 struct summary {
@@ -140,7 +134,7 @@ struct summary {
             if (count > 0)
                 return what + (" " + std::to_string(count)) + "/" + std::to_string(c.queries) +
                        where;
-        return formatted("%.0f ns", c.ns_per_query) + where;
+        return fixed(c.ns_per_query, "%.0f ns") + where;
     }
 };
 
@@ -158,7 +152,7 @@ table summary_of(const std::vector<cell>& cells, const plan& what) {
                  std::to_string(all.sum.finite.false_positives),
                  std::to_string(all.sum.finite.false_negatives), std::to_string(all.sum.uncertain),
                  std::to_string(all.sum.wrong_certain + all.sum.from_not_finite),
-                 formatted("%.0f", all.sum.ns_per_query), all.text_of_worst()});
+                 fixed(all.sum.ns_per_query, "%.0f"), all.text_of_worst()});
         }
     return lines;
 }

@@ -1,9 +1,10 @@
-// The sinks of experiments: tallies of answers, quantiles, folders.
+// The sinks of experiments: tallies of answers, quantiles, kept values, folders.
 #pragma once
 
 #include <ccd/verdict.hpp>
 #include <cstddef>
 #include <filesystem>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -28,6 +29,12 @@ double quantile(std::span<const double> sorted, double p);
 
 /// 64-bit FNV-1a, as 16 hexadecimal digits: it detects accidental changes, not malicious ones.
 std::string fingerprint_of(std::string_view bytes);
+
+/// JSON with the value, all that it depends on, and a checksum.
+std::string kept_text(const row& depends_on, const row& value);
+
+/// The value of such a text; nothing if the text is damaged or has other dependencies.
+std::optional<row> kept_value(const std::string& text, const row& depends_on);
 
 /// Throws errbound::support::file_error if it cannot be written to.
 void make_folder(const std::filesystem::path& folder);

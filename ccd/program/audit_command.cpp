@@ -20,7 +20,6 @@
 #include "ccd/program/first_pairs.hpp"
 #include "ccd/program/options.hpp"
 #include "ccd/program/pair_lines.hpp"
-#include "errbound/support/command_line.hpp"
 #include "errbound/support/output_file.hpp"
 #include "errbound/support/progress_line.hpp"
 #include "errbound/support/rows.hpp"
@@ -33,92 +32,68 @@ using errbound::support::file_error;
 using errbound::support::row;
 using errbound::support::usage_error;
 
-/// One line of the table. Step i is from frame i to frame i + 1.
-struct audited_step {
-    std::size_t index = 0, crossing = 0, touching = 0, overlapping = 0, contacts = 0;
-    std::optional<double> low, high, depth, least_distance;
+/// A line of the table. Step i is from frame i to frame i + 1. The first columns are counts; the
+/// others are numbers, or null.
+const std::vector<std::string> columns{"step", "crossing", "touching", "overlapping",   "contacts",
+                                       "low",  "high",     "depth",    "least_distance"};
+constexpr std::size_t counts = 5;
 
-    bool is_free() const { return crossing + touching + overlapping + contacts == 0; }
-};
-
-/// Calls visit(name, member) for each column.
-template <class Step, class Visit>
-void for_each_column(Step& step, const Visit& visit) {
-    visit("step", step.index);
-    visit("crossing", step.crossing);
-    visit("touching", step.touching);
-    visit("overlapping", step.overlapping);
-    visit("contacts", step.contacts);
-    visit("low", step.low);
-    visit("high", step.high);
-    visit("depth", step.depth);
-    visit("least_distance", step.least_distance);
+std::size_t count(const row& step, const std::string& column) {
+    return step[column].get<std::size_t>();
 }
 
-row row_of(const audited_step& step) {
-    row all;
-    for_each_column(step, [&]<class Value>(const char* name, const Value& value) {
-        if constexpr (std::is_same_v<Value, std::size_t>)
-            all[name] = value;
-        else
-            all[name] = value ? row(*value) : row(nullptr);
-    });
-    return all;
+bool is_free(const row& step) {
+    return count(step, "crossing") + count(step, "touching") + count(step, "overlapping") +
+               count(step, "contacts") ==
+           0;
 }
 
-/// The heading and the line of the table.
-std::pair<std::string, std::string> lines_of(const audited_step& step) {
-    const row values = row_of(step);
-    const std::string both =
-        errbound::support::csv_of(errbound::support::columns_of({values}), {values});
-    const std::size_t end = both.find('\n') + 1;
-    return {both.substr(0, end), both.substr(end)};
+std::string heading() {
+    return errbound::support::csv_of(columns, {});
+}
+std::string line_of(const row& step) {
+    return errbound::support::csv_of(columns, {step}).substr(heading().size());
 }
 
-/// Reads a line that lines_of wrote. Returns nothing for any other line.
-std::optional<audited_step> step_of(const std::string& line) {
-    audited_step step;
+/// Reads a line that line_of wrote. Returns nothing for any other line.
+std::optional<row> step_of(const std::string& line) {
+    row step;
     std::size_t begin = 0;
-    bool good = true;
-    for_each_column(step, [&]<class Value>(const char*, Value& value) {
+    for (std::size_t i = 0; i < columns.size(); ++i) {
         const std::size_t end = std::min(line.find_first_of(",\n", begin), line.size());
         const std::string field = line.substr(std::min(begin, line.size()), end - begin);
+        const row value = field.empty() ? row() : row::parse(field, nullptr, false);
+        if (i < counts ? !value.is_number_unsigned() : !value.is_null() && !value.is_number_float())
+            return std::nullopt;
+        step[columns[i]] = value;
         begin = end + 1;
-        if constexpr (std::is_same_v<Value, std::size_t>) {
-            const row number = row::parse(field, nullptr, false);
-            good = good && number.is_number_unsigned();
-            if (good) value = number.template get<std::size_t>();
-        } else if (!field.empty()) {
-            const io::number number = io::parse_double(field, false);
-            good = good && number.status == io::number_status::ok;
-            value = number.value;
-        }
-    });
-    if (!good || lines_of(step).second != line) return std::nullopt;
+    }
+    if (line_of(step) != line) return std::nullopt;
     return step;
 }
 
 /// The steps in an earlier table, which are `first`, first + 1, ... Their lines, with the heading,
 /// have `bytes`. A last line without its end, of a run that was killed, is no part of it.
 struct earlier_table {
-    std::vector<audited_step> steps = {};
+    errbound::support::rows steps = {};
     std::size_t bytes = 0;
 };
 
 earlier_table table_in(const std::filesystem::path& path, std::size_t first, std::size_t most) {
     std::string text = errbound::support::read_whole(path);
-    const std::string name = path.string(), heading = lines_of({}).first;
-    if (heading.starts_with(text) && text.size() < heading.size()) return {};
-    if (!text.starts_with(heading))
-        io::fail_at(name, 1, "heading differs; expected " + heading.substr(0, heading.size() - 1));
+    const std::string name = path.string(), first_line = heading();
+    if (first_line.starts_with(text) && text.size() < first_line.size()) return {};
+    if (!text.starts_with(first_line))
+        io::fail_at(name, 1,
+                    "heading differs; expected " + first_line.substr(0, first_line.size() - 1));
     text.erase(text.rfind('\n') + 1);
     earlier_table table;
-    std::vector<audited_step>& steps = table.steps;
-    for (std::size_t at = heading.size(); at < text.size();) {
+    errbound::support::rows& steps = table.steps;
+    for (std::size_t at = first_line.size(); at < text.size();) {
         const std::size_t end = text.find('\n', at) + 1;
         const std::string line = text.substr(at, end - at);
         const auto step = step_of(line);
-        if (!step || step->index != first + steps.size())
+        if (!step || count(*step, "step") != first + steps.size())
             io::fail_at(name, steps.size() + 2,
                         "line is " + io::excerpt(line) + "; expected a whole line of step " +
                             std::to_string(first + steps.size()));
@@ -136,42 +111,27 @@ class audit final : public command {
   public:
     explicit audit(CLI::App& program)
         : command(program, "audit", "Find contacts and intersections in a recorded simulation") {
-        line_
-            .add_option("FRAME", paths_,
-                        "PLY or OBJ, a frame each; or .npy or .npz (numpy.savez, positions) of\n"
-                        "float32 or float64, shape (n, 3) or (frames, n, 3)")
-            ->required();
-        line_.add_option("--mesh", mesh_, "PLY or OBJ with the faces; by default the first FRAME")
-            ->type_name("FILE");
-        line_
-            .add_option("--first", first_,
-                        "Skip the first N steps; step N is from frame N to N + 1")
-            ->type_name("N")
-            ->check(CLI::Range(std::uint64_t{0}, std::uint64_t{1} << 48));
-        line_.add_option("--count", count_, "Audit at most N steps; all by default")
-            ->type_name("N")
-            ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1} << 48));
-        line_
-            .add_option("--csv", csv_,
-                        "Write a line for each step as soon as it is done; -: standard output")
-            ->type_name("OUT");
-        line_.add_flag("--resume", resume_,
-                       "Continue the table of --csv, if it exists, after its last step");
-        line_.add_option("--json", json_, "Write all steps as JSON; -: standard output")
-            ->type_name("OUT");
-        line_
-            .add_option("--view", view_,
-                        "Write a page for a browser with the first step that has contacts, else\n"
-                        "with the first that starts with intersections, else with the nearest pair")
-            ->type_name("OUT.html")
-            ->check([](const std::string& path) {
-                return path.ends_with(".html")
-                           ? std::string()
-                           : "path is '" + path + "'; expected a name that ends in .html";
-            });
+        add(line_, "FRAME", paths_,
+            "PLY or OBJ, a frame each; or .npy or .npz (numpy.savez, positions) of\n"
+            "float32 or float64, shape (n, 3) or (frames, n, 3)")
+            .required();
+        add(line_, "--mesh", mesh_, "PLY or OBJ with the faces; by default the first FRAME")
+            .type("FILE");
+        add_range_options(line_, first_, count_,
+                          "Skip the first N steps; step N is from frame N to N + 1",
+                          "Audit at most N steps; all by default");
+        add_output(line_, "--csv", csv_,
+                   "Write a line for each step as soon as it is done; -: standard output");
+        add_flag(line_, "--resume", resume_,
+                 "Continue the table of --csv, if it exists, after its last step");
+        add_output(line_, "--json", json_, "Write all steps as JSON; -: standard output");
+        add(line_, "--view", view_,
+            "Write a page for a browser with the first step that has contacts, else\n"
+            "with the first that starts with intersections, else with the nearest pair")
+            .ends_in(".html");
         add_replay_option(line_, replay_);
         add_triangulate_option(line_, reading_.triangulate);
-        add_threads_option(line_, options_.threads, "Threads; 0: one per core");
+        add_threads_option(line_, options_.threads);
     }
 
     exit_status run() override {
@@ -194,7 +154,7 @@ class audit final : public command {
         mesh_steps steps(mesh);
         find_all(frames, steps);
         report(frames, steps);
-        return std::ranges::all_of(found_, &audited_step::is_free) ? done : check_failed;
+        return std::ranges::all_of(found_, is_free) ? done : check_failed;
     }
 
   private:
@@ -213,29 +173,28 @@ class audit final : public command {
         errbound::support::require_good_outputs(outputs, inputs);
     }
 
-    audited_step audited(mesh_steps& steps, std::size_t index, const vertex_rows& positions) const {
+    row audited(mesh_steps& steps, std::size_t index, const vertex_rows& positions) const {
         const certificate found = certify(steps, positions, options_);
         const auto& start = found.step.intersections_at_start;
-        audited_step step;
-        step.index = index;
-        step.crossing = number_of(start, errbound::relation::crossing);
-        step.touching = number_of(start, errbound::relation::touching);
-        step.overlapping = number_of(start, errbound::relation::overlapping);
-        // A face or rod of size 0 touches without intersecting, and may then pass.
-        if (start.empty()) step.touching = number_of(found.step.touching_at_start);
-        step.contacts = found.contacts();
-        if (found.step.first_contact.outcome == outcome::collides) {
-            step.low = found.step.first_contact.low;
-            step.high = found.step.first_contact.high;
-        }
-        const passage& deepest = found.deepest();
-        if (std::isfinite(deepest.depth_error)) step.depth = deepest.depth;
+        const first_time& contact = found.step.first_contact;
+        const double depth = found.deepest().depth;
         const double least =
             least_distance(steps, positions,
                            {.threads = options_.threads, .filter = options_.filter})
                 .low;
-        if (std::isfinite(least)) step.least_distance = least;
-        return step;
+        const auto or_null = [](bool known, double x) { return known ? row(x) : row(); };
+        const bool collides = contact.outcome == outcome::collides;
+        return {{"step", index},
+                {"crossing", number_of(start, errbound::relation::crossing)},
+                // A face or rod of size 0 touches without intersecting, and may then pass.
+                {"touching", start.empty() ? number_of(found.step.touching_at_start)
+                                           : number_of(start, errbound::relation::touching)},
+                {"overlapping", number_of(start, errbound::relation::overlapping)},
+                {"contacts", found.contacts()},
+                {"low", or_null(collides, contact.low)},
+                {"high", or_null(collides, contact.high)},
+                {"depth", or_null(std::isfinite(found.deepest().depth_error), depth)},
+                {"least_distance", or_null(std::isfinite(least), least)}};
     }
 
     /// Fills found_, and writes the lines of the table. The last step of an earlier table is
@@ -247,7 +206,7 @@ class audit final : public command {
         earlier_table earlier;
         if (resume_ && std::filesystem::exists(*csv_, ignored))
             earlier = table_in(*csv_, first_, count);
-        if (csv_ && earlier.bytes == 0) errbound::support::write_whole(*csv_, lines_of({}).first);
+        if (csv_ && earlier.bytes == 0) errbound::support::write_whole(*csv_, heading());
         found_ = std::move(earlier.steps);
         const bool to_output = csv_ && errbound::support::descriptor_of(*csv_) == 1;
         if (csv_ && !to_output) file.open(*csv_, std::ios::binary | std::ios::app);
@@ -260,10 +219,10 @@ class audit final : public command {
             const std::size_t index = first_ + i;
             progress.show(i, count, frames.name(index));
             before = std::exchange(after, frames.positions(index + 1));
-            const audited_step step = audited(steps, index, vertex_rows(before, after));
-            const std::string line = lines_of(step).second;
+            const row step = audited(steps, index, vertex_rows(before, after));
+            const std::string line = line_of(step);
             if (i < known) {
-                if (line != lines_of(found_[i]).second)
+                if (line != line_of(found_[i]))
                     io::fail_at(csv_->string(), known + 1,
                                 "step " + std::to_string(index) +
                                     " differs from these frames; expected a table of them");
@@ -278,25 +237,26 @@ class audit final : public command {
     }
 
     /// The step of the page and of the first pairs.
-    const audited_step& shown() const {
+    const row& shown() const {
         const auto with_contacts =
-            std::ranges::find_if(found_, [](const audited_step& s) { return s.contacts > 0; });
+            std::ranges::find_if(found_, [](const row& s) { return s["contacts"] != 0; });
         if (with_contacts != found_.end()) return *with_contacts;
-        const auto with_any = std::ranges::find_if_not(found_, &audited_step::is_free);
+        const auto with_any = std::ranges::find_if_not(found_, is_free);
         if (with_any != found_.end()) return *with_any;
-        return *std::ranges::min_element(found_, {}, [](const audited_step& s) {
-            return s.least_distance.value_or(std::numeric_limits<double>::infinity());
+        return *std::ranges::min_element(found_, {}, [](const row& s) {
+            return s["least_distance"].is_null() ? std::numeric_limits<double>::infinity()
+                                                 : s["least_distance"].get<double>();
         });
     }
 
     void report(const io::frame_sequence& frames, mesh_steps& steps) const {
-        const audited_step& one = shown();
+        const row& one = shown();
+        const auto index = count(one, "step");
         std::vector<reason> first;
         pair_lists first_pairs;
         std::vector<errbound::support::output> outputs;
-        if (one.contacts > 0 || view_) {
-            const auto before = frames.positions(one.index),
-                       after = frames.positions(one.index + 1);
+        if (one["contacts"] != 0 || view_) {
+            const auto before = frames.positions(index), after = frames.positions(index + 1);
             const vertex_rows positions(before, after);
             const certificate again = certify(steps, positions, options_);
             first_pairs = again.step.first_pairs;
@@ -318,11 +278,10 @@ class audit final : public command {
     }
 
     row json_of(const std::vector<reason>& first) const {
-        row all = {{"free", std::ranges::all_of(found_, &audited_step::is_free)},
-                   {"shown", shown().index},
+        row all = {{"free", std::ranges::all_of(found_, is_free)},
+                   {"shown", shown()["step"]},
                    {"first_pairs", json_of_reasons(first)},
-                   {"steps", row::array()}};
-        for (const audited_step& step : found_) all["steps"].push_back(row_of(step));
+                   {"steps", found_}};
         return all;
     }
 
@@ -331,10 +290,10 @@ class audit final : public command {
         constexpr std::size_t most = 40;
         errbound::support::rows rows;
         std::size_t not_free = 0;
-        for (const audited_step& step : found_) {
-            not_free += !step.is_free();
-            if ((found_.size() <= most || !step.is_free()) && rows.size() < most)
-                rows.push_back(row_of(step));
+        for (const row& step : found_) {
+            not_free += !is_free(step);
+            if ((found_.size() <= most || !is_free(step)) && rows.size() < most)
+                rows.push_back(step);
         }
         std::string text = errbound::support::text_of(rows);
         if (found_.size() > most && not_free > most)
@@ -349,7 +308,7 @@ class audit final : public command {
     bool resume_ = false;
     io::mesh_options reading_;
     step_options options_;
-    std::vector<audited_step> found_;
+    errbound::support::rows found_;
     unused_vertices_option unused_{line_};
 };
 

@@ -70,41 +70,24 @@ class bodies final : public command {
   public:
     explicit bodies(CLI::App& program)
         : command(program, "bodies", "Find the contacts of bodies that move and turn") {
-        line_.add_option("SCENE", path_, "JSON with the bodies' meshes and poses")->required();
-        line_
-            .add_option("--first", first_,
-                        "Skip the first N steps; step N is from frame N to N + 1")
-            ->type_name("N")
-            ->check(CLI::Range(std::uint64_t{0}, std::uint64_t{1} << 48));
-        line_.add_option("--count", count_, "Decide at most N steps; all by default")
-            ->type_name("N")
-            ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1} << 48));
-        line_
-            .add_option("--csv", csv_,
-                        "Write a line for each step and each two bodies that touch in it;\n"
-                        "-: standard output")
-            ->type_name("OUT");
-        line_
-            .add_option(
-                "--pairs", pairs_,
-                "Write lines STEP,vf,v,f0,f1,f2,low,high (also ee, ve, vv) of the pairs of\n"
-                "elements that touch. Vertices are numbered consecutively over all bodies;\n"
-                "-: standard output")
-            ->type_name("OUT");
-        line_.add_option("--json", json_, "Write all steps as JSON; -: standard output")
-            ->type_name("OUT");
-        line_
-            .add_option("--view", view_,
-                        "Write a page for a browser with the first step that has new contacts,\n"
-                        "else with the first that has any, else with the first")
-            ->type_name("OUT.html")
-            ->check([](const std::string& path) {
-                return path.ends_with(".html")
-                           ? std::string()
-                           : "path is '" + path + "'; expected a name that ends in .html";
-            });
+        add(line_, "SCENE", path_, "JSON with the bodies' meshes and poses").required();
+        add_range_options(line_, first_, count_,
+                          "Skip the first N steps; step N is from frame N to N + 1",
+                          "Decide at most N steps; all by default");
+        add_output(line_, "--csv", csv_,
+                   "Write a line for each step and each two bodies that touch in it;\n"
+                   "-: standard output");
+        add_output(line_, "--pairs", pairs_,
+                   "Write lines STEP,vf,v,f0,f1,f2,low,high (also ee, ve, vv) of the pairs of\n"
+                   "elements that touch. Vertices are numbered consecutively over all bodies;\n"
+                   "-: standard output");
+        add_output(line_, "--json", json_, "Write all steps as JSON; -: standard output");
+        add(line_, "--view", view_,
+            "Write a page for a browser with the first step that has new contacts,\n"
+            "else with the first that has any, else with the first")
+            .ends_in(".html");
         add_triangulate_option(line_, reading_.triangulate);
-        add_threads_option(line_, options_.threads, "Threads; 0: one per core");
+        add_threads_option(line_, options_.threads);
     }
 
     exit_status run() override {

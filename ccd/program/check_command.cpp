@@ -12,9 +12,7 @@
 #include "ccd/program/command.hpp"
 #include "ccd/program/options.hpp"
 #include "ccd/program/pair_lines.hpp"
-#include "errbound/support/command_line.hpp"
 #include "errbound/support/output_file.hpp"
-#include "errbound/support/table.hpp"
 
 namespace ccd::program {
 namespace {
@@ -42,8 +40,7 @@ nlohmann::ordered_json json_of(const checked_file& file) {
             document["intersections"][std::string(name(k))][std::string(name(r))] =
                 file.found.counts.of(k, r);
     document["edge_face"] = file.found.edge_faces.size();
-    if (file.unused > 0)
-        document["unused_vertices"] = {{"count", file.unused}, {"skipped", file.skip_unused}};
+    add_unused(document, file.unused, file.skip_unused);
     document["seconds"] = file.found.seconds;
     return document;
 }
@@ -67,40 +64,24 @@ class check final : public command {
   public:
     explicit check(CLI::App& program)
         : command(program, "check", "Find the intersections of a mesh at rest") {
-        line_.add_option("FILE", paths_, "PLY or OBJ; -: standard input")
-            ->required()
-            ->transform(errbound::support::input_named);
-        line_
-            .add_option("--pairs", pairs_,
-                        "Write lines ff,a0,a1,a2,b0,b1,b2,RELATION of vertex indices (ef, vf, ee,\n"
-                        "ve and vv for edges of no face and vertices of neither); RELATION is\n"
-                        "crossing, touching or overlapping; one FILE; -: standard output")
-            ->type_name("OUT");
-        line_
-            .add_option("--edge-faces", edge_faces_,
-                        "Write lines ef,e0,e1,f0,f1,f2 of all edges and faces that share a point\n"
-                        "and no vertex; one FILE; -: standard output")
-            ->type_name("OUT");
-        line_
-            .add_option("--json", json_,
-                        "Write counts as JSON, a list if there are several FILEs; -: standard "
-                        "output")
-            ->type_name("OUT");
-        line_
-            .add_option(
-                "--view", view_,
-                "Write a page for a browser with the mesh and its intersections; one FILE;\n"
-                "-: standard output")
-            ->type_name("OUT.html")
-            ->check([](const std::string& path) {
-                return path == "-" || path.ends_with(".html")
-                           ? std::string()
-                           : "path is '" + path + "'; expected a name that ends in .html, or -";
-            });
-        line_.add_flag("--merge-equal-positions", options_.merge_equal_positions,
-                       "Count vertices with equal positions as the first of them");
+        add(line_, "FILE", paths_, "PLY or OBJ; -: standard input").required().input();
+        add_output(line_, "--pairs", pairs_,
+                   "Write lines ff,a0,a1,a2,b0,b1,b2,RELATION of vertex indices (ef, vf, ee,\n"
+                   "ve and vv for edges of no face and vertices of neither); RELATION is\n"
+                   "crossing, touching or overlapping; one FILE; -: standard output");
+        add_output(line_, "--edge-faces", edge_faces_,
+                   "Write lines ef,e0,e1,f0,f1,f2 of all edges and faces that share a point\n"
+                   "and no vertex; one FILE; -: standard output");
+        add_output(line_, "--json", json_,
+                   "Write counts as JSON, a list if there are several FILEs; -: standard output");
+        add(line_, "--view", view_,
+            "Write a page for a browser with the mesh and its intersections; one FILE;\n"
+            "-: standard output")
+            .ends_in(".html", true);
+        add_flag(line_, "--merge-equal-positions", options_.merge_equal_positions,
+                 "Count vertices with equal positions as the first of them");
         add_triangulate_option(line_, reading_.triangulate);
-        add_threads_option(line_, options_.threads, "Threads; 0: one per core");
+        add_threads_option(line_, options_.threads);
     }
 
     exit_status run() override {

@@ -6,6 +6,7 @@
 
 namespace ccd::program {
 
+using errbound::support::add, errbound::support::add_flag, errbound::support::add_output;
 using errbound::support::command, errbound::support::exit_status;
 using enum errbound::support::exit_status;
 
@@ -19,5 +20,7 @@ std::unique_ptr<command> report_command(CLI::App& program);
 std::unique_ptr<command> validate_command(CLI::App& program);
 std::unique_ptr<command> convert_command(CLI::App& program);
 std::unique_ptr<command> methods_command(CLI::App& program);
+/// `ccd_mpi step`.
+std::unique_ptr<command> distributed_step_command(CLI::App& program);
 
 }  // namespace ccd::program

@@ -4,9 +4,7 @@
 #include <boost/crc.hpp>
 #include <ccd/io/query_store.hpp>
 #include <ccd/methods/transform.hpp>
-#include <chrono>
 #include <csignal>
-#include <cstdio>
 #include <iostream>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
@@ -15,9 +13,9 @@
 
 #include "ccd/io/query_ranges.hpp"
 #include "ccd/lab/queries.hpp"
+#include "ccd/lab/timing.hpp"
 #include "ccd/program/command.hpp"
 #include "ccd/program/options.hpp"
-#include "errbound/support/command_line.hpp"
 #include "errbound/support/error.hpp"
 #include "errbound/support/output_file.hpp"
 #include "errbound/support/progress_line.hpp"
@@ -118,24 +116,14 @@ class convert final : public command {
   public:
     explicit convert(CLI::App& program)
         : command(program, "convert", "Convert stored queries from CSV to HDF5, and back") {
-        line_
-            .add_option(
-                "FILE", files_,
-                "Files of queries in the formats of `ccd query`, then the output: OUT.h5 or "
-                "OUT.hdf5, an\n"
-                "HDF5 store, or OUT.csv, rows of hexadecimal floats")
-            ->required()
-            ->expected(2, -1);
-        line_
-            .add_option("--kind", kind_,
-                        "Kind of query; by default taken from the path (vertex-face or vf, "
-                        "edge-edge or ee)")
-            ->check(CLI::IsMember(io::kind_names()));
-        line_.add_flag("--round", round_,
-                       "Round rationals and hexadecimal floats that no double equals; by default\n"
-                       "they are errors");
-        line_.add_option("--json", json_, "Write the table as JSON; -: standard output")
-            ->type_name("OUT");
+        add(line_, "FILE", files_,
+            "Files of queries in the formats of `ccd query`, then the output: OUT.h5 or OUT.hdf5, "
+            "an\nHDF5 store, or OUT.csv, rows of hexadecimal floats")
+            .required()
+            .at_least(2);
+        add_kind_option(line_, kind_);
+        add_round_option(line_, round_);
+        add_output(line_, "--json", json_, "Write the table as JSON; -: standard output");
     }
 
     exit_status run() override {
@@ -164,10 +152,6 @@ class convert final : public command {
     }
 
   private:
-    static double seconds_since(std::chrono::steady_clock::time_point start) {
-        return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-    }
-
     /// False if a signal stopped it.
     bool make(const std::filesystem::path& out, bool to_store) const {
         converted all(to_store);
@@ -202,17 +186,17 @@ class convert final : public command {
                                             std::optional<kind> kind, bool round,
                                             const Take& take) const {
         read_file read{std::move(name)};
-        const io::query_index index = io::index_queries(file, 65536);
-        io::range_reader reader(file, kind, round, index);
+        io::range_reader reader(file, kind, round, 65536);
         errbound::support::progress_line progress;
-        for (std::size_t i = 0; i < index.ranges.size(); ++i) {
+        for (;;) {
             if (*stop_ != 0) return std::nullopt;
-            progress.show(i, index.ranges.size(), read.name);
-            const auto start = std::chrono::steady_clock::now();
-            const io::query_file queries = reader.read(i);
-            read.seconds += seconds_since(start);
-            read.queries += queries.size();
-            take(queries);
+            progress.show(reader.share(), read.name);
+            const auto start = lab::clock::now();
+            const std::optional<io::query_file> queries = reader.next();
+            read.seconds += lab::seconds_since(start);
+            if (!queries) break;
+            read.queries += queries->size();
+            take(*queries);
         }
         read.bytes = std::filesystem::file_size(file);
         return read;
@@ -229,17 +213,13 @@ class convert final : public command {
     }
 
     static std::string text_of(const std::vector<read_file>& table) {
-        const auto digits = [](double x) {
-            char text[32];
-            std::snprintf(text, sizeof text, "%.1f", x);
-            return std::string(text);
-        };
+        using errbound::support::fixed, errbound::support::grouped;
         errbound::support::table rows = {{"file", "queries", "bytes", "a query", "ns to read one"}};
         for (const read_file& f : table) {
             const auto n = static_cast<double>(f.queries);
-            rows.push_back({f.name, errbound::support::grouped(f.queries),
-                            errbound::support::grouped(f.bytes),
-                            digits(static_cast<double>(f.bytes) / n), digits(1e9 * f.seconds / n)});
+            rows.push_back({f.name, grouped(f.queries), grouped(f.bytes),
+                            fixed(static_cast<double>(f.bytes) / n, "%.1f"),
+                            fixed(1e9 * f.seconds / n, "%.1f")});
         }
         return errbound::support::text_of(rows, 1);
     }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <ccd/methods/transform.hpp>
 #include <cstddef>
+#include <nlohmann/json.hpp>
 
 #include "ccd/lab/queries.hpp"
 #include "errbound/support/table.hpp"
@@ -59,16 +60,10 @@ nlohmann::ordered_json json_of_reasons(std::span<const reason> all) {
 }
 
 void add_replay_option(CLI::App& line, std::optional<std::filesystem::path>& path) {
-    line.add_option(
-            "--replay", path,
-            "Print the pairs of the first contact: how they move on, and their distance at\n"
-            "the start. Write them to OUT-vf.csv and OUT-ee.csv, which ccd query reads")
-        ->type_name("OUT.csv")
-        ->check([](const std::string& name) {
-            return name.ends_with(".csv")
-                       ? std::string()
-                       : "path is '" + name + "'; expected a name that ends in .csv";
-        });
+    add(line, "--replay", path,
+        "Print the pairs of the first contact: how they move on, and their distance at\n"
+        "the start. Write them to OUT-vf.csv and OUT-ee.csv, which ccd query reads")
+        .ends_in(".csv");
 }
 
 std::vector<std::filesystem::path> replay_paths(const std::filesystem::path& path) {

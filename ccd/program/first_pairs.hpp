@@ -1,15 +1,15 @@
 // The pairs that limit a step: a table, JSON, and files that replay them.
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <ccd/certify.hpp>
 #include <filesystem>
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
+#include "ccd/program/command.hpp"
 #include "errbound/support/output_file.hpp"
 
 namespace ccd::program {

@@ -8,7 +8,6 @@
 #include "ccd/lab/stress.hpp"
 #include "ccd/program/command.hpp"
 #include "ccd/program/options.hpp"
-#include "errbound/support/command_line.hpp"
 #include "errbound/support/progress_line.hpp"
 
 namespace ccd::program {
@@ -23,35 +22,29 @@ class stress_run final : public command {
                   "Every method on stiff and extreme queries, family by family, each with a knob "
                   "that is\n"
                   "swept over its whole range; truth by unbounded integers") {
-        line_.add_flag("--quick", quick_, "About a minute instead of ten");
-        line_
-            .add_option("--family", families_,
-                        "Families F[,F...], else all. A family's queries do not depend on\n"
-                        "the others")
-            ->type_name("F[,F...]");
-        line_
-            .add_option("--queries", plan_.queries,
-                        "Queries of each family, kind and value of the knob; fewer where the "
-                        "truth\ntakes tenths of a second. 1000, or 100 with --quick")
-            ->check(CLI::Range(1, 1000000));
-        line_.add_option("--seed", plan_.seed, "Same seed, same queries")
-            ->check(errbound::support::checked_seed)
-            ->capture_default_str();
-        add_threads_option(line_, plan_.threads,
-                           "Threads that find the truth; 0: one per core. Methods are timed on "
-                           "one");
-        line_.add_option("--out", out_.folder, "Write DIR/stress.csv, a row per cell")
-            ->type_name("DIR");
-        line_
-            .add_option("--json", out_.json,
-                        "Write the cells as JSON; a knob of null is exactly zero (CSV: -inf)")
-            ->type_name("OUT");
+        add_flag(line_, "--quick", quick_, "About a minute instead of ten");
+        add(line_, "--family", families_,
+            "Families F[,F...], else all. A family's queries do not depend on\nthe others")
+            .type("F[,F...]");
+        add(line_, "--queries", plan_.queries,
+            "Queries of each family, kind and value of the knob; fewer where the truth\n"
+            "takes tenths of a second. 1000, or 100 with --quick")
+            .between(1, 1000000);
+        add(line_, "--seed", plan_.seed, "Same seed, same queries")
+            .check(errbound::support::checked_seed)
+            .shows_default();
+        add_threads_option(
+            line_, plan_.threads,
+            "Threads that find the truth; 0: one per core. Methods are timed on one");
+        add(line_, "--out", out_.folder, "Write DIR/stress.csv, a row per cell").type("DIR");
+        add_output(line_, "--json", out_.json,
+                   "Write the cells as JSON; a knob of null is exactly zero (CSV: -inf)");
     }
 
     exit_status run() override {
         for (const ccd::method m : methods_.methods())
             plan_.subjects.push_back(lab::subject_named(info(m).name));
-        if (line_.count("--family") > 0)
+        if (was_given("--family"))
             plan_.families =
                 errbound::support::all_named("--family", families_, [](const std::string& name) {
                     return &errbound::support::entry_named("--family", name, lab::families(),
@@ -59,7 +52,7 @@ class stress_run final : public command {
                 });
         else
             for (const lab::family& entry : lab::families()) plan_.families.push_back(&entry);
-        if (line_.count("--queries") == 0) plan_.queries = quick_ ? 100 : 1000;
+        if (!was_given("--queries")) plan_.queries = quick_ ? 100 : 1000;
         plan_.seconds = quick_ ? 0.002 : 0.02;
 
         std::vector<fs::path> others;
@@ -94,31 +87,30 @@ class report_run final : public command {
                   "A stopped report continues") {
         settings_.out = "out/report";
         settings_.commit = lab::configured_commit();
-        std::vector<std::string> names;
-        for (const lab::section& s : lab::sections()) names.push_back(s.name);
-        line_.add_option(
-            "DATA", settings_.data,
+        add(line_, "DATA", settings_.data,
             "Folders with stored queries (CSV; kind from the path) and scenes (folders of two\n"
             "meshes), searched recursively; else the bundled scene and generated queries");
-        line_.add_option("--out", settings_.out, "The report's folder, else out/report")
-            ->type_name("DIR");
-        line_.add_flag("--quick", settings_.quick, "Fewer queries are timed");
-        line_
-            .add_option("--sections", settings_.sections,
-                        "Only these: methods, times, contacts, bounds, tightness (needs a build\n"
-                        "with MPFR), stress")
-            ->type_name("S[,S...]")
-            ->delimiter(',')
-            ->check(CLI::IsMember(names));
+        add(line_, "--out", settings_.out, "The report's folder, else out/report").type("DIR");
+        add_flag(line_, "--quick", settings_.quick, "Fewer queries are timed");
+        add(line_, "--sections", sections_,
+            "Only these: methods, times, contacts, bounds, tightness (needs a build\n"
+            "with MPFR), stress")
+            .type("S[,S...]");
         add_threads_option(line_, settings_.threads,
                            "Threads that count errors; 0: one per core (times are taken on one)");
-        line_
-            .add_option("--commit", settings_.commit,
-                        "Named in the report, else that of the configured build")
-            ->type_name("TEXT");
+        add(line_, "--commit", settings_.commit,
+            "Named in the report, else that of the configured build")
+            .type("TEXT");
     }
 
     exit_status run() override {
+        if (was_given("--sections"))
+            settings_.sections =
+                errbound::support::all_named("--sections", sections_, [](const std::string& name) {
+                    return errbound::support::entry_named("--sections", name, lab::sections(),
+                                                          &lab::section::name)
+                        .name;
+                });
         if (settings_.data.empty()) {
             settings_.data.push_back(bundled_scenes());
             settings_.made = true;
@@ -154,7 +146,23 @@ class report_run final : public command {
 
   private:
     lab::report_options settings_;
+    std::string sections_;
     methods_option methods_{line_};
+};
+
+class methods_run final : public command {
+  public:
+    explicit methods_run(CLI::App& program)
+        : command(program, "methods", "List all methods with their guarantees") {}
+
+    exit_status run() override {
+        errbound::support::table rows = {{"method", "promise", "source"}};
+        for (const method_info& entry : ccd::methods())
+            rows.push_back(
+                {std::string(entry.name), std::string(entry.promise), std::string(entry.source)});
+        std::cout << errbound::support::text_of(rows, 3);
+        return done;
+    }
 };
 
 }  // namespace
@@ -165,6 +173,10 @@ std::unique_ptr<command> stress_command(CLI::App& program) {
 
 std::unique_ptr<command> report_command(CLI::App& program) {
     return std::make_unique<report_run>(program);
+}
+
+std::unique_ptr<command> methods_command(CLI::App& program) {
+    return std::make_unique<methods_run>(program);
 }
 
 }  // namespace ccd::program

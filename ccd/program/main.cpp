@@ -1,9 +1,6 @@
 // The program `ccd`. Exit status: 0 done; 1 bad input, a missing or failed CUDA device, or a broken
 // guarantee (`ccd stress`, `ccd report`, `ccd validate`); 2 bad usage; 3 intersections or
 // contacts (`ccd check`, `ccd audit`, `ccd bodies`).
-#include <CLI/CLI.hpp>
-#include <string>
-
 #include "ccd/io/store/store_reader.hpp"
 #include "ccd/program/command.hpp"
 #include "errbound/support/program.hpp"
@@ -12,21 +9,21 @@ namespace ccd::program {
 namespace {
 
 int run_command_line(int argc, char** argv) {
-    CLI::App app{
+    const errbound::support::program_text text{
+        "ccd",
         "Exact continuous collision detection.\n"
         "Exit status: 0 done, 1 bad input, 2 bad usage; stress, report and validate also return 1 "
         "if a\nmethod or rule breaks its guarantee; check and audit return 3 if a mesh intersects "
         "itself,\nbodies if two bodies touch.",
-        "ccd"};
-    app.set_version_flag("--version", std::string("ccd ") + ERRBOUND_VERSION);
-    const std::unique_ptr<command> commands[] = {
-        query_command(app),    step_command(app),   check_command(app),  audit_command(app),
-        bodies_command(app),   stress_command(app), report_command(app),
+        ERRBOUND_VERSION};
+    constexpr errbound::support::command_maker commands[] = {
+        query_command,    step_command,   check_command,  audit_command,
+        bodies_command,   stress_command, report_command,
 #ifdef ERRBOUND_HAVE_MPFR
-        validate_command(app),
+        validate_command,
 #endif
-        convert_command(app),  methods_command(app)};
-    return errbound::support::run_command(app, argc, argv, commands);
+        convert_command,  methods_command};
+    return errbound::support::run_command(text, argc, argv, commands);
 }
 
 }  // namespace

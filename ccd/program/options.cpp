@@ -4,12 +4,11 @@
 #include <ccd/io/query_file.hpp>
 
 #include "ccd/io/text.hpp"
-#include "errbound/support/command_line.hpp"
 #include "errbound/support/hexadecimal.hpp"
 
 namespace ccd::program {
 
-using errbound::support::entry_named;
+using errbound::support::add, errbound::support::add_flag, errbound::support::entry_named;
 using errbound::support::usage_error;
 
 ccd::method method_named(const std::string& name) {
@@ -17,8 +16,7 @@ ccd::method method_named(const std::string& name) {
 }
 
 methods_option::methods_option(CLI::App& line)
-    : option_(line.add_option("--method", list_, "Methods M[,M...]; all by default")
-                  ->type_name("M[,M...]")) {}
+    : option_(add(line, "--method", list_, "Methods M[,M...]; all by default").type("M[,M...]")) {}
 
 std::vector<ccd::method> methods_option::methods() const {
     if (was_given()) return errbound::support::all_named("--method", list_, method_named);
@@ -28,13 +26,13 @@ std::vector<ccd::method> methods_option::methods() const {
 }
 
 device_options::device_options(CLI::App& line) {
-    line.add_option("--device", device_, "Device to use: cpu or cuda")
-        ->check(CLI::IsMember({"cpu", "cuda"}))
-        ->capture_default_str();
-    line.add_option("--precision", precision_,
-                    "With --device cuda: the arithmetic of the first stage, float64 (the default)\n"
-                    "or float32; queries that float32 cannot decide are decided in float64")
-        ->check(CLI::IsMember({"float64", "float32"}));
+    add(line, "--device", device_, "Device to use: cpu or cuda")
+        .among({"cpu", "cuda"})
+        .shows_default();
+    add(line, "--precision", precision_,
+        "With --device cuda: the arithmetic of the first stage, float64 (the default)\n"
+        "or float32; queries that float32 cannot decide are decided in float64")
+        .among({"float64", "float32"});
 }
 
 device_choice device_options::chosen() const {
@@ -57,7 +55,7 @@ void require_on_device(ccd::method m) {
 
 number_option::number_option(CLI::App& line, const std::string& name,
                              const std::string& description)
-    : name_(name), option_(line.add_option(name, text_, description)->type_name("NUMBER")) {}
+    : name_(name), option_(add(line, name, text_, description).type("NUMBER")) {}
 
 double number_option::value(double otherwise, double max) const {
     if (!was_given()) return otherwise;
@@ -70,11 +68,10 @@ double number_option::value(double otherwise, double max) const {
 }
 
 unused_vertices_option::unused_vertices_option(CLI::App& line) {
-    line.add_option(
-            "--unused-vertices", choice_,
-            "Vertices without faces and edges: skip them (default if the file has faces or\n"
-            "edges), or treat them as points (default if it has none)")
-        ->check(CLI::IsMember({"skip", "points"}));
+    add(line, "--unused-vertices", choice_,
+        "Vertices without faces and edges: skip them (default if the file has faces or\n"
+        "edges), or treat them as points (default if it has none)")
+        .among({"skip", "points"});
 }
 
 bool unused_vertices_option::skips(std::size_t unused, std::size_t vertices) const {
@@ -96,32 +93,43 @@ std::string text_of_time(const first_time& time) {
 }
 
 void query_files::add_options(CLI::App& line) {
-    line.add_option(
-            "FILE", paths,
-            "CSV, 8 rows per query: v f0 f1 f2 (or a0 a1 b0 b1) at t = 0, then at t = 1; a row "
-            "is\n"
-            "xnum,xden,ynum,yden,znum,zden or x,y,z, then optionally the truth, 0 or 1;\n"
-            "or an HDF5 store of ccd convert; -: standard input")
-        ->required()
-        ->transform(errbound::support::input_named);
-    line.add_option("--kind", kind,
-                    "Kind of query; by default taken from the path (vertex-face or vf, edge-edge "
-                    "or ee)")
-        ->check(CLI::IsMember(io::kind_names()));
-    line.add_flag(
-        "--round", round,
-        "Round rationals and hexadecimal floats that no double equals; by default they are\n"
-        "errors (decimals are always rounded to the nearest double)");
+    add(line, "FILE", paths,
+        "CSV, 8 rows per query: v f0 f1 f2 (or a0 a1 b0 b1) at t = 0, then at t = 1; a row is\n"
+        "xnum,xden,ynum,yden,znum,zden or x,y,z, then optionally the truth, 0 or 1;\n"
+        "or an HDF5 store of ccd convert; -: standard input")
+        .required()
+        .input();
+    add_kind_option(line, kind);
+    add_round_option(line, round);
+}
+
+void add_range_options(CLI::App& line, std::uint64_t& first, std::uint64_t& count,
+                       const std::string& of_first, const std::string& of_count) {
+    constexpr std::uint64_t most = std::uint64_t{1} << 48;
+    add(line, "--first", first, of_first).type("N").between(std::uint64_t{0}, most).shows_default();
+    add(line, "--count", count, of_count).type("N").between(std::uint64_t{1}, most);
+}
+
+void add_kind_option(CLI::App& line, std::string& kind) {
+    add(line, "--kind", kind,
+        "Kind of query; by default taken from the path (vertex-face or vf, edge-edge or ee)")
+        .among(io::kind_names());
+}
+
+void add_round_option(CLI::App& line, bool& round) {
+    add_flag(line, "--round", round,
+             "Round rationals and hexadecimal floats that no double equals; by default they are\n"
+             "errors (decimals are always rounded to the nearest double)");
 }
 
 void add_triangulate_option(CLI::App& line, bool& triangulate) {
-    line.add_flag("--triangulate", triangulate,
-                  "Split faces of more than three vertices into triangles (fans, in the order of "
-                  "their vertices)");
+    add_flag(line, "--triangulate", triangulate,
+             "Split faces of more than three vertices into triangles (fans, in the order of their "
+             "vertices)");
 }
 
 void add_threads_option(CLI::App& line, int& threads, const std::string& description) {
-    line.add_option("--threads", threads, description)->check(CLI::Range(0, 4096));
+    add(line, "--threads", threads, description).between(0, 4096);
 }
 
 }  // namespace ccd::program

@@ -1,14 +1,15 @@
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <ccd/contact.hpp>
 #include <ccd/method.hpp>
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <vector>
 
 #include "ccd/program/device_run.hpp"
+#include "errbound/support/command.hpp"
 
 namespace ccd::program {
 
@@ -17,12 +18,12 @@ ccd::method method_named(const std::string& name);
 class methods_option {
   public:
     explicit methods_option(CLI::App& line);
-    bool was_given() const { return option_->count() > 0; }
+    bool was_given() const { return option_.was_given(); }
     std::vector<ccd::method> methods() const;
 
   private:
     std::string list_;
-    CLI::Option* option_;
+    errbound::support::option option_;
 };
 
 class device_options {
@@ -42,13 +43,13 @@ void require_on_device(ccd::method m);
 class number_option {
   public:
     number_option(CLI::App& line, const std::string& name, const std::string& description);
-    bool was_given() const { return option_->count() > 0; }
+    bool was_given() const { return option_.was_given(); }
     /// `max` is 1 or the largest double. Throws usage_error unless the value is in [0, max].
     double value(double otherwise, double max) const;
 
   private:
     std::string name_, text_;
-    CLI::Option* option_;
+    errbound::support::option option_;
 };
 
 class unused_vertices_option {
@@ -75,7 +76,13 @@ struct query_files {
     void add_options(CLI::App& line);
 };
 
-void add_threads_option(CLI::App& line, int& threads, const std::string& description);
+/// --first and --count.
+void add_range_options(CLI::App& line, std::uint64_t& first, std::uint64_t& count,
+                       const std::string& of_first, const std::string& of_count);
+void add_kind_option(CLI::App& line, std::string& kind);
+void add_round_option(CLI::App& line, bool& round);
+void add_threads_option(CLI::App& line, int& threads,
+                        const std::string& description = "Threads; 0: one per core");
 void add_triangulate_option(CLI::App& line, bool& triangulate);
 
 }  // namespace ccd::program

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "ccd/program/options.hpp"
+#include "errbound/support/table.hpp"
 
 namespace ccd::program {
 
@@ -39,6 +40,55 @@ std::string lines_of_pairs(const Lists& pairs, const time_lists* times = nullptr
 template <class Intersection>
 std::size_t number_of(const std::vector<Intersection>& pairs, errbound::relation r) {
     return static_cast<std::size_t>(std::ranges::count(pairs, r, &Intersection::relation));
+}
+
+/// True for vertex/face and edge/edge; for other kinds only if the step has any.
+template <kind K, class Result>
+bool is_shown(const Result& found) {
+    return is_cubic(K) || !found.pairs.template of<K>().empty() ||
+           (found.candidates && found.candidates->template of<K>() > 0);
+}
+
+/// The numbers of candidates, if counted, and of colliding pairs.
+template <class Result>
+errbound::support::table table_of_counts(const std::string& method, const Result& found) {
+    errbound::support::table rows = {{method, "collisions"}};
+    if (found.candidates) rows[0].insert(rows[0].begin() + 1, "candidates");
+    for_each_kind([&]<kind K>() {
+        if (!is_shown<K>(found)) return;
+        auto& row = rows.emplace_back(std::vector{std::string(path_name(K))});
+        if (found.candidates) row.push_back(std::to_string(found.candidates->template of<K>()));
+        row.push_back(std::to_string(found.pairs.template of<K>().size()));
+    });
+    return rows;
+}
+
+template <class Result>
+nlohmann::ordered_json json_of_counts(const std::string& method, const Result& found) {
+    nlohmann::ordered_json document = {{"method", method},
+                                       {"candidates", nullptr},
+                                       {"collisions", nlohmann::ordered_json::object()}};
+    for_each_kind([&]<kind K>() {
+        if (!is_shown<K>(found)) return;
+        const std::string kind(name(K));
+        if (found.candidates) document["candidates"][kind] = found.candidates->template of<K>();
+        document["collisions"][kind] = found.pairs.template of<K>().size();
+    });
+    return document;
+}
+
+inline void add_unused(nlohmann::ordered_json& document, std::size_t unused, bool skipped) {
+    if (unused > 0) document["unused_vertices"] = {{"count", unused}, {"skipped", skipped}};
+}
+
+inline nlohmann::ordered_json json_of_contact(const first_time& first) {
+    if (first.outcome != outcome::collides) return nullptr;
+    return {first.low, first.high};
+}
+inline std::string text_of_contact(const first_time& first) {
+    using errbound::support::fixed;
+    if (first.outcome != outcome::collides) return "-";
+    return fixed(first.low, "%.17g") + " to " + fixed(first.high, "%.17g");
 }
 
 /// The intersections at the start of a step.

@@ -2,11 +2,10 @@
 
 #include <algorithm>
 #include <ccd/contact.hpp>
-#include <chrono>
-#include <cstdio>
 #include <limits>
 #include <nlohmann/json.hpp>
 
+#include "ccd/lab/timing.hpp"
 #include "ccd/program/options.hpp"
 #include "errbound/support/table.hpp"
 
@@ -16,11 +15,7 @@ namespace {
 using errbound::support::table;
 using errbound::support::text_of;
 
-using std::chrono::steady_clock;
-
-double seconds_since(steady_clock::time_point start) {
-    return std::chrono::duration<double>(steady_clock::now() - start).count();
-}
+using lab::seconds_since;
 
 template <class Query>
 outcome decide_one(const Query& query, ccd::method method, const time_request& request) {
@@ -57,9 +52,9 @@ std::vector<outcome> decide_all(const std::vector<Query>& queries, const device_
                                 const time_request& request, double seconds, query_result& out) {
     std::vector<outcome> outcomes(queries.size());
     double fastest = std::numeric_limits<double>::infinity();
-    const steady_clock::time_point start = steady_clock::now();
+    const auto start = lab::clock::now();
     do {
-        const steady_clock::time_point pass = steady_clock::now();
+        const auto pass = lab::clock::now();
         if (device.cuda)
             answer_on_device(queries, device, out.method, request, outcomes);
         else
@@ -120,11 +115,10 @@ std::string text_of_results(const std::vector<query_result>& results) {
     };
     table rows = {{"file", "kind", "method", "queries", "collisions", "FP", "FN", "ns/query"}};
     for (const query_result& r : results) {
-        char ns[32];
-        std::snprintf(ns, sizeof ns, "%.1f", r.ns_per_query);
         rows.push_back({r.file, std::string(short_name(r.kind)), std::string(info(r.method).name),
                         std::to_string(r.queries), std::to_string(r.collisions),
-                        or_dash(r.false_positives), or_dash(r.false_negatives), ns});
+                        or_dash(r.false_positives), or_dash(r.false_negatives),
+                        errbound::support::fixed(r.ns_per_query, "%.1f")});
     }
     return text_of(rows, 3);
 }

@@ -2,18 +2,17 @@
 #include <ccd/advance.hpp>
 #include <ccd/io/mesh_file.hpp>
 #include <ccd/step.hpp>
-#include <chrono>
 #include <iostream>
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <string>
 
 #include "ccd/io/view/view_files.hpp"
+#include "ccd/lab/timing.hpp"
 #include "ccd/program/command.hpp"
 #include "ccd/program/first_pairs.hpp"
 #include "ccd/program/options.hpp"
 #include "ccd/program/pair_lines.hpp"
-#include "errbound/support/command_line.hpp"
 #include "errbound/support/output_file.hpp"
 #include "errbound/support/system/system.hpp"
 #include "errbound/support/table.hpp"
@@ -66,13 +65,6 @@ struct step_outcome {
     std::size_t memory = 0;
 };
 
-/// Vertex/edge and vertex/vertex rows are shown only if there are any.
-template <kind K>
-bool is_shown(const step_result& result) {
-    return is_cubic(K) || !result.pairs.of<K>().empty() ||
-           (result.candidates && result.candidates->of<K>() > 0);
-}
-
 const first_time& first_contact_of(const step_outcome& found) {
     return found.advance ? found.advance->first_contact : found.result.first_contact;
 }
@@ -91,8 +83,7 @@ void add_contacts(const step_request& request, const step_outcome& found,
     document["touching_at_start"] = number_of(found.result.touching_at_start);
     if (found.advance && request.distance != 0)
         document["near_at_start"] = number_of(found.advance->near_at_start);
-    document["first_contact"] = nullptr;
-    if (first.outcome == outcome::collides) document["first_contact"] = {first.low, first.high};
+    document["first_contact"] = json_of_contact(first);
     if (found.advance) document["advance"] = found.advance->fraction;
     if (request.replay) document["first_pairs"] = json_of_reasons(found.reasons);
 }
@@ -112,26 +103,15 @@ possible_pairs pairs_of_mesh(const step_request& request, const mesh& mesh) {
 
 std::string json_of(const step_request& request, const mesh& before, const step_outcome& found) {
     const step_result& result = found.result;
-    nlohmann::ordered_json document = {{"method", info(request.method).name},
-                                       {"candidates", nullptr},
-                                       {"collisions", nlohmann::ordered_json::object()},
-                                       {"seconds",
-                                        {{"read", found.read_seconds},
-                                         {"prepare", result.prepare_seconds},
-                                         {"broad", result.broad_phase_seconds},
-                                         {"narrow", result.narrow_phase_seconds},
-                                         {"sort", result.sort_seconds},
-                                         {"total", result.total_seconds}}},
-                                       {"threads", result.threads},
-                                       {"peak_memory_bytes", found.memory}};
-    for_each_kind([&]<kind K>() {
-        if (!is_shown<K>(result)) return;
-        if (result.candidates)
-            document["candidates"][std::string(name(K))] = result.candidates->of<K>();
-        document["collisions"][std::string(name(K))] = result.pairs.of<K>().size();
-    });
-    if (request.unused > 0)
-        document["unused_vertices"] = {{"count", request.unused}, {"skipped", request.skip_unused}};
+    nlohmann::ordered_json document =
+        json_of_counts(std::string(info(request.method).name), result);
+    document["seconds"] = {
+        {"read", found.read_seconds},          {"prepare", result.prepare_seconds},
+        {"broad", result.broad_phase_seconds}, {"narrow", result.narrow_phase_seconds},
+        {"sort", result.sort_seconds},         {"total", result.total_seconds}};
+    document["threads"] = result.threads;
+    document["peak_memory_bytes"] = found.memory;
+    add_unused(document, request.unused, request.skip_unused);
     add_contacts(request, found, document);
     add_start(document, result.intersections_at_start);
     if (request.explain) {
@@ -202,10 +182,7 @@ std::string text_of_contacts(const step_request& request, const step_outcome& fo
     const first_time& first = first_contact_of(found);
     table rows = {
         {request.distance != 0 ? "within at start" : "touching at start", "first contact"},
-        {std::to_string(number_of(found.result.touching_at_start)),
-         first.outcome == outcome::collides
-             ? fixed(first.low, "%.17g") + " to " + fixed(first.high, "%.17g")
-             : "-"}};
+        {std::to_string(number_of(found.result.touching_at_start)), text_of_contact(first)}};
     if (found.advance) {
         rows[0].push_back("free to");
         rows[1].push_back(fixed(found.advance->fraction, "%.17g"));
@@ -216,14 +193,6 @@ std::string text_of_contacts(const step_request& request, const step_outcome& fo
 std::string text_of_step(const step_request& request, const mesh& before,
                          const step_outcome& found) {
     const step_result& result = found.result;
-    table pairs = {{std::string(info(request.method).name), "collisions"}};
-    if (result.candidates) pairs[0].insert(pairs[0].begin() + 1, "candidates");
-    for_each_kind([&]<kind K>() {
-        if (!is_shown<K>(result)) return;
-        auto& row = pairs.emplace_back(table::value_type{std::string(path_name(K))});
-        if (result.candidates) row.push_back(std::to_string(result.candidates->of<K>()));
-        row.push_back(std::to_string(result.pairs.of<K>().size()));
-    });
     const table costs = {
         {"read", "prepare", "broad phase", "narrow phase", "sort", "threads", "peak memory"},
         {fixed(1e3 * found.read_seconds, "%.1f ms"), fixed(1e3 * result.prepare_seconds, "%.1f ms"),
@@ -231,7 +200,8 @@ std::string text_of_step(const step_request& request, const mesh& before,
          fixed(1e3 * result.narrow_phase_seconds, "%.1f ms"),
          fixed(1e3 * result.sort_seconds, "%.1f ms"), std::to_string(result.threads),
          fixed(static_cast<double>(found.memory) / (1 << 20), "%.1f MiB")}};
-    return text_of(pairs, 1) + '\n' + text_of(costs, 0) + text_of_contacts(request, found) +
+    return text_of(table_of_counts(std::string(info(request.method).name), result), 1) + '\n' +
+           text_of(costs, 0) + text_of_contacts(request, found) +
            (request.check_start ? text_of_start(result.intersections_at_start) : "") +
            (request.explain
                 ? '\n' + text_of_boxes(request, before, result) + '\n' + text_of_stages(result)
@@ -242,39 +212,33 @@ class step final : public command {
   public:
     explicit step(CLI::App& program)
         : command(program, "step", "Find the colliding pairs of one step of a mesh") {
-        line_.add_option("FRAME0", request_.before, "PLY or OBJ; -: standard input")
-            ->required()
-            ->transform(errbound::support::input_named);
-        line_.add_option("FRAME1", request_.after, "PLY or OBJ, same topology; -: standard input")
-            ->required()
-            ->transform(errbound::support::input_named);
-        line_.add_option("--method", method_, "The method; exact by default")->type_name("M");
+        add(line_, "FRAME0", request_.before, "PLY or OBJ; -: standard input").required().input();
+        add(line_, "FRAME1", request_.after, "PLY or OBJ, same topology; -: standard input")
+            .required()
+            .input();
+        add(line_, "--method", method_, "The method; exact by default").type("M");
         add_outputs();
-        add_threads_option(line_, request_.threads, "Threads; 0: one per core");
-        line_
-            .add_option(
-                "--instruction-set", set_,
-                "For exact: baseline, avx2 or avx512; by default the fastest that runs here")
-            ->type_name("SET");
-        line_.add_flag("--explain", request_.explain,
-                       "Print decided and skipped queries and cost of each stage of exact; counts "
-                       "candidates");
-        line_.add_flag("!--no-check-start", request_.check_start,
-                       "Do not look for elements that intersect in FRAME0");
-        line_.add_option("--json", json_, "Write counts and seconds as JSON; -: standard output")
-            ->type_name("OUT");
+        add_threads_option(line_, request_.threads);
+        add(line_, "--instruction-set", set_,
+            "For exact: baseline, avx2 or avx512; by default the fastest that runs here")
+            .type("SET");
+        add_flag(line_, "--explain", request_.explain,
+                 "Print decided and skipped queries and cost of each stage of exact; counts "
+                 "candidates");
+        add_flag(line_, "!--no-check-start", request_.check_start,
+                 "Do not look for elements that intersect in FRAME0");
+        add_output(line_, "--json", json_, "Write counts and seconds as JSON; -: standard output");
         add_triangulate_option(line_, request_.reading.triangulate);
     }
 
     exit_status run() override {
         check_options();
-        const auto start = std::chrono::steady_clock::now();
+        const auto start = lab::clock::now();
         const mesh before = io::read_mesh(request_.before, request_.reading);
         const mesh after = io::read_mesh(request_.after, request_.reading);
         io::require_same_topology(before, request_.before.string(), after, request_.after.string());
         step_outcome found;
-        found.read_seconds =
-            std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+        found.read_seconds = lab::seconds_since(start);
         report_unused(before);
 
         found.result = request_.device.cuda ? device_step(before, after)
@@ -321,40 +285,23 @@ class step final : public command {
     }
 
     void add_outputs() {
-        line_
-            .add_option(
-                "--pairs", pairs_,
-                "Write lines vf,v,f0,f1,f2 and ee,a0,a1,b0,b1 (ve,v,a0,a1 and vv,v0,v1 if the\n"
-                "mesh has rods or points) of vertex indices; -: standard output")
-            ->type_name("OUT");
-        line_
-            .add_option(
-                "--toi", toi_,
-                "Write the lines of --pairs, each followed by ,low,high: the first contact\n"
-                "is between these times (see ccd query --help); -: standard output")
-            ->type_name("OUT");
-        line_
-            .add_option(
-                "--advance", advance_,
-                "Write a frame (PLY, in doubles) as close to FRAME1 as is free: a step to it\n"
-                "has only pairs that touch, or are within --separation, at the start; the\n"
-                "latter keep a tenth of their distance")
-            ->type_name("OUT.ply")
-            ->check([](const std::string& path) {
-                return path == "-" || path.ends_with(".ply")
-                           ? std::string()
-                           : "path is '" + path + "'; expected a name that ends in .ply, or -";
-            });
+        add_output(line_, "--pairs", pairs_,
+                   "Write lines vf,v,f0,f1,f2 and ee,a0,a1,b0,b1 (ve,v,a0,a1 and vv,v0,v1 if the\n"
+                   "mesh has rods or points) of vertex indices; -: standard output");
+        add_output(line_, "--toi", toi_,
+                   "Write the lines of --pairs, each followed by ,low,high: the first contact\n"
+                   "is between these times (see ccd query --help); -: standard output");
+        add(line_, "--advance", advance_,
+            "Write a frame (PLY, in doubles) as close to FRAME1 as is free: a step to it\n"
+            "has only pairs that touch, or are within --separation, at the start; the\n"
+            "latter keep a tenth of their distance")
+            .ends_in(".ply", true);
         add_replay_option(line_, replay_);
-        line_
-            .add_option(
-                "--view", view_,
-                "Write the step for a viewer, with times if --toi is given. OUT.html, or -: a "
-                "page\n"
-                "for a browser; for ParaView, OUT.vtp: FRAME0 with displacements, OUT.pvd: both\n"
-                "frames, in OUT-0.vtp and OUT-1.vtp")
-            ->type_name("OUT")
-            ->check([](const std::string& path) {
+        add_output(line_, "--view", view_,
+                   "Write the step for a viewer, with times if --toi is given. OUT.html, or -: a "
+                   "page\nfor a browser; for ParaView, OUT.vtp: FRAME0 with displacements, "
+                   "OUT.pvd: both\nframes, in OUT-0.vtp and OUT-1.vtp")
+            .check([](const std::string& path) {
                 try {
                     io::view_paths(path);
                 } catch (const std::invalid_argument& error) {
@@ -413,7 +360,7 @@ class step final : public command {
 
     void check_options() {
         request_.method = method_named(method_);
-        if (line_.count("--instruction-set") > 0)
+        if (was_given("--instruction-set"))
             request_.set = entry_named(
                 "--instruction-set", set_, instruction_sets(),
                 [](instruction_set known) { return std::string(name(known)); },
@@ -424,7 +371,7 @@ class step final : public command {
         request_.device = device_.chosen();
         if (request_.device.cuda) {
             require_on_device(request_.method);
-            if (request_.explain || request_.set || line_.count("--threads") > 0)
+            if (request_.explain || request_.set || was_given("--threads"))
                 throw usage_error(
                     "--device is cuda; expected cpu with --explain, --instruction-set or "
                     "--threads");

@@ -22,9 +22,8 @@ class validate final : public command {
                   "Compare every bound rule with MPFR in the forms and BSC of stored queries, and "
                   "report how\ntight bounds are (errbound validate compares random expressions)") {
         files_.add_options(line_);
-        line_.add_option("--rules", rules_, "Rules R[,R...]; all by default")
-            ->type_name("R[,R...]");
-        add_threads_option(line_, threads_, "Threads; 0: one per core");
+        add(line_, "--rules", rules_, "Rules R[,R...]; all by default").type("R[,R...]");
+        add_threads_option(line_, threads_);
         to_.add_options(line_);
     }
 
@@ -49,7 +48,7 @@ class validate final : public command {
   private:
     std::vector<lab::query_rule> chosen_rules() const {
         const std::vector<lab::query_rule> all = lab::query_rules();
-        if (line_.count("--rules") == 0) return all;
+        if (!was_given("--rules")) return all;
         return errbound::support::all_named("--rules", rules_, [&](const std::string& name) {
             return errbound::support::entry_named("--rules", name, all, &lab::query_rule::name);
         });

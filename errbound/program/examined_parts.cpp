@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <cstdio>
 #include <utility>
 
 #include "errbound/support/output_file.hpp"
@@ -83,16 +82,13 @@ rows rows_of(const std::vector<found_part>& parts, std::vector<Entry> report::*e
     return all;
 }
 
-std::string formatted(const char* pattern, double x) {
-    char text[32];
-    std::snprintf(text, sizeof text, pattern, x);
-    return text;
-}
-
 std::string text_of_quantile(const distribution& log10, double share) {
     if (log10.ratios() == 0) return "-";
     const double value = log10.quantile(share);
-    return (!log10.is_clamped(share) ? "" : value < 0 ? "<=" : ">=") + formatted("%.2f", value);
+    return (!log10.is_clamped(share) ? ""
+            : value < 0              ? "<="
+                                     : ">=") +
+           support::fixed(value, "%.2f");
 }
 
 std::string text_of_tightness(const std::vector<found_part>& parts) {
@@ -103,7 +99,8 @@ std::string text_of_tightness(const std::vector<found_part>& parts) {
             r.update(row_of(t));
             r.erase("clamped");
             for (const char* rate : {"claimed", "observed"})
-                if (!r[rate].is_null()) r[rate] = formatted("%.1f", 100 * r[rate].get<double>());
+                if (!r[rate].is_null())
+                    r[rate] = support::fixed(100 * r[rate].get<double>(), "%.1f");
             for (const auto& [name, share] : quantiles) r[name] = text_of_quantile(t.log10, share);
         }
     return text_of(all);
@@ -146,7 +143,7 @@ std::string text_of_functions(const std::vector<found_part>& parts) {
     rows all = rows_of(parts, &report::functions, false);
     for (row& r : all)
         for (const char* units : {"largest", "assumed"})
-            r[units] = formatted("%.3f", std::ceil(r[units].get<double>() * 1000) / 1000);
+            r[units] = support::fixed(std::ceil(r[units].get<double>() * 1000) / 1000, "%.3f");
     return text_of(all);
 }
 
@@ -179,8 +176,8 @@ void write_files(const std::vector<found_part>& parts, const result_files& to) {
 }  // namespace
 
 void result_files::add_options(CLI::App& line) {
-    line.add_option("--json", json, "Write all tables as JSON")->type_name("OUT");
-    line.add_option("--csv", csv, "Write the table of tightness as CSV")->type_name("OUT");
+    support::add_output(line, "--json", json, "Write all tables as JSON");
+    support::add_output(line, "--csv", csv, "Write the table of tightness as CSV");
 }
 
 support::exit_status examine_parts(const std::vector<part>& parts, int threads,

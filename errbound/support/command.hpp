@@ -1,66 +1,88 @@
-// Command lines by CLI11, for programs with and without commands.
+// Command lines by CLI11. Only command.cpp includes its header, which takes seconds to compile.
 #pragma once
 
-#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <functional>
 #include <memory>
-#include <regex>
+#include <optional>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "errbound/support/command_line.hpp"
+
+namespace CLI {
+class App;
+class Option;
+}  // namespace CLI
 
 namespace errbound::support {
 
 /// run_program returns 2 for bad usage.
 enum exit_status { done = 0, bad_input = 1, broken_promise = 1, stopped = 3, check_failed = 3 };
 
-/// Returns body(), or 0 after printing --help or --version, unless `prints` is false. Throws
-/// usage_error.
-template <class Body>
-int parse_and_run(CLI::App& app, int argc, char** argv, const Body& body, bool prints = true) {
-    app.allow_windows_style_options(false);  // a path may begin with a slash
-    try {
-        app.parse(argc, argv);
-    } catch (const CLI::ParseError& error) {
-        static const std::regex out_of_range("(\\S+): Value (\\S+) not in range (.*)");
-        if (error.get_exit_code() != 0)
-            throw usage_error(
-                std::regex_replace(error.what(), out_of_range, "$1 is $2; expected $3"));
-        if (prints) app.exit(error);
-        return done;
-    }
-    return body();
-}
+/// An option of a command line. Functions set what CLI11 checks and what --help prints.
+class option {
+  public:
+    explicit option(CLI::Option* of) : of_(of) {}
+    bool was_given() const;
+
+    option& required();
+    option& type(const std::string& name);
+    option& input();  ///< a file; - is standard input
+    option& at_least(int values);
+    option& shows_default();
+    option& among(const std::vector<std::string>& names);
+    template <class T>
+    option& between(T least, T most);  ///< int, std::uint64_t
+    /// `fault` returns a message, or nothing for a good value.
+    option& check(std::function<std::string(const std::string&)> fault);
+    /// A name with this ending; with `or_output` also -.
+    option& ends_in(const std::string& ending, bool or_output = false);
+
+  private:
+    CLI::Option* of_;
+};
+
+/// Adds an option with a value, a flag, or an output file OUT.
+template <class T>
+option add(CLI::App& line, const std::string& name, T& value, const std::string& description);
+option add_flag(CLI::App& line, const std::string& name, bool& value,
+                const std::string& description);
+option add_output(CLI::App& line, const std::string& name,
+                  std::optional<std::filesystem::path>& file, const std::string& description);
 
 class command {
   public:
-    command(CLI::App& program, const std::string& name, const std::string& description)
-        : line_(*program.add_subcommand(name, description)) {}
+    command(CLI::App& program, const std::string& name, const std::string& description);
     virtual ~command() = default;
     command(const command&) = delete;
     command& operator=(const command&) = delete;
 
-    bool was_given() const { return line_.parsed(); }
+    bool was_given() const;
 
     /// Throws usage_error (contradictory options), file_error, or a device's error.
     virtual exit_status run() = 0;
 
   protected:
+    bool was_given(const std::string& option) const;
+
     CLI::App& line_;
 };
 
+/// Returns body(), or 0 after printing --help or --version, unless `prints` is false. Throws
+/// usage_error.
+int parse_and_run(CLI::App& app, int argc, char** argv, const std::function<int()>& body,
+                  bool prints = true);
+
+/// The texts of --help and --version.
+struct program_text {
+    std::string name, description, version;
+};
+using command_maker = std::unique_ptr<command> (*)(CLI::App& program);
+
 /// Parses the line and runs its command. Throws usage_error if there is none.
-inline int run_command(CLI::App& app, int argc, char** argv,
-                       std::span<const std::unique_ptr<command>> commands, bool prints = true) {
-    app.require_subcommand(0, 1);
-    if (argc > 1 && argv[1][0] != '-')
-        entry_named("command", argv[1], app.get_subcommands({}), &CLI::App::get_name);
-    const auto run = [&]() -> int {
-        for (const auto& c : commands)
-            if (c->was_given()) return c->run();
-        throw usage_error("command is missing; " + app.get_name() + " --help lists the commands");
-    };
-    return parse_and_run(app, argc, argv, run, prints);
-}
+int run_command(const program_text& program, int argc, char** argv,
+                std::span<const command_maker> makers, bool prints = true);
 
 }  // namespace errbound::support

@@ -12,10 +12,30 @@
 #include <mutex>
 #include <thread>
 #include <utility>
-
-#include "errbound/support/joined_threads.hpp"
+#include <vector>
 
 namespace errbound::support {
+
+/// Threads that join at the end of a scope: std::jthread without a token (libc++ has it from 20
+/// on).
+class joined_threads {
+  public:
+    joined_threads() = default;
+    joined_threads(const joined_threads&) = delete;
+    joined_threads& operator=(const joined_threads&) = delete;
+    ~joined_threads() {
+        for (std::thread& t : threads_) t.join();
+    }
+
+    /// Starts a thread that calls `work`. Throws std::system_error if there are no more threads.
+    template <class Work>
+    void start(Work work) {
+        threads_.emplace_back(std::move(work));
+    }
+
+  private:
+    std::vector<std::thread> threads_;
+};
 
 /// Computes blocks first, ..., end − 1 on threads (0: one per core) and merges their results in
 /// this order, so what is merged does not depend on the number of threads. Ends early, between

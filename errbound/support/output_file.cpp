@@ -1,5 +1,6 @@
 #include "errbound/support/output_file.hpp"
 
+#include <algorithm>
 #include <array>
 #include <atomic>
 #include <cerrno>
@@ -10,7 +11,6 @@
 #include <iostream>
 #include <system_error>
 
-#include "errbound/support/descriptor.hpp"
 #include "errbound/support/system/system.hpp"
 
 namespace errbound::support {
@@ -140,6 +140,18 @@ std::optional<int> descriptor_of(const fs::path& path) {
         if (read.ec == std::errc{} && read.ptr == end) return descriptor;
     }
     return std::nullopt;
+}
+
+void write_all(int descriptor, std::string_view bytes, const std::filesystem::path& shown) {
+    constexpr std::size_t block = 1 << 20;
+    while (!bytes.empty()) {
+        const std::ptrdiff_t written =
+            system::write(descriptor, bytes.data(), std::min(bytes.size(), block));
+        if (written < 0 && errno == EINTR) continue;
+        if (written < 0)
+            throw file_error(shown.string() + ": writing failed (" + std::strerror(errno) + ")");
+        bytes.remove_prefix(static_cast<std::size_t>(written));
+    }
 }
 
 void require_writable(const fs::path& path) {

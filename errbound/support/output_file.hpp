@@ -18,6 +18,10 @@ struct output {
 /// `-` and /dev/stdout are 1, /dev/stderr 2, /dev/fd/N and /proc/self/fd/N are N.
 std::optional<int> descriptor_of(const std::filesystem::path& path);
 
+/// Writes all bytes to an open descriptor, also after partial and interrupted writes. `shown`: the
+/// file's name in messages. Throws file_error.
+void write_all(int descriptor, std::string_view bytes, const std::filesystem::path& shown);
+
 /// Throws file_error if write_whole would fail for missing folders or rights, or an invalid name.
 void require_writable(const std::filesystem::path& path);
 

@@ -5,7 +5,7 @@
 #include <errbound/support/error.hpp>
 #include <system_error>
 
-#include "errbound/support/descriptor.hpp"
+#include "errbound/support/output_file.hpp"
 #include "errbound/support/system/system.hpp"
 
 namespace errbound::support {

@@ -7,7 +7,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "ccd/lab/kept.hpp"
+#include "ccd/lab/tables.hpp"
 #include "errbound/support/ordered_blocks.hpp"
 #include "errbound/support/output_file.hpp"
 

@@ -1,6 +1,7 @@
 // ./run soak: `exact`, one by one and in batches, on millions of queries: against the reference, or
 // against itself on images of them; steps and advances of meshes against every pair; roots against
 // FLINT; predicates against oracles.
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdint>
 #include <cstdio>

@@ -5,15 +5,11 @@
 // Exit status 0 done, 1 bad input, 2 bad usage. Rank 0 prints.
 #include <mpi.h>
 
-#include <CLI/CLI.hpp>
 #include <chrono>
 #include <exception>
-#include <memory>
-#include <string>
 #include <thread>
 
 #include "ccd/program/command.hpp"
-#include "ccd/program/mpi/step_command.hpp"
 #include "errbound/support/program.hpp"
 
 namespace ccd::program {
@@ -22,13 +18,13 @@ namespace {
 using errbound::support::usage_error;
 
 int run_command_line(int argc, char** argv, int rank) {
-    CLI::App app{
+    const errbound::support::program_text text{
+        "ccd_mpi",
         "Exact continuous collision detection over the ranks of MPI.\n"
         "Exit status: 0 done, 1 bad input, 2 bad usage.",
-        "ccd_mpi"};
-    app.set_version_flag("--version", std::string("ccd_mpi ") + ERRBOUND_VERSION);
-    const std::unique_ptr<command> commands[] = {distributed_step_command(app)};
-    return errbound::support::run_command(app, argc, argv, commands, rank == 0);
+        ERRBOUND_VERSION};
+    constexpr errbound::support::command_maker commands[] = {distributed_step_command};
+    return errbound::support::run_command(text, argc, argv, commands, rank == 0);
 }
 
 /// Waits for all ranks and returns true. Most errors are thrown on all ranks. If a rank fails alone

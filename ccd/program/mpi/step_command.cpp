@@ -1,20 +1,18 @@
 // `ccd_mpi step`: each rank reads a share of the files; rank 0 writes all pairs.
-#include "ccd/program/mpi/step_command.hpp"
-
 #include <algorithm>
 #include <ccd/mpi.hpp>
-#include <chrono>
 #include <iostream>
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
+#include "ccd/lab/timing.hpp"
 #include "ccd/mpi/exchange.hpp"
+#include "ccd/program/command.hpp"
 #include "ccd/program/mpi/shared_frames.hpp"
 #include "ccd/program/options.hpp"
 #include "ccd/program/pair_lines.hpp"
-#include "errbound/support/command_line.hpp"
 #include "errbound/support/output_file.hpp"
 #include "errbound/support/system/system.hpp"
 #include "errbound/support/table.hpp"
@@ -37,25 +35,20 @@ class distributed_step final : public command {
   public:
     explicit distributed_step(CLI::App& program)
         : command(program, "step", "Find the colliding pairs of one step of a mesh") {
-        line_.add_option("FRAME0", before_, "PLY or OBJ, readable on all ranks")->required();
-        line_.add_option("FRAME1", after_, "PLY or OBJ, same topology")->required();
-        line_.add_option("--method", method_, "The method; exact by default")->type_name("M");
-        line_
-            .add_option("--pairs", pairs_,
-                        "Write the lines of ccd step --pairs, sorted; -: standard output")
-            ->type_name("OUT");
-        line_
-            .add_option("--toi", toi_,
-                        "Write the same lines, each followed by ,low,high: the first contact is\n"
-                        "between these times; -: standard output")
-            ->type_name("OUT");
+        add(line_, "FRAME0", before_, "PLY or OBJ, readable on all ranks").required();
+        add(line_, "FRAME1", after_, "PLY or OBJ, same topology").required();
+        add(line_, "--method", method_, "The method; exact by default").type("M");
+        add_output(line_, "--pairs", pairs_,
+                   "Write the lines of ccd step --pairs, sorted; -: standard output");
+        add_output(line_, "--toi", toi_,
+                   "Write the same lines, each followed by ,low,high: the first contact is\n"
+                   "between these times; -: standard output");
         add_threads_option(line_, threads_, "Threads of each rank; 0: one per core");
-        line_.add_flag("!--no-check-start", check_start_,
-                       "Do not look for elements that intersect in FRAME0");
-        line_.add_flag("--candidates", candidates_, "Count candidates, in total and by rank");
-        line_
-            .add_option("--json", json_, "Write counts, seconds and the work of each rank as JSON")
-            ->type_name("OUT");
+        add_flag(line_, "!--no-check-start", check_start_,
+                 "Do not look for elements that intersect in FRAME0");
+        add_flag(line_, "--candidates", candidates_, "Count candidates, in total and by rank");
+        add_output(line_, "--json", json_,
+                   "Write counts, seconds and the work of each rank as JSON");
     }
 
     exit_status run() override {
@@ -66,13 +59,12 @@ class distributed_step final : public command {
             if (is_root)
                 errbound::support::require_good_outputs({pairs_, toi_, json_}, {before_, after_});
         });
-        const auto start = std::chrono::steady_clock::now();
+        const auto start = lab::clock::now();
         const shared_frames frames = read_shared_frames(ranks, before_, after_);
         options.filter.skip_unused = unused_.skips(frames.unused, frames.vertices);
         rank_report own;
         own.vertices = frames.numbers.size();
-        own.read_seconds =
-            std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+        own.read_seconds = lab::seconds_since(start);
         const mpi::step_result found =
             mpi::step(MPI_COMM_WORLD, frames.part(), options, mpi::placement::root);
         own.work = found.work;
@@ -104,8 +96,7 @@ class distributed_step final : public command {
         if (pairs_) outputs.push_back({*pairs_, lines_of_pairs(found.pairs)});
         if (toi_) outputs.push_back({*toi_, lines_of_pairs(found.pairs, &found.times)});
         nlohmann::ordered_json document = json_of(found, ranks);
-        if (frames.unused > 0)
-            document["unused_vertices"] = {{"count", frames.unused}, {"skipped", skipped}};
+        add_unused(document, frames.unused, skipped);
         if (json_) outputs.push_back({*json_, document.dump(2) + '\n'});
         errbound::support::write_whole(outputs);
         errbound::support::stream_for_people({pairs_, toi_, json_})
@@ -115,54 +106,25 @@ class distributed_step final : public command {
 
     nlohmann::ordered_json json_of(const mpi::step_result& found,
                                    const std::vector<rank_report>& ranks) const {
-        nlohmann::ordered_json document = {{"method", method_},
-                                           {"candidates", nullptr},
-                                           {"collisions", nlohmann::ordered_json::object()}};
-        for_each_kind([&]<kind K>() {
-            if (!is_shown<K>(found)) return;
-            const std::string kind(name(K));
-            if (found.candidates) document["candidates"][kind] = found.candidates->of<K>();
-            document["collisions"][kind] = found.pairs.of<K>().size();
-        });
-        if (toi_) {
-            const first_time& first = found.first_contact;
-            document["first_contact"] = nullptr;
-            if (first.outcome == outcome::collides)
-                document["first_contact"] = {first.low, first.high};
-        }
+        nlohmann::ordered_json document = json_of_counts(method_, found);
+        if (toi_) document["first_contact"] = json_of_contact(found.first_contact);
         add_start(document, found.intersections_at_start);
         for (const rank_report& r : ranks)
-            document["ranks"].push_back({{"vertices_given", r.vertices},
-                                         {"elements_given", r.work.elements_given},
-                                         {"elements_held", r.work.elements_held},
-                                         {"bytes_sent", r.work.bytes_sent},
-                                         {"candidates", nullptr},
-                                         {"read_seconds", r.read_seconds},
-                                         {"step_seconds", r.work.seconds},
-                                         {"peak_memory_bytes", r.memory}});
-        if (found.candidates)
-            for (std::size_t i = 0; i < ranks.size(); ++i)
-                document["ranks"][i]["candidates"] = ranks[i].decided;
+            document["ranks"].push_back(
+                {{"vertices_given", r.vertices},
+                 {"elements_given", r.work.elements_given},
+                 {"elements_held", r.work.elements_held},
+                 {"bytes_sent", r.work.bytes_sent},
+                 {"candidates",
+                  found.candidates ? nlohmann::ordered_json(r.decided) : nlohmann::ordered_json()},
+                 {"read_seconds", r.read_seconds},
+                 {"step_seconds", r.work.seconds},
+                 {"peak_memory_bytes", r.memory}});
         return document;
-    }
-
-    /// Vertex/edge and vertex/vertex rows are shown only if there are any.
-    template <kind K>
-    static bool is_shown(const mpi::step_result& found) {
-        return is_cubic(K) || !found.pairs.of<K>().empty() ||
-               (found.candidates && found.candidates->of<K>() > 0);
     }
 
     std::string text_of_step(const mpi::step_result& found,
                              const std::vector<rank_report>& ranks) const {
-        errbound::support::table pairs = {{method_, "collisions"}};
-        if (found.candidates) pairs[0].insert(pairs[0].begin() + 1, "candidates");
-        for_each_kind([&]<kind K>() {
-            if (!is_shown<K>(found)) return;
-            auto& row = pairs.emplace_back(std::vector{std::string(path_name(K))});
-            if (found.candidates) row.push_back(std::to_string(found.candidates->of<K>()));
-            row.push_back(std::to_string(found.pairs.of<K>().size()));
-        });
         errbound::support::table work = {{"rank", "elements read", "held", "bytes sent",
                                           "candidates", "read", "step", "peak memory"}};
         for (const rank_report& r : ranks)
@@ -172,16 +134,10 @@ class distributed_step final : public command {
                             fixed(1e3 * r.read_seconds, "%.1f ms"),
                             fixed(1e3 * r.work.seconds, "%.1f ms"),
                             fixed(static_cast<double>(r.memory) / (1 << 20), "%.1f MiB")});
-        std::string text =
-            errbound::support::text_of(pairs, 1) + '\n' + errbound::support::text_of(work, 0);
-        if (toi_)
-            text += "\nfirst contact: " +
-                    (found.first_contact.outcome == outcome::collides
-                         ? fixed(found.first_contact.low, "%.17g") + " to " +
-                               fixed(found.first_contact.high, "%.17g")
-                         : "-") +
-                    '\n';
-        return text;
+        const std::string first = text_of_contact(found.first_contact);
+        return errbound::support::text_of(table_of_counts(method_, found), 1) + '\n' +
+               errbound::support::text_of(work, 0) +
+               (toi_ ? "\nfirst contact: " + first + '\n' : "");
     }
 
     std::filesystem::path before_, after_;

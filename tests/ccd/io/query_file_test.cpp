@@ -177,17 +177,18 @@ TEST(Queries, Truth) {
 /// Checks that the ranges of range_reader and of read_queries together are the whole file.
 void expect_ranges(const fs::path& file, std::size_t size) {
     const query_file whole = read_queries(file, std::nullopt, false);
-    const query_index index = index_queries(file, size);
-    EXPECT_EQ(index.ranges.size(), (whole.size() + size - 1) / size);
-    range_reader reader(file, std::nullopt, false, index);
+    range_reader reader(file, std::nullopt, false, size);
     content by_reader, by_file;
-    for (std::size_t i = 0; i < index.ranges.size(); ++i) {
-        const query_file part = reader.read(i);
-        EXPECT_EQ(part.size(), std::min(size, whole.size() - i * size));
-        EXPECT_EQ(part.truth.has_value(), whole.truth.has_value());
-        by_reader.add(part);
-        by_file.add(read_queries(file, std::nullopt, false, {i * size, size}));
+    std::size_t read = 0;
+    while (const auto part = reader.next()) {
+        EXPECT_EQ(part->size(), std::min(size, whole.size() - read));
+        EXPECT_EQ(part->truth.has_value(), whole.truth.has_value());
+        by_reader.add(*part);
+        by_file.add(read_queries(file, std::nullopt, false, {read, size}));
+        read += part->size();
     }
+    EXPECT_EQ(read, whole.size());
+    EXPECT_EQ(reader.share(), 1);
     EXPECT_EQ(by_reader, content(whole));
     EXPECT_EQ(by_file, content(whole));
     EXPECT_EQ(message_of([&] { read_queries(file, std::nullopt, false, {whole.size()}); }),
@@ -224,8 +225,9 @@ TEST(QueryRanges, ErrorsHaveLinesOfTheFile) {
     const temporary_directory directory;
     const fs::path file = directory.path / "q" / "vf.csv";
     const auto message = [&](std::size_t range) {
-        return message_of(
-            [&] { range_reader(file, std::nullopt, false, index_queries(file, 2)).read(range); });
+        range_reader reader(file, std::nullopt, false, 2);
+        for (; range > 0; --range) (void)reader.next();
+        return message_of([&] { (void)reader.next(); });
     };
     const std::string good = rows(4, "\n", "");
     const std::vector<bad_case> cases{
@@ -238,13 +240,8 @@ TEST(QueryRanges, ErrorsHaveLinesOfTheFile) {
     }
     write(file, "\n \n");
     expect_message(message(0), "file is empty", "blank lines");
-    expect_message(message_of([&] { index_queries(directory.path, 1); }),
+    expect_message(message_of([&] { range_reader(directory.path, std::nullopt, false, 1); }),
                    "path is not a regular file", "a folder");
-    write(file, good);
-    const query_index index = index_queries(file, 2);
-    write(file, "");
-    const auto read_shrunk = [&] { range_reader(file, std::nullopt, false, index).read(1); };
-    expect_message(message_of(read_shrunk), "cannot be read from byte", "a file that shrank");
     write(file, good);
     write(directory.path / "mma_bool" / "vf_mma_bool.json", "[true,true,true]");
     expect_message(message(1), "number of truth values is 3; expected 4", "last range");
