@@ -101,8 +101,9 @@ concept curve_query = detail::has_kind<T> && requires {
 
 namespace detail {
 
-/// Results of time_within; with answer::outcome, `low` and `high` of a contact are unspecified.
 enum class answer { outcome, time };
+/// Same as time_within. If only the outcome is wanted, `low` and `high` of a contact are
+/// unspecified.
 template <curve_query Query>
 first_time first_within(const Query& query, separation d, double t_max, answer wanted);
 
