@@ -339,39 +339,44 @@ struct body_filter<K>::elements {
 };
 
 template <kind K>
-outcome body_filter<K>::decide(touching_interval* found) const requires(is_cubic(K)) {
-    using motion = control_maps::motion_kind;
-    const elements query(*this);
-    if (a_.motion != motion::turns && b_.motion != motion::turns) {
-        const auto ends = [](const control_maps& maps) {
-            const auto at = [&](std::size_t end) {
-                return maps.linear[std::min(end, maps.count - 1)];
+outcome body_filter<K>::decide(touching_interval* found) const {
+    if constexpr (is_cubic(K)) {
+        using motion = control_maps::motion_kind;
+        const elements query(*this);
+        if (a_.motion != motion::turns && b_.motion != motion::turns) {
+            const auto ends = [](const control_maps& maps) {
+                const auto at = [&](std::size_t end) {
+                    return maps.linear[std::min(end, maps.count - 1)];
+                };
+                return std::array{at(0), at(1)};
             };
-            return std::array{at(0), at(1)};
-        };
-        const sizes size = query.size(a_.largest_entry, b_.largest_entry);
+            const sizes size = query.size(a_.largest_entry, b_.largest_entry);
+            if (!size.usable()) return outcome::uncertain;
+            return decide_forms(
+                straight_forms<K, double>(ends(a_), ends(b_),
+                                          {numbers_of(query.d[0]), numbers_of(query.d[1])},
+                                          numbers_of(query.x), numbers_of(query.y),
+                                          numbers_of(query.e), numbers_of(query.f)),
+                straight_constants<K>, size.y_unit(), size.g_unit(), found);
+        }
+        if (a_.is_affine || b_.is_affine) return outcome::uncertain;
+        const sizes size = query.size(1, 1);
         if (!size.usable()) return outcome::uncertain;
-        return decide_forms(
-            straight_forms<K, double>(
-                ends(a_), ends(b_), {numbers_of(query.d[0]), numbers_of(query.d[1])},
-                numbers_of(query.x), numbers_of(query.y), numbers_of(query.e), numbers_of(query.f)),
-            straight_constants<K>, size.y_unit(), size.g_unit(), found);
+        const auto quaternions = [](const control_maps& maps) {
+            if (maps.motion == motion::turns) return linear_of(maps.q[0], maps.q[1]);
+            return linear_of<double, 4>({1, 0, 0, 0}, {1, 0, 0, 0});
+        };
+        const rigid_query_of<double> rigid{
+            {quaternions(a_), quaternions(b_)},
+            linear_of(numbers_of(query.d[0]), numbers_of(query.d[1])),
+            constants_of(numbers_of(query.x)),
+            constants_of(numbers_of(query.y)),
+            constants_of(numbers_of(query.e)),
+            constants_of(numbers_of(query.f))};
+        return decide_forms(rigid_forms_of<K, double>(rigid), rigid_constants<K>, size.y_unit(),
+                            size.g_unit(), found);
     }
-    if (a_.is_affine || b_.is_affine) return outcome::uncertain;
-    const sizes size = query.size(1, 1);
-    if (!size.usable()) return outcome::uncertain;
-    const auto quaternions = [](const control_maps& maps) {
-        if (maps.motion == motion::turns) return linear_of(maps.q[0], maps.q[1]);
-        return linear_of<double, 4>({1, 0, 0, 0}, {1, 0, 0, 0});
-    };
-    const rigid_query_of<double> rigid{{quaternions(a_), quaternions(b_)},
-                                       linear_of(numbers_of(query.d[0]), numbers_of(query.d[1])),
-                                       constants_of(numbers_of(query.x)),
-                                       constants_of(numbers_of(query.y)),
-                                       constants_of(numbers_of(query.e)),
-                                       constants_of(numbers_of(query.f))};
-    return decide_forms(rigid_forms_of<K, double>(rigid), rigid_constants<K>, size.y_unit(),
-                        size.g_unit(), found);
+    return outcome::uncertain;
 }
 
 template bool has_two_bodies<kind::vertex_face>(std::span<const body_point>);

@@ -56,8 +56,8 @@ class body_filter {
     bool separated_by_axes(double distance) const;
 
     /// `separate` and `collides` are certain; for the latter, *found is set. `uncertain` if an
-    /// affine body meets a turning one.
-    outcome decide(touching_interval* found) const requires(is_cubic(K));
+    /// affine body meets a turning one, and for VE and VV.
+    outcome decide(touching_interval* found) const;
 
   private:
     static constexpr std::size_t first = kind_traits<K>::first_vertices;
