@@ -364,7 +364,7 @@ body_motion until(const body_motion& motion, double fraction) {
 
 body_advance body_steps::advance(std::span<const body_motion> motions,
                                  const body_advance_options& options) {
-    detail::check_shares(options.conservative, 0);
+    detail::check_shares(options.conservative, 0, "ccd::body_steps");
     body_step_options step = options.step;
     step.t_max = 1;
     body_advance result;

@@ -272,12 +272,13 @@ step_result step(const mesh& before, const mesh& after, const step_options& opti
                  precision precision) {
     step_result result;
     const auto failed = [](status s) { return step_result{std::move(s), {}}; };
-    ccd::detail::check_frames(before, after);
-    ccd::detail::check_positions(vertex_rows(before, after), before.vertices.size());
+    ccd::detail::check_frames(before, after, "ccd::cuda::step");
+    ccd::detail::check_positions(vertex_rows(before, after), before.vertices.size(),
+                                 "ccd::cuda::step");
     ccd::detail::check_elements(before.faces, {}, before.vertices.size(), "ccd::cuda::step");
     if (!ccd::detail::has_faces_only(before))
         return failed({"ccd::cuda: mesh has edges or points; expected only faces"});
-    ccd::detail::check_options(options, before.vertices.size());
+    ccd::detail::check_options(options, before.vertices.size(), "ccd::cuda::step");
     if (!options.distances.is_contact())
         return failed({"ccd::cuda: distances are not 0; expected 0"});
     const pair_filter& filter = options.filter;

@@ -67,7 +67,7 @@ void check_mesh(exchanger& ranks, const mesh_part& mesh, const pair_filter& filt
                                         ": filter has can_collide or a region; expected only "
                                         "groups and pinned flags");
         ccd::detail::check_elements(mesh.faces, mesh.edges, vertices, caller);
-        ccd::detail::check_positions(mesh.positions, vertices, mesh.numbers);
+        ccd::detail::check_positions(mesh.positions, vertices, caller, mesh.numbers);
         check_lengths(lists, vertices, caller);
     });
     check_given_alike(ranks, lists, vertices, caller);
@@ -75,7 +75,7 @@ void check_mesh(exchanger& ranks, const mesh_part& mesh, const pair_filter& filt
 
 void check_options(exchanger& ranks, const step_options& options, placement pairs,
                    std::size_t vertices, const std::string& caller) {
-    ranks.agree([&] { ccd::detail::check_options(options, vertices); });
+    ranks.agree([&] { ccd::detail::check_options(options, vertices, caller); });
     check_same(ranks,
                std::array{static_cast<double>(options.method), double(options.count_candidates),
                           double(options.explain), double(options.initial_contact),
@@ -89,12 +89,12 @@ void check_options(exchanger& ranks, const step_options& options, placement pair
 void check_options(exchanger& ranks, const advance_options& options, std::size_t vertices,
                    const std::string& caller) {
     ranks.agree([&] {
-        ccd::detail::check_shares(options.conservative, options.keep);
+        ccd::detail::check_shares(options.conservative, options.keep, caller);
         if (options.each_vertex)
             throw std::invalid_argument(caller + ": each_vertex is true; expected false");
         ccd::detail::check_options(
             {.set = options.set, .distances = options.distances, .filter = options.filter},
-            vertices);
+            vertices, caller);
     });
     check_same(ranks,
                std::array{options.distances.all, static_cast<double>(options.filter.rule),

@@ -37,8 +37,8 @@ class ordered_elements {
     const std::array<vertex_index, N>& operator[](std::size_t i) const { return elements_[i]; }
     operator std::span<const std::array<vertex_index, N>>() const { return elements_; }
 
-    /// Calls sort(elements) before build() if their order is not good.
-    /// Trees of a short way tell nothing about the order for a whole one.
+    /// Calls sort(elements) before build() if their order is not good. Pass whole_way = false if
+    /// t_max < 1: the leaves of such a tree do not show if the order is good for the whole step.
     template <class Real, class Tree, class Sort, class Build>
     void build_tree(const Tree& tree, bool whole_way, const Sort& sort, const Build& build);
     void forget_order() { ordered_ = false; }
@@ -52,12 +52,13 @@ class ordered_elements {
 
 /// The candidates to find; by default all.
 struct wanted_candidates {
-    /// Only for contact: without the vertex/face and edge/edge pairs that an axis separates in
-    /// floats, if that was tested.
+    /// Only for contact: the search may omit vertex/face and edge/edge pairs that an axis separates
+    /// in floats. It does not always test this.
     bool close = false;
-    /// Without pairs that do not meet until this time, if that was tested.
+    /// The search may omit pairs that do not meet until this time.
     double t_max = 1;
-    /// For t_max < 1: also those that may meet on ways that short_way's `spare` covers.
+    /// For t_max < 1: also pairs that may meet on the way to positions of `between` (ccd/step/
+    /// advance/advancing.hpp) at one fraction up to t_max, rounding included.
     bool spare = false;
     /// Only some of the close pairs; none if they cannot be found in floats.
     bool sample = false;
@@ -70,9 +71,13 @@ struct wanted_candidates {
 using resting_visitor =
     std::function<void(std::span<const face> elements, std::span<const element_pair> pairs)>;
 
-/// The search in one mesh. Keeps its working memory: about 40 bytes a face or 44 an edge, whichever
-/// is more, 18 a vertex, and 32 KB a thread. Elements and vertices take twice as much if floats do
-/// not suffice, and 187, 191 and 183 bytes for close pairs.
+/// The search in one mesh. Keeps its working memory: 32 KB a thread, and about these numbers of
+/// bytes. For faces and edges, only the larger of both sums counts.
+///
+///                                    a face   an edge   a vertex
+///     in floats                          40        44         18
+///     if floats do not suffice           80        88         36
+///     with wanted_candidates::close     187       191        183
 class candidate_search {
   public:
     /// Precondition: indices are in range.

@@ -79,7 +79,7 @@ reason reason_of(const Pair& pair, const vertex_rows& positions, const first_tim
 }
 
 mesh_steps steps_of(const mesh& before, const mesh& after) {
-    detail::check_frames(before, after);
+    detail::check_frames(before, after, "ccd::certify");
     return mesh_steps(before);
 }
 

@@ -24,15 +24,15 @@ void check_indices(std::span<const std::array<vertex_index, N>> elements, const 
 }
 
 /// `time` is empty if there is one frame.
-void check_finite(const char* caller, const double* frame, std::size_t vertices, const char* time,
-                  std::span<const std::uint64_t> numbers = {}) {
+void check_finite(const std::string& caller, const double* frame, std::size_t vertices,
+                  const char* time, std::span<const std::uint64_t> numbers = {}) {
     if (all_finite(frame, 3 * vertices)) return;
     const double* bad =
         std::find_if_not(frame, frame + 3 * vertices, [](double x) { return std::isfinite(x); });
     const auto at = static_cast<std::size_t>(bad - frame);
-    throw std::invalid_argument(std::string(caller) + ": " + "xyz"[at % 3] + " of vertex " +
+    throw std::invalid_argument(caller + ": " + "xyz"[at % 3] + " of vertex " +
                                 std::to_string(numbers.empty() ? at / 3 : numbers[at / 3]) + time +
-                                " is " + std::to_string(*bad) + "; expected a finite number");
+                                " is " + text_of(*bad) + "; expected a finite number");
 }
 
 void check_length(const std::string& of, std::size_t found, std::size_t vertices) {
@@ -60,27 +60,28 @@ std::string text(std::span<const vertex_index> indices) {
 }
 
 template <class Elements>
-void check_same(const std::string& of, const Elements& before, const Elements& after) {
+void check_same(const std::string& of, const Elements& before, const Elements& after,
+                const std::string& caller) {
     if (before.size() != after.size())
-        throw std::invalid_argument("ccd::step: number of " + of + "s after is " +
+        throw std::invalid_argument(caller + ": number of " + of + "s after is " +
                                     std::to_string(after.size()) + "; expected " +
                                     std::to_string(before.size()) + " as before");
     const auto [b, a] = std::ranges::mismatch(before, after);
     if (b != before.end())
-        throw std::invalid_argument("ccd::step: " + of + " " + std::to_string(b - before.begin()) +
+        throw std::invalid_argument(caller + ": " + of + " " + std::to_string(b - before.begin()) +
                                     " after is " + text(*a) + "; expected " + text(*b) +
                                     " as before");
 }
 
 }  // namespace
 
-void check_frames(const mesh& before, const mesh& after) {
+void check_frames(const mesh& before, const mesh& after, const std::string& caller) {
     if (before.vertices.size() != after.vertices.size())
-        throw std::invalid_argument("ccd::step: number of vertices after is " +
+        throw std::invalid_argument(caller + ": number of vertices after is " +
                                     std::to_string(after.vertices.size()) + "; expected " +
                                     std::to_string(before.vertices.size()) + " as before");
-    check_same("face", before.faces, after.faces);
-    check_same("edge", before.edges, after.edges);
+    check_same("face", before.faces, after.faces, caller);
+    check_same("edge", before.edges, after.edges, caller);
 }
 
 void check_elements(std::span<const face> faces, std::span<const edge> edges, std::size_t vertices,
@@ -93,14 +94,14 @@ void check_elements(std::span<const face> faces, std::span<const edge> edges, st
     check_indices(edges, caller + ": vertex index of edge ", vertices);
 }
 
-void check_positions(const vertex_rows& positions, std::size_t vertices,
+void check_positions(const vertex_rows& positions, std::size_t vertices, const std::string& caller,
                      std::span<const std::uint64_t> numbers) {
-    check_length("ccd::step: number of positions", positions.vertices, vertices);
+    check_length(caller + ": number of positions", positions.vertices, vertices);
     if (vertices == 0) return;
     if (positions.before == nullptr || positions.after == nullptr)
-        throw std::invalid_argument("ccd::step: pointer to positions is null; expected positions");
-    check_finite("ccd::step", positions.before, vertices, " at t = 0", numbers);
-    check_finite("ccd::step", positions.after, vertices, " at t = 1", numbers);
+        throw std::invalid_argument(caller + ": pointer to positions is null; expected positions");
+    check_finite(caller, positions.before, vertices, " at t = 0", numbers);
+    check_finite(caller, positions.after, vertices, " at t = 1", numbers);
 }
 
 void check_at_rest(const vertex_rows& positions, std::size_t vertices, const pair_filter& filter,
@@ -123,39 +124,39 @@ bool needs_times_or_distances(const step_options& options) {
            !options.distances.is_contact();
 }
 
-void check_shares(double conservative, double keep) {
+void check_shares(double conservative, double keep, const std::string& caller) {
     if (!(0 < conservative && conservative <= 1))
-        throw std::invalid_argument("ccd::advance: conservative is " +
-                                    std::to_string(conservative) + "; expected a number in (0, 1]");
+        throw std::invalid_argument(caller + ": conservative is " + text_of(conservative) +
+                                    "; expected a number in (0, 1]");
     if (!(0 <= keep && keep < 1))
-        throw std::invalid_argument("ccd::advance: keep is " + std::to_string(keep) +
+        throw std::invalid_argument(caller + ": keep is " + text_of(keep) +
                                     "; expected a number in [0, 1)");
 }
 
-void check_plane(const vertex_rows& positions) {
+void check_plane(const vertex_rows& positions, const std::string& caller) {
     for (vertex_index v = 0; v < positions.vertices; ++v) {
         const auto [before, after] = positions[v];
         if (before.z != 0 || after.z != 0)
-            throw std::invalid_argument("ccd::step: z of vertex " + std::to_string(v) +
+            throw std::invalid_argument(caller + ": z of vertex " + std::to_string(v) +
                                         " is not 0; expected positions in the plane z = 0");
     }
 }
 
-void check_options(const step_options& options, std::size_t vertices) {
+void check_options(const step_options& options, std::size_t vertices, const std::string& caller) {
     if (std::ranges::find(methods(), options.method, &method_info::method) == methods().end())
-        throw std::invalid_argument("ccd::step: method is " +
+        throw std::invalid_argument(caller + ": method is " +
                                     std::to_string(static_cast<int>(options.method)) +
                                     "; expected one of ccd::methods()");
-    check_t_max("ccd::step", options.t_max);
-    check_distances("ccd::step", options.distances, vertices);
+    check_t_max(caller.c_str(), options.t_max);
+    check_distances(caller.c_str(), options.distances, vertices);
     if (needs_times_or_distances(options) && options.method != method::exact)
-        throw std::invalid_argument("ccd::step: method is " +
+        throw std::invalid_argument(caller + ": method is " +
                                     std::string(info(options.method).name) +
                                     "; expected exact, the only one with times and distances");
     if (options.adjacent_rods && !options.distances.is_contact())
         throw std::invalid_argument(
-            "ccd::step: adjacent_rods is given with distances; expected only one of them");
-    check_filter("ccd::step", options.filter, vertices);
+            caller + ": adjacent_rods is given with distances; expected only one of them");
+    check_filter(caller, options.filter, vertices);
 }
 
 bool has_faces_only(const mesh& mesh) {

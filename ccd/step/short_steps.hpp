@@ -2,12 +2,17 @@
 #pragma once
 
 #include <ccd/step.hpp>
+#include <string>
 
 namespace ccd::detail {
 
 class short_steps {
   public:
     explicit short_steps(mesh_steps& steps) : steps_(steps) {}
+
+    /// Throws std::invalid_argument unless these are input for a step of this mesh.
+    void check(const vertex_rows& way, const step_options& options,
+               const std::string& caller) const;
 
     /// Returns the earliest contact after the start among a sample of the edge/edge pairs on the
     /// whole way, or `separate`. The mesh's first contact is not later.

@@ -222,10 +222,11 @@ struct mesh_steps::state {
     std::optional<detail::vertex_fans> fans = {};
     detail::resting_pairs resting = {};
 
-    void check(const vertex_rows& positions, const step_options& options) const {
-        detail::check_positions(positions, search.vertices());
-        if (search.is_in_plane()) detail::check_plane(positions);
-        detail::check_options(options, search.vertices());
+    void check(const vertex_rows& positions, const step_options& options,
+               const std::string& caller = "ccd::step") const {
+        detail::check_positions(positions, search.vertices(), caller);
+        if (search.is_in_plane()) detail::check_plane(positions, caller);
+        detail::check_options(options, search.vertices(), caller);
     }
 };
 
@@ -278,6 +279,11 @@ intersection_result mesh_steps::intersections(const vertex_rows& positions,
 }
 
 namespace detail {
+
+void short_steps::check(const vertex_rows& way, const step_options& options,
+                        const std::string& caller) const {
+    steps_.state_->check(way, options, caller);
+}
 
 first_time short_steps::first_of_sample(const vertex_rows& way, const step_options& options) {
     mesh_steps::state& state = *steps_.state_;
@@ -377,7 +383,7 @@ step_result step(std::span<const face> faces, std::span<const edge> edges,
     return result;
 }
 step_result step(const mesh& before, const mesh& after, const step_options& options) {
-    detail::check_frames(before, after);
+    detail::check_frames(before, after, "ccd::step");
     return step(before.faces, before.edges, vertex_rows(before, after), options);
 }
 
@@ -387,7 +393,7 @@ pair_lists candidates(std::span<const face> faces, std::span<const edge> edges,
         .candidates(positions, options);
 }
 pair_lists candidates(const mesh& before, const mesh& after, const step_options& options) {
-    detail::check_frames(before, after);
+    detail::check_frames(before, after, "ccd::candidates");
     return candidates(before.faces, before.edges, vertex_rows(before, after), options);
 }
 

@@ -71,8 +71,8 @@ class vertex_groups {
 
     /// Handles pairs in contact. Joins groups of pairs that move by different fractions. If there
     /// are none, only rounding can have caused the contacts: joins the groups of all pairs and
-    /// shortens their ways. If `may_retreat` and a way was shortened a little before, takes the
-    /// pairs' vertices back instead.
+    /// shortens their ways. If `may_retreat` is true and the group's way was already shortened
+    /// `close` times, moves the pairs' vertices back instead.
     template <class Pair>
     void separate(const std::vector<Pair>& pairs, bool may_retreat) {
         if (join_different(pairs)) return;
@@ -118,7 +118,7 @@ class vertex_groups {
     }
 
     /// Shortens by 2^-50 at first, then by more up to 2^-8, which leaves more than 0.99 after
-    /// `close` times; then to a half, a quarter and so on, and at last to 0.
+    /// `close` times; then by 1/2, 1/4, 1/16 and so on, and at last to 0.
     static void shorten(group& g) {
         const int times = g.shortened++;
         if (times < close)

@@ -2,8 +2,8 @@
 
 Runs `simulate` for every chosen scene, method and seed, each in a separate folder in --out, and continues stopped
 runs. Then writes and prints report.md:
- * as the paper's Figure 12, over thirds of a run: tests per frame, seconds per frame in the solver, in detection and
-   in response, frames without convergence, pairs that passed through each other;
+ * as the paper's Figure 12, over thirds of a run: looks for contacts per frame, seconds per frame in the solver, in
+   detection and in response, frames without convergence, pairs that passed through each other;
  * as its Figure 11: queries, time and false positives of each method on the proposed steps, by `ccd step`.
 
 Wang, Tang, Tong, Manocha: TightCCD: Efficient and Robust Continuous Collision Detection using Tight

@@ -2,9 +2,9 @@
 
     python3 examples/simulation/response.py [FRAMES [FOLDER]]
 
-Implicit springs propose positions (projective dynamics). Contacts within GAP are projected onto their planes. The
-package then moves the scene as far as is free. Writes the accepted positions and a mesh, for `ccd audit`, and a page
-for a browser. Needs NumPy; SciPy makes it faster.
+Implicit springs propose positions (projective dynamics). Pairs nearer than GAP are pushed apart along their
+normals. The package then moves the scene as far as is free. Writes the accepted positions and a
+mesh, for `ccd audit`, and a page for a browser. Needs NumPy; SciPy makes it faster.
 """
 import sys
 from pathlib import Path
@@ -21,7 +21,7 @@ except ImportError:
     factorized = None
 
 H, GRAVITY, STIFFNESS = 1 / 60, np.array([0, 0, -9.8]), 2000.0  # s, m/s², N/m
-THICKNESS = 0.004  # pairs stay this far apart
+THICKNESS = 0.004  # pairs do not come nearer, except nearer ones (ccd.AdvanceOptions, keep)
 GAP = 0.008        # contacts push nearer pairs apart, to this distance
 
 

@@ -32,8 +32,8 @@ struct advance_options {
     pair_distances distances = {};
     /// Pairs that start within their distance, or nearer than 1 + 2^-10 times it, may come nearer,
     /// but not below this share of their distance at the start: in [0, 1). So pairs that rest at
-    /// their distance can slide on. With 0, all others keep their whole distance, near pairs only
-    /// may not touch, and a pair that rests just above its distance stops its group.
+    /// their distance can slide on. With 0, pairs that start within their distance must only not
+    /// touch. All others keep their whole distance, so a pair just above it stops its group.
     double keep = 0.1;
     int threads = 0;                          ///< at most; 0: one per core
     std::optional<instruction_set> set = {};  ///< by default the strongest
@@ -64,8 +64,8 @@ struct advance_result {
 };
 
 /// Returns the longest step from positions.before towards positions.after that was found to be
-/// free: no pair is in contact (or within its distance), except those in the result's two lists. A
-/// group with a contact on the way stops just before it.
+/// free: no pair is in contact (or within its distance), except those in touching_at_start
+/// and near_at_start. A group with a contact on the way stops just before it.
 ///
 /// A group's fraction is at least 0.99 of the time of its first contact, or of the least time among
 /// joined groups, times `conservative`. It is less, at worst 0, only if moving vertices back by up
@@ -76,8 +76,8 @@ struct advance_result {
 /// Throws as mesh_steps::run, and std::invalid_argument if the numbers of groups and vertices
 /// differ. Cost: one such step if the whole way is free, else usually at most two; without groups
 /// and distances it is less than one if contacts are many and the first one is early. It is more,
-/// at most 80 steps, if groups with different fractions meet or rounding causes contacts. Memory:
-/// that of the step, and up to 256 bytes a vertex.
+/// at most 80 steps (120 with each_vertex), if groups with different fractions meet or rounding
+/// causes contacts. Memory: that of the step, and up to 256 bytes a vertex.
 advance_result advance(mesh_steps& steps, const vertex_rows& positions,
                        const advance_options& options = {});
 /// Two frames of one mesh. Throws std::invalid_argument also if they differ in faces, edges or
@@ -95,8 +95,8 @@ advance_result advance(const mesh& before, const mesh& after, const advance_opti
 /// that overflows. alpha is within a few ulps of `conservative` times the time of that contact,
 /// less only if rounding causes contacts.
 ///
-/// Throws as advance, and std::invalid_argument if there are groups or a displacement is not
-/// finite. Cost: as advance; one more step if fused positions differ.
+/// Throws as advance, and std::invalid_argument with groups or each_vertex, or if a displacement is
+/// not finite. Cost: as advance; one more step if fused positions differ.
 advance_result free_step(mesh_steps& steps, const vertex_rows& x_and_p,
                          const advance_options& options = {});
 

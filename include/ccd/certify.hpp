@@ -45,7 +45,8 @@ struct certificate {
     passage_lists passages;  ///< of step.pairs
 
     /// True if nothing intersects at the start and no pair of the step touches. Then the mesh has
-    /// no intersection (ccd/intersections.hpp) at any time of the step.
+    /// no intersection (ccd/intersections.hpp) at any time of the step, if the options had no
+    /// filter and t_max = 1.
     bool is_free() const {
         return number_of(step.pairs) == 0 && step.intersections_at_start.empty();
     }

@@ -128,7 +128,8 @@ first_contact find_first_contact(const Query& query, double t_max = 1) {
 /// The derivative is defined if the features meet inside, after the start, at a simple root (the
 /// normal velocity is not 0). It is undefined, with all of `by` 0, if
 /// - there is no contact, or it is at the start;
-/// - smaller features meet: other features may then be first after any change of positions;
+/// - smaller features meet: even a tiny change of positions can then make other features meet
+///   first;
 /// - the root is multiple, or so close to a multiple one that the normal velocity may be 0;
 /// - two vertices meet, or a vertex and an edge outside the plane. Almost every change parts them.
 /// For a vertex and an edge in the plane (all z are equal), motions stay in it: derivatives by z

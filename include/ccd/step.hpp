@@ -38,9 +38,10 @@ struct step_options {
     bool first_contact = false;    ///< fill step_result::first_contact, and touching_at_start
     bool times = false;            ///< fill times, first_contact and touching_at_start
     bool check_start = false;      ///< fill step_result::intersections_at_start
-    /// Test rods with a common vertex, too: pairs of an end of one and the other. Contact only. An
-    /// end that meets the common vertex is in contact. Without effect in the plane, where all these
-    /// pairs are tested. Cost: n rods at a vertex make n² pairs.
+    /// Test rods with a common vertex, too: pairs of an end of one and the other. Not with
+    /// distances: run() then throws. An end that meets the common vertex is in contact. Without
+    /// effect in the plane, where all these pairs are tested. Cost: n rods at a vertex make n²
+    /// pairs.
     bool adjacent_rods = false;
     double t_max = 1;  ///< report only pairs with a contact in [0, t_max]
     /// Report pairs within a distance instead of pairs in contact, also in times and
@@ -162,7 +163,7 @@ class mesh_steps {
     /// pinned flag per vertex, or a coordinate is not finite. Also throws if t_max is not finite,
     /// distances are not valid, or z is not 0 in the plane. Also throws if the method, group rule
     /// or instruction set does not exist. Also throws if a method other than `exact` has times,
-    /// first_contact, t_max < 1 or distances.
+    /// first_contact, t_max < 1 or distances, or adjacent_rods has distances.
     step_result run(const vertex_rows& positions, const step_options& options = {});
 
     /// Returns all candidates of a step, for custom narrow phases; vertices of faces keep the

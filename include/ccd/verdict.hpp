@@ -54,7 +54,7 @@ constexpr bool may_collide(verdict v) {
 /// The first time in [0, t_max] of contact, or within a distance.
 struct first_time {
     /// `separate`: there is none. `uncertain`: a coordinate, t_max or a part of the distance is not
-    /// finite; a part of it is negative; or a curve has no control point.
+    /// finite; a part of it is negative; or a curve has no control point or invalid weights.
     ccd::outcome outcome = ccd::outcome::uncertain;
     /// The first time if low == high; else the adjacent doubles around it. There is no contact in
     /// [0, low), nor at `low` if low < high.

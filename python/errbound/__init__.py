@@ -1,9 +1,10 @@
 """Exact continuous collision detection, predicates, roots, and numbers with certified error bounds.
 
 Modules: ccd, bodies, predicates, roots, tracked, io (mesh, query and view files); show displays a step.
-Import errbound.ipctk (needs ipctk), errbound.mpi (needs mpi4py) and errbound.cuda (needs a CUDA device) explicitly.
+Import errbound.ipctk (needs ipctk), errbound.mpi (needs mpi4py), errbound.cuda (needs a CUDA device) and
+errbound.autodiff (needs PyTorch or JAX) explicitly.
 
-Arrays may have any memory order. Numbers are float64, float32, or integers that doubles represent exactly.
+Arrays may have any memory order. Numbers are of any type, if doubles represent them exactly.
 Arrays are copied unless they are C-contiguous float64, or C-contiguous int32 or uint32 for indices.
 Errors: ValueError, TypeError or IndexError with the argument, the row, its value and the expected one.
 Long calls release the interpreter's lock. Ctrl-C interrupts them.

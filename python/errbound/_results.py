@@ -52,6 +52,7 @@ class NormalSource(IntEnum):
 class Motion(IntEnum):
     """How features move on after a first contact. TOUCHES: on one side before and after, without crossing.
 
+    APPROACHES: to the other side, or the normal velocity is certainly negative.
     SLIDES: the motion stays in the plane of the features; with distances, the normal velocity is 0 within its error.
     UNKNOWN: contact at the start, or no certain sign.
     """
@@ -175,8 +176,8 @@ class Nearness:
     """Nearest features of k queries and their points (docs/collision-detection.md#nearest-points-and-distances).
 
     features: uint8 (k,), values of Features. points: uint8 (k, p), the indices of the points of these features, then 0.
-    weights: (k, p), whose sums of the points are the nearest points. normal: (k, 3), a unit vector from the second
-    feature to the first; 0 with an infinite error if they touch. Each number is off by at most its error.
+    weights: (k, p): the weighted sum of each feature's points is its nearest point. normal: (k, 3), a unit vector from
+    the second feature to the first; 0 with an infinite error if they touch. Each number is off by at most its error.
     """
     features: Codes
     points: Codes
@@ -409,7 +410,8 @@ class AdvanceResult:
 
     positions: float64, with the shape of before. fractions: (n,), the fraction of its path that each vertex moves;
     fraction: the least. first_contact: (low, high) of the earliest contact in the whole step, or None; first_pairs: the
-    pairs with that time, which limit the step. near_at_start: near at t = 0, only the option keep holds for them.
+    pairs with that time, which limit the step. near_at_start: pairs that are near at t = 0 and
+    keep only the share of the option keep.
     intersections_at_start (option check_start): elements that intersect at t = 0; they may move on through each other.
     """
     positions: Doubles

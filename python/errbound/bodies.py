@@ -25,7 +25,10 @@ __all__ = ["BodyAdvance", "BodyStep", "Bodies"]
 
 @dataclass(frozen=True, eq=False, repr=False)
 class BodyStep:
-    """The pairs of elements of different bodies that touch, or come within the distance. Vertices are numbered through.
+    """The pairs of elements of different bodies that touch, or come within the distance.
+
+    Vertices are numbered consecutively over all bodies.
+
 
     times: by kind, dictionaries of low and high, float64 (k,), as in ccd.FirstTimes, in the order of pairs.
     first_contact: (low, high) of the earliest pair that does not touch at t = 0, or None. first_pairs: the pairs with
@@ -47,9 +50,9 @@ class BodyStep:
 class BodyAdvance:
     """The poses up to which all bodies can move without contact, except that of the pairs in touching_at_start.
 
-    poses: as given. Start the next step from them; normalised quaternions are not certified. fraction: of the way of
-    all bodies. first_contact: (low, high) of the earliest contact on the whole way, or None; first_pairs: the pairs
-    with that time.
+    poses: in the form of start, (n, 7) or (n, 4, 4). Start the next step from exactly these: with quaternions that you
+    normalise, nothing is certified. fraction: of the way of all bodies. first_contact: (low, high) of the earliest
+    contact on the whole way, or None; first_pairs: the pairs with that time.
     """
     poses: Doubles
     fraction: float

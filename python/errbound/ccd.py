@@ -285,7 +285,7 @@ class UntimedOptions(SearchOptions, total=False):
     initial_contact: fills touching_at_start, the pairs that touch at t = 0.
     t_max: the step is tested in [0, t_max]; 1 by default.
     stages, count_candidates: fill stages, candidates.
-    check_start: fills intersections_at_start; about half of the time of a step.
+    check_start: fills intersections_at_start; a third to half of the time of a step.
     adjacent_rods: tests rods with a common vertex, too, as vertex_edge pairs; not with distances.
     """
     method: MethodName
@@ -311,10 +311,12 @@ class AdvanceOptions(SearchOptions, total=False):
 
     islands: integers (n,): the vertices of an island share one fraction, and so do islands that meet. The default is
     one island with all vertices. Islands skip no pairs; groups do.
-    each_vertex: limits each vertex by planes between the elements that meet, at least as far as its island goes.
+    each_vertex: gives each vertex its own fraction, limited by planes between the elements that meet. It goes at
+        least as far as its island would.
     conservative: the share of the way to the first contact that is used, in (0, 1]; 0.8 leaves a gap for barriers.
-    keep: pairs that start within 1.001 times their distance keep this share, in [0, 1), of their distance at the start.
-        0.1 by default; with 0, the distance is strict, and a pair that rests just above it stops its island.
+    keep: pairs that start within 1.001 times the required distance may approach, but keep this share, in [0, 1), of
+        their distance at the start. 0.1 by default; with 0, a pair that starts just above the required distance stops
+        its island.
     check_start: fills intersections_at_start.
     """
     islands: ArrayLike | None
@@ -465,7 +467,9 @@ class Steps:
         return self._free(self._call(self._steps.advance, before, after, _OF_ADVANCE, options))
 
     def free_step(self, x: ArrayLike, p: ArrayLike, **options: Unpack[AdvanceOptions]) -> AdvanceResult:
-        """Computes alpha, the result's fraction, such that x + alpha * p is free, as NumPy rounds it, and fused.
+        """Computes alpha, the result's fraction, such that the step to x + alpha * p is free.
+
+        This holds as NumPy computes the positions (two roundings), and with fused multiply-add.
 
         Options: AdvanceOptions except islands and each_vertex, SearchOptions. With barriers, use conservative=0.8.
         """

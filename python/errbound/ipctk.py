@@ -149,7 +149,9 @@ class BroadPhase(ipctk.BroadPhase):  # type: ignore[misc, unused-ignore]
         return rows[_may_collide(kind, rows, self.can_vertices_collide)]
 
     def _default(self) -> Any:
-        """Returns the toolkit's default broad phase, without a filter, since it would call it from its threads."""
+        """Returns the toolkit's default broad phase, without a filter.
+
+        The toolkit would call a filter from its own threads."""
         if self._theirs is None:
             self._theirs = ipctk.LBVH() if hasattr(ipctk, "LBVH") else ipctk.BVH()
             arrays = [np.asfortranarray(a) for a in (self._before, self._after, self._edges, self._faces)]

@@ -1,12 +1,14 @@
 """Steps of meshes that are distributed over MPI ranks, with mpi4py's communicators.
 
 Wheels are built without MPI. Build errbound in the source tree, with the MPI of mpi4py:
-pip install --config-settings cmake.define.ERRBOUND_WITH_MPI=ON . mpi4py.
 
-Each rank passes the numbers of its vertices in the whole mesh, (n,), distinct integers >= 0; their positions (n, 3)
-before and after; faces (m, 3) and edges (k, 2), by row of these. Several ranks may pass a vertex, with equal
-positions. Several ranks may pass a face or an edge; duplicates count once. Results equal those of errbound.ccd for
-the whole mesh, for every distribution. All calls are collective. An error on one rank is raised on all.
+    pip install --config-settings cmake.define.ERRBOUND_WITH_MPI=ON . mpi4py
+
+Each rank passes the index in the whole mesh of each of its vertices, (n,), distinct integers >= 0; their positions
+(n, 3) before and after; faces (m, 3) and edges (k, 2), whose indices are rows of these positions. Several ranks
+may pass a vertex, with equal positions. Several ranks may pass a face or an edge; duplicates count once. Results
+equal those of errbound.ccd for the whole mesh, for every distribution. All calls are collective.
+An error on one rank is raised on all.
 """
 from __future__ import annotations
 

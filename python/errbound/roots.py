@@ -66,7 +66,7 @@ def _limits(max_operations: int | None, max_bytes: int | None) -> list[int | Non
 class Roots:
     """The distinct real roots of p in [a, b], ascending, each in a separate interval.
 
-    low, high: float64 (k,), the adjacent doubles around each root, or twice the root if it is a double (is_double,
+    low, high: float64 (k,), the adjacent doubles around each root, or both the root if it is a double (is_double,
     bool (k,)); computed when first read. multiplicity: int64 (k,). everywhere: True if p is zero; then no root is
     listed. A call from a second thread throws RuntimeError. Cost: microseconds at low degree (docs/polynomials.md).
     """

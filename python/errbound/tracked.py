@@ -389,7 +389,7 @@ def fma(x: Any, y: Any, z: Any) -> Array:
 
 @dataclass(frozen=True)
 class Contribution:
-    """A term of an error. amount: at least 0; known: the amount that is known with its sign.
+    """A term of an error. amount: at least 0; known: the part of (exact - value) whose sign is known, with it.
 
     operation: + - * / scale, the name of a function, input (the error of an input), or the rest (terms too small to
     keep). scopes: name, file and line of each scope, outermost first.

@@ -38,8 +38,9 @@ struct family_query {
     std::uint64_t index;
     query_families::points at;
 };
-/// A block's queries of one kind, `per_block` of every family, in the order in which deciders get
-/// them. Neighbours have the same family in even blocks, different families in odd ones.
+/// A block's queries of one kind, `per_block` of every family (slow ones have fewer), in the order
+/// in which deciders get them. Neighbours have the same family in even blocks, different families
+/// in odd ones.
 std::vector<family_query> block_queries(std::uint64_t seed, std::uint64_t block,
                                         std::uint64_t per_block, ccd::kind which);
 
@@ -114,8 +115,9 @@ decider unfiltered_integers();
 part comparison_part(decider truth, std::vector<decider> deciders);
 
 /// Queries of every family and all four kinds. All deciders must give the first decider's answer to
-/// all images of a query (tests/soak/images.hpp); each decider has its own images. Only answers of
-/// deciders that are never uncertain count. Tables: "family", the queries; "decided by", the
+/// all images of a query (tests/soak/images.hpp); each decider has its own images. The
+/// printed number of answers omits deciders that can be uncertain; their certain answers are
+/// compared, too. Tables: "family", the queries; "decided by", the
 /// stages, of deciders that report them; "decider", all answers.
 part symmetry_part(std::vector<decider> deciders);
 /// exact_deciders() and the methods `tight` and `safe`, whose certain answers must be right.
@@ -173,8 +175,9 @@ std::vector<time_decider> distance_deciders();
 /// Queries of every family and all four kinds. The oracle checks the first decider's answer for
 /// t_max = 1 (tests/support/first_time_faults.hpp). First times are unique, so all others must
 /// agree. For any other t_max, the answer follows from the first time. Rationals check the data of
-/// contacts (tests/support/contact_data_faults.hpp). Then batches of the block's queries are
-/// decided with every instruction set, with the earliest of all and of a few. Tables: "family", the
+/// contacts (tests/support/contact_data_faults.hpp). Then batches compute
+/// the first times of the block's queries with every instruction set. ccd::earliest computes
+/// that of the whole block, and of a few queries at a time. Tables: "family", the
 /// queries; "distance", the distances; "decider", all answers.
 part contact_time_part(std::vector<time_decider> deciders);
 /// The same comparison for distances of many families (tests/support/distance_families.hpp).
@@ -218,8 +221,8 @@ part polynomial_part();
 
 /// Every predicate whose name contains `name`, in float and double. An oracle checks its sign, and
 /// for one input in eight also batches and every stage. Exact arithmetic checks the bound of its
-/// static filter on inputs of all families. Climbs from them by changes of last places look for
-/// larger errors.
+/// static filter on inputs of all families. From these inputs, a hill climb that changes
+/// last places searches for larger errors.
 part predicate_part(const std::string& name);
 
 }  // namespace soak

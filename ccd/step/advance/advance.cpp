@@ -19,6 +19,14 @@
 namespace ccd {
 namespace {
 
+void check(mesh_steps& steps, const vertex_rows& positions, const advance_options& options,
+           const std::string& caller) {
+    detail::check_shares(options.conservative, options.keep, caller);
+    detail::short_steps(steps).check(
+        positions, {.set = options.set, .distances = options.distances, .filter = options.filter},
+        caller);
+}
+
 detail::vertex_groups groups_of(std::size_t vertices, std::span<const int> groups) {
     if (!groups.empty() && groups.size() != vertices)
         throw std::invalid_argument("ccd::advance: number of groups is " +
@@ -153,8 +161,7 @@ class vertex_limits {
 
 advance_result advance(mesh_steps& steps, const vertex_rows& positions,
                        const advance_options& options) {
-    detail::check_shares(options.conservative, options.keep);
-    detail::check_distances("ccd::advance", options.distances, positions.vertices);
+    check(steps, positions, options, "ccd::advance");
     detail::vertex_groups groups = groups_of(positions.vertices, options.groups);
     const bool islands = !options.groups.empty() || options.each_vertex;
     if (options.groups.empty() && options.each_vertex)
@@ -169,7 +176,7 @@ advance_result advance(mesh_steps& steps, const vertex_rows& positions,
 }
 
 advance_result advance(const mesh& before, const mesh& after, const advance_options& options) {
-    detail::check_frames(before, after);
+    detail::check_frames(before, after, "ccd::advance");
     mesh_steps steps(before);
     return advance(steps, vertex_rows(before, after), options);
 }
@@ -201,8 +208,6 @@ bool move(const vertex_rows& x_and_p, double alpha, std::vector<point<double>>& 
 
 advance_result free_step(mesh_steps& steps, const vertex_rows& x_and_p,
                          const advance_options& options) {
-    detail::check_shares(options.conservative, options.keep);
-    detail::check_distances("ccd::free_step", options.distances, x_and_p.vertices);
     if (!options.groups.empty() || options.each_vertex)
         throw std::invalid_argument(
             "ccd::free_step: groups or each_vertex are given; expected none, "
@@ -212,9 +217,9 @@ advance_result free_step(mesh_steps& steps, const vertex_rows& x_and_p,
         if (!std::isfinite(x_and_p.after[i]))
             throw std::invalid_argument("ccd::free_step: " + std::string(1, "xyz"[i % 3]) +
                                         " of the displacement of vertex " + std::to_string(i / 3) +
-                                        " is " + std::to_string(x_and_p.after[i]) +
+                                        " is " + detail::text_of(x_and_p.after[i]) +
                                         "; expected a finite number");
-    detail::check_positions(x_and_p, x_and_p.vertices);  // so that shorter ways become finite
+    check(steps, x_and_p, options, "ccd::free_step");  // so that shorter ways become finite
     advance_options unchecked = options;
     unchecked.check_start = false;
     const auto first_contact = [&](const std::vector<point<double>>& end,

@@ -80,10 +80,11 @@ inline double time_of_short_way(const vertex_rows& way) {
     return time > 0 ? time : std::numeric_limits<double>::infinity();
 }
 
-/// Calls step(options) with t_max = 1, or before with less, until there is a contact. Short
-/// searches are cheap, and the first contact is usually early if vertices move by many times their
-/// spacing: a diverged line search. If they do not, the contacts of a sample of pairs show whether
-/// the first one is early. sample(options) returns the first of these.
+/// Calls step(options) with growing t_max until there is a contact, at last with t_max = 1 or the
+/// time of the sample's first contact. Short searches are cheap, and the first contact is usually
+/// early if vertices move by many times their spacing: a diverged line search. If they do not, the
+/// contacts of a sample of pairs show whether the first one is early. sample(options) returns the
+/// first of these.
 template <class Others, class Sample, class Step>
 step_result step_to_first_contact(const vertex_rows& way, step_options options, Others& others,
                                   const Sample& sample, const Step& step) {

@@ -40,8 +40,8 @@ class vertex_fans {
     /// vertex.
     vertex_fans(std::span<const face> elements, std::size_t vertices);
 
-    /// True if no two elements with vertex v certainly intersect: they share only vertices and
-    /// edges of both. `positions` are rows x y z.
+    /// True if it is certain that no two elements with vertex v intersect: they share only vertices
+    /// and edges of both. False if that is not known. `positions` are rows x y z.
     bool certainly_free(vertex_index v, const double* positions) const {
         return kinds_[v] == around::one ||
                (kinds_[v] != around::others && is_flat_fan(v, positions));

@@ -43,8 +43,8 @@ Position first_parameter(bool (Interface::*)(Position, Rest...) const);
 /// With conservative_rescaling 1, the default:
 ///
 /// * An answer is true if and only if the features come within min_distance at some time in [0,
-///   tmax]. A min_distance of 0 means contact. Distances are Euclidean and closed: min_distance
-///   counts.
+///   min(tmax, 1)]. A min_distance of 0 means contact. Distances are Euclidean and closed:
+///   min_distance counts.
 /// * `toi` is never after the first such time, and less than one ulp before it: `low` of
 ///   ccd/contact.hpp. If the first time is a double, `toi` is that double.
 /// * `toi` is 0 if the features are within min_distance at the start, or come within it before the

@@ -34,7 +34,8 @@ struct body_step_options {
     std::function<bool(std::size_t, std::size_t)> may_touch = {};
 };
 
-/// Lists are as in step_result. Vertices of all bodies are numbered through in the bodies' order.
+/// Lists are as in step_result. Vertices are numbered consecutively over all bodies,
+/// in their order.
 struct body_step_result {
     pair_lists pairs;
     time_lists times;              ///< the first time of each of `pairs`

@@ -14,10 +14,10 @@ constexpr int terms_at_once(int bits) {
 }
 
 /// Sums each term's own rounding errors and those of its arguments, Σ |â|σb + σa(|b̂| + σb). Every
-/// terms_at_once(Bits) terms, multiplies the sum by the factor and adds the underflows. Derived,
-/// the rule's dot_bound, defines, with a proof: factor_units(terms): the factor that covers these
-/// sums' roundings, less 1, in ε; underflows(terms, uncertain): the number of η lost; `uncertain`
-/// terms have inexact arguments.
+/// terms_at_once(Bits) terms, multiplies the sum by a factor f and adds the underflows. Derived is
+/// the rule's dot_bound. It defines two functions, with a proof:
+/// - factor_units(terms) = (f − 1)/ε, where f covers the roundings of these sums;
+/// - underflows(terms, uncertain): the number of η lost; `uncertain` terms have inexact arguments.
 template <class T, class Derived, int Bits>
 class running_bound {
     static constexpr int most = terms_at_once(Bits);

@@ -28,8 +28,9 @@ next_source() {
 }
 #endif
 
-/// Returns a new source, or no_source in constant expressions and device code. Call it within an
-/// argument: the initialiser of a const integer counts as a constant expression.
+/// Returns a new source, or no_source in constant expressions and device code. Pass the call as an
+/// argument: `const std::uint64_t s = fresh_source();` is evaluated as a constant expression, so s
+/// would be no_source.
 constexpr std::uint64_t fresh_source() {
 #if !defined(__CUDA_ARCH__)
     if (!std::is_constant_evaluated()) return next_source();

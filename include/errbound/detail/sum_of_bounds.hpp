@@ -21,7 +21,8 @@ constexpr T sum_above(const T& x, const T& y) {
     return rounded_down ? rounded_product(sum, T(1 + number_traits<T>::epsilon())) : sum;
 }
 
-/// At least own + (x + y), for own, x, y >= 0, and at most `enlarged`. Proof:
+/// A bound of own + (x + y), for own, x, y >= 0, that is at most `enlarged`. Precondition:
+/// `enlarged` is such a bound: the computed sum times the factor above. Proof:
 /// proofs/floats/Upper.v, sum_of_bounds_sound, sum_of_bounds_at_most.
 template <class T>
 constexpr T sum_of_bounds(const T& enlarged, const T& own, const T& x, const T& y) {

@@ -1,9 +1,8 @@
 // Rounding errors of sums of products in any order, for bounds of matrix products. In Eigen's
 // kernels each product passes through at most h roundings, fused or not. Then (Higham 2002, Section
 // 3.1, for any order) |computed − Σ x_i y_i| <= γ_h Σ |x_i y_i| + kη, γ_h = hu/(1 − hu), k the
-// number of products. Sums do not underflow, a product's underflow is at most η/2, and later growth
-// at most 1 + γ_h <
-// 2. For a dot product of length n, h = n.
+// number of products. Sums do not underflow, a product's underflow is at most η/2, and its later
+// growth at most 1 + γ_h < 2. For a dot product of length n, h = n.
 #pragma once
 
 #include <Eigen/Core>

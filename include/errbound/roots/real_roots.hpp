@@ -303,7 +303,7 @@ class real_roots {
         }
         return std::ldexp(1.0, exponent);
     }
-    /// The root, enclosed around a double; exact if it is a double.
+    /// The root, enclosed around a double.
     static number enclosure(const interval& root) {
         using traits = number_traits<double>;
         const double low = root.low.to_double(), high = root.high.to_double();

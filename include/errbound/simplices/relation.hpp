@@ -436,7 +436,8 @@ constexpr relation relation_with_face(const point<3>* a, int size, const point<3
                             : relation::touching;
 }
 
-/// The relation of simplices of 1 to 3 vertices, of which the first `common` are the same.
+/// The relation of simplices of 1 to 3 vertices. Preconditions: a[i] equals b[i] for i < common,
+/// and common is less than both sizes.
 template <std::size_t D>
 constexpr relation relation_of(const simplex<D>& a, const simplex<D>& b, int common = 0) {
     const point<D>*p = a.begin(), *q = b.begin();

@@ -2,8 +2,8 @@
 // `errbound validate`, which return structs and print nothing.
 //
 // Evidence: random expressions, and every case of tiny number formats. Each rule must keep two
-// promises: |value − exact value| <= error(), and every certain sign is the exact one. A third kind
-// tests the assumed errors of the C library's functions. `ccd validate` adds stored collision
+// promises: |value − exact value| <= error(), and every certain sign is the exact one. The assumed
+// errors of the C library's functions are tested, too. `ccd validate` adds stored collision
 // queries. Results: docs/measured.md.
 #pragma once
 
@@ -132,9 +132,9 @@ struct function_options {
 evidence evidence_of_functions(const function_options& options);
 
 /// Every operation on every pair of numbers of formats of 6 to 8 bits, in every rounding direction
-/// that a rule promises; in 6 bits also with every pair of bounds. float8_e5m2 and float8_e4m3:
-/// with some of these pairs; if every_bound, with all, and in float8_e4m3 every two operations in a
-/// row (long).
+/// that a rule promises; in 6 bits also with every pair of bounds. float8_e5m2 and float8_e4m3
+/// are tested with some pairs of bounds. If every_bound, they are tested with all pairs, and
+/// float8_e4m3 also with every sequence of two operations (takes long).
 evidence evidence_of_tiny(std::span<const rule> rules, bool every_bound = false);
 report validate_tiny(std::span<const rule> rules, int threads, const progress& show = {});
 

@@ -352,7 +352,7 @@ TEST(body_steps, refuse_bad_input) {
     EXPECT_EQ(message([&] { steps.run(two, {.t_max = std::nan("")}); }),
               "ccd::body_steps: t_max is nan; expected a finite number");
     EXPECT_EQ(message([&] { steps.advance(two, {.conservative = 0}); }),
-              "ccd::advance: conservative is 0.000000; expected a number in (0, 1]");
+              "ccd::body_steps: conservative is 0; expected a number in (0, 1]");
     EXPECT_EQ(message([] {
                   body_steps({mesh{{{0, 0, 0}}, {{0, 1, 2}}}});
               }),

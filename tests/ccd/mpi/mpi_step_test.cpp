@@ -167,7 +167,7 @@ void refuse_all() {
            {is_last ? twice : numbers, {points, points}, faces});
     refuse(who + "ccd::mpi::step: ", {numbers, {points, points}, is_last ? beyond : faces});
     if (is_last) others[2].x = std::numeric_limits<double>::quiet_NaN();
-    refuse(who + "ccd::step: x of vertex 9 at t = 1 is nan; expected a finite number",
+    refuse(who + "ccd::mpi::step: x of vertex 9 at t = 1 is nan; expected a finite number",
            {numbers, {points, others}, faces});
     refuse("expected only groups and pinned flags", {numbers, {points, points}, faces},
            {.filter = {.can_collide = [](auto, auto) { return true; }}});

@@ -1,6 +1,7 @@
 // Invalid arguments of steps, and the messages.
 #include <gtest/gtest.h>
 
+#include <ccd/advance.hpp>
 #include <ccd/step.hpp>
 #include <limits>
 #include <stdexcept>
@@ -60,6 +61,24 @@ TEST(StepRefuses, CoordinatesThatAreNotFinite) {
     other.vertices[9].z = std::numeric_limits<double>::quiet_NaN();
     EXPECT_NE(refusal_of(other, after).find("z of vertex 9 at t = 0 is"), std::string::npos);
     EXPECT_NE(refusal([&] { ccd::candidates(other, after); }).find("vertex 9"), std::string::npos);
+}
+
+TEST(AdvanceRefuses, InItsOwnName) {
+    ccd::mesh other = after;
+    other.vertices[3].y = std::numeric_limits<double>::infinity();
+    const std::string rest = ": y of vertex 3 at t = 1 is inf; expected a finite number";
+    EXPECT_EQ(refusal([&] { ccd::advance(before, other); }), "ccd::advance" + rest);
+    EXPECT_EQ(refusal([&] { ccd::advance(before, after, {.keep = -1e-9}); }),
+              "ccd::advance: keep is -1e-09; expected a number in [0, 1)");
+    ccd::mesh_steps steps(before);
+    EXPECT_EQ(refusal([&] {
+                  ccd::free_step(steps, {before, after}, {.conservative = 0});
+              }),
+              "ccd::free_step: conservative is 0; expected a number in (0, 1]");
+    EXPECT_EQ(refusal([&] {
+                  ccd::free_step(steps, {nullptr, nullptr, 9});
+              }),
+              "ccd::free_step: number of positions is 9; expected 10, one for each vertex");
 }
 
 TEST(StepRefuses, IndicesOutOfRange) {
