@@ -105,7 +105,7 @@ class Bodies(Scenes):
                 ([good], {"times": [0, "1"]}, "times is '[0,\"1\"]'; expected a list of numbers"),
                 ([{**good, "poses": [QUARTER[0], [0, 0]]}], {}, "pose 1 of body '0' is '[0,0]'; expected 7 numbers"),
                 ([{**good, "poses": 3}], {}, "poses is '3'; expected a list"),
-                ([{**good, "poses": [QUARTER[0], [0, 0, 0, 0, 0, 0, 1]]}], {}, "body '0', step 0: q0·q1 is 0.0"),
+                ([{**good, "poses": [QUARTER[0], [0, 0, 0, 0, 0, 0, 1]]}], {}, "body '0', step 0: q0·q1 is 0;"),
                 ([{**good, "matrices": []}], {}, "body '0' has 'poses' and 'matrices'"),
                 ([good, {"mesh": "wall.obj", "matrices": [[[1, 0, 0, 0]] * 4]}], {}, "row 3 of matrix 0 of body '1' is"),
                 ([good, {"mesh": "wall.obj", "matrices": [[[1, 0, 0]] * 4]}], {}, "row 0 of matrix 0 of body '1' is"),
