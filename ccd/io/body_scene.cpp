@@ -98,7 +98,7 @@ class scene_reader {
     std::string text_in(const std::string& what, const json& value) const {
         const auto* text = value.get_ptr<const std::string*>();
         if (!text || text->empty() || std::ranges::any_of(*text, is_control))
-            fail(what, value, "a text without control characters");
+            fail(what, value, "a text, not empty, without control characters");
         return *text;
     }
     template <std::size_t N>
@@ -159,7 +159,8 @@ class scene_reader {
     void add_mesh(std::size_t b, const json& body) {
         const std::string what = said(b);
         const fs::path mesh = text_in("mesh of " + what, member(what, body, "mesh"));
-        scene_.meshes.push_back(read_mesh(path_.parent_path() / mesh, options_));
+        scene_.mesh_files.push_back(path_.parent_path() / mesh);
+        scene_.meshes.push_back(read_mesh(scene_.mesh_files.back(), options_));
     }
 
     /// Adds the motions between `count` poses; a single one is that of all frames. motion(i, j)
@@ -183,7 +184,7 @@ class scene_reader {
         if (body.contains("poses") && body.contains("matrices"))
             fail(said(b) + " has 'poses' and 'matrices'; expected at most one of them");
         if (body.contains("centre") && !body.contains("poses"))
-            fail("centre of " + said(b) + " is given without poses");
+            fail("centre of " + said(b) + " is given without poses; expected both or none");
         if (body.contains("poses"))
             add_rigid(b, body);
         else if (body.contains("matrices"))

@@ -16,7 +16,8 @@ struct body_scene {
     std::vector<std::string> names;   ///< of the bodies, each different
     std::vector<std::string> groups;  ///< of the bodies; "": none
     std::vector<mesh> meshes;         ///< at rest
-    std::vector<double> times;        ///< of the frames, ascending
+    std::vector<std::filesystem::path> mesh_files;
+    std::vector<double> times;  ///< of the frames, ascending
     /// For each step, from one frame to the next: a valid motion for each body.
     std::vector<std::vector<body_motion>> steps;
     std::vector<std::pair<std::size_t, std::size_t>> skipped;  ///< two bodies, sorted

@@ -52,7 +52,8 @@ std::map<std::pair<std::size_t, std::size_t>, meeting> meetings_of(const body_st
                               b = steps.body_of(vertices.back());
             const first_time& time = found.times.of<K>()[i];
             meeting& both = all[{std::min(a, b), std::max(a, b)}];
-            if (both.first.outcome != outcome::collides || time.low < both.first.low)
+            if (both.first.outcome != outcome::collides ||
+                std::pair(time.low, time.high) < std::pair(both.first.low, both.first.high))
                 both.first = time;
             both.at_start += time.at_start();
             ++both.pairs.of<K>();
@@ -92,8 +93,10 @@ class bodies final : public command {
 
     exit_status run() override {
         options_.distance = {separation_.value(0, std::numeric_limits<double>::max())};
-        errbound::support::require_good_outputs({csv_, pairs_, json_, view_}, {path_});
+        const std::vector outputs{csv_, pairs_, json_, view_};
+        errbound::support::require_good_outputs(outputs, {path_});
         scene_ = io::read_body_scene(path_, reading_);
+        errbound::support::require_good_outputs(outputs, scene_.mesh_files);
         if (first_ >= scene_.steps.size())
             throw usage_error("--first is " + std::to_string(first_) + "; expected 0 to " +
                               std::to_string(scene_.steps.size() - 1) + ", as there are " +

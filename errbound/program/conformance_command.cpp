@@ -140,10 +140,13 @@ support::exit_status conformance_command::run() {
         compare(files[i]);
     }
     progress.clear();
-    if (found_.rows.empty())
-        throw support::file_error(folder_ +
-                                  " has no test vectors; expected files of the kinds in "
-                                  "errbound conformance --help");
+    if (found_.rows.empty()) {
+        std::string reason;
+        for (const row& r : skipped())
+            reason += (reason.empty() ? ": " : "; ") + r["reason"].get<std::string>();
+        throw support::file_error(folder_ + " has no test vectors" + reason +
+                                  "; expected files of the kinds in errbound conformance --help");
+    }
     std::ranges::stable_sort(found_.rows, {}, &conformance_row::set);
     const rows all = table(), left_out = skipped();
     std::vector<support::output> outputs;

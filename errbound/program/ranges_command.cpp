@@ -180,6 +180,8 @@ row ranges::row_of(const fpcore& core, worst_case_result& found) const {
         if (const auto other = bounds.find(core.name); other != bounds.end())
             r[source] = other->second;
     if (!std::isfinite(found.at_most)) r["reason"] = no_finite_bound;
+    if (found.where.empty() && found.at_most == 0)
+        r["reason"] = "no number of the format satisfies the precondition";
     return r;
 }
 double median(std::vector<double> x) {
@@ -203,7 +205,7 @@ support::exit_status ranges::run() {
     inputs.insert(inputs.end(), published_.begin(), published_.end());
     support::require_one_standard_input("FILE", inputs);
     support::require_good_outputs({csv_, json_, picture_, operations_}, inputs);
-    if (!rules_.empty()) options_.rules = rules_with_errors(rules_);
+    if (was_given("--rules")) options_.rules = rules_with_errors(rules_);
     const std::vector<fpcore> cores = read_cores();
     for (const std::filesystem::path& path : published_)
         if (const std::string name = path.stem().string();

@@ -87,6 +87,23 @@ class Bodies(Scenes):
         step, = self.decided(self.tip_and_wall(), "--separation", 2)
         self.assertEqual((step["first_contact"], step["contacts"][0]["touching_at_start"]), (None, 1))
 
+    def test_the_bracket_is_that_of_the_earliest_pair(self):
+        # Vertex 0 meets the wall just after t = 1/2, vertex 1 at t = 1/2.
+        self.write("meshes/triangle.obj", "v 0.1 0.1 1e-17\nv 0.2 0.1 0\nv 0.1 0.2 0.5\nf 1 2 3\n")
+        self.write("meshes/floor.obj", "v -9 -9 0\nv 9 -9 0\nv 0 9 0\nf 1 2 3\n")
+        step, = self.decided(self.scene({"mesh": "triangle.obj", "poses": [[0, 0, 1, 1, 0, 0, 0], [0, 0, -1, 1, 0, 0, 0]]},
+                                        {"mesh": "floor.obj"}))
+        contact, = step["contacts"]
+        self.assertEqual([contact["low"], contact["high"]], [0.5, 0.5])
+        self.assertEqual(step["first_contact"], [0.5, 0.5])
+
+    def test_meshes_are_not_overwritten(self):
+        scene = self.tip_and_wall()
+        mesh = self.directory / "meshes/wall.obj"
+        before = mesh.read_text()
+        self.assertIn("is also an input", self.bad_usage("bodies", scene, "--csv", mesh))
+        self.assertEqual(mesh.read_text(), before)
+
     def test_bad_scenes(self):
         good = {"mesh": "tip.obj", "poses": QUARTER}
         for bodies, members, message in [

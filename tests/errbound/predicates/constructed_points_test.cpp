@@ -247,6 +247,11 @@ TEST(ConstructedPoints, AsArguments) {
     EXPECT_EQ(errbound::compare_distances2d(m, i, a), negative);
     errbound::predicate_report report;
     EXPECT_EQ(errbound::orient2d(report, i, i, i), zero);
+    const auto of_arrays = [] {
+        const double p[] = {0, 0}, q[] = {1, 1}, r[] = {0, 2}, s[] = {2, 0};
+        return errbound::line_line_point(p, q, r, s);
+    };
+    EXPECT_EQ(errbound::orient2d(of_arrays(), point2{5, 1}, point2{9, 2}), positive);
     static_assert(errbound::orient2d(errbound::line_line_point(point2{0, 0}, point2{1, 1},
                                                                point2{0, 2}, point2{2, 0}),
                                      point2{5, 1}, point2{9, 2}) == positive);

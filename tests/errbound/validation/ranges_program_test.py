@@ -129,6 +129,7 @@ class Ranges(unittest.TestCase):
 (FPCore (x) :name "up" :pre (<= 1 x 2) (! :round toPositive (* x x)))
 (FPCore ((! :precision binary64 x)) :name "wide" :precision binary16 :pre (<= 1 x 2) x)
 (FPCore ((x 2)) :name "array" :pre (<= 1 x 2) x)
+(FPCore (x) :name "nothing" :pre (and (<= 1 x 2) (< (* x x) 0)) (+ x 1))
 """)
         self.good(self.cores, "--json", out)
         found = json.loads(out.read_text())
@@ -142,7 +143,8 @@ class Ranges(unittest.TestCase):
         self.assertEqual(reasons, {
             "twice": "two arguments have the name x", "down": "rounding is toZero, not to nearest",
             "up": "rounding is toPositive, not to nearest",
-            "wide": "the program has several precisions", "array": "an argument is an array"})
+            "wide": "the program has several precisions", "array": "an argument is an array",
+            "nothing": "no number of the format satisfies the precondition"})
 
     def test_bad_input(self):
         for text, message in [("(FPCore (x) (+ x 1)", "1: the file ends; expected a closing parenthesis"),
@@ -156,7 +158,7 @@ class Ranges(unittest.TestCase):
         self.cores.write_text(CORES)
         self.assertEqual(self.run_program(self.cores, "--only", "none").returncode, 2)
         for option, value in (("--precision", "double"), ("--gap", "nan"), ("--function-units", "nan"),
-                              ("--seconds", "-1"), ("--measured", "-1"), ("--rules", "tightest")):
+                              ("--seconds", "-1"), ("--measured", "-1"), ("--rules", "tightest"), ("--rules", "")):
             done = self.run_program(self.cores, option, value)
             self.assertEqual(done.returncode, 2)
             self.assertIn(value, done.stderr)
