@@ -6,11 +6,9 @@
 //     const ccd::vertex_face_of<ccd::body_point> query{vertex(v), {&still, f0}, ...};
 //     const ccd::first_time touch = ccd::time_of_impact(query);
 //
-// Positions such as v and f0 are in the body's rest frame. The calls of ccd/curves.hpp accept such
-// queries, and decide about the poses as given, without rounding. rounded_ends gives the linear
-// motion between rounded ends instead. Cost: below a microsecond if floating point decides, some
-// for a time, 0.1 to 1 ms for degenerate contact, 0.2 s at worst (distances, very different
-// exponents).
+// Positions such as v and f0 are in the body's rest frame. Calls of ccd/curves.hpp accept such
+// queries and decide about the poses as given, without rounding. Cost: below a microsecond if
+// floating point decides, some for a time, 0.1 to 1 ms for degenerate contact, at worst 0.2 s.
 #pragma once
 
 #include <array>
