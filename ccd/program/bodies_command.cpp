@@ -134,7 +134,8 @@ class bodies final : public command {
     /// A line for each two bodies that touch.
     errbound::support::rows rows_of(const decided_step& step) const {
         errbound::support::rows all;
-        for (const auto& [bodies, found] : step.meetings) {
+        for (const auto& [bodies, meeting] : step.meetings) {
+            const auto& found = meeting;  // clang 14 captures no structured binding
             row& line = all.emplace_back(row{{"step", step.index},
                                              {"body_a", scene_.names[bodies.first]},
                                              {"body_b", scene_.names[bodies.second]},

@@ -54,10 +54,10 @@ std::vector<point> random_polygon(std::mt19937_64& random, const point& center, 
         std::ranges::sort(polygon, [&](const point& p, const point& q) {
             return compare(p, q) == sign_type::negative;
         });
-        const auto same = std::ranges::unique(polygon, [&](const point& p, const point& q) {
-            return compare(p, q) == sign_type::zero;
-        });
-        polygon.erase(same.begin(), same.end());
+        const auto end = std::unique(
+            polygon.begin(), polygon.end(),
+            [&](const point& p, const point& q) { return compare(p, q) == sign_type::zero; });
+        polygon.erase(end, polygon.end());
         bool around = polygon.size() > 2;
         for (std::size_t i = 0; i < polygon.size(); ++i)
             around = around && errbound::orient2d(polygon[i], polygon[(i + 1) % polygon.size()],

@@ -223,7 +223,8 @@ void compare_functions(const published_file& file, conformance& to) {
     const std::string set = "functions";
     const auto named = function_named(file.stem());
     if (!named) return to.skip(set, "the library has no such function", file.stem());
-    const auto [function, is_float] = *named;
+    const auto function = named->first;
+    const bool is_float = named->second;  // no structured binding: clang 14 captures none
     const std::size_t count = has_two_arguments(function) ? 2 : 1;
     const number_type type = is_float ? number_type::float_type : number_type::double_type;
     recording f(type, std::vector<input_range>(count), {});

@@ -110,7 +110,7 @@ TEST(Queries, BadInput) {
          "q.csv:2: truth is 0; expected 1 as in the first row of this query"},
         {garbage, "q.csv:1: line is '"}};
     for (const auto& [text, part] : cases) {
-        const std::string message = message_of([&] { queries(text); });
+        const std::string message = message_of([&text = text] { queries(text); });
         expect_message(message, part, text);
         EXPECT_LT(message.size(), 300U);
     }
@@ -156,7 +156,7 @@ TEST(Queries, Files) {
           {"/no/such/vf.csv", "/no/such/vf.csv: file does not exist"},
           {directory.path / "folder-vf", "path is a directory; expected a file"},
           {directory.path / "plain.csv", "path has no kind of query"}})
-        expect_message(message_of([&] { read(path); }), part, path.string());
+        expect_message(message_of([&, &path = path] { read(path); }), part, path.string());
 }
 
 TEST(Queries, Truth) {
@@ -171,7 +171,8 @@ TEST(Queries, Truth) {
         {"[1e999]", "number is out of range"},
         {std::string(1000000, '['), "t.json: type of element 0 is array; expected true or false"}};
     for (const auto& [text, part] : cases)
-        expect_message(message_of([&] { parse_truth(text, "t.json"); }), part, text.substr(0, 20));
+        expect_message(message_of([&text = text] { parse_truth(text, "t.json"); }), part,
+                       text.substr(0, 20));
 }
 
 /// Checks that the ranges of range_reader and of read_queries together are the whole file.
