@@ -534,9 +534,11 @@ struct random_rational_curves : random_source {
     }
 };
 
+/// Checks `count` random queries of each kind. --gtest_random_seed=N selects another sequence, so
+/// that several runs can share a long one.
 template <class Random, class Check>
 void for_random_queries(int count, unsigned seed, const Check& check) {
-    Random random(seed);
+    Random random(seed + 100 * static_cast<unsigned>(GTEST_FLAG_GET(random_seed)));
     for (int i = 0; i < support::scaled(count); ++i) {
         random.draw_style();
         SCOPED_TRACE("query " + std::to_string(i));
