@@ -23,8 +23,8 @@ struct advance_options {
     /// per body, pass connected_parts (ccd/mesh.hpp); for one per vertex, different indices.
     std::span<const int> groups = {};
     /// Each vertex goes at least as far as with its group (without groups: as with a group of its
-    /// own), and further up to planes between the elements of each pair in contact, as in
-    /// divide-and-truncate methods: motion along a contact is not limited.
+    /// own), and further up to planes. There is one between the elements, at the start, of each
+    /// pair that would touch, as in divide-and-truncate methods: motion along it is not limited.
     bool each_vertex = false;
     /// The distances that pairs keep. If 0, pairs only avoid contact, and rods with a common vertex
     /// are tested too. With distances such rods are not tested: they may fold through each other,

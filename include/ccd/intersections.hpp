@@ -37,7 +37,8 @@ struct mesh_element {
     friend auto operator<=>(const mesh_element&, const mesh_element&) = default;
 };
 
-/// Names the element with fewer vertices first, in the order of reports.
+/// The kinds of intersecting elements, in the order of reports. Names have the element with fewer
+/// vertices first.
 enum class intersection_kind : std::uint8_t {
     face_face,
     edge_face,

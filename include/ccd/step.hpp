@@ -38,7 +38,7 @@ struct step_options {
     bool first_contact = false;    ///< fill step_result::first_contact, and touching_at_start
     bool times = false;            ///< fill times, first_contact and touching_at_start
     bool check_start = false;      ///< fill step_result::intersections_at_start
-    /// Test rods with a common vertex, too: pairs of an end of one and the other. Not with
+    /// Also test rods with a common vertex: the other end of each against the other rod. Not with
     /// distances: run() then throws. An end that meets the common vertex is in contact. Without
     /// effect in the plane, where all these pairs are tested. Cost: n rods at a vertex make n²
     /// pairs.
