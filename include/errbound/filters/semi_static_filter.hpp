@@ -1,9 +1,10 @@
 // The scalar of semi-static filters. It computes an expression's value and the largest coordinate
 // or coordinate difference, from which the error bound follows. Static filters instead compute the
-// expression with all terms positive (static_filter.hpp): a smaller bound, but with many terms more
-// work. If the bound is finite, no number of the expression has overflowed. A NaN coordinate makes
-// the value NaN. Proof: proofs/filters/SemiStatic.v, semi_static_overflow_uncertain. Source:
-// Devillers, Pion 2003, Efficient exact geometric predicates for Delaunay triangulations.
+// expression with all terms positive (static_filter.hpp): their bound is smaller, but costs more if
+// there are many terms. If the bound is finite, no number of the expression has overflowed. A NaN
+// coordinate makes the value NaN. Proof: proofs/filters/SemiStatic.v,
+// semi_static_overflow_uncertain. Source: Devillers, Pion 2003, Efficient exact geometric
+// predicates for Delaunay triangulations.
 #pragma once
 
 #include <concepts>
