@@ -73,9 +73,9 @@ using resting_visitor =
     std::function<void(std::span<const face> elements, std::span<const element_pair> pairs)>;
 
 /// The search in one mesh. Keeps its working memory: 70 KB a thread, and about these numbers of
-/// bytes. Faces and edges share theirs: only the larger sum counts. For close pairs, the edges' sum
-/// is at most that of the faces or of half of the edges, the larger one. While few vertices are
-/// active, elements near them take 110 bytes more.
+/// bytes. Faces and edges share theirs: only the larger sum counts. With wanted_candidates::close,
+/// edges are searched in pieces: they take no more than the faces, or half of their sum if that is
+/// more. While few vertices are active, elements near them take 110 bytes more.
 ///
 ///                                    a face   an edge   a vertex
 ///     in floats                          40        44         18
@@ -152,7 +152,8 @@ class candidate_search {
         extents_tree first, second;
     };
 
-    /// Sorts elements by the order of the vertices, with cells that suit the sample.
+    /// Returns a function that sorts elements along the vertices' curve. Its cells are about as
+    /// large as the elements of `sample`.
     template <class Real, std::size_t N>
     auto sorting(const swept_boxes& boxes, const ordered_elements<N>& sample);
     template <kind K, class First, class Second>

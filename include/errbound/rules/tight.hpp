@@ -23,10 +23,10 @@ struct tight : detail::absolute_bound {
     static constexpr bool holds_in_directed_rounding = true;
     static constexpr bool holds_without_subnormals = true;
 
-    /// |v − (a + b)| <= |v|ε/(1 − ε) + σa + σb. In types of fewer than 40 bits, long sums do not
-    /// inflate σa and σb (detail/sum_of_bounds.hpp). Source: Theorem 1, Add. Proof:
-    /// proofs/rules/IeeeRules.v, tight_add_known; in any direction, proofs/rules/Tight.v,
-    /// tight_add_sound.
+    /// |v − (a + b)| <= |v|ε/(1 − ε) + σa + σb. With p < 40, σa and σb are not inflated if
+    /// they far exceed the error of this sum, as in long sums (detail/sum_of_bounds.hpp). Source:
+    /// Theorem 1, Add. Proof: proofs/rules/IeeeRules.v, tight_add_known; in any direction,
+    /// proofs/rules/Tight.v, tight_add_sound.
     template <class T>
     static constexpr bound<T> add(const T& v, rule_operand<T, tight> a, rule_operand<T, tight> b) {
         using traits = number_traits<T>;
