@@ -1,10 +1,6 @@
 // Batches of queries, by value or as pairs, in chunks that threads decide. Internal.
 #pragma once
 
-#include <tbb/blocked_range.h>
-#include <tbb/enumerable_thread_specific.h>
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -42,20 +38,20 @@ stage_report for_each_chunk(std::size_t count, std::size_t size, const batch_opt
         }
         return worker.report();
     }
-    tbb::enumerable_thread_specific<batch_worker> workers(fresh);
+    const auto another = [&fresh] { return fresh; };
+    per_thread<batch_worker> workers(another);
     const std::size_t chunks = (count + size - 1) / size;
     on_threads(options.threads, [&] {
-        tbb::parallel_for(tbb::blocked_range<std::size_t>(0, chunks),
-                          [&](const tbb::blocked_range<std::size_t>& range) {
-                              batch_worker& worker = workers.local();
-                              for (std::size_t c = range.begin(); c < range.end(); ++c) {
-                                  stop_if_requested(options.stop);
-                                  decide(worker, c * size, std::min(size, count - c * size));
-                              }
-                          });
+        for_each_range(chunks, 1, [&](std::size_t begin, std::size_t end) {
+            batch_worker& worker = workers.local();
+            for (std::size_t c = begin; c < end; ++c) {
+                stop_if_requested(options.stop);
+                decide(worker, c * size, std::min(size, count - c * size));
+            }
+        });
     });
     stage_report all;
-    for (const batch_worker& worker : workers) all += worker.report();
+    for (const batch_worker* worker : workers.all()) all += worker->report();
     return all;
 }
 

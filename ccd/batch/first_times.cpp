@@ -1,5 +1,3 @@
-#include <tbb/enumerable_thread_specific.h>
-
 #include <algorithm>
 #include <array>
 #include <atomic>
@@ -241,7 +239,7 @@ earliest_time earliest_of_all(const timed_queries<Item>& queries) {
     const std::vector<timed_contact> contacts = possible_contacts(queries.decisions());
     if (auto uncertain = only_uncertain(contacts)) return *std::move(uncertain);
     std::atomic<double> bound = queries.options().t_max;
-    tbb::enumerable_thread_specific<earliest_of_thread> parts;
+    per_thread<earliest_of_thread> parts;
     for_each_index(contacts.size(), queries.options().threads, [&](std::size_t i) {
         stop_if_requested(queries.options().stop);
         const double t_max = bound;
@@ -255,7 +253,7 @@ earliest_time earliest_of_all(const timed_queries<Item>& queries) {
         parts.local().add(time, number);
     });
     earliest_of_thread all;
-    for (const earliest_of_thread& part : parts) all.add(part);
+    for (const earliest_of_thread* part : parts.all()) all.add(*part);
     return std::move(all).sorted();
 }
 

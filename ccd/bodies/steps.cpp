@@ -1,5 +1,3 @@
-#include <tbb/enumerable_thread_specific.h>
-
 #include <algorithm>
 #include <array>
 #include <ccd/bodies/steps.hpp>
@@ -204,14 +202,14 @@ bool is_after_start(const first_time& time) {
 }
 
 /// Sorts the pairs of all threads into the result.
-void collect(tbb::enumerable_thread_specific<findings>& found, body_step_result& result) {
+void collect(detail::per_thread<findings>& found, body_step_result& result) {
     result.first_contact = {outcome::separate, 0, 0};
     for_each_kind([&]<kind K>() {
         timed_pairs<K> all;
-        for (findings& f : found) {
-            const auto& own = f.pairs.of<K>();
+        for (const findings* f : found.all()) {
+            const auto& own = f->pairs.of<K>();
             all.insert(all.end(), own.begin(), own.end());
-            result.candidates.of<K>() += f.candidates.of<K>();
+            result.candidates.of<K>() += f->candidates.of<K>();
         }
         std::ranges::sort(all, {}, &timed_pair<K>::pair);
         for (const auto& [pair, time] : all) {
@@ -283,8 +281,7 @@ struct body_steps::state {
     void decide(const body_steps& steps, const std::array<std::size_t, 2>& of,
                 const std::array<const detail::control_maps*, 2>& maps, const element_set<A>& a,
                 const element_set<B>& b, std::span<const body_motion> motions,
-                const body_step_options& options,
-                tbb::enumerable_thread_specific<findings>& found) const {
+                const body_step_options& options, detail::per_thread<findings>& found) const {
         if (a.elements.empty() || b.elements.empty()) return;
         const body_at_rest &first = bodies[of[0]], &second = bodies[of[1]];
         detail::for_each_touching(
@@ -311,7 +308,7 @@ struct body_steps::state {
     void decide_bodies(const body_steps& steps, const swept_bodies& swept, std::size_t p,
                        std::size_t q, std::span<const body_motion> motions,
                        const body_step_options& options,
-                       tbb::enumerable_thread_specific<findings>& found) const {
+                       detail::per_thread<findings>& found) const {
         const std::size_t i = swept.index[p], j = swept.index[q];
         box<double> region = swept.box_of_all[q];
         const element_sets a = bodies[i].near(swept.body[p], region);
@@ -382,16 +379,14 @@ body_step_result body_steps::run(std::span<const body_motion> motions,
     const auto swept = state_->sweep(motions, distance);
     const auto partners = state_->partners(swept, motions, options);
     result.body_pairs = partners.size();
-    tbb::enumerable_thread_specific<findings> found;
+    detail::per_thread<findings> found;
     detail::on_threads(options.threads, [&] {
         for (const auto& [p, q] : partners)
             for (const std::size_t body : {p, q}) state_->bodies[swept.index[body]].prepare();
-        tbb::parallel_for(
-            tbb::blocked_range<std::size_t>(0, partners.size(), 1), [&](const auto& range) {
-                for (std::size_t i = range.begin(); i < range.end(); ++i)
-                    state_->decide_bodies(*this, swept, partners[i].first, partners[i].second,
-                                          motions, options, found);
-            });
+        detail::for_each_index(partners.size(), [&](std::size_t i) {
+            state_->decide_bodies(*this, swept, partners[i].first, partners[i].second, motions,
+                                  options, found);
+        });
     });
     collect(found, result);
     return result;

@@ -1,8 +1,5 @@
 #include "ccd/lab/sections.hpp"
 
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_reduce.h>
-
 #include <algorithm>
 #include <array>
 #include <ccd/batch.hpp>
@@ -177,20 +174,20 @@ rows count_errors(const data_set& data, kind which, std::string_view method, int
             for (std::size_t i = 0; i < n; ++i) counts.add(answers[i], known.collides[i] != 0);
         } else {
             const ccd::method by = *find_method(std::string(method));
-            const auto count = [&](const tbb::blocked_range<std::size_t>& range, tally sum) {
-                for (std::size_t i = range.begin(); i < range.end(); ++i)
-                    sum.add(decide(by, known.queries[i]).outcome, known.collides[i] != 0);
-                return sum;
-            };
             constexpr std::size_t block = 1 << 14;  // small enough to show progress
+            detail::per_thread<tally> tallies;
             detail::on_threads(threads, [&] {
                 for (std::size_t first = 0; first < n; first += block) {
-                    counts += tbb::parallel_reduce(
-                        tbb::blocked_range<std::size_t>(first, std::min(first + block, n), 256),
-                        tally(), count, [](tally a, const tally& b) { return a += b; });
+                    const auto count = [&](std::size_t begin, std::size_t end) {
+                        tally& sum = tallies.local();
+                        for (std::size_t i = first + begin; i < first + end; ++i)
+                            sum.add(decide(by, known.queries[i]).outcome, known.collides[i] != 0);
+                    };
+                    detail::for_each_range(std::min(block, n - first), 256, count);
                     show(static_cast<double>(first) / static_cast<double>(n));
                 }
             });
+            for (const tally* part : tallies.all()) counts += *part;
         }
         return {{{"method", method},
                  {"queries", n},

@@ -1,7 +1,5 @@
 #include "ccd/lab/stress.hpp"
 
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <array>
 #include <ccd/batch.hpp>
@@ -37,9 +35,8 @@ struct queries_of_cell {
         for (std::uint64_t i = 0; i < count; ++i)
             queries.push_back(as_query<Query>(make(f, knob, kind_of<Query>, what.seed, i)));
         truth.resize(count);
-        tbb::parallel_for(std::size_t{0}, count, [this](std::size_t i) {
-            truth[i] = decide_reference(queries[i]).outcome;
-        });
+        detail::for_each_index(
+            count, [this](std::size_t i) { truth[i] = decide_reference(queries[i]).outcome; });
     }
 };
 

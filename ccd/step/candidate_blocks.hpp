@@ -1,8 +1,5 @@
 #pragma once
 
-#include <tbb/enumerable_thread_specific.h>
-#include <tbb/parallel_for_each.h>
-
 #include <algorithm>
 #include <array>
 #include <ccd/step.hpp>
@@ -11,6 +8,7 @@
 #include <numeric>
 #include <span>
 
+#include "ccd/batch/threads.hpp"
 #include "ccd/step/swept_boxes.hpp"
 
 namespace ccd::detail {
@@ -118,14 +116,15 @@ class candidate_blocks {
 
     /// Flushes all blocks. Returns the number of candidates.
     std::size_t finish() {
-        tbb::parallel_for_each(blocks_, [](block& b) { b.flush(); });
-        return std::transform_reduce(blocks_.begin(), blocks_.end(), std::size_t(0), std::plus<>(),
-                                     [](const block& b) { return b.count(); });
+        const std::vector<block*> all = blocks_.all();
+        for_each_task(all.size(), [&](std::size_t i) { all[i]->flush(); });
+        return std::transform_reduce(all.begin(), all.end(), std::size_t(0), std::plus<>(),
+                                     [](const block* b) { return b->count(); });
     }
 
   private:
     const stop_query& stop_;
-    tbb::enumerable_thread_specific<block> blocks_;
+    per_thread<block> blocks_;
 };
 
 }  // namespace ccd::detail

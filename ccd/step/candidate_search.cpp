@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "ccd/batch/batch_worker.hpp"
+#include "ccd/batch/threads.hpp"
 #include "ccd/step/active_parts.hpp"
 #include "ccd/step/candidate_blocks.hpp"
 #include "ccd/step/elements.hpp"
@@ -228,14 +229,15 @@ template <class Blocks, class PairOf>
 void search_trees(search_kernels::find_pairs find, const extents_tree& a, const extents_tree& b,
                   Blocks& blocks, const PairOf& pair_of, std::size_t stride = 1) {
     if (stride > 1)
-        tbb::parallel_for(std::size_t(0), a.leaves(), stride, [&](std::size_t leaf) {
-            search_leaves(find, a, leaf, leaf + 1, b, blocks, pair_of);
-        });
-    else
-        tbb::parallel_for(
-            tbb::blocked_range<std::size_t>(0, a.leaves(), 8), [&](const auto& range) {
-                search_leaves(find, a, range.begin(), range.end(), b, blocks, pair_of);
+        for_each_range(
+            (a.leaves() + stride - 1) / stride, 1, [&](std::size_t begin, std::size_t end) {
+                for (std::size_t i = begin; i < end; ++i)
+                    search_leaves(find, a, i * stride, i * stride + 1, b, blocks, pair_of);
             });
+    else
+        for_each_range(a.leaves(), 8, [&](std::size_t begin, std::size_t end) {
+            search_leaves(find, a, begin, end, b, blocks, pair_of);
+        });
 }
 
 }  // namespace
@@ -247,17 +249,16 @@ void candidate_search::search_elements(search_kernels::find_pairs find,
                                        extents_of ends, const extents_tree& b, Blocks& blocks,
                                        const PairOf& pair_of) {
     constexpr std::size_t in_chunk = extents_column::size * extents_column::size;
-    tbb::enumerable_thread_specific<extents_tree> trees;
-    tbb::parallel_for(
-        std::size_t(0), (elements.size() + in_chunk - 1) / in_chunk, [&](std::size_t chunk) {
-            const std::size_t first = in_chunk * chunk;
-            extents_tree& a = trees.local();
-            a.build<N>(request.kernels, request.rounded, request.margin,
-                       elements.subspan(first, std::min(in_chunk, elements.size() - first)), ends);
-            const std::size_t end = request.wanted.sample ? 1 : a.leaves();
-            search_leaves(find, a, 0, end, b, blocks,
-                          [&](std::size_t i, std::size_t j) { return pair_of(first + i, j); });
-        });
+    per_thread<extents_tree> trees;
+    for_each_index((elements.size() + in_chunk - 1) / in_chunk, [&](std::size_t chunk) {
+        const std::size_t first = in_chunk * chunk;
+        extents_tree& a = trees.local();
+        a.build<N>(request.kernels, request.rounded, request.margin,
+                   elements.subspan(first, std::min(in_chunk, elements.size() - first)), ends);
+        const std::size_t end = request.wanted.sample ? 1 : a.leaves();
+        search_leaves(find, a, 0, end, b, blocks,
+                      [&](std::size_t i, std::size_t j) { return pair_of(first + i, j); });
+    });
 }
 
 candidate_search::active_parts* candidate_search::choose_active(const kept_positions& kept,
@@ -454,8 +455,8 @@ void candidate_search::find_at_start(const batch_positions& positions, const ste
         for (const std::size_t leaf : tree.longest_leaves(tree.leaves() / 64))
             find(others, leaf, leaf + 1);
     }
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, tree.leaves(), 8),
-                      [&](const auto& range) { find(tree.levels(), range.begin(), range.end()); });
+    for_each_range(tree.leaves(), 8,
+                   [&](std::size_t begin, std::size_t end) { find(tree.levels(), begin, end); });
 }
 
 void candidate_search::find_resting_by_boxes(const swept_boxes& boxes,
@@ -466,7 +467,7 @@ void candidate_search::find_resting_by_boxes(const swept_boxes& boxes,
         std::size_t count = 0;
         std::array<element_pair, 512> pairs;
     };
-    tbb::enumerable_thread_specific<block> blocks;
+    per_thread<block> blocks;
     const auto flush = [&](block& b) {
         stop_if_requested(options.stop);
         visit(elements, {b.pairs.data(), b.count});
@@ -484,7 +485,8 @@ void candidate_search::find_resting_by_boxes(const swept_boxes& boxes,
             b.pairs[b.count++] = {static_cast<unsigned>(i), static_cast<unsigned>(j)};
             if (b.count == b.pairs.size()) flush(b);
         });
-    tbb::parallel_for_each(blocks, flush);
+    const std::vector<block*> all = blocks.all();
+    for_each_task(all.size(), [&](std::size_t i) { flush(*all[i]); });
 }
 
 pair_counts candidate_search::find(const batch_positions& positions, const step_options& options,

@@ -1,9 +1,6 @@
 // A tree over the extents of elements, sixteen to a node: see ccd/step/trees/extents_pack.hpp.
 #pragma once
 
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <array>
 #include <ccd/kind.hpp>
@@ -14,6 +11,7 @@
 
 #include "ccd/batch/first_touch.hpp"
 #include "ccd/batch/rounded_positions.hpp"
+#include "ccd/batch/threads.hpp"
 #include "ccd/step/search_kernels.hpp"
 #include "ccd/step/swept_boxes.hpp"
 #include "ccd/step/trees/extents_pack.hpp"
@@ -156,10 +154,9 @@ class extents_tree {
     void for_packs(std::size_t level, const Fill& fill) {
         constexpr std::size_t few = 64;  // for one thread, which takes up no other task meanwhile
         if (sizes_[level] <= few) return fill(0, sizes_[level], packs_of(level), hulls_of(level));
-        tbb::parallel_for(tbb::blocked_range<std::size_t>(0, sizes_[level], few),
-                          [&](const tbb::blocked_range<std::size_t>& range) {
-                              fill(range.begin(), range.end(), packs_of(level), hulls_of(level));
-                          });
+        for_each_range(sizes_[level], few, [&](std::size_t begin, std::size_t end) {
+            fill(begin, end, packs_of(level), hulls_of(level));
+        });
     }
     extents_column* packs_of(std::size_t level) {
         return packs_.data() + levels_.columns * starts_[level];

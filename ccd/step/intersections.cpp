@@ -1,7 +1,3 @@
-#include <tbb/blocked_range.h>
-#include <tbb/enumerable_thread_specific.h>
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <ccd/step.hpp>
 #include <errbound/simplices/common_segment.hpp>
@@ -92,7 +88,7 @@ class intersection_finder {
     const intersection_options& options_;
     const search_kernels& kernels_;
     bool all_pass_;
-    tbb::enumerable_thread_specific<found_by_thread> found_;
+    per_thread<found_by_thread> found_;
 };
 
 template <std::size_t D>
@@ -249,9 +245,9 @@ void intersection_finder::decide_adjacent(const vertex_fans& fans) {
     const std::size_t vertices = positions_.vertices;
     // Vertices with elements that may intersect, and these elements.
     std::vector<std::uint8_t> is_open(vertices);
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, vertices, 1024), [&](const auto& range) {
+    for_each_range(vertices, 1024, [&](std::size_t begin, std::size_t end) {
         stop_if_requested(options_.stop);
-        for (std::size_t v = range.begin(); v < range.end(); ++v)
+        for (std::size_t v = begin; v < end; ++v)
             is_open[v] = !fans.certainly_free(static_cast<vertex_index>(v), positions_.before);
     });
     struct use {
@@ -275,10 +271,10 @@ void intersection_finder::decide_adjacent(const vertex_fans& fans) {
             if (share_vertex(std::array{w}, b) && (w < v || is_open[w] == 0)) return false;
         return true;
     };
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, uses.size(), 64), [&](const auto& range) {
+    for_each_range(uses.size(), 64, [&](std::size_t begin, std::size_t end) {
         stop_if_requested(options_.stop);
         found_by_thread& found = found_.local();
-        for (std::size_t i = range.begin(); i < range.end(); ++i)
+        for (std::size_t i = begin; i < end; ++i)
             for (std::size_t j = i + 1; j < uses.size() && uses[j].vertex == uses[i].vertex; ++j) {
                 const face &a = elements[uses[i].element], &b = elements[uses[j].element];
                 if (is_first_common(uses[i].vertex, a, b)) decide(found, a, b);
@@ -288,10 +284,11 @@ void intersection_finder::decide_adjacent(const vertex_fans& fans) {
 
 intersection_result intersection_finder::take() {
     intersection_result all;
-    for (found_by_thread& found : found_) {
-        all.edge_faces.insert(all.edge_faces.end(), found.edge_faces.begin(),
-                              found.edge_faces.end());
-        all.counts += found.counts;
+    const std::vector<found_by_thread*> parts = found_.all();
+    for (const found_by_thread* found : parts) {
+        all.edge_faces.insert(all.edge_faces.end(), found->edge_faces.begin(),
+                              found->edge_faces.end());
+        all.counts += found->counts;
     }
     std::ranges::sort(all.edge_faces);
     all.edge_faces.erase(std::unique(all.edge_faces.begin(), all.edge_faces.end()),
@@ -300,7 +297,7 @@ intersection_result intersection_finder::take() {
     all.pairs.reserve(all.counts.total());
     for (std::size_t kind = 0; kind < intersection_kinds.size(); ++kind) {
         std::vector<std::vector<found_pair>*> lists;
-        for (found_by_thread& found : found_) lists.push_back(&found.pairs[kind]);
+        for (found_by_thread* found : parts) lists.push_back(&found->pairs[kind]);
         if (lists.empty()) break;
         for (const found_pair& pair : sorted_by_vertex<found_pair>(
                  lists.size(), static_cast<vertex_index>(positions_.vertices),
@@ -316,14 +313,13 @@ intersection_result intersection_finder::take() {
         all.counts.add(all.pairs[0].kind(), all.pairs[0].relation);
     }
     if (options_.segments)
-        tbb::parallel_for(
-            tbb::blocked_range<std::size_t>(0, all.pairs.size(), 64), [&](const auto& range) {
-                stop_if_requested(options_.stop);
-                for (std::size_t i = range.begin(); i < range.end(); ++i)
-                    if (all.pairs[i].relation == relation::crossing)
-                        all.pairs[i].segment =
-                            segment_of(positions_, search_.is_in_plane(), all.pairs[i]);
-            });
+        for_each_range(all.pairs.size(), 64, [&](std::size_t begin, std::size_t end) {
+            stop_if_requested(options_.stop);
+            for (std::size_t i = begin; i < end; ++i)
+                if (all.pairs[i].relation == relation::crossing)
+                    all.pairs[i].segment =
+                        segment_of(positions_, search_.is_in_plane(), all.pairs[i]);
+        });
     return all;
 }
 

@@ -1,8 +1,6 @@
 // Decides blocks of candidates and keeps the pairs that may collide.
 #pragma once
 
-#include <tbb/enumerable_thread_specific.h>
-
 #include <algorithm>
 #include <ccd/contact.hpp>
 #include <ccd/exact.hpp>
@@ -13,6 +11,7 @@
 #include <vector>
 
 #include "ccd/batch/batch_worker.hpp"
+#include "ccd/batch/threads.hpp"
 #include "ccd/step/elements.hpp"
 #include "ccd/step/order/buckets.hpp"
 #include "ccd/step/stopwatch.hpp"
@@ -24,16 +23,16 @@ struct pair_list_of_thread {
     std::vector<pair_of_kind<K>> pairs;
 };
 template <kind K>
-using lists_of_threads = tbb::enumerable_thread_specific<pair_list_of_thread<K>>;
+using lists_of_threads = per_thread<pair_list_of_thread<K>>;
 
 template <class Pair, class Parts>
 std::vector<Pair> take_sorted(Parts& parts) {
     const auto vertex_of = [](const Pair& pair) { return vertices_of(pair)[0]; };
     std::vector<std::vector<Pair>*> lists;
     vertex_index last = 0;
-    for (auto& p : parts) {
-        lists.push_back(&p.pairs);
-        for (const Pair& pair : p.pairs) last = std::max(last, vertex_of(pair));
+    for (auto* p : parts.all()) {
+        lists.push_back(&p->pairs);
+        for (const Pair& pair : p->pairs) last = std::max(last, vertex_of(pair));
     }
     if (lists.empty()) return {};
     std::vector<Pair> all = sorted_by_vertex<Pair>(
@@ -42,7 +41,7 @@ std::vector<Pair> take_sorted(Parts& parts) {
             for (const Pair& pair : *lists[list]) visit(pair);
         },
         vertex_of);
-    for (auto& p : parts) p.pairs = {};
+    for (auto* list : lists) *list = {};
     return all;
 }
 
@@ -56,7 +55,9 @@ class narrow_phase {
           method_(options.method),
           distances_(options.distances),
           max_distance_(options.distances.max_distance()),
-          parts_(part{{}, batch_worker(kernels_for(options.set), options.explain), {}, 0}) {}
+          parts_([set = options.set, explain = options.explain] {
+              return part{{}, batch_worker(kernels_for(set), explain), {}, 0};
+          }) {}
 
     /// Thread-safe.
     void decide(std::span<const pair> candidates) {
@@ -83,14 +84,14 @@ class narrow_phase {
 
     stage_report report() const {
         stage_report sum;
-        for (const part& p : parts_) sum += p.worker.report();
+        for (const part* p : parts_.all()) sum += p->worker.report();
         return sum;
     }
 
     /// The sum over all threads.
     double seconds() const {
         double sum = 0;
-        for (const part& p : parts_) sum += p.seconds;
+        for (const part* p : parts_.all()) sum += p->seconds;
         return sum;
     }
 
@@ -123,7 +124,7 @@ class narrow_phase {
     method method_;
     pair_distances distances_;
     double max_distance_;
-    tbb::enumerable_thread_specific<part> parts_;
+    per_thread<part> parts_;
 };
 
 }  // namespace ccd::detail

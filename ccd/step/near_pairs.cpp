@@ -1,5 +1,3 @@
-#include <tbb/enumerable_thread_specific.h>
-
 #include <algorithm>
 #include <array>
 #include <ccd/contact.hpp>
@@ -130,7 +128,7 @@ struct nearest_pair {
 /// The nearest of the pairs whose boxes, widened for `within`, touch.
 nearest_pair nearest_candidate(mesh_steps& mesh, const vertex_rows& rows, double within,
                                const near_options& options) {
-    tbb::enumerable_thread_specific<nearest_pair> of_threads;
+    detail::per_thread<nearest_pair> of_threads;
     for_each_candidate(mesh, rows, {.all = within}, options,
                        [&](const auto& pair, const estimate& found) {
                            nearest_pair& local = of_threads.local();
@@ -138,7 +136,7 @@ nearest_pair nearest_candidate(mesh_steps& mesh, const vertex_rows& rows, double
                                local.add({pair, found});
                        });
     nearest_pair nearest;
-    for (const nearest_pair& one : of_threads) nearest.add(one);
+    for (const nearest_pair* one : of_threads.all()) nearest.add(*one);
     return nearest;
 }
 

@@ -1,7 +1,3 @@
-#include <tbb/blocked_range.h>
-#include <tbb/enumerable_thread_specific.h>
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <atomic>
 #include <ccd/batch.hpp>
@@ -54,8 +50,8 @@ class candidate_store {
     pair_lists take() {
         pair_lists all;
         for_each_kind([&]<kind K>() {
-            for (const auto& list : lists_.of<K>())
-                all.of<K>().insert(all.of<K>().end(), list.pairs.begin(), list.pairs.end());
+            for (const auto* list : lists_.of<K>().all())
+                all.of<K>().insert(all.of<K>().end(), list->pairs.begin(), list->pairs.end());
         });
         return all;
     }
@@ -70,11 +66,10 @@ class candidate_store {
 template <kind K>
 void decide_all(phase<K>& by, std::span<const pair_of_kind<K>> candidates, const stop_query& stop) {
     constexpr std::size_t block = 2048;
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, candidates.size(), block),
-                      [&](const auto& range) {
-                          detail::stop_if_requested(stop);
-                          by.decide(candidates.subspan(range.begin(), range.size()));
-                      });
+    detail::for_each_range(candidates.size(), block, [&](std::size_t begin, std::size_t end) {
+        detail::stop_if_requested(stop);
+        by.decide(candidates.subspan(begin, end - begin));
+    });
 }
 
 detail::wanted_candidates candidates_for(const step_options& options, bool spare) {
@@ -132,7 +127,7 @@ step_result run_step(detail::candidate_search& search, std::optional<detail::ver
     }
     if (counted) result.candidates = counts;
     for_each_kind([&]<kind K>() { result.narrow_phase_seconds += phases.of<K>().seconds(); });
-    result.narrow_phase_seconds /= tbb::this_task_arena::max_concurrency();
+    result.narrow_phase_seconds /= static_cast<double>(detail::threads_here());
     result.broad_phase_seconds = watch.lap() - result.narrow_phase_seconds;
 
     for_each_kind([&]<kind K>() {

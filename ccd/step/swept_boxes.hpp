@@ -26,7 +26,7 @@ class short_way {
     /// With `spare`, the error also covers straight ways to the rounded positions that `between`
     /// (ccd/step/advance/advancing.hpp) returns for one fraction, at most t, of all vertices.
     /// Preconditions: positions are finite, 0 <= t < 1.
-    short_way(const vertex_rows& way, double t, bool spare = false)
+    [[gnu::noinline]] short_way(const vertex_rows& way, double t, bool spare = false)  // -Werror
         : end_(way, t, spare),
           way_{way.before, end_.positions.data(), way.vertices},
           rounded_(way_) {}

@@ -1,15 +1,12 @@
 #include "ccd/step/vertex_order.hpp"
 
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
-#include <tbb/parallel_reduce.h>
-
 #include <algorithm>
 #include <bit>
 #include <cstdint>
 #include <limits>
 #include <utility>
 
+#include "ccd/batch/threads.hpp"
 #include "ccd/step/elements.hpp"
 #include "ccd/step/order/buckets.hpp"
 #include "ccd/step/order/hilbert_curve.hpp"
@@ -56,10 +53,9 @@ constexpr std::size_t leaf_size = box_pack<float>::size;
 
 template <class Act>
 void for_all(std::size_t count, const Act& act) {
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, 4096),
-                      [&](const tbb::blocked_range<std::size_t>& range) {
-                          for (std::size_t i = range.begin(); i < range.end(); ++i) act(i);
-                      });
+    for_each_range(count, 4096, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) act(i);
+    });
 }
 
 template <class Real>
@@ -82,17 +78,14 @@ box<double> box_of_middles(std::span<const order_key> keys, const key_layout& la
         const std::array<double, 3> m{middle(b, 0), middle(b, 1), middle(b, 2)};
         return box<double>{m, m};
     };
-    return tbb::parallel_deterministic_reduce(
-        tbb::blocked_range<std::size_t>(0, keys.size(), 4096), middle_of(keys.front()),
-        [&](const tbb::blocked_range<std::size_t>& range, box<double> all) {
-            for (std::size_t i = range.begin(); i < range.end(); ++i)
-                widen(all, middle_of(keys[i]));
-            return all;
-        },
-        [](box<double> a, const box<double>& b) {
-            widen(a, b);
-            return a;
-        });
+    constexpr std::size_t block = 4096;
+    std::vector<box<double>> boxes((keys.size() + block - 1) / block, middle_of(keys.front()));
+    for_each_task(boxes.size(), [&](std::size_t i) {
+        for (std::size_t k = block * i; k < std::min(keys.size(), block * (i + 1)); ++k)
+            widen(boxes[i], middle_of(keys[k]));
+    });
+    for (const box<double>& b : boxes) widen(boxes[0], b);
+    return boxes[0];
 }
 
 std::array<unit_axis, 3> axes_of(const box<double>& b) {

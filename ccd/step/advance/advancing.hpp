@@ -2,8 +2,6 @@
 // process and one on many ranks, which exchange their contacts (`Others`).
 #pragma once
 
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <ccd/advance.hpp>
 #include <ccd/nearness.hpp>
@@ -126,7 +124,7 @@ struct near_times {
         pairs.resize(all.size());
         times.resize(all.size());
         on_threads(options.threads, [&] {
-            tbb::parallel_for(std::size_t(0), all.size(), [&](std::size_t i) {
+            for_each_index(all.size(), [&](std::size_t i) {
                 stop_if_requested(options.stop);
                 const auto query = query_of(way, all[i]);
                 pairs[i] = {all[i], {}};

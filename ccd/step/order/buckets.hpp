@@ -1,10 +1,6 @@
 // Sorts items into parts by one vertex, then into buckets, then each short bucket.
 #pragma once
 
-#include <tbb/enumerable_thread_specific.h>
-#include <tbb/parallel_for.h>
-#include <tbb/task_arena.h>
-
 #include <algorithm>
 #include <bit>
 #include <ccd/kind.hpp>
@@ -15,14 +11,14 @@
 #include <vector>
 
 #include "ccd/batch/first_touch.hpp"
+#include "ccd/batch/threads.hpp"
 
 namespace ccd::detail {
 
 /// The number of shares, at least one, such that each thread of the arena has work.
 inline std::size_t shares_of(std::size_t count) {
     constexpr std::size_t least = 4096;
-    const auto threads = static_cast<std::size_t>(tbb::this_task_arena::max_concurrency());
-    return std::clamp<std::size_t>(count / least, 1, threads);
+    return std::clamp<std::size_t>(count / least, 1, threads_here());
 }
 constexpr std::size_t begin_of_share(std::size_t share, std::size_t shares, std::size_t count) {
     return count / shares * share + std::min(share, count % shares);
@@ -50,11 +46,6 @@ class share_places {
     std::size_t digits_;
     std::vector<std::size_t> next_;
 };
-
-template <class Act>
-void for_each_task(std::size_t count, const Act& act) {
-    tbb::parallel_for(std::size_t(0), count, act, tbb::simple_partitioner());
-}
 
 /// Sorts a part's items into buckets by their vertices, which are from `first` to `last`.
 template <class Item, class VertexOf>
@@ -108,7 +99,8 @@ std::vector<Item> sorted_by_vertex(std::size_t shares, vertex_index last, const 
     });
 
     const std::size_t* const ends = places.of(shares - 1);  // where its next ones would go
-    tbb::enumerable_thread_specific<part_sorter<Item, VertexOf>> sorters(vertex_of);
+    const auto sorter = [&] { return part_sorter<Item, VertexOf>(vertex_of); };
+    per_thread<part_sorter<Item, VertexOf>> sorters(sorter);
     for_each_task(parts, [&](std::size_t part) {
         const std::size_t begin = part == 0 ? 0 : ends[part - 1], end = ends[part];
         const auto first = static_cast<vertex_index>(part << shift);

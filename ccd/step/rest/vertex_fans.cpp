@@ -1,12 +1,11 @@
 #include "ccd/step/rest/vertex_fans.hpp"
 
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <cmath>
 #include <errbound/predicates.hpp>
 #include <utility>
+
+#include "ccd/batch/threads.hpp"
 
 namespace ccd::detail {
 
@@ -25,8 +24,8 @@ vertex_fans::vertex_fans(std::span<const face> elements, std::size_t vertices)
             for_each_vertex(f, [&](vertex_index v) { corners[next[v]++] = {v, v}; });
     }
     ring_.resize(corners.size());
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, vertices, 1024), [&](const auto& range) {
-        for (std::size_t v = range.begin(); v < range.end(); ++v) {
+    for_each_range(vertices, 1024, [&](std::size_t least, std::size_t end) {
+        for (std::size_t v = least; v < end; ++v) {
             const std::size_t begin = starts_[v], count = next[v] - begin;
             if (count > 1)
                 kinds_[v] = kind_of_corners(std::span(corners).subspan(begin, count),

@@ -5,9 +5,6 @@
 // compare one box with a whole node.
 #pragma once
 
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -18,6 +15,7 @@
 #include <type_traits>
 
 #include "ccd/batch/first_touch.hpp"
+#include "ccd/batch/threads.hpp"
 
 namespace ccd::detail {
 
@@ -221,16 +219,16 @@ class box_tree {
     template <class BoxOf>
     void fill(std::size_t level, std::size_t count, const BoxOf& box_of) {
         const std::size_t start = level_start_[level];
-        tbb::parallel_for(tbb::blocked_range<std::size_t>(0, level_start_[level + 1] - start, 128),
-                          [&](const tbb::blocked_range<std::size_t>& range) {
-                              for (std::size_t p = range.begin(); p < range.end(); ++p) {
-                                  pack boxes;
-                                  for (std::size_t i = p * pack::size;
-                                       i < std::min(count, (p + 1) * pack::size); ++i)
-                                      boxes.set(i % pack::size, box_of(i));
-                                  packs_[start + p] = boxes;
-                              }
-                          });
+        for_each_range(level_start_[level + 1] - start, 128,
+                       [&](std::size_t begin, std::size_t end) {
+                           for (std::size_t p = begin; p < end; ++p) {
+                               pack boxes;
+                               for (std::size_t i = p * pack::size;
+                                    i < std::min(count, (p + 1) * pack::size); ++i)
+                                   boxes.set(i % pack::size, box_of(i));
+                               packs_[start + p] = boxes;
+                           }
+                       });
     }
 
     first_touch_vector<pack> packs_;  ///< the leaves, the nodes above them, ..., the root
@@ -251,28 +249,26 @@ void for_each_touching(const box_tree<Real>& a, const box_tree<Real>& b, const L
         for (std::size_t j = 0; j < size; ++j) mask |= ((std::uint64_t(1) << j) - 1) << (size * j);
         return mask;
     }();
-    tbb::parallel_for(
-        tbb::blocked_range<std::size_t>(0, a.leaves().size(), 16),
-        [&](const tbb::blocked_range<std::size_t>& range) {
-            auto& local = local_of();
-            for (std::size_t p = range.begin(); p < range.end(); ++p) {
-                const box_pack<Real>& group = a.leaves()[p];
-                b.find(group.hull(), within_one ? p : 0, [&](std::size_t q, pack_mask members) {
-                    // Bit size j + i: box i of the group and box j of leaf q.
-                    std::uint64_t touching = 0, certain = 0;
-                    for_each_bit(members, [&](std::size_t j) {
-                        const box<Real> member = b.leaves()[q][j];
-                        touching |= std::uint64_t(group.touching(member)) << (size * j);
-                        certain |= std::uint64_t(group.overlapping(member)) << (size * j);
-                    });
-                    if (within_one && p == q) touching &= below_diagonal;
-                    for_each_bit(touching, [&](std::size_t bit) {
-                        visit(local, size * p + bit % size, size * q + bit / size,
-                              (certain >> bit & 1) != 0);
-                    });
+    for_each_range(a.leaves().size(), 16, [&](std::size_t begin, std::size_t end) {
+        auto& local = local_of();
+        for (std::size_t p = begin; p < end; ++p) {
+            const box_pack<Real>& group = a.leaves()[p];
+            b.find(group.hull(), within_one ? p : 0, [&](std::size_t q, pack_mask members) {
+                // Bit size j + i: box i of the group and box j of leaf q.
+                std::uint64_t touching = 0, certain = 0;
+                for_each_bit(members, [&](std::size_t j) {
+                    const box<Real> member = b.leaves()[q][j];
+                    touching |= std::uint64_t(group.touching(member)) << (size * j);
+                    certain |= std::uint64_t(group.overlapping(member)) << (size * j);
                 });
-            }
-        });
+                if (within_one && p == q) touching &= below_diagonal;
+                for_each_bit(touching, [&](std::size_t bit) {
+                    visit(local, size * p + bit % size, size * q + bit / size,
+                          (certain >> bit & 1) != 0);
+                });
+            });
+        }
+    });
 }
 
 }  // namespace ccd::detail
