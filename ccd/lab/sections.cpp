@@ -21,10 +21,6 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-double ns_per(std::size_t count, double seconds) {
-    return 1e9 * seconds / static_cast<double>(count);
-}
-
 // ---- Bounds ----
 
 constexpr std::array variable_names{"Y(0)", "Y(1)", "Y'(0)", "Y'(1)", "Y''(0)", "Y''(1)"};
@@ -140,7 +136,7 @@ rows contacts_of(const query_set<Query>& queries, const sample_sizes& size, int 
     passes.push_back([&] { sample.decide_batch(0, answers, {.threads = 1}); });
     passes.push_back([&] { keep(sample.timed_contacts({.threads = 1})); });
     const std::vector<timing> all = race(passes, size.repeats, show);
-    const auto ns = [&](std::size_t i) { return ns_per(stored.size(), all[i].minimum); };
+    const auto ns = [&](std::size_t i) { return all[i].ns(stored.size()); };
     row r = {{"queries", queries.size()},      {"contacts", found.of_contacts.size()},
              {"at_start", found.at_start},     {"one_double", found.one_double},
              {"neighbours", found.neighbours}, {"timed", sample.size()},
@@ -154,8 +150,8 @@ rows contacts_of(const query_set<Query>& queries, const sample_sizes& size, int 
     if (!contacts.empty()) {
         const auto of_contacts = race(single_passes(contacts), size.repeats);
         r["timed_contacts"] = contacts.size();
-        r["ns_contact_decision"] = ns_per(contacts.size(), of_contacts[0].minimum);
-        r["ns_contact_time"] = ns_per(contacts.size(), of_contacts[1].minimum);
+        r["ns_contact_decision"] = of_contacts[0].ns(contacts.size());
+        r["ns_contact_time"] = of_contacts[1].ns(contacts.size());
     }
     if (!found.broken.empty()) r["broken"] = found.broken;
     return {r};
@@ -219,8 +215,8 @@ rows race_methods(const data_set& data, kind which, const std::vector<std::strin
         for (std::size_t i = 0; i < methods.size(); ++i)
             result.push_back({{"method", methods[i]},
                               {"timed", queries.size()},
-                              {"ns_min", ns_per(queries.size(), timings[i].minimum)},
-                              {"ns_median", ns_per(queries.size(), timings[i].median)}});
+                              {"ns_min", timings[i].ns(queries.size())},
+                              {"ns_median", timings[i].median_ns(queries.size())}});
         return result;
     });
 }

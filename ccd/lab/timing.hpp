@@ -2,6 +2,7 @@
 #pragma once
 
 #include <chrono>
+#include <cstddef>
 #include <functional>
 #include <vector>
 
@@ -22,6 +23,11 @@ void keep(const T& value) {
 struct timing {
     double minimum = 0;
     double median = 0;
+
+    double ms() const { return 1e3 * minimum; }
+    /// Nanoseconds of each of `count` items of the pass.
+    double ns(std::size_t count) const { return 1e9 * minimum / static_cast<double>(count); }
+    double median_ns(std::size_t count) const { return 1e9 * median / static_cast<double>(count); }
 };
 
 /// Times `passes` alternately: a warm-up, then `repeats` rounds, back and forth. A pass shorter

@@ -144,10 +144,9 @@ void add_rows(std::string_view kind, double angle, const options& o, rows& all) 
                   each([](const drawn& q) { return ccd::time_of_impact(q.linear); }),
                   each([](const drawn& q) { return ccd::time_of_impact(q.bodies()); })},
                  o.repeats());
-        const auto ns = [&](double seconds) { return 1e9 * seconds / static_cast<double>(count); };
         const auto columns = [&](const std::string& name, const timing& t) {
-            all.back()[name + "_ns"] = ns(t.minimum);
-            all.back()[name + "_median"] = ns(t.median);
+            all.back()[name + "_ns"] = t.ns(count);
+            all.back()[name + "_median"] = t.median_ns(count);
         };
         all.push_back({{"kind", kind}, {"rad", angle}, {"decided_by", family_names[f]}});
         columns("linear", timings[0]);

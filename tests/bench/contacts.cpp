@@ -54,19 +54,19 @@ void add_contacts_row(const query_set<Query>& set, const options& o, rows& table
                                        keep(ccd::contact_at(colliding[i], times[i]));
                                }},
                               o.repeats());
-    const auto all = static_cast<double>(colliding.size());
-    const auto ns = [&](std::size_t i) { return 1e9 * timings[i].minimum / all; };
+    const auto ns = [&](std::size_t i) { return timings[i].ns(colliding.size()); };
     const accuracy of(colliding, times);
-    table.push_back({{"kind", short_name(ccd::kind_of<Query>)},
-                     {"contacts", colliding.size()},
-                     {"ns_decision", ns(0)},
-                     {"ns_first_time", ns(1)},
-                     {"ns_data_then", ns(2)},
-                     {"inside_%", 100 * static_cast<double>(of.inside) / all},
-                     {"weight_error_median", error(ccd::lab::quantile(of.weights, 0.5))},
-                     {"weight_error_99_%", error(ccd::lab::quantile(of.weights, 0.99))},
-                     {"normal_error_median", error(ccd::lab::quantile(of.normals, 0.5))},
-                     {"normal_error_99_%", error(ccd::lab::quantile(of.normals, 0.99))}});
+    table.push_back(
+        {{"kind", short_name(ccd::kind_of<Query>)},
+         {"contacts", colliding.size()},
+         {"ns_decision", ns(0)},
+         {"ns_first_time", ns(1)},
+         {"ns_data_then", ns(2)},
+         {"inside_%", 100 * static_cast<double>(of.inside) / static_cast<double>(colliding.size())},
+         {"weight_error_median", error(ccd::lab::quantile(of.weights, 0.5))},
+         {"weight_error_99_%", error(ccd::lab::quantile(of.weights, 0.99))},
+         {"normal_error_median", error(ccd::lab::quantile(of.normals, 0.5))},
+         {"normal_error_99_%", error(ccd::lab::quantile(of.normals, 0.99))}});
 }
 
 double mean_edge(const ccd::mesh& m) {
@@ -93,9 +93,7 @@ void add_batch_rows(const query_set<Query>& set, double distance, const options&
                   [&] { keep(ccd::decide_within_batch(set.rows, set.by_index, within)); }},
                  o.repeats());
         const auto near = ccd::decide_within_batch(set.rows, set.by_index, within);
-        const auto ns = [&](std::size_t i) {
-            return 1e9 * timings[i].minimum / static_cast<double>(set.size());
-        };
+        const auto ns = [&](std::size_t i) { return timings[i].ns(set.size()); };
         table.push_back({{"kind", short_name(ccd::kind_of<Query>)},
                          {"on", name(instructions)},
                          {"candidates", set.size()},
@@ -126,7 +124,7 @@ void add_loop_row(const scene& s, double rescaling, const options& o, rows& tabl
     s.queries.for_each([&](const auto& known) { candidates += known.queries.size(); });
     table.push_back({{"kept", rescaling < 1 ? "gap" : "no gap"},
                      {"candidates", candidates},
-                     {"ns", 1e9 * t.minimum / static_cast<double>(candidates)},
+                     {"ns", t.ns(candidates)},
                      {"first_time", limit}});
 }
 

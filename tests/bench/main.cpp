@@ -55,9 +55,8 @@ int main(int argc, char** argv) {
     std::string only;
     bench.line.add_option("--scene", only, "Only scenes whose name holds this");
     bench.line
-        .add_option(
-            "--sections", o.sections,
-            "Only these: methods, stages, contacts, steps, growth, nearness, curves, bodies")
+        .add_option("--sections", o.sections,
+                    "Only these: methods, stages, contacts, steps, growth, curves, bodies")
         ->delimiter(',')
         ->check(CLI::IsMember(
             std::vector<std::string>(std::begin(section_names), std::end(section_names))));
@@ -75,7 +74,6 @@ int main(int argc, char** argv) {
         }
         if (!any)
             throw std::runtime_error("--scene is '" + only + "'; expected part of one of:" + names);
-        if (wants(o, "nearness") && only.empty()) nearness(o, out);
         if (wants(o, "curves") && only.empty()) curves(o, out);
         if (wants(o, "bodies") && only.empty()) bodies(o, out);
     });

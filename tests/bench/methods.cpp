@@ -50,20 +50,17 @@ class methods_race {
 
     void run(int repeats, rows& table) const {
         const std::vector<timing> timings = race(passes_, repeats);
-        const auto ns = [&](std::size_t i, double seconds) {
-            return 1e9 * seconds / static_cast<double>(contestants_[i].queries);
-        };
         for (std::size_t i = 0; i < contestants_.size(); ++i) {
             const contestant& c = contestants_[i];
-            const double minimum = ns(i, timings[i].minimum);
-            table.push_back(
-                {{"kind", short_name(ccd::kind_of<Query>)},
-                 {"contestant", c.name},
-                 {"queries", c.queries},
-                 {"collide", c.collisions},
-                 {"ns_min", minimum},
-                 {"ns_median", ns(i, timings[i].median)},
-                 {"speed-up_over_tight", ns(tight_, timings[tight_].minimum) / minimum}});
+            const double minimum = timings[i].ns(c.queries);
+            table.push_back({{"kind", short_name(ccd::kind_of<Query>)},
+                             {"contestant", c.name},
+                             {"queries", c.queries},
+                             {"collide", c.collisions},
+                             {"ns_min", minimum},
+                             {"ns_median", timings[i].median_ns(c.queries)},
+                             {"speed-up_over_tight",
+                              timings[tight_].ns(contestants_[tight_].queries) / minimum}});
         }
     }
 

@@ -70,10 +70,6 @@ struct contest {
         gmp.add(s);
         others.push_back(std::make_unique<flint_polynomial>(s.whole));
     }
-    double nanoseconds(const bench::timing& t) const {
-        return 1e9 * t.minimum / static_cast<double>(others.size());
-    }
-
     /// ns per polynomial: counted, isolated, counted by FLINT; and the ratio of the counts.
     void add_counts(const std::string& of, int repeats, bench::row& to) const {
         if (others.empty()) return;
@@ -83,9 +79,9 @@ struct contest {
                                                   bench::keep(p->distinct_real_roots());
                                           }},
                                          repeats);
-        to[of + ":_count"] = nanoseconds(timings[0]);
-        to[of + ":_isolate"] = nanoseconds(timings[1]);
-        to[of + ":_FLINT"] = nanoseconds(timings[2]);
+        to[of + ":_count"] = timings[0].ns(others.size());
+        to[of + ":_isolate"] = timings[1].ns(others.size());
+        to[of + ":_FLINT"] = timings[2].ns(others.size());
         to[of + ":_FLINT/count"] = timings[2].minimum / timings[0].minimum;
     }
     /// The times of isolation by Boost's integers and by GMP's, as multiples of errbound's.
@@ -104,7 +100,7 @@ struct contest {
                                                   bench::keep(isolate_by_arb(*p));
                                           }},
                                          1);
-        to["arb_isolates"] = nanoseconds(timings[1]);
+        to["arb_isolates"] = timings[1].ns(others.size());
         to["arb/isolate"] = timings[1].minimum / timings[0].minimum;
     }
 #endif

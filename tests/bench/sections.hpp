@@ -9,8 +9,8 @@
 
 namespace bench {
 
-inline constexpr std::string_view section_names[] = {"methods", "stages",   "contacts", "steps",
-                                                     "growth",  "nearness", "curves",   "bodies"};
+inline constexpr std::string_view section_names[] = {"methods", "stages", "contacts", "steps",
+                                                     "growth",  "curves", "bodies"};
 
 struct options {
     bool quick = false;
@@ -43,9 +43,6 @@ void steps(const scene& s, const options& o, report& out);
 /// Whole steps of copies of a scene side by side, up to ten million faces: time and memory. Also
 /// compares repeated steps of one mesh with first steps.
 void growth(const scene& s, const options& o, report& out);
-
-/// Nearest features of random pairs, and near pairs of two layers of cloth.
-void nearness(const options& o, report& out);
 
 /// First times of contact and of a distance along random curves, by degree.
 void curves(const options& o, report& out);

@@ -134,7 +134,7 @@ row row_of(const scene& s, const contestant& c, const timing& t) {
         {"method", ccd::info(c.method).name},
         {"instruction_set", ccd::name(c.set)},
         {"threads", r.threads},
-        {"ms_min", 1e3 * t.minimum},
+        {"ms_min", t.ms()},
         {"ms_median", 1e3 * t.median},
         {"prepare_ms", 1e3 * r.prepare_seconds},
         {"broad_ms", 1e3 * r.broad_phase_seconds},
@@ -220,7 +220,7 @@ void growth(const scene& s, const options& o, report& out) {
         if (pairs != number_of(fresh[0].quickest.pairs))
             throw std::runtime_error(s.name + ": a repeated step returned different pairs");
         const std::size_t heap = peak_heap([&] { keep(ccd::step(before, after, {.threads = 1})); });
-        const auto ms = [&](std::size_t i) { return 1e3 * timings[i].minimum; };
+        const auto ms = [&](std::size_t i) { return timings[i].ms(); };
         const auto per_face = static_cast<double>(before.faces.size());
         all.push_back({{"copies", copies},
                        {"faces", before.faces.size()},

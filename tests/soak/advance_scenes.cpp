@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <ccd/methods/transform.hpp>
 #include <cmath>
-#include <cstdio>
 #include <limits>
 #include <utility>
 
+#include "errbound/support/hexadecimal.hpp"
 #include "tests/soak/parts.hpp"
 #include "tests/support/distance_families.hpp"
 
@@ -135,15 +135,8 @@ ccd::mesh_steps advance_scene::steps() const {
 
 std::string advance_scene::text() const {
     std::string text = in_plane ? "in the plane" : "in space";
-    const auto add = [&text](double x) {
-        char number[32];
-        std::snprintf(number, sizeof number, " %a", x);
-        text += number;
-    };
-    text += "\ndistance";
-    add(distance);
-    text += "\nthickness";
-    for (const double t : thickness) add(t);
+    text += "\ndistance " + errbound::support::hexadecimal(distance) + "\nthickness";
+    for (const double t : thickness) text += " " + errbound::support::hexadecimal(t);
     text += "\ngroups";
     for (const int g : groups) text += " " + std::to_string(g);
     return text + "\n" + text_of(at);

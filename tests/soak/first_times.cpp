@@ -1,4 +1,5 @@
-// The parts of the soak that compute first contacts, and first times within a distance.
+#include "tests/soak/first_times.hpp"
+
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -19,8 +20,6 @@
 #include <utility>
 
 #include "ccd/contact/integer_times.hpp"
-#include "tests/soak/parts.hpp"
-#include "tests/support/contact_data_faults.hpp"
 #include "tests/support/distance_families.hpp"
 #include "tests/support/first_time_faults.hpp"
 
@@ -50,6 +49,13 @@ std::string text_of(separation d, double t_max) {
     char text[120];
     std::snprintf(text, sizeof text, "distance %a + %a, t_max %a", d.first, d.second, t_max);
     return text;
+}
+
+/// The first time in [0, t_max], computed from the first time in [0, 1].
+first_time until(const first_time& right, double t_max) {
+    return right.outcome == outcome::collides && right.high <= t_max
+               ? right
+               : first_time{.outcome = outcome::separate};
 }
 
 /// The query's motion from about its first time on, at many times the speed. Its first time is
@@ -88,13 +94,6 @@ double some_end(source& random, const first_time& right) {
         default:
             return random.unit();
     }
-}
-
-/// The first time in [0, t_max], computed from the first time in [0, 1].
-first_time until(const first_time& right, double t_max) {
-    return right.outcome == outcome::collides && right.high <= t_max
-               ? right
-               : first_time{.outcome = outcome::separate};
 }
 
 struct timed_query {
@@ -138,26 +137,9 @@ first_time check(const std::vector<time_decider>& deciders, const timed_query& o
     for (const time_decider& by : deciders) {
         if (!random.one_in(static_cast<int>(by.stride))) continue;
         auto& counts = out.table("decider")[by.name];
-        if (by.whether.of<K>()) {
+        for (const auto& [end, found] : by.answers.of<K>()(query, of.d, right, t_max)) {
             ++counts[0];
-            const outcome found = by.whether.of<K>()(query, of.d);
-            if (found != right.outcome) differ(by, 1, std::string(ccd::name(found)));
-            continue;
-        }
-        if (by.what.of<K>()) {
-            if (right.outcome != outcome::collides) continue;
-            ++counts[0];
-            const ccd::first_contact found = by.what.of<K>()(query, right);
-            const std::string faults = support::contact_data::check(query, found).faults();
-            if (!faults.empty() || found.time != right) differ(by, 1, "what is not so: " + faults);
-            continue;
-        }
-        for (const double end : {1.0, t_max}) {
-            ++counts[0];
-            if (&by == &deciders[0] && end == 1) continue;  // checked above
-            const first_time found = by.when.of<K>()(query, of.d, end);
-            const first_time expected = until(right, end);
-            if (found != expected) differ(by, end, text_of(found) + ", not " + text_of(expected));
+            if (!found.empty()) differ(by, end, found);
         }
     }
     return right;
@@ -316,25 +298,6 @@ part part_of(std::string name, std::vector<time_decider> deciders, bool of_dista
     return all;
 }
 
-/// Returns time(q), where q has its points on curves of degree 1.
-template <class Query, class Time>
-first_time along_curves(const Query& query, const Time& time) {
-    constexpr std::size_t count = std::tuple_size_v<decltype(ccd::points_of(query))>;
-    std::array<std::array<ccd::point<double>, 2>, count> ends;
-    std::ranges::transform(ccd::points_of(query), ends.begin(), [](const auto& m) {
-        return std::array{m.t0, m.t1};
-    });
-    constexpr kind K = ccd::kind_of<Query>;
-    if constexpr (K == kind::vertex_face)
-        return time(ccd::vertex_face_curves{ends[0], ends[1], ends[2], ends[3]});
-    else if constexpr (K == kind::edge_edge)
-        return time(ccd::edge_edge_curves{ends[0], ends[1], ends[2], ends[3]});
-    else if constexpr (K == kind::vertex_edge)
-        return time(ccd::vertex_edge_curves{ends[0], ends[1], ends[2]});
-    else
-        return time(ccd::vertex_vertex_curves{ends[0], ends[1]});
-}
-
 /// Calls the stage after the filters directly, since filters decide most queries.
 template <class Query>
 first_time in_integers_unfiltered(const Query& query, double t_max) {
@@ -344,6 +307,11 @@ first_time in_integers_unfiltered(const Query& query, double t_max) {
 }
 
 }  // namespace
+
+std::string fault_of(const first_time& found, const first_time& right, double t_max) {
+    const first_time expected = until(right, t_max);
+    return found == expected ? "" : text_of(found) + ", not " + text_of(expected);
+}
 
 std::vector<time_decider> contact_deciders() {
     std::vector<time_decider> all;
@@ -360,7 +328,7 @@ std::vector<time_decider> contact_deciders() {
     when("its reference", slow,
          [](const auto& q, double t_max) { return ccd::time_of_impact_reference(q, t_max); });
     when("along curves", slow, [](const auto& q, double t_max) {
-        return along_curves(q, [&](const auto& c) { return ccd::time_of_impact(c, t_max); });
+        return oracle::along_lines(q, [&](const auto& c) { return ccd::time_of_impact(c, t_max); });
     });
     all.push_back(by_outcome(
         "decide_exact", [](const auto& q, separation) { return ccd::decide_exact(q).outcome; }));
@@ -387,7 +355,8 @@ std::vector<time_decider> distance_deciders() {
             "its reference's",
             [](const auto& q, separation d) { return ccd::decide_within_reference(q, d).outcome; }),
         by_time("along curves", [](const auto& q, separation d, double t_max) {
-            return along_curves(q, [&](const auto& c) { return ccd::time_within(c, d, t_max); });
+            return oracle::along_lines(
+                q, [&](const auto& c) { return ccd::time_within(c, d, t_max); });
         })};
     for (std::size_t i = 2; i < all.size(); ++i) all[i].stride = slow;
     return all;

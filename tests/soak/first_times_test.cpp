@@ -1,5 +1,7 @@
 // The soak of first times detects a time that is wrong by a last place or missing, a rounded
 // distance, and missing nearest points.
+#include "tests/soak/first_times.hpp"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -9,8 +11,6 @@
 #include <string_view>
 #include <utility>
 #include <vector>
-
-#include "tests/soak/parts.hpp"
 
 namespace {
 
@@ -25,14 +25,10 @@ const soak::time_decider distances = soak::distance_deciders().front();
 template <class Change>
 soak::time_decider changed(std::string name, const soak::time_decider& right,
                            const Change& change) {
-    soak::time_decider all{.name = std::move(name)};
-    ccd::for_each_kind([&]<ccd::kind K>() {
-        all.when.of<K>() = [when = right.when.of<K>(), change](const auto& query, separation d,
-                                                               double t_max) {
-            return change(query, when(query, d, t_max));
-        };
+    return soak::by_time(std::move(name), [when = right.when, change]<class Query>(
+                                              const Query& query, separation d, double t_max) {
+        return change(query, when.template of<ccd::kind_of<Query>>()(query, d, t_max));
     });
-    return all;
 }
 
 first_time a_double_later(first_time t) {

@@ -18,6 +18,9 @@
 #include "errbound/support/rows.hpp"
 #include "errbound/support/signals.hpp"
 #include "tests/soak/parts.hpp"
+#ifdef ERRBOUND_HAS_ORACLE
+#include "tests/soak/first_times.hpp"
+#endif
 
 namespace soak {
 namespace {

@@ -1,8 +1,8 @@
 #include <algorithm>
 #include <ccd/reference.hpp>
-#include <cstdio>
 #include <utility>
 
+#include "errbound/support/hexadecimal.hpp"
 #include "tests/ccd/step/query_meshes.hpp"
 #include "tests/soak/parts.hpp"
 
@@ -11,6 +11,7 @@ namespace {
 
 using brute_force::two_frames;
 using ccd::vertex_index;
+using errbound::support::hexadecimal;
 using query_families::families;
 using query_families::kind;
 
@@ -103,11 +104,8 @@ std::string text_of(const two_frames& at) {
     add("faces", at.first.faces);
     add("edges", at.first.edges);
     for (const ccd::mesh* frame : {&at.first, &at.second})
-        for (const auto& p : frame->vertices) {
-            char row[128];  // three numbers of at most 24 characters
-            std::snprintf(row, sizeof row, "%a,%a,%a\n", p.x, p.y, p.z);
-            text += row;
-        }
+        for (const auto& p : frame->vertices)
+            text += hexadecimal(p.x) + "," + hexadecimal(p.y) + "," + hexadecimal(p.z) + "\n";
     return text;
 }
 

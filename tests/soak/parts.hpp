@@ -4,7 +4,6 @@
 #include <array>
 #include <ccd/advance.hpp>
 #include <ccd/batch.hpp>
-#include <ccd/contact.hpp>
 #include <ccd/kind.hpp>
 #include <ccd/methods/transform.hpp>
 #include <cstddef>
@@ -122,66 +121,6 @@ part comparison_part(decider truth, std::vector<decider> deciders);
 part symmetry_part(std::vector<decider> deciders);
 /// exact_deciders() and the methods `tight` and `safe`, whose certain answers must be right.
 std::vector<decider> symmetric_deciders();
-
-// ---- First times ----
-
-template <ccd::kind K>
-using first_time_of = std::function<ccd::first_time(
-    const typename ccd::kind_traits<K>::template query<double>&, ccd::separation, double t_max)>;
-template <ccd::kind K>
-using outcome_of = std::function<ccd::outcome(
-    const typename ccd::kind_traits<K>::template query<double>&, ccd::separation)>;
-template <ccd::kind K>
-using contact_of = std::function<ccd::first_contact(
-    const typename ccd::kind_traits<K>::template query<double>&, const ccd::first_time&)>;
-
-/// Computes one of three results: the first time within a distance (0 for contacts), whether there
-/// is one, or the data of a contact. Several threads call it at a time.
-struct time_decider {
-    std::string name;
-    ccd::by_kind<first_time_of> when = {};
-    ccd::by_kind<outcome_of> whether = {};
-    ccd::by_kind<contact_of> what = {};
-    unsigned stride = 1;  ///< one query in this many is decided
-};
-
-/// A decider of `when(query, d, t_max)`.
-template <class When>
-time_decider by_time(std::string name, const When& when) {
-    time_decider all{.name = std::move(name)};
-    ccd::for_each_kind([&]<ccd::kind K>() { all.when.of<K>() = when; });
-    return all;
-}
-/// A decider of `whether(query, d)`.
-template <class Whether>
-time_decider by_outcome(std::string name, const Whether& whether) {
-    time_decider all{.name = std::move(name)};
-    ccd::for_each_kind([&]<ccd::kind K>() { all.whether.of<K>() = whether; });
-    return all;
-}
-/// A decider of `what(query, time)`.
-template <class What>
-time_decider by_data(std::string name, const What& what) {
-    time_decider all{.name = std::move(name)};
-    ccd::for_each_kind([&]<ccd::kind K>() { all.what.of<K>() = what; });
-    return all;
-}
-
-/// All functions that compute first contacts, or first times within distances. The first accepts
-/// all t_max.
-std::vector<time_decider> contact_deciders();
-std::vector<time_decider> distance_deciders();
-
-/// Queries of every family and all four kinds. The oracle checks the first decider's answer for
-/// t_max = 1 (tests/support/first_time_faults.hpp). First times are unique, so all others must
-/// agree. For any other t_max, the answer follows from the first time. Rationals check the data of
-/// contacts (tests/support/contact_data_faults.hpp). Then batches compute
-/// the first times of the block's queries with every instruction set. ccd::earliest computes
-/// that of the whole block, and of a few queries at a time. Tables: "family", the
-/// queries; "distance", the distances; "decider", all answers.
-part contact_time_part(std::vector<time_decider> deciders);
-/// The same comparison for distances of many families (tests/support/distance_families.hpp).
-part distance_time_part(std::vector<time_decider> deciders);
 
 // ---- Meshes ----
 

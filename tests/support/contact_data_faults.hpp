@@ -1,6 +1,7 @@
 // Checks the data of a contact by rationals, with separate formulas and times.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <boost/multiprecision/gmp.hpp>
 #include <ccd/contact.hpp>
@@ -8,10 +9,10 @@
 #include <ccd/methods/transform.hpp>
 #include <cmath>
 #include <cstddef>
-#include <optional>
 #include <string>
 #include <vector>
 
+#include "tests/support/nearest_points.hpp"
 #include "tests/support/oracle.hpp"
 
 namespace support::contact_data {
@@ -20,24 +21,6 @@ namespace mp = boost::multiprecision;
 using rational = mp::number<mp::gmp_rational, mp::et_off>;
 using real = mp::number<mp::gmp_float<120>, mp::et_off>;
 
-template <class S>
-using vector = std::array<S, 3>;
-template <class S>
-vector<S> operator-(const vector<S>& a, const vector<S>& b) {
-    return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
-}
-template <class S>
-vector<S> operator*(const S& f, const vector<S>& a) {
-    return {f * a[0], f * a[1], f * a[2]};
-}
-template <class S>
-S dot(const vector<S>& a, const vector<S>& b) {
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-template <class S>
-vector<S> cross(const vector<S>& a, const vector<S>& b) {
-    return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
 inline bool is_zero(const vector<rational>& a) {
     return a[0] == 0 && a[1] == 0 && a[2] == 0;
 }
@@ -67,46 +50,6 @@ inline vector<rational> cross_product(ccd::kind k, const moment& m) {
 inline rational height(ccd::kind k, const moment& m) {
     const std::size_t base = k == ccd::kind::vertex_face ? 1 : 2;
     return dot(cross_product(k, m), m.at[0] - m.at[base]);
-}
-
-/// Weights of the query's points for the pair's nearest points (on planes and lines), by Cramer's
-/// rule; none if they are not unique.
-inline std::optional<std::array<rational, 4>> weights(const ccd::meeting_features& pair,
-                                                      const moment& m) {
-    std::array<rational, 4> w{};
-    const auto at = [&](std::size_t i) { return m.at[pair.points[i]]; };
-    const auto set = [&](std::size_t i, const rational& x) { w[pair.points[i]] = x; };
-    // The least squares solution of x·p + y·q = r.
-    const auto solve = [&](const auto& p, const auto& q, const auto& r) {
-        const rational pp = dot(p, p), pq = dot(p, q), qq = dot(q, q), d = pp * qq - pq * pq;
-        using pair_of = std::optional<std::array<rational, 2>>;
-        return d == 0 ? pair_of()
-                      : pair_of({(dot(p, r) * qq - dot(q, r) * pq) / d,
-                                 (dot(q, r) * pp - dot(p, r) * pq) / d});
-    };
-    set(0, 1);
-    if (pair.kind == ccd::kind::vertex_vertex) {
-        set(1, 1);
-    } else if (pair.kind == ccd::kind::vertex_edge) {
-        const auto e = at(2) - at(1);
-        if (is_zero(e)) return std::nullopt;
-        set(2, dot(at(0) - at(1), e) / dot(e, e));
-        set(1, 1 - w[pair.points[2]]);
-    } else if (pair.kind == ccd::kind::vertex_face) {
-        const auto x = solve(at(2) - at(1), at(3) - at(1), at(0) - at(1));
-        if (!x) return std::nullopt;
-        set(1, 1 - (*x)[0] - (*x)[1]);
-        set(2, (*x)[0]);
-        set(3, (*x)[1]);
-    } else {
-        const auto x = solve(at(1) - at(0), at(2) - at(3), at(2) - at(0));
-        if (!x) return std::nullopt;
-        set(0, 1 - (*x)[0]);
-        set(1, (*x)[0]);
-        set(2, 1 - (*x)[1]);
-        set(3, (*x)[1]);
-    }
-    return w;
 }
 
 /// The velocity of the first feature's contact point relative to the second's.
@@ -141,7 +84,7 @@ class check {
   public:
     check(const Query& query, const ccd::first_contact& found) : query_(query), found_(found) {
         check_features();
-        check_sums();
+        faults_ += faults_of_weights(found.weights, first_points);
         const rational low(found.time.low), high(found.time.high);
         for (const rational& t : {low, rational((low + high) / 2), high}) check_at(t);
         if (found.sided && found.normal_from == ccd::normal_source::cross_product) check_side();
@@ -192,30 +135,22 @@ class check {
                 : met == ccd::kind::vertex_edge && !meet(i[0], i[1], i[2]))
             fault("features that do not meet");
     }
-    void check_sums() {
-        std::array<double, 2> sums{};
-        for (std::size_t i = 0; i < 4; ++i) {
-            if (!(found_.weights[i] >= 0 && found_.weights[i] <= 1))
-                fault("a weight out of [0, 1]");
-            sums[i >= first_points] += found_.weights[i];
-        }
-        for (const double sum : sums)
-            if (std::abs(sum - 1) > 0x1p-52) fault("weights that do not add up to 1");
-    }
-
     void check_at(const rational& t) {
         const moment m(query_, t);
-        const auto w = weights(found_.features, m);
-        if (!w) return;
+        const feet<rational> exact(found_.features, m.at);
+        if (exact.divisor == 0) return;
+        std::array<rational, 4> w;
+        std::ranges::transform(exact.weights, w.begin(),
+                               [&](const rational& x) { return rational(x / exact.divisor); });
         // At times of the bracket other than the contact, weights may leave [0, 1]. The found
         // weights were clamped, which is then not an error.
         rational outside = 0;
-        for (const rational& x : *w) outside += x < 0 ? -x : rational(0);
+        for (const rational& x : w) outside += x < 0 ? -x : rational(0);
         for (std::size_t i = 0; i < m.at.size(); ++i)
-            if (!at_most(real(rational(abs((*w)[i] - rational(found_.weights[i])) - outside)),
+            if (!at_most(real(rational(abs(w[i] - rational(found_.weights[i])) - outside)),
                          found_.weight_error))
                 fault("weight " + std::to_string(i) + " off by more than its error");
-        check_normal(m, velocity(first_points, *w, m));
+        check_normal(m, velocity(first_points, w, m));
     }
     void check_normal(const moment& m, const exact_vector& u) {
         exact_vector along{};

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "ccd/lab/queries.hpp"
+#include "tests/support/nearest_points.hpp"
 
 namespace distance_families {
 
@@ -29,17 +30,8 @@ struct family {
 namespace detail {
 
 using number = long double;  // no product here overflows
-using vector = std::array<number, 3>;
-
-inline vector operator-(const vector& a, const vector& b) {
-    return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
-}
-inline number dot(const vector& a, const vector& b) {
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-inline vector cross(const vector& a, const vector& b) {
-    return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
+using vector = support::vector<number>;
+using support::operator-, support::dot, support::cross;
 
 /// The differences of the two features' vertices at t, in order around their hull.
 inline std::vector<vector> differences(kind which, const points& p, double t) {

@@ -15,26 +15,14 @@
 #include <string>
 #include <vector>
 
+#include "tests/support/nearest_points.hpp"
+
 namespace support::nearness_data {
 
 namespace mp = boost::multiprecision;
 using whole = mp::number<mp::gmp_int, mp::et_off>;
 using rational = mp::number<mp::gmp_rational, mp::et_off>;
 using real = mp::number<mp::gmp_float<60>, mp::et_off>;
-using vector = std::array<whole, 3>;
-
-inline vector operator-(const vector& a, const vector& b) {
-    return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
-}
-inline vector operator*(const whole& f, const vector& a) {
-    return {f * a[0], f * a[1], f * a[2]};
-}
-inline whole dot(const vector& a, const vector& b) {
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-inline vector cross(const vector& a, const vector& b) {
-    return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
 
 /// 2^exponent
 inline rational power(int exponent) {
@@ -44,7 +32,7 @@ inline rational power(int exponent) {
 
 /// The points of a query at t, times 2^-unit·`factor`.
 struct positions {
-    std::vector<vector> at;
+    std::vector<vector<whole>> at;
     int unit = std::numeric_limits<int>::max();
     whole factor;
 
@@ -77,73 +65,9 @@ struct positions {
     }
 };
 
-/// Nearest points of two features' planes or lines, if both are inside the features.
-struct feet {
-    ccd::meeting_features features;
-    bool exist = false;
-    std::array<whole, 4> weights{};  ///< times `divisor`
-    whole divisor = 1;
-    whole square = 0;  ///< of the distance, times `divisor`
-    vector between{};  ///< from the second towards the first, times a positive number
-
-    bool is_nearer(const feet& other) const {
-        return square * other.divisor < other.square * divisor;
-    }
-};
-
-inline feet feet_of(const ccd::meeting_features& features, const std::vector<vector>& at) {
-    feet f{features};
-    const auto& i = features.points;
-    const auto set = [&](std::size_t k, const whole& weight) { f.weights[i[k]] = weight; };
-    const auto in_range = [&] {
-        return f.divisor > 0 && std::ranges::all_of(f.weights, [&](const whole& w) {
-                   return w >= 0 && w <= f.divisor;
-               });
-    };
-    switch (features.kind) {
-        case ccd::kind::vertex_vertex: {
-            f.between = at[i[0]] - at[i[1]];
-            set(0, 1), set(1, 1);
-            f.square = dot(f.between, f.between);
-            break;
-        }
-        case ccd::kind::vertex_edge: {
-            const vector e = at[i[2]] - at[i[1]], w = at[i[0]] - at[i[1]];
-            const whole we = dot(w, e);
-            f.divisor = dot(e, e);
-            set(0, f.divisor), set(1, f.divisor - we), set(2, we);
-            f.between = f.divisor * w - we * e;
-            f.square = dot(w, w) * f.divisor - we * we;
-            break;
-        }
-        default: {
-            // The least squares solution of x·p + y·q = r.
-            const bool face = features.kind == ccd::kind::vertex_face;
-            const vector p = face ? at[2] - at[1] : at[1] - at[0];
-            const vector q = face ? at[3] - at[1] : at[2] - at[3];
-            const vector r = face ? at[0] - at[1] : at[2] - at[0];
-            const whole pp = dot(p, p), pq = dot(p, q), qq = dot(q, q), pr = dot(p, r),
-                        qr = dot(q, r);
-            f.divisor = pp * qq - pq * pq;
-            const whole x = pr * qq - qr * pq, y = qr * pp - pr * pq;
-            if (face)
-                set(0, f.divisor), set(1, f.divisor - x - y), set(2, x), set(3, y);
-            else
-                set(0, f.divisor - x), set(1, x), set(2, f.divisor - y), set(3, y);
-            const vector n = cross(p, q);
-            const whole height = dot(n, r);
-            f.square = height * height;
-            // r is towards v from the face, but towards edge b from edge a.
-            f.between = whole((height > 0) == face ? 1 : -1) * n;
-        }
-    }
-    f.exist = in_range();
-    return f;
-}
-
 /// The feet with the least distance of the smallest features, the first of these.
 template <ccd::kind K>
-feet nearest(const std::vector<vector>& at) {
+feet<whole> nearest(const std::vector<vector<whole>>& at) {
     using ccd::kind;
     using features = ccd::meeting_features;
     std::vector<features> all;
@@ -164,10 +88,11 @@ feet nearest(const std::vector<vector>& at) {
                {kind::vertex_edge, {0, 1, 2}}};
     else
         all = {{kind::vertex_vertex, {0, 1}}};
-    feet best = feet_of(all[0], at);
+    feet<whole> best(all[0], at);
     for (std::size_t i = 1; i < all.size(); ++i) {
-        feet next = feet_of(all[i], at);
-        if (next.exist && next.is_nearer(best)) best = std::move(next);
+        feet<whole> next(all[i], at);
+        if (next.inside() && next.square * best.divisor < best.square * next.divisor)
+            best = std::move(next);
     }
     constexpr std::uint8_t first = ccd::kind_traits<K>::first_vertices;
     if (best.features.kind == kind::vertex_edge && best.features.points[0] >= first)
@@ -203,16 +128,11 @@ class check {
     void fault(const std::string& text) { faults_ += text + "; "; }
 
     void check_weights() {
-        std::array<double, 2> sums{};
+        faults_ += faults_of_weights(found_.weights, first);
         for (std::size_t i = 0; i < 4; ++i) {
-            const double w = found_.weights[i];
-            if (!(w >= 0 && w <= 1)) fault("a weight out of [0, 1]");
-            sums[i >= first] += w;
-            const rational off = rational(w) * exact_.divisor - exact_.weights[i];
+            const rational off = rational(found_.weights[i]) * exact_.divisor - exact_.weights[i];
             if (abs(off) > rational(found_.weight_error) * exact_.divisor) fault("weight off");
         }
-        for (const double sum : sums)
-            if (std::abs(sum - 1) > 0x1p-52) fault("weights that do not add up to 1");
         if (!(found_.weight_error <= most)) fault("weight error too large");
     }
 
@@ -261,7 +181,7 @@ class check {
 
     const ccd::nearness& found_;
     positions at_;
-    feet exact_;
+    feet<whole> exact_;
     std::string faults_;
 };
 

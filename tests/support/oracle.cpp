@@ -11,9 +11,11 @@
 
 #include <algorithm>
 #include <array>
+#include <ccd/methods/transform.hpp>
 #include <cstddef>
 #include <optional>
 #include <span>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -181,32 +183,18 @@ bool collides_of(const ccd::vertex_vertex_of<vector>& q, const stretch& when) {
 
 }  // namespace detail
 
-bool collides(const ccd::vertex_face_curves& query, shortcuts use, const interval& when) {
-    const std::array points{query.v, query.f0, query.f1, query.f2};
-    if (separate_at_once(points, 1, use, when)) return false;
-    const auto [v, f0, f1, f2] = place(points);
-    return collides_of(ccd::vertex_face_of<vector>{v, f0, f1, f2}, stretch_of(when));
+template <template <class> class Query>
+bool collides(const Query<ccd::curve>& query, shortcuts use, const interval& when) {
+    const auto points = ccd::points_of(query);
+    constexpr auto first = ccd::kind_traits<ccd::kind_of<Query<ccd::curve>>>::first_vertices;
+    if (separate_at_once(points, first, use, when)) return false;
+    return std::apply(
+        [&](const auto&... p) { return collides_of(Query<vector>{p...}, stretch_of(when)); },
+        place(points));
 }
-
-bool collides(const ccd::edge_edge_curves& query, shortcuts use, const interval& when) {
-    const std::array points{query.a0, query.a1, query.b0, query.b1};
-    if (separate_at_once(points, 2, use, when)) return false;
-    const auto [a0, a1, b0, b1] = place(points);
-    return collides_of(ccd::edge_edge_of<vector>{a0, a1, b0, b1}, stretch_of(when));
-}
-
-bool collides(const ccd::vertex_edge_curves& query, shortcuts use, const interval& when) {
-    const std::array points{query.v, query.e0, query.e1};
-    if (separate_at_once(points, 1, use, when)) return false;
-    const auto [v, e0, e1] = place(points);
-    return collides_of(ccd::vertex_edge_of<vector>{v, e0, e1}, stretch_of(when));
-}
-
-bool collides(const ccd::vertex_vertex_curves& query, shortcuts use, const interval& when) {
-    const std::array points{query.v, query.w};
-    if (separate_at_once(points, 1, use, when)) return false;
-    const auto [v, w] = place(points);
-    return collides_of(ccd::vertex_vertex_of<vector>{v, w}, stretch_of(when));
-}
+template bool collides(const ccd::vertex_face_curves&, shortcuts, const interval&);
+template bool collides(const ccd::edge_edge_curves&, shortcuts, const interval&);
+template bool collides(const ccd::vertex_edge_curves&, shortcuts, const interval&);
+template bool collides(const ccd::vertex_vertex_curves&, shortcuts, const interval&);
 
 }  // namespace oracle

@@ -29,25 +29,18 @@ struct interval {
 
 /// True if the two closed features share a point at some t in the interval. Precondition:
 /// coordinates are finite, and each curve has at least one control point.
-bool collides(const ccd::vertex_face_curves&, shortcuts = shortcuts::on, const interval& = {});
-bool collides(const ccd::edge_edge_curves&, shortcuts = shortcuts::on, const interval& = {});
-bool collides(const ccd::vertex_edge_curves&, shortcuts = shortcuts::on, const interval& = {});
-bool collides(const ccd::vertex_vertex_curves&, shortcuts = shortcuts::on, const interval& = {});
+template <template <class> class Query>
+bool collides(const Query<ccd::curve>&, shortcuts = shortcuts::on, const interval& = {});
 
 /// True if the Euclidean distance of the two closed features is at most d1 + d2 at some t in the
 /// interval. The sum is exact. Precondition: d1 and d2 are finite and >= 0.
-bool within(const ccd::vertex_face_curves&, double d1, double d2, shortcuts = shortcuts::on,
-            const interval& = {});
-bool within(const ccd::edge_edge_curves&, double d1, double d2, shortcuts = shortcuts::on,
-            const interval& = {});
-bool within(const ccd::vertex_edge_curves&, double d1, double d2, shortcuts = shortcuts::on,
-            const interval& = {});
-bool within(const ccd::vertex_vertex_curves&, double d1, double d2, shortcuts = shortcuts::on,
+template <template <class> class Query>
+bool within(const Query<ccd::curve>&, double d1, double d2, shortcuts = shortcuts::on,
             const interval& = {});
 
-/// Calls f with the linear motion of the query's points as curves.
+/// Returns f(query), with the linear motion of the query's points as curves.
 template <class Query, class F>
-bool along_lines(const Query& query, const F& f) {
+auto along_lines(const Query& query, const F& f) {
     using curves = std::tuple<ccd::vertex_face_curves, ccd::edge_edge_curves,
                               ccd::vertex_edge_curves, ccd::vertex_vertex_curves>;
     constexpr auto kind = static_cast<std::size_t>(ccd::kind_of<Query>);

@@ -4,6 +4,7 @@
 // if (c - x).x >= 0 for every corner c.
 #include <algorithm>
 #include <array>
+#include <ccd/methods/transform.hpp>
 #include <cstddef>
 #include <tuple>
 #include <vector>
@@ -127,94 +128,53 @@ bool beyond_on_an_axis(const std::array<vector, count>& corners, const integer& 
     return false;
 }
 
-std::array<vector, 3> corners_of(const ccd::vertex_face_of<vector>& q) {
-    return {q.f0 - q.v, q.f1 - q.v, q.f2 - q.v};
-}
-std::array<vector, 4> corners_of(const ccd::edge_edge_of<vector>& q) {
-    return {q.b0 - q.a0, q.b1 - q.a0, q.b1 - q.a1, q.b0 - q.a1};
-}
-std::array<vector, 2> corners_of(const ccd::vertex_edge_of<vector>& q) {
-    return {q.e0 - q.v, q.e1 - q.v};
-}
-std::array<vector, 1> corners_of(const ccd::vertex_vertex_of<vector>& q) {
-    return {q.w - q.v};
-}
-
 template <class Query>
-bool is_near_somewhere(const Query& query, const polynomial& square, shortcuts use,
-                       const stretch& when) {
-    const auto corners = corners_of(query);
-    return hull<std::tuple_size_v<decltype(corners_of(query))>>(corners, square)
-        .is_near_somewhere(when, use);
-}
-
-// `make(points)` returns the query of the points.
-template <std::size_t count, class Make>
-bool decide_within(const std::array<ccd::curve, count>& points, double d1, double d2, shortcuts use,
-                   const interval& when, const Make& make) {
-    if (is_empty(when)) return false;
-    const int unit = std::min({unit_of(points, 0), unit_of(points, 1), unit_of(points, 2),
-                               scaled(d1).exponent, scaled(d2).exponent});
-    const integer distance = scaled(d1).in_units_of(unit) + scaled(d2).in_units_of(unit);
-    const auto query = make(in_units(points, {unit, unit, unit}));
-    if (use == shortcuts::on && beyond_on_an_axis(corners_of(query), distance)) return false;
-    polynomial square{distance * distance};
-    trim(square);
-    return within_of(query, square, use, stretch_of(when));
+auto corners_of(const Query& q) {
+    if constexpr (ccd::kind_of<Query> == ccd::kind::edge_edge)
+        return std::array{q.b0 - q.a0, q.b1 - q.a0, q.b1 - q.a1, q.b0 - q.a1};
+    else
+        return ccd::detail::with_members(q, [](const vector& v, const auto&... corner) {
+            return std::array<vector, sizeof...(corner)>{corner - v...};
+        });
 }
 
 }  // namespace
 
 namespace detail {
 
-bool within_of(const ccd::vertex_face_of<vector>& q, const polynomial& square, shortcuts use,
+template <template <class> class Query>
+bool within_of(const Query<vector>& query, const polynomial& square, shortcuts use,
                const stretch& when) {
-    return is_near_somewhere(q, square, use, when);
-}
-bool within_of(const ccd::edge_edge_of<vector>& q, const polynomial& square, shortcuts use,
-               const stretch& when) {
-    return is_near_somewhere(q, square, use, when);
-}
-bool within_of(const ccd::vertex_edge_of<vector>& q, const polynomial& square, shortcuts use,
-               const stretch& when) {
-    return is_near_somewhere(q, square, use, when);
-}
-bool within_of(const ccd::vertex_vertex_of<vector>& q, const polynomial& square, shortcuts use,
-               const stretch& when) {
-    return is_near_somewhere(q, square, use, when);
+    return hull(corners_of(query), square).is_near_somewhere(when, use);
 }
 
 }  // namespace detail
 
-bool within(const ccd::vertex_face_curves& query, double d1, double d2, shortcuts use,
+template <template <class> class Query>
+bool within(const Query<ccd::curve>& query, double d1, double d2, shortcuts use,
             const interval& when) {
-    return decide_within(std::array{query.v, query.f0, query.f1, query.f2}, d1, d2, use, when,
-                         [](const auto& p) {
-                             return ccd::vertex_face_of<vector>{p[0], p[1], p[2], p[3]};
-                         });
+    if (is_empty(when)) return false;
+    const auto points = ccd::points_of(query);
+    const int unit = std::min({unit_of(points, 0), unit_of(points, 1), unit_of(points, 2),
+                               scaled(d1).exponent, scaled(d2).exponent});
+    const integer distance = scaled(d1).in_units_of(unit) + scaled(d2).in_units_of(unit);
+    const auto whole = std::apply([](const auto&... p) { return Query<vector>{p...}; },
+                                  in_units(points, {unit, unit, unit}));
+    if (use == shortcuts::on && beyond_on_an_axis(corners_of(whole), distance)) return false;
+    polynomial square{distance * distance};
+    trim(square);
+    return within_of(whole, square, use, stretch_of(when));
 }
 
-bool within(const ccd::edge_edge_curves& query, double d1, double d2, shortcuts use,
-            const interval& when) {
-    return decide_within(std::array{query.a0, query.a1, query.b0, query.b1}, d1, d2, use, when,
-                         [](const auto& p) {
-                             return ccd::edge_edge_of<vector>{p[0], p[1], p[2], p[3]};
-                         });
-}
-
-bool within(const ccd::vertex_edge_curves& query, double d1, double d2, shortcuts use,
-            const interval& when) {
-    return decide_within(std::array{query.v, query.e0, query.e1}, d1, d2, use, when,
-                         [](const auto& p) {
-                             return ccd::vertex_edge_of<vector>{p[0], p[1], p[2]};
-                         });
-}
-
-bool within(const ccd::vertex_vertex_curves& query, double d1, double d2, shortcuts use,
-            const interval& when) {
-    return decide_within(std::array{query.v, query.w}, d1, d2, use, when, [](const auto& p) {
-        return ccd::vertex_vertex_of<vector>{p[0], p[1]};
-    });
-}
+#define ERRBOUND_ORACLE_OF(KIND)                                                                 \
+    template bool detail::within_of(const ccd::KIND##_of<vector>&, const polynomial&, shortcuts, \
+                                    const stretch&);                                             \
+    template bool within(const ccd::KIND##_of<ccd::curve>&, double, double, shortcuts,           \
+                         const interval&);
+ERRBOUND_ORACLE_OF(vertex_face)
+ERRBOUND_ORACLE_OF(edge_edge)
+ERRBOUND_ORACLE_OF(vertex_edge)
+ERRBOUND_ORACLE_OF(vertex_vertex)
+#undef ERRBOUND_ORACLE_OF
 
 }  // namespace oracle

@@ -31,9 +31,6 @@ struct quotient_point {
 inline polynomial between(double from, double to, int unit) {
     return from_control_values({scaled(from).in_units_of(unit), scaled(to).in_units_of(unit)});
 }
-inline polynomial sum(const polynomial& a, const polynomial& b) {
-    return a - (-b);
-}
 
 inline int unit_of_numbers(std::initializer_list<double> numbers) {
     int unit = 1024;
@@ -49,9 +46,9 @@ inline quaternion_polynomial product(const quaternion_polynomial& a,
                                      const quaternion_polynomial& b) {
     const auto term = [&](std::size_t i, std::size_t j) { return a[i] * b[j]; };
     return {term(0, 0) - term(1, 1) - term(2, 2) - term(3, 3),
-            sum(term(0, 1), term(1, 0)) - (term(3, 2) - term(2, 3)),
-            sum(term(0, 2), term(2, 0)) - (term(1, 3) - term(3, 1)),
-            sum(term(0, 3), term(3, 0)) - (term(2, 1) - term(1, 2))};
+            term(0, 1) + term(1, 0) + term(2, 3) - term(3, 2),
+            term(0, 2) + term(2, 0) + term(3, 1) - term(1, 3),
+            term(0, 3) + term(3, 0) + term(1, 2) - term(2, 1)};
 }
 
 inline int least_unit(const ccd::rational_curve& p) {
@@ -100,7 +97,7 @@ inline quotient_point quotient_of(const ccd::body_point& p, int unit) {
             for (std::size_t j = 0; j < 3; ++j) {
                 polynomial x{scaled(p.rest.*axes[j]).in_units_of(rest)};
                 trim(x);
-                r.at[i] = sum(r.at[i], between(m->a0[i][j], m->a1[i][j], unit - rest) * x);
+                r.at[i] = r.at[i] + between(m->a0[i][j], m->a1[i][j], unit - rest) * x;
             }
         }
     } else if (const auto* m = std::get_if<ccd::rigid_motion>(p.motion)) {
@@ -117,7 +114,7 @@ inline quotient_point quotient_of(const ccd::body_point& p, int unit) {
         r.over = product(q, {q[0], -q[1], -q[2], -q[3]})[0];
         for (std::size_t axis = 0; axis < 3; ++axis)
             r.at[axis] =
-                sum(turned[axis + 1], r.over * between(m->p0.*axes[axis], m->p1.*axes[axis], unit));
+                turned[axis + 1] + r.over * between(m->p0.*axes[axis], m->p1.*axes[axis], unit);
     } else {
         for (std::size_t axis = 0; axis < 3; ++axis)
             r.at[axis] = between(p.rest.*axes[axis], p.rest.*axes[axis], unit);

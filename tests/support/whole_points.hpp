@@ -79,13 +79,7 @@ bool collides_of(const ccd::vertex_edge_of<vector>&, const stretch& when);
 bool collides_of(const ccd::vertex_vertex_of<vector>&, const stretch& when);
 
 /// `square` is the square of the distance, times that of the common factor.
-bool within_of(const ccd::vertex_face_of<vector>&, const polynomial& square, shortcuts use,
-               const stretch& when);
-bool within_of(const ccd::edge_edge_of<vector>&, const polynomial& square, shortcuts use,
-               const stretch& when);
-bool within_of(const ccd::vertex_edge_of<vector>&, const polynomial& square, shortcuts use,
-               const stretch& when);
-bool within_of(const ccd::vertex_vertex_of<vector>&, const polynomial& square, shortcuts use,
-               const stretch& when);
+template <template <class> class Query>
+bool within_of(const Query<vector>&, const polynomial& square, shortcuts use, const stretch& when);
 
 }  // namespace oracle::detail

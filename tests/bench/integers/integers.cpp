@@ -123,13 +123,11 @@ void run(bool quick, bench::report& out) {
             std::vector<std::function<void()>> passes{op.by_errbound(words), op.by_boost(words)};
             if (op.by_gmp) passes.push_back(op.by_gmp(words));
             const auto t = bench::race(passes, quick ? 1 : 11);
-            const auto nanoseconds = [](double seconds) {
-                return 1e9 * seconds / numbers<errbound::integer>::count;
-            };
+            constexpr std::size_t count = numbers<errbound::integer>::count;
             bench::row& r = all.emplace_back(bench::row{{"operation", op.name},
                                                         {"words", words},
-                                                        {"errbound", nanoseconds(t[0].minimum)},
-                                                        {"median", nanoseconds(t[0].median)}});
+                                                        {"errbound", t[0].ns(count)},
+                                                        {"median", t[0].median_ns(count)}});
             constexpr const char* others[] = {"cpp_int", "GMP"};
             for (std::size_t i = 1; i < t.size(); ++i) {
                 const std::string name = others[i - 1];

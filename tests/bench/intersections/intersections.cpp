@@ -127,7 +127,7 @@ bench::row row_of(const named_mesh& named, int repeats) {
              [&] { bench::keep(steps.run(frames, {.threads = 1, .check_start = true})); }},
             repeats);
     }();
-    const auto ms = [&](std::size_t i) { return 1e3 * timings[i].minimum; };
+    const auto ms = [&](std::size_t i) { return timings[i].ms(); };
     bench::row r = {{"mesh", named.name},
                     {"faces", mesh.faces.size()},
                     {"pairs", found.pairs.size()},
@@ -136,7 +136,7 @@ bench::row row_of(const named_mesh& named, int repeats) {
                     {"first_ms", ms(2)},
                     {"trees_ms", ms(3)},
                     {"first/trees", ms(2) / ms(3)},
-                    {"step_ms", 1e3 * of_steps[0].minimum},
+                    {"step_ms", of_steps[0].ms()},
                     {"start/step", of_steps[1].minimum / of_steps[0].minimum - 1}};
 #ifdef ERRBOUND_HAVE_CGAL
     const bench::peer_result cgal =

@@ -61,10 +61,10 @@ void add_construction(rows& table, int repeats, std::size_t inputs, const std::s
         {{"construction", name},
          {"inputs", inputs},
          {"parts", results[0]},
-         {"errbound_ms", 1e3 * timings[0].minimum},
-         {"plain_double_ms", 1e3 * timings[1].minimum},
+         {"errbound_ms", timings[0].ms()},
+         {"plain_double_ms", timings[1].ms()},
          {"errbound/plain", timings[0].minimum / timings[1].minimum},
-         {"CGAL_ms", have_cgal ? row(1e3 * timings[2].minimum) : row("")},
+         {"CGAL_ms", have_cgal ? row(timings[2].ms()) : row("")},
          {"CGAL/errbound", have_cgal ? row(timings[2].minimum / timings[0].minimum) : row("")}});
 }
 

@@ -1,11 +1,9 @@
-// ns per call and wrong signs of predicates, compared with CGAL, MPFI, GMP and Boost if they are
-// installed. The expected signs are those of the tests' oracle in GMP integers.
+// ns per call and wrong signs of predicates, compared with GMP's integers, and with CGAL and
+// Shewchuk's code if they are installed. The expected signs are those of the tests' oracle in GMP
+// integers.
 #include "tests/bench/predicates/predicate_peers.hpp"
 
 #include <algorithm>
-#include <boost/geometry/geometries/point_xy.hpp>
-#include <boost/geometry/strategies/cartesian/side_by_triangle.hpp>
-#include <boost/multiprecision/cpp_int.hpp>
 #include <errbound/integers/binary_double.hpp>
 #include <errbound/predicate_batch.hpp>
 #include <errbound/predicates.hpp>
@@ -45,22 +43,8 @@ void decide_by_errbound(const set_of<Form>& set, std::size_t count, signs& out) 
     for (std::size_t i = 0; i < count; ++i) out[i] = set.with(i, Form::predicate);
 }
 
-using cpp_int = boost::multiprecision::number<boost::multiprecision::cpp_int_backend<>,
-                                              boost::multiprecision::et_off>;
-using cpp_rational = boost::multiprecision::number<
-    boost::multiprecision::rational_adaptor<boost::multiprecision::cpp_int_backend<>>,
-    boost::multiprecision::et_off>;
-
-sign_type sign_of_number(const big_integer& x) {
-    return static_cast<sign_type>(1 + sign(x));
-}
-template <class Number>
-sign_type sign_of_number(const Number& x) {
-    return static_cast<sign_type>(1 + x.sign());
-}
-
 /// The expression over integers in the unit of the last bit of any coordinate.
-template <class Form, class Integer>
+template <class Form>
 void decide_by_integers(const set_of<Form>& set, std::size_t count, signs& out) {
     for (std::size_t i = 0; i < count; ++i) {
         int unit = std::numeric_limits<int>::max();
@@ -68,7 +52,7 @@ void decide_by_integers(const set_of<Form>& set, std::size_t count, signs& out) 
             for (const double x : points[i])
                 unit = std::min(unit, errbound::integers::binary_double(x).last_bit());
         const auto converted = [unit](const auto& point) {
-            std::array<Integer, Form::dimension> q;
+            std::array<big_integer, Form::dimension> q;
             for (std::size_t k = 0; k < Form::dimension; ++k) {
                 const errbound::integers::binary_double x(point[k]);
                 if (x.magnitude == 0) continue;
@@ -79,61 +63,30 @@ void decide_by_integers(const set_of<Form>& set, std::size_t count, signs& out) 
             }
             return q;
         };
-        out[i] =
-            sign_of_number(set.with(i, [&](const auto&... p) { return Form()(converted(p)...); }));
+        out[i] = static_cast<sign_type>(
+            1 + sign(set.with(i, [&](const auto&... p) { return Form()(converted(p)...); })));
     }
 }
-template <class Form>
-void decide_by_rationals(const set_of<Form>& set, std::size_t count, signs& out) {
-    decide_over<Form>(
-        set, count, out, [](double x) { return cpp_rational(x); },
-        [](const cpp_rational& x) { return sign_of_number(x); });
-}
-
-/// Decides by a floating-point determinant, which returns zero if it is small. It is not exact.
-void decide_by_boost_geometry(const set_of<orient2d_form>& set, std::size_t count, signs& out) {
-    using point = boost::geometry::model::d2::point_xy<double>;
-    using side = boost::geometry::strategy::side::side_by_triangle<>;
-    const auto converted = [](const auto& p) { return point(p[0], p[1]); };
-    for (std::size_t i = 0; i < count; ++i)
-        out[i] = set.with(i, [&](const auto&... p) {
-            return static_cast<sign_type>(1 + side::apply(converted(p)...));
-        });
-}
-
 template <class Form>
 struct peer {
     std::string_view name;
     decider<Form> decide;      ///< null: not for this predicate, or not installed
     std::size_t thinning = 1;  ///< slow peers are timed on one input in this many
 };
-#ifdef ERRBOUND_HAVE_MPFI
-constexpr bool have_mpfi = true;
-#else
-constexpr bool have_mpfi = false;
-#endif
-
 template <class Form>
 std::vector<peer<Form>> peers() {
-    decider<Form> cgal = nullptr, shewchuk = nullptr, mpfi = nullptr, geometry = nullptr;
+    decider<Form> cgal = nullptr, shewchuk = nullptr;
     if constexpr (have_cgal) cgal = decide_by_cgal<Form>;
     if constexpr (have_tetgen) shewchuk = decide_by_shewchuk<Form>;
-    if constexpr (have_mpfi) mpfi = decide_by_mpfi<Form>;
-    if constexpr (std::is_same_v<Form, orient2d_form>) geometry = decide_by_boost_geometry;
     return {{"plain double", decide_plainly<Form>},
             {"errbound", decide_by_errbound<Form>},
             {"CGAL", cgal},
             {"Shewchuk", shewchuk},
-            {"GMP integers", decide_by_integers<Form, big_integer>, 10},
-            {"Boost cpp_int", decide_by_integers<Form, cpp_int>, 20},
-            {"cpp_rational", decide_by_rationals<Form>, 100},
-            {"Boost.Interval", decide_by_boost_interval<Form>, 20},
-            {"MPFI", mpfi, 20},
-            {"Boost.Geometry", geometry}};
+            {"GMP integers", decide_by_integers<Form>, 10}};
 }
 
 struct tables {
-    rows ns, ratios, wrong, undecided;
+    rows ns, ratios, wrong;
 };
 
 template <class Form>
@@ -150,19 +103,16 @@ signs right_signs(const set_of<Form>& set) {
     return right;
 }
 
-/// The wrong and the undecided signs of a peer in per cent; nothing for none.
+/// The wrong signs of a peer in per cent; "" for none.
 template <class Form>
-std::array<row, 2> shares_of(const peer<Form>& p, const set_of<Form>& set, const signs& right) {
+row wrong_of(const peer<Form>& p, const set_of<Form>& set, const signs& right) {
     const std::size_t inputs = set.size() / p.thinning;
     signs found(set.size());
     p.decide(set, inputs, found);
-    std::size_t wrong = 0, undecided = 0;
-    for (std::size_t i = 0; i < inputs; ++i)
-        certain(found[i]) ? wrong += found[i] != right[i] : ++undecided;
-    const auto share = [&](std::size_t n) {
-        return n == 0 ? row("") : row(100 * static_cast<double>(n) / static_cast<double>(inputs));
-    };
-    return {share(wrong), share(undecided)};
+    std::size_t wrong = 0;
+    for (std::size_t i = 0; i < inputs; ++i) wrong += found[i] != right[i];
+    return wrong == 0 ? row("")
+                      : row(100 * static_cast<double>(wrong) / static_cast<double>(inputs));
 }
 
 template <class Form>
@@ -182,26 +132,23 @@ void add_rows(const run_options& o, tables& out) {
                 });
         const auto timings = race(passes, o.repeats());
 
-        for (rows* const table : {&out.ns, &out.ratios, &out.wrong, &out.undecided})
+        for (rows* const table : {&out.ns, &out.ratios, &out.wrong})
             table->push_back({{"predicate", Form::name}, {"inputs", kind.name}});
         auto timing = timings.begin();
         double plain = 0;
         for (const auto& p : all) {
             const std::string name(p.name);
-            row ns, ratio;
-            std::array<row, 2> shares;
+            row ns, ratio, wrong;
             if (p.decide != nullptr) {
-                const double each =
-                    1e9 * timing++->minimum / static_cast<double>(set.size() / p.thinning);
+                const double each = timing++->ns(set.size() / p.thinning);
                 if (plain == 0) plain = each;
                 ns = each;
                 ratio = each / plain;
-                shares = shares_of<Form>(p, set, right);
+                wrong = wrong_of<Form>(p, set, right);
             }
             out.ns.back()[name] = ns;
             out.ratios.back()[name] = ratio;
-            out.wrong.back()[name] = shares[0];
-            out.undecided.back()[name] = shares[1];
+            out.wrong.back()[name] = wrong;
         }
     }
 }
@@ -213,8 +160,6 @@ void beside_peers(const run_options& o, report& out) {
     out.table("predicates", {{"what", "ratio"}}, "the same, over the plain double expression",
               all.ratios);
     out.table("predicates", {{"what", "wrong"}}, "wrong signs, %", all.wrong);
-    out.table("predicates", {{"what", "undecided"}}, "undecided, % (intervals are only filters)",
-              all.undecided);
 }
 
 /// Coordinates of `bits` bits, with the exponents of their last bits spread evenly over `spread`.
@@ -282,19 +227,15 @@ void add_exact_rows(const run_options& o, rows& table) {
         });
         const auto timings =
             race({[&] { stage->decide(set, inputs, found), keep(found); },
-                  [&] { decide_by_integers<Form, big_integer>(set, inputs, found), keep(found); },
-                  [&] { decide_by_integers<Form, cpp_int>(set, inputs, found), keep(found); }},
+                  [&] { decide_by_integers<Form>(set, inputs, found), keep(found); }},
                  o.repeats());
-        const auto ns = [&](std::size_t i) {
-            return 1e9 * timings[i].minimum / static_cast<double>(inputs);
-        };
+        const auto ns = [&](std::size_t i) { return timings[i].ns(inputs); };
         table.push_back({{"predicate", Form::name},
                          {"stage", stage_names[static_cast<std::size_t>(stage->stage)]},
                          {"bits", bits},
                          {"exponents_over", spread},
                          {"errbound", ns(0)},
                          {"GMP_integers", ns(1)},
-                         {"Boost_cpp_int", ns(2)},
                          {"errbound/GMP", ns(0) / ns(1)}});
     }
 }
@@ -338,9 +279,7 @@ void add_batch_rows(const run_options& o, rows& table) {
                  o.repeats());
         if (batch != single || arrays != single)
             throw std::runtime_error(std::string(Form::name) + ": batches and one by one disagree");
-        const auto ns = [&](std::size_t i) {
-            return 1e9 * timings[i].minimum / static_cast<double>(inputs);
-        };
+        const auto ns = [&](std::size_t i) { return timings[i].ns(inputs); };
         table.push_back({{"predicate", Form::name},
                          {"inputs", inputs},
                          {"one_by_one", ns(0)},
@@ -413,9 +352,8 @@ void add_other_row(const Entry& entry, const run_options& o, rows& table) {
         for (const cgal_pass& pass : cgal)
             if (pass.decide) passes.push_back([&] { pass.decide(theirs), keep(theirs); });
         const auto timings = race(passes, o.repeats());
-        const auto all = static_cast<double>(set.size());
         const std::string name(input_kinds[family].name);
-        const auto ns = [&](std::size_t i) { return 1e9 * timings[i].minimum / all; };
+        const auto ns = [&](std::size_t i) { return timings[i].ns(set.size()); };
         r[name + ":_plain"] = ns(0);
         r[name + ":_errbound"] = ns(1);
         r[name + ":_plain_wrong_%"] = percent_different(plain, found, false);
@@ -466,7 +404,6 @@ int main(int argc, char** argv) {
         o.quick = bench.quick;
         if (!bench::have_cgal) bench::say("built without CGAL (libcgal-dev)");
         if (!bench::have_tetgen) bench::say("built without TetGen (libtet1.5-dev)");
-        if (!bench::have_mpfi) bench::say("built without MPFI (libmpfi-dev)");
         bench::beside_peers(o, out);
         bench::exact_stages_alone(o, out);
         bench::in_batches(o, out);

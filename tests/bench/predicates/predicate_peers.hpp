@@ -31,22 +31,6 @@ void whole_constructions(bool quick, report& out);
 template <class Form>
 using decider = void (*)(const set_of<Form>&, std::size_t count, signs&);
 
-/// Evaluates the expression for each input, with coordinates converted to another number type.
-template <class Form, class Make, class Sign>
-void decide_over(const set_of<Form>& set, std::size_t count, signs& out, const Make& make,
-                 const Sign& sign) {
-    using number = decltype(make(0.0));
-    for (std::size_t i = 0; i < count; ++i)
-        out[i] = sign(set.with(i, [&](const auto&... p) {
-            const auto converted = [&](const auto& point) {
-                std::array<number, Form::dimension> q;
-                for (std::size_t k = 0; k < Form::dimension; ++k) q[k] = make(point[k]);
-                return q;
-            };
-            return Form()(converted(p)...);
-        }));
-}
-
 /// CGAL's Exact_predicates_inexact_constructions_kernel.
 template <class Form>
 void decide_by_cgal(const set_of<Form>& set, std::size_t count, signs& out);
@@ -60,10 +44,5 @@ struct cgal_pass {
 /// The passes of the exact predicates kernel and of the one with exact, lazy constructions.
 template <std::size_t D, std::size_t N>
 std::array<cgal_pass, 2> cgal_passes(std::string_view name, const input_set<D, N>& set);
-/// The expression over intervals, used as a filter.
-template <class Form>
-void decide_by_boost_interval(const set_of<Form>& set, std::size_t count, signs& out);
-template <class Form>
-void decide_by_mpfi(const set_of<Form>& set, std::size_t count, signs& out);
 
 }  // namespace bench

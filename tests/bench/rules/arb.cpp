@@ -25,16 +25,8 @@ class ball {
 
 struct arithmetic : composed<ball, arithmetic> {
     static constexpr slong precision = 53;
-    static ball made(double x, double y) {
-        ball r;
-        multiply(r, ball(x), ball(y));
-        return r;
-    }
     static void add(ball& r, const ball& a, const ball& b) {
         arb_add(r.get(), a.get(), b.get(), precision);
-    }
-    static void subtract(ball& r, const ball& a, const ball& b) {
-        arb_sub(r.get(), a.get(), b.get(), precision);
     }
     static void multiply(ball& r, const ball& a, const ball& b) {
         arb_mul(r.get(), a.get(), b.get(), precision);
@@ -46,29 +38,18 @@ struct arithmetic : composed<ball, arithmetic> {
     static void fused(ball& r, const ball& a, const ball& b, const ball& c) {
         arb_fma(r.get(), a.get(), b.get(), c.get(), precision);
     }
-    static void absolute(ball& r, const ball& a) { arb_abs(r.get(), a.get()); }
-    static void lesser(ball& r, const ball& a, const ball& b) {
-        arb_min(r.get(), a.get(), b.get(), precision);
-    }
-    static void greater(ball& r, const ball& a, const ball& b) {
-        arb_max(r.get(), a.get(), b.get(), precision);
-    }
     static void length(ball& r, const ball& a, const ball& b) {
         arb_hypot(r.get(), a.get(), b.get(), precision);
-    }
-    static void middle(ball& r, const ball& a, const ball& b) {
-        arb_add(r.get(), a.get(), b.get(), precision);
-        arb_mul_2exp_si(r.get(), r.get(), -1);
     }
     static void fifth_power(ball& r, const ball& a) { arb_pow_ui(r.get(), a.get(), 5, precision); }
     static void dot(ball& r, const ball* a, const ball* b) {
         arb_dot(r.get(), nullptr, 0, a->get(), 1, b->get(), 1, term_count, precision);
     }
     static errbound::sign_type sign(const ball& a) {
-        if (arb_is_positive(a.get()) != 0) return errbound::sign_type::positive;
-        if (arb_is_negative(a.get()) != 0) return errbound::sign_type::negative;
-        return arb_is_zero(a.get()) != 0 ? errbound::sign_type::zero
-                                         : errbound::sign_type::uncertain;
+        using enum errbound::sign_type;
+        if (arb_is_positive(a.get()) != 0) return positive;
+        if (arb_is_negative(a.get()) != 0) return negative;
+        return arb_is_zero(a.get()) != 0 ? zero : uncertain;
     }
 };
 

@@ -1,51 +1,59 @@
-#include "tests/bench/peers/mpfi_interval.hpp"
+#include <mpfi.h>
+
 #include "tests/bench/rules/contestants.hpp"
 
 namespace bench {
 namespace {
 
-/// Operations in place, which avoid the operators' copies.
-struct arithmetic : composed<mpfi_interval, arithmetic> {
-    using number = mpfi_interval;
-    static number made(double x, double y) { return number(x) * number(y); }
-    static void add(number& r, const number& a, const number& b) {
+/// An interval at the precision of doubles.
+class interval {
+  public:
+    interval() { mpfi_init2(value_, 53); }
+    explicit interval(double x) : interval() { mpfi_set_d(value_, x); }
+    interval(const interval& x) : interval() { mpfi_set(value_, x.value_); }
+    interval& operator=(const interval& x) {
+        mpfi_set(value_, x.value_);
+        return *this;
+    }
+    ~interval() { mpfi_clear(value_); }
+    mpfi_ptr get() { return value_; }
+    mpfi_srcptr get() const { return value_; }
+
+  private:
+    mpfi_t value_;
+};
+
+struct arithmetic : composed<interval, arithmetic> {
+    static void add(interval& r, const interval& a, const interval& b) {
         mpfi_add(r.get(), a.get(), b.get());
     }
-    static void subtract(number& r, const number& a, const number& b) {
-        mpfi_sub(r.get(), a.get(), b.get());
-    }
-    static void multiply(number& r, const number& a, const number& b) {
+    static void multiply(interval& r, const interval& a, const interval& b) {
         mpfi_mul(r.get(), a.get(), b.get());
     }
-    static void divide(number& r, const number& a, const number& b) {
+    static void divide(interval& r, const interval& a, const interval& b) {
         mpfi_div(r.get(), a.get(), b.get());
     }
-    static void root(number& r, const number& a) { mpfi_sqrt(r.get(), a.get()); }
+    static void root(interval& r, const interval& a) { mpfi_sqrt(r.get(), a.get()); }
     /// MPFI has no fused operation: computes a product and a sum.
-    static void fused(number& r, const number& a, const number& b, const number& c) {
-        mpfi_mul(r.get(), a.get(), b.get());
-        mpfi_add(r.get(), r.get(), c.get());
+    static void fused(interval& r, const interval& a, const interval& b, const interval& c) {
+        multiply(r, a, b);
+        add(r, r, c);
     }
-    static void absolute(number& r, const number& a) { mpfi_abs(r.get(), a.get()); }
-    /// MPFI has no minimum or maximum, either.
-    static void lesser(number& r, const number& a, const number& b) {
-        mpfr_min(&r.get()->left, &a.get()->left, &b.get()->left, MPFR_RNDD);
-        mpfr_min(&r.get()->right, &a.get()->right, &b.get()->right, MPFR_RNDU);
-    }
-    static void greater(number& r, const number& a, const number& b) {
-        mpfr_max(&r.get()->left, &a.get()->left, &b.get()->left, MPFR_RNDD);
-        mpfr_max(&r.get()->right, &a.get()->right, &b.get()->right, MPFR_RNDU);
-    }
-    static void length(number& r, const number& a, const number& b) {
+    static void length(interval& r, const interval& a, const interval& b) {
         mpfi_hypot(r.get(), a.get(), b.get());
     }
-    static errbound::sign_type sign(const number& a) { return sign_of(a); }
+    static errbound::sign_type sign(const interval& a) {
+        using enum errbound::sign_type;
+        if (mpfi_is_strictly_pos(a.get()) > 0) return positive;
+        if (mpfi_is_strictly_neg(a.get()) > 0) return negative;
+        return mpfi_is_zero(a.get()) > 0 ? zero : uncertain;
+    }
 };
 
 }  // namespace
 
 contestant mpfi_contestant() {
-    return contestant_of<mpfi_interval, arithmetic>("MPFI");
+    return contestant_of<interval, arithmetic>("MPFI");
 }
 
 }  // namespace bench

@@ -73,9 +73,8 @@ void time_operations(bool quick, report& out) {
         auto taken = timings.begin();
         for (const contestant& c : all) {
             const bool has = c.passes[k] != nullptr;
-            const auto ns = [](double seconds) { return 1e9 * seconds / operands_per_pass; };
-            minima.back()[c.name] = has ? row(ns(taken->minimum)) : row();
-            medians.back()[c.name] = has ? row(ns(taken->median)) : row();
+            minima.back()[c.name] = has ? row(taken->ns(operands_per_pass)) : row();
+            medians.back()[c.name] = has ? row(taken->median_ns(operands_per_pass)) : row();
             ratios.back()[c.name] = has ? row(taken->minimum / timings.front().minimum) : row();
             taken += has;
         }
