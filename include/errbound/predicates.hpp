@@ -82,7 +82,7 @@ struct row_sets {
         return std::pair(sets, count);
     }();
     static constexpr std::size_t count = all.second;
-    using table = std::array<std::array<std::size_t, K>, count>;
+    using table = std::array<std::array<unsigned char, K>, count>;
     static constexpr std::size_t index(unsigned set) {
         std::size_t i = 0;
         while (all.first[i] != set) ++i;
@@ -94,8 +94,8 @@ struct row_sets {
             for (std::size_t row = 0, j = 0; row < N; ++row) {
                 const unsigned set = all.first[i], bit = 1U << row;
                 if ((set & bit) == 0) continue;
-                t.first[i][j] = row;
-                t.second[i][j++] = row_sets<N, K - 1>::index(set ^ bit);
+                t.first[i][j] = static_cast<unsigned char>(row);
+                t.second[i][j++] = static_cast<unsigned char>(row_sets<N, K - 1>::index(set ^ bit));
             }
         return t;
     }();
@@ -109,18 +109,20 @@ constexpr auto alternating_sum(const auto& x, const auto&... rest) {
     else
         return alternating_sum(rest...) + x;
 }
-/// The minor of the first K columns and row set I, expanded along the last of these columns.
-/// `minors` are those of the columns before.
-template <class Sets, std::size_t I, std::size_t... J>
-constexpr auto minor_of(const auto& minors, const auto& column, std::index_sequence<J...>) {
-    constexpr auto rows = Sets::rows_and_others.first[I], others = Sets::rows_and_others.second[I];
+/// The minor of the first K columns and a set of rows, expanded along the last of these columns.
+/// `minors` are those of the columns before. One function for all sets, so that only filters, which
+/// inline it, have code for each.
+template <std::size_t K, std::size_t... J>
+constexpr auto minor_of(const auto& minors, const auto& column, std::array<unsigned char, K> rows,
+                        std::array<unsigned char, K> others, std::index_sequence<J...>) {
     return alternating_sum(column[rows[J]] * minors[others[J]]...);
 }
 template <std::size_t N, std::size_t K>
 constexpr auto expanded(const auto& minors, const auto& column, const auto&... rest) {
     const auto next = [&]<std::size_t... I>(std::index_sequence<I...>) {
-        return std::array{
-            minor_of<row_sets<N, K>, I>(minors, column, std::make_index_sequence<K>())...};
+        constexpr auto sets = row_sets<N, K>::rows_and_others;
+        return std::array{minor_of(minors, column, sets.first[I], sets.second[I],
+                                   std::make_index_sequence<K>())...};
     }
     (std::make_index_sequence<row_sets<N, K>::count>());
     if constexpr (sizeof...(rest) == 0)
